@@ -1,0 +1,3 @@
+//! The `edgewalk` program: a file a command.
+
+fn main() {}

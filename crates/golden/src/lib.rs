@@ -1,0 +1,1 @@
+//! The reference pictures: exact coverage, depth and colour in f64

@@ -1,0 +1,1 @@
+//! Registers, operators and memories: builder, checks, interpreter, traces

@@ -1,0 +1,1 @@
+//! Formats, words, rounding, proved bounds, and the one description of a machine

@@ -1,0 +1,1 @@
+//! The machine as netlists, a unit a file

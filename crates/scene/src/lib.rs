@@ -1,0 +1,1 @@
+//! Meshes, camera, lights and clipping, in floats, down to screen-space triangles

@@ -1,0 +1,1 @@
+//! Stimuli, expected results, manifests and test benches

@@ -1,0 +1,1 @@
+//! Readable Verilog-2001 from a netlist
