@@ -1,0 +1,75 @@
+//! What is wrong with an input, where, and what would be right.
+
+use std::fmt;
+
+/// A fault in a file or a name given by the user.
+#[derive(Debug, thiserror::Error)]
+pub enum InputError {
+    /// The file could not be opened or read.
+    #[error("{file}: cannot be read: {source}")]
+    Read {
+        /// The file as the user named it.
+        file: String,
+        /// The operating system's reason.
+        source: std::io::Error,
+    },
+    /// The file was read, and something in it is not permitted.
+    #[error(transparent)]
+    Fault(#[from] Box<Fault>),
+}
+
+/// Something not permitted: `file:line: key: value: what is permitted (nearest valid name)`.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub struct Fault {
+    /// The file as the user named it.
+    pub file: String,
+    /// Line, counted from 1; `None` where the format has no lines or the whole file is meant.
+    pub line: Option<usize>,
+    /// Which item, e.g. `depth` or `T vertex 2 z`.
+    pub key: String,
+    /// What stands there, cut to a readable length.
+    pub value: String,
+    /// What may stand there.
+    pub permitted: String,
+    /// The valid name that looks most like `value`.
+    pub nearest: Option<&'static str>,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}:", self.file)?;
+        if let Some(line) = self.line {
+            write!(f, "{line}:")?;
+        }
+        write!(f, " {}: `{}`: {}", self.key, self.value, self.permitted)?;
+        if let Some(nearest) = self.nearest {
+            write!(f, "; did you mean `{nearest}`?")?;
+        }
+        Ok(())
+    }
+}
+
+/// The valid name nearest to `given`, if any is near enough to be what was meant.
+pub fn nearest(given: &str, valid: &[&'static str]) -> Option<&'static str> {
+    let given = given.to_lowercase();
+    valid
+        .iter()
+        .map(|name| (strsim::damerau_levenshtein(&given, &name.to_lowercase()), *name))
+        .filter(|(distance, name)| *distance <= 1 + name.len() / 3)
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, name)| name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nearest_name_is_offered_only_when_it_is_near() {
+        let valid = ["less", "lequal", "always"];
+        assert_eq!(nearest("lesss", &valid), Some("less"));
+        assert_eq!(nearest("LEQUAL", &valid), Some("lequal"));
+        assert_eq!(nearest("alwyas", &valid), Some("always"));
+        assert_eq!(nearest("quadratic", &valid), None);
+    }
+}

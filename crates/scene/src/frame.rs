@@ -1,0 +1,132 @@
+//! A frame: the screen, the rules for depth and blending, and triangles in pixels.
+
+/// Largest side of a screen, pixels.
+pub const MAX_SIDE: u32 = 16384;
+
+/// Largest |x| or |y| of a vertex, pixels. Times 2^8 sub-pixels it is an integer below 2^28, so edge products stay
+/// far inside 64 bits.
+pub const MAX_COORDINATE: f64 = 1e6;
+
+/// A vertex on the screen.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Vertex {
+    /// Pixels to the right of the screen's left side; pixel i has its centre at i + 1/2.
+    pub x: f64,
+    /// Pixels below the screen's top side.
+    pub y: f64,
+    /// Depth in [0, 1], 0 at the near plane.
+    pub z: f64,
+    /// Red in [0, 1].
+    pub r: f64,
+    /// Green in [0, 1].
+    pub g: f64,
+    /// Blue in [0, 1].
+    pub b: f64,
+    /// Transmission coefficient k_t in [0, 1] (A 7.1), 0 for an opaque surface.
+    pub kt: f64,
+}
+
+/// A triangle on the screen; either winding is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Triangle(pub [Vertex; 3]);
+
+/// How colour and k_t vary over a triangle. Depth is linear in both modes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum ShadeMode {
+    /// Linear between the vertices (A 7.5).
+    Gouraud,
+    /// That of the first vertex everywhere (A 7.4).
+    Flat,
+}
+
+impl ShadeMode {
+    /// Both modes, in the order of [`Self::NAMES`].
+    pub const ALL: [Self; 2] = [Self::Gouraud, Self::Flat];
+    /// The names in files.
+    pub const NAMES: [&'static str; 2] = ["gouraud", "flat"];
+
+    /// The name in files.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+}
+
+/// When a fragment passes the depth test: its depth compared with the stored one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum DepthFunc {
+    /// Never.
+    Never,
+    /// Nearer than what is stored.
+    Less,
+    /// As near.
+    Equal,
+    /// Nearer or as near.
+    Lequal,
+    /// Farther.
+    Greater,
+    /// Not as near.
+    Notequal,
+    /// Farther or as near.
+    Gequal,
+    /// Always.
+    Always,
+}
+
+impl DepthFunc {
+    /// All eight, in the order of [`Self::NAMES`].
+    pub const ALL: [Self; 8] = [
+        Self::Never,
+        Self::Less,
+        Self::Equal,
+        Self::Lequal,
+        Self::Greater,
+        Self::Notequal,
+        Self::Gequal,
+        Self::Always,
+    ];
+    /// The names in files.
+    pub const NAMES: [&'static str; 8] =
+        ["never", "less", "equal", "lequal", "greater", "notequal", "gequal", "always"];
+
+    /// The name in files.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+}
+
+/// One picture to draw: triangles in list order on a cleared screen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// Width, 1..=[`MAX_SIDE`] pixels.
+    pub width: u32,
+    /// Height, 1..=[`MAX_SIDE`] pixels.
+    pub height: u32,
+    /// Colour over a triangle.
+    pub mode: ShadeMode,
+    /// The depth test; `None` lets every fragment pass and leaves the stored depth alone.
+    pub depth: Option<DepthFunc>,
+    /// Whether a fragment that passes stores its depth; false where `depth` is `None`.
+    pub depth_write: bool,
+    /// Whether a fragment is mixed with what it covers: (1 - k_t) I + k_t I_back (A 7.5).
+    pub blend: bool,
+    /// Colour of the empty screen, [0, 1] each; the empty depth is 1.
+    pub clear: [f64; 3],
+    /// The triangles, drawn in this order.
+    pub triangles: Vec<Triangle>,
+}
+
+impl Frame {
+    /// A black screen with nothing on it: Gouraud, nearest fragment wins.
+    pub fn new(width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            mode: ShadeMode::Gouraud,
+            depth: Some(DepthFunc::Less),
+            depth_write: true,
+            blend: false,
+            clear: [0.0; 3],
+            triangles: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! Reads a triangle file line by line, so that its length is limited by the frame alone.
+
+use super::line::{Place, words};
+use crate::error::InputError;
+use crate::frame::{DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, ShadeMode, Triangle, Vertex};
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+
+/// Every word a line may start with.
+const KEYS: [&str; 7] = ["size", "mode", "depth", "depth_write", "blend", "clear", "T"];
+const SIZE: usize = 0;
+const TRIANGLE: usize = 6;
+
+/// `off` behind the eight functions.
+const DEPTH_NAMES: [&str; 9] = {
+    let mut names = ["off"; 9];
+    let mut i = 0;
+    while i < DepthFunc::NAMES.len() {
+        names[i] = DepthFunc::NAMES[i];
+        i += 1;
+    }
+    names
+};
+
+/// The numbers of a vertex, in the order of the file.
+const ATTRIBUTES: [&str; 7] = ["x", "y", "z", "r", "g", "b", "kt"];
+
+/// Reads the file at `path`.
+///
+/// # Errors
+/// The file cannot be read, or an item of it is not permitted.
+pub fn read(path: &Path) -> Result<Frame, InputError> {
+    let file = path.display().to_string();
+    match File::open(path) {
+        Ok(opened) => parse(&file, BufReader::with_capacity(1 << 16, opened)),
+        Err(source) => Err(InputError::Read { file, source }),
+    }
+}
+
+/// Reads the text of a file that messages call `file`.
+///
+/// # Errors
+/// `input` fails, or an item is not permitted.
+pub fn parse(file: &str, mut input: impl BufRead) -> Result<Frame, InputError> {
+    let mut parser = Parser { frame: Frame::new(0, 0), seen: [false; KEYS.len()] };
+    let mut place = Place { file, line: 0 };
+    let mut text = Vec::new();
+    loop {
+        text.clear();
+        match input.read_until(b'\n', &mut text) {
+            Ok(0) => break,
+            Ok(_) => {}
+            Err(source) => return Err(InputError::Read { file: file.into(), source }),
+        }
+        place.line += 1;
+        parser.line(place, &text)?;
+    }
+    place.line += 1;
+    parser.require_size(place, b"end of file")?;
+    if parser.frame.depth.is_none() {
+        parser.frame.depth_write = false;
+    }
+    Ok(parser.frame)
+}
+
+struct Parser {
+    frame: Frame,
+    /// Which of `KEYS` have come.
+    seen: [bool; KEYS.len()],
+}
+
+impl Parser {
+    fn line(&mut self, place: Place, text: &[u8]) -> Result<(), InputError> {
+        let mut words = words(text);
+        let Some(word) = words.next() else { return Ok(()) };
+        if word == b"T" {
+            self.require_size(place, word)?;
+            self.seen[TRIANGLE] = true;
+            self.frame.triangles.push(triangle(place, words)?);
+            return Ok(());
+        }
+        let key = place.choice("line starts with", word, &KEYS)?;
+        let name = KEYS[key];
+        if self.seen[TRIANGLE] {
+            let why = "permitted only before the first triangle";
+            return Err(place.fault(name, word, why).into());
+        }
+        if std::mem::replace(&mut self.seen[key], true) {
+            return Err(place.fault(name, word, "permitted once; it was set before").into());
+        }
+        match name {
+            "size" => {
+                let [width, height] = take(place, name, words)?;
+                self.frame.width = place.number("size W", width, "an integer", 1..=MAX_SIDE)?;
+                self.frame.height = place.number("size H", height, "an integer", 1..=MAX_SIDE)?;
+            }
+            "mode" => {
+                let [mode] = take(place, name, words)?;
+                self.frame.mode = ShadeMode::ALL[place.choice(name, mode, &ShadeMode::NAMES)?];
+            }
+            "depth" => {
+                let [func] = take(place, name, words)?;
+                self.frame.depth = DepthFunc::ALL.get(place.choice(name, func, &DEPTH_NAMES)?).copied();
+            }
+            "depth_write" => {
+                let [flag] = take(place, name, words)?;
+                self.frame.depth_write = place.choice(name, flag, &["0", "1"])? == 1;
+            }
+            "blend" => {
+                let [flag] = take(place, name, words)?;
+                self.frame.blend = place.choice(name, flag, &["0", "1"])? == 1;
+            }
+            _ => {
+                let clear: [&[u8]; 3] = take(place, name, words)?;
+                for (channel, word) in clear.into_iter().enumerate() {
+                    let key = format_args!("clear {}", ["r", "g", "b"][channel]);
+                    self.frame.clear[channel] = place.number(key, word, "a number", 0.0..=1.0)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn require_size(&self, place: Place, before: &[u8]) -> Result<(), InputError> {
+        if self.seen[SIZE] {
+            return Ok(());
+        }
+        let why = format!("`size W H` is missing; it must come first, W and H from 1 to {MAX_SIDE}");
+        Err(place.fault("size", before, why).into())
+    }
+}
+
+/// Exactly N words.
+fn take<'a, const N: usize>(
+    place: Place,
+    key: &str,
+    mut words: impl Iterator<Item = &'a [u8]>,
+) -> Result<[&'a [u8]; N], InputError> {
+    let mut taken: [&[u8]; N] = [&[]; N];
+    let mut count = 0;
+    for slot in &mut taken {
+        if let Some(word) = words.next() {
+            *slot = word;
+            count += 1;
+        }
+    }
+    count += words.count();
+    if count == N {
+        return Ok(taken);
+    }
+    let values = if N == 1 { "value" } else { "values" };
+    let found = format!("{count} given");
+    Err(place.fault(key, found.as_bytes(), format!("permitted: {N} {values}")).into())
+}
+
+fn triangle<'a>(place: Place, words: impl Iterator<Item = &'a [u8]>) -> Result<Triangle, InputError> {
+    let words: [&[u8]; 21] = take(place, "T", words)?;
+    let mut triangle = Triangle::default();
+    for (index, (vertex, words)) in triangle.0.iter_mut().zip(words.chunks_exact(7)).enumerate() {
+        let mut numbers = [0.0; 7];
+        for (a, number) in numbers.iter_mut().enumerate() {
+            let range = if a < 2 { -MAX_COORDINATE..=MAX_COORDINATE } else { 0.0..=1.0 };
+            let key = format_args!("T vertex {} {}", index + 1, ATTRIBUTES[a]);
+            *number = place.number(key, words[a], "a number", range)?;
+        }
+        let [x, y, z, r, g, b, kt] = numbers;
+        *vertex = Vertex { x, y, z, r, g, b, kt };
+    }
+    Ok(triangle)
+}

@@ -1,0 +1,143 @@
+//! The triangle file: defaults, every item, round trip, and what is refused with which words.
+#![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
+
+use edgewalk_scene::{
+    DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, ShadeMode, Triangle, Vertex, triangle_file,
+};
+use proptest::prelude::*;
+
+const T: &str = "T 0 0 0 1 1 1 0  9 0 0.5 1 1 1 0  0 9 1 1 1 1 0";
+
+fn parse(text: &str) -> Frame {
+    triangle_file::parse("a.tri", text.as_bytes()).unwrap()
+}
+
+#[test]
+fn defaults_when_only_the_size_is_given() {
+    assert_eq!(parse("size 640 480"), Frame::new(640, 480));
+}
+
+#[test]
+fn every_item_is_taken() {
+    let frame = parse(
+        "# a comment\r\n\r\n  size 3 4 # trailing\r\nmode flat\ndepth gequal\ndepth_write 0\nblend 1\n\
+         clear 0 0.5 1e0\nT 1 2 0.25 .5 0.5 0.5 1\t-1e6 +1 0 0 0 0 0 1 1 1 1 1 1 1#end",
+    );
+    assert_eq!((frame.width, frame.height, frame.mode), (3, 4, ShadeMode::Flat));
+    assert_eq!((frame.depth, frame.depth_write, frame.blend), (Some(DepthFunc::Gequal), false, true));
+    assert_eq!(frame.clear, [0.0, 0.5, 1.0]);
+    let first = Vertex { x: 1.0, y: 2.0, z: 0.25, r: 0.5, g: 0.5, b: 0.5, kt: 1.0 };
+    assert_eq!(frame.triangles.len(), 1);
+    assert_eq!(frame.triangles[0].0[0], first);
+    assert_eq!(frame.triangles[0].0[1].x, -MAX_COORDINATE);
+}
+
+#[test]
+fn depth_off_never_writes_whatever_the_order() {
+    for text in ["size 1 1\ndepth off\ndepth_write 1", "size 1 1\ndepth_write 1\ndepth off"] {
+        let frame = parse(text);
+        assert_eq!((frame.depth, frame.depth_write), (None, false));
+    }
+}
+
+#[test]
+fn malformed_files_name_place_and_remedy() {
+    let t = |bad: &str| format!("size 9 9\n{}", T.replacen("0.5", bad, 1));
+    let cases: [(String, &[&str]); 28] = [
+        ("".into(), &["a.tri:1: size", "`size W H` is missing", "16384"]),
+        (T.into(), &["a.tri:1: size", "missing"]),
+        ("size 0 9".into(), &["a.tri:1: size W: `0`", "an integer from 1 to 16384"]),
+        ("size 9 16385".into(), &["size H: `16385`", "16384"]),
+        ("size 9.5 9".into(), &["size W: `9.5`", "an integer"]),
+        ("size -1 9".into(), &["size W: `-1`"]),
+        ("size 9".into(), &["a.tri:1: size: `1 given`", "2 values"]),
+        ("size 9 9 9".into(), &["size: `3 given`", "2 values"]),
+        ("size 9 9\nsize 9 9".into(), &["a.tri:2: size", "once"]),
+        ("\nsiez 9 9".into(), &["a.tri:2: line starts with: `siez`", "did you mean `size`"]),
+        ("size 9 9\nt 0 0".into(), &["a.tri:2:", "did you mean `T`"]),
+        ("size 9 9\nSIZE 9 9".into(), &["did you mean `size`"]),
+        ("size 9 9\nmode phong".into(), &["a.tri:2: mode: `phong`", "gouraud flat"]),
+        ("size 9 9\nmode gourad".into(), &["did you mean `gouraud`"]),
+        ("size 9 9\ndepth lesss".into(), &["depth: `lesss`", "did you mean `less`"]),
+        ("size 9 9\ndepth of".into(), &["depth: `of`", "did you mean `off`"]),
+        ("size 9 9\ndepth_write yes".into(), &["depth_write: `yes`", "0 1"]),
+        ("size 9 9\nblend 2".into(), &["blend: `2`", "0 1"]),
+        ("size 9 9\nclear 0 0 1.5".into(), &["a.tri:2: clear b: `1.5`", "a number from 0 to 1"]),
+        ("size 9 9\nclear 0 0".into(), &["clear: `2 given`", "3 values"]),
+        (format!("size 9 9\n{T}\nmode flat"), &["a.tri:3: mode", "before the first triangle"]),
+        (t("nan"), &["a.tri:2: T vertex 2 z: `nan`", "from 0 to 1"]),
+        (t("inf"), &["T vertex 2 z: `inf`"]),
+        (t("-0.001"), &["T vertex 2 z: `-0.001`"]),
+        (t("0,5"), &["T vertex 2 z: `0,5`"]),
+        (format!("size 9 9\n{T} 1"), &["a.tri:2: T: `22 given`", "21 values"]),
+        (
+            format!("size 9 9\n{}", T.replacen("9 0", "1e7 0", 1)),
+            &["T vertex 2 x: `1e7`", "-1000000 to 1000000"],
+        ),
+        (format!("size 9 9\n# ok\n{}", "x".repeat(500)), &["a.tri:3:", "xxx...`", "size mode depth"]),
+    ];
+    for (text, fragments) in cases {
+        let message = match triangle_file::parse("a.tri", text.as_bytes()) {
+            Ok(_) => panic!("accepted: {text:?}"),
+            Err(error) => error.to_string(),
+        };
+        for fragment in fragments {
+            assert!(message.contains(fragment), "{text:?}: {message:?} lacks {fragment:?}");
+        }
+    }
+}
+
+#[test]
+fn bytes_that_are_no_text_are_refused() {
+    let message = triangle_file::parse("a.tri", &b"size 9 9\nmode \xff\xfe\0"[..]).unwrap_err().to_string();
+    assert!(message.contains("a.tri:2: mode"), "{message}");
+}
+
+#[test]
+fn a_file_that_is_not_there_is_named() {
+    let message = triangle_file::read("no/such.tri".as_ref()).unwrap_err().to_string();
+    assert!(message.starts_with("no/such.tri: cannot be read"), "{message}");
+}
+
+fn vertex() -> impl Strategy<Value = Vertex> {
+    let place = || prop_oneof![-MAX_COORDINATE..=MAX_COORDINATE, -4.0..700.0f64];
+    let unit = || prop_oneof![0.0..=1.0f64, Just(0.0), Just(1.0), Just(f64::MIN_POSITIVE)];
+    (place(), place(), unit(), unit(), unit(), unit(), unit()).prop_map(|(x, y, z, r, g, b, kt)| Vertex {
+        x,
+        y,
+        z,
+        r,
+        g,
+        b,
+        kt,
+    })
+}
+
+prop_compose! {
+    fn frame()(
+        width in 1..=MAX_SIDE,
+        height in 1..=MAX_SIDE,
+        mode in prop::sample::select(ShadeMode::ALL.to_vec()),
+        depth in prop::option::of(prop::sample::select(DepthFunc::ALL.to_vec())),
+        write in any::<bool>(),
+        blend in any::<bool>(),
+        clear in prop::array::uniform3(0.0..=1.0f64),
+        triangles in prop::collection::vec(prop::array::uniform3(vertex()).prop_map(Triangle), 0..20),
+    ) -> Frame {
+        Frame { width, height, mode, depth, depth_write: write && depth.is_some(), blend, clear, triangles }
+    }
+}
+
+proptest! {
+    #[test]
+    fn what_is_written_is_read_back(frame in frame()) {
+        let mut text = Vec::new();
+        triangle_file::write(&frame, &mut text).unwrap();
+        prop_assert_eq!(triangle_file::parse("a.tri", &text[..]).unwrap(), frame);
+    }
+
+    #[test]
+    fn no_text_panics(text in "(size|mode|depth|T|#|[0-9 .e-]|\\PC|\n){0,80}") {
+        let _ = triangle_file::parse("a.tri", text.as_bytes());
+    }
+}
