@@ -1,0 +1,172 @@
+//! Every key of a machine file: its name, permitted values, meaning, and where it lives in [`Machine`].
+//!
+//! To add a parameter: a field in `Machine`, a line here, a rule in `check.rs` if it can clash with another.
+
+use super::{EdgeKind, Fill, Hazard, Machine};
+
+/// What a key may be set to.
+#[derive(Clone, Copy, Debug)]
+pub enum Domain {
+    /// Whole numbers from the first to the second, both included.
+    Range(u32, u32),
+    /// One of these whole numbers.
+    OneOf(&'static [u32]),
+    /// One of these words; the number in [`Key::get`] is its place.
+    Word(&'static [&'static str]),
+}
+
+/// One key of the machine file.
+pub struct Key {
+    /// Dotted name, `section.key`.
+    pub name: &'static str,
+    /// What it means, with its unit.
+    pub doc: &'static str,
+    /// Permitted values.
+    pub domain: Domain,
+    /// Reads the value (for words: the place in the domain).
+    pub get: fn(&Machine) -> u32,
+    /// Writes a value that lies in the domain.
+    pub set: fn(&mut Machine, u32),
+}
+
+macro_rules! number {
+    ($name:literal, $domain:expr, $doc:literal, $($field:ident).+) => {
+        Key { name: $name, doc: $doc, domain: $domain, get: |m| m.$($field).+, set: |m, v| m.$($field).+ = v }
+    };
+}
+
+const FILLS: [Fill; 2] = [Fill::Exact, Fill::Textbook];
+const KINDS: [EdgeKind; 2] = [EdgeKind::Exact, EdgeKind::Slope];
+const HAZARDS: [Hazard; 3] = [Hazard::Drain, Hazard::Interlock, Hazard::Forward];
+
+use Domain::{OneOf, Range, Word};
+
+/// All keys, by section, in the order the data flows.
+pub const KEYS: &[Key] = &[
+    number!("screen.width", Range(1, 8192), "visible columns, pixels", width),
+    number!("screen.height", Range(1, 8192), "visible lines, pixels", height),
+    number!(
+        "screen.guard_bits",
+        Range(2, 14),
+        "vertices lie in |x|,|y| <= 2^guard_bits - 1 pixels; nothing inside is clipped",
+        guard_bits
+    ),
+    number!("screen.subpixel_bits", Range(0, 8), "fraction bits of vertex coordinates", subpixel_bits),
+    number!(
+        "setup.dividers",
+        OneOf(&[1, 2, 4]),
+        "lanes, each a serial multiplier and divider, that work side by side",
+        dividers
+    ),
+    number!("setup.radix", OneOf(&[2, 4, 16]), "radix of the lanes: 1, 2 or 4 bits a clock", radix),
+    Key {
+        name: "edge.fill",
+        doc: "fill rule: exact (half-open, top-left) or textbook (inclusive, integer vertices)",
+        domain: Word(&["exact", "textbook"]),
+        get: |m| m.fill as u32,
+        set: |m, v| m.fill = FILLS[v as usize],
+    },
+    Key {
+        name: "edge.kind",
+        doc: "edge walk: exact (quotient and remainder) or slope (fixed point)",
+        domain: Word(&["exact", "slope"]),
+        get: |m| m.edge_kind as u32,
+        set: |m, v| m.edge_kind = KINDS[v as usize],
+    },
+    number!(
+        "edge.fraction_bits",
+        Range(1, 30),
+        "fraction bits of a slope edge; unused by exact edges",
+        edge_fraction
+    ),
+    number!("fifo.span", Range(1, 64), "depth of the span FIFO, spans", span_fifo),
+    number!("formats.z_bits", Range(4, 32), "depth: output bits", z.bits),
+    number!("formats.z_fraction", Range(0, 24), "depth: interpolator fraction bits", z.fraction),
+    number!("formats.z_vertex", Range(0, 16), "depth: fraction bits of the vertex value", z.vertex_fraction),
+    number!("formats.color_bits", Range(2, 16), "colour: output bits", color.bits),
+    number!("formats.color_fraction", Range(0, 24), "colour: interpolator fraction bits", color.fraction),
+    number!(
+        "formats.color_vertex",
+        Range(0, 16),
+        "colour: fraction bits of the vertex value",
+        color.vertex_fraction
+    ),
+    number!(
+        "interpolator.adders",
+        OneOf(&[1, 2, 4]),
+        "adders shared by Z, R, G and B: 4/adders clocks a pixel",
+        adders
+    ),
+    number!(
+        "interpolator.segments",
+        OneOf(&[1, 2, 4]),
+        "pipeline segments of each adder; the carry moves a segment a clock",
+        segments
+    ),
+    Key {
+        name: "memory.hazard",
+        doc: "a pixel still in flight: drain, interlock or forward",
+        domain: Word(&["drain", "interlock", "forward"]),
+        get: |m| m.hazard as u32,
+        set: |m, v| m.hazard = HAZARDS[v as usize],
+    },
+    number!("memory.latency", Range(1, 8), "clocks from a depth read to its data, at the least", latency),
+    number!("fifo.inflight", Range(1, 16), "fragments in flight between read and compare", inflight),
+    number!(
+        "memory.tag_bits",
+        Range(0, 32),
+        "bits of a tag that travels with a triangle to its writes; 0: none",
+        tag_bits
+    ),
+];
+
+impl Key {
+    /// The value as written in a file, words without quotes.
+    #[must_use]
+    pub fn show(&self, machine: &Machine) -> String {
+        let value = (self.get)(machine);
+        match self.domain {
+            Word(words) => words[value as usize].to_owned(),
+            _ => value.to_string(),
+        }
+    }
+
+    /// The permitted values in words: `4 to 32`, `1, 2 or 4`.
+    #[must_use]
+    pub fn permitted(&self) -> String {
+        match self.domain {
+            Range(low, high) => format!("{low} to {high}"),
+            OneOf(list) => list.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
+            Word(words) => words.join(", "),
+        }
+    }
+
+    /// Reads a value; `None` if it is not in the domain.
+    #[must_use]
+    pub fn parse(&self, text: &str) -> Option<u32> {
+        match self.domain {
+            Word(words) => words.iter().position(|w| *w == text).map(|place| place as u32),
+            Range(low, high) => text.parse().ok().filter(|v| (low..=high).contains(v)),
+            OneOf(list) => text.parse().ok().filter(|v| list.contains(v)),
+        }
+    }
+
+    /// The nearest permitted value to a refused one, for the error's hint.
+    #[must_use]
+    pub fn nearest(&self, text: &str) -> String {
+        match self.domain {
+            Word(words) => super::text::nearest(text, words.iter().copied()).to_owned(),
+            Range(low, high) => match text.parse::<f64>() {
+                Ok(v) => (v.round().clamp(f64::from(low), f64::from(high)) as u32).to_string(),
+                Err(_) => low.to_string(),
+            },
+            OneOf(list) => {
+                let wanted = text.parse::<f64>().unwrap_or(f64::from(list[0]));
+                let distance = |v: &&u32| (f64::from(**v) - wanted).abs();
+                list.iter()
+                    .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+                    .map_or_else(String::new, ToString::to_string)
+            }
+        }
+    }
+}

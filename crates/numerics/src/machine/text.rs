@@ -1,0 +1,244 @@
+//! Machine files: TOML in, TOML out, single settings, and the hash that everything made from a machine carries.
+
+use super::Machine;
+use super::keys::{KEYS, Key};
+use sha2::{Digest, Sha256};
+use std::fmt::Write as _;
+use toml::de::{DeTable, DeValue};
+
+/// Why a machine is refused.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}{what}; {hint}", line.map(|l| format!("line {l}: ")).unwrap_or_default())]
+pub struct MachineError {
+    /// Line in the file, from 1, where there is one.
+    pub line: Option<usize>,
+    /// Key, value and what is wrong with them.
+    pub what: String,
+    /// What to write instead.
+    pub hint: String,
+}
+
+impl MachineError {
+    fn new(what: String, hint: String) -> Self {
+        MachineError { line: None, what, hint }
+    }
+
+    /// `key = value` lies outside the key's domain.
+    pub(super) fn value(key: &Key, value: &str) -> Self {
+        Self::new(
+            format!("{} = {value} is not permitted ({})", key.name, key.permitted()),
+            format!("nearest: {}", key.nearest(value)),
+        )
+    }
+
+    /// `key`'s value clashes with another.
+    pub(super) fn rule(machine: &Machine, key: &str, reason: String, remedy: String) -> Self {
+        let value = KEYS.iter().find(|k| k.name == key).map_or_else(String::new, |k| k.show(machine));
+        Self::new(format!("{key} = {value} cannot be built: {reason}"), format!("try {key} = {remedy}"))
+    }
+
+    fn at(mut self, text: &str, offset: usize) -> Self {
+        self.line = Some(text[..offset.min(text.len())].matches('\n').count() + 1);
+        self
+    }
+}
+
+/// The candidate most like `word` (Jaro-Winkler), for hints.
+#[must_use]
+pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> &'a str {
+    candidates
+        .max_by(|a, b| strsim::jaro_winkler(word, a).total_cmp(&strsim::jaro_winkler(word, b)))
+        .unwrap_or("")
+}
+
+fn find(name: &str) -> Result<&'static Key, MachineError> {
+    KEYS.iter().find(|k| k.name == name).ok_or_else(|| {
+        let bare = nearest(name, KEYS.iter().filter_map(|k| k.name.split('.').nth(1)));
+        let dotted = KEYS.iter().find(|k| !name.contains('.') && k.name.ends_with(bare)).map(|k| k.name);
+        let close = dotted.unwrap_or_else(|| nearest(name, KEYS.iter().map(|k| k.name)));
+        MachineError::new(format!("unknown key {name}"), format!("nearest: {close}"))
+    })
+}
+
+impl Machine {
+    /// Sets one key from text, as `--set key=value` does. The combination is not checked yet.
+    ///
+    /// # Errors
+    /// Unknown key, or a value outside its domain.
+    pub fn set(&mut self, name: &str, value: &str) -> Result<(), MachineError> {
+        let key = find(name)?;
+        let number = key.parse(value).ok_or_else(|| MachineError::value(key, value))?;
+        (key.set)(self, number);
+        Ok(())
+    }
+
+    /// Reads a machine file over the preset `default` (or the one it names with `preset = "…"`) and checks it.
+    ///
+    /// # Errors
+    /// Text that is no TOML, an unknown or repeated key, a value outside its domain, a combination that cannot be built.
+    pub fn from_toml(text: &str) -> Result<Machine, MachineError> {
+        let table = DeTable::parse(text).map_err(|e| {
+            let offset = e.span().map_or(0, |s| s.start);
+            MachineError::new(
+                e.message().replace('\n', " "),
+                "a machine file is TOML: [section] and key = value".to_owned(),
+            )
+            .at(text, offset)
+        })?;
+        let mut machine = Machine::default();
+        for (section, value) in table.get_ref() {
+            let place = section.span().start;
+            match value.get_ref() {
+                DeValue::String(name) if section.get_ref().as_ref() == "preset" => {
+                    machine = Machine::preset(name).ok_or_else(|| {
+                        let close = nearest(name, super::presets::PRESETS.iter().map(|p| p.0));
+                        MachineError::new(format!("unknown preset {name}"), format!("nearest: {close}"))
+                            .at(text, place)
+                    })?;
+                }
+                DeValue::Table(_) => {}
+                _ => {
+                    return Err(find(section.get_ref())
+                        .err()
+                        .map_or_else(
+                            || {
+                                MachineError::new(
+                                    format!("{} is no section", section.get_ref()),
+                                    "write [section]".to_owned(),
+                                )
+                            },
+                            |e| e,
+                        )
+                        .at(text, place));
+                }
+            }
+        }
+        for (section, value) in table.get_ref() {
+            let DeValue::Table(entries) = value.get_ref() else { continue };
+            for (name, value) in entries {
+                let full = format!("{}.{}", section.get_ref(), name.get_ref());
+                let shown = match value.get_ref() {
+                    DeValue::Integer(i) => i.to_string(),
+                    DeValue::String(s) => s.to_string(),
+                    DeValue::Float(f) => f.to_string(),
+                    other => other.type_str().to_owned(),
+                };
+                machine.set(&full, &shown).map_err(|e| e.at(text, name.span().start))?;
+            }
+        }
+        machine.check()?;
+        Ok(machine)
+    }
+
+    /// The whole machine as a file, every key with its meaning; [`Machine::from_toml`] reads it back.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        let mut text = String::new();
+        let mut sections: Vec<&str> = Vec::new();
+        for key in KEYS {
+            let section = key.name.split('.').next().unwrap_or_default();
+            if !sections.contains(&section) {
+                sections.push(section);
+            }
+        }
+        for section in sections {
+            let _ = writeln!(text, "[{section}]");
+            for key in KEYS.iter().filter(|k| k.name.split('.').next() == Some(section)) {
+                let name = key.name.split('.').nth(1).unwrap_or_default();
+                let value = match key.domain {
+                    super::keys::Domain::Word(_) => format!("\"{}\"", key.show(self)),
+                    _ => key.show(self),
+                };
+                let _ =
+                    writeln!(text, "{:<32}# {} ({})", format!("{name} = {value}"), key.doc, key.permitted());
+            }
+            text.push('\n');
+        }
+        text
+    }
+
+    /// Twelve hex digits that stand for this configuration in every picture, file and report made with it.
+    #[must_use]
+    pub fn hash(&self) -> String {
+        let mut digest = Sha256::new();
+        for key in KEYS {
+            digest.update(format!("{}={}\n", key.name, key.show(self)));
+        }
+        digest.finalize().iter().take(6).map(|b| format!("{b:02x}")).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_reads_back() {
+        for (name, _) in super::super::presets::PRESETS {
+            let machine = Machine::preset(name).expect("listed");
+            assert_eq!(Machine::from_toml(&machine.to_toml()), Ok(machine));
+        }
+    }
+
+    #[test]
+    fn every_setting_survives_the_file_and_changes_the_hash() {
+        let mut seen = std::collections::HashSet::new();
+        for key in KEYS {
+            let mut machine = Machine::default();
+            let other = match key.domain {
+                super::super::keys::Domain::Range(low, high) => {
+                    if (key.get)(&machine) == low {
+                        high
+                    } else {
+                        low
+                    }
+                }
+                super::super::keys::Domain::OneOf(list) => {
+                    *list.iter().find(|v| **v != (key.get)(&machine)).expect("two")
+                }
+                super::super::keys::Domain::Word(_) => ((key.get)(&machine) + 1) % 2,
+            };
+            (key.set)(&mut machine, other);
+            assert_eq!((key.get)(&machine), other, "{}", key.name);
+            assert!(seen.insert(machine.hash()), "{} does not reach the hash", key.name);
+            if machine.check().is_ok() {
+                assert_eq!(Machine::from_toml(&machine.to_toml()), Ok(machine), "{}", key.name);
+            }
+        }
+        assert_eq!(seen.len(), KEYS.len());
+    }
+
+    #[test]
+    fn refusals_name_place_and_remedy() {
+        let cases = [
+            ("[screen]\nwidht = 3\n", "line 2: unknown key screen.widht; nearest: screen.width"),
+            ("[screen]\nwidth = 0\n", "line 2: screen.width = 0 is not permitted (1 to 8192); nearest: 1"),
+            (
+                "[interpolator]\nadders = 3\n",
+                "line 2: interpolator.adders = 3 is not permitted (1, 2, 4); nearest: 2",
+            ),
+            (
+                "[edge]\nfill = \"textbok\"\n",
+                "line 2: edge.fill = textbok is not permitted (exact, textbook); nearest: textbook",
+            ),
+            (
+                "[edge]\nfill = \"textbook\"\n",
+                "screen.subpixel_bits = 8 cannot be built: textbook fill takes integer vertices; try screen.subpixel_bits = 0",
+            ),
+            ("preset = \"defalt\"\n", "line 1: unknown preset defalt; nearest: default"),
+            (
+                "[formats]\nz_vertex = 16\n",
+                "formats.z_vertex = 16 cannot be built: a vertex cannot have more fraction bits than the interpolator (14); try formats.z_vertex = 14",
+            ),
+            (
+                "[screen]\nguard_bits = 8\n",
+                "screen.guard_bits = 8 cannot be built: the screen is 640 pixels wide or high and must lie in the guard band; try screen.guard_bits = 10",
+            ),
+            ("width = 3\n", "line 1: unknown key width; nearest: screen.width"),
+        ];
+        for (text, message) in cases {
+            assert_eq!(Machine::from_toml(text).expect_err(text).to_string(), message);
+        }
+        assert!(Machine::from_toml("[screen\n").expect_err("no TOML").to_string().starts_with("line 1: "));
+    }
+}
