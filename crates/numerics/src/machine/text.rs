@@ -98,18 +98,14 @@ impl Machine {
                 }
                 DeValue::Table(_) => {}
                 _ => {
-                    return Err(find(section.get_ref())
-                        .err()
-                        .map_or_else(
-                            || {
-                                MachineError::new(
-                                    format!("{} is no section", section.get_ref()),
-                                    "write [section]".to_owned(),
-                                )
-                            },
-                            |e| e,
+                    let name = section.get_ref();
+                    let error = find(name).err().unwrap_or_else(|| {
+                        MachineError::new(
+                            format!("{name} stands outside its section"),
+                            "write [section]".to_owned(),
                         )
-                        .at(text, place));
+                    });
+                    return Err(error.at(text, place));
                 }
             }
         }
