@@ -1,1 +1,29 @@
-//! The machine, cycle by cycle and bit by bit, in plain Rust integers
+//! The machine, cycle by cycle and bit by bit, in plain Rust integers.
+//!
+//! ```text
+//!  tri ─> setup ─> edge ─> span ─> pixel ─> depth ─> memory
+//! ```
+//! Written from `docs/machine.md` alone. A unit is a plain state struct: methods give its outputs from the state and
+//! from the inputs that reach them within the cycle, `step` is the clock edge. [`Model`] wires the units together,
+//! [`run::render`] adds memory and draws. No I/O; nothing here fails on a checked machine.
+
+pub mod counters;
+pub mod coverage;
+pub mod depth;
+pub mod edge;
+pub mod fifo;
+pub mod machine;
+pub mod memory;
+pub mod pixel;
+pub mod run;
+pub mod setup;
+pub mod span;
+pub mod tokens;
+
+pub use counters::{Activity, Counters};
+pub use coverage::Coverage;
+pub use machine::{Inputs, Model, Outputs};
+pub use memory::{Memory, Stalls};
+pub use run::{DrawState, Event, Frame, render, render_with};
+pub use setup::{SetupClocks, setup_clocks};
+pub use tokens::Write;

@@ -1,0 +1,91 @@
+//! Which hazards and corners a run has met. A suite that leaves one at zero has not tested it.
+
+macro_rules! coverage {
+    ($($(#[$doc:meta])* $name:ident,)*) => {
+        /// How often each hazard and corner was met.
+        #[derive(Clone, Debug, Default, PartialEq, Eq)]
+        pub struct Coverage { $($(#[$doc])* pub $name: u64,)* }
+
+        impl Coverage {
+            /// Every name with its count.
+            #[must_use]
+            pub fn counts(&self) -> Vec<(&'static str, u64)> {
+                vec![$((stringify!($name), self.$name)),*]
+            }
+
+            /// Adds the counts of another run.
+            pub fn merge(&mut self, other: &Coverage) {
+                $(self.$name += other.$name;)*
+            }
+        }
+    };
+}
+
+coverage! {
+    /// Triangles that draw nothing.
+    culled,
+    /// Triangles whose major edge lies left.
+    major_left,
+    /// Triangles whose major edge lies right.
+    major_right,
+    /// Triangles without an upper part on the screen, n1 = 0.
+    no_upper_part,
+    /// Triangles without a lower part on the screen, n2 = 0.
+    no_lower_part,
+    /// Triangles of two parts whose knee lies on a line of pixel centres.
+    knee_on_line,
+    /// Cycles in which SETUP works while PIXEL draws.
+    setup_overlap,
+    /// Steps of the major edge with a carry.
+    carry,
+    /// Steps of the major edge without a carry.
+    no_carry,
+    /// Steps of an edge value that leave 0..2^(b+r) and wrap.
+    wrap,
+    /// Lines without a pixel.
+    empty_span,
+    /// Lines without a pixel that passed on the mark of a triangle's first line.
+    dropped_fresh,
+    /// Lines without a pixel, dropped while the span FIFO was full.
+    dropped_when_full,
+    /// Cycles in which a line waits for the span FIFO.
+    span_fifo_full,
+    /// Cycles in which a triangle waits until the first span of the one before is taken.
+    fresh_wait,
+    /// Spans cut by the screen at the side where they end.
+    scissor_cut,
+    /// Pixels stepped over off the screen.
+    off_screen,
+    /// Fragments that carry a fence.
+    fence,
+    /// Cycles in which DEPTH waits at a fence (drain).
+    drain_stall,
+    /// Cycles in which DEPTH waits for an address in flight (interlock).
+    interlock_stall,
+    /// Cycles in which a fragment waits for the in-flight queue.
+    queue_full,
+    /// Cycles in which a read waits for the memory.
+    memory_stall,
+    /// Cycles in which a write waits for the memory.
+    write_stall,
+    /// Fragments in the queue that took their old depth from a compare.
+    forward_compare,
+    /// Fragments entering the queue that took it from the compare of the same cycle.
+    forward_compare_entering,
+    /// Fragments entering the queue that took it from the write register.
+    forward_write,
+    /// Compares that used a forwarded depth.
+    forward_used,
+    /// Fragments that passed the compare.
+    depth_pass,
+    /// Fragments that failed the compare.
+    depth_fail,
+}
+
+impl Coverage {
+    /// The names that stand at zero.
+    #[must_use]
+    pub fn missing(&self) -> Vec<&'static str> {
+        self.counts().into_iter().filter(|(_, count)| *count == 0).map(|(name, _)| name).collect()
+    }
+}

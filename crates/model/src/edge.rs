@@ -1,0 +1,179 @@
+//! EDGE: walks the major and a minor edge down the triangle, one line a clock.
+//!
+//! ```text
+//!          ┌─> major C,R ─carry─┐
+//!  prim ───┼─> minor C,R        │      ┌─> line {y, columns, values}
+//!          └─> values += d0 / d1 ──────┘
+//! ```
+//! Formats: columns of COLW bits, remainders below M, values of b + r bits, all modular.
+//!
+//! Timing: a prim taken in cycle n gives its first line in n + 1, then a line a clock; the next prim is taken at the
+//! earliest in the cycle after the last line.
+//!
+//! Rules: `docs/machine.md`, section 3. Not modelled: nothing.
+
+use crate::Coverage;
+use crate::tokens::{EdgeWalk, Line, Prim, Words, add, word_masks};
+use edgewalk_numerics::{Fill, Machine};
+
+/// State of EDGE.
+#[derive(Clone, Debug)]
+pub struct Edge {
+    textbook: bool,
+    column_bits: u32,
+    masks: Words,
+    running: bool,
+    y: u32,
+    /// Lines left of each part.
+    lines: [u32; 2],
+    major: EdgeWalk,
+    minor: EdgeWalk,
+    values: Words,
+    fresh: bool,
+    fence: bool,
+    /// What the whole triangle needs: `left`, second minor edge, startB, increments, tag.
+    held: Prim,
+}
+
+impl Edge {
+    /// A unit at rest.
+    #[must_use]
+    pub fn new(machine: &Machine) -> Self {
+        Edge {
+            textbook: machine.fill == Fill::Textbook,
+            column_bits: machine.widths().column,
+            masks: word_masks(machine),
+            running: false,
+            y: 0,
+            lines: [0; 2],
+            major: EdgeWalk::default(),
+            minor: EdgeWalk::default(),
+            values: [0; 4],
+            fresh: false,
+            fence: false,
+            held: Prim::default(),
+        }
+    }
+
+    /// Synchronous reset.
+    pub fn reset(&mut self) {
+        self.running = false;
+    }
+
+    /// A triangle is being walked, and its line is valid.
+    #[inline]
+    #[must_use]
+    pub fn running(&self) -> bool {
+        self.running
+    }
+
+    /// A prim can be taken: no triangle runs, and PIXEL has taken the gradients of the last.
+    #[inline]
+    #[must_use]
+    pub fn prim_ready(&self, fresh_queued: bool) -> bool {
+        !self.running && !fresh_queued
+    }
+
+    /// The line offered to SPAN.
+    #[inline]
+    #[must_use]
+    pub fn line(&self) -> Option<Line> {
+        self.running.then_some(Line {
+            y: self.y,
+            major: self.major.c,
+            minor: self.minor.c,
+            left: self.held.left,
+            values: self.values,
+            fresh: self.fresh,
+            fence: self.fence,
+            tag: self.held.tag,
+            id: self.held.id,
+        })
+    }
+
+    /// g: the gradients of the last prim, for PIXEL.
+    #[inline]
+    #[must_use]
+    pub fn gradient(&self) -> &Words {
+        &self.held.gradient
+    }
+
+    /// Clock edge.
+    #[inline]
+    pub fn step(
+        &mut self,
+        prim: Option<&Prim>,
+        fresh_queued: bool,
+        line_ready: bool,
+        coverage: &mut Coverage,
+    ) {
+        if self.running {
+            if line_ready {
+                self.next_line(coverage);
+            } else {
+                coverage.span_fifo_full += 1;
+            }
+        } else if let Some(prim) = prim {
+            if fresh_queued {
+                coverage.fresh_wait += 1;
+            } else {
+                self.load(prim);
+            }
+        }
+    }
+
+    fn load(&mut self, prim: &Prim) {
+        let part = usize::from(prim.lines[0] == 0);
+        self.running = true;
+        self.y = prim.line;
+        self.lines = prim.lines;
+        self.major = prim.major;
+        self.minor = prim.minor[part];
+        self.values = prim.start[if self.textbook { part } else { 0 }];
+        self.fresh = true;
+        self.fence = true;
+        self.held = *prim;
+    }
+
+    fn next_line(&mut self, coverage: &mut Coverage) {
+        let [n1, n2] = self.lines;
+        let knee = n1 == 1 && n2 > 0;
+        self.running = n1 + n2 > 1;
+        self.fresh = false;
+        self.fence = self.textbook && knee;
+        self.lines = if n1 > 0 { [n1 - 1, n2] } else { [0, n2 - 1] };
+        if !self.running {
+            return;
+        }
+        if knee {
+            self.minor = self.held.minor[1];
+            if self.textbook {
+                // The knee line is drawn again, from the left edge of the lower part.
+                if self.held.left {
+                    self.values = self.held.start[1];
+                }
+                return;
+            }
+        } else {
+            self.minor.step(self.column_bits);
+        }
+        self.y += 1;
+        let carry = self.major.step(self.column_bits);
+        let delta = &self.held.delta[usize::from(if self.textbook { n1 == 0 } else { carry })];
+        coverage.carry += u64::from(carry);
+        coverage.no_carry += u64::from(!carry);
+        coverage.wrap += wraps(&self.values, delta, &self.masks);
+        self.values = add(&self.values, delta, &self.masks);
+    }
+}
+
+/// How many channels leave 0..2^(b+r), the increments read as signed words.
+fn wraps(values: &Words, delta: &Words, masks: &Words) -> u64 {
+    (0..4)
+        .map(|i| {
+            let carry = values[i] + delta[i] > masks[i];
+            let negative = delta[i] > masks[i] / 2;
+            u64::from(carry != negative)
+        })
+        .sum()
+}

@@ -1,0 +1,184 @@
+//! The machine: the units wired together, one clock.
+//!
+//! ```text
+//!  tri ─> SETUP ─prim─> EDGE ─line─> SPAN ─span─> PIXEL ─frag─> DEPTH ─> wr
+//!                         └────────── gradients ───┘              └─> rd, <─ data
+//! ```
+//! Data runs to the right, readies to the left within the cycle. [`Model::cycle`] therefore works out the readies from
+//! DEPTH back to SETUP, and then clocks the units in the same order, so that each still sees its source as it was.
+//!
+//! Rules: `docs/machine.md`, sections 8 and 9.
+
+use crate::counters::{Activity, Counters, Fires};
+use crate::coverage::Coverage;
+use crate::depth::{Block, Depth, DepthInputs};
+use crate::edge::Edge;
+use crate::pixel::Pixel;
+use crate::setup::Setup;
+use crate::span::SpanQueue;
+use crate::tokens::{Fragment, Write};
+use edgewalk_numerics::{Machine, PortVertex};
+
+/// Input ports of a cycle; a valid and its data are an `Option`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Inputs<'a> {
+    /// Synchronous reset.
+    pub rst: bool,
+    /// A triangle and its tag.
+    pub tri: Option<(&'a [PortVertex; 3], u32)>,
+    /// Compare function, constant while the machine is busy: 0 never, 1 less, 2 equal, 3 lequal, 4 greater, 5 notequal,
+    /// 6 gequal, 7 always.
+    pub depth_func: u8,
+    /// Fragments that pass store their depth; constant while the machine is busy.
+    pub depth_write: bool,
+    /// The memory takes a read.
+    pub rd_ready: bool,
+    /// The depth of the oldest read.
+    pub data: Option<u64>,
+    /// The memory takes a write.
+    pub wr_ready: bool,
+}
+
+/// Output ports of the same cycle. A channel fires if it is valid here and ready there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Outputs {
+    /// A triangle is taken, if there is one.
+    pub tri_ready: bool,
+    /// Address of a depth read.
+    pub rd: Option<u32>,
+    /// The depth is taken, if it is there.
+    pub data_ready: bool,
+    /// A write.
+    pub wr: Option<Write>,
+    /// What the cycle was spent on.
+    pub activity: Activity,
+    /// Nothing to do: `activity` is 0.
+    pub idle: bool,
+}
+
+/// State of the whole machine.
+#[derive(Clone, Debug)]
+pub struct Model {
+    setup: Setup,
+    edge: Edge,
+    span: SpanQueue,
+    pixel: Pixel,
+    depth: Depth,
+    counters: Counters,
+    coverage: Coverage,
+}
+
+impl Model {
+    /// A machine after reset. The configuration must have passed [`Machine::check`].
+    #[must_use]
+    pub fn new(machine: &Machine) -> Self {
+        Model {
+            setup: Setup::new(machine),
+            edge: Edge::new(machine),
+            span: SpanQueue::new(machine),
+            pixel: Pixel::new(machine),
+            depth: Depth::new(machine),
+            counters: Counters::default(),
+            coverage: Coverage::default(),
+        }
+    }
+
+    /// Performance counters since construction.
+    #[must_use]
+    pub fn counters(&self) -> &Counters {
+        &self.counters
+    }
+
+    /// Hazards and corners met since construction.
+    #[must_use]
+    pub fn coverage(&self) -> &Coverage {
+        &self.coverage
+    }
+
+    /// Not hardware: the fragment whose read fired in the cycle before.
+    #[must_use]
+    pub fn last_read(&self) -> &Fragment {
+        self.depth.last_read()
+    }
+
+    /// One clock cycle: the outputs of this cycle, then the clock edge.
+    #[inline]
+    pub fn cycle(&mut self, inputs: &Inputs) -> Outputs {
+        let frag = self.pixel.frag();
+        let block = self.depth.block(frag, inputs.depth_write);
+        let rd = frag.filter(|_| block.is_none()).map(|f| f.addr);
+        let frag_ready = inputs.rd_ready && block.is_none();
+        let span_ready = self.pixel.span_ready(frag_ready);
+        let line = self.edge.line();
+        let line_ready = line.as_ref().is_some_and(|l| self.span.line_ready(l));
+        let fresh_queued = self.span.fresh_queued();
+        let prim_ready = self.edge.prim_ready(fresh_queued);
+        let activity = self.activity(block, frag_ready);
+        let outputs = Outputs {
+            tri_ready: self.setup.tri_ready(),
+            rd,
+            data_ready: self.depth.data_ready(inputs.wr_ready),
+            wr: self.depth.write().copied(),
+            activity,
+            idle: activity == Activity::Idle,
+        };
+        let span = self.span.span();
+
+        let coverage = &mut self.coverage;
+        coverage.setup_overlap += u64::from(self.pixel.active() && !outputs.tri_ready);
+        self.counters.count(&Fires {
+            activity,
+            triangle: outputs.tri_ready && inputs.tri.is_some(),
+            line: line_ready,
+            span: span_ready && span.is_some(),
+            fragment: rd.is_some() && inputs.rd_ready,
+            write: outputs.wr.is_some() && inputs.wr_ready,
+        });
+        let depth_inputs = DepthInputs {
+            depth_func: inputs.depth_func,
+            depth_write: inputs.depth_write,
+            rd_ready: inputs.rd_ready,
+            data: inputs.data,
+            wr_ready: inputs.wr_ready,
+        };
+        self.depth.step(frag, block, &depth_inputs, coverage);
+        self.pixel.step(span, self.edge.gradient(), frag_ready, coverage);
+        self.span.step(line.as_ref(), span_ready, coverage);
+        self.edge.step(self.setup.prim(), fresh_queued, line_ready, coverage);
+        self.setup.step(inputs.tri, prim_ready, coverage);
+        if inputs.rst {
+            self.reset();
+        }
+        outputs
+    }
+
+    fn reset(&mut self) {
+        self.setup.reset();
+        self.edge.reset();
+        self.span.reset();
+        self.pixel.reset();
+        self.depth.reset();
+    }
+
+    /// The cause of this cycle, the first that holds.
+    #[inline]
+    fn activity(&self, block: Option<Block>, frag_ready: bool) -> Activity {
+        if !self.pixel.advance(frag_ready) {
+            match block {
+                Some(Block::Hazard) => Activity::Hazard,
+                Some(Block::Full) => Activity::Queue,
+                None => Activity::Memory,
+            }
+        } else if self.pixel.active() {
+            if self.pixel.on_screen() { Activity::Draw } else { Activity::Offscreen }
+        } else if self.span.span().is_some() || self.edge.running() {
+            Activity::Edge
+        } else if !self.setup.tri_ready() {
+            Activity::Setup
+        } else if self.pixel.occupied() || self.depth.occupied() {
+            Activity::Flush
+        } else {
+            Activity::Idle
+        }
+    }
+}

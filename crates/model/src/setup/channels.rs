@@ -1,0 +1,116 @@
+//! First values and increments of Z, R, G and B: exact divisions, rounded once, kept modulo 2^(b+r).
+
+use super::edges::Parts;
+use super::round_div;
+use super::sort::{Corner, Sorted};
+use crate::tokens::{Prim, word_masks};
+use edgewalk_numerics::{Fill, Machine};
+
+/// Fills in `start`, `delta` and `gradient` of a triangle whose edges are known.
+pub(super) fn prepare(machine: &Machine, sorted: &Sorted, parts: &Parts, prim: &mut Prim) {
+    let masks = word_masks(machine);
+    let word = |i: usize, value: i128| value as u64 & masks[i];
+    for i in 0..4 {
+        let plane = Plane::new(machine, sorted, i);
+        prim.gradient[i] = word(i, plane.gradient());
+        match machine.fill {
+            Fill::Exact => {
+                if prim.left {
+                    prim.gradient[i] = word(i, -plane.gradient());
+                }
+                let q = i128::from(prim.major.q);
+                prim.delta[0][i] = word(i, plane.step(q));
+                prim.delta[1][i] = word(i, plane.step(q + 1));
+                let px = i64::from(prim.major.c) - i64::from(prim.left);
+                prim.start[0][i] = word(i, plane.at(px, i64::from(prim.line)));
+            }
+            Fill::Textbook => {
+                for part in 0..2 {
+                    let [a, b, c] = &sorted.corners;
+                    let (from, to) = match (prim.left, part) {
+                        (false, _) => (a, c),
+                        (true, 0) => (a, b),
+                        (true, _) => (b, c),
+                    };
+                    if parts.lines[part] > 0 {
+                        let (start, delta) = left_edge(machine, from, to, parts.first[part], i);
+                        prim.start[part][i] = word(i, start);
+                        prim.delta[part][i] = word(i, delta);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// r - e, and the 1/2 that turns the final truncation into rounding, 2^(r-1) (0 if r = 0).
+fn scale(machine: &Machine, channel: usize) -> (u32, i128) {
+    let c = machine.channels()[channel];
+    (c.fraction - c.vertex_fraction, (1i128 << c.fraction) >> 1)
+}
+
+/// Textbook fill: first value and increment a line along the left edge `a`-`b`, on line `j` (A 7.10).
+fn left_edge(machine: &Machine, a: &Corner, b: &Corner, j: i64, i: usize) -> (i128, i128) {
+    let (shift, half) = scale(machine, i);
+    let p = 1i64 << machine.widths().center_fraction;
+    let dc = b.value[i] - a.value[i];
+    let dy = i128::from(b.v - a.v);
+    let start = round_div((dc * i128::from(j * p - a.v)) << shift, dy) + (a.value[i] << shift) + half;
+    (start, round_div((dc * i128::from(p)) << shift, dy))
+}
+
+/// A channel as a plane over the screen (A 7.7): numerators of its slopes over |area|.
+struct Plane<'a> {
+    top: &'a Corner,
+    /// Nx and Ny, 2^-e LSB times 2^-t px.
+    slope: [i128; 2],
+    /// |area|, 2^-2t px².
+    area: i128,
+    /// Value of the top vertex, 2^-e LSB.
+    value: i128,
+    /// log2 P.
+    t: u32,
+    shift: u32,
+    half: i128,
+}
+
+impl<'a> Plane<'a> {
+    fn new(machine: &Machine, sorted: &'a Sorted, i: usize) -> Self {
+        let [top, b, c] = &sorted.corners;
+        let area = sorted.area();
+        let sign = if area < 0 { -1 } else { 1 };
+        let (dc1, dc2) = (sign * (b.value[i] - top.value[i]), sign * (c.value[i] - top.value[i]));
+        let difference = |to: i64, from: i64| i128::from(to - from);
+        let (shift, half) = scale(machine, i);
+        Plane {
+            top,
+            slope: [
+                dc1 * difference(c.v, top.v) - dc2 * difference(b.v, top.v),
+                difference(b.u, top.u) * dc2 - difference(c.u, top.u) * dc1,
+            ],
+            area: area.abs(),
+            value: top.value[i],
+            t: machine.widths().center_fraction,
+            shift,
+            half,
+        }
+    }
+
+    /// gx: increment of a pixel to the right, 2^-r LSB.
+    fn gradient(&self) -> i128 {
+        round_div(self.slope[0] << (self.t + self.shift), self.area)
+    }
+
+    /// Increment of a line down and `q` pixels to the right, divided once, 2^-r LSB.
+    fn step(&self, q: i128) -> i128 {
+        round_div((self.slope[1] + q * self.slope[0]) << (self.t + self.shift), self.area)
+    }
+
+    /// Value at the centre of pixel (x, y), plus 1/2 LSB, 2^-r LSB.
+    fn at(&self, x: i64, y: i64) -> i128 {
+        let [nx, ny] = self.slope;
+        let (dx, dy) = ((x << self.t) - self.top.u, (y << self.t) - self.top.v);
+        let moved = (i128::from(dx) * nx + i128::from(dy) * ny) << self.shift;
+        round_div(moved, self.area) + (self.value << self.shift) + self.half
+    }
+}

@@ -1,0 +1,81 @@
+//! Which lines a triangle draws, and how its edges walk over them.
+
+use super::round_div;
+use super::sort::{Corner, Sorted};
+use crate::tokens::{EdgeWalk, sign_extend};
+use edgewalk_numerics::{EdgeKind, Fill, Machine};
+
+/// The drawn lines of the upper and the lower part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Parts {
+    /// j0 and j1: first line of each part.
+    pub first: [i64; 2],
+    /// n1 and n2.
+    pub lines: [u32; 2],
+}
+
+impl Parts {
+    /// jm: first drawn line of the triangle.
+    pub(super) fn drawn(&self) -> i64 {
+        self.first[usize::from(self.lines[0] == 0)]
+    }
+}
+
+/// Lines of both parts (section 2), cut to the screen.
+pub(super) fn parts(machine: &Machine, sorted: &Sorted) -> Parts {
+    let t = machine.widths().center_fraction;
+    let height = i64::from(machine.height);
+    let v = sorted.corners.map(|c| c.v);
+    match machine.fill {
+        Fill::Exact => {
+            let [top, knee, bottom] = v.map(|v| -(-v >> t)); // rounded up
+            let j0 = top.max(0);
+            let end = bottom.min(height).max(j0);
+            let j1 = knee.clamp(j0, end);
+            Parts { first: [j0, j1], lines: [(j1 - j0) as u32, (end - j1) as u32] }
+        }
+        Fill::Textbook => {
+            let y = v.map(|v| v >> t);
+            let part = |a: i64, b: i64| {
+                let lines = if b > a { b.min(height - 1) - a.max(0) + 1 } else { 0 };
+                (a.max(0), lines.max(0) as u32)
+            };
+            let (upper, lower) = (part(y[0], y[1]), part(y[1], y[2]));
+            Parts { first: [upper.0, lower.0], lines: [upper.1, lower.1] }
+        }
+    }
+}
+
+/// The edge from `a` down to `b`, as it stands on line `j`.
+pub(super) fn walk(machine: &Machine, a: &Corner, b: &Corner, j: i64) -> EdgeWalk {
+    let w = machine.widths();
+    let p = 1i64 << w.center_fraction;
+    let (dx, dy) = (b.u - a.u, b.v - a.v);
+    if dy == 0 {
+        return EdgeWalk::default();
+    }
+    let o = i64::from(machine.fill == Fill::Textbook);
+    let n = a.u * dy + (j * p - a.v) * dx + o * dy; // below 2^(2·DW + 1) <= 2^49
+    let steps = dy >= p;
+    let (q, f, m, at) = match machine.edge_kind {
+        EdgeKind::Exact => {
+            let (q, f) = if steps { (dx.div_euclid(dy), dx.rem_euclid(dy)) } else { (0, 0) };
+            (q, f, dy, (-n - o) >> w.center_fraction)
+        }
+        EdgeKind::Slope => {
+            let one = 1i64 << machine.edge_fraction;
+            let slope = if steps { round_div(i128::from(dx * one), i128::from(dy)) as i64 } else { 0 };
+            // A column of at most 2^49 / 2^t, with F <= 30 fraction bits: it fits, and only COLW + F bits are kept.
+            let column = round_div(i128::from(n) * i128::from(one), i128::from(dy * p)) as i64;
+            (slope.div_euclid(one), slope.rem_euclid(one), one, column.wrapping_neg().wrapping_sub(o))
+        }
+    };
+    let column = |c: i64| sign_extend(c as i32, w.column); // the low COLW bits
+    EdgeWalk {
+        c: column(-at.div_euclid(m)),
+        r: at.rem_euclid(m) as i32,
+        q: column(q),
+        f: f as i32,
+        m: m as i32,
+    }
+}
