@@ -1,1 +1,16 @@
-//! The reference pictures: exact coverage, depth and colour in f64
+//! The reference pictures: exact coverage, depth and colour in f64.
+//!
+//! What ought to be drawn, said as plainly as possible: a pixel belongs to a triangle if three half-planes say so, in
+//! integers; its depth and colour are the plane through the vertices (A 7.8). Nothing here steps, rounds or wraps as
+//! the machine does. Where two depths are too near for f64, exact integers decide.
+
+mod cover;
+mod depth;
+mod fragment;
+mod picture;
+mod textbook;
+
+pub use cover::{MAX_SUBPIXEL_BITS, fragments, snap};
+pub use fragment::Fragment;
+pub use picture::{Fill, NO_TRIANGLE, Picture, draw};
+pub use textbook::{Half, half_triangles};
