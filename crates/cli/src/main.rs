@@ -1,3 +1,84 @@
 //! The `edgewalk` program: a file a command.
+//!
+//! ```text
+//!  scene | mesh | triangle file ──> input ──> engine (golden, model, rtl) ──> compare ──> report, pictures, arrays
+//!  machine file, preset, --set  ──> machine_args ──┘
+//! ```
 
-fn main() {}
+mod arrays;
+mod commands;
+mod compare;
+mod engine;
+mod input;
+mod machine_args;
+mod picture;
+mod progress;
+mod report;
+mod staging;
+mod verdict;
+
+use clap::{Parser, Subcommand};
+use commands::{config, raster};
+use machine_args::MachineArgs;
+use std::process::ExitCode;
+use verdict::{ToolError, Verdict};
+
+/// Fixed-point incremental triangle hardware: model, netlist, Verilog and the proof that they agree.
+///
+/// Exit codes: 0 pass, 1 mismatch, 2 bad input or nothing checked, 3 tool missing or broken, 4 time limit.
+#[derive(Parser)]
+#[command(
+    version,
+    after_help = "Examples:
+  edgewalk demo
+  edgewalk render torus-knot --out out/knot
+  edgewalk raster triangles.tri --engine model --out out/r
+  edgewalk verify sphere --set interpolator.adders=1
+  edgewalk config explain"
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    #[command(flatten)]
+    machine: MachineArgs,
+    /// Prints the report as one JSON value instead of text
+    #[arg(long, global = true)]
+    json: bool,
+    /// Prints nothing but errors
+    #[arg(long, short, global = true)]
+    quiet: bool,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Raster(raster::Args),
+    Config(config::Args),
+}
+
+/// How a command talks.
+#[derive(Clone, Copy)]
+struct Talk {
+    json: bool,
+    quiet: bool,
+}
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let talk = Talk { json: cli.json, quiet: cli.quiet };
+    let result = match &cli.command {
+        Command::Raster(a) => raster::run(a, &cli.machine, talk),
+        Command::Config(a) => config::run(a, &cli.machine, talk.json),
+    };
+    match result {
+        Ok(verdict) => verdict.exit_code(),
+        Err(error) => {
+            // A reader that closes the pipe early (`| head`) is no error of ours.
+            let pipe = |e: &std::io::Error| e.kind() == std::io::ErrorKind::BrokenPipe;
+            if error.downcast_ref::<std::io::Error>().is_some_and(pipe) {
+                return ExitCode::SUCCESS;
+            }
+            eprintln!("edgewalk: {error:#}");
+            if error.is::<ToolError>() { ExitCode::from(3) } else { Verdict::Vacuous.exit_code() }
+        }
+    }
+}

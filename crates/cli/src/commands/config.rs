@@ -1,0 +1,95 @@
+//! `edgewalk config`: print, check and explain a machine.
+
+use crate::machine_args::MachineArgs;
+use crate::verdict::Verdict;
+use anyhow::{Result, anyhow};
+use edgewalk_numerics::Machine;
+use edgewalk_numerics::machine::keys::KEYS;
+use edgewalk_numerics::machine::presets::PRESETS;
+use edgewalk_numerics::machine::text::nearest;
+use serde_json::json;
+
+/// Prints, checks or explains a machine.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  edgewalk config print --machine textbook > my.toml
+  edgewalk config check --machine my.toml --set interpolator.adders=1
+  edgewalk config explain memory.hazard")]
+pub struct Args {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(clap::Subcommand)]
+enum What {
+    /// The whole machine as a file, every key with its meaning
+    Print,
+    /// Says whether the machine can be built, or why not
+    Check,
+    /// What a key means, what it may be, and what follows from the machine
+    Explain {
+        /// A key, e.g. memory.hazard; all of them if left out
+        key: Option<String>,
+    },
+}
+
+/// Runs the command.
+pub fn run(args: &Args, machine: &MachineArgs, json: bool) -> Result<Verdict> {
+    let machine = machine.machine(None)?;
+    match &args.what {
+        What::Print => print!("# machine {}\n{}", machine.hash(), machine.to_toml()),
+        What::Check if json => println!("{}", json!({ "ok": true, "hash": machine.hash() })),
+        What::Check => println!("machine {} can be built", machine.hash()),
+        What::Explain { key } => explain(&machine, key.as_deref(), json)?,
+    }
+    Ok(Verdict::Pass)
+}
+
+fn explain(machine: &Machine, key: Option<&str>, json: bool) -> Result<()> {
+    let chosen: Vec<_> = KEYS.iter().filter(|k| key.is_none_or(|name| k.name == name)).collect();
+    if chosen.is_empty() {
+        let name = key.unwrap_or_default();
+        return Err(anyhow!("unknown key {name}; nearest: {}", nearest(name, KEYS.iter().map(|k| k.name))));
+    }
+    if json {
+        let list: Vec<_> = chosen
+            .iter()
+            .map(|k| json!({ "key": k.name, "value": k.show(machine), "permitted": k.permitted(), "doc": k.doc }))
+            .collect();
+        println!("{}", serde_json::to_string_pretty(&list)?);
+        return Ok(());
+    }
+    for k in chosen {
+        println!("{} = {}\n    {}\n    permitted: {}", k.name, k.show(machine), k.doc, k.permitted());
+    }
+    if key.is_none() {
+        let w = machine.widths();
+        let setup = edgewalk_model::setup_clocks(machine);
+        println!("\nwhat follows");
+        println!("    vertex x, y            s{}.{} px", machine.guard_bits, machine.subpixel_bits);
+        println!(
+            "    z word                 Q{}.{}, {} bits, modular",
+            machine.z.bits,
+            machine.z.fraction,
+            machine.z.word()
+        );
+        println!(
+            "    colour words           Q{}.{}, {} bits, modular",
+            machine.color.bits,
+            machine.color.fraction,
+            machine.color.word()
+        );
+        println!("    address                {} bits: line {} bits, column {} bits", w.address, w.y, w.x);
+        println!("    pixel rate in a span   1/{} pixel a clock", machine.clocks_per_pixel());
+        println!(
+            "    setup                  {} clocks a triangle, {} if culled",
+            (setup.phase1 + setup.phase2),
+            setup.phase1
+        );
+        println!("\npresets");
+        for (name, doc) in PRESETS {
+            println!("    {name:<22} {doc}");
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,59 @@
+//! `edgewalk raster`: screen-space triangles of any program, through any engine, into numpy arrays.
+
+use crate::engine::{Engine, Raster, draw};
+use crate::machine_args::MachineArgs;
+use crate::report::Report;
+use crate::staging::Staging;
+use crate::verdict::Verdict;
+use crate::{Talk, arrays, picture};
+use anyhow::Result;
+use edgewalk_scene::triangle_file;
+use std::path::PathBuf;
+
+/// Draws a file of screen-space triangles and writes what every pixel got.
+///
+/// Writes coverage.npy, writes.npy (u32), id.npy (i32), z.npy (H,W) and rgb.npy (H,W,3) (f64 in [0,1]), image.png and
+/// report.json; row 0 on top.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  edgewalk raster triangles.tri --out out/r
+  edgewalk raster triangles.tri --engine golden --out out/g --json
+  edgewalk raster triangles.tri --engine rtl --out out/n --set interpolator.adders=1
+
+The triangle file:
+  size W H / mode gouraud|flat / depth less|lequal|always|off|... / depth_write 0|1 / blend 0|1 / clear r g b
+  T x y z r g b kt  x y z r g b kt  x y z r g b kt        (one item a line, # comments)")]
+pub struct Args {
+    /// The triangle file
+    file: PathBuf,
+    /// Who draws
+    #[arg(long, value_enum, default_value_t = Engine::Model)]
+    engine: Engine,
+    /// Output directory
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// Runs the command.
+pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
+    let frame = triangle_file::read(&args.file)?;
+    let machine = machine.machine(Some((frame.width, frame.height)))?;
+    let drawn = draw(args.engine, &frame, &machine, talk.quiet)?;
+    let report = Report::new(&args.file.display().to_string(), &frame, &machine, &drawn);
+    let out = Staging::new(&args.out)?;
+    write_arrays(&out, &drawn)?;
+    picture::write_rgb(&out, "image.png", drawn.width, drawn.height, &drawn.rgb)?;
+    out.write("report.json", report.json()?)?;
+    out.publish()?;
+    report.print(talk)?;
+    Ok(Verdict::Pass)
+}
+
+fn write_arrays(out: &Staging, drawn: &Raster) -> Result<()> {
+    let shape = [u64::from(drawn.height), u64::from(drawn.width)];
+    arrays::write(out, "coverage.npy", &shape, &drawn.coverage)?;
+    arrays::write(out, "writes.npy", &shape, &drawn.writes)?;
+    arrays::write(out, "id.npy", &shape, &drawn.id)?;
+    arrays::write(out, "z.npy", &shape, &drawn.z)?;
+    arrays::write(out, "rgb.npy", &[shape[0], shape[1], 3], drawn.rgb.as_flattened())
+}

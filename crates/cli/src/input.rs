@@ -1,0 +1,43 @@
+//! What is to be drawn: a built-in scene, a mesh, or a file of screen-space triangles; and its way to the port.
+
+use anyhow::{Context, Result, anyhow};
+use edgewalk_model::DrawState;
+use edgewalk_numerics::{Machine, PortVertex};
+use edgewalk_scene::{DepthFunc, Frame, ShadeMode};
+
+/// A frame as the machine's port takes it.
+pub struct PortFrame {
+    /// Triangles in drawing order.
+    pub triangles: Vec<[PortVertex; 3]>,
+    /// Depth function, write mask and clear values.
+    pub state: DrawState,
+}
+
+/// Snaps a frame to the port, or says which triangle the machine cannot take.
+pub fn to_port(frame: &Frame, machine: &Machine) -> Result<PortFrame> {
+    if frame.blend {
+        return Err(anyhow!("blend 1: the machine has no blend unit yet; draw with blend 0"));
+    }
+    let triangles = frame
+        .triangles
+        .iter()
+        .enumerate()
+        .map(|(index, triangle)| {
+            let mut port = [PortVertex::default(); 3];
+            for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
+                let color = if frame.mode == ShadeMode::Flat { &triangle.0[0] } else { v };
+                *slot = machine
+                    .port_vertex(v.x, v.y, [v.z, color.r, color.g, color.b])
+                    .with_context(|| format!("triangle {index}, vertex {corner}"))?;
+            }
+            Ok(port)
+        })
+        .collect::<Result<_>>()?;
+    let max = machine.color.max() as f64;
+    let state = DrawState {
+        depth_func: frame.depth.unwrap_or(DepthFunc::Always) as u8,
+        depth_write: frame.depth_write && frame.depth.is_some(),
+        clear: frame.clear.map(|v| (v * max).round_ties_even() as u64),
+    };
+    Ok(PortFrame { triangles, state })
+}

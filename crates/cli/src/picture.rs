@@ -1,0 +1,26 @@
+//! Pictures for eyes: the frame, and the error as a heat map.
+
+use crate::staging::Staging;
+use anyhow::{Context, Result};
+use image::{Rgb, RgbImage};
+
+/// Writes colours in [0,1] as an 8-bit PNG.
+pub fn write_rgb(out: &Staging, name: &str, width: u32, height: u32, rgb: &[[f64; 3]]) -> Result<()> {
+    let byte = |v: f64| (v.clamp(0.0, 1.0) * 255.0).round() as u8;
+    write(out, name, width, height, |i| rgb[i].map(byte))
+}
+
+/// Writes an error in LSB as a heat map: black none, blue to yellow up to one LSB, red above.
+pub fn write_heat(out: &Staging, name: &str, width: u32, height: u32, lsb: &[f64]) -> Result<()> {
+    write(out, name, width, height, |i| match lsb[i] {
+        0.0 => [0, 0, 0],
+        e if e > 1.0 => [255, 0, 0],
+        e => [(e * 255.0) as u8, (e * 220.0) as u8, ((1.0 - e) * 160.0) as u8],
+    })
+}
+
+fn write(out: &Staging, name: &str, width: u32, height: u32, pixel: impl Fn(usize) -> [u8; 3]) -> Result<()> {
+    let picture = RgbImage::from_fn(width, height, |x, y| Rgb(pixel((y * width + x) as usize)));
+    let path = out.path(name)?;
+    picture.save(&path).with_context(|| format!("{}", path.display()))
+}

@@ -1,0 +1,161 @@
+//! One page about a picture: what was drawn, how right it is, and where the cycles went; as text and as JSON.
+
+use crate::Talk;
+use crate::compare::Comparison;
+use crate::engine::Raster;
+use anyhow::Result;
+use edgewalk_model::Activity;
+use edgewalk_numerics::Machine;
+use edgewalk_scene::Frame;
+use serde_json::{Map, Value, json};
+use std::fmt::Write as _;
+
+/// Everything a report says.
+pub struct Report {
+    name: String,
+    machine: Machine,
+    triangles: usize,
+    covered: u64,
+    writes: u64,
+    counters: Option<edgewalk_model::Counters>,
+    corners: Option<edgewalk_model::Coverage>,
+    comparison: Option<Comparison>,
+}
+
+impl Report {
+    /// A report without a comparison.
+    pub fn new(name: &str, frame: &Frame, machine: &Machine, drawn: &Raster) -> Self {
+        Report {
+            name: name.to_owned(),
+            machine: machine.clone(),
+            triangles: frame.triangles.len(),
+            covered: drawn.coverage.iter().map(|c| u64::from(*c)).sum(),
+            writes: drawn.writes.iter().map(|c| u64::from(*c)).sum(),
+            counters: drawn.counters.clone(),
+            corners: drawn.corners.clone(),
+            comparison: None,
+        }
+    }
+
+    /// The same with a comparison.
+    pub fn with(mut self, comparison: Comparison) -> Self {
+        self.comparison = Some(comparison);
+        self
+    }
+
+    /// As JSON, keys in a fixed order.
+    pub fn value(&self) -> Result<Value> {
+        let mut report = json!({
+            "input": self.name,
+            "machine": self.machine.hash(),
+            "width": self.machine.width,
+            "height": self.machine.height,
+            "triangles": self.triangles,
+            "fragments": self.covered,
+            "writes": self.writes,
+        });
+        if let Some(c) = &self.comparison {
+            report["comparison"] = serde_json::to_value(c)?;
+        }
+        if let Some(c) = &self.counters {
+            let causes: Map<_, _> =
+                Activity::ALL.into_iter().map(|a| (a.name().to_owned(), json!(c.spent(a)))).collect();
+            let setup = edgewalk_model::setup_clocks(&self.machine);
+            report["cycles"] = json!({
+                "total": c.cycles,
+                "by_cause": causes,
+                "pixels_per_clock": ratio(self.covered, c.cycles),
+                "setup_clocks_drawn": (setup.phase1 + setup.phase2),
+                "setup_clocks_culled": setup.phase1,
+            });
+        }
+        if let Some(c) = &self.corners {
+            report["corners"] = c
+                .counts()
+                .into_iter()
+                .map(|(name, count)| (name.to_owned(), json!(count)))
+                .collect::<Map<_, _>>()
+                .into();
+        }
+        Ok(report)
+    }
+
+    /// As a JSON file.
+    pub fn json(&self) -> Result<String> {
+        Ok(serde_json::to_string_pretty(&self.value()?)? + "\n")
+    }
+
+    /// As a page of text.
+    pub fn text(&self) -> String {
+        let mut t = String::new();
+        let m = &self.machine;
+        let _ = writeln!(
+            t,
+            "{}: {} triangles on {}x{}, machine {}",
+            self.name,
+            self.triangles,
+            m.width,
+            m.height,
+            m.hash()
+        );
+        let _ = writeln!(t, "fragments {}, writes {}", self.covered, self.writes);
+        if let Some(c) = &self.comparison {
+            let _ = writeln!(t, "coverage mismatches {} / {}", c.coverage_mismatches, c.pixels);
+            let _ = writeln!(
+                t,
+                "largest z error       {:.4} LSB of {} bits, proved bound {:.4}",
+                c.z_error, m.z.bits, c.z_bound
+            );
+            let _ = writeln!(
+                t,
+                "largest colour error  {:.4} LSB of {} bits, proved bound {:.4}",
+                c.color_error, m.color.bits, c.color_bound
+            );
+            let _ = writeln!(
+                t,
+                "pixels compared {}, depth order undecided within the bound {}, wrong {}",
+                c.shaded, c.order_undecided, c.order_wrong
+            );
+        }
+        if let Some(c) = &self.counters {
+            let setup = edgewalk_model::setup_clocks(m);
+            let _ = writeln!(
+                t,
+                "cycles {}, {:.4} pixels a clock; setup {} clocks a triangle",
+                c.cycles,
+                ratio(self.covered, c.cycles),
+                (setup.phase1 + setup.phase2)
+            );
+            for a in Activity::ALL {
+                let n = c.spent(a);
+                let _ = writeln!(t, "    {:<10} {:>12}  {:>5.1} %", a.name(), n, 100.0 * ratio(n, c.cycles));
+            }
+            let sum: u64 = c.busy() + c.stalls();
+            let _ = writeln!(t, "    {:<10} {:>12}  of {} cycles", "sum", sum, c.cycles);
+        }
+        t
+    }
+
+    /// To standard output, as asked.
+    pub fn print(&self, talk: Talk) -> Result<()> {
+        if talk.json {
+            print!("{}", self.json()?);
+        } else if !talk.quiet {
+            print!("{}", self.text());
+        }
+        Ok(())
+    }
+}
+
+fn ratio(part: u64, whole: u64) -> f64 {
+    if whole == 0 { 0.0 } else { part as f64 / whole as f64 }
+}
+
+/// Bounds z, colour.
+pub fn bounds(m: &Machine) -> (f64, f64) {
+    let n = f64::from(m.width + m.height + (1 << m.guard_bits));
+    let b = |c: edgewalk_numerics::Channel| {
+        0.5 + 0.5f64.powi(c.vertex_fraction as i32 + 1) + (n + 1.0) * 0.5f64.powi(c.fraction as i32 + 1)
+    };
+    (b(m.z), b(m.color))
+}

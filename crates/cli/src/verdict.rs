@@ -1,0 +1,48 @@
+//! How a command ends: the exit codes every subcommand shares.
+
+use std::process::ExitCode;
+
+/// What a command found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// All that was asked for was done, all that was compared agrees.
+    Pass,
+    /// Something compared differs.
+    Mismatch,
+    /// A check compared nothing at all.
+    Vacuous,
+}
+
+/// A simulator or synthesis tool that is absent or broken.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct ToolError(pub String);
+
+impl Verdict {
+    /// The verdict of a comparison: `expected` things should have been checked, `checked` were, `wrong` of them differ.
+    pub fn of(checked: u64, expected: u64, wrong: u64) -> Self {
+        match (checked, wrong) {
+            (0, _) => Verdict::Vacuous,
+            (n, 0) if n == expected => Verdict::Pass,
+            _ => Verdict::Mismatch,
+        }
+    }
+
+    /// The worse of two.
+    pub fn and(self, other: Verdict) -> Self {
+        match (self, other) {
+            (Verdict::Pass, v) | (v, Verdict::Pass) => v,
+            (Verdict::Mismatch, _) | (_, Verdict::Mismatch) => Verdict::Mismatch,
+            _ => Verdict::Vacuous,
+        }
+    }
+
+    /// 0 pass, 1 mismatch, 2 vacuous (and bad input), 3 tool missing or broken.
+    pub fn exit_code(self) -> ExitCode {
+        ExitCode::from(match self {
+            Verdict::Pass => 0,
+            Verdict::Mismatch => 1,
+            Verdict::Vacuous => 2,
+        })
+    }
+}
