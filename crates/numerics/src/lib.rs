@@ -2,8 +2,18 @@
 //!
 //! No I/O, no triangles drawn: this crate only says which numbers there are. `model` and `rtl` share nothing else.
 
+pub mod rounding;
+pub mod dyadic;
+pub mod interval;
+pub mod format;
+pub mod word;
 pub mod machine;
 pub mod vertex;
 
+pub use dyadic::Dyadic;
+pub use format::{Format, FormatError};
+pub use interval::Interval;
 pub use machine::{Channel, EdgeKind, Fill, Hazard, Machine, MachineError, Widths};
+pub use rounding::{Rounding, UnknownRounding};
 pub use vertex::{PortVertex, VertexError};
+pub use word::{Word, WordError};
