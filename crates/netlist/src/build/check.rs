@@ -1,0 +1,54 @@
+//! What can only be seen when the whole module is there.
+
+use std::sync::Arc;
+
+use crate::error::Fault;
+use crate::netlist::{Netlist, NodeId};
+
+/// Registers, wires and instance inputs without a driver, with the name they were declared by.
+pub(super) fn undriven(netlist: &Netlist) -> Vec<(String, Fault)> {
+    let registers = netlist.registers.iter().filter(|register| register.updates.is_empty());
+    let registers = registers.map(|register| (register.name.clone(), register.name.clone()));
+    let wires = netlist.wires.iter().filter(|wire| wire.driver == NodeId::UNDRIVEN);
+    let wires = wires.map(|wire| (wire.name.clone(), wire.name.clone()));
+    let inputs = netlist.instances.iter().flat_map(|instance| {
+        let inputs = instance.module.inputs.iter().zip(&instance.connections);
+        let open = inputs.filter(|(_, driver)| **driver == NodeId::UNDRIVEN);
+        open.map(|(input, _)| (instance.name.clone(), format!("{}.{}", instance.name, input.name)))
+    });
+    registers
+        .chain(wires)
+        .chain(inputs)
+        .map(|(declared, name)| (declared, Fault::Undriven { name }))
+        .collect()
+}
+
+/// Two modules of one name would be two files of one name.
+pub(super) fn duplicate_modules(netlist: &Netlist) -> Vec<(String, Fault)> {
+    let mut found: Vec<(Arc<Netlist>, &str)> = Vec::new();
+    let mut faults = Vec::new();
+    for instance in &netlist.instances {
+        for module in instance.module.modules() {
+            let clash =
+                found.iter().any(|(known, _)| known.name == module.name && !Arc::ptr_eq(known, &module));
+            if clash || module.name == netlist.name {
+                let fault = Fault::DuplicateModule { name: module.name.clone() };
+                faults.push((instance.name.clone(), fault));
+            }
+            found.push((module, &instance.name));
+        }
+    }
+    faults.dedup();
+    faults
+}
+
+pub(super) fn has_clock(netlist: &Netlist) -> bool {
+    !netlist.registers.is_empty()
+        || !netlist.memories.is_empty()
+        || netlist.instances.iter().any(|instance| instance.module.has_clock)
+}
+
+pub(super) fn has_reset(netlist: &Netlist) -> bool {
+    netlist.registers.iter().any(|register| register.reset.is_some())
+        || netlist.instances.iter().any(|instance| instance.module.has_reset)
+}

@@ -1,0 +1,260 @@
+//! The hierarchy taken apart: one list of slots (a value each), instructions in an order in which they can be computed,
+//! registers and memories. Wires and ports cost nothing: they are names of a slot.
+
+use std::collections::BTreeMap;
+
+use crate::netlist::{Instance, Netlist, NodeId, Source};
+use crate::ops::{Bits, Op};
+
+pub(super) type Slot = u32;
+
+/// `dst := op(a, b, c)`, the ones not needed being slot 0.
+#[derive(Clone, Debug)]
+pub(super) struct Instruction {
+    pub op: Op,
+    pub operands: [Slot; 3],
+    pub dst: Slot,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct FlatRegister {
+    pub q: Slot,
+    pub reset: Option<u128>,
+    /// Condition and value, the strongest last.
+    pub updates: Vec<(Option<Slot>, Slot)>,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct FlatMemory {
+    pub words: Vec<u128>,
+    /// Enable, address, data.
+    pub writes: Vec<(Slot, Slot, Slot)>,
+    /// Enable, address, output.
+    pub reads: Vec<(Slot, Slot, Slot)>,
+}
+
+/// Everything a simulator needs; `values` and `widths` by slot.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Flat {
+    pub values: Vec<u128>,
+    pub widths: Vec<u32>,
+    pub instructions: Vec<Instruction>,
+    pub registers: Vec<FlatRegister>,
+    pub memories: Vec<FlatMemory>,
+    /// Every named signal by its path, `instance.instance.name`.
+    pub names: BTreeMap<String, Slot>,
+    /// Every memory by its path.
+    pub memory_names: BTreeMap<String, usize>,
+}
+
+/// The slot of the top module's `rst`; nobody drives it if there is no register with reset.
+pub(super) const RST: Slot = 0;
+
+impl Flat {
+    pub fn new(netlist: &Netlist) -> Flat {
+        let mut builder = Builder { flat: Flat::default(), sources: Vec::new() };
+        builder.slot(1, SlotSource::State); // RST
+        builder.module(netlist, "", None);
+        builder.finish()
+    }
+
+    /// Computes one instruction.
+    #[inline(always)]
+    pub fn compute(values: &[u128], widths: &[u32], instruction: &Instruction) -> u128 {
+        let [a, b, c] = instruction.operands.map(|slot| {
+            let slot = slot as usize;
+            Bits { value: values[slot], width: widths[slot] }
+        });
+        instruction.op.apply(widths[instruction.dst as usize], a, b, c)
+    }
+}
+
+/// Where a slot's value comes from while flattening.
+#[derive(Clone, Debug)]
+enum SlotSource {
+    /// Inputs, registers, memory outputs.
+    State,
+    Constant,
+    /// At most three operands.
+    Op(Op, Vec<Slot>),
+    /// Another name of a slot.
+    Alias(Slot),
+}
+
+struct Builder {
+    flat: Flat,
+    sources: Vec<SlotSource>,
+}
+
+impl Builder {
+    fn slot(&mut self, width: u32, source: SlotSource) -> Slot {
+        self.flat.values.push(0);
+        self.flat.widths.push(width);
+        self.sources.push(source);
+        (self.sources.len() - 1) as Slot
+    }
+
+    /// Gives every node of the module a slot; node i of it has slot base + i. Returns the base.
+    fn module(&mut self, netlist: &Netlist, prefix: &str, connections: Option<&[Slot]>) -> Slot {
+        let base = self.sources.len() as Slot;
+        let at = |id: NodeId| base + id.index() as Slot;
+        for node in &netlist.nodes {
+            self.slot(node.width, SlotSource::State);
+        }
+        let mut bases = Vec::new();
+        for instance in &netlist.instances {
+            let Instance { name, module, connections, .. } = instance;
+            let connections: Vec<Slot> = connections.iter().map(|id| at(*id)).collect();
+            bases.push(self.module(module, &format!("{prefix}{name}."), Some(&connections)));
+        }
+        for (index, node) in netlist.nodes.iter().enumerate() {
+            let slot = base + index as Slot;
+            self.sources[slot as usize] = match &node.source {
+                Source::Input(port) => match connections {
+                    Some(connections) => SlotSource::Alias(connections[*port]),
+                    None => SlotSource::State,
+                },
+                Source::Constant { value, .. } => {
+                    self.flat.values[slot as usize] = *value;
+                    SlotSource::Constant
+                }
+                Source::Op(op, operands) => {
+                    self.op(*op, &operands.iter().map(|id| at(*id)).collect::<Vec<_>>())
+                }
+                Source::Wire(wire) => SlotSource::Alias(at(netlist.wires[*wire].driver)),
+                Source::Register(_) | Source::MemoryRead { .. } => SlotSource::State,
+                Source::InstanceOutput { instance, output } => {
+                    let driver = netlist.instances[*instance].module.outputs[*output].driver;
+                    SlotSource::Alias(bases[*instance] + driver.index() as Slot)
+                }
+            };
+        }
+        self.state(netlist, prefix, base);
+        self.names(netlist, prefix, base);
+        base
+    }
+
+    /// The operator with at most three operands; a longer concatenation becomes a chain.
+    fn op(&mut self, op: Op, operands: &[Slot]) -> SlotSource {
+        match *operands {
+            [ref high @ .., low] if op == Op::Concat && high.len() > 1 => {
+                let chain = self.op(op, high);
+                let width = high.iter().map(|slot| self.flat.widths[*slot as usize]).sum();
+                let high = self.slot(width, chain);
+                SlotSource::Op(op, vec![high, low])
+            }
+            [only] if op == Op::Concat => SlotSource::Alias(only),
+            _ => SlotSource::Op(op, operands.to_vec()),
+        }
+    }
+
+    fn state(&mut self, netlist: &Netlist, prefix: &str, base: Slot) {
+        let at = |id: NodeId| base + id.index() as Slot;
+        for register in &netlist.registers {
+            let updates = register.updates.iter().map(|update| (update.when.map(at), at(update.value)));
+            self.flat.registers.push(FlatRegister {
+                q: at(register.node),
+                reset: register.reset,
+                updates: updates.collect(),
+            });
+        }
+        for memory in &netlist.memories {
+            self.flat.memory_names.insert(format!("{prefix}{}", memory.name), self.flat.memories.len());
+            let writes = memory.writes.iter().map(|port| (at(port.en), at(port.addr), at(port.data)));
+            let reads = memory.reads.iter().map(|port| (at(port.en), at(port.addr), at(port.node)));
+            self.flat.memories.push(FlatMemory {
+                words: vec![memory.init; memory.words],
+                writes: writes.collect(),
+                reads: reads.collect(),
+            });
+        }
+    }
+
+    fn names(&mut self, netlist: &Netlist, prefix: &str, base: Slot) {
+        for index in 0..netlist.nodes.len() as u32 {
+            if let Some(name) = netlist.name_of(NodeId(index)) {
+                self.flat.names.insert(format!("{prefix}{name}"), base + index);
+            }
+        }
+        for output in &netlist.outputs {
+            self.flat.names.insert(format!("{prefix}{}", output.name), base + output.driver.index() as Slot);
+        }
+        if netlist.has_reset {
+            self.flat.names.insert(format!("{prefix}rst"), RST);
+        }
+    }
+
+    /// Follows aliases, orders the instructions, computes those of constants once.
+    fn finish(mut self) -> Flat {
+        let resolve = |mut slot: Slot| {
+            while let SlotSource::Alias(of) = self.sources[slot as usize] {
+                slot = of;
+            }
+            slot
+        };
+        let flat = &mut self.flat;
+        flat.names.values_mut().for_each(|slot| *slot = resolve(*slot));
+        for register in &mut flat.registers {
+            for (when, value) in &mut register.updates {
+                *when = when.map(resolve);
+                *value = resolve(*value);
+            }
+        }
+        for memory in &mut flat.memories {
+            for (en, addr, data) in &mut memory.writes {
+                (*en, *addr, *data) = (resolve(*en), resolve(*addr), resolve(*data));
+            }
+            for (en, addr, _) in &mut memory.reads {
+                (*en, *addr) = (resolve(*en), resolve(*addr));
+            }
+        }
+        let mut constant: Vec<bool> =
+            self.sources.iter().map(|source| matches!(source, SlotSource::Constant)).collect();
+        for slot in in_order(&self.sources, resolve) {
+            let SlotSource::Op(op, operands) = &self.sources[slot as usize] else { continue };
+            let mut padded = [RST; 3];
+            padded.iter_mut().zip(operands).for_each(|(to, from)| *to = resolve(*from));
+            let instruction = Instruction { op: *op, operands: padded, dst: slot };
+            if padded[..operands.len()].iter().all(|slot| constant[*slot as usize]) {
+                flat.values[slot as usize] = Flat::compute(&flat.values, &flat.widths, &instruction);
+                constant[slot as usize] = true;
+            } else {
+                flat.instructions.push(instruction);
+            }
+        }
+        self.flat
+    }
+}
+
+/// All slots, each after those it is computed from. There are no loops: the modules were checked.
+fn in_order(sources: &[SlotSource], resolve: impl Fn(Slot) -> Slot) -> Vec<Slot> {
+    let mut order = Vec::with_capacity(sources.len());
+    let mut seen = vec![false; sources.len()];
+    for start in 0..sources.len() as Slot {
+        // Depth first with its own stack: a slot and how many of its operands have been visited.
+        let mut stack = Vec::new();
+        if !std::mem::replace(&mut seen[start as usize], true) {
+            stack.push((start, 0));
+        }
+        while let Some((slot, visited)) = stack.last_mut() {
+            let operand = match &sources[*slot as usize] {
+                SlotSource::Op(_, operands) => operands.get(*visited),
+                _ => None,
+            };
+            match operand {
+                Some(operand) => {
+                    *visited += 1;
+                    let operand = resolve(*operand);
+                    if !std::mem::replace(&mut seen[operand as usize], true) {
+                        stack.push((operand, 0));
+                    }
+                }
+                None => {
+                    order.push(*slot);
+                    stack.pop();
+                }
+            }
+        }
+    }
+    order
+}

@@ -1,0 +1,186 @@
+//! Runs a netlist: inputs in, values out, one clock at a time.
+
+use std::collections::BTreeMap;
+
+use super::flatten::{Flat, RST, Slot};
+use crate::netlist::Netlist;
+use crate::ops::mask;
+
+/// A running netlist. Inputs are 0 until set; registers without reset, and memory outputs before the first read, are 0
+/// at the start (in Verilog they are unknown).
+#[derive(Clone, Debug)]
+pub struct Simulator {
+    flat: Flat,
+    /// The top module's inputs, with `rst`.
+    inputs: BTreeMap<String, Slot>,
+    /// The next value of each register and each memory output, in order, between computing and taking it.
+    next: Vec<u128>,
+    /// An input or a register changed since the instructions were computed.
+    stale: bool,
+}
+
+/// An input of the top module.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InputId(Slot);
+
+/// Any named signal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SignalId(Slot);
+
+/// A name or a value that does not fit the netlist.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SimError {
+    /// No such input of the top module.
+    #[error("no input `{0}`")]
+    NoInput(String),
+    /// No such signal.
+    #[error("no signal `{0}`")]
+    NoSignal(String),
+    /// No such memory.
+    #[error("no memory `{0}`")]
+    NoMemory(String),
+    /// The value has more bits than the input.
+    #[error("{value} does not fit input `{name}` of {width} bits")]
+    TooWide {
+        /// The input.
+        name: String,
+        /// Its width.
+        width: u32,
+        /// The value given.
+        value: u128,
+    },
+}
+
+impl Simulator {
+    /// The netlist before its first clock.
+    pub fn new(netlist: &Netlist) -> Simulator {
+        let flat = Flat::new(netlist);
+        let names = netlist.inputs.iter().map(|input| input.name.as_str());
+        let inputs = names
+            .chain(netlist.has_reset.then_some("rst"))
+            .filter_map(|name| Some((name.to_string(), *flat.names.get(name)?)))
+            .collect();
+        Simulator { flat, inputs, next: Vec::new(), stale: true }
+    }
+
+    /// The input `name` of the top module; `rst` is one of them if there is a register with reset.
+    ///
+    /// # Errors
+    /// If there is none of that name.
+    pub fn input(&self, name: &str) -> Result<InputId, SimError> {
+        self.inputs.get(name).map(|slot| InputId(*slot)).ok_or_else(|| SimError::NoInput(name.to_string()))
+    }
+
+    /// A port, register, named wire, named constant, memory output (`ram_q`) or instance output (`u_a_q`) by its path:
+    /// `q` in the top module, `u_edge.u_minor.slope` deeper down.
+    ///
+    /// # Errors
+    /// If there is none of that path.
+    pub fn signal(&self, path: &str) -> Result<SignalId, SimError> {
+        let slot = self.flat.names.get(path);
+        slot.map(|slot| SignalId(*slot)).ok_or_else(|| SimError::NoSignal(path.to_string()))
+    }
+
+    /// The paths of all signals, in alphabetical order.
+    pub fn paths(&self) -> impl Iterator<Item = &str> {
+        self.flat.names.keys().map(String::as_str)
+    }
+
+    /// Bits of a signal.
+    pub fn width(&self, signal: SignalId) -> u32 {
+        self.flat.widths[signal.0 as usize]
+    }
+
+    /// Sets an input; bits beyond its width are dropped, as by a wire.
+    pub fn set(&mut self, input: InputId, value: u128) {
+        let slot = input.0 as usize;
+        self.flat.values[slot] = value & mask(self.flat.widths[slot]);
+        self.stale = true;
+    }
+
+    /// Sets an input by name.
+    ///
+    /// # Errors
+    /// If there is none of that name, or the value does not fit.
+    pub fn set_input(&mut self, name: &str, value: u128) -> Result<(), SimError> {
+        let input = self.input(name)?;
+        let width = self.flat.widths[input.0 as usize];
+        if value > mask(width) {
+            return Err(SimError::TooWide { name: name.to_string(), width, value });
+        }
+        self.set(input, value);
+        Ok(())
+    }
+
+    /// The value of a signal in this cycle.
+    pub fn value(&mut self, signal: SignalId) -> u128 {
+        self.eval();
+        self.flat.values[signal.0 as usize]
+    }
+
+    /// The value of a signal in this cycle, by path.
+    ///
+    /// # Errors
+    /// If there is none of that path.
+    pub fn get(&mut self, path: &str) -> Result<u128, SimError> {
+        let signal = self.signal(path)?;
+        Ok(self.value(signal))
+    }
+
+    /// The words of a memory by its path.
+    ///
+    /// # Errors
+    /// If there is none of that path.
+    pub fn memory(&self, path: &str) -> Result<&[u128], SimError> {
+        let index = self.flat.memory_names.get(path).ok_or_else(|| SimError::NoMemory(path.to_string()))?;
+        Ok(&self.flat.memories[*index].words)
+    }
+
+    /// Computes everything that follows from inputs and registers, if anything changed. Reading a signal does it too.
+    pub fn eval(&mut self) {
+        if !std::mem::replace(&mut self.stale, false) {
+            return;
+        }
+        let Flat { values, widths, instructions, .. } = &mut self.flat;
+        for instruction in instructions.iter() {
+            values[instruction.dst as usize] = Flat::compute(values, widths, instruction);
+        }
+    }
+
+    /// One rising edge of `clk`.
+    pub fn tick(&mut self) {
+        self.eval();
+        let Flat { values, registers, memories, .. } = &mut self.flat;
+        let is_set = |slot: Slot| values[slot as usize] == 1;
+        let reset = is_set(RST);
+        self.next.clear();
+        for register in registers.iter() {
+            let update = register.updates.iter().rev().find(|(when, _)| when.is_none_or(is_set));
+            self.next.push(match (reset, register.reset, update) {
+                (true, Some(value), _) => value,
+                (_, _, Some((_, value))) => values[*value as usize],
+                (_, _, None) => values[register.q as usize],
+            });
+        }
+        for memory in memories.iter_mut() {
+            let index = |addr: Slot| usize::try_from(values[addr as usize]).unwrap_or(usize::MAX);
+            for (en, addr, q) in &memory.reads {
+                let word = || memory.words.get(index(*addr)).copied().unwrap_or(0);
+                self.next.push(if is_set(*en) { word() } else { values[*q as usize] });
+            }
+            for (en, addr, data) in &memory.writes {
+                if is_set(*en)
+                    && let Some(word) = memory.words.get_mut(index(*addr))
+                {
+                    *word = values[*data as usize];
+                }
+            }
+        }
+        let outputs = memories.iter().flat_map(|memory| memory.reads.iter().map(|(_, _, q)| *q));
+        let slots = registers.iter().map(|register| register.q).chain(outputs);
+        for (slot, next) in slots.zip(&self.next) {
+            values[slot as usize] = *next;
+        }
+        self.stale = true;
+    }
+}
