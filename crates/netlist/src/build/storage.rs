@@ -114,9 +114,8 @@ impl<'m> Memory<'m> {
         let en = self.module.fitted(&format!("{name} write enable"), 1, en).id;
         let addr = self.module.fitted(&format!("{name} write address"), addr_bits, addr).id;
         let data = self.module.fitted(&format!("{name} write data"), width, data).id;
-        let writes = &mut self.module.draft().netlist.memories[self.index].writes;
-        let port = writes.len();
-        writes.push(MemoryWrite { en, addr, data });
+        let port = self.module.draft().netlist.memories[self.index].writes.len();
+        self.module.draft().netlist.memories[self.index].writes.push(MemoryWrite { en, addr, data });
         self.module.item(Item::MemoryWrite { memory: self.index, port });
         self
     }
@@ -132,8 +131,8 @@ impl<'m> Memory<'m> {
         let name = if port == 0 { format!("{name}_q") } else { format!("{name}_q{}", port + 1) };
         let node = self.module.node(width, Source::MemoryRead { memory: self.index, port });
         self.module.declare(&name, Some(node.id));
-        let reads = &mut self.module.draft().netlist.memories[self.index].reads;
-        reads.push(MemoryRead { name, en, addr, node: node.id });
+        let read = MemoryRead { name, en, addr, node: node.id };
+        self.module.draft().netlist.memories[self.index].reads.push(read);
         self.module.item(Item::MemoryRead { memory: self.index, port });
         node
     }

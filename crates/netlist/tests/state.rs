@@ -1,0 +1,152 @@
+//! Registers, memories and hierarchy over the clock.
+#![allow(clippy::unwrap_used)] // a test may
+
+use std::sync::Arc;
+
+use edgewalk_netlist::{Module, Netlist, SimError, Simulator};
+
+fn finish(m: Module) -> Arc<Netlist> {
+    m.finish().unwrap()
+}
+
+/// Sets the inputs, clocks once, returns the output.
+fn step(sim: &mut Simulator, inputs: &[(&str, u128)], output: &str) -> u128 {
+    for (name, value) in inputs {
+        sim.set_input(name, *value).unwrap();
+    }
+    sim.tick();
+    sim.get(output).unwrap()
+}
+
+#[test]
+fn of_several_updates_the_last_wins_and_reset_wins_over_all() {
+    let m = Module::new("ranks", "");
+    let (first, second) = (m.input("first", 1), m.input("second", 1));
+    let r = m.reg("r", 4).reset(9).when(first, 1).when(second, 2);
+    m.output("q", r);
+    let mut sim = Simulator::new(&finish(m));
+    let mut next =
+        |first, second, rst| step(&mut sim, &[("first", first), ("second", second), ("rst", rst)], "q");
+    assert_eq!(next(0, 0, 0), 0, "zero before the first update");
+    assert_eq!(next(1, 0, 0), 1);
+    assert_eq!(next(0, 0, 0), 1, "holds");
+    assert_eq!(next(0, 1, 0), 2);
+    assert_eq!(next(1, 1, 0), 2, "the later update wins");
+    assert_eq!(next(1, 1, 1), 9, "reset wins");
+    assert_eq!(next(0, 0, 0), 9);
+}
+
+#[test]
+fn an_unconditional_update_hides_those_before_it_only() {
+    let m = Module::new("order", "");
+    let (a, b) = (m.input("a", 1), m.input("b", 1));
+    m.output("q", m.reg("r", 4).when(a, 1).set(2).when(b, 3));
+    let mut sim = Simulator::new(&finish(m));
+    assert_eq!(step(&mut sim, &[("a", 1), ("b", 0)], "q"), 2);
+    assert_eq!(step(&mut sim, &[("a", 0), ("b", 1)], "q"), 3);
+}
+
+#[test]
+fn a_register_without_reset_ignores_it() {
+    let m = Module::new("some", "");
+    let data = m.input("data", 4);
+    m.output("p_q", m.reg("p", 4).reset(5).set(data));
+    m.output("q_q", m.reg("q", 4).set(data));
+    let mut sim = Simulator::new(&finish(m));
+    assert_eq!(step(&mut sim, &[("data", 7), ("rst", 1)], "p_q"), 5);
+    assert_eq!(sim.get("q_q").unwrap(), 7);
+}
+
+#[test]
+fn registers_change_together() {
+    let m = Module::new("swap", "");
+    let (one, two) = (m.reg("one", 4).reset(1), m.reg("two", 4).reset(2));
+    one.set(two);
+    two.set(one);
+    let mut sim = Simulator::new(&finish(m));
+    assert_eq!(step(&mut sim, &[("rst", 1)], "one"), 1);
+    assert_eq!(step(&mut sim, &[("rst", 0)], "one"), 2);
+    assert_eq!(sim.get("two").unwrap(), 1);
+}
+
+#[test]
+fn memory_reads_the_old_word_and_holds() {
+    let m = Module::new("ram", "");
+    let (we, re) = (m.input("we", 1), m.input("re", 1));
+    let (wa, ra, data) = (m.input("wa", 3), m.input("ra", 3), m.input("data", 8));
+    let ram = m.memory("words", 3, 6, 8, 0xaa).write(we, wa, data);
+    m.output("q", ram.read(re, ra));
+    let mut sim = Simulator::new(&finish(m));
+    let mut next = |we, wa, data, re, ra| {
+        step(&mut sim, &[("we", we), ("wa", wa), ("data", data), ("re", re), ("ra", ra)], "q")
+    };
+    assert_eq!(next(0, 0, 0, 0, 0), 0, "nothing read yet");
+    assert_eq!(next(1, 3, 7, 1, 3), 0xaa, "the word before the write");
+    assert_eq!(next(0, 0, 0, 1, 3), 7);
+    assert_eq!(next(1, 3, 8, 0, 3), 7, "holds without enable");
+    assert_eq!(next(1, 6, 9, 1, 6), 0, "beyond the words");
+    assert_eq!(next(0, 0, 0, 1, 3), 8);
+    assert_eq!(sim.memory("words").unwrap(), [0xaa, 0xaa, 0xaa, 8, 0xaa, 0xaa]);
+}
+
+#[test]
+fn of_two_write_ports_the_later_wins() {
+    let m = Module::new("ram", "");
+    let (first, second) = (m.input("first", 1), m.input("second", 1));
+    let addr = m.lit(1, 1);
+    let ram = m.memory("words", 1, 2, 4, 0).write(first, addr, 1).write(second, addr, 2);
+    m.output("q", ram.read(m.lit(1, 1), addr));
+    let mut sim = Simulator::new(&finish(m));
+    step(&mut sim, &[("first", 1), ("second", 1)], "q");
+    assert_eq!(sim.memory("words").unwrap(), [0, 2]);
+}
+
+/// A counter and two of it in a chain, with a feedback wire through both.
+#[test]
+fn hierarchy_with_feedback() {
+    let m = Module::new("stage", "");
+    let (value, ready) = (m.input("value", 8), m.input("ready", 1));
+    let held = m.reg("held", 8).reset(0).when(ready, value + 1);
+    m.output("q", held);
+    m.output("ready_out", !ready);
+    let cell = finish(m);
+
+    let m = Module::new("chain", "");
+    let back = m.wire("back", 1);
+    let one = m.instance("one", &cell).connect("value", m.input("start", 8)).connect("ready", back);
+    let two = m.instance("two", &cell).connect("value", one.output("q")).connect("ready", m.input("go", 1));
+    back.drive(two.output("ready_out"));
+    m.output("q", two.output("q"));
+    let chain = finish(m);
+
+    let mut sim = Simulator::new(&chain);
+    assert_eq!(step(&mut sim, &[("start", 10), ("go", 0)], "one.held"), 11);
+    assert_eq!(sim.get("two.ready").unwrap(), 0);
+    assert_eq!(step(&mut sim, &[("go", 1)], "q"), 12);
+    assert_eq!(sim.get("one.held").unwrap(), 11, "the feedback held it");
+    assert_eq!(sim.get("back").unwrap(), 0);
+    assert_eq!(step(&mut sim, &[("rst", 1)], "one.held"), 0, "reset reaches the instances");
+    let names: Vec<_> = chain.modules().iter().map(|module| module.name.clone()).collect();
+    assert_eq!(names, ["stage", "chain"]);
+}
+
+#[test]
+fn names_and_values_that_do_not_fit_are_refused() {
+    let m = Module::new("adder", "");
+    m.output("q", m.input("a", 4) + 1);
+    let mut sim = Simulator::new(&finish(m));
+    assert_eq!(sim.set_input("b", 0), Err(SimError::NoInput("b".into())));
+    assert_eq!(sim.set_input("rst", 0), Err(SimError::NoInput("rst".into())), "nothing to reset");
+    assert_eq!(sim.set_input("a", 16).unwrap_err().to_string(), "16 does not fit input `a` of 4 bits");
+    assert_eq!(sim.get("u.a"), Err(SimError::NoSignal("u.a".into())));
+    assert_eq!(sim.memory("m"), Err(SimError::NoMemory("m".into())));
+}
+
+#[test]
+fn a_constant_is_computed_once_and_right() {
+    let m = Module::new("constants", "");
+    let three = m.constant("THREE", 4, 3);
+    let low = m.cat(&[m.lit(1, 1), m.lit(2, 0), m.lit(1, 1)]);
+    m.output("q", (three + 2) ^ low);
+    assert_eq!(Simulator::new(&finish(m)).get("q").unwrap(), 5 ^ 9);
+}
