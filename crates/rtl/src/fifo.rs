@@ -1,0 +1,52 @@
+//! A first-in first-out queue of registers.
+
+use std::sync::Arc;
+
+use edgewalk_netlist::{BuildErrors, Module, Netlist};
+
+use crate::token::{Field, Registers, Token};
+
+/// The queue's netlist, for tokens of these fields.
+pub(crate) fn fifo(name: &str, depth: u32, fields: &[Field]) -> Result<Arc<Netlist>, BuildErrors> {
+    let m = Module::new(
+        name,
+        &format!(
+            "First in, first out: {depth} places in registers; the others move up as the first is taken.
+
+  in ─> [place {}] ─> … ─> [place 0] ─> out
+
+Timing: a token taken in at a clock is seen at the output in the next cycle, if it is first.
+Rules: in_ready does not look at out_ready: a full queue takes nothing in, even while its first token leaves.",
+            depth - 1
+        ),
+    );
+    let in_valid = m.input("in_valid", 1);
+    let token = Token::inputs(&m, "in", fields.to_vec());
+    let out_ready = m.input("out_ready", 1);
+
+    m.comment("How many places are taken, counted from place 0.");
+    let bits = (depth + 1).next_power_of_two().ilog2();
+    let count = m.reg("count", bits).doc("tokens").reset(0);
+    let in_ready = count.q().lt(depth as i32).named("in_ready");
+    let out_valid = count.q().any().named("out_valid");
+    let push = (in_valid & in_ready).named("push");
+    let pop = (out_valid & out_ready).named("pop");
+    count.when(push & !pop, count.q() + 1).when(pop & !push, count.q() - 1);
+
+    m.comment("A new token goes behind the last, one place further up if the first leaves.");
+    let end = pop.mux(count.q() - 1, count).named("end_place");
+    let places: Vec<_> =
+        (0..depth).map(|i| Registers::new(&m, &format!("place{i}"), fields.to_vec())).collect();
+    for (i, place) in places.iter().enumerate() {
+        let enters = (push & end.eq(i as i32)).named(&format!("enters{i}"));
+        if let Some(behind) = places.get(i + 1) {
+            place.load(pop, |f| behind[f].q());
+        }
+        place.load(enters, |f| token[f]);
+    }
+
+    m.output("in_ready", in_ready);
+    m.output("out_valid", out_valid);
+    places[0].token().output(&m, "out");
+    m.finish()
+}

@@ -1,0 +1,189 @@
+//! The adders of PIXEL: words cut into segments, each added a clock after the one below it.
+
+use edgewalk_netlist::{Module, Reg, Signal};
+use edgewalk_numerics::Machine;
+
+use crate::token::{CHANNELS, Token};
+
+/// For the header of machines with more than one segment.
+pub(super) const SKEW_DOC: &str = "Segments: the words are cut into segments, and the carry moves a segment a clock.
+  clock   0  1  2  3        All of a segment runs a clock behind the one below it: loading, adding, and leaving.
+  seg 0   a  b  c  d        So a segment of an addition needs only the carry of the clock before, and the bits of a
+  seg 1      a  b  c        fragment meet again in the output stages.
+  seg 2         a  b";
+
+/// What a segment of all words does in a clock.
+#[derive(Clone, Copy)]
+pub(super) struct Step<'m> {
+    /// A span enters.
+    pub load: Signal<'m>,
+    /// Its increments are new.
+    pub fresh: Signal<'m>,
+    /// Each adder adds the increment of one channel.
+    pub add: Signal<'m>,
+    /// Which one: the place among the channels of the adder. `None` if each has only one.
+    pub slot: Option<Signal<'m>>,
+}
+
+/// The steps of all segments: each does what the one below it did at the last advance.
+fn steps<'m>(m: &'m Module, machine: &Machine, advance: Signal<'m>, first: Step<'m>) -> Vec<Step<'m>> {
+    let mut steps = vec![first];
+    for segment in 1..machine.segments {
+        let below = steps[segment as usize - 1];
+        let late = |name: &str, signal: Signal<'m>| {
+            m.reg(&format!("{name}{segment}"), signal.width()).reset(0).when(advance, signal).q()
+        };
+        // A step is done where the machine advances; `below` says so only for segment 0.
+        let now = |name: &str, signal: Signal<'m>| {
+            (late(name, signal) & advance).named(&format!("{name}{segment}_now"))
+        };
+        let (load, fresh) = (now("load", below.load), late("fresh", below.fresh));
+        let (add, slot) = (now("add", below.add), below.slot.map(|slot| late("slot", slot)));
+        steps.push(Step { load, fresh, add, slot });
+    }
+    steps
+}
+
+/// A segment of a channel's word.
+pub(super) struct Segment<'m> {
+    /// Its lowest bit in the word.
+    low: u32,
+    value: Reg<'m>,
+    inc: Reg<'m>,
+}
+
+/// The words of the four channels.
+pub(super) struct Words<'m> {
+    /// By channel, then by segment; a narrow word beside a wide one has no bits in the upper segments of their adder.
+    segments: Vec<Vec<Option<Segment<'m>>>>,
+}
+
+impl<'m> Words<'m> {
+    /// The registers, the adders, and the loads.
+    pub fn new(
+        m: &'m Module,
+        machine: &Machine,
+        advance: Signal<'m>,
+        first: Step<'m>,
+        span: &Token<'m>,
+        increments: &Token<'m>,
+    ) -> Words<'m> {
+        let steps = steps(m, machine, advance, first);
+        let shared = machine.clocks_per_pixel() as usize;
+        let mut words = Words { segments: Vec::new() };
+        for adder in 0..machine.adders as usize {
+            let channels = adder * shared..(adder + 1) * shared;
+            let bounds = bounds(machine, channels.clone());
+            for channel in channels.clone() {
+                words.segments.push(registers(m, advance, channel, &bounds, &steps, [span, increments]));
+            }
+            let name = if shared == 1 { CHANNELS[channels.start].to_owned() } else { format!("adder{adder}") };
+            add(m, advance, &name, &bounds, &steps, &words.segments[channels]);
+        }
+        words
+    }
+
+    /// The bits that segment `segment` of a channel has of the output; `None` if they are all fraction.
+    pub fn output(&self, machine: &Machine, channel: usize, segment: usize) -> Option<Signal<'m>> {
+        let part = self.segments[channel][segment].as_ref()?;
+        let fraction = machine.channels()[channel].fraction;
+        let value = part.value.q();
+        let below = fraction.saturating_sub(part.low);
+        (below < value.width()).then(|| value.slice(value.width() - 1, below))
+    }
+}
+
+/// Where the segments of an adder begin, and where the last one ends; the adder is as wide as its widest channel.
+fn bounds(machine: &Machine, channels: std::ops::Range<usize>) -> Vec<u32> {
+    let width = machine.channels()[channels].iter().map(|channel| channel.word()).max().unwrap_or(1);
+    (0..=machine.segments).map(|segment| segment * width / machine.segments).collect()
+}
+
+/// The registers of a channel, a pair a segment, and what a span loads into them.
+fn registers<'m>(
+    m: &'m Module,
+    advance: Signal<'m>,
+    channel: usize,
+    bounds: &[u32],
+    steps: &[Step<'m>],
+    [span, increments]: [&Token<'m>; 2],
+) -> Vec<Option<Segment<'m>>> {
+    let name = CHANNELS[channel];
+    let (mut value_in, mut inc_in) = (span[name], increments[name]);
+    let word = value_in.width();
+    let mut segments = Vec::new();
+    for (segment, step) in steps.iter().enumerate() {
+        let (low, high) = (bounds[segment], bounds[segment + 1].min(word));
+        if low >= high {
+            segments.push(None);
+            continue;
+        }
+        if segment > 0 {
+            let late = |what: &str, below: Signal<'m>| {
+                let rest = m.reg(&format!("{name}_{what}_late{segment}"), word - low);
+                rest.doc("upper bits of the span to come")
+                    .when(advance, below.slice(below.width() - 1, low - bounds[segment - 1]))
+                    .q()
+            };
+            (value_in, inc_in) = (late("value", value_in), late("inc", inc_in));
+        }
+        let register = |what: &str| {
+            let part = if bounds.len() == 2 { String::new() } else { segment.to_string() };
+            m.reg(&format!("{name}_{what}{part}"), high - low)
+                .doc(&format!("bits {} to {low} of {word}", high - 1))
+        };
+        let (value, inc) = (register("value"), register("inc"));
+        value.when(step.load, lowest(value_in, high - low));
+        inc.when(step.load & step.fresh, lowest(inc_in, high - low));
+        segments.push(Some(Segment { low, value, inc }));
+    }
+    segments
+}
+
+/// One adder with all its segments, and the carries between them.
+fn add<'m>(
+    m: &'m Module,
+    advance: Signal<'m>,
+    name: &str,
+    bounds: &[u32],
+    steps: &[Step<'m>],
+    channels: &[Vec<Option<Segment<'m>>>],
+) {
+    let mut carry: Option<Signal> = None;
+    for (segment, step) in steps.iter().enumerate() {
+        let is_last = segment + 1 == steps.len();
+        let part = if steps.len() == 1 { String::new() } else { segment.to_string() };
+        let bits = bounds[segment + 1] - bounds[segment];
+        let sum_bits = if is_last { bits } else { bits + 1 };
+        let here = channels
+            .iter()
+            .enumerate()
+            .filter_map(|(slot, channel)| Some((slot, channel[segment].as_ref()?)));
+        let here: Vec<(usize, &Segment)> = here.collect();
+        let turn = |slot: usize| step.slot.map(|now| now.eq(slot as i32));
+        let operand = |of: fn(&Segment<'m>) -> Signal<'m>| {
+            let choices = here.iter().map(|(slot, part)| (turn(*slot), of(part).zext(sum_bits)));
+            choices.reduce(|(_, chosen), (turn, other)| {
+                (turn, turn.map_or(other, |turn| turn.mux(other, chosen)))
+            })
+        };
+        let (Some((_, value)), Some((_, inc))) =
+            (operand(|part| part.value.q()), operand(|part| part.inc.q()))
+        else {
+            continue;
+        };
+        let sum = carry.map_or(value + inc, |carry| value + inc + carry.zext(sum_bits));
+        let sum = sum.named(&format!("{name}_sum{part}"));
+        for (slot, part) in &here {
+            let takes = turn(*slot).map_or(step.add, |turn| step.add & turn);
+            part.value.when(takes, lowest(sum, part.value.q().width()));
+        }
+        carry = (!is_last)
+            .then(|| m.reg(&format!("{name}_carry{}", segment + 1), 1).when(advance, sum.msb()).q());
+    }
+}
+
+/// The lowest bits of a signal; all of it where it has no more.
+fn lowest(signal: Signal<'_>, bits: u32) -> Signal<'_> {
+    if signal.width() == bits { signal } else { signal.trunc(bits) }
+}

@@ -1,0 +1,108 @@
+//! SETUP: from three vertices to edges and increments.
+
+mod control;
+mod lane;
+mod lines;
+mod operands;
+mod results;
+mod schedule;
+mod sort;
+
+use std::sync::Arc;
+
+use edgewalk_netlist::{BuildErrors, Module, Netlist};
+use edgewalk_numerics::Machine;
+
+use crate::token::{self, EDGES, Registers, Token};
+use control::Control;
+use lane::Shape;
+use lines::Lines;
+use operands::Sources;
+use results::{Area, Results};
+use sort::Vertices;
+
+const DOC: &str = "SETUP turns three vertices into edges and increments.
+
+  tri ─> [sort by v] ─┬─> lines j0 j1 n1 n2 ────────────────────────────┐
+                      ├─> area ─> left, cull?                           ├─> prim
+                      ├─> three edges: q f = DX/DY, C R = N/DY ─────────┤
+                      └─> four channels: increments and start ──────────┘
+            the products and quotients are formed in serial lanes, side by side or in rounds
+
+Formats: see the ports; P = 2^t is a pixel in centre coordinates.
+Timing: three clocks to sort, then for each round of the lanes three operations on edges; if the triangle draws
+anything, for each round the operations on channels, and one clock to store. prim_valid is high from the next on.
+Rules: all results are those of exact division, rounded once; a word keeps its low bits.";
+
+/// The netlist of SETUP.
+///
+/// # Errors
+/// None for a machine that [`Machine::check`] accepts.
+pub fn setup(machine: &Machine) -> Result<Arc<Netlist>, BuildErrors> {
+    let m = Module::new("edgewalk_setup", DOC);
+    let tri_valid = m.input("tri_valid", 1);
+    let triangle = Token::inputs(&m, "tri", token::triangle(machine));
+    let prim_ready = m.input("prim_ready", 1);
+
+    let control = Control::new(&m, machine, tri_valid, prim_ready);
+    let vertices = Vertices::new(&m, machine, &control, &triangle);
+
+    // The first line and the moduli follow from other registers; all else of the prim is a register.
+    let computed = |name: &str| name == "jm" || name.ends_with("_m");
+    let mut kept = token::prim(machine);
+    kept.retain(|f| !computed(&f.name));
+    m.comment("What is set up.");
+    let prim = Registers::new(&m, "prim", kept);
+    if let Some(tag) = triangle.get("tag") {
+        prim["tag"].when(control.take, tag);
+    }
+    let lines = Lines::new(&m, machine, &control, &vertices, &prim);
+
+    let shapes: Vec<Shape> = (0..machine.dividers as usize).map(|lane| Shape::new(machine, lane)).collect();
+    let lanes = lane_netlists(machine, &shapes)?;
+    let lanes: Vec<_> =
+        lanes.iter().enumerate().map(|(i, lane)| m.instance(&format!("lane{i}"), lane)).collect();
+    let area = Area::new(&m, machine, &control, lanes[0], &prim);
+    control.cull.drive(area.is_zero() | lines.none);
+    let sources = Sources {
+        m: &m,
+        machine,
+        control: &control,
+        vertices: &vertices,
+        lines: &lines,
+        prim: &prim,
+        area: area.value(),
+    };
+    let shared = sources.shared();
+    for (i, (lane, shape)) in lanes.iter().zip(&shapes).enumerate() {
+        sources.connect(i, shape, &shared, *lane);
+    }
+    Results { m: &m, machine, control: &control, vertices: &vertices, prim: &prim }.take(&lanes);
+
+    m.output("tri_ready", control.idle);
+    m.output("prim_valid", control.done);
+    let heights = EDGES.iter().zip(&vertices.heights);
+    let moduli: Vec<_> = heights.map(|(edge, height)| (format!("{edge}_m"), *height)).collect();
+    let first_line = lines.jm.trunc(machine.widths().y);
+    let token =
+        Token::new(token::prim(machine), |name| match moduli.iter().find(|(modulus, _)| modulus == name) {
+            Some((_, height)) => *height,
+            None if name == "jm" => first_line,
+            None => prim[name].q(),
+        });
+    token.output(&m, "prim");
+    m.finish()
+}
+
+/// One netlist a lane; lanes of the same shape share it.
+fn lane_netlists(machine: &Machine, shapes: &[Shape]) -> Result<Vec<Arc<Netlist>>, BuildErrors> {
+    let mut lanes: Vec<Arc<Netlist>> = Vec::new();
+    for (i, shape) in shapes.iter().enumerate() {
+        let same = shapes[..i].iter().position(|other| other == shape);
+        lanes.push(match same {
+            Some(other) => Arc::clone(&lanes[other]),
+            None => lane::lane(machine, &format!("edgewalk_setup_lane{i}"), shape)?,
+        });
+    }
+    Ok(lanes)
+}

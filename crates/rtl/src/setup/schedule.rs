@@ -1,0 +1,181 @@
+//! Which operation a lane does when, and for how many clocks.
+
+use edgewalk_numerics::{Channel, EdgeKind, Fill, Machine};
+
+/// What a lane does for `1 + steps` clocks: one to load, then `k` bits a clock.
+///
+/// The products and quotients are those of `docs/machine.md`, section 2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Op {
+    /// DX / DY of an edge: q and f.
+    EdgeStep,
+    /// N of an edge, or the area.
+    EdgeProduct,
+    /// N / DY of an edge: C and R.
+    EdgeStart,
+    /// Nx of a channel.
+    Nx,
+    /// gx = Nx·K / A.
+    Gx,
+    /// Ny.
+    Ny,
+    /// Ny + q·Nx.
+    LineProduct,
+    /// d0 = (Ny + q·Nx)·K / A; d1 follows from it and gx.
+    Line,
+    /// What lies between vertex 0 and the first pixel.
+    StartProduct,
+    /// start.
+    Start,
+    /// DC·h of part 1 (textbook fill).
+    ProductA,
+    /// startA.
+    StartA,
+    /// dA = DC·P / DY.
+    LineA,
+    /// DC·h of part 2.
+    ProductB,
+    /// startB.
+    StartB,
+    /// dB.
+    LineB,
+}
+
+/// What kind of work an operation is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// acc := a·x + b·y.
+    Product,
+    /// Divides what is in acc.
+    Quotient,
+    /// Divides a difference: what is at the input y.
+    QuotientOfY,
+}
+
+impl Op {
+    pub fn kind(self) -> Kind {
+        use Op::*;
+        match self {
+            EdgeProduct | Nx | Ny | LineProduct | StartProduct | ProductA | ProductB => Kind::Product,
+            EdgeStart | Gx | Line | Start | StartA | StartB => Kind::Quotient,
+            EdgeStep | LineA | LineB => Kind::QuotientOfY,
+        }
+    }
+
+    /// Its name as a part of signals' names.
+    pub fn word(self) -> &'static str {
+        use Op::*;
+        match self {
+            EdgeStep => "edge_step",
+            EdgeProduct => "edge_product",
+            EdgeStart => "edge_start",
+            Nx => "nx",
+            Gx => "gx",
+            Ny => "ny",
+            LineProduct => "line_product",
+            Line => "line",
+            StartProduct => "start_product",
+            Start => "start",
+            ProductA => "product_a",
+            StartA => "start_a",
+            LineA => "line_a",
+            ProductB => "product_b",
+            StartB => "start_b",
+            LineB => "line_b",
+        }
+    }
+
+    /// The operations on each edge, in their order.
+    pub fn of_edges() -> &'static [Op] {
+        &[Op::EdgeStep, Op::EdgeProduct, Op::EdgeStart]
+    }
+
+    /// The operations on each channel, in their order.
+    pub fn of_channels(machine: &Machine) -> &'static [Op] {
+        use Op::*;
+        match machine.fill {
+            Fill::Exact => &[Nx, Gx, Ny, LineProduct, Line, StartProduct, Start],
+            Fill::Textbook => &[Nx, Gx, ProductA, StartA, LineA, ProductB, StartB, LineB],
+        }
+    }
+
+    /// Bits of the magnitude of the quotient's numerator, for a channel of `word` bits; `None` for a product.
+    fn numerator_bits(self, machine: &Machine, word: u32) -> Option<u32> {
+        use Op::*;
+        let w = machine.widths();
+        let (dw, t) = (w.difference, w.center_fraction);
+        match self {
+            EdgeStep => Some(dw - 1 + slope_bits(machine)),
+            EdgeStart if machine.edge_kind == EdgeKind::Exact => Some(2 * dw - 1 - t),
+            EdgeStart => Some(2 * dw - 1 + slope_bits(machine)),
+            Gx | StartA | LineA | StartB | LineB => Some(dw + word + t),
+            Line => Some(dw + word + machine.guard_bits + 2 + t),
+            Start => Some(2 * dw + word),
+            EdgeProduct | Nx | Ny | LineProduct | StartProduct | ProductA | ProductB => None,
+        }
+    }
+
+    /// Binary places that the numerator has below what stands in acc; negative: acc has more, and they are left out.
+    fn shift(self, machine: &Machine, channel: Channel) -> i32 {
+        use Op::*;
+        let t = machine.widths().center_fraction as i32;
+        let finer = (channel.fraction - channel.vertex_fraction) as i32;
+        match self {
+            EdgeStart if machine.edge_kind == EdgeKind::Exact => -t,
+            EdgeStep | EdgeStart => slope_bits(machine) as i32,
+            Gx | Line | LineA | LineB => t + finer,
+            _ => finer,
+        }
+    }
+
+    /// Clocks after the one that loads: the bits of a factor, or of the longest numerator, k a clock.
+    pub fn steps(self, machine: &Machine) -> u32 {
+        let bits = self.numerator_bits(machine, longest_word(machine)).unwrap_or(machine.widths().difference);
+        bits.div_ceil(machine.bits_per_clock())
+    }
+
+    /// The bit of acc that is the first digit of the quotient's numerator.
+    pub fn first_digit(self, machine: &Machine, channel: Channel) -> u32 {
+        let steps = if self.is_of_edge() {
+            self.steps(machine)
+        } else {
+            self.steps(machine) - late(machine, channel)
+        };
+        (steps * machine.bits_per_clock()).saturating_add_signed(-self.shift(machine, channel)) - 1
+    }
+
+    /// It is one of the operations on edges.
+    pub fn is_of_edge(self) -> bool {
+        Op::of_edges().contains(&self)
+    }
+}
+
+/// Clocks by which the quotients of a channel begin later than those of the longest word.
+pub(super) fn late(machine: &Machine, channel: Channel) -> u32 {
+    (longest_word(machine) - channel.word()) / machine.bits_per_clock()
+}
+
+fn longest_word(machine: &Machine) -> u32 {
+    machine.z.word().max(machine.color.word())
+}
+
+/// Fraction bits F of a slope edge; 0 for an exact one.
+fn slope_bits(machine: &Machine) -> u32 {
+    if machine.edge_kind == EdgeKind::Slope { machine.edge_fraction } else { 0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// S1 and S2 as the specification has them, for the default machine: DW = 23, c = 38, t = 8, G = 13, k = 2.
+    #[test]
+    fn clocks_of_the_default_machine() {
+        let machine = Machine::default();
+        let clocks = |ops: &[Op]| ops.iter().map(|op| 1 + op.steps(&machine)).sum::<u32>();
+        let (product, step, start) = (1 + 12, 1 + 11, 1 + 19);
+        assert_eq!(clocks(Op::of_edges()), step + product + start);
+        let (gx, line, start) = (1 + 35, 1 + 42, 1 + 42);
+        assert_eq!(clocks(Op::of_channels(&machine)), 4 * product + gx + line + start);
+    }
+}

@@ -1,0 +1,115 @@
+//! SPAN: cuts a line to the screen and queues what is left of it.
+
+use std::sync::Arc;
+
+use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
+use edgewalk_numerics::{Fill, Machine};
+
+use crate::fifo::fifo;
+use crate::token::{self, Token};
+
+const DOC: &str = "SPAN cuts a line to the screen and queues what is left of it.
+
+  line ─> [end cut to the screen] ─> empty? ─no─> [FIFO] ─> span
+                                        └─yes─> dropped; its flags wait for the next span
+
+Timing: a line that is not empty is a span in the next cycle at the earliest; an empty one costs its cycle only.
+Rules: the span is cut on the side where it ends. What lies off the screen on the side where it starts is stepped over
+by PIXEL, as the channels must be stepped there too.";
+
+/// The netlist of SPAN.
+///
+/// # Errors
+/// None for a machine that [`Machine::check`] accepts.
+pub fn span(machine: &Machine) -> Result<Arc<Netlist>, BuildErrors> {
+    let m = Module::new("edgewalk_span", DOC);
+    let line_valid = m.input("line_valid", 1);
+    let line = Token::inputs(&m, "line", token::line(machine));
+    let span_ready = m.input("span_ready", 1);
+
+    let cut = match machine.fill {
+        Fill::Exact => cut_exact(&m, machine, &line),
+        Fill::Textbook => cut_textbook(&m, machine, &line),
+    };
+
+    m.comment("Flags of dropped lines wait for the next span.");
+    let pend_fresh = m.reg("pend_fresh", 1).doc("fresh of dropped lines").reset(0);
+    let pend_fence = m.reg("pend_fence", 1).doc("fence of dropped lines").reset(0);
+    let fresh = (line["fresh"] | pend_fresh).named("fresh");
+    let fence = (line["fence"] | pend_fence).named("fence");
+
+    m.comment("The queue.");
+    let fields = token::span(machine);
+    let queue = fifo("edgewalk_span_fifo", machine.span_fifo, &fields)?;
+    let queue = m.instance("queue", &queue);
+    let line_ready = (cut.empty | queue.output("in_ready")).named("line_ready");
+    let taken = (line_valid & line_ready).named("taken");
+    let push = (taken & !cut.empty).named("push");
+    pend_fresh.when(taken, cut.empty & fresh);
+    pend_fence.when(taken, cut.empty & fence);
+    let token = Token::new(fields.clone(), |f| match f {
+        "x" => cut.x,
+        "count" => cut.count,
+        "left" => cut.left,
+        "fresh" => fresh,
+        "fence" => fence,
+        same => line[same],
+    });
+    token.connect(queue.connect("in_valid", push).connect("out_ready", span_ready), "in");
+    let span = Token::of_instance(queue, "out", fields);
+    let span_valid = queue.output("out_valid");
+
+    m.comment("While a triangle's first span is queued, EDGE must keep the increments of the triangle.");
+    let fresh_queued = m.reg("fresh_queued", 1).doc("the first span of a triangle is queued").reset(0);
+    fresh_queued.when(span_valid & span_ready & span["fresh"], 0).when(push & fresh, 1);
+
+    m.output("line_ready", line_ready);
+    m.output("span_valid", span_valid);
+    span.output(&m, "span");
+    m.output("fresh_queued", fresh_queued);
+    m.finish()
+}
+
+/// A line cut to the screen.
+struct Cut<'m> {
+    empty: Signal<'m>,
+    x: Signal<'m>,
+    count: Signal<'m>,
+    left: Signal<'m>,
+}
+
+/// Half-open spans from the major edge inwards, to the right or to the left.
+fn cut_exact<'m>(m: &'m Module, machine: &Machine, line: &Token<'m>) -> Cut<'m> {
+    let (cmaj, cmin, width) = (line["cmaj"], line["cmin"], machine.width as i32);
+    m.comment("To the right: from cmaj to before cmin, at most to the end of the screen.");
+    let end_right =
+        cmin.slt(width).mux(cmin, width).named_doc("end_right", "signed, first column after the span");
+    let none_right = (end_right.sle(cmaj) | cmin.sle(0)).named("none_right");
+    m.comment("To the left: from before cmaj to cmin, at least to column 0.");
+    let last_left = (cmaj - 1).named_doc("last_left", "signed, last column left of the major edge");
+    let end_left = cmin.sgt(0).mux(cmin, 0).named_doc("end_left", "signed, last column of the span");
+    let none_left = (last_left.slt(end_left) | cmin.sge(width)).named("none_left");
+    let left = line["left"];
+    Cut {
+        empty: left.mux(none_left, none_right).named("empty"),
+        x: left.mux(last_left, cmaj).named("x"),
+        // end − x, or x − end + 1 = cmaj − end.
+        count: (left.mux(cmaj, end_right) - left.mux(end_left, cmaj)).named_doc("count", "columns"),
+        left,
+    }
+}
+
+/// Spans with both ends, always to the right: a column stands one right of `Trunc(X)`.
+fn cut_textbook<'m>(m: &'m Module, machine: &Machine, line: &Token<'m>) -> Cut<'m> {
+    let (cmaj, cmin, left, width) = (line["cmaj"], line["cmin"], line["left"], machine.width as i32);
+    m.comment("From Trunc(X) of the left edge to Trunc(X) of the right edge, both drawn; a column register is Trunc(X) + 1.");
+    let x = (left.mux(cmin, cmaj) - 1).named("x");
+    let xe = left.mux(cmaj, cmin).named_doc("xe", "signed, first column after the line");
+    let end = xe.slt(width).mux(xe, width).named_doc("end_cut", "signed, first column after the span");
+    Cut {
+        empty: (end.sle(x) | xe.sle(0)).named("empty"),
+        x,
+        count: (end - x).named_doc("count", "columns"),
+        left: m.lit(1, 0),
+    }
+}
