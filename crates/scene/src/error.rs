@@ -35,6 +35,28 @@ pub struct Fault {
     pub nearest: Option<&'static str>,
 }
 
+/// Values longer than this are cut in messages, characters.
+const SHOWN: usize = 60;
+
+impl Fault {
+    /// A fault without a nearest name.
+    pub(crate) fn new(
+        file: &str,
+        line: Option<usize>,
+        key: impl fmt::Display,
+        value: impl fmt::Display,
+        permitted: impl Into<String>,
+    ) -> Box<Self> {
+        let value = value.to_string();
+        let mut shown: String = value.chars().take(SHOWN).collect();
+        if shown.len() < value.len() {
+            shown.push_str("...");
+        }
+        let (file, key, permitted) = (file.to_owned(), key.to_string(), permitted.into());
+        Box::new(Self { file, line, key, value: shown, permitted, nearest: None })
+    }
+}
+
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "{}:", self.file)?;

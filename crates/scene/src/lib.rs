@@ -4,8 +4,22 @@
 //! picture and the machine both start there, so a frame is all that they share.
 
 mod error;
+mod text;
+
+mod camera;
+mod clip;
+mod light;
+mod mesh;
+mod normals;
+mod scene;
+mod shade;
+
 mod frame;
 pub mod triangle_file;
 
+pub use camera::Camera;
 pub use error::{InputError, nearest};
 pub use frame::{DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, ShadeMode, Triangle, Vertex};
+pub use light::DirectionalLight;
+pub use mesh::{Face, Material, Mesh};
+pub use scene::Scene;

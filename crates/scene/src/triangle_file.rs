@@ -14,7 +14,6 @@
 //! Then triangles, drawn in this order whatever their winding: `T`, and `x y z r g b kt` for each of three vertices.
 //! x and y are pixels to the right and down, at most 10^6 either way; z, colours and k_t lie in [0, 1].
 
-mod line;
 mod reader;
 mod writer;
 

@@ -1,8 +1,8 @@
 //! Reads a triangle file line by line, so that its length is limited by the frame alone.
 
-use super::line::{Place, words};
 use crate::error::InputError;
 use crate::frame::{DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, ShadeMode, Triangle, Vertex};
+use crate::text::{Place, each_line, words};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -42,21 +42,10 @@ pub fn read(path: &Path) -> Result<Frame, InputError> {
 ///
 /// # Errors
 /// `input` fails, or an item is not permitted.
-pub fn parse(file: &str, mut input: impl BufRead) -> Result<Frame, InputError> {
+pub fn parse(file: &str, input: impl BufRead) -> Result<Frame, InputError> {
     let mut parser = Parser { frame: Frame::new(0, 0), seen: [false; KEYS.len()] };
-    let mut place = Place { file, line: 0 };
-    let mut text = Vec::new();
-    loop {
-        text.clear();
-        match input.read_until(b'\n', &mut text) {
-            Ok(0) => break,
-            Ok(_) => {}
-            Err(source) => return Err(InputError::Read { file: file.into(), source }),
-        }
-        place.line += 1;
-        parser.line(place, &text)?;
-    }
-    place.line += 1;
+    let lines = each_line(file, input, |place, line| parser.line(place, line))?;
+    let place = Place { file, line: lines + 1 };
     parser.require_size(place, b"end of file")?;
     if parser.frame.depth.is_none() {
         parser.frame.depth_write = false;

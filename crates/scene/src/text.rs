@@ -1,16 +1,14 @@
-//! The words of one line, with the place they stand for messages.
+//! Text files of one item a line: words and numbers, and the place they stand for messages.
 
 use crate::error::{Fault, InputError, nearest};
 use std::fmt::Display;
+use std::io::BufRead;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-/// Values longer than this are cut in messages, characters.
-const SHOWN: usize = 40;
-
 /// Where a line stands.
 #[derive(Clone, Copy)]
-pub(super) struct Place<'a> {
+pub(crate) struct Place<'a> {
     pub file: &'a str,
     /// Counted from 1.
     pub line: usize,
@@ -18,19 +16,7 @@ pub(super) struct Place<'a> {
 
 impl Place<'_> {
     pub fn fault(self, key: impl Display, value: &[u8], permitted: impl Into<String>) -> Box<Fault> {
-        let text = String::from_utf8_lossy(value);
-        let mut shown: String = text.chars().take(SHOWN).collect();
-        if text.chars().nth(SHOWN).is_some() {
-            shown.push_str("...");
-        }
-        Box::new(Fault {
-            file: self.file.into(),
-            line: Some(self.line),
-            key: key.to_string(),
-            value: shown,
-            permitted: permitted.into(),
-            nearest: None,
-        })
+        Fault::new(self.file, Some(self.line), key, String::from_utf8_lossy(value), permitted)
     }
 
     /// The index of `word` among `valid`.
@@ -66,7 +52,33 @@ impl Place<'_> {
 }
 
 /// The words of a line without its comment.
-pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+pub(crate) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
     let text = line.split(|byte| *byte == b'#').next().unwrap_or_default();
     text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+}
+
+/// The rest of a line after its first word: names may contain blanks.
+pub(crate) fn rest(line: &[u8]) -> String {
+    let text = String::from_utf8_lossy(line);
+    text.trim().split_once(char::is_whitespace).map_or(String::new(), |(_, name)| name.trim().to_owned())
+}
+
+/// Calls `take` with each line of a file that messages call `file`; returns the number of lines.
+pub(crate) fn each_line(
+    file: &str,
+    mut input: impl BufRead,
+    mut take: impl FnMut(Place, &[u8]) -> Result<(), InputError>,
+) -> Result<usize, InputError> {
+    let mut place = Place { file, line: 0 };
+    let mut text = Vec::new();
+    loop {
+        text.clear();
+        match input.read_until(b'\n', &mut text) {
+            Ok(0) => return Ok(place.line),
+            Ok(_) => {}
+            Err(source) => return Err(InputError::Read { file: file.into(), source }),
+        }
+        place.line += 1;
+        take(place, &text)?;
+    }
 }

@@ -1,0 +1,157 @@
+//! Triangle meshes in world space: built in, or read from a file.
+
+mod accessor;
+mod gltf;
+mod knot;
+mod mtl;
+mod obj;
+mod room;
+mod surface;
+mod terrain;
+
+use crate::error::{Fault, InputError, nearest};
+use glam::DVec3;
+use std::collections::HashMap;
+use std::path::Path;
+
+pub(crate) use knot::torus_knot;
+pub(crate) use room::room;
+pub(crate) use surface::{sphere, torus};
+pub(crate) use terrain::terrain;
+
+/// Largest coordinate in a mesh file, either way.
+pub(crate) const MAX_POSITION: f64 = 1e12;
+
+/// Least size of a mesh compared with its distance from the origin: below it, rounding would be all that is seen.
+const LEAST_SIZE: f64 = 1e-9;
+
+/// How a surface answers light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
+    /// Diffuse coefficient k_d (A 7.6) for red, green, blue in [0, 1]; the ambient coefficient k_a is the same.
+    pub diffuse: DVec3,
+}
+
+impl Material {
+    /// What a surface without a material is made of: light grey.
+    pub const DEFAULT: Self = Self { diffuse: DVec3::splat(0.8) };
+}
+
+/// A triangle of a mesh; its front is where its corners run counter-clockwise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Face {
+    /// Places in the list of positions.
+    pub corners: [u32; 3],
+    /// Place in the list of materials.
+    pub material: u32,
+}
+
+/// A checked mesh: at least one face, every index valid, every coordinate within ±10^12, no position listed twice.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    positions: Vec<DVec3>,
+    faces: Vec<Face>,
+    materials: Vec<Material>,
+}
+
+impl Mesh {
+    /// The kinds of file that [`Mesh::read`] takes, by the ends of their names.
+    pub const EXTENSIONS: [&'static str; 3] = ["obj", "gltf", "glb"];
+
+    /// Checks the parts of a mesh that messages call `name`, and makes equal positions one.
+    ///
+    /// # Errors
+    /// No face, an index beyond its list, a coordinate beyond ±10^12, or all positions practically in one
+    /// place.
+    pub fn new(
+        name: &str,
+        positions: Vec<DVec3>,
+        mut faces: Vec<Face>,
+        materials: Vec<Material>,
+    ) -> Result<Self, InputError> {
+        let fault =
+            |key: &str, value: String, permitted: String| Fault::new(name, None, key, value, permitted);
+        if faces.is_empty() {
+            return Err(fault("faces", "0 triangles".into(), "permitted: at least one".into()).into());
+        }
+        // NaN is not below anything.
+        let far = |position: &&DVec3| !position.to_array().iter().all(|c| c.abs() <= MAX_POSITION);
+        if let Some(bad) = positions.iter().find(far) {
+            let permitted = format!("permitted: numbers from -{MAX_POSITION} to {MAX_POSITION}");
+            return Err(fault("position", bad.to_string(), permitted).into());
+        }
+        let beyond = |face: &Face| {
+            let corner = face.corners.into_iter().find(|corner| *corner as usize >= positions.len());
+            corner.map(|corner| ("corner", corner, positions.len())).or_else(|| {
+                let known = (face.material as usize) < materials.len();
+                (!known).then_some(("material", face.material, materials.len()))
+            })
+        };
+        if let Some((key, index, count)) = faces.iter().find_map(beyond) {
+            return Err(fault(key, index.to_string(), format!("permitted: an index below {count}")).into());
+        }
+        let mut welded = Vec::new();
+        let mut places = HashMap::new();
+        for corner in faces.iter_mut().flat_map(|face| &mut face.corners) {
+            // Adding 0 makes a -0 a 0.
+            let position = positions[*corner as usize] + DVec3::ZERO;
+            *corner = *places.entry(position.to_array().map(f64::to_bits)).or_insert_with(|| {
+                welded.push(position);
+                (welded.len() - 1) as u32
+            });
+        }
+        let mesh = Self { positions: welded, faces, materials };
+        let [low, high] = mesh.bounds();
+        let (size, reach) = ((high - low).max_element(), low.abs().max(high.abs()).max_element());
+        if size < reach * LEAST_SIZE || size < f64::from(f32::MIN_POSITIVE) {
+            let permitted = format!("permitted: at least {LEAST_SIZE} of the distance from the origin");
+            return Err(fault("size", size.to_string(), permitted).into());
+        }
+        Ok(mesh)
+    }
+
+    /// Reads an OBJ or glTF file, by the end of its name.
+    ///
+    /// # Errors
+    /// Another end of the name, a file that cannot be read, or a fault in it.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        match extension.as_str() {
+            "obj" => obj::read(path),
+            "gltf" | "glb" => gltf::read(path),
+            _ => {
+                let file = path.display().to_string();
+                let permitted = format!("permitted: {}", Self::EXTENSIONS.join(" "));
+                let mut fault = Fault::new(&file, None, "kind of mesh file", &extension, permitted);
+                fault.nearest = nearest(&extension, &Self::EXTENSIONS);
+                Err(fault.into())
+            }
+        }
+    }
+
+    /// Corners of the faces; no two are equal.
+    pub fn positions(&self) -> &[DVec3] {
+        &self.positions
+    }
+
+    /// The triangles.
+    pub fn faces(&self) -> &[Face] {
+        &self.faces
+    }
+
+    /// What the faces are made of.
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// The corners of a face.
+    pub fn corners(&self, face: &Face) -> [DVec3; 3] {
+        face.corners.map(|corner| self.positions[corner as usize])
+    }
+
+    /// The least and the greatest coordinates.
+    pub fn bounds(&self) -> [DVec3; 2] {
+        let first = self.positions[0];
+        self.positions.iter().fold([first; 2], |[low, high], p| [low.min(*p), high.max(*p)])
+    }
+}
