@@ -3,7 +3,8 @@
 use anyhow::{Context, Result, anyhow};
 use edgewalk_model::DrawState;
 use edgewalk_numerics::{Machine, PortVertex};
-use edgewalk_scene::{DepthFunc, Frame, ShadeMode};
+use edgewalk_scene::{DepthFunc, Frame, Scene, ShadeMode, triangle_file};
+use std::path::Path;
 
 /// A frame as the machine's port takes it.
 pub struct PortFrame {
@@ -40,4 +41,49 @@ pub fn to_port(frame: &Frame, machine: &Machine) -> Result<PortFrame> {
         clear: frame.clear.map(|v| (v * max).round_ties_even() as u64),
     };
     Ok(PortFrame { triangles, state })
+}
+
+/// A scene, a mesh, or a file of screen-space triangles.
+#[derive(clap::Args, Clone, Debug)]
+pub struct Source {
+    /// A built-in scene, a mesh (.obj, .gltf, .glb) or a triangle file (.tri)
+    #[arg(value_name = "SCENE|MESH", default_value = "torus-knot")]
+    pub input: String,
+    /// One colour a polygon, or linear between its vertices
+    #[arg(long, value_enum, default_value_t = Shading::Gouraud)]
+    shading: Shading,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Shading {
+    Constant,
+    Gouraud,
+}
+
+impl Source {
+    /// The frame on this machine's screen; meshes are clipped to its guard band. A triangle file keeps its own size and mode.
+    pub fn frame(&self, machine: &Machine) -> Result<Frame> {
+        if Path::new(&self.input).extension().is_some_and(|e| e == "tri") {
+            let frame = triangle_file::read(Path::new(&self.input))?;
+            if (frame.width, frame.height) != (machine.width, machine.height) {
+                return Err(anyhow!(
+                    "{}: size {} {}: the machine's screen is {}x{}; add --set screen.width={} --set screen.height={}",
+                    self.input,
+                    frame.width,
+                    frame.height,
+                    machine.width,
+                    machine.height,
+                    frame.width,
+                    frame.height
+                ));
+            }
+            return Ok(frame);
+        }
+        let mode = match self.shading {
+            Shading::Constant => ShadeMode::Flat,
+            Shading::Gouraud => ShadeMode::Gouraud,
+        };
+        let guard = f64::from((1u32 << machine.guard_bits) - 1);
+        Ok(Scene::open(&self.input)?.frame(machine.width, machine.height, guard, mode))
+    }
 }

@@ -18,7 +18,7 @@ mod staging;
 mod verdict;
 
 use clap::{Parser, Subcommand};
-use commands::{config, raster};
+use commands::{config, raster, render};
 use machine_args::MachineArgs;
 use std::process::ExitCode;
 use verdict::{ToolError, Verdict};
@@ -51,6 +51,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Render(render::Args),
     Raster(raster::Args),
     Config(config::Args),
 }
@@ -66,6 +67,7 @@ fn main() -> ExitCode {
     let cli = Cli::parse();
     let talk = Talk { json: cli.json, quiet: cli.quiet };
     let result = match &cli.command {
+        Command::Render(a) => render::run(a, &cli.machine, talk),
         Command::Raster(a) => raster::run(a, &cli.machine, talk),
         Command::Config(a) => config::run(a, &cli.machine, talk.json),
     };

@@ -17,6 +17,7 @@ pub struct Report {
     triangles: usize,
     covered: u64,
     writes: u64,
+    odd_pixels: u64,
     counters: Option<edgewalk_model::Counters>,
     corners: Option<edgewalk_model::Coverage>,
     comparison: Option<Comparison>,
@@ -30,6 +31,8 @@ impl Report {
             machine: machine.clone(),
             triangles: frame.triangles.len(),
             covered: drawn.coverage.iter().map(|c| u64::from(*c)).sum(),
+            // A closed mesh covers every pixel an even number of times, whatever the view.
+            odd_pixels: drawn.coverage.iter().map(|c| u64::from(c % 2)).sum(),
             writes: drawn.writes.iter().map(|c| u64::from(*c)).sum(),
             counters: drawn.counters.clone(),
             corners: drawn.corners.clone(),
@@ -53,6 +56,7 @@ impl Report {
             "triangles": self.triangles,
             "fragments": self.covered,
             "writes": self.writes,
+            "odd_pixels": self.odd_pixels,
         });
         if let Some(c) = &self.comparison {
             report["comparison"] = serde_json::to_value(c)?;

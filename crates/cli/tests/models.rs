@@ -42,13 +42,21 @@ fn every_mesh_agrees_with_the_golden_picture() {
         let c = &report["comparison"];
         println!(
             "{name}: coverage mismatches {} / {}, z {:.4} LSB, colour {:.4} LSB, {} fragments, odd pixels {}",
-            c["coverage_mismatches"], c["pixels"], c["z_error"], c["color_error"], report["fragments"], report["odd_pixels"]
+            c["coverage_mismatches"],
+            c["pixels"],
+            c["z_error"],
+            c["color_error"],
+            report["fragments"],
+            report["odd_pixels"]
         );
         assert_eq!(c["coverage_mismatches"], 0, "{name}");
         assert!(report["fragments"].as_u64() > Some(1000), "{name} draws next to nothing");
         assert!(c["z_error"].as_f64() <= Some(1.0) && c["color_error"].as_f64() <= Some(1.0), "{name}: {c}");
         if *closed {
-            assert_eq!(report["odd_pixels"], 0, "{name} is closed: an even number of triangles covers every pixel");
+            assert_eq!(
+                report["odd_pixels"], 0,
+                "{name} is closed: an even number of triangles covers every pixel"
+            );
         }
         checked += 1;
     }
