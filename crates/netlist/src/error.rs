@@ -115,7 +115,7 @@ pub enum Fault {
         /// The names there are.
         known: String,
     },
-    /// A memory whose words its address can not reach, or that has none.
+    /// A memory whose address is not just wide enough for its words, or that has fewer than two.
     #[error("memory `{name}`: {words} words with an address of {addr_bits} bits")]
     MemorySize {
         /// Its name.

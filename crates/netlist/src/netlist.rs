@@ -162,7 +162,7 @@ pub struct Memory {
     pub doc: String,
     /// Bits of an address.
     pub addr_bits: u32,
-    /// Words, at most 2^addr_bits.
+    /// Words, at least 2, more than 2^(addr_bits - 1) and at most 2^addr_bits.
     pub words: usize,
     /// Bits of a word.
     pub width: u32,
@@ -250,6 +250,11 @@ pub enum Item {
 }
 
 impl Netlist {
+    /// The places of all nodes.
+    pub fn ids(&self) -> impl Iterator<Item = NodeId> + use<> {
+        (0..self.nodes.len() as u32).map(NodeId)
+    }
+
     /// The node at `id`.
     pub fn node(&self, id: NodeId) -> &Node {
         &self.nodes[id.index()]

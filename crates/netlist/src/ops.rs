@@ -15,7 +15,7 @@
 //! | `Mux` | c of 1; a, b of w | w | a if c = 1, else b |
 //! | `Shl(n)` `Shr(n)` | a of w | w | a * 2^n, floor(a / 2^n) |
 //! | `Sar(n)` | a of w | w | floor(s(a) / 2^n) |
-//! | `ShlBy` `ShrBy` `SarBy` | a of w; n of any width | w | the same with n a signal |
+//! | `ShlBy` `ShrBy` `SarBy` | a of w; n of at most 16 bits | w | the same with n a signal |
 //! | `Slice { hi, lo }` | a, hi < wa, lo <= hi | hi - lo + 1 | floor(a / 2^lo) |
 //! | `ZeroExtend(w)` | a, wa <= w | w | a |
 //! | `SignExtend(w)` | a, wa <= w | w | s(a) |
@@ -24,6 +24,9 @@
 
 /// The widest signal.
 pub const MAX_WIDTH: u32 = 128;
+
+/// The widest shift distance: simulators refuse distances beyond a machine word.
+const MAX_DISTANCE: u32 = 16;
 
 /// A combinational operator; the module's table says what each means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -75,7 +78,13 @@ impl Op {
                 1
             }
             (Mul | MulSigned, &[a, b]) => a + b,
-            (Neg | Not | Shl(_) | Shr(_) | Sar(_), &[a]) | (ShlBy | ShrBy | SarBy, &[a, _]) => a,
+            (Neg | Not | Shl(_) | Shr(_) | Sar(_), &[a]) => a,
+            (ShlBy | ShrBy | SarBy, &[a, n]) => {
+                if n > MAX_DISTANCE {
+                    return Err(format!("a shift distance of {n} bits, more than {MAX_DISTANCE}"));
+                }
+                a
+            }
             (Mux, &[c, a, b]) => {
                 if c != 1 {
                     return Err(format!("the condition has {c} bits instead of 1"));

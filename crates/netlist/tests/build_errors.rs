@@ -166,6 +166,7 @@ fn memories_that_can_not_be() {
     let found = messages(|m| {
         m.memory("none", 4, 0, 8, 0);
         m.memory("far", 4, 17, 8, 0);
+        m.memory("near", 4, 8, 8, 0);
         m.memory("full", 4, 16, 8, 256);
     });
     assert_eq!(
@@ -173,6 +174,7 @@ fn memories_that_can_not_be() {
         [
             "memory `none`: 0 words with an address of 4 bits",
             "memory `far`: 17 words with an address of 4 bits",
+            "memory `near`: 8 words with an address of 4 bits",
             "256 does not fit in 8 bits",
         ]
     );

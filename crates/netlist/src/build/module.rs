@@ -157,7 +157,7 @@ impl Module {
         self.op(Op::Concat, parts, 1)
     }
 
-    /// A memory of `words` words, each `init` at the start; see [`Memory`].
+    /// A memory of `words` words (at least 2), each `init` at the start; see [`Memory`]. `addr_bits` is ceil(log2 words).
     #[track_caller]
     pub fn memory(&self, name: &str, addr_bits: u32, words: usize, width: u32, init: u128) -> Memory<'_> {
         Memory::new(

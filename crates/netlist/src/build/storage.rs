@@ -89,8 +89,8 @@ impl<'m> Memory<'m> {
         memory.addr_bits = module.checked_width(name, memory.addr_bits);
         memory.width = module.checked_width(name, memory.width);
         memory.init = module.checked_value(memory.width, memory.init);
-        let reach = 1usize.checked_shl(memory.addr_bits).unwrap_or(usize::MAX);
-        if memory.words == 0 || memory.words > reach {
+        let enough = memory.words.saturating_sub(1).checked_ilog2().map_or(0, |top| top + 1);
+        if enough != memory.addr_bits {
             let (words, addr_bits) = (memory.words, memory.addr_bits);
             module.fail(Fault::MemorySize { name: name.to_string(), words, addr_bits });
         }

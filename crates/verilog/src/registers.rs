@@ -1,0 +1,95 @@
+//! Registers that change under the same conditions, in one `always` block shaped the way it was built.
+
+use edgewalk_netlist::netlist::{Netlist, NodeId};
+use edgewalk_netlist::ops::Bits;
+
+use crate::expression::Writer;
+use crate::literal;
+use crate::paragraph::{Body, LINE};
+
+/// Registers with the same conditions in the same order, and all with reset or all without.
+pub(crate) struct Group {
+    pub registers: Vec<usize>,
+    pub has_reset: bool,
+    pub conditions: Vec<Option<NodeId>>,
+}
+
+impl Group {
+    /// The registers of a section in groups, in the order of the first of each.
+    pub fn of(netlist: &Netlist, registers: &[usize]) -> Vec<Group> {
+        let mut groups: Vec<Group> = Vec::new();
+        for &index in registers {
+            let register = &netlist.registers[index];
+            let has_reset = register.reset.is_some();
+            let conditions: Vec<_> = register.updates.iter().map(|update| update.when).collect();
+            let same = |group: &&mut Group| group.has_reset == has_reset && group.conditions == conditions;
+            match groups.iter_mut().find(same) {
+                Some(group) => group.registers.push(index),
+                None => groups.push(Group { registers: vec![index], has_reset, conditions }),
+            }
+        }
+        groups
+    }
+
+    /// The `always` block; what its expressions need is declared in `body` before it.
+    pub fn print(&self, writer: &mut Writer, body: &mut Body) {
+        let mut lines = vec!["always @(posedge clk) begin".to_string()];
+        if self.has_reset {
+            lines.push("  if (rst) begin".into());
+            lines.extend(self.registers.iter().map(|index| reset(writer.netlist, *index)));
+        }
+        match (self.has_reset, &self.conditions[..]) {
+            (false, _) => {
+                (0..self.conditions.len()).for_each(|i| lines.extend(self.update(writer, body, i, 2)))
+            }
+            (true, [Some(condition)]) => {
+                let condition = writer.alone(body, "  end else if (", *condition);
+                lines.push(condition + ") begin");
+                lines.extend(self.assignments(writer, body, 0, 4));
+                lines.push("  end".into());
+            }
+            (true, _) => {
+                lines.push("  end else begin".into());
+                (0..self.conditions.len()).for_each(|i| lines.extend(self.update(writer, body, i, 4)));
+                lines.push("  end".into());
+            }
+        }
+        lines.push("end".into());
+        let lines: Vec<String> = lines.iter().flat_map(|line| line.lines()).map(String::from).collect();
+        body.block(&lines);
+    }
+
+    /// Update `i` of all registers, under its condition.
+    fn update(&self, writer: &mut Writer, body: &mut Body, i: usize, indent: usize) -> Vec<String> {
+        let Some(condition) = self.conditions[i] else {
+            return self.assignments(writer, body, i, indent);
+        };
+        let fill = " ".repeat(indent);
+        let head = writer.alone(body, &format!("{fill}if ("), condition) + ")";
+        let inner = self.assignments(writer, body, i, indent + 2);
+        match &inner[..] {
+            [only]
+                if !only.contains('\n') && !head.contains('\n') && head.len() + only.trim().len() < LINE =>
+            {
+                vec![format!("{head} {}", only.trim())]
+            }
+            _ => [vec![format!("{head} begin")], inner, vec![format!("{fill}end")]].concat(),
+        }
+    }
+
+    fn assignments(&self, writer: &mut Writer, body: &mut Body, i: usize, indent: usize) -> Vec<String> {
+        let netlist = writer.netlist;
+        let assign = |index: &usize| {
+            let register = &netlist.registers[*index];
+            let before = format!("{:indent$}{} <= ", "", register.name);
+            writer.alone(body, &before, register.updates[i].value) + ";"
+        };
+        self.registers.iter().map(assign).collect()
+    }
+}
+
+fn reset(netlist: &Netlist, index: usize) -> String {
+    let register = &netlist.registers[index];
+    let value = Bits { value: register.reset.unwrap_or(0), width: netlist.width(register.node) };
+    format!("    {} <= {};", register.name, literal::unsigned(value))
+}

@@ -1,0 +1,96 @@
+//! What a reader sees, and that the tools take it.
+#![allow(clippy::unwrap_used)] // a test may
+
+mod tools;
+
+use std::sync::Arc;
+
+use edgewalk_netlist::{Module, Netlist};
+use expect_test::expect_file;
+
+/// An edge register pair: every kind of item in a small module.
+fn dda() -> Arc<Netlist> {
+    let m = Module::new("dda", "A value that steps by a slope.");
+    m.doc("\nvalue Q8.14 LSB, slope Q8.14 LSB/px; the integer part is shown.\nTiming: load and step take effect at the end of the cycle.");
+    let load = m.input("load", 1);
+    let step = m.input("step", 1);
+    let init = m.input_doc("init", 22, "Q8.14 LSB");
+    let slope_in = m.input_doc("slope_in", 22, "Q8.14 LSB/px, two's complement");
+    m.comment("The slope, held until the next load");
+    let slope = m.reg("slope", 22).doc("Q8.14 LSB/px");
+    slope.when(load, slope_in);
+    m.comment("The value");
+    let value = m.reg("value", 22).doc("Q8.14 LSB").reset(0);
+    let next = (value.q() + slope.q()).named("next");
+    value.when(load | step, load.mux(init, next));
+    let falling = m.reg("falling", 1).doc("the slope is negative").reset(0);
+    falling.when(load, slope_in.slt(0));
+    m.output_doc("integer_part", value.q().slice(21, 14), "LSB");
+    m.output("falling", falling);
+    m.finish().unwrap()
+}
+
+/// Two of them with a memory and feedback between.
+fn pair() -> Arc<Netlist> {
+    let dda = dda();
+    let m = Module::new("pair", "Two DDAs, one of them fed from a small memory.");
+    let (load, init) = (m.input("load", 1), m.input("init", 22));
+    let (write, addr) = (m.input("write", 1), m.input("addr", 3));
+    let idle = m.constant("IDLE", 2, 0);
+    let busy = m.constant("BUSY", 2, 1);
+    let state = m.reg("state", 2).reset(0);
+    m.comment("Slopes");
+    let slopes = m.memory("slopes", 3, 8, 22, 0).doc("Q8.14 LSB/px").write(write, addr, init);
+    let slope = slopes.read(!write, addr);
+    m.comment("The two");
+    let stop = m.wire("stop", 1).doc("the left one has passed the right");
+    let is_busy = state.q().eq(busy).named("is_busy");
+    let left = m.instance("u_left", &dda);
+    left.connect("load", load)
+        .connect("step", is_busy & !stop.q())
+        .connect("init", init)
+        .connect("slope_in", slope);
+    let right = m.instance("u_right", &dda);
+    right
+        .connect("load", load)
+        .connect("step", is_busy)
+        .connect("init", -init)
+        .connect("slope_in", slope.sar(1) + 3);
+    let (l, r) = (left.output("integer_part"), right.output("integer_part"));
+    stop.drive(l.ge(r) & left.output("falling"));
+    state.when(load, busy).when(stop.q(), idle);
+    m.comment("Out");
+    m.output("stop", stop);
+    m.output_doc("middle", (l.zext(9) + r.zext(9)).slice(8, 1), "LSB");
+    m.output("furthest", l.gt(r).mux(l, r).any().mux(l.sext(12), r.sext(12)));
+    m.finish().unwrap()
+}
+
+fn text(netlist: &Arc<Netlist>) -> String {
+    edgewalk_verilog::print(netlist).last().unwrap().1.clone()
+}
+
+#[test]
+fn a_small_module_reads_well() {
+    expect_file!["snapshots/dda.v"].assert_eq(&text(&dda()));
+    expect_file!["snapshots/pair.v"].assert_eq(&text(&pair()));
+}
+
+#[test]
+fn printing_is_deterministic() {
+    assert_eq!(edgewalk_verilog::print(&pair()), edgewalk_verilog::print(&pair()));
+}
+
+#[test]
+fn lint_is_silent_and_synthesis_passes() {
+    let files = edgewalk_verilog::print(&pair());
+    assert_eq!(files.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), ["dda.v", "pair.v"]);
+    let directory = tempfile::tempdir().unwrap();
+    tools::write(directory.path(), &files);
+    tools::lint(directory.path(), &files, "pair", &[]);
+    tools::run(directory.path(), "iverilog", &["-Wall", "-t", "null", "dda.v", "pair.v"]);
+    let script = "read_verilog dda.v pair.v; synth_ice40 -top pair; check -assert; stat";
+    let report = tools::run(directory.path(), "yosys", &["-p", script]);
+    let cells = report.matches("SB_RAM40_4K").count();
+    assert!(cells > 0, "the memory becomes block RAM:\n{report}");
+}
