@@ -38,9 +38,11 @@ mod names;
 pub mod netlist;
 pub mod ops;
 mod simulate;
+mod trace;
 
 pub use build::{Instance, Memory, Module, Operand, Reg, Signal, Wire};
 pub use error::{BuildError, BuildErrors, Fault, Place};
 pub use netlist::{Netlist, NodeId};
 pub use ops::Op;
 pub use simulate::{InputId, SignalId, SimError, Simulator};
+pub use trace::{FstTrace, VcdTrace};
