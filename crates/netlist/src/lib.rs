@@ -33,7 +33,9 @@
 //! The meaning of every operator is the table in [`ops`].
 
 mod build;
+mod describe;
 mod error;
+pub mod mutate;
 mod names;
 pub mod netlist;
 pub mod ops;
