@@ -7,6 +7,7 @@ mod storage;
 mod structure;
 
 mod check;
+mod describe;
 mod paths;
 
 pub use module::Module;

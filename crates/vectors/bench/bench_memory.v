@@ -1,0 +1,56 @@
+// Depth memory: a read sees the word before a write of its own cycle; its data is offered, in order, LATENCY cycles
+// later, or in the next cycle in which PATTERN is willing, and then held until it is taken.
+`default_nettype none
+module bench_memory #(
+    parameter ADDRESS = 1,
+    parameter WIDTH = 1,
+    parameter LATENCY = 1,
+    parameter [WIDTH-1:0] CLEAR = 0,
+    parameter PERIOD = 1,
+    parameter [PERIOD-1:0] PATTERN = 1
+) (
+    input  wire               clk,
+    input  wire               rst,
+    input  wire [31:0]        cycle,
+    input  wire               read,
+    input  wire [ADDRESS-1:0] read_address,
+    input  wire               write,
+    input  wire [ADDRESS-1:0] write_address,
+    input  wire [WIDTH-1:0]   write_data,
+    output wire               valid,
+    input  wire               ready,
+    output wire [WIDTH-1:0]   data,
+    output wire               fire
+);
+    // More than the 16 reads that can be in flight.
+    reg [WIDTH-1:0] waiting [0:31];
+    reg [31:0]      due [0:31];
+    reg [4:0]       first;
+    reg [4:0]       free;
+    reg             held;
+    reg [WIDTH-1:0] words [0:(1 << ADDRESS) - 1];
+    integer         i;
+
+    initial for (i = 0; i < (1 << ADDRESS); i = i + 1) words[i] = CLEAR;
+
+    assign valid = !rst && first != free && due[first] <= cycle && (held || PATTERN[cycle % PERIOD]);
+    assign data  = valid ? waiting[first] : {WIDTH{1'b0}};
+    assign fire  = valid && ready;
+
+    always @(posedge clk)
+        if (rst) begin
+            first <= 0;
+            free  <= 0;
+            held  <= 1'b0;
+        end else begin
+            if (fire) first <= first + 1;
+            held <= valid && !ready;
+            if (read) begin
+                waiting[free] <= words[read_address];
+                due[free]     <= cycle + LATENCY;
+                free          <= free + 1;
+            end
+            if (write) words[write_address] <= write_data;
+        end
+endmodule
+`default_nettype wire

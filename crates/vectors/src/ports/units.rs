@@ -1,0 +1,88 @@
+//! The interface of every unit.
+
+use super::{Channel, Direction, Field, Interface, Unit, tokens};
+use edgewalk_numerics::Machine;
+
+/// The ports of a unit of this machine.
+#[must_use]
+pub fn interface(machine: &Machine, unit: Unit) -> Interface {
+    let mut interface = Interface {
+        unit,
+        channels: Vec::new(),
+        constants: Vec::new(),
+        levels: Vec::new(),
+        status: Vec::new(),
+        memory: false,
+    };
+    let channels = &mut interface.channels;
+    let tri = || into("tri", tokens::triangle_fields(machine));
+    match unit {
+        Unit::Machine => {
+            channels.push(tri());
+            depth_memory(machine, &mut interface);
+            interface.status = vec![
+                bits(
+                    "activity",
+                    4,
+                    "cause of the cycle: 0 idle 1 draw 2 offscreen 3 hazard 4 queue 5 memory 6 edge 7 setup 8 flush",
+                ),
+                bits("idle", 1, "activity is 0"),
+            ];
+        }
+        Unit::Setup => {
+            channels.push(tri());
+            channels.push(out("prim", tokens::prim_fields(machine)));
+        }
+        Unit::Edge => {
+            let mut line = tokens::line_fields(machine);
+            line.extend(tokens::gradient_fields(machine));
+            channels.push(into("prim", tokens::prim_fields(machine)));
+            channels.push(out("line", line));
+            interface.levels.push(bits("fresh_queued", 1, "PIXEL has not taken the gradients yet"));
+        }
+        Unit::Span => {
+            // Whether a line is empty, and therefore taken, is asked of lines only.
+            let line = into("line", tokens::line_fields(machine));
+            channels.push(Channel { ready_always: false, ..line });
+            channels.push(out("span", tokens::span_fields(machine)));
+            interface.status.push(bits("fresh_queued", 1, "the first span of a triangle is queued"));
+        }
+        Unit::Pixel => {
+            let mut span = tokens::span_fields(machine);
+            span.extend(tokens::gradient_fields(machine));
+            channels.push(into("span", span));
+            channels.push(out("frag", tokens::fragment_fields(machine)));
+        }
+        Unit::Depth => {
+            // Whether a pixel is in flight is asked of fragments only.
+            let frag = into("frag", tokens::fragment_fields(machine));
+            channels.push(Channel { ready_always: false, ..frag });
+            depth_memory(machine, &mut interface);
+        }
+    }
+    interface
+}
+
+/// The channels of a unit that reads and writes depths.
+fn depth_memory(machine: &Machine, interface: &mut Interface) {
+    interface.channels.push(into("data", tokens::data_fields(machine)));
+    interface.channels.push(out("rd", tokens::read_fields(machine)));
+    interface.channels.push(out("wr", tokens::write_fields(machine)));
+    interface.memory = true;
+    interface.constants = vec![
+        bits("depth_func", 3, "0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always"),
+        bits("depth_write", 1, "fragments that pass store their depth"),
+    ];
+}
+
+fn into(name: &'static str, fields: Vec<Field>) -> Channel {
+    Channel { name, direction: Direction::In, fields, ready_always: true }
+}
+
+fn out(name: &'static str, fields: Vec<Field>) -> Channel {
+    Channel { name, direction: Direction::Out, fields, ready_always: true }
+}
+
+fn bits(port: &str, width: u32, format: &str) -> Field {
+    Field { port: port.to_owned(), width, signed: false, format: format.to_owned() }
+}

@@ -1,0 +1,182 @@
+//! Degenerate and extreme shapes: the places where rasterizers have their faults.
+
+use super::pen::{Pen, case};
+use super::{Case, Triangle};
+use edgewalk_numerics::Machine;
+
+const RAMP: [f64; 3] = [0.2, 0.5, 0.8];
+
+/// The six orders of three vertices.
+const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+
+pub(super) fn cases(machine: &Machine) -> Vec<Case> {
+    let pen = Pen::new(machine);
+    let mut cases = halves(&pen);
+    cases.extend(without_pixels(&pen));
+    cases.extend(neighbours(&pen));
+    cases.extend(thin(&pen));
+    cases.extend(at_the_screen_sides(&pen));
+    cases.extend(extreme_values(&pen));
+    cases
+}
+
+fn halves(pen: &Pen) -> Vec<Case> {
+    let at = |points| pen.shaded(points, RAMP);
+    let leaning = at([(2.0, 0.5), (9.0, 4.25), (4.0, 8.75)]);
+    vec![
+        case(
+            "flat_top",
+            [at([(1.0, 1.0), (8.0, 1.0), (3.0, 7.0)]), at([(8.0, 1.0), (1.0, 1.0), (11.0, 6.0)])],
+        ),
+        case(
+            "flat_bottom",
+            [at([(4.0, 1.0), (1.0, 7.0), (9.0, 7.0)]), at([(0.0, 2.0), (9.0, 6.0), (5.0, 6.0)])],
+        ),
+        case("flat_top_on_centres", [at([(1.5, 1.5), (6.5, 1.5), (1.5, 6.5)])]),
+        case("flat_bottom_on_centres", [at([(1.5, 1.5), (6.5, 6.5), (1.5, 6.5)])]),
+        case(
+            "right_angles_at_each_corner",
+            [
+                at([(0.0, 0.0), (6.0, 0.0), (0.0, 6.0)]),
+                at([(0.0, 0.0), (6.0, 0.0), (6.0, 6.0)]),
+                at([(0.0, 0.0), (6.0, 6.0), (0.0, 6.0)]),
+                at([(6.0, 0.0), (6.0, 6.0), (0.0, 6.0)]),
+            ],
+        ),
+        case(
+            "major_edge_left_and_right",
+            [at([(3.0, 0.0), (9.0, 4.0), (3.0, 9.0)]), at([(9.0, 0.0), (2.0, 4.0), (9.0, 9.0)])],
+        ),
+        case(
+            "knee_on_a_line_of_centres",
+            [at([(3.0, 0.0), (9.0, 4.5), (2.0, 9.0)]), at([(8.0, 0.0), (1.0, 3.5), (7.0, 9.0)])],
+        ),
+        case(
+            "knee_between_lines",
+            [at([(3.0, 0.0), (9.0, 4.75), (2.0, 9.0)]), at([(8.0, 0.0), (1.0, 4.25), (7.0, 9.0)])],
+        ),
+        case("knee_one_line_below_the_top", [at([(4.0, 1.0), (9.0, 2.0), (1.0, 9.0)])]),
+        case("knee_one_line_above_the_bottom", [at([(4.0, 1.0), (9.0, 8.0), (1.0, 9.0)])]),
+        case("every_order_of_the_vertices", ORDERS.map(|order| order.map(|i| leaning[i]))),
+        case("one_line_high", [at([(1.0, 2.25), (9.0, 2.5), (4.0, 2.75)])]),
+        case(
+            "steep_and_shallow_carries",
+            [at([(0.0, 0.0), (11.0, 7.0), (1.0, 9.0)]), at([(11.0, 0.0), (0.0, 3.0), (10.0, 9.0)])],
+        ),
+    ]
+}
+
+fn without_pixels(pen: &Pen) -> Vec<Case> {
+    let at = |points| pen.shaded(points, RAMP);
+    vec![
+        case("all_vertices_on_one_point", [at([(3.0, 3.0); 3])]),
+        case("zero_area_on_a_slope", [at([(1.0, 1.0), (3.0, 3.0), (6.0, 6.0)])]),
+        case("zero_area_horizontal", [at([(1.0, 2.5), (9.0, 2.5), (4.0, 2.5)])]),
+        case("zero_area_vertical", [at([(2.5, 1.0), (2.5, 9.0), (2.5, 4.0)])]),
+        case("between_two_lines_of_centres", [at([(1.0, 2.6), (9.0, 2.9), (4.0, 3.4)])]),
+        case("between_the_centres_of_a_line", [at([(2.6, 2.0), (3.4, 2.2), (3.0, 4.0)])]),
+        case(
+            "apex_without_pixels",
+            [at([(4.7, 0.0), (4.9, 8.0), (7.0, 9.0)]), at([(6.3, 0.0), (6.1, 8.0), (4.0, 9.0)])],
+        ),
+    ]
+}
+
+fn neighbours(pen: &Pen) -> Vec<Case> {
+    let at = |points| pen.shaded(points, RAMP);
+    vec![
+        case(
+            "edge_shared_by_two",
+            [at([(1.0, 1.0), (9.0, 2.0), (8.0, 9.0)]), at([(1.0, 1.0), (8.0, 9.0), (0.0, 7.0)])],
+        ),
+        case(
+            "edge_on_centres_shared_by_two",
+            [at([(0.5, 0.5), (5.5, 0.5), (5.5, 5.5)]), at([(0.5, 0.5), (5.5, 5.5), (0.5, 5.5)])],
+        ),
+        case("corner_on_a_centre_shared_by_four", {
+            let rim = [(1.0, 1.0), (8.0, 1.0), (8.0, 8.0), (1.0, 8.0)];
+            (0..4).map(|i| at([(4.5, 4.5), rim[i], rim[(i + 1) % 4]])).collect::<Vec<_>>()
+        }),
+        case("fan_of_twelve", {
+            let rim = |i: i32| {
+                let angle = f64::from(i) * std::f64::consts::TAU / 12.0;
+                (6.0 + 5.5 * angle.cos(), 6.0 + 5.5 * angle.sin())
+            };
+            (0..12).map(|i| at([(6.0, 6.0), rim(i), rim(i + 1)])).collect::<Vec<_>>()
+        }),
+    ]
+}
+
+fn thin(pen: &Pen) -> Vec<Case> {
+    let at = |points| pen.shaded(points, RAMP);
+    let (limit, (width, height)) = (pen.limit(), pen.size());
+    vec![
+        case("sliver_nearly_horizontal", [at([(0.0, 3.4), (11.0, 3.6), (11.0, 3.7)])]),
+        case("sliver_nearly_vertical", [at([(3.4, 0.0), (3.6, 11.0), (3.7, 11.0)])]),
+        case("sliver_on_the_diagonal", [at([(0.0, 0.0), (9.0, 9.0), (9.0, 9.4)])]),
+        case("as_high_as_the_screen", [at([(2.0, 0.0), (4.0, height * 0.4), (3.0, height)])]),
+        case("as_wide_as_the_screen", [at([(0.0, 2.0), (width, 4.0), (width * 0.3, 5.0)])]),
+        case(
+            "guard_band_to_guard_band_on_a_line",
+            [at([(-limit, 3.25), (limit, 3.4), (0.0, 4.0)]), at([(limit, 5.25), (-limit, 5.4), (0.0, 6.0)])],
+        ),
+        case("guard_band_from_top_to_bottom", [at([(2.25, -limit), (3.0, 0.0), (3.75, limit)])]),
+        case("guard_band_diagonal_sliver", [at([(-limit, -limit), (limit, limit), (limit, limit - 1.0)])]),
+    ]
+}
+
+fn at_the_screen_sides(pen: &Pen) -> Vec<Case> {
+    let at = |points| pen.shaded(points, RAMP);
+    let (w, h) = pen.size();
+    // A guard band can be as narrow as the screen; then these reach as far as it allows.
+    let far = 20.0f64.min(pen.limit() - 1.0);
+    let both = |points: [(f64, f64); 3]| -> [Triangle; 2] {
+        let mirrored = points.map(|(x, y)| (w - x, y));
+        [at(points), at(mirrored)]
+    };
+    vec![
+        case("wholly_left_and_right", both([(-9.0, 1.0), (-2.0, 3.0), (-6.0, 5.0)])),
+        case("wholly_above", [at([(1.0, -9.0), (6.0, -3.0), (3.0, -1.0)])]),
+        case("wholly_below", [at([(1.0, h + 1.0), (6.0, h + 3.0), (3.0, h + 5.0)])]),
+        case("across_the_sides_major_inside", both([(4.0, 0.0), (-far, 3.0), (4.0, 6.0)])),
+        case("across_the_sides_major_outside", both([(-far, 0.0), (4.0, 3.0), (-far, 6.0)])),
+        case("across_the_top_knee_above", [at([(3.0, -6.0), (8.0, -2.0), (2.0, 4.0)])]),
+        case("across_the_top_knee_below", [at([(3.0, -6.0), (8.0, 3.0), (2.0, 5.0)])]),
+        case("across_the_bottom_knee_above", [at([(3.0, h - 6.0), (8.0, h - 2.0), (2.0, h + 4.0)])]),
+        case("across_the_bottom_knee_below", [at([(3.0, h - 3.0), (8.0, h + 2.0), (2.0, h + 5.0)])]),
+        case(
+            "across_two_corners",
+            [
+                at([(-4.0, -3.0), (6.0, -1.0), (-2.0, 7.0)]),
+                at([(w + 4.0, h + 3.0), (w - 6.0, h + 1.0), (w + 2.0, h - 7.0)]),
+            ],
+        ),
+        case("last_column_and_last_line", [at([(w - 1.0, h - 1.0), (w, h - 1.0), (w - 1.0, h)])]),
+        case("over_a_screen_strip", [at([(-far, 2.0), (w + far, 2.0), (w / 2.0, 8.0)])]),
+    ]
+}
+
+fn extreme_values(pen: &Pen) -> Vec<Case> {
+    let triangle = |points: [(f64, f64); 3], values: [[f64; 4]; 3]| -> Triangle {
+        std::array::from_fn(|i| pen.vertex(points[i], values[i]))
+    };
+    let points = [(1.0, 1.0), (10.0, 3.0), (3.0, 9.0)];
+    vec![
+        case("all_zero", [triangle(points, [[0.0; 4]; 3])]),
+        case("all_full_scale", [triangle(points, [[1.0; 4]; 3])]),
+        case(
+            "zero_to_full_scale",
+            [
+                triangle(points, [[0.0; 4], [1.0; 4], [0.0; 4]]),
+                triangle(points, [[1.0; 4], [0.0; 4], [1.0; 4]]),
+            ],
+        ),
+        case(
+            "full_scale_in_a_sliver",
+            [triangle(
+                [(1.0, 1.0), (1.4, 9.0), (1.8, 9.0)],
+                [[0.0, 1.0, 0.0, 1.0], [1.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 1.0]],
+            )],
+        ),
+    ]
+}

@@ -1,0 +1,62 @@
+//! Pixels that are met again while they are in flight. Random triangles hardly ever do this.
+//!
+//! SETUP takes longer than a pixel is in flight, so on the whole machine most of these bite only with stalls that keep
+//! depths or writes waiting; at the ports of DEPTH alone they always do.
+
+use super::Case;
+use super::pen::{Pen, case};
+use edgewalk_numerics::Machine;
+
+/// Depths that pass and fail in turn under `less` and under `greater`.
+const MIXED: [f64; 12] = [0.9, 0.5, 0.7, 0.3, 0.6, 0.1, 0.8, 0.1, 0.05, 0.4, 0.02, 0.0];
+
+pub(super) fn cases(machine: &Machine) -> Vec<Case> {
+    let pen = Pen::new(machine);
+    let falling = |n: u32| (0..n).map(move |i| 1.0 - f64::from(i + 1) / f64::from(n + 1));
+    vec![
+        case("one_pixel_again_and_again_nearer", falling(12).map(|z| pen.dot(1.0, 1.0, z))),
+        case("one_pixel_again_nearer_and_farther", MIXED.map(|z| pen.dot(2.0, 1.0, z))),
+        case("one_pixel_again_at_equal_depth", [0.5; 6].map(|z| pen.dot(0.0, 2.0, z))),
+        case("one_pixel_again_at_the_cleared_depth", [1.0; 4].map(|z| pen.dot(4.0, 2.0, z))),
+        case("two_pixels_in_turn", {
+            let column = |i: usize| 1.0 + (i % 2) as f64;
+            MIXED.iter().enumerate().map(|(i, z)| pen.dot(column(i), 3.0, *z)).collect::<Vec<_>>()
+        }),
+        case("three_pixels_in_turn", {
+            let column = |i: usize| 1.0 + (i % 3) as f64;
+            MIXED.iter().enumerate().map(|(i, z)| pen.dot(column(i), 0.0, *z)).collect::<Vec<_>>()
+        }),
+        case("short_span_over_itself", {
+            falling(8).map(|z| pen.level([(0.0, 4.0), (3.0, 4.0), (0.0, 5.0)], z))
+        }),
+        case("span_meets_its_end_from_the_other_side", {
+            let right = [(0.0, 5.0), (4.0, 5.0), (0.0, 6.0)];
+            let left = [(0.0, 5.0), (4.0, 5.0), (4.0, 6.0)];
+            falling(8)
+                .enumerate()
+                .map(|(i, z)| pen.level(if i % 2 == 0 { right } else { left }, z))
+                .collect::<Vec<_>>()
+        }),
+        case("fan_around_one_pixel", {
+            let rim = [
+                (3.0, 0.0),
+                (6.0, 0.0),
+                (6.0, 3.0),
+                (6.0, 6.0),
+                (3.0, 6.0),
+                (0.0, 6.0),
+                (0.0, 3.0),
+                (0.0, 0.0),
+            ];
+            (0..8)
+                .map(|i| pen.shaded([(3.5, 3.5), rim[i], rim[(i + 1) % 8]], [0.3, 0.4, 0.2]))
+                .collect::<Vec<_>>()
+        }),
+        case("knee_line_of_one_pixel", {
+            falling(4).map(|z| pen.shaded([(3.0, 1.0), (4.0, 3.0), (3.0, 5.0)], [z, z * 0.5, z * 0.9]))
+        }),
+        case("knee_line_of_two_pixels_to_the_left", {
+            falling(4).map(|z| pen.shaded([(4.0, 1.0), (2.0, 3.0), (4.0, 5.0)], [z, z * 0.5, z * 0.9]))
+        }),
+    ]
+}

@@ -1,0 +1,61 @@
+//! Draws cases in pixels and in shares of full scale; what a machine cannot hold is moved to the nearest it can.
+
+use super::{Case, Triangle};
+use edgewalk_numerics::{Machine, PortVertex};
+
+/// Red, green and blue of the three corners, so that every channel varies in both directions.
+const COLORS: [[f64; 3]; 3] = [[1.0, 0.1, 0.3], [0.2, 0.9, 0.0], [0.0, 0.4, 1.0]];
+
+/// Makes the triangles of one machine.
+pub(super) struct Pen<'a> {
+    machine: &'a Machine,
+}
+
+impl<'a> Pen<'a> {
+    pub fn new(machine: &'a Machine) -> Self {
+        Pen { machine }
+    }
+
+    /// Largest |x| and |y|, px.
+    pub fn limit(&self) -> f64 {
+        f64::from((1u32 << self.machine.guard_bits) - 1)
+    }
+
+    /// Columns and lines of the screen.
+    pub fn size(&self) -> (f64, f64) {
+        (f64::from(self.machine.width), f64::from(self.machine.height))
+    }
+
+    /// A vertex at (x, y) px with Z, R, G, B of full scale.
+    pub fn vertex(&self, at: (f64, f64), values: [f64; 4]) -> PortVertex {
+        let limit = self.limit();
+        let clamped = values.map(|v| v.clamp(0.0, 1.0));
+        #[allow(clippy::expect_used)]
+        self.machine
+            .port_vertex(at.0.clamp(-limit, limit), at.1.clamp(-limit, limit), clamped)
+            .expect("clamped to what the port takes")
+    }
+
+    /// A triangle with a depth at each corner and corners of different colours.
+    pub fn shaded(&self, at: [(f64, f64); 3], z: [f64; 3]) -> Triangle {
+        std::array::from_fn(|i| {
+            let [r, g, b] = COLORS[i];
+            self.vertex(at[i], [z[i], r, g, b])
+        })
+    }
+
+    /// A triangle of one depth.
+    pub fn level(&self, at: [(f64, f64); 3], z: f64) -> Triangle {
+        self.shaded(at, [z; 3])
+    }
+
+    /// A triangle that in exact fill covers the pixel (column, line) alone, on any sub-pixel grid.
+    pub fn dot(&self, column: f64, line: f64, z: f64) -> Triangle {
+        self.level([(column, line), (column + 1.5, line), (column, line + 1.5)], z)
+    }
+}
+
+/// A case of these triangles.
+pub(super) fn case(name: &str, triangles: impl IntoIterator<Item = Triangle>) -> Case {
+    Case { name: name.to_owned(), triangles: triangles.into_iter().collect() }
+}

@@ -1,0 +1,105 @@
+//! Machines that the tests share.
+#![allow(dead_code)] // every test file uses a part of it
+
+use edgewalk_numerics::{Channel, EdgeKind, Fill, Hazard, Machine};
+
+/// A machine with a small screen and short words: quick in every tool.
+pub fn small() -> Machine {
+    checked(Machine {
+        width: 24,
+        height: 20,
+        guard_bits: 6,
+        subpixel_bits: 4,
+        z: Channel { bits: 8, fraction: 8, vertex_fraction: 2 },
+        color: Channel { bits: 4, fraction: 8, vertex_fraction: 2 },
+        radix: 16,
+        ..Machine::default()
+    })
+}
+
+fn checked(machine: Machine) -> Machine {
+    assert_eq!(machine.check(), Ok(()));
+    machine
+}
+
+/// Twelve machines with their names: adders, segments, lanes, radices, word lengths, fills, edges, hazard policies.
+pub fn twelve() -> Vec<(&'static str, Machine)> {
+    let s = small();
+    let textbook = Machine { subpixel_bits: 0, fill: Fill::Textbook, guard_bits: 6, ..s.clone() };
+    let list = vec![
+        ("small", s.clone()),
+        ("two_adders_drain", Machine { adders: 2, hazard: Hazard::Drain, dividers: 2, ..s.clone() }),
+        ("one_adder_interlock", Machine { adders: 1, hazard: Hazard::Interlock, dividers: 1, ..s.clone() }),
+        ("two_segments", Machine { segments: 2, radix: 4, latency: 1, inflight: 1, ..s.clone() }),
+        ("one_adder_of_four_segments", Machine { adders: 1, segments: 4, span_fifo: 1, ..s.clone() }),
+        (
+            "two_adders_of_two_segments",
+            Machine { adders: 2, segments: 2, inflight: 7, latency: 5, ..s.clone() },
+        ),
+        (
+            "four_segments_interlock",
+            Machine { segments: 4, hazard: Hazard::Interlock, latency: 3, ..s.clone() },
+        ),
+        ("slopes", Machine { edge_kind: EdgeKind::Slope, edge_fraction: 12, ..s.clone() }),
+        (
+            "textbook",
+            Machine {
+                edge_kind: EdgeKind::Slope,
+                adders: 1,
+                segments: 4,
+                hazard: Hazard::Drain,
+                ..textbook.clone()
+            },
+        ),
+        ("textbook_exact_edges", Machine { hazard: Hazard::Forward, color: s.color, ..textbook.clone() }),
+        (
+            "tiny",
+            Machine {
+                width: 8,
+                height: 5,
+                guard_bits: 4,
+                subpixel_bits: 1,
+                z: Channel { bits: 4, fraction: 0, vertex_fraction: 0 },
+                color: Channel { bits: 2, fraction: 0, vertex_fraction: 0 },
+                radix: 2,
+                inflight: 1,
+                latency: 1,
+                tag_bits: 3,
+                ..s.clone()
+            },
+        ),
+        (
+            "wide_words",
+            Machine {
+                guard_bits: 8,
+                subpixel_bits: 8,
+                z: Channel { bits: 24, fraction: 14, vertex_fraction: 4 },
+                color: Channel { bits: 8, fraction: 14, vertex_fraction: 4 },
+                ..s
+            },
+        ),
+    ];
+    list.into_iter().map(|(name, machine)| (name, checked(machine))).collect()
+}
+
+/// The results of `work` on every item, in order; two threads share them.
+pub fn two_at_a_time<T: Sync, R: Send>(items: &[T], work: impl Fn(usize, &T) -> R + Sync) -> Vec<R> {
+    let next = std::sync::atomic::AtomicUsize::new(0);
+    let run = || {
+        let mut done = Vec::new();
+        loop {
+            let i = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            let Some(item) = items.get(i) else { return done };
+            done.push((i, work(i, item)));
+        }
+    };
+    let mut results: Vec<(usize, R)> = std::thread::scope(|scope| {
+        let threads = [scope.spawn(run), scope.spawn(run)];
+        threads
+            .into_iter()
+            .flat_map(|thread| thread.join().expect("the panic is the test's failure"))
+            .collect()
+    });
+    results.sort_by_key(|(i, _)| *i);
+    results.into_iter().map(|(_, result)| result).collect()
+}

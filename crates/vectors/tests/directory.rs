@@ -1,0 +1,250 @@
+//! What is written reads back, says what it is, and is refused when it is not that.
+
+mod common;
+
+use edgewalk_model::{DrawState, Event, Stalls, render_with};
+use edgewalk_numerics::Machine;
+use edgewalk_vectors::{
+    Files, ReadError, SUITES, StallKind, Suite, Unit, capture, directory, manifest, read,
+};
+use serde_json::Value;
+use std::collections::BTreeSet;
+
+fn suite(machine: &Machine, name: &str) -> Suite {
+    Suite::named(machine, name, 5, 12).expect("listed")
+}
+
+fn small_directory() -> Files {
+    let machine = common::small();
+    let suite = suite(&machine, "hazards");
+    let trace = capture(&machine, Unit::Machine, &suite, DrawState::default(), StallKind::Mixed);
+    directory(&suite, &trace, &[])
+}
+
+fn read_files(files: &Files) -> Result<edgewalk_vectors::Vectors, ReadError> {
+    read(|name| {
+        let found = files.iter().find(|(n, _)| n == name);
+        found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| std::io::Error::other("no such file"))
+    })
+}
+
+fn replace(files: &Files, name: &str, from: &str, to: &str) -> Files {
+    let mut files = files.clone();
+    let (_, bytes) = files.iter_mut().find(|(n, _)| n == name).expect("written");
+    let text = String::from_utf8(bytes.clone()).expect("text");
+    assert!(text.contains(from), "{name} has no {from}");
+    *bytes = text.replacen(from, to, 1).into_bytes();
+    files
+}
+
+#[test]
+fn the_trace_is_that_of_the_model_drawing_alone() {
+    for (name, machine) in common::twelve() {
+        for entry in &SUITES {
+            let suite = suite(&machine, entry.name);
+            let trace = capture(&machine, Unit::Machine, &suite, DrawState::default(), StallKind::None);
+            let mut writes = Vec::new();
+            let triangles = suite.triangles().copied();
+            render_with(&machine, triangles, DrawState::default(), Stalls::NONE, |event| {
+                if let Event::Write(w) = event {
+                    let [r, g, b] = w.rgb;
+                    writes.push([u64::from(w.addr), w.z, 1, r, g, b].map(u128::from));
+                }
+            });
+            let traced: Vec<_> = trace.channels[3].tokens.iter().map(|token| token[..6].to_vec()).collect();
+            assert!(!writes.is_empty());
+            assert_eq!(traced, writes, "{name}, {}", entry.name);
+            let stalled = capture(&machine, Unit::Machine, &suite, DrawState::default(), StallKind::Late);
+            assert_eq!(stalled.channels[3].tokens, trace.channels[3].tokens, "{name}, {}", entry.name);
+        }
+    }
+}
+
+/// The units, each alone under stalls, one behind the other, draw what the machine draws.
+#[test]
+fn the_units_one_behind_the_other_are_the_machine() {
+    for (name, machine) in common::twelve() {
+        let suite = suite(&machine, "corners");
+        let whole = capture(&machine, Unit::Machine, &suite, DrawState::default(), StallKind::Mixed);
+        let depth = capture(&machine, Unit::Depth, &suite, DrawState::default(), StallKind::Mixed);
+        assert!(whole.channels[3].tokens.len() > 100);
+        assert_eq!(whole.channels[3].tokens, depth.channels[3].tokens, "{name}");
+        assert_eq!(whole.channels[3].triangles, depth.channels[3].triangles, "{name}");
+    }
+}
+
+/// A corner that no suite reaches is a corner that is not tested.
+#[test]
+fn directed_suites_reach_every_hazard_and_corner() {
+    let mut reached = edgewalk_model::Coverage::default();
+    for (_, machine) in common::twelve() {
+        for name in ["hazards", "corners", "sphere"] {
+            for stalls in [StallKind::None, StallKind::Mixed, StallKind::Late] {
+                let suite = suite(&machine, name);
+                reached
+                    .merge(&capture(&machine, Unit::Machine, &suite, DrawState::default(), stalls).coverage);
+            }
+        }
+    }
+    println!("{:#?}", reached.counts());
+    assert_eq!(reached.missing(), Vec::<&str>::new());
+}
+
+/// A hazard that draws nothing is none.
+#[test]
+fn every_triangle_of_the_hazards_is_drawn() {
+    for (name, machine) in common::twelve().into_iter().filter(|(name, _)| *name != "tiny") {
+        let suite = suite(&machine, "hazards");
+        let trace = capture(&machine, Unit::Pixel, &suite, DrawState::default(), StallKind::None);
+        let drawn: BTreeSet<u32> = trace.channels[1].triangles.iter().copied().collect();
+        let missing = (0u32..).zip(suite.triangles()).filter(|(k, _)| !drawn.contains(k));
+        let missing: Vec<&str> =
+            missing.filter_map(|(k, _)| suite.case_of(k as usize)).map(|case| &*case.name).collect();
+        assert_eq!(missing, Vec::<&str>::new(), "{name}");
+        assert!(drawn.len() > 80);
+    }
+}
+
+#[test]
+fn what_is_written_reads_back() {
+    for unit in Unit::ALL {
+        let machine = common::small();
+        let suite = suite(&machine, "corners");
+        let trace = capture(&machine, unit, &suite, DrawState::default(), StallKind::Mixed);
+        let files = directory(&suite, &trace, &[]);
+        let vectors = read_files(&files).expect("just written");
+        assert!(vectors.manifest.expected > 0);
+        assert_eq!(vectors.manifest.expected, trace.expected());
+        for (read, moved) in vectors.channels.iter().zip(&trace.channels) {
+            let written: Vec<_> = moved.tokens.iter().cloned().zip(moved.cycles.iter().copied()).collect();
+            assert_eq!(read, &written);
+        }
+        let status: Vec<_> = trace.status.iter().map(|(cycle, token)| (token.clone(), *cycle)).collect();
+        assert_eq!(vectors.status, status);
+        for (name, bytes) in &files {
+            assert!(bytes.is_empty() || bytes.ends_with(b"\n"), "{name} has no newline at the end");
+            assert!(!bytes.contains(&b'\r'), "{name}");
+        }
+    }
+}
+
+#[test]
+fn what_is_not_as_written_is_refused() {
+    let files = small_directory();
+    let newer = replace(&files, manifest::FILE, "\"format_version\": 1", "\"format_version\": 2");
+    let other = replace(&files, manifest::FILE, "\"edgewalk-vectors\"", "\"something\"");
+    let unknown = replace(&files, manifest::FILE, "\"unit\":", "\"colour\": 1, \"unit\":");
+    let flipped = replace(&files, "wr.cyc.mem", "0000", "0001");
+    let mut shorter = files.clone();
+    shorter.iter_mut().find(|(n, _)| n == "tri.in.mem").expect("written").1.pop();
+    let mut missing = files.clone();
+    missing.retain(|(n, _)| n != "tb.v");
+    let cases = [
+        (newer, "manifest.json: format_version 2 is newer than 1, the newest this program reads"),
+        (other, "manifest.json: format is \"something\", not \"edgewalk-vectors\""),
+        (unknown, "manifest.json: unknown field `colour`"),
+        (flipped, "wr.cyc.mem: SHA-256 "),
+        (shorter, "tri.in.mem: "),
+        (missing, "tb.v: no such file"),
+    ];
+    for (files, message) in cases {
+        let error = read_files(&files).expect_err(message).to_string();
+        assert!(error.starts_with(message), "{error}");
+    }
+}
+
+#[test]
+fn the_manifest_keeps_to_its_schema() {
+    let schema: Value = serde_json::from_str(manifest::SCHEMA).expect("JSON");
+    for unit in Unit::ALL {
+        let machine = common::small();
+        let suite = suite(&machine, "hazards");
+        let trace = capture(&machine, unit, &suite, DrawState::default(), StallKind::Late);
+        let files = directory(&suite, &trace, &[]);
+        let value: Value = serde_json::from_slice(&files[0].1).expect("JSON");
+        let mut checked = 0;
+        validate(&schema, &schema, &value, "manifest", &mut checked);
+        assert!(checked > 100, "{checked} values");
+    }
+}
+
+#[test]
+#[should_panic(expected = "manifest has no format_version")]
+fn a_manifest_without_its_keys_is_found_out() {
+    let schema: Value = serde_json::from_str(manifest::SCHEMA).expect("JSON");
+    validate(&schema, &schema, &serde_json::json!({"format": "edgewalk-vectors"}), "manifest", &mut 0);
+}
+
+/// The part of JSON Schema that the schema uses.
+fn validate(root: &Value, schema: &Value, value: &Value, path: &str, checked: &mut u32) {
+    *checked += 1;
+    for (keyword, rule) in schema.as_object().expect("a schema is an object") {
+        match keyword.as_str() {
+            "$schema" | "title" | "$defs" | "additionalProperties" => {}
+            "$ref" => {
+                let pointer = rule.as_str().expect("text").trim_start_matches('#');
+                validate(root, root.pointer(pointer).expect("defined"), value, path, checked);
+            }
+            "const" => assert_eq!(value, rule, "{path}"),
+            "enum" => assert!(rule.as_array().expect("a list").contains(value), "{path}: {value}"),
+            "anyOf" => {
+                let null = rule.as_array().expect("a list");
+                if !(value.is_null() && null.iter().any(|s| s["type"] == "null")) {
+                    validate(root, &null[0], value, path, checked);
+                }
+            }
+            "type" => {
+                let found = match value {
+                    Value::String(_) => "string",
+                    Value::Number(n) if n.is_u64() || n.is_i64() => "integer",
+                    Value::Number(_) => "number",
+                    Value::Object(_) => "object",
+                    Value::Array(_) => "array",
+                    Value::Bool(_) => "boolean",
+                    Value::Null => "null",
+                };
+                assert_eq!(found, rule, "{path}");
+            }
+            "minimum" => assert!(value.as_u64() >= rule.as_u64(), "{path}"),
+            "maximum" => assert!(value.as_u64() <= rule.as_u64(), "{path}"),
+            "minItems" => {
+                assert!(value.as_array().map(Vec::len) >= rule.as_u64().map(|n| n as usize), "{path}")
+            }
+            "maxItems" => {
+                assert!(value.as_array().map(Vec::len) <= rule.as_u64().map(|n| n as usize), "{path}")
+            }
+            "pattern" => {
+                // ^[set]{n}$ or ^[set]+$
+                let rule = rule.as_str().expect("text");
+                let text = value.as_str().expect("text");
+                let set = if rule.contains("0-9a-f") { "0123456789abcdef" } else { "01" };
+                assert!(!text.is_empty() && text.chars().all(|c| set.contains(c)), "{path}: {text}");
+                let length = rule.split(['{', '}']).nth(1).map(|n| n.parse::<usize>().expect("a number"));
+                assert!(length.is_none_or(|n| n == text.len()), "{path}: {text}");
+            }
+            "items" => {
+                for (i, item) in value.as_array().expect("a list").iter().enumerate() {
+                    validate(root, rule, item, &format!("{path}[{i}]"), checked);
+                }
+            }
+            "required" => {
+                for key in rule.as_array().expect("a list") {
+                    let key = key.as_str().expect("text");
+                    assert!(value.get(key).is_some(), "{path} has no {key}");
+                }
+            }
+            "properties" => {
+                for (key, item) in value.as_object().expect("an object") {
+                    let rule = rule.get(key).unwrap_or_else(|| panic!("{path}.{key} is not in the schema"));
+                    validate(root, rule, item, &format!("{path}.{key}"), checked);
+                }
+            }
+            other => panic!("the schema uses {other}, which this test does not know"),
+        }
+        if keyword == "additionalProperties" && rule.is_object() {
+            for (key, item) in value.as_object().expect("an object") {
+                validate(root, rule, item, &format!("{path}.{key}"), checked);
+            }
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! The model and the netlist are the same machine: every port, every cycle.
+
+mod common;
+
+use edgewalk_model::DrawState;
+use edgewalk_vectors::{StallKind, Suite, Unit, capture, design, lockstep};
+
+/// Stalls take turns over machines, suites and units, so that each meets each.
+#[test]
+fn every_unit_and_the_machine() {
+    let machines = common::twelve();
+    let suites = ["hazards", "corners", "random", "sphere"];
+    let totals = common::two_at_a_time(&machines, |i, (name, machine)| {
+        let (mut runs, mut compared) = (0, 0);
+        for (j, suite) in suites.iter().enumerate() {
+            let suite = Suite::named(machine, suite, 3, 30).expect("listed");
+            for (k, unit) in Unit::ALL.into_iter().enumerate() {
+                let netlist = design::netlist(machine, unit).expect("a checked machine");
+                let stalls = StallKind::ALL[(i + j + k) % 3];
+                let trace = capture(machine, unit, &suite, DrawState::default(), stalls);
+                match lockstep(&trace, &netlist) {
+                    Ok(agreement) => compared += agreement.compared,
+                    Err(error) => panic!("{name}, {}, stalls {}: {error}", suite.name, stalls.name()),
+                }
+                runs += 1;
+            }
+        }
+        (runs, compared)
+    });
+    let runs: usize = totals.iter().map(|total| total.0).sum();
+    let compared: u64 = totals.iter().map(|total| total.1).sum();
+    let expected = machines.len() * suites.len() * Unit::ALL.len();
+    println!("{runs} of {expected} runs agree, {compared} port values compared");
+    assert_eq!(runs, expected);
+    assert!(compared > 1_000_000);
+}
+
+/// All depth functions, with and without depth writes.
+#[test]
+fn every_depth_function() {
+    let machine = common::small();
+    let netlist = design::netlist(&machine, Unit::Depth).expect("a checked machine");
+    let suite = Suite::named(&machine, "hazards", 3, 0).expect("listed");
+    for depth_func in 0..8 {
+        for depth_write in [false, true] {
+            let state = DrawState { depth_func, depth_write, ..DrawState::default() };
+            let trace = capture(&machine, Unit::Depth, &suite, state, StallKind::Mixed);
+            lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("function {depth_func}: {error}"));
+            let writes = &trace.channels[3].tokens;
+            assert_eq!(writes.is_empty(), [0, 4].contains(&depth_func), "function {depth_func}");
+        }
+    }
+}
