@@ -81,11 +81,21 @@ impl Counters {
     pub(crate) fn count(&mut self, fires: &Fires) {
         self.cycles += 1;
         self.activity[fires.activity as usize] += 1;
-        self.triangles += u64::from(fires.triangle);
-        self.lines += u64::from(fires.line);
-        self.spans += u64::from(fires.span);
-        self.fragments += u64::from(fires.fragment);
-        self.writes += u64::from(fires.write);
+        if fires.triangle {
+            self.triangles += 1;
+        }
+        if fires.line {
+            self.lines += 1;
+        }
+        if fires.span {
+            self.spans += 1;
+        }
+        if fires.fragment {
+            self.fragments += 1;
+        }
+        if fires.write {
+            self.writes += 1;
+        }
     }
 
     /// Cycles spent on this.

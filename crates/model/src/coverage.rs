@@ -34,7 +34,7 @@ coverage! {
     no_lower_part,
     /// Triangles of two parts whose knee lies on a line of pixel centres.
     knee_on_line,
-    /// Cycles in which SETUP works while PIXEL draws.
+    /// Triangles taken in while PIXEL draws.
     setup_overlap,
     /// Steps of the major edge with a carry.
     carry,
@@ -68,16 +68,12 @@ coverage! {
     memory_stall,
     /// Cycles in which a write waits for the memory.
     write_stall,
-    /// Fragments in the queue that took their old depth from a compare.
+    /// Fragments in the queue, or entering it, that took their old depth from a compare.
     forward_compare,
-    /// Fragments entering the queue that took it from the compare of the same cycle.
-    forward_compare_entering,
     /// Fragments entering the queue that took it from the write register.
     forward_write,
     /// Compares that used a forwarded depth.
     forward_used,
-    /// Fragments that passed the compare.
-    depth_pass,
     /// Fragments that failed the compare.
     depth_fail,
 }

@@ -12,17 +12,9 @@
 //! Rules: `docs/machine.md`, section 6; the three hazard policies draw the same picture. Not modelled: nothing.
 
 use crate::Coverage;
-use crate::fifo::Fifo;
+use crate::inflight::{InFlight, InFlightHead};
 use crate::tokens::{Fragment, Write};
 use edgewalk_numerics::{Hazard, Machine};
-
-/// A fragment that waits for its old depth.
-#[derive(Clone, Copy, Debug, Default)]
-struct Entry {
-    fragment: Fragment,
-    /// The old depth, if an older fragment still in flight writes it.
-    forward: Option<u64>,
-}
 
 /// Why no fragment can enter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,7 +45,7 @@ pub struct DepthInputs {
 pub struct Depth {
     hazard: Hazard,
     depth: usize,
-    queue: Fifo<Entry, 16>,
+    queue: InFlight,
     w: Option<Write>,
 }
 
@@ -61,7 +53,12 @@ impl Depth {
     /// An empty unit.
     #[must_use]
     pub fn new(machine: &Machine) -> Self {
-        Depth { hazard: machine.hazard, depth: machine.inflight as usize, queue: Fifo::default(), w: None }
+        Depth {
+            hazard: machine.hazard,
+            depth: machine.inflight as usize,
+            queue: InFlight::default(),
+            w: None,
+        }
     }
 
     /// Synchronous reset.
@@ -74,7 +71,7 @@ impl Depth {
     #[inline]
     #[must_use]
     pub fn occupied(&self) -> bool {
-        !self.queue.is_empty() || self.w.is_some()
+        self.queue.len() > 0 || self.w.is_some()
     }
 
     /// What keeps the fragment from being read: `rd_valid` = a fragment and no block, `frag_ready` = `rd_ready` and no
@@ -96,8 +93,8 @@ impl Depth {
             Hazard::Drain => frag.fence && self.occupied(),
             Hazard::Interlock => {
                 depth_write
-                    && ((0..self.queue.len()).any(|i| self.queue.at(i).fragment.addr == frag.addr)
-                        || self.w.is_some_and(|w| w.z_en && w.addr == frag.addr))
+                    && (self.queue.holds(frag.addr)
+                        || self.w.as_ref().is_some_and(|w| w.z_en && w.addr == frag.addr))
             }
         }
     }
@@ -106,7 +103,7 @@ impl Depth {
     #[inline]
     #[must_use]
     pub fn data_ready(&self, wr_ready: bool) -> bool {
-        !self.queue.is_empty() && (self.w.is_none() || wr_ready)
+        self.queue.len() > 0 && (self.w.is_none() || wr_ready)
     }
 
     /// The write offered to the frame memory.
@@ -116,11 +113,11 @@ impl Depth {
         self.w.as_ref()
     }
 
-    /// The fragment whose read fired last; it says what `rd` was after the cycle of the fire.
+    /// The fragment whose read fired last (its fence is not kept); it says what `rd` was after the cycle of the fire.
     #[inline]
     #[must_use]
-    pub fn last_read(&self) -> &Fragment {
-        &self.queue.at(self.queue.len().wrapping_sub(1)).fragment
+    pub fn last_read(&self) -> Fragment {
+        self.queue.youngest()
     }
 
     /// Clock edge.
@@ -133,81 +130,70 @@ impl Depth {
         coverage: &mut Coverage,
     ) {
         let entering = frag.filter(|_| block.is_none() && inputs.rd_ready);
-        let w_before = self.w;
-        let mut compared = None;
-        if let (Some(data), true) = (inputs.data, self.data_ready(inputs.wr_ready)) {
-            compared = self.compare(data, inputs, coverage);
-            self.w = compared;
+        if entering.is_none() && frag.is_some() {
+            self.count_wait(block, coverage);
+        }
+        let compared = match inputs.data {
+            Some(data) if self.data_ready(inputs.wr_ready) => Some((self.queue.pop(), data as u32)), // b <= 32 bits
+            _ => None,
+        };
+        if let Some(frag) = entering {
+            let forward = self.forward_from_w(frag.addr);
+            coverage.forward_write += u64::from(forward.is_some());
+            self.queue.push(frag, forward);
+        }
+        if let Some((head, data)) = compared {
+            self.compare(&head, data, inputs, coverage);
         } else if inputs.wr_ready {
             self.w = None;
-        } else {
-            coverage.write_stall += u64::from(self.w.is_some());
-        }
-        if let Some(frag) = entering {
-            let forward = self.forward_entering(frag.addr, compared.as_ref(), w_before.as_ref(), coverage);
-            self.queue.push(Entry { fragment: *frag, forward });
-        } else if frag.is_some() {
-            match (block, self.hazard) {
-                (Some(Block::Hazard), Hazard::Drain) => coverage.drain_stall += 1,
-                (Some(Block::Hazard), _) => coverage.interlock_stall += 1,
-                (Some(Block::Full), _) => coverage.queue_full += 1,
-                (None, _) => coverage.memory_stall += 1,
-            }
+        } else if self.w.is_some() {
+            coverage.write_stall += 1;
         }
     }
 
-    /// Compares the head and drops it; gives what it writes, if it passes.
+    /// The old depth of a fragment that enters, if w still holds it. (A compare of the same cycle comes before it.)
     #[inline]
-    fn compare(&mut self, data: u64, inputs: &DepthInputs, coverage: &mut Coverage) -> Option<Write> {
-        let Entry { fragment, forward } = *self.queue.head();
-        self.queue.pop();
-        coverage.forward_used += u64::from(forward.is_some());
-        let old = forward.unwrap_or(data);
+    fn forward_from_w(&self, addr: u32) -> Option<u32> {
+        match &self.w {
+            Some(w) if self.hazard == Hazard::Forward && w.z_en && w.addr == addr => Some(w.z),
+            _ => None,
+        }
+    }
+
+    /// Compares the fragment that leaves the queue; if it passes it is written, and later fragments of its pixel, one
+    /// that enters in this cycle too, take its depth.
+    #[inline]
+    fn compare(&mut self, head: &InFlightHead, data: u32, inputs: &DepthInputs, coverage: &mut Coverage) {
+        let InFlightHead { fragment, forward } = head;
+        if forward.is_some() {
+            coverage.forward_used += 1;
+        }
         // Bits 0, 1 and 2 of the function say whether less, equal and greater pass.
-        let relation = fragment.z.cmp(&old) as i8 + 1;
+        let relation = fragment.z.cmp(&forward.unwrap_or(data)) as i8 + 1;
         if inputs.depth_func >> relation & 1 == 0 {
+            self.w = None;
             coverage.depth_fail += 1;
-            return None;
+            return;
         }
-        coverage.depth_pass += 1;
-        if self.hazard == Hazard::Forward && inputs.depth_write {
-            for i in 0..self.queue.len() {
-                let entry = self.queue.at_mut(i);
-                if entry.fragment.addr == fragment.addr {
-                    entry.forward = Some(fragment.z);
-                    coverage.forward_compare += 1;
-                }
-            }
-        }
-        Some(Write {
+        self.w = Some(Write {
             addr: fragment.addr,
             z: fragment.z,
-            z_en: inputs.depth_write,
             rgb: fragment.rgb,
-            tag: fragment.tag,
-            id: fragment.id,
-        })
+            z_en: inputs.depth_write,
+            source: fragment.source,
+        });
+        if self.hazard == Hazard::Forward && inputs.depth_write {
+            coverage.forward_compare += self.queue.forward(fragment.addr, fragment.z);
+        }
     }
 
-    /// The old depth of a fragment that enters, if the compare of this cycle or w still writes it.
     #[inline]
-    fn forward_entering(
-        &self,
-        addr: u32,
-        compared: Option<&Write>,
-        w: Option<&Write>,
-        coverage: &mut Coverage,
-    ) -> Option<u64> {
-        if self.hazard != Hazard::Forward {
-            return None;
+    fn count_wait(&self, block: Option<Block>, coverage: &mut Coverage) {
+        match (block, self.hazard) {
+            (Some(Block::Hazard), Hazard::Drain) => coverage.drain_stall += 1,
+            (Some(Block::Hazard), _) => coverage.interlock_stall += 1,
+            (Some(Block::Full), _) => coverage.queue_full += 1,
+            (None, _) => coverage.memory_stall += 1,
         }
-        let writes_here = |w: &&Write| w.z_en && w.addr == addr;
-        if let Some(compared) = compared.filter(writes_here) {
-            coverage.forward_compare_entering += 1;
-            return Some(compared.z);
-        }
-        let w = w.filter(writes_here)?;
-        coverage.forward_write += 1;
-        Some(w.z)
     }
 }

@@ -23,15 +23,13 @@ pub struct Edge {
     column_bits: u32,
     masks: Words,
     running: bool,
-    y: u32,
+    /// The line offered: y, columns C of both edges, values, marks.
+    line: Line,
     /// Lines left of each part.
     lines: [u32; 2],
     major: EdgeWalk,
     minor: EdgeWalk,
-    values: Words,
-    fresh: bool,
-    fence: bool,
-    /// What the whole triangle needs: `left`, second minor edge, startB, increments, tag.
+    /// What the whole triangle needs: second minor edge, startB, increments.
     held: Prim,
 }
 
@@ -44,13 +42,10 @@ impl Edge {
             column_bits: machine.widths().column,
             masks: word_masks(machine),
             running: false,
-            y: 0,
+            line: Line::default(),
             lines: [0; 2],
             major: EdgeWalk::default(),
             minor: EdgeWalk::default(),
-            values: [0; 4],
-            fresh: false,
-            fence: false,
             held: Prim::default(),
         }
     }
@@ -77,18 +72,8 @@ impl Edge {
     /// The line offered to SPAN.
     #[inline]
     #[must_use]
-    pub fn line(&self) -> Option<Line> {
-        self.running.then_some(Line {
-            y: self.y,
-            major: self.major.c,
-            minor: self.minor.c,
-            left: self.held.left,
-            values: self.values,
-            fresh: self.fresh,
-            fence: self.fence,
-            tag: self.held.tag,
-            id: self.held.id,
-        })
+    pub fn line(&self) -> Option<&Line> {
+        self.running.then_some(&self.line)
     }
 
     /// g: the gradients of the last prim, for PIXEL.
@@ -125,45 +110,53 @@ impl Edge {
     fn load(&mut self, prim: &Prim) {
         let part = usize::from(prim.lines[0] == 0);
         self.running = true;
-        self.y = prim.line;
         self.lines = prim.lines;
         self.major = prim.major;
         self.minor = prim.minor[part];
-        self.values = prim.start[if self.textbook { part } else { 0 }];
-        self.fresh = true;
-        self.fence = true;
         self.held = *prim;
+        self.line = Line {
+            y: prim.line,
+            major: self.major.c,
+            minor: self.minor.c,
+            left: prim.left,
+            values: prim.start[if self.textbook { part } else { 0 }],
+            fresh: true,
+            fence: true,
+            source: prim.source,
+        };
     }
 
     fn next_line(&mut self, coverage: &mut Coverage) {
         let [n1, n2] = self.lines;
         let knee = n1 == 1 && n2 > 0;
-        self.running = n1 + n2 > 1;
-        self.fresh = false;
-        self.fence = self.textbook && knee;
         self.lines = if n1 > 0 { [n1 - 1, n2] } else { [0, n2 - 1] };
+        self.running = n1 + n2 > 1;
         if !self.running {
             return;
         }
         if knee {
             self.minor = self.held.minor[1];
-            if self.textbook {
-                // The knee line is drawn again, from the left edge of the lower part.
-                if self.held.left {
-                    self.values = self.held.start[1];
-                }
-                return;
-            }
         } else {
             self.minor.step(self.column_bits);
         }
-        self.y += 1;
-        let carry = self.major.step(self.column_bits);
-        let delta = &self.held.delta[usize::from(if self.textbook { n1 == 0 } else { carry })];
-        coverage.carry += u64::from(carry);
-        coverage.no_carry += u64::from(!carry);
-        coverage.wrap += wraps(&self.values, delta, &self.masks);
-        self.values = add(&self.values, delta, &self.masks);
+        if knee && self.textbook {
+            // The knee line is drawn again, from the left edge of the lower part.
+            if self.held.left {
+                self.line.values = self.held.start[1];
+            }
+        } else {
+            self.line.y += 1;
+            let carry = self.major.step(self.column_bits);
+            let delta = &self.held.delta[usize::from(if self.textbook { n1 == 0 } else { carry })];
+            coverage.carry += u64::from(carry);
+            coverage.no_carry += u64::from(!carry);
+            coverage.wrap += wraps(&self.line.values, delta, &self.masks);
+            self.line.values = add(&self.line.values, delta, &self.masks);
+        }
+        self.line.major = self.major.c;
+        self.line.minor = self.minor.c;
+        self.line.fresh = false;
+        self.line.fence = knee && self.textbook;
     }
 }
 

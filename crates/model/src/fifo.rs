@@ -55,7 +55,7 @@ impl<T: Copy + Default, const N: usize> Fifo<T, N> {
     pub fn push(&mut self, item: T) {
         debug_assert!(self.len < N);
         *self.at_mut(self.len) = item;
-        self.len += 1;
+        self.len = self.len.wrapping_add(1);
     }
 
     /// Drops the oldest.
@@ -63,7 +63,7 @@ impl<T: Copy + Default, const N: usize> Fifo<T, N> {
     pub fn pop(&mut self) {
         debug_assert!(self.len > 0);
         self.head = self.head.wrapping_add(1) & (N - 1);
-        self.len -= 1;
+        self.len = self.len.wrapping_sub(1);
     }
 
     /// Drops all.

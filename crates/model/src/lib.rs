@@ -12,6 +12,7 @@ pub mod coverage;
 pub mod depth;
 pub mod edge;
 pub mod fifo;
+mod inflight;
 pub mod machine;
 pub mod memory;
 pub mod pixel;

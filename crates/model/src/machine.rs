@@ -97,7 +97,7 @@ impl Model {
 
     /// Not hardware: the fragment whose read fired in the cycle before.
     #[must_use]
-    pub fn last_read(&self) -> &Fragment {
+    pub fn last_read(&self) -> Fragment {
         self.depth.last_read()
     }
 
@@ -110,7 +110,7 @@ impl Model {
         let frag_ready = inputs.rd_ready && block.is_none();
         let span_ready = self.pixel.span_ready(frag_ready);
         let line = self.edge.line();
-        let line_ready = line.as_ref().is_some_and(|l| self.span.line_ready(l));
+        let line_ready = line.is_some_and(|l| self.span.line_ready(l));
         let fresh_queued = self.span.fresh_queued();
         let prim_ready = self.edge.prim_ready(fresh_queued);
         let activity = self.activity(block, frag_ready);
@@ -125,7 +125,9 @@ impl Model {
         let span = self.span.span();
 
         let coverage = &mut self.coverage;
-        coverage.setup_overlap += u64::from(self.pixel.active() && !outputs.tri_ready);
+        if outputs.tri_ready && inputs.tri.is_some() && self.pixel.active() {
+            coverage.setup_overlap += 1;
+        }
         self.counters.count(&Fires {
             activity,
             triangle: outputs.tri_ready && inputs.tri.is_some(),
@@ -143,7 +145,7 @@ impl Model {
         };
         self.depth.step(frag, block, &depth_inputs, coverage);
         self.pixel.step(span, self.edge.gradient(), frag_ready, coverage);
-        self.span.step(line.as_ref(), span_ready, coverage);
+        self.span.step(line.filter(|_| line_ready), span_ready, coverage);
         self.edge.step(self.setup.prim(), fresh_queued, line_ready, coverage);
         self.setup.step(inputs.tri, prim_ready, coverage);
         if inputs.rst {

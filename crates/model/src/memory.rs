@@ -12,7 +12,7 @@
 //! Rules: `docs/machine.md`, section 7. Not modelled: refresh, banks, anything but late data and low readies.
 
 use crate::fifo::Fifo;
-use crate::tokens::Write;
+use crate::tokens::{Rgb, Write};
 use edgewalk_numerics::Machine;
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::{RngCore, SeedableRng};
@@ -46,15 +46,23 @@ pub struct Memory {
     wr_ready: bool,
     /// Depths read, with the cycle from which on they are offered.
     reads: Fifo<(u64, u32), 16>,
-    z: Vec<u32>,
-    rgb: Vec<[u16; 3]>,
+    words: Vec<Stored>,
+}
+
+/// A pixel of both memories.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stored {
+    /// Depth, b <= 32 bits.
+    pub z: u32,
+    /// Colour, b <= 16 bits a channel.
+    pub rgb: Rgb,
 }
 
 impl Memory {
     /// A cleared memory: the farthest depth, and the colour `clear` (b bits each) everywhere.
     #[must_use]
     pub fn new(machine: &Machine, clear: [u64; 3], stalls: Stalls) -> Self {
-        let words = 1usize << machine.widths().address;
+        let empty = Stored { z: machine.z.max() as u32, rgb: Rgb::new(clear.map(|c| c as u16)) };
         let mut memory = Memory {
             latency: u64::from(machine.latency),
             stalls,
@@ -63,8 +71,7 @@ impl Memory {
             rd_ready: true,
             wr_ready: true,
             reads: Fifo::default(),
-            z: vec![machine.z.max() as u32; words],
-            rgb: vec![clear.map(|c| c as u16); words],
+            words: vec![empty; 1 << machine.widths().address],
         };
         memory.draw_readies();
         memory
@@ -94,8 +101,8 @@ impl Memory {
 
     /// Depth and colour stored at an address.
     #[must_use]
-    pub fn pixel(&self, addr: u32) -> (u64, [u64; 3]) {
-        (u64::from(self.z[addr as usize]), self.rgb[addr as usize].map(u64::from))
+    pub fn pixel(&self, addr: u32) -> Stored {
+        self.words[addr as usize]
     }
 
     /// Clock edge: the read that fired, whether the data was taken, the write that fired.
@@ -106,13 +113,14 @@ impl Memory {
         }
         if let Some(addr) = read {
             let due = self.now + self.latency + self.late();
-            self.reads.push((due, self.z[addr as usize]));
+            self.reads.push((due, self.words[addr as usize].z));
         }
         if let Some(write) = write {
+            let word = &mut self.words[write.addr as usize];
+            word.rgb = write.rgb;
             if write.z_en {
-                self.z[write.addr as usize] = write.z as u32; // b <= 32 bits
+                word.z = write.z;
             }
-            self.rgb[write.addr as usize] = write.rgb.map(|c| c as u16); // b <= 16 bits
         }
         self.now += 1;
         self.draw_readies();

@@ -13,7 +13,7 @@
 //! their clocks are seen outside.
 
 use crate::Coverage;
-use crate::tokens::{Fragment, Span, Words, add, word_masks};
+use crate::tokens::{Fragment, Rgb, Source, Span, Words, add, word_masks};
 use edgewalk_numerics::Machine;
 
 /// State of PIXEL.
@@ -30,14 +30,14 @@ pub struct Pixel {
     phase: u32,
     x: i32,
     count: u32,
-    left: bool,
+    /// 1 or -1 column.
+    step_x: i32,
     values: Words,
     gradient: Words,
     /// y·2^xb.
     row: u32,
     fence: bool,
-    tag: u32,
-    id: u32,
+    source: Source,
     /// Out stages as a ring: `oldest` is stage D-1.
     stages: [Option<Fragment>; 4],
     oldest: usize,
@@ -58,13 +58,12 @@ impl Pixel {
             phase: 0,
             x: 0,
             count: 0,
-            left: false,
+            step_x: 1,
             values: [0; 4],
             gradient: [0; 4],
             row: 0,
             fence: false,
-            tag: 0,
-            id: 0,
+            source: Source::default(),
             stages: [None; 4],
             oldest: 0,
         }
@@ -127,9 +126,18 @@ impl Pixel {
         if !self.advance(frag_ready) {
             return;
         }
-        self.emit(coverage);
-        if self.active && !self.finish() {
-            self.next_phase();
+        let mut sums = None;
+        if self.active {
+            if self.phase < self.last_phase {
+                self.phase += 1;
+                self.shift(None);
+                return;
+            }
+            sums = self.sums(coverage);
+        }
+        self.shift(sums);
+        if self.active && self.count > 1 {
+            self.next_pixel();
             return;
         }
         self.active = span.is_some();
@@ -138,38 +146,46 @@ impl Pixel {
         }
     }
 
-    /// Moves the out stages; a pixel whose sums are ready enters them.
+    /// Moves the out stages, `entering` into the first.
     #[inline]
-    fn emit(&mut self, coverage: &mut Coverage) {
-        let done = self.active && self.phase == self.last_phase;
-        let stage = &mut self.stages[self.oldest & 3];
-        *stage = None;
-        if done && (self.x as u32) < self.width {
-            *stage = Some(Fragment {
-                addr: self.row + self.x as u32,
-                z: self.values[0] >> self.fraction[0],
-                rgb: [1, 2, 3].map(|i| self.values[i] >> self.fraction[i]),
-                fence: self.fence,
-                tag: self.tag,
-                id: self.id,
-            });
-            coverage.fence += u64::from(self.fence);
-            self.fence = false;
-        } else if done {
+    fn shift(&mut self, entering: Option<Fragment>) {
+        self.stages[self.oldest & 3] = entering;
+        self.oldest = self.oldest.wrapping_add(1) & self.stage_mask;
+    }
+
+    /// The pixel whose sums are ready, if it lies on the screen.
+    #[inline]
+    fn sums(&mut self, coverage: &mut Coverage) -> Option<Fragment> {
+        if !self.on_screen() {
             coverage.off_screen += 1;
+            return None;
         }
-        self.oldest = (self.oldest + 1) & self.stage_mask;
+        let fragment = self.fragment();
+        if self.fence {
+            self.fence = false;
+            coverage.fence += 1;
+        }
+        Some(fragment)
+    }
+
+    /// The pixel at `x`, its values cut to b bits.
+    #[inline]
+    fn fragment(&self) -> Fragment {
+        let output = |i: usize| self.values[i].wrapping_shr(self.fraction[i]); // r < 64
+        Fragment {
+            addr: self.row | self.x as u32,
+            z: output(0) as u32,
+            rgb: Rgb::new([output(1) as u16, output(2) as u16, output(3) as u16]),
+            fence: self.fence,
+            source: self.source,
+        }
     }
 
     #[inline]
-    fn next_phase(&mut self) {
-        if self.phase < self.last_phase {
-            self.phase += 1;
-            return;
-        }
+    fn next_pixel(&mut self) {
         self.phase = 0;
         self.count -= 1;
-        self.x += if self.left { -1 } else { 1 };
+        self.x = self.x.wrapping_add(self.step_x);
         self.values = add(&self.values, &self.gradient, &self.masks);
     }
 
@@ -177,12 +193,11 @@ impl Pixel {
         self.phase = 0;
         self.x = span.x;
         self.count = span.count;
-        self.left = span.left;
+        self.step_x = if span.left { -1 } else { 1 };
         self.values = span.values;
         self.row = span.y << self.x_bits;
         self.fence = span.fence;
-        self.tag = span.tag;
-        self.id = span.id;
+        self.source = span.source;
         if span.fresh {
             self.gradient = *gradient;
         }

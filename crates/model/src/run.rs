@@ -44,6 +44,14 @@ pub struct Frame {
     pub corners: Coverage,
 }
 
+/// What happened to a pixel.
+#[derive(Clone, Copy)]
+struct Tally {
+    coverage: u32,
+    writes: u32,
+    id: i32,
+}
+
 /// What [`render_with`] reports, in order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event<'a> {
@@ -73,10 +81,7 @@ pub fn render_with(
 ) -> Frame {
     let mut model = Model::new(machine);
     let mut memory = Memory::new(machine, state.clear, stalls);
-    let words = 1usize << machine.widths().address;
-    let mut coverage = vec![0u32; words];
-    let mut writes = vec![0u32; words];
-    let mut id = vec![-1i32; words];
+    let mut tallies = vec![Tally { coverage: 0, writes: 0, id: -1 }; 1 << machine.widths().address];
     let mut triangles = triangles.into_iter();
     let mut next = triangles.next();
     loop {
@@ -94,12 +99,13 @@ pub fn render_with(
         let read = outputs.rd.filter(|_| inputs.rd_ready);
         let write = outputs.wr.as_ref().filter(|_| inputs.wr_ready);
         if let Some(addr) = read {
-            coverage[addr as usize] += 1;
-            hook(Event::Fragment(model.last_read()));
+            tallies[addr as usize].coverage += 1;
+            hook(Event::Fragment(&model.last_read()));
         }
         if let Some(write) = write {
-            writes[write.addr as usize] += 1;
-            id[write.addr as usize] = write.id as i32;
+            let tally = &mut tallies[write.addr as usize];
+            tally.writes += 1;
+            tally.id = write.source.id as i32;
             hook(Event::Write(write));
         }
         memory.step(read, data_taken, write);
@@ -109,16 +115,17 @@ pub fn render_with(
             break;
         }
     }
-    let pixels = || {
-        let x_bits = machine.widths().x;
-        (0..machine.height).flat_map(move |y| (0..machine.width).map(move |x| y << x_bits | x))
-    };
+    let x_bits = machine.widths().x;
+    let addresses: Vec<u32> =
+        (0..machine.height).flat_map(|y| (0..machine.width).map(move |x| y << x_bits | x)).collect();
+    let stored = || addresses.iter().map(|a| memory.pixel(*a));
+    let tallied = || addresses.iter().map(|a| tallies[*a as usize]);
     Frame {
-        z: pixels().map(|a| memory.pixel(a).0).collect(),
-        rgb: pixels().map(|a| memory.pixel(a).1).collect(),
-        coverage: pixels().map(|a| coverage[a as usize]).collect(),
-        writes: pixels().map(|a| writes[a as usize]).collect(),
-        id: pixels().map(|a| id[a as usize]).collect(),
+        z: stored().map(|p| u64::from(p.z)).collect(),
+        rgb: stored().map(|p| p.rgb.channels().map(u64::from)).collect(),
+        coverage: tallied().map(|t| t.coverage).collect(),
+        writes: tallied().map(|t| t.writes).collect(),
+        id: tallied().map(|t| t.id).collect(),
         counters: model.counters().clone(),
         corners: model.coverage().clone(),
     }

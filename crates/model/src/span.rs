@@ -81,52 +81,48 @@ impl SpanQueue {
         self.fresh_queued
     }
 
-    /// Clock edge.
+    /// Clock edge; `line` is the one that fires, if one does.
     #[inline]
     pub fn step(&mut self, line: Option<&Line>, span_ready: bool, coverage: &mut Coverage) {
-        let room = self.fifo.len() < self.depth;
+        let full = self.fifo.len() == self.depth;
         if span_ready && !self.fifo.is_empty() {
             self.fresh_queued &= !self.fifo.head().fresh;
             self.fifo.pop();
         }
         if let Some(line) = line {
-            self.take(line, room, coverage);
+            self.take(line, full, coverage);
         }
     }
 
-    fn take(&mut self, line: &Line, room: bool, coverage: &mut Coverage) {
+    fn take(&mut self, line: &Line, full: bool, coverage: &mut Coverage) {
         let fresh = line.fresh | self.pend_fresh;
         let fence = line.fence | self.pend_fence;
-        match self.cut(line) {
-            None => {
-                self.pend_fresh = fresh;
-                self.pend_fence = fence;
-                coverage.empty_span += 1;
-                coverage.dropped_fresh += u64::from(fresh);
-                coverage.dropped_when_full += u64::from(!room);
-            }
-            Some(cut) if room => {
-                self.fifo.push(Span {
-                    x: cut.x,
-                    y: line.y,
-                    count: cut.count as u32, // at least 1
-                    left: cut.left,
-                    values: line.values,
-                    fresh,
-                    fence,
-                    tag: line.tag,
-                    id: line.id,
-                });
-                self.fresh_queued |= fresh;
-                self.pend_fresh = false;
-                self.pend_fence = false;
-                coverage.scissor_cut += u64::from(cut.scissored);
-            }
-            Some(_) => {}
-        }
+        let Some(cut) = self.cut(line) else {
+            self.pend_fresh = fresh;
+            self.pend_fence = fence;
+            coverage.empty_span += 1;
+            coverage.dropped_fresh += u64::from(fresh);
+            coverage.dropped_when_full += u64::from(full);
+            return;
+        };
+        self.fifo.push(Span {
+            x: cut.x,
+            y: line.y,
+            count: cut.count as u32, // at least 1
+            left: cut.left,
+            values: line.values,
+            fresh,
+            fence,
+            source: line.source,
+        });
+        self.fresh_queued |= fresh;
+        self.pend_fresh = false;
+        self.pend_fence = false;
+        coverage.scissor_cut += u64::from(cut.scissored);
     }
 
     /// The pixels of a line, `None` if there are none.
+    #[inline]
     fn cut(&self, line: &Line) -> Option<Cut> {
         if line.left && !self.textbook {
             let x = line.major - 1;

@@ -1,10 +1,38 @@
-//! The tokens that move between the units, and the fields the hardware does not have: `id`, the number of the
-//! triangle in the order of arrival, which travels beside `tag` so that a picture can say who drew a pixel.
+//! The tokens that move between the units.
 
 use edgewalk_numerics::Machine;
 
 /// One word per channel, in the order of the adder: Z, R, G, B. Words of b + r bits, modular.
 pub type Words = [u64; 4];
+
+/// Red, green and blue of b <= 16 bits each, in one word, so that a pixel's colour moves in one piece.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rgb(u64);
+
+impl Rgb {
+    /// From red, green, blue.
+    #[inline]
+    #[must_use]
+    pub fn new([r, g, b]: [u16; 3]) -> Self {
+        Rgb(u64::from(r) | u64::from(g) << 16 | u64::from(b) << 32)
+    }
+
+    /// Red, green, blue.
+    #[inline]
+    #[must_use]
+    pub fn channels(self) -> [u16; 3] {
+        [0, 16, 32].map(|shift| (self.0 >> shift) as u16)
+    }
+}
+
+/// The triangle a token comes from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Source {
+    /// The triangle's tag, `tag_bits` bits.
+    pub tag: u32,
+    /// Not hardware: the triangle's number in the order of arrival, so that a picture can say who drew a pixel.
+    pub id: u32,
+}
 
 /// An edge on its way from line to line (A9): column `c` and remainder `r`, stepped by quotient `q` and fraction `f`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,10 +79,8 @@ pub struct Prim {
     pub delta: [Words; 2],
     /// g: increment a pixel along the span.
     pub gradient: Words,
-    /// Tag of the triangle.
-    pub tag: u32,
-    /// Not hardware: number of the triangle.
-    pub id: u32,
+    /// The triangle.
+    pub source: Source,
 }
 
 /// EDGE to SPAN: a scan line between two edges.
@@ -74,10 +100,8 @@ pub struct Line {
     pub fresh: bool,
     /// First line of its triangle or, in textbook fill, of its lower part.
     pub fence: bool,
-    /// Tag of the triangle.
-    pub tag: u32,
-    /// Not hardware: number of the triangle.
-    pub id: u32,
+    /// The triangle.
+    pub source: Source,
 }
 
 /// SPAN to PIXEL: pixels of a line, from the first on.
@@ -97,10 +121,8 @@ pub struct Span {
     pub fresh: bool,
     /// First span of its triangle or, in textbook fill, of its lower part.
     pub fence: bool,
-    /// Tag of the triangle.
-    pub tag: u32,
-    /// Not hardware: number of the triangle.
-    pub id: u32,
+    /// The triangle.
+    pub source: Source,
 }
 
 /// PIXEL to DEPTH: one pixel of one triangle.
@@ -108,16 +130,14 @@ pub struct Span {
 pub struct Fragment {
     /// y·2^xb + x.
     pub addr: u32,
-    /// Depth, b bits.
-    pub z: u64,
-    /// Red, green, blue, b bits each.
-    pub rgb: [u64; 3],
+    /// Depth, b <= 32 bits.
+    pub z: u32,
+    /// Colour, b <= 16 bits a channel.
+    pub rgb: Rgb,
     /// First fragment of its triangle or, in textbook fill, of its lower part.
     pub fence: bool,
-    /// Tag of the triangle.
-    pub tag: u32,
-    /// Not hardware: number of the triangle.
-    pub id: u32,
+    /// The triangle.
+    pub source: Source,
 }
 
 /// DEPTH to the frame memory.
@@ -125,16 +145,14 @@ pub struct Fragment {
 pub struct Write {
     /// y·2^xb + x.
     pub addr: u32,
-    /// Depth, b bits, stored if `z_en`.
-    pub z: u64,
+    /// Depth, b <= 32 bits, stored if `z_en`.
+    pub z: u32,
+    /// Colour, b <= 16 bits a channel, always stored.
+    pub rgb: Rgb,
     /// The depth is stored.
     pub z_en: bool,
-    /// Red, green, blue, b bits each, always stored.
-    pub rgb: [u64; 3],
-    /// Tag of the triangle.
-    pub tag: u32,
-    /// Not hardware: number of the triangle.
-    pub id: u32,
+    /// The triangle.
+    pub source: Source,
 }
 
 /// The masks of the four channel words, 2^(b+r) - 1.

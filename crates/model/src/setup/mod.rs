@@ -21,7 +21,7 @@ mod sort;
 pub use clocks::{SetupClocks, setup_clocks};
 
 use crate::Coverage;
-use crate::tokens::Prim;
+use crate::tokens::{Prim, Source};
 use edgewalk_numerics::{Machine, PortVertex};
 use sort::Sorted;
 
@@ -112,7 +112,7 @@ impl Setup {
         let prim = prepare(&self.machine, &sorted);
         self.culled = prim.is_none();
         if let Some(prim) = prim {
-            self.prim = Prim { tag, id, ..prim };
+            self.prim = Prim { source: Source { tag, id }, ..prim };
             self.count(&sorted, coverage);
         } else {
             coverage.culled += 1;

@@ -30,6 +30,12 @@ pub fn place(machine: &Machine, addr: u32) -> (i64, i64) {
     (i64::from(addr & ((1 << bits) - 1)), i64::from(addr >> bits))
 }
 
+/// Z, R, G, B of a fragment, LSB.
+pub fn outputs(fragment: &Fragment) -> [u64; 4] {
+    let [r, g, b] = fragment.rgb.channels().map(u64::from);
+    [u64::from(fragment.z), r, g, b]
+}
+
 /// Twice the signed distance of point (px, py) right of the edge a-b, times its height; all in 2^-(s+1) px.
 fn right_of(a: [i64; 2], b: [i64; 2], p: [i64; 2]) -> i64 {
     (p[0] - a[0]) * (b[1] - a[1]) - (p[1] - a[1]) * (b[0] - a[0])
@@ -66,6 +72,18 @@ pub fn exact_value(machine: &Machine, triangle: &Triangle, i: usize, x: i64, y: 
     (moment * sum.signum(), sum.abs() << machine.channels()[i].vertex_fraction)
 }
 
+/// Additions from the first value of a triangle to a pixel inside: lines down the major edge, then columns.
+fn steps(machine: &Machine, triangle: &Triangle, x: i64, y: i64) -> f64 {
+    let mut corner = triangle.map(|v| point(&v));
+    corner.sort_by_key(|c| c[1]);
+    let (top, bottom, p) = (corner[0], corner[2], centre(machine, x, y));
+    let one = 2i64 << machine.subpixel_bits;
+    let first_line = ((top[1] - one / 2).div_euclid(one)).max(-1) + 1; // at the least
+    let height = (bottom[1] - top[1]) as f64;
+    let columns = right_of(top, bottom, p).abs() as f64 / height / one as f64;
+    (y - first_line + 1) as f64 + columns.floor()
+}
+
 /// Draws triangles and holds every fragment against the exact rule and the exact values.
 pub struct Check<'a> {
     machine: &'a Machine,
@@ -82,6 +100,8 @@ pub struct Check<'a> {
     pub wrong: Vec<(usize, i64, i64)>,
     /// Largest |output - exact|, LSB, Z, R, G, B.
     pub error: [f64; 4],
+    /// Largest |output - exact| modulo 2^b over its proved bound (A2), of all channels.
+    pub of_bound: f64,
     /// Fragments of a pixel over all triangles.
     pub count: Vec<u32>,
 }
@@ -98,6 +118,7 @@ impl<'a> Check<'a> {
             fragments: 0,
             wrong: Vec::new(),
             error: [0.0; 4],
+            of_bound: 0.0,
             count: vec![0; pixels],
         };
         let hook = |event: Event| {
@@ -115,7 +136,7 @@ impl<'a> Check<'a> {
     }
 
     fn fragment(&mut self, fragment: &Fragment) {
-        self.arrive(fragment.id as usize);
+        self.arrive(fragment.source.id as usize);
         let (x, y) = place(self.machine, fragment.addr);
         let index = self.index(x, y);
         if self.seen[index] == self.current + 1 {
@@ -124,11 +145,20 @@ impl<'a> Check<'a> {
         self.seen[index] = self.current + 1;
         self.count[index] += 1;
         self.fragments += 1;
-        let output = [fragment.z, fragment.rgb[0], fragment.rgb[1], fragment.rgb[2]];
+        if !inside(self.machine, &self.triangles[self.current], x, y) {
+            return; // close() counts it as wrong
+        }
+        let steps = steps(self.machine, &self.triangles[self.current], x, y);
+        let output = outputs(fragment);
         for (i, output) in output.into_iter().enumerate() {
+            let channel = self.machine.channels()[i];
             let (n, d) = exact_value(self.machine, &self.triangles[self.current], i, x, y);
-            let error = (i128::from(output) * d - n).unsigned_abs() as f64 / d as f64;
-            self.error[i] = self.error[i].max(error);
+            let difference = i128::from(output) * d - n;
+            self.error[i] = self.error[i].max(difference.unsigned_abs() as f64 / d as f64);
+            let turn = d << channel.bits;
+            let wrapped = difference.rem_euclid(turn).min((-difference).rem_euclid(turn)) as f64 / d as f64;
+            let bound = 0.5 + (1.0 + steps) * 0.5f64.powi(channel.fraction as i32 + 1);
+            self.of_bound = self.of_bound.max(wrapped / bound);
         }
     }
 
@@ -168,6 +198,19 @@ impl<'a> Check<'a> {
         for (i, error) in self.error.iter().enumerate() {
             assert!(*error <= 1.0, "channel {i} is {error} LSB off");
         }
+        assert!(self.of_bound <= 1.0, "{} of the proved bound", self.of_bound);
+    }
+
+    /// What was checked, and how far off it was.
+    pub fn report(&self, name: &str) {
+        println!(
+            "{name}: {} wrong of {} pixels; {} fragments, errors {:.3?} LSB, {:.3} of the bound",
+            self.wrong.len(),
+            self.pixels,
+            self.fragments,
+            self.error,
+            self.of_bound
+        );
     }
 }
 
@@ -185,4 +228,26 @@ pub fn random_triangle(machine: &Machine, size: f64, rng: &mut impl Rng) -> Tria
         let c = middle.map(|m| (m + rng.random_range(-0.5..=0.5) * size).clamp(-limit, limit) * one);
         vertex(c[0].round() as i32, c[1].round() as i32, random_values(machine, rng))
     })
+}
+
+/// A machine with every key drawn at random, that can be built; `fixed` settings stay.
+pub fn random_machine(fixed: &[(&str, &str)], rng: &mut impl Rng) -> Machine {
+    use edgewalk_numerics::machine::keys::{Domain, KEYS};
+    loop {
+        let mut machine = Machine::default();
+        for key in KEYS {
+            let value = match key.domain {
+                Domain::Range(low, high) => rng.random_range(low..=high),
+                Domain::OneOf(list) => list[rng.random_range(0..list.len())],
+                Domain::Word(words) => rng.random_range(0..words.len() as u32),
+            };
+            (key.set)(&mut machine, value);
+        }
+        for (key, value) in fixed {
+            machine.set(key, value).expect("a key of the machine");
+        }
+        if machine.check().is_ok() {
+            return machine;
+        }
+    }
 }
