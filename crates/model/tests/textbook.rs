@@ -84,8 +84,7 @@ fn compare(machine: &Machine, triangles: &[Triangle]) -> usize {
         for pixel in listing(machine, triangle) {
             let (id, at, output) = drawn.next().expect("as many fragments as in the listing");
             assert_eq!((id, at), (number, (pixel.x, pixel.y)), "{triangle:?} in {machine:?}");
-            for i in 0..4 {
-                let channel = machine.channels()[i];
+            for (i, channel) in machine.channels().into_iter().enumerate() {
                 let turn = Q::from_integer(1 << channel.bits);
                 let error = pixel.value[i] - Q::from_integer(i128::from(output[i]));
                 let error = error - (error / turn + Q::new(1, 2)).floor() * turn; // modulo 2^b

@@ -2,9 +2,10 @@
 #![allow(dead_code, reason = "every test file uses a part")]
 
 use edgewalk_model::tokens::Fragment;
-use edgewalk_model::{DrawState, Event, Frame, Stalls, render_with};
+use edgewalk_model::{DrawState, Event, Frame, Inputs, Memory, Model, Outputs, Stalls, Write, render_with};
 use edgewalk_numerics::{Machine, PortVertex};
 use rand::Rng;
+use std::collections::HashMap;
 
 pub type Triangle = [PortVertex; 3];
 
@@ -250,4 +251,87 @@ pub fn random_machine(fixed: &[(&str, &str)], rng: &mut impl Rng) -> Machine {
             return machine;
         }
     }
+}
+
+/// A cycle of a machine with its memory.
+pub struct Cycle<'a> {
+    /// Number of the cycle, from 0.
+    pub now: u64,
+    pub outputs: &'a Outputs,
+    /// A triangle was taken.
+    pub triangle: bool,
+    /// The fragment whose read fired.
+    pub read: Option<Fragment>,
+    /// The write that fired.
+    pub write: Option<Write>,
+}
+
+/// Draws triangles and shows every cycle; `writes_open` says in which cycles the memory takes writes at all.
+pub fn drive(
+    machine: &Machine,
+    triangles: &[Triangle],
+    state: DrawState,
+    stalls: Stalls,
+    writes_open: impl Fn(u64) -> bool,
+    mut watch: impl FnMut(&Cycle),
+) -> (Model, Memory) {
+    let mut model = Model::new(machine);
+    let mut memory = Memory::new(machine, state.clear, stalls);
+    let mut next = 0;
+    for now in 0.. {
+        let inputs = Inputs {
+            rst: false,
+            tri: triangles.get(next).map(|t| (t, 0)),
+            depth_func: state.depth_func,
+            depth_write: state.depth_write,
+            rd_ready: memory.rd_ready(),
+            data: memory.data(),
+            wr_ready: memory.wr_ready() && writes_open(now),
+        };
+        let outputs = model.cycle(&inputs);
+        let read = outputs.rd.filter(|_| inputs.rd_ready);
+        let write = outputs.wr.filter(|_| inputs.wr_ready);
+        let triangle = outputs.tri_ready && inputs.tri.is_some();
+        watch(&Cycle { now, outputs: &outputs, triangle, read: read.map(|_| model.last_read()), write });
+        memory.step(read, inputs.data.is_some() && outputs.data_ready, write.as_ref());
+        next += usize::from(triangle);
+        if outputs.idle && next == triangles.len() && !triangle {
+            break;
+        }
+    }
+    (model, memory)
+}
+
+/// The depth test one fragment after the other: what is stored in the end, and what was written.
+pub struct Sequential {
+    pub stored: HashMap<u32, (u32, [u16; 3])>,
+    pub writes: Vec<Write>,
+}
+
+pub fn sequential(machine: &Machine, fragments: &[Fragment], state: DrawState) -> Sequential {
+    let empty = (machine.z.max() as u32, state.clear.map(|c| c as u16));
+    let mut stored = HashMap::new();
+    let mut writes = Vec::new();
+    for f in fragments {
+        let (z, rgb) = stored.entry(f.addr).or_insert(empty);
+        let passes = match state.depth_func {
+            0 => false,
+            1 => f.z < *z,
+            2 => f.z == *z,
+            3 => f.z <= *z,
+            4 => f.z > *z,
+            5 => f.z != *z,
+            6 => f.z >= *z,
+            _ => true,
+        };
+        if passes {
+            *rgb = f.rgb.channels();
+            if state.depth_write {
+                *z = f.z;
+            }
+            let z_en = state.depth_write;
+            writes.push(Write { addr: f.addr, z: f.z, z_en, rgb: f.rgb, source: f.source });
+        }
+    }
+    Sequential { stored, writes }
 }

@@ -1,0 +1,60 @@
+//! Every hazard and corner that the model counts is met by some run here, and the counts add up.
+
+mod common;
+
+use common::{machine, random_triangle};
+use edgewalk_model::{Activity, Coverage, DrawState, Stalls, render};
+use rand::{Rng, SeedableRng, rngs::StdRng};
+
+#[test]
+fn nothing_is_missing() {
+    let mut rng = StdRng::seed_from_u64(1);
+    let mut all = Coverage::default();
+    let mut spent = [0; 9];
+    for hazard in ["drain", "interlock", "forward"] {
+        for (fill, s) in [("exact", "4"), ("textbook", "0")] {
+            for stalls in [Stalls::NONE, Stalls { seed: 5, rd: 120, data: 100, wr: 250 }] {
+                let machine = machine(&[
+                    ("screen.width", "12"),
+                    ("screen.height", "12"),
+                    ("screen.guard_bits", "6"),
+                    ("screen.subpixel_bits", s),
+                    ("edge.fill", fill),
+                    ("setup.radix", "16"),
+                    ("formats.z_bits", "4"),
+                    ("formats.z_fraction", "8"),
+                    ("memory.hazard", hazard),
+                ]);
+                let triangles: Vec<_> = (0..2000)
+                    .map(|_| {
+                        let size = [1.0, 3.0, 30.0][rng.random_range(0..3)];
+                        random_triangle(&machine, size, &mut rng)
+                    })
+                    .collect();
+                let frame = render(&machine, triangles, DrawState::default(), stalls);
+                assert!(frame.counters.add_up(), "{:?}", frame.counters);
+                assert_eq!(u64::from(frame.coverage.iter().sum::<u32>()), frame.counters.fragments);
+                assert_eq!(u64::from(frame.writes.iter().sum::<u32>()), frame.counters.writes);
+                all.merge(&frame.corners);
+                for (sum, cycles) in spent.iter_mut().zip(frame.counters.activity) {
+                    *sum += cycles;
+                }
+            }
+        }
+    }
+    for (name, count) in all.counts() {
+        println!("{name:<20} {count}");
+    }
+    for activity in Activity::ALL {
+        println!("{:<20} {} cycles", activity.name(), spent[activity as usize]);
+        assert!(spent[activity as usize] > 0, "no cycle was spent on {}", activity.name());
+    }
+    assert_eq!(all.missing(), Vec::<&str>::new());
+}
+
+#[test]
+fn an_idle_machine_misses_everything() {
+    let frame = render(&machine(&[]), [], DrawState::default(), Stalls::NONE);
+    assert_eq!(frame.corners.missing().len(), frame.corners.counts().len());
+    assert_eq!((frame.counters.cycles, frame.counters.spent(Activity::Idle)), (1, 1));
+}

@@ -1,0 +1,110 @@
+//! The machine against the golden pictures, which share no arithmetic with it.
+
+mod common;
+
+use common::{ALWAYS, outputs, place, random_triangle};
+use edgewalk_golden::{Fill, draw, half_triangles};
+use edgewalk_model::{DrawState, Event, Stalls, render, render_with};
+use edgewalk_numerics::Machine;
+use edgewalk_scene as scene;
+use rand::{Rng, SeedableRng, rngs::StdRng};
+
+/// Triangles of the port as the golden rasterizer takes them: pixels, and values in [0, 1].
+fn frame(machine: &Machine, triangles: &[common::Triangle]) -> scene::Frame {
+    let mut frame = scene::Frame::new(machine.width, machine.height);
+    frame.triangles = triangles
+        .iter()
+        .map(|triangle| {
+            scene::Triangle(triangle.map(|v| {
+                let place = |c: i32| f64::from(c) / f64::from(1u32 << machine.subpixel_bits);
+                let unit = |i: usize| {
+                    let c = machine.channels()[i];
+                    v.value[i] as f64 / (c.max() << c.vertex_fraction) as f64
+                };
+                let [z, r, g, b] = [0, 1, 2, 3].map(unit);
+                scene::Vertex { x: place(v.x), y: place(v.y), z, r, g, b, kt: 0.0 }
+            }))
+        })
+        .collect();
+    frame
+}
+
+/// |stored - golden| in LSB, golden in [0, 1].
+fn off(stored: u64, golden: f64, max: u64) -> f64 {
+    (stored as f64 - golden * max as f64).abs()
+}
+
+#[test]
+fn pictures_with_the_nearest_fragment_on_top() {
+    let machine = Machine::default();
+    let mut rng = StdRng::seed_from_u64(1);
+    let triangles: Vec<_> = (0..1500)
+        .map(|_| {
+            let size = 2f64.powf(rng.random_range(-3.0..9.0));
+            random_triangle(&machine, size, &mut rng)
+        })
+        .collect();
+    let golden = draw(&frame(&machine, &triangles), Fill::Exact { subpixel_bits: machine.subpixel_bits });
+    let drawn = render(&machine, triangles, DrawState::default(), Stalls::NONE);
+    assert_eq!(drawn.coverage, golden.coverage);
+    let (mut worst_z, mut worst_color, mut others, mut checked) = (0f64, 0f64, 0, 0);
+    for i in 0..golden.z.len() {
+        worst_z = worst_z.max(off(drawn.z[i], golden.z[i], machine.z.max()));
+        if drawn.id[i] != golden.id[i] {
+            others += 1; // two depths within the errors of both
+            continue;
+        }
+        assert!(drawn.id[i] < 0 || drawn.writes[i] > 0);
+        for (stored, golden) in drawn.rgb[i].into_iter().zip(golden.rgb[i]) {
+            worst_color = worst_color.max(off(stored, golden, machine.color.max()));
+        }
+        checked += usize::from(drawn.id[i] >= 0);
+    }
+    println!(
+        "{checked} pixels drawn, z {worst_z:.3} LSB, colour {worst_color:.3} LSB, {others} by another triangle"
+    );
+    assert!(checked > 100_000 && worst_color <= 1.0);
+    assert!(worst_z <= 1.0 + if others > 0 { 2.0 } else { 0.0 } && others < checked / 1000);
+}
+
+#[test]
+fn the_textbook_listing_in_its_order() {
+    let mut machine = Machine::preset("textbook").expect("a preset");
+    machine.set("edge.kind", "exact").expect("a key");
+    let mut rng = StdRng::seed_from_u64(2);
+    let triangles: Vec<_> = (0..400)
+        .map(|_| {
+            let size = rng.random_range(1.0..200.0);
+            random_triangle(&machine, size, &mut rng)
+        })
+        .collect();
+    let mut drawn = Vec::new();
+    let hook = |event: Event| {
+        if let Event::Fragment(f) = event {
+            let (x, y) = place(&machine, f.addr);
+            drawn.push((f.source.id, x as u32, y as u32, outputs(f)));
+        }
+    };
+    render_with(&machine, triangles.iter().copied(), ALWAYS, Stalls::NONE, hook);
+    let mut drawn = drawn.into_iter();
+    let frame = frame(&machine, &triangles);
+    let (mut worst, mut checked) = (0f64, 0u32);
+    for (triangle, id) in frame.triangles.iter().zip(0..) {
+        half_triangles(triangle, frame.mode, (machine.width, machine.height), |_, golden| {
+            let (by, x, y, output) = drawn.next().expect("as many fragments as in the listing");
+            assert_eq!((by, x, y), (id, golden.x, golden.y), "{triangle:?}");
+            let [r, g, b] = golden.rgb();
+            for ((output, golden), channel) in
+                output.into_iter().zip([golden.z(), r, g, b]).zip(machine.channels())
+            {
+                let turn = (channel.max() + 1) as f64; // outside the triangle the listing leaves the range, and wraps
+                let error = (output as f64 - golden * channel.max() as f64).rem_euclid(turn);
+                worst = worst.max(error.min(turn - error));
+            }
+            checked += 1;
+        });
+    }
+    assert_eq!(drawn.next(), None, "a fragment too many");
+    println!("{checked} fragments, at most {worst:.3} LSB off");
+    assert!(checked > 100_000 && worst <= 1.0);
+}

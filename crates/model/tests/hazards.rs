@@ -1,0 +1,252 @@
+//! A pixel in flight: every policy draws what a plain loop over the fragments draws, whatever the memory does.
+
+mod common;
+
+use common::{Sequential, Triangle, drive, machine, random_triangle, random_values, sequential, vertex};
+use edgewalk_model::depth::{Depth, DepthInputs};
+use edgewalk_model::tokens::{Fragment, Rgb, Source};
+use edgewalk_model::{Coverage, DrawState, Memory, Stalls, Write};
+use edgewalk_numerics::Machine;
+use rand::{Rng, SeedableRng, rngs::StdRng};
+
+const POLICIES: [&str; 3] = ["drain", "interlock", "forward"];
+const STALLS: [Stalls; 3] = [
+    Stalls::NONE,
+    Stalls { seed: 1, rd: 60, data: 60, wr: 60 },
+    Stalls { seed: 2, rd: 10, data: 200, wr: 200 },
+];
+
+fn holds(name: &str, expected: &Sequential, memory: &Memory, writes: &[Write]) {
+    assert_eq!(writes.len(), expected.writes.len(), "{name}: writes");
+    for (number, (write, expected)) in writes.iter().zip(&expected.writes).enumerate() {
+        assert_eq!(write, expected, "{name}: write {number}");
+    }
+    for (addr, (z, rgb)) in &expected.stored {
+        let stored = memory.pixel(*addr);
+        assert_eq!((stored.z, stored.rgb.channels()), (*z, *rgb), "{name}: address {addr}");
+    }
+}
+
+/// DEPTH and memory alone, fed with a fragment a clock: one-pixel triangles on few addresses, back to back.
+fn feed(
+    machine: &Machine,
+    fragments: &[Fragment],
+    state: DrawState,
+    stalls: Stalls,
+) -> (Memory, Vec<Write>, Coverage) {
+    let mut depth = Depth::new(machine);
+    let mut memory = Memory::new(machine, state.clear, stalls);
+    let mut coverage = Coverage::default();
+    let mut writes = Vec::new();
+    let mut next = 0;
+    while next < fragments.len() || depth.occupied() {
+        let frag = fragments.get(next);
+        let inputs = DepthInputs {
+            depth_func: state.depth_func,
+            depth_write: state.depth_write,
+            rd_ready: memory.rd_ready(),
+            data: memory.data(),
+            wr_ready: memory.wr_ready(),
+        };
+        let block = depth.block(frag, state.depth_write);
+        let read = frag.filter(|_| block.is_none() && inputs.rd_ready).map(|f| f.addr);
+        let data_taken = inputs.data.is_some() && depth.data_ready(inputs.wr_ready);
+        let write = depth.write().copied().filter(|_| inputs.wr_ready);
+        depth.step(frag, block, &inputs, &mut coverage);
+        memory.step(read, data_taken, write.as_ref());
+        next += usize::from(read.is_some());
+        writes.extend(write);
+    }
+    (memory, writes, coverage)
+}
+
+#[test]
+fn one_pixel_triangles_on_one_address_back_to_back() {
+    let mut rng = StdRng::seed_from_u64(1);
+    let (mut all, mut runs, mut checked) = (Coverage::default(), 0, 0);
+    for policy in POLICIES {
+        for latency in 1..=8 {
+            for inflight in [1, 2, 4, 16] {
+                for stalls in STALLS {
+                    let machine = machine(&[
+                        ("screen.width", "4"),
+                        ("screen.height", "4"),
+                        ("formats.z_bits", "4"),
+                        ("memory.hazard", policy),
+                        ("memory.latency", &latency.to_string()),
+                        ("fifo.inflight", &inflight.to_string()),
+                    ]);
+                    let state = DrawState {
+                        depth_func: rng.random_range(0..8),
+                        depth_write: rng.random_bool(0.8),
+                        clear: [1, 2, 3],
+                    };
+                    let addresses = [1, 2, 5][rng.random_range(0..3)];
+                    let fragments: Vec<_> = (0..200u32)
+                        .map(|id| Fragment {
+                            addr: rng.random_range(0..addresses),
+                            z: rng.random_range(0..16),
+                            rgb: Rgb::new([id as u16, 0, 0]),
+                            fence: true, // each is a triangle of its own
+                            source: Source { tag: 0, id },
+                        })
+                        .collect();
+                    let expected = sequential(&machine, &fragments, state);
+                    let (memory, writes, coverage) = feed(&machine, &fragments, state, stalls);
+                    holds(
+                        &format!("{policy}, L = {latency}, {stalls:?}, {state:?}"),
+                        &expected,
+                        &memory,
+                        &writes,
+                    );
+                    all.merge(&coverage);
+                    runs += 1;
+                    checked += expected.writes.len();
+                }
+            }
+        }
+    }
+    println!("{runs} runs, {checked} writes, {all:?}");
+    assert!(checked > 1000);
+    for (name, count) in [
+        ("forward from a compare", all.forward_compare),
+        ("forward from w", all.forward_write),
+        ("forward used", all.forward_used),
+        ("interlock", all.interlock_stall),
+        ("drain", all.drain_stall),
+        ("queue full", all.queue_full),
+        ("memory", all.memory_stall),
+        ("write", all.write_stall),
+        ("depth fail", all.depth_fail),
+    ] {
+        assert!(count > 0, "never met: {name}");
+    }
+}
+
+/// The whole machine against a plain loop over its own fragments.
+fn against_the_loop(
+    name: &str,
+    machine: &Machine,
+    triangles: &[Triangle],
+    state: DrawState,
+    stalls: Stalls,
+    writes_open: impl Fn(u64) -> bool,
+) -> (Vec<Fragment>, Coverage) {
+    let (mut fragments, mut writes) = (Vec::new(), Vec::new());
+    let (model, memory) = drive(machine, triangles, state, stalls, writes_open, |cycle| {
+        fragments.extend(cycle.read);
+        writes.extend(cycle.write);
+    });
+    holds(name, &sequential(machine, &fragments, state), &memory, &writes);
+    assert!(model.counters().add_up());
+    (fragments, model.coverage().clone())
+}
+
+/// The memory takes no write for so long that SETUP brings one-pixel triangles of one address together.
+#[test]
+fn tiny_triangles_pile_up_in_front_of_a_slow_memory() {
+    let mut rng = StdRng::seed_from_u64(2);
+    let mut all = Coverage::default();
+    for policy in POLICIES {
+        for latency in [1, 3, 8] {
+            let machine = machine(&[
+                ("screen.width", "4"),
+                ("screen.height", "4"),
+                ("memory.hazard", policy),
+                ("memory.latency", &latency.to_string()),
+                ("fifo.inflight", "8"),
+            ]);
+            let triangles: Vec<Triangle> = (0..300)
+                .map(|_| {
+                    let mut v = |x, y| vertex(256 + x, 256 + y, random_values(&machine, &mut rng));
+                    [v(0, 0), v(256, 0), v(0, 256)] // its only centre inside is that of pixel (1, 1), on its border
+                        .map(|v| vertex(v.x + 1, v.y + 1, v.value))
+                })
+                .collect();
+            let open = |now: u64| now % 2000 > 1900;
+            let state = DrawState::default();
+            let (fragments, corners) =
+                against_the_loop(policy, &machine, &triangles, state, Stalls::NONE, open);
+            assert_eq!(fragments.len(), triangles.len());
+            assert!(fragments.iter().all(|f| f.addr == fragments[0].addr));
+            all.merge(&corners);
+        }
+    }
+    assert!(all.forward_compare > 0 && all.forward_used > 0, "{all:?}");
+    assert!(all.interlock_stall > 0 && all.drain_stall > 0, "{all:?}");
+}
+
+/// A large triangle, then a small one on its last pixels: SETUP has the second ready while the first is drawn, and the
+/// first pixel of the second is read 1 to 10 clocks after the same pixel of the first.
+#[test]
+fn a_pixel_is_drawn_again_a_few_clocks_later() {
+    let mut all = Coverage::default();
+    for policy in POLICIES {
+        for latency in 1..=8 {
+            let machine = machine(&[
+                ("screen.width", "64"),
+                ("screen.height", "64"),
+                ("memory.hazard", policy),
+                ("memory.latency", &latency.to_string()),
+                ("fifo.inflight", "16"),
+            ]);
+            let (mut triangles, far) = (Vec::new(), 1 << 20);
+            for round in 0..40u64 {
+                // Lower right half of the screen, its last pixel at (63, 63); then the pixels before it, nearer.
+                // In odd rounds farther than the large one, and still nearer than what that one has covered.
+                let again = 1 + (round / 2 % 10) as i32;
+                let near = if round % 2 == 1 { far + 500 } else { far - 500 };
+                let value = |z: u64| [z - round * 1000, round, round, round];
+                let v = |x: i32, y: i32, z| vertex(x * 256, y * 256, value(z));
+                triangles.push([v(64, 0, far), v(64, 64, far), v(0, 64, far)]);
+                triangles.push([v(64, 63, near), v(64, 64, near), v(64 - 2 * again, 64, near)]);
+            }
+            let state = DrawState::default();
+            let (_, corners) = against_the_loop(policy, &machine, &triangles, state, Stalls::NONE, |_| true);
+            all.merge(&corners);
+        }
+    }
+    assert!(all.forward_compare > 0 && all.forward_write > 0, "{all:?}");
+    assert!(all.interlock_stall > 0 && all.drain_stall > 0, "{all:?}");
+}
+
+/// Policy, latency and stalls change when a pixel is drawn, never what is drawn.
+#[test]
+fn every_policy_draws_the_same_picture() {
+    for fill in ["exact", "textbook"] {
+        let mut rng = StdRng::seed_from_u64(3);
+        let base = machine(&[
+            ("screen.width", "40"),
+            ("screen.height", "40"),
+            ("screen.subpixel_bits", "0"),
+            ("edge.fill", fill),
+            ("formats.z_bits", "6"),
+        ]);
+        let triangles: Vec<_> = (0..200)
+            .map(|_| {
+                let size = rng.random_range(1.0..40.0);
+                random_triangle(&base, size, &mut rng)
+            })
+            .collect();
+        for depth_func in 0..8 {
+            let state = DrawState { depth_func, depth_write: depth_func != 5, clear: [9, 8, 7] };
+            let mut first = None;
+            for policy in POLICIES {
+                for stalls in STALLS {
+                    let mut machine = base.clone();
+                    machine.set("memory.hazard", policy).expect("a key");
+                    machine.latency = rng.random_range(1..=8);
+                    machine.inflight = rng.random_range(1..=16);
+                    machine.adders = [1, 2, 4][rng.random_range(0..3)];
+                    machine.segments = [1, 2, 4][rng.random_range(0..3)];
+                    machine.span_fifo = rng.random_range(1..=4);
+                    let name = format!("{fill}, {policy}, function {depth_func}, {stalls:?}");
+                    let (fragments, _) =
+                        against_the_loop(&name, &machine, &triangles, state, stalls, |_| true);
+                    let first = first.get_or_insert_with(|| fragments.clone());
+                    assert_eq!(*first, fragments, "{name}");
+                }
+            }
+        }
+    }
+}
