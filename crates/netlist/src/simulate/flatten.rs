@@ -8,11 +8,13 @@ use crate::ops::{Bits, Op};
 
 pub(super) type Slot = u32;
 
-/// `dst := op(a, b, c)`, the ones not needed being slot 0.
+/// `dst := op(..)` of up to three slots, those not needed being slot 0; with the widths of all.
 #[derive(Clone, Debug)]
 pub(super) struct Instruction {
-    pub op: Op,
-    pub operands: [Slot; 3],
+    op: Op,
+    slots: [Slot; 3],
+    widths: [u32; 3],
+    width: u32,
     pub dst: Slot,
 }
 
@@ -57,15 +59,21 @@ impl Flat {
         builder.module(netlist, "", None);
         builder.finish()
     }
+}
 
-    /// Computes one instruction.
+impl Instruction {
+    fn new(op: Op, operands: &[Slot], dst: Slot, widths: &[u32]) -> Self {
+        let mut slots = [RST; 3];
+        slots.iter_mut().zip(operands).for_each(|(to, from)| *to = *from);
+        let widths_of = slots.map(|slot| widths[slot as usize]);
+        Instruction { op, slots, widths: widths_of, dst, width: widths[dst as usize] }
+    }
+
+    /// The result, from the values of all slots.
     #[inline(always)]
-    pub fn compute(values: &[u128], widths: &[u32], instruction: &Instruction) -> u128 {
-        let [a, b, c] = instruction.operands.map(|slot| {
-            let slot = slot as usize;
-            Bits { value: values[slot], width: widths[slot] }
-        });
-        instruction.op.apply(widths[instruction.dst as usize], a, b, c)
+    pub fn compute(&self, values: &[u128]) -> u128 {
+        let operand = |i: usize| Bits { value: values[self.slots[i] as usize], width: self.widths[i] };
+        self.op.apply(self.width, operand(0), operand(1), operand(2))
     }
 }
 
@@ -212,11 +220,10 @@ impl Builder {
             self.sources.iter().map(|source| matches!(source, SlotSource::Constant)).collect();
         for slot in in_order(&self.sources, resolve) {
             let SlotSource::Op(op, operands) = &self.sources[slot as usize] else { continue };
-            let mut padded = [RST; 3];
-            padded.iter_mut().zip(operands).for_each(|(to, from)| *to = resolve(*from));
-            let instruction = Instruction { op: *op, operands: padded, dst: slot };
-            if padded[..operands.len()].iter().all(|slot| constant[*slot as usize]) {
-                flat.values[slot as usize] = Flat::compute(&flat.values, &flat.widths, &instruction);
+            let operands: Vec<Slot> = operands.iter().map(|slot| resolve(*slot)).collect();
+            let instruction = Instruction::new(*op, &operands, slot, &flat.widths);
+            if operands.iter().all(|slot| constant[*slot as usize]) {
+                flat.values[slot as usize] = instruction.compute(&flat.values);
                 constant[slot as usize] = true;
             } else {
                 flat.instructions.push(instruction);

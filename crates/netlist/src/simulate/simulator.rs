@@ -141,9 +141,9 @@ impl Simulator {
         if !std::mem::replace(&mut self.stale, false) {
             return;
         }
-        let Flat { values, widths, instructions, .. } = &mut self.flat;
+        let Flat { values, instructions, .. } = &mut self.flat;
         for instruction in instructions.iter() {
-            values[instruction.dst as usize] = Flat::compute(values, widths, instruction);
+            values[instruction.dst as usize] = instruction.compute(values);
         }
     }
 
