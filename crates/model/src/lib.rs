@@ -17,6 +17,7 @@ pub mod machine;
 pub mod memory;
 pub mod pixel;
 pub mod run;
+pub mod fast;
 pub mod setup;
 pub mod span;
 pub mod tokens;

@@ -33,14 +33,18 @@
 //! The meaning of every operator is the table in [`ops`].
 
 mod build;
+mod describe;
 mod error;
+pub mod mutate;
 mod names;
 pub mod netlist;
 pub mod ops;
 mod simulate;
+mod trace;
 
 pub use build::{Instance, Memory, Module, Operand, Reg, Signal, Wire};
 pub use error::{BuildError, BuildErrors, Fault, Place};
 pub use netlist::{Netlist, NodeId};
 pub use ops::Op;
 pub use simulate::{InputId, SignalId, SimError, Simulator};
+pub use trace::{FstTrace, VcdTrace};

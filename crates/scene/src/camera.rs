@@ -25,16 +25,28 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera that sees all between the corners `low` and `high` on a screen of any shape, from a little above and
-    /// to the right.
-    pub fn around([low, high]: [DVec3; 2]) -> Self {
+    /// A camera that sees all of `points` on a screen of any shape, from a little above and to the right, so near that
+    /// they fill a square one. The points are not all in one place.
+    pub fn around(points: &[DVec3]) -> Self {
         const ANGLE: f64 = 0.7;
-        let radius = (high - low).length() / 2.0;
-        let target = (low + high) / 2.0;
-        let distance = radius / (ANGLE / 2.0).sin();
-        let eye = target + DVec3::new(0.45, 0.35, 1.0).normalize() * distance;
-        // A little room, so that rounding clips nothing.
-        let room = 1.001 * radius;
+        /// Of the picture left free around what is seen; rounding then clips nothing.
+        const MARGIN: f64 = 0.05;
+        let bounds = |low: DVec3, high: DVec3, p: &DVec3| (low.min(*p), high.max(*p));
+        let (low, high) = points.iter().fold((points[0], points[0]), |(low, high), p| bounds(low, high, p));
+        let (target, radius) = ((low + high) / 2.0, (high - low).length() / 2.0);
+        let backward = DVec3::new(0.45, 0.5, 1.0).normalize();
+        let to_view = look_at_mat4(DVec3::ZERO, -backward, DVec3::Y);
+        // In view space a point p is in the picture if |x| and |y| <= (distance - z) tan(ANGLE / 2).
+        let slope = (ANGLE / 2.0).tan() * (1.0 - MARGIN);
+        let seen = points.iter().map(|point| to_view.transform_vector3(*point - target));
+        let (mut distance, mut depth) = (0.0f64, 0.0f64);
+        for p in seen {
+            depth = depth.max(p.z.abs());
+            distance = distance.max(p.z + p.x.abs().max(p.y.abs()) / slope);
+        }
+        let room = depth + MARGIN * radius;
+        let distance = distance.max(room + MARGIN * radius);
+        let eye = target + backward * distance;
         Self { eye, target, up: DVec3::Y, angle: ANGLE, near: distance - room, far: distance + room }
     }
 
@@ -53,18 +65,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_framed_box_lies_within_the_screen_whatever_its_shape() {
-        let bounds = [DVec3::new(-3.0, 10.0, 2.0), DVec3::new(1.0, 11.0, 900.0)];
-        let camera = Camera::around(bounds);
-        for (width, height) in [(640, 480), (480, 640), (1, 1000), (1000, 1)] {
-            let to_clip = camera.to_clip(width, height);
-            for corner in 0..8 {
-                let axis = |k: usize| bounds[corner >> k & 1][k];
-                let p = to_clip * DVec3::new(axis(0), axis(1), axis(2)).extend(1.0);
-                assert!(
-                    p.w > 0.0 && p.x.abs() <= p.w && p.y.abs() <= p.w && (0.0..=p.w).contains(&p.z),
-                    "{p}"
-                );
+    fn framed_points_lie_on_the_screen_whatever_its_shape() {
+        let cloud = |k: u32| {
+            let axis = |prime: u32| f64::from(k * prime % 101) / 101.0;
+            DVec3::new(-3.0 + 4.0 * axis(37), 10.0 + axis(53), 2.0 + 900.0 * axis(71))
+        };
+        let points: Vec<DVec3> = (0..101).map(cloud).collect();
+        for points in [&points[..], &points[..2]] {
+            let camera = Camera::around(points);
+            for (width, height) in [(500, 500), (640, 480), (480, 640), (1, 1000), (1000, 1)] {
+                let to_clip = camera.to_clip(width, height);
+                let mut widest = 0.0f64;
+                for p in points.iter().map(|point| to_clip * point.extend(1.0)) {
+                    assert!(
+                        p.w > 0.0 && p.x.abs() <= p.w && p.y.abs() <= p.w && (0.0..=p.w).contains(&p.z),
+                        "{p}"
+                    );
+                    widest = widest.max((p.x / p.w).abs()).max((p.y / p.w).abs());
+                }
+                assert!(widest > 0.9 || width != height, "{widest}");
             }
         }
     }

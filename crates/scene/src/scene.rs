@@ -41,8 +41,12 @@ impl Scene {
             "sphere" => Ok(Self::of_mesh(mesh::sphere(48, 24)?)),
             "torus" => Ok(Self::of_mesh(mesh::torus(64, 32)?)),
             "torus-knot" => Ok(Self::of_mesh(mesh::torus_knot(256, 24)?)),
-            "terrain" => Ok(Self::of_mesh(mesh::terrain(96)?)),
-            "room" => Ok(Self { camera: inside_the_room(), ..Self::of_mesh(mesh::room()?) }),
+            "terrain" => Ok(Self { camera: over_the_land(), ..Self::of_mesh(mesh::terrain(96)?) }),
+            "room" => Ok(Self {
+                camera: inside_the_room(),
+                lights: vec![light([0.6, 0.6, 0.5], 0.5), light([-0.6, 0.6, 0.5], 0.5)],
+                ..Self::of_mesh(mesh::room()?)
+            }),
             _ => {
                 let permitted = format!("permitted: {}", Self::BUILTIN.join(" "));
                 let mut fault = Fault::new("built-in scenes", None, "name", name, permitted);
@@ -67,16 +71,12 @@ impl Scene {
 
     /// A mesh in the middle of the picture, lit from above on the left.
     pub fn of_mesh(mesh: Mesh) -> Self {
-        let sun = DirectionalLight {
-            toward: DVec3::new(-0.45, 0.8, 0.75).normalize(),
-            intensity: DVec3::splat(0.85),
-        };
         Self {
-            camera: Camera::around(mesh.bounds()),
+            camera: Camera::around(mesh.positions()),
             mesh,
             crease: 1.0,
             ambient: DVec3::splat(0.2),
-            lights: vec![sun],
+            lights: vec![light([-0.45, 0.8, 0.75], 0.85)],
             background: DVec3::new(0.08, 0.09, 0.12),
         }
     }
@@ -104,6 +104,17 @@ impl Scene {
         }
         frame
     }
+}
+
+/// White light from a direction.
+fn light(toward: [f64; 3], intensity: f64) -> DirectionalLight {
+    DirectionalLight { toward: DVec3::from(toward).normalize(), intensity: DVec3::splat(intensity) }
+}
+
+/// Low over the land: its border is partly off the screen.
+fn over_the_land() -> Camera {
+    let eye = DVec3::new(0.15, 0.6, 1.35);
+    Camera { eye, target: DVec3::new(0.0, -0.1, 0.1), up: DVec3::Y, angle: 0.9, near: 0.1, far: 4.0 }
 }
 
 /// Near one wall, looking at the opposite one: walls reach behind the camera.

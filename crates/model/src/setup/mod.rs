@@ -131,7 +131,11 @@ impl Setup {
     }
 }
 
-/// The increments of a triangle, without tag and number; `None` if it is culled.
+/// The increments of a triangle at the port, without tag and number; `None` if it is culled.
+pub(crate) fn increments(machine: &Machine, vertices: &[PortVertex; 3]) -> Option<Prim> {
+    prepare(machine, &Sorted::new(machine, vertices))
+}
+
 fn prepare(machine: &Machine, sorted: &Sorted) -> Option<Prim> {
     let area = sorted.area();
     let parts = edges::parts(machine, sorted);

@@ -7,7 +7,6 @@ mod storage;
 mod structure;
 
 mod check;
-mod describe;
 mod paths;
 
 pub use module::Module;

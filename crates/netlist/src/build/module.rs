@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use std::panic::Location;
 use std::sync::Arc;
 
-use super::describe::describe;
 use super::operand::Operand;
 use super::signal::Signal;
 use super::storage::{Memory, Reg};
 use super::structure::{Instance, Wire};
 use super::{check, paths};
+use crate::describe::describe;
 use crate::error::{BuildError, BuildErrors, Fault, Place};
 use crate::names;
 use crate::netlist::{self, Item, Netlist, Node, NodeId, Source};

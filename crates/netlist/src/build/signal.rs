@@ -2,10 +2,10 @@
 
 use std::ops::{Add, BitAnd, BitOr, BitXor, Mul, Neg, Not, Sub};
 
-use super::describe::describe;
 use super::module::Module;
 use super::operand::Operand;
 use super::structure::Wire;
+use crate::describe::describe;
 use crate::error::Fault;
 use crate::netlist::NodeId;
 use crate::ops::Op;

@@ -24,7 +24,7 @@ pub struct Simulator {
 pub struct InputId(Slot);
 
 /// Any named signal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SignalId(Slot);
 
 /// A name or a value that does not fit the netlist.
@@ -81,9 +81,9 @@ impl Simulator {
         slot.map(|slot| SignalId(*slot)).ok_or_else(|| SimError::NoSignal(path.to_string()))
     }
 
-    /// The paths of all signals, in alphabetical order.
-    pub fn paths(&self) -> impl Iterator<Item = &str> {
-        self.flat.names.keys().map(String::as_str)
+    /// All signals with their paths, in alphabetical order. A signal may have several paths.
+    pub fn signals(&self) -> impl Iterator<Item = (&str, SignalId)> {
+        self.flat.names.iter().map(|(path, slot)| (path.as_str(), SignalId(*slot)))
     }
 
     /// Bits of a signal.

@@ -7,6 +7,9 @@ use glam::DVec3;
 /// Octaves of noise: each twice as fine and half as high as the one before.
 const OCTAVES: u32 = 5;
 
+/// Which landscape.
+const SEED: u32 = 40;
+
 /// A square of side 2 about the origin, `side` by `side` cells, heights about 0.
 pub(crate) fn terrain(side: u32) -> Result<Mesh, InputError> {
     let coordinate = |k: u32| 2.0 * f64::from(k) / f64::from(side) - 1.0;
@@ -37,17 +40,17 @@ pub(crate) fn terrain(side: u32) -> Result<Mesh, InputError> {
 /// Colours from a height on: sand, meadow, rock, snow.
 const LEVELS: [(f64, [f64; 3]); 4] = [
     (f64::NEG_INFINITY, [0.76, 0.68, 0.45]),
-    (-0.06, [0.35, 0.55, 0.25]),
-    (0.08, [0.5, 0.46, 0.42]),
-    (0.18, [0.95, 0.95, 0.97]),
+    (-0.08, [0.35, 0.55, 0.25]),
+    (0.04, [0.5, 0.46, 0.42]),
+    (0.13, [0.95, 0.95, 0.97]),
 ];
 
 fn height(x: f64, z: f64) -> f64 {
     let octave = |k: u32| {
         let fine = f64::from(1u32 << k);
-        noise(1.5 * fine * (x + 1.0), 1.5 * fine * (z + 1.0), k) / fine
+        noise(1.5 * fine * (x + 1.0), 1.5 * fine * (z + 1.0), SEED + k) / fine
     };
-    0.4 * (0..OCTAVES).map(octave).sum::<f64>()
+    0.25 * (0..OCTAVES).map(octave).sum::<f64>()
 }
 
 /// Smooth between random values at integer points, in [-1, 1]; x and z are not negative.

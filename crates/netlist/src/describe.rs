@@ -4,7 +4,7 @@ use crate::netlist::{Netlist, NodeId, Source};
 
 const DEPTH: u32 = 3;
 
-pub(super) fn describe(netlist: &Netlist, source: &Source) -> String {
+pub(crate) fn describe(netlist: &Netlist, source: &Source) -> String {
     text(netlist, source, DEPTH)
 }
 

@@ -1,0 +1,226 @@
+//! The machine's clock without ticking: when each line, span and fragment passes, and what every cycle was spent on.
+//!
+//! ```text
+//!  SETUP            EDGE               SPAN FIFO            PIXEL                 DEPTH
+//!  a ─S1,S2─> prim p ─> line, one ─push u─> room for F ─pop o─> count·T clocks ─D─> read r ─L─> compare
+//! ```
+//! Every time is the greatest of what it waits for (max-plus), section by section of `docs/machine.md`:
+//! - 2: `a' = p + 1`, or `a + S1 + 1` if culled; `p = max(a + S1 + S2 + 1, EDGE free, first span popped + 1)`;
+//! - 3, 4: a line leaves EDGE a clock after the one before, span k not before `o(k−F) + 1`, the cycle in which the
+//!   registered FIFO shows the room;
+//! - 4, 5: `o(k) = max(u(k) + 1, o(k−1) + count·T)`: the registered FIFO shows the token; PIXEL takes it in its last clock;
+//! - 5, 6: a fragment is read D cycles after its last clock, `r`; it is in the queue until `r + L`, and w holds it in
+//!   `r + L + 1` if it passed.
+//!
+//! Drain: the fragment with the fence stands still until the queue and w are empty, and PIXEL with it: whatever PIXEL
+//! would do from that cycle on is so much later. At most D + 1 fences are on their way at a time.
+//!
+//! Cycles are counted by cause (section 8) in order: `counted` is the first that is not yet.
+//!
+//! Not here: a queue that fills and addresses in flight under interlock; such frames are ticked.
+
+use crate::counters::Activity;
+use crate::fifo::Fifo;
+use crate::setup::{SetupClocks, setup_clocks};
+use edgewalk_numerics::{Hazard, Machine};
+
+/// The last fragment of a span, as DEPTH sees it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LastRead {
+    /// Cycle of its read; 0 before the first.
+    pub cycle: u64,
+    /// It passes the depth test, and so is in w a cycle longer.
+    pub passed: bool,
+}
+
+impl LastRead {
+    /// The first cycle in which nothing is in flight any more.
+    fn drained(self, latency: u64) -> u64 {
+        self.cycle + latency + 1 + u64::from(self.passed)
+    }
+}
+
+/// A fragment with a fence on its way from PIXEL to DEPTH.
+#[derive(Clone, Copy, Debug, Default)]
+struct Fence {
+    /// The cycle in which it reaches DEPTH.
+    arrival: u64,
+    /// The fragment before it; none: nothing to wait for.
+    before: Option<LastRead>,
+}
+
+/// The times of the machine, from triangle to triangle.
+#[derive(Clone, Debug)]
+pub(super) struct Clock {
+    setup: SetupClocks,
+    span_fifo: usize,
+    /// T: clocks a pixel.
+    pixel: u64,
+    /// D: clocks from PIXEL to DEPTH.
+    segments: u64,
+    /// L: clocks from read to compare.
+    latency: u64,
+    drain: bool,
+
+    /// a: the cycle in which SETUP takes the next triangle.
+    take: u64,
+    /// EDGE takes a prim not before.
+    edge_free: u64,
+    /// EDGE offers the next line from this cycle on.
+    line: u64,
+    /// The cycle after the pop of each of the last 64 spans.
+    room: [u64; 64],
+    spans: u64,
+    /// PIXEL pops not before.
+    pixel_free: u64,
+    last: Option<LastRead>,
+    fences: Fifo<Fence, 8>,
+    counted: u64,
+    activity: [u64; 9],
+}
+
+impl Clock {
+    pub(super) fn new(machine: &Machine) -> Self {
+        Clock {
+            setup: setup_clocks(machine),
+            span_fifo: machine.span_fifo as usize,
+            pixel: u64::from(machine.clocks_per_pixel()),
+            segments: u64::from(machine.segments),
+            latency: u64::from(machine.latency),
+            drain: machine.hazard == Hazard::Drain,
+            take: 0,
+            edge_free: 0,
+            line: 0,
+            room: [0; 64],
+            spans: 0,
+            pixel_free: 0,
+            last: None,
+            fences: Fifo::default(),
+            counted: 0,
+            activity: [0; 9],
+        }
+    }
+
+    /// A triangle that SETUP culls.
+    pub(super) fn culled(&mut self) {
+        self.enter_setup();
+        self.take += u64::from(self.setup.phase1) + 1;
+    }
+
+    /// A triangle that EDGE takes; its lines follow.
+    pub(super) fn triangle(&mut self) {
+        self.enter_setup();
+        let ready = self.take + u64::from(self.setup.phase1) + u64::from(self.setup.phase2) + 1;
+        let prim = ready.max(self.edge_free);
+        self.take = prim + 1;
+        self.line = prim + 1;
+        self.spend(prim + 1, Activity::Setup);
+    }
+
+    /// SETUP works until it takes the next triangle, and is IDLE in that cycle.
+    fn enter_setup(&mut self) {
+        self.spend(self.take, Activity::Setup);
+        if self.counted == self.take {
+            let flush = self.last.is_some_and(|last| self.take < last.drained(self.latency));
+            self.spend(self.take + 1, if flush { Activity::Flush } else { Activity::Idle });
+        }
+    }
+
+    /// A line without a pixel.
+    #[inline]
+    pub(super) fn empty_line(&mut self) {
+        self.line += 1;
+    }
+
+    /// A line of `skip` pixels off the screen and then `drawn` on it; `fresh`: the first of its triangle. Returns the
+    /// cycle in which the first fragment reaches DEPTH.
+    #[inline]
+    pub(super) fn span(&mut self, skip: u32, drawn: u32, fresh: bool, fence: bool, passed: bool) -> u64 {
+        let place = self.spans as usize;
+        let push = self.line.max(self.room[place.wrapping_sub(self.span_fifo) & 63]);
+        self.line = push + 1;
+        let mut pop = self.pixel_free.max(push + 1);
+        while !self.fences.is_empty() && self.fences.head().arrival <= pop {
+            self.pass_fence(Activity::Edge);
+            pop = self.pixel_free.max(push + 1);
+        }
+        self.room[place & 63] = pop + 1;
+        self.spans += 1;
+        if fresh {
+            self.edge_free = pop + 1;
+        }
+
+        let (skip, drawn) = (u64::from(skip) * self.pixel, u64::from(drawn) * self.pixel);
+        self.activity[Activity::Edge as usize] += pop + 1 - self.counted;
+        self.activity[Activity::Offscreen as usize] += skip;
+        self.activity[Activity::Draw as usize] += drawn;
+        let arrival = pop + skip + self.pixel + self.segments;
+        if fence && self.drain {
+            self.fences.push(Fence { arrival, before: self.last });
+        }
+        self.pixel_free = pop + skip + drawn;
+        self.counted = self.pixel_free + 1;
+        self.last = Some(LastRead { cycle: self.pixel_free + self.segments, passed });
+        arrival
+    }
+
+    /// The last line of the triangle has left EDGE.
+    pub(super) fn end_triangle(&mut self) {
+        self.edge_free = self.edge_free.max(self.line);
+        self.spend(self.line, Activity::Edge);
+    }
+
+    /// Counts the cycles before `until` in which PIXEL has nothing to do.
+    fn spend(&mut self, until: u64, cause: Activity) {
+        if until <= self.counted {
+            return;
+        }
+        while !self.fences.is_empty() && self.fences.head().arrival < until {
+            self.pass_fence(cause);
+        }
+        self.activity[cause as usize] += until.saturating_sub(self.counted);
+        self.counted = self.counted.max(until);
+    }
+
+    /// Lets the oldest fence through; PIXEL stands still while it waits. `cause`: of the cycles before, if PIXEL has
+    /// nothing to do.
+    fn pass_fence(&mut self, cause: Activity) {
+        let Fence { arrival, before } = *self.fences.head();
+        self.fences.pop();
+        let read = before.map_or(arrival, |last| last.drained(self.latency).max(arrival));
+        let wait = read - arrival;
+        self.activity[Activity::Hazard as usize] += wait;
+        if arrival < self.counted {
+            self.counted += wait;
+            self.pixel_free += wait;
+        } else {
+            self.activity[cause as usize] += arrival - self.counted;
+            self.counted = read;
+            self.pixel_free = read;
+        }
+        // The fragments behind it are later too: itself, the one before the next fence, and so on.
+        if let Some(last) = &mut self.last {
+            last.cycle += wait;
+        }
+        for i in 0..self.fences.len() {
+            let fence = self.fences.at_mut(i);
+            fence.arrival += wait;
+            if let Some(last) = &mut fence.before {
+                last.cycle += wait;
+            }
+        }
+    }
+
+    /// No triangle is left: cycles by cause until the first idle one, itself included, and the spans.
+    pub(super) fn finish(mut self) -> ([u64; 9], u64) {
+        self.spend(self.take, Activity::Setup);
+        while !self.fences.is_empty() {
+            self.pass_fence(Activity::Flush);
+        }
+        if let Some(last) = self.last {
+            self.spend(last.drained(self.latency), Activity::Flush);
+        }
+        self.spend(self.counted + 1, Activity::Idle);
+        (self.activity, self.spans)
+    }
+}

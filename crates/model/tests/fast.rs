@@ -1,0 +1,118 @@
+//! The fast path against ticking: every pixel, every count, over machines and triangles drawn at random.
+
+use edgewalk_model::fast::{self, Path, Reason};
+use edgewalk_model::{Activity, DrawState, Stalls, render};
+use edgewalk_numerics::machine::keys::{Domain, KEYS};
+use edgewalk_numerics::{Machine, PortVertex};
+use rand::{Rng, SeedableRng, rngs::StdRng};
+
+type Triangle = [PortVertex; 3];
+
+/// A machine with every key drawn at random, on a small screen.
+fn random_machine(rng: &mut impl Rng) -> Machine {
+    loop {
+        let mut machine = Machine::default();
+        for key in KEYS {
+            let value = match key.domain {
+                Domain::Range(low, high) => rng.random_range(low..=high),
+                Domain::OneOf(list) => list[rng.random_range(0..list.len())],
+                Domain::Word(words) => rng.random_range(0..words.len() as u32),
+            };
+            (key.set)(&mut machine, value);
+        }
+        machine.width = rng.random_range(1..80);
+        machine.height = rng.random_range(1..60);
+        if rng.random_bool(0.5) {
+            machine.span_fifo = rng.random_range(1..5);
+        }
+        if machine.check().is_ok() {
+            return machine;
+        }
+    }
+}
+
+/// Triangles of every kind: tiny ones that pile up, large ones, degenerate ones, off the screen, to the guard band.
+fn random_triangles(machine: &Machine, rng: &mut impl Rng) -> Vec<Triangle> {
+    let one = f64::from(1u32 << machine.subpixel_bits);
+    let limit = f64::from((1u32 << machine.guard_bits) - 1);
+    let mut middle = [0.0; 2];
+    let count = rng.random_range(0..60);
+    (0..count)
+        .map(|_| {
+            if rng.random_bool(0.6) {
+                middle =
+                    [machine.width, machine.height].map(|side| rng.random_range(-0.2..1.2) * f64::from(side));
+            }
+            let size = 2f64.powf(rng.random_range(-2.0..7.5)).min(limit);
+            let wide = rng.random_bool(0.1);
+            let mut triangle: Triangle = std::array::from_fn(|_| {
+                let [x, y] = middle.map(|m| {
+                    let reach = if wide && rng.random_bool(0.5) { limit } else { size };
+                    ((m + rng.random_range(-0.5..=0.5) * reach).clamp(-limit, limit) * one).round() as i32
+                });
+                let value = machine.channels().map(|c| rng.random_range(0..=c.max() << c.vertex_fraction));
+                PortVertex { x, y, value }
+            });
+            match rng.random_range(0..20) {
+                0 => triangle[1] = triangle[0],
+                1 => triangle[2].y = triangle[1].y,
+                2 => triangle[1].y = triangle[0].y,
+                3 => triangle[2].x = (triangle[0].x + triangle[1].x) / 2,
+                _ => {}
+            }
+            triangle
+        })
+        .collect()
+}
+
+/// Draws both ways and compares all that can be seen.
+fn compare(machine: &Machine, triangles: &[Triangle], state: DrawState) -> Path {
+    let fast = fast::draw(machine, triangles.iter().copied(), state);
+    let tick = render(machine, triangles.iter().copied(), state, Stalls::NONE);
+    let context = || format!("{:?} {state:?} {machine:?} {} triangles", fast.path(), triangles.len());
+    let spent = |counters: &edgewalk_model::Counters| Activity::ALL.map(|a| (a.name(), counters.spent(a)));
+    assert_eq!(spent(fast.counters()), spent(&tick.counters), "{}", context());
+    assert_eq!(*fast.counters(), tick.counters, "{}", context());
+    assert!(fast.counters().add_up());
+    let z: Vec<u64> = fast.z().iter().map(|z| u64::from(*z)).collect();
+    assert!(z == tick.z, "depths differ: {}", context());
+    let rgb: Vec<_> = (0..tick.rgb.len()).map(|i| fast.rgb(i)).collect();
+    assert!(rgb == tick.rgb, "colours differ: {}", context());
+    let (coverage, writes, id) = fast.details();
+    assert!(coverage == tick.coverage, "coverage differs: {}", context());
+    assert!(writes == tick.writes, "writes differ: {}", context());
+    assert!(id == tick.id, "ids differ: {}", context());
+    let mut bare = fast::Renderer::new(machine, false);
+    bare.draw(triangles.iter().copied(), state);
+    assert!((bare.z(), bare.counters()) == (fast.z(), fast.counters()), "without details: {}", context());
+    assert!((0..tick.rgb.len()).all(|i| bare.rgb(i) == fast.rgb(i)), "without details: {}", context());
+    fast.path()
+}
+
+#[test]
+fn random_machines_equal_ticking() {
+    let mut rng = StdRng::seed_from_u64(1);
+    let (mut fast, mut queue, mut interlock) = (0, 0, 0);
+    let mut fragments = 0;
+    for _ in 0..600 {
+        let machine = random_machine(&mut rng);
+        for _ in 0..3 {
+            let triangles = random_triangles(&machine, &mut rng);
+            let state = DrawState {
+                depth_func: if rng.random_bool(0.5) { 1 } else { rng.random_range(0..8) },
+                depth_write: rng.random_bool(0.8),
+                clear: [0; 3].map(|_: u64| rng.random_range(0..=machine.color.max())),
+            };
+            match compare(&machine, &triangles, state) {
+                Path::Fast => fast += 1,
+                Path::Ticked(Reason::Queue) => queue += 1,
+                Path::Ticked(Reason::Interlock) => interlock += 1,
+            }
+            fragments += triangles.len();
+        }
+    }
+    println!(
+        "1800 frames, {fragments} triangles: {fast} fast, {queue} ticked for the queue, {interlock} for an interlock"
+    );
+    assert!(fast > queue + interlock, "more than half must take the fast path");
+}

@@ -1,0 +1,244 @@
+//! Mutants: netlists with a single fault, to try a test suite before trusting it.
+//!
+//! A mutant changes one place of one module, wherever that module is used. None of them makes a combinational loop or
+//! changes a width. Some are equivalent to the original (a `<` whose sides are never equal): that is for the suite's
+//! author to argue.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use crate::describe::describe;
+use crate::netlist::{Netlist, NodeId, Source};
+use crate::ops::{Op, mask};
+
+/// A single fault.
+#[derive(Clone, Debug)]
+pub struct Mutant {
+    /// The module it is in.
+    pub module: String,
+    /// What was changed, in words.
+    pub description: String,
+    change: Change,
+}
+
+/// A change of one place of a module.
+#[derive(Clone, Debug)]
+enum Change {
+    /// The source of a node.
+    Source(NodeId, Source),
+    /// The condition of update `update` of a register is always 1.
+    AlwaysUpdate { register: usize, update: usize },
+    /// That update never happens; there are others.
+    NeverUpdate { register: usize, update: usize },
+    /// The reset value of a register, or none.
+    Reset(usize, Option<u128>),
+    /// The initial value of a memory.
+    Init(usize, u128),
+    /// Two inputs of an instance are exchanged.
+    Exchange { instance: usize, inputs: [usize; 2] },
+}
+
+/// All mutants of a netlist and of every module in it, those of the innermost first.
+pub fn mutants(netlist: &Arc<Netlist>) -> Vec<Mutant> {
+    let of = |module: &Arc<Netlist>| {
+        let changes = operators(module).into_iter().chain(registers(module)).chain(structure(module));
+        let name = module.name.clone();
+        let mutant = move |(description, change)| Mutant { module: name.clone(), description, change };
+        changes.map(mutant).collect::<Vec<_>>()
+    };
+    netlist.modules().iter().flat_map(of).collect()
+}
+
+impl Mutant {
+    /// The netlist with this fault; it must be the one the mutant was made for.
+    pub fn apply(&self, netlist: &Arc<Netlist>) -> Arc<Netlist> {
+        // Modules come after those they use, so each finds its parts done.
+        let mut done: HashMap<String, Arc<Netlist>> = HashMap::new();
+        for module in netlist.modules() {
+            let mut changed = Netlist::clone(&module);
+            for instance in &mut changed.instances {
+                if let Some(part) = done.get(&instance.module.name) {
+                    instance.module = Arc::clone(part);
+                }
+            }
+            if module.name == self.module {
+                self.change.apply(&mut changed);
+            }
+            done.insert(module.name.clone(), Arc::new(changed));
+        }
+        done.get(&netlist.name).map_or_else(|| Arc::clone(netlist), Arc::clone)
+    }
+}
+
+impl Change {
+    fn apply(&self, netlist: &mut Netlist) {
+        match self {
+            Change::Source(id, source) => netlist.nodes[id.index()].source = source.clone(),
+            Change::AlwaysUpdate { register, update } => {
+                netlist.registers[*register].updates[*update].when = None;
+            }
+            Change::NeverUpdate { register, update } => {
+                netlist.registers[*register].updates.remove(*update);
+            }
+            Change::Reset(register, value) => netlist.registers[*register].reset = *value,
+            Change::Init(memory, value) => netlist.memories[*memory].init = *value,
+            Change::Exchange { instance, inputs: [one, two] } => {
+                netlist.instances[*instance].connections.swap(*one, *two);
+            }
+        }
+    }
+}
+
+/// Another operator, other operands, another constant: of every node that something depends on.
+fn operators(netlist: &Netlist) -> Vec<(String, Change)> {
+    let mut found = Vec::new();
+    for id in live(netlist) {
+        let node = netlist.node(id);
+        let text = describe(netlist, &node.source);
+        let mut add = |source: Source| {
+            let description = format!("`{text}` becomes `{}`", describe(netlist, &source));
+            found.push((description, Change::Source(id, source)));
+        };
+        match &node.source {
+            Source::Constant { value, .. } => {
+                let value = value.wrapping_add(1) & mask(node.width);
+                add(Source::Constant { value, name: None });
+            }
+            Source::Op(op, operands) => {
+                for other in others(*op) {
+                    add(Source::Op(other, operands.clone()));
+                }
+                if let Some(exchanged) = exchanged(*op, operands) {
+                    add(Source::Op(*op, exchanged));
+                }
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// What an operator is confused with: the same operands, the same width.
+fn others(op: Op) -> Vec<Op> {
+    use Op::*;
+    match op {
+        Add => vec![Sub],
+        Sub => vec![Add],
+        Mul => vec![MulSigned],
+        MulSigned => vec![Mul],
+        And => vec![Or],
+        Or => vec![And, Xor],
+        Xor => vec![Or],
+        Eq => vec![Ne],
+        Ne => vec![Eq],
+        Lt => vec![Le, LtSigned],
+        Le => vec![Lt, LeSigned],
+        Gt => vec![Ge, GtSigned],
+        Ge => vec![Gt, GeSigned],
+        LtSigned => vec![LeSigned, Lt],
+        LeSigned => vec![LtSigned, Le],
+        GtSigned => vec![GeSigned, Gt],
+        GeSigned => vec![GtSigned, Ge],
+        Shl(n) => vec![Shl(n + 1)],
+        Shr(n) => vec![Shr(n + 1)],
+        Sar(n) => vec![Sar(n + 1), Shr(n)],
+        SarBy => vec![ShrBy],
+        ShrBy => vec![SarBy],
+        ShlBy => vec![ShrBy],
+        Slice { hi, lo } if lo > 0 => vec![Slice { hi: hi - 1, lo: lo - 1 }],
+        SignExtend(w) => vec![ZeroExtend(w)],
+        ZeroExtend(w) => vec![SignExtend(w)],
+        Any => vec![All],
+        All => vec![Any],
+        Neg => vec![Not],
+        Not => vec![Neg],
+        Slice { .. } | Mux | Concat | Parity => vec![],
+    }
+}
+
+/// The two operands the other way round, where that makes a difference.
+fn exchanged(op: Op, operands: &[NodeId]) -> Option<Vec<NodeId>> {
+    match (op, operands) {
+        (Op::Mux, &[condition, then, otherwise]) => Some(vec![condition, otherwise, then]),
+        (Op::Sub | Op::Lt | Op::Le | Op::LtSigned | Op::LeSigned, &[a, b]) => Some(vec![b, a]),
+        _ => None,
+    }
+}
+
+fn registers(netlist: &Netlist) -> Vec<(String, Change)> {
+    let mut found = Vec::new();
+    for (index, register) in netlist.registers.iter().enumerate() {
+        let name = &register.name;
+        for (update, one) in register.updates.iter().enumerate() {
+            let Some(condition) = one.when else { continue };
+            let condition = describe(netlist, &netlist.node(condition).source);
+            let change = Change::AlwaysUpdate { register: index, update };
+            found.push((format!("`{name}` is updated always instead of when `{condition}`"), change));
+            if register.updates.len() > 1 {
+                let change = Change::NeverUpdate { register: index, update };
+                found.push((format!("`{name}` is never updated when `{condition}`"), change));
+            }
+        }
+        if let Some(value) = register.reset {
+            let other = value ^ 1;
+            found.push((
+                format!("`{name}` is reset to {other} instead of {value}"),
+                Change::Reset(index, Some(other)),
+            ));
+            found.push((format!("`{name}` is not reset"), Change::Reset(index, None)));
+        }
+    }
+    found
+}
+
+fn structure(netlist: &Netlist) -> Vec<(String, Change)> {
+    let mut found = Vec::new();
+    for (index, memory) in netlist.memories.iter().enumerate() {
+        let other = memory.init ^ 1;
+        let text = format!("`{}` starts with {other} instead of {}", memory.name, memory.init);
+        found.push((text, Change::Init(index, other)));
+    }
+    for (index, instance) in netlist.instances.iter().enumerate() {
+        let module = &instance.module;
+        // Only inputs with a register behind them: there is no loop to make.
+        let held = |input: &usize| !module.paths.iter().flatten().any(|of| of == input);
+        let held: Vec<usize> = (0..module.inputs.len()).filter(held).collect();
+        let width = |input: usize| module.width(module.inputs[input].node);
+        for (place, one) in held.iter().enumerate() {
+            // The next input of the same width, not every pair.
+            let Some(two) = held[place + 1..].iter().find(|two| width(**two) == width(*one)) else {
+                continue;
+            };
+            let names = [one, two].map(|input| &module.inputs[*input].name);
+            let text = format!("`{}` and `{}` of `{}` are exchanged", names[0], names[1], instance.name);
+            found.push((text, Change::Exchange { instance: index, inputs: [*one, *two] }));
+        }
+    }
+    found
+}
+
+/// The nodes that an output, a register, a memory or an instance depends on, in ascending order.
+fn live(netlist: &Netlist) -> Vec<NodeId> {
+    let mut todo: Vec<NodeId> = netlist.outputs.iter().map(|output| output.driver).collect();
+    for update in netlist.registers.iter().flat_map(|register| &register.updates) {
+        todo.extend(update.when);
+        todo.push(update.value);
+    }
+    for memory in &netlist.memories {
+        todo.extend(memory.writes.iter().flat_map(|port| [port.en, port.addr, port.data]));
+        todo.extend(memory.reads.iter().flat_map(|port| [port.en, port.addr]));
+    }
+    todo.extend(netlist.instances.iter().flat_map(|instance| &instance.connections));
+    let mut seen = vec![false; netlist.nodes.len()];
+    while let Some(id) = todo.pop() {
+        if std::mem::replace(&mut seen[id.index()], true) {
+            continue;
+        }
+        match &netlist.node(id).source {
+            Source::Op(_, operands) => todo.extend(operands),
+            Source::Wire(wire) => todo.push(netlist.wires[*wire].driver),
+            _ => {}
+        }
+    }
+    netlist.ids().filter(|id| seen[id.index()]).collect()
+}

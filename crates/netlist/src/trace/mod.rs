@@ -1,0 +1,11 @@
+//! Waveforms of a running simulator, as VCD or FST, written to whatever the caller opened.
+//!
+//! A trace has a scope for the top module and one for each instance in it; every named signal is there, and `clk`.
+//! A cycle lasts 10 ns and begins with the rising edge, so a sample is what the signals are until the next edge.
+
+mod fst;
+mod vcd;
+mod watch;
+
+pub use fst::FstTrace;
+pub use vcd::VcdTrace;

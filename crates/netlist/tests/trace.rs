@@ -1,0 +1,97 @@
+//! What a viewer reads back from a trace is what the simulator said.
+#![allow(clippy::unwrap_used)] // a test may
+
+use std::io::Cursor;
+use std::sync::Arc;
+
+use edgewalk_netlist::{FstTrace, Module, Netlist, Simulator, VcdTrace};
+
+/// Two counters of different width, one inside an instance inside an instance.
+fn counters() -> Arc<Netlist> {
+    let counter = |name: &str, width| {
+        let m = Module::new(name, "");
+        let step = m.input("step", 1);
+        let count = m.reg("count", width).reset(0);
+        count.when(step, count.q() + 1);
+        m.output("q", count);
+        m.finish().unwrap()
+    };
+    let (small, large) = (counter("narrow", 3), counter("broad", 100));
+    let m = Module::new("middle", "");
+    let inner = m.instance("u_small", &small).connect("step", m.input("step", 1));
+    m.output("q", inner.output("q"));
+    let middle = m.finish().unwrap();
+    let m = Module::new("top", "");
+    let step = m.input("step", 1);
+    let one = m.instance("u_middle", &middle).connect("step", step);
+    let two = m.instance("u_large", &large).connect("step", !step);
+    m.output("both", one.output("q").any() & two.output("q").bit(99));
+    m.finish().unwrap()
+}
+
+const CYCLES: u64 = 40;
+
+/// Runs the counters; `sample` sees every cycle. Returns what some signals were, by cycle.
+fn run(mut sample: impl FnMut(&mut Simulator)) -> Vec<[u128; 3]> {
+    let mut sim = Simulator::new(&counters());
+    (0..CYCLES)
+        .map(|cycle| {
+            sim.set_input("rst", u128::from(cycle == 20)).unwrap();
+            sim.set_input("step", u128::from(cycle % 3 != 0)).unwrap();
+            sample(&mut sim);
+            let values = WATCHED.map(|path| sim.get(path).unwrap());
+            sim.tick();
+            values
+        })
+        .collect()
+}
+
+const WATCHED: [&str; 3] = ["step", "u_middle.u_small.count", "u_large.count"];
+
+fn check(file: Vec<u8>, expected: &[[u128; 3]]) {
+    let mut wave = wellen::simple::read_from_reader(Cursor::new(file)).unwrap();
+    let paths = WATCHED.map(|path| format!("top.{path}"));
+    let mut compared = 0;
+    for (column, path) in paths.iter().chain([&"top.clk".to_string()]).enumerate() {
+        let parts: Vec<&str> = path.split('.').collect();
+        let (name, scopes) = parts.split_last().unwrap();
+        let variable = wave.hierarchy().lookup_var(scopes, *name).unwrap_or_else(|| panic!("no {path}"));
+        let signal = wave.hierarchy()[variable].signal_ref();
+        wave.load_signals(&[signal]);
+        // The value in the middle of each half of a cycle.
+        for half in 0..2 * CYCLES {
+            let index = wave.time_table().partition_point(|time| *time <= half * 5 + 2) - 1;
+            let signal = wave.get_signal(signal).unwrap();
+            let offset = signal.get_offset(index as u32).unwrap();
+            let bits = signal.get_value_at(&offset, 0).to_bit_string().unwrap();
+            let found = u128::from_str_radix(&bits, 2).unwrap();
+            let wanted = match expected[half as usize / 2].get(column) {
+                Some(value) => *value,
+                None => u128::from(half % 2 == 0), // clk
+            };
+            assert_eq!(found, wanted, "{path} at {} ns", half * 5 + 2);
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 4 * 2 * CYCLES);
+    assert_eq!(*wave.time_table().last().unwrap(), CYCLES * 10, "the last cycle has its length");
+}
+
+#[test]
+fn vcd_reads_back() {
+    let mut file = Vec::new();
+    let mut trace = VcdTrace::new(&mut file, &Simulator::new(&counters()), "top").unwrap();
+    let expected = run(|sim| trace.sample(sim).unwrap());
+    trace.finish().unwrap();
+    assert!(String::from_utf8_lossy(&file).starts_with("$timescale 1 ns $end\n$scope module top $end\n"));
+    check(file, &expected);
+}
+
+#[test]
+fn fst_reads_back() {
+    let mut file = Cursor::new(Vec::new());
+    let mut trace = FstTrace::new(&mut file, &Simulator::new(&counters()), "top").unwrap();
+    let expected = run(|sim| trace.sample(sim).unwrap());
+    trace.finish().unwrap();
+    check(file.into_inner(), &expected);
+}
