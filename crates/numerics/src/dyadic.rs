@@ -3,6 +3,7 @@
 use crate::rounding::Rounding;
 use std::cmp::Ordering;
 use std::fmt;
+use std::ops::Neg;
 
 /// `numerator / 2^fraction_bits`, kept in lowest terms, so equal values are equal structs.
 ///
@@ -24,19 +25,21 @@ impl Dyadic {
     /// 1.
     pub const ONE: Dyadic = Dyadic { numerator: 1, fraction_bits: 0 };
 
-    /// `numerator / 2^fraction_bits`; `None` if in lowest terms that is finer than 2^-126.
+    /// `numerator / 2^fraction_bits`; `None` if in lowest terms that is finer than 2^-126, or is -2^127, the one
+    /// numerator without a negative.
     pub fn new(numerator: i128, fraction_bits: u32) -> Option<Dyadic> {
-        let shift = numerator.trailing_zeros().min(fraction_bits);
         if numerator == 0 {
             return Some(Dyadic::ZERO);
         }
+        let shift = numerator.trailing_zeros().min(fraction_bits);
         let lowest = Dyadic { numerator: numerator >> shift, fraction_bits: fraction_bits - shift };
-        (lowest.fraction_bits <= Dyadic::MAX_FRACTION_BITS).then_some(lowest)
+        let held = lowest.fraction_bits <= Dyadic::MAX_FRACTION_BITS && lowest.numerator != i128::MIN;
+        held.then_some(lowest)
     }
 
     /// The integer `value`.
-    pub const fn integer(value: i128) -> Dyadic {
-        Dyadic { numerator: value, fraction_bits: 0 }
+    pub const fn integer(value: i64) -> Dyadic {
+        Dyadic { numerator: value as i128, fraction_bits: 0 }
     }
 
     /// The numerator in lowest terms.
@@ -65,14 +68,9 @@ impl Dyadic {
         Dyadic::new(self.scaled(bits)?.checked_add(other.scaled(bits)?)?, bits)
     }
 
-    /// Negative.
-    pub fn checked_neg(self) -> Option<Dyadic> {
-        Some(Dyadic { numerator: self.numerator.checked_neg()?, ..self })
-    }
-
     /// Difference.
     pub fn checked_sub(self, other: Dyadic) -> Option<Dyadic> {
-        self.checked_add(other.checked_neg()?)
+        self.checked_add(-other)
     }
 
     /// Product.
@@ -84,27 +82,33 @@ impl Dyadic {
     }
 
     /// Magnitude.
-    pub fn checked_abs(self) -> Option<Dyadic> {
-        if self.numerator < 0 { self.checked_neg() } else { Some(self) }
+    #[must_use]
+    pub fn abs(self) -> Dyadic {
+        if self.numerator < 0 { -self } else { self }
     }
 
     /// The neighbour with `fraction_bits` fraction bits that `rounding` chooses.
+    #[must_use]
     pub fn round(self, fraction_bits: u32, rounding: Rounding) -> Dyadic {
         let Some(excess) = self.fraction_bits.checked_sub(fraction_bits).filter(|excess| *excess > 0) else {
             return self;
         };
-        // The divisor is at most 2^126 and positive and the quotient smaller than the numerator, so both
-        // steps succeed; the unrounded value would be the honest answer if they did not.
-        rounding
-            .divide(self.numerator, 1 << excess)
-            .and_then(|n| Dyadic::new(n, fraction_bits))
-            .unwrap_or(self)
+        let rounded = rounding.divide(self.numerator, 1 << excess).expect("a divisor from 2 to 2^126");
+        Dyadic::new(rounded, fraction_bits).expect("coarser than before, and at least halved")
     }
 
     /// The nearest `f64` (exact up to 53 significant bits).
     pub fn to_f64(self) -> f64 {
         // Two exact powers of two: 2^-126 is a normal f64.
         self.numerator as f64 * (-f64::from(self.fraction_bits)).exp2()
+    }
+}
+
+impl Neg for Dyadic {
+    type Output = Dyadic;
+
+    fn neg(self) -> Dyadic {
+        Dyadic { numerator: -self.numerator, ..self } // never -2^127
     }
 }
 

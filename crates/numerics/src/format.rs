@@ -94,8 +94,7 @@ impl Format {
 
     /// The number that a raw value stands for.
     pub(crate) fn value_of(self, raw: i128) -> Dyadic {
-        // At most 120 fraction bits, so the number exists.
-        Dyadic::new(raw, self.fraction_bits).unwrap_or(Dyadic::ZERO)
+        Dyadic::new(raw, self.fraction_bits).expect("at most 120 bits in all")
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::dyadic::Dyadic;
 use crate::rounding::Rounding;
 use std::fmt;
+use std::ops::Neg;
 
 /// All numbers from `low` to `high`, both included.
 ///
@@ -47,17 +48,12 @@ impl Interval {
 
     /// All sums of a member of each.
     pub fn checked_add(self, other: Interval) -> Option<Interval> {
-        Interval::new(self.low.checked_add(other.low)?, self.high.checked_add(other.high)?)
-    }
-
-    /// All negatives.
-    pub fn checked_neg(self) -> Option<Interval> {
-        Interval::new(self.high.checked_neg()?, self.low.checked_neg()?)
+        Some(Interval { low: self.low.checked_add(other.low)?, high: self.high.checked_add(other.high)? })
     }
 
     /// All differences of independent members (so `x - x` is not zero but as wide as twice `x`).
     pub fn checked_sub(self, other: Interval) -> Option<Interval> {
-        self.checked_add(other.checked_neg()?)
+        self.checked_add(-other)
     }
 
     /// All products of independent members.
@@ -68,16 +64,18 @@ impl Interval {
             self.high.checked_mul(other.low)?,
             self.high.checked_mul(other.high)?,
         ];
-        Interval::new(corners.into_iter().min()?, corners.into_iter().max()?)
+        Some(Interval { low: corners.into_iter().min()?, high: corners.into_iter().max()? })
     }
 
     /// The smallest interval that contains both.
+    #[must_use]
     pub fn hull(self, other: Interval) -> Interval {
         Interval { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
     /// Where the members lie after rounding to `fraction_bits`. Every rounding is monotone, so the rounded
     /// ends are the ends of the rounded.
+    #[must_use]
     pub fn round(self, fraction_bits: u32, rounding: Rounding) -> Interval {
         Interval {
             low: self.low.round(fraction_bits, rounding),
@@ -86,8 +84,17 @@ impl Interval {
     }
 
     /// The largest magnitude of a member.
-    pub fn magnitude(self) -> Option<Dyadic> {
-        Some(self.low.checked_abs()?.max(self.high.checked_abs()?))
+    #[must_use]
+    pub fn magnitude(self) -> Dyadic {
+        self.low.abs().max(self.high.abs())
+    }
+}
+
+impl Neg for Interval {
+    type Output = Interval;
+
+    fn neg(self) -> Interval {
+        Interval { low: -self.high, high: -self.low }
     }
 }
 

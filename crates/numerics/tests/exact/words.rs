@@ -1,11 +1,7 @@
 //! Run-time words against crate `fixed`, whose formats are fixed at compile time, and against big rationals:
 //! every pair of words at 4 to 6 bits, random ones at large widths.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
-mod common;
-
-use common::{exact, power_of_two, ratio, round_to_integer};
+use crate::rational::{exact, power_of_two, ratio, round_to_integer};
 use edgewalk_numerics::{Format, Rounding, Word, WordError};
 use fixed::types::extra::{U0, U3, U8, U16, U20, U40, U64};
 use fixed::{FixedI8, FixedI16, FixedI32, FixedI64, FixedU8, FixedU16, FixedU32, FixedU64};

@@ -1,0 +1,115 @@
+//! The error of a fragment against the plane through the vertices' values as the host knows them.
+//!
+//! ```text
+//!  host's value ──RN to 2^-e──> vertex ──start, steps──> sum ──RN──> output
+//!                 2^-(e+1)               A2                    1/2        LSB, summed
+//! ```
+
+use crate::bounds::{slope_edge_error, triangle_error};
+use crate::dyadic::Dyadic;
+use crate::machine::{Channel, EdgeKind, Machine};
+use crate::rounding::Rounding;
+use crate::steps::{Screen, Steps};
+use std::fmt;
+
+/// The parts of the largest error of a channel, LSB, for the exact fill rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ErrorBudget {
+    /// Vertex values rounded to nearest in e fraction bits: 2^-(e+1). Inside the triangle a value is a mean of the
+    /// vertices' with weights that sum to 1, so no error of theirs grows.
+    pub vertex: Dyadic,
+    /// Start and increments, A2.
+    pub steps: Dyadic,
+    /// Output rounding, 1/2.
+    pub output: Dyadic,
+}
+
+impl ErrorBudget {
+    /// Largest difference of the value before the output rounding from the plane, LSB.
+    #[must_use]
+    pub fn before_rounding(&self) -> Dyadic {
+        self.vertex.checked_add(self.steps).expect("below 2^34, no finer than 2^-65")
+    }
+
+    /// Largest difference of the output from the plane, LSB; holds as it stands while `steps` is under 1/2
+    /// (above, the output may wrap).
+    #[must_use]
+    pub fn after_rounding(&self) -> Dyadic {
+        self.before_rounding().checked_add(self.output).expect("as before_rounding")
+    }
+}
+
+impl Channel {
+    /// The budget of a fragment behind `steps` additions. For all fragments of a machine pass
+    /// [`Machine::max_steps`].
+    #[must_use]
+    pub fn error_budget(self, steps: Steps) -> ErrorBudget {
+        ErrorBudget {
+            vertex: slope_edge_error(self.vertex_fraction, 0),
+            steps: triangle_error(Rounding::NearestHalfUp, self.fraction, steps).magnitude(),
+            output: Dyadic::HALF,
+        }
+    }
+}
+
+impl Machine {
+    /// The screen with its guard band, 2^G - 1 columns before it; a slope edge may start a span further out by its
+    /// own error (A5).
+    #[must_use]
+    pub fn screen(&self) -> Screen {
+        let slope = match self.edge_kind {
+            EdgeKind::Exact => Dyadic::ZERO,
+            EdgeKind::Slope => slope_edge_error(self.edge_fraction, self.height),
+        };
+        let beyond = slope.round(0, Rounding::Ceiling).numerator() as u32; // at most 2^31 px
+        let guard = (1u32 << self.guard_bits.min(31)) - 1;
+        Screen { width: self.width, height: self.height, guard_columns: guard.saturating_add(beyond) }
+    }
+
+    /// The most additions behind a visible fragment, [`Screen::max_steps`].
+    #[must_use]
+    pub fn max_steps(&self) -> Steps {
+        self.screen().max_steps()
+    }
+}
+
+impl fmt::Display for ErrorBudget {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} vertex + {} steps = {}", self.vertex, self.steps, self.before_rounding())?;
+        write!(f, ", + {} output = {} LSB", self.output, self.after_rounding())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_default_machine_needs_no_clamp_and_stays_within_one_lsb() {
+        let machine = Machine::default();
+        assert_eq!(machine.max_steps().total(), 9309);
+        for channel in machine.channels() {
+            let budget = channel.error_budget(machine.max_steps());
+            assert!(budget.steps < Dyadic::HALF && budget.after_rounding() < Dyadic::ONE, "{budget}");
+        }
+        assert_eq!(
+            machine.color.error_budget(Steps { lines: 3, columns: 4 }).to_string(),
+            "0.03125 vertex + 0.000244140625 steps = 0.031494140625, + 0.5 output = 0.531494140625 LSB"
+        );
+    }
+
+    #[test]
+    fn senseless_numbers_do_not_panic() {
+        let channel = Channel { bits: u32::MAX, fraction: 0, vertex_fraction: u32::MAX };
+        let most = Steps { lines: u32::MAX, columns: u32::MAX };
+        assert!(channel.error_budget(most).after_rounding() > Dyadic::ONE);
+        let machine = Machine {
+            height: u32::MAX,
+            guard_bits: u32::MAX,
+            edge_kind: EdgeKind::Slope,
+            edge_fraction: 0,
+            ..Machine::default()
+        };
+        assert_eq!(machine.max_steps().columns, u32::MAX);
+    }
+}

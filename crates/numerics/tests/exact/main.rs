@@ -1,0 +1,10 @@
+//! The numbers of the crate against exact rationals and against crate `fixed`.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod rational;
+mod triangle;
+
+mod words;
+mod intervals;
+mod solver;
