@@ -81,7 +81,7 @@ impl SpanQueue {
         self.fresh_queued
     }
 
-    /// Clock edge; `line` is the one that fires, if one does.
+    /// Clock edge.
     #[inline]
     pub fn step(&mut self, line: Option<&Line>, span_ready: bool, coverage: &mut Coverage) {
         let full = self.fifo.len() == self.depth;
@@ -97,7 +97,11 @@ impl SpanQueue {
     fn take(&mut self, line: &Line, full: bool, coverage: &mut Coverage) {
         let fresh = line.fresh | self.pend_fresh;
         let fence = line.fence | self.pend_fence;
-        let Some(cut) = self.cut(line) else {
+        let cut = self.cut(line);
+        if full && cut.is_some() {
+            return; // not ready
+        }
+        let Some(cut) = cut else {
             self.pend_fresh = fresh;
             self.pend_fence = fence;
             coverage.empty_span += 1;

@@ -2,7 +2,7 @@
 
 use super::Field;
 use crate::suites::Triangle;
-use edgewalk_model::tokens::{EdgeWalk, Fragment, Line, Prim, Span, Words, Write};
+use edgewalk_model::tokens::{EdgeWalk, Fragment, Line, Prim, Rgb, Source, Span, Words, Write};
 use edgewalk_numerics::{Channel, EdgeKind, Fill, Machine, PortVertex};
 
 /// The values of a token's fields, in the order of the channel's fields, each below 2^width.
@@ -73,7 +73,7 @@ pub fn unpack_triangle(machine: &Machine, token: &[u128]) -> (Triangle, u32) {
         y: fields.signed(bits),
         value: std::array::from_fn(|_| fields.unsigned()),
     });
-    (triangle, fields.tag())
+    (triangle, fields.source().tag)
 }
 
 /// Bits of an edge's R, f and M.
@@ -145,7 +145,7 @@ pub(crate) fn pack_prim(machine: &Machine, prim: &Prim) -> Token {
     for channel in 0..4 {
         token.extend(words.iter().map(|w| u128::from(w[channel])));
     }
-    push_tag(&mut token, machine, prim.tag);
+    push_tag(&mut token, machine, prim.source.tag);
     token
 }
 
@@ -189,7 +189,7 @@ pub(crate) fn unpack_prim(machine: &Machine, token: &[u128]) -> Prim {
         }
         prim.gradient[channel] = word();
     }
-    prim.tag = fields.tag();
+    prim.source = fields.source();
     prim
 }
 
@@ -216,7 +216,7 @@ pub(crate) fn pack_line(machine: &Machine, line: &Line) -> Token {
     token.push(u128::from(line.left));
     token.extend(line.values.map(u128::from));
     token.extend([line.fresh, line.fence].map(u128::from));
-    push_tag(&mut token, machine, line.tag);
+    push_tag(&mut token, machine, line.source.tag);
     token
 }
 
@@ -232,8 +232,7 @@ pub(crate) fn unpack_line(machine: &Machine, token: &[u128]) -> Line {
         values: fields.words(),
         fresh: fields.bit(),
         fence: fields.bit(),
-        tag: fields.tag(),
-        id: 0,
+        source: fields.source(),
     }
 }
 
@@ -259,7 +258,7 @@ pub(crate) fn pack_span(machine: &Machine, span: &Span) -> Token {
     token.extend([span.y, span.count, u32::from(span.left)].map(u128::from));
     token.extend(span.values.map(u128::from));
     token.extend([span.fresh, span.fence].map(u128::from));
-    push_tag(&mut token, machine, span.tag);
+    push_tag(&mut token, machine, span.source.tag);
     token
 }
 
@@ -274,8 +273,7 @@ pub(crate) fn unpack_span(machine: &Machine, token: &[u128]) -> Span {
         values: fields.words(),
         fresh: fields.bit(),
         fence: fields.bit(),
-        tag: fields.tag(),
-        id: 0,
+        source: fields.source(),
     }
 }
 
@@ -308,9 +306,9 @@ pub(super) fn fragment_fields(machine: &Machine) -> Vec<Field> {
 /// A fragment as a token.
 pub(crate) fn pack_fragment(machine: &Machine, fragment: &Fragment) -> Token {
     let mut token = vec![u128::from(fragment.addr), u128::from(fragment.z)];
-    token.extend(fragment.rgb.map(u128::from));
+    token.extend(fragment.rgb.channels().map(u128::from));
     token.push(u128::from(fragment.fence));
-    push_tag(&mut token, machine, fragment.tag);
+    push_tag(&mut token, machine, fragment.source.tag);
     token
 }
 
@@ -319,11 +317,10 @@ pub(crate) fn unpack_fragment(token: &[u128]) -> Fragment {
     let mut fields = Fields(token.iter());
     Fragment {
         addr: fields.short(),
-        z: fields.unsigned(),
-        rgb: std::array::from_fn(|_| fields.unsigned()),
+        z: fields.short(),
+        rgb: Rgb::new(std::array::from_fn(|_| fields.short() as u16)),
         fence: fields.bit(),
-        tag: fields.tag(),
-        id: 0,
+        source: fields.source(),
     }
 }
 
@@ -349,8 +346,8 @@ pub(super) fn write_fields(machine: &Machine) -> Vec<Field> {
 /// A write as a token.
 pub(crate) fn pack_write(machine: &Machine, write: &Write) -> Token {
     let mut token = vec![u128::from(write.addr), u128::from(write.z), u128::from(write.z_en)];
-    token.extend(write.rgb.map(u128::from));
-    push_tag(&mut token, machine, write.tag);
+    token.extend(write.rgb.channels().map(u128::from));
+    push_tag(&mut token, machine, write.source.tag);
     token
 }
 
@@ -393,9 +390,9 @@ impl Fields<'_> {
         std::array::from_fn(|_| self.unsigned())
     }
 
-    /// The last field, if there is one.
-    fn tag(&mut self) -> u32 {
-        self.short()
+    /// The triangle, by its tag: the last field, if there is one.
+    fn source(&mut self) -> Source {
+        Source { tag: self.short(), id: 0 }
     }
 }
 
@@ -430,8 +427,7 @@ mod tests {
             start: [[6, 7, 8, 9], [0; 4]],
             delta: [[10, 11, 12, 13], [14, 15, 16, 17]],
             gradient: [18, 19, 20, 21],
-            tag: 22,
-            id: 0,
+            source: Source { tag: 22, id: 0 },
         };
         let token = pack_prim(&m, &prim);
         assert_eq!(token.len(), prim_fields(&m).len());
@@ -458,8 +454,7 @@ mod tests {
             values: [4, 5, 6, 7],
             fresh: true,
             fence: false,
-            tag: 8,
-            id: 0,
+            source: Source { tag: 8, id: 0 },
         };
         let token = pack_line(&m, &line);
         assert_eq!(token.len(), line_fields(&m).len());
@@ -473,19 +468,25 @@ mod tests {
             values: [4, 5, 6, 7],
             fresh: true,
             fence: true,
-            tag: 8,
-            id: 0,
+            source: Source { tag: 8, id: 0 },
         };
         let token = pack_span(&m, &span);
         assert_eq!(token.len(), span_fields(&m).len());
         assert_eq!(unpack_span(&m, &token), span);
 
-        let fragment = Fragment { addr: 1, z: 2, rgb: [3, 4, 5], fence: true, tag: 6, id: 0 };
+        let fragment = Fragment {
+            addr: 1,
+            z: 2,
+            rgb: Rgb::new([3, 4, 5]),
+            fence: true,
+            source: Source { tag: 6, id: 0 },
+        };
         let token = pack_fragment(&m, &fragment);
         assert_eq!(token.len(), fragment_fields(&m).len());
         assert_eq!(unpack_fragment(&token), fragment);
 
-        let write = Write { addr: 1, z: 2, z_en: true, rgb: [3, 4, 5], tag: 6, id: 0 };
+        let write =
+            Write { addr: 1, z: 2, z_en: true, rgb: Rgb::new([3, 4, 5]), source: Source { tag: 6, id: 0 } };
         assert_eq!(pack_write(&m, &write), [1, 2, 1, 3, 4, 5, 6]);
         assert_eq!(write_fields(&m).len(), 7);
     }
