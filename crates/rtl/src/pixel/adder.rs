@@ -77,7 +77,8 @@ impl<'m> Words<'m> {
             for channel in channels.clone() {
                 words.segments.push(registers(m, advance, channel, &bounds, &steps, [span, increments]));
             }
-            let name = if shared == 1 { CHANNELS[channels.start].to_owned() } else { format!("adder{adder}") };
+            let name =
+                if shared == 1 { CHANNELS[channels.start].to_owned() } else { format!("adder{adder}") };
             add(m, advance, &name, &bounds, &steps, &words.segments[channels]);
         }
         words

@@ -1,0 +1,53 @@
+//! Single units against the model, under inputs that the rest of the machine would rarely give them.
+
+use edgewalk_model::tokens::{Words, word_masks};
+use edgewalk_numerics::Machine;
+use rand::Rng;
+use rand_pcg::Pcg64Mcg;
+
+mod setup;
+
+mod edge;
+mod span;
+
+mod pixel;
+
+mod depth;
+
+mod memory;
+
+pub use depth::depth;
+pub use edge::edge;
+pub use memory::memory;
+pub use pixel::pixel;
+pub use setup::setup;
+pub use span::span;
+
+/// A token that stays until it is taken, then another after a random gap.
+struct Source<T> {
+    token: Option<T>,
+}
+
+impl<T> Source<T> {
+    fn next(&mut self, rng: &mut Pcg64Mcg, draw: impl FnOnce(&mut Pcg64Mcg) -> T) {
+        if self.token.is_none() && rng.random_bool(0.7) {
+            self.token = Some(draw(rng));
+        }
+    }
+
+    fn taken(&mut self, ready: bool) -> bool {
+        let taken = ready && self.token.is_some();
+        if taken {
+            self.token = None;
+        }
+        taken
+    }
+}
+
+fn words(machine: &Machine, rng: &mut Pcg64Mcg) -> Words {
+    word_masks(machine).map(|mask| rng.random::<u64>() & mask)
+}
+
+fn tag(machine: &Machine, rng: &mut Pcg64Mcg) -> u32 {
+    rng.random::<u32>().checked_shr(32 - machine.tag_bits).unwrap_or(0)
+}
