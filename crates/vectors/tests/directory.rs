@@ -47,8 +47,8 @@ fn the_trace_is_that_of_the_model_drawing_alone() {
             let triangles = suite.triangles().copied();
             render_with(&machine, triangles, DrawState::default(), Stalls::NONE, |event| {
                 if let Event::Write(w) = event {
-                    let [r, g, b] = w.rgb.channels().map(u64::from);
-                    writes.push([u64::from(w.addr), u64::from(w.z), 1, r, g, b].map(u128::from));
+                    let [r, g, b] = w.rgb.channels().map(u32::from);
+                    writes.push([w.addr, w.z, 1, r, g, b].map(u128::from));
                 }
             });
             let traced: Vec<_> = trace.channels[3].tokens.iter().map(|token| token[..6].to_vec()).collect();

@@ -128,7 +128,7 @@ impl Device for ModelDevice {
                 let (ready, fresh_queued) = (bit(input + 1), bit(input + 2));
                 outputs.push(u128::from(edge.prim_ready(fresh_queued)));
                 let line = edge.line().map(|l| {
-                    let mut token = pack_line(machine, &l);
+                    let mut token = pack_line(machine, l);
                     token.extend(edge.gradient().map(u128::from));
                     token
                 });
@@ -139,10 +139,11 @@ impl Device for ModelDevice {
             ModelUnit::Span(span) => {
                 let ready = bit(input + 1);
                 let line = token.map(|t| unpack_line(machine, t));
-                outputs.push(u128::from(line.as_ref().is_some_and(|l| span.line_ready(l))));
+                let line_ready = line.as_ref().is_some_and(|l| span.line_ready(l));
+                outputs.push(u128::from(line_ready));
                 offer(outputs, span.span().map(|s| pack_span(machine, s)), output);
                 outputs.push(u128::from(span.fresh_queued()));
-                span.step(line.as_ref(), ready, coverage);
+                span.step(line.as_ref().filter(|_| line_ready), ready, coverage);
             }
             ModelUnit::Pixel(pixel) => {
                 let ready = bit(input + 1);

@@ -3,6 +3,7 @@
 //! A channel `rd` with a field `addr` is the ports `rd_valid`, `rd_ready` and `rd_addr`. Names and formats are those of
 //! `docs/machine.md`, sections 1 to 9, not read from a design: so a design with another port is found out.
 
+mod fields;
 mod tokens;
 mod units;
 

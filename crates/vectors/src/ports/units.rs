@@ -1,6 +1,6 @@
 //! The interface of every unit.
 
-use super::{Channel, Direction, Field, Interface, Unit, tokens};
+use super::{Channel, Direction, Field, Interface, Unit, fields};
 use edgewalk_numerics::Machine;
 
 /// The ports of a unit of this machine.
@@ -15,7 +15,7 @@ pub fn interface(machine: &Machine, unit: Unit) -> Interface {
         memory: false,
     };
     let channels = &mut interface.channels;
-    let tri = || into("tri", tokens::triangle_fields(machine));
+    let tri = || into("tri", fields::triangle_fields(machine));
     match unit {
         Unit::Machine => {
             channels.push(tri());
@@ -31,31 +31,31 @@ pub fn interface(machine: &Machine, unit: Unit) -> Interface {
         }
         Unit::Setup => {
             channels.push(tri());
-            channels.push(out("prim", tokens::prim_fields(machine)));
+            channels.push(out("prim", fields::prim_fields(machine)));
         }
         Unit::Edge => {
-            let mut line = tokens::line_fields(machine);
-            line.extend(tokens::gradient_fields(machine));
-            channels.push(into("prim", tokens::prim_fields(machine)));
+            let mut line = fields::line_fields(machine);
+            line.extend(fields::gradient_fields(machine));
+            channels.push(into("prim", fields::prim_fields(machine)));
             channels.push(out("line", line));
             interface.levels.push(bits("fresh_queued", 1, "PIXEL has not taken the gradients yet"));
         }
         Unit::Span => {
             // Whether a line is empty, and therefore taken, is asked of lines only.
-            let line = into("line", tokens::line_fields(machine));
+            let line = into("line", fields::line_fields(machine));
             channels.push(Channel { ready_always: false, ..line });
-            channels.push(out("span", tokens::span_fields(machine)));
+            channels.push(out("span", fields::span_fields(machine)));
             interface.status.push(bits("fresh_queued", 1, "the first span of a triangle is queued"));
         }
         Unit::Pixel => {
-            let mut span = tokens::span_fields(machine);
-            span.extend(tokens::gradient_fields(machine));
+            let mut span = fields::span_fields(machine);
+            span.extend(fields::gradient_fields(machine));
             channels.push(into("span", span));
-            channels.push(out("frag", tokens::fragment_fields(machine)));
+            channels.push(out("frag", fields::fragment_fields(machine)));
         }
         Unit::Depth => {
             // Whether a pixel is in flight is asked of fragments only.
-            let frag = into("frag", tokens::fragment_fields(machine));
+            let frag = into("frag", fields::fragment_fields(machine));
             channels.push(Channel { ready_always: false, ..frag });
             depth_memory(machine, &mut interface);
         }
@@ -65,9 +65,9 @@ pub fn interface(machine: &Machine, unit: Unit) -> Interface {
 
 /// The channels of a unit that reads and writes depths.
 fn depth_memory(machine: &Machine, interface: &mut Interface) {
-    interface.channels.push(into("data", tokens::data_fields(machine)));
-    interface.channels.push(out("rd", tokens::read_fields(machine)));
-    interface.channels.push(out("wr", tokens::write_fields(machine)));
+    interface.channels.push(into("data", fields::data_fields(machine)));
+    interface.channels.push(out("rd", fields::read_fields(machine)));
+    interface.channels.push(out("wr", fields::write_fields(machine)));
     interface.memory = true;
     interface.constants = vec![
         bits("depth_func", 3, "0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always"),
