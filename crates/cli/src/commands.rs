@@ -1,3 +1,10 @@
-pub mod config;
-pub mod raster;
+//! One file a command; each has `Args` and `run`.
+
+pub mod demo;
 pub mod render;
+pub mod raster;
+pub mod emit;
+pub mod vectors;
+pub mod trace;
+pub mod bench;
+pub mod config;

@@ -1,9 +1,11 @@
 //! One picture, whichever engine drew it.
 
 use crate::input::to_port;
+use crate::netlist_run::{self, NetlistFrame};
 use crate::progress::bar;
-use anyhow::{Result, anyhow};
-use edgewalk_model::{Counters, Coverage, Stalls};
+use anyhow::Result;
+use edgewalk_model::{Activity, Coverage, Stalls};
+use edgewalk_netlist::Simulator;
 use edgewalk_numerics::{Fill, Machine};
 use edgewalk_scene::Frame;
 
@@ -34,10 +36,25 @@ pub struct Raster {
     pub z: Vec<f64>,
     /// Colour in [0,1].
     pub rgb: Vec<[f64; 3]>,
-    /// Cycles and their causes, where a machine drew.
-    pub counters: Option<Counters>,
+    /// Where the cycles went, where a machine drew.
+    pub cycles: Option<Cycles>,
     /// Hazards and corners met, where a machine drew.
     pub corners: Option<Coverage>,
+}
+
+/// Cycles by cause, the codes of the `activity` port.
+#[derive(Clone, Copy, Debug)]
+pub struct Cycles {
+    /// All cycles, counted apart from their causes.
+    pub total: u64,
+    spent: [u64; Activity::ALL.len()],
+}
+
+impl Cycles {
+    /// Cycles spent on this.
+    pub fn spent(&self, activity: Activity) -> u64 {
+        self.spent[activity as usize]
+    }
 }
 
 /// Draws the frame.
@@ -48,13 +65,14 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Machine, quiet: bool) -> Re
             let port = to_port(frame, machine)?;
             let bar = bar(port.triangles.len() as u64, "triangles", quiet);
             let triangles = bar.wrap_iter(port.triangles.iter().copied());
-            let drawn = if engine == Engine::Model {
-                edgewalk_model::render(machine, triangles, port.state, Stalls::NONE)
+            let raster = if engine == Engine::Model {
+                from_model(machine, edgewalk_model::render(machine, triangles, port.state, Stalls::NONE))
             } else {
-                return Err(anyhow!("rtl later"));
+                let watch = |_: &mut Simulator| Ok(true);
+                from_netlist(machine, netlist_run::draw(machine, triangles, port.state, Stalls::NONE, watch)?)
             };
             bar.finish_and_clear();
-            Ok(from_machine(machine, drawn))
+            Ok(raster)
         }
     }
 }
@@ -73,22 +91,39 @@ fn draw_golden(frame: &Frame, machine: &Machine) -> Raster {
         id: picture.id,
         z: picture.z,
         rgb: picture.rgb,
-        counters: None,
+        cycles: None,
         corners: None,
     }
 }
 
-fn from_machine(machine: &Machine, drawn: edgewalk_model::Frame) -> Raster {
-    let (z_max, color_max) = (machine.z.max() as f64, machine.color.max() as f64);
+fn from_model(machine: &Machine, drawn: edgewalk_model::Frame) -> Raster {
     Raster {
         width: machine.width,
         height: machine.height,
         coverage: drawn.coverage,
         writes: drawn.writes,
         id: drawn.id,
-        z: drawn.z.iter().map(|v| *v as f64 / z_max).collect(),
-        rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / color_max)).collect(),
-        counters: Some(drawn.counters),
+        z: unorm(&drawn.z, machine.z.max()),
+        rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / machine.color.max() as f64)).collect(),
+        cycles: Some(Cycles { total: drawn.counters.cycles, spent: drawn.counters.activity }),
         corners: Some(drawn.corners),
     }
+}
+
+fn from_netlist(machine: &Machine, drawn: NetlistFrame) -> Raster {
+    Raster {
+        width: machine.width,
+        height: machine.height,
+        coverage: drawn.coverage,
+        writes: drawn.writes,
+        id: drawn.id,
+        z: unorm(&drawn.z, machine.z.max()),
+        rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / machine.color.max() as f64)).collect(),
+        cycles: Some(Cycles { total: drawn.cycles, spent: drawn.activity }),
+        corners: None,
+    }
+}
+
+fn unorm(stored: &[u64], max: u64) -> Vec<f64> {
+    stored.iter().map(|v| *v as f64 / max as f64).collect()
 }

@@ -11,6 +11,7 @@ mod compare;
 mod engine;
 mod input;
 mod machine_args;
+mod netlist_run;
 mod picture;
 mod progress;
 mod report;
@@ -18,7 +19,7 @@ mod staging;
 mod verdict;
 
 use clap::{Parser, Subcommand};
-use commands::{config, raster, render};
+use commands::{bench, config, demo, emit, raster, render, trace, vectors};
 use machine_args::MachineArgs;
 use std::process::ExitCode;
 use verdict::{ToolError, Verdict};
@@ -51,8 +52,13 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Emit(emit::Args),
     Render(render::Args),
     Raster(raster::Args),
+    Trace(trace::Args),
+    Demo(demo::Args),
+    Vectors(vectors::Args),
+    Bench(bench::Args),
     Config(config::Args),
 }
 
@@ -67,8 +73,13 @@ fn main() -> ExitCode {
     let cli = Cli::parse();
     let talk = Talk { json: cli.json, quiet: cli.quiet };
     let result = match &cli.command {
+        Command::Emit(a) => emit::run(a, &cli.machine, talk),
         Command::Render(a) => render::run(a, &cli.machine, talk),
         Command::Raster(a) => raster::run(a, &cli.machine, talk),
+        Command::Trace(a) => trace::run(a, &cli.machine, talk),
+        Command::Demo(a) => demo::run(a, &cli.machine, talk),
+        Command::Vectors(a) => vectors::run(a, &cli.machine, talk),
+        Command::Bench(a) => bench::run(a, &cli.machine, talk),
         Command::Config(a) => config::run(a, &cli.machine, talk.json),
     };
     match result {

@@ -2,10 +2,10 @@
 
 use crate::Talk;
 use crate::compare::Comparison;
-use crate::engine::Raster;
+use crate::engine::{Cycles, Raster};
 use anyhow::Result;
 use edgewalk_model::Activity;
-use edgewalk_numerics::Machine;
+use edgewalk_numerics::{Channel, Machine};
 use edgewalk_scene::Frame;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
@@ -18,7 +18,7 @@ pub struct Report {
     covered: u64,
     writes: u64,
     odd_pixels: u64,
-    counters: Option<edgewalk_model::Counters>,
+    cycles: Option<Cycles>,
     corners: Option<edgewalk_model::Coverage>,
     comparison: Option<Comparison>,
 }
@@ -34,7 +34,7 @@ impl Report {
             // A closed mesh covers every pixel an even number of times, whatever the view.
             odd_pixels: drawn.coverage.iter().map(|c| u64::from(c % 2)).sum(),
             writes: drawn.writes.iter().map(|c| u64::from(*c)).sum(),
-            counters: drawn.counters.clone(),
+            cycles: drawn.cycles,
             corners: drawn.corners.clone(),
             comparison: None,
         }
@@ -61,14 +61,14 @@ impl Report {
         if let Some(c) = &self.comparison {
             report["comparison"] = serde_json::to_value(c)?;
         }
-        if let Some(c) = &self.counters {
+        if let Some(c) = &self.cycles {
             let causes: Map<_, _> =
                 Activity::ALL.into_iter().map(|a| (a.name().to_owned(), json!(c.spent(a)))).collect();
             let setup = edgewalk_model::setup_clocks(&self.machine);
             report["cycles"] = json!({
-                "total": c.cycles,
+                "total": c.total,
                 "by_cause": causes,
-                "pixels_per_clock": ratio(self.covered, c.cycles),
+                "pixels_per_clock": ratio(self.covered, c.total),
                 "setup_clocks_drawn": (setup.phase1 + setup.phase2),
                 "setup_clocks_culled": setup.phase1,
             });
@@ -121,21 +121,21 @@ impl Report {
                 c.shaded, c.order_undecided, c.order_wrong
             );
         }
-        if let Some(c) = &self.counters {
+        if let Some(c) = &self.cycles {
             let setup = edgewalk_model::setup_clocks(m);
             let _ = writeln!(
                 t,
                 "cycles {}, {:.4} pixels a clock; setup {} clocks a triangle",
-                c.cycles,
-                ratio(self.covered, c.cycles),
+                c.total,
+                ratio(self.covered, c.total),
                 (setup.phase1 + setup.phase2)
             );
             for a in Activity::ALL {
                 let n = c.spent(a);
-                let _ = writeln!(t, "    {:<10} {:>12}  {:>5.1} %", a.name(), n, 100.0 * ratio(n, c.cycles));
+                let _ = writeln!(t, "    {:<10} {:>12}  {:>5.1} %", a.name(), n, 100.0 * ratio(n, c.total));
             }
-            let sum: u64 = c.busy() + c.stalls();
-            let _ = writeln!(t, "    {:<10} {:>12}  of {} cycles", "sum", sum, c.cycles);
+            let sum: u64 = Activity::ALL.into_iter().map(|a| c.spent(a)).sum();
+            let _ = writeln!(t, "    {:<10} {:>12}  of {} cycles", "sum", sum, c.total);
         }
         t
     }
@@ -155,11 +155,9 @@ fn ratio(part: u64, whole: u64) -> f64 {
     if whole == 0 { 0.0 } else { part as f64 / whole as f64 }
 }
 
-/// Bounds z, colour.
-pub fn bounds(m: &Machine) -> (f64, f64) {
-    let n = f64::from(m.width + m.height + (1 << m.guard_bits));
-    let b = |c: edgewalk_numerics::Channel| {
-        0.5 + 0.5f64.powi(c.vertex_fraction as i32 + 1) + (n + 1.0) * 0.5f64.powi(c.fraction as i32 + 1)
-    };
-    (b(m.z), b(m.color))
+/// Proved bounds of the rounded output of depth and colour, LSB: vertex rounding, all additions, output rounding (A2, A4).
+pub fn bounds(machine: &Machine) -> (f64, f64) {
+    let steps = machine.max_steps();
+    let bound = |channel: Channel| channel.error_budget(steps).after_rounding().to_f64();
+    (bound(machine.z), bound(machine.color))
 }

@@ -1,0 +1,82 @@
+// Drives the verilated machine with the same triangles and the same memory as the model: for timing only.
+// Usage: harness STIMULUS LATENCY ADDRESS_BITS DEPTH_FUNC DEPTH_WRITE CLEAR_Z FRAMES
+// STIMULUS: little-endian 64-bit words, 18 a triangle: x y z r g b of three vertices, as at the port.
+#include "Vmachine.h"
+#include "verilated.h"
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+static std::vector<int64_t> read_all(const char *name) {
+    std::vector<int64_t> words;
+    FILE *file = std::fopen(name, "rb");
+    if (!file) { std::perror(name); std::exit(3); }
+    int64_t word;
+    while (std::fread(&word, sizeof word, 1, file) == 1) words.push_back(word);
+    std::fclose(file);
+    return words;
+}
+
+struct Read { uint64_t due; uint32_t z; };
+
+int main(int argc, char **argv) {
+    if (argc != 8) { std::fprintf(stderr, "harness: 7 arguments\n"); return 3; }
+    const auto words = read_all(argv[1]);
+    const uint64_t latency = std::strtoull(argv[2], nullptr, 10);
+    const size_t size = size_t(1) << std::atoi(argv[3]);
+    const int func = std::atoi(argv[4]), depth_write = std::atoi(argv[5]), frames = std::atoi(argv[7]);
+    const uint32_t clear_z = uint32_t(std::strtoull(argv[6], nullptr, 10));
+    std::vector<uint32_t> z(size);
+    std::vector<uint64_t> rgb(size);
+    Vmachine m;
+    m.depth_func = func;
+    m.depth_write = depth_write;
+    m.rd_ready = 1;
+    m.wr_ready = 1;
+    for (int frame = 0; frame < frames; ++frame) {
+        const auto start = std::chrono::steady_clock::now();
+        std::fill(z.begin(), z.end(), clear_z);
+        std::fill(rgb.begin(), rgb.end(), 0);
+        m.rst = 1; m.tri_valid = 0; m.data_valid = 0;
+        m.clk = 0; m.eval(); m.clk = 1; m.eval();
+        m.rst = 0;
+        Read queue[64];
+        uint64_t head = 0, tail = 0, cycle = 0, writes = 0;
+        size_t next = 0;
+        for (;;) {
+            m.clk = 0;
+            const bool offered = next + 18 <= words.size();
+            m.tri_valid = offered;
+            if (offered) {
+                const int64_t *w = &words[next];
+                m.tri_x0 = w[0];  m.tri_y0 = w[1];  m.tri_z0 = w[2];  m.tri_r0 = w[3];  m.tri_g0 = w[4];  m.tri_b0 = w[5];
+                m.tri_x1 = w[6];  m.tri_y1 = w[7];  m.tri_z1 = w[8];  m.tri_r1 = w[9];  m.tri_g1 = w[10]; m.tri_b1 = w[11];
+                m.tri_x2 = w[12]; m.tri_y2 = w[13]; m.tri_z2 = w[14]; m.tri_r2 = w[15]; m.tri_g2 = w[16]; m.tri_b2 = w[17];
+            }
+            const bool data = head != tail && queue[head % 64].due <= cycle;
+            m.data_valid = data;
+            m.data_z = data ? queue[head % 64].z : 0;
+            m.eval();
+            const bool taken = offered && m.tri_ready;
+            const bool read = m.rd_valid;
+            const uint32_t address = m.rd_addr;
+            if (data && m.data_ready) ++head;
+            if (read) { queue[tail % 64] = {cycle + latency, z[address]}; ++tail; }
+            if (m.wr_valid) {
+                if (m.wr_z_en) z[m.wr_addr] = m.wr_z;
+                rgb[m.wr_addr] = uint64_t(m.wr_r) << 32 | uint64_t(m.wr_g) << 16 | m.wr_b;
+                ++writes;
+            }
+            ++cycle;
+            const bool done = !offered && m.idle;
+            m.clk = 1; m.eval();
+            if (done) break;
+            if (taken) next += 18;
+        }
+        const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+        std::printf("%llu %llu %.6f\n", (unsigned long long)cycle, (unsigned long long)writes, took.count());
+    }
+    return 0;
+}

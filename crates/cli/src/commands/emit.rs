@@ -1,0 +1,50 @@
+//! `edgewalk emit`: the machine as Verilog.
+
+use crate::machine_args::MachineArgs;
+use crate::staging::Staging;
+use crate::verdict::Verdict;
+use crate::{Talk, staging};
+use anyhow::{Result, anyhow};
+use std::path::PathBuf;
+
+/// Writes the machine as readable, synthesizable Verilog-2001, a module a file.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  edgewalk emit --out hdl/mine --set interpolator.adders=1
+  edgewalk emit --machine textbook --out hdl/textbook")]
+pub struct Args {
+    /// Output directory
+    #[arg(long, value_name = "DIR", default_value = "out/hdl")]
+    out: PathBuf,
+}
+
+/// Runs the command.
+pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
+    let machine = machine.machine(None)?;
+    let out = Staging::new(&args.out)?;
+    let files = write_design(&machine, &out, "")?;
+    out.publish()?;
+    if talk.json {
+        println!("{}", serde_json::json!({ "hash": machine.hash(), "files": files }));
+    } else if !talk.quiet {
+        println!("machine {} -> {}", machine.hash(), args.out.display());
+        files.iter().for_each(|f| println!("    {f}"));
+    }
+    Ok(Verdict::Pass)
+}
+
+/// Prints every module of the machine under `folder` of `out`, with the machine file; returns the names.
+pub fn write_design(
+    machine: &edgewalk_numerics::Machine,
+    out: &staging::Staging,
+    folder: &str,
+) -> Result<Vec<String>> {
+    let design = edgewalk_rtl::machine(machine).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+    let mut names = Vec::new();
+    for (name, text) in edgewalk_verilog::print(&design) {
+        out.write(&format!("{folder}{name}"), text)?;
+        names.push(name);
+    }
+    out.write(&format!("{folder}machine.toml"), machine.to_toml())?;
+    Ok(names)
+}

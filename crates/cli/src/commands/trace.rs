@@ -1,0 +1,83 @@
+//! `edgewalk trace`: waveforms of the machine's netlist.
+
+use crate::input::{Source, to_port};
+use crate::machine_args::MachineArgs;
+use crate::staging::Staging;
+use crate::verdict::Verdict;
+use crate::{Talk, netlist_run};
+use anyhow::{Context, Result, anyhow};
+use edgewalk_model::Stalls;
+use edgewalk_netlist::{FstTrace, VcdTrace};
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::PathBuf;
+
+/// Runs the machine's netlist and writes the waveform of every signal, as VCD or FST by the file's ending.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  edgewalk trace sphere --out out/sphere.fst --triangles 20
+  edgewalk trace triangles.tri --out out/t.vcd --cycles 5000 --set interpolator.adders=1")]
+pub struct Args {
+    #[command(flatten)]
+    source: Source,
+    /// Output file, .vcd or .fst
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Draws this many triangles of the input
+    #[arg(long, default_value_t = 10)]
+    triangles: usize,
+    /// Stops after this many cycles
+    #[arg(long, default_value_t = 20_000)]
+    cycles: u64,
+}
+
+/// Either kind of waveform.
+enum Wave {
+    Vcd(VcdTrace<BufWriter<File>>),
+    Fst(FstTrace<BufWriter<File>>),
+}
+
+/// Runs the command.
+pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
+    let machine = machine.machine(None)?;
+    let port = to_port(&args.source.frame(&machine)?, &machine)?;
+    let kind = args.out.extension().and_then(|e| e.to_str()).unwrap_or_default();
+    if !["vcd", "fst"].contains(&kind) {
+        return Err(anyhow!("--out {}: the file must end in .vcd or .fst", args.out.display()));
+    }
+    let name = args.out.file_name().and_then(|n| n.to_str()).context("--out: no file name")?;
+    let folder = args.out.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(".".as_ref());
+    let out = Staging::new(folder)?;
+    let file = BufWriter::new(File::create(out.path(name)?)?);
+    let mut file = Some(file);
+    let mut wave: Option<Wave> = None;
+    let mut cycles = 0;
+    let triangles = port.triangles.iter().take(args.triangles).copied();
+    netlist_run::draw(&machine, triangles, port.state, Stalls::NONE, |sim| {
+        if let Some(file) = file.take() {
+            wave = Some(match kind {
+                "vcd" => Wave::Vcd(VcdTrace::new(file, sim, "edgewalk")?),
+                _ => Wave::Fst(FstTrace::new(file, sim, "edgewalk").map_err(|e| anyhow!("{e}"))?),
+            });
+        }
+        match &mut wave {
+            Some(Wave::Vcd(w)) => w.sample(sim)?,
+            Some(Wave::Fst(w)) => w.sample(sim).map_err(|e| anyhow!("{e}"))?,
+            None => {}
+        }
+        cycles += 1;
+        Ok(cycles < args.cycles)
+    })?;
+    match wave {
+        Some(Wave::Vcd(w)) => w.finish()?,
+        Some(Wave::Fst(w)) => w.finish().map_err(|e| anyhow!("{e}"))?,
+        None => {}
+    }
+    out.publish()?;
+    if talk.json {
+        println!("{}", serde_json::json!({ "file": args.out, "cycles": cycles, "hash": machine.hash() }));
+    } else if !talk.quiet {
+        println!("{cycles} cycles -> {}", args.out.display());
+    }
+    Ok(Verdict::Pass)
+}

@@ -1,0 +1,254 @@
+// edgewalk_depth: DEPTH reads the old depth of every fragment, compares, and writes what passes.
+//
+//            ┌──────────────── rd (address) ──> depth memory
+//   frag ────┴─> [in-flight queue] ─┬─ compare ─> [w] ── wr ──> depth and frame memory
+//            depth memory ── data ──┘
+//
+// Formats: unsigned depths; depth_func 0 never, 1 less, 2 equal, 3 lequal, 4 greater, 5 notequal, 6 gequal, 7 always.
+// Timing: a fragment is read in the cycle it comes, compared in the cycle its old depth comes, written in the next.
+// Rules: depths come in the order of the reads. depth_func and depth_write stay as they are while the machine is busy.
+// The depth is read whatever the function.
+// Hazard: a fragment takes the depth from the last older fragment that writes its pixel.
+
+`default_nettype none
+
+module edgewalk_depth (
+  input  wire        clk,
+  input  wire        rst,
+
+  input  wire  [2:0] depth_func,   // new ? old
+  input  wire        depth_write,  // depths of passing fragments are written
+  input  wire        frag_valid,
+  input  wire [18:0] frag_addr,    // line * 2^10 + column
+  input  wire [23:0] frag_z,       // unorm24
+  input  wire  [7:0] frag_r,       // unorm8
+  input  wire  [7:0] frag_g,       // unorm8
+  input  wire  [7:0] frag_b,       // unorm8
+  input  wire        frag_fence,   // what is in flight may be of the same pixel
+  input  wire        rd_ready,
+  input  wire        data_valid,
+  input  wire [23:0] data_z,       // old depth
+  input  wire        wr_ready,
+
+  output wire        frag_ready,
+  output wire        rd_valid,
+  output wire [18:0] rd_addr,
+  output wire        data_ready,
+  output reg         wr_valid,     // a pixel is being written
+  output reg  [18:0] wr_addr,      // line * 2^10 + column
+  output reg  [23:0] wr_z,         // unorm24
+  output reg         wr_z_en,      // the depth is written too
+  output reg   [7:0] wr_r,         // unorm8
+  output reg   [7:0] wr_g,         // unorm8
+  output reg   [7:0] wr_b,         // unorm8
+  output wire        hazard,       // the fragment must wait for one in flight
+  output wire        full,         // the in-flight queue is full
+  output wire        occupied      // something is in flight
+);
+
+  // State: the queue of what waits for its old depth, and the pixel being written.
+  reg [2:0] count;          // fragments in flight
+  reg [18:0] place0_addr;   // line * 2^10 + column
+  reg [23:0] place0_z;      // unorm24
+  reg [7:0] place0_r;       // unorm8
+  reg [7:0] place0_g;       // unorm8
+  reg [7:0] place0_b;       // unorm8
+  reg place0_fwd_valid;     // an older fragment wrote this pixel
+  reg [23:0] place0_fwd_z;  // the depth it wrote
+  reg [18:0] place1_addr;   // line * 2^10 + column
+  reg [23:0] place1_z;      // unorm24
+  reg [7:0] place1_r;       // unorm8
+  reg [7:0] place1_g;       // unorm8
+  reg [7:0] place1_b;       // unorm8
+  reg place1_fwd_valid;     // an older fragment wrote this pixel
+  reg [23:0] place1_fwd_z;  // the depth it wrote
+  reg [18:0] place2_addr;   // line * 2^10 + column
+  reg [23:0] place2_z;      // unorm24
+  reg [7:0] place2_r;       // unorm8
+  reg [7:0] place2_g;       // unorm8
+  reg [7:0] place2_b;       // unorm8
+  reg place2_fwd_valid;     // an older fragment wrote this pixel
+  reg [23:0] place2_fwd_z;  // the depth it wrote
+  reg [18:0] place3_addr;   // line * 2^10 + column
+  reg [23:0] place3_z;      // unorm24
+  reg [7:0] place3_r;       // unorm8
+  reg [7:0] place3_g;       // unorm8
+  reg [7:0] place3_b;       // unorm8
+  reg place3_fwd_valid;     // an older fragment wrote this pixel
+  reg [23:0] place3_fwd_z;  // the depth it wrote
+
+  // A fragment enters when the queue has room and nothing in flight may change its depth.
+  assign full = count == 3'd4;
+  assign hazard = 1'b0;
+  wire clear_to_read = !full && !hazard;
+  assign rd_valid = frag_valid && clear_to_read;
+  assign frag_ready = rd_ready && clear_to_read;
+  wire push = rd_valid && rd_ready;
+
+  // Compare the head with its old depth when that comes and w is free.
+  wire w_free = !wr_valid || wr_ready;
+  assign data_ready = (|count) && w_free;
+  wire compare = data_valid && data_ready;
+  wire [23:0] old = place0_fwd_valid ? place0_fwd_z : data_z;  // depth to compare with
+  wire less = place0_z < old;
+  wire equal = place0_z == old;
+  wire pass = (depth_func[0] && less)
+           || (depth_func[1] && equal)
+           || (depth_func[2] && !less && !equal);
+
+  // Write what passes.
+  wire passed = compare && pass;
+
+  always @(posedge clk) begin
+    if (rst) begin
+      wr_valid <= 1'b0;
+    end else begin
+      if (wr_ready) wr_valid <= 1'b0;
+      if (compare) wr_valid <= pass;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (passed) begin
+      wr_addr <= place0_addr;
+      wr_z <= place0_z;
+      wr_z_en <= depth_write;
+      wr_r <= place0_r;
+      wr_g <= place0_g;
+      wr_b <= place0_b;
+    end
+  end
+
+  // The queue moves up at a compare; what enters goes behind the last.
+  wire [2:0] end_place = compare ? count - 3'd1 : count;
+  wire enters0 = push && (end_place == 3'd0);
+  wire enters1 = push && (end_place == 3'd1);
+  wire enters2 = push && (end_place == 3'd2);
+  wire enters3 = push && (end_place == 3'd3);
+
+  always @(posedge clk) begin
+    if (rst) begin
+      count <= 3'd0;
+    end else begin
+      if (push && !compare) count <= count + 3'd1;
+      if (compare && !push) count <= count - 3'd1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (compare) begin
+      place0_addr <= place1_addr;
+      place0_z <= place1_z;
+      place0_r <= place1_r;
+      place0_g <= place1_g;
+      place0_b <= place1_b;
+    end
+    if (enters0) begin
+      place0_addr <= frag_addr;
+      place0_z <= frag_z;
+      place0_r <= frag_r;
+      place0_g <= frag_g;
+      place0_b <= frag_b;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (compare) begin
+      place1_addr <= place2_addr;
+      place1_z <= place2_z;
+      place1_r <= place2_r;
+      place1_g <= place2_g;
+      place1_b <= place2_b;
+    end
+    if (enters1) begin
+      place1_addr <= frag_addr;
+      place1_z <= frag_z;
+      place1_r <= frag_r;
+      place1_g <= frag_g;
+      place1_b <= frag_b;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (compare) begin
+      place2_addr <= place3_addr;
+      place2_z <= place3_z;
+      place2_r <= place3_r;
+      place2_g <= place3_g;
+      place2_b <= place3_b;
+    end
+    if (enters2) begin
+      place2_addr <= frag_addr;
+      place2_z <= frag_z;
+      place2_r <= frag_r;
+      place2_g <= frag_g;
+      place2_b <= frag_b;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (enters3) begin
+      place3_addr <= frag_addr;
+      place3_z <= frag_z;
+      place3_r <= frag_r;
+      place3_g <= frag_g;
+      place3_b <= frag_b;
+    end
+  end
+
+  // Forward: a depth that passes goes to every younger fragment of its pixel.
+  wire both = passed && depth_write;
+  wire enters_after_head = both && (frag_addr == place0_addr);
+  wire enters_after_w = wr_valid && wr_z_en && (wr_addr == frag_addr);
+  wire place1_after_head = both && (place1_addr == place0_addr);
+  wire place2_after_head = both && (place2_addr == place0_addr);
+  wire place3_after_head = both && (place3_addr == place0_addr);
+
+  always @(posedge clk) begin
+    if (compare) begin
+      place0_fwd_valid <= place1_fwd_valid || place1_after_head;
+      place0_fwd_z <= place1_after_head ? place0_z : place1_fwd_z;
+    end
+    if (enters0) begin
+      place0_fwd_valid <= enters_after_head || enters_after_w;
+      place0_fwd_z <= enters_after_head ? place0_z : wr_z;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (compare) begin
+      place1_fwd_valid <= place2_fwd_valid || place2_after_head;
+      place1_fwd_z <= place2_after_head ? place0_z : place2_fwd_z;
+    end
+    if (enters1) begin
+      place1_fwd_valid <= enters_after_head || enters_after_w;
+      place1_fwd_z <= enters_after_head ? place0_z : wr_z;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (compare) begin
+      place2_fwd_valid <= place3_fwd_valid || place3_after_head;
+      place2_fwd_z <= place3_after_head ? place0_z : place3_fwd_z;
+    end
+    if (enters2) begin
+      place2_fwd_valid <= enters_after_head || enters_after_w;
+      place2_fwd_z <= enters_after_head ? place0_z : wr_z;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (enters3) begin
+      place3_fwd_valid <= enters_after_head || enters_after_w;
+      place3_fwd_z <= enters_after_head ? place0_z : wr_z;
+    end
+  end
+
+  assign rd_addr = frag_addr;
+  assign occupied = (|count) || wr_valid;
+
+  wire unused = &{1'b0, frag_fence};  // not needed, on purpose
+
+endmodule
+
+`default_nettype wire

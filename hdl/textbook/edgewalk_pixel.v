@@ -1,0 +1,447 @@
+// edgewalk_pixel: PIXEL steps along a span, a pixel every 4/A clocks, with A adders shared by the four channels.
+//
+//   span ─> [x count]─────────────────────────────────────┐
+//       └─> [values z r g b] <─ + <─ [g z r g b] <─ EDGE  ├─> [out] ─> frag
+//                  └──────────────────────────────────────┘
+//
+// Formats: values and increments are modular words; a fragment takes the bits above the fraction.
+// Timing: a pixel leaves in the last of its phases. The additions for the next pixel begin in that same phase and go on
+// in the first phases of the next pixel, one channel of each adder a clock.
+// Rules: everything stands still while a fragment waits at the output. Columns off the screen cost their phases, and give
+// no fragment.
+// Segments: the words are cut into segments, and the carry moves a segment a clock.
+//   clock   0  1  2  3        All of a segment runs a clock behind the one below it: loading, adding, and leaving.
+//   seg 0   a  b  c  d        So a segment of an addition needs only the carry of the clock before, and the bits of a
+//   seg 1      a  b  c        fragment meet again in the output stages.
+//   seg 2         a  b
+
+`default_nettype none
+
+module edgewalk_pixel (
+  input  wire        clk,
+  input  wire        rst,
+
+  input  wire        span_valid,
+  input  wire [14:0] span_x,      // signed, first column
+  input  wire  [8:0] span_y,      // line
+  input  wire [14:0] span_count,  // pixels, at least 1
+  input  wire        span_left,   // towards smaller columns
+  input  wire [29:0] span_z,      // UQ16.14 LSB, modular
+  input  wire [21:0] span_r,      // UQ8.14 LSB, modular
+  input  wire [21:0] span_g,      // UQ8.14 LSB, modular
+  input  wire [21:0] span_b,      // UQ8.14 LSB, modular
+  input  wire        span_fresh,  // first span of the triangle: its increments are new
+  input  wire        span_fence,  // what is in flight may be of the same pixels
+  input  wire [29:0] inc_z,       // UQ16.14 LSB, modular
+  input  wire [21:0] inc_r,       // UQ8.14 LSB, modular
+  input  wire [21:0] inc_g,       // UQ8.14 LSB, modular
+  input  wire [21:0] inc_b,       // UQ8.14 LSB, modular
+  input  wire        frag_ready,
+
+  output wire        span_ready,
+  output reg         frag_valid,
+  output reg  [18:0] frag_addr,   // line * 2^10 + column
+  output reg  [15:0] frag_z,      // unorm16
+  output reg   [7:0] frag_r,      // unorm8
+  output reg   [7:0] frag_g,      // unorm8
+  output reg   [7:0] frag_b,      // unorm8
+  output reg         frag_fence,  // what is in flight may be of the same pixel
+  output reg         active,      // a span is being drawn
+  output wire        visible,     // its pixel is on the screen
+  output wire        advance,     // nothing waits at the output
+  output wire        occupied     // a fragment is in an output stage
+);
+
+  // The span being drawn.
+  assign advance = !frag_valid || frag_ready;
+  reg [14:0] x;                                   // column, signed
+  reg [8:0] y;                                    // line
+  reg left;                                       // towards smaller columns
+  reg [14:0] count;                               // pixels left of the span, this one too
+  reg fence;                                      // for the next fragment
+  reg [1:0] phase;                                // clock of the pixel
+  wire last_phase = &phase;
+  wire finish = active && last_phase && (count == 15'd1);  // last clock of the span
+  assign span_ready = advance && (!active || finish);
+  wire load = span_valid && span_ready;
+  assign visible = x < 15'd640;
+  wire leaves = advance && active && last_phase;  // this pixel is done
+  wire next_pixel = leaves && !finish;            // another one follows
+  wire emit = active && last_phase && visible;    // a fragment
+
+  always @(posedge clk) begin
+    if (rst) begin
+      active <= 1'b0;
+    end else begin
+      if (leaves && finish) active <= 1'b0;
+      if (load) active <= 1'b1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (advance && active) phase <= phase + 2'd1;
+    if (load) phase <= 2'd0;
+  end
+
+  always @(posedge clk) begin
+    if (next_pixel) begin
+      x <= left ? x - 15'd1 : x + 15'd1;
+      count <= count - 15'd1;
+    end
+    if (load) begin
+      x <= span_x;
+      count <= span_count;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (load) begin
+      y <= span_y;
+      left <= span_left;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (advance && emit) fence <= 1'b0;
+    if (load) fence <= span_fence;
+  end
+
+  // The additions.
+  reg adding;                      // this pixel is not the first of its span
+  wire add = next_pixel || (advance && active && !last_phase && adding);
+  wire [1:0] slot = phase + 2'd1;  // channel of each adder in this clock
+  reg load1;
+  wire load1_now = load1 && advance;
+  reg fresh1;
+  reg add1;
+  wire add1_now = add1 && advance;
+  reg [1:0] slot1;
+  reg load2;
+  wire load2_now = load2 && advance;
+  reg fresh2;
+  reg add2;
+  wire add2_now = add2 && advance;
+  reg [1:0] slot2;
+  reg load3;
+  wire load3_now = load3 && advance;
+  reg fresh3;
+  reg add3;
+  wire add3_now = add3 && advance;
+  reg [1:0] slot3;
+  reg [6:0] z_value0;              // bits 6 to 0 of 30
+  reg [6:0] z_inc0;                // bits 6 to 0 of 30
+  reg [22:0] z_value_late1;        // upper bits of the span to come
+  reg [22:0] z_inc_late1;          // upper bits of the span to come
+  reg [7:0] z_value1;              // bits 14 to 7 of 30
+  reg [7:0] z_inc1;                // bits 14 to 7 of 30
+  reg [14:0] z_value_late2;        // upper bits of the span to come
+  reg [14:0] z_inc_late2;          // upper bits of the span to come
+  reg [6:0] z_value2;              // bits 21 to 15 of 30
+  reg [6:0] z_inc2;                // bits 21 to 15 of 30
+  reg [7:0] z_value_late3;         // upper bits of the span to come
+  reg [7:0] z_inc_late3;           // upper bits of the span to come
+  reg [7:0] z_value3;              // bits 29 to 22 of 30
+  reg [7:0] z_inc3;                // bits 29 to 22 of 30
+  reg [6:0] r_value0;              // bits 6 to 0 of 22
+  reg [6:0] r_inc0;                // bits 6 to 0 of 22
+  reg [14:0] r_value_late1;        // upper bits of the span to come
+  reg [14:0] r_inc_late1;          // upper bits of the span to come
+  reg [7:0] r_value1;              // bits 14 to 7 of 22
+  reg [7:0] r_inc1;                // bits 14 to 7 of 22
+  reg [6:0] r_value_late2;         // upper bits of the span to come
+  reg [6:0] r_inc_late2;           // upper bits of the span to come
+  reg [6:0] r_value2;              // bits 21 to 15 of 22
+  reg [6:0] r_inc2;                // bits 21 to 15 of 22
+  reg [6:0] g_value0;              // bits 6 to 0 of 22
+  reg [6:0] g_inc0;                // bits 6 to 0 of 22
+  reg [14:0] g_value_late1;        // upper bits of the span to come
+  reg [14:0] g_inc_late1;          // upper bits of the span to come
+  reg [7:0] g_value1;              // bits 14 to 7 of 22
+  reg [7:0] g_inc1;                // bits 14 to 7 of 22
+  reg [6:0] g_value_late2;         // upper bits of the span to come
+  reg [6:0] g_inc_late2;           // upper bits of the span to come
+  reg [6:0] g_value2;              // bits 21 to 15 of 22
+  reg [6:0] g_inc2;                // bits 21 to 15 of 22
+  reg [6:0] b_value0;              // bits 6 to 0 of 22
+  reg [6:0] b_inc0;                // bits 6 to 0 of 22
+  reg [14:0] b_value_late1;        // upper bits of the span to come
+  reg [14:0] b_inc_late1;          // upper bits of the span to come
+  reg [7:0] b_value1;              // bits 14 to 7 of 22
+  reg [7:0] b_inc1;                // bits 14 to 7 of 22
+  reg [6:0] b_value_late2;         // upper bits of the span to come
+  reg [6:0] b_inc_late2;           // upper bits of the span to come
+  reg [6:0] b_value2;              // bits 21 to 15 of 22
+  reg [6:0] b_inc2;                // bits 21 to 15 of 22
+  wire [7:0] choice = (slot == 2'd3) ? {1'b0, b_value0}
+                    : (slot == 2'd2) ? {1'b0, g_value0}
+                    : (slot == 2'd1) ? {1'b0, r_value0}
+                    : {1'b0, z_value0};
+  wire [7:0] choice_2 = (slot == 2'd3) ? {1'b0, b_inc0}
+                      : (slot == 2'd2) ? {1'b0, g_inc0}
+                      : (slot == 2'd1) ? {1'b0, r_inc0}
+                      : {1'b0, z_inc0};
+  wire [7:0] adder0_sum0 = choice + choice_2;
+  reg adder0_carry1;
+  wire [8:0] choice_3 = (slot1 == 2'd3) ? {1'b0, b_value1}
+                      : (slot1 == 2'd2) ? {1'b0, g_value1}
+                      : (slot1 == 2'd1) ? {1'b0, r_value1}
+                      : {1'b0, z_value1};
+  wire [8:0] choice_4 = (slot1 == 2'd3) ? {1'b0, b_inc1}
+                      : (slot1 == 2'd2) ? {1'b0, g_inc1}
+                      : (slot1 == 2'd1) ? {1'b0, r_inc1}
+                      : {1'b0, z_inc1};
+  wire [8:0] adder0_sum1 = choice_3 + choice_4 + {8'd0, adder0_carry1};
+  reg adder0_carry2;
+  wire [7:0] choice_5 = (slot2 == 2'd3) ? {1'b0, b_value2}
+                      : (slot2 == 2'd2) ? {1'b0, g_value2}
+                      : (slot2 == 2'd1) ? {1'b0, r_value2}
+                      : {1'b0, z_value2};
+  wire [7:0] choice_6 = (slot2 == 2'd3) ? {1'b0, b_inc2}
+                      : (slot2 == 2'd2) ? {1'b0, g_inc2}
+                      : (slot2 == 2'd1) ? {1'b0, r_inc2}
+                      : {1'b0, z_inc2};
+  wire [7:0] adder0_sum2 = choice_5 + choice_6 + {7'd0, adder0_carry2};
+  reg adder0_carry3;
+  wire [7:0] adder0_sum3 = z_value3 + z_inc3 + {7'd0, adder0_carry3};
+
+  always @(posedge clk) begin
+    if (next_pixel) adding <= 1'b1;
+    if (load) adding <= 1'b0;
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      load1 <= 1'b0;
+      fresh1 <= 1'b0;
+      add1 <= 1'b0;
+      slot1 <= 2'd0;
+      load2 <= 1'b0;
+      fresh2 <= 1'b0;
+      add2 <= 1'b0;
+      slot2 <= 2'd0;
+      load3 <= 1'b0;
+      fresh3 <= 1'b0;
+      add3 <= 1'b0;
+      slot3 <= 2'd0;
+    end else if (advance) begin
+      load1 <= load;
+      fresh1 <= span_fresh;
+      add1 <= add;
+      slot1 <= slot;
+      load2 <= load1_now;
+      fresh2 <= fresh1;
+      add2 <= add1_now;
+      slot2 <= slot1;
+      load3 <= load2_now;
+      fresh3 <= fresh2;
+      add3 <= add2_now;
+      slot3 <= slot2;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (load && span_fresh) z_inc0 <= inc_z[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (advance) begin
+      z_value_late1 <= span_z[29:7];
+      z_inc_late1 <= inc_z[29:7];
+      z_value_late2 <= z_value_late1[22:8];
+      z_inc_late2 <= z_inc_late1[22:8];
+      z_value_late3 <= z_value_late2[14:7];
+      z_inc_late3 <= z_inc_late2[14:7];
+      r_value_late1 <= span_r[21:7];
+      r_inc_late1 <= inc_r[21:7];
+      r_value_late2 <= r_value_late1[14:8];
+      r_inc_late2 <= r_inc_late1[14:8];
+      g_value_late1 <= span_g[21:7];
+      g_inc_late1 <= inc_g[21:7];
+      g_value_late2 <= g_value_late1[14:8];
+      g_inc_late2 <= g_inc_late1[14:8];
+      b_value_late1 <= span_b[21:7];
+      b_inc_late1 <= inc_b[21:7];
+      b_value_late2 <= b_value_late1[14:8];
+      b_inc_late2 <= b_inc_late1[14:8];
+      adder0_carry1 <= adder0_sum0[7];
+      adder0_carry2 <= adder0_sum1[8];
+      adder0_carry3 <= adder0_sum2[7];
+    end
+  end
+
+  always @(posedge clk) begin
+    if (load1_now && fresh1) z_inc1 <= z_inc_late1[7:0];
+  end
+
+  always @(posedge clk) begin
+    if (load2_now && fresh2) z_inc2 <= z_inc_late2[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (load3_now && fresh3) z_inc3 <= z_inc_late3;
+  end
+
+  always @(posedge clk) begin
+    if (load && span_fresh) r_inc0 <= inc_r[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (load1_now && fresh1) r_inc1 <= r_inc_late1[7:0];
+  end
+
+  always @(posedge clk) begin
+    if (load2_now && fresh2) r_inc2 <= r_inc_late2;
+  end
+
+  always @(posedge clk) begin
+    if (load && span_fresh) g_inc0 <= inc_g[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (load1_now && fresh1) g_inc1 <= g_inc_late1[7:0];
+  end
+
+  always @(posedge clk) begin
+    if (load2_now && fresh2) g_inc2 <= g_inc_late2;
+  end
+
+  always @(posedge clk) begin
+    if (load && span_fresh) b_inc0 <= inc_b[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (load1_now && fresh1) b_inc1 <= b_inc_late1[7:0];
+  end
+
+  always @(posedge clk) begin
+    if (load2_now && fresh2) b_inc2 <= b_inc_late2;
+  end
+
+  always @(posedge clk) begin
+    if (load) z_value0 <= span_z[6:0];
+    if (add && (slot == 2'd0)) z_value0 <= adder0_sum0[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (load) r_value0 <= span_r[6:0];
+    if (add && (slot == 2'd1)) r_value0 <= adder0_sum0[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (load) g_value0 <= span_g[6:0];
+    if (add && (slot == 2'd2)) g_value0 <= adder0_sum0[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (load) b_value0 <= span_b[6:0];
+    if (add && (slot == 2'd3)) b_value0 <= adder0_sum0[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (load1_now) z_value1 <= z_value_late1[7:0];
+    if (add1_now && (slot1 == 2'd0)) z_value1 <= adder0_sum1[7:0];
+  end
+
+  always @(posedge clk) begin
+    if (load1_now) r_value1 <= r_value_late1[7:0];
+    if (add1_now && (slot1 == 2'd1)) r_value1 <= adder0_sum1[7:0];
+  end
+
+  always @(posedge clk) begin
+    if (load1_now) g_value1 <= g_value_late1[7:0];
+    if (add1_now && (slot1 == 2'd2)) g_value1 <= adder0_sum1[7:0];
+  end
+
+  always @(posedge clk) begin
+    if (load1_now) b_value1 <= b_value_late1[7:0];
+    if (add1_now && (slot1 == 2'd3)) b_value1 <= adder0_sum1[7:0];
+  end
+
+  always @(posedge clk) begin
+    if (load2_now) z_value2 <= z_value_late2[6:0];
+    if (add2_now && (slot2 == 2'd0)) z_value2 <= adder0_sum2[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (load2_now) r_value2 <= r_value_late2;
+    if (add2_now && (slot2 == 2'd1)) r_value2 <= adder0_sum2[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (load2_now) g_value2 <= g_value_late2;
+    if (add2_now && (slot2 == 2'd2)) g_value2 <= adder0_sum2[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (load2_now) b_value2 <= b_value_late2;
+    if (add2_now && (slot2 == 2'd3)) b_value2 <= adder0_sum2[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (load3_now) z_value3 <= z_value_late3;
+    if (add3_now && (slot3 == 2'd0)) z_value3 <= adder0_sum3;
+  end
+
+  // The output: in each stage the bits of one more segment.
+  reg [18:0] out0_addr;  // line * 2^10 + column
+  reg out0_fence;        // what is in flight may be of the same pixel
+  reg out0_valid;
+  reg [18:0] out1_addr;  // line * 2^10 + column
+  reg out1_z;            // unorm16
+  reg out1_r;            // unorm8
+  reg out1_g;            // unorm8
+  reg out1_b;            // unorm8
+  reg out1_fence;        // what is in flight may be of the same pixel
+  reg out1_valid;
+  reg [18:0] out2_addr;  // line * 2^10 + column
+  reg [7:0] out2_z;      // unorm16
+  reg [7:0] out2_r;      // unorm8
+  reg [7:0] out2_g;      // unorm8
+  reg [7:0] out2_b;      // unorm8
+  reg out2_fence;        // what is in flight may be of the same pixel
+  reg out2_valid;
+
+  always @(posedge clk) begin
+    if (advance) begin
+      out0_addr <= {y, x[9:0]};
+      out0_fence <= fence;
+      out1_addr <= out0_addr;
+      out1_z <= z_value1[7];
+      out1_r <= r_value1[7];
+      out1_g <= g_value1[7];
+      out1_b <= b_value1[7];
+      out1_fence <= out0_fence;
+      out2_addr <= out1_addr;
+      out2_z <= {z_value2, out1_z};
+      out2_r <= {r_value2, out1_r};
+      out2_g <= {g_value2, out1_g};
+      out2_b <= {b_value2, out1_b};
+      out2_fence <= out1_fence;
+      frag_addr <= out2_addr;
+      frag_z <= {z_value3, out2_z};
+      frag_r <= out2_r;
+      frag_g <= out2_g;
+      frag_b <= out2_b;
+      frag_fence <= out2_fence;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      out0_valid <= 1'b0;
+      out1_valid <= 1'b0;
+      out2_valid <= 1'b0;
+      frag_valid <= 1'b0;
+    end else if (advance) begin
+      out0_valid <= emit;
+      out1_valid <= out0_valid;
+      out2_valid <= out1_valid;
+      frag_valid <= out2_valid;
+    end
+  end
+
+  assign occupied = frag_valid || out0_valid || out1_valid || out2_valid;
+
+endmodule
+
+`default_nettype wire
