@@ -16,12 +16,14 @@ pub mod design;
 pub mod device;
 pub mod capture;
 pub mod lockstep;
+pub mod drive;
 pub mod manifest;
 pub mod write;
 pub mod read;
 
 pub use capture::{Trace, capture};
 pub use device::Device;
+pub use drive::{DriveError, render_rtl, render_rtl_with};
 pub use lockstep::{Agreement, Difference, LockstepError, lockstep};
 pub use manifest::Manifest;
 pub use ports::{Interface, Unit, interface};

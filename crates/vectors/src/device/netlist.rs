@@ -78,15 +78,30 @@ impl NetlistDevice {
         }
         Ok(NetlistDevice { simulator, inputs, outputs })
     }
-}
 
-impl Device for NetlistDevice {
-    fn cycle(&mut self, inputs: &[u128], outputs: &mut Vec<u128>) {
+    /// Drives the inputs and gives the outputs of this cycle, before the clock edge.
+    pub fn settle(&mut self, inputs: &[u128], outputs: &mut Vec<u128>) {
         for (input, value) in self.inputs.iter().zip(inputs) {
             self.simulator.set(*input, *value);
         }
         outputs.clear();
         outputs.extend(self.outputs.iter().map(|output| self.simulator.value(*output)));
+    }
+
+    /// The clock edge.
+    pub fn clock(&mut self) {
         self.simulator.tick();
+    }
+
+    /// The running netlist, for a look inside.
+    pub fn simulator(&mut self) -> &mut Simulator {
+        &mut self.simulator
+    }
+}
+
+impl Device for NetlistDevice {
+    fn cycle(&mut self, inputs: &[u128], outputs: &mut Vec<u128>) {
+        self.settle(inputs, outputs);
+        self.clock();
     }
 }
