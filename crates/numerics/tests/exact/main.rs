@@ -7,4 +7,6 @@ mod triangle;
 
 mod words;
 mod intervals;
+mod bounds;
+mod triangles;
 mod solver;

@@ -2,6 +2,7 @@
 
 use crate::rational::{exact, ratio, round_to_integer};
 use crate::triangle::{Interpolator, Triangle};
+use edgewalk_numerics::bounds::triangle_error;
 use edgewalk_numerics::solver::{least_fraction_bits, solve};
 use edgewalk_numerics::{ChannelBits, Dyadic, Rounding, Screen, SolverError, Steps, Target, Witness};
 use num_bigint::BigInt;
@@ -87,6 +88,11 @@ fn a4_bits_of_common_screens_and_one_bit_fewer_wraps_255_to_256() {
     }
     let (bits, _) = check(DEFAULT, DEPTH, Rounding::NearestHalfUp, Target::InRange);
     assert_eq!(bits, 14);
+    // The triangle of 4096x4096 shows A2 to be all but reached.
+    let (_, witness) = check(Screen::clipped(4096, 4096), COLOUR, Rounding::NearestHalfUp, Target::InRange);
+    let bound = exact(triangle_error(Rounding::NearestHalfUp, 12, witness.steps).high());
+    let error = exact(witness.sum) - ratio(witness.exact.0, witness.exact.1);
+    assert!(error > bound * ratio(999, 1000), "{witness}");
 }
 
 #[test]

@@ -43,9 +43,16 @@ pub struct Triangle {
     pub lines: Vec<Line>,
 }
 
-/// First column or line whose centre lies at or after n/d (in 1/256 px).
-fn first_center(position: &BigRational) -> i64 {
-    (position / ratio(P, 1)).ceil().to_integer().try_into().expect("on a screen")
+/// First column or line whose centre lies at or after n/d, d > 0 (in 1/256 px).
+fn first_center(n: i128, d: i128) -> i64 {
+    let center = -(-n).div_euclid(d * i128::from(P));
+    center.try_into().expect("on a screen")
+}
+
+/// First column whose centre lies on or right of an edge, on a line that the edge crosses.
+fn first_column(a: Vertex, b: Vertex, line: i64) -> i64 {
+    let [du, dv, down] = [b.0 - a.0, b.1 - a.1, line * P - a.1].map(i128::from);
+    first_center(i128::from(a.0) * dv + du * down, dv)
 }
 
 impl Triangle {
@@ -71,11 +78,7 @@ impl Triangle {
         let rounded = |numerator: BigInt| {
             round_to_integer(&BigRational::new(numerator * &scale, area.clone()), machine.rounding)
         };
-        // Columns where an edge meets a line's centre.
-        let crossing = |a: Vertex, b: Vertex, line: i64| {
-            ratio(a.0, 1) + ratio(big(b.0 - a.0) * (line * P - a.1), b.1 - a.1)
-        };
-        let line_of = |v: i64| first_center(&ratio(v, 1)).clamp(0, machine.height);
+        let line_of = |v: i64| first_center(v.into(), 1).clamp(0, machine.height);
         let (j0, j1, j2) = (line_of(p0.1), line_of(p1.1), line_of(p2.1));
         let quotient = if dv2 == 0 { BigInt::zero() } else { ratio(du2, dv2).floor().to_integer() };
         let step = |q: BigInt| rounded((&plane[1] + q * &plane[0]) * P);
@@ -94,9 +97,8 @@ impl Triangle {
         let mut value = BigInt::zero();
         let mut last_column = 0;
         for line in j0..j2 {
-            let major = first_center(&crossing(p0, p2, line));
-            let minor =
-                first_center(&if line < j1 { crossing(p0, p1, line) } else { crossing(p1, p2, line) });
+            let major = first_column(p0, p2, line);
+            let minor = if line < j1 { first_column(p0, p1, line) } else { first_column(p1, p2, line) };
             let origin = if left { major - 1 } else { major };
             if line == j0 {
                 let start = (big(origin) * P - p0.0) * &plane[0] + (big(line) * P - p0.1) * &plane[1];

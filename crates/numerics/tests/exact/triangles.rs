@@ -1,0 +1,159 @@
+//! Random triangles, walked exactly: A2, A4 and A6, and the budget of a machine with its vertex rounding.
+
+use crate::rational::{exact, ratio, round_to_integer};
+use crate::triangle::{Interpolator, Line, Triangle, Vertex};
+use edgewalk_numerics::bounds::{mismatch_rate, triangle_error};
+use edgewalk_numerics::{Channel, Dyadic, Rounding, Steps};
+use num_rational::BigRational;
+use num_traits::{Signed, ToPrimitive};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+const NEAREST: Rounding = Rounding::NearestHalfUp;
+/// 8-bit colour with 4 vertex bits.
+const TOP: i64 = 255 << 4;
+
+fn interpolator(fraction_bits: u32, rounding: Rounding) -> Interpolator {
+    Interpolator { fraction_bits, vertex_bits: 4, rounding, height: 480 }
+}
+
+/// Corners anywhere within a box of random size (one time in four a sliver) that may lie partly above the screen.
+fn random_vertices(random: &mut Pcg64Mcg) -> [Vertex; 3] {
+    let size = 256.0 * 2f64.powf(random.random_range(0.0..8.0));
+    let flat = if random.random_range(0..4) == 0 { 0.02 } else { 1.0 };
+    let turned = random.random_bool(0.5);
+    let origin = (random.random_range(-8192..65536), random.random_range(-8192..65536));
+    std::array::from_fn(|_| {
+        let long = random.random_range(0.0..=size) as i64;
+        let short = random.random_range(0.0..=size * flat) as i64;
+        let (x, y) = if turned { (short, long) } else { (long, short) };
+        (origin.0 + x, origin.1 + y, random.random_range(0..=TOP))
+    })
+}
+
+fn steps(triangle: &Triangle, line: &Line, column: i64) -> Steps {
+    let lines = (line.down[0] + line.down[1]).try_into().unwrap();
+    Steps { lines, columns: triangle.columns_to(line, column).try_into().unwrap() }
+}
+
+fn share(error: &BigRational, bound: Dyadic) -> f64 {
+    (error / exact(bound)).to_f64().unwrap()
+}
+
+#[test]
+fn a2_and_a4_random_triangles_stay_within_the_bound_and_the_range() {
+    let mut random = Pcg64Mcg::seed_from_u64(2);
+    for rounding in [NEAREST, Rounding::NearestHalfEven, Rounding::Floor] {
+        let bits = if rounding == Rounding::Floor { 12 } else { 11 };
+        let (mut most, mut checked) = (0f64, 0);
+        for _ in 0..3000 {
+            let Some(triangle) = Triangle::new(interpolator(bits, rounding), random_vertices(&mut random))
+            else {
+                continue;
+            };
+            for line in &triangle.lines {
+                // Error and bound are linear along the span, so its ends say all.
+                for column in [line.columns.0, line.columns.1] {
+                    let (sum, truth) = (triangle.sum(line, column), triangle.exact(line, column));
+                    let steps = steps(&triangle, line, column);
+                    let error = (&sum - &truth).abs();
+                    let bound = triangle_error(rounding, bits, steps).magnitude();
+                    assert!(error <= exact(bound), "{rounding} {steps:?}: {error}");
+                    let output = round_to_integer(&sum, NEAREST);
+                    assert!((0.into()..=255.into()).contains(&output), "{rounding} {steps:?}: {output}");
+                    assert!((BigRational::from_integer(output) - truth).abs() < ratio(1, 1));
+                    if steps.total() >= 16 {
+                        most = most.max(share(&error, bound));
+                    }
+                    checked += 1;
+                }
+            }
+        }
+        println!("A2 {rounding}: {checked} pixels, {most:.4} of the bound reached");
+        assert!(most > 0.95 && checked > 50_000, "{rounding}: {most} over {checked}");
+    }
+}
+
+/// Share of random pixels whose output differs from the rounded exact value, and the share that A6 predicts.
+fn mismatches(seed: u64, bits: u32, rounding: Rounding) -> (f64, f64) {
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let (mut different, mut predicted, mut checked) = (0, 0.0, 0);
+    while checked < 10_000 {
+        let Some(triangle) = Triangle::new(interpolator(bits, rounding), random_vertices(&mut random)) else {
+            continue;
+        };
+        if triangle.lines.is_empty() {
+            continue;
+        }
+        let line = &triangle.lines[random.random_range(0..triangle.lines.len())];
+        let column = random.random_range(line.columns.0..=line.columns.1);
+        if steps(&triangle, line, column).total() > 64 {
+            continue; // an error beyond 1/2 LSB could skip an output
+        }
+        let output = |value: &BigRational| round_to_integer(value, NEAREST);
+        different += i32::from(output(&triangle.sum(line, column)) != output(&triangle.exact(line, column)));
+        let additions = [line.down[0], line.down[1], triangle.columns_to(line, column)];
+        predicted += mismatch_rate(bits, &additions.map(|n| n.try_into().unwrap()));
+        checked += 1;
+    }
+    (f64::from(different) / f64::from(checked), predicted / f64::from(checked))
+}
+
+#[test]
+fn a6_predicts_the_mismatches_and_betrays_a_floored_increment() {
+    let (found, predicted) = mismatches(6, 6, NEAREST);
+    println!("A6: {found:.4} of the outputs differ, {predicted:.4} predicted");
+    assert!((found / predicted - 1.0).abs() < 0.15, "{found} for {predicted}");
+    let (found, predicted) = mismatches(6, 6, Rounding::Floor);
+    println!("A6 floored: {found:.4} of the outputs differ, {predicted:.4} predicted for RN");
+    assert!(found / predicted > 1.5, "{found} for {predicted}");
+}
+
+#[test]
+fn the_budget_holds_against_vertices_before_their_rounding() {
+    let mut random = Pcg64Mcg::seed_from_u64(7);
+    // Few vertex bits, so that their part of the budget is seen; the host's values have 20 more.
+    for (vertex_bits, bits) in [(0, 12), (2, 11), (4, 11)] {
+        let channel = Channel { bits: 8, fraction: bits, vertex_fraction: vertex_bits };
+        let host = Interpolator { fraction_bits: 24, vertex_bits: 20, ..interpolator(24, NEAREST) };
+        let machine = Interpolator { fraction_bits: bits, vertex_bits, ..host };
+        let (mut most, mut most_output, mut checked) = (0f64, 0f64, 0);
+        for _ in 0..1500 {
+            let place = random_vertices(&mut random);
+            // The host's values lie near a tie, alike at all three vertices half of the time.
+            let tie = (1i64 << 19 >> vertex_bits) - random.random_range(0..64);
+            let values: [i64; 3] = std::array::from_fn(|_| {
+                (random.random_range(0..255i64 << vertex_bits) << (20 - vertex_bits)) + tie
+            });
+            let quantised = values.map(|c| {
+                let value = ratio(c, 1i64 << (20 - vertex_bits));
+                round_to_integer(&value, Rounding::NearestHalfEven).try_into().unwrap()
+            });
+            let with = |c: [i64; 3]| std::array::from_fn(|i| (place[i].0, place[i].1, c[i]));
+            let (Some(triangle), Some(ideal)) =
+                (Triangle::new(machine, with(quantised)), Triangle::new(host, with(values)))
+            else {
+                continue;
+            };
+            for (line, ideal_line) in triangle.lines.iter().zip(&ideal.lines) {
+                for column in [line.columns.0, line.columns.1] {
+                    let budget = channel.error_budget(steps(&triangle, line, column));
+                    let truth = ideal.exact(ideal_line, column);
+                    let sum = triangle.sum(line, column);
+                    let error = (&sum - &truth).abs();
+                    assert!(error <= exact(budget.before_rounding()), "{error} over {budget}");
+                    let output = BigRational::from_integer(round_to_integer(&sum, NEAREST));
+                    let output_error = (output - truth).abs();
+                    assert!(output_error <= exact(budget.after_rounding()), "{output_error} over {budget}");
+                    most = most.max(share(&error, budget.before_rounding()));
+                    most_output = most_output.max(share(&output_error, budget.after_rounding()));
+                    checked += 1;
+                }
+            }
+        }
+        println!(
+            "budget e = {vertex_bits}, r = {bits}: {checked} pixels, {most:.4} before and {most_output:.4} after rounding reached"
+        );
+        assert!(most > 0.9 && most_output > 0.9 && checked > 10_000);
+    }
+}
