@@ -53,7 +53,7 @@ impl Chain {
         let block = self.depth.block(fragment.as_ref(), inputs.depth_write);
         let fragment_ready = inputs.rd_ready && block.is_none();
         let span_ready = self.pixel.span_ready(fragment_ready);
-        let line = self.edge.line();
+        let line = self.edge.line().copied();
         let line_ready = line.as_ref().is_some_and(|line| self.span.line_ready(line));
         let fresh_queued = self.span.fresh_queued();
         let between = Between {

@@ -1,7 +1,7 @@
 //! The model's tokens as the ports of the netlist: names and values.
 
 use edgewalk_model::Write;
-use edgewalk_model::tokens::{EdgeWalk, Fragment, Line, Prim, Span, Words};
+use edgewalk_model::tokens::{EdgeWalk, Fragment, Line, Prim, Rgb, Span, Words};
 use edgewalk_numerics::{EdgeKind, Fill, Machine, PortVertex};
 
 /// A port's name, after the channel's, and what the model has there.
@@ -30,6 +30,12 @@ const VERTICES: [[&str; 6]; 3] = [
     ["x1", "y1", "z1", "r1", "g1", "b1"],
     ["x2", "y2", "z2", "r2", "g2", "b2"],
 ];
+
+/// Z, R, G and B of a pixel.
+fn outputs(z: u32, rgb: Rgb) -> impl Iterator<Item = Field> {
+    let [r, g, b] = rgb.channels();
+    CHANNELS.into_iter().zip([z.into(), r.into(), g.into(), b.into()])
+}
 
 fn words(values: &Words) -> impl Iterator<Item = Field> {
     CHANNELS.into_iter().zip(values.map(i128::from))
@@ -70,7 +76,7 @@ pub fn prim(machine: &Machine, prim: &Prim) -> Vec<Field> {
             Fill::Textbook => fields.extend(TEXTBOOK[c].into_iter().zip(textbook)),
         }
     }
-    fields.extend(tag(machine, prim.tag));
+    fields.extend(tag(machine, prim.source.tag));
     fields
 }
 
@@ -84,7 +90,7 @@ pub fn line(machine: &Machine, line: &Line) -> Vec<Field> {
         ("fresh", line.fresh.into()),
         ("fence", line.fence.into()),
     ];
-    own.into_iter().chain(words(&line.values)).chain(tag(machine, line.tag)).collect()
+    own.into_iter().chain(words(&line.values)).chain(tag(machine, line.source.tag)).collect()
 }
 
 /// The pixels of a line.
@@ -97,7 +103,7 @@ pub fn span(machine: &Machine, span: &Span) -> Vec<Field> {
         ("fresh", span.fresh.into()),
         ("fence", span.fence.into()),
     ];
-    own.into_iter().chain(words(&span.values)).chain(tag(machine, span.tag)).collect()
+    own.into_iter().chain(words(&span.values)).chain(tag(machine, span.source.tag)).collect()
 }
 
 /// The increments of a pixel.
@@ -107,14 +113,15 @@ pub fn increments(gradient: &Words) -> Vec<Field> {
 
 /// One pixel of a triangle.
 pub fn fragment(machine: &Machine, fragment: &Fragment) -> Vec<Field> {
-    let [r, g, b] = fragment.rgb;
     let own = [("addr", fragment.addr.into()), ("fence", fragment.fence.into())];
-    own.into_iter().chain(words(&[fragment.z, r, g, b])).chain(tag(machine, fragment.tag)).collect()
+    own.into_iter()
+        .chain(outputs(fragment.z, fragment.rgb))
+        .chain(tag(machine, fragment.source.tag))
+        .collect()
 }
 
 /// A pixel written.
 pub fn write(machine: &Machine, write: &Write) -> Vec<Field> {
-    let [r, g, b] = write.rgb;
     let own = [("addr", write.addr.into()), ("z_en", write.z_en.into())];
-    own.into_iter().chain(words(&[write.z, r, g, b])).chain(tag(machine, write.tag)).collect()
+    own.into_iter().chain(outputs(write.z, write.rgb)).chain(tag(machine, write.source.tag)).collect()
 }

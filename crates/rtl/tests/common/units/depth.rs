@@ -7,7 +7,7 @@ use edgewalk_numerics::Machine;
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
-use super::{Source, tag};
+use super::{Stream, rgb, source};
 use crate::common::probe::{Failure, Probe};
 use crate::common::tokens;
 
@@ -26,19 +26,18 @@ pub fn depth(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe
     let (frag_ready, rd_valid, rd_addr) = (frag_ready?, rd_valid?, rd_addr?);
     let (data_ready, wr_valid, occupied) = (data_ready?, wr_valid?, occupied?);
     let wr = probe.channel("depth", "", "wr", &tokens::write(machine, &Write::default()))?;
-    let (mut model, mut source) = (Depth::new(machine), Source { token: None });
+    let (mut model, mut stream) = (Depth::new(machine), Stream { token: None });
     let often: [f64; 3] = std::array::from_fn(|_| rng.random_range(0.2..1.0));
     let (depth_func, depth_write) = (rng.random_range(0..8), rng.random_bool(0.9));
     let few = 1 + machine.z.max().min(3);
     probe.reset()?;
     while probe.cycle < cycles {
-        source.next(rng, |rng| Fragment {
+        stream.next(rng, |rng| Fragment {
             addr: rng.random_range(0..3.min(1 << machine.widths().address)),
-            z: rng.random_range(0..few),
-            rgb: std::array::from_fn(|_| rng.random_range(0..=machine.color.max())),
+            z: rng.random_range(0..few) as u32, // at most 4
+            rgb: rgb(machine, rng),
             fence: rng.random_bool(0.3),
-            tag: tag(machine, rng),
-            id: 0,
+            source: source(machine, rng),
         });
         let inputs = DepthInputs {
             depth_func,
@@ -49,17 +48,17 @@ pub fn depth(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe
         };
         probe.set(func, depth_func);
         probe.set(write, depth_write);
-        probe.set(frag_valid, source.token.is_some());
+        probe.set(frag_valid, stream.token.is_some());
         probe.set(rd_ready, inputs.rd_ready);
         probe.set(data_valid, inputs.data.is_some());
         probe.set(data_z, inputs.data.unwrap_or(0));
         probe.set(wr_ready, inputs.wr_ready);
-        let block = model.block(source.token.as_ref(), depth_write);
-        if let Some(token) = &source.token {
+        let block = model.block(stream.token.as_ref(), depth_write);
+        if let Some(token) = &stream.token {
             probe.set_channel(&frag, &tokens::fragment(machine, token));
             probe.check(&frag_ready, inputs.rd_ready && block.is_none())?;
         }
-        let reads = source.token.filter(|_| block.is_none());
+        let reads = stream.token.filter(|_| block.is_none());
         probe.check(&rd_valid, reads.is_some())?;
         if let Some(read) = reads {
             probe.check(&rd_addr, read.addr)?;
@@ -71,8 +70,8 @@ pub fn depth(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe
         }
         probe.check(&occupied, model.occupied())?;
         probe.tick();
-        model.step(source.token.as_ref(), block, &inputs, &mut Coverage::default());
-        source.taken(reads.is_some() && inputs.rd_ready);
+        model.step(stream.token.as_ref(), block, &inputs, &mut Coverage::default());
+        stream.taken(reads.is_some() && inputs.rd_ready);
     }
     Ok(probe)
 }

@@ -8,7 +8,7 @@ use edgewalk_numerics::Machine;
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
-use super::{Source, tag};
+use super::{Stream, source};
 use crate::common::probe::{Failure, Probe};
 use crate::common::tokens;
 use crate::common::triangles::random_triangle;
@@ -19,7 +19,7 @@ fn prims(machine: &Machine, count: usize, rng: &mut Pcg64Mcg) -> Vec<Prim> {
     // A triangle in so many is not culled, in any machine; the limit is for machines where that fails.
     for _ in 0..200 * count {
         let triangle = random_triangle(machine, rng);
-        setup.step(Some((&triangle, tag(machine, rng))), true, &mut Coverage::default());
+        setup.step(Some((&triangle, source(machine, rng).tag)), true, &mut Coverage::default());
         while !setup.tri_ready() {
             prims.extend(setup.prim().copied());
             setup.step(None, true, &mut Coverage::default());
@@ -42,13 +42,13 @@ pub fn edge(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe,
     let line_valid = probe.port("edge", "line_valid", "line_valid")?;
     let line = probe.channel("edge", "", "line", &tokens::line(machine, &Line::default()))?;
     let increments = probe.channel("edge", "", "inc", &tokens::increments(&Words::default()))?;
-    let (mut model, mut source) = (Edge::new(machine), Source { token: None });
+    let (mut model, mut stream) = (Edge::new(machine), Stream { token: None });
     probe.reset()?;
     while probe.cycle < cycles && !prims.is_empty() {
-        source.next(rng, |rng| prims[rng.random_range(0..prims.len())]);
+        stream.next(rng, |rng| prims[rng.random_range(0..prims.len())]);
         let (ready, queued) = (rng.random_bool(0.7), rng.random_bool(0.3));
-        probe.set(prim_valid, source.token.is_some());
-        if let Some(token) = &source.token {
+        probe.set(prim_valid, stream.token.is_some());
+        if let Some(token) = &stream.token {
             probe.set_channel(&prim, &tokens::prim(machine, token));
         }
         probe.set(line_ready, ready);
@@ -56,14 +56,14 @@ pub fn edge(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe,
         probe.check(&prim_ready, model.prim_ready(queued))?;
         probe.check(&line_valid, model.line().is_some())?;
         if let Some(expected) = model.line() {
-            probe.check_channel(&line, &tokens::line(machine, &expected))?;
+            probe.check_channel(&line, &tokens::line(machine, expected))?;
             probe.check_channel(&increments, &tokens::increments(model.gradient()))?;
         }
         probe.tick();
         let was_ready = model.prim_ready(queued);
         let fires = ready && model.line().is_some();
-        model.step(source.token.as_ref(), queued, fires, &mut Coverage::default());
-        probe.triangle += u64::from(source.taken(was_ready));
+        model.step(stream.token.as_ref(), queued, fires, &mut Coverage::default());
+        probe.triangle += u64::from(stream.taken(was_ready));
     }
     Ok(probe)
 }

@@ -5,6 +5,7 @@ use edgewalk_numerics::Machine;
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
+use super::rgb;
 use crate::common::probe::{Failure, Probe};
 use crate::common::tokens;
 
@@ -29,9 +30,9 @@ pub fn memory(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Prob
         let read = rng.random_bool(0.7).then(|| rng.random_range(0..words));
         let write = rng.random_bool(0.5).then(|| Write {
             addr: rng.random_range(0..words),
-            z: rng.random_range(0..=machine.z.max()),
+            z: rng.random_range(0..=machine.z.max()) as u32, // at most 32 bits
             z_en: rng.random(),
-            rgb: std::array::from_fn(|_| rng.random_range(0..=machine.color.max())),
+            rgb: rgb(machine, rng),
             ..Write::default()
         });
         let ready = rng.random_bool(often);
@@ -56,10 +57,10 @@ pub fn memory(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Prob
         in_flight = in_flight + u32::from(read.is_some()) - u32::from(taken);
         model.step(read, taken, write.as_ref());
     }
-    probe.check_words("memory", "depths", |addr| model.pixel(addr).0.into())?;
+    probe.check_words("memory", "depths", |addr| model.pixel(addr).z.into())?;
     let bits = machine.color.bits;
     probe.check_words("memory", "frame", |addr| {
-        model.pixel(addr).1.into_iter().fold(0, |word, color| (word << bits) | u128::from(color))
+        model.pixel(addr).rgb.channels().into_iter().fold(0, |word, color| (word << bits) | u128::from(color))
     })?;
     Ok(probe)
 }

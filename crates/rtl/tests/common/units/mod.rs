@@ -1,6 +1,6 @@
 //! Single units against the model, under inputs that the rest of the machine would rarely give them.
 
-use edgewalk_model::tokens::{Words, word_masks};
+use edgewalk_model::tokens::{Rgb, Source, Words, word_masks};
 use edgewalk_numerics::Machine;
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
@@ -24,11 +24,11 @@ pub use setup::setup;
 pub use span::span;
 
 /// A token that stays until it is taken, then another after a random gap.
-struct Source<T> {
+struct Stream<T> {
     token: Option<T>,
 }
 
-impl<T> Source<T> {
+impl<T> Stream<T> {
     fn next(&mut self, rng: &mut Pcg64Mcg, draw: impl FnOnce(&mut Pcg64Mcg) -> T) {
         if self.token.is_none() && rng.random_bool(0.7) {
             self.token = Some(draw(rng));
@@ -48,6 +48,11 @@ fn words(machine: &Machine, rng: &mut Pcg64Mcg) -> Words {
     word_masks(machine).map(|mask| rng.random::<u64>() & mask)
 }
 
-fn tag(machine: &Machine, rng: &mut Pcg64Mcg) -> u32 {
-    rng.random::<u32>().checked_shr(32 - machine.tag_bits).unwrap_or(0)
+fn source(machine: &Machine, rng: &mut Pcg64Mcg) -> Source {
+    Source { tag: rng.random::<u32>().checked_shr(32 - machine.tag_bits).unwrap_or(0), id: 0 }
+}
+
+fn rgb(machine: &Machine, rng: &mut Pcg64Mcg) -> Rgb {
+    let most = machine.color.max() as u16; // at most 16 bits
+    Rgb::new(std::array::from_fn(|_| rng.random_range(0..=most)))
 }

@@ -7,7 +7,7 @@ use edgewalk_numerics::Machine;
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
-use super::{Source, tag, words};
+use super::{Stream, source, words};
 use crate::common::probe::{Failure, Probe};
 use crate::common::tokens;
 
@@ -23,11 +23,11 @@ pub fn pixel(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe
     let flags = ["active", "visible", "advance", "occupied"];
     let [active, visible, advance, occupied] = flags.map(|name| probe.port("pixel", name, name));
     let (active, visible, advance, occupied) = (active?, visible?, advance?, occupied?);
-    let (mut model, mut source) = (Pixel::new(machine), Source { token: None });
+    let (mut model, mut stream) = (Pixel::new(machine), Stream { token: None });
     let often = rng.random_range(0.2..1.0);
     probe.reset()?;
     while probe.cycle < cycles {
-        source.next(rng, |rng| Span {
+        stream.next(rng, |rng| Span {
             x: rng.random_range(-4..machine.width as i32 + 4),
             y: rng.random_range(0..machine.height),
             count: rng.random_range(1..=9),
@@ -35,12 +35,11 @@ pub fn pixel(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe
             values: words(machine, rng),
             fresh: rng.random(),
             fence: rng.random(),
-            tag: tag(machine, rng),
-            id: 0,
+            source: source(machine, rng),
         });
         let (ready, gradient) = (rng.random_bool(often), words(machine, rng));
-        probe.set(span_valid, source.token.is_some());
-        if let Some(token) = &source.token {
+        probe.set(span_valid, stream.token.is_some());
+        if let Some(token) = &stream.token {
             probe.set_channel(&span, &tokens::span(machine, token));
         }
         probe.set(frag_ready, ready);
@@ -58,8 +57,8 @@ pub fn pixel(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe
         probe.check(&occupied, model.occupied())?;
         probe.tick();
         let was_ready = model.span_ready(ready);
-        model.step(source.token.as_ref(), &gradient, ready, &mut Coverage::default());
-        source.taken(was_ready);
+        model.step(stream.token.as_ref(), &gradient, ready, &mut Coverage::default());
+        stream.taken(was_ready);
     }
     Ok(probe)
 }

@@ -7,7 +7,7 @@ use edgewalk_numerics::{Machine, PortVertex};
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
-use super::{Source, tag};
+use super::{Stream, source};
 use crate::common::probe::{Failure, Probe};
 use crate::common::tokens;
 use crate::common::triangles::random_triangle;
@@ -21,13 +21,13 @@ pub fn setup(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe
     let tri_ready = probe.port("setup", "tri_ready", "tri_ready")?;
     let prim_valid = probe.port("setup", "prim_valid", "prim_valid")?;
     let prim = probe.channel("setup", "", "prim", &tokens::prim(machine, &Prim::default()))?;
-    let (mut model, mut source) = (Setup::new(machine), Source { token: None });
+    let (mut model, mut stream) = (Setup::new(machine), Stream { token: None });
     probe.reset()?;
     while probe.cycle < cycles {
-        source.next(rng, |rng| (random_triangle(machine, rng), tag(machine, rng)));
+        stream.next(rng, |rng| (random_triangle(machine, rng), source(machine, rng).tag));
         let ready = rng.random_bool(0.2);
-        probe.set(tri_valid, source.token.is_some());
-        if let Some((triangle, tag)) = &source.token {
+        probe.set(tri_valid, stream.token.is_some());
+        if let Some((triangle, tag)) = &stream.token {
             probe.set_channel(&tri, &tokens::triangle(machine, triangle, *tag));
         }
         probe.set(prim_ready, ready);
@@ -39,11 +39,11 @@ pub fn setup(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe
         probe.tick();
         let was_ready = model.tri_ready();
         model.step(
-            source.token.as_ref().map(|(triangle, tag)| (triangle, *tag)),
+            stream.token.as_ref().map(|(triangle, tag)| (triangle, *tag)),
             ready,
             &mut Coverage::default(),
         );
-        probe.triangle += u64::from(source.taken(was_ready));
+        probe.triangle += u64::from(stream.taken(was_ready));
     }
     Ok(probe)
 }

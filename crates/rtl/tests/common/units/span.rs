@@ -7,7 +7,7 @@ use edgewalk_numerics::{Fill, Machine};
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
-use super::{Source, tag, words};
+use super::{Stream, source, words};
 use crate::common::probe::{Failure, Probe};
 use crate::common::tokens;
 
@@ -20,12 +20,12 @@ pub fn span(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe,
     let span_valid = probe.port("span", "span_valid", "span_valid")?;
     let span = probe.channel("span", "", "span", &tokens::span(machine, &Span::default()))?;
     let fresh_queued = probe.port("span", "fresh_queued", "fresh_queued")?;
-    let (mut model, mut source) = (SpanQueue::new(machine), Source { token: None });
+    let (mut model, mut stream) = (SpanQueue::new(machine), Stream { token: None });
     probe.reset()?;
     while probe.cycle < cycles {
         // EDGE brings a triangle's first line only when the first span of the one before is gone.
         let may_be_fresh = !model.fresh_queued();
-        source.next(rng, |rng| {
+        stream.next(rng, |rng| {
             let fresh = may_be_fresh && rng.random_bool(0.3);
             let column = |rng: &mut Pcg64Mcg| rng.random_range(-3..=machine.width as i32 + 3);
             Line {
@@ -36,15 +36,14 @@ pub fn span(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe,
                 values: words(machine, rng),
                 fresh,
                 fence: fresh || machine.fill == Fill::Textbook && rng.random_bool(0.2),
-                tag: tag(machine, rng),
-                id: 0,
+                source: source(machine, rng),
             }
         });
         let ready = rng.random_bool(0.5);
-        probe.set(line_valid, source.token.is_some());
+        probe.set(line_valid, stream.token.is_some());
         probe.set(span_ready, ready);
         let mut was_ready = false;
-        if let Some(token) = &source.token {
+        if let Some(token) = &stream.token {
             probe.set_channel(&line, &tokens::line(machine, token));
             was_ready = model.line_ready(token);
             probe.check(&line_ready, was_ready)?;
@@ -55,8 +54,8 @@ pub fn span(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe,
         }
         probe.check(&fresh_queued, model.fresh_queued())?;
         probe.tick();
-        model.step(source.token.as_ref(), ready, &mut Coverage::default());
-        source.taken(was_ready);
+        model.step(stream.token.as_ref(), ready, &mut Coverage::default());
+        stream.taken(was_ready);
     }
     Ok(probe)
 }
