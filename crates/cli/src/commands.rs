@@ -5,6 +5,7 @@ pub mod render;
 pub mod raster;
 pub mod emit;
 pub mod vectors;
+pub mod verify;
 pub mod trace;
 pub mod bench;
 pub mod config;

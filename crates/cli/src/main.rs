@@ -19,7 +19,7 @@ mod staging;
 mod verdict;
 
 use clap::{Parser, Subcommand};
-use commands::{bench, config, demo, emit, raster, render, trace, vectors};
+use commands::{bench, config, demo, emit, raster, render, trace, vectors, verify};
 use machine_args::MachineArgs;
 use std::process::ExitCode;
 use verdict::{ToolError, Verdict};
@@ -52,12 +52,13 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    Emit(emit::Args),
+    Demo(demo::Args),
     Render(render::Args),
     Raster(raster::Args),
-    Trace(trace::Args),
-    Demo(demo::Args),
+    Emit(emit::Args),
     Vectors(vectors::Args),
+    Verify(verify::Args),
+    Trace(trace::Args),
     Bench(bench::Args),
     Config(config::Args),
 }
@@ -73,12 +74,13 @@ fn main() -> ExitCode {
     let cli = Cli::parse();
     let talk = Talk { json: cli.json, quiet: cli.quiet };
     let result = match &cli.command {
-        Command::Emit(a) => emit::run(a, &cli.machine, talk),
+        Command::Demo(a) => demo::run(a, &cli.machine, talk),
         Command::Render(a) => render::run(a, &cli.machine, talk),
         Command::Raster(a) => raster::run(a, &cli.machine, talk),
-        Command::Trace(a) => trace::run(a, &cli.machine, talk),
-        Command::Demo(a) => demo::run(a, &cli.machine, talk),
+        Command::Emit(a) => emit::run(a, &cli.machine, talk),
         Command::Vectors(a) => vectors::run(a, &cli.machine, talk),
+        Command::Verify(a) => verify::run(a, &cli.machine, talk),
+        Command::Trace(a) => trace::run(a, &cli.machine, talk),
         Command::Bench(a) => bench::run(a, &cli.machine, talk),
         Command::Config(a) => config::run(a, &cli.machine, talk.json),
     };
