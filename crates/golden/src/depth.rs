@@ -1,6 +1,5 @@
 //! The depth test, decided exactly.
 
-use crate::fragment::Fragment;
 use edgewalk_scene::DepthFunc;
 use std::cmp::Ordering;
 
@@ -18,10 +17,8 @@ pub(crate) fn passes(func: DepthFunc, order: Ordering) -> bool {
     }
 }
 
-/// The order of two depths as f64 knows it; `None` where their errors leave it open.
-pub(crate) fn compare(new: f64, stored: f64) -> Option<Ordering> {
-    // Below the normal numbers errors are absolute: the least f64 a rounding.
-    let doubt = 2.0 * Fragment::UNCERTAINTY * new.abs().max(stored.abs()) + f64::MIN_POSITIVE;
+/// The order of two depths as f64 knows it; `None` where they are no farther apart than their errors together.
+pub(crate) fn compare(new: f64, stored: f64, doubt: f64) -> Option<Ordering> {
     if (new - stored).abs() > doubt { new.partial_cmp(&stored) } else { None }
 }
 
@@ -41,11 +38,10 @@ mod tests {
 
     #[test]
     fn near_depths_stay_open() {
-        let next = |z: f64| f64::from_bits(z.to_bits() + 1);
-        assert_eq!(compare(0.5, 0.5), None);
-        assert_eq!(compare(next(0.5), 0.5), None);
-        assert_eq!(compare(0.0, f64::from_bits(1)), None);
-        assert_eq!(compare(0.5, 0.5 + 1e-14), Some(Ordering::Less));
-        assert_eq!(compare(2e-300, 1e-300), Some(Ordering::Greater));
+        let next = f64::from_bits(0.5f64.to_bits() + 1);
+        assert_eq!(compare(0.5, 0.5, 1e-15), None);
+        assert_eq!(compare(next, 0.5, 1e-15), None);
+        assert_eq!(compare(0.5, 0.5 + 1e-14, 1e-15), Some(Ordering::Less));
+        assert_eq!(compare(0.5, 0.25, 1e-15), Some(Ordering::Greater));
     }
 }

@@ -5,10 +5,10 @@
 //! the machine does. Where two depths are too near for f64, exact integers decide.
 
 mod cover;
-mod depth;
-mod fragment;
-mod picture;
 mod textbook;
+mod fragment;
+mod depth;
+mod picture;
 
 pub use cover::{MAX_SUBPIXEL_BITS, fragments, snap};
 pub use fragment::Fragment;

@@ -4,7 +4,7 @@ use crate::cover::{Cover, fragments};
 use crate::depth::{compare, passes};
 use crate::fragment::Fragment;
 use crate::textbook::{Walk, half_triangles};
-use edgewalk_scene::{Frame, Vertex};
+use edgewalk_scene::{Frame, MAX_COORDINATE, Vertex};
 use std::cmp::Ordering;
 
 /// In [`Picture::id`]: no triangle wrote here.
@@ -20,6 +20,18 @@ pub enum Fill {
     },
     /// The listing of A 7.5: integer vertices, both ends of a span inclusive, the knee line drawn twice.
     Textbook,
+}
+
+impl Fill {
+    /// The errors of two depths together.
+    fn doubt(self) -> f64 {
+        match self {
+            Self::Exact { .. } => 2.0 * Fragment::UNCERTAINTY,
+            // Up to a pixel beyond the right edge weights are negative, and terms cancel that are larger than the sum: for
+            // each vertex by as much as the height of an edge over twice the area, at most 2 * 10^6 over 1.
+            Self::Textbook => 2.0 * Fragment::UNCERTAINTY * (1.0 + 4.0 * MAX_COORDINATE),
+        }
+    }
 }
 
 /// A drawn frame; every list runs line by line from the top, pixel by pixel from the left.
@@ -73,7 +85,8 @@ impl Picture {
         self.coverage[at] += 1;
         let z = fragment.z();
         if let Some(func) = frame.depth {
-            let order = compare(z, self.z[at]).unwrap_or_else(|| self.order(frame, fill, at, fragment));
+            let order =
+                compare(z, self.z[at], fill.doubt()).unwrap_or_else(|| self.order(frame, fill, at, fragment));
             if !passes(func, order) {
                 return;
             }

@@ -6,16 +6,15 @@
 mod error;
 mod text;
 
-mod camera;
-mod clip;
-mod light;
 mod mesh;
 mod normals;
-mod scene;
+mod camera;
+mod light;
 mod shade;
-
-mod frame;
+mod clip;
+mod scene;
 pub mod triangle_file;
+mod frame;
 
 pub use camera::Camera;
 pub use error::{InputError, nearest};

@@ -1,13 +1,13 @@
 //! Triangle meshes in world space: built in, or read from a file.
 
-mod accessor;
-mod gltf;
+mod surface;
 mod knot;
+mod terrain;
+mod room;
 mod mtl;
 mod obj;
-mod room;
-mod surface;
-mod terrain;
+mod accessor;
+mod gltf;
 
 use crate::error::{Fault, InputError, nearest};
 use glam::DVec3;

@@ -20,11 +20,8 @@ pub(crate) fn corner_normals(mesh: &Mesh, face_normals: &[DVec3], crease: f64) -
         // Faces that fold back on themselves may cancel.
         sum.try_normalize().unwrap_or(own)
     };
-    let corners = |(face, own): (_, &DVec3)| {
-        let face: &crate::mesh::Face = face;
-        face.corners.map(|vertex| corner(*own, vertex))
-    };
-    mesh.faces().iter().zip(face_normals).map(corners).collect()
+    let faces = mesh.faces().iter().zip(face_normals);
+    faces.map(|(face, own)| face.corners.map(|vertex| corner(*own, vertex))).collect()
 }
 
 /// The faces around each vertex.
@@ -62,6 +59,7 @@ impl FacesAround {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)] // the meshes are built in
 mod tests {
     use super::*;
     use crate::mesh::{room, sphere};
@@ -69,7 +67,6 @@ mod tests {
 
     #[test]
     fn normals_of_a_sphere_are_its_radii() {
-        #![allow(clippy::unwrap_used)] // built in
         let mesh = sphere(48, 24).unwrap();
         let normals = corner_normals(&mesh, &face_normals(&mesh), PI);
         for (face, normals) in mesh.faces().iter().zip(normals) {
@@ -82,7 +79,6 @@ mod tests {
 
     #[test]
     fn a_crease_keeps_the_walls_of_a_room_apart() {
-        #![allow(clippy::unwrap_used)] // built in
         let mesh = room().unwrap();
         let own = face_normals(&mesh);
         let creased = corner_normals(&mesh, &own, 1.0);
