@@ -41,13 +41,11 @@ pub fn half_triangles(
 ) {
     let Some(walk) = Walk::new(triangle, mode) else { return };
     for half in [Half::First, Half::Second] {
-        let Some((left, right)) = walk.edges(half) else { continue };
-        let first_line = left.top[1].max(right.top[1]);
-        let last_line = left.bottom[1].min(right.bottom[1]);
-        for y in first_line.max(0)..=last_line.min(i64::from(height) - 1) {
-            let (start, end) = (left.pixel(y), right.pixel(y));
+        let Some(sides) = walk.sides(half) else { continue };
+        for y in sides.top.max(0)..=sides.bottom.min(i64::from(height) - 1) {
+            let (start, end) = (sides.left.pixel(y), sides.right.pixel(y));
             for x in start.max(0)..=end.min(i64::from(width) - 1) {
-                draw(half, &walk.value(&left, x as u32, y as u32));
+                draw(half, &walk.value(&sides.left, x as u32, y as u32));
             }
         }
     }
@@ -74,24 +72,25 @@ impl Walk {
         (winding != 0).then_some(Self { vertices: shaded(triangle, mode), points, sorted, winding })
     }
 
-    /// The left and the right edge of a half; `None` if it has no height.
-    fn edges(&self, half: Half) -> Option<(Edge, Edge)> {
+    /// What bounds a half; `None` if it has no height.
+    fn sides(&self, half: Half) -> Option<Sides> {
         let [one, two, three] = self.sorted;
         let minor = match half {
             Half::First => Edge { top: one, bottom: two },
             Half::Second => Edge { top: two, bottom: three },
         };
         let major = Edge { top: one, bottom: three };
+        let (top, bottom) = (minor.top[1], minor.bottom[1]);
         let knee_is_left = cross(one, three, two) > 0;
-        let has_height = minor.top[1] < minor.bottom[1];
-        has_height.then_some(if knee_is_left { (minor, major) } else { (major, minor) })
+        let (left, right) = if knee_is_left { (minor, major) } else { (major, minor) };
+        (top < bottom).then_some(Sides { left, right, top, bottom })
     }
 
     /// The values at a pixel the listing writes. On the line Y_2 both halves agree.
     pub(crate) fn fragment(&self, x: u32, y: u32) -> Option<Fragment<'_>> {
-        let half = if i64::from(y) < self.sorted[1][1] { Half::First } else { Half::Second };
-        let (left, _) = self.edges(half).or_else(|| self.edges(Half::First))?;
-        Some(self.value(&left, x, y))
+        let halves = [Half::First, Half::Second].into_iter().filter_map(|half| self.sides(half));
+        let mut here = halves.filter(|sides| (sides.top..=sides.bottom).contains(&i64::from(y)));
+        here.next().map(|sides| self.value(&sides.left, x, y))
     }
 
     /// The value of the left edge at line y, and delta i_X for each pixel from the first one to x.
@@ -111,7 +110,16 @@ impl Walk {
     }
 }
 
-/// An edge of a half; it has a height.
+/// What bounds a half that has a height.
+struct Sides {
+    left: Edge,
+    right: Edge,
+    /// First and last line.
+    top: i64,
+    bottom: i64,
+}
+
+/// An edge of such a half.
 struct Edge {
     top: [i64; 2],
     bottom: [i64; 2],

@@ -94,6 +94,23 @@ fn without_depth_write_the_cleared_depth_stays() {
 }
 
 #[test]
+fn without_depth_write_ties_are_against_the_cleared_depth() {
+    let mut two = frame(Some(DepthFunc::Lequal), vec![over_all([0.5; 3], 0.1), over_all([1.0; 3], 0.9)]);
+    two.depth_write = false;
+    assert_eq!(centre(&draw(&two, EXACT)), (2, 2, 1, 1.0, 0.9));
+}
+
+#[test]
+fn constant_depths_one_bit_apart_are_told_apart() {
+    let near = 0.3;
+    let far = f64::from_bits(f64::to_bits(near) + 1);
+    for (depths, writes) in [([far, near], 2), ([near, far], 1), ([near, near], 1)] {
+        let triangles = depths.map(|z| over_all([z; 3], 0.5)).to_vec();
+        assert_eq!(centre(&draw(&frame(Some(DepthFunc::Less), triangles), EXACT)).1, writes, "{depths:?}");
+    }
+}
+
+#[test]
 fn depth_off_draws_everything_in_list_order() {
     let picture = draw(&frame(None, vec![over_all([0.1; 3], 0.1), over_all([1.0; 3], 0.9)]), EXACT);
     assert_eq!(centre(&picture), (2, 2, 1, 1.0, 0.9));

@@ -70,6 +70,9 @@ fn gltf_nodes_place_their_meshes() {
     assert_eq!(text.bounds(), [DVec3::new(10.0, 0.0, 0.0), DVec3::new(12.0, 2.0, 0.0)]);
     assert_eq!(text.faces().len(), 2);
     assert_eq!(text.materials()[0].diffuse, DVec3::new(0.25, 0.5, 1.0));
+    let nested = r#""translation":[0,0,5],"children":[1]},{"mesh":0,"#;
+    let nested = Gltf::square().with(r#""mesh":0,"#, nested).read().unwrap();
+    assert_eq!(nested.bounds(), [DVec3::new(10.0, 0.0, 5.0), DVec3::new(12.0, 2.0, 5.0)]);
     let mirrored = Gltf::square().with("[2,2,2]", "[-2,2,2]").read().unwrap();
     assert_eq!(mirrored.bounds()[0].x, 8.0);
     for face in 0..2 {

@@ -14,7 +14,7 @@ const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 #[test]
 fn obj_polygons_become_fans_and_equal_positions_one() {
     let text = format!(
-        "# comment\no part\n{SQUARE}vt 0 0\nvn 0 0 1\nf 1/1/1 2//1 3/1 4\r\nv 0 0 0 1.0\ng more\nf -5 -3 -1\n"
+        "# comment\no part\n{SQUARE}vt 0 0\nvn 0 0 1\nf 1/1/1 2//1 3/1 4\r\nv -0 0 0 1.0\ng more\nf -5 -3 -1\n"
     );
     let mesh = read("a.obj", text);
     let corners: Vec<_> = mesh.faces().iter().map(|face| face.corners).collect();
