@@ -128,22 +128,20 @@ fn shared_edges_are_drawn_twice() {
 }
 
 #[test]
-fn knee_line_ties_with_itself() {
-    // Slivers of the least area and 987 lines, the knee on the screen. Their last pixels lie far outside in depth, where
-    // f64 has lost eleven bits; both halves give the knee line the same exact depth all the same.
+fn slivers_tie_with_themselves() {
+    // Slivers a thousand lines long, drawn again from other vertices. Their last pixels lie far outside in depth, where
+    // f64 has lost some bits; it is the same exact depth all the same, on the knee line in both halves.
     let mut rng = Pcg64::seed_from_u64(7);
-    let mut repeated = 0;
-    for k in 0..2000 {
-        let [mut one, mut two, mut three] = [(0.0, 0.0), (377.0, 610.0), (610.0, 987.0)];
-        if k % 2 == 0 {
-            [one, two, three] = [one, two, three].map(|(x, y)| (400.0 - x, y)); // mirrored
-        }
-        let place = |(x, y): (f64, f64), z| (x - two.0 + 20.0, y - two.1 + 20.0, z);
-        let triangle =
-            shaded([place(one, rng.random()), place(two, rng.random()), place(three, rng.random())]);
+    let (mut shared, mut knees) = (0, 0);
+    for _ in 0..60 {
+        let bottom = f64::from(rng.random_range(0..60));
+        let knee = f64::from(rng.random_range(1..1000));
+        let beside = (knee * bottom / 1000.0).round() + f64::from(rng.random_range(0..=1));
+        let mut depth = || rng.random::<f64>();
+        let [a, b, c] = shaded([(0.0, 0.0, depth()), (beside, knee, depth()), (bottom, 1000.0, depth())]).0;
         let [strict, lenient] = [DepthFunc::Less, DepthFunc::Lequal].map(|func| {
-            let mut frame = Frame::new(SCREEN.0, SCREEN.1);
-            (frame.depth, frame.triangles) = (Some(func), vec![triangle]);
+            let mut frame = Frame::new(64, 1001);
+            (frame.depth, frame.triangles) = (Some(func), vec![Triangle([a, b, c]), Triangle([b, c, a])]);
             draw(&frame, Fill::Textbook)
         });
         for at in 0..strict.z.len() {
@@ -151,11 +149,30 @@ fn knee_line_ties_with_itself() {
             let drawn = strict.writes[at] > 0;
             assert_eq!(strict.writes[at], u32::from(drawn));
             assert_eq!(lenient.writes[at], if drawn { lenient.coverage[at] } else { 0 });
-            repeated += u32::from(drawn && strict.coverage[at] == 2);
+            shared += u32::from(drawn);
+            knees += u32::from(drawn && strict.coverage[at] == 4);
         }
     }
-    println!("{repeated} pixels twice");
-    assert!(repeated > 1000);
+    println!("{shared} pixels, {knees} of them on knee lines");
+    assert!(shared > 50_000 && knees > 60);
+}
+
+#[test]
+fn depths_that_f64_leaves_open_are_decided_on_every_line() {
+    for shape in [
+        [(2.0, 2.0), (30.0, 2.0), (9.0, 30.0)],
+        [(2.0, 2.0), (30.0, 30.0), (9.0, 30.0)],
+        [(2.0, 2.0), (30.0, 9.0), (9.0, 30.0)],
+    ] {
+        let [far, near] = [0.5, 0.5 - 1e-10].map(|z| shaded(shape.map(|(x, y)| (x, y, z))));
+        for (triangles, passes) in [([far, near], 2), ([near, far], 1)] {
+            let mut frame = Frame::new(SCREEN.0, SCREEN.1);
+            frame.triangles = triangles.to_vec();
+            let picture = draw(&frame, Fill::Textbook);
+            assert!(picture.writes.iter().all(|writes| *writes == 0 || *writes == passes));
+            assert!(picture.writes.iter().sum::<u32>() > 200);
+        }
+    }
 }
 
 /// Seed C: intensities 0.9, 0.2, 0.3 at y = 10, 20, 30. The text gives no x but those of line 15: 10.5 on edge P1P2 and
