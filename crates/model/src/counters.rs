@@ -79,22 +79,18 @@ pub(crate) struct Fires {
 impl Counters {
     #[inline]
     pub(crate) fn count(&mut self, fires: &Fires) {
-        self.cycles += 1;
-        self.activity[fires.activity as usize] += 1;
-        if fires.triangle {
-            self.triangles += 1;
-        }
-        if fires.line {
-            self.lines += 1;
-        }
-        if fires.span {
-            self.spans += 1;
-        }
-        if fires.fragment {
-            self.fragments += 1;
-        }
-        if fires.write {
-            self.writes += 1;
+        one_more(&mut self.cycles);
+        one_more(&mut self.activity[fires.activity as usize]);
+        for (fired, counter) in [
+            (fires.triangle, &mut self.triangles),
+            (fires.line, &mut self.lines),
+            (fires.span, &mut self.spans),
+            (fires.fragment, &mut self.fragments),
+            (fires.write, &mut self.writes),
+        ] {
+            if fired {
+                one_more(counter);
+            }
         }
     }
 
@@ -121,4 +117,10 @@ impl Counters {
     pub fn add_up(&self) -> bool {
         self.busy() + self.stalls() == self.cycles
     }
+}
+
+/// Nobody waits for 2^64: no check in every cycle.
+#[inline]
+fn one_more(counter: &mut u64) {
+    *counter = counter.wrapping_add(1);
 }

@@ -133,25 +133,28 @@ impl Depth {
         if entering.is_none() && frag.is_some() {
             self.count_wait(block, coverage);
         }
-        let compared = match inputs.data {
-            Some(data) if self.data_ready(inputs.wr_ready) => Some((self.queue.pop(), data as u32)), // b <= 32 bits
-            _ => None,
-        };
-        if let Some(frag) = entering {
-            let forward = self.forward_from_w(frag.addr);
-            coverage.forward_write += u64::from(forward.is_some());
-            self.queue.push(frag, forward);
-        }
-        if let Some((head, data)) = compared {
-            self.compare(&head, data, inputs, coverage);
+        let from_w = entering.and_then(|f| self.forward_from_w(f.addr));
+        let compared = inputs.data.filter(|_| self.data_ready(inputs.wr_ready));
+        if let Some(data) = compared {
+            self.compare(data as u32, inputs, coverage); // b <= 32 bits
         } else if inputs.wr_ready {
             self.w = None;
         } else if self.w.is_some() {
             coverage.write_stall += 1;
         }
+        if let Some(frag) = entering {
+            // The compare of this same cycle comes first; w now holds what it writes.
+            let from_compare = compared.and_then(|_| self.forward_from_w(frag.addr));
+            if from_compare.is_some() {
+                coverage.forward_compare += 1;
+            } else if from_w.is_some() {
+                coverage.forward_write += 1;
+            }
+            self.queue.push(frag, from_compare.or(from_w));
+        }
     }
 
-    /// The old depth of a fragment that enters, if w still holds it. (A compare of the same cycle comes before it.)
+    /// The depth that w writes to this address, if it does.
     #[inline]
     fn forward_from_w(&self, addr: u32) -> Option<u32> {
         match &self.w {
@@ -160,11 +163,11 @@ impl Depth {
         }
     }
 
-    /// Compares the fragment that leaves the queue; if it passes it is written, and later fragments of its pixel, one
-    /// that enters in this cycle too, take its depth.
+    /// Compares the oldest fragment and drops it; if it passes it is written, and those of its pixel that are queued
+    /// take its depth.
     #[inline]
-    fn compare(&mut self, head: &InFlightHead, data: u32, inputs: &DepthInputs, coverage: &mut Coverage) {
-        let InFlightHead { fragment, forward } = head;
+    fn compare(&mut self, data: u32, inputs: &DepthInputs, coverage: &mut Coverage) {
+        let InFlightHead { fragment, forward } = self.queue.pop();
         if forward.is_some() {
             coverage.forward_used += 1;
         }
@@ -183,7 +186,7 @@ impl Depth {
             source: fragment.source,
         });
         if self.hazard == Hazard::Forward && inputs.depth_write {
-            coverage.forward_compare += self.queue.forward(fragment.addr, fragment.z);
+            self.queue.forward(fragment.addr, fragment.z, coverage);
         }
     }
 

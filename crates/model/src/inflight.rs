@@ -3,6 +3,7 @@
 //! Columns instead of records: fields are then read as they were written, one by one. A record written field by field
 //! and copied whole in the next cycle would make the host wait until its stores are done.
 
+use crate::Coverage;
 use crate::tokens::{Fragment, Rgb, Source};
 
 /// Places; the machine's queue is at most as deep.
@@ -91,18 +92,16 @@ impl InFlight {
         }
     }
 
-    /// Every fragment of this address takes `z` for its old depth; how many did.
+    /// Every fragment of this address takes `z` for its old depth.
     #[inline]
-    pub(crate) fn forward(&mut self, addr: u32, z: u32) -> u64 {
-        let mut taken = 0;
+    pub(crate) fn forward(&mut self, addr: u32, z: u32, coverage: &mut Coverage) {
         for place in 0..self.len {
             let slot = self.slot(place);
             if self.addr[slot] == addr {
                 self.forwarded[slot] = true;
                 self.forward_z[slot] = z;
-                taken += 1;
+                coverage.forward_compare += 1;
             }
         }
-        taken
     }
 }

@@ -40,6 +40,8 @@ impl Stalls {
 pub struct Memory {
     latency: u64,
     stalls: Stalls,
+    /// Any readies to draw.
+    readies_vary: bool,
     random: Pcg32,
     now: u64,
     rd_ready: bool,
@@ -49,23 +51,36 @@ pub struct Memory {
     words: Vec<Stored>,
 }
 
-/// A pixel of both memories.
+/// A pixel of both memories, and what happened to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stored {
-    /// Depth, b <= 32 bits.
-    pub z: u32,
     /// Colour, b <= 16 bits a channel.
     pub rgb: Rgb,
+    /// Depth, b <= 32 bits.
+    pub z: u32,
+    /// Not stored: how often its depth was read.
+    pub reads: u32,
+    /// Not stored: how often it was written.
+    pub writes: u32,
+    /// Not stored: number of the triangle that wrote it last, -1: none.
+    pub id: i32,
 }
 
 impl Memory {
     /// A cleared memory: the farthest depth, and the colour `clear` (b bits each) everywhere.
     #[must_use]
     pub fn new(machine: &Machine, clear: [u64; 3], stalls: Stalls) -> Self {
-        let empty = Stored { z: machine.z.max() as u32, rgb: Rgb::new(clear.map(|c| c as u16)) };
+        let empty = Stored {
+            rgb: Rgb::new(clear.map(|c| c as u16)), // b <= 16 bits
+            z: machine.z.max() as u32,              // b <= 32 bits
+            reads: 0,
+            writes: 0,
+            id: -1,
+        };
         let mut memory = Memory {
             latency: u64::from(machine.latency),
             stalls,
+            readies_vary: stalls.rd | stalls.wr != 0,
             random: Pcg32::seed_from_u64(stalls.seed),
             now: 0,
             rd_ready: true,
@@ -99,10 +114,10 @@ impl Memory {
         (!self.reads.is_empty() && due <= self.now).then_some(u64::from(z))
     }
 
-    /// Depth and colour stored at an address.
+    /// What is stored at an address.
     #[must_use]
-    pub fn pixel(&self, addr: u32) -> Stored {
-        self.words[addr as usize]
+    pub fn pixel(&self, addr: u32) -> &Stored {
+        &self.words[addr as usize]
     }
 
     /// Clock edge: the read that fired, whether the data was taken, the write that fired.
@@ -112,17 +127,21 @@ impl Memory {
             self.reads.pop();
         }
         if let Some(addr) = read {
-            let due = self.now + self.latency + self.late();
-            self.reads.push((due, self.words[addr as usize].z));
+            let due = self.now.wrapping_add(self.latency + self.late());
+            let word = &mut self.words[addr as usize];
+            word.reads = word.reads.wrapping_add(1);
+            self.reads.push((due, word.z));
         }
         if let Some(write) = write {
             let word = &mut self.words[write.addr as usize];
+            word.writes = word.writes.wrapping_add(1);
+            word.id = write.source.id as i32;
             word.rgb = write.rgb;
             if write.z_en {
                 word.z = write.z;
             }
         }
-        self.now += 1;
+        self.now = self.now.wrapping_add(1);
         self.draw_readies();
     }
 
@@ -136,7 +155,7 @@ impl Memory {
 
     #[inline]
     fn draw_readies(&mut self) {
-        if self.stalls.rd | self.stalls.wr != 0 {
+        if self.readies_vary {
             let [rd, wr, ..] = self.random.next_u32().to_le_bytes();
             self.rd_ready = rd >= self.stalls.rd;
             self.wr_ready = wr >= self.stalls.wr;

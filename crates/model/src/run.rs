@@ -44,14 +44,6 @@ pub struct Frame {
     pub corners: Coverage,
 }
 
-/// What happened to a pixel.
-#[derive(Clone, Copy)]
-struct Tally {
-    coverage: u32,
-    writes: u32,
-    id: i32,
-}
-
 /// What [`render_with`] reports, in order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event<'a> {
@@ -81,7 +73,6 @@ pub fn render_with(
 ) -> Frame {
     let mut model = Model::new(machine);
     let mut memory = Memory::new(machine, state.clear, stalls);
-    let mut tallies = vec![Tally { coverage: 0, writes: 0, id: -1 }; 1 << machine.widths().address];
     let mut triangles = triangles.into_iter();
     let mut next = triangles.next();
     loop {
@@ -98,14 +89,10 @@ pub fn render_with(
         let data_taken = inputs.data.is_some() && outputs.data_ready;
         let read = outputs.rd.filter(|_| inputs.rd_ready);
         let write = outputs.wr.as_ref().filter(|_| inputs.wr_ready);
-        if let Some(addr) = read {
-            tallies[addr as usize].coverage += 1;
+        if read.is_some() {
             hook(Event::Fragment(&model.last_read()));
         }
         if let Some(write) = write {
-            let tally = &mut tallies[write.addr as usize];
-            tally.writes += 1;
-            tally.id = write.source.id as i32;
             hook(Event::Write(write));
         }
         memory.step(read, data_taken, write);
@@ -118,14 +105,13 @@ pub fn render_with(
     let x_bits = machine.widths().x;
     let addresses: Vec<u32> =
         (0..machine.height).flat_map(|y| (0..machine.width).map(move |x| y << x_bits | x)).collect();
-    let stored = || addresses.iter().map(|a| memory.pixel(*a));
-    let tallied = || addresses.iter().map(|a| tallies[*a as usize]);
+    let stored = || addresses.iter().map(|addr| memory.pixel(*addr));
     Frame {
         z: stored().map(|p| u64::from(p.z)).collect(),
         rgb: stored().map(|p| p.rgb.channels().map(u64::from)).collect(),
-        coverage: tallied().map(|t| t.coverage).collect(),
-        writes: tallied().map(|t| t.writes).collect(),
-        id: tallied().map(|t| t.id).collect(),
+        coverage: stored().map(|p| p.reads).collect(),
+        writes: stored().map(|p| p.writes).collect(),
+        id: stored().map(|p| p.id).collect(),
         counters: model.counters().clone(),
         corners: model.coverage().clone(),
     }

@@ -28,15 +28,6 @@ pub struct SpanQueue {
     fresh_queued: bool,
 }
 
-/// The pixels of a line.
-struct Cut {
-    x: i32,
-    count: i32,
-    left: bool,
-    /// The screen ended it, not the edge.
-    scissored: bool,
-}
-
 impl SpanQueue {
     /// An empty unit.
     #[must_use]
@@ -64,7 +55,7 @@ impl SpanQueue {
     #[inline]
     #[must_use]
     pub fn line_ready(&self, line: &Line) -> bool {
-        self.fifo.len() < self.depth || self.cut(line).is_none()
+        self.fifo.len() < self.depth || self.is_empty(line)
     }
 
     /// The span offered to PIXEL.
@@ -97,23 +88,26 @@ impl SpanQueue {
     fn take(&mut self, line: &Line, full: bool, coverage: &mut Coverage) {
         let fresh = line.fresh | self.pend_fresh;
         let fence = line.fence | self.pend_fence;
-        let cut = self.cut(line);
-        if full && cut.is_some() {
-            return; // not ready
-        }
-        let Some(cut) = cut else {
+        if self.is_empty(line) {
             self.pend_fresh = fresh;
             self.pend_fence = fence;
             coverage.empty_span += 1;
             coverage.dropped_fresh += u64::from(fresh);
             coverage.dropped_when_full += u64::from(full);
             return;
-        };
+        }
+        if full {
+            return; // not ready
+        }
+        let left = line.left && !self.textbook;
+        let (start, end) = self.columns(line);
+        let (x, count) =
+            if left { (end - 1, end - start.max(0)) } else { (start, end.min(self.width) - start) };
         self.fifo.push(Span {
-            x: cut.x,
+            x,
             y: line.y,
-            count: cut.count as u32, // at least 1
-            left: cut.left,
+            count: count as u32, // at least 1
+            left,
             values: line.values,
             fresh,
             fence,
@@ -122,25 +116,21 @@ impl SpanQueue {
         self.fresh_queued |= fresh;
         self.pend_fresh = false;
         self.pend_fence = false;
-        coverage.scissor_cut += u64::from(cut.scissored);
+        coverage.scissor_cut += u64::from(if left { start < 0 } else { end > self.width });
     }
 
-    /// The pixels of a line, `None` if there are none.
+    /// The columns of a line from left to right, the last one excluded.
     #[inline]
-    fn cut(&self, line: &Line) -> Option<Cut> {
-        if line.left && !self.textbook {
-            let x = line.major - 1;
-            let end = line.minor.max(0);
-            let empty = x < end || line.minor >= self.width;
-            return (!empty).then_some(Cut { x, count: x - end + 1, left: true, scissored: line.minor < 0 });
-        }
-        let (x, edge) = match (self.textbook, line.left) {
-            (false, _) => (line.major, line.minor),
-            (true, false) => (line.major - 1, line.minor),
-            (true, true) => (line.minor - 1, line.major),
-        };
-        let end = edge.min(self.width);
-        let empty = end <= x || edge <= 0;
-        (!empty).then_some(Cut { x, count: end - x, left: false, scissored: edge > self.width })
+    fn columns(&self, line: &Line) -> (i32, i32) {
+        let (start, end) = if line.left { (line.minor, line.major) } else { (line.major, line.minor) };
+        // In textbook fill C is 1 + Trunc(X), and both ends are drawn.
+        (start - i32::from(self.textbook), end)
+    }
+
+    /// No column of the line lies on the screen.
+    #[inline]
+    fn is_empty(&self, line: &Line) -> bool {
+        let (start, end) = self.columns(line);
+        end.min(self.width) <= start.max(0)
     }
 }

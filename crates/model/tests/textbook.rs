@@ -7,8 +7,24 @@ use edgewalk_model::{Event, Stalls, render_with};
 use edgewalk_numerics::{Machine, PortVertex};
 use num_rational::Ratio;
 use rand::{Rng, SeedableRng, rngs::StdRng};
+use std::collections::HashMap;
 
 type Q = Ratio<i128>;
+
+/// A line of the listing.
+struct Row {
+    y: i64,
+    /// X_start + 1/2 and X_end + 1/2, px.
+    ends: [Q; 2],
+    /// Lines that each edge has walked.
+    lines: [i128; 2],
+    /// Z, R, G, B at Trunc(X_start + 1/2), LSB.
+    first: [Q; 4],
+    /// Their increments, LSB/px.
+    gradient: [Q; 4],
+    /// Additions that lead to the first values.
+    steps: i128,
+}
 
 /// A fragment of the listing: pixel, exact Z, R, G, B in LSB, and the additions that led there.
 struct Pixel {
@@ -18,53 +34,64 @@ struct Pixel {
     steps: i128,
 }
 
-/// The listing (A 7.10), part by part; what is off the screen is left out.
-fn listing(machine: &Machine, triangle: &Triangle) -> Vec<Pixel> {
+type Edge = (PortVertex, PortVertex);
+
+fn whole(v: i32) -> Q {
+    Q::from_integer(i128::from(v))
+}
+
+/// What goes from `from` to `to` along an edge, at line y.
+fn along((top, bottom): Edge, y: i32, from: Q, to: Q) -> Q {
+    from + (to - from) * whole(y - top.y) / whole(bottom.y - top.y)
+}
+
+/// The lines of the listing (A 7.10) on the screen, part by part.
+fn rows(machine: &Machine, triangle: &Triangle) -> Vec<Row> {
     let mut corner = *triangle;
     corner.sort_by_key(|v| v.y);
     let [a, b, c] = corner;
-    let whole = |v: i32| Q::from_integer(i128::from(v));
     let cross = whole(b.x - a.x) * whole(c.y - a.y) - whole(c.x - a.x) * whole(b.y - a.y);
-    let mut pixels = Vec::new();
     if cross == whole(0) {
-        return pixels;
+        return Vec::new();
     }
+    let lsb =
+        |i: usize, v: PortVertex| Q::new(i128::from(v.value[i]), 1 << machine.channels()[i].vertex_fraction);
+    let gradient = std::array::from_fn(|i| {
+        let [va, vb, vc] = corner.map(|v| lsb(i, v));
+        ((vb - va) * whole(c.y - a.y) - (vc - va) * whole(b.y - a.y)) / cross
+    });
     let knee_left = cross < whole(0);
-    let mut walked = 0;
-    for (upper, lower) in [(a, b), (b, c)] {
-        if upper.y == lower.y {
-            continue;
+    let mut rows = Vec::new();
+    for minor in [(a, b), (b, c)].into_iter().filter(|(top, bottom)| top.y < bottom.y) {
+        let [left, right] = if knee_left { [minor, (a, c)] } else { [(a, c), minor] };
+        for y in minor.0.y.max(0)..=minor.1.y.min(machine.height as i32 - 1) {
+            let lines = [left, right].map(|e| i128::from(y - e.0.y.max(0)));
+            rows.push(Row {
+                y: i64::from(y),
+                ends: [left, right].map(|e| along(e, y, whole(e.0.x), whole(e.1.x)) + Q::new(1, 2)),
+                lines,
+                first: std::array::from_fn(|i| along(left, y, lsb(i, left.0), lsb(i, left.1))),
+                gradient,
+                steps: lines[0],
+            });
         }
-        let (left, right) = if knee_left { ((upper, lower), (a, c)) } else { ((a, c), (upper, lower)) };
-        let first = upper.y.max(0);
-        for y in first..=lower.y.min(machine.height as i32 - 1) {
-            let along = |e: (PortVertex, PortVertex), from: Q, to: Q| {
-                from + (to - from) * whole(y - e.0.y) / whole(e.1.y - e.0.y)
-            };
-            let x_on = |e: (PortVertex, PortVertex)| {
-                (along(e, whole(e.0.x), whole(e.1.x)) + Q::new(1, 2)).floor().to_integer()
-            };
-            let (start, end) = (x_on(left), x_on(right));
-            for x in start.max(start)..=end {
-                if x < 0 || x >= i128::from(machine.width) {
-                    continue;
-                }
-                let value = std::array::from_fn(|i| {
-                    let one = 1i128 << machine.channels()[i].vertex_fraction;
-                    let [va, vb, vc] = corner.map(|v| Q::new(i128::from(v.value[i]), one));
-                    let gradient = ((vb - va) * whole(c.y - a.y) - (vc - va) * whole(b.y - a.y)) / cross;
-                    let of = |v: PortVertex| Q::new(i128::from(v.value[i]), one);
-                    along(left, of(left.0), of(left.1)) + gradient * Q::from_integer(x - start)
-                });
-                let lines = if knee_left { y - first } else { walked };
-                pixels.push(Pixel {
-                    x: x as i64,
-                    y: i64::from(y),
-                    value,
-                    steps: i128::from(lines) + x - start,
-                });
-            }
-            walked += i32::from(y < lower.y);
+    }
+    rows
+}
+
+/// The fragments of the listing in its order; what is off the screen is left out.
+fn listing(machine: &Machine, triangle: &Triangle) -> Vec<Pixel> {
+    let mut pixels = Vec::new();
+    for row in rows(machine, triangle) {
+        let [start, end] = row.ends.map(|x| x.floor().to_integer());
+        for x in start.max(0)..=end.min(i128::from(machine.width) - 1) {
+            let moved = Q::from_integer(x - start);
+            pixels.push(Pixel {
+                x: x as i64,
+                y: row.y,
+                value: std::array::from_fn(|i| row.first[i] + row.gradient[i] * moved),
+                steps: row.steps + x - start,
+            });
         }
     }
     pixels
@@ -170,4 +197,44 @@ fn the_square_cut_in_two_shares_its_diagonal() {
         }
     }
     assert_eq!(frame.coverage.iter().sum::<u32>(), 15 + 15);
+}
+
+/// The slopes of the preset: a span may end a pixel off only where X + 1/2 comes as near to a whole number as A5 says.
+#[test]
+fn slope_edges_differ_from_the_listing_within_their_bound() {
+    let mut rng = StdRng::seed_from_u64(3);
+    let (mut checked, mut differ) = (0, 0);
+    for fraction in [2, 6, 16, 24] {
+        let mut machine = Machine::preset("textbook").expect("a preset");
+        (machine.width, machine.height, machine.edge_fraction) = (80, 60, fraction);
+        let triangles: Vec<_> = (0..200).map(|_| random(&machine, 40, &mut rng)).collect();
+        let mut drawn: HashMap<(usize, i64, i64), i32> = HashMap::new();
+        let hook = |event: Event| {
+            if let Event::Fragment(f) = event {
+                let (x, y) = place(&machine, f.addr);
+                *drawn.entry((f.source.id as usize, x, y)).or_default() += 1;
+            }
+        };
+        render_with(&machine, triangles.iter().copied(), ALWAYS, Stalls::NONE, hook);
+        for (number, triangle) in triangles.iter().enumerate() {
+            for pixel in listing(&machine, triangle) {
+                *drawn.entry((number, pixel.x, pixel.y)).or_default() -= 1;
+                checked += 1;
+            }
+        }
+        for ((number, x, y), _) in drawn.into_iter().filter(|(_, count)| *count != 0) {
+            // The rule decides by X_start + 1/2 < x + 1 and by X_end + 1/2 >= x.
+            let explained = rows(&machine, &triangles[number]).iter().any(|row| {
+                let bound = row.lines.map(|lines| Q::new(lines + 1, 2 << fraction));
+                let whole = [x + 1, x].map(|x| Q::from_integer(i128::from(x)));
+                row.y == y
+                    && (0..2)
+                        .any(|i| whole[i] - bound[i] <= row.ends[i] && row.ends[i] <= whole[i] + bound[i])
+            });
+            assert!(explained, "({x}, {y}) of {:?}, F = {fraction}", triangles[number]);
+            differ += 1;
+        }
+    }
+    println!("{differ} of {checked} fragments differ");
+    assert!(checked > 100_000 && differ > 0);
 }

@@ -39,7 +39,7 @@ pub struct Setup {
     machine: Machine,
     clocks: SetupClocks,
     state: State,
-    /// Cycles left in the state, less one.
+    /// Cycles left in PHASE1 or PHASE2, less one; 0 in the others.
     left: u32,
     culled: bool,
     prim: Prim,
@@ -65,6 +65,7 @@ impl Setup {
     /// Synchronous reset.
     pub fn reset(&mut self) {
         self.state = State::Idle;
+        self.left = 0;
     }
 
     /// A triangle can be taken: the unit is IDLE.
@@ -84,18 +85,24 @@ impl Setup {
     /// Clock edge.
     #[inline]
     pub fn step(&mut self, tri: Option<(&[PortVertex; 3], u32)>, prim_ready: bool, coverage: &mut Coverage) {
+        if self.left > 0 {
+            self.left -= 1;
+            return;
+        }
         match self.state {
             State::Idle => {
                 if let Some((vertices, tag)) = tri {
                     self.take(vertices, tag, coverage);
                 }
             }
-            State::Phase1 | State::Phase2 if self.left > 0 => self.left -= 1,
             State::Phase1 if self.culled => self.state = State::Idle,
             State::Phase1 => self.enter(State::Phase2, self.clocks.phase2),
             State::Phase2 => self.state = State::Done,
-            State::Done if prim_ready => self.state = State::Idle,
-            State::Done => {}
+            State::Done => {
+                if prim_ready {
+                    self.state = State::Idle;
+                }
+            }
         }
     }
 
