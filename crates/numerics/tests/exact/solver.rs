@@ -135,6 +135,9 @@ fn the_number_of_steps_may_be_given() {
     let target = Target::AtMost(Dyadic::new(1, 3).unwrap());
     assert_eq!(least_fraction_bits(steps(9309), Rounding::NearestHalfUp, target), Ok(16));
     assert_eq!(least_fraction_bits(steps(9309), Rounding::NearestHalfUp, Target::InRange), Ok(14));
+    // 8 terms of u/2 make exactly 1/4 LSB with 4 bits: at most, not less than.
+    let quarter = Target::AtMost(Dyadic::new(1, 2).unwrap());
+    assert_eq!(least_fraction_bits(steps(7), Rounding::NearestHalfUp, quarter), Ok(4));
     assert_eq!(least_fraction_bits(steps(0), Rounding::Floor, Target::InRange), Ok(1));
 }
 
