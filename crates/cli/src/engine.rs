@@ -1,11 +1,9 @@
 //! One picture, whichever engine drew it.
 
 use crate::input::to_port;
-use crate::netlist_run::{self, NetlistFrame};
 use crate::progress::bar;
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use edgewalk_model::{Activity, Coverage, Stalls};
-use edgewalk_netlist::Simulator;
 use edgewalk_numerics::{Fill, Machine};
 use edgewalk_scene::Frame;
 
@@ -66,10 +64,11 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Machine, quiet: bool) -> Re
             let bar = bar(port.triangles.len() as u64, "triangles", quiet);
             let triangles = bar.wrap_iter(port.triangles.iter().copied());
             let raster = if engine == Engine::Model {
-                from_model(machine, edgewalk_model::render(machine, triangles, port.state, Stalls::NONE))
+                let drawn = edgewalk_model::render(machine, triangles, port.state, Stalls::NONE);
+                Raster { corners: Some(drawn.corners.clone()), ..from_machine(machine, drawn) }
             } else {
-                let watch = |_: &mut Simulator| Ok(true);
-                from_netlist(machine, netlist_run::draw(machine, triangles, port.state, Stalls::NONE, watch)?)
+                let drawn = edgewalk_vectors::render_rtl(machine, triangles, port.state, Stalls::NONE);
+                from_machine(machine, drawn.map_err(|e| anyhow!("{e}"))?)
             };
             bar.finish_and_clear();
             Ok(raster)
@@ -96,7 +95,8 @@ fn draw_golden(frame: &Frame, machine: &Machine) -> Raster {
     }
 }
 
-fn from_model(machine: &Machine, drawn: edgewalk_model::Frame) -> Raster {
+/// Without the corners, which only the model sees.
+fn from_machine(machine: &Machine, drawn: edgewalk_model::Frame) -> Raster {
     Raster {
         width: machine.width,
         height: machine.height,
@@ -106,20 +106,6 @@ fn from_model(machine: &Machine, drawn: edgewalk_model::Frame) -> Raster {
         z: unorm(&drawn.z, machine.z.max()),
         rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / machine.color.max() as f64)).collect(),
         cycles: Some(Cycles { total: drawn.counters.cycles, spent: drawn.counters.activity }),
-        corners: Some(drawn.corners),
-    }
-}
-
-fn from_netlist(machine: &Machine, drawn: NetlistFrame) -> Raster {
-    Raster {
-        width: machine.width,
-        height: machine.height,
-        coverage: drawn.coverage,
-        writes: drawn.writes,
-        id: drawn.id,
-        z: unorm(&drawn.z, machine.z.max()),
-        rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / machine.color.max() as f64)).collect(),
-        cycles: Some(Cycles { total: drawn.cycles, spent: drawn.activity }),
         corners: None,
     }
 }

@@ -11,7 +11,6 @@ mod compare;
 mod engine;
 mod input;
 mod machine_args;
-mod netlist_run;
 mod picture;
 mod progress;
 mod report;

@@ -152,11 +152,8 @@ fn time_interpreter(machine: &Machine, port: &PortFrame, cycles: u64, fragments:
     let count = ((port.triangles.len() as f64 * share).ceil() as usize).min(port.triangles.len());
     let start = Instant::now();
     let triangles = port.triangles[..count].iter().copied();
-    let mut done = 0u64;
-    crate::netlist_run::draw(machine, triangles, port.state, Stalls::NONE, |_| {
-        done += 1;
-        Ok(true)
-    })?;
-    let ms = start.elapsed().as_secs_f64() * 1000.0 * cycles as f64 / done as f64;
+    let drawn = edgewalk_vectors::render_rtl(machine, triangles, port.state, Stalls::NONE)
+        .map_err(|e| anyhow!("{e}"))?;
+    let ms = start.elapsed().as_secs_f64() * 1000.0 * cycles as f64 / drawn.counters.cycles as f64;
     Ok(Line::new("interpreter", vec![ms], cycles, fragments))
 }

@@ -1,13 +1,13 @@
 //! `edgewalk trace`: waveforms of the machine's netlist.
 
+use crate::Talk;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::{Talk, netlist_run};
 use anyhow::{Context, Result, anyhow};
 use edgewalk_model::Stalls;
-use edgewalk_netlist::{FstTrace, VcdTrace};
+use edgewalk_netlist::{FstTrace, Simulator, VcdTrace};
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::PathBuf;
@@ -51,23 +51,16 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let file = BufWriter::new(File::create(out.path(name)?)?);
     let mut file = Some(file);
     let mut wave: Option<Wave> = None;
+    let mut failure: Result<()> = Ok(());
     let mut cycles = 0;
     let triangles = port.triangles.iter().take(args.triangles).copied();
-    netlist_run::draw(&machine, triangles, port.state, Stalls::NONE, |sim| {
-        if let Some(file) = file.take() {
-            wave = Some(match kind {
-                "vcd" => Wave::Vcd(VcdTrace::new(file, sim, "edgewalk")?),
-                _ => Wave::Fst(FstTrace::new(file, sim, "edgewalk").map_err(|e| anyhow!("{e}"))?),
-            });
-        }
-        match &mut wave {
-            Some(Wave::Vcd(w)) => w.sample(sim)?,
-            Some(Wave::Fst(w)) => w.sample(sim).map_err(|e| anyhow!("{e}"))?,
-            None => {}
-        }
+    edgewalk_vectors::render_rtl_with(&machine, triangles, port.state, Stalls::NONE, |sim| {
+        failure = sample(&mut wave, &mut file, kind, sim);
         cycles += 1;
-        Ok(cycles < args.cycles)
-    })?;
+        failure.is_ok() && cycles < args.cycles
+    })
+    .map_err(|e| anyhow!("{e}"))?;
+    failure?;
     match wave {
         Some(Wave::Vcd(w)) => w.finish()?,
         Some(Wave::Fst(w)) => w.finish().map_err(|e| anyhow!("{e}"))?,
@@ -80,4 +73,25 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         println!("{cycles} cycles -> {}", args.out.display());
     }
     Ok(Verdict::Pass)
+}
+
+/// Takes a sample; the first opens the file, as it needs the simulator's list of signals.
+fn sample(
+    wave: &mut Option<Wave>,
+    file: &mut Option<BufWriter<File>>,
+    kind: &str,
+    sim: &mut Simulator,
+) -> Result<()> {
+    if let Some(file) = file.take() {
+        *wave = Some(match kind {
+            "vcd" => Wave::Vcd(VcdTrace::new(file, sim, "edgewalk")?),
+            _ => Wave::Fst(FstTrace::new(file, sim, "edgewalk").map_err(|e| anyhow!("{e}"))?),
+        });
+    }
+    match wave {
+        Some(Wave::Vcd(w)) => w.sample(sim)?,
+        Some(Wave::Fst(w)) => w.sample(sim).map_err(|e| anyhow!("{e}"))?,
+        None => {}
+    }
+    Ok(())
 }
