@@ -13,11 +13,16 @@
 //! The text passes `verilator -Wall` without waivers: what is not used on purpose ends in a wire `unused`.
 
 mod expression;
+mod interface;
 mod literal;
 mod memory;
 mod module;
+mod operator;
 mod paragraph;
 mod registers;
+mod simplify;
+mod symbols;
+mod text;
 mod usage;
 
 use std::sync::Arc;

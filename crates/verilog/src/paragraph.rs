@@ -9,6 +9,8 @@ pub(crate) struct Body {
     text: String,
     /// Statement and comment of the lines of the open paragraph.
     open: Vec<(String, String)>,
+    /// The head of a section of which nothing has been written yet.
+    head: String,
 }
 
 impl Body {
@@ -17,18 +19,16 @@ impl Body {
         self.open.push((statement, comment.to_string()));
     }
 
-    /// A comment that begins a section.
+    /// A comment that begins a section; left out if the section stays empty.
     pub fn section(&mut self, text: &str) {
         self.gap();
-        for line in text.lines() {
-            self.text.push_str(format!("  // {line}").trim_end());
-            self.text.push('\n');
-        }
+        self.head = text.lines().map(|line| format!("{}\n", format!("  // {line}").trim_end())).collect();
     }
 
     /// Lines that stand together and alone.
     pub fn block(&mut self, lines: &[String]) {
         self.gap();
+        self.text.push_str(&std::mem::take(&mut self.head));
         for line in lines {
             self.text.push_str(&format!("  {line}\n"));
         }
@@ -37,20 +37,26 @@ impl Body {
 
     /// Ends the paragraph.
     pub fn gap(&mut self) {
-        let width = |statement: &str| statement.lines().last().map_or(0, |line| line.chars().count());
+        if self.open.is_empty() {
+            return;
+        }
+        self.text.push_str(&std::mem::take(&mut self.head));
+        let width = |statement: &str| statement.lines().next().map_or(0, |line| line.chars().count());
         let with_comment = self.open.iter().filter(|(_, comment)| !comment.is_empty());
         let column = with_comment.map(|(statement, _)| width(statement)).filter(|w| *w < LINE / 2).max();
         for (statement, comment) in self.open.drain(..) {
-            let mut text = statement.replace('\n', "\n  ");
+            // The comment stands on the first line.
+            let (first, rest) = statement.split_once('\n').unwrap_or((&statement, ""));
+            let mut text = format!("  {first}");
             if !comment.is_empty() {
                 let fill = column.unwrap_or(0).saturating_sub(width(&statement));
                 text.push_str(&format!("{:fill$}  // {}", "", comment.replace('\n', " ")));
             }
-            self.text.push_str(&format!("  {text}\n"));
+            text.push('\n');
+            rest.lines().for_each(|line| text.push_str(&format!("  {line}\n")));
+            self.text.push_str(&text);
         }
-        if !self.text.is_empty() && !self.text.ends_with("\n\n") {
-            self.text.push('\n');
-        }
+        self.text.push('\n');
     }
 
     /// The whole body, without blank lines at its end.

@@ -6,6 +6,10 @@ use edgewalk_netlist::ops::Bits;
 use crate::expression::Writer;
 use crate::literal;
 use crate::paragraph::{Body, LINE};
+use crate::simplify::is_same;
+
+/// Conditions are compared this deep.
+const CONDITION_DEPTH: u32 = 5;
 
 /// Registers with the same conditions in the same order, and all with reset or all without.
 pub(crate) struct Group {
@@ -22,7 +26,15 @@ impl Group {
             let register = &netlist.registers[index];
             let has_reset = register.reset.is_some();
             let conditions: Vec<_> = register.updates.iter().map(|update| update.when).collect();
-            let same = |group: &&mut Group| group.has_reset == has_reset && group.conditions == conditions;
+            let alike = |(one, two): (&Option<NodeId>, &Option<NodeId>)| match (one, two) {
+                (Some(one), Some(two)) => is_same(netlist, *one, *two, CONDITION_DEPTH),
+                (one, two) => one == two,
+            };
+            let same = |group: &&mut Group| {
+                group.has_reset == has_reset
+                    && group.conditions.len() == conditions.len()
+                    && group.conditions.iter().zip(&conditions).all(alike)
+            };
             match groups.iter_mut().find(same) {
                 Some(group) => group.registers.push(index),
                 None => groups.push(Group { registers: vec![index], has_reset, conditions }),

@@ -5,10 +5,11 @@
 mod random_module;
 mod tools;
 
+use edgewalk_netlist::mutate::mutants;
 use edgewalk_netlist::{Module, Signal};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use tools::bench::{Case, WARM_UP, compare};
+use tools::bench::{Bench, Case, WARM_UP};
 
 /// Cycles of every case.
 const CYCLES: usize = 80;
@@ -23,6 +24,16 @@ fn corner_or_any(random: &mut Pcg64Mcg, width: u32) -> u128 {
     } else {
         random.random::<u128>() & mask
     }
+}
+
+/// No difference in either simulator, over at least so many values.
+fn agree(cases: &[Case], lint_waivers: &[&str], at_least: usize) {
+    let bench = Bench::new(cases, |case| case.netlist.clone());
+    bench.lint(lint_waivers);
+    println!("{} values compared in each simulator", bench.values());
+    assert!(bench.values() >= at_least, "only {} values", bench.values());
+    assert_eq!(bench.icarus().first(), None, "Icarus");
+    assert_eq!(bench.verilator().first(), None, "Verilator");
 }
 
 /// Every operator on a, b of `width` bits, n of `other` bits and the bit c, alone and beside others.
@@ -126,31 +137,53 @@ fn every_operator_in_both_simulators() {
             Case { netlist: operators(width, other).finish().unwrap(), stimuli }
         })
         .collect();
-    let compared = compare(&cases, &[]);
-    println!("{compared} values compared in each simulator");
-    assert!(compared > 90_000, "{compared}");
+    agree(&cases, &[], 90_000);
+}
+
+/// A random hierarchy with random inputs, reset while it warms up and now and then.
+fn random_case(random: &mut Pcg64Mcg, name: &str) -> Case {
+    let netlist = random_module::hierarchy(random, name);
+    let widths: Vec<u32> = netlist.inputs.iter().map(|input| netlist.width(input.node)).collect();
+    let mut cycle = |cycle: usize| {
+        let warm = cycle < WARM_UP;
+        let rst = netlist.has_reset.then(|| u128::from(warm || random.random_bool(0.03)));
+        // The first input is `go`, which keeps unknown values from being written while warming up.
+        let go = u128::from(!warm);
+        let rest = widths[1..].iter().map(|width| corner_or_any(random, *width));
+        rst.into_iter().chain([go]).chain(rest).collect()
+    };
+    let stimuli = (0..CYCLES).map(&mut cycle).collect();
+    Case { netlist, stimuli }
 }
 
 #[test]
 fn random_modules_in_both_simulators() {
     let mut random = Pcg64Mcg::seed_from_u64(2);
-    let mut cases = Vec::new();
-    for index in 0..12 {
-        let netlist = random_module::hierarchy(&mut random, &format!("random_{index}"));
-        let widths: Vec<u32> = netlist.inputs.iter().map(|input| netlist.width(input.node)).collect();
-        let stimuli = (0..CYCLES).map(|cycle| {
-            let warm = cycle < WARM_UP;
-            let rst = netlist.has_reset.then(|| u128::from(warm || random.random_bool(0.03)));
-            // The first input is `go`, which keeps unknown values from being written while warming up.
-            let go = u128::from(!warm);
-            let rest = widths[1..].iter().map(|width| corner_or_any(&mut random, *width));
-            rst.into_iter().chain([go]).chain(rest).collect()
-        });
-        let stimuli = stimuli.collect();
-        cases.push(Case { netlist, stimuli });
-    }
+    let cases: Vec<Case> =
+        (0..12).map(|index| random_case(&mut random, &format!("random_{index}"))).collect();
     // A random module compares what Verilator finds to be constant three operators away; a person would not.
-    let compared = compare(&cases, &["-Wno-UNSIGNED", "-Wno-CMPCONST"]);
-    println!("{compared} values compared in each simulator");
-    assert!(compared > 5_000, "{compared}");
+    agree(&cases, &["-Wno-UNSIGNED", "-Wno-CMPCONST"], 5_000);
+}
+
+/// The comparison is worth something: where the interpreter sees a mutant, so does the bench, and only there.
+#[test]
+fn a_fault_in_the_text_is_seen() {
+    let mut random = Pcg64Mcg::seed_from_u64(3);
+    let original = [random_case(&mut random, "original")];
+    let expected = original[0].expected();
+    let mutants = mutants(&original[0].netlist);
+    // Without its reset a register stays unknown in Verilog, which is another matter.
+    let mutants: Vec<_> =
+        mutants.iter().filter(|mutant| !mutant.description.ends_with("is not reset")).collect();
+    let (mut seen, mut equivalent) = (0, 0);
+    for mutant in mutants.iter().step_by(mutants.len().div_ceil(60)) {
+        let netlist = mutant.apply(&original[0].netlist);
+        let changed = Case { netlist: netlist.clone(), stimuli: original[0].stimuli.clone() };
+        let differs = changed.expected()[WARM_UP..] != expected[WARM_UP..];
+        let found = Bench::new(&original, |_| netlist.clone()).icarus();
+        assert_eq!(!found.is_empty(), differs, "{}: {}", mutant.module, mutant.description);
+        *(if differs { &mut seen } else { &mut equivalent }) += 1;
+    }
+    println!("{seen} mutants seen, {equivalent} make no difference here");
+    assert!(seen >= 20, "only {seen} of {}", seen + equivalent);
 }

@@ -87,7 +87,9 @@ module pair (
   assign furthest = (|choice) ? {{4{u_left_integer_part[7]}}, u_left_integer_part}
                   : {{4{u_right_integer_part[7]}}, u_right_integer_part};
 
-  wire unused = &{1'b0, sum[0]};  // not needed, on purpose
+  wire unused = &{  // not needed, on purpose
+    1'b0, sum[0]
+  };
 
 endmodule
 

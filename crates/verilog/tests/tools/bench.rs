@@ -32,7 +32,7 @@ impl Case {
     }
 
     /// What the interpreter shows at the outputs in every cycle.
-    fn expected(&self) -> Vec<Vec<u128>> {
+    pub fn expected(&self) -> Vec<Vec<u128>> {
         let mut sim = Simulator::new(&self.netlist);
         let inputs: Vec<_> = self.inputs().iter().map(|(name, _)| sim.input(name).unwrap()).collect();
         let outputs: Vec<_> = self.outputs().iter().map(|(name, _)| sim.signal(name).unwrap()).collect();
@@ -46,54 +46,77 @@ impl Case {
     }
 }
 
-/// Lints all cases, runs them in both simulators, and fails at the first difference. Returns the values compared in each.
-pub fn compare(cases: &[Case], lint_waivers: &[&str]) -> usize {
-    let directory = tempfile::tempdir().unwrap();
-    let directory = directory.path();
-    let mut names = vec!["bench.v".to_string()];
-    for (index, case) in cases.iter().enumerate() {
-        let files = edgewalk_verilog::print(&case.netlist);
-        write(directory, &files);
-        lint(directory, &files, &case.netlist.name, lint_waivers);
-        names.extend(files.into_iter().map(|(name, _)| name));
-        let inputs: Vec<u32> = case.inputs().iter().map(|(_, width)| *width).collect();
-        let outputs: Vec<u32> = case.outputs().iter().map(|(_, width)| *width).collect();
-        write(
-            directory,
-            &[
-                (format!("in{index}.hex"), words(&case.stimuli, &inputs)),
-                (format!("want{index}.hex"), words(&case.expected(), &outputs)),
-            ],
-        );
-    }
-    names.dedup();
-    write(directory, &[("bench.v".into(), bench(cases))]);
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    run(directory, "iverilog", &[&["-Wall", "-s", "bench", "-o", "icarus"], &names[..]].concat());
-    let icarus = run(directory, "./icarus", &[]);
-    let build = [
-        "--binary",
-        "--timing",
-        "-Wno-fatal",
-        "-Wno-lint",
-        "-Wno-style",
-        "-O0",
-        "-CFLAGS",
-        "-O0",
-        "--top-module",
-        "bench",
-    ];
-    run(directory, "verilator", &[&build, &names[..]].concat());
-    let verilator = run(directory, "obj_dir/Vbench", &[]);
-    let checked = cases.iter().map(|case| (case.stimuli.len() - WARM_UP) * case.outputs().len()).sum();
-    for (tool, text) in [("Icarus", icarus), ("Verilator", verilator)] {
-        if let Some(line) = text.lines().find(|line| line.starts_with("differs ")) {
-            panic!("{tool}: {}", explain(cases, line, directory));
+/// Cases written out: their Verilog, their stimuli and what the interpreter shows, with a bench around.
+pub struct Bench<'c> {
+    cases: &'c [Case],
+    directory: tempfile::TempDir,
+    /// The files of each case.
+    files: Vec<Vec<(String, String)>>,
+}
+
+/// What a simulator found: for each case the first difference, in words.
+type Differences = Vec<String>;
+
+impl<'c> Bench<'c> {
+    /// The Verilog of each case is that of `printed`, by rights its own netlist.
+    pub fn new(cases: &'c [Case], printed: impl Fn(&Case) -> Arc<Netlist>) -> Self {
+        let directory = tempfile::tempdir().unwrap();
+        let mut all = Vec::new();
+        for (index, case) in cases.iter().enumerate() {
+            let files = edgewalk_verilog::print(&printed(case));
+            write(directory.path(), &files);
+            all.push(files);
+            let inputs: Vec<u32> = case.inputs().iter().map(|(_, width)| *width).collect();
+            let outputs: Vec<u32> = case.outputs().iter().map(|(_, width)| *width).collect();
+            let (stimuli, wanted) = (words(&case.stimuli, &inputs), words(&case.expected(), &outputs));
+            write(
+                directory.path(),
+                &[(format!("in{index}.hex"), stimuli), (format!("want{index}.hex"), wanted)],
+            );
         }
-        let finished = cases.iter().map(|case| case.stimuli.len()).max().unwrap();
-        assert!(text.contains(&format!("compared {finished} cycles")), "{tool} did not finish:\n{text}");
+        write(directory.path(), &[("bench.v".into(), bench(cases))]);
+        Bench { cases, directory, files: all }
     }
-    checked
+
+    /// Every case passes lint with these waivers.
+    pub fn lint(&self, waivers: &[&str]) {
+        for (case, files) in self.cases.iter().zip(&self.files) {
+            lint(self.directory.path(), files, &case.netlist.name, waivers);
+        }
+    }
+
+    /// Values that each simulator compares.
+    pub fn values(&self) -> usize {
+        self.cases.iter().map(|case| (case.stimuli.len() - WARM_UP) * case.outputs().len()).sum()
+    }
+
+    pub fn icarus(&self) -> Differences {
+        self.build("iverilog", &["-Wall", "-s", "bench", "-o", "icarus"]);
+        self.differences(&run(self.directory.path(), "./icarus", &[]))
+    }
+
+    pub fn verilator(&self) -> Differences {
+        // The bench itself is no example of style; the cases have been linted.
+        let quiet =
+            ["--binary", "--timing", "-Wno-fatal", "-Wno-lint", "-Wno-style", "--top-module", "bench"];
+        self.build("verilator", &[&quiet[..], &["-O0", "-CFLAGS", "-O0"]].concat());
+        self.differences(&run(self.directory.path(), "obj_dir/Vbench", &[]))
+    }
+
+    fn build(&self, tool: &str, options: &[&str]) {
+        let files: Vec<&str> = self.files.iter().flatten().map(|(name, _)| name.as_str()).collect();
+        run(self.directory.path(), tool, &[options, &["bench.v"], &files[..]].concat());
+    }
+
+    fn differences(&self, printed: &str) -> Differences {
+        let cycles = self.cases[0].stimuli.len();
+        assert!(
+            printed.contains(&format!("compared {cycles} cycles")),
+            "the bench did not finish:\n{printed}"
+        );
+        let lines = printed.lines().filter(|line| line.starts_with("differs "));
+        lines.map(|line| explain(self.cases, line, self.directory.path())).collect()
+    }
 }
 
 /// A line of hexadecimal digits for each cycle, the first value in the highest bits.
