@@ -12,7 +12,7 @@ use rand_pcg::Pcg64Mcg;
 use tools::bench::{Bench, Case, WARM_UP};
 
 /// Cycles of every case.
-const CYCLES: usize = 80;
+const CYCLES: usize = WARM_UP + 64;
 
 /// Half the time one of 0, 1, 2, the largest, and both sides of the sign change.
 fn corner_or_any(random: &mut Pcg64Mcg, width: u32) -> u128 {
@@ -137,7 +137,7 @@ fn every_operator_in_both_simulators() {
             Case { netlist: operators(width, other).finish().unwrap(), stimuli }
         })
         .collect();
-    agree(&cases, &[], 90_000);
+    agree(&cases, &[], 80_000);
 }
 
 /// A random hierarchy with random inputs, reset while it warms up and now and then.
@@ -159,10 +159,9 @@ fn random_case(random: &mut Pcg64Mcg, name: &str) -> Case {
 #[test]
 fn random_modules_in_both_simulators() {
     let mut random = Pcg64Mcg::seed_from_u64(2);
-    let cases: Vec<Case> =
-        (0..12).map(|index| random_case(&mut random, &format!("random_{index}"))).collect();
+    let cases: Vec<Case> = (0..8).map(|index| random_case(&mut random, &format!("random_{index}"))).collect();
     // A random module compares what Verilator finds to be constant three operators away; a person would not.
-    agree(&cases, &["-Wno-UNSIGNED", "-Wno-CMPCONST"], 5_000);
+    agree(&cases, &["-Wno-UNSIGNED", "-Wno-CMPCONST"], 3_500);
 }
 
 /// The comparison is worth something: where the interpreter sees a mutant, so does the bench, and only there.
@@ -172,11 +171,11 @@ fn a_fault_in_the_text_is_seen() {
     let original = [random_case(&mut random, "original")];
     let expected = original[0].expected();
     let mutants = mutants(&original[0].netlist);
-    // Without its reset a register stays unknown in Verilog, which is another matter.
-    let mutants: Vec<_> =
-        mutants.iter().filter(|mutant| !mutant.description.ends_with("is not reset")).collect();
+    // Without its reset, or without `go`, what is unknown in Verilog stays unknown: that is another matter.
+    let starts = |text: &str| !text.ends_with("is not reset") && !text.contains("go");
+    let mutants: Vec<_> = mutants.iter().filter(|mutant| starts(&mutant.description)).collect();
     let (mut seen, mut equivalent) = (0, 0);
-    for mutant in mutants.iter().step_by(mutants.len().div_ceil(60)) {
+    for mutant in mutants.iter().step_by(mutants.len().div_ceil(36)) {
         let netlist = mutant.apply(&original[0].netlist);
         let changed = Case { netlist: netlist.clone(), stimuli: original[0].stimuli.clone() };
         let differs = changed.expected()[WARM_UP..] != expected[WARM_UP..];
@@ -185,5 +184,5 @@ fn a_fault_in_the_text_is_seen() {
         *(if differs { &mut seen } else { &mut equivalent }) += 1;
     }
     println!("{seen} mutants seen, {equivalent} make no difference here");
-    assert!(seen >= 20, "only {seen} of {}", seen + equivalent);
+    assert!(seen >= 12, "only {seen} of {}", seen + equivalent);
 }

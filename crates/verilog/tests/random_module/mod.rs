@@ -26,6 +26,45 @@ fn width(random: &mut Pcg64Mcg) -> u32 {
     }
 }
 
+/// Signals to build from; of each whether it is shown in the end. At first those are all that have a name; what nobody
+/// took joins them. So a fault is seen wherever it is, and operators are still written inside each other.
+struct Pool<'m>(Vec<Entry<'m>>);
+
+struct Entry<'m> {
+    signal: Signal<'m>,
+    has_name: bool,
+    taken: bool,
+}
+
+impl<'m> Pool<'m> {
+    fn push(&mut self, signal: Signal<'m>, has_name: bool) {
+        self.0.push(Entry { signal, has_name, taken: false });
+    }
+
+    /// Any signal from place `from` on.
+    fn take(&mut self, random: &mut Pcg64Mcg, from: usize) -> Signal<'m> {
+        let place = random.random_range(from..self.0.len());
+        self.0[place].taken = true;
+        self.0[place].signal
+    }
+
+    /// Any signal, brought to a width.
+    fn any(&mut self, random: &mut Pcg64Mcg, width: u32) -> Signal<'m> {
+        let signal = self.take(random, 0);
+        fit(random, signal, width)
+    }
+
+    /// All bits of what is shown, folded into 32.
+    fn folded(&self, m: &'m Module) -> Signal<'m> {
+        let shown = self.0.iter().filter(|entry| entry.has_name || !entry.taken);
+        shown.fold(m.lit(32, 0), |sum, Entry { signal, .. }| {
+            let parts = (0..signal.width().div_ceil(32))
+                .map(|i| signal.slice((32 * i + 31).min(signal.width() - 1), 32 * i).zext(32));
+            parts.fold(m.cat(&[sum.slice(30, 0), sum.bit(31)]), |sum, part| sum ^ part)
+        })
+    }
+}
+
 /// A signal brought to a width: cut, or extended either way.
 fn fit<'m>(random: &mut Pcg64Mcg, signal: Signal<'m>, width: u32) -> Signal<'m> {
     if signal.width() > width {
@@ -38,17 +77,13 @@ fn fit<'m>(random: &mut Pcg64Mcg, signal: Signal<'m>, width: u32) -> Signal<'m> 
     }
 }
 
-fn any<'m>(random: &mut Pcg64Mcg, pool: &[Signal<'m>], width: u32) -> Signal<'m> {
-    let signal = pool[random.random_range(0..pool.len())];
-    fit(random, signal, width)
-}
-
 fn module(random: &mut Pcg64Mcg, name: &str, below: &[Arc<Netlist>], operators: usize) -> Arc<Netlist> {
     let m = Module::new(name, "A random module.");
     let go = m.input("go", 1);
-    let mut pool: Vec<Signal> = (0..6).map(|i| m.input(&format!("i{i}"), width(random))).collect();
+    let mut pool = Pool(Vec::new());
+    (0..6).for_each(|i| pool.push(m.input(&format!("i{i}"), width(random)), false));
     let constant = width(random);
-    pool.push(m.lit(constant, random.random::<u128>() & (u128::MAX >> (128 - constant))));
+    pool.push(m.lit(constant, random.random::<u128>() & (u128::MAX >> (128 - constant))), false);
     m.comment("State");
     let with_reset: Vec<_> = (0..4)
         .map(|i| {
@@ -57,31 +92,35 @@ fn module(random: &mut Pcg64Mcg, name: &str, below: &[Arc<Netlist>], operators: 
         })
         .collect();
     let without: Vec<_> = (0..2).map(|i| m.reg(&format!("s{i}"), width(random)).doc("no reset")).collect();
-    pool.extend(with_reset.iter().chain(&without).map(|register| register.q()));
+    with_reset.iter().chain(&without).for_each(|register| pool.push(register.q(), true));
     let wires: Vec<_> = (0..2).map(|i| m.wire(&format!("w{i}"), width(random))).collect();
     for wire in &wires {
         // From inputs and registers only, so that there is no loop.
-        let (one, two) = (any(random, &pool, wire.q().width()), any(random, &pool, wire.q().width()));
+        let (one, two) = (pool.any(random, wire.q().width()), pool.any(random, wire.q().width()));
         wire.drive(one ^ two);
     }
-    pool.extend(wires.iter().map(|wire| wire.q()));
+    wires.iter().for_each(|wire| pool.push(wire.q(), true));
 
     m.comment("Parts");
     for (index, part) in below.iter().enumerate() {
         let instance = m.instance(&format!("u{index}"), part);
         instance.connect("go", go);
         for input in &part.inputs[1..] {
-            instance.connect(&input.name, any(random, &pool, part.width(input.node)));
+            instance.connect(&input.name, pool.any(random, part.width(input.node)));
         }
-        for output in part.outputs.iter().filter(|_| random.random_bool(0.8)) {
-            pool.push(instance.output(&output.name));
+        for output in part.outputs.iter().filter(|output| output.name == "folded" || random.random_bool(0.8))
+        {
+            pool.push(instance.output(&output.name), true);
         }
     }
 
     m.comment("Operators");
     for index in 0..operators {
-        let signal = operator(random, &m, &pool);
-        pool.push(if random.random_bool(0.3) { signal.named(&format!("n{index}")) } else { signal });
+        let signal = operator(random, &m, &mut pool);
+        match random.random_bool(0.3) {
+            true => pool.push(signal.named(&format!("n{index}")), true),
+            false => pool.push(signal, false),
+        }
     }
 
     m.comment("Memory");
@@ -89,42 +128,44 @@ fn module(random: &mut Pcg64Mcg, name: &str, below: &[Arc<Netlist>], operators: 
     let words = 1 << addr_bits;
     let ram = m.memory("ram", addr_bits, words, word, u128::from(random.random::<bool>()));
     for _ in 0..random.random_range(1..=2) {
-        ram.write(go & any(random, &pool, 1), any(random, &pool, addr_bits), any(random, &pool, word));
+        ram.write(go & pool.any(random, 1), pool.any(random, addr_bits), pool.any(random, word));
     }
     for _ in 0..random.random_range(1..=2) {
-        let read = ram.read(!go | any(random, &pool, 1), any(random, &pool, addr_bits));
-        pool.push(read);
+        let read = ram.read(!go | pool.any(random, 1), pool.any(random, addr_bits));
+        pool.push(read, true);
     }
 
     m.comment("Next state");
-    let shared = any(random, &pool, 1);
+    let shared = pool.any(random, 1);
     for register in with_reset {
         let width = register.q().width();
         for _ in 0..random.random_range(1..=3) {
-            let condition = if random.random() { shared } else { any(random, &pool, 1) };
+            let condition = if random.random() { shared } else { pool.any(random, 1) };
             match random.random_bool(0.2) {
-                true => register.set(any(random, &pool, width)),
-                false => register.when(condition, any(random, &pool, width)),
+                true => register.set(pool.any(random, width)),
+                false => register.when(condition, pool.any(random, width)),
             };
         }
     }
     for register in without {
         let width = register.q().width();
-        register.when(!go | any(random, &pool, 1), go.mux(any(random, &pool, width), 0));
+        register.when(!go | pool.any(random, 1), go.mux(pool.any(random, width), 0));
     }
     for index in 0..6 {
-        m.output(&format!("q{index}"), pool[pool.len() - 1 - random.random_range(0..pool.len() / 2)]);
+        let from = pool.0.len() / 2;
+        m.output(&format!("q{index}"), pool.take(random, from));
     }
+    m.output("folded", pool.folded(&m));
     m.finish().unwrap()
 }
 
-fn operator<'m>(random: &mut Pcg64Mcg, m: &'m Module, pool: &[Signal<'m>]) -> Signal<'m> {
+fn operator<'m>(random: &mut Pcg64Mcg, m: &'m Module, pool: &mut Pool<'m>) -> Signal<'m> {
     // Younger signals are taken more often, so that expressions grow.
-    let from = if random.random() { pool.len() * 2 / 3 } else { 0 };
-    let a = pool[random.random_range(from..pool.len())];
+    let from = if random.random() { pool.0.len() * 2 / 3 } else { 0 };
+    let a = pool.take(random, from);
     let w = a.width();
-    let b = any(random, pool, w);
-    let c = any(random, pool, 1);
+    let b = pool.any(random, w);
+    let c = pool.any(random, 1);
     let n = random.random_range(0..=w);
     match random.random_range(0..33) {
         0 => a + b,
@@ -148,17 +189,17 @@ fn operator<'m>(random: &mut Pcg64Mcg, m: &'m Module, pool: &[Signal<'m>]) -> Si
         20 => a.shl(n),
         21 => a.shr(n),
         22 => a.sar(n),
-        23 => a.shl_by(any(random, pool, 5)),
-        24 => a.shr_by(any(random, pool, 5)),
-        25 => a.sar_by(any(random, pool, 5)),
+        23 => a.shl_by(pool.any(random, 5)),
+        24 => a.shr_by(pool.any(random, 5)),
+        25 => a.sar_by(pool.any(random, 5)),
         26 => {
             let width = width(random);
             fit(random, a, width)
         }
         27 => a.any(),
         28 => a.all() | a.parity(),
-        29 if w <= 100 => a * any(random, pool, 20),
-        30 if w <= 100 => a.smul(any(random, pool, 20)),
+        29 if w <= 100 => a * pool.any(random, 20),
+        30 if w <= 100 => a.smul(pool.any(random, 20)),
         31 if w <= 63 => m.cat(&[a, b, c]),
         _ => a.slt(n as i32 / 2) ^ b.ge(u128::from(n) & (u128::MAX >> (128 - w))),
     }

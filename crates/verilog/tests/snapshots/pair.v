@@ -87,9 +87,8 @@ module pair (
   assign furthest = (|choice) ? {{4{u_left_integer_part[7]}}, u_left_integer_part}
                   : {{4{u_right_integer_part[7]}}, u_right_integer_part};
 
-  wire unused = &{  // not needed, on purpose
-    1'b0, sum[0]
-  };
+  // Not needed, on purpose.
+  wire unused = &{1'b0, sum[0]};
 
 endmodule
 

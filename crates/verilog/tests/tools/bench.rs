@@ -8,8 +8,9 @@ use edgewalk_netlist::{Netlist, Simulator};
 
 use super::{lint, run, write};
 
-/// Cycles before the first comparison: in Verilog registers are unknown before their first clock.
-pub const WARM_UP: usize = 2;
+/// Cycles before the first comparison. In Verilog a register is unknown before its first clock, and a memory's output one
+/// clock longer than its address: as many clocks as there may be memories one behind another.
+pub const WARM_UP: usize = 16;
 
 /// A netlist and what its inputs get, cycle by cycle, in port order with `rst` (if there is one) first.
 pub struct Case {
@@ -99,7 +100,7 @@ impl<'c> Bench<'c> {
         // The bench itself is no example of style; the cases have been linted.
         let quiet =
             ["--binary", "--timing", "-Wno-fatal", "-Wno-lint", "-Wno-style", "--top-module", "bench"];
-        self.build("verilator", &[&quiet[..], &["-O0", "-CFLAGS", "-O0"]].concat());
+        self.build("verilator", &[&quiet[..], &["-O0", "-CFLAGS", "-O0", "--build-jobs", "2"]].concat());
         self.differences(&run(self.directory.path(), "obj_dir/Vbench", &[]))
     }
 
