@@ -218,11 +218,17 @@ impl Trace {
         self
     }
 
+    /// Tokens that the design has to give.
+    #[must_use]
+    pub fn tokens_out(&self) -> u64 {
+        let channels = self.interface.channels.iter().zip(&self.channels);
+        let out = channels.filter(|(channel, _)| channel.direction == Direction::Out);
+        out.map(|(_, trace)| trace.tokens.len() as u64).sum()
+    }
+
     /// Tokens and status changes that a bench has to compare.
     #[must_use]
     pub fn expected(&self) -> u64 {
-        let channels = self.interface.channels.iter().zip(&self.channels);
-        let out = channels.filter(|(channel, _)| channel.direction == Direction::Out);
-        out.map(|(_, trace)| trace.tokens.len() as u64).sum::<u64>() + self.status.len() as u64
+        self.tokens_out() + self.status.len() as u64
     }
 }

@@ -20,6 +20,7 @@ pub mod drive;
 pub mod manifest;
 pub mod write;
 pub mod read;
+pub mod simulate;
 
 pub use capture::{Trace, capture};
 pub use device::Device;
@@ -28,6 +29,7 @@ pub use lockstep::{Agreement, Difference, LockstepError, lockstep};
 pub use manifest::Manifest;
 pub use ports::{Interface, Unit, interface};
 pub use read::{ReadError, Vectors, read};
+pub use simulate::{Outcome, SimulateError, Simulator, Stop, lint, simulate, synth_ice40};
 pub use stalls::StallKind;
 pub use suites::{SUITES, Suite, UnknownSuite};
 pub use write::{Files, directory};

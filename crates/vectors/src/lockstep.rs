@@ -58,8 +58,8 @@ pub enum LockstepError {
     /// A port differs.
     #[error("{0}")]
     Differs(Box<Difference>),
-    /// Nothing was compared.
-    #[error("nothing was compared: the trace has no cycles")]
+    /// Nothing would be compared.
+    #[error("nothing to compare: the model gives no token")]
     Vacuous,
 }
 
@@ -71,10 +71,14 @@ const AFTER: u64 = 64;
 /// # Errors
 /// The first difference.
 pub fn lockstep(trace: &Trace, netlist: &Netlist) -> Result<Agreement, LockstepError> {
+    if trace.tokens_out() == 0 {
+        return Err(LockstepError::Vacuous);
+    }
     let interface = &trace.interface;
     let ports = Ports::of(interface);
     let mut reference = model(&trace.machine, interface.unit);
     let mut device = NetlistDevice::new(netlist, interface)?;
+    device.disturb();
     let mut bench = Bench::new(interface, trace.setting.clone());
     let (mut expected, mut found) = (Vec::new(), Vec::new());
     let mut compared = 0;
@@ -101,10 +105,7 @@ pub fn lockstep(trace: &Trace, netlist: &Netlist) -> Result<Agreement, LockstepE
         }
         bench.clock(&expected);
     }
-    match compared {
-        0 => Err(LockstepError::Vacuous),
-        _ => Ok(Agreement { cycles: bench.cycle(), compared }),
-    }
+    Ok(Agreement { cycles: bench.cycle(), compared })
 }
 
 /// Which outputs are compared when.

@@ -48,6 +48,12 @@ pub enum ReadError {
         /// Its version.
         found: u64,
     },
+    /// The module is no name.
+    #[error("{}: module {found:?} is no Verilog name", manifest::FILE)]
+    Module {
+        /// What stands there.
+        found: String,
+    },
     /// A file is not the one that was written.
     #[error("{file}: {found}, the manifest says {wanted}")]
     Changed {
@@ -93,6 +99,10 @@ pub fn read(mut load: impl FnMut(&str) -> std::io::Result<Vec<u8>>) -> Result<Ve
     }
     let manifest: Manifest =
         serde_json::from_slice(&json).map_err(|source| ReadError::Manifest { source })?;
+    // The name goes into commands of tools.
+    if !manifest.module.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') {
+        return Err(ReadError::Module { found: manifest.module });
+    }
     for wanted in &manifest.files {
         let found = file(&wanted.name, &get(&wanted.name)?);
         let changed = |found: String, wanted_text: String| {

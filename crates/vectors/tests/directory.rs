@@ -134,6 +134,7 @@ fn what_is_not_as_written_is_refused() {
     let newer = replace(&files, manifest::FILE, "\"format_version\": 1", "\"format_version\": 2");
     let other = replace(&files, manifest::FILE, "\"edgewalk-vectors\"", "\"something\"");
     let unknown = replace(&files, manifest::FILE, "\"unit\":", "\"colour\": 1, \"unit\":");
+    let module = replace(&files, manifest::FILE, "\"module\": \"edgewalk\"", "\"module\": \"a; b\"");
     let flipped = replace(&files, "wr.cyc.mem", "0000", "0001");
     let mut shorter = files.clone();
     shorter.iter_mut().find(|(n, _)| n == "tri.in.mem").expect("written").1.pop();
@@ -143,6 +144,7 @@ fn what_is_not_as_written_is_refused() {
         (newer, "manifest.json: format_version 2 is newer than 1, the newest this program reads"),
         (other, "manifest.json: format is \"something\", not \"edgewalk-vectors\""),
         (unknown, "manifest.json: unknown field `colour`"),
+        (module, "manifest.json: module \"a; b\" is no Verilog name"),
         (flipped, "wr.cyc.mem: SHA-256 "),
         (shorter, "tri.in.mem: "),
         (missing, "tb.v: no such file"),

@@ -3,11 +3,17 @@
 use super::Device;
 use crate::ports::Interface;
 use edgewalk_netlist::{InputId, Netlist, SignalId, Simulator};
+use rand::{RngCore, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// Cycles of a disturbance; SETUP is then in the middle of a triangle.
+const DISTURBANCE: u32 = 197;
 
 /// A netlist whose ports are those of an interface, after a clock of reset.
 #[derive(Clone, Debug)]
 pub struct NetlistDevice {
     simulator: Simulator,
+    rst: Option<InputId>,
     inputs: Vec<InputId>,
     outputs: Vec<SignalId>,
 }
@@ -71,12 +77,32 @@ impl NetlistDevice {
             check(&port, netlist.width(found.driver), width)?;
             outputs.push(simulator.signal(&port).map_err(|_| missing("output", &port))?);
         }
-        if let Ok(rst) = simulator.input("rst") {
-            simulator.set(rst, 1);
-            simulator.tick();
-            simulator.set(rst, 0);
+        let rst = simulator.input("rst").ok();
+        let mut device = NetlistDevice { simulator, rst, inputs, outputs };
+        device.reset();
+        Ok(device)
+    }
+
+    /// A clock with `rst` high.
+    pub fn reset(&mut self) {
+        if let Some(rst) = self.rst {
+            self.simulator.set(rst, 1);
+            self.simulator.tick();
+            self.simulator.set(rst, 0);
         }
-        Ok(NetlistDevice { simulator, inputs, outputs })
+    }
+
+    /// Some cycles of random inputs, then a reset: so that nothing is taken for reset that only was 0 before.
+    pub fn disturb(&mut self) {
+        let mut random = Pcg64Mcg::seed_from_u64(1);
+        for _ in 0..DISTURBANCE {
+            for input in &self.inputs {
+                let value = u128::from(random.next_u64()) << 64 | u128::from(random.next_u64());
+                self.simulator.set(*input, value);
+            }
+            self.simulator.tick();
+        }
+        self.reset();
     }
 
     /// Drives the inputs and gives the outputs of this cycle, before the clock edge.

@@ -121,6 +121,14 @@ fn thin(pen: &Pen) -> Vec<Case> {
             [at([(-limit, 3.25), (limit, 3.4), (0.0, 4.0)]), at([(limit, 5.25), (-limit, 5.4), (0.0, 6.0)])],
         ),
         case("guard_band_from_top_to_bottom", [at([(2.25, -limit), (3.0, 0.0), (3.75, limit)])]),
+        case(
+            "guard_band_wedges",
+            [
+                at([(-6.0, -limit), (9.0, limit), (2.0, limit - 3.0)]),
+                at([(14.0, -limit), (3.0, limit), (8.0, 2.0 - limit)]),
+                at([(5.0, -limit), (-5.0, 4.0), (11.0, limit)]),
+            ],
+        ),
         case("guard_band_diagonal_sliver", [at([(-limit, -limit), (limit, limit), (limit, limit - 1.0)])]),
     ]
 }

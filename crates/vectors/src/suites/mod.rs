@@ -3,7 +3,7 @@
 //! ```text
 //!  hazards   pixels met again while in flight
 //!  corners   degenerate and extreme shapes
-//!  random    three kinds of triangles; number k depends only on (seed, suite, k)
+//!  random    four kinds of triangles; number k depends only on (seed, suite, k)
 //!  sphere    a small shaded mesh
 //! ```
 //! A suite knows the formats of the machine, nothing of what it draws.
@@ -66,7 +66,7 @@ pub const SUITES: [Entry; 4] = [
     },
     Entry {
         name: "random",
-        about: "random triangles in turn: near the screen, tiny on a few pixels, long and thin across the guard band",
+        about: "random triangles in turn: near the screen, tiny on a few pixels, thin across the guard band, upright through it",
         cases: random::cases,
     },
     Entry {

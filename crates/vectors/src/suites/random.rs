@@ -11,10 +11,11 @@ type Draw = fn(&Pen, &mut Pcg64Mcg) -> Triangle;
 
 pub(super) fn cases(machine: &Machine, seed: u64, count: u64) -> Vec<Case> {
     let pen = Pen::new(machine);
-    let kinds: [(&str, Draw); 3] = [("near_the_screen", near), ("tiny", tiny), ("long_and_thin", long)];
+    let kinds: [(&str, Draw); 4] =
+        [("near_the_screen", near), ("tiny", tiny), ("long_and_thin", long), ("upright", upright)];
     (0..count)
         .map(|k| {
-            let (name, draw) = kinds[(k % 3) as usize];
+            let (name, draw) = kinds[(k % 4) as usize];
             case(&format!("{name}_{k}"), [draw(&pen, &mut stream(seed, "random", k))])
         })
         .collect()
@@ -60,6 +61,16 @@ fn long(pen: &Pen, random: &mut Pcg64Mcg) -> Triangle {
     std::array::from_fn(|_| {
         let at = (random.random_range(-reach..reach), y + random.random_range(0.0..2.0));
         pen.vertex(at, values(random))
+    })
+}
+
+/// From far above to far below the screen, in the columns of the screen and a little beside them.
+fn upright(pen: &Pen, random: &mut Pcg64Mcg) -> Triangle {
+    let (w, _) = pen.size();
+    let ends = [-pen.limit(), pen.limit()];
+    std::array::from_fn(|i| {
+        let y = ends[(i + random.random_range(0..2)) % 2] * random.random_range(0.3..1.0);
+        pen.vertex((random.random_range(-8.0..w.min(64.0) + 8.0), y), values(random))
     })
 }
 

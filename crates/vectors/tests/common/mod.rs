@@ -12,6 +12,7 @@ pub fn small() -> Machine {
         subpixel_bits: 4,
         z: Channel { bits: 8, fraction: 8, vertex_fraction: 2 },
         color: Channel { bits: 4, fraction: 8, vertex_fraction: 2 },
+        dividers: 1,
         radix: 16,
         ..Machine::default()
     })
@@ -29,7 +30,7 @@ pub fn twelve() -> Vec<(&'static str, Machine)> {
     let list = vec![
         ("small", s.clone()),
         ("two_adders_drain", Machine { adders: 2, hazard: Hazard::Drain, dividers: 2, ..s.clone() }),
-        ("one_adder_interlock", Machine { adders: 1, hazard: Hazard::Interlock, dividers: 1, ..s.clone() }),
+        ("one_adder_interlock", Machine { adders: 1, hazard: Hazard::Interlock, dividers: 4, ..s.clone() }),
         ("two_segments", Machine { segments: 2, radix: 4, latency: 1, inflight: 1, ..s.clone() }),
         ("one_adder_of_four_segments", Machine { adders: 1, segments: 4, span_fifo: 1, ..s.clone() }),
         (
@@ -51,7 +52,7 @@ pub fn twelve() -> Vec<(&'static str, Machine)> {
                 ..textbook.clone()
             },
         ),
-        ("textbook_exact_edges", Machine { hazard: Hazard::Forward, color: s.color, ..textbook.clone() }),
+        ("textbook_exact_edges", Machine { dividers: 4, ..textbook.clone() }),
         (
             "tiny",
             Machine {

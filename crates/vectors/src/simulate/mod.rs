@@ -1,0 +1,151 @@
+//! Runs a directory of vectors in a simulator, and its design through lint and synthesis.
+//!
+//! The only place of this crate that does I/O. Tools read the directory and write to a work directory beside it; every
+//! tool has a time limit. A verdict says how much was compared, and nothing compared is a verdict of its own.
+
+mod process;
+mod synthesis;
+
+pub use process::Stop;
+pub use synthesis::{Cells, synth_ice40};
+
+use crate::manifest::Manifest;
+use crate::read::{ReadError, read};
+use process::run;
+use std::path::Path;
+use std::process::Command;
+use std::time::Duration;
+
+/// A simulator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Simulator {
+    /// Icarus Verilog.
+    Icarus,
+    /// Verilator with `--binary --timing`.
+    Verilator,
+}
+
+impl Simulator {
+    /// Both.
+    pub const ALL: [Simulator; 2] = [Simulator::Icarus, Simulator::Verilator];
+
+    /// The word for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        ["icarus", "verilator"][self as usize]
+    }
+}
+
+/// How a run of the test bench ends.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Everything expected came, as expected, and nothing else.
+    Pass {
+        /// Tokens and status changes compared.
+        checked: u64,
+    },
+    /// Something differs, is missing, or is too much.
+    Mismatch {
+        /// Tokens and status changes that came.
+        checked: u64,
+        /// Those that should have come.
+        expected: u64,
+        /// What the test bench says first.
+        lines: Vec<String>,
+    },
+    /// Nothing was compared.
+    Vacuous,
+}
+
+/// Why there is no outcome.
+#[derive(Debug, thiserror::Error)]
+pub enum SimulateError {
+    /// The directory is not what its manifest says.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// A tool is missing or broken, or took too long.
+    #[error(transparent)]
+    Tool(#[from] Stop),
+}
+
+/// Runs the test bench of a directory, after checking that its files are those that were written.
+///
+/// # Errors
+/// A changed directory; a tool that is missing, refuses the design, or exceeds the limit (for each of its two steps).
+pub fn simulate(
+    simulator: Simulator,
+    directory: &Path,
+    work: &Path,
+    limit: Duration,
+) -> Result<Outcome, SimulateError> {
+    let manifest = read(|name| std::fs::read(directory.join(name)))?.manifest;
+    // The tools run inside the directory, so their output needs a full path.
+    let work = std::path::absolute(work).map_err(|error| Stop::broken("the work directory", &error))?;
+    std::fs::create_dir_all(&work).map_err(|error| Stop::broken("the work directory", &error))?;
+    let text = match simulator {
+        Simulator::Icarus => {
+            let program = work.join("tb.vvp");
+            let mut compile = Command::new("iverilog");
+            compile.args(["-g2001", "-s", "tb", "-c", "filelist.f", "-o"]).arg(&program);
+            run(compile.current_dir(directory), limit)?;
+            run(Command::new("vvp").arg("-n").arg(&program).current_dir(directory), limit)?
+        }
+        Simulator::Verilator => {
+            let objects = work.join("obj_dir");
+            let mut compile = Command::new("verilator");
+            compile.args(["--binary", "--timing", "-O3", "--top-module", "tb", "-f", "filelist.f", "--Mdir"]);
+            run(compile.arg(&objects).current_dir(directory), limit)?;
+            run(Command::new(objects.join("Vtb")).current_dir(directory), limit)?
+        }
+    };
+    Ok(verdict(&manifest, &text).ok_or_else(|| Stop::Broken {
+        tool: simulator.name().to_owned(),
+        lines: first_lines(text.lines()),
+    })?)
+}
+
+/// The design's files pass `verilator --lint-only -Wall`.
+///
+/// # Errors
+/// A tool that is missing or exceeds the limit; its complaints are [`Stop::Broken`].
+pub fn lint(directory: &Path, limit: Duration) -> Result<(), SimulateError> {
+    let manifest = read(|name| std::fs::read(directory.join(name)))?.manifest;
+    let mut command = Command::new("verilator");
+    command.args(["--lint-only", "-Wall", "--top-module", &manifest.module]).args(hdl(&manifest));
+    let text = run(command.current_dir(directory), limit)?;
+    match text.trim().is_empty() {
+        true => Ok(()),
+        false => {
+            Err(Stop::Broken { tool: "verilator -Wall".to_owned(), lines: first_lines(text.lines()) }.into())
+        }
+    }
+}
+
+/// The Verilog files of the design.
+fn hdl(manifest: &Manifest) -> Vec<&str> {
+    let names = manifest.files.iter().map(|file| file.name.as_str());
+    names.filter(|name| name.starts_with("hdl/") && name.ends_with(".v")).collect()
+}
+
+/// What the test bench printed; `None` if it did not come to its end.
+fn verdict(manifest: &Manifest, text: &str) -> Option<Outcome> {
+    let counts = text.lines().find_map(|line| line.strip_prefix("checked "))?;
+    let (checked, expected) = counts.split_once(" / ")?;
+    let (checked, expected): (u64, u64) = (checked.trim().parse().ok()?, expected.trim().parse().ok()?);
+    let passed =
+        text.lines().any(|line| line == "PASS") && checked == expected && expected == manifest.expected;
+    let vacuous = checked == 0 || text.lines().any(|line| line == "FAIL: nothing was compared");
+    Some(match (vacuous, passed) {
+        (true, _) => Outcome::Vacuous,
+        (false, true) => Outcome::Pass { checked },
+        (false, false) => {
+            let told = text.lines().filter(|line| !line.starts_with("cycles ") && !line.starts_with("- "));
+            Outcome::Mismatch { checked, expected: manifest.expected, lines: first_lines(told) }
+        }
+    })
+}
+
+/// Enough to see what is wrong.
+fn first_lines<'a>(lines: impl Iterator<Item = &'a str>) -> Vec<String> {
+    lines.filter(|line| !line.trim().is_empty()).take(20).map(str::to_owned).collect()
+}
