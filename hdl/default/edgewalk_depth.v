@@ -247,7 +247,8 @@ module edgewalk_depth (
   assign rd_addr = frag_addr;
   assign occupied = (|count) || wr_valid;
 
-  wire unused = &{1'b0, frag_fence};  // not needed, on purpose
+  // Not needed, on purpose.
+  wire unused = &{1'b0, frag_fence};
 
 endmodule
 

@@ -49,18 +49,18 @@ module edgewalk_pixel (
 
   // The span being drawn.
   assign advance = !frag_valid || frag_ready;
-  reg [14:0] x;                                      // column, signed
-  reg [8:0] y;                                       // line
-  reg left;                                          // towards smaller columns
-  reg [14:0] count;                                  // pixels left of the span, this one too
-  reg fence;                                         // for the next fragment
-  wire finish = active && 1'b1 && (count == 15'd1);  // last clock of the span
+  reg [14:0] x;                              // column, signed
+  reg [8:0] y;                               // line
+  reg left;                                  // towards smaller columns
+  reg [14:0] count;                          // pixels left of the span, this one too
+  reg fence;                                 // for the next fragment
+  wire finish = active && (count == 15'd1);  // last clock of the span
   assign span_ready = advance && (!active || finish);
   wire load = span_valid && span_ready;
   assign visible = x < 15'd640;
-  wire leaves = advance && active && 1'b1;           // this pixel is done
-  wire next_pixel = leaves && !finish;               // another one follows
-  wire emit = active && 1'b1 && visible;             // a fragment
+  wire leaves = advance && active;           // this pixel is done
+  wire next_pixel = leaves && !finish;       // another one follows
+  wire emit = active && visible;             // a fragment
 
   always @(posedge clk) begin
     if (rst) begin
@@ -109,7 +109,12 @@ module edgewalk_pixel (
   wire [21:0] b_sum = b_value + b_inc;
 
   always @(posedge clk) begin
-    if (load && span_fresh) z_inc <= inc_z;
+    if (load && span_fresh) begin
+      z_inc <= inc_z;
+      r_inc <= inc_r;
+      g_inc <= inc_g;
+      b_inc <= inc_b;
+    end
   end
 
   always @(posedge clk) begin
@@ -127,20 +132,7 @@ module edgewalk_pixel (
     end
   end
 
-  always @(posedge clk) begin
-    if (load && span_fresh) r_inc <= inc_r;
-  end
-
-  always @(posedge clk) begin
-    if (load && span_fresh) g_inc <= inc_g;
-  end
-
-  always @(posedge clk) begin
-    if (load && span_fresh) b_inc <= inc_b;
-  end
-
   // The output: in each stage the bits of one more segment.
-
   always @(posedge clk) begin
     if (advance) begin
       frag_addr <= {y, x[9:0]};

@@ -94,7 +94,7 @@ module edgewalk_setup (
   localparam [3:0] LINE = 4'd7;
   localparam [3:0] START_PRODUCT = 4'd8;
   localparam [3:0] START = 4'd9;
-  wire cull;                // no area, or no line on the screen
+  wire cull;                           // no area, or no line on the screen
   reg [2:0] state;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
@@ -102,8 +102,8 @@ module edgewalk_setup (
   wire in_edges = state == EDGES;
   wire working = in_edges || (state == CHANNELS);
   assign prim_valid = state == DONE;
-  reg [5:0] step;           // clock of the operation; 0 loads
-  reg [3:0] op;             // operation of the lanes
+  reg [5:0] step;                      // clock of the operation; 0 loads
+  reg [3:0] op;                        // operation of the lanes
   wire load = working && (step == 6'd0);
   wire stepping = working && (|step);
   wire is_edge_step = op == EDGE_STEP;
@@ -116,7 +116,7 @@ module edgewalk_setup (
   wire is_line = op == LINE;
   wire is_start_product = op == START_PRODUCT;
   wire is_start = op == START;
-  wire [5:0] steps = is_start ? 6'd42
+  wire [5:0] steps = is_start ? 6'd42  // clocks of the operation after the one that loads
                    : is_start_product ? 6'd12
                    : is_line ? 6'd42
                    : is_line_product ? 6'd12
@@ -126,7 +126,7 @@ module edgewalk_setup (
                    : is_edge_start ? 6'd19
                    : is_edge_product ? 6'd12
                    : is_edge_step ? 6'd11
-                   : 6'd0;  // clocks of the operation after the one that loads
+                   : 6'd0;
   wire last_step = working && (step == steps);
   wire edges_end = last_step && (op == EDGE_START);
   wire channels_end = last_step && (op == START);
@@ -281,8 +281,6 @@ module edgewalk_setup (
   wire [22:0] du01 = {p1_u[21], p1_u} - {p0_u[21], p0_u};  // 1/P column, signed
   wire [22:0] du02 = {p2_u[21], p2_u} - {p0_u[21], p0_u};  // 1/P column, signed
 
-  // What is set up.
-
   // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
   wire [13:0] part = p0_v[21:8];
   wire [14:0] line0 = {part[13], part} + {14'd0, |p0_v[7:0]};  // ceil(v/P)
@@ -328,23 +326,15 @@ module edgewalk_setup (
 
   // Factors and divisor of the operations on channels, the same for all lanes.
   wire [14:0] px = prim_major_c - {14'd0, prim_left};  // column of the first pixel, signed
-  wire [22:0] channel_a = is_start_product ? {px, 8'd0} - {p0_u[21], p0_u}
+  wire [22:0] channel_a = is_start_product ? {px, 8'd0} - {p0_u[21], p0_u}  // signed
                         : is_line_product ? {{8{prim_major_q[14]}}, prim_major_q}
                         : is_nx ? {1'b0, dv02}
-                        : du02;        // signed
-  wire [22:0] channel_b = is_start_product ? {jm, 8'd0} - {p0_v[21], p0_v}
+                        : du02;
+  wire [22:0] channel_b = is_start_product ? {jm, 8'd0} - {p0_v[21], p0_v}  // signed
                         : is_line_product ? 23'd1
                         : is_nx ? {1'b0, dv01}
-                        : du01;        // signed
+                        : du01;
   wire [44:0] channel_divisor = area;  // unsigned
-
-  // Lane 0.
-
-  // Lane 1.
-
-  // Lane 2.
-
-  // Lane 3.
 
   // Edge: major.
   wire major_steps = |dv02[21:8];  // DY >= P
@@ -425,7 +415,7 @@ module edgewalk_setup (
     .load_divisor   (load && either),
     .from_y         (load && is_edge_step),
     .y_in           (in_edges ? {{7{p0_u[21]}}, p0_u} - {{7{p2_u[21]}}, p2_u} : difference_6),
-    .step_quotient  (stepping && (either || is_edge_step) && (in_edges || 1'b1)),
+    .step_quotient  (stepping && (either || is_edge_step) && 1'b1),
     .a_in           (in_edges ? {1'b0, dv02} : channel_a),
     .b_in           (in_edges ? {1'b0, dv01} : channel_b),
     .x_in           (in_edges ? {{7{p1_u[21]}}, p1_u} - {{7{p0_u[21]}}, p0_u} : difference_7),
@@ -638,7 +628,13 @@ module edgewalk_setup (
   assign prim_minor1_m = dv01;
   assign prim_minor2_m = dv12;
 
-  wire unused = &{1'b0, ny_done, line_product_done, lane0_product[74:46], lane1_quotient[21:15], lane1_remainder[44:22], lane2_quotient[21:15], lane2_remainder[44:22], lane3_quotient[21:15], lane3_remainder[44:22], difference[22], difference_2[22], difference_3[22], difference_4[14:10], difference_5[14:10], choice_3[45]};  // not needed, on purpose
+  // Not needed, on purpose.
+  wire unused = &{
+    1'b0, ny_done, line_product_done, lane0_product[74:46], lane1_quotient[21:15],
+    lane1_remainder[44:22], lane2_quotient[21:15], lane2_remainder[44:22], lane3_quotient[21:15],
+    lane3_remainder[44:22], difference[22], difference_2[22], difference_3[22], difference_4[14:10],
+    difference_5[14:10], choice_3[45]
+  };
 
 endmodule
 

@@ -156,7 +156,8 @@ module edgewalk_setup_lane0 (
   assign rounded = floor + {37'd0, up};
   assign d1 = both + {37'd0, half} + {37'd0, three_halves};
 
-  wire unused = &{1'b0, sum0[74], choice[45], joined_3[37], choice_2[45]};  // not needed, on purpose
+  // Not needed, on purpose.
+  wire unused = &{1'b0, sum0[74], choice[45], joined_3[37], choice_2[45]};
 
 endmodule
 

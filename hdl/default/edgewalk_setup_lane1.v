@@ -160,7 +160,8 @@ module edgewalk_setup_lane1 (
   assign rounded = floor + {21'd0, up};
   assign d1 = both + {21'd0, half} + {21'd0, three_halves};
 
-  wire unused = &{1'b0, sum0[58], choice[45], joined_3[21], choice_2[45]};  // not needed, on purpose
+  // Not needed, on purpose.
+  wire unused = &{1'b0, sum0[58], choice[45], joined_3[21], choice_2[45]};
 
 endmodule
 

@@ -116,7 +116,6 @@ module edgewalk_span (
   end
 
   // While a triangle's first span is queued, EDGE must keep the increments of the triangle.
-
   always @(posedge clk) begin
     if (rst) begin
       fresh_queued <= 1'b0;

@@ -237,27 +237,24 @@ module edgewalk_edge (
   end
 
   always @(posedge clk) begin
-    if (along) line_z <= line_z + (upper ? z_d_a : z_d_b);
-    if (at_knee && line_left) line_z <= z_start_b;
-    if (load) line_z <= has_upper ? prim_z_start_a : prim_z_start_b;
-  end
-
-  always @(posedge clk) begin
-    if (along) line_r <= line_r + (upper ? r_d_a : r_d_b);
-    if (at_knee && line_left) line_r <= r_start_b;
-    if (load) line_r <= has_upper ? prim_r_start_a : prim_r_start_b;
-  end
-
-  always @(posedge clk) begin
-    if (along) line_g <= line_g + (upper ? g_d_a : g_d_b);
-    if (at_knee && line_left) line_g <= g_start_b;
-    if (load) line_g <= has_upper ? prim_g_start_a : prim_g_start_b;
-  end
-
-  always @(posedge clk) begin
-    if (along) line_b <= line_b + (upper ? b_d_a : b_d_b);
-    if (at_knee && line_left) line_b <= b_start_b;
-    if (load) line_b <= has_upper ? prim_b_start_a : prim_b_start_b;
+    if (along) begin
+      line_z <= line_z + (upper ? z_d_a : z_d_b);
+      line_r <= line_r + (upper ? r_d_a : r_d_b);
+      line_g <= line_g + (upper ? g_d_a : g_d_b);
+      line_b <= line_b + (upper ? b_d_a : b_d_b);
+    end
+    if (at_knee && line_left) begin
+      line_z <= z_start_b;
+      line_r <= r_start_b;
+      line_g <= g_start_b;
+      line_b <= b_start_b;
+    end
+    if (load) begin
+      line_z <= has_upper ? prim_z_start_a : prim_z_start_b;
+      line_r <= has_upper ? prim_r_start_a : prim_r_start_b;
+      line_g <= has_upper ? prim_g_start_a : prim_g_start_b;
+      line_b <= has_upper ? prim_b_start_a : prim_b_start_b;
+    end
   end
 
   assign line_valid = running;

@@ -240,7 +240,12 @@ module edgewalk_pixel (
   end
 
   always @(posedge clk) begin
-    if (load && span_fresh) z_inc0 <= inc_z[6:0];
+    if (load && span_fresh) begin
+      z_inc0 <= inc_z[6:0];
+      r_inc0 <= inc_r[6:0];
+      g_inc0 <= inc_g[6:0];
+      b_inc0 <= inc_b[6:0];
+    end
   end
 
   always @(posedge clk) begin
@@ -270,51 +275,25 @@ module edgewalk_pixel (
   end
 
   always @(posedge clk) begin
-    if (load1_now && fresh1) z_inc1 <= z_inc_late1[7:0];
+    if (load1_now && fresh1) begin
+      z_inc1 <= z_inc_late1[7:0];
+      r_inc1 <= r_inc_late1[7:0];
+      g_inc1 <= g_inc_late1[7:0];
+      b_inc1 <= b_inc_late1[7:0];
+    end
   end
 
   always @(posedge clk) begin
-    if (load2_now && fresh2) z_inc2 <= z_inc_late2[6:0];
+    if (load2_now && fresh2) begin
+      z_inc2 <= z_inc_late2[6:0];
+      r_inc2 <= r_inc_late2;
+      g_inc2 <= g_inc_late2;
+      b_inc2 <= b_inc_late2;
+    end
   end
 
   always @(posedge clk) begin
     if (load3_now && fresh3) z_inc3 <= z_inc_late3;
-  end
-
-  always @(posedge clk) begin
-    if (load && span_fresh) r_inc0 <= inc_r[6:0];
-  end
-
-  always @(posedge clk) begin
-    if (load1_now && fresh1) r_inc1 <= r_inc_late1[7:0];
-  end
-
-  always @(posedge clk) begin
-    if (load2_now && fresh2) r_inc2 <= r_inc_late2;
-  end
-
-  always @(posedge clk) begin
-    if (load && span_fresh) g_inc0 <= inc_g[6:0];
-  end
-
-  always @(posedge clk) begin
-    if (load1_now && fresh1) g_inc1 <= g_inc_late1[7:0];
-  end
-
-  always @(posedge clk) begin
-    if (load2_now && fresh2) g_inc2 <= g_inc_late2;
-  end
-
-  always @(posedge clk) begin
-    if (load && span_fresh) b_inc0 <= inc_b[6:0];
-  end
-
-  always @(posedge clk) begin
-    if (load1_now && fresh1) b_inc1 <= b_inc_late1[7:0];
-  end
-
-  always @(posedge clk) begin
-    if (load2_now && fresh2) b_inc2 <= b_inc_late2;
   end
 
   always @(posedge clk) begin

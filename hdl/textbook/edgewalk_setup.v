@@ -96,7 +96,7 @@ module edgewalk_setup (
   localparam [3:0] PRODUCT_B = 4'd8;
   localparam [3:0] START_B = 4'd9;
   localparam [3:0] LINE_B = 4'd10;
-  wire cull;                // no area, or no line on the screen
+  wire cull;                            // no area, or no line on the screen
   reg [2:0] state;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
@@ -104,9 +104,9 @@ module edgewalk_setup (
   wire in_edges = state == EDGES;
   wire working = in_edges || (state == CHANNELS);
   assign prim_valid = state == DONE;
-  reg [5:0] step;           // clock of the operation; 0 loads
-  reg [3:0] op;             // operation of the lanes
-  reg [1:0] round;          // of the jobs the lanes do in turn
+  reg [5:0] step;                       // clock of the operation; 0 loads
+  reg [3:0] op;                         // operation of the lanes
+  reg [1:0] round;                      // of the jobs the lanes do in turn
   wire load = working && (step == 6'd0);
   wire stepping = working && (|step);
   wire is_edge_step = op == EDGE_STEP;
@@ -120,7 +120,7 @@ module edgewalk_setup (
   wire is_product_b = op == PRODUCT_B;
   wire is_start_b = op == START_B;
   wire is_line_b = op == LINE_B;
-  wire [5:0] steps = is_line_b ? 6'd47
+  wire [5:0] steps = is_line_b ? 6'd47  // clocks of the operation after the one that loads
                    : is_start_b ? 6'd47
                    : is_product_b ? 6'd16
                    : is_line_a ? 6'd47
@@ -131,7 +131,7 @@ module edgewalk_setup (
                    : is_edge_start ? 6'd47
                    : is_edge_product ? 6'd16
                    : is_edge_step ? 6'd31
-                   : 6'd0;  // clocks of the operation after the one that loads
+                   : 6'd0;
   wire last_step = working && (step == steps);
   wire edges_end = last_step && (op == EDGE_START);
   wire channels_end = last_step && (op == LINE_B);
@@ -295,8 +295,6 @@ module edgewalk_setup (
   wire [15:0] du01 = {p1_u[14], p1_u} - {p0_u[14], p0_u};  // 1/P column, signed
   wire [15:0] du02 = {p2_u[14], p2_u} - {p0_u[14], p0_u};  // 1/P column, signed
 
-  // What is set up.
-
   // Lines of each part: from Y of the upper to Y of the lower end, both drawn, on the screen.
   wire [13:0] part = p0_v[14:1];
   wire [14:0] extended = {part[13], part};
@@ -355,8 +353,6 @@ module edgewalk_setup (
   wire [14:0] choice_4 = (in_b && prim_left) ? p1_v : p0_v;
   wire [15:0] channel_b = is_nx ? {1'b0, dv01} : {in_b ? j1 : j0, 1'b0} - {choice_4[14], choice_4};  // signed
   wire [30:0] channel_divisor = is_gx ? area : {16'd0, prim_left ? (in_b ? dv12 : dv01) : dv02};  // unsigned
-
-  // Lane 0.
 
   // Edge: major.
   wire major_steps = |dv02[14:1];  // DY >= P
@@ -555,7 +551,6 @@ module edgewalk_setup (
   end
 
   // Channel: z.
-
   always @(posedge clk) begin
     if (gx_done && (finished_round == 2'd0)) prim_z_g <= lane0_rounded[29:0];
   end
@@ -585,7 +580,6 @@ module edgewalk_setup (
   end
 
   // Channel: r.
-
   always @(posedge clk) begin
     if (gx_done && (finished_round == 2'd1)) prim_r_g <= lane0_rounded[21:0];
   end
@@ -616,7 +610,6 @@ module edgewalk_setup (
   end
 
   // Channel: g.
-
   always @(posedge clk) begin
     if (gx_done && (finished_round == 2'd2)) prim_g_g <= lane0_rounded[21:0];
   end
@@ -647,7 +640,6 @@ module edgewalk_setup (
   end
 
   // Channel: b.
-
   always @(posedge clk) begin
     if (gx_done && (finished_round == 2'd3)) prim_b_g <= lane0_rounded[21:0];
   end
@@ -679,7 +671,11 @@ module edgewalk_setup (
 
   assign prim_jm = jm[8:0];
 
-  wire unused = &{1'b0, nx_done, product_a_done, product_b_done, du01, du02, lane0_product[32], difference[15], difference_2[15], difference_3[15], choice[14:10], choice_2[14:10], choice_3[31]};  // not needed, on purpose
+  // Not needed, on purpose.
+  wire unused = &{
+    1'b0, nx_done, product_a_done, product_b_done, du01, du02, lane0_product[32], difference[15],
+    difference_2[15], difference_3[15], choice[14:10], choice_2[14:10], choice_3[31]
+  };
 
 endmodule
 

@@ -116,7 +116,8 @@ module edgewalk_setup_lane0 (
   assign remainder = floor_remainder;
   assign rounded = floor + {30'd0, up};
 
-  wire unused = &{1'b0, choice[31]};  // not needed, on purpose
+  // Not needed, on purpose.
+  wire unused = &{1'b0, choice[31]};
 
 endmodule
 
