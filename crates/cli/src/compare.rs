@@ -2,7 +2,7 @@
 
 use crate::engine::Raster;
 use crate::verdict::Verdict;
-use edgewalk_numerics::Machine;
+use edgewalk_numerics::{Channel, Machine};
 use serde::Serialize;
 
 /// What the comparison found. Errors are against the exact plane through the unquantised vertices.
@@ -37,7 +37,7 @@ pub struct Comparison {
 /// Compares pixel by pixel.
 pub fn compare(machine: &Machine, golden: &Raster, drawn: &Raster) -> Comparison {
     let (z_max, color_max) = (machine.z.max() as f64, machine.color.max() as f64);
-    let (z_bound, color_bound) = crate::report::bounds(machine);
+    let (z_bound, color_bound) = bounds(machine);
     let count = golden.coverage.len();
     let mut c = Comparison {
         pixels: count as u64,
@@ -87,4 +87,11 @@ impl Comparison {
             + u64::from(self.color_error > self.color_bound);
         Verdict::of(self.pixels, self.pixels, wrong)
     }
+}
+
+/// Proved bounds of the rounded output of depth and colour, LSB: vertex rounding, all additions, output rounding (A2, A4).
+fn bounds(machine: &Machine) -> (f64, f64) {
+    let steps = machine.max_steps();
+    let bound = |channel: Channel| channel.error_budget(steps).after_rounding().to_f64();
+    (bound(machine.z), bound(machine.color))
 }

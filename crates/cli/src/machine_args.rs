@@ -2,8 +2,8 @@
 
 use anyhow::{Context, Result, anyhow};
 use edgewalk_numerics::Machine;
+use edgewalk_numerics::machine::nearest::nearest;
 use edgewalk_numerics::machine::presets::PRESETS;
-use edgewalk_numerics::machine::text::nearest;
 use std::path::Path;
 
 /// Which machine.

@@ -5,7 +5,7 @@ use crate::compare::Comparison;
 use crate::engine::{Cycles, Raster};
 use anyhow::Result;
 use edgewalk_model::Activity;
-use edgewalk_numerics::{Channel, Machine};
+use edgewalk_numerics::Machine;
 use edgewalk_scene::Frame;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
@@ -153,11 +153,4 @@ impl Report {
 
 fn ratio(part: u64, whole: u64) -> f64 {
     if whole == 0 { 0.0 } else { part as f64 / whole as f64 }
-}
-
-/// Proved bounds of the rounded output of depth and colour, LSB: vertex rounding, all additions, output rounding (A2, A4).
-pub fn bounds(machine: &Machine) -> (f64, f64) {
-    let steps = machine.max_steps();
-    let bound = |channel: Channel| channel.error_budget(steps).after_rounding().to_f64();
-    (bound(machine.z), bound(machine.color))
 }

@@ -161,7 +161,11 @@ fn frame(machine: &Machine, port: &PortFrame) -> (u64, u64) {
         };
         let outputs = model.cycle(&inputs);
         let data_taken = inputs.data.is_some() && outputs.data_ready;
-        memory.step(outputs.rd.filter(|_| inputs.rd_ready), data_taken, outputs.wr.as_ref().filter(|_| inputs.wr_ready));
+        memory.step(
+            outputs.rd.filter(|_| inputs.rd_ready),
+            data_taken,
+            outputs.wr.as_ref().filter(|_| inputs.wr_ready),
+        );
         if outputs.tri_ready && next.is_some() {
             next = triangles.next();
         } else if outputs.idle && next.is_none() {

@@ -5,8 +5,8 @@ use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
 use edgewalk_numerics::Machine;
 use edgewalk_numerics::machine::keys::KEYS;
+use edgewalk_numerics::machine::nearest::nearest;
 use edgewalk_numerics::machine::presets::PRESETS;
-use edgewalk_numerics::machine::text::nearest;
 use serde_json::json;
 
 /// Prints, checks or explains a machine.

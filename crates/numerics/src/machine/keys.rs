@@ -155,7 +155,7 @@ impl Key {
     #[must_use]
     pub fn nearest(&self, text: &str) -> String {
         match self.domain {
-            Word(words) => super::text::nearest(text, words.iter().copied()).to_owned(),
+            Word(words) => super::nearest::nearest(text, words.iter().copied()).to_owned(),
             Range(low, high) => match text.parse::<f64>() {
                 Ok(v) => (v.round().clamp(f64::from(low), f64::from(high)) as u32).to_string(),
                 Err(_) => low.to_string(),

@@ -8,6 +8,7 @@
 
 pub mod check;
 pub mod keys;
+pub mod nearest;
 pub mod presets;
 pub mod text;
 pub mod widths;

@@ -2,6 +2,7 @@
 
 use super::Machine;
 use super::keys::{KEYS, Key};
+use super::nearest::nearest;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use toml::de::{DeTable, DeValue};
@@ -41,14 +42,6 @@ impl MachineError {
         self.line = Some(text[..offset.min(text.len())].matches('\n').count() + 1);
         self
     }
-}
-
-/// The candidate most like `word` (Jaro-Winkler), for hints.
-#[must_use]
-pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> &'a str {
-    candidates
-        .max_by(|a, b| strsim::jaro_winkler(word, a).total_cmp(&strsim::jaro_winkler(word, b)))
-        .unwrap_or("")
 }
 
 fn find(name: &str) -> Result<&'static Key, MachineError> {

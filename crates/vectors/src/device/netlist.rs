@@ -51,7 +51,7 @@ impl NetlistDevice {
     /// # Errors
     /// A port that is missing or of another width.
     pub fn new(netlist: &Netlist, interface: &Interface) -> Result<Self, PortError> {
-        let mut simulator = Simulator::new(netlist);
+        let simulator = Simulator::new(netlist);
         let missing = |direction, port: &str| PortError::Missing {
             module: netlist.name.clone(),
             direction,

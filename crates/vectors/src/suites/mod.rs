@@ -14,7 +14,7 @@ mod pen;
 mod random;
 mod sphere;
 
-use edgewalk_numerics::machine::text::nearest;
+use edgewalk_numerics::machine::nearest::nearest;
 use edgewalk_numerics::{Machine, PortVertex};
 
 /// A triangle at the port.
