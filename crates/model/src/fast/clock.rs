@@ -26,11 +26,11 @@ use edgewalk_numerics::{Hazard, Machine};
 
 /// The last fragment of a span, as DEPTH sees it.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct LastRead {
-    /// Cycle of its read; 0 before the first.
-    pub cycle: u64,
+struct LastRead {
+    /// Cycle of its read.
+    cycle: u64,
     /// It passes the depth test, and so is in w a cycle longer.
-    pub passed: bool,
+    passed: bool,
 }
 
 impl LastRead {
@@ -127,15 +127,15 @@ impl Clock {
     }
 
     /// A line without a pixel.
-    #[inline]
+    #[inline(always)]
     pub(super) fn empty_line(&mut self) {
         self.line += 1;
     }
 
     /// A line of `skip` pixels off the screen and then `drawn` on it; `fresh`: the first of its triangle. Returns the
     /// cycle in which the first fragment reaches DEPTH.
-    #[inline]
-    pub(super) fn span(&mut self, skip: u32, drawn: u32, fresh: bool, fence: bool, passed: bool) -> u64 {
+    #[inline(always)]
+    pub(super) fn span(&mut self, skip: u32, drawn: u32, fresh: bool, fence: bool) -> u64 {
         let place = self.spans as usize;
         let push = self.line.max(self.room[place.wrapping_sub(self.span_fifo) & 63]);
         self.line = push + 1;
@@ -160,8 +160,16 @@ impl Clock {
         }
         self.pixel_free = pop + skip + drawn;
         self.counted = self.pixel_free + 1;
-        self.last = Some(LastRead { cycle: self.pixel_free + self.segments, passed });
+        self.last = Some(LastRead { cycle: self.pixel_free + self.segments, passed: false });
         arrival
+    }
+
+    /// Whether the last fragment of the last span passed the depth test.
+    #[inline(always)]
+    pub(super) fn last_passed(&mut self, passed: bool) {
+        if let Some(last) = &mut self.last {
+            last.passed = passed;
+        }
     }
 
     /// The last line of the triangle has left EDGE.

@@ -3,44 +3,40 @@
 use super::Reason;
 use super::clock::Clock;
 use super::inflight::{InFlight, Reads};
-use super::picture::{Color, Picture};
+use super::picture::Picture;
+use super::pixel::Pixel;
+use super::setup::Setup;
 use super::span::{self, DepthTest, Ramp};
 use crate::counters::Counters;
 use crate::run::DrawState;
-use crate::setup;
 use crate::tokens::{Prim, Words};
 use edgewalk_numerics::{Fill, Machine, PortVertex};
+use std::array::from_fn;
 
 /// Draws the triangles into a cleared picture.
 #[inline(always)]
-pub(super) fn draw<C: Color, const DETAILS: bool>(
+pub(super) fn draw<P: Pixel, const DETAILS: bool>(
     machine: &Machine,
     triangles: impl Iterator<Item = [PortVertex; 3]>,
     state: &DrawState,
-    picture: &mut Picture<C>,
+    picture: &mut Picture<P>,
 ) -> Result<Counters, Reason> {
     let mut frame = Frame {
         textbook: machine.fill == Fill::Textbook,
         width: machine.width as i32,
         column_bits: machine.widths().column,
         align: machine.channels().map(|c| 64 - c.word()),
-        test: DepthTest {
-            less: state.depth_func & 1 != 0,
-            equal: state.depth_func & 2 != 0,
-            greater: state.depth_func & 4 != 0,
-            write: state.depth_write,
-            z_bits: machine.z.bits,
-            color_bits: machine.color.bits,
-        },
+        test: DepthTest::new::<P>(machine, state),
         picture,
         clock: Clock::new(machine),
         inflight: InFlight::new(machine, state.depth_write),
         met: false,
         counters: Counters::default(),
     };
+    let setup = Setup::new(machine);
     for (id, vertices) in triangles.enumerate() {
         frame.counters.triangles += 1;
-        match setup::increments(machine, &vertices) {
+        match setup.increments(&vertices) {
             Some(prim) => frame.triangle::<DETAILS>(&prim, id as i32),
             None => frame.clock.culled(),
         }
@@ -52,14 +48,14 @@ pub(super) fn draw<C: Color, const DETAILS: bool>(
     Ok(Counters { cycles: activity.iter().sum(), activity, spans, ..frame.counters })
 }
 
-struct Frame<'a, C> {
+struct Frame<'a, P: Pixel> {
     textbook: bool,
     width: i32,
     column_bits: u32,
     /// Bits that a word leaves free at the left of 64, by channel.
     align: [u32; 4],
     test: DepthTest,
-    picture: &'a mut Picture<C>,
+    picture: &'a mut Picture<P>,
     clock: Clock,
     inflight: Option<InFlight>,
     /// A fragment met its address in flight.
@@ -79,16 +75,16 @@ struct Cut {
 }
 
 /// What a triangle's lines share.
-struct Triangle<C> {
+struct Triangle<P: Pixel> {
     id: i32,
-    ramp: Ramp<C>,
+    ramp: Ramp<P>,
 }
 
-impl<C: Color> Frame<'_, C> {
+impl<P: Pixel> Frame<'_, P> {
     #[inline(always)]
     fn triangle<const DETAILS: bool>(&mut self, prim: &Prim, id: i32) {
         self.clock.triangle();
-        let aligned = |words: &Words| -> Words { std::array::from_fn(|i| words[i] << self.align[i]) };
+        let aligned = |words: &Words| -> Words { from_fn(|i| words[i] << self.align[i]) };
         let left = prim.left && !self.textbook;
         let gradient = aligned(&prim.gradient);
         let triangle =
@@ -122,10 +118,11 @@ impl<C: Color> Frame<'_, C> {
                 minor.step(self.column_bits);
                 let carry = major.step(self.column_bits);
                 let delta = &delta[if self.textbook { part } else { usize::from(carry) }];
-                words = std::array::from_fn(|i| words[i].wrapping_add(delta[i]));
+                words = from_fn(|i| words[i].wrapping_add(delta[i]));
             }
         }
         self.clock.end_triangle();
+        self.counters.writes += self.test.take_passed();
     }
 
     /// SPAN's rule (`docs/machine.md`, section 4); `None`: no pixel.
@@ -155,41 +152,32 @@ impl<C: Color> Frame<'_, C> {
     #[inline(always)]
     fn span<const DETAILS: bool>(
         &mut self,
-        triangle: &Triangle<C>,
+        triangle: &Triangle<P>,
         cut: &Cut,
         y: u32,
         words: &Words,
         fresh: bool,
         fence: bool,
     ) {
-        // From the first pixel of the span to the leftmost on the screen, and where its last fragment is drawn.
+        // From the first pixel of the span to the leftmost on the screen.
         let last = cut.count - 1;
-        let (columns, x, last_place) = if cut.left {
-            (-i64::from(cut.skip + last), cut.x - last as i32, 0)
+        let (columns, x) = if cut.left {
+            (-i64::from(cut.skip + last), cut.x - last as i32)
         } else {
-            (i64::from(cut.skip), cut.x, last)
+            (i64::from(cut.skip), cut.x)
         };
-        let gradient = &triangle.ramp.gradient;
-        let words: Words =
-            std::array::from_fn(|i| words[i].wrapping_add(gradient[i].wrapping_mul(columns as u64)));
-        let pixel = y as usize * self.width as usize + x as usize;
-        let last_word = words[0].wrapping_add(gradient[0].wrapping_mul(u64::from(last_place)));
-        let stored = self.picture.z.get(pixel + last_place as usize).copied().unwrap_or_default();
-        let passed = self.test.passes(self.test.depth(last_word), stored);
-        let first = self.clock.span(cut.skip, cut.count, fresh, fence, passed);
+        let first = self.clock.span(cut.skip, cut.count, fresh, fence);
         if let Some(inflight) = &mut self.inflight {
             let step = if cut.left { -1 } else { 1 };
             self.met |= inflight.meets(Reads { first, y, x: cut.x, count: cut.count, step }, fence);
         }
         self.counters.fragments += u64::from(cut.count);
-        self.counters.writes += u64::from(span::draw::<C, DETAILS>(
-            self.picture,
-            pixel,
-            cut.count,
-            &words,
-            &triangle.ramp,
-            &self.test,
-            triangle.id,
-        ));
+        let Triangle { ramp, id } = triangle;
+        let words: Words =
+            from_fn(|i| words[i].wrapping_add(ramp.gradient[i].wrapping_mul(columns as u64)));
+        let pixel = y as usize * self.width as usize + x as usize;
+        let [leftmost, rightmost] =
+            span::draw::<P, DETAILS>(self.picture, pixel, cut.count, &words, ramp, &mut self.test, *id);
+        self.clock.last_passed(if cut.left { leftmost } else { rightmost });
     }
 }

@@ -9,17 +9,22 @@
 //!
 //! Not modelled: the corner counters ([`Coverage`](crate::Coverage)), memories that stall.
 
+mod divide;
+mod setup;
 mod clock;
-mod frame;
 mod inflight;
+mod pixel;
 mod picture;
 mod span;
+mod frame;
+mod vector;
 
 use crate::counters::Counters;
 use crate::memory::Stalls;
 use crate::run::{DrawState, render};
 use edgewalk_numerics::{Machine, PortVertex};
-use picture::{Color, Picture};
+use picture::Picture;
+use pixel::Pixel;
 
 /// Why a frame was ticked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,8 +47,8 @@ pub enum Path {
 /// Colours packed into as few bits as they need.
 #[derive(Clone, Debug)]
 enum Memory {
-    Narrow(Picture<u32>),
-    Wide(Picture<u64>),
+    Narrow(Picture<u64>),
+    Wide(Picture<u128>),
 }
 
 /// Draws frame after frame into the same memory.
@@ -107,22 +112,16 @@ impl Renderer {
         self.machine.width as usize * self.machine.height as usize
     }
 
-    /// Stored depth, b bits, row by row from the top.
+    /// Stored depth and colour of a pixel, b bits each; `None` off the screen.
     #[must_use]
-    pub fn z(&self) -> &[u32] {
-        let z = match &self.memory {
-            Memory::Narrow(picture) => &picture.z,
-            Memory::Wide(picture) => &picture.z,
-        };
-        &z[..self.pixels()]
-    }
-
-    /// Stored colour of a pixel y·W + x, b bits each.
-    #[must_use]
-    pub fn rgb(&self, pixel: usize) -> [u64; 3] {
+    pub fn pixel(&self, x: u32, y: u32) -> Option<(u64, [u64; 3])> {
+        let place = y as usize * self.machine.width as usize + x as usize;
+        if x >= self.machine.width || y >= self.machine.height {
+            return None;
+        }
         match &self.memory {
-            Memory::Narrow(picture) => picture.rgb(pixel),
-            Memory::Wide(picture) => picture.rgb(pixel),
+            Memory::Narrow(picture) => picture.pixels.get(place).map(|p| (u64::from(p.depth()), p.rgb())),
+            Memory::Wide(picture) => picture.pixels.get(place).map(|p| (u64::from(p.depth()), p.rgb())),
         }
     }
 
@@ -155,21 +154,21 @@ fn queue_fills(machine: &Machine) -> bool {
     machine.inflight <= machine.latency / machine.clocks_per_pixel()
 }
 
-fn draw_into<C: Color>(
+fn draw_into<P: Pixel>(
     machine: &Machine,
     triangles: impl Iterator<Item = [PortVertex; 3]> + Clone,
     state: &DrawState,
     details: bool,
-    picture: &mut Picture<C>,
+    picture: &mut Picture<P>,
 ) -> (Counters, Path) {
     let drawn = if queue_fills(machine) {
         Err(Reason::Queue)
     } else {
         picture.clear(machine, state, details);
         if details {
-            frame::draw::<C, true>(machine, triangles.clone(), state, picture)
+            vector::draw::<P, true>(machine, triangles.clone(), state, picture)
         } else {
-            frame::draw::<C, false>(machine, triangles.clone(), state, picture)
+            vector::draw::<P, false>(machine, triangles.clone(), state, picture)
         }
     };
     match drawn {

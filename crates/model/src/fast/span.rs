@@ -1,121 +1,142 @@
 //! A span's pixels: interpolate, test, store, LANES at a time.
 //!
 //! Formats: words of b + r bits stand at the left end of a lane, so that adding wraps by itself and the output is the
-//! highest b bits; z in lanes of 64 bits, colours in lanes of a packed colour. The last chunk is drawn whole, and the
-//! pixels behind the span keep what they hold.
+//! highest b bits; z in lanes of 64 bits, colours in lanes of [`Pixel::Color`]. Conditions are masks, all ones or zero.
+//! The last chunk is drawn whole, and the pixels behind the span keep what they hold.
+//!
+//! Every statement does one thing to all lanes: so the compiler makes it one vector instruction.
 
-use super::picture::{Color, Picture};
+use super::picture::Picture;
+use super::pixel::Pixel;
+use crate::run::DrawState;
 use crate::tokens::Words;
+use edgewalk_numerics::Machine;
+use std::array::from_fn;
 
 /// Pixels of a chunk.
 pub(super) const LANES: usize = 8;
 
 /// The increments along a span to the right, for every lane of a chunk.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Ramp<C> {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ramp<P: Pixel> {
     /// The gradient, aligned to the left of 64 bits.
     pub gradient: Words,
     z: [u64; LANES],
     z_step: u64,
-    rgb: [[C; LANES]; 3],
-    rgb_step: [C; 3],
+    rgb: [[P::Color; LANES]; 3],
+    rgb_step: [P::Color; 3],
 }
 
-impl<C: Color> Ramp<C> {
+impl<P: Pixel> Ramp<P> {
     #[inline(always)]
     pub(super) fn new(gradient: Words) -> Self {
         let [z, rgb @ ..] = gradient;
         let times = |word: u64, i: usize| word.wrapping_mul(i as u64);
         Ramp {
             gradient,
-            z: std::array::from_fn(|i| times(z, i)),
+            z: from_fn(|i| times(z, i)),
             z_step: times(z, LANES),
-            rgb: rgb.map(|c| std::array::from_fn(|i| C::from_left(times(c, i)))),
-            rgb_step: rgb.map(|c| C::from_left(times(c, LANES))),
+            rgb: rgb.map(|c| from_fn(|i| P::color(times(c, i)))),
+            rgb_step: rgb.map(|c| P::color(times(c, LANES))),
         }
     }
 }
 
-/// Compare function and write mask of DEPTH.
-#[derive(Clone, Copy, Debug)]
+/// What DEPTH does with every fragment of a frame, and how many passed.
+#[derive(Clone, Debug)]
 pub(super) struct DepthTest {
-    /// Passes if less, equal, greater.
-    pub less: bool,
-    pub equal: bool,
-    pub greater: bool,
-    /// What passes stores its depth.
-    pub write: bool,
-    /// Output bits of depth and colour.
-    pub z_bits: u32,
-    pub color_bits: u32,
+    /// Masks: less, equal, greater passes.
+    less: u32,
+    equal: u32,
+    greater: u32,
+    /// Mask: what passes stores its depth.
+    write: u32,
+    /// 64 - b of depth, width of a colour lane - b of colour.
+    z_drop: u32,
+    rgb_drop: u32,
+    /// 0 to LANES - 1. From memory: known numbers tempt the compiler to treat every lane in its own way.
+    place: [i32; LANES],
+    /// Fragments that passed since the last [`take_passed`](Self::take_passed), by lane.
+    passed: [u32; LANES],
+}
+
+#[inline(always)]
+fn mask(condition: bool) -> u32 {
+    if condition { !0 } else { 0 }
 }
 
 impl DepthTest {
-    #[inline(always)]
-    pub(super) fn passes(&self, new: u32, old: u32) -> bool {
-        (new < old) & self.less | (new == old) & self.equal | (new > old) & self.greater
+    pub(super) fn new<P: Pixel>(machine: &Machine, state: &DrawState) -> Self {
+        DepthTest {
+            less: mask(state.depth_func & 1 != 0),
+            equal: mask(state.depth_func & 2 != 0),
+            greater: mask(state.depth_func & 4 != 0),
+            write: mask(state.depth_write),
+            z_drop: 64 - machine.z.bits,
+            rgb_drop: P::COLOR_BITS - machine.color.bits,
+            place: std::hint::black_box(from_fn(|i| i as i32)),
+            passed: [0; LANES],
+        }
     }
 
-    /// The depth of a word.
+    /// Fragments that passed since the last call.
     #[inline(always)]
-    pub(super) fn depth(&self, word: u64) -> u32 {
-        (word >> (64 - self.z_bits)) as u32
+    pub(super) fn take_passed(&mut self) -> u64 {
+        std::mem::take(&mut self.passed).iter().map(|n| u64::from(*n)).sum()
+    }
+
+    #[inline(always)]
+    fn compare(&self, new: u32, old: u32) -> u32 {
+        let less = if new < old { self.less } else { 0 };
+        let equal = if new == old { self.equal } else { 0 };
+        let greater = if new > old { self.greater } else { 0 };
+        less | equal | greater
     }
 }
 
-/// Draws `count` pixels from `pixel` on to the right, of these words at the first one; returns how many passed.
+/// Draws `count` pixels, at least 1, from `pixel` on to the right, of these words at the first one. Returns whether the
+/// leftmost and the rightmost passed.
 #[inline(always)]
-pub(super) fn draw<C: Color, const DETAILS: bool>(
-    picture: &mut Picture<C>,
+pub(super) fn draw<P: Pixel, const DETAILS: bool>(
+    picture: &mut Picture<P>,
     pixel: usize,
     count: u32,
     words: &Words,
-    ramp: &Ramp<C>,
-    test: &DepthTest,
+    ramp: &Ramp<P>,
+    test: &mut DepthTest,
     id: i32,
-) -> u32 {
-    let mut z: [u64; LANES] = std::array::from_fn(|i| words[0].wrapping_add(ramp.z[i]));
-    let mut rgb: [[C; LANES]; 3] = std::array::from_fn(|c| {
-        let word = C::from_left(words[c + 1]);
-        std::array::from_fn(|i| word.step(ramp.rgb[c][i]))
+) -> [bool; 2] {
+    let mut z: [u64; LANES] = from_fn(|i| words[0].wrapping_add(ramp.z[i]));
+    let mut rgb: [[P::Color; LANES]; 3] = from_fn(|c| {
+        let word = P::color(words[c + 1]);
+        from_fn(|i| P::step(word, ramp.rgb[c][i]))
     });
-    let mut passed = [0u32; LANES];
     let (mut at, mut left) = (pixel, count as i32);
-    while left > 0 {
-        let (Some(old_z), Some(old_rgb)) = (chunk(&mut picture.z, at), chunk(&mut picture.rgb, at)) else {
-            break; // not reached: the memory ends LANES words behind the last pixel
-        };
-        let mut pass = [false; LANES];
-        for i in 0..LANES {
-            let new = test.depth(z[i]);
-            pass[i] = test.passes(new, old_z[i]) & ((i as i32) < left);
-            old_z[i] = if pass[i] & test.write { new } else { old_z[i] };
-            z[i] = z[i].wrapping_add(ramp.z_step);
-        }
-        for i in 0..LANES {
-            let new = C::pack([rgb[0][i], rgb[1][i], rgb[2][i]], test.color_bits);
-            old_rgb[i] = if pass[i] { new } else { old_rgb[i] };
-            passed[i] += u32::from(pass[i]);
-        }
-        for (words, step) in rgb.iter_mut().zip(ramp.rgb_step) {
-            *words = words.map(|word| word.step(step));
-        }
+    let mut passed = test.passed;
+    let mut leftmost = None;
+    let mut pass = [0; LANES];
+    while let Some(stored) = picture.pixels.get_mut(at..).and_then(|pixels| pixels.first_chunk_mut::<LANES>()) {
+        let old = *stored;
+        let old_z = old.map(P::depth);
+        let new_z: [u32; LANES] = from_fn(|i| z[i].wrapping_shr(test.z_drop) as u32);
+        let inside: [u32; LANES] = from_fn(|i| mask(test.place[i] < left));
+        pass = from_fn(|i| test.compare(new_z[i], old_z[i]) & inside[i]);
+        let new: [P; LANES] = from_fn(|i| P::pack(new_z[i], [rgb[0][i], rgb[1][i], rgb[2][i]], test.rgb_drop));
+        *stored = from_fn(|i| new[i].select(old[i], pass[i], test.write));
+        passed = from_fn(|i| passed[i].wrapping_sub(pass[i]));
+        leftmost.get_or_insert(pass[0]);
         if DETAILS {
-            for (i, pass) in pass.into_iter().enumerate().take(left as usize) {
-                picture.details.coverage[at + i] += 1;
-                if pass {
-                    picture.details.writes[at + i] += 1;
-                    picture.details.id[at + i] = id;
-                }
-            }
+            picture.details.count(at, left, &pass, id);
         }
+        if left <= LANES as i32 {
+            break;
+        }
+        z = z.map(|word| word.wrapping_add(ramp.z_step));
+        rgb = from_fn(|c| rgb[c].map(|color| P::step(color, ramp.rgb_step[c])));
         at += LANES;
         left -= LANES as i32;
     }
-    passed.iter().sum()
-}
-
-#[inline(always)]
-fn chunk<T>(words: &mut [T], at: usize) -> Option<&mut [T; LANES]> {
-    words.get_mut(at..)?.first_chunk_mut()
+    test.passed = passed;
+    let rightmost = pass[count.wrapping_sub(1) as usize % LANES];
+    [leftmost.unwrap_or(0) != 0, rightmost != 0]
 }

@@ -1,0 +1,202 @@
+//! SETUP's results with divisions that take a few clocks each, in 64 bits.
+//!
+//! Only for exact fill and exact edges, formats whose differences over the screen fit in 62 bits, and triangles whose
+//! numerators do; all else is left to the plain setup, with its 128 bits. Rules: `docs/machine.md`, section 2.
+
+use super::divide::{Divisor, Shift};
+use crate::setup;
+use crate::tokens::{EdgeWalk, Prim, Words, sign_extend, word_masks};
+use edgewalk_numerics::{EdgeKind, Fill, Machine, PortVertex};
+use std::array::from_fn;
+
+/// What the setup needs to know of a machine.
+#[derive(Clone, Debug)]
+pub(super) struct Setup {
+    machine: Machine,
+    /// The plain setup does it all.
+    plain: bool,
+    height: i64,
+    /// log2 P.
+    t: u32,
+    /// Bits above the vertex coordinates, and from the coordinates to centre coordinates: shift and offset.
+    unused: u32,
+    double: u32,
+    offset: i32,
+    column_bits: u32,
+    /// The largest b + e, plus 1: bits of a signed difference.
+    difference_bits: u32,
+    vertex_masks: Words,
+    word_masks: Words,
+    /// r - e, and t + r - e.
+    value_shift: [Shift; 4],
+    slope_shift: [Shift; 4],
+    value_bits: [u32; 4],
+    /// 2^(r-1), 0 if r = 0.
+    half: Words,
+}
+
+/// A vertex in centre coordinates.
+#[derive(Clone, Copy)]
+struct Corner {
+    u: i64,
+    v: i64,
+    value: [i64; 4],
+}
+
+/// What comes of a triangle.
+enum Outcome {
+    Culled,
+    Prim(Prim),
+    /// A number was too long.
+    TooLong,
+}
+
+impl Setup {
+    pub(super) fn new(machine: &Machine) -> Self {
+        let w = machine.widths();
+        let channels = machine.channels();
+        let difference_bits = channels.map(|c| c.vertex_bits() + 1).into_iter().max().unwrap_or(0);
+        let exact = machine.fill == Fill::Exact && machine.edge_kind == EdgeKind::Exact;
+        let s = machine.subpixel_bits;
+        let value_bits = channels.map(|c| c.fraction - c.vertex_fraction);
+        Setup {
+            machine: machine.clone(),
+            plain: !exact || difference_bits + w.difference > 62,
+            height: i64::from(machine.height),
+            t: w.center_fraction,
+            unused: 32 - w.vertex,
+            double: u32::from(s == 0),
+            offset: if s == 0 { 1 } else { 1 << (s - 1) },
+            column_bits: w.column,
+            difference_bits,
+            vertex_masks: channels.map(|c| (1 << c.vertex_bits()) - 1),
+            word_masks: word_masks(machine),
+            value_shift: value_bits.map(Shift::new),
+            slope_shift: value_bits.map(|bits| Shift::new(bits + w.center_fraction)),
+            value_bits,
+            half: channels.map(|c| (1 << c.fraction) >> 1),
+        }
+    }
+
+    /// The increments of a triangle, without tag and number; `None` if it is culled.
+    #[inline(always)]
+    pub(super) fn increments(&self, vertices: &[PortVertex; 3]) -> Option<Prim> {
+        if !self.plain {
+            match self.short(vertices) {
+                Outcome::Culled => return None,
+                Outcome::Prim(prim) => return Some(prim),
+                Outcome::TooLong => {}
+            }
+        }
+        setup::increments(&self.machine, vertices)
+    }
+
+    #[inline(always)]
+    fn short(&self, vertices: &[PortVertex; 3]) -> Outcome {
+        let [a, b, c] = &self.sorted(vertices);
+        let (du1, dv1, du2, dv2) = (b.u - a.u, b.v - a.v, c.u - a.u, c.v - a.v);
+        let area = du1 * dv2 - du2 * dv1;
+        let [top, knee, bottom] = [a, b, c].map(|corner| -(-corner.v >> self.t)); // rounded up
+        let j0 = top.max(0);
+        let end = bottom.min(self.height).max(j0);
+        let j1 = knee.clamp(j0, end);
+        if area == 0 || end == j0 {
+            return Outcome::Culled;
+        }
+        let line = if j1 > j0 { j0 } else { j1 };
+        let left = area < 0;
+        let major = self.walk(a, c, line);
+        let minor = [self.walk(a, b, j0), self.walk(b, c, j1)];
+
+        // From the first vertex to the first pixel.
+        let x = i64::from(major.c) - i64::from(left);
+        let (du, dv) = ((x << self.t) - a.u, (line << self.t) - a.v);
+        let q = i64::from(major.q);
+        let length = |numbers: &[i64]| 64 - numbers.iter().fold(0, |all, n| all | n.unsigned_abs()).leading_zeros();
+        // |Nx|, |Ny| < 2^(difference_bits + extent), and all numerators below that times q + 2 or |du| + |dv|.
+        let extent = length(&[du1, dv1, du2, dv2]);
+        if self.difference_bits + extent + length(&[q.abs() + 2, du.abs() + dv.abs()]) > 62 {
+            return Outcome::TooLong;
+        }
+        let sign = if left { -1 } else { 1 };
+        let dc1: [i64; 4] = from_fn(|i| (b.value[i] - a.value[i]).wrapping_mul(sign));
+        let dc2: [i64; 4] = from_fn(|i| (c.value[i] - a.value[i]).wrapping_mul(sign));
+        let nx: [i64; 4] = from_fn(|i| dc1[i].wrapping_mul(dv2).wrapping_sub(dc2[i].wrapping_mul(dv1)));
+        let ny: [i64; 4] = from_fn(|i| dc2[i].wrapping_mul(du1).wrapping_sub(dc1[i].wrapping_mul(du2)));
+        let n0: [i64; 4] = from_fn(|i| ny[i].wrapping_add(nx[i].wrapping_mul(q)));
+        let n1: [i64; 4] = from_fn(|i| n0[i].wrapping_add(nx[i]));
+        let moved: [i64; 4] = from_fn(|i| nx[i].wrapping_mul(du).wrapping_add(ny[i].wrapping_mul(dv)));
+        let divisor = Divisor::new(area.abs());
+        let mut exact = true;
+        let mut divide = |numerators: [i64; 4], shifts: &[Shift; 4]| -> [i64; 4] {
+            let results: [(i64, bool); 4] = from_fn(|i| divisor.round(numerators[i], shifts[i]));
+            exact &= results.iter().all(|(_, exact)| *exact);
+            results.map(|(quotient, _)| quotient)
+        };
+        let gx = divide(nx, &self.slope_shift);
+        let d0 = divide(n0, &self.slope_shift);
+        let d1 = divide(n1, &self.slope_shift);
+        let start = divide(moved, &self.value_shift);
+        if !exact {
+            return Outcome::TooLong;
+        }
+        let word = |values: [i64; 4]| -> Words { from_fn(|i| values[i] as u64 & self.word_masks[i]) };
+        Outcome::Prim(Prim {
+            line: line as u32,
+            lines: [(j1 - j0) as u32, (end - j1) as u32],
+            left,
+            major,
+            minor,
+            start: [
+                from_fn(|i| {
+                    let value = (a.value[i] as u64) << self.value_bits[i];
+                    (start[i] as u64).wrapping_add(value).wrapping_add(self.half[i]) & self.word_masks[i]
+                }),
+                [0; 4],
+            ],
+            delta: [word(d0), word(d1)],
+            gradient: word(gx.map(|g| g.wrapping_mul(sign))),
+            tag: 0,
+            id: 0,
+        })
+    }
+
+    /// Top first; of equal v the earlier comes first.
+    #[inline(always)]
+    fn sorted(&self, vertices: &[PortVertex; 3]) -> [Corner; 3] {
+        let centre = |x: i32| ((x << self.unused >> self.unused) << self.double) - self.offset;
+        let [v0, v1, v2] = [0, 1, 2].map(|i| centre(vertices[i].y));
+        let mut order = [0; 3];
+        order[usize::from(v1 < v0) + usize::from(v2 < v0)] = 0;
+        order[usize::from(v0 <= v1) + usize::from(v2 < v1)] = 1;
+        order[usize::from(v0 <= v2) + usize::from(v1 <= v2)] = 2;
+        order.map(|k: usize| {
+            let vertex = &vertices[k];
+            Corner {
+                u: i64::from(centre(vertex.x)),
+                v: i64::from(centre(vertex.y)),
+                value: from_fn(|i| (vertex.value[i] & self.vertex_masks[i]) as i64),
+            }
+        })
+    }
+
+    /// The exact edge from `a` down to `b`, as it stands on line `j`.
+    #[inline(always)]
+    fn walk(&self, a: &Corner, b: &Corner, j: i64) -> EdgeWalk {
+        let (dx, dy) = (b.u - a.u, b.v - a.v);
+        if dy == 0 {
+            return EdgeWalk::default();
+        }
+        let divisor = Divisor::new(dy);
+        let n = a.u * dy + ((j << self.t) - a.v) * dx;
+        let (q, f) = if dy >> self.t == 0 { (0, 0) } else { divisor.floor(dx) };
+        let (column, r) = divisor.floor(-n >> self.t);
+        EdgeWalk {
+            c: sign_extend(column.wrapping_neg() as i32, self.column_bits),
+            r: r as i32,
+            q: sign_extend(q as i32, self.column_bits),
+            f: f as i32,
+            m: dy as i32,
+        }
+    }
+}

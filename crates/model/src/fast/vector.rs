@@ -1,0 +1,54 @@
+//! The same code for the vector instructions that this processor has.
+
+use super::Reason;
+use super::frame;
+use super::picture::Picture;
+use super::pixel::Pixel;
+use crate::counters::Counters;
+use crate::run::DrawState;
+use edgewalk_numerics::{Machine, PortVertex};
+
+macro_rules! compiled_for {
+    ($name:ident, $features:literal) => {
+        #[cfg(target_arch = "x86_64")]
+        #[target_feature(enable = $features)]
+        fn $name<P: Pixel, const DETAILS: bool>(
+            machine: &Machine,
+            triangles: impl Iterator<Item = [PortVertex; 3]>,
+            state: &DrawState,
+            picture: &mut Picture<P>,
+        ) -> Result<Counters, Reason> {
+            frame::draw::<P, DETAILS>(machine, triangles, state, picture)
+        }
+    };
+}
+
+compiled_for!(avx512, "avx512f,avx512bw,avx512dq,avx512vl,bmi1,bmi2");
+compiled_for!(avx2, "avx2,bmi1,bmi2");
+
+/// [`frame::draw`] with the widest vectors there are.
+pub(super) fn draw<P: Pixel, const DETAILS: bool>(
+    machine: &Machine,
+    triangles: impl Iterator<Item = [PortVertex; 3]>,
+    state: &DrawState,
+    picture: &mut Picture<P>,
+) -> Result<Counters, Reason> {
+    #[cfg(target_arch = "x86_64")]
+    {
+        let bmi = is_x86_feature_detected!("bmi1") && is_x86_feature_detected!("bmi2");
+        if bmi
+            && is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512bw")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512vl")
+        {
+            // SAFETY: the function is safe code, compiled for exactly the features found here.
+            return unsafe { avx512::<P, DETAILS>(machine, triangles, state, picture) };
+        }
+        if bmi && is_x86_feature_detected!("avx2") {
+            // SAFETY: as above.
+            return unsafe { avx2::<P, DETAILS>(machine, triangles, state, picture) };
+        }
+    }
+    frame::draw::<P, DETAILS>(machine, triangles, state, picture)
+}
