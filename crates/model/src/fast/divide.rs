@@ -44,7 +44,8 @@ impl Divisor {
     pub(super) fn round(self, n: i64, shift: Shift) -> (i64, bool) {
         let guess = n as f64 * (self.reciprocal * shift.scale);
         let quotient = integer(guess);
-        let twice = n.wrapping_shl(shift.bits).wrapping_sub(quotient.wrapping_mul(self.value)).wrapping_mul(2);
+        let twice =
+            n.wrapping_shl(shift.bits).wrapping_sub(quotient.wrapping_mul(self.value)).wrapping_mul(2);
         let step = i64::from(twice >= self.value) - i64::from(twice < -self.value);
         (quotient.wrapping_add(step), guess.abs() <= LARGEST)
     }

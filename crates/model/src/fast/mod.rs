@@ -11,6 +11,7 @@
 
 mod divide;
 mod setup;
+mod walk;
 mod clock;
 mod inflight;
 mod pixel;

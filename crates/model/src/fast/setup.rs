@@ -112,7 +112,8 @@ impl Setup {
         let x = i64::from(major.c) - i64::from(left);
         let (du, dv) = ((x << self.t) - a.u, (line << self.t) - a.v);
         let q = i64::from(major.q);
-        let length = |numbers: &[i64]| 64 - numbers.iter().fold(0, |all, n| all | n.unsigned_abs()).leading_zeros();
+        let length =
+            |numbers: &[i64]| 64 - numbers.iter().fold(0, |all, n| all | n.unsigned_abs()).leading_zeros();
         // |Nx|, |Ny| < 2^(difference_bits + extent), and all numerators below that times q + 2 or |du| + |dv|.
         let extent = length(&[du1, dv1, du2, dv2]);
         if self.difference_bits + extent + length(&[q.abs() + 2, du.abs() + dv.abs()]) > 62 {
@@ -127,17 +128,11 @@ impl Setup {
         let n1: [i64; 4] = from_fn(|i| n0[i].wrapping_add(nx[i]));
         let moved: [i64; 4] = from_fn(|i| nx[i].wrapping_mul(du).wrapping_add(ny[i].wrapping_mul(dv)));
         let divisor = Divisor::new(area.abs());
-        let mut exact = true;
-        let mut divide = |numerators: [i64; 4], shifts: &[Shift; 4]| -> [i64; 4] {
-            let results: [(i64, bool); 4] = from_fn(|i| divisor.round(numerators[i], shifts[i]));
-            exact &= results.iter().all(|(_, exact)| *exact);
-            results.map(|(quotient, _)| quotient)
-        };
-        let gx = divide(nx, &self.slope_shift);
-        let d0 = divide(n0, &self.slope_shift);
-        let d1 = divide(n1, &self.slope_shift);
-        let start = divide(moved, &self.value_shift);
-        if !exact {
+        let (gx, exact_x) = divide(divisor, nx, &self.slope_shift);
+        let (d0, exact_0) = divide(divisor, n0, &self.slope_shift);
+        let (d1, exact_1) = divide(divisor, n1, &self.slope_shift);
+        let (start, exact_start) = divide(divisor, moved, &self.value_shift);
+        if !(exact_x & exact_0 & exact_1 & exact_start) {
             return Outcome::TooLong;
         }
         let word = |values: [i64; 4]| -> Words { from_fn(|i| values[i] as u64 & self.word_masks[i]) };
@@ -199,4 +194,11 @@ impl Setup {
             m: dy as i32,
         }
     }
+}
+
+/// RN of four quotients, and whether all are exact.
+#[inline(always)]
+fn divide(divisor: Divisor, numerators: [i64; 4], shifts: &[Shift; 4]) -> ([i64; 4], bool) {
+    let results: [(i64, bool); 4] = from_fn(|i| divisor.round(numerators[i], shifts[i]));
+    (results.map(|(quotient, _)| quotient), results.iter().all(|(_, exact)| *exact))
 }

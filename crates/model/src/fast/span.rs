@@ -16,11 +16,20 @@ use std::array::from_fn;
 /// Pixels of a chunk.
 pub(super) const LANES: usize = 8;
 
+/// Pixels to draw, from left to right.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span {
+    /// Place of the leftmost, y·W + x.
+    pub pixel: u32,
+    /// Pixels, at least 1.
+    pub count: u32,
+    /// Words at the leftmost, at the left end of 64 bits.
+    pub words: Words,
+}
+
 /// The increments along a span to the right, for every lane of a chunk.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ramp<P: Pixel> {
-    /// The gradient, aligned to the left of 64 bits.
-    pub gradient: Words,
     z: [u64; LANES],
     z_step: u64,
     rgb: [[P::Color; LANES]; 3],
@@ -33,7 +42,6 @@ impl<P: Pixel> Ramp<P> {
         let [z, rgb @ ..] = gradient;
         let times = |word: u64, i: usize| word.wrapping_mul(i as u64);
         Ramp {
-            gradient,
             z: from_fn(|i| times(z, i)),
             z_step: times(z, LANES),
             rgb: rgb.map(|c| from_fn(|i| P::color(times(c, i)))),
@@ -56,7 +64,7 @@ pub(super) struct DepthTest {
     rgb_drop: u32,
     /// 0 to LANES - 1. From memory: known numbers tempt the compiler to treat every lane in its own way.
     place: [i32; LANES],
-    /// Fragments that passed since the last [`take_passed`](Self::take_passed), by lane.
+    /// Fragments that passed, by lane.
     passed: [u32; LANES],
 }
 
@@ -79,10 +87,10 @@ impl DepthTest {
         }
     }
 
-    /// Fragments that passed since the last call.
+    /// Fragments that passed.
     #[inline(always)]
-    pub(super) fn take_passed(&mut self) -> u64 {
-        std::mem::take(&mut self.passed).iter().map(|n| u64::from(*n)).sum()
+    pub(super) fn passed(&self) -> u64 {
+        self.passed.iter().map(|n| u64::from(*n)).sum()
     }
 
     #[inline(always)]
@@ -92,51 +100,51 @@ impl DepthTest {
         let greater = if new > old { self.greater } else { 0 };
         less | equal | greater
     }
-}
 
-/// Draws `count` pixels, at least 1, from `pixel` on to the right, of these words at the first one. Returns whether the
-/// leftmost and the rightmost passed.
-#[inline(always)]
-pub(super) fn draw<P: Pixel, const DETAILS: bool>(
-    picture: &mut Picture<P>,
-    pixel: usize,
-    count: u32,
-    words: &Words,
-    ramp: &Ramp<P>,
-    test: &mut DepthTest,
-    id: i32,
-) -> [bool; 2] {
-    let mut z: [u64; LANES] = from_fn(|i| words[0].wrapping_add(ramp.z[i]));
-    let mut rgb: [[P::Color; LANES]; 3] = from_fn(|c| {
-        let word = P::color(words[c + 1]);
-        from_fn(|i| P::step(word, ramp.rgb[c][i]))
-    });
-    let (mut at, mut left) = (pixel, count as i32);
-    let mut passed = test.passed;
-    let mut leftmost = None;
-    let mut pass = [0; LANES];
-    while let Some(stored) = picture.pixels.get_mut(at..).and_then(|pixels| pixels.first_chunk_mut::<LANES>()) {
-        let old = *stored;
-        let old_z = old.map(P::depth);
-        let new_z: [u32; LANES] = from_fn(|i| z[i].wrapping_shr(test.z_drop) as u32);
-        let inside: [u32; LANES] = from_fn(|i| mask(test.place[i] < left));
-        pass = from_fn(|i| test.compare(new_z[i], old_z[i]) & inside[i]);
-        let new: [P; LANES] = from_fn(|i| P::pack(new_z[i], [rgb[0][i], rgb[1][i], rgb[2][i]], test.rgb_drop));
-        *stored = from_fn(|i| new[i].select(old[i], pass[i], test.write));
-        passed = from_fn(|i| passed[i].wrapping_sub(pass[i]));
-        leftmost.get_or_insert(pass[0]);
-        if DETAILS {
-            picture.details.count(at, left, &pass, id);
+    /// Draws a span. Returns whether its leftmost and its rightmost pixel passed.
+    #[inline(always)]
+    pub(super) fn draw<P: Pixel, const DETAILS: bool>(
+        &mut self,
+        picture: &mut Picture<P>,
+        span: &Span,
+        ramp: &Ramp<P>,
+        id: i32,
+    ) -> [bool; 2] {
+        let mut z: [u64; LANES] = from_fn(|i| span.words[0].wrapping_add(ramp.z[i]));
+        let mut rgb: [[P::Color; LANES]; 3] = from_fn(|c| {
+            let word = P::color(span.words[c + 1]);
+            from_fn(|i| P::step(word, ramp.rgb[c][i]))
+        });
+        let (mut at, mut left) = (span.pixel as usize, span.count as i32);
+        let mut passed = self.passed;
+        let mut leftmost = None;
+        let mut pass = [0; LANES];
+        while let Some(stored) =
+            picture.pixels.get_mut(at..).and_then(|pixels| pixels.first_chunk_mut::<LANES>())
+        {
+            let old = *stored;
+            let old_z = old.map(P::depth);
+            let new_z: [u32; LANES] = from_fn(|i| z[i].wrapping_shr(self.z_drop) as u32);
+            let inside: [u32; LANES] = from_fn(|i| mask(self.place[i] < left));
+            pass = from_fn(|i| self.compare(new_z[i], old_z[i]) & inside[i]);
+            let new: [P; LANES] =
+                from_fn(|i| P::pack(new_z[i], [rgb[0][i], rgb[1][i], rgb[2][i]], self.rgb_drop));
+            *stored = from_fn(|i| new[i].select(old[i], pass[i], self.write));
+            passed = from_fn(|i| passed[i].wrapping_sub(pass[i]));
+            leftmost.get_or_insert(pass[0]);
+            if DETAILS {
+                picture.details.count(at, left, &pass, id);
+            }
+            if left <= LANES as i32 {
+                break;
+            }
+            z = z.map(|word| word.wrapping_add(ramp.z_step));
+            rgb = from_fn(|c| rgb[c].map(|color| P::step(color, ramp.rgb_step[c])));
+            at += LANES;
+            left -= LANES as i32;
         }
-        if left <= LANES as i32 {
-            break;
-        }
-        z = z.map(|word| word.wrapping_add(ramp.z_step));
-        rgb = from_fn(|c| rgb[c].map(|color| P::step(color, ramp.rgb_step[c])));
-        at += LANES;
-        left -= LANES as i32;
+        self.passed = passed;
+        let rightmost = pass[span.count.wrapping_sub(1) as usize % LANES];
+        [leftmost.unwrap_or(0) != 0, rightmost != 0]
     }
-    test.passed = passed;
-    let rightmost = pass[count.wrapping_sub(1) as usize % LANES];
-    [leftmost.unwrap_or(0) != 0, rightmost != 0]
 }
