@@ -5,7 +5,7 @@
 
 use super::divide::{Divisor, Shift};
 use crate::setup;
-use crate::tokens::{EdgeWalk, Prim, Words, sign_extend, word_masks};
+use crate::tokens::{EdgeWalk, Prim, Source, Words, sign_extend, word_masks};
 use edgewalk_numerics::{EdgeKind, Fill, Machine, PortVertex};
 use std::array::from_fn;
 
@@ -151,8 +151,7 @@ impl Setup {
             ],
             delta: [word(d0), word(d1)],
             gradient: word(gx.map(|g| g.wrapping_mul(sign))),
-            tag: 0,
-            id: 0,
+            source: Source::default(),
         })
     }
 
