@@ -1,4 +1,4 @@
-//! How fast the fast path draws, on one core: `cargo run --release -p edgewalk-model --example fast_speed [FRAMES]`.
+//! How fast the fast path draws, on one core: `cargo run --release -p edgewalk-model --example fast_speed [FRAMES [PIXELS]]`.
 //!
 //! Rates are of the processor time a frame takes on average, where the system tells it (Linux): on a machine that does
 //! other work as well, the median says how much of it was left for us. Otherwise they are of the median.
@@ -87,11 +87,12 @@ fn measure(name: &str, machine: &Machine, triangles: &[[PortVertex; 3]], frames:
 }
 
 fn main() {
-    let frames = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(101).max(1);
+    let argument = |n| std::env::args().nth(n).and_then(|text| text.parse::<usize>().ok());
+    let frames = argument(1).unwrap_or(101).max(1);
     let machine = Machine { width: 1280, height: 960, ..Machine::default() };
     println!("1280x960, one core, one frame = clear and draw all");
-    for area in [10, 100, 1000, 10_000] {
-        let scene = triangles(&machine, 5000, f64::from(area));
+    for area in argument(2).map_or_else(|| vec![10, 100, 1000, 10_000], |area| vec![area]) {
+        let scene = triangles(&machine, 5000, area as f64);
         measure(&format!("5000 triangles of {area} pixels"), &machine, &scene, frames);
     }
     measure("no triangle: the clear", &machine, &[], frames);

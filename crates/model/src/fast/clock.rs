@@ -19,7 +19,9 @@
 //!
 //! Not here: a queue that fills and addresses in flight under interlock; such frames are ticked.
 
-use crate::counters::Activity;
+use super::inflight::InFlight;
+use super::walk::Span;
+use crate::counters::{Activity, Counters};
 use crate::fifo::Fifo;
 use crate::setup::{SetupClocks, setup_clocks};
 use edgewalk_numerics::{Hazard, Machine};
@@ -61,6 +63,7 @@ pub(super) struct Clock {
     /// L: clocks from read to compare.
     latency: u64,
     drain: bool,
+    inflight: Option<InFlight>,
 
     /// a: the cycle in which SETUP takes the next triangle.
     take: u64,
@@ -71,6 +74,11 @@ pub(super) struct Clock {
     /// The cycle after the pop of each of the last 64 spans.
     room: [u64; 64],
     spans: u64,
+    /// Pixels on and off the screen.
+    drawn: u64,
+    skipped: u64,
+    /// Cycles counted as EDGE while lines are walked.
+    edge: u64,
     /// PIXEL pops not before.
     pixel_free: u64,
     last: Option<LastRead>,
@@ -80,7 +88,7 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    pub(super) fn new(machine: &Machine) -> Self {
+    pub(super) fn new(machine: &Machine, depth_write: bool) -> Self {
         Clock {
             setup: setup_clocks(machine),
             span_fifo: machine.span_fifo as usize,
@@ -88,11 +96,15 @@ impl Clock {
             segments: u64::from(machine.segments),
             latency: u64::from(machine.latency),
             drain: machine.hazard == Hazard::Drain,
+            inflight: InFlight::new(machine, depth_write),
             take: 0,
             edge_free: 0,
             line: 0,
             room: [0; 64],
             spans: 0,
+            drawn: 0,
+            skipped: 0,
+            edge: 0,
             pixel_free: 0,
             last: None,
             fences: Fifo::default(),
@@ -126,42 +138,43 @@ impl Clock {
         }
     }
 
-    /// A line without a pixel.
+    /// Spans of a triangle, from one fence to the next; `fresh`: its first ones.
     #[inline(always)]
-    pub(super) fn empty_line(&mut self) {
-        self.line += 1;
-    }
-
-    /// A line of `skip` pixels off the screen and then `drawn` on it; `fresh`: the first of its triangle. Returns the
-    /// cycle in which the first fragment reaches DEPTH.
-    #[inline(always)]
-    pub(super) fn span(&mut self, skip: u32, drawn: u32, fresh: bool, fence: bool) -> u64 {
-        let place = self.spans as usize;
-        let push = self.line.max(self.room[place.wrapping_sub(self.span_fifo) & 63]);
-        self.line = push + 1;
-        let mut pop = self.pixel_free.max(push + 1);
-        while !self.fences.is_empty() && self.fences.head().arrival <= pop {
-            self.pass_fence(Activity::Edge);
-            pop = self.pixel_free.max(push + 1);
+    pub(super) fn spans(&mut self, spans: &[Span], fresh: bool, to_left: bool) {
+        let mut first = true;
+        for span in spans {
+            let place = self.spans as usize;
+            let push =
+                (self.line + u64::from(span.empty)).max(self.room[place.wrapping_sub(self.span_fifo) & 63]);
+            self.line = push + 1;
+            let mut pop = self.pixel_free.max(push + 1);
+            while !self.fences.is_empty() && self.fences.head().arrival <= pop {
+                self.pass_fence(Activity::Edge);
+                pop = self.pixel_free.max(push + 1);
+            }
+            self.room[place & 63] = pop + 1;
+            self.spans += 1;
+            let drawn = pop + u64::from(span.skip) * self.pixel;
+            if first {
+                if fresh {
+                    self.edge_free = pop + 1;
+                }
+                if self.drain {
+                    let arrival = drawn + self.pixel + self.segments;
+                    self.fences.push(Fence { arrival, before: self.last });
+                }
+            }
+            if let Some(inflight) = &mut self.inflight {
+                inflight.meet(span, drawn, to_left, first);
+            }
+            self.edge += pop + 1 - self.counted;
+            self.skipped += u64::from(span.skip);
+            self.drawn += u64::from(span.count);
+            self.pixel_free = drawn + u64::from(span.count) * self.pixel;
+            self.counted = self.pixel_free + 1;
+            self.last = Some(LastRead { cycle: self.pixel_free + self.segments, passed: false });
+            first = false;
         }
-        self.room[place & 63] = pop + 1;
-        self.spans += 1;
-        if fresh {
-            self.edge_free = pop + 1;
-        }
-
-        let (skip, drawn) = (u64::from(skip) * self.pixel, u64::from(drawn) * self.pixel);
-        self.activity[Activity::Edge as usize] += pop + 1 - self.counted;
-        self.activity[Activity::Offscreen as usize] += skip;
-        self.activity[Activity::Draw as usize] += drawn;
-        let arrival = pop + skip + self.pixel + self.segments;
-        if fence && self.drain {
-            self.fences.push(Fence { arrival, before: self.last });
-        }
-        self.pixel_free = pop + skip + drawn;
-        self.counted = self.pixel_free + 1;
-        self.last = Some(LastRead { cycle: self.pixel_free + self.segments, passed: false });
-        arrival
     }
 
     /// Whether the last fragment of the last span passed the depth test.
@@ -172,8 +185,15 @@ impl Clock {
         }
     }
 
-    /// The last line of the triangle has left EDGE.
-    pub(super) fn end_triangle(&mut self) {
+    /// A fragment may have met its address in flight under interlock: the times are wrong from there on.
+    #[inline(always)]
+    pub(super) fn interlocked(&self) -> bool {
+        self.inflight.as_ref().is_some_and(InFlight::met)
+    }
+
+    /// The last line of the triangle has left EDGE, `empty` of them since the last span.
+    pub(super) fn end_triangle(&mut self, empty: u32) {
+        self.line += u64::from(empty);
         self.edge_free = self.edge_free.max(self.line);
         self.spend(self.line, Activity::Edge);
     }
@@ -219,8 +239,8 @@ impl Clock {
         }
     }
 
-    /// No triangle is left: cycles by cause until the first idle one, itself included, and the spans.
-    pub(super) fn finish(mut self) -> ([u64; 9], u64) {
+    /// No triangle is left: counts the cycles until the first idle one, itself included.
+    pub(super) fn finish(mut self, counters: &mut Counters) {
         self.spend(self.take, Activity::Setup);
         while !self.fences.is_empty() {
             self.pass_fence(Activity::Flush);
@@ -229,6 +249,12 @@ impl Clock {
             self.spend(last.drained(self.latency), Activity::Flush);
         }
         self.spend(self.counted + 1, Activity::Idle);
-        (self.activity, self.spans)
+        self.activity[Activity::Edge as usize] += self.edge;
+        self.activity[Activity::Draw as usize] = self.drawn * self.pixel;
+        self.activity[Activity::Offscreen as usize] = self.skipped * self.pixel;
+        counters.cycles = self.counted;
+        counters.activity = self.activity;
+        counters.spans = self.spans;
+        counters.fragments = self.drawn;
     }
 }

@@ -3,30 +3,20 @@
 //! Between two fences no address comes twice (a triangle, in textbook fill a part, draws a line once). So a fragment can
 //! only meet one from before the last fence, read at most L + 1 cycles before: L in the queue, one in w.
 
+use super::walk::Span;
 use crate::fifo::Fifo;
 use edgewalk_numerics::{Hazard, Machine};
 
 /// The fragments of a span, in the order of their reads.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Reads {
-    /// Cycle of the first read.
-    pub first: u64,
-    /// Line.
-    pub y: u32,
-    /// Column of the first fragment.
-    pub x: i32,
+struct Reads {
+    /// Cycle of the first read; D is left out, it is the same for all.
+    first: u64,
+    /// Place of the first fragment, y·W + x, and from one to the next: 1 or -1.
+    place: i64,
+    step: i64,
     /// Fragments.
-    pub count: u32,
-    /// To the next column: 1 or -1.
-    pub step: i32,
-}
-
-impl Reads {
-    /// The cycle in which a column is read.
-    fn cycle(&self, x: i32, pixel: u64) -> Option<u64> {
-        let place = (x - self.x) * self.step;
-        (0..self.count as i32).contains(&place).then(|| self.first + place as u64 * pixel)
-    }
+    count: i64,
 }
 
 /// The spans that may still be in flight.
@@ -40,6 +30,7 @@ pub(super) struct InFlight {
     spans: Fifo<Reads, 16>,
     /// So many of them lie before the last fence.
     older: usize,
+    met: bool,
 }
 
 impl InFlight {
@@ -50,32 +41,38 @@ impl InFlight {
             pixel: u64::from(machine.clocks_per_pixel()),
             spans: Fifo::default(),
             older: 0,
+            met: false,
         })
     }
 
-    /// Takes in a span; true if a fragment of it may meet its address in flight.
-    pub(super) fn meets(&mut self, span: Reads, fence: bool) -> bool {
+    /// A fragment may have met its address in flight.
+    pub(super) fn met(&self) -> bool {
+        self.met
+    }
+
+    /// Takes in a span whose first fragment is read in cycle `first`; `fence`: it is the first behind a fence.
+    pub(super) fn meet(&mut self, span: &Span, first: u64, to_left: bool, fence: bool) {
+        let (leftmost, count) = (i64::from(span.pixel), i64::from(span.count));
+        let (place, step) = if to_left { (leftmost + count - 1, -1) } else { (leftmost, 1) };
+        let reads = Reads { first, place, step, count };
         if fence {
             self.older = self.spans.len();
         }
-        let met = (0..self.older).any(|i| {
-            let old = self.spans.at(i);
-            let last = old.first + u64::from(old.count - 1) * self.pixel;
-            old.y == span.y && last + self.window >= span.first && self.overlap(old, &span)
-        });
+        self.met |= (0..self.older).any(|i| self.overlap(self.spans.at(i), &reads));
         if self.spans.len() == 16 {
             self.spans.pop();
             self.older = self.older.saturating_sub(1);
         }
-        self.spans.push(span);
-        met
+        self.spans.push(reads);
     }
 
-    fn overlap(&self, old: &Reads, span: &Reads) -> bool {
-        (0..span.count.min(16) as i32).any(|i| {
-            let x = span.x + i * span.step;
-            let read = span.first + i as u64 * self.pixel;
-            old.cycle(x, self.pixel).is_some_and(|cycle| cycle + self.window >= read)
+    /// A fragment of `new` is read while that of `old` of the same place is in flight.
+    fn overlap(&self, old: &Reads, new: &Reads) -> bool {
+        let cycle = |reads: &Reads, i: i64| reads.first + i as u64 * self.pixel;
+        let last = cycle(old, old.count - 1) + self.window;
+        (0..new.count).take_while(|i| cycle(new, *i) <= last).any(|i| {
+            let before = (new.place + i * new.step - old.place) * old.step;
+            (0..old.count).contains(&before) && cycle(old, before) + self.window >= cycle(new, i)
         })
     }
 }

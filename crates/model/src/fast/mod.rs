@@ -11,9 +11,10 @@
 
 mod divide;
 mod setup;
+mod prefetch;
 mod walk;
-mod clock;
 mod inflight;
+mod clock;
 mod pixel;
 mod picture;
 mod span;

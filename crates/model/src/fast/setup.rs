@@ -43,13 +43,8 @@ struct Corner {
     value: [i64; 4],
 }
 
-/// What comes of a triangle.
-enum Outcome {
-    Culled,
-    Prim(Prim),
-    /// A number was too long.
-    TooLong,
-}
+/// A number was too long for 62 bits, or a quotient for the division.
+struct TooLong;
 
 impl Setup {
     pub(super) fn new(machine: &Machine) -> Self {
@@ -81,18 +76,17 @@ impl Setup {
     /// The increments of a triangle, without tag and number; `None` if it is culled.
     #[inline(always)]
     pub(super) fn increments(&self, vertices: &[PortVertex; 3]) -> Option<Prim> {
-        if !self.plain {
-            match self.short(vertices) {
-                Outcome::Culled => return None,
-                Outcome::Prim(prim) => return Some(prim),
-                Outcome::TooLong => {}
-            }
+        if !self.plain
+            && let Ok(prim) = self.short(vertices)
+        {
+            return prim;
         }
         setup::increments(&self.machine, vertices)
     }
 
+    /// The same in 64 bits.
     #[inline(always)]
-    fn short(&self, vertices: &[PortVertex; 3]) -> Outcome {
+    fn short(&self, vertices: &[PortVertex; 3]) -> Result<Option<Prim>, TooLong> {
         let [a, b, c] = &self.sorted(vertices);
         let (du1, dv1, du2, dv2) = (b.u - a.u, b.v - a.v, c.u - a.u, c.v - a.v);
         let area = du1 * dv2 - du2 * dv1;
@@ -101,7 +95,7 @@ impl Setup {
         let end = bottom.min(self.height).max(j0);
         let j1 = knee.clamp(j0, end);
         if area == 0 || end == j0 {
-            return Outcome::Culled;
+            return Ok(None);
         }
         let line = if j1 > j0 { j0 } else { j1 };
         let left = area < 0;
@@ -117,7 +111,7 @@ impl Setup {
         // |Nx|, |Ny| < 2^(difference_bits + extent), and all numerators below that times q + 2 or |du| + |dv|.
         let extent = length(&[du1, dv1, du2, dv2]);
         if self.difference_bits + extent + length(&[q.abs() + 2, du.abs() + dv.abs()]) > 62 {
-            return Outcome::TooLong;
+            return Err(TooLong);
         }
         let sign = if left { -1 } else { 1 };
         let dc1: [i64; 4] = from_fn(|i| (b.value[i] - a.value[i]).wrapping_mul(sign));
@@ -133,10 +127,10 @@ impl Setup {
         let (d1, exact_1) = divide(divisor, n1, &self.slope_shift);
         let (start, exact_start) = divide(divisor, moved, &self.value_shift);
         if !(exact_x & exact_0 & exact_1 & exact_start) {
-            return Outcome::TooLong;
+            return Err(TooLong);
         }
         let word = |values: [i64; 4]| -> Words { from_fn(|i| values[i] as u64 & self.word_masks[i]) };
-        Outcome::Prim(Prim {
+        Ok(Some(Prim {
             line: line as u32,
             lines: [(j1 - j0) as u32, (end - j1) as u32],
             left,
@@ -152,7 +146,7 @@ impl Setup {
             delta: [word(d0), word(d1)],
             gradient: word(gx.map(|g| g.wrapping_mul(sign))),
             source: Source::default(),
-        })
+        }))
     }
 
     /// Top first; of equal v the earlier comes first.
@@ -198,6 +192,11 @@ impl Setup {
 /// RN of four quotients, and whether all are exact.
 #[inline(always)]
 fn divide(divisor: Divisor, numerators: [i64; 4], shifts: &[Shift; 4]) -> ([i64; 4], bool) {
-    let results: [(i64, bool); 4] = from_fn(|i| divisor.round(numerators[i], shifts[i]));
-    (results.map(|(quotient, _)| quotient), results.iter().all(|(_, exact)| *exact))
+    let (mut quotients, mut exact) = ([0; 4], true);
+    for i in 0..4 {
+        let (quotient, reliable) = divisor.round(numerators[i], shifts[i]);
+        quotients[i] = quotient;
+        exact &= reliable;
+    }
+    (quotients, exact)
 }

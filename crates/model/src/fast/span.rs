@@ -8,6 +8,7 @@
 
 use super::picture::Picture;
 use super::pixel::Pixel;
+use super::walk::Span;
 use crate::run::DrawState;
 use crate::tokens::Words;
 use edgewalk_numerics::Machine;
@@ -15,17 +16,6 @@ use std::array::from_fn;
 
 /// Pixels of a chunk.
 pub(super) const LANES: usize = 8;
-
-/// Pixels to draw, from left to right.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Span {
-    /// Place of the leftmost, y·W + x.
-    pub pixel: u32,
-    /// Pixels, at least 1.
-    pub count: u32,
-    /// Words at the leftmost, at the left end of 64 bits.
-    pub words: Words,
-}
 
 /// The increments along a span to the right, for every lane of a chunk.
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +55,7 @@ pub(super) struct DepthTest {
     /// 0 to LANES - 1. From memory: known numbers tempt the compiler to treat every lane in its own way.
     place: [i32; LANES],
     /// Fragments that passed, by lane.
-    passed: [u32; LANES],
+    passed: [u64; LANES],
 }
 
 #[inline(always)]
@@ -90,7 +80,7 @@ impl DepthTest {
     /// Fragments that passed.
     #[inline(always)]
     pub(super) fn passed(&self) -> u64 {
-        self.passed.iter().map(|n| u64::from(*n)).sum()
+        self.passed.iter().sum()
     }
 
     #[inline(always)]
@@ -101,50 +91,51 @@ impl DepthTest {
         less | equal | greater
     }
 
-    /// Draws a span. Returns whether its leftmost and its rightmost pixel passed.
+    /// Draws spans, at least one. Returns whether the leftmost and the rightmost pixel of the last passed.
     #[inline(always)]
     pub(super) fn draw<P: Pixel, const DETAILS: bool>(
         &mut self,
         picture: &mut Picture<P>,
-        span: &Span,
+        spans: &[Span],
         ramp: &Ramp<P>,
         id: i32,
     ) -> [bool; 2] {
-        let mut z: [u64; LANES] = from_fn(|i| span.words[0].wrapping_add(ramp.z[i]));
-        let mut rgb: [[P::Color; LANES]; 3] = from_fn(|c| {
-            let word = P::color(span.words[c + 1]);
-            from_fn(|i| P::step(word, ramp.rgb[c][i]))
-        });
-        let (mut at, mut left) = (span.pixel as usize, span.count as i32);
-        let mut passed = self.passed;
-        let mut leftmost = None;
-        let mut pass = [0; LANES];
-        while let Some(stored) =
-            picture.pixels.get_mut(at..).and_then(|pixels| pixels.first_chunk_mut::<LANES>())
-        {
-            let old = *stored;
-            let old_z = old.map(P::depth);
-            let new_z: [u32; LANES] = from_fn(|i| z[i].wrapping_shr(self.z_drop) as u32);
-            let inside: [u32; LANES] = from_fn(|i| mask(self.place[i] < left));
-            pass = from_fn(|i| self.compare(new_z[i], old_z[i]) & inside[i]);
-            let new: [P; LANES] =
-                from_fn(|i| P::pack(new_z[i], [rgb[0][i], rgb[1][i], rgb[2][i]], self.rgb_drop));
-            *stored = from_fn(|i| new[i].select(old[i], pass[i], self.write));
-            passed = from_fn(|i| passed[i].wrapping_sub(pass[i]));
-            leftmost.get_or_insert(pass[0]);
-            if DETAILS {
-                picture.details.count(at, left, &pass, id);
+        let mut lanes = self.passed;
+        let (mut leftmost, mut pass) = (0, [0; LANES]);
+        for span in spans {
+            let mut z: [u64; LANES] = from_fn(|i| span.words[0].wrapping_add(ramp.z[i]));
+            let mut rgb: [[P::Color; LANES]; 3] = from_fn(|c| {
+                let word = P::color(span.words[c + 1]);
+                from_fn(|i| P::step(word, ramp.rgb[c][i]))
+            });
+            let (mut at, mut left) = (span.pixel as usize, span.count as i32);
+            while let Some(stored) = picture.pixels.get_mut(at..).and_then(|p| p.first_chunk_mut::<LANES>()) {
+                let old = *stored;
+                let old_z = old.map(P::depth);
+                let new_z: [u32; LANES] = from_fn(|i| z[i].wrapping_shr(self.z_drop) as u32);
+                let inside: [u32; LANES] = from_fn(|i| mask(self.place[i] < left));
+                pass = from_fn(|i| self.compare(new_z[i], old_z[i]) & inside[i]);
+                let new: [P; LANES] =
+                    from_fn(|i| P::pack(new_z[i], [rgb[0][i], rgb[1][i], rgb[2][i]], self.rgb_drop));
+                *stored = from_fn(|i| new[i].select(old[i], pass[i], self.write));
+                lanes = from_fn(|i| lanes[i].wrapping_add(u64::from(pass[i] & 1)));
+                if at == span.pixel as usize {
+                    leftmost = pass[0];
+                }
+                if DETAILS {
+                    picture.details.count(at, left, &pass, id);
+                }
+                if left <= LANES as i32 {
+                    break;
+                }
+                z = z.map(|word| word.wrapping_add(ramp.z_step));
+                rgb = from_fn(|c| rgb[c].map(|color| P::step(color, ramp.rgb_step[c])));
+                at += LANES;
+                left -= LANES as i32;
             }
-            if left <= LANES as i32 {
-                break;
-            }
-            z = z.map(|word| word.wrapping_add(ramp.z_step));
-            rgb = from_fn(|c| rgb[c].map(|color| P::step(color, ramp.rgb_step[c])));
-            at += LANES;
-            left -= LANES as i32;
         }
-        self.passed = passed;
-        let rightmost = pass[span.count.wrapping_sub(1) as usize % LANES];
-        [leftmost.unwrap_or(0) != 0, rightmost != 0]
+        self.passed = lanes;
+        let rightmost = spans.last().map_or(0, |span| pass[span.count.wrapping_sub(1) as usize % LANES]);
+        [leftmost != 0, rightmost != 0]
     }
 }

@@ -1,59 +1,79 @@
-//! EDGE and SPAN without their clock: a triangle line by line, and the pixels of each line.
+//! EDGE and SPAN without their clock: a triangle's lines, and the pixels of each.
 //!
-//! Formats: columns of COLW bits, words of b + r bits at the left end of 64. Rules: `docs/machine.md`, sections 3 and 4.
+//! ```text
+//!  prim ─> left edge l, right edge r ─ a line at a time ─> [max(l, 0), min(r, W)) ─> spans, fetched ahead
+//! ```
+//! Formats: columns of COLW bits and words of b + r bits stand at the left end of 32 and 64 bits, so that they wrap by
+//! themselves. Rules: `docs/machine.md`, sections 3 and 4; its cuts come to the same interval whichever way a span runs.
 
+use super::prefetch::prefetch;
 use crate::tokens::{EdgeWalk, Prim, Words};
 use edgewalk_numerics::{Fill, Machine};
 use std::array::from_fn;
+
+/// Pixels of a line that lie on the screen.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span {
+    /// Words at the leftmost, at the left end of 64 bits.
+    pub words: Words,
+    /// Place of the leftmost, y·W + x.
+    pub pixel: u32,
+    /// Pixels, at least 1.
+    pub count: u32,
+    /// Pixels off the screen that PIXEL steps over before.
+    pub skip: u32,
+    /// Lines without a pixel before this one, since the last span of the triangle.
+    pub empty: u32,
+}
 
 /// What a walk needs to know of a machine.
 #[derive(Clone, Debug)]
 pub(super) struct Walker {
     pub textbook: bool,
     width: i32,
-    column_bits: u32,
-    /// Bits that a word leaves free at the left of 64, by channel.
+    /// Bits that a column leaves free in 32.
+    free: u32,
+    /// Bits that a word leaves free in 64, by channel.
     align: [u32; 4],
 }
 
-/// The pixels of a line.
+/// An edge on its way down.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cut {
-    /// Off the screen, stepped over before the first on it.
-    pub skip: u32,
-    /// Column of the first pixel on the screen, in the direction of the span.
-    pub x: i32,
-    /// Pixels on the screen, at least 1.
-    pub count: u32,
-    /// The span runs to the left.
-    pub left: bool,
+struct Edge {
+    /// C and q, at the left end.
+    c: i32,
+    q: i32,
+    r: i32,
+    f: i32,
+    m: i32,
 }
 
-impl Cut {
-    /// From the first pixel of the span to the leftmost on the screen, and the column of that.
+impl Edge {
     #[inline(always)]
-    pub(super) fn leftmost(&self) -> (i64, i32) {
-        let last = self.count - 1;
-        if self.left {
-            (-i64::from(self.skip + last), self.x - last as i32)
-        } else {
-            (i64::from(self.skip), self.x)
-        }
+    fn new(walk: &EdgeWalk, free: u32) -> Self {
+        Edge { c: walk.c.wrapping_shl(free), q: walk.q.wrapping_shl(free), r: walk.r, f: walk.f, m: walk.m }
+    }
+
+    /// Goes down a line; all ones if R carries.
+    #[inline(always)]
+    fn step(&mut self, free: u32) -> i32 {
+        let r = self.r.wrapping_sub(self.f);
+        let carry = r >> 31;
+        self.r = r.wrapping_add(self.m & carry);
+        self.c = self.c.wrapping_add(self.q).wrapping_sub(carry.wrapping_shl(free));
+        carry
     }
 }
 
 /// A triangle on its way down.
-pub(super) struct Walk<'a> {
-    walker: &'a Walker,
-    prim: &'a Prim,
-    part: usize,
-    /// Lines left of the part.
-    pub lines: u32,
-    pub y: u32,
-    major: EdgeWalk,
-    minor: EdgeWalk,
-    /// Values at the first pixel of the line.
-    pub words: Words,
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Walk {
+    /// Spans run to the left; the major edge lies right.
+    to_left: bool,
+    major_right: bool,
+    y: u32,
+    major: Edge,
+    words: Words,
     delta: [Words; 2],
     /// Increment of a pixel to the right.
     pub gradient: Words,
@@ -64,7 +84,7 @@ impl Walker {
         Walker {
             textbook: machine.fill == Fill::Textbook,
             width: machine.width as i32,
-            column_bits: machine.widths().column,
+            free: 32 - machine.widths().column,
             align: machine.channels().map(|c| 64 - c.word()),
         }
     }
@@ -74,76 +94,83 @@ impl Walker {
         from_fn(|i| words[i].wrapping_shl(self.align[i]))
     }
 
-    /// A triangle before its first part.
+    /// A triangle before its first line.
     #[inline(always)]
-    pub(super) fn walk<'a>(&'a self, prim: &'a Prim) -> Walk<'a> {
+    pub(super) fn walk(&self, prim: &Prim) -> Walk {
         let gradient = self.aligned(&prim.gradient);
         let to_left = prim.left && !self.textbook;
         Walk {
-            walker: self,
-            prim,
-            part: 0,
-            lines: 0,
+            to_left,
+            major_right: prim.left,
             y: prim.line,
-            major: prim.major,
-            minor: prim.minor[0],
+            major: Edge::new(&prim.major, self.free),
             words: self.aligned(&prim.start[0]),
             delta: [self.aligned(&prim.delta[0]), self.aligned(&prim.delta[1])],
             gradient: if to_left { gradient.map(u64::wrapping_neg) } else { gradient },
         }
     }
-}
 
-impl Walk<'_> {
-    /// Begins a part, 0 or 1, at its first line.
+    /// Walks down a part, 0 or 1, and appends its spans. `empty`: lines without a pixel since the last span, before and
+    /// after. Pixels are fetched from `memory`, y·W + x.
     #[inline(always)]
-    pub(super) fn enter(&mut self, part: usize) {
-        self.part = part;
-        self.lines = self.prim.lines[part];
-        self.minor = self.prim.minor[part];
-        if self.walker.textbook && part == 1 && (self.prim.left || self.prim.lines[0] == 0) {
-            self.words = self.walker.aligned(&self.prim.start[1]);
+    pub(super) fn part<P>(
+        &self,
+        prim: &Prim,
+        part: usize,
+        walk: &mut Walk,
+        spans: &mut Vec<Span>,
+        mut empty: u32,
+        memory: &[P],
+    ) -> u32 {
+        let free = self.free;
+        let minor = Edge::new(&prim.minor[part], free);
+        let (mut left, mut right) = if walk.major_right { (minor, walk.major) } else { (walk.major, minor) };
+        let mut words = walk.words;
+        let mut delta = walk.delta;
+        if self.textbook {
+            delta = [delta[part]; 2];
+            if part == 1 && (prim.left || prim.lines[0] == 0) {
+                words = self.aligned(&prim.start[1]);
+            }
         }
-    }
-
-    /// Goes down a line.
-    #[inline(always)]
-    pub(super) fn next(&mut self) {
-        self.lines -= 1;
-        let Walker { textbook, column_bits, .. } = *self.walker;
-        if textbook && self.part == 0 && self.lines == 0 {
-            return; // the knee line is drawn again
+        // In textbook fill the left end is `Trunc`, one less than C, and the knee line is drawn again.
+        let inward = i32::from(self.textbook);
+        let knee = if self.textbook && part == 0 { prim.lines[0] } else { u32::MAX };
+        let mut row = walk.y * self.width as u32;
+        for line in 1..=prim.lines[part] {
+            let (l, r) = ((left.c >> free) - inward, right.c >> free);
+            let (low, high) = (l.max(0), r.min(self.width));
+            if low < high {
+                // The columns stepped over, and from the first of the span to the leftmost on the screen.
+                let (skip, columns) = if walk.to_left { (r - high, low - r + 1) } else { (low - l, low - l) };
+                let span = Span {
+                    words: from_fn(|i| {
+                        words[i].wrapping_add(walk.gradient[i].wrapping_mul(columns as i64 as u64))
+                    }),
+                    pixel: row + low as u32,
+                    count: (high - low) as u32,
+                    skip: skip as u32,
+                    empty,
+                };
+                prefetch(memory, span.pixel as usize, span.count as usize);
+                spans.push(span);
+                empty = 0;
+            } else {
+                empty += 1;
+            }
+            if line == knee {
+                break;
+            }
+            row += self.width as u32;
+            let carry_left = left.step(free);
+            let carry_right = right.step(free);
+            let carry = if walk.major_right { carry_right } else { carry_left };
+            let delta = &delta[(carry & 1) as usize];
+            words = from_fn(|i| words[i].wrapping_add(delta[i]));
         }
-        self.y += 1;
-        self.minor.step(column_bits);
-        let carry = self.major.step(column_bits);
-        let delta = &self.delta[if textbook { self.part } else { usize::from(carry) }];
-        self.words = from_fn(|i| self.words[i].wrapping_add(delta[i]));
-    }
-
-    /// The pixels of the line; `None`: there are none.
-    #[inline(always)]
-    pub(super) fn cut(&self) -> Option<Cut> {
-        let Walker { textbook, width, .. } = *self.walker;
-        let (major, minor, left) = (self.major.c, self.minor.c, self.prim.left);
-        if left && !textbook {
-            let (x, end) = (major - 1, minor.max(0));
-            let first = x.min(width - 1);
-            let empty = x < end || minor >= width;
-            return (!empty).then(|| Cut {
-                skip: (x - first) as u32,
-                x: first,
-                count: (first - end + 1) as u32,
-                left: true,
-            });
-        }
-        let (x, edge) = match (textbook, left) {
-            (false, _) => (major, minor),
-            (true, false) => (major - 1, minor),
-            (true, true) => (minor - 1, major),
-        };
-        let (first, end) = (x.max(0), edge.min(width));
-        let empty = end <= x || edge <= 0;
-        (!empty).then(|| Cut { skip: (first - x) as u32, x: first, count: (end - first) as u32, left: false })
+        walk.y = row / self.width as u32;
+        walk.words = words;
+        walk.major = if walk.major_right { right } else { left };
+        empty
     }
 }
