@@ -10,8 +10,9 @@
 //! A triangle that is inside everywhere keeps its vertices bit for bit. An edge is cut from its inner end, whichever
 //! triangle asks, so that triangles which share it share the new vertex.
 
-use crate::frame::{Triangle, Vertex};
-use glam::{DVec3, DVec4};
+use crate::frame::Vertex;
+use crate::surface::SurfaceVertex;
+use glam::{DVec2, DVec3, DVec4};
 
 /// The part of the screen plane that the machine's coordinates reach.
 #[derive(Debug, Clone, Copy)]
@@ -27,7 +28,14 @@ pub(crate) struct Viewport {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ClipVertex {
     pub position: DVec4,
+    /// Cut to [0, 1].
     pub color: DVec3,
+    pub transmission: f64,
+    /// In world space.
+    pub world: DVec3,
+    /// In world space.
+    pub normal: DVec3,
+    pub texture: DVec2,
 }
 
 impl Viewport {
@@ -45,25 +53,27 @@ impl Viewport {
     }
 
     /// To pixels, y down.
-    fn project(&self, vertex: &ClipVertex) -> Vertex {
+    fn project(&self, vertex: &ClipVertex) -> SurfaceVertex {
         let DVec4 { x, y, z, w } = vertex.position;
         let [r, g, b] = vertex.color.to_array();
         // What was cut at a plane lies on it up to rounding.
         let within = |pixels: f64| pixels.clamp(-self.guard, self.guard);
-        Vertex {
+        let screen = Vertex {
             x: within((0.5 + 0.5 * x / w) * f64::from(self.width)),
             y: within((0.5 - 0.5 * y / w) * f64::from(self.height)),
             z: (z / w).clamp(0.0, 1.0),
             r,
             g,
             b,
-            kt: 0.0,
-        }
+            kt: vertex.transmission,
+        };
+        let ClipVertex { world, normal, texture, .. } = *vertex;
+        SurfaceVertex { screen, inverse_w: 1.0 / w, position: world, normal, texture }
     }
 }
 
-/// Adds what is left of a triangle to `out`, as a fan. Cuts one plane after the other (Sutherland and Hodgman).
-pub(crate) fn clip(triangle: [ClipVertex; 3], viewport: &Viewport, out: &mut Vec<Triangle>) {
+/// Calls `keep` with the triangles of what is left, a fan. Cuts one plane after the other (Sutherland and Hodgman).
+pub(crate) fn clip(triangle: [ClipVertex; 3], viewport: &Viewport, mut keep: impl FnMut([SurfaceVertex; 3])) {
     let mut polygon = triangle.to_vec();
     for plane in viewport.planes() {
         if polygon.iter().any(|vertex| vertex.position.dot(plane) < 0.0) {
@@ -71,9 +81,9 @@ pub(crate) fn clip(triangle: [ClipVertex; 3], viewport: &Viewport, out: &mut Vec
         }
     }
     // Beyond the near plane w is at least its distance, so projecting divides by no zero.
-    let screen: Vec<Vertex> = polygon.iter().map(|vertex| viewport.project(vertex)).collect();
+    let screen: Vec<SurfaceVertex> = polygon.iter().map(|vertex| viewport.project(vertex)).collect();
     if let [first, rest @ ..] = &screen[..] {
-        out.extend(rest.windows(2).map(|pair| Triangle([*first, pair[0], pair[1]])));
+        rest.windows(2).for_each(|pair| keep([*first, pair[0], pair[1]]));
     }
 }
 
@@ -99,5 +109,9 @@ fn crossing(inside: &ClipVertex, outside: &ClipVertex, plane: DVec4) -> ClipVert
     ClipVertex {
         position: inside.position.lerp(outside.position, t),
         color: inside.color.lerp(outside.color, t).clamp(DVec3::ZERO, DVec3::ONE),
+        transmission: inside.transmission,
+        world: inside.world.lerp(outside.world, t),
+        normal: inside.normal.lerp(outside.normal, t),
+        texture: inside.texture.lerp(outside.texture, t),
     }
 }

@@ -6,11 +6,13 @@
 mod error;
 mod text;
 
+mod texture;
 mod mesh;
 mod normals;
 mod camera;
 mod light;
-mod shade;
+mod shading;
+mod surface;
 mod clip;
 mod scene;
 pub mod triangle_file;
@@ -19,6 +21,10 @@ mod frame;
 pub use camera::Camera;
 pub use error::{InputError, nearest};
 pub use frame::{DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, ShadeMode, Triangle, Vertex};
-pub use light::DirectionalLight;
-pub use mesh::{Face, Material, Mesh};
+pub use light::{Attenuation, Incident, Light};
+pub use mesh::{Face, FaceData, Material, Mesh};
+pub use normals::{Crease, NormalRule, Weight};
 pub use scene::Scene;
+pub use shading::{LightTerms, Lighting, Point, Specular, Terms};
+pub use surface::{Surface, SurfaceTriangle, SurfaceVertex};
+pub use texture::{Image, Texture};

@@ -1,5 +1,7 @@
 //! Triangle meshes in world space: built in, or read from a file.
 
+mod material;
+mod face_data;
 mod surface;
 mod knot;
 mod terrain;
@@ -10,9 +12,13 @@ mod accessor;
 mod gltf;
 
 use crate::error::{Fault, InputError, nearest};
-use glam::DVec3;
+use crate::texture::Texture;
+use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use std::path::Path;
+
+pub use face_data::FaceData;
+pub use material::Material;
 
 pub(crate) use knot::torus_knot;
 pub(crate) use room::room;
@@ -24,18 +30,6 @@ pub(crate) const MAX_POSITION: f64 = 1e12;
 
 /// Least size of a mesh compared with its distance from the origin: below it, rounding would be all that is seen.
 const LEAST_SIZE: f64 = 1e-9;
-
-/// How a surface answers light.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Material {
-    /// Diffuse coefficient k_d (A 7.6) for red, green, blue in [0, 1]; the ambient coefficient k_a is the same.
-    pub diffuse: DVec3,
-}
-
-impl Material {
-    /// What a surface without a material is made of: light grey.
-    pub const DEFAULT: Self = Self { diffuse: DVec3::splat(0.8) };
-}
 
 /// A triangle of a mesh; its front is where its corners run counter-clockwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,6 +46,8 @@ pub struct Mesh {
     positions: Vec<DVec3>,
     faces: Vec<Face>,
     materials: Vec<Material>,
+    face_data: Vec<FaceData>,
+    textures: Vec<Texture>,
 }
 
 impl Mesh {
@@ -100,7 +96,8 @@ impl Mesh {
                 (welded.len() - 1) as u32
             });
         }
-        let mesh = Self { positions: welded, faces, materials };
+        let face_data = vec![FaceData::default(); faces.len()];
+        let mesh = Self { positions: welded, faces, materials, face_data, textures: Vec::new() };
         let [low, high] = mesh.bounds();
         let (size, reach) = ((high - low).max_element(), low.abs().max(high.abs()).max_element());
         if size < reach * LEAST_SIZE || size < f64::from(f32::MIN_POSITIVE) {
@@ -142,6 +139,43 @@ impl Mesh {
     /// What the faces are made of.
     pub fn materials(&self) -> &[Material] {
         &self.materials
+    }
+
+    /// The same with what a file says of the faces beyond their corners: an entry a face, in their order; what is
+    /// missing at the end is unsaid.
+    pub fn with_face_data(mut self, mut face_data: Vec<FaceData>) -> Self {
+        face_data.resize(self.faces.len(), FaceData::default());
+        self.face_data = face_data;
+        self
+    }
+
+    /// The same with the textures its materials name by their places in the list; one beyond it is no texture.
+    pub fn with_textures(mut self, textures: Vec<Texture>) -> Self {
+        self.textures = textures;
+        self
+    }
+
+    /// What is said of each face beyond its corners.
+    pub fn face_data(&self) -> &[FaceData] {
+        &self.face_data
+    }
+
+    /// The textures.
+    pub fn textures(&self) -> &[Texture] {
+        &self.textures
+    }
+
+    /// The material of a face at texture coordinates: its texture multiplies k_d and k_a (A, end of chapter 7).
+    pub fn material_at(&self, face: &Face, texture: DVec2) -> Material {
+        let material = self.materials[face.material as usize];
+        let image = material.texture.and_then(|place| self.textures.get(place as usize));
+        match image {
+            None => material,
+            Some(image) => {
+                let color = image.at(texture);
+                Material { diffuse: material.diffuse * color, ambient: material.ambient * color, ..material }
+            }
+        }
     }
 
     /// The corners of a face.

@@ -3,25 +3,94 @@
 use crate::mesh::Mesh;
 use glam::DVec3;
 
+/// How much a face counts in the average at a vertex.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Weight {
+    /// Each face as much: N_v = sum N_i / |sum N_i| (seed B).
+    #[default]
+    Plain,
+    /// By its area.
+    Area,
+    /// By its angle at the vertex: however a flat part is cut into faces, the average is the same.
+    Angle,
+}
+
+/// Where the faces around a vertex stop being one surface: the edge is meant to be seen (seed C).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Crease {
+    /// Beyond this angle between the normals of two faces, radians.
+    Angle(f64),
+    /// Between faces of different smoothing groups, and around each face of group 0.
+    Groups,
+}
+
+/// Where the normals at the corners of faces come from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NormalRule {
+    /// Normals that the file gives stand as they are; only other corners are averaged.
+    pub given: bool,
+    /// What a face counts.
+    pub weight: Weight,
+    /// Which faces count.
+    pub crease: Crease,
+}
+
+impl Default for NormalRule {
+    /// Those of the file, else plain averages of faces within 1 radian.
+    fn default() -> Self {
+        Self { given: true, weight: Weight::Plain, crease: Crease::Angle(1.0) }
+    }
+}
+
 /// Unit normal of each face, towards its front; zero for a face without area.
 pub(crate) fn face_normals(mesh: &Mesh) -> Vec<DVec3> {
     let normal = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).normalize_or_zero();
     mesh.faces().iter().map(|face| normal(mesh.corners(face))).collect()
 }
 
-/// Unit normal at each corner of each face: N_v = sum N_i / |sum N_i| over the faces around the vertex whose normals lie
-/// within `crease` radians of this face's. Beyond it the edge is meant to be seen.
-pub(crate) fn corner_normals(mesh: &Mesh, face_normals: &[DVec3], crease: f64) -> Vec<[DVec3; 3]> {
+/// Unit normal at each corner of each face, towards its front.
+pub(crate) fn corner_normals(mesh: &Mesh, face_normals: &[DVec3], rule: NormalRule) -> Vec<[DVec3; 3]> {
     let around = FacesAround::new(mesh);
-    let least = crease.cos();
-    let corner = |own: DVec3, vertex: u32| {
-        let faces = around.of(vertex).iter().map(|face| face_normals[*face as usize]);
-        let sum: DVec3 = faces.filter(|normal| normal.dot(own) >= least).sum();
+    let average = |own: usize, vertex: u32| {
+        let belongs = |face: usize| match rule.crease {
+            Crease::Angle(angle) => face_normals[face].dot(face_normals[own]) >= angle.cos(),
+            Crease::Groups => {
+                let [group, other] = [own, face].map(|face| mesh.face_data()[face].group);
+                face == own || (group == other && group != 0)
+            }
+        };
+        let faces = around.of(vertex).iter().map(|face| *face as usize).filter(|face| belongs(*face));
+        let sum: DVec3 = faces.map(|face| face_normals[face] * weight(mesh, face, vertex, rule.weight)).sum();
         // Faces that fold back on themselves may cancel.
-        sum.try_normalize().unwrap_or(own)
+        sum.try_normalize().unwrap_or(face_normals[own])
     };
-    let faces = mesh.faces().iter().zip(face_normals);
-    faces.map(|(face, own)| face.corners.map(|vertex| corner(*own, vertex))).collect()
+    let corners = mesh.faces().iter().zip(mesh.face_data()).enumerate();
+    corners
+        .map(|(index, (face, data))| match data.normals.filter(|_| rule.given) {
+            Some(normals) => normals,
+            None => face.corners.map(|vertex| average(index, vertex)),
+        })
+        .collect()
+}
+
+/// What a face counts at one of its vertices; only ratios matter.
+fn weight(mesh: &Mesh, face: usize, vertex: u32, weight: Weight) -> f64 {
+    let face = &mesh.faces()[face];
+    let [a, b, c] = mesh.corners(face);
+    match weight {
+        Weight::Plain => 1.0,
+        Weight::Area => (b - a).cross(c - a).length(),
+        Weight::Angle => {
+            let [at, next, last] = match face.corners.iter().position(|corner| *corner == vertex) {
+                Some(1) => [b, c, a],
+                Some(2) => [c, a, b],
+                _ => [a, b, c],
+            };
+            // A face without area has no angle, and no normal either.
+            let angle = (next - at).angle_between(last - at);
+            if angle.is_nan() { 0.0 } else { angle }
+        }
+    }
 }
 
 /// The faces around each vertex.
@@ -65,10 +134,14 @@ mod tests {
     use crate::mesh::{room, sphere};
     use std::f64::consts::PI;
 
+    fn within(angle: f64) -> NormalRule {
+        NormalRule { crease: Crease::Angle(angle), ..NormalRule::default() }
+    }
+
     #[test]
     fn normals_of_a_sphere_are_its_radii() {
         let mesh = sphere(48, 24).unwrap();
-        let normals = corner_normals(&mesh, &face_normals(&mesh), PI);
+        let normals = corner_normals(&mesh, &face_normals(&mesh), within(PI));
         for (face, normals) in mesh.faces().iter().zip(normals) {
             for (position, normal) in mesh.corners(face).into_iter().zip(normals) {
                 assert!((normal.length() - 1.0).abs() < 1e-12);
@@ -81,8 +154,8 @@ mod tests {
     fn a_crease_keeps_the_walls_of_a_room_apart() {
         let mesh = room().unwrap();
         let own = face_normals(&mesh);
-        let creased = corner_normals(&mesh, &own, 1.0);
-        let smooth = corner_normals(&mesh, &own, PI);
+        let creased = corner_normals(&mesh, &own, within(1.0));
+        let smooth = corner_normals(&mesh, &own, within(PI));
         for ((own, creased), smooth) in own.iter().zip(creased).zip(smooth) {
             assert!(creased.iter().all(|normal| normal.distance(*own) < 1e-12));
             assert!(

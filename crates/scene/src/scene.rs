@@ -4,11 +4,12 @@ use crate::camera::Camera;
 use crate::clip::{ClipVertex, Viewport, clip};
 use crate::error::{Fault, InputError, nearest};
 use crate::frame::{Frame, ShadeMode};
-use crate::light::DirectionalLight;
+use crate::light::Light;
 use crate::mesh::{self, Mesh};
-use crate::normals::{corner_normals, face_normals};
-use crate::shade::diffuse;
-use glam::DVec3;
+use crate::normals::{NormalRule, corner_normals, face_normals};
+use crate::shading::{Lighting, Point, Specular};
+use crate::surface::{Surface, SurfaceTriangle};
+use glam::{DVec2, DVec3};
 use std::path::Path;
 
 /// What is to be drawn, in world space.
@@ -16,14 +17,16 @@ use std::path::Path;
 pub struct Scene {
     /// The surfaces.
     pub mesh: Mesh,
-    /// Largest angle between the normals of neighbouring faces that look like one surface, radians.
-    pub crease: f64,
+    /// Normals at the corners of its faces.
+    pub normals: NormalRule,
     /// Where it is seen from.
     pub camera: Camera,
     /// Intensity I_a of ambient light for red, green, blue (A 7.1).
     pub ambient: DVec3,
     /// The other lights.
-    pub lights: Vec<DirectionalLight>,
+    pub lights: Vec<Light>,
+    /// Form of the specular part.
+    pub specular: Specular,
     /// Colour where nothing is, [0, 1] each.
     pub background: DVec3,
 }
@@ -74,41 +77,91 @@ impl Scene {
         Self {
             camera: Camera::around(mesh.positions()),
             mesh,
-            crease: 1.0,
+            normals: NormalRule::default(),
             ambient: DVec3::splat(0.2),
             lights: vec![light([-0.45, 0.8, 0.75], 0.85)],
+            specular: Specular::default(),
             background: DVec3::new(0.08, 0.09, 0.12),
         }
     }
 
+    /// All its light.
+    pub fn lighting(&self) -> Lighting<'_> {
+        Lighting { ambient: self.ambient, lights: &self.lights, specular: self.specular }
+    }
+
+    /// A point of a surface as the viewer sees it; `normal` is a unit vector on the side that is seen.
+    pub fn point(&self, position: DVec3, normal: DVec3) -> Point {
+        Point { position, normal, viewer: (self.camera.eye - position).normalize_or_zero() }
+    }
+
     /// The triangles on a screen of `width` by `height` pixels, at most `guard` pixels from its corner in x and y, in
-    /// the order of the mesh. Colours are those of the vertices by averaged normals, or in flat mode those of the faces
-    /// by their own (A 7.4).
-    pub fn frame(&self, width: u32, height: u32, guard: f64, mode: ShadeMode) -> Frame {
+    /// the order of the mesh. Normals are on the side that is seen; the colours of the vertices are those of the shading
+    /// equation there (A 7.5, step 3 of seed B), taken before clipping.
+    pub fn surface(&self, width: u32, height: u32, guard: f64) -> Surface {
         let viewport = Viewport { width, height, guard };
         let to_clip = self.camera.to_clip(width, height);
-        let positions: Vec<_> = self.mesh.positions().iter().map(|p| to_clip * p.extend(1.0)).collect();
+        let places: Vec<_> = self.mesh.positions().iter().map(|p| to_clip * p.extend(1.0)).collect();
         let own = face_normals(&self.mesh);
-        let normals = match mode {
-            ShadeMode::Gouraud => corner_normals(&self.mesh, &own, self.crease),
-            ShadeMode::Flat => own.iter().map(|normal| [*normal; 3]).collect(),
-        };
-        let mut frame = Frame { mode, clear: self.background.to_array(), ..Frame::new(width, height) };
-        for (face, normals) in self.mesh.faces().iter().zip(normals) {
-            let material = &self.mesh.materials()[face.material as usize];
-            let corner = |k: usize| ClipVertex {
-                position: positions[face.corners[k] as usize],
-                color: diffuse(material, normals[k], self.ambient, &self.lights),
+        let normals = corner_normals(&self.mesh, &own, self.normals);
+        let mut triangles = Vec::with_capacity(self.mesh.faces().len());
+        for (index, face) in self.mesh.faces().iter().enumerate() {
+            let positions = self.mesh.corners(face);
+            let seen_from_behind = own[index].dot(self.camera.eye - positions[0]) < 0.0;
+            let side = if seen_from_behind { -1.0 } else { 1.0 };
+            let texture = self.mesh.face_data()[index].texture.unwrap_or([DVec2::ZERO; 3]);
+            let corner = |k: usize| {
+                let (world, normal) = (positions[k], side * normals[index][k]);
+                let material = self.mesh.material_at(face, texture[k]);
+                let color = self.lighting().shade(&material, &self.point(world, normal));
+                ClipVertex {
+                    position: places[face.corners[k] as usize],
+                    color: color.clamp(DVec3::ZERO, DVec3::ONE),
+                    transmission: material.transmission,
+                    world,
+                    normal,
+                    texture: texture[k],
+                }
             };
-            clip([corner(0), corner(1), corner(2)], &viewport, &mut frame.triangles);
+            clip([corner(0), corner(1), corner(2)], &viewport, |vertices| {
+                triangles.push(SurfaceTriangle {
+                    vertices,
+                    face: index as u32,
+                    own_normal: side * own[index],
+                });
+            });
         }
+        Surface { width, height, triangles }
+    }
+
+    /// The colour of constant shading (A 7.6) of a face with this normal on the side that is seen, by the light and the
+    /// texture in its middle; not cut to [0, 1].
+    pub fn constant_color(&self, face: u32, normal: DVec3) -> DVec3 {
+        let face_data = self.mesh.face_data()[face as usize];
+        let face = &self.mesh.faces()[face as usize];
+        let middle = |[a, b, c]: [DVec3; 3]| (a + b + c) / 3.0;
+        let texture = face_data.texture.map_or(DVec2::ZERO, |[a, b, c]| (a + b + c) / 3.0);
+        let material = self.mesh.material_at(face, texture);
+        self.lighting().constant(&material, middle(self.mesh.corners(face)), normal)
+    }
+
+    /// The triangles of [`Scene::surface`] as the machine takes them: with the colours of the vertices, or in flat mode
+    /// each in the colour of constant shading by its own normal.
+    pub fn frame(&self, width: u32, height: u32, guard: f64, mode: ShadeMode) -> Frame {
+        let surface = self.surface(width, height, guard);
+        let mut frame = Frame { mode, clear: self.background.to_array(), ..Frame::new(width, height) };
+        let on_screen = |triangle: &SurfaceTriangle| match mode {
+            ShadeMode::Gouraud => triangle.on_screen(),
+            ShadeMode::Flat => triangle.in_color(self.constant_color(triangle.face, triangle.own_normal)),
+        };
+        frame.triangles = surface.triangles.iter().map(on_screen).collect();
         frame
     }
 }
 
 /// White light from a direction.
-fn light(toward: [f64; 3], intensity: f64) -> DirectionalLight {
-    DirectionalLight { toward: DVec3::from(toward).normalize(), intensity: DVec3::splat(intensity) }
+fn light(toward: [f64; 3], intensity: f64) -> Light {
+    Light::Directional { toward: DVec3::from(toward).normalize(), intensity: DVec3::splat(intensity) }
 }
 
 /// Low over the land: its border is partly off the screen.

@@ -107,7 +107,7 @@ impl Build<'_> {
         let [r, g, b, _] = primitive.material().pbr_metallic_roughness().base_color_factor();
         let diffuse = DVec3::new(r.into(), g.into(), b.into()).clamp(DVec3::ZERO, DVec3::ONE);
         let (first, material) = (self.positions.len() as u32, self.materials.len() as u32);
-        self.materials.push(Material { diffuse });
+        self.materials.push(Material::matte(diffuse));
         // A mirror turns the front to the back.
         let mirrored = to_world.determinant() < 0.0;
         self.faces.extend(triangles(mode, &order).map(|[a, b, c]| {

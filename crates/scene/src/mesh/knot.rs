@@ -25,6 +25,6 @@ pub(crate) fn torus_knot(along: u32, across: u32) -> Result<Mesh, InputError> {
         let (v_sin, v_cos) = v.sin_cos();
         centre + (normal * v_cos + side * v_sin) * RADII.2
     });
-    let jade = Material { diffuse: DVec3::new(0.3, 0.7, 0.5) };
+    let jade = Material::matte(DVec3::new(0.3, 0.7, 0.5));
     Mesh::new("torus-knot", positions, faces, vec![jade])
 }

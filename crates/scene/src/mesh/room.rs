@@ -29,7 +29,7 @@ pub(crate) fn room() -> Result<Mesh, InputError> {
         let sides = cuboid(&mut positions, low.into(), high.into(), turn);
         faces.extend(sides.into_iter().flatten().map(|face| Face { material, ..face }));
     }
-    let materials = materials.map(|color| Material { diffuse: DVec3::from(color) });
+    let materials = materials.map(|color| Material::matte(DVec3::from(color)));
     Mesh::new("room", positions, faces, materials.to_vec())
 }
 

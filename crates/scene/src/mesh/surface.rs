@@ -26,7 +26,7 @@ pub(crate) fn sphere(columns: u32, rows: u32) -> Result<Mesh, InputError> {
             faces.extend(quad([a, ring(row + 1, column), ring(row + 1, column + 1), b]));
         }
     }
-    let clay = Material { diffuse: DVec3::new(0.85, 0.45, 0.3) };
+    let clay = Material::matte(DVec3::new(0.85, 0.45, 0.3));
     Mesh::new("sphere", positions, faces, vec![clay])
 }
 
@@ -37,7 +37,7 @@ pub(crate) fn torus(around: u32, across: u32) -> Result<Mesh, InputError> {
         let reach = 1.0 + 0.4 * across_cos;
         DVec3::new(reach * around_sin, 0.4 * across_sin, reach * around_cos)
     });
-    let brass = Material { diffuse: DVec3::new(0.8, 0.65, 0.25) };
+    let brass = Material::matte(DVec3::new(0.8, 0.65, 0.25));
     Mesh::new("torus", positions, faces, vec![brass])
 }
 

@@ -33,7 +33,7 @@ pub(crate) fn terrain(side: u32) -> Result<Mesh, InputError> {
             }
         }
     }
-    let materials = LEVELS.map(|(_, color)| Material { diffuse: DVec3::from(color) });
+    let materials = LEVELS.map(|(_, color)| Material::matte(DVec3::from(color)));
     Mesh::new("terrain", positions, faces, materials.to_vec())
 }
 
