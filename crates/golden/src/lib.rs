@@ -7,6 +7,7 @@
 mod cover;
 mod textbook;
 mod fragment;
+mod weights;
 mod depth;
 mod picture;
 
@@ -14,3 +15,4 @@ pub use cover::{MAX_SUBPIXEL_BITS, fragments, snap};
 pub use fragment::Fragment;
 pub use picture::{Fill, NO_TRIANGLE, Picture, draw};
 pub use textbook::{Half, half_triangles};
+pub use weights::Weights;
