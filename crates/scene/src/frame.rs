@@ -1,4 +1,6 @@
-//! A frame: the screen, the rules for depth and blending, and triangles in pixels.
+//! A frame: the screen, the rules for depth and blending, and triangles and polygons in pixels.
+
+use crate::polygon::Polygon;
 
 /// Largest side of a screen, pixels.
 pub const MAX_SIDE: u32 = 16384;
@@ -94,7 +96,7 @@ impl DepthFunc {
     }
 }
 
-/// One picture to draw: triangles in list order on a cleared screen.
+/// One picture to draw: triangles and polygons in list order on a cleared screen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
     /// Width, 1..=[`MAX_SIDE`] pixels.
@@ -113,6 +115,8 @@ pub struct Frame {
     pub clear: [f64; 3],
     /// The triangles, drawn in this order.
     pub triangles: Vec<Triangle>,
+    /// The polygons, in this order, each after as many triangles as it says ([`Frame::primitives`]).
+    pub polygons: Vec<Polygon>,
 }
 
 impl Frame {
@@ -127,6 +131,7 @@ impl Frame {
             blend: false,
             clear: [0.0; 3],
             triangles: Vec::new(),
+            polygons: Vec::new(),
         }
     }
 }

@@ -16,6 +16,7 @@ mod surface;
 mod clip;
 mod scene;
 pub mod triangle_file;
+mod polygon;
 mod frame;
 
 pub use camera::Camera;
@@ -24,6 +25,7 @@ pub use frame::{DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, ShadeMode, Triangle,
 pub use light::{Attenuation, Incident, Light};
 pub use mesh::{Face, FaceData, Material, Mesh};
 pub use normals::{Crease, NormalRule, Weight};
+pub use polygon::{MAX_CONTOUR, Polygon, Primitive};
 pub use scene::Scene;
 pub use shading::{LightTerms, Lighting, Point, Specular, Terms};
 pub use surface::{Surface, SurfaceTriangle, SurfaceVertex};

@@ -11,8 +11,16 @@
 //! | `blend B` | `0`, `1` | `0` |
 //! | `clear r g b` | [0, 1] each | `0 0 0` |
 //!
-//! Then triangles, drawn in this order whatever their winding: `T`, and `x y z r g b kt` for each of three vertices.
-//! x and y are pixels to the right and down, at most 10^6 either way; z, colours and k_t lie in [0, 1].
+//! Then triangles and polygons, drawn in this order whatever their winding:
+//!
+//! | line | |
+//! |---|---|
+//! | `T` and three vertices | a triangle |
+//! | `P n` and n vertices | a polygon of 3..=65536 vertices; it may be concave and may cross itself |
+//! | `H n` and n vertices | one more contour, a hole or an island, of the polygon on the line before |
+//!
+//! A vertex is `x y z r g b kt`: x and y are pixels to the right and down, at most 10^6 either way; z, colours and k_t
+//! lie in [0, 1].
 
 mod reader;
 mod writer;

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 use edgewalk_scene::{
-    DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, ShadeMode, Triangle, Vertex, triangle_file,
+    DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, Polygon, Primitive, ShadeMode, Triangle, Vertex,
+    triangle_file,
 };
 use proptest::prelude::*;
 
@@ -33,6 +34,21 @@ fn every_item_is_taken() {
 }
 
 #[test]
+fn polygons_keep_their_place_among_the_triangles() {
+    let frame = parse(&format!(
+        "size 9 9\n{}\n\n{} # hole\n{T}\n{T}\n{}",
+        T.replace('T', "P 3"),
+        T.replace('T', "H 3"),
+        T.replace('T', "P 3")
+    ));
+    let contours: Vec<_> = frame.polygons.iter().map(|p| (p.contours.len(), p.after)).collect();
+    assert_eq!(contours, [(2, 0), (1, 2)]);
+    let order: Vec<_> = frame.primitives().iter().map(|p| matches!(p, Primitive::Polygon(_))).collect();
+    assert_eq!(order, [true, false, false, true]);
+    assert_eq!(frame.polygons[0].contours[1], frame.triangles[0].0);
+}
+
+#[test]
 fn depth_off_never_writes_whatever_the_order() {
     for text in ["size 1 1\ndepth off\ndepth_write 1", "size 1 1\ndepth_write 1\ndepth off"] {
         let frame = parse(text);
@@ -43,7 +59,8 @@ fn depth_off_never_writes_whatever_the_order() {
 #[test]
 fn malformed_files_name_place_and_remedy() {
     let t = |bad: &str| format!("size 9 9\n{}", T.replacen("0.5", bad, 1));
-    let cases: [(String, &[&str]); 28] = [
+    let p = |n: &str, z: &str| t(z).replacen("T ", &format!("P {n} "), 1);
+    let cases: [(String, &[&str]); 36] = [
         ("".into(), &["a.tri:1: size", "`size W H` is missing", "16384"]),
         (T.into(), &["a.tri:1: size", "missing"]),
         ("size 0 9".into(), &["a.tri:1: size W: `0`", "an integer from 1 to 16384"]),
@@ -65,6 +82,14 @@ fn malformed_files_name_place_and_remedy() {
         ("size 9 9\nclear 0 0 1.5".into(), &["a.tri:2: clear b: `1.5`", "a number from 0 to 1"]),
         ("size 9 9\nclear 0 0".into(), &["clear: `2 given`", "3 values"]),
         (format!("size 9 9\n{T}\nmode flat"), &["a.tri:3: mode", "before the first triangle"]),
+        (p("3", "0.5") + "\nmode flat", &["a.tri:3: mode", "before the first triangle or polygon"]),
+        (p("3", "0.5").replace("size 9 9", ""), &["a.tri:2: size: `P`", "missing"]),
+        (p("2", "0.5"), &["a.tri:2: P n: `2`", "an integer from 3 to 65536"]),
+        ("size 9 9\nP".into(), &["a.tri:2: P n: ``", "an integer"]),
+        (p("4", "0.5"), &["a.tri:2: P: `21 given`", "28 values after n", "4 vertices"]),
+        (p("3", "1.5"), &["a.tri:2: P vertex 2 z: `1.5`", "from 0 to 1"]),
+        (p("3", "0.5").replace('P', "H"), &["a.tri:2:", "`H`", "only on the lines after a polygon"]),
+        (format!("{}\n{T}\nH 3", p("3", "0.5")), &["a.tri:4:", "`H`", "only on the lines after a polygon"]),
         (t("nan"), &["a.tri:2: T vertex 2 z: `nan`", "from 0 to 1"]),
         (t("inf"), &["T vertex 2 z: `inf`"]),
         (t("-0.001"), &["T vertex 2 z: `-0.001`"]),
@@ -113,6 +138,10 @@ fn vertex() -> impl Strategy<Value = Vertex> {
     })
 }
 
+fn contours() -> impl Strategy<Value = Vec<Vec<Vertex>>> {
+    prop::collection::vec(prop::collection::vec(vertex(), 3..8), 1..4)
+}
+
 prop_compose! {
     fn frame()(
         width in 1..=MAX_SIDE,
@@ -123,8 +152,15 @@ prop_compose! {
         blend in any::<bool>(),
         clear in prop::array::uniform3(0.0..=1.0f64),
         triangles in prop::collection::vec(prop::array::uniform3(vertex()).prop_map(Triangle), 0..20),
+        shapes in prop::collection::vec((contours(), any::<prop::sample::Index>()), 0..4),
     ) -> Frame {
-        Frame { width, height, mode, depth, depth_write: write && depth.is_some(), blend, clear, triangles }
+        let mut polygons: Vec<_> = shapes
+            .into_iter()
+            .map(|(contours, after)| Polygon { contours, after: after.index(triangles.len() + 1) })
+            .collect();
+        polygons.sort_by_key(|polygon| polygon.after);
+        let depth_write = write && depth.is_some();
+        Frame { width, height, mode, depth, depth_write, blend, clear, triangles, polygons }
     }
 }
 
@@ -137,7 +173,7 @@ proptest! {
     }
 
     #[test]
-    fn no_text_panics(text in "(size|mode|depth|T|#|[0-9 .e-]|\\PC|\n){0,80}") {
+    fn no_text_panics(text in "(size|mode|depth|T|P 3|H|#|[0-9 .e-]|\\PC|\n){0,80}") {
         let _ = triangle_file::parse("a.tri", text.as_bytes());
     }
 }

@@ -2,15 +2,17 @@
 
 use crate::error::InputError;
 use crate::frame::{DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, ShadeMode, Triangle, Vertex};
+use crate::polygon::{MAX_CONTOUR, Polygon};
 use crate::text::{Place, each_line, words};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 /// Every word a line may start with.
-const KEYS: [&str; 7] = ["size", "mode", "depth", "depth_write", "blend", "clear", "T"];
+const KEYS: [&str; 9] = ["size", "mode", "depth", "depth_write", "blend", "clear", "T", "P", "H"];
 const SIZE: usize = 0;
-const TRIANGLE: usize = 6;
+/// `T`, `P` and `H`: the header has ended.
+const PRIMITIVE: usize = 6;
 
 /// `off` behind the eight functions.
 const DEPTH_NAMES: [&str; 9] = {
@@ -63,16 +65,15 @@ impl Parser {
     fn line(&mut self, place: Place, text: &[u8]) -> Result<(), InputError> {
         let mut words = words(text);
         let Some(word) = words.next() else { return Ok(()) };
-        if word == b"T" {
-            self.require_size(place, word)?;
-            self.seen[TRIANGLE] = true;
-            self.frame.triangles.push(triangle(place, words)?);
-            return Ok(());
-        }
         let key = place.choice("line starts with", word, &KEYS)?;
         let name = KEYS[key];
-        if self.seen[TRIANGLE] {
-            let why = "permitted only before the first triangle";
+        if key >= PRIMITIVE {
+            self.require_size(place, word)?;
+            self.seen[PRIMITIVE] = true;
+            return self.primitive(place, name, words);
+        }
+        if self.seen[PRIMITIVE] {
+            let why = "permitted only before the first triangle or polygon";
             return Err(place.fault(name, word, why).into());
         }
         if std::mem::replace(&mut self.seen[key], true) {
@@ -111,6 +112,27 @@ impl Parser {
         Ok(())
     }
 
+    fn primitive<'a>(
+        &mut self,
+        place: Place,
+        name: &str,
+        words: impl Iterator<Item = &'a [u8]>,
+    ) -> Result<(), InputError> {
+        let after = self.frame.triangles.len();
+        match name {
+            "T" => self.frame.triangles.push(triangle(place, words)?),
+            "P" => self.frame.polygons.push(Polygon { contours: vec![contour(place, name, words)?], after }),
+            _ => match self.frame.polygons.last_mut().filter(|polygon| polygon.after == after) {
+                Some(polygon) => polygon.contours.push(contour(place, name, words)?),
+                None => {
+                    let why = "permitted only on the lines after a polygon `P n x y z r g b kt ...`";
+                    return Err(place.fault("line starts with", name.as_bytes(), why).into());
+                }
+            },
+        }
+        Ok(())
+    }
+
     fn require_size(&self, place: Place, before: &[u8]) -> Result<(), InputError> {
         if self.seen[SIZE] {
             return Ok(());
@@ -144,17 +166,42 @@ fn take<'a, const N: usize>(
 }
 
 fn triangle<'a>(place: Place, words: impl Iterator<Item = &'a [u8]>) -> Result<Triangle, InputError> {
-    let words: [&[u8]; 21] = take(place, "T", words)?;
+    let words: [&[u8]; 3 * ATTRIBUTES.len()] = take(place, "T", words)?;
     let mut triangle = Triangle::default();
-    for (index, (vertex, words)) in triangle.0.iter_mut().zip(words.chunks_exact(7)).enumerate() {
-        let mut numbers = [0.0; 7];
-        for (a, number) in numbers.iter_mut().enumerate() {
-            let range = if a < 2 { -MAX_COORDINATE..=MAX_COORDINATE } else { 0.0..=1.0 };
-            let key = format_args!("T vertex {} {}", index + 1, ATTRIBUTES[a]);
-            *number = place.number(key, words[a], "a number", range)?;
-        }
-        let [x, y, z, r, g, b, kt] = numbers;
-        *vertex = Vertex { x, y, z, r, g, b, kt };
+    for (index, (slot, words)) in triangle.0.iter_mut().zip(words.chunks_exact(ATTRIBUTES.len())).enumerate()
+    {
+        *slot = vertex(place, "T", index, words)?;
     }
     Ok(triangle)
+}
+
+/// The number of vertices and as many vertices.
+fn contour<'a>(
+    place: Place,
+    key: &str,
+    mut words: impl Iterator<Item = &'a [u8]>,
+) -> Result<Vec<Vertex>, InputError> {
+    let count = words.next().unwrap_or_default();
+    let count = place.number(format_args!("{key} n"), count, "an integer", 3..=MAX_CONTOUR)?;
+    let words: Vec<&[u8]> = words.collect();
+    if words.len() != count * ATTRIBUTES.len() {
+        let found = format!("{} given", words.len());
+        let permitted = format!(
+            "permitted: {} values after n, x y z r g b kt of {count} vertices",
+            count * ATTRIBUTES.len()
+        );
+        return Err(place.fault(key, found.as_bytes(), permitted).into());
+    }
+    words.chunks_exact(ATTRIBUTES.len()).enumerate().map(|(i, words)| vertex(place, key, i, words)).collect()
+}
+
+fn vertex(place: Place, key: &str, index: usize, words: &[&[u8]]) -> Result<Vertex, InputError> {
+    let mut numbers = [0.0; ATTRIBUTES.len()];
+    for (a, (number, word)) in numbers.iter_mut().zip(words).enumerate() {
+        let range = if a < 2 { -MAX_COORDINATE..=MAX_COORDINATE } else { 0.0..=1.0 };
+        let key = format_args!("{key} vertex {} {}", index + 1, ATTRIBUTES[a]);
+        *number = place.number(key, word, "a number", range)?;
+    }
+    let [x, y, z, r, g, b, kt] = numbers;
+    Ok(Vertex { x, y, z, r, g, b, kt })
 }

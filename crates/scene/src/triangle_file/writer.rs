@@ -1,7 +1,9 @@
 //! Writes a triangle file; every number comes back bit for bit.
 
-use crate::frame::Frame;
+use crate::frame::{Frame, Vertex};
+use crate::polygon::Primitive;
 use std::io::{self, Write};
+use std::iter;
 
 /// Writes `frame` as a triangle file.
 ///
@@ -15,12 +17,27 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
     writeln!(out, "blend {}", u8::from(frame.blend))?;
     let [r, g, b] = frame.clear;
     writeln!(out, "clear {r} {g} {b}")?;
-    for triangle in &frame.triangles {
-        write!(out, "T")?;
-        for v in &triangle.0 {
-            write!(out, "  {} {} {} {} {} {} {}", v.x, v.y, v.z, v.r, v.g, v.b, v.kt)?;
+    for primitive in frame.primitives() {
+        match primitive {
+            Primitive::Triangle(triangle) => {
+                write!(out, "T")?;
+                vertices(&triangle.0, &mut out)?;
+            }
+            Primitive::Polygon(polygon) => {
+                for (contour, key) in polygon.contours.iter().zip(iter::once("P").chain(iter::repeat("H"))) {
+                    write!(out, "{key} {}", contour.len())?;
+                    vertices(contour, &mut out)?;
+                }
+            }
         }
-        writeln!(out)?;
     }
     Ok(())
+}
+
+/// The rest of a line.
+fn vertices(list: &[Vertex], out: &mut impl Write) -> io::Result<()> {
+    for v in list {
+        write!(out, "  {} {} {} {} {} {} {}", v.x, v.y, v.z, v.r, v.g, v.b, v.kt)?;
+    }
+    writeln!(out)
 }
