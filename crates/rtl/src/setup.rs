@@ -1,12 +1,20 @@
 //! SETUP: from three vertices to edges and increments.
 
-mod control;
-mod lane;
-mod lines;
-mod operands;
-mod results;
 mod schedule;
+
+mod control;
+
 mod sort;
+
+mod lines;
+
+mod operands;
+
+mod lane;
+
+mod lanes;
+
+mod results;
 
 use std::sync::Arc;
 
@@ -15,7 +23,6 @@ use edgewalk_numerics::Machine;
 
 use crate::token::{self, EDGES, Registers, Token};
 use control::Control;
-use lane::Shape;
 use lines::Lines;
 use operands::Sources;
 use results::{Area, Results};
@@ -51,18 +58,14 @@ pub fn setup(machine: &Machine) -> Result<Arc<Netlist>, BuildErrors> {
     let computed = |name: &str| name == "jm" || name.ends_with("_m");
     let mut kept = token::prim(machine);
     kept.retain(|f| !computed(&f.name));
-    m.comment("What is set up.");
     let prim = Registers::new(&m, "prim", kept);
     if let Some(tag) = triangle.get("tag") {
         prim["tag"].when(control.take, tag);
     }
     let lines = Lines::new(&m, machine, &control, &vertices, &prim);
 
-    let shapes: Vec<Shape> = (0..machine.dividers as usize).map(|lane| Shape::new(machine, lane)).collect();
-    let lanes = lane_netlists(machine, &shapes)?;
-    let lanes: Vec<_> =
-        lanes.iter().enumerate().map(|(i, lane)| m.instance(&format!("lane{i}"), lane)).collect();
-    let area = Area::new(&m, machine, &control, lanes[0], &prim);
+    let lanes = lanes::lanes(&m, machine, &control)?;
+    let area = Area::new(&m, machine, &control, lanes[0].instance, &prim);
     control.cull.drive(area.is_zero() | lines.none);
     let sources = Sources {
         m: &m,
@@ -74,9 +77,11 @@ pub fn setup(machine: &Machine) -> Result<Arc<Netlist>, BuildErrors> {
         area: area.value(),
     };
     let shared = sources.shared();
-    for (i, (lane, shape)) in lanes.iter().zip(&shapes).enumerate() {
-        sources.connect(i, shape, &shared, *lane);
+    for (i, lane) in lanes.iter().enumerate() {
+        m.comment(&format!("Lane {i}."));
+        sources.connect(lane, &shared);
     }
+    let lanes: Vec<_> = lanes.iter().map(|lane| lane.instance).collect();
     Results { m: &m, machine, control: &control, vertices: &vertices, prim: &prim }.take(&lanes);
 
     m.output("tri_ready", control.idle);
@@ -92,17 +97,4 @@ pub fn setup(machine: &Machine) -> Result<Arc<Netlist>, BuildErrors> {
         });
     token.output(&m, "prim");
     m.finish()
-}
-
-/// One netlist a lane; lanes of the same shape share it.
-fn lane_netlists(machine: &Machine, shapes: &[Shape]) -> Result<Vec<Arc<Netlist>>, BuildErrors> {
-    let mut lanes: Vec<Arc<Netlist>> = Vec::new();
-    for (i, shape) in shapes.iter().enumerate() {
-        let same = shapes[..i].iter().position(|other| other == shape);
-        lanes.push(match same {
-            Some(other) => Arc::clone(&lanes[other]),
-            None => lane::lane(machine, &format!("edgewalk_setup_lane{i}"), shape)?,
-        });
-    }
-    Ok(lanes)
 }

@@ -27,6 +27,9 @@ pub(super) struct Step<'m> {
 
 /// The steps of all segments: each does what the one below it did at the last advance.
 fn steps<'m>(m: &'m Module, machine: &Machine, advance: Signal<'m>, first: Step<'m>) -> Vec<Step<'m>> {
+    if machine.segments > 1 {
+        m.comment("What the segments do: what the one below did at the last advance.");
+    }
     let mut steps = vec![first];
     for segment in 1..machine.segments {
         let below = steps[segment as usize - 1];
@@ -110,6 +113,7 @@ fn registers<'m>(
     [span, increments]: [&Token<'m>; 2],
 ) -> Vec<Option<Segment<'m>>> {
     let name = CHANNELS[channel];
+    m.comment(&format!("The words of {name}."));
     let (mut value_in, mut inc_in) = (span[name], increments[name]);
     let word = value_in.width();
     let mut segments = Vec::new();
@@ -150,6 +154,7 @@ fn add<'m>(
     steps: &[Step<'m>],
     channels: &[Vec<Option<Segment<'m>>>],
 ) {
+    m.comment("Its adder; with several channels, that of all of them.");
     let mut carry: Option<Signal> = None;
     for (segment, step) in steps.iter().enumerate() {
         let is_last = segment + 1 == steps.len();

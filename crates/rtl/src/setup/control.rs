@@ -3,7 +3,7 @@
 use edgewalk_netlist::{Module, Reg, Signal, Wire};
 use edgewalk_numerics::Machine;
 
-use super::schedule::Op;
+use super::schedule::{Kind, Op};
 
 /// Where setup stands.
 pub(super) struct Control<'m> {
@@ -33,7 +33,8 @@ pub(super) struct Control<'m> {
 struct OpSignals<'m> {
     op: Op,
     now: Signal<'m>,
-    finished: Signal<'m>,
+    /// A quotient was finished in the clock before; `None` for a product.
+    finished: Option<Signal<'m>>,
 }
 
 /// A counter of rounds; there is none where all lanes do everything in one.
@@ -81,10 +82,10 @@ impl<'m> Control<'m> {
         let is_now =
             |(code, op_of): (&Signal<'m>, &Op)| op.q().eq(*code).named(&format!("is_{}", op_of.word()));
         let now: Vec<Signal> = codes.iter().zip(&ops).map(is_now).collect();
-        let steps = ops
-            .iter()
-            .zip(&now)
-            .fold(m.lit(step.q().width(), 0), |chosen, (op, now)| now.mux(op.steps(machine) as i32, chosen));
+        // All products take the same time.
+        let product = m.lit(step.q().width(), Op::EdgeProduct.steps(machine).into());
+        let quotients = ops.iter().zip(&now).filter(|(op, _)| op.kind() != Kind::Product);
+        let steps = quotients.fold(product, |chosen, (op, now)| now.mux(op.steps(machine) as i32, chosen));
         let steps = steps.named_doc("steps", "clocks of the operation after the one that loads");
         let last_step = (working & step.q().eq(steps)).named("last_step");
         let edges_end = (last_step & op.q().eq(last_of_edges)).named("edges_end");
@@ -112,7 +113,7 @@ impl<'m> Control<'m> {
             round.when(edges_end | channels_end, round.q() + 1).when(take, 0);
         }
 
-        m.comment("The results of an operation are taken in the clock after its last step.");
+        m.comment("Quotients are taken in the clock after the last step.");
         let finished = m.reg("finished", 1).doc("an operation ended").reset(0).set(last_step);
         let finished_op = m.reg("finished_op", 4).doc("which").set(op);
         let finished_rounds = Rounds::new(m, machine, "finished_round");
@@ -122,7 +123,8 @@ impl<'m> Control<'m> {
         let signals = |((op, code), now): ((&Op, &Signal<'m>), &Signal<'m>)| OpSignals {
             op: *op,
             now: *now,
-            finished: (finished.q() & finished_op.q().eq(*code)).named(&format!("{}_done", op.word())),
+            finished: (op.kind() != Kind::Product)
+                .then(|| (finished.q() & finished_op.q().eq(*code)).named(&format!("{}_done", op.word()))),
         };
         let ops = ops.iter().zip(&codes).zip(&now).map(signals).collect();
         let step = step.q();
@@ -154,16 +156,22 @@ impl<'m> Control<'m> {
         self.ops.iter().map(|signals| signals.op)
     }
 
-    /// An operation ended in the clock before.
+    /// A quotient was finished in the clock before, in any round.
     pub fn after(&self, op: Op) -> Signal<'m> {
-        let found = self.ops.iter().find(|signals| signals.op == op);
-        found.map_or(self.idle.module().lit(1, 0), |signals| signals.finished)
+        let found = self.ops.iter().find(|signals| signals.op == op).and_then(|signals| signals.finished);
+        found.unwrap_or(self.idle.module().lit(1, 0))
     }
 
-    /// An operation ended in the clock before, in this round.
+    /// A quotient was finished in the clock before, in this round.
     pub fn after_in(&self, op: Op, round: usize) -> Signal<'m> {
         let after = self.after(op);
         self.finished_rounds.is(round).map_or(after, |is| after & is)
+    }
+
+    /// An operation loads, in this round.
+    pub fn load_in(&self, op: Op, round: usize) -> Signal<'m> {
+        let load = self.load & self.during(&[op]);
+        self.rounds.is(round).map_or(load, |is| load & is)
     }
 
     /// What belongs to the round, of one choice a round.

@@ -1,12 +1,12 @@
 //! What the lanes multiply and divide in each operation.
 
-use edgewalk_netlist::{Instance, Module, Signal};
+use edgewalk_netlist::{Module, Signal};
 use edgewalk_numerics::{EdgeKind, Fill, Machine};
 
 use super::control::Control;
-use super::lane::Shape;
+use super::lanes::Lane;
 use super::lines::Lines;
-use super::schedule::{Kind, Op, late};
+use super::schedule::Op;
 use super::sort::{ENDS, Vertices};
 use crate::token::Registers;
 
@@ -22,11 +22,13 @@ pub(super) struct Sources<'a, 'm> {
     pub area: Signal<'m>,
 }
 
-/// The operands that all lanes share in the operations on channels.
+/// The operands of the operations on channels that all lanes share.
 pub(super) struct Shared<'m> {
     a: Signal<'m>,
     b: Signal<'m>,
     divisor: Signal<'m>,
+    /// The differences of channels change their signs.
+    flip: Signal<'m>,
 }
 
 impl<'m> Sources<'_, 'm> {
@@ -49,17 +51,23 @@ impl<'m> Sources<'_, 'm> {
         self.machine.fill == Fill::Exact && self.machine.edge_kind == EdgeKind::Exact
     }
 
-    /// The factors and the divisor of the operations on channels.
+    /// What all lanes share.
     pub fn shared(&self) -> Shared<'m> {
         self.m.comment("Factors and divisor of the operations on channels, the same for all lanes.");
         let (a, b, divisor) = match self.machine.fill {
             Fill::Exact => self.shared_exact(),
             Fill::Textbook => self.shared_textbook(),
         };
+        // Nx = σ(dc1·dv2 − dc2·dv1); Ny = σ(dc2·du1 − dc1·du2), its terms in the same places.
+        let flip = match self.machine.fill {
+            Fill::Exact => self.left() ^ self.during(&[Op::Ny]),
+            Fill::Textbook => self.left(),
+        };
         Shared {
             a: a.named_doc("channel_a", "signed"),
             b: b.named_doc("channel_b", "signed"),
-            divisor: divisor.named_doc("channel_divisor", "unsigned"),
+            divisor,
+            flip: flip.named_doc("flip", "differences of channels the other way round"),
         }
     }
 
@@ -92,23 +100,25 @@ impl<'m> Sources<'_, 'm> {
     }
 
     /// Connects the operands of a lane.
-    pub fn connect(&self, lane: usize, shape: &Shape, shared: &Shared<'m>, instance: Instance<'m>) {
-        self.m.comment(&format!("Lane {lane}."));
-        let job = |round: usize| round * self.machine.dividers as usize + lane;
-        let by_round = |of: &dyn Fn(usize) -> Signal<'m>| self.control.of_round(|round| of(job(round)));
+    pub fn connect(&self, lane: &Lane<'m>, shared: &Shared<'m>) {
+        let by_round = |of: &dyn Fn(usize) -> Signal<'m>| self.control.of_round(|round| of(lane.jobs[round]));
+        let shape = &lane.shape;
         let edges = self.control.in_edges;
-        let [x_channel, y_channel] =
-            [0, 1].map(|term| by_round(&|job| self.channel_terms(job, shape.terms)[term]));
-        let [x_edge, y_edge] = [0, 1].map(|term| by_round(&|job| self.edge_terms(job, shape.terms)[term]));
+        let name = |what: &str| format!("lane{}_{what}", lane.jobs[0]);
+        let [x_edge, y_edge] = [(0, "x_edge"), (1, "y_edge")]
+            .map(|(term, what)| by_round(&|job| self.edge_terms(job, shape.terms)[term]).named(&name(what)));
+        let [x_channel, y_channel] = [(0, "x_channel"), (1, "y_channel")].map(|(term, what)| {
+            by_round(&|job| self.channel_terms(job, shape.terms, shared)[term]).named(&name(what))
+        });
         let [a_edge, b_edge] = [0, 1].map(|factor| by_round(&|job| self.edge_factors(job)[factor]));
         let divisor = by_round(&|job| self.edge_divisor(job, shape.divisor));
-        instance
+        lane.instance
             .connect("x_in", edges.mux(x_edge, x_channel))
             .connect("y_in", edges.mux(y_edge, y_channel))
             .connect("a_in", edges.mux(a_edge, shared.a))
             .connect("b_in", edges.mux(b_edge, shared.b))
             .connect("divisor_in", edges.mux(divisor, shared.divisor));
-        self.connect_control(lane, shape, instance);
+        lane.ask_results(self.machine);
     }
 
     /// Factors of the area (job 0), or of N of an edge.
@@ -155,80 +165,18 @@ impl<'m> Sources<'_, 'm> {
     }
 
     /// Differences of a channel, so ordered and signed that all numerators have the sign of the result.
-    fn channel_terms(&self, channel: usize, bits: u32) -> [Signal<'m>; 2] {
-        let (left, during) = (self.left(), |ops: &[Op]| self.during(ops));
+    fn channel_terms(&self, channel: usize, bits: u32, shared: &Shared<'m>) -> [Signal<'m>; 2] {
+        let (left, flip) = (self.left(), shared.flip);
         let c = |place: usize| self.vertices.value(channel, place).zext(bits);
-        // Nx = σ(dc1·dv2 − dc2·dv1); Ny = σ(dc2·du1 − dc1·du2), its terms in the same places.
-        let flip = match self.machine.fill {
-            Fill::Exact => left ^ during(&[Op::Ny]),
-            Fill::Textbook => left,
-        };
         let x = flip.mux(c(0), c(1)) - flip.mux(c(1), c(0));
-        let y_plus = flip.mux(c(2), c(0));
-        let y_minus = flip.mux(c(0), c(2));
+        let (y_plus, y_minus) = (flip.mux(c(2), c(0)), flip.mux(c(0), c(2)));
         if self.machine.fill == Fill::Exact {
             return [x, y_plus - y_minus];
         }
         // DC of the left edge: the major one, or where the triangle lies left of that the part's minor one.
-        let (is_nx, in_b) = (during(&[Op::Nx]), during(&[Op::ProductB, Op::LineB]));
+        let (is_nx, in_b) = (self.during(&[Op::Nx]), self.during(&[Op::ProductB, Op::LineB]));
         let to = (left & !in_b).mux(c(1), c(2));
         let from = (left & in_b).mux(c(1), c(0));
         [x, is_nx.mux(y_plus, to) - is_nx.mux(y_minus, from)]
-    }
-
-    /// What the lane does in this clock.
-    fn connect_control(&self, lane: usize, shape: &Shape, instance: Instance<'m>) {
-        let (m, control, machine) = (self.m, self.control, self.machine);
-        let of_kind = |kind: Kind| {
-            let ops: Vec<Op> = control.ops().filter(|op| op.kind() == kind).collect();
-            control.during(&ops)
-        };
-        let (product, quotient, of_y) =
-            (of_kind(Kind::Product), of_kind(Kind::Quotient), of_kind(Kind::QuotientOfY));
-        let product_step = control.stepping & product;
-        let terms = [Op::EdgeProduct, Op::Nx, Op::Ny, Op::ProductA, Op::ProductB];
-        instance
-            .connect("load_terms", control.load & control.during(&terms))
-            .connect("load_factors", control.load & product)
-            .connect("load_divisor", control.load & quotient)
-            .connect("from_y", control.load & of_y)
-            .connect("step_product", product_step)
-            .connect("first_step", control.step.eq(1))
-            .connect("step_quotient", control.stepping & (quotient | of_y) & self.started(lane))
-            .connect("digit_at", self.digit_at(lane, shape).unwrap_or(m.lit(1, 0)));
-        if machine.fill == Fill::Exact {
-            instance
-                .connect("keep_nx", control.after(Op::Nx))
-                .connect("load_gradients", control.load & control.during(&[Op::LineProduct]))
-                .connect("keep_gx", control.after(Op::Gx))
-                .connect("add_line", control.after(Op::Line));
-        }
-    }
-
-    fn channel_of(&self, lane: usize, round: usize) -> edgewalk_numerics::Channel {
-        self.machine.channels()[round * self.machine.dividers as usize + lane]
-    }
-
-    /// A channel with a shorter word than another has fewer digits and begins later.
-    fn started(&self, lane: usize) -> Signal<'m> {
-        let started = self.control.of_round(|round| {
-            let late = late(self.machine, self.channel_of(lane, round));
-            if late == 0 { self.m.lit(1, 1) } else { self.control.step.gt(late as i32) }
-        });
-        self.control.in_edges | started
-    }
-
-    /// Where the operation's digits are, as a place in the shape's list.
-    fn digit_at(&self, lane: usize, shape: &Shape) -> Option<Signal<'m>> {
-        let place = |op: Op, round: usize| {
-            let bit = op.first_digit(self.machine, self.channel_of(lane, round));
-            let place = shape.first_digits.iter().position(|digit| *digit == bit).unwrap_or(0);
-            self.m.lit(shape.digit_select(), place as u128)
-        };
-        let ops = self.control.ops().filter(|op| op.kind() != Kind::Product);
-        let choices = ops.map(|op| (self.during(&[op]), self.control.of_round(|round| place(op, round))));
-        choices
-            .reduce(|(_, chosen), (during, other)| (during, during.mux(other, chosen)))
-            .map(|(_, chosen)| chosen)
     }
 }

@@ -23,7 +23,8 @@ impl<'m> Area<'m> {
         m.comment("Twice the area of the triangle, and the side on which it lies.");
         let bits = 2 * machine.widths().difference;
         let product = lane.output("product").trunc(bits);
-        let take = control.after_in(Op::EdgeProduct, 0);
+        // The product stands while the operation after it loads.
+        let take = control.load_in(Op::EdgeStart, 0).named("take_area");
         let area = m.reg("area", bits - 1).doc("|du1 dv2 - du2 dv1|");
         area.when(take, product.msb().mux(-product, product).trunc(bits - 1));
         prim["left"].when(take, product.msb());
@@ -130,7 +131,7 @@ impl<'m> Results<'_, 'm> {
         let after = |op: Op| self.control.after_in(op, round);
         self.register(name, "g").when(after(Op::Gx), self.prim["left"].q().mux(-rounded, rounded));
         self.register(name, "d0").when(after(Op::Line), rounded);
-        self.register(name, "d1").when(after(Op::StartProduct), word(lane.output("d1")));
+        self.register(name, "d1").when(after(Op::Start), word(lane.output("d1")));
         let top = self.with_half(format, self.vertices.value(channel, 0));
         self.register(name, "start").when(after(Op::Start), rounded + top);
     }

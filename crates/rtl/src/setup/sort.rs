@@ -32,7 +32,7 @@ impl<'m> Vertices<'m> {
         let places: Vec<Registers> =
             (0..3).map(|place| Registers::new(m, &format!("p{place}"), fields(machine))).collect();
         let above = |lower: usize, upper: usize| places[lower]["v"].q().slt(places[upper]["v"]);
-        let middle = control.step.eq(1);
+        let middle = control.step.eq(1).named("second_clock");
         let swap01 = (control.sorting & !middle & above(1, 0)).named("swap01");
         let swap12 = (control.sorting & middle & above(2, 1)).named("swap12");
         for (place, registers) in places.iter().enumerate() {

@@ -1,0 +1,150 @@
+//! The lanes as instances, and what they do in each clock; what they work on is `operands`.
+
+use std::sync::Arc;
+
+use edgewalk_netlist::{BuildErrors, Instance, Module, Netlist, Signal};
+use edgewalk_numerics::{Channel, EdgeKind, Fill, Machine};
+
+use super::control::Control;
+use super::lane::{Shape, lane};
+use super::schedule::{Kind, Op, late};
+
+/// One lane in place.
+pub(super) struct Lane<'m> {
+    /// Its jobs, one a round: job 0 is the area and Z, the others are the edges and R, G, B.
+    pub jobs: Vec<usize>,
+    pub shape: Shape,
+    pub instance: Instance<'m>,
+}
+
+/// The lanes, with everything connected but their operands.
+pub(super) fn lanes<'m>(
+    m: &'m Module,
+    machine: &Machine,
+    control: &Control<'m>,
+) -> Result<Vec<Lane<'m>>, BuildErrors> {
+    let count = machine.dividers as usize;
+    let shapes: Vec<Shape> = (0..count).map(|first| Shape::new(machine, first)).collect();
+    let netlists = netlists(machine, &shapes)?;
+    let work = Work::new(m, control);
+    let in_place = |(first, (shape, netlist)): (usize, (Shape, Arc<Netlist>))| {
+        let instance = m.instance(&format!("lane{first}"), &netlist);
+        let lane = Lane { jobs: (first..4).step_by(count).collect(), shape, instance };
+        work.connect(m, machine, control, &lane);
+        lane
+    };
+    Ok(shapes.into_iter().zip(netlists).enumerate().map(in_place).collect())
+}
+
+/// One netlist a lane; lanes of the same shape share it.
+fn netlists(machine: &Machine, shapes: &[Shape]) -> Result<Vec<Arc<Netlist>>, BuildErrors> {
+    let mut netlists: Vec<Arc<Netlist>> = Vec::new();
+    for (i, shape) in shapes.iter().enumerate() {
+        let same = shapes[..i].iter().position(|other| other == shape);
+        netlists.push(match same {
+            Some(other) => Arc::clone(&netlists[other]),
+            None => lane(machine, &format!("edgewalk_setup_lane{i}"), shape)?,
+        });
+    }
+    Ok(netlists)
+}
+
+/// What all lanes do in a clock.
+struct Work<'m> {
+    load_terms: Signal<'m>,
+    load_product: Signal<'m>,
+    step_product: Signal<'m>,
+    first_step: Signal<'m>,
+    load_quotient: Signal<'m>,
+    load_quotient_of_y: Signal<'m>,
+    step_quotient: Signal<'m>,
+}
+
+impl<'m> Work<'m> {
+    fn new(m: &'m Module, control: &Control<'m>) -> Work<'m> {
+        m.comment("What all lanes do.");
+        let of_kind = |kind: Kind, name: &str| {
+            let ops: Vec<Op> = control.ops().filter(|op| op.kind() == kind).collect();
+            control.during(&ops).named(name)
+        };
+        let product = of_kind(Kind::Product, "is_product");
+        let quotient = of_kind(Kind::Quotient, "is_quotient");
+        let of_y = of_kind(Kind::QuotientOfY, "is_quotient_of_y");
+        let terms = [Op::EdgeProduct, Op::Nx, Op::Ny, Op::ProductA, Op::ProductB];
+        Work {
+            load_terms: (control.load & control.during(&terms)).named("load_terms"),
+            load_product: (control.load & product).named("load_product"),
+            step_product: (control.stepping & product).named("step_product"),
+            first_step: control.step.eq(1).named("first_step"),
+            load_quotient: (control.load & quotient).named("load_quotient"),
+            load_quotient_of_y: (control.load & of_y).named("load_quotient_of_y"),
+            step_quotient: (control.stepping & (quotient | of_y)).named("step_quotient"),
+        }
+    }
+
+    fn connect(&self, m: &'m Module, machine: &Machine, control: &Control<'m>, lane: &Lane<'m>) {
+        let instance = lane.instance;
+        instance
+            .connect("load_terms", self.load_terms)
+            .connect("load_factors", self.load_product)
+            .connect("step_product", self.step_product)
+            .connect("first_step", self.first_step)
+            .connect("load_divisor", self.load_quotient)
+            .connect("from_y", self.load_quotient_of_y)
+            .connect("step_quotient", self.step_of(machine, control, lane))
+            .connect("digit_at", digit_at(m, machine, control, lane));
+        if machine.fill == Fill::Exact {
+            instance
+                .connect("keep_nx", control.load & control.during(&[Op::Gx]))
+                .connect("load_gradients", control.load & control.during(&[Op::LineProduct]))
+                .connect("keep_gx", control.after(Op::Gx))
+                .connect("add_line", control.after(Op::Line));
+        }
+    }
+
+    /// A channel with a shorter word than another has fewer digits and begins later.
+    fn step_of(&self, machine: &Machine, control: &Control<'m>, lane: &Lane<'m>) -> Signal<'m> {
+        let late_in = |round: usize| late(machine, lane.channel(machine, round));
+        if (0..lane.jobs.len()).all(|round| late_in(round) == 0) {
+            return self.step_quotient;
+        }
+        let begun = control.of_round(|round| control.step.gt(late_in(round) as i32));
+        self.step_quotient & (control.in_edges | begun)
+    }
+}
+
+/// Where the operation's digits are, as a place in the shape's list.
+fn digit_at<'m>(m: &'m Module, machine: &Machine, control: &Control<'m>, lane: &Lane<'m>) -> Signal<'m> {
+    let place = |op: Op, round: usize| {
+        let bit = op.first_digit(machine, lane.channel(machine, round));
+        lane.shape.first_digits.iter().position(|digit| *digit == bit).unwrap_or(0)
+    };
+    let literal = |place: usize| m.lit(lane.shape.digit_select(), place as u128);
+    let quotients = control.ops().filter(|op| op.kind() != Kind::Product);
+    // Place 0 is what remains where no other is chosen.
+    let others = quotients.filter(|op| (0..lane.jobs.len()).any(|round| place(*op, round) > 0));
+    others.fold(literal(0), |chosen, op| {
+        control.during(&[op]).mux(control.of_round(|round| literal(place(op, round))), chosen)
+    })
+}
+
+impl<'m> Lane<'m> {
+    fn channel(&self, machine: &Machine, round: usize) -> Channel {
+        machine.channels()[self.jobs[round]]
+    }
+
+    /// Asks for the outputs that the lane's jobs have a use for, so that the lane is told in its own place.
+    pub fn ask_results(&self, machine: &Machine) {
+        if self.jobs.contains(&0) {
+            self.instance.output("product");
+        }
+        if machine.edge_kind == EdgeKind::Exact && self.jobs.iter().any(|job| *job > 0) {
+            self.instance.output("quotient");
+            self.instance.output("remainder");
+        }
+        self.instance.output("rounded");
+        if machine.fill == Fill::Exact {
+            self.instance.output("d1");
+        }
+    }
+}
