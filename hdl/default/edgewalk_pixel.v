@@ -94,42 +94,68 @@ module edgewalk_pixel (
     if (load) fence <= span_fence;
   end
 
-  // The additions.
+  // The words of z.
   reg [37:0] z_value;  // bits 37 to 0 of 38
   reg [37:0] z_inc;    // bits 37 to 0 of 38
+
+  always @(posedge clk) begin
+    if (load && span_fresh) z_inc <= inc_z;
+  end
+
+  // Its adder; with several channels, that of all of them.
   wire [37:0] z_sum = z_value + z_inc;
+
+  always @(posedge clk) begin
+    if (load) z_value <= span_z;
+    if (next_pixel) z_value <= z_sum;
+  end
+
+  // The words of r.
   reg [21:0] r_value;  // bits 21 to 0 of 22
   reg [21:0] r_inc;    // bits 21 to 0 of 22
+
+  always @(posedge clk) begin
+    if (load && span_fresh) r_inc <= inc_r;
+  end
+
+  // Its adder; with several channels, that of all of them.
   wire [21:0] r_sum = r_value + r_inc;
+
+  always @(posedge clk) begin
+    if (load) r_value <= span_r;
+    if (next_pixel) r_value <= r_sum;
+  end
+
+  // The words of g.
   reg [21:0] g_value;  // bits 21 to 0 of 22
   reg [21:0] g_inc;    // bits 21 to 0 of 22
+
+  always @(posedge clk) begin
+    if (load && span_fresh) g_inc <= inc_g;
+  end
+
+  // Its adder; with several channels, that of all of them.
   wire [21:0] g_sum = g_value + g_inc;
+
+  always @(posedge clk) begin
+    if (load) g_value <= span_g;
+    if (next_pixel) g_value <= g_sum;
+  end
+
+  // The words of b.
   reg [21:0] b_value;  // bits 21 to 0 of 22
   reg [21:0] b_inc;    // bits 21 to 0 of 22
+
+  always @(posedge clk) begin
+    if (load && span_fresh) b_inc <= inc_b;
+  end
+
+  // Its adder; with several channels, that of all of them.
   wire [21:0] b_sum = b_value + b_inc;
 
   always @(posedge clk) begin
-    if (load && span_fresh) begin
-      z_inc <= inc_z;
-      r_inc <= inc_r;
-      g_inc <= inc_g;
-      b_inc <= inc_b;
-    end
-  end
-
-  always @(posedge clk) begin
-    if (load) begin
-      z_value <= span_z;
-      r_value <= span_r;
-      g_value <= span_g;
-      b_value <= span_b;
-    end
-    if (next_pixel) begin
-      z_value <= z_sum;
-      r_value <= r_sum;
-      g_value <= g_sum;
-      b_value <= b_sum;
-    end
+    if (load) b_value <= span_b;
+    if (next_pixel) b_value <= b_sum;
   end
 
   // The output: in each stage the bits of one more segment.

@@ -117,16 +117,11 @@ module edgewalk_setup (
   wire is_start_product = op == START_PRODUCT;
   wire is_start = op == START;
   wire [5:0] steps = is_start ? 6'd42  // clocks of the operation after the one that loads
-                   : is_start_product ? 6'd12
                    : is_line ? 6'd42
-                   : is_line_product ? 6'd12
-                   : is_ny ? 6'd12
                    : is_gx ? 6'd35
-                   : is_nx ? 6'd12
                    : is_edge_start ? 6'd19
-                   : is_edge_product ? 6'd12
                    : is_edge_step ? 6'd11
-                   : 6'd0;
+                   : 6'd12;
   wire last_step = working && (step == steps);
   wire edges_end = last_step && (op == EDGE_START);
   wire channels_end = last_step && (op == START);
@@ -157,18 +152,13 @@ module edgewalk_setup (
     if (take) op <= EDGE_STEP;
   end
 
-  // The results of an operation are taken in the clock after its last step.
+  // Quotients are taken in the clock after the last step.
   reg finished;           // an operation ended
   reg [3:0] finished_op;  // which
   wire edge_step_done = finished && (finished_op == EDGE_STEP);
-  wire edge_product_done = finished && (finished_op == EDGE_PRODUCT);
   wire edge_start_done = finished && (finished_op == EDGE_START);
-  wire nx_done = finished && (finished_op == NX);
   wire gx_done = finished && (finished_op == GX);
-  wire ny_done = finished && (finished_op == NY);
-  wire line_product_done = finished && (finished_op == LINE_PRODUCT);
   wire line_done = finished && (finished_op == LINE);
-  wire start_product_done = finished && (finished_op == START_PRODUCT);
   wire start_done = finished && (finished_op == START);
 
   always @(posedge clk) begin
@@ -202,9 +192,9 @@ module edgewalk_setup (
   reg [11:0] p2_r;  // UQ8.4 LSB
   reg [11:0] p2_g;  // UQ8.4 LSB
   reg [11:0] p2_b;  // UQ8.4 LSB
-  wire equal = step == 6'd1;
-  wire swap01 = sorting && !equal && ($signed(p1_v) < $signed(p0_v));
-  wire swap12 = sorting && equal && ($signed(p2_v) < $signed(p1_v));
+  wire second_clock = step == 6'd1;
+  wire swap01 = sorting && !second_clock && ($signed(p1_v) < $signed(p0_v));
+  wire swap12 = sorting && second_clock && ($signed(p2_v) < $signed(p1_v));
 
   always @(posedge clk) begin
     if (swap01) begin
@@ -310,15 +300,28 @@ module edgewalk_setup (
     end
   end
 
+  // What all lanes do.
+  wire is_product = is_edge_product || is_nx || is_ny || is_line_product || is_start_product;
+  wire is_quotient = is_edge_start || is_gx || is_line || is_start;
+  wire is_quotient_of_y = is_edge_step;
+  wire load_terms = load && (is_edge_product || is_nx || is_ny);
+  wire load_product = load && is_product;
+  wire step_product = stepping && is_product;
+  wire first_step = step == 6'd1;
+  wire load_quotient = load && is_quotient;
+  wire load_quotient_of_y = load && is_quotient_of_y;
+  wire step_quotient = stepping && (is_quotient || is_quotient_of_y);
+
   // Twice the area of the triangle, and the side on which it lies.
   wire [74:0] lane0_product;
+  wire take_area = load && is_edge_start;
   reg [44:0] area;  // |du1 dv2 - du2 dv1|
   assign cull = !(|area) || (!upper && !(|prim_n2));
   wire [45:0] part_4 = lane0_product[45:0];
   wire [45:0] choice_3 = part_4[45] ? -part_4 : part_4;
 
   always @(posedge clk) begin
-    if (edge_product_done) begin
+    if (take_area) begin
       area <= choice_3[44:0];
       prim_left <= part_4[45];
     end
@@ -334,13 +337,172 @@ module edgewalk_setup (
                         : is_line_product ? 23'd1
                         : is_nx ? {1'b0, dv01}
                         : du01;
-  wire [44:0] channel_divisor = area;  // unsigned
+  wire flip = prim_left ^ is_ny;  // differences of channels the other way round
+
+  // Lane 0.
+  wire [28:0] lane0_x_edge = {{7{p1_u[21]}}, p1_u} - {{7{p0_u[21]}}, p0_u};
+  wire [28:0] lane0_y_edge = {{7{p0_u[21]}}, p0_u} - {{7{p2_u[21]}}, p2_u};
+  wire [28:0] lane0_x_channel = (flip ? {1'b0, p0_z} : {1'b0, p1_z})
+                              - (flip ? {1'b0, p1_z} : {1'b0, p0_z});
+  wire [28:0] lane0_y_channel = (flip ? {1'b0, p2_z} : {1'b0, p0_z})
+                              - (flip ? {1'b0, p0_z} : {1'b0, p2_z});
+  wire [37:0] lane0_rounded;
+  wire [37:0] lane0_d1;
+  wire [37:0] lane0_quotient_unused;
+  wire [44:0] lane0_remainder_unused;
+
+  edgewalk_setup_lane0 lane0 (
+    .clk            (clk),
+    .load_divisor   (load_quotient),
+    .from_y         (load_quotient_of_y),
+    .y_in           (in_edges ? lane0_y_edge : lane0_y_channel),
+    .step_quotient  (step_quotient),
+    .a_in           (in_edges ? {1'b0, dv02} : channel_a),
+    .b_in           (in_edges ? {1'b0, dv01} : channel_b),
+    .x_in           (in_edges ? lane0_x_edge : lane0_x_channel),
+    .load_terms     (load_terms),
+    .load_factors   (load_product),
+    .step_product   (step_product),
+    .first_step     (first_step),
+    .divisor_in     (in_edges ? {23'd0, dv02} : area),
+    .digit_at       (is_start ? 2'd2 : is_line ? 2'd1 : 2'd0),
+    .keep_nx        (load && is_gx),
+    .load_gradients (load && is_line_product),
+    .keep_gx        (gx_done),
+    .add_line       (line_done),
+    .product        (lane0_product),
+    .quotient       (lane0_quotient_unused),
+    .remainder      (lane0_remainder_unused),
+    .rounded        (lane0_rounded),
+    .d1             (lane0_d1)
+  );
+
+  // Lane 1.
+  wire [22:0] lane1_x_edge = {p0_v[21], p0_v} - {p2_v[21], p2_v};
+  wire [21:0] choice_4 = is_edge_step ? p2_u : p0_u;
+  wire [21:0] choice_5 = is_edge_step ? p0_u : p2_u;
+  wire [22:0] lane1_y_edge = {choice_4[21], choice_4} - {choice_5[21], choice_5};
+  wire [22:0] lane1_x_channel = (flip ? {11'd0, p0_r} : {11'd0, p1_r})
+                              - (flip ? {11'd0, p1_r} : {11'd0, p0_r});
+  wire [22:0] lane1_y_channel = (flip ? {11'd0, p2_r} : {11'd0, p0_r})
+                              - (flip ? {11'd0, p0_r} : {11'd0, p2_r});
+  wire [21:0] lane1_quotient;
+  wire [44:0] lane1_remainder;
+  wire [21:0] lane1_rounded;
+  wire [21:0] lane1_d1;
+  wire [58:0] lane1_product_unused;
+
+  edgewalk_setup_lane1 lane1 (
+    .clk            (clk),
+    .load_divisor   (load_quotient),
+    .from_y         (load_quotient_of_y),
+    .y_in           (in_edges ? lane1_y_edge : lane1_y_channel),
+    .step_quotient  (step_quotient && (in_edges || (step > 6'd8))),
+    .a_in           (in_edges ? {p0_u[21], p0_u} : channel_a),
+    .b_in           (in_edges ? {jm, 8'd0} - {p0_v[21], p0_v} : channel_b),
+    .x_in           (in_edges ? lane1_x_edge : lane1_x_channel),
+    .load_terms     (load_terms),
+    .load_factors   (load_product),
+    .step_product   (step_product),
+    .first_step     (first_step),
+    .divisor_in     (in_edges ? {23'd0, dv02} : area),
+    .digit_at       (is_start ? 3'd4 : is_line ? 3'd3 : is_gx ? 3'd1 : is_edge_start ? 3'd2 : 3'd0),
+    .keep_nx        (load && is_gx),
+    .load_gradients (load && is_line_product),
+    .keep_gx        (gx_done),
+    .add_line       (line_done),
+    .product        (lane1_product_unused),
+    .quotient       (lane1_quotient),
+    .remainder      (lane1_remainder),
+    .rounded        (lane1_rounded),
+    .d1             (lane1_d1)
+  );
+
+  // Lane 2.
+  wire [22:0] lane2_x_edge = {p0_v[21], p0_v} - {p1_v[21], p1_v};
+  wire [21:0] choice_6 = is_edge_step ? p1_u : p0_u;
+  wire [21:0] choice_7 = is_edge_step ? p0_u : p1_u;
+  wire [22:0] lane2_y_edge = {choice_6[21], choice_6} - {choice_7[21], choice_7};
+  wire [22:0] lane2_x_channel = (flip ? {11'd0, p0_g} : {11'd0, p1_g})
+                              - (flip ? {11'd0, p1_g} : {11'd0, p0_g});
+  wire [22:0] lane2_y_channel = (flip ? {11'd0, p2_g} : {11'd0, p0_g})
+                              - (flip ? {11'd0, p0_g} : {11'd0, p2_g});
+  wire [21:0] lane2_quotient;
+  wire [44:0] lane2_remainder;
+  wire [21:0] lane2_rounded;
+  wire [21:0] lane2_d1;
+  wire [58:0] lane2_product_unused;
+
+  edgewalk_setup_lane1 lane2 (
+    .clk            (clk),
+    .load_divisor   (load_quotient),
+    .from_y         (load_quotient_of_y),
+    .y_in           (in_edges ? lane2_y_edge : lane2_y_channel),
+    .step_quotient  (step_quotient && (in_edges || (step > 6'd8))),
+    .a_in           (in_edges ? {p0_u[21], p0_u} : channel_a),
+    .b_in           (in_edges ? {j0, 8'd0} - {p0_v[21], p0_v} : channel_b),
+    .x_in           (in_edges ? lane2_x_edge : lane2_x_channel),
+    .load_terms     (load_terms),
+    .load_factors   (load_product),
+    .step_product   (step_product),
+    .first_step     (first_step),
+    .divisor_in     (in_edges ? {23'd0, dv01} : area),
+    .digit_at       (is_start ? 3'd4 : is_line ? 3'd3 : is_gx ? 3'd1 : is_edge_start ? 3'd2 : 3'd0),
+    .keep_nx        (load && is_gx),
+    .load_gradients (load && is_line_product),
+    .keep_gx        (gx_done),
+    .add_line       (line_done),
+    .product        (lane2_product_unused),
+    .quotient       (lane2_quotient),
+    .remainder      (lane2_remainder),
+    .rounded        (lane2_rounded),
+    .d1             (lane2_d1)
+  );
+
+  // Lane 3.
+  wire [22:0] lane3_x_edge = {p1_v[21], p1_v} - {p2_v[21], p2_v};
+  wire [21:0] choice_8 = is_edge_step ? p2_u : p1_u;
+  wire [21:0] choice_9 = is_edge_step ? p1_u : p2_u;
+  wire [22:0] lane3_y_edge = {choice_8[21], choice_8} - {choice_9[21], choice_9};
+  wire [22:0] lane3_x_channel = (flip ? {11'd0, p0_b} : {11'd0, p1_b})
+                              - (flip ? {11'd0, p1_b} : {11'd0, p0_b});
+  wire [22:0] lane3_y_channel = (flip ? {11'd0, p2_b} : {11'd0, p0_b})
+                              - (flip ? {11'd0, p0_b} : {11'd0, p2_b});
+  wire [21:0] lane3_quotient;
+  wire [44:0] lane3_remainder;
+  wire [21:0] lane3_rounded;
+  wire [21:0] lane3_d1;
+  wire [58:0] lane3_product_unused;
+
+  edgewalk_setup_lane1 lane3 (
+    .clk            (clk),
+    .load_divisor   (load_quotient),
+    .from_y         (load_quotient_of_y),
+    .y_in           (in_edges ? lane3_y_edge : lane3_y_channel),
+    .step_quotient  (step_quotient && (in_edges || (step > 6'd8))),
+    .a_in           (in_edges ? {p1_u[21], p1_u} : channel_a),
+    .b_in           (in_edges ? {j1, 8'd0} - {p1_v[21], p1_v} : channel_b),
+    .x_in           (in_edges ? lane3_x_edge : lane3_x_channel),
+    .load_terms     (load_terms),
+    .load_factors   (load_product),
+    .step_product   (step_product),
+    .first_step     (first_step),
+    .divisor_in     (in_edges ? {23'd0, dv12} : area),
+    .digit_at       (is_start ? 3'd4 : is_line ? 3'd3 : is_gx ? 3'd1 : is_edge_start ? 3'd2 : 3'd0),
+    .keep_nx        (load && is_gx),
+    .load_gradients (load && is_line_product),
+    .keep_gx        (gx_done),
+    .add_line       (line_done),
+    .product        (lane3_product_unused),
+    .quotient       (lane3_quotient),
+    .remainder      (lane3_remainder),
+    .rounded        (lane3_rounded),
+    .d1             (lane3_d1)
+  );
 
   // Edge: major.
   wire major_steps = |dv02[21:8];  // DY >= P
   wire major_is_there = |dv02;     // DY > 0
-  wire [21:0] lane1_quotient;
-  wire [44:0] lane1_remainder;
 
   always @(posedge clk) begin
     if (edge_step_done) begin
@@ -359,8 +521,6 @@ module edgewalk_setup (
   // Edge: minor1.
   wire minor1_steps = |dv01[21:8];  // DY >= P
   wire minor1_is_there = |dv01;     // DY > 0
-  wire [21:0] lane2_quotient;
-  wire [44:0] lane2_remainder;
 
   always @(posedge clk) begin
     if (edge_step_done) begin
@@ -379,8 +539,6 @@ module edgewalk_setup (
   // Edge: minor2.
   wire minor2_steps = |dv12[21:8];  // DY >= P
   wire minor2_is_there = |dv12;     // DY > 0
-  wire [21:0] lane3_quotient;
-  wire [44:0] lane3_remainder;
 
   always @(posedge clk) begin
     if (edge_step_done) begin
@@ -397,45 +555,6 @@ module edgewalk_setup (
   end
 
   // Channel: z.
-  wire [37:0] lane0_rounded;
-  wire [37:0] lane0_d1;
-  wire either = is_edge_start || is_gx || is_line || is_start;
-  wire differing = prim_left ^ is_ny;
-  wire [28:0] difference_6 = (differing ? {1'b0, p2_z} : {1'b0, p0_z})
-                           - (differing ? {1'b0, p0_z} : {1'b0, p2_z});
-  wire differing_2 = prim_left ^ is_ny;
-  wire [28:0] difference_7 = (differing_2 ? {1'b0, p0_z} : {1'b0, p1_z})
-                           - (differing_2 ? {1'b0, p1_z} : {1'b0, p0_z});
-  wire either_2 = is_edge_product || is_nx || is_ny || is_line_product || is_start_product;
-  wire [37:0] lane0_quotient_unused;
-  wire [44:0] lane0_remainder_unused;
-
-  edgewalk_setup_lane0 lane0 (
-    .clk            (clk),
-    .load_divisor   (load && either),
-    .from_y         (load && is_edge_step),
-    .y_in           (in_edges ? {{7{p0_u[21]}}, p0_u} - {{7{p2_u[21]}}, p2_u} : difference_6),
-    .step_quotient  (stepping && (either || is_edge_step) && 1'b1),
-    .a_in           (in_edges ? {1'b0, dv02} : channel_a),
-    .b_in           (in_edges ? {1'b0, dv01} : channel_b),
-    .x_in           (in_edges ? {{7{p1_u[21]}}, p1_u} - {{7{p0_u[21]}}, p0_u} : difference_7),
-    .load_terms     (load && (is_edge_product || is_nx || is_ny)),
-    .load_factors   (load && either_2),
-    .step_product   (stepping && either_2),
-    .first_step     (step == 6'd1),
-    .divisor_in     (in_edges ? {23'd0, dv02} : channel_divisor),
-    .digit_at       (is_start ? 2'd2 : is_line ? 2'd1 : is_gx ? 2'd0 : is_edge_start ? 2'd0 : 2'd0),
-    .keep_nx        (nx_done),
-    .load_gradients (load && is_line_product),
-    .keep_gx        (gx_done),
-    .add_line       (line_done),
-    .product        (lane0_product),
-    .quotient       (lane0_quotient_unused),
-    .remainder      (lane0_remainder_unused),
-    .rounded        (lane0_rounded),
-    .d1             (lane0_d1)
-  );
-
   always @(posedge clk) begin
     if (gx_done) prim_z_g <= prim_left ? -lane0_rounded : lane0_rounded;
   end
@@ -445,54 +564,13 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (start_product_done) prim_z_d1 <= lane0_d1;
-  end
-
-  always @(posedge clk) begin
-    if (start_done) prim_z_start <= lane0_rounded + {p0_z + 28'd8, 10'd0};
+    if (start_done) begin
+      prim_z_d1 <= lane0_d1;
+      prim_z_start <= lane0_rounded + {p0_z + 28'd8, 10'd0};
+    end
   end
 
   // Channel: r.
-  wire [21:0] lane1_rounded;
-  wire [21:0] lane1_d1;
-  wire either_3 = is_edge_start || is_gx || is_line || is_start;
-  wire [21:0] choice_4 = is_edge_step ? p2_u : p0_u;
-  wire [21:0] choice_5 = is_edge_step ? p0_u : p2_u;
-  wire differing_3 = prim_left ^ is_ny;
-  wire [22:0] difference_8 = (differing_3 ? {11'd0, p2_r} : {11'd0, p0_r})
-                           - (differing_3 ? {11'd0, p0_r} : {11'd0, p2_r});
-  wire differing_4 = prim_left ^ is_ny;
-  wire [22:0] difference_9 = (differing_4 ? {11'd0, p0_r} : {11'd0, p1_r})
-                           - (differing_4 ? {11'd0, p1_r} : {11'd0, p0_r});
-  wire either_4 = is_edge_product || is_nx || is_ny || is_line_product || is_start_product;
-  wire [58:0] lane1_product_unused;
-
-  edgewalk_setup_lane1 lane1 (
-    .clk            (clk),
-    .load_divisor   (load && either_3),
-    .from_y         (load && is_edge_step),
-    .y_in           (in_edges ? {choice_4[21], choice_4} - {choice_5[21], choice_5} : difference_8),
-    .step_quotient  (stepping && (either_3 || is_edge_step) && (in_edges || (step > 6'd8))),
-    .a_in           (in_edges ? {p0_u[21], p0_u} : channel_a),
-    .b_in           (in_edges ? {jm, 8'd0} - {p0_v[21], p0_v} : channel_b),
-    .x_in           (in_edges ? {p0_v[21], p0_v} - {p2_v[21], p2_v} : difference_9),
-    .load_terms     (load && (is_edge_product || is_nx || is_ny)),
-    .load_factors   (load && either_4),
-    .step_product   (stepping && either_4),
-    .first_step     (step == 6'd1),
-    .divisor_in     (in_edges ? {23'd0, dv02} : channel_divisor),
-    .digit_at       (is_start ? 3'd4 : is_line ? 3'd3 : is_gx ? 3'd1 : is_edge_start ? 3'd2 : 3'd0),
-    .keep_nx        (nx_done),
-    .load_gradients (load && is_line_product),
-    .keep_gx        (gx_done),
-    .add_line       (line_done),
-    .product        (lane1_product_unused),
-    .quotient       (lane1_quotient),
-    .remainder      (lane1_remainder),
-    .rounded        (lane1_rounded),
-    .d1             (lane1_d1)
-  );
-
   always @(posedge clk) begin
     if (gx_done) prim_r_g <= prim_left ? -lane1_rounded : lane1_rounded;
   end
@@ -502,54 +580,13 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (start_product_done) prim_r_d1 <= lane1_d1;
-  end
-
-  always @(posedge clk) begin
-    if (start_done) prim_r_start <= lane1_rounded + {p0_r + 12'd8, 10'd0};
+    if (start_done) begin
+      prim_r_d1 <= lane1_d1;
+      prim_r_start <= lane1_rounded + {p0_r + 12'd8, 10'd0};
+    end
   end
 
   // Channel: g.
-  wire [21:0] lane2_rounded;
-  wire [21:0] lane2_d1;
-  wire either_5 = is_edge_start || is_gx || is_line || is_start;
-  wire [21:0] choice_6 = is_edge_step ? p1_u : p0_u;
-  wire [21:0] choice_7 = is_edge_step ? p0_u : p1_u;
-  wire differing_5 = prim_left ^ is_ny;
-  wire [22:0] difference_10 = (differing_5 ? {11'd0, p2_g} : {11'd0, p0_g})
-                            - (differing_5 ? {11'd0, p0_g} : {11'd0, p2_g});
-  wire differing_6 = prim_left ^ is_ny;
-  wire [22:0] difference_11 = (differing_6 ? {11'd0, p0_g} : {11'd0, p1_g})
-                            - (differing_6 ? {11'd0, p1_g} : {11'd0, p0_g});
-  wire either_6 = is_edge_product || is_nx || is_ny || is_line_product || is_start_product;
-  wire [58:0] lane2_product_unused;
-
-  edgewalk_setup_lane1 lane2 (
-    .clk            (clk),
-    .load_divisor   (load && either_5),
-    .from_y         (load && is_edge_step),
-    .y_in           (in_edges ? {choice_6[21], choice_6} - {choice_7[21], choice_7} : difference_10),
-    .step_quotient  (stepping && (either_5 || is_edge_step) && (in_edges || (step > 6'd8))),
-    .a_in           (in_edges ? {p0_u[21], p0_u} : channel_a),
-    .b_in           (in_edges ? {j0, 8'd0} - {p0_v[21], p0_v} : channel_b),
-    .x_in           (in_edges ? {p0_v[21], p0_v} - {p1_v[21], p1_v} : difference_11),
-    .load_terms     (load && (is_edge_product || is_nx || is_ny)),
-    .load_factors   (load && either_6),
-    .step_product   (stepping && either_6),
-    .first_step     (step == 6'd1),
-    .divisor_in     (in_edges ? {23'd0, dv01} : channel_divisor),
-    .digit_at       (is_start ? 3'd4 : is_line ? 3'd3 : is_gx ? 3'd1 : is_edge_start ? 3'd2 : 3'd0),
-    .keep_nx        (nx_done),
-    .load_gradients (load && is_line_product),
-    .keep_gx        (gx_done),
-    .add_line       (line_done),
-    .product        (lane2_product_unused),
-    .quotient       (lane2_quotient),
-    .remainder      (lane2_remainder),
-    .rounded        (lane2_rounded),
-    .d1             (lane2_d1)
-  );
-
   always @(posedge clk) begin
     if (gx_done) prim_g_g <= prim_left ? -lane2_rounded : lane2_rounded;
   end
@@ -559,54 +596,13 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (start_product_done) prim_g_d1 <= lane2_d1;
-  end
-
-  always @(posedge clk) begin
-    if (start_done) prim_g_start <= lane2_rounded + {p0_g + 12'd8, 10'd0};
+    if (start_done) begin
+      prim_g_d1 <= lane2_d1;
+      prim_g_start <= lane2_rounded + {p0_g + 12'd8, 10'd0};
+    end
   end
 
   // Channel: b.
-  wire [21:0] lane3_rounded;
-  wire [21:0] lane3_d1;
-  wire either_7 = is_edge_start || is_gx || is_line || is_start;
-  wire [21:0] choice_8 = is_edge_step ? p2_u : p1_u;
-  wire [21:0] choice_9 = is_edge_step ? p1_u : p2_u;
-  wire differing_7 = prim_left ^ is_ny;
-  wire [22:0] difference_12 = (differing_7 ? {11'd0, p2_b} : {11'd0, p0_b})
-                            - (differing_7 ? {11'd0, p0_b} : {11'd0, p2_b});
-  wire differing_8 = prim_left ^ is_ny;
-  wire [22:0] difference_13 = (differing_8 ? {11'd0, p0_b} : {11'd0, p1_b})
-                            - (differing_8 ? {11'd0, p1_b} : {11'd0, p0_b});
-  wire either_8 = is_edge_product || is_nx || is_ny || is_line_product || is_start_product;
-  wire [58:0] lane3_product_unused;
-
-  edgewalk_setup_lane1 lane3 (
-    .clk            (clk),
-    .load_divisor   (load && either_7),
-    .from_y         (load && is_edge_step),
-    .y_in           (in_edges ? {choice_8[21], choice_8} - {choice_9[21], choice_9} : difference_12),
-    .step_quotient  (stepping && (either_7 || is_edge_step) && (in_edges || (step > 6'd8))),
-    .a_in           (in_edges ? {p1_u[21], p1_u} : channel_a),
-    .b_in           (in_edges ? {j1, 8'd0} - {p1_v[21], p1_v} : channel_b),
-    .x_in           (in_edges ? {p1_v[21], p1_v} - {p2_v[21], p2_v} : difference_13),
-    .load_terms     (load && (is_edge_product || is_nx || is_ny)),
-    .load_factors   (load && either_8),
-    .step_product   (stepping && either_8),
-    .first_step     (step == 6'd1),
-    .divisor_in     (in_edges ? {23'd0, dv12} : channel_divisor),
-    .digit_at       (is_start ? 3'd4 : is_line ? 3'd3 : is_gx ? 3'd1 : is_edge_start ? 3'd2 : 3'd0),
-    .keep_nx        (nx_done),
-    .load_gradients (load && is_line_product),
-    .keep_gx        (gx_done),
-    .add_line       (line_done),
-    .product        (lane3_product_unused),
-    .quotient       (lane3_quotient),
-    .remainder      (lane3_remainder),
-    .rounded        (lane3_rounded),
-    .d1             (lane3_d1)
-  );
-
   always @(posedge clk) begin
     if (gx_done) prim_b_g <= prim_left ? -lane3_rounded : lane3_rounded;
   end
@@ -616,11 +612,10 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (start_product_done) prim_b_d1 <= lane3_d1;
-  end
-
-  always @(posedge clk) begin
-    if (start_done) prim_b_start <= lane3_rounded + {p0_b + 12'd8, 10'd0};
+    if (start_done) begin
+      prim_b_d1 <= lane3_d1;
+      prim_b_start <= lane3_rounded + {p0_b + 12'd8, 10'd0};
+    end
   end
 
   assign prim_jm = jm[8:0];
@@ -630,10 +625,9 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, ny_done, line_product_done, lane0_product[74:46], lane1_quotient[21:15],
-    lane1_remainder[44:22], lane2_quotient[21:15], lane2_remainder[44:22], lane3_quotient[21:15],
-    lane3_remainder[44:22], difference[22], difference_2[22], difference_3[22], difference_4[14:10],
-    difference_5[14:10], choice_3[45]
+    1'b0, lane0_product[74:46], lane1_quotient[21:15], lane1_remainder[44:22], lane2_quotient[21:15],
+    lane2_remainder[44:22], lane3_quotient[21:15], lane3_remainder[44:22], difference[22],
+    difference_2[22], difference_3[22], difference_4[14:10], difference_5[14:10], choice_3[45]
   };
 
 endmodule

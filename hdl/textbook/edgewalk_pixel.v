@@ -110,6 +110,13 @@ module edgewalk_pixel (
   reg adding;                      // this pixel is not the first of its span
   wire add = next_pixel || (advance && active && !last_phase && adding);
   wire [1:0] slot = phase + 2'd1;  // channel of each adder in this clock
+
+  always @(posedge clk) begin
+    if (next_pixel) adding <= 1'b1;
+    if (load) adding <= 1'b0;
+  end
+
+  // What the segments do: what the one below did at the last advance.
   reg load1;
   wire load1_now = load1 && advance;
   reg fresh1;
@@ -128,50 +135,180 @@ module edgewalk_pixel (
   reg add3;
   wire add3_now = add3 && advance;
   reg [1:0] slot3;
-  reg [6:0] z_value0;              // bits 6 to 0 of 30
-  reg [6:0] z_inc0;                // bits 6 to 0 of 30
-  reg [22:0] z_value_late1;        // upper bits of the span to come
-  reg [22:0] z_inc_late1;          // upper bits of the span to come
-  reg [7:0] z_value1;              // bits 14 to 7 of 30
-  reg [7:0] z_inc1;                // bits 14 to 7 of 30
-  reg [14:0] z_value_late2;        // upper bits of the span to come
-  reg [14:0] z_inc_late2;          // upper bits of the span to come
-  reg [6:0] z_value2;              // bits 21 to 15 of 30
-  reg [6:0] z_inc2;                // bits 21 to 15 of 30
-  reg [7:0] z_value_late3;         // upper bits of the span to come
-  reg [7:0] z_inc_late3;           // upper bits of the span to come
-  reg [7:0] z_value3;              // bits 29 to 22 of 30
-  reg [7:0] z_inc3;                // bits 29 to 22 of 30
-  reg [6:0] r_value0;              // bits 6 to 0 of 22
-  reg [6:0] r_inc0;                // bits 6 to 0 of 22
-  reg [14:0] r_value_late1;        // upper bits of the span to come
-  reg [14:0] r_inc_late1;          // upper bits of the span to come
-  reg [7:0] r_value1;              // bits 14 to 7 of 22
-  reg [7:0] r_inc1;                // bits 14 to 7 of 22
-  reg [6:0] r_value_late2;         // upper bits of the span to come
-  reg [6:0] r_inc_late2;           // upper bits of the span to come
-  reg [6:0] r_value2;              // bits 21 to 15 of 22
-  reg [6:0] r_inc2;                // bits 21 to 15 of 22
-  reg [6:0] g_value0;              // bits 6 to 0 of 22
-  reg [6:0] g_inc0;                // bits 6 to 0 of 22
-  reg [14:0] g_value_late1;        // upper bits of the span to come
-  reg [14:0] g_inc_late1;          // upper bits of the span to come
-  reg [7:0] g_value1;              // bits 14 to 7 of 22
-  reg [7:0] g_inc1;                // bits 14 to 7 of 22
-  reg [6:0] g_value_late2;         // upper bits of the span to come
-  reg [6:0] g_inc_late2;           // upper bits of the span to come
-  reg [6:0] g_value2;              // bits 21 to 15 of 22
-  reg [6:0] g_inc2;                // bits 21 to 15 of 22
-  reg [6:0] b_value0;              // bits 6 to 0 of 22
-  reg [6:0] b_inc0;                // bits 6 to 0 of 22
-  reg [14:0] b_value_late1;        // upper bits of the span to come
-  reg [14:0] b_inc_late1;          // upper bits of the span to come
-  reg [7:0] b_value1;              // bits 14 to 7 of 22
-  reg [7:0] b_inc1;                // bits 14 to 7 of 22
-  reg [6:0] b_value_late2;         // upper bits of the span to come
-  reg [6:0] b_inc_late2;           // upper bits of the span to come
-  reg [6:0] b_value2;              // bits 21 to 15 of 22
-  reg [6:0] b_inc2;                // bits 21 to 15 of 22
+
+  always @(posedge clk) begin
+    if (rst) begin
+      load1 <= 1'b0;
+      fresh1 <= 1'b0;
+      add1 <= 1'b0;
+      slot1 <= 2'd0;
+      load2 <= 1'b0;
+      fresh2 <= 1'b0;
+      add2 <= 1'b0;
+      slot2 <= 2'd0;
+      load3 <= 1'b0;
+      fresh3 <= 1'b0;
+      add3 <= 1'b0;
+      slot3 <= 2'd0;
+    end else if (advance) begin
+      load1 <= load;
+      fresh1 <= span_fresh;
+      add1 <= add;
+      slot1 <= slot;
+      load2 <= load1_now;
+      fresh2 <= fresh1;
+      add2 <= add1_now;
+      slot2 <= slot1;
+      load3 <= load2_now;
+      fresh3 <= fresh2;
+      add3 <= add2_now;
+      slot3 <= slot2;
+    end
+  end
+
+  // The words of z.
+  reg [6:0] z_value0;        // bits 6 to 0 of 30
+  reg [6:0] z_inc0;          // bits 6 to 0 of 30
+  reg [22:0] z_value_late1;  // upper bits of the span to come
+  reg [22:0] z_inc_late1;    // upper bits of the span to come
+  reg [7:0] z_value1;        // bits 14 to 7 of 30
+  reg [7:0] z_inc1;          // bits 14 to 7 of 30
+  reg [14:0] z_value_late2;  // upper bits of the span to come
+  reg [14:0] z_inc_late2;    // upper bits of the span to come
+  reg [6:0] z_value2;        // bits 21 to 15 of 30
+  reg [6:0] z_inc2;          // bits 21 to 15 of 30
+  reg [7:0] z_value_late3;   // upper bits of the span to come
+  reg [7:0] z_inc_late3;     // upper bits of the span to come
+  reg [7:0] z_value3;        // bits 29 to 22 of 30
+  reg [7:0] z_inc3;          // bits 29 to 22 of 30
+
+  always @(posedge clk) begin
+    if (load && span_fresh) z_inc0 <= inc_z[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (advance) begin
+      z_value_late1 <= span_z[29:7];
+      z_inc_late1 <= inc_z[29:7];
+      z_value_late2 <= z_value_late1[22:8];
+      z_inc_late2 <= z_inc_late1[22:8];
+      z_value_late3 <= z_value_late2[14:7];
+      z_inc_late3 <= z_inc_late2[14:7];
+    end
+  end
+
+  always @(posedge clk) begin
+    if (load1_now && fresh1) z_inc1 <= z_inc_late1[7:0];
+  end
+
+  always @(posedge clk) begin
+    if (load2_now && fresh2) z_inc2 <= z_inc_late2[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (load3_now && fresh3) z_inc3 <= z_inc_late3;
+  end
+
+  // The words of r.
+  reg [6:0] r_value0;        // bits 6 to 0 of 22
+  reg [6:0] r_inc0;          // bits 6 to 0 of 22
+  reg [14:0] r_value_late1;  // upper bits of the span to come
+  reg [14:0] r_inc_late1;    // upper bits of the span to come
+  reg [7:0] r_value1;        // bits 14 to 7 of 22
+  reg [7:0] r_inc1;          // bits 14 to 7 of 22
+  reg [6:0] r_value_late2;   // upper bits of the span to come
+  reg [6:0] r_inc_late2;     // upper bits of the span to come
+  reg [6:0] r_value2;        // bits 21 to 15 of 22
+  reg [6:0] r_inc2;          // bits 21 to 15 of 22
+
+  always @(posedge clk) begin
+    if (load && span_fresh) r_inc0 <= inc_r[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (advance) begin
+      r_value_late1 <= span_r[21:7];
+      r_inc_late1 <= inc_r[21:7];
+      r_value_late2 <= r_value_late1[14:8];
+      r_inc_late2 <= r_inc_late1[14:8];
+    end
+  end
+
+  always @(posedge clk) begin
+    if (load1_now && fresh1) r_inc1 <= r_inc_late1[7:0];
+  end
+
+  always @(posedge clk) begin
+    if (load2_now && fresh2) r_inc2 <= r_inc_late2;
+  end
+
+  // The words of g.
+  reg [6:0] g_value0;        // bits 6 to 0 of 22
+  reg [6:0] g_inc0;          // bits 6 to 0 of 22
+  reg [14:0] g_value_late1;  // upper bits of the span to come
+  reg [14:0] g_inc_late1;    // upper bits of the span to come
+  reg [7:0] g_value1;        // bits 14 to 7 of 22
+  reg [7:0] g_inc1;          // bits 14 to 7 of 22
+  reg [6:0] g_value_late2;   // upper bits of the span to come
+  reg [6:0] g_inc_late2;     // upper bits of the span to come
+  reg [6:0] g_value2;        // bits 21 to 15 of 22
+  reg [6:0] g_inc2;          // bits 21 to 15 of 22
+
+  always @(posedge clk) begin
+    if (load && span_fresh) g_inc0 <= inc_g[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (advance) begin
+      g_value_late1 <= span_g[21:7];
+      g_inc_late1 <= inc_g[21:7];
+      g_value_late2 <= g_value_late1[14:8];
+      g_inc_late2 <= g_inc_late1[14:8];
+    end
+  end
+
+  always @(posedge clk) begin
+    if (load1_now && fresh1) g_inc1 <= g_inc_late1[7:0];
+  end
+
+  always @(posedge clk) begin
+    if (load2_now && fresh2) g_inc2 <= g_inc_late2;
+  end
+
+  // The words of b.
+  reg [6:0] b_value0;        // bits 6 to 0 of 22
+  reg [6:0] b_inc0;          // bits 6 to 0 of 22
+  reg [14:0] b_value_late1;  // upper bits of the span to come
+  reg [14:0] b_inc_late1;    // upper bits of the span to come
+  reg [7:0] b_value1;        // bits 14 to 7 of 22
+  reg [7:0] b_inc1;          // bits 14 to 7 of 22
+  reg [6:0] b_value_late2;   // upper bits of the span to come
+  reg [6:0] b_inc_late2;     // upper bits of the span to come
+  reg [6:0] b_value2;        // bits 21 to 15 of 22
+  reg [6:0] b_inc2;          // bits 21 to 15 of 22
+
+  always @(posedge clk) begin
+    if (load && span_fresh) b_inc0 <= inc_b[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (advance) begin
+      b_value_late1 <= span_b[21:7];
+      b_inc_late1 <= inc_b[21:7];
+      b_value_late2 <= b_value_late1[14:8];
+      b_inc_late2 <= b_inc_late1[14:8];
+    end
+  end
+
+  always @(posedge clk) begin
+    if (load1_now && fresh1) b_inc1 <= b_inc_late1[7:0];
+  end
+
+  always @(posedge clk) begin
+    if (load2_now && fresh2) b_inc2 <= b_inc_late2;
+  end
+
+  // Its adder; with several channels, that of all of them.
   wire [7:0] choice = (slot == 2'd3) ? {1'b0, b_value0}
                     : (slot == 2'd2) ? {1'b0, g_value0}
                     : (slot == 2'd1) ? {1'b0, r_value0}
@@ -205,98 +342,6 @@ module edgewalk_pixel (
   wire [7:0] adder0_sum3 = z_value3 + z_inc3 + {7'd0, adder0_carry3};
 
   always @(posedge clk) begin
-    if (next_pixel) adding <= 1'b1;
-    if (load) adding <= 1'b0;
-  end
-
-  always @(posedge clk) begin
-    if (rst) begin
-      load1 <= 1'b0;
-      fresh1 <= 1'b0;
-      add1 <= 1'b0;
-      slot1 <= 2'd0;
-      load2 <= 1'b0;
-      fresh2 <= 1'b0;
-      add2 <= 1'b0;
-      slot2 <= 2'd0;
-      load3 <= 1'b0;
-      fresh3 <= 1'b0;
-      add3 <= 1'b0;
-      slot3 <= 2'd0;
-    end else if (advance) begin
-      load1 <= load;
-      fresh1 <= span_fresh;
-      add1 <= add;
-      slot1 <= slot;
-      load2 <= load1_now;
-      fresh2 <= fresh1;
-      add2 <= add1_now;
-      slot2 <= slot1;
-      load3 <= load2_now;
-      fresh3 <= fresh2;
-      add3 <= add2_now;
-      slot3 <= slot2;
-    end
-  end
-
-  always @(posedge clk) begin
-    if (load && span_fresh) begin
-      z_inc0 <= inc_z[6:0];
-      r_inc0 <= inc_r[6:0];
-      g_inc0 <= inc_g[6:0];
-      b_inc0 <= inc_b[6:0];
-    end
-  end
-
-  always @(posedge clk) begin
-    if (advance) begin
-      z_value_late1 <= span_z[29:7];
-      z_inc_late1 <= inc_z[29:7];
-      z_value_late2 <= z_value_late1[22:8];
-      z_inc_late2 <= z_inc_late1[22:8];
-      z_value_late3 <= z_value_late2[14:7];
-      z_inc_late3 <= z_inc_late2[14:7];
-      r_value_late1 <= span_r[21:7];
-      r_inc_late1 <= inc_r[21:7];
-      r_value_late2 <= r_value_late1[14:8];
-      r_inc_late2 <= r_inc_late1[14:8];
-      g_value_late1 <= span_g[21:7];
-      g_inc_late1 <= inc_g[21:7];
-      g_value_late2 <= g_value_late1[14:8];
-      g_inc_late2 <= g_inc_late1[14:8];
-      b_value_late1 <= span_b[21:7];
-      b_inc_late1 <= inc_b[21:7];
-      b_value_late2 <= b_value_late1[14:8];
-      b_inc_late2 <= b_inc_late1[14:8];
-      adder0_carry1 <= adder0_sum0[7];
-      adder0_carry2 <= adder0_sum1[8];
-      adder0_carry3 <= adder0_sum2[7];
-    end
-  end
-
-  always @(posedge clk) begin
-    if (load1_now && fresh1) begin
-      z_inc1 <= z_inc_late1[7:0];
-      r_inc1 <= r_inc_late1[7:0];
-      g_inc1 <= g_inc_late1[7:0];
-      b_inc1 <= b_inc_late1[7:0];
-    end
-  end
-
-  always @(posedge clk) begin
-    if (load2_now && fresh2) begin
-      z_inc2 <= z_inc_late2[6:0];
-      r_inc2 <= r_inc_late2;
-      g_inc2 <= g_inc_late2;
-      b_inc2 <= b_inc_late2;
-    end
-  end
-
-  always @(posedge clk) begin
-    if (load3_now && fresh3) z_inc3 <= z_inc_late3;
-  end
-
-  always @(posedge clk) begin
     if (load) z_value0 <= span_z[6:0];
     if (add && (slot == 2'd0)) z_value0 <= adder0_sum0[6:0];
   end
@@ -314,6 +359,14 @@ module edgewalk_pixel (
   always @(posedge clk) begin
     if (load) b_value0 <= span_b[6:0];
     if (add && (slot == 2'd3)) b_value0 <= adder0_sum0[6:0];
+  end
+
+  always @(posedge clk) begin
+    if (advance) begin
+      adder0_carry1 <= adder0_sum0[7];
+      adder0_carry2 <= adder0_sum1[8];
+      adder0_carry3 <= adder0_sum2[7];
+    end
   end
 
   always @(posedge clk) begin

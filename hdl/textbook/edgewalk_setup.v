@@ -122,16 +122,12 @@ module edgewalk_setup (
   wire is_line_b = op == LINE_B;
   wire [5:0] steps = is_line_b ? 6'd47  // clocks of the operation after the one that loads
                    : is_start_b ? 6'd47
-                   : is_product_b ? 6'd16
                    : is_line_a ? 6'd47
                    : is_start_a ? 6'd47
-                   : is_product_a ? 6'd16
                    : is_gx ? 6'd47
-                   : is_nx ? 6'd16
                    : is_edge_start ? 6'd47
-                   : is_edge_product ? 6'd16
                    : is_edge_step ? 6'd31
-                   : 6'd0;
+                   : 6'd16;
   wire last_step = working && (step == steps);
   wire edges_end = last_step && (op == EDGE_START);
   wire channels_end = last_step && (op == LINE_B);
@@ -168,19 +164,15 @@ module edgewalk_setup (
     if (take) round <= 2'd0;
   end
 
-  // The results of an operation are taken in the clock after its last step.
+  // Quotients are taken in the clock after the last step.
   reg finished;              // an operation ended
   reg [3:0] finished_op;     // which
   reg [1:0] finished_round;  // of the jobs the lanes do in turn
   wire edge_step_done = finished && (finished_op == EDGE_STEP);
-  wire edge_product_done = finished && (finished_op == EDGE_PRODUCT);
   wire edge_start_done = finished && (finished_op == EDGE_START);
-  wire nx_done = finished && (finished_op == NX);
   wire gx_done = finished && (finished_op == GX);
-  wire product_a_done = finished && (finished_op == PRODUCT_A);
   wire start_a_done = finished && (finished_op == START_A);
   wire line_a_done = finished && (finished_op == LINE_A);
-  wire product_b_done = finished && (finished_op == PRODUCT_B);
   wire start_b_done = finished && (finished_op == START_B);
   wire line_b_done = finished && (finished_op == LINE_B);
 
@@ -216,9 +208,9 @@ module edgewalk_setup (
   reg [7:0] p2_r;   // UQ8.0 LSB
   reg [7:0] p2_g;   // UQ8.0 LSB
   reg [7:0] p2_b;   // UQ8.0 LSB
-  wire equal_2 = step == 6'd1;
-  wire swap01 = sorting && !equal_2 && ($signed(p1_v) < $signed(p0_v));
-  wire swap12 = sorting && equal_2 && ($signed(p2_v) < $signed(p1_v));
+  wire second_clock = step == 6'd1;
+  wire swap01 = sorting && !second_clock && ($signed(p1_v) < $signed(p0_v));
+  wire swap12 = sorting && second_clock && ($signed(p2_v) < $signed(p1_v));
 
   always @(posedge clk) begin
     if (swap01) begin
@@ -333,15 +325,28 @@ module edgewalk_setup (
     end
   end
 
+  // What all lanes do.
+  wire is_product = is_edge_product || is_nx || is_product_a || is_product_b;
+  wire is_quotient = is_edge_start || is_gx || is_start_a || is_start_b;
+  wire is_quotient_of_y = is_edge_step || is_line_a || is_line_b;
+  wire load_terms = load && (is_edge_product || is_nx || is_product_a || is_product_b);
+  wire load_product = load && is_product;
+  wire step_product = stepping && is_product;
+  wire first_step = step == 6'd1;
+  wire load_quotient = load && is_quotient;
+  wire load_quotient_of_y = load && is_quotient_of_y;
+  wire step_quotient = stepping && (is_quotient || is_quotient_of_y);
+
   // Twice the area of the triangle, and the side on which it lies.
   wire [32:0] lane0_product;
+  wire take_area = load && is_edge_start && (round == 2'd0);
   reg [30:0] area;  // |du1 dv2 - du2 dv1|
   assign cull = !(|area) || (!upper && !(|prim_n2));
   wire [31:0] part_9 = lane0_product[31:0];
   wire [31:0] choice_3 = part_9[31] ? -part_9 : part_9;
 
   always @(posedge clk) begin
-    if (edge_product_done && (finished_round == 2'd0)) begin
+    if (take_area) begin
       area <= choice_3[30:0];
       prim_left <= part_9[31];
     end
@@ -352,79 +357,90 @@ module edgewalk_setup (
   wire [15:0] channel_a = is_nx ? {1'b0, dv02} : 16'd0;  // signed
   wire [14:0] choice_4 = (in_b && prim_left) ? p1_v : p0_v;
   wire [15:0] channel_b = is_nx ? {1'b0, dv01} : {in_b ? j1 : j0, 1'b0} - {choice_4[14], choice_4};  // signed
-  wire [30:0] channel_divisor = is_gx ? area : {16'd0, prim_left ? (in_b ? dv12 : dv01) : dv02};  // unsigned
+  wire flip = prim_left;  // differences of channels the other way round
 
-  // Edge: major.
-  wire major_steps = |dv02[14:1];  // DY >= P
-  wire major_is_there = |dv02;     // DY > 0
-  wire [30:0] lane0_rounded;
-  wire either = is_edge_start || is_gx || is_start_a || is_start_b;
-  wire either_2 = is_edge_step || is_line_a || is_line_b;
-  wire [16:0] choice_5 = (round == 2'd3) ? {{2{p2_u[14]}}, p2_u} - {{2{p1_u[14]}}, p1_u}
-                       : (round == 2'd2) ? {{2{p1_u[14]}}, p1_u} - {{2{p0_u[14]}}, p0_u}
-                       : (round == 2'd1) ? {{2{p2_u[14]}}, p2_u} - {{2{p0_u[14]}}, p0_u}
-                       : {{2{p0_u[14]}}, p0_u} - {{2{p2_u[14]}}, p2_u};
-  wire either_3 = is_product_b || is_line_b;
-  wire [16:0] choice_6 = is_nx ? (prim_left ? {9'd0, p2_b} : {9'd0, p0_b})
-                       : (prim_left && !either_3) ? {9'd0, p1_b}
+  // Lane 0.
+  wire [16:0] lane0_x_edge = (round == 2'd3) ? {{2{p2_v[14]}}, p2_v} - {{2{p1_v[14]}}, p1_v}
+                           : (round == 2'd2) ? {{2{p1_v[14]}}, p1_v} - {{2{p0_v[14]}}, p0_v}
+                           : (round == 2'd1) ? {{2{p2_v[14]}}, p2_v} - {{2{p0_v[14]}}, p0_v}
+                           : {{2{p1_u[14]}}, p1_u} - {{2{p0_u[14]}}, p0_u};
+  wire [16:0] lane0_y_edge = (round == 2'd3) ? {{2{p2_u[14]}}, p2_u} - {{2{p1_u[14]}}, p1_u}
+                           : (round == 2'd2) ? {{2{p1_u[14]}}, p1_u} - {{2{p0_u[14]}}, p0_u}
+                           : (round == 2'd1) ? {{2{p2_u[14]}}, p2_u} - {{2{p0_u[14]}}, p0_u}
+                           : {{2{p0_u[14]}}, p0_u} - {{2{p2_u[14]}}, p2_u};
+  wire [16:0] difference_4 = (flip ? {9'd0, p0_b} : {9'd0, p1_b})
+                           - (flip ? {9'd0, p1_b} : {9'd0, p0_b});
+  wire [16:0] difference_5 = (flip ? {9'd0, p0_g} : {9'd0, p1_g})
+                           - (flip ? {9'd0, p1_g} : {9'd0, p0_g});
+  wire [16:0] difference_6 = (flip ? {9'd0, p0_r} : {9'd0, p1_r})
+                           - (flip ? {9'd0, p1_r} : {9'd0, p0_r});
+  wire [16:0] difference_7 = (flip ? {1'b0, p0_z} : {1'b0, p1_z})
+                           - (flip ? {1'b0, p1_z} : {1'b0, p0_z});
+  wire [16:0] lane0_x_channel = (round == 2'd3) ? difference_4
+                              : (round == 2'd2) ? difference_5
+                              : (round == 2'd1) ? difference_6
+                              : difference_7;
+  wire either = is_product_b || is_line_b;
+  wire [16:0] choice_5 = is_nx ? (flip ? {9'd0, p2_b} : {9'd0, p0_b})
+                       : (prim_left && !either) ? {9'd0, p1_b}
                        : {9'd0, p2_b};
-  wire [16:0] choice_7 = is_nx ? (prim_left ? {9'd0, p0_b} : {9'd0, p2_b})
-                       : (prim_left && either_3) ? {9'd0, p1_b}
+  wire [16:0] choice_6 = is_nx ? (flip ? {9'd0, p0_b} : {9'd0, p2_b})
+                       : (prim_left && either) ? {9'd0, p1_b}
                        : {9'd0, p0_b};
-  wire either_4 = is_product_b || is_line_b;
-  wire [16:0] choice_8 = is_nx ? (prim_left ? {9'd0, p2_g} : {9'd0, p0_g})
-                       : (prim_left && !either_4) ? {9'd0, p1_g}
+  wire either_2 = is_product_b || is_line_b;
+  wire [16:0] choice_7 = is_nx ? (flip ? {9'd0, p2_g} : {9'd0, p0_g})
+                       : (prim_left && !either_2) ? {9'd0, p1_g}
                        : {9'd0, p2_g};
-  wire [16:0] choice_9 = is_nx ? (prim_left ? {9'd0, p0_g} : {9'd0, p2_g})
-                       : (prim_left && either_4) ? {9'd0, p1_g}
+  wire [16:0] choice_8 = is_nx ? (flip ? {9'd0, p0_g} : {9'd0, p2_g})
+                       : (prim_left && either_2) ? {9'd0, p1_g}
                        : {9'd0, p0_g};
-  wire either_5 = is_product_b || is_line_b;
-  wire [16:0] choice_10 = is_nx ? (prim_left ? {9'd0, p2_r} : {9'd0, p0_r})
-                        : (prim_left && !either_5) ? {9'd0, p1_r}
-                        : {9'd0, p2_r};
-  wire [16:0] choice_11 = is_nx ? (prim_left ? {9'd0, p0_r} : {9'd0, p2_r})
-                        : (prim_left && either_5) ? {9'd0, p1_r}
+  wire either_3 = is_product_b || is_line_b;
+  wire [16:0] choice_9 = is_nx ? (flip ? {9'd0, p2_r} : {9'd0, p0_r})
+                       : (prim_left && !either_3) ? {9'd0, p1_r}
+                       : {9'd0, p2_r};
+  wire [16:0] choice_10 = is_nx ? (flip ? {9'd0, p0_r} : {9'd0, p2_r})
+                        : (prim_left && either_3) ? {9'd0, p1_r}
                         : {9'd0, p0_r};
-  wire either_6 = is_product_b || is_line_b;
-  wire [16:0] choice_12 = is_nx ? (prim_left ? {1'b0, p2_z} : {1'b0, p0_z})
-                        : (prim_left && !either_6) ? {1'b0, p1_z}
+  wire either_4 = is_product_b || is_line_b;
+  wire [16:0] choice_11 = is_nx ? (flip ? {1'b0, p2_z} : {1'b0, p0_z})
+                        : (prim_left && !either_4) ? {1'b0, p1_z}
                         : {1'b0, p2_z};
-  wire [16:0] choice_13 = is_nx ? (prim_left ? {1'b0, p0_z} : {1'b0, p2_z})
-                        : (prim_left && either_6) ? {1'b0, p1_z}
+  wire [16:0] choice_12 = is_nx ? (flip ? {1'b0, p0_z} : {1'b0, p2_z})
+                        : (prim_left && either_4) ? {1'b0, p1_z}
                         : {1'b0, p0_z};
-  wire choice_14 = (round == 2'd3) ? step > 6'd8
+  wire [16:0] lane0_y_channel = (round == 2'd3) ? choice_5 - choice_6
+                              : (round == 2'd2) ? choice_7 - choice_8
+                              : (round == 2'd1) ? choice_9 - choice_10
+                              : choice_11 - choice_12;
+  wire [30:0] lane0_rounded;
+  wire choice_13 = (round == 2'd3) ? step > 6'd8
                  : (round == 2'd2) ? step > 6'd8
                  : (round == 2'd1) ? step > 6'd8
-                 : 1'b1;
+                 : step > 6'd0;
   wire [14:0] joined = {p1_u[14:1], 1'b1};
   wire [14:0] joined_2 = {p0_u[14:1], 1'b1};
   wire [14:0] joined_3 = {p0_u[14:1], 1'b1};
-  wire [15:0] choice_15 = (round == 2'd3) ? {joined[14], joined}
+  wire [15:0] choice_14 = (round == 2'd3) ? {joined[14], joined}
                         : (round == 2'd2) ? {joined_2[14], joined_2}
                         : (round == 2'd1) ? {joined_3[14], joined_3}
                         : {1'b0, dv02};
-  wire [15:0] choice_16 = (round == 2'd3) ? {j1, 1'b0} - {p1_v[14], p1_v}
+  wire [15:0] choice_15 = (round == 2'd3) ? {j1, 1'b0} - {p1_v[14], p1_v}
                         : (round == 2'd2) ? {j0, 1'b0} - {p0_v[14], p0_v}
                         : (round == 2'd1) ? {jm, 1'b0} - {p0_v[14], p0_v}
                         : {1'b0, dv01};
-  wire [16:0] choice_17 = (round == 2'd3) ? {{2{p2_v[14]}}, p2_v} - {{2{p1_v[14]}}, p1_v}
-                        : (round == 2'd2) ? {{2{p1_v[14]}}, p1_v} - {{2{p0_v[14]}}, p0_v}
-                        : (round == 2'd1) ? {{2{p2_v[14]}}, p2_v} - {{2{p0_v[14]}}, p0_v}
-                        : {{2{p1_u[14]}}, p1_u} - {{2{p0_u[14]}}, p0_u};
-  wire [16:0] difference_4 = (prim_left ? {9'd0, p0_b} : {9'd0, p1_b})
-                           - (prim_left ? {9'd0, p1_b} : {9'd0, p0_b});
-  wire [16:0] difference_5 = (prim_left ? {9'd0, p0_g} : {9'd0, p1_g})
-                           - (prim_left ? {9'd0, p1_g} : {9'd0, p0_g});
-  wire [16:0] difference_6 = (prim_left ? {9'd0, p0_r} : {9'd0, p1_r})
-                           - (prim_left ? {9'd0, p1_r} : {9'd0, p0_r});
-  wire [16:0] difference_7 = (prim_left ? {1'b0, p0_z} : {1'b0, p1_z})
-                           - (prim_left ? {1'b0, p1_z} : {1'b0, p0_z});
-  wire either_7 = is_edge_product || is_nx || is_product_a || is_product_b;
-  wire [30:0] choice_18 = (round == 2'd3) ? (is_edge_start ? {16'd0, dv12} << 1 : {16'd0, dv12})
+  wire [30:0] choice_16 = (round == 2'd3) ? (is_edge_start ? {16'd0, dv12} << 1 : {16'd0, dv12})
                         : (round == 2'd2) ? (is_edge_start ? {16'd0, dv01} << 1 : {16'd0, dv01})
                         : (round == 2'd1) ? (is_edge_start ? {16'd0, dv02} << 1 : {16'd0, dv02})
                         : is_edge_start ? {16'd0, dv02} << 1
                         : {16'd0, dv02};
+  wire [2:0] choice_17 = (round == 2'd3) ? 3'd1
+                       : (round == 2'd2) ? 3'd1
+                       : (round == 2'd1) ? 3'd1
+                       : 3'd4;
+  wire [2:0] choice_18 = (round == 2'd3) ? 3'd2
+                       : (round == 2'd2) ? 3'd2
+                       : (round == 2'd1) ? 3'd2
+                       : 3'd5;
   wire [2:0] choice_19 = (round == 2'd3) ? 3'd1
                        : (round == 2'd2) ? 3'd1
                        : (round == 2'd1) ? 3'd1
@@ -437,15 +453,7 @@ module edgewalk_setup (
                        : (round == 2'd2) ? 3'd1
                        : (round == 2'd1) ? 3'd1
                        : 3'd4;
-  wire [2:0] choice_22 = (round == 2'd3) ? 3'd2
-                       : (round == 2'd2) ? 3'd2
-                       : (round == 2'd1) ? 3'd2
-                       : 3'd5;
-  wire [2:0] choice_23 = (round == 2'd3) ? 3'd1
-                       : (round == 2'd2) ? 3'd1
-                       : (round == 2'd1) ? 3'd1
-                       : 3'd4;
-  wire [2:0] choice_24 = (round == 2'd3) ? 3'd3
+  wire [2:0] choice_22 = (round == 2'd3) ? 3'd3
                        : (round == 2'd2) ? 3'd3
                        : (round == 2'd1) ? 3'd3
                        : 3'd3;
@@ -454,35 +462,24 @@ module edgewalk_setup (
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
-    .load_divisor  (load && either),
-    .from_y        (load && either_2),
-    .y_in          (in_edges ? choice_5
-: (round == 2'd3) ? choice_6 - choice_7
-: (round == 2'd2) ? choice_8 - choice_9
-: (round == 2'd1) ? choice_10 - choice_11
-: choice_12 - choice_13),
-    .step_quotient (stepping && (either || either_2) && (in_edges || choice_14)),
-    .a_in          (in_edges ? choice_15 : channel_a),
-    .b_in          (in_edges ? choice_16 : channel_b),
-    .x_in          (in_edges ? choice_17
-: (round == 2'd3) ? difference_4
-: (round == 2'd2) ? difference_5
-: (round == 2'd1) ? difference_6
-: difference_7),
-    .load_terms    (load && (is_edge_product || is_nx || is_product_a || is_product_b)),
-    .load_factors  (load && either_7),
-    .step_product  (stepping && either_7),
-    .first_step    (step == 6'd1),
-    .divisor_in    (in_edges ? choice_18 : channel_divisor),
-    .digit_at      (is_line_b ? choice_19
-: is_start_b ? choice_20
-: is_line_a ? choice_21
-: is_start_a ? choice_22
-: is_gx ? choice_23
-: is_edge_start ? choice_24
-: (round == 2'd3) ? 3'd0
-: (round == 2'd2) ? 3'd0
-: (round == 2'd1) ? 3'd0
+    .load_divisor  (load_quotient),
+    .from_y        (load_quotient_of_y),
+    .y_in          (in_edges ? lane0_y_edge : lane0_y_channel),
+    .step_quotient (step_quotient && (in_edges || choice_13)),
+    .a_in          (in_edges ? choice_14 : channel_a),
+    .b_in          (in_edges ? choice_15 : channel_b),
+    .x_in          (in_edges ? lane0_x_edge : lane0_x_channel),
+    .load_terms    (load_terms),
+    .load_factors  (load_product),
+    .step_product  (step_product),
+    .first_step    (first_step),
+    .divisor_in    (in_edges ? choice_16 : is_gx ? area : {16'd0, prim_left ? (in_b ? dv12 : dv01) : dv02}),
+    .digit_at      (is_line_b ? choice_17
+: is_start_b ? choice_18
+: is_line_a ? choice_19
+: is_start_a ? choice_20
+: is_gx ? choice_21
+: is_edge_start ? choice_22
 : 3'd0),
     .product       (lane0_product),
     .quotient      (lane0_quotient_unused),
@@ -490,6 +487,9 @@ module edgewalk_setup (
     .rounded       (lane0_rounded)
   );
 
+  // Edge: major.
+  wire major_steps = |dv02[14:1];  // DY >= P
+  wire major_is_there = |dv02;     // DY > 0
   wire [30:0] part_10 = lane0_rounded;
 
   always @(posedge clk) begin
@@ -673,8 +673,8 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, nx_done, product_a_done, product_b_done, du01, du02, lane0_product[32], difference[15],
-    difference_2[15], difference_3[15], choice[14:10], choice_2[14:10], choice_3[31]
+    1'b0, du01, du02, lane0_product[32], difference[15], difference_2[15], difference_3[15],
+    choice[14:10], choice_2[14:10], choice_3[31]
   };
 
 endmodule
