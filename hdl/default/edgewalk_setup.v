@@ -129,7 +129,7 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (rst) begin
-      state <= 3'd0;
+      state <= IDLE;
     end else begin
       if (take) state <= SORT;
       if (sorted) state <= EDGES;

@@ -1,7 +1,7 @@
 //! Registers that change under the same conditions, in one `always` block shaped the way it was built.
 
-use edgewalk_netlist::netlist::{Netlist, NodeId};
-use edgewalk_netlist::ops::Bits;
+use edgewalk_netlist::netlist::{Netlist, NodeId, Source};
+use edgewalk_netlist::ops::{Bits, Op};
 
 use crate::expression::Writer;
 use crate::literal;
@@ -10,6 +10,9 @@ use crate::simplify::is_same;
 
 /// Conditions are compared this deep.
 const CONDITION_DEPTH: u32 = 5;
+
+/// The name of a reset value is looked for this deep in choices.
+const CHOICE_DEPTH: u32 = 3;
 
 /// Registers with the same conditions in the same order, and all with reset or all without.
 pub(crate) struct Group {
@@ -102,6 +105,20 @@ impl Group {
 
 fn reset(netlist: &Netlist, index: usize) -> String {
     let register = &netlist.registers[index];
-    let value = Bits { value: register.reset.unwrap_or(0), width: netlist.width(register.node) };
-    format!("    {} <= {};", register.name, literal::unsigned(value))
+    let bits = Bits { value: register.reset.unwrap_or(0), width: netlist.width(register.node) };
+    let mut values = register.updates.iter().map(|update| update.value);
+    let name = values.find_map(|value| constant_name(netlist, value, bits.value, CHOICE_DEPTH));
+    let value = name.map_or_else(|| literal::unsigned(bits), String::from);
+    format!("    {} <= {value};", register.name)
+}
+
+/// The name under which `value` is among the choices that `id` makes: so a state is called by its name in reset too.
+fn constant_name(netlist: &Netlist, id: NodeId, value: u128, depth: u32) -> Option<&str> {
+    match &netlist.node(id).source {
+        Source::Constant { value: other, name: Some(name) } if *other == value => Some(name),
+        Source::Op(Op::Mux, operands) if depth > 0 => {
+            operands[1..].iter().find_map(|choice| constant_name(netlist, *choice, value, depth - 1))
+        }
+        _ => None,
+    }
 }

@@ -72,7 +72,7 @@ module pair (
 
   always @(posedge clk) begin
     if (rst) begin
-      state <= 2'd0;
+      state <= IDLE;
     end else begin
       if (load) state <= BUSY;
       if (stop) state <= IDLE;
