@@ -1,4 +1,4 @@
-//! The proved bounds A1 to A7 and A9, as exact functions. Derivations: `docs/numerics.md`.
+//! The proved bounds A1 to A9, as exact functions (A10 is in `normal_cone`). Derivations: `docs/numerics.md`.
 //!
 //! ```text
 //!   start ──RN──> value ──+ increment, n times──> value ──+1/2, floor──> output
@@ -18,11 +18,11 @@ const FINEST: u32 = 64;
 
 /// `count · u/2` with u = 2^-bits.
 fn half_units(count: i128, bits: u32) -> Dyadic {
-    Dyadic::new(count, bits.min(FINEST) + 1).expect("no finer than 2^-65, and counts have 35 bits")
+    Dyadic::new(count, bits.min(FINEST) + 1).expect("no finer than 2^-65, and counts have 67 bits")
 }
 
 /// Where the sum of `count` errors of one rounding each lies.
-fn rounded_times(count: u64, rounding: Rounding, fraction_bits: u32) -> Interval {
+fn rounded_times(count: u128, rounding: Rounding, fraction_bits: u32) -> Interval {
     // The error of one rounding, in halves of u.
     let (low, high) = match rounding {
         Rounding::Floor => (-2, 0),
@@ -30,7 +30,7 @@ fn rounded_times(count: u64, rounding: Rounding, fraction_bits: u32) -> Interval
         Rounding::TowardZero | Rounding::AwayFromZero => (-2, 2),
         Rounding::NearestHalfUp | Rounding::NearestHalfEven | Rounding::NearestHalfAway => (-1, 1),
     };
-    let end = |halves: i128| half_units(halves * i128::from(count), fraction_bits);
+    let end = |halves: i128| half_units(halves * count as i128, fraction_bits); // below 2^67
     Interval::point(end(low)).hull(Interval::point(end(high)))
 }
 
@@ -38,7 +38,7 @@ fn rounded_times(count: u64, rounding: Rounding, fraction_bits: u32) -> Interval
 /// ±(n+1)·u/2 for RN, (-(n+1)·u, 0] for floor (a directed rounding never reaches the end that is not 0).
 #[must_use]
 pub fn dda_error(rounding: Rounding, fraction_bits: u32, n: u32) -> Interval {
-    rounded_times(u64::from(n) + 1, rounding, fraction_bits)
+    rounded_times(u128::from(n) + 1, rounding, fraction_bits)
 }
 
 /// A2: error of a fragment, n_y steps down the major edge and n_x along the span: ±(1+n_y+n_x)·u/2 for RN.
@@ -47,7 +47,7 @@ pub fn dda_error(rounding: Rounding, fraction_bits: u32, n: u32) -> Interval {
 /// the left adds the negative of a floored gradient, the magnitude holds.
 #[must_use]
 pub fn triangle_error(rounding: Rounding, fraction_bits: u32, steps: Steps) -> Interval {
-    rounded_times(steps.total() + 1, rounding, fraction_bits)
+    rounded_times(first_order_terms(steps), rounding, fraction_bits)
 }
 
 /// What a machine with pre-step and approximate reciprocal adds to the roundings of A2. All magnitudes.
@@ -89,7 +89,16 @@ pub fn prestepped_error(fraction_bits: u32, steps: Steps, machine: &Prestep) -> 
 /// leaves the range of the vertices, without a clamp: bitlen(N+1) for RN, 1 + ceil(log2(N+1)) for a directed rounding.
 #[must_use]
 pub fn range_safe_fraction_bits(rounding: Rounding, steps: Steps) -> u32 {
-    let terms = steps.total() + 1; // of two u32: far from the end of u64
+    fraction_bits_for(rounding, first_order_terms(steps))
+}
+
+/// Roundings in a value behind N steps of first order: the start, and the increment N times.
+fn first_order_terms(steps: Steps) -> u128 {
+    u128::from(steps.total()) + 1
+}
+
+/// Fraction bits with which `terms` errors of one rounding stay under 1/2.
+fn fraction_bits_for(rounding: Rounding, terms: u128) -> u32 {
     if rounding.is_nearest() { terms.ilog2() + 1 } else { 1 + terms.next_power_of_two().ilog2() }
 }
 
@@ -116,6 +125,26 @@ pub fn mismatch_rate(fraction_bits: u32, additions: &[u32]) -> f64 {
 #[must_use]
 pub fn surely_ordered_difference(error_1: Dyadic, error_2: Dyadic) -> Option<Dyadic> {
     error_1.checked_add(error_2)?.checked_add(Dyadic::ONE)
+}
+
+/// Roundings in a value behind N steps of second order: the start, N first differences and N(N-1)/2 second ones.
+fn second_order_terms(steps: Steps) -> u128 {
+    let n = u128::from(steps.total());
+    (n * n + n + 2) / 2 // n is below 2^33
+}
+
+/// A8: error of a quadratic in x and y stepped by second differences, n_y lines down and n_x columns to the right
+/// in any order: ±(N²+N+2)/4·u for RN, N = n_y + n_x. Start, two first and three second differences are rounded once.
+#[must_use]
+pub fn second_order_error(rounding: Rounding, fraction_bits: u32, steps: Steps) -> Interval {
+    rounded_times(second_order_terms(steps), rounding, fraction_bits)
+}
+
+/// A8: fraction bits with which that stays under 1/2 LSB: bitlen((N²+N+2)/2) for RN. It says nothing of the range: the
+/// polynomial itself may leave it.
+#[must_use]
+pub fn second_order_fraction_bits(rounding: Rounding, steps: Steps) -> u32 {
+    fraction_bits_for(rounding, second_order_terms(steps))
 }
 
 /// A9: error of a quotient-and-remainder DDA: the one rounding of the result, however many steps.

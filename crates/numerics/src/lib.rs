@@ -9,6 +9,7 @@ pub mod format;
 pub mod word;
 pub mod steps;
 pub mod bounds;
+pub mod normal_cone;
 pub mod witness;
 pub mod solver;
 pub mod machine;

@@ -8,5 +8,7 @@ mod triangle;
 mod words;
 mod intervals;
 mod bounds;
+mod second_order;
+mod normal_cone;
 mod triangles;
 mod solver;
