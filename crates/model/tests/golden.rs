@@ -3,7 +3,7 @@
 mod common;
 
 use common::{ALWAYS, outputs, place, random_triangle};
-use edgewalk_golden::{Fill, draw, half_triangles};
+use edgewalk_golden::{Fill, draw, fragments, half_triangles};
 use edgewalk_model::{DrawState, Event, Stalls, render, render_with};
 use edgewalk_numerics::Machine;
 use edgewalk_scene as scene;
@@ -65,6 +65,50 @@ fn pictures_with_the_nearest_fragment_on_top() {
     );
     assert!(checked > 100_000 && worst_color <= 1.0);
     assert!(worst_z <= 1.0 + if others > 0 { 2.0 } else { 0.0 } && others < checked / 1000);
+}
+
+/// Every fragment of every triangle against the half-planes and the plane in f64.
+#[test]
+fn a_hundred_thousand_triangles() {
+    const TRIANGLES: usize = 100_000;
+    let machine = Machine::default();
+    let mut rng = StdRng::seed_from_u64(3);
+    let (mut worst, mut checked) = ([0f64; 4], 0u64);
+    for _ in 0..TRIANGLES / 1000 {
+        let triangles: Vec<_> = (0..1000)
+            .map(|_| {
+                let size = 2f64.powf(rng.random_range(-8.0..9.0));
+                random_triangle(&machine, size, &mut rng)
+            })
+            .collect();
+        let mut drawn = Vec::new();
+        let hook = |event: Event| {
+            if let Event::Fragment(f) = event {
+                drawn.push((f.source.id, f.addr, outputs(f)));
+            }
+        };
+        render_with(&machine, triangles.iter().copied(), ALWAYS, Stalls::NONE, hook);
+        // A span may run from right to left.
+        drawn.sort_by_key(|(id, addr, _)| (*id, *addr));
+        let mut drawn = drawn.into_iter();
+        let frame = frame(&machine, &triangles);
+        let screen = (machine.width, machine.height);
+        for (triangle, id) in frame.triangles.iter().zip(0..) {
+            fragments(triangle, frame.mode, machine.subpixel_bits, screen, |golden| {
+                let (by, addr, values) = drawn.next().expect("as many fragments as the half-planes hold");
+                let at = place(&machine, addr);
+                assert_eq!((by, at.0 as u32, at.1 as u32), (id, golden.x, golden.y), "{triangle:?}");
+                let [r, g, b] = golden.rgb();
+                for (i, golden) in [golden.z(), r, g, b].into_iter().enumerate() {
+                    worst[i] = worst[i].max(off(values[i], golden, machine.channels()[i].max()));
+                }
+                checked += 1;
+            });
+        }
+        assert_eq!(drawn.next(), None, "a fragment too many");
+    }
+    println!("{TRIANGLES} triangles, {checked} fragments, at most {worst:.3?} LSB off");
+    assert!(checked > 10_000_000 && worst.iter().all(|error| *error <= 1.0));
 }
 
 #[test]
