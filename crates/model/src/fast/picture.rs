@@ -2,7 +2,7 @@
 
 use super::pixel::{Pixel, pixel};
 use super::span::LANES;
-use crate::run::{DrawState, Frame};
+use crate::run::DrawState;
 use edgewalk_numerics::Machine;
 
 /// What happened at every pixel.
@@ -46,10 +46,10 @@ impl<P: Pixel> Picture<P> {
         }
     }
 
-    /// Takes over what the ticking model drew.
-    pub(super) fn copy(&mut self, machine: &Machine, frame: Frame) {
-        self.pixels = frame.z.iter().zip(&frame.rgb).map(|(z, rgb)| pixel(machine, *z, *rgb)).collect();
-        self.details = Details { coverage: frame.coverage, writes: frame.writes, id: frame.id };
+    /// Stored depths and colours of the first `pixels` pixels, b bits each, and what happened there.
+    pub(super) fn outputs(&self, pixels: usize) -> (Vec<u64>, Vec<[u64; 3]>, &Details) {
+        let stored = || self.pixels.iter().take(pixels);
+        (stored().map(|p| u64::from(p.depth())).collect(), stored().map(|p| p.rgb()).collect(), &self.details)
     }
 }
 

@@ -26,8 +26,23 @@ macro_rules! compiled_for {
 compiled_for!(avx512, "avx512f,avx512bw,avx512dq,avx512vl,bmi1,bmi2");
 compiled_for!(avx2, "avx2,bmi1,bmi2");
 
-/// [`frame::draw`] with the widest vectors there are.
-pub(super) fn draw<P: Pixel, const DETAILS: bool>(
+/// Clears the picture and draws, with the widest vectors there are.
+pub(super) fn draw<P: Pixel>(
+    machine: &Machine,
+    triangles: impl Iterator<Item = [PortVertex; 3]>,
+    state: &DrawState,
+    details: bool,
+    picture: &mut Picture<P>,
+) -> Result<Counters, Reason> {
+    picture.clear(machine, state, details);
+    if details {
+        widest::<P, true>(machine, triangles, state, picture)
+    } else {
+        widest::<P, false>(machine, triangles, state, picture)
+    }
+}
+
+fn widest<P: Pixel, const DETAILS: bool>(
     machine: &Machine,
     triangles: impl Iterator<Item = [PortVertex; 3]>,
     state: &DrawState,
