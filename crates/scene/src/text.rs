@@ -63,22 +63,46 @@ pub(crate) fn rest(line: &[u8]) -> String {
     text.trim().split_once(char::is_whitespace).map_or(String::new(), |(_, name)| name.trim().to_owned())
 }
 
-/// Calls `take` with each line of a file that messages call `file`; returns the number of lines.
+/// The lines of a file that messages call `file`.
+pub(crate) struct Lines<R> {
+    file: String,
+    input: R,
+    text: Vec<u8>,
+    line: usize,
+}
+
+impl<R: BufRead> Lines<R> {
+    pub fn new(file: &str, input: R) -> Self {
+        Self { file: file.into(), input, text: Vec::new(), line: 0 }
+    }
+
+    /// The next line and its place; `None` at the end.
+    pub fn next(&mut self) -> Result<Option<(Place<'_>, &[u8])>, InputError> {
+        self.text.clear();
+        match self.input.read_until(b'\n', &mut self.text) {
+            Ok(0) => return Ok(None),
+            Ok(_) => {}
+            Err(source) => return Err(InputError::Read { file: self.file.clone(), source }),
+        }
+        self.line += 1;
+        Ok(Some((Place { file: &self.file, line: self.line }, &self.text)))
+    }
+
+    /// Behind the last line that was read.
+    pub fn end(&self) -> Place<'_> {
+        Place { file: &self.file, line: self.line + 1 }
+    }
+}
+
+/// Calls `take` with each line of a file that messages call `file`.
 pub(crate) fn each_line(
     file: &str,
-    mut input: impl BufRead,
+    input: impl BufRead,
     mut take: impl FnMut(Place, &[u8]) -> Result<(), InputError>,
-) -> Result<usize, InputError> {
-    let mut place = Place { file, line: 0 };
-    let mut text = Vec::new();
-    loop {
-        text.clear();
-        match input.read_until(b'\n', &mut text) {
-            Ok(0) => return Ok(place.line),
-            Ok(_) => {}
-            Err(source) => return Err(InputError::Read { file: file.into(), source }),
-        }
-        place.line += 1;
-        take(place, &text)?;
+) -> Result<(), InputError> {
+    let mut lines = Lines::new(file, input);
+    while let Some((place, text)) = lines.next()? {
+        take(place, text)?;
     }
+    Ok(())
 }

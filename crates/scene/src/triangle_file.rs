@@ -25,5 +25,5 @@
 mod reader;
 mod writer;
 
-pub use reader::{parse, read};
+pub use reader::{Reader, parse, read};
 pub use writer::write;

@@ -113,6 +113,17 @@ fn malformed_files_name_place_and_remedy() {
 }
 
 #[test]
+fn a_reader_gives_the_header_first_and_then_triangles_down_to_a_fault() {
+    let text = format!("size 9 7\nmode flat\n{T}\n# two\n{}\nT 0\n", T.replacen("0.5", "0.25", 1));
+    let mut reader = triangle_file::Reader::new("a.tri", text.as_bytes()).unwrap();
+    assert_eq!((reader.header().width, reader.header().mode), (9, ShadeMode::Flat));
+    let depths: Vec<f64> = reader.by_ref().map_while(Result::ok).map(|triangle| triangle.0[1].z).collect();
+    assert_eq!(depths, [0.5, 0.25]);
+    let Err(error) = triangle_file::parse("a.tri", text.as_bytes()) else { panic!("accepted") };
+    assert!(error.to_string().starts_with("a.tri:6: T: `1 given`"), "{error}");
+}
+
+#[test]
 fn bytes_that_are_no_text_are_refused() {
     let message = triangle_file::parse("a.tri", &b"size 9 9\nmode \xff\xfe\0"[..]).unwrap_err().to_string();
     assert!(message.contains("a.tri:2: mode"), "{message}");
@@ -169,6 +180,9 @@ proptest! {
     fn what_is_written_is_read_back(frame in frame()) {
         let mut text = Vec::new();
         triangle_file::write(&frame, &mut text).unwrap();
+        let reader = triangle_file::Reader::new("a.tri", &text[..]).unwrap();
+        let streamed: Vec<Triangle> = reader.map(Result::unwrap).collect();
+        prop_assert_eq!(&streamed, &frame.triangles);
         prop_assert_eq!(triangle_file::parse("a.tri", &text[..]).unwrap(), frame);
     }
 

@@ -1,9 +1,9 @@
-//! Reads a triangle file line by line, so that its length is limited by the frame alone.
+//! Reads a triangle file line by line: as a whole, or triangle by triangle, whatever its length.
 
 use crate::error::InputError;
 use crate::frame::{DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, ShadeMode, Triangle, Vertex};
 use crate::polygon::{MAX_CONTOUR, Polygon};
-use crate::text::{Place, each_line, words};
+use crate::text::{Lines, Place, words};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -45,14 +45,63 @@ pub fn read(path: &Path) -> Result<Frame, InputError> {
 /// # Errors
 /// `input` fails, or an item is not permitted.
 pub fn parse(file: &str, input: impl BufRead) -> Result<Frame, InputError> {
-    let mut parser = Parser { frame: Frame::new(0, 0), seen: [false; KEYS.len()] };
-    let lines = each_line(file, input, |place, line| parser.line(place, line))?;
-    let place = Place { file, line: lines + 1 };
-    parser.require_size(place, b"end of file")?;
-    if parser.frame.depth.is_none() {
-        parser.frame.depth_write = false;
+    let mut reader = Reader::new(file, input)?;
+    while reader.line()? {}
+    Ok(reader.parser.frame)
+}
+
+/// A file triangle by triangle: takes as much memory as its longest line.
+///
+/// An item is a triangle, or an error; there is nothing worth reading after that.
+pub struct Reader<R> {
+    lines: Lines<R>,
+    parser: Parser,
+}
+
+impl<R: BufRead> Reader<R> {
+    /// Reads the header of a file that messages call `file`.
+    ///
+    /// # Errors
+    /// `input` fails, or an item down to the first triangle or polygon is not permitted.
+    pub fn new(file: &str, input: R) -> Result<Self, InputError> {
+        let parser = Parser { frame: Frame::new(0, 0), seen: [false; KEYS.len()] };
+        let mut reader = Self { lines: Lines::new(file, input), parser };
+        while !reader.parser.seen[PRIMITIVE] && reader.line()? {}
+        reader.parser.require_size(reader.lines.end(), b"end of file")?;
+        if reader.parser.frame.depth.is_none() {
+            reader.parser.frame.depth_write = false;
+        }
+        Ok(reader)
     }
-    Ok(parser.frame)
+
+    /// The frame without its triangles. Polygons stay here as they come, without their places among the triangles.
+    pub fn header(&self) -> &Frame {
+        &self.parser.frame
+    }
+
+    /// Reads a line into the frame; false at the end.
+    fn line(&mut self) -> Result<bool, InputError> {
+        let Some((place, text)) = self.lines.next()? else { return Ok(false) };
+        self.parser.line(place, text)?;
+        Ok(true)
+    }
+}
+
+impl<R: BufRead> Iterator for Reader<R> {
+    type Item = Result<Triangle, InputError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            if let Some(triangle) = self.parser.frame.triangles.pop() {
+                return Some(Ok(triangle));
+            }
+            match self.line() {
+                Ok(true) => {}
+                Ok(false) => return None,
+                Err(error) => return Some(Err(error)),
+            }
+        }
+    }
 }
 
 struct Parser {
