@@ -34,6 +34,8 @@ pub struct Raster {
     pub z: Vec<f64>,
     /// Colour in [0,1].
     pub rgb: Vec<[f64; 3]>,
+    /// 0 nothing written, 1 in shadow, 2 lit, by the last write; where golden drew.
+    pub lit: Option<Vec<u8>>,
     /// Where the cycles went, where a machine drew.
     pub cycles: Option<Cycles>,
     /// Hazards and corners met, where a machine drew.
@@ -90,6 +92,7 @@ fn draw_golden(frame: &Frame, machine: &Machine) -> Raster {
         id: picture.id,
         z: picture.z,
         rgb: picture.rgb,
+        lit: Some(picture.lit.into_iter().map(|lit| lit as u8).collect()),
         cycles: None,
         corners: None,
     }
@@ -105,6 +108,7 @@ fn from_machine(machine: &Machine, drawn: edgewalk_model::Frame) -> Raster {
         id: drawn.id,
         z: unorm(&drawn.z, machine.z.max()),
         rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / machine.color.max() as f64)).collect(),
+        lit: None,
         cycles: Some(Cycles { total: drawn.counters.cycles, spent: drawn.counters.activity }),
         corners: None,
     }

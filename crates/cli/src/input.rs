@@ -17,7 +17,14 @@ pub struct PortFrame {
 /// Snaps a frame to the port, or says which triangle the machine cannot take.
 pub fn to_port(frame: &Frame, machine: &Machine) -> Result<PortFrame> {
     if frame.blend {
-        return Err(anyhow!("blend 1: the machine has no blend unit yet; draw with blend 0"));
+        return Err(anyhow!(
+            "blend 1: the machine has no blend unit yet; draw with blend 0 or --engine golden"
+        ));
+    }
+    if frame.shadow.is_some() {
+        return Err(anyhow!(
+            "shadow: the machine has no shadow maps yet; draw without the line `shadow` or with --engine golden"
+        ));
     }
     let triangles = frame
         .triangles

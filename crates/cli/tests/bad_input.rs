@@ -15,7 +15,7 @@ const FILES: &[(&str, &str, &[&str])] = &[
     ("tri", "size 64 64\ndepht less\n", &[":2:", "depht", "depth"]),
     ("tri", "size 64 64\ndepth_write 2\n", &[":2:", "depth_write"]),
     ("tri", "size 64 64\nblend maybe\n", &[":2:", "blend"]),
-    ("tri", "size 64 64\nblend 1\n", &["blend"]),
+    ("tri", "size 64 64\nblend 1\n", &["input.tri", "blend 1", "golden"]),
     ("tri", "size 64 64\nclear 0 0\n", &[":2:", "clear"]),
     ("tri", "size 64 64\nclear 0 0 2\n", &[":2:", "clear"]),
     ("tri", "size 64 64\nsize 64 64\n", &[":2:", "size"]),
@@ -29,6 +29,27 @@ const FILES: &[(&str, &str, &[&str])] = &[
     ("tri", "size 64 64\nT 9000 0 0 0 0 0 0  1 0 0 0 0 0 0  0 1 0 0 0 0 0\n", &["9000", "guard"]),
     ("tri", "size 9999 64\n", &["9999", "8192"]),
     ("tri", "size 64 64\nQ 1 2 3\n", &[":2:", "Q"]),
+    ("tri", "size 64 64\nL 0 0 0  1 0 0  0 1 0\n", &[":2:", "L", "only after", "shadow"]),
+    ("tri", "size 64 64\nshadow 0 0 1  1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n", &[":2:", "SIZE", "16384"]),
+    ("tri", "size 64 64\nshadow 8 2 1  1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n", &[":2:", "BIAS", "-1 to 1"]),
+    ("tri", "size 64 64\nshadow 8 0 2  1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n", &[":2:", "AMBIENT", "0 to 1"]),
+    (
+        "tri",
+        "size 64 64\nshadow 8 0 1  1 0 0 0  0 1 0 0  0 0 1 0  0 0 0\n",
+        &[":2:", "18 given", "19 values"],
+    ),
+    (
+        "tri",
+        "size 64 64\nshadow 8 0 1  1 0 0 0  0 1 0 0  0 0 nan 0  0 0 0 1\n",
+        &[":2:", "m22", "nan", "finite"],
+    ),
+    ("tri", "size 64 64\nshdow 8\n", &[":2:", "shdow", "shadow"]),
+    // A good file, but this engine has no shadow maps.
+    (
+        "tri",
+        "size 64 64\nshadow 8 0 1  1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n",
+        &["input.tri", "shadow", "golden"],
+    ),
     ("tri", "\u{fffd}\u{0}\u{1}", &[":1:"]),
 ];
 

@@ -8,11 +8,14 @@ mod cover;
 mod textbook;
 mod fragment;
 mod weights;
+mod fill;
 mod depth;
+mod shadow;
 mod picture;
 
 pub use cover::{MAX_SUBPIXEL_BITS, fragments, snap};
+pub use fill::Fill;
 pub use fragment::Fragment;
-pub use picture::{Fill, NO_TRIANGLE, Picture, draw};
+pub use picture::{Lit, NO_TRIANGLE, Picture, draw};
 pub use textbook::{Half, half_triangles};
 pub use weights::Weights;

@@ -1,37 +1,27 @@
 //! What is on the screen after a frame.
 
-use crate::cover::{Cover, fragments};
+use crate::cover::Cover;
 use crate::depth::{compare, passes};
+use crate::fill::Fill;
 use crate::fragment::Fragment;
-use crate::textbook::{Walk, half_triangles};
-use edgewalk_scene::{Frame, MAX_COORDINATE, Vertex};
+use crate::shadow::ShadowMap;
+use crate::textbook::Walk;
+use edgewalk_scene::{Frame, Vertex};
 use std::cmp::Ordering;
 
 /// In [`Picture::id`]: no triangle wrote here.
 pub const NO_TRIANGLE: i32 = -1;
 
-/// Which pixels a triangle has.
+/// What a light does to a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fill {
-    /// Half-open in both axes, exact.
-    Exact {
-        /// Vertices are snapped to this many sub-pixel bits, 0..=8.
-        subpixel_bits: u32,
-    },
-    /// The listing of A 7.5: integer vertices, both ends of a span inclusive, the knee line drawn twice.
-    Textbook,
-}
-
-impl Fill {
-    /// The errors of two depths together.
-    fn doubt(self) -> f64 {
-        match self {
-            Self::Exact { .. } => 2.0 * Fragment::UNCERTAINTY,
-            // Up to a pixel beyond the right edge weights are negative, and terms cancel that are larger than the sum: for
-            // each vertex by as much as the height of an edge over twice the area, at most 2 * 10^6 over 1.
-            Self::Textbook => 2.0 * Fragment::UNCERTAINTY * (1.0 + 4.0 * MAX_COORDINATE),
-        }
-    }
+#[repr(u8)]
+pub enum Lit {
+    /// No fragment was written.
+    Nothing = 0,
+    /// The last fragment written is in shadow.
+    Shadow = 1,
+    /// The last fragment written is lit, or no light casts shadows.
+    Lit = 2,
 }
 
 /// A drawn frame; every list runs line by line from the top, pixel by pixel from the left.
@@ -51,6 +41,8 @@ pub struct Picture {
     pub z: Vec<f64>,
     /// Red, green, blue.
     pub rgb: Vec<[f64; 3]>,
+    /// What the light does.
+    pub lit: Vec<Lit>,
 }
 
 /// Draws the triangles of `frame` in their order.
@@ -64,23 +56,18 @@ pub fn draw(frame: &Frame, fill: Fill) -> Picture {
         id: vec![NO_TRIANGLE; size],
         z: vec![1.0; size],
         rgb: vec![frame.clear; size],
+        lit: vec![Lit::Nothing; size],
     };
+    let shadow = frame.shadow.as_ref().map(|shadow| ShadowMap::draw(shadow, fill));
     let screen = (frame.width, frame.height);
     for (triangle, id) in frame.triangles.iter().zip(0..) {
-        match fill {
-            Fill::Exact { subpixel_bits } => {
-                fragments(triangle, frame.mode, subpixel_bits, screen, |f| picture.plot(frame, fill, id, f));
-            }
-            Fill::Textbook => {
-                half_triangles(triangle, frame.mode, screen, |_, f| picture.plot(frame, fill, id, f));
-            }
-        }
+        fill.fragments(triangle, frame.mode, screen, |f| picture.plot(frame, fill, shadow.as_ref(), id, f));
     }
     picture
 }
 
 impl Picture {
-    fn plot(&mut self, frame: &Frame, fill: Fill, id: i32, fragment: &Fragment) {
+    fn plot(&mut self, frame: &Frame, fill: Fill, shadow: Option<&ShadowMap>, id: i32, fragment: &Fragment) {
         let at = fragment.y as usize * self.width as usize + fragment.x as usize;
         self.coverage[at] += 1;
         let z = fragment.z();
@@ -94,7 +81,14 @@ impl Picture {
         if frame.depth_write {
             self.z[at] = z;
         }
-        let front = fragment.rgb();
+        let mut front = fragment.rgb();
+        self.lit[at] = Lit::Lit;
+        if let Some(map) = shadow
+            && !map.lit(fragment.x, fragment.y, z)
+        {
+            front = front.map(|channel| channel * map.ambient());
+            self.lit[at] = Lit::Shadow;
+        }
         self.rgb[at] = if frame.blend { mix(front, fragment.kt(), self.rgb[at]) } else { front };
         self.writes[at] += 1;
         self.id[at] = id;

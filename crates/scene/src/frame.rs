@@ -96,6 +96,22 @@ impl DepthFunc {
     }
 }
 
+/// The shadows of one light: its depth map, and the way from the screen into it (A 7.3).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shadow {
+    /// Side of the map, 1..=[`MAX_SIDE`] texels.
+    pub size: u32,
+    /// A point is in shadow if it lies farther from the light than the map's depth by more than this, [-1, 1].
+    pub bias: f64,
+    /// What the colour of a point in shadow is multiplied by, [0, 1].
+    pub ambient: f64,
+    /// Rows of the matrix that takes a fragment's column vector (x + 1/2, y + 1/2, z, 1), in pixels and depth, to homogeneous
+    /// (texel x, texel y, depth, q).
+    pub matrix: [[f64; 4]; 4],
+    /// What the light sees: x, y in texels, z its depth in [0, 1]; the nearest wins.
+    pub triangles: Vec<[[f64; 3]; 3]>,
+}
+
 /// One picture to draw: triangles and polygons in list order on a cleared screen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
@@ -113,6 +129,8 @@ pub struct Frame {
     pub blend: bool,
     /// Colour of the empty screen, [0, 1] each; the empty depth is 1.
     pub clear: [f64; 3],
+    /// The shadows of a light, if it casts any.
+    pub shadow: Option<Shadow>,
     /// The triangles, drawn in this order.
     pub triangles: Vec<Triangle>,
     /// The polygons, in this order, each after as many triangles as it says ([`Frame::primitives`]).
@@ -130,6 +148,7 @@ impl Frame {
             depth_write: true,
             blend: false,
             clear: [0.0; 3],
+            shadow: None,
             triangles: Vec::new(),
             polygons: Vec::new(),
         }

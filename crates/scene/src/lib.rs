@@ -21,7 +21,7 @@ mod frame;
 
 pub use camera::Camera;
 pub use error::{InputError, nearest};
-pub use frame::{DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, ShadeMode, Triangle, Vertex};
+pub use frame::{DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, ShadeMode, Shadow, Triangle, Vertex};
 pub use light::{Attenuation, Incident, Light};
 pub use mesh::{Face, FaceData, Material, Mesh};
 pub use normals::{Crease, NormalRule, Weight};

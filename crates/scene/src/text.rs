@@ -29,6 +29,36 @@ impl Place<'_> {
         Err(fault.into())
     }
 
+    /// Exactly N words.
+    pub fn values<'a, const N: usize>(
+        self,
+        key: &str,
+        mut words: impl Iterator<Item = &'a [u8]>,
+    ) -> Result<[&'a [u8]; N], InputError> {
+        let mut taken: [&[u8]; N] = [&[]; N];
+        let mut count = 0;
+        for slot in &mut taken {
+            if let Some(word) = words.next() {
+                *slot = word;
+                count += 1;
+            }
+        }
+        count += words.count();
+        if count == N {
+            return Ok(taken);
+        }
+        let values = if N == 1 { "value" } else { "values" };
+        let found = format!("{count} given");
+        Err(self.fault(key, found.as_bytes(), format!("permitted: {N} {values}")).into())
+    }
+
+    /// A number that is neither infinite nor NaN.
+    pub fn finite(self, key: impl Display, word: &[u8]) -> Result<f64, InputError> {
+        let number = std::str::from_utf8(word).ok().and_then(|text| text.parse().ok());
+        let finite = number.filter(|number: &f64| number.is_finite());
+        finite.ok_or_else(|| self.fault(key, word, "permitted: a finite number").into())
+    }
+
     /// A number within `range`; NaN lies in no range. `kind` is what a message calls such a number.
     pub fn number<T>(
         self,

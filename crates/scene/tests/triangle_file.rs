@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 use edgewalk_scene::{
-    DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, Polygon, Primitive, ShadeMode, Triangle, Vertex,
+    DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, Polygon, Primitive, ShadeMode, Shadow, Triangle, Vertex,
     triangle_file,
 };
 use proptest::prelude::*;
@@ -53,6 +53,58 @@ fn depth_off_never_writes_whatever_the_order() {
     for text in ["size 1 1\ndepth off\ndepth_write 1", "size 1 1\ndepth_write 1\ndepth off"] {
         let frame = parse(text);
         assert_eq!((frame.depth, frame.depth_write), (None, false));
+    }
+}
+
+const SHADOW: &str = "shadow 8 0.01 0.25  1 2 3 4  5 6 7 8  9 10 11 12  13 14 15 -1e300";
+
+#[test]
+fn the_shadow_and_its_triangles_stand_apart_from_the_picture() {
+    let frame =
+        parse(&format!("size 9 9\n{SHADOW}\nL 1 2 0 -4 5 1 7 8 0.5\nmode flat\n{T}\nL 0 0 0 1 1 1 2 2 1"));
+    let shadow = frame.shadow.unwrap();
+    assert_eq!((shadow.size, shadow.bias, shadow.ambient), (8, 0.01, 0.25));
+    assert_eq!(shadow.matrix[0], [1.0, 2.0, 3.0, 4.0]);
+    assert_eq!(shadow.matrix[3], [13.0, 14.0, 15.0, -1e300]);
+    assert_eq!(shadow.triangles.len(), 2);
+    assert_eq!(shadow.triangles[0], [[1.0, 2.0, 0.0], [-4.0, 5.0, 1.0], [7.0, 8.0, 0.5]]);
+    assert_eq!((frame.mode, frame.triangles.len()), (ShadeMode::Flat, 1));
+    assert_eq!(
+        parse(&format!("size 9 9\n{T}\n{SHADOW}")).shadow.unwrap().size,
+        8,
+        "behind the picture's triangles"
+    );
+}
+
+#[test]
+fn malformed_shadows_name_place_and_remedy() {
+    let with = |from: &str, to: &str| format!("size 9 9\n{}", SHADOW.replacen(from, to, 1));
+    let l = "L 1 2 0 4 5 1 7 8 0.5";
+    let cases: [(String, &[&str]); 18] = [
+        (with("8", "0"), &["a.tri:2: shadow SIZE: `0`", "an integer from 1 to 16384"]),
+        (with("8", "16385"), &["shadow SIZE: `16385`"]),
+        (with("8", "8.5"), &["shadow SIZE: `8.5`", "an integer"]),
+        (with("0.01", "1.01"), &["shadow BIAS: `1.01`", "a number from -1 to 1"]),
+        (with("0.01", "nan"), &["shadow BIAS: `nan`"]),
+        (with("0.25", "-0.25"), &["shadow AMBIENT: `-0.25`", "a number from 0 to 1"]),
+        (with("0.25", "bright"), &["shadow AMBIENT: `bright`"]),
+        (with("  1 ", "  inf "), &["shadow m00: `inf`", "a finite number"]),
+        (with("-1e300", "-1e309"), &["shadow m33: `-1e309`", "a finite number"]),
+        (with(" 7 ", " seven "), &["shadow m12: `seven`", "a finite number"]),
+        (with("-1e300", ""), &["a.tri:2: shadow: `18 given`", "19 values"]),
+        (format!("{}\n{SHADOW}", with("", "")), &["a.tri:3: shadow", "once"]),
+        (with("shadow", "shadwo"), &["did you mean `shadow`"]),
+        (format!("size 9 9\n{l}"), &["a.tri:2: L", "only after a line `shadow"]),
+        (format!("size 9 9\n{T}\n{l}\n{SHADOW}"), &["a.tri:3: L", "only after a line `shadow"]),
+        (format!("{}\n{} 1", with("", ""), l), &["a.tri:3: L: `10 given`", "9 values"]),
+        (format!("{}\n{}", with("", ""), l.replace("0.5", "1.5")), &["L vertex 3 z: `1.5`", "0 to 1"]),
+        (format!("{}\n{}", with("", ""), l.replace("L 1", "L -1e7")), &["L vertex 1 x: `-1e7`", "1000000"]),
+    ];
+    for (text, words) in &cases {
+        let error = triangle_file::parse("a.tri", text.as_bytes()).unwrap_err().to_string();
+        for word in *words {
+            assert!(error.contains(word), "{text:?}: {word:?} is not in {error:?}");
+        }
     }
 }
 
@@ -124,6 +176,15 @@ fn a_reader_gives_the_header_first_and_then_triangles_down_to_a_fault() {
 }
 
 #[test]
+fn triangle_by_triangle_a_late_shadow_is_refused() {
+    let text = format!("size 9 9\n{T}\n{SHADOW}");
+    let mut reader = triangle_file::Reader::new("a.tri", text.as_bytes()).unwrap();
+    assert!(reader.next().is_some_and(|triangle| triangle.is_ok()));
+    let error = reader.next().unwrap().unwrap_err().to_string();
+    assert!(error.contains("a.tri:3: shadow") && error.contains("before the first triangle"), "{error}");
+}
+
+#[test]
 fn bytes_that_are_no_text_are_refused() {
     let message = triangle_file::parse("a.tri", &b"size 9 9\nmode \xff\xfe\0"[..]).unwrap_err().to_string();
     assert!(message.contains("a.tri:2: mode"), "{message}");
@@ -154,6 +215,19 @@ fn contours() -> impl Strategy<Value = Vec<Vec<Vertex>>> {
 }
 
 prop_compose! {
+    fn shadow()(
+        size in 1..=MAX_SIDE,
+        bias in -1.0..=1.0f64,
+        ambient in 0.0..=1.0f64,
+        matrix in prop::array::uniform4(prop::array::uniform4(-1e9..=1e9f64)),
+        triangles in prop::collection::vec(
+            prop::array::uniform3([-MAX_COORDINATE..=MAX_COORDINATE, -9.0..=9.0, 0.0..=1.0]), 0..9),
+    ) -> Shadow {
+        Shadow { size, bias, ambient, matrix, triangles }
+    }
+}
+
+prop_compose! {
     fn frame()(
         width in 1..=MAX_SIDE,
         height in 1..=MAX_SIDE,
@@ -162,6 +236,7 @@ prop_compose! {
         write in any::<bool>(),
         blend in any::<bool>(),
         clear in prop::array::uniform3(0.0..=1.0f64),
+        shadow in prop::option::of(shadow()),
         triangles in prop::collection::vec(prop::array::uniform3(vertex()).prop_map(Triangle), 0..20),
         shapes in prop::collection::vec((contours(), any::<prop::sample::Index>()), 0..4),
     ) -> Frame {
@@ -171,7 +246,7 @@ prop_compose! {
             .collect();
         polygons.sort_by_key(|polygon| polygon.after);
         let depth_write = write && depth.is_some();
-        Frame { width, height, mode, depth, depth_write, blend, clear, triangles, polygons }
+        Frame { width, height, mode, depth, depth_write, blend, clear, shadow, triangles, polygons }
     }
 }
 
@@ -187,7 +262,7 @@ proptest! {
     }
 
     #[test]
-    fn no_text_panics(text in "(size|mode|depth|T|P 3|H|#|[0-9 .e-]|\\PC|\n){0,80}") {
+    fn no_text_panics(text in "(size|mode|depth|shadow|L|T|P 3|H|#|[0-9 .e-]|\\PC|\n){0,80}") {
         let _ = triangle_file::parse("a.tri", text.as_bytes());
     }
 }

@@ -6,23 +6,30 @@ use crate::report::Report;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, arrays, picture};
-use anyhow::Result;
+use anyhow::{Context, Result};
 use edgewalk_scene::triangle_file;
 use std::path::PathBuf;
 
 /// Draws a file of screen-space triangles and writes what every pixel got.
 ///
 /// Writes coverage.npy, writes.npy (u32), id.npy (i32), z.npy (H,W) and rgb.npy (H,W,3) (f64 in [0,1]), image.png and
-/// report.json; row 0 on top.
+/// report.json; row 0 on top. Golden does not quantise z and rgb, and adds lit.npy (u8: 0 nothing written, 1 in shadow, 2 lit).
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk raster triangles.tri --out out/r
   edgewalk raster triangles.tri --engine golden --out out/g --json
   edgewalk raster triangles.tri --engine rtl --out out/n --set interpolator.adders=1
 
-The triangle file:
-  size W H / mode gouraud|flat / depth less|lequal|always|off|... / depth_write 0|1 / blend 0|1 / clear r g b
-  T x y z r g b kt  x y z r g b kt  x y z r g b kt        (one item a line, # comments)")]
+The triangle file (docs/triangle_file.md), one item a line, # comments:
+  size W H                                                first
+  mode gouraud|flat
+  depth less|lequal|always|off|...
+  depth_write 0|1
+  blend 0|1                                               1: (1-kt) I + kt I_back; golden only
+  clear r g b
+  shadow SIZE BIAS AMBIENT m00 m01 .. m33                 a light's depth map, matrix by rows; golden only
+  L x y z  x y z  x y z                                   a triangle of that map, in texels
+  T x y z r g b kt  x y z r g b kt  x y z r g b kt        a triangle, pixels")]
 pub struct Args {
     /// The triangle file
     file: PathBuf,
@@ -38,7 +45,8 @@ pub struct Args {
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let frame = triangle_file::read(&args.file)?;
     let machine = machine.machine(Some((frame.width, frame.height)))?;
-    let drawn = draw(args.engine, &frame, &machine, talk.quiet)?;
+    let drawn =
+        draw(args.engine, &frame, &machine, talk.quiet).with_context(|| args.file.display().to_string())?;
     let report = Report::new(&args.file.display().to_string(), &frame, &machine, &drawn);
     let out = Staging::new(&args.out)?;
     write_arrays(&out, &drawn)?;
@@ -55,5 +63,6 @@ fn write_arrays(out: &Staging, drawn: &Raster) -> Result<()> {
     arrays::write(out, "writes.npy", &shape, &drawn.writes)?;
     arrays::write(out, "id.npy", &shape, &drawn.id)?;
     arrays::write(out, "z.npy", &shape, &drawn.z)?;
-    arrays::write(out, "rgb.npy", &[shape[0], shape[1], 3], drawn.rgb.as_flattened())
+    arrays::write(out, "rgb.npy", &[shape[0], shape[1], 3], drawn.rgb.as_flattened())?;
+    drawn.lit.as_ref().map_or(Ok(()), |lit| arrays::write(out, "lit.npy", &shape, lit))
 }

@@ -1,5 +1,6 @@
 //! Reads a triangle file line by line: as a whole, or triangle by triangle, whatever its length.
 
+use super::shadow::{occluder, shadow};
 use crate::error::InputError;
 use crate::frame::{DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, ShadeMode, Triangle, Vertex};
 use crate::polygon::{MAX_CONTOUR, Polygon};
@@ -9,10 +10,11 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 /// Every word a line may start with.
-const KEYS: [&str; 9] = ["size", "mode", "depth", "depth_write", "blend", "clear", "T", "P", "H"];
+const KEYS: [&str; 11] =
+    ["size", "mode", "depth", "depth_write", "blend", "clear", "shadow", "L", "T", "P", "H"];
 const SIZE: usize = 0;
 /// `T`, `P` and `H`: the header has ended.
-const PRIMITIVE: usize = 6;
+const PRIMITIVE: usize = 8;
 
 /// `off` behind the eight functions.
 const DEPTH_NAMES: [&str; 9] = {
@@ -46,6 +48,7 @@ pub fn read(path: &Path) -> Result<Frame, InputError> {
 /// `input` fails, or an item is not permitted.
 pub fn parse(file: &str, input: impl BufRead) -> Result<Frame, InputError> {
     let mut reader = Reader::new(file, input)?;
+    reader.parser.whole = true;
     while reader.line()? {}
     Ok(reader.parser.frame)
 }
@@ -64,7 +67,7 @@ impl<R: BufRead> Reader<R> {
     /// # Errors
     /// `input` fails, or an item down to the first triangle or polygon is not permitted.
     pub fn new(file: &str, input: R) -> Result<Self, InputError> {
-        let parser = Parser { frame: Frame::new(0, 0), seen: [false; KEYS.len()] };
+        let parser = Parser { frame: Frame::new(0, 0), seen: [false; KEYS.len()], whole: false };
         let mut reader = Self { lines: Lines::new(file, input), parser };
         while !reader.parser.seen[PRIMITIVE] && reader.line()? {}
         reader.parser.require_size(reader.lines.end(), b"end of file")?;
@@ -108,6 +111,8 @@ struct Parser {
     frame: Frame,
     /// Which of `KEYS` have come.
     seen: [bool; KEYS.len()],
+    /// Nothing is drawn before the end, so that `shadow` may come late.
+    whole: bool,
 }
 
 impl Parser {
@@ -116,12 +121,20 @@ impl Parser {
         let Some(word) = words.next() else { return Ok(()) };
         let key = place.choice("line starts with", word, &KEYS)?;
         let name = KEYS[key];
+        if name == "L" {
+            let Some(shadow) = &mut self.frame.shadow else {
+                let why = "permitted only after a line `shadow SIZE BIAS AMBIENT m00 .. m33`";
+                return Err(place.fault(name, word, why).into());
+            };
+            shadow.triangles.push(occluder(place, words)?);
+            return Ok(());
+        }
         if key >= PRIMITIVE {
             self.require_size(place, word)?;
             self.seen[PRIMITIVE] = true;
             return self.primitive(place, name, words);
         }
-        if self.seen[PRIMITIVE] {
+        if self.seen[PRIMITIVE] && !(self.whole && name == "shadow") {
             let why = "permitted only before the first triangle or polygon";
             return Err(place.fault(name, word, why).into());
         }
@@ -130,28 +143,29 @@ impl Parser {
         }
         match name {
             "size" => {
-                let [width, height] = take(place, name, words)?;
+                let [width, height] = place.values(name, words)?;
                 self.frame.width = place.number("size W", width, "an integer", 1..=MAX_SIDE)?;
                 self.frame.height = place.number("size H", height, "an integer", 1..=MAX_SIDE)?;
             }
             "mode" => {
-                let [mode] = take(place, name, words)?;
+                let [mode] = place.values(name, words)?;
                 self.frame.mode = ShadeMode::ALL[place.choice(name, mode, &ShadeMode::NAMES)?];
             }
             "depth" => {
-                let [func] = take(place, name, words)?;
+                let [func] = place.values(name, words)?;
                 self.frame.depth = DepthFunc::ALL.get(place.choice(name, func, &DEPTH_NAMES)?).copied();
             }
             "depth_write" => {
-                let [flag] = take(place, name, words)?;
+                let [flag] = place.values(name, words)?;
                 self.frame.depth_write = place.choice(name, flag, &["0", "1"])? == 1;
             }
             "blend" => {
-                let [flag] = take(place, name, words)?;
+                let [flag] = place.values(name, words)?;
                 self.frame.blend = place.choice(name, flag, &["0", "1"])? == 1;
             }
+            "shadow" => self.frame.shadow = Some(shadow(place, words)?),
             _ => {
-                let clear: [&[u8]; 3] = take(place, name, words)?;
+                let clear: [&[u8]; 3] = place.values(name, words)?;
                 for (channel, word) in clear.into_iter().enumerate() {
                     let key = format_args!("clear {}", ["r", "g", "b"][channel]);
                     self.frame.clear[channel] = place.number(key, word, "a number", 0.0..=1.0)?;
@@ -191,31 +205,8 @@ impl Parser {
     }
 }
 
-/// Exactly N words.
-fn take<'a, const N: usize>(
-    place: Place,
-    key: &str,
-    mut words: impl Iterator<Item = &'a [u8]>,
-) -> Result<[&'a [u8]; N], InputError> {
-    let mut taken: [&[u8]; N] = [&[]; N];
-    let mut count = 0;
-    for slot in &mut taken {
-        if let Some(word) = words.next() {
-            *slot = word;
-            count += 1;
-        }
-    }
-    count += words.count();
-    if count == N {
-        return Ok(taken);
-    }
-    let values = if N == 1 { "value" } else { "values" };
-    let found = format!("{count} given");
-    Err(place.fault(key, found.as_bytes(), format!("permitted: {N} {values}")).into())
-}
-
 fn triangle<'a>(place: Place, words: impl Iterator<Item = &'a [u8]>) -> Result<Triangle, InputError> {
-    let words: [&[u8]; 3 * ATTRIBUTES.len()] = take(place, "T", words)?;
+    let words: [&[u8]; 3 * ATTRIBUTES.len()] = place.values("T", words)?;
     let mut triangle = Triangle::default();
     for (index, (slot, words)) in triangle.0.iter_mut().zip(words.chunks_exact(ATTRIBUTES.len())).enumerate()
     {

@@ -1,6 +1,6 @@
 //! Writes a triangle file; every number comes back bit for bit.
 
-use crate::frame::{Frame, Vertex};
+use crate::frame::{Frame, Shadow, Vertex};
 use crate::polygon::Primitive;
 use std::io::{self, Write};
 use std::iter;
@@ -17,6 +17,9 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
     writeln!(out, "blend {}", u8::from(frame.blend))?;
     let [r, g, b] = frame.clear;
     writeln!(out, "clear {r} {g} {b}")?;
+    if let Some(shadow) = &frame.shadow {
+        write_shadow(shadow, &mut out)?;
+    }
     for primitive in frame.primitives() {
         match primitive {
             Primitive::Triangle(triangle) => {
@@ -40,4 +43,20 @@ fn vertices(list: &[Vertex], out: &mut impl Write) -> io::Result<()> {
         write!(out, "  {} {} {} {} {} {} {}", v.x, v.y, v.z, v.r, v.g, v.b, v.kt)?;
     }
     writeln!(out)
+}
+
+fn write_shadow(shadow: &Shadow, out: &mut impl Write) -> io::Result<()> {
+    write!(out, "shadow {} {} {}", shadow.size, shadow.bias, shadow.ambient)?;
+    for [m0, m1, m2, m3] in shadow.matrix {
+        write!(out, "  {m0} {m1} {m2} {m3}")?;
+    }
+    writeln!(out)?;
+    for [a, b, c] in &shadow.triangles {
+        write!(out, "L")?;
+        for [x, y, z] in [a, b, c] {
+            write!(out, "  {x} {y} {z}")?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
 }

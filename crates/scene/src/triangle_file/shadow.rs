@@ -1,0 +1,37 @@
+//! The lines `shadow` and `L`: a light's depth map and what stands in it.
+
+use crate::error::InputError;
+use crate::frame::{MAX_COORDINATE, MAX_SIDE, Shadow};
+use crate::text::Place;
+
+/// The values behind `shadow`.
+pub(super) fn shadow<'a>(place: Place, words: impl Iterator<Item = &'a [u8]>) -> Result<Shadow, InputError> {
+    let words: [&[u8]; 19] = place.values("shadow", words)?;
+    let [size, bias, ambient, elements @ ..] = words;
+    let mut matrix = [[0.0; 4]; 4];
+    for (index, (slot, word)) in matrix.as_flattened_mut().iter_mut().zip(elements).enumerate() {
+        *slot = place.finite(format_args!("shadow m{}{}", index / 4, index % 4), word)?;
+    }
+    Ok(Shadow {
+        size: place.number("shadow SIZE", size, "an integer", 1..=MAX_SIDE)?,
+        bias: place.number("shadow BIAS", bias, "a number", -1.0..=1.0)?,
+        ambient: place.number("shadow AMBIENT", ambient, "a number", 0.0..=1.0)?,
+        matrix,
+        triangles: Vec::new(),
+    })
+}
+
+/// The values behind `L`.
+pub(super) fn occluder<'a>(
+    place: Place,
+    words: impl Iterator<Item = &'a [u8]>,
+) -> Result<[[f64; 3]; 3], InputError> {
+    let words: [&[u8]; 9] = place.values("L", words)?;
+    let mut triangle = [[0.0; 3]; 3];
+    for (index, (slot, word)) in triangle.as_flattened_mut().iter_mut().zip(words).enumerate() {
+        let range = if index % 3 < 2 { -MAX_COORDINATE..=MAX_COORDINATE } else { 0.0..=1.0 };
+        let key = format_args!("L vertex {} {}", index / 3 + 1, ["x", "y", "z"][index % 3]);
+        *slot = place.number(key, word, "a number", range)?;
+    }
+    Ok(triangle)
+}
