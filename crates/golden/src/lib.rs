@@ -12,6 +12,7 @@ mod fill;
 mod depth;
 mod shadow;
 mod picture;
+pub mod fast_phong;
 
 pub use cover::{MAX_SUBPIXEL_BITS, fragments, snap};
 pub use fill::Fill;

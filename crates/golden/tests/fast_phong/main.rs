@@ -1,0 +1,10 @@
+//! Fast Phong: its quadratics under bound A10, their convergence, the walk by additions, and the table.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod cases;
+
+mod bound;
+mod convergence;
+mod walk;
+mod table;
