@@ -72,7 +72,7 @@ impl fmt::Display for Fault {
 }
 
 /// The valid name nearest to `given`, if any is near enough to be what was meant.
-pub fn nearest(given: &str, valid: &[&'static str]) -> Option<&'static str> {
+pub fn nearest<'a>(given: &str, valid: &[&'a str]) -> Option<&'a str> {
     let given = given.to_lowercase();
     valid
         .iter()

@@ -15,6 +15,7 @@ mod shading;
 mod surface;
 mod clip;
 mod scene;
+mod scene_file;
 pub mod triangle_file;
 mod polygon;
 mod frame;

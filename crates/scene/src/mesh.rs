@@ -10,6 +10,7 @@ mod mtl;
 mod obj;
 mod accessor;
 mod gltf;
+mod join;
 
 use crate::error::{Fault, InputError, nearest};
 use crate::texture::Texture;
@@ -20,6 +21,7 @@ use std::path::Path;
 pub use face_data::FaceData;
 pub use material::Material;
 
+pub(crate) use join::Part;
 pub(crate) use knot::torus_knot;
 pub(crate) use room::room;
 pub(crate) use surface::{sphere, torus};

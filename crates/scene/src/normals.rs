@@ -15,6 +15,13 @@ pub enum Weight {
     Angle,
 }
 
+impl Weight {
+    /// All three, in the order of [`Self::NAMES`].
+    pub const ALL: [Self; 3] = [Self::Plain, Self::Area, Self::Angle];
+    /// The names in files.
+    pub const NAMES: [&'static str; 3] = ["plain", "area", "angle"];
+}
+
 /// Where the faces around a vertex stop being one surface: the edge is meant to be seen (seed C).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Crease {

@@ -7,6 +7,7 @@ use crate::frame::{Frame, ShadeMode};
 use crate::light::Light;
 use crate::mesh::{self, Mesh};
 use crate::normals::{NormalRule, corner_normals, face_normals};
+use crate::scene_file;
 use crate::shading::{Lighting, Point, Specular};
 use crate::surface::{Surface, SurfaceTriangle};
 use glam::{DVec2, DVec3};
@@ -59,15 +60,16 @@ impl Scene {
         }
     }
 
-    /// A built-in scene, or a mesh file (see [`Mesh::EXTENSIONS`]) in view: what is not a name of the former but ends
-    /// like a file or is one.
+    /// A built-in scene, a scene file (`.toml`), or a mesh file (see [`Mesh::EXTENSIONS`]) in view: what is not a name of
+    /// the first but ends like a file or is one.
     ///
     /// # Errors
     /// Neither a name nor a readable file, or a fault in the file.
     pub fn open(name: &str) -> Result<Self, InputError> {
         let path = Path::new(name);
         if !Self::BUILTIN.contains(&name) && (path.extension().is_some() || path.exists()) {
-            return Ok(Self::of_mesh(Mesh::read(path)?));
+            let is_scene = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
+            return if is_scene { scene_file::read(path) } else { Ok(Self::of_mesh(Mesh::read(path)?)) };
         }
         Self::builtin(name)
     }

@@ -1,0 +1,77 @@
+//! `[[object]]`: a mesh file, a built-in mesh or faces listed in place; scaled, turned and put somewhere.
+
+use super::material::Materials;
+use super::table::Table;
+use crate::error::InputError;
+use crate::mesh::{self, Face, MAX_POSITION, Material, Mesh, Part};
+use glam::{DAffine3, DQuat, DVec3, EulerRot};
+use std::path::Path;
+
+pub(super) const KEYS: &[&str] =
+    &["mesh", "builtin", "columns", "rows", "positions", "faces", "material", "scale", "rotate", "translate"];
+
+/// Meshes without a file; of the first four the fineness may be said.
+const BUILTIN: [&str; 5] = ["sphere", "torus", "torus-knot", "terrain", "room"];
+
+pub(super) fn read(table: &Table, materials: &Materials, path: &Path) -> Result<Part, InputError> {
+    let given = ["mesh", "builtin", "faces"].into_iter().filter(|key| table.has(key)).count();
+    if given != 1 {
+        let permitted = "permitted: exactly one of mesh, builtin, faces (with positions)";
+        return Err(table.fault("mesh", format!("{given} of them"), permitted));
+    }
+    let mesh = if let Some(file) = table.text("mesh")? {
+        Mesh::read(&path.with_file_name(file))?
+    } else if let Some(place) = table.choice("builtin", &BUILTIN)? {
+        built_in(table, place)?
+    } else {
+        listed(table)?
+    };
+    Ok(Part { mesh, placed: placed(table)?, material: materials.get(table, "material")? })
+}
+
+fn built_in(table: &Table, place: usize) -> Result<Mesh, InputError> {
+    let (columns, rows) = [(48, 24), (64, 32), (256, 24), (96, 96), (1, 1)][place];
+    let count = |key: &str, default: u32| {
+        let count = table.number(key, 3.0..=2048.0)?;
+        Ok::<_, InputError>(count.map_or(default, |count| count as u32))
+    };
+    let (columns, rows) = (count("columns", columns)?, count("rows", rows)?);
+    match place {
+        0 => mesh::sphere(columns, rows),
+        1 => mesh::torus(columns, rows),
+        2 => mesh::torus_knot(columns, rows),
+        3 => mesh::terrain(columns),
+        _ => mesh::room(),
+    }
+}
+
+/// First scaled, then turned about x, y and z, then moved.
+fn placed(table: &Table) -> Result<DAffine3, InputError> {
+    let scale = table.color("scale", 1e6)?.unwrap_or(DVec3::ONE);
+    if scale.min_element() < 1e-6 {
+        return Err(table.fault("scale", scale, "permitted: a number or [x, y, z], each from 1e-6 to 1e6"));
+    }
+    let [x, y, z] = table.vector("rotate", 360.0)?.unwrap_or(DVec3::ZERO).to_array().map(f64::to_radians);
+    let turn = DQuat::from_euler(EulerRot::ZYXEx, z, y, x);
+    let translate = table.vector("translate", MAX_POSITION)?.unwrap_or(DVec3::ZERO);
+    Ok(DAffine3::from_scale_rotation_translation(scale, turn, translate))
+}
+
+/// Faces of three or more corners, cut into fans from their first.
+fn listed(table: &Table) -> Result<Mesh, InputError> {
+    let positions = table.vectors("positions", MAX_POSITION)?;
+    let positions = table.required("positions", positions, "permitted: a list of [x, y, z]")?;
+    let mut faces = Vec::new();
+    for corners in table.indices("faces", positions.len())?.unwrap_or_default() {
+        if corners.len() < 3 {
+            let permitted = "permitted: at least 3 places a face";
+            return Err(table.fault("faces", format!("{} places", corners.len()), permitted));
+        }
+        let triangle = |pair: &[u32]| Face { corners: [corners[0], pair[0], pair[1]], material: 0 };
+        faces.extend(corners[1..].windows(2).map(triangle));
+    }
+    if faces.is_empty() {
+        return Err(table.fault("faces", "none", "permitted: at least one face"));
+    }
+    Mesh::new("object", positions, faces, vec![Material::DEFAULT])
+}
