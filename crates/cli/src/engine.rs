@@ -1,8 +1,10 @@
 //! One picture, whichever engine drew it.
 
+use crate::fast;
 use crate::input::to_port;
 use crate::progress::bar;
 use anyhow::{Result, anyhow};
+use edgewalk_model::fast::Path;
 use edgewalk_model::{Activity, Coverage, Stalls};
 use edgewalk_numerics::{Fill, Machine};
 use edgewalk_scene::Frame;
@@ -12,7 +14,9 @@ use edgewalk_scene::Frame;
 pub enum Engine {
     /// Exact coverage by integers, depth and colour in f64
     Golden,
-    /// The machine, cycle by cycle
+    /// The machine's pictures and cycles without ticking; ticks where that is not exact, and says so
+    Fast,
+    /// The machine, cycle by cycle, with counts of hazards and corners
     Model,
     /// The machine's netlist in the interpreter
     Rtl,
@@ -47,6 +51,8 @@ pub struct Raster {
 pub struct Cycles {
     /// All cycles, counted apart from their causes.
     pub total: u64,
+    /// How the fast engine came to them.
+    pub path: Option<Path>,
     spent: [u64; Activity::ALL.len()],
 }
 
@@ -61,13 +67,18 @@ impl Cycles {
 pub fn draw(engine: Engine, frame: &Frame, machine: &Machine, quiet: bool) -> Result<Raster> {
     match engine {
         Engine::Golden => Ok(draw_golden(frame, machine)),
+        Engine::Fast => {
+            let port = to_port(frame, machine)?;
+            let triangles = || Ok(port.triangles.iter().copied().map(Ok));
+            let (drawn, path) = fast::draw(machine, port.state, triangles)?;
+            Ok(from_fast(machine, drawn, path))
+        }
         Engine::Model | Engine::Rtl => {
             let port = to_port(frame, machine)?;
             let bar = bar(port.triangles.len() as u64, "triangles", quiet);
             let triangles = bar.wrap_iter(port.triangles.iter().copied());
             let raster = if engine == Engine::Model {
-                let drawn = edgewalk_model::render(machine, triangles, port.state, Stalls::NONE);
-                Raster { corners: Some(drawn.corners.clone()), ..from_machine(machine, drawn) }
+                from_model(machine, edgewalk_model::render(machine, triangles, port.state, Stalls::NONE))
             } else {
                 let drawn = edgewalk_vectors::render_rtl(machine, triangles, port.state, Stalls::NONE);
                 from_machine(machine, drawn.map_err(|e| anyhow!("{e}"))?)
@@ -76,6 +87,16 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Machine, quiet: bool) -> Re
             Ok(raster)
         }
     }
+}
+
+/// A frame of the fast engine; the corners are counted only where it ticked.
+pub fn from_fast(machine: &Machine, drawn: edgewalk_model::Frame, path: Path) -> Raster {
+    let raster = if path == Path::Fast { from_machine(machine, drawn) } else { from_model(machine, drawn) };
+    Raster { cycles: raster.cycles.map(|cycles| Cycles { path: Some(path), ..cycles }), ..raster }
+}
+
+fn from_model(machine: &Machine, drawn: edgewalk_model::Frame) -> Raster {
+    Raster { corners: Some(drawn.corners.clone()), ..from_machine(machine, drawn) }
 }
 
 fn draw_golden(frame: &Frame, machine: &Machine) -> Raster {
@@ -109,7 +130,7 @@ fn from_machine(machine: &Machine, drawn: edgewalk_model::Frame) -> Raster {
         z: unorm(&drawn.z, machine.z.max()),
         rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / machine.color.max() as f64)).collect(),
         lit: None,
-        cycles: Some(Cycles { total: drawn.counters.cycles, spent: drawn.counters.activity }),
+        cycles: Some(Cycles { total: drawn.counters.cycles, path: None, spent: drawn.counters.activity }),
         corners: None,
     }
 }

@@ -3,7 +3,7 @@
 use anyhow::{Context, Result, anyhow};
 use edgewalk_model::DrawState;
 use edgewalk_numerics::{Machine, PortVertex};
-use edgewalk_scene::{DepthFunc, Frame, Scene, ShadeMode, triangle_file};
+use edgewalk_scene::{DepthFunc, Frame, Scene, ShadeMode, Triangle, triangle_file};
 use std::path::Path;
 
 /// A frame as the machine's port takes it.
@@ -16,6 +16,14 @@ pub struct PortFrame {
 
 /// Snaps a frame to the port, or says which triangle the machine cannot take.
 pub fn to_port(frame: &Frame, machine: &Machine) -> Result<PortFrame> {
+    let state = draw_state(frame, machine)?;
+    let triangles = frame.triangles.iter().enumerate();
+    let triangles = triangles.map(|(index, triangle)| port_triangle(index, triangle, frame.mode, machine));
+    Ok(PortFrame { triangles: triangles.collect::<Result<_>>()?, state })
+}
+
+/// What stays the same over a frame, or what of it the machine cannot draw.
+pub fn draw_state(frame: &Frame, machine: &Machine) -> Result<DrawState> {
     if frame.blend {
         return Err(anyhow!(
             "blend 1: the machine has no blend unit yet; draw with blend 0 or --engine golden"
@@ -26,28 +34,29 @@ pub fn to_port(frame: &Frame, machine: &Machine) -> Result<PortFrame> {
             "shadow: the machine has no shadow maps yet; draw without the line `shadow` or with --engine golden"
         ));
     }
-    let triangles = frame
-        .triangles
-        .iter()
-        .enumerate()
-        .map(|(index, triangle)| {
-            let mut port = [PortVertex::default(); 3];
-            for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
-                let color = if frame.mode == ShadeMode::Flat { &triangle.0[0] } else { v };
-                *slot = machine
-                    .port_vertex(v.x, v.y, [v.z, color.r, color.g, color.b])
-                    .with_context(|| format!("triangle {index}, vertex {corner}"))?;
-            }
-            Ok(port)
-        })
-        .collect::<Result<_>>()?;
     let max = machine.color.max() as f64;
-    let state = DrawState {
+    Ok(DrawState {
         depth_func: frame.depth.unwrap_or(DepthFunc::Always) as u8,
         depth_write: frame.depth_write && frame.depth.is_some(),
         clear: frame.clear.map(|v| (v * max).round_ties_even() as u64),
-    };
-    Ok(PortFrame { triangles, state })
+    })
+}
+
+/// Snaps triangle number `index` to the port, or says that the machine cannot take it.
+pub fn port_triangle(
+    index: usize,
+    triangle: &Triangle,
+    mode: ShadeMode,
+    machine: &Machine,
+) -> Result<[PortVertex; 3]> {
+    let mut port = [PortVertex::default(); 3];
+    for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
+        let color = if mode == ShadeMode::Flat { &triangle.0[0] } else { v };
+        *slot = machine
+            .port_vertex(v.x, v.y, [v.z, color.r, color.g, color.b])
+            .with_context(|| format!("triangle {index}, vertex {corner}"))?;
+    }
+    Ok(port)
 }
 
 /// A scene, a mesh, or a file of screen-space triangles.

@@ -9,6 +9,7 @@ mod arrays;
 mod commands;
 mod compare;
 mod engine;
+mod fast;
 mod input;
 mod machine_args;
 mod picture;

@@ -6,7 +6,6 @@ use crate::engine::{Cycles, Raster};
 use anyhow::Result;
 use edgewalk_model::Activity;
 use edgewalk_numerics::Machine;
-use edgewalk_scene::Frame;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
@@ -14,7 +13,7 @@ use std::fmt::Write as _;
 pub struct Report {
     name: String,
     machine: Machine,
-    triangles: usize,
+    triangles: u64,
     covered: u64,
     writes: u64,
     odd_pixels: u64,
@@ -25,11 +24,11 @@ pub struct Report {
 
 impl Report {
     /// A report without a comparison.
-    pub fn new(name: &str, frame: &Frame, machine: &Machine, drawn: &Raster) -> Self {
+    pub fn new(name: &str, triangles: u64, machine: &Machine, drawn: &Raster) -> Self {
         Report {
             name: name.to_owned(),
             machine: machine.clone(),
-            triangles: frame.triangles.len(),
+            triangles,
             covered: drawn.coverage.iter().map(|c| u64::from(*c)).sum(),
             // A closed mesh covers every pixel an even number of times, whatever the view.
             odd_pixels: drawn.coverage.iter().map(|c| u64::from(c % 2)).sum(),
@@ -72,6 +71,9 @@ impl Report {
                 "setup_clocks_drawn": (setup.phase1 + setup.phase2),
                 "setup_clocks_culled": setup.phase1,
             });
+            if let Some(path) = c.path {
+                report["cycles"]["path"] = path.to_string().into();
+            }
         }
         if let Some(c) = &self.corners {
             report["corners"] = c
@@ -125,8 +127,9 @@ impl Report {
             let setup = edgewalk_model::setup_clocks(m);
             let _ = writeln!(
                 t,
-                "cycles {}, {:.4} pixels a clock; setup {} clocks a triangle",
+                "cycles {}{}, {:.4} pixels a clock; setup {} clocks a triangle",
                 c.total,
+                c.path.map_or_else(String::new, |path| format!(" ({path})")),
                 ratio(self.covered, c.total),
                 (setup.phase1 + setup.phase2)
             );

@@ -115,12 +115,17 @@ impl<R: BufRead> Lines<R> {
             Err(source) => return Err(InputError::Read { file: self.file.clone(), source }),
         }
         self.line += 1;
-        Ok(Some((Place { file: &self.file, line: self.line }, &self.text)))
+        Ok(Some((self.place(), &self.text)))
     }
 
-    /// Behind the last line that was read.
+    /// Of the last line that was read.
+    pub fn place(&self) -> Place<'_> {
+        Place { file: &self.file, line: self.line }
+    }
+
+    /// Behind that line.
     pub fn end(&self) -> Place<'_> {
-        Place { file: &self.file, line: self.line + 1 }
+        Place { line: self.line + 1, ..self.place() }
     }
 }
 

@@ -185,6 +185,17 @@ fn triangle_by_triangle_a_late_shadow_is_refused() {
 }
 
 #[test]
+fn a_reader_refuses_polygons() {
+    for before in ["".to_owned(), format!("{T}\n")] {
+        let text = format!("size 9 9\n{before}P 3 {}\n{T}", &T[1..]);
+        let mut reader = triangle_file::Reader::new("a.tri", text.as_bytes()).unwrap();
+        let error = reader.find_map(Result::err).unwrap().to_string();
+        let line = text.lines().count() - 1;
+        assert!(error.starts_with(&format!("a.tri:{line}: line starts with: `P`")), "{error}");
+    }
+}
+
+#[test]
 fn bytes_that_are_no_text_are_refused() {
     let message = triangle_file::parse("a.tri", &b"size 9 9\nmode \xff\xfe\0"[..]).unwrap_err().to_string();
     assert!(message.contains("a.tri:2: mode"), "{message}");
@@ -255,9 +266,10 @@ proptest! {
     fn what_is_written_is_read_back(frame in frame()) {
         let mut text = Vec::new();
         triangle_file::write(&frame, &mut text).unwrap();
-        let reader = triangle_file::Reader::new("a.tri", &text[..]).unwrap();
-        let streamed: Vec<Triangle> = reader.map(Result::unwrap).collect();
-        prop_assert_eq!(&streamed, &frame.triangles);
+        let streamed: Result<Vec<Triangle>, _> =
+            triangle_file::Reader::new("a.tri", &text[..]).unwrap().collect();
+        prop_assert_eq!(streamed.is_ok(), frame.polygons.is_empty());
+        prop_assert!(streamed.map_or(true, |triangles| triangles == frame.triangles));
         prop_assert_eq!(triangle_file::parse("a.tri", &text[..]).unwrap(), frame);
     }
 

@@ -1,11 +1,11 @@
 //! `edgewalk raster`: screen-space triangles of any program, through any engine, into numpy arrays.
 
-use crate::engine::{Engine, Raster, draw};
+use crate::engine::{Engine, Raster, draw, from_fast};
 use crate::machine_args::MachineArgs;
 use crate::report::Report;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::{Talk, arrays, picture};
+use crate::{Talk, arrays, fast, picture};
 use anyhow::{Context, Result};
 use edgewalk_scene::triangle_file;
 use std::path::PathBuf;
@@ -34,7 +34,7 @@ pub struct Args {
     /// The triangle file
     file: PathBuf,
     /// Who draws
-    #[arg(long, value_enum, default_value_t = Engine::Model)]
+    #[arg(long, value_enum, default_value_t = Engine::Fast)]
     engine: Engine,
     /// Output directory
     #[arg(long, value_name = "DIR")]
@@ -43,11 +43,19 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let frame = triangle_file::read(&args.file)?;
-    let machine = machine.machine(Some((frame.width, frame.height)))?;
-    let drawn =
-        draw(args.engine, &frame, &machine, talk.quiet).with_context(|| args.file.display().to_string())?;
-    let report = Report::new(&args.file.display().to_string(), &frame, &machine, &drawn);
+    let (machine, triangles, drawn) = if args.engine == Engine::Fast {
+        let (machine, frame, path) = fast::draw_file(&args.file, machine, talk.quiet)?;
+        let triangles = frame.counters.triangles;
+        let drawn = from_fast(&machine, frame, path);
+        (machine, triangles, drawn)
+    } else {
+        let frame = triangle_file::read(&args.file)?;
+        let machine = machine.machine(Some((frame.width, frame.height)))?;
+        let drawn = draw(args.engine, &frame, &machine, talk.quiet)
+            .with_context(|| args.file.display().to_string())?;
+        (machine, frame.triangles.len() as u64, drawn)
+    };
+    let report = Report::new(&args.file.display().to_string(), triangles, &machine, &drawn);
     let out = Staging::new(&args.out)?;
     write_arrays(&out, &drawn)?;
     picture::write_rgb(&out, "image.png", drawn.width, drawn.height, &drawn.rgb)?;

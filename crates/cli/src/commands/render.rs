@@ -21,7 +21,7 @@ pub struct Args {
     #[command(flatten)]
     source: Source,
     /// Who draws the picture that is compared with the golden one
-    #[arg(long, value_enum, default_value_t = Engine::Model)]
+    #[arg(long, value_enum, default_value_t = Engine::Fast)]
     engine: Engine,
     /// Output directory
     #[arg(long, value_name = "DIR", default_value = "out/render")]
@@ -59,6 +59,6 @@ pub fn pictures(
     picture::write_heat(out, "z_error.png", w, h, &comparison.z_map)?;
     picture::write_heat(out, "color_error.png", w, h, &comparison.color_map)?;
     let verdict = comparison.verdict();
-    let report = Report::new(name, frame, machine, &drawn).with(comparison);
+    let report = Report::new(name, frame.triangles.len() as u64, machine, &drawn).with(comparison);
     Ok((report, verdict))
 }

@@ -28,6 +28,7 @@ use crate::memory::Stalls;
 use crate::run::{DrawState, Frame, render};
 use edgewalk_numerics::{Machine, PortVertex};
 use picture::Picture;
+use std::fmt;
 
 /// Why a frame has to be ticked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,6 +46,16 @@ pub enum Path {
     Fast,
     /// Cycle by cycle.
     Ticked(Reason),
+}
+
+impl fmt::Display for Path {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Path::Fast => "without ticking",
+            Path::Ticked(Reason::Queue) => "ticked: the in-flight queue may fill",
+            Path::Ticked(Reason::Interlock) => "ticked: a fragment may have met its address in flight",
+        })
+    }
 }
 
 /// Colours packed into as few bits as they need.

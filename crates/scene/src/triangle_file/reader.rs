@@ -55,7 +55,7 @@ pub fn parse(file: &str, input: impl BufRead) -> Result<Frame, InputError> {
 
 /// A file triangle by triangle: takes as much memory as its longest line.
 ///
-/// An item is a triangle, or an error; there is nothing worth reading after that.
+/// An item is a triangle, or an error; there is nothing worth reading after that. Polygons are refused.
 pub struct Reader<R> {
     lines: Lines<R>,
     parser: Parser,
@@ -77,7 +77,7 @@ impl<R: BufRead> Reader<R> {
         Ok(reader)
     }
 
-    /// The frame without its triangles. Polygons stay here as they come, without their places among the triangles.
+    /// The frame without what it draws.
     pub fn header(&self) -> &Frame {
         &self.parser.frame
     }
@@ -95,6 +95,10 @@ impl<R: BufRead> Iterator for Reader<R> {
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
+            if !self.parser.frame.polygons.is_empty() {
+                let why = "permitted: only triangles, where a file is drawn while it is read";
+                return Some(Err(self.lines.place().fault("line starts with", b"P", why).into()));
+            }
             if let Some(triangle) = self.parser.frame.triangles.pop() {
                 return Some(Ok(triangle));
             }
