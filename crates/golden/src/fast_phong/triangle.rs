@@ -1,7 +1,7 @@
 //! Fast Phong for a triangle of a scene: which normals and directions the quadratics are made from.
 //!
-//! L is the same everywhere, H is not quite: it leans with the viewer. The Taylor series takes H at the centroid, as
-//! [BW86] do; the six-point fit takes it where it takes its values, so neighbours still agree along their edge. Both
+//! L is the same everywhere, H is not quite: it leans with the viewer. The Taylor series takes one H,
+//! at the centroid; the six-point fit takes it where it takes its values, so neighbours still agree along their edge. Both
 //! take the world position linear over the screen, as A 7.12 does.
 
 use crate::cover::snap;

@@ -87,7 +87,7 @@ fn tripod(axis: DVec3, cone: f64, third: f64) -> [DVec3; 3] {
     [rim(1.0), rim(-1.0), axis * third.cos() - u * third.sin()]
 }
 
-/// The table of `docs/shading.md`.
+/// The table of `docs/fast_phong.md`.
 #[test]
 fn errors_by_half_cone() {
     let mut random = Pcg64Mcg::seed_from_u64(85);

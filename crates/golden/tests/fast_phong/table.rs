@@ -21,7 +21,7 @@ fn entries_and_saturation() {
     assert_eq!(PowerTable::new(0, Specular::Blinn, 9.0), PowerTable::new(2, Specular::Blinn, 9.0));
 }
 
-/// The table of `docs/shading.md`.
+/// The table of `docs/fast_phong.md`.
 #[test]
 fn error_by_size() {
     println!("form       n    entries   error, LSB of 8 bits   n / (2 (size - 1)), or four times that");
