@@ -1,9 +1,10 @@
 //! Registers, memories and hierarchy over the clock.
-#![allow(clippy::unwrap_used)] // a test may
 
 use std::sync::Arc;
 
-use edgewalk_netlist::{Module, Netlist, SimError, Simulator};
+use edgewalk_netlist::{Module, Netlist, SimError};
+
+use crate::{Simulator, simulator};
 
 fn finish(m: Module) -> Arc<Netlist> {
     m.finish().unwrap()
@@ -24,7 +25,7 @@ fn of_several_updates_the_last_wins_and_reset_wins_over_all() {
     let (first, second) = (m.input("first", 1), m.input("second", 1));
     let r = m.reg("r", 4).reset(9).when(first, 1).when(second, 2);
     m.output("q", r);
-    let mut sim = Simulator::new(&finish(m));
+    let mut sim = simulator(&finish(m));
     let mut next =
         |first, second, rst| step(&mut sim, &[("first", first), ("second", second), ("rst", rst)], "q");
     assert_eq!(next(0, 0, 0), 0, "zero before the first update");
@@ -41,7 +42,7 @@ fn an_unconditional_update_hides_those_before_it_only() {
     let m = Module::new("order", "");
     let (a, b) = (m.input("a", 1), m.input("b", 1));
     m.output("q", m.reg("r", 4).when(a, 1).set(2).when(b, 3));
-    let mut sim = Simulator::new(&finish(m));
+    let mut sim = simulator(&finish(m));
     assert_eq!(step(&mut sim, &[("a", 1), ("b", 0)], "q"), 2);
     assert_eq!(step(&mut sim, &[("a", 0), ("b", 1)], "q"), 3);
 }
@@ -52,7 +53,7 @@ fn a_register_without_reset_ignores_it() {
     let data = m.input("data", 4);
     m.output("p_q", m.reg("p", 4).reset(5).set(data));
     m.output("q_q", m.reg("q", 4).set(data));
-    let mut sim = Simulator::new(&finish(m));
+    let mut sim = simulator(&finish(m));
     assert_eq!(step(&mut sim, &[("data", 7), ("rst", 1)], "p_q"), 5);
     assert_eq!(sim.get("q_q").unwrap(), 7);
 }
@@ -63,7 +64,7 @@ fn registers_change_together() {
     let (one, two) = (m.reg("one", 4).reset(1), m.reg("two", 4).reset(2));
     one.set(two);
     two.set(one);
-    let mut sim = Simulator::new(&finish(m));
+    let mut sim = simulator(&finish(m));
     assert_eq!(step(&mut sim, &[("rst", 1)], "one"), 1);
     assert_eq!(step(&mut sim, &[("rst", 0)], "one"), 2);
     assert_eq!(sim.get("two").unwrap(), 1);
@@ -76,7 +77,7 @@ fn memory_reads_the_old_word_and_holds() {
     let (wa, ra, data) = (m.input("wa", 3), m.input("ra", 3), m.input("data", 8));
     let ram = m.memory("words", 3, 6, 8, 0xaa).write(we, wa, data);
     m.output("q", ram.read(re, ra));
-    let mut sim = Simulator::new(&finish(m));
+    let mut sim = simulator(&finish(m));
     let mut next = |we, wa, data, re, ra| {
         step(&mut sim, &[("we", we), ("wa", wa), ("data", data), ("re", re), ("ra", ra)], "q")
     };
@@ -96,7 +97,7 @@ fn of_two_write_ports_the_later_wins() {
     let addr = m.lit(1, 1);
     let ram = m.memory("words", 1, 2, 4, 0).write(first, addr, 1).write(second, addr, 2);
     m.output("q", ram.read(m.lit(1, 1), addr));
-    let mut sim = Simulator::new(&finish(m));
+    let mut sim = simulator(&finish(m));
     step(&mut sim, &[("first", 1), ("second", 1)], "q");
     assert_eq!(sim.memory("words").unwrap(), [0, 2]);
 }
@@ -119,7 +120,7 @@ fn hierarchy_with_feedback() {
     m.output("q", two.output("q"));
     let chain = finish(m);
 
-    let mut sim = Simulator::new(&chain);
+    let mut sim = simulator(&chain);
     assert_eq!(step(&mut sim, &[("start", 10), ("go", 0)], "one.held"), 11);
     assert_eq!(sim.get("two.ready").unwrap(), 0);
     assert_eq!(step(&mut sim, &[("go", 1)], "q"), 12);
@@ -134,7 +135,7 @@ fn hierarchy_with_feedback() {
 fn names_and_values_that_do_not_fit_are_refused() {
     let m = Module::new("adder", "");
     m.output("q", m.input("a", 4) + 1);
-    let mut sim = Simulator::new(&finish(m));
+    let mut sim = simulator(&finish(m));
     assert_eq!(sim.set_input("b", 0), Err(SimError::NoInput("b".into())));
     assert_eq!(sim.set_input("rst", 0), Err(SimError::NoInput("rst".into())), "nothing to reset");
     assert_eq!(sim.set_input("a", 16).unwrap_err().to_string(), "16 does not fit input `a` of 4 bits");
@@ -148,5 +149,5 @@ fn a_constant_is_computed_once_and_right() {
     let three = m.constant("THREE", 4, 3);
     let low = m.cat(&[m.lit(1, 1), m.lit(2, 0), m.lit(1, 1)]);
     m.output("q", (three + 2) ^ low);
-    assert_eq!(Simulator::new(&finish(m)).get("q").unwrap(), 5 ^ 9);
+    assert_eq!(simulator(&finish(m)).get("q").unwrap(), 5 ^ 9);
 }
