@@ -11,13 +11,14 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("model", &["numerics"]),
     ("netlist", &[]),
     ("verilog", &["netlist"]),
+    ("jit", &["netlist"]),
     ("rtl", &["numerics", "netlist"]),
     ("vectors", &["numerics", "model", "netlist", "verilog", "rtl"]),
     ("cli", &["numerics", "scene", "golden", "model", "netlist", "verilog", "rtl", "vectors"]),
 ];
 
 /// Crates that read and write no files: they may not even name the standard library's file or process modules.
-const NO_FILES: &[&str] = &["numerics", "golden", "model", "netlist", "verilog", "rtl"];
+const NO_FILES: &[&str] = &["numerics", "golden", "model", "netlist", "verilog", "jit", "rtl"];
 
 fn crates() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..")

@@ -1,0 +1,123 @@
+//! Native code: functions that Cranelift made, in memory that lives as long as they can be called.
+
+use std::sync::Mutex;
+
+use cranelift_codegen::ir::{AbiParam, Endianness, types};
+use cranelift_codegen::isa::OwnedTargetIsa;
+use cranelift_codegen::settings::{self, Configurable};
+use cranelift_jit::{JITBuilder, JITModule};
+use cranelift_module::{Module, ModuleError, default_libcall_names};
+
+use crate::design::Design;
+use crate::error::JitError;
+use crate::layout::Layout;
+use crate::lower::{Program, lower};
+use crate::schedule::Step;
+
+/// The state's address, and how many clocks to run; the other programs ignore that.
+type Entry = unsafe extern "C" fn(*mut u64, u64);
+
+/// The programs for one layout.
+pub(crate) struct Code {
+    run: Entry,
+    outputs: Entry,
+    signals: Entry,
+    /// 64-bit words that the programs may access from the address on.
+    size: usize,
+    /// Owns the memory that the entries point into. `None` only while it is dropped.
+    module: Option<Mutex<JITModule>>,
+}
+
+impl Code {
+    /// Compiles all programs.
+    ///
+    /// # Errors
+    /// If there is no code generator for this machine.
+    pub fn new(design: &Design, steps: &[Step], layout: &Layout) -> Result<Code, JitError> {
+        let mut module = JITModule::new(JITBuilder::with_isa(isa()?, default_libcall_names()));
+        let programs = [Program::Run, Program::Outputs, Program::Signals];
+        let [run, outputs, signals] = entries(&mut module, programs, design, steps, layout)?;
+        Ok(Code { run, outputs, signals, size: layout.size, module: Some(Mutex::new(module)) })
+    }
+
+    /// Runs a program. `clocks` is at least 1.
+    ///
+    /// # Panics
+    /// If the state is smaller than the layout, or there are no clocks: both defects of this crate.
+    pub fn run(&self, program: Program, state: &mut [u64], clocks: u64) {
+        assert!(state.len() >= self.size && clocks > 0, "the state is made from the same layout");
+        let entry = match program {
+            Program::Run => self.run,
+            Program::Outputs => self.outputs,
+            Program::Signals => self.signals,
+        };
+        // SAFETY: the program reads and writes only places and areas of its layout, and these end within `size` words
+        // (`Layout::take` hands them out one after the other and `size` is where the last ends); a word of an area is
+        // accessed only at an index that was found to be less than the number of words, or 0, or that has too few bits
+        // to be more (`index`, `read` and `write` in `lower/program.rs`). The slice is ours alone while the call lasts,
+        // aligned to 8 bytes as the accesses say, and any bits are a valid u64. The code calls nothing and cannot
+        // unwind.
+        unsafe { entry(state.as_mut_ptr(), clocks) }
+    }
+}
+
+impl Drop for Code {
+    fn drop(&mut self) {
+        if let Some(module) = self.module.take() {
+            let module = module.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+            // SAFETY: the only pointers into this memory are the entries; they are never handed out, nobody can be in
+            // one while `self` is borrowed exclusively, and nobody can call one afterwards.
+            unsafe { module.free_memory() }
+        }
+    }
+}
+
+/// The code generator for this machine.
+fn isa() -> Result<OwnedTargetIsa, JitError> {
+    let refused = |error: &dyn std::fmt::Display| JitError::Host(error.to_string());
+    let mut flags = settings::builder();
+    for (name, value) in [
+        ("opt_level", "speed"),
+        ("enable_verifier", if cfg!(debug_assertions) { "true" } else { "false" }),
+        ("enable_probestack", "false"),
+        ("unwind_info", "false"),
+    ] {
+        flags.set(name, value).map_err(|error| refused(&error))?;
+    }
+    let isa = cranelift_native::builder().map_err(|error| refused(&error))?;
+    let isa = isa.finish(settings::Flags::new(flags)).map_err(|error| refused(&error))?;
+    if isa.endianness() != Endianness::Little || isa.pointer_bits() != 64 {
+        return Err(JitError::Host("it is not a little-endian machine of 64 bits".to_owned()));
+    }
+    Ok(isa)
+}
+
+fn entries<const N: usize>(
+    module: &mut JITModule,
+    programs: [Program; N],
+    design: &Design,
+    steps: &[Step],
+    layout: &Layout,
+) -> Result<[Entry; N], JitError> {
+    let refused = |error: ModuleError| JitError::Cranelift(error.to_string());
+    let pointer = module.target_config().pointer_type();
+    let mut context = module.make_context();
+    let mut functions = Vec::new();
+    for program in programs {
+        context.func.signature = module.make_signature();
+        context.func.signature.params.extend([AbiParam::new(pointer), AbiParam::new(types::I64)]);
+        lower(program, design, steps, layout, pointer, &mut context.func);
+        let function = module.declare_anonymous_function(&context.func.signature).map_err(refused)?;
+        module.define_function(function, &mut context).map_err(refused)?;
+        module.clear_context(&mut context);
+        functions.push(function);
+    }
+    module.finalize_definitions().map_err(refused)?;
+    Ok(std::array::from_fn(|i| {
+        let address = module.get_finalized_function(functions[i]);
+        // SAFETY: the address is that of a finalized function with the signature given above, (pointer, I64) -> () in
+        // the platform's C convention, which is what `Entry` says. It is executable as long as `module` lives: `Code`
+        // keeps both together, and calls an entry only through `&self`.
+        unsafe { std::mem::transmute::<*const u8, Entry>(address) }
+    }))
+}

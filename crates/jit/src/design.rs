@@ -1,0 +1,57 @@
+//! A design without hierarchy: one graph of values, registers and memories.
+
+use std::collections::BTreeMap;
+
+use crate::graph::{Graph, ValueId};
+
+/// A design without hierarchy.
+#[derive(Clone, Debug)]
+pub(crate) struct Design {
+    pub graph: Graph,
+    /// Of the top module, with `rst` if it has one.
+    pub inputs: BTreeMap<String, ValueId>,
+    /// `rst`, whether anything is reset or not.
+    pub reset: ValueId,
+    /// Of the top module, in order.
+    pub outputs: Vec<(String, ValueId)>,
+    pub registers: Vec<Register>,
+    pub memories: Vec<Memory>,
+    /// Every named signal by its path.
+    pub signals: BTreeMap<String, ValueId>,
+}
+
+/// A register: `reset`, else the last update whose condition holds, else as it was.
+#[derive(Clone, Debug)]
+pub(crate) struct Register {
+    pub q: ValueId,
+    pub reset: Option<u128>,
+    /// Condition and value.
+    pub updates: Vec<(Option<ValueId>, ValueId)>,
+}
+
+/// A memory; its reads see the words from before the writes, a later write overrules an earlier one.
+#[derive(Clone, Debug)]
+pub(crate) struct Memory {
+    pub path: String,
+    pub words: usize,
+    pub width: u32,
+    pub init: u128,
+    pub writes: Vec<Write>,
+    pub reads: Vec<Read>,
+}
+
+/// A write port.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Write {
+    pub en: ValueId,
+    pub addr: ValueId,
+    pub data: ValueId,
+}
+
+/// A read port with its registered output.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Read {
+    pub en: ValueId,
+    pub addr: ValueId,
+    pub q: ValueId,
+}

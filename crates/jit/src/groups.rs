@@ -1,0 +1,61 @@
+//! Registers and read ports that change under the same conditions: they share the branches of a clock, and what only
+//! they need is computed only when they change.
+
+use std::collections::HashMap;
+
+use crate::design::{Design, Register};
+use crate::graph::{Graph, ValueId};
+
+/// Conditions and what changes under them.
+#[derive(Clone, Debug)]
+pub(crate) struct Group {
+    /// One bit each, the strongest last; the last one that holds decides, and if none does nothing changes.
+    pub conditions: Vec<ValueId>,
+    pub members: Vec<Member>,
+}
+
+/// What changes.
+#[derive(Clone, Debug)]
+pub(crate) enum Member {
+    /// A register takes the value of the condition that decides.
+    Register { q: ValueId, values: Vec<ValueId> },
+    /// A memory's read port, which has one condition, takes a word.
+    Read { memory: usize, port: usize },
+}
+
+/// The groups of all registers and read ports, those of equal conditions together.
+pub(crate) fn groups(design: &mut Design) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    let mut known: HashMap<Vec<ValueId>, usize> = HashMap::new();
+    let mut add = |conditions: Vec<ValueId>, member| {
+        let group = *known.entry(conditions.clone()).or_insert_with(|| {
+            groups.push(Group { conditions, members: Vec::new() });
+            groups.len() - 1
+        });
+        groups[group].members.push(member);
+    };
+    let Design { graph, registers, memories, .. } = design;
+    for register in registers.iter() {
+        let (conditions, values) = updates(graph, register);
+        if !conditions.is_empty() {
+            add(conditions, Member::Register { q: register.q, values });
+        }
+    }
+    for (memory, ports) in memories.iter().enumerate() {
+        for (port, read) in ports.reads.iter().enumerate() {
+            if graph.as_constant(read.en) != Some(0) {
+                add(vec![read.en], Member::Read { memory, port });
+            }
+        }
+    }
+    groups
+}
+
+/// The updates that can decide: not those under a 0, nor those that one under a 1 always overrules.
+fn updates(graph: &mut Graph, register: &Register) -> (Vec<ValueId>, Vec<ValueId>) {
+    let always = graph.constant(1, 1);
+    let all = register.updates.iter().map(|(when, value)| (when.unwrap_or(always), *value));
+    let all: Vec<_> = all.filter(|(when, _)| graph.as_constant(*when) != Some(0)).collect();
+    let first = all.iter().rposition(|(when, _)| *when == always).unwrap_or(0);
+    all[first..].iter().copied().unzip()
+}

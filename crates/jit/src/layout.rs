@@ -1,0 +1,90 @@
+//! Where everything lies in the state: one buffer of 64-bit words. Each signal has its own place of 8 bytes, 16 if wider
+//! than 64 bits, low half first; then the outputs as they were before the last clock; then the words of the memories,
+//! each in the smallest of 1, 2, 4, 8 or 16 bytes.
+
+use std::collections::HashMap;
+
+use crate::design::Design;
+use crate::error::JitError;
+use crate::graph::{Graph, Kind, ValueId};
+
+/// Offsets are in bytes from the start of the state, and end within it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Layout {
+    places: HashMap<ValueId, Place>,
+    /// Of each output, its value before the last clock.
+    pub sampled: Vec<Place>,
+    /// Of each memory.
+    pub memories: Vec<Area>,
+    /// 64-bit words of the state.
+    pub size: usize,
+}
+
+/// A signal's place, a multiple of 8.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Place {
+    pub offset: i32,
+    pub width: u32,
+}
+
+/// A memory's place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Area {
+    /// A multiple of 8.
+    pub offset: i32,
+    /// Bytes of a word: 1, 2, 4, 8 or 16.
+    pub word: u32,
+    /// Words; at least one has room.
+    pub words: usize,
+    /// Bits of a word.
+    pub width: u32,
+}
+
+impl Layout {
+    /// The layout for all values of the state and all signals with a name.
+    ///
+    /// # Errors
+    /// If all of it is larger than 2 GiB.
+    pub fn new(design: &Design) -> Result<Layout, JitError> {
+        let mut layout = Layout::default();
+        let graph = &design.graph;
+        let stored = graph.ids().filter(|id| *graph.kind(*id) == Kind::Stored);
+        for value in stored.chain(design.signals.values().copied()) {
+            if !layout.places.contains_key(&value) {
+                let place = layout.place(graph, value)?;
+                layout.places.insert(value, place);
+            }
+        }
+        for (_, value) in &design.outputs {
+            let place = layout.place(graph, *value)?;
+            layout.sampled.push(place);
+        }
+        for memory in &design.memories {
+            let word = memory.width.div_ceil(8).next_power_of_two();
+            let bytes = memory.words.max(1).checked_mul(word as usize).ok_or(JitError::TooLarge)?;
+            let offset = layout.take(bytes)?;
+            let (words, width) = (memory.words, memory.width);
+            layout.memories.push(Area { offset, word, words, width });
+        }
+        Ok(layout)
+    }
+
+    /// The place of a value that is stored or has a name.
+    pub fn of(&self, value: ValueId) -> Option<Place> {
+        self.places.get(&value).copied()
+    }
+
+    fn place(&mut self, graph: &Graph, value: ValueId) -> Result<Place, JitError> {
+        let width = graph.width(value);
+        Ok(Place { offset: self.take(width.div_ceil(64) as usize * 8)?, width })
+    }
+
+    /// The offset of so many bytes more.
+    fn take(&mut self, bytes: usize) -> Result<i32, JitError> {
+        let offset = self.size * 8;
+        let end =
+            offset.checked_add(bytes).filter(|end| i32::try_from(*end).is_ok()).ok_or(JitError::TooLarge)?;
+        self.size = end.div_ceil(8);
+        Ok(offset as i32)
+    }
+}

@@ -1,0 +1,319 @@
+//! Each operator in instructions. What it means is the table in `edgewalk_netlist::ops`.
+
+use cranelift_codegen::ir::condcodes::{CondCode, IntCC};
+use cranelift_codegen::ir::{InstBuilder, Type, Value, types};
+use edgewalk_netlist::Op;
+use edgewalk_netlist::ops::mask;
+
+use super::values::{Lowered, Values, lane};
+use crate::graph::{Kind, ValueId};
+
+/// The result of `width` bits.
+pub(super) fn lower(v: &mut Values, op: Op, width: u32, operands: &[ValueId]) -> Lowered {
+    let ty = lane(width);
+    if let Some((condition, signed)) = relation(op)
+        && let &[a, b] = operands
+    {
+        return Lowered::below(compare(v, condition, signed, a, b), 1);
+    }
+    match (op, operands) {
+        (Op::Add, &[a, b]) => {
+            let (a, b) = (v.any(a), v.any(b));
+            Lowered::below(v.cursor.ins().iadd(a.any, b.any), a.bits.max(b.bits).saturating_add(1))
+        }
+        (Op::Sub, &[a, b]) => {
+            let (a, b) = (v.any(a), v.any(b));
+            Lowered::below(v.cursor.ins().isub(a.any, b.any), u32::MAX)
+        }
+        (Op::Neg, &[a]) => {
+            let a = v.any(a);
+            Lowered::below(v.cursor.ins().ineg(a.any), u32::MAX)
+        }
+        (Op::Mul, &[a, b]) => product(v, width, a, b),
+        (Op::MulSigned, &[a, b]) => signed_product(v, width, a, b),
+        (Op::And, &[a, b]) => {
+            let (a, b) = (v.any(a), v.any(b));
+            Lowered::below(v.cursor.ins().band(a.any, b.any), a.bits.min(b.bits))
+        }
+        (Op::Or, &[a, b]) => {
+            let (a, b) = (v.any(a), v.any(b));
+            Lowered::below(v.cursor.ins().bor(a.any, b.any), a.bits.max(b.bits))
+        }
+        (Op::Xor, &[a, b]) => {
+            let (a, b) = (v.any(a), v.any(b));
+            Lowered::below(v.cursor.ins().bxor(a.any, b.any), a.bits.max(b.bits))
+        }
+        (Op::Not, &[a]) => not(v, width, a),
+        (Op::Mux, &[c, a, b]) => {
+            let (c, a, b) = (v.zero(c), v.any(a), v.any(b));
+            Lowered::below(v.cursor.ins().select(c, a.any, b.any), a.bits.max(b.bits))
+        }
+        (Op::Shl(n), &[a]) if n < width => {
+            let a = v.any(a);
+            Lowered::below(shifted_left(v, a.any, n), a.bits.saturating_add(n))
+        }
+        (Op::Shr(n), &[a]) if n < width => {
+            let a = v.zero(a);
+            Lowered::below(shifted_right(v, a, n), width - n)
+        }
+        (Op::Sar(n), &[a]) => {
+            let a = v.sign(a);
+            let n = v.constant(types::I64, n.min(width - 1).into());
+            Lowered::signed(v.cursor.ins().sshr(a, n))
+        }
+        (Op::ShlBy | Op::ShrBy | Op::SarBy, &[a, n]) => shifted_by(v, op, width, a, n),
+        (Op::Slice { hi, lo }, &[a]) => {
+            let bits = v.any(a).bits.min(lane(v.graph.width(a)).bits());
+            Lowered::below(slice(v, hi, lo, a), bits.saturating_sub(lo))
+        }
+        (Op::ZeroExtend(_), &[a]) => {
+            let zero = v.zero(a);
+            Lowered::below(widened(v, zero, ty), v.graph.width(a))
+        }
+        (Op::SignExtend(_), &[a]) => {
+            let sign = v.sign(a);
+            Lowered::signed(sign_widened(v, sign, ty))
+        }
+        (Op::Concat, _) => concat(v, width, operands),
+        (Op::Any, &[a]) => {
+            let a = v.zero(a);
+            let zero = zero_like(v, a);
+            Lowered::below(v.cursor.ins().icmp(IntCC::NotEqual, a, zero), 1)
+        }
+        (Op::All, &[a]) => {
+            let bits = v.graph.width(a);
+            let a = v.zero(a);
+            let ones = v.constant(lane(bits), mask(bits));
+            Lowered::below(v.cursor.ins().icmp(IntCC::Equal, a, ones), 1)
+        }
+        (Op::Parity, &[a]) => parity(v, a),
+        // Shifts beyond the width; nothing else is left.
+        _ => Lowered::below(v.constant(ty, 0), 0),
+    }
+}
+
+/// The relation of integers that an operator asks for, and whether they are signed.
+fn relation(op: Op) -> Option<(IntCC, bool)> {
+    Some(match op {
+        Op::Eq => (IntCC::Equal, false),
+        Op::Ne => (IntCC::NotEqual, false),
+        Op::Lt => (IntCC::UnsignedLessThan, false),
+        Op::Le => (IntCC::UnsignedLessThanOrEqual, false),
+        Op::Gt => (IntCC::UnsignedGreaterThan, false),
+        Op::Ge => (IntCC::UnsignedGreaterThanOrEqual, false),
+        Op::LtSigned => (IntCC::SignedLessThan, true),
+        Op::LeSigned => (IntCC::SignedLessThanOrEqual, true),
+        Op::GtSigned => (IntCC::SignedGreaterThan, true),
+        Op::GeSigned => (IntCC::SignedGreaterThanOrEqual, true),
+        _ => return None,
+    })
+}
+
+fn compare(v: &mut Values, condition: IntCC, signed: bool, a: ValueId, b: ValueId) -> Value {
+    let (a, b) = if signed { (v.sign(a), v.sign(b)) } else { (v.zero(a), v.zero(b)) };
+    v.cursor.ins().icmp(condition, a, b)
+}
+
+/// The opposite of a relation is a relation.
+fn not(v: &mut Values, width: u32, a: ValueId) -> Lowered {
+    if let Kind::Op(op, operands) = v.graph.kind(a)
+        && let Some((condition, signed)) = relation(*op)
+        && let &[a, b] = &**operands
+    {
+        return Lowered::below(compare(v, condition.complement(), signed, a, b), 1);
+    }
+    let a = v.any(a).any;
+    if width == 1 {
+        let one = v.constant(types::I8, 1);
+        return Lowered::below(v.cursor.ins().bxor(a, one), 1);
+    }
+    Lowered::below(v.cursor.ins().bnot(a), u32::MAX)
+}
+
+fn product(v: &mut Values, width: u32, a: ValueId, b: ValueId) -> Lowered {
+    let narrow = [a, b].iter().all(|operand| v.graph.width(*operand) <= 64);
+    let factor = if narrow { types::I64 } else { types::I128 };
+    let (a, b) = (v.zero(a), v.zero(b));
+    let (a, b) = (widened(v, a, factor), widened(v, b, factor));
+    let low = v.cursor.ins().imul(a, b);
+    if !narrow || width <= 64 {
+        return Lowered::below(low, width);
+    }
+    let high = v.cursor.ins().umulhi(a, b);
+    Lowered::below(v.cursor.ins().iconcat(low, high), width)
+}
+
+fn signed_product(v: &mut Values, width: u32, a: ValueId, b: ValueId) -> Lowered {
+    let narrow = [a, b].iter().all(|operand| v.graph.width(*operand) <= 64);
+    let factor = if narrow { types::I64 } else { types::I128 };
+    let (a, b) = (v.sign(a), v.sign(b));
+    let (a, b) = (sign_widened(v, a, factor), sign_widened(v, b, factor));
+    let low = v.cursor.ins().imul(a, b);
+    if !narrow || width <= 64 {
+        return Lowered::signed(low);
+    }
+    let high = v.cursor.ins().smulhi(a, b);
+    Lowered::signed(v.cursor.ins().iconcat(low, high))
+}
+
+/// A shift by a signal: what is shifted out of the lane must be gone, however large the count.
+fn shifted_by(v: &mut Values, op: Op, width: u32, a: ValueId, n: ValueId) -> Lowered {
+    let count_bits = v.graph.width(n);
+    let lane_bits: u32 = if width == 1 { 1 } else { lane(width).bits() };
+    let count = v.zero(n);
+    let in_lane = (count_bits > lane_bits.ilog2()).then(|| {
+        let limit = v.constant(lane(count_bits), lane_bits.into());
+        v.cursor.ins().icmp(IntCC::UnsignedLessThan, count, limit)
+    });
+    let count = resized(v, count, types::I64);
+    match op {
+        Op::SarBy => {
+            let a = v.sign(a);
+            let most = v.constant(types::I64, (lane_bits - 1).into());
+            let count = in_lane.map_or(count, |in_lane| v.cursor.ins().select(in_lane, count, most));
+            Lowered::signed(v.cursor.ins().sshr(a, count))
+        }
+        _ => {
+            let (shifted, bits) = if op == Op::ShlBy {
+                let a = v.any(a).any;
+                (v.cursor.ins().ishl(a, count), u32::MAX)
+            } else {
+                let a = v.zero(a);
+                (v.cursor.ins().ushr(a, count), width)
+            };
+            let zero = v.constant(lane(width), 0);
+            Lowered::below(in_lane.map_or(shifted, |fits| v.cursor.ins().select(fits, shifted, zero)), bits)
+        }
+    }
+}
+
+/// Bits from `lo` on; above `hi` anything.
+fn slice(v: &mut Values, hi: u32, lo: u32, a: ValueId) -> Value {
+    let ty = lane(hi - lo + 1);
+    let a = v.any(a).any;
+    if v.cursor.func.dfg.value_type(a) == types::I128 && ty != types::I128 && hi / 64 == lo / 64 {
+        let (low, high) = v.cursor.ins().isplit(a);
+        let half = shifted_right(v, if lo < 64 { low } else { high }, lo % 64);
+        return resized(v, half, ty);
+    }
+    let shifted = shifted_right(v, a, lo);
+    resized(v, shifted, ty)
+}
+
+fn concat(v: &mut Values, width: u32, parts: &[ValueId]) -> Lowered {
+    let ty = lane(width);
+    let mut all: Option<Lowered> = None;
+    for part in parts {
+        let bits = v.graph.width(*part);
+        all = Some(match all {
+            None => {
+                let part = v.any(*part);
+                Lowered::below(widened(v, part.any, ty), part.bits)
+            }
+            Some(high) => {
+                let part = v.zero(*part);
+                let (part, above) = (widened(v, part, ty), shifted_left(v, high.any, bits));
+                Lowered::below(v.cursor.ins().bor(above, part), high.bits.saturating_add(bits))
+            }
+        });
+    }
+    match all {
+        Some(all) => all,
+        None => Lowered::below(v.constant(ty, 0), 0),
+    }
+}
+
+fn parity(v: &mut Values, a: ValueId) -> Lowered {
+    let mut a = v.zero(a);
+    if v.cursor.func.dfg.value_type(a) == types::I128 {
+        let (low, high) = v.cursor.ins().isplit(a);
+        a = v.cursor.ins().bxor(low, high);
+    }
+    let ones = v.cursor.ins().popcnt(a);
+    Lowered::below(resized(v, ones, types::I8), 8)
+}
+
+/// With copies of bit `width` - 1 above it.
+pub(super) fn sign_extended(v: &mut Values, value: Value, width: u32) -> Value {
+    let ty = v.cursor.func.dfg.value_type(value);
+    let narrow = match width {
+        8 => types::I8,
+        16 => types::I16,
+        32 => types::I32,
+        _ if width == ty.bits() => return value,
+        _ if ty == types::I128 => {
+            let (low, high) = v.cursor.ins().isplit(value);
+            let high = sign_extended(v, high, width - 64);
+            return v.cursor.ins().iconcat(low, high);
+        }
+        _ => {
+            let unused = v.constant(types::I64, (ty.bits() - width).into());
+            let top = v.cursor.ins().ishl(value, unused);
+            return v.cursor.ins().sshr(top, unused);
+        }
+    };
+    let low = v.cursor.ins().ireduce(narrow, value);
+    v.cursor.ins().sextend(ty, low)
+}
+
+/// Shifted by less than the lane has bits.
+fn shifted_left(v: &mut Values, value: Value, n: u32) -> Value {
+    if n == 0 {
+        return value;
+    }
+    if v.cursor.func.dfg.value_type(value) != types::I128 {
+        let n = v.constant(types::I64, n.into());
+        return v.cursor.ins().ishl(value, n);
+    }
+    let (low, high) = v.cursor.ins().isplit(value);
+    let (new_low, new_high) = if n >= 64 {
+        (v.constant(types::I64, 0), shifted_left(v, low, n - 64))
+    } else {
+        let (up, over) = (shifted_left(v, high, n), shifted_right(v, low, 64 - n));
+        (shifted_left(v, low, n), v.cursor.ins().bor(up, over))
+    };
+    v.cursor.ins().iconcat(new_low, new_high)
+}
+
+/// Shifted by less than the lane has bits.
+fn shifted_right(v: &mut Values, value: Value, n: u32) -> Value {
+    if n == 0 {
+        return value;
+    }
+    if v.cursor.func.dfg.value_type(value) != types::I128 {
+        let n = v.constant(types::I64, n.into());
+        return v.cursor.ins().ushr(value, n);
+    }
+    let (low, high) = v.cursor.ins().isplit(value);
+    let (new_low, new_high) = if n >= 64 {
+        (shifted_right(v, high, n - 64), v.constant(types::I64, 0))
+    } else {
+        let (down, over) = (shifted_right(v, low, n), shifted_left(v, high, 64 - n));
+        (v.cursor.ins().bor(down, over), shifted_right(v, high, n))
+    };
+    v.cursor.ins().iconcat(new_low, new_high)
+}
+
+/// In a lane at least as wide, with zeros above.
+fn widened(v: &mut Values, value: Value, ty: Type) -> Value {
+    if v.cursor.func.dfg.value_type(value) == ty { value } else { v.cursor.ins().uextend(ty, value) }
+}
+
+/// In a lane at least as wide, with copies of the sign above.
+fn sign_widened(v: &mut Values, value: Value, ty: Type) -> Value {
+    if v.cursor.func.dfg.value_type(value) == ty { value } else { v.cursor.ins().sextend(ty, value) }
+}
+
+/// In any lane: the bits that fit, or all with zeros above.
+pub(super) fn resized(v: &mut Values, value: Value, ty: Type) -> Value {
+    if v.cursor.func.dfg.value_type(value).bits() > ty.bits() {
+        v.cursor.ins().ireduce(ty, value)
+    } else {
+        widened(v, value, ty)
+    }
+}
+
+fn zero_like(v: &mut Values, value: Value) -> Value {
+    let ty = v.cursor.func.dfg.value_type(value);
+    v.constant(ty, 0)
+}

@@ -1,0 +1,219 @@
+//! Runs a netlist as native code: the same face as `edgewalk_netlist::Simulator`.
+
+use std::fmt;
+use std::sync::Arc;
+
+use edgewalk_netlist::ops::mask;
+use edgewalk_netlist::{Netlist, SimError};
+
+use crate::code::Code;
+use crate::design::Design;
+use crate::elaborate::elaborate;
+use crate::error::JitError;
+use crate::layout::{Layout, Place};
+use crate::lower::{Program, is_computed};
+use crate::schedule::schedule;
+use crate::state::State;
+
+/// A running netlist. Inputs are 0 until set; registers without reset, and memory outputs before the first read, are 0
+/// at the start. A clone shares the code and has its own state.
+#[derive(Clone)]
+pub struct Simulator {
+    compiled: Arc<Compiled>,
+    state: State,
+    /// An input or a register changed since the outputs were computed.
+    outputs_stale: bool,
+    /// The same for all signals.
+    signals_stale: bool,
+}
+
+/// All that does not change.
+struct Compiled {
+    design: Design,
+    layout: Layout,
+    code: Code,
+}
+
+/// An input of the top module.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InputId(Place);
+
+/// An output of the top module.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OutputId(Place);
+
+/// Any named signal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SignalId {
+    place: Place,
+    needs: Needs,
+}
+
+/// What must be computed before a signal can be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Needs {
+    Nothing,
+    Outputs,
+    Signals,
+}
+
+impl Simulator {
+    /// The netlist before its first clock, compiled.
+    ///
+    /// # Errors
+    /// If there is no code generator for this machine, or the netlist is larger than it can be.
+    pub fn new(netlist: &Netlist) -> Result<Simulator, JitError> {
+        let mut design = elaborate(netlist);
+        let layout = Layout::new(&design)?;
+        let steps = schedule(&mut design);
+        let code = Code::new(&design, &steps, &layout)?;
+        let state = State::new(&design, &layout);
+        let compiled = Arc::new(Compiled { design, layout, code });
+        Ok(Simulator { compiled, state, outputs_stale: true, signals_stale: true })
+    }
+
+    /// The input `name` of the top module; `rst` is one of them if there is a register with reset.
+    ///
+    /// # Errors
+    /// If there is none of that name.
+    pub fn input(&self, name: &str) -> Result<InputId, SimError> {
+        let value = self.compiled.design.inputs.get(name);
+        let place = value.and_then(|value| self.compiled.layout.of(*value));
+        place.map(InputId).ok_or_else(|| SimError::NoInput(name.to_owned()))
+    }
+
+    /// The output `name` of the top module.
+    ///
+    /// # Errors
+    /// If there is none of that name.
+    pub fn output(&self, name: &str) -> Result<OutputId, SimError> {
+        let mut outputs = self.compiled.design.outputs.iter().zip(&self.compiled.layout.sampled);
+        let found = outputs.find(|((output, _), _)| output == name);
+        found.map(|(_, place)| OutputId(*place)).ok_or_else(|| SimError::NoSignal(name.to_owned()))
+    }
+
+    /// A port, register, named wire, named constant, memory output (`ram_q`) or instance output (`u_a_q`) by its path:
+    /// `q` in the top module, `u_edge.u_minor.slope` deeper down.
+    ///
+    /// # Errors
+    /// If there is none of that path.
+    pub fn signal(&self, path: &str) -> Result<SignalId, SimError> {
+        let Compiled { design, layout, .. } = &*self.compiled;
+        let none = || SimError::NoSignal(path.to_owned());
+        let value = *design.signals.get(path).ok_or_else(none)?;
+        let place = layout.of(value).ok_or_else(none)?;
+        let needs = if !is_computed(&design.graph, value) {
+            Needs::Nothing
+        } else if design.outputs.iter().any(|(_, output)| *output == value) {
+            Needs::Outputs
+        } else {
+            Needs::Signals
+        };
+        Ok(SignalId { place, needs })
+    }
+
+    /// The paths of all signals, in alphabetical order.
+    pub fn paths(&self) -> impl Iterator<Item = &str> {
+        self.compiled.design.signals.keys().map(String::as_str)
+    }
+
+    /// Bits of a signal.
+    pub fn width(&self, signal: SignalId) -> u32 {
+        signal.place.width
+    }
+
+    /// Sets an input; bits beyond its width are dropped, as by a wire.
+    pub fn set(&mut self, input: InputId, value: u128) {
+        self.state.set(input.0, value);
+        self.change();
+    }
+
+    /// Sets an input by name.
+    ///
+    /// # Errors
+    /// If there is none of that name, or the value does not fit.
+    pub fn set_input(&mut self, name: &str, value: u128) -> Result<(), SimError> {
+        let input = self.input(name)?;
+        let width = input.0.width;
+        if value > mask(width) {
+            return Err(SimError::TooWide { name: name.to_owned(), width, value });
+        }
+        self.set(input, value);
+        Ok(())
+    }
+
+    /// The value of a signal in this cycle.
+    pub fn value(&mut self, signal: SignalId) -> u128 {
+        match signal.needs {
+            Needs::Nothing => {}
+            Needs::Outputs => self.eval(),
+            Needs::Signals => {
+                if std::mem::replace(&mut self.signals_stale, false) {
+                    self.execute(Program::Signals, 1);
+                }
+            }
+        }
+        self.state.get(signal.place)
+    }
+
+    /// The value of a signal in this cycle, by path.
+    ///
+    /// # Errors
+    /// If there is none of that path.
+    pub fn get(&mut self, path: &str) -> Result<u128, SimError> {
+        let signal = self.signal(path)?;
+        Ok(self.value(signal))
+    }
+
+    /// A copy of the words of a memory by its path.
+    ///
+    /// # Errors
+    /// If there is none of that path.
+    pub fn memory(&self, path: &str) -> Result<Vec<u128>, SimError> {
+        let Compiled { design, layout, .. } = &*self.compiled;
+        let mut memories = design.memories.iter().zip(&layout.memories);
+        let found = memories.find(|(memory, _)| memory.path == path);
+        let (_, area) = found.ok_or_else(|| SimError::NoMemory(path.to_owned()))?;
+        Ok((0..area.words).map(|index| self.state.word(*area, index)).collect())
+    }
+
+    /// Computes the outputs that follow from inputs and registers, if anything changed. Reading a signal does it too.
+    pub fn eval(&mut self) {
+        if std::mem::replace(&mut self.outputs_stale, false) {
+            self.execute(Program::Outputs, 1);
+        }
+    }
+
+    /// One rising edge of `clk`.
+    pub fn tick(&mut self) {
+        self.run(1);
+    }
+
+    /// So many rising edges of `clk`, the inputs staying as they are.
+    pub fn run(&mut self, clocks: u64) {
+        if clocks > 0 {
+            self.execute(Program::Run, clocks);
+            self.change();
+        }
+    }
+
+    /// The value that an output had just before the last rising edge of `clk`; 0 if there was none yet.
+    pub fn sampled(&self, output: OutputId) -> u128 {
+        self.state.get(output.0)
+    }
+
+    fn change(&mut self) {
+        self.outputs_stale = true;
+        self.signals_stale = true;
+    }
+
+    fn execute(&mut self, program: Program, clocks: u64) {
+        self.compiled.code.run(program, self.state.words_mut(), clocks);
+    }
+}
+
+impl fmt::Debug for Simulator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Simulator").field("words", &self.compiled.layout.size).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,71 @@
+//! The state of a running netlist, laid out as `Layout` says.
+
+use edgewalk_netlist::ops::mask;
+
+use crate::design::Design;
+use crate::graph::ValueId;
+use crate::layout::{Area, Layout, Place};
+
+/// One buffer with all signals, registers and memories.
+#[derive(Clone, Debug)]
+pub(crate) struct State(Vec<u64>);
+
+impl State {
+    /// All 0 but constants and the words of memories.
+    pub fn new(design: &Design, layout: &Layout) -> State {
+        let mut state = State(vec![0; layout.size]);
+        let constants = design.signals.values().filter_map(|value| constant(design, layout, *value));
+        constants.for_each(|(place, value)| state.set(place, value));
+        for (memory, area) in design.memories.iter().zip(&layout.memories) {
+            if memory.init != 0 {
+                (0..area.words).for_each(|index| state.set_word(*area, index, memory.init));
+            }
+        }
+        state
+    }
+
+    /// For the native code.
+    pub fn words_mut(&mut self) -> &mut [u64] {
+        &mut self.0
+    }
+
+    /// The value in a place.
+    pub fn get(&self, place: Place) -> u128 {
+        let low = place.offset as usize / 8;
+        let high = if place.width > 64 { self.0[low + 1] } else { 0 };
+        (u128::from(high) << 64 | u128::from(self.0[low])) & mask(place.width)
+    }
+
+    /// Sets a place; bits beyond its width are dropped.
+    pub fn set(&mut self, place: Place, value: u128) {
+        let low = place.offset as usize / 8;
+        let value = value & mask(place.width);
+        self.0[low] = value as u64;
+        if place.width > 64 {
+            self.0[low + 1] = (value >> 64) as u64;
+        }
+    }
+
+    /// A word of a memory.
+    pub fn word(&self, area: Area, index: usize) -> u128 {
+        let (place, shift) = word_place(area, index);
+        self.get(place) >> shift & mask(area.width)
+    }
+
+    fn set_word(&mut self, area: Area, index: usize, value: u128) {
+        let (place, shift) = word_place(area, index);
+        let others = self.get(place) & !(mask(area.width) << shift);
+        self.set(place, others | value << shift);
+    }
+}
+
+/// The 64 or 128 bits that a word of a memory is in, and how many are below it.
+fn word_place(area: Area, index: usize) -> (Place, u32) {
+    let byte = area.offset as usize + index * area.word as usize;
+    let width = if area.word == 16 { 128 } else { 64 };
+    (Place { offset: (byte - byte % 8) as i32, width }, (byte % 8) as u32 * 8)
+}
+
+fn constant(design: &Design, layout: &Layout, value: ValueId) -> Option<(Place, u128)> {
+    Some((layout.of(value)?, design.graph.as_constant(value)?))
+}
