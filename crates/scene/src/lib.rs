@@ -30,4 +30,4 @@ pub use polygon::{MAX_CONTOUR, Polygon, Primitive};
 pub use scene::Scene;
 pub use shading::{LightTerms, Lighting, Point, Specular, Terms};
 pub use surface::{Surface, SurfaceTriangle, SurfaceVertex};
-pub use texture::{Image, Texture};
+pub use texture::{Image, MAX_TEXTURE_SIDE, Texture};

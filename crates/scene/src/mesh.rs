@@ -2,6 +2,7 @@
 
 mod material;
 mod face_data;
+mod bump;
 mod surface;
 mod knot;
 mod terrain;
@@ -9,6 +10,7 @@ mod room;
 mod mtl;
 mod obj;
 mod accessor;
+mod pbr;
 mod gltf;
 mod join;
 
@@ -167,9 +169,10 @@ impl Mesh {
         &self.textures
     }
 
-    /// The material of a face at texture coordinates: its texture multiplies k_d and k_a (A, end of chapter 7).
-    pub fn material_at(&self, face: &Face, texture: DVec2) -> Material {
-        let material = self.materials[face.material as usize];
+    /// The material of a face, by its place, at texture coordinates: its texture multiplies k_d and k_a (A, end of
+    /// chapter 7).
+    pub fn material_at(&self, face: u32, texture: DVec2) -> Material {
+        let material = self.materials[self.faces[face as usize].material as usize];
         let image = material.texture.and_then(|place| self.textures.get(place as usize));
         match image {
             None => material,

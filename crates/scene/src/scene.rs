@@ -107,14 +107,14 @@ impl Scene {
         let own = face_normals(&self.mesh);
         let normals = corner_normals(&self.mesh, &own, self.normals);
         let mut triangles = Vec::with_capacity(self.mesh.faces().len());
-        for (index, face) in self.mesh.faces().iter().enumerate() {
+        for (index, (face, place)) in self.mesh.faces().iter().zip(0..).enumerate() {
             let positions = self.mesh.corners(face);
             let seen_from_behind = own[index].dot(self.camera.eye - positions[0]) < 0.0;
             let side = if seen_from_behind { -1.0 } else { 1.0 };
             let texture = self.mesh.face_data()[index].texture.unwrap_or([DVec2::ZERO; 3]);
             let corner = |k: usize| {
                 let (world, normal) = (positions[k], side * normals[index][k]);
-                let material = self.mesh.material_at(face, texture[k]);
+                let material = self.mesh.material_at(place, texture[k]);
                 let color = self.lighting().shade(&material, &self.point(world, normal));
                 ClipVertex {
                     position: places[face.corners[k] as usize],
@@ -126,11 +126,7 @@ impl Scene {
                 }
             };
             clip([corner(0), corner(1), corner(2)], &viewport, |vertices| {
-                triangles.push(SurfaceTriangle {
-                    vertices,
-                    face: index as u32,
-                    own_normal: side * own[index],
-                });
+                triangles.push(SurfaceTriangle { vertices, face: place, own_normal: side * own[index] });
             });
         }
         Surface { width, height, triangles }
@@ -139,12 +135,10 @@ impl Scene {
     /// The colour of constant shading (A 7.6) of a face with this normal on the side that is seen, by the light and the
     /// texture in its middle; not cut to [0, 1].
     pub fn constant_color(&self, face: u32, normal: DVec3) -> DVec3 {
-        let face_data = self.mesh.face_data()[face as usize];
-        let face = &self.mesh.faces()[face as usize];
-        let middle = |[a, b, c]: [DVec3; 3]| (a + b + c) / 3.0;
-        let texture = face_data.texture.map_or(DVec2::ZERO, |[a, b, c]| (a + b + c) / 3.0);
-        let material = self.mesh.material_at(face, texture);
-        self.lighting().constant(&material, middle(self.mesh.corners(face)), normal)
+        let [a, b, c] = self.mesh.corners(&self.mesh.faces()[face as usize]);
+        let texture = self.mesh.face_data()[face as usize].texture;
+        let texture = texture.map_or(DVec2::ZERO, |[a, b, c]| (a + b + c) / 3.0);
+        self.lighting().constant(&self.mesh.material_at(face, texture), (a + b + c) / 3.0, normal)
     }
 
     /// The triangles of [`Scene::surface`] as the machine takes them: with the colours of the vertices, or in flat mode

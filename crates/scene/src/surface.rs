@@ -45,6 +45,13 @@ pub struct Surface {
 }
 
 impl SurfaceTriangle {
+    /// Average of the vertex normals, a unit vector: the normal of the real surface over the polygon as A 7.6 estimates
+    /// it. The polygon's own where they cancel.
+    pub fn averaged_normal(&self) -> DVec3 {
+        let sum: DVec3 = self.vertices.iter().map(|vertex| vertex.normal).sum();
+        sum.try_normalize().unwrap_or(self.own_normal)
+    }
+
     /// On the screen, with the colours of the vertices.
     pub fn on_screen(&self) -> Triangle {
         Triangle(self.vertices.map(|vertex| vertex.screen))

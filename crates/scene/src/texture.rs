@@ -1,17 +1,32 @@
 //! Pictures over texture coordinates: coefficients that vary over the surface, and reliefs (A, end of chapter 7).
+//!
+//! Values are taken as they are stored, 0 black and 1 white: no gamma, as pictures are written without one.
 
+use crate::error::{Fault, InputError};
 use glam::{DVec2, DVec3};
+use image::{DynamicImage, ImageReader, Limits};
+use std::fs::File;
+use std::io::{BufRead, BufReader, Seek};
+use std::path::Path;
 use std::sync::Arc;
+
+/// Largest side of a picture, texels.
+pub const MAX_TEXTURE_SIDE: u32 = 4096;
 
 /// A picture over texture coordinates, u to the right and v up, that repeats beyond [0, 1].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Texture {
     /// Squares of two colours, built in.
     Checker {
-        /// Squares along u and along v over [0, 1].
+        /// Squares along u and along v over [0, 1]; even, or they do not fit together where the picture repeats.
         squares: u32,
         /// Of the square at the origin, and of its neighbours.
         colors: [DVec3; 2],
+    },
+    /// Smooth hills and hollows, (1 + sin 2 pi n u sin 2 pi n v) / 2, built in.
+    Waves {
+        /// Waves n along u and along v over [0, 1].
+        count: u32,
     },
     /// From a file.
     Image(Arc<Image>),
@@ -24,39 +39,100 @@ pub enum Texture {
 pub struct Image {
     width: u32,
     height: u32,
-    /// Line by line from the top, [0, 1] each.
-    texels: Vec<[f32; 3]>,
+    /// Line by line from the top; 65535 is 1.
+    texels: Vec<[u16; 3]>,
 }
 
 impl Texture {
-    /// The colour at texture coordinates, [0, 1] each: bilinear between the centres of the texels.
+    /// Reads a PNG or JPEG file of at most [`MAX_TEXTURE_SIDE`] texels each way.
+    ///
+    /// # Errors
+    /// The file cannot be read, is no such picture, or is too large.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let file = path.display().to_string();
+        let opened = File::open(path).map_err(|source| InputError::Read { file: file.clone(), source })?;
+        Self::decode(&file, BufReader::new(opened))
+    }
+
+    /// The same from memory; messages call it `file`.
+    pub(crate) fn decode(file: &str, input: impl BufRead + Seek) -> Result<Self, InputError> {
+        let fault = |what: String| {
+            let permitted = format!("permitted: PNG or JPEG, at most {MAX_TEXTURE_SIDE} texels each way");
+            InputError::from(Fault::new(file, None, "texture", what, permitted))
+        };
+        let reader = ImageReader::new(input).with_guessed_format();
+        let mut reader = reader.map_err(|source| InputError::Read { file: file.into(), source })?;
+        let mut limits = Limits::default();
+        limits.max_image_width = Some(MAX_TEXTURE_SIDE);
+        limits.max_image_height = Some(MAX_TEXTURE_SIDE);
+        reader.limits(limits);
+        let picture = reader.decode().map_err(|error| fault(error.to_string()))?;
+        Image::new(&picture).map(|image| Self::Image(Arc::new(image))).ok_or_else(|| fault("empty".into()))
+    }
+
+    /// The colour at texture coordinates, [0, 1] each; pictures of files bilinear between the centres of the texels.
     pub fn at(&self, place: DVec2) -> DVec3 {
         match self {
             Self::Checker { squares, colors } => {
                 let square = (place * f64::from(*squares)).floor();
-                colors[(square.x + square.y).rem_euclid(2.0) as usize]
+                // Of what is no number, or too large to be even or odd, the first.
+                colors[usize::from((square.x + square.y).rem_euclid(2.0) == 1.0)]
+            }
+            Self::Waves { count } => {
+                let wave = |at: f64| (std::f64::consts::TAU * f64::from(*count) * at).sin();
+                DVec3::splat((1.0 + wave(place.x) * wave(place.y)) / 2.0)
             }
             Self::Image(image) => image.at(place),
             Self::Absent(_) => DVec3::ONE,
         }
     }
+
+    /// How steeply the mean of the colours rises along u and v, per unit of each: half the difference of the neighbours
+    /// a texel away.
+    pub(crate) fn slope(&self, place: DVec2) -> DVec2 {
+        let texel = match self {
+            Self::Checker { squares: count, .. } | Self::Waves { count } => {
+                DVec2::splat(1.0 / (FINE * f64::from((*count).max(1))))
+            }
+            Self::Image(image) => 1.0 / image.size(),
+            Self::Absent(_) => return DVec2::ZERO,
+        };
+        let height = |place: DVec2| self.at(place).element_sum() / 3.0;
+        let rise = |way: DVec2| (height(place + way) - height(place - way)) / (2.0 * way.element_sum());
+        DVec2::new(rise(texel.with_y(0.0)), rise(texel.with_x(0.0)))
+    }
 }
 
+/// What counts as texels in a square or a wave of what is built in.
+const FINE: f64 = 64.0;
+
 impl Image {
+    /// `None` of no texels.
+    fn new(picture: &DynamicImage) -> Option<Self> {
+        let picture = picture.to_rgb16();
+        let (width, height) = picture.dimensions();
+        let texels = picture.pixels().map(|texel| texel.0).collect();
+        (width > 0 && height > 0).then_some(Self { width, height, texels })
+    }
+
+    fn size(&self) -> DVec2 {
+        DVec2::new(self.width.into(), self.height.into())
+    }
+
     fn at(&self, place: DVec2) -> DVec3 {
-        let size = DVec2::new(self.width.into(), self.height.into());
-        let texel = DVec2::new(place.x, 1.0 - place.y) * size - 0.5;
+        let texel = DVec2::new(place.x, 1.0 - place.y) * self.size() - 0.5;
         let low = texel.floor();
         let part = texel - low;
-        let [left, top] = [low.x, low.y];
-        let line = |y: f64| self.texel(left, y).lerp(self.texel(left + 1.0, y), part.x);
-        line(top).lerp(line(top + 1.0), part.y)
+        let line = |y: f64| self.texel(low.x, y).lerp(self.texel(low.x + 1.0, y), part.x);
+        line(low.y).lerp(line(low.y + 1.0), part.y)
     }
 
     /// One texel of the endless repetition.
     fn texel(&self, x: f64, y: f64) -> DVec3 {
-        let wrap = |place: f64, count: u32| place.rem_euclid(f64::from(count)) as usize;
+        // A remainder may round up to its divisor.
+        let wrap =
+            |place: f64, count: u32| (place.rem_euclid(f64::from(count)) as usize).min(count as usize - 1);
         let texel = self.texels[wrap(y, self.height) * self.width as usize + wrap(x, self.width)];
-        DVec3::from(texel.map(f64::from))
+        DVec3::from(texel.map(f64::from)) / f64::from(u16::MAX)
     }
 }

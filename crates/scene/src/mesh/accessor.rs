@@ -1,6 +1,6 @@
 //! Numbers out of the buffers of a glTF file, with every range checked.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use gltf::Accessor;
 use gltf::accessor::{DataType, Dimensions};
 use gltf::buffer::Data;
@@ -11,18 +11,35 @@ pub(super) struct Refusal {
     pub permitted: &'static str,
 }
 
-/// Three f32 for each vertex.
-pub(super) fn positions(accessor: &Accessor, buffers: &[Data]) -> Result<Vec<DVec3>, Refusal> {
+/// Three f32 for each vertex: positions and normals.
+pub(super) fn vectors(accessor: &Accessor, buffers: &[Data]) -> Result<Vec<DVec3>, Refusal> {
     let kind = (accessor.dimensions(), accessor.data_type());
     if kind != (Dimensions::Vec3, DataType::F32) {
-        return Err(Refusal { value: format!("{kind:?}"), permitted: "permitted: POSITION as three f32" });
+        return Err(Refusal { value: format!("{kind:?}"), permitted: "permitted: three f32" });
     }
-    let axis = |item: &[u8], k: usize| {
-        f64::from(f32::from_le_bytes([item[k], item[k + 1], item[k + 2], item[k + 3]]))
+    let vector = |item: &[u8]| DVec3::new(float(item, 0), float(item, 1), float(item, 2));
+    Ok(items(accessor, buffers)?.map(vector).collect())
+}
+
+/// Two f32, u8 or u16 for each vertex, the integers in units of their greatest: texture coordinates as the format has
+/// them, v down.
+pub(super) fn places(accessor: &Accessor, buffers: &[Data]) -> Result<Vec<DVec2>, Refusal> {
+    let kind = (accessor.dimensions(), accessor.data_type());
+    let pair: fn(&[u8]) -> DVec2 = match kind {
+        (Dimensions::Vec2, DataType::F32) => |item| DVec2::new(float(item, 0), float(item, 1)),
+        (Dimensions::Vec2, DataType::U8) => |item| DVec2::new(item[0].into(), item[1].into()) / 255.0,
+        (Dimensions::Vec2, DataType::U16) => |item| {
+            let part = |k: usize| f64::from(u16::from_le_bytes([item[2 * k], item[2 * k + 1]]));
+            DVec2::new(part(0), part(1)) / 65535.0
+        },
+        _ => return Err(Refusal { value: format!("{kind:?}"), permitted: "permitted: two f32, u8 or u16" }),
     };
-    Ok(items(accessor, buffers)?
-        .map(|item| DVec3::new(axis(item, 0), axis(item, 4), axis(item, 8)))
-        .collect())
+    Ok(items(accessor, buffers)?.map(pair).collect())
+}
+
+/// The k-th f32 of an element.
+fn float(item: &[u8], k: usize) -> f64 {
+    f64::from(f32::from_le_bytes([item[4 * k], item[4 * k + 1], item[4 * k + 2], item[4 * k + 3]]))
 }
 
 /// One unsigned integer for each corner.

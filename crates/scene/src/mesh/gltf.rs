@@ -1,16 +1,17 @@
 //! glTF 2.0, as text with buffers or in one binary file.
 //!
-//! Taken: the default scene's triangles (lists, strips, fans) with the transformations of their nodes, base colours.
-//! Sparse and compressed accessors are refused.
+//! Taken: the default scene's triangles (lists, strips, fans) with the transformations of their nodes, normals, the first
+//! texture coordinates, and materials (see [`pbr`](super::pbr)). Sparse and compressed accessors are refused.
 
-use super::accessor::{indices, positions};
-use super::{Face, Material, Mesh};
+use super::accessor::{Refusal, indices, places, vectors};
+use super::pbr::Materials;
+use super::{Face, FaceData, Mesh};
 use crate::error::{Fault, InputError};
-use glam::{DMat4, DVec3, Mat4};
+use glam::{DMat3, DMat4, DVec2, DVec3, Mat4};
 use gltf::buffer::Data;
 use gltf::json::Root;
 use gltf::mesh::Mode;
-use gltf::{Document, Error, Gltf, Node, Primitive};
+use gltf::{Accessor, Document, Error, Gltf, Node, Primitive, Semantic};
 use std::path::Path;
 
 pub(super) fn read(path: &Path) -> Result<Mesh, InputError> {
@@ -22,8 +23,14 @@ pub(super) fn read(path: &Path) -> Result<Mesh, InputError> {
     let document = Document::from_json(document.into_json()).map_err(|error| refused(&file, &error))?;
     let buffers =
         gltf::import_buffers(&document, path.parent(), blob).map_err(|error| refused(&file, &error))?;
-    let mut build =
-        Build { file: &file, buffers: &buffers, positions: vec![], faces: vec![], materials: vec![] };
+    let mut build = Build {
+        file: &file,
+        buffers: &buffers,
+        positions: vec![],
+        faces: vec![],
+        face_data: vec![],
+        materials: Materials::new(&file, path, &buffers),
+    };
     let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) else {
         return Err(Fault::new(&file, None, "scenes", "none", "permitted: at least one scene").into());
     };
@@ -41,7 +48,8 @@ pub(super) fn read(path: &Path) -> Result<Mesh, InputError> {
         }
         waiting.extend(node.children().map(|child| (child, to_world)));
     }
-    Mesh::new(&file, build.positions, build.faces, build.materials)
+    let mesh = Mesh::new(&file, build.positions, build.faces, build.materials.list)?;
+    Ok(mesh.with_face_data(build.face_data).with_textures(build.materials.textures))
 }
 
 /// The format's own validation takes the accessors of attributes for granted.
@@ -76,7 +84,8 @@ struct Build<'a> {
     buffers: &'a [Data],
     positions: Vec<DVec3>,
     faces: Vec<Face>,
-    materials: Vec<Material>,
+    face_data: Vec<FaceData>,
+    materials: Materials<'a>,
 }
 
 impl Build<'_> {
@@ -86,11 +95,13 @@ impl Build<'_> {
         let mode = primitive.mode();
         let surface = matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan);
         // Points and lines have no surface; that there are positions has been validated.
-        let Some(accessor) = primitive.get(&gltf::Semantic::Positions).filter(|_| surface) else {
+        let Some(accessor) = primitive.get(&Semantic::Positions).filter(|_| surface) else {
             return Ok(());
         };
-        let corners = positions(&accessor, self.buffers)
+        let corners = vectors(&accessor, self.buffers)
             .map_err(|refusal| fault(&format!("{key} POSITION"), refusal.value, refusal.permitted))?;
+        let normals = self.optional(key, primitive, &Semantic::Normals, corners.len(), vectors)?;
+        let texture = self.optional(key, primitive, &Semantic::TexCoords(0), corners.len(), places)?;
         let order = match primitive.indices() {
             Some(accessor) => indices(&accessor, self.buffers)
                 .map_err(|refusal| fault(&format!("{key} indices"), refusal.value, refusal.permitted))?,
@@ -104,18 +115,55 @@ impl Build<'_> {
             let found = format!("{} corners", order.len());
             return Err(fault(key, found, "permitted: three for each triangle").into());
         }
-        let [r, g, b, _] = primitive.material().pbr_metallic_roughness().base_color_factor();
-        let diffuse = DVec3::new(r.into(), g.into(), b.into()).clamp(DVec3::ZERO, DVec3::ONE);
-        let (first, material) = (self.positions.len() as u32, self.materials.len() as u32);
-        self.materials.push(Material::matte(diffuse));
+        let (first, material) = (self.positions.len() as u32, self.materials.place(&primitive.material())?);
         // A mirror turns the front to the back.
         let mirrored = to_world.determinant() < 0.0;
-        self.faces.extend(triangles(mode, &order).map(|[a, b, c]| {
-            let [a, b, c] = if mirrored { [a, c, b] } else { [a, b, c] };
-            Face { corners: [first + a, first + b, first + c], material }
-        }));
+        // Normals stay at right angles to the surface.
+        let to_normal = DMat3::from_mat4(*to_world).inverse().transpose();
+        let normal = |corner: u32| Some((to_normal * *normals.get(corner as usize)?).normalize_or_zero());
+        for [a, b, c] in triangles(mode, &order) {
+            let corners = if mirrored { [a, c, b] } else { [a, b, c] };
+            self.faces.push(Face { corners: corners.map(|corner| first + corner), material });
+            let normals = corners.map(|corner| normal(corner).unwrap_or_default());
+            let texture =
+                corners.map(|corner| texture.get(corner as usize).filter(|place| place.is_finite()));
+            self.face_data.push(FaceData {
+                // A normal without direction is none.
+                normals: (!normals.contains(&DVec3::ZERO)).then_some(normals),
+                texture: match texture {
+                    [Some(a), Some(b), Some(c)] => {
+                        Some([a, b, c].map(|place| DVec2::new(place.x, 1.0 - place.y)))
+                    }
+                    _ => None,
+                },
+                group: 0,
+            });
+        }
         self.positions.extend(corners.iter().map(|corner| to_world.transform_point3(*corner)));
         Ok(())
+    }
+
+    /// An attribute of each of `count` vertices; none if the primitive lacks it.
+    fn optional<T>(
+        &self,
+        key: &str,
+        primitive: &Primitive,
+        semantic: &Semantic,
+        count: usize,
+        read: impl Fn(&Accessor, &[Data]) -> Result<Vec<T>, Refusal>,
+    ) -> Result<Vec<T>, InputError> {
+        let Some(accessor) = primitive.get(semantic) else { return Ok(Vec::new()) };
+        let fault = |value: String, permitted: &str| {
+            Fault::new(self.file, None, format!("{key} {}", semantic.to_string()), value, permitted)
+        };
+        match read(&accessor, self.buffers) {
+            Ok(values) if values.len() == count => Ok(values),
+            Ok(values) => {
+                let permitted = format!("permitted: {count}, one for each position");
+                Err(fault(values.len().to_string(), &permitted).into())
+            }
+            Err(refusal) => Err(fault(refusal.value, refusal.permitted).into()),
+        }
     }
 }
 

@@ -12,7 +12,7 @@ const RADII: (f64, f64, f64) = (1.0, 0.45, 0.22);
 
 /// The trefoil: `along` rings of `across` corners.
 pub(crate) fn torus_knot(along: u32, across: u32) -> Result<Mesh, InputError> {
-    let (positions, faces) = closed_net(along, across, |u, v| {
+    let (positions, faces, texture) = closed_net(along, across, |u, v| {
         // The normal of the torus is at right angles to a curve on it, and returns with it: the tube closes.
         let ((s, c), (sin, cos)) = ((TURNS.0 * u).sin_cos(), (TURNS.1 * u).sin_cos());
         let outward = DVec3::new(c, 0.0, s);
@@ -26,5 +26,5 @@ pub(crate) fn torus_knot(along: u32, across: u32) -> Result<Mesh, InputError> {
         centre + (normal * v_cos + side * v_sin) * RADII.2
     });
     let jade = Material::matte(DVec3::new(0.3, 0.7, 0.5));
-    Mesh::new("torus-knot", positions, faces, vec![jade])
+    Ok(Mesh::new("torus-knot", positions, faces, vec![jade])?.with_face_data(texture))
 }
