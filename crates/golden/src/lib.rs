@@ -10,13 +10,17 @@ mod fragment;
 mod weights;
 mod fill;
 mod depth;
+mod incremental;
 mod shadow;
 mod picture;
+mod shading;
 pub mod fast_phong;
 
 pub use cover::{MAX_SUBPIXEL_BITS, fragments, snap};
 pub use fill::Fill;
 pub use fragment::Fragment;
+pub use incremental::Incremental;
 pub use picture::{Lit, NO_TRIANGLE, Picture, draw};
+pub use shading::{Shaded, Shading, ShadingError, shade};
 pub use textbook::{Half, half_triangles};
 pub use weights::Weights;

@@ -1,0 +1,149 @@
+//! The shading systems of A 7.4 to 7.6, each beside the truth, so that its error is a number and a picture.
+//!
+//! ```text
+//!  scene --> surface --> colours of the vertices --> draw --> id of the triangle seen at each pixel
+//!                                                      |                 |
+//!                            constant, Gouraud: rgb <--+                 +--> Phong: N, position, u v by addition,
+//!                                                                        |           the equation at each pixel
+//!                                                                        +--> truth: the same, perspective-correct
+//! ```
+//! The truth is the full equation with the normal that interpolates the vertex normals over the surface in the world:
+//! what Phong shading approximates over the screen. It knows no shadows (r_l = 1).
+
+use crate::fill::Fill;
+use crate::fragment::Fragment;
+use crate::incremental::Incremental;
+use crate::picture::{Picture, draw};
+use crate::weights::Weights;
+use edgewalk_scene::{Frame, Scene, Surface, SurfaceTriangle, SurfaceVertex};
+use glam::{DVec2, DVec3};
+
+/// How the colour of a pixel is come by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Shading {
+    /// One colour a polygon, by its own normal (A 7.6).
+    Constant,
+    /// One colour a polygon, by the average of its vertex normals (A 7.6).
+    ConstantAveraged,
+    /// Colours of the vertices, linear over the screen (A 7.8).
+    Gouraud,
+    /// Normal and world position linear over the screen, the equation at each pixel (A 7.11, 7.12).
+    Phong,
+}
+
+/// A picture, and what it should be.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shaded {
+    /// By the system; colours are cut to [0, 1].
+    pub picture: Picture,
+    /// The colours of the truth, cut to [0, 1]; where no triangle is, those of the picture.
+    pub truth: Vec<[f64; 3]>,
+}
+
+/// Draws a scene by one of the systems. `surface` is the scene's own on this screen.
+pub fn shade(scene: &Scene, surface: &Surface, shading: Shading, fill: Fill) -> Shaded {
+    let frame = frame(scene, surface, shading);
+    let mut picture = draw(&frame, fill);
+    let mut truth = picture.rgb.clone();
+    let mut phong = (shading == Shading::Phong).then(|| picture.rgb.clone());
+    for ((triangle, on_screen), id) in surface.triangles.iter().zip(&frame.triangles).zip(0..) {
+        let mut attributes = Incremental::new(triangle.vertices.map(packed));
+        fill.fragments(on_screen, frame.mode, (frame.width, frame.height), |fragment| {
+            // Additions go on under what hides the triangle.
+            let stepped = phong.is_some().then(|| attributes.step(fragment));
+            let at = fragment.y as usize * frame.width as usize + fragment.x as usize;
+            if picture.id[at] != id {
+                return;
+            }
+            truth[at] = color(scene, triangle, &on_surface(fragment, triangle));
+            if let (Some(phong), Some(stepped)) = (&mut phong, stepped) {
+                phong[at] = color(scene, triangle, &Attributes::unpacked(stepped));
+            }
+        });
+    }
+    if let Some(phong) = phong {
+        picture.rgb = phong;
+    }
+    Shaded { picture, truth }
+}
+
+/// The triangles as the depth test and linear colours need them.
+fn frame(scene: &Scene, surface: &Surface, shading: Shading) -> Frame {
+    let clear = scene.background.to_array();
+    let mut frame = Frame { clear, ..Frame::new(surface.width, surface.height) };
+    let one_color =
+        |triangle: &SurfaceTriangle, normal| triangle.in_color(scene.constant_color(triangle.face, normal));
+    let on_screen = |triangle: &SurfaceTriangle| match shading {
+        Shading::Constant => one_color(triangle, triangle.own_normal),
+        Shading::ConstantAveraged => one_color(triangle, triangle.averaged_normal()),
+        Shading::Gouraud | Shading::Phong => triangle.on_screen(),
+    };
+    frame.triangles = surface.triangles.iter().map(on_screen).collect();
+    frame
+}
+
+/// What the equation needs at a pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Attributes {
+    normal: DVec3,
+    position: DVec3,
+    texture: DVec2,
+}
+
+/// The attributes in a row, as eight adders have them.
+fn packed(vertex: SurfaceVertex) -> [f64; 8] {
+    let SurfaceVertex { normal: n, position: p, texture: t, .. } = vertex;
+    [n.x, n.y, n.z, p.x, p.y, p.z, t.x, t.y]
+}
+
+impl Attributes {
+    fn unpacked(&[nx, ny, nz, px, py, pz, u, v]: &[f64; 8]) -> Self {
+        Self { normal: DVec3::new(nx, ny, nz), position: DVec3::new(px, py, pz), texture: DVec2::new(u, v) }
+    }
+}
+
+/// The attributes where the ray through the pixel meets the triangle.
+fn on_surface(fragment: &Fragment, triangle: &SurfaceTriangle) -> Attributes {
+    let weights = Weights::perspective(fragment, triangle);
+    Attributes {
+        normal: weights.of(triangle.vertices.map(|vertex| vertex.normal)),
+        position: weights.of(triangle.vertices.map(|vertex| vertex.position)),
+        texture: weights.of(triangle.vertices.map(|vertex| vertex.texture)),
+    }
+}
+
+/// The full equation (A 7.12) at a pixel, the normal brought back to length 1 and turned by the relief, if there is one.
+fn color(scene: &Scene, triangle: &SurfaceTriangle, at: &Attributes) -> [f64; 3] {
+    let material = scene.mesh.material_at(triangle.face, at.texture);
+    let smooth = at.normal.normalize_or_zero();
+    let normal = scene.mesh.bumped_normal(triangle.face, at.texture, smooth);
+    let point = scene.point(at.position, normal);
+    scene.lighting().shade(&material, &point).clamp(DVec3::ZERO, DVec3::ONE).to_array()
+}
+
+/// How far a picture is from the truth, in LSB of 8 bits; at each pixel that of its worst colour.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShadingError {
+    /// Pixels that show a triangle: only they are compared.
+    pub pixels: u64,
+    /// Largest of them.
+    pub max: f64,
+    /// Mean over them.
+    pub mean: f64,
+    /// Of every pixel, 0 where no triangle is.
+    pub map: Vec<f64>,
+}
+
+impl Shaded {
+    /// The error of the system.
+    pub fn error(&self) -> ShadingError {
+        let worst = |(a, b): (&[f64; 3], &[f64; 3])| {
+            255.0 * (0..3).map(|channel| (a[channel] - b[channel]).abs()).fold(0.0, f64::max)
+        };
+        let map: Vec<f64> = self.picture.rgb.iter().zip(&self.truth).map(worst).collect();
+        let pixels = self.picture.id.iter().filter(|id| **id >= 0).count() as u64;
+        let max = map.iter().copied().fold(0.0, f64::max);
+        let mean = if pixels == 0 { 0.0 } else { map.iter().sum::<f64>() / pixels as f64 };
+        ShadingError { pixels, max, mean, map }
+    }
+}
