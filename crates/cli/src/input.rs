@@ -34,6 +34,9 @@ pub fn draw_state(frame: &Frame, machine: &Machine) -> Result<DrawState> {
             "shadow: the machine has no shadow maps yet; draw without the line `shadow` or with --engine golden"
         ));
     }
+    if !frame.polygons.is_empty() {
+        return Err(anyhow!("P: the machine draws triangles; draw polygons with --engine golden"));
+    }
     let max = machine.color.max() as f64;
     Ok(DrawState {
         depth_func: frame.depth.unwrap_or(DepthFunc::Always) as u8,

@@ -1,11 +1,12 @@
-//! Which pixels a triangle has: one of two rules.
+//! Which pixels a triangle or polygon has: one of two rules.
 
 use crate::cover::fragments;
 use crate::fragment::Fragment;
+use crate::polygon::Grid;
 use crate::textbook::half_triangles;
 use edgewalk_scene::{MAX_COORDINATE, ShadeMode, Triangle};
 
-/// Which pixels a triangle has.
+/// Which pixels a triangle or polygon has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fill {
     /// Half-open in both axes, exact.
@@ -13,7 +14,8 @@ pub enum Fill {
         /// Vertices are snapped to this many sub-pixel bits, 0..=8.
         subpixel_bits: u32,
     },
-    /// The listing of A 7.5: integer vertices, both ends of a span inclusive, the knee line drawn twice.
+    /// The books': integer vertices, pixels at integer coordinates. Triangles by the listing of A 7.5: both ends of a span
+    /// inclusive, the knee line drawn twice; polygons by the rule of seed B: the start rounded up, the end down.
     Textbook,
 }
 
@@ -29,6 +31,14 @@ impl Fill {
         match self {
             Self::Exact { subpixel_bits } => fragments(triangle, mode, subpixel_bits, screen, draw),
             Self::Textbook => half_triangles(triangle, mode, screen, |_, fragment| draw(fragment)),
+        }
+    }
+
+    /// Where a polygon's vertices and pixels lie.
+    pub(crate) fn grid(self) -> Grid {
+        match self {
+            Self::Exact { subpixel_bits } => Grid::subpixels(subpixel_bits),
+            Self::Textbook => Grid::whole(),
         }
     }
 

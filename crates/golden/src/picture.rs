@@ -1,15 +1,14 @@
 //! What is on the screen after a frame.
 
-use crate::cover::Cover;
 use crate::depth::{compare, passes};
+use crate::draw_list::{DrawList, Item};
 use crate::fill::Fill;
-use crate::fragment::Fragment;
-use crate::shadow::ShadowMap;
-use crate::textbook::Walk;
+use crate::fragment::{Fragment, Weight};
+use crate::polygon;
 use edgewalk_scene::{Frame, Vertex};
 use std::cmp::Ordering;
 
-/// In [`Picture::id`]: no triangle wrote here.
+/// In [`Picture::id`]: no triangle or polygon wrote here.
 pub const NO_TRIANGLE: i32 = -1;
 
 /// What a light does to a pixel.
@@ -35,7 +34,7 @@ pub struct Picture {
     pub coverage: Vec<u32>,
     /// Fragments that passed the depth test.
     pub writes: Vec<u32>,
-    /// Place in the frame's list of the last triangle that passed, or [`NO_TRIANGLE`].
+    /// Place among the frame's primitives of the last one that passed, or [`NO_TRIANGLE`].
     pub id: Vec<i32>,
     /// Depth, cleared to 1.
     pub z: Vec<f64>,
@@ -45,7 +44,7 @@ pub struct Picture {
     pub lit: Vec<Lit>,
 }
 
-/// Draws the triangles of `frame` in their order.
+/// Draws the triangles and polygons of `frame` in their order.
 pub fn draw(frame: &Frame, fill: Fill) -> Picture {
     let size = frame.width as usize * frame.height as usize;
     let mut picture = Picture {
@@ -58,22 +57,28 @@ pub fn draw(frame: &Frame, fill: Fill) -> Picture {
         rgb: vec![frame.clear; size],
         lit: vec![Lit::Nothing; size],
     };
-    let shadow = frame.shadow.as_ref().map(|shadow| ShadowMap::draw(shadow, fill));
     let screen = (frame.width, frame.height);
-    for (triangle, id) in frame.triangles.iter().zip(0..) {
-        fill.fragments(triangle, frame.mode, screen, |f| picture.plot(frame, fill, shadow.as_ref(), id, f));
+    let list = DrawList::new(frame, fill);
+    for (item, id) in list.items().iter().zip(0..) {
+        match item {
+            Item::Triangle(triangle) => {
+                fill.fragments(triangle, frame.mode, screen, |f| picture.plot(&list, id, f));
+            }
+            Item::Polygon(table) => polygon::fragments(table, screen, |f| picture.plot(&list, id, f)),
+        }
     }
     picture
 }
 
 impl Picture {
-    fn plot(&mut self, frame: &Frame, fill: Fill, shadow: Option<&ShadowMap>, id: i32, fragment: &Fragment) {
+    fn plot<const N: usize, W: Weight>(&mut self, list: &DrawList, id: i32, fragment: &Fragment<N, W>) {
+        let frame = list.frame();
         let at = fragment.y as usize * self.width as usize + fragment.x as usize;
         self.coverage[at] += 1;
         let z = fragment.z();
         if let Some(func) = frame.depth {
             let order =
-                compare(z, self.z[at], fill.doubt()).unwrap_or_else(|| self.order(frame, fill, at, fragment));
+                compare(z, self.z[at], list.fill().doubt()).unwrap_or_else(|| self.order(list, at, fragment));
             if !passes(func, order) {
                 return;
             }
@@ -83,7 +88,7 @@ impl Picture {
         }
         let mut front = fragment.rgb();
         self.lit[at] = Lit::Lit;
-        if let Some(map) = shadow
+        if let Some(map) = list.shadow()
             && !map.lit(fragment.x, fragment.y, z)
         {
             front = front.map(|channel| channel * map.ambient());
@@ -95,28 +100,29 @@ impl Picture {
     }
 
     /// The exact order of a fragment's depth and the stored one.
-    fn order(&self, frame: &Frame, fill: Fill, at: usize, fragment: &Fragment) -> Ordering {
+    fn order<const N: usize, W: Weight>(
+        &self,
+        list: &DrawList,
+        at: usize,
+        fragment: &Fragment<N, W>,
+    ) -> Ordering {
         // Without depth writes the stored depth is still the cleared one.
-        let stored = if frame.depth_write { usize::try_from(self.id[at]).ok() } else { None };
-        let Some(triangle) = stored.map(|id| &frame.triangles[id]) else {
-            return fragment.compare_exact_z(&Fragment { vertices: &FARTHEST, ..fragment.clone() });
-        };
-        let (x, y) = (fragment.x, fragment.y);
-        let order = match fill {
-            Fill::Exact { subpixel_bits } => Cover::new(triangle, frame.mode, subpixel_bits)
-                .map(|cover| fragment.compare_exact_z(&cover.fragment(x, y))),
-            Fill::Textbook => {
-                let walk = Walk::new(triangle, frame.mode);
-                walk.and_then(|walk| walk.fragment(x, y).map(|stored| fragment.compare_exact_z(&stored)))
-            }
-        };
-        // A triangle without area stores nothing.
-        order.unwrap_or(Ordering::Equal)
+        let stored = if list.frame().depth_write { usize::try_from(self.id[at]).ok() } else { None };
+        match stored {
+            Some(stored) => list.order(fragment, stored),
+            None => fragment.compare_exact_z(&CLEARED),
+        }
     }
 }
 
-/// What the cleared depth is: a triangle at depth 1.
-const FARTHEST: [Vertex; 3] = [Vertex { x: 0.0, y: 0.0, z: 1.0, r: 0.0, g: 0.0, b: 0.0, kt: 0.0 }; 3];
+/// What the cleared depth is: one vertex at depth 1, whatever the pixel.
+const CLEARED: Fragment<1> = Fragment {
+    x: 0,
+    y: 0,
+    vertices: &[Vertex { x: 0.0, y: 0.0, z: 1.0, r: 0.0, g: 0.0, b: 0.0, kt: 0.0 }],
+    weights: [1],
+    total: 1,
+};
 
 /// (1 - k_t) I + k_t I_back (A 7.5).
 fn mix(front: [f64; 3], kt: f64, back: [f64; 3]) -> [f64; 3] {

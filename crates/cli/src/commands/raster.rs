@@ -29,7 +29,9 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
   clear r g b
   shadow SIZE BIAS AMBIENT m00 m01 .. m33                 a light's depth map, matrix by rows; golden only
   L x y z  x y z  x y z                                   a triangle of that map, in texels
-  T x y z r g b kt  x y z r g b kt  x y z r g b kt        a triangle, pixels")]
+  T x y z r g b kt  x y z r g b kt  x y z r g b kt        a triangle, pixels
+  P n  x y z r g b kt ..                                  a polygon of n vertices; golden only
+  H n  x y z r g b kt ..                                  one more contour of the polygon on the line before")]
 pub struct Args {
     /// The triangle file
     file: PathBuf,
