@@ -127,7 +127,7 @@ fn winding_start_and_whole_pixels_do_not_matter() {
     for k in 0..1_000 {
         let bits = k % 9;
         let points = random_points(&mut rng, bits, 10);
-        let pixels = covered(&[points.clone()], bits);
+        let pixels = covered(std::slice::from_ref(&points), bits);
         let mut turned = points.clone();
         turned.rotate_left(rng.random_range(0..points.len()));
         assert_eq!(covered(&[turned.clone()], bits), pixels);
