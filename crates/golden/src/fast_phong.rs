@@ -17,9 +17,11 @@ mod six_point;
 mod differences;
 mod table;
 mod triangle;
+mod picture;
 
 pub use differences::{Differences, Walk};
 pub use normal_plane::NormalPlane;
+pub use picture::{FastShaded, Settings, shade};
 pub use quadratic::Quadratic;
 pub use six_point::six_point;
 pub use table::PowerTable;

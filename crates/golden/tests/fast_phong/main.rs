@@ -8,3 +8,4 @@ mod bound;
 mod convergence;
 mod walk;
 mod table;
+mod picture;

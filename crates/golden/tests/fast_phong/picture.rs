@@ -1,0 +1,95 @@
+//! Whole pictures by fast Phong.
+
+use edgewalk_golden::fast_phong::{Directional, FastShaded, Fit, Settings, shade};
+use edgewalk_golden::{Fill, Shading};
+use edgewalk_numerics::normal_cone::{normal_spread, six_point_error, taylor_error};
+use edgewalk_scene::{Material, Mesh, Scene, Specular, Surface};
+use glam::DVec3;
+
+const FITS: [Fit; 2] = [Fit::Taylor, Fit::SixPoint];
+
+/// A built-in scene of one material.
+fn scene(name: &str, material: Material) -> Scene {
+    let scene = Scene::builtin(name).unwrap();
+    let faces = scene.mesh.faces().iter().map(|face| edgewalk_scene::Face { material: 0, ..*face });
+    let mesh = Mesh::new(name, scene.mesh.positions().to_vec(), faces.collect(), vec![material]).unwrap();
+    Scene { mesh, specular: Specular::Blinn, ..scene }
+}
+
+fn surface(scene: &Scene) -> Surface {
+    scene.surface(320, 240, 8191.0)
+}
+
+fn drawn(scene: &Scene, fit: Fit, table_size: usize) -> FastShaded {
+    let lights = Directional::all(&scene.lights).unwrap();
+    shade(scene, &surface(scene), &lights, Settings { fit, table_size, subpixel_bits: 8 })
+}
+
+/// Without highlights the difference from Phong shading is that of the quadratics alone.
+#[test]
+fn matte_pictures_are_under_a10_of_their_triangles_at_every_pixel() {
+    let mut checked = 0;
+    for name in Scene::BUILTIN {
+        let scene = scene(name, Material::matte(DVec3::splat(0.8)));
+        let spread: Vec<f64> = surface(&scene)
+            .triangles
+            .iter()
+            .map(|triangle| normal_spread(&triangle.vertices.map(|vertex| vertex.normal.to_array())))
+            .collect();
+        for fit in FITS {
+            let drawn = drawn(&scene, fit, 2);
+            let error = drawn.error_to_phong();
+            let picture = &drawn.shaded.picture;
+            let intensity: f64 = Directional::all(&scene.lights).unwrap().iter().map(|l| l.intensity.x).sum();
+            let mut widest = 0f64;
+            for (at, id) in picture.id.iter().enumerate() {
+                let Ok(id) = usize::try_from(*id) else { continue };
+                let a10 =
+                    if fit == Fit::Taylor { taylor_error(spread[id]) } else { six_point_error(spread[id]) };
+                let bound = 255.0 * 0.8 * intensity * a10 + 1e-9;
+                assert!(error.map[at] <= bound, "{name} {fit:?} pixel {at}: {} over {bound}", error.map[at]);
+                widest = widest.max(spread[id]);
+                checked += 1;
+            }
+            println!("{name} {fit:?}: worst {:.4}, mean {:.5} LSB, rho {widest:.3}", error.max, error.mean);
+        }
+    }
+    println!("{checked} pixels under their bound");
+    assert!(checked > 200_000);
+}
+
+#[test]
+fn highlights_by_table_size_and_by_fit() {
+    let shiny =
+        Material { specular: DVec3::splat(0.5), exponent: 20.0, ..Material::matte(DVec3::splat(0.4)) };
+    for name in ["sphere", "torus"] {
+        let scene = scene(name, shiny);
+        let mut means = Vec::new();
+        for fit in FITS {
+            for size in [256, 4096, 1 << 20] {
+                let drawn = drawn(&scene, fit, size);
+                let (phong, truth) = (drawn.error_to_phong(), drawn.shaded.error());
+                println!(
+                    "{name} {fit:?}, {size} entries: from Phong worst {:.3} mean {:.4}, from the truth {:.3} {:.4} LSB",
+                    phong.max, phong.mean, truth.max, truth.mean
+                );
+                assert!(phong.pixels > 10_000);
+                means.push(phong.mean);
+            }
+        }
+        let [taylor_small, taylor, taylor_large, small, six_point, large] = means[..] else { panic!() };
+        assert!(taylor_small > taylor && taylor >= taylor_large && small > six_point && six_point > large);
+        // The series takes one H a triangle, the six points follow it.
+        assert!(taylor_large > 2.0 * large, "{name}: {means:?}");
+    }
+}
+
+#[test]
+fn the_phong_beside_it_is_phong_shading() {
+    let scene = scene("torus", Material::matte(DVec3::splat(0.8)));
+    let drawn = drawn(&scene, Fit::SixPoint, 2);
+    let fill = Fill::Exact { subpixel_bits: 8 };
+    let phong = edgewalk_golden::shade(&scene, &surface(&scene), Shading::Phong, fill);
+    assert!(drawn.phong == phong.picture.rgb && drawn.shaded.truth == phong.truth);
+    assert!(drawn.shaded.picture.id == phong.picture.id && drawn.shaded.picture.z == phong.picture.z);
+}
