@@ -1,0 +1,88 @@
+//! What every engine is given, and what it gives back.
+
+use super::stopwatch::{Stopwatch, Time};
+use anyhow::Result;
+use edgewalk_model::fast::Renderer;
+use edgewalk_model::{Counters, DrawState, Stalls, render};
+use edgewalk_numerics::{Machine, PortVertex};
+
+/// What the machine does for a frame, whoever says so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Work {
+    /// Clocks of the machine.
+    pub cycles: u64,
+    /// Writes to the frame memory.
+    pub writes: u64,
+}
+
+impl Work {
+    /// As counted.
+    pub fn of(counters: &Counters) -> Self {
+        Work { cycles: counters.cycles, writes: counters.writes }
+    }
+}
+
+/// Triangles to draw a number of times.
+pub struct Job<'a> {
+    /// On this machine.
+    pub machine: &'a Machine,
+    /// In this order.
+    pub triangles: &'a [[PortVertex; 3]],
+    /// In this state.
+    pub state: DrawState,
+    /// Frames that are timed.
+    pub repeat: u32,
+    /// Pixels inside the triangles.
+    pub fragments: u64,
+    /// What must come of it.
+    pub work: Work,
+}
+
+/// What an engine needed.
+pub struct Times {
+    /// Milliseconds on the wall from the changed parameter to the end of the first frame: building included.
+    pub first: f64,
+    /// Of each frame that is timed.
+    pub frames: Vec<Time>,
+    /// Of a frame.
+    pub work: Work,
+}
+
+impl<'a> Job<'a> {
+    /// A job with what must come of it, which is worked out here.
+    pub fn new(
+        machine: &'a Machine,
+        triangles: &'a [[PortVertex; 3]],
+        state: DrawState,
+        repeat: u32,
+    ) -> Self {
+        let mut renderer = Renderer::new(machine, false);
+        let counters = match renderer.draw(triangles.iter().copied(), state) {
+            Ok(()) => renderer.counters().clone(),
+            Err(_) => render(machine, triangles.iter().copied(), state, Stalls::NONE).counters,
+        };
+        let (fragments, work) = (counters.fragments, Work::of(&counters));
+        Job { machine, triangles, state, repeat, fragments, work }
+    }
+
+    /// The first triangles, that take about `cycles`, at least one.
+    pub fn part(&self, cycles: u64) -> Job<'a> {
+        let share = cycles as f64 / self.work.cycles.max(1) as f64;
+        let count = (self.triangles.len() as f64 * share).ceil() as usize;
+        let part = &self.triangles[..count.min(self.triangles.len())];
+        Job::new(self.machine, part, self.state, self.repeat)
+    }
+
+    /// Draws the first frame, with `start` from before the engine was built, and then those that are timed.
+    pub fn time(&self, start: &Stopwatch, mut draw: impl FnMut() -> Result<Work>) -> Result<Times> {
+        let mut work = draw()?;
+        let first = start.read().wall;
+        let mut frames = Vec::new();
+        for _ in 0..self.repeat {
+            let start = Stopwatch::start();
+            work = draw()?;
+            frames.push(start.read());
+        }
+        Ok(Times { first, frames, work })
+    }
+}

@@ -1,0 +1,65 @@
+//! `edgewalk bench`: every engine takes part, does the same work, and one line of JSON says how fast.
+#![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
+
+use serde_json::Value;
+use std::fmt::Write as _;
+use std::process::Command;
+
+fn bench(arguments: &[&str]) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("steps.tri");
+    let mut text = String::from("size 40 30\n");
+    for i in 0..300 {
+        let (x, z) = (i % 30, f64::from(i % 7) / 7.0);
+        writeln!(text, "T {x} 2 {z} 1 0 0 0  {x} 29 0.5 0 1 0 0  39.5 {} 0 0 0 1 0", i % 28).unwrap();
+    }
+    std::fs::write(&file, text).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_edgewalk"))
+        .arg("bench")
+        .arg(&file)
+        .args(["--json", "--repeat", "2"])
+        .args(arguments)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(output.stdout.iter().filter(|byte| **byte == b'\n').count(), 1, "one line");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn every_engine_says_how_fast_it_is() {
+    let result = bench(&[]);
+    assert_eq!((&result["renderer"], &result["engine"]), (&"edgewalk".into(), &"fast".into()));
+    let engines = result["engines"].as_array().unwrap();
+    let names: Vec<&str> = engines.iter().map(|row| row["engine"].as_str().unwrap()).collect();
+    assert_eq!(names, ["fast", "tick", "interpreter", "verilator"]);
+    assert_eq!(result["cpu_ms_median"], engines[0]["cpu_ms_median"]);
+    assert_eq!(result["ms_min"], engines[0]["ms_min"]);
+    let cycles = result["cycles"].as_u64().unwrap();
+    assert!(cycles > 50_000, "{cycles} cycles");
+    for row in engines {
+        if let Some(absent) = row["absent"].as_str() {
+            assert_eq!(absent, "verilator is not installed");
+            continue;
+        }
+        let number = |key: &str| row[key].as_f64().unwrap();
+        assert!(row["cycles"].as_u64().unwrap() <= cycles);
+        for (rate, count) in [
+            ("cycles_per_second", "cycles"),
+            ("pixels_per_second", "fragments"),
+            ("triangles_per_second", "triangles"),
+        ] {
+            let expected = number(count) * 1e3 / number("cpu_ms_median");
+            assert!((number(rate) / expected - 1.0).abs() < 1e-9, "{rate} of {row}");
+        }
+        assert!(number("ms_min") > 0.0 && number("first_ms") > 0.0);
+    }
+}
+
+#[test]
+fn an_engine_that_is_not_exact_takes_no_part() {
+    let result = bench(&["--engine", "tick,fast", "--set", "memory.latency=8"]);
+    assert_eq!(result["engine"], "tick");
+    assert_eq!(result["engines"][0]["absent"], "ticked: the in-flight queue may fill");
+    assert_eq!(result["engines"].as_array().unwrap().len(), 2);
+}
