@@ -48,35 +48,26 @@ pub struct Memory {
     wr_ready: bool,
     /// Depths read, with the cycle from which on they are offered.
     reads: Fifo<(u64, u32), 16>,
-    words: Vec<Stored>,
+    /// Depth memory by address; a read waits for this one only.
+    z: Vec<u32>,
+    /// Frame memory by address.
+    rgb: Vec<Rgb>,
 }
 
-/// A pixel of both memories, and what happened to it.
+/// A pixel of both memories.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stored {
-    /// Colour, b <= 16 bits a channel.
-    pub rgb: Rgb,
     /// Depth, b <= 32 bits.
     pub z: u32,
-    /// Not stored: how often its depth was read.
-    pub reads: u32,
-    /// Not stored: how often it was written.
-    pub writes: u32,
-    /// Not stored: number of the triangle that wrote it last, -1: none.
-    pub id: i32,
+    /// Colour, b <= 16 bits a channel.
+    pub rgb: Rgb,
 }
 
 impl Memory {
     /// A cleared memory: the farthest depth, and the colour `clear` (b bits each) everywhere.
     #[must_use]
     pub fn new(machine: &Machine, clear: [u64; 3], stalls: Stalls) -> Self {
-        let empty = Stored {
-            rgb: Rgb::new(clear.map(|c| c as u16)), // b <= 16 bits
-            z: machine.z.max() as u32,              // b <= 32 bits
-            reads: 0,
-            writes: 0,
-            id: -1,
-        };
+        let words = 1 << machine.widths().address;
         let mut memory = Memory {
             latency: u64::from(machine.latency),
             stalls,
@@ -86,7 +77,8 @@ impl Memory {
             rd_ready: true,
             wr_ready: true,
             reads: Fifo::default(),
-            words: vec![empty; 1 << machine.widths().address],
+            z: vec![machine.z.max() as u32; words], // b <= 32 bits
+            rgb: vec![Rgb::new(clear.map(|c| c as u16)); words], // b <= 16 bits
         };
         memory.draw_readies();
         memory
@@ -116,8 +108,8 @@ impl Memory {
 
     /// What is stored at an address.
     #[must_use]
-    pub fn pixel(&self, addr: u32) -> &Stored {
-        &self.words[addr as usize]
+    pub fn pixel(&self, addr: u32) -> Stored {
+        Stored { z: self.z[addr as usize], rgb: self.rgb[addr as usize] }
     }
 
     /// Clock edge: the read that fired, whether the data was taken, the write that fired.
@@ -127,18 +119,13 @@ impl Memory {
             self.reads.pop();
         }
         if let Some(addr) = read {
-            let due = self.now.wrapping_add(self.latency + self.late());
-            let word = &mut self.words[addr as usize];
-            word.reads = word.reads.wrapping_add(1);
-            self.reads.push((due, word.z));
+            let due = self.now.wrapping_add(self.latency).wrapping_add(self.late());
+            self.reads.push((due, self.z[addr as usize]));
         }
         if let Some(write) = write {
-            let word = &mut self.words[write.addr as usize];
-            word.writes = word.writes.wrapping_add(1);
-            word.id = write.source.id as i32;
-            word.rgb = write.rgb;
+            self.rgb[write.addr as usize] = write.rgb;
             if write.z_en {
-                word.z = write.z;
+                self.z[write.addr as usize] = write.z;
             }
         }
         self.now = self.now.wrapping_add(1);

@@ -73,6 +73,7 @@ pub fn render_with(
 ) -> Frame {
     let mut model = Model::new(machine);
     let mut memory = Memory::new(machine, state.clear, stalls);
+    let mut tally = Tally::new(machine);
     let mut triangles = triangles.into_iter();
     let mut next = triangles.next();
     loop {
@@ -89,10 +90,12 @@ pub fn render_with(
         let data_taken = inputs.data.is_some() && outputs.data_ready;
         let read = outputs.rd.filter(|_| inputs.rd_ready);
         let write = outputs.wr.as_ref().filter(|_| inputs.wr_ready);
-        if read.is_some() {
+        if let Some(addr) = read {
+            tally.read(addr);
             hook(Event::Fragment(&model.last_read()));
         }
         if let Some(write) = write {
+            tally.write(write);
             hook(Event::Write(write));
         }
         memory.step(read, data_taken, write);
@@ -103,16 +106,43 @@ pub fn render_with(
         }
     }
     let x_bits = machine.widths().x;
-    let addresses: Vec<u32> =
-        (0..machine.height).flat_map(|y| (0..machine.width).map(move |x| y << x_bits | x)).collect();
-    let stored = || addresses.iter().map(|addr| memory.pixel(*addr));
+    let addresses: Vec<usize> = (0..machine.height)
+        .flat_map(|y| (0..machine.width).map(move |x| (y << x_bits | x) as usize))
+        .collect();
+    let stored = || addresses.iter().map(|addr| memory.pixel(*addr as u32));
     Frame {
         z: stored().map(|p| u64::from(p.z)).collect(),
         rgb: stored().map(|p| p.rgb.channels().map(u64::from)).collect(),
-        coverage: stored().map(|p| p.reads).collect(),
-        writes: stored().map(|p| p.writes).collect(),
-        id: stored().map(|p| p.id).collect(),
+        coverage: addresses.iter().map(|addr| tally.reads[*addr]).collect(),
+        writes: addresses.iter().map(|addr| tally.writes[*addr]).collect(),
+        id: addresses.iter().map(|addr| tally.id[*addr]).collect(),
         counters: model.counters().clone(),
         corners: model.coverage().clone(),
+    }
+}
+
+/// What happened at every address.
+struct Tally {
+    reads: Vec<u32>,
+    writes: Vec<u32>,
+    /// Number of the triangle that wrote it last, -1: none.
+    id: Vec<i32>,
+}
+
+impl Tally {
+    fn new(machine: &Machine) -> Self {
+        let words = 1 << machine.widths().address;
+        Tally { reads: vec![0; words], writes: vec![0; words], id: vec![-1; words] }
+    }
+
+    fn read(&mut self, addr: u32) {
+        let reads = &mut self.reads[addr as usize];
+        *reads = reads.wrapping_add(1);
+    }
+
+    fn write(&mut self, write: &Write) {
+        let writes = &mut self.writes[write.addr as usize];
+        *writes = writes.wrapping_add(1);
+        self.id[write.addr as usize] = write.source.id as i32;
     }
 }
