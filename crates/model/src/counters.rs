@@ -1,5 +1,7 @@
 //! What every cycle was spent on, and what passed through the units.
 
+use crate::coverage::one_more;
+
 /// The cause of a cycle (`docs/machine.md`, section 8); the number is the `activity` port.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
@@ -65,33 +67,12 @@ pub struct Counters {
     pub writes: u64,
 }
 
-/// What fired in a cycle.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Fires {
-    pub activity: Activity,
-    pub triangle: bool,
-    pub line: bool,
-    pub span: bool,
-    pub fragment: bool,
-    pub write: bool,
-}
-
 impl Counters {
+    /// A cycle went by.
     #[inline]
-    pub(crate) fn count(&mut self, fires: &Fires) {
+    pub(crate) fn cycle(&mut self, activity: Activity) {
         one_more(&mut self.cycles);
-        one_more(&mut self.activity[fires.activity as usize]);
-        for (fired, counter) in [
-            (fires.triangle, &mut self.triangles),
-            (fires.line, &mut self.lines),
-            (fires.span, &mut self.spans),
-            (fires.fragment, &mut self.fragments),
-            (fires.write, &mut self.writes),
-        ] {
-            if fired {
-                one_more(counter);
-            }
-        }
+        one_more(&mut self.activity[activity as usize]);
     }
 
     /// Cycles spent on this.
@@ -117,10 +98,4 @@ impl Counters {
     pub fn add_up(&self) -> bool {
         self.busy() + self.stalls() == self.cycles
     }
-}
-
-/// Nobody waits for 2^64: no check in every cycle.
-#[inline]
-fn one_more(counter: &mut u64) {
-    *counter = counter.wrapping_add(1);
 }

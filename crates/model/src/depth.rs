@@ -44,9 +44,12 @@ pub struct DepthInputs {
 #[derive(Clone, Debug)]
 pub struct Depth {
     hazard: Hazard,
+    /// The hazard policy is forward.
+    forwards: bool,
     depth: usize,
     queue: InFlight,
-    w: Option<Write>,
+    w_valid: bool,
+    w: Write,
 }
 
 impl Depth {
@@ -55,23 +58,25 @@ impl Depth {
     pub fn new(machine: &Machine) -> Self {
         Depth {
             hazard: machine.hazard,
+            forwards: machine.hazard == Hazard::Forward,
             depth: machine.inflight as usize,
             queue: InFlight::default(),
-            w: None,
+            w_valid: false,
+            w: Write::default(),
         }
     }
 
     /// Synchronous reset.
     pub fn reset(&mut self) {
         self.queue.clear();
-        self.w = None;
+        self.w_valid = false;
     }
 
     /// Fragments or a write are in flight.
     #[inline]
     #[must_use]
     pub fn occupied(&self) -> bool {
-        self.queue.len() > 0 || self.w.is_some()
+        self.queue.len() > 0 || self.w_valid
     }
 
     /// What keeps the fragment from being read: `rd_valid` = a fragment and no block, `frag_ready` = `rd_ready` and no
@@ -94,7 +99,7 @@ impl Depth {
             Hazard::Interlock => {
                 depth_write
                     && (self.queue.holds(frag.addr)
-                        || self.w.as_ref().is_some_and(|w| w.z_en && w.addr == frag.addr))
+                        || self.w_valid && self.w.z_en && self.w.addr == frag.addr)
             }
         }
     }
@@ -103,14 +108,14 @@ impl Depth {
     #[inline]
     #[must_use]
     pub fn data_ready(&self, wr_ready: bool) -> bool {
-        self.queue.len() > 0 && (self.w.is_none() || wr_ready)
+        self.queue.len() > 0 && (!self.w_valid || wr_ready)
     }
 
     /// The write offered to the frame memory.
     #[inline]
     #[must_use]
     pub fn write(&self) -> Option<&Write> {
-        self.w.as_ref()
+        self.w_valid.then_some(&self.w)
     }
 
     /// The fragment whose read fired last (its fence is not kept); it says what `rd` was after the cycle of the fire.
@@ -129,38 +134,32 @@ impl Depth {
         inputs: &DepthInputs,
         coverage: &mut Coverage,
     ) {
-        let entering = frag.filter(|_| block.is_none() && inputs.rd_ready);
-        if entering.is_none() && frag.is_some() {
-            self.count_wait(block, coverage);
-        }
-        let from_w = entering.and_then(|f| self.forward_from_w(f.addr));
         let compared = inputs.data.filter(|_| self.data_ready(inputs.wr_ready));
+        if let Some(frag) = frag {
+            if block.is_none() && inputs.rd_ready {
+                self.enter(frag, coverage);
+            } else {
+                self.count_wait(block, coverage);
+            }
+        }
+        // The fragment that enters in this same cycle is queued by now: what the compare writes reaches it too.
         if let Some(data) = compared {
             self.compare(data as u32, inputs, coverage); // b <= 32 bits
         } else if inputs.wr_ready {
-            self.w = None;
-        } else if self.w.is_some() {
+            self.w_valid = false;
+        } else if self.w_valid {
             coverage.write_stall += 1;
-        }
-        if let Some(frag) = entering {
-            // The compare of this same cycle comes first; w now holds what it writes.
-            let from_compare = compared.and_then(|_| self.forward_from_w(frag.addr));
-            if from_compare.is_some() {
-                coverage.forward_compare += 1;
-            } else if from_w.is_some() {
-                coverage.forward_write += 1;
-            }
-            self.queue.push(frag, from_compare.or(from_w));
         }
     }
 
-    /// The depth that w writes to this address, if it does.
+    /// Queues a fragment; if w writes its pixel, with the depth that w writes.
     #[inline]
-    fn forward_from_w(&self, addr: u32) -> Option<u32> {
-        match &self.w {
-            Some(w) if self.hazard == Hazard::Forward && w.z_en && w.addr == addr => Some(w.z),
-            _ => None,
+    fn enter(&mut self, frag: &Fragment, coverage: &mut Coverage) {
+        let written = self.forwards && self.w_valid && self.w.z_en && self.w.addr == frag.addr;
+        if written {
+            coverage.forward_write += 1;
         }
+        self.queue.push(frag, written.then_some(self.w.z));
     }
 
     /// Compares the oldest fragment and drops it; if it passes it is written, and those of its pixel that are queued
@@ -172,20 +171,20 @@ impl Depth {
             coverage.forward_used += 1;
         }
         // Bits 0, 1 and 2 of the function say whether less, equal and greater pass.
-        let relation = fragment.z.cmp(&forward.unwrap_or(data)) as i8 + 1;
-        if inputs.depth_func >> relation & 1 == 0 {
-            self.w = None;
-            coverage.depth_fail += 1;
-            return;
-        }
-        self.w = Some(Write {
+        let old = forward.unwrap_or(data);
+        let relation = u8::from(fragment.z > old) + u8::from(fragment.z >= old);
+        let pass = inputs.depth_func >> relation & 1 != 0;
+        // Nobody looks at w where it is not valid; so it is loaded without asking, as a register would be.
+        self.w_valid = pass;
+        self.w = Write {
             addr: fragment.addr,
             z: fragment.z,
             rgb: fragment.rgb,
             z_en: inputs.depth_write,
             source: fragment.source,
-        });
-        if self.hazard == Hazard::Forward && inputs.depth_write {
+        };
+        coverage.depth_fail = coverage.depth_fail.wrapping_add(u64::from(!pass)); // in every cycle: not checked
+        if self.forwards && pass && inputs.depth_write {
             self.queue.forward(fragment.addr, fragment.z, coverage);
         }
     }

@@ -12,7 +12,7 @@
 //!
 //! Rules: `docs/machine.md`, section 3. Not modelled: nothing.
 
-use crate::Coverage;
+use crate::coverage::{Coverage, one_more};
 use crate::tokens::{EdgeWalk, Line, Prim, Words, add, word_masks};
 use edgewalk_numerics::{Fill, Machine};
 
@@ -96,7 +96,7 @@ impl Edge {
             if line_ready {
                 self.next_line(coverage);
             } else {
-                coverage.span_fifo_full += 1;
+                one_more(&mut coverage.span_fifo_full);
             }
         } else if let Some(prim) = prim {
             if fresh_queued {

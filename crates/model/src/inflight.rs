@@ -9,11 +9,15 @@ use crate::tokens::{Fragment, Rgb, Source};
 /// Places; the machine's queue is at most as deep.
 const PLACES: usize = 16;
 
+/// The address of a free place: none on any screen (addresses have at most 28 bits).
+const NOWHERE: u32 = u32::MAX;
+
 /// Fragments in order, the oldest first.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct InFlight {
     head: usize,
     len: usize,
+    /// Of a fragment, or NOWHERE: so all places can be asked at once.
     addr: [u32; PLACES],
     z: [u32; PLACES],
     rgb: [Rgb; PLACES],
@@ -30,6 +34,21 @@ pub(crate) struct InFlightHead {
     pub forward: Option<u32>,
 }
 
+impl Default for InFlight {
+    fn default() -> Self {
+        InFlight {
+            head: 0,
+            len: 0,
+            addr: [NOWHERE; PLACES],
+            z: [0; PLACES],
+            rgb: [Rgb::default(); PLACES],
+            source: [Source::default(); PLACES],
+            forwarded: [false; PLACES],
+            forward_z: [0; PLACES],
+        }
+    }
+}
+
 impl InFlight {
     /// Fragments held.
     #[inline]
@@ -40,8 +59,10 @@ impl InFlight {
     /// Drops all.
     pub(crate) fn clear(&mut self) {
         self.len = 0;
+        self.addr = [NOWHERE; PLACES];
     }
 
+    #[inline]
     fn slot(&self, place: usize) -> usize {
         self.head.wrapping_add(place) & (PLACES - 1)
     }
@@ -49,7 +70,7 @@ impl InFlight {
     /// A fragment of this address is held.
     #[inline]
     pub(crate) fn holds(&self, addr: u32) -> bool {
-        (0..self.len).any(|place| self.addr[self.slot(place)] == addr)
+        self.addr.iter().fold(false, |held, other| held | (*other == addr))
     }
 
     /// Appends a fragment and its old depth, if that is known; DEPTH lets none in when full.
@@ -71,6 +92,7 @@ impl InFlight {
         let slot = self.slot(0);
         let fragment = self.fragment(slot);
         let forward = self.forwarded[slot].then_some(self.forward_z[slot]);
+        self.addr[slot] = NOWHERE;
         self.head = self.slot(1);
         self.len = self.len.wrapping_sub(1);
         InFlightHead { fragment, forward }
@@ -95,8 +117,10 @@ impl InFlight {
     /// Every fragment of this address takes `z` for its old depth.
     #[inline]
     pub(crate) fn forward(&mut self, addr: u32, z: u32, coverage: &mut Coverage) {
-        for place in 0..self.len {
-            let slot = self.slot(place);
+        if !self.holds(addr) {
+            return;
+        }
+        for slot in 0..PLACES {
             if self.addr[slot] == addr {
                 self.forwarded[slot] = true;
                 self.forward_z[slot] = z;

@@ -9,8 +9,8 @@
 //!
 //! Rules: `docs/machine.md`, sections 8 and 9.
 
-use crate::counters::{Activity, Counters, Fires};
-use crate::coverage::Coverage;
+use crate::counters::{Activity, Counters};
+use crate::coverage::{Coverage, one_more};
 use crate::depth::{Block, Depth, DepthInputs};
 use crate::edge::Edge;
 use crate::pixel::Pixel;
@@ -104,38 +104,32 @@ impl Model {
     /// One clock cycle: the outputs of this cycle, then the clock edge.
     #[inline]
     pub fn cycle(&mut self, inputs: &Inputs) -> Outputs {
+        // DEPTH, and the memory behind it.
         let frag = self.pixel.frag();
         let block = self.depth.block(frag, inputs.depth_write);
-        let rd = frag.filter(|_| block.is_none()).map(|f| f.addr);
         let frag_ready = inputs.rd_ready && block.is_none();
-        let span_ready = self.pixel.span_ready(frag_ready);
-        let line = self.edge.line();
-        let line_ready = line.is_some_and(|l| self.span.line_ready(l));
-        let fresh_queued = self.span.fresh_queued();
-        let prim_ready = self.edge.prim_ready(fresh_queued);
         let activity = self.activity(block, frag_ready);
         let outputs = Outputs {
             tri_ready: self.setup.tri_ready(),
-            rd,
+            rd: frag.filter(|_| block.is_none()).map(|f| f.addr),
             data_ready: self.depth.data_ready(inputs.wr_ready),
             wr: self.depth.write().copied(),
             activity,
             idle: activity == Activity::Idle,
         };
-        let span = self.span.span();
-
-        let coverage = &mut self.coverage;
-        if outputs.tri_ready && inputs.tri.is_some() && self.pixel.active() {
-            coverage.setup_overlap += 1;
+        self.counters.cycle(activity);
+        if outputs.rd.is_some() && inputs.rd_ready {
+            one_more(&mut self.counters.fragments);
         }
-        self.counters.count(&Fires {
-            activity,
-            triangle: outputs.tri_ready && inputs.tri.is_some(),
-            line: line_ready,
-            span: span_ready && span.is_some(),
-            fragment: rd.is_some() && inputs.rd_ready,
-            write: outputs.wr.is_some() && inputs.wr_ready,
-        });
+        if outputs.wr.is_some() && inputs.wr_ready {
+            one_more(&mut self.counters.writes);
+        }
+        if inputs.tri.is_some() && outputs.tri_ready {
+            one_more(&mut self.counters.triangles);
+            self.coverage.setup_overlap += u64::from(self.pixel.active());
+        }
+        let coverage = &mut self.coverage;
+        let span_ready = self.pixel.span_ready(frag_ready);
         let depth_inputs = DepthInputs {
             depth_func: inputs.depth_func,
             depth_write: inputs.depth_write,
@@ -144,8 +138,25 @@ impl Model {
             wr_ready: inputs.wr_ready,
         };
         self.depth.step(frag, block, &depth_inputs, coverage);
+
+        // PIXEL.
+        let span = self.span.span();
+        if span_ready && span.is_some() {
+            one_more(&mut self.counters.spans);
+        }
         self.pixel.step(span, self.edge.gradient(), frag_ready, coverage);
-        self.span.step(line.filter(|_| line_ready), span_ready, coverage);
+
+        // SPAN.
+        let fresh_queued = self.span.fresh_queued();
+        let line = self.edge.line().filter(|l| self.span.line_ready(l));
+        let line_ready = line.is_some();
+        if line_ready {
+            one_more(&mut self.counters.lines);
+        }
+        self.span.step(line, span_ready, coverage);
+
+        // EDGE and SETUP.
+        let prim_ready = self.edge.prim_ready(fresh_queued);
         self.edge.step(self.setup.prim(), fresh_queued, line_ready, coverage);
         self.setup.step(inputs.tri, prim_ready, coverage);
         if inputs.rst {

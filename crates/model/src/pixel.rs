@@ -4,7 +4,8 @@
 //!  span ─> x, count, values ─── floor(value / 2^r) ─> out 0 ─> .. ─> out D-1 ─> frag
 //!             ^── values += g, every T = 4/A clocks
 //! ```
-//! Formats: values and g of b + r bits, modular; x signed, COLW bits; outputs of b bits.
+//! Formats: values and g of b + r bits, modular: they stand at the left end of 64 bits, so that they wrap by
+//! themselves; x signed, COLW bits; outputs of b bits.
 //!
 //! Timing: a span taken in cycle n gives its first fragment in n + T + D, then one every T clocks, without a gap to the
 //! next span. If the last stage cannot leave, all stands still.
@@ -13,7 +14,7 @@
 //! their clocks are seen outside.
 
 use crate::Coverage;
-use crate::tokens::{Fragment, Rgb, Source, Span, Words, add, word_masks};
+use crate::tokens::{Fragment, Rgb, Source, Span, Words};
 use edgewalk_numerics::Machine;
 
 /// State of PIXEL.
@@ -21,10 +22,11 @@ use edgewalk_numerics::Machine;
 pub struct Pixel {
     width: u32,
     x_bits: u32,
-    fraction: [u32; 4],
-    masks: Words,
+    /// Bits that a word leaves free at the left of 64, by channel.
+    align: [u32; 4],
+    /// Bits of a word below its output, so aligned: of depth, and of a colour.
+    below: [u32; 2],
     last_phase: u32,
-    stage_mask: usize,
 
     active: bool,
     phase: u32,
@@ -38,8 +40,11 @@ pub struct Pixel {
     row: u32,
     fence: bool,
     source: Source,
-    /// Out stages as a ring: `oldest` is stage D-1.
-    stages: [Option<Fragment>; 4],
+    /// Out stage D-1, the last.
+    out: Option<Fragment>,
+    /// Out stages before it as a ring of D-1 places.
+    stages: [Option<Fragment>; 3],
+    before: usize,
     oldest: usize,
 }
 
@@ -50,10 +55,9 @@ impl Pixel {
         Pixel {
             width: machine.width,
             x_bits: machine.widths().x,
-            fraction: machine.channels().map(|c| c.fraction),
-            masks: word_masks(machine),
+            align: machine.channels().map(|c| 64 - c.word()),
+            below: [64 - machine.z.bits, 64 - machine.color.bits],
             last_phase: machine.clocks_per_pixel() - 1,
-            stage_mask: machine.segments as usize - 1, // 1, 2 or 4
             active: false,
             phase: 0,
             x: 0,
@@ -64,7 +68,9 @@ impl Pixel {
             row: 0,
             fence: false,
             source: Source::default(),
-            stages: [None; 4],
+            out: None,
+            stages: [None; 3],
+            before: machine.segments as usize - 1, // D is 1, 2 or 4
             oldest: 0,
         }
     }
@@ -72,7 +78,8 @@ impl Pixel {
     /// Synchronous reset.
     pub fn reset(&mut self) {
         self.active = false;
-        self.stages = [None; 4];
+        self.out = None;
+        self.stages = [None; 3];
     }
 
     /// A span is being stepped along.
@@ -92,14 +99,14 @@ impl Pixel {
     /// An out stage is occupied.
     #[must_use]
     pub fn occupied(&self) -> bool {
-        self.stages[..=self.stage_mask].iter().any(Option::is_some)
+        self.out.is_some() || self.stages.iter().any(Option::is_some)
     }
 
     /// The fragment offered to DEPTH.
     #[inline]
     #[must_use]
     pub fn frag(&self) -> Option<&Fragment> {
-        self.stages[self.oldest & 3].as_ref()
+        self.out.as_ref()
     }
 
     /// The pipeline moves.
@@ -126,19 +133,20 @@ impl Pixel {
         if !self.advance(frag_ready) {
             return;
         }
-        let mut sums = None;
         if self.active {
             if self.phase < self.last_phase {
                 self.phase += 1;
                 self.shift(None);
                 return;
             }
-            sums = self.sums(coverage);
-        }
-        self.shift(sums);
-        if self.active && self.count > 1 {
-            self.next_pixel();
-            return;
+            let sums = self.sums(coverage);
+            self.shift(sums);
+            if self.count > 1 {
+                self.next_pixel();
+                return;
+            }
+        } else {
+            self.shift(None);
         }
         self.active = span.is_some();
         if let Some(span) = span {
@@ -149,8 +157,12 @@ impl Pixel {
     /// Moves the out stages, `entering` into the first.
     #[inline]
     fn shift(&mut self, entering: Option<Fragment>) {
-        self.stages[self.oldest & 3] = entering;
-        self.oldest = self.oldest.wrapping_add(1) & self.stage_mask;
+        if self.before == 0 {
+            self.out = entering;
+            return;
+        }
+        self.out = std::mem::replace(&mut self.stages[self.oldest], entering);
+        self.oldest = (self.oldest + 1) % self.before;
     }
 
     /// The pixel whose sums are ready, if it lies on the screen.
@@ -171,11 +183,12 @@ impl Pixel {
     /// The pixel at `x`, its values cut to b bits.
     #[inline]
     fn fragment(&self) -> Fragment {
-        let output = |i: usize| self.values[i].wrapping_shr(self.fraction[i]); // r < 64
+        let [z, rgb] = self.below;
+        let output = |i: usize| self.values[i].wrapping_shr(rgb) as u16; // 64 - b < 64
         Fragment {
             addr: self.row | self.x as u32,
-            z: output(0) as u32,
-            rgb: Rgb::new([output(1) as u16, output(2) as u16, output(3) as u16]),
+            z: self.values[0].wrapping_shr(z) as u32,
+            rgb: Rgb::new([output(1), output(2), output(3)]),
             fence: self.fence,
             source: self.source,
         }
@@ -186,7 +199,7 @@ impl Pixel {
         self.phase = 0;
         self.count -= 1;
         self.x = self.x.wrapping_add(self.step_x);
-        self.values = add(&self.values, &self.gradient, &self.masks);
+        self.values = std::array::from_fn(|i| self.values[i].wrapping_add(self.gradient[i]));
     }
 
     fn load(&mut self, span: &Span, gradient: &Words) {
@@ -194,12 +207,16 @@ impl Pixel {
         self.x = span.x;
         self.count = span.count;
         self.step_x = if span.left { -1 } else { 1 };
-        self.values = span.values;
+        self.values = self.aligned(&span.values);
         self.row = span.y << self.x_bits;
         self.fence = span.fence;
         self.source = span.source;
         if span.fresh {
-            self.gradient = *gradient;
+            self.gradient = self.aligned(gradient);
         }
+    }
+
+    fn aligned(&self, words: &Words) -> Words {
+        std::array::from_fn(|i| words[i].wrapping_shl(self.align[i])) // b + r >= 1
     }
 }

@@ -124,7 +124,7 @@ impl SpanQueue {
     fn columns(&self, line: &Line) -> (i32, i32) {
         let (start, end) = if line.left { (line.minor, line.major) } else { (line.major, line.minor) };
         // In textbook fill C is 1 + Trunc(X), and both ends are drawn.
-        (start - i32::from(self.textbook), end)
+        (start.wrapping_sub(i32::from(self.textbook)), end)
     }
 
     /// No column of the line lies on the screen.

@@ -89,6 +89,9 @@ impl Setup {
             self.left -= 1;
             return;
         }
+        if self.state == State::Done && !prim_ready {
+            return;
+        }
         match self.state {
             State::Idle => {
                 if let Some((vertices, tag)) = tri {
@@ -98,11 +101,7 @@ impl Setup {
             State::Phase1 if self.culled => self.state = State::Idle,
             State::Phase1 => self.enter(State::Phase2, self.clocks.phase2),
             State::Phase2 => self.state = State::Done,
-            State::Done => {
-                if prim_ready {
-                    self.state = State::Idle;
-                }
-            }
+            State::Done => self.state = State::Idle,
         }
     }
 
