@@ -14,6 +14,7 @@ pub mod edge;
 pub mod fifo;
 mod inflight;
 pub mod machine;
+mod prefetch;
 pub mod memory;
 pub mod pixel;
 pub mod run;

@@ -12,6 +12,7 @@
 //! Rules: `docs/machine.md`, section 7. Not modelled: refresh, banks, anything but late data and low readies.
 
 use crate::fifo::Fifo;
+use crate::prefetch::prefetch;
 use crate::tokens::{Rgb, Write};
 use edgewalk_numerics::Machine;
 use rand_pcg::Pcg32;
@@ -48,6 +49,8 @@ pub struct Memory {
     wr_ready: bool,
     /// Depths read, with the cycle from which on they are offered.
     reads: Fifo<(u64, u32), 16>,
+    /// Words from a line to the next.
+    pitch: usize,
     /// Depth memory by address; a read waits for this one only.
     z: Vec<u32>,
     /// Frame memory by address.
@@ -77,6 +80,7 @@ impl Memory {
             rd_ready: true,
             wr_ready: true,
             reads: Fifo::default(),
+            pitch: 1 << machine.widths().x,
             z: vec![machine.z.max() as u32; words], // b <= 32 bits
             rgb: vec![Rgb::new(clear.map(|c| c as u16)); words], // b <= 16 bits
         };
@@ -121,6 +125,10 @@ impl Memory {
         if let Some(addr) = read {
             let due = self.now.wrapping_add(self.latency).wrapping_add(self.late());
             self.reads.push((due, self.z[addr as usize]));
+            // Triangles go down: the word below is likely to be next, and the host's own memory is slow.
+            let below = (addr as usize).wrapping_add(self.pitch);
+            prefetch(&self.z, below);
+            prefetch(&self.rgb, below);
         }
         if let Some(write) = write {
             self.rgb[write.addr as usize] = write.rgb;
