@@ -26,7 +26,7 @@ pub use frame::{DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, ShadeMode, Shadow, T
 pub use light::{Attenuation, Incident, Light};
 pub use mesh::{Face, FaceData, Material, Mesh};
 pub use normals::{Crease, NormalRule, Weight};
-pub use polygon::{MAX_CONTOUR, Polygon, Primitive};
+pub use polygon::{CrossingEdges, MAX_CONTOUR, Polygon, Primitive, Triangulated};
 pub use scene::Scene;
 pub use shading::{LightTerms, Lighting, Point, Specular, Terms};
 pub use surface::{Surface, SurfaceTriangle, SurfaceVertex};

@@ -1,5 +1,9 @@
 //! Polygons on the screen, and where they stand among the triangles of a frame.
 
+mod triangles;
+
+pub use triangles::{CrossingEdges, Triangulated};
+
 use crate::frame::{Frame, Triangle, Vertex};
 
 /// Most vertices of a contour.
