@@ -38,6 +38,14 @@ pub(crate) struct ClipVertex {
     pub texture: DVec2,
 }
 
+impl ClipVertex {
+    /// A vertex of which only the place matters.
+    pub(crate) fn bare(position: DVec4) -> Self {
+        let (world, normal, color, texture) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, DVec2::ZERO);
+        Self { position, color, transmission: 0.0, world, normal, texture }
+    }
+}
+
 impl Viewport {
     /// Near, far, left, right, top, bottom: what is inside has no negative product with any.
     fn planes(&self) -> [DVec4; 6] {
