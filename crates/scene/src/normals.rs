@@ -138,7 +138,7 @@ impl FacesAround {
 #[allow(clippy::unwrap_used)] // the meshes are built in
 mod tests {
     use super::*;
-    use crate::mesh::{room, sphere};
+    use crate::mesh::{Face, FaceData, Material, room, sphere};
     use std::f64::consts::PI;
 
     fn within(angle: f64) -> NormalRule {
@@ -170,5 +170,60 @@ mod tests {
                 "three walls meet at each corner"
             );
         }
+    }
+
+    /// A corner of a box: one side is one face there, one is two, and the third, cut unevenly, is two as well.
+    fn uneven_corner(groups: [u32; 5]) -> Mesh {
+        let positions = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (0, 1, 4)]
+            .map(|(x, y, z)| DVec3::new(x.into(), y.into(), z.into()));
+        // z = 0 by two faces, y = 0 by one, x = 0 by two of which the second reaches far.
+        let corners = [[0, 4, 1], [0, 2, 4], [0, 1, 3], [0, 3, 5], [0, 5, 2]];
+        let faces = corners.map(|corners| Face { corners, material: 0 }).to_vec();
+        let data = groups.map(|group| FaceData { group, ..FaceData::default() });
+        let mesh = Mesh::new("corner", positions.to_vec(), faces, vec![Material::DEFAULT]).unwrap();
+        mesh.with_face_data(data.to_vec())
+    }
+
+    #[test]
+    fn weights_by_hand() {
+        let mesh = uneven_corner([0; 5]);
+        let own = face_normals(&mesh);
+        let at_corner = |weight| corner_normals(&mesh, &own, NormalRule { weight, ..within(PI) })[0][0];
+        let expected = |x: f64, y: f64, z: f64| DVec3::new(-x, -y, -z).normalize();
+        // Faces: 2 of x = 0, 1 of y = 0, 2 of z = 0. Areas: (1 + 4) / 2, 1 / 2, 1. Angles: a right one each.
+        let cases = [
+            (Weight::Plain, expected(2.0, 1.0, 2.0)),
+            (Weight::Area, expected(2.5, 0.5, 1.0)),
+            (Weight::Angle, expected(1.0, 1.0, 1.0)),
+        ];
+        for (weight, expected) in cases {
+            let normal = at_corner(weight);
+            assert!(normal.distance(expected) < 1e-12, "{weight:?}: {normal}, not {expected}");
+        }
+    }
+
+    #[test]
+    fn smoothing_groups_part_what_angles_would_join() {
+        let mesh = uneven_corner([1, 1, 1, 2, 0]);
+        let own = face_normals(&mesh);
+        let rule = NormalRule { crease: Crease::Groups, ..NormalRule::default() };
+        let normals = corner_normals(&mesh, &own, rule);
+        let together = DVec3::new(0.0, -1.0, -2.0).normalize();
+        for normals in &normals[..3] {
+            assert!(normals[0].distance(together) < 1e-12, "group 1 is one surface");
+        }
+        assert!(normals[3][0].distance(own[3]) < 1e-12, "group 2 has one face");
+        assert!(normals[4][0].distance(own[4]) < 1e-12, "group 0 smooths nothing");
+    }
+
+    #[test]
+    fn normals_of_the_file_stand_unless_they_are_not_wanted() {
+        let mesh = uneven_corner([0; 5]);
+        let given = FaceData { normals: Some([DVec3::X; 3]), ..FaceData::default() };
+        let mesh = mesh.with_face_data(vec![given]);
+        let own = face_normals(&mesh);
+        let first = |given| corner_normals(&mesh, &own, NormalRule { given, ..within(1.0) })[0][0];
+        assert_eq!(first(true), DVec3::X);
+        assert!(first(false).distance(own[0]) < 1e-12);
     }
 }

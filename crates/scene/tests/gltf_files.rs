@@ -4,8 +4,8 @@
 mod common;
 
 use common::{file, front, read, refusal};
-use edgewalk_scene::Mesh;
-use glam::DVec3;
+use edgewalk_scene::{Mesh, Texture};
+use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 use std::fs;
 
@@ -78,6 +78,54 @@ fn gltf_nodes_place_their_meshes() {
     for face in 0..2 {
         assert_eq!((front(&text, face), front(&mirrored, face)), (DVec3::Z, DVec3::Z));
     }
+}
+
+#[test]
+fn gltf_materials_normals_and_texture_coordinates() {
+    let mut gltf = Gltf::square()
+        .with(r#"{"POSITION":0}"#, r#"{"POSITION":0,"NORMAL":2,"TEXCOORD_0":3}"#)
+        .with(
+            r#""bufferViews":["#,
+            r#""images":[{"uri":"away.png"}],"textures":[{"source":0}],
+            "bufferViews":[{"buffer":0,"byteOffset":60,"byteLength":48},{"buffer":0,"byteLength":48},"#,
+        )
+        .with(r#""bufferView":1,"#, r#""bufferView":3,"#)
+        .with(r#"{"bufferView":0,"#, r#"{"bufferView":2,"#)
+        .with(
+            r#""type":"SCALAR"}"#,
+            r#""type":"SCALAR"},{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
+            {"bufferView":1,"componentType":5126,"count":4,"type":"VEC2"}"#,
+        )
+        .with(
+            r#"{"baseColorFactor":[0.25,0.5,1,1]}}"#,
+            r#"{"baseColorFactor":[0.25,0.5,1,0.25],"metallicFactor":0.5,"roughnessFactor":0.5,
+            "baseColorTexture":{"index":0}},"emissiveFactor":[0,1,0.5],"alphaMode":"BLEND"}"#,
+        )
+        .with("\"byteLength\":60", "\"byteLength\":108")
+        .with("[2,2,2]", "[2,2,4]");
+    for _ in 0..4 {
+        gltf.buffer.extend([0.6f32, 0.0, 0.8].into_iter().flat_map(f32::to_le_bytes));
+    }
+    let mesh = gltf.read().unwrap();
+    let material = mesh.materials()[0];
+    assert_eq!(
+        (material.diffuse, material.ambient),
+        (DVec3::new(0.25, 0.5, 1.0), DVec3::new(0.25, 0.5, 1.0))
+    );
+    assert!(material.specular.distance(DVec3::new(0.145, 0.27, 0.52) / 2.0) < 1e-12, "{}", material.specular);
+    assert_eq!((material.exponent, material.transmission), (30.0, 0.75));
+    assert_eq!(material.emission, DVec3::new(0.0, 1.0, 0.5));
+    assert_eq!((material.texture, mesh.textures()), (Some(0), &[Texture::Absent("away.png".into())][..]));
+    let data = mesh.face_data()[0];
+    // Twice as far along z as along x, a normal leans the other way.
+    let leaning = DVec3::new(0.3, 0.0, 0.2).normalize();
+    assert!(data.normals.unwrap().iter().all(|normal| normal.distance(leaning) < 1e-7), "{:?}", data.normals);
+    // The first numbers of the positions, two by two; v runs down in the file.
+    let places = [(0.0, 0.0), (0.0, 1.0), (0.0, 0.0)].map(|(u, v)| DVec2::new(u, 1.0 - v));
+    assert_eq!(data.texture, Some(places));
+    let short = Gltf { buffer: gltf.buffer, ..Gltf::square() };
+    let short = short.with(r#"{"POSITION":0}"#, r#"{"POSITION":0,"NORMAL":1}"#);
+    assert!(short.read().unwrap_err().contains("NORMAL"), "an index is no normal");
 }
 
 #[test]
