@@ -99,12 +99,16 @@ fn from_model(machine: &Machine, drawn: edgewalk_model::Frame) -> Raster {
     Raster { corners: Some(drawn.corners.clone()), ..from_machine(machine, drawn) }
 }
 
-fn draw_golden(frame: &Frame, machine: &Machine) -> Raster {
-    let fill = match machine.fill {
+/// The machine's rule for pixels, as the golden picture knows it.
+pub fn golden_fill(machine: &Machine) -> edgewalk_golden::Fill {
+    match machine.fill {
         Fill::Exact => edgewalk_golden::Fill::Exact { subpixel_bits: machine.subpixel_bits },
         Fill::Textbook => edgewalk_golden::Fill::Textbook,
-    };
-    let picture = edgewalk_golden::draw(frame, fill);
+    }
+}
+
+fn draw_golden(frame: &Frame, machine: &Machine) -> Raster {
+    let picture = edgewalk_golden::draw(frame, golden_fill(machine));
     Raster {
         width: frame.width,
         height: frame.height,

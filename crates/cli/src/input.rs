@@ -3,7 +3,7 @@
 use anyhow::{Context, Result, anyhow};
 use edgewalk_model::DrawState;
 use edgewalk_numerics::{Machine, PortVertex};
-use edgewalk_scene::{DepthFunc, Frame, Scene, ShadeMode, Triangle, triangle_file};
+use edgewalk_scene::{DepthFunc, Frame, Scene, ShadeMode, Surface, Triangle, triangle_file};
 use std::path::Path;
 
 /// A frame as the machine's port takes it.
@@ -68,21 +68,53 @@ pub struct Source {
     /// A built-in scene, a mesh (.obj, .gltf, .glb) or a triangle file (.tri)
     #[arg(value_name = "SCENE|MESH", default_value = "torus-knot")]
     pub input: String,
-    /// One colour a polygon, or linear between its vertices
+    /// How the colour of a pixel is come by; phong needs --engine golden
     #[arg(long, value_enum, default_value_t = Shading::Gouraud)]
-    shading: Shading,
+    pub shading: Shading,
 }
 
+/// A shading system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Shading {
+pub enum Shading {
+    /// One colour a polygon, by its own normal
     Constant,
+    /// One colour a polygon, by the average of its vertex normals
+    ConstantAveraged,
+    /// Colours of the vertices, linear over the screen
     Gouraud,
+    /// Normals of the vertices, linear over the screen; the shading equation at each pixel
+    Phong,
+}
+
+impl Shading {
+    /// The same for the golden picture.
+    pub fn golden(self) -> edgewalk_golden::Shading {
+        match self {
+            Self::Constant => edgewalk_golden::Shading::Constant,
+            Self::ConstantAveraged => edgewalk_golden::Shading::ConstantAveraged,
+            Self::Gouraud => edgewalk_golden::Shading::Gouraud,
+            Self::Phong => edgewalk_golden::Shading::Phong,
+        }
+    }
 }
 
 impl Source {
-    /// The frame on this machine's screen; meshes are clipped to its guard band. A triangle file keeps its own size and mode.
+    /// Whether the input is a triangle file, which has no surface to shade.
+    pub fn is_triangle_file(&self) -> bool {
+        Path::new(&self.input).extension().is_some_and(|e| e == "tri")
+    }
+
+    /// The scene, and its surface on this machine's screen, clipped to its guard band.
+    pub fn surface(&self, machine: &Machine) -> Result<(Scene, Surface)> {
+        let scene = Scene::open(&self.input)?;
+        let guard = f64::from((1u32 << machine.guard_bits) - 1);
+        let surface = scene.surface(machine.width, machine.height, guard);
+        Ok((scene, surface))
+    }
+
+    /// The frame as the machine draws it. A triangle file keeps its own size and mode.
     pub fn frame(&self, machine: &Machine) -> Result<Frame> {
-        if Path::new(&self.input).extension().is_some_and(|e| e == "tri") {
+        if self.is_triangle_file() {
             let frame = triangle_file::read(Path::new(&self.input))?;
             if (frame.width, frame.height) != (machine.width, machine.height) {
                 return Err(anyhow!(
@@ -98,11 +130,12 @@ impl Source {
             }
             return Ok(frame);
         }
-        let mode = match self.shading {
-            Shading::Constant => ShadeMode::Flat,
-            Shading::Gouraud => ShadeMode::Gouraud,
-        };
-        let guard = f64::from((1u32 << machine.guard_bits) - 1);
-        Ok(Scene::open(&self.input)?.frame(machine.width, machine.height, guard, mode))
+        if self.shading == Shading::Phong {
+            return Err(anyhow!(
+                "--shading phong: the machine has no unit for normals yet; render with --engine golden"
+            ));
+        }
+        let (scene, surface) = self.surface(machine)?;
+        Ok(edgewalk_golden::frame(&scene, &surface, self.shading.golden()))
     }
 }

@@ -15,6 +15,7 @@ mod machine_args;
 mod picture;
 mod progress;
 mod report;
+mod shading_report;
 mod staging;
 mod verdict;
 

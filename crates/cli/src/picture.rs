@@ -10,9 +10,15 @@ pub fn write_rgb(out: &Staging, name: &str, width: u32, height: u32, rgb: &[[f64
     write(out, name, width, height, |i| rgb[i].map(byte))
 }
 
-/// Writes an error in LSB as a heat map: black none, blue to yellow up to one LSB, red above.
-pub fn write_heat(out: &Staging, name: &str, width: u32, height: u32, lsb: &[f64]) -> Result<()> {
-    write(out, name, width, height, |i| match lsb[i] {
+/// Writes an error in LSB as a heat map: black none, blue to yellow up to `full` LSB, red above.
+pub fn write_heat(
+    out: &Staging,
+    name: &str,
+    (width, height): (u32, u32),
+    lsb: &[f64],
+    full: f64,
+) -> Result<()> {
+    write(out, name, width, height, |i| match lsb[i] / full {
         0.0 => [0, 0, 0],
         e if e > 1.0 => [255, 0, 0],
         e => [(e * 255.0) as u8, (e * 220.0) as u8, ((1.0 - e) * 160.0) as u8],

@@ -58,6 +58,8 @@ const ARGUMENTS: &[(&[&str], &[&str])] = &[
     (&["raster", "missing.tri", "--out", "OUT"], &["missing.tri"]),
     (&["render", "torus-not", "--out", "OUT"], &["torus-not", "torus-knot"]),
     (&["render", "mesh.ply", "--out", "OUT"], &["mesh.ply"]),
+    (&["render", "sphere", "--shading", "phnog", "--out", "OUT"], &["phnog", "phong"]),
+    (&["render", "sphere", "--shading", "phong", "--out", "OUT"], &["--shading phong", "--engine golden"]),
     (&["emit", "--machine", "textbok", "--out", "OUT"], &["textbok", "textbook"]),
     (&["emit", "--set", "interpolator.adders=3", "--out", "OUT"], &["interpolator.adders", "3", "nearest"]),
     (

@@ -25,7 +25,7 @@ pub use fragment::{Fragment, Weight};
 pub use incremental::Incremental;
 pub use picture::{Lit, NO_TRIANGLE, Picture, draw};
 pub use ray::Rays;
-pub use shading::{Shaded, Shading, ShadingError, shade};
+pub use shading::{Shaded, Shading, ShadingError, frame, shade};
 pub use shadow::ShadowMaps;
 pub use textbook::{Half, half_triangles};
 pub use weights::Weights;

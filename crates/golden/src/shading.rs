@@ -15,7 +15,7 @@ use crate::fragment::Fragment;
 use crate::incremental::Incremental;
 use crate::picture::{Picture, draw};
 use crate::weights::Weights;
-use edgewalk_scene::{Frame, Scene, Surface, SurfaceTriangle, SurfaceVertex};
+use edgewalk_scene::{Frame, Scene, ShadeMode, Surface, SurfaceTriangle, SurfaceVertex};
 use glam::{DVec2, DVec3};
 
 /// How the colour of a pixel is come by.
@@ -67,10 +67,9 @@ pub fn shade(scene: &Scene, surface: &Surface, shading: Shading, fill: Fill) -> 
     Shaded { picture, truth }
 }
 
-/// The triangles as the depth test and linear colours need them.
-fn frame(scene: &Scene, surface: &Surface, shading: Shading) -> Frame {
-    let clear = scene.background.to_array();
-    let mut frame = Frame { clear, ..Frame::new(surface.width, surface.height) };
+/// The triangles with the colours that constant and Gouraud shading give them; for Phong those of Gouraud, of which only
+/// the depths count.
+pub fn frame(scene: &Scene, surface: &Surface, shading: Shading) -> Frame {
     let one_color =
         |triangle: &SurfaceTriangle, normal| triangle.in_color(scene.constant_color(triangle.face, normal));
     let on_screen = |triangle: &SurfaceTriangle| match shading {
@@ -78,8 +77,16 @@ fn frame(scene: &Scene, surface: &Surface, shading: Shading) -> Frame {
         Shading::ConstantAveraged => one_color(triangle, triangle.averaged_normal()),
         Shading::Gouraud | Shading::Phong => triangle.on_screen(),
     };
-    frame.triangles = surface.triangles.iter().map(on_screen).collect();
-    frame
+    let mode = match shading {
+        Shading::Constant | Shading::ConstantAveraged => ShadeMode::Flat,
+        Shading::Gouraud | Shading::Phong => ShadeMode::Gouraud,
+    };
+    Frame {
+        mode,
+        clear: scene.background.to_array(),
+        triangles: surface.triangles.iter().map(on_screen).collect(),
+        ..Frame::new(surface.width, surface.height)
+    }
 }
 
 /// What the equation needs at a pixel.

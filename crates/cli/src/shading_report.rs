@@ -1,0 +1,94 @@
+//! One page about a shading system: what was drawn, and how far it is from the truth; as text and as JSON.
+
+use crate::Talk;
+use crate::input::Source;
+use anyhow::Result;
+use clap::ValueEnum;
+use edgewalk_golden::ShadingError;
+use edgewalk_scene::{Scene, Surface, Texture};
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// Everything the page says.
+#[derive(Debug, Serialize)]
+pub struct ShadingReport {
+    input: String,
+    shading: String,
+    specular: &'static str,
+    width: u32,
+    height: u32,
+    faces: usize,
+    triangles: usize,
+    lights: usize,
+    materials: usize,
+    /// Named by the materials and not there.
+    missing_textures: Vec<String>,
+    /// Pixels that show a triangle.
+    pixels: u64,
+    /// LSB of 8 bits.
+    largest_error: f64,
+    /// LSB of 8 bits.
+    mean_error: f64,
+}
+
+impl ShadingReport {
+    /// Of a picture of `surface`.
+    pub fn new(source: &Source, scene: &Scene, surface: &Surface, error: &ShadingError) -> Self {
+        let absent = |texture: &Texture| match texture {
+            Texture::Absent(name) => Some(name.clone()),
+            _ => None,
+        };
+        let shading = source.shading.to_possible_value();
+        Self {
+            input: source.input.clone(),
+            shading: shading.map_or_else(String::new, |value| value.get_name().to_owned()),
+            specular: scene.specular.name(),
+            width: surface.width,
+            height: surface.height,
+            faces: scene.mesh.faces().len(),
+            triangles: surface.triangles.len(),
+            lights: scene.lights.len(),
+            materials: scene.mesh.materials().len(),
+            missing_textures: scene.mesh.textures().iter().filter_map(absent).collect(),
+            pixels: error.pixels,
+            largest_error: error.max,
+            mean_error: error.mean,
+        }
+    }
+
+    /// As a JSON file.
+    pub fn json(&self) -> Result<String> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
+    }
+
+    /// As a page of text.
+    pub fn text(&self) -> String {
+        let mut t = String::new();
+        let _ = writeln!(
+            t,
+            "{}: {} faces, {} triangles on {}x{}, {} lights, {} materials",
+            self.input, self.faces, self.triangles, self.width, self.height, self.lights, self.materials
+        );
+        for name in &self.missing_textures {
+            let _ = writeln!(t, "texture {name} is not there: white");
+        }
+        let _ = writeln!(
+            t,
+            "{} beside the equation at each of {} pixels, highlights {}",
+            self.shading, self.pixels, self.specular
+        );
+        let _ = writeln!(t, "largest error {:.4} LSB of 8 bits", self.largest_error);
+        let _ = writeln!(t, "mean error    {:.4} LSB of 8 bits", self.mean_error);
+        t
+    }
+
+    /// To standard output, as asked.
+    pub fn print(&self, talk: Talk) -> Result<()> {
+        if talk.json {
+            print!("{}", self.json()?);
+        } else if !talk.quiet {
+            print!("{}", self.text());
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,93 @@
+//! `edgewalk render --engine golden`: every shading system from the command line, and what the machine refuses.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::time::Instant;
+
+fn render(out: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_edgewalk"))
+        .arg("render")
+        .args(arguments)
+        .args(["--json", "--out"])
+        .arg(out)
+        .output()
+        .expect("the program runs")
+}
+
+fn report(out: &Path, arguments: &[&str]) -> serde_json::Value {
+    let output = render(out, arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("a report")
+}
+
+#[test]
+fn each_system_is_drawn_beside_the_truth() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut means = Vec::new();
+    for shading in ["constant", "constant-averaged", "gouraud", "phong"] {
+        let out = folder.path().join(shading);
+        let report = report(&out, &["sphere", "--engine", "golden", "--shading", shading]);
+        assert_eq!((&report["shading"], &report["specular"]), (&shading.into(), &"mirror".into()));
+        assert!(report["pixels"].as_u64() > Some(100_000));
+        for file in ["image.png", "truth.png", "shading_error.png", "report.json", "report.txt"] {
+            assert!(out.join(file).is_file(), "{shading}: {file}");
+        }
+        println!("{shading}: largest {}, mean {} LSB", report["largest_error"], report["mean_error"]);
+        means.push(report["mean_error"].as_f64().expect("a number"));
+    }
+    let [constant, averaged, gouraud, phong] = means[..] else { panic!("four systems") };
+    assert!(constant > 2.0 * gouraud && averaged > 2.0 * gouraud && gouraud > 2.0 * phong && phong > 0.0);
+    let read =
+        |shading: &str, file: &str| std::fs::read(folder.path().join(shading).join(file)).expect("a picture");
+    assert!(read("constant", "truth.png") == read("phong", "truth.png"), "one truth for all");
+    assert!(read("constant", "image.png") != read("constant-averaged", "image.png"));
+}
+
+#[test]
+fn the_machine_draws_constant_and_refuses_phong() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    for shading in ["constant", "constant-averaged"] {
+        assert_eq!(report(&out, &["sphere", "--shading", shading])["comparison"]["coverage_mismatches"], 0);
+    }
+    let refused = folder.path().join("refused");
+    for engine in ["fast", "model", "rtl"] {
+        let output = render(&refused, &["sphere", "--engine", engine, "--shading", "phong"]);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains("--shading phong") && message.contains("--engine golden"), "{message}");
+    }
+    assert!(!refused.exists(), "nothing is left behind");
+}
+
+/// Meshes of the shared folder, where it is; the seconds are for reading, not for judging: other work may be going on.
+#[test]
+fn shared_meshes_at_1280_by_960() {
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/models");
+    let models = std::env::var_os("EDGEWALK_MODELS").map_or(beside, PathBuf::from);
+    if !models.is_dir() {
+        println!("the folder of shared meshes is not here; set EDGEWALK_MODELS to it to run this suite");
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let screen = ["--engine", "golden", "--set", "screen.width=1280", "--set", "screen.height=960"];
+    for mesh in [
+        "teapot_mcguire/teapot.obj",
+        "spot/spot_triangulated.obj",
+        "cornell/CornellBox-Original.obj",
+        "cornell/CornellBox-Sphere.obj",
+        "goathead.obj",
+        "torus.obj",
+    ] {
+        let path = models.join(mesh);
+        let arguments = [&[path.to_str().expect("a name of letters")], &screen[..]].concat();
+        let started = Instant::now();
+        let report = report(&folder.path().join("out"), &arguments);
+        let seconds = started.elapsed().as_secs_f64();
+        println!(
+            "{mesh}: {seconds:.2} s, largest {}, mean {} LSB",
+            report["largest_error"], report["mean_error"]
+        );
+        assert!(report["pixels"].as_u64() > Some(200_000), "{mesh}");
+    }
+}
