@@ -8,17 +8,19 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("numerics", &[]),
     ("scene", &[]),
     ("golden", &["scene"]),
+    ("gallery", &["scene", "golden"]),
     ("model", &["numerics"]),
     ("netlist", &[]),
     ("verilog", &["netlist"]),
     ("jit", &["netlist"]),
     ("rtl", &["numerics", "netlist"]),
     ("vectors", &["numerics", "model", "netlist", "verilog", "rtl"]),
-    ("cli", &["numerics", "scene", "golden", "model", "netlist", "verilog", "rtl", "vectors"]),
+    ("cli", &["numerics", "scene", "golden", "gallery", "model", "netlist", "verilog", "rtl", "vectors"]),
 ];
 
 /// Crates that read and write no files: they may not even name the standard library's file or process modules.
-const NO_FILES: &[&str] = &["numerics", "golden", "model", "netlist", "verilog", "jit", "rtl"];
+const NO_FILES: &[&str] =
+    &["numerics", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl"];
 
 fn crates() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..")

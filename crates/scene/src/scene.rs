@@ -74,6 +74,15 @@ impl Scene {
         Self::builtin(name)
     }
 
+    /// The scene that the text of a scene file says; `path` is where it would stand, for messages and for the files that
+    /// it names.
+    ///
+    /// # Errors
+    /// A fault in the text or in a file that it names.
+    pub fn parse(path: &Path, text: &str) -> Result<Self, InputError> {
+        scene_file::parse(path, text)
+    }
+
     /// A mesh in the middle of the picture, lit from above on the left.
     pub fn of_mesh(mesh: Mesh) -> Self {
         Self {

@@ -59,9 +59,17 @@ pub(crate) fn read(path: &Path) -> Result<Scene, InputError> {
         let permitted = format!("permitted: at most {MAX_LENGTH} bytes");
         return Err(Fault::new(&file, None, "length", length, permitted).into());
     }
-    let text = std::fs::read_to_string(path).map_err(unreadable)?;
-    let source = Source { file: &file, text: &text };
-    let entries = DeTable::parse(&text).map_err(|error| {
+    parse(path, &std::fs::read_to_string(path).map_err(unreadable)?)
+}
+
+/// The same from a text that stands for the file at `path`.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn parse(path: &Path, text: &str) -> Result<Scene, InputError> {
+    let file = path.display().to_string();
+    let source = Source { file: &file, text };
+    let entries = DeTable::parse(text).map_err(|error| {
         let start = error.span().map_or(0, |span| span.start);
         source.fault(
             start,

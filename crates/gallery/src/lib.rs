@@ -1,0 +1,38 @@
+//! What shading systems do well and badly: exhibits with their pictures, causes and figures.
+//!
+//! Each exhibit is a file: a scene (most are in `docs/scenes`), what is drawn of it, and what is measured there. Nothing
+//! is written here; the program writes pictures and page.
+
+mod exhibit;
+mod plot;
+mod profile;
+
+mod lights;
+mod systems;
+mod mach_bands;
+mod missed_highlight;
+mod orientation;
+mod perspective;
+mod t_joint;
+mod silhouette;
+mod averaged_normals;
+
+use edgewalk_scene::InputError;
+
+pub use exhibit::{Exhibit, Image, View};
+
+/// Makes an exhibit.
+pub type Maker = fn() -> Result<Exhibit, InputError>;
+
+/// All of them, in the order in which they are shown, by the names of their files.
+pub const EXHIBITS: [(&str, Maker); 9] = [
+    ("lights", lights::lights),
+    ("systems", systems::systems),
+    ("mach-bands", mach_bands::mach_bands),
+    ("missed-highlight", missed_highlight::missed_highlight),
+    ("orientation", || Ok(orientation::orientation())),
+    ("perspective", perspective::perspective),
+    ("t-joint", || Ok(t_joint::t_joint())),
+    ("silhouette", silhouette::silhouette),
+    ("averaged-normals", averaged_normals::averaged_normals),
+];

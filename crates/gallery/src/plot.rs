@@ -1,0 +1,77 @@
+//! Lines over two axes, as SVG.
+
+use std::fmt::Write as _;
+
+/// A line of a plot.
+pub(crate) struct Series {
+    pub label: &'static str,
+    pub points: Vec<(f64, f64)>,
+}
+
+/// Told apart by eyes of any kind.
+const COLORS: [&str; 4] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7"];
+const SIZE: (f64, f64) = (640.0, 260.0);
+const LEFT: f64 = 60.0;
+const RIGHT: f64 = 130.0;
+const TOP: f64 = 12.0;
+const BOTTOM: f64 = 40.0;
+
+/// A plot; the axes say what they count.
+pub(crate) fn plot(x_axis: &str, y_axis: &str, series: &[Series]) -> String {
+    let all = || series.iter().flat_map(|line| &line.points);
+    let range = |of: fn(&(f64, f64)) -> f64| {
+        let (low, high) = all().map(of).fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(v), h.max(v)));
+        if low < high { (low, high) } else { (low - 1.0, low + 1.0) }
+    };
+    let ((x_low, x_high), (y_low, y_high)) = (range(|p| p.0), range(|p| p.1));
+    let (width, height) = (SIZE.0 - LEFT - RIGHT, SIZE.1 - TOP - BOTTOM);
+    let x_at = |x: f64| LEFT + (x - x_low) / (x_high - x_low) * width;
+    let y_at = |y: f64| TOP + (y_high - y) / (y_high - y_low) * height;
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" font-family=\"sans-serif\" font-size=\"11\">\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
+        SIZE.0, SIZE.1
+    );
+    // Writing to a string cannot fail.
+    let mut line = |text: std::fmt::Arguments| _ = writeln!(svg, "{text}");
+    for quarter in 0..=4 {
+        let part = f64::from(quarter) / 4.0;
+        let (x, y) = (x_low + part * (x_high - x_low), y_low + part * (y_high - y_low));
+        let (x_px, y_px, end) = (x_at(x), y_at(y), LEFT + width);
+        line(format_args!(
+            "<line x1=\"{LEFT}\" x2=\"{end}\" y1=\"{y_px:.1}\" y2=\"{y_px:.1}\" stroke=\"#dddddd\"/>"
+        ));
+        line(format_args!(
+            "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
+            LEFT - 6.0,
+            y_px + 4.0,
+            short(y)
+        ));
+        line(format_args!(
+            "<text x=\"{x_px:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
+            TOP + height + 16.0,
+            short(x)
+        ));
+    }
+    let (middle, below) = (LEFT + width / 2.0, SIZE.1 - 6.0);
+    line(format_args!("<text x=\"{middle}\" y=\"{below}\" text-anchor=\"middle\">{x_axis}</text>"));
+    let half = TOP + height / 2.0;
+    line(format_args!(
+        "<text x=\"12\" y=\"{half}\" text-anchor=\"middle\" transform=\"rotate(-90 12 {half})\">{y_axis}</text>"
+    ));
+    for (place, (of, color)) in series.iter().zip(COLORS).enumerate() {
+        let points: Vec<String> =
+            of.points.iter().map(|(x, y)| format!("{:.1},{:.1}", x_at(*x), y_at(*y))).collect();
+        let points = points.join(" ");
+        line(format_args!("<polyline points=\"{points}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"1.5\"/>"));
+        let (x, y) = (LEFT + width + 10.0, TOP + 12.0 + 18.0 * place as f64);
+        line(format_args!("<text x=\"{x}\" y=\"{y}\" fill=\"{color}\">{}</text>", of.label));
+    }
+    svg + "</svg>\n"
+}
+
+/// Three digits that count.
+fn short(value: f64) -> String {
+    let decimals = if value.abs() >= 100.0 || value == 0.0 { 0 } else { 2 };
+    format!("{value:.decimals$}")
+}

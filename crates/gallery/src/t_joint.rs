@@ -1,0 +1,57 @@
+//! T-joint (B): a vertex on an edge of a neighbour that does not share it.
+
+use crate::exhibit::{Exhibit, FILL, HEIGHT, LSB, View, WIDTH, figure};
+use edgewalk_golden::{Fill, Picture, draw};
+use edgewalk_scene::{Frame, Triangle, Vertex};
+
+/// Intensity at the ends of the edge, and at the vertex in its middle: a surface that is rounder than the edge.
+const ENDS: f64 = 0.35;
+const MIDDLE: f64 = 0.85;
+
+pub(crate) fn t_joint() -> Exhibit {
+    let upright = joint([160.0, 20.0], [160.0, 220.0]);
+    let picture = draw(&upright, FILL);
+    let slanted = joint([131.3, 20.7], [188.9, 219.1]);
+    let [exact, coarse] = [8, 0].map(|subpixel_bits| faults(&draw(&slanted, Fill::Exact { subpixel_bits })));
+    let row = |x: u32| LSB * picture.rgb[(HEIGHT / 2 * WIDTH + x) as usize][0];
+    Exhibit {
+        name: "t-joint",
+        title: "T-joint (S16)",
+        cause: "The right side has a vertex in the middle of the left side's edge. It is lit by its own normal; the left \
+                side knows nothing of it and interpolates from end to end: the shading breaks along the edge. If the edge \
+                is slanted, the vertex is moved to the sub-pixel grid and no longer lies on it: pixels are missed or drawn \
+                twice, the fewer the finer the grid. Neither is a fault of the fill rule; the neighbours must share the vertex.",
+        figures: vec![
+            figure("step of the intensity across the edge in the middle, LSB", (row(160) - row(159)).abs(), 1),
+            figure("step that the vertex itself has, LSB", LSB * (MIDDLE - ENDS), 1),
+            ("slanted, 8 sub-pixel bits: pixels missed, drawn twice".into(), format!("{}, {}", exact[0], exact[1])),
+            ("slanted, 0 sub-pixel bits: pixels missed, drawn twice".into(), format!("{}, {}", coarse[0], coarse[1])),
+        ],
+        views: vec![View::colors("upright", "The edge in the middle", picture.rgb)],
+    }
+}
+
+/// A quad cut by the edge from `top` to `bottom`: one triangle on its left, two on its right.
+fn joint(top: [f64; 2], bottom: [f64; 2]) -> Frame {
+    let vertex = |[x, y]: [f64; 2], v: f64| Vertex { x, y, z: 0.5, r: v, g: v, b: v, kt: 0.0 };
+    let middle = [(top[0] + bottom[0]) / 2.0, (top[1] + bottom[1]) / 2.0];
+    let (left, right) = (vertex([40.0, 120.0], ENDS), vertex([280.0, 120.0], ENDS));
+    let (top, bottom, middle) = (vertex(top, ENDS), vertex(bottom, ENDS), vertex(middle, MIDDLE));
+    Frame {
+        triangles: [[left, top, bottom], [top, right, middle], [middle, right, bottom]].map(Triangle).to_vec(),
+        ..Frame::new(WIDTH, HEIGHT)
+    }
+}
+
+/// Pixels between others of a line that were missed, and pixels drawn more than once.
+fn faults(picture: &Picture) -> [usize; 2] {
+    let lines = picture.coverage.chunks_exact(WIDTH as usize);
+    let missed = lines.map(|line| {
+        let first = line.iter().position(|count| *count > 0).unwrap_or(0);
+        let last = line.iter().rposition(|count| *count > 0).unwrap_or(0);
+        line[first..=last].iter().filter(|count| **count == 0).count()
+    });
+    // A line with nothing on it counts itself once.
+    let empty = picture.coverage.chunks_exact(WIDTH as usize).filter(|line| line.iter().all(|c| *c == 0)).count();
+    [missed.sum::<usize>() - empty, picture.coverage.iter().filter(|count| **count > 1).count()]
+}
