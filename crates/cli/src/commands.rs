@@ -2,6 +2,7 @@
 
 pub mod demo;
 pub mod render;
+pub mod gallery;
 pub mod raster;
 pub mod emit;
 pub mod vectors;

@@ -20,7 +20,7 @@ mod staging;
 mod verdict;
 
 use clap::{Parser, Subcommand};
-use commands::{bench, config, demo, emit, raster, render, trace, vectors, verify};
+use commands::{bench, config, demo, emit, gallery, raster, render, trace, vectors, verify};
 use machine_args::MachineArgs;
 use std::process::ExitCode;
 use verdict::{ToolError, Verdict};
@@ -55,6 +55,7 @@ struct Cli {
 enum Command {
     Demo(demo::Args),
     Render(render::Args),
+    Gallery(gallery::Args),
     Raster(raster::Args),
     Emit(emit::Args),
     Vectors(vectors::Args),
@@ -77,6 +78,7 @@ fn main() -> ExitCode {
     let result = match &cli.command {
         Command::Demo(a) => demo::run(a, &cli.machine, talk),
         Command::Render(a) => render::run(a, &cli.machine, talk),
+        Command::Gallery(a) => gallery::run(a, talk),
         Command::Raster(a) => raster::run(a, &cli.machine, talk),
         Command::Emit(a) => emit::run(a, &cli.machine, talk),
         Command::Vectors(a) => vectors::run(a, &cli.machine, talk),

@@ -1,0 +1,116 @@
+//! `edgewalk gallery`: a page of exhibits, each a system or a fault with pictures, cause and figures.
+
+use crate::progress::bar;
+use crate::staging::Staging;
+use crate::verdict::Verdict;
+use crate::{Talk, picture};
+use anyhow::{Result, anyhow};
+use edgewalk_gallery::{EXHIBITS, Exhibit, Image, Maker};
+use edgewalk_scene::nearest;
+use rayon::prelude::*;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+/// Draws the gallery: what each shading system of the sources does well and badly, with pictures and measured figures.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  edgewalk gallery
+  edgewalk gallery mach-bands perspective --out out/two
+  edgewalk gallery --json")]
+pub struct Args {
+    /// Names of exhibits; all of them if none is given
+    names: Vec<String>,
+    /// Output directory
+    #[arg(long, value_name = "DIR", default_value = "docs/gallery")]
+    out: PathBuf,
+}
+
+/// Runs the command.
+pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
+    let chosen = chosen(&args.names)?;
+    let bar = bar(chosen.len() as u64, "exhibits", talk.quiet);
+    let exhibits = chosen
+        .par_iter()
+        .map(|make| {
+            let exhibit = make();
+            bar.inc(1);
+            exhibit
+        })
+        .collect::<Result<Vec<Exhibit>, _>>()?;
+    bar.finish_and_clear();
+    let out = Staging::new(&args.out)?;
+    for exhibit in &exhibits {
+        for view in &exhibit.views {
+            let name = file_name(exhibit.name, view.name, &view.image);
+            match &view.image {
+                Image::Colors { width, height, rgb } => picture::write_rgb(&out, &name, *width, *height, rgb)?,
+                Image::Drawing(svg) => out.write(&name, svg)?,
+            }
+        }
+    }
+    out.write("README.md", page(&exhibits))?;
+    out.publish()?;
+    report(&exhibits, talk)?;
+    Ok(Verdict::Pass)
+}
+
+fn chosen(names: &[String]) -> Result<Vec<Maker>> {
+    if names.is_empty() {
+        return Ok(EXHIBITS.iter().map(|(_, make)| *make).collect());
+    }
+    let find = |name: &String| match EXHIBITS.iter().find(|(known, _)| known == name) {
+        Some((_, make)) => Ok(*make),
+        None => {
+            let known = EXHIBITS.map(|(name, _)| name);
+            let near = nearest(name, &known).map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+            Err(anyhow!("gallery: `{name}`: permitted: {}{near}", known.join(" ")))
+        }
+    };
+    names.iter().map(find).collect()
+}
+
+fn file_name(exhibit: &str, view: &str, image: &Image) -> String {
+    let end = if matches!(image, Image::Colors { .. }) { "png" } else { "svg" };
+    format!("{exhibit}-{view}.{end}")
+}
+
+/// The page, in Markdown.
+fn page(exhibits: &[Exhibit]) -> String {
+    let mut page = "# Gallery\n\nWhat the shading systems of the sources do well and badly, measured. Written by `edgewalk gallery`; scenes \
+                    are in [docs/scenes](../scenes).\n"
+        .to_owned();
+    for exhibit in exhibits {
+        // Writing to a string cannot fail.
+        _ = write!(page, "\n## {}\n\n{}\n\n| measured | |\n|---|---|\n", exhibit.title, exhibit.cause);
+        for (quantity, value) in &exhibit.figures {
+            _ = writeln!(page, "| {quantity} | {value} |");
+        }
+        page.push('\n');
+        for view in &exhibit.views {
+            let name = file_name(exhibit.name, view.name, &view.image);
+            _ = writeln!(page, "![{}]({name} \"{}\")", view.caption, view.caption);
+        }
+        let captions: Vec<&str> = exhibit.views.iter().map(|view| view.caption.as_str()).collect();
+        _ = writeln!(page, "\n{}.", captions.join("; "));
+    }
+    page
+}
+
+fn report(exhibits: &[Exhibit], talk: Talk) -> Result<()> {
+    if talk.json {
+        let one = |exhibit: &Exhibit| {
+            let figures = exhibit.figures.iter().map(|(quantity, value)| (quantity.clone(), value.clone().into()));
+            let figures: serde_json::Map<String, serde_json::Value> = figures.collect();
+            serde_json::json!({ "name": exhibit.name, "title": exhibit.title, "figures": figures })
+        };
+        println!("{}", serde_json::to_string(&exhibits.iter().map(one).collect::<Vec<_>>())?);
+    } else if !talk.quiet {
+        for exhibit in exhibits {
+            println!("{}", exhibit.title);
+            for (quantity, value) in &exhibit.figures {
+                println!("  {value:>10}  {quantity}");
+            }
+        }
+    }
+    Ok(())
+}
