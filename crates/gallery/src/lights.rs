@@ -21,7 +21,8 @@ pub(crate) fn lights() -> Result<Exhibit, InputError> {
     let mut compared = 0;
     for (at, whole) in all.rgb.iter().enumerate() {
         let dark = DVec3::from(dark.rgb[at]);
-        let sum: DVec3 = alone.iter().map(|picture| DVec3::from(picture.rgb[at]) - dark).sum::<DVec3>() + dark;
+        let sum: DVec3 =
+            alone.iter().map(|picture| DVec3::from(picture.rgb[at]) - dark).sum::<DVec3>() + dark;
         if all.id[at] >= 0 && whole.iter().all(|channel| *channel < 1.0) {
             worst = worst.max((DVec3::from(*whole) - sum).abs().max_element());
             compared += 1;

@@ -47,7 +47,8 @@ fn square(degrees: f64) -> Picture {
         b: v,
         kt: 0.0,
     };
-    let contour = [(-1.0, -1.0, 1.0), (1.0, -1.0, 0.0), (1.0, 1.0, 1.0), (-1.0, 1.0, 0.0)].map(corner).to_vec();
+    let contour =
+        [(-1.0, -1.0, 1.0), (1.0, -1.0, 0.0), (1.0, 1.0, 1.0), (-1.0, 1.0, 0.0)].map(corner).to_vec();
     let frame = Frame {
         clear: [0.2, 0.25, 0.4],
         polygons: vec![Polygon { contours: vec![contour], after: 0 }],

@@ -3,9 +3,7 @@
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use crate::plot::{Series, plot};
 use edgewalk_golden::{Shading, Weights, fragments, shade};
-use edgewalk_scene::{
-    Camera, Face, FaceData, InputError, Material, Mesh, Scene, ShadeMode, Texture,
-};
+use edgewalk_scene::{Camera, Face, FaceData, InputError, Material, Mesh, Scene, ShadeMode, Texture};
 use glam::{DVec2, DVec3};
 
 /// Squares of the chequer over the floor.
@@ -66,7 +64,8 @@ fn floor(parts: u32) -> Result<Scene, InputError> {
         .with_face_data(face_data)
         .with_textures(vec![chequer]);
     let eye = DVec3::new(0.3, 0.6, 3.0);
-    let camera = Camera { eye, target: DVec3::new(0.0, -0.1, 0.6), up: DVec3::Y, angle: 0.8, near: 0.1, far: 20.0 };
+    let camera =
+        Camera { eye, target: DVec3::new(0.0, -0.1, 0.6), up: DVec3::Y, angle: 0.8, near: 0.1, far: 20.0 };
     Ok(Scene { camera, ambient: DVec3::ONE, lights: Vec::new(), ..Scene::of_mesh(mesh) })
 }
 
@@ -76,7 +75,8 @@ fn displacement(scene: &Scene) -> f64 {
     for triangle in &scene.surface(WIDTH, HEIGHT, GUARD).triangles {
         fragments(&triangle.on_screen(), ShadeMode::Gouraud, 8, (WIDTH, HEIGHT), |fragment| {
             let texture = triangle.vertices.map(|vertex| vertex.texture);
-            let off = Weights::linear(fragment).of(texture) - Weights::perspective(fragment, triangle).of(texture);
+            let off =
+                Weights::linear(fragment).of(texture) - Weights::perspective(fragment, triangle).of(texture);
             largest = largest.max(off.length());
         });
     }

@@ -63,7 +63,9 @@ pub(crate) fn plot(x_axis: &str, y_axis: &str, series: &[Series]) -> String {
         let points: Vec<String> =
             of.points.iter().map(|(x, y)| format!("{:.1},{:.1}", x_at(*x), y_at(*y))).collect();
         let points = points.join(" ");
-        line(format_args!("<polyline points=\"{points}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"1.5\"/>"));
+        line(format_args!(
+            "<polyline points=\"{points}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"1.5\"/>"
+        ));
         let (x, y) = (LEFT + width + 10.0, TOP + 12.0 + 18.0 * place as f64);
         line(format_args!("<text x=\"{x}\" y=\"{y}\" fill=\"{color}\">{}</text>", of.label));
     }

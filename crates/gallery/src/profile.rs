@@ -28,7 +28,7 @@ impl Profile {
     /// The slope from pixel to pixel as a line of a plot.
     pub fn slope_series(&self, label: &'static str) -> Series {
         let shown = (1..self.id.len()).filter(|x| self.id[*x] >= 0 && self.id[*x - 1] >= 0);
-        Series { label, points: shown.map(|x| (x as f64, self.values[x] - self.values[x - 1])).collect() }
+        Series { label, points: shown.map(|x| (x as f64, self.slope(x))).collect() }
     }
 
     /// Largest step of the intensity from one triangle to its neighbour, LSB.
@@ -36,20 +36,32 @@ impl Profile {
         self.borders().map(|x| (self.values[x] - self.values[x - 1]).abs()).fold(0.0, f64::max)
     }
 
-    /// Largest change of the slope where one triangle meets the next, LSB/px; and inside a triangle.
-    pub fn slope_jumps(&self) -> [f64; 2] {
-        let slope = |x: usize| self.values[x] - self.values[x - 1];
-        let alone = |from: usize, to: usize| (from..to).all(|x| self.id[x] == self.id[from]);
+    /// How much the slope changes at each place where one triangle meets the next, LSB/px.
+    pub fn slope_jumps(&self) -> Vec<f64> {
         // Two pixels of each triangle at the border say what its slope is.
-        let meets = self.borders().filter(|x| *x >= 2 && alone(x - 2, *x) && alone(*x, (x + 2).min(self.id.len())));
-        let at_edges = meets.filter(|x| x + 1 < self.id.len()).map(|x| (slope(x + 1) - slope(x - 1)).abs());
-        let whole = (2..self.id.len()).filter(|x| self.id[*x] >= 0 && alone(x - 2, x + 1));
-        let inside = whole.map(|x| (slope(x) - slope(x - 1)).abs());
-        [at_edges.fold(0.0, f64::max), inside.fold(0.0, f64::max)]
+        let meets = self.borders().filter(|x| self.is_one(*x - 2, *x) && self.is_one(*x, *x + 2));
+        meets.map(|x| (self.slope(x + 1) - self.slope(x - 1)).abs()).collect()
+    }
+
+    /// Largest change of the slope from pixel to pixel inside a triangle, LSB/px.
+    pub fn largest_bend(&self) -> f64 {
+        let inside = (2..self.id.len()).filter(|x| self.id[*x] >= 0 && self.is_one(*x - 2, *x + 1));
+        inside.map(|x| (self.slope(x) - self.slope(x - 1)).abs()).fold(0.0, f64::max)
+    }
+
+    /// From the pixel before.
+    fn slope(&self, x: usize) -> f64 {
+        self.values[x] - self.values[x - 1]
+    }
+
+    /// Whether pixels show one triangle; none beyond the line does.
+    fn is_one(&self, from: usize, to: usize) -> bool {
+        self.id.get(from..to).is_some_and(|ids| ids.iter().all(|id| *id == ids[0]))
     }
 
     /// Pixels that begin another triangle than the one before them.
     fn borders(&self) -> impl Iterator<Item = usize> + '_ {
-        (1..self.id.len()).filter(|x| self.id[*x] >= 0 && self.id[*x - 1] >= 0 && self.id[*x] != self.id[*x - 1])
+        (2..self.id.len())
+            .filter(|x| self.id[*x] >= 0 && self.id[*x - 1] >= 0 && self.id[*x] != self.id[*x - 1])
     }
 }

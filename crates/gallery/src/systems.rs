@@ -26,9 +26,19 @@ pub(crate) fn systems() -> Result<Exhibit, InputError> {
         figures.push(figure(format!("{title}: mean error, LSB"), error.mean, 3));
         figures.push(figure(format!("{title}: largest error, LSB"), error.max, 2));
         if shading == Shading::Phong {
-            views.push(View::error("phong-error", format!("Error of Phong, white at {WHITE} LSB"), &error.map, WHITE));
+            views.push(View::error(
+                "phong-error",
+                format!("Error of Phong, white at {WHITE} LSB"),
+                &error.map,
+                WHITE,
+            ));
         } else if shading == Shading::Gouraud {
-            views.push(View::error("gouraud-error", format!("Error of Gouraud, white at {WHITE} LSB"), &error.map, WHITE));
+            views.push(View::error(
+                "gouraud-error",
+                format!("Error of Gouraud, white at {WHITE} LSB"),
+                &error.map,
+                WHITE,
+            ));
         }
         views.push(View::colors(name, title, shaded.picture.rgb));
         truth = shaded.truth;

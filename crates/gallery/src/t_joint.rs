@@ -22,10 +22,20 @@ pub(crate) fn t_joint() -> Exhibit {
                 is slanted, the vertex is moved to the sub-pixel grid and no longer lies on it: pixels are missed or drawn \
                 twice, the fewer the finer the grid. Neither is a fault of the fill rule; the neighbours must share the vertex.",
         figures: vec![
-            figure("step of the intensity across the edge in the middle, LSB", (row(160) - row(159)).abs(), 1),
+            figure(
+                "step of the intensity across the edge in the middle, LSB",
+                (row(160) - row(159)).abs(),
+                1,
+            ),
             figure("step that the vertex itself has, LSB", LSB * (MIDDLE - ENDS), 1),
-            ("slanted, 8 sub-pixel bits: pixels missed, drawn twice".into(), format!("{}, {}", exact[0], exact[1])),
-            ("slanted, 0 sub-pixel bits: pixels missed, drawn twice".into(), format!("{}, {}", coarse[0], coarse[1])),
+            (
+                "slanted, 8 sub-pixel bits: pixels missed, drawn twice".into(),
+                format!("{}, {}", exact[0], exact[1]),
+            ),
+            (
+                "slanted, 0 sub-pixel bits: pixels missed, drawn twice".into(),
+                format!("{}, {}", coarse[0], coarse[1]),
+            ),
         ],
         views: vec![View::colors("upright", "The edge in the middle", picture.rgb)],
     }
@@ -38,7 +48,9 @@ fn joint(top: [f64; 2], bottom: [f64; 2]) -> Frame {
     let (left, right) = (vertex([40.0, 120.0], ENDS), vertex([280.0, 120.0], ENDS));
     let (top, bottom, middle) = (vertex(top, ENDS), vertex(bottom, ENDS), vertex(middle, MIDDLE));
     Frame {
-        triangles: [[left, top, bottom], [top, right, middle], [middle, right, bottom]].map(Triangle).to_vec(),
+        triangles: [[left, top, bottom], [top, right, middle], [middle, right, bottom]]
+            .map(Triangle)
+            .to_vec(),
         ..Frame::new(WIDTH, HEIGHT)
     }
 }
@@ -52,6 +64,7 @@ fn faults(picture: &Picture) -> [usize; 2] {
         line[first..=last].iter().filter(|count| **count == 0).count()
     });
     // A line with nothing on it counts itself once.
-    let empty = picture.coverage.chunks_exact(WIDTH as usize).filter(|line| line.iter().all(|c| *c == 0)).count();
+    let empty =
+        picture.coverage.chunks_exact(WIDTH as usize).filter(|line| line.iter().all(|c| *c == 0)).count();
     [missed.sum::<usize>() - empty, picture.coverage.iter().filter(|count| **count > 1).count()]
 }

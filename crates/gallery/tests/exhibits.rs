@@ -1,0 +1,97 @@
+//! What the exhibits show, against what theory says of them.
+#![allow(clippy::unwrap_used)] // a test may
+
+use edgewalk_gallery::{EXHIBITS, Exhibit, Image};
+
+fn exhibit(name: &str) -> Exhibit {
+    let (_, make) = EXHIBITS.iter().find(|(known, _)| *known == name).unwrap();
+    make().unwrap()
+}
+
+/// The figure whose name begins so.
+fn figure(exhibit: &Exhibit, quantity: &str) -> f64 {
+    let found: Vec<_> = exhibit.figures.iter().filter(|(name, _)| name.starts_with(quantity)).collect();
+    assert_eq!(found.len(), 1, "{quantity} in {:?}", exhibit.figures);
+    found[0].1.parse().unwrap()
+}
+
+#[test]
+fn every_exhibit_has_a_picture_and_a_figure() {
+    let mut checked = 0;
+    for (name, make) in EXHIBITS {
+        let exhibit = make().unwrap();
+        assert_eq!(exhibit.name, name);
+        assert!(!exhibit.figures.is_empty() && !exhibit.views.is_empty(), "{name}");
+        for (quantity, value) in &exhibit.figures {
+            println!("{name}: {quantity}: {value}");
+        }
+        for view in &exhibit.views {
+            match &view.image {
+                Image::Colors { width, height, rgb } => {
+                    assert_eq!(rgb.len(), (width * height) as usize);
+                    assert!(rgb.iter().any(|c| c != &rgb[0]), "{name} {}: one colour", view.name);
+                }
+                Image::Drawing(svg) => assert!(svg.contains("polyline") && !svg.contains("NaN")),
+            }
+        }
+        checked += 1;
+    }
+    println!("checked {checked} / {}", EXHIBITS.len());
+}
+
+#[test]
+fn the_slope_jumps_at_edges_alone() {
+    let mach = exhibit("mach-bands");
+    let [gouraud, phong] = ["Gouraud", "Phong"].map(|of| figure(&mach, &format!("{of}: mean jump")));
+    assert!(gouraud > 0.5 && phong < gouraud / 2.0, "{gouraud} {phong}");
+    assert!(figure(&mach, "Gouraud: largest change") < 0.001, "a triangle is a plane");
+}
+
+#[test]
+fn gouraud_misses_the_highlight_and_phong_does_not() {
+    let missed = exhibit("missed-highlight");
+    let [gouraud, phong, truth] =
+        ["Gouraud", "Phong", "truth"].map(|of| figure(&missed, &format!("brightest green, {of}")));
+    assert!(truth - gouraud > 100.0 && (truth - phong).abs() < 30.0, "{gouraud} {phong} {truth}");
+}
+
+/// Along the line through the middle lie two edges' middles at 0 degrees, and two white corners at 45.
+#[test]
+fn a_turned_quad_hears_of_other_corners() {
+    let turned = exhibit("orientation");
+    assert!((figure(&turned, "middle of the square") - 127.5).abs() < 1.0);
+    let at_45 = figure(&turned, "at 45");
+    assert!(at_45 < 3.0 || at_45 > 252.0, "{at_45}");
+}
+
+#[test]
+fn cuts_and_columns_divide_their_faults_by_the_square() {
+    let perspective = exhibit("perspective");
+    assert!(figure(&perspective, "largest displacement") > 0.5);
+    assert!((3.0..5.0).contains(&figure(&perspective, "cut 16 by 16")));
+    let silhouette = exhibit("silhouette");
+    let ratio = figure(&silhouette, "16 by 8") / figure(&silhouette, "48 by 24");
+    assert!((6.0..12.0).contains(&ratio), "{ratio}, 9 expected");
+}
+
+#[test]
+fn systems_are_the_better_the_more_they_interpolate() {
+    let systems = exhibit("systems");
+    let mean = |of: &str| figure(&systems, &format!("{of}: mean"));
+    let [constant, gouraud, phong] = ["constant, own normal (S5)", "Gouraud (S6)", "Phong (S8)"].map(mean);
+    assert!(constant > 1.5 * gouraud && gouraud > 5.0 * phong, "{constant} {gouraud} {phong}");
+}
+
+#[test]
+fn folds_vanish_under_averages_and_return_with_a_crease() {
+    let folds = exhibit("averaged-normals");
+    let range = |of: &str| figure(&folds, of);
+    assert!(range("range of intensity") > 50.0 && range("Gouraud, normals averaged by angle") < 2.0);
+    assert!((range("Gouraud, crease") - range("range of intensity")).abs() < 2.0);
+}
+
+#[test]
+fn light_adds() {
+    let lights = exhibit("lights");
+    assert!(figure(&lights, "pixels where") > 1000.0 && figure(&lights, "largest difference") < 1e-9);
+}
