@@ -19,8 +19,7 @@ const LAYERS: &[(&str, &[&str])] = &[
 ];
 
 /// Crates that read and write no files: they may not even name the standard library's file or process modules.
-const NO_FILES: &[&str] =
-    &["numerics", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl"];
+const NO_FILES: &[&str] = &["numerics", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl"];
 
 fn crates() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..")

@@ -1,6 +1,6 @@
 //! The shading equation and its three kinds of light (A 7.1).
 
-use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, LSB, View, WIDTH};
+use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, LSB, View, WIDTH, figure};
 use edgewalk_golden::{Shading, shade};
 use edgewalk_scene::{InputError, Light, Scene};
 use glam::DVec3;
@@ -42,7 +42,7 @@ pub(crate) fn lights() -> Result<Exhibit, InputError> {
                 so each can be drawn, or put into shadow, by itself.",
         figures: vec![
             ("pixels where the parts of the lights were added up".into(), compared.to_string()),
-            ("largest difference from the whole, LSB".into(), format!("{:.1e}", worst * LSB)),
+            figure("largest difference from the whole, LSB", worst * LSB, 9),
         ],
         views,
     })

@@ -8,11 +8,25 @@ use edgewalk_scene::{Frame, Triangle, Vertex};
 const ENDS: f64 = 0.35;
 const MIDDLE: f64 = 0.85;
 
+/// Edges tried, each with another slant.
+const SLANTED: u32 = 100;
+
 pub(crate) fn t_joint() -> Exhibit {
     let upright = joint([160.0, 20.0], [160.0, 220.0]);
     let picture = draw(&upright, FILL);
-    let slanted = joint([131.3, 20.7], [188.9, 219.1]);
-    let [exact, coarse] = [8, 0].map(|subpixel_bits| faults(&draw(&slanted, Fill::Exact { subpixel_bits })));
+    let faults_of = |subpixel_bits: u32| {
+        let frames =
+            (0..SLANTED).map(f64::from).map(|k| joint([100.3 + 0.37 * k, 20.7], [219.9 - 0.53 * k, 219.1]));
+        frames.fold([0; 2], |[missed, twice], frame| {
+            let [m, t] = faults(&draw(&frame, Fill::Exact { subpixel_bits }));
+            [missed + m, twice + t]
+        })
+    };
+    let told = |bits: u32| {
+        let [missed, twice] = faults_of(bits);
+        let quantity = format!("{SLANTED} slanted edges, {bits} sub-pixel bits: pixels missed, drawn twice");
+        (quantity, format!("{missed}, {twice}"))
+    };
     let row = |x: u32| LSB * picture.rgb[(HEIGHT / 2 * WIDTH + x) as usize][0];
     Exhibit {
         name: "t-joint",
@@ -28,14 +42,9 @@ pub(crate) fn t_joint() -> Exhibit {
                 1,
             ),
             figure("step that the vertex itself has, LSB", LSB * (MIDDLE - ENDS), 1),
-            (
-                "slanted, 8 sub-pixel bits: pixels missed, drawn twice".into(),
-                format!("{}, {}", exact[0], exact[1]),
-            ),
-            (
-                "slanted, 0 sub-pixel bits: pixels missed, drawn twice".into(),
-                format!("{}, {}", coarse[0], coarse[1]),
-            ),
+            told(8),
+            told(4),
+            told(0),
         ],
         views: vec![View::colors("upright", "The edge in the middle", picture.rgb)],
     }

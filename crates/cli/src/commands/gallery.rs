@@ -43,7 +43,9 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
         for view in &exhibit.views {
             let name = file_name(exhibit.name, view.name, &view.image);
             match &view.image {
-                Image::Colors { width, height, rgb } => picture::write_rgb(&out, &name, *width, *height, rgb)?,
+                Image::Colors { width, height, rgb } => {
+                    picture::write_rgb(&out, &name, *width, *height, rgb)?
+                }
                 Image::Drawing(svg) => out.write(&name, svg)?,
             }
         }
@@ -62,7 +64,8 @@ fn chosen(names: &[String]) -> Result<Vec<Maker>> {
         Some((_, make)) => Ok(*make),
         None => {
             let known = EXHIBITS.map(|(name, _)| name);
-            let near = nearest(name, &known).map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+            let near =
+                nearest(name, &known).map_or(String::new(), |near| format!("; did you mean `{near}`?"));
             Err(anyhow!("gallery: `{name}`: permitted: {}{near}", known.join(" ")))
         }
     };
@@ -99,7 +102,8 @@ fn page(exhibits: &[Exhibit]) -> String {
 fn report(exhibits: &[Exhibit], talk: Talk) -> Result<()> {
     if talk.json {
         let one = |exhibit: &Exhibit| {
-            let figures = exhibit.figures.iter().map(|(quantity, value)| (quantity.clone(), value.clone().into()));
+            let figures =
+                exhibit.figures.iter().map(|(quantity, value)| (quantity.clone(), value.clone().into()));
             let figures: serde_json::Map<String, serde_json::Value> = figures.collect();
             serde_json::json!({ "name": exhibit.name, "title": exhibit.title, "figures": figures })
         };

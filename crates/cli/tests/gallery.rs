@@ -1,0 +1,27 @@
+//! The gallery in `docs/` is what the program draws today. `EDGEWALK_BLESS=1` draws it anew.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+#[test]
+fn the_gallery_is_what_is_drawn_today() {
+    let committed = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/gallery");
+    let folder = tempfile::tempdir().expect("a folder");
+    let bless = std::env::var_os("EDGEWALK_BLESS").is_some();
+    let out = if bless { committed.clone() } else { folder.path().join("gallery") };
+    let program = env!("CARGO_BIN_EXE_edgewalk");
+    let status =
+        Command::new(program).args(["gallery", "--quiet", "--out"]).arg(&out).status().expect("it runs");
+    assert!(status.success());
+    let [drawn, kept] =
+        [&out, &committed].map(|at| std::fs::read_to_string(at.join("README.md")).expect("a page"));
+    assert!(drawn == kept, "figures changed; look at them, then EDGEWALK_BLESS=1 cargo test --test gallery");
+    let mut checked = 0;
+    for entry in std::fs::read_dir(&out).expect("the gallery") {
+        let name = entry.expect("an entry").file_name();
+        assert!(committed.join(&name).exists(), "{name:?} is not in docs/gallery");
+        checked += 1;
+    }
+    println!("checked {checked} files");
+    assert!(checked > 20);
+}
