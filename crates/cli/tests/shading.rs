@@ -60,6 +60,20 @@ fn the_machine_draws_constant_and_refuses_phong() {
     assert!(!refused.exists(), "nothing is left behind");
 }
 
+#[test]
+fn texture_and_relief_need_phong() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/scenes/texture-and-relief.toml");
+    let mean = |shading: &str| {
+        let name = scene.to_str().expect("a name of letters");
+        let report = report(&folder.path().join("out"), &[name, "--engine", "golden", "--shading", shading]);
+        report["mean_error"].as_f64().expect("a number")
+    };
+    let [gouraud, phong] = ["gouraud", "phong"].map(mean);
+    println!("mean error of gouraud {gouraud:.3}, of phong {phong:.3} LSB");
+    assert!(gouraud > 5.0 && phong < gouraud / 5.0, "what changes between vertices is lost on Gouraud");
+}
+
 /// Meshes of the shared folder, where it is; the seconds are for reading, not for judging: other work may be going on.
 #[test]
 fn shared_meshes_at_1280_by_960() {

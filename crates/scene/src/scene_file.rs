@@ -84,7 +84,7 @@ pub(crate) fn parse(path: &Path, text: &str) -> Result<Scene, InputError> {
 }
 
 fn scene(table: &Table, path: &Path) -> Result<Scene, InputError> {
-    let materials = Materials::read(table)?;
+    let materials = Materials::read(table, path)?;
     let mut parts = Vec::new();
     for object in table.tables("object", object::KEYS)? {
         parts.push(object::read(&object, &materials, path)?);

@@ -1,7 +1,7 @@
 //! Scene files: what they say, and what is refused where.
 #![allow(clippy::unwrap_used)] // a test may
 
-use edgewalk_scene::{Attenuation, Crease, Light, Scene, ShadeMode, Specular, Weight};
+use edgewalk_scene::{Attenuation, Crease, Light, Scene, ShadeMode, Specular, Texture, Weight};
 use glam::DVec3;
 use std::fs;
 
@@ -112,10 +112,20 @@ fn the_least_file_is_lit_and_in_view() {
     assert!(frame.triangles.iter().flat_map(|t| &t.0).all(|v| on_screen(v) && v.r > 0.0));
 }
 
+#[test]
+fn pictures_and_reliefs_come_with_their_materials() {
+    let text = "[[material]]\nname = \"a\"\nchecker = 4\nwaves = 3\nbump_height = -0.2\n[[object]]\nbuiltin = \"sphere\"\nmaterial = \"a\"";
+    let mesh = open(text).unwrap().mesh;
+    let material = mesh.materials()[0];
+    assert_eq!((material.texture, material.bump, material.bump_height), (Some(0), Some(1), -0.2));
+    assert!(matches!(mesh.textures()[0], Texture::Checker { squares: 4, .. }));
+    assert_eq!(mesh.textures()[1], Texture::Waves { count: 3 });
+}
+
 /// Each a change of one line of a good file, the line it is found in, and what the message must say.
 #[test]
 fn malformed_files_are_refused_by_line_and_key() {
-    let cases: [(&str, &str, usize, &str); 30] = [
+    let cases: [(&str, &str, usize, &str); 34] = [
         ("ambient = [0.1, 0.2, 0.3]", "ambiant = 0.1", 2, "did you mean `ambient`?"),
         ("ambient = [0.1, 0.2, 0.3]", "ambient = [0.1, 0.2]", 2, "ambient: `[0.1, 0.2]`"),
         ("ambient = [0.1, 0.2, 0.3]", "ambient = -1", 2, "each from 0 to"),
@@ -136,6 +146,10 @@ fn malformed_files_are_refused_by_line_and_key() {
         ("name = \"board\"", "", 18, "material 1: name: `not there`"),
         ("exponent = 20", "exponent = -1", 23, "material 1: exponent: `-1`"),
         ("colors = [[1, 1, 1], [0, 0, 0]]", "colors = [[1, 1, 1]]", 27, "two of [r, g, b]"),
+        ("checker = 2", "checker = 2\ntexture = \"a.png\"", 26, "one of texture, checker"),
+        ("checker = 2", "texture = \"missing.png\"", 0, "missing.png: cannot be read"),
+        ("checker = 2", "waves = 0", 26, "waves: `0`"),
+        ("checker = 2", "waves = 3\nbump_height = nan", 27, "bump_height: `nan`"),
         ("faces = [[0, 1, 2, 3]]", "faces = [[0, 1, 4]]", 31, "places from 0 to 3"),
         ("faces = [[0, 1, 2, 3]]", "faces = [[0, 1]]", 31, "at least 3 places"),
         ("faces = [[0, 1, 2, 3]]", "faces = []", 31, "at least one face"),

@@ -5,12 +5,29 @@ use crate::error::{InputError, nearest};
 use crate::mesh::Material;
 use crate::texture::Texture;
 use glam::DVec3;
+use std::path::Path;
 
-const KEYS: &[&str] =
-    &["name", "emission", "ambient", "diffuse", "specular", "exponent", "transmission", "checker", "colors"];
+const KEYS: &[&str] = &[
+    "name",
+    "emission",
+    "ambient",
+    "diffuse",
+    "specular",
+    "exponent",
+    "transmission",
+    "texture",
+    "checker",
+    "colors",
+    "bump",
+    "waves",
+    "bump_height",
+];
 
 /// Largest exponent of a highlight.
 const MAX_EXPONENT: f64 = 1e5;
+
+/// Largest height of a relief.
+const MAX_HEIGHT: f64 = 1e6;
 
 /// The materials of a file by name, and their textures.
 pub(super) struct Materials {
@@ -19,20 +36,21 @@ pub(super) struct Materials {
 }
 
 impl Materials {
-    pub fn read(scene: &Table) -> Result<Self, InputError> {
+    /// The materials of the file at `path`; pictures are beside it.
+    pub fn read(scene: &Table, path: &Path) -> Result<Self, InputError> {
         let mut materials = Self { named: Vec::new(), textures: Vec::new() };
         for table in scene.tables("material", KEYS)? {
             let name = table.required("name", table.text("name")?, "permitted: a text in quotes")?;
             if materials.named.iter().any(|(other, _)| other == name) {
                 return Err(table.fault("name", name, "permitted: a name that no other material has"));
             }
-            let material = materials.material(&table)?;
+            let material = materials.material(&table, path)?;
             materials.named.push((name.to_owned(), material));
         }
         Ok(materials)
     }
 
-    fn material(&mut self, table: &Table) -> Result<Material, InputError> {
+    fn material(&mut self, table: &Table, path: &Path) -> Result<Material, InputError> {
         let diffuse = table.color("diffuse", 1.0)?.unwrap_or(Material::DEFAULT.diffuse);
         Ok(Material {
             emission: table.color("emission", 1e6)?.unwrap_or(DVec3::ZERO),
@@ -41,14 +59,17 @@ impl Materials {
             specular: table.color("specular", 1.0)?.unwrap_or(DVec3::ZERO),
             exponent: table.number("exponent", 0.0..=MAX_EXPONENT)?.unwrap_or(1.0),
             transmission: table.number("transmission", 0.0..=1.0)?.unwrap_or(0.0),
-            texture: self.texture(table)?,
-            bump: None,
-            bump_height: 0.0,
+            texture: self.texture(table, path)?,
+            bump: self.relief(table, path)?,
+            bump_height: table.number("bump_height", -MAX_HEIGHT..=MAX_HEIGHT)?.unwrap_or(0.05),
         })
     }
 
-    /// A built-in chequer.
-    fn texture(&mut self, table: &Table) -> Result<Option<u32>, InputError> {
+    /// A picture, or the built-in chequer.
+    fn texture(&mut self, table: &Table, path: &Path) -> Result<Option<u32>, InputError> {
+        if let Some(file) = one_of(table, ["texture", "checker"])? {
+            return Ok(Some(self.add(Texture::read(&path.with_file_name(file))?)));
+        }
         let Some(squares) = table.number("checker", 1.0..=65536.0)? else {
             return Ok(None);
         };
@@ -59,6 +80,15 @@ impl Materials {
             }
             _ => Err(table.fault("colors", "list", "permitted: two of [r, g, b], each from 0 to 1")),
         }
+    }
+
+    /// A picture of heights, or the built-in waves.
+    fn relief(&mut self, table: &Table, path: &Path) -> Result<Option<u32>, InputError> {
+        if let Some(file) = one_of(table, ["bump", "waves"])? {
+            return Ok(Some(self.add(Texture::read(&path.with_file_name(file))?)));
+        }
+        let count = table.number("waves", 1.0..=65536.0)?;
+        Ok(count.map(|count| self.add(Texture::Waves { count: count as u32 })))
     }
 
     fn add(&mut self, texture: Texture) -> u32 {
@@ -79,4 +109,12 @@ impl Materials {
             }
         }
     }
+}
+
+/// The file of the first key; the second, which is built in, must not stand beside it.
+fn one_of<'a>(table: &Table<'a>, [file, built_in]: [&'static str; 2]) -> Result<Option<&'a str>, InputError> {
+    if table.has(file) && table.has(built_in) {
+        return Err(table.fault(built_in, "both", format!("permitted: one of {file}, {built_in}")));
+    }
+    table.text(file)
 }
