@@ -28,11 +28,11 @@ pub struct Raster {
     pub width: u32,
     /// Lines.
     pub height: u32,
-    /// Triangles over the pixel, depth test off.
+    /// Triangles and polygons over the pixel, depth test off.
     pub coverage: Vec<u32>,
     /// Writes to the pixel.
     pub writes: Vec<u32>,
-    /// Triangle last written, -1 none.
+    /// Triangle or polygon last written, by its place in the list, -1 none.
     pub id: Vec<i32>,
     /// Depth in [0,1].
     pub z: Vec<f64>,
@@ -71,7 +71,7 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Machine, quiet: bool) -> Re
             let port = to_port(frame, machine)?;
             let triangles = || Ok(port.triangles.iter().copied().map(Ok));
             let (drawn, path) = fast::draw(machine, port.state, triangles)?;
-            Ok(from_fast(machine, drawn, path))
+            Ok(of_primitives(from_fast(machine, drawn, path), &port.ids))
         }
         Engine::Model | Engine::Rtl => {
             let port = to_port(frame, machine)?;
@@ -84,9 +84,18 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Machine, quiet: bool) -> Re
                 from_machine(machine, drawn.map_err(|e| anyhow!("{e}"))?)
             };
             bar.finish_and_clear();
-            Ok(raster)
+            Ok(of_primitives(raster, &port.ids))
         }
     }
+}
+
+/// The ids of the frame's triangles and polygons for those of the triangles the machine drew.
+fn of_primitives(mut raster: Raster, ids: &[i32]) -> Raster {
+    for id in &mut raster.id {
+        // Where nothing was drawn the id is negative.
+        *id = usize::try_from(*id).map_or(*id, |triangle| ids[triangle]);
+    }
+    raster
 }
 
 /// A frame of the fast engine; the corners are counted only where it ticked.

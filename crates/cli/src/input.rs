@@ -3,23 +3,27 @@
 use anyhow::{Context, Result, anyhow};
 use edgewalk_model::DrawState;
 use edgewalk_numerics::{Machine, PortVertex};
-use edgewalk_scene::{DepthFunc, Frame, Scene, ShadeMode, Surface, Triangle, triangle_file};
+use edgewalk_scene::{DepthFunc, Frame, Scene, ShadeMode, Surface, Triangle, Triangulated, triangle_file};
 use std::path::Path;
 
 /// A frame as the machine's port takes it.
 pub struct PortFrame {
     /// Triangles in drawing order.
     pub triangles: Vec<[PortVertex; 3]>,
+    /// For each of them the place of what it is a part of among the frame's triangles and polygons.
+    pub ids: Vec<i32>,
     /// Depth function, write mask and clear values.
     pub state: DrawState,
 }
 
-/// Snaps a frame to the port, or says which triangle the machine cannot take.
+/// Snaps a frame to the port, polygons as triangles, or says what of it the machine cannot take.
 pub fn to_port(frame: &Frame, machine: &Machine) -> Result<PortFrame> {
     let state = draw_state(frame, machine)?;
-    let triangles = frame.triangles.iter().enumerate();
-    let triangles = triangles.map(|(index, triangle)| port_triangle(index, triangle, frame.mode, machine));
-    Ok(PortFrame { triangles: triangles.collect::<Result<_>>()?, state })
+    let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
+    let triangles = triangles.iter().zip(&ids);
+    let triangles =
+        triangles.map(|(triangle, id)| port_triangle(*id as usize, triangle, frame.mode, machine));
+    Ok(PortFrame { triangles: triangles.collect::<Result<_>>()?, ids, state })
 }
 
 /// What stays the same over a frame, or what of it the machine cannot draw.
@@ -33,9 +37,6 @@ pub fn draw_state(frame: &Frame, machine: &Machine) -> Result<DrawState> {
         return Err(anyhow!(
             "shadow: the machine has no shadow maps yet; draw without the line `shadow` or with --engine golden"
         ));
-    }
-    if !frame.polygons.is_empty() {
-        return Err(anyhow!("P: the machine draws triangles; draw polygons with --engine golden"));
     }
     let max = machine.color.max() as f64;
     Ok(DrawState {
@@ -112,7 +113,8 @@ impl Source {
         Ok((scene, surface))
     }
 
-    /// The frame as the machine draws it. A triangle file keeps its own size and mode.
+    /// The frame as the machine draws it. A triangle file keeps its own size and mode; its polygons become triangles, so
+    /// that machine and golden picture interpolate the same.
     pub fn frame(&self, machine: &Machine) -> Result<Frame> {
         if self.is_triangle_file() {
             let frame = triangle_file::read(Path::new(&self.input))?;
@@ -128,7 +130,8 @@ impl Source {
                     frame.height
                 ));
             }
-            return Ok(frame);
+            let triangles = frame.triangulated(machine.subpixel_bits)?.triangles.into_owned();
+            return Ok(Frame { triangles, polygons: Vec::new(), ..frame });
         }
         if self.shading == Shading::Phong {
             return Err(anyhow!(

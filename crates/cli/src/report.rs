@@ -14,6 +14,7 @@ pub struct Report {
     name: String,
     machine: Machine,
     triangles: u64,
+    polygons: u64,
     covered: u64,
     writes: u64,
     odd_pixels: u64,
@@ -29,6 +30,7 @@ impl Report {
             name: name.to_owned(),
             machine: machine.clone(),
             triangles,
+            polygons: 0,
             covered: drawn.coverage.iter().map(|c| u64::from(*c)).sum(),
             // A closed mesh covers every pixel an even number of times, whatever the view.
             odd_pixels: drawn.coverage.iter().map(|c| u64::from(c % 2)).sum(),
@@ -37,6 +39,12 @@ impl Report {
             corners: drawn.corners.clone(),
             comparison: None,
         }
+    }
+
+    /// The same of an input that has polygons too.
+    pub fn with_polygons(mut self, count: u64) -> Self {
+        self.polygons = count;
+        self
     }
 
     /// The same with a comparison.
@@ -53,6 +61,7 @@ impl Report {
             "width": self.machine.width,
             "height": self.machine.height,
             "triangles": self.triangles,
+            "polygons": self.polygons,
             "fragments": self.covered,
             "writes": self.writes,
             "odd_pixels": self.odd_pixels,
@@ -95,9 +104,13 @@ impl Report {
     pub fn text(&self) -> String {
         let mut t = String::new();
         let m = &self.machine;
+        let polygons = match self.polygons {
+            0 => String::new(),
+            count => format!(" and {count} polygons"),
+        };
         let _ = writeln!(
             t,
-            "{}: {} triangles on {}x{}, machine {}",
+            "{}: {} triangles{polygons} on {}x{}, machine {}",
             self.name,
             self.triangles,
             m.width,

@@ -84,3 +84,49 @@ fn a_fault_far_down_leaves_nothing_behind() {
     assert!(message.contains("pairs.tri:43: T: `3 given`"), "{message}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "only the triangles");
 }
+
+#[test]
+fn polygons_go_to_the_machine_as_triangles() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("polygons.tri");
+    let text = "size 64 48\ndepth lequal\n\
+                P 6  2 3 .5 1 0 0 0  30 1 .5 1 0 0 0  60 20 .5 1 0 0 0  50 45 .5 1 0 0 0  30 20 .5 1 0 0 0  2 40 .5 1 0 0 0\n\
+                H 4  10 8 .5 1 0 0 0  20 8 .5 1 0 0 0  20 16 .5 1 0 0 0  10 16 .5 1 0 0 0\n\
+                T 0 0 .5 0 1 0 0  20 0 .5 0 1 0 0  0 20 .5 0 1 0 0\n\
+                P 3  64 48 .25 0 0 1 0  20 48 .25 0 0 1 0  64 10 .25 0 0 1 0\n";
+    std::fs::write(&file, text).unwrap();
+    let out = |engine: &str| folder.path().join(engine);
+    let golden = raster(&file, "golden", &[], &out("golden"));
+    for engine in ["fast", "model", "rtl"] {
+        let report = raster(&file, engine, &[], &out(engine));
+        for key in ["triangles", "polygons", "fragments", "writes"] {
+            assert_eq!(report[key], golden[key], "{engine} {key}");
+        }
+        for array in &ARRAYS[..3] {
+            let [drawn, expected] =
+                [engine, "golden"].map(|name| std::fs::read(out(name).join(array)).unwrap());
+            assert!(drawn == expected, "{engine} {array}");
+        }
+    }
+    assert_eq!((&golden["triangles"], &golden["polygons"]), (&1.into(), &2.into()));
+    assert!(golden["fragments"].as_u64().unwrap() > 1500);
+}
+
+#[test]
+fn a_polygon_that_crosses_itself_is_for_golden_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("bow_tie.tri");
+    let bow_tie = "size 9 9\nP 4  0 0 0 1 1 1 0  8 8 0 1 1 1 0  8 0 0 1 1 1 0  0 8 0 1 1 1 0\n";
+    std::fs::write(&file, bow_tie).unwrap();
+    assert_eq!(raster(&file, "golden", &[], &folder.path().join("golden"))["fragments"], 32);
+    let output = Command::new(env!("CARGO_BIN_EXE_edgewalk"))
+        .arg("raster")
+        .arg(&file)
+        .arg("--out")
+        .arg(folder.path().join("out"))
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(message.contains("bow_tie.tri: polygon at vertex 8 0: the edge from there crosses"), "{message}");
+}

@@ -16,6 +16,9 @@ pub enum InputError {
     /// The file was read, and something in it is not permitted.
     #[error(transparent)]
     Fault(#[from] Box<Fault>),
+    /// The file holds a polygon, and was read for its triangles alone.
+    #[error(transparent)]
+    Polygon(Box<Fault>),
 }
 
 /// Something not permitted: `file:line: key: value: what is permitted (nearest valid name)`.

@@ -33,6 +33,16 @@ pub enum Primitive<'a> {
     Polygon(&'a Polygon),
 }
 
+impl<'a> Primitive<'a> {
+    /// The closed lines around it.
+    pub fn contours(self) -> Vec<&'a [Vertex]> {
+        match self {
+            Self::Triangle(triangle) => vec![&triangle.0],
+            Self::Polygon(polygon) => polygon.contours.iter().map(Vec::as_slice).collect(),
+        }
+    }
+}
+
 impl Frame {
     /// Triangles and polygons in the order in which they are drawn. The place in this list is what a picture calls the
     /// id: without polygons, the place in [`Frame::triangles`].

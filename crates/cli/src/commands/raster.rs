@@ -7,8 +7,8 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, arrays, fast, picture};
 use anyhow::{Context, Result};
-use edgewalk_scene::triangle_file;
-use std::path::PathBuf;
+use edgewalk_scene::{InputError, triangle_file};
+use std::path::{Path, PathBuf};
 
 /// Draws a file of screen-space triangles and writes what every pixel got.
 ///
@@ -30,7 +30,7 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
   shadow SIZE BIAS AMBIENT m00 m01 .. m33                 a light's depth map, matrix by rows; golden only
   L x y z  x y z  x y z                                   a triangle of that map, in texels
   T x y z r g b kt  x y z r g b kt  x y z r g b kt        a triangle, pixels
-  P n  x y z r g b kt ..                                  a polygon of n vertices; golden only
+  P n  x y z r g b kt ..                                  a polygon of n vertices; the machine draws it as triangles
   H n  x y z r g b kt ..                                  one more contour of the polygon on the line before")]
 pub struct Args {
     /// The triangle file
@@ -45,19 +45,10 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let (machine, triangles, drawn) = if args.engine == Engine::Fast {
-        let (machine, frame, path) = fast::draw_file(&args.file, machine, talk.quiet)?;
-        let triangles = frame.counters.triangles;
-        let drawn = from_fast(&machine, frame, path);
-        (machine, triangles, drawn)
-    } else {
-        let frame = triangle_file::read(&args.file)?;
-        let machine = machine.machine(Some((frame.width, frame.height)))?;
-        let drawn = draw(args.engine, &frame, &machine, talk.quiet)
-            .with_context(|| args.file.display().to_string())?;
-        (machine, frame.triangles.len() as u64, drawn)
+    let (drawn, report) = match args.engine {
+        Engine::Fast => while_it_is_read(&args.file, machine, talk)?,
+        engine => whole(&args.file, engine, machine, talk)?,
     };
-    let report = Report::new(&args.file.display().to_string(), triangles, &machine, &drawn);
     let out = Staging::new(&args.out)?;
     write_arrays(&out, &drawn)?;
     picture::write_rgb(&out, "image.png", drawn.width, drawn.height, &drawn.rgb)?;
@@ -65,6 +56,29 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     out.publish()?;
     report.print(talk)?;
     Ok(Verdict::Pass)
+}
+
+fn while_it_is_read(file: &Path, machine: &MachineArgs, talk: Talk) -> Result<(Raster, Report)> {
+    let (machine, frame, path) = match fast::draw_file(file, machine, talk.quiet) {
+        Err(error) if matches!(error.downcast_ref(), Some(InputError::Polygon(_))) => {
+            return whole(file, Engine::Fast, machine, talk);
+        }
+        drawn => drawn?,
+    };
+    let triangles = frame.counters.triangles;
+    let drawn = from_fast(&machine, frame, path);
+    let report = Report::new(&file.display().to_string(), triangles, &machine, &drawn);
+    Ok((drawn, report))
+}
+
+fn whole(file: &Path, engine: Engine, machine: &MachineArgs, talk: Talk) -> Result<(Raster, Report)> {
+    let name = file.display().to_string();
+    let frame = triangle_file::read(file)?;
+    let machine = machine.machine(Some((frame.width, frame.height)))?;
+    let drawn = draw(engine, &frame, &machine, talk.quiet).with_context(|| name.clone())?;
+    let report = Report::new(&name, frame.triangles.len() as u64, &machine, &drawn)
+        .with_polygons(frame.polygons.len() as u64);
+    Ok((drawn, report))
 }
 
 fn write_arrays(out: &Staging, drawn: &Raster) -> Result<()> {

@@ -14,6 +14,7 @@ use spade::{
     ConstrainedDelaunayTriangulation, HasPosition, Intersection, LineIntersectionIterator, Point2,
     Triangulation,
 };
+use std::borrow::Cow;
 
 /// Two edges of a polygon cross, so that triangles between its vertices cannot cover it.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -28,39 +29,42 @@ pub struct CrossingEdges {
     pub y: f64,
 }
 
-/// A frame without polygons.
+/// A frame's triangles, with more of them for its polygons.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Triangulated {
+pub struct Triangulated<'a> {
     /// Each polygon replaced by triangles at its place.
-    pub frame: Frame,
-    /// For each of its triangles the place among the primitives of the frame it was.
+    pub triangles: Cow<'a, [Triangle]>,
+    /// For each of them the place among the frame's primitives of the one it was or is a part of.
     pub ids: Vec<i32>,
 }
 
 impl Frame {
-    /// The frame with triangles for polygons, whose vertices are snapped to `subpixel_bits` bits (half to even).
+    /// What the frame draws as triangles; the vertices of polygons are snapped to `subpixel_bits` bits (half to even).
     ///
     /// # Errors
     /// A polygon whose snapped edges cross.
-    pub fn triangulated(&self, subpixel_bits: u32) -> Result<Triangulated, CrossingEdges> {
-        let frame = Self { triangles: Vec::new(), polygons: Vec::new(), ..self.clone() };
-        let mut result = Triangulated { frame, ids: Vec::new() };
+    pub fn triangulated(&self, subpixel_bits: u32) -> Result<Triangulated<'_>, CrossingEdges> {
+        if self.polygons.is_empty() {
+            let ids = (0..).take(self.triangles.len()).collect();
+            return Ok(Triangulated { triangles: Cow::Borrowed(&self.triangles), ids });
+        }
+        let (mut triangles, mut ids) = (Vec::new(), Vec::new());
         for (primitive, id) in self.primitives().into_iter().zip(0..) {
             match primitive {
-                Primitive::Triangle(triangle) => result.frame.triangles.push(*triangle),
+                Primitive::Triangle(triangle) => triangles.push(*triangle),
                 Primitive::Polygon(polygon) => {
-                    let triangles = polygon.triangles(subpixel_bits)?;
                     let first = polygon.contours.first().and_then(|contour| contour.first());
                     let colored = |v: Vertex| match (self.mode, first) {
                         (ShadeMode::Flat, Some(first)) => Vertex { x: v.x, y: v.y, z: v.z, ..*first },
                         _ => v,
                     };
-                    result.frame.triangles.extend(triangles.iter().map(|t| Triangle(t.0.map(colored))));
+                    let parts = polygon.triangles(subpixel_bits)?;
+                    triangles.extend(parts.into_iter().map(|part| Triangle(part.0.map(colored))));
                 }
             }
-            result.ids.resize(result.frame.triangles.len(), id);
+            ids.resize(triangles.len(), id);
         }
-        Ok(result)
+        Ok(Triangulated { triangles: Cow::Owned(triangles), ids })
     }
 }
 

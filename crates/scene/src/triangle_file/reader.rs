@@ -55,7 +55,8 @@ pub fn parse(file: &str, input: impl BufRead) -> Result<Frame, InputError> {
 
 /// A file triangle by triangle: takes as much memory as its longest line.
 ///
-/// An item is a triangle, or an error; there is nothing worth reading after that. Polygons are refused.
+/// An item is a triangle, or an error; there is nothing worth reading after that. A polygon is
+/// [`InputError::Polygon`].
 pub struct Reader<R> {
     lines: Lines<R>,
     parser: Parser,
@@ -97,7 +98,8 @@ impl<R: BufRead> Iterator for Reader<R> {
         loop {
             if !self.parser.frame.polygons.is_empty() {
                 let why = "permitted: only triangles, where a file is drawn while it is read";
-                return Some(Err(self.lines.place().fault("line starts with", b"P", why).into()));
+                let fault = self.lines.place().fault("line starts with", b"P", why);
+                return Some(Err(InputError::Polygon(fault)));
             }
             if let Some(triangle) = self.parser.frame.triangles.pop() {
                 return Some(Ok(triangle));
