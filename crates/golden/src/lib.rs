@@ -2,7 +2,8 @@
 //!
 //! What ought to be drawn, said as plainly as possible: a pixel belongs to a triangle if three half-planes say so, in
 //! integers; its depth and colour are the plane through the vertices (A 7.8). Polygons have the active edge table of
-//! seed B instead. Nothing here steps, rounds or wraps as the machine does. Where two depths are too near for f64, exact integers decide.
+//! seed B instead. Nothing here steps, rounds or wraps as the machine does. Where two depths are too near for f64, exact
+//! integers decide.
 
 mod cover;
 mod textbook;
@@ -16,6 +17,7 @@ mod shadow;
 mod draw_list;
 mod ray;
 mod picture;
+mod wireframe;
 mod shading;
 pub mod fast_phong;
 
@@ -29,3 +31,4 @@ pub use shading::{Shaded, Shading, ShadingError, frame, shade};
 pub use shadow::ShadowMaps;
 pub use textbook::{Half, half_triangles};
 pub use weights::Weights;
+pub use wireframe::{HiddenLines, wireframe};

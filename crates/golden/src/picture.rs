@@ -46,17 +46,7 @@ pub struct Picture {
 
 /// Draws the triangles and polygons of `frame` in their order.
 pub fn draw(frame: &Frame, fill: Fill) -> Picture {
-    let size = frame.width as usize * frame.height as usize;
-    let mut picture = Picture {
-        width: frame.width,
-        height: frame.height,
-        coverage: vec![0; size],
-        writes: vec![0; size],
-        id: vec![NO_TRIANGLE; size],
-        z: vec![1.0; size],
-        rgb: vec![frame.clear; size],
-        lit: vec![Lit::Nothing; size],
-    };
+    let mut picture = Picture::cleared(frame);
     let screen = (frame.width, frame.height);
     let list = DrawList::new(frame, fill);
     for (item, id) in list.items().iter().zip(0..) {
@@ -71,6 +61,21 @@ pub fn draw(frame: &Frame, fill: Fill) -> Picture {
 }
 
 impl Picture {
+    /// Nothing drawn yet.
+    pub(crate) fn cleared(frame: &Frame) -> Self {
+        let size = frame.width as usize * frame.height as usize;
+        Self {
+            width: frame.width,
+            height: frame.height,
+            coverage: vec![0; size],
+            writes: vec![0; size],
+            id: vec![NO_TRIANGLE; size],
+            z: vec![1.0; size],
+            rgb: vec![frame.clear; size],
+            lit: vec![Lit::Nothing; size],
+        }
+    }
+
     fn plot<const N: usize, W: Weight>(&mut self, list: &DrawList, id: i32, fragment: &Fragment<N, W>) {
         let frame = list.frame();
         let at = fragment.y as usize * self.width as usize + fragment.x as usize;

@@ -27,7 +27,7 @@ impl Grid {
     }
 
     /// A vertex's place, the nearest sub-pixel, half to even.
-    pub(super) fn place(self, vertex: &Vertex) -> [i64; 2] {
+    pub(crate) fn place(self, vertex: &Vertex) -> [i64; 2] {
         [vertex.x, vertex.y].map(|coordinate| 2 * snap(coordinate, self.subpixel_bits))
     }
 
@@ -37,7 +37,7 @@ impl Grid {
     }
 
     /// The centre of a pixel, either axis.
-    pub(super) fn centre(self, pixel: i64) -> i64 {
+    pub(crate) fn centre(self, pixel: i64) -> i64 {
         self.pitch() * pixel + self.centre
     }
 
@@ -46,8 +46,19 @@ impl Grid {
         -(self.centre - place).div_euclid(self.pitch())
     }
 
+    /// The pixel that holds `place`, either axis.
+    pub(crate) fn pixel_of(self, place: i64) -> i64 {
+        self.pixel_of_quotient(place, 1)
+    }
+
+    /// The pixel that holds `numerator` / `denominator`, which are below 2^60 and 2^30.
+    pub(crate) fn pixel_of_quotient(self, numerator: i64, denominator: i64) -> i64 {
+        let edge = self.centre - self.pitch() / 2;
+        (numerator - edge * denominator).div_euclid(self.pitch() * denominator)
+    }
+
     /// In pixels, exact.
-    pub(super) fn pixels(self, distance: i64) -> f64 {
+    pub(crate) fn pixels(self, distance: i64) -> f64 {
         distance as f64 / self.pitch() as f64
     }
 }
