@@ -69,7 +69,7 @@ pub struct Source {
     /// A built-in scene, a mesh (.obj, .gltf, .glb) or a triangle file (.tri)
     #[arg(value_name = "SCENE|MESH", default_value = "torus-knot")]
     pub input: String,
-    /// How the colour of a pixel is come by; phong needs --engine golden
+    /// How the colour of a pixel is come by; phong and fast-phong need --engine golden
     #[arg(long, value_enum, default_value_t = Shading::Gouraud)]
     pub shading: Shading,
 }
@@ -85,16 +85,18 @@ pub enum Shading {
     Gouraud,
     /// Normals of the vertices, linear over the screen; the shading equation at each pixel
     Phong,
+    /// Phong by a quadratic for each cosine: five additions and a table read a pixel
+    FastPhong,
 }
 
 impl Shading {
-    /// The same for the golden picture.
+    /// The same for the golden picture; for fast Phong the system that it approximates.
     pub fn golden(self) -> edgewalk_golden::Shading {
         match self {
             Self::Constant => edgewalk_golden::Shading::Constant,
             Self::ConstantAveraged => edgewalk_golden::Shading::ConstantAveraged,
             Self::Gouraud => edgewalk_golden::Shading::Gouraud,
-            Self::Phong => edgewalk_golden::Shading::Phong,
+            Self::Phong | Self::FastPhong => edgewalk_golden::Shading::Phong,
         }
     }
 }
@@ -133,9 +135,13 @@ impl Source {
             let triangles = frame.triangulated(machine.subpixel_bits)?.triangles.into_owned();
             return Ok(Frame { triangles, polygons: Vec::new(), ..frame });
         }
-        if self.shading == Shading::Phong {
+        if let Some(name) = match self.shading {
+            Shading::Phong => Some("phong"),
+            Shading::FastPhong => Some("fast-phong"),
+            Shading::Constant | Shading::ConstantAveraged | Shading::Gouraud => None,
+        } {
             return Err(anyhow!(
-                "--shading phong: the machine has no unit for normals yet; render with --engine golden"
+                "--shading {name}: the machine has no unit for normals yet; render with --engine golden"
             ));
         }
         let (scene, surface) = self.surface(machine)?;

@@ -10,6 +10,7 @@ mod commands;
 mod compare;
 mod engine;
 mod fast;
+mod fast_phong;
 mod input;
 mod machine_args;
 mod picture;

@@ -25,6 +25,18 @@ pub fn write_heat(
     })
 }
 
+/// The heat map of a shading system, yellow at its largest error.
+pub fn write_shading_error(
+    out: &Staging,
+    name: &str,
+    size: (u32, u32),
+    error: &edgewalk_golden::ShadingError,
+) -> Result<()> {
+    // Without an error any scale does.
+    let full = if error.max > 0.0 { error.max } else { 1.0 };
+    write_heat(out, name, size, &error.map, full)
+}
+
 fn write(out: &Staging, name: &str, width: u32, height: u32, pixel: impl Fn(usize) -> [u8; 3]) -> Result<()> {
     let picture = RgbImage::from_fn(width, height, |x, y| Rgb(pixel((y * width + x) as usize)));
     let path = out.path(name)?;

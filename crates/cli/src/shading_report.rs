@@ -1,6 +1,7 @@
 //! One page about a shading system: what was drawn, and how far it is from the truth; as text and as JSON.
 
 use crate::Talk;
+use crate::fast_phong::FastPhongReport;
 use crate::input::Source;
 use anyhow::Result;
 use clap::ValueEnum;
@@ -29,6 +30,8 @@ pub struct ShadingReport {
     largest_error: f64,
     /// LSB of 8 bits.
     mean_error: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fast_phong: Option<FastPhongReport>,
 }
 
 impl ShadingReport {
@@ -53,7 +56,13 @@ impl ShadingReport {
             pixels: error.pixels,
             largest_error: error.max,
             mean_error: error.mean,
+            fast_phong: None,
         }
+    }
+
+    /// The same with what is to be said of fast Phong.
+    pub fn with(self, fast_phong: FastPhongReport) -> Self {
+        Self { fast_phong: Some(fast_phong), ..self }
     }
 
     /// As a JSON file.
@@ -79,6 +88,9 @@ impl ShadingReport {
         );
         let _ = writeln!(t, "largest error {:.4} LSB of 8 bits", self.largest_error);
         let _ = writeln!(t, "mean error    {:.4} LSB of 8 bits", self.mean_error);
+        if let Some(fast_phong) = &self.fast_phong {
+            t += &fast_phong.text();
+        }
         t
     }
 

@@ -3,7 +3,8 @@
 
 use crate::compare::compare;
 use crate::engine::{Engine, draw, golden_fill};
-use crate::input::Source;
+use crate::fast_phong::{FastPhongArgs, FastPhongReport};
+use crate::input::{Shading, Source};
 use crate::machine_args::MachineArgs;
 use crate::progress::spinner;
 use crate::report::Report;
@@ -19,20 +20,24 @@ use std::path::PathBuf;
 /// Renders a scene or mesh through the machine and compares it with the golden picture.
 ///
 /// With --engine golden it is drawn by a shading system in f64 and compared with the shading equation at each pixel:
-/// image.png, truth.png and shading_error.png, a heat map whose yellow is the largest error.
+/// image.png, truth.png and shading_error.png, a heat map whose yellow is the largest error. For fast-phong also beside
+/// Phong shading: phong.png and phong_error.png.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk render torus-knot
   edgewalk render teapot.obj --out out/teapot --set screen.width=1280 --set screen.height=960
   edgewalk render sphere --shading constant --set interpolator.adders=1 --json
   edgewalk render sphere --engine golden --shading phong
-  edgewalk render teapot.obj --engine golden --shading constant-averaged")]
+  edgewalk render teapot.obj --engine golden --shading constant-averaged
+  edgewalk render sphere --engine golden --shading fast-phong --fit six-point --table 4096")]
 pub struct Args {
     #[command(flatten)]
     source: Source,
     /// Who draws the picture that is compared with the golden one
     #[arg(long, value_enum, default_value_t = Engine::Fast)]
     engine: Engine,
+    #[command(flatten)]
+    fast_phong: FastPhongArgs,
     /// Output directory
     #[arg(long, value_name = "DIR", default_value = "out/render")]
     out: PathBuf,
@@ -41,6 +46,9 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = machine.machine(None)?;
+    if args.source.shading != Shading::FastPhong {
+        args.fast_phong.unused()?;
+    }
     if args.engine == Engine::Golden && !args.source.is_triangle_file() {
         return shaded(args, &machine, talk);
     }
@@ -58,17 +66,33 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 fn shaded(args: &Args, machine: &Machine, talk: Talk) -> Result<Verdict> {
     let spinner = spinner("shading", talk.quiet);
     let (scene, surface) = args.source.surface(machine)?;
-    let drawn = edgewalk_golden::shade(&scene, &surface, args.source.shading.golden(), golden_fill(machine));
+    let fast = match args.source.shading {
+        Shading::FastPhong => Some(args.fast_phong.draw(&scene, &surface, machine)?),
+        _ => None,
+    };
+    let plain;
+    let drawn = match &fast {
+        Some(fast) => &fast.shaded,
+        None => {
+            plain =
+                edgewalk_golden::shade(&scene, &surface, args.source.shading.golden(), golden_fill(machine));
+            &plain
+        }
+    };
     let error = drawn.error();
     spinner.finish_and_clear();
     let out = Staging::new(&args.out)?;
     let (w, h) = (surface.width, surface.height);
     picture::write_rgb(&out, "image.png", w, h, &drawn.picture.rgb)?;
     picture::write_rgb(&out, "truth.png", w, h, &drawn.truth)?;
-    // Without an error any scale does.
-    let full = if error.max > 0.0 { error.max } else { 1.0 };
-    picture::write_heat(&out, "shading_error.png", (w, h), &error.map, full)?;
-    let report = ShadingReport::new(&args.source, &scene, &surface, &error);
+    picture::write_shading_error(&out, "shading_error.png", (w, h), &error)?;
+    let mut report = ShadingReport::new(&args.source, &scene, &surface, &error);
+    if let Some(fast) = &fast {
+        let from_phong = fast.error_to_phong();
+        picture::write_rgb(&out, "phong.png", w, h, &fast.phong)?;
+        picture::write_shading_error(&out, "phong_error.png", (w, h), &from_phong)?;
+        report = report.with(FastPhongReport::new(&args.fast_phong, &scene, &surface, fast, &from_phong));
+    }
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
     out.publish()?;

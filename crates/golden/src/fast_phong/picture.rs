@@ -23,9 +23,10 @@ pub struct Settings {
 /// A picture by fast Phong, and what it stands for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FastShaded {
-    /// Beside the truth, which is perspective-correct.
+    /// Beside the truth, which is perspective-correct and has the scene's own form of highlights.
     pub shaded: Shaded,
-    /// The colours of Phong shading (A 7.12): N and the world position linear over the screen.
+    /// The colours of Phong shading (A 7.12), N and the world position linear over the screen; with highlights of the
+    /// form that the table has.
     pub phong: Vec<[f64; 3]>,
 }
 
@@ -41,8 +42,14 @@ impl FastShaded {
 /// A texture modulates k_d and k_a as in Phong shading; a relief is not seen, for there is no normal to turn.
 pub fn shade(scene: &Scene, surface: &Surface, lights: &[Directional], settings: Settings) -> FastShaded {
     let Settings { fit, table_size, subpixel_bits } = settings;
-    let mut shaded = shade_by(scene, surface, Shading::Phong, Fill::Exact { subpixel_bits });
-    let phong = shaded.picture.rgb.clone();
+    let by_phong = |scene: &Scene| shade_by(scene, surface, Shading::Phong, Fill::Exact { subpixel_bits });
+    let mut shaded = by_phong(scene);
+    let specular = PowerTable::tabulated(scene.specular);
+    let phong = if specular == scene.specular {
+        shaded.picture.rgb.clone()
+    } else {
+        by_phong(&Scene { specular, ..scene.clone() }).picture.rgb
+    };
     let picture = &mut shaded.picture;
     let table = |exponent| PowerTable::new(table_size, scene.specular, exponent);
     let tables: Vec<_> = scene.mesh.materials().iter().map(|material| table(material.exponent)).collect();

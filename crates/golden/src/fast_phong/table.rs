@@ -15,8 +15,13 @@ impl PowerTable {
     /// Fewest entries: those for 0 and 1.
     pub const LEAST_SIZE: usize = 2;
 
+    /// The form of the specular part that stands for another: R·V is no function of N·H, so A 7.12 does for A 7.1.
+    pub fn tabulated(form: Specular) -> Specular {
+        if form == Specular::Mirror { Specular::Halfway } else { form }
+    }
+
     /// Of `size` entries, at least [`Self::LEAST_SIZE`]: the power `exponent` of N·H or of 2 (N·H)² - 1, as the
-    /// form of the specular part has it. R·V is no function of N·H; the table has the form of A 7.12 for it.
+    /// tabulated form has it.
     pub fn new(size: usize, form: Specular, exponent: f64) -> Self {
         let last = size.max(Self::LEAST_SIZE) - 1;
         let entry = |index: usize| Self::exact(form, exponent, index as f64 / last as f64);
