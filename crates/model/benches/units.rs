@@ -1,0 +1,152 @@
+//! Tokens a second of every unit by itself, of the machine and of the fast path: `cargo bench -p edgewalk-model`.
+//!
+//! A unit gets the tokens that the one before it made, one whenever it takes one, and nothing behind it ever waits.
+
+#![allow(missing_docs)] // criterion_group! writes none
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use edgewalk_model::depth::{Depth, DepthInputs};
+use edgewalk_model::edge::Edge;
+use edgewalk_model::fast::Renderer;
+use edgewalk_model::pixel::Pixel;
+use edgewalk_model::setup::Setup;
+use edgewalk_model::span::SpanQueue;
+use edgewalk_model::tokens::{Fragment, Line, Prim, Span};
+use edgewalk_model::{Coverage, DrawState, Memory, Stalls, render};
+use edgewalk_numerics::{Machine, PortVertex};
+use rand::{Rng, SeedableRng, rngs::StdRng};
+use std::hint::black_box;
+
+type Triangle = [PortVertex; 3];
+
+/// Random triangles that lie within 64 pixels each.
+fn triangles(machine: &Machine) -> Vec<Triangle> {
+    let mut rng = StdRng::seed_from_u64(1);
+    let one = 1 << machine.subpixel_bits;
+    (0..100)
+        .map(|_| {
+            let middle =
+                [machine.width, machine.height].map(|side| rng.random_range(32..side as i32 - 32) * one);
+            std::array::from_fn(|_| {
+                let [x, y] = middle.map(|m| m + rng.random_range(-32 * one..=32 * one));
+                let value = machine.channels().map(|c| rng.random_range(0..=c.max()) << c.vertex_fraction);
+                PortVertex { x, y, value }
+            })
+        })
+        .collect()
+}
+
+fn setup(machine: &Machine, triangles: &[Triangle]) -> Vec<Prim> {
+    let mut unit = Setup::new(machine);
+    let mut prims = Vec::new();
+    let mut input = triangles.iter();
+    let mut next = input.next();
+    while next.is_some() || !unit.tri_ready() {
+        prims.extend(unit.prim().cloned());
+        let taken = unit.tri_ready();
+        unit.step(next.map(|t| (t, 0)), true, &mut Coverage::default());
+        if taken {
+            next = input.next();
+        }
+    }
+    prims
+}
+
+fn edge(machine: &Machine, prims: &[Prim]) -> Vec<Line> {
+    let mut unit = Edge::new(machine);
+    let mut lines = Vec::new();
+    let mut input = prims.iter();
+    let mut next = input.next();
+    while next.is_some() || unit.running() {
+        lines.extend(unit.line().cloned());
+        let taken = unit.prim_ready(false);
+        unit.step(next, false, true, &mut Coverage::default());
+        if taken {
+            next = input.next();
+        }
+    }
+    lines
+}
+
+fn span(machine: &Machine, lines: &[Line]) -> Vec<Span> {
+    let mut unit = SpanQueue::new(machine);
+    let mut spans = Vec::new();
+    for line in lines {
+        spans.extend(unit.span().cloned());
+        unit.step(Some(line).filter(|line| unit.line_ready(line)), true, &mut Coverage::default());
+    }
+    spans.extend(unit.span().cloned());
+    spans
+}
+
+fn pixel(machine: &Machine, spans: &[Span]) -> Vec<Fragment> {
+    let mut unit = Pixel::new(machine);
+    let mut fragments = Vec::new();
+    let mut input = spans.iter();
+    let mut next = input.next();
+    while next.is_some() || unit.occupied() {
+        fragments.extend(unit.frag().cloned());
+        let taken = unit.span_ready(true);
+        unit.step(next, &[1; 4], true, &mut Coverage::default());
+        if taken {
+            next = input.next();
+        }
+    }
+    fragments
+}
+
+/// DEPTH and the memory behind it; gives the number of writes.
+fn depth(machine: &Machine, fragments: &[Fragment]) -> usize {
+    let mut unit = Depth::new(machine);
+    let mut memory = Memory::new(machine, [0; 3], Stalls::NONE);
+    let mut writes = 0;
+    let mut input = fragments.iter();
+    let mut next = input.next();
+    while next.is_some() || unit.occupied() {
+        let block = unit.block(next, true);
+        let data = memory.data();
+        let inputs = DepthInputs { depth_func: 1, depth_write: true, rd_ready: true, data, wr_ready: true };
+        let read = next.filter(|_| block.is_none()).map(|fragment| fragment.addr);
+        let write = unit.write().cloned();
+        let taken = data.is_some() && unit.data_ready(true);
+        unit.step(next, block, &inputs, &mut Coverage::default());
+        memory.step(read, taken, write.as_ref());
+        writes += usize::from(write.is_some());
+        if read.is_some() {
+            next = input.next();
+        }
+    }
+    writes
+}
+
+fn units(criterion: &mut Criterion) {
+    let machine = &Machine { width: 128, height: 128, ..Machine::default() };
+    let triangles = triangles(machine);
+    let prims = setup(machine, &triangles);
+    let lines = edge(machine, &prims);
+    let spans = span(machine, &lines);
+    let fragments = pixel(machine, &spans);
+    let mut group = criterion.benchmark_group("model");
+    let mut bench = |name: &str, tokens: usize, work: &mut dyn FnMut()| {
+        group.throughput(Throughput::Elements(tokens as u64)).bench_function(name, |b| b.iter(&mut *work));
+    };
+    bench("setup, prims", prims.len(), &mut || drop(black_box(setup(machine, &triangles))));
+    bench("edge, lines", lines.len(), &mut || drop(black_box(edge(machine, &prims))));
+    bench("span, spans", spans.len(), &mut || drop(black_box(span(machine, &lines))));
+    bench("pixel, fragments", fragments.len(), &mut || drop(black_box(pixel(machine, &spans))));
+    bench("depth and memory, fragments", fragments.len(), &mut || {
+        black_box(depth(machine, &fragments));
+    });
+    let state = DrawState::default();
+    let cycles = render(machine, triangles.iter().copied(), state, Stalls::NONE).counters.cycles;
+    bench("machine, cycles", cycles as usize, &mut || {
+        black_box(render(machine, triangles.iter().copied(), state, Stalls::NONE));
+    });
+    let mut renderer = Renderer::new(machine, false);
+    bench("fast path, cycles", cycles as usize, &mut || {
+        black_box(renderer.draw(triangles.iter().copied(), state)).ok();
+    });
+}
+
+criterion_group!(benches, units);
+criterion_main!(benches);
