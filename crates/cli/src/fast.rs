@@ -46,9 +46,14 @@ where
     failure.map_or(Ok(drawn), Err)
 }
 
+/// A triangle file without what it draws.
+pub fn header(file: &Path) -> Result<edgewalk_scene::Frame> {
+    Ok(open(file, &ProgressBar::hidden())?.header().clone())
+}
+
 /// Draws a triangle file on its own screen while it is read: the memory that takes does not grow with the file.
 pub fn draw_file(file: &Path, args: &MachineArgs, quiet: bool) -> Result<(Machine, Frame, fast::Path)> {
-    let header = open(file, &ProgressBar::hidden())?.header().clone();
+    let header = header(file)?;
     let machine = args.machine(Some((header.width, header.height)))?;
     let named = || file.display().to_string();
     let state = draw_state(&header, &machine).with_context(named)?;

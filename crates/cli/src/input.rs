@@ -1,5 +1,7 @@
 //! What is to be drawn: a built-in scene, a mesh, or a file of screen-space triangles; and its way to the port.
 
+use crate::fast;
+use crate::machine_args::MachineArgs;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_model::DrawState;
 use edgewalk_numerics::{Machine, PortVertex};
@@ -113,6 +115,19 @@ impl Source {
         let guard = f64::from((1u32 << machine.guard_bits) - 1);
         let surface = scene.surface(machine.width, machine.height, guard);
         Ok((scene, surface))
+    }
+
+    /// The frame, and the machine with the screen of the triangle file, if it is one.
+    pub fn on_its_screen(&self, args: &MachineArgs) -> Result<(Machine, Frame)> {
+        let size = if self.is_triangle_file() {
+            let header = fast::header(Path::new(&self.input))?;
+            Some((header.width, header.height))
+        } else {
+            None
+        };
+        let machine = args.machine(size)?;
+        let frame = self.frame(&machine)?;
+        Ok((machine, frame))
     }
 
     /// The frame as the machine draws it. A triangle file keeps its own size and mode; its polygons become triangles, so

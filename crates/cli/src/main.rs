@@ -12,6 +12,7 @@ mod engine;
 mod fast;
 mod fast_phong;
 mod input;
+mod jobs;
 mod machine_args;
 mod picture;
 mod progress;

@@ -13,18 +13,16 @@ mod verilator;
 mod engine;
 mod table;
 
-use crate::input::to_port;
+use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use crate::{Talk, progress};
 use anyhow::{Result, anyhow};
-use edgewalk_scene::triangle_file;
 use engine::Engine;
 use job::Job;
-use std::path::PathBuf;
 use table::{Row, Table};
 
-/// Times every engine on a triangle file; one frame is clear and draw all, reading the file is outside the clock.
+/// Times every engine on a triangle file, scene or mesh; one frame is clear and draw all, reading the file is outside the clock.
 ///
 /// Slow engines draw the first triangles only, as the output says; every engine must take the cycles and make the writes
 /// that the machine takes and makes for its part. Rates are of processor time, the median frame. Verilator takes part
@@ -32,11 +30,11 @@ use table::{Row, Table};
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk bench triangles.tri
-  edgewalk bench triangles.tri --repeat 21 --json
+  edgewalk bench teapot.obj --set screen.width=1280 --set screen.height=960 --repeat 21 --json
   taskset -c 0 edgewalk bench triangles.tri --engine fast,tick --set interpolator.adders=1")]
 pub struct Args {
-    /// The triangle file
-    file: PathBuf,
+    #[command(flatten)]
+    source: Source,
     /// Engines that take part; all of them if left out
     #[arg(long, value_enum, value_delimiter = ',', value_name = "ENGINE,...")]
     engine: Vec<Engine>,
@@ -47,8 +45,7 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let frame = triangle_file::read(&args.file)?;
-    let machine = machine.machine(Some((frame.width, frame.height)))?;
+    let (machine, frame) = args.source.on_its_screen(machine)?;
     let port = to_port(&frame, &machine)?;
     let whole = Job::new(&machine, &port.triangles, port.state, args.repeat);
     let bar = progress::bar(Engine::ALL.len() as u64, "engines", talk.quiet);

@@ -3,7 +3,7 @@
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::{Talk, progress};
+use crate::{Talk, jobs, progress};
 use anyhow::{Result, anyhow};
 use edgewalk_model::DrawState;
 use edgewalk_numerics::Machine;
@@ -98,21 +98,19 @@ pub fn write(
     folder: &str,
     quiet: bool,
 ) -> Result<Vec<String>> {
-    let bar = progress::bar((suites.len() * units.len()) as u64, "vector directories", quiet);
-    let mut written = Vec::new();
-    for suite in suites {
-        for unit in units {
-            let trace = capture(machine, *unit, suite, DrawState::default(), stalls);
-            let verilog =
-                design::verilog(machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
-            let name = format!("{}_{}", suite.name, unit.name());
-            for (file, contents) in directory(suite, &trace, &verilog) {
-                out.write(&format!("{folder}{name}/{file}"), contents)?;
-            }
-            written.push(name);
-            bar.inc(1);
+    let work: Vec<(&Suite, Unit)> =
+        suites.iter().flat_map(|suite| units.iter().map(move |unit| (suite, *unit))).collect();
+    let bar = progress::bar(work.len() as u64, "vector directories", quiet);
+    let written = jobs::all(&work, &bar, |(suite, unit)| {
+        let trace = capture(machine, *unit, suite, DrawState::default(), stalls);
+        let verilog =
+            design::verilog(machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+        let name = format!("{}_{}", suite.name, unit.name());
+        for (file, contents) in directory(suite, &trace, &verilog) {
+            out.write(&format!("{folder}{name}/{file}"), contents)?;
         }
-    }
+        Ok(name)
+    })?;
     bar.finish_and_clear();
     Ok(written)
 }

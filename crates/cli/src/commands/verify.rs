@@ -1,11 +1,10 @@
 //! `edgewalk verify`: model against netlist in every port and cycle, then the emitted Verilog in both simulators.
 
 use super::vectors::{directed, stalls};
-use crate::Talk;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
-use crate::progress;
 use crate::verdict::{ToolError, Verdict};
+use crate::{Talk, jobs, progress};
 use anyhow::{Context, Result, anyhow};
 use edgewalk_model::DrawState;
 use edgewalk_numerics::Machine;
@@ -37,7 +36,7 @@ pub struct Args {
 }
 
 /// One comparison.
-#[derive(Serialize)]
+#[derive(Clone, Serialize)]
 struct Check {
     suite: String,
     unit: &'static str,
@@ -73,10 +72,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         ..DrawState::default()
     };
     let bar = progress::bar(work.len() as u64, "suites and units", talk.quiet);
-    let mut checks = Vec::new();
-    for (suite, unit) in &work {
+    let checks = jobs::all(&work, &bar, |(suite, unit)| {
         let trace = capture(&machine, *unit, suite, state, args.stalls);
-        checks.push(against_netlist(&machine, suite, *unit, &trace)?);
+        let mut checks = vec![against_netlist(&machine, suite, *unit, &trace)?];
         if !args.no_simulators {
             let folder = write(&machine, suite, *unit, &trace)?;
             // A build with Verilator takes seconds: the whole machine is enough for it.
@@ -86,8 +84,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
                 checks.push(simulate(tool, folder.path(), suite, *unit, trace.expected())?);
             }
         }
-        bar.inc(1);
-    }
+        Ok(checks)
+    })?
+    .concat();
     bar.finish_and_clear();
     print(&machine, &checks, talk)?;
     Ok(checks.iter().fold(Verdict::Pass, |all, c| all.and(c.verdict())))
