@@ -3,12 +3,26 @@
 use super::material::Materials;
 use super::table::Table;
 use crate::error::InputError;
-use crate::mesh::{self, Face, MAX_POSITION, Material, Mesh, Part};
+use crate::mesh::{self, Face, FaceData, MAX_POSITION, Material, Mesh, Part};
 use glam::{DAffine3, DQuat, DVec3, EulerRot};
 use std::path::Path;
 
-pub(super) const KEYS: &[&str] =
-    &["mesh", "builtin", "columns", "rows", "positions", "faces", "material", "scale", "rotate", "translate"];
+pub(super) const KEYS: &[&str] = &[
+    "mesh",
+    "builtin",
+    "columns",
+    "rows",
+    "positions",
+    "uv",
+    "faces",
+    "material",
+    "scale",
+    "rotate",
+    "translate",
+];
+
+/// Largest texture coordinate, either way.
+const MAX_TEXTURE: f64 = 1e6;
 
 /// Meshes without a file; of the first four the fineness may be said.
 const BUILTIN: [&str; 5] = ["sphere", "torus", "torus-knot", "terrain", "room"];
@@ -61,17 +75,22 @@ fn placed(table: &Table) -> Result<DAffine3, InputError> {
 fn listed(table: &Table) -> Result<Mesh, InputError> {
     let positions = table.vectors("positions", MAX_POSITION)?;
     let positions = table.required("positions", positions, "permitted: a list of [x, y, z]")?;
-    let mut faces = Vec::new();
+    let uv = table.pairs("uv", positions.len(), MAX_TEXTURE)?;
+    let (mut faces, mut face_data) = (Vec::new(), Vec::new());
     for corners in table.indices("faces", positions.len())?.unwrap_or_default() {
         if corners.len() < 3 {
             let permitted = "permitted: at least 3 places a face";
             return Err(table.fault("faces", format!("{} places", corners.len()), permitted));
         }
-        let triangle = |pair: &[u32]| Face { corners: [corners[0], pair[0], pair[1]], material: 0 };
-        faces.extend(corners[1..].windows(2).map(triangle));
+        for pair in corners[1..].windows(2) {
+            let corners = [corners[0], pair[0], pair[1]];
+            faces.push(Face { corners, material: 0 });
+            let texture = uv.as_ref().map(|uv| corners.map(|corner| uv[corner as usize]));
+            face_data.push(FaceData { texture, ..FaceData::default() });
+        }
     }
     if faces.is_empty() {
         return Err(table.fault("faces", "none", "permitted: at least one face"));
     }
-    Mesh::new("object", positions, faces, vec![Material::DEFAULT])
+    Ok(Mesh::new("object", positions, faces, vec![Material::DEFAULT])?.with_face_data(face_data))
 }

@@ -1,7 +1,7 @@
 //! A table of a TOML file: values by key, checked, with their places for messages.
 
 use crate::error::{Fault, InputError, nearest};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::ops::RangeInclusive;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -188,6 +188,24 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// A list of `count` lists of two numbers within ±`limit`.
+    pub fn pairs(&self, key: &str, count: usize, limit: f64) -> Result<Option<Vec<DVec2>>, InputError> {
+        let Some(value) = self.value(key) else { return Ok(None) };
+        let list = match value.get_ref() {
+            DeValue::Array(list) => list.iter().map(|v| numbers(v.get_ref()).map(DVec2::from)).collect(),
+            _ => None,
+        };
+        match list.filter(|list: &Vec<_>| {
+            list.len() == count && list.iter().all(|v| v.abs().max_element() <= limit)
+        }) {
+            Some(list) => Ok(Some(list)),
+            None => {
+                let permitted = format!("permitted: {count} of [u, v], each from -{limit} to {limit}");
+                Err(self.wrong(key, permitted))
+            }
+        }
+    }
+
     /// A list of lists of whole numbers below `limit`.
     pub fn indices(&self, key: &str, limit: usize) -> Result<Option<Vec<Vec<u32>>>, InputError> {
         let Some(value) = self.value(key) else { return Ok(None) };
@@ -256,7 +274,12 @@ fn number(value: &DeValue) -> Option<f64> {
 }
 
 fn triple(value: &DeValue) -> Option<DVec3> {
+    numbers(value).map(DVec3::from)
+}
+
+/// A list of so many numbers.
+fn numbers<const N: usize>(value: &DeValue) -> Option<[f64; N]> {
     let DeValue::Array(list) = value else { return None };
     let numbers = list.iter().map(|value| number(value.get_ref())).collect::<Option<Vec<_>>>()?;
-    <[f64; 3]>::try_from(numbers).ok().map(DVec3::from)
+    numbers.try_into().ok()
 }
