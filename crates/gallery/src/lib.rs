@@ -9,6 +9,8 @@ mod profile;
 
 mod lights;
 mod systems;
+mod fast_phong;
+mod texture;
 mod mach_bands;
 mod missed_highlight;
 mod orientation;
@@ -25,9 +27,11 @@ pub use exhibit::{Exhibit, Image, View};
 pub type Maker = fn() -> Result<Exhibit, InputError>;
 
 /// All of them, in the order in which they are shown, by the names of their files.
-pub const EXHIBITS: [(&str, Maker); 9] = [
+pub const EXHIBITS: [(&str, Maker); 11] = [
     ("lights", lights::lights),
     ("systems", systems::systems),
+    ("fast-phong", fast_phong::fast_phong),
+    ("texture", texture::texture),
     ("mach-bands", mach_bands::mach_bands),
     ("missed-highlight", missed_highlight::missed_highlight),
     ("orientation", || Ok(orientation::orientation())),

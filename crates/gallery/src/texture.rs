@@ -1,0 +1,43 @@
+//! Coefficients that vary over the surface, and perturbed normals (A, end of chapter 7).
+
+use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, LSB, View, WIDTH, figure};
+use edgewalk_golden::{Shaded, Shading, shade};
+use edgewalk_scene::{InputError, Scene};
+use std::path::Path;
+
+const SCENE: &str = include_str!("../../../docs/scenes/texture.toml");
+
+pub(crate) fn texture() -> Result<Exhibit, InputError> {
+    let smooth = SCENE.replace("bump_height = 0.03", "bump_height = 0.0");
+    let scene = |text: &str| Scene::parse(Path::new("texture.toml"), text);
+    let drawn = |scene: &Scene, by| shade(scene, &scene.surface(WIDTH, HEIGHT, GUARD), by, FILL);
+    let full = scene(SCENE)?;
+    let [phong, gouraud] = [Shading::Phong, Shading::Gouraud].map(|by| drawn(&full, by));
+    let flat = Shaded { picture: phong.picture.clone(), truth: drawn(&scene(&smooth)?, Shading::Phong).picture.rgb };
+    let relief = flat.error();
+    let turned = relief.map.iter().filter(|error| **error > 0.5).count();
+    Ok(Exhibit {
+        name: "texture",
+        title: "Texture and relief (S10)",
+        cause: "k_d and k_a are read from a picture, the normal is turned by the slopes of a relief before the equation. Both \
+                vary faster than the vertices stand: Gouraud shading, which knows the vertices only, loses them.",
+        figures: vec![
+            figure("pixels that the relief changes by more than 1/2 LSB", turned as f64, 0),
+            figure("largest change, LSB", relief.max, 1),
+            figure("Phong: mean error against the truth, LSB", phong.error().mean, 3),
+            figure("Gouraud: mean error against the truth, LSB", gouraud.error().mean, 3),
+            figure("brightest of the dents, LSB", LSB * brightest(&phong.picture.rgb), 1),
+        ],
+        views: vec![
+            View::colors("phong", "Phong", phong.picture.rgb),
+            View::colors("smooth", "Without the relief", flat.truth),
+            View::colors("gouraud", "Gouraud", gouraud.picture.rgb),
+        ],
+    })
+}
+
+/// In the right half of the picture, where the dented sphere is.
+fn brightest(rgb: &[[f64; 3]]) -> f64 {
+    let half = (WIDTH / 2) as usize;
+    rgb.chunks_exact(2 * half).flat_map(|line| &line[half..]).map(|c| c[0]).fold(0.0, f64::max)
+}
