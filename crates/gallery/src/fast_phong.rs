@@ -2,7 +2,7 @@
 
 use crate::exhibit::{Exhibit, GUARD, HEIGHT, View, WIDTH, figure};
 use edgewalk_golden::fast_phong::{Directional, Fit, Settings, shade};
-use edgewalk_scene::{InputError, Light, Scene};
+use edgewalk_scene::{InputError, Scene};
 use std::path::Path;
 
 const SCENE: &str = include_str!("../../../docs/scenes/fast-phong.toml");
@@ -13,9 +13,11 @@ const WHITE: f64 = 16.0;
 pub(crate) fn fast_phong() -> Result<Exhibit, InputError> {
     let scene = Scene::parse(Path::new("fast-phong.toml"), SCENE)?;
     let surface = scene.surface(WIDTH, HEIGHT, GUARD);
-    let lights: Vec<Directional> = scene.lights.iter().filter_map(directional).collect();
+    // The scene has no other kind.
+    let lights = Directional::all(&scene.lights).unwrap_or_default();
     let (mut figures, mut views, mut phong) = (Vec::new(), Vec::new(), Vec::new());
-    for (fit, name, title) in [(Fit::Taylor, "taylor", "Taylor"), (Fit::SixPoint, "six-point", "six points")] {
+    for (fit, name, title) in [(Fit::Taylor, "taylor", "Taylor"), (Fit::SixPoint, "six-point", "six points")]
+    {
         let settings = Settings { fit, table_size: 4096, subpixel_bits: 8 };
         let drawn = shade(&scene, &surface, &lights, settings);
         let [to_phong, to_truth] = [drawn.error_to_phong(), drawn.shaded.error()];
@@ -24,7 +26,12 @@ pub(crate) fn fast_phong() -> Result<Exhibit, InputError> {
         figures.push(figure(format!("{title}: mean error against the truth, LSB"), to_truth.mean, 3));
         views.push(View::colors(name, title, drawn.shaded.picture.rgb));
         let map = if fit == Fit::Taylor { "taylor-error" } else { "six-point-error" };
-        views.push(View::error(map, format!("Its difference from Phong, white at {WHITE} LSB"), &to_phong.map, WHITE));
+        views.push(View::error(
+            map,
+            format!("Its difference from Phong, white at {WHITE} LSB"),
+            &to_phong.map,
+            WHITE,
+        ));
         phong = drawn.phong;
     }
     views.push(View::colors("phong", "Phong", phong));
@@ -37,11 +44,4 @@ pub(crate) fn fast_phong() -> Result<Exhibit, InputError> {
         figures,
         views,
     })
-}
-
-fn directional(light: &Light) -> Option<Directional> {
-    match *light {
-        Light::Directional { toward, intensity } => Some(Directional { toward, intensity }),
-        _ => None,
-    }
 }

@@ -13,7 +13,8 @@ pub(crate) fn texture() -> Result<Exhibit, InputError> {
     let drawn = |scene: &Scene, by| shade(scene, &scene.surface(WIDTH, HEIGHT, GUARD), by, FILL);
     let full = scene(SCENE)?;
     let [phong, gouraud] = [Shading::Phong, Shading::Gouraud].map(|by| drawn(&full, by));
-    let flat = Shaded { picture: phong.picture.clone(), truth: drawn(&scene(&smooth)?, Shading::Phong).picture.rgb };
+    let flat =
+        Shaded { picture: phong.picture.clone(), truth: drawn(&scene(&smooth)?, Shading::Phong).picture.rgb };
     let relief = flat.error();
     let turned = relief.map.iter().filter(|error| **error > 0.5).count();
     Ok(Exhibit {
