@@ -3,6 +3,7 @@
 pub mod demo;
 pub mod render;
 pub mod gallery;
+pub mod explain;
 pub mod raster;
 pub mod emit;
 pub mod vectors;

@@ -22,7 +22,7 @@ mod staging;
 mod verdict;
 
 use clap::{Parser, Subcommand};
-use commands::{bench, config, demo, emit, gallery, raster, render, trace, vectors, verify};
+use commands::{bench, config, demo, emit, explain, gallery, raster, render, trace, vectors, verify};
 use machine_args::MachineArgs;
 use std::process::ExitCode;
 use verdict::{ToolError, Verdict};
@@ -58,6 +58,7 @@ enum Command {
     Demo(demo::Args),
     Render(render::Args),
     Gallery(gallery::Args),
+    Explain(explain::Args),
     Raster(raster::Args),
     Emit(emit::Args),
     Vectors(vectors::Args),
@@ -81,6 +82,7 @@ fn main() -> ExitCode {
         Command::Demo(a) => demo::run(a, &cli.machine, talk),
         Command::Render(a) => render::run(a, &cli.machine, talk),
         Command::Gallery(a) => gallery::run(a, talk),
+        Command::Explain(a) => explain::run(a, &cli.machine, talk),
         Command::Raster(a) => raster::run(a, &cli.machine, talk),
         Command::Emit(a) => emit::run(a, &cli.machine, talk),
         Command::Vectors(a) => vectors::run(a, &cli.machine, talk),

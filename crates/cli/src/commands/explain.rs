@@ -1,0 +1,195 @@
+//! `edgewalk explain`: why a pixel looks as it does.
+
+mod additions;
+mod terms;
+
+use crate::Talk;
+use crate::engine::golden_fill;
+use crate::input::{Source, port_triangle};
+use crate::machine_args::MachineArgs;
+use crate::verdict::Verdict;
+use additions::{Walk, walk};
+use anyhow::{Result, anyhow};
+use edgewalk_golden::{ShadowMaps, draw, fragments};
+use edgewalk_numerics::{EdgeKind, Fill, Machine};
+use edgewalk_scene::{Frame, Scene, Surface};
+use serde::Serialize;
+use std::fmt::Write as _;
+use terms::{LitPoint, lit_point};
+
+/// Says which triangles lie over a pixel, how its light is made up, and every addition of the machine on the way to it,
+/// with its error and its bound.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  edgewalk explain torus-knot 320 240
+  edgewalk explain docs/scenes/lights.toml 200 300 --json
+  edgewalk explain triangles.tri 10 10 --set screen.width=64 --set screen.height=64")]
+pub struct Args {
+    #[command(flatten)]
+    source: Source,
+    /// Column, from the left
+    #[arg(value_name = "X")]
+    x: u32,
+    /// Line, from the top
+    #[arg(value_name = "Y")]
+    y: u32,
+}
+
+/// Side of the shadow maps, texels.
+const SHADOW_MAP: u32 = 1024;
+
+/// Rows of additions shown as text at either end.
+const SHOWN: usize = 8;
+
+/// Everything about the pixel.
+#[derive(Serialize)]
+struct Explanation {
+    x: u32,
+    y: u32,
+    /// In drawing order.
+    fragments: Vec<Over>,
+    /// The last triangle that passed the depth test, -1 for none.
+    id: i32,
+    /// Golden picture there, [0, 1].
+    z: f64,
+    rgb: [f64; 3],
+    /// Where the scene has a surface.
+    light: Option<LitPoint>,
+    /// Where the machine has exact fill and exact edges, and draws the triangle.
+    machine: Option<Walk>,
+}
+
+/// A triangle over the pixel.
+#[derive(Serialize)]
+struct Over {
+    id: usize,
+    z: f64,
+    rgb: [f64; 3],
+}
+
+/// Runs the command.
+pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
+    let machine = machine.machine(None)?;
+    let (x, y) = (args.x, args.y);
+    if x >= machine.width || y >= machine.height {
+        let (w, h) = (machine.width - 1, machine.height - 1);
+        return Err(anyhow!("explain: `{x} {y}`: permitted: X from 0 to {w}, Y from 0 to {h}"));
+    }
+    let frame = args.source.frame(&machine)?;
+    let picture = draw(&frame, golden_fill(&machine));
+    let at = (y * machine.width + x) as usize;
+    let id = picture.id[at];
+    let seen = usize::try_from(id).ok().and_then(|id| frame.triangles.get(id));
+    let explanation = Explanation {
+        x,
+        y,
+        fragments: over(&frame, &machine, (x, y)),
+        id,
+        z: picture.z[at],
+        rgb: picture.rgb[at],
+        light: match seen {
+            Some(_) if !args.source.is_triangle_file() => {
+                let (scene, surface) = args.source.surface(&machine)?;
+                light(&scene, &surface, id as usize, &machine, (x, y))
+            }
+            _ => None,
+        },
+        machine: match seen {
+            Some(triangle) if machine.fill == Fill::Exact && machine.edge_kind == EdgeKind::Exact => {
+                walk(&machine, &port_triangle(id as usize, triangle, frame.mode, &machine)?, x, y)
+            }
+            _ => None,
+        },
+    };
+    if talk.json {
+        println!("{}", serde_json::to_string(&explanation)?);
+    } else if !talk.quiet {
+        print!("{}", text(&explanation));
+    }
+    Ok(Verdict::Pass)
+}
+
+/// The triangles over a pixel, by the exact rule.
+fn over(frame: &Frame, machine: &Machine, pixel: (u32, u32)) -> Vec<Over> {
+    let mut list = Vec::new();
+    for (id, triangle) in frame.triangles.iter().enumerate() {
+        let screen = (machine.width, machine.height);
+        fragments(triangle, frame.mode, machine.subpixel_bits, screen, |fragment| {
+            if (fragment.x, fragment.y) == pixel {
+                list.push(Over { id, z: fragment.z(), rgb: fragment.rgb() });
+            }
+        });
+    }
+    list
+}
+
+fn light(
+    scene: &Scene,
+    surface: &Surface,
+    id: usize,
+    machine: &Machine,
+    pixel: (u32, u32),
+) -> Option<LitPoint> {
+    let triangle = surface.triangles.get(id)?;
+    let maps = ShadowMaps::draw(scene, SHADOW_MAP);
+    let mut point = None;
+    let screen = (machine.width, machine.height);
+    let mode = edgewalk_scene::ShadeMode::Gouraud;
+    fragments(&triangle.on_screen(), mode, machine.subpixel_bits, screen, |fragment| {
+        if (fragment.x, fragment.y) == pixel {
+            point = Some(lit_point(scene, triangle, fragment, &maps));
+        }
+    });
+    point
+}
+
+// Writing to a string cannot fail.
+fn text(of: &Explanation) -> String {
+    let mut page = format!("pixel ({}, {}): z {:.9}, rgb {}\n", of.x, of.y, of.z, three(of.rgb));
+    _ = writeln!(page, "triangles over it: {}", of.fragments.len());
+    for over in &of.fragments {
+        let seen = if over.id as i64 == i64::from(of.id) { "  seen" } else { "" };
+        _ = writeln!(page, "  {:>6}  z {:.9}  rgb {}{seen}", over.id, over.z, three(over.rgb));
+    }
+    if let Some(light) = &of.light {
+        _ = writeln!(page, "\nlight at {}, normal {}", three(light.position), three(light.normal));
+        _ = writeln!(page, "  emission            {}", three(light.emission));
+        _ = writeln!(page, "  ambient             {}", three(light.ambient));
+        for part in &light.lights {
+            _ = writeln!(page, "  {:<11} diffuse  {}", part.kind, three(part.diffuse));
+            _ = writeln!(page, "              specular {}", three(part.specular));
+            _ = writeln!(
+                page,
+                "              r_l      {} by the map, {:.3} by a ray",
+                part.r_map, part.r_ray
+            );
+        }
+        _ = writeln!(page, "  sum, none hidden    {}", three(light.total));
+    }
+    if let Some(walk) = &of.machine {
+        let additions = &walk.additions;
+        _ = writeln!(page, "\nadditions to here: {} (Z, R, G, B in LSB)", additions.len() - 1);
+        _ = writeln!(
+            page,
+            "  step    pixel            value Z       added Z     error Z     bound     error R     bound"
+        );
+        for (place, of) in additions.iter().enumerate() {
+            if place == SHOWN && additions.len() > 2 * SHOWN {
+                _ = writeln!(page, "  ... {} more; all of them with --json", additions.len() - 2 * SHOWN);
+            }
+            if place < SHOWN || place + SHOWN >= additions.len() {
+                let pixel = format!("({}, {})", of.x, of.y);
+                _ = writeln!(
+                    page,
+                    "  {:<6}  {pixel:<13} {:>12.3}  {:>12.4}  {:>10.6}  {:>8.6}  {:>10.6}  {:>8.6}",
+                    of.step, of.value[0], of.added[0], of.error[0], of.bound[0], of.error[1], of.bound[1]
+                );
+            }
+        }
+    }
+    page
+}
+
+fn three(values: [f64; 3]) -> String {
+    values.map(|value| format!("{value:8.5}")).join(" ")
+}
