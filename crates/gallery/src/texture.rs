@@ -1,15 +1,15 @@
 //! Coefficients that vary over the surface, and perturbed normals (A, end of chapter 7).
 
-use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, LSB, View, WIDTH, figure};
+use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use edgewalk_golden::{Shaded, Shading, shade};
 use edgewalk_scene::{InputError, Scene};
 use std::path::Path;
 
-const SCENE: &str = include_str!("../../../docs/scenes/texture.toml");
+const SCENE: &str = include_str!("../../../docs/scenes/texture-and-relief.toml");
 
 pub(crate) fn texture() -> Result<Exhibit, InputError> {
-    let smooth = SCENE.replace("bump_height = 0.03", "bump_height = 0.0");
-    let scene = |text: &str| Scene::parse(Path::new("texture.toml"), text);
+    let smooth = SCENE.replace("bump_height = 0.05", "bump_height = 0");
+    let scene = |text: &str| Scene::parse(Path::new("texture-and-relief.toml"), text);
     let drawn = |scene: &Scene, by| shade(scene, &scene.surface(WIDTH, HEIGHT, GUARD), by, FILL);
     let full = scene(SCENE)?;
     let [phong, gouraud] = [Shading::Phong, Shading::Gouraud].map(|by| drawn(&full, by));
@@ -27,7 +27,6 @@ pub(crate) fn texture() -> Result<Exhibit, InputError> {
             figure("largest change, LSB", relief.max, 1),
             figure("Phong: mean error against the truth, LSB", phong.error().mean, 3),
             figure("Gouraud: mean error against the truth, LSB", gouraud.error().mean, 3),
-            figure("brightest of the dents, LSB", LSB * brightest(&phong.picture.rgb), 1),
         ],
         views: vec![
             View::colors("phong", "Phong", phong.picture.rgb),
@@ -35,10 +34,4 @@ pub(crate) fn texture() -> Result<Exhibit, InputError> {
             View::colors("gouraud", "Gouraud", gouraud.picture.rgb),
         ],
     })
-}
-
-/// In the right half of the picture, where the dented sphere is.
-fn brightest(rgb: &[[f64; 3]]) -> f64 {
-    let half = (WIDTH / 2) as usize;
-    rgb.chunks_exact(2 * half).flat_map(|line| &line[half..]).map(|c| c[0]).fold(0.0, f64::max)
 }

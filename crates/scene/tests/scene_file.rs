@@ -104,6 +104,17 @@ fn everything_a_file_can_say() {
 }
 
 #[test]
+fn listed_faces_may_have_texture_coordinates() {
+    let square =
+        "[[object]]\npositions = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]\nfaces = [[0, 1, 2, 3]]\n";
+    let scene = open(&format!("{square}uv = [[0, 0], [1, 0], [1, 2], [0, 2]]")).unwrap();
+    let uv = scene.mesh.face_data()[1].texture.unwrap();
+    assert_eq!(uv.map(|uv| uv.to_array()), [[0.0, 0.0], [1.0, 2.0], [0.0, 2.0]]);
+    let error = open(&format!("{square}uv = [[0, 0]]")).map(|_| "read").unwrap_err();
+    assert!(error.contains("scene.toml:4: object 1: uv") && error.contains("4 of [u, v]"), "{error}");
+}
+
+#[test]
 fn the_least_file_is_lit_and_in_view() {
     let scene = open("[[object]]\nbuiltin = \"torus\"").unwrap();
     let frame = scene.frame(64, 48, 100.0, ShadeMode::Gouraud);
