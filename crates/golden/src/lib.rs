@@ -18,6 +18,7 @@ mod draw_list;
 mod ray;
 mod picture;
 mod wireframe;
+mod transparency;
 mod shading;
 pub mod fast_phong;
 
@@ -30,5 +31,6 @@ pub use ray::Rays;
 pub use shading::{Shaded, Shading, ShadingError, frame, shade};
 pub use shadow::ShadowMaps;
 pub use textbook::{Half, half_triangles};
+pub use transparency::{MAX_PAIRS, Order, back_to_front};
 pub use weights::Weights;
 pub use wireframe::{HiddenLines, wireframe};
