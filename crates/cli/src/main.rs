@@ -18,6 +18,7 @@ mod picture;
 mod progress;
 mod report;
 mod shading_report;
+mod shadows;
 mod staging;
 mod verdict;
 

@@ -5,7 +5,7 @@ use crate::fast_phong::FastPhongReport;
 use crate::input::Source;
 use anyhow::Result;
 use clap::ValueEnum;
-use edgewalk_golden::ShadingError;
+use edgewalk_golden::{Order, ShadingError};
 use edgewalk_scene::{Scene, Surface, Texture};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -24,6 +24,10 @@ pub struct ShadingReport {
     materials: usize,
     /// Named by the materials and not there.
     missing_textures: Vec<String>,
+    /// Triangles that were blended, from back to front.
+    transparent: usize,
+    /// Why the blended picture may be wrong.
+    warning: Option<String>,
     /// Pixels that show a triangle.
     pixels: u64,
     /// LSB of 8 bits.
@@ -53,11 +57,18 @@ impl ShadingReport {
             lights: scene.lights.len(),
             materials: scene.mesh.materials().len(),
             missing_textures: scene.mesh.textures().iter().filter_map(absent).collect(),
+            transparent: 0,
+            warning: None,
             pixels: error.pixels,
             largest_error: error.max,
             mean_error: error.mean,
             fast_phong: None,
         }
+    }
+
+    /// The same with what is to be said of transparent triangles.
+    pub fn blended(self, order: &Order) -> Self {
+        Self { transparent: order.transparent, warning: order.warning(), ..self }
     }
 
     /// The same with what is to be said of fast Phong.
@@ -80,6 +91,12 @@ impl ShadingReport {
         );
         for name in &self.missing_textures {
             let _ = writeln!(t, "texture {name} is not there: white");
+        }
+        if self.transparent > 0 {
+            let _ = writeln!(t, "{} transparent triangles, blended from back to front", self.transparent);
+        }
+        if let Some(warning) = &self.warning {
+            let _ = writeln!(t, "warning: {warning}");
         }
         let _ = writeln!(
             t,

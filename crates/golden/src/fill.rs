@@ -34,6 +34,14 @@ impl Fill {
         }
     }
 
+    /// Fraction bits of a vertex.
+    pub(crate) fn subpixel_bits(self) -> u32 {
+        match self {
+            Self::Exact { subpixel_bits } => subpixel_bits,
+            Self::Textbook => 0,
+        }
+    }
+
     /// Where a polygon's vertices and pixels lie.
     pub(crate) fn grid(self) -> Grid {
         match self {

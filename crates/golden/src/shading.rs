@@ -8,12 +8,10 @@
 //!                                                                        +--> truth: the same, perspective-correct
 //! ```
 //! The truth is the full equation with the normal that interpolates the vertex normals over the surface in the world:
-//! what Phong shading approximates over the screen. It knows no shadows (r_l = 1).
+//! what Phong shading approximates over the screen.
 
-use crate::fill::Fill;
 use crate::fragment::Fragment;
-use crate::incremental::Incremental;
-use crate::picture::{Picture, draw};
+use crate::picture::Picture;
 use crate::weights::Weights;
 use edgewalk_scene::{Frame, Scene, ShadeMode, Surface, SurfaceTriangle, SurfaceVertex};
 use glam::{DVec2, DVec3};
@@ -40,33 +38,6 @@ pub struct Shaded {
     pub truth: Vec<[f64; 3]>,
 }
 
-/// Draws a scene by one of the systems. `surface` is the scene's own on this screen.
-pub fn shade(scene: &Scene, surface: &Surface, shading: Shading, fill: Fill) -> Shaded {
-    let frame = frame(scene, surface, shading);
-    let mut picture = draw(&frame, fill);
-    let mut truth = picture.rgb.clone();
-    let mut phong = (shading == Shading::Phong).then(|| picture.rgb.clone());
-    for ((triangle, on_screen), id) in surface.triangles.iter().zip(&frame.triangles).zip(0..) {
-        let mut attributes = Incremental::new(triangle.vertices.map(packed));
-        fill.fragments(on_screen, frame.mode, (frame.width, frame.height), |fragment| {
-            // Additions go on under what hides the triangle.
-            let stepped = phong.is_some().then(|| attributes.step(fragment));
-            let at = fragment.y as usize * frame.width as usize + fragment.x as usize;
-            if picture.id[at] != id {
-                return;
-            }
-            truth[at] = color(scene, triangle, &on_surface(fragment, triangle));
-            if let (Some(phong), Some(stepped)) = (&mut phong, stepped) {
-                phong[at] = color(scene, triangle, &Attributes::unpacked(stepped));
-            }
-        });
-    }
-    if let Some(phong) = phong {
-        picture.rgb = phong;
-    }
-    Shaded { picture, truth }
-}
-
 /// The triangles with the colours that constant and Gouraud shading give them; for Phong those of Gouraud, of which only
 /// the depths count.
 pub fn frame(scene: &Scene, surface: &Surface, shading: Shading) -> Frame {
@@ -91,26 +62,26 @@ pub fn frame(scene: &Scene, surface: &Surface, shading: Shading) -> Frame {
 
 /// What the equation needs at a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Attributes {
-    normal: DVec3,
-    position: DVec3,
-    texture: DVec2,
+pub(crate) struct Attributes {
+    pub(crate) normal: DVec3,
+    pub(crate) position: DVec3,
+    pub(crate) texture: DVec2,
 }
 
 /// The attributes in a row, as eight adders have them.
-fn packed(vertex: SurfaceVertex) -> [f64; 8] {
+pub(crate) fn packed(vertex: SurfaceVertex) -> [f64; 8] {
     let SurfaceVertex { normal: n, position: p, texture: t, .. } = vertex;
     [n.x, n.y, n.z, p.x, p.y, p.z, t.x, t.y]
 }
 
 impl Attributes {
-    fn unpacked(&[nx, ny, nz, px, py, pz, u, v]: &[f64; 8]) -> Self {
+    pub(crate) fn unpacked(&[nx, ny, nz, px, py, pz, u, v]: &[f64; 8]) -> Self {
         Self { normal: DVec3::new(nx, ny, nz), position: DVec3::new(px, py, pz), texture: DVec2::new(u, v) }
     }
 }
 
 /// The attributes where the ray through the pixel meets the triangle.
-fn on_surface(fragment: &Fragment, triangle: &SurfaceTriangle) -> Attributes {
+pub(crate) fn on_surface(fragment: &Fragment, triangle: &SurfaceTriangle) -> Attributes {
     let weights = Weights::perspective(fragment, triangle);
     Attributes {
         normal: weights.of(triangle.vertices.map(|vertex| vertex.normal)),
@@ -119,13 +90,15 @@ fn on_surface(fragment: &Fragment, triangle: &SurfaceTriangle) -> Attributes {
     }
 }
 
-/// The full equation (A 7.12) at a pixel, the normal brought back to length 1 and turned by the relief, if there is one.
-fn color(scene: &Scene, triangle: &SurfaceTriangle, at: &Attributes) -> [f64; 3] {
+/// The full equation (A 7.12) at a pixel, the normal brought back to length 1 and turned by the relief, if there is one;
+/// `r` holds r_l of each light.
+pub(crate) fn color(scene: &Scene, triangle: &SurfaceTriangle, at: &Attributes, r: &[f64]) -> [f64; 3] {
     let material = scene.mesh.material_at(triangle.face, at.texture);
     let smooth = at.normal.normalize_or_zero();
     let normal = scene.mesh.bumped_normal(triangle.face, at.texture, smooth);
     let point = scene.point(at.position, normal);
-    scene.lighting().shade(&material, &point).clamp(DVec3::ZERO, DVec3::ONE).to_array()
+    let sum = scene.lighting().terms(&material, &point).total(|l| r[l]);
+    sum.clamp(DVec3::ZERO, DVec3::ONE).to_array()
 }
 
 /// How far a picture is from the truth, in LSB of 8 bits; at each pixel that of its worst colour.

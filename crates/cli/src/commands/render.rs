@@ -9,10 +9,11 @@ use crate::machine_args::MachineArgs;
 use crate::progress::spinner;
 use crate::report::Report;
 use crate::shading_report::ShadingReport;
+use crate::shadows::Shadows;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use edgewalk_numerics::Machine;
 use edgewalk_scene::Frame;
 use std::path::PathBuf;
@@ -29,7 +30,8 @@ use std::path::PathBuf;
   edgewalk render sphere --shading constant --set interpolator.adders=1 --json
   edgewalk render sphere --engine golden --shading phong
   edgewalk render teapot.obj --engine golden --shading constant-averaged
-  edgewalk render sphere --engine golden --shading fast-phong --fit six-point --table 4096")]
+  edgewalk render sphere --engine golden --shading fast-phong --fit six-point --table 4096
+  edgewalk render terrain --engine golden --shading phong --shadows map")]
 pub struct Args {
     #[command(flatten)]
     source: Source,
@@ -38,6 +40,9 @@ pub struct Args {
     engine: Engine,
     #[command(flatten)]
     fast_phong: FastPhongArgs,
+    /// What lies in shadow; needs --engine golden
+    #[arg(long, value_enum, default_value_t = Shadows::Off)]
+    shadows: Shadows,
     /// Output directory
     #[arg(long, value_name = "DIR", default_value = "out/render")]
     out: PathBuf,
@@ -51,6 +56,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     if args.engine == Engine::Golden && !args.source.is_triangle_file() {
         return shaded(args, &machine, talk);
+    }
+    if args.shadows != Shadows::Off {
+        return Err(anyhow!("--shadows: only scenes and meshes have them, with --engine golden"));
     }
     let frame = args.source.frame(&machine)?;
     let out = Staging::new(&args.out)?;
@@ -66,17 +74,20 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 fn shaded(args: &Args, machine: &Machine, talk: Talk) -> Result<Verdict> {
     let spinner = spinner("shading", talk.quiet);
     let (scene, surface) = args.source.surface(machine)?;
+    if args.shadows != Shadows::Off && args.source.shading == Shading::FastPhong {
+        return Err(anyhow!("--shadows: fast Phong shading has none; use --shading phong"));
+    }
     let fast = match args.source.shading {
         Shading::FastPhong => Some(args.fast_phong.draw(&scene, &surface, machine)?),
         _ => None,
     };
-    let plain;
-    let drawn = match &fast {
-        Some(fast) => &fast.shaded,
+    let rendered;
+    let (drawn, order) = match &fast {
+        Some(fast) => (&fast.shaded, None),
         None => {
-            plain =
-                edgewalk_golden::shade(&scene, &surface, args.source.shading.golden(), golden_fill(machine));
-            &plain
+            let (system, visibility) = (args.source.shading.golden(), args.shadows.golden(&scene));
+            rendered = edgewalk_golden::render(&scene, &surface, system, golden_fill(machine), &visibility);
+            (&rendered.shaded, Some(&rendered.order))
         }
     };
     let error = drawn.error();
@@ -87,6 +98,9 @@ fn shaded(args: &Args, machine: &Machine, talk: Talk) -> Result<Verdict> {
     picture::write_rgb(&out, "truth.png", w, h, &drawn.truth)?;
     picture::write_shading_error(&out, "shading_error.png", (w, h), &error)?;
     let mut report = ShadingReport::new(&args.source, &scene, &surface, &error);
+    if let Some(order) = order {
+        report = report.blended(order);
+    }
     if let Some(fast) = &fast {
         let from_phong = fast.error_to_phong();
         picture::write_rgb(&out, "phong.png", w, h, &fast.phong)?;

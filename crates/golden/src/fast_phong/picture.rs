@@ -5,7 +5,8 @@ use crate::fast_phong::table::PowerTable;
 use crate::fast_phong::triangle::{Directional, FastPhong, Fit};
 use crate::fill::Fill;
 use crate::incremental::Incremental;
-use crate::shading::{Shaded, Shading, ShadingError, shade as shade_by};
+use crate::render::shade as shade_by;
+use crate::shading::{Shaded, Shading, ShadingError};
 use edgewalk_scene::{Scene, ShadeMode, Surface};
 use glam::{DVec2, DVec3};
 
