@@ -2,6 +2,7 @@
 
 mod material;
 mod face_data;
+mod face;
 mod bump;
 mod surface;
 mod knot;
@@ -23,6 +24,7 @@ use std::path::Path;
 pub use face_data::FaceData;
 pub use material::Material;
 
+pub(crate) use face::triangles;
 pub(crate) use join::Part;
 pub(crate) use knot::torus_knot;
 pub(crate) use room::room;

@@ -1,7 +1,9 @@
 //! Polygons on the screen, and where they stand among the triangles of a frame.
 
+mod cut;
 mod triangles;
 
+pub(crate) use cut::cut;
 pub use triangles::{CrossingEdges, Triangulated};
 
 use crate::frame::{Frame, Triangle, Vertex};

@@ -1,11 +1,11 @@
 //! Wavefront OBJ.
 //!
-//! Taken: positions, polygons (cut into fans from their first corner), texture coordinates, normals, smoothing groups and
+//! Taken: positions, polygons (cut into triangles), texture coordinates, normals, smoothing groups and
 //! materials. Objects and groups become one mesh. Of a material library that is not there, every material is the default.
 //! Read by hand, as every fault must name its line and value.
 
 use super::mtl::{self, Library};
-use super::{Face, FaceData, MAX_POSITION, Material, Mesh};
+use super::{Face, FaceData, MAX_POSITION, Material, Mesh, triangles};
 use crate::error::InputError;
 use crate::text::{Place, each_line, rest, words};
 use glam::{DVec2, DVec3};
@@ -100,8 +100,9 @@ impl Obj {
             let found = format!("{} corners", corners.len());
             return Err(place.fault("f", found.as_bytes(), "permitted: at least 3 corners").into());
         }
-        for pair in corners[1..].windows(2) {
-            let corners = [&corners[0], &pair[0], &pair[1]];
+        let positions: Vec<_> = corners.iter().map(|c| self.positions[c.position as usize]).collect();
+        for part in triangles(&positions) {
+            let corners = part.map(|k| &corners[k]);
             self.faces.push(Face { corners: corners.map(|corner| corner.position), material: self.material });
             let texture = corners.map(|corner| corner.texture.map(|place| self.texture[place as usize]));
             let normals = corners.map(|corner| corner.normal.map(|place| self.normals[place as usize]));

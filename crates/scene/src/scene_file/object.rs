@@ -71,7 +71,7 @@ fn placed(table: &Table) -> Result<DAffine3, InputError> {
     Ok(DAffine3::from_scale_rotation_translation(scale, turn, translate))
 }
 
-/// Faces of three or more corners, cut into fans from their first.
+/// Faces of three or more corners, cut into triangles.
 fn listed(table: &Table) -> Result<Mesh, InputError> {
     let positions = table.vectors("positions", MAX_POSITION)?;
     let positions = table.required("positions", positions, "permitted: a list of [x, y, z]")?;
@@ -82,8 +82,9 @@ fn listed(table: &Table) -> Result<Mesh, InputError> {
             let permitted = "permitted: at least 3 places a face";
             return Err(table.fault("faces", format!("{} places", corners.len()), permitted));
         }
-        for pair in corners[1..].windows(2) {
-            let corners = [corners[0], pair[0], pair[1]];
+        let places: Vec<_> = corners.iter().map(|corner| positions[*corner as usize]).collect();
+        for part in mesh::triangles(&places) {
+            let corners = part.map(|k| corners[k]);
             faces.push(Face { corners, material: 0 });
             let texture = uv.as_ref().map(|uv| corners.map(|corner| uv[corner as usize]));
             face_data.push(FaceData { texture, ..FaceData::default() });
