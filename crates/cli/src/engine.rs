@@ -66,7 +66,7 @@ impl Cycles {
 /// Draws the frame.
 pub fn draw(engine: Engine, frame: &Frame, machine: &Machine, quiet: bool) -> Result<Raster> {
     match engine {
-        Engine::Golden => Ok(draw_golden(frame, machine)),
+        Engine::Golden => Ok(from_golden(edgewalk_golden::draw(frame, golden_fill(machine)))),
         Engine::Fast => {
             let port = to_port(frame, machine)?;
             let triangles = || Ok(port.triangles.iter().copied().map(Ok));
@@ -116,11 +116,11 @@ pub fn golden_fill(machine: &Machine) -> edgewalk_golden::Fill {
     }
 }
 
-fn draw_golden(frame: &Frame, machine: &Machine) -> Raster {
-    let picture = edgewalk_golden::draw(frame, golden_fill(machine));
+/// A golden picture.
+pub fn from_golden(picture: edgewalk_golden::Picture) -> Raster {
     Raster {
-        width: frame.width,
-        height: frame.height,
+        width: picture.width,
+        height: picture.height,
         coverage: picture.coverage,
         writes: picture.writes,
         id: picture.id,

@@ -71,7 +71,7 @@ pub struct Source {
     /// A built-in scene, a mesh (.obj, .gltf, .glb) or a triangle file (.tri)
     #[arg(value_name = "SCENE|MESH", default_value = "torus-knot")]
     pub input: String,
-    /// How the colour of a pixel is come by; phong and fast-phong need --engine golden
+    /// How the colour of a pixel is come by; phong, fast-phong and wireframe need --engine golden
     #[arg(long, value_enum, default_value_t = Shading::Gouraud)]
     pub shading: Shading,
 }
@@ -89,6 +89,8 @@ pub enum Shading {
     Phong,
     /// Phong by a quadratic for each cosine: five additions and a table read a pixel
     FastPhong,
+    /// Edges alone, in the colours of the vertices
+    Wireframe,
 }
 
 impl Shading {
@@ -97,7 +99,8 @@ impl Shading {
         match self {
             Self::Constant => edgewalk_golden::Shading::Constant,
             Self::ConstantAveraged => edgewalk_golden::Shading::ConstantAveraged,
-            Self::Gouraud => edgewalk_golden::Shading::Gouraud,
+            // Lines run between the colours of the vertices.
+            Self::Gouraud | Self::Wireframe => edgewalk_golden::Shading::Gouraud,
             Self::Phong | Self::FastPhong => edgewalk_golden::Shading::Phong,
         }
     }
@@ -133,33 +136,39 @@ impl Source {
     /// The frame as the machine draws it. A triangle file keeps its own size and mode; its polygons become triangles, so
     /// that machine and golden picture interpolate the same.
     pub fn frame(&self, machine: &Machine) -> Result<Frame> {
-        if self.is_triangle_file() {
-            let frame = triangle_file::read(Path::new(&self.input))?;
-            if (frame.width, frame.height) != (machine.width, machine.height) {
-                return Err(anyhow!(
-                    "{}: size {} {}: the machine's screen is {}x{}; add --set screen.width={} --set screen.height={}",
-                    self.input,
-                    frame.width,
-                    frame.height,
-                    machine.width,
-                    machine.height,
-                    frame.width,
-                    frame.height
-                ));
-            }
-            let triangles = frame.triangulated(machine.subpixel_bits)?.triangles.into_owned();
-            return Ok(Frame { triangles, polygons: Vec::new(), ..frame });
-        }
-        if let Some(name) = match self.shading {
-            Shading::Phong => Some("phong"),
-            Shading::FastPhong => Some("fast-phong"),
+        let refused = match self.shading {
+            Shading::Phong => Some("phong: the machine has no unit for normals yet"),
+            Shading::FastPhong => Some("fast-phong: the machine has no unit for normals yet"),
+            Shading::Wireframe => Some("wireframe: the machine draws no lines"),
             Shading::Constant | Shading::ConstantAveraged | Shading::Gouraud => None,
-        } {
+        };
+        if let Some(why) = refused.filter(|_| !self.is_triangle_file()) {
+            return Err(anyhow!("--shading {why}; render with --engine golden"));
+        }
+        let frame = self.outlined(machine)?;
+        let triangles = frame.triangulated(machine.subpixel_bits)?.triangles.into_owned();
+        Ok(Frame { triangles, polygons: Vec::new(), ..frame })
+    }
+
+    /// The frame with the polygons it has.
+    pub fn outlined(&self, machine: &Machine) -> Result<Frame> {
+        if !self.is_triangle_file() {
+            let (scene, surface) = self.surface(machine)?;
+            return Ok(edgewalk_golden::frame(&scene, &surface, self.shading.golden()));
+        }
+        let frame = triangle_file::read(Path::new(&self.input))?;
+        if (frame.width, frame.height) != (machine.width, machine.height) {
             return Err(anyhow!(
-                "--shading {name}: the machine has no unit for normals yet; render with --engine golden"
+                "{}: size {} {}: the machine's screen is {}x{}; add --set screen.width={} --set screen.height={}",
+                self.input,
+                frame.width,
+                frame.height,
+                machine.width,
+                machine.height,
+                frame.width,
+                frame.height
             ));
         }
-        let (scene, surface) = self.surface(machine)?;
-        Ok(edgewalk_golden::frame(&scene, &surface, self.shading.golden()))
+        Ok(frame)
     }
 }

@@ -44,6 +44,28 @@ fn each_system_is_drawn_beside_the_truth() {
 }
 
 #[test]
+fn a_wireframe_shows_fewer_lines_without_the_hidden_ones() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let writes = |name: &str, more: &[&str]| {
+        let arguments = [&["torus", "--engine", "golden", "--shading", "wireframe"], more].concat();
+        let report = report(&folder.path().join(name), &arguments);
+        assert!(folder.path().join(name).join("image.png").is_file());
+        (report["triangles"].as_u64(), report["fragments"].as_u64(), report["writes"].as_u64())
+    };
+    let (all, seen) = (writes("all", &["--hidden-lines"]), writes("seen", &[]));
+    assert_eq!((all.0, all.1), (seen.0, seen.1), "the same lines");
+    assert!(seen.2 > Some(10_000) && seen.2 < all.2, "{all:?} {seen:?}");
+    for refused in [
+        &["torus", "--shading", "wireframe"][..],
+        &["torus", "--engine", "golden", "--shading", "phong", "--hidden-lines"],
+    ] {
+        let output = render(&folder.path().join("refused"), refused);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(String::from_utf8_lossy(&output.stderr).contains("--engine golden"), "{refused:?}");
+    }
+}
+
+#[test]
 fn the_machine_draws_constant_and_refuses_phong() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("out");

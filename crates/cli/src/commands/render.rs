@@ -2,7 +2,7 @@
 //! the golden picture, beside the truth.
 
 use crate::compare::compare;
-use crate::engine::{Engine, draw, golden_fill};
+use crate::engine::{Engine, draw, from_golden, golden_fill};
 use crate::fast_phong::{FastPhongArgs, FastPhongReport};
 use crate::input::{Shading, Source};
 use crate::machine_args::MachineArgs;
@@ -14,6 +14,7 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Result, anyhow};
+use edgewalk_golden::{HiddenLines, wireframe};
 use edgewalk_numerics::Machine;
 use edgewalk_scene::Frame;
 use std::path::PathBuf;
@@ -22,7 +23,7 @@ use std::path::PathBuf;
 ///
 /// With --engine golden it is drawn by a shading system in f64 and compared with the shading equation at each pixel:
 /// image.png, truth.png and shading_error.png, a heat map whose yellow is the largest error. For fast-phong also beside
-/// Phong shading: phong.png and phong_error.png.
+/// Phong shading: phong.png and phong_error.png. A wireframe is image.png alone.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk render torus-knot
@@ -31,7 +32,8 @@ use std::path::PathBuf;
   edgewalk render sphere --engine golden --shading phong
   edgewalk render teapot.obj --engine golden --shading constant-averaged
   edgewalk render sphere --engine golden --shading fast-phong --fit six-point --table 4096
-  edgewalk render terrain --engine golden --shading phong --shadows map")]
+  edgewalk render terrain --engine golden --shading phong --shadows map
+  edgewalk render torus --engine golden --shading wireframe --hidden-lines")]
 pub struct Args {
     #[command(flatten)]
     source: Source,
@@ -43,6 +45,9 @@ pub struct Args {
     /// What lies in shadow; needs --engine golden
     #[arg(long, value_enum, default_value_t = Shadows::Off)]
     shadows: Shadows,
+    /// With --shading wireframe: also draws the lines that surfaces hide
+    #[arg(long)]
+    hidden_lines: bool,
     /// Output directory
     #[arg(long, value_name = "DIR", default_value = "out/render")]
     out: PathBuf,
@@ -53,6 +58,13 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = machine.machine(None)?;
     if args.source.shading != Shading::FastPhong {
         args.fast_phong.unused()?;
+    }
+    let lines_only = args.engine == Engine::Golden && args.source.shading == Shading::Wireframe;
+    if args.hidden_lines && !lines_only {
+        return Err(anyhow!("--hidden-lines: permitted with --engine golden --shading wireframe"));
+    }
+    if lines_only {
+        return lines(args, &machine, talk);
     }
     if args.engine == Engine::Golden && !args.source.is_triangle_file() {
         return shaded(args, &machine, talk);
@@ -68,6 +80,22 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     out.publish()?;
     report.print(talk)?;
     Ok(verdict)
+}
+
+/// Draws the edges.
+fn lines(args: &Args, machine: &Machine, talk: Talk) -> Result<Verdict> {
+    let frame = args.source.outlined(machine)?;
+    let hidden = if args.hidden_lines { HiddenLines::Drawn } else { HiddenLines::Removed };
+    let drawn = from_golden(wireframe(&frame, golden_fill(machine), hidden));
+    let out = Staging::new(&args.out)?;
+    picture::write_rgb(&out, "image.png", drawn.width, drawn.height, &drawn.rgb)?;
+    let report = Report::new(&args.source.input, frame.triangles.len() as u64, machine, &drawn)
+        .with_polygons(frame.polygons.len() as u64);
+    out.write("report.json", report.json()?)?;
+    out.write("report.txt", report.text())?;
+    out.publish()?;
+    report.print(talk)?;
+    Ok(Verdict::Pass)
 }
 
 /// Draws by a shading system and writes it beside the truth.
