@@ -63,14 +63,14 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     if args.hidden_lines && !lines_only {
         return Err(anyhow!("--hidden-lines: permitted with --engine golden --shading wireframe"));
     }
-    if lines_only {
-        return lines(args, &machine, talk);
-    }
-    if args.engine == Engine::Golden && !args.source.is_triangle_file() {
+    if args.engine == Engine::Golden && !lines_only && !args.source.is_triangle_file() {
         return shaded(args, &machine, talk);
     }
     if args.shadows != Shadows::Off {
-        return Err(anyhow!("--shadows: only scenes and meshes have them, with --engine golden"));
+        return Err(anyhow!("--shadows: only shaded scenes and meshes have them, with --engine golden"));
+    }
+    if lines_only {
+        return lines(args, &machine, talk);
     }
     let frame = args.source.frame(&machine)?;
     let out = Staging::new(&args.out)?;
