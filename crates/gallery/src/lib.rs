@@ -7,6 +7,8 @@ mod exhibit;
 mod plot;
 mod profile;
 
+mod worked_example;
+mod polygons;
 mod lights;
 mod systems;
 mod fast_phong;
@@ -27,7 +29,9 @@ pub use exhibit::{Exhibit, Image, View};
 pub type Maker = fn() -> Result<Exhibit, InputError>;
 
 /// All of them, in the order in which they are shown, by the names of their files.
-pub const EXHIBITS: [(&str, Maker); 11] = [
+pub const EXHIBITS: [(&str, Maker); 13] = [
+    ("worked-example", || Ok(worked_example::worked_example())),
+    ("polygons", polygons::polygons),
     ("lights", lights::lights),
     ("systems", systems::systems),
     ("fast-phong", fast_phong::fast_phong),

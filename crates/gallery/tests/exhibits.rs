@@ -104,6 +104,34 @@ fn a_finer_grid_leaves_fewer_gaps_at_a_t_joint() {
 }
 
 #[test]
+fn the_worked_example_by_its_numbers() {
+    let worked = exhibit("worked-example");
+    let expected = [
+        ("step a line from 10 to 20", -0.07),
+        ("step a line from 10 to 30", -0.03),
+        ("step a line from 20 to 30", 0.01),
+        ("line 15, left", 0.55),
+        ("line 15, right", 0.75),
+        ("step a pixel, in ten", 0.02),
+        ("step a pixel, as drawn", 0.021053),
+    ];
+    for (quantity, value) in expected {
+        assert_eq!(figure(&worked, quantity), value, "{quantity}");
+    }
+}
+
+/// The border is at most as long as two pixels a line and side.
+#[test]
+fn polygons_have_their_areas() {
+    let polygons = exhibit("polygons");
+    let value = |place: usize| polygons.figures[place].1.parse::<f64>().unwrap();
+    for (pixels, area) in [(1, 2), (3, 4)] {
+        assert!((value(pixels) - value(area)).abs() < 0.005 * value(area), "{:?}", polygons.figures);
+    }
+    assert_eq!(value(0), 6.0);
+}
+
+#[test]
 fn light_adds() {
     let lights = exhibit("lights");
     assert!(figure(&lights, "pixels where") > 1000.0 && figure(&lights, "largest difference") < 1e-9);
