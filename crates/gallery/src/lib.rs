@@ -13,6 +13,8 @@ mod lights;
 mod systems;
 mod fast_phong;
 mod texture;
+mod shadows;
+mod glass;
 mod mach_bands;
 mod missed_highlight;
 mod orientation;
@@ -29,13 +31,15 @@ pub use exhibit::{Exhibit, Image, View};
 pub type Maker = fn() -> Result<Exhibit, InputError>;
 
 /// All of them, in the order in which they are shown, by the names of their files.
-pub const EXHIBITS: [(&str, Maker); 13] = [
+pub const EXHIBITS: [(&str, Maker); 15] = [
     ("worked-example", || Ok(worked_example::worked_example())),
     ("polygons", polygons::polygons),
     ("lights", lights::lights),
     ("systems", systems::systems),
     ("fast-phong", fast_phong::fast_phong),
     ("texture", texture::texture),
+    ("shadows", shadows::shadows),
+    ("glass", glass::glass),
     ("mach-bands", mach_bands::mach_bands),
     ("missed-highlight", missed_highlight::missed_highlight),
     ("orientation", || Ok(orientation::orientation())),

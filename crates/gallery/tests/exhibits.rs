@@ -132,6 +132,18 @@ fn polygons_have_their_areas() {
 }
 
 #[test]
+fn shadows_of_glass_are_products_and_finer_maps_are_nearer_to_rays() {
+    let glass = exhibit("glass");
+    let lit = ["r_l beside", "under the red", "under the blue", "under both"].map(|of| figure(&glass, of));
+    assert_eq!(lit, [1.0, 0.6, 0.5, 0.3]);
+    assert!(figure(&glass, "panes bent") >= 1.0);
+    let shadows = exhibit("shadows");
+    let [coarse, fine] = ["128", "1024"]
+        .map(|size| figure(&shadows, &format!("of them other than by rays, maps of {size} x {size}")));
+    assert!(fine < coarse / 2.0 && fine < 0.02 * figure(&shadows, "pixels that show"), "{coarse} {fine}");
+}
+
+#[test]
 fn light_adds() {
     let lights = exhibit("lights");
     assert!(figure(&lights, "pixels where") > 1000.0 && figure(&lights, "largest difference") < 1e-9);
