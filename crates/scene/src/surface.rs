@@ -33,7 +33,7 @@ pub struct SurfaceTriangle {
     pub own_normal: DVec3,
 }
 
-/// A scene on a screen; triangle k of it is triangle k of [`Surface::triangles`] in the frame.
+/// A scene on a screen; triangle k is triangle k of the scene's frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
     /// Pixels a line.
