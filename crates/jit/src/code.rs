@@ -2,7 +2,7 @@
 
 use std::sync::Mutex;
 
-use cranelift_codegen::ir::{AbiParam, Endianness, types};
+use cranelift_codegen::ir::{AbiParam, Endianness};
 use cranelift_codegen::isa::OwnedTargetIsa;
 use cranelift_codegen::settings::{self, Configurable};
 use cranelift_jit::{JITBuilder, JITModule};
@@ -14,12 +14,12 @@ use crate::layout::Layout;
 use crate::lower::{Program, lower};
 use crate::schedule::Step;
 
-/// The state's address, and how many clocks to run; the other programs ignore that.
-type Entry = unsafe extern "C" fn(*mut u64, u64);
+/// A program; it takes the state's address.
+type Entry = unsafe extern "C" fn(*mut u64);
 
 /// The programs for one layout.
 pub(crate) struct Code {
-    run: Entry,
+    clock: Entry,
     outputs: Entry,
     signals: Entry,
     /// 64-bit words that the programs may access from the address on.
@@ -35,19 +35,19 @@ impl Code {
     /// If there is no code generator for this machine.
     pub fn new(design: &Design, steps: &[Step], layout: &Layout) -> Result<Code, JitError> {
         let mut module = JITModule::new(JITBuilder::with_isa(isa()?, default_libcall_names()));
-        let programs = [Program::Run, Program::Outputs, Program::Signals];
-        let [run, outputs, signals] = entries(&mut module, programs, design, steps, layout)?;
-        Ok(Code { run, outputs, signals, size: layout.size, module: Some(Mutex::new(module)) })
+        let programs = [Program::Clock, Program::Outputs, Program::Signals];
+        let [clock, outputs, signals] = entries(&mut module, programs, design, steps, layout)?;
+        Ok(Code { clock, outputs, signals, size: layout.size, module: Some(Mutex::new(module)) })
     }
 
-    /// Runs a program. `clocks` is at least 1.
+    /// Runs a program.
     ///
     /// # Panics
-    /// If the state is smaller than the layout, or there are no clocks: both defects of this crate.
-    pub fn run(&self, program: Program, state: &mut [u64], clocks: u64) {
-        assert!(state.len() >= self.size && clocks > 0, "the state is made from the same layout");
+    /// If the state is smaller than the layout: a defect of this crate.
+    pub fn run(&self, program: Program, state: &mut [u64]) {
+        assert!(state.len() >= self.size, "the state is made from the same layout");
         let entry = match program {
-            Program::Run => self.run,
+            Program::Clock => self.clock,
             Program::Outputs => self.outputs,
             Program::Signals => self.signals,
         };
@@ -57,7 +57,7 @@ impl Code {
         // to be more (`index`, `read` and `write` in `lower/program.rs`). The slice is ours alone while the call lasts,
         // aligned to 8 bytes as the accesses say, and any bits are a valid u64. The code calls nothing and cannot
         // unwind.
-        unsafe { entry(state.as_mut_ptr(), clocks) }
+        unsafe { entry(state.as_mut_ptr()) }
     }
 }
 
@@ -105,7 +105,7 @@ fn entries<const N: usize>(
     let mut functions = Vec::new();
     for program in programs {
         context.func.signature = module.make_signature();
-        context.func.signature.params.extend([AbiParam::new(pointer), AbiParam::new(types::I64)]);
+        context.func.signature.params.push(AbiParam::new(pointer));
         lower(program, design, steps, layout, pointer, &mut context.func);
         let function = module.declare_anonymous_function(&context.func.signature).map_err(refused)?;
         module.define_function(function, &mut context).map_err(refused)?;
@@ -115,7 +115,7 @@ fn entries<const N: usize>(
     module.finalize_definitions().map_err(refused)?;
     Ok(std::array::from_fn(|i| {
         let address = module.get_finalized_function(functions[i]);
-        // SAFETY: the address is that of a finalized function with the signature given above, (pointer, I64) -> () in
+        // SAFETY: the address is that of a finalized function with the signature given above, (pointer) -> () in
         // the platform's C convention, which is what `Entry` says. It is executable as long as `module` lives: `Code`
         // keeps both together, and calls an entry only through `&self`.
         unsafe { std::mem::transmute::<*const u8, Entry>(address) }

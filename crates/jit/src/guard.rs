@@ -1,9 +1,14 @@
-//! Conditions as conjunctions: `advance & active & !full` is three literals, so that groups which share some of them can
-//! share a branch.
+//! What a condition needs: `advance & active & !full` is 1 only if three other bits have certain values, so that steps
+//! which need the same can share a branch.
+
+use std::collections::{BTreeSet, HashMap};
 
 use edgewalk_netlist::Op;
 
 use crate::graph::{Graph, ValueId};
+
+/// How far into `And` and `Or` a need is followed.
+const DEPTH: u32 = 12;
 
 /// A bit that must have this value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -13,67 +18,58 @@ pub(crate) struct Literal {
 }
 
 impl Literal {
+    /// A bit that must be 1; for one that is computed as the opposite of another, that other one must be 0.
+    pub fn of(graph: &Graph, bit: ValueId) -> Literal {
+        match graph.as_op(bit, Op::Not) {
+            Some(&[not]) => Literal { bit: not, high: false },
+            _ => Literal { bit, high: true },
+        }
+    }
+
     /// The literal as a bit that must be 1.
     pub fn value(self, graph: &mut Graph) -> ValueId {
         if self.high { self.bit } else { graph.op(Op::Not, 1, &[self.bit]) }
     }
+
+    /// The two literals that must both hold, or one of which must hold, for this one to hold.
+    fn parts(self, graph: &Graph) -> Option<(Op, [Literal; 2])> {
+        let both = if self.high { Op::And } else { Op::Or };
+        let part = |bit: ValueId| {
+            let literal = Literal::of(graph, bit);
+            Literal { high: literal.high == self.high, ..literal }
+        };
+        [Op::And, Op::Or].into_iter().find_map(|op| match graph.as_op(self.bit, op) {
+            Some(&[a, b]) => Some((if op == both { Op::And } else { Op::Or }, [part(a), part(b)])),
+            _ => None,
+        })
+    }
 }
 
-/// Literals that must all hold, in order, each once.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Guard(Vec<Literal>);
+/// What conditions need, as far as it has been asked.
+#[derive(Debug, Default)]
+pub(crate) struct Needs(HashMap<Literal, BTreeSet<Literal>>);
 
-impl Guard {
-    /// What must hold for `condition` to be 1.
-    pub fn of(graph: &Graph, condition: ValueId) -> Guard {
-        let mut all = Vec::new();
-        let mut open = vec![Literal { bit: condition, high: true }];
-        while let Some(Literal { bit, high }) = open.pop() {
-            let op = if high { Op::And } else { Op::Or };
-            if let Some(&[not]) = graph.as_op(bit, Op::Not) {
-                open.push(Literal { bit: not, high: !high });
-            } else if let Some(operands) = graph.as_op(bit, op) {
-                open.extend(operands.iter().map(|bit| Literal { bit: *bit, high }));
-            } else if graph.as_constant(bit) != Some(u128::from(high)) {
-                all.push(Literal { bit, high });
+impl Needs {
+    /// All literals that hold whenever this one does, itself too.
+    pub fn of(&mut self, graph: &Graph, literal: Literal) -> BTreeSet<Literal> {
+        self.to_depth(graph, literal, DEPTH)
+    }
+
+    fn to_depth(&mut self, graph: &Graph, literal: Literal, depth: u32) -> BTreeSet<Literal> {
+        if let Some(known) = self.0.get(&literal) {
+            return known.clone();
+        }
+        let mut needs = BTreeSet::from([literal]);
+        if depth > 0
+            && let Some((op, parts)) = literal.parts(graph)
+        {
+            let [a, b] = parts.map(|part| self.to_depth(graph, part, depth - 1));
+            match op {
+                Op::And => needs.extend(a.union(&b)),
+                _ => needs.extend(a.intersection(&b)),
             }
         }
-        all.sort_unstable();
-        all.dedup();
-        Guard(all)
-    }
-
-    /// The literals of both.
-    pub fn common(&self, other: &Guard) -> Guard {
-        self.filtered(|literal| other.has(literal))
-    }
-
-    /// The literals that are not among these.
-    pub fn without(&self, known: &[Literal]) -> Guard {
-        self.filtered(|literal| !known.contains(literal))
-    }
-
-    /// Whether this literal must hold.
-    pub fn has(&self, literal: &Literal) -> bool {
-        self.0.binary_search(literal).is_ok()
-    }
-
-    /// The literals in order.
-    pub fn literals(&self) -> &[Literal] {
-        &self.0
-    }
-
-    /// The literals as one bit.
-    pub fn value(&self, graph: &mut Graph) -> ValueId {
-        let mut all = graph.constant(1, 1);
-        for literal in &self.0 {
-            let bit = literal.value(graph);
-            all = graph.op(Op::And, 1, &[all, bit]);
-        }
-        all
-    }
-
-    fn filtered(&self, keep: impl Fn(&Literal) -> bool) -> Guard {
-        Guard(self.0.iter().copied().filter(keep).collect())
+        self.0.insert(literal, needs.clone());
+        needs
     }
 }

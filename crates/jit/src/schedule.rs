@@ -1,12 +1,14 @@
-//! A clock as nested branches: groups whose conditions all need the same literal stand in one block, which is skipped
-//! when the literal does not hold.
+//! A clock as nested branches: groups that change only if the same bit is 1 stand in one block, which is skipped if it
+//! is 0.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+
+use edgewalk_netlist::Op;
 
 use crate::design::Design;
 use crate::graph::{Graph, ValueId};
 use crate::groups::{Group, groups};
-use crate::guard::{Guard, Literal};
+use crate::guard::{Literal, Needs};
 use crate::order::Readers;
 
 /// A step of a clock.
@@ -18,61 +20,120 @@ pub(crate) enum Step {
     If { bit: ValueId, then: Vec<Step> },
 }
 
+impl Step {
+    /// The bits that the step asks first.
+    pub fn conditions(&self) -> &[ValueId] {
+        match self {
+            Step::Change(group) => &group.conditions,
+            Step::If { bit, .. } => std::slice::from_ref(bit),
+        }
+    }
+}
+
 /// What a clock does to registers and read ports. It adds values to the graph: conditions without what a branch around
 /// them has asked already.
 pub(crate) fn schedule(design: &mut Design) -> Vec<Step> {
     let groups = groups(design);
-    let needed = |group: Group| {
-        let guards = group.conditions.iter().map(|condition| Guard::of(&design.graph, *condition));
-        let guard = guards.reduce(|all, guard| all.common(&guard)).unwrap_or_default();
-        Open { group, guard }
-    };
-    let open = groups.into_iter().map(needed).collect();
-    let steps = nested(&mut design.graph, open, &mut Vec::new());
+    let mut nesting = Nesting { graph: &mut design.graph, needs: Needs::default(), asked: Vec::new() };
+    let open = groups.into_iter().map(|group| nesting.open(group)).collect();
+    let steps = nesting.by_choice(open);
     Readers::of(design).ordered(steps)
 }
 
-/// A group, and what must hold for it to change that no branch around it has asked yet.
+/// A group, and what each of its conditions needs.
 struct Open {
     group: Group,
-    guard: Guard,
+    needs: Vec<BTreeSet<Literal>>,
 }
 
-/// The steps of a block that is reached only if the literals of `asked` hold.
-fn nested(graph: &mut Graph, mut open: Vec<Open>, asked: &mut Vec<Literal>) -> Vec<Step> {
-    let mut steps = Vec::new();
-    while let Some(literal) = most_shared(&open) {
-        let (inside, outside): (Vec<Open>, Vec<Open>) = open.into_iter().partition(|o| o.guard.has(&literal));
-        asked.push(literal);
-        let inside = inside.into_iter().map(|o| Open { guard: o.guard.without(asked), ..o }).collect();
-        let then = nested(graph, inside, asked);
-        asked.pop();
-        steps.push(Step::If { bit: literal.value(graph), then });
-        open = outside;
+impl Open {
+    /// The group changes only if one of these holds.
+    fn is_within(&self, choice: &BTreeSet<Literal>) -> bool {
+        self.needs.iter().all(|needs| !needs.is_disjoint(choice))
     }
-    steps.extend(open.into_iter().map(|o| Step::Change(simplified(graph, o.group, asked))));
-    steps
 }
 
-/// The literal that most groups need, if more than one does.
-fn most_shared(open: &[Open]) -> Option<Literal> {
-    let mut groups: BTreeMap<Literal, usize> = BTreeMap::new();
-    for literal in open.iter().flat_map(|o| o.guard.literals()) {
-        *groups.entry(*literal).or_default() += 1;
+/// Blocks in blocks.
+struct Nesting<'d> {
+    graph: &'d mut Graph,
+    needs: Needs,
+    /// What holds where the block is reached.
+    asked: Vec<Literal>,
+}
+
+impl Nesting<'_> {
+    fn open(&mut self, group: Group) -> Open {
+        let literals = group.conditions.iter().map(|condition| Literal::of(self.graph, *condition));
+        let needs = literals.map(|literal| self.needs.of(self.graph, literal)).collect();
+        Open { group, needs }
     }
-    // Of equals the first: what is computed from less.
-    let most = groups.into_iter().rev().max_by_key(|(_, count)| *count);
-    most.filter(|(_, count)| *count > 1).map(|(literal, _)| literal)
-}
 
-/// The group with conditions that do not ask again what is known to hold.
-fn simplified(graph: &mut Graph, mut group: Group, asked: &[Literal]) -> Group {
-    for condition in &mut group.conditions {
-        let guard = Guard::of(graph, *condition);
-        let rest = guard.without(asked);
-        if rest != guard {
-            *condition = rest.value(graph);
+    /// Groups under a choice, such as `load | step`, share a block; those left over may share a literal.
+    fn by_choice(&mut self, mut open: Vec<Open>) -> Vec<Step> {
+        let mut steps = Vec::new();
+        while let Some(choice) = widest_choice(self.graph, &open) {
+            let (inside, outside) = open.into_iter().partition(|o| o.is_within(&choice));
+            open = outside;
+            let then = self.by_literal(inside);
+            let bits: Vec<ValueId> = choice.iter().map(|literal| literal.value(self.graph)).collect();
+            let none = self.graph.constant(1, 0);
+            let bit = bits.iter().fold(none, |any, bit| self.graph.op(Op::Or, 1, &[any, *bit]));
+            steps.push(Step::If { bit, then });
         }
+        steps.extend(self.by_literal(open));
+        steps
     }
-    group
+
+    /// Groups of which all conditions need the same literal share a block.
+    fn by_literal(&mut self, mut open: Vec<Open>) -> Vec<Step> {
+        let mut steps = Vec::new();
+        while let Some(literal) = most_shared(&open, &self.asked) {
+            let choice = BTreeSet::from([literal]);
+            let (inside, outside) = open.into_iter().partition(|o| o.is_within(&choice));
+            open = outside;
+            let before = self.asked.len();
+            self.asked.extend(self.needs.of(self.graph, literal));
+            let then = self.by_literal(inside);
+            self.asked.truncate(before);
+            steps.push(Step::If { bit: literal.value(self.graph), then });
+        }
+        steps.extend(open.into_iter().map(|o| Step::Change(self.simplified(o.group))));
+        steps
+    }
+
+    /// The group with conditions that do not ask again what is known to hold.
+    fn simplified(&mut self, mut group: Group) -> Group {
+        for condition in &mut group.conditions {
+            if self.asked.contains(&Literal::of(self.graph, *condition)) {
+                *condition = self.graph.constant(1, 1);
+            }
+        }
+        group
+    }
+}
+
+/// Of the conditions of the groups that have several, those within which most groups change.
+fn widest_choice(graph: &Graph, open: &[Open]) -> Option<BTreeSet<Literal>> {
+    let several = open.iter().filter(|o| o.needs.len() > 1 && shared(o).is_empty());
+    let choices = several.map(|o| o.group.conditions.iter().map(|c| Literal::of(graph, *c)).collect());
+    let within = |choice: &BTreeSet<Literal>| open.iter().filter(|o| o.is_within(choice)).count();
+    let widest = choices.map(|choice| (within(&choice), choice)).max_by_key(|(count, _)| *count);
+    widest.filter(|(count, _)| *count > 1).map(|(_, choice)| choice)
+}
+
+/// The literal that most groups need and that is not asked yet, if more than one does.
+fn most_shared(open: &[Open], asked: &[Literal]) -> Option<Literal> {
+    let mut groups: BTreeMap<Literal, usize> = BTreeMap::new();
+    for literal in open.iter().flat_map(shared) {
+        *groups.entry(literal).or_default() += 1;
+    }
+    // Of equals the last: it was computed from the others and says most.
+    let open = groups.into_iter().filter(|(literal, count)| *count > 1 && !asked.contains(literal));
+    open.max_by_key(|(_, count)| *count).map(|(literal, _)| literal)
+}
+
+/// What all conditions of a group need.
+fn shared(open: &Open) -> BTreeSet<Literal> {
+    let all = open.needs.iter().cloned().reduce(|all, needs| all.intersection(&needs).copied().collect());
+    all.unwrap_or_default()
 }

@@ -149,7 +149,7 @@ impl Simulator {
             Needs::Outputs => self.eval(),
             Needs::Signals => {
                 if std::mem::replace(&mut self.signals_stale, false) {
-                    self.execute(Program::Signals, 1);
+                    self.execute(Program::Signals);
                 }
             }
         }
@@ -180,21 +180,14 @@ impl Simulator {
     /// Computes the outputs that follow from inputs and registers, if anything changed. Reading a signal does it too.
     pub fn eval(&mut self) {
         if std::mem::replace(&mut self.outputs_stale, false) {
-            self.execute(Program::Outputs, 1);
+            self.execute(Program::Outputs);
         }
     }
 
     /// One rising edge of `clk`.
     pub fn tick(&mut self) {
-        self.run(1);
-    }
-
-    /// So many rising edges of `clk`, the inputs staying as they are.
-    pub fn run(&mut self, clocks: u64) {
-        if clocks > 0 {
-            self.execute(Program::Run, clocks);
-            self.change();
-        }
+        self.execute(Program::Clock);
+        self.change();
     }
 
     /// The value that an output had just before the last rising edge of `clk`; 0 if there was none yet.
@@ -207,8 +200,8 @@ impl Simulator {
         self.signals_stale = true;
     }
 
-    fn execute(&mut self, program: Program, clocks: u64) {
-        self.compiled.code.run(program, self.state.words_mut(), clocks);
+    fn execute(&mut self, program: Program) {
+        self.compiled.code.run(program, self.state.words_mut());
     }
 }
 

@@ -122,6 +122,11 @@ fn not(v: &mut Values, width: u32, a: ValueId) -> Lowered {
     {
         return Lowered::below(compare(v, condition.complement(), signed, a, b), 1);
     }
+    if let Some(&[word]) = v.graph.as_op(a, Op::Any) {
+        let word = v.zero(word);
+        let zero = zero_like(v, word);
+        return Lowered::below(v.cursor.ins().icmp(IntCC::Equal, word, zero), 1);
+    }
     let a = v.any(a).any;
     if width == 1 {
         let one = v.constant(types::I8, 1);

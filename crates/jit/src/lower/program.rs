@@ -1,8 +1,7 @@
 //! The functions: what is computed in which order, and where branches go.
 
 use cranelift_codegen::cursor::{Cursor, FuncCursor};
-use cranelift_codegen::ir::condcodes::IntCC;
-use cranelift_codegen::ir::{Block, BlockArg, Function, InstBuilder, Type, Value, types};
+use cranelift_codegen::ir::{Block, Function, InstBuilder, Type, Value};
 use edgewalk_netlist::Op;
 
 use super::values::{Values, lane};
@@ -12,11 +11,11 @@ use crate::groups::{Group, Member};
 use crate::layout::Layout;
 use crate::schedule::Step;
 
-/// A function of the state and a number.
+/// A function of the state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Program {
-    /// So many clocks, at least one; the outputs are sampled before the last.
-    Run,
+    /// Samples the outputs, then a clock.
+    Clock,
     /// The outputs of this cycle.
     Outputs,
     /// All signals with a name.
@@ -32,46 +31,22 @@ pub(crate) fn lower(
     pointer: Type,
     function: &mut Function,
 ) {
-    let [entry, body, exit] = [(); 3].map(|()| function.dfg.make_block());
-    let state = function.dfg.append_block_param(entry, pointer);
-    let clocks = function.dfg.append_block_param(entry, types::I64);
+    let [head, body] = [(); 2].map(|()| function.dfg.make_block());
+    let state = function.dfg.append_block_param(head, pointer);
     let mut cursor = FuncCursor::new(function);
-    cursor.insert_block(entry);
+    cursor.insert_block(head);
+    cursor.ins().jump(body, &[]);
+    cursor.insert_block(body);
+    let mut lowering = Lowering { design, v: Values::new(&design.graph, layout, cursor, state, head) };
     match program {
-        Program::Run => {
-            let left = cursor.func.dfg.append_block_param(body, types::I64);
-            cursor.ins().jump(body, &[BlockArg::Value(clocks)]);
-            let [sample, clock] = [(); 2].map(|()| cursor.func.dfg.make_block());
-            cursor.insert_block(body);
-            let is_last = cursor.ins().icmp_imm_u(IntCC::Equal, left, 1);
-            cursor.ins().brif(is_last, sample, &[], clock, &[]);
-            let mut lowering =
-                Lowering { design, v: Values::new(&design.graph, layout, cursor, state, body) };
-            lowering.inside(sample, clock, Lowering::sample);
+        Program::Clock => {
+            lowering.sample();
             lowering.clock(steps);
-            let cursor = &mut lowering.v.cursor;
-            let left = cursor.ins().iadd_imm_s(left, -1);
-            cursor.ins().brif(left, body, &[BlockArg::Value(left)], exit, &[]);
         }
-        Program::Outputs | Program::Signals => {
-            cursor.ins().jump(body, &[]);
-            cursor.insert_block(body);
-            let mut v = Values::new(&design.graph, layout, cursor, state, body);
-            let outputs = design.outputs.iter().map(|(_, value)| *value);
-            let signals = design.signals.values().copied();
-            let wanted: Vec<ValueId> =
-                if program == Program::Outputs { outputs.collect() } else { signals.collect() };
-            for value in wanted.into_iter().filter(|value| is_computed(&design.graph, *value)) {
-                if let Some(place) = layout.of(value) {
-                    v.store(value, place);
-                }
-            }
-            v.cursor.ins().jump(exit, &[]);
-        }
+        Program::Outputs => lowering.compute(design.outputs.iter().map(|(_, value)| *value)),
+        Program::Signals => lowering.compute(design.signals.values().copied()),
     }
-    let mut cursor = FuncCursor::new(function);
-    cursor.insert_block(exit);
-    cursor.ins().return_(&[]);
+    lowering.v.cursor.ins().return_(&[]);
 }
 
 /// Whether a value must be computed to be read; else it is in the state all the time.
@@ -86,6 +61,14 @@ pub(super) struct Lowering<'a> {
 }
 
 impl Lowering<'_> {
+    fn compute(&mut self, values: impl Iterator<Item = ValueId>) {
+        for value in values.filter(|value| is_computed(self.v.graph, *value)) {
+            if let Some(place) = self.v.layout.of(value) {
+                self.v.store(value, place);
+            }
+        }
+    }
+
     fn sample(&mut self) {
         for ((_, value), place) in self.design.outputs.iter().zip(&self.v.layout.sampled) {
             self.v.store(*value, *place);
@@ -112,7 +95,11 @@ impl Lowering<'_> {
         }
     }
 
+    /// The conditions come before the branches, so that all steps share what they have in common.
     fn steps(&mut self, steps: &[Step]) {
+        for condition in steps.iter().flat_map(Step::conditions) {
+            self.v.zero(*condition);
+        }
         for step in steps {
             match step {
                 Step::Change(group) => self.change(group),
