@@ -123,6 +123,7 @@ impl Simulator {
     }
 
     /// Sets an input; bits beyond its width are dropped, as by a wire.
+    #[inline]
     pub fn set(&mut self, input: InputId, value: u128) {
         self.state.set(input.0, value);
         self.change();
@@ -185,12 +186,14 @@ impl Simulator {
     }
 
     /// One rising edge of `clk`.
+    #[inline]
     pub fn tick(&mut self) {
         self.execute(Program::Clock);
         self.change();
     }
 
     /// The value that an output had just before the last rising edge of `clk`; 0 if there was none yet.
+    #[inline]
     pub fn sampled(&self, output: OutputId) -> u128 {
         self.state.get(output.0)
     }

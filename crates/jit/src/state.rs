@@ -29,14 +29,16 @@ impl State {
         &mut self.0
     }
 
-    /// The value in a place.
+    /// The value in a place: above its width there are zeros.
+    #[inline]
     pub fn get(&self, place: Place) -> u128 {
         let low = place.offset as usize / 8;
         let high = if place.width > 64 { self.0[low + 1] } else { 0 };
-        (u128::from(high) << 64 | u128::from(self.0[low])) & mask(place.width)
+        u128::from(high) << 64 | u128::from(self.0[low])
     }
 
     /// Sets a place; bits beyond its width are dropped.
+    #[inline]
     pub fn set(&mut self, place: Place, value: u128) {
         let low = place.offset as usize / 8;
         let value = value & mask(place.width);
