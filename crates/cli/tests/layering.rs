@@ -15,7 +15,10 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("jit", &["netlist"]),
     ("rtl", &["numerics", "netlist"]),
     ("vectors", &["numerics", "model", "netlist", "verilog", "rtl"]),
-    ("cli", &["numerics", "scene", "golden", "gallery", "model", "netlist", "verilog", "rtl", "vectors"]),
+    (
+        "cli",
+        &["numerics", "scene", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl", "vectors"],
+    ),
 ];
 
 /// Crates that read and write no files: they may not even name the standard library's file or process modules.

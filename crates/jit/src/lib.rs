@@ -1,4 +1,14 @@
 //! A netlist compiled to native code by Cranelift: the same values as [`edgewalk_netlist::Simulator`], faster.
+//!
+//! ```text
+//!  netlist ─> elaborate ─> design: a graph of values ─> groups ─> schedule: branches ─> lower ─> code
+//!                              └─> layout of the state ────────────────────────────────┘
+//! ```
+//! Every value is computed once in a clock, and only if something needs it: registers and read ports that change under
+//! the same conditions form a group with one branch, groups that need the same condition share another around them. What
+//! only a group needs is computed in its branch. Registers change in place, in an order in which most are read before.
+//!
+//! Widths are those of the netlist, 1 to 128 bits: a bit is 8 bits of the processor, up to 64 are one word, more are two.
 
 mod graph;
 mod simplify;

@@ -30,8 +30,7 @@ impl Step {
     }
 }
 
-/// What a clock does to registers and read ports. It adds values to the graph: conditions without what a branch around
-/// them has asked already.
+/// What a clock does to registers and read ports. It adds values to the graph: the conditions of branches.
 pub(crate) fn schedule(design: &mut Design) -> Vec<Step> {
     let groups = groups(design);
     let mut nesting = Nesting { graph: &mut design.graph, needs: Needs::default(), asked: Vec::new() };

@@ -1,13 +1,15 @@
 //! `edgewalk bench`: frames and cycles a second of every engine on the same triangles, in one run.
 //!
 //! ```text
-//!  triangles ─> part for the engine ─> frame by frame (fast, tick, interpreter, verilator) ─> table, JSON
+//!  triangles ─> part for the engine ─> frame by frame (fast, tick, jit, interpreter, verilator) ─> table, JSON
 //! ```
 
 mod stopwatch;
 mod job;
 mod fast;
 mod tick;
+#[cfg(feature = "jit")]
+mod jit;
 mod interpreter;
 mod verilator;
 mod engine;
@@ -50,7 +52,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let whole = Job::new(&machine, &port.triangles, port.state, args.repeat);
     let bar = progress::bar(Engine::ALL.len() as u64, "engines", talk.quiet);
     let mut rows = Vec::new();
-    for engine in Engine::ALL.into_iter().filter(|e| args.engine.is_empty() || args.engine.contains(e)) {
+    for engine in Engine::ALL.iter().filter(|e| args.engine.is_empty() || args.engine.contains(e)) {
         let job = whole.part(engine.budget());
         let row = match engine.time(&job)? {
             Ok(times) if times.work == job.work => Row::new(engine.name(), &job, &times),

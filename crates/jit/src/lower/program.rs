@@ -137,7 +137,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// All members take their value of this rank. They change together: all values are there before the first is stored.
+    /// All members take their value of this rank. They change together: all values are there before one is stored.
     fn take(&mut self, group: &Group, rank: usize) {
         let value = |lowering: &mut Self, member: &Member| match member {
             Member::Register { q, values } => (*q, lowering.v.zero(values[rank])),

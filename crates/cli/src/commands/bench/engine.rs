@@ -1,5 +1,7 @@
 //! The engines that take part. A new one is a file with a `time`, and a line in each list here.
 
+#[cfg(feature = "jit")]
+use super::jit;
 use super::job::{Job, Times};
 use super::{fast, interpreter, tick, verilator};
 use anyhow::Result;
@@ -11,6 +13,9 @@ pub enum Engine {
     Fast,
     /// The model, cycle by cycle
     Tick,
+    /// The netlist as native code
+    #[cfg(feature = "jit")]
+    Jit,
     /// The netlist in the interpreter
     Interpreter,
     /// The emitted Verilog under Verilator
@@ -19,13 +24,22 @@ pub enum Engine {
 
 impl Engine {
     /// In the order of the table, the fastest first.
-    pub const ALL: [Engine; 4] = [Engine::Fast, Engine::Tick, Engine::Interpreter, Engine::Verilator];
+    pub const ALL: &[Engine] = &[
+        Engine::Fast,
+        Engine::Tick,
+        #[cfg(feature = "jit")]
+        Engine::Jit,
+        Engine::Interpreter,
+        Engine::Verilator,
+    ];
 
     /// As on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Engine::Fast => "fast",
             Engine::Tick => "tick",
+            #[cfg(feature = "jit")]
+            Engine::Jit => "jit",
             Engine::Interpreter => "interpreter",
             Engine::Verilator => "verilator",
         }
@@ -36,6 +50,8 @@ impl Engine {
         match self {
             Engine::Fast => u64::MAX,
             Engine::Tick => 20_000_000,
+            #[cfg(feature = "jit")]
+            Engine::Jit => 10_000_000,
             Engine::Interpreter => 100_000,
             Engine::Verilator => 2_000_000,
         }
@@ -46,6 +62,8 @@ impl Engine {
         match self {
             Engine::Fast => fast::time(job),
             Engine::Tick => tick::time(job).map(Ok),
+            #[cfg(feature = "jit")]
+            Engine::Jit => jit::time(job).map(Ok),
             Engine::Interpreter => interpreter::time(job).map(Ok),
             Engine::Verilator => verilator::time(job),
         }
