@@ -32,7 +32,7 @@ pub fn to_port(frame: &Frame, machine: &Machine) -> Result<PortFrame> {
 pub fn draw_state(frame: &Frame, machine: &Machine) -> Result<DrawState> {
     if frame.blend {
         return Err(anyhow!(
-            "blend 1: the machine has no blend unit yet; draw with blend 0 or --engine golden"
+            "blend 1 (transparent surfaces): the machine has no blend unit yet; draw with blend 0 or --engine golden"
         ));
     }
     if frame.shadow.is_some() {

@@ -12,6 +12,7 @@
 
 use crate::fragment::Fragment;
 use crate::picture::Picture;
+use crate::transparency::is_transparent;
 use crate::weights::Weights;
 use edgewalk_scene::{Frame, Scene, ShadeMode, Surface, SurfaceTriangle, SurfaceVertex};
 use glam::{DVec2, DVec3};
@@ -52,10 +53,12 @@ pub fn frame(scene: &Scene, surface: &Surface, shading: Shading) -> Frame {
         Shading::Constant | Shading::ConstantAveraged => ShadeMode::Flat,
         Shading::Gouraud | Shading::Phong => ShadeMode::Gouraud,
     };
+    let triangles: Vec<_> = surface.triangles.iter().map(on_screen).collect();
     Frame {
         mode,
         clear: scene.background.to_array(),
-        triangles: surface.triangles.iter().map(on_screen).collect(),
+        blend: triangles.iter().any(is_transparent),
+        triangles,
         ..Frame::new(surface.width, surface.height)
     }
 }

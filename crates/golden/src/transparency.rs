@@ -61,8 +61,8 @@ impl Order {
 /// Sorts triangles for blending. A triangle is transparent if k_t is positive at a vertex; vertices count as snapped to
 /// `subpixel_bits`, 0..=8, as they are drawn.
 pub fn back_to_front(triangles: &[Triangle], subpixel_bits: u32) -> Order {
-    let transparent = |place: &usize| triangles[*place].0.iter().any(|vertex| vertex.kt > 0.0);
-    let (mut clear, opaque): (Vec<usize>, Vec<usize>) = (0..triangles.len()).partition(transparent);
+    let (mut clear, opaque): (Vec<usize>, Vec<usize>) =
+        (0..triangles.len()).partition(|place| is_transparent(&triangles[*place]));
     // Of equal distances the first in the list comes first.
     clear.sort_by(|a, b| farthest(&triangles[*b]).total_cmp(&farthest(&triangles[*a])));
     let snapped: Vec<_> = clear.iter().map(|place| corners(&triangles[*place], subpixel_bits)).collect();
@@ -91,6 +91,11 @@ pub fn back_to_front(triangles: &[Triangle], subpixel_bits: u32) -> Order {
     order.order.extend(sorted.into_iter().map(|rank| clear[rank]));
     order.cycles.extend(cycles.into_iter().map(|rank| clear[rank]));
     order
+}
+
+/// Whether something is seen through it.
+pub(crate) fn is_transparent(triangle: &Triangle) -> bool {
+    triangle.0.iter().any(|vertex| vertex.kt > 0.0)
 }
 
 /// Corners in pixels and depth, as they are drawn.

@@ -136,7 +136,7 @@ fn pictures_and_reliefs_come_with_their_materials() {
 /// Each a change of one line of a good file, the line it is found in, and what the message must say.
 #[test]
 fn malformed_files_are_refused_by_line_and_key() {
-    let cases: [(&str, &str, usize, &str); 34] = [
+    let cases: [(&str, &str, usize, &str); 36] = [
         ("ambient = [0.1, 0.2, 0.3]", "ambiant = 0.1", 2, "did you mean `ambient`?"),
         ("ambient = [0.1, 0.2, 0.3]", "ambient = [0.1, 0.2]", 2, "ambient: `[0.1, 0.2]`"),
         ("ambient = [0.1, 0.2, 0.3]", "ambient = -1", 2, "each from 0 to"),
@@ -155,6 +155,13 @@ fn malformed_files_are_refused_by_line_and_key() {
         ("crease = \"groups\"", "crease = 200", 16, "from 0 to 180"),
         ("name = \"board\"", "nane = \"board\"", 19, "did you mean `name`?"),
         ("name = \"board\"", "", 18, "material 1: name: `not there`"),
+        ("transmission = 0.25", "transmission = 0.25\ncoefficients = \"plane\"", 25, "did you mean `plain`?"),
+        (
+            "transmission = 0.25",
+            "transmission = 0.95\ncoefficients = \"plain\"",
+            24,
+            "at most 1 - transmission",
+        ),
         ("exponent = 20", "exponent = -1", 23, "material 1: exponent: `-1`"),
         ("colors = [[1, 1, 1], [0, 0, 0]]", "colors = [[1, 1, 1]]", 27, "two of [r, g, b]"),
         ("checker = 2", "checker = 2\ntexture = \"a.png\"", 26, "one of texture, checker"),

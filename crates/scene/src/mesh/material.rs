@@ -44,4 +44,52 @@ impl Material {
             bump_height: 0.0,
         }
     }
+
+    /// The same from coefficients that are not corrected: divided by (1 - k_t), so that (1 - k_t) I* + k_t I_back (A 7.5) is
+    /// I_ref + k_t I_back (A 7.4). `None` if a surface would reflect and transmit more than it receives: k_a, k_d or k_s
+    /// with k_t over 1. A surface with k_t = 1 emits nothing.
+    pub fn corrected(self) -> Option<Self> {
+        let part = 1.0 - self.transmission;
+        let corrected = |k: DVec3| if part > 0.0 { k / part } else { k };
+        let most = self.ambient.max(self.diffuse).max(self.specular).max_element();
+        let emission = if part > 0.0 { self.emission / part } else { DVec3::ZERO };
+        // Division may round a sum of 1 up.
+        let within = |k: DVec3| corrected(k).min(DVec3::ONE);
+        (most <= part).then(|| Self {
+            emission,
+            ambient: within(self.ambient),
+            diffuse: within(self.diffuse),
+            specular: within(self.specular),
+            ..self
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corrected_coefficients_give_the_same_surface() {
+        let plain = Material {
+            emission: DVec3::new(0.2, 0.0, 0.1),
+            specular: DVec3::splat(0.3),
+            transmission: 0.6,
+            ..Material::matte(DVec3::new(0.1, 0.2, 0.4))
+        };
+        let corrected = plain.corrected().expect("0.4 and 0.6 are 1");
+        for (k, star) in [
+            (plain.emission, corrected.emission),
+            (plain.ambient, corrected.ambient),
+            (plain.diffuse, corrected.diffuse),
+            (plain.specular, corrected.specular),
+        ] {
+            // A 7.4 and A 7.5 with I_back = 0.5.
+            assert!((k + 0.6 * 0.5 - (0.4 * star + 0.6 * 0.5)).abs().max_element() < 1e-15);
+        }
+        assert_eq!(Material { transmission: 0.7, ..plain }.corrected(), None, "0.4 and 0.7");
+        let clear = Material { transmission: 1.0, ..Material::matte(DVec3::ZERO) };
+        assert_eq!(clear.corrected(), Some(clear));
+        assert_eq!(Material::DEFAULT.corrected(), Some(Material::DEFAULT), "an opaque one");
+    }
 }

@@ -15,6 +15,7 @@ const KEYS: &[&str] = &[
     "specular",
     "exponent",
     "transmission",
+    "coefficients",
     "texture",
     "checker",
     "colors",
@@ -22,6 +23,9 @@ const KEYS: &[&str] = &[
     "waves",
     "bump_height",
 ];
+
+/// Place of `plain` among the values of `coefficients`: those of A 7.4.
+const PLAIN: usize = 1;
 
 /// Largest exponent of a highlight.
 const MAX_EXPONENT: f64 = 1e5;
@@ -52,7 +56,7 @@ impl Materials {
 
     fn material(&mut self, table: &Table, path: &Path) -> Result<Material, InputError> {
         let diffuse = table.color("diffuse", 1.0)?.unwrap_or(Material::DEFAULT.diffuse);
-        Ok(Material {
+        let material = Material {
             emission: table.color("emission", 1e6)?.unwrap_or(DVec3::ZERO),
             ambient: table.color("ambient", 1.0)?.unwrap_or(diffuse),
             diffuse,
@@ -62,6 +66,13 @@ impl Materials {
             texture: self.texture(table, path)?,
             bump: self.relief(table, path)?,
             bump_height: table.number("bump_height", -MAX_HEIGHT..=MAX_HEIGHT)?.unwrap_or(0.05),
+        };
+        if table.choice("coefficients", &["corrected", "plain"])? != Some(PLAIN) {
+            return Ok(material);
+        }
+        material.corrected().ok_or_else(|| {
+            let permitted = "permitted with plain coefficients: k_a, k_d and k_s at most 1 - transmission";
+            table.fault("transmission", material.transmission, permitted)
         })
     }
 
