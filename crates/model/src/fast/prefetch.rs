@@ -9,8 +9,10 @@ const LINE: usize = 64;
 #[inline(always)]
 pub(super) fn prefetch<T>(memory: &[T], place: usize, count: usize) {
     let step = LINE / size_of::<T>();
-    // Wherever in a line the first element lies, the last is met.
-    for at in (place..place + count + step - 1).step_by(step) {
+    let mut at = place;
+    // Wherever in a line the first element lies, the last is met. A `step_by` here costs 30 instructions a span.
+    while at < place + count + step - 1 {
         prefetch::prefetch(memory, at);
+        at += step;
     }
 }
