@@ -31,12 +31,10 @@ pub(crate) fn lower(
     pointer: Type,
     function: &mut Function,
 ) {
-    let [head, body] = [(); 2].map(|()| function.dfg.make_block());
+    let head = function.dfg.make_block();
     let state = function.dfg.append_block_param(head, pointer);
     let mut cursor = FuncCursor::new(function);
     cursor.insert_block(head);
-    cursor.ins().jump(body, &[]);
-    cursor.insert_block(body);
     let mut lowering = Lowering { design, v: Values::new(&design.graph, layout, cursor, state, head) };
     match program {
         Program::Clock => {
@@ -174,8 +172,10 @@ impl Lowering<'_> {
     fn inside(&mut self, block: Block, next: Block, fill: impl FnOnce(&mut Self)) {
         let mark = self.v.enter();
         self.v.cursor.insert_block(block);
+        self.v.enter_branch(block);
         fill(self);
         self.v.cursor.ins().jump(next, &[]);
+        self.v.leave_branch();
         self.v.leave(mark);
         self.v.cursor.insert_block(next);
     }

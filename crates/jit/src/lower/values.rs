@@ -52,19 +52,35 @@ pub(super) struct Values<'a> {
     pub cursor: FuncCursor<'a>,
     /// The address of the state.
     pub state: Value,
-    /// A block that every use comes after and every change of a register too.
-    head: Block,
+    /// The function and the branches within each other in which the cursor stands.
+    branches: Vec<Branch>,
     known: Vec<Option<Lowered>>,
     /// What was known before, since the outermost branch began.
     undo: Vec<(ValueId, Option<Lowered>)>,
-    /// Registers of which the state has the new value by now.
-    changed: Vec<bool>,
-    /// The old values of those, read in `head`.
+    /// Of each register of which the state may have the new value by now, the number of the branch that knows it.
+    changed: Vec<Option<usize>>,
+    /// The old values of those, read where their branch begins.
     old: HashMap<ValueId, Value>,
 }
 
+/// Code that is skipped as a whole, or the function.
+struct Branch {
+    /// Where it begins: before any change in it.
+    head: Block,
+    /// Registers that change in it.
+    changed: Vec<ValueId>,
+    /// Those of which it has read the old value.
+    old: Vec<ValueId>,
+}
+
+impl Branch {
+    fn at(head: Block) -> Branch {
+        Branch { head, changed: Vec::new(), old: Vec::new() }
+    }
+}
+
 impl<'a> Values<'a> {
-    /// Nothing is known yet; the cursor stands at the end of a block.
+    /// Nothing is known yet; the cursor stands in the function's first block, `head`.
     pub fn new(
         graph: &'a Graph,
         layout: &'a Layout,
@@ -72,8 +88,9 @@ impl<'a> Values<'a> {
         state: Value,
         head: Block,
     ) -> Values<'a> {
-        let (known, changed) = (vec![None; graph.len()], vec![false; graph.len()]);
-        Values { graph, layout, cursor, state, head, known, undo: Vec::new(), changed, old: HashMap::new() }
+        let (known, changed) = (vec![None; graph.len()], vec![None; graph.len()]);
+        let (branches, undo, old) = (vec![Branch::at(head)], Vec::new(), HashMap::new());
+        Values { graph, layout, cursor, state, branches, known, undo, changed, old }
     }
 
     /// What is computed from now on is forgotten at [`Values::leave`].
@@ -85,6 +102,22 @@ impl<'a> Values<'a> {
     pub fn leave(&mut self, mark: usize) {
         for (value, before) in self.undo.drain(mark..).rev() {
             self.known[value.index()] = before;
+        }
+    }
+
+    /// A branch that begins with this block.
+    pub fn enter_branch(&mut self, head: Block) {
+        self.branches.push(Branch::at(head));
+    }
+
+    /// The end of the branch that was entered last; what changed in it has changed in the one around it.
+    pub fn leave_branch(&mut self) {
+        let Some(Branch { changed, old, .. }) = self.branches.pop() else { return };
+        for register in old {
+            self.old.remove(&register);
+        }
+        for register in changed {
+            self.change(register);
         }
     }
 
@@ -159,7 +192,10 @@ impl<'a> Values<'a> {
 
     /// The state may have the new value of this register from here on.
     pub fn change(&mut self, register: ValueId) {
-        self.changed[register.index()] = true;
+        self.changed[register.index()] = self.branches.len().checked_sub(1);
+        if let Some(branch) = self.branches.last_mut() {
+            branch.changed.push(register);
+        }
     }
 
     fn set(&mut self, value: ValueId, lowered: Lowered) {
@@ -213,20 +249,18 @@ impl<'a> Values<'a> {
             return self.constant(lane(width), 0); // never: the layout has all that is stored
         };
         let state = self.state;
-        if !self.changed[value.index()] {
+        let Some(branch) = self.changed[value.index()] else {
             return self.cursor.ins().load(lane(width), flags(width), state, offset);
-        }
+        };
         if let Some(old) = self.old.get(&value) {
             return *old;
         }
         let here = self.cursor.position();
-        match self.cursor.layout().last_inst(self.head) {
-            Some(last) => self.cursor.goto_inst(last),
-            None => self.cursor.goto_bottom(self.head),
-        }
+        self.cursor.goto_first_insertion_point(self.branches[branch].head);
         let old = self.cursor.ins().load(lane(width), flags(width), state, offset);
         self.cursor.set_position(here);
         self.old.insert(value, old);
+        self.branches[branch].old.push(value);
         old
     }
 }
