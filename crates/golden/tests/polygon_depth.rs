@@ -106,6 +106,31 @@ fn triangles_and_polygons_are_one_list() {
 }
 
 #[test]
+fn a_difference_below_the_errors_of_f64_decides() {
+    let far = f64::from_bits(0.5f64.to_bits() + 1);
+    let mut checked = 0;
+    for (first, second, wins) in [(far, 0.5, 1), (0.5, far, 0), (0.5, 0.5, 0)] {
+        // Of the four pairings of polygon and triangle.
+        for kinds in 0..4 {
+            let mut frame = Frame { depth: Some(DepthFunc::Less), ..Frame::new(8, 8) };
+            for (k, z) in [first, second].into_iter().enumerate() {
+                let [a, b, c, d] = square(0.0, 8.0, z);
+                if kinds >> k & 1 == 0 {
+                    let after = frame.triangles.len();
+                    frame.polygons.push(Polygon { contours: vec![vec![a, b, c, d]], after });
+                } else {
+                    frame.triangles.push(Triangle([a, b, d]));
+                }
+            }
+            let picture = draw(&frame, EXACT);
+            assert_eq!((picture.coverage[0], picture.id[0]), (2, wins), "{first:e} {second:e} {kinds}");
+            checked += 1;
+        }
+    }
+    assert_eq!(checked, 12);
+}
+
+#[test]
 fn books_draw_at_whole_coordinates() {
     let frame = Frame {
         polygons: vec![Polygon { contours: vec![square(1.0, 3.0, 0.5).to_vec()], after: 0 }],
