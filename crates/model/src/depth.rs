@@ -126,7 +126,7 @@ impl Depth {
     }
 
     /// Clock edge.
-    #[inline]
+    #[inline(always)]
     pub fn step(
         &mut self,
         frag: Option<&Fragment>,

@@ -84,7 +84,7 @@ impl Edge {
     }
 
     /// Clock edge.
-    #[inline]
+    #[inline(always)]
     pub fn step(
         &mut self,
         prim: Option<&Prim>,

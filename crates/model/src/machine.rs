@@ -102,7 +102,7 @@ impl Model {
     }
 
     /// One clock cycle: the outputs of this cycle, then the clock edge.
-    #[inline]
+    #[inline(always)]
     pub fn cycle(&mut self, inputs: &Inputs) -> Outputs {
         // DEPTH, and the memory behind it.
         let frag = self.pixel.frag();

@@ -117,7 +117,7 @@ impl Memory {
     }
 
     /// Clock edge: the read that fired, whether the data was taken, the write that fired.
-    #[inline]
+    #[inline(always)]
     pub fn step(&mut self, read: Option<u32>, data_taken: bool, write: Option<&Write>) {
         if data_taken {
             self.reads.pop();

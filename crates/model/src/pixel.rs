@@ -128,7 +128,7 @@ impl Pixel {
     }
 
     /// Clock edge. `gradient` is EDGE's g.
-    #[inline]
+    #[inline(always)]
     pub fn step(&mut self, span: Option<&Span>, gradient: &Words, frag_ready: bool, coverage: &mut Coverage) {
         if !self.advance(frag_ready) {
             return;

@@ -73,7 +73,7 @@ impl SpanQueue {
     }
 
     /// Clock edge.
-    #[inline]
+    #[inline(always)]
     pub fn step(&mut self, line: Option<&Line>, span_ready: bool, coverage: &mut Coverage) {
         let full = self.fifo.len() == self.depth;
         if span_ready && !self.fifo.is_empty() {

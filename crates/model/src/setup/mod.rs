@@ -83,7 +83,7 @@ impl Setup {
     }
 
     /// Clock edge.
-    #[inline]
+    #[inline(always)]
     pub fn step(&mut self, tri: Option<(&[PortVertex; 3], u32)>, prim_ready: bool, coverage: &mut Coverage) {
         if self.left > 0 {
             self.left -= 1;
