@@ -104,6 +104,41 @@ impl Model {
     /// One clock cycle: the outputs of this cycle, then the clock edge.
     #[inline(always)]
     pub fn cycle(&mut self, inputs: &Inputs) -> Outputs {
+        let outputs = if self.at_rest() { self.cycle_at_rest(inputs) } else { self.cycle_of_all(inputs) };
+        if inputs.rst {
+            self.reset();
+        }
+        outputs
+    }
+
+    /// Nothing is held behind SETUP.
+    #[inline]
+    fn at_rest(&self) -> bool {
+        !self.edge.running()
+            && self.span.span().is_none()
+            && !self.pixel.active()
+            && !self.pixel.occupied()
+            && !self.depth.occupied()
+    }
+
+    /// A cycle in which SPAN, PIXEL and DEPTH have nothing to move and nothing is offered to them: they stay as they
+    /// are, and so only SETUP and the EDGE that may take its prim are clocked.
+    #[inline(always)]
+    fn cycle_at_rest(&mut self, inputs: &Inputs) -> Outputs {
+        let tri_ready = self.setup.tri_ready();
+        let activity = if tri_ready { Activity::Idle } else { Activity::Setup };
+        self.counters.cycle(activity);
+        if inputs.tri.is_some() && tri_ready {
+            one_more(&mut self.counters.triangles);
+        }
+        let prim_ready = self.edge.prim_ready(false);
+        self.edge.step(self.setup.prim(), false, false, &mut self.coverage);
+        self.setup.step(inputs.tri, prim_ready, &mut self.coverage);
+        Outputs { tri_ready, activity, idle: tri_ready, ..Outputs::default() }
+    }
+
+    #[inline(always)]
+    fn cycle_of_all(&mut self, inputs: &Inputs) -> Outputs {
         // DEPTH, and the memory behind it.
         let frag = self.pixel.frag();
         let block = self.depth.block(frag, inputs.depth_write);
@@ -159,9 +194,6 @@ impl Model {
         let prim_ready = self.edge.prim_ready(fresh_queued);
         self.edge.step(self.setup.prim(), fresh_queued, line_ready, coverage);
         self.setup.step(inputs.tri, prim_ready, coverage);
-        if inputs.rst {
-            self.reset();
-        }
         outputs
     }
 
