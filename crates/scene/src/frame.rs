@@ -1,13 +1,14 @@
 //! A frame: the screen, the rules for depth and blending, and triangles and polygons in pixels.
 
-use crate::polygon::Polygon;
-
 /// Largest side of a screen, pixels.
 pub const MAX_SIDE: u32 = 16384;
 
 /// Largest |x| or |y| of a vertex, pixels. Times 2^8 sub-pixels it is an integer below 2^28, so edge products stay
 /// far inside 64 bits.
 pub const MAX_COORDINATE: f64 = 1e6;
+
+/// Most vertices of a contour.
+pub const MAX_CONTOUR: usize = 65536;
 
 /// A vertex on the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -31,6 +32,21 @@ pub struct Vertex {
 /// A triangle on the screen; either winding is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Triangle(pub [Vertex; 3]);
+
+/// A polygon on the screen: convex, concave, with holes or crossing itself; inside is what an odd number of edges lies
+/// to the left of (seed B, odd-even rule).
+///
+/// Its values run linearly along the edges, then linearly along a line between two edges (seed B: l_a, l_b, l_p). Only
+/// in a triangle, or where the vertices' values lie in one plane, is that the plane; elsewhere it depends on how the
+/// polygon is turned.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Polygon {
+    /// Closed lines of 3..=[`MAX_CONTOUR`] vertices; the last vertex is joined to the first. In flat mode the first
+    /// vertex of the first contour colours the whole.
+    pub contours: Vec<Vec<Vertex>>,
+    /// How many triangles of the frame are drawn before it.
+    pub after: usize,
+}
 
 /// How colour and k_t vary over a triangle. Depth is linear in both modes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

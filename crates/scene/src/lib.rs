@@ -23,12 +23,14 @@ mod frame;
 
 pub use camera::Camera;
 pub use error::{InputError, nearest};
-pub use frame::{DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, ShadeMode, Shadow, Triangle, Vertex};
+pub use frame::{
+    DepthFunc, Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_SIDE, Polygon, ShadeMode, Shadow, Triangle, Vertex,
+};
 pub use light::{Attenuation, Incident, Light};
 pub use light_view::{InMap, LightView};
 pub use mesh::{Face, FaceData, Material, Mesh};
 pub use normals::{Crease, NormalRule, Weight};
-pub use polygon::{CrossingEdges, MAX_CONTOUR, Polygon, Primitive, Triangulated};
+pub use polygon::{CrossingEdges, Primitive, Triangulated};
 pub use scene::Scene;
 pub use shading::{LightTerms, Lighting, Point, Specular, Terms};
 pub use surface::{Surface, SurfaceTriangle, SurfaceVertex};

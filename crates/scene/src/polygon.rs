@@ -1,4 +1,4 @@
-//! Polygons on the screen, and where they stand among the triangles of a frame.
+//! Polygons among the triangles of a frame, and in place of them.
 
 mod cut;
 mod triangles;
@@ -6,25 +6,7 @@ mod triangles;
 pub(crate) use cut::cut;
 pub use triangles::{CrossingEdges, Triangulated};
 
-use crate::frame::{Frame, Triangle, Vertex};
-
-/// Most vertices of a contour.
-pub const MAX_CONTOUR: usize = 65536;
-
-/// A polygon on the screen: convex, concave, with holes or crossing itself; inside is what an odd number of edges lies
-/// to the left of (seed B, odd-even rule).
-///
-/// Its values run linearly along the edges, then linearly along a line between two edges (seed B: l_a, l_b, l_p). Only
-/// in a triangle, or where the vertices' values lie in one plane, is that the plane; elsewhere it depends on how the
-/// polygon is turned.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Polygon {
-    /// Closed lines of 3..=[`MAX_CONTOUR`] vertices; the last vertex is joined to the first. In flat mode the first
-    /// vertex of the first contour colours the whole.
-    pub contours: Vec<Vec<Vertex>>,
-    /// How many triangles of the frame are drawn before it.
-    pub after: usize,
-}
+use crate::frame::{Frame, Polygon, Triangle, Vertex};
 
 /// What a frame draws.
 #[derive(Debug, Clone, Copy, PartialEq)]

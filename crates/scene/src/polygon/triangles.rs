@@ -6,9 +6,9 @@
 //!
 //! Values are the planes of these triangles, not those of an active edge table.
 
+use super::Primitive;
 use super::cut::cut;
-use super::{Polygon, Primitive};
-use crate::frame::{Frame, ShadeMode, Triangle, Vertex};
+use crate::frame::{Frame, Polygon, ShadeMode, Triangle, Vertex};
 use std::borrow::Cow;
 
 /// Two edges of a polygon cross, so that triangles between its vertices cannot cover it.

@@ -2,8 +2,9 @@
 
 use super::shadow::{occluder, shadow};
 use crate::error::InputError;
-use crate::frame::{DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, ShadeMode, Triangle, Vertex};
-use crate::polygon::{MAX_CONTOUR, Polygon};
+use crate::frame::{
+    DepthFunc, Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_SIDE, Polygon, ShadeMode, Triangle, Vertex,
+};
 use crate::text::{Lines, Place, words};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
