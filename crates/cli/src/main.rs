@@ -26,7 +26,7 @@ use clap::{Parser, Subcommand};
 use commands::{bench, config, demo, emit, explain, gallery, raster, render, trace, vectors, verify};
 use machine_args::MachineArgs;
 use std::process::ExitCode;
-use verdict::{ToolError, Verdict};
+use verdict::Verdict;
 
 /// Fixed-point incremental triangle hardware: model, netlist, Verilog and the proof that they agree.
 ///
@@ -101,7 +101,7 @@ fn main() -> ExitCode {
                 return ExitCode::SUCCESS;
             }
             eprintln!("edgewalk: {error:#}");
-            if error.is::<ToolError>() { ExitCode::from(3) } else { Verdict::Vacuous.exit_code() }
+            verdict::of_error(&error)
         }
     }
 }

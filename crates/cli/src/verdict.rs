@@ -1,5 +1,6 @@
 //! How a command ends: the exit codes every subcommand shares.
 
+use edgewalk_vectors::{SimulateError, Stop};
 use std::process::ExitCode;
 
 /// What a command found.
@@ -37,7 +38,7 @@ impl Verdict {
         }
     }
 
-    /// 0 pass, 1 mismatch, 2 vacuous (and bad input), 3 tool missing or broken.
+    /// 0 pass, 1 mismatch, 2 vacuous (and bad input).
     pub fn exit_code(self) -> ExitCode {
         ExitCode::from(match self {
             Verdict::Pass => 0,
@@ -45,4 +46,14 @@ impl Verdict {
             Verdict::Vacuous => 2,
         })
     }
+}
+
+/// The exit code of what could not be done: 2 bad input, 3 tool missing or broken, 4 time limit.
+pub fn of_error(error: &anyhow::Error) -> ExitCode {
+    ExitCode::from(match error.downcast_ref::<SimulateError>() {
+        Some(SimulateError::Tool(Stop::TimeLimit { .. })) => 4,
+        Some(SimulateError::Tool(_)) => 3,
+        _ if error.is::<ToolError>() => 3,
+        _ => 2,
+    })
 }

@@ -2,13 +2,13 @@
 //!
 //! A mutant changes one place of one module, wherever that module is used. None of them makes a combinational loop or
 //! changes a width. Some are equivalent to the original (a `<` whose sides are never equal): that is for the suite's
-//! author to argue.
+//! author to prove.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use crate::describe::describe;
-use crate::netlist::{Netlist, NodeId, Source};
+use crate::netlist::{Netlist, Node, NodeId, Source};
 use crate::ops::{Op, mask};
 
 /// A single fault.
@@ -95,27 +95,38 @@ fn operators(netlist: &Netlist) -> Vec<(String, Change)> {
     for id in live(netlist) {
         let node = netlist.node(id);
         let text = describe(netlist, &node.source);
-        let mut add = |source: Source| {
-            let description = format!("`{text}` becomes `{}`", describe(netlist, &source));
-            found.push((description, Change::Source(id, source)));
-        };
         match &node.source {
             Source::Constant { value, .. } => {
                 let value = value.wrapping_add(1) & mask(node.width);
-                add(Source::Constant { value, name: None });
+                let source = Source::Constant { value, name: None };
+                let place = user(netlist, id).map_or(String::new(), |user| format!(" in `{user}`"));
+                found.push((format!("`{text}` becomes `{value}`{place}"), Change::Source(id, source)));
             }
             Source::Op(op, operands) => {
-                for other in others(*op) {
-                    add(Source::Op(other, operands.clone()));
+                // Nothing is added on top: the two extensions are one.
+                let same = matches!(op, Op::ZeroExtend(_) | Op::SignExtend(_))
+                    && netlist.width(operands[0]) == node.width;
+                for other in others(*op).into_iter().filter(|_| !same) {
+                    found.push(becomes(netlist, id, &text, Source::Op(other, operands.clone())));
                 }
                 if let Some(exchanged) = exchanged(*op, operands) {
-                    add(Source::Op(*op, exchanged));
+                    found.push(becomes(netlist, id, &text, Source::Op(*op, exchanged)));
                 }
             }
             _ => {}
         }
     }
     found
+}
+
+fn becomes(netlist: &Netlist, id: NodeId, text: &str, source: Source) -> (String, Change) {
+    (format!("`{text}` becomes `{}`", describe(netlist, &source)), Change::Source(id, source))
+}
+
+/// The first operator that a node goes into.
+fn user(netlist: &Netlist, id: NodeId) -> Option<String> {
+    let uses = |node: &&Node| matches!(&node.source, Source::Op(_, operands) if operands.contains(&id));
+    netlist.nodes.iter().find(uses).map(|node| describe(netlist, &node.source))
 }
 
 /// What an operator is confused with: the same operands, the same width.

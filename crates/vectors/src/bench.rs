@@ -52,6 +52,14 @@ impl Slot {
         slots
     }
 
+    /// Whether a token is offered.
+    pub fn valid(&self, inputs: &[u128], outputs: &[u128]) -> bool {
+        match self.direction {
+            Direction::In => inputs[self.input] == 1,
+            Direction::Out => outputs[self.output] == 1,
+        }
+    }
+
     /// Whether a token moved.
     pub fn fires(&self, inputs: &[u128], outputs: &[u128]) -> bool {
         inputs[self.input] == 1 && outputs[self.output] == 1

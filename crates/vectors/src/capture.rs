@@ -9,6 +9,7 @@
 use crate::bench::{Bench, Setting, Slot};
 use crate::device::{Device, model};
 use crate::ports::{Direction, Interface, Token, Unit, interface, pack_triangle};
+use crate::status::status_ports;
 use crate::stalls::{StallKind, patterns};
 use crate::suites::Suite;
 use edgewalk_model::setup::setup_clocks;
@@ -41,34 +42,18 @@ pub struct Trace {
     /// For each channel of the interface.
     pub channels: Vec<ChannelTrace>,
     /// Every change of the outputs that are compared in every cycle, with its cycle; the first is cycle 0. See
-    /// [`status_ports`].
+    /// [`crate::status_ports`].
     pub status: Vec<(u64, Token)>,
     /// Cycles until nothing more happened.
     pub cycles: u64,
+    /// For each channel the cycles in which its token was valid.
+    pub valid_cycles: Vec<u64>,
     /// The longest wait between two things that happened, cycles.
     pub longest_gap: u64,
     /// Hazards and corners met.
     pub coverage: Coverage,
 }
 
-/// The outputs compared in every cycle, `(place among the outputs, port, width)`: readies of channels in (where they
-/// are defined without a valid), valids of channels out, status ports.
-#[must_use]
-pub fn status_ports(interface: &Interface) -> Vec<(usize, String, u32)> {
-    let outputs = interface.outputs();
-    let slots = Slot::of(interface);
-    let handshakes = interface
-        .channels
-        .iter()
-        .zip(&slots)
-        .filter(|(channel, _)| channel.direction == Direction::Out || channel.ready_always)
-        .map(|(_, slot)| slot.output);
-    let first_status = outputs.len() - interface.status.len();
-    handshakes
-        .chain(first_status..outputs.len())
-        .map(|place| (place, outputs[place].0.clone(), outputs[place].1))
-        .collect()
-}
 
 /// Runs the machine, or one of its units, over a suite. The machine must have passed [`Machine::check`].
 #[must_use]
@@ -77,6 +62,20 @@ pub fn capture(machine: &Machine, unit: Unit, suite: &Suite, state: DrawState, s
     let tagged = Machine { tag_bits: 32, ..machine.clone() };
     let run = Run { machine: &tagged, suite, state };
     run.observe(unit, run.tokens(unit), stalls).with_tags_of(machine)
+}
+
+/// Runs a unit over these tokens, whoever made them; `seed` is that of the stalls.
+#[must_use]
+pub fn capture_tokens(
+    machine: &Machine,
+    unit: Unit,
+    tokens: Vec<Token>,
+    state: DrawState,
+    stalls: StallKind,
+    seed: u64,
+) -> Trace {
+    let suite = Suite { seed, ..Suite::of_triangles("tokens", "", Vec::new()) };
+    Run { machine, suite: &suite, state }.observe(unit, tokens, stalls)
 }
 
 struct Run<'a> {
@@ -133,7 +132,7 @@ impl Run<'_> {
             constants: if interface.constants.is_empty() { Vec::new() } else { constants },
             patterns: patterns(interface, stalls, self.suite.seed),
             latency: u64::from(self.machine.latency),
-            clear_z: u128::from(self.machine.z.max()),
+            clear_z: u128::from(self.suite.clear_z.unwrap_or(self.machine.z.max())),
             words: 1 << self.machine.widths().address,
         }
     }
@@ -142,8 +141,7 @@ impl Run<'_> {
         let interface = interface(self.machine, unit);
         let setting = self.setting(&interface, tokens, stalls);
         let slots = Slot::of(&interface);
-        let status_places: Vec<usize> =
-            status_ports(&interface).into_iter().map(|(place, ..)| place).collect();
+        let status_ports = status_ports(&interface);
         let mut trace = Trace {
             machine: self.machine.clone(),
             setting: setting.clone(),
@@ -151,6 +149,7 @@ impl Run<'_> {
             channels: vec![ChannelTrace::default(); slots.len()],
             status: Vec::new(),
             cycles: 0,
+            valid_cycles: vec![0; slots.len()],
             longest_gap: 0,
             coverage: Coverage::default(),
             interface,
@@ -163,13 +162,15 @@ impl Run<'_> {
             let cycle = bench.cycle();
             let inputs = bench.inputs().to_vec();
             device.cycle(&inputs, &mut outputs);
-            for (channel, slot) in trace.channels.iter_mut().zip(&slots) {
+            let channels = trace.channels.iter_mut().zip(&mut trace.valid_cycles);
+            for ((channel, valid_cycles), slot) in channels.zip(&slots) {
+                *valid_cycles += u64::from(slot.valid(&inputs, &outputs));
                 if slot.fires(&inputs, &outputs) {
                     channel.tokens.push(slot.token(&inputs, &outputs).to_vec());
                     channel.cycles.push(cycle);
                 }
             }
-            let status: Token = status_places.iter().map(|place| outputs[*place]).collect();
+            let status: Token = status_ports.iter().map(|port| port.value(&inputs, &outputs)).collect();
             let changed = trace.status.last().is_none_or(|(_, last)| *last != status);
             if changed {
                 trace.status.push((cycle, status));

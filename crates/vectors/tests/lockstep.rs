@@ -19,7 +19,10 @@ fn every_unit_and_the_machine() {
                 let stalls = StallKind::ALL[(i + j + k) % 3];
                 let trace = capture(machine, unit, &suite, DrawState::default(), stalls);
                 match lockstep(&trace, &netlist) {
-                    Ok(agreement) => compared += agreement.compared,
+                    Ok(agreement) => {
+                        assert_eq!(agreement.compared, trace.port_values());
+                        compared += agreement.compared;
+                    }
                     Err(error) => panic!("{name}, {}, stalls {}: {error}", suite.name, stalls.name()),
                 }
                 runs += 1;
@@ -50,4 +53,36 @@ fn every_depth_function() {
             assert_eq!(writes.is_empty(), [0, 4].contains(&depth_func), "function {depth_func}");
         }
     }
+}
+
+/// Before a depth of half of full scale each function but never and always passes some fragments and not others, under
+/// each policy, with and without the write mask.
+#[test]
+fn every_depth_function_passes_and_fails() {
+    let machines = common::twelve();
+    let mut compared = 0;
+    for name in ["small", "two_adders_drain", "four_segments_interlock"] {
+        let (_, machine) = machines.iter().find(|(other, _)| *other == name).expect("one of the twelve");
+        let netlist = design::netlist(machine, Unit::Depth).expect("a checked machine");
+        let suite = Suite::named(machine, "hazards", 0, 0).expect("listed").on_half_depth(machine);
+        for (depth_func, depth_write) in (0..8).flat_map(|function| [(function, true), (function, false)]) {
+            let state = DrawState { depth_func, depth_write, ..DrawState::default() };
+            let trace = capture(machine, Unit::Depth, &suite, state, StallKind::Mixed);
+            let moved = |channel: &str| {
+                let place = trace.interface.channels.iter().position(|c| c.name == channel);
+                trace.channels[place.expect("DEPTH has it")].tokens.len()
+            };
+            let (fragments, passed) = (moved("frag"), moved("wr"));
+            println!("{name} function {depth_func} mask {depth_write}: {passed} of {fragments} pass");
+            match depth_func {
+                0 => assert_eq!(passed, 0),
+                7 => assert_eq!(passed, fragments),
+                _ => assert!(passed >= 8 && fragments - passed >= 8, "{name}, function {depth_func}: {passed}"),
+            }
+            let agreement = lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
+            assert_eq!(agreement.compared, trace.port_values(), "{name}, function {depth_func}");
+            compared += agreement.compared;
+        }
+    }
+    println!("{compared} port values compared");
 }

@@ -20,8 +20,8 @@ fn replay(machine: &Machine) -> Suite {
     Suite::joined("replay", "", suites.map(|name| Suite::named(machine, name, 5, 12).expect("listed")))
 }
 
-fn files(machine: &Machine, unit: Unit, suite: &Suite, stalls: StallKind) -> Files {
-    let trace = capture(machine, unit, suite, DrawState::default(), stalls);
+fn files(machine: &Machine, unit: Unit, suite: &Suite, depth_func: u8, stalls: StallKind) -> Files {
+    let trace = capture(machine, unit, suite, DrawState { depth_func, ..DrawState::default() }, stalls);
     directory(suite, &trace, &design::verilog(machine, unit).expect("a checked machine"))
 }
 
@@ -49,20 +49,22 @@ fn twelve_machines_replay_are_clean_and_synthesise() {
     let machines = common::twelve();
     let start = Instant::now();
     let done = common::two_at_a_time(&machines, |i, (name, machine)| {
-        let suite = replay(machine);
+        // The functions that let fragments pass take turns.
+        let depth_func = 1 + (i % 7) as u8;
+        let suite = replay(machine).on_half_depth(machine);
         let mut line = format!("{name:28}");
         let mut checked = 0;
         for (j, simulator) in Simulator::ALL.into_iter().enumerate() {
             let start = Instant::now();
             let stalls = StallKind::ALL[(i + j) % 3];
-            let n = passes(simulator, &files(machine, Unit::Machine, &suite, stalls));
+            let n = passes(simulator, &files(machine, Unit::Machine, &suite, depth_func, stalls));
             checked += n;
             line +=
                 &format!(" {} ({}) {n} / {n} in {:.1?};", simulator.name(), stalls.name(), start.elapsed());
         }
         let place = tempfile::tempdir().expect("a directory");
         let vectors = place.path().join("the vectors");
-        write(&files(machine, Unit::Machine, &suite, StallKind::None), &vectors);
+        write(&files(machine, Unit::Machine, &suite, depth_func, StallKind::None), &vectors);
         lint(&vectors, LIMIT).unwrap_or_else(|error| panic!("{name}: {error}"));
         let start = Instant::now();
         let cells = synth_ice40(&vectors, LIMIT).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -74,18 +76,40 @@ fn twelve_machines_replay_are_clean_and_synthesise() {
     assert!(done.iter().all(|checked| *checked > 5000), "{done:?}");
 }
 
+/// Every unit of three machines in Icarus, and in Verilator, where building takes its time, of one of them in turn.
 #[test]
-fn every_unit_replays_in_icarus() {
-    let mut replayed = 0;
-    for (name, machine) in common::twelve().into_iter().step_by(4) {
-        for unit in [Unit::Setup, Unit::Edge, Unit::Span, Unit::Pixel, Unit::Depth] {
-            let checked =
-                passes(Simulator::Icarus, &files(&machine, unit, &replay(&machine), StallKind::Mixed));
-            assert!(checked > 500, "{name}, {}: {checked}", unit.name());
-            replayed += 1;
+fn every_unit_replays() {
+    const UNITS: [Unit; 5] = [Unit::Setup, Unit::Edge, Unit::Span, Unit::Pixel, Unit::Depth];
+    let machines: Vec<_> = common::twelve().into_iter().step_by(4).collect();
+    let mut runs = Vec::new();
+    for (i, (name, machine)) in machines.iter().enumerate() {
+        for (j, unit) in UNITS.into_iter().enumerate() {
+            runs.push((*name, machine, unit, Simulator::Icarus));
+            if j % 3 == i {
+                runs.push((*name, machine, unit, Simulator::Verilator));
+            }
         }
     }
-    assert_eq!(replayed, 15);
+    let checked = common::two_at_a_time(&runs, |_, (name, machine, unit, simulator)| {
+        let files = files(machine, *unit, &replay(machine), 1, StallKind::Mixed);
+        let checked = passes(*simulator, &files);
+        println!("{name:28} {:8} {:10} {checked} / {checked}", unit.name(), simulator.name());
+        checked
+    });
+    assert_eq!(checked.len(), 15 + 5);
+    assert!(checked.iter().all(|checked| *checked > 500), "{checked:?}");
+}
+
+/// Before a depth of half of full scale each function but never and always passes some fragments and not others.
+#[test]
+fn every_depth_function_replays() {
+    let machine = common::small();
+    let suite = Suite::named(&machine, "hazards", 0, 0).expect("listed").on_half_depth(&machine);
+    for depth_func in 0..8 {
+        let checked =
+            passes(Simulator::Icarus, &files(&machine, Unit::Depth, &suite, depth_func, StallKind::Late));
+        assert!(checked > 300, "{depth_func}: {checked}");
+    }
 }
 
 /// DEPTH with one text exchanged, its manifest made anew.

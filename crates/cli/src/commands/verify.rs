@@ -3,15 +3,18 @@
 use super::vectors::{directed, stalls};
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
-use crate::verdict::{ToolError, Verdict};
+use crate::verdict::Verdict;
 use crate::{Talk, jobs, progress};
 use anyhow::{Context, Result, anyhow};
 use edgewalk_model::DrawState;
 use edgewalk_numerics::Machine;
-use edgewalk_vectors::{StallKind, Suite, Trace, Unit, capture, design, directory, lockstep};
+use edgewalk_vectors::{
+    LockstepError, Outcome, Simulator, StallKind, Suite, Trace, Unit, capture, design, directory, lockstep,
+    simulate,
+};
 use serde::Serialize;
 use std::path::Path;
-use std::process::Command;
+use std::time::Duration;
 
 /// Verifies the machine: model against netlist port by port and cycle by cycle, then its Verilog in Icarus and Verilator.
 ///
@@ -30,6 +33,9 @@ pub struct Args {
     /// How the bench makes the design wait: none, mixed, late
     #[arg(long, default_value = "mixed", value_parser = stalls)]
     stalls: StallKind,
+    /// Seconds that a simulator may compile, and again that it may run
+    #[arg(long, default_value_t = 300, value_parser = clap::value_parser!(u64).range(1..))]
+    limit: u64,
     /// Compares model and netlist only
     #[arg(long)]
     no_simulators: bool,
@@ -71,6 +77,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         depth_write: port.state.depth_write,
         ..DrawState::default()
     };
+    let limit = Duration::from_secs(args.limit);
     let bar = progress::bar(work.len() as u64, "suites and units", talk.quiet);
     let checks = jobs::all(&work, &bar, |(suite, unit)| {
         let trace = capture(&machine, *unit, suite, state, args.stalls);
@@ -78,10 +85,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         if !args.no_simulators {
             let folder = write(&machine, suite, *unit, &trace)?;
             // A build with Verilator takes seconds: the whole machine is enough for it.
-            let tools: &[&'static str] =
-                if *unit == Unit::Machine { &["icarus", "verilator"] } else { &["icarus"] };
-            for tool in tools {
-                checks.push(simulate(tool, folder.path(), suite, *unit, trace.expected())?);
+            let simulators: &[Simulator] =
+                if *unit == Unit::Machine { &Simulator::ALL } else { &[Simulator::Icarus] };
+            for simulator in simulators {
+                checks.push(in_simulator(*simulator, folder.path(), limit, suite, &trace)?);
             }
         }
         Ok(checks)
@@ -94,12 +101,16 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 
 fn against_netlist(machine: &Machine, suite: &Suite, unit: Unit, trace: &Trace) -> Result<Check> {
     let netlist = design::netlist(machine, unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+    // How much ought to be compared follows from the model's run alone.
+    let expected = trace.port_values();
     let (checked, difference) = match lockstep(trace, &netlist) {
         Ok(agreement) => (agreement.compared, None),
-        Err(error) => (1, Some(error.to_string())),
+        Err(LockstepError::Vacuous) => (0, None),
+        Err(LockstepError::Differs { difference, compared }) => (compared, Some(difference.to_string())),
+        Err(LockstepError::Ports(error)) => return Err(anyhow!("the netlist's ports: {error}")),
     };
     let suite = suite.name.clone();
-    Ok(Check { suite, unit: unit.name(), against: "netlist", checked, expected: checked, difference })
+    Ok(Check { suite, unit: unit.name(), against: "netlist", checked, expected, difference })
 }
 
 fn write(machine: &Machine, suite: &Suite, unit: Unit, trace: &Trace) -> Result<tempfile::TempDir> {
@@ -115,27 +126,24 @@ fn write(machine: &Machine, suite: &Suite, unit: Unit, trace: &Trace) -> Result<
     Ok(folder)
 }
 
-/// Runs the directory's own Makefile and reads `checked n / n` from what the bench prints.
-fn simulate(tool: &'static str, folder: &Path, suite: &Suite, unit: Unit, expected: u64) -> Result<Check> {
-    let program = if tool == "icarus" { "iverilog" } else { "verilator" };
-    for needed in [program, "make"] {
-        Command::new(needed).arg("-V").output().map_err(|_| {
-            let package = needed;
-            ToolError(format!("{needed} is not installed: apt-get install {package}, or add --no-simulators"))
-        })?;
-    }
-    let output = Command::new("make").arg("-s").arg(tool).current_dir(folder).output().context("make")?;
-    let text = String::from_utf8_lossy(&output.stdout);
-    let checked = text.lines().find_map(|l| l.strip_prefix("checked ")?.split(' ').next()?.parse().ok());
-    let Some(checked) = checked else {
-        let why = String::from_utf8_lossy(&output.stderr);
-        let line =
-            why.lines().find(|l| l.to_lowercase().contains("error")).unwrap_or("the bench printed nothing");
-        return Err(ToolError(format!("{tool}, {} {}: {line}", suite.name, unit.name())).into());
+fn in_simulator(
+    simulator: Simulator,
+    folder: &Path,
+    limit: Duration,
+    suite: &Suite,
+    trace: &Trace,
+) -> Result<Check> {
+    let (unit, expected) = (trace.interface.unit, trace.expected());
+    let work = tempfile::tempdir().context("a folder for the simulator's work")?;
+    let outcome = simulate(simulator, folder, work.path(), limit)
+        .with_context(|| format!("{} {} (--no-simulators goes without)", suite.name, unit.name()))?;
+    let (checked, difference) = match outcome {
+        Outcome::Pass { checked } => (checked, None),
+        Outcome::Mismatch { checked, lines, .. } => (checked, Some(lines.join("\n      "))),
+        Outcome::Vacuous => (0, None),
     };
-    let difference = (!output.status.success())
-        .then(|| text.lines().find(|l| l.contains("expected")).unwrap_or("the bench failed").to_owned());
-    Ok(Check { suite: suite.name.clone(), unit: unit.name(), against: tool, checked, expected, difference })
+    let suite = suite.name.clone();
+    Ok(Check { suite, unit: unit.name(), against: simulator.name(), checked, expected, difference })
 }
 
 fn print(machine: &Machine, checks: &[Check], talk: Talk) -> Result<()> {

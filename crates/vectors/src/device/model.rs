@@ -5,7 +5,7 @@ use crate::ports::{
     Unit, pack_fragment, pack_line, pack_prim, pack_span, pack_write, unpack_fragment, unpack_line,
     unpack_prim, unpack_span, unpack_triangle,
 };
-use edgewalk_model::depth::{Depth, DepthInputs};
+use edgewalk_model::depth::{Block, Depth, DepthInputs};
 use edgewalk_model::edge::Edge;
 use edgewalk_model::pixel::Pixel;
 use edgewalk_model::setup::Setup;
@@ -149,6 +149,8 @@ impl Device for ModelDevice {
                 let ready = bit(input + 1);
                 outputs.push(u128::from(pixel.span_ready(ready)));
                 offer(outputs, pixel.frag().map(|f| pack_fragment(machine, f)), output);
+                let status = [pixel.active(), pixel.on_screen(), pixel.advance(ready), pixel.occupied()];
+                outputs.extend(status.map(u128::from));
                 let span = token.map(|t| unpack_span(machine, t));
                 let gradient: Words = std::array::from_fn(|i| inputs[input - 3 + i] as u64); // the last four fields
                 pixel.step(span.as_ref(), &gradient, ready, coverage);
@@ -169,6 +171,10 @@ impl Device for ModelDevice {
                 let read = frag.filter(|_| block.is_none()).map(|f| vec![f.addr.into()]);
                 offer(outputs, read, 1);
                 offer(outputs, depth.write().map(|w| pack_write(machine, w)), output);
+                let hazard = block == Some(Block::Hazard);
+                // Without a fragment only a full queue blocks.
+                let full = depth.block(None, depth_inputs.depth_write).is_some();
+                outputs.extend([hazard, full, depth.occupied()].map(u128::from));
                 depth.step(frag.as_ref(), block, &depth_inputs, coverage);
             }
         }

@@ -6,9 +6,6 @@ use edgewalk_netlist::{InputId, Netlist, SignalId, Simulator};
 use rand::{RngCore, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// Cycles of a disturbance; SETUP is then in the middle of a triangle.
-const DISTURBANCE: u32 = 197;
-
 /// A netlist whose ports are those of an interface, after a clock of reset.
 #[derive(Clone, Debug)]
 pub struct NetlistDevice {
@@ -92,17 +89,16 @@ impl NetlistDevice {
         }
     }
 
-    /// Some cycles of random inputs, then a reset: so that nothing is taken for reset that only was 0 before.
-    pub fn disturb(&mut self) {
-        let mut random = Pcg64Mcg::seed_from_u64(1);
-        for _ in 0..DISTURBANCE {
+    /// So many cycles of random inputs.
+    pub fn disturb(&mut self, cycles: u64) {
+        let mut random = Pcg64Mcg::seed_from_u64(cycles);
+        for _ in 0..cycles {
             for input in &self.inputs {
                 let value = u128::from(random.next_u64()) << 64 | u128::from(random.next_u64());
                 self.simulator.set(*input, value);
             }
             self.simulator.tick();
         }
-        self.reset();
     }
 
     /// Drives the inputs and gives the outputs of this cycle, before the clock edge.

@@ -45,6 +45,15 @@ pub struct Channel {
     pub ready_always: bool,
 }
 
+/// An output that is compared in every cycle.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Status {
+    /// The port.
+    pub field: Field,
+    /// For a flag that does not always mean something: the port that is 1 while it does. It counts as 0 while not.
+    pub during: Option<&'static str>,
+}
+
 /// A unit of the machine, or the whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
@@ -94,7 +103,7 @@ pub struct Interface {
     /// One-bit inputs that may change in any cycle.
     pub levels: Vec<Field>,
     /// Outputs that are compared in every cycle.
-    pub status: Vec<Field>,
+    pub status: Vec<Status>,
     /// `rd` and `data` are the two ends of a depth memory that the bench has to be.
     pub memory: bool,
 }
@@ -131,7 +140,7 @@ impl Interface {
     /// turn valid and fields (out) or ready (in), then the status ports.
     #[must_use]
     pub fn outputs(&self) -> Vec<(String, u32)> {
-        self.flat(Direction::Out, self.status.iter())
+        self.flat(Direction::Out, self.status.iter().map(|status| &status.field))
     }
 
     fn flat<'a>(&'a self, with_data: Direction, rest: impl Iterator<Item = &'a Field>) -> Vec<(String, u32)> {

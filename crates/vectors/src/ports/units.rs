@@ -1,6 +1,6 @@
 //! The interface of every unit.
 
-use super::{Channel, Direction, Field, Interface, Unit, fields};
+use super::{Channel, Direction, Field, Interface, Status, Unit, fields};
 use edgewalk_numerics::Machine;
 
 /// The ports of a unit of this machine.
@@ -21,12 +21,12 @@ pub fn interface(machine: &Machine, unit: Unit) -> Interface {
             channels.push(tri());
             depth_memory(machine, &mut interface);
             interface.status = vec![
-                bits(
+                status(bits(
                     "activity",
                     4,
                     "cause of the cycle: 0 idle 1 draw 2 offscreen 3 hazard 4 queue 5 memory 6 edge 7 setup 8 flush",
-                ),
-                bits("idle", 1, "activity is 0"),
+                )),
+                status(bits("idle", 1, "activity is 0")),
             ];
         }
         Unit::Setup => {
@@ -45,19 +45,33 @@ pub fn interface(machine: &Machine, unit: Unit) -> Interface {
             let line = into("line", fields::line_fields(machine));
             channels.push(Channel { ready_always: false, ..line });
             channels.push(out("span", fields::span_fields(machine)));
-            interface.status.push(bits("fresh_queued", 1, "the first span of a triangle is queued"));
+            interface.status = vec![status(bits("fresh_queued", 1, "the first span of a triangle is queued"))];
         }
         Unit::Pixel => {
             let mut span = fields::span_fields(machine);
             span.extend(fields::gradient_fields(machine));
             channels.push(into("span", span));
             channels.push(out("frag", fields::fragment_fields(machine)));
+            interface.status = vec![
+                status(bits("active", 1, "a span is being drawn")),
+                Status { during: Some("active"), ..status(bits("visible", 1, "its pixel is on the screen")) },
+                status(bits("advance", 1, "nothing waits at the output")),
+                status(bits("occupied", 1, "a fragment is in an output stage")),
+            ];
         }
         Unit::Depth => {
             // Whether a pixel is in flight is asked of fragments only.
             let frag = into("frag", fields::fragment_fields(machine));
             channels.push(Channel { ready_always: false, ..frag });
             depth_memory(machine, &mut interface);
+            interface.status = vec![
+                Status {
+                    during: Some("frag_valid"),
+                    ..status(bits("hazard", 1, "the fragment must wait for one in flight"))
+                },
+                status(bits("full", 1, "the in-flight queue is full")),
+                status(bits("occupied", 1, "something is in flight")),
+            ];
         }
     }
     interface
@@ -81,6 +95,10 @@ fn into(name: &'static str, fields: Vec<Field>) -> Channel {
 
 fn out(name: &'static str, fields: Vec<Field>) -> Channel {
     Channel { name, direction: Direction::Out, fields, ready_always: true }
+}
+
+fn status(field: Field) -> Status {
+    Status { field, during: None }
 }
 
 fn bits(port: &str, width: u32, format: &str) -> Field {

@@ -10,6 +10,9 @@ use edgewalk_numerics::Machine;
 /// Depths that pass and fail in turn under `less` and under `greater`.
 const MIXED: [f64; 12] = [0.9, 0.5, 0.7, 0.3, 0.6, 0.1, 0.8, 0.1, 0.05, 0.4, 0.02, 0.0];
 
+/// Three pixels so that every one follows every other at every distance up to five.
+const ANY_ORDER: &str = "1112221233321131231323221123311213212";
+
 pub(super) fn cases(machine: &Machine) -> Vec<Case> {
     let pen = Pen::new(machine);
     let falling = |n: u32| (0..n).map(move |i| 1.0 - f64::from(i + 1) / f64::from(n + 1));
@@ -25,6 +28,19 @@ pub(super) fn cases(machine: &Machine) -> Vec<Case> {
         case("three_pixels_in_turn", {
             let column = |i: usize| 1.0 + (i % 3) as f64;
             MIXED.iter().enumerate().map(|(i, z)| pen.dot(column(i), 0.0, *z)).collect::<Vec<_>>()
+        }),
+        case("four_pixels_in_turn", {
+            let column = |i: usize| 1.0 + (i % 4) as f64;
+            MIXED.iter().enumerate().map(|(i, z)| pen.dot(column(i), 2.0, *z)).collect::<Vec<_>>()
+        }),
+        case("three_pixels_in_any_order", {
+            // Of 37 different depths each once, falling on the whole.
+            let z = |i: usize| (1.0 - i as f64 / 72.0) * (i * 23 % 37) as f64 / 36.0;
+            let column = |digit: char| f64::from(digit.to_digit(10).unwrap_or(0));
+            ANY_ORDER.chars().enumerate().map(|(i, at)| pen.dot(column(at), 4.0, z(i))).collect::<Vec<_>>()
+        }),
+        case("one_pixel_again_around_half_depth", {
+            [0.5, 0.4, 0.5, 0.6, 0.4, 1.0, 0.5, 0.0, 1.0].map(|z| pen.dot(5.0, 1.0, z))
         }),
         case("short_span_over_itself", {
             falling(8).map(|z| pen.level([(0.0, 4.0), (3.0, 4.0), (0.0, 5.0)], z))

@@ -38,6 +38,8 @@ pub struct Suite {
     pub about: String,
     /// Seed of whatever is random in it.
     pub seed: u64,
+    /// Every stored depth at the start, LSB; the largest if `None`.
+    pub clear_z: Option<u64>,
     /// The cases, in order.
     pub cases: Vec<Case>,
 }
@@ -100,6 +102,7 @@ impl Suite {
             name: name.to_owned(),
             about: entry.about.to_owned(),
             seed,
+            clear_z: None,
             cases: (entry.cases)(machine, seed, count),
         })
     }
@@ -108,18 +111,24 @@ impl Suite {
     #[must_use]
     pub fn of_triangles(name: &str, about: &str, triangles: Vec<Triangle>) -> Suite {
         let case = Case { name: name.to_owned(), triangles };
-        Suite { name: name.to_owned(), about: about.to_owned(), seed: 0, cases: vec![case] }
+        Suite { name: name.to_owned(), about: about.to_owned(), seed: 0, clear_z: None, cases: vec![case] }
     }
 
     /// One suite after the other, as one.
     #[must_use]
     pub fn joined(name: &str, about: &str, suites: impl IntoIterator<Item = Suite>) -> Suite {
-        let mut joined = Suite { name: name.to_owned(), about: about.to_owned(), seed: 0, cases: Vec::new() };
+        let mut joined = Suite { cases: Vec::new(), ..Suite::of_triangles(name, about, Vec::new()) };
         for suite in suites {
             joined.seed = joined.seed.max(suite.seed);
             joined.cases.extend(suite.cases);
         }
         joined
+    }
+
+    /// The same on a depth of half of full scale instead of full scale: then `greater` passes too.
+    #[must_use]
+    pub fn on_half_depth(self, machine: &Machine) -> Suite {
+        Suite { clear_z: Some(machine.z.max().div_ceil(2)), ..self }
     }
 
     /// All triangles, in order.

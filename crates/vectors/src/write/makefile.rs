@@ -39,7 +39,7 @@ verilator: obj_dir/Vtb
 	grep -qx PASS verilator.log
 
 obj_dir/Vtb: filelist.f $(HDL) $(BENCH) $(DATA)
-	verilator --binary --timing -O3 -Wno-PINMISSING --top-module tb -f filelist.f
+	verilator --binary --timing -O3 --top-module tb -f filelist.f
 
 lint:
 	verilator --lint-only -Wall --top-module {top} $(HDL)

@@ -19,9 +19,10 @@ mod testbench;
 
 pub(crate) use describe::file;
 
-use crate::capture::{Trace, status_ports};
+use crate::capture::Trace;
 use crate::manifest;
 use crate::ports::{Direction, Field};
+use crate::status::{StatusPort, status_ports};
 use crate::suites::Suite;
 
 /// Files to be written: name relative to the directory, contents.
@@ -75,13 +76,11 @@ fn token_file(channel: &str, direction: Direction) -> String {
 
 /// The outputs compared in every cycle, as the fields of one token.
 fn status_fields(trace: &Trace) -> Vec<Field> {
-    let known = &trace.interface.status;
-    status_ports(&trace.interface)
-        .into_iter()
-        .map(|(_, port, width)| {
-            let format =
-                known.iter().find(|field| field.port == port).map_or("handshake", |field| &field.format);
-            Field { format: format.to_owned(), port, width, signed: false }
-        })
-        .collect()
+    let known: Vec<&Field> = trace.interface.status.iter().map(|status| &status.field).collect();
+    let field = |status: StatusPort| {
+        let known = known.iter().find(|field| field.port == status.port);
+        let format = known.map_or("handshake", |field| &field.format).to_owned();
+        Field { format, port: status.port, width: status.width, signed: false }
+    };
+    status_ports(&trace.interface).into_iter().map(field).collect()
 }

@@ -1,8 +1,9 @@
 //! `params.vh`: the numbers of a run, for the test bench.
 
-use crate::capture::{Trace, status_ports};
+use crate::capture::Trace;
 use crate::ports::Direction;
 use crate::stalls::Pattern;
+use crate::status::status_ports;
 use std::fmt::Write as _;
 
 /// The text of `params.vh`, included inside the test bench.
@@ -25,7 +26,7 @@ pub fn params(trace: &Trace) -> String {
             number(&format!("{name}_COUNT"), moved.tokens.len() as u64, "tokens");
         }
     }
-    let status: u32 = status_ports(interface).iter().map(|(_, _, width)| width).sum();
+    let status: u32 = status_ports(interface).iter().map(|port| port.width).sum();
     number("STATUS_WIDTH", status.into(), "bits of all outputs that are compared in every cycle");
     number("STATUS_COUNT", trace.status.len() as u64, "changes of these");
     // Twice the longest wait of the model, and some: a design that does nothing for so long has stopped.

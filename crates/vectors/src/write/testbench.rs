@@ -1,7 +1,7 @@
 //! `tb.v`: a self-checking test bench in plain Verilog-2001, made of the modules in `bench/`.
 
-use crate::capture::status_ports;
 use crate::ports::{Channel, Direction, Field, Interface};
+use crate::status::{StatusPort, status_ports};
 use std::fmt::Write as _;
 
 /// The modules that every test bench uses, file name and text.
@@ -112,9 +112,10 @@ const MEMORY: &str = r#"
 "#;
 
 fn status_section(interface: &Interface) -> String {
-    let ports: Vec<String> = status_ports(interface).into_iter().map(|(_, port, _)| port).collect();
+    let ports: Vec<String> = status_ports(interface).iter().map(StatusPort::expression).collect();
     let mut text = String::from("\n    // Outputs that are compared in every cycle.\n");
-    for field in &interface.status {
+    for status in &interface.status {
+        let field = &status.field;
         let _ = writeln!(text, "    wire {}{};", range(field), field.port);
     }
     let _ = writeln!(text, "    wire [STATUS_WIDTH-1:0] status = {{{}}};", ports.join(", "));
@@ -170,9 +171,8 @@ fn device_section(interface: &Interface) -> String {
     }
     let constant = |field: &Field| format!("{}({})", field.port, field.port.to_uppercase());
     ports.extend(interface.constants.iter().map(constant));
-    ports.extend(
-        interface.levels.iter().chain(&interface.status).map(|field| format!("{0}({0})", field.port)),
-    );
+    let status = interface.status.iter().map(|status| &status.field);
+    ports.extend(interface.levels.iter().chain(status).map(|field| format!("{0}({0})", field.port)));
     let list: Vec<String> = ports.iter().map(|port| format!("        .{port}")).collect();
     format!("\n    // The design.\n    {} dut (\n{}\n    );\n", interface.unit.module(), list.join(",\n"))
 }

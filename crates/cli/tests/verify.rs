@@ -1,0 +1,61 @@
+//! How `edgewalk verify` ends: each exit code for its own reason.
+
+use std::process::{Command, Output};
+
+/// A small machine, so that all of it takes seconds.
+const SMALL: [&str; 6] =
+    ["--set", "screen.width=24", "--set", "screen.height=20", "--set", "screen.guard_bits=6"];
+
+fn verify(triangles: &str, arguments: &[&str], path: Option<&str>) -> Output {
+    let place = tempfile::tempdir().expect("a directory");
+    let file = place.path().join("input.tri");
+    std::fs::write(&file, format!("size 24 20\nmode gouraud\n{triangles}")).expect("a file");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_edgewalk"));
+    command.arg("verify").arg(&file).args(SMALL).args(arguments);
+    if let Some(path) = path {
+        command.env("PATH", path);
+    }
+    command.output().expect("the program runs")
+}
+
+const TRIANGLE: &str = "T 1 1 0.2 1 0 0 1  12 3 0.5 0 1 0 1  4 15 0.8 0 0 1 1\n";
+
+fn told(output: &Output) -> (Option<i32>, String) {
+    let text = [&output.stdout[..], &output.stderr].map(String::from_utf8_lossy).concat();
+    (output.status.code(), text)
+}
+
+#[test]
+fn pass_counts_what_the_stimulus_asks_for() {
+    let (code, text) = told(&verify(TRIANGLE, &["--no-simulators"], None));
+    assert_eq!(code, Some(0), "{text}");
+    let counts: Vec<(u64, u64)> = text
+        .lines()
+        .filter_map(|line| line.split_once("checked ")?.1.split_once(" / "))
+        .map(|(checked, expected)| (checked.parse().expect("a number"), expected.parse().expect("a number")))
+        .collect();
+    // The input through the machine, two directed suites through it and its five units.
+    assert_eq!(counts.len(), 13, "{text}");
+    assert!(counts.iter().all(|(checked, expected)| *checked > 1000 && checked == expected), "{text}");
+}
+
+#[test]
+fn nothing_to_draw_is_nothing_checked() {
+    let (code, text) = told(&verify("", &["--no-simulators"], None));
+    assert_eq!(code, Some(2), "{text}");
+    assert!(text.contains("checked 0 / "), "{text}");
+}
+
+#[test]
+fn a_missing_simulator_is_named() {
+    let (code, text) = told(&verify(TRIANGLE, &[], Some("/nowhere")));
+    assert_eq!(code, Some(3), "{text}");
+    assert!(text.contains("iverilog is not installed; try: apt-get install"), "{text}");
+}
+
+#[test]
+fn a_simulator_that_takes_too_long_is_ended() {
+    let (code, text) = told(&verify(TRIANGLE, &["--limit", "1"], None));
+    assert_eq!(code, Some(4), "{text}");
+    assert!(text.contains("was ended after 1 s"), "{text}");
+}

@@ -1,0 +1,161 @@
+//! The share of single faults in the netlists that the lock-step comparison finds, and the names of those it does not.
+//!
+//! A fault that survives is handed to a prover: where no input whatever makes a difference at the ports of the unit, there is
+//! nothing to find. Such a fault is named as equivalent and not counted; nothing else is taken out of the count.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod miter;
+mod proof;
+
+use edgewalk_model::DrawState;
+use edgewalk_netlist::mutate::mutants;
+use edgewalk_numerics::Machine;
+use edgewalk_vectors::{
+    Interface, StallKind, Suite, Trace, Unit, capture, capture_tokens, design, interface, lockstep,
+};
+use proof::{Proof, prove};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// Machine, unit, and how many mutants there are for each that is tried: setup is slow to run.
+const PLAN: [(&str, Unit, usize); 5] = [
+    ("small", Unit::Setup, 8),
+    ("small", Unit::Edge, 1),
+    ("small", Unit::Span, 1),
+    ("small", Unit::Pixel, 1),
+    ("small", Unit::Depth, 1),
+];
+
+/// Least share killed of those that are not proved equivalent, in percent; what is measured is printed.
+const LEAST: usize = 95;
+
+/// What became of the mutants of a unit.
+#[derive(Default)]
+struct Tally {
+    tried: usize,
+    killed: usize,
+    equivalent: usize,
+    lines: Vec<String>,
+}
+
+#[test]
+fn single_faults_are_found() {
+    let machines = common::twelve();
+    let tallies = common::two_at_a_time(&PLAN, |_, (name, unit, step)| {
+        let (_, machine) = machines.iter().find(|(other, _)| other == name).expect("one of the twelve");
+        let start = std::time::Instant::now();
+        if std::env::var("DBGU").is_ok_and(|u| u != unit.name()) { return Tally::default(); }
+        let tally = tally(machine, *unit, *step);
+        println!("{}", tally.lines.join("\n"));
+        println!(
+            "{name} {}: killed {} / {}, {} more are equivalent",
+            unit.name(),
+            tally.killed,
+            tally.tried - tally.equivalent,
+            tally.equivalent
+        );
+        eprintln!("{:.1?}", start.elapsed());
+        tally
+    });
+    let sum = |of: fn(&Tally) -> usize| tallies.iter().map(of).sum::<usize>();
+    let (killed, equivalent) = (sum(|t| t.killed), sum(|t| t.equivalent));
+    let expected = sum(|t| t.tried) - equivalent;
+    let percent = 100.0 * killed as f64 / expected as f64;
+    println!("killed {killed} / {expected}, {percent:.1} %; {equivalent} more are proved equivalent");
+    assert!(expected >= 40);
+    assert!(100 * killed >= LEAST * expected, "only {killed} of {expected} killed");
+}
+
+fn tally(machine: &Machine, unit: Unit, step: usize) -> Tally {
+    let netlist = design::netlist(machine, unit).expect("a checked machine");
+    let interface: Interface = interface(machine, unit);
+    let traces = traces(machine, unit);
+    for trace in &traces {
+        lockstep(trace, &netlist).expect("the netlist without a fault agrees");
+    }
+    let mut tally = Tally::default();
+    for mutant in mutants(&netlist).iter().step_by(step) {
+        let faulty = mutant.apply(&netlist);
+        tally.tried += 1;
+        if traces.iter().any(|trace| lockstep(trace, &faulty).is_err()) {
+            tally.killed += 1;
+            continue;
+        }
+        eprintln!("{}", mutant.description);
+        let verdict = match prove(&interface, &netlist, mutant, unit != Unit::Setup) {
+            Proof::Equivalent => {
+                tally.equivalent += 1;
+                "equivalent (proved by pdr)"
+            }
+            Proof::Differs => "survives, though there are inputs that show it",
+            Proof::Unknown => "survives; neither proved nor refuted",
+        };
+        tally.lines.push(format!("  {verdict}: {}: {}", mutant.module, mutant.description));
+    }
+    tally
+}
+
+/// What a unit's mutants are tried with.
+fn traces(machine: &Machine, unit: Unit) -> Vec<Trace> {
+    let names: &[&str] =
+        if unit == Unit::Setup { &["corners", "random"] } else { &["hazards", "corners", "random"] };
+    let suites = names.iter().map(|name| Suite::named(machine, name, 1, 24).expect("listed"));
+    let suite = Suite::joined("mutants", "all that is directed, and some at random", suites);
+    let half = suite.clone().on_half_depth(machine);
+    // Only DEPTH looks at the function and the write mask.
+    let functions = if unit == Unit::Depth { 0..8 } else { 1..2 };
+    let mut traces = Vec::new();
+    for depth_func in functions {
+        for stalls in StallKind::ALL {
+            let state = DrawState { depth_func, ..DrawState::default() };
+            let suite = if depth_func & 4 != 0 { &half } else { &suite };
+            traces.push(capture(machine, unit, suite, state, stalls));
+        }
+    }
+    let masked = DrawState { depth_write: false, ..DrawState::default() };
+    traces.push(capture(machine, unit, &suite, masked, StallKind::Mixed));
+    match unit {
+        Unit::Setup => traces.push(specks(machine)),
+        Unit::Span => traces.extend((1..=4).map(|seed| any_lines(machine, &traces[1], seed)).collect::<Vec<_>>()),
+        _ => {}
+    }
+    traces
+}
+
+/// Triangles of a few sub-pixels around a pixel's centre: their areas are the small divisors that meet halves.
+fn specks(machine: &Machine) -> Trace {
+    let mut random = Pcg64Mcg::seed_from_u64(1);
+    let scale = f64::from(1 << machine.subpixel_bits);
+    let vertex = |random: &mut Pcg64Mcg| {
+        let mut at = || 2.5 + f64::from(random.random_range(-3..=3)) / scale;
+        let at = (at(), at());
+        machine.port_vertex(at.0, at.1, std::array::from_fn(|_| random.random())).expect("inside")
+    };
+    let triangles = (0..100).map(|_| std::array::from_fn(|_| vertex(&mut random))).collect();
+    let suite = Suite::of_triangles("specks", "areas of few sub-pixels", triangles);
+    capture(machine, Unit::Setup, &suite, DrawState::default(), StallKind::None)
+}
+
+/// As many lines, with flags that no EDGE gives, half of them somewhere around the screen: many are empty.
+fn any_lines(machine: &Machine, of: &Trace, seed: u64) -> Trace {
+    let line = &of.interface.channels[0];
+    let place = |field| line.field(field).expect("a line has it");
+    let flags = ["fresh", "fence"].map(place);
+    let ends = ["cmaj", "cmin"].map(place);
+    let column_mask = (1u128 << machine.widths().column) - 1;
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let mut tokens = of.setting.tokens.clone();
+    for token in &mut tokens {
+        flags.iter().for_each(|flag| token[*flag] = u128::from(random.random::<bool>()));
+        if random.random() {
+            let column = random.random_range(-4..machine.width as i128 + 4);
+            let length = random.random_range(-2..4);
+            token[ends[0]] = column as u128 & column_mask;
+            token[ends[1]] = (column + length) as u128 & column_mask;
+        }
+    }
+    // A line without flags comes first: what a reset left would be seen.
+    flags.iter().for_each(|flag| tokens[0][*flag] = 0);
+    capture_tokens(machine, of.interface.unit, tokens, DrawState::default(), StallKind::Mixed, seed)
+}

@@ -1,0 +1,98 @@
+//! Two designs under the same inputs, and whether a port that counts differs, as Verilog.
+
+use edgewalk_netlist::Netlist;
+use edgewalk_vectors::ports::{Channel, Direction, Field};
+use edgewalk_vectors::{Interface, status_ports};
+use std::fmt::Write as _;
+
+/// The ports of both designs, without clock and reset.
+pub struct Ports {
+    inputs: Vec<(String, u32)>,
+    /// Inputs that change at a reset only.
+    constants: Vec<String>,
+    outputs: Vec<(String, u32)>,
+    /// Outputs that count; with the port that must be 1 for it.
+    compared: Vec<(String, Option<String>)>,
+    has_clock: bool,
+    has_reset: bool,
+}
+
+impl Ports {
+    /// Those of a module: every output counts in every cycle.
+    pub fn of_module(module: &Netlist) -> Ports {
+        let inputs = module.inputs.iter().map(|input| (input.name.clone(), module.width(input.node)));
+        let outputs = module.outputs.iter().map(|output| (output.name.clone(), module.width(output.driver)));
+        Ports {
+            inputs: inputs.collect(),
+            constants: Vec::new(),
+            outputs: outputs.collect(),
+            compared: module.outputs.iter().map(|output| (output.name.clone(), None)).collect(),
+            has_clock: module.has_clock,
+            has_reset: module.has_reset,
+        }
+    }
+
+    /// Those of a unit: outputs count as in lock step.
+    pub fn of_unit(interface: &Interface) -> Ports {
+        let status = status_ports(interface).into_iter();
+        let status = status.map(|status| (status.port.clone(), status.during().map(str::to_owned)));
+        let of_channel = |channel: &Channel| {
+            let valid = format!("{}_valid", channel.name);
+            let ports: Vec<String> = match channel.direction {
+                Direction::Out => channel.fields.iter().map(|field: &Field| field.port.clone()).collect(),
+                Direction::In => vec![format!("{}_ready", channel.name)],
+            };
+            ports.into_iter().map(move |port| (port, Some(valid.clone())))
+        };
+        Ports {
+            inputs: interface.inputs(),
+            constants: interface.constants.iter().map(|field| field.port.clone()).collect(),
+            outputs: interface.outputs(),
+            compared: status.chain(interface.channels.iter().flat_map(of_channel)).collect(),
+            has_clock: true,
+            has_reset: true,
+        }
+    }
+}
+
+/// The module `miter` of the modules `original` and `faulty`; its output `bad` is 1 where they differ.
+pub fn miter(ports: &Ports) -> String {
+    let range = |width: u32| format!("[{}:0]", width - 1);
+    let mut header = String::from("input clk, input rst");
+    let mut body = String::from(
+        "reg started;\ninitial started = 1'b0;\nalways @(posedge clk) if (rst) started <= 1'b1;\n",
+    );
+    let clock = [(ports.has_clock, "clk"), (ports.has_reset, "rst")];
+    let clock = clock.into_iter().filter(|(has, _)| *has).map(|(_, name)| name.to_owned());
+    let mut shared: Vec<String> = clock.collect();
+    for (port, width) in &ports.inputs {
+        let range = range(*width);
+        if ports.constants.contains(port) {
+            let _ = write!(header, ", input {range} {port}_in");
+            let _ = writeln!(body, "reg {range} {port};\nalways @(posedge clk) if (rst) {port} <= {port}_in;");
+        } else {
+            let _ = write!(header, ", input {range} {port}");
+        }
+        shared.push(port.clone());
+    }
+    for (port, width) in &ports.outputs {
+        let _ = writeln!(body, "wire {} {port}, other_{port};", range(*width));
+    }
+    let connections = |prefix: &str| {
+        let inputs = shared.iter().map(|port| format!(".{port}({port})"));
+        let outputs = ports.outputs.iter().map(|(port, _)| format!(".{port}({prefix}{port})"));
+        inputs.chain(outputs).collect::<Vec<_>>().join(", ")
+    };
+    let differ = ports.compared.iter().map(|(port, during)| {
+        let during = during.as_ref().map_or(String::new(), |during| format!("{during} && "));
+        format!("({during}{port} != other_{port})")
+    });
+    let differ: Vec<String> = differ.collect();
+    format!(
+        "module miter({header}, output bad);\n{body}original a({});\nfaulty b({});\n\
+         assign bad = started && !rst && ({});\nendmodule\n",
+        connections(""),
+        connections("other_"),
+        differ.join(" || ")
+    )
+}

@@ -1,0 +1,111 @@
+//! Proves by machine that a fault cannot be seen, whatever comes in.
+//!
+//! ```text
+//!           ┌─> original ─┐
+//!  inputs ──┤             ├─ differ? ─> bad      bad is never 1, from reset on: property-directed reachability
+//!           └─> faulty ───┘
+//! ```
+//! First at the ports of the module with the fault, its instances cut out, every output in every cycle. Where these
+//! differ, at the ports of the unit, where outputs count as in lock step: fields while their valid is high, a status port
+//! while it means something.
+//!
+//! Inputs are free in every cycle, resets too; only the constants of the interface hold their value from reset to
+//! reset. Both copies begin with every register 0, run on free inputs, and are compared from their first reset on. Yosys
+//! turns the two printed designs into gates; ABC (`scorr`, `pdr`) finds the invariant or the cycles to a difference.
+
+use crate::miter::{Ports, miter};
+use edgewalk_netlist::mutate::Mutant;
+use edgewalk_netlist::Netlist;
+use edgewalk_netlist::netlist::{Input, Item, Output, Source};
+use edgewalk_vectors::Interface;
+use std::path::Path;
+use std::process::Command;
+use std::sync::Arc;
+
+/// Seconds of processor time that a search may take.
+const LIMIT: u32 = 4;
+
+/// What the search found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Proof {
+    /// No inputs whatever make a difference.
+    Equivalent,
+    /// Some do.
+    Differs,
+    /// The search came to no end.
+    Unknown,
+}
+
+/// Compares a netlist with the same netlist with a fault; `whole` also at the ports of the unit, if it must be.
+pub fn prove(interface: &Interface, original: &Arc<Netlist>, mutant: &Mutant, whole: bool) -> Proof {
+    let faulty = mutant.apply(original);
+    let [one, other] = [original, &faulty].map(|netlist| alone(netlist, &mutant.module));
+    match search(&Ports::of_module(&one), &one, &other) {
+        Proof::Equivalent => Proof::Equivalent,
+        _ if whole => search(&Ports::of_unit(interface), original, &faulty),
+        // A difference at the module's ports need not reach those of the unit.
+        _ => Proof::Unknown,
+    }
+}
+
+/// The module of this name without what it is made of: outputs of its instances are inputs, and the other way round.
+fn alone(netlist: &Arc<Netlist>, module: &str) -> Arc<Netlist> {
+    let modules = netlist.modules();
+    let found = modules.iter().find(|found| found.name == module).expect("the fault is in one of them");
+    let mut alone = Netlist::clone(found);
+    for instance in std::mem::take(&mut alone.instances) {
+        for (output, node) in instance.module.outputs.iter().zip(&instance.outputs) {
+            if let Some(node) = *node {
+                let name = format!("{}_{}", instance.name, output.name);
+                alone.nodes[node.index()].source = Source::Input(alone.inputs.len());
+                alone.inputs.push(Input { name, doc: String::new(), node });
+            }
+        }
+        for (input, driver) in instance.module.inputs.iter().zip(instance.connections) {
+            let name = format!("{}_in_{}", instance.name, input.name);
+            alone.outputs.push(Output { name, doc: String::new(), driver });
+        }
+    }
+    alone.items.retain(|item| !matches!(item, Item::Instance(_) | Item::InstanceOutput(_)));
+    alone.has_clock = !alone.registers.is_empty();
+    alone.has_reset = alone.registers.iter().any(|register| register.reset.is_some());
+    Arc::new(alone)
+}
+
+fn search(ports: &Ports, original: &Arc<Netlist>, faulty: &Arc<Netlist>) -> Proof {
+    let place = tempfile::tempdir().expect("a directory");
+    let write = |name: &str, text: String| std::fs::write(place.path().join(name), text).expect("a file");
+    write("original.v", text(original));
+    write("faulty.v", text(faulty));
+    write("miter.v", miter(ports));
+    let top = &original.name;
+    let gates = format!(
+        "read_verilog original.v; prep -flatten -top {top}; rename {top} original; design -stash original; \
+         read_verilog faulty.v; prep -flatten -top {top}; rename {top} faulty; design -stash faulty; \
+         design -copy-from original original; design -copy-from faulty faulty; read_verilog miter.v; \
+         prep -flatten -top miter; setundef -undriven -zero; setundef -init -zero; opt -full; techmap; opt -full; \
+         dffunmap; aigmap; opt_clean; write_aiger -zinit miter.aig"
+    );
+    run(place.path(), "yosys", &["-Q", "-T", "-p", &gates]);
+    let find = format!("read_aiger miter.aig; scorr -F 2; pdr -T {LIMIT}");
+    let printed = run(place.path(), "yosys-abc", &["-c", &find]);
+    if printed.contains("Property proved") {
+        Proof::Equivalent
+    } else if printed.contains("was asserted in frame") {
+        Proof::Differs
+    } else {
+        Proof::Unknown
+    }
+}
+
+fn text(netlist: &Arc<Netlist>) -> String {
+    edgewalk_verilog::print(netlist).into_iter().map(|(_, text)| text).collect()
+}
+
+fn run(place: &Path, tool: &str, arguments: &[&str]) -> String {
+    let output = Command::new(tool).args(arguments).current_dir(place).output();
+    let output = output.unwrap_or_else(|error| panic!("{tool} (of the package yosys) is needed: {error}"));
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{tool}:\n{text}\n{}", String::from_utf8_lossy(&output.stderr));
+    text
+}
