@@ -26,7 +26,6 @@ use clap::{Parser, Subcommand};
 use commands::{bench, config, demo, emit, explain, gallery, raster, render, trace, vectors, verify};
 use machine_args::MachineArgs;
 use std::process::ExitCode;
-use verdict::Verdict;
 
 /// Fixed-point incremental triangle hardware: model, netlist, Verilog and the proof that they agree.
 ///

@@ -38,23 +38,6 @@ fn every_unit_and_the_machine() {
     assert!(compared > 1_000_000);
 }
 
-/// All depth functions, with and without depth writes.
-#[test]
-fn every_depth_function() {
-    let machine = common::small();
-    let netlist = design::netlist(&machine, Unit::Depth).expect("a checked machine");
-    let suite = Suite::named(&machine, "hazards", 3, 0).expect("listed");
-    for depth_func in 0..8 {
-        for depth_write in [false, true] {
-            let state = DrawState { depth_func, depth_write, ..DrawState::default() };
-            let trace = capture(&machine, Unit::Depth, &suite, state, StallKind::Mixed);
-            lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("function {depth_func}: {error}"));
-            let writes = &trace.channels[3].tokens;
-            assert_eq!(writes.is_empty(), [0, 4].contains(&depth_func), "function {depth_func}");
-        }
-    }
-}
-
 /// Before a depth of half of full scale each function but never and always passes some fragments and not others, under
 /// each policy, with and without the write mask.
 #[test]

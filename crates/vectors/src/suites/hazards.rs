@@ -34,10 +34,10 @@ pub(super) fn cases(machine: &Machine) -> Vec<Case> {
             MIXED.iter().enumerate().map(|(i, z)| pen.dot(column(i), 2.0, *z)).collect::<Vec<_>>()
         }),
         case("three_pixels_in_any_order", {
-            // Of 37 different depths each once, falling on the whole.
+            // 37 depths in no order, falling on the whole.
             let z = |i: usize| (1.0 - i as f64 / 72.0) * (i * 23 % 37) as f64 / 36.0;
-            let column = |digit: char| f64::from(digit.to_digit(10).unwrap_or(0));
-            ANY_ORDER.chars().enumerate().map(|(i, at)| pen.dot(column(at), 4.0, z(i))).collect::<Vec<_>>()
+            let column = |digit: char| 2.0 + f64::from(digit.to_digit(10).unwrap_or(0));
+            ANY_ORDER.chars().enumerate().map(|(i, at)| pen.dot(column(at), 3.0, z(i))).collect::<Vec<_>>()
         }),
         case("one_pixel_again_around_half_depth", {
             [0.5, 0.4, 0.5, 0.6, 0.4, 1.0, 0.5, 0.0, 1.0].map(|z| pen.dot(5.0, 1.0, z))

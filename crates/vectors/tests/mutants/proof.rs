@@ -23,7 +23,7 @@ use std::process::Command;
 use std::sync::Arc;
 
 /// Seconds of processor time that a search may take.
-const LIMIT: u32 = 4;
+const LIMIT: u32 = 10;
 
 /// What the search found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
