@@ -9,8 +9,8 @@
 use crate::bench::{Bench, Setting, Slot};
 use crate::device::{Device, model};
 use crate::ports::{Direction, Interface, Token, Unit, interface, pack_triangle};
-use crate::status::status_ports;
 use crate::stalls::{StallKind, patterns};
+use crate::status::status_ports;
 use crate::suites::Suite;
 use edgewalk_model::setup::setup_clocks;
 use edgewalk_model::{Coverage, DrawState};
@@ -53,7 +53,6 @@ pub struct Trace {
     /// Hazards and corners met.
     pub coverage: Coverage,
 }
-
 
 /// Runs the machine, or one of its units, over a suite. The machine must have passed [`Machine::check`].
 #[must_use]

@@ -60,7 +60,9 @@ fn every_depth_function_passes_and_fails() {
             match depth_func {
                 0 => assert_eq!(passed, 0),
                 7 => assert_eq!(passed, fragments),
-                _ => assert!(passed >= 8 && fragments - passed >= 8, "{name}, function {depth_func}: {passed}"),
+                _ => {
+                    assert!(passed >= 8 && fragments - passed >= 8, "{name}, function {depth_func}: {passed}")
+                }
             }
             let agreement = lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
             assert_eq!(agreement.compared, trace.port_values(), "{name}, function {depth_func}");

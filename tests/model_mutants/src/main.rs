@@ -54,7 +54,7 @@ macro_rules! draw {
     };
 }
 
-#[allow(dead_code, missing_docs)] // copies of which only `render` is used
+#[allow(unused)] // copies of which only `render` is used
 mod models {
     use super::*;
     include!(concat!(env!("OUT_DIR"), "/models.rs"));

@@ -45,7 +45,8 @@ pub fn interface(machine: &Machine, unit: Unit) -> Interface {
             let line = into("line", fields::line_fields(machine));
             channels.push(Channel { ready_always: false, ..line });
             channels.push(out("span", fields::span_fields(machine)));
-            interface.status = vec![status(bits("fresh_queued", 1, "the first span of a triangle is queued"))];
+            interface.status =
+                vec![status(bits("fresh_queued", 1, "the first span of a triangle is queued"))];
         }
         Unit::Pixel => {
             let mut span = fields::span_fields(machine);

@@ -117,7 +117,9 @@ fn traces(machine: &Machine, unit: Unit) -> Vec<Trace> {
     traces.push(capture(machine, unit, &suite, masked, StallKind::Mixed));
     match unit {
         Unit::Setup => traces.push(specks(machine)),
-        Unit::Span => traces.extend((1..=4).map(|seed| any_lines(machine, &traces[1], seed)).collect::<Vec<_>>()),
+        Unit::Span => {
+            traces.extend((1..=4).map(|seed| any_lines(machine, &traces[1], seed)).collect::<Vec<_>>())
+        }
         _ => {}
     }
     traces

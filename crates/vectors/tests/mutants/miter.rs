@@ -69,7 +69,8 @@ pub fn miter(ports: &Ports) -> String {
         let range = range(*width);
         if ports.constants.contains(port) {
             let _ = write!(header, ", input {range} {port}_in");
-            let _ = writeln!(body, "reg {range} {port};\nalways @(posedge clk) if (rst) {port} <= {port}_in;");
+            let _ =
+                writeln!(body, "reg {range} {port};\nalways @(posedge clk) if (rst) {port} <= {port}_in;");
         } else {
             let _ = write!(header, ", input {range} {port}");
         }

@@ -14,16 +14,16 @@
 //! turns the two printed designs into gates; ABC (`scorr`, `pdr`) finds the invariant or the cycles to a difference.
 
 use crate::miter::{Ports, miter};
-use edgewalk_netlist::mutate::Mutant;
 use edgewalk_netlist::Netlist;
+use edgewalk_netlist::mutate::Mutant;
 use edgewalk_netlist::netlist::{Input, Item, Output, Source};
 use edgewalk_vectors::Interface;
 use std::path::Path;
 use std::process::Command;
 use std::sync::Arc;
 
-/// Seconds of processor time that a search may take.
-const LIMIT: u32 = 10;
+/// Seconds of processor time that a search may take at the ports of a module, and of a unit.
+const LIMITS: [u32; 2] = [3, 12];
 
 /// What the search found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,9 +40,9 @@ pub enum Proof {
 pub fn prove(interface: &Interface, original: &Arc<Netlist>, mutant: &Mutant, whole: bool) -> Proof {
     let faulty = mutant.apply(original);
     let [one, other] = [original, &faulty].map(|netlist| alone(netlist, &mutant.module));
-    match search(&Ports::of_module(&one), &one, &other) {
+    match search(&Ports::of_module(&one), &one, &other, LIMITS[0]) {
         Proof::Equivalent => Proof::Equivalent,
-        _ if whole => search(&Ports::of_unit(interface), original, &faulty),
+        _ if whole => search(&Ports::of_unit(interface), original, &faulty, LIMITS[1]),
         // A difference at the module's ports need not reach those of the unit.
         _ => Proof::Unknown,
     }
@@ -72,7 +72,7 @@ fn alone(netlist: &Arc<Netlist>, module: &str) -> Arc<Netlist> {
     Arc::new(alone)
 }
 
-fn search(ports: &Ports, original: &Arc<Netlist>, faulty: &Arc<Netlist>) -> Proof {
+fn search(ports: &Ports, original: &Arc<Netlist>, faulty: &Arc<Netlist>, limit: u32) -> Proof {
     let place = tempfile::tempdir().expect("a directory");
     let write = |name: &str, text: String| std::fs::write(place.path().join(name), text).expect("a file");
     write("original.v", text(original));
@@ -86,9 +86,12 @@ fn search(ports: &Ports, original: &Arc<Netlist>, faulty: &Arc<Netlist>) -> Proo
          prep -flatten -top miter; setundef -undriven -zero; setundef -init -zero; opt -full; techmap; opt -full; \
          dffunmap; aigmap; opt_clean; write_aiger -zinit miter.aig"
     );
-    run(place.path(), "yosys", &["-Q", "-T", "-p", &gates]);
-    let find = format!("read_aiger miter.aig; scorr -F 2; pdr -T {LIMIT}");
-    let printed = run(place.path(), "yosys-abc", &["-c", &find]);
+    let (code, printed) = run(place.path(), "yosys", &["-Q", "-T", "-p", &gates]);
+    assert_eq!(code, Some(0), "yosys:\n{printed}");
+    // Whatever it is at when its time is over: it has found nothing then.
+    let find = format!("ulimit -t {limit}; exec yosys-abc -c 'read_aiger miter.aig; scorr -F 2; pdr'");
+    let (code, printed) = run(place.path(), "sh", &["-c", &find]);
+    assert_ne!(code, Some(127), "yosys-abc, of the package yosys, is needed");
     if printed.contains("Property proved") {
         Proof::Equivalent
     } else if printed.contains("was asserted in frame") {
@@ -102,10 +105,10 @@ fn text(netlist: &Arc<Netlist>) -> String {
     edgewalk_verilog::print(netlist).into_iter().map(|(_, text)| text).collect()
 }
 
-fn run(place: &Path, tool: &str, arguments: &[&str]) -> String {
+/// The exit code of a tool, none if it was ended, and what it printed.
+fn run(place: &Path, tool: &str, arguments: &[&str]) -> (Option<i32>, String) {
     let output = Command::new(tool).args(arguments).current_dir(place).output();
-    let output = output.unwrap_or_else(|error| panic!("{tool} (of the package yosys) is needed: {error}"));
-    let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(output.status.success(), "{tool}:\n{text}\n{}", String::from_utf8_lossy(&output.stderr));
-    text
+    let output = output.unwrap_or_else(|error| panic!("{tool} is needed: {error}"));
+    let text = [&output.stdout[..], &output.stderr].map(String::from_utf8_lossy).concat();
+    (output.status.code(), text)
 }
