@@ -15,9 +15,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut table = String::new();
     for (i, mutant) in MUTANTS.iter().enumerate() {
         let folder = out.join(format!("m{i}"));
-        let found = copy(model, model, &folder, mutant, &format!("crate::m{i}::"))?;
+        let found = copy(model, model, &folder, mutant, &format!("crate::models::m{i}::"))?;
         if found != 1 {
-            return Err(format!("{}: {} has `{}` {found} times, not once", mutant.0, mutant.1, mutant.2).into());
+            return Err(
+                format!("{}: {} has `{}` {found} times, not once", mutant.0, mutant.1, mutant.2).into()
+            );
         }
         writeln!(modules, "#[path = {:?}]\nmod m{i};", folder.join("lib.rs"))?;
         writeln!(table, "    draw!(m{i}),")?;

@@ -104,9 +104,8 @@ fn cases() -> Vec<Case> {
 fn killed_by(mutant: usize, cases: &Arc<Vec<Case>>) -> Option<String> {
     let (cases, (send, receive)) = (Arc::clone(cases), mpsc::channel());
     std::thread::spawn(move || {
-        let differs = |case: &&Case| {
-            models::ALL[mutant](&case.machine, &case.triangles, case.setting) != case.expected
-        };
+        let differs =
+            |case: &&Case| models::ALL[mutant](&case.machine, &case.triangles, case.setting) != case.expected;
         // If nobody waits any more there is nobody to tell.
         let _ = send.send(cases.iter().find(differs).map(|case| case.name.clone()));
     });
