@@ -52,10 +52,10 @@ pub(crate) struct Needs(HashMap<Literal, BTreeSet<Literal>>);
 impl Needs {
     /// All literals that hold whenever this one does, itself too.
     pub fn of(&mut self, graph: &Graph, literal: Literal) -> BTreeSet<Literal> {
-        self.to_depth(graph, literal, DEPTH)
+        self.followed(graph, literal, DEPTH)
     }
 
-    fn to_depth(&mut self, graph: &Graph, literal: Literal, depth: u32) -> BTreeSet<Literal> {
+    fn followed(&mut self, graph: &Graph, literal: Literal, depth: u32) -> BTreeSet<Literal> {
         if let Some(known) = self.0.get(&literal) {
             return known.clone();
         }
@@ -63,7 +63,7 @@ impl Needs {
         if depth > 0
             && let Some((op, parts)) = literal.parts(graph)
         {
-            let [a, b] = parts.map(|part| self.to_depth(graph, part, depth - 1));
+            let [a, b] = parts.map(|part| self.followed(graph, part, depth - 1));
             match op {
                 Op::And => needs.extend(a.union(&b)),
                 _ => needs.extend(a.intersection(&b)),
