@@ -1,16 +1,12 @@
 //! Pictures without ticking, from a list of triangles or straight from a file.
 
-use crate::input::{draw_state, port_triangle};
+use crate::input::{draw_state, header, open, port_triangle};
 use crate::machine_args::MachineArgs;
 use crate::progress::bar;
 use anyhow::{Context, Result};
 use edgewalk_model::fast::{self, Renderer};
 use edgewalk_model::{DrawState, Frame, Stalls, render};
 use edgewalk_numerics::{Machine, PortVertex};
-use edgewalk_scene::triangle_file::Reader;
-use indicatif::ProgressBar;
-use std::fs::File;
-use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 /// Draws without ticking where that is exact, else cycle by cycle. `open` goes to the first triangle; it is called a
@@ -46,11 +42,6 @@ where
     failure.map_or(Ok(drawn), Err)
 }
 
-/// A triangle file without what it draws.
-pub fn header(file: &Path) -> Result<edgewalk_scene::Frame> {
-    Ok(open(file, &ProgressBar::hidden())?.header().clone())
-}
-
 /// Draws a triangle file on its own screen while it is read: the memory that takes does not grow with the file.
 pub fn draw_file(file: &Path, args: &MachineArgs, quiet: bool) -> Result<(Machine, Frame, fast::Path)> {
     let header = header(file)?;
@@ -67,10 +58,4 @@ pub fn draw_file(file: &Path, args: &MachineArgs, quiet: bool) -> Result<(Machin
     })?;
     bar.finish_and_clear();
     Ok((machine, frame, path))
-}
-
-fn open(file: &Path, bar: &ProgressBar) -> Result<Reader<impl BufRead + use<>>> {
-    let name = file.display().to_string();
-    let opened = File::open(file).with_context(|| format!("{name}: cannot be read"))?;
-    Ok(Reader::new(&name, BufReader::with_capacity(1 << 16, bar.wrap_read(opened)))?)
 }

@@ -1,11 +1,14 @@
 //! What is to be drawn: a built-in scene, a mesh, or a file of screen-space triangles; and its way to the port.
 
-use crate::fast;
 use crate::machine_args::MachineArgs;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_model::DrawState;
 use edgewalk_numerics::{Machine, PortVertex};
+use edgewalk_scene::triangle_file::Reader;
 use edgewalk_scene::{DepthFunc, Frame, Scene, ShadeMode, Surface, Triangle, Triangulated, triangle_file};
+use indicatif::ProgressBar;
+use std::fs::File;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 /// A frame as the machine's port takes it.
@@ -63,6 +66,18 @@ pub fn port_triangle(
             .with_context(|| format!("triangle {index}, vertex {corner}"))?;
     }
     Ok(port)
+}
+
+/// A triangle file without what it draws.
+pub fn header(file: &Path) -> Result<edgewalk_scene::Frame> {
+    Ok(open(file, &ProgressBar::hidden())?.header().clone())
+}
+
+/// A triangle file from its first triangle on; the bar follows its bytes.
+pub fn open(file: &Path, bar: &ProgressBar) -> Result<Reader<impl BufRead + use<>>> {
+    let name = file.display().to_string();
+    let opened = File::open(file).with_context(|| format!("{name}: cannot be read"))?;
+    Ok(Reader::new(&name, BufReader::with_capacity(1 << 16, bar.wrap_read(opened)))?)
 }
 
 /// A scene, a mesh, or a file of screen-space triangles.
@@ -123,7 +138,7 @@ impl Source {
     /// The frame, and the machine with the screen of the triangle file, if it is one.
     pub fn on_its_screen(&self, args: &MachineArgs) -> Result<(Machine, Frame)> {
         let size = if self.is_triangle_file() {
-            let header = fast::header(Path::new(&self.input))?;
+            let header = header(Path::new(&self.input))?;
             Some((header.width, header.height))
         } else {
             None

@@ -7,11 +7,9 @@ use crate::frame::{Frame, ShadeMode};
 use crate::light::Light;
 use crate::mesh::{self, Mesh};
 use crate::normals::{NormalRule, corner_normals, face_normals};
-use crate::scene_file;
 use crate::shading::{Lighting, Point, Specular};
 use crate::surface::{Surface, SurfaceTriangle};
 use glam::{DVec2, DVec3};
-use std::path::Path;
 
 /// What is to be drawn, in world space.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,29 +56,6 @@ impl Scene {
                 Err(fault.into())
             }
         }
-    }
-
-    /// A built-in scene, a scene file (`.toml`), or a mesh file (see [`Mesh::EXTENSIONS`]) in view: what is not a name of
-    /// the first but ends like a file or is one.
-    ///
-    /// # Errors
-    /// Neither a name nor a readable file, or a fault in the file.
-    pub fn open(name: &str) -> Result<Self, InputError> {
-        let path = Path::new(name);
-        if !Self::BUILTIN.contains(&name) && (path.extension().is_some() || path.exists()) {
-            let is_scene = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
-            return if is_scene { scene_file::read(path) } else { Ok(Self::of_mesh(Mesh::read(path)?)) };
-        }
-        Self::builtin(name)
-    }
-
-    /// The scene that the text of a scene file says; `path` is where it would stand, for messages and for the files that
-    /// it names.
-    ///
-    /// # Errors
-    /// A fault in the text or in a file that it names.
-    pub fn parse(path: &Path, text: &str) -> Result<Self, InputError> {
-        scene_file::parse(path, text)
     }
 
     /// A mesh in the middle of the picture, lit from above on the left.

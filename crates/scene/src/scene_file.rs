@@ -47,6 +47,31 @@ use toml::de::DeTable;
 /// Bytes of the longest scene file; meshes are in files of their own.
 const MAX_LENGTH: u64 = 16 << 20;
 
+impl Scene {
+    /// A built-in scene, a scene file (`.toml`), or a mesh file (see [`Mesh::EXTENSIONS`]) in view: what is not a name of
+    /// the first but ends like a file or is one.
+    ///
+    /// # Errors
+    /// Neither a name nor a readable file, or a fault in the file.
+    pub fn open(name: &str) -> Result<Self, InputError> {
+        let path = Path::new(name);
+        if !Self::BUILTIN.contains(&name) && (path.extension().is_some() || path.exists()) {
+            let is_scene = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
+            return if is_scene { read(path) } else { Ok(Self::of_mesh(Mesh::read(path)?)) };
+        }
+        Self::builtin(name)
+    }
+
+    /// The scene that the text of a scene file says; `path` is where it would stand, for messages and for the files that
+    /// it names.
+    ///
+    /// # Errors
+    /// A fault in the text or in a file that it names.
+    pub fn parse(path: &Path, text: &str) -> Result<Self, InputError> {
+        parse(path, text)
+    }
+}
+
 /// Reads a scene file and the meshes and pictures it names, by their places beside it.
 ///
 /// # Errors

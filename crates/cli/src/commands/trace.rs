@@ -34,7 +34,7 @@ pub struct Args {
 /// Either kind of waveform.
 enum Wave {
     Vcd(VcdTrace<BufWriter<File>>),
-    Fst(FstTrace<BufWriter<File>>),
+    Fst(Box<FstTrace<BufWriter<File>>>),
 }
 
 /// Runs the command.
@@ -85,7 +85,7 @@ fn sample(
     if let Some(file) = file.take() {
         *wave = Some(match kind {
             "vcd" => Wave::Vcd(VcdTrace::new(file, sim, "edgewalk")?),
-            _ => Wave::Fst(FstTrace::new(file, sim, "edgewalk").map_err(|e| anyhow!("{e}"))?),
+            _ => Wave::Fst(Box::new(FstTrace::new(file, sim, "edgewalk").map_err(|e| anyhow!("{e}"))?)),
         });
     }
     match wave {

@@ -1,9 +1,11 @@
 //! The frame memory of the fast path and, on request, what happened at every pixel.
 
 use super::pixel::{Pixel, pixel};
-use super::span::LANES;
 use crate::run::DrawState;
 use edgewalk_numerics::Machine;
+
+/// Pixels of a chunk, which are drawn side by side.
+pub(super) const LANES: usize = 8;
 
 /// What happened at every pixel.
 #[derive(Clone, Debug, Default)]

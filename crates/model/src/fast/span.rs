@@ -6,16 +6,13 @@
 //!
 //! Every statement does one thing to all lanes: so the compiler makes it one vector instruction.
 
-use super::picture::Picture;
+use super::picture::{LANES, Picture};
 use super::pixel::Pixel;
 use super::walk::Span;
 use crate::run::DrawState;
 use crate::tokens::Words;
 use edgewalk_numerics::Machine;
 use std::array::from_fn;
-
-/// Pixels of a chunk.
-pub(super) const LANES: usize = 8;
 
 /// The increments along a span to the right, for every lane of a chunk.
 #[derive(Clone, Copy, Debug)]

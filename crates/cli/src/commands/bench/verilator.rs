@@ -54,7 +54,7 @@ fn build(job: &Job, folder: &Path) -> Result<()> {
     let build = Command::new("verilator")
         .current_dir(folder)
         .args(["--cc", "--exe", "--build", "-O3", "--x-assign", "fast", "--prefix", "Vmachine"])
-        .args(["--top-module", &design.name, "-CFLAGS", "-O3", "-Wno-fatal", "harness.cpp"])
+        .args(["--top-module", &design.name, "-MAKEFLAGS", "OPT_FAST=-O3", "-Wno-fatal", "harness.cpp"])
         .args(&sources)
         .output()
         .context("verilator")?;
