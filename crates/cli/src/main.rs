@@ -37,6 +37,7 @@ use std::process::ExitCode;
   edgewalk demo
   edgewalk render torus-knot --out out/knot
   edgewalk raster triangles.tri --engine model --out out/r
+  edgewalk explain torus-knot 320 240
   edgewalk verify sphere --set interpolator.adders=1
   edgewalk config explain"
 )]
