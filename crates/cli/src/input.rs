@@ -83,7 +83,7 @@ pub fn open(file: &Path, bar: &ProgressBar) -> Result<Reader<impl BufRead + use<
 /// A scene, a mesh, or a file of screen-space triangles.
 #[derive(clap::Args, Clone, Debug)]
 pub struct Source {
-    /// A built-in scene, a mesh (.obj, .gltf, .glb) or a triangle file (.tri)
+    /// A built-in scene, a scene file (.toml), a mesh (.obj, .gltf, .glb) or a triangle file (.tri)
     #[arg(value_name = "SCENE|MESH", default_value = "torus-knot")]
     pub input: String,
     /// How the colour of a pixel is come by; phong, fast-phong and wireframe need --engine golden
