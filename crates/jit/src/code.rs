@@ -12,7 +12,7 @@ use crate::design::Design;
 use crate::error::JitError;
 use crate::layout::Layout;
 use crate::lower::{Program, lower};
-use crate::schedule::Step;
+use crate::step::Step;
 
 /// A program; it takes the state's address.
 type Entry = unsafe extern "C" fn(*mut u64);

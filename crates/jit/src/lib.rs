@@ -18,6 +18,7 @@ mod elaborate;
 
 mod groups;
 mod guard;
+mod step;
 mod order;
 mod schedule;
 

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use crate::design::Design;
 use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
-use crate::schedule::Step;
+use crate::step::Step;
 
 /// Which registers and inputs each value depends on.
 pub(crate) struct Readers<'d> {

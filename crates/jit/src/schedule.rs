@@ -10,25 +10,7 @@ use crate::graph::{Graph, ValueId};
 use crate::groups::{Group, groups};
 use crate::guard::{Literal, Needs};
 use crate::order::Readers;
-
-/// A step of a clock.
-#[derive(Clone, Debug)]
-pub(crate) enum Step {
-    /// What changes under conditions.
-    Change(Group),
-    /// Steps for when this bit is 1.
-    If { bit: ValueId, then: Vec<Step> },
-}
-
-impl Step {
-    /// The bits that the step asks first.
-    pub fn conditions(&self) -> &[ValueId] {
-        match self {
-            Step::Change(group) => &group.conditions,
-            Step::If { bit, .. } => std::slice::from_ref(bit),
-        }
-    }
-}
+use crate::step::Step;
 
 /// What a clock does to registers and read ports. It adds values to the graph: the conditions of branches.
 pub(crate) fn schedule(design: &mut Design) -> Vec<Step> {

@@ -13,6 +13,7 @@
 //! The text passes `verilator -Wall` without waivers: what is not used on purpose ends in a wire `unused`.
 
 mod expression;
+mod groups;
 mod interface;
 mod literal;
 mod memory;

@@ -4,11 +4,11 @@ use edgewalk_netlist::netlist::{Item, Netlist, Source};
 use edgewalk_netlist::ops::Bits;
 
 use crate::expression::Writer;
+use crate::groups::Group;
 use crate::interface::{header, is_shown, ports};
 use crate::literal;
 use crate::memory;
 use crate::paragraph::{Body, LINE, columns};
-use crate::registers::Group;
 use crate::usage::fanout;
 
 /// The whole file.

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use edgewalk_netlist::netlist::{Netlist, NodeId, Source};
 use edgewalk_netlist::ops::mask;
 
-use crate::registers::Group;
+use crate::groups::Group;
 
 /// Every name in the module, those made up here included.
 pub(crate) struct Names(BTreeSet<String>);

@@ -9,7 +9,7 @@ use crate::design::Design;
 use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
 use crate::layout::Layout;
-use crate::schedule::Step;
+use crate::step::Step;
 
 /// A function of the state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
