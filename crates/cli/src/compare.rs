@@ -2,7 +2,7 @@
 
 use crate::engine::Raster;
 use crate::verdict::Verdict;
-use edgewalk_numerics::{Channel, Machine};
+use edgewalk_machine::{Channel, Plan};
 use serde::Serialize;
 
 /// What the comparison found. Errors are against the exact plane through the unquantised vertices.
@@ -35,7 +35,7 @@ pub struct Comparison {
 }
 
 /// Compares pixel by pixel.
-pub fn compare(machine: &Machine, golden: &Raster, drawn: &Raster) -> Comparison {
+pub fn compare(machine: &Plan, golden: &Raster, drawn: &Raster) -> Comparison {
     let (z_max, color_max) = (machine.z.max() as f64, machine.color.max() as f64);
     let (z_bound, color_bound) = bounds(machine);
     let count = golden.coverage.len();
@@ -90,8 +90,8 @@ impl Comparison {
 }
 
 /// Proved bounds of the rounded output of depth and colour, LSB: vertex rounding, all additions, output rounding (A2, A4).
-fn bounds(machine: &Machine) -> (f64, f64) {
+fn bounds(machine: &Plan) -> (f64, f64) {
     let steps = machine.max_steps();
-    let bound = |channel: Channel| channel.error_budget(steps).after_rounding().to_f64();
-    (bound(machine.z), bound(machine.color))
+    let bound = |channel: &Channel| channel.error_budget(steps).after_rounding().to_f64();
+    (bound(&machine.channels()[0]), bound(&machine.channels()[1]))
 }

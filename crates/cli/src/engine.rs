@@ -4,9 +4,9 @@ use crate::fast;
 use crate::input::to_port;
 use crate::progress::bar;
 use anyhow::{Result, anyhow};
+use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::fast::Path;
 use edgewalk_model::{Activity, Coverage, Stalls};
-use edgewalk_numerics::{Fill, Machine};
 use edgewalk_scene::Frame;
 
 /// Who draws.
@@ -64,7 +64,7 @@ impl Cycles {
 }
 
 /// Draws the frame.
-pub fn draw(engine: Engine, frame: &Frame, machine: &Machine, quiet: bool) -> Result<Raster> {
+pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Result<Raster> {
     match engine {
         Engine::Golden => Ok(from_golden(edgewalk_golden::draw(frame, golden_fill(machine)))),
         Engine::Fast => {
@@ -99,17 +99,17 @@ fn of_primitives(mut raster: Raster, ids: &[i32]) -> Raster {
 }
 
 /// A frame of the fast engine; the corners are counted only where it ticked.
-pub fn from_fast(machine: &Machine, drawn: edgewalk_model::Frame, path: Path) -> Raster {
+pub fn from_fast(machine: &Plan, drawn: edgewalk_model::Frame, path: Path) -> Raster {
     let raster = if path == Path::Fast { from_machine(machine, drawn) } else { from_model(machine, drawn) };
     Raster { cycles: raster.cycles.map(|cycles| Cycles { path: Some(path), ..cycles }), ..raster }
 }
 
-fn from_model(machine: &Machine, drawn: edgewalk_model::Frame) -> Raster {
+fn from_model(machine: &Plan, drawn: edgewalk_model::Frame) -> Raster {
     Raster { corners: Some(drawn.corners.clone()), ..from_machine(machine, drawn) }
 }
 
 /// The machine's rule for pixels, as the golden picture knows it.
-pub fn golden_fill(machine: &Machine) -> edgewalk_golden::Fill {
+pub fn golden_fill(machine: &Plan) -> edgewalk_golden::Fill {
     match machine.fill {
         Fill::Exact => edgewalk_golden::Fill::Exact { subpixel_bits: machine.subpixel_bits },
         Fill::Textbook => edgewalk_golden::Fill::Textbook,
@@ -133,7 +133,7 @@ pub fn from_golden(picture: edgewalk_golden::Picture) -> Raster {
 }
 
 /// Without the corners, which only the model sees.
-fn from_machine(machine: &Machine, drawn: edgewalk_model::Frame) -> Raster {
+fn from_machine(machine: &Plan, drawn: edgewalk_model::Frame) -> Raster {
     Raster {
         width: machine.width,
         height: machine.height,

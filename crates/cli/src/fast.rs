@@ -4,15 +4,15 @@ use crate::input::{draw_state, header, open, port_triangle};
 use crate::machine_args::MachineArgs;
 use crate::progress::bar;
 use anyhow::{Context, Result};
+use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::fast::{self, Renderer};
 use edgewalk_model::{DrawState, Frame, Stalls, render};
-use edgewalk_numerics::{Machine, PortVertex};
 use std::path::Path;
 
 /// Draws without ticking where that is exact, else cycle by cycle. `open` goes to the first triangle; it is called a
 /// second time where drawing without ticking was in vain.
 pub fn draw<I>(
-    machine: &Machine,
+    machine: &Plan,
     state: DrawState,
     mut open: impl FnMut() -> Result<I>,
 ) -> Result<(Frame, fast::Path)>
@@ -43,7 +43,7 @@ where
 }
 
 /// Draws a triangle file on its own screen while it is read: the memory that takes does not grow with the file.
-pub fn draw_file(file: &Path, args: &MachineArgs, quiet: bool) -> Result<(Machine, Frame, fast::Path)> {
+pub fn draw_file(file: &Path, args: &MachineArgs, quiet: bool) -> Result<(Plan, Frame, fast::Path)> {
     let header = header(file)?;
     let machine = args.machine(Some((header.width, header.height)))?;
     let named = || file.display().to_string();

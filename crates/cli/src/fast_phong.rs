@@ -3,8 +3,8 @@
 use anyhow::{Result, anyhow};
 use edgewalk_golden::ShadingError;
 use edgewalk_golden::fast_phong::{Directional, FastShaded, Fit, PowerTable, Settings, shade};
+use edgewalk_machine::{Fill, Plan};
 use edgewalk_numerics::normal_cone::{normal_spread, six_point_error, taylor_error};
-use edgewalk_numerics::{Fill, Machine};
 use edgewalk_scene::{Scene, Surface};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -55,7 +55,7 @@ impl FastPhongArgs {
     ///
     /// # Errors
     /// The machine's fill is not the exact one, or a light is not directional.
-    pub fn draw(&self, scene: &Scene, surface: &Surface, machine: &Machine) -> Result<FastShaded> {
+    pub fn draw(&self, scene: &Scene, surface: &Surface, machine: &Plan) -> Result<FastShaded> {
         if machine.fill != Fill::Exact {
             return Err(anyhow!(
                 "--shading fast-phong: edge.fill = textbook starts spans between pixels; use exact"

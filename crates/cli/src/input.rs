@@ -2,8 +2,8 @@
 
 use crate::machine_args::MachineArgs;
 use anyhow::{Context, Result, anyhow};
+use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::DrawState;
-use edgewalk_numerics::{Machine, PortVertex};
 use edgewalk_scene::triangle_file::Reader;
 use edgewalk_scene::{DepthFunc, Frame, Scene, ShadeMode, Surface, Triangle, Triangulated, triangle_file};
 use indicatif::ProgressBar;
@@ -22,7 +22,7 @@ pub struct PortFrame {
 }
 
 /// Snaps a frame to the port, polygons as triangles, or says what of it the machine cannot take.
-pub fn to_port(frame: &Frame, machine: &Machine) -> Result<PortFrame> {
+pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
     let state = draw_state(frame, machine)?;
     let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
     let triangles = triangles.iter().zip(&ids);
@@ -32,7 +32,7 @@ pub fn to_port(frame: &Frame, machine: &Machine) -> Result<PortFrame> {
 }
 
 /// What stays the same over a frame, or what of it the machine cannot draw.
-pub fn draw_state(frame: &Frame, machine: &Machine) -> Result<DrawState> {
+pub fn draw_state(frame: &Frame, machine: &Plan) -> Result<DrawState> {
     if frame.blend {
         return Err(anyhow!(
             "blend 1 (transparent surfaces): the machine has no blend unit yet; draw with blend 0 or --engine golden"
@@ -56,7 +56,7 @@ pub fn port_triangle(
     index: usize,
     triangle: &Triangle,
     mode: ShadeMode,
-    machine: &Machine,
+    machine: &Plan,
 ) -> Result<[PortVertex; 3]> {
     let mut port = [PortVertex::default(); 3];
     for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
@@ -128,7 +128,7 @@ impl Source {
     }
 
     /// The scene, and its surface on this machine's screen, clipped to its guard band.
-    pub fn surface(&self, machine: &Machine) -> Result<(Scene, Surface)> {
+    pub fn surface(&self, machine: &Plan) -> Result<(Scene, Surface)> {
         let scene = Scene::open(&self.input)?;
         let guard = f64::from((1u32 << machine.guard_bits) - 1);
         let surface = scene.surface(machine.width, machine.height, guard);
@@ -136,7 +136,7 @@ impl Source {
     }
 
     /// The frame, and the machine with the screen of the triangle file, if it is one.
-    pub fn on_its_screen(&self, args: &MachineArgs) -> Result<(Machine, Frame)> {
+    pub fn on_its_screen(&self, args: &MachineArgs) -> Result<(Plan, Frame)> {
         let size = if self.is_triangle_file() {
             let header = header(Path::new(&self.input))?;
             Some((header.width, header.height))
@@ -150,7 +150,7 @@ impl Source {
 
     /// The frame as the machine draws it. A triangle file keeps its own size and mode; its polygons become triangles, so
     /// that machine and golden picture interpolate the same.
-    pub fn frame(&self, machine: &Machine) -> Result<Frame> {
+    pub fn frame(&self, machine: &Plan) -> Result<Frame> {
         let refused = match self.shading {
             Shading::Phong => Some("phong: the machine has no unit for normals yet"),
             Shading::FastPhong => Some("fast-phong: the machine has no unit for normals yet"),
@@ -166,7 +166,7 @@ impl Source {
     }
 
     /// The frame with the polygons it has.
-    pub fn outlined(&self, machine: &Machine) -> Result<Frame> {
+    pub fn outlined(&self, machine: &Plan) -> Result<Frame> {
         if !self.is_triangle_file() {
             let (scene, surface) = self.surface(machine)?;
             return Ok(edgewalk_golden::frame(&scene, &surface, self.shading.golden()));

@@ -1,9 +1,9 @@
 //! `--machine FILE|PRESET` and `--set key=value`, the same for every command.
 
 use anyhow::{Context, Result, anyhow};
-use edgewalk_numerics::Machine;
-use edgewalk_numerics::machine::nearest::nearest;
-use edgewalk_numerics::machine::presets::PRESETS;
+use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::presets::PRESETS;
+use edgewalk_machine::{Machine, Plan};
 use std::path::Path;
 
 /// Which machine.
@@ -19,7 +19,7 @@ pub struct MachineArgs {
 
 impl MachineArgs {
     /// The machine asked for, with its screen replaced where the input brings its own size.
-    pub fn machine(&self, size: Option<(u32, u32)>) -> Result<Machine> {
+    pub fn machine(&self, size: Option<(u32, u32)>) -> Result<Plan> {
         let mut machine = self.load()?;
         if let Some((width, height)) = size {
             machine.set("screen.width", &width.to_string()).map_err(|e| anyhow!("size: {e}"))?;
@@ -31,8 +31,7 @@ impl MachineArgs {
             })?;
             machine.set(key.trim(), value.trim()).map_err(|e| anyhow!("--set {setting}: {e}"))?;
         }
-        machine.check().map_err(|e| anyhow!("--machine {}: {e}", self.machine))?;
-        Ok(machine)
+        machine.plan().map_err(|e| anyhow!("--machine {}: {e}", self.machine))
     }
 
     fn load(&self) -> Result<Machine> {

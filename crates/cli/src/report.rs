@@ -4,15 +4,15 @@ use crate::Talk;
 use crate::compare::Comparison;
 use crate::engine::{Cycles, Raster};
 use anyhow::Result;
+use edgewalk_machine::Plan;
 use edgewalk_model::Activity;
-use edgewalk_numerics::Machine;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
 /// Everything a report says.
 pub struct Report {
     name: String,
-    machine: Machine,
+    machine: Plan,
     triangles: u64,
     polygons: u64,
     covered: u64,
@@ -25,7 +25,7 @@ pub struct Report {
 
 impl Report {
     /// A report without a comparison.
-    pub fn new(name: &str, triangles: u64, machine: &Machine, drawn: &Raster) -> Self {
+    pub fn new(name: &str, triangles: u64, machine: &Plan, drawn: &Raster) -> Self {
         Report {
             name: name.to_owned(),
             machine: machine.clone(),

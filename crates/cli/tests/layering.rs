@@ -6,23 +6,28 @@ use std::path::PathBuf;
 /// Every crate, in the order of the data, with all it may depend on outside its tests.
 const LAYERS: &[(&str, &[&str])] = &[
     ("numerics", &[]),
+    ("machine", &["numerics"]),
     ("scene", &[]),
     ("golden", &["scene"]),
     ("gallery", &["scene", "golden"]),
-    ("model", &["numerics"]),
+    ("model", &["machine"]),
     ("netlist", &[]),
     ("verilog", &["netlist"]),
     ("jit", &["netlist"]),
-    ("rtl", &["numerics", "netlist"]),
-    ("vectors", &["numerics", "model", "netlist", "verilog", "rtl"]),
+    ("rtl", &["machine", "netlist"]),
+    ("vectors", &["machine", "model", "netlist", "verilog", "rtl"]),
     (
         "cli",
-        &["numerics", "scene", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl", "vectors"],
+        &[
+            "numerics", "machine", "scene", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl",
+            "vectors",
+        ],
     ),
 ];
 
 /// Crates that read and write no files: they may not even name the standard library's file or process modules.
-const NO_FILES: &[&str] = &["numerics", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl"];
+const NO_FILES: &[&str] =
+    &["numerics", "machine", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl"];
 
 fn crates() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..")

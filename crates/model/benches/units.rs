@@ -5,6 +5,7 @@
 #![allow(missing_docs)] // criterion_group! writes none
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use edgewalk_machine::{Machine, Plan, PortVertex};
 use edgewalk_model::depth::{Depth, DepthInputs};
 use edgewalk_model::edge::Edge;
 use edgewalk_model::fast::Renderer;
@@ -13,14 +14,13 @@ use edgewalk_model::setup::Setup;
 use edgewalk_model::span::SpanQueue;
 use edgewalk_model::tokens::{Fragment, Line, Prim, Span};
 use edgewalk_model::{Coverage, DrawState, Memory, Stalls, render};
-use edgewalk_numerics::{Machine, PortVertex};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 use std::hint::black_box;
 
 type Triangle = [PortVertex; 3];
 
 /// Random triangles that lie within 64 pixels each.
-fn triangles(machine: &Machine) -> Vec<Triangle> {
+fn triangles(machine: &Plan) -> Vec<Triangle> {
     let mut rng = StdRng::seed_from_u64(1);
     let one = 1 << machine.subpixel_bits;
     (0..100)
@@ -29,14 +29,17 @@ fn triangles(machine: &Machine) -> Vec<Triangle> {
                 [machine.width, machine.height].map(|side| rng.random_range(32..side as i32 - 32) * one);
             std::array::from_fn(|_| {
                 let [x, y] = middle.map(|m| m + rng.random_range(-32 * one..=32 * one));
-                let value = machine.channels().map(|c| rng.random_range(0..=c.max()) << c.vertex_fraction);
+                let value = std::array::from_fn(|i| {
+                    let channel = machine.channels()[i];
+                    rng.random_range(0..=channel.max()) << channel.vertex_fraction
+                });
                 PortVertex { x, y, value }
             })
         })
         .collect()
 }
 
-fn setup(machine: &Machine, triangles: &[Triangle]) -> Vec<Prim> {
+fn setup(machine: &Plan, triangles: &[Triangle]) -> Vec<Prim> {
     let mut unit = Setup::new(machine);
     let mut prims = Vec::new();
     let mut input = triangles.iter();
@@ -52,7 +55,7 @@ fn setup(machine: &Machine, triangles: &[Triangle]) -> Vec<Prim> {
     prims
 }
 
-fn edge(machine: &Machine, prims: &[Prim]) -> Vec<Line> {
+fn edge(machine: &Plan, prims: &[Prim]) -> Vec<Line> {
     let mut unit = Edge::new(machine);
     let mut lines = Vec::new();
     let mut input = prims.iter();
@@ -68,7 +71,7 @@ fn edge(machine: &Machine, prims: &[Prim]) -> Vec<Line> {
     lines
 }
 
-fn span(machine: &Machine, lines: &[Line]) -> Vec<Span> {
+fn span(machine: &Plan, lines: &[Line]) -> Vec<Span> {
     let mut unit = SpanQueue::new(machine);
     let mut spans = Vec::new();
     for line in lines {
@@ -79,7 +82,7 @@ fn span(machine: &Machine, lines: &[Line]) -> Vec<Span> {
     spans
 }
 
-fn pixel(machine: &Machine, spans: &[Span]) -> Vec<Fragment> {
+fn pixel(machine: &Plan, spans: &[Span]) -> Vec<Fragment> {
     let mut unit = Pixel::new(machine);
     let mut fragments = Vec::new();
     let mut input = spans.iter();
@@ -96,7 +99,7 @@ fn pixel(machine: &Machine, spans: &[Span]) -> Vec<Fragment> {
 }
 
 /// DEPTH and the memory behind it; gives the number of writes.
-fn depth(machine: &Machine, fragments: &[Fragment]) -> usize {
+fn depth(machine: &Plan, fragments: &[Fragment]) -> usize {
     let mut unit = Depth::new(machine);
     let mut memory = Memory::new(machine, [0; 3], Stalls::NONE);
     let mut writes = 0;
@@ -120,7 +123,7 @@ fn depth(machine: &Machine, fragments: &[Fragment]) -> usize {
 }
 
 fn units(criterion: &mut Criterion) {
-    let machine = &Machine { width: 128, height: 128, ..Machine::default() };
+    let machine = &Machine { width: 128, height: 128, ..Machine::default() }.plan().expect("can be built");
     let triangles = triangles(machine);
     let prims = setup(machine, &triangles);
     let lines = edge(machine, &prims);

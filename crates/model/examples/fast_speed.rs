@@ -9,11 +9,11 @@ mod common;
 
 use common::triangles;
 use cpu_time::ThreadTime;
+use edgewalk_machine::{Machine, Plan, PortVertex};
 use edgewalk_model::fast::Renderer;
 use edgewalk_model::{DrawState, Stalls, render};
-use edgewalk_numerics::{Machine, PortVertex};
 
-fn measure(name: &str, machine: &Machine, triangles: &[[PortVertex; 3]], frames: usize) {
+fn measure(name: &str, machine: &Plan, triangles: &[[PortVertex; 3]], frames: usize) {
     let state = DrawState::default();
     let start = ThreadTime::now();
     let tick = render(machine, triangles.iter().copied(), state, Stalls::NONE);
@@ -49,7 +49,7 @@ fn measure(name: &str, machine: &Machine, triangles: &[[PortVertex; 3]], frames:
 fn main() {
     let argument = |n| std::env::args().nth(n).and_then(|text| text.parse::<usize>().ok());
     let frames = argument(1).unwrap_or(101).max(1);
-    let machine = Machine { width: 1280, height: 960, ..Machine::default() };
+    let machine = Machine { width: 1280, height: 960, ..Machine::default() }.plan().expect("can be built");
     println!("1280x960, one core, one frame = clear and draw all");
     for area in argument(2).map_or_else(|| vec![10, 100, 1000, 10_000], |area| vec![area]) {
         let scene = triangles(&machine, 5000, area as f64);

@@ -3,11 +3,11 @@
 
 mod common;
 
-use edgewalk_numerics::{Machine, PortVertex};
+use edgewalk_machine::{Machine, Plan, PortVertex};
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-fn write(machine: &Machine, triangles: &[[PortVertex; 3]], mut out: impl Write) -> io::Result<()> {
+fn write(machine: &Plan, triangles: &[[PortVertex; 3]], mut out: impl Write) -> io::Result<()> {
     writeln!(out, "size {} {}", machine.width, machine.height)?;
     let pixels = |x: i32| f64::from(x) / f64::from(1 << machine.subpixel_bits);
     let channels = machine.channels();
@@ -36,12 +36,11 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    let fits = machine.check().is_ok()
-        && f64::from(area) < f64::from(machine.width) * f64::from(machine.height) / 8.0;
-    if !fits {
+    let fits = f64::from(area) < f64::from(machine.width) * f64::from(machine.height) / 8.0;
+    let Some(machine) = machine.plan().ok().filter(|_| fits) else {
         eprintln!("no such machine, or triangles too large for its screen");
         return ExitCode::from(2);
-    }
+    };
     let triangles = common::triangles(&machine, count as usize, f64::from(area));
     match write(&machine, &triangles, io::BufWriter::new(io::stdout().lock())) {
         Ok(()) => ExitCode::SUCCESS,

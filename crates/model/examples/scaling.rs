@@ -8,9 +8,9 @@ mod common;
 
 use common::triangles;
 use cpu_time::ThreadTime;
+use edgewalk_machine::{Machine, PortVertex};
 use edgewalk_model::DrawState;
 use edgewalk_model::fast::Renderer;
-use edgewalk_numerics::{Machine, PortVertex};
 use std::fmt::Write as _;
 
 /// Pixels a triangle, and a colour for the plot.
@@ -116,7 +116,7 @@ fn panel(
 }
 
 fn main() {
-    let machine = Machine { width: 1280, height: 960, ..Machine::default() };
+    let machine = Machine { width: 1280, height: 960, ..Machine::default() }.plan().expect("can be built");
     let mut renderer = Renderer::new(&machine, false);
     let clear = measure(&mut renderer, &[]).0;
     eprintln!("clear {:.3} ms", clear * 1e3);

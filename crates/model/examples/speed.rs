@@ -1,11 +1,11 @@
 //! How many cycles of the machine the model runs in a second: `cargo run --release -p edgewalk-model --example speed`.
 
+use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::{DrawState, Frame, Stalls, render};
-use edgewalk_numerics::{Machine, PortVertex};
 use std::time::Instant;
 
 /// Gouraud triangles over the whole screen, two to a tile of `size` pixels, drawn `layers` times, each layer nearer.
-fn tiles(machine: &Machine, size: u32, layers: u32) -> Vec<[PortVertex; 3]> {
+fn tiles(machine: &Plan, size: u32, layers: u32) -> Vec<[PortVertex; 3]> {
     let mut triangles = Vec::new();
     for layer in 0..layers {
         for y in (0..machine.height).step_by(size as usize) {
@@ -34,7 +34,7 @@ fn tiles(machine: &Machine, size: u32, layers: u32) -> Vec<[PortVertex; 3]> {
 }
 
 /// The best of many short runs: a busy host slows some of them.
-fn measure(name: &str, machine: &Machine, triangles: &[[PortVertex; 3]], stalls: Stalls) {
+fn measure(name: &str, machine: &Plan, triangles: &[[PortVertex; 3]], stalls: Stalls) {
     let run = || {
         let start = Instant::now();
         let frame: Frame = render(machine, triangles.iter().copied(), DrawState::default(), stalls);
@@ -57,12 +57,12 @@ fn measure(name: &str, machine: &Machine, triangles: &[[PortVertex; 3]], stalls:
 }
 
 fn main() {
-    let machine = Machine::default();
+    let machine = Plan::default();
     measure("default, triangles of 20000 pixels", &machine, &tiles(&machine, 200, 10), Stalls::NONE);
     measure("default, triangles of 450 pixels", &machine, &tiles(&machine, 30, 10), Stalls::NONE);
     measure("default, triangles of 8 pixels", &machine, &tiles(&machine, 4, 1), Stalls::NONE);
     let stalls = Stalls { seed: 1, rd: 20, data: 20, wr: 20 };
     measure("default, stalls", &machine, &tiles(&machine, 200, 10), stalls);
-    let textbook = Machine::preset("textbook").unwrap_or_default();
+    let textbook = Plan::preset("textbook").unwrap_or_default();
     measure("textbook, triangles of 20000 pixels", &textbook, &tiles(&textbook, 200, 2), Stalls::NONE);
 }

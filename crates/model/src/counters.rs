@@ -1,52 +1,7 @@
 //! What every cycle was spent on, and what passed through the units.
 
 use crate::coverage::one_more;
-
-/// The cause of a cycle (`docs/machine.md`, section 8); the number is the `activity` port.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[repr(u8)]
-pub enum Activity {
-    /// Nothing to do.
-    #[default]
-    Idle,
-    /// A pixel on the screen.
-    Draw,
-    /// A pixel stepped over off the screen.
-    Offscreen,
-    /// DEPTH waits for a pixel in flight.
-    Hazard,
-    /// The in-flight queue is full.
-    Queue,
-    /// The depth memory takes no read.
-    Memory,
-    /// PIXEL waits for a span.
-    Edge,
-    /// All wait for SETUP.
-    Setup,
-    /// The last fragments leave the pipeline.
-    Flush,
-}
-
-impl Activity {
-    /// All, in the order of the port's code.
-    pub const ALL: [Activity; 9] = [
-        Activity::Idle,
-        Activity::Draw,
-        Activity::Offscreen,
-        Activity::Hazard,
-        Activity::Queue,
-        Activity::Memory,
-        Activity::Edge,
-        Activity::Setup,
-        Activity::Flush,
-    ];
-
-    /// Name in reports.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        ["idle", "draw", "offscreen", "hazard", "queue", "memory", "edge", "setup", "flush"][self as usize]
-    }
-}
+use edgewalk_machine::Activity;
 
 /// Performance counters of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -14,7 +14,7 @@
 use crate::Coverage;
 use crate::inflight::{InFlight, InFlightHead};
 use crate::tokens::{Fragment, Write};
-use edgewalk_numerics::{Hazard, Machine};
+use edgewalk_machine::{Hazard, Plan};
 
 /// Why no fragment can enter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,7 +55,7 @@ pub struct Depth {
 impl Depth {
     /// An empty unit.
     #[must_use]
-    pub fn new(machine: &Machine) -> Self {
+    pub fn new(machine: &Plan) -> Self {
         Depth {
             hazard: machine.hazard,
             forwards: machine.hazard == Hazard::Forward,

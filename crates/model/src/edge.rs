@@ -14,7 +14,7 @@
 
 use crate::coverage::{Coverage, one_more};
 use crate::tokens::{EdgeWalk, Line, Prim, Words, add, word_masks};
-use edgewalk_numerics::{Fill, Machine};
+use edgewalk_machine::{Fill, Plan};
 
 /// State of EDGE.
 #[derive(Clone, Debug)]
@@ -36,7 +36,7 @@ pub struct Edge {
 impl Edge {
     /// A unit at rest.
     #[must_use]
-    pub fn new(machine: &Machine) -> Self {
+    pub fn new(machine: &Plan) -> Self {
         Edge {
             textbook: machine.fill == Fill::Textbook,
             column_bits: machine.widths().column,

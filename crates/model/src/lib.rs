@@ -23,8 +23,9 @@ pub mod setup;
 pub mod span;
 pub mod tokens;
 
-pub use counters::{Activity, Counters};
+pub use counters::Counters;
 pub use coverage::Coverage;
+pub use edgewalk_machine::Activity;
 pub use machine::{Inputs, Model, Outputs};
 pub use memory::{Memory, Stalls};
 pub use run::{DrawState, Event, Frame, render, render_with};

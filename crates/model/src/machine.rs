@@ -9,7 +9,7 @@
 //!
 //! Rules: `docs/machine.md`, sections 8 and 9.
 
-use crate::counters::{Activity, Counters};
+use crate::counters::Counters;
 use crate::coverage::{Coverage, one_more};
 use crate::depth::{Block, Depth, DepthInputs};
 use crate::edge::Edge;
@@ -17,7 +17,7 @@ use crate::pixel::Pixel;
 use crate::setup::Setup;
 use crate::span::SpanQueue;
 use crate::tokens::{Fragment, Write};
-use edgewalk_numerics::{Machine, PortVertex};
+use edgewalk_machine::{Activity, Plan, PortVertex};
 
 /// Input ports of a cycle; a valid and its data are an `Option`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -69,9 +69,9 @@ pub struct Model {
 }
 
 impl Model {
-    /// A machine after reset. The configuration must have passed [`Machine::check`].
+    /// A machine after reset. The configuration must have passed [`edgewalk_machine::Machine::plan`].
     #[must_use]
-    pub fn new(machine: &Machine) -> Self {
+    pub fn new(machine: &Plan) -> Self {
         Model {
             setup: Setup::new(machine),
             edge: Edge::new(machine),

@@ -14,7 +14,7 @@
 use crate::fifo::Fifo;
 use crate::prefetch::prefetch;
 use crate::tokens::{Rgb, Write};
-use edgewalk_numerics::Machine;
+use edgewalk_machine::Plan;
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::{RngCore, SeedableRng};
 
@@ -69,7 +69,7 @@ pub struct Stored {
 impl Memory {
     /// A cleared memory: the farthest depth, and the colour `clear` (b bits each) everywhere.
     #[must_use]
-    pub fn new(machine: &Machine, clear: [u64; 3], stalls: Stalls) -> Self {
+    pub fn new(machine: &Plan, clear: [u64; 3], stalls: Stalls) -> Self {
         let words = 1 << machine.widths().address;
         let mut memory = Memory {
             latency: u64::from(machine.latency),

@@ -14,8 +14,8 @@
 //! their clocks are seen outside.
 
 use crate::Coverage;
-use crate::tokens::{Fragment, Rgb, Source, Span, Words};
-use edgewalk_numerics::Machine;
+use crate::tokens::{Fragment, Rgb, Source, Span, Words, per_channel};
+use edgewalk_machine::Plan;
 
 /// State of PIXEL.
 #[derive(Clone, Debug)]
@@ -51,11 +51,11 @@ pub struct Pixel {
 impl Pixel {
     /// A unit at rest.
     #[must_use]
-    pub fn new(machine: &Machine) -> Self {
+    pub fn new(machine: &Plan) -> Self {
         Pixel {
             width: machine.width,
             x_bits: machine.widths().x,
-            align: machine.channels().map(|c| 64 - c.word()),
+            align: per_channel(machine, |c| 64 - c.word()),
             below: [64 - machine.z.bits, 64 - machine.color.bits],
             last_phase: machine.clocks_per_pixel() - 1,
             active: false,

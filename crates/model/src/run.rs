@@ -5,7 +5,7 @@ use crate::coverage::Coverage;
 use crate::machine::{Inputs, Model};
 use crate::memory::{Memory, Stalls};
 use crate::tokens::{Fragment, Write};
-use edgewalk_numerics::{Machine, PortVertex};
+use edgewalk_machine::{Plan, PortVertex};
 
 /// What stays the same over a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,9 +53,9 @@ pub enum Event<'a> {
     Write(&'a Write),
 }
 
-/// Draws the triangles in order; the machine must have passed [`Machine::check`].
+/// Draws the triangles in order; the machine must have passed [`edgewalk_machine::Machine::plan`].
 pub fn render(
-    machine: &Machine,
+    machine: &Plan,
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
     state: DrawState,
     stalls: Stalls,
@@ -65,7 +65,7 @@ pub fn render(
 
 /// As [`render`], and calls `hook` for every fragment and write.
 pub fn render_with(
-    machine: &Machine,
+    machine: &Plan,
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
     state: DrawState,
     stalls: Stalls,
@@ -130,7 +130,7 @@ struct Tally {
 }
 
 impl Tally {
-    fn new(machine: &Machine) -> Self {
+    fn new(machine: &Plan) -> Self {
         let words = 1 << machine.widths().address;
         Tally { reads: vec![0; words], writes: vec![0; words], id: vec![-1; words] }
     }

@@ -14,7 +14,7 @@
 use crate::Coverage;
 use crate::fifo::Fifo;
 use crate::tokens::{Line, Span};
-use edgewalk_numerics::{Fill, Machine};
+use edgewalk_machine::{Fill, Plan};
 
 /// State of SPAN.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ pub struct SpanQueue {
 impl SpanQueue {
     /// An empty unit.
     #[must_use]
-    pub fn new(machine: &Machine) -> Self {
+    pub fn new(machine: &Plan) -> Self {
         SpanQueue {
             textbook: machine.fill == Fill::Textbook,
             width: machine.width as i32,

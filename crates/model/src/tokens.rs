@@ -1,6 +1,6 @@
 //! The tokens that move between the units.
 
-use edgewalk_numerics::Machine;
+use edgewalk_machine::{Channel, Plan};
 
 /// One word per channel, in the order of the adder: Z, R, G, B. Words of b + r bits, modular.
 pub type Words = [u64; 4];
@@ -157,8 +157,13 @@ pub struct Write {
 
 /// The masks of the four channel words, 2^(b+r) - 1.
 #[must_use]
-pub fn word_masks(machine: &Machine) -> Words {
-    machine.channels().map(|c| (1 << c.word()) - 1)
+pub fn word_masks(machine: &Plan) -> Words {
+    per_channel(machine, |c| (1 << c.word()) - 1)
+}
+
+/// One value a channel.
+pub(crate) fn per_channel<T>(machine: &Plan, value: impl Fn(&Channel) -> T) -> [T; 4] {
+    std::array::from_fn(|i| value(&machine.channels()[i]))
 }
 
 /// Adds modulo 2^(b+r), channel by channel.

@@ -4,11 +4,11 @@
 mod common;
 
 use common::{Check, Triangle, machine, random_machine, random_triangle, random_values, vertex};
+use edgewalk_machine::Plan;
 use edgewalk_model::{Coverage, Stalls};
-use edgewalk_numerics::Machine;
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
-fn check(name: &str, machine: &Machine, triangles: &[Triangle]) -> (Vec<u32>, Coverage) {
+fn check(name: &str, machine: &Plan, triangles: &[Triangle]) -> (Vec<u32>, Coverage) {
     let (check, frame) = Check::run(machine, triangles, Stalls::NONE);
     check.report(name);
     check.passes();
@@ -20,7 +20,7 @@ fn check(name: &str, machine: &Machine, triangles: &[Triangle]) -> (Vec<u32>, Co
 
 #[test]
 fn triangles_of_all_sizes() {
-    let machine = Machine::default();
+    let machine = Plan::default();
     let mut rng = StdRng::seed_from_u64(1);
     let triangles: Vec<_> = (0..4000)
         .map(|_| {
@@ -33,7 +33,7 @@ fn triangles_of_all_sizes() {
 
 #[test]
 fn slivers_down_to_a_256th_of_a_pixel() {
-    let machine = Machine::default();
+    let machine = Plan::default();
     let mut rng = StdRng::seed_from_u64(2);
     let triangles: Vec<_> = (0..4000)
         .map(|_| {
@@ -51,7 +51,7 @@ fn slivers_down_to_a_256th_of_a_pixel() {
 
 #[test]
 fn triangles_that_reach_to_the_guard_band() {
-    let machine = Machine::default();
+    let machine = Plan::default();
     let mut rng = StdRng::seed_from_u64(3);
     let limit = ((1 << machine.guard_bits) - 1) << machine.subpixel_bits;
     let triangles: Vec<_> = (0..120)

@@ -1,15 +1,15 @@
 //! The fast path against ticking: every pixel, every count, over machines and triangles drawn at random.
 
+use edgewalk_machine::keys::{Domain, KEYS};
+use edgewalk_machine::{Machine, Plan, PortVertex};
 use edgewalk_model::fast::{self, Path, Reason};
 use edgewalk_model::{Activity, Coverage, DrawState, Frame, Stalls, render};
-use edgewalk_numerics::machine::keys::{Domain, KEYS};
-use edgewalk_numerics::{Machine, PortVertex};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 type Triangle = [PortVertex; 3];
 
 /// A machine with every key drawn at random, on a small screen.
-fn random_machine(rng: &mut impl Rng) -> Machine {
+fn random_machine(rng: &mut impl Rng) -> Plan {
     loop {
         let mut machine = Machine::default();
         for key in KEYS {
@@ -25,14 +25,14 @@ fn random_machine(rng: &mut impl Rng) -> Machine {
         if rng.random_bool(0.5) {
             machine.span_fifo = rng.random_range(1..5);
         }
-        if machine.check().is_ok() {
-            return machine;
+        if let Ok(plan) = machine.plan() {
+            return plan;
         }
     }
 }
 
 /// Triangles of every kind: tiny ones that pile up, large ones, degenerate ones, off the screen, to the guard band.
-fn random_triangles(machine: &Machine, rng: &mut impl Rng) -> Vec<Triangle> {
+fn random_triangles(machine: &Plan, rng: &mut impl Rng) -> Vec<Triangle> {
     let one = f64::from(1u32 << machine.subpixel_bits);
     let limit = f64::from((1u32 << machine.guard_bits) - 1);
     let mut middle = [0.0; 2];
@@ -50,7 +50,10 @@ fn random_triangles(machine: &Machine, rng: &mut impl Rng) -> Vec<Triangle> {
                     let reach = if wide && rng.random_bool(0.5) { limit } else { size };
                     ((m + rng.random_range(-0.5..=0.5) * reach).clamp(-limit, limit) * one).round() as i32
                 });
-                let value = machine.channels().map(|c| rng.random_range(0..=c.max() << c.vertex_fraction));
+                let value = std::array::from_fn(|i| {
+                    let channel = machine.channels()[i];
+                    rng.random_range(0..=channel.max() << channel.vertex_fraction)
+                });
                 PortVertex { x, y, value }
             });
             match rng.random_range(0..20) {
@@ -66,7 +69,7 @@ fn random_triangles(machine: &Machine, rng: &mut impl Rng) -> Vec<Triangle> {
 }
 
 /// Draws both ways and compares all that can be seen.
-fn compare(machine: &Machine, triangles: &[Triangle], state: DrawState) -> Path {
+fn compare(machine: &Plan, triangles: &[Triangle], state: DrawState) -> Path {
     let (fast, path) = fast::draw(machine, triangles.iter().copied(), state);
     let mut tick = render(machine, triangles.iter().copied(), state, Stalls::NONE);
     if path == Path::Fast {

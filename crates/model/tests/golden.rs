@@ -4,13 +4,13 @@ mod common;
 
 use common::{ALWAYS, outputs, place, random_triangle};
 use edgewalk_golden::{Fill, draw, fragments, half_triangles};
+use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::{DrawState, Event, Stalls, render, render_with};
-use edgewalk_numerics::Machine;
 use edgewalk_scene as scene;
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 /// Triangles of the port as the golden rasterizer takes them: pixels, and values in [0, 1].
-fn frame(machine: &Machine, triangles: &[common::Triangle]) -> scene::Frame {
+fn frame(machine: &Plan, triangles: &[common::Triangle]) -> scene::Frame {
     let mut frame = scene::Frame::new(machine.width, machine.height);
     frame.triangles = triangles
         .iter()
@@ -36,7 +36,7 @@ fn off(stored: u64, golden: f64, max: u64) -> f64 {
 
 #[test]
 fn pictures_with_the_nearest_fragment_on_top() {
-    let machine = Machine::default();
+    let machine = Plan::default();
     let mut rng = StdRng::seed_from_u64(1);
     let triangles: Vec<_> = (0..1500)
         .map(|_| {
@@ -71,7 +71,7 @@ fn pictures_with_the_nearest_fragment_on_top() {
 #[test]
 fn a_hundred_thousand_triangles() {
     const TRIANGLES: usize = 100_000;
-    let machine = Machine::default();
+    let machine = Plan::default();
     let mut rng = StdRng::seed_from_u64(3);
     let (mut worst, mut checked) = ([0f64; 4], 0u64);
     for _ in 0..TRIANGLES / 1000 {
@@ -115,6 +115,7 @@ fn a_hundred_thousand_triangles() {
 fn the_textbook_listing_in_its_order() {
     let mut machine = Machine::preset("textbook").expect("a preset");
     machine.set("edge.kind", "exact").expect("a key");
+    let machine = machine.plan().expect("can be built");
     let mut rng = StdRng::seed_from_u64(2);
     let triangles: Vec<_> = (0..400)
         .map(|_| {

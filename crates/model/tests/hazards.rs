@@ -3,10 +3,10 @@
 mod common;
 
 use common::{Sequential, Triangle, drive, machine, random_triangle, random_values, sequential, vertex};
+use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::depth::{Depth, DepthInputs};
 use edgewalk_model::tokens::{Fragment, Rgb, Source};
 use edgewalk_model::{Coverage, DrawState, Memory, Stalls, Write};
-use edgewalk_numerics::Machine;
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 const POLICIES: [&str; 3] = ["drain", "interlock", "forward"];
@@ -29,7 +29,7 @@ fn holds(name: &str, expected: &Sequential, memory: &Memory, writes: &[Write]) {
 
 /// DEPTH and memory alone, fed with a fragment a clock: one-pixel triangles on few addresses, back to back.
 fn feed(
-    machine: &Machine,
+    machine: &Plan,
     fragments: &[Fragment],
     state: DrawState,
     stalls: Stalls,
@@ -126,7 +126,7 @@ fn one_pixel_triangles_on_one_address_back_to_back() {
 /// The whole machine against a plain loop over its own fragments.
 fn against_the_loop(
     name: &str,
-    machine: &Machine,
+    machine: &Plan,
     triangles: &[Triangle],
     state: DrawState,
     stalls: Stalls,
@@ -233,13 +233,14 @@ fn every_policy_draws_the_same_picture() {
             let mut first = None;
             for policy in POLICIES {
                 for stalls in STALLS {
-                    let mut machine = base.clone();
+                    let mut machine = Machine::clone(&base);
                     machine.set("memory.hazard", policy).expect("a key");
                     machine.latency = rng.random_range(1..=8);
                     machine.inflight = rng.random_range(1..=16);
                     machine.adders = [1, 2, 4][rng.random_range(0..3)];
                     machine.segments = [1, 2, 4][rng.random_range(0..3)];
                     machine.span_fifo = rng.random_range(1..=4);
+                    let machine = machine.plan().expect("can be built");
                     let name = format!("{fill}, {policy}, function {depth_func}, {stalls:?}");
                     let (fragments, _) =
                         against_the_loop(&name, &machine, &triangles, state, stalls, |_| true);

@@ -3,13 +3,13 @@
 mod common;
 
 use common::{Check, Triangle, random_machine, random_triangle};
+use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::Stalls;
-use edgewalk_numerics::Machine;
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 /// Horizontal distance of a pixel's centre from the nearest edge that meets its line, and the most that A5 allows
 /// there; px, as a ratio.
-fn of_bound(machine: &Machine, triangle: &Triangle, x: i64, y: i64) -> f64 {
+fn of_bound(machine: &Plan, triangle: &Triangle, x: i64, y: i64) -> f64 {
     let one = f64::from(1u32 << machine.subpixel_bits);
     let (cx, cy) = (x as f64 + 0.5, y as f64 + 0.5);
     let edge = |i: usize| {
@@ -36,6 +36,7 @@ fn pixels_differ_only_near_an_edge() {
         let mut machine = Machine::default();
         machine.set("edge.kind", "slope").expect("a key");
         machine.set("edge.fraction_bits", fraction).expect("a key");
+        let machine = machine.plan().expect("can be built");
         let triangles: Vec<_> = (0..400)
             .map(|_| {
                 let size = 2f64.powf(rng.random_range(-2.0..9.0));

@@ -3,8 +3,8 @@
 mod common;
 
 use common::{ALWAYS, Triangle, outputs, place, random_machine, random_values, vertex};
+use edgewalk_machine::{Machine, Plan, PortVertex};
 use edgewalk_model::{Event, Stalls, render_with};
-use edgewalk_numerics::{Machine, PortVertex};
 use num_rational::Ratio;
 use rand::{Rng, SeedableRng, rngs::StdRng};
 use std::collections::HashMap;
@@ -46,7 +46,7 @@ fn along((top, bottom): Edge, y: i32, from: Q, to: Q) -> Q {
 }
 
 /// The lines of the listing (A 7.10) on the screen, part by part.
-fn rows(machine: &Machine, triangle: &Triangle) -> Vec<Row> {
+fn rows(machine: &Plan, triangle: &Triangle) -> Vec<Row> {
     let mut corner = *triangle;
     corner.sort_by_key(|v| v.y);
     let [a, b, c] = corner;
@@ -80,7 +80,7 @@ fn rows(machine: &Machine, triangle: &Triangle) -> Vec<Row> {
 }
 
 /// The fragments of the listing in its order; what is off the screen is left out.
-fn listing(machine: &Machine, triangle: &Triangle) -> Vec<Pixel> {
+fn listing(machine: &Plan, triangle: &Triangle) -> Vec<Pixel> {
     let mut pixels = Vec::new();
     for row in rows(machine, triangle) {
         let [start, end] = row.ends.map(|x| x.floor().to_integer());
@@ -97,7 +97,7 @@ fn listing(machine: &Machine, triangle: &Triangle) -> Vec<Pixel> {
     pixels
 }
 
-fn compare(machine: &Machine, triangles: &[Triangle]) -> usize {
+fn compare(machine: &Plan, triangles: &[Triangle]) -> usize {
     let mut drawn = Vec::new();
     let hook = |event: Event| {
         if let Event::Fragment(f) = event {
@@ -126,7 +126,7 @@ fn compare(machine: &Machine, triangles: &[Triangle]) -> usize {
     checked
 }
 
-fn random(machine: &Machine, size: i32, rng: &mut impl Rng) -> Triangle {
+fn random(machine: &Plan, size: i32, rng: &mut impl Rng) -> Triangle {
     let limit = (1 << machine.guard_bits) - 1;
     let middle = [machine.width, machine.height].map(|side| rng.random_range(0..side as i32));
     std::array::from_fn(|_| {
@@ -186,7 +186,7 @@ fn every_triangle_on_a_small_grid() {
 /// A 5x5 square cut along its diagonal: the textbook draws the diagonal twice.
 #[test]
 fn the_square_cut_in_two_shares_its_diagonal() {
-    let machine = Machine::preset("textbook").expect("a preset");
+    let machine = Plan::preset("textbook").expect("a preset");
     let v = |x, y| vertex(x, y, [0; 4]);
     let square = [[v(10, 10), v(14, 10), v(10, 14)], [v(14, 10), v(14, 14), v(10, 14)]];
     let frame = edgewalk_model::render(&machine, square, ALWAYS, Stalls::NONE);
@@ -207,6 +207,7 @@ fn slope_edges_differ_from_the_listing_within_their_bound() {
     for fraction in [2, 6, 16, 24] {
         let mut machine = Machine::preset("textbook").expect("a preset");
         (machine.width, machine.height, machine.edge_fraction) = (80, 60, fraction);
+        let machine = machine.plan().expect("can be built");
         let triangles: Vec<_> = (0..200).map(|_| random(&machine, 40, &mut rng)).collect();
         let mut drawn: HashMap<(usize, i64, i64), i32> = HashMap::new();
         let hook = |event: Event| {

@@ -5,8 +5,8 @@
 mod common;
 
 use common::{ALWAYS, Cycle, Triangle, drive, machine, place, vertex};
+use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::{Stalls, setup_clocks};
-use edgewalk_numerics::Machine;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -25,7 +25,7 @@ struct Trace {
     writes: Vec<u64>,
 }
 
-fn trace(machine: &Machine, triangles: &[Triangle]) -> Trace {
+fn trace(machine: &Plan, triangles: &[Triangle]) -> Trace {
     let mut trace = Trace::default();
     drive(
         machine,
@@ -46,7 +46,7 @@ fn trace(machine: &Machine, triangles: &[Triangle]) -> Trace {
 }
 
 /// Clocks between two triangles that are too small to be waited for; the formula is S1 + S2 + 2.
-fn triangle_interval(machine: &Machine) -> u64 {
+fn triangle_interval(machine: &Plan) -> u64 {
     let one = 1 << machine.subpixel_bits;
     let tiny = [triangle([[2, 2], [4, 2], [2, 4]], one); 5];
     let taken = trace(machine, &tiny).triangles;
@@ -56,7 +56,7 @@ fn triangle_interval(machine: &Machine) -> u64 {
 }
 
 /// The same for triangles that draw nothing; the formula is S1 + 1.
-fn culled_interval(machine: &Machine) -> u64 {
+fn culled_interval(machine: &Plan) -> u64 {
     let flat = [triangle([[2, 2], [4, 4], [6, 6]], 1 << machine.subpixel_bits); 3];
     let taken = trace(machine, &flat).triangles;
     taken[2] - taken[1]
@@ -67,21 +67,22 @@ fn setup_table(table: &mut String) {
         table,
         "## Setup\nClocks of a triangle in SETUP, S1 (edges, cull) and S2 (channels), and from one triangle to the next where drawing\n\
          is not waited for (S1 + S2 + 2; a culled one S1 + 1). Measured with triangles of three pixels.\n\n\
-         | machine | edges | dividers | radix | S1 | S2 | a triangle every | a culled one every |\n|---|---|---|---|---|---|---|---|"
+         | machine | edges | lanes | radix | S1 | S2 | a triangle every | a culled one every |\n|---|---|---|---|---|---|---|---|"
     );
     for (name, kind) in [("default", "exact"), ("default", "slope"), ("textbook", "slope")] {
-        for dividers in [1, 2, 4] {
+        for lanes in [1, 2, 4] {
             for radix in [2, 4, 16] {
                 let mut machine = Machine::preset(name).expect("a preset");
                 machine.set("edge.kind", kind).expect("a key");
-                (machine.dividers, machine.radix) = (dividers, radix);
+                (machine.lanes, machine.radix) = (lanes, radix);
+                let machine = machine.plan().expect("can be built");
                 let clocks = setup_clocks(&machine);
                 let (every, culled) = (triangle_interval(&machine), culled_interval(&machine));
                 assert_eq!(every, u64::from(clocks.phase1 + clocks.phase2 + 2));
                 assert_eq!(culled, u64::from(clocks.phase1 + 1));
                 let _ = writeln!(
                     table,
-                    "| {name} | {kind} | {dividers} | {radix} | {} | {} | {every} | {culled} |",
+                    "| {name} | {kind} | {lanes} | {radix} | {} | {} | {every} | {culled} |",
                     clocks.phase1, clocks.phase2
                 );
             }
@@ -90,7 +91,7 @@ fn setup_table(table: &mut String) {
 }
 
 /// Clocks between pixels of a span, and the most that are lost between two spans.
-fn rate(machine: &Machine, shape: &Triangle) -> (u64, u64) {
+fn rate(machine: &Plan, shape: &Triangle) -> (u64, u64) {
     let reads = trace(machine, &[*shape]).reads;
     assert!(reads.len() > 20);
     let per_pixel = u64::from(machine.clocks_per_pixel());
@@ -155,6 +156,7 @@ fn depth_table(table: &mut String) {
         for inflight in [1, 2, 4, 8, 16] {
             let mut machine = Machine::default();
             (machine.latency, machine.inflight) = (latency, inflight);
+            let machine = machine.plan().expect("can be built");
             let run = trace(&machine, &[triangle([[10, 10], [200, 30], [50, 110]], 256)]);
             let to_write = run.writes[0] - run.reads[0].0;
             assert_eq!(to_write, u64::from(latency) + 1);
@@ -187,7 +189,7 @@ fn the_timing_table_is_what_the_machine_does() {
 /// SETUP works on the next triangle while this one is drawn: then the triangles cost only their pixels.
 #[test]
 fn setup_overlaps_with_drawing() {
-    let machine = Machine::default();
+    let machine = Plan::default();
     let large = triangle([[10, 10], [200, 30], [50, 110]], 256);
     let once = trace(&machine, &[large]);
     let pixels = once.reads.len() as u64;

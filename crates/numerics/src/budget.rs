@@ -7,9 +7,8 @@
 
 use crate::bounds::{slope_edge_error, triangle_error};
 use crate::dyadic::Dyadic;
-use crate::machine::{Channel, EdgeKind, Machine};
 use crate::rounding::Rounding;
-use crate::steps::{Screen, Steps};
+use crate::steps::Steps;
 use std::fmt;
 
 /// The parts of the largest error of a channel, LSB, for the exact fill rule.
@@ -20,56 +19,38 @@ pub struct ErrorBudget {
     pub vertex: Dyadic,
     /// Start and increments, A2.
     pub steps: Dyadic,
-    /// Output rounding, 1/2.
+    /// Output rounding: 1/2, and 1 where the output is the floor.
     pub output: Dyadic,
 }
 
 impl ErrorBudget {
+    /// The budget of a fragment behind `steps` additions of r = `fraction` bits, its vertices rounded to e =
+    /// `vertex_fraction` bits; the output is rounded by at most `output`.
+    #[must_use]
+    pub fn new(vertex_fraction: u32, fraction: u32, steps: Steps, output: Dyadic) -> ErrorBudget {
+        ErrorBudget {
+            vertex: slope_edge_error(vertex_fraction, 0),
+            steps: triangle_error(Rounding::NearestHalfUp, fraction, steps).magnitude(),
+            output,
+        }
+    }
+
     /// Largest difference of the value before the output rounding from the plane, LSB.
     #[must_use]
     pub fn before_rounding(&self) -> Dyadic {
         self.vertex.checked_add(self.steps).expect("below 2^34, no finer than 2^-65")
     }
 
-    /// Largest difference of the output from the plane, LSB; holds as it stands while `steps` is under 1/2
-    /// (above, the output may wrap).
+    /// The additions' part is under 1/2 LSB, so no output leaves the range and wraps: only then is there a bound.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.steps < Dyadic::HALF
+    }
+
+    /// Largest difference of the output from the plane, LSB, if the budget [holds](ErrorBudget::holds).
     #[must_use]
     pub fn after_rounding(&self) -> Dyadic {
         self.before_rounding().checked_add(self.output).expect("as before_rounding")
-    }
-}
-
-impl Channel {
-    /// The budget of a fragment behind `steps` additions. For all fragments of a machine pass
-    /// [`Machine::max_steps`].
-    #[must_use]
-    pub fn error_budget(self, steps: Steps) -> ErrorBudget {
-        ErrorBudget {
-            vertex: slope_edge_error(self.vertex_fraction, 0),
-            steps: triangle_error(Rounding::NearestHalfUp, self.fraction, steps).magnitude(),
-            output: Dyadic::HALF,
-        }
-    }
-}
-
-impl Machine {
-    /// The screen with its guard band, 2^G - 1 columns before it; a slope edge may start a span further out by its
-    /// own error (A5).
-    #[must_use]
-    pub fn screen(&self) -> Screen {
-        let slope = match self.edge_kind {
-            EdgeKind::Exact => Dyadic::ZERO,
-            EdgeKind::Slope => slope_edge_error(self.edge_fraction, self.height),
-        };
-        let beyond = slope.round(0, Rounding::Ceiling).numerator() as u32; // at most 2^31 px
-        let guard = (1u32 << self.guard_bits.min(31)) - 1;
-        Screen { width: self.width, height: self.height, guard_columns: guard.saturating_add(beyond) }
-    }
-
-    /// The most additions behind a visible fragment, [`Screen::max_steps`].
-    #[must_use]
-    pub fn max_steps(&self) -> Steps {
-        self.screen().max_steps()
     }
 }
 
@@ -85,31 +66,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_default_machine_needs_no_clamp_and_stays_within_one_lsb() {
-        let machine = Machine::default();
-        assert_eq!(machine.max_steps().total(), 9309);
-        for channel in machine.channels() {
-            let budget = channel.error_budget(machine.max_steps());
-            assert!(budget.steps < Dyadic::HALF && budget.after_rounding() < Dyadic::ONE, "{budget}");
-        }
+    fn the_parts_are_shown() {
+        let budget = ErrorBudget::new(4, 14, Steps { lines: 3, columns: 4 }, Dyadic::HALF);
         assert_eq!(
-            machine.color.error_budget(Steps { lines: 3, columns: 4 }).to_string(),
+            budget.to_string(),
             "0.03125 vertex + 0.000244140625 steps = 0.031494140625, + 0.5 output = 0.531494140625 LSB"
         );
     }
 
     #[test]
     fn senseless_numbers_do_not_panic() {
-        let channel = Channel { bits: u32::MAX, fraction: 0, vertex_fraction: u32::MAX };
         let most = Steps { lines: u32::MAX, columns: u32::MAX };
-        assert!(channel.error_budget(most).after_rounding() > Dyadic::ONE);
-        let machine = Machine {
-            height: u32::MAX,
-            guard_bits: u32::MAX,
-            edge_kind: EdgeKind::Slope,
-            edge_fraction: 0,
-            ..Machine::default()
-        };
-        assert_eq!(machine.max_steps().columns, u32::MAX);
+        let budget = ErrorBudget::new(u32::MAX, 0, most, Dyadic::HALF);
+        assert!(!budget.holds() && budget.after_rounding() > Dyadic::ONE);
     }
 }

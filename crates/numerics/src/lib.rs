@@ -1,6 +1,6 @@
-//! Formats, words, rounding, proved bounds, and the one description of a machine.
+//! Formats, words, rounding, proved bounds, and the word-length solver.
 //!
-//! No I/O, no triangles drawn: this crate only says which numbers there are. `model` and `rtl` share nothing else.
+//! No I/O, no machine, no triangles: this crate only says which numbers there are.
 
 pub mod rounding;
 pub mod dyadic;
@@ -12,19 +12,15 @@ pub mod bounds;
 pub mod normal_cone;
 pub mod witness;
 pub mod solver;
-pub mod machine;
 pub mod budget;
-pub mod vertex;
 
 pub use bounds::Prestep;
 pub use budget::ErrorBudget;
 pub use dyadic::Dyadic;
 pub use format::{Format, FormatError};
 pub use interval::Interval;
-pub use machine::{Channel, EdgeKind, Fill, Hazard, Machine, MachineError, Widths};
 pub use rounding::{Rounding, UnknownRounding};
 pub use solver::{Solution, SolverError};
 pub use steps::{Screen, Steps};
-pub use vertex::{PortVertex, VertexError};
 pub use witness::{ChannelBits, Target, Witness};
 pub use word::{Word, WordError};

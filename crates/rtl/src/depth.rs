@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use edgewalk_machine::{Hazard, Plan};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg, Signal};
-use edgewalk_numerics::{Hazard, Machine};
 
 use crate::token::{self, Registers, Token};
 
@@ -52,8 +52,8 @@ struct Moves<'m> {
 /// The netlist of DEPTH.
 ///
 /// # Errors
-/// None for a machine that [`Machine::check`] accepts.
-pub fn depth(machine: &Machine) -> Result<Arc<Netlist>, BuildErrors> {
+/// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
+pub fn depth(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new("edgewalk_depth", DOC);
     m.doc(match machine.hazard {
         Hazard::Drain => "Hazard: a fragment with fence waits until nothing is in flight.",
@@ -133,7 +133,7 @@ pub fn depth(machine: &Machine) -> Result<Arc<Netlist>, BuildErrors> {
 }
 
 impl<'m> InFlight<'m> {
-    fn new(m: &'m Module, machine: &Machine) -> InFlight<'m> {
+    fn new(m: &'m Module, machine: &Plan) -> InFlight<'m> {
         let bits = (machine.inflight + 1).next_power_of_two().ilog2();
         let count = m.reg("count", bits).doc("fragments in flight").reset(0);
         let place = |i| Place {
@@ -158,7 +158,7 @@ impl<'m> InFlight<'m> {
     }
 
     /// The fragment must wait.
-    fn hazard(&self, machine: &Machine, frag: &Token<'m>, depth_write: Signal<'m>) -> Signal<'m> {
+    fn hazard(&self, machine: &Plan, frag: &Token<'m>, depth_write: Signal<'m>) -> Signal<'m> {
         let addr = frag["addr"];
         let m = addr.module();
         match machine.hazard {

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use edgewalk_machine::{Fill, Plan};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
-use edgewalk_numerics::{Fill, Machine};
 
 use crate::token::{self, CHANNELS, Registers, Token};
 
@@ -21,8 +21,8 @@ The columns are not cut to the screen here: SPAN does that.";
 /// The netlist of EDGE.
 ///
 /// # Errors
-/// None for a machine that [`Machine::check`] accepts.
-pub fn edge(machine: &Machine) -> Result<Arc<Netlist>, BuildErrors> {
+/// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
+pub fn edge(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new("edgewalk_edge", DOC);
     let prim_valid = m.input("prim_valid", 1);
     let prim = Token::inputs(&m, "prim", token::prim(machine));

@@ -3,7 +3,7 @@
 //! ```text
 //!  tri ─> setup ─> edge ─> span ─> pixel ─> depth ─> memory
 //! ```
-//! A function a unit takes a checked [`Machine`](edgewalk_numerics::Machine) and builds the unit's netlist; [`machine`] joins them.
+//! A function a unit takes a checked [`Machine`](edgewalk_machine::Machine) and builds the unit's netlist; [`machine`] joins them.
 //! What it does not know: the model, files, Verilog text.
 
 mod token;

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use edgewalk_machine::Plan;
 use edgewalk_netlist::{BuildErrors, Instance, Module, Netlist, Signal};
-use edgewalk_numerics::Machine;
 
 use crate::token::{self, Field, Token};
 use crate::{depth, edge, pixel, setup, span};
@@ -21,8 +21,8 @@ activity is the one cause of the cycle: 1 draw, 2 off the screen, and stalls: 3 
 /// The netlist of the whole machine.
 ///
 /// # Errors
-/// None for a machine that [`Machine::check`] accepts.
-pub fn machine(machine: &Machine) -> Result<Arc<Netlist>, BuildErrors> {
+/// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
+pub fn machine(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new("edgewalk", DOC);
     let tri_valid = m.input("tri_valid", 1);
     let triangle = Token::inputs(&m, "tri", token::triangle(machine));

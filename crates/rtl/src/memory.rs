@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use edgewalk_machine::Plan;
 use edgewalk_netlist::{BuildErrors, Module, Netlist};
-use edgewalk_numerics::Machine;
 
 use crate::token::{self, Token};
 
@@ -21,7 +21,7 @@ Not modelled: banks, bursts, refresh.";
 ///
 /// # Errors
 /// A `clear_z` that is no depth of this machine.
-pub fn memory(machine: &Machine, clear_z: u64) -> Result<Arc<Netlist>, BuildErrors> {
+pub fn memory(machine: &Plan, clear_z: u64) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new("edgewalk_memory", DOC);
     let mut written = token::write(machine);
     written.retain(|f| f.name != "tag");

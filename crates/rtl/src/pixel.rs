@@ -4,8 +4,8 @@ mod adder;
 
 use std::sync::Arc;
 
+use edgewalk_machine::Plan;
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg};
-use edgewalk_numerics::Machine;
 
 use crate::token::{self, CHANNELS, Registers, Token};
 use adder::{Step, Words};
@@ -25,8 +25,8 @@ no fragment.";
 /// The netlist of PIXEL.
 ///
 /// # Errors
-/// None for a machine that [`Machine::check`] accepts.
-pub fn pixel(machine: &Machine) -> Result<Arc<Netlist>, BuildErrors> {
+/// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
+pub fn pixel(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new("edgewalk_pixel", DOC);
     if machine.segments > 1 {
         m.doc(adder::SKEW_DOC);

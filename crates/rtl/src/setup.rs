@@ -18,8 +18,8 @@ mod results;
 
 use std::sync::Arc;
 
+use edgewalk_machine::Plan;
 use edgewalk_netlist::{BuildErrors, Module, Netlist};
-use edgewalk_numerics::Machine;
 
 use crate::token::{self, EDGES, Registers, Token};
 use control::Control;
@@ -44,8 +44,8 @@ Rules: all results are those of exact division, rounded once; a word keeps its l
 /// The netlist of SETUP.
 ///
 /// # Errors
-/// None for a machine that [`Machine::check`] accepts.
-pub fn setup(machine: &Machine) -> Result<Arc<Netlist>, BuildErrors> {
+/// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
+pub fn setup(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new("edgewalk_setup", DOC);
     let tri_valid = m.input("tri_valid", 1);
     let triangle = Token::inputs(&m, "tri", token::triangle(machine));

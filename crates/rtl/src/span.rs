@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use edgewalk_machine::{Fill, Plan};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
-use edgewalk_numerics::{Fill, Machine};
 
 use crate::fifo::fifo;
 use crate::token::{self, Token};
@@ -20,8 +20,8 @@ by PIXEL, as the channels must be stepped there too.";
 /// The netlist of SPAN.
 ///
 /// # Errors
-/// None for a machine that [`Machine::check`] accepts.
-pub fn span(machine: &Machine) -> Result<Arc<Netlist>, BuildErrors> {
+/// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
+pub fn span(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new("edgewalk_span", DOC);
     let line_valid = m.input("line_valid", 1);
     let line = Token::inputs(&m, "line", token::line(machine));
@@ -79,7 +79,7 @@ struct Cut<'m> {
 }
 
 /// Half-open spans from the major edge inwards, to the right or to the left.
-fn cut_exact<'m>(m: &'m Module, machine: &Machine, line: &Token<'m>) -> Cut<'m> {
+fn cut_exact<'m>(m: &'m Module, machine: &Plan, line: &Token<'m>) -> Cut<'m> {
     let (cmaj, cmin, width) = (line["cmaj"], line["cmin"], machine.width as i32);
     m.comment("To the right: from cmaj to before cmin, at most to the end of the screen.");
     let end_right =
@@ -100,7 +100,7 @@ fn cut_exact<'m>(m: &'m Module, machine: &Machine, line: &Token<'m>) -> Cut<'m> 
 }
 
 /// Spans with both ends, always to the right: a column stands one right of `Trunc(X)`.
-fn cut_textbook<'m>(m: &'m Module, machine: &Machine, line: &Token<'m>) -> Cut<'m> {
+fn cut_textbook<'m>(m: &'m Module, machine: &Plan, line: &Token<'m>) -> Cut<'m> {
     let (cmaj, cmin, left, width) = (line["cmaj"], line["cmin"], line["left"], machine.width as i32);
     m.comment("From Trunc(X) of the left edge to Trunc(X) of the right edge, both drawn; a column register is Trunc(X) + 1.");
     let x = (left.mux(cmin, cmaj) - 1).named("x");

@@ -4,8 +4,8 @@
 
 use std::ops::Index;
 
+use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
 use edgewalk_netlist::{Instance, Module, Reg, Signal};
-use edgewalk_numerics::{Channel, EdgeKind, Fill, Machine};
 
 /// Names of the four channels, in the order of the adder.
 pub(crate) const CHANNELS: [&str; 4] = ["z", "r", "g", "b"];
@@ -26,19 +26,19 @@ fn field(name: impl Into<String>, width: u32, doc: impl Into<String>) -> Field {
 }
 
 /// `UQ8.14 LSB mod 2^8`: an interpolated word.
-pub(crate) fn word_format(channel: Channel) -> String {
+pub(crate) fn word_format(channel: &Channel) -> String {
     format!("UQ{}.{} LSB, modular", channel.bits, channel.fraction)
 }
 
 /// The names of a channel's results of setup, without the channel's own name.
-pub(crate) fn results(machine: &Machine) -> &'static [&'static str] {
+pub(crate) fn results(machine: &Plan) -> &'static [&'static str] {
     match machine.fill {
         Fill::Exact => &["start", "d0", "d1", "g"],
         Fill::Textbook => &["start_a", "d_a", "start_b", "d_b", "g"],
     }
 }
 
-fn result_doc(machine: &Machine, result: &str) -> &'static str {
+fn result_doc(machine: &Plan, result: &str) -> &'static str {
     match (machine.fill, result) {
         (_, "start") => "at the first pixel of the first line",
         (_, "d0") => "to the next line, edge without carry",
@@ -52,7 +52,7 @@ fn result_doc(machine: &Machine, result: &str) -> &'static str {
 }
 
 /// A vertex at the port; `place`, its number in the triangle, ends the names.
-pub(crate) fn vertex(machine: &Machine, place: &str) -> Vec<Field> {
+pub(crate) fn vertex(machine: &Plan, place: &str) -> Vec<Field> {
     let position = format!("Q{}.{} px", machine.guard_bits + 1, machine.subpixel_bits);
     let width = machine.widths().vertex;
     let mut fields =
@@ -65,17 +65,17 @@ pub(crate) fn vertex(machine: &Machine, place: &str) -> Vec<Field> {
 }
 
 /// The tag, if the machine has one.
-pub(crate) fn tag(machine: &Machine) -> Option<Field> {
+pub(crate) fn tag(machine: &Plan) -> Option<Field> {
     (machine.tag_bits > 0).then(|| field("tag", machine.tag_bits, "of the triangle"))
 }
 
 /// A triangle at the port.
-pub(crate) fn triangle(machine: &Machine) -> Vec<Field> {
+pub(crate) fn triangle(machine: &Plan) -> Vec<Field> {
     ["0", "1", "2"].into_iter().flat_map(|place| vertex(machine, place)).chain(tag(machine)).collect()
 }
 
 /// Bits of an edge's remainder, its step and its modulus.
-pub(crate) fn remainder_bits(machine: &Machine) -> u32 {
+pub(crate) fn remainder_bits(machine: &Plan) -> u32 {
     match machine.edge_kind {
         EdgeKind::Exact => machine.widths().difference - 1,
         EdgeKind::Slope => machine.edge_fraction,
@@ -83,7 +83,7 @@ pub(crate) fn remainder_bits(machine: &Machine) -> u32 {
 }
 
 /// The state and step of one edge: C, R, q, f and, unless it is the constant 2^F, M.
-pub(crate) fn edge(machine: &Machine) -> Vec<Field> {
+pub(crate) fn edge(machine: &Plan) -> Vec<Field> {
     let (column, remainder) = (machine.widths().column, remainder_bits(machine));
     let unit = match machine.edge_kind {
         EdgeKind::Exact => "1/M column",
@@ -102,7 +102,7 @@ pub(crate) fn edge(machine: &Machine) -> Vec<Field> {
 }
 
 /// SETUP to EDGE: a triangle ready to be walked.
-pub(crate) fn prim(machine: &Machine) -> Vec<Field> {
+pub(crate) fn prim(machine: &Plan) -> Vec<Field> {
     let w = machine.widths();
     let mut fields = vec![
         field("jm", w.y, "first line"),
@@ -124,7 +124,7 @@ pub(crate) fn prim(machine: &Machine) -> Vec<Field> {
 }
 
 /// The four interpolated words.
-pub(crate) fn values(machine: &Machine) -> impl Iterator<Item = Field> {
+pub(crate) fn values(machine: &Plan) -> impl Iterator<Item = Field> {
     CHANNELS
         .into_iter()
         .zip(machine.channels())
@@ -132,7 +132,7 @@ pub(crate) fn values(machine: &Machine) -> impl Iterator<Item = Field> {
 }
 
 /// EDGE to SPAN: one line of a triangle.
-pub(crate) fn line(machine: &Machine) -> Vec<Field> {
+pub(crate) fn line(machine: &Plan) -> Vec<Field> {
     let w = machine.widths();
     let mut fields = vec![
         field("y", w.y, "line"),
@@ -150,7 +150,7 @@ pub(crate) fn line(machine: &Machine) -> Vec<Field> {
 }
 
 /// SPAN to PIXEL: the pixels of a line.
-pub(crate) fn span(machine: &Machine) -> Vec<Field> {
+pub(crate) fn span(machine: &Plan) -> Vec<Field> {
     let w = machine.widths();
     let mut fields = vec![
         field("x", w.column, "signed, first column"),
@@ -168,20 +168,20 @@ pub(crate) fn span(machine: &Machine) -> Vec<Field> {
 }
 
 /// The four output values.
-pub(crate) fn outputs(machine: &Machine) -> impl Iterator<Item = Field> {
+pub(crate) fn outputs(machine: &Plan) -> impl Iterator<Item = Field> {
     CHANNELS
         .into_iter()
         .zip(machine.channels())
         .map(|(name, channel)| field(name, channel.bits, format!("unorm{}", channel.bits)))
 }
 
-fn address(machine: &Machine) -> Field {
+fn address(machine: &Plan) -> Field {
     let w = machine.widths();
     field("addr", w.address, format!("line * 2^{} + column", w.x))
 }
 
 /// PIXEL to DEPTH: a fragment.
-pub(crate) fn fragment(machine: &Machine) -> Vec<Field> {
+pub(crate) fn fragment(machine: &Plan) -> Vec<Field> {
     let mut fields = vec![address(machine)];
     fields.extend(outputs(machine));
     fields.push(field("fence", 1, "what is in flight may be of the same pixel"));
@@ -190,12 +190,12 @@ pub(crate) fn fragment(machine: &Machine) -> Vec<Field> {
 }
 
 /// What DEPTH keeps of a fragment while its depth is read.
-pub(crate) fn entry(machine: &Machine) -> Vec<Field> {
+pub(crate) fn entry(machine: &Plan) -> Vec<Field> {
     std::iter::once(address(machine)).chain(outputs(machine)).chain(tag(machine)).collect()
 }
 
 /// DEPTH to the memories: one pixel.
-pub(crate) fn write(machine: &Machine) -> Vec<Field> {
+pub(crate) fn write(machine: &Plan) -> Vec<Field> {
     let mut fields = entry(machine);
     fields.insert(2, field("z_en", 1, "the depth is written too"));
     fields

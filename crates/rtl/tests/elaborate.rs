@@ -5,7 +5,7 @@ mod common {
 }
 
 use common::configurations::random_machine;
-use edgewalk_numerics::Machine;
+use edgewalk_machine::Plan;
 use edgewalk_rtl as rtl;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
@@ -13,7 +13,7 @@ use rand_pcg::Pcg64Mcg;
 #[test]
 fn every_machine_elaborates() {
     let mut rng = Pcg64Mcg::seed_from_u64(1);
-    let presets = ["default", "textbook"].into_iter().filter_map(Machine::preset);
+    let presets = ["default", "textbook"].into_iter().filter_map(Plan::preset);
     let mut checked = 0;
     for machine in presets.chain((0..1000).map(|_| random_machine(&mut rng))) {
         for netlist in [rtl::machine(&machine), rtl::memory(&machine, machine.z.max())] {

@@ -7,8 +7,8 @@ use common::lockstep::{Checked, Stimulus, lockstep};
 use common::probe::{Failure, Probe};
 use common::triangles::{after_it, one_pixel, random_triangle};
 use common::units;
+use edgewalk_machine::{Fill, Hazard, Machine, Plan};
 use edgewalk_model::{Stalls, setup_clocks};
-use edgewalk_numerics::{Fill, Hazard, Machine};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -39,8 +39,8 @@ fn report(all: &Checked) {
 }
 
 /// Slow machines get fewer triangles, so that each takes about the same time.
-fn shares(machines: &[Machine]) -> Vec<u64> {
-    let speed = |machine: &Machine| {
+fn shares(machines: &[Plan]) -> Vec<u64> {
+    let speed = |machine: &Plan| {
         let clocks = setup_clocks(machine);
         let pixels = 6 * machine.clocks_per_pixel();
         1.0 / f64::from(clocks.phase1 + clocks.phase2 + pixels)
@@ -52,7 +52,7 @@ fn shares(machines: &[Machine]) -> Vec<u64> {
 #[test]
 fn whole_machines() {
     let mut rng = Pcg64Mcg::seed_from_u64(2);
-    let machines: Vec<Machine> = (0..MACHINES).map(|_| random_machine(&mut rng)).collect();
+    let machines: Vec<Plan> = (0..MACHINES).map(|_| random_machine(&mut rng)).collect();
     let mut all = Checked::default();
     for (machine, share) in machines.iter().zip(shares(&machines)) {
         let triangles: Vec<_> = (0..share).map(|_| random_triangle(machine, &mut rng)).collect();
@@ -80,8 +80,9 @@ fn hazards_on_one_pixel() {
     for (hazard, fill, inflight) in cases {
         let mut machine =
             Machine { width: 6, height: 6, guard_bits: 3, hazard, inflight, ..Machine::default() };
-        (machine.fill, machine.dividers, machine.radix) = (fill, 4, 16);
+        (machine.fill, machine.lanes, machine.radix) = (fill, 4, 16);
         machine.subpixel_bits = if fill == Fill::Textbook { 0 } else { 2 };
+        let machine = machine.plan().expect("can be built");
         let pairs = (0..100).flat_map(|_| {
             let first = random_triangle(&machine, &mut rng);
             [first, after_it(&machine, &mut rng, &first), one_pixel(&machine, &mut rng, 2, 3)]
@@ -101,7 +102,7 @@ fn hazards_on_one_pixel() {
 }
 
 /// Runs a unit of every machine for some cycles.
-fn unit(seed: u64, cycles: u64, run: fn(&Machine, u64, &mut Pcg64Mcg) -> Result<Probe, Failure>) {
+fn unit(seed: u64, cycles: u64, run: fn(&Plan, u64, &mut Pcg64Mcg) -> Result<Probe, Failure>) {
     let mut rng = Pcg64Mcg::seed_from_u64(seed);
     let (mut ports, mut machines) = (0, 0);
     for _ in 0..MACHINES {

@@ -12,9 +12,9 @@ use crate::ports::{Direction, Interface, Token, Unit, interface, pack_triangle};
 use crate::stalls::{StallKind, patterns};
 use crate::status::status_ports;
 use crate::suites::Suite;
+use edgewalk_machine::Plan;
 use edgewalk_model::setup::setup_clocks;
 use edgewalk_model::{Coverage, DrawState};
-use edgewalk_numerics::Machine;
 use std::collections::BTreeMap;
 
 /// What moved at one channel.
@@ -32,7 +32,7 @@ pub struct ChannelTrace {
 #[derive(Clone, Debug)]
 pub struct Trace {
     /// The machine.
-    pub machine: Machine,
+    pub machine: Plan,
     /// The ports.
     pub interface: Interface,
     /// What the bench did.
@@ -54,11 +54,11 @@ pub struct Trace {
     pub coverage: Coverage,
 }
 
-/// Runs the machine, or one of its units, over a suite. The machine must have passed [`Machine::check`].
+/// Runs the machine, or one of its units, over a suite. The machine must have passed [`edgewalk_machine::Machine::plan`].
 #[must_use]
-pub fn capture(machine: &Machine, unit: Unit, suite: &Suite, state: DrawState, stalls: StallKind) -> Trace {
+pub fn capture(machine: &Plan, unit: Unit, suite: &Suite, state: DrawState, stalls: StallKind) -> Trace {
     // With tags of 32 bits each token knows its triangle; a tag changes nothing else.
-    let tagged = Machine { tag_bits: 32, ..machine.clone() };
+    let tagged = machine.tagged();
     let run = Run { machine: &tagged, suite, state };
     run.observe(unit, run.tokens(unit), stalls).with_tags_of(machine)
 }
@@ -66,7 +66,7 @@ pub fn capture(machine: &Machine, unit: Unit, suite: &Suite, state: DrawState, s
 /// Runs a unit over these tokens, whoever made them; `seed` is that of the stalls.
 #[must_use]
 pub fn capture_tokens(
-    machine: &Machine,
+    machine: &Plan,
     unit: Unit,
     tokens: Vec<Token>,
     state: DrawState,
@@ -78,7 +78,7 @@ pub fn capture_tokens(
 }
 
 struct Run<'a> {
-    machine: &'a Machine,
+    machine: &'a Plan,
     suite: &'a Suite,
     state: DrawState,
 }
@@ -189,7 +189,7 @@ const GRADIENTS: usize = 4;
 
 /// Longest time in which nothing may move at the ports though something will: SETUP, then lines without pixels, then a
 /// span that comes from far off the screen.
-fn patience(machine: &Machine) -> u64 {
+fn patience(machine: &Plan) -> u64 {
     let clocks = setup_clocks(machine);
     let span = u64::from(machine.clocks_per_pixel()) << machine.widths().column;
     u64::from(clocks.phase1) + u64::from(clocks.phase2) + u64::from(machine.height) + span + 1000
@@ -197,7 +197,7 @@ fn patience(machine: &Machine) -> u64 {
 
 impl Trace {
     /// The same run of the machine with the tags that it really has.
-    fn with_tags_of(mut self, machine: &Machine) -> Trace {
+    fn with_tags_of(mut self, machine: &Plan) -> Trace {
         let mask = (1u128 << machine.tag_bits) - 1;
         let narrow = |token: &mut Token, place: usize| match machine.tag_bits {
             0 => _ = token.remove(place),

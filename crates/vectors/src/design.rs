@@ -1,15 +1,15 @@
 //! The design under test: netlists of `rtl`, and their Verilog.
 
 use crate::ports::Unit;
+use edgewalk_machine::Plan;
 use edgewalk_netlist::{BuildErrors, Netlist};
-use edgewalk_numerics::Machine;
 use std::sync::Arc;
 
 /// The netlist of the machine or of one of its units.
 ///
 /// # Errors
-/// None for a machine that [`Machine::check`] accepts.
-pub fn netlist(machine: &Machine, unit: Unit) -> Result<Arc<Netlist>, BuildErrors> {
+/// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
+pub fn netlist(machine: &Plan, unit: Unit) -> Result<Arc<Netlist>, BuildErrors> {
     match unit {
         Unit::Machine => edgewalk_rtl::machine(machine),
         Unit::Setup => edgewalk_rtl::setup(machine),
@@ -24,7 +24,7 @@ pub fn netlist(machine: &Machine, unit: Unit) -> Result<Arc<Netlist>, BuildError
 ///
 /// # Errors
 /// As [`netlist`].
-pub fn verilog(machine: &Machine, unit: Unit) -> Result<Vec<(String, String)>, BuildErrors> {
+pub fn verilog(machine: &Plan, unit: Unit) -> Result<Vec<(String, String)>, BuildErrors> {
     let mut files = edgewalk_verilog::print(&netlist(machine, unit)?);
     if unit == Unit::Machine {
         files.extend(edgewalk_verilog::print(&edgewalk_rtl::memory(machine, machine.z.max())?));

@@ -6,10 +6,10 @@ use crate::design;
 use crate::device::{NetlistDevice, PortError};
 use crate::ports::{Token, Unit, interface, pack_triangle};
 use crate::suites::Triangle;
+use edgewalk_machine::Plan;
 use edgewalk_model::tokens::{Rgb, Source};
 use edgewalk_model::{Activity, Counters, Coverage, DrawState, Frame, Memory, Stalls, Write};
 use edgewalk_netlist::{BuildErrors, Simulator};
-use edgewalk_numerics::Machine;
 
 /// Why a netlist cannot draw.
 #[derive(Debug, thiserror::Error)]
@@ -22,7 +22,7 @@ pub enum DriveError {
     Ports(#[from] PortError),
 }
 
-/// Draws the triangles in order, as [`edgewalk_model::render`] does; the machine must have passed [`Machine::check`].
+/// Draws the triangles in order, as [`edgewalk_model::render`] does; the machine must have passed [`edgewalk_machine::Machine::plan`].
 ///
 /// Runs with tags of 32 bits, which change nothing but the tag ports: they name the triangle of each write. What is not
 /// to be seen at the ports is 0 in the frame: lines and spans among the counters, and all corners.
@@ -30,7 +30,7 @@ pub enum DriveError {
 /// # Errors
 /// None for a machine that the check accepts.
 pub fn render_rtl(
-    machine: &Machine,
+    machine: &Plan,
     triangles: impl IntoIterator<Item = Triangle>,
     state: DrawState,
     stalls: Stalls,
@@ -44,13 +44,13 @@ pub fn render_rtl(
 /// # Errors
 /// None for a machine that the check accepts.
 pub fn render_rtl_with(
-    machine: &Machine,
+    machine: &Plan,
     triangles: impl IntoIterator<Item = Triangle>,
     state: DrawState,
     stalls: Stalls,
     mut watch: impl FnMut(&mut Simulator) -> bool,
 ) -> Result<Frame, DriveError> {
-    let tagged = Machine { tag_bits: 32, ..machine.clone() };
+    let tagged = machine.tagged();
     let netlist = design::netlist(&tagged, Unit::Machine)?;
     let mut device = NetlistDevice::new(&netlist, &interface(&tagged, Unit::Machine))?;
     let mut memory = Memory::new(machine, state.clear, stalls);
@@ -77,7 +77,7 @@ pub fn render_rtl_with(
 }
 
 /// In the order of the interface: tri, data, rd_ready, wr_ready, depth_func, depth_write.
-fn inputs(tagged: &Machine, triangle: Option<&Token>, state: DrawState, memory: &Memory) -> Token {
+fn inputs(tagged: &Plan, triangle: Option<&Token>, state: DrawState, memory: &Memory) -> Token {
     let mut inputs = vec![u128::from(triangle.is_some())];
     match triangle {
         Some(token) => inputs.extend(token),
@@ -129,7 +129,7 @@ struct Picture {
 }
 
 impl Picture {
-    fn new(machine: &Machine) -> Picture {
+    fn new(machine: &Plan) -> Picture {
         let words = 1 << machine.widths().address;
         Picture {
             coverage: vec![0; words],
@@ -154,7 +154,7 @@ impl Picture {
         }
     }
 
-    fn frame(self, machine: &Machine, memory: &Memory) -> Frame {
+    fn frame(self, machine: &Plan, memory: &Memory) -> Frame {
         let x_bits = machine.widths().x;
         let pixels = || (0..machine.height).flat_map(|y| (0..machine.width).map(move |x| y << x_bits | x));
         Frame {

@@ -2,15 +2,15 @@
 
 mod common;
 
+use edgewalk_machine::Plan;
 use edgewalk_model::{DrawState, Event, Stalls, render_with};
-use edgewalk_numerics::Machine;
 use edgewalk_vectors::{
     Files, ReadError, SUITES, StallKind, Suite, Unit, capture, directory, manifest, read,
 };
 use serde_json::Value;
 use std::collections::BTreeSet;
 
-fn suite(machine: &Machine, name: &str) -> Suite {
+fn suite(machine: &Plan, name: &str) -> Suite {
     Suite::named(machine, name, 5, 12).expect("listed")
 }
 

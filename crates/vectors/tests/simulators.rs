@@ -3,8 +3,8 @@
 
 mod common;
 
+use edgewalk_machine::Plan;
 use edgewalk_model::DrawState;
-use edgewalk_numerics::Machine;
 use edgewalk_vectors::{
     Files, Outcome, Simulator, StallKind, Suite, Unit, capture, design, directory, lint, simulate,
     synth_ice40,
@@ -15,12 +15,12 @@ use std::time::{Duration, Instant};
 const LIMIT: Duration = Duration::from_secs(240);
 
 /// The directed suites, a few random triangles and a small mesh, one after the other.
-fn replay(machine: &Machine) -> Suite {
+fn replay(machine: &Plan) -> Suite {
     let suites = ["hazards", "corners", "random", "sphere"];
     Suite::joined("replay", "", suites.map(|name| Suite::named(machine, name, 5, 12).expect("listed")))
 }
 
-fn files(machine: &Machine, unit: Unit, suite: &Suite, depth_func: u8, stalls: StallKind) -> Files {
+fn files(machine: &Plan, unit: Unit, suite: &Suite, depth_func: u8, stalls: StallKind) -> Files {
     let trace = capture(machine, unit, suite, DrawState { depth_func, ..DrawState::default() }, stalls);
     directory(suite, &trace, &design::verilog(machine, unit).expect("a checked machine"))
 }

@@ -13,7 +13,7 @@ mod list;
 #[path = "../../../crates/vectors/tests/common/mod.rs"]
 mod machines;
 
-use edgewalk_numerics::{Machine, PortVertex};
+use edgewalk_machine::{Machine, PortVertex};
 use edgewalk_vectors::{Suite, render_rtl};
 use list::MUTANTS;
 use std::process::ExitCode;

@@ -3,10 +3,10 @@
 use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
-use edgewalk_numerics::Machine;
-use edgewalk_numerics::machine::keys::KEYS;
-use edgewalk_numerics::machine::nearest::nearest;
-use edgewalk_numerics::machine::presets::PRESETS;
+use edgewalk_machine::Plan;
+use edgewalk_machine::keys::KEYS;
+use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::presets::PRESETS;
 use serde_json::json;
 
 /// Prints, checks or explains a machine.
@@ -45,7 +45,7 @@ pub fn run(args: &Args, machine: &MachineArgs, json: bool) -> Result<Verdict> {
     Ok(Verdict::Pass)
 }
 
-fn explain(machine: &Machine, key: Option<&str>, json: bool) -> Result<()> {
+fn explain(machine: &Plan, key: Option<&str>, json: bool) -> Result<()> {
     let chosen: Vec<_> = KEYS.iter().filter(|k| key.is_none_or(|name| k.name == name)).collect();
     if chosen.is_empty() {
         let name = key.unwrap_or_default();

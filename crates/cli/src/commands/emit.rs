@@ -35,7 +35,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 
 /// Prints every module of the machine under `folder` of `out`, with the machine file; returns the names.
 pub fn write_design(
-    machine: &edgewalk_numerics::Machine,
+    machine: &edgewalk_machine::Plan,
     out: &staging::Staging,
     folder: &str,
 ) -> Result<Vec<String>> {

@@ -11,7 +11,7 @@ use crate::verdict::Verdict;
 use additions::{Walk, walk};
 use anyhow::{Result, anyhow};
 use edgewalk_golden::{ShadowMaps, draw, fragments};
-use edgewalk_numerics::{EdgeKind, Fill, Machine};
+use edgewalk_machine::{EdgeKind, Fill, Plan};
 use edgewalk_scene::{Frame, Scene, Surface};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -110,7 +110,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 }
 
 /// The triangles over a pixel, by the exact rule.
-fn over(frame: &Frame, machine: &Machine, pixel: (u32, u32)) -> Vec<Over> {
+fn over(frame: &Frame, machine: &Plan, pixel: (u32, u32)) -> Vec<Over> {
     let mut list = Vec::new();
     for (id, triangle) in frame.triangles.iter().enumerate() {
         let screen = (machine.width, machine.height);
@@ -123,13 +123,7 @@ fn over(frame: &Frame, machine: &Machine, pixel: (u32, u32)) -> Vec<Over> {
     list
 }
 
-fn light(
-    scene: &Scene,
-    surface: &Surface,
-    id: usize,
-    machine: &Machine,
-    pixel: (u32, u32),
-) -> Option<LitPoint> {
+fn light(scene: &Scene, surface: &Surface, id: usize, machine: &Plan, pixel: (u32, u32)) -> Option<LitPoint> {
     let triangle = surface.triangles.get(id)?;
     let maps = ShadowMaps::draw(scene, SHADOW_MAP);
     let mut point = None;

@@ -15,7 +15,7 @@ use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Result, anyhow};
 use edgewalk_golden::{HiddenLines, wireframe};
-use edgewalk_numerics::Machine;
+use edgewalk_machine::Plan;
 use edgewalk_scene::Frame;
 use std::path::PathBuf;
 
@@ -83,7 +83,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 }
 
 /// Draws the edges.
-fn lines(args: &Args, machine: &Machine, talk: Talk) -> Result<Verdict> {
+fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     let frame = args.source.outlined(machine)?;
     let hidden = if args.hidden_lines { HiddenLines::Drawn } else { HiddenLines::Removed };
     let drawn = from_golden(wireframe(&frame, golden_fill(machine), hidden));
@@ -99,7 +99,7 @@ fn lines(args: &Args, machine: &Machine, talk: Talk) -> Result<Verdict> {
 }
 
 /// Draws by a shading system and writes it beside the truth.
-fn shaded(args: &Args, machine: &Machine, talk: Talk) -> Result<Verdict> {
+fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     let spinner = spinner("shading", talk.quiet);
     let (scene, surface) = args.source.surface(machine)?;
     if args.shadows != Shadows::Off && args.source.shading == Shading::FastPhong {
@@ -146,7 +146,7 @@ fn shaded(args: &Args, machine: &Machine, talk: Talk) -> Result<Verdict> {
 pub fn pictures(
     name: &str,
     frame: &Frame,
-    machine: &Machine,
+    machine: &Plan,
     engine: Engine,
     out: &Staging,
     quiet: bool,

@@ -5,8 +5,8 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, jobs, progress};
 use anyhow::{Result, anyhow};
+use edgewalk_machine::Plan;
 use edgewalk_model::DrawState;
-use edgewalk_numerics::Machine;
 use edgewalk_vectors::{SUITES, StallKind, Suite, Unit, capture, design, directory};
 use std::path::PathBuf;
 
@@ -81,7 +81,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 }
 
 /// The suites that meet every corner on purpose.
-pub fn directed(machine: &Machine) -> Result<Vec<Suite>> {
+pub fn directed(machine: &Plan) -> Result<Vec<Suite>> {
     ["hazards", "corners"]
         .iter()
         .map(|name| Suite::named(machine, name, 1, 0).map_err(|e| anyhow!("{e}")))
@@ -90,7 +90,7 @@ pub fn directed(machine: &Machine) -> Result<Vec<Suite>> {
 
 /// Writes one directory for each suite and unit under `folder` of `out`; returns their names.
 pub fn write(
-    machine: &Machine,
+    machine: &Plan,
     suites: &[Suite],
     units: &[Unit],
     stalls: StallKind,

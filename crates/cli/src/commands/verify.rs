@@ -6,8 +6,8 @@ use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use crate::{Talk, jobs, progress};
 use anyhow::{Context, Result, anyhow};
+use edgewalk_machine::Plan;
 use edgewalk_model::DrawState;
-use edgewalk_numerics::Machine;
 use edgewalk_vectors::{
     LockstepError, Outcome, Simulator, StallKind, Suite, Trace, Unit, capture, design, directory, lockstep,
     simulate,
@@ -99,7 +99,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     Ok(checks.iter().fold(Verdict::Pass, |all, c| all.and(c.verdict())))
 }
 
-fn against_netlist(machine: &Machine, suite: &Suite, unit: Unit, trace: &Trace) -> Result<Check> {
+fn against_netlist(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> Result<Check> {
     let netlist = design::netlist(machine, unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
     // How much ought to be compared follows from the model's run alone.
     let expected = trace.port_values();
@@ -113,7 +113,7 @@ fn against_netlist(machine: &Machine, suite: &Suite, unit: Unit, trace: &Trace) 
     Ok(Check { suite, unit: unit.name(), against: "netlist", checked, expected, difference })
 }
 
-fn write(machine: &Machine, suite: &Suite, unit: Unit, trace: &Trace) -> Result<tempfile::TempDir> {
+fn write(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> Result<tempfile::TempDir> {
     let folder = tempfile::tempdir().context("a folder for the simulators")?;
     let verilog = design::verilog(machine, unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
     for (name, contents) in directory(suite, trace, &verilog) {
@@ -146,7 +146,7 @@ fn in_simulator(
     Ok(Check { suite, unit: unit.name(), against: simulator.name(), checked, expected, difference })
 }
 
-fn print(machine: &Machine, checks: &[Check], talk: Talk) -> Result<()> {
+fn print(machine: &Plan, checks: &[Check], talk: Talk) -> Result<()> {
     if talk.json {
         println!(
             "{}",

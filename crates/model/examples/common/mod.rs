@@ -1,10 +1,10 @@
 //! What the examples draw.
 
-use edgewalk_numerics::{Machine, PortVertex};
+use edgewalk_machine::{Plan, PortVertex};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 /// Random triangles of `area` pixels each, wholly on the screen, any shape but needles, z and colours at random.
-pub fn triangles(machine: &Machine, count: usize, area: f64) -> Vec<[PortVertex; 3]> {
+pub fn triangles(machine: &Plan, count: usize, area: f64) -> Vec<[PortVertex; 3]> {
     let mut rng = StdRng::seed_from_u64(1);
     let mut triangles = Vec::new();
     while triangles.len() < count {

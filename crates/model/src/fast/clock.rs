@@ -21,10 +21,10 @@
 
 use super::inflight::InFlight;
 use super::walk::Span;
-use crate::counters::{Activity, Counters};
+use crate::counters::Counters;
 use crate::fifo::Fifo;
 use crate::setup::{SetupClocks, setup_clocks};
-use edgewalk_numerics::{Hazard, Machine};
+use edgewalk_machine::{Activity, Hazard, Plan};
 
 /// The last fragment of a span, as DEPTH sees it.
 #[derive(Clone, Copy, Debug, Default)]
@@ -88,7 +88,7 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    pub(super) fn new(machine: &Machine, depth_write: bool) -> Self {
+    pub(super) fn new(machine: &Plan, depth_write: bool) -> Self {
         Clock {
             setup: setup_clocks(machine),
             span_fifo: machine.span_fifo as usize,

@@ -10,12 +10,12 @@ use super::walk::{Span, Walker};
 use crate::counters::Counters;
 use crate::run::DrawState;
 use crate::tokens::Prim;
-use edgewalk_numerics::{Machine, PortVertex};
+use edgewalk_machine::{Plan, PortVertex};
 
 /// Draws the triangles into a cleared picture.
 #[inline(always)]
 pub(super) fn draw<P: Pixel, const DETAILS: bool>(
-    machine: &Machine,
+    machine: &Plan,
     triangles: impl Iterator<Item = [PortVertex; 3]>,
     state: &DrawState,
     picture: &mut Picture<P>,

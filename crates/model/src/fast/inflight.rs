@@ -5,7 +5,7 @@
 
 use super::walk::Span;
 use crate::fifo::Fifo;
-use edgewalk_numerics::{Hazard, Machine};
+use edgewalk_machine::{Hazard, Plan};
 
 /// The fragments of a span, in the order of their reads.
 #[derive(Clone, Copy, Debug, Default)]
@@ -35,7 +35,7 @@ pub(super) struct InFlight {
 
 impl InFlight {
     /// None if the machine does not look at addresses.
-    pub(super) fn new(machine: &Machine, depth_write: bool) -> Option<Self> {
+    pub(super) fn new(machine: &Plan, depth_write: bool) -> Option<Self> {
         (machine.hazard == Hazard::Interlock && depth_write).then(|| InFlight {
             window: u64::from(machine.latency) + 1,
             pixel: u64::from(machine.clocks_per_pixel()),

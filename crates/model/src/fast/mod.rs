@@ -26,7 +26,7 @@ use crate::counters::Counters;
 use crate::coverage::Coverage;
 use crate::memory::Stalls;
 use crate::run::{DrawState, Frame, render};
-use edgewalk_numerics::{Machine, PortVertex};
+use edgewalk_machine::{Plan, PortVertex};
 use picture::Picture;
 use std::fmt;
 
@@ -68,17 +68,17 @@ enum Memory {
 /// Draws frame after frame into the same memory, without ticking.
 #[derive(Clone, Debug)]
 pub struct Renderer {
-    machine: Machine,
+    machine: Plan,
     details: bool,
     memory: Memory,
     counters: Counters,
 }
 
 impl Renderer {
-    /// A renderer without a frame yet; the machine must have passed [`Machine::check`]. `details`: keep coverage, writes
+    /// A renderer without a frame yet; the machine must have passed [`edgewalk_machine::Machine::plan`]. `details`: keep coverage, writes
     /// and ids of every pixel.
     #[must_use]
-    pub fn new(machine: &Machine, details: bool) -> Self {
+    pub fn new(machine: &Plan, details: bool) -> Self {
         let memory = if machine.color.bits <= 8 {
             Memory::Narrow(Picture::default())
         } else {
@@ -135,13 +135,13 @@ impl Renderer {
 }
 
 /// The queue holds at most a fragment every T clocks for L clocks; it never fills if it has room for one more.
-fn queue_fills(machine: &Machine) -> bool {
+fn queue_fills(machine: &Plan) -> bool {
     machine.inflight <= machine.latency / machine.clocks_per_pixel()
 }
 
-/// Draws the triangles in order, cycle by cycle if need be; the machine must have passed [`Machine::check`]. The corners
+/// Draws the triangles in order, cycle by cycle if need be; the machine must have passed [`edgewalk_machine::Machine::plan`]. The corners
 /// are counted only where the frame is ticked.
-pub fn draw<I>(machine: &Machine, triangles: I, state: DrawState) -> (Frame, Path)
+pub fn draw<I>(machine: &Plan, triangles: I, state: DrawState) -> (Frame, Path)
 where
     I: IntoIterator<Item = [PortVertex; 3]>,
     I::IntoIter: Clone,

@@ -2,7 +2,7 @@
 
 use super::pixel::{Pixel, pixel};
 use crate::run::DrawState;
-use edgewalk_numerics::Machine;
+use edgewalk_machine::Plan;
 
 /// Pixels of a chunk, which are drawn side by side.
 pub(super) const LANES: usize = 8;
@@ -38,7 +38,7 @@ pub(super) struct Picture<P> {
 
 impl<P: Pixel> Picture<P> {
     /// The farthest depth and the clear colour everywhere.
-    pub(super) fn clear(&mut self, machine: &Machine, state: &DrawState, details: bool) {
+    pub(super) fn clear(&mut self, machine: &Plan, state: &DrawState, details: bool) {
         let pixels = machine.width as usize * machine.height as usize + LANES;
         refill(&mut self.pixels, pixels, pixel(machine, machine.z.max(), state.clear));
         if details {

@@ -1,6 +1,6 @@
 //! A pixel of the frame memory in one word, depth below and packed colour above: a span is one stretch of memory.
 
-use edgewalk_numerics::Machine;
+use edgewalk_machine::Plan;
 
 /// A stored pixel: depth in the low 32 bits, colour above.
 pub(super) trait Pixel: Copy + Default {
@@ -64,7 +64,7 @@ pixel!(u64, u32, 8);
 pixel!(u128, u64, 16);
 
 /// A pixel of these outputs, b bits each.
-pub(super) fn pixel<P: Pixel>(machine: &Machine, z: u64, rgb: [u64; 3]) -> P {
+pub(super) fn pixel<P: Pixel>(machine: &Plan, z: u64, rgb: [u64; 3]) -> P {
     let bits = machine.color.bits;
     P::pack(z as u32, rgb.map(|c| P::color(c << (64 - bits))), P::COLOR_BITS - bits)
 }

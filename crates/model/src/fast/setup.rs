@@ -5,14 +5,14 @@
 
 use super::divide::{Divisor, Shift};
 use crate::setup;
-use crate::tokens::{EdgeWalk, Prim, Source, Words, sign_extend, word_masks};
-use edgewalk_numerics::{EdgeKind, Fill, Machine, PortVertex};
+use crate::tokens::{EdgeWalk, Prim, Source, Words, per_channel, sign_extend, word_masks};
+use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex};
 use std::array::from_fn;
 
 /// What the setup needs to know of a machine.
 #[derive(Clone, Debug)]
 pub(super) struct Setup {
-    machine: Machine,
+    machine: Plan,
     /// The plain setup does it all.
     plain: bool,
     height: i64,
@@ -47,13 +47,12 @@ struct Corner {
 struct TooLong;
 
 impl Setup {
-    pub(super) fn new(machine: &Machine) -> Self {
+    pub(super) fn new(machine: &Plan) -> Self {
         let w = machine.widths();
-        let channels = machine.channels();
-        let difference_bits = channels.map(|c| c.vertex_bits() + 1).into_iter().max().unwrap_or(0);
+        let difference_bits = per_channel(machine, |c| c.vertex_bits() + 1).into_iter().max().unwrap_or(0);
         let exact = machine.fill == Fill::Exact && machine.edge_kind == EdgeKind::Exact;
         let s = machine.subpixel_bits;
-        let value_bits = channels.map(|c| c.fraction - c.vertex_fraction);
+        let value_bits = per_channel(machine, |c| c.fraction - c.vertex_fraction);
         Setup {
             machine: machine.clone(),
             plain: !exact || difference_bits + w.difference > 62,
@@ -64,12 +63,12 @@ impl Setup {
             offset: if s == 0 { 1 } else { 1 << (s - 1) },
             column_bits: w.column,
             difference_bits,
-            vertex_masks: channels.map(|c| (1 << c.vertex_bits()) - 1),
+            vertex_masks: per_channel(machine, |c| (1 << c.vertex_bits()) - 1),
             word_masks: word_masks(machine),
             value_shift: value_bits.map(Shift::new),
             slope_shift: value_bits.map(|bits| Shift::new(bits + w.center_fraction)),
             value_bits,
-            half: channels.map(|c| (1 << c.fraction) >> 1),
+            half: per_channel(machine, |c| (1 << c.fraction) >> 1),
         }
     }
 

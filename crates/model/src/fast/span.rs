@@ -11,7 +11,7 @@ use super::pixel::Pixel;
 use super::walk::Span;
 use crate::run::DrawState;
 use crate::tokens::Words;
-use edgewalk_numerics::Machine;
+use edgewalk_machine::Plan;
 use std::array::from_fn;
 
 /// The increments along a span to the right, for every lane of a chunk.
@@ -61,7 +61,7 @@ fn mask(condition: bool) -> u32 {
 }
 
 impl DepthTest {
-    pub(super) fn new<P: Pixel>(machine: &Machine, state: &DrawState) -> Self {
+    pub(super) fn new<P: Pixel>(machine: &Plan, state: &DrawState) -> Self {
         DepthTest {
             less: mask(state.depth_func & 1 != 0),
             equal: mask(state.depth_func & 2 != 0),

@@ -6,14 +6,14 @@ use super::picture::Picture;
 use super::pixel::Pixel;
 use crate::counters::Counters;
 use crate::run::DrawState;
-use edgewalk_numerics::{Machine, PortVertex};
+use edgewalk_machine::{Plan, PortVertex};
 
 macro_rules! compiled_for {
     ($name:ident, $features:literal) => {
         #[cfg(target_arch = "x86_64")]
         #[target_feature(enable = $features)]
         fn $name<P: Pixel, const DETAILS: bool>(
-            machine: &Machine,
+            machine: &Plan,
             triangles: impl Iterator<Item = [PortVertex; 3]>,
             state: &DrawState,
             picture: &mut Picture<P>,
@@ -28,7 +28,7 @@ compiled_for!(avx2, "avx2,bmi1,bmi2");
 
 /// Clears the picture and draws, with the widest vectors there are.
 pub(super) fn draw<P: Pixel>(
-    machine: &Machine,
+    machine: &Plan,
     triangles: impl Iterator<Item = [PortVertex; 3]>,
     state: &DrawState,
     details: bool,
@@ -43,7 +43,7 @@ pub(super) fn draw<P: Pixel>(
 }
 
 fn widest<P: Pixel, const DETAILS: bool>(
-    machine: &Machine,
+    machine: &Plan,
     triangles: impl Iterator<Item = [PortVertex; 3]>,
     state: &DrawState,
     picture: &mut Picture<P>,

@@ -7,8 +7,8 @@
 //! themselves. Rules: `docs/machine.md`, sections 3 and 4; its cuts come to the same interval whichever way a span runs.
 
 use super::prefetch::prefetch;
-use crate::tokens::{EdgeWalk, Prim, Words};
-use edgewalk_numerics::{Fill, Machine};
+use crate::tokens::{EdgeWalk, Prim, Words, per_channel};
+use edgewalk_machine::{Fill, Plan};
 use std::array::from_fn;
 
 /// Pixels of a line that lie on the screen.
@@ -80,12 +80,12 @@ pub(super) struct Walk {
 }
 
 impl Walker {
-    pub(super) fn new(machine: &Machine) -> Self {
+    pub(super) fn new(machine: &Plan) -> Self {
         Walker {
             textbook: machine.fill == Fill::Textbook,
             width: machine.width as i32,
             free: 32 - machine.widths().column,
-            align: machine.channels().map(|c| 64 - c.word()),
+            align: per_channel(machine, |c| 64 - c.word()),
         }
     }
 

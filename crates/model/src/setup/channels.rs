@@ -4,10 +4,10 @@ use super::edges::Parts;
 use super::round_div;
 use super::sort::{Corner, Sorted};
 use crate::tokens::{Prim, word_masks};
-use edgewalk_numerics::{Fill, Machine};
+use edgewalk_machine::{Fill, Plan};
 
 /// Fills in `start`, `delta` and `gradient` of a triangle whose edges are known.
-pub(super) fn prepare(machine: &Machine, sorted: &Sorted, parts: &Parts, prim: &mut Prim) {
+pub(super) fn prepare(machine: &Plan, sorted: &Sorted, parts: &Parts, prim: &mut Prim) {
     let masks = word_masks(machine);
     let word = |i: usize, value: i128| value as u64 & masks[i];
     for i in 0..4 {
@@ -44,13 +44,13 @@ pub(super) fn prepare(machine: &Machine, sorted: &Sorted, parts: &Parts, prim: &
 }
 
 /// r - e, and the 1/2 that turns the final truncation into rounding, 2^(r-1) (0 if r = 0).
-fn scale(machine: &Machine, channel: usize) -> (u32, i128) {
+fn scale(machine: &Plan, channel: usize) -> (u32, i128) {
     let c = machine.channels()[channel];
     (c.fraction - c.vertex_fraction, (1i128 << c.fraction) >> 1)
 }
 
 /// Textbook fill: first value and increment a line along the left edge `a`-`b`, on line `j` (A 7.10).
-fn left_edge(machine: &Machine, a: &Corner, b: &Corner, j: i64, i: usize) -> (i128, i128) {
+fn left_edge(machine: &Plan, a: &Corner, b: &Corner, j: i64, i: usize) -> (i128, i128) {
     let (shift, half) = scale(machine, i);
     let p = 1i64 << machine.widths().center_fraction;
     let dc = b.value[i] - a.value[i];
@@ -75,7 +75,7 @@ struct Plane<'a> {
 }
 
 impl<'a> Plane<'a> {
-    fn new(machine: &Machine, sorted: &'a Sorted, i: usize) -> Self {
+    fn new(machine: &Plan, sorted: &'a Sorted, i: usize) -> Self {
         let [top, b, c] = &sorted.corners;
         let area = sorted.area();
         let sign = if area < 0 { -1 } else { 1 };

@@ -1,6 +1,6 @@
 //! How long SETUP takes: serial lanes, k bits a clock.
 
-use edgewalk_numerics::{EdgeKind, Fill, Machine};
+use edgewalk_machine::{EdgeKind, Fill, Plan};
 
 /// Clocks of a triangle in SETUP.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,7 +13,7 @@ pub struct SetupClocks {
 
 /// S1 and S2 of a machine (`docs/machine.md`, section 2).
 #[must_use]
-pub fn setup_clocks(machine: &Machine) -> SetupClocks {
+pub fn setup_clocks(machine: &Plan) -> SetupClocks {
     let w = machine.widths();
     let (d, t, g) = (w.difference, w.center_fraction, machine.guard_bits);
     let k = machine.bits_per_clock();
@@ -29,7 +29,7 @@ pub fn setup_clocks(machine: &Machine) -> SetupClocks {
         Fill::Exact => 4 * mul + div(d + word + t) + div(d + word + g + 2 + t) + div(2 * d + word),
         Fill::Textbook => 3 * mul + 5 * div(d + word + t),
     };
-    let turns = 4 / machine.dividers;
+    let turns = 4 / machine.lanes;
     SetupClocks { phase1: 3 + turns * t1, phase2: 1 + turns * t2 }
 }
 
@@ -41,11 +41,11 @@ mod tests {
     fn worked_by_hand() {
         // DW = 23, k = 2: MUL 13, DIVq 12, DIVc 20; DIV(69) 36, DIV(84) 43, DIV(84) 43.
         assert_eq!(
-            setup_clocks(&Machine::default()),
+            setup_clocks(&Plan::default()),
             SetupClocks { phase1: 3 + 45, phase2: 1 + 4 * 13 + 36 + 43 + 43 }
         );
         // DW = 16, k = 1, one lane, F = 16: MUL 17, DIVq 32, DIVc 48; DIV(16 + 30 + 1) 48.
-        let textbook = Machine::preset("textbook").expect("a preset");
+        let textbook = Plan::preset("textbook").expect("a preset");
         assert_eq!(
             setup_clocks(&textbook),
             SetupClocks { phase1: 3 + 4 * (32 + 17 + 48), phase2: 1 + 4 * (3 * 17 + 5 * 48) }

@@ -3,7 +3,7 @@
 use super::round_div;
 use super::sort::{Corner, Sorted};
 use crate::tokens::{EdgeWalk, sign_extend};
-use edgewalk_numerics::{EdgeKind, Fill, Machine};
+use edgewalk_machine::{EdgeKind, Fill, Plan};
 
 /// The drawn lines of the upper and the lower part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +22,7 @@ impl Parts {
 }
 
 /// Lines of both parts (section 2), cut to the screen.
-pub(super) fn parts(machine: &Machine, sorted: &Sorted) -> Parts {
+pub(super) fn parts(machine: &Plan, sorted: &Sorted) -> Parts {
     let t = machine.widths().center_fraction;
     let height = i64::from(machine.height);
     let v = sorted.corners.map(|c| c.v);
@@ -47,7 +47,7 @@ pub(super) fn parts(machine: &Machine, sorted: &Sorted) -> Parts {
 }
 
 /// The edge from `a` down to `b`, as it stands on line `j`.
-pub(super) fn walk(machine: &Machine, a: &Corner, b: &Corner, j: i64) -> EdgeWalk {
+pub(super) fn walk(machine: &Plan, a: &Corner, b: &Corner, j: i64) -> EdgeWalk {
     let w = machine.widths();
     let p = 1i64 << w.center_fraction;
     let (dx, dy) = (b.u - a.u, b.v - a.v);

@@ -22,7 +22,7 @@ pub use clocks::{SetupClocks, setup_clocks};
 
 use crate::Coverage;
 use crate::tokens::{Prim, Source};
-use edgewalk_numerics::{Machine, PortVertex};
+use edgewalk_machine::{Plan, PortVertex};
 use sort::Sorted;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,7 +36,7 @@ enum State {
 /// State of SETUP.
 #[derive(Clone, Debug)]
 pub struct Setup {
-    machine: Machine,
+    machine: Plan,
     clocks: SetupClocks,
     state: State,
     /// Cycles left in PHASE1 or PHASE2, less one; 0 in the others.
@@ -50,7 +50,7 @@ pub struct Setup {
 impl Setup {
     /// An idle unit.
     #[must_use]
-    pub fn new(machine: &Machine) -> Self {
+    pub fn new(machine: &Plan) -> Self {
         Setup {
             machine: machine.clone(),
             clocks: setup_clocks(machine),
@@ -138,11 +138,11 @@ impl Setup {
 }
 
 /// The increments of a triangle at the port, without tag and number; `None` if it is culled.
-pub(crate) fn increments(machine: &Machine, vertices: &[PortVertex; 3]) -> Option<Prim> {
+pub(crate) fn increments(machine: &Plan, vertices: &[PortVertex; 3]) -> Option<Prim> {
     prepare(machine, &Sorted::new(machine, vertices))
 }
 
-fn prepare(machine: &Machine, sorted: &Sorted) -> Option<Prim> {
+fn prepare(machine: &Plan, sorted: &Sorted) -> Option<Prim> {
     let area = sorted.area();
     let parts = edges::parts(machine, sorted);
     if area == 0 || parts.lines == [0, 0] {

@@ -1,6 +1,6 @@
 //! Vertices in centre coordinates, sorted from top to bottom.
 
-use edgewalk_numerics::{Fill, Machine, PortVertex};
+use edgewalk_machine::{Fill, Plan, PortVertex};
 
 /// A vertex in centre coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +20,7 @@ pub(super) struct Sorted {
 }
 
 impl Sorted {
-    pub(super) fn new(machine: &Machine, vertices: &[PortVertex; 3]) -> Self {
+    pub(super) fn new(machine: &Plan, vertices: &[PortVertex; 3]) -> Self {
         let mut corners = vertices.map(|v| corner(machine, &v));
         corners.sort_by_key(|c| c.v); // stable
         Sorted { corners }
@@ -35,7 +35,7 @@ impl Sorted {
 }
 
 /// Centre coordinates of a vertex. The port has XW and b + e bits; what a caller puts above them is not seen.
-fn corner(machine: &Machine, vertex: &PortVertex) -> Corner {
+fn corner(machine: &Plan, vertex: &PortVertex) -> Corner {
     let unused = 64 - machine.widths().vertex;
     let centre = |x: i32| {
         let x = i64::from(x) << unused >> unused;

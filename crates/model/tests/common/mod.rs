@@ -1,9 +1,9 @@
 //! The rule and the values in exact integers, written from the definitions, not from the machine.
 #![allow(dead_code, reason = "every test file uses a part")]
 
+use edgewalk_machine::{Machine, Plan, PortVertex};
 use edgewalk_model::tokens::Fragment;
 use edgewalk_model::{DrawState, Event, Frame, Inputs, Memory, Model, Outputs, Stalls, Write, render_with};
-use edgewalk_numerics::{Machine, PortVertex};
 use rand::Rng;
 use std::collections::HashMap;
 
@@ -12,13 +12,12 @@ pub type Triangle = [PortVertex; 3];
 /// Every fragment is read, whatever is stored.
 pub const ALWAYS: DrawState = DrawState { depth_func: 7, depth_write: true, clear: [0; 3] };
 
-pub fn machine(settings: &[(&str, &str)]) -> Machine {
+pub fn machine(settings: &[(&str, &str)]) -> Plan {
     let mut machine = Machine::default();
     for (key, value) in settings {
         machine.set(key, value).expect("a key of the machine");
     }
-    machine.check().expect("a machine that can be built");
-    machine
+    machine.plan().expect("a machine that can be built")
 }
 
 pub fn vertex(x: i32, y: i32, value: [u64; 4]) -> PortVertex {
@@ -26,7 +25,7 @@ pub fn vertex(x: i32, y: i32, value: [u64; 4]) -> PortVertex {
 }
 
 /// Column and line of an address.
-pub fn place(machine: &Machine, addr: u32) -> (i64, i64) {
+pub fn place(machine: &Plan, addr: u32) -> (i64, i64) {
     let bits = machine.widths().x;
     (i64::from(addr & ((1 << bits) - 1)), i64::from(addr >> bits))
 }
@@ -43,7 +42,7 @@ fn right_of(a: [i64; 2], b: [i64; 2], p: [i64; 2]) -> i64 {
 }
 
 /// Centre of a pixel and a vertex, both in 2^-(s+1) px.
-fn centre(machine: &Machine, x: i64, y: i64) -> [i64; 2] {
+fn centre(machine: &Plan, x: i64, y: i64) -> [i64; 2] {
     [x, y].map(|c| (2 * c + 1) << machine.subpixel_bits)
 }
 
@@ -52,7 +51,7 @@ fn point(v: &PortVertex) -> [i64; 2] {
 }
 
 /// Half-open in both axes: an odd number of edges crosses the line through the centre at or left of it.
-pub fn inside(machine: &Machine, triangle: &Triangle, x: i64, y: i64) -> bool {
+pub fn inside(machine: &Plan, triangle: &Triangle, x: i64, y: i64) -> bool {
     let p = centre(machine, x, y);
     let crossed = (0..3).filter(|&i| {
         let (a, b) = (point(&triangle[i]), point(&triangle[(i + 1) % 3]));
@@ -63,7 +62,7 @@ pub fn inside(machine: &Machine, triangle: &Triangle, x: i64, y: i64) -> bool {
 }
 
 /// Exact value of channel `i` at a pixel's centre, as numerator and positive denominator, in LSB.
-pub fn exact_value(machine: &Machine, triangle: &Triangle, i: usize, x: i64, y: i64) -> (i128, i128) {
+pub fn exact_value(machine: &Plan, triangle: &Triangle, i: usize, x: i64, y: i64) -> (i128, i128) {
     let p = centre(machine, x, y);
     let corner = triangle.map(|v| point(&v));
     let weight = |a: usize, b: usize| i128::from(right_of(corner[a], corner[b], p));
@@ -74,7 +73,7 @@ pub fn exact_value(machine: &Machine, triangle: &Triangle, i: usize, x: i64, y: 
 }
 
 /// Additions from the first value of a triangle to a pixel inside: lines down the major edge, then columns.
-fn steps(machine: &Machine, triangle: &Triangle, x: i64, y: i64) -> f64 {
+fn steps(machine: &Plan, triangle: &Triangle, x: i64, y: i64) -> f64 {
     let mut corner = triangle.map(|v| point(&v));
     corner.sort_by_key(|c| c[1]);
     let (top, bottom, p) = (corner[0], corner[2], centre(machine, x, y));
@@ -87,7 +86,7 @@ fn steps(machine: &Machine, triangle: &Triangle, x: i64, y: i64) -> f64 {
 
 /// Draws triangles and holds every fragment against the exact rule and the exact values.
 pub struct Check<'a> {
-    machine: &'a Machine,
+    machine: &'a Plan,
     triangles: &'a [Triangle],
     /// Number of the triangle that covered a pixel last, plus 1.
     seen: Vec<usize>,
@@ -108,7 +107,7 @@ pub struct Check<'a> {
 }
 
 impl<'a> Check<'a> {
-    pub fn run(machine: &'a Machine, triangles: &'a [Triangle], stalls: Stalls) -> (Check<'a>, Frame) {
+    pub fn run(machine: &'a Plan, triangles: &'a [Triangle], stalls: Stalls) -> (Check<'a>, Frame) {
         let pixels = (machine.width * machine.height) as usize;
         let mut check = Check {
             machine,
@@ -216,12 +215,15 @@ impl<'a> Check<'a> {
 }
 
 /// A random value for every channel.
-pub fn random_values(machine: &Machine, rng: &mut impl Rng) -> [u64; 4] {
-    machine.channels().map(|c| rng.random_range(0..=c.max() << c.vertex_fraction))
+pub fn random_values(machine: &Plan, rng: &mut impl Rng) -> [u64; 4] {
+    std::array::from_fn(|i| {
+        let channel = machine.channels()[i];
+        rng.random_range(0..=channel.max() << channel.vertex_fraction)
+    })
 }
 
 /// A random triangle around the screen whose corners lie within `size` px of each other.
-pub fn random_triangle(machine: &Machine, size: f64, rng: &mut impl Rng) -> Triangle {
+pub fn random_triangle(machine: &Plan, size: f64, rng: &mut impl Rng) -> Triangle {
     let one = f64::from(1u32 << machine.subpixel_bits);
     let limit = f64::from((1u32 << machine.guard_bits) - 1);
     let middle = [machine.width, machine.height].map(|side| rng.random_range(0.0..f64::from(side)));
@@ -232,8 +234,8 @@ pub fn random_triangle(machine: &Machine, size: f64, rng: &mut impl Rng) -> Tria
 }
 
 /// A machine with every key drawn at random, that can be built; `fixed` settings stay.
-pub fn random_machine(fixed: &[(&str, &str)], rng: &mut impl Rng) -> Machine {
-    use edgewalk_numerics::machine::keys::{Domain, KEYS};
+pub fn random_machine(fixed: &[(&str, &str)], rng: &mut impl Rng) -> Plan {
+    use edgewalk_machine::keys::{Domain, KEYS};
     loop {
         let mut machine = Machine::default();
         for key in KEYS {
@@ -247,8 +249,8 @@ pub fn random_machine(fixed: &[(&str, &str)], rng: &mut impl Rng) -> Machine {
         for (key, value) in fixed {
             machine.set(key, value).expect("a key of the machine");
         }
-        if machine.check().is_ok() {
-            return machine;
+        if let Ok(plan) = machine.plan() {
+            return plan;
         }
     }
 }
@@ -268,7 +270,7 @@ pub struct Cycle<'a> {
 
 /// Draws triangles and shows every cycle; `writes_open` says in which cycles the memory takes writes at all.
 pub fn drive(
-    machine: &Machine,
+    machine: &Plan,
     triangles: &[Triangle],
     state: DrawState,
     stalls: Stalls,
@@ -308,7 +310,7 @@ pub struct Sequential {
     pub writes: Vec<Write>,
 }
 
-pub fn sequential(machine: &Machine, fragments: &[Fragment], state: DrawState) -> Sequential {
+pub fn sequential(machine: &Plan, fragments: &[Fragment], state: DrawState) -> Sequential {
     let empty = (machine.z.max() as u32, state.clear.map(|c| c as u16));
     let mut stored = HashMap::new();
     let mut writes = Vec::new();

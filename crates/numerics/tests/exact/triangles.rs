@@ -3,7 +3,7 @@
 use crate::rational::{exact, ratio, round_to_integer};
 use crate::triangle::{Interpolator, Line, Triangle, Vertex};
 use edgewalk_numerics::bounds::{mismatch_rate, triangle_error};
-use edgewalk_numerics::{Channel, Dyadic, Rounding, Steps};
+use edgewalk_numerics::{Dyadic, ErrorBudget, Rounding, Steps};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
 use rand::{Rng, SeedableRng};
@@ -114,7 +114,6 @@ fn the_budget_holds_against_vertices_before_their_rounding() {
     let mut random = Pcg64Mcg::seed_from_u64(7);
     // Few vertex bits, so that their part of the budget is seen; the host's values have 20 more.
     for (vertex_bits, bits) in [(0, 12), (2, 11), (4, 11)] {
-        let channel = Channel { bits: 8, fraction: bits, vertex_fraction: vertex_bits };
         let host = Interpolator { fraction_bits: 24, vertex_bits: 20, ..interpolator(24, NEAREST) };
         let machine = Interpolator { fraction_bits: bits, vertex_bits, ..host };
         let (mut most, mut most_output, mut checked) = (0f64, 0f64, 0);
@@ -137,7 +136,8 @@ fn the_budget_holds_against_vertices_before_their_rounding() {
             };
             for (line, ideal_line) in triangle.lines.iter().zip(&ideal.lines) {
                 for column in [line.columns.0, line.columns.1] {
-                    let budget = channel.error_budget(steps(&triangle, line, column));
+                    let behind = steps(&triangle, line, column);
+                    let budget = ErrorBudget::new(vertex_bits, bits, behind, Dyadic::HALF);
                     let truth = ideal.exact(ideal_line, column);
                     let sum = triangle.sum(line, column);
                     let error = (&sum - &truth).abs();

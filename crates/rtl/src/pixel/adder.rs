@@ -1,7 +1,7 @@
 //! The adders of PIXEL: words cut into segments, each added a clock after the one below it.
 
+use edgewalk_machine::Plan;
 use edgewalk_netlist::{Module, Reg, Signal};
-use edgewalk_numerics::Machine;
 
 use crate::token::{CHANNELS, Token};
 
@@ -26,7 +26,7 @@ pub(super) struct Step<'m> {
 }
 
 /// The steps of all segments: each does what the one below it did at the last advance.
-fn steps<'m>(m: &'m Module, machine: &Machine, advance: Signal<'m>, first: Step<'m>) -> Vec<Step<'m>> {
+fn steps<'m>(m: &'m Module, machine: &Plan, advance: Signal<'m>, first: Step<'m>) -> Vec<Step<'m>> {
     if machine.segments > 1 {
         m.comment("What the segments do: what the one below did at the last advance.");
     }
@@ -65,7 +65,7 @@ impl<'m> Words<'m> {
     /// The registers, the adders, and the loads.
     pub fn new(
         m: &'m Module,
-        machine: &Machine,
+        machine: &Plan,
         advance: Signal<'m>,
         first: Step<'m>,
         span: &Token<'m>,
@@ -88,7 +88,7 @@ impl<'m> Words<'m> {
     }
 
     /// The bits that segment `segment` of a channel has of the output; `None` if they are all fraction.
-    pub fn output(&self, machine: &Machine, channel: usize, segment: usize) -> Option<Signal<'m>> {
+    pub fn output(&self, machine: &Plan, channel: usize, segment: usize) -> Option<Signal<'m>> {
         let part = self.segments[channel][segment].as_ref()?;
         let fraction = machine.channels()[channel].fraction;
         let value = part.value.q();
@@ -98,7 +98,7 @@ impl<'m> Words<'m> {
 }
 
 /// Where the segments of an adder begin, and where the last one ends; the adder is as wide as its widest channel.
-fn bounds(machine: &Machine, channels: std::ops::Range<usize>) -> Vec<u32> {
+fn bounds(machine: &Plan, channels: std::ops::Range<usize>) -> Vec<u32> {
     let width = machine.channels()[channels].iter().map(|channel| channel.word()).max().unwrap_or(1);
     (0..=machine.segments).map(|segment| segment * width / machine.segments).collect()
 }

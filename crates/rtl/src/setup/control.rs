@@ -1,7 +1,7 @@
 //! The sequence of setup: its states, the operation of the lanes, and the clock within it.
 
+use edgewalk_machine::Plan;
 use edgewalk_netlist::{Module, Reg, Signal, Wire};
-use edgewalk_numerics::Machine;
 
 use super::schedule::{Kind, Op};
 
@@ -46,12 +46,7 @@ struct Rounds<'m> {
 
 impl<'m> Control<'m> {
     /// The registers and their updates.
-    pub fn new(
-        m: &'m Module,
-        machine: &Machine,
-        tri_valid: Signal<'m>,
-        prim_ready: Signal<'m>,
-    ) -> Control<'m> {
+    pub fn new(m: &'m Module, machine: &Plan, tri_valid: Signal<'m>, prim_ready: Signal<'m>) -> Control<'m> {
         m.comment(
             "Control. Sorting takes three clocks; an operation takes one to load, then k bits a clock.",
         );
@@ -181,8 +176,8 @@ impl<'m> Control<'m> {
 }
 
 impl<'m> Rounds<'m> {
-    fn new(m: &'m Module, machine: &Machine, name: &str) -> Rounds<'m> {
-        let count = 4 / machine.dividers;
+    fn new(m: &'m Module, machine: &Plan, name: &str) -> Rounds<'m> {
+        let count = 4 / machine.lanes;
         let register =
             (count > 1).then(|| m.reg(name, count.ilog2()).doc("of the jobs the lanes do in turn"));
         Rounds { register, count: count as usize }

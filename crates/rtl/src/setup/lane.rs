@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use edgewalk_machine::{Channel, EdgeKind, Fill, Plan, Precision};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg, Signal};
-use edgewalk_numerics::{Channel, EdgeKind, Fill, Machine};
 
 use super::schedule::{Kind, Op};
 
@@ -25,13 +25,13 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// The lane number `lane`, which does job `lane` and every `dividers`-th after it.
-    pub fn new(machine: &Machine, lane: usize) -> Shape {
+    /// The lane number `lane`, which does job `lane` and every `lanes`-th after it.
+    pub fn new(machine: &Plan, lane: usize) -> Shape {
         let w = machine.widths();
-        let jobs = || (lane..4).step_by(machine.dividers as usize);
+        let jobs = || (lane..4).step_by(machine.lanes as usize);
         let channels: Vec<Channel> = jobs().map(|job| machine.channels()[job]).collect();
-        let most = |bits: fn(Channel) -> u32| channels.iter().map(|c| bits(*c)).max().unwrap_or(1);
-        let (values, word) = (most(Channel::vertex_bits), most(Channel::word));
+        let most = |bits: fn(Precision) -> u32| channels.iter().map(|c| bits(c.precision)).max().unwrap_or(1);
+        let (values, word) = (most(Precision::vertex_bits), most(Precision::word));
         let terms = w.difference.max(values + 1);
         let (wide_terms, product) = match machine.fill {
             Fill::Exact => (w.difference + values + 1, 2 * w.difference + values + 1),
@@ -75,7 +75,7 @@ Rules: products are signed; in the first step the sign bits of a and b subtract.
 (quotient, remainder) or to nearest, halves up (rounded). Of a quotient the low bits are kept: the rest falls out.";
 
 /// The netlist of a lane of this shape.
-pub(super) fn lane(machine: &Machine, name: &str, shape: &Shape) -> Result<Arc<Netlist>, BuildErrors> {
+pub(super) fn lane(machine: &Plan, name: &str, shape: &Shape) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new(name, DOC);
     let begins = Begins {
         of_acc: m.input_doc("load_divisor", 1, "a division of acc begins"),
@@ -111,7 +111,7 @@ struct Product<'m> {
 }
 
 impl<'m> Product<'m> {
-    fn new(m: &'m Module, machine: &Machine, shape: &Shape, begins: &Begins<'m>) -> Product<'m> {
+    fn new(m: &'m Module, machine: &Plan, shape: &Shape, begins: &Begins<'m>) -> Product<'m> {
         let (k, dw) = (machine.bits_per_clock(), machine.widths().difference);
         let a_in = m.input_doc("a_in", dw, "factor of x, signed");
         let b_in = m.input_doc("b_in", dw, "factor of y, signed");
@@ -164,7 +164,7 @@ struct Quotient<'m> {
 impl<'m> Quotient<'m> {
     fn new(
         m: &'m Module,
-        machine: &Machine,
+        machine: &Plan,
         shape: &Shape,
         begins: &Begins<'m>,
         acc: Signal<'m>,

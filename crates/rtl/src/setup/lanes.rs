@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
 use edgewalk_netlist::{BuildErrors, Instance, Module, Netlist, Signal};
-use edgewalk_numerics::{Channel, EdgeKind, Fill, Machine};
 
 use super::control::Control;
 use super::lane::{Shape, lane};
@@ -20,10 +20,10 @@ pub(super) struct Lane<'m> {
 /// The lanes, with everything connected but their operands.
 pub(super) fn lanes<'m>(
     m: &'m Module,
-    machine: &Machine,
+    machine: &Plan,
     control: &Control<'m>,
 ) -> Result<Vec<Lane<'m>>, BuildErrors> {
-    let count = machine.dividers as usize;
+    let count = machine.lanes as usize;
     let shapes: Vec<Shape> = (0..count).map(|first| Shape::new(machine, first)).collect();
     let netlists = netlists(machine, &shapes)?;
     let work = Work::new(m, control);
@@ -37,7 +37,7 @@ pub(super) fn lanes<'m>(
 }
 
 /// One netlist a lane; lanes of the same shape share it.
-fn netlists(machine: &Machine, shapes: &[Shape]) -> Result<Vec<Arc<Netlist>>, BuildErrors> {
+fn netlists(machine: &Plan, shapes: &[Shape]) -> Result<Vec<Arc<Netlist>>, BuildErrors> {
     let mut netlists: Vec<Arc<Netlist>> = Vec::new();
     for (i, shape) in shapes.iter().enumerate() {
         let same = shapes[..i].iter().position(|other| other == shape);
@@ -82,7 +82,7 @@ impl<'m> Work<'m> {
         }
     }
 
-    fn connect(&self, m: &'m Module, machine: &Machine, control: &Control<'m>, lane: &Lane<'m>) {
+    fn connect(&self, m: &'m Module, machine: &Plan, control: &Control<'m>, lane: &Lane<'m>) {
         let instance = lane.instance;
         instance
             .connect("load_terms", self.load_terms)
@@ -103,7 +103,7 @@ impl<'m> Work<'m> {
     }
 
     /// A channel with a shorter word than another has fewer digits and begins later.
-    fn step_of(&self, machine: &Machine, control: &Control<'m>, lane: &Lane<'m>) -> Signal<'m> {
+    fn step_of(&self, machine: &Plan, control: &Control<'m>, lane: &Lane<'m>) -> Signal<'m> {
         let late_in = |round: usize| late(machine, lane.channel(machine, round));
         if (0..lane.jobs.len()).all(|round| late_in(round) == 0) {
             return self.step_quotient;
@@ -114,7 +114,7 @@ impl<'m> Work<'m> {
 }
 
 /// Where the operation's digits are, as a place in the shape's list.
-fn digit_at<'m>(m: &'m Module, machine: &Machine, control: &Control<'m>, lane: &Lane<'m>) -> Signal<'m> {
+fn digit_at<'m>(m: &'m Module, machine: &Plan, control: &Control<'m>, lane: &Lane<'m>) -> Signal<'m> {
     let place = |op: Op, round: usize| {
         let bit = op.first_digit(machine, lane.channel(machine, round));
         lane.shape.first_digits.iter().position(|digit| *digit == bit).unwrap_or(0)
@@ -129,12 +129,12 @@ fn digit_at<'m>(m: &'m Module, machine: &Machine, control: &Control<'m>, lane: &
 }
 
 impl<'m> Lane<'m> {
-    fn channel(&self, machine: &Machine, round: usize) -> Channel {
+    fn channel(&self, machine: &Plan, round: usize) -> Channel {
         machine.channels()[self.jobs[round]]
     }
 
     /// Asks for the outputs that the lane's jobs have a use for, so that the lane is told in its own place.
-    pub fn ask_results(&self, machine: &Machine) {
+    pub fn ask_results(&self, machine: &Plan) {
         if self.jobs.contains(&0) {
             self.instance.output("product");
         }

@@ -1,7 +1,7 @@
 //! Which lines of the screen the two parts of a triangle meet.
 
+use edgewalk_machine::{Fill, Plan};
 use edgewalk_netlist::{Module, Signal};
-use edgewalk_numerics::{Fill, Machine};
 
 use super::control::Control;
 use super::schedule::Op;
@@ -24,7 +24,7 @@ impl<'m> Lines<'m> {
     /// j0, j1 and the counts n1, n2 of the prim, taken at the first clock of the operations.
     pub fn new(
         m: &'m Module,
-        machine: &Machine,
+        machine: &Plan,
         control: &Control<'m>,
         vertices: &Vertices<'m>,
         prim: &Registers<'m>,
@@ -53,7 +53,7 @@ fn at_most<'m>(a: Signal<'m>, b: Signal<'m>) -> Signal<'m> {
 }
 
 /// Centres from vertex to vertex, the upper end included, the lower not.
-fn exact<'m>(m: &'m Module, machine: &Machine, vertices: &Vertices<'m>) -> [Signal<'m>; 4] {
+fn exact<'m>(m: &'m Module, machine: &Plan, vertices: &Vertices<'m>) -> [Signal<'m>; 4] {
     m.comment("Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.");
     let (bits, t) = (machine.widths().column, machine.widths().center_fraction);
     let ceil = |place: usize| {
@@ -68,7 +68,7 @@ fn exact<'m>(m: &'m Module, machine: &Machine, vertices: &Vertices<'m>) -> [Sign
 }
 
 /// Lines from vertex to vertex, both included; a part without height has none.
-fn textbook<'m>(m: &'m Module, machine: &Machine, vertices: &Vertices<'m>) -> [Signal<'m>; 4] {
+fn textbook<'m>(m: &'m Module, machine: &Plan, vertices: &Vertices<'m>) -> [Signal<'m>; 4] {
     m.comment("Lines of each part: from Y of the upper to Y of the lower end, both drawn, on the screen.");
     let (bits, t) = (machine.widths().column, machine.widths().center_fraction);
     let y = |place: usize| vertices.v(place).slice(machine.widths().center - 1, t).sext(bits);

@@ -1,7 +1,7 @@
 //! What the lanes multiply and divide in each operation.
 
+use edgewalk_machine::{EdgeKind, Fill, Plan};
 use edgewalk_netlist::{Module, Signal};
-use edgewalk_numerics::{EdgeKind, Fill, Machine};
 
 use super::control::Control;
 use super::lanes::Lane;
@@ -13,7 +13,7 @@ use crate::token::Registers;
 /// What operands are made of.
 pub(super) struct Sources<'a, 'm> {
     pub m: &'m Module,
-    pub machine: &'a Machine,
+    pub machine: &'a Plan,
     pub control: &'a Control<'m>,
     pub vertices: &'a Vertices<'m>,
     pub lines: &'a Lines<'m>,

@@ -1,7 +1,7 @@
 //! What the lanes found, taken into the registers of the prim.
 
+use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
 use edgewalk_netlist::{Instance, Module, Reg, Signal};
-use edgewalk_numerics::{Channel, EdgeKind, Fill, Machine};
 
 use super::control::Control;
 use super::schedule::Op;
@@ -15,7 +15,7 @@ impl<'m> Area<'m> {
     /// Takes |area| and its sign.
     pub fn new(
         m: &'m Module,
-        machine: &Machine,
+        machine: &Plan,
         control: &Control<'m>,
         lane: Instance<'m>,
         prim: &Registers<'m>,
@@ -45,7 +45,7 @@ impl<'m> Area<'m> {
 /// Where results come from and go to.
 pub(super) struct Results<'a, 'm> {
     pub m: &'m Module,
-    pub machine: &'a Machine,
+    pub machine: &'a Plan,
     pub control: &'a Control<'m>,
     pub vertices: &'a Vertices<'m>,
     pub prim: &'a Registers<'m>,

@@ -1,6 +1,6 @@
 //! Which operation a lane does when, and for how many clocks.
 
-use edgewalk_numerics::{Channel, EdgeKind, Fill, Machine};
+use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
 
 /// What a lane does for `1 + steps` clocks: one to load, then `k` bits a clock.
 ///
@@ -91,7 +91,7 @@ impl Op {
     }
 
     /// The operations on each channel, in their order.
-    pub fn of_channels(machine: &Machine) -> &'static [Op] {
+    pub fn of_channels(machine: &Plan) -> &'static [Op] {
         use Op::*;
         match machine.fill {
             Fill::Exact => &[Nx, Gx, Ny, LineProduct, Line, StartProduct, Start],
@@ -100,7 +100,7 @@ impl Op {
     }
 
     /// Bits of the magnitude of the quotient's numerator, for a channel of `word` bits; `None` for a product.
-    fn numerator_bits(self, machine: &Machine, word: u32) -> Option<u32> {
+    fn numerator_bits(self, machine: &Plan, word: u32) -> Option<u32> {
         use Op::*;
         let w = machine.widths();
         let (dw, t) = (w.difference, w.center_fraction);
@@ -116,7 +116,7 @@ impl Op {
     }
 
     /// Binary places that the numerator has below what stands in acc; negative: acc has more, and they are left out.
-    fn shift(self, machine: &Machine, channel: Channel) -> i32 {
+    fn shift(self, machine: &Plan, channel: Channel) -> i32 {
         use Op::*;
         let t = machine.widths().center_fraction as i32;
         let finer = (channel.fraction - channel.vertex_fraction) as i32;
@@ -129,13 +129,13 @@ impl Op {
     }
 
     /// Clocks after the one that loads: the bits of a factor, or of the longest numerator, k a clock.
-    pub fn steps(self, machine: &Machine) -> u32 {
+    pub fn steps(self, machine: &Plan) -> u32 {
         let bits = self.numerator_bits(machine, longest_word(machine)).unwrap_or(machine.widths().difference);
         bits.div_ceil(machine.bits_per_clock())
     }
 
     /// The bit of acc that is the first digit of the quotient's numerator.
-    pub fn first_digit(self, machine: &Machine, channel: Channel) -> u32 {
+    pub fn first_digit(self, machine: &Plan, channel: Channel) -> u32 {
         let steps = if self.is_of_edge() {
             self.steps(machine)
         } else {
@@ -151,16 +151,16 @@ impl Op {
 }
 
 /// Clocks by which the quotients of a channel begin later than those of the longest word.
-pub(super) fn late(machine: &Machine, channel: Channel) -> u32 {
+pub(super) fn late(machine: &Plan, channel: Channel) -> u32 {
     (longest_word(machine) - channel.word()) / machine.bits_per_clock()
 }
 
-fn longest_word(machine: &Machine) -> u32 {
+fn longest_word(machine: &Plan) -> u32 {
     machine.z.word().max(machine.color.word())
 }
 
 /// Fraction bits F of a slope edge; 0 for an exact one.
-fn slope_bits(machine: &Machine) -> u32 {
+fn slope_bits(machine: &Plan) -> u32 {
     if machine.edge_kind == EdgeKind::Slope { machine.edge_fraction } else { 0 }
 }
 
@@ -171,7 +171,7 @@ mod tests {
     /// S1 and S2 as the specification has them, for the default machine: DW = 23, c = 38, t = 8, G = 13, k = 2.
     #[test]
     fn clocks_of_the_default_machine() {
-        let machine = Machine::default();
+        let machine = Plan::default();
         let clocks = |ops: &[Op]| ops.iter().map(|op| 1 + op.steps(&machine)).sum::<u32>();
         let (product, step, start) = (1 + 12, 1 + 11, 1 + 19);
         assert_eq!(clocks(Op::of_edges()), step + product + start);

@@ -1,7 +1,7 @@
 //! The three vertices in centre coordinates, sorted by v.
 
+use edgewalk_machine::{Fill, Plan};
 use edgewalk_netlist::{Module, Signal};
-use edgewalk_numerics::{Fill, Machine};
 
 use super::control::Control;
 use crate::token::{self, CHANNELS, Field, Registers, Token};
@@ -22,12 +22,7 @@ pub(super) struct Vertices<'m> {
 
 impl<'m> Vertices<'m> {
     /// Takes a triangle, then compares and swaps (0,1), (1,2), (0,1), a clock each; equals stay as they were.
-    pub fn new(
-        m: &'m Module,
-        machine: &Machine,
-        control: &Control<'m>,
-        triangle: &Token<'m>,
-    ) -> Vertices<'m> {
+    pub fn new(m: &'m Module, machine: &Plan, control: &Control<'m>, triangle: &Token<'m>) -> Vertices<'m> {
         m.comment("The vertices, in centre coordinates: pixel centres lie on the multiples of P.");
         let places: Vec<Registers> =
             (0..3).map(|place| Registers::new(m, &format!("p{place}"), fields(machine))).collect();
@@ -77,7 +72,7 @@ impl<'m> Vertices<'m> {
     }
 }
 
-fn fields(machine: &Machine) -> Vec<Field> {
+fn fields(machine: &Plan) -> Vec<Field> {
     let w = machine.widths();
     let mut fields = token::vertex(machine, "");
     for f in &mut fields {
@@ -93,7 +88,7 @@ fn fields(machine: &Machine) -> Vec<Field> {
 }
 
 /// A port's coordinate as a centre coordinate.
-fn center<'m>(machine: &Machine, x: Signal<'m>) -> Signal<'m> {
+fn center<'m>(machine: &Plan, x: Signal<'m>) -> Signal<'m> {
     let m = x.module();
     match (machine.fill, machine.subpixel_bits) {
         (Fill::Textbook, _) => m.cat(&[x, m.lit(1, 0)]),

@@ -1,5 +1,6 @@
 //! The model's units joined as `docs/machine.md` has them, so that the channels between them can be seen.
 
+use edgewalk_machine::Plan;
 use edgewalk_model::Inputs;
 use edgewalk_model::coverage::Coverage;
 use edgewalk_model::depth::{Depth, DepthInputs};
@@ -8,7 +9,6 @@ use edgewalk_model::pixel::Pixel;
 use edgewalk_model::setup::Setup;
 use edgewalk_model::span::SpanQueue;
 use edgewalk_model::tokens::{Fragment, Line, Prim, Span, Words};
-use edgewalk_numerics::Machine;
 
 /// The units' states.
 pub struct Chain {
@@ -36,7 +36,7 @@ pub struct Between {
 
 impl Chain {
     /// All units at rest.
-    pub fn new(machine: &Machine) -> Chain {
+    pub fn new(machine: &Plan) -> Chain {
         Chain {
             setup: Setup::new(machine),
             edge: Edge::new(machine),

@@ -1,8 +1,8 @@
 //! The machine's netlist against the model: every port of every unit, every cycle.
 
+use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::{Coverage, Inputs, Memory, Model, Outputs, Stalls, Write};
 use edgewalk_netlist::InputId;
-use edgewalk_numerics::{Machine, PortVertex};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -58,7 +58,7 @@ impl Checked {
 /// # Errors
 /// The first port that differs, in the order of the data.
 pub fn lockstep(
-    machine: &Machine,
+    machine: &Plan,
     triangles: &[[PortVertex; 3]],
     stimulus: &Stimulus,
 ) -> Result<Checked, Failure> {
@@ -112,7 +112,7 @@ pub fn lockstep(
     }
 }
 
-fn tag_mask(machine: &Machine) -> u32 {
+fn tag_mask(machine: &Plan) -> u32 {
     u32::MAX.checked_shr(32 - machine.tag_bits).unwrap_or(0)
 }
 
@@ -161,7 +161,7 @@ struct Valids {
 }
 
 impl Bench {
-    fn new(machine: &Machine, probe: Probe) -> Result<Bench, Failure> {
+    fn new(machine: &Plan, probe: Probe) -> Result<Bench, Failure> {
         let inner = |unit, name: &str| probe.port(unit, name, &format!("u_{unit}_{name}"));
         let top = |unit, name: &str| probe.port(unit, name, name);
         let vertices = tokens::triangle(machine, &[PortVertex::default(); 3], 0);
@@ -210,7 +210,7 @@ impl Bench {
         })
     }
 
-    fn set(&mut self, machine: &Machine, inputs: &Inputs) {
+    fn set(&mut self, machine: &Plan, inputs: &Inputs) {
         let probe = &mut self.probe;
         probe.set(self.rst, inputs.rst);
         probe.set(self.tri_valid, inputs.tri.is_some());
@@ -226,7 +226,7 @@ impl Bench {
     }
 
     /// All units in the order of the data; data only where it is valid, a ready that depends on it likewise.
-    fn check(&mut self, machine: &Machine, outputs: &Outputs, between: &Between) -> Result<(), Failure> {
+    fn check(&mut self, machine: &Plan, outputs: &Outputs, between: &Between) -> Result<(), Failure> {
         let Bench { probe, readies, valids, .. } = self;
         probe.check(&readies.tri, outputs.tri_ready)?;
         probe.check(&valids.prim, between.prim.is_some())?;

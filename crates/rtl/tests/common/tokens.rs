@@ -1,8 +1,8 @@
 //! The model's tokens as the ports of the netlist: names and values.
 
+use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex};
 use edgewalk_model::Write;
 use edgewalk_model::tokens::{EdgeWalk, Fragment, Line, Prim, Rgb, Span, Words};
-use edgewalk_numerics::{EdgeKind, Fill, Machine, PortVertex};
 
 /// A port's name, after the channel's, and what the model has there.
 pub type Field = (&'static str, i128);
@@ -41,12 +41,12 @@ fn words(values: &Words) -> impl Iterator<Item = Field> {
     CHANNELS.into_iter().zip(values.map(i128::from))
 }
 
-fn tag(machine: &Machine, tag: u32) -> Option<Field> {
+fn tag(machine: &Plan, tag: u32) -> Option<Field> {
     (machine.tag_bits > 0).then_some(("tag", tag.into()))
 }
 
 /// A triangle at the machine's port.
-pub fn triangle(machine: &Machine, vertices: &[PortVertex; 3], number: u32) -> Vec<Field> {
+pub fn triangle(machine: &Plan, vertices: &[PortVertex; 3], number: u32) -> Vec<Field> {
     let vertex = |(names, v): ([&'static str; 6], &PortVertex)| {
         let values = [v.x.into(), v.y.into()].into_iter().chain(v.value.map(i128::from));
         names.into_iter().zip(values).collect::<Vec<Field>>()
@@ -55,7 +55,7 @@ pub fn triangle(machine: &Machine, vertices: &[PortVertex; 3], number: u32) -> V
 }
 
 /// What setup found. The modulus of a slope edge is the constant 2^F, no port.
-pub fn prim(machine: &Machine, prim: &Prim) -> Vec<Field> {
+pub fn prim(machine: &Plan, prim: &Prim) -> Vec<Field> {
     let mut fields: Vec<Field> = vec![
         ("jm", prim.line.into()),
         ("n1", prim.lines[0].into()),
@@ -81,7 +81,7 @@ pub fn prim(machine: &Machine, prim: &Prim) -> Vec<Field> {
 }
 
 /// A line between two edges.
-pub fn line(machine: &Machine, line: &Line) -> Vec<Field> {
+pub fn line(machine: &Plan, line: &Line) -> Vec<Field> {
     let own = [
         ("y", line.y.into()),
         ("cmaj", line.major.into()),
@@ -94,7 +94,7 @@ pub fn line(machine: &Machine, line: &Line) -> Vec<Field> {
 }
 
 /// The pixels of a line.
-pub fn span(machine: &Machine, span: &Span) -> Vec<Field> {
+pub fn span(machine: &Plan, span: &Span) -> Vec<Field> {
     let own = [
         ("x", span.x.into()),
         ("y", span.y.into()),
@@ -112,7 +112,7 @@ pub fn increments(gradient: &Words) -> Vec<Field> {
 }
 
 /// One pixel of a triangle.
-pub fn fragment(machine: &Machine, fragment: &Fragment) -> Vec<Field> {
+pub fn fragment(machine: &Plan, fragment: &Fragment) -> Vec<Field> {
     let own = [("addr", fragment.addr.into()), ("fence", fragment.fence.into())];
     own.into_iter()
         .chain(outputs(fragment.z, fragment.rgb))
@@ -121,7 +121,7 @@ pub fn fragment(machine: &Machine, fragment: &Fragment) -> Vec<Field> {
 }
 
 /// A pixel written.
-pub fn write(machine: &Machine, write: &Write) -> Vec<Field> {
+pub fn write(machine: &Plan, write: &Write) -> Vec<Field> {
     let own = [("addr", write.addr.into()), ("z_en", write.z_en.into())];
     own.into_iter().chain(outputs(write.z, write.rgb)).chain(tag(machine, write.source.tag)).collect()
 }

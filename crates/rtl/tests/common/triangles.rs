@@ -1,11 +1,11 @@
 //! Triangles drawn at random, with a liking for corners.
 
-use edgewalk_numerics::{Machine, PortVertex};
+use edgewalk_machine::{Plan, PortVertex};
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
 /// A triangle around or on the screen: usually small, sometimes out to the guard band, sometimes degenerate.
-pub fn random_triangle(machine: &Machine, rng: &mut Pcg64Mcg) -> [PortVertex; 3] {
+pub fn random_triangle(machine: &Plan, rng: &mut Pcg64Mcg) -> [PortVertex; 3] {
     let unit = 1 << machine.subpixel_bits;
     let limit = ((1 << machine.guard_bits) - 1) * unit;
     let (width, height) = (machine.width as i32 * unit, machine.height as i32 * unit);
@@ -30,7 +30,7 @@ pub fn random_triangle(machine: &Machine, rng: &mut Pcg64Mcg) -> [PortVertex; 3]
 }
 
 /// A triangle that covers the pixel (x, y) and little else, if it fits in the guard band.
-pub fn one_pixel(machine: &Machine, rng: &mut Pcg64Mcg, x: i32, y: i32) -> [PortVertex; 3] {
+pub fn one_pixel(machine: &Plan, rng: &mut Pcg64Mcg, x: i32, y: i32) -> [PortVertex; 3] {
     let unit = 1 << machine.subpixel_bits;
     let limit = ((1 << machine.guard_bits) - 1) * unit;
     let at = |dx: i32, dy: i32| {
@@ -41,14 +41,15 @@ pub fn one_pixel(machine: &Machine, rng: &mut Pcg64Mcg, x: i32, y: i32) -> [Port
 }
 
 /// A triangle of one pixel at the lowest corner of another, where that one ends.
-pub fn after_it(machine: &Machine, rng: &mut Pcg64Mcg, triangle: &[PortVertex; 3]) -> [PortVertex; 3] {
+pub fn after_it(machine: &Plan, rng: &mut Pcg64Mcg, triangle: &[PortVertex; 3]) -> [PortVertex; 3] {
     let unit = 1 << machine.subpixel_bits;
     let end = triangle.iter().max_by_key(|vertex| vertex.y).map_or((0, 0), |vertex| (vertex.x, vertex.y));
     one_pixel(machine, rng, end.0.div_euclid(unit), end.1.div_euclid(unit) - 1)
 }
 
-fn values(machine: &Machine, rng: &mut Pcg64Mcg) -> [u64; 4] {
-    machine.channels().map(|channel| {
+fn values(machine: &Plan, rng: &mut Pcg64Mcg) -> [u64; 4] {
+    std::array::from_fn(|i| {
+        let channel = machine.channels()[i];
         let most = channel.max() << channel.vertex_fraction;
         match rng.random_range(0..4) {
             0 => most,
@@ -59,7 +60,7 @@ fn values(machine: &Machine, rng: &mut Pcg64Mcg) -> [u64; 4] {
 }
 
 /// Now and then: equal heights, whole pixels, centres, no area, equal corners.
-fn corner(machine: &Machine, rng: &mut Pcg64Mcg, triangle: &mut [PortVertex; 3]) {
+fn corner(machine: &Plan, rng: &mut Pcg64Mcg, triangle: &mut [PortVertex; 3]) {
     let unit = 1 << machine.subpixel_bits;
     let same = values(machine, rng);
     let [a, b, c] = triangle;

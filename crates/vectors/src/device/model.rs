@@ -5,6 +5,7 @@ use crate::ports::{
     Unit, pack_fragment, pack_line, pack_prim, pack_span, pack_write, unpack_fragment, unpack_line,
     unpack_prim, unpack_span, unpack_triangle,
 };
+use edgewalk_machine::Plan;
 use edgewalk_model::depth::{Block, Depth, DepthInputs};
 use edgewalk_model::edge::Edge;
 use edgewalk_model::pixel::Pixel;
@@ -12,12 +13,11 @@ use edgewalk_model::setup::Setup;
 use edgewalk_model::span::SpanQueue;
 use edgewalk_model::tokens::Words;
 use edgewalk_model::{Coverage, Inputs, Model};
-use edgewalk_numerics::Machine;
 
 /// A unit of the model. Coverage counts from here on.
 #[derive(Clone, Debug)]
 pub struct ModelDevice {
-    machine: Machine,
+    machine: Plan,
     unit: ModelUnit,
     coverage: Coverage,
     widths: Widths,
@@ -42,9 +42,9 @@ enum ModelUnit {
     Depth(Box<Depth>),
 }
 
-/// The unit of the model after reset; the machine must have passed [`Machine::check`].
+/// The unit of the model after reset; the machine must have passed [`edgewalk_machine::Machine::plan`].
 #[must_use]
-pub fn model(machine: &Machine, unit: Unit) -> ModelDevice {
+pub fn model(machine: &Plan, unit: Unit) -> ModelDevice {
     let interface = crate::ports::interface(machine, unit);
     let fields = |name| interface.channels.iter().find(|c| c.name == name).map_or(0, |c| c.fields.len());
     let (input, output) = match unit {

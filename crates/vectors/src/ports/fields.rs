@@ -1,7 +1,7 @@
 //! The fields of every token, in their order.
 
 use super::Field;
-use edgewalk_numerics::{Channel, EdgeKind, Fill, Machine};
+use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
 
 const CHANNELS: [&str; 4] = ["z", "r", "g", "b"];
 
@@ -13,16 +13,16 @@ fn signed(port: impl Into<String>, width: u32, format: impl Into<String>) -> Fie
     Field { signed: true, ..field(port, width, format) }
 }
 
-fn tag_field(machine: &Machine, channel: &str) -> Option<Field> {
+fn tag_field(machine: &Plan, channel: &str) -> Option<Field> {
     (machine.tag_bits > 0).then(|| field(format!("{channel}_tag"), machine.tag_bits, "tag of the triangle"))
 }
 
-fn word_format(channel: Channel) -> String {
+fn word_format(channel: &Channel) -> String {
     format!("UQ{}.{} LSB, modular", channel.bits, channel.fraction)
 }
 
 /// Z, R, G, B words as ports `<prefix>_<channel><suffix>`.
-fn word_fields<'a>(machine: &Machine, prefix: &'a str, suffix: &'a str) -> impl Iterator<Item = Field> + 'a {
+fn word_fields<'a>(machine: &'a Plan, prefix: &'a str, suffix: &'a str) -> impl Iterator<Item = Field> + 'a {
     let channels = machine.channels();
     CHANNELS.into_iter().zip(channels).map(move |(name, channel)| {
         field(format!("{prefix}_{name}{suffix}"), channel.word(), word_format(channel))
@@ -30,7 +30,7 @@ fn word_fields<'a>(machine: &Machine, prefix: &'a str, suffix: &'a str) -> impl 
 }
 
 /// The fields of `tri`: three vertices, then the tag.
-pub(super) fn triangle_fields(machine: &Machine) -> Vec<Field> {
+pub(super) fn triangle_fields(machine: &Plan) -> Vec<Field> {
     let position = format!("Q{}.{} px", machine.guard_bits + 1, machine.subpixel_bits);
     let mut fields = Vec::new();
     for i in 0..3 {
@@ -47,7 +47,7 @@ pub(super) fn triangle_fields(machine: &Machine) -> Vec<Field> {
 }
 
 /// Bits of an edge's R, f and M.
-fn remainder_bits(machine: &Machine) -> u32 {
+fn remainder_bits(machine: &Plan) -> u32 {
     match machine.edge_kind {
         EdgeKind::Exact => machine.widths().difference - 1,
         EdgeKind::Slope => machine.edge_fraction,
@@ -55,7 +55,7 @@ fn remainder_bits(machine: &Machine) -> u32 {
 }
 
 /// The names of the channel results that SETUP gives.
-fn results(machine: &Machine) -> &'static [&'static str] {
+fn results(machine: &Plan) -> &'static [&'static str] {
     match machine.fill {
         Fill::Exact => &["start", "d0", "d1", "g"],
         Fill::Textbook => &["start_a", "d_a", "start_b", "d_b", "g"],
@@ -63,7 +63,7 @@ fn results(machine: &Machine) -> &'static [&'static str] {
 }
 
 /// The fields of `prim`.
-pub(super) fn prim_fields(machine: &Machine) -> Vec<Field> {
+pub(super) fn prim_fields(machine: &Plan) -> Vec<Field> {
     let w = machine.widths();
     let mut fields = vec![
         field("prim_jm", w.y, "first drawn line"),
@@ -92,7 +92,7 @@ pub(super) fn prim_fields(machine: &Machine) -> Vec<Field> {
 }
 
 /// The fields of `line`.
-pub(super) fn line_fields(machine: &Machine) -> Vec<Field> {
+pub(super) fn line_fields(machine: &Plan) -> Vec<Field> {
     let w = machine.widths();
     let mut fields = vec![
         field("line_y", w.y, "line"),
@@ -108,7 +108,7 @@ pub(super) fn line_fields(machine: &Machine) -> Vec<Field> {
 }
 
 /// The fields of `span`.
-pub(super) fn span_fields(machine: &Machine) -> Vec<Field> {
+pub(super) fn span_fields(machine: &Plan) -> Vec<Field> {
     let w = machine.widths();
     let mut fields = vec![
         signed("span_x", w.column, "first column, px"),
@@ -124,24 +124,24 @@ pub(super) fn span_fields(machine: &Machine) -> Vec<Field> {
 }
 
 /// The gradients `inc_z` to `inc_b`, which stand beside a channel.
-pub(super) fn gradient_fields(machine: &Machine) -> impl Iterator<Item = Field> {
+pub(super) fn gradient_fields(machine: &Plan) -> impl Iterator<Item = Field> + '_ {
     word_fields(machine, "inc", "")
 }
 
 /// The fields of the outputs z, r, g, b.
-fn output_fields<'a>(machine: &Machine, prefix: &'a str) -> impl Iterator<Item = Field> + 'a {
+fn output_fields<'a>(machine: &'a Plan, prefix: &'a str) -> impl Iterator<Item = Field> + 'a {
     CHANNELS.into_iter().zip(machine.channels()).map(move |(name, channel)| {
         field(format!("{prefix}_{name}"), channel.bits, format!("unorm{}", channel.bits))
     })
 }
 
-fn address_field(machine: &Machine, prefix: &str) -> Field {
+fn address_field(machine: &Plan, prefix: &str) -> Field {
     let w = machine.widths();
     field(format!("{prefix}_addr"), w.address, format!("line * 2^{} + column", w.x))
 }
 
 /// The fields of `frag`.
-pub(super) fn fragment_fields(machine: &Machine) -> Vec<Field> {
+pub(super) fn fragment_fields(machine: &Plan) -> Vec<Field> {
     let mut fields = vec![address_field(machine, "frag")];
     fields.extend(output_fields(machine, "frag"));
     fields.push(field("frag_fence", 1, "first fragment of the triangle or of its lower part"));
@@ -150,17 +150,17 @@ pub(super) fn fragment_fields(machine: &Machine) -> Vec<Field> {
 }
 
 /// The fields of `rd`.
-pub(super) fn read_fields(machine: &Machine) -> Vec<Field> {
+pub(super) fn read_fields(machine: &Plan) -> Vec<Field> {
     vec![address_field(machine, "rd")]
 }
 
 /// The fields of `data`.
-pub(super) fn data_fields(machine: &Machine) -> Vec<Field> {
+pub(super) fn data_fields(machine: &Plan) -> Vec<Field> {
     vec![field("data_z", machine.z.bits, format!("unorm{}", machine.z.bits))]
 }
 
 /// The fields of `wr`.
-pub(super) fn write_fields(machine: &Machine) -> Vec<Field> {
+pub(super) fn write_fields(machine: &Plan) -> Vec<Field> {
     let mut fields = vec![address_field(machine, "wr")];
     fields.extend(output_fields(machine, "wr"));
     fields.insert(2, field("wr_z_en", 1, "the depth is stored"));

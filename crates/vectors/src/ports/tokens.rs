@@ -1,15 +1,15 @@
 //! The model's tokens as lists of values, in the order of the channels' fields.
 
 use crate::suites::Triangle;
+use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex};
 use edgewalk_model::tokens::{EdgeWalk, Fragment, Line, Prim, Rgb, Source, Span, Words, Write};
-use edgewalk_numerics::{EdgeKind, Fill, Machine, PortVertex};
 
 /// The values of a token's fields, in the order of the channel's fields, each below 2^width.
 pub type Token = Vec<u128>;
 
 /// A triangle as a token of `tri`.
 #[must_use]
-pub fn pack_triangle(machine: &Machine, triangle: &Triangle, tag: u32) -> Token {
+pub fn pack_triangle(machine: &Plan, triangle: &Triangle, tag: u32) -> Token {
     let mut token = Token::new();
     for vertex in triangle {
         token.extend([vertex.x, vertex.y].map(|v| twos(v, machine.widths().vertex)));
@@ -21,7 +21,7 @@ pub fn pack_triangle(machine: &Machine, triangle: &Triangle, tag: u32) -> Token 
 
 /// A token of `tri` as a triangle and its tag.
 #[must_use]
-pub fn unpack_triangle(machine: &Machine, token: &[u128]) -> (Triangle, u32) {
+pub fn unpack_triangle(machine: &Plan, token: &[u128]) -> (Triangle, u32) {
     let mut fields = Fields(token.iter());
     let bits = machine.widths().vertex;
     let triangle = std::array::from_fn(|_| PortVertex {
@@ -33,7 +33,7 @@ pub fn unpack_triangle(machine: &Machine, token: &[u128]) -> (Triangle, u32) {
 }
 
 /// The words of SETUP in the order of [`results`].
-fn result_words(machine: &Machine, prim: &Prim) -> Vec<Words> {
+fn result_words(machine: &Plan, prim: &Prim) -> Vec<Words> {
     match machine.fill {
         Fill::Exact => vec![prim.start[0], prim.delta[0], prim.delta[1], prim.gradient],
         Fill::Textbook => vec![prim.start[0], prim.delta[0], prim.start[1], prim.delta[1], prim.gradient],
@@ -41,7 +41,7 @@ fn result_words(machine: &Machine, prim: &Prim) -> Vec<Words> {
 }
 
 /// A prim as a token.
-pub(crate) fn pack_prim(machine: &Machine, prim: &Prim) -> Token {
+pub(crate) fn pack_prim(machine: &Plan, prim: &Prim) -> Token {
     let column = machine.widths().column;
     let mut token: Token =
         [prim.line, prim.lines[0], prim.lines[1], u32::from(prim.left)].map(u128::from).into();
@@ -61,7 +61,7 @@ pub(crate) fn pack_prim(machine: &Machine, prim: &Prim) -> Token {
 }
 
 /// A token as a prim.
-pub(crate) fn unpack_prim(machine: &Machine, token: &[u128]) -> Prim {
+pub(crate) fn unpack_prim(machine: &Plan, token: &[u128]) -> Prim {
     let column = machine.widths().column;
     let mut fields = Fields(token.iter());
     let mut prim = Prim {
@@ -105,7 +105,7 @@ pub(crate) fn unpack_prim(machine: &Machine, token: &[u128]) -> Prim {
 }
 
 /// A line as a token.
-pub(crate) fn pack_line(machine: &Machine, line: &Line) -> Token {
+pub(crate) fn pack_line(machine: &Plan, line: &Line) -> Token {
     let column = machine.widths().column;
     let mut token = vec![u128::from(line.y), twos(line.major, column), twos(line.minor, column)];
     token.push(u128::from(line.left));
@@ -116,7 +116,7 @@ pub(crate) fn pack_line(machine: &Machine, line: &Line) -> Token {
 }
 
 /// A token as a line.
-pub(crate) fn unpack_line(machine: &Machine, token: &[u128]) -> Line {
+pub(crate) fn unpack_line(machine: &Plan, token: &[u128]) -> Line {
     let column = machine.widths().column;
     let mut fields = Fields(token.iter());
     Line {
@@ -132,7 +132,7 @@ pub(crate) fn unpack_line(machine: &Machine, token: &[u128]) -> Line {
 }
 
 /// A span as a token.
-pub(crate) fn pack_span(machine: &Machine, span: &Span) -> Token {
+pub(crate) fn pack_span(machine: &Plan, span: &Span) -> Token {
     let mut token = vec![twos(span.x, machine.widths().column)];
     token.extend([span.y, span.count, u32::from(span.left)].map(u128::from));
     token.extend(span.values.map(u128::from));
@@ -142,7 +142,7 @@ pub(crate) fn pack_span(machine: &Machine, span: &Span) -> Token {
 }
 
 /// A token as a span.
-pub(crate) fn unpack_span(machine: &Machine, token: &[u128]) -> Span {
+pub(crate) fn unpack_span(machine: &Plan, token: &[u128]) -> Span {
     let mut fields = Fields(token.iter());
     Span {
         x: fields.signed(machine.widths().column),
@@ -157,7 +157,7 @@ pub(crate) fn unpack_span(machine: &Machine, token: &[u128]) -> Span {
 }
 
 /// A fragment as a token.
-pub(crate) fn pack_fragment(machine: &Machine, fragment: &Fragment) -> Token {
+pub(crate) fn pack_fragment(machine: &Plan, fragment: &Fragment) -> Token {
     let mut token = vec![u128::from(fragment.addr), u128::from(fragment.z)];
     token.extend(fragment.rgb.channels().map(u128::from));
     token.push(u128::from(fragment.fence));
@@ -178,14 +178,14 @@ pub(crate) fn unpack_fragment(token: &[u128]) -> Fragment {
 }
 
 /// A write as a token.
-pub(crate) fn pack_write(machine: &Machine, write: &Write) -> Token {
+pub(crate) fn pack_write(machine: &Plan, write: &Write) -> Token {
     let mut token = vec![u128::from(write.addr), u128::from(write.z), u128::from(write.z_en)];
     token.extend(write.rgb.channels().map(u128::from));
     push_tag(&mut token, machine, write.source.tag);
     token
 }
 
-fn push_tag(token: &mut Token, machine: &Machine, tag: u32) {
+fn push_tag(token: &mut Token, machine: &Plan, tag: u32) {
     if machine.tag_bits > 0 {
         token.push(u128::from(tag) & ((1 << machine.tag_bits) - 1));
     }
@@ -247,8 +247,8 @@ mod tests {
     }
 
     /// A machine with a tag: every field is a different number.
-    fn machine() -> Machine {
-        Machine { tag_bits: 32, ..Machine::default() }
+    fn machine() -> Plan {
+        Plan::default().tagged()
     }
 
     #[test]
@@ -275,7 +275,7 @@ mod tests {
         assert_eq!(token.len(), prim_fields(&m).len());
         assert_eq!(unpack_prim(&m, &token), prim);
 
-        let textbook = Machine { tag_bits: 32, ..Machine::preset("textbook").expect("listed") };
+        let textbook = Plan::preset("textbook").expect("listed").tagged();
         let modulus = 1 << textbook.edge_fraction;
         let slope = |i| EdgeWalk { m: modulus, ..walk(i) };
         let prim = Prim {

@@ -1,11 +1,11 @@
 //! The interface of every unit.
 
 use super::{Channel, Direction, Field, Interface, Status, Unit, fields};
-use edgewalk_numerics::Machine;
+use edgewalk_machine::Plan;
 
 /// The ports of a unit of this machine.
 #[must_use]
-pub fn interface(machine: &Machine, unit: Unit) -> Interface {
+pub fn interface(machine: &Plan, unit: Unit) -> Interface {
     let mut interface = Interface {
         unit,
         channels: Vec::new(),
@@ -79,7 +79,7 @@ pub fn interface(machine: &Machine, unit: Unit) -> Interface {
 }
 
 /// The channels of a unit that reads and writes depths.
-fn depth_memory(machine: &Machine, interface: &mut Interface) {
+fn depth_memory(machine: &Plan, interface: &mut Interface) {
     interface.channels.push(into("data", fields::data_fields(machine)));
     interface.channels.push(out("rd", fields::read_fields(machine)));
     interface.channels.push(out("wr", fields::write_fields(machine)));

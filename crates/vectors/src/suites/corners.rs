@@ -2,14 +2,14 @@
 
 use super::pen::{Pen, case};
 use super::{Case, Triangle};
-use edgewalk_numerics::Machine;
+use edgewalk_machine::Plan;
 
 const RAMP: [f64; 3] = [0.2, 0.5, 0.8];
 
 /// The six orders of three vertices.
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
 
-pub(super) fn cases(machine: &Machine) -> Vec<Case> {
+pub(super) fn cases(machine: &Plan) -> Vec<Case> {
     let pen = Pen::new(machine);
     let mut cases = halves(&pen);
     cases.extend(without_pixels(&pen));

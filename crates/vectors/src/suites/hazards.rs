@@ -5,7 +5,7 @@
 
 use super::Case;
 use super::pen::{Pen, case};
-use edgewalk_numerics::Machine;
+use edgewalk_machine::Plan;
 
 /// Depths that pass and fail in turn under `less` and under `greater`.
 const MIXED: [f64; 12] = [0.9, 0.5, 0.7, 0.3, 0.6, 0.1, 0.8, 0.1, 0.05, 0.4, 0.02, 0.0];
@@ -13,7 +13,7 @@ const MIXED: [f64; 12] = [0.9, 0.5, 0.7, 0.3, 0.6, 0.1, 0.8, 0.1, 0.05, 0.4, 0.0
 /// Three pixels so that every one follows every other at every distance up to five.
 const ANY_ORDER: &str = "1112221233321131231323221123311213212";
 
-pub(super) fn cases(machine: &Machine) -> Vec<Case> {
+pub(super) fn cases(machine: &Plan) -> Vec<Case> {
     let pen = Pen::new(machine);
     let falling = |n: u32| (0..n).map(move |i| 1.0 - f64::from(i + 1) / f64::from(n + 1));
     vec![

@@ -14,8 +14,8 @@ mod pen;
 mod random;
 mod sphere;
 
-use edgewalk_numerics::machine::nearest::nearest;
-use edgewalk_numerics::{Machine, PortVertex};
+use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::{Plan, PortVertex};
 
 /// A triangle at the port.
 pub type Triangle = [PortVertex; 3];
@@ -51,7 +51,7 @@ pub struct Entry {
     /// What it is for.
     pub about: &'static str,
     /// Makes its cases; the last two are the seed and the number of triangles wanted, used by `random` only.
-    cases: fn(&Machine, u64, u64) -> Vec<Case>,
+    cases: fn(&Plan, u64, u64) -> Vec<Case>,
 }
 
 /// The suites that come with the program.
@@ -93,7 +93,7 @@ impl Suite {
     ///
     /// # Errors
     /// An unknown name.
-    pub fn named(machine: &Machine, name: &str, seed: u64, count: u64) -> Result<Suite, UnknownSuite> {
+    pub fn named(machine: &Plan, name: &str, seed: u64, count: u64) -> Result<Suite, UnknownSuite> {
         let entry = SUITES.iter().find(|entry| entry.name == name).ok_or_else(|| UnknownSuite {
             name: name.to_owned(),
             nearest: nearest(name, SUITES.iter().map(|entry| entry.name)),
@@ -127,7 +127,7 @@ impl Suite {
 
     /// The same on a depth of half of full scale instead of full scale: then `greater` passes too.
     #[must_use]
-    pub fn on_half_depth(self, machine: &Machine) -> Suite {
+    pub fn on_half_depth(self, machine: &Plan) -> Suite {
         Suite { clear_z: Some(machine.z.max().div_ceil(2)), ..self }
     }
 

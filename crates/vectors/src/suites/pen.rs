@@ -1,18 +1,18 @@
 //! Draws cases in pixels and in shares of full scale; what a machine cannot hold is moved to the nearest it can.
 
 use super::{Case, Triangle};
-use edgewalk_numerics::{Machine, PortVertex};
+use edgewalk_machine::{Plan, PortVertex};
 
 /// Red, green and blue of the three corners, so that every channel varies in both directions.
 const COLORS: [[f64; 3]; 3] = [[1.0, 0.1, 0.3], [0.2, 0.9, 0.0], [0.0, 0.4, 1.0]];
 
 /// Makes the triangles of one machine.
 pub(super) struct Pen<'a> {
-    machine: &'a Machine,
+    machine: &'a Plan,
 }
 
 impl<'a> Pen<'a> {
-    pub fn new(machine: &'a Machine) -> Self {
+    pub fn new(machine: &'a Plan) -> Self {
         Pen { machine }
     }
 

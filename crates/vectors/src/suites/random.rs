@@ -2,14 +2,14 @@
 
 use super::pen::{Pen, case};
 use super::{Case, Triangle};
-use edgewalk_numerics::Machine;
+use edgewalk_machine::Plan;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use sha2::{Digest, Sha256};
 
 type Draw = fn(&Pen, &mut Pcg64Mcg) -> Triangle;
 
-pub(super) fn cases(machine: &Machine, seed: u64, count: u64) -> Vec<Case> {
+pub(super) fn cases(machine: &Plan, seed: u64, count: u64) -> Vec<Case> {
     let pen = Pen::new(machine);
     let kinds: [(&str, Draw); 4] =
         [("near_the_screen", near), ("tiny", tiny), ("long_and_thin", long), ("upright", upright)];
@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn a_vector_depends_only_on_seed_suite_and_number() {
-        let machine = Machine::default();
+        let machine = Plan::default();
         let (long, short) = (cases(&machine, 7, 30), cases(&machine, 7, 9));
         assert_eq!(short[..], long[..9]);
         let other = cases(&machine, 8, 9);

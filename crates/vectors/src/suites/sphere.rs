@@ -2,7 +2,7 @@
 
 use super::pen::{Pen, case};
 use super::{Case, Triangle};
-use edgewalk_numerics::{Machine, PortVertex};
+use edgewalk_machine::{Plan, PortVertex};
 use std::f64::consts::{PI, TAU};
 
 const RINGS: u32 = 6;
@@ -10,7 +10,7 @@ const SECTORS: u32 = 8;
 /// Direction to the light, length 1.
 const LIGHT: [f64; 3] = [-0.48, -0.6, 0.64];
 
-pub(super) fn cases(machine: &Machine) -> Vec<Case> {
+pub(super) fn cases(machine: &Plan) -> Vec<Case> {
     let pen = Pen::new(machine);
     vec![case("wall", wall(&pen)), case("ball", ball(&pen))]
 }

@@ -8,7 +8,7 @@ use crate::manifest::{
 };
 use crate::ports::{self, Direction};
 use crate::suites::Suite;
-use edgewalk_numerics::machine::keys::KEYS;
+use edgewalk_machine::keys::KEYS;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 

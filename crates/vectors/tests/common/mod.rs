@@ -1,36 +1,35 @@
 //! Machines that the tests share.
 #![allow(dead_code)] // every test file uses a part of it
 
-use edgewalk_numerics::{Channel, EdgeKind, Fill, Hazard, Machine};
+use edgewalk_machine::{EdgeKind, Fill, Hazard, Machine, Plan, Precision};
 
 /// A machine with a small screen and short words: quick in every tool.
-pub fn small() -> Machine {
+pub fn small() -> Plan {
     checked(Machine {
         width: 24,
         height: 20,
         guard_bits: 6,
         subpixel_bits: 4,
-        z: Channel { bits: 8, fraction: 8, vertex_fraction: 2 },
-        color: Channel { bits: 4, fraction: 8, vertex_fraction: 2 },
-        dividers: 1,
+        z: Precision { bits: 8, fraction: 8, vertex_fraction: 2 },
+        color: Precision { bits: 4, fraction: 8, vertex_fraction: 2 },
+        lanes: 1,
         radix: 16,
         ..Machine::default()
     })
 }
 
-fn checked(machine: Machine) -> Machine {
-    assert_eq!(machine.check(), Ok(()));
-    machine
+fn checked(machine: Machine) -> Plan {
+    machine.plan().expect("can be built")
 }
 
 /// Twelve machines with their names: adders, segments, lanes, radices, word lengths, fills, edges, hazard policies.
-pub fn twelve() -> Vec<(&'static str, Machine)> {
-    let s = small();
+pub fn twelve() -> Vec<(&'static str, Plan)> {
+    let s = Machine::clone(&small());
     let textbook = Machine { subpixel_bits: 0, fill: Fill::Textbook, guard_bits: 6, ..s.clone() };
     let list = vec![
         ("small", s.clone()),
-        ("two_adders_drain", Machine { adders: 2, hazard: Hazard::Drain, dividers: 2, ..s.clone() }),
-        ("one_adder_interlock", Machine { adders: 1, hazard: Hazard::Interlock, dividers: 4, ..s.clone() }),
+        ("two_adders_drain", Machine { adders: 2, hazard: Hazard::Drain, lanes: 2, ..s.clone() }),
+        ("one_adder_interlock", Machine { adders: 1, hazard: Hazard::Interlock, lanes: 4, ..s.clone() }),
         ("two_segments", Machine { segments: 2, radix: 4, latency: 1, inflight: 1, ..s.clone() }),
         ("one_adder_of_four_segments", Machine { adders: 1, segments: 4, span_fifo: 1, ..s.clone() }),
         (
@@ -52,7 +51,7 @@ pub fn twelve() -> Vec<(&'static str, Machine)> {
                 ..textbook.clone()
             },
         ),
-        ("textbook_exact_edges", Machine { dividers: 4, ..textbook.clone() }),
+        ("textbook_exact_edges", Machine { lanes: 4, ..textbook.clone() }),
         (
             "tiny",
             Machine {
@@ -60,8 +59,8 @@ pub fn twelve() -> Vec<(&'static str, Machine)> {
                 height: 5,
                 guard_bits: 4,
                 subpixel_bits: 1,
-                z: Channel { bits: 4, fraction: 0, vertex_fraction: 0 },
-                color: Channel { bits: 2, fraction: 0, vertex_fraction: 0 },
+                z: Precision { bits: 4, fraction: 0, vertex_fraction: 0 },
+                color: Precision { bits: 2, fraction: 0, vertex_fraction: 0 },
                 radix: 2,
                 inflight: 1,
                 latency: 1,
@@ -74,8 +73,8 @@ pub fn twelve() -> Vec<(&'static str, Machine)> {
             Machine {
                 guard_bits: 8,
                 subpixel_bits: 8,
-                z: Channel { bits: 24, fraction: 14, vertex_fraction: 4 },
-                color: Channel { bits: 8, fraction: 14, vertex_fraction: 4 },
+                z: Precision { bits: 24, fraction: 14, vertex_fraction: 4 },
+                color: Precision { bits: 8, fraction: 14, vertex_fraction: 4 },
                 ..s
             },
         ),

@@ -8,9 +8,9 @@ mod common;
 mod miter;
 mod proof;
 
+use edgewalk_machine::{Machine, Plan, Precision};
 use edgewalk_model::DrawState;
 use edgewalk_netlist::mutate::mutants;
-use edgewalk_numerics::{Channel, Machine};
 use edgewalk_vectors::{
     Interface, StallKind, Suite, Trace, Unit, capture, capture_tokens, design, interface, lockstep,
 };
@@ -53,7 +53,7 @@ fn single_faults_are_found() {
 }
 
 /// What DEPTH carries is short: the prover then sees through four fragments in flight.
-fn machine_for(unit: Unit) -> Machine {
+fn machine_for(unit: Unit) -> Plan {
     let small = common::small();
     if unit != Unit::Depth {
         return small;
@@ -62,13 +62,15 @@ fn machine_for(unit: Unit) -> Machine {
         width: 8,
         height: 4,
         guard_bits: 4,
-        z: Channel { bits: 4, ..small.z },
-        color: Channel { bits: 2, ..small.color },
-        ..small
+        z: Precision { bits: 4, ..small.z },
+        color: Precision { bits: 2, ..small.color },
+        ..Machine::clone(&small)
     }
+    .plan()
+    .expect("can be built")
 }
 
-fn tally(machine: &Machine, unit: Unit, step: usize) -> Tally {
+fn tally(machine: &Plan, unit: Unit, step: usize) -> Tally {
     let netlist = design::netlist(machine, unit).expect("a checked machine");
     let interface: Interface = interface(machine, unit);
     let traces = traces(machine, unit);
@@ -97,7 +99,7 @@ fn tally(machine: &Machine, unit: Unit, step: usize) -> Tally {
 }
 
 /// What a unit's mutants are tried with.
-fn traces(machine: &Machine, unit: Unit) -> Vec<Trace> {
+fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
     let names: &[&str] =
         if unit == Unit::Setup { &["corners", "random"] } else { &["hazards", "corners", "random"] };
     let suites = names.iter().map(|name| Suite::named(machine, name, 1, 24).expect("listed"));
@@ -126,7 +128,7 @@ fn traces(machine: &Machine, unit: Unit) -> Vec<Trace> {
 }
 
 /// Triangles of a few sub-pixels around a pixel's centre: their areas are the small divisors that meet halves.
-fn specks(machine: &Machine) -> Trace {
+fn specks(machine: &Plan) -> Trace {
     let mut random = Pcg64Mcg::seed_from_u64(1);
     let scale = f64::from(1 << machine.subpixel_bits);
     let vertex = |random: &mut Pcg64Mcg| {
@@ -140,7 +142,7 @@ fn specks(machine: &Machine) -> Trace {
 }
 
 /// As many lines, with flags that no EDGE gives, half of them somewhere around the screen: many are empty.
-fn any_lines(machine: &Machine, of: &Trace, seed: u64) -> Trace {
+fn any_lines(machine: &Plan, of: &Trace, seed: u64) -> Trace {
     let line = &of.interface.channels[0];
     let place = |field| line.field(field).expect("a line has it");
     let flags = ["fresh", "fence"].map(place);

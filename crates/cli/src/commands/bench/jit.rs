@@ -4,8 +4,8 @@ use super::job::{Job, Times, Work};
 use super::stopwatch::Stopwatch;
 use anyhow::{Result, anyhow};
 use edgewalk_jit::{InputId, OutputId, Simulator};
+use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_netlist::SimError;
-use edgewalk_numerics::{Machine, PortVertex};
 use std::collections::VecDeque;
 
 /// Times it.
@@ -69,7 +69,7 @@ struct Native {
 }
 
 impl Native {
-    fn new(machine: &Machine) -> Result<Native> {
+    fn new(machine: &Plan) -> Result<Native> {
         let netlist =
             edgewalk_rtl::machine(machine).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
         let mut simulator = Simulator::new(&netlist)?;

@@ -2,9 +2,9 @@
 
 use super::stopwatch::{Stopwatch, Time};
 use anyhow::Result;
+use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::fast::Renderer;
 use edgewalk_model::{Counters, DrawState, Stalls, render};
-use edgewalk_numerics::{Machine, PortVertex};
 
 /// What the machine does for a frame, whoever says so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +25,7 @@ impl Work {
 /// Triangles to draw a number of times.
 pub struct Job<'a> {
     /// On this machine.
-    pub machine: &'a Machine,
+    pub machine: &'a Plan,
     /// In this order.
     pub triangles: &'a [[PortVertex; 3]],
     /// In this state.
@@ -50,12 +50,7 @@ pub struct Times {
 
 impl<'a> Job<'a> {
     /// A job with what must come of it, which is worked out here.
-    pub fn new(
-        machine: &'a Machine,
-        triangles: &'a [[PortVertex; 3]],
-        state: DrawState,
-        repeat: u32,
-    ) -> Self {
+    pub fn new(machine: &'a Plan, triangles: &'a [[PortVertex; 3]], state: DrawState, repeat: u32) -> Self {
         let mut renderer = Renderer::new(machine, false);
         let counters = match renderer.draw(triangles.iter().copied(), state) {
             Ok(()) => renderer.counters().clone(),

@@ -1,11 +1,12 @@
 //! The machine's way to a pixel: start, increments down the major edge, increments along the span.
 
+use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::Coverage;
 use edgewalk_model::edge::Edge;
 use edgewalk_model::setup::Setup;
 use edgewalk_model::span::SpanQueue;
 use edgewalk_model::tokens::{Prim, Words, add, word_masks};
-use edgewalk_numerics::{Machine, PortVertex, Steps};
+use edgewalk_numerics::Steps;
 use serde::Serialize;
 
 /// The accumulators of Z, R, G, B on their way.
@@ -35,7 +36,7 @@ pub struct Addition {
 }
 
 /// The way to pixel (x, y); `None` if the triangle does not draw it. The machine has exact fill and exact edges.
-pub fn walk(machine: &Machine, triangle: &[PortVertex; 3], x: u32, y: u32) -> Option<Walk> {
+pub fn walk(machine: &Plan, triangle: &[PortVertex; 3], x: u32, y: u32) -> Option<Walk> {
     let prim = prim(machine, triangle)?;
     let plane = Plane { machine, triangle };
     let masks = word_masks(machine);
@@ -77,7 +78,7 @@ pub fn walk(machine: &Machine, triangle: &[PortVertex; 3], x: u32, y: u32) -> Op
 }
 
 /// What SETUP makes of the triangle; `None` if it is culled.
-fn prim(machine: &Machine, triangle: &[PortVertex; 3]) -> Option<Prim> {
+fn prim(machine: &Plan, triangle: &[PortVertex; 3]) -> Option<Prim> {
     let corners = &mut Coverage::default();
     let mut setup = Setup::new(machine);
     setup.step(Some((triangle, 0)), false, corners);
@@ -89,7 +90,7 @@ fn prim(machine: &Machine, triangle: &[PortVertex; 3]) -> Option<Prim> {
 
 /// The planes through the values of the vertices at the port.
 struct Plane<'a> {
-    machine: &'a Machine,
+    machine: &'a Plan,
     triangle: &'a [PortVertex; 3],
 }
 

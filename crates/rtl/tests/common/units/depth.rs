@@ -1,9 +1,9 @@
 //! DEPTH alone.
 
+use edgewalk_machine::Plan;
 use edgewalk_model::depth::{Depth, DepthInputs};
 use edgewalk_model::tokens::Fragment;
 use edgewalk_model::{Coverage, Write};
-use edgewalk_numerics::Machine;
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
@@ -12,7 +12,7 @@ use crate::common::probe::{Failure, Probe};
 use crate::common::tokens;
 
 /// DEPTH: fragments on few pixels, depths that come at random, everything taken at random.
-pub fn depth(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe, Failure> {
+pub fn depth(machine: &Plan, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe, Failure> {
     let mut probe = Probe::new(edgewalk_rtl::depth(machine))?;
     let inputs = ["depth_func", "depth_write", "frag_valid", "rd_ready", "data_valid", "data_z", "wr_ready"];
     let [func, write, frag_valid, rd_ready, data_valid, data_z, wr_ready] =

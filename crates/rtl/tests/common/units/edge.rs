@@ -1,10 +1,10 @@
 //! EDGE alone.
 
+use edgewalk_machine::Plan;
 use edgewalk_model::Coverage;
 use edgewalk_model::edge::Edge;
 use edgewalk_model::setup::Setup;
 use edgewalk_model::tokens::{Line, Prim, Words};
-use edgewalk_numerics::Machine;
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
@@ -14,7 +14,7 @@ use crate::common::tokens;
 use crate::common::triangles::random_triangle;
 
 /// The prims of random triangles that are not culled.
-fn prims(machine: &Machine, count: usize, rng: &mut Pcg64Mcg) -> Vec<Prim> {
+fn prims(machine: &Plan, count: usize, rng: &mut Pcg64Mcg) -> Vec<Prim> {
     let (mut setup, mut prims) = (Setup::new(machine), Vec::new());
     // A triangle in so many is not culled, in any machine; the limit is for machines where that fails.
     for _ in 0..200 * count {
@@ -32,7 +32,7 @@ fn prims(machine: &Machine, count: usize, rng: &mut Pcg64Mcg) -> Vec<Prim> {
 }
 
 /// EDGE: prims of random triangles, lines taken at random, PIXEL at random late with the increments.
-pub fn edge(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe, Failure> {
+pub fn edge(machine: &Plan, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe, Failure> {
     let mut probe = Probe::new(edgewalk_rtl::edge(machine))?;
     let prims = prims(machine, 50, rng);
     let (prim_valid, line_ready) = (probe.input("prim_valid")?, probe.input("line_ready")?);

@@ -1,7 +1,7 @@
 //! MEMORY alone.
 
+use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::{Memory, Stalls, Write};
-use edgewalk_numerics::Machine;
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
@@ -10,12 +10,12 @@ use crate::common::probe::{Failure, Probe};
 use crate::common::tokens;
 
 /// MEMORY: reads and writes on all pixels, depths taken at random; at the end the contents.
-pub fn memory(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe, Failure> {
+pub fn memory(machine: &Plan, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe, Failure> {
     let mut probe = Probe::new(edgewalk_rtl::memory(machine, machine.z.max()))?;
     let inputs = ["rd_valid", "rd_addr", "data_ready", "wr_valid"].map(|name| probe.input(name));
     let [rd_valid, rd_addr, data_ready, wr_valid] = inputs;
     let (rd_valid, rd_addr, data_ready, wr_valid) = (rd_valid?, rd_addr?, data_ready?, wr_valid?);
-    let without_tag = Machine { tag_bits: 0, ..machine.clone() };
+    let without_tag = Machine { tag_bits: 0, ..Machine::clone(machine) }.plan().expect("can be built");
     let wr = probe.input_channel("wr", &tokens::write(&without_tag, &Write::default()))?;
     let rd_ready = probe.port("memory", "rd_ready", "rd_ready")?;
     let wr_ready = probe.port("memory", "wr_ready", "wr_ready")?;

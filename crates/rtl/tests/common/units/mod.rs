@@ -1,7 +1,7 @@
 //! Single units against the model, under inputs that the rest of the machine would rarely give them.
 
+use edgewalk_machine::Plan;
 use edgewalk_model::tokens::{Rgb, Source, Words, word_masks};
-use edgewalk_numerics::Machine;
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
@@ -44,15 +44,15 @@ impl<T> Stream<T> {
     }
 }
 
-fn words(machine: &Machine, rng: &mut Pcg64Mcg) -> Words {
+fn words(machine: &Plan, rng: &mut Pcg64Mcg) -> Words {
     word_masks(machine).map(|mask| rng.random::<u64>() & mask)
 }
 
-fn source(machine: &Machine, rng: &mut Pcg64Mcg) -> Source {
+fn source(machine: &Plan, rng: &mut Pcg64Mcg) -> Source {
     Source { tag: rng.random::<u32>().checked_shr(32 - machine.tag_bits).unwrap_or(0), id: 0 }
 }
 
-fn rgb(machine: &Machine, rng: &mut Pcg64Mcg) -> Rgb {
+fn rgb(machine: &Plan, rng: &mut Pcg64Mcg) -> Rgb {
     let most = machine.color.max() as u16; // at most 16 bits
     Rgb::new(std::array::from_fn(|_| rng.random_range(0..=most)))
 }

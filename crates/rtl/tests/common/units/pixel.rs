@@ -1,9 +1,9 @@
 //! PIXEL alone.
 
+use edgewalk_machine::Plan;
 use edgewalk_model::Coverage;
 use edgewalk_model::pixel::Pixel;
 use edgewalk_model::tokens::{Fragment, Span, Words};
-use edgewalk_numerics::Machine;
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
@@ -12,7 +12,7 @@ use crate::common::probe::{Failure, Probe};
 use crate::common::tokens;
 
 /// PIXEL: spans anywhere around the screen, new increments all the time, fragments taken at random.
-pub fn pixel(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe, Failure> {
+pub fn pixel(machine: &Plan, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe, Failure> {
     let mut probe = Probe::new(edgewalk_rtl::pixel(machine))?;
     let (span_valid, frag_ready) = (probe.input("span_valid")?, probe.input("frag_ready")?);
     let span = probe.input_channel("span", &tokens::span(machine, &Span::default()))?;

@@ -1,9 +1,9 @@
 //! SETUP alone.
 
+use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::Coverage;
 use edgewalk_model::setup::Setup;
 use edgewalk_model::tokens::Prim;
-use edgewalk_numerics::{Machine, PortVertex};
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
@@ -13,7 +13,7 @@ use crate::common::tokens;
 use crate::common::triangles::random_triangle;
 
 /// SETUP: random triangles, prims taken late.
-pub fn setup(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe, Failure> {
+pub fn setup(machine: &Plan, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe, Failure> {
     let mut probe = Probe::new(edgewalk_rtl::setup(machine))?;
     let (tri_valid, prim_ready) = (probe.input("tri_valid")?, probe.input("prim_ready")?);
     let none = tokens::triangle(machine, &[PortVertex::default(); 3], 0);

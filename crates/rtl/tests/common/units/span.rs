@@ -1,9 +1,9 @@
 //! SPAN alone.
 
+use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::Coverage;
 use edgewalk_model::span::SpanQueue;
 use edgewalk_model::tokens::{Line, Span};
-use edgewalk_numerics::{Fill, Machine};
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
@@ -12,7 +12,7 @@ use crate::common::probe::{Failure, Probe};
 use crate::common::tokens;
 
 /// SPAN: lines with any columns around the screen, spans taken at random.
-pub fn span(machine: &Machine, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe, Failure> {
+pub fn span(machine: &Plan, cycles: u64, rng: &mut Pcg64Mcg) -> Result<Probe, Failure> {
     let mut probe = Probe::new(edgewalk_rtl::span(machine))?;
     let (line_valid, span_ready) = (probe.input("line_valid")?, probe.input("span_ready")?);
     let line = probe.input_channel("line", &tokens::line(machine, &Line::default()))?;

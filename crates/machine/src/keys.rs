@@ -2,7 +2,7 @@
 //!
 //! To add a parameter: a field in `Machine`, a line here, a rule in `check.rs` if it can clash with another.
 
-use super::{EdgeKind, Fill, Hazard, Machine};
+use crate::machine::{EdgeKind, Fill, Hazard, Machine};
 
 /// What a key may be set to.
 #[derive(Clone, Copy, Debug)]
@@ -53,10 +53,10 @@ pub const KEYS: &[Key] = &[
     ),
     number!("screen.subpixel_bits", Range(0, 8), "fraction bits of vertex coordinates", subpixel_bits),
     number!(
-        "setup.dividers",
+        "setup.lanes",
         OneOf(&[1, 2, 4]),
         "lanes, each a serial multiplier and divider, that work side by side",
-        dividers
+        lanes
     ),
     number!("setup.radix", OneOf(&[2, 4, 16]), "radix of the lanes: 1, 2 or 4 bits a clock", radix),
     Key {
@@ -155,7 +155,7 @@ impl Key {
     #[must_use]
     pub fn nearest(&self, text: &str) -> String {
         match self.domain {
-            Word(words) => super::nearest::nearest(text, words.iter().copied()).to_owned(),
+            Word(words) => crate::nearest::nearest(text, words.iter().copied()).to_owned(),
             Range(low, high) => match text.parse::<f64>() {
                 Ok(v) => (v.round().clamp(f64::from(low), f64::from(high)) as u32).to_string(),
                 Err(_) => low.to_string(),

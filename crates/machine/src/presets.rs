@@ -1,12 +1,18 @@
 //! The machines that come with the program.
 
-use super::{Channel, EdgeKind, Fill, Hazard, Machine};
+use crate::channel::{Kind, Precision};
+use crate::machine::{EdgeKind, ExtraChannel, Fill, Hazard, Machine};
+use crate::plan::Plan;
 
 /// Names of the presets, for `--machine` and its hints.
 pub const PRESETS: &[(&str, &str)] = &[
     ("default", "640x480, exact fill, 24-bit depth, 8-bit colour, one pixel a clock"),
     ("textbook", "chapter 7: integer vertices, inclusive spans, slopes, one shared adder pipeline"),
 ];
+
+/// What a channel of the user is until it is set: a texture coordinate of 12 bits.
+const EXTRA: ExtraChannel =
+    ExtraChannel { kind: Kind::Floor, precision: Precision { bits: 12, fraction: 14, vertex_fraction: 4 } };
 
 impl Default for Machine {
     /// The preset `default`. r = 14 because a span may step over up to 2^13 columns of the guard band before the screen (A4).
@@ -19,11 +25,13 @@ impl Default for Machine {
             fill: Fill::Exact,
             edge_kind: EdgeKind::Exact,
             edge_fraction: 16,
-            z: Channel { bits: 24, fraction: 14, vertex_fraction: 4 },
-            color: Channel { bits: 8, fraction: 14, vertex_fraction: 4 },
+            z: Precision { bits: 24, fraction: 14, vertex_fraction: 4 },
+            color: Precision { bits: 8, fraction: 14, vertex_fraction: 4 },
+            extras: [EXTRA; 4],
+            extra: 0,
             adders: 4,
             segments: 1,
-            dividers: 4,
+            lanes: 4,
             radix: 4,
             span_fifo: 2,
             inflight: 4,
@@ -44,16 +52,24 @@ impl Machine {
                 subpixel_bits: 0,
                 fill: Fill::Textbook,
                 edge_kind: EdgeKind::Slope,
-                z: Channel { bits: 16, fraction: 14, vertex_fraction: 0 },
-                color: Channel { bits: 8, fraction: 14, vertex_fraction: 0 },
+                z: Precision { bits: 16, fraction: 14, vertex_fraction: 0 },
+                color: Precision { bits: 8, fraction: 14, vertex_fraction: 0 },
                 adders: 1,
                 segments: 4,
-                dividers: 1,
+                lanes: 1,
                 radix: 2,
                 hazard: Hazard::Drain,
                 ..Machine::default()
             }),
             _ => None,
         }
+    }
+}
+
+impl Plan {
+    /// The preset of that name.
+    #[must_use]
+    pub fn preset(name: &str) -> Option<Plan> {
+        Machine::preset(name).and_then(|machine| machine.plan().ok())
     }
 }

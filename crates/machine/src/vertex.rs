@@ -1,6 +1,6 @@
 //! Vertices as they stand at the machine's port.
 
-use crate::Machine;
+use crate::plan::Plan;
 
 /// A vertex at the port: snapped and quantised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -38,7 +38,7 @@ pub enum VertexError {
     },
 }
 
-impl Machine {
+impl Plan {
     /// Snaps a vertex (px, and Z, R, G, B in [0,1]) to the port's formats, each rounded half to even.
     ///
     /// Errors of the result: 2^-(s+1) px in x and y, 2^-(e+1) LSB in a channel.
@@ -56,7 +56,7 @@ impl Machine {
             }
         };
         let mut vertex = PortVertex { x: snap("x", x)?, y: snap("y", y)?, value: [0; 4] };
-        for (i, (channel, name)) in self.channels().into_iter().zip(["z", "r", "g", "b"]).enumerate() {
+        for (i, (channel, name)) in self.channels().iter().zip(["z", "r", "g", "b"]).enumerate() {
             if !(0.0..=1.0).contains(&values[i]) {
                 return Err(VertexError::Channel { channel: name, value: values[i] });
             }

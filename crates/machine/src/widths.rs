@@ -1,9 +1,9 @@
 //! Word lengths that follow from a configuration (`docs/machine.md`, section 1).
 
-use super::Machine;
+use crate::machine::Machine;
 
 /// Derived word lengths, in bits unless stated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Widths {
     /// Vertex coordinate at the port, signed, `s` fraction bits: XW.
     pub vertex: u32,

@@ -1,8 +1,9 @@
 //! Machine files: TOML in, TOML out, single settings, and the hash that everything made from a machine carries.
 
-use super::Machine;
-use super::keys::{KEYS, Key};
-use super::nearest::nearest;
+use crate::keys::{Domain, KEYS, Key};
+use crate::machine::Machine;
+use crate::nearest::nearest;
+use crate::presets::PRESETS;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use toml::de::{DeTable, DeValue};
@@ -25,7 +26,7 @@ impl MachineError {
     }
 
     /// `key = value` lies outside the key's domain.
-    pub(super) fn value(key: &Key, value: &str) -> Self {
+    pub(crate) fn value(key: &Key, value: &str) -> Self {
         Self::new(
             format!("{} = {value} is not permitted ({})", key.name, key.permitted()),
             format!("nearest: {}", key.nearest(value)),
@@ -33,7 +34,7 @@ impl MachineError {
     }
 
     /// `key`'s value clashes with another.
-    pub(super) fn rule(machine: &Machine, key: &str, reason: String, remedy: String) -> Self {
+    pub(crate) fn rule(machine: &Machine, key: &str, reason: String, remedy: String) -> Self {
         let value = KEYS.iter().find(|k| k.name == key).map_or_else(String::new, |k| k.show(machine));
         Self::new(format!("{key} = {value} cannot be built: {reason}"), format!("try {key} = {remedy}"))
     }
@@ -84,7 +85,7 @@ impl Machine {
             match value.get_ref() {
                 DeValue::String(name) if section.get_ref().as_ref() == "preset" => {
                     machine = Machine::preset(name).ok_or_else(|| {
-                        let close = nearest(name, super::presets::PRESETS.iter().map(|p| p.0));
+                        let close = nearest(name, PRESETS.iter().map(|p| p.0));
                         MachineError::new(format!("unknown preset {name}"), format!("nearest: {close}"))
                             .at(text, place)
                     })?;
@@ -115,7 +116,7 @@ impl Machine {
                 machine.set(&full, &shown).map_err(|e| e.at(text, name.span().start))?;
             }
         }
-        machine.check()?;
+        machine.plan()?;
         Ok(machine)
     }
 
@@ -135,7 +136,7 @@ impl Machine {
             for key in KEYS.iter().filter(|k| k.name.split('.').next() == Some(section)) {
                 let name = key.name.split('.').nth(1).unwrap_or_default();
                 let value = match key.domain {
-                    super::keys::Domain::Word(_) => format!("\"{}\"", key.show(self)),
+                    Domain::Word(_) => format!("\"{}\"", key.show(self)),
                     _ => key.show(self),
                 };
                 let _ =
@@ -163,7 +164,7 @@ mod tests {
 
     #[test]
     fn what_is_written_reads_back() {
-        for (name, _) in super::super::presets::PRESETS {
+        for (name, _) in PRESETS {
             let machine = Machine::preset(name).expect("listed");
             assert_eq!(Machine::from_toml(&machine.to_toml()), Ok(machine));
         }
@@ -175,22 +176,20 @@ mod tests {
         for key in KEYS {
             let mut machine = Machine::default();
             let other = match key.domain {
-                super::super::keys::Domain::Range(low, high) => {
+                Domain::Range(low, high) => {
                     if (key.get)(&machine) == low {
                         high
                     } else {
                         low
                     }
                 }
-                super::super::keys::Domain::OneOf(list) => {
-                    *list.iter().find(|v| **v != (key.get)(&machine)).expect("two")
-                }
-                super::super::keys::Domain::Word(_) => ((key.get)(&machine) + 1) % 2,
+                Domain::OneOf(list) => *list.iter().find(|v| **v != (key.get)(&machine)).expect("two"),
+                Domain::Word(_) => ((key.get)(&machine) + 1) % 2,
             };
             (key.set)(&mut machine, other);
             assert_eq!((key.get)(&machine), other, "{}", key.name);
             assert!(seen.insert(machine.hash()), "{} does not reach the hash", key.name);
-            if machine.check().is_ok() {
+            if machine.plan().is_ok() {
                 assert_eq!(Machine::from_toml(&machine.to_toml()), Ok(machine), "{}", key.name);
             }
         }

@@ -1,25 +1,13 @@
 //! One configuration of the machine: every number an architect may choose.
 //!
-//! ```text
-//!  TOML text / preset ──> Machine ──check──> Widths ──> model, rtl, vectors, reports
-//!      --set key=value ──────┘  └─> hash
-//! ```
-//! The fields are documented once, in [`keys::KEYS`]; the symbols are those of `docs/machine.md`.
+//! The fields are documented once, in [`crate::keys::KEYS`]; the symbols are those of `docs/machine.md`.
 
-pub mod check;
-pub mod keys;
-pub mod nearest;
-pub mod presets;
-pub mod text;
-pub mod widths;
-
-pub use text::MachineError;
-pub use widths::Widths;
+use crate::channel::{Kind, Precision};
 
 /// Which pixels a triangle covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Fill {
-    /// Half-open in both axes, exact for every snapped triangle (design A5, the top-left rule).
+    /// Half-open in both axes, exact for every snapped triangle: the top-left rule.
     Exact,
     /// Chapter 7: integer vertices, +0.5, `Trunc(X_start)` to `Trunc(X_end)`, both ends and both lines inclusive.
     Textbook,
@@ -45,38 +33,16 @@ pub enum Hazard {
     Forward,
 }
 
-/// The formats of one interpolated channel: words of `bits + fraction` bits, modular.
+/// A channel that the user adds: it is interpolated and written beside the colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Channel {
-    /// Output bits b; the value is unorm, integer / (2^b - 1).
-    pub bits: u32,
-    /// Fraction bits r of the interpolator below the output's last bit.
-    pub fraction: u32,
-    /// Fraction bits e of the vertex value below the output's last bit, e <= r.
-    pub vertex_fraction: u32,
+pub struct ExtraChannel {
+    /// How it is read and rounded.
+    pub kind: Kind,
+    /// Its word lengths.
+    pub precision: Precision,
 }
 
-impl Channel {
-    /// Bits of the interpolated word, b + r.
-    #[must_use]
-    pub fn word(self) -> u32 {
-        self.bits + self.fraction
-    }
-
-    /// Bits of the vertex value at the port, b + e.
-    #[must_use]
-    pub fn vertex_bits(self) -> u32 {
-        self.bits + self.vertex_fraction
-    }
-
-    /// The largest output, 2^b - 1, which stands for 1.0.
-    #[must_use]
-    pub fn max(self) -> u64 {
-        (1 << self.bits) - 1
-    }
-}
-
-/// One machine. Fields are plain; [`Machine::check`] says whether it can be built.
+/// The keys of one machine, which may clash; [`Machine::plan`] says whether it can be built.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Machine {
     /// Visible columns W.
@@ -94,15 +60,19 @@ pub struct Machine {
     /// Fraction bits F of a slope edge (unused by exact edges).
     pub edge_fraction: u32,
     /// Depth.
-    pub z: Channel,
+    pub z: Precision,
     /// Red, green and blue.
-    pub color: Channel,
-    /// Adders A shared by the four channels: 4, 2 or 1; 4/A clocks a pixel.
+    pub color: Precision,
+    /// Channels that the user adds, in order; the first `extra` of them are there.
+    pub extras: [ExtraChannel; 4],
+    /// How many.
+    pub extra: u32,
+    /// Adders A shared by the N channels; ceil(N/A) clocks a pixel.
     pub adders: u32,
     /// Segments D of each adder: 1, 2 or 4.
     pub segments: u32,
     /// Setup lanes, each one serial multiplier-divider: 1, 2 or 4.
-    pub dividers: u32,
+    pub lanes: u32,
     /// Radix of the lanes: 2, 4 or 16.
     pub radix: u32,
     /// Depth of the span FIFO, spans.
@@ -118,18 +88,6 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// The four channels in the order of the adder: Z, R, G, B.
-    #[must_use]
-    pub fn channels(&self) -> [Channel; 4] {
-        [self.z, self.color, self.color, self.color]
-    }
-
-    /// Clocks a pixel inside a span, T = 4 / A.
-    #[must_use]
-    pub fn clocks_per_pixel(&self) -> u32 {
-        4 / self.adders
-    }
-
     /// Setup bits a clock, k = log2(radix).
     #[must_use]
     pub fn bits_per_clock(&self) -> u32 {

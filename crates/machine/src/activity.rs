@@ -1,0 +1,63 @@
+//! The cause of every cycle (`docs/machine.md`, section 8).
+
+/// What a cycle was spent on; the number is the `activity` port.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Activity {
+    /// Nothing to do.
+    #[default]
+    Idle,
+    /// A pixel on the screen.
+    Draw,
+    /// A pixel stepped over off the screen.
+    Offscreen,
+    /// DEPTH waits for a pixel in flight.
+    Hazard,
+    /// The in-flight queue is full.
+    Queue,
+    /// The depth memory takes no read.
+    Memory,
+    /// PIXEL waits for a span.
+    Edge,
+    /// All wait for SETUP.
+    Setup,
+    /// The last fragments leave the pipeline.
+    Flush,
+}
+
+impl Activity {
+    /// All, in the order of the port's code.
+    pub const ALL: [Activity; 9] = [
+        Activity::Idle,
+        Activity::Draw,
+        Activity::Offscreen,
+        Activity::Hazard,
+        Activity::Queue,
+        Activity::Memory,
+        Activity::Edge,
+        Activity::Setup,
+        Activity::Flush,
+    ];
+
+    /// Bits of the port.
+    pub const BITS: u32 = 4;
+
+    /// Name in reports and, in capitals, in the netlist.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        ["idle", "draw", "offscreen", "hazard", "queue", "memory", "edge", "setup", "flush"][self as usize]
+    }
+
+    /// PIXEL steps in such a cycle; in all others it stalls.
+    #[must_use]
+    pub fn is_busy(self) -> bool {
+        matches!(self, Activity::Draw | Activity::Offscreen)
+    }
+
+    /// The codes in words, for the port's documentation: `0 idle 1 draw …`.
+    #[must_use]
+    pub fn codes() -> String {
+        let each = Activity::ALL.iter().map(|a| format!("{} {}", *a as u8, a.name()));
+        each.collect::<Vec<_>>().join(" ")
+    }
+}

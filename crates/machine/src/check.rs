@@ -1,0 +1,116 @@
+//! Which combinations can be built, and the reason where one cannot.
+
+use crate::channel::Channel;
+use crate::keys::KEYS;
+use crate::machine::{EdgeKind, Fill, Machine};
+use crate::text::MachineError;
+
+/// Longest word a setup lane may need.
+pub const LANE_BITS: u32 = 120;
+/// Longest interpolated word.
+pub const WORD_BITS: u32 = 56;
+
+/// Accepts the machine with these channels, or names the key that stands in the way, the reason, and a value that would
+/// do: the first rule that is broken.
+pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), MachineError> {
+    screen(machine)?;
+    for channel in channels {
+        formats(machine, channel)?;
+    }
+    if machine.adders as usize > channels.len() {
+        return Err(MachineError::rule(
+            machine,
+            "interpolator.adders",
+            format!("there are only {} channels to add", channels.len()),
+            channels.len().to_string(),
+        ));
+    }
+    setup(machine, channels)
+}
+
+/// Every value lies in its key's domain, and the screen in the guard band.
+fn screen(machine: &Machine) -> Result<(), MachineError> {
+    for key in KEYS {
+        let shown = key.show(machine);
+        if key.parse(&shown).is_none() {
+            return Err(MachineError::value(key, &shown));
+        }
+    }
+    let side = machine.width.max(machine.height);
+    if side > 1 << machine.guard_bits {
+        return Err(MachineError::rule(
+            machine,
+            "screen.guard_bits",
+            format!("the screen is {side} pixels wide or high and must lie in the guard band"),
+            side.next_power_of_two().ilog2().to_string(),
+        ));
+    }
+    if machine.fill == Fill::Textbook && machine.subpixel_bits != 0 {
+        return Err(MachineError::rule(
+            machine,
+            "screen.subpixel_bits",
+            "textbook fill takes integer vertices".to_owned(),
+            "0".to_owned(),
+        ));
+    }
+    Ok(())
+}
+
+/// The section and beginning of the keys of a channel's formats.
+fn keys_of(channel: &Channel) -> String {
+    match channel.name {
+        "r" | "g" | "b" => "formats.color".to_owned(),
+        "z" => "formats.z".to_owned(),
+        extra => format!("channels.{extra}"),
+    }
+}
+
+fn formats(machine: &Machine, channel: &Channel) -> Result<(), MachineError> {
+    let keys = keys_of(channel);
+    if channel.vertex_fraction > channel.fraction {
+        return Err(MachineError::rule(
+            machine,
+            &format!("{keys}_vertex"),
+            format!("a vertex cannot have more fraction bits than the interpolator ({})", channel.fraction),
+            channel.fraction.to_string(),
+        ));
+    }
+    if channel.word() > WORD_BITS {
+        return Err(MachineError::rule(
+            machine,
+            &format!("{keys}_fraction"),
+            format!("the word would have {} bits, {WORD_BITS} is the most", channel.word()),
+            (WORD_BITS - channel.bits).to_string(),
+        ));
+    }
+    if channel.word() < 2 * machine.segments {
+        return Err(MachineError::rule(
+            machine,
+            "interpolator.segments",
+            format!("a word of {} bits has no {} segments of two bits", channel.word(), machine.segments),
+            "1".to_owned(),
+        ));
+    }
+    Ok(())
+}
+
+/// A lane can hold what it divides. The channel with the longest word stands in the way, if any does.
+fn setup(machine: &Machine, channels: &[Channel]) -> Result<(), MachineError> {
+    let w = machine.widths();
+    let Some(longest) = channels.iter().max_by_key(|c| c.word()) else { return Ok(()) };
+    let values = (2 * w.difference + longest.word())
+        .max(w.difference + longest.word() + machine.guard_bits + 2 + w.center_fraction);
+    let slope = if machine.edge_kind == EdgeKind::Slope { machine.edge_fraction } else { 0 };
+    let edges = 2 * w.difference + slope;
+    let reason = |bits| format!("setup would divide numbers of {bits} bits, {LANE_BITS} is the most");
+    if edges > LANE_BITS {
+        let most = machine.edge_fraction.saturating_sub(edges - LANE_BITS).to_string();
+        return Err(MachineError::rule(machine, "edge.fraction_bits", reason(edges), most));
+    }
+    if values > LANE_BITS {
+        let most = longest.fraction.saturating_sub(values - LANE_BITS).to_string();
+        let key = format!("{}_fraction", keys_of(longest));
+        return Err(MachineError::rule(machine, &key, reason(values), most));
+    }
+    Ok(())
+}

@@ -1,0 +1,47 @@
+//! One configuration of the machine, checked, and what each of its units declares: what a wire is called, how wide it
+//! is and when it is there, never what is on it.
+//!
+//! ```text
+//!  TOML text / preset ──> Machine ──plan()──> Plan ──> model, rtl, lockstep, vectors, reports
+//!      --set key=value ──────┘                 ├─ channels, widths, bounds
+//!                                              └─ units: links, memory ports, status, events
+//! ```
+//! A [`Machine`] is a set of keys that may clash; a [`Plan`] is one that can be built, and all that units, drawing and
+//! tools take. `model` and `rtl` share this crate and nothing else: it holds no function from values to values, so
+//! behaviour stays written twice. No I/O.
+//!
+//! ```
+//! use edgewalk_machine::Machine;
+//! let plan = Machine { adders: 1, ..Machine::default() }.plan().expect("one adder serves four channels");
+//! assert_eq!(plan.clocks_per_pixel(), 4);
+//! assert!(Machine { guard_bits: 2, ..Machine::default() }.plan().is_err());
+//! ```
+
+pub mod channel;
+pub mod machine;
+pub mod keys;
+pub mod nearest;
+pub mod text;
+pub mod presets;
+pub mod widths;
+pub mod check;
+pub mod budget;
+pub mod plan;
+pub mod vertex;
+pub mod activity;
+pub mod field;
+pub mod link;
+pub mod unit;
+pub mod units;
+
+pub use activity::Activity;
+pub use channel::{Channel, Kind, MAX_CHANNELS, Precision};
+pub use edgewalk_numerics::ErrorBudget;
+pub use field::{Field, Scale};
+pub use link::{Held, Link, MemoryPort, Ready, Status};
+pub use machine::{EdgeKind, ExtraChannel, Fill, Hazard, Machine};
+pub use plan::Plan;
+pub use text::MachineError;
+pub use unit::{Event, Ports, UNITS, UnitSpec};
+pub use vertex::{PortVertex, VertexError};
+pub use widths::Widths;

@@ -1,0 +1,113 @@
+//! The checked machine: what units, drawing and tools take.
+
+use crate::channel::{Channel, MAX_CHANNELS};
+use crate::machine::Machine;
+use crate::text::MachineError;
+use crate::unit::UNITS;
+use crate::widths::Widths;
+use std::ops::{Deref, Range};
+
+/// A machine that can be built. Only [`Machine::plan`] makes one; the keys can be read through it, not changed.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Plan {
+    machine: Machine,
+    channels: Vec<Channel>,
+    widths: Widths,
+}
+
+impl Machine {
+    /// The machine with all that follows from its keys.
+    ///
+    /// # Errors
+    /// The first combination of keys that cannot be built, with the reason and a value that would do.
+    pub fn plan(&self) -> Result<Plan, MachineError> {
+        let wanted = UNITS.iter().flat_map(|unit| (unit.wants)(self));
+        let channels: Vec<Channel> = wanted.chain(crate::units::memory::wants(self)).collect();
+        crate::check::check(self, &channels)?;
+        debug_assert!(channels.len() <= MAX_CHANNELS, "units want more channels than vertices have");
+        Ok(Plan { machine: self.clone(), channels, widths: self.widths() })
+    }
+}
+
+/// The keys.
+impl Deref for Plan {
+    type Target = Machine;
+
+    fn deref(&self) -> &Machine {
+        &self.machine
+    }
+}
+
+impl Default for Plan {
+    fn default() -> Self {
+        #[allow(clippy::expect_used)]
+        Machine::default().plan().expect("a test plans every preset")
+    }
+}
+
+impl Plan {
+    /// The channels that the units want, in the order of the words: z, r, g, b, then the user's own.
+    #[must_use]
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// The word lengths of this machine.
+    #[must_use]
+    pub fn widths(&self) -> Widths {
+        self.widths
+    }
+
+    /// Clocks a pixel inside a span, T = ceil(N/A).
+    #[must_use]
+    pub fn clocks_per_pixel(&self) -> u32 {
+        (self.channels.len() as u32).div_ceil(self.adders)
+    }
+
+    /// The channels of each adder: floor(a·N/A) up to floor((a+1)·N/A). The one at place i of its adder is added in
+    /// clock i of a pixel; an adder with fewer than T channels rests in the others.
+    #[must_use]
+    pub fn slots(&self) -> Vec<Range<usize>> {
+        let (channels, adders) = (self.channels.len(), self.adders as usize);
+        (0..adders).map(|adder| adder * channels / adders..(adder + 1) * channels / adders).collect()
+    }
+
+    /// The same machine with a tag of 32 bits, which changes nothing but the tag ports: a tool then sees the triangle of
+    /// each write.
+    #[must_use]
+    pub fn tagged(&self) -> Plan {
+        let mut plan = self.clone();
+        plan.machine.tag_bits = 32;
+        plan
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::presets::PRESETS;
+
+    #[test]
+    fn every_preset_can_be_planned() {
+        for (name, _) in PRESETS {
+            let machine = Machine::preset(name).expect("listed");
+            assert!(machine.plan().is_ok(), "{name}");
+        }
+        assert_eq!(PRESETS.len(), 2);
+    }
+
+    #[test]
+    fn every_channel_has_one_slot_and_no_adder_more_than_t() {
+        let mut checked = 0;
+        for adders in [1, 2, 4] {
+            let plan = Machine { adders, ..Machine::default() }.plan().expect("can be built");
+            let slots = plan.slots();
+            assert_eq!(slots.len(), adders as usize);
+            assert!(slots.iter().all(|s| !s.is_empty() && s.len() as u32 <= plan.clocks_per_pixel()));
+            let served: Vec<usize> = slots.into_iter().flatten().collect();
+            assert_eq!(served, (0..plan.channels().len()).collect::<Vec<_>>());
+            checked += 1;
+        }
+        assert_eq!(checked, 3);
+    }
+}

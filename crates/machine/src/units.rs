@@ -1,0 +1,25 @@
+//! What each unit declares, a file a unit, in the order the data flows.
+
+pub mod tokens;
+pub mod setup;
+pub mod edge;
+pub mod span;
+pub mod pixel;
+pub mod depth;
+pub mod memory;
+
+use crate::activity::Activity;
+use crate::field::Field;
+use crate::link::Status;
+use crate::plan::Plan;
+
+/// What the machine tells beside its tokens, in every cycle.
+pub(crate) fn machine_status() -> Vec<Status> {
+    let cause = Field::count("activity", Activity::BITS, "the cause of the cycle");
+    vec![Status { field: cause, during: None }, Status::new("idle", "nothing to do")]
+}
+
+/// For what every machine has, or can meet.
+pub(crate) fn always(_: &Plan) -> bool {
+    true
+}

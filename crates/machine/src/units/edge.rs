@@ -1,0 +1,44 @@
+//! EDGE: from edges to lines.
+
+use super::{always, tokens};
+use crate::field::Field;
+use crate::link::{Held, Link};
+use crate::machine::Machine;
+use crate::plan::Plan;
+use crate::unit::{Event, Ports, UnitSpec};
+
+/// What EDGE declares.
+pub const SPEC: UnitSpec = UnitSpec {
+    name: "edge",
+    purpose: "walks the major and the minor edge of a triangle, a line a step",
+    section: 3,
+    present: always,
+    wants: |_: &Machine| Vec::new(),
+    ports,
+    events: EVENTS,
+};
+
+fn ports(plan: &Plan) -> Ports {
+    Ports {
+        takes: Some(Link::new("prim", tokens::prim(plan))),
+        gives: Some(Link::new("line", tokens::line(plan))),
+        held_out: vec![Held { name: "inc", fields: tokens::words(plan), beside: "line" }],
+        levels: vec![Field::count("fresh_queued", 1, "the triangle before has not reached PIXEL yet")],
+        ..Ports::default()
+    }
+}
+
+const EVENTS: &[Event] = &[
+    Event { name: "carry", doc: "steps of the major edge with a carry", can_happen: always },
+    Event { name: "no_carry", doc: "steps of the major edge without a carry", can_happen: always },
+    Event {
+        name: "wrap",
+        doc: "steps of an edge value that leave the range of its word",
+        can_happen: always,
+    },
+    Event {
+        name: "fresh_wait",
+        doc: "cycles in which a triangle waits until the first span of the one before is taken",
+        can_happen: always,
+    },
+];

@@ -1,0 +1,36 @@
+//! PIXEL: from spans to fragments.
+
+use super::{always, tokens};
+use crate::link::{Held, Link, Status};
+use crate::machine::Machine;
+use crate::plan::Plan;
+use crate::unit::{Event, Ports, UnitSpec};
+
+/// What PIXEL declares.
+pub const SPEC: UnitSpec = UnitSpec {
+    name: "pixel",
+    purpose: "steps along a span, all channels through the shared adders",
+    section: 5,
+    present: always,
+    wants: |_: &Machine| Vec::new(),
+    ports,
+    events: EVENTS,
+};
+
+fn ports(plan: &Plan) -> Ports {
+    Ports {
+        takes: Some(Link::new("span", tokens::span(plan))),
+        gives: Some(Link::new("frag", tokens::fragment(plan))),
+        held_in: vec![Held { name: "inc", fields: tokens::words(plan), beside: "span" }],
+        status: vec![
+            Status::new("active", "a span is being drawn"),
+            Status::new("visible", "its pixel is on the screen").during("active"),
+            Status::new("advance", "nothing waits at the output"),
+            Status::new("occupied", "a fragment is in an output stage"),
+        ],
+        ..Ports::default()
+    }
+}
+
+const EVENTS: &[Event] =
+    &[Event { name: "off_screen", doc: "pixels stepped over off the screen", can_happen: always }];

@@ -1,0 +1,47 @@
+//! SETUP: from three vertices to edges and increments.
+
+use super::{always, tokens};
+use crate::link::Link;
+use crate::machine::Machine;
+use crate::plan::Plan;
+use crate::unit::{Event, Ports, UnitSpec};
+
+/// What SETUP declares.
+pub const SPEC: UnitSpec = UnitSpec {
+    name: "setup",
+    purpose: "turns three vertices into edges and increments",
+    section: 2,
+    present: always,
+    wants: |_: &Machine| Vec::new(),
+    ports,
+    events: EVENTS,
+};
+
+fn ports(plan: &Plan) -> Ports {
+    Ports {
+        takes: Some(Link::new("tri", tokens::triangle(plan))),
+        gives: Some(Link::new("prim", tokens::prim(plan))),
+        ..Ports::default()
+    }
+}
+
+const EVENTS: &[Event] = &[
+    Event { name: "culled", doc: "triangles that draw nothing", can_happen: always },
+    Event { name: "major_left", doc: "triangles whose major edge lies left", can_happen: always },
+    Event { name: "major_right", doc: "triangles whose major edge lies right", can_happen: always },
+    Event {
+        name: "no_upper_part",
+        doc: "triangles without an upper part on the screen, n1 = 0",
+        can_happen: always,
+    },
+    Event {
+        name: "no_lower_part",
+        doc: "triangles without a lower part on the screen, n2 = 0",
+        can_happen: always,
+    },
+    Event {
+        name: "knee_on_line",
+        doc: "triangles of two parts whose knee lies on a line of pixel centres",
+        can_happen: always,
+    },
+];

@@ -1,0 +1,53 @@
+//! SPAN: from lines to the pixels of a line.
+
+use super::{always, tokens};
+use crate::link::{Link, Ready, Status};
+use crate::machine::Machine;
+use crate::plan::Plan;
+use crate::unit::{Event, Ports, UnitSpec};
+
+/// What SPAN declares.
+pub const SPEC: UnitSpec = UnitSpec {
+    name: "span",
+    purpose: "cuts a line at the screen, drops it where it is empty, and queues it",
+    section: 4,
+    present: always,
+    wants: |_: &Machine| Vec::new(),
+    ports,
+    events: EVENTS,
+};
+
+fn ports(plan: &Plan) -> Ports {
+    // Whether a line is empty, and therefore taken, is asked of lines only.
+    let line = Link { ready: Ready::WhileValid, ..Link::new("line", tokens::line(plan)) };
+    Ports {
+        takes: Some(line),
+        gives: Some(Link::new("span", tokens::span(plan))),
+        status: vec![Status::new("fresh_queued", "the first span of a triangle is queued")],
+        ..Ports::default()
+    }
+}
+
+const EVENTS: &[Event] = &[
+    Event { name: "empty_span", doc: "lines without a pixel", can_happen: always },
+    Event {
+        name: "dropped_fresh",
+        doc: "lines without a pixel that passed on the mark of a triangle's first line",
+        can_happen: always,
+    },
+    Event {
+        name: "dropped_when_full",
+        doc: "lines without a pixel, dropped while the span FIFO was full",
+        can_happen: always,
+    },
+    Event {
+        name: "span_fifo_full",
+        doc: "cycles in which a line waits for the span FIFO",
+        can_happen: always,
+    },
+    Event {
+        name: "scissor_cut",
+        doc: "spans cut by the screen at the side where they end",
+        can_happen: always,
+    },
+];

@@ -1,0 +1,193 @@
+//! The fields of the tokens that pass from unit to unit.
+
+use crate::channel::Channel;
+use crate::field::{Field, Scale};
+use crate::machine::{EdgeKind, Fill};
+use crate::plan::Plan;
+use edgewalk_numerics::Format;
+
+/// Names of the three edges of a prim: 0–2, 0–1 and 1–2 in the order of the sorted vertices.
+pub const EDGES: [&str; 3] = ["major", "minor1", "minor2"];
+
+/// The names of what SETUP finds for a channel, without the channel's own name, and what each is.
+#[must_use]
+pub fn results(plan: &Plan) -> &'static [(&'static str, &'static str)] {
+    match plan.fill {
+        Fill::Exact => &[
+            ("start", "at the first pixel of the first line"),
+            ("d0", "to the next line, edge without carry"),
+            ("d1", "to the next line, edge with carry"),
+            ("g", "to the next pixel of the span"),
+        ],
+        Fill::Textbook => &[
+            ("start_a", "on the left edge, first line of part 1"),
+            ("d_a", "to the next line, part 1"),
+            ("start_b", "on the left edge, first line of part 2"),
+            ("d_b", "to the next line, part 2"),
+            ("g", "to the next pixel of the span"),
+        ],
+    }
+}
+
+/// Bits of an edge's remainder, its step and its modulus.
+#[must_use]
+pub fn remainder_bits(plan: &Plan) -> u32 {
+    match plan.edge_kind {
+        EdgeKind::Exact => plan.widths().difference - 1,
+        EdgeKind::Slope => plan.edge_fraction,
+    }
+}
+
+/// The tag, if the machine has one.
+fn tag(plan: &Plan) -> Option<Field> {
+    (plan.tag_bits > 0).then(|| Field::count("tag", plan.tag_bits, "of the triangle"))
+}
+
+/// A triangle at the port: three vertices and the tag.
+#[must_use]
+pub fn triangle(plan: &Plan) -> Vec<Field> {
+    let position = Format::signed(plan.guard_bits + 1, plan.subpixel_bits);
+    let position = position.expect("vertices of a planned machine have 3 to 23 bits");
+    let mut fields = Vec::new();
+    for place in ["0", "1", "2"] {
+        fields.extend(["x", "y"].map(|axis| Field::of(format!("{axis}{place}"), position, "px")));
+        let value = |c: &Channel| Field::of(c.at_vertex(place), c.vertex_format(), "LSB");
+        fields.extend(plan.channels().iter().map(value));
+    }
+    fields.extend(tag(plan));
+    fields
+}
+
+/// The state and step of one edge: C, R, q, f and, unless it is the constant 2^F, M.
+fn edge(plan: &Plan, edge: &str) -> Vec<Field> {
+    let (column, remainder) = (plan.widths().column, remainder_bits(plan));
+    let unit = match plan.edge_kind {
+        EdgeKind::Exact => "1/M column",
+        EdgeKind::Slope => "2^-F column",
+    };
+    let name = |part: &str| format!("{edge}_{part}");
+    let mut fields = vec![
+        Field::signed(name("c"), column, "first column right of the edge"),
+        Field::count(name("r"), remainder, format!("distance from the edge to that column, {unit}")),
+        Field::signed(name("q"), column, "whole columns a line"),
+        Field::count(name("f"), remainder, format!("{unit} a line")),
+    ];
+    if plan.edge_kind == EdgeKind::Exact {
+        let doc = "modulus of r and f: the edge's height, 1/P line";
+        fields.push(Field::count(name("m"), remainder, doc));
+    }
+    fields
+}
+
+/// SETUP to EDGE: a triangle ready to be walked.
+#[must_use]
+pub fn prim(plan: &Plan) -> Vec<Field> {
+    let w = plan.widths();
+    let mut fields = vec![
+        Field::count("jm", w.y, "first line"),
+        Field::count("n1", w.y + 1, "lines of the upper part"),
+        Field::count("n2", w.y + 1, "lines of the lower part"),
+        Field::count("major_right", 1, "the major edge is the right one"),
+    ];
+    fields.extend(EDGES.iter().flat_map(|name| edge(plan, name)));
+    for channel in plan.channels() {
+        let result =
+            |(result, doc): &(&str, &str)| Field::word(format!("{}_{result}", channel.name), channel, *doc);
+        fields.extend(results(plan).iter().map(result));
+    }
+    fields.extend(tag(plan));
+    fields
+}
+
+/// The interpolated words, a field a channel.
+#[must_use]
+pub fn words(plan: &Plan) -> Vec<Field> {
+    plan.channels().iter().map(|channel| Field::word(channel.name, channel, "")).collect()
+}
+
+/// EDGE to SPAN: one line of a triangle.
+#[must_use]
+pub fn line(plan: &Plan) -> Vec<Field> {
+    let w = plan.widths();
+    let mut fields = vec![
+        Field::count("y", w.y, "line"),
+        Field::signed("cmaj", w.column, "first column right of the major edge"),
+        Field::signed("cmin", w.column, "first column right of the minor edge"),
+        Field::count("major_right", 1, "the major edge is the right one"),
+    ];
+    fields.extend(words(plan));
+    fields.extend([
+        Field::count("fresh", 1, "first line of the triangle"),
+        Field::count("fence", 1, "what is in flight may be of the same pixels"),
+    ]);
+    fields.extend(tag(plan));
+    fields
+}
+
+/// SPAN to PIXEL: the pixels of a line.
+#[must_use]
+pub fn span(plan: &Plan) -> Vec<Field> {
+    let w = plan.widths();
+    let mut fields = vec![
+        Field::signed("x", w.column, "first column"),
+        Field::count("y", w.y, "line"),
+        Field::count("count", w.column, "pixels, at least 1"),
+        Field::count("leftward", 1, "towards smaller columns"),
+    ];
+    fields.extend(words(plan));
+    fields.extend([
+        Field::count("fresh", 1, "first span of the triangle: its increments are new"),
+        Field::count("fence", 1, "what is in flight may be of the same pixels"),
+    ]);
+    fields.extend(tag(plan));
+    fields
+}
+
+/// The address of a pixel, `y·2^xb + x`.
+#[must_use]
+pub fn address(plan: &Plan) -> Field {
+    let w = plan.widths();
+    Field::count("addr", w.address, format!("line * 2^{} + column", w.x))
+}
+
+fn outputs(plan: &Plan) -> impl Iterator<Item = Field> {
+    plan.channels().iter().map(Field::output)
+}
+
+/// PIXEL to DEPTH: a fragment.
+#[must_use]
+pub fn fragment(plan: &Plan) -> Vec<Field> {
+    let mut fields = vec![address(plan)];
+    fields.extend(outputs(plan));
+    fields.push(Field::count("fence", 1, "what is in flight may be of the same pixel"));
+    fields.extend(tag(plan));
+    fields
+}
+
+/// What is kept of a fragment while a memory is read for it.
+#[must_use]
+pub fn entry(plan: &Plan) -> Vec<Field> {
+    std::iter::once(address(plan)).chain(outputs(plan)).chain(tag(plan)).collect()
+}
+
+/// DEPTH to the memories: one pixel.
+#[must_use]
+pub fn write(plan: &Plan) -> Vec<Field> {
+    let mut fields = vec![address(plan)];
+    for field in outputs(plan) {
+        let is_depth = field.name == "z";
+        fields.push(field);
+        if is_depth {
+            fields.push(Field::count("z_en", 1, "the depth is written too"));
+        }
+    }
+    fields.extend(tag(plan));
+    fields
+}
+
+/// The word that comes back from the depth memory.
+#[must_use]
+pub fn depth_word(plan: &Plan) -> Field {
+    let z = Field::output(&plan.channels()[0]);
+    Field { scale: Scale::Unorm, doc: "old depth".to_owned(), ..z }
+}
