@@ -2,6 +2,7 @@
 //!
 //! To add a parameter: a field in `Machine`, a line here, a rule in `check.rs` if it can clash with another.
 
+use crate::channel::{Kind, MAX_CHANNELS};
 use crate::machine::{EdgeKind, Fill, Hazard, Machine};
 
 /// What a key may be set to.
@@ -27,11 +28,52 @@ pub struct Key {
     pub get: fn(&Machine) -> u32,
     /// Writes a value that lies in the domain.
     pub set: fn(&mut Machine, u32),
+    /// The key means something in this machine: those of channels that it has not stay out of its file and its hash.
+    pub used: fn(&Machine) -> bool,
 }
 
 macro_rules! number {
     ($name:literal, $domain:expr, $doc:literal, $($field:ident).+) => {
-        Key { name: $name, doc: $doc, domain: $domain, get: |m| m.$($field).+, set: |m, v| m.$($field).+ = v }
+        Key { name: $name, doc: $doc, domain: $domain, get: |m| m.$($field).+, set: |m, v| m.$($field).+ = v, used: |_| true }
+    };
+}
+
+/// A key of extra channel `$i`.
+macro_rules! extra {
+    ($i:literal, $key:literal, $domain:expr, $doc:literal, $field:ident) => {
+        Key {
+            name: concat!("channels.e", $i, "_", $key),
+            doc: $doc,
+            domain: $domain,
+            get: |m| m.extras[$i].precision.$field,
+            set: |m, v| m.extras[$i].precision.$field = v,
+            used: |m| m.extra > $i,
+        }
+    };
+    ($i:literal, "kind") => {
+        Key {
+            name: concat!("channels.e", $i, "_kind"),
+            doc: "extra channel: unorm (0 to 1), signed or floor (LSB of the output)",
+            domain: Word(&["unorm", "signed", "floor"]),
+            get: |m| m.extras[$i].kind as u32,
+            set: |m, v| m.extras[$i].kind = Kind::ALL[v as usize],
+            used: |m| m.extra > $i,
+        }
+    };
+    ($i:literal, "bits") => {
+        extra!($i, "bits", Range(2, 32), "extra channel: output bits, the sign among them", bits)
+    };
+    ($i:literal, "fraction") => {
+        extra!($i, "fraction", Range(0, 24), "extra channel: interpolator fraction bits", fraction)
+    };
+    ($i:literal, "vertex") => {
+        extra!(
+            $i,
+            "vertex",
+            Range(0, 16),
+            "extra channel: fraction bits of the vertex value",
+            vertex_fraction
+        )
     };
 }
 
@@ -65,6 +107,7 @@ pub const KEYS: &[Key] = &[
         domain: Word(&["exact", "textbook"]),
         get: |m| m.fill as u32,
         set: |m, v| m.fill = FILLS[v as usize],
+        used: |_| true,
     },
     Key {
         name: "edge.kind",
@@ -72,6 +115,7 @@ pub const KEYS: &[Key] = &[
         domain: Word(&["exact", "slope"]),
         get: |m| m.edge_kind as u32,
         set: |m, v| m.edge_kind = KINDS[v as usize],
+        used: |_| true,
     },
     number!(
         "edge.fraction_bits",
@@ -92,9 +136,31 @@ pub const KEYS: &[Key] = &[
         color.vertex_fraction
     ),
     number!(
+        "channels.extra",
+        Range(0, 4),
+        "channels of the user's own, e0 to e3, written beside the colour",
+        extra
+    ),
+    extra!(0, "kind"),
+    extra!(0, "bits"),
+    extra!(0, "fraction"),
+    extra!(0, "vertex"),
+    extra!(1, "kind"),
+    extra!(1, "bits"),
+    extra!(1, "fraction"),
+    extra!(1, "vertex"),
+    extra!(2, "kind"),
+    extra!(2, "bits"),
+    extra!(2, "fraction"),
+    extra!(2, "vertex"),
+    extra!(3, "kind"),
+    extra!(3, "bits"),
+    extra!(3, "fraction"),
+    extra!(3, "vertex"),
+    number!(
         "interpolator.adders",
-        OneOf(&[1, 2, 4]),
-        "adders shared by Z, R, G and B: 4/adders clocks a pixel",
+        Range(1, MAX_CHANNELS as u32),
+        "adders shared by the N channels: ceil(N/adders) clocks a pixel",
         adders
     ),
     number!(
@@ -109,6 +175,7 @@ pub const KEYS: &[Key] = &[
         domain: Word(&["drain", "interlock", "forward"]),
         get: |m| m.hazard as u32,
         set: |m, v| m.hazard = HAZARDS[v as usize],
+        used: |_| true,
     },
     number!("memory.latency", Range(1, 8), "clocks from a depth read to its data, at the least", latency),
     number!("fifo.inflight", Range(1, 16), "fragments in flight between read and compare", inflight),

@@ -43,5 +43,5 @@ pub use machine::{EdgeKind, ExtraChannel, Fill, Hazard, Machine};
 pub use plan::Plan;
 pub use text::MachineError;
 pub use unit::{Event, Ports, UNITS, UnitSpec};
-pub use vertex::{PortVertex, VertexError};
+pub use vertex::{ForeignVertex, PortVertex, VertexError};
 pub use widths::Widths;

@@ -4,6 +4,7 @@ use crate::channel::{Channel, MAX_CHANNELS};
 use crate::machine::Machine;
 use crate::text::MachineError;
 use crate::unit::UNITS;
+use crate::vertex::PortStamp;
 use crate::widths::Widths;
 use std::ops::{Deref, Range};
 
@@ -13,6 +14,7 @@ pub struct Plan {
     machine: Machine,
     channels: Vec<Channel>,
     widths: Widths,
+    port: PortStamp,
 }
 
 impl Machine {
@@ -25,7 +27,8 @@ impl Machine {
         let channels: Vec<Channel> = wanted.chain(crate::units::memory::wants(self)).collect();
         crate::check::check(self, &channels)?;
         debug_assert!(channels.len() <= MAX_CHANNELS, "units want more channels than vertices have");
-        Ok(Plan { machine: self.clone(), channels, widths: self.widths() })
+        let port = PortStamp::of(self.guard_bits, self.subpixel_bits, &channels);
+        Ok(Plan { machine: self.clone(), channels, widths: self.widths(), port })
     }
 }
 
@@ -72,6 +75,11 @@ impl Plan {
         (0..adders).map(|adder| adder * channels / adders..(adder + 1) * channels / adders).collect()
     }
 
+    /// What the vertices made for this machine carry.
+    pub(crate) fn port_stamp(&self) -> PortStamp {
+        self.port
+    }
+
     /// The same machine with a tag of 32 bits, which changes nothing but the tag ports: a tool then sees the triangle of
     /// each write.
     #[must_use]
@@ -97,17 +105,21 @@ mod tests {
     }
 
     #[test]
-    fn every_channel_has_one_slot_and_no_adder_more_than_t() {
+    fn every_channel_has_one_slot_and_the_busiest_adder_t() {
         let mut checked = 0;
-        for adders in [1, 2, 4] {
-            let plan = Machine { adders, ..Machine::default() }.plan().expect("can be built");
-            let slots = plan.slots();
-            assert_eq!(slots.len(), adders as usize);
-            assert!(slots.iter().all(|s| !s.is_empty() && s.len() as u32 <= plan.clocks_per_pixel()));
-            let served: Vec<usize> = slots.into_iter().flatten().collect();
-            assert_eq!(served, (0..plan.channels().len()).collect::<Vec<_>>());
-            checked += 1;
+        for extra in 0..=4 {
+            for adders in 1..=4 + extra {
+                let plan = Machine { adders, extra, ..Machine::default() }.plan().expect("can be built");
+                let slots = plan.slots();
+                assert_eq!(slots.len(), adders as usize);
+                let longest = slots.iter().map(|slot| slot.len() as u32).max();
+                assert_eq!(longest, Some(plan.clocks_per_pixel()));
+                assert!(slots.iter().all(|slot| !slot.is_empty()));
+                let served: Vec<usize> = slots.into_iter().flatten().collect();
+                assert_eq!(served, (0..plan.channels().len()).collect::<Vec<_>>());
+                checked += 1;
+            }
         }
-        assert_eq!(checked, 3);
+        assert_eq!(checked, 4 + 5 + 6 + 7 + 8);
     }
 }

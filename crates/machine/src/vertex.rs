@@ -1,16 +1,58 @@
 //! Vertices as they stand at the machine's port.
 
+use crate::channel::{Channel, Kind, MAX_CHANNELS};
 use crate::plan::Plan;
 
-/// A vertex at the port: snapped and quantised.
+/// The formats of a vertex port, as a number: vertices of another machine carry another one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct PortStamp(u32);
+
+impl PortStamp {
+    /// Stands for the numbers of bits that decide how a vertex is read (FNV-1a over them).
+    pub fn of(guard_bits: u32, subpixel_bits: u32, channels: &[Channel]) -> PortStamp {
+        let formats = channels.iter().flat_map(|c| [c.kind as u32, c.bits, c.vertex_fraction]);
+        let numbers = [guard_bits, subpixel_bits].into_iter().chain(formats);
+        PortStamp(numbers.fold(0x811c_9dc5, |hash, number| (hash ^ number).wrapping_mul(0x0100_0193)))
+    }
+}
+
+/// A vertex at the port of one machine: snapped and quantised. Only a [`Plan`] makes one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PortVertex {
+    x: i32,
+    y: i32,
+    values: [i64; MAX_CHANNELS],
+    stamp: PortStamp,
+}
+
+impl PortVertex {
     /// x, signed, `s` fraction bits, px to the right.
-    pub x: i32,
+    #[must_use]
+    pub fn x(&self) -> i32 {
+        self.x
+    }
+
     /// y, signed, `s` fraction bits, px down.
-    pub y: i32,
-    /// Z, R, G, B: unsigned, `e` fraction bits below the output's LSB.
-    pub value: [u64; 4],
+    #[must_use]
+    pub fn y(&self) -> i32 {
+        self.y
+    }
+
+    /// The channels' values in their order, `e` fraction bits below the output's LSB; behind the last channel 0.
+    #[must_use]
+    pub fn values(&self) -> &[i64; MAX_CHANNELS] {
+        &self.values
+    }
+}
+
+/// A vertex was made for the port of a machine with other formats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "triangle {triangle} was made for a machine with another vertex port; make its vertices by this machine's plan"
+)]
+pub struct ForeignVertex {
+    /// Number of the triangle, in the order of arrival.
+    pub triangle: u64,
 }
 
 /// Why a vertex cannot enter the machine.
@@ -28,24 +70,54 @@ pub enum VertexError {
         /// 2^G - 1, px.
         limit: f64,
     },
-    /// A depth or colour outside [0, 1], or not a number.
-    #[error("{channel} = {value} lies outside 0 to 1")]
+    /// A value outside what its channel holds, or not a number.
+    #[error("{channel} = {value} lies outside {low} to {high}")]
     Channel {
-        /// `z`, `r`, `g` or `b`.
+        /// Name of the channel.
         channel: &'static str,
         /// The value.
         value: f64,
+        /// Least permitted.
+        low: f64,
+        /// Largest permitted.
+        high: f64,
+    },
+    /// More or fewer values than the machine has channels.
+    #[error("a vertex of this machine has {expected} values, not {found}")]
+    Count {
+        /// Channels of the machine.
+        expected: usize,
+        /// Values given.
+        found: usize,
     },
 }
 
+impl Channel {
+    /// What the host may give at a vertex: 0 to 1 for `unorm`, else LSB of the output up to the limit.
+    #[must_use]
+    pub fn host_range(&self) -> (f64, f64) {
+        match self.kind {
+            Kind::Unorm => (0.0, 1.0),
+            Kind::Signed | Kind::Floor => (-(self.limit() as f64), self.limit() as f64),
+        }
+    }
+
+    /// LSB of the output that the host's 1 stands for.
+    #[must_use]
+    pub fn host_unit(&self) -> f64 {
+        if self.kind == Kind::Unorm { self.max() as f64 } else { 1.0 }
+    }
+}
+
 impl Plan {
-    /// Snaps a vertex (px, and Z, R, G, B in [0,1]) to the port's formats, each rounded half to even.
+    /// Snaps a vertex (px; z, r, g, b in [0,1]; extra channels as their kind wants) to the port's formats, each rounded
+    /// half to even.
     ///
     /// Errors of the result: 2^-(s+1) px in x and y, 2^-(e+1) LSB in a channel.
     ///
     /// # Errors
-    /// What lies outside the guard band or outside [0,1].
-    pub fn port_vertex(&self, x: f64, y: f64, values: [f64; 4]) -> Result<PortVertex, VertexError> {
+    /// What lies outside the guard band or a channel's range, and a number of values that is not that of the channels.
+    pub fn port_vertex(&self, x: f64, y: f64, values: &[f64]) -> Result<PortVertex, VertexError> {
         let limit = f64::from((1u32 << self.guard_bits) - 1);
         let snap = |axis: &'static str, value: f64| {
             let snapped = (value * f64::from(1u32 << self.subpixel_bits)).round_ties_even();
@@ -55,14 +127,92 @@ impl Plan {
                 Err(VertexError::Guard { axis, value, limit })
             }
         };
-        let mut vertex = PortVertex { x: snap("x", x)?, y: snap("y", y)?, value: [0; 4] };
-        for (i, (channel, name)) in self.channels().iter().zip(["z", "r", "g", "b"]).enumerate() {
-            if !(0.0..=1.0).contains(&values[i]) {
-                return Err(VertexError::Channel { channel: name, value: values[i] });
-            }
-            let scale = channel.max() as f64 * f64::from(1u32 << channel.vertex_fraction);
-            vertex.value[i] = (values[i] * scale).round_ties_even() as u64;
+        let (x, y) = (snap("x", x)?, snap("y", y)?);
+        let expected = self.channels().len();
+        if values.len() != expected {
+            return Err(VertexError::Count { expected, found: values.len() });
         }
-        Ok(vertex)
+        let mut port = [0; MAX_CHANNELS];
+        for ((channel, value), port) in self.channels().iter().zip(values).zip(&mut port) {
+            let (low, high) = channel.host_range();
+            if !(low..=high).contains(value) {
+                return Err(VertexError::Channel { channel: channel.name, value: *value, low, high });
+            }
+            let scale = channel.host_unit() * f64::from(1u32 << channel.vertex_fraction);
+            *port = (value * scale).round_ties_even() as i64;
+        }
+        Ok(PortVertex { x, y, values: port, stamp: self.port_stamp() })
+    }
+
+    /// A vertex of these numbers as the port has them: x and y with `s`, values with `e` fraction bits. What has more bits
+    /// than the port is not seen by the machine; values behind the last channel are 0.
+    #[must_use]
+    pub fn raw_vertex(&self, x: i32, y: i32, values: &[i64]) -> PortVertex {
+        let mut port = [0; MAX_CHANNELS];
+        for (port, value) in port.iter_mut().zip(values).take(self.channels().len()) {
+            *port = *value;
+        }
+        PortVertex { x, y, values: port, stamp: self.port_stamp() }
+    }
+
+    /// Takes the triangle with this number if its vertices were made for this machine's port.
+    ///
+    /// # Errors
+    /// Vertices of another machine.
+    pub fn accept(&self, triangle: &[PortVertex; 3], number: u64) -> Result<(), ForeignVertex> {
+        if triangle.iter().all(|vertex| vertex.stamp == self.port_stamp()) {
+            return Ok(());
+        }
+        Err(ForeignVertex { triangle: number })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Machine;
+
+    fn with_extra(kind: &str) -> Plan {
+        let mut machine = Machine::default();
+        for (key, value) in [("channels.extra", "1"), ("channels.e0_kind", kind)] {
+            machine.set(key, value).expect("a key");
+        }
+        machine.plan().expect("can be built")
+    }
+
+    #[test]
+    fn values_are_rounded_to_even_in_their_own_unit() {
+        let plan = with_extra("signed");
+        let vertex = plan.port_vertex(-0.5, 2.0, &[1.0, 0.0, 0.5, 1.0, -7.5]).expect("inside");
+        assert_eq!((vertex.x(), vertex.y()), (-128, 512));
+        assert_eq!(vertex.values()[..5], [((1 << 24) - 1) << 4, 0, 2040, 4080, -120]);
+        assert_eq!(vertex.values()[5..], [0; 3]);
+    }
+
+    #[test]
+    fn what_a_channel_cannot_hold_is_refused() {
+        let plan = with_extra("floor");
+        let with = |value: f64| plan.port_vertex(0.0, 0.0, &[0.0, 0.0, 0.0, 0.0, value]);
+        assert!(with(2047.0).is_ok() && with(-2047.0).is_ok());
+        for value in [2047.1, -2048.0, f64::NAN, f64::INFINITY] {
+            let error = with(value).expect_err("outside").to_string();
+            assert_eq!(error, format!("e0 = {value} lies outside -2047 to 2047"));
+        }
+        assert_eq!(
+            plan.port_vertex(0.0, 0.0, &[0.0; 4]).expect_err("too few").to_string(),
+            "a vertex of this machine has 5 values, not 4"
+        );
+    }
+
+    #[test]
+    fn vertices_of_another_port_are_refused() {
+        let (plan, other) = (Plan::default(), with_extra("signed"));
+        let own = [plan.raw_vertex(1, 2, &[3, 4, 5, 6]); 3];
+        assert_eq!(plan.accept(&own, 0), Ok(()));
+        assert_eq!(other.accept(&own, 7), Err(ForeignVertex { triangle: 7 }));
+        assert_eq!(plan.accept(&[PortVertex::default(); 3], 1), Err(ForeignVertex { triangle: 1 }));
+        // What changes nothing at the port changes nothing for its vertices.
+        let slow = Machine { adders: 1, ..Machine::default() }.plan().expect("can be built");
+        assert_eq!(slow.accept(&own, 0), Ok(()));
     }
 }
