@@ -60,7 +60,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 
 fn while_it_is_read(file: &Path, machine: &MachineArgs, talk: Talk) -> Result<(Raster, Report)> {
     let (machine, frame, path) = match fast::draw_file(file, machine, talk.quiet) {
-        Err(error) if matches!(error.downcast_ref(), Some(InputError::Polygon(_))) => {
+        Err(error) if matches!(error.downcast_ref(), Some(InputError::NeedsWhole(_))) => {
             return whole(file, Engine::Fast, machine, talk);
         }
         drawn => drawn?,
