@@ -25,20 +25,29 @@ pub struct Report {
 
 impl Report {
     /// A report without a comparison.
-    pub fn new(name: &str, triangles: u64, machine: &Plan, drawn: &Raster) -> Self {
-        Report {
+    pub fn new(name: &str, triangles: u64, machine: &Machine, drawn: &Raster) -> Self {
+        let mut report = Report {
             name: name.to_owned(),
             machine: machine.clone(),
             triangles,
             polygons: 0,
-            covered: drawn.coverage.iter().map(|c| u64::from(*c)).sum(),
-            // A closed mesh covers every pixel an even number of times, whatever the view.
-            odd_pixels: drawn.coverage.iter().map(|c| u64::from(c % 2)).sum(),
-            writes: drawn.writes.iter().map(|c| u64::from(*c)).sum(),
+            covered: 0,
+            odd_pixels: 0,
+            writes: 0,
             cycles: drawn.cycles,
             corners: drawn.corners.clone(),
             comparison: None,
-        }
+        };
+        report.add(drawn);
+        report
+    }
+
+    /// Counts the next lines of the picture in.
+    pub fn add(&mut self, band: &Raster) {
+        self.covered += band.coverage.iter().map(|c| u64::from(*c)).sum::<u64>();
+        // A closed mesh covers every pixel an even number of times, whatever the view.
+        self.odd_pixels += band.coverage.iter().map(|c| u64::from(c % 2)).sum::<u64>();
+        self.writes += band.writes.iter().map(|c| u64::from(*c)).sum::<u64>();
     }
 
     /// The same of an input that has polygons too.
@@ -158,12 +167,7 @@ impl Report {
 
     /// To standard output, as asked.
     pub fn print(&self, talk: Talk) -> Result<()> {
-        if talk.json {
-            print!("{}", self.json()?);
-        } else if !talk.quiet {
-            print!("{}", self.text());
-        }
-        Ok(())
+        talk.say(|| self.json(), || self.text())
     }
 }
 

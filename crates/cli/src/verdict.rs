@@ -1,6 +1,7 @@
 //! How a command ends: the exit codes every subcommand shares.
 
 use edgewalk_vectors::{SimulateError, Stop};
+use std::io::Write as _;
 use std::process::ExitCode;
 
 /// What a command found.
@@ -38,8 +39,12 @@ impl Verdict {
         }
     }
 
-    /// 0 pass, 1 mismatch, 2 vacuous (and bad input).
+    /// 0 pass, 1 mismatch, 2 vacuous (and bad input). That nothing was compared is an error, and said even by a quiet program.
     pub fn exit_code(self) -> ExitCode {
+        if self == Verdict::Vacuous {
+            // Where standard error is closed the code has to do.
+            _ = writeln!(std::io::stderr(), "edgewalk: nothing was compared");
+        }
         ExitCode::from(match self {
             Verdict::Pass => 0,
             Verdict::Mismatch => 1,

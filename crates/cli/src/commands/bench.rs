@@ -66,6 +66,6 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    Table::new(&whole, rows).print(talk);
+    Table::new(&whole, rows).print(talk)?;
     Ok(Verdict::Pass)
 }

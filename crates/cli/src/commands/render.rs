@@ -53,6 +53,20 @@ pub struct Args {
     out: PathBuf,
 }
 
+/// What a run may write.
+pub const FILES: [&str; 10] = [
+    "image.png",
+    "golden.png",
+    "z_error.png",
+    "color_error.png",
+    "truth.png",
+    "shading_error.png",
+    "phong.png",
+    "phong_error.png",
+    "report.json",
+    "report.txt",
+];
+
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = machine.machine(None)?;
@@ -77,7 +91,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (report, verdict) = pictures(&args.source.input, &frame, &machine, args.engine, &out, talk.quiet)?;
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
-    out.publish()?;
+    out.publish(&FILES)?;
     report.print(talk)?;
     Ok(verdict)
 }
@@ -93,7 +107,7 @@ fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
         .with_polygons(frame.polygons.len() as u64);
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
-    out.publish()?;
+    out.publish(&FILES)?;
     report.print(talk)?;
     Ok(Verdict::Pass)
 }
@@ -137,7 +151,7 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     }
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
-    out.publish()?;
+    out.publish(&FILES)?;
     report.print(talk)?;
     Ok(Verdict::of(error.pixels, error.pixels, 0))
 }
