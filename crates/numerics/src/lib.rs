@@ -17,7 +17,7 @@ pub mod budget;
 pub mod vertex;
 
 pub use bounds::Prestep;
-pub use budget::ErrorBudget;
+pub use budget::{ErrorBudget, NoBound};
 pub use dyadic::Dyadic;
 pub use format::{Format, FormatError};
 pub use interval::Interval;

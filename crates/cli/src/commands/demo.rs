@@ -47,5 +47,5 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         println!("verilog   {at}/hdl, {} modules", modules.len());
         println!("vectors   {at}/vectors: {}", suites.join(" "));
     }
-    Ok(verdict)
+    verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
 }
