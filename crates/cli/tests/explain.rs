@@ -119,9 +119,13 @@ fn errors_are_those_of_the_sums_in_json_and_in_text() {
     }
     let last = numbers(&additions.last().expect("the last")["error"]);
     let row = rows.last().expect("a row");
-    let printed: Vec<f64> = row.split_whitespace().rev().take(4).map(|n| n.parse().expect("a number")).collect();
+    let printed: Vec<f64> =
+        row.split_whitespace().rev().take(4).map(|n| n.parse().expect("a number")).collect();
     assert!((printed[3] - last[0]).abs() < 1e-6 && (printed[1] - last[1]).abs() < 1e-6, "{row}: {last:?}");
     println!("{} additions, largest error {largest:.6} LSB", additions.len());
     assert!(additions.len() > 20 && largest > 2e-5, "{largest}");
-    assert!(last.iter().take(2).all(|error| error.abs() > 1e-6), "{last:?}: an error that shows in six digits");
+    assert!(
+        last.iter().take(2).all(|error| error.abs() > 1e-6),
+        "{last:?}: an error that shows in six digits"
+    );
 }

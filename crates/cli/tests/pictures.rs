@@ -55,7 +55,8 @@ fn npy(path: &Path) -> (String, Vec<usize>, Vec<u8>) {
         from.split_once(end).unwrap().0.to_owned()
     };
     let shape = behind("'shape':", ')');
-    let shape = shape.split(',').map(str::trim).filter(|n| !n.is_empty()).map(|n| n.parse().unwrap()).collect();
+    let shape =
+        shape.split(',').map(str::trim).filter(|n| !n.is_empty()).map(|n| n.parse().unwrap()).collect();
     (behind("'descr':", '\''), shape, bytes[10 + length..].to_vec())
 }
 
@@ -146,7 +147,8 @@ fn the_heat_map_runs_from_blue_over_yellow_to_red() {
     let text = format!("size 5 3\nT 0 0 .5 {low} 0 0 0  90 0 .5 {high} 0 0 0  0 90 .5 {low} 0 0 0\n");
     std::fs::write(folder.path().join("a.tri"), text).unwrap();
     let mut arguments = vec!["render", "a.tri", "-q", "--out", "out"];
-    for setting in ["screen.width=5", "screen.height=3", "formats.color_fraction=0", "formats.color_vertex=0"] {
+    for setting in ["screen.width=5", "screen.height=3", "formats.color_fraction=0", "formats.color_vertex=0"]
+    {
         arguments.extend(["--set", setting]);
     }
     let output = Command::new(env!("CARGO_BIN_EXE_edgewalk"))
@@ -160,8 +162,11 @@ fn the_heat_map_runs_from_blue_over_yellow_to_red() {
     for x in 0..WIDTH {
         // 6.3 at the first centre, of which the machine keeps 6.
         let error = (0.4 * x as f64 - 0.3).abs();
-        let expected =
-            if error > 1.0 { [255.0, 0.0, 0.0] } else { [error * 255.0, error * 220.0, (1.0 - error) * 160.0] };
+        let expected = if error > 1.0 {
+            [255.0, 0.0, 0.0]
+        } else {
+            [error * 255.0, error * 220.0, (1.0 - error) * 160.0]
+        };
         for (k, value) in expected.into_iter().enumerate() {
             assert!((f64::from(map[x][k]) - value).abs() <= 1.01, "{x}: {:?} for {error}", map[x]);
         }

@@ -54,7 +54,8 @@ fn a_wide_triangle_wraps_with_four_fraction_bits_and_not_with_fourteen() {
 #[test]
 fn an_error_over_one_lsb_without_a_bound_is_a_mismatch() {
     let folder = tempfile::tempdir().unwrap();
-    let settings = ["color_fraction", "color_vertex", "z_fraction", "z_vertex"].map(|key| format!("formats.{key}=0"));
+    let settings =
+        ["color_fraction", "color_vertex", "z_fraction", "z_vertex"].map(|key| format!("formats.{key}=0"));
     let mut arguments = vec!["render", "torus-knot", "--json", "--out", "out"];
     for setting in &settings {
         arguments.extend(["--set", setting]);

@@ -1,5 +1,7 @@
 //! `edgewalk config`: print, check and explain a machine.
 
+mod precision;
+
 use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
@@ -7,9 +9,11 @@ use edgewalk_numerics::Machine;
 use edgewalk_numerics::machine::keys::KEYS;
 use edgewalk_numerics::machine::nearest::nearest;
 use edgewalk_numerics::machine::presets::PRESETS;
+use precision::Precision;
 use serde_json::json;
 
-/// Prints, checks or explains a machine.
+/// Prints, checks or explains a machine: what its keys mean, which error of its outputs is proved, how many fraction bits its
+/// screen needs.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk config print --machine textbook > my.toml
@@ -56,7 +60,8 @@ fn explain(machine: &Machine, key: Option<&str>, json: bool) -> Result<()> {
             .iter()
             .map(|k| json!({ "key": k.name, "value": k.show(machine), "permitted": k.permitted(), "doc": k.doc }))
             .collect();
-        println!("{}", serde_json::to_string_pretty(&list)?);
+        let all = key.is_none().then(|| Precision::of(machine));
+        println!("{}", serde_json::to_string_pretty(&json!({ "keys": list, "precision": all }))?);
         return Ok(());
     }
     for k in chosen {
@@ -68,13 +73,13 @@ fn explain(machine: &Machine, key: Option<&str>, json: bool) -> Result<()> {
         println!("\nwhat follows");
         println!("    vertex x, y            s{}.{} px", machine.guard_bits, machine.subpixel_bits);
         println!(
-            "    z word                 Q{}.{}, {} bits, modular",
+            "    z word                 UQ{}.{}, {} bits, modular",
             machine.z.bits,
             machine.z.fraction,
             machine.z.word()
         );
         println!(
-            "    colour words           Q{}.{}, {} bits, modular",
+            "    colour words           UQ{}.{}, {} bits, modular",
             machine.color.bits,
             machine.color.fraction,
             machine.color.word()
@@ -86,6 +91,7 @@ fn explain(machine: &Machine, key: Option<&str>, json: bool) -> Result<()> {
             (setup.phase1 + setup.phase2),
             setup.phase1
         );
+        print!("{}", Precision::of(machine).text());
         println!("\npresets");
         for (name, doc) in PRESETS {
             println!("    {name:<22} {doc}");
