@@ -23,7 +23,8 @@ pub enum Engine {
     Rtl,
 }
 
-/// A picture, or a band of lines of one: row 0 on top, [y][x].
+/// A picture: row 0 on top, [y][x].
+#[derive(Clone)]
 pub struct Raster {
     /// Columns.
     pub width: u32,
@@ -58,6 +59,11 @@ pub struct Cycles {
 }
 
 impl Cycles {
+    /// How many cycles have no cause, or more than one.
+    pub fn unexplained(&self) -> u64 {
+        self.total.abs_diff(self.spent.iter().sum())
+    }
+
     /// Cycles spent on this.
     pub fn spent(&self, activity: Activity) -> u64 {
         self.spent[activity as usize]

@@ -21,11 +21,17 @@ pub fn write_heat(
     lsb: &[f64],
     full: f64,
 ) -> Result<()> {
-    write(out, name, width, height, |i| match lsb[i] / full {
+    write(out, name, width, height, |i| heat(lsb[i] / full))
+}
+
+/// The colour of an error, 1 being the largest that is expected.
+pub fn heat(error: f64) -> [u8; 3] {
+    match error {
         0.0 => [0, 0, 0],
-        e if e > 1.0 => [255, 0, 0],
-        e => [(e * 255.0) as u8, (e * 220.0) as u8, ((1.0 - e) * 160.0) as u8],
-    })
+        e if e <= 1.0 => [(e * 255.0) as u8, (e * 220.0) as u8, ((1.0 - e) * 160.0) as u8],
+        // What is no number is too much as well.
+        _ => [255, 0, 0],
+    }
 }
 
 /// The heat map of a shading system, yellow at its largest error.
@@ -106,4 +112,24 @@ impl io::Write for SharedFile {
 /// A colour in [0,1] in 8 bits.
 fn bytes(color: [f64; 3]) -> [u8; 3] {
     color.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::heat;
+
+    #[test]
+    fn heat_runs_from_black_over_blue_and_yellow_to_red() {
+        let table = [
+            (0.0, [0, 0, 0]),
+            (1e-9, [0, 0, 159]),
+            (0.5, [127, 110, 80]),
+            (1.0, [255, 220, 0]),
+            (1.0001, [255, 0, 0]),
+            (f64::NAN, [255, 0, 0]),
+        ];
+        for (error, color) in table {
+            assert_eq!(heat(error), color, "{error}");
+        }
+    }
 }

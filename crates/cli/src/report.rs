@@ -62,6 +62,16 @@ impl Report {
         self
     }
 
+    /// Triangles and polygons over all pixels together.
+    pub fn covered(&self) -> u64 {
+        self.covered
+    }
+
+    /// Triangles and polygons of the input.
+    pub fn primitives(&self) -> u64 {
+        self.triangles + self.polygons
+    }
+
     /// As JSON, keys in a fixed order.
     pub fn value(&self) -> Result<Value> {
         let mut report = json!({
@@ -128,22 +138,7 @@ impl Report {
         );
         let _ = writeln!(t, "fragments {}, writes {}", self.covered, self.writes);
         if let Some(c) = &self.comparison {
-            let _ = writeln!(t, "coverage mismatches {} / {}", c.coverage_mismatches, c.pixels);
-            let _ = writeln!(
-                t,
-                "largest z error       {:.4} LSB of {} bits, proved bound {:.4}",
-                c.z_error, m.z.bits, c.z_bound
-            );
-            let _ = writeln!(
-                t,
-                "largest colour error  {:.4} LSB of {} bits, proved bound {:.4}",
-                c.color_error, m.color.bits, c.color_bound
-            );
-            let _ = writeln!(
-                t,
-                "pixels compared {}, depth order undecided within the bound {}, wrong {}",
-                c.shaded, c.order_undecided, c.order_wrong
-            );
+            compared(&mut t, m, c);
         }
         if let Some(c) = &self.cycles {
             let setup = edgewalk_model::setup_clocks(m);
@@ -169,6 +164,36 @@ impl Report {
     pub fn print(&self, talk: Talk) -> Result<()> {
         talk.say(|| self.json(), || self.text())
     }
+}
+
+/// What the comparison found. Writing to a string cannot fail.
+fn compared(t: &mut String, machine: &Machine, c: &Comparison) {
+    let bound = |bound: Option<f64>, why: &Option<String>| match (bound, why) {
+        (Some(bound), _) => format!("proved bound {bound:.4}"),
+        (None, why) => format!("no bound: {}", why.as_deref().unwrap_or_default()),
+    };
+    _ = writeln!(t, "compared {} / {} covered pixels", c.compared, c.covered);
+    _ = writeln!(t, "coverage mismatches {} / {}", c.coverage_mismatches, c.pixels);
+    _ = writeln!(
+        t,
+        "largest z error       {:.4} LSB of {} bits, {}",
+        c.z_error,
+        machine.z.bits,
+        bound(c.z_bound, &c.z_no_bound)
+    );
+    _ = writeln!(
+        t,
+        "largest colour error  {:.4} LSB of {} bits, {}",
+        c.color_error,
+        machine.color.bits,
+        bound(c.color_bound, &c.color_no_bound)
+    );
+    _ = writeln!(t, "pixels whose depth or colour wrapped {}", c.wrapped);
+    _ = writeln!(
+        t,
+        "triangle or writes differ: {} within the bound of depth order, {} wrong; background wrong {}",
+        c.order_undecided, c.order_wrong, c.background_wrong
+    );
 }
 
 fn ratio(part: u64, whole: u64) -> f64 {

@@ -1,5 +1,7 @@
 //! `edgewalk config`: print, check and explain a machine.
 
+mod precision;
+
 use crate::machine_args::MachineArgs;
 use crate::talk;
 use crate::verdict::Verdict;
@@ -7,11 +9,12 @@ use anyhow::{Result, anyhow};
 use edgewalk_numerics::machine::keys::KEYS;
 use edgewalk_numerics::machine::nearest::nearest;
 use edgewalk_numerics::machine::presets::PRESETS;
-use edgewalk_numerics::{Channel, Machine};
+use precision::Precision;
 use serde_json::json;
 use std::fmt::Write as _;
 
-/// Prints, checks or explains a machine.
+/// Prints, checks or explains a machine: what its keys mean, which error of its outputs is proved, how many fraction bits its
+/// screen needs.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk config print --machine textbook > my.toml
@@ -59,7 +62,9 @@ fn explain(machine: &Machine, key: Option<&str>, json: bool) -> Result<String> {
             .iter()
             .map(|k| json!({ "key": k.name, "value": k.show(machine), "permitted": k.permitted(), "doc": k.doc }))
             .collect();
-        return Ok(serde_json::to_string_pretty(&list)?);
+        let all = key.is_none().then(|| Precision::of(machine));
+        println!("{}", serde_json::to_string_pretty(&json!({ "keys": list, "precision": all }))?);
+        return Ok(());
     }
     let mut text = String::new();
     for k in chosen {
@@ -74,7 +79,34 @@ fn explain(machine: &Machine, key: Option<&str>, json: bool) -> Result<String> {
         );
     }
     if key.is_none() {
-        text += &consequences(machine);
+        let w = machine.widths();
+        let setup = edgewalk_model::setup_clocks(machine);
+        println!("\nwhat follows");
+        println!("    vertex x, y            s{}.{} px", machine.guard_bits, machine.subpixel_bits);
+        println!(
+            "    z word                 UQ{}.{}, {} bits, modular",
+            machine.z.bits,
+            machine.z.fraction,
+            machine.z.word()
+        );
+        println!(
+            "    colour words           UQ{}.{}, {} bits, modular",
+            machine.color.bits,
+            machine.color.fraction,
+            machine.color.word()
+        );
+        println!("    address                {} bits: line {} bits, column {} bits", w.address, w.y, w.x);
+        println!("    pixel rate in a span   1/{} pixel a clock", machine.clocks_per_pixel());
+        println!(
+            "    setup                  {} clocks a triangle, {} if culled",
+            (setup.phase1 + setup.phase2),
+            setup.phase1
+        );
+        print!("{}", Precision::of(machine).text());
+        println!("\npresets");
+        for (name, doc) in PRESETS {
+            println!("    {name:<22} {doc}");
+        }
     }
     Ok(text)
 }

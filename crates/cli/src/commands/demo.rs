@@ -53,5 +53,5 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             suites.join(" ")
         ))?;
     }
-    Ok(verdict)
+    verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
 }

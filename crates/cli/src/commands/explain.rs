@@ -103,8 +103,18 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             _ => None,
         },
     };
-    talk.say(|| Ok(serde_json::to_string(&explanation)?), || text(&explanation))?;
-    Ok(Verdict::Pass)
+    if talk.json {
+        println!("{}", serde_json::to_string(&explanation)?);
+    } else if !talk.quiet {
+        print!("{}", text(&explanation));
+    }
+    // A pixel may be empty, but not the whole picture.
+    let covered = picture.coverage.iter().map(|count| u64::from(*count)).sum();
+    Verdict::drew(covered).or_nothing(
+        &args.source.input,
+        frame.triangles.len() as u64,
+        (machine.width, machine.height),
+    )
 }
 
 /// The triangles over a pixel, by the exact rule.

@@ -65,7 +65,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     out.write("report.json", report.json()?)?;
     out.publish(&FILES)?;
     report.print(talk)?;
-    Ok(Verdict::Pass)
+    let size = (drawn.width, drawn.height);
+    Verdict::drew(report.covered()).or_nothing(&args.file.display().to_string(), report.primitives(), size)
 }
 
 fn while_it_is_read(

@@ -93,7 +93,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
     report.print(talk)?;
-    Ok(verdict)
+    verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
 }
 
 /// Draws the edges.
@@ -109,7 +109,8 @@ fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
     report.print(talk)?;
-    Ok(Verdict::Pass)
+    let primitives = (frame.triangles.len() + frame.polygons.len()) as u64;
+    Verdict::drew(report.covered()).or_nothing(&args.source.input, primitives, (drawn.width, drawn.height))
 }
 
 /// Draws by a shading system and writes it beside the truth.
@@ -153,7 +154,7 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
     report.print(talk)?;
-    Ok(Verdict::of(error.pixels, error.pixels, 0))
+    Verdict::drew(error.pixels).or_nothing(&args.source.input, surface.triangles.len() as u64, (w, h))
 }
 
 /// Draws, compares, and writes golden.png, the engine's picture and the two heat maps.
@@ -167,7 +168,7 @@ pub fn pictures(
 ) -> Result<(Report, Verdict)> {
     let golden = draw(Engine::Golden, frame, machine, quiet)?;
     let drawn = draw(engine, frame, machine, quiet)?;
-    let comparison = compare(machine, &golden, &drawn);
+    let comparison = compare(machine, frame, &golden, &drawn);
     let (w, h) = (drawn.width, drawn.height);
     picture::write_rgb(out, "golden.png", w, h, &golden.rgb)?;
     picture::write_rgb(out, "image.png", w, h, &drawn.rgb)?;
