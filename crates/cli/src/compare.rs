@@ -16,7 +16,7 @@ mod tests;
 use crate::engine::Raster;
 use crate::verdict::Verdict;
 use channel::Tally;
-use edgewalk_numerics::Machine;
+use edgewalk_machine::Plan;
 use edgewalk_scene::Frame;
 use order::Orders;
 use serde::Serialize;
@@ -68,7 +68,7 @@ pub struct Comparison {
 }
 
 /// Compares the pictures of `frame`, which has triangles only.
-pub fn compare(machine: &Machine, frame: &Frame, golden: &Raster, drawn: &Raster) -> Comparison {
+pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -> Comparison {
     let mut tally = Tally::new(machine, golden, drawn);
     let mut c = Comparison {
         pixels: 0,

@@ -5,6 +5,7 @@ use crate::input::to_port;
 use crate::progress::bar;
 use anyhow::{Result, anyhow};
 use edgewalk_golden::Drawing;
+use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::fast::Path;
 use edgewalk_model::{Activity, Coverage, Stalls};
 use edgewalk_scene::Frame;
@@ -101,7 +102,7 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Resul
 pub fn draw_bands(
     engine: Engine,
     frame: &Frame,
-    machine: &Machine,
+    machine: &Plan,
     quiet: bool,
     mut take: impl FnMut(Raster) -> Result<()>,
 ) -> Result<()> {
@@ -125,7 +126,7 @@ const GOLDEN_BAND: u32 = 1 << 22;
 const FAST_BAND: u32 = 1 << 18;
 
 /// The bands in which what the fast engine drew is taken from it.
-pub fn fast_bands(machine: &Machine) -> impl Iterator<Item = Range<u32>> + use<> {
+pub fn fast_bands(machine: &Plan) -> impl Iterator<Item = Range<u32>> + use<> {
     bands(machine.width, machine.height, FAST_BAND)
 }
 

@@ -5,9 +5,9 @@ use crate::input::{draw_state, port_triangle};
 use crate::progress::bar;
 use crate::triangles::TriangleFile;
 use anyhow::{Context, Result};
+use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::fast::{Path, Reason, Renderer};
 use edgewalk_model::{DrawState, Frame, Stalls, render};
-use edgewalk_numerics::{Machine, PortVertex};
 use std::ops::Range;
 
 /// A frame that was drawn.
@@ -28,7 +28,7 @@ impl Drawn {
     }
 
     /// The whole picture.
-    pub fn raster(self, machine: &Machine) -> Raster {
+    pub fn raster(self, machine: &Plan) -> Raster {
         match self {
             Drawn::Fast(renderer) => from_fast(machine, renderer.frame(), Path::Fast),
             Drawn::Ticked(frame, reason) => from_fast(machine, frame, Path::Ticked(reason)),
@@ -38,7 +38,7 @@ impl Drawn {
     /// The picture from the top, in bands of so many lines; what was ticked is one band.
     pub fn bands(
         self,
-        machine: &Machine,
+        machine: &Plan,
         bands: impl Iterator<Item = Range<u32>>,
         mut take: impl FnMut(Raster) -> Result<()>,
     ) -> Result<()> {
@@ -54,7 +54,7 @@ impl Drawn {
 
 /// Draws without ticking where that is exact, else cycle by cycle. `open` goes to the first triangle; it is called a
 /// second time where drawing without ticking was in vain.
-pub fn draw<I>(machine: &Machine, state: DrawState, mut open: impl FnMut() -> Result<I>) -> Result<Drawn>
+pub fn draw<I>(machine: &Plan, state: DrawState, mut open: impl FnMut() -> Result<I>) -> Result<Drawn>
 where
     I: Iterator<Item = Result<[PortVertex; 3]>>,
 {
@@ -86,7 +86,7 @@ where
 pub fn draw_file(
     file: &TriangleFile,
     header: &edgewalk_scene::Frame,
-    machine: &Machine,
+    machine: &Plan,
     quiet: bool,
 ) -> Result<Drawn> {
     let named = || file.name().to_owned();

@@ -2,8 +2,8 @@
 
 use crate::machine_args::MachineArgs;
 use anyhow::{Context as _, Result, anyhow};
+use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::DrawState;
-use edgewalk_numerics::{Machine, PortVertex};
 use edgewalk_scene::{DepthFunc, Frame, Scene, ShadeMode, Surface, Triangle, Triangulated, triangle_file};
 use std::path::Path;
 
@@ -120,7 +120,7 @@ impl Source {
     }
 
     /// The frame, and the machine with the screen of the triangle file, if it is one.
-    pub fn on_its_screen(&self, args: &MachineArgs) -> Result<(Machine, Frame)> {
+    pub fn on_its_screen(&self, args: &MachineArgs) -> Result<(Plan, Frame)> {
         if !self.is_triangle_file() {
             let machine = args.machine(None)?;
             let frame = self.frame(&machine)?;
@@ -134,7 +134,7 @@ impl Source {
 
     /// The frame as the machine draws it. A triangle file keeps its own size and mode; its polygons become triangles, so
     /// that machine and golden picture interpolate the same.
-    pub fn frame(&self, machine: &Machine) -> Result<Frame> {
+    pub fn frame(&self, machine: &Plan) -> Result<Frame> {
         if self.is_triangle_file() {
             return in_triangles(self.outlined(machine)?, machine);
         }
@@ -143,7 +143,7 @@ impl Source {
     }
 
     /// The same of a scene and its surface on the machine's screen.
-    pub fn frame_of(&self, scene: &Scene, surface: &Surface, machine: &Machine) -> Result<Frame> {
+    pub fn frame_of(&self, scene: &Scene, surface: &Surface, machine: &Plan) -> Result<Frame> {
         let refused = match self.shading {
             Shading::Phong => Some("phong: the machine has no unit for normals yet"),
             Shading::FastPhong => Some("fast-phong: the machine has no unit for normals yet"),
@@ -166,7 +166,7 @@ impl Source {
     }
 
     /// The triangle file's frame, if it is as large as the machine's screen.
-    fn fitting(&self, frame: Frame, machine: &Machine) -> Result<Frame> {
+    fn fitting(&self, frame: Frame, machine: &Plan) -> Result<Frame> {
         if (frame.width, frame.height) != (machine.width, machine.height) {
             return Err(anyhow!(
                 "{}: size {} {}: the machine's screen is {}x{}; add --set screen.width={} --set screen.height={}",
@@ -184,7 +184,7 @@ impl Source {
 }
 
 /// The frame with its polygons as triangles.
-fn in_triangles(frame: Frame, machine: &Machine) -> Result<Frame> {
+fn in_triangles(frame: Frame, machine: &Plan) -> Result<Frame> {
     let triangles = frame.triangulated(machine.subpixel_bits)?.triangles.into_owned();
     Ok(Frame { triangles, polygons: Vec::new(), ..frame })
 }

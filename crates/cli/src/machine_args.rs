@@ -1,9 +1,9 @@
 //! `--machine FILE|PRESET` and `--set key=value`, the same for every command.
 
 use anyhow::{Context, Result, anyhow};
-use edgewalk_numerics::Machine;
-use edgewalk_numerics::machine::nearest::nearest;
-use edgewalk_numerics::machine::presets::PRESETS;
+use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::presets::PRESETS;
+use edgewalk_machine::{Machine, Plan};
 use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
@@ -36,8 +36,7 @@ impl MachineArgs {
             })?;
             machine.set(key.trim(), value.trim()).map_err(|e| anyhow!("--set {setting}: {e}"))?;
         }
-        machine.check().map_err(|e| anyhow!("{}: {e}", self.asked_for(size)))?;
-        Ok(machine)
+        machine.plan().map_err(|e| anyhow!("{}: {e}", self.asked_for(size)))
     }
 
     /// All that makes the machine another than the one of the file or preset, which has been checked.

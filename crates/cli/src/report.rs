@@ -25,7 +25,7 @@ pub struct Report {
 
 impl Report {
     /// A report without a comparison.
-    pub fn new(name: &str, triangles: u64, machine: &Machine, drawn: &Raster) -> Self {
+    pub fn new(name: &str, triangles: u64, machine: &Plan, drawn: &Raster) -> Self {
         let mut report = Report {
             name: name.to_owned(),
             machine: machine.clone(),
@@ -167,7 +167,7 @@ impl Report {
 }
 
 /// What the comparison found. Writing to a string cannot fail.
-fn compared(t: &mut String, machine: &Machine, c: &Comparison) {
+fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
     let bound = |bound: Option<f64>, why: &Option<String>| match (bound, why) {
         (Some(bound), _) => format!("proved bound {bound:.4}"),
         (None, why) => format!("no bound: {}", why.as_deref().unwrap_or_default()),

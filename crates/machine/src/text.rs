@@ -101,7 +101,7 @@ impl Machine {
                 DeValue::String(name) if section.get_ref().as_ref() == "preset" => {
                     machine = Machine::preset(name).ok_or_else(|| {
                         let name = &MachineError::shown(name);
-                        let close = nearest(name, super::presets::PRESETS.iter().map(|p| p.0));
+                        let close = nearest(name, PRESETS.iter().map(|p| p.0));
                         MachineError::new(format!("unknown preset {name}"), format!("nearest: {close}"))
                             .at(text, place)
                     })?;

@@ -15,7 +15,7 @@ pub mod solver;
 pub mod budget;
 
 pub use bounds::Prestep;
-pub use budget::{ErrorBudget, NoBound};
+pub use budget::ErrorBudget;
 pub use dyadic::Dyadic;
 pub use format::{Format, FormatError};
 pub use interval::Interval;

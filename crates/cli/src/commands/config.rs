@@ -6,9 +6,10 @@ use crate::machine_args::MachineArgs;
 use crate::talk;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
-use edgewalk_numerics::machine::keys::KEYS;
-use edgewalk_numerics::machine::nearest::nearest;
-use edgewalk_numerics::machine::presets::PRESETS;
+use edgewalk_machine::keys::KEYS;
+use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::presets::PRESETS;
+use edgewalk_machine::{Channel, Plan};
 use precision::Precision;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -51,7 +52,7 @@ pub fn run(args: &Args, machine: &MachineArgs, json: bool) -> Result<Verdict> {
     Ok(Verdict::Pass)
 }
 
-fn explain(machine: &Machine, key: Option<&str>, json: bool) -> Result<String> {
+fn explain(machine: &Plan, key: Option<&str>, json: bool) -> Result<String> {
     let chosen: Vec<_> = KEYS.iter().filter(|k| key.is_none_or(|name| k.name == name)).collect();
     if chosen.is_empty() {
         let name = key.unwrap_or_default();
@@ -63,8 +64,7 @@ fn explain(machine: &Machine, key: Option<&str>, json: bool) -> Result<String> {
             .map(|k| json!({ "key": k.name, "value": k.show(machine), "permitted": k.permitted(), "doc": k.doc }))
             .collect();
         let all = key.is_none().then(|| Precision::of(machine));
-        println!("{}", serde_json::to_string_pretty(&json!({ "keys": list, "precision": all }))?);
-        return Ok(());
+        return Ok(serde_json::to_string_pretty(&json!({ "keys": list, "precision": all }))?);
     }
     let mut text = String::new();
     for k in chosen {
@@ -79,58 +79,28 @@ fn explain(machine: &Machine, key: Option<&str>, json: bool) -> Result<String> {
         );
     }
     if key.is_none() {
-        let w = machine.widths();
-        let setup = edgewalk_model::setup_clocks(machine);
-        println!("\nwhat follows");
-        println!("    vertex x, y            s{}.{} px", machine.guard_bits, machine.subpixel_bits);
-        println!(
-            "    z word                 UQ{}.{}, {} bits, modular",
-            machine.z.bits,
-            machine.z.fraction,
-            machine.z.word()
-        );
-        println!(
-            "    colour words           UQ{}.{}, {} bits, modular",
-            machine.color.bits,
-            machine.color.fraction,
-            machine.color.word()
-        );
-        println!("    address                {} bits: line {} bits, column {} bits", w.address, w.y, w.x);
-        println!("    pixel rate in a span   1/{} pixel a clock", machine.clocks_per_pixel());
-        println!(
-            "    setup                  {} clocks a triangle, {} if culled",
-            (setup.phase1 + setup.phase2),
-            setup.phase1
-        );
-        print!("{}", Precision::of(machine).text());
-        println!("\npresets");
-        for (name, doc) in PRESETS {
-            println!("    {name:<22} {doc}");
-        }
+        text += &consequences(machine);
     }
     Ok(text)
 }
 
 /// What follows from the keys, and the presets.
-fn consequences(machine: &Machine) -> String {
+fn consequences(machine: &Plan) -> String {
     let w = machine.widths();
     let setup = edgewalk_model::setup_clocks(machine);
-    let word = |channel: Channel| {
-        format!("Q{}.{}, {} bits, modular", channel.bits, channel.fraction, channel.word())
-    };
+    let word = |channel: Channel| format!("{}, {} bits, modular", channel.word_format(), channel.word());
     let mut text = format!(
         "\nwhat follows\n    \
-         vertex x, y            s{}.{} px\n    \
+         vertex x, y            Q{}.{} px\n    \
          z word                 {}\n    \
          colour words           {}\n    \
          address                {} bits: line {} bits, column {} bits\n    \
          pixel rate in a span   1/{} pixel a clock\n    \
-         setup                  {} clocks a triangle, {} if culled\n\
-         \npresets\n",
-        machine.guard_bits,
+         setup                  {} clocks a triangle, {} if culled\n",
+        machine.guard_bits + 1,
         machine.subpixel_bits,
-        word(machine.z),
-        word(machine.color),
+        word(machine.channels()[0]),
+        word(machine.channels()[1]),
         w.address,
         w.y,
         w.x,
@@ -138,7 +108,10 @@ fn consequences(machine: &Machine) -> String {
         setup.phase1 + setup.phase2,
         setup.phase1
     );
+    text += &Precision::of(machine).text();
+    text += "\npresets\n";
     for (name, doc) in PRESETS {
+        // Writing to a string cannot fail.
         _ = writeln!(text, "    {name:<22} {doc}");
     }
     text

@@ -10,7 +10,7 @@ use crate::triangles::TriangleFile;
 use crate::verdict::Verdict;
 use crate::{Talk, fast};
 use anyhow::{Context, Result};
-use edgewalk_numerics::Machine;
+use edgewalk_machine::Plan;
 use edgewalk_scene::{Frame, InputError};
 use page::Page;
 use std::path::PathBuf;
@@ -65,14 +65,14 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     out.write("report.json", report.json()?)?;
     out.publish(&FILES)?;
     report.print(talk)?;
-    let size = (drawn.width, drawn.height);
+    let size = (machine.width, machine.height);
     Verdict::drew(report.covered()).or_nothing(&args.file.display().to_string(), report.primitives(), size)
 }
 
 fn while_it_is_read(
     file: &TriangleFile,
     header: &Frame,
-    machine: &Machine,
+    machine: &Plan,
     out: &Staging,
     talk: Talk,
 ) -> Result<Report> {
@@ -90,13 +90,7 @@ fn while_it_is_read(
     page.finish()
 }
 
-fn whole(
-    file: &TriangleFile,
-    engine: Engine,
-    machine: &Machine,
-    out: &Staging,
-    talk: Talk,
-) -> Result<Report> {
+fn whole(file: &TriangleFile, engine: Engine, machine: &Plan, out: &Staging, talk: Talk) -> Result<Report> {
     let frame = file.whole()?;
     let (triangles, polygons) = (frame.triangles.len() as u64, frame.polygons.len() as u64);
     let report = |band: &Raster| Report::new(file.name(), triangles, machine, band).with_polygons(polygons);

@@ -115,7 +115,7 @@ fn against_netlist(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> 
     Ok(Check { suite, unit: unit.name(), against: "netlist", checked, expected, difference })
 }
 
-fn write(machine: &Machine, suite: &Suite, unit: Unit, trace: &Trace) -> Result<Scratch> {
+fn write(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> Result<Scratch> {
     let folder = Scratch::temporary()?;
     let verilog = design::verilog(machine, unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
     for (name, contents) in directory(suite, trace, &verilog) {
@@ -148,7 +148,7 @@ fn in_simulator(
     Ok(Check { suite, unit: unit.name(), against: simulator.name(), checked, expected, difference })
 }
 
-fn print(machine: &Machine, checks: &[Check], talk: Talk) -> Result<()> {
+fn print(machine: &Plan, checks: &[Check], talk: Talk) -> Result<()> {
     let json = || {
         let report = serde_json::json!({ "machine": machine.hash(), "checks": checks });
         Ok(serde_json::to_string_pretty(&report)?)

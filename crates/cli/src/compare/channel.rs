@@ -1,7 +1,7 @@
 //! The errors of depth and colour, their bounds, and which outputs wrapped.
 
 use crate::engine::Raster;
-use edgewalk_numerics::{Channel, ErrorBudget, Machine, NoBound};
+use edgewalk_machine::{Channel, ErrorBudget, NoBound, Plan};
 
 /// Errors found so far, depth and colour.
 pub struct Tally<'a> {
@@ -24,14 +24,14 @@ pub struct Errors {
 
 impl<'a> Tally<'a> {
     /// Nothing found yet.
-    pub fn new(machine: &Machine, golden: &Raster, drawn: &'a Raster) -> Self {
+    pub fn new(machine: &Plan, golden: &Raster, drawn: &'a Raster) -> Self {
         let errors = |channel| Errors {
             channel,
-            budget: machine.proved_budget(channel),
+            budget: machine.proved_budget(&channel),
             largest: 0.0,
             map: vec![0.0; golden.coverage.len()],
         };
-        Tally { drawn, z: errors(machine.z), color: errors(machine.color), wrapped: 0 }
+        Tally { drawn, z: errors(machine.channels()[0]), color: errors(machine.channels()[1]), wrapped: 0 }
     }
 
     /// Pixel `i` shows a triangle whose exact depth and colour there, in [0,1], are these.

@@ -6,8 +6,8 @@
 
 use crate::engine::golden_fill;
 use edgewalk_golden::{Fill, Fragment, fragments};
+use edgewalk_machine::Plan;
 use edgewalk_numerics::Dyadic;
-use edgewalk_numerics::Machine;
 use edgewalk_numerics::bounds::surely_ordered_difference;
 use edgewalk_scene::{DepthFunc, Frame};
 use std::cmp::Ordering;
@@ -42,7 +42,7 @@ pub struct Apart {
 
 impl<'a> Orders<'a> {
     /// Of these pixels.
-    pub fn new(machine: &Machine, frame: &'a Frame, pixels: &[usize]) -> Self {
+    pub fn new(machine: &Plan, frame: &'a Frame, pixels: &[usize]) -> Self {
         let apart = apart(machine);
         let over = match (apart, golden_fill(machine)) {
             (Some(_), Fill::Exact { subpixel_bits }) => all_over(frame, subpixel_bits, pixels),
@@ -64,8 +64,8 @@ impl<'a> Orders<'a> {
 }
 
 /// A7 for any two fragments of the machine.
-fn apart(machine: &Machine) -> Option<Apart> {
-    let error = machine.proved_budget(machine.z).ok()?.before_rounding();
+fn apart(machine: &Plan) -> Option<Apart> {
+    let error = machine.proved_budget(&machine.channels()[0]).ok()?.before_rounding();
     let lsb = |other| Some(surely_ordered_difference(error, other)?.to_f64() / machine.z.max() as f64);
     Some(Apart { triangles: lsb(error)?, cleared: lsb(Dyadic::ZERO)? })
 }

@@ -4,7 +4,7 @@
 use super::{Comparison, compare};
 use crate::engine::{Engine, Raster, draw};
 use crate::verdict::Verdict::{self, Mismatch, Pass, Vacuous};
-use edgewalk_numerics::Machine;
+use edgewalk_machine::{Machine, Plan};
 use edgewalk_scene::{DepthFunc, Frame, Triangle, Vertex};
 
 /// LSB of the default machine's depth.
@@ -12,8 +12,8 @@ const Z: f64 = 1.0 / 16_777_215.0;
 /// LSB of its colours.
 const C: f64 = 1.0 / 255.0;
 
-fn machine() -> Machine {
-    Machine { width: 16, height: 12, ..Machine::default() }
+fn machine() -> Plan {
+    Machine { width: 16, height: 12, ..Machine::default() }.plan().unwrap()
 }
 
 /// A triangle over the left upper half of the screen, at one depth and in one colour.
@@ -184,8 +184,9 @@ fn without_a_bound_no_order_is_open_and_one_lsb_is_allowed() {
     let list = [(0.5, [1.0, 0.0, 0.0]), (0.5 - Z, [0.0, 0.0, 1.0])];
     let frame = frame(Some(DepthFunc::Less), &list);
     let [golden, mut wrong] = drawn(&frame);
-    let mut machine = machine();
+    let mut machine = Machine::clone(&machine());
     (machine.z.fraction, machine.color.fraction) = (4, 4);
+    let machine = machine.plan().unwrap();
     let c = compare(&machine, &frame, &golden, &wrong);
     assert_eq!((c.z_bound, c.color_bound, c.verdict()), (None, None, Pass));
     assert!(c.z_no_bound.unwrap().contains("8217 additions") && c.color_no_bound.is_some());

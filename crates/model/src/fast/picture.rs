@@ -2,7 +2,7 @@
 
 use super::pixel::{Pixel, pixel};
 use crate::run::DrawState;
-use edgewalk_numerics::Machine;
+use edgewalk_machine::Plan;
 use std::ops::Range;
 
 /// Pixels of a chunk, which are drawn side by side.

@@ -1,7 +1,8 @@
 //! How right the outputs of a machine are, and how many fraction bits its screen needs.
 
+use edgewalk_machine::{Channel, Fill, Plan};
 use edgewalk_numerics::solver::solve;
-use edgewalk_numerics::{Channel, ChannelBits, Dyadic, Fill, Machine, Rounding, Solution, Target};
+use edgewalk_numerics::{ChannelBits, Dyadic, Rounding, Solution, Target};
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -33,11 +34,11 @@ struct Proof {
 
 impl Precision {
     /// Of this machine.
-    pub fn of(machine: &Machine) -> Self {
+    pub fn of(machine: &Plan) -> Self {
         Precision {
             additions: machine.screen().to_string(),
-            z: Proof::of(machine, machine.z, "z"),
-            color: Proof::of(machine, machine.color, "color"),
+            z: Proof::of(machine, machine.channels()[0], "z"),
+            color: Proof::of(machine, machine.channels()[1], "color"),
         }
     }
 
@@ -77,8 +78,8 @@ impl Precision {
 }
 
 impl Proof {
-    fn of(machine: &Machine, channel: Channel, name: &str) -> Self {
-        let budget = machine.proved_budget(channel);
+    fn of(machine: &Plan, channel: Channel, name: &str) -> Self {
+        let budget = machine.proved_budget(&channel);
         let solved = needed(machine, channel, name);
         // A vertex has no more fraction bits than the interpolator.
         let bits = solved.as_ref().ok().map(|solution| solution.fraction_bits.max(channel.vertex_fraction));
@@ -97,7 +98,7 @@ impl Proof {
 }
 
 /// The least fraction bits with which nothing wraps and the output is within 1 LSB of the plane through the host's values.
-fn needed(machine: &Machine, channel: Channel, name: &str) -> Result<Solution, String> {
+fn needed(machine: &Plan, channel: Channel, name: &str) -> Result<Solution, String> {
     if machine.fill == Fill::Textbook {
         return Err(
             "with edge.fill = textbook outputs wrap outside the triangle, whatever its bits".to_owned()

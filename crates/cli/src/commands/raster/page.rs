@@ -6,7 +6,7 @@ use crate::picture::Png;
 use crate::report::Report;
 use crate::staging::Staging;
 use anyhow::{Context, Result};
-use edgewalk_numerics::Machine;
+use edgewalk_machine::Plan;
 
 /// Files that fill from the top.
 struct Files {
@@ -22,7 +22,7 @@ struct Files {
 /// A picture on its way out.
 pub struct Page<'a, F> {
     out: &'a Staging,
-    machine: &'a Machine,
+    machine: &'a Plan,
     /// The report of the first band.
     begin: F,
     /// From the first band on.
@@ -31,7 +31,7 @@ pub struct Page<'a, F> {
 
 impl<'a, F: Fn(&Raster) -> Report> Page<'a, F> {
     /// Of a picture on the machine's screen; `begin` makes the report of its first band.
-    pub fn new(out: &'a Staging, machine: &'a Machine, begin: F) -> Self {
+    pub fn new(out: &'a Staging, machine: &'a Plan, begin: F) -> Self {
         Page { out, machine, begin, begun: None }
     }
 
@@ -60,7 +60,7 @@ impl<'a, F: Fn(&Raster) -> Report> Page<'a, F> {
 }
 
 impl Files {
-    fn create(out: &Staging, machine: &Machine, lit: bool) -> Result<Self> {
+    fn create(out: &Staging, machine: &Plan, lit: bool) -> Result<Self> {
         let (width, height) = (machine.width, machine.height);
         let shape = &[u64::from(height), u64::from(width)];
         Ok(Files {
