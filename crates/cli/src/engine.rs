@@ -4,10 +4,12 @@ use crate::fast;
 use crate::input::to_port;
 use crate::progress::bar;
 use anyhow::{Result, anyhow};
+use edgewalk_golden::Drawing;
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::fast::Path;
 use edgewalk_model::{Activity, Coverage, Stalls};
 use edgewalk_scene::Frame;
+use std::ops::Range;
 
 /// Who draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -23,6 +25,7 @@ pub enum Engine {
 }
 
 /// A picture: row 0 on top, [y][x].
+#[derive(Clone)]
 pub struct Raster {
     /// Columns.
     pub width: u32,
@@ -57,6 +60,11 @@ pub struct Cycles {
 }
 
 impl Cycles {
+    /// How many cycles have no cause, or more than one.
+    pub fn unexplained(&self) -> u64 {
+        self.total.abs_diff(self.spent.iter().sum())
+    }
+
     /// Cycles spent on this.
     pub fn spent(&self, activity: Activity) -> u64 {
         self.spent[activity as usize]
@@ -70,8 +78,8 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Resul
         Engine::Fast => {
             let port = to_port(frame, machine)?;
             let triangles = || Ok(port.triangles.iter().copied().map(Ok));
-            let (drawn, path) = fast::draw(machine, port.state, triangles)?;
-            Ok(of_primitives(from_fast(machine, drawn, path), &port.ids))
+            let drawn = fast::draw(machine, port.state, triangles)?;
+            Ok(of_primitives(drawn.raster(machine), &port.ids))
         }
         Engine::Model | Engine::Rtl => {
             let port = to_port(frame, machine)?;
@@ -87,6 +95,45 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Resul
             Ok(of_primitives(raster, &port.ids))
         }
     }
+}
+
+/// Draws the frame and gives it from the top, a band of lines at a time where the engine can do so: a whole picture in
+/// f64 may not fit into memory.
+pub fn draw_bands(
+    engine: Engine,
+    frame: &Frame,
+    machine: &Plan,
+    quiet: bool,
+    mut take: impl FnMut(Raster) -> Result<()>,
+) -> Result<()> {
+    match engine {
+        Engine::Golden => {
+            let drawing = Drawing::new(frame, golden_fill(machine));
+            let mut bands = bands(frame.width, frame.height, GOLDEN_BAND);
+            bands.try_for_each(|lines| take(from_golden(drawing.lines(lines))))
+        }
+        Engine::Fast => {
+            let port = to_port(frame, machine)?;
+            let drawn = fast::draw(machine, port.state, || Ok(port.triangles.iter().copied().map(Ok)))?;
+            drawn.bands(machine, fast_bands(machine), |band| take(of_primitives(band, &port.ids)))
+        }
+        Engine::Model | Engine::Rtl => take(draw(engine, frame, machine, quiet)?),
+    }
+}
+
+/// Pixels of a band: golden goes through all triangles for each, so a few large ones.
+const GOLDEN_BAND: u32 = 1 << 22;
+const FAST_BAND: u32 = 1 << 18;
+
+/// The bands in which what the fast engine drew is taken from it.
+pub fn fast_bands(machine: &Plan) -> impl Iterator<Item = Range<u32>> + use<> {
+    bands(machine.width, machine.height, FAST_BAND)
+}
+
+/// Bands of whole lines, about so many pixels each.
+fn bands(width: u32, height: u32, pixels: u32) -> impl Iterator<Item = Range<u32>> + use<> {
+    let lines = (pixels / width).max(1);
+    (0..height).step_by(lines as usize).map(move |top| top..height.min(top + lines))
 }
 
 /// The ids of the frame's triangles and polygons for those of the triangles the machine drew.
@@ -136,7 +183,7 @@ pub fn from_golden(picture: edgewalk_golden::Picture) -> Raster {
 fn from_machine(machine: &Plan, drawn: edgewalk_model::Frame) -> Raster {
     Raster {
         width: machine.width,
-        height: machine.height,
+        height: drawn.coverage.len() as u32 / machine.width,
         coverage: drawn.coverage,
         writes: drawn.writes,
         id: drawn.id,

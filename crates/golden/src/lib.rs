@@ -28,7 +28,7 @@ pub use cover::{MAX_SUBPIXEL_BITS, fragments, snap};
 pub use fill::Fill;
 pub use fragment::{Fragment, Weight};
 pub use incremental::Incremental;
-pub use picture::{Lit, NO_TRIANGLE, Picture, draw};
+pub use picture::{Drawing, Lit, NO_TRIANGLE, Picture, draw};
 pub use ray::Rays;
 pub use render::{Rendered, render, shade};
 pub use shading::{Shaded, Shading, ShadingError, frame};

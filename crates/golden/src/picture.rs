@@ -7,6 +7,7 @@ use crate::fragment::{Fragment, Weight};
 use crate::polygon;
 use edgewalk_scene::{Frame, Vertex};
 use std::cmp::Ordering;
+use std::ops::Range;
 
 /// In [`Picture::id`]: no triangle or polygon wrote here.
 pub const NO_TRIANGLE: i32 = -1;
@@ -46,27 +47,46 @@ pub struct Picture {
 
 /// Draws the triangles and polygons of `frame` in their order.
 pub fn draw(frame: &Frame, fill: Fill) -> Picture {
-    let mut picture = Picture::cleared(frame);
-    let screen = (frame.width, frame.height);
-    let list = DrawList::new(frame, fill);
-    for (item, id) in list.items().iter().zip(0..) {
-        match item {
-            Item::Triangle(triangle) => {
-                fill.fragments(triangle, frame.mode, screen, |f| picture.plot(&list, id, f));
-            }
-            Item::Polygon(table) => polygon::fragments(table, screen, |f| picture.plot(&list, id, f)),
-        }
+    Drawing::new(frame, fill).lines(0..frame.height)
+}
+
+/// A frame ready to be drawn, also a part at a time: no pixel depends on another.
+pub struct Drawing<'a>(DrawList<'a>);
+
+impl<'a> Drawing<'a> {
+    /// Of the triangles and polygons of `frame`.
+    pub fn new(frame: &'a Frame, fill: Fill) -> Self {
+        Self(DrawList::new(frame, fill))
     }
-    picture
+
+    /// Some lines of the picture, as a picture.
+    pub fn lines(&self, lines: Range<u32>) -> Picture {
+        let list = &self.0;
+        let (frame, width) = (list.frame(), list.frame().width);
+        let mut picture = Picture::cleared(frame, lines.len());
+        let at = |x: u32, y: u32| (y - lines.start) as usize * width as usize + x as usize;
+        for (item, id) in list.items().iter().zip(0..) {
+            match item {
+                Item::Triangle(triangle) => {
+                    let plot = |f: &Fragment| picture.plot(list, id, at(f.x, f.y), f);
+                    list.fill().fragments_of_lines(triangle, frame.mode, width, lines.clone(), plot);
+                }
+                Item::Polygon(table) => polygon::fragments_of_lines(table, width, lines.clone(), |f| {
+                    picture.plot(list, id, at(f.x, f.y), f);
+                }),
+            }
+        }
+        picture
+    }
 }
 
 impl Picture {
     /// Nothing drawn yet.
-    pub(crate) fn cleared(frame: &Frame) -> Self {
-        let size = frame.width as usize * frame.height as usize;
+    pub(crate) fn cleared(frame: &Frame, lines: usize) -> Self {
+        let size = frame.width as usize * lines;
         Self {
             width: frame.width,
-            height: frame.height,
+            height: lines as u32,
             coverage: vec![0; size],
             writes: vec![0; size],
             id: vec![NO_TRIANGLE; size],
@@ -76,9 +96,14 @@ impl Picture {
         }
     }
 
-    fn plot<const N: usize, W: Weight>(&mut self, list: &DrawList, id: i32, fragment: &Fragment<N, W>) {
+    fn plot<const N: usize, W: Weight>(
+        &mut self,
+        list: &DrawList,
+        id: i32,
+        at: usize,
+        fragment: &Fragment<N, W>,
+    ) {
         let frame = list.frame();
-        let at = fragment.y as usize * self.width as usize + fragment.x as usize;
         self.coverage[at] += 1;
         let z = fragment.z();
         if let Some(func) = frame.depth {

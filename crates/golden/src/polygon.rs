@@ -30,13 +30,24 @@ pub use span::Span;
 pub use table::{Edge, EdgeTable};
 
 use crate::fragment::Fragment;
+use std::ops::Range;
 
 /// A pixel of a polygon: what the ends of the left and of the right edge weigh there.
 pub type PolygonFragment<'a> = Fragment<'a, 4, i128>;
 
 /// Calls `draw` for every pixel of the polygon in `table` on a screen of `width` by `height` pixels, line by line.
-pub fn fragments(table: &EdgeTable, (width, height): (u32, u32), mut draw: impl FnMut(&PolygonFragment)) {
-    table.scan(0..i64::from(height), |line, active| {
+pub fn fragments(table: &EdgeTable, (width, height): (u32, u32), draw: impl FnMut(&PolygonFragment)) {
+    fragments_of_lines(table, width, 0..height, draw);
+}
+
+/// The same for some lines of the screen.
+pub(crate) fn fragments_of_lines(
+    table: &EdgeTable,
+    width: u32,
+    lines: Range<u32>,
+    mut draw: impl FnMut(&PolygonFragment),
+) {
+    table.scan(i64::from(lines.start)..i64::from(lines.end), |line, active| {
         for pair in active.chunks_exact(2) {
             let span = Span::new(pair[0], pair[1], line);
             for x in span.columns(width) {

@@ -1,11 +1,11 @@
 //! `edgewalk demo`: the main job on a built-in scene, from pictures to Verilog and vectors.
 
 use super::{emit, render, vectors};
-use crate::Talk;
 use crate::engine::Engine;
 use crate::input::Source;
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
+use crate::talk::{self, Talk};
 use crate::verdict::Verdict;
 use anyhow::Result;
 use edgewalk_vectors::{StallKind, Unit};
@@ -38,14 +38,20 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         vectors::write(&machine, &suites, &Unit::ALL, StallKind::Mixed, &out, "vectors/", talk.quiet)?;
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
-    out.publish()?;
+    let own = [emit::own("hdl/"), vectors::own(&args.out, "vectors/", &suites)].concat();
+    let pictures = render::FILES.map(str::to_owned);
+    out.publish(&[&own[..], &pictures].concat())?;
     report.print(talk)?;
     if !talk.quiet && !talk.json {
         let at = args.out.display();
-        println!("pictures  {at}/golden.png image.png z_error.png color_error.png");
-        println!("report    {at}/report.txt report.json");
-        println!("verilog   {at}/hdl, {} modules", modules.len());
-        println!("vectors   {at}/vectors: {}", suites.join(" "));
+        talk::print(&format!(
+            "pictures  {at}/golden.png image.png z_error.png color_error.png\n\
+             report    {at}/report.txt report.json\n\
+             verilog   {at}/hdl, {} modules\n\
+             vectors   {at}/vectors: {}",
+            modules.len(),
+            suites.join(" ")
+        ))?;
     }
-    Ok(verdict)
+    verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
 }

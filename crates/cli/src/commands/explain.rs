@@ -75,7 +75,12 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         let (w, h) = (machine.width - 1, machine.height - 1);
         return Err(anyhow!("explain: `{x} {y}`: permitted: X from 0 to {w}, Y from 0 to {h}"));
     }
-    let frame = args.source.frame(&machine)?;
+    // Opened once: it may be a pipe.
+    let scene = if args.source.is_triangle_file() { None } else { Some(args.source.surface(&machine)?) };
+    let frame = match &scene {
+        Some((scene, surface)) => args.source.frame_of(scene, surface, &machine)?,
+        None => args.source.frame(&machine)?,
+    };
     let picture = draw(&frame, golden_fill(&machine));
     let at = (y * machine.width + x) as usize;
     let id = picture.id[at];
@@ -87,11 +92,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         id,
         z: picture.z[at],
         rgb: picture.rgb[at],
-        light: match seen {
-            Some(_) if !args.source.is_triangle_file() => {
-                let (scene, surface) = args.source.surface(&machine)?;
-                light(&scene, &surface, id as usize, &machine, (x, y))
-            }
+        light: match (seen, &scene) {
+            (Some(_), Some((scene, surface))) => light(scene, surface, id as usize, &machine, (x, y)),
             _ => None,
         },
         machine: match seen {
@@ -106,7 +108,13 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     } else if !talk.quiet {
         print!("{}", text(&explanation));
     }
-    Ok(Verdict::Pass)
+    // A pixel may be empty, but not the whole picture.
+    let covered = picture.coverage.iter().map(|count| u64::from(*count)).sum();
+    Verdict::drew(covered).or_nothing(
+        &args.source.input,
+        frame.triangles.len() as u64,
+        (machine.width, machine.height),
+    )
 }
 
 /// The triangles over a pixel, by the exact rule.

@@ -1,14 +1,19 @@
 //! `edgewalk raster`: screen-space triangles of any program, through any engine, into numpy arrays.
 
-use crate::engine::{Engine, Raster, draw, from_fast};
+mod page;
+
+use crate::engine::{Engine, Raster, draw_bands, fast_bands};
 use crate::machine_args::MachineArgs;
 use crate::report::Report;
 use crate::staging::Staging;
+use crate::triangles::TriangleFile;
 use crate::verdict::Verdict;
-use crate::{Talk, arrays, fast, picture};
+use crate::{Talk, fast};
 use anyhow::{Context, Result};
-use edgewalk_scene::{InputError, triangle_file};
-use std::path::{Path, PathBuf};
+use edgewalk_machine::Plan;
+use edgewalk_scene::{Frame, InputError};
+use page::Page;
+use std::path::PathBuf;
 
 /// Draws a file of screen-space triangles and writes what every pixel got.
 ///
@@ -43,50 +48,54 @@ pub struct Args {
     out: PathBuf,
 }
 
+/// What a run may write.
+const FILES: [&str; 8] =
+    ["coverage.npy", "writes.npy", "id.npy", "z.npy", "rgb.npy", "lit.npy", "image.png", "report.json"];
+
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let (drawn, report) = match args.engine {
-        Engine::Fast => while_it_is_read(&args.file, machine, talk)?,
-        engine => whole(&args.file, engine, machine, talk)?,
-    };
     let out = Staging::new(&args.out)?;
-    write_arrays(&out, &drawn)?;
-    picture::write_rgb(&out, "image.png", drawn.width, drawn.height, &drawn.rgb)?;
+    let file = TriangleFile::open(&args.file)?;
+    let header = file.header()?;
+    let machine = machine.machine(Some((header.width, header.height)))?;
+    let report = match args.engine {
+        Engine::Fast => while_it_is_read(&file, &header, &machine, &out, talk)?,
+        engine => whole(&file, engine, &machine, &out, talk)?,
+    };
     out.write("report.json", report.json()?)?;
-    out.publish()?;
+    out.publish(&FILES)?;
     report.print(talk)?;
-    Ok(Verdict::Pass)
+    let size = (machine.width, machine.height);
+    Verdict::drew(report.covered()).or_nothing(&args.file.display().to_string(), report.primitives(), size)
 }
 
-fn while_it_is_read(file: &Path, machine: &MachineArgs, talk: Talk) -> Result<(Raster, Report)> {
-    let (machine, frame, path) = match fast::draw_file(file, machine, talk.quiet) {
-        Err(error) if matches!(error.downcast_ref(), Some(InputError::Polygon(_))) => {
-            return whole(file, Engine::Fast, machine, talk);
+fn while_it_is_read(
+    file: &TriangleFile,
+    header: &Frame,
+    machine: &Plan,
+    out: &Staging,
+    talk: Talk,
+) -> Result<Report> {
+    let drawn = match fast::draw_file(file, header, machine, talk.quiet) {
+        Err(error) if matches!(error.downcast_ref(), Some(InputError::NeedsWhole(_))) => {
+            return whole(file, Engine::Fast, machine, out, talk);
         }
         drawn => drawn?,
     };
-    let triangles = frame.counters.triangles;
-    let drawn = from_fast(&machine, frame, path);
-    let report = Report::new(&file.display().to_string(), triangles, &machine, &drawn);
-    Ok((drawn, report))
+    let triangles = drawn.triangles();
+    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band);
+    let mut page = Page::new(out, machine, report);
+    let bands = fast_bands(machine);
+    drawn.bands(machine, bands, |band| page.add(&band))?;
+    page.finish()
 }
 
-fn whole(file: &Path, engine: Engine, machine: &MachineArgs, talk: Talk) -> Result<(Raster, Report)> {
-    let name = file.display().to_string();
-    let frame = triangle_file::read(file)?;
-    let machine = machine.machine(Some((frame.width, frame.height)))?;
-    let drawn = draw(engine, &frame, &machine, talk.quiet).with_context(|| name.clone())?;
-    let report = Report::new(&name, frame.triangles.len() as u64, &machine, &drawn)
-        .with_polygons(frame.polygons.len() as u64);
-    Ok((drawn, report))
-}
-
-fn write_arrays(out: &Staging, drawn: &Raster) -> Result<()> {
-    let shape = [u64::from(drawn.height), u64::from(drawn.width)];
-    arrays::write(out, "coverage.npy", &shape, &drawn.coverage)?;
-    arrays::write(out, "writes.npy", &shape, &drawn.writes)?;
-    arrays::write(out, "id.npy", &shape, &drawn.id)?;
-    arrays::write(out, "z.npy", &shape, &drawn.z)?;
-    arrays::write(out, "rgb.npy", &[shape[0], shape[1], 3], drawn.rgb.as_flattened())?;
-    drawn.lit.as_ref().map_or(Ok(()), |lit| arrays::write(out, "lit.npy", &shape, lit))
+fn whole(file: &TriangleFile, engine: Engine, machine: &Plan, out: &Staging, talk: Talk) -> Result<Report> {
+    let frame = file.whole()?;
+    let (triangles, polygons) = (frame.triangles.len() as u64, frame.polygons.len() as u64);
+    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band).with_polygons(polygons);
+    let mut page = Page::new(out, machine, report);
+    draw_bands(engine, &frame, machine, talk.quiet, |band| page.add(&band))
+        .with_context(|| file.name().to_owned())?;
+    page.finish()
 }

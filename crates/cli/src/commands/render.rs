@@ -53,6 +53,20 @@ pub struct Args {
     out: PathBuf,
 }
 
+/// What a run may write.
+pub const FILES: [&str; 10] = [
+    "image.png",
+    "golden.png",
+    "z_error.png",
+    "color_error.png",
+    "truth.png",
+    "shading_error.png",
+    "phong.png",
+    "phong_error.png",
+    "report.json",
+    "report.txt",
+];
+
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = machine.machine(None)?;
@@ -77,9 +91,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (report, verdict) = pictures(&args.source.input, &frame, &machine, args.engine, &out, talk.quiet)?;
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
-    out.publish()?;
+    out.publish(&FILES)?;
     report.print(talk)?;
-    Ok(verdict)
+    verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
 }
 
 /// Draws the edges.
@@ -93,9 +107,10 @@ fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
         .with_polygons(frame.polygons.len() as u64);
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
-    out.publish()?;
+    out.publish(&FILES)?;
     report.print(talk)?;
-    Ok(Verdict::Pass)
+    let primitives = (frame.triangles.len() + frame.polygons.len()) as u64;
+    Verdict::drew(report.covered()).or_nothing(&args.source.input, primitives, (drawn.width, drawn.height))
 }
 
 /// Draws by a shading system and writes it beside the truth.
@@ -137,9 +152,9 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     }
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
-    out.publish()?;
+    out.publish(&FILES)?;
     report.print(talk)?;
-    Ok(Verdict::of(error.pixels, error.pixels, 0))
+    Verdict::drew(error.pixels).or_nothing(&args.source.input, surface.triangles.len() as u64, (w, h))
 }
 
 /// Draws, compares, and writes golden.png, the engine's picture and the two heat maps.
@@ -153,7 +168,7 @@ pub fn pictures(
 ) -> Result<(Report, Verdict)> {
     let golden = draw(Engine::Golden, frame, machine, quiet)?;
     let drawn = draw(engine, frame, machine, quiet)?;
-    let comparison = compare(machine, &golden, &drawn);
+    let comparison = compare(machine, frame, &golden, &drawn);
     let (w, h) = (drawn.width, drawn.height);
     picture::write_rgb(out, "golden.png", w, h, &golden.rgb)?;
     picture::write_rgb(out, "image.png", w, h, &drawn.rgb)?;

@@ -48,8 +48,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let name = args.out.file_name().and_then(|n| n.to_str()).context("--out: no file name")?;
     let folder = args.out.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(".".as_ref());
     let out = Staging::new(folder)?;
-    let file = BufWriter::new(File::create(out.path(name)?)?);
-    let mut file = Some(file);
+    let mut file = Some(out.create(name)?);
     let mut wave: Option<Wave> = None;
     let mut failure: Result<()> = Ok(());
     let mut cycles = 0;
@@ -60,18 +59,17 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         failure.is_ok() && cycles < args.cycles
     })
     .map_err(|e| anyhow!("{e}"))?;
-    failure?;
+    failure.with_context(|| out.name(name))?;
     match wave {
-        Some(Wave::Vcd(w)) => w.finish()?,
-        Some(Wave::Fst(w)) => w.finish().map_err(|e| anyhow!("{e}"))?,
+        Some(Wave::Vcd(w)) => w.finish().with_context(|| out.name(name))?,
+        Some(Wave::Fst(w)) => w.finish().map_err(|e| anyhow!("{}: {e}", out.name(name)))?,
         None => {}
     }
-    out.publish()?;
-    if talk.json {
-        println!("{}", serde_json::json!({ "file": args.out, "cycles": cycles, "hash": machine.hash() }));
-    } else if !talk.quiet {
-        println!("{cycles} cycles -> {}", args.out.display());
-    }
+    out.publish(&[name])?;
+    talk.say(
+        || Ok(serde_json::json!({ "file": args.out, "cycles": cycles, "hash": machine.hash() }).to_string()),
+        || format!("{cycles} cycles -> {}", args.out.display()),
+    )?;
     Ok(Verdict::Pass)
 }
 

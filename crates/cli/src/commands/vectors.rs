@@ -8,7 +8,7 @@ use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_model::DrawState;
 use edgewalk_vectors::{SUITES, StallKind, Suite, Unit, capture, design, directory};
-use std::path::PathBuf;
+use std::path::{Component, Path, PathBuf};
 
 /// Writes test vectors, a directory a suite and unit, that run as they are in Icarus and Verilator.
 #[derive(clap::Args)]
@@ -70,13 +70,11 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         })
         .collect::<Result<Vec<_>>>()?;
     let written = write(&machine, &suites, &units, args.stalls, &out, "", talk.quiet)?;
-    out.publish()?;
-    if talk.json {
-        println!("{}", serde_json::json!({ "hash": machine.hash(), "directories": written }));
-    } else if !talk.quiet {
-        println!("machine {} -> {}", machine.hash(), args.out.display());
-        written.iter().for_each(|name| println!("    {name}"));
-    }
+    out.publish(&own(&args.out, "", &written))?;
+    talk.say(
+        || Ok(serde_json::json!({ "hash": machine.hash(), "directories": written }).to_string()),
+        || format!("machine {} -> {}\n    {}", machine.hash(), args.out.display(), written.join("\n    ")),
+    )?;
     Ok(Verdict::Pass)
 }
 
@@ -86,6 +84,23 @@ pub fn directed(machine: &Plan) -> Result<Vec<Suite>> {
         .iter()
         .map(|name| Suite::named(machine, name, 1, 0).map_err(|e| anyhow!("{e}")))
         .collect()
+}
+
+/// The files in these directories of an earlier run, as their own manifests list them.
+pub fn own(out: &Path, folder: &str, directories: &[String]) -> Vec<String> {
+    let mut own = Vec::new();
+    for directory in directories {
+        let manifest = std::fs::read(out.join(folder).join(directory).join("manifest.json"));
+        // A manifest that is not there, or is not ours, lists nothing.
+        let manifest: Option<serde_json::Value> =
+            manifest.ok().and_then(|text| serde_json::from_slice(&text).ok());
+        let files = manifest.as_ref().and_then(|manifest| manifest["files"].as_array());
+        let names = files.into_iter().flatten().filter_map(|file| file["name"].as_str());
+        let within =
+            |name: &&str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+        own.extend(names.filter(within).map(|name| format!("{folder}{directory}/{name}")));
+    }
+    own
 }
 
 /// Writes one directory for each suite and unit under `folder` of `out`; returns their names.

@@ -3,6 +3,7 @@
 use super::vectors::{directed, stalls};
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::scratch::Scratch;
 use crate::verdict::Verdict;
 use crate::{Talk, jobs, progress};
 use anyhow::{Context, Result, anyhow};
@@ -13,6 +14,7 @@ use edgewalk_vectors::{
     simulate,
 };
 use serde::Serialize;
+use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;
 
@@ -113,8 +115,8 @@ fn against_netlist(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> 
     Ok(Check { suite, unit: unit.name(), against: "netlist", checked, expected, difference })
 }
 
-fn write(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> Result<tempfile::TempDir> {
-    let folder = tempfile::tempdir().context("a folder for the simulators")?;
+fn write(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> Result<Scratch> {
+    let folder = Scratch::temporary()?;
     let verilog = design::verilog(machine, unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
     for (name, contents) in directory(suite, trace, &verilog) {
         let path = folder.path().join(name);
@@ -134,7 +136,7 @@ fn in_simulator(
     trace: &Trace,
 ) -> Result<Check> {
     let (unit, expected) = (trace.interface.unit, trace.expected());
-    let work = tempfile::tempdir().context("a folder for the simulator's work")?;
+    let work = Scratch::temporary()?;
     let outcome = simulate(simulator, folder, work.path(), limit)
         .with_context(|| format!("{} {} (--no-simulators goes without)", suite.name, unit.name()))?;
     let (checked, difference) = match outcome {
@@ -147,25 +149,25 @@ fn in_simulator(
 }
 
 fn print(machine: &Plan, checks: &[Check], talk: Talk) -> Result<()> {
-    if talk.json {
-        println!(
-            "{}",
-            serde_json::to_string_pretty(
-                &serde_json::json!({ "machine": machine.hash(), "checks": checks })
-            )?
-        );
-    } else if !talk.quiet {
-        println!("machine {}", machine.hash());
+    let json = || {
+        let report = serde_json::json!({ "machine": machine.hash(), "checks": checks });
+        Ok(serde_json::to_string_pretty(&report)?)
+    };
+    let text = || {
+        let mut text = format!("machine {}\n", machine.hash());
         for c in checks {
             let word = if c.verdict() == Verdict::Pass { "pass" } else { "FAIL" };
-            println!(
+            // Writing to a string cannot fail.
+            _ = writeln!(
+                text,
                 "{word}  {:<8} {:<8} model = {:<10} checked {} / {}",
                 c.suite, c.unit, c.against, c.checked, c.expected
             );
             if let Some(d) = &c.difference {
-                println!("      {d}");
+                _ = writeln!(text, "      {d}");
             }
         }
-    }
-    Ok(())
+        text
+    };
+    talk.say(json, text)
 }

@@ -29,6 +29,7 @@ use crate::run::{DrawState, Frame, render};
 use edgewalk_machine::{Plan, PortVertex};
 use picture::Picture;
 use std::fmt;
+use std::ops::Range;
 
 /// Why a frame has to be ticked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,17 +118,24 @@ impl Renderer {
     /// The frame: coverage, writes and ids are empty without details, the corners are not counted.
     #[must_use]
     pub fn frame(&self) -> Frame {
-        let pixels = self.machine.width as usize * self.machine.height as usize;
+        self.lines(0..self.machine.height)
+    }
+
+    /// Some lines of the frame, with the counters of all of it.
+    #[must_use]
+    pub fn lines(&self, lines: Range<u32>) -> Frame {
+        let [start, end] = [lines.start, lines.end].map(|line| line as usize * self.machine.width as usize);
         let (z, rgb, details) = match &self.memory {
-            Memory::Narrow(picture) => picture.outputs(pixels),
-            Memory::Wide(picture) => picture.outputs(pixels),
+            Memory::Narrow(picture) => picture.outputs(start..end),
+            Memory::Wide(picture) => picture.outputs(start..end),
         };
+        let part = |counts: &[u32]| counts.get(start..end).unwrap_or_default().to_vec();
         Frame {
             z,
             rgb,
-            coverage: details.coverage.iter().copied().take(pixels).collect(),
-            writes: details.writes.iter().copied().take(pixels).collect(),
-            id: details.id.iter().copied().take(pixels).collect(),
+            coverage: part(&details.coverage),
+            writes: part(&details.writes),
+            id: details.id.get(start..end).unwrap_or_default().to_vec(),
             counters: self.counters.clone(),
             corners: Coverage::default(),
         }

@@ -49,15 +49,14 @@ pub fn read(path: &Path) -> Result<Frame, InputError> {
 /// `input` fails, or an item is not permitted.
 pub fn parse(file: &str, input: impl BufRead) -> Result<Frame, InputError> {
     let mut reader = Reader::new(file, input)?;
-    reader.parser.whole = true;
     while reader.line()? {}
     Ok(reader.parser.frame)
 }
 
 /// A file triangle by triangle: takes as much memory as its longest line.
 ///
-/// An item is a triangle, or an error; there is nothing worth reading after that. A polygon is
-/// [`InputError::Polygon`].
+/// An item is a triangle, or an error; there is nothing worth reading after that. A polygon, and `shadow` behind a
+/// triangle, are [`InputError::NeedsWhole`].
 pub struct Reader<R> {
     lines: Lines<R>,
     parser: Parser,
@@ -69,7 +68,7 @@ impl<R: BufRead> Reader<R> {
     /// # Errors
     /// `input` fails, or an item down to the first triangle or polygon is not permitted.
     pub fn new(file: &str, input: R) -> Result<Self, InputError> {
-        let parser = Parser { frame: Frame::new(0, 0), seen: [false; KEYS.len()], whole: false };
+        let parser = Parser { frame: Frame::new(0, 0), seen: [false; KEYS.len()] };
         let mut reader = Self { lines: Lines::new(file, input), parser };
         while !reader.parser.seen[PRIMITIVE] && reader.line()? {}
         reader.parser.require_size(reader.lines.end(), b"end of file")?;
@@ -82,6 +81,12 @@ impl<R: BufRead> Reader<R> {
     /// The frame without what it draws.
     pub fn header(&self) -> &Frame {
         &self.parser.frame
+    }
+
+    /// The last line has what there is no drawing with before the end of the file.
+    fn needs_whole(&self, key: &str) -> InputError {
+        let why = "permitted: only triangles from here on, where a file is drawn while it is read";
+        InputError::NeedsWhole(self.lines.place().fault("line starts with", key.as_bytes(), why))
     }
 
     /// Reads a line into the frame; false at the end.
@@ -98,14 +103,16 @@ impl<R: BufRead> Iterator for Reader<R> {
     fn next(&mut self) -> Option<Self::Item> {
         loop {
             if !self.parser.frame.polygons.is_empty() {
-                let why = "permitted: only triangles, where a file is drawn while it is read";
-                let fault = self.lines.place().fault("line starts with", b"P", why);
-                return Some(Err(InputError::Polygon(fault)));
+                return Some(Err(self.needs_whole("P")));
             }
             if let Some(triangle) = self.parser.frame.triangles.pop() {
                 return Some(Ok(triangle));
             }
+            let shadows = self.parser.frame.shadow.is_some();
             match self.line() {
+                Ok(true) if !shadows && self.parser.frame.shadow.is_some() => {
+                    return Some(Err(self.needs_whole("shadow")));
+                }
                 Ok(true) => {}
                 Ok(false) => return None,
                 Err(error) => return Some(Err(error)),
@@ -118,8 +125,6 @@ struct Parser {
     frame: Frame,
     /// Which of `KEYS` have come.
     seen: [bool; KEYS.len()],
-    /// Nothing is drawn before the end, so that `shadow` may come late.
-    whole: bool,
 }
 
 impl Parser {
@@ -141,7 +146,7 @@ impl Parser {
             self.seen[PRIMITIVE] = true;
             return self.primitive(place, name, words);
         }
-        if self.seen[PRIMITIVE] && !(self.whole && name == "shadow") {
+        if self.seen[PRIMITIVE] && name != "shadow" {
             let why = "permitted only before the first triangle or polygon";
             return Err(place.fault(name, word, why).into());
         }

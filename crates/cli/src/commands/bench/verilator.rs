@@ -2,6 +2,7 @@
 
 use super::job::{Job, Times, Work};
 use super::stopwatch::{Stopwatch, Time};
+use crate::scratch::Scratch;
 use crate::verdict::ToolError;
 use anyhow::{Context, Result, anyhow};
 use std::path::Path;
@@ -15,7 +16,7 @@ pub fn time(job: &Job) -> Result<Result<Times, String>> {
         return Ok(Err("verilator is not installed".to_owned()));
     }
     let start = Stopwatch::start();
-    let folder = tempfile::tempdir().context("a folder for Verilator")?;
+    let folder = Scratch::temporary()?;
     build(job, folder.path())?;
     let built = start.read().wall;
     std::fs::write(folder.path().join("stimulus.bin"), stimulus(job))?;
