@@ -1,11 +1,11 @@
 //! The machine's way to a pixel: start, increments down the major edge, increments along the span.
 
+use crate::accumulators::{Plane, half, lsb, prim, signed};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::Coverage;
 use edgewalk_model::edge::Edge;
-use edgewalk_model::setup::Setup;
 use edgewalk_model::span::SpanQueue;
-use edgewalk_model::tokens::{Prim, Words, add, word_masks};
+use edgewalk_model::tokens::{Words, add, word_masks};
 use edgewalk_numerics::Steps;
 use serde::Serialize;
 
@@ -77,23 +77,6 @@ pub fn walk(machine: &Plan, triangle: &[PortVertex; 3], x: u32, y: u32) -> Optio
     Some(Walk { additions })
 }
 
-/// What SETUP makes of the triangle; `None` if it is culled.
-fn prim(machine: &Plan, triangle: &[PortVertex; 3]) -> Option<Prim> {
-    let corners = &mut Coverage::default();
-    let mut setup = Setup::new(machine);
-    setup.step(Some((triangle, 0)), false, corners);
-    while setup.prim().is_none() && !setup.tri_ready() {
-        setup.step(None, false, corners);
-    }
-    setup.prim().copied()
-}
-
-/// The planes through the values of the vertices at the port.
-struct Plane<'a> {
-    machine: &'a Plan,
-    triangle: &'a [PortVertex; 3],
-}
-
 impl Plane<'_> {
     fn addition(
         &self,
@@ -102,15 +85,9 @@ impl Plane<'_> {
         (before, after): (Words, Words),
         (lines, columns): (u32, u32),
     ) -> Addition {
-        let exact = self.at(x, y);
+        let (exact, error) = (self.at(x, y), self.errors(x, y, &after));
         let channels = self.machine.channels();
         let each = |of: &dyn Fn(usize) -> f64| std::array::from_fn(of);
-        let turn = |i: usize| 2f64.powi(channels[i].bits as i32);
-        // The words are modular: whole turns are no error.
-        let error = |i: usize| {
-            let off = signed(after[i], channels[i].word()) * lsb(channels[i].fraction) - 0.5 - exact[i];
-            off - turn(i) * (off / turn(i)).round()
-        };
         let steps = Steps { lines, columns };
         Addition {
             step,
@@ -119,38 +96,12 @@ impl Plane<'_> {
             added: each(&|i| {
                 let word = channels[i].word();
                 let mask = (1u64 << word) - 1;
-                let half = if step == "start" { 0.5 } else { 0.0 };
+                let half = if step == "start" { half(channels[i].fraction) } else { 0.0 };
                 signed(after[i].wrapping_sub(before[i]) & mask, word) * lsb(channels[i].fraction) - half
             }),
-            value: each(&|i| exact[i] + error(i)),
-            error: each(&error),
+            value: each(&|i| exact[i] + error[i]),
+            error,
             bound: each(&|i| channels[i].error_budget(steps).steps.to_f64()),
         }
     }
-
-    /// Z, R, G, B at the centre of a pixel, LSB.
-    fn at(&self, x: i64, y: u32) -> [f64; 4] {
-        let unit = f64::from(1u32 << self.machine.subpixel_bits);
-        let place = |v: &PortVertex| [f64::from(v.x) / unit, f64::from(v.y) / unit];
-        let [a, b, c] = self.triangle.each_ref().map(place);
-        let p = [x as f64 + 0.5, f64::from(y) + 0.5];
-        let cross = |from: [f64; 2], to: [f64; 2], at: [f64; 2]| {
-            (to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0])
-        };
-        let weights = [cross(b, c, p), cross(c, a, p), cross(a, b, p)].map(|weight| weight / cross(a, b, c));
-        std::array::from_fn(|i| {
-            let scale = lsb(self.machine.channels()[i].vertex_fraction);
-            self.triangle.iter().zip(weights).map(|(v, weight)| weight * v.value[i] as f64 * scale).sum()
-        })
-    }
-}
-
-fn lsb(fraction: u32) -> f64 {
-    0.5f64.powi(fraction as i32)
-}
-
-/// A word as a signed number: values just below 0 and increments.
-fn signed(word: u64, bits: u32) -> f64 {
-    let shift = 64 - bits;
-    ((word << shift) as i64 >> shift) as f64
 }

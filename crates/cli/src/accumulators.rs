@@ -1,0 +1,127 @@
+//! The accumulators of Z, R, G and B before their outputs are rounded: how far they are from the exact plane.
+
+use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex};
+use edgewalk_model::Coverage;
+use edgewalk_model::edge::Edge;
+use edgewalk_model::setup::Setup;
+use edgewalk_model::span::SpanQueue;
+use edgewalk_model::tokens::{Prim, Words, add, word_masks};
+use edgewalk_numerics::Steps;
+
+/// What SETUP makes of a triangle; `None` if it is culled.
+pub fn prim(machine: &Plan, triangle: &[PortVertex; 3]) -> Option<Prim> {
+    let corners = &mut Coverage::default();
+    let mut setup = Setup::new(machine);
+    setup.step(Some((triangle, 0)), false, corners);
+    while setup.prim().is_none() && !setup.tri_ready() {
+        setup.step(None, false, corners);
+    }
+    setup.prim().copied()
+}
+
+/// The depth's accumulator at every pixel that shows a triangle, minus the exact depth there, over the largest error that its
+/// additions can have made (A2): -1 to 1, and 0 where no triangle is. `ids` names for each pixel the triangle it shows. `None`
+/// if the machine's spans do not begin at pixel centres.
+pub fn depth_error_over_bound(
+    machine: &Plan,
+    triangles: &[[PortVertex; 3]],
+    ids: &[i32],
+) -> Option<Vec<f64>> {
+    if machine.fill != Fill::Exact || machine.edge_kind != EdgeKind::Exact {
+        return None;
+    }
+    let mut map = vec![0.0; ids.len()];
+    for (triangle, id) in triangles.iter().zip(0..) {
+        let plane = Plane { machine, triangle };
+        each_fragment(machine, triangle, |x, y, steps, words| {
+            let at = y as usize * machine.width as usize + x as usize;
+            if ids[at] == id {
+                let bound = machine.z.error_budget(steps).steps.to_f64();
+                map[at] = plane.errors(i64::from(x), y, words)[0] / bound;
+            }
+        });
+    }
+    Some(map)
+}
+
+/// Calls `seen` with every visible pixel of a triangle, the additions behind it and the accumulators there.
+fn each_fragment(machine: &Plan, triangle: &[PortVertex; 3], mut seen: impl FnMut(u32, u32, Steps, &Words)) {
+    let Some(prim) = prim(machine, triangle) else { return };
+    let masks = word_masks(machine);
+    let corners = &mut Coverage::default();
+    let mut edge = Edge::new(machine);
+    edge.step(Some(&prim), false, true, corners);
+    let mut lines = 0;
+    while let Some(line) = edge.line().copied() {
+        let mut spans = SpanQueue::new(machine);
+        spans.step(Some(&line), false, corners);
+        if let Some(span) = spans.span() {
+            let direction = if span.left { -1 } else { 1 };
+            let mut values = span.values;
+            for columns in 0..span.count {
+                let x = i64::from(span.x) + direction * i64::from(columns);
+                if let Some(x) = u32::try_from(x).ok().filter(|x| *x < machine.width) {
+                    seen(x, line.y, Steps { lines, columns }, &values);
+                }
+                values = add(&values, edge.gradient(), &masks);
+            }
+        }
+        lines += 1;
+        edge.step(None, false, true, corners);
+    }
+}
+
+/// The planes through the values of the vertices at the port.
+pub struct Plane<'a> {
+    /// Exact fill.
+    pub machine: &'a Plan,
+    /// Not culled.
+    pub triangle: &'a [PortVertex; 3],
+}
+
+impl Plane<'_> {
+    /// Z, R, G, B at the centre of a pixel, LSB.
+    pub fn at(&self, x: i64, y: u32) -> [f64; 4] {
+        let unit = f64::from(1u32 << self.machine.subpixel_bits);
+        let place = |v: &PortVertex| [f64::from(v.x) / unit, f64::from(v.y) / unit];
+        let [a, b, c] = self.triangle.each_ref().map(place);
+        let p = [x as f64 + 0.5, f64::from(y) + 0.5];
+        let cross = |from: [f64; 2], to: [f64; 2], at: [f64; 2]| {
+            (to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0])
+        };
+        let weights = [cross(b, c, p), cross(c, a, p), cross(a, b, p)].map(|weight| weight / cross(a, b, c));
+        std::array::from_fn(|i| {
+            let scale = lsb(self.machine.channels()[i].vertex_fraction);
+            self.triangle.iter().zip(weights).map(|(v, weight)| weight * v.value[i] as f64 * scale).sum()
+        })
+    }
+
+    /// Accumulators at the centre of a pixel minus the planes there, LSB; without the half that the output rounding adds.
+    pub fn errors(&self, x: i64, y: u32, words: &Words) -> [f64; 4] {
+        let exact = self.at(x, y);
+        let channels = self.machine.channels();
+        std::array::from_fn(|i| {
+            let turn = 2f64.powi(channels[i].bits as i32);
+            let value = signed(words[i], channels[i].word()) * lsb(channels[i].fraction);
+            let off = value - half(channels[i].fraction) - exact[i];
+            // The words are modular: whole turns are no error.
+            off - turn * (off / turn).round()
+        })
+    }
+}
+
+/// What the output rounding adds to the start: nothing where there are no fraction bits to round away.
+pub fn half(fraction: u32) -> f64 {
+    if fraction == 0 { 0.0 } else { 0.5 }
+}
+
+/// The last of so many fraction bits.
+pub fn lsb(fraction: u32) -> f64 {
+    0.5f64.powi(fraction as i32)
+}
+
+/// A word as a signed number: values just below 0 and increments.
+pub fn signed(word: u64, bits: u32) -> f64 {
+    let shift = 64 - bits;
+    ((word << shift) as i64 >> shift) as f64
+}
