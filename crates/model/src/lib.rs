@@ -8,7 +8,7 @@
 //! [`run::render`] adds memory and draws. No I/O; nothing here fails on a checked machine.
 
 pub mod counters;
-pub mod coverage;
+pub mod events;
 pub mod depth;
 pub mod edge;
 pub mod fifo;
@@ -24,7 +24,7 @@ pub mod span;
 pub mod tokens;
 
 pub use counters::Counters;
-pub use coverage::Coverage;
+pub use events::Events;
 pub use edgewalk_machine::Activity;
 pub use machine::{Inputs, Model, Outputs};
 pub use memory::{Memory, Stalls};
