@@ -36,7 +36,7 @@ pub fn depth_error_over_bound(
         each_fragment(machine, triangle, |x, y, steps, words| {
             let at = y as usize * machine.width as usize + x as usize;
             if ids[at] == id {
-                let bound = machine.z.error_budget(steps).steps.to_f64();
+                let bound = machine.channels()[0].error_budget(steps).steps.to_f64();
                 map[at] = plane.errors(i64::from(x), y, words)[0] / bound;
             }
         });
