@@ -33,7 +33,7 @@ fn random_triangle(rng: &mut Pcg64, reach: f64, sliver: bool) -> Triangle {
     let mut triangle = Triangle(std::array::from_fn(|_| {
         let [z, r, g, b, kt] = std::array::from_fn(|_| rng.random_range(0.0..=1.0));
         let [x, y] = std::array::from_fn(|_| 20.0 + rng.random_range(-reach..reach));
-        Vertex { x, y, z, r, g, b, kt }
+        Vertex { x, y, z, r, g, b, kt, ..Vertex::default() }
     }));
     if sliver {
         let [a, b, c] = &mut triangle.0;
