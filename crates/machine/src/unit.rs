@@ -67,6 +67,12 @@ impl Plan {
         UNITS.iter().copied().filter(|unit| (unit.present)(self))
     }
 
+    /// What can happen in this machine: to its units in their order, then between them.
+    pub fn events(&self) -> impl Iterator<Item = &'static Event> {
+        let all = self.units().flat_map(|unit| unit.events).chain(units::EVENTS);
+        all.filter(|event| (event.can_happen)(self))
+    }
+
     /// The ports of the whole machine: what its units have and do not join among themselves.
     #[must_use]
     pub fn ports(&self) -> Ports {

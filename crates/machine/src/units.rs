@@ -12,6 +12,11 @@ use crate::activity::Activity;
 use crate::field::Field;
 use crate::link::Status;
 use crate::plan::Plan;
+use crate::unit::Event;
+
+/// What can happen between units.
+pub const EVENTS: &[Event] =
+    &[Event { name: "setup_overlap", doc: "triangles taken in while PIXEL draws", can_happen: always }];
 
 /// What the machine tells beside its tokens, in every cycle.
 pub(crate) fn machine_status() -> Vec<Status> {

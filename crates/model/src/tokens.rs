@@ -1,28 +1,48 @@
 //! The tokens that move between the units.
 
+pub use edgewalk_machine::MAX_CHANNELS;
 use edgewalk_machine::{Channel, Plan};
 
-/// One word per channel, in the order of the adder: Z, R, G, B. Words of b + r bits, modular.
-pub type Words = [u64; 4];
+/// Declares tokens of `C` channels, and with the value behind each field the token that says nothing. (An array of any
+/// length has no `Default`.)
+macro_rules! tokens {
+    ($($(#[$doc:meta])* $name:ident { $($(#[$what:meta])* $field:ident: $type:ty = $nothing:expr,)* })*) => {
+        $(
+            $(#[$doc])*
+            #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+            pub struct $name<const C: usize> { $($(#[$what])* pub $field: $type,)* }
 
-/// Red, green and blue of b <= 16 bits each, in one word, so that a pixel's colour moves in one piece.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Rgb(u64);
+            impl<const C: usize> Default for $name<C> {
+                fn default() -> Self {
+                    $name { $($field: $nothing,)* }
+                }
+            }
+        )*
+    };
+}
 
-impl Rgb {
-    /// From red, green, blue.
-    #[inline]
-    #[must_use]
-    pub fn new([r, g, b]: [u16; 3]) -> Self {
-        Rgb(u64::from(r) | u64::from(g) << 16 | u64::from(b) << 32)
-    }
+/// The most channels that a machine without channels of the user's own has; units of `C` = 4 serve it.
+pub const FEW: usize = 4;
 
-    /// Red, green, blue.
-    #[inline]
-    #[must_use]
-    pub fn channels(self) -> [u16; 3] {
-        [0, 16, 32].map(|shift| (self.0 >> shift) as u16)
-    }
+/// One word per channel, in the order of [`Plan::channels`]: z, r, g, b, then the user's own; behind the last 0. Words of
+/// b + r bits, modular. `C` is at least the number of channels: 4 or 8.
+pub type Words<const C: usize> = [u64; C];
+
+/// The output of every channel in the same order, b <= 32 bits; of a signed one in two's complement, [`Plan`] knows which.
+pub type OutputWords<const C: usize> = [u32; C];
+
+/// Runs the body with `$C` as the constant that serves the machine, 4 or 8.
+#[macro_export]
+macro_rules! for_channels {
+    ($plan:expr, $C:ident => $body:expr) => {
+        if $plan.channels().len() <= $crate::tokens::FEW {
+            const $C: usize = $crate::tokens::FEW;
+            $body
+        } else {
+            const $C: usize = $crate::tokens::MAX_CHANNELS;
+            $body
+        }
+    };
 }
 
 /// The triangle a token comes from.
@@ -60,116 +80,117 @@ impl EdgeWalk {
     }
 }
 
-/// SETUP to EDGE: a triangle as increments.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Prim {
-    /// jm: first drawn line.
-    pub line: u32,
-    /// n1 and n2: lines of the upper and the lower part.
-    pub lines: [u32; 2],
-    /// The major edge lies right.
-    pub left: bool,
-    /// Edge 0-2.
-    pub major: EdgeWalk,
-    /// Edges 0-1 and 1-2.
-    pub minor: [EdgeWalk; 2],
-    /// First values. Exact fill: `start`, and 0. Textbook fill: startA of part 1, startB of part 2.
-    pub start: [Words; 2],
-    /// Increments a line. Exact fill: d0 without and d1 with the major edge's carry. Textbook fill: dA and dB.
-    pub delta: [Words; 2],
-    /// g: increment a pixel along the span.
-    pub gradient: Words,
-    /// The triangle.
-    pub source: Source,
+tokens! {
+    /// SETUP to EDGE: a triangle as increments.
+    Prim {
+        /// jm: first drawn line.
+        line: u32 = 0,
+        /// n1 and n2: lines of the upper and the lower part.
+        lines: [u32; 2] = [0; 2],
+        /// The major edge lies right.
+        major_right: bool = false,
+        /// Edge 0-2.
+        major: EdgeWalk = EdgeWalk::default(),
+        /// Edges 0-1 and 1-2.
+        minor: [EdgeWalk; 2] = [EdgeWalk::default(); 2],
+        /// First values. Exact fill: `start`, and 0. Textbook fill: startA of part 1, startB of part 2.
+        start: [Words<C>; 2] = [[0; C]; 2],
+        /// Increments a line. Exact fill: d0 without and d1 with the major edge's carry. Textbook fill: dA and dB.
+        delta: [Words<C>; 2] = [[0; C]; 2],
+        /// g: increment a pixel along the span.
+        gradient: Words<C> = [0; C],
+        /// The triangle.
+        source: Source = Source::default(),
+    }
+
+    /// EDGE to SPAN: a scan line between two edges.
+    Line {
+        /// Line on the screen.
+        y: u32 = 0,
+        /// Column of the major edge, signed, COLW bits.
+        major: i32 = 0,
+        /// Column of the minor edge, signed, COLW bits.
+        minor: i32 = 0,
+        /// The major edge lies right.
+        major_right: bool = false,
+        /// Values at the first pixel.
+        values: Words<C> = [0; C],
+        /// First line of its triangle.
+        fresh: bool = false,
+        /// First line of its triangle or, in textbook fill, of its lower part.
+        fence: bool = false,
+        /// The triangle.
+        source: Source = Source::default(),
+    }
+
+    /// SPAN to PIXEL: pixels of a line, from the first on.
+    Span {
+        /// First column, signed, COLW bits; may lie off the screen.
+        x: i32 = 0,
+        /// Line on the screen.
+        y: u32 = 0,
+        /// Pixels, at least 1.
+        count: u32 = 0,
+        /// Runs to the left.
+        leftward: bool = false,
+        /// Values at the first pixel.
+        values: Words<C> = [0; C],
+        /// First span of its triangle.
+        fresh: bool = false,
+        /// First span of its triangle or, in textbook fill, of its lower part.
+        fence: bool = false,
+        /// The triangle.
+        source: Source = Source::default(),
+    }
+
+    /// PIXEL to DEPTH: one pixel of one triangle.
+    Fragment {
+        /// y·2^xb + x.
+        addr: u32 = 0,
+        /// Depth, colour and the user's own.
+        values: OutputWords<C> = [0; C],
+        /// First fragment of its triangle or, in textbook fill, of its lower part.
+        fence: bool = false,
+        /// The triangle.
+        source: Source = Source::default(),
+    }
+
+    /// DEPTH to the frame memory.
+    Write {
+        /// y·2^xb + x.
+        addr: u32 = 0,
+        /// Depth, stored if `z_en`; colour and the user's own, always stored.
+        values: OutputWords<C> = [0; C],
+        /// The depth is stored.
+        z_en: bool = false,
+        /// The triangle.
+        source: Source = Source::default(),
+    }
 }
 
-/// EDGE to SPAN: a scan line between two edges.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Line {
-    /// Line on the screen.
-    pub y: u32,
-    /// Column of the major edge, signed, COLW bits.
-    pub major: i32,
-    /// Column of the minor edge, signed, COLW bits.
-    pub minor: i32,
-    /// The major edge lies right.
-    pub left: bool,
-    /// Values at the first pixel.
-    pub values: Words,
-    /// First line of its triangle.
-    pub fresh: bool,
-    /// First line of its triangle or, in textbook fill, of its lower part.
-    pub fence: bool,
-    /// The triangle.
-    pub source: Source,
-}
-
-/// SPAN to PIXEL: pixels of a line, from the first on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Span {
-    /// First column, signed, COLW bits; may lie off the screen.
-    pub x: i32,
-    /// Line on the screen.
-    pub y: u32,
-    /// Pixels, at least 1.
-    pub count: u32,
-    /// Runs to the left.
-    pub left: bool,
-    /// Values at the first pixel.
-    pub values: Words,
-    /// First span of its triangle.
-    pub fresh: bool,
-    /// First span of its triangle or, in textbook fill, of its lower part.
-    pub fence: bool,
-    /// The triangle.
-    pub source: Source,
-}
-
-/// PIXEL to DEPTH: one pixel of one triangle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Fragment {
-    /// y·2^xb + x.
-    pub addr: u32,
-    /// Depth, b <= 32 bits.
-    pub z: u32,
-    /// Colour, b <= 16 bits a channel.
-    pub rgb: Rgb,
-    /// First fragment of its triangle or, in textbook fill, of its lower part.
-    pub fence: bool,
-    /// The triangle.
-    pub source: Source,
-}
-
-/// DEPTH to the frame memory.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Write {
-    /// y·2^xb + x.
-    pub addr: u32,
-    /// Depth, b <= 32 bits, stored if `z_en`.
-    pub z: u32,
-    /// Colour, b <= 16 bits a channel, always stored.
-    pub rgb: Rgb,
-    /// The depth is stored.
-    pub z_en: bool,
-    /// The triangle.
-    pub source: Source,
-}
-
-/// The masks of the four channel words, 2^(b+r) - 1.
+/// The masks of the channel words, 2^(b+r) - 1; 0 behind the last channel.
 #[must_use]
-pub fn word_masks(machine: &Plan) -> Words {
-    per_channel(machine, |c| (1 << c.word()) - 1)
+pub fn word_masks<const C: usize>(plan: &Plan) -> Words<C> {
+    per_channel(plan, |c| (1 << c.word()) - 1)
 }
 
-/// One value a channel.
-pub(crate) fn per_channel<T>(machine: &Plan, value: impl Fn(&Channel) -> T) -> [T; 4] {
-    std::array::from_fn(|i| value(&machine.channels()[i]))
+/// One value a channel; nothing behind the last.
+pub(crate) fn per_channel<T: Default, const C: usize>(plan: &Plan, value: impl Fn(&Channel) -> T) -> [T; C] {
+    debug_assert!(plan.channels().len() <= C, "more channels than words");
+    std::array::from_fn(|i| plan.channels().get(i).map_or_else(T::default, &value))
+}
+
+/// An output as a number, LSB: of a signed channel its b bits are two's complement.
+#[must_use]
+pub fn output(channel: &Channel, word: u32) -> i64 {
+    let (word, sign) = (i64::from(word), 1 << (channel.bits - 1));
+    if channel.kind.is_signed() { (word ^ sign) - sign } else { word }
 }
 
 /// Adds modulo 2^(b+r), channel by channel.
 #[inline]
 #[must_use]
-pub fn add(a: &Words, b: &Words, masks: &Words) -> Words {
+pub fn add<const C: usize>(a: &Words<C>, b: &Words<C>, masks: &Words<C>) -> Words<C> {
     std::array::from_fn(|i| a[i].wrapping_add(b[i]) & masks[i])
 }
 

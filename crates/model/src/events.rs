@@ -1,12 +1,12 @@
-//! Which hazards and corners a run has met. A suite that leaves one at zero has not tested it.
+//! Which events a run has met, those that the units declare (`edgewalk_machine::UNITS`). A suite that leaves one at zero has not tested it.
 
-macro_rules! coverage {
+macro_rules! events {
     ($($(#[$doc:meta])* $name:ident,)*) => {
-        /// How often each hazard and corner was met.
+        /// How often each event was met.
         #[derive(Clone, Debug, Default, PartialEq, Eq)]
-        pub struct Coverage { $($(#[$doc])* pub $name: u64,)* }
+        pub struct Events { $($(#[$doc])* pub $name: u64,)* }
 
-        impl Coverage {
+        impl Events {
             /// Every name with its count.
             #[must_use]
             pub fn counts(&self) -> Vec<(&'static str, u64)> {
@@ -14,14 +14,14 @@ macro_rules! coverage {
             }
 
             /// Adds the counts of another run.
-            pub fn merge(&mut self, other: &Coverage) {
+            pub fn merge(&mut self, other: &Events) {
                 $(self.$name += other.$name;)*
             }
         }
     };
 }
 
-coverage! {
+events! {
     /// Triangles that draw nothing.
     culled,
     /// Triangles whose major edge lies left.
@@ -40,7 +40,7 @@ coverage! {
     carry,
     /// Steps of the major edge without a carry.
     no_carry,
-    /// Steps of an edge value that leave 0..2^(b+r) and wrap.
+    /// Steps of an edge value that leave the range of its word.
     wrap,
     /// Lines without a pixel.
     empty_span,
@@ -84,7 +84,7 @@ pub(crate) fn one_more(counter: &mut u64) {
     *counter = counter.wrapping_add(1);
 }
 
-impl Coverage {
+impl Events {
     /// The names that stand at zero.
     #[must_use]
     pub fn missing(&self) -> Vec<&'static str> {
