@@ -147,7 +147,7 @@ fn malformed_values_name_place_and_remedy() {
         (with(1, "X 1 2 -inf"), &["X vertex 3 e0: `-inf`"]),
         (with(1, "X 1 2147483648 2"), &["X vertex 2 e0: `2147483648`", "to 2147483647"]),
         (with(2, T), &["a.tri:4: X: `T`", "of the triangle in line 3 is missing", "6 values, e0 e1"]),
-        (with(1, ""), &["a.tri:6: X: `end of file`", "line 3 is missing"]),
+        (with(1, ""), &["a.tri:5: X: `end of file`", "line 3 is missing"]),
         (with(1, &T.replace('T', "L")), &["a.tri:4: X: `L`", "missing"]),
         (
             format!("size 9 9\nextra 2\n{}", T.replace('T', "P 3")),
@@ -240,7 +240,10 @@ fn triangle_by_triangle_a_late_shadow_is_refused() {
     let mut reader = triangle_file::Reader::new("a.tri", text.as_bytes()).unwrap();
     assert!(reader.next().is_some_and(|triangle| triangle.is_ok()));
     let error = reader.next().unwrap().unwrap_err().to_string();
-    assert!(error.contains("a.tri:3: shadow") && error.contains("before the first triangle"), "{error}");
+    assert!(
+        error.contains("a.tri:3: line starts with: `shadow`") && error.contains("only triangles from here on"),
+        "{error}"
+    );
 }
 
 #[test]
