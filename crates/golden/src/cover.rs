@@ -149,6 +149,6 @@ pub(crate) fn shaded(triangle: &Triangle, mode: ShadeMode) -> [Vertex; 3] {
     let first = triangle.0[0];
     match mode {
         ShadeMode::Gouraud => triangle.0,
-        ShadeMode::Flat => triangle.0.map(|v| Vertex { x: v.x, y: v.y, z: v.z, ..first }),
+        ShadeMode::Flat => triangle.0.map(|v| v.colored_as(&first)),
     }
 }

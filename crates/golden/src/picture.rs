@@ -5,7 +5,7 @@ use crate::draw_list::{DrawList, Item};
 use crate::fill::Fill;
 use crate::fragment::{Fragment, Weight};
 use crate::polygon;
-use edgewalk_scene::{Frame, Vertex};
+use edgewalk_scene::{Frame, MAX_EXTRA, Vertex};
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -41,6 +41,8 @@ pub struct Picture {
     pub z: Vec<f64>,
     /// Red, green, blue.
     pub rgb: Vec<[f64; 3]>,
+    /// Values of the user's own, by channel, exact like depth: those of the last fragment that passed, 0 for none.
+    pub extra: Vec<Vec<f64>>,
     /// What the light does.
     pub lit: Vec<Lit>,
 }
@@ -92,6 +94,7 @@ impl Picture {
             id: vec![NO_TRIANGLE; size],
             z: vec![1.0; size],
             rgb: vec![frame.clear; size],
+            extra: vec![vec![0.0; size]; frame.extra],
             lit: vec![Lit::Nothing; size],
         }
     }
@@ -125,6 +128,9 @@ impl Picture {
             self.lit[at] = Lit::Shadow;
         }
         self.rgb[at] = if frame.blend { mix(front, fragment.kt(), self.rgb[at]) } else { front };
+        for (channel, values) in self.extra.iter_mut().enumerate() {
+            values[at] = fragment.extra(channel);
+        }
         self.writes[at] += 1;
         self.id[at] = id;
     }
@@ -149,7 +155,7 @@ impl Picture {
 const CLEARED: Fragment<1> = Fragment {
     x: 0,
     y: 0,
-    vertices: &[Vertex { x: 0.0, y: 0.0, z: 1.0, r: 0.0, g: 0.0, b: 0.0, kt: 0.0 }],
+    vertices: &[Vertex { x: 0.0, y: 0.0, z: 1.0, r: 0.0, g: 0.0, b: 0.0, kt: 0.0, extra: [0.0; MAX_EXTRA] }],
     weights: [1],
     total: 1,
 };

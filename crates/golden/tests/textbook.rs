@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 const SCREEN: (u32, u32) = (40, 40);
 
 fn shaded(points: [(f64, f64, f64); 3]) -> Triangle {
-    Triangle(points.map(|(x, y, i)| Vertex { x, y, z: i, r: i, g: i, b: i, kt: 0.0 }))
+    Triangle(points.map(|(x, y, i)| Vertex { x, y, z: i, r: i, g: i, b: i, ..Vertex::default() }))
 }
 
 type Written = (Half, u32, u32, f64);

@@ -22,7 +22,7 @@ fn frame(machine: &Plan, triangles: &[common::Triangle]) -> scene::Frame {
                     v.value[i] as f64 / (c.max() << c.vertex_fraction) as f64
                 };
                 let [z, r, g, b] = [0, 1, 2, 3].map(unit);
-                scene::Vertex { x: place(v.x), y: place(v.y), z, r, g, b, kt: 0.0 }
+                scene::Vertex { x: place(v.x), y: place(v.y), z, r, g, b, ..scene::Vertex::default() }
             }))
         })
         .collect();
