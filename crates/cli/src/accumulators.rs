@@ -36,7 +36,7 @@ pub fn depth_error_over_bound(
         each_fragment(machine, triangle, |x, y, steps, words| {
             let at = y as usize * machine.width as usize + x as usize;
             if ids[at] == id {
-                let bound = machine.z.error_budget(steps).steps.to_f64();
+                let bound = machine.channels()[0].error_budget(steps).steps.to_f64();
                 map[at] = plane.errors(i64::from(x), y, words)[0] / bound;
             }
         });
@@ -45,11 +45,7 @@ pub fn depth_error_over_bound(
 }
 
 /// Calls `seen` with every visible pixel of a triangle, the additions behind it and the accumulators there.
-fn each_fragment(
-    machine: &Plan,
-    triangle: &[PortVertex; 3],
-    mut seen: impl FnMut(u32, u32, Steps, &Words),
-) {
+fn each_fragment(machine: &Plan, triangle: &[PortVertex; 3], mut seen: impl FnMut(u32, u32, Steps, &Words)) {
     let Some(prim) = prim(machine, triangle) else { return };
     let masks = word_masks(machine);
     let corners = &mut Coverage::default();

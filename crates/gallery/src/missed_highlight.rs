@@ -41,7 +41,11 @@ pub(crate) fn missed_highlight() -> Result<Exhibit, InputError> {
             figure("Phong: largest error, LSB", phong.error().max, 1),
             figure("Phong: highlight beside its place, pixels", moved(&phong.picture.rgb, &phong.truth), 1),
             figure("Phong, 16 x 16 squares for the one: largest error, LSB", fine.error().max, 1),
-            figure("Phong, 16 x 16: highlight beside its place, pixels", moved(&fine.picture.rgb, &fine.truth), 1),
+            figure(
+                "Phong, 16 x 16: highlight beside its place, pixels",
+                moved(&fine.picture.rgb, &fine.truth),
+                1,
+            ),
         ],
         views: vec![
             View::colors("gouraud", "Gouraud", gouraud.picture.rgb),
