@@ -84,8 +84,6 @@ impl Machine {
     /// # Errors
     /// Text that is no TOML, an unknown or repeated key, a value outside its domain, a combination that cannot be built.
     pub fn from_toml(text: &str) -> Result<Machine, MachineError> {
-        // Some editors put a byte order mark before the first line.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let table = DeTable::parse(text).map_err(|e| {
             let offset = e.span().map_or(0, |s| s.start);
             MachineError::new(

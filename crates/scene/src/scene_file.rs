@@ -39,7 +39,6 @@ use crate::mesh::Mesh;
 use crate::normals::{Crease, NormalRule, Weight};
 use crate::scene::Scene;
 use crate::shading::Specular;
-use crate::text::without_mark;
 use material::Materials;
 use std::fs::File;
 use std::io::{self, Read as _};
@@ -89,7 +88,7 @@ pub(crate) fn read(path: &Path) -> Result<Scene, InputError> {
         let permitted = format!("permitted: at most {MAX_LENGTH} bytes");
         return Err(Fault::new(&file, None, "length", "more", permitted).into());
     }
-    let text = std::str::from_utf8(without_mark(&text));
+    let text = std::str::from_utf8(&text);
     parse(path, text.map_err(|error| unreadable(io::Error::new(io::ErrorKind::InvalidData, error)))?)
 }
 

@@ -15,11 +15,6 @@ const MAX_SHOWN: usize = 1 << 10;
 /// What some editors put before the first line.
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
-/// A text without the byte order mark before it.
-pub(crate) fn without_mark(text: &[u8]) -> &[u8] {
-    text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text)
-}
-
 /// Where a line stands.
 #[derive(Clone, Copy)]
 pub(crate) struct Place<'a> {
@@ -136,8 +131,8 @@ impl<R: BufRead> Lines<R> {
             let why = format!("permitted: lines of at most {MAX_LINE} bytes");
             return Err(self.place().fault("line", &self.text, why).into());
         }
-        let text = if self.line == 1 { without_mark(&self.text) } else { &self.text };
-        Ok(Some((self.place(), text)))
+        let mark = if self.line == 1 { BYTE_ORDER_MARK } else { b"" };
+        Ok(Some((self.place(), self.text.strip_prefix(mark).unwrap_or(&self.text))))
     }
 
     /// Of the last line that was read.

@@ -105,19 +105,17 @@ fn page(exhibits: &[Exhibit]) -> String {
         for (quantity, value) in &exhibit.figures {
             _ = writeln!(page, "| {quantity} | {value} |");
         }
-        page.push('\n');
         for row in exhibit.views.chunks(ABREAST) {
             let cells = |cell: &dyn Fn(&View) -> String| row.iter().map(cell).collect::<Vec<_>>().join(" | ");
             let picture = |view: &View| {
                 format!("![{}]({})", view.caption, file_name(exhibit.name, view.name, &view.image))
             };
-            _ = writeln!(page, "| {} |", cells(&picture));
+            _ = writeln!(page, "\n| {} |", cells(&picture));
             _ = writeln!(page, "|{}", "---|".repeat(row.len()));
-            _ = writeln!(page, "| {} |\n", cells(&|view| view.caption.clone()));
+            _ = writeln!(page, "| {} |", cells(&|view| view.caption.clone()));
         }
     }
-    page.truncate(page.trim_end().len());
-    page + "\n"
+    page
 }
 
 fn report(exhibits: &[Exhibit], talk: Talk) -> Result<()> {

@@ -171,11 +171,14 @@ fn what_an_open_order_shows_is_compared_all_the_same() {
 
 #[test]
 fn without_a_depth_test_no_order_is_open() {
-    for depth in [None, Some(DepthFunc::Always), Some(DepthFunc::Never)] {
-        let frame = frame(depth, &[(0.5, [1.0, 0.0, 0.0]), (0.5, [0.0, 0.0, 1.0])]);
-        assert_eq!(after(&frame, |_| {}).verdict(), Pass, "{depth:?}");
-        let c = after(&frame, |r| show(r, &frame, 0, 1));
-        assert_eq!((c.order_undecided, c.order_wrong, c.verdict()), (0, 1, Mismatch), "{depth:?}");
+    // At the cleared depth every test that there is would be open.
+    for z in [0.5, 1.0] {
+        for depth in [None, Some(DepthFunc::Always), Some(DepthFunc::Never)] {
+            let frame = frame(depth, &[(z, [1.0, 0.0, 0.0]), (z, [0.0, 0.0, 1.0])]);
+            assert_eq!(after(&frame, |_| {}).verdict(), Pass, "{depth:?}");
+            let c = after(&frame, |r| show(r, &frame, 0, 1));
+            assert_eq!((c.order_undecided, c.order_wrong, c.verdict()), (0, 1, Mismatch), "{depth:?} {z}");
+        }
     }
 }
 
