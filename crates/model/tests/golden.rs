@@ -118,7 +118,9 @@ fn the_textbook_listing_in_its_order() {
         })
         .collect();
     let mut drawn = Vec::new();
-    common::fragments(&machine, &triangles, |id, (x, y), values| drawn.push((id, x as u32, y as u32, values)));
+    common::fragments(&machine, &triangles, |id, (x, y), values| {
+        drawn.push((id, x as u32, y as u32, values))
+    });
     let mut drawn = drawn.into_iter();
     let frame = frame(&machine, &triangles);
     let (mut worst, mut checked) = (0f64, 0u32);

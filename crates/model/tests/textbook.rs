@@ -54,8 +54,9 @@ fn rows(machine: &Plan, triangle: &Triangle) -> Vec<Row> {
     if cross == whole(0) {
         return Vec::new();
     }
-    let lsb =
-        |i: usize, v: PortVertex| Q::new(i128::from(v.values()[i]), 1 << machine.channels()[i].vertex_fraction);
+    let lsb = |i: usize, v: PortVertex| {
+        Q::new(i128::from(v.values()[i]), 1 << machine.channels()[i].vertex_fraction)
+    };
     let channels = 0..machine.channels().len();
     let slope = |i| {
         let [va, vb, vc] = corner.map(|v| lsb(i, v));
@@ -176,11 +177,10 @@ fn every_triangle_on_a_small_grid() {
     for origin in [-2, 0, 2] {
         let triangles: Vec<_> = (0..25 * 25 * 25)
             .map(|i| {
-                [i % 25, i / 25 % 25, i / 625]
-                    .map(|k| {
-                        let values = random_values(&machine, &mut rng);
-                        machine.raw_vertex(origin + k % 5, origin + k / 5, &values)
-                    })
+                [i % 25, i / 25 % 25, i / 625].map(|k| {
+                    let values = random_values(&machine, &mut rng);
+                    machine.raw_vertex(origin + k % 5, origin + k / 5, &values)
+                })
             })
             .collect();
         let checked = compare(&machine, &triangles);

@@ -5,8 +5,8 @@
 mod common;
 
 use common::{ALWAYS, Triangle, machine, place};
-use edgewalk_machine::{Machine, Plan};
-use edgewalk_model::{Rig, Stalls, for_channels, setup_clocks};
+use edgewalk_machine::{MAX_CHANNELS, Machine, Plan};
+use edgewalk_model::{Rig, Stalls, setup_clocks};
 use std::convert::Infallible;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -29,15 +29,13 @@ struct Trace {
 fn trace(machine: &Plan, triangles: &[Triangle]) -> Trace {
     let mut trace = Trace::default();
     let tokens = triangles.iter().copied().map(Ok::<_, Infallible>);
-    let Ok(()) = for_channels!(machine, C => {
-        Rig::<C>::new(machine, ALWAYS, Stalls::NONE).draw(tokens, |now, _, cycle| {
-            trace.triangles.extend(cycle.triangle.then_some(now));
-            trace.writes.extend(cycle.written.then_some(now));
-            if let Some(addr) = cycle.read {
-                let (x, y) = place(machine, addr);
-                trace.reads.push((now, x, y));
-            }
-        })
+    let Ok(()) = Rig::<MAX_CHANNELS>::new(machine, ALWAYS, Stalls::NONE).draw(tokens, |now, _, cycle| {
+        trace.triangles.extend(cycle.triangle.then_some(now));
+        trace.writes.extend(cycle.written.then_some(now));
+        if let Some(addr) = cycle.read {
+            let (x, y) = place(machine, addr);
+            trace.reads.push((now, x, y));
+        }
     });
     trace
 }

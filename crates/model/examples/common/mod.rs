@@ -23,7 +23,8 @@ pub fn triangles(plan: &Plan, count: usize, area: f64) -> Vec<[PortVertex; 3]> {
         if corners.iter().any(|p| (0..2).any(|i| p[i] < 0.0 || p[i] > sides[i])) {
             continue;
         }
-        let vertex = |p: [f64; 2]| plan.port_vertex(p[0], p[1], &[(); 4].map(|()| rng.random_range(0.0..=1.0)));
+        let vertex =
+            |p: [f64; 2]| plan.port_vertex(p[0], p[1], &[(); 4].map(|()| rng.random_range(0.0..=1.0)));
         let corners: Result<Vec<_>, _> = corners.into_iter().map(vertex).collect();
         if let Ok(Ok(triangle)) = corners.map(<[PortVertex; 3]>::try_from) {
             triangles.push(triangle);

@@ -45,11 +45,7 @@ pub struct Sequential<const C: usize> {
     pub writes: Vec<Write<C>>,
 }
 
-pub fn sequential<const C: usize>(
-    plan: &Plan,
-    fragments: &[Fragment<C>],
-    state: DrawState,
-) -> Sequential<C> {
+pub fn sequential<const C: usize>(plan: &Plan, fragments: &[Fragment<C>], state: DrawState) -> Sequential<C> {
     let empty = Memory::<C>::new(plan, state.clear, Stalls::NONE).pixel(0);
     assert_eq!(u64::from(empty[0]), plan.z.max());
     let mut stored = HashMap::new();

@@ -44,7 +44,8 @@ pub fn fragments(plan: &Plan, triangles: &[Triangle], mut hook: impl FnMut(usize
         }
     };
     let triangles = triangles.iter().copied();
-    edgewalk_model::render_with(plan, triangles, ALWAYS, Stalls::NONE, each).expect("this machine's vertices");
+    edgewalk_model::render_with(plan, triangles, ALWAYS, Stalls::NONE, each)
+        .expect("this machine's vertices");
 }
 
 /// Column and line of an address.
