@@ -7,6 +7,7 @@
 
 #![deny(clippy::print_stdout, clippy::print_stderr)] // they panic where they cannot write; see talk.rs
 
+mod accumulators;
 mod arrays;
 mod commands;
 mod compare;

@@ -1,5 +1,7 @@
 //! Pictures for eyes: the frame, and the error as a heat map.
 
+mod scale;
+
 use crate::staging::Staging;
 use anyhow::{Context, Result};
 use png::StreamWriter;
@@ -32,6 +34,22 @@ pub fn heat(error: f64) -> [u8; 3] {
         // What is no number is too much as well.
         _ => [255, 0, 0],
     }
+}
+
+/// Writes numbers from -1 to 1 as blue over black to orange, with the scale underneath.
+pub fn write_signed(out: &Staging, name: &str, (width, height): (u32, u32), map: &[f64]) -> Result<()> {
+    let below = scale::of(width);
+    write(out, name, width, height + scale::HEIGHT, |i| match map.get(i) {
+        Some(value) => signed(*value),
+        None => below[i - map.len()],
+    })
+}
+
+/// The colour of a number from -1 to 1.
+fn signed(value: f64) -> [u8; 3] {
+    let strength = value.abs().min(1.0).sqrt();
+    let full = if value < 0.0 { [70.0, 150.0, 255.0] } else { [255.0, 150.0, 30.0] };
+    full.map(|channel| (channel * strength) as u8)
 }
 
 /// The heat map of a shading system, yellow at its largest error.

@@ -50,6 +50,12 @@ const FILES: &[(&str, &str, &[&str])] = &[
         "size 64 64\nshadow 8 0 1  1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n",
         &["input.tri", "shadow", "golden"],
     ),
+    // It may come late, so its place is not what is wrong.
+    (
+        "tri",
+        "size 64 64\nT 0 0 0 0 0 0 0  1 0 0 0 0 0 0  0 1 0 0 0 0 0\nshadow 8 0 1  1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n",
+        &["input.tri", "no shadow maps", "golden"],
+    ),
     ("tri", "\u{fffd}\u{0}\u{1}", &[":1:"]),
 ];
 

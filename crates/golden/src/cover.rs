@@ -48,14 +48,8 @@ pub(crate) fn fragments_of_lines(
 ) {
     let Some(cover) = Cover::new(triangle, mode, subpixel_bits) else { return };
     for y in cover.lines(lines) {
-        let span = cover.span(y, width);
-        let mut fragment = cover.fragment(span.start, y);
-        for x in span {
-            fragment.x = x;
-            draw(&fragment);
-            for (weight, plane) in fragment.weights.iter_mut().zip(&cover.planes) {
-                *weight += plane.per_x;
-            }
+        for x in cover.span(y, width) {
+            draw(&cover.fragment(x, y));
         }
     }
 }

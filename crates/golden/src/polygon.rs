@@ -4,7 +4,7 @@
 //!            F                       edge table       every edge that is not horizontal, in the bucket of its Ymin
 //!           / `-.                    active edges     those that cross this line, in the order of x
 //!   -------a-----b---E--c---D-----   spans            a to b, c to d: pixels with an odd number of edges on their left
-//!          |      `-/  `-.  |        next line        x + 1/m for each, by quotient and remainder
+//!          |      `-/  `-.  |        next line        x again, from the ends of each edge
 //!          A              `-C
 //! ```
 //! Ymin is counted, Ymax is not; the start of a span is rounded up and so is its end, which is no longer in it. That is

@@ -106,11 +106,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             _ => None,
         },
     };
-    if talk.json {
-        println!("{}", serde_json::to_string(&explanation)?);
-    } else if !talk.quiet {
-        print!("{}", page::text(&explanation));
-    }
+    talk.say(|| Ok(serde_json::to_string(&explanation)?), || page::text(&explanation))?;
     // A pixel may be empty, but not the whole picture.
     let covered = picture.coverage.iter().map(|count| u64::from(*count)).sum();
     Verdict::drew(covered).or_nothing(

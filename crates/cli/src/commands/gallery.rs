@@ -5,7 +5,7 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Result, anyhow};
-use edgewalk_gallery::{EXHIBITS, Exhibit, Image, Maker};
+use edgewalk_gallery::{EXHIBITS, Exhibit, Image, Maker, View};
 use edgewalk_scene::nearest;
 use rayon::prelude::*;
 use std::fmt::Write as _;
@@ -24,6 +24,9 @@ pub struct Args {
     #[arg(long, value_name = "DIR", default_value = "docs/gallery")]
     out: PathBuf,
 }
+
+/// Pictures side by side on the page, each with its caption under it.
+const ABREAST: usize = 3;
 
 /// Runs the command.
 pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
@@ -103,14 +106,18 @@ fn page(exhibits: &[Exhibit]) -> String {
             _ = writeln!(page, "| {quantity} | {value} |");
         }
         page.push('\n');
-        for view in &exhibit.views {
-            let name = file_name(exhibit.name, view.name, &view.image);
-            _ = writeln!(page, "![{}]({name} \"{}\")", view.caption, view.caption);
+        for row in exhibit.views.chunks(ABREAST) {
+            let cells = |cell: &dyn Fn(&View) -> String| row.iter().map(cell).collect::<Vec<_>>().join(" | ");
+            let picture = |view: &View| {
+                format!("![{}]({})", view.caption, file_name(exhibit.name, view.name, &view.image))
+            };
+            _ = writeln!(page, "| {} |", cells(&picture));
+            _ = writeln!(page, "|{}", "---|".repeat(row.len()));
+            _ = writeln!(page, "| {} |\n", cells(&|view| view.caption.clone()));
         }
-        let captions: Vec<&str> = exhibit.views.iter().map(|view| view.caption.as_str()).collect();
-        _ = writeln!(page, "\n{}.", captions.join("; "));
     }
-    page
+    page.truncate(page.trim_end().len());
+    page + "\n"
 }
 
 fn report(exhibits: &[Exhibit], talk: Talk) -> Result<()> {

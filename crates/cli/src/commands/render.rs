@@ -88,7 +88,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     let frame = args.source.frame(&machine)?;
     let out = Staging::new(&args.out)?;
-    let (report, verdict) = pictures(&args.source.input, &frame, &machine, args.engine, &out, talk.quiet)?;
+    let Pictures { report, verdict, .. } =
+        pictures(&args.source.input, &frame, &machine, args.engine, &out, talk.quiet)?;
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
@@ -157,6 +158,16 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     Verdict::drew(error.pixels).or_nothing(&args.source.input, surface.triangles.len() as u64, (w, h))
 }
 
+/// A comparison, and what was compared.
+pub struct Pictures {
+    /// On what was found.
+    pub report: Report,
+    /// Of the comparison.
+    pub verdict: Verdict,
+    /// Triangle that the engine's picture shows at every pixel, -1 none.
+    pub ids: Vec<i32>,
+}
+
 /// Draws, compares, and writes golden.png, the engine's picture and the two heat maps.
 pub fn pictures(
     name: &str,
@@ -165,7 +176,7 @@ pub fn pictures(
     engine: Engine,
     out: &Staging,
     quiet: bool,
-) -> Result<(Report, Verdict)> {
+) -> Result<Pictures> {
     let golden = draw(Engine::Golden, frame, machine, quiet)?;
     let drawn = draw(engine, frame, machine, quiet)?;
     let comparison = compare(machine, frame, &golden, &drawn);
@@ -176,5 +187,5 @@ pub fn pictures(
     picture::write_heat(out, "color_error.png", (w, h), &comparison.color_map, 1.0)?;
     let verdict = comparison.verdict();
     let report = Report::new(name, frame.triangles.len() as u64, machine, &drawn).with(comparison);
-    Ok((report, verdict))
+    Ok(Pictures { report, verdict, ids: drawn.id })
 }

@@ -1,11 +1,11 @@
 //! The machine's way to a pixel: start, increments down the major edge, increments along the span.
 
+use crate::accumulators::{Plane, half, lsb, prim, signed};
 use crate::extra::Label;
-use edgewalk_machine::{Channel, Plan, PortVertex};
+use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::edge::Edge;
-use edgewalk_model::setup::Setup;
 use edgewalk_model::span::Span;
-use edgewalk_model::tokens::{Prim, Words, add, output, word_masks};
+use edgewalk_model::tokens::{Words, add, output, word_masks};
 use edgewalk_model::{Events, for_channels};
 use edgewalk_numerics::Steps;
 use serde::Serialize;
@@ -88,23 +88,6 @@ fn walk_words<const C: usize>(machine: &Plan, triangle: &[PortVertex; 3], x: u32
     Some(Walk { channels: channels.iter().map(Label::of).collect(), additions, output: outputs.collect() })
 }
 
-/// What SETUP makes of the triangle; `None` if it is culled.
-fn prim<const C: usize>(machine: &Plan, triangle: &[PortVertex; 3]) -> Option<Prim<C>> {
-    let events = &mut Events::default();
-    let mut setup = Setup::new(machine);
-    setup.step(Some((triangle, 0)), false, events);
-    while setup.prim().is_none() && !setup.tri_ready() {
-        setup.step(None, false, events);
-    }
-    setup.prim().copied()
-}
-
-/// The planes through the values of the vertices at the port.
-struct Plane<'a> {
-    machine: &'a Plan,
-    triangle: &'a [PortVertex; 3],
-}
-
 impl Plane<'_> {
     fn addition<const C: usize>(
         &self,
@@ -114,16 +97,9 @@ impl Plane<'_> {
         (lines, columns): (u32, u32),
     ) -> Addition {
         let weights = self.weights(x, y);
-        let exact = |i: usize| self.at(weights, i);
         let channels = self.machine.channels();
         let each = |of: &dyn Fn(usize) -> f64| (0..channels.len()).map(of).collect();
-        let turn = |i: usize| 2f64.powi(channels[i].bits as i32);
-        // The words are modular: whole turns are no error.
-        let error = |i: usize| {
-            let of = &channels[i];
-            let off = signed(after[i], of.word()) * lsb(of.fraction) - half(of) - exact(i);
-            off - turn(i) * (off / turn(i)).round()
-        };
+        let error = |i: usize| self.error(weights, after[i], i);
         let steps = Steps { lines, columns };
         Addition {
             step,
@@ -135,42 +111,9 @@ impl Plane<'_> {
                 let half = if step == "start" { half(&channels[i]) } else { 0.0 };
                 signed(after[i].wrapping_sub(before[i]) & mask, word) * lsb(channels[i].fraction) - half
             }),
-            value: each(&|i| exact(i) + error(i)),
+            value: each(&|i| self.at(weights, i) + error(i)),
             error: each(&error),
             bound: each(&|i| channels[i].error_budget(steps).steps.to_f64()),
         }
     }
-
-    /// What the vertices weigh at the centre of a pixel; they add up to 1.
-    fn weights(&self, x: i64, y: u32) -> [f64; 3] {
-        let unit = f64::from(1u32 << self.machine.subpixel_bits);
-        let place = |v: &PortVertex| [f64::from(v.x()) / unit, f64::from(v.y()) / unit];
-        let [a, b, c] = self.triangle.each_ref().map(place);
-        let p = [x as f64 + 0.5, f64::from(y) + 0.5];
-        let cross = |from: [f64; 2], to: [f64; 2], at: [f64; 2]| {
-            (to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0])
-        };
-        [cross(b, c, p), cross(c, a, p), cross(a, b, p)].map(|weight| weight / cross(a, b, c))
-    }
-
-    /// Channel `i` where the vertices weigh so much, LSB.
-    fn at(&self, weights: [f64; 3], i: usize) -> f64 {
-        let scale = lsb(self.machine.channels()[i].vertex_fraction);
-        self.triangle.iter().zip(weights).map(|(v, weight)| weight * v.values()[i] as f64 * scale).sum()
-    }
-}
-
-/// What the first value carries for the output rounding, LSB.
-fn half(channel: &Channel) -> f64 {
-    if channel.kind.is_rounded() && channel.fraction > 0 { 0.5 } else { 0.0 }
-}
-
-fn lsb(fraction: u32) -> f64 {
-    0.5f64.powi(fraction as i32)
-}
-
-/// A word as a signed number: values just below 0 and increments.
-fn signed(word: u64, bits: u32) -> f64 {
-    let shift = 64 - bits;
-    ((word << shift) as i64 >> shift) as f64
 }
