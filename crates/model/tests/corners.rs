@@ -1,15 +1,15 @@
-//! Every hazard and corner that the model counts is met by some run here, and the counts add up.
+//! Every event that a unit declares is counted under its name and met by some run here, and the counts add up.
 
 mod common;
 
-use common::{machine, random_triangle};
-use edgewalk_model::{Activity, Coverage, DrawState, Stalls, render};
+use common::{machine, random_triangle, render};
+use edgewalk_model::{Activity, DrawState, Events, Stalls};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 #[test]
 fn nothing_is_missing() {
     let mut rng = StdRng::seed_from_u64(1);
-    let mut all = Coverage::default();
+    let mut all = Events::default();
     let mut spent = [0; 9];
     for hazard in ["drain", "interlock", "forward"] {
         for (fill, s) in [("exact", "4"), ("textbook", "0")] {
@@ -31,11 +31,11 @@ fn nothing_is_missing() {
                         random_triangle(&machine, size, &mut rng)
                     })
                     .collect();
-                let frame = render(&machine, triangles, DrawState::default(), stalls);
+                let frame = render(&machine, &triangles, DrawState::default(), stalls);
                 assert!(frame.counters.add_up(), "{:?}", frame.counters);
                 assert_eq!(u64::from(frame.coverage.iter().sum::<u32>()), frame.counters.fragments);
                 assert_eq!(u64::from(frame.writes.iter().sum::<u32>()), frame.counters.writes);
-                all.merge(&frame.corners);
+                all.merge(&frame.events);
                 for (sum, cycles) in spent.iter_mut().zip(frame.counters.activity) {
                     *sum += cycles;
                 }
@@ -54,7 +54,7 @@ fn nothing_is_missing() {
 
 #[test]
 fn an_idle_machine_misses_everything() {
-    let frame = render(&machine(&[]), [], DrawState::default(), Stalls::NONE);
-    assert_eq!(frame.corners.missing().len(), frame.corners.counts().len());
+    let frame = render(&machine(&[]), &[], DrawState::default(), Stalls::NONE);
+    assert_eq!(frame.events.missing().len(), frame.events.counts().len());
     assert_eq!((frame.counters.cycles, frame.counters.spent(Activity::Idle)), (1, 1));
 }
