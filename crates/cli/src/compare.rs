@@ -1,7 +1,7 @@
 //! A machine's picture against the golden one, pixel by pixel.
 //!
 //! ```text
-//!  golden ─┐                  same triangle, same writes ──> depth and colour: error, wrapped? ──┐
+//!  golden ─┐                  same triangle, same writes ──> every channel: error, wrapped? ─────┐
 //!          ├─> coverage ─> ?                                                                    ├─> Comparison ─> verdict
 //!  machine ┘                  another triangle or count ──> is there an order of depths within ─┘
 //!                                                           the bound (A7) that explains it?
@@ -15,10 +15,11 @@ mod tests;
 
 use crate::engine::Raster;
 use crate::verdict::Verdict;
+pub use channel::ExtraError;
 use channel::Tally;
 use edgewalk_machine::Plan;
 use edgewalk_scene::Frame;
-use order::Orders;
+use order::{Orders, Over};
 use serde::Serialize;
 
 /// What the comparison found.
@@ -32,16 +33,16 @@ pub struct Comparison {
     pub coverage_mismatches: u64,
     /// Pixels that golden covers.
     pub covered: u64,
-    /// Those of them whose triangle, number of writes, depth and colour were compared.
+    /// Those of them whose triangle, number of writes, depth, colour and values of the user's own were compared.
     pub compared: u64,
     /// Pixels that show another triangle, or were written another number of times, as two depths there are too near for the
     /// bound to tell their order (A7).
     pub order_undecided: u64,
     /// Pixels where no such order explains it.
     pub order_wrong: u64,
-    /// Pixels that show no triangle, and not the cleared depth and colour either.
+    /// Pixels that show no triangle, and not the cleared depth, colour and values of the user's own either.
     pub background_wrong: u64,
-    /// Pixels whose depth or a colour of theirs left its range and wrapped.
+    /// Pixels of which a value left its range and wrapped.
     pub wrapped: u64,
     /// Cycles of the machine without a cause, or with two.
     pub cycles_unexplained: u64,
@@ -59,6 +60,9 @@ pub struct Comparison {
     /// Why there is none of the colour.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color_no_bound: Option<String>,
+    /// Channels of the user's own.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub extra: Vec<ExtraError>,
     /// Depth error of every pixel, LSB.
     #[serde(skip)]
     pub z_map: Vec<f64>,
@@ -87,6 +91,7 @@ pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -
         color_bound: tally.color.bound(),
         z_no_bound: tally.z.no_bound(),
         color_no_bound: tally.color.no_bound(),
+        extra: Vec::new(),
         z_map: Vec::new(),
         color_map: Vec::new(),
     };
@@ -99,7 +104,7 @@ pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -
             continue;
         }
         if golden.id[i] >= 0 {
-            tally.triangle(i, golden.z[i], golden.rgb[i]);
+            tally.triangle(i, golden.z[i], &Over::golden(golden, i));
         } else {
             c.background_wrong += u64::from(!tally.is_background(i, frame.clear));
         }
@@ -112,7 +117,7 @@ pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -
                 c.order_undecided += 1;
                 match shown {
                     Some(shown) => {
-                        tally.triangle(i, if frame.depth_write { shown.z } else { 1.0 }, shown.rgb)
+                        tally.triangle(i, if frame.depth_write { shown.z } else { 1.0 }, &shown)
                     }
                     None => c.background_wrong += u64::from(!tally.is_background(i, frame.clear)),
                 }
@@ -122,6 +127,7 @@ pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -
         c.compared += u64::from(golden.coverage[i] > 0);
     }
     c.wrapped = tally.wrapped;
+    c.extra = tally.extra.iter().map(|errors| ExtraError::of(errors, machine)).collect();
     (c.z_error, c.z_map) = tally.z.found();
     (c.color_error, c.color_map) = tally.color.found();
     c
@@ -129,7 +135,8 @@ pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -
 
 impl Comparison {
     /// Pass only if all of the screen and all that golden covers was compared, every coverage and order agrees, nothing
-    /// wrapped, every cycle has its cause, and every error is within its bound; where none is proved, within 1 LSB.
+    /// wrapped, every cycle has its cause, and every error is within its bound; where none is proved, within 1 LSB (of a floor
+    /// 1 1/2).
     pub fn verdict(&self) -> Verdict {
         let beyond = |error: f64, bound: Option<f64>| {
             let allowed = bound.unwrap_or(1.0);
@@ -141,7 +148,8 @@ impl Comparison {
             + self.wrapped
             + self.cycles_unexplained
             + beyond(self.z_error, self.z_bound)
-            + beyond(self.color_error, self.color_bound);
+            + beyond(self.color_error, self.color_bound)
+            + self.extra.iter().map(|own| beyond(own.error, Some(own.allowed))).sum::<u64>();
         Verdict::of(self.compared, self.covered, wrong).and(Verdict::of(self.pixels, self.screen, wrong))
     }
 }

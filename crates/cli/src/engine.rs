@@ -1,5 +1,6 @@
 //! One picture, whichever engine drew it.
 
+use crate::extra::{self, Values};
 use crate::fast;
 use crate::input::to_port;
 use crate::progress::bar;
@@ -7,7 +8,7 @@ use anyhow::{Result, anyhow};
 use edgewalk_golden::Drawing;
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::fast::Path;
-use edgewalk_model::{Activity, Coverage, Stalls};
+use edgewalk_model::{Activity, Events, Stalls};
 use edgewalk_scene::Frame;
 use std::ops::Range;
 
@@ -41,12 +42,14 @@ pub struct Raster {
     pub z: Vec<f64>,
     /// Colour in [0,1].
     pub rgb: Vec<[f64; 3]>,
+    /// Channels of the user's own.
+    pub extra: Vec<Values>,
     /// 0 nothing written, 1 in shadow, 2 lit, by the last write; where golden drew.
     pub lit: Option<Vec<u8>>,
     /// Where the cycles went, where a machine drew.
     pub cycles: Option<Cycles>,
     /// Hazards and corners met, where a machine drew.
-    pub corners: Option<Coverage>,
+    pub corners: Option<Events>,
 }
 
 /// Cycles by cause, the codes of the `activity` port.
@@ -74,7 +77,7 @@ impl Cycles {
 /// Draws the frame.
 pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Result<Raster> {
     match engine {
-        Engine::Golden => Ok(from_golden(edgewalk_golden::draw(frame, golden_fill(machine)))),
+        Engine::Golden => Ok(from_golden(edgewalk_golden::draw(frame, golden_fill(machine)), machine)),
         Engine::Fast => {
             let port = to_port(frame, machine)?;
             let triangles = || Ok(port.triangles.iter().copied().map(Ok));
@@ -86,7 +89,7 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Resul
             let bar = bar(port.triangles.len() as u64, "triangles", quiet);
             let triangles = bar.wrap_iter(port.triangles.iter().copied());
             let raster = if engine == Engine::Model {
-                from_model(machine, edgewalk_model::render(machine, triangles, port.state, Stalls::NONE))
+                from_model(machine, edgewalk_model::render(machine, triangles, port.state, Stalls::NONE)?)
             } else {
                 let drawn = edgewalk_vectors::render_rtl(machine, triangles, port.state, Stalls::NONE);
                 from_machine(machine, drawn.map_err(|e| anyhow!("{e}"))?)
@@ -110,7 +113,7 @@ pub fn draw_bands(
         Engine::Golden => {
             let drawing = Drawing::new(frame, golden_fill(machine));
             let mut bands = bands(frame.width, frame.height, GOLDEN_BAND);
-            bands.try_for_each(|lines| take(from_golden(drawing.lines(lines))))
+            bands.try_for_each(|lines| take(from_golden(drawing.lines(lines), machine)))
         }
         Engine::Fast => {
             let port = to_port(frame, machine)?;
@@ -152,7 +155,7 @@ pub fn from_fast(machine: &Plan, drawn: edgewalk_model::Frame, path: Path) -> Ra
 }
 
 fn from_model(machine: &Plan, drawn: edgewalk_model::Frame) -> Raster {
-    Raster { corners: Some(drawn.corners.clone()), ..from_machine(machine, drawn) }
+    Raster { corners: Some(drawn.events.clone()), ..from_machine(machine, drawn) }
 }
 
 /// The machine's rule for pixels, as the golden picture knows it.
@@ -163,8 +166,9 @@ pub fn golden_fill(machine: &Plan) -> edgewalk_golden::Fill {
     }
 }
 
-/// A golden picture.
-pub fn from_golden(picture: edgewalk_golden::Picture) -> Raster {
+/// A golden picture, on the screen of this machine and with its channels.
+pub fn from_golden(picture: edgewalk_golden::Picture, machine: &Plan) -> Raster {
+    let extra = extra::channels(machine).iter().zip(picture.extra);
     Raster {
         width: picture.width,
         height: picture.height,
@@ -173,6 +177,7 @@ pub fn from_golden(picture: edgewalk_golden::Picture) -> Raster {
         id: picture.id,
         z: picture.z,
         rgb: picture.rgb,
+        extra: extra.map(|(channel, values)| Values::exact(channel, values)).collect(),
         lit: Some(picture.lit.into_iter().map(|lit| lit as u8).collect()),
         cycles: None,
         corners: None,
@@ -189,6 +194,7 @@ fn from_machine(machine: &Plan, drawn: edgewalk_model::Frame) -> Raster {
         id: drawn.id,
         z: unorm(&drawn.z, machine.z.max()),
         rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / machine.color.max() as f64)).collect(),
+        extra: drawn.extra.into_iter().map(Values::Stored).collect(),
         lit: None,
         cycles: Some(Cycles { total: drawn.counters.cycles, path: None, spent: drawn.counters.activity }),
         corners: None,

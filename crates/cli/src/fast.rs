@@ -6,7 +6,7 @@ use crate::progress::bar;
 use crate::triangles::TriangleFile;
 use anyhow::{Context, Result};
 use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::fast::{Path, Reason, Renderer};
+use edgewalk_model::fast::{Path, Reason, Refusal, Renderer};
 use edgewalk_model::{DrawState, Frame, Stalls, render};
 use std::ops::Range;
 
@@ -61,11 +61,12 @@ where
     let mut renderer = Renderer::new(machine, true);
     match until_error(open()?, |triangles| renderer.draw(triangles, state))? {
         Ok(()) => Ok(Drawn::Fast(renderer)),
-        Err(reason) => {
+        Err(Refusal::Tick(reason)) => {
             drop(renderer);
-            let frame = until_error(open()?, |triangles| render(machine, triangles, state, Stalls::NONE))?;
+            let frame = until_error(open()?, |triangles| render(machine, triangles, state, Stalls::NONE))??;
             Ok(Drawn::Ticked(frame, reason))
         }
+        Err(Refusal::Foreign(foreign)) => Err(foreign.into()),
     }
 }
 

@@ -1,5 +1,6 @@
 //! What is to be drawn: a built-in scene, a mesh, or a file of screen-space triangles; and its way to the port.
 
+use crate::extra;
 use crate::machine_args::MachineArgs;
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
@@ -56,9 +57,11 @@ pub fn port_triangle(
 ) -> Result<[PortVertex; 3]> {
     let mut port = [PortVertex::default(); 3];
     for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
-        let color = if mode == ShadeMode::Flat { &triangle.0[0] } else { v };
+        let v = if mode == ShadeMode::Flat { v.colored_as(&triangle.0[0]) } else { *v };
+        let [e0, e1, e2, e3] = v.extra;
+        let values = [v.z, v.r, v.g, v.b, e0, e1, e2, e3];
         *slot = machine
-            .port_vertex(v.x, v.y, [v.z, color.r, color.g, color.b])
+            .port_vertex(v.x, v.y, &values[..machine.channels().len()])
             .with_context(|| format!("triangle {index}, vertex {corner}"))?;
     }
     Ok(port)
@@ -112,7 +115,11 @@ impl Source {
     }
 
     /// The scene, and its surface on this machine's screen, clipped to its guard band.
+    ///
+    /// # Errors
+    /// The machine has channels of the user's own: a scene has no values for them.
     pub fn surface(&self, machine: &Plan) -> Result<(Scene, Surface)> {
+        extra::fitting(0, machine).with_context(|| self.input.clone())?;
         let scene = Scene::open(&self.input)?;
         let guard = f64::from((1u32 << machine.guard_bits) - 1);
         let surface = scene.surface(machine.width, machine.height, guard);
@@ -179,6 +186,7 @@ impl Source {
                 frame.height
             ));
         }
+        extra::fitting(frame.extra, machine).with_context(|| self.input.clone())?;
         Ok(frame)
     }
 }

@@ -12,6 +12,7 @@ mod arrays;
 mod commands;
 mod compare;
 mod engine;
+mod extra;
 mod fast;
 mod fast_phong;
 mod input;

@@ -3,6 +3,7 @@
 use crate::Talk;
 use crate::compare::Comparison;
 use crate::engine::{Cycles, Raster};
+use crate::extra::{self, OwnChannel};
 use anyhow::Result;
 use edgewalk_machine::Plan;
 use edgewalk_model::Activity;
@@ -19,7 +20,7 @@ pub struct Report {
     writes: u64,
     odd_pixels: u64,
     cycles: Option<Cycles>,
-    corners: Option<edgewalk_model::Coverage>,
+    corners: Option<edgewalk_model::Events>,
     comparison: Option<Comparison>,
 }
 
@@ -85,6 +86,11 @@ impl Report {
             "writes": self.writes,
             "odd_pixels": self.odd_pixels,
         });
+        let own = extra::channels(&self.machine);
+        if !own.is_empty() {
+            let own: Vec<_> = own.iter().map(|channel| OwnChannel::of(channel, &self.machine)).collect();
+            report["channels"] = serde_json::to_value(own)?;
+        }
         if let Some(c) = &self.comparison {
             report["comparison"] = serde_json::to_value(c)?;
         }
@@ -188,7 +194,19 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
         machine.color.bits,
         bound(c.color_bound, &c.color_no_bound)
     );
-    _ = writeln!(t, "pixels whose depth or colour wrapped {}", c.wrapped);
+    for own in &c.extra {
+        let (of, label) = (&own.channel, &own.channel.label);
+        _ = writeln!(
+            t,
+            "largest {} error      {:.4} LSB of {} bits, {}, {}",
+            label.name,
+            own.error,
+            label.bits,
+            label.kind,
+            bound(of.bound, &of.no_bound)
+        );
+    }
+    _ = writeln!(t, "pixels with a value that wrapped {}", c.wrapped);
     _ = writeln!(
         t,
         "triangle or writes differ: {} within the bound of depth order, {} wrong; background wrong {}",

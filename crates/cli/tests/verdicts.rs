@@ -39,7 +39,7 @@ fn a_wide_triangle_wraps_with_four_fraction_bits_and_not_with_fourteen() {
     assert_eq!(c["color_bound"], Value::Null, "{c}");
     assert!(c["color_no_bound"].as_str().unwrap().contains("9309 additions may err by 290.9375 LSB"), "{c}");
     assert!(c["z_bound"].as_f64() < Some(1.0) && c.get("z_no_bound").is_none(), "{c}");
-    let wrapped = format!("pixels whose depth or colour wrapped {}\n", c["wrapped"]);
+    let wrapped = format!("pixels with a value that wrapped {}\n", c["wrapped"]);
     assert!(text.contains("no bound: 9309 additions") && text.contains(&wrapped), "{text}");
 
     let (code, report, text) = render(WIDE, &[]);

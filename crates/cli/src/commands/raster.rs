@@ -8,7 +8,7 @@ use crate::report::Report;
 use crate::staging::Staging;
 use crate::triangles::TriangleFile;
 use crate::verdict::Verdict;
-use crate::{Talk, fast};
+use crate::{Talk, extra, fast};
 use anyhow::{Context, Result};
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Frame, InputError};
@@ -19,11 +19,13 @@ use std::path::PathBuf;
 ///
 /// Writes coverage.npy, writes.npy (u32), id.npy (i32), z.npy (H,W) and rgb.npy (H,W,3) (f64 in [0,1]), image.png and
 /// report.json; row 0 on top. Golden does not quantise z and rgb, and adds lit.npy (u8: 0 nothing written, 1 in shadow, 2 lit).
+/// With channels.extra = n also e0.npy and on, LSB of the channel's output: i64, golden's plane as f64, 0 where nothing was drawn.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk raster triangles.tri --out out/r
   edgewalk raster triangles.tri --engine golden --out out/g --json
   edgewalk raster triangles.tri --engine rtl --out out/n --set interpolator.adders=1
+  edgewalk raster textured.tri --out out/t --set channels.extra=2
 
 The triangle file (docs/triangle_file.md), one item a line, # comments:
   size W H                                                first
@@ -32,9 +34,11 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
   depth_write 0|1
   blend 0|1                                               1: (1-kt) I + kt I_back; golden only
   clear r g b
+  extra N                                                 values of your own at a vertex, 0 to 4: channels.extra = N
   shadow SIZE BIAS AMBIENT m00 m01 .. m33                 a light's depth map, matrix by rows; golden only
   L x y z  x y z  x y z                                   a triangle of that map, in texels
   T x y z r g b kt  x y z r g b kt  x y z r g b kt        a triangle, pixels
+  X e0 .. e0 .. e0 ..                                     N values of vertex 1, of 2, of 3: unorm [0,1], else LSB
   P n  x y z r g b kt ..                                  a polygon of n vertices; the machine draws it as triangles
   H n  x y z r g b kt ..                                  one more contour of the polygon on the line before")]
 pub struct Args {
@@ -49,8 +53,20 @@ pub struct Args {
 }
 
 /// What a run may write.
-const FILES: [&str; 8] =
-    ["coverage.npy", "writes.npy", "id.npy", "z.npy", "rgb.npy", "lit.npy", "image.png", "report.json"];
+const FILES: [&str; 12] = [
+    "coverage.npy",
+    "writes.npy",
+    "id.npy",
+    "z.npy",
+    "rgb.npy",
+    "e0.npy",
+    "e1.npy",
+    "e2.npy",
+    "e3.npy",
+    "lit.npy",
+    "image.png",
+    "report.json",
+];
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
@@ -58,6 +74,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let file = TriangleFile::open(&args.file)?;
     let header = file.header()?;
     let machine = machine.machine(Some((header.width, header.height)))?;
+    extra::fitting(header.extra, &machine).with_context(|| file.name().to_owned())?;
     let report = match args.engine {
         Engine::Fast => while_it_is_read(&file, &header, &machine, &out, talk)?,
         engine => whole(&file, engine, &machine, &out, talk)?,

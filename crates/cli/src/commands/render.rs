@@ -101,7 +101,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     let frame = args.source.outlined(machine)?;
     let hidden = if args.hidden_lines { HiddenLines::Drawn } else { HiddenLines::Removed };
-    let drawn = from_golden(wireframe(&frame, golden_fill(machine), hidden));
+    let drawn = from_golden(wireframe(&frame, golden_fill(machine), hidden), machine);
     let out = Staging::new(&args.out)?;
     picture::write_rgb(&out, "image.png", drawn.width, drawn.height, &drawn.rgb)?;
     let report = Report::new(&args.source.input, frame.triangles.len() as u64, machine, &drawn)

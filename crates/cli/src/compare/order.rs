@@ -4,16 +4,17 @@
 //! output rounding, 0 for the cleared depth). Nearer ones may come out as less, equal or greater. Playing the depth test at
 //! a pixel through, with every outcome of every test that is open, gives all that the machine may leave there.
 
-use crate::engine::golden_fill;
+use crate::engine::{Raster, golden_fill};
+use crate::extra;
 use edgewalk_golden::{Fill, Fragment, fragments};
 use edgewalk_machine::Plan;
 use edgewalk_numerics::Dyadic;
 use edgewalk_numerics::bounds::surely_ordered_difference;
-use edgewalk_scene::{DepthFunc, Frame};
+use edgewalk_scene::{DepthFunc, Frame, MAX_EXTRA};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A triangle over a pixel: its place in the frame, exact depth and colour, [0,1].
+/// A triangle over a pixel: its place in the frame, its exact values there, depth and colour in [0,1].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Over {
     /// Place in the frame.
@@ -22,6 +23,8 @@ pub struct Over {
     pub z: f64,
     /// Colour.
     pub rgb: [f64; 3],
+    /// The user's own channels, LSB; behind the last 0.
+    pub extra: [f64; MAX_EXTRA],
 }
 
 /// The pixels where the pictures show different triangles, or different numbers of writes.
@@ -40,12 +43,30 @@ pub struct Apart {
     pub cleared: f64,
 }
 
+impl Over {
+    /// What golden shows at a pixel.
+    pub fn golden(golden: &Raster, pixel: usize) -> Self {
+        let own = |channel: usize| golden.extra.get(channel).map_or(0.0, |values| values.at(pixel));
+        let (z, rgb) = (golden.z[pixel], golden.rgb[pixel]);
+        Over { id: golden.id[pixel], z, rgb, extra: std::array::from_fn(own) }
+    }
+
+    /// A fragment of the triangle with this id.
+    fn fragment(machine: &Plan, fragment: &Fragment, id: i32) -> Self {
+        let channels = extra::channels(machine);
+        let own = |channel: usize| {
+            channels.get(channel).map_or(0.0, |of| fragment.extra(channel) * of.host_unit())
+        };
+        Over { id, z: fragment.z(), rgb: fragment.rgb(), extra: std::array::from_fn(own) }
+    }
+}
+
 impl<'a> Orders<'a> {
     /// Of these pixels.
     pub fn new(machine: &Plan, frame: &'a Frame, pixels: &[usize]) -> Self {
         let apart = apart(machine);
         let over = match (apart, golden_fill(machine)) {
-            (Some(_), Fill::Exact { subpixel_bits }) => all_over(frame, subpixel_bits, pixels),
+            (Some(_), Fill::Exact { subpixel_bits }) => all_over(machine, frame, subpixel_bits, pixels),
             _ => BTreeMap::new(),
         };
         Orders { frame, apart, over }
@@ -71,7 +92,12 @@ fn apart(machine: &Plan) -> Option<Apart> {
 }
 
 /// What lies over these pixels, in drawing order.
-fn all_over(frame: &Frame, subpixel_bits: u32, pixels: &[usize]) -> BTreeMap<usize, Vec<Over>> {
+fn all_over(
+    machine: &Plan,
+    frame: &Frame,
+    subpixel_bits: u32,
+    pixels: &[usize],
+) -> BTreeMap<usize, Vec<Over>> {
     let mut over: BTreeMap<usize, Vec<Over>> = pixels.iter().map(|pixel| (*pixel, Vec::new())).collect();
     if over.is_empty() {
         return over;
@@ -81,7 +107,7 @@ fn all_over(frame: &Frame, subpixel_bits: u32, pixels: &[usize]) -> BTreeMap<usi
         fragments(triangle, frame.mode, subpixel_bits, screen, |fragment: &Fragment| {
             let pixel = fragment.y as usize * frame.width as usize + fragment.x as usize;
             if let Some(list) = over.get_mut(&pixel) {
-                list.push(Over { id, z: fragment.z(), rgb: fragment.rgb() });
+                list.push(Over::fragment(machine, fragment, id));
             }
         });
     }
