@@ -1,6 +1,6 @@
 //! What every cycle was spent on, and what passed through the units.
 
-use crate::coverage::one_more;
+use crate::events::one_more;
 use edgewalk_machine::Activity;
 
 /// Performance counters of a run.

@@ -12,38 +12,41 @@
 //!
 //! Rules: `docs/machine.md`, section 3. Not modelled: nothing.
 
-use crate::coverage::{Coverage, one_more};
-use crate::tokens::{EdgeWalk, Line, Prim, Words, add, word_masks};
+use crate::events::{Events, one_more};
+use crate::tokens::{EdgeWalk, Line, Prim, Words, add, per_channel, word_masks};
 use edgewalk_machine::{Fill, Plan};
 
 /// State of EDGE.
 #[derive(Clone, Debug)]
-pub struct Edge {
+pub struct Edge<const C: usize> {
     textbook: bool,
     column_bits: u32,
-    masks: Words,
+    masks: Words<C>,
+    /// 2^(b+r-1) of signed channels, else 0: with this bit turned the range of a word begins at 0.
+    signs: Words<C>,
     running: bool,
     /// The line offered: y, columns C of both edges, values, marks.
-    line: Line,
-    /// Lines left of each part.
-    lines: [u32; 2],
+    line: Line<C>,
+    /// Lines remaining in each part.
+    remaining: [u32; 2],
     major: EdgeWalk,
     minor: EdgeWalk,
     /// What the whole triangle needs: second minor edge, startB, increments.
-    held: Prim,
+    held: Prim<C>,
 }
 
-impl Edge {
+impl<const C: usize> Edge<C> {
     /// A unit at rest.
     #[must_use]
-    pub fn new(machine: &Plan) -> Self {
+    pub fn new(plan: &Plan) -> Self {
         Edge {
-            textbook: machine.fill == Fill::Textbook,
-            column_bits: machine.widths().column,
-            masks: word_masks(machine),
+            textbook: plan.fill == Fill::Textbook,
+            column_bits: plan.widths().column,
+            masks: word_masks(plan),
+            signs: per_channel(plan, |c| u64::from(c.kind.is_signed()) << (c.word() - 1)),
             running: false,
             line: Line::default(),
-            lines: [0; 2],
+            remaining: [0; 2],
             major: EdgeWalk::default(),
             minor: EdgeWalk::default(),
             held: Prim::default(),
@@ -72,14 +75,14 @@ impl Edge {
     /// The line offered to SPAN.
     #[inline]
     #[must_use]
-    pub fn line(&self) -> Option<&Line> {
+    pub fn line(&self) -> Option<&Line<C>> {
         self.running.then_some(&self.line)
     }
 
     /// g: the gradients of the last prim, for PIXEL.
     #[inline]
     #[must_use]
-    pub fn gradient(&self) -> &Words {
+    pub fn gradient(&self) -> &Words<C> {
         &self.held.gradient
     }
 
@@ -87,30 +90,30 @@ impl Edge {
     #[inline(always)]
     pub fn step(
         &mut self,
-        prim: Option<&Prim>,
+        prim: Option<&Prim<C>>,
         fresh_queued: bool,
         line_ready: bool,
-        coverage: &mut Coverage,
+        events: &mut Events,
     ) {
         if self.running {
             if line_ready {
-                self.next_line(coverage);
+                self.next_line(events);
             } else {
-                one_more(&mut coverage.span_fifo_full);
+                one_more(&mut events.span_fifo_full);
             }
         } else if let Some(prim) = prim {
             if fresh_queued {
-                coverage.fresh_wait += 1;
+                events.fresh_wait += 1;
             } else {
                 self.load(prim);
             }
         }
     }
 
-    fn load(&mut self, prim: &Prim) {
+    fn load(&mut self, prim: &Prim<C>) {
         let part = usize::from(prim.lines[0] == 0);
         self.running = true;
-        self.lines = prim.lines;
+        self.remaining = prim.lines;
         self.major = prim.major;
         self.minor = prim.minor[part];
         self.held = *prim;
@@ -118,7 +121,7 @@ impl Edge {
             y: prim.line,
             major: self.major.c,
             minor: self.minor.c,
-            left: prim.left,
+            major_right: prim.major_right,
             values: prim.start[if self.textbook { part } else { 0 }],
             fresh: true,
             fence: true,
@@ -126,10 +129,10 @@ impl Edge {
         };
     }
 
-    fn next_line(&mut self, coverage: &mut Coverage) {
-        let [n1, n2] = self.lines;
+    fn next_line(&mut self, events: &mut Events) {
+        let [n1, n2] = self.remaining;
         let knee = n1 == 1 && n2 > 0;
-        self.lines = if n1 > 0 { [n1 - 1, n2] } else { [0, n2 - 1] };
+        self.remaining = if n1 > 0 { [n1 - 1, n2] } else { [0, n2 - 1] };
         self.running = n1 + n2 > 1;
         if !self.running {
             return;
@@ -141,32 +144,32 @@ impl Edge {
         }
         if knee && self.textbook {
             // The knee line is drawn again, from the left edge of the lower part.
-            if self.held.left {
+            if self.held.major_right {
                 self.line.values = self.held.start[1];
             }
         } else {
             self.line.y += 1;
             let carry = self.major.step(self.column_bits);
-            let delta = &self.held.delta[usize::from(if self.textbook { n1 == 0 } else { carry })];
-            coverage.carry += u64::from(carry);
-            coverage.no_carry += u64::from(!carry);
-            coverage.wrap += wraps(&self.line.values, delta, &self.masks);
-            self.line.values = add(&self.line.values, delta, &self.masks);
+            let delta = self.held.delta[usize::from(if self.textbook { n1 == 0 } else { carry })];
+            events.carry += u64::from(carry);
+            events.no_carry += u64::from(!carry);
+            events.wrap += self.wraps(&delta);
+            self.line.values = add(&self.line.values, &delta, &self.masks);
         }
         self.line.major = self.major.c;
         self.line.minor = self.minor.c;
         self.line.fresh = false;
         self.line.fence = knee && self.textbook;
     }
-}
 
-/// How many channels leave 0..2^(b+r), the increments read as signed words.
-fn wraps(values: &Words, delta: &Words, masks: &Words) -> u64 {
-    (0..4)
-        .map(|i| {
-            let carry = values[i] + delta[i] > masks[i];
-            let negative = delta[i] > masks[i] / 2;
-            u64::from(carry != negative)
-        })
-        .sum()
+    /// How many channels leave the range of their word; the increments are signed words.
+    fn wraps(&self, delta: &Words<C>) -> u64 {
+        (0..C)
+            .map(|i| {
+                let carry = (self.line.values[i] ^ self.signs[i]) + delta[i] > self.masks[i];
+                let negative = delta[i] > self.masks[i] / 2;
+                u64::from(carry != negative)
+            })
+            .sum()
+    }
 }

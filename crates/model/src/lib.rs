@@ -5,19 +5,21 @@
 //! ```
 //! Written from `docs/machine.md` alone. A unit is a plain state struct: methods give its outputs from the state and
 //! from the inputs that reach them within the cycle, `step` is the clock edge. [`Model`] wires the units together,
-//! [`run::render`] adds memory and draws. No I/O; nothing here fails on a checked machine.
+//! [`Rig`] adds the memory, [`render`] draws. No I/O; nothing
+//! here fails on a planned machine but vertices of another.
 
 pub mod counters;
 pub mod events;
+mod rmw;
 pub mod depth;
 pub mod edge;
 pub mod fifo;
-mod inflight;
 pub mod machine;
 mod prefetch;
 pub mod memory;
 pub mod pixel;
 pub mod run;
+pub mod frame;
 pub mod fast;
 pub mod setup;
 pub mod span;
@@ -28,6 +30,7 @@ pub use events::Events;
 pub use edgewalk_machine::Activity;
 pub use machine::{Inputs, Model, Outputs};
 pub use memory::{Memory, Stalls};
-pub use run::{DrawState, Event, Frame, render, render_with};
+pub use frame::{Drawn, Frame, Sample, render, render_with};
+pub use run::{Cycle, DrawState, Rig};
 pub use setup::{SetupClocks, setup_clocks};
 pub use tokens::Write;

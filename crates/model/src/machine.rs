@@ -10,12 +10,12 @@
 //! Rules: `docs/machine.md`, sections 8 and 9.
 
 use crate::counters::Counters;
-use crate::coverage::{Coverage, one_more};
+use crate::events::{Events, one_more};
 use crate::depth::{Block, Depth, DepthInputs};
 use crate::edge::Edge;
 use crate::pixel::Pixel;
 use crate::setup::Setup;
-use crate::span::SpanQueue;
+use crate::span::Span;
 use crate::tokens::{Fragment, Write};
 use edgewalk_machine::{Activity, Plan, PortVertex};
 
@@ -39,9 +39,9 @@ pub struct Inputs<'a> {
     pub wr_ready: bool,
 }
 
-/// Output ports of the same cycle. A channel fires if it is valid here and ready there.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Outputs {
+/// Output ports of the same cycle. A link fires if it is valid here and ready there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Outputs<const C: usize> {
     /// A triangle is taken, if there is one.
     pub tri_ready: bool,
     /// Address of a depth read.
@@ -49,37 +49,51 @@ pub struct Outputs {
     /// The depth is taken, if it is there.
     pub data_ready: bool,
     /// A write.
-    pub wr: Option<Write>,
+    pub wr: Option<Write<C>>,
     /// What the cycle was spent on.
     pub activity: Activity,
     /// Nothing to do: `activity` is 0.
     pub idle: bool,
 }
 
-/// State of the whole machine.
-#[derive(Clone, Debug)]
-pub struct Model {
-    setup: Setup,
-    edge: Edge,
-    span: SpanQueue,
-    pixel: Pixel,
-    depth: Depth,
-    counters: Counters,
-    coverage: Coverage,
+/// Nothing happens.
+impl<const C: usize> Default for Outputs<C> {
+    fn default() -> Self {
+        Outputs {
+            tri_ready: false,
+            rd: None,
+            data_ready: false,
+            wr: None,
+            activity: Activity::Idle,
+            idle: false,
+        }
+    }
 }
 
-impl Model {
-    /// A machine after reset. The configuration must have passed [`edgewalk_machine::Machine::plan`].
+/// State of the whole machine, `C` words a token: [`crate::for_channels`] finds the number that serves a plan.
+#[derive(Clone, Debug)]
+pub struct Model<const C: usize> {
+    setup: Setup<C>,
+    edge: Edge<C>,
+    span: Span<C>,
+    pixel: Pixel<C>,
+    depth: Depth<C>,
+    counters: Counters,
+    events: Events,
+}
+
+impl<const C: usize> Model<C> {
+    /// A machine after reset.
     #[must_use]
-    pub fn new(machine: &Plan) -> Self {
+    pub fn new(plan: &Plan) -> Self {
         Model {
-            setup: Setup::new(machine),
-            edge: Edge::new(machine),
-            span: SpanQueue::new(machine),
-            pixel: Pixel::new(machine),
-            depth: Depth::new(machine),
+            setup: Setup::new(plan),
+            edge: Edge::new(plan),
+            span: Span::new(plan),
+            pixel: Pixel::new(plan),
+            depth: Depth::new(plan),
             counters: Counters::default(),
-            coverage: Coverage::default(),
+            events: Events::default(),
         }
     }
 
@@ -89,21 +103,21 @@ impl Model {
         &self.counters
     }
 
-    /// Hazards and corners met since construction.
+    /// Events since construction.
     #[must_use]
-    pub fn coverage(&self) -> &Coverage {
-        &self.coverage
+    pub fn events(&self) -> &Events {
+        &self.events
     }
 
     /// Not hardware: the fragment whose read fired in the cycle before.
     #[must_use]
-    pub fn last_read(&self) -> Fragment {
+    pub fn last_read(&self) -> Fragment<C> {
         self.depth.last_read()
     }
 
     /// One clock cycle: the outputs of this cycle, then the clock edge.
     #[inline(always)]
-    pub fn cycle(&mut self, inputs: &Inputs) -> Outputs {
+    pub fn cycle(&mut self, inputs: &Inputs) -> Outputs<C> {
         let outputs = if self.at_rest() { self.cycle_at_rest(inputs) } else { self.cycle_of_all(inputs) };
         if inputs.rst {
             self.reset();
@@ -124,7 +138,7 @@ impl Model {
     /// A cycle in which SPAN, PIXEL and DEPTH have nothing to move and nothing is offered to them: they stay as they
     /// are, and so only SETUP and the EDGE that may take its prim are clocked.
     #[inline(always)]
-    fn cycle_at_rest(&mut self, inputs: &Inputs) -> Outputs {
+    fn cycle_at_rest(&mut self, inputs: &Inputs) -> Outputs<C> {
         let tri_ready = self.setup.tri_ready();
         let activity = if tri_ready { Activity::Idle } else { Activity::Setup };
         self.counters.cycle(activity);
@@ -132,13 +146,13 @@ impl Model {
             one_more(&mut self.counters.triangles);
         }
         let prim_ready = self.edge.prim_ready(false);
-        self.edge.step(self.setup.prim(), false, false, &mut self.coverage);
-        self.setup.step(inputs.tri, prim_ready, &mut self.coverage);
+        self.edge.step(self.setup.prim(), false, false, &mut self.events);
+        self.setup.step(inputs.tri, prim_ready, &mut self.events);
         Outputs { tri_ready, activity, idle: tri_ready, ..Outputs::default() }
     }
 
     #[inline(always)]
-    fn cycle_of_all(&mut self, inputs: &Inputs) -> Outputs {
+    fn cycle_of_all(&mut self, inputs: &Inputs) -> Outputs<C> {
         // DEPTH, and the memory behind it.
         let frag = self.pixel.frag();
         let block = self.depth.block(frag, inputs.depth_write);
@@ -148,7 +162,7 @@ impl Model {
             tri_ready: self.setup.tri_ready(),
             rd: frag.filter(|_| block.is_none()).map(|f| f.addr),
             data_ready: self.depth.data_ready(inputs.wr_ready),
-            wr: self.depth.write().copied(),
+            wr: self.depth.write(),
             activity,
             idle: activity == Activity::Idle,
         };
@@ -161,9 +175,9 @@ impl Model {
         }
         if inputs.tri.is_some() && outputs.tri_ready {
             one_more(&mut self.counters.triangles);
-            self.coverage.setup_overlap += u64::from(self.pixel.active());
+            self.events.setup_overlap += u64::from(self.pixel.active());
         }
-        let coverage = &mut self.coverage;
+        let events = &mut self.events;
         let span_ready = self.pixel.span_ready(frag_ready);
         let depth_inputs = DepthInputs {
             depth_func: inputs.depth_func,
@@ -172,14 +186,14 @@ impl Model {
             data: inputs.data,
             wr_ready: inputs.wr_ready,
         };
-        self.depth.step(frag, block, &depth_inputs, coverage);
+        self.depth.step(frag, block, &depth_inputs, events);
 
         // PIXEL.
         let span = self.span.span();
         if span_ready && span.is_some() {
             one_more(&mut self.counters.spans);
         }
-        self.pixel.step(span, self.edge.gradient(), frag_ready, coverage);
+        self.pixel.step(span, self.edge.gradient(), frag_ready, events);
 
         // SPAN.
         let fresh_queued = self.span.fresh_queued();
@@ -188,12 +202,12 @@ impl Model {
         if line_ready {
             one_more(&mut self.counters.lines);
         }
-        self.span.step(line, span_ready, coverage);
+        self.span.step(line, span_ready, events);
 
         // EDGE and SETUP.
         let prim_ready = self.edge.prim_ready(fresh_queued);
-        self.edge.step(self.setup.prim(), fresh_queued, line_ready, coverage);
-        self.setup.step(inputs.tri, prim_ready, coverage);
+        self.edge.step(self.setup.prim(), fresh_queued, line_ready, events);
+        self.setup.step(inputs.tri, prim_ready, events);
         outputs
     }
 

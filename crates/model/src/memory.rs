@@ -2,9 +2,9 @@
 //!
 //! ```text
 //!  rd ─> depth[addr] ─> L cycles, in order ─> data
-//!  wr ─> depth[addr] if z_en, colour[addr]
+//!  wr ─> depth[addr] if z_en, colour and the user's own [addr]
 //! ```
-//! Formats: addresses y·2^xb + x; depth and colour of b bits.
+//! Formats: addresses y·2^xb + x; values of b bits.
 //!
 //! Timing: data L cycles after the read fired, later if stalled; held until taken. A read that fires together with a
 //! write sees the old word. One read and one write a clock.
@@ -13,7 +13,7 @@
 
 use crate::fifo::Fifo;
 use crate::prefetch::prefetch;
-use crate::tokens::{Rgb, Write};
+use crate::tokens::{OutputWords, Write};
 use edgewalk_machine::Plan;
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::{RngCore, SeedableRng};
@@ -38,7 +38,7 @@ impl Stalls {
 
 /// State of the memory.
 #[derive(Clone, Debug)]
-pub struct Memory {
+pub struct Memory<const C: usize> {
     latency: u64,
     stalls: Stalls,
     /// Any readies to draw.
@@ -51,28 +51,19 @@ pub struct Memory {
     reads: Fifo<(u64, u32), 16>,
     /// Words from a line to the next.
     pitch: usize,
-    /// Depth memory by address; a read waits for this one only.
-    z: Vec<u32>,
-    /// Frame memory by address.
-    rgb: Vec<Rgb>,
+    /// Depth and frame memory by address, side by side as the channels stand.
+    pixels: Vec<OutputWords<C>>,
 }
 
-/// A pixel of both memories.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Stored {
-    /// Depth, b <= 32 bits.
-    pub z: u32,
-    /// Colour, b <= 16 bits a channel.
-    pub rgb: Rgb,
-}
-
-impl Memory {
-    /// A cleared memory: the farthest depth, and the colour `clear` (b bits each) everywhere.
+impl<const C: usize> Memory<C> {
+    /// A cleared memory: the farthest depth and the colour `clear` (b bits each) everywhere, and 0 in the user's own.
     #[must_use]
-    pub fn new(machine: &Plan, clear: [u64; 3], stalls: Stalls) -> Self {
-        let words = 1 << machine.widths().address;
+    pub fn new(plan: &Plan, clear: [u64; 3], stalls: Stalls) -> Self {
+        let words = 1 << plan.widths().address;
+        let [r, g, b] = clear.map(|c| c as u32); // b <= 16 bits
+        let empty = std::array::from_fn(|i| [plan.z.max() as u32, r, g, b].get(i).copied().unwrap_or(0));
         let mut memory = Memory {
-            latency: u64::from(machine.latency),
+            latency: u64::from(plan.latency),
             stalls,
             readies_vary: stalls.rd | stalls.wr != 0,
             random: Pcg32::seed_from_u64(stalls.seed),
@@ -80,9 +71,8 @@ impl Memory {
             rd_ready: true,
             wr_ready: true,
             reads: Fifo::default(),
-            pitch: 1 << machine.widths().x,
-            z: vec![machine.z.max() as u32; words], // b <= 32 bits
-            rgb: vec![Rgb::new(clear.map(|c| c as u16)); words], // b <= 16 bits
+            pitch: 1 << plan.widths().x,
+            pixels: vec![empty; words],
         };
         memory.draw_readies();
         memory
@@ -112,29 +102,28 @@ impl Memory {
 
     /// What is stored at an address.
     #[must_use]
-    pub fn pixel(&self, addr: u32) -> Stored {
-        Stored { z: self.z[addr as usize], rgb: self.rgb[addr as usize] }
+    pub fn pixel(&self, addr: u32) -> OutputWords<C> {
+        self.pixels[addr as usize]
     }
 
     /// Clock edge: the read that fired, whether the data was taken, the write that fired.
     #[inline(always)]
-    pub fn step(&mut self, read: Option<u32>, data_taken: bool, write: Option<&Write>) {
+    pub fn step(&mut self, read: Option<u32>, data_taken: bool, write: Option<&Write<C>>) {
         if data_taken {
             self.reads.pop();
         }
         if let Some(addr) = read {
             let due = self.now.wrapping_add(self.latency).wrapping_add(self.late());
-            self.reads.push((due, self.z[addr as usize]));
+            self.reads.push((due, self.pixels[addr as usize][0]));
             // Triangles go down: the word below is likely to be next, and the host's own memory is slow.
             let below = (addr as usize).wrapping_add(self.pitch);
-            prefetch(&self.z, below);
-            prefetch(&self.rgb, below);
+            prefetch(&self.pixels, below);
         }
         if let Some(write) = write {
-            self.rgb[write.addr as usize] = write.rgb;
-            if write.z_en {
-                self.z[write.addr as usize] = write.z;
-            }
+            let pixel = &mut self.pixels[write.addr as usize];
+            let z = if write.z_en { write.values[0] } else { pixel[0] };
+            *pixel = write.values;
+            pixel[0] = z;
         }
         self.now = self.now.wrapping_add(1);
         self.draw_readies();

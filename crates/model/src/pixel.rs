@@ -1,11 +1,11 @@
-//! PIXEL: steps along a span, Z, R, G and B through A shared adders.
+//! PIXEL: steps along a span, N channels through A shared adders.
 //!
 //! ```text
 //!  span ─> x, count, values ─── floor(value / 2^r) ─> out 0 ─> .. ─> out D-1 ─> frag
-//!             ^── values += g, every T = 4/A clocks
+//!             ^── values += g, every T = ceil(N/A) clocks
 //! ```
-//! Formats: values and g of b + r bits, modular: they stand at the left end of 64 bits, so that they wrap by
-//! themselves; x signed, COLW bits; outputs of b bits.
+//! Formats: values and g of b + r bits, modular: they stand with the point before bit 32 of 64, so that the output of any
+//! channel begins there; what is above it is not looked at. x signed, COLW bits; outputs of b bits.
 //!
 //! Timing: a span taken in cycle n gives its first fragment in n + T + D, then one every T clocks, without a gap to the
 //! next span. If the last stage cannot leave, all stands still.
@@ -13,64 +13,65 @@
 //! Rules: `docs/machine.md`, section 5. Not modelled: the segments of the adders and the channels' turns at them; only
 //! their clocks are seen outside.
 
-use crate::Coverage;
-use crate::tokens::{Fragment, Rgb, Source, Span, Words, per_channel};
+use crate::Events;
+use crate::tokens::{Fragment, OutputWords, Source, Span, Words, per_channel};
 use edgewalk_machine::Plan;
 
 /// State of PIXEL.
 #[derive(Clone, Debug)]
-pub struct Pixel {
+pub struct Pixel<const C: usize> {
     width: u32,
     x_bits: u32,
-    /// Bits that a word leaves free at the left of 64, by channel.
-    align: [u32; 4],
-    /// Bits of a word below its output, so aligned: of depth, and of a colour.
-    below: [u32; 2],
+    /// 32 - r: from a word to where it stands.
+    align: OutputWords<C>,
+    /// 2^b - 1.
+    masks: OutputWords<C>,
     last_phase: u32,
 
     active: bool,
     phase: u32,
     x: i32,
+    /// Pixels remaining.
     count: u32,
     /// 1 or -1 column.
     step_x: i32,
-    values: Words,
-    gradient: Words,
+    values: Words<C>,
+    gradient: Words<C>,
     /// y·2^xb.
     row: u32,
     fence: bool,
     source: Source,
     /// Out stage D-1, the last.
-    out: Option<Fragment>,
+    out: Option<Fragment<C>>,
     /// Out stages before it as a ring of D-1 places.
-    stages: [Option<Fragment>; 3],
+    stages: [Option<Fragment<C>>; 3],
     before: usize,
     oldest: usize,
 }
 
-impl Pixel {
+impl<const C: usize> Pixel<C> {
     /// A unit at rest.
     #[must_use]
-    pub fn new(machine: &Plan) -> Self {
+    pub fn new(plan: &Plan) -> Self {
         Pixel {
-            width: machine.width,
-            x_bits: machine.widths().x,
-            align: per_channel(machine, |c| 64 - c.word()),
-            below: [64 - machine.z.bits, 64 - machine.color.bits],
-            last_phase: machine.clocks_per_pixel() - 1,
+            width: plan.width,
+            x_bits: plan.widths().x,
+            align: per_channel(plan, |c| 32 - c.fraction), // r <= 24
+            masks: per_channel(plan, |c| u32::MAX >> (32 - c.bits)),
+            last_phase: plan.clocks_per_pixel() - 1,
             active: false,
             phase: 0,
             x: 0,
             count: 0,
             step_x: 1,
-            values: [0; 4],
-            gradient: [0; 4],
+            values: [0; C],
+            gradient: [0; C],
             row: 0,
             fence: false,
             source: Source::default(),
             out: None,
             stages: [None; 3],
-            before: machine.segments as usize - 1, // D is 1, 2 or 4
+            before: plan.segments as usize - 1, // D is 1, 2 or 4
             oldest: 0,
         }
     }
@@ -105,7 +106,7 @@ impl Pixel {
     /// The fragment offered to DEPTH.
     #[inline]
     #[must_use]
-    pub fn frag(&self) -> Option<&Fragment> {
+    pub fn frag(&self) -> Option<&Fragment<C>> {
         self.out.as_ref()
     }
 
@@ -129,7 +130,7 @@ impl Pixel {
 
     /// Clock edge. `gradient` is EDGE's g.
     #[inline(always)]
-    pub fn step(&mut self, span: Option<&Span>, gradient: &Words, frag_ready: bool, coverage: &mut Coverage) {
+    pub fn step(&mut self, span: Option<&Span<C>>, gradient: &Words<C>, frag_ready: bool, events: &mut Events) {
         if !self.advance(frag_ready) {
             return;
         }
@@ -139,7 +140,7 @@ impl Pixel {
                 self.shift(None);
                 return;
             }
-            let sums = self.sums(coverage);
+            let sums = self.sums(events);
             self.shift(sums);
             if self.count > 1 {
                 self.next_pixel();
@@ -156,7 +157,7 @@ impl Pixel {
 
     /// Moves the out stages, `entering` into the first.
     #[inline]
-    fn shift(&mut self, entering: Option<Fragment>) {
+    fn shift(&mut self, entering: Option<Fragment<C>>) {
         if self.before == 0 {
             self.out = entering;
             return;
@@ -167,28 +168,25 @@ impl Pixel {
 
     /// The pixel whose sums are ready, if it lies on the screen.
     #[inline]
-    fn sums(&mut self, coverage: &mut Coverage) -> Option<Fragment> {
+    fn sums(&mut self, events: &mut Events) -> Option<Fragment<C>> {
         if !self.on_screen() {
-            coverage.off_screen += 1;
+            events.off_screen += 1;
             return None;
         }
         let fragment = self.fragment();
         if self.fence {
             self.fence = false;
-            coverage.fence += 1;
+            events.fence += 1;
         }
         Some(fragment)
     }
 
     /// The pixel at `x`, its values cut to b bits.
     #[inline]
-    fn fragment(&self) -> Fragment {
-        let [z, rgb] = self.below;
-        let output = |i: usize| self.values[i].wrapping_shr(rgb) as u16; // 64 - b < 64
+    fn fragment(&self) -> Fragment<C> {
         Fragment {
             addr: self.row | self.x as u32,
-            z: self.values[0].wrapping_shr(z) as u32,
-            rgb: Rgb::new([output(1), output(2), output(3)]),
+            values: std::array::from_fn(|i| (self.values[i] >> 32) as u32 & self.masks[i]),
             fence: self.fence,
             source: self.source,
         }
@@ -202,11 +200,11 @@ impl Pixel {
         self.values = std::array::from_fn(|i| self.values[i].wrapping_add(self.gradient[i]));
     }
 
-    fn load(&mut self, span: &Span, gradient: &Words) {
+    fn load(&mut self, span: &Span<C>, gradient: &Words<C>) {
         self.phase = 0;
         self.x = span.x;
         self.count = span.count;
-        self.step_x = if span.left { -1 } else { 1 };
+        self.step_x = if span.leftward { -1 } else { 1 };
         self.values = self.aligned(&span.values);
         self.row = span.y << self.x_bits;
         self.fence = span.fence;
@@ -216,7 +214,7 @@ impl Pixel {
         }
     }
 
-    fn aligned(&self, words: &Words) -> Words {
-        std::array::from_fn(|i| words[i].wrapping_shl(self.align[i])) // b + r >= 1
+    fn aligned(&self, words: &Words<C>) -> Words<C> {
+        std::array::from_fn(|i| words[i] << self.align[i])
     }
 }

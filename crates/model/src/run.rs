@@ -1,10 +1,13 @@
-//! Draws triangles: the machine, its memory, and a picture at the end.
+//! The machine and its memory in one: cycle by cycle, or until all triangles are drawn.
+//!
+//! ```text
+//!  triangles ─> Model ─rd, wr─> Memory
+//!                  ^────data──────┘
+//! ```
 
-use crate::counters::Counters;
-use crate::coverage::Coverage;
-use crate::machine::{Inputs, Model};
+use crate::machine::{Inputs, Model, Outputs};
 use crate::memory::{Memory, Stalls};
-use crate::tokens::{Fragment, Write};
+use crate::tokens::Write;
 use edgewalk_machine::{Plan, PortVertex};
 
 /// What stays the same over a picture.
@@ -25,124 +28,90 @@ impl Default for DrawState {
     }
 }
 
-/// A picture, row by row from the top, W×H pixels, and what it took.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Frame {
-    /// Stored depth, b bits.
-    pub z: Vec<u64>,
-    /// Stored colour, b bits each.
-    pub rgb: Vec<[u64; 3]>,
-    /// Fragments of every pixel, whatever the depth test says.
-    pub coverage: Vec<u32>,
-    /// Writes to every pixel.
-    pub writes: Vec<u32>,
-    /// Number of the triangle that wrote the pixel last, -1: none.
-    pub id: Vec<i32>,
-    /// Performance counters.
-    pub counters: Counters,
-    /// Hazards and corners met.
-    pub corners: Coverage,
-}
-
-/// What [`render_with`] reports, in order.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Event<'a> {
-    /// A fragment's depth read fired.
-    Fragment(&'a Fragment),
-    /// A write fired.
-    Write(&'a Write),
-}
-
-/// Draws the triangles in order; the machine must have passed [`edgewalk_machine::Machine::plan`].
-pub fn render(
-    machine: &Plan,
-    triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+/// A machine with its memory.
+#[derive(Clone, Debug)]
+pub struct Rig<const C: usize> {
+    /// The machine.
+    pub model: Model<C>,
+    /// Its memory.
+    pub memory: Memory<C>,
     state: DrawState,
-    stalls: Stalls,
-) -> Frame {
-    render_with(machine, triangles, state, stalls, |_| {})
 }
 
-/// As [`render`], and calls `hook` for every fragment and write.
-pub fn render_with(
-    machine: &Plan,
-    triangles: impl IntoIterator<Item = [PortVertex; 3]>,
-    state: DrawState,
-    stalls: Stalls,
-    mut hook: impl FnMut(Event),
-) -> Frame {
-    let mut model = Model::new(machine);
-    let mut memory = Memory::new(machine, state.clear, stalls);
-    let mut tally = Tally::new(machine);
-    let mut triangles = triangles.into_iter();
-    let mut next = triangles.next();
-    loop {
+/// What happened in a cycle of a [`Rig`].
+#[derive(Clone, Copy, Debug)]
+pub struct Cycle<const C: usize> {
+    /// The ports of the machine.
+    pub outputs: Outputs<C>,
+    /// A triangle was taken.
+    pub triangle: bool,
+    /// The address whose read fired; [`Model::last_read`] is its fragment.
+    pub read: Option<u32>,
+    /// The write of `outputs` fired.
+    pub written: bool,
+}
+
+impl<const C: usize> Cycle<C> {
+    /// The write that fired.
+    #[inline(always)]
+    #[must_use]
+    pub fn write(&self) -> Option<&Write<C>> {
+        self.outputs.wr.as_ref().filter(|_| self.written)
+    }
+}
+
+impl<const C: usize> Rig<C> {
+    /// A machine after reset, its memory cleared.
+    #[must_use]
+    pub fn new(plan: &Plan, state: DrawState, stalls: Stalls) -> Self {
+        Rig { model: Model::new(plan), memory: Memory::new(plan, state.clear, stalls), state }
+    }
+
+    /// One cycle, with a triangle and its tag offered or none. The memory takes writes if it is ready and `writes_open`.
+    #[inline(always)]
+    pub fn cycle(&mut self, tri: Option<(&[PortVertex; 3], u32)>, writes_open: bool) -> Cycle<C> {
         let inputs = Inputs {
             rst: false,
-            tri: next.as_ref().map(|t| (t, 0)),
-            depth_func: state.depth_func,
-            depth_write: state.depth_write,
-            rd_ready: memory.rd_ready(),
-            data: memory.data(),
-            wr_ready: memory.wr_ready(),
+            tri,
+            depth_func: self.state.depth_func,
+            depth_write: self.state.depth_write,
+            rd_ready: self.memory.rd_ready(),
+            data: self.memory.data(),
+            wr_ready: self.memory.wr_ready() && writes_open,
         };
-        let outputs = model.cycle(&inputs);
-        let data_taken = inputs.data.is_some() && outputs.data_ready;
-        let read = outputs.rd.filter(|_| inputs.rd_ready);
-        let write = outputs.wr.as_ref().filter(|_| inputs.wr_ready);
-        if let Some(addr) = read {
-            tally.read(addr);
-            hook(Event::Fragment(&model.last_read()));
+        let outputs = self.model.cycle(&inputs);
+        let cycle = Cycle {
+            outputs,
+            triangle: outputs.tri_ready && tri.is_some(),
+            read: outputs.rd.filter(|_| inputs.rd_ready),
+            written: outputs.wr.is_some() && inputs.wr_ready,
+        };
+        self.memory.step(cycle.read, inputs.data.is_some() && outputs.data_ready, cycle.write());
+        cycle
+    }
+
+    /// Offers the triangles one after the other, each as soon as the one before is taken, until the machine is idle again.
+    /// `watch` sees the number of every cycle from 0, the machine behind it, and what happened.
+    ///
+    /// # Errors
+    /// The first that `triangles` gives in place of one; the machine is left as it stands.
+    #[inline(always)]
+    pub fn draw<E>(
+        &mut self,
+        mut triangles: impl Iterator<Item = Result<[PortVertex; 3], E>>,
+        mut watch: impl FnMut(u64, &Model<C>, &Cycle<C>),
+    ) -> Result<(), E> {
+        let mut next = triangles.next().transpose()?;
+        let mut now = 0u64;
+        loop {
+            let cycle = self.cycle(next.as_ref().map(|triangle| (triangle, 0)), true);
+            watch(now, &self.model, &cycle);
+            now = now.wrapping_add(1);
+            if cycle.triangle {
+                next = triangles.next().transpose()?;
+            } else if cycle.outputs.idle && next.is_none() {
+                return Ok(());
+            }
         }
-        if let Some(write) = write {
-            tally.write(write);
-            hook(Event::Write(write));
-        }
-        memory.step(read, data_taken, write);
-        if outputs.tri_ready && next.is_some() {
-            next = triangles.next();
-        } else if outputs.idle && next.is_none() {
-            break;
-        }
-    }
-    let x_bits = machine.widths().x;
-    let addresses: Vec<usize> = (0..machine.height)
-        .flat_map(|y| (0..machine.width).map(move |x| (y << x_bits | x) as usize))
-        .collect();
-    let stored = || addresses.iter().map(|addr| memory.pixel(*addr as u32));
-    Frame {
-        z: stored().map(|p| u64::from(p.z)).collect(),
-        rgb: stored().map(|p| p.rgb.channels().map(u64::from)).collect(),
-        coverage: addresses.iter().map(|addr| tally.reads[*addr]).collect(),
-        writes: addresses.iter().map(|addr| tally.writes[*addr]).collect(),
-        id: addresses.iter().map(|addr| tally.id[*addr]).collect(),
-        counters: model.counters().clone(),
-        corners: model.coverage().clone(),
-    }
-}
-
-/// What happened at every address.
-struct Tally {
-    reads: Vec<u32>,
-    writes: Vec<u32>,
-    /// Number of the triangle that wrote it last, -1: none.
-    id: Vec<i32>,
-}
-
-impl Tally {
-    fn new(machine: &Plan) -> Self {
-        let words = 1 << machine.widths().address;
-        Tally { reads: vec![0; words], writes: vec![0; words], id: vec![-1; words] }
-    }
-
-    fn read(&mut self, addr: u32) {
-        let reads = &mut self.reads[addr as usize];
-        *reads = reads.wrapping_add(1);
-    }
-
-    fn write(&mut self, write: &Write) {
-        let writes = &mut self.writes[write.addr as usize];
-        *writes = writes.wrapping_add(1);
-        self.id[write.addr as usize] = write.source.id as i32;
     }
 }

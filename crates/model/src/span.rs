@@ -11,31 +11,31 @@
 //! Rules: `docs/machine.md`, section 4. A span is cut where it ends; before its start PIXEL steps over the columns off
 //! the screen. Not modelled: nothing.
 
-use crate::Coverage;
+use crate::Events;
 use crate::fifo::Fifo;
-use crate::tokens::{Line, Span};
+use crate::tokens::{self, Line};
 use edgewalk_machine::{Fill, Plan};
 
 /// State of SPAN.
 #[derive(Clone, Debug)]
-pub struct SpanQueue {
+pub struct Span<const C: usize> {
     textbook: bool,
     width: i32,
     depth: usize,
-    fifo: Fifo<Span, 64>,
+    fifo: Fifo<tokens::Span<C>, 64>,
     pend_fresh: bool,
     pend_fence: bool,
     fresh_queued: bool,
 }
 
-impl SpanQueue {
+impl<const C: usize> Span<C> {
     /// An empty unit.
     #[must_use]
-    pub fn new(machine: &Plan) -> Self {
-        SpanQueue {
-            textbook: machine.fill == Fill::Textbook,
-            width: machine.width as i32,
-            depth: machine.span_fifo as usize,
+    pub fn new(plan: &Plan) -> Self {
+        Span {
+            textbook: plan.fill == Fill::Textbook,
+            width: plan.width as i32,
+            depth: plan.span_fifo as usize,
             fifo: Fifo::default(),
             pend_fresh: false,
             pend_fence: false,
@@ -54,14 +54,14 @@ impl SpanQueue {
     /// The line can be taken: it is empty, or there is room.
     #[inline]
     #[must_use]
-    pub fn line_ready(&self, line: &Line) -> bool {
+    pub fn line_ready(&self, line: &Line<C>) -> bool {
         self.fifo.len() < self.depth || self.is_empty(line)
     }
 
     /// The span offered to PIXEL.
     #[inline]
     #[must_use]
-    pub fn span(&self) -> Option<&Span> {
+    pub fn span(&self) -> Option<&tokens::Span<C>> {
         (!self.fifo.is_empty()).then(|| self.fifo.head())
     }
 
@@ -74,40 +74,40 @@ impl SpanQueue {
 
     /// Clock edge.
     #[inline(always)]
-    pub fn step(&mut self, line: Option<&Line>, span_ready: bool, coverage: &mut Coverage) {
+    pub fn step(&mut self, line: Option<&Line<C>>, span_ready: bool, events: &mut Events) {
         let full = self.fifo.len() == self.depth;
         if span_ready && !self.fifo.is_empty() {
             self.fresh_queued &= !self.fifo.head().fresh;
             self.fifo.pop();
         }
         if let Some(line) = line {
-            self.take(line, full, coverage);
+            self.take(line, full, events);
         }
     }
 
-    fn take(&mut self, line: &Line, full: bool, coverage: &mut Coverage) {
+    fn take(&mut self, line: &Line<C>, full: bool, events: &mut Events) {
         let fresh = line.fresh | self.pend_fresh;
         let fence = line.fence | self.pend_fence;
         if self.is_empty(line) {
             self.pend_fresh = fresh;
             self.pend_fence = fence;
-            coverage.empty_span += 1;
-            coverage.dropped_fresh += u64::from(fresh);
-            coverage.dropped_when_full += u64::from(full);
+            events.empty_span += 1;
+            events.dropped_fresh += u64::from(fresh);
+            events.dropped_when_full += u64::from(full);
             return;
         }
         if full {
             return; // not ready
         }
-        let left = line.left && !self.textbook;
+        let leftward = line.major_right && !self.textbook;
         let (start, end) = self.columns(line);
         let (x, count) =
-            if left { (end - 1, end - start.max(0)) } else { (start, end.min(self.width) - start) };
-        self.fifo.push(Span {
+            if leftward { (end - 1, end - start.max(0)) } else { (start, end.min(self.width) - start) };
+        self.fifo.push(tokens::Span {
             x,
             y: line.y,
             count: count as u32, // at least 1
-            left,
+            leftward,
             values: line.values,
             fresh,
             fence,
@@ -116,20 +116,20 @@ impl SpanQueue {
         self.fresh_queued |= fresh;
         self.pend_fresh = false;
         self.pend_fence = false;
-        coverage.scissor_cut += u64::from(if left { start < 0 } else { end > self.width });
+        events.scissor_cut += u64::from(if leftward { start < 0 } else { end > self.width });
     }
 
     /// The columns of a line from left to right, the last one excluded.
     #[inline]
-    fn columns(&self, line: &Line) -> (i32, i32) {
-        let (start, end) = if line.left { (line.minor, line.major) } else { (line.major, line.minor) };
+    fn columns(&self, line: &Line<C>) -> (i32, i32) {
+        let (start, end) = if line.major_right { (line.minor, line.major) } else { (line.major, line.minor) };
         // In textbook fill C is 1 + Trunc(X), and both ends are drawn.
         (start.wrapping_sub(i32::from(self.textbook)), end)
     }
 
     /// No column of the line lies on the screen.
     #[inline]
-    fn is_empty(&self, line: &Line) -> bool {
+    fn is_empty(&self, line: &Line<C>) -> bool {
         let (start, end) = self.columns(line);
         end.min(self.width) <= start.max(0)
     }

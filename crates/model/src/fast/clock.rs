@@ -88,15 +88,15 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    pub(super) fn new(machine: &Plan, depth_write: bool) -> Self {
+    pub(super) fn new(plan: &Plan, depth_write: bool) -> Self {
         Clock {
-            setup: setup_clocks(machine),
-            span_fifo: machine.span_fifo as usize,
-            pixel: u64::from(machine.clocks_per_pixel()),
-            segments: u64::from(machine.segments),
-            latency: u64::from(machine.latency),
-            drain: machine.hazard == Hazard::Drain,
-            inflight: InFlight::new(machine, depth_write),
+            setup: setup_clocks(plan),
+            span_fifo: plan.span_fifo as usize,
+            pixel: u64::from(plan.clocks_per_pixel()),
+            segments: u64::from(plan.segments),
+            latency: u64::from(plan.latency),
+            drain: plan.hazard == Hazard::Drain,
+            inflight: InFlight::new(plan, depth_write),
             take: 0,
             edge_free: 0,
             line: 0,

@@ -1,6 +1,6 @@
 //! Walks every triangle as EDGE and SPAN do, draws its spans, and keeps the clock.
 
-use super::Reason;
+use super::{Reason, Refusal};
 use super::clock::Clock;
 use super::picture::Picture;
 use super::pixel::Pixel;
@@ -9,34 +9,35 @@ use super::span::{DepthTest, Ramp};
 use super::walk::{Span, Walker};
 use crate::counters::Counters;
 use crate::run::DrawState;
-use crate::tokens::Prim;
+use crate::tokens::{FEW, Prim};
 use edgewalk_machine::{Plan, PortVertex};
 
 /// Draws the triangles into a cleared picture.
 #[inline(always)]
 pub(super) fn draw<P: Pixel, const DETAILS: bool>(
-    machine: &Plan,
+    plan: &Plan,
     triangles: impl Iterator<Item = [PortVertex; 3]>,
     state: &DrawState,
     picture: &mut Picture<P>,
-) -> Result<Counters, Reason> {
+) -> Result<Counters, Refusal> {
     let mut frame = Frame {
         spans: Vec::new(),
-        test: DepthTest::new::<P>(machine, state),
+        test: DepthTest::new::<P>(plan, state),
         picture,
-        clock: Clock::new(machine, state.depth_write),
+        clock: Clock::new(plan, state.depth_write),
         counters: Counters::default(),
     };
-    let setup = Setup::new(machine);
-    let walker = Walker::new(machine);
+    let setup = Setup::new(plan);
+    let walker = Walker::new(plan);
     for (id, vertices) in triangles.enumerate() {
+        plan.accept(&vertices, frame.counters.triangles)?;
         frame.counters.triangles += 1;
         match setup.increments(&vertices) {
             Some(prim) => frame.triangle::<DETAILS>(&walker, &prim, id as i32),
             None => frame.clock.culled(),
         }
         if frame.clock.interlocked() {
-            return Err(Reason::Interlock);
+            return Err(Reason::Interlock.into());
         }
     }
     frame.counters.writes = frame.test.passed();
@@ -57,11 +58,11 @@ impl<P: Pixel> Frame<'_, P> {
     /// All lines are walked before the first is drawn, so that the memory has time to come near. But a part is drawn
     /// before the clock meets the fence of the next: there it wants to know who passed.
     #[inline(always)]
-    fn triangle<const DETAILS: bool>(&mut self, walker: &Walker, prim: &Prim, id: i32) {
+    fn triangle<const DETAILS: bool>(&mut self, walker: &Walker, prim: &Prim<FEW>, id: i32) {
         self.clock.triangle();
         let mut walk = walker.walk(prim);
         let ramp = Ramp::new(walk.gradient);
-        let to_left = prim.left && !walker.textbook;
+        let to_left = prim.major_right && !walker.textbook;
         let (mut empty, mut fresh) = (0, true);
         for part in 0..2 {
             let pixels = &self.picture.pixels;

@@ -35,10 +35,10 @@ pub(super) struct InFlight {
 
 impl InFlight {
     /// None if the machine does not look at addresses.
-    pub(super) fn new(machine: &Plan, depth_write: bool) -> Option<Self> {
-        (machine.hazard == Hazard::Interlock && depth_write).then(|| InFlight {
-            window: u64::from(machine.latency) + 1,
-            pixel: u64::from(machine.clocks_per_pixel()),
+    pub(super) fn new(plan: &Plan, depth_write: bool) -> Option<Self> {
+        (plan.hazard == Hazard::Interlock && depth_write).then(|| InFlight {
+            window: u64::from(plan.latency) + 1,
+            pixel: u64::from(plan.clocks_per_pixel()),
             spans: Fifo::default(),
             older: 0,
             met: false,

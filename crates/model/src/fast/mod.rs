@@ -8,7 +8,7 @@
 //! stalls, bit by bit and cycle by cycle. Where that cannot be said without ticking, [`Renderer`] says why, and [`draw`]
 //! ticks.
 //!
-//! Not modelled: the corner counters ([`Coverage`](crate::Coverage)), memories that stall.
+//! Not modelled: [`Events`], memories that stall, channels of the user's own.
 
 mod divide;
 mod setup;
@@ -23,20 +23,45 @@ mod frame;
 mod vector;
 
 use crate::counters::Counters;
-use crate::coverage::Coverage;
+use crate::events::Events;
+use crate::frame::{Frame, render};
 use crate::memory::Stalls;
-use crate::run::{DrawState, Frame, render};
-use edgewalk_machine::{Plan, PortVertex};
+use crate::run::DrawState;
+use crate::tokens::FEW;
+use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
 use picture::Picture;
 use std::fmt;
 
 /// Why a frame has to be ticked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
+    /// The machine has channels of the user's own.
+    Channels,
     /// The in-flight queue is so short that it fills: `fifo.inflight` <= `memory.latency` / T.
     Queue,
     /// Interlock, and a fragment may have met its own address in flight.
     Interlock,
+}
+
+/// Why a frame was not drawn without ticking.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refusal {
+    /// It has to be ticked.
+    Tick(Reason),
+    /// A triangle was made for another machine.
+    Foreign(ForeignVertex),
+}
+
+impl From<Reason> for Refusal {
+    fn from(reason: Reason) -> Self {
+        Refusal::Tick(reason)
+    }
+}
+
+impl From<ForeignVertex> for Refusal {
+    fn from(foreign: ForeignVertex) -> Self {
+        Refusal::Foreign(foreign)
+    }
 }
 
 /// How a frame was drawn.
@@ -52,6 +77,7 @@ impl fmt::Display for Path {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(match self {
             Path::Fast => "without ticking",
+            Path::Ticked(Reason::Channels) => "ticked: the machine has extra channels",
             Path::Ticked(Reason::Queue) => "ticked: the in-flight queue may fill",
             Path::Ticked(Reason::Interlock) => "ticked: a fragment may have met its address in flight",
         })
@@ -68,42 +94,45 @@ enum Memory {
 /// Draws frame after frame into the same memory, without ticking.
 #[derive(Clone, Debug)]
 pub struct Renderer {
-    machine: Plan,
+    plan: Plan,
     details: bool,
     memory: Memory,
     counters: Counters,
 }
 
 impl Renderer {
-    /// A renderer without a frame yet; the machine must have passed [`edgewalk_machine::Machine::plan`]. `details`: keep coverage, writes
-    /// and ids of every pixel.
+    /// A renderer without a frame yet. `details`: keep coverage, writes and ids of every pixel.
     #[must_use]
-    pub fn new(machine: &Plan, details: bool) -> Self {
-        let memory = if machine.color.bits <= 8 {
+    pub fn new(plan: &Plan, details: bool) -> Self {
+        let memory = if plan.color.bits <= 8 {
             Memory::Narrow(Picture::default())
         } else {
             Memory::Wide(Picture::default())
         };
-        Renderer { machine: machine.clone(), details, memory, counters: Counters::default() }
+        Renderer { plan: plan.clone(), details, memory, counters: Counters::default() }
     }
 
     /// Clears the picture and draws the triangles in order; they are taken one by one and not kept.
     ///
     /// # Errors
-    /// This frame has to be ticked. What is drawn and counted so far is of no use.
+    /// This frame has to be ticked, or a triangle was made for another machine. What is drawn and counted so far is of no
+    /// use.
     pub fn draw(
         &mut self,
         triangles: impl IntoIterator<Item = [PortVertex; 3]>,
         state: DrawState,
-    ) -> Result<(), Reason> {
-        let Renderer { machine, details, memory, counters } = self;
-        if queue_fills(machine) {
-            return Err(Reason::Queue);
+    ) -> Result<(), Refusal> {
+        let Renderer { plan, details, memory, counters } = self;
+        if plan.channels().len() > FEW {
+            return Err(Reason::Channels.into());
+        }
+        if queue_fills(plan) {
+            return Err(Reason::Queue.into());
         }
         let triangles = triangles.into_iter();
         *counters = match memory {
-            Memory::Narrow(picture) => vector::draw(machine, triangles, &state, *details, picture),
-            Memory::Wide(picture) => vector::draw(machine, triangles, &state, *details, picture),
+            Memory::Narrow(picture) => vector::draw(plan, triangles, &state, *details, picture),
+            Memory::Wide(picture) => vector::draw(plan, triangles, &state, *details, picture),
         }?;
         Ok(())
     }
@@ -114,10 +143,10 @@ impl Renderer {
         &self.counters
     }
 
-    /// The frame: coverage, writes and ids are empty without details, the corners are not counted.
+    /// The frame: coverage, writes and ids are empty without details, events are not counted.
     #[must_use]
     pub fn frame(&self) -> Frame {
-        let pixels = self.machine.width as usize * self.machine.height as usize;
+        let pixels = self.plan.width as usize * self.plan.height as usize;
         let (z, rgb, details) = match &self.memory {
             Memory::Narrow(picture) => picture.outputs(pixels),
             Memory::Wide(picture) => picture.outputs(pixels),
@@ -125,31 +154,37 @@ impl Renderer {
         Frame {
             z,
             rgb,
+            extra: Vec::new(),
             coverage: details.coverage.iter().copied().take(pixels).collect(),
             writes: details.writes.iter().copied().take(pixels).collect(),
             id: details.id.iter().copied().take(pixels).collect(),
             counters: self.counters.clone(),
-            corners: Coverage::default(),
+            events: Events::default(),
         }
     }
 }
 
 /// The queue holds at most a fragment every T clocks for L clocks; it never fills if it has room for one more.
-fn queue_fills(machine: &Plan) -> bool {
-    machine.inflight <= machine.latency / machine.clocks_per_pixel()
+fn queue_fills(plan: &Plan) -> bool {
+    plan.inflight <= plan.latency / plan.clocks_per_pixel()
 }
 
-/// Draws the triangles in order, cycle by cycle if need be; the machine must have passed [`edgewalk_machine::Machine::plan`]. The corners
-/// are counted only where the frame is ticked.
-pub fn draw<I>(machine: &Plan, triangles: I, state: DrawState) -> (Frame, Path)
+/// Draws the triangles in order, cycle by cycle if need be. Events are counted only where the frame is ticked.
+///
+/// # Errors
+/// A triangle whose vertices were made for another machine.
+pub fn draw<I>(plan: &Plan, triangles: I, state: DrawState) -> Result<(Frame, Path), ForeignVertex>
 where
     I: IntoIterator<Item = [PortVertex; 3]>,
     I::IntoIter: Clone,
 {
     let triangles = triangles.into_iter();
-    let mut renderer = Renderer::new(machine, true);
+    let mut renderer = Renderer::new(plan, true);
     match renderer.draw(triangles.clone(), state) {
-        Ok(()) => (renderer.frame(), Path::Fast),
-        Err(reason) => (render(machine, triangles, state, Stalls::NONE), Path::Ticked(reason)),
+        Ok(()) => Ok((renderer.frame(), Path::Fast)),
+        Err(Refusal::Tick(reason)) => {
+            Ok((render(plan, triangles, state, Stalls::NONE)?, Path::Ticked(reason)))
+        }
+        Err(Refusal::Foreign(foreign)) => Err(foreign),
     }
 }

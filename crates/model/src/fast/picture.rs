@@ -16,10 +16,10 @@ pub(super) struct Details {
 }
 
 impl Details {
-    /// Counts a chunk's pixels, `left` of them, and the masks of those that passed.
+    /// Counts a chunk's pixels, `remaining` of them, and the masks of those that passed.
     #[inline(always)]
-    pub(super) fn count(&mut self, at: usize, left: i32, pass: &[u32; LANES], id: i32) {
-        for (place, pass) in pass.iter().enumerate().take(left as usize) {
+    pub(super) fn count(&mut self, at: usize, remaining: i32, pass: &[u32; LANES], id: i32) {
+        for (place, pass) in pass.iter().enumerate().take(remaining as usize) {
             self.coverage[at + place] += 1;
             if *pass != 0 {
                 self.writes[at + place] += 1;
@@ -38,9 +38,9 @@ pub(super) struct Picture<P> {
 
 impl<P: Pixel> Picture<P> {
     /// The farthest depth and the clear colour everywhere.
-    pub(super) fn clear(&mut self, machine: &Plan, state: &DrawState, details: bool) {
-        let pixels = machine.width as usize * machine.height as usize + LANES;
-        refill(&mut self.pixels, pixels, pixel(machine, machine.z.max(), state.clear));
+    pub(super) fn clear(&mut self, plan: &Plan, state: &DrawState, details: bool) {
+        let pixels = plan.width as usize * plan.height as usize + LANES;
+        refill(&mut self.pixels, pixels, pixel(plan, plan.z.max(), state.clear));
         if details {
             refill(&mut self.details.coverage, pixels, 0);
             refill(&mut self.details.writes, pixels, 0);

@@ -64,7 +64,7 @@ pixel!(u64, u32, 8);
 pixel!(u128, u64, 16);
 
 /// A pixel of these outputs, b bits each.
-pub(super) fn pixel<P: Pixel>(machine: &Plan, z: u64, rgb: [u64; 3]) -> P {
-    let bits = machine.color.bits;
+pub(super) fn pixel<P: Pixel>(plan: &Plan, z: u64, rgb: [u64; 3]) -> P {
+    let bits = plan.color.bits;
     P::pack(z as u32, rgb.map(|c| P::color(c << (64 - bits))), P::COLOR_BITS - bits)
 }

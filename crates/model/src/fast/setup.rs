@@ -5,14 +5,16 @@
 
 use super::divide::{Divisor, Shift};
 use crate::setup;
-use crate::tokens::{EdgeWalk, Prim, Source, Words, per_channel, sign_extend, word_masks};
+use crate::tokens::{EdgeWalk, FEW, Prim, Source, per_channel, sign_extend, word_masks};
 use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex};
 use std::array::from_fn;
 
-/// What the setup needs to know of a machine.
+type Words = crate::tokens::Words<FEW>;
+
+/// What the setup needs to know of a plan.
 #[derive(Clone, Debug)]
 pub(super) struct Setup {
-    machine: Plan,
+    plan: Plan,
     /// The plain setup does it all.
     plain: bool,
     height: i64,
@@ -25,7 +27,7 @@ pub(super) struct Setup {
     column_bits: u32,
     /// The largest b + e, plus 1: bits of a signed difference.
     difference_bits: u32,
-    vertex_masks: Words,
+    vertex_masks: [i64; FEW],
     word_masks: Words,
     /// r - e, and t + r - e.
     value_shift: [Shift; 4],
@@ -47,45 +49,45 @@ struct Corner {
 struct TooLong;
 
 impl Setup {
-    pub(super) fn new(machine: &Plan) -> Self {
-        let w = machine.widths();
-        let difference_bits = per_channel(machine, |c| c.vertex_bits() + 1).into_iter().max().unwrap_or(0);
-        let exact = machine.fill == Fill::Exact && machine.edge_kind == EdgeKind::Exact;
-        let s = machine.subpixel_bits;
-        let value_bits = per_channel(machine, |c| c.fraction - c.vertex_fraction);
+    pub(super) fn new(plan: &Plan) -> Self {
+        let w = plan.widths();
+        let difference_bits = per_channel::<_, FEW>(plan, |c| c.vertex_bits() + 1).into_iter().max().unwrap_or(0);
+        let exact = plan.fill == Fill::Exact && plan.edge_kind == EdgeKind::Exact;
+        let s = plan.subpixel_bits;
+        let value_bits: [u32; FEW] = per_channel(plan, |c| c.fraction - c.vertex_fraction);
         Setup {
-            machine: machine.clone(),
+            plan: plan.clone(),
             plain: !exact || difference_bits + w.difference > 62,
-            height: i64::from(machine.height),
+            height: i64::from(plan.height),
             t: w.center_fraction,
             unused: 32 - w.vertex,
             double: u32::from(s == 0),
             offset: if s == 0 { 1 } else { 1 << (s - 1) },
             column_bits: w.column,
             difference_bits,
-            vertex_masks: per_channel(machine, |c| (1 << c.vertex_bits()) - 1),
-            word_masks: word_masks(machine),
+            vertex_masks: per_channel(plan, |c| (1 << c.vertex_bits()) - 1),
+            word_masks: word_masks(plan),
             value_shift: value_bits.map(Shift::new),
             slope_shift: value_bits.map(|bits| Shift::new(bits + w.center_fraction)),
             value_bits,
-            half: per_channel(machine, |c| (1 << c.fraction) >> 1),
+            half: per_channel(plan, |c| (1 << c.fraction) >> 1),
         }
     }
 
     /// The increments of a triangle, without tag and number; `None` if it is culled.
     #[inline(always)]
-    pub(super) fn increments(&self, vertices: &[PortVertex; 3]) -> Option<Prim> {
+    pub(super) fn increments(&self, vertices: &[PortVertex; 3]) -> Option<Prim<FEW>> {
         if !self.plain
             && let Ok(prim) = self.short(vertices)
         {
             return prim;
         }
-        setup::increments(&self.machine, vertices)
+        setup::increments(&self.plan, vertices)
     }
 
     /// The same in 64 bits.
     #[inline(always)]
-    fn short(&self, vertices: &[PortVertex; 3]) -> Result<Option<Prim>, TooLong> {
+    fn short(&self, vertices: &[PortVertex; 3]) -> Result<Option<Prim<FEW>>, TooLong> {
         let [a, b, c] = &self.sorted(vertices);
         let (du1, dv1, du2, dv2) = (b.u - a.u, b.v - a.v, c.u - a.u, c.v - a.v);
         let area = du1 * dv2 - du2 * dv1;
@@ -97,12 +99,12 @@ impl Setup {
             return Ok(None);
         }
         let line = if j1 > j0 { j0 } else { j1 };
-        let left = area < 0;
+        let major_right = area < 0;
         let major = self.walk(a, c, line);
         let minor = [self.walk(a, b, j0), self.walk(b, c, j1)];
 
         // From the first vertex to the first pixel.
-        let x = i64::from(major.c) - i64::from(left);
+        let x = i64::from(major.c) - i64::from(major_right);
         let (du, dv) = ((x << self.t) - a.u, (line << self.t) - a.v);
         let q = i64::from(major.q);
         let length =
@@ -112,7 +114,7 @@ impl Setup {
         if self.difference_bits + extent + length(&[q.abs() + 2, du.abs() + dv.abs()]) > 62 {
             return Err(TooLong);
         }
-        let sign = if left { -1 } else { 1 };
+        let sign = if major_right { -1 } else { 1 };
         let dc1: [i64; 4] = from_fn(|i| (b.value[i] - a.value[i]).wrapping_mul(sign));
         let dc2: [i64; 4] = from_fn(|i| (c.value[i] - a.value[i]).wrapping_mul(sign));
         let nx: [i64; 4] = from_fn(|i| dc1[i].wrapping_mul(dv2).wrapping_sub(dc2[i].wrapping_mul(dv1)));
@@ -132,7 +134,7 @@ impl Setup {
         Ok(Some(Prim {
             line: line as u32,
             lines: [(j1 - j0) as u32, (end - j1) as u32],
-            left,
+            major_right,
             major,
             minor,
             start: [
@@ -152,7 +154,7 @@ impl Setup {
     #[inline(always)]
     fn sorted(&self, vertices: &[PortVertex; 3]) -> [Corner; 3] {
         let centre = |x: i32| ((x << self.unused >> self.unused) << self.double) - self.offset;
-        let [v0, v1, v2] = [0, 1, 2].map(|i| centre(vertices[i].y));
+        let [v0, v1, v2] = [0, 1, 2].map(|i| centre(vertices[i].y()));
         let mut order = [0; 3];
         order[usize::from(v1 < v0) + usize::from(v2 < v0)] = 0;
         order[usize::from(v0 <= v1) + usize::from(v2 < v1)] = 1;
@@ -160,9 +162,9 @@ impl Setup {
         order.map(|k: usize| {
             let vertex = &vertices[k];
             Corner {
-                u: i64::from(centre(vertex.x)),
-                v: i64::from(centre(vertex.y)),
-                value: from_fn(|i| (vertex.value[i] & self.vertex_masks[i]) as i64),
+                u: i64::from(centre(vertex.x())),
+                v: i64::from(centre(vertex.y())),
+                value: from_fn(|i| vertex.values()[i] & self.vertex_masks[i]),
             }
         })
     }

@@ -10,7 +10,7 @@ use super::picture::{LANES, Picture};
 use super::pixel::Pixel;
 use super::walk::Span;
 use crate::run::DrawState;
-use crate::tokens::Words;
+use crate::tokens::{FEW, Words};
 use edgewalk_machine::Plan;
 use std::array::from_fn;
 
@@ -25,7 +25,7 @@ pub(super) struct Ramp<P: Pixel> {
 
 impl<P: Pixel> Ramp<P> {
     #[inline(always)]
-    pub(super) fn new(gradient: Words) -> Self {
+    pub(super) fn new(gradient: Words<FEW>) -> Self {
         let [z, rgb @ ..] = gradient;
         let times = |word: u64, i: usize| word.wrapping_mul(i as u64);
         Ramp {
@@ -61,14 +61,14 @@ fn mask(condition: bool) -> u32 {
 }
 
 impl DepthTest {
-    pub(super) fn new<P: Pixel>(machine: &Plan, state: &DrawState) -> Self {
+    pub(super) fn new<P: Pixel>(plan: &Plan, state: &DrawState) -> Self {
         DepthTest {
             less: mask(state.depth_func & 1 != 0),
             equal: mask(state.depth_func & 2 != 0),
             greater: mask(state.depth_func & 4 != 0),
             write: mask(state.depth_write),
-            z_drop: 64 - machine.z.bits,
-            rgb_drop: P::COLOR_BITS - machine.color.bits,
+            z_drop: 64 - plan.z.bits,
+            rgb_drop: P::COLOR_BITS - plan.color.bits,
             place: std::hint::black_box(from_fn(|i| i as i32)),
             passed: [0; LANES],
         }
@@ -105,12 +105,12 @@ impl DepthTest {
                 let word = P::color(span.words[c + 1]);
                 from_fn(|i| P::step(word, ramp.rgb[c][i]))
             });
-            let (mut at, mut left) = (span.pixel as usize, span.count as i32);
+            let (mut at, mut remaining) = (span.pixel as usize, span.count as i32);
             while let Some(stored) = picture.pixels.get_mut(at..).and_then(|p| p.first_chunk_mut::<LANES>()) {
                 let old = *stored;
                 let old_z = old.map(P::depth);
                 let new_z: [u32; LANES] = from_fn(|i| z[i].wrapping_shr(self.z_drop) as u32);
-                let inside: [u32; LANES] = from_fn(|i| mask(self.place[i] < left));
+                let inside: [u32; LANES] = from_fn(|i| mask(self.place[i] < remaining));
                 pass = from_fn(|i| self.compare(new_z[i], old_z[i]) & inside[i]);
                 let new: [P; LANES] =
                     from_fn(|i| P::pack(new_z[i], [rgb[0][i], rgb[1][i], rgb[2][i]], self.rgb_drop));
@@ -120,15 +120,15 @@ impl DepthTest {
                     leftmost = pass[0];
                 }
                 if DETAILS {
-                    picture.details.count(at, left, &pass, id);
+                    picture.details.count(at, remaining, &pass, id);
                 }
-                if left <= LANES as i32 {
+                if remaining <= LANES as i32 {
                     break;
                 }
                 z = z.map(|word| word.wrapping_add(ramp.z_step));
                 rgb = from_fn(|c| rgb[c].map(|color| P::step(color, ramp.rgb_step[c])));
                 at += LANES;
-                left -= LANES as i32;
+                remaining -= LANES as i32;
             }
         }
         self.passed = lanes;

@@ -1,6 +1,6 @@
 //! The same code for the vector instructions that this processor has.
 
-use super::Reason;
+use super::Refusal;
 use super::frame;
 use super::picture::Picture;
 use super::pixel::Pixel;
@@ -13,12 +13,12 @@ macro_rules! compiled_for {
         #[cfg(target_arch = "x86_64")]
         #[target_feature(enable = $features)]
         fn $name<P: Pixel, const DETAILS: bool>(
-            machine: &Plan,
+            plan: &Plan,
             triangles: impl Iterator<Item = [PortVertex; 3]>,
             state: &DrawState,
             picture: &mut Picture<P>,
-        ) -> Result<Counters, Reason> {
-            frame::draw::<P, DETAILS>(machine, triangles, state, picture)
+        ) -> Result<Counters, Refusal> {
+            frame::draw::<P, DETAILS>(plan, triangles, state, picture)
         }
     };
 }
@@ -28,26 +28,26 @@ compiled_for!(avx2, "avx2,bmi1,bmi2");
 
 /// Clears the picture and draws, with the widest vectors there are.
 pub(super) fn draw<P: Pixel>(
-    machine: &Plan,
+    plan: &Plan,
     triangles: impl Iterator<Item = [PortVertex; 3]>,
     state: &DrawState,
     details: bool,
     picture: &mut Picture<P>,
-) -> Result<Counters, Reason> {
-    picture.clear(machine, state, details);
+) -> Result<Counters, Refusal> {
+    picture.clear(plan, state, details);
     if details {
-        widest::<P, true>(machine, triangles, state, picture)
+        widest::<P, true>(plan, triangles, state, picture)
     } else {
-        widest::<P, false>(machine, triangles, state, picture)
+        widest::<P, false>(plan, triangles, state, picture)
     }
 }
 
 fn widest<P: Pixel, const DETAILS: bool>(
-    machine: &Plan,
+    plan: &Plan,
     triangles: impl Iterator<Item = [PortVertex; 3]>,
     state: &DrawState,
     picture: &mut Picture<P>,
-) -> Result<Counters, Reason> {
+) -> Result<Counters, Refusal> {
     #[cfg(target_arch = "x86_64")]
     {
         let bmi = is_x86_feature_detected!("bmi1") && is_x86_feature_detected!("bmi2");
@@ -58,12 +58,12 @@ fn widest<P: Pixel, const DETAILS: bool>(
             && is_x86_feature_detected!("avx512vl")
         {
             // SAFETY: the function is safe code, compiled for exactly the features found here.
-            return unsafe { avx512::<P, DETAILS>(machine, triangles, state, picture) };
+            return unsafe { avx512::<P, DETAILS>(plan, triangles, state, picture) };
         }
         if bmi && is_x86_feature_detected!("avx2") {
             // SAFETY: as above.
-            return unsafe { avx2::<P, DETAILS>(machine, triangles, state, picture) };
+            return unsafe { avx2::<P, DETAILS>(plan, triangles, state, picture) };
         }
     }
-    frame::draw::<P, DETAILS>(machine, triangles, state, picture)
+    frame::draw::<P, DETAILS>(plan, triangles, state, picture)
 }

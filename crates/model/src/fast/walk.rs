@@ -7,9 +7,11 @@
 //! themselves. Rules: `docs/machine.md`, sections 3 and 4; its cuts come to the same interval whichever way a span runs.
 
 use super::prefetch::prefetch;
-use crate::tokens::{EdgeWalk, Prim, Words, per_channel};
+use crate::tokens::{EdgeWalk, FEW, Prim, per_channel};
 use edgewalk_machine::{Fill, Plan};
 use std::array::from_fn;
+
+type Words = crate::tokens::Words<FEW>;
 
 /// Pixels of a line that lie on the screen.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +36,7 @@ pub(super) struct Walker {
     /// Bits that a column leaves free in 32.
     free: u32,
     /// Bits that a word leaves free in 64, by channel.
-    align: [u32; 4],
+    align: [u32; FEW],
 }
 
 /// An edge on its way down.
@@ -80,12 +82,12 @@ pub(super) struct Walk {
 }
 
 impl Walker {
-    pub(super) fn new(machine: &Plan) -> Self {
+    pub(super) fn new(plan: &Plan) -> Self {
         Walker {
-            textbook: machine.fill == Fill::Textbook,
-            width: machine.width as i32,
-            free: 32 - machine.widths().column,
-            align: per_channel(machine, |c| 64 - c.word()),
+            textbook: plan.fill == Fill::Textbook,
+            width: plan.width as i32,
+            free: 32 - plan.widths().column,
+            align: per_channel(plan, |c| 64 - c.word()),
         }
     }
 
@@ -96,12 +98,12 @@ impl Walker {
 
     /// A triangle before its first line.
     #[inline(always)]
-    pub(super) fn walk(&self, prim: &Prim) -> Walk {
+    pub(super) fn walk(&self, prim: &Prim<FEW>) -> Walk {
         let gradient = self.aligned(&prim.gradient);
-        let to_left = prim.left && !self.textbook;
+        let to_left = prim.major_right && !self.textbook;
         Walk {
             to_left,
-            major_right: prim.left,
+            major_right: prim.major_right,
             y: prim.line,
             major: Edge::new(&prim.major, self.free),
             words: self.aligned(&prim.start[0]),
@@ -115,7 +117,7 @@ impl Walker {
     #[inline(always)]
     pub(super) fn part<P>(
         &self,
-        prim: &Prim,
+        prim: &Prim<FEW>,
         part: usize,
         walk: &mut Walk,
         spans: &mut Vec<Span>,
@@ -129,7 +131,7 @@ impl Walker {
         let mut delta = walk.delta;
         if self.textbook {
             delta = [delta[part]; 2];
-            if part == 1 && (prim.left || prim.lines[0] == 0) {
+            if part == 1 && (prim.major_right || prim.lines[0] == 0) {
                 words = self.aligned(&prim.start[1]);
             }
         }

@@ -1,39 +1,39 @@
-//! First values and increments of Z, R, G and B: exact divisions, rounded once, kept modulo 2^(b+r).
+//! First values and increments of every channel: exact divisions, rounded once, kept modulo 2^(b+r).
 
 use super::edges::Parts;
 use super::round_div;
 use super::sort::{Corner, Sorted};
 use crate::tokens::{Prim, word_masks};
-use edgewalk_machine::{Fill, Plan};
+use edgewalk_machine::{Channel, Fill, Plan};
 
 /// Fills in `start`, `delta` and `gradient` of a triangle whose edges are known.
-pub(super) fn prepare(machine: &Plan, sorted: &Sorted, parts: &Parts, prim: &mut Prim) {
-    let masks = word_masks(machine);
+pub(super) fn prepare<const C: usize>(plan: &Plan, sorted: &Sorted<C>, parts: &Parts, prim: &mut Prim<C>) {
+    let masks = word_masks::<C>(plan);
     let word = |i: usize, value: i128| value as u64 & masks[i];
-    for i in 0..4 {
-        let plane = Plane::new(machine, sorted, i);
+    for (i, channel) in plan.channels().iter().enumerate() {
+        let plane = Plane::new(plan, sorted, i, channel);
         prim.gradient[i] = word(i, plane.gradient());
-        match machine.fill {
+        match plan.fill {
             Fill::Exact => {
-                if prim.left {
+                if prim.major_right {
                     prim.gradient[i] = word(i, -plane.gradient());
                 }
                 let q = i128::from(prim.major.q);
                 prim.delta[0][i] = word(i, plane.step(q));
                 prim.delta[1][i] = word(i, plane.step(q + 1));
-                let px = i64::from(prim.major.c) - i64::from(prim.left);
+                let px = i64::from(prim.major.c) - i64::from(prim.major_right);
                 prim.start[0][i] = word(i, plane.at(px, i64::from(prim.line)));
             }
             Fill::Textbook => {
                 for part in 0..2 {
                     let [a, b, c] = &sorted.corners;
-                    let (from, to) = match (prim.left, part) {
+                    let (from, to) = match (prim.major_right, part) {
                         (false, _) => (a, c),
                         (true, 0) => (a, b),
                         (true, _) => (b, c),
                     };
                     if parts.lines[part] > 0 {
-                        let (start, delta) = left_edge(machine, from, to, parts.first[part], i);
+                        let (start, delta) = left_edge(plan, from, to, parts.first[part], i, channel);
                         prim.start[part][i] = word(i, start);
                         prim.delta[part][i] = word(i, delta);
                     }
@@ -43,25 +43,26 @@ pub(super) fn prepare(machine: &Plan, sorted: &Sorted, parts: &Parts, prim: &mut
     }
 }
 
-/// r - e, and the 1/2 that turns the final truncation into rounding, 2^(r-1) (0 if r = 0).
-fn scale(machine: &Plan, channel: usize) -> (u32, i128) {
-    let c = machine.channels()[channel];
-    (c.fraction - c.vertex_fraction, (1i128 << c.fraction) >> 1)
+/// r - e, and half: the 1/2 that turns the final truncation into rounding, 2^(r-1) (0 if r = 0); a channel that is to be
+/// truncated has none.
+fn scale(channel: &Channel) -> (u32, i128) {
+    let half = if channel.kind.is_rounded() { (1i128 << channel.fraction) >> 1 } else { 0 };
+    (channel.fraction - channel.vertex_fraction, half)
 }
 
 /// Textbook fill: first value and increment a line along the left edge `a`-`b`, on line `j` (A 7.10).
-fn left_edge(machine: &Plan, a: &Corner, b: &Corner, j: i64, i: usize) -> (i128, i128) {
-    let (shift, half) = scale(machine, i);
-    let p = 1i64 << machine.widths().center_fraction;
-    let dc = b.value[i] - a.value[i];
+fn left_edge<const C: usize>(plan: &Plan, a: &Corner<C>, b: &Corner<C>, j: i64, i: usize, channel: &Channel) -> (i128, i128) {
+    let (shift, half) = scale(channel);
+    let p = 1i64 << plan.widths().center_fraction;
+    let dc = b.values[i] - a.values[i];
     let dy = i128::from(b.v - a.v);
-    let start = round_div((dc * i128::from(j * p - a.v)) << shift, dy) + (a.value[i] << shift) + half;
+    let start = round_div((dc * i128::from(j * p - a.v)) << shift, dy) + (a.values[i] << shift) + half;
     (start, round_div((dc * i128::from(p)) << shift, dy))
 }
 
 /// A channel as a plane over the screen (A 7.7): numerators of its slopes over |area|.
-struct Plane<'a> {
-    top: &'a Corner,
+struct Plane<'a, const C: usize> {
+    top: &'a Corner<C>,
     /// Nx and Ny, 2^-e LSB times 2^-t px.
     slope: [i128; 2],
     /// |area|, 2^-2t px².
@@ -74,14 +75,14 @@ struct Plane<'a> {
     half: i128,
 }
 
-impl<'a> Plane<'a> {
-    fn new(machine: &Plan, sorted: &'a Sorted, i: usize) -> Self {
+impl<'a, const C: usize> Plane<'a, C> {
+    fn new(plan: &Plan, sorted: &'a Sorted<C>, i: usize, channel: &Channel) -> Self {
         let [top, b, c] = &sorted.corners;
         let area = sorted.area();
         let sign = if area < 0 { -1 } else { 1 };
-        let (dc1, dc2) = (sign * (b.value[i] - top.value[i]), sign * (c.value[i] - top.value[i]));
+        let (dc1, dc2) = (sign * (b.values[i] - top.values[i]), sign * (c.values[i] - top.values[i]));
         let difference = |to: i64, from: i64| i128::from(to - from);
-        let (shift, half) = scale(machine, i);
+        let (shift, half) = scale(channel);
         Plane {
             top,
             slope: [
@@ -89,8 +90,8 @@ impl<'a> Plane<'a> {
                 difference(b.u, top.u) * dc2 - difference(c.u, top.u) * dc1,
             ],
             area: area.abs(),
-            value: top.value[i],
-            t: machine.widths().center_fraction,
+            value: top.values[i],
+            t: plan.widths().center_fraction,
             shift,
             half,
         }

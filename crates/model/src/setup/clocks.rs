@@ -7,30 +7,30 @@ use edgewalk_machine::{EdgeKind, Fill, Plan};
 pub struct SetupClocks {
     /// S1: sorting, edges, area, cull.
     pub phase1: u32,
-    /// S2: the four channels.
+    /// S2: the channels.
     pub phase2: u32,
 }
 
 /// S1 and S2 of a machine (`docs/machine.md`, section 2).
 #[must_use]
-pub fn setup_clocks(machine: &Plan) -> SetupClocks {
-    let w = machine.widths();
-    let (d, t, g) = (w.difference, w.center_fraction, machine.guard_bits);
-    let k = machine.bits_per_clock();
+pub fn setup_clocks(plan: &Plan) -> SetupClocks {
+    let w = plan.widths();
+    let (d, t, g) = (w.difference, w.center_fraction, plan.guard_bits);
+    let k = plan.bits_per_clock();
     let mul = 1 + d.div_ceil(k);
     let div = |bits: u32| 1 + bits.div_ceil(k);
-    let word = machine.z.word().max(machine.color.word());
-    let (div_q, div_c) = match machine.edge_kind {
+    let word = plan.channels().iter().map(|c| c.word()).max().unwrap_or(0); // there are four at least
+    let (div_q, div_c) = match plan.edge_kind {
         EdgeKind::Exact => (div(d - 1), div(2 * d - 1 - t)),
-        EdgeKind::Slope => (div(d - 1 + machine.edge_fraction), div(2 * d - 1 + machine.edge_fraction)),
+        EdgeKind::Slope => (div(d - 1 + plan.edge_fraction), div(2 * d - 1 + plan.edge_fraction)),
     };
     let t1 = div_q + mul + div_c;
-    let t2 = match machine.fill {
+    let t2 = match plan.fill {
         Fill::Exact => 4 * mul + div(d + word + t) + div(d + word + g + 2 + t) + div(2 * d + word),
         Fill::Textbook => 3 * mul + 5 * div(d + word + t),
     };
-    let turns = 4 / machine.lanes;
-    SetupClocks { phase1: 3 + turns * t1, phase2: 1 + turns * t2 }
+    let channels = plan.channels().len() as u32; // at most 8
+    SetupClocks { phase1: 3 + 4 / plan.lanes * t1, phase2: 1 + channels.div_ceil(plan.lanes) * t2 }
 }
 
 #[cfg(test)]

@@ -22,11 +22,11 @@ impl Parts {
 }
 
 /// Lines of both parts (section 2), cut to the screen.
-pub(super) fn parts(machine: &Plan, sorted: &Sorted) -> Parts {
-    let t = machine.widths().center_fraction;
-    let height = i64::from(machine.height);
+pub(super) fn parts<const C: usize>(plan: &Plan, sorted: &Sorted<C>) -> Parts {
+    let t = plan.widths().center_fraction;
+    let height = i64::from(plan.height);
     let v = sorted.corners.map(|c| c.v);
-    match machine.fill {
+    match plan.fill {
         Fill::Exact => {
             let [top, knee, bottom] = v.map(|v| -(-v >> t)); // rounded up
             let j0 = top.max(0);
@@ -47,23 +47,23 @@ pub(super) fn parts(machine: &Plan, sorted: &Sorted) -> Parts {
 }
 
 /// The edge from `a` down to `b`, as it stands on line `j`.
-pub(super) fn walk(machine: &Plan, a: &Corner, b: &Corner, j: i64) -> EdgeWalk {
-    let w = machine.widths();
+pub(super) fn walk<const C: usize>(plan: &Plan, a: &Corner<C>, b: &Corner<C>, j: i64) -> EdgeWalk {
+    let w = plan.widths();
     let p = 1i64 << w.center_fraction;
     let (dx, dy) = (b.u - a.u, b.v - a.v);
     if dy == 0 {
         return EdgeWalk::default();
     }
-    let o = i64::from(machine.fill == Fill::Textbook);
+    let o = i64::from(plan.fill == Fill::Textbook);
     let n = a.u * dy + (j * p - a.v) * dx + o * dy; // below 2^(2·DW + 1) <= 2^49
     let steps = dy >= p;
-    let (q, f, m, at) = match machine.edge_kind {
+    let (q, f, m, at) = match plan.edge_kind {
         EdgeKind::Exact => {
             let (q, f) = if steps { (dx.div_euclid(dy), dx.rem_euclid(dy)) } else { (0, 0) };
             (q, f, dy, (-n - o) >> w.center_fraction)
         }
         EdgeKind::Slope => {
-            let one = 1i64 << machine.edge_fraction;
+            let one = 1i64 << plan.edge_fraction;
             let slope = if steps { round_div(i128::from(dx * one), i128::from(dy)) as i64 } else { 0 };
             // A column of at most 2^49 / 2^t, with F <= 30 fraction bits: it fits, and only COLW + F bits are kept.
             let column = round_div(i128::from(n) * i128::from(one), i128::from(dy * p)) as i64;

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  tri ─> sort ─┬─> 3 edges: C, R, q, f, M ───────┬─> prim
-//!               └─> area, planes ─> 4 channels ───┘
+//!               └─> area, planes ─> N channels ───┘
 //! ```
 //! Formats: vertices XW bits, 2^-s px; inside, integers of any length (the lanes are as long as they need be); outside,
 //! columns of COLW bits and words of b + r bits, both modular.
@@ -20,7 +20,7 @@ mod sort;
 
 pub use clocks::{SetupClocks, setup_clocks};
 
-use crate::Coverage;
+use crate::Events;
 use crate::tokens::{Prim, Source};
 use edgewalk_machine::{Plan, PortVertex};
 use sort::Sorted;
@@ -35,27 +35,27 @@ enum State {
 
 /// State of SETUP.
 #[derive(Clone, Debug)]
-pub struct Setup {
-    machine: Plan,
+pub struct Setup<const C: usize> {
+    plan: Plan,
     clocks: SetupClocks,
     state: State,
-    /// Cycles left in PHASE1 or PHASE2, less one; 0 in the others.
-    left: u32,
+    /// Cycles remaining in PHASE1 or PHASE2, less one; 0 in the others.
+    remaining: u32,
     culled: bool,
-    prim: Prim,
+    prim: Prim<C>,
     /// Not hardware: triangles taken in.
     taken: u32,
 }
 
-impl Setup {
+impl<const C: usize> Setup<C> {
     /// An idle unit.
     #[must_use]
-    pub fn new(machine: &Plan) -> Self {
+    pub fn new(plan: &Plan) -> Self {
         Setup {
-            machine: machine.clone(),
-            clocks: setup_clocks(machine),
+            plan: plan.clone(),
+            clocks: setup_clocks(plan),
             state: State::Idle,
-            left: 0,
+            remaining: 0,
             culled: false,
             prim: Prim::default(),
             taken: 0,
@@ -65,7 +65,7 @@ impl Setup {
     /// Synchronous reset.
     pub fn reset(&mut self) {
         self.state = State::Idle;
-        self.left = 0;
+        self.remaining = 0;
     }
 
     /// A triangle can be taken: the unit is IDLE.
@@ -78,15 +78,15 @@ impl Setup {
     /// The triangle offered to EDGE.
     #[inline]
     #[must_use]
-    pub fn prim(&self) -> Option<&Prim> {
+    pub fn prim(&self) -> Option<&Prim<C>> {
         (self.state == State::Done).then_some(&self.prim)
     }
 
     /// Clock edge.
     #[inline(always)]
-    pub fn step(&mut self, tri: Option<(&[PortVertex; 3], u32)>, prim_ready: bool, coverage: &mut Coverage) {
-        if self.left > 0 {
-            self.left -= 1;
+    pub fn step(&mut self, tri: Option<(&[PortVertex; 3], u32)>, prim_ready: bool, events: &mut Events) {
+        if self.remaining > 0 {
+            self.remaining -= 1;
             return;
         }
         if self.state == State::Done && !prim_ready {
@@ -95,7 +95,7 @@ impl Setup {
         match self.state {
             State::Idle => {
                 if let Some((vertices, tag)) = tri {
-                    self.take(vertices, tag, coverage);
+                    self.take(vertices, tag, events);
                 }
             }
             State::Phase1 if self.culled => self.state = State::Idle,
@@ -107,59 +107,59 @@ impl Setup {
 
     fn enter(&mut self, state: State, cycles: u32) {
         self.state = state;
-        self.left = cycles - 1;
+        self.remaining = cycles - 1;
     }
 
-    fn take(&mut self, vertices: &[PortVertex; 3], tag: u32, coverage: &mut Coverage) {
+    fn take(&mut self, vertices: &[PortVertex; 3], tag: u32, events: &mut Events) {
         let id = self.taken;
         self.taken = self.taken.wrapping_add(1);
         self.enter(State::Phase1, self.clocks.phase1);
-        let sorted = Sorted::new(&self.machine, vertices);
-        let prim = prepare(&self.machine, &sorted);
+        let sorted = Sorted::new(&self.plan, vertices);
+        let prim = prepare(&self.plan, &sorted);
         self.culled = prim.is_none();
         if let Some(prim) = prim {
             self.prim = Prim { source: Source { tag, id }, ..prim };
-            self.count(&sorted, coverage);
+            self.count(&sorted, events);
         } else {
-            coverage.culled += 1;
+            events.culled += 1;
         }
     }
 
-    fn count(&self, sorted: &Sorted, coverage: &mut Coverage) {
+    fn count(&self, sorted: &Sorted<C>, events: &mut Events) {
         let [n1, n2] = self.prim.lines;
         let knee = sorted.corners[1].v;
-        let p = 1 << self.machine.widths().center_fraction;
-        coverage.major_right += u64::from(self.prim.left);
-        coverage.major_left += u64::from(!self.prim.left);
-        coverage.no_upper_part += u64::from(n1 == 0);
-        coverage.no_lower_part += u64::from(n2 == 0);
-        coverage.knee_on_line += u64::from(n1 > 0 && n2 > 0 && knee % p == 0);
+        let p = 1 << self.plan.widths().center_fraction;
+        events.major_right += u64::from(self.prim.major_right);
+        events.major_left += u64::from(!self.prim.major_right);
+        events.no_upper_part += u64::from(n1 == 0);
+        events.no_lower_part += u64::from(n2 == 0);
+        events.knee_on_line += u64::from(n1 > 0 && n2 > 0 && knee % p == 0);
     }
 }
 
 /// The increments of a triangle at the port, without tag and number; `None` if it is culled.
-pub(crate) fn increments(machine: &Plan, vertices: &[PortVertex; 3]) -> Option<Prim> {
-    prepare(machine, &Sorted::new(machine, vertices))
+pub(crate) fn increments<const C: usize>(plan: &Plan, vertices: &[PortVertex; 3]) -> Option<Prim<C>> {
+    prepare(plan, &Sorted::new(plan, vertices))
 }
 
-fn prepare(machine: &Plan, sorted: &Sorted) -> Option<Prim> {
+fn prepare<const C: usize>(plan: &Plan, sorted: &Sorted<C>) -> Option<Prim<C>> {
     let area = sorted.area();
-    let parts = edges::parts(machine, sorted);
+    let parts = edges::parts(plan, sorted);
     if area == 0 || parts.lines == [0, 0] {
         return None;
     }
     let [a, b, c] = &sorted.corners;
-    let major = edges::walk(machine, a, c, parts.drawn());
-    let minor = [edges::walk(machine, a, b, parts.first[0]), edges::walk(machine, b, c, parts.first[1])];
+    let major = edges::walk(plan, a, c, parts.drawn());
+    let minor = [edges::walk(plan, a, b, parts.first[0]), edges::walk(plan, b, c, parts.first[1])];
     let mut prim = Prim {
         line: parts.drawn() as u32, // first drawn line, 0 <= jm < H
         lines: parts.lines,
-        left: area < 0,
+        major_right: area < 0,
         major,
         minor,
         ..Prim::default()
     };
-    channels::prepare(machine, sorted, &parts, &mut prim);
+    channels::prepare(plan, sorted, &parts, &mut prim);
     Some(prim)
 }
 

@@ -1,27 +1,27 @@
 //! Vertices in centre coordinates, sorted from top to bottom.
 
-use edgewalk_machine::{Fill, Plan, PortVertex};
+use edgewalk_machine::{Channel, Fill, Plan, PortVertex};
 
 /// A vertex in centre coordinates.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Corner {
+pub(super) struct Corner<const C: usize> {
     /// Column, 2^-t px; pixel centres are multiples of P = 2^t.
     pub u: i64,
     /// Line, 2^-t px.
     pub v: i64,
-    /// Z, R, G, B, 2^-e LSB.
-    pub value: [i128; 4],
+    /// Of every channel, 2^-e LSB, as its kind reads it.
+    pub values: [i128; C],
 }
 
 /// Three vertices, top first; of equal v the earlier comes first.
 #[derive(Clone, Debug)]
-pub(super) struct Sorted {
-    pub corners: [Corner; 3],
+pub(super) struct Sorted<const C: usize> {
+    pub corners: [Corner<C>; 3],
 }
 
-impl Sorted {
-    pub(super) fn new(machine: &Plan, vertices: &[PortVertex; 3]) -> Self {
-        let mut corners = vertices.map(|v| corner(machine, &v));
+impl<const C: usize> Sorted<C> {
+    pub(super) fn new(plan: &Plan, vertices: &[PortVertex; 3]) -> Self {
+        let mut corners = vertices.map(|v| corner(plan, &v));
         corners.sort_by_key(|c| c.v); // stable
         Sorted { corners }
     }
@@ -35,20 +35,26 @@ impl Sorted {
 }
 
 /// Centre coordinates of a vertex. The port has XW and b + e bits; what a caller puts above them is not seen.
-fn corner(machine: &Plan, vertex: &PortVertex) -> Corner {
-    let unused = 64 - machine.widths().vertex;
+fn corner<const C: usize>(plan: &Plan, vertex: &PortVertex) -> Corner<C> {
+    let unused = 64 - plan.widths().vertex;
     let centre = |x: i32| {
         let x = i64::from(x) << unused >> unused;
-        match (machine.fill, machine.subpixel_bits) {
+        match (plan.fill, plan.subpixel_bits) {
             (Fill::Textbook, _) => 2 * x,
             (Fill::Exact, 0) => 2 * x - 1,
             (Fill::Exact, s) => x - (1 << (s - 1)),
         }
     };
-    let channels = machine.channels();
+    let value = |channel: &Channel, value: i64| {
+        let unused = 64 - channel.vertex_bits();
+        let high = value << unused;
+        i128::from(if channel.kind.is_signed() { high >> unused } else { (high as u64 >> unused) as i64 })
+    };
+    let channels = plan.channels();
+    let values = std::array::from_fn(|i| channels.get(i).map_or(0, |c| value(c, vertex.values()[i])));
     Corner {
-        u: centre(vertex.x),
-        v: centre(vertex.y),
-        value: std::array::from_fn(|i| i128::from(vertex.value[i] & ((1 << channels[i].vertex_bits()) - 1))),
+        u: centre(vertex.x()),
+        v: centre(vertex.y()),
+        values,
     }
 }

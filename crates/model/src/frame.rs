@@ -1,0 +1,144 @@
+//! Draws triangles: the machine, its memory, and a picture at the end.
+
+use crate::counters::Counters;
+use crate::events::Events;
+use crate::for_channels;
+use crate::memory::Stalls;
+use crate::run::{DrawState, Rig};
+use crate::tokens::{FEW, Source, output};
+use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
+
+/// A picture, row by row from the top, W×H pixels, and what it took.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// Stored depth, b bits.
+    pub z: Vec<u64>,
+    /// Stored colour, b bits each.
+    pub rgb: Vec<[u64; 3]>,
+    /// A plane for every channel of the user's own: LSB, signed as its kind says, 0 where nothing was written.
+    pub extra: Vec<Vec<i64>>,
+    /// Fragments of every pixel, whatever the depth test says.
+    pub coverage: Vec<u32>,
+    /// Writes to every pixel.
+    pub writes: Vec<u32>,
+    /// Number of the triangle that wrote the pixel last, -1: none.
+    pub id: Vec<i32>,
+    /// Performance counters.
+    pub counters: Counters,
+    /// Events of the units.
+    pub events: Events,
+}
+
+/// A pixel of one triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sample<'a> {
+    /// y·2^xb + x.
+    pub addr: u32,
+    /// The output of every channel, b bits; [`output`] reads one.
+    pub values: &'a [u32],
+    /// The triangle.
+    pub source: Source,
+}
+
+/// What [`render_with`] reports, in order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawn<'a> {
+    /// A fragment's depth read fired.
+    Fragment(Sample<'a>),
+    /// A write fired.
+    Write(Sample<'a>),
+}
+
+/// Draws the triangles in order.
+///
+/// # Errors
+/// A triangle whose vertices were made for another machine.
+pub fn render(
+    plan: &Plan,
+    triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+    state: DrawState,
+    stalls: Stalls,
+) -> Result<Frame, ForeignVertex> {
+    render_with(plan, triangles, state, stalls, |_| {})
+}
+
+/// As [`render`], and calls `hook` for every fragment and write.
+///
+/// # Errors
+/// A triangle whose vertices were made for another machine.
+pub fn render_with(
+    plan: &Plan,
+    triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+    state: DrawState,
+    stalls: Stalls,
+    hook: impl FnMut(Drawn),
+) -> Result<Frame, ForeignVertex> {
+    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), state, stalls, hook))
+}
+
+fn draw<const C: usize>(
+    plan: &Plan,
+    triangles: impl Iterator<Item = [PortVertex; 3]>,
+    state: DrawState,
+    stalls: Stalls,
+    mut hook: impl FnMut(Drawn),
+) -> Result<Frame, ForeignVertex> {
+    let mut rig = Rig::<C>::new(plan, state, stalls);
+    let mut tally = Tally::new(plan);
+    let channels = plan.channels().len();
+    let triangles = triangles.zip(0..).map(|(t, number)| plan.accept(&t, number).map(|()| t));
+    rig.draw(triangles, |_, model, cycle| {
+        if let Some(addr) = cycle.read {
+            tally.read(addr);
+            let fragment = model.last_read();
+            hook(Drawn::Fragment(Sample { addr, values: &fragment.values[..channels], source: fragment.source }));
+        }
+        if let Some(write) = cycle.write() {
+            tally.write(write.addr, write.source.id);
+            let values = &write.values[..channels];
+            hook(Drawn::Write(Sample { addr: write.addr, values, source: write.source }));
+        }
+    })?;
+    let x_bits = plan.widths().x;
+    let addresses: Vec<usize> = (0..plan.height)
+        .flat_map(|y| (0..plan.width).map(move |x| (y << x_bits | x) as usize))
+        .collect();
+    let stored = || addresses.iter().map(|addr| rig.memory.pixel(*addr as u32));
+    let extra = plan.channels().iter().enumerate().skip(FEW);
+    Ok(Frame {
+        z: stored().map(|values| u64::from(values[0])).collect(),
+        rgb: stored().map(|values| [1, 2, 3].map(|i| u64::from(values[i]))).collect(),
+        extra: extra.map(|(i, channel)| stored().map(|values| output(channel, values[i])).collect()).collect(),
+        coverage: addresses.iter().map(|addr| tally.reads[*addr]).collect(),
+        writes: addresses.iter().map(|addr| tally.writes[*addr]).collect(),
+        id: addresses.iter().map(|addr| tally.id[*addr]).collect(),
+        counters: rig.model.counters().clone(),
+        events: rig.model.events().clone(),
+    })
+}
+
+/// What happened at every address.
+struct Tally {
+    reads: Vec<u32>,
+    writes: Vec<u32>,
+    /// Number of the triangle that wrote it last, -1: none.
+    id: Vec<i32>,
+}
+
+impl Tally {
+    fn new(plan: &Plan) -> Self {
+        let words = 1 << plan.widths().address;
+        Tally { reads: vec![0; words], writes: vec![0; words], id: vec![-1; words] }
+    }
+
+    fn read(&mut self, addr: u32) {
+        let reads = &mut self.reads[addr as usize];
+        *reads = reads.wrapping_add(1);
+    }
+
+    fn write(&mut self, addr: u32, id: u32) {
+        let writes = &mut self.writes[addr as usize];
+        *writes = writes.wrapping_add(1);
+        self.id[addr as usize] = id as i32;
+    }
+}

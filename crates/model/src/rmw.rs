@@ -1,0 +1,223 @@
+//! One read-modify-write of a memory: the words that are on their way, and what happens if a pixel comes again meanwhile.
+//!
+//! ```text
+//!  addr, side ─┬─> read              data ──┐
+//!              └─> in-flight queue ─> head ─┴─> old ··(the unit)··> new ─> w ─> write
+//!                     ^── forward ─────────────────────────────────────────┘
+//! ```
+//! `T` is the word of the memory, `S` what travels beside it. The unit that works on the words counts the events and says
+//! what becomes of the old word; DEPTH is such a unit.
+//!
+//! Timing: an access and a result a clock; a result of cycle n is offered as a write in n + 1.
+//!
+//! Rules: `docs/machine.md`, section 6. Not modelled: nothing.
+
+use edgewalk_machine::{Hazard, Plan};
+
+/// Places; the machine's queue is at most as deep.
+const PLACES: usize = 16;
+
+/// The address of a free place: none on any screen (addresses have at most 28 bits).
+const NOWHERE: u32 = u32::MAX;
+
+/// Why no access can enter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Block {
+    /// Its pixel may still be in flight.
+    Hazard,
+    /// The in-flight queue is full.
+    Full,
+}
+
+/// An access that has its word.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Retired<T, S> {
+    pub addr: u32,
+    pub side: S,
+    /// The word before this access.
+    pub old: T,
+    /// It comes from an older access, not from the memory.
+    pub forwarded: bool,
+}
+
+/// The write register.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Outcome<T, S> {
+    pub addr: u32,
+    pub side: S,
+    /// The new word.
+    pub word: T,
+    /// It is stored; what is beside it is in any case.
+    pub stored: bool,
+}
+
+/// State of a read-modify-write.
+///
+/// The queue is columns instead of records: fields are then read as they were written, one by one. A record written field
+/// by field and copied whole in the next cycle would make the host wait until its stores are done.
+#[derive(Clone, Debug)]
+pub(crate) struct Rmw<T, S> {
+    hazard: Hazard,
+    /// The hazard policy is forward.
+    forwards: bool,
+    depth: usize,
+    head: usize,
+    len: usize,
+    /// Of an access, or NOWHERE: so all places can be asked at once.
+    addr: [u32; PLACES],
+    side: [S; PLACES],
+    /// The old word comes from an older access: `fwd_valid` and `fwd_z`.
+    forwarded: [bool; PLACES],
+    forward: [T; PLACES],
+    w_valid: bool,
+    w: Outcome<T, S>,
+}
+
+impl<T: Copy + Default, S: Copy + Default> Rmw<T, S> {
+    pub(crate) fn new(plan: &Plan) -> Self {
+        Rmw {
+            hazard: plan.hazard,
+            forwards: plan.hazard == Hazard::Forward,
+            depth: plan.inflight as usize,
+            head: 0,
+            len: 0,
+            addr: [NOWHERE; PLACES],
+            side: [S::default(); PLACES],
+            forwarded: [false; PLACES],
+            forward: [T::default(); PLACES],
+            w_valid: false,
+            w: Outcome::default(),
+        }
+    }
+
+    /// Synchronous reset.
+    pub(crate) fn reset(&mut self) {
+        self.len = 0;
+        self.addr = [NOWHERE; PLACES];
+        self.w_valid = false;
+    }
+
+    /// The hazard policy.
+    pub(crate) fn policy(&self) -> Hazard {
+        self.hazard
+    }
+
+    /// Accesses or a write are in flight.
+    #[inline]
+    pub(crate) fn occupied(&self) -> bool {
+        self.len > 0 || self.w_valid
+    }
+
+    /// What keeps an access, its address and fence, from being read. Without one there is no hazard. `writes`: results may
+    /// be stored.
+    #[inline]
+    pub(crate) fn block(&self, access: Option<(u32, bool)>, writes: bool) -> Option<Block> {
+        if access.is_some_and(|(addr, fence)| self.must_wait(addr, fence, writes)) {
+            Some(Block::Hazard)
+        } else {
+            (self.len == self.depth).then_some(Block::Full)
+        }
+    }
+
+    #[inline]
+    fn must_wait(&self, addr: u32, fence: bool, writes: bool) -> bool {
+        match self.hazard {
+            Hazard::Forward => false,
+            Hazard::Drain => fence && self.occupied(),
+            Hazard::Interlock => writes && (self.holds(addr) || self.w_stores(addr)),
+        }
+    }
+
+    /// An access of this address is queued.
+    #[inline]
+    fn holds(&self, addr: u32) -> bool {
+        self.addr.iter().fold(false, |held, other| held | (*other == addr))
+    }
+
+    /// w is about to store a word there.
+    #[inline]
+    fn w_stores(&self, addr: u32) -> bool {
+        self.w_valid && self.w.stored && self.w.addr == addr
+    }
+
+    /// The old word can be taken.
+    #[inline]
+    pub(crate) fn data_ready(&self, wr_ready: bool) -> bool {
+        self.len > 0 && (!self.w_valid || wr_ready)
+    }
+
+    /// The write offered to the memory.
+    #[inline]
+    pub(crate) fn write(&self) -> Option<&Outcome<T, S>> {
+        self.w_valid.then_some(&self.w)
+    }
+
+    #[inline]
+    fn slot(&self, place: usize) -> usize {
+        self.head.wrapping_add(place) & (PLACES - 1)
+    }
+
+    /// The youngest access, its address and side; a stale one if there is none.
+    pub(crate) fn youngest(&self) -> (u32, S) {
+        let slot = self.slot(self.len.wrapping_sub(1));
+        (self.addr[slot], self.side[slot])
+    }
+
+    /// Queues an access that is not blocked; true: w stores a word there, and it takes that one.
+    #[inline]
+    pub(crate) fn enter(&mut self, addr: u32, side: S) -> bool {
+        let slot = self.slot(self.len);
+        let written = self.forwards && self.w_stores(addr);
+        self.addr[slot] = addr;
+        self.side[slot] = side;
+        self.forwarded[slot] = written;
+        self.forward[slot] = self.w.word;
+        self.len = self.len.wrapping_add(1);
+        written
+    }
+
+    /// Drops the oldest access and gives it its old word; `data` is what the memory says.
+    #[inline]
+    pub(crate) fn retire(&mut self, data: T) -> Retired<T, S> {
+        let slot = self.slot(0);
+        let forwarded = self.forwarded[slot];
+        let old = if forwarded { self.forward[slot] } else { data };
+        let retired = Retired { addr: self.addr[slot], side: self.side[slot], old, forwarded };
+        self.addr[slot] = NOWHERE;
+        self.head = self.slot(1);
+        self.len = self.len.wrapping_sub(1);
+        retired
+    }
+
+    /// Loads w with the result of the access just retired, `None`: there is none. Gives the number of accesses in flight
+    /// that take its word: those queued, the one that entered in this same cycle among them.
+    #[inline]
+    pub(crate) fn finish(&mut self, valid: bool, result: Outcome<T, S>) -> u64 {
+        // Nobody looks at w where it is not valid; so it is loaded without asking, as a register would be.
+        self.w_valid = valid;
+        self.w = result;
+        if self.forwards && valid && result.stored && self.holds(result.addr) {
+            self.forward_to_queue(result.addr, result.word)
+        } else {
+            0
+        }
+    }
+
+    /// No access retires: w is empty once its write is taken.
+    #[inline]
+    pub(crate) fn no_result(&mut self, wr_ready: bool) {
+        self.w_valid &= !wr_ready;
+    }
+
+    fn forward_to_queue(&mut self, addr: u32, word: T) -> u64 {
+        let mut taken = 0;
+        for slot in 0..PLACES {
+            if self.addr[slot] == addr {
+                self.forwarded[slot] = true;
+                self.forward[slot] = word;
+                taken += 1;
+            }
+        }
+        taken
+    }
+}
