@@ -86,7 +86,7 @@ impl Interface {
         let mut add = |direction, link: &edgewalk_machine::Link, held: &[Held]| {
             self.links.push(Link::declared(self.unit.name(), direction, link, held));
         };
-        for link in &declared.takes {
+        if let Some(link) = &declared.takes {
             add(Direction::In, link, &declared.held_in);
         }
         for memory in &declared.memory {
@@ -95,7 +95,7 @@ impl Interface {
         for memory in &declared.memory {
             add(Direction::Out, &memory.read, &[]);
         }
-        for link in &declared.gives {
+        if let Some(link) = &declared.gives {
             add(Direction::Out, link, &declared.held_out);
         }
     }
@@ -110,14 +110,15 @@ impl Interface {
             }
         }
         self.links = links;
-        let owner = self.unit.name();
-        let mut single = |field: &Field| {
-            let id = self.place(port_of(owner, field.name.clone(), field));
-            self.ports[id.0].clone()
-        };
-        self.constants = declared.constants.iter().map(&mut single).collect();
-        self.levels = declared.levels.iter().map(&mut single).collect();
+        self.constants = self.add_single(&declared.constants);
+        self.levels = self.add_single(&declared.levels);
         self.inputs = self.ports.len();
+    }
+
+    fn add_single(&mut self, fields: &[Field]) -> Vec<Port> {
+        let owner = self.unit.name();
+        let ids = fields.iter().map(|field| self.place(port_of(owner, field.name.clone(), field)));
+        ids.collect::<Vec<_>>().into_iter().map(|id| self.at(id).clone()).collect()
     }
 
     /// For every link in turn valid and fields (out) or ready (in), then the status ports.
@@ -138,7 +139,7 @@ impl Interface {
     fn add_status(&mut self, unit: Unit, declared: &Ports) -> Vec<StatusPort> {
         let status = declared.status.iter().map(|status| {
             let id = self.place(port_of(unit.name(), status.field.name.clone(), &status.field));
-            StatusPort { port: self.ports[id.0].clone(), during: status.during, guard: None }
+            StatusPort { port: self.at(id).clone(), during: status.during, guard: None }
         });
         status.collect()
     }

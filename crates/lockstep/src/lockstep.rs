@@ -1,12 +1,13 @@
-//! Model against netlist, every port in every cycle, and the first difference told in full.
+//! Two devices under one rig, every port in every cycle.
 
-use crate::bench::{Bench, Slot};
-use crate::capture::Trace;
-use crate::device::{Device, NetlistDevice, PortError, model};
-use crate::ports::{Direction, Interface, Unit};
-use crate::status::{StatusPort, status_ports};
-use edgewalk_netlist::Netlist;
-use std::fmt;
+use crate::UnknownConstant;
+use crate::compare::{Comparison, Difference, Follower};
+use crate::device::{Device, NetlistDevice, NoPlace, PortError, model};
+use crate::interface::Interface;
+use crate::rig::{Rig, Setting};
+use crate::values::PortValues;
+use edgewalk_machine::Plan;
+use edgewalk_netlist::{BuildErrors, Netlist};
 
 /// Two descriptions agree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,45 +18,21 @@ pub struct Agreement {
     pub compared: u64,
 }
 
-/// The first port that differs.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Difference {
-    /// What was compared.
-    pub unit: Unit,
-    /// The port.
-    pub port: String,
-    /// The cycle.
-    pub cycle: u64,
-    /// What the model says.
-    pub expected: u128,
-    /// What the netlist says.
-    pub found: u128,
-    /// The triangle whose token the model moves there, or moved last at this channel.
-    pub triangle: Option<u32>,
-    /// Column and line, where the token has an address.
-    pub pixel: Option<(u64, u64)>,
-}
-
-impl fmt::Display for Difference {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Difference { unit, port, cycle, expected, found, triangle, pixel } = self;
-        write!(f, "{} {port}, cycle {cycle}: expected {expected:#x}, found {found:#x}", unit.name())?;
-        if let Some(triangle) = triangle {
-            write!(f, ", triangle {triangle}")?;
-        }
-        if let Some((x, y)) = pixel {
-            write!(f, ", pixel ({x}, {y})")?;
-        }
-        Ok(())
-    }
-}
-
 /// How a comparison ends without agreement.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LockstepError {
+    /// The netlist cannot be built.
+    #[error("the netlist cannot be built: {0}")]
+    Build(#[from] BuildErrors),
     /// The netlist does not have the ports.
     #[error(transparent)]
     Ports(#[from] PortError),
+    /// The model does not.
+    #[error(transparent)]
+    Model(#[from] NoPlace),
+    /// A constant that nobody sets.
+    #[error(transparent)]
+    Constant(#[from] UnknownConstant),
     /// A port differs.
     #[error("{difference}")]
     Differs {
@@ -67,130 +44,100 @@ pub enum LockstepError {
     /// Nothing would be compared.
     #[error("nothing to compare: the model gives no token")]
     Vacuous,
+    /// It did not come to rest.
+    #[error("still busy after {0} cycles")]
+    Busy(u64),
 }
 
-/// Cycles that follow the last event of the model: what comes too much would come here.
-const AFTER: u64 = 64;
-/// Cycles of the runs that a reset ends, before the one that counts.
-const CUT_SHORT: [u64; 6] = [2, 13, 40, 113, 290, 611];
+/// A reference and a device in the middle of a run.
+pub struct Lockstep<'a> {
+    interface: &'a Interface,
+    /// What drives both.
+    pub rig: Rig<'a>,
+    comparison: Comparison,
+    follower: Follower,
+    expected: PortValues,
+    found: PortValues,
+    /// Port values compared so far.
+    pub compared: u64,
+}
 
-impl Trace {
-    /// The port values that a lock-step over the whole trace has to compare.
+impl<'a> Lockstep<'a> {
+    /// Before cycle 0.
     #[must_use]
-    pub fn port_values(&self) -> u64 {
-        let always = (self.cycles + AFTER) * status_ports(&self.interface).len() as u64;
-        let channels = self.interface.channels.iter().zip(&self.valid_cycles);
-        let values = channels.map(|(channel, valid)| match (channel.direction, channel.ready_always) {
-            (Direction::Out, _) => channel.fields.len() as u64 * valid,
-            (Direction::In, true) => 0,
-            (Direction::In, false) => *valid,
-        });
-        always + values.sum::<u64>()
+    pub fn new(plan: &Plan, interface: &'a Interface, setting: Setting) -> Lockstep<'a> {
+        Lockstep {
+            interface,
+            rig: Rig::new(interface, setting),
+            comparison: Comparison::new(interface),
+            follower: Follower::new(interface, plan.widths().x),
+            expected: interface.values(),
+            found: interface.values(),
+            compared: 0,
+        }
+    }
+
+    /// One cycle of both; true if any token moved.
+    ///
+    /// # Errors
+    /// The first port that differs.
+    pub fn cycle(
+        &mut self,
+        reference: &mut dyn Device,
+        device: &mut dyn Device,
+    ) -> Result<bool, LockstepError> {
+        self.rig.drive(&mut self.expected);
+        self.found.copy_inputs(&self.expected);
+        reference.cycle(&mut self.expected);
+        device.cycle(&mut self.found);
+        self.follower.see(&self.expected);
+        let differs = self.comparison.first_difference(&self.expected, &self.found, &mut self.compared);
+        if let Some(port) = differs {
+            let (port, cycle) = (self.interface.at(port), self.rig.cycle());
+            let difference = self.follower.tell(port, cycle, &self.expected, &self.found);
+            return Err(LockstepError::Differs { difference: Box::new(difference), compared: self.compared });
+        }
+        Ok(self.rig.clock(&self.expected))
+    }
+
+    /// What the reference had at its ports in the last cycle.
+    #[must_use]
+    pub fn ports(&self) -> &PortValues {
+        &self.expected
     }
 }
 
-/// Runs the netlist of the trace's unit beside the model, under the bench of the trace.
+/// Cycles of the runs that a reset ends, before the one that counts.
+const CUT_SHORT: [u64; 6] = [2, 13, 40, 113, 290, 611];
+
+/// Runs a netlist beside the model for so many cycles.
 ///
-/// Before the run that counts come some that a reset cuts short, in the midst of the trace and of random inputs: so that
+/// Before the run that counts come some that a reset cuts short, in the midst of the work and of random inputs: so that
 /// nothing is taken for reset that only was 0 before.
 ///
 /// # Errors
 /// The first difference.
-pub fn lockstep(trace: &Trace, netlist: &Netlist) -> Result<Agreement, LockstepError> {
-    if trace.tokens_out() == 0 {
-        return Err(LockstepError::Vacuous);
-    }
-    let mut device = NetlistDevice::new(netlist, &trace.interface)?;
+pub fn lockstep(
+    plan: &Plan,
+    interface: &Interface,
+    setting: &Setting,
+    cycles: u64,
+    netlist: &Netlist,
+) -> Result<Agreement, LockstepError> {
+    let mut device = NetlistDevice::new(netlist, interface)?;
+    let run = |device: &mut NetlistDevice, cycles: u64| {
+        let mut reference = model(plan, interface)?;
+        let mut pair = Lockstep::new(plan, interface, setting.clone());
+        while pair.rig.cycle() < cycles {
+            pair.cycle(&mut *reference, device)?;
+        }
+        Ok(Agreement { cycles, compared: pair.compared })
+    };
     for cycles in CUT_SHORT {
         device.disturb(cycles);
         device.reset();
-        compare(trace, &mut device, cycles)?;
+        run(&mut device, cycles)?;
         device.reset();
     }
-    compare(trace, &mut device, trace.cycles + AFTER)
-}
-
-/// A device after reset beside a fresh model, for so many cycles.
-fn compare(trace: &Trace, device: &mut NetlistDevice, cycles: u64) -> Result<Agreement, LockstepError> {
-    let interface = &trace.interface;
-    let ports = Ports::of(interface);
-    let mut reference = model(&trace.machine, interface.unit);
-    let mut bench = Bench::new(interface, trace.setting.clone());
-    let (mut expected, mut found) = (Vec::new(), Vec::new());
-    let mut compared = 0;
-    while bench.cycle() < cycles {
-        let inputs = bench.inputs();
-        reference.cycle(inputs, &mut expected);
-        device.cycle(inputs, &mut found);
-        compared += ports.always.len() as u64;
-        let differs =
-            ports.always.iter().find(|port| port.value(inputs, &expected) != port.value(inputs, &found));
-        let mut differs = differs.map(|port| port.place);
-        let offers = |slot: &&Slot| slot.direction == Direction::Out && slot.valid(inputs, &expected);
-        for slot in ports.slots.iter().filter(offers) {
-            let fields = slot.output + 1..=slot.output + slot.fields;
-            compared += slot.fields as u64;
-            differs = differs.or_else(|| fields.into_iter().find(|place| expected[*place] != found[*place]));
-        }
-        for (slot, valid) in &ports.while_valid {
-            if inputs[*valid] == 1 {
-                compared += 1;
-                differs = differs.or_else(|| (expected[*slot] != found[*slot]).then_some(*slot));
-            }
-        }
-        if let Some(place) = differs {
-            let at = bench.cycle();
-            let difference = Box::new(difference(trace, place, at, &expected, &found));
-            return Err(LockstepError::Differs { difference, compared });
-        }
-        bench.clock(&expected);
-    }
-    Ok(Agreement { cycles: bench.cycle(), compared })
-}
-
-/// Which outputs are compared when.
-struct Ports {
-    /// In every cycle.
-    always: Vec<StatusPort>,
-    /// Readies that count only while the valid at the second place, among the inputs, is high.
-    while_valid: Vec<(usize, usize)>,
-    slots: Vec<Slot>,
-}
-
-impl Ports {
-    fn of(interface: &Interface) -> Ports {
-        let slots = Slot::of(interface);
-        let sometimes = interface.channels.iter().zip(&slots).filter(|(c, _)| !c.ready_always);
-        Ports {
-            always: status_ports(interface),
-            while_valid: sometimes.map(|(_, slot)| (slot.output, slot.input)).collect(),
-            slots,
-        }
-    }
-}
-
-fn difference(trace: &Trace, place: usize, cycle: u64, expected: &[u128], found: &[u128]) -> Difference {
-    let interface = &trace.interface;
-    let slots = Slot::of(interface);
-    let channel = slots.iter().rposition(|slot| slot.output <= place).unwrap_or(0);
-    let moved = &trace.channels[channel];
-    // The first token that moves in this cycle or later, else the last there is.
-    let token = moved.cycles.partition_point(|moved| *moved < cycle);
-    let triangle = moved.triangles.get(token).or(moved.triangles.last()).copied();
-    let address = interface.channels[channel].field("addr").map(|field| slots[channel].output + 1 + field);
-    let x_bits = trace.machine.widths().x;
-    let offered = slots[channel].direction == Direction::Out && expected[slots[channel].output] == 1;
-    let pixel = address.filter(|_| offered).map(|place| {
-        let address = expected[place] as u64; // at most 26 bits
-        (address & ((1 << x_bits) - 1), address >> x_bits)
-    });
-    Difference {
-        unit: interface.unit,
-        port: interface.outputs()[place].0.clone(),
-        cycle,
-        expected: expected[place],
-        found: found[place],
-        triangle,
-        pixel,
-    }
+    run(&mut device, cycles)
 }

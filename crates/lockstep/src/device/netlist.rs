@@ -1,18 +1,35 @@
 //! A netlist in the interpreter as a device.
 
 use super::Device;
-use crate::ports::Interface;
-use edgewalk_netlist::{InputId, Netlist, SignalId, Simulator};
-use rand::{RngCore, SeedableRng};
+use crate::interface::{Interface, Port};
+use crate::rig::bits;
+use crate::unit::Unit;
+use crate::values::{PortId, PortValues};
+use edgewalk_machine::Plan;
+use edgewalk_netlist::{BuildErrors, InputId, Netlist, SignalId, Simulator};
+use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
+use std::sync::Arc;
+
+/// The netlist of the machine or of one of its units.
+///
+/// # Errors
+/// None for a unit of the machine.
+pub fn netlist(plan: &Plan, unit: Unit) -> Result<Arc<Netlist>, BuildErrors> {
+    if unit == Unit::MACHINE {
+        return edgewalk_rtl::machine(plan);
+    }
+    let build = edgewalk_rtl::units::builder(unit.name());
+    build.expect("a test of rtl finds a builder for every declared unit")(plan)
+}
 
 /// A netlist whose ports are those of an interface, after a clock of reset.
 #[derive(Clone, Debug)]
 pub struct NetlistDevice {
     simulator: Simulator,
     rst: Option<InputId>,
-    inputs: Vec<InputId>,
-    outputs: Vec<SignalId>,
+    inputs: Vec<(PortId, InputId, u32)>,
+    outputs: Vec<(PortId, SignalId)>,
 }
 
 /// A port of the interface that the netlist does not have so.
@@ -40,39 +57,50 @@ pub enum PortError {
         /// The width it should have.
         wanted: u32,
     },
+    /// Of the netlist, but not of the interface.
+    #[error("module {module} has a port {port} that nobody declares")]
+    Undeclared {
+        /// The netlist.
+        module: String,
+        /// The port.
+        port: String,
+    },
 }
 
 impl NetlistDevice {
     /// Finds every port and resets the netlist.
     ///
     /// # Errors
-    /// A port that is missing or of another width.
+    /// A port that is missing, of another width, or too much.
     pub fn new(netlist: &Netlist, interface: &Interface) -> Result<Self, PortError> {
         let simulator = Simulator::new(netlist);
-        let missing = |direction, port: &str| PortError::Missing {
-            module: netlist.name.clone(),
-            direction,
-            port: port.to_owned(),
-        };
-        let check = |port: &str, found: u32, wanted: u32| {
-            if found == wanted {
-                return Ok(());
-            }
-            Err(PortError::Width { module: netlist.name.clone(), port: port.to_owned(), found, wanted })
+        let module = || netlist.name.clone();
+        let known = |name: &str| interface.inputs().iter().chain(interface.outputs()).any(|port| port.name == name);
+        let names = netlist.inputs.iter().map(|input| &input.name).chain(netlist.outputs.iter().map(|o| &o.name));
+        if let Some(port) = names.into_iter().find(|name| !known(name)) {
+            return Err(PortError::Undeclared { module: module(), port: port.clone() });
+        }
+        let missing =
+            |direction, port: &str| PortError::Missing { module: module(), direction, port: port.to_owned() };
+        let check = |port: &Port, found: u32| match port.width() {
+            wanted if wanted == found => Ok(()),
+            wanted => Err(PortError::Width { module: module(), port: port.name.clone(), found, wanted }),
         };
         let mut inputs = Vec::new();
-        for (port, width) in interface.inputs() {
-            let place = netlist.inputs.iter().find(|input| input.name == port);
-            let found = place.ok_or_else(|| missing("input", &port))?;
-            check(&port, netlist.width(found.node), width)?;
-            inputs.push(simulator.input(&port).map_err(|_| missing("input", &port))?);
+        for port in interface.inputs() {
+            let place = netlist.inputs.iter().find(|input| input.name == port.name);
+            let found = place.ok_or_else(|| missing("input", &port.name))?;
+            check(port, netlist.width(found.node))?;
+            let input = simulator.input(&port.name).map_err(|_| missing("input", &port.name))?;
+            inputs.push((port.id, input, port.width()));
         }
         let mut outputs = Vec::new();
-        for (port, width) in interface.outputs() {
-            let place = netlist.outputs.iter().find(|output| output.name == port);
-            let found = place.ok_or_else(|| missing("output", &port))?;
-            check(&port, netlist.width(found.driver), width)?;
-            outputs.push(simulator.signal(&port).map_err(|_| missing("output", &port))?);
+        let inner = |port: &Port| format!("u_{}.{}", port.owner, port.name);
+        let own = interface.outputs().iter().map(|port| (port, port.name.clone()));
+        for (port, path) in own.chain(interface.inner_outputs().iter().map(|port| (port, inner(port)))) {
+            let signal = simulator.signal(&path).map_err(|_| missing("output", &path))?;
+            check(port, simulator.width(signal))?;
+            outputs.push((port.id, signal));
         }
         let rst = simulator.input("rst").ok();
         let mut device = NetlistDevice { simulator, rst, inputs, outputs };
@@ -82,32 +110,37 @@ impl NetlistDevice {
 
     /// A clock with `rst` high.
     pub fn reset(&mut self) {
-        if let Some(rst) = self.rst {
-            self.simulator.set(rst, 1);
-            self.simulator.tick();
-            self.simulator.set(rst, 0);
+        self.set_reset(true);
+        self.simulator.tick();
+        self.set_reset(false);
+    }
+
+    fn set_reset(&mut self, rst: bool) {
+        if let Some(input) = self.rst {
+            self.simulator.set(input, rst.into());
         }
     }
 
-    /// So many cycles of random inputs.
+    /// So many cycles of random inputs: registers are left in one state or another.
     pub fn disturb(&mut self, cycles: u64) {
         let mut random = Pcg64Mcg::seed_from_u64(cycles);
         for _ in 0..cycles {
-            for input in &self.inputs {
-                let value = u128::from(random.next_u64()) << 64 | u128::from(random.next_u64());
-                self.simulator.set(*input, value);
+            for (_, input, width) in &self.inputs {
+                self.simulator.set(*input, bits(&mut random, *width));
             }
             self.simulator.tick();
         }
     }
 
     /// Drives the inputs and gives the outputs of this cycle, before the clock edge.
-    pub fn settle(&mut self, inputs: &[u128], outputs: &mut Vec<u128>) {
-        for (input, value) in self.inputs.iter().zip(inputs) {
-            self.simulator.set(*input, *value);
+    pub fn settle(&mut self, ports: &mut PortValues) {
+        self.set_reset(ports.rst);
+        for (port, input, _) in &self.inputs {
+            self.simulator.set(*input, ports[*port]);
         }
-        outputs.clear();
-        outputs.extend(self.outputs.iter().map(|output| self.simulator.value(*output)));
+        for (port, output) in &self.outputs {
+            ports[*port] = self.simulator.value(*output);
+        }
     }
 
     /// The clock edge.
@@ -122,8 +155,8 @@ impl NetlistDevice {
 }
 
 impl Device for NetlistDevice {
-    fn cycle(&mut self, inputs: &[u128], outputs: &mut Vec<u128>) {
-        self.settle(inputs, outputs);
+    fn cycle(&mut self, ports: &mut PortValues) {
+        self.settle(ports);
         self.clock();
     }
 }
