@@ -16,6 +16,7 @@ use crate::Token;
 use crate::interface::Interface;
 use crate::pack;
 use crate::unit::{UnknownUnit, Unit};
+use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Machine, MachineError};
 use std::fmt::Write as _;
 use toml::{Table, Value};
@@ -144,22 +145,20 @@ impl Case {
     /// The machine's keys that are not those of the default machine.
     fn machine_sections(&self) -> String {
         let usual = Machine::default();
-        let mut text = String::new();
-        let mut last = "";
-        for key in edgewalk_machine::keys::KEYS {
+        let mut machine = Table::new();
+        for key in KEYS {
             let (section, name) = key.name.split_once('.').unwrap_or(("", key.name));
             if (key.get)(&self.plan) == (key.get)(&usual) || !(key.used)(&self.plan) {
                 continue;
             }
-            if section != last {
-                let _ = writeln!(text, "[machine.{section}]");
-                last = section;
-            }
             let shown = key.show(&self.plan);
             let value = shown.parse().map_or_else(|_| Value::from(shown), |number: i64| Value::from(number));
-            let _ = writeln!(text, "{name} = {value}");
+            let section = machine.entry(section).or_insert_with(|| Value::Table(Table::new()));
+            if let Value::Table(section) = section {
+                section.insert(name.to_owned(), value);
+            }
         }
-        text
+        Table::from_iter([("machine".to_owned(), Value::Table(machine))]).to_string()
     }
 }
 

@@ -10,7 +10,7 @@ pub enum Slot<'a> {
     U32(&'a mut u32),
     /// Not negative.
     U64(&'a mut u64),
-    /// In two's complement at the port.
+    /// Of either sign; the port says whether its bits are two's complement.
     I32(&'a mut i32),
     /// 0 or 1.
     Bool(&'a mut bool),
@@ -27,11 +27,12 @@ impl Slot<'_> {
     }
 
     /// `width` is that of the port; no port is wider than the model's number for it.
-    fn set(self, bits: u128, width: u32) {
+    fn set(self, bits: u128, width: u32, signed: bool) {
         match self {
             Slot::U32(value) => *value = bits as u32,
             Slot::U64(value) => *value = bits as u64,
-            Slot::I32(value) => *value = ((bits as u32) << (32 - width)) as i32 >> (32 - width),
+            Slot::I32(value) if signed => *value = ((bits as u32) << (32 - width)) as i32 >> (32 - width),
+            Slot::I32(value) => *value = bits as i32,
             Slot::Bool(value) => *value = bits == 1,
         }
     }
@@ -56,7 +57,16 @@ pub trait Named: Copy {
 #[derive(Clone, Debug)]
 pub struct Table<T> {
     blank: T,
-    fields: Vec<(fn(&mut T, usize) -> Slot<'_>, usize, u32)>,
+    fields: Vec<Place<T>>,
+}
+
+/// A field of a link and its place in the token.
+#[derive(Clone, Copy, Debug)]
+struct Place<T> {
+    slot: fn(&mut T, usize) -> Slot<'_>,
+    number: usize,
+    width: u32,
+    signed: bool,
 }
 
 impl<T: Named> Table<T> {
@@ -66,8 +76,8 @@ impl<T: Named> Table<T> {
     /// The first port that the token has no field for.
     pub fn of(plan: &Plan, link: &Link) -> Result<Table<T>, Port> {
         let found = link.fields[..link.own].iter().map(|port| {
-            let (slot, place) = T::find(plan, &port.field.name).ok_or_else(|| port.clone())?;
-            Ok((slot, place, port.width()))
+            let (slot, number) = T::find(plan, &port.field.name).ok_or_else(|| port.clone())?;
+            Ok(Place { slot, number, width: port.width(), signed: port.is_signed() })
         });
         Ok(Table { blank: T::blank(plan), fields: found.collect::<Result<_, Port>>()? })
     }
@@ -75,16 +85,16 @@ impl<T: Named> Table<T> {
     /// The fields of a token.
     pub fn pack(&self, token: &T, values: &mut [u128]) {
         let mut token = *token;
-        for ((slot, place, width), value) in self.fields.iter().zip(values) {
-            *value = slot(&mut token, *place).get() & (u128::MAX >> (128 - width));
+        for (field, value) in self.fields.iter().zip(values) {
+            *value = (field.slot)(&mut token, field.number).get() & (u128::MAX >> (128 - field.width));
         }
     }
 
     /// The token with these fields, of this triangle.
     pub fn unpack(&self, values: &[u128], triangle: u32) -> T {
         let mut token = self.blank;
-        for ((slot, place, width), value) in self.fields.iter().zip(values) {
-            slot(&mut token, *place).set(*value, *width);
+        for (field, value) in self.fields.iter().zip(values) {
+            (field.slot)(&mut token, field.number).set(*value, field.width, field.signed);
         }
         token.source().id = triangle;
         token

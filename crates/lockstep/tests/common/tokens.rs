@@ -15,7 +15,13 @@ pub fn random_tokens(plan: &Plan, unit: Unit, count: usize, rng: &mut Pcg64Mcg) 
         _ => {
             let interface = Interface::new(plan, unit);
             let fields = &interface.links[0].fields;
-            (0..count).map(|_| token(plan, fields, rng)).collect()
+            let mut tokens: Vec<Token> = (0..count).map(|_| token(plan, fields, rng)).collect();
+            // The first of all brings increments: before it PIXEL has none.
+            let fresh = interface.links[0].place("fresh");
+            if let (Some(first), Some(fresh)) = (tokens.first_mut(), fresh) {
+                first[fresh] = 1;
+            }
+            tokens
         }
     }
 }

@@ -64,7 +64,6 @@ fn forwards(plan: &Plan) -> bool {
 }
 
 const EVENTS: &[Event] = &[
-    Event { name: "fence", doc: "fragments that carry a fence", can_happen: always },
     Event { name: "drain_stall", doc: "cycles in which DEPTH waits at a fence", can_happen: drains },
     Event {
         name: "interlock_stall",
