@@ -1,12 +1,12 @@
-// edgewalk_pixel: PIXEL steps along a span, a pixel every 4/A clocks, with A adders shared by the four channels.
+// edgewalk_pixel: PIXEL steps along a span, a pixel every ceil(N/A) clocks, with A adders shared by the N channels.
 //
-//   span ─> [x count]─────────────────────────────────────┐
-//       └─> [values z r g b] <─ + <─ [g z r g b] <─ EDGE  ├─> [out] ─> frag
-//                  └──────────────────────────────────────┘
+//   span ─> [x count]───────────────────────────────────────┐
+//       └─> [a value a channel] <─ + <─ [increments] <─ inc ├─> [out] ─> frag
+//                  └────────────────────────────────────────┘
 //
 // Formats: values and increments are modular words; a fragment takes the bits above the fraction.
 // Timing: a pixel leaves in the last of its phases. The additions for the next pixel begin in that same phase and go on
-// in the first phases of the next pixel, one channel of each adder a clock.
+// in the first phases of the next pixel, one channel of each adder a clock; an adder without one more rests.
 // Rules: everything stands still while a fragment waits at the output. Columns off the screen cost their phases, and give
 // no fragment.
 
@@ -17,41 +17,41 @@ module edgewalk_pixel (
   input  wire        rst,
 
   input  wire        span_valid,
-  input  wire [14:0] span_x,      // signed, first column
-  input  wire  [8:0] span_y,      // line
-  input  wire [14:0] span_count,  // pixels, at least 1
-  input  wire        span_left,   // towards smaller columns
-  input  wire [37:0] span_z,      // UQ24.14 LSB, modular
-  input  wire [21:0] span_r,      // UQ8.14 LSB, modular
-  input  wire [21:0] span_g,      // UQ8.14 LSB, modular
-  input  wire [21:0] span_b,      // UQ8.14 LSB, modular
-  input  wire        span_fresh,  // first span of the triangle: its increments are new
-  input  wire        span_fence,  // what is in flight may be of the same pixels
-  input  wire [37:0] inc_z,       // UQ24.14 LSB, modular
-  input  wire [21:0] inc_r,       // UQ8.14 LSB, modular
-  input  wire [21:0] inc_g,       // UQ8.14 LSB, modular
-  input  wire [21:0] inc_b,       // UQ8.14 LSB, modular
+  input  wire [14:0] span_x,         // signed, first column
+  input  wire  [8:0] span_y,         // line
+  input  wire [14:0] span_count,     // pixels, at least 1
+  input  wire        span_leftward,  // towards smaller columns
+  input  wire [37:0] span_z,         // UQ24.14 LSB, modular
+  input  wire [21:0] span_r,         // UQ8.14 LSB, modular
+  input  wire [21:0] span_g,         // UQ8.14 LSB, modular
+  input  wire [21:0] span_b,         // UQ8.14 LSB, modular
+  input  wire        span_fresh,     // first span of the triangle: its increments are new
+  input  wire        span_fence,     // what is in flight may be of the same pixels
+  input  wire [37:0] inc_z,          // UQ24.14 LSB, modular
+  input  wire [21:0] inc_r,          // UQ8.14 LSB, modular
+  input  wire [21:0] inc_g,          // UQ8.14 LSB, modular
+  input  wire [21:0] inc_b,          // UQ8.14 LSB, modular
   input  wire        frag_ready,
 
   output wire        span_ready,
   output reg         frag_valid,
-  output reg  [18:0] frag_addr,   // line * 2^10 + column
-  output reg  [23:0] frag_z,      // unorm24
-  output reg   [7:0] frag_r,      // unorm8
-  output reg   [7:0] frag_g,      // unorm8
-  output reg   [7:0] frag_b,      // unorm8
-  output reg         frag_fence,  // what is in flight may be of the same pixel
-  output reg         active,      // a span is being drawn
-  output wire        visible,     // its pixel is on the screen
-  output wire        advance,     // nothing waits at the output
-  output wire        occupied     // a fragment is in an output stage
+  output reg  [18:0] frag_addr,      // line * 2^10 + column
+  output reg  [23:0] frag_z,         // unorm24
+  output reg   [7:0] frag_r,         // unorm8
+  output reg   [7:0] frag_g,         // unorm8
+  output reg   [7:0] frag_b,         // unorm8
+  output reg         frag_fence,     // what is in flight may be of the same pixel
+  output reg         active,         // a span is being drawn
+  output wire        visible,        // its pixel is on the screen
+  output wire        advance,        // nothing waits at the output
+  output wire        occupied        // a fragment is in an output stage
 );
 
   // The span being drawn.
   assign advance = !frag_valid || frag_ready;
   reg [14:0] x;                              // column, signed
   reg [8:0] y;                               // line
-  reg left;                                  // towards smaller columns
+  reg leftward;                              // towards smaller columns
   reg [14:0] count;                          // pixels left of the span, this one too
   reg fence;                                 // for the next fragment
   wire finish = active && (count == 15'd1);  // last clock of the span
@@ -73,7 +73,7 @@ module edgewalk_pixel (
 
   always @(posedge clk) begin
     if (next_pixel) begin
-      x <= left ? x - 15'd1 : x + 15'd1;
+      x <= leftward ? x - 15'd1 : x + 15'd1;
       count <= count - 15'd1;
     end
     if (load) begin
@@ -85,7 +85,7 @@ module edgewalk_pixel (
   always @(posedge clk) begin
     if (load) begin
       y <= span_y;
-      left <= span_left;
+      leftward <= span_leftward;
     end
   end
 
@@ -95,14 +95,14 @@ module edgewalk_pixel (
   end
 
   // The words of z.
-  reg [37:0] z_value;  // bits 37 to 0 of 38
-  reg [37:0] z_inc;    // bits 37 to 0 of 38
+  reg [37:0] z_value;  // UQ24.14 LSB, modular
+  reg [37:0] z_inc;    // UQ24.14 LSB, modular
 
   always @(posedge clk) begin
     if (load && span_fresh) z_inc <= inc_z;
   end
 
-  // Its adder; with several channels, that of all of them.
+  // Its adder.
   wire [37:0] z_sum = z_value + z_inc;
 
   always @(posedge clk) begin
@@ -111,14 +111,14 @@ module edgewalk_pixel (
   end
 
   // The words of r.
-  reg [21:0] r_value;  // bits 21 to 0 of 22
-  reg [21:0] r_inc;    // bits 21 to 0 of 22
+  reg [21:0] r_value;  // UQ8.14 LSB, modular
+  reg [21:0] r_inc;    // UQ8.14 LSB, modular
 
   always @(posedge clk) begin
     if (load && span_fresh) r_inc <= inc_r;
   end
 
-  // Its adder; with several channels, that of all of them.
+  // Its adder.
   wire [21:0] r_sum = r_value + r_inc;
 
   always @(posedge clk) begin
@@ -127,14 +127,14 @@ module edgewalk_pixel (
   end
 
   // The words of g.
-  reg [21:0] g_value;  // bits 21 to 0 of 22
-  reg [21:0] g_inc;    // bits 21 to 0 of 22
+  reg [21:0] g_value;  // UQ8.14 LSB, modular
+  reg [21:0] g_inc;    // UQ8.14 LSB, modular
 
   always @(posedge clk) begin
     if (load && span_fresh) g_inc <= inc_g;
   end
 
-  // Its adder; with several channels, that of all of them.
+  // Its adder.
   wire [21:0] g_sum = g_value + g_inc;
 
   always @(posedge clk) begin
@@ -143,14 +143,14 @@ module edgewalk_pixel (
   end
 
   // The words of b.
-  reg [21:0] b_value;  // bits 21 to 0 of 22
-  reg [21:0] b_inc;    // bits 21 to 0 of 22
+  reg [21:0] b_value;  // UQ8.14 LSB, modular
+  reg [21:0] b_inc;    // UQ8.14 LSB, modular
 
   always @(posedge clk) begin
     if (load && span_fresh) b_inc <= inc_b;
   end
 
-  // Its adder; with several channels, that of all of them.
+  // Its adder.
   wire [21:0] b_sum = b_value + b_inc;
 
   always @(posedge clk) begin

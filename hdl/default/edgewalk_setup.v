@@ -1,9 +1,9 @@
 // edgewalk_setup: SETUP turns three vertices into edges and increments.
 //
 //   tri ─> [sort by v] ─┬─> lines j0 j1 n1 n2 ────────────────────────────┐
-//                       ├─> area ─> left, cull?                           ├─> prim
+//                       ├─> area ─> major_right, cull?                    ├─> prim
 //                       ├─> three edges: q f = DX/DY, C R = N/DY ─────────┤
-//                       └─> four channels: increments and start ──────────┘
+//                       └─> N channels: increments and start ─────────────┘
 //             the products and quotients are formed in serial lanes, side by side or in rounds
 //
 // Formats: see the ports; P = 2^t is a pixel in centre coordinates.
@@ -18,63 +18,63 @@ module edgewalk_setup (
   input  wire        rst,
 
   input  wire        tri_valid,
-  input  wire [21:0] tri_x0,         // Q14.8 px
-  input  wire [21:0] tri_y0,         // Q14.8 px
-  input  wire [27:0] tri_z0,         // UQ24.4 LSB
-  input  wire [11:0] tri_r0,         // UQ8.4 LSB
-  input  wire [11:0] tri_g0,         // UQ8.4 LSB
-  input  wire [11:0] tri_b0,         // UQ8.4 LSB
-  input  wire [21:0] tri_x1,         // Q14.8 px
-  input  wire [21:0] tri_y1,         // Q14.8 px
-  input  wire [27:0] tri_z1,         // UQ24.4 LSB
-  input  wire [11:0] tri_r1,         // UQ8.4 LSB
-  input  wire [11:0] tri_g1,         // UQ8.4 LSB
-  input  wire [11:0] tri_b1,         // UQ8.4 LSB
-  input  wire [21:0] tri_x2,         // Q14.8 px
-  input  wire [21:0] tri_y2,         // Q14.8 px
-  input  wire [27:0] tri_z2,         // UQ24.4 LSB
-  input  wire [11:0] tri_r2,         // UQ8.4 LSB
-  input  wire [11:0] tri_g2,         // UQ8.4 LSB
-  input  wire [11:0] tri_b2,         // UQ8.4 LSB
+  input  wire [21:0] tri_x0,            // Q14.8 px
+  input  wire [21:0] tri_y0,            // Q14.8 px
+  input  wire [27:0] tri_z0,            // UQ24.4 LSB
+  input  wire [11:0] tri_r0,            // UQ8.4 LSB
+  input  wire [11:0] tri_g0,            // UQ8.4 LSB
+  input  wire [11:0] tri_b0,            // UQ8.4 LSB
+  input  wire [21:0] tri_x1,            // Q14.8 px
+  input  wire [21:0] tri_y1,            // Q14.8 px
+  input  wire [27:0] tri_z1,            // UQ24.4 LSB
+  input  wire [11:0] tri_r1,            // UQ8.4 LSB
+  input  wire [11:0] tri_g1,            // UQ8.4 LSB
+  input  wire [11:0] tri_b1,            // UQ8.4 LSB
+  input  wire [21:0] tri_x2,            // Q14.8 px
+  input  wire [21:0] tri_y2,            // Q14.8 px
+  input  wire [27:0] tri_z2,            // UQ24.4 LSB
+  input  wire [11:0] tri_r2,            // UQ8.4 LSB
+  input  wire [11:0] tri_g2,            // UQ8.4 LSB
+  input  wire [11:0] tri_b2,            // UQ8.4 LSB
   input  wire        prim_ready,
 
   output wire        tri_ready,
   output wire        prim_valid,
-  output wire  [8:0] prim_jm,        // first line
-  output reg   [9:0] prim_n1,        // lines of the upper part
-  output reg   [9:0] prim_n2,        // lines of the lower part
-  output reg         prim_left,      // the major edge is the right one
-  output reg  [14:0] prim_major_c,   // signed, first column right of the edge
-  output reg  [21:0] prim_major_r,   // distance from the edge to that column, 1/M column
-  output reg  [14:0] prim_major_q,   // signed, whole columns a line
-  output reg  [21:0] prim_major_f,   // 1/M column a line
-  output wire [21:0] prim_major_m,   // modulus of r and f: the edge's height, 1/P line
-  output reg  [14:0] prim_minor1_c,  // signed, first column right of the edge
-  output reg  [21:0] prim_minor1_r,  // distance from the edge to that column, 1/M column
-  output reg  [14:0] prim_minor1_q,  // signed, whole columns a line
-  output reg  [21:0] prim_minor1_f,  // 1/M column a line
-  output wire [21:0] prim_minor1_m,  // modulus of r and f: the edge's height, 1/P line
-  output reg  [14:0] prim_minor2_c,  // signed, first column right of the edge
-  output reg  [21:0] prim_minor2_r,  // distance from the edge to that column, 1/M column
-  output reg  [14:0] prim_minor2_q,  // signed, whole columns a line
-  output reg  [21:0] prim_minor2_f,  // 1/M column a line
-  output wire [21:0] prim_minor2_m,  // modulus of r and f: the edge's height, 1/P line
-  output reg  [37:0] prim_z_start,   // UQ24.14 LSB, modular, at the first pixel of the first line
-  output reg  [37:0] prim_z_d0,      // UQ24.14 LSB, modular, to the next line, edge without carry
-  output reg  [37:0] prim_z_d1,      // UQ24.14 LSB, modular, to the next line, edge with carry
-  output reg  [37:0] prim_z_g,       // UQ24.14 LSB, modular, to the next pixel of the span
-  output reg  [21:0] prim_r_start,   // UQ8.14 LSB, modular, at the first pixel of the first line
-  output reg  [21:0] prim_r_d0,      // UQ8.14 LSB, modular, to the next line, edge without carry
-  output reg  [21:0] prim_r_d1,      // UQ8.14 LSB, modular, to the next line, edge with carry
-  output reg  [21:0] prim_r_g,       // UQ8.14 LSB, modular, to the next pixel of the span
-  output reg  [21:0] prim_g_start,   // UQ8.14 LSB, modular, at the first pixel of the first line
-  output reg  [21:0] prim_g_d0,      // UQ8.14 LSB, modular, to the next line, edge without carry
-  output reg  [21:0] prim_g_d1,      // UQ8.14 LSB, modular, to the next line, edge with carry
-  output reg  [21:0] prim_g_g,       // UQ8.14 LSB, modular, to the next pixel of the span
-  output reg  [21:0] prim_b_start,   // UQ8.14 LSB, modular, at the first pixel of the first line
-  output reg  [21:0] prim_b_d0,      // UQ8.14 LSB, modular, to the next line, edge without carry
-  output reg  [21:0] prim_b_d1,      // UQ8.14 LSB, modular, to the next line, edge with carry
-  output reg  [21:0] prim_b_g        // UQ8.14 LSB, modular, to the next pixel of the span
+  output wire  [8:0] prim_jm,           // first line
+  output reg   [9:0] prim_n1,           // lines of the upper part
+  output reg   [9:0] prim_n2,           // lines of the lower part
+  output reg         prim_major_right,  // the major edge is the right one
+  output reg  [14:0] prim_major_c,      // signed, first column right of the edge
+  output reg  [21:0] prim_major_r,      // distance from the edge to that column, 1/M column
+  output reg  [14:0] prim_major_q,      // signed, whole columns a line
+  output reg  [21:0] prim_major_f,      // 1/M column a line
+  output wire [21:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
+  output reg  [14:0] prim_minor1_c,     // signed, first column right of the edge
+  output reg  [21:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
+  output reg  [14:0] prim_minor1_q,     // signed, whole columns a line
+  output reg  [21:0] prim_minor1_f,     // 1/M column a line
+  output wire [21:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
+  output reg  [14:0] prim_minor2_c,     // signed, first column right of the edge
+  output reg  [21:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
+  output reg  [14:0] prim_minor2_q,     // signed, whole columns a line
+  output reg  [21:0] prim_minor2_f,     // 1/M column a line
+  output wire [21:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
+  output reg  [37:0] prim_z_start,      // UQ24.14 LSB, modular, at the first pixel of the first line
+  output reg  [37:0] prim_z_d0,         // UQ24.14 LSB, modular, to the next line, edge without carry
+  output reg  [37:0] prim_z_d1,         // UQ24.14 LSB, modular, to the next line, edge with carry
+  output reg  [37:0] prim_z_g,          // UQ24.14 LSB, modular, to the next pixel of the span
+  output reg  [21:0] prim_r_start,      // UQ8.14 LSB, modular, at the first pixel of the first line
+  output reg  [21:0] prim_r_d0,         // UQ8.14 LSB, modular, to the next line, edge without carry
+  output reg  [21:0] prim_r_d1,         // UQ8.14 LSB, modular, to the next line, edge with carry
+  output reg  [21:0] prim_r_g,          // UQ8.14 LSB, modular, to the next pixel of the span
+  output reg  [21:0] prim_g_start,      // UQ8.14 LSB, modular, at the first pixel of the first line
+  output reg  [21:0] prim_g_d0,         // UQ8.14 LSB, modular, to the next line, edge without carry
+  output reg  [21:0] prim_g_d1,         // UQ8.14 LSB, modular, to the next line, edge with carry
+  output reg  [21:0] prim_g_g,          // UQ8.14 LSB, modular, to the next pixel of the span
+  output reg  [21:0] prim_b_start,      // UQ8.14 LSB, modular, at the first pixel of the first line
+  output reg  [21:0] prim_b_d0,         // UQ8.14 LSB, modular, to the next line, edge without carry
+  output reg  [21:0] prim_b_d1,         // UQ8.14 LSB, modular, to the next line, edge with carry
+  output reg  [21:0] prim_b_g           // UQ8.14 LSB, modular, to the next pixel of the span
 );
 
   // Control. Sorting takes three clocks; an operation takes one to load, then k bits a clock.
@@ -323,12 +323,12 @@ module edgewalk_setup (
   always @(posedge clk) begin
     if (take_area) begin
       area <= choice_3[44:0];
-      prim_left <= part_4[45];
+      prim_major_right <= part_4[45];
     end
   end
 
   // Factors and divisor of the operations on channels, the same for all lanes.
-  wire [14:0] px = prim_major_c - {14'd0, prim_left};  // column of the first pixel, signed
+  wire [14:0] px = prim_major_c - {14'd0, prim_major_right};  // column of the first pixel, signed
   wire [22:0] channel_a = is_start_product ? {px, 8'd0} - {p0_u[21], p0_u}  // signed
                         : is_line_product ? {{8{prim_major_q[14]}}, prim_major_q}
                         : is_nx ? {1'b0, dv02}
@@ -337,7 +337,7 @@ module edgewalk_setup (
                         : is_line_product ? 23'd1
                         : is_nx ? {1'b0, dv01}
                         : du01;
-  wire flip = prim_left ^ is_ny;  // differences of channels the other way round
+  wire flip = prim_major_right ^ is_ny;  // differences of channels the other way round
 
   // Lane 0.
   wire [28:0] lane0_x_edge = {{7{p1_u[21]}}, p1_u} - {{7{p0_u[21]}}, p0_u};
@@ -556,7 +556,7 @@ module edgewalk_setup (
 
   // Channel: z.
   always @(posedge clk) begin
-    if (gx_done) prim_z_g <= prim_left ? -lane0_rounded : lane0_rounded;
+    if (gx_done) prim_z_g <= prim_major_right ? -lane0_rounded : lane0_rounded;
   end
 
   always @(posedge clk) begin
@@ -572,7 +572,7 @@ module edgewalk_setup (
 
   // Channel: r.
   always @(posedge clk) begin
-    if (gx_done) prim_r_g <= prim_left ? -lane1_rounded : lane1_rounded;
+    if (gx_done) prim_r_g <= prim_major_right ? -lane1_rounded : lane1_rounded;
   end
 
   always @(posedge clk) begin
@@ -588,7 +588,7 @@ module edgewalk_setup (
 
   // Channel: g.
   always @(posedge clk) begin
-    if (gx_done) prim_g_g <= prim_left ? -lane2_rounded : lane2_rounded;
+    if (gx_done) prim_g_g <= prim_major_right ? -lane2_rounded : lane2_rounded;
   end
 
   always @(posedge clk) begin
@@ -604,7 +604,7 @@ module edgewalk_setup (
 
   // Channel: b.
   always @(posedge clk) begin
-    if (gx_done) prim_b_g <= prim_left ? -lane3_rounded : lane3_rounded;
+    if (gx_done) prim_b_g <= prim_major_right ? -lane3_rounded : lane3_rounded;
   end
 
   always @(posedge clk) begin

@@ -14,31 +14,31 @@ module edgewalk_span (
   input  wire        rst,
 
   input  wire        line_valid,
-  input  wire  [8:0] line_y,        // line
-  input  wire [14:0] line_cmaj,     // signed, first column right of the major edge
-  input  wire [14:0] line_cmin,     // signed, first column right of the minor edge
-  input  wire        line_left,     // the major edge is the right one
-  input  wire [37:0] line_z,        // UQ24.14 LSB, modular
-  input  wire [21:0] line_r,        // UQ8.14 LSB, modular
-  input  wire [21:0] line_g,        // UQ8.14 LSB, modular
-  input  wire [21:0] line_b,        // UQ8.14 LSB, modular
-  input  wire        line_fresh,    // first line of the triangle
-  input  wire        line_fence,    // what is in flight may be of the same pixels
+  input  wire  [8:0] line_y,            // line
+  input  wire [14:0] line_cmaj,         // signed, first column right of the major edge
+  input  wire [14:0] line_cmin,         // signed, first column right of the minor edge
+  input  wire        line_major_right,  // the major edge is the right one
+  input  wire [37:0] line_z,            // UQ24.14 LSB, modular
+  input  wire [21:0] line_r,            // UQ8.14 LSB, modular
+  input  wire [21:0] line_g,            // UQ8.14 LSB, modular
+  input  wire [21:0] line_b,            // UQ8.14 LSB, modular
+  input  wire        line_fresh,        // first line of the triangle
+  input  wire        line_fence,        // what is in flight may be of the same pixels
   input  wire        span_ready,
 
   output wire        line_ready,
   output wire        span_valid,
-  output wire [14:0] span_x,        // signed, first column
-  output wire  [8:0] span_y,        // line
-  output wire [14:0] span_count,    // pixels, at least 1
-  output wire        span_left,     // towards smaller columns
-  output wire [37:0] span_z,        // UQ24.14 LSB, modular
-  output wire [21:0] span_r,        // UQ8.14 LSB, modular
-  output wire [21:0] span_g,        // UQ8.14 LSB, modular
-  output wire [21:0] span_b,        // UQ8.14 LSB, modular
-  output wire        span_fresh,    // first span of the triangle: its increments are new
-  output wire        span_fence,    // what is in flight may be of the same pixels
-  output reg         fresh_queued   // the first span of a triangle is queued
+  output wire [14:0] span_x,            // signed, first column
+  output wire  [8:0] span_y,            // line
+  output wire [14:0] span_count,        // pixels, at least 1
+  output wire        span_leftward,     // towards smaller columns
+  output wire [37:0] span_z,            // UQ24.14 LSB, modular
+  output wire [21:0] span_r,            // UQ8.14 LSB, modular
+  output wire [21:0] span_g,            // UQ8.14 LSB, modular
+  output wire [21:0] span_b,            // UQ8.14 LSB, modular
+  output wire        span_fresh,        // first span of the triangle: its increments are new
+  output wire        span_fence,        // what is in flight may be of the same pixels
+  output reg         fresh_queued       // the first span of a triangle is queued
 );
 
   // To the right: from cmaj to before cmin, at most to the end of the screen.
@@ -49,9 +49,10 @@ module edgewalk_span (
   wire [14:0] last_left = line_cmaj - 15'd1;  // signed, last column left of the major edge
   wire [14:0] end_left = ($signed(line_cmin) > 15'sd0) ? line_cmin : 15'd0;  // signed, last column of the span
   wire none_left = ($signed(last_left) < $signed(end_left)) || ($signed(line_cmin) >= 15'sd640);
-  wire empty = line_left ? none_left : none_right;
-  wire [14:0] x = line_left ? last_left : line_cmaj;
-  wire [14:0] count = (line_left ? line_cmaj : end_right) - (line_left ? end_left : line_cmaj);  // columns
+  wire empty = line_major_right ? none_left : none_right;
+  wire [14:0] x = line_major_right ? last_left : line_cmaj;
+  wire [14:0] count = (line_major_right ? line_cmaj : end_right)  // columns
+                    - (line_major_right ? end_left : line_cmaj);
 
   // Flags of dropped lines wait for the next span.
   reg pend_fresh;  // fresh of dropped lines
@@ -67,7 +68,7 @@ module edgewalk_span (
   wire [14:0] queue_out_x;
   wire [8:0] queue_out_y;
   wire [14:0] queue_out_count;
-  wire queue_out_left;
+  wire queue_out_leftward;
   wire [37:0] queue_out_z;
   wire [21:0] queue_out_r;
   wire [21:0] queue_out_g;
@@ -77,32 +78,32 @@ module edgewalk_span (
   wire queue_out_valid;
 
   edgewalk_span_fifo queue (
-    .clk       (clk),
-    .rst       (rst),
-    .in_valid  (push),
-    .in_x      (x),
-    .in_y      (line_y),
-    .in_count  (count),
-    .in_left   (line_left),
-    .in_z      (line_z),
-    .in_r      (line_r),
-    .in_g      (line_g),
-    .in_b      (line_b),
-    .in_fresh  (fresh),
-    .in_fence  (fence),
-    .out_ready (span_ready),
-    .in_ready  (queue_in_ready),
-    .out_valid (queue_out_valid),
-    .out_x     (queue_out_x),
-    .out_y     (queue_out_y),
-    .out_count (queue_out_count),
-    .out_left  (queue_out_left),
-    .out_z     (queue_out_z),
-    .out_r     (queue_out_r),
-    .out_g     (queue_out_g),
-    .out_b     (queue_out_b),
-    .out_fresh (queue_out_fresh),
-    .out_fence (queue_out_fence)
+    .clk          (clk),
+    .rst          (rst),
+    .in_valid     (push),
+    .in_x         (x),
+    .in_y         (line_y),
+    .in_count     (count),
+    .in_leftward  (line_major_right),
+    .in_z         (line_z),
+    .in_r         (line_r),
+    .in_g         (line_g),
+    .in_b         (line_b),
+    .in_fresh     (fresh),
+    .in_fence     (fence),
+    .out_ready    (span_ready),
+    .in_ready     (queue_in_ready),
+    .out_valid    (queue_out_valid),
+    .out_x        (queue_out_x),
+    .out_y        (queue_out_y),
+    .out_count    (queue_out_count),
+    .out_leftward (queue_out_leftward),
+    .out_z        (queue_out_z),
+    .out_r        (queue_out_r),
+    .out_g        (queue_out_g),
+    .out_b        (queue_out_b),
+    .out_fresh    (queue_out_fresh),
+    .out_fence    (queue_out_fence)
   );
 
   always @(posedge clk) begin
@@ -129,7 +130,7 @@ module edgewalk_span (
   assign span_x = queue_out_x;
   assign span_y = queue_out_y;
   assign span_count = queue_out_count;
-  assign span_left = queue_out_left;
+  assign span_leftward = queue_out_leftward;
   assign span_z = queue_out_z;
   assign span_r = queue_out_r;
   assign span_g = queue_out_g;

@@ -16,7 +16,7 @@ module edgewalk_depth (
   input  wire        clk,
   input  wire        rst,
 
-  input  wire  [2:0] depth_func,   // new ? old
+  input  wire  [2:0] depth_func,   // 0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always: new ? old
   input  wire        depth_write,  // depths of passing fragments are written
   input  wire        frag_valid,
   input  wire [18:0] frag_addr,    // line * 2^10 + column
@@ -27,12 +27,12 @@ module edgewalk_depth (
   input  wire        frag_fence,   // what is in flight may be of the same pixel
   input  wire        rd_ready,
   input  wire        data_valid,
-  input  wire [15:0] data_z,       // old depth
+  input  wire [15:0] data_z,       // unorm16, old depth
   input  wire        wr_ready,
 
   output wire        frag_ready,
   output wire        rd_valid,
-  output wire [18:0] rd_addr,
+  output wire [18:0] rd_addr,      // line * 2^10 + column
   output wire        data_ready,
   output reg         wr_valid,     // a pixel is being written
   output reg  [18:0] wr_addr,      // line * 2^10 + column
@@ -111,7 +111,7 @@ module edgewalk_depth (
     end
   end
 
-  // The queue moves up at a compare; what enters goes behind the last.
+  // The queue moves up when its head leaves; what enters goes behind the last.
   wire [2:0] end_place = compare ? count - 3'd1 : count;
   wire enters0 = push && (end_place == 3'd0);
   wire enters1 = push && (end_place == 3'd1);

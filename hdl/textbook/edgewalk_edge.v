@@ -1,9 +1,9 @@
 // edgewalk_edge: EDGE walks the major and the minor edge of a triangle, a line a step.
 //
-//   prim ─> [major C R q f M] ── cmaj ─────┐
-//           [minor C R q f M] ── cmin ─────┼─> line
-//           [values z r g b ] ─ by carry ──┘
-//           [g z r g b      ] ───────────────> gradients, held for PIXEL
+//   prim ─> [major C R q f M] ── cmaj ───────┐
+//           [minor C R q f M] ── cmin ───────┼─> line
+//           [a value a channel] ─ by carry ──┘
+//           [g of each channel] ───────────────> inc, held for PIXEL
 //
 // Timing: the first line is valid in the cycle after the triangle was taken, then one line a clock while line_ready.
 // Rules: a step takes f from R; where R is too small M is added back and the column goes one further (carry).
@@ -16,61 +16,61 @@ module edgewalk_edge (
   input  wire        rst,
 
   input  wire        prim_valid,
-  input  wire  [8:0] prim_jm,         // first line
-  input  wire  [9:0] prim_n1,         // lines of the upper part
-  input  wire  [9:0] prim_n2,         // lines of the lower part
-  input  wire        prim_left,       // the major edge is the right one
-  input  wire [14:0] prim_major_c,    // signed, first column right of the edge
-  input  wire [15:0] prim_major_r,    // distance from the edge to that column, 2^-F column
-  input  wire [14:0] prim_major_q,    // signed, whole columns a line
-  input  wire [15:0] prim_major_f,    // 2^-F column a line
-  input  wire [14:0] prim_minor1_c,   // signed, first column right of the edge
-  input  wire [15:0] prim_minor1_r,   // distance from the edge to that column, 2^-F column
-  input  wire [14:0] prim_minor1_q,   // signed, whole columns a line
-  input  wire [15:0] prim_minor1_f,   // 2^-F column a line
-  input  wire [14:0] prim_minor2_c,   // signed, first column right of the edge
-  input  wire [15:0] prim_minor2_r,   // distance from the edge to that column, 2^-F column
-  input  wire [14:0] prim_minor2_q,   // signed, whole columns a line
-  input  wire [15:0] prim_minor2_f,   // 2^-F column a line
-  input  wire [29:0] prim_z_start_a,  // UQ16.14 LSB, modular, on the left edge, first line of part 1
-  input  wire [29:0] prim_z_d_a,      // UQ16.14 LSB, modular, to the next line, part 1
-  input  wire [29:0] prim_z_start_b,  // UQ16.14 LSB, modular, on the left edge, first line of part 2
-  input  wire [29:0] prim_z_d_b,      // UQ16.14 LSB, modular, to the next line, part 2
-  input  wire [29:0] prim_z_g,        // UQ16.14 LSB, modular, to the next pixel of the span
-  input  wire [21:0] prim_r_start_a,  // UQ8.14 LSB, modular, on the left edge, first line of part 1
-  input  wire [21:0] prim_r_d_a,      // UQ8.14 LSB, modular, to the next line, part 1
-  input  wire [21:0] prim_r_start_b,  // UQ8.14 LSB, modular, on the left edge, first line of part 2
-  input  wire [21:0] prim_r_d_b,      // UQ8.14 LSB, modular, to the next line, part 2
-  input  wire [21:0] prim_r_g,        // UQ8.14 LSB, modular, to the next pixel of the span
-  input  wire [21:0] prim_g_start_a,  // UQ8.14 LSB, modular, on the left edge, first line of part 1
-  input  wire [21:0] prim_g_d_a,      // UQ8.14 LSB, modular, to the next line, part 1
-  input  wire [21:0] prim_g_start_b,  // UQ8.14 LSB, modular, on the left edge, first line of part 2
-  input  wire [21:0] prim_g_d_b,      // UQ8.14 LSB, modular, to the next line, part 2
-  input  wire [21:0] prim_g_g,        // UQ8.14 LSB, modular, to the next pixel of the span
-  input  wire [21:0] prim_b_start_a,  // UQ8.14 LSB, modular, on the left edge, first line of part 1
-  input  wire [21:0] prim_b_d_a,      // UQ8.14 LSB, modular, to the next line, part 1
-  input  wire [21:0] prim_b_start_b,  // UQ8.14 LSB, modular, on the left edge, first line of part 2
-  input  wire [21:0] prim_b_d_b,      // UQ8.14 LSB, modular, to the next line, part 2
-  input  wire [21:0] prim_b_g,        // UQ8.14 LSB, modular, to the next pixel of the span
+  input  wire  [8:0] prim_jm,           // first line
+  input  wire  [9:0] prim_n1,           // lines of the upper part
+  input  wire  [9:0] prim_n2,           // lines of the lower part
+  input  wire        prim_major_right,  // the major edge is the right one
+  input  wire [14:0] prim_major_c,      // signed, first column right of the edge
+  input  wire [15:0] prim_major_r,      // distance from the edge to that column, 2^-F column
+  input  wire [14:0] prim_major_q,      // signed, whole columns a line
+  input  wire [15:0] prim_major_f,      // 2^-F column a line
+  input  wire [14:0] prim_minor1_c,     // signed, first column right of the edge
+  input  wire [15:0] prim_minor1_r,     // distance from the edge to that column, 2^-F column
+  input  wire [14:0] prim_minor1_q,     // signed, whole columns a line
+  input  wire [15:0] prim_minor1_f,     // 2^-F column a line
+  input  wire [14:0] prim_minor2_c,     // signed, first column right of the edge
+  input  wire [15:0] prim_minor2_r,     // distance from the edge to that column, 2^-F column
+  input  wire [14:0] prim_minor2_q,     // signed, whole columns a line
+  input  wire [15:0] prim_minor2_f,     // 2^-F column a line
+  input  wire [29:0] prim_z_start_a,    // UQ16.14 LSB, modular, on the left edge, first line of part 1
+  input  wire [29:0] prim_z_d_a,        // UQ16.14 LSB, modular, to the next line, part 1
+  input  wire [29:0] prim_z_start_b,    // UQ16.14 LSB, modular, on the left edge, first line of part 2
+  input  wire [29:0] prim_z_d_b,        // UQ16.14 LSB, modular, to the next line, part 2
+  input  wire [29:0] prim_z_g,          // UQ16.14 LSB, modular, to the next pixel of the span
+  input  wire [21:0] prim_r_start_a,    // UQ8.14 LSB, modular, on the left edge, first line of part 1
+  input  wire [21:0] prim_r_d_a,        // UQ8.14 LSB, modular, to the next line, part 1
+  input  wire [21:0] prim_r_start_b,    // UQ8.14 LSB, modular, on the left edge, first line of part 2
+  input  wire [21:0] prim_r_d_b,        // UQ8.14 LSB, modular, to the next line, part 2
+  input  wire [21:0] prim_r_g,          // UQ8.14 LSB, modular, to the next pixel of the span
+  input  wire [21:0] prim_g_start_a,    // UQ8.14 LSB, modular, on the left edge, first line of part 1
+  input  wire [21:0] prim_g_d_a,        // UQ8.14 LSB, modular, to the next line, part 1
+  input  wire [21:0] prim_g_start_b,    // UQ8.14 LSB, modular, on the left edge, first line of part 2
+  input  wire [21:0] prim_g_d_b,        // UQ8.14 LSB, modular, to the next line, part 2
+  input  wire [21:0] prim_g_g,          // UQ8.14 LSB, modular, to the next pixel of the span
+  input  wire [21:0] prim_b_start_a,    // UQ8.14 LSB, modular, on the left edge, first line of part 1
+  input  wire [21:0] prim_b_d_a,        // UQ8.14 LSB, modular, to the next line, part 1
+  input  wire [21:0] prim_b_start_b,    // UQ8.14 LSB, modular, on the left edge, first line of part 2
+  input  wire [21:0] prim_b_d_b,        // UQ8.14 LSB, modular, to the next line, part 2
+  input  wire [21:0] prim_b_g,          // UQ8.14 LSB, modular, to the next pixel of the span
   input  wire        line_ready,
-  input  wire        fresh_queued,    // the triangle before has not reached PIXEL yet
+  input  wire        fresh_queued,      // the triangle before has not reached PIXEL yet
 
   output wire        prim_ready,
-  output wire        line_valid,      // EDGE is running
-  output reg   [8:0] line_y,          // line
-  output wire [14:0] line_cmaj,       // signed, first column right of the major edge
-  output wire [14:0] line_cmin,       // signed, first column right of the minor edge
-  output reg         line_left,       // the major edge is the right one
-  output reg  [29:0] line_z,          // UQ16.14 LSB, modular
-  output reg  [21:0] line_r,          // UQ8.14 LSB, modular
-  output reg  [21:0] line_g,          // UQ8.14 LSB, modular
-  output reg  [21:0] line_b,          // UQ8.14 LSB, modular
-  output reg         line_fresh,      // first line of the triangle
-  output reg         line_fence,      // what is in flight may be of the same pixels
-  output reg  [29:0] inc_z,           // UQ16.14 LSB, modular
-  output reg  [21:0] inc_r,           // UQ8.14 LSB, modular
-  output reg  [21:0] inc_g,           // UQ8.14 LSB, modular
-  output reg  [21:0] inc_b            // UQ8.14 LSB, modular
+  output wire        line_valid,
+  output reg   [8:0] line_y,            // line
+  output wire [14:0] line_cmaj,         // signed, first column right of the major edge
+  output wire [14:0] line_cmin,         // signed, first column right of the minor edge
+  output reg         line_major_right,  // the major edge is the right one
+  output reg  [29:0] line_z,            // UQ16.14 LSB, modular
+  output reg  [21:0] line_r,            // UQ8.14 LSB, modular
+  output reg  [21:0] line_g,            // UQ8.14 LSB, modular
+  output reg  [21:0] line_b,            // UQ8.14 LSB, modular
+  output reg         line_fresh,        // first line of the triangle
+  output reg         line_fence,        // what is in flight may be of the same pixels
+  output reg  [29:0] inc_z,             // UQ16.14 LSB, modular
+  output reg  [21:0] inc_r,             // UQ8.14 LSB, modular
+  output reg  [21:0] inc_g,             // UQ8.14 LSB, modular
+  output reg  [21:0] inc_b              // UQ8.14 LSB, modular
 );
 
   // A triangle is taken when the one before is walked and PIXEL has its increments.
@@ -113,7 +113,7 @@ module edgewalk_edge (
   end
 
   always @(posedge clk) begin
-    if (load) line_left <= prim_left;
+    if (load) line_major_right <= prim_major_right;
   end
 
   always @(posedge clk) begin
@@ -243,7 +243,7 @@ module edgewalk_edge (
       line_g <= line_g + (upper ? g_d_a : g_d_b);
       line_b <= line_b + (upper ? b_d_a : b_d_b);
     end
-    if (at_knee && line_left) begin
+    if (at_knee && line_major_right) begin
       line_z <= z_start_b;
       line_r <= r_start_b;
       line_g <= g_start_b;

@@ -1,12 +1,12 @@
-// edgewalk_pixel: PIXEL steps along a span, a pixel every 4/A clocks, with A adders shared by the four channels.
+// edgewalk_pixel: PIXEL steps along a span, a pixel every ceil(N/A) clocks, with A adders shared by the N channels.
 //
-//   span ─> [x count]─────────────────────────────────────┐
-//       └─> [values z r g b] <─ + <─ [g z r g b] <─ EDGE  ├─> [out] ─> frag
-//                  └──────────────────────────────────────┘
+//   span ─> [x count]───────────────────────────────────────┐
+//       └─> [a value a channel] <─ + <─ [increments] <─ inc ├─> [out] ─> frag
+//                  └────────────────────────────────────────┘
 //
 // Formats: values and increments are modular words; a fragment takes the bits above the fraction.
 // Timing: a pixel leaves in the last of its phases. The additions for the next pixel begin in that same phase and go on
-// in the first phases of the next pixel, one channel of each adder a clock.
+// in the first phases of the next pixel, one channel of each adder a clock; an adder without one more rests.
 // Rules: everything stands still while a fragment waits at the output. Columns off the screen cost their phases, and give
 // no fragment.
 // Segments: the words are cut into segments, and the carry moves a segment a clock.
@@ -22,41 +22,41 @@ module edgewalk_pixel (
   input  wire        rst,
 
   input  wire        span_valid,
-  input  wire [14:0] span_x,      // signed, first column
-  input  wire  [8:0] span_y,      // line
-  input  wire [14:0] span_count,  // pixels, at least 1
-  input  wire        span_left,   // towards smaller columns
-  input  wire [29:0] span_z,      // UQ16.14 LSB, modular
-  input  wire [21:0] span_r,      // UQ8.14 LSB, modular
-  input  wire [21:0] span_g,      // UQ8.14 LSB, modular
-  input  wire [21:0] span_b,      // UQ8.14 LSB, modular
-  input  wire        span_fresh,  // first span of the triangle: its increments are new
-  input  wire        span_fence,  // what is in flight may be of the same pixels
-  input  wire [29:0] inc_z,       // UQ16.14 LSB, modular
-  input  wire [21:0] inc_r,       // UQ8.14 LSB, modular
-  input  wire [21:0] inc_g,       // UQ8.14 LSB, modular
-  input  wire [21:0] inc_b,       // UQ8.14 LSB, modular
+  input  wire [14:0] span_x,         // signed, first column
+  input  wire  [8:0] span_y,         // line
+  input  wire [14:0] span_count,     // pixels, at least 1
+  input  wire        span_leftward,  // towards smaller columns
+  input  wire [29:0] span_z,         // UQ16.14 LSB, modular
+  input  wire [21:0] span_r,         // UQ8.14 LSB, modular
+  input  wire [21:0] span_g,         // UQ8.14 LSB, modular
+  input  wire [21:0] span_b,         // UQ8.14 LSB, modular
+  input  wire        span_fresh,     // first span of the triangle: its increments are new
+  input  wire        span_fence,     // what is in flight may be of the same pixels
+  input  wire [29:0] inc_z,          // UQ16.14 LSB, modular
+  input  wire [21:0] inc_r,          // UQ8.14 LSB, modular
+  input  wire [21:0] inc_g,          // UQ8.14 LSB, modular
+  input  wire [21:0] inc_b,          // UQ8.14 LSB, modular
   input  wire        frag_ready,
 
   output wire        span_ready,
   output reg         frag_valid,
-  output reg  [18:0] frag_addr,   // line * 2^10 + column
-  output reg  [15:0] frag_z,      // unorm16
-  output reg   [7:0] frag_r,      // unorm8
-  output reg   [7:0] frag_g,      // unorm8
-  output reg   [7:0] frag_b,      // unorm8
-  output reg         frag_fence,  // what is in flight may be of the same pixel
-  output reg         active,      // a span is being drawn
-  output wire        visible,     // its pixel is on the screen
-  output wire        advance,     // nothing waits at the output
-  output wire        occupied     // a fragment is in an output stage
+  output reg  [18:0] frag_addr,      // line * 2^10 + column
+  output reg  [15:0] frag_z,         // unorm16
+  output reg   [7:0] frag_r,         // unorm8
+  output reg   [7:0] frag_g,         // unorm8
+  output reg   [7:0] frag_b,         // unorm8
+  output reg         frag_fence,     // what is in flight may be of the same pixel
+  output reg         active,         // a span is being drawn
+  output wire        visible,        // its pixel is on the screen
+  output wire        advance,        // nothing waits at the output
+  output wire        occupied        // a fragment is in an output stage
 );
 
   // The span being drawn.
   assign advance = !frag_valid || frag_ready;
   reg [14:0] x;                                   // column, signed
   reg [8:0] y;                                    // line
-  reg left;                                       // towards smaller columns
+  reg leftward;                                   // towards smaller columns
   reg [14:0] count;                               // pixels left of the span, this one too
   reg fence;                                      // for the next fragment
   reg [1:0] phase;                                // clock of the pixel
@@ -85,7 +85,7 @@ module edgewalk_pixel (
 
   always @(posedge clk) begin
     if (next_pixel) begin
-      x <= left ? x - 15'd1 : x + 15'd1;
+      x <= leftward ? x - 15'd1 : x + 15'd1;
       count <= count - 15'd1;
     end
     if (load) begin
@@ -97,7 +97,7 @@ module edgewalk_pixel (
   always @(posedge clk) begin
     if (load) begin
       y <= span_y;
-      left <= span_left;
+      leftward <= span_leftward;
     end
   end
 
@@ -167,20 +167,20 @@ module edgewalk_pixel (
   end
 
   // The words of z.
-  reg [6:0] z_value0;        // bits 6 to 0 of 30
-  reg [6:0] z_inc0;          // bits 6 to 0 of 30
+  reg [6:0] z_value0;        // bits 6 to 0 of UQ16.14 LSB, modular
+  reg [6:0] z_inc0;          // bits 6 to 0 of UQ16.14 LSB, modular
   reg [22:0] z_value_late1;  // upper bits of the span to come
   reg [22:0] z_inc_late1;    // upper bits of the span to come
-  reg [7:0] z_value1;        // bits 14 to 7 of 30
-  reg [7:0] z_inc1;          // bits 14 to 7 of 30
+  reg [7:0] z_value1;        // bits 14 to 7 of UQ16.14 LSB, modular
+  reg [7:0] z_inc1;          // bits 14 to 7 of UQ16.14 LSB, modular
   reg [14:0] z_value_late2;  // upper bits of the span to come
   reg [14:0] z_inc_late2;    // upper bits of the span to come
-  reg [6:0] z_value2;        // bits 21 to 15 of 30
-  reg [6:0] z_inc2;          // bits 21 to 15 of 30
+  reg [6:0] z_value2;        // bits 21 to 15 of UQ16.14 LSB, modular
+  reg [6:0] z_inc2;          // bits 21 to 15 of UQ16.14 LSB, modular
   reg [7:0] z_value_late3;   // upper bits of the span to come
   reg [7:0] z_inc_late3;     // upper bits of the span to come
-  reg [7:0] z_value3;        // bits 29 to 22 of 30
-  reg [7:0] z_inc3;          // bits 29 to 22 of 30
+  reg [7:0] z_value3;        // bits 29 to 22 of UQ16.14 LSB, modular
+  reg [7:0] z_inc3;          // bits 29 to 22 of UQ16.14 LSB, modular
 
   always @(posedge clk) begin
     if (load && span_fresh) z_inc0 <= inc_z[6:0];
@@ -210,16 +210,16 @@ module edgewalk_pixel (
   end
 
   // The words of r.
-  reg [6:0] r_value0;        // bits 6 to 0 of 22
-  reg [6:0] r_inc0;          // bits 6 to 0 of 22
+  reg [6:0] r_value0;        // bits 6 to 0 of UQ8.14 LSB, modular
+  reg [6:0] r_inc0;          // bits 6 to 0 of UQ8.14 LSB, modular
   reg [14:0] r_value_late1;  // upper bits of the span to come
   reg [14:0] r_inc_late1;    // upper bits of the span to come
-  reg [7:0] r_value1;        // bits 14 to 7 of 22
-  reg [7:0] r_inc1;          // bits 14 to 7 of 22
+  reg [7:0] r_value1;        // bits 14 to 7 of UQ8.14 LSB, modular
+  reg [7:0] r_inc1;          // bits 14 to 7 of UQ8.14 LSB, modular
   reg [6:0] r_value_late2;   // upper bits of the span to come
   reg [6:0] r_inc_late2;     // upper bits of the span to come
-  reg [6:0] r_value2;        // bits 21 to 15 of 22
-  reg [6:0] r_inc2;          // bits 21 to 15 of 22
+  reg [6:0] r_value2;        // bits 21 to 15 of UQ8.14 LSB, modular
+  reg [6:0] r_inc2;          // bits 21 to 15 of UQ8.14 LSB, modular
 
   always @(posedge clk) begin
     if (load && span_fresh) r_inc0 <= inc_r[6:0];
@@ -243,16 +243,16 @@ module edgewalk_pixel (
   end
 
   // The words of g.
-  reg [6:0] g_value0;        // bits 6 to 0 of 22
-  reg [6:0] g_inc0;          // bits 6 to 0 of 22
+  reg [6:0] g_value0;        // bits 6 to 0 of UQ8.14 LSB, modular
+  reg [6:0] g_inc0;          // bits 6 to 0 of UQ8.14 LSB, modular
   reg [14:0] g_value_late1;  // upper bits of the span to come
   reg [14:0] g_inc_late1;    // upper bits of the span to come
-  reg [7:0] g_value1;        // bits 14 to 7 of 22
-  reg [7:0] g_inc1;          // bits 14 to 7 of 22
+  reg [7:0] g_value1;        // bits 14 to 7 of UQ8.14 LSB, modular
+  reg [7:0] g_inc1;          // bits 14 to 7 of UQ8.14 LSB, modular
   reg [6:0] g_value_late2;   // upper bits of the span to come
   reg [6:0] g_inc_late2;     // upper bits of the span to come
-  reg [6:0] g_value2;        // bits 21 to 15 of 22
-  reg [6:0] g_inc2;          // bits 21 to 15 of 22
+  reg [6:0] g_value2;        // bits 21 to 15 of UQ8.14 LSB, modular
+  reg [6:0] g_inc2;          // bits 21 to 15 of UQ8.14 LSB, modular
 
   always @(posedge clk) begin
     if (load && span_fresh) g_inc0 <= inc_g[6:0];
@@ -276,16 +276,16 @@ module edgewalk_pixel (
   end
 
   // The words of b.
-  reg [6:0] b_value0;        // bits 6 to 0 of 22
-  reg [6:0] b_inc0;          // bits 6 to 0 of 22
+  reg [6:0] b_value0;        // bits 6 to 0 of UQ8.14 LSB, modular
+  reg [6:0] b_inc0;          // bits 6 to 0 of UQ8.14 LSB, modular
   reg [14:0] b_value_late1;  // upper bits of the span to come
   reg [14:0] b_inc_late1;    // upper bits of the span to come
-  reg [7:0] b_value1;        // bits 14 to 7 of 22
-  reg [7:0] b_inc1;          // bits 14 to 7 of 22
+  reg [7:0] b_value1;        // bits 14 to 7 of UQ8.14 LSB, modular
+  reg [7:0] b_inc1;          // bits 14 to 7 of UQ8.14 LSB, modular
   reg [6:0] b_value_late2;   // upper bits of the span to come
   reg [6:0] b_inc_late2;     // upper bits of the span to come
-  reg [6:0] b_value2;        // bits 21 to 15 of 22
-  reg [6:0] b_inc2;          // bits 21 to 15 of 22
+  reg [6:0] b_value2;        // bits 21 to 15 of UQ8.14 LSB, modular
+  reg [6:0] b_inc2;          // bits 21 to 15 of UQ8.14 LSB, modular
 
   always @(posedge clk) begin
     if (load && span_fresh) b_inc0 <= inc_b[6:0];
@@ -308,7 +308,7 @@ module edgewalk_pixel (
     if (load2_now && fresh2) b_inc2 <= b_inc_late2;
   end
 
-  // Its adder; with several channels, that of all of them.
+  // The adder of z, r, g, b.
   wire [7:0] choice = (slot == 2'd3) ? {1'b0, b_value0}
                     : (slot == 2'd2) ? {1'b0, g_value0}
                     : (slot == 2'd1) ? {1'b0, r_value0}

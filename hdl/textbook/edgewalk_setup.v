@@ -1,9 +1,9 @@
 // edgewalk_setup: SETUP turns three vertices into edges and increments.
 //
 //   tri ─> [sort by v] ─┬─> lines j0 j1 n1 n2 ────────────────────────────┐
-//                       ├─> area ─> left, cull?                           ├─> prim
+//                       ├─> area ─> major_right, cull?                    ├─> prim
 //                       ├─> three edges: q f = DX/DY, C R = N/DY ─────────┤
-//                       └─> four channels: increments and start ──────────┘
+//                       └─> N channels: increments and start ─────────────┘
 //             the products and quotients are formed in serial lanes, side by side or in rounds
 //
 // Formats: see the ports; P = 2^t is a pixel in centre coordinates.
@@ -18,64 +18,64 @@ module edgewalk_setup (
   input  wire        rst,
 
   input  wire        tri_valid,
-  input  wire [13:0] tri_x0,          // Q14.0 px
-  input  wire [13:0] tri_y0,          // Q14.0 px
-  input  wire [15:0] tri_z0,          // UQ16.0 LSB
-  input  wire  [7:0] tri_r0,          // UQ8.0 LSB
-  input  wire  [7:0] tri_g0,          // UQ8.0 LSB
-  input  wire  [7:0] tri_b0,          // UQ8.0 LSB
-  input  wire [13:0] tri_x1,          // Q14.0 px
-  input  wire [13:0] tri_y1,          // Q14.0 px
-  input  wire [15:0] tri_z1,          // UQ16.0 LSB
-  input  wire  [7:0] tri_r1,          // UQ8.0 LSB
-  input  wire  [7:0] tri_g1,          // UQ8.0 LSB
-  input  wire  [7:0] tri_b1,          // UQ8.0 LSB
-  input  wire [13:0] tri_x2,          // Q14.0 px
-  input  wire [13:0] tri_y2,          // Q14.0 px
-  input  wire [15:0] tri_z2,          // UQ16.0 LSB
-  input  wire  [7:0] tri_r2,          // UQ8.0 LSB
-  input  wire  [7:0] tri_g2,          // UQ8.0 LSB
-  input  wire  [7:0] tri_b2,          // UQ8.0 LSB
+  input  wire [13:0] tri_x0,            // Q14.0 px
+  input  wire [13:0] tri_y0,            // Q14.0 px
+  input  wire [15:0] tri_z0,            // UQ16.0 LSB
+  input  wire  [7:0] tri_r0,            // UQ8.0 LSB
+  input  wire  [7:0] tri_g0,            // UQ8.0 LSB
+  input  wire  [7:0] tri_b0,            // UQ8.0 LSB
+  input  wire [13:0] tri_x1,            // Q14.0 px
+  input  wire [13:0] tri_y1,            // Q14.0 px
+  input  wire [15:0] tri_z1,            // UQ16.0 LSB
+  input  wire  [7:0] tri_r1,            // UQ8.0 LSB
+  input  wire  [7:0] tri_g1,            // UQ8.0 LSB
+  input  wire  [7:0] tri_b1,            // UQ8.0 LSB
+  input  wire [13:0] tri_x2,            // Q14.0 px
+  input  wire [13:0] tri_y2,            // Q14.0 px
+  input  wire [15:0] tri_z2,            // UQ16.0 LSB
+  input  wire  [7:0] tri_r2,            // UQ8.0 LSB
+  input  wire  [7:0] tri_g2,            // UQ8.0 LSB
+  input  wire  [7:0] tri_b2,            // UQ8.0 LSB
   input  wire        prim_ready,
 
   output wire        tri_ready,
   output wire        prim_valid,
-  output wire  [8:0] prim_jm,         // first line
-  output reg   [9:0] prim_n1,         // lines of the upper part
-  output reg   [9:0] prim_n2,         // lines of the lower part
-  output reg         prim_left,       // the major edge is the right one
-  output reg  [14:0] prim_major_c,    // signed, first column right of the edge
-  output reg  [15:0] prim_major_r,    // distance from the edge to that column, 2^-F column
-  output reg  [14:0] prim_major_q,    // signed, whole columns a line
-  output reg  [15:0] prim_major_f,    // 2^-F column a line
-  output reg  [14:0] prim_minor1_c,   // signed, first column right of the edge
-  output reg  [15:0] prim_minor1_r,   // distance from the edge to that column, 2^-F column
-  output reg  [14:0] prim_minor1_q,   // signed, whole columns a line
-  output reg  [15:0] prim_minor1_f,   // 2^-F column a line
-  output reg  [14:0] prim_minor2_c,   // signed, first column right of the edge
-  output reg  [15:0] prim_minor2_r,   // distance from the edge to that column, 2^-F column
-  output reg  [14:0] prim_minor2_q,   // signed, whole columns a line
-  output reg  [15:0] prim_minor2_f,   // 2^-F column a line
-  output reg  [29:0] prim_z_start_a,  // UQ16.14 LSB, modular, on the left edge, first line of part 1
-  output reg  [29:0] prim_z_d_a,      // UQ16.14 LSB, modular, to the next line, part 1
-  output reg  [29:0] prim_z_start_b,  // UQ16.14 LSB, modular, on the left edge, first line of part 2
-  output reg  [29:0] prim_z_d_b,      // UQ16.14 LSB, modular, to the next line, part 2
-  output reg  [29:0] prim_z_g,        // UQ16.14 LSB, modular, to the next pixel of the span
-  output reg  [21:0] prim_r_start_a,  // UQ8.14 LSB, modular, on the left edge, first line of part 1
-  output reg  [21:0] prim_r_d_a,      // UQ8.14 LSB, modular, to the next line, part 1
-  output reg  [21:0] prim_r_start_b,  // UQ8.14 LSB, modular, on the left edge, first line of part 2
-  output reg  [21:0] prim_r_d_b,      // UQ8.14 LSB, modular, to the next line, part 2
-  output reg  [21:0] prim_r_g,        // UQ8.14 LSB, modular, to the next pixel of the span
-  output reg  [21:0] prim_g_start_a,  // UQ8.14 LSB, modular, on the left edge, first line of part 1
-  output reg  [21:0] prim_g_d_a,      // UQ8.14 LSB, modular, to the next line, part 1
-  output reg  [21:0] prim_g_start_b,  // UQ8.14 LSB, modular, on the left edge, first line of part 2
-  output reg  [21:0] prim_g_d_b,      // UQ8.14 LSB, modular, to the next line, part 2
-  output reg  [21:0] prim_g_g,        // UQ8.14 LSB, modular, to the next pixel of the span
-  output reg  [21:0] prim_b_start_a,  // UQ8.14 LSB, modular, on the left edge, first line of part 1
-  output reg  [21:0] prim_b_d_a,      // UQ8.14 LSB, modular, to the next line, part 1
-  output reg  [21:0] prim_b_start_b,  // UQ8.14 LSB, modular, on the left edge, first line of part 2
-  output reg  [21:0] prim_b_d_b,      // UQ8.14 LSB, modular, to the next line, part 2
-  output reg  [21:0] prim_b_g         // UQ8.14 LSB, modular, to the next pixel of the span
+  output wire  [8:0] prim_jm,           // first line
+  output reg   [9:0] prim_n1,           // lines of the upper part
+  output reg   [9:0] prim_n2,           // lines of the lower part
+  output reg         prim_major_right,  // the major edge is the right one
+  output reg  [14:0] prim_major_c,      // signed, first column right of the edge
+  output reg  [15:0] prim_major_r,      // distance from the edge to that column, 2^-F column
+  output reg  [14:0] prim_major_q,      // signed, whole columns a line
+  output reg  [15:0] prim_major_f,      // 2^-F column a line
+  output reg  [14:0] prim_minor1_c,     // signed, first column right of the edge
+  output reg  [15:0] prim_minor1_r,     // distance from the edge to that column, 2^-F column
+  output reg  [14:0] prim_minor1_q,     // signed, whole columns a line
+  output reg  [15:0] prim_minor1_f,     // 2^-F column a line
+  output reg  [14:0] prim_minor2_c,     // signed, first column right of the edge
+  output reg  [15:0] prim_minor2_r,     // distance from the edge to that column, 2^-F column
+  output reg  [14:0] prim_minor2_q,     // signed, whole columns a line
+  output reg  [15:0] prim_minor2_f,     // 2^-F column a line
+  output reg  [29:0] prim_z_start_a,    // UQ16.14 LSB, modular, on the left edge, first line of part 1
+  output reg  [29:0] prim_z_d_a,        // UQ16.14 LSB, modular, to the next line, part 1
+  output reg  [29:0] prim_z_start_b,    // UQ16.14 LSB, modular, on the left edge, first line of part 2
+  output reg  [29:0] prim_z_d_b,        // UQ16.14 LSB, modular, to the next line, part 2
+  output reg  [29:0] prim_z_g,          // UQ16.14 LSB, modular, to the next pixel of the span
+  output reg  [21:0] prim_r_start_a,    // UQ8.14 LSB, modular, on the left edge, first line of part 1
+  output reg  [21:0] prim_r_d_a,        // UQ8.14 LSB, modular, to the next line, part 1
+  output reg  [21:0] prim_r_start_b,    // UQ8.14 LSB, modular, on the left edge, first line of part 2
+  output reg  [21:0] prim_r_d_b,        // UQ8.14 LSB, modular, to the next line, part 2
+  output reg  [21:0] prim_r_g,          // UQ8.14 LSB, modular, to the next pixel of the span
+  output reg  [21:0] prim_g_start_a,    // UQ8.14 LSB, modular, on the left edge, first line of part 1
+  output reg  [21:0] prim_g_d_a,        // UQ8.14 LSB, modular, to the next line, part 1
+  output reg  [21:0] prim_g_start_b,    // UQ8.14 LSB, modular, on the left edge, first line of part 2
+  output reg  [21:0] prim_g_d_b,        // UQ8.14 LSB, modular, to the next line, part 2
+  output reg  [21:0] prim_g_g,          // UQ8.14 LSB, modular, to the next pixel of the span
+  output reg  [21:0] prim_b_start_a,    // UQ8.14 LSB, modular, on the left edge, first line of part 1
+  output reg  [21:0] prim_b_d_a,        // UQ8.14 LSB, modular, to the next line, part 1
+  output reg  [21:0] prim_b_start_b,    // UQ8.14 LSB, modular, on the left edge, first line of part 2
+  output reg  [21:0] prim_b_d_b,        // UQ8.14 LSB, modular, to the next line, part 2
+  output reg  [21:0] prim_b_g           // UQ8.14 LSB, modular, to the next pixel of the span
 );
 
   // Control. Sorting takes three clocks; an operation takes one to load, then k bits a clock.
@@ -348,16 +348,16 @@ module edgewalk_setup (
   always @(posedge clk) begin
     if (take_area) begin
       area <= choice_3[30:0];
-      prim_left <= part_9[31];
+      prim_major_right <= part_9[31];
     end
   end
 
   // Factors and divisor of the operations on channels, the same for all lanes.
   wire in_b = is_product_b || is_start_b || is_line_b;  // part 2
   wire [15:0] channel_a = is_nx ? {1'b0, dv02} : 16'd0;  // signed
-  wire [14:0] choice_4 = (in_b && prim_left) ? p1_v : p0_v;
+  wire [14:0] choice_4 = (in_b && prim_major_right) ? p1_v : p0_v;
   wire [15:0] channel_b = is_nx ? {1'b0, dv01} : {in_b ? j1 : j0, 1'b0} - {choice_4[14], choice_4};  // signed
-  wire flip = prim_left;  // differences of channels the other way round
+  wire flip = prim_major_right;  // differences of channels the other way round
 
   // Lane 0.
   wire [16:0] lane0_x_edge = (round == 2'd3) ? {{2{p2_v[14]}}, p2_v} - {{2{p1_v[14]}}, p1_v}
@@ -382,31 +382,31 @@ module edgewalk_setup (
                               : difference_7;
   wire either = is_product_b || is_line_b;
   wire [16:0] choice_5 = is_nx ? (flip ? {9'd0, p2_b} : {9'd0, p0_b})
-                       : (prim_left && !either) ? {9'd0, p1_b}
+                       : (prim_major_right && !either) ? {9'd0, p1_b}
                        : {9'd0, p2_b};
   wire [16:0] choice_6 = is_nx ? (flip ? {9'd0, p0_b} : {9'd0, p2_b})
-                       : (prim_left && either) ? {9'd0, p1_b}
+                       : (prim_major_right && either) ? {9'd0, p1_b}
                        : {9'd0, p0_b};
   wire either_2 = is_product_b || is_line_b;
   wire [16:0] choice_7 = is_nx ? (flip ? {9'd0, p2_g} : {9'd0, p0_g})
-                       : (prim_left && !either_2) ? {9'd0, p1_g}
+                       : (prim_major_right && !either_2) ? {9'd0, p1_g}
                        : {9'd0, p2_g};
   wire [16:0] choice_8 = is_nx ? (flip ? {9'd0, p0_g} : {9'd0, p2_g})
-                       : (prim_left && either_2) ? {9'd0, p1_g}
+                       : (prim_major_right && either_2) ? {9'd0, p1_g}
                        : {9'd0, p0_g};
   wire either_3 = is_product_b || is_line_b;
   wire [16:0] choice_9 = is_nx ? (flip ? {9'd0, p2_r} : {9'd0, p0_r})
-                       : (prim_left && !either_3) ? {9'd0, p1_r}
+                       : (prim_major_right && !either_3) ? {9'd0, p1_r}
                        : {9'd0, p2_r};
   wire [16:0] choice_10 = is_nx ? (flip ? {9'd0, p0_r} : {9'd0, p2_r})
-                        : (prim_left && either_3) ? {9'd0, p1_r}
+                        : (prim_major_right && either_3) ? {9'd0, p1_r}
                         : {9'd0, p0_r};
   wire either_4 = is_product_b || is_line_b;
   wire [16:0] choice_11 = is_nx ? (flip ? {1'b0, p2_z} : {1'b0, p0_z})
-                        : (prim_left && !either_4) ? {1'b0, p1_z}
+                        : (prim_major_right && !either_4) ? {1'b0, p1_z}
                         : {1'b0, p2_z};
   wire [16:0] choice_12 = is_nx ? (flip ? {1'b0, p0_z} : {1'b0, p2_z})
-                        : (prim_left && either_4) ? {1'b0, p1_z}
+                        : (prim_major_right && either_4) ? {1'b0, p1_z}
                         : {1'b0, p0_z};
   wire [16:0] lane0_y_channel = (round == 2'd3) ? choice_5 - choice_6
                               : (round == 2'd2) ? choice_7 - choice_8
@@ -433,6 +433,7 @@ module edgewalk_setup (
                         : (round == 2'd1) ? (is_edge_start ? {16'd0, dv02} << 1 : {16'd0, dv02})
                         : is_edge_start ? {16'd0, dv02} << 1
                         : {16'd0, dv02};
+  wire [30:0] part_10 = is_gx ? area : {16'd0, prim_major_right ? (in_b ? dv12 : dv01) : dv02};
   wire [2:0] choice_17 = (round == 2'd3) ? 3'd1
                        : (round == 2'd2) ? 3'd1
                        : (round == 2'd1) ? 3'd1
@@ -473,7 +474,7 @@ module edgewalk_setup (
     .load_factors  (load_product),
     .step_product  (step_product),
     .first_step    (first_step),
-    .divisor_in    (in_edges ? choice_16 : is_gx ? area : {16'd0, prim_left ? (in_b ? dv12 : dv01) : dv02}),
+    .divisor_in    (in_edges ? choice_16 : part_10),
     .digit_at      (is_line_b ? choice_17
 : is_start_b ? choice_18
 : is_line_a ? choice_19
@@ -490,16 +491,16 @@ module edgewalk_setup (
   // Edge: major.
   wire major_steps = |dv02[14:1];  // DY >= P
   wire major_is_there = |dv02;     // DY > 0
-  wire [30:0] part_10 = lane0_rounded;
+  wire [30:0] part_11 = lane0_rounded;
 
   always @(posedge clk) begin
     if (edge_step_done && (finished_round == 2'd1)) begin
-      prim_major_q <= major_steps ? part_10[30:16] : 15'd0;
-      prim_major_f <= major_steps ? part_10[15:0] : 16'd0;
+      prim_major_q <= major_steps ? part_11[30:16] : 15'd0;
+      prim_major_f <= major_steps ? part_11[15:0] : 16'd0;
     end
   end
 
-  wire [30:0] inverse = ~part_10;
+  wire [30:0] inverse = ~part_11;
 
   always @(posedge clk) begin
     if (edge_start_done && (finished_round == 2'd1)) begin
@@ -511,16 +512,16 @@ module edgewalk_setup (
   // Edge: minor1.
   wire minor1_steps = |dv01[14:1];  // DY >= P
   wire minor1_is_there = |dv01;     // DY > 0
-  wire [30:0] part_11 = lane0_rounded;
+  wire [30:0] part_12 = lane0_rounded;
 
   always @(posedge clk) begin
     if (edge_step_done && (finished_round == 2'd2)) begin
-      prim_minor1_q <= minor1_steps ? part_11[30:16] : 15'd0;
-      prim_minor1_f <= minor1_steps ? part_11[15:0] : 16'd0;
+      prim_minor1_q <= minor1_steps ? part_12[30:16] : 15'd0;
+      prim_minor1_f <= minor1_steps ? part_12[15:0] : 16'd0;
     end
   end
 
-  wire [30:0] inverse_2 = ~part_11;
+  wire [30:0] inverse_2 = ~part_12;
 
   always @(posedge clk) begin
     if (edge_start_done && (finished_round == 2'd2)) begin
@@ -532,16 +533,16 @@ module edgewalk_setup (
   // Edge: minor2.
   wire minor2_steps = |dv12[14:1];  // DY >= P
   wire minor2_is_there = |dv12;     // DY > 0
-  wire [30:0] part_12 = lane0_rounded;
+  wire [30:0] part_13 = lane0_rounded;
 
   always @(posedge clk) begin
     if (edge_step_done && (finished_round == 2'd3)) begin
-      prim_minor2_q <= minor2_steps ? part_12[30:16] : 15'd0;
-      prim_minor2_f <= minor2_steps ? part_12[15:0] : 16'd0;
+      prim_minor2_q <= minor2_steps ? part_13[30:16] : 15'd0;
+      prim_minor2_f <= minor2_steps ? part_13[15:0] : 16'd0;
     end
   end
 
-  wire [30:0] inverse_3 = ~part_12;
+  wire [30:0] inverse_3 = ~part_13;
 
   always @(posedge clk) begin
     if (edge_start_done && (finished_round == 2'd3)) begin
@@ -561,7 +562,8 @@ module edgewalk_setup (
     end
   end
 
-  wire [29:0] sum = lane0_rounded[29:0] + (prim_left ? {{p1_z, 1'b1}, 13'd0} : {{p0_z, 1'b1}, 13'd0});
+  wire [29:0] sum = lane0_rounded[29:0]
+                  + (prim_major_right ? {{p1_z, 1'b1}, 13'd0} : {{p0_z, 1'b1}, 13'd0});
 
   always @(posedge clk) begin
     if (start_b_done && (finished_round == 2'd0)) prim_z_start_b <= (|prim_n2) ? sum : 30'd0;
@@ -591,7 +593,7 @@ module edgewalk_setup (
   end
 
   wire [21:0] sum_2 = lane0_rounded[21:0]
-                    + (prim_left ? {{p1_r, 1'b1}, 13'd0} : {{p0_r, 1'b1}, 13'd0});
+                    + (prim_major_right ? {{p1_r, 1'b1}, 13'd0} : {{p0_r, 1'b1}, 13'd0});
 
   always @(posedge clk) begin
     if (start_b_done && (finished_round == 2'd1)) prim_r_start_b <= (|prim_n2) ? sum_2 : 22'd0;
@@ -621,7 +623,7 @@ module edgewalk_setup (
   end
 
   wire [21:0] sum_3 = lane0_rounded[21:0]
-                    + (prim_left ? {{p1_g, 1'b1}, 13'd0} : {{p0_g, 1'b1}, 13'd0});
+                    + (prim_major_right ? {{p1_g, 1'b1}, 13'd0} : {{p0_g, 1'b1}, 13'd0});
 
   always @(posedge clk) begin
     if (start_b_done && (finished_round == 2'd2)) prim_g_start_b <= (|prim_n2) ? sum_3 : 22'd0;
@@ -651,7 +653,7 @@ module edgewalk_setup (
   end
 
   wire [21:0] sum_4 = lane0_rounded[21:0]
-                    + (prim_left ? {{p1_b, 1'b1}, 13'd0} : {{p0_b, 1'b1}, 13'd0});
+                    + (prim_major_right ? {{p1_b, 1'b1}, 13'd0} : {{p0_b, 1'b1}, 13'd0});
 
   always @(posedge clk) begin
     if (start_b_done && (finished_round == 2'd3)) prim_b_start_b <= (|prim_n2) ? sum_4 : 22'd0;

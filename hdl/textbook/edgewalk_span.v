@@ -14,36 +14,36 @@ module edgewalk_span (
   input  wire        rst,
 
   input  wire        line_valid,
-  input  wire  [8:0] line_y,        // line
-  input  wire [14:0] line_cmaj,     // signed, first column right of the major edge
-  input  wire [14:0] line_cmin,     // signed, first column right of the minor edge
-  input  wire        line_left,     // the major edge is the right one
-  input  wire [29:0] line_z,        // UQ16.14 LSB, modular
-  input  wire [21:0] line_r,        // UQ8.14 LSB, modular
-  input  wire [21:0] line_g,        // UQ8.14 LSB, modular
-  input  wire [21:0] line_b,        // UQ8.14 LSB, modular
-  input  wire        line_fresh,    // first line of the triangle
-  input  wire        line_fence,    // what is in flight may be of the same pixels
+  input  wire  [8:0] line_y,            // line
+  input  wire [14:0] line_cmaj,         // signed, first column right of the major edge
+  input  wire [14:0] line_cmin,         // signed, first column right of the minor edge
+  input  wire        line_major_right,  // the major edge is the right one
+  input  wire [29:0] line_z,            // UQ16.14 LSB, modular
+  input  wire [21:0] line_r,            // UQ8.14 LSB, modular
+  input  wire [21:0] line_g,            // UQ8.14 LSB, modular
+  input  wire [21:0] line_b,            // UQ8.14 LSB, modular
+  input  wire        line_fresh,        // first line of the triangle
+  input  wire        line_fence,        // what is in flight may be of the same pixels
   input  wire        span_ready,
 
   output wire        line_ready,
   output wire        span_valid,
-  output wire [14:0] span_x,        // signed, first column
-  output wire  [8:0] span_y,        // line
-  output wire [14:0] span_count,    // pixels, at least 1
-  output wire        span_left,     // towards smaller columns
-  output wire [29:0] span_z,        // UQ16.14 LSB, modular
-  output wire [21:0] span_r,        // UQ8.14 LSB, modular
-  output wire [21:0] span_g,        // UQ8.14 LSB, modular
-  output wire [21:0] span_b,        // UQ8.14 LSB, modular
-  output wire        span_fresh,    // first span of the triangle: its increments are new
-  output wire        span_fence,    // what is in flight may be of the same pixels
-  output reg         fresh_queued   // the first span of a triangle is queued
+  output wire [14:0] span_x,            // signed, first column
+  output wire  [8:0] span_y,            // line
+  output wire [14:0] span_count,        // pixels, at least 1
+  output wire        span_leftward,     // towards smaller columns
+  output wire [29:0] span_z,            // UQ16.14 LSB, modular
+  output wire [21:0] span_r,            // UQ8.14 LSB, modular
+  output wire [21:0] span_g,            // UQ8.14 LSB, modular
+  output wire [21:0] span_b,            // UQ8.14 LSB, modular
+  output wire        span_fresh,        // first span of the triangle: its increments are new
+  output wire        span_fence,        // what is in flight may be of the same pixels
+  output reg         fresh_queued       // the first span of a triangle is queued
 );
 
   // From Trunc(X) of the left edge to Trunc(X) of the right edge, both drawn; a column register is Trunc(X) + 1.
-  wire [14:0] x = (line_left ? line_cmin : line_cmaj) - 15'd1;
-  wire [14:0] xe = line_left ? line_cmaj : line_cmin;  // signed, first column after the line
+  wire [14:0] x = (line_major_right ? line_cmin : line_cmaj) - 15'd1;
+  wire [14:0] xe = line_major_right ? line_cmaj : line_cmin;  // signed, first column after the line
   wire [14:0] end_cut = ($signed(xe) < 15'sd640) ? xe : 15'd640;  // signed, first column after the span
   wire empty = ($signed(end_cut) <= $signed(x)) || ($signed(xe) <= 15'sd0);
   wire [14:0] count = end_cut - x;  // columns
@@ -62,7 +62,7 @@ module edgewalk_span (
   wire [14:0] queue_out_x;
   wire [8:0] queue_out_y;
   wire [14:0] queue_out_count;
-  wire queue_out_left;
+  wire queue_out_leftward;
   wire [29:0] queue_out_z;
   wire [21:0] queue_out_r;
   wire [21:0] queue_out_g;
@@ -72,32 +72,32 @@ module edgewalk_span (
   wire queue_out_valid;
 
   edgewalk_span_fifo queue (
-    .clk       (clk),
-    .rst       (rst),
-    .in_valid  (push),
-    .in_x      (x),
-    .in_y      (line_y),
-    .in_count  (count),
-    .in_left   (1'b0),
-    .in_z      (line_z),
-    .in_r      (line_r),
-    .in_g      (line_g),
-    .in_b      (line_b),
-    .in_fresh  (fresh),
-    .in_fence  (fence),
-    .out_ready (span_ready),
-    .in_ready  (queue_in_ready),
-    .out_valid (queue_out_valid),
-    .out_x     (queue_out_x),
-    .out_y     (queue_out_y),
-    .out_count (queue_out_count),
-    .out_left  (queue_out_left),
-    .out_z     (queue_out_z),
-    .out_r     (queue_out_r),
-    .out_g     (queue_out_g),
-    .out_b     (queue_out_b),
-    .out_fresh (queue_out_fresh),
-    .out_fence (queue_out_fence)
+    .clk          (clk),
+    .rst          (rst),
+    .in_valid     (push),
+    .in_x         (x),
+    .in_y         (line_y),
+    .in_count     (count),
+    .in_leftward  (1'b0),
+    .in_z         (line_z),
+    .in_r         (line_r),
+    .in_g         (line_g),
+    .in_b         (line_b),
+    .in_fresh     (fresh),
+    .in_fence     (fence),
+    .out_ready    (span_ready),
+    .in_ready     (queue_in_ready),
+    .out_valid    (queue_out_valid),
+    .out_x        (queue_out_x),
+    .out_y        (queue_out_y),
+    .out_count    (queue_out_count),
+    .out_leftward (queue_out_leftward),
+    .out_z        (queue_out_z),
+    .out_r        (queue_out_r),
+    .out_g        (queue_out_g),
+    .out_b        (queue_out_b),
+    .out_fresh    (queue_out_fresh),
+    .out_fence    (queue_out_fence)
   );
 
   always @(posedge clk) begin
@@ -124,7 +124,7 @@ module edgewalk_span (
   assign span_x = queue_out_x;
   assign span_y = queue_out_y;
   assign span_count = queue_out_count;
-  assign span_left = queue_out_left;
+  assign span_leftward = queue_out_leftward;
   assign span_z = queue_out_z;
   assign span_r = queue_out_r;
   assign span_g = queue_out_g;

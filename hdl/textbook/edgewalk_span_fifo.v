@@ -12,30 +12,30 @@ module edgewalk_span_fifo (
   input  wire        rst,
 
   input  wire        in_valid,
-  input  wire [14:0] in_x,       // signed, first column
-  input  wire  [8:0] in_y,       // line
-  input  wire [14:0] in_count,   // pixels, at least 1
-  input  wire        in_left,    // towards smaller columns
-  input  wire [29:0] in_z,       // UQ16.14 LSB, modular
-  input  wire [21:0] in_r,       // UQ8.14 LSB, modular
-  input  wire [21:0] in_g,       // UQ8.14 LSB, modular
-  input  wire [21:0] in_b,       // UQ8.14 LSB, modular
-  input  wire        in_fresh,   // first span of the triangle: its increments are new
-  input  wire        in_fence,   // what is in flight may be of the same pixels
+  input  wire [14:0] in_x,          // signed, first column
+  input  wire  [8:0] in_y,          // line
+  input  wire [14:0] in_count,      // pixels, at least 1
+  input  wire        in_leftward,   // towards smaller columns
+  input  wire [29:0] in_z,          // UQ16.14 LSB, modular
+  input  wire [21:0] in_r,          // UQ8.14 LSB, modular
+  input  wire [21:0] in_g,          // UQ8.14 LSB, modular
+  input  wire [21:0] in_b,          // UQ8.14 LSB, modular
+  input  wire        in_fresh,      // first span of the triangle: its increments are new
+  input  wire        in_fence,      // what is in flight may be of the same pixels
   input  wire        out_ready,
 
   output wire        in_ready,
   output wire        out_valid,
-  output wire [14:0] out_x,      // signed, first column
-  output wire  [8:0] out_y,      // line
-  output wire [14:0] out_count,  // pixels, at least 1
-  output wire        out_left,   // towards smaller columns
-  output wire [29:0] out_z,      // UQ16.14 LSB, modular
-  output wire [21:0] out_r,      // UQ8.14 LSB, modular
-  output wire [21:0] out_g,      // UQ8.14 LSB, modular
-  output wire [21:0] out_b,      // UQ8.14 LSB, modular
-  output wire        out_fresh,  // first span of the triangle: its increments are new
-  output wire        out_fence   // what is in flight may be of the same pixels
+  output wire [14:0] out_x,         // signed, first column
+  output wire  [8:0] out_y,         // line
+  output wire [14:0] out_count,     // pixels, at least 1
+  output wire        out_leftward,  // towards smaller columns
+  output wire [29:0] out_z,         // UQ16.14 LSB, modular
+  output wire [21:0] out_r,         // UQ8.14 LSB, modular
+  output wire [21:0] out_g,         // UQ8.14 LSB, modular
+  output wire [21:0] out_b,         // UQ8.14 LSB, modular
+  output wire        out_fresh,     // first span of the triangle: its increments are new
+  output wire        out_fence      // what is in flight may be of the same pixels
 );
 
   // How many places are taken, counted from place 0.
@@ -59,7 +59,7 @@ module edgewalk_span_fifo (
   reg [14:0] place0_x;      // signed, first column
   reg [8:0] place0_y;       // line
   reg [14:0] place0_count;  // pixels, at least 1
-  reg place0_left;          // towards smaller columns
+  reg place0_leftward;      // towards smaller columns
   reg [29:0] place0_z;      // UQ16.14 LSB, modular
   reg [21:0] place0_r;      // UQ8.14 LSB, modular
   reg [21:0] place0_g;      // UQ8.14 LSB, modular
@@ -69,7 +69,7 @@ module edgewalk_span_fifo (
   reg [14:0] place1_x;      // signed, first column
   reg [8:0] place1_y;       // line
   reg [14:0] place1_count;  // pixels, at least 1
-  reg place1_left;          // towards smaller columns
+  reg place1_leftward;      // towards smaller columns
   reg [29:0] place1_z;      // UQ16.14 LSB, modular
   reg [21:0] place1_r;      // UQ8.14 LSB, modular
   reg [21:0] place1_g;      // UQ8.14 LSB, modular
@@ -84,7 +84,7 @@ module edgewalk_span_fifo (
       place0_x <= place1_x;
       place0_y <= place1_y;
       place0_count <= place1_count;
-      place0_left <= place1_left;
+      place0_leftward <= place1_leftward;
       place0_z <= place1_z;
       place0_r <= place1_r;
       place0_g <= place1_g;
@@ -96,7 +96,7 @@ module edgewalk_span_fifo (
       place0_x <= in_x;
       place0_y <= in_y;
       place0_count <= in_count;
-      place0_left <= in_left;
+      place0_leftward <= in_leftward;
       place0_z <= in_z;
       place0_r <= in_r;
       place0_g <= in_g;
@@ -111,7 +111,7 @@ module edgewalk_span_fifo (
       place1_x <= in_x;
       place1_y <= in_y;
       place1_count <= in_count;
-      place1_left <= in_left;
+      place1_leftward <= in_leftward;
       place1_z <= in_z;
       place1_r <= in_r;
       place1_g <= in_g;
@@ -124,7 +124,7 @@ module edgewalk_span_fifo (
   assign out_x = place0_x;
   assign out_y = place0_y;
   assign out_count = place0_count;
-  assign out_left = place0_left;
+  assign out_leftward = place0_leftward;
   assign out_z = place0_z;
   assign out_r = place0_r;
   assign out_g = place0_g;

@@ -2,17 +2,19 @@
 
 use std::sync::Arc;
 
+use edgewalk_machine::units::{edge::SPEC, tokens};
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
-use crate::token::{self, CHANNELS, Registers, Token};
+use crate::ports::Interface;
+use crate::wires::{Part, Registers, parts};
 
 const DOC: &str = "EDGE walks the major and the minor edge of a triangle, a line a step.
 
-  prim ─> [major C R q f M] ── cmaj ─────┐
-          [minor C R q f M] ── cmin ─────┼─> line
-          [values z r g b ] ─ by carry ──┘
-          [g z r g b      ] ───────────────> gradients, held for PIXEL
+  prim ─> [major C R q f M] ── cmaj ───────┐
+          [minor C R q f M] ── cmin ───────┼─> line
+          [a value a channel] ─ by carry ──┘
+          [g of each channel] ───────────────> inc, held for PIXEL
 
 Timing: the first line is valid in the cycle after the triangle was taken, then one line a clock while line_ready.
 Rules: a step takes f from R; where R is too small M is added back and the column goes one further (carry).
@@ -22,12 +24,12 @@ The columns are not cut to the screen here: SPAN does that.";
 ///
 /// # Errors
 /// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
-pub fn edge(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
+pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new("edgewalk_edge", DOC);
-    let prim_valid = m.input("prim_valid", 1);
-    let prim = Token::inputs(&m, "prim", token::prim(machine));
-    let line_ready = m.input("line_ready", 1);
-    let fresh_queued = m.input_doc("fresh_queued", 1, "the triangle before has not reached PIXEL yet");
+    let ports = Interface::new(&m, (SPEC.ports)(plan));
+    let (prim_valid, prim) = ports.takes();
+    let line_ready = ports.gives_ready();
+    let fresh_queued = ports.level("fresh_queued");
 
     m.comment("A triangle is taken when the one before is walked and PIXEL has its increments.");
     let running = m.reg("running", 1).reset(0);
@@ -47,20 +49,20 @@ pub fn edge(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     running.when(step & last, 0).when(load, 1);
 
     let (at_knee, along) = ((step & knee).named("at_knee"), (step & !knee).named("along"));
-    let line_done = match machine.fill {
+    let line_done = match plan.fill {
         Fill::Exact => step,
         // The knee line is drawn twice: as the last of the upper and as the first of the lower part.
         Fill::Textbook => along,
     };
-    let elsewhere = match machine.fill {
+    let elsewhere = match plan.fill {
         Fill::Exact => ["cmaj", "cmin", "fence"].as_slice(),
         Fill::Textbook => &["cmaj", "cmin"],
     };
-    let mut own = token::line(machine);
+    let mut own = parts(&tokens::line(plan));
     own.retain(|f| !elsewhere.contains(&f.name.as_str()));
     let line = Registers::new(&m, "line", own);
     line["y"].when(load, prim["jm"]).when(line_done, line["y"].q() + 1);
-    line["left"].when(load, prim["left"]);
+    line["major_right"].when(load, prim["major_right"]);
     line["fresh"].when(load, 1).when(step, 0);
     if let Some(fence) = line.get("fence") {
         fence.when(load, 1).when(step, knee);
@@ -70,14 +72,15 @@ pub fn edge(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     }
 
     m.comment("The major edge.");
-    let major = Registers::new(&m, "major", token::edge(machine));
+    let edge = parts_of_edge(&prim.parts());
+    let major = Registers::new(&m, "major", edge.clone());
     let carry = take_step(&major, "major", line_done);
     major.load(load, |f| prim[format!("major_{f}").as_str()]);
 
     m.comment("The minor edge, and the one that takes its place at the knee.");
-    let second = Registers::new(&m, "second", token::edge(machine));
+    let second = Registers::new(&m, "second", edge.clone());
     second.load(load, |f| prim[format!("minor2_{f}").as_str()]);
-    let minor = Registers::new(&m, "minor", token::edge(machine));
+    let minor = Registers::new(&m, "minor", edge);
     take_step(&minor, "minor", along);
     minor.load(at_knee, |f| second[f].q());
     let has_upper = prim["n1"].any().named("has_upper");
@@ -86,8 +89,8 @@ pub fn edge(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     });
 
     m.comment("The channels at the start of the span, their steps, and the increments for PIXEL.");
-    let increments = Registers::new(&m, "inc", token::values(machine).collect());
-    for channel in CHANNELS {
+    let increments = Registers::new(&m, "inc", parts(&tokens::words(plan)));
+    for channel in plan.channels().iter().map(|channel| channel.name) {
         let of_prim = |result: &str| prim[format!("{channel}_{result}").as_str()];
         let held = |result: &str| {
             let register = m.reg(&format!("{channel}_{result}"), of_prim(result).width());
@@ -95,7 +98,7 @@ pub fn edge(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         };
         let value = line[channel];
         increments[channel].when(load, of_prim("g"));
-        match machine.fill {
+        match plan.fill {
             Fill::Exact => {
                 let (d0, d1) = (held("d0"), held("d1"));
                 value.when(step, value.q() + carry.mux(d1, d0)).when(load, of_prim("start"));
@@ -105,24 +108,30 @@ pub fn edge(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
                 value
                     .when(along, value.q() + upper.mux(d_a, d_b))
                     // Where the left edge is the major one, the knee line begins where it did.
-                    .when(at_knee & line["left"].q(), start_b)
+                    .when(at_knee & line["major_right"].q(), start_b)
                     .when(load, has_upper.mux(of_prim("start_a"), of_prim("start_b")));
             }
         }
     }
 
-    m.output("prim_ready", prim_ready);
-    m.output_doc("line_valid", running, "EDGE is running");
-    let line = Token::new(token::line(machine), |f| match f {
+    ports.take_ready(prim_ready);
+    ports.give(running, |f| match f {
         "cmaj" => major["c"].q(),
         "cmin" => minor["c"].q(),
         // In exact fill only another triangle can hold the same pixel.
         "fence" => line.get("fence").unwrap_or(line["fresh"]).q(),
         own => line[own].q(),
     });
-    line.output(&m, "line");
-    increments.token().output(&m, "inc");
+    ports.hold("inc", |f| increments[f].q());
     m.finish()
+}
+
+/// What a prim has of each edge: the parts of its first minor one, without that one's name.
+fn parts_of_edge(prim: &[Part]) -> Vec<Part> {
+    let of_edge = |part: &Part| {
+        part.name.strip_prefix("minor1_").map(|name| Part { name: name.to_owned(), ..part.clone() })
+    };
+    prim.iter().filter_map(of_edge).collect()
 }
 
 /// One step of an edge; the returned carry says that the column goes one further.

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use edgewalk_netlist::{BuildErrors, Module, Netlist};
 
-use crate::token::{Field, Registers, Token};
+use crate::wires::{Part, Registers, Token};
 
-/// The queue's netlist, for tokens of these fields.
-pub(crate) fn fifo(name: &str, depth: u32, fields: &[Field]) -> Result<Arc<Netlist>, BuildErrors> {
+/// The queue's netlist, for tokens of these parts.
+pub(crate) fn fifo(name: &str, depth: u32, parts: &[Part]) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new(
         name,
         &format!(
@@ -21,7 +21,7 @@ Rules: in_ready does not look at out_ready: a full queue takes nothing in, even 
         ),
     );
     let in_valid = m.input("in_valid", 1);
-    let token = Token::inputs(&m, "in", fields.to_vec());
+    let token = Token::inputs(&m, "in", parts.to_vec());
     let out_ready = m.input("out_ready", 1);
 
     m.comment("How many places are taken, counted from place 0.");
@@ -36,7 +36,7 @@ Rules: in_ready does not look at out_ready: a full queue takes nothing in, even 
     m.comment("A new token goes behind the last, one place further up if the first leaves.");
     let end = pop.mux(count.q() - 1, count).named("end_place");
     let places: Vec<_> =
-        (0..depth).map(|i| Registers::new(&m, &format!("place{i}"), fields.to_vec())).collect();
+        (0..depth).map(|i| Registers::new(&m, &format!("place{i}"), parts.to_vec())).collect();
     for (i, place) in places.iter().enumerate() {
         let enters = (push & end.eq(i as i32)).named(&format!("enters{i}"));
         if let Some(behind) = places.get(i + 1) {

@@ -3,10 +3,12 @@
 //! ```text
 //!  tri ─> setup ─> edge ─> span ─> pixel ─> depth ─> memory
 //! ```
-//! A function a unit takes a checked [`Machine`](edgewalk_machine::Machine) and builds the unit's netlist; [`machine`] joins them.
+//! A function a unit takes a [`Plan`](edgewalk_machine::Plan), the checked machine, and builds the unit's netlist with the ports
+//! that [`edgewalk_machine::UNITS`] declares; [`units`] lists the functions, [`machine`] joins what they build.
 //! What it does not know: the model, files, Verilog text.
 
-mod token;
+mod wires;
+mod ports;
 
 mod setup;
 
@@ -16,15 +18,19 @@ mod span;
 
 mod pixel;
 
+mod rmw;
+
 mod depth;
 
 mod memory;
+
+pub mod units;
 
 mod machine;
 
 pub use depth::depth;
 pub use edge::edge;
-pub use machine::machine;
+pub use machine::{assemble, machine};
 pub use memory::memory;
 pub use pixel::pixel;
 pub use setup::setup;

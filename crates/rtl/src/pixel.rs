@@ -1,24 +1,26 @@
-//! PIXEL: steps along a span, a pixel every 4/A clocks, with A adders shared by the four channels.
+//! PIXEL: steps along a span, a pixel every ceil(N/A) clocks, with A adders shared by the N channels.
 
 mod adder;
 
 use std::sync::Arc;
 
 use edgewalk_machine::Plan;
-use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg};
+use edgewalk_machine::units::{pixel::SPEC, tokens};
+use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg, Signal};
 
-use crate::token::{self, CHANNELS, Registers, Token};
+use crate::ports::Interface;
+use crate::wires::{Part, Registers, Token, parts};
 use adder::{Step, Words};
 
-const DOC: &str = "PIXEL steps along a span, a pixel every 4/A clocks, with A adders shared by the four channels.
+const DOC: &str = "PIXEL steps along a span, a pixel every ceil(N/A) clocks, with A adders shared by the N channels.
 
-  span ─> [x count]─────────────────────────────────────┐
-      └─> [values z r g b] <─ + <─ [g z r g b] <─ EDGE  ├─> [out] ─> frag
-                 └──────────────────────────────────────┘
+  span ─> [x count]───────────────────────────────────────┐
+      └─> [a value a channel] <─ + <─ [increments] <─ inc ├─> [out] ─> frag
+                 └────────────────────────────────────────┘
 
 Formats: values and increments are modular words; a fragment takes the bits above the fraction.
 Timing: a pixel leaves in the last of its phases. The additions for the next pixel begin in that same phase and go on
-in the first phases of the next pixel, one channel of each adder a clock.
+in the first phases of the next pixel, one channel of each adder a clock; an adder without one more rests.
 Rules: everything stands still while a fragment waits at the output. Columns off the screen cost their phases, and give
 no fragment.";
 
@@ -26,15 +28,15 @@ no fragment.";
 ///
 /// # Errors
 /// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
-pub fn pixel(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
+pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new("edgewalk_pixel", DOC);
-    if machine.segments > 1 {
+    if plan.segments > 1 {
         m.doc(adder::SKEW_DOC);
     }
-    let span_valid = m.input("span_valid", 1);
-    let span = Token::inputs(&m, "span", token::span(machine));
-    let increments = Token::inputs(&m, "inc", token::values(machine).collect());
-    let frag_ready = m.input("frag_ready", 1);
+    let ports = Interface::new(&m, (SPEC.ports)(plan));
+    let (span_valid, span) = ports.takes();
+    let increments = ports.held_in("inc");
+    let frag_ready = ports.gives_ready();
     let frag_valid = m.reg("frag_valid", 1).reset(0);
 
     m.comment("The span being drawn.");
@@ -42,35 +44,35 @@ pub fn pixel(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let active = m.reg("active", 1).doc("a span is being drawn").reset(0);
     let x = m.reg("x", span["x"].width()).doc("column, signed");
     let y = m.reg("y", span["y"].width()).doc("line");
-    let left = m.reg("left", 1).doc("towards smaller columns");
+    let leftward = m.reg("leftward", 1).doc("towards smaller columns");
     let count = m.reg("count", span["count"].width()).doc("pixels left of the span, this one too");
     let fence = m.reg("fence", 1).doc("for the next fragment");
-    let phases = machine.clocks_per_pixel();
-    let phase = (phases > 1).then(|| m.reg("phase", phases.ilog2()).doc("clock of the pixel"));
-    let last_phase = phase.map_or(m.lit(1, 1), |phase| phase.q().all().named("last_phase"));
+    let phase = Phase::new(&m, plan.clocks_per_pixel());
+    let last_phase = phase.as_ref().map_or(m.lit(1, 1), |phase| phase.last);
     let finish = (active.q() & last_phase & count.q().eq(1)).named_doc("finish", "last clock of the span");
     let span_ready = (advance & (!active.q() | finish)).named("span_ready");
     let load = (span_valid & span_ready).named("load");
     let visible =
-        x.q().lt(machine.width as i32).named_doc("visible", "on the screen; negative columns are large");
+        x.q().lt(plan.width as i32).named_doc("visible", "on the screen; negative columns are large");
     let leaves = (advance & active.q() & last_phase).named_doc("leaves", "this pixel is done");
     let next = (leaves & !finish).named_doc("next_pixel", "another one follows");
     let emit = (active.q() & last_phase & visible).named_doc("emit", "a fragment");
 
     active.when(leaves & finish, 0).when(load, 1);
-    if let Some(phase) = phase {
-        phase.when(advance & active, phase.q() + 1).when(load, 0);
+    if let Some(phase) = &phase {
+        phase.counter.when(advance & active, phase.next()).when(load, 0);
     }
-    x.when(next, left.q().mux(x.q() - 1, x.q() + 1)).when(load, span["x"]);
+    x.when(next, leftward.q().mux(x.q() - 1, x.q() + 1)).when(load, span["x"]);
     count.when(next, count.q() - 1).when(load, span["count"]);
     y.when(load, span["y"]);
-    left.when(load, span["left"]);
+    leftward.when(load, span["leftward"]);
     fence.when(advance & emit, 0).when(load, span["fence"]);
-    let tag = Registers::new(&m, "drawn", token::tag(machine).into_iter().collect());
+    let tag =
+        Registers::new(&m, "drawn", span.parts().into_iter().filter(|part| part.name == "tag").collect());
     tag.load(load, |f| span[f]);
 
     m.comment("The additions.");
-    let add = match phase {
+    let add = match &phase {
         None => next,
         Some(_) => {
             // Set by a pixel that has a next one: its channels after the first are added in the next one's phases.
@@ -79,22 +81,22 @@ pub fn pixel(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
             (next | (advance & active.q() & !last_phase & adding.q())).named("add")
         }
     };
-    let slot = phase.map(|phase| (phase.q() + 1).named_doc("slot", "channel of each adder in this clock"));
+    let slot = phase.map(|phase| phase.next().named_doc("slot", "channel of each adder in this clock"));
     let first = Step { load, fresh: span["fresh"], add, slot };
-    let words = Words::new(&m, machine, advance, first, &span, &increments);
+    let words = Words::new(&m, plan, advance, first, &span, &increments);
 
     m.comment("The output: in each stage the bits of one more segment.");
-    let address = m.cat(&[y.q(), x.q().trunc(machine.widths().x)]);
+    let address = m.cat(&[y.q(), x.q().trunc(plan.widths().x)]);
     let mut valid = emit;
     let mut before: Option<Token> = None;
     let mut occupied = frag_valid.q();
-    for stage in 0..machine.segments as usize {
-        let is_last = stage + 1 == machine.segments as usize;
+    for stage in 0..plan.segments as usize {
+        let is_last = stage + 1 == plan.segments as usize;
         let name = if is_last { "frag".to_owned() } else { format!("out{stage}") };
-        let source = |f: token::Field| {
+        let source = |f: Part| {
             let low = before.as_ref().and_then(|token| token.get(&f.name));
-            let high = CHANNELS.iter().position(|channel| *channel == f.name);
-            let high = high.and_then(|channel| words.output(machine, channel, stage));
+            let high = plan.channels().iter().position(|channel| channel.name == f.name);
+            let high = high.and_then(|channel| words.output(plan, channel, stage));
             let signal = match (high, low, f.name.as_str()) {
                 (Some(high), Some(low), _) => Some(m.cat(&[high, low])),
                 (Some(bits), None, _) | (None, Some(bits), _) => Some(bits),
@@ -104,8 +106,8 @@ pub fn pixel(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
             };
             signal.map(|signal| (f, signal))
         };
-        let source: Token = token::fragment(machine).into_iter().filter_map(source).collect();
-        let registers = Registers::new(&m, &name, source.fields());
+        let source: Token = parts(&tokens::fragment(plan)).into_iter().filter_map(source).collect();
+        let registers = Registers::new(&m, &name, source.parts());
         registers.load(advance, |f| source[f]);
         let filled = if is_last { frag_valid } else { m.reg(&format!("{name}_valid"), 1).reset(0) };
         filled.when(advance, valid);
@@ -114,14 +116,39 @@ pub fn pixel(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         before = Some(registers.token());
     }
 
-    m.output("span_ready", span_ready);
-    m.output("frag_valid", frag_valid);
+    ports.take_ready(span_ready);
     if let Some(fragment) = before {
-        fragment.output(&m, "frag");
+        ports.give(frag_valid, |f| fragment[f]);
     }
-    m.output_doc("active", active, "a span is being drawn");
-    m.output_doc("visible", visible, "its pixel is on the screen");
-    m.output_doc("advance", advance, "nothing waits at the output");
-    m.output_doc("occupied", occupied, "a fragment is in an output stage");
+    ports.status("active", active);
+    ports.status("visible", visible);
+    ports.status("advance", advance);
+    ports.status("occupied", occupied);
     m.finish()
+}
+
+/// Counts the clocks of a pixel, 0 to T - 1.
+struct Phase<'m> {
+    counter: Reg<'m>,
+    last: Signal<'m>,
+    /// After T - 1 the counter is 0 of itself.
+    wraps: bool,
+}
+
+impl<'m> Phase<'m> {
+    /// None where a pixel takes one clock.
+    fn new(m: &'m Module, clocks: u32) -> Option<Phase<'m>> {
+        (clocks > 1).then(|| {
+            let counter = m.reg("phase", clocks.next_power_of_two().ilog2()).doc("clock of the pixel");
+            let wraps = clocks.is_power_of_two();
+            let last = if wraps { counter.q().all() } else { counter.q().eq(clocks as i32 - 1) };
+            Phase { counter, last: last.named("last_phase"), wraps }
+        })
+    }
+
+    /// The phase after this one.
+    fn next(&self) -> Signal<'m> {
+        let next = self.counter.q() + 1;
+        if self.wraps { next } else { self.last.mux(0, next) }
+    }
 }

@@ -19,9 +19,11 @@ mod results;
 use std::sync::Arc;
 
 use edgewalk_machine::Plan;
+use edgewalk_machine::units::{setup::SPEC, tokens::EDGES};
 use edgewalk_netlist::{BuildErrors, Module, Netlist};
 
-use crate::token::{self, EDGES, Registers, Token};
+use crate::ports::Interface;
+use crate::wires::{Registers, parts};
 use control::Control;
 use lines::Lines;
 use operands::Sources;
@@ -31,9 +33,9 @@ use sort::Vertices;
 const DOC: &str = "SETUP turns three vertices into edges and increments.
 
   tri ─> [sort by v] ─┬─> lines j0 j1 n1 n2 ────────────────────────────┐
-                      ├─> area ─> left, cull?                           ├─> prim
+                      ├─> area ─> major_right, cull?                    ├─> prim
                       ├─> three edges: q f = DX/DY, C R = N/DY ─────────┤
-                      └─> four channels: increments and start ──────────┘
+                      └─> N channels: increments and start ─────────────┘
             the products and quotients are formed in serial lanes, side by side or in rounds
 
 Formats: see the ports; P = 2^t is a pixel in centre coordinates.
@@ -45,31 +47,31 @@ Rules: all results are those of exact division, rounded once; a word keeps its l
 ///
 /// # Errors
 /// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
-pub fn setup(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
+pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new("edgewalk_setup", DOC);
-    let tri_valid = m.input("tri_valid", 1);
-    let triangle = Token::inputs(&m, "tri", token::triangle(machine));
-    let prim_ready = m.input("prim_ready", 1);
+    let ports = Interface::new(&m, (SPEC.ports)(plan));
+    let (tri_valid, triangle) = ports.takes();
+    let prim_ready = ports.gives_ready();
 
-    let control = Control::new(&m, machine, tri_valid, prim_ready);
-    let vertices = Vertices::new(&m, machine, &control, &triangle);
+    let control = Control::new(&m, plan, tri_valid, prim_ready);
+    let vertices = Vertices::new(&m, plan, &control, &triangle);
 
     // The first line and the moduli follow from other registers; all else of the prim is a register.
     let computed = |name: &str| name == "jm" || name.ends_with("_m");
-    let mut kept = token::prim(machine);
+    let mut kept = parts(&ports.gives_link().fields);
     kept.retain(|f| !computed(&f.name));
     let prim = Registers::new(&m, "prim", kept);
     if let Some(tag) = triangle.get("tag") {
         prim["tag"].when(control.take, tag);
     }
-    let lines = Lines::new(&m, machine, &control, &vertices, &prim);
+    let lines = Lines::new(&m, plan, &control, &vertices, &prim);
 
-    let lanes = lanes::lanes(&m, machine, &control)?;
-    let area = Area::new(&m, machine, &control, lanes[0].instance, &prim);
+    let lanes = lanes::lanes(&m, plan, &control)?;
+    let area = Area::new(&m, plan, &control, lanes[0].instance, &prim);
     control.cull.drive(area.is_zero() | lines.none);
     let sources = Sources {
         m: &m,
-        machine,
+        plan,
         control: &control,
         vertices: &vertices,
         lines: &lines,
@@ -82,19 +84,16 @@ pub fn setup(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         sources.connect(lane, &shared);
     }
     let lanes: Vec<_> = lanes.iter().map(|lane| lane.instance).collect();
-    Results { m: &m, machine, control: &control, vertices: &vertices, prim: &prim }.take(&lanes);
+    Results { m: &m, plan, control: &control, vertices: &vertices, prim: &prim }.take(&lanes);
 
-    m.output("tri_ready", control.idle);
-    m.output("prim_valid", control.done);
+    ports.take_ready(control.idle);
     let heights = EDGES.iter().zip(&vertices.heights);
     let moduli: Vec<_> = heights.map(|(edge, height)| (format!("{edge}_m"), *height)).collect();
-    let first_line = lines.jm.trunc(machine.widths().y);
-    let token =
-        Token::new(token::prim(machine), |name| match moduli.iter().find(|(modulus, _)| modulus == name) {
-            Some((_, height)) => *height,
-            None if name == "jm" => first_line,
-            None => prim[name].q(),
-        });
-    token.output(&m, "prim");
+    let first_line = lines.jm.trunc(plan.widths().y);
+    ports.give(control.done, |name| match moduli.iter().find(|(modulus, _)| modulus == name) {
+        Some((_, height)) => *height,
+        None if name == "jm" => first_line,
+        None => prim[name].q(),
+    });
     m.finish()
 }

@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
+use edgewalk_machine::units::{span::SPEC, tokens};
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
 use crate::fifo::fifo;
-use crate::token::{self, Token};
+use crate::ports::Interface;
+use crate::wires::{Token, parts};
 
 const DOC: &str = "SPAN cuts a line to the screen and queues what is left of it.
 
@@ -21,15 +23,15 @@ by PIXEL, as the channels must be stepped there too.";
 ///
 /// # Errors
 /// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
-pub fn span(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
+pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new("edgewalk_span", DOC);
-    let line_valid = m.input("line_valid", 1);
-    let line = Token::inputs(&m, "line", token::line(machine));
-    let span_ready = m.input("span_ready", 1);
+    let ports = Interface::new(&m, (SPEC.ports)(plan));
+    let (line_valid, line) = ports.takes();
+    let span_ready = ports.gives_ready();
 
-    let cut = match machine.fill {
-        Fill::Exact => cut_exact(&m, machine, &line),
-        Fill::Textbook => cut_textbook(&m, machine, &line),
+    let cut = match plan.fill {
+        Fill::Exact => cut_exact(&m, plan, &line),
+        Fill::Textbook => cut_textbook(&m, plan, &line),
     };
 
     m.comment("Flags of dropped lines wait for the next span.");
@@ -39,8 +41,8 @@ pub fn span(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let fence = (line["fence"] | pend_fence).named("fence");
 
     m.comment("The queue.");
-    let fields = token::span(machine);
-    let queue = fifo("edgewalk_span_fifo", machine.span_fifo, &fields)?;
+    let fields = parts(&tokens::span(plan));
+    let queue = fifo("edgewalk_span_fifo", plan.span_fifo, &fields)?;
     let queue = m.instance("queue", &queue);
     let line_ready = (cut.empty | queue.output("in_ready")).named("line_ready");
     let taken = (line_valid & line_ready).named("taken");
@@ -50,12 +52,12 @@ pub fn span(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let token = Token::new(fields.clone(), |f| match f {
         "x" => cut.x,
         "count" => cut.count,
-        "left" => cut.left,
+        "leftward" => cut.leftward,
         "fresh" => fresh,
         "fence" => fence,
         same => line[same],
     });
-    token.connect(queue.connect("in_valid", push).connect("out_ready", span_ready), "in");
+    token.connect(queue.connect("in_valid", push).connect("out_ready", span_ready), "in", &fields);
     let span = Token::of_instance(queue, "out", fields);
     let span_valid = queue.output("out_valid");
 
@@ -63,10 +65,9 @@ pub fn span(machine: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let fresh_queued = m.reg("fresh_queued", 1).doc("the first span of a triangle is queued").reset(0);
     fresh_queued.when(span_valid & span_ready & span["fresh"], 0).when(push & fresh, 1);
 
-    m.output("line_ready", line_ready);
-    m.output("span_valid", span_valid);
-    span.output(&m, "span");
-    m.output("fresh_queued", fresh_queued);
+    ports.take_ready(line_ready);
+    ports.give(span_valid, |f| span[f]);
+    ports.status("fresh_queued", fresh_queued);
     m.finish()
 }
 
@@ -75,12 +76,12 @@ struct Cut<'m> {
     empty: Signal<'m>,
     x: Signal<'m>,
     count: Signal<'m>,
-    left: Signal<'m>,
+    leftward: Signal<'m>,
 }
 
 /// Half-open spans from the major edge inwards, to the right or to the left.
-fn cut_exact<'m>(m: &'m Module, machine: &Plan, line: &Token<'m>) -> Cut<'m> {
-    let (cmaj, cmin, width) = (line["cmaj"], line["cmin"], machine.width as i32);
+fn cut_exact<'m>(m: &'m Module, plan: &Plan, line: &Token<'m>) -> Cut<'m> {
+    let (cmaj, cmin, width) = (line["cmaj"], line["cmin"], plan.width as i32);
     m.comment("To the right: from cmaj to before cmin, at most to the end of the screen.");
     let end_right =
         cmin.slt(width).mux(cmin, width).named_doc("end_right", "signed, first column after the span");
@@ -89,27 +90,28 @@ fn cut_exact<'m>(m: &'m Module, machine: &Plan, line: &Token<'m>) -> Cut<'m> {
     let last_left = (cmaj - 1).named_doc("last_left", "signed, last column left of the major edge");
     let end_left = cmin.sgt(0).mux(cmin, 0).named_doc("end_left", "signed, last column of the span");
     let none_left = (last_left.slt(end_left) | cmin.sge(width)).named("none_left");
-    let left = line["left"];
+    let leftward = line["major_right"];
     Cut {
-        empty: left.mux(none_left, none_right).named("empty"),
-        x: left.mux(last_left, cmaj).named("x"),
+        empty: leftward.mux(none_left, none_right).named("empty"),
+        x: leftward.mux(last_left, cmaj).named("x"),
         // end − x, or x − end + 1 = cmaj − end.
-        count: (left.mux(cmaj, end_right) - left.mux(end_left, cmaj)).named_doc("count", "columns"),
-        left,
+        count: (leftward.mux(cmaj, end_right) - leftward.mux(end_left, cmaj)).named_doc("count", "columns"),
+        leftward,
     }
 }
 
 /// Spans with both ends, always to the right: a column stands one right of `Trunc(X)`.
-fn cut_textbook<'m>(m: &'m Module, machine: &Plan, line: &Token<'m>) -> Cut<'m> {
-    let (cmaj, cmin, left, width) = (line["cmaj"], line["cmin"], line["left"], machine.width as i32);
+fn cut_textbook<'m>(m: &'m Module, plan: &Plan, line: &Token<'m>) -> Cut<'m> {
+    let (cmaj, cmin, major_right) = (line["cmaj"], line["cmin"], line["major_right"]);
+    let width = plan.width as i32;
     m.comment("From Trunc(X) of the left edge to Trunc(X) of the right edge, both drawn; a column register is Trunc(X) + 1.");
-    let x = (left.mux(cmin, cmaj) - 1).named("x");
-    let xe = left.mux(cmaj, cmin).named_doc("xe", "signed, first column after the line");
+    let x = (major_right.mux(cmin, cmaj) - 1).named("x");
+    let xe = major_right.mux(cmaj, cmin).named_doc("xe", "signed, first column after the line");
     let end = xe.slt(width).mux(xe, width).named_doc("end_cut", "signed, first column after the span");
     Cut {
         empty: (end.sle(x) | xe.sle(0)).named("empty"),
         x,
         count: (end - x).named_doc("count", "columns"),
-        left: m.lit(1, 0),
+        leftward: m.lit(1, 0),
     }
 }

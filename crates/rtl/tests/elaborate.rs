@@ -1,29 +1,46 @@
 //! Every permitted machine becomes a netlist.
 
-mod common {
-    pub mod configurations;
-}
+mod random;
 
-use common::configurations::random_machine;
-use edgewalk_machine::Plan;
+use std::collections::BTreeSet;
+
+use edgewalk_machine::keys::{Domain, KEYS};
+use edgewalk_machine::{MAX_CHANNELS, Plan};
 use edgewalk_rtl as rtl;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
+
+const RANDOM: usize = 1000;
 
 #[test]
 fn every_machine_elaborates() {
     let mut rng = Pcg64Mcg::seed_from_u64(1);
     let presets = ["default", "textbook"].into_iter().filter_map(Plan::preset);
+    let (mut choices, mut schedules) = (BTreeSet::new(), BTreeSet::new());
     let mut checked = 0;
-    for machine in presets.chain((0..1000).map(|_| random_machine(&mut rng))) {
-        for netlist in [rtl::machine(&machine), rtl::memory(&machine, machine.z.max())] {
+    for plan in presets.chain((0..RANDOM).map(|_| random::random_plan(&mut rng))) {
+        for netlist in [rtl::machine(&plan), rtl::memory(&plan, plan.z.max())] {
             match netlist {
                 Ok(netlist) => assert!(netlist.outputs.len() > 4),
-                Err(errors) => panic!("{machine:?}\n{errors}"),
+                Err(errors) => panic!("{plan:?}\n{errors}"),
             }
         }
+        choices.extend(KEYS.iter().filter(|key| (key.used)(&plan)).map(|key| (key.name, key.show(&plan))));
+        schedules.insert((plan.channels().len(), plan.adders));
         checked += 1;
     }
-    println!("{checked} of 1002 machines elaborate");
-    assert_eq!(checked, 1002);
+    println!("{checked} of {} machines elaborate", RANDOM + 2);
+    assert_eq!(checked, RANDOM + 2);
+
+    // All that can be chosen from a list was chosen, and every number of channels and adders met.
+    for key in KEYS {
+        let all = match key.domain {
+            Domain::OneOf(list) => list.len(),
+            Domain::Word(words) => words.len(),
+            Domain::Range(..) => continue,
+        };
+        assert_eq!(choices.iter().filter(|(name, _)| *name == key.name).count(), all, "{}", key.name);
+    }
+    let all: usize = (4..=MAX_CHANNELS).sum();
+    assert_eq!(schedules.len(), all, "{schedules:?}");
 }

@@ -1,9 +1,9 @@
 //! The adders of PIXEL: words cut into segments, each added a clock after the one below it.
 
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Channel, Plan};
 use edgewalk_netlist::{Module, Reg, Signal};
 
-use crate::token::{CHANNELS, Token};
+use crate::wires::Token;
 
 /// For the header of machines with more than one segment.
 pub(super) const SKEW_DOC: &str = "Segments: the words are cut into segments, and the carry moves a segment a clock.
@@ -26,12 +26,12 @@ pub(super) struct Step<'m> {
 }
 
 /// The steps of all segments: each does what the one below it did at the last advance.
-fn steps<'m>(m: &'m Module, machine: &Plan, advance: Signal<'m>, first: Step<'m>) -> Vec<Step<'m>> {
-    if machine.segments > 1 {
+fn steps<'m>(m: &'m Module, plan: &Plan, advance: Signal<'m>, first: Step<'m>) -> Vec<Step<'m>> {
+    if plan.segments > 1 {
         m.comment("What the segments do: what the one below did at the last advance.");
     }
     let mut steps = vec![first];
-    for segment in 1..machine.segments {
+    for segment in 1..plan.segments {
         let below = steps[segment as usize - 1];
         let late = |name: &str, signal: Signal<'m>| {
             m.reg(&format!("{name}{segment}"), signal.width()).reset(0).when(advance, signal).q()
@@ -55,7 +55,7 @@ pub(super) struct Segment<'m> {
     inc: Reg<'m>,
 }
 
-/// The words of the four channels.
+/// The words of all channels.
 pub(super) struct Words<'m> {
     /// By channel, then by segment; a narrow word beside a wide one has no bits in the upper segments of their adder.
     segments: Vec<Vec<Option<Segment<'m>>>>,
@@ -65,32 +65,40 @@ impl<'m> Words<'m> {
     /// The registers, the adders, and the loads.
     pub fn new(
         m: &'m Module,
-        machine: &Plan,
+        plan: &Plan,
         advance: Signal<'m>,
         first: Step<'m>,
         span: &Token<'m>,
         increments: &Token<'m>,
     ) -> Words<'m> {
-        let steps = steps(m, machine, advance, first);
-        let shared = machine.clocks_per_pixel() as usize;
+        let steps = steps(m, plan, advance, first);
         let mut words = Words { segments: Vec::new() };
-        for adder in 0..machine.adders as usize {
-            let channels = adder * shared..(adder + 1) * shared;
-            let bounds = bounds(machine, channels.clone());
-            for channel in channels.clone() {
+        for (adder, slots) in plan.slots().into_iter().enumerate() {
+            let channels = &plan.channels()[slots.clone()];
+            let bounds = bounds(plan, channels);
+            for channel in channels {
                 words.segments.push(registers(m, advance, channel, &bounds, &steps, [span, increments]));
             }
-            let name =
-                if shared == 1 { CHANNELS[channels.start].to_owned() } else { format!("adder{adder}") };
-            add(m, advance, &name, &bounds, &steps, &words.segments[channels]);
+            let name = match channels {
+                [own] => {
+                    m.comment("Its adder.");
+                    own.name.to_owned()
+                }
+                several => {
+                    let names: Vec<&str> = several.iter().map(|channel| channel.name).collect();
+                    m.comment(&format!("The adder of {}.", names.join(", ")));
+                    format!("adder{adder}")
+                }
+            };
+            add(m, advance, &name, &bounds, &steps, &words.segments[slots]);
         }
         words
     }
 
     /// The bits that segment `segment` of a channel has of the output; `None` if they are all fraction.
-    pub fn output(&self, machine: &Plan, channel: usize, segment: usize) -> Option<Signal<'m>> {
+    pub fn output(&self, plan: &Plan, channel: usize, segment: usize) -> Option<Signal<'m>> {
         let part = self.segments[channel][segment].as_ref()?;
-        let fraction = machine.channels()[channel].fraction;
+        let fraction = plan.channels()[channel].fraction;
         let value = part.value.q();
         let below = fraction.saturating_sub(part.low);
         (below < value.width()).then(|| value.slice(value.width() - 1, below))
@@ -98,21 +106,21 @@ impl<'m> Words<'m> {
 }
 
 /// Where the segments of an adder begin, and where the last one ends; the adder is as wide as its widest channel.
-fn bounds(machine: &Plan, channels: std::ops::Range<usize>) -> Vec<u32> {
-    let width = machine.channels()[channels].iter().map(|channel| channel.word()).max().unwrap_or(1);
-    (0..=machine.segments).map(|segment| segment * width / machine.segments).collect()
+fn bounds(plan: &Plan, channels: &[Channel]) -> Vec<u32> {
+    let width = channels.iter().map(|channel| channel.word()).max().unwrap_or(1);
+    (0..=plan.segments).map(|segment| segment * width / plan.segments).collect()
 }
 
 /// The registers of a channel, a pair a segment, and what a span loads into them.
 fn registers<'m>(
     m: &'m Module,
     advance: Signal<'m>,
-    channel: usize,
+    channel: &Channel,
     bounds: &[u32],
     steps: &[Step<'m>],
     [span, increments]: [&Token<'m>; 2],
 ) -> Vec<Option<Segment<'m>>> {
-    let name = CHANNELS[channel];
+    let name = channel.name;
     m.comment(&format!("The words of {name}."));
     let (mut value_in, mut inc_in) = (span[name], increments[name]);
     let word = value_in.width();
@@ -133,9 +141,12 @@ fn registers<'m>(
             (value_in, inc_in) = (late("value", value_in), late("inc", inc_in));
         }
         let register = |what: &str| {
-            let part = if bounds.len() == 2 { String::new() } else { segment.to_string() };
-            m.reg(&format!("{name}_{what}{part}"), high - low)
-                .doc(&format!("bits {} to {low} of {word}", high - 1))
+            let format = format!("{} LSB, modular", channel.word_format());
+            let (part, doc) = match steps.len() {
+                1 => (String::new(), format),
+                _ => (segment.to_string(), format!("bits {} to {low} of {format}", high - 1)),
+            };
+            m.reg(&format!("{name}_{what}{part}"), high - low).doc(&doc)
         };
         let (value, inc) = (register("value"), register("inc"));
         value.when(step.load, lowest(value_in, high - low));
@@ -154,7 +165,6 @@ fn add<'m>(
     steps: &[Step<'m>],
     channels: &[Vec<Option<Segment<'m>>>],
 ) {
-    m.comment("Its adder; with several channels, that of all of them.");
     let mut carry: Option<Signal> = None;
     for (segment, step) in steps.iter().enumerate() {
         let is_last = segment + 1 == steps.len();

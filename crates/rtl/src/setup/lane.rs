@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use edgewalk_machine::{Channel, EdgeKind, Fill, Plan, Precision};
+use edgewalk_machine::{EdgeKind, Fill, Plan, Precision};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg, Signal};
 
-use super::schedule::{Kind, Op};
+use super::schedule::{Kind, Op, channel_jobs, edge_jobs};
 
 /// What a lane must be able to hold, in bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,27 +25,26 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// The lane number `lane`, which does job `lane` and every `lanes`-th after it.
-    pub fn new(machine: &Plan, lane: usize) -> Shape {
-        let w = machine.widths();
-        let jobs = || (lane..4).step_by(machine.lanes as usize);
-        let channels: Vec<Channel> = jobs().map(|job| machine.channels()[job]).collect();
+    /// Of lane number `lane`.
+    pub fn new(plan: &Plan, lane: usize) -> Shape {
+        let w = plan.widths();
+        let channels = channel_jobs(plan, lane);
+        let has_edge = edge_jobs(plan, lane).iter().any(|job| *job > 0);
         let most = |bits: fn(Precision) -> u32| channels.iter().map(|c| bits(c.precision)).max().unwrap_or(1);
         let (values, word) = (most(Precision::vertex_bits), most(Precision::word));
         let terms = w.difference.max(values + 1);
-        let (wide_terms, product) = match machine.fill {
+        let (wide_terms, product) = match plan.fill {
             Fill::Exact => (w.difference + values + 1, 2 * w.difference + values + 1),
             Fill::Textbook => (terms, (w.difference + values + 1).max(2 * w.difference)),
         };
-        let edge_quotient = match machine.edge_kind {
+        let edge_quotient = match plan.edge_kind {
             EdgeKind::Exact => w.column,
-            EdgeKind::Slope => w.column + machine.edge_fraction,
+            EdgeKind::Slope => w.column + plan.edge_fraction,
         };
-        // Job 0 has no edge, only the area.
-        let edges = Op::of_edges().iter().filter(|_| jobs().any(|job| job > 0));
-        let ops = edges.chain(Op::of_channels(machine)).filter(|op| op.kind() != Kind::Product);
+        let edges = Op::of_edges().iter().filter(|_| has_edge);
+        let ops = edges.chain(Op::of_channels(plan)).filter(|op| op.kind() != Kind::Product);
         let mut first_digits: Vec<u32> =
-            ops.flat_map(|op| channels.iter().map(|c| op.first_digit(machine, *c))).collect();
+            ops.flat_map(|op| channels.iter().map(|c| op.first_digit(plan, *c))).collect();
         first_digits.sort_unstable();
         first_digits.dedup();
         let highest = first_digits.last().map_or(0, |digit| digit + 1);
@@ -75,7 +74,7 @@ Rules: products are signed; in the first step the sign bits of a and b subtract.
 (quotient, remainder) or to nearest, halves up (rounded). Of a quotient the low bits are kept: the rest falls out.";
 
 /// The netlist of a lane of this shape.
-pub(super) fn lane(machine: &Plan, name: &str, shape: &Shape) -> Result<Arc<Netlist>, BuildErrors> {
+pub(super) fn lane(plan: &Plan, name: &str, shape: &Shape) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new(name, DOC);
     let begins = Begins {
         of_acc: m.input_doc("load_divisor", 1, "a division of acc begins"),
@@ -83,13 +82,13 @@ pub(super) fn lane(machine: &Plan, name: &str, shape: &Shape) -> Result<Arc<Netl
         y: m.input_doc("y_in", shape.terms, "signed"),
         step: m.input("step_quotient", 1),
     };
-    let product = Product::new(&m, machine, shape, &begins);
-    let quotient = Quotient::new(&m, machine, shape, &begins, product.acc);
+    let product = Product::new(&m, plan, shape, &begins);
+    let quotient = Quotient::new(&m, plan, shape, &begins, product.acc);
     m.output_doc("product", product.acc, "signed");
     m.output_doc("quotient", quotient.floor, "rounded down, modular");
     m.output_doc("remainder", quotient.remainder, "0 to divisor - 1");
     m.output_doc("rounded", quotient.rounded, "rounded to nearest, halves up, modular");
-    if machine.fill == Fill::Exact {
+    if plan.fill == Fill::Exact {
         gradients(&m, shape, &product, &quotient);
     }
     m.finish()
@@ -111,8 +110,8 @@ struct Product<'m> {
 }
 
 impl<'m> Product<'m> {
-    fn new(m: &'m Module, machine: &Plan, shape: &Shape, begins: &Begins<'m>) -> Product<'m> {
-        let (k, dw) = (machine.bits_per_clock(), machine.widths().difference);
+    fn new(m: &'m Module, plan: &Plan, shape: &Shape, begins: &Begins<'m>) -> Product<'m> {
+        let (k, dw) = (plan.bits_per_clock(), plan.widths().difference);
         let a_in = m.input_doc("a_in", dw, "factor of x, signed");
         let b_in = m.input_doc("b_in", dw, "factor of y, signed");
         let x_in = m.input_doc("x_in", shape.terms, "signed");
@@ -162,14 +161,8 @@ struct Quotient<'m> {
 }
 
 impl<'m> Quotient<'m> {
-    fn new(
-        m: &'m Module,
-        machine: &Plan,
-        shape: &Shape,
-        begins: &Begins<'m>,
-        acc: Signal<'m>,
-    ) -> Quotient<'m> {
-        let k = machine.bits_per_clock();
+    fn new(m: &'m Module, plan: &Plan, shape: &Shape, begins: &Begins<'m>, acc: Signal<'m>) -> Quotient<'m> {
+        let k = plan.bits_per_clock();
         let divisor_in = m.input_doc("divisor_in", shape.divisor, "unsigned");
         let digit_at = m.input_doc("digit_at", shape.digit_select(), "which bits of acc are the next digits");
 

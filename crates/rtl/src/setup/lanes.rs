@@ -7,12 +7,16 @@ use edgewalk_netlist::{BuildErrors, Instance, Module, Netlist, Signal};
 
 use super::control::Control;
 use super::lane::{Shape, lane};
-use super::schedule::{Kind, Op, late};
+use super::schedule::{Kind, Op, channel_jobs, edge_jobs, late};
 
 /// One lane in place.
 pub(super) struct Lane<'m> {
-    /// Its jobs, one a round: job 0 is the area and Z, the others are the edges and R, G, B.
-    pub jobs: Vec<usize>,
+    /// Which one.
+    pub number: usize,
+    /// Its jobs on edges, one a round: 0 is the area, 1 to 3 are the edges.
+    pub edges: Vec<usize>,
+    /// Its jobs on channels, one a round.
+    pub channels: Vec<Channel>,
     pub shape: Shape,
     pub instance: Instance<'m>,
 }
@@ -20,30 +24,31 @@ pub(super) struct Lane<'m> {
 /// The lanes, with everything connected but their operands.
 pub(super) fn lanes<'m>(
     m: &'m Module,
-    machine: &Plan,
+    plan: &Plan,
     control: &Control<'m>,
 ) -> Result<Vec<Lane<'m>>, BuildErrors> {
-    let count = machine.lanes as usize;
-    let shapes: Vec<Shape> = (0..count).map(|first| Shape::new(machine, first)).collect();
-    let netlists = netlists(machine, &shapes)?;
+    let count = plan.lanes as usize;
+    let shapes: Vec<Shape> = (0..count).map(|number| Shape::new(plan, number)).collect();
+    let netlists = netlists(plan, &shapes)?;
     let work = Work::new(m, control);
-    let in_place = |(first, (shape, netlist)): (usize, (Shape, Arc<Netlist>))| {
-        let instance = m.instance(&format!("lane{first}"), &netlist);
-        let lane = Lane { jobs: (first..4).step_by(count).collect(), shape, instance };
-        work.connect(m, machine, control, &lane);
+    let in_place = |(number, (shape, netlist)): (usize, (Shape, Arc<Netlist>))| {
+        let instance = m.instance(&format!("lane{number}"), &netlist);
+        let (edges, channels) = (edge_jobs(plan, number), channel_jobs(plan, number));
+        let lane = Lane { number, edges, channels, shape, instance };
+        work.connect(m, plan, control, &lane);
         lane
     };
     Ok(shapes.into_iter().zip(netlists).enumerate().map(in_place).collect())
 }
 
 /// One netlist a lane; lanes of the same shape share it.
-fn netlists(machine: &Plan, shapes: &[Shape]) -> Result<Vec<Arc<Netlist>>, BuildErrors> {
+fn netlists(plan: &Plan, shapes: &[Shape]) -> Result<Vec<Arc<Netlist>>, BuildErrors> {
     let mut netlists: Vec<Arc<Netlist>> = Vec::new();
     for (i, shape) in shapes.iter().enumerate() {
         let same = shapes[..i].iter().position(|other| other == shape);
         netlists.push(match same {
             Some(other) => Arc::clone(&netlists[other]),
-            None => lane(machine, &format!("edgewalk_setup_lane{i}"), shape)?,
+            None => lane(plan, &format!("edgewalk_setup_lane{i}"), shape)?,
         });
     }
     Ok(netlists)
@@ -82,7 +87,7 @@ impl<'m> Work<'m> {
         }
     }
 
-    fn connect(&self, m: &'m Module, machine: &Plan, control: &Control<'m>, lane: &Lane<'m>) {
+    fn connect(&self, m: &'m Module, plan: &Plan, control: &Control<'m>, lane: &Lane<'m>) {
         let instance = lane.instance;
         instance
             .connect("load_terms", self.load_terms)
@@ -91,9 +96,9 @@ impl<'m> Work<'m> {
             .connect("first_step", self.first_step)
             .connect("load_divisor", self.load_quotient)
             .connect("from_y", self.load_quotient_of_y)
-            .connect("step_quotient", self.step_of(machine, control, lane))
-            .connect("digit_at", digit_at(m, machine, control, lane));
-        if machine.fill == Fill::Exact {
+            .connect("step_quotient", self.step_of(plan, control, lane))
+            .connect("digit_at", digit_at(m, plan, control, lane));
+        if plan.fill == Fill::Exact {
             instance
                 .connect("keep_nx", control.load & control.during(&[Op::Gx]))
                 .connect("load_gradients", control.load & control.during(&[Op::LineProduct]))
@@ -103,47 +108,45 @@ impl<'m> Work<'m> {
     }
 
     /// A channel with a shorter word than another has fewer digits and begins later.
-    fn step_of(&self, machine: &Plan, control: &Control<'m>, lane: &Lane<'m>) -> Signal<'m> {
-        let late_in = |round: usize| late(machine, lane.channel(machine, round));
-        if (0..lane.jobs.len()).all(|round| late_in(round) == 0) {
+    fn step_of(&self, plan: &Plan, control: &Control<'m>, lane: &Lane<'m>) -> Signal<'m> {
+        let late: Vec<u32> = lane.channels.iter().map(|channel| late(plan, *channel)).collect();
+        if late.iter().all(|clocks| *clocks == 0) {
             return self.step_quotient;
         }
-        let begun = control.of_round(|round| control.step.gt(late_in(round) as i32));
+        let begun = control.of_round(late.len(), |round| control.step.gt(late[round] as i32));
         self.step_quotient & (control.in_edges | begun)
     }
 }
 
 /// Where the operation's digits are, as a place in the shape's list.
-fn digit_at<'m>(m: &'m Module, machine: &Plan, control: &Control<'m>, lane: &Lane<'m>) -> Signal<'m> {
-    let place = |op: Op, round: usize| {
-        let bit = op.first_digit(machine, lane.channel(machine, round));
+fn digit_at<'m>(m: &'m Module, plan: &Plan, control: &Control<'m>, lane: &Lane<'m>) -> Signal<'m> {
+    let place = |op: Op, channel: &Channel| {
+        let bit = op.first_digit(plan, *channel);
         lane.shape.first_digits.iter().position(|digit| *digit == bit).unwrap_or(0)
     };
     let literal = |place: usize| m.lit(lane.shape.digit_select(), place as u128);
     let quotients = control.ops().filter(|op| op.kind() != Kind::Product);
     // Place 0 is what remains where no other is chosen.
-    let others = quotients.filter(|op| (0..lane.jobs.len()).any(|round| place(*op, round) > 0));
+    let others = quotients.filter(|op| lane.channels.iter().any(|channel| place(*op, channel) > 0));
     others.fold(literal(0), |chosen, op| {
-        control.during(&[op]).mux(control.of_round(|round| literal(place(op, round))), chosen)
+        let of_round =
+            control.of_round(lane.channels.len(), |round| literal(place(op, &lane.channels[round])));
+        control.during(&[op]).mux(of_round, chosen)
     })
 }
 
-impl<'m> Lane<'m> {
-    fn channel(&self, machine: &Plan, round: usize) -> Channel {
-        machine.channels()[self.jobs[round]]
-    }
-
-    /// Asks for the outputs that the lane's jobs have a use for, so that the lane is told in its own place.
-    pub fn ask_results(&self, machine: &Plan) {
-        if self.jobs.contains(&0) {
+impl Lane<'_> {
+    /// Asks for the outputs that the lane's jobs have a use for, so that their wires are declared beside the lane.
+    pub fn ask_results(&self, plan: &Plan) {
+        if self.edges.contains(&0) {
             self.instance.output("product");
         }
-        if machine.edge_kind == EdgeKind::Exact && self.jobs.iter().any(|job| *job > 0) {
+        if plan.edge_kind == EdgeKind::Exact && self.edges.iter().any(|job| *job > 0) {
             self.instance.output("quotient");
             self.instance.output("remainder");
         }
         self.instance.output("rounded");
-        if machine.fill == Fill::Exact {
+        if plan.fill == Fill::Exact {
             self.instance.output("d1");
         }
     }

@@ -6,7 +6,7 @@ use edgewalk_netlist::{Module, Signal};
 use super::control::Control;
 use super::schedule::Op;
 use super::sort::Vertices;
-use crate::token::Registers;
+use crate::wires::Registers;
 
 /// First lines, signed, G + 2 bits.
 pub(super) struct Lines<'m> {
@@ -24,14 +24,14 @@ impl<'m> Lines<'m> {
     /// j0, j1 and the counts n1, n2 of the prim, taken at the first clock of the operations.
     pub fn new(
         m: &'m Module,
-        machine: &Plan,
+        plan: &Plan,
         control: &Control<'m>,
         vertices: &Vertices<'m>,
         prim: &Registers<'m>,
     ) -> Lines<'m> {
-        let [j0, j1, n1, n2] = match machine.fill {
-            Fill::Exact => exact(m, machine, vertices),
-            Fill::Textbook => textbook(m, machine, vertices),
+        let [j0, j1, n1, n2] = match plan.fill {
+            Fill::Exact => exact(m, plan, vertices),
+            Fill::Textbook => textbook(m, plan, vertices),
         };
         let take = (control.load & control.during(&[Op::EdgeStep])).named("take_lines");
         let count = |name: &str, n: Signal<'m>| prim[name].when(take, n.trunc(prim[name].q().width())).q();
@@ -53,30 +53,30 @@ fn at_most<'m>(a: Signal<'m>, b: Signal<'m>) -> Signal<'m> {
 }
 
 /// Centres from vertex to vertex, the upper end included, the lower not.
-fn exact<'m>(m: &'m Module, machine: &Plan, vertices: &Vertices<'m>) -> [Signal<'m>; 4] {
+fn exact<'m>(m: &'m Module, plan: &Plan, vertices: &Vertices<'m>) -> [Signal<'m>; 4] {
     m.comment("Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.");
-    let (bits, t) = (machine.widths().column, machine.widths().center_fraction);
+    let (bits, t) = (plan.widths().column, plan.widths().center_fraction);
     let ceil = |place: usize| {
         let v = vertices.v(place);
         let up = v.trunc(t).any().zext(bits);
         (v.slice(v.width() - 1, t).sext(bits) + up).named_doc(&format!("line{place}"), "ceil(v/P)")
     };
     let j0 = at_least(ceil(0), m.lit(bits, 0)).named("j0_next");
-    let end = at_least(at_most(ceil(2), m.lit(bits, machine.height.into())), j0).named("end_line");
+    let end = at_least(at_most(ceil(2), m.lit(bits, plan.height.into())), j0).named("end_line");
     let j1 = at_most(at_least(ceil(1), j0), end).named("j1_next");
     [j0, j1, j1 - j0, end - j1]
 }
 
 /// Lines from vertex to vertex, both included; a part without height has none.
-fn textbook<'m>(m: &'m Module, machine: &Plan, vertices: &Vertices<'m>) -> [Signal<'m>; 4] {
+fn textbook<'m>(m: &'m Module, plan: &Plan, vertices: &Vertices<'m>) -> [Signal<'m>; 4] {
     m.comment("Lines of each part: from Y of the upper to Y of the lower end, both drawn, on the screen.");
-    let (bits, t) = (machine.widths().column, machine.widths().center_fraction);
-    let y = |place: usize| vertices.v(place).slice(machine.widths().center - 1, t).sext(bits);
+    let (bits, t) = (plan.widths().column, plan.widths().center_fraction);
+    let y = |place: usize| vertices.v(place).slice(plan.widths().center - 1, t).sext(bits);
     let first = |place: usize, name: &str| at_least(y(place), m.lit(bits, 0)).named(name);
     let (j0, j1) = (first(0, "j0_next"), first(1, "j1_next"));
     let count = |part: usize, first: Signal<'m>| {
         let last =
-            at_most(y(part + 1), m.lit(bits, u128::from(machine.height) - 1)).named(&format!("last{part}"));
+            at_most(y(part + 1), m.lit(bits, u128::from(plan.height) - 1)).named(&format!("last{part}"));
         let some = (y(part).slt(y(part + 1)) & first.sle(last)).named(&format!("some{part}"));
         some.mux(last - first + 1, 0)
     };

@@ -1,12 +1,13 @@
 //! What the lanes found, taken into the registers of the prim.
 
+use edgewalk_machine::units::tokens::{EDGES, remainder_bits};
 use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
 use edgewalk_netlist::{Instance, Module, Reg, Signal};
 
 use super::control::Control;
 use super::schedule::Op;
 use super::sort::Vertices;
-use crate::token::{CHANNELS, EDGES, Registers, remainder_bits};
+use crate::wires::Registers;
 
 /// The triangle's area, from the first lane's first product.
 pub(super) struct Area<'m>(Reg<'m>);
@@ -15,19 +16,19 @@ impl<'m> Area<'m> {
     /// Takes |area| and its sign.
     pub fn new(
         m: &'m Module,
-        machine: &Plan,
+        plan: &Plan,
         control: &Control<'m>,
         lane: Instance<'m>,
         prim: &Registers<'m>,
     ) -> Area<'m> {
         m.comment("Twice the area of the triangle, and the side on which it lies.");
-        let bits = 2 * machine.widths().difference;
+        let bits = 2 * plan.widths().difference;
         let product = lane.output("product").trunc(bits);
         // The product stands while the operation after it loads.
         let take = control.load_in(Op::EdgeStart, 0).named("take_area");
         let area = m.reg("area", bits - 1).doc("|du1 dv2 - du2 dv1|");
         area.when(take, product.msb().mux(-product, product).trunc(bits - 1));
-        prim["left"].when(take, product.msb());
+        prim["major_right"].when(take, product.msb());
         Area(area)
     }
 
@@ -45,7 +46,7 @@ impl<'m> Area<'m> {
 /// Where results come from and go to.
 pub(super) struct Results<'a, 'm> {
     pub m: &'m Module,
-    pub machine: &'a Plan,
+    pub plan: &'a Plan,
     pub control: &'a Control<'m>,
     pub vertices: &'a Vertices<'m>,
     pub prim: &'a Registers<'m>,
@@ -58,9 +59,9 @@ impl<'m> Results<'_, 'm> {
             let job = edge + 1;
             self.edge(edge, job / lanes.len(), lanes[job % lanes.len()]);
         }
-        for channel in 0..4 {
-            let (round, lane) = (channel / lanes.len(), lanes[channel % lanes.len()]);
-            match self.machine.fill {
+        for (job, channel) in self.plan.channels().iter().enumerate() {
+            let (round, lane) = (job / lanes.len(), lanes[job % lanes.len()]);
+            match self.plan.fill {
                 Fill::Exact => self.channel_exact(channel, round, lane),
                 Fill::Textbook => self.channel_textbook(channel, round, lane),
             }
@@ -74,17 +75,17 @@ impl<'m> Results<'_, 'm> {
     fn edge(&self, edge: usize, round: usize, lane: Instance<'m>) {
         let name = EDGES[edge];
         self.m.comment(&format!("Edge: {name}."));
-        let (columns, bits) = (self.machine.widths().column, remainder_bits(self.machine));
+        let (columns, bits) = (self.plan.widths().column, remainder_bits(self.plan));
         let height = self.vertices.heights[edge];
-        let t = self.machine.widths().center_fraction;
+        let t = self.plan.widths().center_fraction;
         let is_high =
             height.slice(height.width() - 1, t).any().named_doc(&format!("{name}_steps"), "DY >= P");
         let is_there = height.any().named_doc(&format!("{name}_is_there"), "DY > 0");
-        let (q, f, c, r) = match self.machine.edge_kind {
+        let (q, f, c, r) = match self.plan.edge_kind {
             EdgeKind::Exact => {
                 let quotient = lane.output("quotient").trunc(columns);
                 let remainder = lane.output("remainder").trunc(bits);
-                let (c, r) = match self.machine.fill {
+                let (c, r) = match self.plan.fill {
                     // −N was divided: its remainder is that of m.
                     Fill::Exact => (-quotient, remainder),
                     // N was divided: m = −1 − floor(N/P).
@@ -94,7 +95,7 @@ impl<'m> Results<'_, 'm> {
             }
             EdgeKind::Slope => {
                 let rounded = lane.output("rounded").trunc(columns + bits);
-                let m = match self.machine.fill {
+                let m = match self.plan.fill {
                     Fill::Exact => -rounded,
                     Fill::Textbook => !rounded,
                 };
@@ -110,41 +111,42 @@ impl<'m> Results<'_, 'm> {
         self.register(name, "r").when(start, is_there.mux(r, 0));
     }
 
-    /// Of vertex 0, or the one the left edge begins at: its value with the half that makes cutting a rounding.
-    fn with_half(&self, channel: Channel, value: Signal<'m>) -> Signal<'m> {
+    /// Of vertex 0, or the one the left edge begins at: its value as a word, with the half that makes cutting a rounding if
+    /// the channel is rounded.
+    fn with_half(&self, channel: &Channel, value: Signal<'m>) -> Signal<'m> {
         let m = self.m;
         let (r, e) = (channel.fraction, channel.vertex_fraction);
         let zeros =
             |bits: u32, value: Signal<'m>| if bits == 0 { value } else { m.cat(&[value, m.lit(bits, 0)]) };
         match e {
-            0 if r == 0 => value,
+            _ if r == 0 || !channel.kind.is_rounded() => zeros(r - e, value),
             0 => zeros(r - 1, m.cat(&[value, m.lit(1, 1)])),
             _ => zeros(r - e, value + (1 << (e - 1))),
         }
     }
 
-    fn channel_exact(&self, channel: usize, round: usize, lane: Instance<'m>) {
-        let (name, format) = (CHANNELS[channel], self.machine.channels()[channel]);
+    fn channel_exact(&self, channel: &Channel, round: usize, lane: Instance<'m>) {
+        let name = channel.name;
         self.m.comment(&format!("Channel: {name}."));
-        let word = |signal: Signal<'m>| signal.trunc(format.word());
+        let word = |signal: Signal<'m>| signal.trunc(channel.word());
         let rounded = word(lane.output("rounded"));
         let after = |op: Op| self.control.after_in(op, round);
-        self.register(name, "g").when(after(Op::Gx), self.prim["left"].q().mux(-rounded, rounded));
+        self.register(name, "g").when(after(Op::Gx), self.prim["major_right"].q().mux(-rounded, rounded));
         self.register(name, "d0").when(after(Op::Line), rounded);
         self.register(name, "d1").when(after(Op::Start), word(lane.output("d1")));
-        let top = self.with_half(format, self.vertices.value(channel, 0));
+        let top = self.with_half(channel, self.vertices.value(channel, 0));
         self.register(name, "start").when(after(Op::Start), rounded + top);
     }
 
-    fn channel_textbook(&self, channel: usize, round: usize, lane: Instance<'m>) {
-        let (name, format) = (CHANNELS[channel], self.machine.channels()[channel]);
+    fn channel_textbook(&self, channel: &Channel, round: usize, lane: Instance<'m>) {
+        let name = channel.name;
         self.m.comment(&format!("Channel: {name}."));
-        let rounded = lane.output("rounded").trunc(format.word());
+        let rounded = lane.output("rounded").trunc(channel.word());
         let after = |op: Op| self.control.after_in(op, round);
         self.register(name, "g").when(after(Op::Gx), rounded);
         // The left edge begins at vertex 1 only in part 2 of a triangle that lies left of its major edge.
-        let value = |place: usize| self.with_half(format, self.vertices.value(channel, place));
-        let top_b = self.prim["left"].q().mux(value(1), value(0));
+        let value = |place: usize| self.with_half(channel, self.vertices.value(channel, place));
+        let top_b = self.prim["major_right"].q().mux(value(1), value(0));
         let parts = [("start_a", Op::StartA, "n1", value(0)), ("start_b", Op::StartB, "n2", top_b)];
         for (start, op, lines, top) in parts {
             let used = self.prim[lines].q().any();

@@ -91,57 +91,53 @@ impl Op {
     }
 
     /// The operations on each channel, in their order.
-    pub fn of_channels(machine: &Plan) -> &'static [Op] {
+    pub fn of_channels(plan: &Plan) -> &'static [Op] {
         use Op::*;
-        match machine.fill {
+        match plan.fill {
             Fill::Exact => &[Nx, Gx, Ny, LineProduct, Line, StartProduct, Start],
             Fill::Textbook => &[Nx, Gx, ProductA, StartA, LineA, ProductB, StartB, LineB],
         }
     }
 
     /// Bits of the magnitude of the quotient's numerator, for a channel of `word` bits; `None` for a product.
-    fn numerator_bits(self, machine: &Plan, word: u32) -> Option<u32> {
+    fn numerator_bits(self, plan: &Plan, word: u32) -> Option<u32> {
         use Op::*;
-        let w = machine.widths();
+        let w = plan.widths();
         let (dw, t) = (w.difference, w.center_fraction);
         match self {
-            EdgeStep => Some(dw - 1 + slope_bits(machine)),
-            EdgeStart if machine.edge_kind == EdgeKind::Exact => Some(2 * dw - 1 - t),
-            EdgeStart => Some(2 * dw - 1 + slope_bits(machine)),
+            EdgeStep => Some(dw - 1 + slope_bits(plan)),
+            EdgeStart if plan.edge_kind == EdgeKind::Exact => Some(2 * dw - 1 - t),
+            EdgeStart => Some(2 * dw - 1 + slope_bits(plan)),
             Gx | StartA | LineA | StartB | LineB => Some(dw + word + t),
-            Line => Some(dw + word + machine.guard_bits + 2 + t),
+            Line => Some(dw + word + plan.guard_bits + 2 + t),
             Start => Some(2 * dw + word),
             EdgeProduct | Nx | Ny | LineProduct | StartProduct | ProductA | ProductB => None,
         }
     }
 
     /// Binary places that the numerator has below what stands in acc; negative: acc has more, and they are left out.
-    fn shift(self, machine: &Plan, channel: Channel) -> i32 {
+    fn shift(self, plan: &Plan, channel: Channel) -> i32 {
         use Op::*;
-        let t = machine.widths().center_fraction as i32;
+        let t = plan.widths().center_fraction as i32;
         let finer = (channel.fraction - channel.vertex_fraction) as i32;
         match self {
-            EdgeStart if machine.edge_kind == EdgeKind::Exact => -t,
-            EdgeStep | EdgeStart => slope_bits(machine) as i32,
+            EdgeStart if plan.edge_kind == EdgeKind::Exact => -t,
+            EdgeStep | EdgeStart => slope_bits(plan) as i32,
             Gx | Line | LineA | LineB => t + finer,
             _ => finer,
         }
     }
 
     /// Clocks after the one that loads: the bits of a factor, or of the longest numerator, k a clock.
-    pub fn steps(self, machine: &Plan) -> u32 {
-        let bits = self.numerator_bits(machine, longest_word(machine)).unwrap_or(machine.widths().difference);
-        bits.div_ceil(machine.bits_per_clock())
+    pub fn steps(self, plan: &Plan) -> u32 {
+        let bits = self.numerator_bits(plan, longest_word(plan)).unwrap_or(plan.widths().difference);
+        bits.div_ceil(plan.bits_per_clock())
     }
 
     /// The bit of acc that is the first digit of the quotient's numerator.
-    pub fn first_digit(self, machine: &Plan, channel: Channel) -> u32 {
-        let steps = if self.is_of_edge() {
-            self.steps(machine)
-        } else {
-            self.steps(machine) - late(machine, channel)
-        };
-        (steps * machine.bits_per_clock()).saturating_add_signed(-self.shift(machine, channel)) - 1
+    pub fn first_digit(self, plan: &Plan, channel: Channel) -> u32 {
+        let steps = if self.is_of_edge() { self.steps(plan) } else { self.steps(plan) - late(plan, channel) };
+        (steps * plan.bits_per_clock()).saturating_add_signed(-self.shift(plan, channel)) - 1
     }
 
     /// It is one of the operations on edges.
@@ -151,17 +147,35 @@ impl Op {
 }
 
 /// Clocks by which the quotients of a channel begin later than those of the longest word.
-pub(super) fn late(machine: &Plan, channel: Channel) -> u32 {
-    (longest_word(machine) - channel.word()) / machine.bits_per_clock()
+pub(super) fn late(plan: &Plan, channel: Channel) -> u32 {
+    (longest_word(plan) - channel.word()) / plan.bits_per_clock()
 }
 
-fn longest_word(machine: &Plan) -> u32 {
-    machine.z.word().max(machine.color.word())
+fn longest_word(plan: &Plan) -> u32 {
+    plan.channels().iter().map(|channel| channel.word()).max().unwrap_or(1)
 }
+
+/// The jobs of a lane in the operations on edges, one a round: job 0 is the area, jobs 1 to 3 are the edges.
+pub(super) fn edge_jobs(plan: &Plan, lane: usize) -> Vec<usize> {
+    (lane..EDGE_JOBS).step_by(plan.lanes as usize).collect()
+}
+
+/// The jobs of a lane in the operations on channels, one a round: job i is channel i. The last round may have none for it.
+pub(super) fn channel_jobs(plan: &Plan, lane: usize) -> Vec<Channel> {
+    plan.channels().iter().skip(lane).step_by(plan.lanes as usize).copied().collect()
+}
+
+/// Rounds in which the lanes do all jobs on edges, and all on channels.
+pub(super) fn rounds(plan: &Plan) -> [usize; 2] {
+    [EDGE_JOBS, plan.channels().len()].map(|jobs| jobs.div_ceil(plan.lanes as usize))
+}
+
+/// The area and three edges.
+const EDGE_JOBS: usize = 4;
 
 /// Fraction bits F of a slope edge; 0 for an exact one.
-fn slope_bits(machine: &Plan) -> u32 {
-    if machine.edge_kind == EdgeKind::Slope { machine.edge_fraction } else { 0 }
+fn slope_bits(plan: &Plan) -> u32 {
+    if plan.edge_kind == EdgeKind::Slope { plan.edge_fraction } else { 0 }
 }
 
 #[cfg(test)]
@@ -171,11 +185,11 @@ mod tests {
     /// S1 and S2 as the specification has them, for the default machine: DW = 23, c = 38, t = 8, G = 13, k = 2.
     #[test]
     fn clocks_of_the_default_machine() {
-        let machine = Plan::default();
-        let clocks = |ops: &[Op]| ops.iter().map(|op| 1 + op.steps(&machine)).sum::<u32>();
+        let plan = Plan::default();
+        let clocks = |ops: &[Op]| ops.iter().map(|op| 1 + op.steps(&plan)).sum::<u32>();
         let (product, step, start) = (1 + 12, 1 + 11, 1 + 19);
         assert_eq!(clocks(Op::of_edges()), step + product + start);
         let (gx, line, start) = (1 + 35, 1 + 42, 1 + 42);
-        assert_eq!(clocks(Op::of_channels(&machine)), 4 * product + gx + line + start);
+        assert_eq!(clocks(Op::of_channels(&plan)), 4 * product + gx + line + start);
     }
 }

@@ -1,10 +1,10 @@
 //! The three vertices in centre coordinates, sorted by v.
 
-use edgewalk_machine::{Fill, Plan};
+use edgewalk_machine::{Channel, Fill, Plan};
 use edgewalk_netlist::{Module, Signal};
 
 use super::control::Control;
-use crate::token::{self, CHANNELS, Field, Registers, Token};
+use crate::wires::{Part, Registers, Token};
 
 /// The edges' ends among the sorted vertices, above and below: major, first minor, second minor.
 pub(super) const ENDS: [(usize, usize); 3] = [(0, 2), (0, 1), (1, 2)];
@@ -22,19 +22,21 @@ pub(super) struct Vertices<'m> {
 
 impl<'m> Vertices<'m> {
     /// Takes a triangle, then compares and swaps (0,1), (1,2), (0,1), a clock each; equals stay as they were.
-    pub fn new(m: &'m Module, machine: &Plan, control: &Control<'m>, triangle: &Token<'m>) -> Vertices<'m> {
+    pub fn new(m: &'m Module, plan: &Plan, control: &Control<'m>, triangle: &Token<'m>) -> Vertices<'m> {
         m.comment("The vertices, in centre coordinates: pixel centres lie on the multiples of P.");
         let places: Vec<Registers> =
-            (0..3).map(|place| Registers::new(m, &format!("p{place}"), fields(machine))).collect();
+            (0..3).map(|place| Registers::new(m, &format!("p{place}"), vertex(plan))).collect();
         let above = |lower: usize, upper: usize| places[lower]["v"].q().slt(places[upper]["v"]);
         let middle = control.step.eq(1).named("second_clock");
         let swap01 = (control.sorting & !middle & above(1, 0)).named("swap01");
         let swap12 = (control.sorting & middle & above(2, 1)).named("swap12");
         for (place, registers) in places.iter().enumerate() {
-            let take = |f: &str| match f {
-                "u" => center(machine, triangle[format!("x{place}").as_str()]),
-                "v" => center(machine, triangle[format!("y{place}").as_str()]),
-                channel => triangle[format!("{channel}{place}").as_str()],
+            let place_name = place.to_string();
+            let port = |name: String| triangle[name.as_str()];
+            let take = |f: &str| match plan.channels().iter().find(|channel| channel.name == f) {
+                Some(channel) => port(channel.at_vertex(&place_name)),
+                None if f == "u" => center(plan, port(format!("x{place}"))),
+                None => center(plan, port(format!("y{place}"))),
             };
             let swaps = [(swap01, [1, 0, 2]), (swap12, [0, 2, 1])];
             for (swap, order) in swaps.into_iter().filter(|(_, order)| order[place] != place) {
@@ -44,7 +46,7 @@ impl<'m> Vertices<'m> {
         }
 
         m.comment("Differences of the sorted vertices.");
-        let bits = machine.widths().difference;
+        let bits = plan.widths().difference;
         let less =
             |f: &str, from: usize, to: usize| places[to][f].q().sext(bits) - places[from][f].q().sext(bits);
         let height = |(from, to): (usize, usize)| {
@@ -66,31 +68,29 @@ impl<'m> Vertices<'m> {
         self.places[place]["v"].q()
     }
 
-    /// A channel's value at a vertex, unsigned.
-    pub fn value(&self, channel: usize, place: usize) -> Signal<'m> {
-        self.places[place][CHANNELS[channel]].q()
+    /// A channel's value at a vertex, of the format at the port.
+    pub fn value(&self, channel: &Channel, place: usize) -> Signal<'m> {
+        self.places[place][channel.name].q()
     }
 }
 
-fn fields(machine: &Plan) -> Vec<Field> {
-    let w = machine.widths();
-    let mut fields = token::vertex(machine, "");
-    for f in &mut fields {
-        let position = match f.name.as_str() {
-            "x" => "u",
-            "y" => "v",
-            _ => continue,
-        };
-        let doc = format!("Q{}.{}, signed", w.center - w.center_fraction, w.center_fraction);
-        *f = Field { name: position.to_owned(), width: w.center, doc };
-    }
-    fields
+/// What is kept of a vertex: its place in centre coordinates, and a value a channel.
+fn vertex(plan: &Plan) -> Vec<Part> {
+    let w = plan.widths();
+    let center = format!("Q{}.{}, signed", w.center - w.center_fraction, w.center_fraction);
+    let place = ["u", "v"].map(|name| Part { name: name.to_owned(), width: w.center, doc: center.clone() });
+    let value = |channel: &Channel| Part {
+        name: channel.name.to_owned(),
+        width: channel.vertex_bits(),
+        doc: format!("{} LSB", channel.vertex_format()),
+    };
+    place.into_iter().chain(plan.channels().iter().map(value)).collect()
 }
 
 /// A port's coordinate as a centre coordinate.
-fn center<'m>(machine: &Plan, x: Signal<'m>) -> Signal<'m> {
+fn center<'m>(plan: &Plan, x: Signal<'m>) -> Signal<'m> {
     let m = x.module();
-    match (machine.fill, machine.subpixel_bits) {
+    match (plan.fill, plan.subpixel_bits) {
         (Fill::Textbook, _) => m.cat(&[x, m.lit(1, 0)]),
         // 2x − 1
         (Fill::Exact, 0) => m.cat(&[x - 1, m.lit(1, 1)]),

@@ -1,0 +1,55 @@
+//! The one cause of every cycle (`docs/machine.md`, section 8), from what the units tell.
+
+use edgewalk_machine::Activity;
+use edgewalk_netlist::{Module, Signal};
+
+use super::joined::{Joined, port};
+
+/// The first cause that holds.
+pub(super) fn activity<'m>(m: &'m Module, units: &Joined<'m>) -> Signal<'m> {
+    let cause = |a: Activity| m.constant(&a.name().to_uppercase(), Activity::BITS, a as u128);
+    let (draw, offscreen) = (cause(Activity::Draw), cause(Activity::Offscreen));
+    let (hazard, queue, memory) = (cause(Activity::Hazard), cause(Activity::Queue), cause(Activity::Memory));
+    let (edge, setup) = (cause(Activity::Edge), cause(Activity::Setup));
+    let (flush, idle) = (cause(Activity::Flush), cause(Activity::Idle));
+
+    let advance = units.any("advance");
+    let in_flight = units.any("occupied");
+    let waits = units.any("hazard").mux(hazard, units.any("full").mux(queue, memory));
+    let lower = in_flight.mux(flush, idle);
+    let lower = (!units.ready_for("tri")).mux(setup, lower);
+    let lower = (units.valid("span") | units.valid("line")).mux(edge, lower);
+    let draws = units.any("visible").mux(draw, offscreen);
+    advance.mux(units.any("active").mux(draws, lower), waits)
+}
+
+impl<'m> Joined<'m> {
+    /// One of the units tells this.
+    fn any(&self, name: &str) -> Signal<'m> {
+        let told = (0..self.0.len()).filter_map(|place| self.told(place, name));
+        let any = told.reduce(|any, one| any | one).expect("PIXEL and DEPTH are in every machine");
+        any
+    }
+
+    /// What a unit tells, 0 while it means nothing; `None` if it does not tell this.
+    fn told(&self, place: usize, name: &str) -> Option<Signal<'m>> {
+        let unit = &self.0[place];
+        let status = unit.status(name)?;
+        let told = unit.instance.output(name);
+        let Some(during) = status.during else { return Some(told) };
+        let is_pixel = |place: usize| self.0[place].status("advance").is_some();
+        let waits_for_token = during == port(unit.outside.takes_link(), "valid");
+        match place.checked_sub(1) {
+            // `visible` is asked only while PIXEL is active.
+            _ if is_pixel(place) => Some(told),
+            // A wait is asked only while PIXEL does not advance: then its fragment is there.
+            Some(before) if waits_for_token && is_pixel(before) => Some(told),
+            Some(before) if waits_for_token => {
+                let Joined(units) = self;
+                let given = port(units[before].outside.gives_link(), "valid");
+                Some(told & units[before].instance.output(&given))
+            }
+            _ => Some(told & unit.instance.output(during)),
+        }
+    }
+}
