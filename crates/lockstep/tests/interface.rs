@@ -1,11 +1,11 @@
-//! What is declared is what model and netlist have: every port resolved on random machines, and the lists of three
-//! machines kept by hand, so that a wrong declaration is not wrong everywhere alike.
+//! What is declared is what model and netlist have: every port is found on random machines. (Lists kept by hand, so that a
+//! wrong declaration is not wrong everywhere alike, are in the tests of rtl.)
 
 mod common;
 
 use common::machines::random_machine;
 use edgewalk_lockstep::{Interface, NetlistDevice, NoPlace, PortError, Triangles, Unit, model, netlist};
-use edgewalk_machine::{EdgeKind, Field, Fill, Hazard, Kind, Machine, Plan};
+use edgewalk_machine::{Field, Plan};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -93,41 +93,4 @@ fn triangles_pass_the_port_and_come_back() {
         checked += 1;
     }
     println!("{checked} triangles");
-}
-
-/// Three machines whose ports were written down by hand from `docs/machine.md`: `link: field width, …`.
-#[test]
-fn ports_are_those_written_by_hand() {
-    let everything = Machine {
-        extra: 2,
-        tag_bits: 9,
-        fill: Fill::Textbook,
-        edge_kind: EdgeKind::Exact,
-        subpixel_bits: 0,
-        hazard: Hazard::Interlock,
-        ..Machine::default()
-    };
-    let mut everything = everything;
-    everything.extras[0].kind = Kind::Signed;
-    let machines = [
-        ("default", Plan::default(), include_str!("ports/default.txt")),
-        ("textbook", Plan::preset("textbook").expect("listed"), include_str!("ports/textbook.txt")),
-        ("everything", everything.plan().expect("can be built"), include_str!("ports/everything.txt")),
-    ];
-    for (name, plan, by_hand) in machines {
-        let declared: String = Unit::all(&plan).into_iter().map(|unit| listed(&plan, unit)).collect();
-        let by_hand: String = by_hand.lines().filter(|line| !line.starts_with('#')).map(|l| format!("{l}\n")).collect();
-        assert_eq!(declared, by_hand, "{name}:\n{declared}");
-    }
-}
-
-fn listed(plan: &Plan, unit: Unit) -> String {
-    let interface = Interface::new(plan, unit);
-    let ports = |ports: &[edgewalk_lockstep::Port]| {
-        let each = ports.iter().map(|port| {
-            format!("{} {}{}", port.name, if port.is_signed() { "s" } else { "" }, port.width())
-        });
-        each.collect::<Vec<_>>().join(", ")
-    };
-    format!("{}\n  in: {}\n  out: {}\n", unit.name(), ports(interface.inputs()), ports(interface.outputs()))
 }

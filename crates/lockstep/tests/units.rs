@@ -35,6 +35,11 @@ fn alone(name: &str, seed: u64, cycles: u64) {
         case.late = rng.random_range(0..3);
         case.disturbed = rng.random_range(0..40);
         case.resets = if rng.random_bool(0.3) { vec![rng.random_range(1..cycles)] } else { Vec::new() };
+        let link = &interface.links[0];
+        if let Some(fresh) = link.place("fresh").filter(|_| !case.resets.is_empty() && link.own < link.fields.len()) {
+            // Behind a reset EDGE begins anew: no span then goes without increments of its own.
+            case.tokens.iter_mut().for_each(|token| token[fresh] = 1);
+        }
         case.seed = rng.random_range(0..1 << 32);
         case.cycles = cycles;
         all.merge(&checked(&case));
