@@ -64,6 +64,8 @@ pub struct Rig<'a> {
     next: Option<Token>,
     /// Tokens taken so far.
     sent: u32,
+    /// The triangle of each token; empty where a token is a triangle, or its number will do.
+    triangles: Vec<u32>,
     links: Vec<Link>,
     constants: Vec<(crate::PortId, u128)>,
     levels: Vec<crate::PortId>,
@@ -97,6 +99,7 @@ impl<'a> Rig<'a> {
             next: source.next(),
             source: Box::new(source),
             sent: 0,
+            triangles: Vec::new(),
             links: interface.links.clone(),
             constants: constants.collect(),
             levels: interface.levels.iter().map(|port| port.id).collect(),
@@ -107,6 +110,12 @@ impl<'a> Rig<'a> {
             held: vec![false; interface.links.len()],
             cycle: 0,
         }
+    }
+
+    /// The same with the triangle that each token belongs to.
+    #[must_use]
+    pub fn of_triangles(self, triangles: Vec<u32>) -> Rig<'a> {
+        Rig { triangles, ..self }
     }
 
     /// The cycle that [`Rig::drive`] is for, from 0.
@@ -131,6 +140,7 @@ impl<'a> Rig<'a> {
     pub fn drive(&mut self, ports: &mut PortValues) {
         let cycle = self.cycle;
         ports.rst = self.resets.contains(&cycle);
+        let triangle = self.triangles.get(self.sent as usize).copied().unwrap_or(self.sent);
         for (place, link) in self.links.iter().enumerate() {
             let willing = self.patterns[place].at(cycle);
             if link.direction == Direction::Out {
@@ -144,7 +154,7 @@ impl<'a> Rig<'a> {
             };
             let token = token.filter(|_| self.held[place] || willing);
             ports.set(link.valid, token.is_some());
-            ports.set_triangle(place, token.and(served.is_none().then_some(self.sent)));
+            ports.set_triangle(place, token.and(served.is_none().then_some(triangle)));
             match (token, &mut self.noise) {
                 (Some(token), _) => ports.range_mut(&link.range()).copy_from_slice(token),
                 (None, None) => ports.range_mut(&link.range()).fill(0),

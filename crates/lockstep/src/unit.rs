@@ -22,6 +22,12 @@ impl Unit {
     /// All units of a machine together.
     pub const MACHINE: Unit = Unit(None);
 
+    /// A declared unit.
+    #[must_use]
+    pub const fn of(spec: &'static UnitSpec) -> Unit {
+        Unit(Some(spec))
+    }
+
     /// The whole first, then every unit that any machine has, in the order the data flows.
     pub fn known() -> impl Iterator<Item = Unit> + Clone {
         std::iter::once(Unit::MACHINE).chain(UNITS.iter().map(|spec| Unit(Some(spec))))
