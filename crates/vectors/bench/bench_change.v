@@ -1,4 +1,5 @@
 // Fires in the first cycle and in every cycle in which the value is not that of the cycle before.
+`timescale 1ns / 1ps
 `default_nettype none
 module bench_change #(
     parameter WIDTH = 1

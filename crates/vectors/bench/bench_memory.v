@@ -1,17 +1,17 @@
 // Depth memory: a read sees the word before a write of its own cycle; its data is offered, in order, LATENCY cycles
-// later, or in the next cycle in which PATTERN is willing, and then held until it is taken.
+// later, or in the next cycle in which the bench is willing, and then held until it is taken.
+`timescale 1ns / 1ps
 `default_nettype none
 module bench_memory #(
     parameter ADDRESS = 1,
     parameter WIDTH = 1,
     parameter LATENCY = 1,
-    parameter [WIDTH-1:0] CLEAR = 0,
-    parameter PERIOD = 1,
-    parameter [PERIOD-1:0] PATTERN = 1
+    parameter [WIDTH-1:0] CLEAR = 0
 ) (
     input  wire               clk,
     input  wire               rst,
     input  wire [31:0]        cycle,
+    input  wire               willing,
     input  wire               read,
     input  wire [ADDRESS-1:0] read_address,
     input  wire               write,
@@ -33,7 +33,7 @@ module bench_memory #(
 
     initial for (i = 0; i < (1 << ADDRESS); i = i + 1) words[i] = CLEAR;
 
-    assign valid = !rst && first != free && due[first] <= cycle && (held || PATTERN[cycle % PERIOD]);
+    assign valid = !rst && first != free && due[first] <= cycle && (held || willing);
     assign data  = valid ? waiting[first] : {WIDTH{1'b0}};
     assign fire  = valid && ready;
 

@@ -1,7 +1,8 @@
 // Compares the tokens that move on a channel with those of a file, in order, and the cycles in which they do.
+// The words for a fault are the test bench's: it knows the fields.
+`timescale 1ns / 1ps
 `default_nettype none
 module bench_sink #(
-    parameter NAME = "",
     parameter WIDTH = 1,
     parameter COUNT = 1,
     parameter CHECK_CYCLES = 1,
@@ -14,10 +15,11 @@ module bench_sink #(
     input  wire             fire,
     input  wire [WIDTH-1:0] data,
     output reg  [31:0]      checked, // expected tokens that came
-    output reg  [31:0]      wrong    // of these and of others
+    output reg  [31:0]      wrong,   // of these and of others
+    output wire [2:0]       fault,   // in this cycle: 1 one too many, 2 unknown bits, 3 another token, 4 another cycle
+    output wire [WIDTH-1:0] want,    // the token expected next
+    output wire [31:0]      due      // and its cycle
 );
-    localparam SHOWN = 5; // differences told in full
-
     reg [WIDTH-1:0] tokens [0:(COUNT == 0 ? 0 : COUNT - 1)];
     reg [31:0]      cycles [0:(COUNT == 0 ? 0 : COUNT - 1)];
 
@@ -26,33 +28,25 @@ module bench_sink #(
         $readmemh(CYCLES, cycles);
     end
 
+    wire moved = !rst && fire !== 1'b0; // an unknown fire is taken for one
+    wire extra = checked == COUNT;
+
+    assign want  = tokens[extra ? 0 : checked];
+    assign due   = cycles[extra ? 0 : checked];
+    assign fault = !moved                                ? 3'd0
+                 : extra                                 ? 3'd1
+                 : (fire === 1'bx || ^data === 1'bx)     ? 3'd2
+                 : data !== want                         ? 3'd3
+                 : (CHECK_CYCLES != 0 && cycle !== due)  ? 3'd4
+                 : 3'd0;
+
     always @(posedge clk)
         if (rst) begin
             checked <= 0;
             wrong   <= 0;
-        end else if (fire !== 1'b0) begin
-            if (checked == COUNT) begin
-                wrong <= wrong + 1;
-                if (wrong < SHOWN)
-                    $display("%0s: cycle %0d: %h is one more than the %0d expected", NAME, cycle, data, COUNT);
-            end else begin
-                checked <= checked + 1;
-                if (fire === 1'bx || ^data === 1'bx) begin
-                    wrong <= wrong + 1;
-                    if (wrong < SHOWN)
-                        $display("%0s: token %0d, cycle %0d: unknown bits: %h", NAME, checked, cycle, data);
-                end else if (data !== tokens[checked]) begin
-                    wrong <= wrong + 1;
-                    if (wrong < SHOWN)
-                        $display("%0s: token %0d, cycle %0d: expected %h, found %h", NAME, checked, cycle,
-                                 tokens[checked], data);
-                end else if (CHECK_CYCLES != 0 && cycle !== cycles[checked]) begin
-                    wrong <= wrong + 1;
-                    if (wrong < SHOWN)
-                        $display("%0s: token %0d: expected in cycle %0d, found in cycle %0d", NAME, checked,
-                                 cycles[checked], cycle);
-                end
-            end
+        end else if (moved) begin
+            if (!extra) checked <= checked + 1;
+            if (fault != 0) wrong <= wrong + 1;
         end
 endmodule
 `default_nettype wire

@@ -1,16 +1,15 @@
 // Offers the tokens of a file on a valid/ready channel, in order.
-// A token is offered first in a cycle in which PATTERN is willing, and then held until it is taken.
+// A token is offered first in a cycle in which the bench is willing, and then held until it is taken.
+`timescale 1ns / 1ps
 `default_nettype none
 module bench_source #(
     parameter WIDTH = 1,
     parameter COUNT = 1,
-    parameter PERIOD = 1,
-    parameter [PERIOD-1:0] PATTERN = 1,
     parameter TOKENS = ""
 ) (
     input  wire             clk,
     input  wire             rst,
-    input  wire [31:0]      cycle,
+    input  wire             willing,
     output wire             valid,
     input  wire             ready,
     output wire [WIDTH-1:0] data,
@@ -23,7 +22,7 @@ module bench_source #(
 
     initial if (COUNT > 0) $readmemh(TOKENS, tokens);
 
-    assign valid = !rst && more && (held || PATTERN[cycle % PERIOD]);
+    assign valid = !rst && more && (held || willing);
     assign data  = valid ? tokens[sent] : {WIDTH{1'b0}};
     assign fire  = valid && ready;
     assign more  = sent < COUNT;

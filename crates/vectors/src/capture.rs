@@ -1,30 +1,30 @@
-//! Runs the model under a bench and keeps every token that moves at a port, with the cycle in which it does.
+//! Runs the model under the rig and keeps every token that moves at a port, with the cycle in which it does.
 //!
 //! ```text
 //!  triangles ─> machine ─> trace
-//!  triangles ─> setup ─> edge ─> span ─> pixel ─> depth     each alone under its own bench,
+//!  triangles ─> setup ─> edge ─> span ─> pixel ─> depth     each alone under its own rig,
 //!                                                           fed with what the one before gave
 //! ```
 
-use crate::bench::{Bench, Setting, Slot};
-use crate::device::{Device, model};
-use crate::ports::{Direction, Interface, Token, Unit, interface, pack_triangle};
-use crate::stalls::{StallKind, patterns};
-use crate::status::status_ports;
 use crate::suites::Suite;
+use edgewalk_lockstep::case::constants;
+use edgewalk_lockstep::{
+    Agreement, Direction, Interface, Link, LockstepError, Rig, Setting, StallKind, Token, Triangles, Unit,
+    lockstep, model, patterns, status_ports,
+};
 use edgewalk_machine::Plan;
-use edgewalk_model::setup::setup_clocks;
-use edgewalk_model::{Coverage, DrawState};
+use edgewalk_model::{DrawState, Events, setup_clocks};
+use edgewalk_netlist::Netlist;
 use std::collections::BTreeMap;
 
-/// What moved at one channel.
+/// What moved at one link.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ChannelTrace {
+pub struct LinkTrace {
     /// The tokens, in order.
     pub tokens: Vec<Token>,
     /// The cycle in which each moved.
     pub cycles: Vec<u64>,
-    /// Number of the triangle that each belongs to; empty where a channel does not know (rd, data).
+    /// Number of the triangle that each belongs to; empty where a link does not know (rd, data).
     pub triangles: Vec<u32>,
 }
 
@@ -32,41 +32,47 @@ pub struct ChannelTrace {
 #[derive(Clone, Debug)]
 pub struct Trace {
     /// The machine.
-    pub machine: Plan,
+    pub plan: Plan,
     /// The ports.
     pub interface: Interface,
-    /// What the bench did.
+    /// What the rig did.
     pub setting: Setting,
+    /// Depth function and write mask, where the unit has them.
+    pub state: DrawState,
     /// The stalls in words.
     pub stalls: StallKind,
-    /// For each channel of the interface.
-    pub channels: Vec<ChannelTrace>,
+    /// For each link of the interface.
+    pub links: Vec<LinkTrace>,
     /// Every change of the outputs that are compared in every cycle, with its cycle; the first is cycle 0. See
-    /// [`crate::status_ports`].
+    /// [`edgewalk_lockstep::status_ports`].
     pub status: Vec<(u64, Token)>,
     /// Cycles until nothing more happened.
     pub cycles: u64,
-    /// For each channel the cycles in which its token was valid.
+    /// For each link the cycles in which its token was valid.
     pub valid_cycles: Vec<u64>,
     /// The longest wait between two things that happened, cycles.
     pub longest_gap: u64,
-    /// Hazards and corners met.
-    pub coverage: Coverage,
+    /// Events met.
+    pub events: Events,
 }
 
-/// Runs the machine, or one of its units, over a suite. The machine must have passed [`edgewalk_machine::Machine::plan`].
+/// Runs the machine, or one of its units, over a suite.
 #[must_use]
-pub fn capture(machine: &Plan, unit: Unit, suite: &Suite, state: DrawState, stalls: StallKind) -> Trace {
-    // With tags of 32 bits each token knows its triangle; a tag changes nothing else.
-    let tagged = machine.tagged();
-    let run = Run { machine: &tagged, suite, state };
-    run.observe(unit, run.tokens(unit), stalls).with_tags_of(machine)
+pub fn capture(
+    plan: &Plan,
+    unit: Unit,
+    suite: &Suite,
+    state: DrawState,
+    stalls: StallKind,
+) -> Trace {
+    let run = Run { plan, suite, state };
+    run.observe(unit, run.stimulus(unit), stalls)
 }
 
 /// Runs a unit over these tokens, whoever made them; `seed` is that of the stalls.
 #[must_use]
 pub fn capture_tokens(
-    machine: &Plan,
+    plan: &Plan,
     unit: Unit,
     tokens: Vec<Token>,
     state: DrawState,
@@ -74,155 +80,155 @@ pub fn capture_tokens(
     seed: u64,
 ) -> Trace {
     let suite = Suite { seed, ..Suite::of_triangles("tokens", "", Vec::new()) };
-    Run { machine, suite: &suite, state }.observe(unit, tokens, stalls)
+    let triangles = (0..tokens.len() as u32).collect();
+    Run { plan, suite: &suite, state }.observe(unit, Stimulus { tokens, triangles }, stalls)
+}
+
+/// What enters a unit.
+struct Stimulus {
+    tokens: Vec<Token>,
+    /// The triangle that each belongs to.
+    triangles: Vec<u32>,
 }
 
 struct Run<'a> {
-    machine: &'a Plan,
+    plan: &'a Plan,
     suite: &'a Suite,
     state: DrawState,
 }
 
 impl Run<'_> {
-    /// What enters the unit: what leaves the one before, running alone and without stalls.
-    fn tokens(&self, unit: Unit) -> Vec<Token> {
-        let pack = |(triangle, k)| pack_triangle(self.machine, triangle, k);
-        match unit {
-            Unit::Machine | Unit::Setup => self.suite.triangles().zip(0..).map(pack).collect(),
-            Unit::Edge => self.output(Unit::Setup),
-            Unit::Span => {
-                let without_gradients = |mut line: Token| {
-                    line.truncate(line.len() - GRADIENTS);
-                    line
-                };
-                self.output(Unit::Edge).into_iter().map(without_gradients).collect()
+    /// What enters the unit: what leaves the one before, running alone and without stalls. What another unit holds beside
+    /// that link belongs to the same triangle.
+    fn stimulus(&self, unit: Unit) -> Stimulus {
+        let units = Unit::single(self.plan);
+        let before = units.iter().position(|other| *other == unit).and_then(|place| place.checked_sub(1));
+        let Some(before) = before else { return self.triangles() };
+        let (link, mut out) = self.alone(units[before]);
+        let own = link.own;
+        out.tokens.iter_mut().for_each(|token| token.truncate(own));
+        let taken = Interface::new(self.plan, unit);
+        let fields = &taken.links[0].fields[own..];
+        if fields.is_empty() {
+            return out;
+        }
+        // Whoever holds values of these names.
+        for holder in &units[..before] {
+            let (link, held) = self.alone(*holder);
+            let place = |name: &str| link.fields[link.own..].iter().position(|port| port.name == name);
+            let Some(places) = fields.iter().map(|port| place(&port.name)).collect::<Option<Vec<usize>>>() else {
+                continue;
+            };
+            let tokens = held.tokens.iter().map(|token| &token[link.own..]);
+            let of: BTreeMap<u32, &[u128]> = held.triangles.iter().copied().zip(tokens).collect();
+            for (token, triangle) in out.tokens.iter_mut().zip(&out.triangles) {
+                token.extend(places.iter().map(|place| of.get(triangle).map_or(0, |values| values[*place])));
             }
-            Unit::Pixel => self.spans_with_gradients(),
-            Unit::Depth => self.output(Unit::Pixel),
+            break;
         }
+        out
     }
 
-    /// The tokens that leave the unit.
-    fn output(&self, unit: Unit) -> Vec<Token> {
-        let trace = self.observe(unit, self.tokens(unit), StallKind::None);
-        trace.channels.into_iter().next_back().map(|channel| channel.tokens).unwrap_or_default()
+    fn triangles(&self) -> Stimulus {
+        let port = Triangles::new(self.plan);
+        let tokens: Vec<Token> = self.suite.triangles().zip(0..).map(|(t, k)| port.pack(t, k)).collect();
+        Stimulus { triangles: (0..tokens.len() as u32).collect(), tokens }
     }
 
-    /// SPAN does not carry the gradients; they come from EDGE, and belong to the triangle that the tag names.
-    fn spans_with_gradients(&self) -> Vec<Token> {
-        let tag = |token: &Token, behind: usize| token[token.len() - 1 - behind];
-        let gradients: BTreeMap<u128, Token> = self
-            .output(Unit::Edge)
-            .into_iter()
-            .map(|line| (tag(&line, GRADIENTS), line[line.len() - GRADIENTS..].to_vec()))
-            .collect();
-        let mut spans = self.output(Unit::Span);
-        for span in &mut spans {
-            let gradient = gradients.get(&tag(span, 0)).cloned().unwrap_or_else(|| vec![0; GRADIENTS]);
-            span.extend(gradient);
-        }
-        spans
+    /// The tokens that leave the unit where nothing makes it wait.
+    fn alone(&self, unit: Unit) -> (Link, Stimulus) {
+        let trace = self.observe(unit, self.stimulus(unit), StallKind::None);
+        let last = trace.interface.links.len() - 1;
+        let out = trace.links.into_iter().next_back().unwrap_or_default();
+        (trace.interface.links[last].clone(), Stimulus { tokens: out.tokens, triangles: out.triangles })
     }
 
     fn setting(&self, interface: &Interface, tokens: Vec<Token>, stalls: StallKind) -> Setting {
-        let constants = vec![u128::from(self.state.depth_func), u128::from(self.state.depth_write)];
-        Setting {
-            tokens,
-            constants: if interface.constants.is_empty() { Vec::new() } else { constants },
-            patterns: patterns(interface, stalls, self.suite.seed),
-            latency: u64::from(self.machine.latency),
-            clear_z: u128::from(self.suite.clear_z.unwrap_or(self.machine.z.max())),
-            words: 1 << self.machine.widths().address,
+        let mut setting = Setting::willing(interface, &constants(&self.state))
+            .expect("a test of lockstep runs every unit with these constants");
+        setting.patterns = patterns(self.plan, interface, stalls, self.suite.seed);
+        for memory in &mut setting.memories {
+            memory.clear = self.suite.clear_z.map_or(memory.clear, u128::from);
         }
+        Setting { tokens, ..setting }
     }
 
-    fn observe(&self, unit: Unit, tokens: Vec<Token>, stalls: StallKind) -> Trace {
-        let interface = interface(self.machine, unit);
+    fn observe(&self, unit: Unit, stimulus: Stimulus, stalls: StallKind) -> Trace {
+        let interface = Interface::new(self.plan, unit);
+        let Stimulus { tokens, triangles } = stimulus;
         let setting = self.setting(&interface, tokens, stalls);
-        let slots = Slot::of(&interface);
         let status_ports = status_ports(&interface);
+        let mut device = model(self.plan, &interface).expect("a test of lockstep finds every declared port in the model");
+        let mut rig = Rig::new(&interface, setting.clone()).of_triangles(triangles);
+        let mut ports = interface.values();
+        let count = interface.links.len();
         let mut trace = Trace {
-            machine: self.machine.clone(),
-            setting: setting.clone(),
+            plan: self.plan.clone(),
+            setting,
+            state: self.state,
             stalls,
-            channels: vec![ChannelTrace::default(); slots.len()],
+            links: vec![LinkTrace::default(); count],
             status: Vec::new(),
             cycles: 0,
-            valid_cycles: vec![0; slots.len()],
+            valid_cycles: vec![0; count],
             longest_gap: 0,
-            coverage: Coverage::default(),
+            events: Events::default(),
             interface,
         };
-        let mut device = model(self.machine, unit);
-        let mut bench = Bench::new(&trace.interface, setting);
-        let mut outputs = Vec::new();
-        let patience = patience(self.machine);
-        while !bench.exhausted() || bench.cycle() < trace.cycles + patience {
-            let cycle = bench.cycle();
-            let inputs = bench.inputs().to_vec();
-            device.cycle(&inputs, &mut outputs);
-            let channels = trace.channels.iter_mut().zip(&mut trace.valid_cycles);
-            for ((channel, valid_cycles), slot) in channels.zip(&slots) {
-                *valid_cycles += u64::from(slot.valid(&inputs, &outputs));
-                if slot.fires(&inputs, &outputs) {
-                    channel.tokens.push(slot.token(&inputs, &outputs).to_vec());
-                    channel.cycles.push(cycle);
+        let patience = patience(self.plan);
+        while !rig.exhausted() || rig.cycle() < trace.cycles + patience {
+            let cycle = rig.cycle();
+            rig.drive(&mut ports);
+            device.cycle(&mut ports);
+            for (place, link) in trace.interface.links.iter().enumerate() {
+                trace.valid_cycles[place] += u64::from(ports.is_high(link.valid));
+                if link.fires(&ports) {
+                    let moved = &mut trace.links[place];
+                    moved.tokens.push(link.token(&ports).to_vec());
+                    moved.cycles.push(cycle);
+                    moved.triangles.extend(ports.triangle(place));
                 }
             }
-            let status: Token = status_ports.iter().map(|port| port.value(&inputs, &outputs)).collect();
+            let status: Token = status_ports.iter().map(|port| port.value(&ports)).collect();
             let changed = trace.status.last().is_none_or(|(_, last)| *last != status);
             if changed {
                 trace.status.push((cycle, status));
             }
-            if bench.clock(&outputs) || changed {
+            if rig.clock(&ports) || changed {
                 trace.longest_gap = trace.longest_gap.max(cycle + 1 - trace.cycles);
                 trace.cycles = cycle + 1;
             }
         }
-        trace.coverage = device.coverage().clone();
+        drop(rig);
+        trace.events = device.events().clone();
         trace
     }
 }
 
-/// Gradients that stand behind the fields of a line or a span: Z, R, G, B.
-const GRADIENTS: usize = 4;
-
 /// Longest time in which nothing may move at the ports though something will: SETUP, then lines without pixels, then a
 /// span that comes from far off the screen.
-fn patience(machine: &Plan) -> u64 {
-    let clocks = setup_clocks(machine);
-    let span = u64::from(machine.clocks_per_pixel()) << machine.widths().column;
-    u64::from(clocks.phase1) + u64::from(clocks.phase2) + u64::from(machine.height) + span + 1000
+fn patience(plan: &Plan) -> u64 {
+    let clocks = setup_clocks(plan);
+    let span = u64::from(plan.clocks_per_pixel()) << plan.widths().column;
+    u64::from(clocks.phase1) + u64::from(clocks.phase2) + u64::from(plan.height) + span + 1000
 }
 
+/// Cycles that follow the last event of the model: what comes too much would come here.
+const AFTER: u64 = 64;
+
 impl Trace {
-    /// The same run of the machine with the tags that it really has.
-    fn with_tags_of(mut self, machine: &Plan) -> Trace {
-        let mask = (1u128 << machine.tag_bits) - 1;
-        let narrow = |token: &mut Token, place: usize| match machine.tag_bits {
-            0 => _ = token.remove(place),
-            _ => token[place] &= mask,
-        };
-        let mut first = true;
-        for (channel, trace) in self.interface.channels.iter().zip(&mut self.channels) {
-            let feeds = std::mem::replace(&mut first, false);
-            let Some(place) = channel.field("tag") else { continue };
-            trace.triangles = trace.tokens.iter().map(|token| token[place] as u32).collect(); // a tag of 32 bits
-            trace.tokens.iter_mut().for_each(|token| narrow(token, place));
-            if feeds {
-                self.setting.tokens.iter_mut().for_each(|token| narrow(token, place));
-            }
-        }
-        self.interface = interface(machine, self.interface.unit);
-        self.machine = machine.clone();
-        self
+    /// What moved at the link of that name.
+    #[must_use]
+    pub fn link(&self, name: &str) -> Option<&LinkTrace> {
+        let place = self.interface.links.iter().position(|link| link.name == name)?;
+        self.links.get(place)
     }
 
     /// Tokens that the design has to give.
     #[must_use]
     pub fn tokens_out(&self) -> u64 {
-        let channels = self.interface.channels.iter().zip(&self.channels);
-        let out = channels.filter(|(channel, _)| channel.direction == Direction::Out);
+        let links = self.interface.links.iter().zip(&self.links);
+        let out = links.filter(|(link, _)| link.direction == Direction::Out);
         out.map(|(_, trace)| trace.tokens.len() as u64).sum()
     }
 
@@ -230,5 +236,29 @@ impl Trace {
     #[must_use]
     pub fn expected(&self) -> u64 {
         self.tokens_out() + self.status.len() as u64
+    }
+
+    /// The port values that a lock-step over the whole trace has to compare.
+    #[must_use]
+    pub fn port_values(&self) -> u64 {
+        let always = (self.cycles + AFTER) * status_ports(&self.interface).len() as u64;
+        let links = self.interface.links.iter().zip(&self.valid_cycles);
+        let values = links.map(|(link, valid)| match (link.direction, link.ready_always) {
+            (Direction::Out, _) => link.fields.len() as u64 * valid,
+            (Direction::In, true) => 0,
+            (Direction::In, false) => *valid,
+        });
+        always + values.sum::<u64>()
+    }
+
+    /// Runs a netlist of the unit beside the model, with the stimulus of the trace.
+    ///
+    /// # Errors
+    /// The first difference.
+    pub fn lockstep(&self, netlist: &Netlist) -> Result<Agreement, LockstepError> {
+        if self.tokens_out() == 0 {
+            return Err(LockstepError::Vacuous);
+        }
+        lockstep(&self.plan, &self.interface, &self.setting, self.cycles + AFTER, netlist)
     }
 }

@@ -13,7 +13,7 @@ pub const SCHEMA: &str = include_str!("../manifest.schema.json");
 /// Value of [`Manifest::format`].
 pub const FORMAT: &str = "edgewalk-vectors";
 /// The newest format there is; a reader refuses what is newer.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// All of `manifest.json`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -41,8 +41,14 @@ pub struct Manifest {
     pub constants: BTreeMap<String, u64>,
     /// How the bench makes the design wait.
     pub stalls: Stalls,
-    /// The depth memory that the bench is, if the unit needs one.
-    pub memory: Option<Memory>,
+    /// The memories that the bench is.
+    pub memories: Vec<Memory>,
+    /// Inputs beside the channels that may change in any cycle.
+    pub side_inputs: Vec<SideInput>,
+    /// When a run ends.
+    pub limits: Limits,
+    /// The base of the numbers in the memory files.
+    pub radix: Radix,
     /// The channels.
     pub channels: Vec<Channel>,
     /// Outputs compared in every cycle.
@@ -51,9 +57,9 @@ pub struct Manifest {
     pub cycles: u64,
     /// Things that the bench compares: tokens out, and changes of the status.
     pub expected: u64,
-    /// How often the model met each hazard and corner.
+    /// How often the model met each hazard and corner that it can meet in this unit of this machine.
     pub coverage: BTreeMap<String, u64>,
-    /// The hazards and corners it did not meet.
+    /// Those of them that it did not meet in this run.
     pub not_covered: Vec<String>,
     /// Every other file of the directory.
     pub files: Vec<File>,
@@ -119,15 +125,59 @@ pub struct Handshake {
 pub struct Stalls {
     /// `none`, `mixed` or `late`.
     pub kind: String,
-    /// For each channel (and each level input) ones and zeros that repeat, cycle 0 first; 1: the bench is willing to
-    /// offer a new token or to take one. A level is the opposite of its pattern while there are tokens to come, then 0.
+    /// For each channel and each side input the file of its pattern: a bit a line, that of cycle 0 first, again from the
+    /// start after the last. 1: the bench is willing to offer a new token or to take one.
     pub patterns: BTreeMap<String, String>,
 }
 
-/// The depth memory.
+/// A one-bit input that may change in any cycle.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SideInput {
+    /// The port.
+    pub port: String,
+    /// Its meaning.
+    pub format: String,
+    /// The channel in whose tokens count: after the last of them has moved it is 0.
+    pub while_tokens_of: String,
+    /// Its file among the patterns.
+    pub pattern: String,
+    /// How the bench comes by its value.
+    pub rule: String,
+}
+
+/// When the run of a design ends, whether or not all has come.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Limits {
+    /// Cycles in which no token moves and no status port changes.
+    pub idle: u64,
+    /// Cycles in all.
+    pub cycles: u64,
+}
+
+/// Bases of numbers.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Radix {
+    /// Of tokens, cycles and triangles.
+    pub mem: u32,
+    /// Of the patterns.
+    pub patterns: u32,
+}
+
+/// A memory behind the unit.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Memory {
+    /// What is stored there.
+    pub name: String,
+    /// The channel of its addresses.
+    pub read: String,
+    /// The channel of its words, in the order of the reads.
+    pub data: String,
+    /// Who writes it; null if that is not of this unit.
+    pub write: Option<MemoryWrite>,
     /// Cycles from a read to its data, at the least.
     pub latency: u64,
     /// Words.
@@ -136,6 +186,20 @@ pub struct Memory {
     pub clear: u64,
     /// What a read sees that fires together with a write.
     pub read_during_write: String,
+}
+
+/// What writes a memory.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MemoryWrite {
+    /// The channel; every token of it that moves writes, if `enable` is 1.
+    pub channel: String,
+    /// The field with the address.
+    pub address: String,
+    /// The field that is stored.
+    pub word: String,
+    /// The field that permits it.
+    pub enable: String,
 }
 
 /// How tokens are compared.
@@ -174,10 +238,12 @@ pub struct Channel {
     pub latency: Option<[u64; 2]>,
     /// Memory file of the tokens.
     pub tokens: String,
-    /// Memory file of their cycles.
+    /// Memory file of the cycles in which they move: valid and ready are both high in them.
     pub moved: String,
-    /// Table for eyes.
-    pub table: String,
+    /// Memory file of the triangles that they belong to; null where that is not known.
+    pub triangles: Option<String>,
+    /// Table for eyes; null where none is written.
+    pub table: Option<String>,
 }
 
 /// A field of a token, or a port.
@@ -202,14 +268,18 @@ pub struct Field {
 pub struct Status {
     /// The ports, the most significant first.
     pub fields: Vec<Field>,
+    /// Those of them that a design compared without its cycles need not have.
+    pub optional: Vec<String>,
+    /// For a port that means something only while another is 1 that other port: it counts as 0 while not.
+    pub during: BTreeMap<String, String>,
     /// Changes; the values of cycle 0 are the first.
     pub count: u64,
     /// Memory file of the values.
     pub tokens: String,
     /// Memory file of the cycles from which on they hold.
     pub moved: String,
-    /// Table for eyes.
-    pub table: String,
+    /// Table for eyes; null where none is written.
+    pub table: Option<String>,
 }
 
 /// A file.

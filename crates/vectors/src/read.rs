@@ -1,8 +1,8 @@
 //! Reads a directory of vectors back, and trusts nothing in it.
 
 use crate::manifest::{self, Manifest};
-use crate::ports::Token;
-use crate::write::{file, mem};
+use edgewalk_lockstep::{Token, pack};
+use crate::write::file;
 
 /// The vectors of a directory.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -135,7 +135,7 @@ fn parse(file: &str, bytes: &[u8], widths: &[u32], count: u64) -> Result<Vec<Tok
     let mut tokens = Vec::new();
     for (line, word) in text.lines().enumerate() {
         let bits: u32 = widths.iter().sum();
-        let token = mem::unpack(widths, word);
+        let token = pack::unpack(widths, word);
         tokens.push(
             token.ok_or_else(|| error(line + 1, format!("{word:?} is no word of {bits} bits in hex")))?,
         );

@@ -3,7 +3,7 @@
 mod common;
 
 use edgewalk_model::DrawState;
-use edgewalk_vectors::{StallKind, Suite, Unit, capture, design, lockstep};
+use edgewalk_vectors::{StallKind, Suite, Unit, capture, design};
 
 /// Stalls take turns over machines, suites and units, so that each meets each.
 #[test]
@@ -14,11 +14,11 @@ fn every_unit_and_the_machine() {
         let (mut runs, mut compared) = (0, 0);
         for (j, suite) in suites.iter().enumerate() {
             let suite = Suite::named(machine, suite, 3, 30).expect("listed");
-            for (k, unit) in Unit::ALL.into_iter().enumerate() {
+            for (k, unit) in Unit::known().enumerate() {
                 let netlist = design::netlist(machine, unit).expect("a checked machine");
                 let stalls = StallKind::ALL[(i + j + k) % 3];
                 let trace = capture(machine, unit, &suite, DrawState::default(), stalls);
-                match lockstep(&trace, &netlist) {
+                match trace.lockstep(&netlist) {
                     Ok(agreement) => {
                         assert_eq!(agreement.compared, trace.port_values());
                         compared += agreement.compared;
@@ -32,7 +32,7 @@ fn every_unit_and_the_machine() {
     });
     let runs: usize = totals.iter().map(|total| total.0).sum();
     let compared: u64 = totals.iter().map(|total| total.1).sum();
-    let expected = machines.len() * suites.len() * Unit::ALL.len();
+    let expected = machines.len() * suites.len() * Unit::known().count();
     println!("{runs} of {expected} runs agree, {compared} port values compared");
     assert_eq!(runs, expected);
     assert!(compared > 1_000_000);
@@ -46,15 +46,12 @@ fn every_depth_function_passes_and_fails() {
     let mut compared = 0;
     for name in ["small", "two_adders_drain", "four_segments_interlock"] {
         let (_, machine) = machines.iter().find(|(other, _)| *other == name).expect("one of the twelve");
-        let netlist = design::netlist(machine, Unit::Depth).expect("a checked machine");
+        let netlist = design::netlist(machine, common::DEPTH).expect("a checked machine");
         let suite = Suite::named(machine, "hazards", 0, 0).expect("listed").on_half_depth(machine);
         for (depth_func, depth_write) in (0..8).flat_map(|function| [(function, true), (function, false)]) {
             let state = DrawState { depth_func, depth_write, ..DrawState::default() };
-            let trace = capture(machine, Unit::Depth, &suite, state, StallKind::Mixed);
-            let moved = |channel: &str| {
-                let place = trace.interface.channels.iter().position(|c| c.name == channel);
-                trace.channels[place.expect("DEPTH has it")].tokens.len()
-            };
+            let trace = capture(machine, common::DEPTH, &suite, state, StallKind::Mixed);
+            let moved = |link: &str| trace.link(link).expect("DEPTH has it").tokens.len();
             let (fragments, passed) = (moved("frag"), moved("wr"));
             println!("{name} function {depth_func} mask {depth_write}: {passed} of {fragments} pass");
             match depth_func {
@@ -64,7 +61,7 @@ fn every_depth_function_passes_and_fails() {
                     assert!(passed >= 8 && fragments - passed >= 8, "{name}, function {depth_func}: {passed}")
                 }
             }
-            let agreement = lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let agreement = trace.lockstep(&netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
             assert_eq!(agreement.compared, trace.port_values(), "{name}, function {depth_func}");
             compared += agreement.compared;
         }

@@ -3,13 +3,13 @@
 
 mod common;
 
-use edgewalk_machine::Plan;
+use common::write;
 use edgewalk_model::DrawState;
+use edgewalk_machine::Plan;
 use edgewalk_vectors::{
-    Files, Outcome, Simulator, StallKind, Suite, Unit, capture, design, directory, lint, simulate,
+    Files, Outcome, Simulator, StallKind, Suite, Tables, Unit, capture, design, directory, lint, simulate,
     synth_ice40,
 };
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 const LIMIT: Duration = Duration::from_secs(240);
@@ -22,15 +22,8 @@ fn replay(machine: &Plan) -> Suite {
 
 fn files(machine: &Plan, unit: Unit, suite: &Suite, depth_func: u8, stalls: StallKind) -> Files {
     let trace = capture(machine, unit, suite, DrawState { depth_func, ..DrawState::default() }, stalls);
-    directory(suite, &trace, &design::verilog(machine, unit).expect("a checked machine"))
-}
-
-fn write(files: &Files, to: &Path) {
-    for (name, bytes) in files {
-        let path = to.join(name);
-        std::fs::create_dir_all(path.parent().expect("inside")).expect("a directory");
-        std::fs::write(path, bytes).expect("a file");
-    }
+    let verilog = design::verilog(machine, unit).expect("a checked machine");
+    directory(suite, &trace, &verilog, Tables::LeftOut)
 }
 
 fn passes(simulator: Simulator, files: &Files) -> u64 {
@@ -57,14 +50,14 @@ fn twelve_machines_replay_are_clean_and_synthesise() {
         for (j, simulator) in Simulator::ALL.into_iter().enumerate() {
             let start = Instant::now();
             let stalls = StallKind::ALL[(i + j) % 3];
-            let n = passes(simulator, &files(machine, Unit::Machine, &suite, depth_func, stalls));
+            let n = passes(simulator, &files(machine, Unit::MACHINE, &suite, depth_func, stalls));
             checked += n;
             line +=
                 &format!(" {} ({}) {n} / {n} in {:.1?};", simulator.name(), stalls.name(), start.elapsed());
         }
         let place = tempfile::tempdir().expect("a directory");
         let vectors = place.path().join("the vectors");
-        write(&files(machine, Unit::Machine, &suite, depth_func, StallKind::None), &vectors);
+        write(&files(machine, Unit::MACHINE, &suite, depth_func, StallKind::None), &vectors);
         lint(&vectors, LIMIT).unwrap_or_else(|error| panic!("{name}: {error}"));
         let start = Instant::now();
         let cells = synth_ice40(&vectors, LIMIT).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -79,11 +72,10 @@ fn twelve_machines_replay_are_clean_and_synthesise() {
 /// Every unit of three machines in Icarus, and in Verilator, where building takes its time, of one of them in turn.
 #[test]
 fn every_unit_replays() {
-    const UNITS: [Unit; 5] = [Unit::Setup, Unit::Edge, Unit::Span, Unit::Pixel, Unit::Depth];
     let machines: Vec<_> = common::twelve().into_iter().step_by(4).collect();
     let mut runs = Vec::new();
     for (i, (name, machine)) in machines.iter().enumerate() {
-        for (j, unit) in UNITS.into_iter().enumerate() {
+        for (j, unit) in Unit::single(machine).into_iter().enumerate() {
             runs.push((*name, machine, unit, Simulator::Icarus));
             if j % 3 == i {
                 runs.push((*name, machine, unit, Simulator::Verilator));
@@ -107,7 +99,7 @@ fn every_depth_function_replays() {
     let suite = Suite::named(&machine, "hazards", 0, 0).expect("listed").on_half_depth(&machine);
     for depth_func in 0..8 {
         let checked =
-            passes(Simulator::Icarus, &files(&machine, Unit::Depth, &suite, depth_func, StallKind::Late));
+            passes(Simulator::Icarus, &files(&machine, common::DEPTH, &suite, depth_func, StallKind::Late));
         assert!(checked > 200, "{depth_func}: {checked}");
     }
 }
@@ -117,12 +109,12 @@ fn faulty(cases: usize, from: &str, to: &str) -> Outcome {
     let machine = common::small();
     let mut suite = Suite::named(&machine, "hazards", 0, 0).expect("listed");
     suite.cases.truncate(cases);
-    let trace = capture(&machine, Unit::Depth, &suite, DrawState::default(), StallKind::Mixed);
-    let mut design = design::verilog(&machine, Unit::Depth).expect("a checked machine");
+    let trace = capture(&machine, common::DEPTH, &suite, DrawState::default(), StallKind::Mixed);
+    let mut design = design::verilog(&machine, common::DEPTH).expect("a checked machine");
     assert!(design[0].1.contains(from), "{from}");
     design[0].1 = design[0].1.replacen(from, to, 1);
     let place = tempfile::tempdir().expect("a directory");
-    write(&directory(&suite, &trace, &design), place.path());
+    write(&directory(&suite, &trace, &design, Tables::LeftOut), place.path());
     simulate(Simulator::Icarus, place.path(), &place.path().join("work"), LIMIT).expect("Icarus runs")
 }
 

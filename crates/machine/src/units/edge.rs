@@ -41,4 +41,9 @@ const EVENTS: &[Event] = &[
         doc: "cycles in which a triangle waits until the first span of the one before is taken",
         can_happen: always,
     },
+    Event {
+        name: "span_fifo_full",
+        doc: "cycles in which a line waits for the span FIFO",
+        can_happen: always,
+    },
 ];

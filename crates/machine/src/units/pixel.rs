@@ -32,5 +32,7 @@ fn ports(plan: &Plan) -> Ports {
     }
 }
 
-const EVENTS: &[Event] =
-    &[Event { name: "off_screen", doc: "pixels stepped over off the screen", can_happen: always }];
+const EVENTS: &[Event] = &[
+    Event { name: "fence", doc: "fragments that carry a fence", can_happen: always },
+    Event { name: "off_screen", doc: "pixels stepped over off the screen", can_happen: always },
+];

@@ -41,11 +41,6 @@ const EVENTS: &[Event] = &[
         can_happen: always,
     },
     Event {
-        name: "span_fifo_full",
-        doc: "cycles in which a line waits for the span FIFO",
-        can_happen: always,
-    },
-    Event {
         name: "scissor_cut",
         doc: "spans cut by the screen at the side where they end",
         can_happen: always,

@@ -1,7 +1,7 @@
 //! Degenerate and extreme shapes: the places where rasterizers have their faults.
 
 use super::pen::{Pen, case};
-use super::{Case, Triangle};
+use super::{Case, Triangle, ties};
 use edgewalk_machine::Plan;
 
 const RAMP: [f64; 3] = [0.2, 0.5, 0.8];
@@ -17,6 +17,7 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
     cases.extend(thin(&pen));
     cases.extend(at_the_screen_sides(&pen));
     cases.extend(extreme_values(&pen));
+    cases.extend(ties::cases(machine));
     cases
 }
 

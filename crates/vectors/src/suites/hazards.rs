@@ -1,9 +1,9 @@
 //! Pixels that are met again while they are in flight. Random triangles hardly ever do this.
 //!
-//! SETUP takes longer than a pixel is in flight, so on the whole machine most of these bite only with stalls that keep
-//! depths or writes waiting; at the ports of DEPTH alone they always do.
+//! SETUP takes longer than a pixel is in flight, so on the whole machine these bite only with stalls that keep depths,
+//! writes or reads waiting for longer than SETUP takes (`late`); at the ports of DEPTH alone they always do.
 
-use super::Case;
+use super::{Case, Triangle};
 use super::pen::{Pen, case};
 use edgewalk_machine::Plan;
 
@@ -39,6 +39,8 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
             let column = |digit: char| 2.0 + f64::from(digit.to_digit(10).unwrap_or(0));
             ANY_ORDER.chars().enumerate().map(|(i, at)| pen.dot(column(at), 3.0, z(i))).collect::<Vec<_>>()
         }),
+        case("last_place_of_the_queue", last_place(&pen, machine.inflight)),
+        case("two_writes_meet_a_third", two_writes(&pen, machine.inflight)),
         case("one_pixel_again_around_half_depth", {
             [0.5, 0.4, 0.5, 0.6, 0.4, 1.0, 0.5, 0.0, 1.0].map(|z| pen.dot(5.0, 1.0, z))
         }),
@@ -75,4 +77,32 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
             falling(4).map(|z| pen.shaded([(4.0, 1.0), (2.0, 3.0), (4.0, 5.0)], [z, z * 0.5, z * 0.9]))
         }),
     ]
+}
+
+/// Depth in fifteenths of full scale: 4 bits hold it.
+fn fifteenths(n: u32) -> f64 {
+    f64::from(n) / 15.0
+}
+
+/// As many pixels in turn as make a fragment take the last place of the queue while one of its pixel is at the head.
+/// Every second one of a pixel passes, the one behind it must fail by what that one wrote.
+fn last_place(pen: &Pen, places: u32) -> Vec<Triangle> {
+    let pixels = places - 1;
+    let visits = [12, 13, 10, 11, 8, 9, 6, 7, 4, 5, 2, 3, 0, 1];
+    // Fewer where there are many pixels: what repeats teaches little.
+    let visits = &visits[..if pixels <= 4 { visits.len() } else { 4 }];
+    let dot = |pixel: u32, z: u32| pen.dot(f64::from(pixel % 6), f64::from(pixel / 6), fifteenths(z));
+    visits.iter().flat_map(|z| (0..pixels).map(move |pixel| dot(pixel, *z))).collect()
+}
+
+/// Two that pass, as many that fail as fill the queue, and one that enters when the first is written and the second passes: it
+/// lies between the two. Often enough that once the queue holds just these.
+fn two_writes(pen: &Pen, places: u32) -> Vec<Triangle> {
+    let round = |first: u32| {
+        let failing = std::iter::repeat_n(first + 1, places.saturating_sub(2) as usize);
+        [first, first - 2].into_iter().chain(failing).chain([first - 1])
+    };
+    let pixels = if places <= 7 { 3 } else { 1 };
+    let dot = |pixel: u32, z: u32| pen.dot(f64::from(pixel), 4.0, fifteenths(z));
+    (0..pixels).flat_map(|pixel| [14, 10, 6, 2].into_iter().flat_map(round).map(move |z| dot(pixel, z))).collect()
 }

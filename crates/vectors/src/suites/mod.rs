@@ -1,20 +1,26 @@
 //! Stimuli as data: named suites of named cases of triangles at the machine's port.
 //!
 //! ```text
-//!  hazards   pixels met again while in flight
-//!  corners   degenerate and extreme shapes
-//!  random    four kinds of triangles; number k depends only on (seed, suite, k)
-//!  sphere    a small shaded mesh
+//!  hazards          pixels met again while in flight
+//!  corners          degenerate and extreme shapes, quotients that are ties
+//!  random           four kinds of triangles; number k depends only on (seed, suite, k)
+//!  sphere           a small shaded mesh
+//!  depth_never ..   a suite for each depth function, and one without depth writes
 //! ```
 //! A suite knows the formats of the machine, nothing of what it draws.
 
 mod corners;
+mod functions;
 mod hazards;
 mod pen;
 mod random;
 mod sphere;
+mod ties;
 
+use edgewalk_lockstep::{StallKind, Unit};
+use edgewalk_model::DrawState;
 use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::units;
 use edgewalk_machine::{Plan, PortVertex};
 
 /// A triangle at the port.
@@ -40,6 +46,14 @@ pub struct Suite {
     pub seed: u64,
     /// Every stored depth at the start, LSB; the largest if `None`.
     pub clear_z: Option<u64>,
+    /// Depth function, 0 never to 7 always; see `docs/machine.md`, section 6.
+    pub depth_func: u8,
+    /// Fragments that pass store their depth.
+    pub depth_write: bool,
+    /// Under which stalls it shows what it is for.
+    pub stalls: StallKind,
+    /// The units that it says something about; all, if none is named.
+    pub units: &'static [Unit],
     /// The cases, in order.
     pub cases: Vec<Case>,
 }
@@ -50,32 +64,62 @@ pub struct Entry {
     pub name: &'static str,
     /// What it is for.
     pub about: &'static str,
-    /// Makes its cases; the last two are the seed and the number of triangles wanted, used by `random` only.
+    kind: Kind,
+}
+
+enum Kind {
+    /// Directed or random triangles under `less`; the last two are the seed and the number of triangles wanted, used by
+    /// `random` only.
+    Shapes(StallKind, fn(&Plan, u64, u64) -> Vec<Case>),
+    /// One drawing under this depth function, with or without depth writes.
+    Function(u8, bool),
+}
+
+const fn shapes(
+    name: &'static str,
+    about: &'static str,
+    stalls: StallKind,
     cases: fn(&Plan, u64, u64) -> Vec<Case>,
+) -> Entry {
+    Entry { name, about, kind: Kind::Shapes(stalls, cases) }
+}
+
+const fn function(name: &'static str, about: &'static str, depth_func: u8, depth_write: bool) -> Entry {
+    Entry { name, about, kind: Kind::Function(depth_func, depth_write) }
 }
 
 /// The suites that come with the program.
-pub const SUITES: [Entry; 4] = [
-    Entry {
-        name: "hazards",
-        about: "pixels met again while they are in flight: one-pixel triangles on one address, knee lines drawn twice",
-        cases: |machine, _, _| hazards::cases(machine),
-    },
-    Entry {
-        name: "corners",
-        about: "flat tops and bottoms, zero areas, knees on lines, shared edges, fans, slivers, the guard band, both sides",
-        cases: |machine, _, _| corners::cases(machine),
-    },
-    Entry {
-        name: "random",
-        about: "random triangles in turn: near the screen, tiny on a few pixels, thin across the guard band, upright through it",
-        cases: random::cases,
-    },
-    Entry {
-        name: "sphere",
-        about: "a small shaded ball before a wall",
-        cases: |machine, _, _| sphere::cases(machine),
-    },
+pub const SUITES: [Entry; 13] = [
+    shapes(
+        "hazards",
+        "pixels met again while they are in flight: one-pixel triangles on one address, knee lines drawn twice",
+        StallKind::Late,
+        |machine, _, _| hazards::cases(machine),
+    ),
+    shapes(
+        "corners",
+        "flat tops and bottoms, zero areas, knees on lines, shared edges, fans, slivers, the guard band, both sides, ties",
+        StallKind::Late,
+        |machine, _, _| corners::cases(machine),
+    ),
+    shapes(
+        "random",
+        "random triangles in turn: near the screen, tiny on a few pixels, thin across the guard band, upright through it",
+        StallKind::Mixed,
+        random::cases,
+    ),
+    shapes("sphere", "a small shaded ball before a wall", StallKind::None, |machine, _, _| {
+        sphere::cases(machine)
+    }),
+    function("depth_never", "the depth function never, before half of full scale", 0, true),
+    function("depth_less", "the depth function less, before half of full scale", 1, true),
+    function("depth_equal", "the depth function equal, before half of full scale", 2, true),
+    function("depth_lequal", "the depth function lequal, before half of full scale", 3, true),
+    function("depth_greater", "the depth function greater, before half of full scale", 4, true),
+    function("depth_notequal", "the depth function notequal, before half of full scale", 5, true),
+    function("depth_gequal", "the depth function gequal, before half of full scale", 6, true),
+    function("depth_always", "the depth function always, before half of full scale", 7, true),
+    function("depth_unwritten", "depth_write = 0 under less, before half of full scale", 1, false),
 ];
 
 /// No suite of that name.
@@ -98,20 +142,51 @@ impl Suite {
             name: name.to_owned(),
             nearest: nearest(name, SUITES.iter().map(|entry| entry.name)),
         })?;
-        Ok(Suite {
-            name: name.to_owned(),
-            about: entry.about.to_owned(),
-            seed,
-            clear_z: None,
-            cases: (entry.cases)(machine, seed, count),
+        let plain = Suite { seed, ..Suite::of_triangles(name, entry.about, Vec::new()) };
+        Ok(match entry.kind {
+            Kind::Shapes(stalls, cases) => Suite { stalls, cases: cases(machine, seed, count), ..plain },
+            Kind::Function(depth_func, depth_write) => {
+                let suite = Suite {
+                    depth_func,
+                    depth_write,
+                    stalls: StallKind::Late,
+                    units: const { &[Unit::MACHINE, Unit::of(&units::depth::SPEC)] },
+                    cases: functions::cases(machine),
+                    ..plain
+                };
+                suite.on_half_depth(machine)
+            }
         })
     }
 
-    /// A suite of one case: triangles from elsewhere.
+    /// A suite of one case under `less`: triangles from elsewhere.
     #[must_use]
     pub fn of_triangles(name: &str, about: &str, triangles: Vec<Triangle>) -> Suite {
         let case = Case { name: name.to_owned(), triangles };
-        Suite { name: name.to_owned(), about: about.to_owned(), seed: 0, clear_z: None, cases: vec![case] }
+        let less = DrawState::default();
+        Suite {
+            name: name.to_owned(),
+            about: about.to_owned(),
+            seed: 0,
+            clear_z: None,
+            depth_func: less.depth_func,
+            depth_write: less.depth_write,
+            stalls: StallKind::Mixed,
+            units: &[],
+            cases: vec![case],
+        }
+    }
+
+    /// It says something about the unit.
+    #[must_use]
+    pub fn is_for(&self, unit: Unit) -> bool {
+        self.units.is_empty() || self.units.contains(&unit)
+    }
+
+    /// The state that the suite is drawn with.
+    #[must_use]
+    pub fn state(&self) -> DrawState {
+        DrawState { depth_func: self.depth_func, depth_write: self.depth_write, ..DrawState::default() }
     }
 
     /// One suite after the other, as one.

@@ -26,13 +26,17 @@ impl<'a> Pen<'a> {
         (f64::from(self.machine.width), f64::from(self.machine.height))
     }
 
-    /// A vertex at (x, y) px with Z, R, G, B of full scale.
-    pub fn vertex(&self, at: (f64, f64), values: [f64; 4]) -> PortVertex {
+    /// A vertex at (x, y) px with shares of the range of every channel: Z, R, G, B, and again for the user's own.
+    pub fn vertex(&self, at: (f64, f64), shares: [f64; 4]) -> PortVertex {
         let limit = self.limit();
-        let clamped = values.map(|v| v.clamp(0.0, 1.0));
-        #[allow(clippy::expect_used)]
+        let channels = self.machine.channels().iter().zip(shares.into_iter().cycle());
+        let values = channels.map(|(channel, share)| {
+            let (low, high) = channel.host_range();
+            low + (high - low) * share.clamp(0.0, 1.0)
+        });
+        let values: Vec<f64> = values.collect();
         self.machine
-            .port_vertex(at.0.clamp(-limit, limit), at.1.clamp(-limit, limit), clamped)
+            .port_vertex(at.0.clamp(-limit, limit), at.1.clamp(-limit, limit), &values)
             .expect("clamped to what the port takes")
     }
 

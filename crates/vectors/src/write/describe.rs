@@ -1,55 +1,60 @@
 //! The manifest of a trace.
 
-use super::{Files, status_fields, token_file};
+use super::{
+    Files, Tables, cycle_file, known, params, patterns, status_fields, table_file, token_file, triangle_file,
+    willing_file,
+};
 use crate::capture::Trace;
 use crate::manifest::{
-    CaseInfo, Channel, Compare, FORMAT, Field, File, Handshake, MachineInfo, Manifest, Memory, Stalls,
-    Status, SuiteInfo, VERSION,
+    CaseInfo, Channel, Compare, FORMAT, Field, File, Handshake, MachineInfo, Manifest, Memory, MemoryWrite, Radix, SideInput,
+    Stalls, Status, SuiteInfo, VERSION,
 };
-use crate::ports::{self, Direction};
+use edgewalk_lockstep::{Direction, Interface, Port, StatusPort};
+use crate::reach::{not_covered, reached};
 use crate::suites::Suite;
 use edgewalk_machine::keys::KEYS;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
 /// The manifest of a directory with these other files.
-pub(super) fn manifest(suite: &Suite, trace: &Trace, files: &Files) -> Manifest {
+pub(super) fn manifest(suite: &Suite, trace: &Trace, files: &Files, tables: Tables) -> Manifest {
     let interface = &trace.interface;
     let constants = interface.constants.iter().zip(&trace.setting.constants);
-    let coverage = trace.coverage.counts().into_iter();
+    let reached = reached(trace);
+    let table = |name: &str| (tables == Tables::Written).then(|| table_file(name));
     Manifest {
         format: FORMAT.to_owned(),
         format_version: VERSION,
         generator: format!("edgewalk {}", env!("CARGO_PKG_VERSION")),
         suite: suite_info(suite),
         machine: MachineInfo {
-            hash: trace.machine.hash(),
-            settings: KEYS.iter().map(|key| (key.name.to_owned(), key.show(&trace.machine))).collect(),
+            hash: trace.plan.hash(),
+            settings: KEYS.iter().map(|key| (key.name.to_owned(), key.show(&trace.plan))).collect(),
         },
         unit: interface.unit.name().to_owned(),
         module: interface.unit.module(),
         handshake: handshake(),
         rounding: ROUNDING.map(str::to_owned).to_vec(),
-        constants: constants.map(|(field, value)| (field.port.clone(), *value as u64)).collect(), // a few bits
+        constants: constants.map(|(field, value)| (field.name.clone(), *value as u64)).collect(), // a few bits
         stalls: stalls(trace),
-        memory: interface.memory.then(|| Memory {
-            latency: trace.setting.latency,
-            words: trace.setting.words as u64,
-            clear: trace.setting.clear_z as u64, // at most 32 bits
-            read_during_write: "old word".to_owned(),
-        }),
-        channels: channels(trace),
+        memories: memories(trace),
+        side_inputs: side_inputs(interface),
+        limits: params::limits(trace),
+        radix: Radix { mem: 16, patterns: 2 },
+        channels: channels(trace, table),
         status: Status {
-            fields: packed(&status_fields(trace)),
+            fields: packed(&status_fields(interface)),
+            optional: interface.status.iter().map(|status| status.port.name.clone()).collect(),
+            during: interface.status.iter().filter_map(during).collect(),
             count: trace.status.len() as u64,
             tokens: token_file("status", Direction::Out),
-            moved: "status.cyc.mem".to_owned(),
-            table: "status.csv".to_owned(),
+            moved: cycle_file("status"),
+            table: table("status"),
         },
         cycles: trace.cycles,
         expected: trace.expected(),
-        coverage: coverage.map(|(name, count)| (name.to_owned(), count)).collect(),
-        not_covered: trace.coverage.missing().into_iter().map(str::to_owned).collect(),
+        not_covered: not_covered([&reached]).into_iter().map(str::to_owned).collect(),
+        coverage: reached.into_iter().map(|(name, count)| (name.to_owned(), count)).collect(),
         files: files.iter().map(|(name, bytes)| file(name, bytes)).collect(),
     }
 }
@@ -91,30 +96,44 @@ fn handshake() -> Handshake {
         cycle_zero: "the first cycle with rst low".to_owned(),
         rules: vec![
             "a valid does not wait for its ready".to_owned(),
-            "the bench holds a token that it offers until it is taken".to_owned(),
+            "the bench first offers a token in a cycle whose pattern is 1, and holds it until it is taken".to_owned(),
+            "the bench takes a token in the cycles whose pattern is 1".to_owned(),
             "fields count only while valid is high".to_owned(),
+            "with the cycles not compared (make CHECK_CYCLES=0) order and values of the tokens count, and no status"
+                .to_owned(),
         ],
     }
 }
 
 fn stalls(trace: &Trace) -> Stalls {
-    let interface = &trace.interface;
-    let names =
-        interface.channels.iter().map(|c| c.name).chain(interface.levels.iter().map(|f| f.port.as_str()));
-    let bits = |bits: &[bool]| bits.iter().map(|willing| if *willing { '1' } else { '0' }).collect();
-    let patterns = names.zip(&trace.setting.patterns);
-    Stalls {
-        kind: trace.stalls.name().to_owned(),
-        patterns: patterns.map(|(name, pattern)| (name.to_owned(), bits(pattern.bits()))).collect(),
-    }
+    let file = |(name, _): (&str, _)| (name.to_owned(), willing_file(name));
+    Stalls { kind: trace.stalls.name().to_owned(), patterns: patterns(trace).map(file).collect() }
 }
 
-fn channels(trace: &Trace) -> Vec<Channel> {
-    let entered: BTreeMap<u32, u64> = trace.channels.first().map(first_of_each).unwrap_or_default();
-    let interface = trace.interface.channels.iter().zip(&trace.channels);
+fn during(status: &StatusPort) -> Option<(String, String)> {
+    Some((status.port.name.clone(), status.during?.to_owned()))
+}
+
+fn side_inputs(interface: &Interface) -> Vec<SideInput> {
+    let source = interface.links.first().map_or("", |link| link.name);
+    let side_input = |level: &Port| SideInput {
+        port: level.name.clone(),
+        format: level.field.to_string(),
+        while_tokens_of: source.to_owned(),
+        pattern: willing_file(&level.name),
+        rule: format!("1 in a cycle before which tokens of {source} are left to move and whose pattern is 0, else 0"),
+    };
+    interface.levels.iter().map(side_input).collect()
+}
+
+fn channels(trace: &Trace, table: impl Fn(&str) -> Option<String>) -> Vec<Channel> {
+    let known: Vec<&str> = known(trace).collect();
+    let entered: BTreeMap<u32, u64> = trace.links.first().map(first_of_each).unwrap_or_default();
+    let interface = trace.interface.links.iter().zip(&trace.links);
     interface
-        .map(|(channel, moved)| {
-            let from_memory = trace.interface.memory && channel.name == "data";
+        .enumerate()
+        .map(|(place, (channel, moved))| {
+            let from_memory = trace.interface.memories.iter().any(|memory| memory.data == place);
             let waits = first_of_each(moved).into_iter().filter_map(|(triangle, cycle)| {
                 (channel.direction == Direction::Out).then_some(())?;
                 Some(cycle - entered.get(&triangle)?)
@@ -131,15 +150,38 @@ fn channels(trace: &Trace) -> Vec<Channel> {
                 cycles: range(&moved.cycles),
                 latency: range(&waits),
                 tokens: token_file(channel.name, channel.direction),
-                moved: format!("{}.cyc.mem", channel.name),
-                table: format!("{}.csv", channel.name),
+                moved: cycle_file(channel.name),
+                triangles: known.contains(&channel.name).then(|| triangle_file(channel.name)),
+                table: table(channel.name),
             }
         })
         .collect()
 }
 
+fn memories(trace: &Trace) -> Vec<Memory> {
+    let interface = &trace.interface;
+    let port = |link: usize, field: usize| interface.links[link].fields[field].name.clone();
+    let memories = interface.memories.iter().zip(&trace.setting.memories);
+    let memories = memories.map(|(memory, setting)| Memory {
+        name: memory.name.to_owned(),
+        read: interface.links[memory.read].name.to_owned(),
+        data: interface.links[memory.data].name.to_owned(),
+        write: memory.write.map(|write| MemoryWrite {
+            channel: interface.links[write.link].name.to_owned(),
+            address: port(write.link, write.address),
+            word: port(write.link, write.word),
+            enable: port(write.link, write.enable),
+        }),
+        latency: setting.latency,
+        words: setting.words as u64,
+        clear: setting.clear as u64, // at most 32 bits
+        read_during_write: "old word".to_owned(),
+    });
+    memories.collect()
+}
+
 /// The cycle of the first token of each triangle.
-fn first_of_each(moved: &crate::capture::ChannelTrace) -> BTreeMap<u32, u64> {
+fn first_of_each(moved: &crate::capture::LinkTrace) -> BTreeMap<u32, u64> {
     let mut first = BTreeMap::new();
     for (triangle, cycle) in moved.triangles.iter().zip(&moved.cycles) {
         first.entry(*triangle).or_insert(*cycle);
@@ -152,16 +194,16 @@ fn range(values: &[u64]) -> Option<[u64; 2]> {
 }
 
 /// Fields with their place in the packed token.
-fn packed(fields: &[ports::Field]) -> Vec<Field> {
-    let mut lsb = fields.iter().map(|field| field.width).sum();
-    let place = |field: &ports::Field| {
-        lsb -= field.width;
+fn packed(fields: &[Port]) -> Vec<Field> {
+    let mut lsb = fields.iter().map(Port::width).sum();
+    let place = |field: &Port| {
+        lsb -= field.width();
         Field {
-            port: field.port.clone(),
-            width: field.width,
+            port: field.name.clone(),
+            width: field.width(),
             lsb,
-            signed: field.signed,
-            format: field.format.clone(),
+            signed: field.is_signed(),
+            format: field.field.to_string(),
         }
     };
     fields.iter().map(place).collect()

@@ -4,13 +4,17 @@
 //!  manifest.json  manifest.schema.json      what is what, with hashes
 //!  <channel>.in.mem                         tokens into the design
 //!  <channel>.exp.mem  <channel>.cyc.mem     tokens out of it, and the cycles
+//!  <channel>.triangle.mem                   the triangle that each of them belongs to, where that is known
 //!  status.exp.mem     status.cyc.mem        outputs compared in every cycle, where they change
-//!  *.csv                                    all of this for eyes
-//!  params.vh  tb.v  bench_*.v               the test bench
+//!  <channel>.willing.mem                    when the bench offers and takes
+//!  *.csv                                    all of this for eyes, unless left out
+//!  params.vh  cases.vh  tb.v  bench_*.v     the test bench
 //!  hdl/*.v  filelist.f  Makefile            the design, and how to run it
+//!  SHA256SUMS                               of what the bench reads; `make` looks at it first
 //! ```
 
 mod describe;
+mod faults;
 mod makefile;
 pub mod mem;
 mod params;
@@ -21,29 +25,56 @@ pub(crate) use describe::file;
 
 use crate::capture::Trace;
 use crate::manifest;
-use crate::ports::{Direction, Field};
-use crate::status::{StatusPort, status_ports};
+use edgewalk_lockstep::{Direction, Interface, Pattern, Port, status_ports};
 use crate::suites::Suite;
 
 /// Files to be written: name relative to the directory, contents.
 pub type Files = Vec<(String, Vec<u8>)>;
 
+/// The tables for eyes: more than half of a directory's bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tables {
+    /// A CSV file for each channel, and one for the status.
+    Written,
+    /// None.
+    LeftOut,
+}
+
 /// The whole directory. `design` are the Verilog files of the unit, name and text; they go to `hdl/`.
 #[must_use]
-pub fn directory(suite: &Suite, trace: &Trace, design: &[(String, String)]) -> Files {
+pub fn directory(suite: &Suite, trace: &Trace, design: &[(String, String)], tables: Tables) -> Files {
+    let interface = &trace.interface;
     let mut files: Vec<(String, String)> = Vec::new();
     let mut add = |name: String, text: String| files.push((name, text));
-    for (channel, moved) in trace.interface.channels.iter().zip(&trace.channels) {
-        let name = channel.name;
-        add(token_file(name, channel.direction), mem::tokens(&channel.fields, &moved.tokens));
-        add(format!("{name}.cyc.mem"), mem::numbers(32, &moved.cycles));
-        add(format!("{name}.csv"), table::channel(suite, channel, moved));
+    let with_triangles: Vec<&str> = known(trace).collect();
+    for (link, moved) in interface.links.iter().zip(&trace.links) {
+        let name = link.name;
+        add(token_file(name, link.direction), mem::tokens(&link.fields, &moved.tokens));
+        add(cycle_file(name), mem::numbers(32, &moved.cycles));
+        if with_triangles.contains(&name) {
+            let triangles: Vec<u64> = moved.triangles.iter().map(|triangle| u64::from(*triangle)).collect();
+            add(triangle_file(name), mem::numbers(32, &triangles));
+        }
+        if tables == Tables::Written {
+            add(table_file(name), table::link(suite, link, moved));
+        }
     }
-    let fields = status_fields(trace);
+    let fields = status_fields(interface);
     let (cycles, values): (Vec<u64>, Vec<_>) = trace.status.iter().cloned().unzip();
     add(token_file("status", Direction::Out), mem::tokens(&fields, &values));
-    add("status.cyc.mem".to_owned(), mem::numbers(32, &cycles));
-    add("status.csv".to_owned(), table::status(&fields, trace));
+    add(cycle_file("status"), mem::numbers(32, &cycles));
+    if tables == Tables::Written {
+        add(table_file("status"), table::status(&fields, trace));
+    }
+    for (name, pattern) in patterns(trace) {
+        add(willing_file(name), mem::bits(pattern.bits()));
+    }
+    add("params.vh".to_owned(), params::params(trace));
+    add("cases.vh".to_owned(), faults::cases(suite));
+    // All that the bench reads is there.
+    let sums = sums(&files);
+    let mut add = |name: String, text: String| files.push((name, text));
+    add("SHA256SUMS".to_owned(), sums);
 
     let hdl: Vec<String> = design.iter().map(|(name, _)| format!("hdl/{name}")).collect();
     for (name, (_, text)) in hdl.iter().zip(design) {
@@ -52,14 +83,13 @@ pub fn directory(suite: &Suite, trace: &Trace, design: &[(String, String)]) -> F
     for (name, text) in testbench::MODULES {
         add(name.to_owned(), text.to_owned());
     }
-    add("params.vh".to_owned(), params::params(trace));
-    add("tb.v".to_owned(), testbench::testbench(&trace.interface));
+    add("tb.v".to_owned(), testbench::testbench(interface, &with_triangles));
     add("filelist.f".to_owned(), makefile::filelist(&hdl));
-    add("Makefile".to_owned(), makefile::makefile(&trace.interface.unit.module(), &hdl));
+    add("Makefile".to_owned(), makefile::makefile(&interface.unit.module(), &hdl));
     add(manifest::SCHEMA_FILE.to_owned(), manifest::SCHEMA.to_owned());
 
     let mut files: Files = files.into_iter().map(|(name, text)| (name, text.into_bytes())).collect();
-    let manifest = describe::manifest(suite, trace, &files);
+    let manifest = describe::manifest(suite, trace, &files, tables);
     // A manifest is plain data with text keys: it always becomes JSON.
     let mut json = serde_json::to_string_pretty(&manifest).unwrap_or_default();
     json.push('\n');
@@ -74,13 +104,45 @@ fn token_file(channel: &str, direction: Direction) -> String {
     }
 }
 
+fn cycle_file(channel: &str) -> String {
+    format!("{channel}.cyc.mem")
+}
+
+fn triangle_file(channel: &str) -> String {
+    format!("{channel}.triangle.mem")
+}
+
+fn willing_file(channel: &str) -> String {
+    format!("{channel}.willing.mem")
+}
+
+fn table_file(channel: &str) -> String {
+    format!("{channel}.csv")
+}
+
+/// The channels out whose tokens know their triangle.
+fn known(trace: &Trace) -> impl Iterator<Item = &'static str> {
+    let out = trace.interface.links.iter().zip(&trace.links);
+    let out = out.filter(|(channel, moved)| {
+        channel.direction == Direction::Out && moved.triangles.len() == moved.tokens.len()
+    });
+    out.map(|(channel, _)| channel.name)
+}
+
+/// When the bench is willing, for every channel and level.
+fn patterns(trace: &Trace) -> impl Iterator<Item = (&str, &Pattern)> {
+    let interface = &trace.interface;
+    let levels = interface.levels.iter().map(|level| level.name.as_str());
+    interface.links.iter().map(|channel| channel.name).chain(levels).zip(&trace.setting.patterns)
+}
+
+/// The lines that `sha256sum -c` takes. The design is not among them: a user may put another in its place.
+fn sums(files: &[(String, String)]) -> String {
+    let line = |(name, text): &(String, String)| format!("{}  {name}\n", file(name, text.as_bytes()).sha256);
+    files.iter().filter(|(name, _)| !name.ends_with(".csv")).map(line).collect()
+}
+
 /// The outputs compared in every cycle, as the fields of one token.
-fn status_fields(trace: &Trace) -> Vec<Field> {
-    let known: Vec<&Field> = trace.interface.status.iter().map(|status| &status.field).collect();
-    let field = |status: StatusPort| {
-        let known = known.iter().find(|field| field.port == status.port);
-        let format = known.map_or("handshake", |field| &field.format).to_owned();
-        Field { format, port: status.port, width: status.width, signed: false }
-    };
-    status_ports(&trace.interface).into_iter().map(field).collect()
+fn status_fields(interface: &Interface) -> Vec<Port> {
+    status_ports(interface).into_iter().map(|status| status.port).collect()
 }

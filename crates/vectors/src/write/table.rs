@@ -1,20 +1,20 @@
 //! Tables for eyes and spreadsheets: a token a line, signed fields with their sign.
 
-use crate::capture::{ChannelTrace, Trace};
-use crate::ports::{Channel, Field};
+use crate::capture::{LinkTrace, Trace};
+use edgewalk_lockstep::{Link, Port};
 use crate::suites::Suite;
 use std::fmt::Write as _;
 
-/// The tokens of a channel, with their number, the cycle, and, where it is known, the triangle and its case.
+/// The tokens of a link, with their number, the cycle, and, where it is known, the triangle and its case.
 #[must_use]
-pub fn channel(suite: &Suite, channel: &Channel, trace: &ChannelTrace) -> String {
+pub fn link(suite: &Suite, link: &Link, trace: &LinkTrace) -> String {
     let with_triangle = !trace.triangles.is_empty();
     let mut text = String::from("token,cycle");
     if with_triangle {
         text.push_str(",triangle,case");
     }
-    for field in &channel.fields {
-        let _ = write!(text, ",{}", field.port);
+    for field in &link.fields {
+        let _ = write!(text, ",{}", field.name);
     }
     text.push('\n');
     for (i, (token, cycle)) in trace.tokens.iter().zip(&trace.cycles).enumerate() {
@@ -23,7 +23,7 @@ pub fn channel(suite: &Suite, channel: &Channel, trace: &ChannelTrace) -> String
             let case = suite.case_of(*triangle as usize).map_or("", |case| &case.name);
             let _ = write!(text, ",{triangle},{case}");
         }
-        for (field, value) in channel.fields.iter().zip(token) {
+        for (field, value) in link.fields.iter().zip(token) {
             let _ = write!(text, ",{}", shown(field, *value));
         }
         text.push('\n');
@@ -33,8 +33,8 @@ pub fn channel(suite: &Suite, channel: &Channel, trace: &ChannelTrace) -> String
 
 /// The changes of the status ports.
 #[must_use]
-pub fn status(ports: &[Field], trace: &Trace) -> String {
-    let names: Vec<&str> = ports.iter().map(|field| field.port.as_str()).collect();
+pub fn status(ports: &[Port], trace: &Trace) -> String {
+    let names: Vec<&str> = ports.iter().map(|field| field.name.as_str()).collect();
     let mut text = format!("change,cycle,{}\n", names.join(","));
     for (i, (cycle, values)) in trace.status.iter().enumerate() {
         let values: Vec<String> = values.iter().map(ToString::to_string).collect();
@@ -43,9 +43,6 @@ pub fn status(ports: &[Field], trace: &Trace) -> String {
     text
 }
 
-fn shown(field: &Field, value: u128) -> String {
-    if field.signed && value >> (field.width - 1) == 1 {
-        return (value as i128 - (1 << field.width)).to_string(); // coordinates have at most 32 bits
-    }
-    value.to_string()
+fn shown(field: &Port, value: u128) -> String {
+    field.number(value).to_string()
 }

@@ -1,28 +1,32 @@
 //! `tb.v`: a self-checking test bench in plain Verilog-2001, made of the modules in `bench/`.
 
-use crate::ports::{Channel, Direction, Field, Interface};
-use crate::status::{StatusPort, status_ports};
+use super::faults;
+use edgewalk_lockstep::{Direction, Interface, Link, Memory, Port, StatusPort, status_ports};
 use std::fmt::Write as _;
 
 /// The modules that every test bench uses, file name and text.
-pub const MODULES: [(&str, &str); 4] = [
+pub const MODULES: [(&str, &str); 5] = [
+    ("bench_pattern.v", include_str!("../../bench/bench_pattern.v")),
     ("bench_source.v", include_str!("../../bench/bench_source.v")),
     ("bench_sink.v", include_str!("../../bench/bench_sink.v")),
     ("bench_change.v", include_str!("../../bench/bench_change.v")),
     ("bench_memory.v", include_str!("../../bench/bench_memory.v")),
 ];
 
-/// The test bench of a unit.
+/// The test bench of a unit; `known` are the channels out whose tokens have a file of triangles.
 #[must_use]
-pub fn testbench(interface: &Interface) -> String {
+pub fn testbench(interface: &Interface, known: &[&str]) -> String {
     let mut text = HEADER.replace("{module}", &interface.unit.module());
-    for channel in &interface.channels {
+    for channel in &interface.links {
         text.push_str(&channel_wires(channel));
     }
-    for channel in &interface.channels {
+    for channel in &interface.links {
         text.push_str(&channel_end(interface, channel));
+        if channel.direction == Direction::Out {
+            text.push_str(&faults::telling(channel.name, "token", &channel.fields, known.contains(&channel.name)));
+        }
     }
-    text.push_str(&status_section(interface));
+    text.push_str(&status_section(interface, &super::status_fields(interface)));
     text.push_str(&levels_section(interface));
     text.push_str(&device_section(interface));
     text.push_str(&end_section(interface));
@@ -33,12 +37,21 @@ const HEADER: &str = r#"// Replays the tokens of the .in.mem files into {module}
 // the .exp.mem files: every token in order, the cycle in which it moves (.cyc.mem), and the outputs of status.exp.mem
 // in every cycle. Missing and extra outputs, unknown bits and an empty comparison fail too.
 // The last lines say "checked n / expected" and PASS or FAIL.
+//
+// Defined, ORDER_ONLY is for a design with other timing: only the order and the values of the tokens count then, and its
+// status ports, which it need not have, stay open. `make CHECK_CYCLES=0` defines it.
+`timescale 1ns / 1ps
 `default_nettype none
 module tb;
-    // 0 for a design with other timing: then only the order and the values of the tokens count.
-    parameter CHECK_CYCLES = 1;
+`ifdef ORDER_ONLY
+    localparam CHECK_CYCLES = 0;
+`else
+    localparam CHECK_CYCLES = 1;
+`endif
+    localparam SHOWN = 5; // faults of a channel that are told
 
 `include "params.vh"
+`include "cases.vh"
 
     // Three clocks of reset; cycle 0 is the first without.
     reg        clk = 1'b0;
@@ -51,9 +64,9 @@ module tb;
         else cycle <= cycle + 1;
 "#;
 
-fn channel_wires(channel: &Channel) -> String {
+fn channel_wires(channel: &Link) -> String {
     let (name, upper) = (channel.name, channel.name.to_uppercase());
-    let short = |f: &Field| f.port.strip_prefix(name).map_or(f.port.clone(), |f| f[1..].to_owned());
+    let short = |f: &Port| f.field.name.clone();
     let fields: Vec<String> = channel.fields.iter().map(short).collect();
     let way = if channel.direction == Direction::In { "in" } else { "out" };
     format!(
@@ -63,135 +76,163 @@ fn channel_wires(channel: &Channel) -> String {
 }
 
 /// The bench's end of a channel.
-fn channel_end(interface: &Interface, channel: &Channel) -> String {
-    let end = match channel.direction {
-        Direction::In if interface.memory && channel.name == "data" => MEMORY,
-        Direction::In => SOURCE,
-        Direction::Out => SINK,
+fn channel_end(interface: &Interface, channel: &Link) -> String {
+    let served = interface.memories.iter().find(|memory| interface.links[memory.data].name == channel.name);
+    let end = match (channel.direction, served) {
+        (Direction::In, Some(memory)) => memory_end(interface, memory),
+        (Direction::In, None) => SOURCE.to_owned(),
+        (Direction::Out, _) => SINK.to_owned(),
     };
-    end.replace("{name}", channel.name).replace("{NAME}", &channel.name.to_uppercase())
+    (PATTERN.to_owned() + &end).replace("{name}", channel.name).replace("{NAME}", &channel.name.to_uppercase())
 }
 
-const SOURCE: &str = r#"
-    wire {name}_more;
-    bench_source #(
-        .WIDTH({NAME}_WIDTH), .COUNT({NAME}_COUNT), .PERIOD({NAME}_PERIOD), .PATTERN({NAME}_PATTERN),
-        .TOKENS("{name}.in.mem")
-    ) {name}_source (
-        .clk(clk), .rst(rst), .cycle(cycle),
+const PATTERN: &str = r#"
+    wire {name}_willing;
+    bench_pattern #(.PERIOD({NAME}_PERIOD), .BITS("{name}.willing.mem")) {name}_pattern (
+        .cycle(cycle), .willing({name}_willing)
+    );
+"#;
+
+const SOURCE: &str = r#"    wire {name}_more;
+    bench_source #(.WIDTH({NAME}_WIDTH), .COUNT({NAME}_COUNT), .TOKENS("{name}.in.mem")) {name}_source (
+        .clk(clk), .rst(rst), .willing({name}_willing),
         .valid({name}_valid), .ready({name}_ready), .data({name}_token), .fire({name}_fire),
         .more({name}_more)
     );
 "#;
 
-const SINK: &str = r#"
-    wire [31:0] {name}_checked, {name}_wrong;
-    assign {name}_ready = {NAME}_PATTERN[cycle % {NAME}_PERIOD];
+const SINK: &str = r#"    wire [31:0] {name}_checked, {name}_wrong, {name}_due;
+    wire [2:0]  {name}_fault;
+    wire [{NAME}_WIDTH-1:0] {name}_want;
+    assign {name}_ready = {name}_willing;
     assign {name}_fire  = !rst && {name}_valid && {name}_ready;
     bench_sink #(
-        .NAME("{name}"), .WIDTH({NAME}_WIDTH), .COUNT({NAME}_COUNT), .CHECK_CYCLES(CHECK_CYCLES),
+        .WIDTH({NAME}_WIDTH), .COUNT({NAME}_COUNT), .CHECK_CYCLES(CHECK_CYCLES),
         .TOKENS("{name}.exp.mem"), .CYCLES("{name}.cyc.mem")
     ) {name}_sink (
         .clk(clk), .rst(rst), .cycle(cycle), .fire({name}_fire), .data({name}_token),
-        .checked({name}_checked), .wrong({name}_wrong)
+        .checked({name}_checked), .wrong({name}_wrong), .fault({name}_fault), .want({name}_want), .due({name}_due)
     );
 "#;
 
-/// The fields of `wr` are addr, z, z_en, …: the top of the token.
-const MEMORY: &str = r#"
-    bench_memory #(
-        .ADDRESS(RD_WIDTH), .WIDTH(DATA_WIDTH), .LATENCY(LATENCY), .CLEAR(CLEAR_Z),
-        .PERIOD(DATA_PERIOD), .PATTERN(DATA_PATTERN)
-    ) memory (
-        .clk(clk), .rst(rst), .cycle(cycle),
-        .read(rd_fire), .read_address(rd_token),
-        .write(wr_fire && wr_token[WR_WIDTH-RD_WIDTH-DATA_WIDTH-1]),
-        .write_address(wr_token[WR_WIDTH-1 -: RD_WIDTH]), .write_data(wr_token[WR_WIDTH-RD_WIDTH-1 -: DATA_WIDTH]),
-        .valid(data_valid), .ready(data_ready), .data(data_token), .fire(data_fire)
+/// The memory whose words are this link.
+fn memory_end(interface: &Interface, memory: &Memory) -> String {
+    let read = interface.links[memory.read].name;
+    let (write, address, data) = match &memory.write {
+        None => ("1'b0".to_owned(), "0".to_owned(), "0".to_owned()),
+        Some(write) => {
+            let link = &interface.links[write.link];
+            let bits = |field: usize| {
+                let low: u32 = link.fields[field + 1..].iter().map(Port::width).sum();
+                format!("{}_token[{}:{low}]", link.name, low + link.fields[field].width() - 1)
+            };
+            let write_now = format!("{}_fire && {}", link.name, bits(write.enable));
+            (write_now, bits(write.address), bits(write.word))
+        }
+    };
+    MEMORY
+        .replace("{memory}", memory.name)
+        .replace("{MEMORY}", &memory.name.to_uppercase())
+        .replace("{read}", read)
+        .replace("{READ}", &read.to_uppercase())
+        .replace("{write}", &write)
+        .replace("{address}", &address)
+        .replace("{data}", &data)
+}
+
+const MEMORY: &str = r#"    bench_memory #(
+        .ADDRESS({READ}_WIDTH), .WIDTH({NAME}_WIDTH), .LATENCY({MEMORY}_LATENCY), .CLEAR({MEMORY}_CLEAR)
+    ) {memory}_memory (
+        .clk(clk), .rst(rst), .cycle(cycle), .willing({name}_willing),
+        .read({read}_fire), .read_address({read}_token),
+        .write({write}), .write_address({address}), .write_data({data}),
+        .valid({name}_valid), .ready({name}_ready), .data({name}_token), .fire({name}_fire)
     );
 "#;
 
-fn status_section(interface: &Interface) -> String {
+fn status_section(interface: &Interface, fields: &[Port]) -> String {
     let ports: Vec<String> = status_ports(interface).iter().map(StatusPort::expression).collect();
     let mut text = String::from("\n    // Outputs that are compared in every cycle.\n");
     for status in &interface.status {
-        let field = &status.field;
-        let _ = writeln!(text, "    wire {}{};", range(field), field.port);
+        let _ = writeln!(text, "    wire {}{};", range(&status.port), status.port.name);
     }
     let _ = writeln!(text, "    wire [STATUS_WIDTH-1:0] status = {{{}}};", ports.join(", "));
     text.push_str(
         r#"    wire        status_change;
     wire        status_fire = status_change && CHECK_CYCLES != 0;
-    wire [31:0] status_checked, status_wrong;
+    wire [31:0] status_checked, status_wrong, status_due;
+    wire [2:0]  status_fault;
+    wire [STATUS_WIDTH-1:0] status_want;
     bench_change #(.WIDTH(STATUS_WIDTH)) status_watch (
         .clk(clk), .rst(rst), .value(status), .fire(status_change)
     );
     bench_sink #(
-        .NAME("status"), .WIDTH(STATUS_WIDTH), .COUNT(STATUS_COUNT),
+        .WIDTH(STATUS_WIDTH), .COUNT(STATUS_COUNT),
         .TOKENS("status.exp.mem"), .CYCLES("status.cyc.mem")
     ) status_sink (
         .clk(clk), .rst(rst), .cycle(cycle), .fire(status_fire), .data(status),
-        .checked(status_checked), .wrong(status_wrong)
+        .checked(status_checked), .wrong(status_wrong), .fault(status_fault), .want(status_want), .due(status_due)
     );
 "#,
     );
+    text.push_str(&faults::telling("status", "", fields, false));
     text
 }
 
 fn levels_section(interface: &Interface) -> String {
     let mut text = String::new();
-    let Some(source) = interface.channels.first() else { return text };
+    let Some(source) = interface.links.first() else { return text };
     for level in &interface.levels {
-        let (name, upper) = (&level.port, level.port.to_uppercase());
-        let _ = writeln!(
-            text,
-            "\n    // {}\n    wire {name} = {}_more && !{upper}_PATTERN[cycle % {upper}_PERIOD];",
-            level.format, source.name
-        );
+        let (name, upper) = (&level.name, level.name.to_uppercase());
+        let _ = writeln!(text, "\n    // {}", level.field);
+        text.push_str(PATTERN.replace("{name}", name).replace("{NAME}", &upper).trim_start_matches('\n'));
+        let _ = writeln!(text, "    wire {name} = {}_more && !{name}_willing;", source.name);
     }
     text
 }
 
 /// `[3:0] `, or nothing for one bit.
-fn range(field: &Field) -> String {
-    if field.width == 1 { String::new() } else { format!("[{}:0] ", field.width - 1) }
+fn range(field: &Port) -> String {
+    if field.width() == 1 { String::new() } else { format!("[{}:0] ", field.width() - 1) }
 }
 
 fn device_section(interface: &Interface) -> String {
     let mut ports = vec!["clk(clk)".to_owned(), "rst(rst)".to_owned()];
-    for channel in &interface.channels {
+    for channel in &interface.links {
         let name = channel.name;
         ports.push(format!("{name}_valid({name}_valid)"));
         ports.push(format!("{name}_ready({name}_ready)"));
         let mut high = channel.width();
         for field in &channel.fields {
-            ports.push(format!("{}({name}_token[{}:{}])", field.port, high - 1, high - field.width));
-            high -= field.width;
+            ports.push(format!("{}({name}_token[{}:{}])", field.name, high - 1, high - field.width()));
+            high -= field.width();
         }
     }
-    let constant = |field: &Field| format!("{}({})", field.port, field.port.to_uppercase());
+    let constant = |field: &Port| format!("{}({})", field.name, field.name.to_uppercase());
     ports.extend(interface.constants.iter().map(constant));
-    let status = interface.status.iter().map(|status| &status.field);
-    ports.extend(interface.levels.iter().chain(status).map(|field| format!("{0}({0})", field.port)));
+    ports.extend(interface.levels.iter().map(|field| format!("{0}({0})", field.name)));
     let list: Vec<String> = ports.iter().map(|port| format!("        .{port}")).collect();
-    format!("\n    // The design.\n    {} dut (\n{}\n    );\n", interface.unit.module(), list.join(",\n"))
+    let status = interface.status.iter().map(|status| format!(",\n        .{0}({0})", status.port.name));
+    let status = match interface.status.is_empty() {
+        true => String::new(),
+        false => format!("`ifndef ORDER_ONLY\n        {}\n`endif\n", status.collect::<String>().trim_start()),
+    };
+    let (module, list) = (interface.unit.module(), list.join(",\n"));
+    format!("\n    // The design.\n    {module} dut (\n{list}\n{status}    );\n")
 }
 
 fn end_section(interface: &Interface) -> String {
-    let out: Vec<&str> = interface.channels_of(Direction::Out).map(|c| c.name).collect();
+    let out: Vec<&str> = interface.links_of(Direction::Out).map(|link| link.name).collect();
     let sum =
         |suffix: &str| out.iter().map(|name| format!("{name}_{suffix}")).collect::<Vec<_>>().join(" + ");
     let counts =
         out.iter().map(|name| format!("{}_COUNT", name.to_uppercase())).collect::<Vec<_>>().join(" + ");
-    let fires: Vec<String> = interface.channels.iter().map(|c| format!("{}_fire", c.name)).collect();
+    let fires: Vec<String> = interface.links.iter().map(|link| format!("{}_fire", link.name)).collect();
     let mut missing = String::new();
     for name in out.iter().chain([&"status"]) {
         let (upper, condition) =
             (name.to_uppercase(), if *name == "status" { "CHECK_CYCLES != 0 && " } else { "" });
-        let _ = writeln!(
-            missing,
-            "        if ({condition}{name}_checked < {upper}_COUNT)\n            $display(\"{name}: %0d of %0d never came\", {upper}_COUNT - {name}_checked, {upper}_COUNT);"
-        );
+        let _ = writeln!(missing, "        if ({condition}{name}_checked < {upper}_COUNT) {name}_missing;");
     }
     END.replace("{checked}", &sum("checked"))
         .replace("{wrong}", &sum("wrong"))

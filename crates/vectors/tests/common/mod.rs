@@ -2,6 +2,31 @@
 #![allow(dead_code)] // every test file uses a part of it
 
 use edgewalk_machine::{EdgeKind, Fill, Hazard, Machine, Plan, Precision};
+use edgewalk_machine::units;
+use edgewalk_vectors::{Files, Unit};
+use std::path::Path;
+use std::process::Command;
+
+/// Writes a directory of vectors.
+pub fn write(files: &Files, to: &Path) {
+    for (name, bytes) in files {
+        let path = to.join(name);
+        std::fs::create_dir_all(path.parent().expect("inside")).expect("a directory");
+        std::fs::write(path, bytes).expect("a file");
+    }
+}
+
+/// `make` in a directory as a user runs it: whether it passes, and all that is said.
+pub fn made(folder: &Path, arguments: &[&str]) -> (bool, String) {
+    let mut make = Command::new("make");
+    // What a surrounding make or the user's shell says to make is none of this one's business.
+    for name in ["MAKEFLAGS", "MAKELEVEL", "MFLAGS", "HDL", "CHECK_CYCLES", "SHA256SUM"] {
+        make.env_remove(name);
+    }
+    let output = make.arg("-C").arg(folder).args(arguments).output().expect("make is installed");
+    let said = [output.stdout, output.stderr].concat();
+    (output.status.success(), String::from_utf8_lossy(&said).into_owned())
+}
 
 /// A machine with a small screen and short words: quick in every tool.
 pub fn small() -> Plan {
@@ -21,6 +46,13 @@ pub fn small() -> Plan {
 fn checked(machine: Machine) -> Plan {
     machine.plan().expect("can be built")
 }
+
+/// The declared units.
+pub const SETUP: Unit = Unit::of(&units::setup::SPEC);
+pub const EDGE: Unit = Unit::of(&units::edge::SPEC);
+pub const SPAN: Unit = Unit::of(&units::span::SPEC);
+pub const PIXEL: Unit = Unit::of(&units::pixel::SPEC);
+pub const DEPTH: Unit = Unit::of(&units::depth::SPEC);
 
 /// Twelve machines with their names: adders, segments, lanes, radices, word lengths, fills, edges, hazard policies.
 pub fn twelve() -> Vec<(&'static str, Plan)> {

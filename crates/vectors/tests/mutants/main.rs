@@ -8,11 +8,11 @@ mod common;
 mod miter;
 mod proof;
 
-use edgewalk_machine::{Machine, Plan, Precision};
 use edgewalk_model::DrawState;
 use edgewalk_netlist::mutate::mutants;
+use edgewalk_machine::{Machine, Plan, Precision};
 use edgewalk_vectors::{
-    Interface, StallKind, Suite, Trace, Unit, capture, capture_tokens, design, interface, lockstep,
+    Interface, StallKind, Suite, Trace, Unit, capture, capture_tokens, design,
 };
 use proof::{Proof, prove};
 use rand::{Rng, SeedableRng};
@@ -20,7 +20,7 @@ use rand_pcg::Pcg64Mcg;
 
 /// Unit, and how many mutants there are for each that is tried: setup is slow to run.
 const PLAN: [(Unit, usize); 5] =
-    [(Unit::Setup, 8), (Unit::Edge, 1), (Unit::Span, 1), (Unit::Pixel, 1), (Unit::Depth, 1)];
+    [(common::SETUP, 8), (common::EDGE, 1), (common::SPAN, 1), (common::PIXEL, 1), (common::DEPTH, 1)];
 
 /// Least share killed of those that are not proved equivalent, in percent; what is measured is printed.
 const LEAST: usize = 95;
@@ -55,7 +55,7 @@ fn single_faults_are_found() {
 /// What DEPTH carries is short: the prover then sees through four fragments in flight.
 fn machine_for(unit: Unit) -> Plan {
     let small = common::small();
-    if unit != Unit::Depth {
+    if unit != common::DEPTH {
         return small;
     }
     Machine {
@@ -72,20 +72,20 @@ fn machine_for(unit: Unit) -> Plan {
 
 fn tally(machine: &Plan, unit: Unit, step: usize) -> Tally {
     let netlist = design::netlist(machine, unit).expect("a checked machine");
-    let interface: Interface = interface(machine, unit);
+    let interface = Interface::new(machine, unit);
     let traces = traces(machine, unit);
     for trace in &traces {
-        lockstep(trace, &netlist).expect("the netlist without a fault agrees");
+        trace.lockstep(&netlist).expect("the netlist without a fault agrees");
     }
     let mut tally = Tally::default();
     for mutant in mutants(&netlist).iter().step_by(step) {
         let faulty = mutant.apply(&netlist);
         tally.tried += 1;
-        if traces.iter().any(|trace| lockstep(trace, &faulty).is_err()) {
+        if traces.iter().any(|trace| trace.lockstep(&faulty).is_err()) {
             tally.killed += 1;
             continue;
         }
-        let verdict = match prove(&interface, &netlist, mutant, unit != Unit::Setup) {
+        let verdict = match prove(&interface, &netlist, mutant, unit != common::SETUP) {
             Proof::Equivalent => {
                 tally.equivalent += 1;
                 "equivalent (proved by pdr)"
@@ -101,12 +101,12 @@ fn tally(machine: &Plan, unit: Unit, step: usize) -> Tally {
 /// What a unit's mutants are tried with.
 fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
     let names: &[&str] =
-        if unit == Unit::Setup { &["corners", "random"] } else { &["hazards", "corners", "random"] };
+        if unit == common::SETUP { &["corners", "random"] } else { &["hazards", "corners", "random"] };
     let suites = names.iter().map(|name| Suite::named(machine, name, 1, 24).expect("listed"));
     let suite = Suite::joined("mutants", "all that is directed, and some at random", suites);
     let half = suite.clone().on_half_depth(machine);
     // Only DEPTH looks at the function and the write mask.
-    let functions = if unit == Unit::Depth { 0..8 } else { 1..2 };
+    let functions = if unit == common::DEPTH { 0..8 } else { 1..2 };
     let mut traces = Vec::new();
     for depth_func in functions {
         for stalls in StallKind::ALL {
@@ -117,9 +117,9 @@ fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
     }
     let masked = DrawState { depth_write: false, ..DrawState::default() };
     traces.push(capture(machine, unit, &suite, masked, StallKind::Mixed));
-    match unit {
-        Unit::Setup => traces.push(specks(machine)),
-        Unit::Span => {
+    match unit.name() {
+        "setup" => traces.push(specks(machine)),
+        "span" => {
             traces.extend((1..=4).map(|seed| any_lines(machine, &traces[1], seed)).collect::<Vec<_>>())
         }
         _ => {}
@@ -134,17 +134,18 @@ fn specks(machine: &Plan) -> Trace {
     let vertex = |random: &mut Pcg64Mcg| {
         let mut at = || 2.5 + f64::from(random.random_range(-3..=3)) / scale;
         let at = (at(), at());
-        machine.port_vertex(at.0, at.1, std::array::from_fn(|_| random.random())).expect("inside")
+        let values: Vec<f64> = (0..machine.channels().len()).map(|_| random.random()).collect();
+        machine.port_vertex(at.0, at.1, &values).expect("inside")
     };
     let triangles = (0..100).map(|_| std::array::from_fn(|_| vertex(&mut random))).collect();
     let suite = Suite::of_triangles("specks", "areas of few sub-pixels", triangles);
-    capture(machine, Unit::Setup, &suite, DrawState::default(), StallKind::None)
+    capture(machine, common::SETUP, &suite, DrawState::default(), StallKind::None)
 }
 
 /// As many lines, with flags that no EDGE gives, half of them somewhere around the screen: many are empty.
 fn any_lines(machine: &Plan, of: &Trace, seed: u64) -> Trace {
-    let line = &of.interface.channels[0];
-    let place = |field| line.field(field).expect("a line has it");
+    let line = &of.interface.links[0];
+    let place = |field| line.place(field).expect("a line has it");
     let flags = ["fresh", "fence"].map(place);
     let ends = ["cmaj", "cmin"].map(place);
     let column_mask = (1u128 << machine.widths().column) - 1;

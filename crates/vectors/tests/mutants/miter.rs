@@ -1,8 +1,8 @@
 //! Two designs under the same inputs, and whether a port that counts differs, as Verilog.
 
 use edgewalk_netlist::Netlist;
-use edgewalk_vectors::ports::{Channel, Direction, Field};
-use edgewalk_vectors::{Interface, status_ports};
+use edgewalk_lockstep::{Direction, Link, Port, status_ports};
+use edgewalk_vectors::Interface;
 use std::fmt::Write as _;
 
 /// The ports of both designs, without clock and reset.
@@ -35,24 +35,28 @@ impl Ports {
     /// Those of a unit: outputs count as in lock step.
     pub fn of_unit(interface: &Interface) -> Ports {
         let status = status_ports(interface).into_iter();
-        let status = status.map(|status| (status.port.clone(), status.during().map(str::to_owned)));
-        let of_channel = |channel: &Channel| {
-            let valid = format!("{}_valid", channel.name);
-            let ports: Vec<String> = match channel.direction {
-                Direction::Out => channel.fields.iter().map(|field: &Field| field.port.clone()).collect(),
-                Direction::In => vec![format!("{}_ready", channel.name)],
+        let status = status.map(|status| (status.port.name, status.during.map(str::to_owned)));
+        let of_link = |link: &Link| {
+            let valid = format!("{}_valid", link.name);
+            let ports: Vec<String> = match link.direction {
+                Direction::Out => link.fields.iter().map(|field| field.name.clone()).collect(),
+                Direction::In => vec![format!("{}_ready", link.name)],
             };
             ports.into_iter().map(move |port| (port, Some(valid.clone())))
         };
         Ports {
-            inputs: interface.inputs(),
-            constants: interface.constants.iter().map(|field| field.port.clone()).collect(),
-            outputs: interface.outputs(),
-            compared: status.chain(interface.channels.iter().flat_map(of_channel)).collect(),
+            inputs: widths(interface.inputs()),
+            constants: interface.constants.iter().map(|port| port.name.clone()).collect(),
+            outputs: widths(interface.outputs()),
+            compared: status.chain(interface.links.iter().flat_map(of_link)).collect(),
             has_clock: true,
             has_reset: true,
         }
     }
+}
+
+fn widths(ports: &[Port]) -> Vec<(String, u32)> {
+    ports.iter().map(|port| (port.name.clone(), port.width())).collect()
 }
 
 /// The module `miter` of the modules `original` and `faulty`; its output `bad` is 1 where they differ.
