@@ -6,6 +6,7 @@ use crate::input::to_port;
 use crate::progress::bar;
 use anyhow::{Result, anyhow};
 use edgewalk_golden::Drawing;
+use edgewalk_lockstep::StallKind;
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::fast::Path;
 use edgewalk_model::{Activity, Events, Stalls};
@@ -91,7 +92,7 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Resul
             let raster = if engine == Engine::Model {
                 from_model(machine, edgewalk_model::render(machine, triangles, port.state, Stalls::NONE)?)
             } else {
-                let drawn = edgewalk_vectors::render_rtl(machine, triangles, port.state, Stalls::NONE);
+                let drawn = edgewalk_lockstep::render_rtl(machine, triangles, port.state, StallKind::None);
                 from_machine(machine, drawn.map_err(|e| anyhow!("{e}"))?)
             };
             bar.finish_and_clear();

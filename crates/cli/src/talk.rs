@@ -46,3 +46,8 @@ pub fn printed(written: io::Result<()>) -> Result<()> {
 pub fn complain(what: &str) {
     let _ = writeln!(io::stderr(), "edgewalk: {what}");
 }
+
+/// Says on standard error what may not be as wanted, though nothing is wrong.
+pub fn warn(what: &str) {
+    let _ = writeln!(io::stderr(), "warning: {what}");
+}

@@ -11,7 +11,7 @@ use crate::staging::Staging;
 use crate::talk::{self, Talk};
 use crate::verdict::Verdict;
 use anyhow::Result;
-use edgewalk_vectors::{StallKind, Unit};
+use edgewalk_vectors::{StallKind, Tables, Unit};
 use std::path::PathBuf;
 
 /// Renders a built-in scene through golden picture and model, compares them, and writes the machine's Verilog and vectors.
@@ -49,8 +49,13 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     let modules = emit::write_design(&machine, &out, "hdl/")?;
     let suites = vectors::directed(&machine)?;
-    let suites =
-        vectors::write(&machine, &suites, &Unit::ALL, StallKind::Mixed, &out, "vectors/", talk.quiet)?;
+    let set = vectors::Set {
+        suites: &suites,
+        units: &Unit::all(&machine),
+        stalls: Some(StallKind::Mixed),
+        tables: Tables::Written,
+    };
+    let suites = set.write(&machine, &out, "vectors/", talk.quiet)?;
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
     let own = [emit::own("hdl/"), vectors::own(&args.out, "vectors/", &suites)].concat();
