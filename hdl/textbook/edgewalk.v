@@ -2,6 +2,7 @@
 //
 //  tri ─> SETUP ─prim─> EDGE ─line─> SPAN ─span─> PIXEL ─frag─> DEPTH ─wr─> frame memory
 //                         └────────── inc ──────────┘             └─rd / data─ depth memory
+//
 // A link ─> has valid and ready: a token moves in a cycle where both are high. valid never waits for ready.
 // Values under the links hold beside their tokens. One clock, synchronous reset rst, active high.
 // activity is the one cause of the cycle: 0 idle 1 draw 2 offscreen 3 hazard 4 queue 5 memory 6 edge 7 setup 8 flush;

@@ -1,9 +1,9 @@
 // edgewalk_edge: EDGE walks the major and the minor edge of a triangle, a line a step.
 //
-//   prim ─> [major C R q f M] ── cmaj ─────┐
-//           [minor C R q f M] ── cmin ─────┼─> line
-//           [a value a channel] by carry ──┘
-//           [g of each channel] ─────────────> inc, held for PIXEL
+//   prim ─> [major C R q f M] ── cmaj ───────┐
+//           [minor C R q f M] ── cmin ───────┼─> line
+//           [a value a channel] ─ by carry ──┘
+//           [g of each channel] ───────────────> inc, held for PIXEL
 //
 // Timing: the first line is valid in the cycle after the triangle was taken, then one line a clock while line_ready.
 // Rules: a step takes f from R; where R is too small M is added back and the column goes one further (carry).

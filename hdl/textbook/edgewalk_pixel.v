@@ -1,12 +1,12 @@
 // edgewalk_pixel: PIXEL steps along a span, a pixel every ceil(N/A) clocks, with A adders shared by the N channels.
 //
-//   span ─> [x count]─────────────────────────────────────┐
-//       └─> [a value a channel] <─ + <─ [increment] <─ inc├─> [out] ─> frag
-//                  └──────────────────────────────────────┘
+//   span ─> [x count]───────────────────────────────────────┐
+//       └─> [a value a channel] <─ + <─ [increments] <─ inc ├─> [out] ─> frag
+//                  └────────────────────────────────────────┘
 //
 // Formats: values and increments are modular words; a fragment takes the bits above the fraction.
 // Timing: a pixel leaves in the last of its phases. The additions for the next pixel begin in that same phase and go on
-// in the first phases of the next pixel, one channel of each adder a clock; an adder with fewer channels rests in the others.
+// in the first phases of the next pixel, one channel of each adder a clock; an adder without one more rests.
 // Rules: everything stands still while a fragment waits at the output. Columns off the screen cost their phases, and give
 // no fragment.
 // Segments: the words are cut into segments, and the carry moves a segment a clock.

@@ -19,14 +19,17 @@ use joined::{Joined, Unit};
 /// # Errors
 /// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
 pub fn machine(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
-    #[allow(clippy::expect_used)]
     let build = |unit: &UnitSpec| builder(unit.name).expect("a test finds a builder for every declared unit");
     let units: Vec<(&UnitSpec, Build)> = plan.units().map(|unit| (unit, build(unit))).collect();
     assemble(plan, &units)
 }
 
-/// Joins these units, in the order the data flows; what they do not join among themselves are ports of the machine.
-fn assemble(plan: &Plan, units: &[(&UnitSpec, Build)]) -> Result<Arc<Netlist>, BuildErrors> {
+/// Joins these units, in the order the data flows, as their declarations say: a link to the link of the next unit, held values,
+/// levels and status by their names. What is not joined is a port of the machine.
+///
+/// # Errors
+/// Those of the units, and inputs of theirs that nothing drives.
+pub fn assemble(plan: &Plan, units: &[(&UnitSpec, Build)]) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new("edgewalk", &doc(plan, units));
     let mut placed = Vec::new();
     for (unit, build) in units {

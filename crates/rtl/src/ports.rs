@@ -125,6 +125,5 @@ impl<'m> Interface<'m> {
 
 /// What a unit asks of its own declaration depends on no input.
 fn declared<'a, T>(found: Option<&'a T>, what: &str) -> &'a T {
-    #[allow(clippy::expect_used)]
-    found.expect(&format!("a unit has no port that it does not declare: {what}"))
+    found.unwrap_or_else(|| panic!("a unit asks for a port that it does not declare: {what}"))
 }

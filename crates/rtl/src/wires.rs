@@ -102,7 +102,6 @@ impl<'m> Index<&str> for Token<'m> {
     type Output = Signal<'m>;
     fn index(&self, name: &str) -> &Signal<'m> {
         let found = self.0.iter().find(|(part, _)| part.name == name);
-        #[allow(clippy::expect_used)]
         let (_, signal) = found.expect("units ask only for fields that the declarations list");
         signal
     }
@@ -145,7 +144,6 @@ impl<'m> Index<&str> for Registers<'m> {
     type Output = Reg<'m>;
     fn index(&self, name: &str) -> &Reg<'m> {
         let found = self.0.iter().find(|(part, _)| part.name == name);
-        #[allow(clippy::expect_used)]
         let (_, register) = found.expect("units ask only for fields that the declarations list");
         register
     }

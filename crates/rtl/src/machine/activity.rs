@@ -27,7 +27,6 @@ impl<'m> Joined<'m> {
     /// One of the units tells this.
     fn any(&self, name: &str) -> Signal<'m> {
         let told = (0..self.0.len()).filter_map(|place| self.told(place, name));
-        #[allow(clippy::expect_used)]
         let any = told.reduce(|any, one| any | one).expect("PIXEL and DEPTH are in every machine");
         any
     }

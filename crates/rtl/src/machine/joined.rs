@@ -103,7 +103,6 @@ impl<'m> Joined<'m> {
     }
 
     fn unit(&self, is_it: impl Fn(&Unit<'m>) -> bool) -> Instance<'m> {
-        #[allow(clippy::expect_used)]
         let unit = self.0.iter().find(|unit| is_it(unit)).expect("SETUP, EDGE and SPAN are in every machine");
         unit.instance
     }
