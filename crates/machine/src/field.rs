@@ -32,7 +32,8 @@ pub struct Field {
 
 impl Field {
     /// Whole numbers, flags and codes without sign.
-    pub(crate) fn count(name: impl Into<String>, bits: u32, doc: impl Into<String>) -> Field {
+    #[must_use]
+    pub fn count(name: impl Into<String>, bits: u32, doc: impl Into<String>) -> Field {
         Field { name: name.into(), format: whole(false, bits), scale: Scale::Count, doc: doc.into() }
     }
 

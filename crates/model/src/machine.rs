@@ -82,6 +82,21 @@ pub struct Model<const C: usize> {
     events: Events,
 }
 
+/// The units of a [`Model`].
+#[derive(Clone, Copy, Debug)]
+pub struct Units<'a, const C: usize> {
+    /// Triangles to increments.
+    pub setup: &'a Setup<C>,
+    /// Increments to lines.
+    pub edge: &'a Edge<C>,
+    /// Lines to spans.
+    pub span: &'a Span<C>,
+    /// Spans to fragments.
+    pub pixel: &'a Pixel<C>,
+    /// Fragments to writes.
+    pub depth: &'a Depth<C>,
+}
+
 impl<const C: usize> Model<C> {
     /// A machine after reset.
     #[must_use]
@@ -107,6 +122,13 @@ impl<const C: usize> Model<C> {
     #[must_use]
     pub fn events(&self) -> &Events {
         &self.events
+    }
+
+    /// The units as they stand, to look at.
+    #[must_use]
+    pub fn units(&self) -> Units<'_, C> {
+        let Model { setup, edge, span, pixel, depth, .. } = self;
+        Units { setup, edge, span, pixel, depth }
     }
 
     /// Not hardware: the fragment whose read fired in the cycle before.

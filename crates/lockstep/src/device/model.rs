@@ -1,0 +1,68 @@
+//! The model's machine and units as devices.
+//!
+//! ```text
+//!  port values ─> tokens ─> unit of the model ─> tokens ─> port values
+//! ```
+//! Ports and fields are found by name when a device is made; one that is declared and that the model lacks is an error
+//! then. A unit's outputs are shown by the same code whether it runs alone or is looked at inside the machine.
+
+mod link;
+mod setup;
+mod edge;
+mod span;
+mod pixel;
+mod depth;
+mod machine;
+
+use super::Device;
+use crate::interface::{Interface, Port};
+use edgewalk_machine::Plan;
+use edgewalk_model::{Events, for_channels};
+
+/// A declared port that the model has no place for.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoPlace {
+    /// The unit is not one of the model's.
+    #[error("the model has no unit {0}")]
+    Unit(String),
+    /// The port, or the field of a token.
+    #[error("{unit} of the model has no place for {port}")]
+    Port {
+        /// The unit.
+        unit: String,
+        /// The port.
+        port: String,
+    },
+}
+
+impl From<Port> for NoPlace {
+    fn from(port: Port) -> NoPlace {
+        NoPlace::Port { unit: port.owner.to_owned(), port: port.name }
+    }
+}
+
+/// A unit of the model. Events count from here on.
+pub trait ModelDevice: Device {
+    /// What has happened so far.
+    fn events(&self) -> &Events;
+}
+
+/// The unit of the interface after reset, as the model has it.
+///
+/// # Errors
+/// A declared port or field that the model lacks.
+pub fn model(plan: &Plan, interface: &Interface) -> Result<Box<dyn ModelDevice>, NoPlace> {
+    for_channels!(plan, C => of::<C>(plan, interface))
+}
+
+fn of<const C: usize>(plan: &Plan, interface: &Interface) -> Result<Box<dyn ModelDevice>, NoPlace> {
+    Ok(match interface.unit.name() {
+        "machine" => Box::new(machine::MachineDevice::<C>::new(plan, interface)?),
+        "setup" => Box::new(setup::SetupDevice::<C>::new(plan, interface)?),
+        "edge" => Box::new(edge::EdgeDevice::<C>::new(plan, interface)?),
+        "span" => Box::new(span::SpanDevice::<C>::new(plan, interface)?),
+        "pixel" => Box::new(pixel::PixelDevice::<C>::new(plan, interface)?),
+        "depth" => Box::new(depth::DepthDevice::<C>::new(plan, interface)?),
+        other => return Err(NoPlace::Unit(other.to_owned())),
+    })
+}

@@ -1,0 +1,103 @@
+//! The whole machine, and what its units show inside.
+
+use super::depth::{DepthStatus, MemoryPorts};
+use super::edge::EdgePorts;
+use super::link::Scope;
+use super::pixel::PixelPorts;
+use super::setup::{SetupPorts, TriangleTaker};
+use super::span::SpanPorts;
+use super::{ModelDevice, NoPlace};
+use crate::device::Device;
+use crate::interface::Interface;
+use crate::values::{PortId, PortValues};
+use edgewalk_machine::Plan;
+use edgewalk_model::{Events, Inputs, Model};
+
+/// The machine.
+pub struct MachineDevice<const C: usize> {
+    model: Model<C>,
+    tri: TriangleTaker,
+    memory: MemoryPorts<C>,
+    activity: PortId,
+    idle: PortId,
+    inside: Option<Inside<C>>,
+}
+
+/// The units inside.
+struct Inside<const C: usize> {
+    setup: SetupPorts<C>,
+    edge: EdgePorts<C>,
+    span: SpanPorts<C>,
+    pixel: PixelPorts<C>,
+    depth: DepthStatus,
+}
+
+impl<const C: usize> MachineDevice<C> {
+    pub fn new(plan: &Plan, interface: &Interface) -> Result<Self, NoPlace> {
+        let scope = Scope::alone(plan, interface);
+        let inside = !interface.inner_outputs().is_empty();
+        Ok(MachineDevice {
+            model: Model::new(plan),
+            tri: TriangleTaker::find(plan, interface)?,
+            memory: MemoryPorts::find(scope)?,
+            activity: scope.port("activity")?,
+            idle: scope.port("idle")?,
+            inside: inside.then(|| Inside::find(plan, interface)).transpose()?,
+        })
+    }
+}
+
+impl<const C: usize> Inside<C> {
+    fn find(plan: &Plan, interface: &Interface) -> Result<Self, NoPlace> {
+        let of = |owner| Scope { plan, interface, owner };
+        Ok(Inside {
+            setup: SetupPorts::find(of("setup"))?,
+            edge: EdgePorts::find(of("edge"))?,
+            span: SpanPorts::find(of("span"))?,
+            pixel: PixelPorts::find(of("pixel"))?,
+            depth: DepthStatus::find(of("depth"))?,
+        })
+    }
+
+    /// The links between the units in a cycle with these inputs, from the units' states before the clock edge.
+    fn show(&self, model: &Model<C>, inputs: &Inputs, ports: &mut PortValues) {
+        let units = model.units();
+        let frag = units.pixel.frag();
+        let frag_ready = inputs.rd_ready && units.depth.block(frag, inputs.depth_write).is_none();
+        self.setup.show(units.setup, ports);
+        self.edge.show(units.edge, units.span.fresh_queued(), ports);
+        self.span.show(units.span, units.edge.line(), ports);
+        self.pixel.show(units.pixel, frag_ready, ports);
+        self.depth.show(units.depth, frag, inputs.rd_ready, inputs.depth_write, ports);
+    }
+}
+
+impl<const C: usize> Device for MachineDevice<C> {
+    fn cycle(&mut self, ports: &mut PortValues) {
+        let triangle = self.tri.token(ports);
+        let depth = self.memory.inputs(ports);
+        let inputs = Inputs {
+            rst: ports.rst,
+            tri: triangle.as_ref().map(|(vertices, tag)| (vertices, *tag)),
+            depth_func: depth.depth_func,
+            depth_write: depth.depth_write,
+            rd_ready: depth.rd_ready,
+            data: depth.data,
+            wr_ready: depth.wr_ready,
+        };
+        if let Some(inside) = &self.inside {
+            inside.show(&self.model, &inputs, ports);
+        }
+        let outputs = self.model.cycle(&inputs);
+        ports.set(self.tri.ready(), outputs.tri_ready);
+        self.memory.show(outputs.rd, outputs.data_ready, outputs.wr.as_ref(), ports);
+        ports[self.activity] = outputs.activity as u128;
+        ports.set(self.idle, outputs.idle);
+    }
+}
+
+impl<const C: usize> ModelDevice for MachineDevice<C> {
+    fn events(&self) -> &Events {
+        self.model.events()
+    }
+}

@@ -1,0 +1,83 @@
+//! PIXEL.
+
+use super::link::{Giver, HeldWords, Scope, Taker};
+use super::{ModelDevice, NoPlace};
+use crate::device::Device;
+use crate::interface::Interface;
+use crate::values::{PortId, PortValues};
+use edgewalk_machine::Plan;
+use edgewalk_model::Events;
+use edgewalk_model::pixel::Pixel;
+use edgewalk_model::tokens::{Fragment, Span};
+
+/// What PIXEL shows of itself.
+pub struct PixelPorts<const C: usize> {
+    span_ready: PortId,
+    frag: Giver<Fragment<C>>,
+    active: PortId,
+    visible: PortId,
+    advance: PortId,
+    occupied: PortId,
+}
+
+impl<const C: usize> PixelPorts<C> {
+    pub fn find(scope: Scope) -> Result<Self, NoPlace> {
+        Ok(PixelPorts {
+            span_ready: scope.port("span_ready")?,
+            frag: scope.giver("frag")?,
+            active: scope.port("active")?,
+            visible: scope.port("visible")?,
+            advance: scope.port("advance")?,
+            occupied: scope.port("occupied")?,
+        })
+    }
+
+    pub fn show(&self, pixel: &Pixel<C>, frag_ready: bool, ports: &mut PortValues) {
+        ports.set(self.span_ready, pixel.span_ready(frag_ready));
+        self.frag.offer(pixel.frag(), ports);
+        ports.set(self.active, pixel.active());
+        ports.set(self.visible, pixel.on_screen());
+        ports.set(self.advance, pixel.advance(frag_ready));
+        ports.set(self.occupied, pixel.occupied());
+    }
+}
+
+/// PIXEL alone.
+pub struct PixelDevice<const C: usize> {
+    unit: Pixel<C>,
+    events: Events,
+    span: Taker<Span<C>>,
+    inc: HeldWords,
+    shown: PixelPorts<C>,
+}
+
+impl<const C: usize> PixelDevice<C> {
+    pub fn new(plan: &Plan, interface: &Interface) -> Result<Self, NoPlace> {
+        let scope = Scope::alone(plan, interface);
+        Ok(PixelDevice {
+            unit: Pixel::new(plan),
+            events: Events::default(),
+            span: scope.taker("span")?,
+            inc: scope.held("span")?,
+            shown: PixelPorts::find(scope)?,
+        })
+    }
+}
+
+impl<const C: usize> Device for PixelDevice<C> {
+    fn cycle(&mut self, ports: &mut PortValues) {
+        let ready = ports.is_high(self.shown.frag.ready);
+        self.shown.show(&self.unit, ready, ports);
+        let (span, gradient) = (self.span.token(ports), self.inc.read(ports));
+        self.unit.step(span.as_ref(), &gradient, ready, &mut self.events);
+        if ports.rst {
+            self.unit.reset();
+        }
+    }
+}
+
+impl<const C: usize> ModelDevice for PixelDevice<C> {
+    fn events(&self) -> &Events {
+        &self.events
+    }
+}

@@ -1,0 +1,73 @@
+//! SPAN.
+
+use super::link::{Giver, Scope, Taker};
+use super::{ModelDevice, NoPlace};
+use crate::device::Device;
+use crate::interface::Interface;
+use crate::values::{PortId, PortValues};
+use edgewalk_machine::Plan;
+use edgewalk_model::span::Span;
+use edgewalk_model::tokens::{self, Line};
+use edgewalk_model::Events;
+
+/// What SPAN shows of itself.
+pub struct SpanPorts<const C: usize> {
+    line_ready: PortId,
+    span: Giver<tokens::Span<C>>,
+    fresh_queued: PortId,
+}
+
+impl<const C: usize> SpanPorts<C> {
+    pub fn find(scope: Scope) -> Result<Self, NoPlace> {
+        Ok(SpanPorts {
+            line_ready: scope.port("line_ready")?,
+            span: scope.giver("span")?,
+            fresh_queued: scope.port("fresh_queued")?,
+        })
+    }
+
+    /// A ready without a line means nothing.
+    pub fn show(&self, span: &Span<C>, line: Option<&Line<C>>, ports: &mut PortValues) {
+        ports.set(self.line_ready, line.is_some_and(|line| span.line_ready(line)));
+        self.span.offer(span.span(), ports);
+        ports.set(self.fresh_queued, span.fresh_queued());
+    }
+}
+
+/// SPAN alone.
+pub struct SpanDevice<const C: usize> {
+    unit: Span<C>,
+    events: Events,
+    line: Taker<Line<C>>,
+    shown: SpanPorts<C>,
+}
+
+impl<const C: usize> SpanDevice<C> {
+    pub fn new(plan: &Plan, interface: &Interface) -> Result<Self, NoPlace> {
+        let scope = Scope::alone(plan, interface);
+        Ok(SpanDevice {
+            unit: Span::new(plan),
+            events: Events::default(),
+            line: scope.taker("line")?,
+            shown: SpanPorts::find(scope)?,
+        })
+    }
+}
+
+impl<const C: usize> Device for SpanDevice<C> {
+    fn cycle(&mut self, ports: &mut PortValues) {
+        let line = self.line.token(ports);
+        self.shown.show(&self.unit, line.as_ref(), ports);
+        let taken = line.as_ref().filter(|line| self.unit.line_ready(line));
+        self.unit.step(taken, ports.is_high(self.shown.span.ready), &mut self.events);
+        if ports.rst {
+            self.unit.reset();
+        }
+    }
+}
+
+impl<const C: usize> ModelDevice for SpanDevice<C> {
+    fn events(&self) -> &Events {
+        &self.events
+    }
+}

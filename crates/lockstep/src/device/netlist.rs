@@ -1,0 +1,162 @@
+//! A netlist in the interpreter as a device.
+
+use super::Device;
+use crate::interface::{Interface, Port};
+use crate::rig::bits;
+use crate::unit::Unit;
+use crate::values::{PortId, PortValues};
+use edgewalk_machine::Plan;
+use edgewalk_netlist::{BuildErrors, InputId, Netlist, SignalId, Simulator};
+use rand::SeedableRng;
+use rand_pcg::Pcg64Mcg;
+use std::sync::Arc;
+
+/// The netlist of the machine or of one of its units.
+///
+/// # Errors
+/// None for a unit of the machine.
+pub fn netlist(plan: &Plan, unit: Unit) -> Result<Arc<Netlist>, BuildErrors> {
+    if unit == Unit::MACHINE {
+        return edgewalk_rtl::machine(plan);
+    }
+    let build = edgewalk_rtl::units::builder(unit.name());
+    build.expect("a test of rtl finds a builder for every declared unit")(plan)
+}
+
+/// A netlist whose ports are those of an interface, after a clock of reset.
+#[derive(Clone, Debug)]
+pub struct NetlistDevice {
+    simulator: Simulator,
+    rst: Option<InputId>,
+    inputs: Vec<(PortId, InputId, u32)>,
+    outputs: Vec<(PortId, SignalId)>,
+}
+
+/// A port of the interface that the netlist does not have so.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PortError {
+    /// Missing.
+    #[error("module {module} has no {direction} {port}")]
+    Missing {
+        /// The netlist.
+        module: String,
+        /// `input` or `output`.
+        direction: &'static str,
+        /// The port.
+        port: String,
+    },
+    /// Of another width.
+    #[error("module {module}: {port} has {found} bits, the interface {wanted}")]
+    Width {
+        /// The netlist.
+        module: String,
+        /// The port.
+        port: String,
+        /// Its width.
+        found: u32,
+        /// The width it should have.
+        wanted: u32,
+    },
+    /// Of the netlist, but not of the interface.
+    #[error("module {module} has a port {port} that nobody declares")]
+    Undeclared {
+        /// The netlist.
+        module: String,
+        /// The port.
+        port: String,
+    },
+}
+
+impl NetlistDevice {
+    /// Finds every port and resets the netlist.
+    ///
+    /// # Errors
+    /// A port that is missing, of another width, or too much.
+    pub fn new(netlist: &Netlist, interface: &Interface) -> Result<Self, PortError> {
+        let simulator = Simulator::new(netlist);
+        let module = || netlist.name.clone();
+        let known = |name: &str| interface.inputs().iter().chain(interface.outputs()).any(|port| port.name == name);
+        let names = netlist.inputs.iter().map(|input| &input.name).chain(netlist.outputs.iter().map(|o| &o.name));
+        if let Some(port) = names.into_iter().find(|name| !known(name)) {
+            return Err(PortError::Undeclared { module: module(), port: port.clone() });
+        }
+        let missing =
+            |direction, port: &str| PortError::Missing { module: module(), direction, port: port.to_owned() };
+        let check = |port: &Port, found: u32| match port.width() {
+            wanted if wanted == found => Ok(()),
+            wanted => Err(PortError::Width { module: module(), port: port.name.clone(), found, wanted }),
+        };
+        let mut inputs = Vec::new();
+        for port in interface.inputs() {
+            let place = netlist.inputs.iter().find(|input| input.name == port.name);
+            let found = place.ok_or_else(|| missing("input", &port.name))?;
+            check(port, netlist.width(found.node))?;
+            let input = simulator.input(&port.name).map_err(|_| missing("input", &port.name))?;
+            inputs.push((port.id, input, port.width()));
+        }
+        let mut outputs = Vec::new();
+        let inner = |port: &Port| format!("u_{}.{}", port.owner, port.name);
+        let own = interface.outputs().iter().map(|port| (port, port.name.clone()));
+        for (port, path) in own.chain(interface.inner_outputs().iter().map(|port| (port, inner(port)))) {
+            let signal = simulator.signal(&path).map_err(|_| missing("output", &path))?;
+            check(port, simulator.width(signal))?;
+            outputs.push((port.id, signal));
+        }
+        let rst = simulator.input("rst").ok();
+        let mut device = NetlistDevice { simulator, rst, inputs, outputs };
+        device.reset();
+        Ok(device)
+    }
+
+    /// A clock with `rst` high.
+    pub fn reset(&mut self) {
+        self.set_reset(true);
+        self.simulator.tick();
+        self.set_reset(false);
+    }
+
+    fn set_reset(&mut self, rst: bool) {
+        if let Some(input) = self.rst {
+            self.simulator.set(input, rst.into());
+        }
+    }
+
+    /// So many cycles of random inputs: registers are left in one state or another.
+    pub fn disturb(&mut self, cycles: u64) {
+        let mut random = Pcg64Mcg::seed_from_u64(cycles);
+        for _ in 0..cycles {
+            for (_, input, width) in &self.inputs {
+                self.simulator.set(*input, bits(&mut random, *width));
+            }
+            self.simulator.tick();
+        }
+    }
+
+    /// Drives the inputs and gives the outputs of this cycle, before the clock edge.
+    pub fn settle(&mut self, ports: &mut PortValues) {
+        self.set_reset(ports.rst);
+        for (port, input, _) in &self.inputs {
+            self.simulator.set(*input, ports[*port]);
+        }
+        for (port, output) in &self.outputs {
+            ports[*port] = self.simulator.value(*output);
+        }
+    }
+
+    /// The clock edge.
+    pub fn clock(&mut self) {
+        self.simulator.tick();
+    }
+
+    /// The running netlist, for a look inside.
+    pub fn simulator(&mut self) -> &mut Simulator {
+        &mut self.simulator
+    }
+}
+
+impl Device for NetlistDevice {
+    fn cycle(&mut self, ports: &mut PortValues) {
+        self.settle(ports);
+        self.clock();
+    }
+}

@@ -1,0 +1,95 @@
+//! Triangles at the machine's port, as tokens of `tri`.
+
+use crate::Token;
+use crate::interface::{Interface, Link};
+use crate::unit::Unit;
+use edgewalk_machine::{MAX_CHANNELS, Plan, PortVertex};
+
+/// A triangle at the port.
+pub type Triangle = [PortVertex; 3];
+
+/// Makes tokens of triangles and triangles of tokens.
+#[derive(Clone, Debug)]
+pub struct Triangles {
+    plan: Plan,
+    /// What stands in each field, with its bits.
+    fields: Vec<(Part, u32)>,
+}
+
+/// A part of a triangle: of which vertex, and of which channel.
+#[derive(Clone, Copy, Debug)]
+enum Part {
+    X(usize),
+    Y(usize),
+    Value(usize, usize),
+    Tag,
+}
+
+impl Triangles {
+    /// For the triangles of this machine.
+    #[must_use]
+    pub fn new(plan: &Plan) -> Triangles {
+        let machine = Interface::new(plan, Unit::MACHINE);
+        let link = machine.links.first().expect("a machine takes triangles");
+        Triangles::of(plan, link).expect("a declared field of a triangle is that of a vertex or the tag")
+    }
+
+    /// Finds the fields by name; `None` if one of them is no part of a triangle.
+    pub(super) fn of(plan: &Plan, link: &Link) -> Option<Triangles> {
+        let fields = link.fields.iter().map(|port| Some((Part::named(plan, &port.field.name)?, port.width())));
+        Some(Triangles { plan: plan.clone(), fields: fields.collect::<Option<_>>()? })
+    }
+
+    /// The triangle as a token; of the tag the low bits.
+    #[must_use]
+    pub fn pack(&self, triangle: &Triangle, tag: u32) -> Token {
+        let value = |(part, width): &(Part, u32)| {
+            let number = match *part {
+                Part::X(vertex) => triangle[vertex].x().into(),
+                Part::Y(vertex) => triangle[vertex].y().into(),
+                Part::Value(vertex, channel) => triangle[vertex].values()[channel].into(),
+                Part::Tag => i128::from(tag),
+            };
+            number as u128 & (u128::MAX >> (128 - width))
+        };
+        self.fields.iter().map(value).collect()
+    }
+
+    /// The triangle and the tag of a token.
+    #[must_use]
+    pub fn unpack(&self, token: &[u128]) -> (Triangle, u32) {
+        let (mut x, mut y, mut values, mut tag) = ([0; 3], [0; 3], [[0; MAX_CHANNELS]; 3], 0);
+        for ((part, width), bits) in self.fields.iter().zip(token) {
+            let signed = ((bits << (128 - width)) as i128 >> (128 - width)) as i64; // values have at most 48 bits
+            match *part {
+                Part::X(vertex) => x[vertex] = signed as i32,
+                Part::Y(vertex) => y[vertex] = signed as i32,
+                Part::Value(vertex, channel) => {
+                    let signed_kind = self.plan.channels()[channel].kind.is_signed();
+                    values[vertex][channel] = if signed_kind { signed } else { *bits as i64 };
+                }
+                Part::Tag => tag = *bits as u32,
+            }
+        }
+        (std::array::from_fn(|i| self.plan.raw_vertex(x[i], y[i], &values[i])), tag)
+    }
+}
+
+impl Part {
+    fn named(plan: &Plan, name: &str) -> Option<Part> {
+        if name == "tag" {
+            return Some(Part::Tag);
+        }
+        (0..3).find_map(|vertex| {
+            let place = vertex.to_string();
+            if name == format!("x{place}") {
+                return Some(Part::X(vertex));
+            }
+            if name == format!("y{place}") {
+                return Some(Part::Y(vertex));
+            }
+            let channel = plan.channels().iter().position(|channel| channel.at_vertex(&place) == name);
+            channel.map(|channel| Part::Value(vertex, channel))
+        })
+    }
+}

@@ -1,0 +1,46 @@
+//! Machines drawn at random from the keys, small enough for an interpreter.
+
+use edgewalk_machine::keys::{Domain, KEYS};
+use edgewalk_machine::{Fill, Machine, Plan, Precision};
+use rand::Rng;
+use rand::seq::IndexedRandom;
+use rand_pcg::Pcg64Mcg;
+
+/// Keys that take less than their domain: screens that an interpreter fills, queues that get full.
+const NARROW: &[(&str, u32, u32)] =
+    &[("screen.width", 1, 20), ("screen.height", 1, 20), ("fifo.span", 1, 4), ("fifo.inflight", 1, 6)];
+
+/// A machine that can be built. Every key takes all kinds of values, so a new key is drawn without a word here.
+pub fn random_machine(rng: &mut Pcg64Mcg) -> Plan {
+    loop {
+        if let Ok(plan) = draw(rng).plan() {
+            return plan;
+        }
+    }
+}
+
+fn draw(rng: &mut Pcg64Mcg) -> Machine {
+    let mut machine = Machine::default();
+    for key in KEYS {
+        let narrow = NARROW.iter().find(|(name, ..)| *name == key.name);
+        let domain = narrow.map_or(key.domain, |(_, low, high)| Domain::Range(*low, *high));
+        let value = match domain {
+            Domain::Range(low, high) => rng.random_range(low..=high),
+            Domain::OneOf(list) => *list.choose(rng).expect("a domain is not empty"),
+            Domain::Word(words) => rng.random_range(0..words.len() as u32),
+        };
+        (key.set)(&mut machine, value);
+    }
+    // What would make nearly all of them clash.
+    machine.guard_bits = if rng.random_bool(0.1) { rng.random_range(8..=14) } else { rng.random_range(2..=6) };
+    machine.tag_bits = *[0, 1, 5, 32].choose(rng).expect("four");
+    if machine.fill == Fill::Textbook {
+        machine.subpixel_bits = 0;
+    }
+    let within = |p: &mut Precision| p.vertex_fraction = p.vertex_fraction.min(p.fraction);
+    within(&mut machine.z);
+    within(&mut machine.color);
+    machine.extras.iter_mut().for_each(|extra| within(&mut extra.precision));
+    machine.adders = machine.adders.min(4 + machine.extra);
+    machine
+}

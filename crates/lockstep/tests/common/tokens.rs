@@ -1,0 +1,75 @@
+//! Tokens for a unit alone: such as the rest of the machine would rarely give it.
+
+use super::triangles::random_triangle;
+use edgewalk_lockstep::{Direction, Interface, Port, Rig, Setting, Token, Triangles, Unit, model};
+use edgewalk_machine::{Fill, Plan};
+use rand::{Rng, RngCore};
+use rand_pcg::Pcg64Mcg;
+
+/// So many random tokens for the unit.
+pub fn random_tokens(plan: &Plan, unit: Unit, count: usize, rng: &mut Pcg64Mcg) -> Vec<Token> {
+    match unit.name() {
+        "machine" | "setup" => triangles(plan, count, rng),
+        // What EDGE takes has to fit together: SETUP makes it.
+        "edge" => prims(plan, count, rng),
+        _ => {
+            let interface = Interface::new(plan, unit);
+            let fields = &interface.links[0].fields;
+            (0..count).map(|_| token(plan, fields, rng)).collect()
+        }
+    }
+}
+
+fn triangles(plan: &Plan, count: usize, rng: &mut Pcg64Mcg) -> Vec<Token> {
+    let port = Triangles::new(plan);
+    (0..count).map(|_| port.pack(&random_triangle(plan, rng), rng.random())).collect()
+}
+
+/// The prims of random triangles, those that are not culled.
+fn prims(plan: &Plan, count: usize, rng: &mut Pcg64Mcg) -> Vec<Token> {
+    let setup = Interface::new(plan, Unit::named("setup").expect("declared"));
+    // A triangle in so many is not culled, in nearly any machine.
+    let tokens = triangles(plan, 20 * count, rng);
+    let setting = Setting { tokens, ..Setting::willing(&setup, &[]).expect("SETUP has no constants") };
+    let (mut rig, mut ports) = (Rig::new(&setup, setting), setup.values());
+    let mut device = model(plan, &setup).expect("the model has SETUP");
+    let out = setup.links_of(Direction::Out).next().expect("SETUP gives prims");
+    let mut prims = Vec::new();
+    while prims.len() < count && !rig.exhausted() {
+        rig.drive(&mut ports);
+        device.cycle(&mut ports);
+        if out.fires(&ports) {
+            prims.push(out.token(&ports).to_vec());
+        }
+        rig.clock(&ports);
+    }
+    prims
+}
+
+/// Random bits, but columns and lines around the screen, short spans, few addresses and few depths, so that they meet.
+fn token(plan: &Plan, fields: &[Port], rng: &mut Pcg64Mcg) -> Token {
+    let (width, height) = (i128::from(plan.width), i128::from(plan.height));
+    let fresh = rng.random_bool(0.3);
+    let value = |port: &Port| {
+        let random = u128::from(rng.next_u64()) << 64 | u128::from(rng.next_u64());
+        let number = match port.name.as_str() {
+            "line_cmaj" | "line_cmin" => rng.random_range(-3..=width + 3),
+            "span_x" => rng.random_range(-4..width + 4),
+            "span_count" => rng.random_range(1..=9),
+            "line_y" | "span_y" => rng.random_range(0..height),
+            "line_fresh" => fresh.into(),
+            "line_fence" => (fresh || plan.fill == Fill::Textbook && rng.random_bool(0.2)).into(),
+            "frag_addr" => rng.random_range(0..3.min(1 << plan.widths().address)),
+            "frag_z" => rng.random_range(0..=few(plan)).into(),
+            "frag_fence" => rng.random_bool(0.3).into(),
+            _ => random as i128,
+        };
+        number as u128 & (u128::MAX >> (128 - port.width()))
+    };
+    fields.iter().map(value).collect()
+}
+
+/// The largest of the few depths that DEPTH alone gets.
+pub fn few(plan: &Plan) -> u64 {
+    plan.z.max().min(3)
+}

@@ -1,0 +1,82 @@
+//! Triangles drawn at random, with a liking for corners.
+
+use edgewalk_machine::{Plan, PortVertex};
+use rand::Rng;
+use rand_pcg::Pcg64Mcg;
+
+/// x, y and values of a vertex at the port.
+type Vertex = (i32, i32, Vec<i64>);
+
+/// A triangle around or on the screen: usually small, sometimes out to the guard band, sometimes degenerate.
+pub fn random_triangle(plan: &Plan, rng: &mut Pcg64Mcg) -> [PortVertex; 3] {
+    let unit = 1 << plan.subpixel_bits;
+    let limit = ((1 << plan.guard_bits) - 1) * unit;
+    let (width, height) = (plan.width as i32 * unit, plan.height as i32 * unit);
+    // How far the vertices lie from a point, and where that may be.
+    let reach = match rng.random_range(0..8) {
+        0..4 => 3 * unit,
+        4..6 => width.max(height),
+        6 => unit,
+        _ => limit,
+    };
+    let margin = if rng.random_bool(0.2) { reach + 2 * unit } else { 0 };
+    let x = rng.random_range(-margin..=width + margin);
+    let y = rng.random_range(-margin..=height + margin);
+    let mut triangle: [Vertex; 3] = std::array::from_fn(|_| {
+        let x = (x + rng.random_range(-reach..=reach)).clamp(-limit, limit);
+        let y = (y + rng.random_range(-reach..=reach)).clamp(-limit, limit);
+        (x, y, values(plan, rng))
+    });
+    corner(plan, rng, &mut triangle);
+    triangle.map(|(x, y, values)| plan.raw_vertex(x, y, &values))
+}
+
+/// A triangle that covers the pixel (x, y) and little else, if it fits in the guard band.
+pub fn one_pixel(plan: &Plan, rng: &mut Pcg64Mcg, x: i32, y: i32) -> [PortVertex; 3] {
+    let unit = 1 << plan.subpixel_bits;
+    let limit = ((1 << plan.guard_bits) - 1) * unit;
+    [(0, 0), (1, 0), (0, 2)].map(|(dx, dy)| {
+        let at = |corner: i32| (corner * unit).clamp(-limit, limit);
+        plan.raw_vertex(at(x + dx), at(y + dy), &values(plan, rng))
+    })
+}
+
+/// A triangle of one pixel at the lowest corner of another, where that one ends.
+pub fn after_it(plan: &Plan, rng: &mut Pcg64Mcg, triangle: &[PortVertex; 3]) -> [PortVertex; 3] {
+    let unit = 1 << plan.subpixel_bits;
+    let end = triangle.iter().max_by_key(|vertex| vertex.y()).map_or((0, 0), |vertex| (vertex.x(), vertex.y()));
+    one_pixel(plan, rng, end.0.div_euclid(unit), end.1.div_euclid(unit) - 1)
+}
+
+/// A value for every channel: often the largest or the smallest that it holds. Between such vertices the words of a
+/// signed channel wrap, as each half of their range lies beside the other.
+fn values(plan: &Plan, rng: &mut Pcg64Mcg) -> Vec<i64> {
+    let value = |channel: &edgewalk_machine::Channel| {
+        let most = (channel.limit() << channel.vertex_fraction) as i64;
+        let least = if channel.kind.is_signed() { -most } else { 0 };
+        match rng.random_range(0..4) {
+            0 => most,
+            1 => least,
+            _ => rng.random_range(least..=most),
+        }
+    };
+    plan.channels().iter().map(value).collect()
+}
+
+/// Now and then: equal heights, whole pixels, centres, no area, equal corners.
+fn corner(plan: &Plan, rng: &mut Pcg64Mcg, triangle: &mut [Vertex; 3]) {
+    let unit = 1 << plan.subpixel_bits;
+    let same = values(plan, rng);
+    let [a, b, c] = triangle;
+    match rng.random_range(0..16) {
+        0 => a.1 = b.1,
+        1 => b.1 = c.1,
+        2 => (a.0, b.0) = (c.0, c.0),
+        3 => b.1 &= -unit,
+        4 => b.1 = (b.1 & -unit) + unit / 2,
+        5 => *a = b.clone(),
+        6 => triangle.iter_mut().for_each(|v| (v.0, v.1) = (v.0 & -unit, v.1 & -unit)),
+        7 => triangle.iter_mut().for_each(|v| v.2.clone_from(&same)),
+        _ => {}
+    }
+}

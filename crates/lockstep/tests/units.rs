@@ -1,0 +1,83 @@
+//! Every unit alone, model against netlist, under inputs that the rest of the machine would rarely give it.
+
+mod common;
+
+use common::fail::checked;
+use common::machines::random_machine;
+use common::tokens::{few, random_tokens};
+use edgewalk_lockstep::{Case, Checked, Interface, Unit};
+use edgewalk_machine::Plan;
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// Machines drawn for each unit.
+const MACHINES: u64 = 400;
+
+/// The unit of every machine for so many cycles.
+fn alone(name: &str, seed: u64, cycles: u64) {
+    let mut rng = Pcg64Mcg::seed_from_u64(seed);
+    let unit = Unit::named(name).expect("declared");
+    let (mut all, mut machines) = (Checked::default(), 0);
+    for _ in 0..MACHINES {
+        let plan = random_machine(&mut rng);
+        let mut case = Case::new(&plan, unit);
+        // SETUP and EDGE take long for a token.
+        let count = if ["setup", "edge"].contains(&name) { cycles / 40 } else { cycles };
+        case.tokens = random_tokens(&plan, unit, count as usize, &mut rng);
+        if case.tokens.is_empty() {
+            continue; // a machine on whose screen no triangle lies
+        }
+        let interface = Interface::new(&plan, unit);
+        case.unwilling = interface.waits().map(|wait| (wait.to_owned(), rng.random_range(0..200))).collect();
+        case.depth_func = rng.random_range(0..8);
+        case.depth_write = rng.random_bool(0.9);
+        case.clear_z = Some(rng.random_range(0..=few(&plan)));
+        case.late = rng.random_range(0..3);
+        case.disturbed = rng.random_range(0..40);
+        case.resets = if rng.random_bool(0.3) { vec![rng.random_range(1..cycles)] } else { Vec::new() };
+        case.seed = rng.random_range(0..1 << 32);
+        case.cycles = cycles;
+        all.merge(&checked(&case));
+        machines += 1;
+    }
+    let Checked { compared, tokens, .. } = all;
+    println!("{name}: {machines} of {MACHINES} machines, {cycles} cycles each, {tokens} tokens, {compared} values of ports compared");
+    assert!(machines > MACHINES * 9 / 10 && compared > cycles * machines);
+    let met = all.events.counts().into_iter().filter(|(_, count)| *count > 0).map(|(name, _)| name);
+    let met: Vec<&str> = met.collect();
+    for event in unit.events(&Plan::default()) {
+        assert!(met.contains(&event.name), "{name}: {} not met", event.name);
+    }
+}
+
+#[test]
+fn setup() {
+    alone("setup", 11, 3000);
+}
+
+#[test]
+fn edge() {
+    alone("edge", 12, 2000);
+}
+
+#[test]
+fn span() {
+    alone("span", 13, 2000);
+}
+
+#[test]
+fn pixel() {
+    alone("pixel", 14, 2000);
+}
+
+#[test]
+fn depth() {
+    alone("depth", 15, 2000);
+}
+
+/// No declared unit is left out here.
+#[test]
+fn all_of_them() {
+    let declared: Vec<&str> = Unit::known().skip(1).map(Unit::name).collect();
+    assert_eq!(declared, ["setup", "edge", "span", "pixel", "depth"], "a test for each, above");
+}

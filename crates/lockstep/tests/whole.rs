@@ -1,0 +1,128 @@
+//! Whole machines: the model against the netlist, every port of the machine and of every unit in it, every cycle, on
+//! machines and triangles drawn at random.
+
+mod common;
+
+use common::fail::checked;
+use common::machines::random_machine;
+use common::triangles::{after_it, one_pixel, random_triangle};
+use edgewalk_lockstep::{Case, Checked, Triangles, Unit};
+use edgewalk_machine::{Fill, Hazard, Kind, Machine, Plan};
+use edgewalk_model::setup_clocks;
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// Machines drawn.
+const MACHINES: usize = 400;
+/// Triangles drawn on them, at least.
+const TRIANGLES: u64 = 100_000;
+
+/// A case without triangles: stalls, resets, depth function, all at random.
+fn random_case(plan: &Plan, rng: &mut Pcg64Mcg) -> Case {
+    let mut case = Case::new(plan, Unit::MACHINE);
+    let links = ["tri", "rd", "data", "wr"];
+    case.unwilling = links.map(|link| (link.to_owned(), share(rng))).into_iter().collect();
+    case.depth_func = if rng.random_bool(0.6) { 1 } else { rng.random_range(0..8) };
+    case.depth_write = rng.random_bool(0.9);
+    case.clear_z = rng.random_bool(0.3).then(|| plan.z.max().div_ceil(2));
+    case.late = if rng.random_bool(0.3) { rng.random_range(1..8) } else { 0 };
+    case.resets = if rng.random_bool(0.3) { vec![rng.random_range(1..3000)] } else { Vec::new() };
+    case.disturbed = rng.random_range(0..40);
+    case.seed = rng.random_range(0..1 << 32);
+    case
+}
+
+/// In so many of 256 cycles the rig waits: in half of the cases never.
+fn share(rng: &mut Pcg64Mcg) -> u8 {
+    if rng.random_bool(0.5) { rng.random_range(1..200) } else { 0 }
+}
+
+fn report(all: &Checked) {
+    let Checked { cycles, tokens, compared, .. } = all;
+    println!("{tokens} triangles, {cycles} cycles, {compared} values of ports compared, {:?}", all.moved);
+    for (event, count) in all.events.counts() {
+        println!("  {count:>9} {event}");
+    }
+}
+
+/// Slow machines get fewer triangles, so that each takes about the same time.
+fn shares(machines: &[Plan]) -> Vec<u64> {
+    let speed = |plan: &Plan| {
+        let clocks = setup_clocks(plan);
+        let cycles = f64::from(clocks.phase1 + clocks.phase2 + 6 * plan.clocks_per_pixel());
+        1.0 / (cycles * f64::from(3 + plan.lanes) * plan.channels().len() as f64)
+    };
+    let all: f64 = machines.iter().map(speed).sum();
+    machines.iter().map(|plan| (TRIANGLES as f64 * speed(plan) / all).ceil() as u64).collect()
+}
+
+/// Half of the machines, so that two threads share them.
+fn whole_machines(half: usize) {
+    let mut rng = Pcg64Mcg::seed_from_u64(2);
+    let machines: Vec<Plan> = (0..MACHINES).map(|_| random_machine(&mut rng)).collect();
+    let (mut all, mut run, mut signed, mut extra) = (Checked::default(), 0, 0, [0; 5]);
+    for (i, (plan, share)) in machines.iter().zip(shares(&machines)).enumerate() {
+        if i % 2 != half {
+            continue;
+        }
+        let mut rng = Pcg64Mcg::seed_from_u64(100 + i as u64);
+        let port = Triangles::new(plan);
+        let mut case = random_case(plan, &mut rng);
+        case.tokens = (0..share).map(|k| port.pack(&random_triangle(plan, &mut rng), k as u32)).collect();
+        all.merge(&checked(&case));
+        run += 1;
+        extra[plan.extra as usize] += 1;
+        signed += plan.channels().iter().filter(|channel| channel.kind != Kind::Unorm).count();
+    }
+    println!("{run} of {} machines, {extra:?} with 0 to 4 extra channels, {signed} of them signed", MACHINES / 2);
+    report(&all);
+    assert_eq!(run, MACHINES / 2);
+    assert!(extra.iter().all(|machines| *machines > 20) && signed > 150);
+    // A triangle that a reset took from the machine is not offered again, one in the cycle of the reset is.
+    assert!(all.tokens >= TRIANGLES / 2 - 1000 && all.compared > 10 * all.cycles);
+    assert_eq!(all.events.missing(), [""; 0], "not met");
+}
+
+#[test]
+fn machines_of_even_number() {
+    whole_machines(0);
+}
+
+#[test]
+fn machines_of_odd_number() {
+    whole_machines(1);
+}
+
+/// Triangles of one pixel on one address, right behind others that end there: what the in-flight queue must get right.
+#[test]
+fn hazards_on_one_pixel() {
+    let mut rng = Pcg64Mcg::seed_from_u64(3);
+    let mut all = Checked::default();
+    let cases = [Hazard::Drain, Hazard::Interlock, Hazard::Forward].into_iter().flat_map(|hazard| {
+        [Fill::Exact, Fill::Textbook]
+            .into_iter()
+            .flat_map(move |fill| (1..=5).map(move |depth| (hazard, fill, depth)))
+    });
+    for (hazard, fill, inflight) in cases {
+        let mut machine =
+            Machine { width: 6, height: 6, guard_bits: 3, hazard, inflight, ..Machine::default() };
+        (machine.fill, machine.lanes, machine.radix) = (fill, 4, 16);
+        machine.subpixel_bits = if fill == Fill::Textbook { 0 } else { 2 };
+        let plan = machine.plan().expect("can be built");
+        let port = Triangles::new(&plan);
+        let triangles = (0..100).flat_map(|_| {
+            let first = random_triangle(&plan, &mut rng);
+            [first, after_it(&plan, &mut rng, &first), one_pixel(&plan, &mut rng, 2, 3)]
+        });
+        let tokens = triangles.map(|triangle| port.pack(&triangle, 0)).collect();
+        let case = Case { depth_write: true, resets: Vec::new(), ..random_case(&plan, &mut rng) };
+        let mut case = Case { tokens, ..case };
+        case.unwilling.remove("tri");
+        all.merge(&checked(&case));
+    }
+    report(&all);
+    let met = &all.events;
+    assert!(met.drain_stall > 0 && met.interlock_stall > 0, "hazards that wait were not met");
+    assert!(met.forward_compare > 0, "forwarding was not met");
+    assert!(met.forward_write > 0 && met.forward_used > 0, "forwarding was not met");
+}
