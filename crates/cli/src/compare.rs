@@ -116,9 +116,7 @@ pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -
             Some(shown) => {
                 c.order_undecided += 1;
                 match shown {
-                    Some(shown) => {
-                        tally.triangle(i, if frame.depth_write { shown.z } else { 1.0 }, &shown)
-                    }
+                    Some(shown) => tally.triangle(i, if frame.depth_write { shown.z } else { 1.0 }, &shown),
                     None => c.background_wrong += u64::from(!tally.is_background(i, frame.clear)),
                 }
             }

@@ -67,7 +67,7 @@ const ARGUMENTS: &[(&[&str], &[&str])] = &[
     (&["render", "sphere", "--shading", "phnog", "--out", "OUT"], &["phnog", "phong"]),
     (&["render", "sphere", "--shading", "phong", "--out", "OUT"], &["--shading phong", "--engine golden"]),
     (&["emit", "--machine", "textbok", "--out", "OUT"], &["textbok", "textbook"]),
-    (&["emit", "--set", "interpolator.adders=3", "--out", "OUT"], &["interpolator.adders", "3", "nearest"]),
+    (&["emit", "--set", "interpolator.adders=9", "--out", "OUT"], &["interpolator.adders", "9", "nearest"]),
     (
         &["emit", "--set", "interpolator.adder=2", "--out", "OUT"],
         &["interpolator.adder", "interpolator.adders"],
@@ -94,7 +94,7 @@ const MACHINES: &[(&str, &[&str])] = &[
     ("[screen]\nwidth = \n", &["m.toml", "line 2"]),
     ("[screen]\nwidht = 5\n", &["m.toml", "line 2", "screen.widht", "screen.width"]),
     ("[screen]\nwidth = 640.5\n", &["m.toml", "line 2", "640.5"]),
-    ("[interpolator]\nadders = 5\n", &["m.toml", "line 2", "adders"]),
+    ("[interpolator]\nadders = 9\n", &["m.toml", "line 2", "adders"]),
     ("[screen]\nwidth = 8192\n[screen]\n", &["m.toml", "line 3"]),
     ("[formats]\nz_bits = 32\nz_fraction = 30\n", &["m.toml", "line 3", "z_fraction"]),
     ("hazard = \"drain\"\n", &["m.toml", "line 1", "memory.hazard"]),

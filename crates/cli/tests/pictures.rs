@@ -2,8 +2,11 @@
 //! pixel known.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
+mod support;
+
 use std::path::Path;
 use std::process::{Command, Output};
+use support::npy;
 use zune_png::PngDecoder;
 
 const WIDTH: usize = 5;
@@ -41,23 +44,6 @@ fn run(folder: &Path, arguments: &[&str]) -> Output {
         Command::new(env!("CARGO_BIN_EXE_edgewalk")).current_dir(folder).args(arguments).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     output
-}
-
-/// An array as numpy's format says: element type, shape, and the elements' bytes.
-fn npy(path: &Path) -> (String, Vec<usize>, Vec<u8>) {
-    let bytes = std::fs::read(path).unwrap();
-    assert_eq!(&bytes[..8], b"\x93NUMPY\x01\x00", "magic and version");
-    let length = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
-    let header = std::str::from_utf8(&bytes[10..10 + length]).unwrap();
-    assert!(header.contains("'fortran_order': False"), "{header}");
-    let behind = |key: &str, end: char| {
-        let from = header.split_once(key).unwrap().1.trim_start().trim_start_matches(['\'', '(']);
-        from.split_once(end).unwrap().0.to_owned()
-    };
-    let shape = behind("'shape':", ')');
-    let shape =
-        shape.split(',').map(str::trim).filter(|n| !n.is_empty()).map(|n| n.parse().unwrap()).collect();
-    (behind("'descr':", '\''), shape, bytes[10 + length..].to_vec())
 }
 
 fn png(path: &Path) -> Vec<[u8; 3]> {

@@ -155,8 +155,15 @@ fn own_values_are_the_plane_through_the_vertices_in_both_modes() {
 
 #[test]
 fn a_picture_holds_the_own_values_of_what_was_drawn_last_and_0_elsewhere() {
-    let at = |x, y, z, extra: [f64; 2]| Vertex { x, y, z, extra: [extra[0], extra[1], 0.0, 0.0], ..Vertex::default() };
-    let flat = |z: f64, extra| Triangle([(0.0, 0.0), (8.0, 0.0), (0.0, 8.0)].map(|(x, y)| at(x, y, z, extra)));
+    let at = |x, y, z, extra: [f64; 2]| Vertex {
+        x,
+        y,
+        z,
+        extra: [extra[0], extra[1], 0.0, 0.0],
+        ..Vertex::default()
+    };
+    let flat =
+        |z: f64, extra| Triangle([(0.0, 0.0), (8.0, 0.0), (0.0, 8.0)].map(|(x, y)| at(x, y, z, extra)));
     let mut frame = Frame::new(8, 8);
     frame.extra = 2;
     frame.triangles = vec![flat(0.5, [-3.0, 4.0]), flat(0.25, [-1.5, 2.0]), flat(0.75, [9.0, 9.0])];

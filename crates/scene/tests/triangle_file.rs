@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 use edgewalk_scene::{
-    DepthFunc, Frame, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_SIDE, Polygon, Primitive, ShadeMode, Shadow, Triangle, Vertex,
-    triangle_file,
+    DepthFunc, Frame, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_SIDE, Polygon, Primitive, ShadeMode,
+    Shadow, Triangle, Vertex, triangle_file,
 };
 use proptest::prelude::*;
 
@@ -141,7 +141,10 @@ fn malformed_values_name_place_and_remedy() {
         (format!("size 9 9\n{T}\nX"), &["X: `0 given`", "here `extra 1`"]),
         ("size 9 9\nextra 1\nX 1 2 3".into(), &["a.tri:3:", "`X`", "once, behind a triangle `T`"]),
         (with(1, "X 1 2 3\nX 1 2 3"), &["a.tri:5:", "`X`", "once, behind a triangle `T`"]),
-        (with(2, "X 1 2 3 4 5"), &["a.tri:4: X: `5 given`", "6 values, e0 e1 of vertex 1, then of 2, then of 3"]),
+        (
+            with(2, "X 1 2 3 4 5"),
+            &["a.tri:4: X: `5 given`", "6 values, e0 e1 of vertex 1, then of 2, then of 3"],
+        ),
         (with(2, "X 1 2 3 4 5 6 7"), &["a.tri:4: X: `7 given`", "6 values"]),
         (with(2, "X 1 2 3 nan 5 6"), &["a.tri:4: X vertex 2 e1: `nan`", "-2147483647 to 2147483647"]),
         (with(1, "X 1 2 -inf"), &["X vertex 3 e0: `-inf`"]),
@@ -241,7 +244,8 @@ fn triangle_by_triangle_a_late_shadow_is_refused() {
     assert!(reader.next().is_some_and(|triangle| triangle.is_ok()));
     let error = reader.next().unwrap().unwrap_err().to_string();
     assert!(
-        error.contains("a.tri:3: line starts with: `shadow`") && error.contains("only triangles from here on"),
+        error.contains("a.tri:3: line starts with: `shadow`")
+            && error.contains("only triangles from here on"),
         "{error}"
     );
 }

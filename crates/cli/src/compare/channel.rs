@@ -39,7 +39,8 @@ impl<'a> Tally<'a> {
             largest: 0.0,
             map: vec![0.0; golden.coverage.len()],
         };
-        let of_unit = |place: usize| errors(machine.channels()[place], machine.channels()[place].max() as f64);
+        let of_unit =
+            |place: usize| errors(machine.channels()[place], machine.channels()[place].max() as f64);
         Tally {
             drawn,
             z: of_unit(0),

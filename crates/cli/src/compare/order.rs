@@ -54,9 +54,8 @@ impl Over {
     /// A fragment of the triangle with this id.
     fn fragment(machine: &Plan, fragment: &Fragment, id: i32) -> Self {
         let channels = extra::channels(machine);
-        let own = |channel: usize| {
-            channels.get(channel).map_or(0.0, |of| fragment.extra(channel) * of.host_unit())
-        };
+        let own =
+            |channel: usize| channels.get(channel).map_or(0.0, |of| fragment.extra(channel) * of.host_unit());
         Over { id, z: fragment.z(), rgb: fragment.rgb(), extra: std::array::from_fn(own) }
     }
 }

@@ -3,6 +3,7 @@
 
 use super::{Comparison, compare};
 use crate::engine::{Engine, Raster, draw};
+use crate::extra::Values;
 use crate::verdict::Verdict::{self, Mismatch, Pass, Vacuous};
 use edgewalk_machine::{Machine, Plan};
 use edgewalk_scene::{DepthFunc, Frame, Triangle, Vertex};
@@ -18,7 +19,15 @@ fn machine() -> Plan {
 
 /// A triangle over the left upper half of the screen, at one depth and in one colour.
 fn half(z: f64, [r, g, b]: [f64; 3]) -> Triangle {
-    Triangle([(0.0, 0.0), (16.0, 0.0), (0.0, 12.0)].map(|(x, y)| Vertex { x, y, z, r, g, b, kt: 0.0 }))
+    Triangle([(0.0, 0.0), (16.0, 0.0), (0.0, 12.0)].map(|(x, y)| Vertex {
+        x,
+        y,
+        z,
+        r,
+        g,
+        b,
+        ..Vertex::default()
+    }))
 }
 
 /// Depths and colours on a screen that they cover half of.
@@ -209,4 +218,54 @@ fn nothing_drawn_is_nothing_compared() {
     assert_eq!(after(&frame, |_| {}).verdict(), Vacuous);
     let something: Verdict = after(&frame, |r| r.coverage[UNDER] = 1).verdict();
     assert_eq!(something, Mismatch, "but a machine that draws where golden does not is wrong");
+}
+
+/// Two channels of the user's own: signed, and floor.
+fn own_machine() -> Plan {
+    let mut machine = Machine { width: 16, height: 12, extra: 2, ..Machine::default() };
+    machine.set("channels.e0_kind", "signed").unwrap();
+    machine.plan().unwrap()
+}
+
+#[test]
+fn each_value_of_the_users_own_wrong_alone_is_a_mismatch() {
+    let mut frame = frame(Some(DepthFunc::Less), &[NEAR_GREEN]);
+    frame.extra = 2;
+    for (vertex, own) in frame.triangles[0].0.iter_mut().zip([-700.25, 3.0, 12.5]) {
+        vertex.extra = [own, own - 0.5, 0.0, 0.0];
+    }
+    let machine = own_machine();
+    let [golden, right] =
+        [Engine::Golden, Engine::Model].map(|engine| draw(engine, &frame, &machine, true).unwrap());
+    let after = |fault: &dyn Fn(&mut [Vec<i64>; 2])| {
+        let mut wrong = right.clone();
+        let mut values = [0, 1].map(|i| match &wrong.extra[i] {
+            Values::Stored(values) => values.clone(),
+            Values::Exact(_) => panic!("the machine stores whole numbers"),
+        });
+        fault(&mut values);
+        wrong.extra = values.map(Values::Stored).into();
+        compare(&machine, &frame, &golden, &wrong)
+    };
+    let c = after(&|_| {});
+    assert_eq!(c.verdict(), Pass, "{}", said(&c));
+    let errors = [0, 1].map(|i| c.extra[i].error);
+    assert!(errors.iter().all(|error| *error > 0.3), "{errors:?}");
+    let bounds = [0, 1].map(|i| c.extra[i].channel.bound.unwrap());
+    assert!(bounds[0] < 1.0 && bounds[1] > 1.0 && bounds[1] < 1.5, "{bounds:?}");
+    let cases: [(&dyn Fn(&mut [Vec<i64>; 2]), &dyn Fn(&Comparison) -> bool); 5] = [
+        (&|own| own[0][UNDER] += 2, &|c| c.extra[0].error > 1.4 && c.extra[1].error == errors[1]),
+        (&|own| own[1][UNDER] -= 2, &|c| c.extra[1].error > 1.9 && c.extra[0].error == errors[0]),
+        (&|own| own[0][UNDER] += 4096, &|c| c.wrapped == 1),
+        (&|own| own[1][BESIDE] = 1, &|c| c.background_wrong == 1),
+        (&|own| own.swap(0, 1), &|c| c.extra[0].error > bounds[0]),
+    ];
+    let mut caught = 0;
+    for (fault, found) in cases {
+        let c = after(fault);
+        assert!(found(&c), "{}", said(&c));
+        assert_eq!(c.verdict(), Mismatch, "{}", said(&c));
+        caught += 1;
+    }
+    assert_eq!(caught, cases.len());
 }

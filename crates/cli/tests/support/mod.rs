@@ -37,3 +37,20 @@ pub fn names(folder: &Path) -> Vec<String> {
     names.sort();
     names
 }
+
+/// An array as numpy's format says: element type, shape, and the elements' bytes.
+pub fn npy(path: &Path) -> (String, Vec<usize>, Vec<u8>) {
+    let bytes = std::fs::read(path).unwrap();
+    assert_eq!(&bytes[..8], b"\x93NUMPY\x01\x00", "magic and version");
+    let length = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    let header = std::str::from_utf8(&bytes[10..10 + length]).unwrap();
+    assert!(header.contains("'fortran_order': False"), "{header}");
+    let behind = |key: &str, end: char| {
+        let from = header.split_once(key).unwrap().1.trim_start().trim_start_matches(['\'', '(']);
+        from.split_once(end).unwrap().0.to_owned()
+    };
+    let shape = behind("'shape':", ')');
+    let shape =
+        shape.split(',').map(str::trim).filter(|n| !n.is_empty()).map(|n| n.parse().unwrap()).collect();
+    (behind("'descr':", '\''), shape, bytes[10 + length..].to_vec())
+}

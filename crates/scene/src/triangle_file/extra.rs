@@ -21,8 +21,9 @@ pub(super) fn values<'a>(
     let found = format!("{} given", words.len());
     if count == 0 {
         let nearest = words.len().div_ceil(3).clamp(1, MAX_EXTRA);
-        let why =
-            format!("permitted only behind a line `extra N` before the first triangle, here `extra {nearest}`");
+        let why = format!(
+            "permitted only behind a line `extra N` before the first triangle, here `extra {nearest}`"
+        );
         return Err(place.fault("X", found.as_bytes(), why).into());
     }
     let Some(triangle) = open else {
