@@ -39,7 +39,7 @@ pub enum VertexError {
 }
 
 impl Plan {
-    /// Snaps a vertex (px, and Z, R, G, B in [0,1]) to the port's formats, each rounded half to even.
+    /// Snaps a vertex (px, and Z, R, G, B in 0 to 1) to the port's formats, each rounded half to even.
     ///
     /// Errors of the result: 2^-(s+1) px in x and y, 2^-(e+1) LSB in a channel.
     ///
