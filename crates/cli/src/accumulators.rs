@@ -20,7 +20,7 @@ pub fn prim<const C: usize>(machine: &Plan, triangle: &[PortVertex; 3]) -> Optio
 }
 
 /// The depth's accumulator at every pixel that shows a triangle, minus the exact depth there, over the largest error that its
-/// additions can have made (A2): -1 to 1, and 0 where no triangle is. `ids` names for each pixel the triangle it shows. `None`
+/// additions can have made (bound 2): -1 to 1, and 0 where no triangle is. `ids` names for each pixel the triangle it shows. `None`
 /// if the machine's spans do not begin at pixel centres.
 pub fn depth_error_over_bound(
     machine: &Plan,

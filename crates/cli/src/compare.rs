@@ -4,7 +4,7 @@
 //!  golden ─┐                  same triangle, same writes ──> every channel: error, wrapped? ─────┐
 //!          ├─> coverage ─> ?                                                                    ├─> Comparison ─> verdict
 //!  machine ┘                  another triangle or count ──> is there an order of depths within ─┘
-//!                                                           the bound (A7) that explains it?
+//!                                                           the bound (bound 7) that explains it?
 //! ```
 //! Errors are against the exact plane through the unquantised vertices, in LSB of the machine's output.
 
@@ -36,7 +36,7 @@ pub struct Comparison {
     /// Those of them whose triangle, number of writes, depth, colour and values of the user's own were compared.
     pub compared: u64,
     /// Pixels that show another triangle, or were written another number of times, as two depths there are too near for the
-    /// bound to tell their order (A7).
+    /// bound to tell their order (bound 7).
     pub order_undecided: u64,
     /// Pixels where no such order explains it.
     pub order_wrong: u64,

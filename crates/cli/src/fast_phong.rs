@@ -99,7 +99,7 @@ pub struct FastPhongReport {
     mean_error_from_phong: f64,
     /// Largest rho of a triangle that is seen.
     largest_rho: f64,
-    /// The bound of a cosine there (A10), LSB of 8 bits; none from rho = 1 on.
+    /// The bound of a cosine there (bound 10), LSB of 8 bits; none from rho = 1 on.
     a10: Option<f64>,
 }
 
@@ -147,7 +147,7 @@ impl FastPhongReport {
             self.largest_error_from_phong, self.mean_error_from_phong
         );
         let a10 = self.a10.map_or_else(|| "none".to_owned(), |bound| format!("{bound:.4} LSB"));
-        let _ = writeln!(t, "largest rho {:.4}: bound A10 of a cosine {a10}", self.largest_rho);
+        let _ = writeln!(t, "largest rho {:.4}: bound 10 of a cosine {a10}", self.largest_rho);
         t
     }
 }

@@ -1,4 +1,4 @@
-//! Averaged normals (B, C): where they hide what they should show, and how a crease brings it back.
+//! Averaged normals (slides, notes): where they hide what they should show, and how a crease brings it back.
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, LSB, View, WIDTH, figure};
 use edgewalk_golden::{Picture, Shading, shade};

@@ -40,7 +40,7 @@ pub(crate) fn fast_phong() -> Result<Exhibit, InputError> {
         title: "Fast Phong (S9)",
         cause: "N L / |N| and N H / |N| become quadratics, stepped by two additions a pixel each, and a table raises the \
                 second to its power. The series is right in the middle of a triangle and worst at its corners, where \
-                neighbours disagree; six points agree along common edges. Error by bound: A10.",
+                neighbours disagree; six points agree along common edges. Bound 10 says by how much.",
         figures,
         views,
     })

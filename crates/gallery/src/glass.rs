@@ -1,4 +1,4 @@
-//! Transparency: order, blending, and the shadows of what lets light through (A 7.2, 7.4, 7.5).
+//! Transparency: order, blending, and the shadows of what lets light through (ch. 7.2, 7.4, 7.5).
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use edgewalk_golden::{Rays, Shading, ShadowMaps, Visibility, render};

@@ -1,4 +1,4 @@
-//! The shading equation and its three kinds of light (A 7.1).
+//! The shading equation and its three kinds of light (ch. 7.1).
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, LSB, View, WIDTH, figure};
 use edgewalk_golden::{Shading, shade};

@@ -1,4 +1,4 @@
-//! A highlight inside a polygon that Gouraud shading misses (B, C).
+//! A highlight inside a polygon that Gouraud shading misses (slides, notes).
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, LSB, View, WIDTH, figure};
 use edgewalk_golden::{Shading, shade};

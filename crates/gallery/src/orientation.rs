@@ -1,4 +1,4 @@
-//! Orientation dependence of a quad (B): bilinear interpolation along edges, then along the line, turns with the screen.
+//! Orientation dependence of a quad (slides): bilinear interpolation along edges, then along the line, turns with the screen.
 
 use crate::exhibit::{Exhibit, FILL, HEIGHT, LSB, View, WIDTH, figure};
 use crate::plot::{Series, plot};

@@ -1,4 +1,4 @@
-//! Perspective distortion (B, C): what is linear in the world is not linear on the screen.
+//! Perspective distortion (slides, notes): what is linear in the world is not linear on the screen.
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use crate::plot::{Series, plot};

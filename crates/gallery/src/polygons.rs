@@ -1,4 +1,4 @@
-//! Polygons by edge table and active edges, and wireframe (B).
+//! Polygons by edge table and active edges, and wireframe (slides).
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use edgewalk_golden::polygon::{EdgeTable, Grid};

@@ -1,4 +1,4 @@
-//! Shadow maps, against rays (A 7.2, 7.3).
+//! Shadow maps, against rays (ch. 7.2, 7.3).
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use edgewalk_golden::{Rays, Shaded, Shading, ShadowMaps, Visibility, render};

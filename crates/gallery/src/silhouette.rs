@@ -1,4 +1,4 @@
-//! Polygonal silhouette (B, C): smooth shading does not round an outline.
+//! Polygonal silhouette (slides, notes): smooth shading does not round an outline.
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use crate::plot::{Series, plot};

@@ -1,4 +1,4 @@
-//! The shading systems side by side, each with its error: constant twice, Gouraud, Phong (A 7.6 to 7.12).
+//! The shading systems side by side, each with its error: constant twice, Gouraud, Phong (ch. 7.6 to 7.12).
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use edgewalk_golden::{Shading, shade};

@@ -1,4 +1,4 @@
-//! T-joint (B): a vertex on an edge of a neighbour that does not share it.
+//! T-joint (slides): a vertex on an edge of a neighbour that does not share it.
 
 use crate::exhibit::{Exhibit, FILL, HEIGHT, LSB, View, WIDTH, figure};
 use edgewalk_golden::{Fill, Picture, draw};

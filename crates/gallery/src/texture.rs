@@ -1,4 +1,4 @@
-//! Coefficients that vary over the surface, and perturbed normals (A, end of chapter 7).
+//! Coefficients that vary over the surface, and perturbed normals (end of ch. 7).
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use edgewalk_golden::{Shaded, Shading, shade};

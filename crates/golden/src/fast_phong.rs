@@ -2,11 +2,11 @@
 //!
 //! ```text
 //!   vertices' normals ──> quadratic in x, y ──> value and differences ──+──+──> N·L, N·H at a pixel ──> table (N·H)^n
-//!   (A 7.11)              Taylor or six-point    at the first pixel     two additions a pixel each       saturated
+//!   (ch. 7.11)              Taylor or six-point    at the first pixel     two additions a pixel each       saturated
 //! ```
 //! For one light and one wavelength that is five additions and one table read a pixel: two for N·L, two for N·H, one for
 //! the sum of the diffuse and the specular part. It holds for ambient and directional light, where L does not depend on
-//! the pixel. Derivations: `docs/fast_phong.md`; how far the quadratics are off: A10 in `docs/numerics.md`.
+//! the pixel. Derivations: `docs/fast_phong.md`; how far the quadratics are off: bound 10 in `docs/numerics.md`.
 //!
 //! Everything is f64, in the order of the incremental algorithm. It is a reference of that algorithm, not the truth.
 

@@ -15,7 +15,7 @@ pub enum Fill {
         /// Vertices are snapped to this many sub-pixel bits, 0..=8.
         subpixel_bits: u32,
     },
-    /// The books': integer vertices, pixels at integer coordinates. Triangles by the listing of A 7.5: both ends of a span
+    /// The books': integer vertices, pixels at integer coordinates. Triangles by the listing of ch. 7.5: both ends of a span
     /// inclusive, the knee line drawn twice; polygons by the rule of seed B: the start rounded up, the end down.
     Textbook,
 }

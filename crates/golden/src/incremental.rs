@@ -1,9 +1,9 @@
-//! Attributes by addition alone, the way the listings of A 7.5 and A 7.6 step them.
+//! Attributes by addition alone, the way the listings of ch. 7.5 and ch. 7.6 step them.
 //!
 //! ```text
-//!   start --> + dX --> + dX -->        a pixel:  value += dX          (A 7.9; once a triangle)
-//!     |                                a line:   start += dY          (A 7.10; along the left edge)
-//!     v + dY                           a half or a triangle begins:   start = the plane there (A 7.8)
+//!   start --> + dX --> + dX -->        a pixel:  value += dX          (ch. 7.9; once a triangle)
+//!     |                                a line:   start += dY          (ch. 7.10; along the left edge)
+//!     v + dY                           a half or a triangle begins:   start = the plane there (ch. 7.8)
 //!   start --> + dX --> ...
 //! ```
 //! In f64, so what the additions cost is rounding of 2^-53 each. dY leads from the first pixel of a line to the first

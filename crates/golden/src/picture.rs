@@ -160,7 +160,7 @@ const CLEARED: Fragment<1> = Fragment {
     total: 1,
 };
 
-/// (1 - k_t) I + k_t I_back (A 7.5).
+/// (1 - k_t) I + k_t I_back (ch. 7.5).
 pub(crate) fn mix(front: [f64; 3], kt: f64, back: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|channel| (1.0 - kt) * front[channel] + kt * back[channel])
 }

@@ -1,4 +1,4 @@
-//! r_l by rays: which faces lie between a point and a light (A 7.2, all three cases).
+//! r_l by rays: which faces lie between a point and a light (ch. 7.2, all three cases).
 //!
 //! "The more general case can be solved by ray-tracing": a ray from the point to the light; r_l is the product of k_t of
 //! all faces it meets, so 1 where there is none and 0 behind an opaque one. Each face counts, so a body of glass counts

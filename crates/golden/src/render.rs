@@ -4,7 +4,7 @@
 //!   surface ──> opaque triangles ──> draw ──> id and depth at each pixel ──> their colours, pixel by pixel
 //!          └──> transparent ones ──> from back to front ──> where nearer than that depth: (1 - k_t) I* + k_t I_back
 //! ```
-//! r_l is taken at the point that the pixel shows, whatever the system interpolates. Constant shading has none (A 7.6).
+//! r_l is taken at the point that the pixel shows, whatever the system interpolates. Constant shading has none (ch. 7.6).
 //! The picture and the truth beside it are blended alike, each with its own colours.
 
 use crate::depth::compare;

@@ -1,4 +1,4 @@
-//! The shading systems of A 7.4 to 7.6, each beside the truth, so that its error is a number and a picture.
+//! The shading systems of ch. 7.4 to 7.6, each beside the truth, so that its error is a number and a picture.
 //!
 //! ```text
 //!  scene --> surface --> colours of the vertices --> draw --> id of the triangle seen at each pixel
@@ -20,13 +20,13 @@ use glam::{DVec2, DVec3};
 /// How the colour of a pixel is come by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Shading {
-    /// One colour a polygon, by its own normal (A 7.6).
+    /// One colour a polygon, by its own normal (ch. 7.6).
     Constant,
-    /// One colour a polygon, by the average of its vertex normals (A 7.6).
+    /// One colour a polygon, by the average of its vertex normals (ch. 7.6).
     ConstantAveraged,
-    /// Colours of the vertices, linear over the screen (A 7.8).
+    /// Colours of the vertices, linear over the screen (ch. 7.8).
     Gouraud,
-    /// Normal and world position linear over the screen, the equation at each pixel (A 7.11, 7.12).
+    /// Normal and world position linear over the screen, the equation at each pixel (ch. 7.11, 7.12).
     Phong,
 }
 
@@ -93,7 +93,7 @@ pub(crate) fn on_surface(fragment: &Fragment, triangle: &SurfaceTriangle) -> Att
     }
 }
 
-/// The full equation (A 7.12) at a pixel, the normal brought back to length 1 and turned by the relief, if there is one;
+/// The full equation (ch. 7.12) at a pixel, the normal brought back to length 1 and turned by the relief, if there is one;
 /// `r` holds r_l of each light.
 pub(crate) fn color(scene: &Scene, triangle: &SurfaceTriangle, at: &Attributes, r: &[f64]) -> [f64; 3] {
     let material = scene.mesh.material_at(triangle.face, at.texture);

@@ -1,4 +1,4 @@
-//! Shadow maps: who is seen from a light is lit (A 7.2, 7.3).
+//! Shadow maps: who is seen from a light is lit (ch. 7.2, 7.3).
 //!
 //! ```text
 //!   frame on the screen:  Shadow (matrix, L triangles) ──> ShadowMap ──> 1 or AMBIENT for a fragment

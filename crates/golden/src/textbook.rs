@@ -1,4 +1,4 @@
-//! The listing of A 7.5 to the letter: what the book's program draws.
+//! The listing of ch. 7.5 to the letter: what the book's program draws.
 //!
 //! ```text
 //! Y_1        1          first half:   lines Y_1 ..= Y_2, between the edges 1-2 and 1-3

@@ -1,8 +1,8 @@
-//! The order in which transparent surfaces are drawn: decreasing distance from the eye (A 7.2), and where there is none.
+//! The order in which transparent surfaces are drawn: decreasing distance from the eye (ch. 7.2), and where there is none.
 //!
 //! ```text
 //!   opaque triangles, in list order          depth test decides, as ever
-//!   transparent ones, farthest first         each adds (1 - k_t) I* + k_t I_back, I_back being all behind it (A 7.5)
+//!   transparent ones, farthest first         each adds (1 - k_t) I* + k_t I_back, I_back being all behind it (ch. 7.5)
 //! ```
 //! One distance a triangle is not enough: of two long ones either may be nearer where they overlap. So pairs that overlap
 //! on the screen are compared there, and the list is sorted such that of every pair the farther one comes first; where

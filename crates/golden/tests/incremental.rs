@@ -1,4 +1,4 @@
-//! Attributes by addition against the plane, the formulae of seed B, and the worked example of seed C.
+//! Attributes by addition against the plane, the formulae of seed B, and the worked example of the notes.
 #![allow(clippy::unwrap_used)] // what is looked for is there
 
 use edgewalk_golden::{Fragment, Half, Incremental, Weights, fragments, half_triangles};
@@ -88,7 +88,7 @@ fn walk(corners: [[f64; 2]; 3], half: Half) -> (Vec<f64>, Vec<f64>) {
     (starts, line_15)
 }
 
-/// Seed C. Its last sentence has the line end "with the value 0.15": a misprint for 0.75. It counts 20 - 10.5 = 9.5
+/// The notes. Its last sentence has the line end "with the value 0.15": a misprint for 0.75. It counts 20 - 10.5 = 9.5
 /// pixels as 10 steps, hence its 0.02; the plane rises by 0.2 / 9.5 a pixel.
 #[test]
 fn worked_example_of_seed_c() {

@@ -1,4 +1,4 @@
-//! The listing of A 7.5 (half triangles) and the worked example of seed C.
+//! The listing of ch. 7.5 (half triangles) and the worked example of the notes.
 
 use edgewalk_golden::{Fill, Half, draw, fragments, half_triangles};
 use edgewalk_scene::{DepthFunc, Frame, ShadeMode, Triangle, Vertex};
@@ -229,7 +229,7 @@ fn worked_example_steps_along_the_edges() {
 fn worked_example_scan_line_15() {
     let list = line(&written(&shaded(WORKED)), Half::First, 15);
     assert!((list[0].1 - 0.55).abs() < 1e-12, "the left edge, at x = 10.5");
-    // The exact step is 0.2 / 9.5. C counts 20 - 10.5 as 10 steps, hence 0.02, and ends at 0.75; "0.15" is a misprint.
+    // The exact step is 0.2 / 9.5. The notes count 20 - 10.5 as 10 steps, hence 0.02, and ends at 0.75; "0.15" is a misprint.
     let step = list[1].1 - list[0].1;
     assert!((step - 0.2 / 9.5).abs() < 1e-12);
     let as_printed: f64 = (0.75 - 0.55) / 10.0;

@@ -14,7 +14,7 @@ fn rational(value: f64) -> BigRational {
     BigRational::from_float(value).unwrap()
 }
 
-/// A 7.7 and A 7.8 as they stand: the plane with the normal (r2 - r1) x (r3 - r1) at a pixel centre.
+/// ch. 7.7 and ch. 7.8 as they stand: the plane with the normal (r2 - r1) x (r3 - r1) at a pixel centre.
 fn plane(triangle: &Triangle, bits: u32, at: (u32, u32), attribute: impl Fn(&Vertex) -> f64) -> BigRational {
     let unit = f64::from(1u32 << bits);
     let [p1, p2, p3] = triangle.0.each_ref().map(|v| {

@@ -168,7 +168,8 @@ impl Case {
 
     /// What the rig does.
     fn setting(&self, interface: &Interface) -> Result<Setting, LockstepError> {
-        let state = DrawState { depth_func: self.depth_func, depth_write: self.depth_write, ..DrawState::default() };
+        let state =
+            DrawState { depth_func: self.depth_func, depth_write: self.depth_write, ..DrawState::default() };
         let mut setting = Setting::willing(interface, &constants(&state))?;
         setting.tokens.clone_from(&self.tokens);
         let mut random = Pcg64Mcg::seed_from_u64(self.seed);

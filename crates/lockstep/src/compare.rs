@@ -12,7 +12,8 @@ use std::ops::Range;
 #[must_use]
 pub fn status_ports(interface: &Interface) -> Vec<StatusPort> {
     let handshakes = interface.links.iter().filter_map(always);
-    let handshakes = handshakes.map(|id| StatusPort { port: interface.at(id).clone(), during: None, guard: None });
+    let handshakes =
+        handshakes.map(|id| StatusPort { port: interface.at(id).clone(), during: None, guard: None });
     handshakes.chain(interface.status.iter().cloned()).collect()
 }
 
@@ -136,7 +137,8 @@ impl Follower {
     /// The difference at a port.
     pub fn tell(&self, port: &Port, cycle: u64, expected: &PortValues, found: &PortValues) -> Difference {
         let of_link = |link: &Link| {
-            link.owner == port.owner && (link.ready == port.id || link.valid == port.id || link.range().contains(&port.id.0))
+            link.owner == port.owner
+                && (link.ready == port.id || link.valid == port.id || link.range().contains(&port.id.0))
         };
         let place = self.links.iter().position(of_link);
         let link = place.map(|place| &self.links[place]);

@@ -163,7 +163,9 @@ impl Interface {
         let link = |name: &str| self.links.iter().position(|link| link.name == name);
         let address = declared.read.fields.first().map_or("", |field| &field.name);
         let write = link(declared.write).map(|place| {
-            let of = |field: &str| self.links[place].place(field).expect("a declared write has the memory's fields");
+            let of = |field: &str| {
+                self.links[place].place(field).expect("a declared write has the memory's fields")
+            };
             link::MemoryWrite {
                 link: place,
                 address: of(address),

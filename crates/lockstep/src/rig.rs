@@ -188,7 +188,8 @@ impl<'a> Rig<'a> {
             let fires = link.fires(ports);
             moved |= fires;
             self.held[place] = !fires && ports.is_high(link.valid);
-            let fed = link.direction == Direction::In && self.memories.iter().all(|memory| memory.data() != place);
+            let fed =
+                link.direction == Direction::In && self.memories.iter().all(|memory| memory.data() != place);
             if fires && fed {
                 self.sent += 1;
                 self.next = self.source.next();

@@ -69,7 +69,8 @@ pub(crate) const LENGTHS: [usize; 6] = [61, 67, 53, 71, 59, 73];
 #[must_use]
 pub fn patterns(plan: &Plan, interface: &Interface, kind: StallKind, seed: u64) -> Vec<Pattern> {
     let held = held(interface);
-    let programme = (kind == StallKind::Late && !held.is_empty()).then(|| programme(plan, interface, &held, seed));
+    let programme =
+        (kind == StallKind::Late && !held.is_empty()).then(|| programme(plan, interface, &held, seed));
     let waits = interface.waits().enumerate();
     waits
         .map(|(i, name)| {
@@ -118,7 +119,8 @@ fn programme(plan: &Plan, interface: &Interface, held: &[&str], seed: u64) -> Ve
     } else {
         (2, places + 3)
     };
-    let reads: Vec<&str> = interface.memories.iter().map(|memory| interface.links[memory.read].name).collect();
+    let reads: Vec<&str> =
+        interface.memories.iter().map(|memory| interface.links[memory.read].name).collect();
     let mut rows = Vec::new();
     for name in held {
         let triangles = if reads.contains(name) { BEFORE_DEPTH } else { places + 2 };

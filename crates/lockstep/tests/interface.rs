@@ -48,12 +48,17 @@ fn a_field_of_another_name_is_refused() {
             if faulty.memory.iter().any(|memory| {
                 let write = faulty.gives.as_ref().filter(|gives| gives.name == memory.write);
                 let address = &memory.read.fields[0].name;
-                write.is_some_and(|write| [memory.word, memory.enable, address].into_iter().any(|f| write.place(f).is_none()))
+                write.is_some_and(|write| {
+                    [memory.word, memory.enable, address].into_iter().any(|f| write.place(f).is_none())
+                })
             }) {
                 continue;
             }
             let interface = Interface::of_ports(unit, &faulty);
-            assert!(matches!(model(&plan, &interface).err(), Some(NoPlace::Port { .. })), "{unit:?} {link} {place}");
+            assert!(
+                matches!(model(&plan, &interface).err(), Some(NoPlace::Port { .. })),
+                "{unit:?} {link} {place}"
+            );
             let netlist = netlist(&plan, unit).expect("can be built");
             let error = NetlistDevice::new(&netlist, &interface).expect_err("a port of another name");
             assert!(matches!(error, PortError::Undeclared { .. }), "{error}");

@@ -36,7 +36,9 @@ fn alone(name: &str, seed: u64, cycles: u64) {
         case.disturbed = rng.random_range(0..40);
         case.resets = if rng.random_bool(0.3) { vec![rng.random_range(1..cycles)] } else { Vec::new() };
         let link = &interface.links[0];
-        if let Some(fresh) = link.place("fresh").filter(|_| !case.resets.is_empty() && link.own < link.fields.len()) {
+        if let Some(fresh) =
+            link.place("fresh").filter(|_| !case.resets.is_empty() && link.own < link.fields.len())
+        {
             // Behind a reset EDGE begins anew: no span then goes without increments of its own.
             case.tokens.iter_mut().for_each(|token| token[fresh] = 1);
         }
@@ -46,7 +48,9 @@ fn alone(name: &str, seed: u64, cycles: u64) {
         machines += 1;
     }
     let Checked { compared, tokens, .. } = all;
-    println!("{name}: {machines} of {MACHINES} machines, {cycles} cycles each, {tokens} tokens, {compared} values of ports compared");
+    println!(
+        "{name}: {machines} of {MACHINES} machines, {cycles} cycles each, {tokens} tokens, {compared} values of ports compared"
+    );
     assert!(machines > MACHINES * 9 / 10 && compared > cycles * machines);
     let met = all.events.counts().into_iter().filter(|(_, count)| *count > 0).map(|(name, _)| name);
     let met: Vec<&str> = met.collect();

@@ -74,7 +74,10 @@ fn whole_machines(half: usize) {
         extra[plan.extra as usize] += 1;
         signed += plan.channels().iter().filter(|channel| channel.kind != Kind::Unorm).count();
     }
-    println!("{run} of {} machines, {extra:?} with 0 to 4 extra channels, {signed} of them signed", MACHINES / 2);
+    println!(
+        "{run} of {} machines, {extra:?} with 0 to 4 extra channels, {signed} of them signed",
+        MACHINES / 2
+    );
     report(&all);
     assert_eq!(run, MACHINES / 2);
     assert!(extra.iter().all(|machines| *machines > 20) && signed > 150);

@@ -8,7 +8,7 @@ use edgewalk_numerics::{Dyadic, ErrorBudget, Rounding, Screen, Steps};
 /// Why no error of a machine's outputs is the largest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoBound {
-    /// A4 does not hold.
+    /// Bound 4 does not hold.
     #[error(
         "{additions} additions may err by {steps} LSB, which is not under 1/2: outputs may wrap past the ends of their range"
     )]
@@ -37,7 +37,7 @@ impl Channel {
 
 impl Machine {
     /// The screen with its guard band, 2^G - 1 columns before it; a slope edge may start a span further out by its
-    /// own error (A5).
+    /// own error (bound 5).
     #[must_use]
     pub fn screen(&self) -> Screen {
         let slope = match self.edge_kind {
@@ -52,7 +52,7 @@ impl Machine {
     /// What holds for every fragment of this machine whose pixel lies inside its triangle, in a channel of it.
     ///
     /// # Errors
-    /// Why outputs may wrap (A4): then no error is the largest.
+    /// Why outputs may wrap (bound 4): then no error is the largest.
     pub fn proved_budget(&self, channel: &Channel) -> Result<ErrorBudget, NoBound> {
         let additions = self.max_steps();
         let budget = channel.error_budget(additions);

@@ -16,9 +16,9 @@ pub enum Fill {
 /// How an edge walks from line to line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EdgeKind {
-    /// Quotient and remainder (Bresenham's error term): no error at all (A9).
+    /// Quotient and remainder (Bresenham's error term): no error at all (bound 9).
     Exact,
-    /// Fixed-point slope with `Machine::edge_fraction` bits, rounded to nearest (A5).
+    /// Fixed-point slope with `Machine::edge_fraction` bits, rounded to nearest (bound 5).
     Slope,
 }
 

@@ -15,7 +15,7 @@ const EXTRA: ExtraChannel =
     ExtraChannel { kind: Kind::Floor, precision: Precision { bits: 12, fraction: 14, vertex_fraction: 4 } };
 
 impl Default for Machine {
-    /// The preset `default`. r = 14 because a span may step over up to 2^13 columns of the guard band before the screen (A4).
+    /// The preset `default`. r = 14 because a span may step over up to 2^13 columns of the guard band before the screen (bound 4).
     fn default() -> Self {
         Machine {
             width: 640,

@@ -55,7 +55,7 @@ pub struct Source {
     pub id: u32,
 }
 
-/// An edge on its way from line to line (A9): column `c` and remainder `r`, stepped by quotient `q` and fraction `f`.
+/// An edge on its way from line to line (bound 9): column `c` and remainder `r`, stepped by quotient `q` and fraction `f`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EdgeWalk {
     /// C: first column whose centre lies on or right of the edge (textbook: 1 + Trunc(X)); signed, COLW bits, px.

@@ -1,4 +1,4 @@
-//! Slope edges: a pixel may differ from the exact rule only within (n_y + 1)·2^-(F+1) px of an edge (A5).
+//! Slope edges: a pixel may differ from the exact rule only within (n_y + 1)·2^-(F+1) px of an edge (bound 5).
 
 mod common;
 
@@ -7,7 +7,7 @@ use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::Stalls;
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
-/// Horizontal distance of a pixel's centre from the nearest edge that meets its line, and the most that A5 allows
+/// Horizontal distance of a pixel's centre from the nearest edge that meets its line, and the most that bound 5 allows
 /// there; px, as a ratio.
 fn of_bound(machine: &Plan, triangle: &Triangle, x: i64, y: i64) -> f64 {
     let one = f64::from(1u32 << machine.subpixel_bits);
@@ -46,7 +46,7 @@ fn pixels_differ_only_near_an_edge() {
         let (check, _) = Check::run(&machine, &triangles, Stalls::NONE);
         let worst = (check.wrong.iter().map(|&(i, x, y)| of_bound(&machine, &triangles[i], x, y)))
             .fold(0.0, f64::max);
-        check.report(&format!("F = {fraction}, at most {worst:.3} of A5"));
+        check.report(&format!("F = {fraction}, at most {worst:.3} of bound 5"));
         assert!(check.fragments > 100_000);
         assert!(worst <= 1.0 + 1e-9, "{worst} of the bound"); // distances are f64
         assert_eq!(!check.wrong.is_empty(), differ, "F = {fraction}");

@@ -45,7 +45,7 @@ fn along((top, bottom): Edge, y: i32, from: Q, to: Q) -> Q {
     from + (to - from) * whole(y - top.y()) / whole(bottom.y() - top.y())
 }
 
-/// The lines of the listing (A 7.10) on the screen, part by part.
+/// The lines of the listing (ch. 7.10) on the screen, part by part.
 fn rows(machine: &Plan, triangle: &Triangle) -> Vec<Row> {
     let mut corner = *triangle;
     corner.sort_by_key(|v| v.y());
@@ -205,7 +205,7 @@ fn the_square_cut_in_two_shares_its_diagonal() {
     assert_eq!(frame.coverage.iter().sum::<u32>(), 15 + 15);
 }
 
-/// The slopes of the preset: a span may end a pixel off only where X + 1/2 comes as near to a whole number as A5 says.
+/// The slopes of the preset: a span may end a pixel off only where X + 1/2 comes as near to a whole number as bound 5 says.
 #[test]
 fn slope_edges_differ_from_the_listing_within_their_bound() {
     let mut rng = StdRng::seed_from_u64(3);

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  host's value ──RN to 2^-e──> vertex ──start, steps──> sum ──RN──> output
-//!                 2^-(e+1)               A2                    1/2        LSB, summed
+//!                 2^-(e+1)               bound 2                    1/2        LSB, summed
 //! ```
 
 use crate::bounds::{slope_edge_error, triangle_error};
@@ -18,7 +18,7 @@ pub struct ErrorBudget {
     /// Vertex values rounded to nearest in e fraction bits: 2^-(e+1). Inside the triangle a value is a mean of the
     /// vertices' with weights that sum to 1, so no error of theirs grows.
     pub vertex: Dyadic,
-    /// Start and increments, A2.
+    /// Start and increments, bound 2.
     pub steps: Dyadic,
     /// Output rounding: 1/2, and 1 where the output is the floor.
     pub output: Dyadic,
@@ -42,7 +42,7 @@ impl ErrorBudget {
         self.vertex.checked_add(self.steps).expect("below 2^34, no finer than 2^-65")
     }
 
-    /// The additions' part is under 1/2 LSB, so no output leaves the range and wraps (A4): only then is there a bound.
+    /// The additions' part is under 1/2 LSB, so no output leaves the range and wraps (bound 4): only then is there a bound.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.steps < Dyadic::HALF

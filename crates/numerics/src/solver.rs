@@ -19,7 +19,7 @@ pub struct Solution {
     pub screen: Screen,
     /// r.
     pub fraction_bits: u32,
-    /// Proved magnitude of the error before the output rounding with r bits, LSB (A2).
+    /// Proved magnitude of the error before the output rounding with r bits, LSB (bound 2).
     pub error: Dyadic,
     /// A triangle that misses the target with r - 1 bits. `None` if r is 0, or none was found; r is then known to
     /// suffice, not known to be the least. For [`Target::InRange`] that is so at N + 1 = 2^k and 2^k + 1 only,

@@ -24,7 +24,7 @@ const KEPT: usize = 16;
 /// What the error of every fragment must meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
-    /// The rounded output stays in 0 to 2^b - 1, no clamp needed (A4).
+    /// The rounded output stays in 0 to 2^b - 1, no clamp needed (bound 4).
     InRange,
     /// The error before the output rounding is at most this many LSB.
     AtMost(Dyadic),

@@ -31,7 +31,7 @@ pub struct Vertex {
     pub g: f64,
     /// Blue in [0, 1].
     pub b: f64,
-    /// Transmission coefficient k_t in [0, 1] (A 7.1), 0 for an opaque surface.
+    /// Transmission coefficient k_t in [0, 1] (ch. 7.1), 0 for an opaque surface.
     pub kt: f64,
     /// Values of the user's own, [`Frame::extra`] of them, the rest 0. Their unit is that of the machine's channels e0 to
     /// e3: [0, 1] for `unorm`, else LSB of the output; at most [`MAX_EXTRA_VALUE`] in magnitude.
@@ -68,9 +68,9 @@ pub struct Polygon {
 /// How colour and k_t vary over a triangle. Depth and the user's own values are linear in both modes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum ShadeMode {
-    /// Linear between the vertices (A 7.5).
+    /// Linear between the vertices (ch. 7.5).
     Gouraud,
-    /// That of the first vertex everywhere (A 7.4).
+    /// That of the first vertex everywhere (ch. 7.4).
     Flat,
 }
 
@@ -129,7 +129,7 @@ impl DepthFunc {
     }
 }
 
-/// The shadows of one light: its depth map, and the way from the screen into it (A 7.3).
+/// The shadows of one light: its depth map, and the way from the screen into it (ch. 7.3).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shadow {
     /// Side of the map, 1..=[`MAX_SIDE`] texels.
@@ -158,7 +158,7 @@ pub struct Frame {
     pub depth: Option<DepthFunc>,
     /// Whether a fragment that passes stores its depth; false where `depth` is `None`.
     pub depth_write: bool,
-    /// Whether a fragment is mixed with what it covers: (1 - k_t) I + k_t I_back (A 7.5).
+    /// Whether a fragment is mixed with what it covers: (1 - k_t) I + k_t I_back (ch. 7.5).
     pub blend: bool,
     /// Colour of the empty screen, [0, 1] each; the empty depth is 1.
     pub clear: [f64; 3],

@@ -1,4 +1,4 @@
-//! Lights: the abstract light sources of A 7.1, in world space.
+//! Lights: the abstract light sources of ch. 7.1, in world space.
 //!
 //! The source names three kinds and leaves open how intensity falls with distance and direction; the two functions
 //! here, [`Attenuation`] and the power of the cosine of a flood, are the usual ones. Both are 1 by default.

@@ -1,4 +1,4 @@
-//! What a light sees: the depth pass "setting the eye position to the light source" (A 7.2), as screen-space triangles.
+//! What a light sees: the depth pass "setting the eye position to the light source" (ch. 7.2), as screen-space triangles.
 //!
 //! ```text
 //!   directional            positional                     flood
@@ -130,7 +130,7 @@ impl LightView {
         triangles
     }
 
-    /// Where a point is in this map (A 7.3); `None` if it is outside, or not in front of the light.
+    /// Where a point is in this map (ch. 7.3); `None` if it is outside, or not in front of the light.
     pub fn place(&self, point: DVec3) -> Option<InMap> {
         let DVec4 { x, y, w, .. } = self.to_clip(point);
         let side = f64::from(self.size);

@@ -171,7 +171,7 @@ impl Mesh {
         &self.textures
     }
 
-    /// The material of a face, by its place, at texture coordinates: its texture multiplies k_d and k_a (A, end of
+    /// The material of a face, by its place, at texture coordinates: its texture multiplies k_d and k_a (end of
     /// chapter 7).
     pub fn material_at(&self, face: u32, texture: DVec2) -> Material {
         let material = self.materials[self.faces[face as usize].material as usize];

@@ -20,7 +20,7 @@ pub struct Scene {
     pub normals: NormalRule,
     /// Where it is seen from.
     pub camera: Camera,
-    /// Intensity I_a of ambient light for red, green, blue (A 7.1).
+    /// Intensity I_a of ambient light for red, green, blue (ch. 7.1).
     pub ambient: DVec3,
     /// The other lights.
     pub lights: Vec<Light>,
@@ -83,7 +83,7 @@ impl Scene {
 
     /// The triangles on a screen of `width` by `height` pixels, at most `guard` pixels from its corner in x and y, in
     /// the order of the mesh. Normals are on the side that is seen; the colours of the vertices are those of the shading
-    /// equation there (A 7.5, step 3 of seed B), taken before clipping.
+    /// equation there (ch. 7.5, step 3 of the slides), taken before clipping.
     pub fn surface(&self, width: u32, height: u32, guard: f64) -> Surface {
         let viewport = Viewport { width, height, guard };
         let to_clip = self.camera.to_clip(width, height);
@@ -116,7 +116,7 @@ impl Scene {
         Surface { width, height, triangles }
     }
 
-    /// The colour of constant shading (A 7.6) of a face with this normal on the side that is seen, by the light and the
+    /// The colour of constant shading (ch. 7.6) of a face with this normal on the side that is seen, by the light and the
     /// texture in its middle; not cut to [0, 1].
     pub fn constant_color(&self, face: u32, normal: DVec3) -> DVec3 {
         let [a, b, c] = self.mesh.corners(&self.mesh.faces()[face as usize]);

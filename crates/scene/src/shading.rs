@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!        N   H  V            I = I_e + k_a I_a + sum over the lights l of
-//!    R   |  /  /                     r_l I_l k_d max(N L, 0) + r_l I_l k_s cos^n       (A 7.1, 7.12)
+//!    R   |  /  /                     r_l I_l k_d max(N L, 0) + r_l I_l k_s cos^n       (ch. 7.1, 7.12)
 //!     \  | /  /  L
 //!      \ |/  / ,'            N normal, L to the light, V to the viewer: unit vectors
 //!   ----------------         R = 2 (N L) N - L, H = (L + V) / |L + V|
@@ -12,7 +12,7 @@
 //! viewer near a silhouette. What light comes from below the surface (N L <= 0) gives neither a diffuse nor a specular
 //! part. Ambient light and emission come from everywhere.
 //!
-//! r_l (A 7.2) is left to the caller: the parts stand apart in [`Terms`]. The transmitted part k_t I_t is blending (A 7.5).
+//! r_l (ch. 7.2) is left to the caller: the parts stand apart in [`Terms`]. The transmitted part k_t I_t is blending (ch. 7.5).
 
 use crate::light::Light;
 use crate::mesh::Material;
@@ -22,10 +22,10 @@ use glam::DVec3;
 /// straight into the mirrored beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Specular {
-    /// R V, the angle between the viewer and the mirrored beam (A 7.1).
+    /// R V, the angle between the viewer and the mirrored beam (ch. 7.1).
     #[default]
     Mirror,
-    /// 2 (N H)² - 1, the cosine of twice the angle between N and H (A 7.12): the mirror form where N lies in the plane
+    /// 2 (N H)² - 1, the cosine of twice the angle between N and H (ch. 7.12): the mirror form where N lies in the plane
     /// of L and V.
     Halfway,
     /// N H, of half that angle: a highlight about twice as wide, the form that fast Phong shading tabulates.
@@ -87,7 +87,7 @@ pub struct Terms {
 }
 
 impl Terms {
-    /// The sum, each light's part times its r_l in [0, 1] (A 7.2); not cut to [0, 1].
+    /// The sum, each light's part times its r_l in [0, 1] (ch. 7.2); not cut to [0, 1].
     pub fn total(&self, r: impl Fn(usize) -> f64) -> DVec3 {
         let parts = self.lights.iter().enumerate();
         let lights: DVec3 = parts.map(|(l, part)| r(l) * (part.diffuse + part.specular)).sum();
@@ -123,7 +123,7 @@ impl Lighting<'_> {
         material.emission + material.ambient * self.ambient + lights
     }
 
-    /// The equation of constant shading (A 7.6): neither highlights nor shadows; not cut to [0, 1].
+    /// The equation of constant shading (ch. 7.6): neither highlights nor shadows; not cut to [0, 1].
     pub fn constant(&self, material: &Material, position: DVec3, normal: DVec3) -> DVec3 {
         let diffuse = self.lights.iter().map(|light| {
             let incident = light.incident(position);
@@ -243,6 +243,6 @@ mod tests {
         assert!((terms.total(|_| 1.0) - without).distance(second.diffuse + second.specular) < 1e-15);
         let flat = lighting.constant(&material, point.position, point.normal);
         let diffuse: DVec3 = terms.lights.iter().map(|part| part.diffuse).sum();
-        assert!(flat.distance(terms.emission + terms.ambient + diffuse) < 1e-15, "A 7.6 has no highlight");
+        assert!(flat.distance(terms.emission + terms.ambient + diffuse) < 1e-15, "ch. 7.6 has no highlight");
     }
 }

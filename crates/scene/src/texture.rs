@@ -1,4 +1,4 @@
-//! Pictures over texture coordinates: coefficients that vary over the surface, and reliefs (A, end of chapter 7).
+//! Pictures over texture coordinates: coefficients that vary over the surface, and reliefs (end of ch. 7).
 //!
 //! Values are taken as they are stored, 0 black and 1 white: no gamma, as pictures are written without one.
 

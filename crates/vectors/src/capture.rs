@@ -58,13 +58,7 @@ pub struct Trace {
 
 /// Runs the machine, or one of its units, over a suite.
 #[must_use]
-pub fn capture(
-    plan: &Plan,
-    unit: Unit,
-    suite: &Suite,
-    state: DrawState,
-    stalls: StallKind,
-) -> Trace {
+pub fn capture(plan: &Plan, unit: Unit, suite: &Suite, state: DrawState, stalls: StallKind) -> Trace {
     let run = Run { plan, suite, state };
     run.observe(unit, run.stimulus(unit), stalls)
 }
@@ -116,7 +110,8 @@ impl Run<'_> {
         for holder in &units[..before] {
             let (link, held) = self.alone(*holder);
             let place = |name: &str| link.fields[link.own..].iter().position(|port| port.name == name);
-            let Some(places) = fields.iter().map(|port| place(&port.name)).collect::<Option<Vec<usize>>>() else {
+            let Some(places) = fields.iter().map(|port| place(&port.name)).collect::<Option<Vec<usize>>>()
+            else {
                 continue;
             };
             let tokens = held.tokens.iter().map(|token| &token[link.own..]);
@@ -158,7 +153,8 @@ impl Run<'_> {
         let Stimulus { tokens, triangles } = stimulus;
         let setting = self.setting(&interface, tokens, stalls);
         let status_ports = status_ports(&interface);
-        let mut device = model(self.plan, &interface).expect("a test of lockstep finds every declared port in the model");
+        let mut device =
+            model(self.plan, &interface).expect("a test of lockstep finds every declared port in the model");
         let mut rig = Rig::new(&interface, setting.clone()).of_triangles(triangles);
         let mut ports = interface.values();
         let count = interface.links.len();

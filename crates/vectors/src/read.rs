@@ -1,8 +1,8 @@
 //! Reads a directory of vectors back, and trusts nothing in it.
 
 use crate::manifest::{self, Manifest};
-use edgewalk_lockstep::{Token, pack};
 use crate::write::file;
+use edgewalk_lockstep::{Token, pack};
 
 /// The vectors of a directory.
 #[derive(Clone, Debug, PartialEq, Eq)]

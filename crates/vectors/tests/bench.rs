@@ -52,8 +52,9 @@ impl Place {
     /// The design's other files, and this one in place of the unit's own.
     fn hdl(&self, mine: &str) -> String {
         let all = std::fs::read_dir(self.file("hdl")).expect("a folder");
-        let mut names: Vec<String> =
-            all.map(|entry| format!("hdl/{}", entry.expect("a file").file_name().to_string_lossy())).collect();
+        let mut names: Vec<String> = all
+            .map(|entry| format!("hdl/{}", entry.expect("a file").file_name().to_string_lossy()))
+            .collect();
         names.retain(|name| *name != self.own);
         names.push(mine.to_owned());
         format!("HDL={}", names.join(" "))
@@ -69,9 +70,11 @@ impl Place {
     /// Makes the sums fit the files again, as the writer of other vectors would.
     fn sum_again(&self) {
         let names = self.text("SHA256SUMS");
-        let names: Vec<&str> = names.lines().filter_map(|line| line.split_once("  ").map(|(_, name)| name)).collect();
+        let names: Vec<&str> =
+            names.lines().filter_map(|line| line.split_once("  ").map(|(_, name)| name)).collect();
         let output = std::process::Command::new("sha256sum").args(names).current_dir(self.path()).output();
-        std::fs::write(self.file("SHA256SUMS"), output.expect("sha256sum is installed").stdout).expect("written");
+        std::fs::write(self.file("SHA256SUMS"), output.expect("sha256sum is installed").stdout)
+            .expect("written");
     }
 }
 
@@ -159,7 +162,8 @@ fn a_design_with_other_timing_is_judged_by_order_and_value() {
     let place = place(common::PIXEL);
     let design = later_pixel(&place);
     std::fs::write(place.file("later.v"), &design).expect("written");
-    std::fs::write(place.file("wrong.v"), design.replacen("<= inner_frag_z;", "<= ~inner_frag_z;", 1)).expect("written");
+    std::fs::write(place.file("wrong.v"), design.replacen("<= inner_frag_z;", "<= ~inner_frag_z;", 1))
+        .expect("written");
     for simulator in ["icarus", "verilator"] {
         let (passed, said) = made(place.path(), &[simulator, "HDL=later.v", "CHECK_CYCLES=0"]);
         assert!(passed, "{simulator}: {said}");
@@ -217,7 +221,11 @@ const GUARDS: [Guard; 7] = [
                 place.shorten(file);
             }
             let count = place.text("wr.exp.mem").lines().count();
-            place.exchange("params.vh", &format!("WR_COUNT = {};", count + 1), &format!("WR_COUNT = {count};"));
+            place.exchange(
+                "params.vh",
+                &format!("WR_COUNT = {};", count + 1),
+                &format!("WR_COUNT = {count};"),
+            );
             place.sum_again();
         },
         line: ("bench_sink.v", ": extra                                 ? 3'd1", ": extra ? 3'd0"),
@@ -246,10 +254,13 @@ const GUARDS: [Guard; 7] = [
         wrong: |place| {
             let design = place.text(&place.own);
             let unknown = |line: &str| match line.trim_start().split_once(" <= ") {
-                Some((port, _)) if port.starts_with("frag_") && port != "frag_valid" => format!("{port} <= 'bx;\n"),
+                Some((port, _)) if port.starts_with("frag_") && port != "frag_valid" => {
+                    format!("{port} <= 'bx;\n")
+                }
                 _ => format!("{line}\n"),
             };
-            std::fs::write(place.file(&place.own), design.lines().map(unknown).collect::<String>()).expect("written");
+            std::fs::write(place.file(&place.own), design.lines().map(unknown).collect::<String>())
+                .expect("written");
             let tokens = place.text("frag.exp.mem").replace(|c: char| c.is_ascii_hexdigit(), "x");
             std::fs::write(place.file("frag.exp.mem"), tokens).expect("written");
             place.sum_again();
@@ -324,5 +335,10 @@ fn a_fault_is_told_by_channel_token_triangle_case_and_field() {
     let place = self::place(common::DEPTH);
     place.exchange(&place.own, "occupied = (|count) || wr_valid", "occupied = (|count)");
     let (passed, said) = made(place.path(), &["icarus"]);
-    assert!(!passed && said.contains("status: change ") && said.contains("    occupied: expected 1 (1), found 0 (0)"), "{said}");
+    assert!(
+        !passed
+            && said.contains("status: change ")
+            && said.contains("    occupied: expected 1 (1), found 0 (0)"),
+        "{said}"
+    );
 }

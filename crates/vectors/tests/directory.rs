@@ -2,8 +2,8 @@
 
 mod common;
 
-use edgewalk_model::{DrawState, Drawn, Stalls, render_with};
 use edgewalk_machine::Plan;
+use edgewalk_model::{DrawState, Drawn, Stalls, render_with};
 use edgewalk_vectors::{
     Files, ReadError, SUITES, StallKind, Suite, Tables, Unit, capture, directory, manifest, not_covered,
     reached, read,
@@ -65,8 +65,11 @@ fn the_trace_is_that_of_the_model_drawing_alone() {
             drawn.expect("triangles of this machine");
             let link = trace.interface.link("wr").expect("the machine writes");
             let channels = machine.channels().iter().map(|channel| channel.name);
-            let places: Vec<usize> =
-                ["addr"].into_iter().chain(channels).map(|field| link.place(field).expect("a write has it")).collect();
+            let places: Vec<usize> = ["addr"]
+                .into_iter()
+                .chain(channels)
+                .map(|field| link.place(field).expect("a write has it"))
+                .collect();
             let cut = |token: &Vec<u128>| places.iter().map(|place| token[*place]).collect::<Vec<u128>>();
             let traced: Vec<_> = wr(&trace).tokens.iter().map(cut).collect();
             assert!(!writes.is_empty());
@@ -100,8 +103,7 @@ fn directed_suites_reach_every_hazard_and_corner() {
         for name in ["hazards", "corners", "sphere"] {
             for stalls in [StallKind::None, StallKind::Mixed, StallKind::Late] {
                 let suite = suite(&machine, name);
-                reached
-                    .merge(&capture(&machine, Unit::MACHINE, &suite, DrawState::default(), stalls).events);
+                reached.merge(&capture(&machine, Unit::MACHINE, &suite, DrawState::default(), stalls).events);
             }
         }
     }
@@ -140,7 +142,8 @@ fn every_triangle_of_the_hazards_is_drawn() {
     for (name, machine) in common::twelve().into_iter().filter(|(name, _)| *name != "tiny") {
         let suite = suite(&machine, "hazards");
         let trace = capture(&machine, common::PIXEL, &suite, DrawState::default(), StallKind::None);
-        let drawn: BTreeSet<u32> = trace.link("frag").expect("PIXEL gives it").triangles.iter().copied().collect();
+        let drawn: BTreeSet<u32> =
+            trace.link("frag").expect("PIXEL gives it").triangles.iter().copied().collect();
         let missing = (0u32..).zip(suite.triangles()).filter(|(k, _)| !drawn.contains(k));
         let missing: Vec<&str> =
             missing.filter_map(|(k, _)| suite.case_of(k as usize)).map(|case| &*case.name).collect();

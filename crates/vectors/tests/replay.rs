@@ -32,7 +32,8 @@ fn list(value: &Value) -> &[Value] {
 
 impl Stranger<'_> {
     fn lines(&self, file: &Value) -> Vec<String> {
-        let text = std::fs::read_to_string(self.folder.join(text(file))).expect("a file that the manifest names");
+        let text =
+            std::fs::read_to_string(self.folder.join(text(file))).expect("a file that the manifest names");
         text.lines().map(str::to_owned).collect()
     }
 
@@ -66,7 +67,8 @@ impl Stranger<'_> {
     /// Things that came as they should, and the first that did not.
     fn replay(&self, dut: &mut Simulator) -> (u64, Option<String>) {
         let manifest = &self.manifest;
-        let mut channels: Vec<Channel> = list(&manifest["channels"]).iter().map(|c| Channel::of(self, c)).collect();
+        let mut channels: Vec<Channel> =
+            list(&manifest["channels"]).iter().map(|c| Channel::of(self, c)).collect();
         let side: Vec<(String, String, Vec<bool>)> = list(&manifest["side_inputs"])
             .iter()
             .map(|input| {
@@ -113,7 +115,10 @@ impl Stranger<'_> {
                 let during = status_counts(dut, manifest, port);
                 let found = if during { get(dut, port) } else { 0 };
                 if found != *value {
-                    return (checked, Some(format!("{port}, cycle {cycle}: expected {value:#x}, found {found:#x}")));
+                    return (
+                        checked,
+                        Some(format!("{port}, cycle {cycle}: expected {value:#x}, found {found:#x}")),
+                    );
                 }
             }
             for memory in &mut memories {

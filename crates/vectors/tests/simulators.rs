@@ -4,8 +4,8 @@
 mod common;
 
 use common::write;
-use edgewalk_model::DrawState;
 use edgewalk_machine::Plan;
+use edgewalk_model::DrawState;
 use edgewalk_vectors::{
     Files, Outcome, Simulator, StallKind, Suite, Tables, Unit, capture, design, directory, lint, simulate,
     synth_ice40,

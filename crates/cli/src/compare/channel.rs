@@ -82,7 +82,7 @@ impl Errors {
         error > 0.5 * (self.channel.max() + 1) as f64
     }
 
-    /// Proved largest error of the output: vertex rounding, all additions, output rounding (A2, A4).
+    /// Proved largest error of the output: vertex rounding, all additions, output rounding (bounds 2, 4).
     pub fn bound(&self) -> Option<f64> {
         self.budget.map(|budget| budget.after_rounding().to_f64()).ok()
     }

@@ -1,6 +1,6 @@
 //! Which triangles a machine may show at a pixel, given how near depths are to each other.
 //!
-//! A depth test whose two depths are at least E1 + E2 + 1 LSB apart comes out as in golden (A7; E bounds an error before the
+//! A depth test whose two depths are at least E1 + E2 + 1 LSB apart comes out as in golden (bound 7; E bounds an error before the
 //! output rounding, 0 for the cleared depth). Nearer ones may come out as less, equal or greater. Playing the depth test at
 //! a pixel through, with every outcome of every test that is open, gives all that the machine may leave there.
 
@@ -83,7 +83,7 @@ impl<'a> Orders<'a> {
     }
 }
 
-/// A7 for any two fragments of the machine.
+/// Bound 7 for any two fragments of the machine.
 fn apart(machine: &Plan) -> Option<Apart> {
     let error = machine.proved_budget(&machine.channels()[0]).ok()?.before_rounding();
     let lsb = |other| Some(surely_ordered_difference(error, other)?.to_f64() / machine.z.max() as f64);

@@ -1,4 +1,4 @@
-//! Normals over a triangle as a linear function of the pixel (A 7.11).
+//! Normals over a triangle as a linear function of the pixel (ch. 7.11).
 
 use glam::{DVec2, DVec3};
 

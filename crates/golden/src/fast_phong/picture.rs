@@ -26,7 +26,7 @@ pub struct Settings {
 pub struct FastShaded {
     /// Beside the truth, which is perspective-correct and has the scene's own form of highlights.
     pub shaded: Shaded,
-    /// The colours of Phong shading (A 7.12), N and the world position linear over the screen; with highlights of the
+    /// The colours of Phong shading (ch. 7.12), N and the world position linear over the screen; with highlights of the
     /// form that the table has.
     pub phong: Vec<[f64; 3]>,
 }

@@ -5,7 +5,7 @@ use edgewalk_scene::Specular;
 /// A power of the cosine for evenly spaced N·H from 0 to 1; the index is rounded and saturates.
 ///
 /// It has to saturate: the quadratic overshoots 1 around a highlight. Half a step of the index errs by about n / (2 (size - 1)) at
-/// the peak, four times that for the form of A 7.12.
+/// the peak, four times that for the form of ch. 7.12.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PowerTable {
     entries: Vec<f64>,
@@ -15,7 +15,7 @@ impl PowerTable {
     /// Fewest entries: those for 0 and 1.
     pub const LEAST_SIZE: usize = 2;
 
-    /// The form of the specular part that stands for another: R·V is no function of N·H, so A 7.12 does for A 7.1.
+    /// The form of the specular part that stands for another: R·V is no function of N·H, so ch. 7.12 does for ch. 7.1.
     pub fn tabulated(form: Specular) -> Specular {
         if form == Specular::Mirror { Specular::Halfway } else { form }
     }

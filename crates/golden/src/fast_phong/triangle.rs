@@ -2,7 +2,7 @@
 //!
 //! L is the same everywhere, H is not quite: it leans with the viewer. The Taylor series takes one H,
 //! at the centroid; the six-point fit takes it where it takes its values, so neighbours still agree along their edge. Both
-//! take the world position linear over the screen, as A 7.12 does.
+//! take the world position linear over the screen, as ch. 7.12 does.
 
 use crate::cover::snap;
 use crate::fast_phong::differences::Walk;
@@ -23,7 +23,7 @@ pub enum Fit {
     SixPoint,
 }
 
-/// Light from a direction, the only kind that fast Phong takes beside ambient light (A 7.6).
+/// Light from a direction, the only kind that fast Phong takes beside ambient light (ch. 7.6).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Directional {
     /// Unit vector L towards the light.

@@ -1,7 +1,7 @@
 //! Gouraud shading with shadows: each light's part by itself.
 //!
 //! A shadow cannot be interpolated from the vertices: r_l jumps inside a polygon. So what a vertex has without r_l is kept
-//! apart, emission and ambient light in one colour and what each light adds in another; all are linear over the screen (A 7.8),
+//! apart, emission and ambient light in one colour and what each light adds in another; all are linear over the screen (ch. 7.8),
 //! and at each pixel r_l gates its part before they are added: i = i_a + sum of r_l i_l.
 
 use crate::weights::Weights;

@@ -1,4 +1,4 @@
-//! The shadow maps of all lights of a scene: a depth pass each, then the comparison (A 7.2, 7.3).
+//! The shadow maps of all lights of a scene: a depth pass each, then the comparison (ch. 7.2, 7.3).
 //!
 //! ```text
 //!   point ──> place in the light's view ──> nearest texel ──> distance(point) <= distance(map) + bias: r_l = 1, else 0

@@ -1,4 +1,4 @@
-//! The error at every pixel against A10.
+//! The error at every pixel against bound 10.
 
 use crate::cases::{Case, cone, direction};
 use edgewalk_golden::fast_phong::{Quadratic, Walk};
@@ -72,8 +72,10 @@ fn a_hundred_thousand_triangles_stay_under_a10_at_every_pixel() {
         checked += u32::from(walks.is_some());
     }
     let [taylor, six_point] = reached;
-    println!("A10: {checked} / {EXPECTED} triangles, {pixels} pixels each by Taylor and six points");
-    println!("reached: {taylor:.4} of A10 by Taylor, {six_point:.4} of 8/3 A10; {slivers} slivers left out");
+    println!("bound 10: {checked} / {EXPECTED} triangles, {pixels} pixels each by Taylor and six points");
+    println!(
+        "reached: {taylor:.4} of bound 10 by Taylor, {six_point:.4} of 8/3 of bound 10; {slivers} slivers left out"
+    );
     assert!(taylor > 0.5 && slivers < EXPECTED / 10, "{taylor}, {slivers} slivers");
 }
 
@@ -92,7 +94,7 @@ fn tripod(axis: DVec3, cone: f64, third: f64) -> [DVec3; 3] {
 fn errors_by_half_cone() {
     let mut random = Pcg64Mcg::seed_from_u64(85);
     let points = [DVec2::ZERO, DVec2::new(9.0, 2.0), DVec2::new(4.0, 8.0)];
-    println!("half-cone, degrees    A10   Taylor   six points     LSB of 8 bits, worst of 10000");
+    println!("half-cone, degrees    bound 10   Taylor   six points     LSB of 8 bits, worst of 10000");
     for degrees in [1.0, 2.0, 4.0, 6.0, 8.5, 12.0, 17.0, 25.0, 35.0f64] {
         let cone = degrees.to_radians();
         let a10 = 255.0 * taylor_error(cone.tan());

@@ -50,7 +50,7 @@ impl Case {
         six_point(self.points, self.normals.map(cosine), [b + c, c + a, a + b].map(cosine)).unwrap()
     }
 
-    /// rho of A10.
+    /// rho of bound 10.
     pub fn spread(&self) -> f64 {
         normal_spread(&self.normals.map(|n| n.to_array()))
     }

@@ -1,4 +1,4 @@
-//! Fast Phong: its quadratics under bound A10, their convergence, the walk by additions, and the table.
+//! Fast Phong: its quadratics under bound 10, their convergence, the walk by additions, and the table.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

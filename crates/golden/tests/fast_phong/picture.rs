@@ -104,6 +104,6 @@ fn the_phong_beside_it_has_the_highlights_of_the_table() {
     let [mirror, halfway] = [mirror, halfway].map(|scene| drawn(&scene, Fit::SixPoint, 4096));
     assert!(mirror.phong == halfway.phong && mirror.shaded.picture == halfway.shaded.picture);
     let (form, rest) = (mirror.shaded.error().max, halfway.shaded.error().max);
-    println!("from the truth with mirror highlights {form:.3}, with those of A 7.12 {rest:.3} LSB");
+    println!("from the truth with mirror highlights {form:.3}, with those of ch. 7.12 {rest:.3} LSB");
     assert!(form > 2.0 * rest);
 }

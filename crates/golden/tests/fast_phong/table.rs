@@ -13,7 +13,7 @@ fn entries_and_saturation() {
     let outside = [-3.0, 1.0001, 7.0, f64::INFINITY, f64::NEG_INFINITY].map(|halfway| table.read(halfway));
     assert_eq!(outside, [0.0, 1.0, 1.0, 1.0, 0.0]);
     assert!(table.read(f64::NAN).is_finite());
-    // cos 2x of A 7.12 is 0 from N·H = 1/sqrt 2 down.
+    // cos 2x of ch. 7.12 is 0 from N·H = 1/sqrt 2 down.
     let halfway = PowerTable::new(101, Specular::Halfway, 2.0);
     assert_eq!((halfway.read(0.7), halfway.read(0.0), halfway.read(1.0)), (0.0, 0.0, 1.0));
     assert!((halfway.read(0.9) - 0.62f64.powi(2)).abs() < 1e-12);

@@ -15,7 +15,7 @@ use super::{Case, fed};
 use crate::Token;
 use crate::interface::Interface;
 use crate::pack;
-use crate::unit::{UnknownUnit, Unit};
+use crate::unit::{Unit, UnknownUnit};
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Machine, MachineError};
 use std::fmt::Write as _;
@@ -78,7 +78,8 @@ impl Case {
                 "about" => case.about = text(key, value)?,
                 "depth_func" => case.depth_func = number(key, value)?,
                 "depth_write" => {
-                    case.depth_write = value.as_bool().ok_or_else(|| wrong(key, "true or false is wanted"))?;
+                    case.depth_write =
+                        value.as_bool().ok_or_else(|| wrong(key, "true or false is wanted"))?;
                 }
                 "clear_z" => case.clear_z = Some(number(key, value)?),
                 "late" => case.late = number(key, value)?,
@@ -98,7 +99,10 @@ impl Case {
                     for (name, share) in table {
                         if !interface.waits().any(|known| known == name) {
                             let known: Vec<&str> = interface.waits().collect();
-                            return Err(wrong(&format!("unwilling.{name}"), format!("one of {}", known.join(", "))));
+                            return Err(wrong(
+                                &format!("unwilling.{name}"),
+                                format!("one of {}", known.join(", ")),
+                            ));
                         }
                         case.unwilling.insert(name.clone(), number(&format!("unwilling.{name}"), share)?);
                     }
@@ -113,7 +117,8 @@ impl Case {
     #[must_use]
     pub fn to_toml(&self) -> String {
         let usual = Case::new(&self.plan, self.unit);
-        let mut text = format!("about = {}\nunit = \"{}\"\n", Value::from(self.about.as_str()), self.unit.name());
+        let mut text =
+            format!("about = {}\nunit = \"{}\"\n", Value::from(self.about.as_str()), self.unit.name());
         let mut line = |key: &str, value: Value, usual: Value| {
             if value != usual {
                 let _ = writeln!(text, "{key} = {value}");
@@ -126,7 +131,11 @@ impl Case {
             line("clear_z", whole(clear), Value::from(""));
         }
         line("late", whole(self.late), whole(0));
-        line("resets", self.resets.iter().map(|reset| whole(*reset)).collect::<Vec<_>>().into(), Value::Array(Vec::new()));
+        line(
+            "resets",
+            self.resets.iter().map(|reset| whole(*reset)).collect::<Vec<_>>().into(),
+            Value::Array(Vec::new()),
+        );
         line("disturbed", whole(self.disturbed), whole(0));
         line("cycles", whole(self.cycles), whole(usual.cycles));
         line("seed", whole(self.seed), whole(0));

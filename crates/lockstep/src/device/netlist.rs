@@ -75,8 +75,10 @@ impl NetlistDevice {
     pub fn new(netlist: &Netlist, interface: &Interface) -> Result<Self, PortError> {
         let simulator = Simulator::new(netlist);
         let module = || netlist.name.clone();
-        let known = |name: &str| interface.inputs().iter().chain(interface.outputs()).any(|port| port.name == name);
-        let names = netlist.inputs.iter().map(|input| &input.name).chain(netlist.outputs.iter().map(|o| &o.name));
+        let known =
+            |name: &str| interface.inputs().iter().chain(interface.outputs()).any(|port| port.name == name);
+        let names =
+            netlist.inputs.iter().map(|input| &input.name).chain(netlist.outputs.iter().map(|o| &o.name));
         if let Some(port) = names.into_iter().find(|name| !known(name)) {
             return Err(PortError::Undeclared { module: module(), port: port.clone() });
         }

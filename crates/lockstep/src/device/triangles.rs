@@ -36,7 +36,8 @@ impl Triangles {
 
     /// Finds the fields by name; `None` if one of them is no part of a triangle.
     pub(super) fn of(plan: &Plan, link: &Link) -> Option<Triangles> {
-        let fields = link.fields.iter().map(|port| Some((Part::named(plan, &port.field.name)?, port.width())));
+        let fields =
+            link.fields.iter().map(|port| Some((Part::named(plan, &port.field.name)?, port.width())));
         Some(Triangles { plan: plan.clone(), fields: fields.collect::<Option<_>>()? })
     }
 

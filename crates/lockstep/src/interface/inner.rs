@@ -30,11 +30,14 @@ impl Interface {
     pub(super) fn find_guards(&mut self) {
         for i in 0..self.inner.len() {
             let (owner, name) = (self.inner[i].owner, self.inner[i].name);
-            let end = |what: &str| self.anywhere(owner, &format!("{name}_{what}")).expect("a link has two ends");
+            let end =
+                |what: &str| self.anywhere(owner, &format!("{name}_{what}")).expect("a link has two ends");
             (self.inner[i].valid, self.inner[i].ready) = (end("valid"), end("ready"));
         }
         let guard = |status: &StatusPort| {
-            let found = |name| self.anywhere(status.port.owner, name).expect("a status counts during a declared port");
+            let found = |name| {
+                self.anywhere(status.port.owner, name).expect("a status counts during a declared port")
+            };
             status.during.map(found)
         };
         let (own, inner): (Vec<_>, Vec<_>) =

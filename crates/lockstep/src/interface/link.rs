@@ -87,7 +87,8 @@ impl Link {
         link: &edgewalk_machine::Link,
         held: &[Held],
     ) -> Link {
-        let own = |prefix: &'static str, field: &Field| port_of(owner, format!("{prefix}_{}", field.name), field);
+        let own =
+            |prefix: &'static str, field: &Field| port_of(owner, format!("{prefix}_{}", field.name), field);
         let mut fields: Vec<Port> = link.fields.iter().map(|field| own(link.name, field)).collect();
         let beside = held.iter().filter(|held| held.beside == link.name);
         fields.extend(beside.flat_map(|held| held.fields.iter().map(|field| own(held.name, field))));

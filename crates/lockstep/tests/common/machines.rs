@@ -32,7 +32,8 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
         (key.set)(&mut machine, value);
     }
     // What would make nearly all of them clash.
-    machine.guard_bits = if rng.random_bool(0.1) { rng.random_range(8..=14) } else { rng.random_range(2..=6) };
+    machine.guard_bits =
+        if rng.random_bool(0.1) { rng.random_range(8..=14) } else { rng.random_range(2..=6) };
     machine.tag_bits = *[0, 1, 5, 32].choose(rng).expect("four");
     if machine.fill == Fill::Textbook {
         machine.subpixel_bits = 0;

@@ -44,7 +44,8 @@ pub fn one_pixel(plan: &Plan, rng: &mut Pcg64Mcg, x: i32, y: i32) -> [PortVertex
 /// A triangle of one pixel at the lowest corner of another, where that one ends.
 pub fn after_it(plan: &Plan, rng: &mut Pcg64Mcg, triangle: &[PortVertex; 3]) -> [PortVertex; 3] {
     let unit = 1 << plan.subpixel_bits;
-    let end = triangle.iter().max_by_key(|vertex| vertex.y()).map_or((0, 0), |vertex| (vertex.x(), vertex.y()));
+    let end =
+        triangle.iter().max_by_key(|vertex| vertex.y()).map_or((0, 0), |vertex| (vertex.x(), vertex.y()));
     one_pixel(plan, rng, end.0.div_euclid(unit), end.1.div_euclid(unit) - 1)
 }
 

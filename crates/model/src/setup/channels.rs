@@ -50,7 +50,7 @@ fn scale(channel: &Channel) -> (u32, i128) {
     (channel.fraction - channel.vertex_fraction, half)
 }
 
-/// Textbook fill: first value and increment a line along the left edge `a`-`b`, on line `j` (A 7.10).
+/// Textbook fill: first value and increment a line along the left edge `a`-`b`, on line `j` (ch. 7.10).
 fn left_edge<const C: usize>(
     plan: &Plan,
     a: &Corner<C>,
@@ -67,7 +67,7 @@ fn left_edge<const C: usize>(
     (start, round_div((dc * i128::from(p)) << shift, dy))
 }
 
-/// A channel as a plane over the screen (A 7.7): numerators of its slopes over |area|.
+/// A channel as a plane over the screen (ch. 7.7): numerators of its slopes over |area|.
 struct Plane<'a, const C: usize> {
     top: &'a Corner<C>,
     /// Nx and Ny, 2^-e LSB times 2^-t px.

@@ -157,7 +157,7 @@ impl<'a> Check<'a> {
 
 impl Errors {
     /// Compares an output with the exact value n/d behind so many additions. All in integers: the error times 2·2^r, and the
-    /// bound (A2) of 1 + `steps` roundings, with the rounding of the output.
+    /// bound (bound 2) of 1 + `steps` roundings, with the rounding of the output.
     fn compare(
         &mut self,
         channel: &Channel,

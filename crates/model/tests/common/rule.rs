@@ -41,7 +41,7 @@ pub fn exact_value(plan: &Plan, triangle: &Triangle, i: usize, x: i64, y: i64) -
 }
 
 /// Additions from the first value of a triangle to a pixel inside: lines down the major edge, then columns. A slope edge
-/// may lie as much further out as A5 says.
+/// may lie as much further out as bound 5 says.
 pub fn steps(plan: &Plan, triangle: &Triangle, x: i64, y: i64) -> Steps {
     let mut corner = triangle.map(|v| point(&v));
     corner.sort_by_key(|c| c[1]);

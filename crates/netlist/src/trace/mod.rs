@@ -10,5 +10,5 @@ mod vcd;
 mod watch;
 
 pub use fst::FstTrace;
-pub use watch::Labels;
 pub use vcd::VcdTrace;
+pub use watch::Labels;

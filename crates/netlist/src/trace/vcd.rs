@@ -78,6 +78,7 @@ fn vcd_scope(scope: &Scope, ids: &[IdCode], widths: &[u32], text_ids: &[IdCode])
     };
     let inner = scope.scopes.iter().map(|inner| ScopeItem::Scope(vcd_scope(inner, ids, widths, text_ids)));
     let mut result = vcd::Scope::new(vcd::ScopeType::Module, scope.name.clone());
-    result.items = scope.variables.iter().map(variable).chain(scope.texts.iter().map(text)).chain(inner).collect();
+    result.items =
+        scope.variables.iter().map(variable).chain(scope.texts.iter().map(text)).chain(inner).collect();
     result
 }

@@ -53,7 +53,7 @@ fn a1_every_step_of_odd_ddas() {
                 }
             }
         }
-        println!("A1 {rounding}: {checked} values, {most:.4} of the bound reached");
+        println!("bound 1 {rounding}: {checked} values, {most:.4} of the bound reached");
         assert!(most > 0.95 && most <= 1.0, "{rounding}: {most}");
     }
 }
@@ -96,7 +96,7 @@ fn a3_machines_with_prestep_and_reciprocal() {
         }
         checked += 1;
     }
-    println!("A3: {checked} machines, {most:.4} of the bound reached");
+    println!("bound 3: {checked} machines, {most:.4} of the bound reached");
     assert!(most > 0.8 && checked == 4000, "{most}");
 }
 
@@ -148,7 +148,7 @@ fn a5_slope_edges_err_only_next_to_the_edge() {
             }
         }
     }
-    println!("A5: {checked} lines, {most:.4} of the bound reached, {wrong} columns on the wrong side");
+    println!("bound 5: {checked} lines, {most:.4} of the bound reached, {wrong} columns on the wrong side");
     assert!(most > 0.95 && wrong > 1000);
 }
 
@@ -204,7 +204,7 @@ fn a9_quotient_and_remainder_accumulate_nothing() {
                 }
             }
         }
-        println!("A9 {rounding}: {checked} values, {most:.4} of the bound reached");
+        println!("bound 9 {rounding}: {checked} values, {most:.4} of the bound reached");
         assert!(most > 0.99, "{rounding}: {most}");
     }
 }

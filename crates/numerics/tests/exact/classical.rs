@@ -1,4 +1,4 @@
-//! The classical machine of A3 at one line: an edge DDA, a pre-step to the first centre, increments by an approximate reciprocal.
+//! The classical machine of bound 3 at one line: an edge DDA, a pre-step to the first centre, increments by an approximate reciprocal.
 
 use crate::rational::{exact, ratio, rounded};
 use edgewalk_numerics::bounds::Prestep;

@@ -1,4 +1,4 @@
-//! A10: fast Phong's truncation against its bound, and the steps of the bound's proof one by one.
+//! Bound 10: fast Phong's truncation against its bound, and the steps of the bound's proof one by one.
 
 use edgewalk_numerics::normal_cone::{normal_spread, six_point_error, taylor_error};
 use rand::{Rng, SeedableRng};
@@ -100,7 +100,9 @@ fn a10_on_a_hundred_thousand_triangles() {
         }
         checked += 1;
     }
-    println!("A10: {checked} / {EXPECTED} triangles; reached: Taylor {most:.4}, six points {most_six:.4}");
+    println!(
+        "bound 10: {checked} / {EXPECTED} triangles; reached: Taylor {most:.4}, six points {most_six:.4}"
+    );
     assert!(most > 0.7 && most <= 1.0 && most_six > 0.05, "{most} {most_six}");
 }
 
@@ -112,7 +114,7 @@ fn a10_is_reached_by_a_grazing_light() {
         let spread = normal_spread(&normals);
         let cosine = dot([1.0, 0.0, 0.0], unit(normals[0]));
         let share = (tilt - cosine) / taylor_error(spread);
-        println!("A10: rho {spread:.4}, {share:.4} of the bound");
+        println!("bound 10: rho {spread:.4}, {share:.4} of the bound");
         assert!(share > 0.9 * (1.0 - tilt) && share < 1.0, "{share}");
     }
 }
@@ -120,7 +122,7 @@ fn a10_is_reached_by_a_grazing_light() {
 #[test]
 fn half_an_lsb_at_a_half_cone_of_eight_and_a_half_degrees() {
     let lsb = |degrees: f64| 255.0 * taylor_error(degrees.to_radians().tan());
-    println!("A10 at 8.5 degrees: {:.4} LSB of 8 bits", lsb(8.5));
+    println!("bound 10 at 8.5 degrees: {:.4} LSB of 8 bits", lsb(8.5));
     assert!((lsb(8.5) - 0.5).abs() < 0.001);
     assert!(lsb(8.49) < 0.5 && lsb(8.51) > 0.5);
 }

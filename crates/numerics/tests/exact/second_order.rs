@@ -1,4 +1,4 @@
-//! A8: quadratics stepped by second differences, in exact rationals.
+//! Bound 8: quadratics stepped by second differences, in exact rationals.
 
 use crate::rational::{exact, power_of_two, ratio, round_to_integer};
 use edgewalk_numerics::bounds::{second_order_error, second_order_fraction_bits};
@@ -90,7 +90,7 @@ fn a8_quadratics_down_and_along() {
             checked += 1;
         }
     }
-    println!("A8: {checked} values, {most:.4} of the bound reached");
+    println!("bound 8: {checked} values, {most:.4} of the bound reached");
     assert!(most > 0.99 && checked > 3000, "{most}, {checked}");
 }
 

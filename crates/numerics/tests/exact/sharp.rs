@@ -35,7 +35,7 @@ fn a1_is_reached_by_a_start_and_an_increment_that_err_alike() {
             checked += 1;
         }
     }
-    println!("A1: {checked} bounds reached");
+    println!("bound 1: {checked} bounds reached");
     assert_eq!(checked, 7 * 6);
 }
 
@@ -55,7 +55,7 @@ fn without_error() -> (Prestep, Place) {
     (machine, place)
 }
 
-/// What the bound of A3 leaves over, in units of what the term in question amounts to.
+/// What the bound of bound 3 leaves over, in units of what the term in question amounts to.
 fn left_over(bits: u32, steps: Steps, machine: Prestep, place: Place, term: &BigRational) -> BigRational {
     let machine = Prestep {
         reciprocal_error: place.eta.abs(),
@@ -122,7 +122,7 @@ fn a3_is_reached_term_by_term() {
     }
     for what in ["roundings", "distance", "edge", "reciprocal"] {
         let left = worst.iter().filter(|(name, _)| *name == what).map(|(_, left)| *left).fold(0.0, f64::max);
-        println!("A3 {what}: at most {left:.1e} of the term left over");
+        println!("bound 3 {what}: at most {left:.1e} of the term left over");
         assert!(left < 1e-3, "{what}: {left}");
     }
     assert_eq!(worst.len(), 5 * 4);

@@ -88,7 +88,7 @@ fn a4_bits_of_common_screens_and_one_bit_fewer_wraps_255_to_256() {
     }
     let (bits, _) = check(DEFAULT, DEPTH, Rounding::NearestHalfUp, Target::InRange);
     assert_eq!(bits, 14);
-    // The triangle of 4096x4096 shows A2 to be all but reached.
+    // The triangle of 4096x4096 shows bound 2 to be all but reached.
     let (_, witness) = check(Screen::clipped(4096, 4096), COLOUR, Rounding::NearestHalfUp, Target::InRange);
     let bound = exact(triangle_error(Rounding::NearestHalfUp, 12, witness.steps).high());
     let error = exact(witness.sum) - ratio(witness.exact.0, witness.exact.1);

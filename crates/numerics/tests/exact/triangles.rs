@@ -1,4 +1,4 @@
-//! Random triangles, walked exactly: A2, A4 and A6, and the budget of a machine with its vertex rounding.
+//! Random triangles, walked exactly: bounds 2, 4 and 6, and the budget of a machine with its vertex rounding.
 
 use crate::rational::{exact, ratio, round_to_integer, rounded};
 use crate::triangle::{Interpolator, Line, Triangle, Vertex};
@@ -69,14 +69,14 @@ fn a2_and_a4_random_triangles_stay_within_the_bound_and_the_range() {
                 }
             }
         }
-        println!("A2 {rounding}: {checked} pixels, {most:.4} of the bound reached");
+        println!("bound 2 {rounding}: {checked} pixels, {most:.4} of the bound reached");
         assert!(most > 0.95 && checked > 50_000, "{rounding}: {most} over {checked}");
     }
 }
 
 /// What [`observe`] has seen of random pixels.
 struct Observed {
-    /// Share whose output differs from the rounded exact value, and the share that A6 predicts.
+    /// Share whose output differs from the rounded exact value, and the share that bound 6 predicts.
     different: f64,
     predicted: f64,
     /// Mean magnitude of the error before the output rounding over the mean of its deviations.
@@ -119,14 +119,14 @@ fn observe(seed: u64, pixels: u32, bits: u32, rounding: Rounding) -> Observed {
 #[test]
 fn a6_predicts_the_mismatches_and_betrays_a_floored_increment() {
     let Observed { different, predicted, mean_over_deviation } = observe(6, 40_000, 6, NEAREST);
-    println!("A6: {different:.4} of the outputs differ, {predicted:.4} predicted");
-    println!("A6: mean magnitude of the error {mean_over_deviation:.4} of its deviation");
+    println!("bound 6: {different:.4} of the outputs differ, {predicted:.4} predicted");
+    println!("bound 6: mean magnitude of the error {mean_over_deviation:.4} of its deviation");
     assert!((different / predicted - 1.0).abs() < 0.08, "{different} for {predicted}");
     // From the normal distribution to a single uniform one.
     assert!((0.798..0.866).contains(&mean_over_deviation), "{mean_over_deviation}");
     let floored = observe(6, 10_000, 6, Rounding::Floor);
     println!(
-        "A6 floored: {:.4} of the outputs differ, {:.4} predicted for RN",
+        "bound 6 floored: {:.4} of the outputs differ, {:.4} predicted for RN",
         floored.different, floored.predicted
     );
     assert!(floored.different / floored.predicted > 1.5);

@@ -1,4 +1,4 @@
-//! Bump mapping: a relief over texture coordinates turns the normal (A, end of chapter 7; Blinn's construction).
+//! Bump mapping: a relief over texture coordinates turns the normal (end of ch. 7; Blinn's construction).
 //!
 //! ```text
 //!   surface moved along N by B(u, v):   N' = N + (B_u N x P_v - B_v N x P_u) / |P_u x P_v|, to length 1

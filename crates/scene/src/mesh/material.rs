@@ -1,8 +1,8 @@
-//! How a surface answers light: the coefficients of A 7.1.
+//! How a surface answers light: the coefficients of ch. 7.1.
 
 use glam::DVec3;
 
-/// The coefficients of the shading equation (A 7.1) for red, green, blue.
+/// The coefficients of the shading equation (ch. 7.1) for red, green, blue.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
     /// Own emission I_e, not negative.
@@ -15,7 +15,7 @@ pub struct Material {
     pub specular: DVec3,
     /// Specular exponent n, 0 and more.
     pub exponent: f64,
-    /// Transmission coefficient k_t in [0, 1]: 0 for an opaque surface. The others are then the corrected ones of A 7.5,
+    /// Transmission coefficient k_t in [0, 1]: 0 for an opaque surface. The others are then the corrected ones of ch. 7.5,
     /// (1 - k_t) times which the surface reflects.
     pub transmission: f64,
     /// Place in the list of textures: the picture that k_d and k_a are multiplied with.
@@ -45,8 +45,8 @@ impl Material {
         }
     }
 
-    /// The same from coefficients that are not corrected: divided by (1 - k_t), so that (1 - k_t) I* + k_t I_back (A 7.5) is
-    /// I_ref + k_t I_back (A 7.4). `None` if a surface would reflect and transmit more than it receives: k_a, k_d or k_s
+    /// The same from coefficients that are not corrected: divided by (1 - k_t), so that (1 - k_t) I* + k_t I_back (ch. 7.5) is
+    /// I_ref + k_t I_back (ch. 7.4). `None` if a surface would reflect and transmit more than it receives: k_a, k_d or k_s
     /// with k_t over 1. A surface with k_t = 1 emits nothing.
     pub fn corrected(self) -> Option<Self> {
         let part = 1.0 - self.transmission;
@@ -84,7 +84,7 @@ mod tests {
             (plain.diffuse, corrected.diffuse),
             (plain.specular, corrected.specular),
         ] {
-            // A 7.4 and A 7.5 with I_back = 0.5.
+            // ch. 7.4 and ch. 7.5 with I_back = 0.5.
             assert!((k + 0.6 * 0.5 - (0.4 * star + 0.6 * 0.5)).abs().max_element() < 1e-15);
         }
         assert_eq!(Material { transmission: 0.7, ..plain }.corrected(), None, "0.4 and 0.7");

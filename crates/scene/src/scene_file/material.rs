@@ -24,7 +24,7 @@ const KEYS: &[&str] = &[
     "bump_height",
 ];
 
-/// Place of `plain` among the values of `coefficients`: those of A 7.4.
+/// Place of `plain` among the values of `coefficients`: those of ch. 7.4.
 const PLAIN: usize = 1;
 
 /// Largest exponent of a highlight.

@@ -3,8 +3,8 @@
 //! SETUP takes longer than a pixel is in flight, so on the whole machine these bite only with stalls that keep depths,
 //! writes or reads waiting for longer than SETUP takes (`late`); at the ports of DEPTH alone they always do.
 
-use super::{Case, Triangle};
 use super::pen::{Pen, case};
+use super::{Case, Triangle};
 use edgewalk_machine::Plan;
 
 /// Depths that pass and fail in turn under `less` and under `greater`.
@@ -104,5 +104,7 @@ fn two_writes(pen: &Pen, places: u32) -> Vec<Triangle> {
     };
     let pixels = if places <= 7 { 3 } else { 1 };
     let dot = |pixel: u32, z: u32| pen.dot(f64::from(pixel), 4.0, fifteenths(z));
-    (0..pixels).flat_map(|pixel| [14, 10, 6, 2].into_iter().flat_map(round).map(move |z| dot(pixel, z))).collect()
+    (0..pixels)
+        .flat_map(|pixel| [14, 10, 6, 2].into_iter().flat_map(round).map(move |z| dot(pixel, z)))
+        .collect()
 }

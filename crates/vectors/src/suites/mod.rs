@@ -18,10 +18,10 @@ mod sphere;
 mod ties;
 
 use edgewalk_lockstep::{StallKind, Unit};
-use edgewalk_model::DrawState;
 use edgewalk_machine::nearest::nearest;
 use edgewalk_machine::units;
 use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_model::DrawState;
 
 /// A triangle at the port.
 pub type Triangle = [PortVertex; 3];

@@ -62,7 +62,8 @@ fn triangle(machine: &Plan, solved: &Solved, at: [u32; 2], of_z: bool) -> Triang
         value as f64 / (channel.max() << channel.vertex_fraction) as f64 // at most 2^53: exact
     };
     std::array::from_fn(|i| {
-        let place = |centre: i64, pixel: u32| centre as f64 / f64::from(1u32 << bits) + f64::from(pixel) + 0.5;
+        let place =
+            |centre: i64, pixel: u32| centre as f64 / f64::from(1u32 << bits) + f64::from(pixel) + 0.5;
         let (z, color) = match of_z {
             true => (share(solved.values[i], machine.z), 0.5),
             false => (0.0, share(solved.values[i], machine.color)),
@@ -189,9 +190,8 @@ impl Shape {
         let carries = column(1) - column(0) == self.q + 1;
         let (x, y) = ((column(1) - i128::from(self.major_right)) * one, one);
         let sign = if self.major_right { -1 } else { 1 };
-        let inside = |a: (i128, i128), b: (i128, i128)| {
-            sign * ((b.0 - a.0) * (y - a.1) - (b.1 - a.1) * (x - a.0)) > 0
-        };
+        let inside =
+            |a: (i128, i128), b: (i128, i128)| sign * ((b.0 - a.0) * (y - a.1) - (b.1 - a.1) * (x - a.0)) > 0;
         let corners = [(u0, v0), (u1, v1), (u2, v2)];
         carries && (0..3).all(|i| inside(corners[i], corners[(i + 1) % 3]))
     }
@@ -200,9 +200,7 @@ impl Shape {
     fn with_values(&self, values: [u64; 3], largest: u64, tie: Tie) -> Option<[u64; 3]> {
         let sign = if self.major_right { -1 } else { 1 };
         let dc = |i: usize| sign * (i128::from(values[i]) - i128::from(values[0]));
-        let d = |i: usize| {
-            (i128::from(self.at[i].0 - self.at[0].0), i128::from(self.at[i].1 - self.at[0].1))
-        };
+        let d = |i: usize| (i128::from(self.at[i].0 - self.at[0].0), i128::from(self.at[i].1 - self.at[0].1));
         let ((du1, dv1), (du2, dv2)) = (d(1), d(2));
         let nx = dc(1) * dv2 - dc(2) * dv1;
         let ny = du1 * dc(2) - du2 * dc(1);
@@ -216,7 +214,9 @@ impl Shape {
         let word = match tie {
             // Below 0 SETUP divides the complement, and a tie is no comparison of equals there.
             Tie::Start => (start.floor >= 0 && start.tie(self.area)).then(|| start.rounded(self.area)),
-            Tie::Half => (rests == self.area).then(|| start.rounded(self.area) + with_carry.rounded(self.area)),
+            Tie::Half => {
+                (rests == self.area).then(|| start.rounded(self.area) + with_carry.rounded(self.area))
+            }
             Tie::ThreeHalves => {
                 (rests == 3 * self.area).then(|| start.rounded(self.area) + with_carry.rounded(self.area))
             }

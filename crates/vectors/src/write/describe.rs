@@ -6,12 +6,12 @@ use super::{
 };
 use crate::capture::Trace;
 use crate::manifest::{
-    CaseInfo, Channel, Compare, FORMAT, Field, File, Handshake, MachineInfo, Manifest, Memory, MemoryWrite, Radix, SideInput,
-    Stalls, Status, SuiteInfo, VERSION,
+    CaseInfo, Channel, Compare, FORMAT, Field, File, Handshake, MachineInfo, Manifest, Memory, MemoryWrite,
+    Radix, SideInput, Stalls, Status, SuiteInfo, VERSION,
 };
-use edgewalk_lockstep::{Direction, Interface, Port, StatusPort};
 use crate::reach::{not_covered, reached};
 use crate::suites::Suite;
+use edgewalk_lockstep::{Direction, Interface, Port, StatusPort};
 use edgewalk_machine::keys::KEYS;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -121,7 +121,9 @@ fn side_inputs(interface: &Interface) -> Vec<SideInput> {
         format: level.field.to_string(),
         while_tokens_of: source.to_owned(),
         pattern: willing_file(&level.name),
-        rule: format!("1 in a cycle before which tokens of {source} are left to move and whose pattern is 0, else 0"),
+        rule: format!(
+            "1 in a cycle before which tokens of {source} are left to move and whose pattern is 0, else 0"
+        ),
     };
     interface.levels.iter().map(side_input).collect()
 }

@@ -1,7 +1,7 @@
 //! The words of the test bench for a fault: channel, token, triangle, case, and each field that differs.
 
-use edgewalk_lockstep::Port;
 use crate::suites::Suite;
+use edgewalk_lockstep::Port;
 use std::fmt::Write as _;
 
 /// Verilog that tells what a channel's sink found, in full and field by field; `suffix` is that of the wire which holds the
@@ -12,9 +12,14 @@ pub fn telling(name: &str, suffix: &str, fields: &[Port], known: bool) -> String
     let upper = name.to_uppercase();
     let mut text = String::new();
     let (triangle, triangle_of) = if known {
-        let _ = writeln!(text, "    reg [31:0] {name}_triangles [0:({upper}_COUNT == 0 ? 0 : {upper}_COUNT - 1)];");
-        let _ =
-            writeln!(text, "    initial if ({upper}_COUNT > 0) $readmemh(\"{name}.triangle.mem\", {name}_triangles);");
+        let _ = writeln!(
+            text,
+            "    reg [31:0] {name}_triangles [0:({upper}_COUNT == 0 ? 0 : {upper}_COUNT - 1)];"
+        );
+        let _ = writeln!(
+            text,
+            "    initial if ({upper}_COUNT > 0) $readmemh(\"{name}.triangle.mem\", {name}_triangles);"
+        );
         let number = format!("{name}_triangles[{name}_checked]");
         (", triangle %0d, case %0s", format!(", {number}, case_name({number})"))
     } else {

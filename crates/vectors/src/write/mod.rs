@@ -25,8 +25,8 @@ pub(crate) use describe::file;
 
 use crate::capture::Trace;
 use crate::manifest;
-use edgewalk_lockstep::{Direction, Interface, Pattern, Port, status_ports};
 use crate::suites::Suite;
+use edgewalk_lockstep::{Direction, Interface, Pattern, Port, status_ports};
 
 /// Files to be written: name relative to the directory, contents.
 pub type Files = Vec<(String, Vec<u8>)>;

@@ -1,8 +1,8 @@
 //! Tables for eyes and spreadsheets: a token a line, signed fields with their sign.
 
 use crate::capture::{LinkTrace, Trace};
-use edgewalk_lockstep::{Link, Port};
 use crate::suites::Suite;
+use edgewalk_lockstep::{Link, Port};
 use std::fmt::Write as _;
 
 /// The tokens of a link, with their number, the cycle, and, where it is known, the triangle and its case.

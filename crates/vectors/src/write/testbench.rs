@@ -23,7 +23,12 @@ pub fn testbench(interface: &Interface, known: &[&str]) -> String {
     for channel in &interface.links {
         text.push_str(&channel_end(interface, channel));
         if channel.direction == Direction::Out {
-            text.push_str(&faults::telling(channel.name, "token", &channel.fields, known.contains(&channel.name)));
+            text.push_str(&faults::telling(
+                channel.name,
+                "token",
+                &channel.fields,
+                known.contains(&channel.name),
+            ));
         }
     }
     text.push_str(&status_section(interface, &super::status_fields(interface)));
@@ -83,7 +88,9 @@ fn channel_end(interface: &Interface, channel: &Link) -> String {
         (Direction::In, None) => SOURCE.to_owned(),
         (Direction::Out, _) => SINK.to_owned(),
     };
-    (PATTERN.to_owned() + &end).replace("{name}", channel.name).replace("{NAME}", &channel.name.to_uppercase())
+    (PATTERN.to_owned() + &end)
+        .replace("{name}", channel.name)
+        .replace("{NAME}", &channel.name.to_uppercase())
 }
 
 const PATTERN: &str = r#"

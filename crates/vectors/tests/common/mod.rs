@@ -1,8 +1,8 @@
 //! Machines that the tests share.
 #![allow(dead_code)] // every test file uses a part of it
 
-use edgewalk_machine::{EdgeKind, Fill, Hazard, Machine, Plan, Precision};
 use edgewalk_machine::units;
+use edgewalk_machine::{EdgeKind, Fill, Hazard, Machine, Plan, Precision};
 use edgewalk_vectors::{Files, Unit};
 use std::path::Path;
 use std::process::Command;

@@ -74,7 +74,8 @@ fn run(place: &Place, edit: Option<&Edit>) -> (bool, String) {
 
 /// The edits that pass; every place is run without a fault first.
 fn survivors(runs: &[(Place, Edit)]) -> Vec<String> {
-    let places: BTreeSet<_> = runs.iter().map(|((keys, suite, unit), _)| (keys, suite, unit.name())).collect();
+    let places: BTreeSet<_> =
+        runs.iter().map(|((keys, suite, unit), _)| (keys, suite, unit.name())).collect();
     let places: Vec<_> = places.into_iter().collect();
     common::two_at_a_time(&places, |_, (keys, suite, unit)| {
         let unit = Unit::known().find(|other| other.name() == *unit).expect("one of them");

@@ -8,12 +8,10 @@ mod common;
 mod miter;
 mod proof;
 
+use edgewalk_machine::{Machine, Plan, Precision};
 use edgewalk_model::DrawState;
 use edgewalk_netlist::mutate::mutants;
-use edgewalk_machine::{Machine, Plan, Precision};
-use edgewalk_vectors::{
-    Interface, StallKind, Suite, Trace, Unit, capture, capture_tokens, design,
-};
+use edgewalk_vectors::{Interface, StallKind, Suite, Trace, Unit, capture, capture_tokens, design};
 use proof::{Proof, prove};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -119,9 +117,7 @@ fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
     traces.push(capture(machine, unit, &suite, masked, StallKind::Mixed));
     match unit.name() {
         "setup" => traces.push(specks(machine)),
-        "span" => {
-            traces.extend((1..=4).map(|seed| any_lines(machine, &traces[1], seed)).collect::<Vec<_>>())
-        }
+        "span" => traces.extend((1..=4).map(|seed| any_lines(machine, &traces[1], seed)).collect::<Vec<_>>()),
         _ => {}
     }
     traces

@@ -1,7 +1,7 @@
 //! Two designs under the same inputs, and whether a port that counts differs, as Verilog.
 
-use edgewalk_netlist::Netlist;
 use edgewalk_lockstep::{Direction, Link, Port, status_ports};
+use edgewalk_netlist::Netlist;
 use edgewalk_vectors::Interface;
 use std::fmt::Write as _;
 

@@ -36,7 +36,7 @@ pub struct Addition {
     pub value: Vec<f64>,
     /// Values minus those of the plane through the vertices at the port, LSB.
     pub error: Vec<f64>,
-    /// No error can be larger here (A2), LSB.
+    /// No error can be larger here (bound 2), LSB.
     pub bound: Vec<f64>,
 }
 

@@ -83,7 +83,13 @@ impl<const C: usize> MemoryPorts<C> {
         }
     }
 
-    pub fn show(&self, read: Option<u32>, data_ready: bool, write: Option<&Write<C>>, ports: &mut PortValues) {
+    pub fn show(
+        &self,
+        read: Option<u32>,
+        data_ready: bool,
+        write: Option<&Write<C>>,
+        ports: &mut PortValues,
+    ) {
         ports.set(self.rd_valid, read.is_some());
         ports[self.rd_addr] = read.unwrap_or(0).into();
         ports.set(self.data_ready, data_ready);

@@ -41,12 +41,7 @@ impl<'a> Scope<'a> {
     /// The end of a link where tokens come in.
     pub fn taker<T: Named>(&self, name: &str) -> Result<Taker<T>, NoPlace> {
         let (place, link) = self.link(name)?;
-        Ok(Taker {
-            table: Table::of(self.plan, link)?,
-            place,
-            valid: link.valid,
-            fields: link.range(),
-        })
+        Ok(Taker { table: Table::of(self.plan, link)?, place, valid: link.valid, fields: link.range() })
     }
 
     /// The end of a link where tokens go out.

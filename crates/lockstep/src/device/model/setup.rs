@@ -33,7 +33,8 @@ pub struct TriangleTaker {
 
 impl TriangleTaker {
     pub fn find(plan: &Plan, interface: &Interface) -> Result<TriangleTaker, NoPlace> {
-        let missing = |port: &str| NoPlace::Port { unit: interface.unit.name().to_owned(), port: port.to_owned() };
+        let missing =
+            |port: &str| NoPlace::Port { unit: interface.unit.name().to_owned(), port: port.to_owned() };
         let link = interface.link("tri").ok_or_else(|| missing("tri"))?;
         let triangles = Triangles::of(plan, link).ok_or_else(|| missing("a field of tri"))?;
         Ok(TriangleTaker { link: link.clone(), triangles })

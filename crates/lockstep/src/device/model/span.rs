@@ -6,9 +6,9 @@ use crate::device::Device;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
+use edgewalk_model::Events;
 use edgewalk_model::span::Span;
 use edgewalk_model::tokens::{self, Line};
-use edgewalk_model::Events;
 
 /// What SPAN shows of itself.
 pub struct SpanPorts<const C: usize> {
