@@ -150,7 +150,10 @@ impl<const C: usize> Depth<C> {
         let pass = inputs.depth_func >> relation & 1 != 0;
         events.depth_fail = events.depth_fail.wrapping_add(u64::from(!pass)); // in every cycle: not checked
         let result = Outcome { addr, side, word: z, stored: inputs.depth_write };
-        events.forward_compare += self.rmw.finish(pass, result);
+        let taken = self.rmw.finish(pass, result);
+        if taken > 0 {
+            events.forward_compare += taken;
+        }
     }
 
     #[inline]

@@ -84,17 +84,14 @@ fn draw<const C: usize>(
 ) -> Result<Frame, ForeignVertex> {
     let mut rig = Rig::<C>::new(plan, state, stalls);
     let mut tally = Tally::new(plan);
-    let channels = plan.channels().len();
+    let channels = plan.channels().len().min(C); // C serves the plan; said so that no slice is checked in every cycle
     let triangles = triangles.zip(0..).map(|(t, number)| plan.accept(&t, number).map(|()| t));
     rig.draw(triangles, |_, model, cycle| {
         if let Some(addr) = cycle.read {
             tally.read(addr);
             let fragment = model.last_read();
-            hook(Drawn::Fragment(Sample {
-                addr,
-                values: &fragment.values[..channels],
-                source: fragment.source,
-            }));
+            let values = &fragment.values[..channels];
+            hook(Drawn::Fragment(Sample { addr, values, source: fragment.source }));
         }
         if let Some(write) = cycle.write() {
             tally.write(write.addr, write.source.id);

@@ -13,7 +13,7 @@
 
 use crate::fifo::Fifo;
 use crate::prefetch::prefetch;
-use crate::tokens::{OutputWords, Write};
+use crate::tokens::{FEW, MAX_CHANNELS, OutputWords, Write};
 use edgewalk_machine::Plan;
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::{RngCore, SeedableRng};
@@ -51,8 +51,17 @@ pub struct Memory<const C: usize> {
     reads: Fifo<(u64, u32), 16>,
     /// Words from a line to the next.
     pitch: usize,
-    /// Depth and frame memory by address, side by side as the channels stand.
-    pixels: Vec<OutputWords<C>>,
+    /// Depth memory by address; a read waits for this one only.
+    z: Vec<u32>,
+    /// Frame memory by address: a colour, 16 bits a channel, in one word, and beside it what the user's own channels hold.
+    rgb: Vec<u64>,
+    own: Vec<[u32; MAX_CHANNELS - FEW]>,
+}
+
+/// Red, green and blue of at most 16 bits each in one word.
+#[inline]
+fn pack([r, g, b]: [u32; 3]) -> u64 {
+    u64::from(r) | u64::from(g) << 16 | u64::from(b) << 32
 }
 
 impl<const C: usize> Memory<C> {
@@ -60,8 +69,6 @@ impl<const C: usize> Memory<C> {
     #[must_use]
     pub fn new(plan: &Plan, clear: [u64; 3], stalls: Stalls) -> Self {
         let words = 1 << plan.widths().address;
-        let [r, g, b] = clear.map(|c| c as u32); // b <= 16 bits
-        let empty = std::array::from_fn(|i| [plan.z.max() as u32, r, g, b].get(i).copied().unwrap_or(0));
         let mut memory = Memory {
             latency: u64::from(plan.latency),
             stalls,
@@ -72,7 +79,9 @@ impl<const C: usize> Memory<C> {
             wr_ready: true,
             reads: Fifo::default(),
             pitch: 1 << plan.widths().x,
-            pixels: vec![empty; words],
+            z: vec![plan.z.max() as u32; words],             // b <= 32 bits
+            rgb: vec![pack(clear.map(|c| c as u32)); words], // b <= 16 bits
+            own: vec![[0; MAX_CHANNELS - FEW]; if C > FEW { words } else { 0 }],
         };
         memory.draw_readies();
         memory
@@ -103,7 +112,12 @@ impl<const C: usize> Memory<C> {
     /// What is stored at an address.
     #[must_use]
     pub fn pixel(&self, addr: u32) -> OutputWords<C> {
-        self.pixels[addr as usize]
+        let at = addr as usize;
+        std::array::from_fn(|i| match i {
+            0 => self.z[at],
+            1..FEW => u32::from((self.rgb[at] >> (16 * (i - 1))) as u16),
+            _ => self.own[at][i - FEW],
+        })
     }
 
     /// Clock edge: the read that fired, whether the data was taken, the write that fired.
@@ -114,16 +128,21 @@ impl<const C: usize> Memory<C> {
         }
         if let Some(addr) = read {
             let due = self.now.wrapping_add(self.latency).wrapping_add(self.late());
-            self.reads.push((due, self.pixels[addr as usize][0]));
+            self.reads.push((due, self.z[addr as usize]));
             // Triangles go down: the word below is likely to be next, and the host's own memory is slow.
             let below = (addr as usize).wrapping_add(self.pitch);
-            prefetch(&self.pixels, below);
+            prefetch(&self.z, below);
+            prefetch(&self.rgb, below);
         }
         if let Some(write) = write {
-            let pixel = &mut self.pixels[write.addr as usize];
-            let z = if write.z_en { write.values[0] } else { pixel[0] };
-            *pixel = write.values;
-            pixel[0] = z;
+            let (at, values) = (write.addr as usize, &write.values);
+            self.rgb[at] = pack([values[1], values[2], values[3]]);
+            if C > FEW {
+                self.own[at] = std::array::from_fn(|i| values[FEW + i]);
+            }
+            if write.z_en {
+                self.z[at] = values[0];
+            }
         }
         self.now = self.now.wrapping_add(1);
         self.draw_readies();
