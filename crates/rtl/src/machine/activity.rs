@@ -27,8 +27,7 @@ impl<'m> Joined<'m> {
     /// One of the units tells this.
     fn any(&self, name: &str) -> Signal<'m> {
         let told = (0..self.0.len()).filter_map(|place| self.told(place, name));
-        let any = told.reduce(|any, one| any | one).expect("PIXEL and DEPTH are in every machine");
-        any
+        told.reduce(|any, one| any | one).expect("PIXEL and DEPTH are in every machine")
     }
 
     /// What a unit tells, 0 while it means nothing; `None` if it does not tell this.
