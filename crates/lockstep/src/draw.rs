@@ -75,9 +75,11 @@ pub fn render_rtl_with(
         device.settle(&mut ports);
         let more = watch(device.simulator());
         picture.see(&ports);
+        // The machine is idle, too, in the cycle in which it takes a triangle.
+        let done = rig.exhausted() && picture.is_idle(&ports);
         device.clock();
         rig.clock(&ports);
-        if !more || (rig.exhausted() && picture.is_idle(&ports)) {
+        if !more || done {
             break;
         }
     }
@@ -114,7 +116,7 @@ impl Picture {
         let place = |field: &str| wr.place(field).expect("a write declares it");
         let words = 1 << plan.widths().address;
         let clear = |i: usize| match i {
-            0 => plan.z.max() as u32, // b <= 32 bits
+            0 => plan.z.max() as u32,                                       // b <= 32 bits
             _ => state.clear.get(i - 1).map_or(0, |colour| *colour as u32), // b <= 16 bits
         };
         Picture {
@@ -166,13 +168,16 @@ impl Picture {
 
     fn frame(self, plan: &Plan) -> Frame {
         let x_bits = plan.widths().x;
-        let pixels = || (0..plan.height).flat_map(|y| (0..plan.width).map(move |x| (y << x_bits | x) as usize));
+        let pixels =
+            || (0..plan.height).flat_map(|y| (0..plan.width).map(move |x| (y << x_bits | x) as usize));
         let word = |channel: usize, address: usize| self.stored[channel][address];
         let extra = plan.channels().iter().enumerate().skip(FEW);
         Frame {
             z: pixels().map(|a| u64::from(word(0, a))).collect(),
             rgb: pixels().map(|a| [1, 2, 3].map(|channel| u64::from(word(channel, a)))).collect(),
-            extra: extra.map(|(i, channel)| pixels().map(|a| output(channel, word(i, a))).collect()).collect(),
+            extra: extra
+                .map(|(i, channel)| pixels().map(|a| output(channel, word(i, a))).collect())
+                .collect(),
             coverage: pixels().map(|a| self.coverage[a]).collect(),
             writes: pixels().map(|a| self.writes[a]).collect(),
             id: pixels().map(|a| self.id[a]).collect(),
