@@ -29,7 +29,10 @@ fn a_waveform_holds_causes_by_name_and_no_constants_and_no_tags() {
     let line = header.lines().find(|line| line.contains(" activity_name $end")).expect("declared");
     let id = line.split_whitespace().nth(3).expect("an identifier");
     for name in ["idle", "setup"] {
-        assert!(changes.lines().any(|line| line == format!("s{name} {id}")), "the cause {name} is never shown");
+        assert!(
+            changes.lines().any(|line| line == format!("s{name} {id}")),
+            "the cause {name} is never shown"
+        );
     }
 }
 

@@ -107,7 +107,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 pub fn of_input(input: &str, port: &PortFrame, triangles: Option<u64>) -> Result<Suite> {
     let name = Path::new(input).file_stem().map_or_else(|| input.into(), |stem| stem.to_string_lossy());
     // It becomes the name of a directory.
-    let name: String = name.chars().map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect();
+    let name: String =
+        name.chars().map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect();
     let wanted = triangles.map_or(usize::MAX, |n| usize::try_from(n).unwrap_or(usize::MAX));
     let every = port.triangles.len().div_ceil(wanted).max(1);
     let triangles: Vec<_> = port.triangles.iter().step_by(every).copied().collect();
@@ -211,10 +212,16 @@ impl Set<'_> {
 
 /// Says how much is about to be written where it is very much.
 fn announce(name: &str, files: &Files) {
-    let size = |of: fn(&str) -> bool| files.iter().filter(|(n, _)| of(n)).map(|(_, bytes)| bytes.len()).sum::<usize>();
+    let size = |of: fn(&str) -> bool| {
+        files.iter().filter(|(n, _)| of(n)).map(|(_, bytes)| bytes.len()).sum::<usize>()
+    };
     let (all, tables) = (size(|_| true), size(|n| n.ends_with(".csv")));
     if all >= HUGE {
-        let hint = if tables > 0 { format!(", {} MB of them tables (--no-csv leaves them out)", tables >> 20) } else { String::new() };
+        let hint = if tables > 0 {
+            format!(", {} MB of them tables (--no-csv leaves them out)", tables >> 20)
+        } else {
+            String::new()
+        };
         talk::warn(&format!("{name}: writing {} MB{hint}", all >> 20));
     }
 }

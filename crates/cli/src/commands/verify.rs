@@ -69,7 +69,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = machine.machine(None)?;
     let frame = args.source.frame(&machine)?;
     let port = to_port(&frame, &machine)?;
-    let input = Suite { name: "input".to_owned(), ..of_input(&args.source.input, &port, Some(args.triangles))? };
+    let input =
+        Suite { name: "input".to_owned(), ..of_input(&args.source.input, &port, Some(args.triangles))? };
     let mut work: Vec<(Suite, Unit, &[Simulator])> = vec![(input, Unit::MACHINE, &Simulator::ALL)];
     for suite in directed(&machine)? {
         // A build with Verilator takes seconds: the whole machine is enough for it.
@@ -104,7 +105,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 }
 
 fn against_netlist(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> Result<Check> {
-    let netlist = edgewalk_lockstep::netlist(machine, unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+    let netlist =
+        edgewalk_lockstep::netlist(machine, unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
     // How much ought to be compared follows from the model's run alone.
     let expected = trace.port_values();
     let (checked, difference) = match trace.lockstep(&netlist) {

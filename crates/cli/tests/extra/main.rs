@@ -211,7 +211,10 @@ fn the_example_of_the_format_gives_the_texels_it_says() {
             line.map(|b| i64::from_le_bytes(b.try_into().unwrap())).collect()
         };
         let inside = |x: i64| (1..30).contains(&x);
-        assert_eq!(line("e0.npy"), (0..32).map(|x| if inside(x) { 2 * x - 1 } else { 0 }).collect::<Vec<_>>());
+        assert_eq!(
+            line("e0.npy"),
+            (0..32).map(|x| if inside(x) { 2 * x - 1 } else { 0 }).collect::<Vec<_>>()
+        );
         assert_eq!(line("e1.npy"), (0..32).map(|x| i64::from(inside(x))).collect::<Vec<_>>());
     }
 }
