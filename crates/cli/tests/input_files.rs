@@ -190,7 +190,10 @@ fn a_reason_is_given_once_and_by_whose_fault() {
             &["emit", "--set", "edge.fill=textbook"],
             "--set edge.fill=textbook: screen.subpixel_bits = 8 cannot be built",
         ),
-        (&["raster", "wide.tri", "--out", "o"], "size 8192 4: screen.guard_bits = "),
+        (
+            &["raster", "wide.tri", "--out", "o", "--set", "screen.guard_bits=12"],
+            "size 8192 4, --set screen.guard_bits=12: screen.guard_bits = 12 cannot be built",
+        ),
     ];
     std::fs::write(folder.path().join("wide.tri"), "size 8192 4\n").unwrap();
     for (arguments, says) in cases {

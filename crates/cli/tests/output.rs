@@ -68,6 +68,28 @@ fn a_run_that_cannot_place_a_file_changes_nothing() {
 }
 
 #[test]
+fn a_file_that_cannot_be_finished_is_named_by_its_place() {
+    let folder = folder();
+    // No file may grow beyond a few kilobytes, as on a disk that is full; the signal that says so is not the program's end.
+    let script = "trap '' XFSZ; ulimit -f 20; exec \"$@\"";
+    let trace = [&["trace", "d.tri", "-q", "--out", "a/t.vcd"], &SCREEN[..]].concat();
+    let commands: [(&[&str], &str); 3] = [
+        (&["raster", "d.tri", "-q", "--out", "a/r"], "a/r/rgb.npy"),
+        (&["emit", "-q", "--out", "a/e"], "a/e/edgewalk_setup.v"),
+        (&trace, "a/t.vcd"),
+    ];
+    for (command, file) in commands {
+        let mut shell = Command::new("sh");
+        shell.args(["-c", script, "sh", env!("CARGO_BIN_EXE_edgewalk")]).args(command);
+        let (code, error) = ended(&shell.current_dir(folder.path()).output().unwrap());
+        assert_eq!(code, Some(2), "{command:?}: {error}");
+        assert_eq!(error, format!("edgewalk: {file}: File too large (os error 27)\n"), "{command:?}");
+        assert_eq!(names(folder.path()), ["d.tri"], "{command:?}");
+    }
+    println!("checked {0} / {0} commands", commands.len());
+}
+
+#[test]
 fn files_of_an_earlier_run_do_not_stay_and_others_do() {
     let folder = folder();
     let at = |name: &str| folder.path().join(name);

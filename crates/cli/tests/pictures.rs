@@ -145,7 +145,7 @@ fn the_heat_map_runs_from_blue_over_yellow_to_red() {
     assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stderr));
     let map = png(&folder.path().join("out/color_error.png"));
     let (mut blue, mut red) = (0, 0);
-    for x in 0..WIDTH {
+    for (x, shown) in map[..WIDTH].iter().enumerate() {
         // 6.3 at the first centre, of which the machine keeps 6.
         let error = (0.4 * x as f64 - 0.3).abs();
         let expected = if error > 1.0 {
@@ -154,7 +154,7 @@ fn the_heat_map_runs_from_blue_over_yellow_to_red() {
             [error * 255.0, error * 220.0, (1.0 - error) * 160.0]
         };
         for (k, value) in expected.into_iter().enumerate() {
-            assert!((f64::from(map[x][k]) - value).abs() <= 1.01, "{x}: {:?} for {error}", map[x]);
+            assert!((f64::from(shown[k]) - value).abs() <= 1.01, "{x}: {shown:?} for {error}");
         }
         if error > 1.0 { red += 1 } else { blue += 1 }
     }
