@@ -75,9 +75,11 @@ pub fn render_rtl_with(
         device.settle(&mut ports);
         let more = watch(device.simulator());
         picture.see(&ports);
+        // The machine is idle, too, in the cycle in which it takes a triangle.
+        let done = rig.exhausted() && picture.is_idle(&ports);
         device.clock();
         rig.clock(&ports);
-        if !more || (rig.exhausted() && picture.is_idle(&ports)) {
+        if !more || done {
             break;
         }
     }

@@ -220,6 +220,10 @@ fn nothing_drawn_is_nothing_compared() {
     assert_eq!(something, Mismatch, "but a machine that draws where golden does not is wrong");
 }
 
+/// A fault at the values of two channels, and what must be found of it.
+type Fault<'a> = &'a dyn Fn(&mut [Vec<i64>; 2]);
+type Found<'a> = &'a dyn Fn(&Comparison) -> bool;
+
 /// Two channels of the user's own: signed, and floor.
 fn own_machine() -> Plan {
     let mut machine = Machine { width: 16, height: 12, extra: 2, ..Machine::default() };
@@ -237,7 +241,7 @@ fn each_value_of_the_users_own_wrong_alone_is_a_mismatch() {
     let machine = own_machine();
     let [golden, right] =
         [Engine::Golden, Engine::Model].map(|engine| draw(engine, &frame, &machine, true).unwrap());
-    let after = |fault: &dyn Fn(&mut [Vec<i64>; 2])| {
+    let after = |fault: Fault| {
         let mut wrong = right.clone();
         let mut values = [0, 1].map(|i| match &wrong.extra[i] {
             Values::Stored(values) => values.clone(),
@@ -253,7 +257,7 @@ fn each_value_of_the_users_own_wrong_alone_is_a_mismatch() {
     assert!(errors.iter().all(|error| *error > 0.3), "{errors:?}");
     let bounds = [0, 1].map(|i| c.extra[i].channel.bound.unwrap());
     assert!(bounds[0] < 1.0 && bounds[1] > 1.0 && bounds[1] < 1.5, "{bounds:?}");
-    let cases: [(&dyn Fn(&mut [Vec<i64>; 2]), &dyn Fn(&Comparison) -> bool); 5] = [
+    let cases: [(Fault, Found); 5] = [
         (&|own| own[0][UNDER] += 2, &|c| c.extra[0].error > 1.4 && c.extra[1].error == errors[1]),
         (&|own| own[1][UNDER] -= 2, &|c| c.extra[1].error > 1.9 && c.extra[0].error == errors[0]),
         (&|own| own[0][UNDER] += 4096, &|c| c.wrapped == 1),

@@ -194,3 +194,27 @@ fn a_comparison_tells_each_channels_error_beside_its_bound() {
     assert!(of["no_bound"].as_str().unwrap().contains("additions may err by"), "{of}");
     assert!(report["channels"][1]["bound"].is_null() && report["channels"][0]["bound"].is_f64());
 }
+
+#[test]
+fn the_example_of_the_format_gives_the_texels_it_says() {
+    let page = include_str!("../../../../docs/triangle_file.md");
+    let example = page.split("```").find(|part| part.contains("\nextra 2\n")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("in.tri"), example).unwrap();
+    for engine in ["fast", "model", "rtl"] {
+        let arguments = ["raster", "in.tri", "--engine", engine, "--out", engine];
+        told(folder.path(), &arguments, &["channels.extra=2".to_owned()]);
+        let line = |name: &str| -> Vec<i64> {
+            let (_, shape, bytes) = support::npy(&folder.path().join(engine).join(name));
+            assert_eq!(shape, [32, 32]);
+            let line = bytes.chunks_exact(8).skip(32).take(32);
+            line.map(|b| i64::from_le_bytes(b.try_into().unwrap())).collect()
+        };
+        let inside = |x: i64| (1..30).contains(&x);
+        assert_eq!(
+            line("e0.npy"),
+            (0..32).map(|x| if inside(x) { 2 * x - 1 } else { 0 }).collect::<Vec<_>>()
+        );
+        assert_eq!(line("e1.npy"), (0..32).map(|x| i64::from(inside(x))).collect::<Vec<_>>());
+    }
+}
