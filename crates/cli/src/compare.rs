@@ -1,31 +1,68 @@
-//! A machine's picture against the golden one.
+//! A machine's picture against the golden one, pixel by pixel.
+//!
+//! ```text
+//!  golden ─┐                  same triangle, same writes ──> every channel: error, wrapped? ─────┐
+//!          ├─> coverage ─> ?                                                                    ├─> Comparison ─> verdict
+//!  machine ┘                  another triangle or count ──> is there an order of depths within ─┘
+//!                                                           the bound (A7) that explains it?
+//! ```
+//! Errors are against the exact plane through the unquantised vertices, in LSB of the machine's output.
+
+mod channel;
+mod order;
+#[cfg(test)]
+mod tests;
 
 use crate::engine::Raster;
 use crate::verdict::Verdict;
-use edgewalk_machine::{Channel, Plan};
+pub use channel::ExtraError;
+use channel::Tally;
+use edgewalk_machine::Plan;
+use edgewalk_scene::Frame;
+use order::{Orders, Over};
 use serde::Serialize;
 
-/// What the comparison found. Errors are against the exact plane through the unquantised vertices.
+/// What the comparison found.
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
     /// Pixels whose coverage was compared.
     pub pixels: u64,
+    /// Pixels of the machine's screen.
+    pub screen: u64,
     /// Pixels where another number of triangles covers.
     pub coverage_mismatches: u64,
-    /// Pixels whose depth and colour were compared: the same triangle is visible in both.
-    pub shaded: u64,
-    /// Pixels where the two pictures show different triangles whose depths differ by no more than the bound allows (A7).
+    /// Pixels that golden covers.
+    pub covered: u64,
+    /// Those of them whose triangle, number of writes, depth, colour and values of the user's own were compared.
+    pub compared: u64,
+    /// Pixels that show another triangle, or were written another number of times, as two depths there are too near for the
+    /// bound to tell their order (A7).
     pub order_undecided: u64,
-    /// Pixels where they differ by more.
+    /// Pixels where no such order explains it.
     pub order_wrong: u64,
+    /// Pixels that show no triangle, and not the cleared depth, colour and values of the user's own either.
+    pub background_wrong: u64,
+    /// Pixels of which a value left its range and wrapped.
+    pub wrapped: u64,
+    /// Cycles of the machine without a cause, or with two.
+    pub cycles_unexplained: u64,
     /// Largest depth error, LSB.
     pub z_error: f64,
     /// Largest colour error, LSB.
     pub color_error: f64,
-    /// Proved bound of the depth error, LSB.
-    pub z_bound: f64,
-    /// Proved bound of the colour error, LSB.
-    pub color_bound: f64,
+    /// Proved bound of the depth error, LSB; none where depths may wrap.
+    pub z_bound: Option<f64>,
+    /// Proved bound of the colour error, LSB; none where colours may wrap.
+    pub color_bound: Option<f64>,
+    /// Why there is none of the depth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z_no_bound: Option<String>,
+    /// Why there is none of the colour.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color_no_bound: Option<String>,
+    /// Channels of the user's own.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub extra: Vec<ExtraError>,
     /// Depth error of every pixel, LSB.
     #[serde(skip)]
     pub z_map: Vec<f64>,
@@ -34,64 +71,83 @@ pub struct Comparison {
     pub color_map: Vec<f64>,
 }
 
-/// Compares pixel by pixel.
-pub fn compare(machine: &Plan, golden: &Raster, drawn: &Raster) -> Comparison {
-    let (z_max, color_max) = (machine.z.max() as f64, machine.color.max() as f64);
-    let (z_bound, color_bound) = bounds(machine);
-    let count = golden.coverage.len();
+/// Compares the pictures of `frame`, which has triangles only.
+pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -> Comparison {
+    let mut tally = Tally::new(machine, golden, drawn);
     let mut c = Comparison {
-        pixels: count as u64,
+        pixels: 0,
+        screen: u64::from(machine.width) * u64::from(machine.height),
         coverage_mismatches: 0,
-        shaded: 0,
+        covered: golden.coverage.iter().map(|count| u64::from(*count > 0)).sum(),
+        compared: 0,
         order_undecided: 0,
         order_wrong: 0,
+        background_wrong: 0,
+        wrapped: 0,
+        cycles_unexplained: drawn.cycles.map_or(0, |cycles| cycles.unexplained()),
         z_error: 0.0,
         color_error: 0.0,
-        z_bound,
-        color_bound,
-        z_map: vec![0.0; count],
-        color_map: vec![0.0; count],
+        z_bound: tally.z.bound(),
+        color_bound: tally.color.bound(),
+        z_no_bound: tally.z.no_bound(),
+        color_no_bound: tally.color.no_bound(),
+        extra: Vec::new(),
+        z_map: Vec::new(),
+        color_map: Vec::new(),
     };
-    for i in 0..count {
+    let mut differ = Vec::new();
+    for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
+        c.pixels += 1;
         c.coverage_mismatches += u64::from(golden.coverage[i] != drawn.coverage[i]);
-        let z = (golden.z[i] - drawn.z[i]).abs() * z_max;
-        if golden.id[i] != drawn.id[i] {
-            // Both depths carry at most the bound, so farther apart than twice that the order is wrong (A7).
-            if z <= 2.0 * z_bound {
-                c.order_undecided += 1
-            } else {
-                c.order_wrong += 1
-            }
+        if (golden.id[i], golden.writes[i]) != (drawn.id[i], drawn.writes[i]) {
+            differ.push(i);
             continue;
         }
-        if golden.id[i] < 0 {
-            continue;
+        if golden.id[i] >= 0 {
+            tally.triangle(i, golden.z[i], &Over::golden(golden, i));
+        } else {
+            c.background_wrong += u64::from(!tally.is_background(i, frame.clear));
         }
-        let color =
-            (0..3).map(|k| (golden.rgb[i][k] - drawn.rgb[i][k]).abs() * color_max).fold(0.0, f64::max);
-        c.shaded += 1;
-        c.z_error = c.z_error.max(z);
-        c.color_error = c.color_error.max(color);
-        c.z_map[i] = z;
-        c.color_map[i] = color;
+        c.compared += u64::from(golden.coverage[i] > 0);
     }
+    let orders = Orders::new(machine, frame, &differ);
+    for i in differ {
+        match orders.explain(i, drawn.id[i], drawn.writes[i]) {
+            Some(shown) => {
+                c.order_undecided += 1;
+                match shown {
+                    Some(shown) => tally.triangle(i, if frame.depth_write { shown.z } else { 1.0 }, &shown),
+                    None => c.background_wrong += u64::from(!tally.is_background(i, frame.clear)),
+                }
+            }
+            None => c.order_wrong += 1,
+        }
+        c.compared += u64::from(golden.coverage[i] > 0);
+    }
+    c.wrapped = tally.wrapped;
+    c.extra = tally.extra.iter().map(|errors| ExtraError::of(errors, machine)).collect();
+    (c.z_error, c.z_map) = tally.z.found();
+    (c.color_error, c.color_map) = tally.color.found();
     c
 }
 
 impl Comparison {
-    /// Pass only if every coverage agrees, every error is within its bound, and no order is wrong.
+    /// Pass only if all of the screen and all that golden covers was compared, every coverage and order agrees, nothing
+    /// wrapped, every cycle has its cause, and every error is within its bound; where none is proved, within 1 LSB (of a floor
+    /// 1 1/2).
     pub fn verdict(&self) -> Verdict {
+        let beyond = |error: f64, bound: Option<f64>| {
+            let allowed = bound.unwrap_or(1.0);
+            u64::from(error.is_nan() || error > allowed)
+        };
         let wrong = self.coverage_mismatches
             + self.order_wrong
-            + u64::from(self.z_error > self.z_bound)
-            + u64::from(self.color_error > self.color_bound);
-        Verdict::of(self.pixels, self.pixels, wrong)
+            + self.background_wrong
+            + self.wrapped
+            + self.cycles_unexplained
+            + beyond(self.z_error, self.z_bound)
+            + beyond(self.color_error, self.color_bound)
+            + self.extra.iter().map(|own| beyond(own.error, Some(own.allowed))).sum::<u64>();
+        Verdict::of(self.compared, self.covered, wrong).and(Verdict::of(self.pixels, self.screen, wrong))
     }
-}
-
-/// Proved bounds of the rounded output of depth and colour, LSB: vertex rounding, all additions, output rounding (A2, A4).
-fn bounds(machine: &Plan) -> (f64, f64) {
-    let steps = machine.max_steps();
-    let bound = |channel: &Channel| channel.error_budget(steps).after_rounding().to_f64();
-    (bound(&machine.channels()[0]), bound(&machine.channels()[1]))
 }

@@ -1,13 +1,17 @@
 //! One picture, whichever engine drew it.
 
+use crate::extra::{self, Values};
 use crate::fast;
 use crate::input::to_port;
 use crate::progress::bar;
 use anyhow::{Result, anyhow};
+use edgewalk_golden::Drawing;
+use edgewalk_lockstep::StallKind;
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::fast::Path;
-use edgewalk_model::{Activity, Coverage, Stalls};
+use edgewalk_model::{Activity, Events, Stalls};
 use edgewalk_scene::Frame;
+use std::ops::Range;
 
 /// Who draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -23,6 +27,7 @@ pub enum Engine {
 }
 
 /// A picture: row 0 on top, [y][x].
+#[derive(Clone)]
 pub struct Raster {
     /// Columns.
     pub width: u32,
@@ -38,12 +43,14 @@ pub struct Raster {
     pub z: Vec<f64>,
     /// Colour in [0,1].
     pub rgb: Vec<[f64; 3]>,
+    /// Channels of the user's own.
+    pub extra: Vec<Values>,
     /// 0 nothing written, 1 in shadow, 2 lit, by the last write; where golden drew.
     pub lit: Option<Vec<u8>>,
     /// Where the cycles went, where a machine drew.
     pub cycles: Option<Cycles>,
     /// Hazards and corners met, where a machine drew.
-    pub corners: Option<Coverage>,
+    pub corners: Option<Events>,
 }
 
 /// Cycles by cause, the codes of the `activity` port.
@@ -57,6 +64,11 @@ pub struct Cycles {
 }
 
 impl Cycles {
+    /// How many cycles have no cause, or more than one.
+    pub fn unexplained(&self) -> u64 {
+        self.total.abs_diff(self.spent.iter().sum())
+    }
+
     /// Cycles spent on this.
     pub fn spent(&self, activity: Activity) -> u64 {
         self.spent[activity as usize]
@@ -66,27 +78,66 @@ impl Cycles {
 /// Draws the frame.
 pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Result<Raster> {
     match engine {
-        Engine::Golden => Ok(from_golden(edgewalk_golden::draw(frame, golden_fill(machine)))),
+        Engine::Golden => Ok(from_golden(edgewalk_golden::draw(frame, golden_fill(machine)), machine)),
         Engine::Fast => {
             let port = to_port(frame, machine)?;
             let triangles = || Ok(port.triangles.iter().copied().map(Ok));
-            let (drawn, path) = fast::draw(machine, port.state, triangles)?;
-            Ok(of_primitives(from_fast(machine, drawn, path), &port.ids))
+            let drawn = fast::draw(machine, port.state, triangles)?;
+            Ok(of_primitives(drawn.raster(machine), &port.ids))
         }
         Engine::Model | Engine::Rtl => {
             let port = to_port(frame, machine)?;
             let bar = bar(port.triangles.len() as u64, "triangles", quiet);
             let triangles = bar.wrap_iter(port.triangles.iter().copied());
             let raster = if engine == Engine::Model {
-                from_model(machine, edgewalk_model::render(machine, triangles, port.state, Stalls::NONE))
+                from_model(machine, edgewalk_model::render(machine, triangles, port.state, Stalls::NONE)?)
             } else {
-                let drawn = edgewalk_vectors::render_rtl(machine, triangles, port.state, Stalls::NONE);
+                let drawn = edgewalk_lockstep::render_rtl(machine, triangles, port.state, StallKind::None);
                 from_machine(machine, drawn.map_err(|e| anyhow!("{e}"))?)
             };
             bar.finish_and_clear();
             Ok(of_primitives(raster, &port.ids))
         }
     }
+}
+
+/// Draws the frame and gives it from the top, a band of lines at a time where the engine can do so: a whole picture in
+/// f64 may not fit into memory.
+pub fn draw_bands(
+    engine: Engine,
+    frame: &Frame,
+    machine: &Plan,
+    quiet: bool,
+    mut take: impl FnMut(Raster) -> Result<()>,
+) -> Result<()> {
+    match engine {
+        Engine::Golden => {
+            let drawing = Drawing::new(frame, golden_fill(machine));
+            let mut bands = bands(frame.width, frame.height, GOLDEN_BAND);
+            bands.try_for_each(|lines| take(from_golden(drawing.lines(lines), machine)))
+        }
+        Engine::Fast => {
+            let port = to_port(frame, machine)?;
+            let drawn = fast::draw(machine, port.state, || Ok(port.triangles.iter().copied().map(Ok)))?;
+            drawn.bands(machine, fast_bands(machine), |band| take(of_primitives(band, &port.ids)))
+        }
+        Engine::Model | Engine::Rtl => take(draw(engine, frame, machine, quiet)?),
+    }
+}
+
+/// Pixels of a band: golden goes through all triangles for each, so a few large ones.
+const GOLDEN_BAND: u32 = 1 << 22;
+const FAST_BAND: u32 = 1 << 18;
+
+/// The bands in which what the fast engine drew is taken from it.
+pub fn fast_bands(machine: &Plan) -> impl Iterator<Item = Range<u32>> + use<> {
+    bands(machine.width, machine.height, FAST_BAND)
+}
+
+/// Bands of whole lines, about so many pixels each.
+fn bands(width: u32, height: u32, pixels: u32) -> impl Iterator<Item = Range<u32>> + use<> {
+    let lines = (pixels / width).max(1);
+    (0..height).step_by(lines as usize).map(move |top| top..height.min(top + lines))
 }
 
 /// The ids of the frame's triangles and polygons for those of the triangles the machine drew.
@@ -105,7 +156,7 @@ pub fn from_fast(machine: &Plan, drawn: edgewalk_model::Frame, path: Path) -> Ra
 }
 
 fn from_model(machine: &Plan, drawn: edgewalk_model::Frame) -> Raster {
-    Raster { corners: Some(drawn.corners.clone()), ..from_machine(machine, drawn) }
+    Raster { corners: Some(drawn.events.clone()), ..from_machine(machine, drawn) }
 }
 
 /// The machine's rule for pixels, as the golden picture knows it.
@@ -116,8 +167,9 @@ pub fn golden_fill(machine: &Plan) -> edgewalk_golden::Fill {
     }
 }
 
-/// A golden picture.
-pub fn from_golden(picture: edgewalk_golden::Picture) -> Raster {
+/// A golden picture, on the screen of this machine and with its channels.
+pub fn from_golden(picture: edgewalk_golden::Picture, machine: &Plan) -> Raster {
+    let extra = extra::channels(machine).iter().zip(picture.extra);
     Raster {
         width: picture.width,
         height: picture.height,
@@ -126,6 +178,7 @@ pub fn from_golden(picture: edgewalk_golden::Picture) -> Raster {
         id: picture.id,
         z: picture.z,
         rgb: picture.rgb,
+        extra: extra.map(|(channel, values)| Values::exact(channel, values)).collect(),
         lit: Some(picture.lit.into_iter().map(|lit| lit as u8).collect()),
         cycles: None,
         corners: None,
@@ -136,12 +189,13 @@ pub fn from_golden(picture: edgewalk_golden::Picture) -> Raster {
 fn from_machine(machine: &Plan, drawn: edgewalk_model::Frame) -> Raster {
     Raster {
         width: machine.width,
-        height: machine.height,
+        height: drawn.coverage.len() as u32 / machine.width,
         coverage: drawn.coverage,
         writes: drawn.writes,
         id: drawn.id,
         z: unorm(&drawn.z, machine.z.max()),
         rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / machine.color.max() as f64)).collect(),
+        extra: drawn.extra.into_iter().map(Values::Stored).collect(),
         lit: None,
         cycles: Some(Cycles { total: drawn.counters.cycles, path: None, spent: drawn.counters.activity }),
         corners: None,

@@ -1,14 +1,11 @@
 //! What is to be drawn: a built-in scene, a mesh, or a file of screen-space triangles; and its way to the port.
 
+use crate::extra;
 use crate::machine_args::MachineArgs;
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::DrawState;
-use edgewalk_scene::triangle_file::Reader;
 use edgewalk_scene::{DepthFunc, Frame, Scene, ShadeMode, Surface, Triangle, Triangulated, triangle_file};
-use indicatif::ProgressBar;
-use std::fs::File;
-use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 /// A frame as the machine's port takes it.
@@ -60,24 +57,14 @@ pub fn port_triangle(
 ) -> Result<[PortVertex; 3]> {
     let mut port = [PortVertex::default(); 3];
     for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
-        let color = if mode == ShadeMode::Flat { &triangle.0[0] } else { v };
+        let v = if mode == ShadeMode::Flat { v.colored_as(&triangle.0[0]) } else { *v };
+        let [e0, e1, e2, e3] = v.extra;
+        let values = [v.z, v.r, v.g, v.b, e0, e1, e2, e3];
         *slot = machine
-            .port_vertex(v.x, v.y, [v.z, color.r, color.g, color.b])
+            .port_vertex(v.x, v.y, &values[..machine.channels().len()])
             .with_context(|| format!("triangle {index}, vertex {corner}"))?;
     }
     Ok(port)
-}
-
-/// A triangle file without what it draws.
-pub fn header(file: &Path) -> Result<edgewalk_scene::Frame> {
-    Ok(open(file, &ProgressBar::hidden())?.header().clone())
-}
-
-/// A triangle file from its first triangle on; the bar follows its bytes.
-pub fn open(file: &Path, bar: &ProgressBar) -> Result<Reader<impl BufRead + use<>>> {
-    let name = file.display().to_string();
-    let opened = File::open(file).with_context(|| format!("{name}: cannot be read"))?;
-    Ok(Reader::new(&name, BufReader::with_capacity(1 << 16, bar.wrap_read(opened)))?)
 }
 
 /// A scene, a mesh, or a file of screen-space triangles.
@@ -128,7 +115,11 @@ impl Source {
     }
 
     /// The scene, and its surface on this machine's screen, clipped to its guard band.
+    ///
+    /// # Errors
+    /// The machine has channels of the user's own: a scene has no values for them.
     pub fn surface(&self, machine: &Plan) -> Result<(Scene, Surface)> {
+        extra::fitting(0, machine).with_context(|| self.input.clone())?;
         let scene = Scene::open(&self.input)?;
         let guard = f64::from((1u32 << machine.guard_bits) - 1);
         let surface = scene.surface(machine.width, machine.height, guard);
@@ -137,32 +128,39 @@ impl Source {
 
     /// The frame, and the machine with the screen of the triangle file, if it is one.
     pub fn on_its_screen(&self, args: &MachineArgs) -> Result<(Plan, Frame)> {
-        let size = if self.is_triangle_file() {
-            let header = header(Path::new(&self.input))?;
-            Some((header.width, header.height))
-        } else {
-            None
-        };
-        let machine = args.machine(size)?;
-        let frame = self.frame(&machine)?;
+        if !self.is_triangle_file() {
+            let machine = args.machine(None)?;
+            let frame = self.frame(&machine)?;
+            return Ok((machine, frame));
+        }
+        let frame = triangle_file::read(Path::new(&self.input))?;
+        let machine = args.machine(Some((frame.width, frame.height)))?;
+        let frame = in_triangles(self.fitting(frame, &machine)?, &machine)?;
         Ok((machine, frame))
     }
 
     /// The frame as the machine draws it. A triangle file keeps its own size and mode; its polygons become triangles, so
     /// that machine and golden picture interpolate the same.
     pub fn frame(&self, machine: &Plan) -> Result<Frame> {
+        if self.is_triangle_file() {
+            return in_triangles(self.outlined(machine)?, machine);
+        }
+        let (scene, surface) = self.surface(machine)?;
+        self.frame_of(&scene, &surface, machine)
+    }
+
+    /// The same of a scene and its surface on the machine's screen.
+    pub fn frame_of(&self, scene: &Scene, surface: &Surface, machine: &Plan) -> Result<Frame> {
         let refused = match self.shading {
             Shading::Phong => Some("phong: the machine has no unit for normals yet"),
             Shading::FastPhong => Some("fast-phong: the machine has no unit for normals yet"),
             Shading::Wireframe => Some("wireframe: the machine draws no lines"),
             Shading::Constant | Shading::ConstantAveraged | Shading::Gouraud => None,
         };
-        if let Some(why) = refused.filter(|_| !self.is_triangle_file()) {
+        if let Some(why) = refused {
             return Err(anyhow!("--shading {why}; render with --engine golden"));
         }
-        let frame = self.outlined(machine)?;
-        let triangles = frame.triangulated(machine.subpixel_bits)?.triangles.into_owned();
-        Ok(Frame { triangles, polygons: Vec::new(), ..frame })
+        in_triangles(edgewalk_golden::frame(scene, surface, self.shading.golden()), machine)
     }
 
     /// The frame with the polygons it has.
@@ -171,7 +169,11 @@ impl Source {
             let (scene, surface) = self.surface(machine)?;
             return Ok(edgewalk_golden::frame(&scene, &surface, self.shading.golden()));
         }
-        let frame = triangle_file::read(Path::new(&self.input))?;
+        self.fitting(triangle_file::read(Path::new(&self.input))?, machine)
+    }
+
+    /// The triangle file's frame, if it is as large as the machine's screen.
+    fn fitting(&self, frame: Frame, machine: &Plan) -> Result<Frame> {
         if (frame.width, frame.height) != (machine.width, machine.height) {
             return Err(anyhow!(
                 "{}: size {} {}: the machine's screen is {}x{}; add --set screen.width={} --set screen.height={}",
@@ -184,6 +186,13 @@ impl Source {
                 frame.height
             ));
         }
+        extra::fitting(frame.extra, machine).with_context(|| self.input.clone())?;
         Ok(frame)
     }
+}
+
+/// The frame with its polygons as triangles.
+fn in_triangles(frame: Frame, machine: &Plan) -> Result<Frame> {
+    let triangles = frame.triangulated(machine.subpixel_bits)?.triangles.into_owned();
+    Ok(Frame { triangles, polygons: Vec::new(), ..frame })
 }

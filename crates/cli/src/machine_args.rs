@@ -4,7 +4,12 @@ use anyhow::{Context, Result, anyhow};
 use edgewalk_machine::nearest::nearest;
 use edgewalk_machine::presets::PRESETS;
 use edgewalk_machine::{Machine, Plan};
+use std::fs::File;
+use std::io::Read as _;
 use std::path::Path;
+
+/// Bytes of the longest machine file; all keys with their comments take two thousand.
+const MAX_LENGTH: u64 = 1 << 20;
 
 /// Which machine.
 #[derive(clap::Args, Clone, Debug)]
@@ -31,7 +36,14 @@ impl MachineArgs {
             })?;
             machine.set(key.trim(), value.trim()).map_err(|e| anyhow!("--set {setting}: {e}"))?;
         }
-        machine.plan().map_err(|e| anyhow!("--machine {}: {e}", self.machine))
+        machine.plan().map_err(|e| anyhow!("{}: {e}", self.asked_for(size)))
+    }
+
+    /// All that makes the machine another than the one of the file or preset, which has been checked.
+    fn asked_for(&self, size: Option<(u32, u32)>) -> String {
+        let size = size.map(|(width, height)| format!("size {width} {height}"));
+        let settings = self.set.iter().map(|setting| format!("--set {setting}"));
+        size.into_iter().chain(settings).collect::<Vec<_>>().join(", ")
     }
 
     fn load(&self) -> Result<Machine> {
@@ -46,7 +58,13 @@ impl MachineArgs {
                 self.machine
             ));
         }
-        let text = std::fs::read_to_string(path).with_context(|| format!("--machine {}", self.machine))?;
+        let named = || format!("--machine {}", self.machine);
+        let mut text = String::new();
+        let file = File::open(path).with_context(named)?;
+        file.take(MAX_LENGTH + 1).read_to_string(&mut text).with_context(named)?;
+        if text.len() as u64 > MAX_LENGTH {
+            return Err(anyhow!("{}: permitted: at most {MAX_LENGTH} bytes", named()));
+        }
         Machine::from_toml(&text).map_err(|e| anyhow!("{}: {e}", self.machine))
     }
 }

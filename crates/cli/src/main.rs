@@ -5,10 +5,14 @@
 //!  machine file, preset, --set  ──> machine_args ──┘
 //! ```
 
+#![deny(clippy::print_stdout, clippy::print_stderr)] // they panic where they cannot write; see talk.rs
+
+mod accumulators;
 mod arrays;
 mod commands;
 mod compare;
 mod engine;
+mod extra;
 mod fast;
 mod fast_phong;
 mod input;
@@ -17,15 +21,22 @@ mod machine_args;
 mod picture;
 mod progress;
 mod report;
+mod scratch;
 mod shading_report;
 mod shadows;
 mod staging;
+mod talk;
+mod triangles;
 mod verdict;
 
+use anyhow::Result;
 use clap::{Parser, Subcommand};
 use commands::{bench, config, demo, emit, explain, gallery, raster, render, trace, vectors, verify};
 use machine_args::MachineArgs;
+use std::io::Write as _;
 use std::process::ExitCode;
+use talk::Talk;
+use verdict::Verdict;
 
 /// Fixed-point incremental triangle hardware: model, netlist, Verilog and the proof that they agree.
 ///
@@ -69,17 +80,22 @@ enum Command {
     Config(config::Args),
 }
 
-/// How a command talks.
-#[derive(Clone, Copy)]
-struct Talk {
-    json: bool,
-    quiet: bool,
+fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(wrong) if wrong.use_stderr() => wrong.exit(),
+        // Help and version are output like any other.
+        Err(page) => {
+            let printed = page.print().and_then(|()| std::io::stdout().flush());
+            return exit_code(talk::printed(printed).map(|()| Verdict::Pass), false);
+        }
+    };
+    exit_code(scratch::watch_signals().and_then(|()| run(&cli)), cli.quiet)
 }
 
-fn main() -> ExitCode {
-    let cli = Cli::parse();
+fn run(cli: &Cli) -> Result<Verdict> {
     let talk = Talk { json: cli.json, quiet: cli.quiet };
-    let result = match &cli.command {
+    match &cli.command {
         Command::Demo(a) => demo::run(a, &cli.machine, talk),
         Command::Render(a) => render::run(a, &cli.machine, talk),
         Command::Gallery(a) => gallery::run(a, talk),
@@ -91,17 +107,17 @@ fn main() -> ExitCode {
         Command::Trace(a) => trace::run(a, &cli.machine, talk),
         Command::Bench(a) => bench::run(a, &cli.machine, talk),
         Command::Config(a) => config::run(a, &cli.machine, talk.json),
-    };
-    match result {
-        Ok(verdict) => verdict.exit_code(),
-        Err(error) => {
-            // A reader that closes the pipe early (`| head`) is no error of ours.
-            let pipe = |e: &std::io::Error| e.kind() == std::io::ErrorKind::BrokenPipe;
-            if error.downcast_ref::<std::io::Error>().is_some_and(pipe) {
-                return ExitCode::SUCCESS;
-            }
-            eprintln!("edgewalk: {error:#}");
-            verdict::of_error(&error)
-        }
     }
+}
+
+/// The exit code; where it is not 0, standard error says why, however quiet the command is.
+fn exit_code(result: Result<Verdict>, quiet: bool) -> ExitCode {
+    match &result {
+        Ok(Verdict::Mismatch) if quiet => {
+            talk::complain("mismatch: what was compared differs; without --quiet the report says where");
+        }
+        Ok(_) => {}
+        Err(error) => talk::complain(&format!("{error:#}")),
+    }
+    result.map_or_else(|error| verdict::of_error(&error), Verdict::exit_code)
 }

@@ -3,6 +3,7 @@
 use crate::Talk;
 use crate::compare::Comparison;
 use crate::engine::{Cycles, Raster};
+use crate::extra::{self, OwnChannel};
 use anyhow::Result;
 use edgewalk_machine::Plan;
 use edgewalk_model::Activity;
@@ -19,26 +20,35 @@ pub struct Report {
     writes: u64,
     odd_pixels: u64,
     cycles: Option<Cycles>,
-    corners: Option<edgewalk_model::Coverage>,
+    corners: Option<edgewalk_model::Events>,
     comparison: Option<Comparison>,
 }
 
 impl Report {
     /// A report without a comparison.
     pub fn new(name: &str, triangles: u64, machine: &Plan, drawn: &Raster) -> Self {
-        Report {
+        let mut report = Report {
             name: name.to_owned(),
             machine: machine.clone(),
             triangles,
             polygons: 0,
-            covered: drawn.coverage.iter().map(|c| u64::from(*c)).sum(),
-            // A closed mesh covers every pixel an even number of times, whatever the view.
-            odd_pixels: drawn.coverage.iter().map(|c| u64::from(c % 2)).sum(),
-            writes: drawn.writes.iter().map(|c| u64::from(*c)).sum(),
+            covered: 0,
+            odd_pixels: 0,
+            writes: 0,
             cycles: drawn.cycles,
             corners: drawn.corners.clone(),
             comparison: None,
-        }
+        };
+        report.add(drawn);
+        report
+    }
+
+    /// Counts the next lines of the picture in.
+    pub fn add(&mut self, band: &Raster) {
+        self.covered += band.coverage.iter().map(|c| u64::from(*c)).sum::<u64>();
+        // A closed mesh covers every pixel an even number of times, whatever the view.
+        self.odd_pixels += band.coverage.iter().map(|c| u64::from(c % 2)).sum::<u64>();
+        self.writes += band.writes.iter().map(|c| u64::from(*c)).sum::<u64>();
     }
 
     /// The same of an input that has polygons too.
@@ -51,6 +61,16 @@ impl Report {
     pub fn with(mut self, comparison: Comparison) -> Self {
         self.comparison = Some(comparison);
         self
+    }
+
+    /// Triangles and polygons over all pixels together.
+    pub fn covered(&self) -> u64 {
+        self.covered
+    }
+
+    /// Triangles and polygons of the input.
+    pub fn primitives(&self) -> u64 {
+        self.triangles + self.polygons
     }
 
     /// As JSON, keys in a fixed order.
@@ -66,6 +86,11 @@ impl Report {
             "writes": self.writes,
             "odd_pixels": self.odd_pixels,
         });
+        let own = extra::channels(&self.machine);
+        if !own.is_empty() {
+            let own: Vec<_> = own.iter().map(|channel| OwnChannel::of(channel, &self.machine)).collect();
+            report["channels"] = serde_json::to_value(own)?;
+        }
         if let Some(c) = &self.comparison {
             report["comparison"] = serde_json::to_value(c)?;
         }
@@ -119,22 +144,7 @@ impl Report {
         );
         let _ = writeln!(t, "fragments {}, writes {}", self.covered, self.writes);
         if let Some(c) = &self.comparison {
-            let _ = writeln!(t, "coverage mismatches {} / {}", c.coverage_mismatches, c.pixels);
-            let _ = writeln!(
-                t,
-                "largest z error       {:.4} LSB of {} bits, proved bound {:.4}",
-                c.z_error, m.z.bits, c.z_bound
-            );
-            let _ = writeln!(
-                t,
-                "largest colour error  {:.4} LSB of {} bits, proved bound {:.4}",
-                c.color_error, m.color.bits, c.color_bound
-            );
-            let _ = writeln!(
-                t,
-                "pixels compared {}, depth order undecided within the bound {}, wrong {}",
-                c.shaded, c.order_undecided, c.order_wrong
-            );
+            compared(&mut t, m, c);
         }
         if let Some(c) = &self.cycles {
             let setup = edgewalk_model::setup_clocks(m);
@@ -158,13 +168,50 @@ impl Report {
 
     /// To standard output, as asked.
     pub fn print(&self, talk: Talk) -> Result<()> {
-        if talk.json {
-            print!("{}", self.json()?);
-        } else if !talk.quiet {
-            print!("{}", self.text());
-        }
-        Ok(())
+        talk.say(|| self.json(), || self.text())
     }
+}
+
+/// What the comparison found. Writing to a string cannot fail.
+fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
+    let bound = |bound: Option<f64>, why: &Option<String>| match (bound, why) {
+        (Some(bound), _) => format!("proved bound {bound:.4}"),
+        (None, why) => format!("no bound: {}", why.as_deref().unwrap_or_default()),
+    };
+    _ = writeln!(t, "compared {} / {} covered pixels", c.compared, c.covered);
+    _ = writeln!(t, "coverage mismatches {} / {}", c.coverage_mismatches, c.pixels);
+    _ = writeln!(
+        t,
+        "largest z error       {:.4} LSB of {} bits, {}",
+        c.z_error,
+        machine.z.bits,
+        bound(c.z_bound, &c.z_no_bound)
+    );
+    _ = writeln!(
+        t,
+        "largest colour error  {:.4} LSB of {} bits, {}",
+        c.color_error,
+        machine.color.bits,
+        bound(c.color_bound, &c.color_no_bound)
+    );
+    for own in &c.extra {
+        let (of, label) = (&own.channel, &own.channel.label);
+        _ = writeln!(
+            t,
+            "largest {} error      {:.4} LSB of {} bits, {}, {}",
+            label.name,
+            own.error,
+            label.bits,
+            label.kind,
+            bound(of.bound, &of.no_bound)
+        );
+    }
+    _ = writeln!(t, "pixels with a value that wrapped {}", c.wrapped);
+    _ = writeln!(
+        t,
+        "triangle or writes differ: {} within the bound of depth order, {} wrong; background wrong {}",
+        c.order_undecided, c.order_wrong, c.background_wrong
+    );
 }
 
 fn ratio(part: u64, whole: u64) -> f64 {

@@ -113,11 +113,6 @@ impl ShadingReport {
 
     /// To standard output, as asked.
     pub fn print(&self, talk: Talk) -> Result<()> {
-        if talk.json {
-            print!("{}", self.json()?);
-        } else if !talk.quiet {
-            print!("{}", self.text());
-        }
-        Ok(())
+        talk.say(|| self.json(), || self.text())
     }
 }

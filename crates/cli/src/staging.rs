@@ -1,61 +1,138 @@
-//! Output directories in which nothing is ever half-written: files are made beside them and renamed at the end.
+//! Output folders in which a run's files appear all together or not at all.
+//!
+//! Files are made in a scratch folder inside the target, so that a rename never leaves its file system, and renamed at
+//! the end. What a rename replaces or removes is kept in the scratch folder until the last one has succeeded; if one
+//! fails, all are undone.
 
-use anyhow::{Context, Result};
+use crate::scratch::{self, Scratch};
+use anyhow::{Context, Result, anyhow};
+use std::collections::BTreeSet;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
-use tempfile::TempDir;
 
-/// Files on their way into a directory.
+/// Files on their way into a folder.
 pub struct Staging {
     target: PathBuf,
-    made: TempDir,
+    scratch: Scratch,
 }
 
+/// In the scratch folder: what is new, and what was there before.
+const NEW: &str = "new";
+const OLD: &str = "old";
+
 impl Staging {
-    /// Prepares a directory beside `target`; whatever goes wrong before [`Staging::publish`] leaves `target` untouched.
+    /// Prepares the way into `target`; whatever goes wrong before [`Staging::publish`] leaves everything as it was.
     pub fn new(target: &Path) -> Result<Self> {
-        let parent = match target.parent() {
-            Some(p) if !p.as_os_str().is_empty() => p,
-            _ => Path::new("."),
-        };
-        std::fs::create_dir_all(parent).with_context(|| format!("--out {}", target.display()))?;
-        let made = tempfile::Builder::new()
-            .prefix(".edgewalk-")
-            .tempdir_in(parent)
-            .with_context(|| format!("--out {}", target.display()))?;
-        Ok(Staging { target: target.to_owned(), made })
+        let scratch = Scratch::within(target).with_context(|| format!("--out {}", target.display()))?;
+        Ok(Staging { target: target.to_owned(), scratch })
     }
 
-    /// Where a file of that name (which may contain folders) is to be written now.
-    pub fn path(&self, name: &str) -> Result<PathBuf> {
-        let path = self.made.path().join(name);
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).with_context(|| format!("{}", folder.display()))?;
-        }
-        Ok(path)
+    /// A new file of that name (which may contain folders).
+    pub fn create(&self, name: &str) -> Result<BufWriter<File>> {
+        let file = self.scratch.create(&Path::new(NEW).join(name));
+        Ok(BufWriter::with_capacity(1 << 16, file.with_context(|| self.name(name))?))
+    }
+
+    /// What messages call the file: its place in the target.
+    pub fn name(&self, name: &str) -> String {
+        self.target.join(name).display().to_string()
     }
 
     /// Writes a whole file.
     pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) -> Result<()> {
-        let path = self.path(name)?;
-        std::fs::write(&path, contents).with_context(|| format!("{}", path.display()))
+        let mut file = self.create(name)?;
+        file.write_all(contents.as_ref()).and_then(|()| file.flush()).with_context(|| self.name(name))
     }
 
-    /// Moves everything into the target, replacing files of the same name and leaving others alone.
-    pub fn publish(self) -> Result<()> {
-        move_into(self.made.path(), &self.target)
+    /// Moves everything into the target. `own` are the files that this command may write: those that it did not write
+    /// this time are of an earlier run, and removed; nothing else is touched.
+    pub fn publish(self, own: &[impl AsRef<str>]) -> Result<()> {
+        let undisturbed = scratch::undisturbed();
+        let mut names = BTreeSet::new();
+        let new = self.scratch.path().join(NEW);
+        list(&new, Path::new(""), &mut names).with_context(|| self.target.display().to_string())?;
+        let stale = own.iter().map(|name| PathBuf::from(name.as_ref())).filter(|name| {
+            let there = fs::symlink_metadata(self.target.join(name));
+            !names.contains(name) && there.is_ok_and(|there| !there.is_dir())
+        });
+        let stale: Vec<PathBuf> = stale.collect();
+        let mut moves = Moves { old: self.scratch.path().join(OLD), done: Vec::new(), made: Vec::new() };
+        let replace = |name: &PathBuf| moves.replace(&new.join(name), &self.target.join(name));
+        let moved = names.iter().try_for_each(replace);
+        let moved =
+            moved.and_then(|()| stale.iter().try_for_each(|name| moves.put_away(&self.target.join(name))));
+        match moved {
+            Ok(()) => {
+                drop(undisturbed);
+                self.scratch.keep_parents();
+                Ok(())
+            }
+            Err(error) => {
+                moves.undo();
+                Err(error)
+            }
+        }
     }
 }
 
-fn move_into(from: &Path, to: &Path) -> Result<()> {
-    std::fs::create_dir_all(to).with_context(|| format!("{}", to.display()))?;
-    for entry in std::fs::read_dir(from)? {
+/// The files under a folder, without its name.
+fn list(folder: &Path, within: &Path, names: &mut BTreeSet<PathBuf>) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
         let entry = entry?;
-        let target = to.join(entry.file_name());
+        let name = within.join(entry.file_name());
         if entry.file_type()?.is_dir() {
-            move_into(&entry.path(), &target)?;
+            list(&entry.path(), &name, names)?;
         } else {
-            std::fs::rename(entry.path(), &target).with_context(|| format!("{}", target.display()))?;
+            names.insert(name);
         }
     }
     Ok(())
+}
+
+/// Renames that can be undone.
+struct Moves {
+    /// Where files go that are replaced or removed.
+    old: PathBuf,
+    /// From where to where.
+    done: Vec<(PathBuf, PathBuf)>,
+    /// Folders that were not there.
+    made: Vec<PathBuf>,
+}
+
+impl Moves {
+    fn replace(&mut self, new: &Path, target: &Path) -> Result<()> {
+        let at = || target.display().to_string();
+        if let Some(folder) = target.parent() {
+            self.made.extend(scratch::make(folder).with_context(at)?);
+        }
+        match fs::symlink_metadata(target) {
+            Ok(there) if there.is_dir() => {
+                return Err(anyhow!("{}: is a folder, and a file is to be there", at()));
+            }
+            Ok(_) => self.put_away(target)?,
+            Err(_) => {}
+        }
+        self.rename(new, target).with_context(at)
+    }
+
+    fn put_away(&mut self, target: &Path) -> Result<()> {
+        let away = self.old.join(self.done.len().to_string());
+        let moved = fs::create_dir_all(&self.old).and_then(|()| self.rename(target, &away));
+        moved.with_context(|| target.display().to_string())
+    }
+
+    fn rename(&mut self, from: &Path, to: &Path) -> io::Result<()> {
+        fs::rename(from, to)?;
+        self.done.push((from.to_owned(), to.to_owned()));
+        Ok(())
+    }
+
+    /// Back from the last to the first. What fails even here cannot be helped.
+    fn undo(self) {
+        for (from, to) in self.done.iter().rev() {
+            let _ = fs::rename(to, from);
+        }
+        scratch::remove_empty(&self.made);
+    }
 }

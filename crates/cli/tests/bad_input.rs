@@ -50,6 +50,12 @@ const FILES: &[(&str, &str, &[&str])] = &[
         "size 64 64\nshadow 8 0 1  1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n",
         &["input.tri", "shadow", "golden"],
     ),
+    // It may come late, so its place is not what is wrong.
+    (
+        "tri",
+        "size 64 64\nT 0 0 0 0 0 0 0  1 0 0 0 0 0 0  0 1 0 0 0 0 0\nshadow 8 0 1  1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n",
+        &["input.tri", "no shadow maps", "golden"],
+    ),
     ("tri", "\u{fffd}\u{0}\u{1}", &[":1:"]),
 ];
 
@@ -61,7 +67,7 @@ const ARGUMENTS: &[(&[&str], &[&str])] = &[
     (&["render", "sphere", "--shading", "phnog", "--out", "OUT"], &["phnog", "phong"]),
     (&["render", "sphere", "--shading", "phong", "--out", "OUT"], &["--shading phong", "--engine golden"]),
     (&["emit", "--machine", "textbok", "--out", "OUT"], &["textbok", "textbook"]),
-    (&["emit", "--set", "interpolator.adders=3", "--out", "OUT"], &["interpolator.adders", "3", "nearest"]),
+    (&["emit", "--set", "interpolator.adders=9", "--out", "OUT"], &["interpolator.adders", "9", "nearest"]),
     (
         &["emit", "--set", "interpolator.adder=2", "--out", "OUT"],
         &["interpolator.adder", "interpolator.adders"],
@@ -88,7 +94,7 @@ const MACHINES: &[(&str, &[&str])] = &[
     ("[screen]\nwidth = \n", &["m.toml", "line 2"]),
     ("[screen]\nwidht = 5\n", &["m.toml", "line 2", "screen.widht", "screen.width"]),
     ("[screen]\nwidth = 640.5\n", &["m.toml", "line 2", "640.5"]),
-    ("[interpolator]\nadders = 5\n", &["m.toml", "line 2", "adders"]),
+    ("[interpolator]\nadders = 9\n", &["m.toml", "line 2", "adders"]),
     ("[screen]\nwidth = 8192\n[screen]\n", &["m.toml", "line 3"]),
     ("[formats]\nz_bits = 32\nz_fraction = 30\n", &["m.toml", "line 3", "z_fraction"]),
     ("hazard = \"drain\"\n", &["m.toml", "line 1", "memory.hazard"]),

@@ -65,3 +65,67 @@ fn terms_add_up() {
     assert_eq!(light["lights"].as_array().map(Vec::len), Some(3));
     assert!(sum.iter().zip(&total).all(|(a, b)| (a - b).abs() < 1e-12), "{sum:?} {total:?}");
 }
+
+/// The error that is told is that of the sum that is told, against a plane worked out here.
+#[test]
+fn errors_are_those_of_the_sums_in_json_and_in_text() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // Whole LSB at whole pixels: the port rounds nothing.
+    let [z, red] = [[1_000_000.0, 9_000_000.0, 4_000_000.0], [20.0, 250.0, 99.0]];
+    let at = [(1.0, 1.0), (62.0, 4.0), (9.0, 46.0)];
+    let vertex = |i: usize| {
+        let (x, y) = at[i];
+        format!("{x} {y} {} {} 0 0 0", z[i] / 16_777_215.0, red[i] / 255.0)
+    };
+    let text = format!("size 64 48\nT {} {} {}\n", vertex(0), vertex(1), vertex(2));
+    std::fs::write(folder.path().join("a.tri"), text).expect("written");
+    let run = |more: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_edgewalk"))
+            .args(["explain", "a.tri", "28", "14", "--set", "screen.width=64", "--set", "screen.height=48"])
+            .args(more)
+            .current_dir(folder.path())
+            .output()
+            .expect("the program runs");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    let plane = |values: [f64; 3], x: f64, y: f64| {
+        let cross = |i: usize, j: usize, (x, y): (f64, f64)| {
+            (at[j].0 - at[i].0) * (y - at[i].1) - (at[j].1 - at[i].1) * (x - at[i].0)
+        };
+        let p = (x + 0.5, y + 0.5);
+        let sum = cross(1, 2, p) * values[0] + cross(2, 0, p) * values[1] + cross(0, 1, p) * values[2];
+        sum / cross(0, 1, at[2])
+    };
+    let told: Value = serde_json::from_str(&run(&["--json"])).expect("one JSON value");
+    let additions = told["machine"]["additions"].as_array().expect("additions");
+    let page = run(&[]);
+    let rows: Vec<&str> = page.lines().skip_while(|line| !line.starts_with("  start")).collect();
+    let (mut sums, mut largest) = ([0.0; 2], 0f64);
+    for addition in additions {
+        let [added, value, error] = ["added", "value", "error"].map(|key| numbers(&addition[key]));
+        let (x, y) = (addition["x"].as_f64().expect("x"), addition["y"].as_f64().expect("y"));
+        for (channel, values) in [z, red].into_iter().enumerate() {
+            sums[channel] += added[channel];
+            assert!((value[channel] - sums[channel]).abs() < 1e-6, "{addition}");
+            let off = sums[channel] - plane(values, x, y);
+            assert!((error[channel] - off).abs() < 1e-6, "{addition}: {off}");
+            largest = largest.max(off.abs());
+        }
+        let printed = format!("{:>10.6}", error[0]);
+        if addition["step"] == "start" {
+            assert!(rows[0].contains(&printed), "{} {printed}", rows[0]);
+        }
+    }
+    let last = numbers(&additions.last().expect("the last")["error"]);
+    let row = rows.last().expect("a row");
+    let printed: Vec<f64> =
+        row.split_whitespace().rev().take(4).map(|n| n.parse().expect("a number")).collect();
+    assert!((printed[3] - last[0]).abs() < 1e-6 && (printed[1] - last[1]).abs() < 1e-6, "{row}: {last:?}");
+    println!("{} additions, largest error {largest:.6} LSB", additions.len());
+    assert!(additions.len() > 20 && largest > 2e-5, "{largest}");
+    assert!(
+        last.iter().take(2).all(|error| error.abs() > 1e-6),
+        "{last:?}: an error that shows in six digits"
+    );
+}

@@ -1,7 +1,19 @@
 //! The gallery in `docs/` is what the program draws today. `EDGEWALK_BLESS=1` draws it anew.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+
+/// Of a picture its pixels, of another file its bytes.
+fn pixels(path: &Path) -> Vec<u8> {
+    let bytes = std::fs::read(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    if path.extension().is_none_or(|end| end != "png") {
+        return bytes;
+    }
+    let mut decoder = zune_png::PngDecoder::new(&bytes);
+    let pixels = decoder.decode_raw().expect("a picture");
+    assert_eq!(decoder.get_dimensions().map(|(width, height)| 3 * width * height), Some(pixels.len()));
+    pixels
+}
 
 #[test]
 fn the_gallery_is_what_is_drawn_today() {
@@ -19,7 +31,8 @@ fn the_gallery_is_what_is_drawn_today() {
     let mut checked = 0;
     for entry in std::fs::read_dir(&out).expect("the gallery") {
         let name = entry.expect("an entry").file_name();
-        assert!(committed.join(&name).exists(), "{name:?} is not in docs/gallery");
+        let [new, old] = [&out, &committed].map(|at| pixels(&at.join(&name)));
+        assert!(new == old, "{name:?} of docs/gallery is not what is drawn today");
         checked += 1;
     }
     println!("checked {checked} files");

@@ -1,8 +1,7 @@
 //! `edgewalk render --engine golden`: every shading system from the command line, and what the machine refuses.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
-use std::time::Instant;
 
 fn render(out: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_edgewalk"))
@@ -94,36 +93,4 @@ fn texture_and_relief_need_phong() {
     let [gouraud, phong] = ["gouraud", "phong"].map(mean);
     println!("mean error of gouraud {gouraud:.3}, of phong {phong:.3} LSB");
     assert!(gouraud > 5.0 && phong < gouraud / 5.0, "what changes between vertices is lost on Gouraud");
-}
-
-/// Meshes of the shared folder, where it is; the seconds are for reading, not for judging: other work may be going on.
-#[test]
-fn shared_meshes_at_1280_by_960() {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/models");
-    let models = std::env::var_os("EDGEWALK_MODELS").map_or(beside, PathBuf::from);
-    if !models.is_dir() {
-        println!("the folder of shared meshes is not here; set EDGEWALK_MODELS to it to run this suite");
-        return;
-    }
-    let folder = tempfile::tempdir().expect("a folder");
-    let screen = ["--engine", "golden", "--set", "screen.width=1280", "--set", "screen.height=960"];
-    for mesh in [
-        "teapot_mcguire/teapot.obj",
-        "spot/spot_triangulated.obj",
-        "cornell/CornellBox-Original.obj",
-        "cornell/CornellBox-Sphere.obj",
-        "goathead.obj",
-        "torus.obj",
-    ] {
-        let path = models.join(mesh);
-        let arguments = [&[path.to_str().expect("a name of letters")], &screen[..]].concat();
-        let started = Instant::now();
-        let report = report(&folder.path().join("out"), &arguments);
-        let seconds = started.elapsed().as_secs_f64();
-        println!(
-            "{mesh}: {seconds:.2} s, largest {}, mean {} LSB",
-            report["largest_error"], report["mean_error"]
-        );
-        assert!(report["pixels"].as_u64() > Some(200_000), "{mesh}");
-    }
 }

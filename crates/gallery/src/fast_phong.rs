@@ -1,4 +1,4 @@
-//! Fast Phong shading: quadratics by additions instead of a division and a square root ([BW86]).
+//! Fast Phong shading: quadratics by additions instead of a division and a square root (BW86).
 
 use crate::exhibit::{Exhibit, GUARD, HEIGHT, View, WIDTH, figure};
 use edgewalk_golden::fast_phong::{Directional, Fit, Settings, shade};

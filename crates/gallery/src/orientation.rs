@@ -45,7 +45,7 @@ fn square(degrees: f64) -> Picture {
         r: v,
         g: v,
         b: v,
-        kt: 0.0,
+        ..Vertex::default()
     };
     let contour =
         [(-1.0, -1.0, 1.0), (1.0, -1.0, 0.0), (1.0, 1.0, 1.0), (-1.0, 1.0, 0.0)].map(corner).to_vec();

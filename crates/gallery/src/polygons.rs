@@ -64,7 +64,7 @@ fn polygon(contours: Vec<Vec<[f64; 2]>>) -> Polygon {
         r: x / f64::from(WIDTH),
         g: 1.0 - y / f64::from(HEIGHT),
         b: 0.6,
-        kt: 0.0,
+        ..Vertex::default()
     };
     let contours = contours.into_iter().map(|contour| contour.into_iter().map(vertex).collect()).collect();
     Polygon { contours, after: 0 }

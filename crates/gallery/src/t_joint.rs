@@ -52,7 +52,7 @@ pub(crate) fn t_joint() -> Exhibit {
 
 /// A quad cut by the edge from `top` to `bottom`: one triangle on its left, two on its right.
 fn joint(top: [f64; 2], bottom: [f64; 2]) -> Frame {
-    let vertex = |[x, y]: [f64; 2], v: f64| Vertex { x, y, z: 0.5, r: v, g: v, b: v, kt: 0.0 };
+    let vertex = |[x, y]: [f64; 2], v: f64| Vertex { x, y, z: 0.5, r: v, g: v, b: v, ..Vertex::default() };
     let middle = [(top[0] + bottom[0]) / 2.0, (top[1] + bottom[1]) / 2.0];
     let (left, right) = (vertex([40.0, 120.0], ENDS), vertex([280.0, 120.0], ENDS));
     let (top, bottom, middle) = (vertex(top, ENDS), vertex(bottom, ENDS), vertex(middle, MIDDLE));

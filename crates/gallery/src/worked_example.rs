@@ -10,7 +10,15 @@ const CORNERS: [[f64; 3]; 3] = [[15.25, 10.0, 0.9], [5.75, 20.0, 0.2], [34.25, 3
 
 pub(crate) fn worked_example() -> Exhibit {
     // Pixels stand at whole coordinates in the example, at halves here.
-    let vertex = |[x, y, v]: [f64; 3]| Vertex { x: x + 0.5, y: y + 0.5, z: 0.5, r: v, g: v, b: v, kt: 0.0 };
+    let vertex = |[x, y, v]: [f64; 3]| Vertex {
+        x: x + 0.5,
+        y: y + 0.5,
+        z: 0.5,
+        r: v,
+        g: v,
+        b: v,
+        ..Vertex::default()
+    };
     let frame = Frame { triangles: vec![Triangle(CORNERS.map(vertex))], ..Frame::new(WIDTH, HEIGHT) };
     let picture = draw(&frame, FILL);
     let at = |x: u32, y: u32| picture.rgb[(y * WIDTH + x) as usize][0];

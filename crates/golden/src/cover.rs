@@ -32,18 +32,24 @@ pub fn fragments(
     mode: ShadeMode,
     subpixel_bits: u32,
     (width, height): (u32, u32),
+    draw: impl FnMut(&Fragment),
+) {
+    fragments_of_lines(triangle, mode, subpixel_bits, width, 0..height, draw);
+}
+
+/// The same for some lines of the screen.
+pub(crate) fn fragments_of_lines(
+    triangle: &Triangle,
+    mode: ShadeMode,
+    subpixel_bits: u32,
+    width: u32,
+    lines: Range<u32>,
     mut draw: impl FnMut(&Fragment),
 ) {
     let Some(cover) = Cover::new(triangle, mode, subpixel_bits) else { return };
-    for y in cover.lines(height) {
-        let span = cover.span(y, width);
-        let mut fragment = cover.fragment(span.start, y);
-        for x in span {
-            fragment.x = x;
-            draw(&fragment);
-            for (weight, plane) in fragment.weights.iter_mut().zip(&cover.planes) {
-                *weight += plane.per_x;
-            }
+    for y in cover.lines(lines) {
+        for x in cover.span(y, width) {
+            draw(&cover.fragment(x, y));
         }
     }
 }
@@ -94,9 +100,10 @@ impl Cover {
         })
     }
 
-    fn lines(&self, height: u32) -> Range<u32> {
-        let on_screen = |line: i64| line.clamp(0, i64::from(height)) as u32;
-        on_screen(self.top)..on_screen(self.bottom)
+    fn lines(&self, among: Range<u32>) -> Range<u32> {
+        let (first, end) = (i64::from(among.start), i64::from(among.end));
+        let within = |line: i64| line.clamp(first, end) as u32;
+        within(self.top)..within(self.bottom)
     }
 
     /// The pixels of a line where all three half-planes hold.
@@ -142,6 +149,6 @@ pub(crate) fn shaded(triangle: &Triangle, mode: ShadeMode) -> [Vertex; 3] {
     let first = triangle.0[0];
     match mode {
         ShadeMode::Gouraud => triangle.0,
-        ShadeMode::Flat => triangle.0.map(|v| Vertex { x: v.x, y: v.y, z: v.z, ..first }),
+        ShadeMode::Flat => triangle.0.map(|v| v.colored_as(&first)),
     }
 }

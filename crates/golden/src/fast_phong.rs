@@ -1,4 +1,4 @@
-//! Fast Phong shading: the cosines N·L/|N| and N·H/|N| over a triangle as quadratics, stepped by additions ([BW86]).
+//! Fast Phong shading: the cosines N·L/|N| and N·H/|N| over a triangle as quadratics, stepped by additions (BW86).
 //!
 //! ```text
 //!   vertices' normals ──> quadratic in x, y ──> value and differences ──+──+──> N·L, N·H at a pixel ──> table (N·H)^n

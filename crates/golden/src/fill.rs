@@ -1,10 +1,11 @@
 //! Which pixels a triangle or polygon has: one of two rules.
 
-use crate::cover::fragments;
+use crate::cover::fragments_of_lines;
 use crate::fragment::Fragment;
 use crate::polygon::Grid;
-use crate::textbook::half_triangles;
+use crate::textbook::half_triangles_of_lines;
 use edgewalk_scene::{MAX_COORDINATE, ShadeMode, Triangle};
+use std::ops::Range;
 
 /// Which pixels a triangle or polygon has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,12 +26,28 @@ impl Fill {
         self,
         triangle: &Triangle,
         mode: ShadeMode,
-        screen: (u32, u32),
+        (width, height): (u32, u32),
+        draw: impl FnMut(&Fragment),
+    ) {
+        self.fragments_of_lines(triangle, mode, width, 0..height, draw);
+    }
+
+    /// The same for some lines of the screen.
+    pub(crate) fn fragments_of_lines(
+        self,
+        triangle: &Triangle,
+        mode: ShadeMode,
+        width: u32,
+        lines: Range<u32>,
         mut draw: impl FnMut(&Fragment),
     ) {
         match self {
-            Self::Exact { subpixel_bits } => fragments(triangle, mode, subpixel_bits, screen, draw),
-            Self::Textbook => half_triangles(triangle, mode, screen, |_, fragment| draw(fragment)),
+            Self::Exact { subpixel_bits } => {
+                fragments_of_lines(triangle, mode, subpixel_bits, width, lines, draw);
+            }
+            Self::Textbook => {
+                half_triangles_of_lines(triangle, mode, width, lines, |_, fragment| draw(fragment));
+            }
         }
     }
 

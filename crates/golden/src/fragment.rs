@@ -52,6 +52,12 @@ impl<const N: usize, W: Weight> Fragment<'_, N, W> {
         self.value(|vertex| vertex.kt)
     }
 
+    /// The value of the user's own channel with this number. Terms of both signs may cancel, so its error is relative to
+    /// the largest magnitude of a vertex.
+    pub fn extra(&self, channel: usize) -> f64 {
+        self.value(|vertex| vertex.extra[channel])
+    }
+
     /// The plane of an attribute at this pixel.
     pub fn value(&self, attribute: impl Fn(&Vertex) -> f64) -> f64 {
         let values = self.vertices.each_ref().map(attribute);

@@ -1,9 +1,12 @@
 //! The reference pictures: exact coverage, depth and colour in f64.
 //!
 //! What ought to be drawn, said as plainly as possible: a pixel belongs to a triangle if three half-planes say so, in
-//! integers; its depth and colour are the plane through the vertices (A 7.8). Polygons have the active edge table of
-//! seed B instead. Nothing here steps, rounds or wraps as the machine does. Where two depths are too near for f64, exact
-//! integers decide.
+//! integers; its depth and colour are the plane through the vertices (A 7.8). A pixel belongs to a polygon if an odd number of
+//! edges pass on its left, each asked anew on every line (seed B). Coverage and depth are never stepped, rounded or wrapped as
+//! the machine does it. Where two depths are too near for f64, exact integers decide.
+//!
+//! What steps is what is meant to show stepping, in f64 and beside the truth: the attributes of Phong shading
+//! ([`Incremental`], the additions of A 7.9 and 7.10) and the second differences of [`fast_phong`].
 
 mod cover;
 mod textbook;
@@ -28,7 +31,7 @@ pub use cover::{MAX_SUBPIXEL_BITS, fragments, snap};
 pub use fill::Fill;
 pub use fragment::{Fragment, Weight};
 pub use incremental::Incremental;
-pub use picture::{Lit, NO_TRIANGLE, Picture, draw};
+pub use picture::{Drawing, Lit, NO_TRIANGLE, Picture, draw};
 pub use ray::Rays;
 pub use render::{Rendered, render, shade};
 pub use shading::{Shaded, Shading, ShadingError, frame};

@@ -5,8 +5,9 @@ use crate::draw_list::{DrawList, Item};
 use crate::fill::Fill;
 use crate::fragment::{Fragment, Weight};
 use crate::polygon;
-use edgewalk_scene::{Frame, Vertex};
+use edgewalk_scene::{Frame, MAX_EXTRA, Vertex};
 use std::cmp::Ordering;
+use std::ops::Range;
 
 /// In [`Picture::id`]: no triangle or polygon wrote here.
 pub const NO_TRIANGLE: i32 = -1;
@@ -40,45 +41,72 @@ pub struct Picture {
     pub z: Vec<f64>,
     /// Red, green, blue.
     pub rgb: Vec<[f64; 3]>,
+    /// Values of the user's own, by channel, exact like depth: those of the last fragment that passed, 0 for none.
+    pub extra: Vec<Vec<f64>>,
     /// What the light does.
     pub lit: Vec<Lit>,
 }
 
 /// Draws the triangles and polygons of `frame` in their order.
 pub fn draw(frame: &Frame, fill: Fill) -> Picture {
-    let mut picture = Picture::cleared(frame);
-    let screen = (frame.width, frame.height);
-    let list = DrawList::new(frame, fill);
-    for (item, id) in list.items().iter().zip(0..) {
-        match item {
-            Item::Triangle(triangle) => {
-                fill.fragments(triangle, frame.mode, screen, |f| picture.plot(&list, id, f));
-            }
-            Item::Polygon(table) => polygon::fragments(table, screen, |f| picture.plot(&list, id, f)),
-        }
+    Drawing::new(frame, fill).lines(0..frame.height)
+}
+
+/// A frame ready to be drawn, also a part at a time: no pixel depends on another.
+pub struct Drawing<'a>(DrawList<'a>);
+
+impl<'a> Drawing<'a> {
+    /// Of the triangles and polygons of `frame`.
+    pub fn new(frame: &'a Frame, fill: Fill) -> Self {
+        Self(DrawList::new(frame, fill))
     }
-    picture
+
+    /// Some lines of the picture, as a picture.
+    pub fn lines(&self, lines: Range<u32>) -> Picture {
+        let list = &self.0;
+        let (frame, width) = (list.frame(), list.frame().width);
+        let mut picture = Picture::cleared(frame, lines.len());
+        let at = |x: u32, y: u32| (y - lines.start) as usize * width as usize + x as usize;
+        for (item, id) in list.items().iter().zip(0..) {
+            match item {
+                Item::Triangle(triangle) => {
+                    let plot = |f: &Fragment| picture.plot(list, id, at(f.x, f.y), f);
+                    list.fill().fragments_of_lines(triangle, frame.mode, width, lines.clone(), plot);
+                }
+                Item::Polygon(table) => polygon::fragments_of_lines(table, width, lines.clone(), |f| {
+                    picture.plot(list, id, at(f.x, f.y), f);
+                }),
+            }
+        }
+        picture
+    }
 }
 
 impl Picture {
     /// Nothing drawn yet.
-    pub(crate) fn cleared(frame: &Frame) -> Self {
-        let size = frame.width as usize * frame.height as usize;
+    pub(crate) fn cleared(frame: &Frame, lines: usize) -> Self {
+        let size = frame.width as usize * lines;
         Self {
             width: frame.width,
-            height: frame.height,
+            height: lines as u32,
             coverage: vec![0; size],
             writes: vec![0; size],
             id: vec![NO_TRIANGLE; size],
             z: vec![1.0; size],
             rgb: vec![frame.clear; size],
+            extra: vec![vec![0.0; size]; frame.extra],
             lit: vec![Lit::Nothing; size],
         }
     }
 
-    fn plot<const N: usize, W: Weight>(&mut self, list: &DrawList, id: i32, fragment: &Fragment<N, W>) {
+    fn plot<const N: usize, W: Weight>(
+        &mut self,
+        list: &DrawList,
+        id: i32,
+        at: usize,
+        fragment: &Fragment<N, W>,
+    ) {
         let frame = list.frame();
-        let at = fragment.y as usize * self.width as usize + fragment.x as usize;
         self.coverage[at] += 1;
         let z = fragment.z();
         if let Some(func) = frame.depth {
@@ -100,6 +128,9 @@ impl Picture {
             self.lit[at] = Lit::Shadow;
         }
         self.rgb[at] = if frame.blend { mix(front, fragment.kt(), self.rgb[at]) } else { front };
+        for (channel, values) in self.extra.iter_mut().enumerate() {
+            values[at] = fragment.extra(channel);
+        }
         self.writes[at] += 1;
         self.id[at] = id;
     }
@@ -124,7 +155,7 @@ impl Picture {
 const CLEARED: Fragment<1> = Fragment {
     x: 0,
     y: 0,
-    vertices: &[Vertex { x: 0.0, y: 0.0, z: 1.0, r: 0.0, g: 0.0, b: 0.0, kt: 0.0 }],
+    vertices: &[Vertex { x: 0.0, y: 0.0, z: 1.0, r: 0.0, g: 0.0, b: 0.0, kt: 0.0, extra: [0.0; MAX_EXTRA] }],
     weights: [1],
     total: 1,
 };

@@ -4,7 +4,7 @@
 //!            F                       edge table       every edge that is not horizontal, in the bucket of its Ymin
 //!           / `-.                    active edges     those that cross this line, in the order of x
 //!   -------a-----b---E--c---D-----   spans            a to b, c to d: pixels with an odd number of edges on their left
-//!          |      `-/  `-.  |        next line        x + 1/m for each, by quotient and remainder
+//!          |      `-/  `-.  |        next line        x again, from the ends of each edge
 //!          A              `-C
 //! ```
 //! Ymin is counted, Ymax is not; the start of a span is rounded up and so is its end, which is no longer in it. That is
@@ -30,13 +30,24 @@ pub use span::Span;
 pub use table::{Edge, EdgeTable};
 
 use crate::fragment::Fragment;
+use std::ops::Range;
 
 /// A pixel of a polygon: what the ends of the left and of the right edge weigh there.
 pub type PolygonFragment<'a> = Fragment<'a, 4, i128>;
 
 /// Calls `draw` for every pixel of the polygon in `table` on a screen of `width` by `height` pixels, line by line.
-pub fn fragments(table: &EdgeTable, (width, height): (u32, u32), mut draw: impl FnMut(&PolygonFragment)) {
-    table.scan(0..i64::from(height), |line, active| {
+pub fn fragments(table: &EdgeTable, (width, height): (u32, u32), draw: impl FnMut(&PolygonFragment)) {
+    fragments_of_lines(table, width, 0..height, draw);
+}
+
+/// The same for some lines of the screen.
+pub(crate) fn fragments_of_lines(
+    table: &EdgeTable,
+    width: u32,
+    lines: Range<u32>,
+    mut draw: impl FnMut(&PolygonFragment),
+) {
+    table.scan(i64::from(lines.start)..i64::from(lines.end), |line, active| {
         for pair in active.chunks_exact(2) {
             let span = Span::new(pair[0], pair[1], line);
             for x in span.columns(width) {

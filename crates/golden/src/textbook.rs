@@ -20,6 +20,7 @@
 use crate::cover::{shaded, snap};
 use crate::fragment::Fragment;
 use edgewalk_scene::{ShadeMode, Triangle, Vertex};
+use std::ops::Range;
 
 /// A part of a triangle between two edges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,12 +38,23 @@ pub fn half_triangles(
     triangle: &Triangle,
     mode: ShadeMode,
     (width, height): (u32, u32),
+    draw: impl FnMut(Half, &Fragment),
+) {
+    half_triangles_of_lines(triangle, mode, width, 0..height, draw);
+}
+
+/// The same for some lines of the screen.
+pub(crate) fn half_triangles_of_lines(
+    triangle: &Triangle,
+    mode: ShadeMode,
+    width: u32,
+    lines: Range<u32>,
     mut draw: impl FnMut(Half, &Fragment),
 ) {
     let Some(walk) = Walk::new(triangle, mode) else { return };
     for half in [Half::First, Half::Second] {
         let Some(sides) = walk.sides(half) else { continue };
-        for y in sides.top.max(0)..=sides.bottom.min(i64::from(height) - 1) {
+        for y in sides.top.max(i64::from(lines.start))..=sides.bottom.min(i64::from(lines.end) - 1) {
             let (start, end) = (sides.left.pixel(y), sides.right.pixel(y));
             for x in start.max(0)..=end.min(i64::from(width) - 1) {
                 draw(half, &walk.value(&sides.left, x as u32, y as u32));

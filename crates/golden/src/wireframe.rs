@@ -32,7 +32,7 @@ const ROUNDING: f64 = 1e-12;
 ///
 /// In the picture, coverage and writes count the pixels of lines, and depth is theirs.
 pub fn wireframe(frame: &Frame, fill: Fill, hidden: HiddenLines) -> Picture {
-    let mut picture = Picture::cleared(frame);
+    let mut picture = Picture::cleared(frame, frame.height as usize);
     let surfaces = match hidden {
         HiddenLines::Drawn => vec![f64::INFINITY; picture.z.len()],
         HiddenLines::Removed => pushed_back(frame, fill),

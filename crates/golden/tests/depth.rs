@@ -7,7 +7,7 @@ const EXACT: Fill = Fill::Exact { subpixel_bits: 8 };
 
 /// A triangle over a screen of 8 x 8, depth z0, z1, z2 at its corners.
 fn over_all([z0, z1, z2]: [f64; 3], shade: f64) -> Triangle {
-    let at = |x, y, z| Vertex { x, y, z, r: shade, g: shade, b: shade, kt: 0.25 };
+    let at = |x, y, z| Vertex { x, y, z, r: shade, g: shade, b: shade, kt: 0.25, ..Vertex::default() };
     Triangle([at(-1.0, -1.0, z0), at(30.0, -1.0, z1), at(-1.0, 30.0, z2)])
 }
 

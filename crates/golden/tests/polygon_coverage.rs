@@ -2,11 +2,13 @@
 
 mod shapes;
 
+use edgewalk_golden::polygon::{EdgeTable, Grid, fragments};
+use edgewalk_scene::ShadeMode;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use shapes::{
-    Point, SCREEN, concave, convex, covered, doubled, expected, inside_by_a_vertical_ray, random_point,
-    random_points, star_with_hole,
+    Point, SCREEN, concave, convex, covered, doubled, expected, inside, inside_by_a_vertical_ray,
+    random_point, random_points, star_with_hole,
 };
 
 /// Polygons of every kind, by its number.
@@ -76,6 +78,31 @@ fn ten_thousand_random_polygons_against_point_in_polygon() {
     println!("checked {sum} / {all} pixels, {by_two_rays} by two rays: {mismatches} mismatches");
     assert_eq!((sum, mismatches), (all, 0));
     assert!(by_two_rays > sum / 10);
+}
+
+/// The grid of the textbook fill: pixels at the corners where vertices are.
+#[test]
+fn whole_vertices_and_pixels_at_them_against_point_in_polygon() {
+    let mut rng = Pcg64::seed_from_u64(14);
+    let (mut checked, mut filled, mut mismatches) = (0, 0, 0);
+    for k in 0..2_000 {
+        let contours = random_polygon(&mut rng, k % 7, 0);
+        let table = EdgeTable::new(&shapes::polygon(&contours, 0), ShadeMode::Gouraud, Grid::whole());
+        let mut seen = shapes::Pixels::new();
+        fragments(&table, SCREEN, |f| assert!(seen.insert((f.x, f.y)), "drawn twice"));
+        for (x, y) in (0..SCREEN.1).flat_map(|y| (0..SCREEN.0).map(move |x| (x, y))) {
+            let wanted = inside(&contours, [x, y].map(i64::from));
+            mismatches += u32::from(wanted != seen.contains(&(x, y)));
+            filled += u32::from(wanted);
+            checked += 1;
+        }
+    }
+    println!(
+        "checked {checked} / {} pixels, {filled} inside: {mismatches} mismatches",
+        2_000 * SCREEN.0 * SCREEN.1
+    );
+    assert_eq!((checked, mismatches), (2_000 * SCREEN.0 * SCREEN.1, 0));
+    assert!(filled > checked / 20);
 }
 
 #[test]

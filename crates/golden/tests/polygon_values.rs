@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 
 fn vertex(rng: &mut Pcg64, [x, y]: [f64; 2]) -> Vertex {
     let [z, r, g, b, kt] = std::array::from_fn(|_| rng.random_range(0.0..=1.0));
-    Vertex { x, y, z, r, g, b, kt }
+    Vertex { x, y, z, r, g, b, kt, ..Vertex::default() }
 }
 
 fn one_contour(vertices: &[Vertex]) -> Polygon {

@@ -9,6 +9,8 @@ use glam::DVec3;
 const FILL: Fill = Fill::Exact { subpixel_bits: 8 };
 const GUARD: f64 = 8191.0;
 const SIZE: (u32, u32) = (96, 72);
+/// Of every square: what no shadow takes away.
+const EMISSION: f64 = 0.05;
 
 /// Squares parallel to the floor, of these heights, half sides and k_t, in the colours of a list that goes round.
 fn squares(list: &[(f64, f64, f64)]) -> Mesh {
@@ -20,7 +22,8 @@ fn squares(list: &[(f64, f64, f64)]) -> Mesh {
             [[0, 1, 2], [0, 2, 3]].map(|c: [u32; 3]| Face { corners: c.map(|c| 4 * k + c), material: k }),
         );
         let color = [DVec3::splat(0.8), DVec3::new(0.9, 0.3, 0.2), DVec3::new(0.2, 0.4, 0.9)][k as usize % 3];
-        materials.push(Material { transmission: *kt, ..Material::matte(color) });
+        let emission = DVec3::splat(EMISSION);
+        materials.push(Material { emission, transmission: *kt, ..Material::matte(color) });
     }
     Mesh::new("squares", positions, faces, materials).expect("a good mesh")
 }
@@ -61,7 +64,7 @@ fn far(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 fn under_a_pane_the_floor_has_its_part_of_the_light() {
     for (kt, by_map, by_ray) in [(0.0, 0.0, 0.0), (0.4, 1.0, 0.4)] {
         let scene = scene(&[(0.0, 2.0, 0.0), (1.5, 0.5, kt)]);
-        let floor = |r: f64| 0.8 * (0.25 + r * 0.6);
+        let floor = |r: f64| EMISSION + 0.8 * (0.25 + r * 0.6);
         let (hidden, open) = (DVec3::new(0.2, 0.0, 0.3), DVec3::new(1.2, 0.0, 0.3));
         let rays = Visibility::Rays(Rays::new(&scene.mesh));
         let maps = Visibility::Maps(ShadowMaps::draw(&scene, 256));

@@ -265,7 +265,7 @@ fn random(random: &mut Pcg64Mcg) -> Frame {
     for _ in 0..random.random_range(1..12) {
         frame.triangles.push(Triangle([0; 3].map(|_| {
             let ([x, y, z], [r, g, b, kt]) = (point(random), random.random::<[f64; 4]>());
-            Vertex { x, y, z, r, g, b, kt }
+            Vertex { x, y, z, r, g, b, kt, ..Vertex::default() }
         })));
     }
     if random.random_bool(0.8) {

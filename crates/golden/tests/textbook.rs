@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 const SCREEN: (u32, u32) = (40, 40);
 
 fn shaded(points: [(f64, f64, f64); 3]) -> Triangle {
-    Triangle(points.map(|(x, y, i)| Vertex { x, y, z: i, r: i, g: i, b: i, kt: 0.0 }))
+    Triangle(points.map(|(x, y, i)| Vertex { x, y, z: i, r: i, g: i, b: i, ..Vertex::default() }))
 }
 
 type Written = (Half, u32, u32, f64);
@@ -155,6 +155,40 @@ fn slivers_tie_with_themselves() {
     }
     println!("{shared} pixels, {knees} of them on knee lines");
     assert!(shared > 50_000 && knees > 60);
+}
+
+#[test]
+fn the_thinnest_slivers_tie_with_themselves() {
+    // Twice the area is 1 and an edge a million lines high. On one line the edges lie on either side of a half, so a second pixel is
+    // drawn a whole one beyond them: there two vertices weigh a million times the whole, the three terms of a depth cancel
+    // but for their last digits, and in f64 their sum depends on their order.
+    let mut rng = Pcg64::seed_from_u64(9);
+    let (mut pixels, mut apart) = (0, 0);
+    for k in 0..600 {
+        let shift = f64::from(k % 20);
+        let slopes = [0.3, 1e-7].map(|most| rng.random_range(-most..most));
+        let z = |x: f64, y: f64| 0.5 + slopes[0] * x + slopes[1] * y;
+        let places = [(0.0, -499_990.0), (1.0, 500_010.0), (1.0, 500_011.0)];
+        let [a, b, c] = shaded(places.map(|(x, y)| (x, y + shift, z(x, y)))).0;
+        let orders = [Triangle([a, b, c]), Triangle([b, c, a])];
+        let beyond = orders.map(|triangle| {
+            let here = line(&written(&triangle), Half::First, 10 + k % 20);
+            assert_eq!(here.iter().map(|(x, _)| *x).collect::<Vec<_>>(), [0, 1]);
+            here[1].1
+        });
+        apart += u32::from((beyond[0] - beyond[1]).abs() > 1e-12);
+        for (func, writes) in [(DepthFunc::Less, 1), (DepthFunc::Lequal, 2)] {
+            let mut frame = Frame::new(SCREEN.0, SCREEN.1);
+            (frame.depth, frame.triangles) = (Some(func), orders.to_vec());
+            let picture = draw(&frame, Fill::Textbook);
+            for (drawn, written) in picture.coverage.iter().zip(&picture.writes).filter(|(d, _)| **d > 0) {
+                assert_eq!((*drawn, *written), (2, writes), "{func:?}");
+                pixels += 1;
+            }
+        }
+    }
+    println!("{pixels} pixels, {apart} with two depths in f64 that are one");
+    assert!(pixels > 40_000 && apart > 200);
 }
 
 #[test]

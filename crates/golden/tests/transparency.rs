@@ -52,7 +52,7 @@ fn compare(frame: &Frame) -> (u32, u32) {
 
 fn triangle(corners: [[f64; 3]; 3], rgb: [f64; 3], kt: f64) -> Triangle {
     let [r, g, b] = rgb;
-    Triangle(corners.map(|[x, y, z]| Vertex { x, y, z, r, g, b, kt }))
+    Triangle(corners.map(|[x, y, z]| Vertex { x, y, z, r, g, b, kt, ..Vertex::default() }))
 }
 
 /// Triangles in planes that are nearly parallel to the screen and apart in depth: an order exists. In `crossing` ones

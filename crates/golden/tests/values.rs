@@ -1,8 +1,8 @@
 //! Depth and colour of each fragment against the plane in exact rationals.
 #![allow(clippy::unwrap_used)] // finite numbers have rationals
 
-use edgewalk_golden::{Fragment, fragments, snap};
-use edgewalk_scene::{ShadeMode, Triangle, Vertex};
+use edgewalk_golden::{Fill, Fragment, NO_TRIANGLE, draw, fragments, snap};
+use edgewalk_scene::{Frame, MAX_EXTRA, MAX_EXTRA_VALUE, ShadeMode, Triangle, Vertex};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use rand::{Rng, SeedableRng};
@@ -33,7 +33,7 @@ fn random_triangle(rng: &mut Pcg64, reach: f64, sliver: bool) -> Triangle {
     let mut triangle = Triangle(std::array::from_fn(|_| {
         let [z, r, g, b, kt] = std::array::from_fn(|_| rng.random_range(0.0..=1.0));
         let [x, y] = std::array::from_fn(|_| 20.0 + rng.random_range(-reach..reach));
-        Vertex { x, y, z, r, g, b, kt }
+        Vertex { x, y, z, r, g, b, kt, ..Vertex::default() }
     }));
     if sliver {
         let [a, b, c] = &mut triangle.0;
@@ -120,4 +120,63 @@ fn zero_and_the_least_numbers_are_exact() {
         checked += 1;
     });
     assert_eq!(checked, 6);
+}
+
+/// The plane of a value of the user's own is exact to a few roundings of the largest magnitude at the vertices.
+#[test]
+fn own_values_are_the_plane_through_the_vertices_in_both_modes() {
+    let mut rng = Pcg64::seed_from_u64(7);
+    let (mut checked, mut negative, mut worst) = (0, 0, 0.0f64);
+    for k in 0..200 {
+        let mut triangle = random_triangle(&mut rng, [10.0, 100.0][k % 2], k % 3 == 0);
+        let limit = [1.0, 127.0, 2047.0, MAX_EXTRA_VALUE][k % 4];
+        for v in &mut triangle.0 {
+            v.extra = std::array::from_fn(|_| rng.random_range(-limit..=limit));
+        }
+        let mode = ShadeMode::ALL[k % 2];
+        fragments(&triangle, mode, 8, (40, 40), |f| {
+            if (f.x + f.y) % 7 != 0 {
+                return; // rationals are slow
+            }
+            for channel in 0..MAX_EXTRA {
+                let exact = plane(&triangle, 8, (f.x, f.y), |v| v.extra[channel]);
+                let largest = triangle.0.iter().map(|v| v.extra[channel].abs()).fold(0.0, f64::max);
+                let error = (rational(f.extra(channel)) - &exact).abs().to_f64().unwrap();
+                worst = worst.max(error / largest / Fragment::UNCERTAINTY);
+                negative += u32::from(f.extra(channel) < 0.0);
+                checked += 1;
+            }
+        });
+    }
+    println!("{checked} values, {negative} of them negative, worst error {worst:.3} of the bound");
+    assert!(checked > 5_000 && negative > 2_000);
+    assert!(worst <= 1.0 && worst > 0.05, "{worst}");
+}
+
+#[test]
+fn a_picture_holds_the_own_values_of_what_was_drawn_last_and_0_elsewhere() {
+    let at = |x, y, z, extra: [f64; 2]| Vertex {
+        x,
+        y,
+        z,
+        extra: [extra[0], extra[1], 0.0, 0.0],
+        ..Vertex::default()
+    };
+    let flat =
+        |z: f64, extra| Triangle([(0.0, 0.0), (8.0, 0.0), (0.0, 8.0)].map(|(x, y)| at(x, y, z, extra)));
+    let mut frame = Frame::new(8, 8);
+    frame.extra = 2;
+    frame.triangles = vec![flat(0.5, [-3.0, 4.0]), flat(0.25, [-1.5, 2.0]), flat(0.75, [9.0, 9.0])];
+    let picture = draw(&frame, Fill::Exact { subpixel_bits: 8 });
+    assert_eq!(picture.extra.len(), 2);
+    let mut drawn = 0;
+    for (at, id) in picture.id.iter().enumerate() {
+        let expected = if *id == NO_TRIANGLE { [0.0, 0.0] } else { [-1.5, 2.0] };
+        assert_eq!([picture.extra[0][at], picture.extra[1][at]], expected);
+        drawn += i32::from(*id == 1);
+    }
+    assert_eq!(drawn, 28);
+    // Without depth writes a fragment that passes still leaves its own values.
+    frame.depth_write = false;
+    assert_eq!(draw(&frame, Fill::Textbook).extra[0][9], 9.0);
 }

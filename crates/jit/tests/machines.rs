@@ -11,9 +11,9 @@ mod vectors {
 }
 
 use common::pair::Pair;
+use edgewalk_lockstep::{Rig, StallKind, Unit, netlist};
 use edgewalk_model::DrawState;
-use edgewalk_vectors::bench::Bench;
-use edgewalk_vectors::{StallKind, Suite, Trace, Unit, capture, design};
+use edgewalk_vectors::{Suite, Trace, capture};
 
 /// Cycles until the machine is reset.
 const FIRST: u64 = 600;
@@ -21,16 +21,21 @@ const FIRST: u64 = 600;
 const SECOND: u64 = 2000;
 
 /// Runs the stimulus of a trace from its beginning.
-fn run(pair: &mut Pair, trace: &Trace, ports: &[String], cycles: u64) {
-    let mut bench = Bench::new(&trace.interface, trace.setting.clone());
-    while bench.cycle() < cycles {
-        for (port, value) in ports.iter().zip(bench.inputs()) {
-            pair.set(port, *value);
+fn run(pair: &mut Pair, trace: &Trace, cycles: u64) {
+    let interface = &trace.interface;
+    let mut rig = Rig::new(interface, trace.setting.clone());
+    let mut ports = interface.values();
+    while rig.cycle() < cycles {
+        rig.drive(&mut ports);
+        for port in interface.inputs() {
+            pair.set(&port.name, ports[port.id]);
         }
-        pair.compare(bench.cycle());
-        let outputs = pair.outputs();
-        pair.tick(bench.cycle());
-        bench.clock(&outputs);
+        pair.compare(rig.cycle());
+        for port in interface.outputs() {
+            ports[port.id] = pair.output(&port.name);
+        }
+        pair.tick(rig.cycle());
+        rig.clock(&ports);
     }
 }
 
@@ -40,15 +45,14 @@ fn every_signal_of_twelve_machines() {
     let mut compared = 0;
     for (i, (name, machine)) in machines.iter().enumerate() {
         let suite = Suite::named(machine, ["hazards", "corners", "random"][i % 3], 3, 30).unwrap();
-        let trace = capture(machine, Unit::Machine, &suite, DrawState::default(), StallKind::ALL[i / 3 % 3]);
-        let netlist = design::netlist(machine, Unit::Machine).unwrap();
-        let ports: Vec<String> = trace.interface.inputs().into_iter().map(|(port, _)| port).collect();
+        let trace = capture(machine, Unit::MACHINE, &suite, DrawState::default(), StallKind::ALL[i / 3 % 3]);
+        let netlist = netlist(machine, Unit::MACHINE).unwrap();
         let mut pair = Pair::new(&netlist);
-        run(&mut pair, &trace, &ports, FIRST);
+        run(&mut pair, &trace, FIRST);
         pair.set("rst", 1);
         pair.tick(FIRST);
         pair.set("rst", 0);
-        run(&mut pair, &trace, &ports, SECOND);
+        run(&mut pair, &trace, SECOND);
         println!("{name}: {} values compared", pair.compared);
         compared += pair.compared;
     }

@@ -1,9 +1,29 @@
 //! The proved error of a channel, and how far its values are stepped.
 
 use crate::channel::{Channel, Kind};
-use crate::machine::{EdgeKind, Machine};
+use crate::machine::{EdgeKind, Fill, Machine};
 use edgewalk_numerics::bounds::slope_edge_error;
 use edgewalk_numerics::{Dyadic, ErrorBudget, Rounding, Screen, Steps};
+
+/// Why no error of a machine's outputs is the largest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoBound {
+    /// A4 does not hold.
+    #[error(
+        "{additions} additions may err by {steps} LSB, which is not under 1/2: outputs may wrap past the ends of their range"
+    )]
+    Wraps {
+        /// The most additions behind a fragment.
+        additions: u64,
+        /// What they may err by, LSB.
+        steps: Dyadic,
+    },
+    /// Spans end outside the triangle.
+    #[error(
+        "edge.fill = textbook draws pixels outside the triangle, where values leave their range and wrap"
+    )]
+    Textbook,
+}
 
 impl Channel {
     /// The budget of a fragment behind `steps` additions. For all fragments of a machine pass
@@ -29,6 +49,22 @@ impl Machine {
         Screen { width: self.width, height: self.height, guard_columns: guard.saturating_add(beyond) }
     }
 
+    /// What holds for every fragment of this machine whose pixel lies inside its triangle, in a channel of it.
+    ///
+    /// # Errors
+    /// Why outputs may wrap (A4): then no error is the largest.
+    pub fn proved_budget(&self, channel: &Channel) -> Result<ErrorBudget, NoBound> {
+        let additions = self.max_steps();
+        let budget = channel.error_budget(additions);
+        if self.fill == Fill::Textbook {
+            Err(NoBound::Textbook)
+        } else if budget.holds() {
+            Ok(budget)
+        } else {
+            Err(NoBound::Wraps { additions: additions.total(), steps: budget.steps })
+        }
+    }
+
     /// The most additions behind a visible fragment, [`Screen::max_steps`].
     #[must_use]
     pub fn max_steps(&self) -> Steps {
@@ -39,7 +75,7 @@ impl Machine {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{MachineError, Plan};
+    use crate::Plan;
 
     #[test]
     fn the_default_machine_needs_no_clamp_and_stays_within_one_lsb() {
@@ -53,14 +89,29 @@ mod tests {
     }
 
     #[test]
-    fn without_fraction_bits_there_is_no_bound() -> Result<(), MachineError> {
-        let mut machine = Machine::default();
-        machine.set("formats.color_vertex", "0")?;
-        machine.set("formats.color_fraction", "0")?;
-        let plan = machine.plan()?;
-        let holds = plan.channels().iter().map(|c| c.error_budget(plan.max_steps()).holds());
-        assert_eq!(holds.collect::<Vec<_>>(), [true, false, false, false]);
-        Ok(())
+    fn no_bound_is_proved_where_sums_may_wrap() {
+        let with = |fraction| {
+            let mut channel = Plan::default().channels()[1];
+            channel.precision.fraction = fraction;
+            channel
+        };
+        let machine = Machine::default();
+        assert_eq!(machine.proved_budget(&with(14)), Ok(with(14).error_budget(machine.max_steps())));
+        for fraction in [0, 4, 13] {
+            let steps = with(fraction).error_budget(machine.max_steps()).steps;
+            let wraps = NoBound::Wraps { additions: 9309, steps };
+            assert_eq!(machine.proved_budget(&with(fraction)), Err(wraps), "{fraction}");
+        }
+        let textbook = Machine { fill: Fill::Textbook, ..machine };
+        assert_eq!(textbook.proved_budget(&with(14)), Err(NoBound::Textbook));
+        // 511 additions and the start reach half an LSB with 9 bits to the dot.
+        let edge = Machine { width: 256, height: 1, guard_bits: 8, ..Machine::default() };
+        let steps = edge.max_steps().total() + 1;
+        assert_eq!(steps, 511);
+        assert!(edge.proved_budget(&with(9)).is_ok() && edge.proved_budget(&with(8)).is_err());
+        let edge = Machine { height: 2, ..edge };
+        assert_eq!(edge.max_steps().total() + 1, 512);
+        assert!(edge.proved_budget(&with(9)).is_err(), "exactly 1/2 is not under 1/2");
     }
 
     #[test]

@@ -25,6 +25,14 @@ pub enum Kind {
 impl Kind {
     /// All, in the order of the key's words.
     pub const ALL: [Kind; 3] = [Kind::Unorm, Kind::Signed, Kind::Floor];
+    /// Their words in files and reports.
+    pub const NAMES: [&'static str; 3] = ["unorm", "signed", "floor"];
+
+    /// The word in files and reports.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
 
     /// Words and outputs are two's complement.
     #[must_use]

@@ -54,7 +54,7 @@ macro_rules! extra {
         Key {
             name: concat!("channels.e", $i, "_kind"),
             doc: "extra channel: unorm (0 to 1), signed or floor (LSB of the output)",
-            domain: Word(&["unorm", "signed", "floor"]),
+            domain: Word(&Kind::NAMES),
             get: |m| m.extras[$i].kind as u32,
             set: |m, v| m.extras[$i].kind = Kind::ALL[v as usize],
             used: |m| m.extra > $i,

@@ -35,6 +35,7 @@ pub mod unit;
 pub mod units;
 
 pub use activity::Activity;
+pub use budget::NoBound;
 pub use channel::{Channel, Kind, MAX_CHANNELS, Precision};
 pub use edgewalk_numerics::ErrorBudget;
 pub use field::{Field, Scale};

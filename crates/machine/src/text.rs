@@ -8,6 +8,9 @@ use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use toml::de::{DeTable, DeValue};
 
+/// Words longer than this are cut in messages, characters.
+const SHOWN: usize = 60;
+
 /// Why a machine is refused.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}{what}; {hint}", line.map(|l| format!("line {l}: ")).unwrap_or_default())]
@@ -25,8 +28,17 @@ impl MachineError {
         MachineError { line: None, what, hint }
     }
 
+    /// A word of the user's, cut to a readable length.
+    fn shown(word: &str) -> String {
+        match word.char_indices().nth(SHOWN) {
+            Some((end, _)) => word[..end].to_owned() + "...",
+            None => word.to_owned(),
+        }
+    }
+
     /// `key = value` lies outside the key's domain.
-    pub(crate) fn value(key: &Key, value: &str) -> Self {
+    pub(super) fn value(key: &Key, value: &str) -> Self {
+        let value = &Self::shown(value);
         Self::new(
             format!("{} = {value} is not permitted ({})", key.name, key.permitted()),
             format!("nearest: {}", key.nearest(value)),
@@ -47,6 +59,7 @@ impl MachineError {
 
 fn find(name: &str) -> Result<&'static Key, MachineError> {
     KEYS.iter().find(|k| k.name == name).ok_or_else(|| {
+        let name = &MachineError::shown(name);
         let bare = nearest(name, KEYS.iter().filter_map(|k| k.name.split('.').nth(1)));
         let dotted = KEYS.iter().find(|k| !name.contains('.') && k.name.ends_with(bare)).map(|k| k.name);
         let close = dotted.unwrap_or_else(|| nearest(name, KEYS.iter().map(|k| k.name)));
@@ -85,6 +98,7 @@ impl Machine {
             match value.get_ref() {
                 DeValue::String(name) if section.get_ref().as_ref() == "preset" => {
                     machine = Machine::preset(name).ok_or_else(|| {
+                        let name = &MachineError::shown(name);
                         let close = nearest(name, PRESETS.iter().map(|p| p.0));
                         MachineError::new(format!("unknown preset {name}"), format!("nearest: {close}"))
                             .at(text, place)

@@ -110,7 +110,7 @@ impl Channel {
 }
 
 impl Plan {
-    /// Snaps a vertex (px; z, r, g, b in [0,1]; extra channels as their kind wants) to the port's formats, each rounded
+    /// Snaps a vertex (px; z, r, g, b in 0 to 1; extra channels as their kind wants) to the port's formats, each rounded
     /// half to even.
     ///
     /// Errors of the result: 2^-(s+1) px in x and y, 2^-(e+1) LSB in a channel.

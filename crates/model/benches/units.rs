@@ -4,16 +4,20 @@
 
 #![allow(missing_docs)] // criterion_group! writes none
 
+#[path = "../tests/common/depth.rs"]
+#[allow(dead_code)] // of which only the feeding is used
+mod depth;
+
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use depth::feed;
 use edgewalk_machine::{Machine, Plan, PortVertex};
-use edgewalk_model::depth::{Depth, DepthInputs};
 use edgewalk_model::edge::Edge;
 use edgewalk_model::fast::Renderer;
 use edgewalk_model::pixel::Pixel;
 use edgewalk_model::setup::Setup;
-use edgewalk_model::span::SpanQueue;
-use edgewalk_model::tokens::{Fragment, Line, Prim, Span};
-use edgewalk_model::{Coverage, DrawState, Memory, Stalls, render};
+use edgewalk_model::span::Span;
+use edgewalk_model::tokens::{self, FEW, Fragment, Line, Prim};
+use edgewalk_model::{DrawState, Events, Stalls, render};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 use std::hint::black_box;
 
@@ -29,17 +33,15 @@ fn triangles(machine: &Plan) -> Vec<Triangle> {
                 [machine.width, machine.height].map(|side| rng.random_range(32..side as i32 - 32) * one);
             std::array::from_fn(|_| {
                 let [x, y] = middle.map(|m| m + rng.random_range(-32 * one..=32 * one));
-                let value = std::array::from_fn(|i| {
-                    let channel = machine.channels()[i];
-                    rng.random_range(0..=channel.max()) << channel.vertex_fraction
-                });
-                PortVertex { x, y, value }
+                let values = machine.channels().iter();
+                let values = values.map(|c| (rng.random_range(0..=c.max()) << c.vertex_fraction) as i64);
+                machine.raw_vertex(x, y, &values.collect::<Vec<_>>())
             })
         })
         .collect()
 }
 
-fn setup(machine: &Plan, triangles: &[Triangle]) -> Vec<Prim> {
+fn setup(machine: &Plan, triangles: &[Triangle]) -> Vec<Prim<FEW>> {
     let mut unit = Setup::new(machine);
     let mut prims = Vec::new();
     let mut input = triangles.iter();
@@ -47,7 +49,7 @@ fn setup(machine: &Plan, triangles: &[Triangle]) -> Vec<Prim> {
     while next.is_some() || !unit.tri_ready() {
         prims.extend(unit.prim().cloned());
         let taken = unit.tri_ready();
-        unit.step(next.map(|t| (t, 0)), true, &mut Coverage::default());
+        unit.step(next.map(|t| (t, 0)), true, &mut Events::default());
         if taken {
             next = input.next();
         }
@@ -55,7 +57,7 @@ fn setup(machine: &Plan, triangles: &[Triangle]) -> Vec<Prim> {
     prims
 }
 
-fn edge(machine: &Plan, prims: &[Prim]) -> Vec<Line> {
+fn edge(machine: &Plan, prims: &[Prim<FEW>]) -> Vec<Line<FEW>> {
     let mut unit = Edge::new(machine);
     let mut lines = Vec::new();
     let mut input = prims.iter();
@@ -63,7 +65,7 @@ fn edge(machine: &Plan, prims: &[Prim]) -> Vec<Line> {
     while next.is_some() || unit.running() {
         lines.extend(unit.line().cloned());
         let taken = unit.prim_ready(false);
-        unit.step(next, false, true, &mut Coverage::default());
+        unit.step(next, false, true, &mut Events::default());
         if taken {
             next = input.next();
         }
@@ -71,18 +73,18 @@ fn edge(machine: &Plan, prims: &[Prim]) -> Vec<Line> {
     lines
 }
 
-fn span(machine: &Plan, lines: &[Line]) -> Vec<Span> {
-    let mut unit = SpanQueue::new(machine);
+fn span(machine: &Plan, lines: &[Line<FEW>]) -> Vec<tokens::Span<FEW>> {
+    let mut unit = Span::new(machine);
     let mut spans = Vec::new();
     for line in lines {
         spans.extend(unit.span().cloned());
-        unit.step(Some(line).filter(|line| unit.line_ready(line)), true, &mut Coverage::default());
+        unit.step(Some(line).filter(|line| unit.line_ready(line)), true, &mut Events::default());
     }
     spans.extend(unit.span().cloned());
     spans
 }
 
-fn pixel(machine: &Plan, spans: &[Span]) -> Vec<Fragment> {
+fn pixel(machine: &Plan, spans: &[tokens::Span<FEW>]) -> Vec<Fragment<FEW>> {
     let mut unit = Pixel::new(machine);
     let mut fragments = Vec::new();
     let mut input = spans.iter();
@@ -90,36 +92,12 @@ fn pixel(machine: &Plan, spans: &[Span]) -> Vec<Fragment> {
     while next.is_some() || unit.occupied() {
         fragments.extend(unit.frag().cloned());
         let taken = unit.span_ready(true);
-        unit.step(next, &[1; 4], true, &mut Coverage::default());
+        unit.step(next, &[1; FEW], true, &mut Events::default());
         if taken {
             next = input.next();
         }
     }
     fragments
-}
-
-/// DEPTH and the memory behind it; gives the number of writes.
-fn depth(machine: &Plan, fragments: &[Fragment]) -> usize {
-    let mut unit = Depth::new(machine);
-    let mut memory = Memory::new(machine, [0; 3], Stalls::NONE);
-    let mut writes = 0;
-    let mut input = fragments.iter();
-    let mut next = input.next();
-    while next.is_some() || unit.occupied() {
-        let block = unit.block(next, true);
-        let data = memory.data();
-        let inputs = DepthInputs { depth_func: 1, depth_write: true, rd_ready: true, data, wr_ready: true };
-        let read = next.filter(|_| block.is_none()).map(|fragment| fragment.addr);
-        let write = unit.write().cloned();
-        let taken = data.is_some() && unit.data_ready(true);
-        unit.step(next, block, &inputs, &mut Coverage::default());
-        memory.step(read, taken, write.as_ref());
-        writes += usize::from(write.is_some());
-        if read.is_some() {
-            next = input.next();
-        }
-    }
-    writes
 }
 
 fn units(criterion: &mut Criterion) {
@@ -138,12 +116,15 @@ fn units(criterion: &mut Criterion) {
     bench("span, spans", spans.len(), &mut || drop(black_box(span(machine, &lines))));
     bench("pixel, fragments", fragments.len(), &mut || drop(black_box(pixel(machine, &spans))));
     bench("depth and memory, fragments", fragments.len(), &mut || {
-        black_box(depth(machine, &fragments));
+        black_box(feed(machine, &fragments, DrawState::default(), Stalls::NONE));
     });
     let state = DrawState::default();
-    let cycles = render(machine, triangles.iter().copied(), state, Stalls::NONE).counters.cycles;
+    let cycles = render(machine, triangles.iter().copied(), state, Stalls::NONE)
+        .expect("this machine's vertices")
+        .counters
+        .cycles;
     bench("machine, cycles", cycles as usize, &mut || {
-        black_box(render(machine, triangles.iter().copied(), state, Stalls::NONE));
+        black_box(render(machine, triangles.iter().copied(), state, Stalls::NONE)).ok();
     });
     let mut renderer = Renderer::new(machine, false);
     bench("fast path, cycles", cycles as usize, &mut || {

@@ -13,12 +13,13 @@ use edgewalk_machine::{Machine, Plan, PortVertex};
 use edgewalk_model::fast::Renderer;
 use edgewalk_model::{DrawState, Stalls, render};
 
-fn measure(name: &str, machine: &Plan, triangles: &[[PortVertex; 3]], frames: usize) {
+fn measure(name: &str, plan: &Plan, triangles: &[[PortVertex; 3]], frames: usize) {
     let state = DrawState::default();
     let start = ThreadTime::now();
-    let tick = render(machine, triangles.iter().copied(), state, Stalls::NONE);
+    let tick = render(plan, triangles.iter().copied(), state, Stalls::NONE);
+    let tick = tick.expect("vertices of this machine");
     let ticking = start.elapsed().as_secs_f64();
-    let mut renderer = Renderer::new(machine, false);
+    let mut renderer = Renderer::new(plan, false);
     let mut frame = || {
         let start = ThreadTime::now();
         let exact = renderer.draw(triangles.iter().copied(), state);
@@ -49,11 +50,11 @@ fn measure(name: &str, machine: &Plan, triangles: &[[PortVertex; 3]], frames: us
 fn main() {
     let argument = |n| std::env::args().nth(n).and_then(|text| text.parse::<usize>().ok());
     let frames = argument(1).unwrap_or(101).max(1);
-    let machine = Machine { width: 1280, height: 960, ..Machine::default() }.plan().expect("can be built");
+    let plan = Machine { width: 1280, height: 960, ..Machine::default() }.plan().expect("can be built");
     println!("1280x960, one core, one frame = clear and draw all");
     for area in argument(2).map_or_else(|| vec![10, 100, 1000, 10_000], |area| vec![area]) {
-        let scene = triangles(&machine, 5000, area as f64);
-        measure(&format!("5000 triangles of {area} pixels"), &machine, &scene, frames);
+        let scene = triangles(&plan, 5000, area as f64);
+        measure(&format!("5000 triangles of {area} pixels"), &plan, &scene, frames);
     }
-    measure("no triangle: the clear", &machine, &[], frames);
+    measure("no triangle: the clear", &plan, &[], frames);
 }

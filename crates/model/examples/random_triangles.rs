@@ -7,15 +7,15 @@ use edgewalk_machine::{Machine, Plan, PortVertex};
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-fn write(machine: &Plan, triangles: &[[PortVertex; 3]], mut out: impl Write) -> io::Result<()> {
-    writeln!(out, "size {} {}", machine.width, machine.height)?;
-    let pixels = |x: i32| f64::from(x) / f64::from(1 << machine.subpixel_bits);
-    let channels = machine.channels();
+fn write(plan: &Plan, triangles: &[[PortVertex; 3]], mut out: impl Write) -> io::Result<()> {
+    writeln!(out, "size {} {}", plan.width, plan.height)?;
+    let pixels = |x: i32| f64::from(x) / f64::from(1 << plan.subpixel_bits);
+    let channels = plan.channels();
     for triangle in triangles {
         write!(out, "T")?;
         for vertex in triangle {
-            write!(out, "  {} {}", pixels(vertex.x), pixels(vertex.y))?;
-            for (value, channel) in vertex.value.iter().zip(channels) {
+            write!(out, "  {} {}", pixels(vertex.x()), pixels(vertex.y()))?;
+            for (value, channel) in vertex.values().iter().zip(channels) {
                 let one = channel.max() << channel.vertex_fraction;
                 write!(out, " {}", *value as f64 / one as f64)?;
             }
@@ -37,12 +37,12 @@ fn main() -> ExitCode {
         }
     };
     let fits = f64::from(area) < f64::from(machine.width) * f64::from(machine.height) / 8.0;
-    let Some(machine) = machine.plan().ok().filter(|_| fits) else {
+    let Some(plan) = machine.plan().ok().filter(|_| fits) else {
         eprintln!("no such machine, or triangles too large for its screen");
         return ExitCode::from(2);
     };
-    let triangles = common::triangles(&machine, count as usize, f64::from(area));
-    match write(&machine, &triangles, io::BufWriter::new(io::stdout().lock())) {
+    let triangles = common::triangles(&plan, count as usize, f64::from(area));
+    match write(&plan, &triangles, io::BufWriter::new(io::stdout().lock())) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");

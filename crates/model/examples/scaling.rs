@@ -116,14 +116,14 @@ fn panel(
 }
 
 fn main() {
-    let machine = Machine { width: 1280, height: 960, ..Machine::default() }.plan().expect("can be built");
-    let mut renderer = Renderer::new(&machine, false);
+    let plan = Machine { width: 1280, height: 960, ..Machine::default() }.plan().expect("can be built");
+    let mut renderer = Renderer::new(&plan, false);
     let clear = measure(&mut renderer, &[]).0;
     eprintln!("clear {:.3} ms", clear * 1e3);
     let mut samples = Vec::new();
     for (area, color) in AREAS {
         let scene =
-            triangles(&machine, 1_000_000.min((MOST_FRAGMENTS / u64::from(area)) as usize), f64::from(area));
+            triangles(&plan, 1_000_000.min((MOST_FRAGMENTS / u64::from(area)) as usize), f64::from(area));
         for count in COUNTS.into_iter().filter(|count| *count <= scene.len()) {
             let (seconds, fragments) = measure(&mut renderer, &scene[..count]);
             let sample = Sample {

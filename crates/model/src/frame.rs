@@ -2,10 +2,9 @@
 
 use crate::counters::Counters;
 use crate::events::Events;
-use crate::for_channels;
 use crate::memory::Stalls;
 use crate::run::{DrawState, Rig};
-use crate::tokens::{FEW, Source, output};
+use crate::tokens::{FEW, Source, for_channels, output};
 use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
 
 /// A picture, row by row from the top, W×H pixels, and what it took.
@@ -91,7 +90,11 @@ fn draw<const C: usize>(
         if let Some(addr) = cycle.read {
             tally.read(addr);
             let fragment = model.last_read();
-            hook(Drawn::Fragment(Sample { addr, values: &fragment.values[..channels], source: fragment.source }));
+            hook(Drawn::Fragment(Sample {
+                addr,
+                values: &fragment.values[..channels],
+                source: fragment.source,
+            }));
         }
         if let Some(write) = cycle.write() {
             tally.write(write.addr, write.source.id);
@@ -100,15 +103,16 @@ fn draw<const C: usize>(
         }
     })?;
     let x_bits = plan.widths().x;
-    let addresses: Vec<usize> = (0..plan.height)
-        .flat_map(|y| (0..plan.width).map(move |x| (y << x_bits | x) as usize))
-        .collect();
+    let addresses: Vec<usize> =
+        (0..plan.height).flat_map(|y| (0..plan.width).map(move |x| (y << x_bits | x) as usize)).collect();
     let stored = || addresses.iter().map(|addr| rig.memory.pixel(*addr as u32));
     let extra = plan.channels().iter().enumerate().skip(FEW);
     Ok(Frame {
         z: stored().map(|values| u64::from(values[0])).collect(),
         rgb: stored().map(|values| [1, 2, 3].map(|i| u64::from(values[i]))).collect(),
-        extra: extra.map(|(i, channel)| stored().map(|values| output(channel, values[i])).collect()).collect(),
+        extra: extra
+            .map(|(i, channel)| stored().map(|values| output(channel, values[i])).collect())
+            .collect(),
         coverage: addresses.iter().map(|addr| tally.reads[*addr]).collect(),
         writes: addresses.iter().map(|addr| tally.writes[*addr]).collect(),
         id: addresses.iter().map(|addr| tally.id[*addr]).collect(),

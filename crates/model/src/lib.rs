@@ -26,11 +26,11 @@ pub mod span;
 pub mod tokens;
 
 pub use counters::Counters;
-pub use events::Events;
 pub use edgewalk_machine::Activity;
+pub use events::Events;
+pub use frame::{Drawn, Frame, Sample, render, render_with};
 pub use machine::{Inputs, Model, Outputs};
 pub use memory::{Memory, Stalls};
-pub use frame::{Drawn, Frame, Sample, render, render_with};
 pub use run::{Cycle, DrawState, Rig};
 pub use setup::{SetupClocks, setup_clocks};
 pub use tokens::Write;

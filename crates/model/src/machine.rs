@@ -10,9 +10,9 @@
 //! Rules: `docs/machine.md`, sections 8 and 9.
 
 use crate::counters::Counters;
-use crate::events::{Events, one_more};
 use crate::depth::{Block, Depth, DepthInputs};
 use crate::edge::Edge;
+use crate::events::{Events, one_more};
 use crate::pixel::Pixel;
 use crate::setup::Setup;
 use crate::span::Span;
@@ -70,7 +70,8 @@ impl<const C: usize> Default for Outputs<C> {
     }
 }
 
-/// State of the whole machine, `C` words a token: [`crate::for_channels`] finds the number that serves a plan.
+/// State of the whole machine, `C` words a token; [`for_channels`](crate::for_channels!) finds the number that serves a
+/// plan.
 #[derive(Clone, Debug)]
 pub struct Model<const C: usize> {
     setup: Setup<C>,

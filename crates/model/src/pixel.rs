@@ -130,7 +130,13 @@ impl<const C: usize> Pixel<C> {
 
     /// Clock edge. `gradient` is EDGE's g.
     #[inline(always)]
-    pub fn step(&mut self, span: Option<&Span<C>>, gradient: &Words<C>, frag_ready: bool, events: &mut Events) {
+    pub fn step(
+        &mut self,
+        span: Option<&Span<C>>,
+        gradient: &Words<C>,
+        frag_ready: bool,
+        events: &mut Events,
+    ) {
         if !self.advance(frag_ready) {
             return;
         }

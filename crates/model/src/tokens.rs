@@ -21,7 +21,7 @@ macro_rules! tokens {
     };
 }
 
-/// The most channels that a machine without channels of the user's own has; units of `C` = 4 serve it.
+/// Channels of a machine without channels of the user's own: units of `C` = 4 serve it, of `C` = 8 any machine.
 pub const FEW: usize = 4;
 
 /// One word per channel, in the order of [`Plan::channels`]: z, r, g, b, then the user's own; behind the last 0. Words of
@@ -44,6 +44,7 @@ macro_rules! for_channels {
         }
     };
 }
+pub(crate) use for_channels;
 
 /// The triangle a token comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

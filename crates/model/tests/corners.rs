@@ -1,15 +1,16 @@
-//! Every hazard and corner that the model counts is met by some run here, and the counts add up.
+//! Every event that a unit declares is counted under its name and met by some run here, and the counts add up.
 
 mod common;
 
-use common::{machine, random_triangle};
-use edgewalk_model::{Activity, Coverage, DrawState, Stalls, render};
+use common::{machine, random_triangle, render};
+use edgewalk_machine::{UNITS, units};
+use edgewalk_model::{Activity, DrawState, Events, Stalls};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 #[test]
 fn nothing_is_missing() {
     let mut rng = StdRng::seed_from_u64(1);
-    let mut all = Coverage::default();
+    let mut all = Events::default();
     let mut spent = [0; 9];
     for hazard in ["drain", "interlock", "forward"] {
         for (fill, s) in [("exact", "4"), ("textbook", "0")] {
@@ -31,11 +32,15 @@ fn nothing_is_missing() {
                         random_triangle(&machine, size, &mut rng)
                     })
                     .collect();
-                let frame = render(&machine, triangles, DrawState::default(), stalls);
+                let frame = render(&machine, &triangles, DrawState::default(), stalls);
                 assert!(frame.counters.add_up(), "{:?}", frame.counters);
                 assert_eq!(u64::from(frame.coverage.iter().sum::<u32>()), frame.counters.fragments);
                 assert_eq!(u64::from(frame.writes.iter().sum::<u32>()), frame.counters.writes);
-                all.merge(&frame.corners);
+                let possible: Vec<_> = machine.events().map(|event| event.name).collect();
+                for (name, count) in frame.events.counts() {
+                    assert!(count == 0 || possible.contains(&name), "{name} cannot happen with {hazard}");
+                }
+                all.merge(&frame.events);
                 for (sum, cycles) in spent.iter_mut().zip(frame.counters.activity) {
                     *sum += cycles;
                 }
@@ -54,7 +59,19 @@ fn nothing_is_missing() {
 
 #[test]
 fn an_idle_machine_misses_everything() {
-    let frame = render(&machine(&[]), [], DrawState::default(), Stalls::NONE);
-    assert_eq!(frame.corners.missing().len(), frame.corners.counts().len());
+    let frame = render(&machine(&[]), &[], DrawState::default(), Stalls::NONE);
+    assert_eq!(frame.events.missing().len(), frame.events.counts().len());
     assert_eq!((frame.counters.cycles, frame.counters.spent(Activity::Idle)), (1, 1));
+}
+
+#[test]
+fn every_declared_event_is_counted_and_no_other() {
+    let units = UNITS.iter().flat_map(|unit| unit.events).chain(units::EVENTS);
+    let mut declared: Vec<_> = units.map(|event| event.name).collect();
+    let mut counted: Vec<_> = Events::default().counts().into_iter().map(|(name, _)| name).collect();
+    println!("{} declared, {} counted", declared.len(), counted.len());
+    assert!(!declared.is_empty());
+    declared.sort_unstable();
+    counted.sort_unstable();
+    assert_eq!(declared, counted);
 }

@@ -1,12 +1,13 @@
 //! The fast path against ticking: every pixel, every count, over machines and triangles drawn at random.
 
-use edgewalk_machine::keys::{Domain, KEYS};
-use edgewalk_machine::{Machine, Plan, PortVertex};
-use edgewalk_model::fast::{self, Path, Reason};
-use edgewalk_model::{Activity, Coverage, DrawState, Frame, Stalls, render};
-use rand::{Rng, SeedableRng, rngs::StdRng};
+mod common;
 
-type Triangle = [PortVertex; 3];
+use common::{Triangle, moved, random_values, render};
+use edgewalk_machine::keys::{Domain, KEYS};
+use edgewalk_machine::{ForeignVertex, Machine, Plan};
+use edgewalk_model::fast::{self, Path, Reason, Refusal};
+use edgewalk_model::{Activity, DrawState, Events, Frame, Stalls};
+use rand::{Rng, SeedableRng, rngs::StdRng};
 
 /// A machine with every key drawn at random, on a small screen.
 fn random_machine(rng: &mut impl Rng) -> Plan {
@@ -19,6 +20,9 @@ fn random_machine(rng: &mut impl Rng) -> Plan {
                 Domain::Word(words) => rng.random_range(0..words.len() as u32),
             };
             (key.set)(&mut machine, value);
+        }
+        if rng.random_bool(0.7) {
+            machine.extra = 0; // others are ticked
         }
         machine.width = rng.random_range(1..80);
         machine.height = rng.random_range(1..60);
@@ -50,17 +54,16 @@ fn random_triangles(machine: &Plan, rng: &mut impl Rng) -> Vec<Triangle> {
                     let reach = if wide && rng.random_bool(0.5) { limit } else { size };
                     ((m + rng.random_range(-0.5..=0.5) * reach).clamp(-limit, limit) * one).round() as i32
                 });
-                let value = std::array::from_fn(|i| {
-                    let channel = machine.channels()[i];
-                    rng.random_range(0..=channel.max() << channel.vertex_fraction)
-                });
-                PortVertex { x, y, value }
+                machine.raw_vertex(x, y, &random_values(machine, rng))
             });
             match rng.random_range(0..20) {
                 0 => triangle[1] = triangle[0],
-                1 => triangle[2].y = triangle[1].y,
-                2 => triangle[1].y = triangle[0].y,
-                3 => triangle[2].x = (triangle[0].x + triangle[1].x) / 2,
+                1 => triangle[2] = moved(machine, &triangle[2], triangle[2].x(), triangle[1].y()),
+                2 => triangle[1] = moved(machine, &triangle[1], triangle[1].x(), triangle[0].y()),
+                3 => {
+                    let x = (triangle[0].x() + triangle[1].x()) / 2;
+                    triangle[2] = moved(machine, &triangle[2], x, triangle[2].y());
+                }
                 _ => {}
             }
             triangle
@@ -70,10 +73,11 @@ fn random_triangles(machine: &Plan, rng: &mut impl Rng) -> Vec<Triangle> {
 
 /// Draws both ways and compares all that can be seen.
 fn compare(machine: &Plan, triangles: &[Triangle], state: DrawState) -> Path {
-    let (fast, path) = fast::draw(machine, triangles.iter().copied(), state);
-    let mut tick = render(machine, triangles.iter().copied(), state, Stalls::NONE);
+    let drawn = fast::draw(machine, triangles.iter().copied(), state);
+    let (fast, path) = drawn.expect("this machine's vertices");
+    let mut tick = render(machine, triangles, state, Stalls::NONE);
     if path == Path::Fast {
-        tick.corners = Coverage::default();
+        tick.events = Events::default();
     }
     let context = || format!("{path:?} {state:?} {machine:?} {} triangles", triangles.len());
     let spent = |frame: &Frame| Activity::ALL.map(|a| (a.name(), frame.counters.spent(a)));
@@ -87,7 +91,8 @@ fn compare(machine: &Plan, triangles: &[Triangle], state: DrawState) -> Path {
             tick = Frame { coverage: vec![], writes: vec![], id: vec![], ..tick };
             assert!(bare.frame() == tick, "without details: {}", context());
         }
-        Err(reason) => assert_eq!(path, Path::Ticked(reason), "{}", context()),
+        Err(Refusal::Tick(reason)) => assert_eq!(path, Path::Ticked(reason), "{}", context()),
+        Err(Refusal::Foreign(foreign)) => panic!("{foreign}"),
     }
     path
 }
@@ -95,7 +100,7 @@ fn compare(machine: &Plan, triangles: &[Triangle], state: DrawState) -> Path {
 #[test]
 fn random_machines_equal_ticking() {
     let mut rng = StdRng::seed_from_u64(1);
-    let (mut fast, mut queue, mut interlock) = (0, 0, 0);
+    let (mut fast, mut channels, mut queue, mut interlock) = (0, 0, 0, 0);
     let mut fragments = 0;
     for _ in 0..600 {
         let machine = random_machine(&mut rng);
@@ -108,6 +113,7 @@ fn random_machines_equal_ticking() {
             };
             match compare(&machine, &triangles, state) {
                 Path::Fast => fast += 1,
+                Path::Ticked(Reason::Channels) => channels += 1,
                 Path::Ticked(Reason::Queue) => queue += 1,
                 Path::Ticked(Reason::Interlock) => interlock += 1,
             }
@@ -115,7 +121,22 @@ fn random_machines_equal_ticking() {
         }
     }
     println!(
-        "1800 frames, {fragments} triangles: {fast} fast, {queue} ticked for the queue, {interlock} for an interlock"
+        "1800 frames, {fragments} triangles: {fast} fast; ticked: {channels} for their channels, {queue} for the queue, \
+         {interlock} for an interlock"
     );
-    assert!(fast > queue + interlock, "more than half must take the fast path");
+    assert!(fast > queue + interlock, "more than half of those with four channels must take the fast path");
+    assert!(channels > 0 && queue > 0 && interlock > 0);
+}
+
+#[test]
+fn triangles_of_another_machine_are_refused() {
+    let (plan, other) = (Plan::default(), Plan::preset("textbook").expect("a preset"));
+    let [own, foreign] = [&plan, &other].map(|plan| [plan.raw_vertex(0, 0, &[]); 3]);
+    let state = DrawState::default();
+    let error = ForeignVertex { triangle: 1 };
+    assert_eq!(edgewalk_model::render(&plan, [own, foreign], state, Stalls::NONE), Err(error));
+    assert_eq!(fast::draw(&plan, [own, foreign], state), Err(error));
+    let mut renderer = fast::Renderer::new(&plan, false);
+    assert_eq!(renderer.draw([own, foreign], state), Err(Refusal::Foreign(error)));
+    assert_eq!(renderer.draw([own, own], state), Ok(()));
 }

@@ -2,10 +2,10 @@
 
 mod common;
 
-use common::{ALWAYS, outputs, place, random_triangle};
+use common::{random_triangle, render};
 use edgewalk_golden::{Fill, draw, fragments, half_triangles};
 use edgewalk_machine::{Machine, Plan};
-use edgewalk_model::{DrawState, Event, Stalls, render, render_with};
+use edgewalk_model::{DrawState, Stalls};
 use edgewalk_scene as scene;
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
@@ -19,10 +19,10 @@ fn frame(machine: &Plan, triangles: &[common::Triangle]) -> scene::Frame {
                 let place = |c: i32| f64::from(c) / f64::from(1u32 << machine.subpixel_bits);
                 let unit = |i: usize| {
                     let c = machine.channels()[i];
-                    v.value[i] as f64 / (c.max() << c.vertex_fraction) as f64
+                    v.values()[i] as f64 / (c.max() << c.vertex_fraction) as f64
                 };
                 let [z, r, g, b] = [0, 1, 2, 3].map(unit);
-                scene::Vertex { x: place(v.x), y: place(v.y), z, r, g, b, kt: 0.0 }
+                scene::Vertex { x: place(v.x()), y: place(v.y()), z, r, g, b, ..scene::Vertex::default() }
             }))
         })
         .collect();
@@ -45,7 +45,7 @@ fn pictures_with_the_nearest_fragment_on_top() {
         })
         .collect();
     let golden = draw(&frame(&machine, &triangles), Fill::Exact { subpixel_bits: machine.subpixel_bits });
-    let drawn = render(&machine, triangles, DrawState::default(), Stalls::NONE);
+    let drawn = render(&machine, &triangles, DrawState::default(), Stalls::NONE);
     assert_eq!(drawn.coverage, golden.coverage);
     let (mut worst_z, mut worst_color, mut others, mut checked) = (0f64, 0f64, 0, 0);
     for i in 0..golden.z.len() {
@@ -82,25 +82,19 @@ fn a_hundred_thousand_triangles() {
             })
             .collect();
         let mut drawn = Vec::new();
-        let hook = |event: Event| {
-            if let Event::Fragment(f) = event {
-                drawn.push((f.source.id, f.addr, outputs(f)));
-            }
-        };
-        render_with(&machine, triangles.iter().copied(), ALWAYS, Stalls::NONE, hook);
+        common::fragments(&machine, &triangles, |id, (x, y), values| drawn.push((id, y, x, values)));
         // A span may run from right to left.
-        drawn.sort_by_key(|(id, addr, _)| (*id, *addr));
+        drawn.sort_by_key(|(id, y, x, _)| (*id, *y, *x));
         let mut drawn = drawn.into_iter();
         let frame = frame(&machine, &triangles);
         let screen = (machine.width, machine.height);
         for (triangle, id) in frame.triangles.iter().zip(0..) {
             fragments(triangle, frame.mode, machine.subpixel_bits, screen, |golden| {
-                let (by, addr, values) = drawn.next().expect("as many fragments as the half-planes hold");
-                let at = place(&machine, addr);
-                assert_eq!((by, at.0 as u32, at.1 as u32), (id, golden.x, golden.y), "{triangle:?}");
+                let (by, y, x, values) = drawn.next().expect("as many fragments as the half-planes hold");
+                assert_eq!((by, x as u32, y as u32), (id, golden.x, golden.y), "{triangle:?}");
                 let [r, g, b] = golden.rgb();
                 for (i, golden) in [golden.z(), r, g, b].into_iter().enumerate() {
-                    worst[i] = worst[i].max(off(values[i], golden, machine.channels()[i].max()));
+                    worst[i] = worst[i].max(off(values[i] as u64, golden, machine.channels()[i].max()));
                 }
                 checked += 1;
             });
@@ -124,13 +118,9 @@ fn the_textbook_listing_in_its_order() {
         })
         .collect();
     let mut drawn = Vec::new();
-    let hook = |event: Event| {
-        if let Event::Fragment(f) = event {
-            let (x, y) = place(&machine, f.addr);
-            drawn.push((f.source.id, x as u32, y as u32, outputs(f)));
-        }
-    };
-    render_with(&machine, triangles.iter().copied(), ALWAYS, Stalls::NONE, hook);
+    common::fragments(&machine, &triangles, |id, (x, y), values| {
+        drawn.push((id, x as u32, y as u32, values))
+    });
     let mut drawn = drawn.into_iter();
     let frame = frame(&machine, &triangles);
     let (mut worst, mut checked) = (0f64, 0u32);

@@ -2,11 +2,11 @@
 
 mod common;
 
-use common::{Sequential, Triangle, drive, machine, random_triangle, random_values, sequential, vertex};
+use common::depth::{Sequential, feed, sequential};
+use common::{Triangle, machine, random_triangle, random_values};
 use edgewalk_machine::{Machine, Plan};
-use edgewalk_model::depth::{Depth, DepthInputs};
-use edgewalk_model::tokens::{Fragment, Rgb, Source};
-use edgewalk_model::{Coverage, DrawState, Memory, Stalls, Write};
+use edgewalk_model::tokens::{FEW, Fragment, Source, Write};
+use edgewalk_model::{DrawState, Events, Memory, Rig, Stalls};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 const POLICIES: [&str; 3] = ["drain", "interlock", "forward"];
@@ -16,54 +16,21 @@ const STALLS: [Stalls; 3] = [
     Stalls { seed: 2, rd: 10, data: 200, wr: 200 },
 ];
 
-fn holds(name: &str, expected: &Sequential, memory: &Memory, writes: &[Write]) {
+fn holds(name: &str, expected: &Sequential<FEW>, memory: &Memory<FEW>, writes: &[Write<FEW>]) {
     assert_eq!(writes.len(), expected.writes.len(), "{name}: writes");
     for (number, (write, expected)) in writes.iter().zip(&expected.writes).enumerate() {
         assert_eq!(write, expected, "{name}: write {number}");
     }
-    for (addr, (z, rgb)) in &expected.stored {
-        let stored = memory.pixel(*addr);
-        assert_eq!((stored.z, stored.rgb.channels()), (*z, *rgb), "{name}: address {addr}");
+    for (addr, values) in &expected.stored {
+        assert_eq!(memory.pixel(*addr), *values, "{name}: address {addr}");
     }
 }
 
-/// DEPTH and memory alone, fed with a fragment a clock: one-pixel triangles on few addresses, back to back.
-fn feed(
-    machine: &Plan,
-    fragments: &[Fragment],
-    state: DrawState,
-    stalls: Stalls,
-) -> (Memory, Vec<Write>, Coverage) {
-    let mut depth = Depth::new(machine);
-    let mut memory = Memory::new(machine, state.clear, stalls);
-    let mut coverage = Coverage::default();
-    let mut writes = Vec::new();
-    let mut next = 0;
-    while next < fragments.len() || depth.occupied() {
-        let frag = fragments.get(next);
-        let inputs = DepthInputs {
-            depth_func: state.depth_func,
-            depth_write: state.depth_write,
-            rd_ready: memory.rd_ready(),
-            data: memory.data(),
-            wr_ready: memory.wr_ready(),
-        };
-        let block = depth.block(frag, state.depth_write);
-        let read = frag.filter(|_| block.is_none() && inputs.rd_ready).map(|f| f.addr);
-        let data_taken = inputs.data.is_some() && depth.data_ready(inputs.wr_ready);
-        let write = depth.write().copied().filter(|_| inputs.wr_ready);
-        depth.step(frag, block, &inputs, &mut coverage);
-        memory.step(read, data_taken, write.as_ref());
-        next += usize::from(read.is_some());
-        writes.extend(write);
-    }
-    (memory, writes, coverage)
-}
-
+/// DEPTH and memory alone: one-pixel triangles on few addresses, back to back.
 #[test]
 fn one_pixel_triangles_on_one_address_back_to_back() {
     let mut rng = StdRng::seed_from_u64(1);
-    let (mut all, mut runs, mut checked) = (Coverage::default(), 0, 0);
+    let (mut all, mut runs, mut checked) = (Events::default(), 0, 0);
     for policy in POLICIES {
         for latency in 1..=8 {
             for inflight in [1, 2, 4, 16] {
@@ -85,21 +52,20 @@ fn one_pixel_triangles_on_one_address_back_to_back() {
                     let fragments: Vec<_> = (0..200u32)
                         .map(|id| Fragment {
                             addr: rng.random_range(0..addresses),
-                            z: rng.random_range(0..16),
-                            rgb: Rgb::new([id as u16, 0, 0]),
+                            values: [rng.random_range(0..16), id, 0, 0],
                             fence: true, // each is a triangle of its own
                             source: Source { tag: 0, id },
                         })
                         .collect();
                     let expected = sequential(&machine, &fragments, state);
-                    let (memory, writes, coverage) = feed(&machine, &fragments, state, stalls);
+                    let (memory, writes, events) = feed(&machine, &fragments, state, stalls);
                     holds(
                         &format!("{policy}, L = {latency}, {stalls:?}, {state:?}"),
                         &expected,
                         &memory,
                         &writes,
                     );
-                    all.merge(&coverage);
+                    all.merge(&events);
                     runs += 1;
                     checked += expected.writes.len();
                 }
@@ -131,22 +97,30 @@ fn against_the_loop(
     state: DrawState,
     stalls: Stalls,
     writes_open: impl Fn(u64) -> bool,
-) -> (Vec<Fragment>, Coverage) {
+) -> (Vec<Fragment<FEW>>, Events) {
     let (mut fragments, mut writes) = (Vec::new(), Vec::new());
-    let (model, memory) = drive(machine, triangles, state, stalls, writes_open, |cycle| {
-        fragments.extend(cycle.read);
-        writes.extend(cycle.write);
-    });
-    holds(name, &sequential(machine, &fragments, state), &memory, &writes);
-    assert!(model.counters().add_up());
-    (fragments, model.coverage().clone())
+    let mut rig = Rig::<FEW>::new(machine, state, stalls);
+    let mut triangles = triangles.iter().peekable();
+    for now in 0.. {
+        let cycle = rig.cycle(triangles.peek().map(|triangle| (*triangle, 0)), writes_open(now));
+        fragments.extend(cycle.read.map(|_| rig.model.last_read()));
+        writes.extend(cycle.write());
+        if cycle.triangle {
+            triangles.next();
+        } else if cycle.outputs.idle && triangles.peek().is_none() {
+            break;
+        }
+    }
+    holds(name, &sequential(machine, &fragments, state), &rig.memory, &writes);
+    assert!(rig.model.counters().add_up());
+    (fragments, rig.model.events().clone())
 }
 
 /// The memory takes no write for so long that SETUP brings one-pixel triangles of one address together.
 #[test]
 fn tiny_triangles_pile_up_in_front_of_a_slow_memory() {
     let mut rng = StdRng::seed_from_u64(2);
-    let mut all = Coverage::default();
+    let mut all = Events::default();
     for policy in POLICIES {
         for latency in [1, 3, 8] {
             let machine = machine(&[
@@ -158,18 +132,19 @@ fn tiny_triangles_pile_up_in_front_of_a_slow_memory() {
             ]);
             let triangles: Vec<Triangle> = (0..300)
                 .map(|_| {
-                    let mut v = |x, y| vertex(256 + x, 256 + y, random_values(&machine, &mut rng));
-                    [v(0, 0), v(256, 0), v(0, 256)] // its only centre inside is that of pixel (1, 1), on its border
-                        .map(|v| vertex(v.x + 1, v.y + 1, v.value))
+                    // Its only centre inside is that of pixel (1, 1), on its border.
+                    [[0, 0], [256, 0], [0, 256]].map(|[x, y]| {
+                        machine.raw_vertex(257 + x, 257 + y, &random_values(&machine, &mut rng))
+                    })
                 })
                 .collect();
             let open = |now: u64| now % 2000 > 1900;
             let state = DrawState::default();
-            let (fragments, corners) =
+            let (fragments, events) =
                 against_the_loop(policy, &machine, &triangles, state, Stalls::NONE, open);
             assert_eq!(fragments.len(), triangles.len());
             assert!(fragments.iter().all(|f| f.addr == fragments[0].addr));
-            all.merge(&corners);
+            all.merge(&events);
         }
     }
     assert!(all.forward_compare > 0 && all.forward_used > 0, "{all:?}");
@@ -180,7 +155,7 @@ fn tiny_triangles_pile_up_in_front_of_a_slow_memory() {
 /// first pixel of the second is read 1 to 10 clocks after the same pixel of the first.
 #[test]
 fn a_pixel_is_drawn_again_a_few_clocks_later() {
-    let mut all = Coverage::default();
+    let mut all = Events::default();
     for policy in POLICIES {
         for latency in 1..=8 {
             let machine = machine(&[
@@ -191,19 +166,19 @@ fn a_pixel_is_drawn_again_a_few_clocks_later() {
                 ("fifo.inflight", "16"),
             ]);
             let (mut triangles, far) = (Vec::new(), 1 << 20);
-            for round in 0..40u64 {
+            for round in 0..40i64 {
                 // Lower right half of the screen, its last pixel at (63, 63); then the pixels before it, nearer.
                 // In odd rounds farther than the large one, and still nearer than what that one has covered.
                 let again = 1 + (round / 2 % 10) as i32;
                 let near = if round % 2 == 1 { far + 500 } else { far - 500 };
-                let value = |z: u64| [z - round * 1000, round, round, round];
-                let v = |x: i32, y: i32, z| vertex(x * 256, y * 256, value(z));
+                let value = |z: i64| [z - round * 1000, round, round, round];
+                let v = |x: i32, y: i32, z| machine.raw_vertex(x * 256, y * 256, &value(z));
                 triangles.push([v(64, 0, far), v(64, 64, far), v(0, 64, far)]);
                 triangles.push([v(64, 63, near), v(64, 64, near), v(64 - 2 * again, 64, near)]);
             }
             let state = DrawState::default();
-            let (_, corners) = against_the_loop(policy, &machine, &triangles, state, Stalls::NONE, |_| true);
-            all.merge(&corners);
+            let (_, events) = against_the_loop(policy, &machine, &triangles, state, Stalls::NONE, |_| true);
+            all.merge(&events);
         }
     }
     assert!(all.forward_compare > 0 && all.forward_write > 0, "{all:?}");

@@ -2,9 +2,9 @@
 
 mod common;
 
-use common::{ALWAYS, Triangle, outputs, place, random_machine, random_values, vertex};
-use edgewalk_machine::{Machine, Plan, PortVertex};
-use edgewalk_model::{Event, Stalls, render_with};
+use common::{ALWAYS, Triangle, random_machine, random_values, render};
+use edgewalk_machine::{Kind, Machine, Plan, PortVertex};
+use edgewalk_model::Stalls;
 use num_rational::Ratio;
 use rand::{Rng, SeedableRng, rngs::StdRng};
 use std::collections::HashMap;
@@ -18,19 +18,19 @@ struct Row {
     ends: [Q; 2],
     /// Lines that each edge has walked.
     lines: [i128; 2],
-    /// Z, R, G, B at Trunc(X_start + 1/2), LSB.
-    first: [Q; 4],
+    /// The channels at Trunc(X_start + 1/2), LSB.
+    first: Vec<Q>,
     /// Their increments, LSB/px.
-    gradient: [Q; 4],
+    gradient: Vec<Q>,
     /// Additions that lead to the first values.
     steps: i128,
 }
 
-/// A fragment of the listing: pixel, exact Z, R, G, B in LSB, and the additions that led there.
+/// A fragment of the listing: pixel, exact values of the channels in LSB, and the additions that led there.
 struct Pixel {
     x: i64,
     y: i64,
-    value: [Q; 4],
+    value: Vec<Q>,
     steps: i128,
 }
 
@@ -42,36 +42,39 @@ fn whole(v: i32) -> Q {
 
 /// What goes from `from` to `to` along an edge, at line y.
 fn along((top, bottom): Edge, y: i32, from: Q, to: Q) -> Q {
-    from + (to - from) * whole(y - top.y) / whole(bottom.y - top.y)
+    from + (to - from) * whole(y - top.y()) / whole(bottom.y() - top.y())
 }
 
 /// The lines of the listing (A 7.10) on the screen, part by part.
 fn rows(machine: &Plan, triangle: &Triangle) -> Vec<Row> {
     let mut corner = *triangle;
-    corner.sort_by_key(|v| v.y);
+    corner.sort_by_key(|v| v.y());
     let [a, b, c] = corner;
-    let cross = whole(b.x - a.x) * whole(c.y - a.y) - whole(c.x - a.x) * whole(b.y - a.y);
+    let cross = whole(b.x() - a.x()) * whole(c.y() - a.y()) - whole(c.x() - a.x()) * whole(b.y() - a.y());
     if cross == whole(0) {
         return Vec::new();
     }
-    let lsb =
-        |i: usize, v: PortVertex| Q::new(i128::from(v.value[i]), 1 << machine.channels()[i].vertex_fraction);
-    let gradient = std::array::from_fn(|i| {
+    let lsb = |i: usize, v: PortVertex| {
+        Q::new(i128::from(v.values()[i]), 1 << machine.channels()[i].vertex_fraction)
+    };
+    let channels = 0..machine.channels().len();
+    let slope = |i| {
         let [va, vb, vc] = corner.map(|v| lsb(i, v));
-        ((vb - va) * whole(c.y - a.y) - (vc - va) * whole(b.y - a.y)) / cross
-    });
+        ((vb - va) * whole(c.y() - a.y()) - (vc - va) * whole(b.y() - a.y())) / cross
+    };
+    let gradient: Vec<Q> = channels.clone().map(slope).collect();
     let knee_left = cross < whole(0);
     let mut rows = Vec::new();
-    for minor in [(a, b), (b, c)].into_iter().filter(|(top, bottom)| top.y < bottom.y) {
+    for minor in [(a, b), (b, c)].into_iter().filter(|(top, bottom)| top.y() < bottom.y()) {
         let [left, right] = if knee_left { [minor, (a, c)] } else { [(a, c), minor] };
-        for y in minor.0.y.max(0)..=minor.1.y.min(machine.height as i32 - 1) {
-            let lines = [left, right].map(|e| i128::from(y - e.0.y.max(0)));
+        for y in minor.0.y().max(0)..=minor.1.y().min(machine.height as i32 - 1) {
+            let lines = [left, right].map(|e| i128::from(y - e.0.y().max(0)));
             rows.push(Row {
                 y: i64::from(y),
-                ends: [left, right].map(|e| along(e, y, whole(e.0.x), whole(e.1.x)) + Q::new(1, 2)),
+                ends: [left, right].map(|e| along(e, y, whole(e.0.x()), whole(e.1.x())) + Q::new(1, 2)),
                 lines,
-                first: std::array::from_fn(|i| along(left, y, lsb(i, left.0), lsb(i, left.1))),
-                gradient,
+                first: channels.clone().map(|i| along(left, y, lsb(i, left.0), lsb(i, left.1))).collect(),
+                gradient: gradient.clone(),
                 steps: lines[0],
             });
         }
@@ -89,7 +92,7 @@ fn listing(machine: &Plan, triangle: &Triangle) -> Vec<Pixel> {
             pixels.push(Pixel {
                 x: x as i64,
                 y: row.y,
-                value: std::array::from_fn(|i| row.first[i] + row.gradient[i] * moved),
+                value: row.first.iter().zip(&row.gradient).map(|(first, g)| first + g * moved).collect(),
                 steps: row.steps + x - start,
             });
         }
@@ -99,25 +102,26 @@ fn listing(machine: &Plan, triangle: &Triangle) -> Vec<Pixel> {
 
 fn compare(machine: &Plan, triangles: &[Triangle]) -> usize {
     let mut drawn = Vec::new();
-    let hook = |event: Event| {
-        if let Event::Fragment(f) = event {
-            drawn.push((f.source.id as usize, place(machine, f.addr), outputs(f)));
-        }
-    };
-    render_with(machine, triangles.iter().copied(), ALWAYS, Stalls::NONE, hook);
+    common::fragments(machine, triangles, |id, at, outputs| drawn.push((id, at, outputs)));
     let mut drawn = drawn.into_iter();
     let mut checked = 0;
     for (number, triangle) in triangles.iter().enumerate() {
         for pixel in listing(machine, triangle) {
             let (id, at, output) = drawn.next().expect("as many fragments as in the listing");
             assert_eq!((id, at), (number, (pixel.x, pixel.y)), "{triangle:?} in {machine:?}");
-            for (i, channel) in machine.channels().into_iter().enumerate() {
+            for (i, channel) in machine.channels().iter().enumerate() {
                 let turn = Q::from_integer(1 << channel.bits);
                 let error = pixel.value[i] - Q::from_integer(i128::from(output[i]));
                 let error = error - (error / turn + Q::new(1, 2)).floor() * turn; // modulo 2^b
-                let bound = Q::new(1, 2) + Q::new(1 + pixel.steps, 2 << channel.fraction);
-                let error = if error < Q::from_integer(0) { -error } else { error };
-                assert!(error <= bound, "channel {i}: {error} LSB at {at:?} of {triangle:?} in {machine:?}");
+                let steps = Q::new(1 + pixel.steps, 2 << channel.fraction);
+                // How far the exact value may lie above and below the output.
+                let (above, below) = match channel.kind {
+                    Kind::Unorm | Kind::Signed => (Q::new(1, 2) + steps, Q::new(1, 2) + steps),
+                    Kind::Floor => (Q::from_integer(1) + steps, steps),
+                };
+                // Modulo 2^b, as a bound may be longer than half of that.
+                let far = above + below >= turn || -below <= error && error <= above || error + turn <= above;
+                assert!(far, "channel {i}: {error} LSB at {at:?} of {triangle:?} in {machine:?}");
             }
             checked += 1;
         }
@@ -131,7 +135,7 @@ fn random(machine: &Plan, size: i32, rng: &mut impl Rng) -> Triangle {
     let middle = [machine.width, machine.height].map(|side| rng.random_range(0..side as i32));
     std::array::from_fn(|_| {
         let [x, y] = middle.map(|m| (m + rng.random_range(-size..=size)).clamp(-limit, limit));
-        vertex(x, y, random_values(machine, rng))
+        machine.raw_vertex(x, y, &random_values(machine, rng))
     })
 }
 
@@ -173,8 +177,10 @@ fn every_triangle_on_a_small_grid() {
     for origin in [-2, 0, 2] {
         let triangles: Vec<_> = (0..25 * 25 * 25)
             .map(|i| {
-                [i % 25, i / 25 % 25, i / 625]
-                    .map(|k| vertex(origin + k % 5, origin + k / 5, random_values(&machine, &mut rng)))
+                [i % 25, i / 25 % 25, i / 625].map(|k| {
+                    let values = random_values(&machine, &mut rng);
+                    machine.raw_vertex(origin + k % 5, origin + k / 5, &values)
+                })
             })
             .collect();
         let checked = compare(&machine, &triangles);
@@ -187,9 +193,9 @@ fn every_triangle_on_a_small_grid() {
 #[test]
 fn the_square_cut_in_two_shares_its_diagonal() {
     let machine = Plan::preset("textbook").expect("a preset");
-    let v = |x, y| vertex(x, y, [0; 4]);
+    let v = |x, y| machine.raw_vertex(x, y, &[]);
     let square = [[v(10, 10), v(14, 10), v(10, 14)], [v(14, 10), v(14, 14), v(10, 14)]];
-    let frame = edgewalk_model::render(&machine, square, ALWAYS, Stalls::NONE);
+    let frame = render(&machine, &square, ALWAYS, Stalls::NONE);
     let at = |x: usize, y: usize| frame.coverage[y * 640 + x];
     for y in 10..=14 {
         for x in 10..=14 {
@@ -210,13 +216,7 @@ fn slope_edges_differ_from_the_listing_within_their_bound() {
         let machine = machine.plan().expect("can be built");
         let triangles: Vec<_> = (0..200).map(|_| random(&machine, 40, &mut rng)).collect();
         let mut drawn: HashMap<(usize, i64, i64), i32> = HashMap::new();
-        let hook = |event: Event| {
-            if let Event::Fragment(f) = event {
-                let (x, y) = place(&machine, f.addr);
-                *drawn.entry((f.source.id as usize, x, y)).or_default() += 1;
-            }
-        };
-        render_with(&machine, triangles.iter().copied(), ALWAYS, Stalls::NONE, hook);
+        common::fragments(&machine, &triangles, |id, (x, y), _| *drawn.entry((id, x, y)).or_default() += 1);
         for (number, triangle) in triangles.iter().enumerate() {
             for pixel in listing(&machine, triangle) {
                 *drawn.entry((number, pixel.x, pixel.y)).or_default() -= 1;

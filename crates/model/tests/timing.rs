@@ -4,14 +4,15 @@
 
 mod common;
 
-use common::{ALWAYS, Cycle, Triangle, drive, machine, place, vertex};
-use edgewalk_machine::{Machine, Plan};
-use edgewalk_model::{Stalls, setup_clocks};
+use common::{ALWAYS, Triangle, machine, place};
+use edgewalk_machine::{MAX_CHANNELS, Machine, Plan};
+use edgewalk_model::{Rig, Stalls, setup_clocks};
+use std::convert::Infallible;
 use std::fmt::Write as _;
 use std::path::Path;
 
-fn triangle(corners: [[i32; 2]; 3], scale: i32) -> Triangle {
-    corners.map(|[x, y]| vertex(x * scale, y * scale, [100; 4]))
+fn triangle(machine: &Plan, corners: [[i32; 2]; 3], scale: i32) -> Triangle {
+    corners.map(|[x, y]| machine.raw_vertex(x * scale, y * scale, &[100; 4]))
 }
 
 /// Cycles in which something happened.
@@ -27,28 +28,22 @@ struct Trace {
 
 fn trace(machine: &Plan, triangles: &[Triangle]) -> Trace {
     let mut trace = Trace::default();
-    drive(
-        machine,
-        triangles,
-        ALWAYS,
-        Stalls::NONE,
-        |_| true,
-        |cycle: &Cycle| {
-            trace.triangles.extend(cycle.triangle.then_some(cycle.now));
-            trace.writes.extend(cycle.write.map(|_| cycle.now));
-            if let Some(fragment) = cycle.read {
-                let (x, y) = place(machine, fragment.addr);
-                trace.reads.push((cycle.now, x, y));
-            }
-        },
-    );
+    let tokens = triangles.iter().copied().map(Ok::<_, Infallible>);
+    let Ok(()) = Rig::<MAX_CHANNELS>::new(machine, ALWAYS, Stalls::NONE).draw(tokens, |now, _, cycle| {
+        trace.triangles.extend(cycle.triangle.then_some(now));
+        trace.writes.extend(cycle.written.then_some(now));
+        if let Some(addr) = cycle.read {
+            let (x, y) = place(machine, addr);
+            trace.reads.push((now, x, y));
+        }
+    });
     trace
 }
 
 /// Clocks between two triangles that are too small to be waited for; the formula is S1 + S2 + 2.
 fn triangle_interval(machine: &Plan) -> u64 {
     let one = 1 << machine.subpixel_bits;
-    let tiny = [triangle([[2, 2], [4, 2], [2, 4]], one); 5];
+    let tiny = [triangle(machine, [[2, 2], [4, 2], [2, 4]], one); 5];
     let taken = trace(machine, &tiny).triangles;
     let gaps: Vec<_> = taken.windows(2).map(|w| w[1] - w[0]).collect();
     assert!(gaps.windows(2).all(|g| g[0] == g[1]), "{gaps:?}");
@@ -57,7 +52,7 @@ fn triangle_interval(machine: &Plan) -> u64 {
 
 /// The same for triangles that draw nothing; the formula is S1 + 1.
 fn culled_interval(machine: &Plan) -> u64 {
-    let flat = [triangle([[2, 2], [4, 4], [6, 6]], 1 << machine.subpixel_bits); 3];
+    let flat = [triangle(machine, [[2, 2], [4, 4], [6, 6]], 1 << machine.subpixel_bits); 3];
     let taken = trace(machine, &flat).triangles;
     taken[2] - taken[1]
 }
@@ -90,6 +85,29 @@ fn setup_table(table: &mut String) {
     }
 }
 
+/// S2 of machines with channels of the user's own, on every number of lanes; the formula is 1 + ceil(N/lanes) T2.
+fn channel_table(table: &mut String) {
+    let _ = writeln!(
+        table,
+        "\n## Channels\nS2, clocks of SETUP for the channels, of machines with N of them (radix 4; extra channels of the default's 26 bits, shorter\n\
+         than z), and from one triangle to the next, S1 + S2 + 2. Measured as above.\n\n\
+         | machine | N | lanes | S2 | a triangle every |\n|---|---|---|---|---|"
+    );
+    for name in ["default", "textbook"] {
+        for extra in 0..=4 {
+            for lanes in [1, 2, 4] {
+                let preset = Machine::preset(name).expect("a preset");
+                let machine = Machine { extra, lanes, radix: 4, ..preset }.plan().expect("can be built");
+                let clocks = setup_clocks(&machine);
+                let every = triangle_interval(&machine);
+                assert_eq!(every, u64::from(clocks.phase1 + clocks.phase2 + 2));
+                let channels = machine.channels().len();
+                let _ = writeln!(table, "| {name} | {channels} | {lanes} | {} | {every} |", clocks.phase2);
+            }
+        }
+    }
+}
+
 /// Clocks between pixels of a span, and the most that are lost between two spans.
 fn rate(machine: &Plan, shape: &Triangle) -> (u64, u64) {
     let reads = trace(machine, &[*shape]).reads;
@@ -116,9 +134,10 @@ fn rate_table(table: &mut String) {
          | adders | segments | span FIFO | clocks a pixel | lost between long spans | lost between spans of one pixel | to the first read |\n\
          |---|---|---|---|---|---|---|"
     );
-    let long = triangle([[10, 10], [200, 30], [50, 110]], 256);
-    let thin = triangle([[10, 10], [11, 10], [11, 1000]], 256);
-    for adders in ["4", "2", "1"] {
+    // The adders change nothing at the port.
+    let long = triangle(&Plan::default(), [[10, 10], [200, 30], [50, 110]], 256);
+    let thin = triangle(&Plan::default(), [[10, 10], [11, 10], [11, 1000]], 256);
+    for adders in ["4", "3", "2", "1"] {
         for segments in ["1", "2", "4"] {
             for fifo in ["1", "2"] {
                 let machine = machine(&[
@@ -157,7 +176,7 @@ fn depth_table(table: &mut String) {
             let mut machine = Machine::default();
             (machine.latency, machine.inflight) = (latency, inflight);
             let machine = machine.plan().expect("can be built");
-            let run = trace(&machine, &[triangle([[10, 10], [200, 30], [50, 110]], 256)]);
+            let run = trace(&machine, &[triangle(&machine, [[10, 10], [200, 30], [50, 110]], 256)]);
             let to_write = run.writes[0] - run.reads[0].0;
             assert_eq!(to_write, u64::from(latency) + 1);
             let last = run.reads[run.reads.len() - 1].0;
@@ -175,6 +194,7 @@ fn the_timing_table_is_what_the_machine_does() {
                      the test compares it with the machine.\n\n"
         .to_owned();
     setup_table(&mut table);
+    channel_table(&mut table);
     rate_table(&mut table);
     depth_table(&mut table);
     println!("{table}");
@@ -190,7 +210,7 @@ fn the_timing_table_is_what_the_machine_does() {
 #[test]
 fn setup_overlaps_with_drawing() {
     let machine = Plan::default();
-    let large = triangle([[10, 10], [200, 30], [50, 110]], 256);
+    let large = triangle(&machine, [[10, 10], [200, 30], [50, 110]], 256);
     let once = trace(&machine, &[large]);
     let pixels = once.reads.len() as u64;
     let many = trace(&machine, &[large; 8]);

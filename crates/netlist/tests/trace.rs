@@ -4,7 +4,7 @@
 use std::io::Cursor;
 use std::sync::Arc;
 
-use edgewalk_netlist::{FstTrace, Module, Netlist, Simulator, VcdTrace};
+use edgewalk_netlist::{FstTrace, Labels, Module, Netlist, Simulator, VcdTrace};
 
 /// Two counters of different width, one inside an instance inside an instance.
 fn counters() -> Arc<Netlist> {
@@ -12,7 +12,7 @@ fn counters() -> Arc<Netlist> {
         let m = Module::new(name, "");
         let step = m.input("step", 1);
         let count = m.reg("count", width).reset(0);
-        count.when(step, count.q() + 1);
+        count.when(step, count.q() + m.constant("ONE", width, 1));
         m.output("q", count);
         m.finish().unwrap()
     };
@@ -46,6 +46,37 @@ fn run(mut sample: impl FnMut(&mut Simulator)) -> Vec<[u128; 3]> {
         .collect()
 }
 
+/// Names for the values of the narrow counter; the last has none.
+const LABELS: [Labels; 1] = [Labels {
+    signal: "u_middle.u_small.count",
+    names: &["none", "one", "two", "three", "four", "five", "six"],
+}];
+
+/// The name beside a signal: text, or a character a byte.
+fn names(wave: &mut wellen::simple::Waveform, expected: &[[u128; 3]]) {
+    let scopes = ["top", "u_middle", "u_small"];
+    let variable = wave.hierarchy().lookup_var(&scopes, "count_name").expect("a name beside the count");
+    let signal = wave.hierarchy()[variable].signal_ref();
+    wave.load_signals(&[signal]);
+    for (cycle, values) in expected.iter().enumerate() {
+        let index = wave.time_table().partition_point(|time| *time <= cycle as u64 * 10 + 2) - 1;
+        let signal = wave.get_signal(signal).unwrap();
+        let value = signal.get_value_at(&signal.get_offset(index as u32).unwrap(), 0);
+        let found = match value.to_bit_string() {
+            Some(bits) => bits
+                .as_bytes()
+                .chunks(8)
+                .map(|byte| u8::from_str_radix(std::str::from_utf8(byte).unwrap(), 2).unwrap() as char)
+                .filter(|character| *character != '\0')
+                .collect(),
+            None => value.to_string(),
+        };
+        assert_eq!(found, *LABELS[0].names.get(values[1] as usize).unwrap_or(&"?"), "cycle {cycle}");
+    }
+    assert!(wave.hierarchy().lookup_var(&scopes, "ONE").is_none(), "a constant is no signal to watch");
+    assert!(wave.hierarchy().lookup_var(&scopes, "count").is_some());
+}
+
 const WATCHED: [&str; 3] = ["step", "u_middle.u_small.count", "u_large.count"];
 
 fn check(file: Vec<u8>, expected: &[[u128; 3]]) {
@@ -74,13 +105,14 @@ fn check(file: Vec<u8>, expected: &[[u128; 3]]) {
         }
     }
     assert_eq!(compared, 4 * 2 * CYCLES);
+    names(&mut wave, expected);
     assert_eq!(*wave.time_table().last().unwrap(), CYCLES * 10, "the last cycle has its length");
 }
 
 #[test]
 fn vcd_reads_back() {
     let mut file = Vec::new();
-    let mut trace = VcdTrace::new(&mut file, &Simulator::new(&counters()), "top").unwrap();
+    let mut trace = VcdTrace::new(&mut file, &Simulator::new(&counters()), "top", &LABELS).unwrap();
     let expected = run(|sim| trace.sample(sim).unwrap());
     trace.finish().unwrap();
     assert!(String::from_utf8_lossy(&file).starts_with("$timescale 1 ns $end\n$scope module top $end\n"));
@@ -90,7 +122,7 @@ fn vcd_reads_back() {
 #[test]
 fn fst_reads_back() {
     let mut file = Cursor::new(Vec::new());
-    let mut trace = FstTrace::new(&mut file, &Simulator::new(&counters()), "top").unwrap();
+    let mut trace = FstTrace::new(&mut file, &Simulator::new(&counters()), "top", &LABELS).unwrap();
     let expected = run(|sim| trace.sample(sim).unwrap());
     trace.finish().unwrap();
     check(file.into_inner(), &expected);

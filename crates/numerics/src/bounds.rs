@@ -109,15 +109,16 @@ pub fn slope_edge_error(fraction_bits: u32, lines: u32) -> Dyadic {
     half_units(i128::from(lines) + 1, fraction_bits)
 }
 
-/// A6: the share of fragments whose output differs from the rounded exact value, about
-/// 0.83·u·sqrt((1 + Σn²)/12), where each n counts the additions of one increment: n_x, and n_y or, if both
+/// A6: the share of fragments whose output differs from the rounded exact value, about u·(0.83·σ + 1/(15·σ)) with
+/// σ = sqrt((1 + Σn²)/12), where each n counts the additions of one increment: n_x, and n_y or, if both
 /// increments of the edge are used, how often each was.
 ///
 /// A statistic, not a bound: it catches a biased rounding that never shows in the maximum.
 #[must_use]
 pub fn mismatch_rate(fraction_bits: u32, additions: &[u32]) -> f64 {
     let squares: f64 = additions.iter().map(|n| f64::from(*n).powi(2)).sum();
-    0.83 * half_units(2, fraction_bits).to_f64() * ((1.0 + squares) / 12.0).sqrt()
+    let deviation = ((1.0 + squares) / 12.0).sqrt();
+    half_units(2, fraction_bits).to_f64() * (0.83 * deviation + 1.0 / (15.0 * deviation))
 }
 
 /// A7: two depths come out in the right order for sure if their true difference is at least E1 + E2 + 1 LSB, where

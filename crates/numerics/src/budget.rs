@@ -11,7 +11,8 @@ use crate::rounding::Rounding;
 use crate::steps::Steps;
 use std::fmt;
 
-/// The parts of the largest error of a channel, LSB, for the exact fill rule.
+/// The parts of the largest error of a channel, LSB, for the exact fill rule. They hold only if the sum does not wrap,
+/// [`ErrorBudget::holds`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ErrorBudget {
     /// Vertex values rounded to nearest in e fraction bits: 2^-(e+1). Inside the triangle a value is a mean of the
@@ -41,7 +42,7 @@ impl ErrorBudget {
         self.vertex.checked_add(self.steps).expect("below 2^34, no finer than 2^-65")
     }
 
-    /// The additions' part is under 1/2 LSB, so no output leaves the range and wraps: only then is there a bound.
+    /// The additions' part is under 1/2 LSB, so no output leaves the range and wraps (A4): only then is there a bound.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.steps < Dyadic::HALF

@@ -5,6 +5,7 @@ mod drive;
 
 use std::sync::Arc;
 
+use drive::Memory;
 use edgewalk_machine::units::{depth, tokens};
 use edgewalk_machine::{Activity, Field, Hazard, Link, Machine, MemoryPort, Plan, Ports, Ready, UnitSpec};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Simulator};
@@ -58,12 +59,15 @@ fn pass(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 
     let occupied = m.reg("occupied", 1).reset(0);
     let free = !occupied.q();
-    let passed_valid = occupied.q() & data_valid;
+    // A cycle late, so that DEPTH sees a fragment of which the valid is low.
+    let late = m.reg("late", 1).reset(0);
+    let passed_valid = occupied.q() & data_valid & late;
+    late.set(occupied.q() & data_valid & !passed_valid);
     occupied.when(frag_valid & rd_ready & free, 1).when(passed_valid & passed_ready, 0);
     m.output("frag_ready", rd_ready & free);
     m.output("map_rd_valid", frag_valid & free);
     m.output("map_rd_addr", inputs[0].1);
-    m.output("map_data_ready", occupied.q() & passed_ready);
+    m.output("map_data_ready", occupied.q() & late.q() & passed_ready);
     m.output("passed_valid", passed_valid);
     for (f, input) in inputs {
         let name = format!("passed_{}", f.name);
@@ -109,7 +113,9 @@ fn a_unit_between_pixel_and_depth_needs_no_wiring_by_hand() {
         hazards += u32::from(hazard);
         spurious += u32::from(hazard && !is("u_pass_passed_valid", 1));
     };
-    let memories = [("rd", "data"), ("map_rd", "map_data")];
+    // Depths so late that the first triangle is still in flight when the second comes.
+    let depths = Memory { read: "rd", data: "data", latency: 30 };
+    let memories = [depths, Memory { read: "map_rd", data: "map_data", latency: 1 }];
     let seen = drive::run(&with, &plan, &memories, &triangles(&plan), watch);
     let without = rtl::machine(&plan).unwrap_or_else(|errors| panic!("{errors}"));
     let expected = drive::run(&without, &plan, &memories[..1], &triangles(&plan), |_| {});

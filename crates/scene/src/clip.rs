@@ -74,6 +74,7 @@ impl Viewport {
             g,
             b,
             kt: vertex.transmission,
+            ..Vertex::default()
         };
         let ClipVertex { world, normal, texture, .. } = *vertex;
         SurfaceVertex { screen, inverse_w: 1.0 / w, position: world, normal, texture }

@@ -6,7 +6,7 @@ use std::fmt;
 #[derive(Debug, thiserror::Error)]
 pub enum InputError {
     /// The file could not be opened or read.
-    #[error("{file}: cannot be read: {source}")]
+    #[error("{file}: cannot be read")]
     Read {
         /// The file as the user named it.
         file: String,
@@ -16,9 +16,9 @@ pub enum InputError {
     /// The file was read, and something in it is not permitted.
     #[error(transparent)]
     Fault(#[from] Box<Fault>),
-    /// The file holds a polygon, and was read for its triangles alone.
+    /// The file holds what it cannot be drawn with while it is read: a polygon, or a light's depth map behind a triangle.
     #[error(transparent)]
-    Polygon(Box<Fault>),
+    NeedsWhole(Box<Fault>),
 }
 
 /// Something not permitted: `file:line: key: value: what is permitted (nearest valid name)`.
@@ -50,13 +50,16 @@ impl Fault {
         value: impl fmt::Display,
         permitted: impl Into<String>,
     ) -> Box<Self> {
-        let value = value.to_string();
-        let mut shown: String = value.chars().take(SHOWN).collect();
-        if shown.len() < value.len() {
-            shown.push_str("...");
-        }
         let (file, key, permitted) = (file.to_owned(), key.to_string(), permitted.into());
-        Box::new(Self { file, line, key, value: shown, permitted, nearest: None })
+        Box::new(Self { file, line, key, value: shown(&value.to_string()), permitted, nearest: None })
+    }
+}
+
+/// A value cut to a readable length.
+fn shown(value: &str) -> String {
+    match value.char_indices().nth(SHOWN) {
+        Some((end, _)) => value[..end].to_owned() + "...",
+        None => value.to_owned(),
     }
 }
 
@@ -76,6 +79,10 @@ impl fmt::Display for Fault {
 
 /// The valid name nearest to `given`, if any is near enough to be what was meant.
 pub fn nearest<'a>(given: &str, valid: &[&'a str]) -> Option<&'a str> {
+    if given.len() > 4 * SHOWN {
+        // Farther from any name than `nearest` goes; finding out how far takes as long as the word is.
+        return None;
+    }
     let given = given.to_lowercase();
     valid
         .iter()

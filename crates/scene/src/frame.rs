@@ -10,6 +10,12 @@ pub const MAX_COORDINATE: f64 = 1e6;
 /// Most vertices of a contour.
 pub const MAX_CONTOUR: usize = 65536;
 
+/// Most values of the user's own at a vertex.
+pub const MAX_EXTRA: usize = 4;
+
+/// Largest magnitude of such a value: no channel of a machine holds more.
+pub const MAX_EXTRA_VALUE: f64 = 2_147_483_647.0;
+
 /// A vertex on the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Vertex {
@@ -27,6 +33,17 @@ pub struct Vertex {
     pub b: f64,
     /// Transmission coefficient k_t in [0, 1] (A 7.1), 0 for an opaque surface.
     pub kt: f64,
+    /// Values of the user's own, [`Frame::extra`] of them, the rest 0. Their unit is that of the machine's channels e0 to
+    /// e3: [0, 1] for `unorm`, else LSB of the output; at most [`MAX_EXTRA_VALUE`] in magnitude.
+    pub extra: [f64; MAX_EXTRA],
+}
+
+impl Vertex {
+    /// This vertex with the colour and k_t of the first one, as flat mode has it.
+    #[must_use]
+    pub fn colored_as(self, first: &Self) -> Self {
+        Self { r: first.r, g: first.g, b: first.b, kt: first.kt, ..self }
+    }
 }
 
 /// A triangle on the screen; either winding is drawn.
@@ -48,7 +65,7 @@ pub struct Polygon {
     pub after: usize,
 }
 
-/// How colour and k_t vary over a triangle. Depth is linear in both modes.
+/// How colour and k_t vary over a triangle. Depth and the user's own values are linear in both modes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum ShadeMode {
     /// Linear between the vertices (A 7.5).
@@ -145,6 +162,9 @@ pub struct Frame {
     pub blend: bool,
     /// Colour of the empty screen, [0, 1] each; the empty depth is 1.
     pub clear: [f64; 3],
+    /// How many values of the user's own a vertex has, 0..=[`MAX_EXTRA`]; without polygons where it has any. Where nothing
+    /// is drawn they are 0.
+    pub extra: usize,
     /// The shadows of a light, if it casts any.
     pub shadow: Option<Shadow>,
     /// The triangles, drawn in this order.
@@ -164,6 +184,7 @@ impl Frame {
             depth_write: true,
             blend: false,
             clear: [0.0; 3],
+            extra: 0,
             shadow: None,
             triangles: Vec::new(),
             polygons: Vec::new(),

@@ -40,6 +40,8 @@ use crate::normals::{Crease, NormalRule, Weight};
 use crate::scene::Scene;
 use crate::shading::Specular;
 use material::Materials;
+use std::fs::File;
+use std::io::{self, Read as _};
 use std::path::Path;
 use table::{Source, Table};
 use toml::de::DeTable;
@@ -79,12 +81,15 @@ impl Scene {
 pub(crate) fn read(path: &Path) -> Result<Scene, InputError> {
     let file = path.display().to_string();
     let unreadable = |source| InputError::Read { file: file.clone(), source };
-    let length = std::fs::metadata(path).map_err(unreadable)?.len();
-    if length > MAX_LENGTH {
+    let mut text = Vec::new();
+    let opened = File::open(path).map_err(unreadable)?;
+    opened.take(MAX_LENGTH + 1).read_to_end(&mut text).map_err(unreadable)?;
+    if text.len() as u64 > MAX_LENGTH {
         let permitted = format!("permitted: at most {MAX_LENGTH} bytes");
-        return Err(Fault::new(&file, None, "length", length, permitted).into());
+        return Err(Fault::new(&file, None, "length", "more", permitted).into());
     }
-    parse(path, &std::fs::read_to_string(path).map_err(unreadable)?)
+    let text = std::str::from_utf8(&text);
+    parse(path, text.map_err(|error| unreadable(io::Error::new(io::ErrorKind::InvalidData, error)))?)
 }
 
 /// The same from a text that stands for the file at `path`.

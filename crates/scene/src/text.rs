@@ -2,9 +2,18 @@
 
 use crate::error::{Fault, InputError, nearest};
 use std::fmt::Display;
-use std::io::BufRead;
+use std::io::{BufRead, Read as _};
 use std::ops::RangeInclusive;
 use std::str::FromStr;
+
+/// Bytes of the longest line: a contour of 65,536 vertices with 70 characters a number.
+pub(crate) const MAX_LINE: usize = 32 << 20;
+
+/// Bytes of a word that a message is made from.
+const MAX_SHOWN: usize = 1 << 10;
+
+/// What some editors put before the first line.
+const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
 /// Where a line stands.
 #[derive(Clone, Copy)]
@@ -16,7 +25,9 @@ pub(crate) struct Place<'a> {
 
 impl Place<'_> {
     pub fn fault(self, key: impl Display, value: &[u8], permitted: impl Into<String>) -> Box<Fault> {
-        Fault::new(self.file, Some(self.line), key, String::from_utf8_lossy(value), permitted)
+        // A fault shows no more than a few dozen characters; a word may be as long as a line.
+        let start = &value[..value.len().min(MAX_SHOWN)];
+        Fault::new(self.file, Some(self.line), key, String::from_utf8_lossy(start), permitted)
     }
 
     /// The index of `word` among `valid`.
@@ -25,7 +36,7 @@ impl Place<'_> {
             return Ok(index);
         }
         let mut fault = self.fault(key, word, format!("permitted: {}", valid.join(" ")));
-        fault.nearest = nearest(&String::from_utf8_lossy(word), valid);
+        fault.nearest = std::str::from_utf8(word).ok().and_then(|word| nearest(word, valid));
         Err(fault.into())
     }
 
@@ -109,13 +120,19 @@ impl<R: BufRead> Lines<R> {
     /// The next line and its place; `None` at the end.
     pub fn next(&mut self) -> Result<Option<(Place<'_>, &[u8])>, InputError> {
         self.text.clear();
-        match self.input.read_until(b'\n', &mut self.text) {
+        let mut line = (&mut self.input).take(MAX_LINE as u64 + 1);
+        match line.read_until(b'\n', &mut self.text) {
             Ok(0) => return Ok(None),
             Ok(_) => {}
             Err(source) => return Err(InputError::Read { file: self.file.clone(), source }),
         }
         self.line += 1;
-        Ok(Some((self.place(), &self.text)))
+        if self.text.len() > MAX_LINE {
+            let why = format!("permitted: lines of at most {MAX_LINE} bytes");
+            return Err(self.place().fault("line", &self.text, why).into());
+        }
+        let mark = if self.line == 1 { BYTE_ORDER_MARK } else { b"" };
+        Ok(Some((self.place(), self.text.strip_prefix(mark).unwrap_or(&self.text))))
     }
 
     /// Of the last line that was read.

@@ -4,6 +4,7 @@
 //! those the triangles of a light's depth map.
 
 mod shadow;
+mod extra;
 mod reader;
 mod writer;
 

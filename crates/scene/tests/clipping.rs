@@ -1,8 +1,10 @@
 //! Clipping at the near plane, the far plane and the guard band.
 #![allow(clippy::unwrap_used)] // the meshes here are right
 
-use edgewalk_scene::{Camera, Face, Frame, Material, Mesh, Scene, ShadeMode, Triangle, Vertex};
-use glam::DVec3;
+use edgewalk_scene::{
+    Camera, Face, FaceData, Frame, Light, Material, Mesh, Scene, ShadeMode, Triangle, Vertex,
+};
+use glam::{DMat3, DVec2, DVec3};
 
 /// A camera at the origin looking along -z.
 fn scene(positions: Vec<DVec3>, corners: &[[u32; 3]]) -> Scene {
@@ -92,4 +94,49 @@ fn off_the_screen_but_in_the_guard_band_is_kept_whole() {
     let corners = [(-4.0, 0.0, -1.0), (4.0, 0.5, -1.0), (0.0, -5.0, -1.0)];
     let scene = scene(corners.map(DVec3::from).to_vec(), &[[0, 1, 2]]);
     assert_eq!(frame(&scene).triangles.len(), 1);
+}
+
+/// A cut vertex is a mean of the corners in the world, and everything it carries is the same mean.
+#[test]
+fn a_cut_vertex_carries_the_mean_of_the_corners() {
+    let whole = [(0.3, -0.5, -8.0), (-6.0, 2.0, -3.0), (2.5, 4.0, 6.0)].map(DVec3::from);
+    let given = [(0.0, 0.6, 0.8), (0.6, 0.0, 0.8), (-0.48, 0.6, 0.64)].map(DVec3::from);
+    let places = [(0.0, 0.0), (3.0, 0.25), (-1.0, 2.0)].map(DVec2::from);
+    let mut scene = scene(whole.to_vec(), &[[0, 1, 2]]);
+    let data = FaceData { normals: Some(given), texture: Some(places), ..FaceData::default() };
+    scene.mesh = scene.mesh.with_face_data(vec![data]);
+    let toward = DVec3::new(-0.8, -0.1, -0.6).normalize();
+    scene.lights = vec![Light::Directional { toward, intensity: DVec3::splat(0.7) }];
+    // Narrow enough that the guard band cuts too.
+    let surface = scene.surface(200, 100, 260.0);
+    assert!(surface.triangles.len() > 1);
+    // The normals are on the side that is seen, the colours those of the corners.
+    let front = (whole[1] - whole[0]).cross(whole[2] - whole[0]);
+    let side = if front.dot(-whole[0]) < 0.0 { -1.0 } else { 1.0 };
+    let colors = [0, 1, 2].map(|k| {
+        let color = scene.lighting().shade(&Material::DEFAULT, &scene.point(whole[k], side * given[k]));
+        color.clamp(DVec3::ZERO, DVec3::ONE)
+    });
+    assert!(colors[0].distance(colors[1]) > 0.05 && colors[1].distance(colors[2]) > 0.05, "{colors:?}");
+    let mut cut = 0;
+    for vertex in surface.triangles.iter().flat_map(|triangle| triangle.vertices) {
+        // The corners are independent vectors, so their weights at a point are one solution.
+        let weights = DMat3::from_cols(whole[0], whole[1], whole[2]).inverse() * vertex.position;
+        assert!((weights.element_sum() - 1.0).abs() < 1e-12 && weights.min_element() > -1e-12);
+        let mean = |of: [DVec3; 3]| of[0] * weights.x + of[1] * weights.y + of[2] * weights.z;
+        let screen = vertex.screen;
+        let seen = scene.camera.to_clip(200, 100) * vertex.position.extend(1.0);
+        let there = DVec2::new(100.0 + 100.0 * seen.x / seen.w, 50.0 - 50.0 * seen.y / seen.w);
+        assert!(there.distance(DVec2::new(screen.x, screen.y)) < 1e-9, "the world's place is the screen's");
+        assert!(
+            (1.0 / vertex.inverse_w - seen.w).abs() < 1e-12 && (screen.z - seen.z / seen.w).abs() < 1e-12
+        );
+        assert!(vertex.normal.distance(side * mean(given)) < 1e-12, "normal {}", vertex.normal);
+        let texture = mean(places.map(|place| place.extend(0.0))).truncate();
+        assert!(vertex.texture.distance(texture) < 1e-12, "texture {}", vertex.texture);
+        let color = DVec3::new(screen.r, screen.g, screen.b);
+        assert!(color.distance(mean(colors)) < 1e-12, "colour {color}");
+        cut += i32::from(weights.max_element() < 1.0 - 1e-9);
+    }
+    assert!(cut > 4, "{cut}");
 }

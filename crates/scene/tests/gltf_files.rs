@@ -128,6 +128,41 @@ fn gltf_materials_normals_and_texture_coordinates() {
     assert!(short.read().unwrap_err().contains("NORMAL"), "an index is no normal");
 }
 
+/// The greatest integer is 1, not a little less: a texture ends where it ends.
+#[test]
+fn gltf_texture_coordinates_in_integers() {
+    for (kind, bytes) in [
+        (5121, [0u8, 255, 51, 204, 255, 0, 0, 0].to_vec()),
+        (5123, {
+            let parts = [0u16, 65535, 13107, 52428, 65535, 0, 0, 0];
+            parts.iter().flat_map(|part| part.to_le_bytes()).collect()
+        }),
+    ] {
+        let length = bytes.len();
+        let mut gltf = Gltf::square()
+            .with(r#"{"POSITION":0}"#, r#"{"POSITION":0,"TEXCOORD_0":2}"#)
+            .with(
+                r#""type":"SCALAR"}"#,
+                &format!(
+                    r#""type":"SCALAR"}},
+                    {{"bufferView":2,"componentType":{kind},"normalized":true,"count":4,"type":"VEC2"}}"#
+                ),
+            )
+            .with(
+                r#""byteOffset":48,"byteLength":12}"#,
+                &format!(r#""byteOffset":48,"byteLength":12}},{{"buffer":0,"byteOffset":60,"byteLength":{length}}}"#),
+            )
+            .with("\"byteLength\":60", &format!("\"byteLength\":{}", 60 + length));
+        gltf.buffer.extend(bytes);
+        let places = gltf.read().unwrap().face_data()[0].texture.unwrap();
+        // v runs down in the file.
+        let expected = [(0.0, 1.0), (0.2, 0.8), (1.0, 0.0)].map(|(u, v)| DVec2::new(u, 1.0 - v));
+        for (place, expected) in places.into_iter().zip(expected) {
+            assert!(place.distance(expected) < 1e-15, "{kind}: {place}, not {expected}");
+        }
+    }
+}
+
 #[test]
 fn gltf_strips_and_fans_keep_their_fronts() {
     for (mode, triangles) in [(5, 4), (6, 4), (4, 2)] {

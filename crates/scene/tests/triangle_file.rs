@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 use edgewalk_scene::{
-    DepthFunc, Frame, MAX_COORDINATE, MAX_SIDE, Polygon, Primitive, ShadeMode, Shadow, Triangle, Vertex,
-    triangle_file,
+    DepthFunc, Frame, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_SIDE, Polygon, Primitive, ShadeMode,
+    Shadow, Triangle, Vertex, triangle_file,
 };
 use proptest::prelude::*;
 
@@ -27,7 +27,7 @@ fn every_item_is_taken() {
     assert_eq!((frame.width, frame.height, frame.mode), (3, 4, ShadeMode::Flat));
     assert_eq!((frame.depth, frame.depth_write, frame.blend), (Some(DepthFunc::Gequal), false, true));
     assert_eq!(frame.clear, [0.0, 0.5, 1.0]);
-    let first = Vertex { x: 1.0, y: 2.0, z: 0.25, r: 0.5, g: 0.5, b: 0.5, kt: 1.0 };
+    let first = Vertex { x: 1.0, y: 2.0, z: 0.25, r: 0.5, g: 0.5, b: 0.5, kt: 1.0, ..Vertex::default() };
     assert_eq!(frame.triangles.len(), 1);
     assert_eq!(frame.triangles[0].0[0], first);
     assert_eq!(frame.triangles[0].0[1].x, -MAX_COORDINATE);
@@ -109,6 +109,68 @@ fn malformed_shadows_name_place_and_remedy() {
 }
 
 #[test]
+fn each_triangle_has_its_own_values_behind_it() {
+    let text = format!(
+        "extra 2\nsize 9 9\n{T}\n# between\n\nX 1 -2  3.5 4  -2147483647 6\n{T}\nX 7 8 9 10 11 12 # end"
+    );
+    let frame = parse(&text);
+    assert_eq!(frame.extra, 2);
+    let values: Vec<_> = frame.triangles.iter().flat_map(|t| t.0).map(|v| [v.extra[0], v.extra[1]]).collect();
+    assert_eq!(
+        values,
+        [[1.0, -2.0], [3.5, 4.0], [-MAX_EXTRA_VALUE, 6.0], [7.0, 8.0], [9.0, 10.0], [11.0, 12.0]]
+    );
+    assert!(frame.triangles.iter().flat_map(|t| t.0).all(|v| v.extra[2..] == [0.0; 2]));
+    let streamed: Vec<Triangle> =
+        triangle_file::Reader::new("a.tri", text.as_bytes()).unwrap().map(Result::unwrap).collect();
+    assert_eq!(streamed, frame.triangles);
+}
+
+#[test]
+fn malformed_values_name_place_and_remedy() {
+    let with = |n: usize, x: &str| format!("size 9 9\nextra {n}\n{T}\n{x}\n");
+    let cases: [(String, &[&str]); 20] = [
+        ("extra 5".into(), &["a.tri:1: extra N: `5`", "an integer from 0 to 4"]),
+        ("extra two".into(), &["extra N: `two`", "0 to 4"]),
+        ("extra".into(), &["extra: `0 given`", "1 value"]),
+        ("extra 1\nextra 1".into(), &["a.tri:2: extra", "once"]),
+        ("extar 1".into(), &["`extar`", "did you mean `extra`?"]),
+        (format!("size 9 9\n{T}\nextra 1"), &["a.tri:3: extra", "only before the first triangle"]),
+        (format!("size 9 9\n{T}\nX 1 2 3 4 5 6"), &["a.tri:3: X: `6 given`", "here `extra 2`"]),
+        (format!("size 9 9\n{T}\nX 1 2 3 4"), &["X: `4 given`", "here `extra 2`"]),
+        (format!("size 9 9\n{T}\nX"), &["X: `0 given`", "here `extra 1`"]),
+        ("size 9 9\nextra 1\nX 1 2 3".into(), &["a.tri:3:", "`X`", "once, behind a triangle `T`"]),
+        (with(1, "X 1 2 3\nX 1 2 3"), &["a.tri:5:", "`X`", "once, behind a triangle `T`"]),
+        (
+            with(2, "X 1 2 3 4 5"),
+            &["a.tri:4: X: `5 given`", "6 values, e0 e1 of vertex 1, then of 2, then of 3"],
+        ),
+        (with(2, "X 1 2 3 4 5 6 7"), &["a.tri:4: X: `7 given`", "6 values"]),
+        (with(2, "X 1 2 3 nan 5 6"), &["a.tri:4: X vertex 2 e1: `nan`", "-2147483647 to 2147483647"]),
+        (with(1, "X 1 2 -inf"), &["X vertex 3 e0: `-inf`"]),
+        (with(1, "X 1 2147483648 2"), &["X vertex 2 e0: `2147483648`", "to 2147483647"]),
+        (with(2, T), &["a.tri:4: X: `T`", "of the triangle in line 3 is missing", "6 values, e0 e1"]),
+        (with(1, ""), &["a.tri:5: X: `end of file`", "line 3 is missing"]),
+        (with(1, &T.replace('T', "L")), &["a.tri:4: X: `L`", "missing"]),
+        (
+            format!("size 9 9\nextra 2\n{}", T.replace('T', "P 3")),
+            &["a.tri:3:", "`P`", "no `X`", "with `extra 2`: only triangles"],
+        ),
+    ];
+    for (text, words) in &cases {
+        let whole = triangle_file::parse("a.tri", text.as_bytes()).unwrap_err().to_string();
+        let streamed = match triangle_file::Reader::new("a.tri", text.as_bytes()) {
+            Ok(mut reader) => reader.find_map(Result::err).unwrap(),
+            Err(error) => error,
+        };
+        assert_eq!(streamed.to_string(), whole);
+        for word in *words {
+            assert!(whole.contains(word), "{text:?}: {word:?} is not in {whole:?}");
+        }
+    }
+}
+
+#[test]
 fn malformed_files_name_place_and_remedy() {
     let t = |bad: &str| format!("size 9 9\n{}", T.replacen("0.5", bad, 1));
     let p = |n: &str, z: &str| t(z).replacen("T ", &format!("P {n} "), 1);
@@ -181,7 +243,11 @@ fn triangle_by_triangle_a_late_shadow_is_refused() {
     let mut reader = triangle_file::Reader::new("a.tri", text.as_bytes()).unwrap();
     assert!(reader.next().is_some_and(|triangle| triangle.is_ok()));
     let error = reader.next().unwrap().unwrap_err().to_string();
-    assert!(error.contains("a.tri:3: shadow") && error.contains("before the first triangle"), "{error}");
+    assert!(
+        error.contains("a.tri:3: line starts with: `shadow`")
+            && error.contains("only triangles from here on"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -218,7 +284,12 @@ fn vertex() -> impl Strategy<Value = Vertex> {
         g,
         b,
         kt,
+        ..Vertex::default()
     })
+}
+
+fn own_value() -> impl Strategy<Value = f64> {
+    prop_oneof![-MAX_EXTRA_VALUE..=MAX_EXTRA_VALUE, -1.0..=1.0f64, Just(-MAX_EXTRA_VALUE), Just(-0.5)]
 }
 
 fn contours() -> impl Strategy<Value = Vec<Vec<Vertex>>> {
@@ -248,7 +319,9 @@ prop_compose! {
         blend in any::<bool>(),
         clear in prop::array::uniform3(0.0..=1.0f64),
         shadow in prop::option::of(shadow()),
-        triangles in prop::collection::vec(prop::array::uniform3(vertex()).prop_map(Triangle), 0..20),
+        extra in 0..=MAX_EXTRA,
+        mut triangles in prop::collection::vec(prop::array::uniform3(vertex()).prop_map(Triangle), 0..20),
+        values in prop::collection::vec(own_value(), 20 * 3 * MAX_EXTRA),
         shapes in prop::collection::vec((contours(), any::<prop::sample::Index>()), 0..4),
     ) -> Frame {
         let mut polygons: Vec<_> = shapes
@@ -256,8 +329,15 @@ prop_compose! {
             .map(|(contours, after)| Polygon { contours, after: after.index(triangles.len() + 1) })
             .collect();
         polygons.sort_by_key(|polygon| polygon.after);
+        if extra > 0 {
+            polygons.clear();
+        }
+        let vertices = triangles.iter_mut().flat_map(|triangle| &mut triangle.0);
+        for (vertex, values) in vertices.zip(values.chunks(MAX_EXTRA)) {
+            vertex.extra[..extra].copy_from_slice(&values[..extra]);
+        }
         let depth_write = write && depth.is_some();
-        Frame { width, height, mode, depth, depth_write, blend, clear, shadow, triangles, polygons }
+        Frame { width, height, mode, depth, depth_write, blend, clear, extra, shadow, triangles, polygons }
     }
 }
 
@@ -274,7 +354,7 @@ proptest! {
     }
 
     #[test]
-    fn no_text_panics(text in "(size|mode|depth|shadow|L|T|P 3|H|#|[0-9 .e-]|\\PC|\n){0,80}") {
+    fn no_text_panics(text in "(size|mode|depth|extra|shadow|L|T|X|P 3|H|#|[0-9 .e-]|\\PC|\n){0,80}") {
         let _ = triangle_file::parse("a.tri", text.as_bytes());
     }
 }

@@ -23,7 +23,7 @@ pub(crate) fn print(netlist: &Netlist) -> String {
     printer.outputs();
     printer.unused();
     format!(
-        "{}`default_nettype none\n\nmodule {} (\n{});\n\n{}\n\nendmodule\n\n`default_nettype wire\n",
+        "{}`timescale 1ns / 1ps\n`default_nettype none\n\nmodule {} (\n{});\n\n{}\n\nendmodule\n\n`default_nettype wire\n",
         header(netlist),
         netlist.name,
         ports(netlist),

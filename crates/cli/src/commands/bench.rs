@@ -49,11 +49,13 @@ pub struct Args {
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (machine, frame) = args.source.on_its_screen(machine)?;
     let port = to_port(&frame, &machine)?;
-    let whole = Job::new(&machine, &port.triangles, port.state, args.repeat);
+    let whole = Job::new(&machine, &port.triangles, port.state, args.repeat)?;
+    let size = (machine.width, machine.height);
+    Verdict::drew(whole.fragments).or_nothing(&args.source.input, whole.triangles.len() as u64, size)?;
     let bar = progress::bar(Engine::ALL.len() as u64, "engines", talk.quiet);
     let mut rows = Vec::new();
     for engine in Engine::ALL.iter().filter(|e| args.engine.is_empty() || args.engine.contains(e)) {
-        let job = whole.part(engine.budget());
+        let job = whole.part(engine.budget())?;
         let row = match engine.time(&job)? {
             Ok(times) if times.work == job.work => Row::new(engine.name(), &job, &times),
             Ok(times) => {
@@ -66,6 +68,6 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    Table::new(&whole, rows).print(talk);
+    Table::new(&whole, rows).print(talk)?;
     Ok(Verdict::Pass)
 }

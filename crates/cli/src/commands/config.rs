@@ -1,15 +1,21 @@
 //! `edgewalk config`: print, check and explain a machine.
 
+mod precision;
+
 use crate::machine_args::MachineArgs;
+use crate::talk;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
-use edgewalk_machine::Plan;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::nearest::nearest;
 use edgewalk_machine::presets::PRESETS;
+use edgewalk_machine::{Channel, Plan};
+use precision::Precision;
 use serde_json::json;
+use std::fmt::Write as _;
 
-/// Prints, checks or explains a machine.
+/// Prints, checks or explains a machine: what its keys mean, which error of its outputs is proved, how many fraction bits its
+/// screen needs.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk config print --machine textbook > my.toml
@@ -36,16 +42,17 @@ enum What {
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, json: bool) -> Result<Verdict> {
     let machine = machine.machine(None)?;
-    match &args.what {
-        What::Print => print!("# machine {}\n{}", machine.hash(), machine.to_toml()),
-        What::Check if json => println!("{}", json!({ "ok": true, "hash": machine.hash() })),
-        What::Check => println!("machine {} can be built", machine.hash()),
+    let hash = machine.hash();
+    talk::print(&match &args.what {
+        What::Print => format!("# machine {hash}\n{}", machine.to_toml()),
+        What::Check if json => json!({ "ok": true, "hash": hash }).to_string(),
+        What::Check => format!("machine {hash} can be built"),
         What::Explain { key } => explain(&machine, key.as_deref(), json)?,
-    }
+    })?;
     Ok(Verdict::Pass)
 }
 
-fn explain(machine: &Plan, key: Option<&str>, json: bool) -> Result<()> {
+fn explain(machine: &Plan, key: Option<&str>, json: bool) -> Result<String> {
     let chosen: Vec<_> = KEYS.iter().filter(|k| key.is_none_or(|name| k.name == name)).collect();
     if chosen.is_empty() {
         let name = key.unwrap_or_default();
@@ -56,40 +63,56 @@ fn explain(machine: &Plan, key: Option<&str>, json: bool) -> Result<()> {
             .iter()
             .map(|k| json!({ "key": k.name, "value": k.show(machine), "permitted": k.permitted(), "doc": k.doc }))
             .collect();
-        println!("{}", serde_json::to_string_pretty(&list)?);
-        return Ok(());
+        let all = key.is_none().then(|| Precision::of(machine));
+        return Ok(serde_json::to_string_pretty(&json!({ "keys": list, "precision": all }))?);
     }
+    let mut text = String::new();
     for k in chosen {
-        println!("{} = {}\n    {}\n    permitted: {}", k.name, k.show(machine), k.doc, k.permitted());
+        // Writing to a string cannot fail.
+        _ = writeln!(
+            text,
+            "{} = {}\n    {}\n    permitted: {}",
+            k.name,
+            k.show(machine),
+            k.doc,
+            k.permitted()
+        );
     }
     if key.is_none() {
-        let w = machine.widths();
-        let setup = edgewalk_model::setup_clocks(machine);
-        println!("\nwhat follows");
-        println!("    vertex x, y            s{}.{} px", machine.guard_bits, machine.subpixel_bits);
-        println!(
-            "    z word                 Q{}.{}, {} bits, modular",
-            machine.z.bits,
-            machine.z.fraction,
-            machine.z.word()
-        );
-        println!(
-            "    colour words           Q{}.{}, {} bits, modular",
-            machine.color.bits,
-            machine.color.fraction,
-            machine.color.word()
-        );
-        println!("    address                {} bits: line {} bits, column {} bits", w.address, w.y, w.x);
-        println!("    pixel rate in a span   1/{} pixel a clock", machine.clocks_per_pixel());
-        println!(
-            "    setup                  {} clocks a triangle, {} if culled",
-            (setup.phase1 + setup.phase2),
-            setup.phase1
-        );
-        println!("\npresets");
-        for (name, doc) in PRESETS {
-            println!("    {name:<22} {doc}");
-        }
+        text += &consequences(machine);
     }
-    Ok(())
+    Ok(text)
+}
+
+/// What follows from the keys, and the presets.
+fn consequences(machine: &Plan) -> String {
+    let w = machine.widths();
+    let setup = edgewalk_model::setup_clocks(machine);
+    let word = |channel: Channel| format!("{}, {} bits, modular", channel.word_format(), channel.word());
+    let mut text = format!(
+        "\nwhat follows\n    \
+         vertex x, y            Q{}.{} px\n    \
+         z word                 {}\n    \
+         colour words           {}\n    \
+         address                {} bits: line {} bits, column {} bits\n    \
+         pixel rate in a span   1/{} pixel a clock\n    \
+         setup                  {} clocks a triangle, {} if culled\n",
+        machine.guard_bits + 1,
+        machine.subpixel_bits,
+        word(machine.channels()[0]),
+        word(machine.channels()[1]),
+        w.address,
+        w.y,
+        w.x,
+        machine.clocks_per_pixel(),
+        setup.phase1 + setup.phase2,
+        setup.phase1
+    );
+    text += &Precision::of(machine).text();
+    text += "\npresets\n";
+    for (name, doc) in PRESETS {
+        // Writing to a string cannot fail.
+        _ = writeln!(text, "    {name:<22} {doc}");
+    }
+    text
 }

@@ -1,17 +1,24 @@
 //! `edgewalk demo`: the main job on a built-in scene, from pictures to Verilog and vectors.
 
+use super::render::Pictures;
 use super::{emit, render, vectors};
-use crate::Talk;
+use crate::accumulators::depth_error_over_bound;
 use crate::engine::Engine;
-use crate::input::Source;
+use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::picture;
 use crate::staging::Staging;
+use crate::talk::{self, Talk};
 use crate::verdict::Verdict;
 use anyhow::Result;
-use edgewalk_vectors::{StallKind, Unit};
+use edgewalk_vectors::{StallKind, Tables, Unit};
 use std::path::PathBuf;
 
 /// Renders a built-in scene through golden picture and model, compares them, and writes the machine's Verilog and vectors.
+///
+/// z_error.png and color_error.png show the error of the rounded outputs, blue to yellow up to 1 LSB and red above;
+/// z_accumulator.png that of the depth's accumulator before rounding, over the bound of the additions behind the pixel: blue
+/// below, orange above, with its scale (exact fill and edges only).
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk demo
@@ -25,27 +32,47 @@ pub struct Args {
     out: PathBuf,
 }
 
+/// The depth's error before rounding.
+const ACCUMULATOR: &str = "z_accumulator.png";
+
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = machine.machine(None)?;
     let frame = args.source.frame(&machine)?;
     let out = Staging::new(&args.out)?;
-    let (report, verdict) =
+    let Pictures { report, verdict, ids } =
         render::pictures(&args.source.input, &frame, &machine, Engine::Model, &out, talk.quiet)?;
+    let port = to_port(&frame, &machine)?;
+    let dda = depth_error_over_bound(&machine, &port.triangles, &ids);
+    if let Some(map) = &dda {
+        picture::write_signed(&out, ACCUMULATOR, (machine.width, machine.height), map)?;
+    }
     let modules = emit::write_design(&machine, &out, "hdl/")?;
     let suites = vectors::directed(&machine)?;
-    let suites =
-        vectors::write(&machine, &suites, &Unit::ALL, StallKind::Mixed, &out, "vectors/", talk.quiet)?;
+    let set = vectors::Set {
+        suites: &suites,
+        units: &Unit::all(&machine),
+        stalls: Some(StallKind::Mixed),
+        tables: Tables::Written,
+    };
+    let suites = set.write(&machine, &out, "vectors/", talk.quiet)?;
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
-    out.publish()?;
+    let own = [emit::own("hdl/"), vectors::own(&args.out, "vectors/", &suites)].concat();
+    let pictures = render::FILES.map(str::to_owned);
+    out.publish(&[&own[..], &pictures, &[ACCUMULATOR.to_owned()]].concat())?;
     report.print(talk)?;
     if !talk.quiet && !talk.json {
         let at = args.out.display();
-        println!("pictures  {at}/golden.png image.png z_error.png color_error.png");
-        println!("report    {at}/report.txt report.json");
-        println!("verilog   {at}/hdl, {} modules", modules.len());
-        println!("vectors   {at}/vectors: {}", suites.join(" "));
+        let dda = if dda.is_some() { " z_accumulator.png" } else { "" };
+        talk::print(&format!(
+            "pictures  {at}/golden.png image.png z_error.png color_error.png{dda}\n\
+             report    {at}/report.txt report.json\n\
+             verilog   {at}/hdl, {} modules\n\
+             vectors   {at}/vectors: {}",
+            modules.len(),
+            suites.join(" ")
+        ))?;
     }
-    Ok(verdict)
+    verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
 }

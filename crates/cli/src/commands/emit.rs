@@ -23,14 +23,17 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = machine.machine(None)?;
     let out = Staging::new(&args.out)?;
     let files = write_design(&machine, &out, "")?;
-    out.publish()?;
-    if talk.json {
-        println!("{}", serde_json::json!({ "hash": machine.hash(), "files": files }));
-    } else if !talk.quiet {
-        println!("machine {} -> {}", machine.hash(), args.out.display());
-        files.iter().for_each(|f| println!("    {f}"));
-    }
+    out.publish(&own(""))?;
+    talk.say(
+        || Ok(serde_json::json!({ "hash": machine.hash(), "files": files }).to_string()),
+        || format!("machine {} -> {}\n    {}", machine.hash(), args.out.display(), files.join("\n    ")),
+    )?;
     Ok(Verdict::Pass)
+}
+
+/// The files that `write_design` may write under `folder`: of the lanes of SETUP a machine has 1, 2 or 4.
+pub fn own(folder: &str) -> Vec<String> {
+    (0..4).map(|lane| format!("{folder}edgewalk_setup_lane{lane}.v")).collect()
 }
 
 /// Prints every module of the machine under `folder` of `out`, with the machine file; returns the names.

@@ -2,9 +2,11 @@
 
 mod additions;
 mod terms;
+mod page;
 
 use crate::Talk;
 use crate::engine::golden_fill;
+use crate::extra;
 use crate::input::{Source, port_triangle};
 use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
@@ -14,7 +16,6 @@ use edgewalk_golden::{ShadowMaps, draw, fragments};
 use edgewalk_machine::{EdgeKind, Fill, Plan};
 use edgewalk_scene::{Frame, Scene, Surface};
 use serde::Serialize;
-use std::fmt::Write as _;
 use terms::{LitPoint, lit_point};
 
 /// Says which triangles lie over a pixel, how its light is made up, and every addition of the machine on the way to it,
@@ -38,9 +39,6 @@ pub struct Args {
 /// Side of the shadow maps, texels.
 const SHADOW_MAP: u32 = 1024;
 
-/// Rows of additions shown as text at either end.
-const SHOWN: usize = 8;
-
 /// Everything about the pixel.
 #[derive(Serialize)]
 struct Explanation {
@@ -53,6 +51,8 @@ struct Explanation {
     /// Golden picture there, [0, 1].
     z: f64,
     rgb: [f64; 3],
+    /// Channels of the user's own, LSB.
+    extra: Vec<f64>,
     /// Where the scene has a surface.
     light: Option<LitPoint>,
     /// Where the machine has exact fill and exact edges, and draws the triangle.
@@ -65,6 +65,8 @@ struct Over {
     id: usize,
     z: f64,
     rgb: [f64; 3],
+    /// Channels of the user's own, LSB.
+    extra: Vec<f64>,
 }
 
 /// Runs the command.
@@ -75,7 +77,12 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         let (w, h) = (machine.width - 1, machine.height - 1);
         return Err(anyhow!("explain: `{x} {y}`: permitted: X from 0 to {w}, Y from 0 to {h}"));
     }
-    let frame = args.source.frame(&machine)?;
+    // Opened once: it may be a pipe.
+    let scene = if args.source.is_triangle_file() { None } else { Some(args.source.surface(&machine)?) };
+    let frame = match &scene {
+        Some((scene, surface)) => args.source.frame_of(scene, surface, &machine)?,
+        None => args.source.frame(&machine)?,
+    };
     let picture = draw(&frame, golden_fill(&machine));
     let at = (y * machine.width + x) as usize;
     let id = picture.id[at];
@@ -87,11 +94,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         id,
         z: picture.z[at],
         rgb: picture.rgb[at],
-        light: match seen {
-            Some(_) if !args.source.is_triangle_file() => {
-                let (scene, surface) = args.source.surface(&machine)?;
-                light(&scene, &surface, id as usize, &machine, (x, y))
-            }
+        extra: own(&machine, |channel| picture.extra[channel][at]),
+        light: match (seen, &scene) {
+            (Some(_), Some((scene, surface))) => light(scene, surface, id as usize, &machine, (x, y)),
             _ => None,
         },
         machine: match seen {
@@ -101,12 +106,14 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             _ => None,
         },
     };
-    if talk.json {
-        println!("{}", serde_json::to_string(&explanation)?);
-    } else if !talk.quiet {
-        print!("{}", text(&explanation));
-    }
-    Ok(Verdict::Pass)
+    talk.say(|| Ok(serde_json::to_string(&explanation)?), || page::text(&explanation))?;
+    // A pixel may be empty, but not the whole picture.
+    let covered = picture.coverage.iter().map(|count| u64::from(*count)).sum();
+    Verdict::drew(covered).or_nothing(
+        &args.source.input,
+        frame.triangles.len() as u64,
+        (machine.width, machine.height),
+    )
 }
 
 /// The triangles over a pixel, by the exact rule.
@@ -116,11 +123,18 @@ fn over(frame: &Frame, machine: &Plan, pixel: (u32, u32)) -> Vec<Over> {
         let screen = (machine.width, machine.height);
         fragments(triangle, frame.mode, machine.subpixel_bits, screen, |fragment| {
             if (fragment.x, fragment.y) == pixel {
-                list.push(Over { id, z: fragment.z(), rgb: fragment.rgb() });
+                let extra = own(machine, |channel| fragment.extra(channel));
+                list.push(Over { id, z: fragment.z(), rgb: fragment.rgb(), extra });
             }
         });
     }
     list
+}
+
+/// Golden's values of the user's own channels, LSB, from those in the unit of the file.
+fn own(machine: &Plan, value: impl Fn(usize) -> f64) -> Vec<f64> {
+    let channels = extra::channels(machine).iter().enumerate();
+    channels.map(|(place, channel)| value(place) * channel.host_unit()).collect()
 }
 
 fn light(scene: &Scene, surface: &Surface, id: usize, machine: &Plan, pixel: (u32, u32)) -> Option<LitPoint> {
@@ -135,55 +149,4 @@ fn light(scene: &Scene, surface: &Surface, id: usize, machine: &Plan, pixel: (u3
         }
     });
     point
-}
-
-// Writing to a string cannot fail.
-fn text(of: &Explanation) -> String {
-    let mut page = format!("pixel ({}, {}): z {:.9}, rgb {}\n", of.x, of.y, of.z, three(of.rgb));
-    _ = writeln!(page, "triangles over it: {}", of.fragments.len());
-    for over in &of.fragments {
-        let seen = if over.id as i64 == i64::from(of.id) { "  seen" } else { "" };
-        _ = writeln!(page, "  {:>6}  z {:.9}  rgb {}{seen}", over.id, over.z, three(over.rgb));
-    }
-    if let Some(light) = &of.light {
-        _ = writeln!(page, "\nlight at {}, normal {}", three(light.position), three(light.normal));
-        _ = writeln!(page, "  emission            {}", three(light.emission));
-        _ = writeln!(page, "  ambient             {}", three(light.ambient));
-        for part in &light.lights {
-            _ = writeln!(page, "  {:<11} diffuse  {}", part.kind, three(part.diffuse));
-            _ = writeln!(page, "              specular {}", three(part.specular));
-            _ = writeln!(
-                page,
-                "              r_l      {} by the map, {:.3} by a ray",
-                part.r_map, part.r_ray
-            );
-        }
-        _ = writeln!(page, "  sum, none hidden    {}", three(light.total));
-    }
-    if let Some(walk) = &of.machine {
-        let additions = &walk.additions;
-        _ = writeln!(page, "\nadditions to here: {} (Z, R, G, B in LSB)", additions.len() - 1);
-        _ = writeln!(
-            page,
-            "  step    pixel            value Z       added Z     error Z     bound     error R     bound"
-        );
-        for (place, of) in additions.iter().enumerate() {
-            if place == SHOWN && additions.len() > 2 * SHOWN {
-                _ = writeln!(page, "  ... {} more; all of them with --json", additions.len() - 2 * SHOWN);
-            }
-            if place < SHOWN || place + SHOWN >= additions.len() {
-                let pixel = format!("({}, {})", of.x, of.y);
-                _ = writeln!(
-                    page,
-                    "  {:<6}  {pixel:<13} {:>12.3}  {:>12.4}  {:>10.6}  {:>8.6}  {:>10.6}  {:>8.6}",
-                    of.step, of.value[0], of.added[0], of.error[0], of.bound[0], of.error[1], of.bound[1]
-                );
-            }
-        }
-    }
-    page
-}
-
-fn three(values: [f64; 3]) -> String {
-    values.map(|value| format!("{value:8.5}")).join(" ")
 }

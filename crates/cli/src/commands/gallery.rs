@@ -5,11 +5,11 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Result, anyhow};
-use edgewalk_gallery::{EXHIBITS, Exhibit, Image, Maker};
+use edgewalk_gallery::{EXHIBITS, Exhibit, Image, Maker, View};
 use edgewalk_scene::nearest;
 use rayon::prelude::*;
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Draws the gallery: what each shading system of the sources does well and badly, with pictures and measured figures.
 #[derive(clap::Args)]
@@ -24,6 +24,9 @@ pub struct Args {
     #[arg(long, value_name = "DIR", default_value = "docs/gallery")]
     out: PathBuf,
 }
+
+/// Pictures side by side on the page, each with its caption under it.
+const ABREAST: usize = 3;
 
 /// Runs the command.
 pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
@@ -51,7 +54,7 @@ pub fn run(args: &Args, talk: Talk) -> Result<Verdict> {
         }
     }
     out.write("README.md", page(&exhibits))?;
-    out.publish()?;
+    out.publish(&own(&args.out))?;
     report(&exhibits, talk)?;
     Ok(Verdict::Pass)
 }
@@ -77,6 +80,20 @@ fn file_name(exhibit: &str, view: &str, image: &Image) -> String {
     format!("{exhibit}-{view}.{end}")
 }
 
+/// The pictures of the page that is there, if it shows exhibits: they are replaced with it.
+fn own(out: &Path) -> Vec<String> {
+    let page = std::fs::read_to_string(out.join("README.md")).unwrap_or_default();
+    // ![caption](name "caption")
+    let shown = page.split("](").skip(1).filter_map(|rest| rest.split([' ', ')']).next());
+    let of_exhibit = |name: &&str| {
+        let is_picture = name.ends_with(".png") || name.ends_with(".svg");
+        is_picture
+            && !name.contains('/')
+            && EXHIBITS.iter().any(|(exhibit, _)| name.starts_with(&format!("{exhibit}-")))
+    };
+    shown.filter(of_exhibit).map(str::to_owned).collect()
+}
+
 /// The page, in Markdown.
 fn page(exhibits: &[Exhibit]) -> String {
     let mut page = "# Gallery\n\nWhat the shading systems of the sources do well and badly, measured. Written by `edgewalk gallery`; scenes \
@@ -88,33 +105,39 @@ fn page(exhibits: &[Exhibit]) -> String {
         for (quantity, value) in &exhibit.figures {
             _ = writeln!(page, "| {quantity} | {value} |");
         }
-        page.push('\n');
-        for view in &exhibit.views {
-            let name = file_name(exhibit.name, view.name, &view.image);
-            _ = writeln!(page, "![{}]({name} \"{}\")", view.caption, view.caption);
+        for row in exhibit.views.chunks(ABREAST) {
+            let cells = |cell: &dyn Fn(&View) -> String| row.iter().map(cell).collect::<Vec<_>>().join(" | ");
+            let picture = |view: &View| {
+                format!("![{}]({})", view.caption, file_name(exhibit.name, view.name, &view.image))
+            };
+            _ = writeln!(page, "\n| {} |", cells(&picture));
+            _ = writeln!(page, "|{}", "---|".repeat(row.len()));
+            _ = writeln!(page, "| {} |", cells(&|view| view.caption.clone()));
         }
-        let captions: Vec<&str> = exhibit.views.iter().map(|view| view.caption.as_str()).collect();
-        _ = writeln!(page, "\n{}.", captions.join("; "));
     }
     page
 }
 
 fn report(exhibits: &[Exhibit], talk: Talk) -> Result<()> {
-    if talk.json {
+    let json = || {
         let one = |exhibit: &Exhibit| {
             let figures =
                 exhibit.figures.iter().map(|(quantity, value)| (quantity.clone(), value.clone().into()));
             let figures: serde_json::Map<String, serde_json::Value> = figures.collect();
             serde_json::json!({ "name": exhibit.name, "title": exhibit.title, "figures": figures })
         };
-        println!("{}", serde_json::to_string(&exhibits.iter().map(one).collect::<Vec<_>>())?);
-    } else if !talk.quiet {
+        Ok(serde_json::to_string(&exhibits.iter().map(one).collect::<Vec<_>>())?)
+    };
+    let text = || {
+        let mut text = String::new();
         for exhibit in exhibits {
-            println!("{}", exhibit.title);
+            // Writing to a string cannot fail.
+            _ = writeln!(text, "{}", exhibit.title);
             for (quantity, value) in &exhibit.figures {
-                println!("  {value:>10}  {quantity}");
+                _ = writeln!(text, "  {value:>10}  {quantity}");
             }
         }
-    }
-    Ok(())
+        text
+    };
+    talk.say(json, text)
 }

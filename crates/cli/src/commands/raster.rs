@@ -1,24 +1,31 @@
 //! `edgewalk raster`: screen-space triangles of any program, through any engine, into numpy arrays.
 
-use crate::engine::{Engine, Raster, draw, from_fast};
+mod page;
+
+use crate::engine::{Engine, Raster, draw_bands, fast_bands};
 use crate::machine_args::MachineArgs;
 use crate::report::Report;
 use crate::staging::Staging;
+use crate::triangles::TriangleFile;
 use crate::verdict::Verdict;
-use crate::{Talk, arrays, fast, picture};
+use crate::{Talk, extra, fast};
 use anyhow::{Context, Result};
-use edgewalk_scene::{InputError, triangle_file};
-use std::path::{Path, PathBuf};
+use edgewalk_machine::Plan;
+use edgewalk_scene::{Frame, InputError};
+use page::Page;
+use std::path::PathBuf;
 
 /// Draws a file of screen-space triangles and writes what every pixel got.
 ///
 /// Writes coverage.npy, writes.npy (u32), id.npy (i32), z.npy (H,W) and rgb.npy (H,W,3) (f64 in [0,1]), image.png and
 /// report.json; row 0 on top. Golden does not quantise z and rgb, and adds lit.npy (u8: 0 nothing written, 1 in shadow, 2 lit).
+/// With channels.extra = n also e0.npy and on, LSB of the channel's output: i64, golden's plane as f64, 0 where nothing was drawn.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk raster triangles.tri --out out/r
   edgewalk raster triangles.tri --engine golden --out out/g --json
   edgewalk raster triangles.tri --engine rtl --out out/n --set interpolator.adders=1
+  edgewalk raster textured.tri --out out/t --set channels.extra=2
 
 The triangle file (docs/triangle_file.md), one item a line, # comments:
   size W H                                                first
@@ -27,9 +34,11 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
   depth_write 0|1
   blend 0|1                                               1: (1-kt) I + kt I_back; golden only
   clear r g b
+  extra N                                                 values of your own at a vertex, 0 to 4: channels.extra = N
   shadow SIZE BIAS AMBIENT m00 m01 .. m33                 a light's depth map, matrix by rows; golden only
   L x y z  x y z  x y z                                   a triangle of that map, in texels
   T x y z r g b kt  x y z r g b kt  x y z r g b kt        a triangle, pixels
+  X e0 .. e0 .. e0 ..                                     N values of vertex 1, of 2, of 3: unorm [0,1], else LSB
   P n  x y z r g b kt ..                                  a polygon of n vertices; the machine draws it as triangles
   H n  x y z r g b kt ..                                  one more contour of the polygon on the line before")]
 pub struct Args {
@@ -43,50 +52,67 @@ pub struct Args {
     out: PathBuf,
 }
 
+/// What a run may write.
+const FILES: [&str; 12] = [
+    "coverage.npy",
+    "writes.npy",
+    "id.npy",
+    "z.npy",
+    "rgb.npy",
+    "e0.npy",
+    "e1.npy",
+    "e2.npy",
+    "e3.npy",
+    "lit.npy",
+    "image.png",
+    "report.json",
+];
+
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let (drawn, report) = match args.engine {
-        Engine::Fast => while_it_is_read(&args.file, machine, talk)?,
-        engine => whole(&args.file, engine, machine, talk)?,
-    };
     let out = Staging::new(&args.out)?;
-    write_arrays(&out, &drawn)?;
-    picture::write_rgb(&out, "image.png", drawn.width, drawn.height, &drawn.rgb)?;
+    let file = TriangleFile::open(&args.file)?;
+    let header = file.header()?;
+    let machine = machine.machine(Some((header.width, header.height)))?;
+    extra::fitting(header.extra, &machine).with_context(|| file.name().to_owned())?;
+    let report = match args.engine {
+        Engine::Fast => while_it_is_read(&file, &header, &machine, &out, talk)?,
+        engine => whole(&file, engine, &machine, &out, talk)?,
+    };
     out.write("report.json", report.json()?)?;
-    out.publish()?;
+    out.publish(&FILES)?;
     report.print(talk)?;
-    Ok(Verdict::Pass)
+    let size = (machine.width, machine.height);
+    Verdict::drew(report.covered()).or_nothing(&args.file.display().to_string(), report.primitives(), size)
 }
 
-fn while_it_is_read(file: &Path, machine: &MachineArgs, talk: Talk) -> Result<(Raster, Report)> {
-    let (machine, frame, path) = match fast::draw_file(file, machine, talk.quiet) {
-        Err(error) if matches!(error.downcast_ref(), Some(InputError::Polygon(_))) => {
-            return whole(file, Engine::Fast, machine, talk);
+fn while_it_is_read(
+    file: &TriangleFile,
+    header: &Frame,
+    machine: &Plan,
+    out: &Staging,
+    talk: Talk,
+) -> Result<Report> {
+    let drawn = match fast::draw_file(file, header, machine, talk.quiet) {
+        Err(error) if matches!(error.downcast_ref(), Some(InputError::NeedsWhole(_))) => {
+            return whole(file, Engine::Fast, machine, out, talk);
         }
         drawn => drawn?,
     };
-    let triangles = frame.counters.triangles;
-    let drawn = from_fast(&machine, frame, path);
-    let report = Report::new(&file.display().to_string(), triangles, &machine, &drawn);
-    Ok((drawn, report))
+    let triangles = drawn.triangles();
+    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band);
+    let mut page = Page::new(out, machine, report);
+    let bands = fast_bands(machine);
+    drawn.bands(machine, bands, |band| page.add(&band))?;
+    page.finish()
 }
 
-fn whole(file: &Path, engine: Engine, machine: &MachineArgs, talk: Talk) -> Result<(Raster, Report)> {
-    let name = file.display().to_string();
-    let frame = triangle_file::read(file)?;
-    let machine = machine.machine(Some((frame.width, frame.height)))?;
-    let drawn = draw(engine, &frame, &machine, talk.quiet).with_context(|| name.clone())?;
-    let report = Report::new(&name, frame.triangles.len() as u64, &machine, &drawn)
-        .with_polygons(frame.polygons.len() as u64);
-    Ok((drawn, report))
-}
-
-fn write_arrays(out: &Staging, drawn: &Raster) -> Result<()> {
-    let shape = [u64::from(drawn.height), u64::from(drawn.width)];
-    arrays::write(out, "coverage.npy", &shape, &drawn.coverage)?;
-    arrays::write(out, "writes.npy", &shape, &drawn.writes)?;
-    arrays::write(out, "id.npy", &shape, &drawn.id)?;
-    arrays::write(out, "z.npy", &shape, &drawn.z)?;
-    arrays::write(out, "rgb.npy", &[shape[0], shape[1], 3], drawn.rgb.as_flattened())?;
-    drawn.lit.as_ref().map_or(Ok(()), |lit| arrays::write(out, "lit.npy", &shape, lit))
+fn whole(file: &TriangleFile, engine: Engine, machine: &Plan, out: &Staging, talk: Talk) -> Result<Report> {
+    let frame = file.whole()?;
+    let (triangles, polygons) = (frame.triangles.len() as u64, frame.polygons.len() as u64);
+    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band).with_polygons(polygons);
+    let mut page = Page::new(out, machine, report);
+    draw_bands(engine, &frame, machine, talk.quiet, |band| page.add(&band))
+        .with_context(|| file.name().to_owned())?;
+    page.finish()
 }

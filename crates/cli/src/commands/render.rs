@@ -53,6 +53,20 @@ pub struct Args {
     out: PathBuf,
 }
 
+/// What a run may write.
+pub const FILES: [&str; 10] = [
+    "image.png",
+    "golden.png",
+    "z_error.png",
+    "color_error.png",
+    "truth.png",
+    "shading_error.png",
+    "phong.png",
+    "phong_error.png",
+    "report.json",
+    "report.txt",
+];
+
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = machine.machine(None)?;
@@ -74,28 +88,30 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     let frame = args.source.frame(&machine)?;
     let out = Staging::new(&args.out)?;
-    let (report, verdict) = pictures(&args.source.input, &frame, &machine, args.engine, &out, talk.quiet)?;
+    let Pictures { report, verdict, .. } =
+        pictures(&args.source.input, &frame, &machine, args.engine, &out, talk.quiet)?;
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
-    out.publish()?;
+    out.publish(&FILES)?;
     report.print(talk)?;
-    Ok(verdict)
+    verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
 }
 
 /// Draws the edges.
 fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     let frame = args.source.outlined(machine)?;
     let hidden = if args.hidden_lines { HiddenLines::Drawn } else { HiddenLines::Removed };
-    let drawn = from_golden(wireframe(&frame, golden_fill(machine), hidden));
+    let drawn = from_golden(wireframe(&frame, golden_fill(machine), hidden), machine);
     let out = Staging::new(&args.out)?;
     picture::write_rgb(&out, "image.png", drawn.width, drawn.height, &drawn.rgb)?;
     let report = Report::new(&args.source.input, frame.triangles.len() as u64, machine, &drawn)
         .with_polygons(frame.polygons.len() as u64);
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
-    out.publish()?;
+    out.publish(&FILES)?;
     report.print(talk)?;
-    Ok(Verdict::Pass)
+    let primitives = (frame.triangles.len() + frame.polygons.len()) as u64;
+    Verdict::drew(report.covered()).or_nothing(&args.source.input, primitives, (drawn.width, drawn.height))
 }
 
 /// Draws by a shading system and writes it beside the truth.
@@ -137,9 +153,19 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     }
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
-    out.publish()?;
+    out.publish(&FILES)?;
     report.print(talk)?;
-    Ok(Verdict::of(error.pixels, error.pixels, 0))
+    Verdict::drew(error.pixels).or_nothing(&args.source.input, surface.triangles.len() as u64, (w, h))
+}
+
+/// A comparison, and what was compared.
+pub struct Pictures {
+    /// On what was found.
+    pub report: Report,
+    /// Of the comparison.
+    pub verdict: Verdict,
+    /// Triangle that the engine's picture shows at every pixel, -1 none.
+    pub ids: Vec<i32>,
 }
 
 /// Draws, compares, and writes golden.png, the engine's picture and the two heat maps.
@@ -150,10 +176,10 @@ pub fn pictures(
     engine: Engine,
     out: &Staging,
     quiet: bool,
-) -> Result<(Report, Verdict)> {
+) -> Result<Pictures> {
     let golden = draw(Engine::Golden, frame, machine, quiet)?;
     let drawn = draw(engine, frame, machine, quiet)?;
-    let comparison = compare(machine, &golden, &drawn);
+    let comparison = compare(machine, frame, &golden, &drawn);
     let (w, h) = (drawn.width, drawn.height);
     picture::write_rgb(out, "golden.png", w, h, &golden.rgb)?;
     picture::write_rgb(out, "image.png", w, h, &drawn.rgb)?;
@@ -161,5 +187,5 @@ pub fn pictures(
     picture::write_heat(out, "color_error.png", (w, h), &comparison.color_map, 1.0)?;
     let verdict = comparison.verdict();
     let report = Report::new(name, frame.triangles.len() as u64, machine, &drawn).with(comparison);
-    Ok((report, verdict))
+    Ok(Pictures { report, verdict, ids: drawn.id })
 }

@@ -6,13 +6,16 @@ use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
-use edgewalk_model::Stalls;
-use edgewalk_netlist::{FstTrace, Simulator, VcdTrace};
+use edgewalk_lockstep::StallKind;
+use edgewalk_machine::Activity;
+use edgewalk_netlist::{FstTrace, Labels, Simulator, VcdTrace};
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::PathBuf;
 
-/// Runs the machine's netlist and writes the waveform of every signal, as VCD or FST by the file's ending.
+/// Runs the machine's netlist and writes the waveform of every signal that can change, as VCD or FST by the file's ending.
+///
+/// `activity_name` says the cause of each cycle in words: as text in a VCD, as ASCII in an FST.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk trace sphere --out out/sphere.fst --triangles 20
@@ -31,6 +34,9 @@ pub struct Args {
     cycles: u64,
 }
 
+/// The outermost scope.
+const TOP: &str = "edgewalk";
+
 /// Either kind of waveform.
 enum Wave {
     Vcd(VcdTrace<BufWriter<File>>),
@@ -48,30 +54,28 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let name = args.out.file_name().and_then(|n| n.to_str()).context("--out: no file name")?;
     let folder = args.out.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(".".as_ref());
     let out = Staging::new(folder)?;
-    let file = BufWriter::new(File::create(out.path(name)?)?);
-    let mut file = Some(file);
+    let mut file = Some(out.create(name)?);
     let mut wave: Option<Wave> = None;
     let mut failure: Result<()> = Ok(());
     let mut cycles = 0;
     let triangles = port.triangles.iter().take(args.triangles).copied();
-    edgewalk_vectors::render_rtl_with(&machine, triangles, port.state, Stalls::NONE, |sim| {
+    edgewalk_lockstep::render_rtl_with(&machine, triangles, port.state, StallKind::None, |sim| {
         failure = sample(&mut wave, &mut file, kind, sim);
         cycles += 1;
         failure.is_ok() && cycles < args.cycles
     })
     .map_err(|e| anyhow!("{e}"))?;
-    failure?;
+    failure.with_context(|| out.name(name))?;
     match wave {
-        Some(Wave::Vcd(w)) => w.finish()?,
-        Some(Wave::Fst(w)) => w.finish().map_err(|e| anyhow!("{e}"))?,
+        Some(Wave::Vcd(w)) => w.finish().with_context(|| out.name(name))?,
+        Some(Wave::Fst(w)) => w.finish().map_err(|e| anyhow!("{}: {e}", out.name(name)))?,
         None => {}
     }
-    out.publish()?;
-    if talk.json {
-        println!("{}", serde_json::json!({ "file": args.out, "cycles": cycles, "hash": machine.hash() }));
-    } else if !talk.quiet {
-        println!("{cycles} cycles -> {}", args.out.display());
-    }
+    out.publish(&[name])?;
+    talk.say(
+        || Ok(serde_json::json!({ "file": args.out, "cycles": cycles, "hash": machine.hash() }).to_string()),
+        || format!("{cycles} cycles -> {}", args.out.display()),
+    )?;
     Ok(Verdict::Pass)
 }
 
@@ -83,9 +87,11 @@ fn sample(
     sim: &mut Simulator,
 ) -> Result<()> {
     if let Some(file) = file.take() {
+        let names = Activity::ALL.map(Activity::name);
+        let labels = [Labels { signal: "activity", names: &names }];
         *wave = Some(match kind {
-            "vcd" => Wave::Vcd(VcdTrace::new(file, sim, "edgewalk")?),
-            _ => Wave::Fst(Box::new(FstTrace::new(file, sim, "edgewalk").map_err(|e| anyhow!("{e}"))?)),
+            "vcd" => Wave::Vcd(VcdTrace::new(file, sim, TOP, &labels)?),
+            _ => Wave::Fst(Box::new(FstTrace::new(file, sim, TOP, &labels).map_err(|e| anyhow!("{e}"))?)),
         });
     }
     match wave {

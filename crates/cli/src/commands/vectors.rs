@@ -1,116 +1,220 @@
 //! `edgewalk vectors`: stimuli, expected results and self-checking test benches.
 
+use crate::input::{PortFrame, Shading, Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::{Talk, jobs, progress};
+use crate::{Talk, jobs, progress, talk};
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
-use edgewalk_model::DrawState;
-use edgewalk_vectors::{SUITES, StallKind, Suite, Unit, capture, design, directory};
-use std::path::PathBuf;
+use edgewalk_vectors::{
+    Files, Reached, SUITES, StallKind, Suite, Tables, Unit, capture, design, directory, not_covered, reached,
+};
+use std::path::{Component, Path, PathBuf};
 
 /// Writes test vectors, a directory a suite and unit, that run as they are in Icarus and Verilator.
+///
+/// With an input its triangles are the suite. `make HDL=mine.v` in a directory replays it into another design with the same
+/// ports, `make CHECK_CYCLES=0` into one with other timing: then order and values count, and no status.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk vectors --out out/vectors
   edgewalk vectors --suite hazards --unit depth --stalls late --out out/v
-  make -C out/v/hazards_depth icarus verilator lint")]
+  edgewalk vectors triangles.tri --unit pixel --no-csv --out out/mine
+  make -C out/v/hazards_depth icarus verilator lint
+  make -C out/mine/triangles_pixel icarus HDL=mine.v CHECK_CYCLES=0")]
 pub struct Args {
-    /// Suites; all of them if left out: hazards, corners, random, sphere
+    /// A built-in scene, a scene file (.toml), a mesh (.obj, .gltf, .glb) or a triangle file (.tri) whose triangles are a suite
+    #[arg(value_name = "SCENE|MESH|FILE.tri")]
+    input: Option<String>,
+    /// Takes this many triangles of the input, spread over it evenly; all of them if left out
+    #[arg(long, requires = "input", value_parser = clap::value_parser!(u64).range(1..))]
+    triangles: Option<u64>,
+    /// Suites: hazards, corners, random, sphere, depth_never to depth_always, depth_unwritten; without an input all of them if
+    /// left out
     #[arg(long, value_name = "NAME")]
     suite: Vec<String>,
-    /// Units: machine, setup, edge, span, pixel, depth; all of them if left out
+    /// Units: machine, setup, edge, span, pixel, depth; all that a suite is for if left out
     #[arg(long, value_name = "NAME", value_parser = unit)]
     unit: Vec<Unit>,
-    /// How the bench makes the design wait: none, mixed, late
-    #[arg(long, default_value = "none", value_parser = stalls)]
-    stalls: StallKind,
+    /// How the bench makes the design wait: none, mixed, late; what suits each suite if left out
+    #[arg(long, value_parser = stalls)]
+    stalls: Option<StallKind>,
     /// Seed of the random suite and of the stalls
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Triangles of the random suite
     #[arg(long, default_value_t = 100)]
     count: u64,
+    /// Leaves out the tables for eyes: more than half of the bytes
+    #[arg(long)]
+    no_csv: bool,
     /// Output directory
     #[arg(long, value_name = "DIR", default_value = "out/vectors")]
     out: PathBuf,
 }
 
 fn unit(name: &str) -> Result<Unit, String> {
-    pick(name, Unit::ALL.into_iter().map(|u| (u.name(), u)))
+    Unit::named(name).map_err(|e| e.to_string())
 }
 
 /// Reads `--stalls`.
 pub fn stalls(name: &str) -> Result<StallKind, String> {
-    pick(name, StallKind::ALL.into_iter().map(|s| (s.name(), s)))
-}
-
-fn pick<T>(name: &str, mut list: impl Iterator<Item = (&'static str, T)> + Clone) -> Result<T, String> {
-    let names: Vec<_> = list.clone().map(|(n, _)| n).collect();
-    list.find(|(n, _)| *n == name)
-        .map(|(_, value)| value)
+    let names = StallKind::ALL.map(StallKind::name);
+    StallKind::ALL
+        .into_iter()
+        .find(|kind| kind.name() == name)
         .ok_or_else(|| format!("one of {}", names.join(", ")))
 }
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = machine.machine(None)?;
-    let out = Staging::new(&args.out)?;
-    let names: Vec<String> = if args.suite.is_empty() {
-        SUITES.iter().map(|s| s.name.to_owned()).collect()
-    } else {
-        args.suite.clone()
+    let (machine, input) = match &args.input {
+        Some(input) => {
+            let source = Source { input: input.clone(), shading: Shading::Gouraud };
+            let (machine, frame) = source.on_its_screen(machine)?;
+            let suite = of_input(input, &to_port(&frame, &machine)?, args.triangles)?;
+            (machine, Some(Suite { seed: args.seed, ..suite }))
+        }
+        None => (machine.machine(None)?, None),
     };
-    let units = if args.unit.is_empty() { Unit::ALL.to_vec() } else { args.unit.clone() };
-    let suites = names
-        .iter()
-        .map(|name| {
-            Suite::named(&machine, name, args.seed, args.count).map_err(|e| anyhow!("--suite {name}: {e}"))
-        })
-        .collect::<Result<Vec<_>>>()?;
-    let written = write(&machine, &suites, &units, args.stalls, &out, "", talk.quiet)?;
-    out.publish()?;
-    if talk.json {
-        println!("{}", serde_json::json!({ "hash": machine.hash(), "directories": written }));
-    } else if !talk.quiet {
-        println!("machine {} -> {}", machine.hash(), args.out.display());
-        written.iter().for_each(|name| println!("    {name}"));
-    }
+    let names: Vec<&str> = match (&args.input, args.suite.is_empty()) {
+        (None, true) => SUITES.iter().map(|suite| suite.name).collect(),
+        _ => args.suite.iter().map(String::as_str).collect(),
+    };
+    let named = names.iter().map(|name| {
+        Suite::named(&machine, name, args.seed, args.count).map_err(|e| anyhow!("--suite {name}: {e}"))
+    });
+    let suites = input.into_iter().map(Ok).chain(named).collect::<Result<Vec<_>>>()?;
+    let units = if args.unit.is_empty() { Unit::all(&machine) } else { args.unit.clone() };
+    let out = Staging::new(&args.out)?;
+    let set = Set {
+        suites: &suites,
+        units: &units,
+        stalls: args.stalls,
+        tables: if args.no_csv { Tables::LeftOut } else { Tables::Written },
+    };
+    let written = set.write(&machine, &out, "", talk.quiet)?;
+    out.publish(&own(&args.out, "", &written))?;
+    talk.say(
+        || Ok(serde_json::json!({ "hash": machine.hash(), "directories": written }).to_string()),
+        || format!("machine {} -> {}\n    {}", machine.hash(), args.out.display(), written.join("\n    ")),
+    )?;
     Ok(Verdict::Pass)
+}
+
+/// The triangles of an input as a suite with its depth function; `triangles` of them, spread over it evenly.
+pub fn of_input(input: &str, port: &PortFrame, triangles: Option<u64>) -> Result<Suite> {
+    let name = Path::new(input).file_stem().map_or_else(|| input.into(), |stem| stem.to_string_lossy());
+    // It becomes the name of a directory.
+    let name: String = name.chars().map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect();
+    let wanted = triangles.map_or(usize::MAX, |n| usize::try_from(n).unwrap_or(usize::MAX));
+    let every = port.triangles.len().div_ceil(wanted).max(1);
+    let triangles: Vec<_> = port.triangles.iter().step_by(every).copied().collect();
+    Ok(Suite {
+        depth_func: port.state.depth_func,
+        depth_write: port.state.depth_write,
+        ..Suite::of_triangles(&name, input, triangles)
+    })
 }
 
 /// The suites that meet every corner on purpose.
 pub fn directed(machine: &Plan) -> Result<Vec<Suite>> {
-    ["hazards", "corners"]
-        .iter()
-        .map(|name| Suite::named(machine, name, 1, 0).map_err(|e| anyhow!("{e}")))
-        .collect()
+    named(machine, |name| ["hazards", "corners"].contains(&name))
 }
 
-/// Writes one directory for each suite and unit under `folder` of `out`; returns their names.
-pub fn write(
-    machine: &Plan,
-    suites: &[Suite],
-    units: &[Unit],
-    stalls: StallKind,
-    out: &Staging,
-    folder: &str,
-    quiet: bool,
-) -> Result<Vec<String>> {
-    let work: Vec<(&Suite, Unit)> =
-        suites.iter().flat_map(|suite| units.iter().map(move |unit| (suite, *unit))).collect();
-    let bar = progress::bar(work.len() as u64, "vector directories", quiet);
-    let written = jobs::all(&work, &bar, |(suite, unit)| {
-        let trace = capture(machine, *unit, suite, DrawState::default(), stalls);
-        let verilog =
-            design::verilog(machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
-        let name = format!("{}_{}", suite.name, unit.name());
-        for (file, contents) in directory(suite, &trace, &verilog) {
-            out.write(&format!("{folder}{name}/{file}"), contents)?;
+/// The suites of the depth functions.
+pub fn functions(machine: &Plan) -> Result<Vec<Suite>> {
+    named(machine, |name| name.starts_with("depth_"))
+}
+
+fn named(machine: &Plan, wanted: impl Fn(&str) -> bool) -> Result<Vec<Suite>> {
+    let names = SUITES.iter().map(|suite| suite.name).filter(|name| wanted(name));
+    names.map(|name| Suite::named(machine, name, 1, 0).map_err(|e| anyhow!("{e}"))).collect()
+}
+
+/// Prints what could be met in each unit and was not.
+pub fn warn_of_gaps(runs: &[(Unit, Reached)], quiet: bool) {
+    for unit in Unit::known().filter(|_| !quiet) {
+        let missing = not_covered(runs.iter().filter(|(of, _)| *of == unit).map(|(_, reached)| reached));
+        if !missing.is_empty() {
+            talk::warn(&format!("{}: not covered: {}", unit.name(), missing.join(", ")));
         }
-        Ok(name)
-    })?;
-    bar.finish_and_clear();
-    Ok(written)
+    }
+}
+
+/// The files in these directories of an earlier run, as their own manifests list them.
+pub fn own(out: &Path, folder: &str, directories: &[String]) -> Vec<String> {
+    let mut own = Vec::new();
+    for directory in directories {
+        let manifest = std::fs::read(out.join(folder).join(directory).join("manifest.json"));
+        // A manifest that is not there, or is not ours, lists nothing.
+        let manifest: Option<serde_json::Value> =
+            manifest.ok().and_then(|text| serde_json::from_slice(&text).ok());
+        let files = manifest.as_ref().and_then(|manifest| manifest["files"].as_array());
+        let names = files.into_iter().flatten().filter_map(|file| file["name"].as_str());
+        let within =
+            |name: &&str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+        own.extend(names.filter(within).map(|name| format!("{folder}{directory}/{name}")));
+    }
+    own
+}
+
+/// Directories to be written: one for each suite and unit it is for.
+pub struct Set<'a> {
+    /// The stimuli.
+    pub suites: &'a [Suite],
+    /// Of which units.
+    pub units: &'a [Unit],
+    /// Other stalls than each suite's own.
+    pub stalls: Option<StallKind>,
+    /// With tables or without.
+    pub tables: Tables,
+}
+
+/// From so many bytes on a directory is announced before it is written.
+const HUGE: usize = 64 << 20;
+
+impl Set<'_> {
+    /// Writes them under `folder` of `out`; returns their names.
+    pub fn write(&self, machine: &Plan, out: &Staging, folder: &str, quiet: bool) -> Result<Vec<String>> {
+        let mut work: Vec<(&Suite, Unit)> = Vec::new();
+        for suite in self.suites {
+            let of_it: Vec<Unit> = self.units.iter().copied().filter(|unit| suite.is_for(*unit)).collect();
+            if of_it.is_empty() {
+                let names: Vec<&str> = suite.units.iter().map(|unit| unit.name()).collect();
+                return Err(anyhow!("--suite {}: it is for the units {} only", suite.name, names.join(", ")));
+            }
+            work.extend(of_it.into_iter().map(|unit| (suite, unit)));
+        }
+        let bar = progress::bar(work.len() as u64, "vector directories", quiet);
+        let written = jobs::all(&work, &bar, |(suite, unit)| {
+            let trace = capture(machine, *unit, suite, suite.state(), self.stalls.unwrap_or(suite.stalls));
+            let verilog =
+                design::verilog(machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+            let name = format!("{}_{}", suite.name, unit.name());
+            let files = directory(suite, &trace, &verilog, self.tables);
+            if !quiet {
+                bar.suspend(|| announce(&name, &files));
+            }
+            for (file, contents) in files {
+                out.write(&format!("{folder}{name}/{file}"), contents)?;
+            }
+            Ok((name, (*unit, reached(&trace))))
+        })?;
+        bar.finish_and_clear();
+        let (names, runs): (Vec<String>, Vec<_>) = written.into_iter().unzip();
+        warn_of_gaps(&runs, quiet);
+        Ok(names)
+    }
+}
+
+/// Says how much is about to be written where it is very much.
+fn announce(name: &str, files: &Files) {
+    let size = |of: fn(&str) -> bool| files.iter().filter(|(n, _)| of(n)).map(|(_, bytes)| bytes.len()).sum::<usize>();
+    let (all, tables) = (size(|_| true), size(|n| n.ends_with(".csv")));
+    if all >= HUGE {
+        let hint = if tables > 0 { format!(", {} MB of them tables (--no-csv leaves them out)", tables >> 20) } else { String::new() };
+        talk::warn(&format!("{name}: writing {} MB{hint}", all >> 20));
+    }
 }

@@ -1,24 +1,26 @@
 //! `edgewalk verify`: model against netlist in every port and cycle, then the emitted Verilog in both simulators.
 
-use super::vectors::{directed, stalls};
+use super::vectors::{directed, functions, of_input, stalls, warn_of_gaps};
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::scratch::Scratch;
 use crate::verdict::Verdict;
 use crate::{Talk, jobs, progress};
 use anyhow::{Context, Result, anyhow};
+use edgewalk_lockstep::LockstepError;
 use edgewalk_machine::Plan;
-use edgewalk_model::DrawState;
 use edgewalk_vectors::{
-    LockstepError, Outcome, Simulator, StallKind, Suite, Trace, Unit, capture, design, directory, lockstep,
-    simulate,
+    Outcome, Simulator, StallKind, Suite, Tables, Trace, Unit, capture, design, directory, reached, simulate,
 };
 use serde::Serialize;
+use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;
 
 /// Verifies the machine: model against netlist port by port and cycle by cycle, then its Verilog in Icarus and Verilator.
 ///
-/// The directed suites go through the machine and each of its units, the input's triangles through the machine.
+/// The directed suites go through the machine and each of its units, those of the depth functions through the machine and
+/// DEPTH, the input's triangles through the machine.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk verify sphere
@@ -30,9 +32,9 @@ pub struct Args {
     /// Takes this many triangles of the input, spread over it evenly
     #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u64).range(1..))]
     triangles: u64,
-    /// How the bench makes the design wait: none, mixed, late
-    #[arg(long, default_value = "mixed", value_parser = stalls)]
-    stalls: StallKind,
+    /// How the bench makes the design wait: none, mixed, late; what suits each suite if left out
+    #[arg(long, value_parser = stalls)]
+    stalls: Option<StallKind>,
     /// Seconds that a simulator may compile, and again that it may run
     #[arg(long, default_value_t = 300, value_parser = clap::value_parser!(u64).range(1..))]
     limit: u64,
@@ -40,6 +42,8 @@ pub struct Args {
     #[arg(long)]
     no_simulators: bool,
 }
+
+const ICARUS: [Simulator; 1] = [Simulator::Icarus];
 
 /// One comparison.
 #[derive(Clone, Serialize)]
@@ -65,58 +69,58 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = machine.machine(None)?;
     let frame = args.source.frame(&machine)?;
     let port = to_port(&frame, &machine)?;
-    let every = port.triangles.len().div_ceil(args.triangles as usize).max(1);
-    let scene =
-        Suite::of_triangles("input", &args.source.input, port.triangles.into_iter().step_by(every).collect());
-    let mut work: Vec<(Suite, Unit)> = vec![(scene, Unit::Machine)];
+    let input = Suite { name: "input".to_owned(), ..of_input(&args.source.input, &port, Some(args.triangles))? };
+    let mut work: Vec<(Suite, Unit, &[Simulator])> = vec![(input, Unit::MACHINE, &Simulator::ALL)];
     for suite in directed(&machine)? {
-        work.extend(Unit::ALL.map(|unit| (suite.clone(), unit)));
+        // A build with Verilator takes seconds: the whole machine is enough for it.
+        work.extend(Unit::all(&machine).into_iter().map(|unit| {
+            let simulators: &[Simulator] = if unit == Unit::MACHINE { &Simulator::ALL } else { &ICARUS };
+            (suite.clone(), unit, simulators)
+        }));
     }
-    let state = DrawState {
-        depth_func: port.state.depth_func,
-        depth_write: port.state.depth_write,
-        ..DrawState::default()
-    };
+    for suite in functions(&machine)? {
+        let units = Unit::all(&machine).into_iter().filter(|unit| suite.is_for(*unit));
+        work.extend(units.map(|unit| (suite.clone(), unit, &ICARUS[..])).collect::<Vec<_>>());
+    }
     let limit = Duration::from_secs(args.limit);
     let bar = progress::bar(work.len() as u64, "suites and units", talk.quiet);
-    let checks = jobs::all(&work, &bar, |(suite, unit)| {
-        let trace = capture(&machine, *unit, suite, state, args.stalls);
+    let done = jobs::all(&work, &bar, |(suite, unit, simulators)| {
+        let trace = capture(&machine, *unit, suite, suite.state(), args.stalls.unwrap_or(suite.stalls));
         let mut checks = vec![against_netlist(&machine, suite, *unit, &trace)?];
         if !args.no_simulators {
             let folder = write(&machine, suite, *unit, &trace)?;
-            // A build with Verilator takes seconds: the whole machine is enough for it.
-            let simulators: &[Simulator] =
-                if *unit == Unit::Machine { &Simulator::ALL } else { &[Simulator::Icarus] };
-            for simulator in simulators {
+            for simulator in *simulators {
                 checks.push(in_simulator(*simulator, folder.path(), limit, suite, &trace)?);
             }
         }
-        Ok(checks)
-    })?
-    .concat();
+        Ok((checks, (*unit, reached(&trace))))
+    })?;
     bar.finish_and_clear();
+    let (checks, runs): (Vec<Vec<Check>>, Vec<_>) = done.into_iter().unzip();
+    let checks = checks.concat();
+    warn_of_gaps(&runs, talk.quiet);
     print(&machine, &checks, talk)?;
     Ok(checks.iter().fold(Verdict::Pass, |all, c| all.and(c.verdict())))
 }
 
 fn against_netlist(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> Result<Check> {
-    let netlist = design::netlist(machine, unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+    let netlist = edgewalk_lockstep::netlist(machine, unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
     // How much ought to be compared follows from the model's run alone.
     let expected = trace.port_values();
-    let (checked, difference) = match lockstep(trace, &netlist) {
+    let (checked, difference) = match trace.lockstep(&netlist) {
         Ok(agreement) => (agreement.compared, None),
         Err(LockstepError::Vacuous) => (0, None),
         Err(LockstepError::Differs { difference, compared }) => (compared, Some(difference.to_string())),
-        Err(LockstepError::Ports(error)) => return Err(anyhow!("the netlist's ports: {error}")),
+        Err(error) => return Err(error.into()),
     };
     let suite = suite.name.clone();
     Ok(Check { suite, unit: unit.name(), against: "netlist", checked, expected, difference })
 }
 
-fn write(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> Result<tempfile::TempDir> {
-    let folder = tempfile::tempdir().context("a folder for the simulators")?;
+fn write(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> Result<Scratch> {
+    let folder = Scratch::temporary()?;
     let verilog = design::verilog(machine, unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
-    for (name, contents) in directory(suite, trace, &verilog) {
+    for (name, contents) in directory(suite, trace, &verilog, Tables::LeftOut) {
         let path = folder.path().join(name);
         if let Some(parent) = path.parent() {
             std::fs::create_dir_all(parent)?;
@@ -134,7 +138,7 @@ fn in_simulator(
     trace: &Trace,
 ) -> Result<Check> {
     let (unit, expected) = (trace.interface.unit, trace.expected());
-    let work = tempfile::tempdir().context("a folder for the simulator's work")?;
+    let work = Scratch::temporary()?;
     let outcome = simulate(simulator, folder, work.path(), limit)
         .with_context(|| format!("{} {} (--no-simulators goes without)", suite.name, unit.name()))?;
     let (checked, difference) = match outcome {
@@ -147,25 +151,25 @@ fn in_simulator(
 }
 
 fn print(machine: &Plan, checks: &[Check], talk: Talk) -> Result<()> {
-    if talk.json {
-        println!(
-            "{}",
-            serde_json::to_string_pretty(
-                &serde_json::json!({ "machine": machine.hash(), "checks": checks })
-            )?
-        );
-    } else if !talk.quiet {
-        println!("machine {}", machine.hash());
+    let json = || {
+        let report = serde_json::json!({ "machine": machine.hash(), "checks": checks });
+        Ok(serde_json::to_string_pretty(&report)?)
+    };
+    let text = || {
+        let mut text = format!("machine {}\n", machine.hash());
         for c in checks {
             let word = if c.verdict() == Verdict::Pass { "pass" } else { "FAIL" };
-            println!(
-                "{word}  {:<8} {:<8} model = {:<10} checked {} / {}",
+            // Writing to a string cannot fail.
+            _ = writeln!(
+                text,
+                "{word}  {:<15} {:<8} model = {:<10} checked {} / {}",
                 c.suite, c.unit, c.against, c.checked, c.expected
             );
             if let Some(d) = &c.difference {
-                println!("      {d}");
+                _ = writeln!(text, "      {d}");
             }
         }
-    }
-    Ok(())
+        text
+    };
+    talk.say(json, text)
 }

@@ -8,7 +8,7 @@ use glam::DVec2;
 pub struct Quadratic {
     /// Where x and y are 0, pixels.
     pub origin: DVec2,
-    /// T0 to T5, in the order and with the names of [BW86].
+    /// T0 to T5, in the order and with the names of BW86.
     pub t: [f64; 6],
 }
 

@@ -1,4 +1,4 @@
-//! The second-order Taylor series about the centroid ([BW86]).
+//! The second-order Taylor series about the centroid (BW86).
 
 use crate::fast_phong::normal_plane::NormalPlane;
 use crate::fast_phong::quadratic::Quadratic;

@@ -1,9 +1,11 @@
-//! The active edge table: the edges that cross a line, stepped from line to line without error.
+//! The active edge table: the edges that cross a line, from left to right.
 //!
 //! ```text
 //!   x = column - remainder / (dy * pitch)      column = x rounded up to a pixel's centre, 0 <= remainder < dy * pitch
-//!   next line: x + dx / dy                     its quotient to the column, its remainder from the remainder, one borrow
 //! ```
+//! The lecture adds 1/m to each x on the way to the next line. Here x is divided out on every line from the ends of the edge, which
+//! is the same number: a walk by quotient and remainder is the machine's way, and no second opinion on it.
+//!
 //! dy < 2^30 and pitch <= 2^9, so remainders are below 2^39.
 
 use super::table::{Edge, EdgeTable};
@@ -20,24 +22,13 @@ pub struct ActiveEdge<'a> {
 
 impl<'a> ActiveEdge<'a> {
     /// Where an edge crosses one of its lines.
-    fn enter(edge: &'a Edge, line: i64) -> Self {
+    fn on(edge: &'a Edge, line: i64) -> Self {
         let [up, down] = edge.weights(line);
         // Both products are below 2^60: the crossing in units of the grid, times dy, from the centre of pixel 0.
         let x = (edge.start[0] - edge.grid.centre(0)) * (up + down) + down * edge.dx();
         let unit = edge.dy() * edge.grid.pitch();
         let column = -(-x).div_euclid(unit);
         Self { edge, column, remainder: column * unit - x }
-    }
-
-    /// To the next line.
-    fn step(&mut self) {
-        let (dx, dy, pitch) = (self.edge.dx(), self.edge.dy(), self.edge.grid.pitch());
-        self.column += dx.div_euclid(dy);
-        self.remainder -= dx.rem_euclid(dy) * pitch;
-        if self.remainder < 0 {
-            self.remainder += dy * pitch;
-            self.column += 1;
-        }
     }
 
     /// The edge.
@@ -75,10 +66,10 @@ impl<'a> ActiveEdge<'a> {
 impl EdgeTable {
     /// The lecture's algorithm: calls `visit` with each of `lines` that edges cross, and these edges from left to right.
     ///
-    /// Edges whose first lines lie before `lines` enter where they cross the first of those.
+    /// Edges whose first lines lie before `lines` enter on the first of those.
     pub fn scan(&self, lines: Range<i64>, mut visit: impl FnMut(i64, &[ActiveEdge])) {
         let mut waiting = self.edges().iter().peekable();
-        let mut active: Vec<ActiveEdge> = Vec::new();
+        let mut active: Vec<&Edge> = Vec::new();
         let mut line = lines.start;
         loop {
             if active.is_empty() {
@@ -89,30 +80,27 @@ impl EdgeTable {
                 return;
             }
             while let Some(edge) = waiting.next_if(|edge| edge.lines().start <= line) {
-                if edge.lines().contains(&line) {
-                    active.push(ActiveEdge::enter(edge, line));
-                }
+                active.push(edge);
             }
-            active.sort_by(ActiveEdge::order);
-            if !active.is_empty() {
-                visit(line, &active);
+            // Ymax is not counted: an edge leaves before its last line is filled.
+            active.retain(|edge| edge.lines().contains(&line));
+            let crossings = from_left(active.iter().copied(), line);
+            if !crossings.is_empty() {
+                visit(line, &crossings);
             }
             line += 1;
-            // Ymax is not counted: an edge leaves before its last line is filled.
-            active.retain(|crossing| crossing.edge.lines().contains(&line));
-            active.iter_mut().for_each(ActiveEdge::step);
         }
     }
 
     /// The edges that cross one line, from left to right.
     pub(super) fn crossing(&self, line: i64) -> Vec<ActiveEdge<'_>> {
-        let mut active: Vec<_> = self
-            .edges()
-            .iter()
-            .filter(|edge| edge.lines().contains(&line))
-            .map(|edge| ActiveEdge::enter(edge, line))
-            .collect();
-        active.sort_by(ActiveEdge::order);
-        active
+        from_left(self.edges().iter().filter(|edge| edge.lines().contains(&line)), line)
     }
+}
+
+/// Edges that cross a line, in the order of their crossings.
+fn from_left<'a>(edges: impl Iterator<Item = &'a Edge>, line: i64) -> Vec<ActiveEdge<'a>> {
+    let mut crossings: Vec<_> = edges.map(|edge| ActiveEdge::on(edge, line)).collect();
+    crossings.sort_by(ActiveEdge::order);
+    crossings
 }

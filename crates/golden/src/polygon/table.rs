@@ -36,7 +36,7 @@ impl EdgeTable {
         };
         let shaded = |v: &Vertex| match mode {
             ShadeMode::Gouraud => *v,
-            ShadeMode::Flat => Vertex { x: v.x, y: v.y, z: v.z, ..first },
+            ShadeMode::Flat => v.colored_as(&first),
         };
         let mut edges = Vec::new();
         let mut number = 0;

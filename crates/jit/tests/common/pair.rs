@@ -39,6 +39,13 @@ impl Pair {
         self.found.set_input(input, value).unwrap();
     }
 
+    /// An output in this cycle, as the interpreter has it.
+    #[allow(dead_code, reason = "not every test drives by a rig")]
+    pub fn output(&mut self, name: &str) -> u128 {
+        let output = self.wanted.signal(name).unwrap();
+        self.wanted.value(output)
+    }
+
     /// The outputs in this cycle, as the interpreter has them.
     pub fn outputs(&mut self) -> Vec<u128> {
         self.outputs.iter().map(|(wanted, _)| self.wanted.value(*wanted)).collect()

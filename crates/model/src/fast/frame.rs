@@ -1,12 +1,12 @@
 //! Walks every triangle as EDGE and SPAN do, draws its spans, and keeps the clock.
 
-use super::{Reason, Refusal};
 use super::clock::Clock;
 use super::picture::Picture;
 use super::pixel::Pixel;
 use super::setup::Setup;
 use super::span::{DepthTest, Ramp};
 use super::walk::{Span, Walker};
+use super::{Reason, Refusal};
 use crate::counters::Counters;
 use crate::run::DrawState;
 use crate::tokens::{FEW, Prim};

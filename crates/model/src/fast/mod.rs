@@ -31,6 +31,7 @@ use crate::tokens::FEW;
 use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
 use picture::Picture;
 use std::fmt;
+use std::ops::Range;
 
 /// Why a frame has to be ticked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -146,18 +147,25 @@ impl Renderer {
     /// The frame: coverage, writes and ids are empty without details, events are not counted.
     #[must_use]
     pub fn frame(&self) -> Frame {
-        let pixels = self.plan.width as usize * self.plan.height as usize;
+        self.lines(0..self.plan.height)
+    }
+
+    /// Some lines of the frame, with the counters of all of it.
+    #[must_use]
+    pub fn lines(&self, lines: Range<u32>) -> Frame {
+        let [start, end] = [lines.start, lines.end].map(|line| line as usize * self.plan.width as usize);
         let (z, rgb, details) = match &self.memory {
-            Memory::Narrow(picture) => picture.outputs(pixels),
-            Memory::Wide(picture) => picture.outputs(pixels),
+            Memory::Narrow(picture) => picture.outputs(start..end),
+            Memory::Wide(picture) => picture.outputs(start..end),
         };
+        let part = |counts: &[u32]| counts.get(start..end).unwrap_or_default().to_vec();
         Frame {
             z,
             rgb,
             extra: Vec::new(),
-            coverage: details.coverage.iter().copied().take(pixels).collect(),
-            writes: details.writes.iter().copied().take(pixels).collect(),
-            id: details.id.iter().copied().take(pixels).collect(),
+            coverage: part(&details.coverage),
+            writes: part(&details.writes),
+            id: details.id.get(start..end).unwrap_or_default().to_vec(),
             counters: self.counters.clone(),
             events: Events::default(),
         }

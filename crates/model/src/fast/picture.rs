@@ -3,6 +3,7 @@
 use super::pixel::{Pixel, pixel};
 use crate::run::DrawState;
 use edgewalk_machine::Plan;
+use std::ops::Range;
 
 /// Pixels of a chunk, which are drawn side by side.
 pub(super) const LANES: usize = 8;
@@ -48,9 +49,9 @@ impl<P: Pixel> Picture<P> {
         }
     }
 
-    /// Stored depths and colours of the first `pixels` pixels, b bits each, and what happened there.
-    pub(super) fn outputs(&self, pixels: usize) -> (Vec<u64>, Vec<[u64; 3]>, &Details) {
-        let stored = || self.pixels.iter().take(pixels);
+    /// Stored depths and colours of these pixels, b bits each, and what happened to all.
+    pub(super) fn outputs(&self, pixels: Range<usize>) -> (Vec<u64>, Vec<[u64; 3]>, &Details) {
+        let stored = || self.pixels.get(pixels.clone()).unwrap_or_default().iter();
         (stored().map(|p| u64::from(p.depth())).collect(), stored().map(|p| p.rgb()).collect(), &self.details)
     }
 }

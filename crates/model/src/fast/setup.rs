@@ -51,7 +51,8 @@ struct TooLong;
 impl Setup {
     pub(super) fn new(plan: &Plan) -> Self {
         let w = plan.widths();
-        let difference_bits = per_channel::<_, FEW>(plan, |c| c.vertex_bits() + 1).into_iter().max().unwrap_or(0);
+        let difference_bits =
+            per_channel::<_, FEW>(plan, |c| c.vertex_bits() + 1).into_iter().max().unwrap_or(0);
         let exact = plan.fill == Fill::Exact && plan.edge_kind == EdgeKind::Exact;
         let s = plan.subpixel_bits;
         let value_bits: [u32; FEW] = per_channel(plan, |c| c.fraction - c.vertex_fraction);

@@ -51,7 +51,14 @@ fn scale(channel: &Channel) -> (u32, i128) {
 }
 
 /// Textbook fill: first value and increment a line along the left edge `a`-`b`, on line `j` (A 7.10).
-fn left_edge<const C: usize>(plan: &Plan, a: &Corner<C>, b: &Corner<C>, j: i64, i: usize, channel: &Channel) -> (i128, i128) {
+fn left_edge<const C: usize>(
+    plan: &Plan,
+    a: &Corner<C>,
+    b: &Corner<C>,
+    j: i64,
+    i: usize,
+    channel: &Channel,
+) -> (i128, i128) {
     let (shift, half) = scale(channel);
     let p = 1i64 << plan.widths().center_fraction;
     let dc = b.values[i] - a.values[i];

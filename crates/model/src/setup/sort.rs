@@ -52,9 +52,5 @@ fn corner<const C: usize>(plan: &Plan, vertex: &PortVertex) -> Corner<C> {
     };
     let channels = plan.channels();
     let values = std::array::from_fn(|i| channels.get(i).map_or(0, |c| value(c, vertex.values()[i])));
-    Corner {
-        u: centre(vertex.x()),
-        v: centre(vertex.y()),
-        values,
-    }
+    Corner { u: centre(vertex.x()), v: centre(vertex.y()), values }
 }

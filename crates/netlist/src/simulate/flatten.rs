@@ -43,6 +43,8 @@ pub(super) struct Flat {
     pub instructions: Vec<Instruction>,
     pub registers: Vec<FlatRegister>,
     pub memories: Vec<FlatMemory>,
+    /// By slot: it never changes.
+    pub constant: Vec<bool>,
     /// Every named signal by its path, `instance.instance.name`.
     pub names: BTreeMap<String, Slot>,
     /// Every memory by its path.
@@ -229,6 +231,7 @@ impl Builder {
                 flat.instructions.push(instruction);
             }
         }
+        flat.constant = constant;
         self.flat
     }
 }

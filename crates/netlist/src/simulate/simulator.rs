@@ -91,6 +91,11 @@ impl Simulator {
         self.flat.widths[signal.0 as usize]
     }
 
+    /// Whether a signal is a constant, or computed from nothing else.
+    pub fn is_constant(&self, signal: SignalId) -> bool {
+        self.flat.constant[signal.0 as usize]
+    }
+
     /// Sets an input; bits beyond its width are dropped, as by a wire.
     pub fn set(&mut self, input: InputId, value: u128) {
         let slot = input.0 as usize;

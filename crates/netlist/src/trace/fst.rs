@@ -7,7 +7,7 @@ use fst_writer::{
     FstVarDirection, FstVarType, FstWriteError,
 };
 
-use super::watch::{CYCLE, Scope, Watch, everything};
+use super::watch::{CYCLE, Labels, Scope, Watch, everything};
 use crate::simulate::Simulator;
 
 /// Bytes of changes kept in memory before they are written.
@@ -19,6 +19,8 @@ pub struct FstTrace<W: Write + Seek> {
     watch: Watch,
     clk: FstSignalId,
     ids: Vec<FstSignalId>,
+    /// With the bits of each.
+    text_ids: Vec<(FstSignalId, usize)>,
 }
 
 impl<W: Write + Seek> FstTrace<W> {
@@ -26,8 +28,8 @@ impl<W: Write + Seek> FstTrace<W> {
     ///
     /// # Errors
     /// Those of `out`.
-    pub fn new(out: W, sim: &Simulator, top: &str) -> Result<Self, FstWriteError> {
-        let (scope, watch) = everything(sim, top);
+    pub fn new(out: W, sim: &Simulator, top: &str, labels: &[Labels]) -> Result<Self, FstWriteError> {
+        let (scope, watch) = everything(sim, top, labels);
         let info = FstInfo {
             start_time: 0,
             timescale_exponent: -9,
@@ -37,13 +39,16 @@ impl<W: Write + Seek> FstTrace<W> {
         };
         let mut header = FstHeaderWriter::new(out, &info)?;
         let mut ids = vec![None; watch.widths().len()];
+        let text_bits: Vec<usize> = watch.text_widths().iter().map(|characters| 8 * characters).collect();
+        let mut text_ids = vec![None; text_bits.len()];
         header.scope(&scope.name, "", FstScopeType::Module)?;
         let clk = variable(&mut header, "clk", 1, None)?;
-        declare(&mut header, &scope, watch.widths(), &mut ids)?;
+        declare(&mut header, &scope, watch.widths(), &mut ids, &text_bits, &mut text_ids)?;
         header.up_scope()?;
         // Every signal has at least one name, so none is left out.
         let ids = ids.into_iter().flatten().collect();
-        Ok(FstTrace { writer: header.finish()?, watch, clk, ids })
+        let text_ids = text_ids.into_iter().flatten().collect();
+        Ok(FstTrace { writer: header.finish()?, watch, clk, ids, text_ids })
     }
 
     /// Writes the signals as they are in this cycle; to be called once a cycle, before the tick.
@@ -54,8 +59,14 @@ impl<W: Write + Seek> FstTrace<W> {
         let now = self.watch.now();
         self.writer.time_change(now)?;
         self.writer.signal_change(self.clk, b"1")?;
-        for (place, bits) in self.watch.changes(sim) {
+        let changes = self.watch.changes(sim);
+        for (place, bits) in changes.bits {
             self.writer.signal_change(self.ids[place], bits.as_bytes())?;
+        }
+        for (place, text) in changes.texts {
+            let (id, width) = self.text_ids[place];
+            let bits: String = text.bytes().map(|byte| format!("{byte:08b}")).collect();
+            self.writer.signal_change(id, format!("{bits:0>width$}").as_bytes())?;
         }
         self.writer.time_change(now + CYCLE / 2)?;
         self.writer.signal_change(self.clk, b"0")?;
@@ -81,13 +92,19 @@ fn declare<W: Write + Seek>(
     scope: &Scope,
     widths: &[u32],
     ids: &mut [Option<FstSignalId>],
+    text_bits: &[usize],
+    text_ids: &mut [Option<(FstSignalId, usize)>],
 ) -> Result<(), FstWriteError> {
     for (name, place) in &scope.variables {
         ids[*place] = Some(variable(header, name, widths[*place], ids[*place])?);
     }
+    for (name, place) in &scope.texts {
+        let bits = text_bits[*place];
+        text_ids[*place] = Some((variable(header, name, bits as u32, None)?, bits)); // a short name
+    }
     for inner in &scope.scopes {
         header.scope(&inner.name, "", FstScopeType::Module)?;
-        declare(header, inner, widths, ids)?;
+        declare(header, inner, widths, ids, text_bits, text_ids)?;
         header.up_scope()?;
     }
     Ok(())

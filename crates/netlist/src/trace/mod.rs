@@ -1,6 +1,8 @@
 //! Waveforms of a running simulator, as VCD or FST, written to whatever the caller opened.
 //!
-//! A trace has a scope for the top module and one for each instance in it; every named signal is there, and `clk`.
+//! A trace has a scope for the top module and one for each instance in it; every named signal that can change is there, and
+//! `clk`. A signal whose values have names ([`Labels`]) has another beside it, `<name>_name`: text in a VCD; in an FST, which
+//! its writer gives no text, a character a byte, for a viewer's ASCII format.
 //! A cycle lasts 10 ns and begins with the rising edge, so a sample is what the signals are until the next edge.
 
 mod fst;
@@ -8,4 +10,5 @@ mod vcd;
 mod watch;
 
 pub use fst::FstTrace;
+pub use watch::Labels;
 pub use vcd::VcdTrace;

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use vcd::{IdCode, ScopeItem, TimescaleUnit, Value, Var, VarType, Writer};
 
-use super::watch::{CYCLE, Scope, Watch, everything};
+use super::watch::{CYCLE, Labels, Scope, Watch, everything};
 use crate::simulate::Simulator;
 
 /// A VCD being written.
@@ -13,6 +13,7 @@ pub struct VcdTrace<W: Write> {
     watch: Watch,
     clk: IdCode,
     ids: Vec<IdCode>,
+    text_ids: Vec<IdCode>,
 }
 
 impl<W: Write> VcdTrace<W> {
@@ -20,19 +21,19 @@ impl<W: Write> VcdTrace<W> {
     ///
     /// # Errors
     /// Those of `out`.
-    pub fn new(out: W, sim: &Simulator, top: &str) -> io::Result<Self> {
-        let (scope, watch) = everything(sim, top);
+    pub fn new(out: W, sim: &Simulator, top: &str, labels: &[Labels]) -> io::Result<Self> {
+        let (scope, watch) = everything(sim, top, labels);
         let mut writer = Writer::new(out);
         writer.timescale(1, TimescaleUnit::NS)?;
         let clk = IdCode::FIRST;
-        let ids: Vec<IdCode> = std::iter::successors(Some(clk.next()), |id| Some(id.next()))
-            .take(watch.widths().len())
-            .collect();
-        let mut top = vcd_scope(&scope, &ids, watch.widths());
+        let mut free = std::iter::successors(Some(clk.next()), |id| Some(id.next()));
+        let ids: Vec<IdCode> = free.by_ref().take(watch.widths().len()).collect();
+        let text_ids: Vec<IdCode> = free.take(watch.text_widths().len()).collect();
+        let mut top = vcd_scope(&scope, &ids, watch.widths(), &text_ids);
         top.items.insert(0, ScopeItem::Var(Var::new(VarType::Wire, 1, clk, "clk".into(), None)));
         writer.scope(&top)?;
         writer.enddefinitions()?;
-        Ok(VcdTrace { writer, watch, clk, ids })
+        Ok(VcdTrace { writer, watch, clk, ids, text_ids })
     }
 
     /// Writes the signals as they are in this cycle; to be called once a cycle, before the tick.
@@ -43,12 +44,16 @@ impl<W: Write> VcdTrace<W> {
         let now = self.watch.now();
         self.writer.timestamp(now)?;
         self.writer.change_scalar(self.clk, true)?;
-        for (place, bits) in self.watch.changes(sim) {
+        let changes = self.watch.changes(sim);
+        for (place, bits) in changes.bits {
             let values: Vec<Value> = bits.bytes().map(|bit| Value::from(bit == b'1')).collect();
             match values[..] {
                 [bit] => self.writer.change_scalar(self.ids[place], bit)?,
                 _ => self.writer.change_vector(self.ids[place], values)?,
             }
+        }
+        for (place, text) in changes.texts {
+            self.writer.change_string(self.text_ids[place], &text)?;
         }
         self.writer.timestamp(now + CYCLE / 2)?;
         self.writer.change_scalar(self.clk, false)
@@ -64,12 +69,15 @@ impl<W: Write> VcdTrace<W> {
     }
 }
 
-fn vcd_scope(scope: &Scope, ids: &[IdCode], widths: &[u32]) -> vcd::Scope {
+fn vcd_scope(scope: &Scope, ids: &[IdCode], widths: &[u32], text_ids: &[IdCode]) -> vcd::Scope {
     let variable = |(name, place): &(String, usize)| {
         ScopeItem::Var(Var::new(VarType::Wire, widths[*place], ids[*place], name.clone(), None))
     };
-    let inner = scope.scopes.iter().map(|inner| ScopeItem::Scope(vcd_scope(inner, ids, widths)));
+    let text = |(name, place): &(String, usize)| {
+        ScopeItem::Var(Var::new(VarType::String, 1, text_ids[*place], name.clone(), None))
+    };
+    let inner = scope.scopes.iter().map(|inner| ScopeItem::Scope(vcd_scope(inner, ids, widths, text_ids)));
     let mut result = vcd::Scope::new(vcd::ScopeType::Module, scope.name.clone());
-    result.items = scope.variables.iter().map(variable).chain(inner).collect();
+    result.items = scope.variables.iter().map(variable).chain(scope.texts.iter().map(text)).chain(inner).collect();
     result
 }

@@ -7,11 +7,22 @@ use crate::simulate::{SignalId, Simulator};
 /// Nanoseconds of a cycle.
 pub(super) const CYCLE: u64 = 10;
 
+/// Names of a signal's values.
+#[derive(Clone, Copy, Debug)]
+pub struct Labels<'a> {
+    /// Path of the signal.
+    pub signal: &'a str,
+    /// The name of each value from 0 on; a value beyond has none.
+    pub names: &'a [&'a str],
+}
+
 /// A module or instance with its signals, given by their place in [`Watch::signals`].
 #[derive(Debug, Default)]
 pub(super) struct Scope {
     pub name: String,
     pub variables: Vec<(String, usize)>,
+    /// Signals with named values: the name of the text, and the place in [`Watch::labels`].
+    pub texts: Vec<(String, usize)>,
     pub scopes: Vec<Scope>,
 }
 
@@ -20,15 +31,25 @@ pub(super) struct Scope {
 pub(super) struct Watch {
     signals: Vec<(SignalId, Option<u128>)>,
     widths: Vec<u32>,
+    /// Signals with named values, by place, and the names.
+    labels: Vec<(usize, Vec<String>)>,
     cycles: u64,
 }
 
-/// All signals of a simulator; a signal of several names is one signal.
-pub(super) fn everything(sim: &Simulator, top: &str) -> (Scope, Watch) {
+/// What changed in a sample.
+pub(super) struct Changes {
+    /// Signals by place, with their bits as `0` and `1`, the highest first.
+    pub bits: Vec<(usize, String)>,
+    /// Texts by place.
+    pub texts: Vec<(usize, String)>,
+}
+
+/// All signals of a simulator that can change; a signal of several names is one signal.
+pub(super) fn everything(sim: &Simulator, top: &str, labels: &[Labels]) -> (Scope, Watch) {
     let mut scope = Scope { name: top.to_string(), ..Scope::default() };
-    let mut watch = Watch { signals: Vec::new(), widths: Vec::new(), cycles: 0 };
+    let mut watch = Watch { signals: Vec::new(), widths: Vec::new(), labels: Vec::new(), cycles: 0 };
     let mut places: HashMap<SignalId, usize> = HashMap::new();
-    for (path, signal) in sim.signals() {
+    for (path, signal) in sim.signals().filter(|(_, signal)| !sim.is_constant(*signal)) {
         let place = *places.entry(signal).or_insert_with(|| {
             watch.signals.push((signal, None));
             watch.widths.push(sim.width(signal));
@@ -45,6 +66,10 @@ pub(super) fn everything(sim: &Simulator, top: &str) -> (Scope, Watch) {
             inner = &mut inner.scopes[last];
         }
         inner.variables.push((name.to_string(), place));
+        if let Some(labels) = labels.iter().find(|labels| labels.signal == path) {
+            inner.texts.push((format!("{name}_name"), watch.labels.len()));
+            watch.labels.push((place, labels.names.iter().map(ToString::to_string).collect()));
+        }
     }
     (scope, watch)
 }
@@ -60,14 +85,27 @@ impl Watch {
         self.cycles * CYCLE
     }
 
-    /// Takes a sample: the signals that changed since the last, with their bits as `0` and `1`, the highest first.
-    pub fn changes(&mut self, sim: &mut Simulator) -> Vec<(usize, String)> {
+    /// Characters of the longest name of each text.
+    pub fn text_widths(&self) -> Vec<usize> {
+        let longest = |names: &Vec<String>| names.iter().map(String::len).max().unwrap_or(0).max(1);
+        self.labels.iter().map(|(_, names)| longest(names)).collect()
+    }
+
+    /// Takes a sample: what changed since the last.
+    pub fn changes(&mut self, sim: &mut Simulator) -> Changes {
         self.cycles += 1;
-        let mut changes = Vec::new();
+        let mut changes = Changes { bits: Vec::new(), texts: Vec::new() };
         for (place, (signal, last)) in self.signals.iter_mut().enumerate() {
             let value = sim.value(*signal);
-            if last.replace(value) != Some(value) {
-                changes.push((place, format!("{value:0width$b}", width = self.widths[place] as usize)));
+            if last.replace(value) == Some(value) {
+                continue;
+            }
+            changes.bits.push((place, format!("{value:0width$b}", width = self.widths[place] as usize)));
+            for (text, (of, names)) in self.labels.iter().enumerate() {
+                if *of == place {
+                    let name = usize::try_from(value).ok().and_then(|value| names.get(value));
+                    changes.texts.push((text, name.cloned().unwrap_or_else(|| "?".to_owned())));
+                }
             }
         }
         changes

@@ -91,6 +91,8 @@ fn expected(name: &str, a: &Value, b: &Value, n: &Value, c: bool) -> BigInt {
         "shl" => x * power(constant),
         "shr" => floor_div(&x, &power(constant)),
         "sar" => floor_div(&sx, &power(constant)),
+        "shl_out_of" | "shr_out_of" => BigInt::ZERO,
+        "sar_out_of" => -truth(sx < BigInt::ZERO),
         "shl_by" => x * power(count),
         "shr_by" => floor_div(&x, &power(count)),
         "sar_by" => floor_div(&sx, &power(count)),
@@ -109,6 +111,11 @@ fn shift_of(width: u32) -> u32 {
     width.div_ceil(3)
 }
 
+/// As far as the word is wide or farther, up to three times so: past the end of any machine word that holds it.
+fn out_of(width: u32) -> u32 {
+    width + shift_of(width) * (width % 7)
+}
+
 fn slice_of(width: u32) -> (u32, u32) {
     (width - 1 - width / 4, width / 3)
 }
@@ -119,7 +126,7 @@ fn module(width: u32, other: u32) -> Module {
     let (a, b) = (m.input("a", width), m.input("b", width));
     let (n, c) = (m.input("n", other), m.input("c", 1));
     let (hi, lo) = slice_of(width);
-    let constant = shift_of(width);
+    let (constant, far) = (shift_of(width), out_of(width));
     let distance = n.trunc(other.min(16));
     let outputs = [
         ("add", a + b),
@@ -143,6 +150,9 @@ fn module(width: u32, other: u32) -> Module {
         ("shl", a.shl(constant)),
         ("shr", a.shr(constant)),
         ("sar", a.sar(constant)),
+        ("shl_out_of", a.shl(far)),
+        ("shr_out_of", a.shr(far)),
+        ("sar_out_of", a.sar(far)),
         ("shl_by", a.shl_by(distance)),
         ("shr_by", a.shr_by(distance)),
         ("sar_by", a.sar_by(distance)),
@@ -202,7 +212,7 @@ fn all_values_of_small_widths() {
             compared += compare(width, other, values);
         }
     }
-    assert_eq!(compared, 33 * 2 * (2 + 4 + 8) * (4 + 16 + 64 + 256), "every operator, every value");
+    assert_eq!(compared, 36 * 2 * (2 + 4 + 8) * (4 + 16 + 64 + 256), "every operator, every value");
 }
 
 #[test]

@@ -2,7 +2,8 @@
 //!
 //! Steps of dA/n with n a power of two are exact and show nothing, so the tables use odd n.
 
-use crate::rational::{exact, power_of_two, ratio, round_to_integer};
+use crate::classical::Place;
+use crate::rational::{exact, power_of_two, ratio, round_to_integer, rounded};
 use edgewalk_numerics::bounds::{
     Prestep, dda_error, prestepped_error, range_safe_fraction_bits, remainder_dda_error, slope_edge_error,
     surely_ordered_difference,
@@ -15,11 +16,6 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 const NEAREST: Rounding = Rounding::NearestHalfUp;
-
-fn rounded(value: &BigRational, fraction_bits: u32, rounding: Rounding) -> BigRational {
-    let scale = power_of_two(fraction_bits);
-    BigRational::from_integer(round_to_integer(&(value * &scale), rounding)) / scale
-}
 
 fn holds(bound: Interval, error: &BigRational) -> bool {
     exact(bound.low()) <= *error && *error <= exact(bound.high())
@@ -76,8 +72,8 @@ fn a3_machines_with_prestep_and_reciprocal() {
         // Gradients along x and down the edge, slope, and the reciprocal's relative error.
         let (gradient, edge_gradient, slope, eta) =
             (dyadic(4000, 9), dyadic(4000, 9), dyadic(3000, 10), dyadic(if fine { 0 } else { 3 }, 12));
-        let start = exact(dyadic(1 << 20, 13));
-        let edge_start = exact(dyadic(1 << 20, 13));
+        let start = dyadic(1 << 20, 13);
+        let edge_start = dyadic(1 << 20, 13);
         let mut small = |limit: u32| random.random_range(0..=limit);
         let (bits, steps) = (
             4 + small(8),
@@ -91,26 +87,9 @@ fn a3_machines_with_prestep_and_reciprocal() {
             edge_gradient: edge_gradient.abs(),
             slope: slope.abs(),
         };
-        let [gradient, edge_gradient, slope, eta] = [gradient, edge_gradient, slope, eta].map(exact);
-        let (lines, columns) = (ratio(steps.lines, 1), ratio(steps.columns, 1));
-        let off = |value: &BigRational| value * (ratio(1, 1) + &eta);
-
-        // What is true at the line: the edge's x, the first centre right of it, and the value there.
-        let edge_x = &edge_start + &slope * &lines;
-        let value_on_edge = &start + &edge_gradient * &lines;
-        // What the machine has.
-        let its_x = rounded(&edge_start, machine.edge_bits, NEAREST)
-            + rounded(&off(&slope), machine.edge_bits, NEAREST) * &lines;
-        let its_value =
-            rounded(&start, bits, NEAREST) + rounded(&off(&edge_gradient), bits, NEAREST) * &lines;
-        let its_gradient = rounded(&off(&gradient), bits, NEAREST);
-        let center = its_x.ceil();
-        let distance = rounded(&(&center - &its_x), machine.distance_bits, Rounding::Floor);
-        let sum = its_value + rounded(&(&its_gradient * distance), bits, NEAREST) + &its_gradient * &columns;
-        let truth = value_on_edge + &gradient * (&center - edge_x + &columns);
-
+        let place = Place { start, edge_start, gradient, edge_gradient, slope, eta };
         let bound = exact(prestepped_error(bits, steps, &machine).unwrap());
-        let error = sum - truth;
+        let error = place.error(bits, steps, &machine);
         assert!(error.abs() <= bound, "{machine:?} {steps:?} {bits} bits: {error} over {bound}");
         if !fine && steps.total() >= 8 {
             most = most.max(share(&error, &bound));

@@ -4,10 +4,12 @@
 
 mod rational;
 mod triangle;
+mod classical;
 
 mod words;
 mod intervals;
 mod bounds;
+mod sharp;
 mod second_order;
 mod normal_cone;
 mod triangles;

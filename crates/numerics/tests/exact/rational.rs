@@ -47,3 +47,9 @@ pub fn round_to_integer(value: &BigRational, rounding: Rounding) -> BigInt {
         Rounding::NearestHalfAway => nearest(away),
     }
 }
+
+/// Rounds to a multiple of 2^-`fraction_bits`.
+pub fn rounded(value: &BigRational, fraction_bits: u32, rounding: Rounding) -> BigRational {
+    let scale = power_of_two(fraction_bits);
+    BigRational::from_integer(round_to_integer(&(value * &scale), rounding)) / scale
+}

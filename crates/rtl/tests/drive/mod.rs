@@ -1,10 +1,20 @@
-//! Draws triangles on the netlist of a machine, with memories that are always ready and a test that every fragment passes.
+//! Draws triangles on the netlist of a machine, with memories that take a read in any cycle and a test that every fragment passes.
+
+use std::collections::VecDeque;
 
 use edgewalk_machine::{Activity, Plan};
 use edgewalk_netlist::{Netlist, Simulator};
 
 /// What a triangle puts on which ports.
 pub type Triangle = Vec<(String, i64)>;
+
+/// The links of a memory, and clocks from a read to its word.
+#[derive(Clone, Copy)]
+pub struct Memory {
+    pub read: &'static str,
+    pub data: &'static str,
+    pub latency: u64,
+}
 
 /// What came of it.
 #[derive(Default)]
@@ -15,11 +25,11 @@ pub struct Seen {
     pub busy: u64,
 }
 
-/// Runs until the machine is idle again. `memories` are the names of the links for addresses and words; `watch` sees every cycle.
+/// Runs until the machine is idle again; `watch` sees every cycle.
 pub fn run(
     netlist: &Netlist,
     plan: &Plan,
-    memories: &[(&str, &str)],
+    memories: &[Memory],
     triangles: &[Triangle],
     mut watch: impl FnMut(&mut Simulator),
 ) -> Seen {
@@ -31,17 +41,19 @@ pub fn run(
     }
     let names = plan.channels().iter().map(|channel| format!("wr_{}", channel.name));
     let names: Vec<String> = std::iter::once("wr_addr".to_owned()).chain(names).collect();
-    let mut reads = vec![0u32; memories.len()];
+    // When the words of the reads under way come, by memory.
+    let mut reads: Vec<VecDeque<u64>> = vec![VecDeque::new(); memories.len()];
     let mut sent = 0;
     let mut seen = Seen::default();
-    for _ in 0..2_000_000 {
+    for cycle in 0..2_000_000 {
         set(&mut sim, "tri_valid", i64::from(sent < triangles.len()));
         for (port, value) in triangles.get(sent).into_iter().flatten() {
             set(&mut sim, port, *value);
         }
-        for ((read, data), waiting) in memories.iter().zip(&reads) {
+        for (Memory { read, data, .. }, reads) in memories.iter().zip(&reads) {
+            let is_there = reads.front().is_some_and(|time| *time <= cycle);
             set(&mut sim, &format!("{read}_ready"), 1);
-            set(&mut sim, &format!("{data}_valid"), i64::from(*waiting > 0));
+            set(&mut sim, &format!("{data}_valid"), i64::from(is_there));
         }
         if sent == triangles.len() && get(&mut sim, "idle") == 1 {
             return seen;
@@ -52,9 +64,16 @@ pub fn run(
         if get(&mut sim, "wr_valid") == 1 {
             seen.writes.push(names.iter().map(|name| get(&mut sim, name)).collect());
         }
-        for ((read, data), waiting) in memories.iter().zip(&mut reads) {
-            let taken = *waiting > 0 && get(&mut sim, &format!("{data}_ready")) == 1;
-            *waiting = *waiting + u32::from(get(&mut sim, &format!("{read}_valid")) == 1) - u32::from(taken);
+        for (Memory { read, data, latency }, reads) in memories.iter().zip(&mut reads) {
+            let both = |sim: &mut Simulator, link: &str| {
+                get(sim, &format!("{link}_valid")) & get(sim, &format!("{link}_ready")) == 1
+            };
+            if both(&mut sim, data) {
+                reads.pop_front();
+            }
+            if both(&mut sim, read) {
+                reads.push_back(cycle + latency);
+            }
         }
         sent += usize::from(sent < triangles.len() && get(&mut sim, "tri_ready") == 1);
         sim.tick();

@@ -50,7 +50,7 @@ impl Frame {
                 Primitive::Polygon(polygon) => {
                     let first = polygon.contours.first().and_then(|contour| contour.first());
                     let colored = |v: Vertex| match (self.mode, first) {
-                        (ShadeMode::Flat, Some(first)) => Vertex { x: v.x, y: v.y, z: v.z, ..*first },
+                        (ShadeMode::Flat, Some(first)) => v.colored_as(first),
                         _ => v,
                     };
                     let parts = polygon.triangles(subpixel_bits)?;

@@ -1,5 +1,6 @@
 //! Reads a triangle file line by line: as a whole, or triangle by triangle, whatever its length.
 
+use super::extra;
 use super::shadow::{occluder, shadow};
 use crate::error::InputError;
 use crate::frame::{
@@ -11,11 +12,11 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 /// Every word a line may start with.
-const KEYS: [&str; 11] =
-    ["size", "mode", "depth", "depth_write", "blend", "clear", "shadow", "L", "T", "P", "H"];
+const KEYS: [&str; 13] =
+    ["size", "mode", "depth", "depth_write", "blend", "clear", "extra", "shadow", "L", "T", "X", "P", "H"];
 const SIZE: usize = 0;
-/// `T`, `P` and `H`: the header has ended.
-const PRIMITIVE: usize = 8;
+/// `T`, `X`, `P` and `H`: the header has ended.
+const PRIMITIVE: usize = 9;
 
 /// `off` behind the eight functions.
 const DEPTH_NAMES: [&str; 9] = {
@@ -49,15 +50,14 @@ pub fn read(path: &Path) -> Result<Frame, InputError> {
 /// `input` fails, or an item is not permitted.
 pub fn parse(file: &str, input: impl BufRead) -> Result<Frame, InputError> {
     let mut reader = Reader::new(file, input)?;
-    reader.parser.whole = true;
     while reader.line()? {}
     Ok(reader.parser.frame)
 }
 
 /// A file triangle by triangle: takes as much memory as its longest line.
 ///
-/// An item is a triangle, or an error; there is nothing worth reading after that. A polygon is
-/// [`InputError::Polygon`].
+/// An item is a triangle, or an error; there is nothing worth reading after that. A polygon, and `shadow` behind a
+/// triangle, are [`InputError::NeedsWhole`].
 pub struct Reader<R> {
     lines: Lines<R>,
     parser: Parser,
@@ -69,7 +69,7 @@ impl<R: BufRead> Reader<R> {
     /// # Errors
     /// `input` fails, or an item down to the first triangle or polygon is not permitted.
     pub fn new(file: &str, input: R) -> Result<Self, InputError> {
-        let parser = Parser { frame: Frame::new(0, 0), seen: [false; KEYS.len()], whole: false };
+        let parser = Parser { frame: Frame::new(0, 0), seen: [false; KEYS.len()], open: None };
         let mut reader = Self { lines: Lines::new(file, input), parser };
         while !reader.parser.seen[PRIMITIVE] && reader.line()? {}
         reader.parser.require_size(reader.lines.end(), b"end of file")?;
@@ -84,9 +84,18 @@ impl<R: BufRead> Reader<R> {
         &self.parser.frame
     }
 
+    /// The last line has what there is no drawing with before the end of the file.
+    fn needs_whole(&self, key: &str) -> InputError {
+        let why = "permitted: only triangles from here on, where a file is drawn while it is read";
+        InputError::NeedsWhole(self.lines.place().fault("line starts with", key.as_bytes(), why))
+    }
+
     /// Reads a line into the frame; false at the end.
     fn line(&mut self) -> Result<bool, InputError> {
-        let Some((place, text)) = self.lines.next()? else { return Ok(false) };
+        let Some((place, text)) = self.lines.next()? else {
+            self.parser.require_values(self.lines.end(), b"end of file")?;
+            return Ok(false);
+        };
         self.parser.line(place, text)?;
         Ok(true)
     }
@@ -98,14 +107,18 @@ impl<R: BufRead> Iterator for Reader<R> {
     fn next(&mut self) -> Option<Self::Item> {
         loop {
             if !self.parser.frame.polygons.is_empty() {
-                let why = "permitted: only triangles, where a file is drawn while it is read";
-                let fault = self.lines.place().fault("line starts with", b"P", why);
-                return Some(Err(InputError::Polygon(fault)));
+                return Some(Err(self.needs_whole("P")));
             }
-            if let Some(triangle) = self.parser.frame.triangles.pop() {
+            if self.parser.open.is_none()
+                && let Some(triangle) = self.parser.frame.triangles.pop()
+            {
                 return Some(Ok(triangle));
             }
+            let shadows = self.parser.frame.shadow.is_some();
             match self.line() {
+                Ok(true) if !shadows && self.parser.frame.shadow.is_some() => {
+                    return Some(Err(self.needs_whole("shadow")));
+                }
                 Ok(true) => {}
                 Ok(false) => return None,
                 Err(error) => return Some(Err(error)),
@@ -118,8 +131,8 @@ struct Parser {
     frame: Frame,
     /// Which of `KEYS` have come.
     seen: [bool; KEYS.len()],
-    /// Nothing is drawn before the end, so that `shadow` may come late.
-    whole: bool,
+    /// The line of the last triangle, if its values of the user's own are still to come.
+    open: Option<usize>,
 }
 
 impl Parser {
@@ -128,6 +141,9 @@ impl Parser {
         let Some(word) = words.next() else { return Ok(()) };
         let key = place.choice("line starts with", word, &KEYS)?;
         let name = KEYS[key];
+        if name != "X" {
+            self.require_values(place, word)?;
+        }
         if name == "L" {
             let Some(shadow) = &mut self.frame.shadow else {
                 let why = "permitted only after a line `shadow SIZE BIAS AMBIENT m00 .. m33`";
@@ -141,7 +157,7 @@ impl Parser {
             self.seen[PRIMITIVE] = true;
             return self.primitive(place, name, words);
         }
-        if self.seen[PRIMITIVE] && !(self.whole && name == "shadow") {
+        if self.seen[PRIMITIVE] && name != "shadow" {
             let why = "permitted only before the first triangle or polygon";
             return Err(place.fault(name, word, why).into());
         }
@@ -170,6 +186,7 @@ impl Parser {
                 let [flag] = place.values(name, words)?;
                 self.frame.blend = place.choice(name, flag, &["0", "1"])? == 1;
             }
+            "extra" => self.frame.extra = extra::count(place, words)?,
             "shadow" => self.frame.shadow = Some(shadow(place, words)?),
             _ => {
                 let clear: [&[u8]; 3] = place.values(name, words)?;
@@ -190,7 +207,15 @@ impl Parser {
     ) -> Result<(), InputError> {
         let after = self.frame.triangles.len();
         match name {
-            "T" => self.frame.triangles.push(triangle(place, words)?),
+            "T" => {
+                self.frame.triangles.push(triangle(place, words)?);
+                self.open = (self.frame.extra > 0).then_some(place.line);
+            }
+            "X" => {
+                let open = self.open.take().and_then(|_| self.frame.triangles.last_mut());
+                extra::values(place, words, self.frame.extra, open)?;
+            }
+            _ if self.frame.extra > 0 => return Err(extra::polygon(place, name, self.frame.extra)),
             "P" => self.frame.polygons.push(Polygon { contours: vec![contour(place, name, words)?], after }),
             _ => match self.frame.polygons.last_mut().filter(|polygon| polygon.after == after) {
                 Some(polygon) => polygon.contours.push(contour(place, name, words)?),
@@ -201,6 +226,11 @@ impl Parser {
             },
         }
         Ok(())
+    }
+
+    /// A triangle has its values before anything else comes.
+    fn require_values(&self, place: Place, before: &[u8]) -> Result<(), InputError> {
+        self.open.map_or(Ok(()), |line| Err(extra::missing(place, before, self.frame.extra, line)))
     }
 
     fn require_size(&self, place: Place, before: &[u8]) -> Result<(), InputError> {
@@ -250,5 +280,5 @@ fn vertex(place: Place, key: &str, index: usize, words: &[&[u8]]) -> Result<Vert
         *number = place.number(key, word, "a number", range)?;
     }
     let [x, y, z, r, g, b, kt] = numbers;
-    Ok(Vertex { x, y, z, r, g, b, kt })
+    Ok(Vertex { x, y, z, r, g, b, kt, ..Vertex::default() })
 }

@@ -1,6 +1,6 @@
 //! Writes a triangle file; every number comes back bit for bit.
 
-use crate::frame::{Frame, Shadow, Vertex};
+use crate::frame::{Frame, Shadow, Triangle, Vertex};
 use crate::polygon::Primitive;
 use std::io::{self, Write};
 use std::iter;
@@ -17,6 +17,9 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
     writeln!(out, "blend {}", u8::from(frame.blend))?;
     let [r, g, b] = frame.clear;
     writeln!(out, "clear {r} {g} {b}")?;
+    if frame.extra > 0 {
+        writeln!(out, "extra {}", frame.extra)?;
+    }
     if let Some(shadow) = &frame.shadow {
         write_shadow(shadow, &mut out)?;
     }
@@ -25,6 +28,9 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
             Primitive::Triangle(triangle) => {
                 write!(out, "T")?;
                 vertices(&triangle.0, &mut out)?;
+                if frame.extra > 0 {
+                    extra(triangle, frame.extra, &mut out)?;
+                }
             }
             Primitive::Polygon(polygon) => {
                 for (contour, key) in polygon.contours.iter().zip(iter::once("P").chain(iter::repeat("H"))) {
@@ -41,6 +47,18 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
 fn vertices(list: &[Vertex], out: &mut impl Write) -> io::Result<()> {
     for v in list {
         write!(out, "  {} {} {} {} {} {} {}", v.x, v.y, v.z, v.r, v.g, v.b, v.kt)?;
+    }
+    writeln!(out)
+}
+
+/// The `X` line of a triangle.
+fn extra(triangle: &Triangle, count: usize, out: &mut impl Write) -> io::Result<()> {
+    write!(out, "X ")?;
+    for vertex in &triangle.0 {
+        for value in vertex.extra.iter().take(count) {
+            write!(out, " {value}")?;
+        }
+        write!(out, " ")?;
     }
     writeln!(out)
 }

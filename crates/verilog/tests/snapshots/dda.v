@@ -3,6 +3,7 @@
 // value Q8.14 LSB, slope Q8.14 LSB/px; the integer part is shown.
 // Timing: load and step take effect at the end of the cycle.
 
+`timescale 1ns / 1ps
 `default_nettype none
 
 module dda (

@@ -1,5 +1,6 @@
 // pair: Two DDAs, one of them fed from a small memory.
 
+`timescale 1ns / 1ps
 `default_nettype none
 
 module pair (

@@ -1,7 +1,7 @@
 // Drives the verilated machine with the same triangles and the same memory as the model: for timing only.
 // Usage: harness STIMULUS LATENCY ADDRESS_BITS DEPTH_FUNC DEPTH_WRITE CLEAR_Z FRAMES
 // Prints for each frame: cycles, writes, milliseconds on the processor, milliseconds on the wall.
-// STIMULUS: little-endian 64-bit words, 18 a triangle: x y z r g b of three vertices, as at the port.
+// STIMULUS: little-endian 64-bit words: x y z r g b of three vertices, as at the port, EXTRA more behind each b.
 #include "Vmachine.h"
 #include "verilated.h"
 #include <cstdint>
@@ -25,6 +25,8 @@ static double milliseconds(clockid_t clock) {
     clock_gettime(clock, &time);
     return time.tv_sec * 1e3 + time.tv_nsec * 1e-6;
 }
+
+static const size_t vertex = 6 + EXTRA, triangle = 3 * vertex;
 
 struct Read { uint64_t due; uint32_t z; };
 
@@ -54,13 +56,25 @@ int main(int argc, char **argv) {
         size_t next = 0;
         for (;;) {
             m.clk = 0;
-            const bool offered = next + 18 <= words.size();
+            const bool offered = next + triangle <= words.size();
             m.tri_valid = offered;
             if (offered) {
-                const int64_t *w = &words[next];
-                m.tri_x0 = w[0];  m.tri_y0 = w[1];  m.tri_z0 = w[2];  m.tri_r0 = w[3];  m.tri_g0 = w[4];  m.tri_b0 = w[5];
-                m.tri_x1 = w[6];  m.tri_y1 = w[7];  m.tri_z1 = w[8];  m.tri_r1 = w[9];  m.tri_g1 = w[10]; m.tri_b1 = w[11];
-                m.tri_x2 = w[12]; m.tri_y2 = w[13]; m.tri_z2 = w[14]; m.tri_r2 = w[15]; m.tri_g2 = w[16]; m.tri_b2 = w[17];
+                const int64_t *v0 = &words[next], *v1 = v0 + vertex, *v2 = v1 + vertex;
+                m.tri_x0 = v0[0]; m.tri_y0 = v0[1]; m.tri_z0 = v0[2]; m.tri_r0 = v0[3]; m.tri_g0 = v0[4]; m.tri_b0 = v0[5];
+                m.tri_x1 = v1[0]; m.tri_y1 = v1[1]; m.tri_z1 = v1[2]; m.tri_r1 = v1[3]; m.tri_g1 = v1[4]; m.tri_b1 = v1[5];
+                m.tri_x2 = v2[0]; m.tri_y2 = v2[1]; m.tri_z2 = v2[2]; m.tri_r2 = v2[3]; m.tri_g2 = v2[4]; m.tri_b2 = v2[5];
+#if EXTRA > 0
+                m.tri_e0_0 = v0[6]; m.tri_e0_1 = v1[6]; m.tri_e0_2 = v2[6];
+#endif
+#if EXTRA > 1
+                m.tri_e1_0 = v0[7]; m.tri_e1_1 = v1[7]; m.tri_e1_2 = v2[7];
+#endif
+#if EXTRA > 2
+                m.tri_e2_0 = v0[8]; m.tri_e2_1 = v1[8]; m.tri_e2_2 = v2[8];
+#endif
+#if EXTRA > 3
+                m.tri_e3_0 = v0[9]; m.tri_e3_1 = v1[9]; m.tri_e3_2 = v2[9];
+#endif
             }
             const bool data = head != tail && queue[head % 64].due <= cycle;
             m.data_valid = data;
@@ -80,7 +94,7 @@ int main(int argc, char **argv) {
             const bool done = !offered && m.idle;
             m.clk = 1; m.eval();
             if (done) break;
-            if (taken) next += 18;
+            if (taken) next += triangle;
         }
         std::printf("%llu %llu %.6f %.6f\n", (unsigned long long)cycle, (unsigned long long)writes,
                     milliseconds(CLOCK_PROCESS_CPUTIME_ID) - cpu, milliseconds(CLOCK_MONOTONIC) - wall);

@@ -3,13 +3,12 @@
 use super::job::{Job, Times, Work};
 use super::stopwatch::Stopwatch;
 use anyhow::{Result, anyhow};
-use edgewalk_model::Stalls;
-use edgewalk_vectors::render_rtl;
+use edgewalk_lockstep::{StallKind, render_rtl};
 
 /// Times it.
 pub fn time(job: &Job) -> Result<Times> {
     job.time(&Stopwatch::start(), || {
-        let drawn = render_rtl(job.machine, job.triangles.iter().copied(), job.state, Stalls::NONE);
+        let drawn = render_rtl(job.machine, job.triangles.iter().copied(), job.state, StallKind::None);
         drawn.map(|frame| Work::of(&frame.counters)).map_err(|e| anyhow!("{e}"))
     })
 }

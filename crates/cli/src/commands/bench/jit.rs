@@ -50,8 +50,8 @@ struct Native {
     simulator: Simulator,
     rst: InputId,
     tri_valid: InputId,
-    /// x y z r g b of each vertex.
-    vertices: [[InputId; 6]; 3],
+    /// x, y and the channels of each vertex.
+    vertices: [Vec<InputId>; 3],
     data_valid: InputId,
     data_z: InputId,
     depth_func: InputId,
@@ -78,14 +78,15 @@ impl Native {
         simulator.set_input("wr_ready", 1)?;
         let input = |name: &str| simulator.input(name);
         let output = |name: &str| simulator.output(name);
-        let vertex = |i: usize| -> Result<[InputId; 6], SimError> {
-            let port = |name: &str| input(&format!("tri_{name}{i}"));
-            Ok([port("x")?, port("y")?, port("z")?, port("r")?, port("g")?, port("b")?])
+        let vertex = |place: &str| -> Result<Vec<InputId>, SimError> {
+            let channels = machine.channels().iter().map(|channel| channel.at_vertex(place));
+            let names = [format!("x{place}"), format!("y{place}")].into_iter().chain(channels);
+            names.map(|name| input(&format!("tri_{name}"))).collect()
         };
         Ok(Native {
             rst: input("rst")?,
             tri_valid: input("tri_valid")?,
-            vertices: [vertex(0)?, vertex(1)?, vertex(2)?],
+            vertices: [vertex("0")?, vertex("1")?, vertex("2")?],
             data_valid: input("data_valid")?,
             data_z: input("data_z")?,
             depth_func: input("depth_func")?,
@@ -154,13 +155,12 @@ impl Native {
 
     fn offer(&mut self, triangle: Option<&[PortVertex; 3]>) {
         self.simulator.set(self.tri_valid, triangle.is_some().into());
-        for (ports, PortVertex { x, y, value: [z, r, g, b] }) in
-            self.vertices.iter().zip(triangle.into_iter().flatten())
-        {
-            let signed = |value: i32| i128::from(value) as u128; // the port takes the low bits
-            let values =
-                [signed(*x), signed(*y), u128::from(*z), u128::from(*r), u128::from(*g), u128::from(*b)];
-            ports.iter().zip(values).for_each(|(port, value)| self.simulator.set(*port, value));
+        for (ports, vertex) in self.vertices.iter().zip(triangle.into_iter().flatten()) {
+            let place = [vertex.x(), vertex.y()].map(i64::from);
+            // The port takes the low bits.
+            for (port, value) in ports.iter().zip(place.iter().chain(vertex.values())) {
+                self.simulator.set(*port, i128::from(*value) as u128);
+            }
         }
     }
 

@@ -50,18 +50,23 @@ pub struct Times {
 
 impl<'a> Job<'a> {
     /// A job with what must come of it, which is worked out here.
-    pub fn new(machine: &'a Plan, triangles: &'a [[PortVertex; 3]], state: DrawState, repeat: u32) -> Self {
+    pub fn new(
+        machine: &'a Plan,
+        triangles: &'a [[PortVertex; 3]],
+        state: DrawState,
+        repeat: u32,
+    ) -> Result<Self> {
         let mut renderer = Renderer::new(machine, false);
         let counters = match renderer.draw(triangles.iter().copied(), state) {
             Ok(()) => renderer.counters().clone(),
-            Err(_) => render(machine, triangles.iter().copied(), state, Stalls::NONE).counters,
+            Err(_) => render(machine, triangles.iter().copied(), state, Stalls::NONE)?.counters,
         };
         let (fragments, work) = (counters.fragments, Work::of(&counters));
-        Job { machine, triangles, state, repeat, fragments, work }
+        Ok(Job { machine, triangles, state, repeat, fragments, work })
     }
 
     /// The first triangles, that take about `cycles`, at least one.
-    pub fn part(&self, cycles: u64) -> Job<'a> {
+    pub fn part(&self, cycles: u64) -> Result<Job<'a>> {
         let share = cycles as f64 / self.work.cycles.max(1) as f64;
         let count = (self.triangles.len() as f64 * share).ceil() as usize;
         let part = &self.triangles[..count.min(self.triangles.len())];

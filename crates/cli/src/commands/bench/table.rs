@@ -2,6 +2,7 @@
 
 use super::job::{Job, Times};
 use crate::Talk;
+use anyhow::Result;
 use serde::Serialize;
 use serde_json::json;
 
@@ -16,13 +17,13 @@ pub struct Row {
     figures: Option<Figures>,
 }
 
-/// Of the part that was drawn; rates by the median of the processor's time.
+/// Of the part that was drawn; frames by the processor's time, rates by its median.
 #[derive(Serialize)]
 struct Figures {
     cpu_ms_median: f64,
     ms_min: f64,
-    /// Distance of the quartiles of the processor's time, the median being 1.
-    noise: f64,
+    /// Distance of the quartiles of the processor's time, the median being 1; of fewer than four frames there are none.
+    noise: Option<f64>,
     /// From the changed parameter to the first frame, on the wall.
     first_ms: f64,
     triangles: usize,
@@ -39,19 +40,15 @@ struct Figures {
 impl Row {
     /// What an engine needed for its part.
     pub fn new(engine: &'static str, job: &Job, times: &Times) -> Row {
-        let sorted = |of: fn(&super::stopwatch::Time) -> f64| {
-            let mut list: Vec<f64> = times.frames.iter().map(of).collect();
-            list.sort_by(f64::total_cmp);
-            list
-        };
-        let (cpu, wall) = (sorted(|t| t.cpu), sorted(|t| t.wall));
+        let mut cpu: Vec<f64> = times.frames.iter().map(|time| time.cpu).collect();
+        cpu.sort_by(f64::total_cmp);
         let quantile = |quarters: usize| cpu[(cpu.len() - 1) * quarters / 4];
         let median = quantile(2);
         let a_second = |count: u64| count as f64 * 1e3 / median;
         let figures = Figures {
             cpu_ms_median: median,
-            ms_min: wall[0],
-            noise: (quantile(3) - quantile(1)) / median,
+            ms_min: cpu[0],
+            noise: (cpu.len() >= 4).then(|| (quantile(3) - quantile(1)) / median),
             first_ms: times.first,
             triangles: job.triangles.len(),
             fragments: job.fragments,
@@ -88,12 +85,8 @@ impl<'a> Table<'a> {
     }
 
     /// To standard output, as asked.
-    pub fn print(&self, talk: Talk) {
-        if talk.json {
-            println!("{}", self.json());
-        } else if !talk.quiet {
-            print!("{}", self.text());
-        }
+    pub fn print(&self, talk: Talk) -> Result<()> {
+        talk.say(|| Ok(self.json().to_string()), || self.text())
     }
 
     /// The first engine that took part, the fastest, stands for all.
@@ -125,7 +118,7 @@ impl<'a> Table<'a> {
             whole.repeat,
             "engine",
             "CPU ms",
-            "min ms",
+            "CPU min",
             "noise",
             "first ms",
             "Mcycle/s",
@@ -144,10 +137,10 @@ impl<'a> Table<'a> {
 
     fn line(&self, engine: &str, f: &Figures) -> String {
         let mut line = format!(
-            "{engine:<12}{:>10.3}{:>10.3}{:>6.1} %{:>11.1}{:>11.3}{:>10.3}{:>12.4}",
+            "{engine:<12}{:>10.3}{:>10.3}{:>8}{:>11.1}{:>11.3}{:>10.3}{:>12.4}",
             f.cpu_ms_median,
             f.ms_min,
-            f.noise * 100.0,
+            f.noise.map_or_else(|| "-".to_owned(), |noise| format!("{:.1} %", noise * 100.0)),
             f.first_ms,
             f.cycles_per_second / 1e6,
             f.pixels_per_second / 1e6,

@@ -2,6 +2,7 @@
 
 use super::job::{Job, Times, Work};
 use super::stopwatch::{Stopwatch, Time};
+use crate::scratch::Scratch;
 use crate::verdict::ToolError;
 use anyhow::{Context, Result, anyhow};
 use std::path::Path;
@@ -15,7 +16,7 @@ pub fn time(job: &Job) -> Result<Result<Times, String>> {
         return Ok(Err("verilator is not installed".to_owned()));
     }
     let start = Stopwatch::start();
-    let folder = tempfile::tempdir().context("a folder for Verilator")?;
+    let folder = Scratch::temporary()?;
     build(job, folder.path())?;
     let built = start.read().wall;
     std::fs::write(folder.path().join("stimulus.bin"), stimulus(job))?;
@@ -55,6 +56,7 @@ fn build(job: &Job, folder: &Path) -> Result<()> {
         .current_dir(folder)
         .args(["--cc", "--exe", "--build", "-O3", "--x-assign", "fast", "--prefix", "Vmachine"])
         .args(["--top-module", &design.name, "-MAKEFLAGS", "OPT_FAST=-O3", "-Wno-fatal", "harness.cpp"])
+        .args(["-CFLAGS", &format!("-DEXTRA={}", job.machine.extra)])
         .args(&sources)
         .output()
         .context("verilator")?;
@@ -75,11 +77,12 @@ fn frame(line: &str) -> Option<(Work, Time)> {
 }
 
 fn stimulus(job: &Job) -> Vec<u8> {
-    let mut bytes = Vec::with_capacity(job.triangles.len() * 144);
+    let channels = job.machine.channels().len();
+    let mut bytes = Vec::with_capacity(job.triangles.len() * 3 * (2 + channels) * 8);
     for vertex in job.triangles.iter().flatten() {
-        bytes.extend(i64::from(vertex.x).to_le_bytes());
-        bytes.extend(i64::from(vertex.y).to_le_bytes());
-        for value in vertex.value {
+        bytes.extend(i64::from(vertex.x()).to_le_bytes());
+        bytes.extend(i64::from(vertex.y()).to_le_bytes());
+        for value in &vertex.values()[..channels] {
             bytes.extend(value.to_le_bytes());
         }
     }

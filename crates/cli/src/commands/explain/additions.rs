@@ -1,19 +1,24 @@
 //! The machine's way to a pixel: start, increments down the major edge, increments along the span.
 
+use crate::accumulators::{Plane, half, lsb, prim, signed};
+use crate::extra::Label;
 use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::Coverage;
 use edgewalk_model::edge::Edge;
-use edgewalk_model::setup::Setup;
-use edgewalk_model::span::SpanQueue;
-use edgewalk_model::tokens::{Prim, Words, add, word_masks};
+use edgewalk_model::span::Span;
+use edgewalk_model::tokens::{Words, add, output, word_masks};
+use edgewalk_model::{Events, for_channels};
 use edgewalk_numerics::Steps;
 use serde::Serialize;
 
-/// The accumulators of Z, R, G, B on their way.
+/// The accumulators on their way.
 #[derive(Debug, Serialize)]
 pub struct Walk {
+    /// Whose accumulators: z, r, g, b, then the user's own. All lists below are in this order.
+    pub channels: Vec<Label>,
     /// From the start on.
     pub additions: Vec<Addition>,
+    /// What PIXEL hands on at the pixel, LSB.
+    pub output: Vec<i64>,
 }
 
 /// One value of the accumulators.
@@ -26,43 +31,47 @@ pub struct Addition {
     /// Line.
     pub y: u32,
     /// What was added, LSB; the start itself in the first.
-    pub added: [f64; 4],
+    pub added: Vec<f64>,
     /// The values, LSB, without the half that the output rounding adds.
-    pub value: [f64; 4],
+    pub value: Vec<f64>,
     /// Values minus those of the plane through the vertices at the port, LSB.
-    pub error: [f64; 4],
+    pub error: Vec<f64>,
     /// No error can be larger here (A2), LSB.
-    pub bound: [f64; 4],
+    pub bound: Vec<f64>,
 }
 
 /// The way to pixel (x, y); `None` if the triangle does not draw it. The machine has exact fill and exact edges.
 pub fn walk(machine: &Plan, triangle: &[PortVertex; 3], x: u32, y: u32) -> Option<Walk> {
-    let prim = prim(machine, triangle)?;
+    for_channels!(machine, C => walk_words::<C>(machine, triangle, x, y))
+}
+
+fn walk_words<const C: usize>(machine: &Plan, triangle: &[PortVertex; 3], x: u32, y: u32) -> Option<Walk> {
+    let prim = prim::<C>(machine, triangle)?;
     let plane = Plane { machine, triangle };
     let masks = word_masks(machine);
-    let corners = &mut Coverage::default();
+    let events = &mut Events::default();
     let mut edge = Edge::new(machine);
-    edge.step(Some(&prim), false, true, corners);
+    edge.step(Some(&prim), false, true, events);
     let mut additions = Vec::new();
     let mut lines = 0;
-    let mut before = [0; 4];
+    let mut before = [0; C];
     while let Some(line) = edge.line() {
         // The span begins right of the major edge, or left of it.
-        let first = i64::from(line.major) - i64::from(line.left);
+        let first = i64::from(line.major) - i64::from(line.major_right);
         let step = if lines == 0 { "start" } else { "line" };
-        additions.push(plane.addition(step, (first, line.y), (before, line.values), (lines, 0)));
+        additions.push(plane.addition(step, (first, line.y), (&before, &line.values), (lines, 0)));
         if line.y == y {
             break;
         }
         before = line.values;
         lines += 1;
-        edge.step(None, false, true, corners);
+        edge.step(None, false, true, events);
     }
     let line = *edge.line()?;
-    let mut spans = SpanQueue::new(machine);
-    spans.step(Some(&line), false, corners);
+    let mut spans = Span::new(machine);
+    spans.step(Some(&line), false, events);
     let span = spans.span()?;
-    let direction = if span.left { -1 } else { 1 };
+    let direction = if span.leftward { -1 } else { 1 };
     let columns = (i64::from(x) - i64::from(span.x)) * direction;
     if !(0..i64::from(span.count)).contains(&columns) {
         return None;
@@ -71,46 +80,26 @@ pub fn walk(machine: &Plan, triangle: &[PortVertex; 3], x: u32, y: u32) -> Optio
     for step in 1..=columns {
         let next = add(&values, edge.gradient(), &masks);
         let column = i64::from(span.x) + direction * step;
-        additions.push(plane.addition("pixel", (column, y), (values, next), (lines, step as u32)));
+        additions.push(plane.addition("pixel", (column, y), (&values, &next), (lines, step as u32)));
         values = next;
     }
-    Some(Walk { additions })
-}
-
-/// What SETUP makes of the triangle; `None` if it is culled.
-fn prim(machine: &Plan, triangle: &[PortVertex; 3]) -> Option<Prim> {
-    let corners = &mut Coverage::default();
-    let mut setup = Setup::new(machine);
-    setup.step(Some((triangle, 0)), false, corners);
-    while setup.prim().is_none() && !setup.tri_ready() {
-        setup.step(None, false, corners);
-    }
-    setup.prim().copied()
-}
-
-/// The planes through the values of the vertices at the port.
-struct Plane<'a> {
-    machine: &'a Plan,
-    triangle: &'a [PortVertex; 3],
+    let channels = machine.channels();
+    let outputs = channels.iter().zip(values).map(|(of, word)| output(of, (word >> of.fraction) as u32));
+    Some(Walk { channels: channels.iter().map(Label::of).collect(), additions, output: outputs.collect() })
 }
 
 impl Plane<'_> {
-    fn addition(
+    fn addition<const C: usize>(
         &self,
         step: &'static str,
         (x, y): (i64, u32),
-        (before, after): (Words, Words),
+        (before, after): (&Words<C>, &Words<C>),
         (lines, columns): (u32, u32),
     ) -> Addition {
-        let exact = self.at(x, y);
+        let weights = self.weights(x, y);
         let channels = self.machine.channels();
-        let each = |of: &dyn Fn(usize) -> f64| std::array::from_fn(of);
-        let turn = |i: usize| 2f64.powi(channels[i].bits as i32);
-        // The words are modular: whole turns are no error.
-        let error = |i: usize| {
-            let off = signed(after[i], channels[i].word()) * lsb(channels[i].fraction) - 0.5 - exact[i];
-            off - turn(i) * (off / turn(i)).round()
-        };
+        let each = |of: &dyn Fn(usize) -> f64| (0..channels.len()).map(of).collect();
+        let error = |i: usize| self.error(weights, after[i], i);
         let steps = Steps { lines, columns };
         Addition {
             step,
@@ -119,38 +108,12 @@ impl Plane<'_> {
             added: each(&|i| {
                 let word = channels[i].word();
                 let mask = (1u64 << word) - 1;
-                let half = if step == "start" { 0.5 } else { 0.0 };
+                let half = if step == "start" { half(&channels[i]) } else { 0.0 };
                 signed(after[i].wrapping_sub(before[i]) & mask, word) * lsb(channels[i].fraction) - half
             }),
-            value: each(&|i| exact[i] + error(i)),
+            value: each(&|i| self.at(weights, i) + error(i)),
             error: each(&error),
             bound: each(&|i| channels[i].error_budget(steps).steps.to_f64()),
         }
     }
-
-    /// Z, R, G, B at the centre of a pixel, LSB.
-    fn at(&self, x: i64, y: u32) -> [f64; 4] {
-        let unit = f64::from(1u32 << self.machine.subpixel_bits);
-        let place = |v: &PortVertex| [f64::from(v.x) / unit, f64::from(v.y) / unit];
-        let [a, b, c] = self.triangle.each_ref().map(place);
-        let p = [x as f64 + 0.5, f64::from(y) + 0.5];
-        let cross = |from: [f64; 2], to: [f64; 2], at: [f64; 2]| {
-            (to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0])
-        };
-        let weights = [cross(b, c, p), cross(c, a, p), cross(a, b, p)].map(|weight| weight / cross(a, b, c));
-        std::array::from_fn(|i| {
-            let scale = lsb(self.machine.channels()[i].vertex_fraction);
-            self.triangle.iter().zip(weights).map(|(v, weight)| weight * v.value[i] as f64 * scale).sum()
-        })
-    }
-}
-
-fn lsb(fraction: u32) -> f64 {
-    0.5f64.powi(fraction as i32)
-}
-
-/// A word as a signed number: values just below 0 and increments.
-fn signed(word: u64, bits: u32) -> f64 {
-    let shift = 64 - bits;
-    ((word << shift) as i64 >> shift) as f64
 }

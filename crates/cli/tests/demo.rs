@@ -1,0 +1,75 @@
+//! `edgewalk demo` says and draws what README shows of it.
+#![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
+
+use serde_json::Value;
+use std::path::Path;
+use std::process::Command;
+use zune_png::PngDecoder;
+
+fn edgewalk(arguments: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_edgewalk")).args(arguments).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn png(path: &Path) -> (usize, Vec<[u8; 3]>) {
+    let bytes = std::fs::read(path).unwrap();
+    let mut decoder = PngDecoder::new(&bytes);
+    let raw = decoder.decode_raw().unwrap();
+    let (width, height) = decoder.get_dimensions().unwrap();
+    assert_eq!(raw.len(), 3 * width * height);
+    (width, raw.chunks_exact(3).map(|rgb| [rgb[0], rgb[1], rgb[2]]).collect())
+}
+
+#[test]
+fn the_demo_is_as_readme_says() {
+    let out = tempfile::tempdir().unwrap();
+    let printed = edgewalk(&["demo", "--out", out.path().to_str().unwrap()]);
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
+    let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
+    let block = readme.split("```\n").find(|block| block.starts_with("torus-knot: ")).unwrap();
+    let mut lines = printed.lines();
+    let mut checked = 0;
+    for line in block.lines().filter(|line| *line != "...") {
+        assert!(lines.any(|printed| printed == line), "README says `{line}`; printed is\n{printed}");
+        checked += 1;
+    }
+    assert!(checked >= 8, "{checked} lines");
+    for name in ["image.png", "z_accumulator.png"] {
+        let [drawn, kept] = [
+            out.path().join(name),
+            root.join("docs").join(format!("demo{}", name.replace("image", "").replace("z_", "_z_"))),
+        ];
+        assert!(png(&drawn) == png(&kept), "{} is not what is drawn today", kept.display());
+    }
+
+    // The map of the accumulators says what `explain` says of single pixels.
+    let (width, map) = png(&out.path().join("z_accumulator.png"));
+    assert_eq!((width, map.len()), (640, 640 * (480 + 22)));
+    let (mut below, mut above) = (0, 0);
+    for (x, y) in
+        [(320, 240), (330, 250), (150, 300), (400, 180), (260, 370), (480, 250), (120, 220), (200, 280)]
+    {
+        let told: Value = serde_json::from_str(&edgewalk(&[
+            "explain",
+            "torus-knot",
+            &x.to_string(),
+            &y.to_string(),
+            "--json",
+        ]))
+        .unwrap();
+        let last = told["machine"]["additions"].as_array().unwrap().last().unwrap();
+        let share = last["error"][0].as_f64().unwrap() / last["bound"][0].as_f64().unwrap();
+        let strength = share.abs().sqrt();
+        let full = if share < 0.0 { [70.0, 150.0, 255.0] } else { [255.0, 150.0, 30.0] };
+        let shown = map[y * width + x];
+        for (byte, full) in shown.into_iter().zip(full) {
+            assert!((f64::from(byte) - full * strength).abs() <= 1.01, "({x}, {y}): {shown:?} for {share}");
+        }
+        if share < 0.0 { below += 1 } else { above += 1 }
+    }
+    assert!(below > 0 && above > 0, "{below} below, {above} above");
+    assert_eq!(map[0], [0, 0, 0], "no triangle");
+    let bar = &map[485 * width..486 * width];
+    assert_eq!((bar[8], bar[631]), ([70, 150, 255], [255, 150, 30]), "ends of the scale");
+}

@@ -1,0 +1,224 @@
+//! What stands in the folder after a run, whatever becomes of it: all of its files or none, and nothing of an earlier run.
+#![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
+
+mod support;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Command;
+use std::time::{Duration, Instant};
+use support::{SCREEN, TRIANGLE, edgewalk, ended, names, run};
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("d.tri"), TRIANGLE).unwrap();
+    folder
+}
+
+/// Runs it, and it succeeds.
+fn passes(folder: &Path, arguments: &[&str]) {
+    assert_eq!(run(folder, arguments), (Some(0), String::new()), "{arguments:?}");
+}
+
+/// Every file under a folder with its contents.
+fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    for name in names(folder) {
+        let path = folder.join(&name);
+        if path.is_dir() {
+            files
+                .extend(contents(&path).into_iter().map(|(below, bytes)| (format!("{name}/{below}"), bytes)));
+        } else {
+            files.insert(name, std::fs::read(path).unwrap());
+        }
+    }
+    files
+}
+
+const RASTER: [&str; 7] =
+    ["coverage.npy", "id.npy", "image.png", "report.json", "rgb.npy", "writes.npy", "z.npy"];
+
+#[test]
+fn a_run_that_cannot_place_a_file_changes_nothing() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    passes(folder.path(), &["raster", "d.tri", "--out", "out", "-q"]);
+    std::fs::write(out.join("mine.txt"), "mine").unwrap();
+    // The last but one to be placed, of another picture.
+    std::fs::remove_file(out.join("writes.npy")).unwrap();
+    std::fs::create_dir_all(out.join("writes.npy/below")).unwrap();
+    std::fs::write(folder.path().join("d.tri"), TRIANGLE.replace("60 0", "50 0")).unwrap();
+    let before = contents(&out);
+    assert_eq!(before.len(), RASTER.len());
+    let (code, error) = run(folder.path(), &["raster", "d.tri", "--out", "out", "--engine", "golden"]);
+    assert_eq!(
+        (code, error.as_str()),
+        (Some(2), "edgewalk: out/writes.npy: is a folder, and a file is to be there\n")
+    );
+    assert!(contents(&out) == before, "changed: {:?}", names(&out));
+    assert!(!names(&out).iter().any(|name| name.starts_with(".edgewalk")), "{:?}", names(&out));
+
+    // Nor are the folders left that were made on the way.
+    let (code, _) = run(folder.path(), &["raster", "none.tri", "--out", "a/b/c"]);
+    assert_eq!((code, folder.path().join("a").exists()), (Some(2), false));
+    // A file where the folder is to be is an error that says so.
+    let (code, error) = run(folder.path(), &["emit", "--out", "d.tri"]);
+    assert_eq!(code, Some(2));
+    assert!(error.starts_with("edgewalk: --out d.tri: "), "{error}");
+}
+
+#[test]
+fn a_file_that_cannot_be_finished_is_named_by_its_place() {
+    let folder = folder();
+    // No file may grow beyond a few kilobytes, as on a disk that is full; the signal that says so is not the program's end.
+    let script = "trap '' XFSZ; ulimit -f 20; exec \"$@\"";
+    let trace = [&["trace", "d.tri", "-q", "--out", "a/t.vcd"], &SCREEN[..]].concat();
+    let commands: [(&[&str], &str); 3] = [
+        (&["raster", "d.tri", "-q", "--out", "a/r"], "a/r/rgb.npy"),
+        (&["emit", "-q", "--out", "a/e"], "a/e/edgewalk_setup.v"),
+        (&trace, "a/t.vcd"),
+    ];
+    for (command, file) in commands {
+        let mut shell = Command::new("sh");
+        shell.args(["-c", script, "sh", env!("CARGO_BIN_EXE_edgewalk")]).args(command);
+        let (code, error) = ended(&shell.current_dir(folder.path()).output().unwrap());
+        assert_eq!(code, Some(2), "{command:?}: {error}");
+        assert_eq!(error, format!("edgewalk: {file}: File too large (os error 27)\n"), "{command:?}");
+        assert_eq!(names(folder.path()), ["d.tri"], "{command:?}");
+    }
+    println!("checked {0} / {0} commands", commands.len());
+}
+
+#[test]
+fn files_of_an_earlier_run_do_not_stay_and_others_do() {
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let mine = "mine";
+    for out in ["r", "p", "e", "v", "v/hazards_depth", "g"] {
+        std::fs::create_dir_all(at(out)).unwrap();
+        for name in ["mine.txt", "edgewalk_mine.v", "phong.npy", "mach-bands-mine.png"] {
+            std::fs::write(at(out).join(name), mine).unwrap();
+        }
+    }
+    let passes = |arguments: &[&str]| passes(folder.path(), &[arguments, &["-q"]].concat());
+    let left = |out: &str| {
+        let mine = |name: &String| std::fs::read(at(out).join(name)).is_ok_and(|text| text == b"mine");
+        let (mine, others): (Vec<String>, Vec<String>) = names(&at(out)).into_iter().partition(mine);
+        assert_eq!(mine.len(), 4, "{out}: {mine:?}");
+        others
+    };
+
+    passes(&["raster", "d.tri", "--engine", "golden", "--out", "r"]);
+    assert!(left("r").contains(&"lit.npy".to_owned()));
+    passes(&["raster", "d.tri", "--out", "r"]);
+    assert_eq!(left("r"), RASTER);
+
+    let golden = ["render", "sphere", "--engine", "golden", "--out", "p", "--set", "screen.width=64"];
+    passes(&[&golden[..], &["--shading", "fast-phong"]].concat());
+    assert_eq!(left("p").len(), 7, "{:?}", left("p"));
+    passes(&["render", "sphere", "--out", "p", "--set", "screen.width=64"]);
+    let pictures = ["color_error.png", "golden.png", "image.png", "report.json", "report.txt", "z_error.png"];
+    assert_eq!(left("p"), pictures);
+    passes(&[&golden[..], &["--shading", "wireframe"]].concat());
+    assert_eq!(left("p"), ["image.png", "report.json", "report.txt"]);
+
+    passes(&["emit", "--out", "e", "--set", "setup.lanes=4"]);
+    assert!(left("e").contains(&"edgewalk_setup_lane1.v".to_owned()));
+    passes(&["emit", "--out", "e", "--set", "setup.lanes=1"]);
+    let lanes: Vec<String> = left("e").into_iter().filter(|name| name.contains("lane")).collect();
+    assert_eq!(lanes, ["edgewalk_setup_lane0.v"]);
+
+    let vectors = ["vectors", "--suite", "hazards", "--out", "v", "--unit"];
+    passes(&[&vectors[..], &["depth"]].concat());
+    passes(&[&vectors[..], &["setup", "--set", "setup.lanes=4"]].concat());
+    assert_eq!(left("v"), ["hazards_depth", "hazards_setup"]);
+    assert!(at("v/hazards_setup/hdl/edgewalk_setup_lane1.v").exists());
+    passes(&[&vectors[..], &["setup", "--set", "setup.lanes=1"]].concat());
+    assert!(!at("v/hazards_setup/hdl/edgewalk_setup_lane1.v").exists());
+    assert!(left("v/hazards_depth").len() > 5);
+
+    passes(&["gallery", "worked-example", "t-joint", "--out", "g"]);
+    assert!(left("g").iter().any(|name| name.starts_with("t-joint-")));
+    passes(&["gallery", "worked-example", "--out", "g"]);
+    let shown = left("g");
+    assert!(shown.len() > 1 && !shown.iter().any(|name| name.starts_with("t-joint-")), "{shown:?}");
+}
+
+#[test]
+fn a_signal_leaves_nothing_behind() {
+    let folder = folder();
+    let before = names(folder.path());
+    for signal in ["INT", "TERM"] {
+        let arguments = ["vectors", "--out", "a/v", "-q"];
+        let mut child = edgewalk(folder.path(), &arguments).spawn().unwrap();
+        let target = folder.path().join("a/v");
+        let start = Instant::now();
+        while !target.exists() || names(&target).is_empty() {
+            assert!(start.elapsed() < Duration::from_secs(60), "no folder of the run");
+            assert_eq!(child.try_wait().unwrap(), None, "it was done before the signal");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        // In the middle of its files.
+        std::thread::sleep(Duration::from_millis(300));
+        let kill =
+            Command::new("kill").args([format!("-{signal}"), child.id().to_string()]).status().unwrap();
+        assert!(kill.success());
+        let status = child.wait().unwrap();
+        assert_eq!(status.code(), None, "SIG{signal} ends it: {status}");
+        assert_eq!(names(folder.path()), before, "after SIG{signal}");
+    }
+}
+
+/// Commands with a folder for `--out`, and what is in it then at least.
+const COMMANDS: [(&[&str], &str); 4] = [
+    (&["raster", "d.tri", "-q", "--out"], "z.npy"),
+    (&["emit", "-q", "--out"], "edgewalk.v"),
+    (&["gallery", "worked-example", "-q", "--out"], "README.md"),
+    (&["vectors", "--suite", "hazards", "--unit", "depth", "-q", "--out"], "hazards_depth"),
+];
+
+#[test]
+fn the_target_may_be_a_mount_point() {
+    let mut checked = 0;
+    // A file system of our own in a mount namespace, as root or as a user who may have one.
+    for flags in ["-m", "-rm"] {
+        let trial = Command::new("unshare").args([flags, "sh", "-c", "mount -t tmpfs t /mnt"]).output();
+        if !trial.is_ok_and(|output| output.status.success()) {
+            continue;
+        }
+        let folder = folder();
+        std::fs::create_dir(folder.path().join("m")).unwrap();
+        let script = "mount -t tmpfs t m && \"$@\" && ls -A m";
+        let trace = [&["trace", "d.tri", "-q", "--cycles", "9"], &SCREEN[..], &["--out"]].concat();
+        let mut commands: Vec<(Vec<&str>, &str)> =
+            COMMANDS.iter().map(|(command, file)| ([command, &["m"][..]].concat(), *file)).collect();
+        commands.push(([&trace[..], &["m/t.vcd"]].concat(), "t.vcd"));
+        for (command, file) in commands {
+            let program = env!("CARGO_BIN_EXE_edgewalk");
+            let mut unshare = Command::new("unshare");
+            unshare.args([flags, "sh", "-c", script, "sh", program]).args(&command);
+            let output = unshare.current_dir(folder.path()).output().unwrap();
+            assert_eq!(ended(&output), (Some(0), String::new()), "{command:?}");
+            let listed = String::from_utf8(output.stdout).unwrap();
+            assert!(listed.lines().any(|name| name == file), "{command:?}: {listed}");
+            assert!(!listed.contains(".edgewalk"), "{command:?}: {listed}");
+            checked += 1;
+        }
+        break;
+    }
+    println!("checked {checked} commands on a mount point of our own");
+
+    // Anyone may write to the mount point /dev/shm, and only root beside it.
+    let shm = Path::new("/dev/shm");
+    if shm.is_dir() {
+        let folder = folder();
+        let file = format!("/dev/shm/edgewalk-test-{}.vcd", std::process::id());
+        let trace = [&["trace", "d.tri", "-q", "--cycles", "9", "--out", &file], &SCREEN[..]].concat();
+        let ended = run(folder.path(), &trace);
+        let written = std::fs::remove_file(&file).is_ok();
+        assert_eq!((ended, written), ((Some(0), String::new()), true));
+        checked += 1;
+        println!("checked a file in /dev/shm");
+    }
+    assert!(checked > 0, "neither a mount namespace nor /dev/shm: nothing was checked");
+}

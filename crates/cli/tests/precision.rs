@@ -1,0 +1,117 @@
+//! `edgewalk config explain`: additions, the proved bound or none, and the fraction bits that a screen needs.
+#![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
+
+use serde_json::Value;
+use std::process::Command;
+
+fn explain(settings: &[&str], json: bool) -> String {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_edgewalk"));
+    command.args(["config", "explain"]);
+    for setting in settings {
+        command.args(["--set", setting]);
+    }
+    if json {
+        command.arg("--json");
+    }
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn precision(settings: &[&str]) -> Value {
+    serde_json::from_str::<Value>(&explain(settings, true)).unwrap()["precision"].clone()
+}
+
+#[test]
+fn the_default_machine_has_what_it_needs_and_not_a_bit_more() {
+    let told = precision(&[]);
+    assert_eq!(told["additions"], "640x480: 479 lines + 8191 guard columns + 639 columns = 9309 steps");
+    for channel in ["z", "color"] {
+        let proof = &told[channel];
+        // (9309 + 1) / 2^15 + 1/32 + 1/2.
+        assert_eq!(proof["bound"], 9310.0 / 32768.0 + 1.0 / 32.0 + 0.5, "{proof}");
+        assert_eq!((&proof["no_bound"], &proof["needed_fraction_bits"]), (&Value::Null, &14.into()));
+        let witness = proof["one_bit_fewer"].as_str().unwrap();
+        assert!(witness.starts_with("with 13 fraction bits, triangle ("), "{witness}");
+        assert!(witness.contains("9309 additions"), "{witness}");
+    }
+    assert!(told["color"]["one_bit_fewer"].as_str().unwrap().ends_with("output 256 of 0..=255"));
+    let page = explain(&[], false);
+    assert_eq!(page.matches("at most 0.8154 LSB, proved").count(), 2, "{page}");
+    assert_eq!(page.matches("14 are needed for 1 LSB").count(), 2, "{page}");
+    assert!(page.contains("= 9309 steps") && page.contains("UQ24.14, 38 bits"), "{page}");
+}
+
+/// The bits that are said to be needed have a bound of at most 1 LSB, and one fewer have none.
+#[test]
+fn the_bits_it_asks_for_suffice_and_one_fewer_do_not() {
+    let screens: [&[&str]; 5] = [
+        &["formats.color_fraction=4"],
+        &["screen.guard_bits=10", "formats.color_fraction=5"],
+        &["screen.width=1920", "screen.height=1080", "formats.color_vertex=1"],
+        &["screen.width=64", "screen.height=48", "screen.guard_bits=6", "formats.color_vertex=2"],
+        &["edge.kind=slope", "formats.color_fraction=20"],
+    ];
+    let mut needed = Vec::new();
+    for screen in screens {
+        let bits = precision(screen)["color"]["needed_fraction_bits"].as_u64().unwrap();
+        let with = |bits: u64| {
+            let setting = format!("formats.color_fraction={bits}");
+            precision(&[screen, &[&setting]].concat())["color"].clone()
+        };
+        let (enough, fewer) = (with(bits), with(bits - 1));
+        assert!(enough["bound"].as_f64().unwrap() <= 1.0, "{screen:?}: {enough}");
+        assert!(fewer["bound"].as_f64().is_none_or(|bound| bound > 1.0), "{screen:?}: {fewer}");
+        needed.push(bits);
+    }
+    assert_eq!(needed[..4], [14, 12, 15, 8]);
+    let told = &precision(screens[0])["color"];
+    assert_eq!(told["bound"], Value::Null);
+    assert!(told["no_bound"].as_str().unwrap().starts_with("9309 additions may err by 290.9375 LSB"));
+    assert!(explain(screens[0], false).contains("no bound: 9309 additions"));
+}
+
+#[test]
+fn where_no_bits_will_do_it_says_why() {
+    let told = precision(&["formats.z_vertex=0"]);
+    assert_eq!(
+        (&told["z"]["needed_fraction_bits"], &told["color"]["needed_fraction_bits"]),
+        (&Value::Null, &14.into())
+    );
+    assert!(told["z"]["out_of_reach"].as_str().unwrap().contains("raise formats.z_vertex"), "{told}");
+    let told = precision(&["edge.fill=textbook", "screen.subpixel_bits=0"]);
+    for channel in ["z", "color"] {
+        assert_eq!(
+            (&told[channel]["bound"], &told[channel]["needed_fraction_bits"]),
+            (&Value::Null, &Value::Null)
+        );
+        assert!(told[channel]["no_bound"].as_str().unwrap().contains("edge.fill = textbook"), "{told}");
+    }
+}
+
+/// The triangle that is said to break one bit fewer does, drawn as it is printed.
+#[test]
+fn the_witness_wraps_when_it_is_drawn_and_not_with_the_bits_needed() {
+    let told = precision(&[]);
+    let witness = told["color"]["one_bit_fewer"].as_str().unwrap();
+    let mut triangle = "size 640 480\nT".to_owned();
+    let corners: Vec<&str> = witness.split('(').skip(1).map(|rest| rest.split_once(')').unwrap().0).collect();
+    assert_eq!(corners.len(), 3, "{witness}");
+    for corner in corners {
+        let numbers: Vec<f64> = corner.split([',', ':']).map(|n| n.trim().parse().unwrap()).collect();
+        triangle += &format!("  {} {} .5 {} 0 0 0", numbers[0], numbers[1], numbers[2] / 255.0);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("witness.tri"), triangle + "\n").unwrap();
+    let mut seen = Vec::new();
+    for bits in [13, 14] {
+        let output = Command::new(env!("CARGO_BIN_EXE_edgewalk"))
+            .current_dir(folder.path())
+            .args(["render", "witness.tri", "--json", "--set", &format!("formats.color_fraction={bits}")])
+            .output()
+            .unwrap();
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        seen.push((output.status.code(), report["comparison"]["wrapped"].as_u64().unwrap() > 0));
+    }
+    assert_eq!(seen, [(Some(1), true), (Some(0), false)]);
+}

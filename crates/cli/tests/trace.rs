@@ -1,0 +1,39 @@
+//! What a waveform shows: what can change, causes by name, tags only where the machine has them.
+
+use std::process::Command;
+
+fn vcd(settings: &[&str]) -> String {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("t.vcd");
+    let small = ["screen.width=24", "screen.height=20", "screen.guard_bits=6"];
+    let mut command = Command::new(env!("CARGO_BIN_EXE_edgewalk"));
+    command.args(["trace", "sphere", "--triangles", "2", "--cycles", "900", "--out"]).arg(&out);
+    small.iter().chain(settings).for_each(|setting| _ = command.args(["--set", setting]));
+    let output = command.output().expect("the program runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    std::fs::read_to_string(out).expect("written")
+}
+
+#[test]
+fn a_waveform_holds_causes_by_name_and_no_constants_and_no_tags() {
+    let text = vcd(&[]);
+    let (header, changes) = text.split_once("$enddefinitions").expect("a header");
+    let declared = |name: &str| header.lines().any(|line| line.contains(&format!(" {name} $end")));
+    for name in ["clk", "activity", "activity_name", "tri_valid", "wr_z"] {
+        assert!(declared(name), "{name} is not there");
+    }
+    for name in ["DRAW", "EDGE", "IDLE", "EDGE_STEP", "tri_tag", "wr_tag"] {
+        assert!(!declared(name), "{name} is there");
+    }
+    assert!(!header.contains("_tag"), "a machine without tags is traced with tags");
+    let line = header.lines().find(|line| line.contains(" activity_name $end")).expect("declared");
+    let id = line.split_whitespace().nth(3).expect("an identifier");
+    for name in ["idle", "setup"] {
+        assert!(changes.lines().any(|line| line == format!("s{name} {id}")), "the cause {name} is never shown");
+    }
+}
+
+#[test]
+fn tags_that_the_machine_has_are_traced() {
+    assert!(vcd(&["memory.tag_bits=4"]).contains(" tri_tag $end"));
+}
