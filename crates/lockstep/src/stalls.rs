@@ -1,6 +1,6 @@
 //! When the rig makes the device wait: for every link a pattern that repeats, the same in Rust and in Verilog.
 
-use crate::interface::Interface;
+use crate::interface::{Direction, Interface};
 use crate::unit::Unit;
 use edgewalk_machine::Plan;
 use edgewalk_model::setup_clocks;
@@ -31,6 +31,17 @@ impl Pattern {
         self.0[(cycle % self.0.len() as u64) as usize]
     }
 
+    /// The longest time without a willing cycle.
+    #[must_use]
+    pub fn longest_wait(&self) -> u64 {
+        let twice = self.0.iter().chain(&self.0);
+        let waits = twice.scan(0, |wait, willing| {
+            *wait = if *willing { 0 } else { *wait + 1 };
+            Some(*wait)
+        });
+        waits.max().unwrap_or(0)
+    }
+
     /// The bits, that of cycle 0 first.
     #[must_use]
     pub fn bits(&self) -> &[bool] {
@@ -47,7 +58,7 @@ pub enum StallKind {
     /// Every link waits in about a third of the cycles.
     Mixed,
     /// Depths, writes and reads in turn wait for several triangles, so that the pixels of all of them are in flight
-    /// together. A unit without a depth memory waits as with [`StallKind::Mixed`].
+    /// together. What leaves a unit without a memory waits long and is then taken in a burst.
     Late,
 }
 
@@ -81,6 +92,7 @@ pub fn patterns(plan: &Plan, interface: &Interface, kind: StallKind, seed: u64) 
                 (Some(programme), Some(held)) => Pattern(programme.iter().map(|row| row[held]).collect()),
                 // The whole machine takes triangles when it can: SETUP keeps them apart anyway.
                 (Some(_), None) if interface.unit == Unit::MACHINE => Pattern::always(),
+                (None, _) if kind == StallKind::Late && leaves(interface, name) => Pattern(burst()),
                 _ => Pattern(mixed(seed, name, LENGTHS[i % LENGTHS.len()])),
             }
         })
@@ -90,6 +102,15 @@ pub fn patterns(plan: &Plan, interface: &Interface, kind: StallKind, seed: u64) 
 /// About two cycles of three, at random.
 fn mixed(seed: u64, link: &str, length: usize) -> Vec<bool> {
     draws(seed, link, length).into_iter().map(|draw| draw % 3 != 0).collect()
+}
+
+fn leaves(interface: &Interface, name: &str) -> bool {
+    interface.links_of(Direction::Out).any(|link| link.name == name)
+}
+
+/// Three quarters of the time nothing, then everything.
+fn burst() -> Vec<bool> {
+    (0..LENGTHS[0]).map(|n| 4 * n >= 3 * LENGTHS[0]).collect()
 }
 
 /// The links that [`StallKind::Late`] holds, in turn: those of the memories, reads last.

@@ -9,7 +9,7 @@
 use crate::suites::Suite;
 use edgewalk_lockstep::case::constants;
 use edgewalk_lockstep::{
-    Agreement, Direction, Interface, Link, LockstepError, Rig, Setting, StallKind, Token, Triangles, Unit,
+    Agreement, Direction, Interface, Link, LockstepError, Pattern, Rig, Setting, StallKind, Token, Triangles, Unit,
     lockstep, model, patterns, status_ports,
 };
 use edgewalk_machine::Plan;
@@ -171,7 +171,7 @@ impl Run<'_> {
             events: Events::default(),
             interface,
         };
-        let patience = patience(self.plan);
+        let patience = patience(self.plan, &trace.setting.patterns);
         while !rig.exhausted() || rig.cycle() < trace.cycles + patience {
             let cycle = rig.cycle();
             rig.drive(&mut ports);
@@ -202,11 +202,12 @@ impl Run<'_> {
 }
 
 /// Longest time in which nothing may move at the ports though something will: SETUP, then lines without pixels, then a
-/// span that comes from far off the screen.
-fn patience(plan: &Plan) -> u64 {
+/// span that comes from far off the screen; and whatever the rig makes them wait.
+fn patience(plan: &Plan, patterns: &[Pattern]) -> u64 {
+    let waits: u64 = patterns.iter().map(Pattern::longest_wait).sum();
     let clocks = setup_clocks(plan);
     let span = u64::from(plan.clocks_per_pixel()) << plan.widths().column;
-    u64::from(clocks.phase1) + u64::from(clocks.phase2) + u64::from(plan.height) + span + 1000
+    u64::from(clocks.phase1) + u64::from(clocks.phase2) + u64::from(plan.height) + span + waits + 1000
 }
 
 /// Cycles that follow the last event of the model: what comes too much would come here.
