@@ -34,9 +34,23 @@ fn pass_counts_what_the_stimulus_asks_for() {
         .filter_map(|line| line.split_once("checked ")?.1.split_once(" / "))
         .map(|(checked, expected)| (checked.parse().expect("a number"), expected.parse().expect("a number")))
         .collect();
-    // The input through the machine, two directed suites through it and its five units.
-    assert_eq!(counts.len(), 13, "{text}");
-    assert!(counts.iter().all(|(checked, expected)| *checked > 1000 && checked == expected), "{text}");
+    // The input through the machine, two directed suites through it and its five units, the eight depth functions and the
+    // write mask through the machine and DEPTH.
+    assert_eq!(counts.len(), 1 + 2 * 6 + 9 * 2, "{text}");
+    assert!(counts.iter().all(|(checked, expected)| *checked > 500 && checked == expected), "{text}");
+    for function in ["never", "less", "equal", "lequal", "greater", "notequal", "gequal", "always", "unwritten"] {
+        let of = |unit: &str| text.lines().any(|line| line.contains(&format!("pass  depth_{function:<9} {unit}")));
+        assert!(of("machine") && of("depth"), "{function}: {text}");
+    }
+    // Together they leave nothing out that this machine can meet.
+    assert!(!text.contains("not covered"), "{text}");
+}
+
+#[test]
+fn what_is_not_covered_is_said() {
+    let (code, text) = told(&verify(TRIANGLE, &["--no-simulators", "--stalls", "none"], None));
+    assert_eq!(code, Some(0), "{text}");
+    assert!(text.contains("warning: depth: not covered: memory_stall, queue_full, write_stall\n"), "{text}");
 }
 
 #[test]

@@ -139,3 +139,24 @@ fn a_fault_is_found_and_said() {
         }
     }
 }
+
+/// A bench that compares all it was told to, but was told less than the manifest expects, has not passed.
+#[test]
+fn less_than_the_manifest_expects_is_no_pass() {
+    let machine = common::small();
+    let suite = Suite::named(&machine, "depth_less", 0, 0).expect("listed");
+    let mut files = files(&machine, Unit::Depth, &suite, 1, StallKind::Mixed);
+    let (name, json) = &mut files[0];
+    assert_eq!(name, "manifest.json");
+    let mut manifest: serde_json::Value = serde_json::from_slice(json).expect("JSON");
+    let expected = manifest["expected"].as_u64().expect("a number");
+    manifest["expected"] = (expected + 1).into();
+    *json = serde_json::to_vec(&manifest).expect("JSON");
+    let place = tempfile::tempdir().expect("a directory");
+    write(&files, place.path());
+    let outcome = simulate(Simulator::Icarus, place.path(), &place.path().join("work"), LIMIT);
+    match outcome.expect("Icarus runs") {
+        Outcome::Mismatch { checked, expected: wanted, .. } => assert_eq!((checked, wanted), (expected, expected + 1)),
+        other => panic!("{other:?}"),
+    }
+}

@@ -96,15 +96,17 @@ fn last_place(pen: &Pen, places: u32) -> Vec<Triangle> {
 }
 
 /// Two that pass, as many that fail as fill the queue, and one that enters when the first is written and the second passes: it
-/// lies between the two. Often enough that once the queue holds just these.
+/// lies between the two. Again on other pixels, each time one fragment later: once the queue holds just these.
 fn two_writes(pen: &Pen, places: u32) -> Vec<Triangle> {
     let round = |first: u32| {
         let failing = std::iter::repeat_n(first + 1, places.saturating_sub(2) as usize);
         [first, first - 2].into_iter().chain(failing).chain([first - 1])
     };
-    let pixels = if places <= 7 { 3 } else { 1 };
-    let dot = |pixel: u32, z: u32| pen.dot(f64::from(pixel), 4.0, fifteenths(z));
-    (0..pixels)
-        .flat_map(|pixel| [14, 10, 6, 2].into_iter().flat_map(round).map(move |z| dot(pixel, z)))
-        .collect()
+    let pixels = if places <= 5 { places + 1 } else { 1 };
+    let dots = |pixel: u32| {
+        let later = std::iter::repeat_n(15, pixel as usize);
+        let depths = later.chain([14, 10, 6].into_iter().flat_map(round));
+        depths.map(move |z| pen.dot(f64::from(pixel), 4.0, fifteenths(z)))
+    };
+    (0..pixels).flat_map(dots).collect()
 }
