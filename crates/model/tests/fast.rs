@@ -90,6 +90,10 @@ fn compare(machine: &Plan, triangles: &[Triangle], state: DrawState) -> Path {
         Ok(()) => {
             tick = Frame { coverage: vec![], writes: vec![], id: vec![], ..tick };
             assert!(bare.frame() == tick, "without details: {}", context());
+            let [top, rest] =
+                [0..machine.height / 3, machine.height / 3..machine.height].map(|l| bare.lines(l));
+            assert!([top.z, rest.z].concat() == tick.z, "depths by parts: {}", context());
+            assert!([top.rgb, rest.rgb].concat() == tick.rgb, "colours by parts: {}", context());
         }
         Err(Refusal::Tick(reason)) => assert_eq!(path, Path::Ticked(reason), "{}", context()),
         Err(Refusal::Foreign(foreign)) => panic!("{foreign}"),
