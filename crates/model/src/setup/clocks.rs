@@ -36,6 +36,7 @@ pub fn setup_clocks(plan: &Plan) -> SetupClocks {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use edgewalk_machine::Machine;
 
     #[test]
     fn worked_by_hand() {
@@ -44,6 +45,11 @@ mod tests {
             setup_clocks(&Plan::default()),
             SetupClocks { phase1: 3 + 45, phase2: 1 + 4 * 13 + 36 + 43 + 43 }
         );
+        // T2 is 174, and five channels take two turns of four lanes, three of two and five of one.
+        for (lanes, turns) in [(4, 2), (2, 3), (1, 5)] {
+            let plan = Machine { extra: 1, lanes, ..Machine::default() }.plan().expect("can be built");
+            assert_eq!(setup_clocks(&plan).phase2, 1 + turns * 174);
+        }
         // DW = 16, k = 1, one lane, F = 16: MUL 17, DIVq 32, DIVc 48; DIV(16 + 30 + 1) 48.
         let textbook = Plan::preset("textbook").expect("a preset");
         assert_eq!(
