@@ -23,7 +23,8 @@ fn manifest(folder: &Path, name: &str) -> Value {
 #[test]
 fn own_triangles_become_vectors_of_any_unit() {
     let folder = tempfile::tempdir().expect("a folder");
-    let output = vectors(folder.path(), &["own triangles.tri", "--unit", "pixel", "--unit", "depth", "--no-csv"]);
+    let output =
+        vectors(folder.path(), &["own triangles.tri", "--unit", "pixel", "--unit", "depth", "--no-csv"]);
     let told = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{told}");
     // Two triangles meet little, and that is said.
@@ -42,7 +43,8 @@ fn own_triangles_become_vectors_of_any_unit() {
     assert!(depth["channels"][0]["table"].is_null());
     let files = depth["files"].as_array().expect("a list");
     assert!(files.iter().all(|file| !file["name"].as_str().expect("text").ends_with(".csv")));
-    let output = Command::new("make").args(["-C", "v/own_triangles_pixel", "icarus"]).current_dir(&folder).output();
+    let output =
+        Command::new("make").args(["-C", "v/own_triangles_pixel", "icarus"]).current_dir(&folder).output();
     let output = output.expect("make is installed");
     let said = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success() && said.lines().any(|line| line == "PASS"), "{said}");
@@ -51,7 +53,8 @@ fn own_triangles_become_vectors_of_any_unit() {
 #[test]
 fn tables_are_written_unless_left_out() {
     let folder = tempfile::tempdir().expect("a folder");
-    let output = vectors(folder.path(), &["own triangles.tri", "--unit", "pixel", "--triangles", "1", "--quiet"]);
+    let output =
+        vectors(folder.path(), &["own triangles.tri", "--unit", "pixel", "--triangles", "1", "--quiet"]);
     assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0));
     let pixel = manifest(folder.path(), "own_triangles_pixel");
     assert_eq!(pixel["suite"]["triangles"], 1);

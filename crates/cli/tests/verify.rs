@@ -38,8 +38,11 @@ fn pass_counts_what_the_stimulus_asks_for() {
     // write mask through the machine and DEPTH.
     assert_eq!(counts.len(), 1 + 2 * 6 + 9 * 2, "{text}");
     assert!(counts.iter().all(|(checked, expected)| *checked > 500 && checked == expected), "{text}");
-    for function in ["never", "less", "equal", "lequal", "greater", "notequal", "gequal", "always", "unwritten"] {
-        let of = |unit: &str| text.lines().any(|line| line.contains(&format!("pass  depth_{function:<9} {unit}")));
+    for function in
+        ["never", "less", "equal", "lequal", "greater", "notequal", "gequal", "always", "unwritten"]
+    {
+        let of =
+            |unit: &str| text.lines().any(|line| line.contains(&format!("pass  depth_{function:<9} {unit}")));
         assert!(of("machine") && of("depth"), "{function}: {text}");
     }
     // Together they leave nothing out that this machine can meet.

@@ -9,8 +9,8 @@
 use crate::suites::Suite;
 use edgewalk_lockstep::case::constants;
 use edgewalk_lockstep::{
-    Agreement, Direction, Interface, Link, LockstepError, Pattern, Rig, Setting, StallKind, Token, Triangles, Unit,
-    lockstep, model, patterns, status_ports,
+    Agreement, Direction, Interface, Link, LockstepError, Pattern, Rig, Setting, StallKind, Token, Triangles,
+    Unit, lockstep, model, patterns, status_ports,
 };
 use edgewalk_machine::Plan;
 use edgewalk_model::{DrawState, Events, setup_clocks};

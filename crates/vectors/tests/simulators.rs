@@ -156,7 +156,9 @@ fn less_than_the_manifest_expects_is_no_pass() {
     write(&files, place.path());
     let outcome = simulate(Simulator::Icarus, place.path(), &place.path().join("work"), LIMIT);
     match outcome.expect("Icarus runs") {
-        Outcome::Mismatch { checked, expected: wanted, .. } => assert_eq!((checked, wanted), (expected, expected + 1)),
+        Outcome::Mismatch { checked, expected: wanted, .. } => {
+            assert_eq!((checked, wanted), (expected, expected + 1))
+        }
         other => panic!("{other:?}"),
     }
 }
