@@ -10,6 +10,7 @@
 // The depth is read whatever the function.
 // Hazard: a fragment takes the depth from the last older fragment that writes its pixel.
 
+`timescale 1ns / 1ps
 `default_nettype none
 
 module edgewalk_depth (

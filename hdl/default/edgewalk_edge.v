@@ -9,6 +9,7 @@
 // Rules: a step takes f from R; where R is too small M is added back and the column goes one further (carry).
 // The columns are not cut to the screen here: SPAN does that.
 
+`timescale 1ns / 1ps
 `default_nettype none
 
 module edgewalk_edge (

@@ -10,6 +10,7 @@
 // Rules: everything stands still while a fragment waits at the output. Columns off the screen cost their phases, and give
 // no fragment.
 
+`timescale 1ns / 1ps
 `default_nettype none
 
 module edgewalk_pixel (

@@ -7,6 +7,7 @@
 // Rules: products are signed; in the first step the sign bits of a and b subtract. Quotients are rounded down
 // (quotient, remainder) or to nearest, halves up (rounded). Of a quotient the low bits are kept: the rest falls out.
 
+`timescale 1ns / 1ps
 `default_nettype none
 
 module edgewalk_setup_lane0 (

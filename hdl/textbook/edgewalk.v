@@ -8,6 +8,7 @@
 // activity is the one cause of the cycle: 0 idle 1 draw 2 offscreen 3 hazard 4 queue 5 memory 6 edge 7 setup 8 flush;
 // in all but draw and offscreen PIXEL stalls.
 
+`timescale 1ns / 1ps
 `default_nettype none
 
 module edgewalk (

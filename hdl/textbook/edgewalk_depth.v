@@ -10,6 +10,7 @@
 // The depth is read whatever the function.
 // Hazard: a fragment with fence waits until nothing is in flight.
 
+`timescale 1ns / 1ps
 `default_nettype none
 
 module edgewalk_depth (

@@ -15,6 +15,7 @@
 //   seg 1      a  b  c        fragment meet again in the output stages.
 //   seg 2         a  b
 
+`timescale 1ns / 1ps
 `default_nettype none
 
 module edgewalk_pixel (

@@ -11,6 +11,7 @@
 // anything, for each round the operations on channels, and one clock to store. prim_valid is high from the next on.
 // Rules: all results are those of exact division, rounded once; a word keeps its low bits.
 
+`timescale 1ns / 1ps
 `default_nettype none
 
 module edgewalk_setup (

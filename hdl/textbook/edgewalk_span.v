@@ -7,6 +7,7 @@
 // Rules: the span is cut on the side where it ends. What lies off the screen on the side where it starts is stepped over
 // by PIXEL, as the channels must be stepped there too.
 
+`timescale 1ns / 1ps
 `default_nettype none
 
 module edgewalk_span (

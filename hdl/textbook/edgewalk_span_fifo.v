@@ -5,6 +5,7 @@
 // Timing: a token taken in at a clock is seen at the output in the next cycle, if it is first.
 // Rules: in_ready does not look at out_ready: a full queue takes nothing in, even while its first token leaves.
 
+`timescale 1ns / 1ps
 `default_nettype none
 
 module edgewalk_span_fifo (

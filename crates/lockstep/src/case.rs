@@ -140,13 +140,15 @@ impl Case {
         let last = self.resets.iter().max().map_or(0, |cycle| cycle + 1);
         let longest = PATIENCE * (1 + self.tokens.len() as u64);
         loop {
+            // In the cycle in which it takes the last triangle the machine is still idle.
+            let exhausted = pair.rig.exhausted();
             pair.cycle(reference, device)?;
             for link in interface.links.iter().filter(|link| !pair.ports().rst && link.fires(pair.ports())) {
                 *checked.moved.entry(link.name).or_default() += 1;
             }
             let cycle = pair.rig.cycle();
             let done = match idle {
-                Some(idle) => cycle > last && pair.rig.exhausted() && pair.ports().is_high(idle),
+                Some(idle) => cycle > last && exhausted && pair.ports().is_high(idle),
                 None => cycle >= self.cycles,
             };
             if done {

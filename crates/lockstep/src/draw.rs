@@ -42,11 +42,11 @@ pub fn render_rtl(
     state: DrawState,
     stalls: StallKind,
 ) -> Result<Frame, DrawError> {
-    render_rtl_with(plan, triangles, state, stalls, |_| true)
+    run(plan, &plan.tagged(), triangles, state, stalls, |_| true)
 }
 
-/// As [`render_rtl`]; `watch` sees the netlist in every cycle, before the clock edge, and ends the run by returning
-/// false.
+/// As [`render_rtl`], with the machine as it is, so that ids are the tags that it has, or none; `watch` sees the netlist in
+/// every cycle, before the clock edge, and ends the run by returning false.
 ///
 /// # Errors
 /// Triangles whose vertices were made for another machine.
@@ -55,14 +55,24 @@ pub fn render_rtl_with(
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
     state: DrawState,
     stalls: StallKind,
+    watch: impl FnMut(&mut Simulator) -> bool,
+) -> Result<Frame, DrawError> {
+    run(plan, plan, triangles, state, stalls, watch)
+}
+
+fn run(
+    plan: &Plan,
+    tagged: &Plan,
+    triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+    state: DrawState,
+    stalls: StallKind,
     mut watch: impl FnMut(&mut Simulator) -> bool,
 ) -> Result<Frame, DrawError> {
-    let tagged = plan.tagged();
-    let interface = Interface::new(&tagged, Unit::MACHINE);
-    let mut device = NetlistDevice::new(&*netlist(&tagged, Unit::MACHINE)?, &interface)?;
+    let interface = Interface::new(tagged, Unit::MACHINE);
+    let mut device = NetlistDevice::new(&*netlist(tagged, Unit::MACHINE)?, &interface)?;
     let mut setting = Setting::willing(&interface, &case::constants(&state))?;
-    setting.patterns = patterns(&tagged, &interface, stalls, 0);
-    let (port, mut foreign) = (Triangles::new(&tagged), None);
+    setting.patterns = patterns(tagged, &interface, stalls, 0);
+    let (port, mut foreign) = (Triangles::new(tagged), None);
     let tokens = triangles.into_iter().zip(0..).map_while(|(triangle, number): (_, u32)| {
         foreign = plan.accept(&triangle, number.into()).err();
         foreign.is_none().then(|| port.pack(&triangle, number))
@@ -71,15 +81,15 @@ pub fn render_rtl_with(
     let mut ports = interface.values();
     let mut rig = Rig::fed(&interface, setting, tokens);
     loop {
+        // In the cycle in which it takes the last triangle the machine is still idle.
+        let exhausted = rig.exhausted();
         rig.drive(&mut ports);
         device.settle(&mut ports);
         let more = watch(device.simulator());
         picture.see(&ports);
-        // The machine is idle, too, in the cycle in which it takes a triangle.
-        let done = rig.exhausted() && picture.is_idle(&ports);
         device.clock();
         rig.clock(&ports);
-        if !more || done {
+        if !more || (exhausted && picture.is_idle(&ports)) {
             break;
         }
     }
@@ -95,7 +105,7 @@ struct Picture {
     /// Places of address, enable and tag in a write, and of every channel.
     address: usize,
     enable: usize,
-    tag: usize,
+    tag: Option<usize>,
     channels: Vec<usize>,
     activity: PortId,
     idle: PortId,
@@ -122,7 +132,7 @@ impl Picture {
         Picture {
             address: place("addr"),
             enable: place("z_en"),
-            tag: place("tag"),
+            tag: wr.place("tag"),
             channels: plan.channels().iter().map(|channel| place(channel.name)).collect(),
             activity: status("activity"),
             idle: status("idle"),
@@ -161,7 +171,9 @@ impl Picture {
                 }
             }
             self.writes[address] += 1;
-            self.id[address] = write[self.tag] as i32;
+            if let Some(tag) = self.tag {
+                self.id[address] = write[tag] as i32;
+            }
             counters.writes += 1;
         }
     }

@@ -145,7 +145,7 @@ fn a_fault_is_found_and_said() {
 fn less_than_the_manifest_expects_is_no_pass() {
     let machine = common::small();
     let suite = Suite::named(&machine, "depth_less", 0, 0).expect("listed");
-    let mut files = files(&machine, Unit::Depth, &suite, 1, StallKind::Mixed);
+    let mut files = files(&machine, common::DEPTH, &suite, 1, StallKind::Mixed);
     let (name, json) = &mut files[0];
     assert_eq!(name, "manifest.json");
     let mut manifest: serde_json::Value = serde_json::from_slice(json).expect("JSON");

@@ -11,7 +11,7 @@ use crate::staging::Staging;
 use crate::talk::{self, Talk};
 use crate::verdict::Verdict;
 use anyhow::Result;
-use edgewalk_vectors::{StallKind, Tables, Unit};
+use edgewalk_vectors::{Tables, Unit};
 use std::path::PathBuf;
 
 /// Renders a built-in scene through golden picture and model, compares them, and writes the machine's Verilog and vectors.
@@ -52,7 +52,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let set = vectors::Set {
         suites: &suites,
         units: &Unit::all(&machine),
-        stalls: Some(StallKind::Mixed),
+        stalls: None,
         tables: Tables::Written,
     };
     let suites = set.write(&machine, &out, "vectors/", talk.quiet)?;

@@ -1,0 +1,73 @@
+//! The netlist draws what the model draws, in the same cycles where nothing makes it wait.
+
+mod common;
+
+use common::machines::random_machine;
+use common::triangles::random_triangle;
+use edgewalk_lockstep::{DrawError, StallKind, render_rtl, render_rtl_with};
+use edgewalk_machine::{Machine, Plan};
+use edgewalk_model::{DrawState, Stalls, render, setup_clocks};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// A random machine whose SETUP is short, so that the interpreter has mostly pixels to draw.
+fn quick_machine(rng: &mut Pcg64Mcg) -> Plan {
+    loop {
+        let plan = random_machine(rng);
+        let clocks = setup_clocks(&plan);
+        if plan.guard_bits <= 6 && clocks.phase1 + clocks.phase2 < 400 {
+            return plan;
+        }
+    }
+}
+
+#[test]
+fn the_picture_of_the_netlist_is_that_of_the_model() {
+    let mut rng = Pcg64Mcg::seed_from_u64(5);
+    let (mut fragments, mut machines) = (0, [0; 3]);
+    for i in 0..36 {
+        let plan = quick_machine(&mut rng);
+        let triangles: Vec<_> = (0..12).map(|_| random_triangle(&plan, &mut rng)).collect();
+        let state =
+            DrawState { depth_func: [1, 3, 7][i % 3], depth_write: rng.random_bool(0.9), clear: [1, 2, 3] };
+        let stalls = StallKind::ALL[i % 3];
+        let model = render(&plan, triangles.iter().copied(), state, Stalls::NONE).expect("its own triangles");
+        let rtl = render_rtl(&plan, triangles.iter().copied(), state, stalls).expect("its own triangles");
+        assert_eq!((&rtl.z, &rtl.rgb, &rtl.extra), (&model.z, &model.rgb, &model.extra), "{plan:?}");
+        assert_eq!((&rtl.coverage, &rtl.writes, &rtl.id), (&model.coverage, &model.writes, &model.id), "{plan:?}");
+        if stalls == StallKind::None {
+            let seen = |c: &edgewalk_model::Counters| (c.cycles, c.activity, c.triangles, c.fragments, c.writes);
+            assert_eq!(seen(&rtl.counters), seen(&model.counters), "{plan:?}");
+        } else {
+            assert!(rtl.counters.cycles > model.counters.cycles || model.counters.fragments == 0, "it never waited");
+        }
+        fragments += model.counters.fragments;
+        machines[i % 3] += 1;
+    }
+    println!("{fragments} fragments compared on {machines:?} machines, by stalls");
+    assert!(fragments > 1000, "{fragments}");
+}
+
+#[test]
+fn a_watcher_sees_every_cycle_and_may_end_the_run() {
+    let plan = Plan::default();
+    let mut rng = Pcg64Mcg::seed_from_u64(6);
+    let triangles: Vec<_> = (0..5).map(|_| random_triangle(&plan, &mut rng)).collect();
+    let mut seen = 0;
+    let watch = |simulator: &mut edgewalk_netlist::Simulator| {
+        seen += 1;
+        assert!(simulator.get("activity").is_ok());
+        seen < 100
+    };
+    let frame = render_rtl_with(&plan, triangles, DrawState::default(), StallKind::None, watch);
+    assert_eq!(frame.expect("its own triangles").counters.cycles, 100);
+    assert_eq!(seen, 100);
+}
+
+#[test]
+fn triangles_of_another_machine_are_refused() {
+    let other = Machine { extra: 1, ..Machine::default() }.plan().expect("can be built");
+    let triangle = [other.raw_vertex(0, 0, &[0; 5]); 3];
+    let drawn = render_rtl(&Plan::default(), [triangle], DrawState::default(), StallKind::None);
+    assert!(matches!(drawn, Err(DrawError::Vertex(error)) if error.triangle == 0));
+}
