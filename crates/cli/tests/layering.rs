@@ -29,7 +29,7 @@ const LAYERS: &[(&str, &[&str])] = &[
 /// What the tests of a crate may know beyond that.
 const TESTS: &[(&str, &[&str])] = &[
     ("golden", &["numerics"]),                             // its proved bounds
-    ("model", &["scene", "golden"]),                       // what ought to be drawn
+    ("model", &["numerics", "scene", "golden"]),           // proved bounds, and what ought to be drawn
     ("jit", &["machine", "model", "lockstep", "vectors"]), // whole machines, and what drives them
 ];
 

@@ -79,7 +79,8 @@ fn a_huge_directory_is_announced_before_it_is_written() {
 fn a_suite_for_other_units_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let small = ["--set", "screen.width=24", "--set", "screen.height=20"];
-    let output = vectors(folder.path(), &[&["--suite", "depth_less", "--unit", "pixel"][..], &small].concat());
+    let output =
+        vectors(folder.path(), &[&["--suite", "depth_less", "--unit", "pixel"][..], &small].concat());
     let told = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{told}");
     assert!(told.contains("--suite depth_less: it is for the units machine, depth only"), "{told}");

@@ -34,12 +34,20 @@ fn the_picture_of_the_netlist_is_that_of_the_model() {
         let model = render(&plan, triangles.iter().copied(), state, Stalls::NONE).expect("its own triangles");
         let rtl = render_rtl(&plan, triangles.iter().copied(), state, stalls).expect("its own triangles");
         assert_eq!((&rtl.z, &rtl.rgb, &rtl.extra), (&model.z, &model.rgb, &model.extra), "{plan:?}");
-        assert_eq!((&rtl.coverage, &rtl.writes, &rtl.id), (&model.coverage, &model.writes, &model.id), "{plan:?}");
+        assert_eq!(
+            (&rtl.coverage, &rtl.writes, &rtl.id),
+            (&model.coverage, &model.writes, &model.id),
+            "{plan:?}"
+        );
         if stalls == StallKind::None {
-            let seen = |c: &edgewalk_model::Counters| (c.cycles, c.activity, c.triangles, c.fragments, c.writes);
+            let seen =
+                |c: &edgewalk_model::Counters| (c.cycles, c.activity, c.triangles, c.fragments, c.writes);
             assert_eq!(seen(&rtl.counters), seen(&model.counters), "{plan:?}");
         } else {
-            assert!(rtl.counters.cycles > model.counters.cycles || model.counters.fragments == 0, "it never waited");
+            assert!(
+                rtl.counters.cycles > model.counters.cycles || model.counters.fragments == 0,
+                "it never waited"
+            );
         }
         fragments += model.counters.fragments;
         machines[i % 3] += 1;

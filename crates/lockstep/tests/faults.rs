@@ -99,7 +99,15 @@ fn a_difference_is_told_in_full() {
     let port = interface.port("depth.wr_r").or(interface.port("wr_r")).expect("declared").id;
     let error = run(&case, &interface, Fault::Port(port, 0)).expect_err("a fault").to_string();
     println!("{error}");
-    let told = ["machine wr_r, cycle ", ": expected 0x", ", found 0x", " (0.", " for 0.", ", triangle ", ", pixel ("];
+    let told = [
+        "machine wr_r, cycle ",
+        ": expected 0x",
+        ", found 0x",
+        " (0.",
+        " for 0.",
+        ", triangle ",
+        ", pixel (",
+    ];
     assert!(told.iter().all(|word| error.contains(word)), "{error}");
 }
 
@@ -110,7 +118,10 @@ fn a_reset_that_is_not_applied_is_found() {
     case.resets = vec![300];
     let interface = case.interface();
     let error = run(&case, &interface, Fault::Reset).expect_err("it went on");
-    assert!(matches!(error, LockstepError::Differs { ref difference, .. } if difference.cycle == 301), "{error}");
+    assert!(
+        matches!(error, LockstepError::Differs { ref difference, .. } if difference.cycle == 301),
+        "{error}"
+    );
 }
 
 /// The rig makes the device wait: at every link tokens stand that do not move, and it does not always offer one.
@@ -121,7 +132,8 @@ fn the_rig_makes_every_link_wait() {
     let interface = case.interface();
     let mut device = model(&plan, &interface).expect("the model has every port");
     let mut reference = model(&plan, &interface).expect("the same");
-    let mut counted = Waits { device: &mut *device, interface: &interface, stood: vec![0; interface.links.len()] };
+    let mut counted =
+        Waits { device: &mut *device, interface: &interface, stood: vec![0; interface.links.len()] };
     let waiting = case.run_devices(&interface, &mut *reference, &mut counted).expect("the same device");
     for (link, stood) in interface.links.iter().zip(&counted.stood) {
         println!("{}: {stood} cycles in which a token stands and does not move", link.name);

@@ -28,12 +28,14 @@ fn the_port_tables_are_what_the_units_declare() {
 
 fn table(plan: &Plan, unit: Unit) -> String {
     let interface = Interface::new(plan, unit);
-    let mut text = format!("\n**{}**\n\n| port | bits | format | meaning |\n|---|---|---|---|\n", unit.name());
+    let mut text =
+        format!("\n**{}**\n\n| port | bits | format | meaning |\n|---|---|---|---|\n", unit.name());
     for link in &interface.links {
         head(&mut text, link);
         link.fields.iter().for_each(|port| line(&mut text, port, ""));
     }
-    let of = |what: &str, ports: &[Port], text: &mut String| ports.iter().for_each(|port| line(text, port, what));
+    let of =
+        |what: &str, ports: &[Port], text: &mut String| ports.iter().for_each(|port| line(text, port, what));
     of("in, constant: ", &interface.constants, &mut text);
     of("in, any cycle: ", &interface.levels, &mut text);
     for StatusPort { port, during, .. } in &interface.status {

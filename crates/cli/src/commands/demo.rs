@@ -49,12 +49,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     let modules = emit::write_design(&machine, &out, "hdl/")?;
     let suites = vectors::directed(&machine)?;
-    let set = vectors::Set {
-        suites: &suites,
-        units: &Unit::all(&machine),
-        stalls: None,
-        tables: Tables::Written,
-    };
+    let set =
+        vectors::Set { suites: &suites, units: &Unit::all(&machine), stalls: None, tables: Tables::Written };
     let suites = set.write(&machine, &out, "vectors/", talk.quiet)?;
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
