@@ -142,7 +142,6 @@ fn the_rig_makes_every_link_wait() {
     let mut willing = case.clone();
     willing.unwilling.clear();
     let willing = willing.run().expect("the same machine");
-    assert!(waiting.cycles > willing.cycles);
     assert!(waiting.events.memory_stall > 0 && waiting.events.write_stall > 0);
     assert_eq!((willing.events.memory_stall, willing.events.write_stall), (0, 0));
 }
