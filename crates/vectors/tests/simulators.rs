@@ -126,7 +126,7 @@ fn a_fault_is_found_and_said() {
         ("a wrong value", "rd_addr = frag_addr", "rd_addr = ~frag_addr", ": expected "),
         ("an unknown value", "rd_addr = frag_addr", "rd_addr = frag_addr | 10'bx", ": unknown bits: "),
         ("missing outputs", "rd_valid = frag_valid && clear_to_read", "rd_valid = 1'b0", " never came"),
-        ("extra outputs", "rd_valid = frag_valid &&", "rd_valid =", " is one more than the "),
+        ("extra outputs", "rd_valid = frag_valid &&", "rd_valid =", ": expected "),
         ("late outputs", "w_free = !wr_valid || wr_ready", "w_free = !wr_valid", ": expected in cycle "),
         ("no bypass", "place0_fwd_valid ? place0_fwd_z : data_z", "data_z", "wr: token "),
     ];
