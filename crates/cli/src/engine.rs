@@ -39,9 +39,9 @@ pub struct Raster {
     pub writes: Vec<u32>,
     /// Triangle or polygon last written, by its place in the list, -1 none.
     pub id: Vec<i32>,
-    /// Depth in [0,1].
+    /// Depth in 0 to 1.
     pub z: Vec<f64>,
-    /// Colour in [0,1].
+    /// Colour in 0 to 1.
     pub rgb: Vec<[f64; 3]>,
     /// Channels of the user's own.
     pub extra: Vec<Values>,

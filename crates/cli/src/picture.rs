@@ -10,7 +10,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write as _};
 use std::rc::Rc;
 
-/// Writes colours in [0,1] as an 8-bit PNG.
+/// Writes colours in 0 to 1 as an 8-bit PNG.
 pub fn write_rgb(out: &Staging, name: &str, width: u32, height: u32, rgb: &[[f64; 3]]) -> Result<()> {
     write(out, name, width, height, |i| bytes(rgb[i]))
 }
@@ -93,7 +93,7 @@ impl Png {
         Ok(Png { stream: stream.with_context(|| name.clone())?, name, file })
     }
 
-    /// The next pixels, colours in [0,1].
+    /// The next pixels, colours in 0 to 1.
     pub fn extend_rgb(&mut self, rgb: &[[f64; 3]]) -> Result<()> {
         self.extend(rgb.iter().map(|color| bytes(*color)))
     }
@@ -127,7 +127,7 @@ impl io::Write for SharedFile {
     }
 }
 
-/// A colour in [0,1] in 8 bits.
+/// A colour in 0 to 1 in 8 bits.
 fn bytes(color: [f64; 3]) -> [u8; 3] {
     color.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
 }

@@ -17,7 +17,7 @@ use std::path::PathBuf;
 
 /// Draws a file of screen-space triangles and writes what every pixel got.
 ///
-/// Writes coverage.npy, writes.npy (u32), id.npy (i32), z.npy (H,W) and rgb.npy (H,W,3) (f64 in [0,1]), image.png and
+/// Writes coverage.npy, writes.npy (u32), id.npy (i32), z.npy (H,W) and rgb.npy (H,W,3) (f64 in 0 to 1), image.png and
 /// report.json; row 0 on top. Golden does not quantise z and rgb, and adds lit.npy (u8: 0 nothing written, 1 in shadow, 2 lit).
 /// With channels.extra = n also e0.npy and on, LSB of the channel's output: i64, golden's plane as f64, 0 where nothing was drawn.
 #[derive(clap::Args)]

@@ -14,7 +14,7 @@ use edgewalk_scene::{DepthFunc, Frame, MAX_EXTRA};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A triangle over a pixel: its place in the frame, its exact values there, depth and colour in [0,1].
+/// A triangle over a pixel: its place in the frame, its exact values there, depth and colour in 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Over {
     /// Place in the frame.
@@ -34,7 +34,7 @@ pub struct Orders<'a> {
     over: BTreeMap<usize, Vec<Over>>,
 }
 
-/// How far depths must be apart to come out in the right order, in [0,1].
+/// How far depths must be apart to come out in the right order, in 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub struct Apart {
     /// Two triangles.
