@@ -23,6 +23,8 @@ use std::collections::BTreeMap;
 pub struct Case {
     /// What it is for, or what it has found.
     pub about: String,
+    /// A fault of the netlist that it finds: unit or module, and the change as [`edgewalk_netlist::mutate`] says it.
+    pub fault: Option<String>,
     /// The machine.
     pub plan: Plan,
     /// The whole, its units compared inside, or one unit alone.
@@ -86,6 +88,7 @@ impl Case {
     pub fn new(plan: &Plan, unit: Unit) -> Case {
         Case {
             about: String::new(),
+            fault: None,
             plan: plan.clone(),
             unit,
             tokens: Vec::new(),

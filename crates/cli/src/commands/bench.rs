@@ -11,6 +11,7 @@ mod tick;
 #[cfg(feature = "jit")]
 mod jit;
 mod interpreter;
+mod ports;
 mod verilator;
 mod engine;
 mod table;

@@ -2,6 +2,7 @@
 //!
 //! ```toml
 //! about = "what it has found, and when"
+//! fault = "a fault of the netlist that it finds, if it is kept for one"
 //! unit = "machine"                # or a unit's name
 //! depth_func = 1                  # and the other fields of a case, where they are not as usual
 //! tokens = ["3f", "40"]           # packed as in vectors: hex, the first field on top
@@ -76,6 +77,7 @@ impl Case {
             match key.as_str() {
                 "machine" | "unit" => {}
                 "about" => case.about = text(key, value)?,
+                "fault" => case.fault = Some(text(key, value)?),
                 "depth_func" => case.depth_func = number(key, value)?,
                 "depth_write" => {
                     case.depth_write =
@@ -127,6 +129,9 @@ impl Case {
         let whole = |number: u64| Value::from(number as i64); // seeds and cycles have at most 63 bits
         line("depth_func", whole(self.depth_func.into()), whole(usual.depth_func.into()));
         line("depth_write", self.depth_write.into(), usual.depth_write.into());
+        if let Some(fault) = &self.fault {
+            line("fault", fault.as_str().into(), Value::from(""));
+        }
         if let Some(clear) = self.clear_z {
             line("clear_z", whole(clear), Value::from(""));
         }

@@ -11,9 +11,12 @@ pub fn checked(case: &Case) -> Checked {
     })
 }
 
+fn shrunk(case: Case) -> Case {
+    shrunk_with(case, |case| matches!(case.run(), Err(LockstepError::Differs { .. })))
+}
+
 /// Without the tokens that it fails without, but for the first, which brings increments.
-fn shrunk(mut case: Case) -> Case {
-    let fails = |case: &Case| matches!(case.run(), Err(LockstepError::Differs { .. }));
+pub fn shrunk_with(mut case: Case, fails: impl Fn(&Case) -> bool) -> Case {
     let mut step = case.tokens.len().div_ceil(2);
     while step > 0 {
         let mut from = 1;

@@ -1,144 +1,116 @@
-//! The netlist as native code, with a memory as in Verilator's harness. Compiling is part of the first frame.
+//! The netlist as native code, with memories as in Verilator's harness. Compiling is part of the first frame.
 
 use super::job::{Job, Times, Work};
+use super::ports::frame_fields;
 use super::stopwatch::Stopwatch;
 use anyhow::{Result, anyhow};
 use edgewalk_jit::{InputId, OutputId, Simulator};
-use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_lockstep::{Direction, Interface, Link, Memory, MemorySetting, Triangles, Unit};
+use edgewalk_machine::Plan;
 use edgewalk_netlist::SimError;
 use std::collections::VecDeque;
 
 /// Times it.
 pub fn time(job: &Job) -> Result<Times> {
     let start = Stopwatch::start();
-    let mut native = Native::new(job.machine)?;
-    let mut memory = Memory::default();
-    job.time(&start, || Ok(native.frame(job, &mut memory)))
+    let mut native = Native::new(job)?;
+    job.time(&start, || Ok(native.frame(job)))
 }
 
-/// Depths and colours by address. It has its room from the first frame on, as that of the harness.
-#[derive(Default)]
-struct Memory {
-    z: Vec<u32>,
-    rgb: Vec<u64>,
-    /// Depths read, with the cycle from which on they are offered.
-    reads: VecDeque<(u64, u32)>,
-}
-
-impl Memory {
-    fn clear(&mut self, job: &Job) {
-        let words = 1 << job.machine.widths().address;
-        self.z.clear();
-        self.z.resize(words, job.machine.z.max() as u32); // b <= 32 bits
-        self.rgb.clear();
-        self.rgb.resize(words, packed(job.state.clear));
-    }
-
-    /// The depth that is offered.
-    fn data(&self, cycle: u64) -> Option<u32> {
-        self.reads.front().filter(|(due, _)| *due <= cycle).map(|(_, z)| *z)
-    }
-}
-
-/// Red, green and blue of at most 16 bits in a word.
-fn packed([r, g, b]: [u64; 3]) -> u64 {
-    r << 32 | g << 16 | b
-}
-
-/// The machine with its ports.
+/// The machine with its ports, found by their declared names, and what stands behind them.
 struct Native {
     simulator: Simulator,
     rst: InputId,
-    tri_valid: InputId,
-    /// x, y and the channels of each vertex.
-    vertices: [Vec<InputId>; 3],
-    data_valid: InputId,
-    data_z: InputId,
-    depth_func: InputId,
-    depth_write: InputId,
-    tri_ready: OutputId,
-    data_ready: OutputId,
     idle: OutputId,
-    rd_valid: OutputId,
-    rd_addr: OutputId,
-    wr_valid: OutputId,
-    wr_addr: OutputId,
-    wr_z: OutputId,
-    wr_z_en: OutputId,
-    wr_rgb: [OutputId; 3],
+    /// Where triangles enter: valid, fields, ready.
+    tri: (InputId, Vec<InputId>, OutputId),
+    port: Triangles,
+    memories: Vec<Served>,
+    /// The write: valid, address, and what the picture keeps of it.
+    write: (OutputId, OutputId, Vec<OutputId>),
+    /// It has its room from the first frame on, as that of the harness.
+    picture: Vec<u64>,
+}
+
+/// A memory and its ports.
+struct Served {
+    setting: MemorySetting,
+    /// By address; no word of the machine has more than 32 bits.
+    words: Vec<u32>,
+    /// Words read, with the cycle from which on they are offered.
+    reads: VecDeque<(u64, u32)>,
+    data_valid: InputId,
+    data: InputId,
+    data_ready: OutputId,
+    read_valid: OutputId,
+    address: OutputId,
+    write: Option<[OutputId; 4]>,
 }
 
 impl Native {
-    fn new(machine: &Plan) -> Result<Native> {
+    fn new(job: &Job) -> Result<Native> {
         let netlist =
-            edgewalk_rtl::machine(machine).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+            edgewalk_rtl::machine(job.machine).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
         let mut simulator = Simulator::new(&netlist)?;
-        // A memory without stalls.
-        simulator.set_input("rd_ready", 1)?;
-        simulator.set_input("wr_ready", 1)?;
-        let input = |name: &str| simulator.input(name);
-        let output = |name: &str| simulator.output(name);
-        let vertex = |place: &str| -> Result<Vec<InputId>, SimError> {
-            let channels = machine.channels().iter().map(|channel| channel.at_vertex(place));
-            let names = [format!("x{place}"), format!("y{place}")].into_iter().chain(channels);
-            names.map(|name| input(&format!("tri_{name}"))).collect()
+        let interface = Interface::new(job.machine, Unit::MACHINE);
+        for link in interface.links_of(Direction::Out) {
+            simulator.set_input(&format!("{}_ready", link.name), 1)?;
+        }
+        for (port, value) in interface.constants.iter().zip(job.constants()?) {
+            simulator.set_input(&port.name, value)?;
+        }
+        let (Some(tri), Some(wr)) = (interface.links.first(), interface.links.last()) else {
+            return Err(anyhow!("a machine takes triangles and gives writes"));
         };
+        let output = |name: &str| simulator.output(name);
+        let (address, kept) = frame_fields(&interface, wr);
+        let fields = |places: Vec<usize>| -> Result<Vec<OutputId>, SimError> {
+            places.into_iter().map(|place| output(&wr.fields[place].name)).collect()
+        };
+        let memories = interface.memories.iter().map(|memory| Served::new(memory, &interface, &simulator));
         Ok(Native {
-            rst: input("rst")?,
-            tri_valid: input("tri_valid")?,
-            vertices: [vertex("0")?, vertex("1")?, vertex("2")?],
-            data_valid: input("data_valid")?,
-            data_z: input("data_z")?,
-            depth_func: input("depth_func")?,
-            depth_write: input("depth_write")?,
-            tri_ready: output("tri_ready")?,
-            data_ready: output("data_ready")?,
+            rst: simulator.input("rst")?,
             idle: output("idle")?,
-            rd_valid: output("rd_valid")?,
-            rd_addr: output("rd_addr")?,
-            wr_valid: output("wr_valid")?,
-            wr_addr: output("wr_addr")?,
-            wr_z: output("wr_z")?,
-            wr_z_en: output("wr_z_en")?,
-            wr_rgb: [output("wr_r")?, output("wr_g")?, output("wr_b")?],
+            tri: (
+                simulator.input(&valid(tri))?,
+                tri.fields.iter().map(|port| simulator.input(&port.name)).collect::<Result<_, _>>()?,
+                output(&ready(tri))?,
+            ),
+            port: Triangles::new(job.machine),
+            write: (output(&valid(wr))?, output(&wr.fields[address].name)?, fields(kept)?),
+            memories: memories.collect::<Result<_, _>>()?,
+            picture: vec![0; words(job.machine)],
             simulator,
         })
     }
 
     /// Clear and draw all, no more than Verilator's harness does.
-    fn frame(&mut self, job: &Job, memory: &mut Memory) -> Work {
-        memory.clear(job);
-        let latency = u64::from(job.machine.latency);
+    fn frame(&mut self, job: &Job) -> Work {
+        self.memories.iter_mut().for_each(Served::clear);
+        self.picture.fill(0);
         let mut work = Work { cycles: 0, writes: 0 };
         let mut triangles = job.triangles.iter();
         self.reset();
-        self.simulator.set(self.depth_func, job.state.depth_func.into());
-        self.simulator.set(self.depth_write, job.state.depth_write.into());
-        let mut next = triangles.next();
-        self.offer(next);
+        let mut next = triangles.next().map(|triangle| self.port.pack(triangle, 0));
+        self.offer(next.as_deref());
         loop {
-            let data = memory.data(work.cycles);
-            self.simulator.set(self.data_valid, data.is_some().into());
-            self.simulator.set(self.data_z, data.unwrap_or(0).into());
+            for memory in &self.memories {
+                memory.offer(&mut self.simulator, work.cycles);
+            }
             self.simulator.tick();
-            if data.is_some() && self.is_high(self.data_ready) {
-                memory.reads.pop_front();
+            for memory in &mut self.memories {
+                memory.serve(&self.simulator, work.cycles);
             }
-            if self.is_high(self.rd_valid) {
-                memory.reads.push_back((work.cycles + latency, memory.z[self.word(self.rd_addr) as usize]));
-            }
-            if self.is_high(self.wr_valid) {
-                let address = self.word(self.wr_addr) as usize;
-                if self.is_high(self.wr_z_en) {
-                    memory.z[address] = self.word(self.wr_z) as u32;
-                }
-                memory.rgb[address] = packed(self.wr_rgb.map(|port| self.word(port)));
+            if self.is_high(self.write.0) {
+                let word = |port: &OutputId| self.simulator.sampled(*port) as u64;
+                let kept = self.write.2.iter().fold(0u64, |kept, port| kept.rotate_left(16) ^ word(port));
+                self.picture[word(&self.write.1) as usize] = kept;
                 work.writes += 1;
             }
             work.cycles += 1;
-            if next.is_some() && self.is_high(self.tri_ready) {
-                next = triangles.next();
-                self.offer(next);
+            if next.is_some() && self.is_high(self.tri.2) {
+                next = triangles.next().map(|triangle| self.port.pack(triangle, 0));
+                self.offer(next.as_deref());
             } else if next.is_none() && self.is_high(self.idle) {
                 return work;
             }
@@ -146,30 +118,96 @@ impl Native {
     }
 
     fn reset(&mut self) {
-        self.simulator.set(self.tri_valid, 0);
-        self.simulator.set(self.data_valid, 0);
+        self.offer(None);
+        for memory in &self.memories {
+            memory.offer(&mut self.simulator, 0);
+        }
         self.simulator.set(self.rst, 1);
         self.simulator.tick();
         self.simulator.set(self.rst, 0);
     }
 
-    fn offer(&mut self, triangle: Option<&[PortVertex; 3]>) {
-        self.simulator.set(self.tri_valid, triangle.is_some().into());
-        for (ports, vertex) in self.vertices.iter().zip(triangle.into_iter().flatten()) {
-            let place = [vertex.x(), vertex.y()].map(i64::from);
-            // The port takes the low bits.
-            for (port, value) in ports.iter().zip(place.iter().chain(vertex.values())) {
-                self.simulator.set(*port, i128::from(*value) as u128);
-            }
+    fn offer(&mut self, token: Option<&[u128]>) {
+        let (valid, fields, _) = &self.tri;
+        self.simulator.set(*valid, token.is_some().into());
+        for (port, value) in fields.iter().zip(token.into_iter().flatten()) {
+            self.simulator.set(*port, *value);
         }
     }
 
-    /// What an output was before the clock; no port here has more bits.
-    fn word(&self, output: OutputId) -> u64 {
-        self.simulator.sampled(output) as u64
+    /// An output as it was before the clock.
+    fn is_high(&self, output: OutputId) -> bool {
+        self.simulator.sampled(output) == 1
+    }
+}
+
+impl Served {
+    fn new(memory: &Memory, interface: &Interface, simulator: &Simulator) -> Result<Served, SimError> {
+        let (read, data) = (&interface.links[memory.read], &interface.links[memory.data]);
+        let write = memory.write.map(|write| {
+            let link = &interface.links[write.link];
+            let port = |place: usize| simulator.output(&link.fields[place].name);
+            Ok([
+                simulator.output(&valid(link))?,
+                port(write.enable)?,
+                port(write.address)?,
+                port(write.word)?,
+            ])
+        });
+        Ok(Served {
+            setting: MemorySetting::of(memory),
+            words: Vec::new(),
+            reads: VecDeque::new(),
+            data_valid: simulator.input(&valid(data))?,
+            data: simulator.input(&data.fields[0].name)?,
+            data_ready: simulator.output(&ready(data))?,
+            read_valid: simulator.output(&valid(read))?,
+            address: simulator.output(&read.fields[0].name)?,
+            write: write.transpose()?,
+        })
     }
 
-    fn is_high(&self, output: OutputId) -> bool {
-        self.word(output) == 1
+    fn clear(&mut self) {
+        self.words.clear();
+        self.words.resize(self.setting.words, self.setting.clear as u32);
+        self.reads.clear();
     }
+
+    fn offer(&self, simulator: &mut Simulator, cycle: u64) {
+        let word = self.reads.front().filter(|(due, _)| *due <= cycle);
+        simulator.set(self.data_valid, word.is_some().into());
+        simulator.set(self.data, word.map_or(0, |(_, word)| *word).into());
+    }
+
+    /// What moved in the cycle; a read sees the word before a write of its own cycle.
+    fn serve(&mut self, simulator: &Simulator, cycle: u64) {
+        let word = |port: OutputId| simulator.sampled(port) as u64; // no port here has more bits
+        let offered = self.reads.front().is_some_and(|(due, _)| *due <= cycle);
+        if offered && word(self.data_ready) == 1 {
+            self.reads.pop_front();
+        }
+        if word(self.read_valid) == 1 {
+            let read = self.words[word(self.address) as usize];
+            self.reads.push_back((cycle + self.setting.latency, read));
+        }
+        if let Some([valid, enable, address, data]) = self.write
+            && word(valid) == 1
+            && word(enable) == 1
+        {
+            self.words[word(address) as usize] = word(data) as u32;
+        }
+    }
+}
+
+fn valid(link: &Link) -> String {
+    format!("{}_valid", link.name)
+}
+
+fn ready(link: &Link) -> String {
+    format!("{}_ready", link.name)
+}
+
+/// Pixels of the picture, with those beside the screen.
+fn words(plan: &Plan) -> usize {
+    1 << plan.widths().address
 }

@@ -2,6 +2,8 @@
 
 use super::stopwatch::{Stopwatch, Time};
 use anyhow::Result;
+use edgewalk_lockstep::case::constants;
+use edgewalk_lockstep::{Interface, Setting, Unit};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::fast::Renderer;
 use edgewalk_model::{Counters, DrawState, Stalls, render};
@@ -49,6 +51,12 @@ pub struct Times {
 }
 
 impl<'a> Job<'a> {
+    /// The values of the machine's constants, in the order of its ports.
+    pub fn constants(&self) -> Result<Vec<u128>> {
+        let interface = Interface::new(self.machine, Unit::MACHINE);
+        Ok(Setting::willing(&interface, &constants(&self.state))?.constants)
+    }
+
     /// A job with what must come of it, which is worked out here.
     pub fn new(
         machine: &'a Plan,

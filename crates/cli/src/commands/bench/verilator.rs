@@ -1,10 +1,12 @@
 //! The emitted Verilog under Verilator, driven by `harness.cpp`.
 
 use super::job::{Job, Times, Work};
+use super::ports::header;
 use super::stopwatch::{Stopwatch, Time};
 use crate::scratch::Scratch;
 use crate::verdict::ToolError;
 use anyhow::{Context, Result, anyhow};
+use edgewalk_lockstep::Triangles;
 use std::path::Path;
 use std::process::Command;
 
@@ -23,12 +25,8 @@ pub fn time(job: &Job) -> Result<Result<Times, String>> {
     let output = Command::new(folder.path().join("obj_dir/Vmachine"))
         .current_dir(folder.path())
         .arg("stimulus.bin")
-        .arg(job.machine.latency.to_string())
-        .arg(job.machine.widths().address.to_string())
-        .arg(job.state.depth_func.to_string())
-        .arg(u8::from(job.state.depth_write).to_string())
-        .arg(job.machine.z.max().to_string())
         .arg((job.repeat + 1).to_string())
+        .args(job.constants()?.iter().map(ToString::to_string))
         .output()
         .context("the verilated machine")?;
     let text = String::from_utf8_lossy(&output.stdout);
@@ -52,11 +50,11 @@ fn build(job: &Job, folder: &Path) -> Result<()> {
         sources.push(name);
     }
     std::fs::write(folder.join("harness.cpp"), HARNESS)?;
+    std::fs::write(folder.join("ports.h"), header(job.machine))?;
     let build = Command::new("verilator")
         .current_dir(folder)
         .args(["--cc", "--exe", "--build", "-O3", "--x-assign", "fast", "--prefix", "Vmachine"])
         .args(["--top-module", &design.name, "-MAKEFLAGS", "OPT_FAST=-O3", "-Wno-fatal", "harness.cpp"])
-        .args(["-CFLAGS", &format!("-DEXTRA={}", job.machine.extra)])
         .args(&sources)
         .output()
         .context("verilator")?;
@@ -77,14 +75,7 @@ fn frame(line: &str) -> Option<(Work, Time)> {
 }
 
 fn stimulus(job: &Job) -> Vec<u8> {
-    let channels = job.machine.channels().len();
-    let mut bytes = Vec::with_capacity(job.triangles.len() * 3 * (2 + channels) * 8);
-    for vertex in job.triangles.iter().flatten() {
-        bytes.extend(i64::from(vertex.x()).to_le_bytes());
-        bytes.extend(i64::from(vertex.y()).to_le_bytes());
-        for value in &vertex.values()[..channels] {
-            bytes.extend(value.to_le_bytes());
-        }
-    }
-    bytes
+    let port = Triangles::new(job.machine);
+    let tokens = job.triangles.iter().map(|triangle| port.pack(triangle, 0));
+    tokens.flatten().flat_map(|value| (value as u64).to_le_bytes()).collect() // no port of a triangle is wider
 }
