@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed={}", model.display());
     println!("cargo::rerun-if-changed=src/list.rs");
     let out = std::path::PathBuf::from(std::env::var("OUT_DIR")?);
-    let mut modules = String::from("type Draw = fn(&Machine, &[[PortVertex; 3]], Setting) -> Seen;\n");
+    let mut modules = String::from("type Draw = fn(&Plan, &[Triangle], Setting) -> Seen;\n");
     let mut table = String::new();
     for (i, mutant) in MUTANTS.iter().enumerate() {
         let folder = out.join(format!("m{i}"));
@@ -50,6 +50,7 @@ fn copy(from: &Path, root: &Path, to: &Path, mutant: &Mutant, module: &str) -> R
             text = if old.is_empty() { text } else { text.replace(old, new) };
         }
         text = text.replace("crate::", module).replace("pub mod fast;\n", "");
+        text = text.replace("#[macro_export]\n", ""); // a copy's macro is its own
         std::fs::write(to.join(name), text)?;
     }
     Ok(found)

@@ -3,31 +3,21 @@ type Mutant = (&'static str, &'static str, &'static str, &'static str);
 
 /// The faults; the first changes nothing and must not be found.
 pub const MUTANTS: &[Mutant] = &[
-    ("no fault", "depth.rs", "", ""),
+    ("no fault", "rmw.rs", "", ""),
     // The z bypass.
-    ("z bypass from the write removed", "depth.rs", "written.then_some(self.w.z)", "None"),
-    ("z bypass from the compare removed", "depth.rs", "if self.forwards && pass &&", "if false &&"),
-    ("the bypassed depth is not used", "depth.rs", "forward.unwrap_or(data)", "data"),
+    ("z bypass from the write removed", "rmw.rs", "self.forwards && self.w_stores(addr)", "false"),
+    ("z bypass from the compare removed", "rmw.rs", "if self.forwards && valid &&", "if false &&"),
+    ("the bypassed depth is not used", "rmw.rs", "if forwarded { self.forward[slot] } else { data }", "data"),
     // Hazards and handshakes.
-    (
-        "drain does not wait for the write",
-        "depth.rs",
-        "self.queue.len() > 0 || self.w_valid",
-        "self.queue.len() > 0",
-    ),
+    ("drain does not wait for the write", "rmw.rs", "self.len > 0 || self.w_valid", "self.len > 0"),
     (
         "interlock does not wait for the write",
-        "depth.rs",
-        "|| self.w_valid && self.w.z_en && self.w.addr == frag.addr",
-        "",
+        "rmw.rs",
+        "(self.holds(addr) || self.w_stores(addr))",
+        "self.holds(addr)",
     ),
-    (
-        "the queue is full one too early",
-        "depth.rs",
-        "self.queue.len() == self.depth",
-        "self.queue.len() + 1 == self.depth",
-    ),
-    ("a depth is taken only without a write", "depth.rs", "(!self.w_valid || wr_ready)", "!self.w_valid"),
+    ("the queue is full one too early", "rmw.rs", "self.len == self.depth", "self.len + 1 == self.depth"),
+    ("a depth is taken only without a write", "rmw.rs", "(!self.w_valid || wr_ready)", "!self.w_valid"),
     (
         "the pipeline needs ready without a fragment",
         "pixel.rs",
@@ -45,11 +35,11 @@ pub const MUTANTS: &[Mutant] = &[
     ("no fence at the knee", "edge.rs", "self.line.fence = knee && self.textbook", "self.line.fence = false"),
     // Rounding.
     ("quotients are cut, not rounded", "setup/mod.rs", "(n + d / 2).div_euclid(d)", "n.div_euclid(d)"),
-    ("first values without half an LSB", "setup/channels.rs", "(1i128 << c.fraction) >> 1", "0"),
+    ("first values without half an LSB", "setup/channels.rs", "(1i128 << channel.fraction) >> 1", "0"),
     ("first lines rounded down", "setup/edges.rs", "-(-v >> t)", "v >> t"),
-    ("textbook columns without +0.5", "setup/edges.rs", "i64::from(machine.fill == Fill::Textbook)", "0"),
+    ("textbook columns without +0.5", "setup/edges.rs", "i64::from(plan.fill == Fill::Textbook)", "0"),
     // Comparisons and signs.
-    ("equal depths count as less", "depth.rs", "fragment.z >= old", "fragment.z > old"),
+    ("equal depths count as less", "depth.rs", "u8::from(z >= old)", "u8::from(z > old)"),
     ("an edge carries at equality too", "tokens.rs", "self.r < self.f", "self.r <= self.f"),
     (
         "a span of no columns is drawn",
@@ -63,8 +53,35 @@ pub const MUTANTS: &[Mutant] = &[
         "(self.x as u32) < self.width",
         "(self.x as u32) <= self.width",
     ),
-    ("the gradient's sign on the wrong side", "setup/channels.rs", "if prim.left {", "if !prim.left {"),
+    (
+        "the gradient's sign on the wrong side",
+        "setup/channels.rs",
+        "if prim.major_right {",
+        "if !prim.major_right {",
+    ),
     ("equal tops sorted by column", "setup/sort.rs", "sort_by_key(|c| c.v)", "sort_by_key(|c| (c.v, c.u))"),
+    // Channels of the user's own.
+    ("floor channels carry half an LSB", "setup/channels.rs", "if channel.kind.is_rounded()", "if true"),
+    (
+        "vertices of signed channels read without sign",
+        "setup/sort.rs",
+        "if channel.kind.is_signed()",
+        "if false",
+    ),
+    ("outputs of signed channels read without sign", "tokens.rs", "if channel.kind.is_signed()", "if false"),
+    ("the last output is not cut to its bits", "pixel.rs", "u32::MAX >> (32 - c.bits)", "u32::MAX"),
+    (
+        "turns of the lanes rounded down",
+        "setup/clocks.rs",
+        "channels.div_ceil(plan.lanes)",
+        "(channels / plan.lanes)",
+    ),
+    (
+        "the user's channels are not stored",
+        "memory.rs",
+        "self.own[at] = std::array::from_fn(|i| values[FEW + i]);",
+        "",
+    ),
     // Constants.
     ("a product takes a clock less", "setup/clocks.rs", "1 + d.div_ceil(k)", "d.div_ceil(k)"),
     (

@@ -5,16 +5,18 @@
 //!                                                                         ├─ equal? the fault survives
 //!                        crates/rtl ─ interpreter ─> picture, counters ───┘
 //! ```
-//! Compared are depths, colours, fragments, writes and last triangle of every pixel, and the cycles by cause, for six
-//! machines, the directed suites, and a memory that is quick, slow, and slow to write. A fault that panics or does not
-//! come to its end is found too.
+//! Compared are every value, fragments, writes and last triangle of every pixel, and the cycles by cause, for seven
+//! machines, the directed suites, and a memory that is quick, slow, and slow to write. The netlist draws with the quick one:
+//! a picture does not depend on the memory. How long it takes with the others the model without a fault says, every port of
+//! which lock-step compares with the netlist in every cycle. A fault that panics or does not come to its end is found too.
 
 mod list;
 #[path = "../../../crates/vectors/tests/common/mod.rs"]
 mod machines;
 
-use edgewalk_machine::{Machine, PortVertex};
-use edgewalk_vectors::{Suite, render_rtl};
+use edgewalk_lockstep::{StallKind, render_rtl};
+use edgewalk_machine::{Hazard, Kind, Machine, Plan, PortVertex, Precision};
+use edgewalk_vectors::Suite;
 use list::MUTANTS;
 use std::process::ExitCode;
 use std::sync::{Arc, mpsc};
@@ -27,29 +29,47 @@ struct Setting(u8, [u8; 3]);
 const SETTINGS: [Setting; 4] =
     [Setting(1, [0, 0, 0]), Setting(3, [40, 80, 60]), Setting(1, [0, 250, 250]), Setting(5, [10, 0, 252])];
 
+type Triangle = [PortVertex; 3];
+
 /// What is compared: numbers of every pixel, one list after the other, then the counters.
 type Seen = Vec<u64>;
 
-macro_rules! seen {
+macro_rules! picture {
     ($frame:expr) => {{
-        let frame = $frame;
-        let mut seen: Seen = frame.z;
+        let frame = &$frame;
+        let mut seen: Seen = frame.z.clone();
         seen.extend(frame.rgb.iter().flatten());
+        seen.extend(frame.extra.iter().flatten().map(|value| *value as u64));
         seen.extend(frame.coverage.iter().chain(&frame.writes).map(|count| u64::from(*count)));
         seen.extend(frame.id.iter().map(|id| *id as u64));
-        let counters = frame.counters;
-        seen.extend([counters.cycles, counters.triangles, counters.fragments, counters.writes]);
+        seen
+    }};
+}
+
+macro_rules! counters {
+    ($frame:expr) => {{
+        let counters = &$frame.counters;
+        let mut seen = vec![counters.cycles, counters.triangles, counters.fragments, counters.writes];
         seen.extend(counters.activity);
         seen
     }};
 }
 
+macro_rules! frame {
+    ($model:path, $plan:expr, $triangles:expr, $setting:expr) => {{
+        use $model as model;
+        let Setting(depth_func, [rd, data, wr]) = $setting;
+        let state = model::DrawState { depth_func, ..model::DrawState::default() };
+        let stalls = model::Stalls { seed: 1, rd, data, wr };
+        model::render($plan, $triangles.iter().copied(), state, stalls).expect("this machine's vertices")
+    }};
+}
+
 macro_rules! draw {
-    ($model:ident) => {
-        |machine, triangles, Setting(depth_func, [rd, data, wr])| {
-            let state = $model::DrawState { depth_func, ..$model::DrawState::default() };
-            let stalls = $model::Stalls { seed: 1, rd, data, wr };
-            seen!($model::render(machine, triangles.iter().copied(), state, stalls))
+    ($model:path) => {
+        |plan, triangles, setting| {
+            let frame = frame!($model, plan, triangles, setting);
+            [picture!(frame), counters!(frame)].concat()
         }
     };
 }
@@ -64,13 +84,14 @@ mod models {
 /// A machine, what it draws under which setting, and what the netlist makes of it.
 struct Case {
     name: String,
-    machine: Machine,
-    triangles: Vec<[PortVertex; 3]>,
+    plan: Plan,
+    triangles: Vec<Triangle>,
     setting: Setting,
     expected: Seen,
 }
 
-fn cases() -> Vec<Case> {
+/// The machines, one with channels of every kind.
+fn plans() -> Vec<(&'static str, Plan)> {
     let names = [
         "small",
         "two_adders_drain",
@@ -79,21 +100,37 @@ fn cases() -> Vec<Case> {
         "textbook",
         "textbook_exact_edges",
     ];
+    let mut plans: Vec<_> = machines::twelve().into_iter().filter(|(name, _)| names.contains(name)).collect();
+    let mut own =
+        Machine { extra: 3, adders: 3, lanes: 2, hazard: Hazard::Forward, ..Machine::clone(&plans[0].1) };
+    for (extra, kind) in own.extras.iter_mut().zip(Kind::ALL) {
+        extra.kind = kind;
+        extra.precision = Precision { bits: 7, fraction: 8, vertex_fraction: 2 };
+    }
+    plans.push(("own_channels", own.plan().expect("can be built")));
+    plans
+}
+
+/// What the netlist makes of it; with a memory that keeps it waiting the cycles are the model's.
+fn expected(plan: &Plan, triangles: &[Triangle], setting: Setting) -> Seen {
+    let state = edgewalk_model::DrawState { depth_func: setting.0, ..Default::default() };
+    let netlist =
+        render_rtl(plan, triangles.iter().copied(), state, StallKind::None).expect("it can be drawn");
+    let model = frame!(edgewalk_model, plan, triangles, setting);
+    let counters = if setting.1 == [0; 3] { counters!(netlist) } else { counters!(model) };
+    [picture!(netlist), counters].concat()
+}
+
+fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
-    for (name, machine) in machines::twelve().into_iter().filter(|(name, _)| names.contains(name)) {
+    for (name, plan) in plans() {
         for suite in ["hazards", "corners", "sphere"] {
             for (i, setting) in SETTINGS.into_iter().enumerate() {
-                let triangles = Suite::named(&machine, suite, 1, 24).expect("listed");
+                let triangles = Suite::named(&plan, suite, 1, 24).expect("listed");
                 let triangles: Vec<_> = triangles.triangles().copied().collect();
-                let draw: fn(&Machine, &[[PortVertex; 3]], Setting) -> Seen =
-                    |machine, triangles, Setting(depth_func, [rd, data, wr])| {
-                        let state = edgewalk_model::DrawState { depth_func, ..Default::default() };
-                        let stalls = edgewalk_model::Stalls { seed: 1, rd, data, wr };
-                        seen!(render_rtl(machine, triangles.iter().copied(), state, stalls).expect("checked"))
-                    };
-                let expected = draw(&machine, &triangles, setting);
-                let (name, machine) = (format!("{name}, {suite}, memory {i}"), machine.clone());
-                cases.push(Case { name, machine, triangles, setting, expected });
+                let expected = expected(&plan, &triangles, setting);
+                let (name, plan) = (format!("{name}, {suite}, memory {i}"), plan.clone());
+                cases.push(Case { name, plan, triangles, setting, expected });
             }
         }
     }
@@ -105,7 +142,7 @@ fn killed_by(mutant: usize, cases: &Arc<Vec<Case>>) -> Option<String> {
     let (cases, (send, receive)) = (Arc::clone(cases), mpsc::channel());
     std::thread::spawn(move || {
         let differs =
-            |case: &&Case| models::ALL[mutant](&case.machine, &case.triangles, case.setting) != case.expected;
+            |case: &&Case| models::ALL[mutant](&case.plan, &case.triangles, case.setting) != case.expected;
         // If nobody waits any more there is nobody to tell.
         let _ = send.send(cases.iter().find(differs).map(|case| case.name.clone()));
     });

@@ -54,7 +54,7 @@ pub fn steps(plan: &Plan, triangle: &Triangle, x: i64, y: i64) -> Steps {
     let lines = y - first_line;
     let further = match plan.edge_kind {
         EdgeKind::Exact => 0,
-        EdgeKind::Slope => (lines + 1 >> (plan.edge_fraction + 1)) + 1,
+        EdgeKind::Slope => ((lines + 1) >> (plan.edge_fraction + 1)) + 1,
     };
     Steps { lines: lines as u32, columns: (columns + further) as u32 }
 }
