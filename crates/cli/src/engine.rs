@@ -26,7 +26,7 @@ pub enum Engine {
     Rtl,
 }
 
-/// A picture: row 0 on top, [y][x].
+/// A picture: row 0 on top, `[y][x]`.
 #[derive(Clone)]
 pub struct Raster {
     /// Columns.

@@ -10,7 +10,7 @@
 //! Timing: a fragment and a compare a clock; a compare in cycle n is offered as a write in n + 1.
 //!
 //! Rules: `docs/machine.md`, section 6; the three hazard policies draw the same picture. Queue, policy and forwarding are those
-//! of any read-modify-write, [`crate::rmw`]; here is the compare. Not modelled: nothing.
+//! of any read-modify-write, `crate::rmw`; here is the compare. Not modelled: nothing.
 
 use crate::Events;
 pub use crate::rmw::Block;

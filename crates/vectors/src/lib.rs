@@ -3,7 +3,7 @@
 //! ```text
 //!  suites ─> capture (the model under the rig of lockstep) ─> write ─> directory ─> simulate (Icarus, Verilator)
 //! ```
-//! A check that compared nothing has failed: whatever compares here says how much it compared. Only [`simulate`] does
+//! A check that compared nothing has failed: whatever compares here says how much it compared. Only [`simulate()`] does
 //! I/O; directories are made and read in memory.
 
 pub mod suites;

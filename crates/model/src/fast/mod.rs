@@ -4,7 +4,7 @@
 //!  tri ─> setup ─> walk the lines ─┬─> span: pixels, LANES at a time ─> picture
 //!                                  └─> clock: max-plus over spans ────> counters
 //! ```
-//! Written from `docs/machine.md`. What comes out is what [`render`](crate::render) gives with a memory that never
+//! Written from `docs/machine.md`. What comes out is what [`render`] gives with a memory that never
 //! stalls, bit by bit and cycle by cycle. Where that cannot be said without ticking, [`Renderer`] says why, and [`draw`]
 //! ticks.
 //!
