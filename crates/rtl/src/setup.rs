@@ -1,6 +1,6 @@
 //! SETUP: from three vertices to edges and increments.
 
-mod schedule;
+mod steps;
 
 mod control;
 
@@ -8,11 +8,15 @@ mod sort;
 
 mod lines;
 
-mod operands;
+mod area;
+
+mod factors;
 
 mod lane;
 
 mod lanes;
+
+mod operands;
 
 mod results;
 
@@ -24,23 +28,23 @@ use edgewalk_netlist::{BuildErrors, Module, Netlist};
 
 use crate::ports::Interface;
 use crate::wires::{Registers, parts};
+use area::Area;
 use control::Control;
 use lines::Lines;
-use operands::Sources;
-use results::{Area, Results};
+use results::Results;
 use sort::Vertices;
 
 const DOC: &str = "SETUP turns three vertices into edges and increments.
 
-  tri ─> [sort by v] ─┬─> lines j0 j1 n1 n2 ────────────────────────────┐
-                      ├─> area ─> major_right, cull?                    ├─> prim
-                      ├─> three edges: q f = DX/DY, C R = N/DY ─────────┤
-                      └─> N channels: increments and start ─────────────┘
-            the products and quotients are formed in serial lanes, side by side or in rounds
+  tri ─> [sorted by v] ─┬─> lines j0 j1 n1 n2, columns ─> none? culled
+                        ├─> area ─> major_right; 0? culled
+                        └─> differences ─> lanes ─┬─> three edges: q f, C R ──────────────┬─> prim
+                                                  └─> N channels: g, d0, d1, start ───────┘
+            a lane holds a pair, whole + rest / M: quotient and exact remainder, doubled and added to
 
 Formats: see the ports; P = 2^t is a pixel in centre coordinates.
-Timing: three clocks to sort, then for each round of the lanes three operations on edges; if the triangle draws
-anything, for each round the operations on channels, and one clock to store. prim_valid is high from the next on.
+Timing: the edges, then the channels, as many side by side as there are lanes. How long they take follows the triangle: a sum
+takes a clock for a bit of its factors. prim_valid is high four clocks after the last operation.
 Rules: all results are those of exact division, rounded once; a word keeps its low bits.";
 
 /// The netlist of SETUP.
@@ -56,35 +60,27 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let control = Control::new(&m, plan, tri_valid, prim_ready);
     let vertices = Vertices::new(&m, plan, &control, &triangle);
 
-    // The first line and the moduli follow from other registers; all else of the prim is a register.
-    let computed = |name: &str| name == "jm" || name.ends_with("_m");
+    // The first line, the moduli and the side follow from other registers; all else of the prim is a register.
+    let computed = |name: &str| name == "jm" || name.ends_with("_m") || name == "major_right";
     let mut kept = parts(&ports.gives_link().fields);
     kept.retain(|f| !computed(&f.name));
     let prim = Registers::new(&m, "prim", kept);
     if let Some(tag) = triangle.get("tag") {
         prim["tag"].when(control.take, tag);
     }
-    let lines = Lines::new(&m, plan, &control, &vertices, &prim);
+    let area = Area::new(&m, plan, &control, &vertices);
+    let lines = Lines::new(&m, plan, &control, &vertices, &prim, &area);
+    let sources = factors::Sources { m: &m, plan, control: &control, vertices: &vertices, lines: &lines, area: &area, prim: &prim };
+    let factors = sources.factors();
 
-    let lanes = lanes::lanes(&m, plan, &control)?;
-    let area = Area::new(&m, plan, &control, lanes[0].instance, &prim);
-    control.cull.drive(area.is_zero() | lines.none);
-    let sources = Sources {
-        m: &m,
-        plan,
-        control: &control,
-        vertices: &vertices,
-        lines: &lines,
-        prim: &prim,
-        area: area.value(),
-    };
-    let shared = sources.shared();
-    for (i, lane) in lanes.iter().enumerate() {
-        m.comment(&format!("Lane {i}."));
-        sources.connect(lane, &shared);
+    let lanes = lanes::lanes(&m, plan, &control, &factors)?;
+    let sources = operands::Sources { m: &m, plan, control: &control, vertices: &vertices, area: &area, prim: &prim };
+    for lane in &lanes {
+        sources.connect(lane);
     }
-    let lanes: Vec<_> = lanes.iter().map(|lane| lane.instance).collect();
-    Results { m: &m, plan, control: &control, vertices: &vertices, prim: &prim }.take(&lanes);
+    let unfit = lanes.iter().map(|lane| lane.instance.output("unfit") & sources.needed(lane));
+    control.unfit.drive(unfit.reduce(|any, one| any | one).unwrap_or(m.lit(1, 0)));
+    Results { m: &m, plan, control: &control, vertices: &vertices, area: &area, prim: &prim }.take(&lanes);
 
     ports.take_ready(control.idle);
     let heights = EDGES.iter().zip(&vertices.heights);
@@ -93,6 +89,7 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     ports.give(control.done, |name| match moduli.iter().find(|(modulus, _)| modulus == name) {
         Some((_, height)) => *height,
         None if name == "jm" => first_line,
+        None if name == "major_right" => area.negative,
         None => prim[name].q(),
     });
     m.finish()

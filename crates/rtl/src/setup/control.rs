@@ -1,9 +1,49 @@
-//! The sequence of setup: its states, the operation of the lanes, and the clock within it.
+//! The sequence of setup: its states, the operation that begins in a clock, and how far it has come on its way.
 
 use edgewalk_machine::Plan;
 use edgewalk_netlist::{Module, Reg, Signal, Wire};
 
-use super::schedule::{self, Kind, Op};
+use super::steps::{Length, Op, channel_of, rounds};
+
+/// An operation on its way through the lanes: where it is in a clock.
+pub(super) struct Stage<'m> {
+    at: Signal<'m>,
+    round: Option<Signal<'m>>,
+    /// The last clock of the operation.
+    pub ends: Signal<'m>,
+    codes: Vec<(Op, Signal<'m>)>,
+}
+
+impl<'m> Stage<'m> {
+    /// It is this operation.
+    pub fn is(&self, op: Op) -> Signal<'m> {
+        self.one_of(&[op])
+    }
+
+    /// It is one of these; those that the machine does not have do not count.
+    pub fn one_of(&self, ops: &[Op]) -> Signal<'m> {
+        let codes = self.codes.iter().filter(|(op, _)| ops.contains(op)).map(|(_, code)| self.at.eq(*code));
+        codes.reduce(|any, one| any | one).unwrap_or(self.at.module().lit(1, 0))
+    }
+
+    /// It ends, in this round.
+    pub fn ends_in(&self, op: Op, round: usize) -> Signal<'m> {
+        let ends = self.ends & self.is(op);
+        self.in_round(round).map_or(ends, |is| ends & is)
+    }
+
+    /// It is this round; `None` where there is no other.
+    pub fn in_round(&self, round: usize) -> Option<Signal<'m>> {
+        self.round.map(|number| number.eq(round as i32))
+    }
+
+    /// What belongs to the round, of one choice a round; in rounds beyond them the first.
+    pub fn of_round(&self, rounds: usize, choice: impl Fn(usize) -> Signal<'m>) -> Signal<'m> {
+        (1..rounds).fold(choice(0), |chosen, round| {
+            self.in_round(round).map_or(chosen, |is| is.mux(choice(round), chosen))
+        })
+    }
+}
 
 /// Where setup stands.
 pub(super) struct Control<'m> {
@@ -11,186 +51,242 @@ pub(super) struct Control<'m> {
     pub idle: Signal<'m>,
     /// A triangle is taken.
     pub take: Signal<'m>,
-    /// One of the three clocks of sorting; `step` says which.
-    pub sorting: Signal<'m>,
-    /// The operations on edges, not those on channels.
-    pub in_edges: Signal<'m>,
-    /// Clock of the operation, or of the sorting.
-    pub step: Signal<'m>,
-    /// The operation loads.
-    pub load: Signal<'m>,
-    /// The operation does its k bits.
-    pub stepping: Signal<'m>,
+    /// The clock after: its lines and its area are begun.
+    pub begin: Signal<'m>,
     /// `prim_valid`: the triangle is set up.
     pub done: Signal<'m>,
-    /// To be driven: the triangle draws nothing.
-    pub cull: Wire<'m>,
-    ops: Vec<OpSignals<'m>>,
-    round: Round<'m>,
-    finished_round: Round<'m>,
+    /// The operation that begins its way: its addends are read.
+    pub named: Stage<'m>,
+    /// First clock of it.
+    pub first: Signal<'m>,
+    /// Its clocks after this one.
+    pub left: Signal<'m>,
+    /// It waits for the area.
+    pub waits: Signal<'m>,
+    /// A clock later: its addends are formed.
+    pub formed: Stage<'m>,
+    /// Two clocks later: its step is done.
+    pub stepped: Stage<'m>,
+    /// Three: the rest of the result stands, its whole part is formed.
+    pub rest: Stage<'m>,
+    /// Four: the result stands.
+    pub whole: Stage<'m>,
+    /// Nothing is held up by numbers that do not fit.
+    pub advance: Signal<'m>,
+    /// Clocks still needed for these numbers; in the last of them the next step is formed again.
+    pub pause: Signal<'m>,
+    /// To be driven: the lines are known and there are none, or no columns.
+    pub nothing: Wire<'m>,
+    /// To be driven: the area is known.
+    pub area_known: Wire<'m>,
+    /// To be driven: it is 0.
+    pub no_area: Wire<'m>,
+    /// To be driven: a number that is needed did not fit.
+    pub unfit: Wire<'m>,
+    /// To be driven: place of the first digit of the next sum.
+    pub top_digit: Wire<'m>,
 }
-
-struct OpSignals<'m> {
-    op: Op,
-    now: Signal<'m>,
-    /// A quotient was finished in the clock before; `None` for a product.
-    finished: Option<Signal<'m>>,
-}
-
-/// The number of a round; there is none where the lanes do everything in one.
-#[derive(Clone, Copy)]
-struct Round<'m>(Option<Reg<'m>>);
 
 impl<'m> Control<'m> {
     /// The registers and their updates.
     pub fn new(m: &'m Module, plan: &Plan, tri_valid: Signal<'m>, prim_ready: Signal<'m>) -> Control<'m> {
-        m.comment(
-            "Control. Sorting takes three clocks; an operation takes one to load, then k bits a clock.",
-        );
+        m.comment("Control: the operations one after the other, a clock each or more; in rounds where there are more jobs than lanes.");
         let state_of = |name, value| m.constant(name, 3, value);
-        let (idle, sort, edges) = (state_of("IDLE", 0), state_of("SORT", 1), state_of("EDGES", 2));
-        let (channels, store, done) = (state_of("CHANNELS", 3), state_of("STORE", 4), state_of("DONE", 5));
-        let ops: Vec<Op> = Op::of_edges().iter().chain(Op::of_channels(plan)).copied().collect();
-        let constant = |(i, op): (usize, &Op)| m.constant(&op.word().to_uppercase(), 4, i as u128);
-        let codes: Vec<Signal> = ops.iter().enumerate().map(constant).collect();
-        let (first_of_edges, first_of_channels) = (codes[0], codes[Op::of_edges().len()]);
-        let (last_of_edges, last_of_channels) = (codes[Op::of_edges().len() - 1], codes[codes.len() - 1]);
+        let (idle, edges) = (state_of("IDLE", 0), state_of("EDGES", 1));
+        let (channels, store, done) = (state_of("CHANNELS", 2), state_of("STORE", 3), state_of("DONE", 4));
+        let ops: Vec<Op> = Op::of_edges(plan).iter().chain(Op::of_channels(plan)).copied().collect();
+        let bits = (ops.len() as u32).next_power_of_two().ilog2();
+        let constant = |(i, op): (usize, &Op)| (*op, m.constant(&name_of(*op), bits, i as u128));
+        let codes: Vec<(Op, Signal)> = ops.iter().enumerate().map(constant).collect();
+        let last_edge = Op::of_edges(plan).len() - 1;
+        let (first_channel, last_channel) = (last_edge + 1, ops.len() - 1);
 
-        let cull = m.wire("cull", 1).doc("no area, or no line on the screen");
+        let nothing = m.wire("nothing", 1).doc("no line, or no column, of the screen");
+        let area_known = m.wire("area_known", 1);
+        let no_area = m.wire("no_area", 1);
+        let unfit = m.wire("unfit", 1).doc("a number was taken in that is not between -M and M");
+        let longest = ops.iter().map(|op| clocks(plan, *op)).max().unwrap_or(1).max(4);
+        let digits = plan.widths().difference; // a sum has as many at most, without the sign
+        let left_bits = longest.max(digits).ilog2() + 1;
+        let top_digit = m.wire("top_digit", left_bits).doc("place of the first digit of a sum");
+
         let state = m.reg("state", 3).reset(0);
+        let at = m.reg("at", bits).doc("operation");
+        let left = m.reg("left", left_bits).doc("its clocks after this one");
+        let first = m.reg("first", 1).doc("its first clock");
+        let [edge_rounds, channel_rounds] = rounds(plan);
+        let most = edge_rounds.max(channel_rounds);
+        let round = (most > 1)
+            .then(|| m.reg("round", (most as u32).next_power_of_two().ilog2()).doc("of the jobs the lanes do in turn"));
+        let is_round = |number: usize| round.map(|round| round.q().eq(number as i32));
+        let with = |a: Signal<'m>, b: Option<Signal<'m>>| b.map_or(a, |b| a & b);
+
+        m.comment("Numbers that do not fit hold up what follows: three clocks, and one for two digits.");
+        let most_pairs = (0..most).map(|round| pairs(plan, round)).chain([edge_pairs(plan)]).max().unwrap_or(1);
+        let pause = m.reg("pause", (most_pairs + 3).ilog2() + 1).doc("clocks left of it").reset(0);
+        let advance = pause.q().eq(0).named("advance");
+
         let is_idle = state.q().eq(idle).named("tri_ready");
         let take = (tri_valid & is_idle).named("take");
-        let sorting = state.q().eq(sort).named("sorting");
         let in_edges = state.q().eq(edges).named("in_edges");
-        let working = (in_edges | state.q().eq(channels)).named("working");
+        let works = (in_edges | state.q().eq(channels)).named("works");
         let is_done = state.q().eq(done).named("prim_valid");
-
-        let longest = ops.iter().map(|op| op.steps(plan)).max().unwrap_or(1).max(2);
-        let step = m.reg("step", longest.ilog2() + 1).doc("clock of the operation; 0 loads");
-        let op = m.reg("op", 4).doc("operation of the lanes");
-        let round = Round::new(m, plan, "round");
-        let load = (working & step.q().eq(0)).named("load");
-        let stepping = (working & step.q().any()).named("stepping");
-        let is_now =
-            |(code, op_of): (&Signal<'m>, &Op)| op.q().eq(*code).named(&format!("is_{}", op_of.word()));
-        let now: Vec<Signal> = codes.iter().zip(&ops).map(is_now).collect();
-        // All products take the same time.
-        let product = m.lit(step.q().width(), Op::EdgeProduct.steps(plan).into());
-        let quotients = ops.iter().zip(&now).filter(|(op, _)| op.kind() != Kind::Product);
-        let steps = quotients.fold(product, |chosen, (op, now)| now.mux(op.steps(plan) as i32, chosen));
-        let steps = steps.named_doc("steps", "clocks of the operation after the one that loads");
-        let last_step = (working & step.q().eq(steps)).named("last_step");
-        let edges_end = (last_step & op.q().eq(last_of_edges)).named("edges_end");
-        let channels_end = (last_step & op.q().eq(last_of_channels)).named("channels_end");
-        let [edge_rounds, channel_rounds] = schedule::rounds(plan);
-        let last_of = |rounds: usize| if rounds > 1 { round.is(rounds - 1) } else { None };
-        let last_edges = last_of(edge_rounds);
-        let last_channels = if channel_rounds == edge_rounds { last_edges } else { last_of(channel_rounds) };
-        let and_last = |end: Signal<'m>, last: Option<Signal<'m>>| last.map_or(end, |last| end & last);
-        let sorted = (sorting & step.q().eq(2)).named("sorted");
+        let is_at = |place: usize| at.q().eq(codes[place].1);
+        let begin = with(in_edges & is_at(0), is_round(0)).named_doc("begin", "the first clock of a triangle");
+        let gives_up = with(in_edges & is_at(1), is_round(0)) & nothing.q();
+        let gives_up = gives_up.named_doc("gives_up", "the triangle has no line or no column");
+        let last = (left.q().eq(0)).named_doc("last", "last clock of the operation");
+        let edges_end = with(in_edges & last & is_at(last_edge), is_round(edge_rounds - 1)).named("edges_end");
+        let waits = (edges_end & !area_known.q()).named_doc("waits", "for the area");
+        let ends = (works & last & !waits & !gives_up).named_doc("ends", "the operation ends");
+        let leaves = (ends & advance).named("leaves");
+        let channels_end = with(is_at(last_channel), is_round(channel_rounds - 1)).named("channels_end");
 
         state
-            .when(take, sort)
-            .when(sorted, edges)
-            .when(and_last(edges_end, last_edges), cull.q().mux(idle, channels))
-            .when(and_last(channels_end, last_channels), store)
-            .when(state.q().eq(store), done)
+            .when(take, edges)
+            .when(gives_up & advance, idle)
+            .when(edges_end & leaves, no_area.q().mux(idle, channels))
+            .when(leaves & channels_end, store)
+            .when(state.q().eq(store) & last, done)
             .when(is_done & prim_ready, idle);
-        step.when(sorting | working, step.q() + 1).when(take | sorted | last_step, 0);
-        op.when(last_step, op.q() + 1)
-            .when(
-                edges_end,
-                last_edges.map_or(first_of_channels, |last| last.mux(first_of_channels, first_of_edges)),
-            )
-            .when(channels_end, first_of_channels)
-            .when(take, first_of_edges);
-        if let Some(register) = round.0 {
-            register.when(edges_end | channels_end, register.q() + 1);
-            // After the last round of the edges the channels begin with round 0; a full counter is there of itself.
-            if edge_rounds != 1 << register.q().width() {
-                register.when(and_last(edges_end, last_edges), 0);
-            }
-            register.when(take, 0);
+        let mut next = at.q() + 1;
+        if edge_rounds > 1 {
+            next = (is_at(last_edge) & !edges_end).mux(codes[0].1, next);
+        }
+        if channel_rounds > 1 {
+            next = (is_at(last_channel) & !channels_end).mux(codes[first_channel].1, next);
+        }
+        at.when(leaves, next).when(take, codes[0].1);
+        first.when(advance, leaves).when(take, 1);
+        if let Some(round) = round {
+            round
+                .when(leaves & (is_at(last_edge) | is_at(last_channel)), round.q() + 1)
+                .when((leaves & edges_end) | take, 0);
         }
 
-        m.comment("Quotients are taken in the clock after the last step.");
-        let finished = m.reg("finished", 1).doc("an operation ended").reset(0).set(last_step);
-        let finished_op = m.reg("finished_op", 4).doc("which").set(op);
-        let finished_round = Round::new(m, plan, "finished_round");
-        if let (Some(register), Some(round)) = (finished_round.0, round.0) {
-            register.set(round);
+        m.comment("How long the next operation takes.");
+        let doubled = |op: Op, round: usize| m.lit(left_bits, u128::from(round_doublings(plan, op, round).div_ceil(2).max(1)) - 1);
+        let mut length = m.lit(left_bits, 0);
+        for (before, (op, _)) in codes.iter().enumerate().skip(1).map(|(i, code)| (i - 1, code)) {
+            let clocks = match op.doing().length {
+                Length::Clocks(1) => continue,
+                Length::Clocks(clocks) => m.lit(left_bits, u128::from(clocks) - 1),
+                Length::Digits => top_digit.q(),
+                Length::Doublings(_) if op.is_of_edge(plan) => doubled(*op, 0),
+                Length::Doublings(_) => (1..channel_rounds).fold(doubled(*op, 0), |chosen, number| {
+                    is_round(number).map_or(chosen, |is| is.mux(doubled(*op, number), chosen))
+                }),
+            };
+            length = is_at(before).mux(clocks, length);
         }
-        let signals = |((op, code), now): ((&Op, &Signal<'m>), &Signal<'m>)| OpSignals {
-            op: *op,
-            now: *now,
-            finished: (op.kind() != Kind::Product)
-                .then(|| (finished.q() & finished_op.q().eq(*code)).named(&format!("{}_done", op.word()))),
+        left.when(advance & works, left.q() - 1)
+            .when(leaves, length)
+            .when(leaves & channels_end, 3)
+            .when(state.q().eq(store), left.q() - 1)
+            .when(waits | take, 0);
+
+        m.comment("The way of an operation: named, its addends formed, its step done, the rest and then the whole of the result.");
+        let stage = |at, round: Option<Signal<'m>>, ends| Stage { at, round, ends, codes: codes.clone() };
+        let named = stage(at.q(), round.map(Reg::q), ends);
+        let held = |name: &str| {
+            (m.reg(&format!("at_{name}"), bits), round.map(|r| m.reg(&format!("round_{name}"), r.q().width())), m.reg(&format!("ends_{name}"), 1))
         };
-        let ops = ops.iter().zip(&codes).zip(&now).map(signals).collect();
-        let step = step.q();
-        let (idle, done) = (is_idle, is_done);
+        let moved = |to: &(Reg<'m>, Option<Reg<'m>>, Reg<'m>), when: Option<Signal<'m>>, from: &Stage<'m>| {
+            let go = |reg: Reg<'m>, value: Signal<'m>| match when {
+                Some(when) => reg.when(when, value),
+                None => reg.set(value),
+            };
+            go(to.0, from.at);
+            if let (Some(to), Some(from)) = (to.1, from.round) {
+                go(to, from);
+            }
+            go(to.2, from.ends);
+            stage(to.0.q(), to.1.map(Reg::q), to.2.q())
+        };
+        let next = moved(&held("next"), Some(advance), &named);
+        let (again, fixed) = (held("again"), held("fixed"));
+        let resumes = pause.q().eq(1).named_doc("resumes", "the step after the numbers is formed again");
+        let choose = |resumed: Signal<'m>, fixed: Signal<'m>, next: Signal<'m>| advance.mux(next, resumes.mux(resumed, fixed));
+        let formed = stage(
+            choose(again.0.q(), fixed.0.q(), next.at).named("at_formed"),
+            again.1.zip(fixed.1).zip(next.round).map(|((again, fixed), next)| choose(again.q(), fixed.q(), next).named("round_formed")),
+            // The last two digits are formed when two clocks are left.
+            choose(again.2.q(), pause.q().eq(2), next.ends).named("ends_formed"),
+        );
+        moved(&again, Some(advance), &formed);
+        let stepped = moved(&held("stepped"), None, &formed);
+        moved(&fixed, Some(advance), &stepped);
+        let rest = moved(&held("rest"), None, &stepped);
+        let whole = moved(&held("whole"), None, &rest);
+        let needed = |round: usize| m.lit(pause.q().width(), u128::from(pairs(plan, round)) + 3);
+        let of_channels = stepped.of_round(channel_rounds, needed);
+        let of_edges = m.lit(pause.q().width(), u128::from(edge_pairs(plan)) + 3);
+        pause
+            .when(!advance, pause.q() - 1)
+            .when(advance & unfit.q(), stepped.is(Op::FixDx).mux(of_edges, of_channels));
+
         Control {
-            idle,
+            idle: is_idle,
             take,
-            sorting,
-            in_edges,
-            step,
-            load,
-            stepping,
-            done,
-            cull,
-            ops,
-            round,
-            finished_round,
+            begin,
+            done: is_done,
+            named,
+            first: first.q(),
+            left: left.q(),
+            waits: (waits | gives_up | !works).named("rests"),
+            formed,
+            stepped,
+            rest,
+            whole,
+            advance,
+            pause: pause.q(),
+            nothing,
+            area_known,
+            no_area,
+            unfit,
+            top_digit,
         }
-    }
-
-    /// Whether one of these operations is at work; those that the machine does not have do not count.
-    pub fn during(&self, wanted: &[Op]) -> Signal<'m> {
-        let which = self.ops.iter().filter(|signals| wanted.contains(&signals.op)).map(|signals| signals.now);
-        which.reduce(|any, one| any | one).unwrap_or(self.idle.module().lit(1, 0))
-    }
-
-    /// The operations of the machine.
-    pub fn ops(&self) -> impl Iterator<Item = Op> {
-        self.ops.iter().map(|signals| signals.op)
-    }
-
-    /// A quotient was finished in the clock before, in any round.
-    pub fn after(&self, op: Op) -> Signal<'m> {
-        let found = self.ops.iter().find(|signals| signals.op == op).and_then(|signals| signals.finished);
-        found.unwrap_or(self.idle.module().lit(1, 0))
-    }
-
-    /// A quotient was finished in the clock before, in this round.
-    pub fn after_in(&self, op: Op, round: usize) -> Signal<'m> {
-        let after = self.after(op);
-        self.finished_round.is(round).map_or(after, |is| after & is)
-    }
-
-    /// An operation loads, in this round.
-    pub fn load_in(&self, op: Op, round: usize) -> Signal<'m> {
-        let load = self.load & self.during(&[op]);
-        self.round.is(round).map_or(load, |is| load & is)
-    }
-
-    /// What belongs to the round, of one choice a round; in rounds beyond them the first.
-    pub fn of_round(&self, rounds: usize, choice: impl Fn(usize) -> Signal<'m>) -> Signal<'m> {
-        (1..rounds).fold(choice(0), |chosen, round| {
-            self.round.is(round).map_or(chosen, |is| is.mux(choice(round), chosen))
-        })
     }
 }
 
-impl<'m> Round<'m> {
-    fn new(m: &'m Module, plan: &Plan, name: &str) -> Round<'m> {
-        let most = schedule::rounds(plan).into_iter().max().unwrap_or(1);
-        let bits = most.next_power_of_two().ilog2();
-        Round((most > 1).then(|| m.reg(name, bits).doc("of the jobs the lanes do in turn")))
+/// Clocks of an operation that does not depend on the triangle; of one that doubles the most.
+fn clocks(plan: &Plan, op: Op) -> u32 {
+    match op.doing().length {
+        Length::Clocks(clocks) => clocks,
+        Length::Digits => 1,
+        Length::Doublings(number) => plan.channels().iter().map(|c| number(plan, c).div_ceil(2)).max().unwrap_or(1),
     }
+}
 
-    /// It is this round; `None` where there is no other.
-    fn is(self, round: usize) -> Option<Signal<'m>> {
-        self.0.map(|register| register.q().eq(round as i32))
+/// The doublings of an operation in a round, of the channel that needs the most.
+fn round_doublings(plan: &Plan, op: Op, round: usize) -> u32 {
+    let Length::Doublings(number) = op.doing().length else { return 0 };
+    if op.is_of_edge(plan) {
+        return number(plan, &plan.channels()[0]);
     }
+    let channels = (0..plan.lanes as usize).filter_map(|lane| channel_of(plan, lane, round));
+    channels.map(|channel| number(plan, &channel)).max().unwrap_or(1)
+}
+
+/// Pairs of digits of the longest vertex value in a round.
+fn pairs(plan: &Plan, round: usize) -> u32 {
+    let channels = (0..plan.lanes as usize).filter_map(|lane| channel_of(plan, lane, round));
+    channels.map(|channel| channel.vertex_bits().div_ceil(2)).max().unwrap_or(1)
+}
+
+/// Pairs of digits of a difference of coordinates.
+fn edge_pairs(plan: &Plan) -> u32 {
+    (plan.widths().difference - 1).div_ceil(2)
+}
+
+/// `FixDx` as `FIX_DX`.
+fn name_of(op: Op) -> String {
+    let mut name = String::new();
+    for c in format!("{op:?}").chars() {
+        if c.is_ascii_uppercase() && !name.is_empty() {
+            name.push('_');
+        }
+        name.push(c.to_ascii_uppercase());
+    }
+    name
 }

@@ -1,234 +1,193 @@
-//! One lane: a serial multiplier and a serial divider that share an accumulator.
+//! One lane: holds a pair and moves it a step a clock.
 
 use std::sync::Arc;
 
-use edgewalk_machine::{EdgeKind, Fill, Plan, Precision};
-use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg, Signal};
+use edgewalk_machine::{Channel, EdgeKind, Plan};
+use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
-use super::schedule::{Kind, Op, channel_jobs, edge_jobs};
+use super::steps::Step;
 
-/// What a lane must be able to hold, in bits.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// Word lengths of a lane, bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Shape {
-    /// Inputs x_in and y_in, signed: differences of coordinates or of a channel.
-    pub terms: u32,
-    /// Registers x and y, signed: as the inputs, or Nx and Ny.
-    pub wide_terms: u32,
-    /// Accumulator, signed.
-    pub acc: u32,
-    /// Quotient, modular.
-    pub quotient: u32,
-    /// Divisor and remainder, unsigned.
-    pub divisor: u32,
-    /// Bits of the accumulator that are the first digit of an operation's numerator.
-    pub first_digits: Vec<u32>,
+    /// What it takes in, signed.
+    pub number: u32,
+    /// The remainder part, signed while a number is taken in.
+    pub rest: u32,
+    /// The whole part, modular.
+    pub whole: u32,
 }
 
 impl Shape {
-    /// Of lane number `lane`.
-    pub fn new(plan: &Plan, lane: usize) -> Shape {
+    /// Of a lane for these channels, and for edges.
+    pub fn new(plan: &Plan, channels: &[Channel]) -> Shape {
         let w = plan.widths();
-        let channels = channel_jobs(plan, lane);
-        let has_edge = edge_jobs(plan, lane).iter().any(|job| *job > 0);
-        let most = |bits: fn(Precision) -> u32| channels.iter().map(|c| bits(c.precision)).max().unwrap_or(1);
-        let (values, word) = (most(Precision::vertex_bits), most(Precision::word));
-        let terms = w.difference.max(values + 1);
-        let (wide_terms, product) = match plan.fill {
-            Fill::Exact => (w.difference + values + 1, 2 * w.difference + values + 1),
-            Fill::Textbook => (terms, (w.difference + values + 1).max(2 * w.difference)),
-        };
-        let edge_quotient = match plan.edge_kind {
+        let of_edge = match plan.edge_kind {
             EdgeKind::Exact => w.column,
             EdgeKind::Slope => w.column + plan.edge_fraction,
         };
-        let edges = Op::of_edges().iter().filter(|_| has_edge);
-        let ops = edges.chain(Op::of_channels(plan)).filter(|op| op.kind() != Kind::Product);
-        let mut first_digits: Vec<u32> =
-            ops.flat_map(|op| channels.iter().map(|c| op.first_digit(plan, *c))).collect();
-        first_digits.sort_unstable();
-        first_digits.dedup();
-        let highest = first_digits.last().map_or(0, |digit| digit + 1);
-        Shape {
-            terms,
-            wide_terms,
-            acc: product.max(highest),
-            quotient: word.max(edge_quotient),
-            divisor: 2 * w.difference - 1,
-            first_digits,
-        }
-    }
-
-    /// Bits of `digit_at`, the place in `first_digits`.
-    pub fn digit_select(&self) -> u32 {
-        (self.first_digits.len() as u32).next_power_of_two().ilog2().max(1)
+        let values = channels.iter().map(|c| c.vertex_bits() + 1).max().unwrap_or(1);
+        let words = channels.iter().map(|c| c.word() + w.center_fraction).max().unwrap_or(1);
+        let number = w.difference.max(values);
+        Shape { number, rest: (2 * w.difference).max(number), whole: of_edge.max(words) }
     }
 }
 
-const DOC: &str = "A lane of setup multiplies and divides serially, k bits a clock.
+const DOC: &str = "A lane of setup holds a pair: the number whole + rest / M, with 0 <= rest < M.
 
-  a b ─> digits ─> [acc := 2^k acc + a_i x + b_i y] ─ digits of |acc| ─> [rem := 2 rem + digit, less divisor if it fits]
-  x y ────────────────┘                                                     └─ 1 if it fit ─> [quot]
+  slots ─> a ─> [n0 n1 n2 = a, a - M, a - 2M] ─┐
+                                 x = rest * 1 2 4 ─> + ─> the last sum not below 0 ─> [rest]
+                                                          how often M was taken off ─> [whole], a clock later
 
-Timing: a clock to load, then k bits a clock, the most significant first; results stand from the next clock on.
-Rules: products are signed; in the first step the sign bits of a and b subtract. Quotients are rounded down
-(quotient, remainder) or to nearest, halves up (rounded). Of a quotient the low bits are kept: the rest falls out.";
+Timing: a step is named two clocks before it is done: in the first its addend is read, in the second n0 n1 n2 are formed.
+Rules: a doubling step adds a = -M three times instead, so that up to 3 M can be taken off. What is taken in may lie below 0
+for one clock. A negated pair is its complement: M is added to its rest, and 1 taken off its whole part.";
 
-/// The netlist of a lane of this shape.
-pub(super) fn lane(plan: &Plan, name: &str, shape: &Shape) -> Result<Arc<Netlist>, BuildErrors> {
+/// The netlist of a lane.
+pub(super) fn lane(plan: &Plan, name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new(name, DOC);
-    let begins = Begins {
-        of_acc: m.input_doc("load_divisor", 1, "a division of acc begins"),
-        of_y: m.input_doc("from_y", 1, "a division of y_in begins"),
-        y: m.input_doc("y_in", shape.terms, "signed"),
-        step: m.input("step_quotient", 1),
-    };
-    let product = Product::new(&m, plan, shape, &begins);
-    let quotient = Quotient::new(&m, plan, shape, &begins, product.acc);
-    m.output_doc("product", product.acc, "signed");
-    m.output_doc("quotient", quotient.floor, "rounded down, modular");
-    m.output_doc("remainder", quotient.remainder, "0 to divisor - 1");
-    m.output_doc("rounded", quotient.rounded, "rounded to nearest, halves up, modular");
-    if plan.fill == Fill::Exact {
-        gradients(&m, shape, &product, &quotient);
-    }
+    let below_two_m = 2 * plan.widths().difference; // M has a bit less; room for a sign
+    let (sums, slot) = ((below_two_m + 2).max(shape.rest + 1), below_two_m - 1);
+
+    let advance = m.input_doc("advance", 1, "the steps go on; 0: what was read stays");
+    let read_at = m.input_doc("read_at", 3, "slot of the addend, two clocks before its step");
+    let step = m.input_doc("step", Step::BITS, "a clock before it is done");
+    let number = m.input_doc("number", shape.number, "to take in, signed; with its step");
+    let digits = m.input_doc("digits", 2, "of the number, with their step");
+    let write = m.input_doc("write", 1, "the result of the step goes to a slot");
+    let write_at = m.input("write_at", 3);
+    let whole_in = m.input_doc("whole_in", shape.whole, "whole number to add, with the step done");
+    let take_modulus = m.input_doc("take_modulus", 1, "");
+    let modulus_in = m.input_doc("modulus_in", below_two_m, "-M, or -M - 1 if modulus_short; signed");
+    let modulus_short = m.input("modulus_short", 1);
+    let upwards = m.input_doc("upwards", 1, "value rounds up whatever is not whole, not to nearest");
+
+    m.comment("The modulus: -M, or its complement -M - 1, with the 1 that is then missing.");
+    let modulus = m.reg("modulus", below_two_m).doc("-M or -M - 1, signed").when(take_modulus, modulus_in).q();
+    let short = m.reg("short", 1).doc("1 is missing in modulus").when(take_modulus, modulus_short).q();
+
+    m.comment("The rests of the slots. Slot 0 is never written: it holds 0.");
+    let rest = m.reg("rest", shape.rest).doc("1/M, signed while a number is taken in");
+    let rest_next = m.wire("rest_next", shape.rest);
+    let rests = m.memory("rests", 3, 8, slot, 0).doc("1/M").write(write, write_at, rest_next.q().trunc(slot));
+    let stored = rests.read(advance, read_at);
+
+    m.comment("The addend of the step that follows.");
+    let n0 = m.reg("n0", shape.rest).doc("a, or a number to take in");
+    let n1 = m.reg("n1", below_two_m + 1).doc("a - M, signed");
+    let n2 = m.reg("n2", below_two_m + 2).doc("a - 2 M, signed");
+    let below = m.reg("below", 1).doc("the number taken in is below 0");
+    let is_fix = is(step, Step::Fix).named("is_fix");
+    let with_sign = is(step, Step::Sign).named("with_sign");
+    // The step before a fix is a load, and its n0 the number.
+    let add_modulus =
+        (is(step, Step::Modulus) | (is_fix & n0.q().msb()) | (is(step, Step::Begin) & below.q())).named("add_modulus");
+    let take_modulus_off = one_of(step, &[Step::Double2, Step::Digits]).named("take_modulus_off");
+    let negate = (add_modulus | with_sign | (is(step, Step::Less1) & below.q())).named("negate");
+    let of_slot = one_of(step, &[Step::Add, Step::First, Step::Next, Step::Sign]).named("of_slot");
+    let of_modulus = (add_modulus | take_modulus_off).named("of_modulus");
+    let a = of_modulus
+        .mux(modulus, of_slot.mux(stored.zext(below_two_m), 0))
+        .named_doc("a", "addend, 1/M, or -M");
+    n0.set(is(step, Step::Load).mux(number.sext(shape.rest), (a ^ repeat(negate, below_two_m)).sext(shape.rest)));
+    n1.set(plus(a.sext(below_two_m + 1), modulus.sext(below_two_m + 1), short));
+    let twice = m.cat(&[modulus, short]);
+    n2.set(plus(a.sext(below_two_m + 2), twice.sext(below_two_m + 2), short));
+    let carry0 = m.reg("carry0", 1).doc("1 to add to the sum of n0");
+    carry0.set(with_sign | (add_modulus & !short) | (take_modulus_off & short));
+    let carry = m.reg("carry", 1).doc("1 to add to the other sums").set(take_modulus_off & short);
+    let digits = m.reg("digits_now", 2).set(digits).q();
+
+    m.comment("The step: x and the addend, less M as often as it goes.");
+    let now = m.reg("now", Step::BITS).doc("the step done").set(step).q();
+    let fourfold = one_of(now, &[Step::Double2, Step::Digits]).named("fourfold");
+    let twofold = one_of(now, &[Step::Double1, Step::Next]).named("twofold");
+    let from_zero = one_of(now, &[Step::Load, Step::First, Step::Modulus, Step::Begin]).named("from_zero");
+    let compared = [Step::Double1, Step::Double2, Step::Digits, Step::First, Step::Next, Step::Add];
+    let as_it_is = !one_of(now, &compared);
+    let as_it_is = as_it_is.named_doc("as_it_is", "nothing is taken off");
+    let old = rest.q().sext(sums);
+    let low = is(now, Step::Digits).mux(digits, 0);
+    let four = m.cat(&[old.trunc(sums - 2), low]);
+    let x = fourfold.mux(four, twofold.mux(old.shl(1), from_zero.mux(0, old))).named("x");
+    let s0 = plus(x, n0.q().sext(sums), carry0.q()).named("s0");
+    let s1 = plus(x, n1.q().sext(sums), carry.q()).named("s1");
+    let s2 = plus(x, n2.q().sext(sums), carry.q()).named("s2");
+    // A fourfold rest may have M taken off three times, and n0 is the first of them; else n0 takes none off.
+    let (f0, f1, f2) = (!s0.msb(), !s1.msb() & !as_it_is, !s2.msb() & !as_it_is);
+    let (f0, f1, f2) = (f0.named("fits0"), f1.named("fits1"), f2.named("fits2"));
+    let stays = (fourfold & !f0).named("stays");
+    let chosen = f2.mux(s2, f1.mux(s1, stays.mux(x, s0)));
+    rest_next.drive(chosen.trunc(shape.rest));
+    let rests_only = one_of(now, &[Step::Rest, Step::Whole]).named("rest_stays");
+    rest.when(!rests_only, rest_next);
+    below.when(is(now, Step::Load) & advance, n0.q().msb());
+    m.output_doc(
+        "unfit",
+        is(now, Step::Fix) & below.q().mux(s0.msb(), !s1.msb()),
+        "the number that was taken in is not between -M and M",
+    );
+
+    m.comment("The whole part, a clock behind.");
+    let read_whole_at = m.reg("read_whole_at", 3).when(advance, read_at);
+    let whole = m.reg("whole", shape.whole).doc("modular");
+    let whole_next = m.wire("whole_next", shape.whole);
+    let (write_then, write_then_at) = (m.reg("write_then", 1).set(write), m.reg("write_then_at", 3).set(write_at));
+    let wholes = m.memory("wholes", 3, 8, shape.whole, 0).doc("modular");
+    let wholes = wholes.write(write_then.q(), write_then_at.q(), whole_next.q());
+    let stored = wholes.read(m.lit(1, 1), read_whole_at.q());
+    let negated = m.reg("negated", 1).set(negate).q();
+    let slot_now = m.reg("slot_now", 1).set(of_slot).q();
+    let b = m.reg("b", shape.whole).doc("addend");
+    let same = repeat(negated, shape.whole);
+    b.set(is(now, Step::Whole).mux(whole_in, slot_now.mux(stored ^ same, same)));
+    // Of a fourfold rest: 0 to 3 times; of others 0 to 2. A sign step has carried the 1 of a complement.
+    let many = (fourfold.mux(f1, f2)).named("twice_or_more");
+    let odd = fourfold.mux((f0 & !f1) | f2, f1 & !f2).named("once_or_thrice");
+    let taken = m.reg("taken", 2).doc("how often M was taken off").set(m.cat(&[many, odd])).q();
+    let then = m.reg("then", Step::BITS).doc("the step before").set(now).q();
+    let fourfold = m.reg("was_fourfold", 1).set(fourfold).q();
+    let twofold = m.reg("was_twofold", 1).set(twofold).q();
+    let from_zero = m.reg("was_from_zero", 1).set(from_zero).q();
+    let old = whole.q();
+    let four = m.cat(&[old.trunc(shape.whole - 2), taken]);
+    // 2 times: the doubled lowest bit is free for one of them.
+    let two = m.cat(&[old.trunc(shape.whole - 1), taken.bit(1)]);
+    let x = fourfold.mux(four, twofold.mux(two, from_zero.mux(0, old))).named("whole_x");
+    let one = ((!fourfold & taken.any()) | is(then, Step::Sign)).named("one");
+    whole_next.drive(plus(x, b.q(), one));
+    let stays = one_of(then, &[Step::Rest, Step::Less1]).named("whole_stays");
+    whole.when(!stays, whole_next);
+
+    m.comment("What is done is given out rounded: to nearest, halves up, or up.");
+    m.output_doc("rest", rest.q().trunc(slot), "1/M, from the clock after a step");
+    m.output_doc("whole", whole, "modular, a clock later");
+    let half = !plus(m.cat(&[rest.q().trunc(slot), m.lit(1, 0)]).zext(below_two_m + 1), modulus.sext(below_two_m + 1), short)
+        .msb();
+    let up = m.reg("up", 1).set(upwards.mux(rest.q().trunc(slot).any(), half)).q();
+    m.output_doc("value", whole.q() + up.zext(shape.whole), "modular, with whole");
     m.finish()
 }
 
-/// How a division begins and goes on.
-struct Begins<'m> {
-    of_acc: Signal<'m>,
-    of_y: Signal<'m>,
-    y: Signal<'m>,
-    step: Signal<'m>,
+/// a + b + carry.
+fn plus<'m>(a: Signal<'m>, b: Signal<'m>, carry: Signal<'m>) -> Signal<'m> {
+    let m = a.module();
+    let bits = a.width();
+    (m.cat(&[a, m.lit(1, 1)]) + m.cat(&[b, carry])).slice(bits, 1)
 }
 
-/// The multiplier.
-struct Product<'m> {
-    x: Reg<'m>,
-    y: Reg<'m>,
-    acc: Signal<'m>,
+/// A bit as often as a word is long.
+fn repeat(bit: Signal<'_>, bits: u32) -> Signal<'_> {
+    bit.sext(bits)
 }
 
-impl<'m> Product<'m> {
-    fn new(m: &'m Module, plan: &Plan, shape: &Shape, begins: &Begins<'m>) -> Product<'m> {
-        let (k, dw) = (plan.bits_per_clock(), plan.widths().difference);
-        let a_in = m.input_doc("a_in", dw, "factor of x, signed");
-        let b_in = m.input_doc("b_in", dw, "factor of y, signed");
-        let x_in = m.input_doc("x_in", shape.terms, "signed");
-        let load_terms = m.input_doc("load_terms", 1, "x := x_in, y := y_in");
-        let load_factors = m.input_doc("load_factors", 1, "a := a_in, b := b_in, acc := 0");
-        let step = m.input("step_product", 1);
-        let first_step = m.input_doc("first_step", 1, "of a product");
-
-        m.comment("Terms and factors of a product.");
-        let x = m.reg("x", shape.wide_terms).doc("term, signed");
-        let y = m.reg("y", shape.wide_terms).doc("term, signed");
-        x.when(load_terms, x_in.sext(shape.wide_terms));
-        y.when(load_terms, begins.y.sext(shape.wide_terms));
-        let bits = dw.next_multiple_of(k);
-        let factor = |name: &str, input: Signal<'m>| {
-            let factor = m.reg(name, bits).doc("factor, its next bits at the top");
-            factor.when(step, factor.q().shl(k)).when(load_factors, input.sext(bits)).q()
-        };
-        let (a, b) = (factor("a", a_in), factor("b", b_in));
-
-        m.comment("A step. The sign bits subtract; then acc is 0, and its doubled lowest bit is free for -t = ~t + 1.");
-        let acc = m.reg("acc", shape.acc).doc("product, or what is left of a numerator; signed");
-        let mut sum = acc.q();
-        for i in 0..k {
-            let part = |factor: Signal<'m>, term: Reg<'m>| {
-                factor.bit(bits - 1 - i).mux(term.q().sext(shape.wide_terms + 1), 0)
-            };
-            let parts = (part(a, x) + part(b, y)).sext(shape.acc);
-            let (parts, lowest) =
-                if i == 0 { (first_step.mux(!parts, parts), first_step) } else { (parts, m.lit(1, 0)) };
-            sum = (m.cat(&[sum.trunc(shape.acc - 1), lowest]) + parts).named(&format!("sum{i}"));
-        }
-        acc.when(begins.step, acc.q().shl(k))
-            .when(step, sum)
-            .when(load_factors, 0)
-            .when(begins.of_y, begins.y.sext(shape.acc));
-        Product { x, y, acc: acc.q() }
-    }
+/// The step is this one.
+fn is(step: Signal<'_>, which: Step) -> Signal<'_> {
+    step.eq(which as i32)
 }
 
-/// The divider.
-struct Quotient<'m> {
-    divisor: Signal<'m>,
-    floor: Signal<'m>,
-    remainder: Signal<'m>,
-    rounded: Signal<'m>,
-}
-
-impl<'m> Quotient<'m> {
-    fn new(m: &'m Module, plan: &Plan, shape: &Shape, begins: &Begins<'m>, acc: Signal<'m>) -> Quotient<'m> {
-        let k = plan.bits_per_clock();
-        let divisor_in = m.input_doc("divisor_in", shape.divisor, "unsigned");
-        let digit_at = m.input_doc("digit_at", shape.digit_select(), "which bits of acc are the next digits");
-
-        m.comment(
-            "The numerator: acc without its sign, k digits a clock from where this operation has them.",
-        );
-        let negative = m.reg("negative", 1).doc("the numerator is below 0");
-        negative.when(begins.of_acc, acc.msb()).when(begins.of_y, begins.y.msb());
-        let digits_from = |bit: u32| acc.slice(bit, bit + 1 - k);
-        let places = shape.first_digits.iter().enumerate();
-        let digits = places.map(|(i, bit)| (digit_at.eq(i as i32), digits_from(*bit)));
-        let digits = digits.reduce(|(_, chosen), (here, other)| (here, here.mux(other, chosen)));
-        let digits = digits.map_or(acc.trunc(k), |(_, digits)| digits).named("digits");
-
-        m.comment("A step: the divisor is taken away wherever it fits.");
-        let begin = (begins.of_acc | begins.of_y).named("begin_division");
-        let divisor = m.reg("divisor", shape.divisor).doc("unsigned").when(begin, divisor_in).q();
-        let wide_divisor = divisor.zext(shape.divisor + 1);
-        let rem = m.reg("rem", shape.divisor).doc("remainder so far");
-        let quot = m.reg("quot", shape.quotient).doc("quotient so far, modular");
-        let (mut rest, mut bits) = (rem.q(), quot.q());
-        for i in 0..k {
-            let digit = digits.bit(k - 1 - i) ^ negative;
-            let shifted = m.cat(&[rest, digit]);
-            let less = (shifted - wide_divisor).named(&format!("less{i}"));
-            let fits = (!less.msb()).named(&format!("fits{i}"));
-            rest = fits.mux(less, shifted).trunc(shape.divisor).named(&format!("rest{i}"));
-            bits = m.cat(&[bits.trunc(shape.quotient - 1), fits]);
-        }
-        rem.when(begins.step, rest).when(begin, 0);
-        quot.when(begins.step, bits);
-
-        m.comment("Below 0: floor(N/D) = ~floor(~N/D), and the remainder is D - 1 - r.");
-        let floor = negative.q().mux(!quot.q(), quot).named_doc("floor", "modular");
-        let remainder = negative.q().mux(divisor + !rem.q(), rem).named("floor_remainder");
-        // Up if 2r >= D for N >= 0, if 2(D - 1 - r) >= D, that is 2r + 1 < D, for N < 0.
-        let below_half = m.cat(&[rem.q(), negative.q()]).lt(wide_divisor);
-        let up = below_half.eq(negative).named_doc("up", "the next higher is nearest");
-        Quotient { divisor, floor, remainder, rounded: floor + up.zext(shape.quotient) }
-    }
-}
-
-/// Nx and Ny as terms, and d1 from the quotients of gx and d0.
-fn gradients<'m>(m: &'m Module, shape: &Shape, product: &Product<'m>, quotient: &Quotient<'m>) {
-    m.comment("Nx waits here while Ny is formed; then both are terms.");
-    let keep_nx = m.input_doc("keep_nx", 1, "nx := acc");
-    let load_gradients = m.input_doc("load_gradients", 1, "x := nx, y := acc");
-    let found = product.acc.trunc(shape.wide_terms);
-    let nx = m.reg("nx", shape.wide_terms).doc("Nx, signed").when(keep_nx, found);
-    product.x.when(load_gradients, nx);
-    product.y.when(load_gradients, found);
-
-    m.comment(
-        "d1 = RN of the sum of the numerators of d0 and gx: from the sums of their quotients and remainders.",
-    );
-    let keep_gx = m.input_doc("keep_gx", 1, "the quotient is that of gx");
-    let add_line = m.input_doc("add_line", 1, "the quotient is that of d0");
-    let both = m.reg("both", shape.quotient).doc("sum of the quotients, modular");
-    both.when(add_line, both.q() + quotient.floor).when(keep_gx, quotient.floor);
-    let bits = shape.divisor + 1;
-    let remainder = quotient.remainder.zext(bits);
-    let rest = m.reg("rest", bits).doc("sum of the remainders, below 2 divisors");
-    rest.when(add_line, rest.q() + remainder).when(keep_gx, remainder);
-    let twice = m.cat(&[rest.q(), m.lit(1, 0)]);
-    let once = quotient.divisor.zext(bits + 1);
-    let reaches = |times: Signal<'m>, name: &str| twice.ge(times).named(name).zext(shape.quotient);
-    let d1 = both.q() + reaches(once, "half") + reaches(once + once.shl(1), "three_halves");
-    m.output_doc("d1", d1, "modular");
+/// The step is one of these.
+fn one_of<'m>(step: Signal<'m>, which: &[Step]) -> Signal<'m> {
+    let found = which.iter().map(|one| is(step, *one)).reduce(|any, one| any | one);
+    found.unwrap_or(step.module().lit(1, 0))
 }

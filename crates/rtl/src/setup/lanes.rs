@@ -1,42 +1,38 @@
-//! The lanes as instances, and what they do in each clock; what they work on is `operands`.
+//! The lanes as instances, and their steps; the numbers they take in are `operands`.
 
 use std::sync::Arc;
 
-use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
+use edgewalk_machine::{Channel, Plan};
 use edgewalk_netlist::{BuildErrors, Instance, Module, Netlist, Signal};
 
 use super::control::Control;
+use super::factors::Factors;
 use super::lane::{Shape, lane};
-use super::schedule::{Kind, Op, channel_jobs, edge_jobs, late};
+use super::steps::{Length, Op, Step, channel_of, edge_of, rounds};
 
 /// One lane in place.
 pub(super) struct Lane<'m> {
     /// Which one.
     pub number: usize,
-    /// Its jobs on edges, one a round: 0 is the area, 1 to 3 are the edges.
-    pub edges: Vec<usize>,
-    /// Its jobs on channels, one a round.
-    pub channels: Vec<Channel>,
     pub shape: Shape,
     pub instance: Instance<'m>,
 }
 
-/// The lanes, with everything connected but their operands.
+/// The lanes, with everything connected but what they take in.
 pub(super) fn lanes<'m>(
     m: &'m Module,
     plan: &Plan,
     control: &Control<'m>,
+    factors: &Factors<'m>,
 ) -> Result<Vec<Lane<'m>>, BuildErrors> {
-    let count = plan.lanes as usize;
-    let shapes: Vec<Shape> = (0..count).map(|number| Shape::new(plan, number)).collect();
+    let shapes: Vec<Shape> = (0..plan.lanes as usize).map(|number| Shape::new(plan, &channels(plan, number))).collect();
     let netlists = netlists(plan, &shapes)?;
-    let work = Work::new(m, control);
+    let common = Common::new(m, plan, control, factors);
     let in_place = |(number, (shape, netlist)): (usize, (Shape, Arc<Netlist>))| {
+        m.comment(&format!("Lane {number}: its steps."));
         let instance = m.instance(&format!("lane{number}"), &netlist);
-        let (edges, channels) = (edge_jobs(plan, number), channel_jobs(plan, number));
-        let lane = Lane { number, edges, channels, shape, instance };
-        work.connect(m, plan, control, &lane);
-        lane
+        common.connect(number, instance);
+        Lane { number, shape, instance }
     };
     Ok(shapes.into_iter().zip(netlists).enumerate().map(in_place).collect())
 }
@@ -48,106 +44,159 @@ fn netlists(plan: &Plan, shapes: &[Shape]) -> Result<Vec<Arc<Netlist>>, BuildErr
         let same = shapes[..i].iter().position(|other| other == shape);
         netlists.push(match same {
             Some(other) => Arc::clone(&netlists[other]),
-            None => lane(plan, &format!("edgewalk_setup_lane{i}"), shape)?,
+            None => lane(plan, &format!("edgewalk_setup_lane{i}"), *shape)?,
         });
     }
     Ok(netlists)
 }
 
+/// The channels of a lane, in their rounds.
+fn channels(plan: &Plan, lane: usize) -> Vec<Channel> {
+    (0..rounds(plan)[1]).filter_map(|round| channel_of(plan, lane, round)).collect()
+}
+
 /// What all lanes do in a clock.
-struct Work<'m> {
-    load_terms: Signal<'m>,
-    load_product: Signal<'m>,
-    step_product: Signal<'m>,
-    first_step: Signal<'m>,
-    load_quotient: Signal<'m>,
-    load_quotient_of_y: Signal<'m>,
-    step_quotient: Signal<'m>,
+struct Common<'a, 'm> {
+    m: &'m Module,
+    plan: &'a Plan,
+    control: &'a Control<'m>,
+    factors: &'a Factors<'m>,
+    /// The step that is named.
+    step: Signal<'m>,
+    /// In place of what is formed while numbers do not fit: sign, sign, digits.
+    of_pause: Signal<'m>,
+    read_at: ReadAt<'m>,
+    write: Signal<'m>,
+    write_at: Signal<'m>,
+    take_modulus: Signal<'m>,
+    upwards: Signal<'m>,
 }
 
-impl<'m> Work<'m> {
-    fn new(m: &'m Module, control: &Control<'m>) -> Work<'m> {
+/// The slot of the addend.
+struct ReadAt<'m> {
+    sums: Signal<'m>,
+    signs: Signal<'m>,
+    base: Signal<'m>,
+    single: Signal<'m>,
+}
+
+impl<'a, 'm> Common<'a, 'm> {
+    fn new(m: &'m Module, plan: &'a Plan, control: &'a Control<'m>, factors: &'a Factors<'m>) -> Common<'a, 'm> {
         m.comment("What all lanes do.");
-        let of_kind = |kind: Kind, name: &str| {
-            let ops: Vec<Op> = control.ops().filter(|op| op.kind() == kind).collect();
-            control.during(&ops).named(name)
+        let ops: Vec<Op> = Op::of_edges(plan).iter().chain(Op::of_channels(plan)).copied().collect();
+        let code = |step: Step| m.lit(Step::BITS, step as u128);
+        let these = |which: &dyn Fn(Op) -> bool| ops.iter().copied().filter(|op| which(*op)).collect::<Vec<_>>();
+        let steps = |step: Step| these(&|op| op.doing().step == step);
+        let mut step = code(Step::Rest);
+        for of in [Step::Load, Step::Fix, Step::Double2, Step::Next, Step::Sign, Step::Modulus, Step::Add, Step::Whole] {
+            step = control.named.one_of(&steps(of)).mux(code(of), step);
+        }
+        let first = control.first.mux(code(Step::First), code(Step::Next));
+        step = control.named.one_of(&steps(Step::First)).mux(first, step);
+        let step = control.waits.mux(code(Step::Rest), step).named("step");
+
+        let began = m.reg("began", 1).doc("numbers were found not to fit in the clock before").set(control.advance);
+        let began_then = m.reg("began_then", 1).doc("and in the one before").set(began);
+        let of_pause = began.q().mux(code(Step::Begin), began_then.q().mux(code(Step::Less1), code(Step::Digits)));
+
+        let slots = |slot: u32, sum: bool| {
+            these(&|op| op.doing().slot == slot && matches!(op.doing().step, Step::First | Step::Next | Step::Sign) == sum)
         };
-        let product = of_kind(Kind::Product, "is_product");
-        let quotient = of_kind(Kind::Quotient, "is_quotient");
-        let of_y = of_kind(Kind::QuotientOfY, "is_quotient_of_y");
-        let terms = [Op::EdgeProduct, Op::Nx, Op::Ny, Op::ProductA, Op::ProductB];
-        Work {
-            load_terms: (control.load & control.during(&terms)).named("load_terms"),
-            load_product: (control.load & product).named("load_product"),
-            step_product: (control.stepping & product).named("step_product"),
-            first_step: control.step.eq(1).named("first_step"),
-            load_quotient: (control.load & quotient).named("load_quotient"),
-            load_quotient_of_y: (control.load & of_y).named("load_quotient_of_y"),
-            step_quotient: (control.stepping & (quotient | of_y)).named("step_quotient"),
+        let single = (1..8).fold(m.lit(3, 0), |chosen, slot| {
+            let ops = slots(slot, false);
+            if ops.is_empty() { chosen } else { control.named.one_of(&ops).mux(slot as i32, chosen) }
+        });
+        let read_at = ReadAt {
+            sums: control.named.one_of(&these(&|op| matches!(op.doing().step, Step::First | Step::Next))).named("is_sum"),
+            signs: control.named.one_of(&steps(Step::Sign)).named("is_sign"),
+            base: control.named.one_of(&slots(4, true)).named("of_gradients"),
+            single: single.named("read_single_at"),
+        };
+        let writers = these(&|op| op.doing().result.is_some());
+        // What did not fit is written again when it does.
+        let write = (control.stepped.ends & control.stepped.one_of(&writers)).named("write");
+        let write_at = (1..8).fold(m.lit(3, 0), |chosen, slot| {
+            let ops = these(&|op| op.doing().result == Some(slot));
+            if ops.is_empty() { chosen } else { control.stepped.one_of(&ops).mux(slot as i32, chosen) }
+        });
+        let loads = [Op::LoadDx, Op::Load1, Op::LoadA, Op::LoadB];
+        let upwards = match plan.edge_kind {
+            edgewalk_machine::EdgeKind::Exact => control.rest.is(Op::Columns),
+            edgewalk_machine::EdgeKind::Slope => m.lit(1, 0),
+        };
+        Common {
+            m,
+            plan,
+            control,
+            factors,
+            step,
+            of_pause,
+            read_at,
+            write,
+            write_at: write_at.named("write_at"),
+            take_modulus: control.formed.one_of(&loads).named("take_modulus"),
+            upwards,
         }
     }
 
-    fn connect(&self, m: &'m Module, plan: &Plan, control: &Control<'m>, lane: &Lane<'m>) {
-        let instance = lane.instance;
+    fn connect(&self, number: usize, instance: Instance<'m>) {
+        let (m, control) = (self.m, self.control);
+        let named = |name: &str| format!("{name}{number}");
+        let step = self.step_of(number).named(&named("step"));
+        let next = m.reg(&named("step_next"), Step::BITS).when(control.advance, step).q();
+        let again = m.reg(&named("step_again"), Step::BITS);
+        let of_pause = control.pause.eq(1).mux(again.q(), self.of_pause);
+        let formed = control.advance.mux(next, of_pause).named(&named("step_formed"));
+        again.when(control.advance, formed);
         instance
-            .connect("load_terms", self.load_terms)
-            .connect("load_factors", self.load_product)
-            .connect("step_product", self.step_product)
-            .connect("first_step", self.first_step)
-            .connect("load_divisor", self.load_quotient)
-            .connect("from_y", self.load_quotient_of_y)
-            .connect("step_quotient", self.step_of(plan, control, lane))
-            .connect("digit_at", digit_at(m, plan, control, lane));
-        if plan.fill == Fill::Exact {
-            instance
-                .connect("keep_nx", control.load & control.during(&[Op::Gx]))
-                .connect("load_gradients", control.load & control.during(&[Op::LineProduct]))
-                .connect("keep_gx", control.after(Op::Gx))
-                .connect("add_line", control.after(Op::Line));
-        }
+            .connect("advance", control.advance)
+            .connect("read_at", self.read_at(number))
+            .connect("step", formed)
+            .connect("write", self.write)
+            .connect("write_at", self.write_at)
+            .connect("take_modulus", self.take_modulus)
+            .connect("upwards", self.upwards);
     }
 
-    /// A channel with a shorter word than another has fewer digits and begins later.
-    fn step_of(&self, plan: &Plan, control: &Control<'m>, lane: &Lane<'m>) -> Signal<'m> {
-        let late: Vec<u32> = lane.channels.iter().map(|channel| late(plan, *channel)).collect();
-        if late.iter().all(|clocks| *clocks == 0) {
-            return self.step_quotient;
+    /// A lane with fewer doublings than the longest does its last ones with it; of an odd number the last is single.
+    fn step_of(&self, number: usize) -> Signal<'m> {
+        let control = self.control;
+        let ops = Op::of_edges(self.plan).iter().chain(Op::of_channels(self.plan)).copied();
+        let mut step = self.step;
+        for op in ops {
+            let Length::Doublings(doublings) = op.doing().length else { continue };
+            let of_channel = |channel: Channel| {
+                let (clocks, odd) = (doublings(self.plan, &channel).div_ceil(2), doublings(self.plan, &channel) % 2);
+                let code = |step: Step| self.m.lit(Step::BITS, step as u128);
+                let mut chosen = code(Step::Double2);
+                if odd == 1 {
+                    chosen = control.left.eq(0).mux(code(Step::Double1), chosen);
+                }
+                control.left.lt(clocks as i32).mux(chosen, code(Step::Rest))
+            };
+            let chosen = if op.is_of_edge(self.plan) {
+                of_channel(self.plan.channels()[0])
+            } else {
+                let rounds = rounds(self.plan)[1];
+                let of = |round: usize| of_channel(channel_of(self.plan, number, round).unwrap_or(self.plan.channels()[0]));
+                control.named.of_round(rounds, of)
+            };
+            step = (control.named.is(op) & !control.waits).mux(chosen, step);
         }
-        let begun = control.of_round(late.len(), |round| control.step.gt(late[round] as i32));
-        self.step_quotient & (control.in_edges | begun)
+        step
     }
-}
 
-/// Where the operation's digits are, as a place in the shape's list.
-fn digit_at<'m>(m: &'m Module, plan: &Plan, control: &Control<'m>, lane: &Lane<'m>) -> Signal<'m> {
-    let place = |op: Op, channel: &Channel| {
-        let bit = op.first_digit(plan, *channel);
-        lane.shape.first_digits.iter().position(|digit| *digit == bit).unwrap_or(0)
-    };
-    let literal = |place: usize| m.lit(lane.shape.digit_select(), place as u128);
-    let quotients = control.ops().filter(|op| op.kind() != Kind::Product);
-    // Place 0 is what remains where no other is chosen.
-    let others = quotients.filter(|op| lane.channels.iter().any(|channel| place(*op, channel) > 0));
-    others.fold(literal(0), |chosen, op| {
-        let of_round =
-            control.of_round(lane.channels.len(), |round| literal(place(op, &lane.channels[round])));
-        control.during(&[op]).mux(of_round, chosen)
-    })
-}
-
-impl Lane<'_> {
-    /// Asks for the outputs that the lane's jobs have a use for, so that their wires are declared beside the lane.
-    pub fn ask_results(&self, plan: &Plan) {
-        if self.edges.contains(&0) {
-            self.instance.output("product");
+    fn read_at(&self, number: usize) -> Signal<'m> {
+        let (m, at) = (self.m, &self.read_at);
+        let mut digits = self.factors.digits;
+        let second_beside_others = edge_of(self.plan, number, 0) == Some(2);
+        if second_beside_others {
+            let is = self.control.named.is(Op::Sum);
+            digits = [0, 1].map(|side| is.mux(self.factors.of_second[side], digits[side]));
         }
-        if plan.edge_kind == EdgeKind::Exact && self.edges.iter().any(|job| *job > 0) {
-            self.instance.output("quotient");
-            self.instance.output("remainder");
-        }
-        self.instance.output("rounded");
-        if plan.fill == Fill::Exact {
-            self.instance.output("d1");
-        }
+        let digits = [0, 1].map(|side| at.signs.mux(self.factors.signs[side], digits[side]));
+        let some = digits[0] | digits[1];
+        let slot = m.cat(&[at.base & some, digits[1], digits[0]]);
+        (at.sums | at.signs).mux(slot, at.single)
     }
 }

@@ -3,45 +3,75 @@
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_netlist::{Module, Signal};
 
+use super::area::Area;
 use super::control::Control;
-use super::schedule::Op;
 use super::sort::Vertices;
 use crate::wires::Registers;
 
-/// First lines, signed, G + 2 bits.
+/// First lines, signed, G + 2 bits, and how far below the upper ends of edges they lie, 1/P line.
 pub(super) struct Lines<'m> {
-    /// Of the triangle.
+    /// First line of the triangle.
     pub jm: Signal<'m>,
-    /// Of the upper part.
-    pub j0: Signal<'m>,
-    /// Of the lower part.
-    pub j1: Signal<'m>,
-    /// There is no line.
-    pub none: Signal<'m>,
+    /// From vertex 0 down to the first line, for the major and the first minor edge.
+    pub h0: Signal<'m>,
+    /// From vertex 1 down to the first line of the lower part.
+    pub h1: Signal<'m>,
+    /// Textbook fill: from the upper end of the left edge down to the first line of part 1.
+    pub left_a: Signal<'m>,
+    /// Of part 2.
+    pub left_b: Signal<'m>,
 }
 
 impl<'m> Lines<'m> {
-    /// j0, j1 and the counts n1, n2 of the prim, taken at the first clock of the operations.
+    /// j0, j1 and the counts n1, n2 of the prim, taken in the clock after the triangle.
     pub fn new(
         m: &'m Module,
         plan: &Plan,
         control: &Control<'m>,
         vertices: &Vertices<'m>,
         prim: &Registers<'m>,
+        area: &Area<'m>,
     ) -> Lines<'m> {
         let [j0, j1, n1, n2] = match plan.fill {
             Fill::Exact => exact(m, plan, vertices),
             Fill::Textbook => textbook(m, plan, vertices),
         };
-        let take = (control.load & control.during(&[Op::EdgeStep])).named("take_lines");
+        let no_column = (plan.fill == Fill::Exact).then(|| no_column(m, plan, vertices));
+        let take = control.begin;
         let count = |name: &str, n: Signal<'m>| prim[name].when(take, n.trunc(prim[name].q().width())).q();
         let (n1, n2) = (count("n1", n1), count("n2", n2));
         let line = |name: &str, j: Signal<'m>| m.reg(name, j.width()).doc("line, signed").when(take, j).q();
         let (j0, j1) = (line("j0", j0), line("j1", j1));
         let upper = n1.any().named("upper");
+        let none = !upper & !n2.any();
+        let outside = no_column.map(|none| m.reg("no_column", 1).doc("no column of the screen").when(take, none).q());
+        control.nothing.drive(outside.map_or(none, |outside| none | outside));
         let jm = upper.mux(j0, j1).named_doc("jm", "first line of the triangle");
-        Lines { jm, j0, j1, none: !upper & !n2.any() }
+        let down = |name: &str, from: usize, to: Signal<'m>| {
+            let line = m.cat(&[to, m.lit(plan.widths().center_fraction, 0)]);
+            let v = vertices.v(from).sext(line.width());
+            (line - v).trunc(plan.widths().difference).named_doc(name, "1/P line")
+        };
+        let (h0, h1) = (down("h0", 0, jm), down("h1", 1, j1));
+        let (left_a, left_b) = match plan.fill {
+            Fill::Exact => (h0, h1),
+            Fill::Textbook => (down("left_a", 0, j0), area.negative.mux(h1, down("left_b", 0, j1))),
+        };
+        Lines { jm, h0, h1, left_a, left_b }
     }
+}
+
+/// No column of pixel centres of the screen lies between the leftmost and the rightmost vertex.
+fn no_column<'m>(m: &'m Module, plan: &Plan, vertices: &Vertices<'m>) -> Signal<'m> {
+    m.comment("Columns: from ceil(u/P) of the leftmost to before ceil(u/P) of the rightmost vertex, on the screen.");
+    let (bits, t) = (plan.widths().column, plan.widths().center_fraction);
+    let [a, b, c] = [0, 1, 2].map(|place| vertices.u(place));
+    let least = at_most(at_most(a, b), c).named_doc("leftmost", "1/P column");
+    let most = at_least(at_least(a, b), c).named_doc("rightmost", "1/P column");
+    let ceil = |u: Signal<'m>| u.slice(u.width() - 1, t).sext(bits) + u.trunc(t).any().zext(bits);
+    let first = at_least(ceil(least), m.lit(bits, 0)).named("first_column");
+    let end = at_most(ceil(most), m.lit(bits, plan.width.into())).named("end_column");
+    end.sle(first)
 }
 
 fn at_least<'m>(a: Signal<'m>, b: Signal<'m>) -> Signal<'m> {

@@ -1,187 +1,182 @@
-//! What the lanes multiply and divide in each operation.
+//! What the lanes take in: differences of the vertices, whole numbers to add, and the moduli.
 
-use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
+use edgewalk_machine::{Channel, Fill, Plan};
 use edgewalk_netlist::{Module, Signal};
 
+use super::area::Area;
 use super::control::Control;
 use super::lanes::Lane;
-use super::lines::Lines;
-use super::schedule::Op;
 use super::sort::{ENDS, Vertices};
+use super::steps::{Op, channel_of, edge_of, rounds};
 use crate::wires::Registers;
 
-/// What operands are made of.
+/// Where it comes from.
 pub(super) struct Sources<'a, 'm> {
     pub m: &'m Module,
     pub plan: &'a Plan,
     pub control: &'a Control<'m>,
     pub vertices: &'a Vertices<'m>,
-    pub lines: &'a Lines<'m>,
+    pub area: &'a Area<'m>,
     pub prim: &'a Registers<'m>,
-    /// |area|, unsigned.
-    pub area: Signal<'m>,
-}
-
-/// The operands of the operations on channels that all lanes share.
-pub(super) struct Shared<'m> {
-    a: Signal<'m>,
-    b: Signal<'m>,
-    divisor: Signal<'m>,
-    /// The differences of channels change their signs.
-    flip: Signal<'m>,
 }
 
 impl<'m> Sources<'_, 'm> {
-    fn major_right(&self) -> Signal<'m> {
-        self.prim["major_right"].q()
-    }
-
-    fn during(&self, ops: &[Op]) -> Signal<'m> {
-        self.control.during(ops)
-    }
-
-    /// How far the centres of a line lie below a vertex: line·P − v, signed, DW bits.
-    fn below(&self, line: Signal<'m>, v: Signal<'m>) -> Signal<'m> {
-        let w = self.plan.widths();
-        self.m.cat(&[line, self.m.lit(w.center_fraction, 0)]) - v.sext(w.difference)
-    }
-
-    /// In exact fill C is a ceiling: setup divides −N.
-    fn negates(&self) -> bool {
-        self.plan.fill == Fill::Exact && self.plan.edge_kind == EdgeKind::Exact
-    }
-
-    /// What all lanes share.
-    pub fn shared(&self) -> Shared<'m> {
-        self.m.comment("Factors and divisor of the operations on channels, the same for all lanes.");
-        let (a, b, divisor) = match self.plan.fill {
-            Fill::Exact => self.shared_exact(),
-            Fill::Textbook => self.shared_textbook(),
-        };
-        // Nx = σ(dc1·dv2 − dc2·dv1); Ny = σ(dc2·du1 − dc1·du2), its terms in the same places.
-        let flip = match self.plan.fill {
-            Fill::Exact => self.major_right() ^ self.during(&[Op::Ny]),
-            Fill::Textbook => self.major_right(),
-        };
-        Shared {
-            a: a.named_doc("channel_a", "signed"),
-            b: b.named_doc("channel_b", "signed"),
-            divisor,
-            flip: flip.named_doc("flip", "differences of channels the other way round"),
-        }
-    }
-
-    fn shared_exact(&self) -> (Signal<'m>, Signal<'m>, Signal<'m>) {
-        let (m, v, dw) = (self.m, self.vertices, self.plan.widths().difference);
-        let (t, major_right) = (self.plan.widths().center_fraction, self.major_right());
-        let column = self.prim["major_c"].q() - major_right.zext(self.plan.widths().column);
-        let column = column.named_doc("px", "column of the first pixel, signed");
-        let right = m.cat(&[column, m.lit(t, 0)]) - v.u(0).sext(dw);
-        let a = self.during(&[Op::Nx]).mux(v.heights[0].zext(dw), v.du2);
-        let a = self.during(&[Op::LineProduct]).mux(self.prim["major_q"].q().sext(dw), a);
-        let a = self.during(&[Op::StartProduct]).mux(right, a);
-        let b = self.during(&[Op::Nx]).mux(v.heights[1].zext(dw), v.du1);
-        let b = self.during(&[Op::LineProduct]).mux(1, b);
-        let b = self.during(&[Op::StartProduct]).mux(self.below(self.lines.jm, v.v(0)), b);
-        (a, b, self.area)
-    }
-
-    fn shared_textbook(&self) -> (Signal<'m>, Signal<'m>, Signal<'m>) {
-        let (v, dw, major_right) = (self.vertices, self.plan.widths().difference, self.major_right());
-        let in_b = self.during(&[Op::ProductB, Op::StartB, Op::LineB]).named_doc("in_b", "part 2");
-        let line = in_b.mux(self.lines.j1, self.lines.j0);
-        let top = (in_b & major_right).mux(v.v(1), v.v(0));
-        let is_nx = self.during(&[Op::Nx]);
-        let a = is_nx.mux(v.heights[0].zext(dw), 0);
-        let b = is_nx.mux(v.heights[1].zext(dw), self.below(line, top));
-        let minor = in_b.mux(v.heights[2], v.heights[1]);
-        let height = major_right.mux(minor, v.heights[0]).zext(self.area.width());
-        (a, b, self.during(&[Op::Gx]).mux(self.area, height).trunc(2 * dw - 1))
-    }
-
-    /// Connects the operands of a lane.
-    pub fn connect(&self, lane: &Lane<'m>, shared: &Shared<'m>) {
-        let (control, jobs, channels) = (self.control, &lane.edges, &lane.channels);
-        let edge = |of: &dyn Fn(usize) -> Signal<'m>| control.of_round(jobs.len(), |round| of(jobs[round]));
-        let shape = &lane.shape;
-        let edges = self.control.in_edges;
-        let name = |what: &str| format!("lane{}_{what}", lane.number);
-        let [x_edge, y_edge] = [(0, "x_edge"), (1, "y_edge")]
-            .map(|(term, what)| edge(&|job| self.edge_terms(job, shape.terms)[term]).named(&name(what)));
-        let [x_channel, y_channel] = [(0, "x_channel"), (1, "y_channel")].map(|(term, what)| {
-            let term_of = |round: usize| self.channel_terms(&channels[round], shape.terms, shared)[term];
-            control.of_round(channels.len(), term_of).named(&name(what))
-        });
-        let [a_edge, b_edge] = [0, 1].map(|factor| edge(&|job| self.edge_factors(job)[factor]));
-        let divisor = edge(&|job| self.edge_divisor(job, shape.divisor));
+    /// Connects what a lane takes in.
+    pub fn connect(&self, lane: &Lane<'m>) {
+        let (m, control) = (self.m, self.control);
+        m.comment(&format!("Lane {}: what it takes in.", lane.number));
+        let number = self.number(lane).named_doc(&format!("number{}", lane.number), "signed");
+        // When three clocks or more are left the digits are not read; when two, the lowest.
+        let pair = m.cat(&[control.pause - 2, m.lit(1, 0)]);
+        let digits = number.sext(number.width() + 1).sar_by(pair).trunc(2);
+        let (modulus, short) = self.modulus(lane);
         lane.instance
-            .connect("x_in", edges.mux(x_edge, x_channel))
-            .connect("y_in", edges.mux(y_edge, y_channel))
-            .connect("a_in", edges.mux(a_edge, shared.a))
-            .connect("b_in", edges.mux(b_edge, shared.b))
-            .connect("divisor_in", edges.mux(divisor, shared.divisor));
-        lane.ask_results(self.plan);
+            .connect("number", number)
+            .connect("digits", digits)
+            .connect("whole_in", self.whole(lane))
+            .connect("modulus_in", modulus)
+            .connect("modulus_short", short);
     }
 
-    /// Factors of the area (job 0), or of N of an edge.
-    fn edge_factors(&self, job: usize) -> [Signal<'m>; 2] {
-        let (v, dw) = (self.vertices, self.plan.widths().difference);
-        let Some(edge) = job.checked_sub(1) else {
-            return [v.heights[0].zext(dw), v.heights[1].zext(dw)];
-        };
-        let (from, line) = (ENDS[edge].0, [self.lines.jm, self.lines.j0, self.lines.j1][edge]);
-        let u = v.u(from);
-        let a = match self.plan.fill {
-            Fill::Exact => u,
-            // u + o: u = 2x is even.
-            Fill::Textbook => self.m.cat(&[u.slice(u.width() - 1, 1), self.m.lit(1, 1)]),
-        };
-        [a.sext(dw), self.below(line, v.v(from))]
+    /// A number that was taken in is needed, by this lane.
+    pub fn needed(&self, lane: &Lane<'m>) -> Signal<'m> {
+        let (m, stepped) = (self.m, &self.control.stepped);
+        let yes_or_no = |yes: bool| m.lit(1, yes.into());
+        let [edge_rounds, channel_rounds] = rounds(self.plan);
+        let edge = stepped.of_round(edge_rounds, |round| match edge_of(self.plan, lane.number, round) {
+            Some(0) => yes_or_no(true),
+            Some(1) => self.lines("n1"),
+            Some(_) => self.lines("n2"),
+            None => yes_or_no(false),
+        });
+        let channel =
+            stepped.of_round(channel_rounds, |round| yes_or_no(channel_of(self.plan, lane.number, round).is_some()));
+        let part = |fix: Op, lines: &str| !stepped.is(fix) | self.lines(lines);
+        let channel = channel & part(Op::FixA, "n1") & part(Op::FixB, "n2");
+        stepped.is(Op::FixDx).mux(edge, channel)
     }
 
-    /// Terms of the area: du1, −du2; of N: DY, DX, or of −N their negatives.
-    fn edge_terms(&self, job: usize, bits: u32) -> [Signal<'m>; 2] {
-        let v = self.vertices;
-        let less = |a: Signal<'m>, b: Signal<'m>| a.sext(bits) - b.sext(bits);
-        let Some(edge) = job.checked_sub(1) else {
-            return [less(v.u(1), v.u(0)), less(v.u(0), v.u(2))];
+    fn lines(&self, part: &str) -> Signal<'m> {
+        self.prim[part].q().any()
+    }
+
+    /// The right side is that of the major edge.
+    fn right(&self) -> Signal<'m> {
+        self.area.negative
+    }
+
+    fn number(&self, lane: &Lane<'m>) -> Signal<'m> {
+        let (m, formed, bits) = (self.m, &self.control.formed, lane.shape.number);
+        let [edge_rounds, channel_rounds] = rounds(self.plan);
+        let u = |place: usize| self.vertices.u(place);
+        let dw = self.plan.widths().difference;
+        let dx = |edge: usize| match edge {
+            0 => self.vertices.du2,
+            1 => self.vertices.du1,
+            _ => u(2).sext(dw) - u(1).sext(dw),
         };
-        let (from, to) = ENDS[edge];
-        if !self.negates() {
-            return [less(v.v(to), v.v(from)), less(v.u(to), v.u(from))];
+        let of_edge = |value: &dyn Fn(usize) -> Signal<'m>| {
+            formed.of_round(edge_rounds, |round| value(edge_of(self.plan, lane.number, round).unwrap_or(0)).sext(bits))
+        };
+        let edge = formed.is(Op::LoadDy).mux(
+            of_edge(&|edge| self.vertices.heights[edge].zext(dw)),
+            of_edge(&dx),
+        );
+        let channel = formed.of_round(channel_rounds, |round| {
+            channel_of(self.plan, lane.number, round).map_or(m.lit(bits, 0), |channel| self.difference(&channel, bits))
+        });
+        formed.one_of(&[Op::LoadDx, Op::FixDx, Op::LoadDy]).mux(edge, channel)
+    }
+
+    /// dc1 and -dc2, both as the area has its sign; textbook fill: of the ends of the left edges too.
+    fn difference(&self, channel: &Channel, bits: u32) -> Signal<'m> {
+        let formed = &self.control.formed;
+        let value = |place: usize| {
+            let value = self.vertices.value(channel, place);
+            if channel.kind.is_signed() { value.sext(bits) } else { value.zext(bits) }
+        };
+        let right = self.right();
+        let second = formed.one_of(&[Op::Load2, Op::Fix2]);
+        // dc1 = c1 - c0, -dc2 = c0 - c2, the other way round where the area is below 0.
+        let mut from = second.mux(right.mux(value(0), value(2)), right.mux(value(1), value(0)));
+        let mut to = second.mux(right.mux(value(2), value(0)), right.mux(value(0), value(1)));
+        if self.plan.fill == Fill::Textbook {
+            // The left edge is the major one, or that of the part.
+            let (a, b) = (formed.one_of(&[Op::LoadA, Op::FixA]), formed.one_of(&[Op::LoadB, Op::FixB]));
+            from = (a | b).mux((b & right).mux(value(1), value(0)), from);
+            to = (a | b).mux((a & right).mux(value(1), value(2)), to);
         }
-        // The step of the edge divides DX itself, at the same input.
-        let step = self.during(&[Op::EdgeStep]);
-        let (first, second) = (step.mux(v.u(to), v.u(from)), step.mux(v.u(from), v.u(to)));
-        [less(v.v(from), v.v(to)), less(first, second)]
+        to - from
     }
 
-    fn edge_divisor(&self, job: usize, bits: u32) -> Signal<'m> {
-        let height = self.vertices.heights[job.saturating_sub(1)].zext(bits);
-        match self.plan.edge_kind {
-            EdgeKind::Exact => height,
-            EdgeKind::Slope => {
-                self.during(&[Op::EdgeStart]).mux(height.shl(self.plan.widths().center_fraction), height)
+    fn whole(&self, lane: &Lane<'m>) -> Signal<'m> {
+        let (stepped, bits) = (&self.control.stepped, lane.shape.whole);
+        let [edge_rounds, channel_rounds] = rounds(self.plan);
+        let t = self.plan.widths().center_fraction;
+        let column = |place: usize| {
+            let u = self.vertices.u(place);
+            fit(u.slice(u.width() - 1, t), bits)
+        };
+        let edge = stepped.of_round(edge_rounds, |round| {
+            column(ENDS[edge_of(self.plan, lane.number, round).unwrap_or(0)].0)
+        });
+        let channel = stepped.of_round(channel_rounds, |round| {
+            let channel = channel_of(self.plan, lane.number, round);
+            channel.map_or(self.m.lit(bits, 0), |channel| self.first_value(&channel, bits))
+        });
+        stepped.is(Op::Columns).mux(edge, channel)
+    }
+
+    /// The value the first one is counted from, with the halves that make cutting a rounding.
+    fn first_value(&self, channel: &Channel, bits: u32) -> Signal<'m> {
+        let (m, t) = (self.m, self.plan.widths().center_fraction);
+        let from = |place: usize| {
+            let value = self.with_half(channel, self.vertices.value(channel, place));
+            if channel.kind.is_signed() { fit(value, bits) } else { fit(m.cat(&[m.lit(1, 0), value]), bits) }
+        };
+        match self.plan.fill {
+            Fill::Exact => {
+                let half = m.lit(t, 1 << (t - 1));
+                fit(m.cat(&[from(0), half]), bits)
+            }
+            Fill::Textbook => {
+                let b = self.control.stepped.is(Op::AddB);
+                (b & self.right()).mux(from(1), from(0))
             }
         }
     }
 
-    /// Differences of a channel, so ordered and signed that all numerators have the sign of the result.
-    fn channel_terms(&self, channel: &Channel, bits: u32, shared: &Shared<'m>) -> [Signal<'m>; 2] {
-        let (major_right, flip) = (self.major_right(), shared.flip);
-        let c = |place: usize| {
-            let value = self.vertices.value(channel, place);
-            if channel.kind.is_signed() { value.sext(bits) } else { value.zext(bits) }
-        };
-        let x = flip.mux(c(0), c(1)) - flip.mux(c(1), c(0));
-        let (y_plus, y_minus) = (flip.mux(c(2), c(0)), flip.mux(c(0), c(2)));
-        if self.plan.fill == Fill::Exact {
-            return [x, y_plus - y_minus];
+    /// A vertex value as a word, with the half that makes cutting a rounding if the channel is rounded.
+    fn with_half(&self, channel: &Channel, value: Signal<'m>) -> Signal<'m> {
+        let m = self.m;
+        let (r, e) = (channel.fraction, channel.vertex_fraction);
+        let zeros =
+            |bits: u32, value: Signal<'m>| if bits == 0 { value } else { m.cat(&[value, m.lit(bits, 0)]) };
+        match e {
+            _ if r == 0 || !channel.kind.is_rounded() => zeros(r - e, value),
+            0 => zeros(r - 1, m.cat(&[value, m.lit(1, 1)])),
+            _ => zeros(r - e, fit(value, channel.word()) + (1 << (e - 1))),
         }
-        // DC of the left edge: the major one, or where the triangle lies left of that the part's minor one.
-        let (is_nx, in_b) = (self.during(&[Op::Nx]), self.during(&[Op::ProductB, Op::LineB]));
-        let to = (major_right & !in_b).mux(c(1), c(2));
-        let from = (major_right & in_b).mux(c(1), c(0));
-        [x, is_nx.mux(y_plus, to) - is_nx.mux(y_minus, from)]
     }
+
+    /// -M - 1 of an edge, P·DY; of the channels -A, or -A - 1 where the area is above 0.
+    fn modulus(&self, lane: &Lane<'m>) -> (Signal<'m>, Signal<'m>) {
+        let (m, formed) = (self.m, &self.control.formed);
+        let (t, bits) = (self.plan.widths().center_fraction, self.area.signed.width());
+        let height = |edge: usize| !m.cat(&[self.vertices.heights[edge], m.lit(t, 0)]).zext(bits);
+        let edge = formed.of_round(rounds(self.plan)[0], |round| height(edge_of(self.plan, lane.number, round).unwrap_or(0)));
+        let right = self.right();
+        let area = right.mux(self.area.signed, !self.area.signed);
+        let mut modulus = formed.is(Op::Load1).mux(area, edge);
+        if self.plan.fill == Fill::Textbook {
+            modulus = formed.is(Op::LoadA).mux(right.mux(height(1), height(0)), modulus);
+            modulus = formed.is(Op::LoadB).mux(right.mux(height(2), height(0)), modulus);
+        }
+        (modulus, !(formed.is(Op::Load1) & right))
+    }
+}
+
+/// The low bits of a signed number, or as many more of its sign.
+fn fit(value: Signal<'_>, bits: u32) -> Signal<'_> {
+    if value.width() >= bits { value.trunc(bits) } else { value.sext(bits) }
 }

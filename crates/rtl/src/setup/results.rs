@@ -1,47 +1,15 @@
 //! What the lanes found, taken into the registers of the prim.
 
-use edgewalk_machine::units::tokens::{EDGES, remainder_bits};
+use edgewalk_machine::units::tokens::EDGES;
 use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
-use edgewalk_netlist::{Instance, Module, Reg, Signal};
+use edgewalk_netlist::{Module, Reg, Signal};
 
+use super::area::Area;
 use super::control::Control;
-use super::schedule::Op;
+use super::lanes::Lane;
 use super::sort::Vertices;
+use super::steps::{EDGES as ALL_EDGES, Op};
 use crate::wires::Registers;
-
-/// The triangle's area, from the first lane's first product.
-pub(super) struct Area<'m>(Reg<'m>);
-
-impl<'m> Area<'m> {
-    /// Takes |area| and its sign.
-    pub fn new(
-        m: &'m Module,
-        plan: &Plan,
-        control: &Control<'m>,
-        lane: Instance<'m>,
-        prim: &Registers<'m>,
-    ) -> Area<'m> {
-        m.comment("Twice the area of the triangle, and the side on which it lies.");
-        let bits = 2 * plan.widths().difference;
-        let product = lane.output("product").trunc(bits);
-        // The product stands while the operation after it loads.
-        let take = control.load_in(Op::EdgeStart, 0).named("take_area");
-        let area = m.reg("area", bits - 1).doc("|du1 dv2 - du2 dv1|");
-        area.when(take, product.msb().mux(-product, product).trunc(bits - 1));
-        prim["major_right"].when(take, product.msb());
-        Area(area)
-    }
-
-    /// |area|, unsigned.
-    pub fn value(&self) -> Signal<'m> {
-        self.0.q()
-    }
-
-    /// The triangle has none.
-    pub fn is_zero(&self) -> Signal<'m> {
-        !self.0.q().any()
-    }
-}
 
 /// Where results come from and go to.
 pub(super) struct Results<'a, 'm> {
@@ -49,18 +17,22 @@ pub(super) struct Results<'a, 'm> {
     pub plan: &'a Plan,
     pub control: &'a Control<'m>,
     pub vertices: &'a Vertices<'m>,
+    pub area: &'a Area<'m>,
     pub prim: &'a Registers<'m>,
 }
 
 impl<'m> Results<'_, 'm> {
     /// Takes all results of all lanes.
-    pub fn take(&self, lanes: &[Instance<'m>]) {
-        for edge in 0..3 {
-            let job = edge + 1;
-            self.edge(edge, job / lanes.len(), lanes[job % lanes.len()]);
+    pub fn take(&self, lanes: &[Lane<'m>]) {
+        for edge in 0..ALL_EDGES {
+            let (round, lane) = (edge / lanes.len(), &lanes[edge % lanes.len()]);
+            match self.plan.edge_kind {
+                EdgeKind::Exact => self.edge_exact(edge, round, lane),
+                EdgeKind::Slope => self.edge_slope(edge, round, lane),
+            }
         }
         for (job, channel) in self.plan.channels().iter().enumerate() {
-            let (round, lane) = (job / lanes.len(), lanes[job % lanes.len()]);
+            let (round, lane) = (job / lanes.len(), &lanes[job % lanes.len()]);
             match self.plan.fill {
                 Fill::Exact => self.channel_exact(channel, round, lane),
                 Fill::Textbook => self.channel_textbook(channel, round, lane),
@@ -72,89 +44,92 @@ impl<'m> Results<'_, 'm> {
         self.prim[format!("{name}_{result}").as_str()]
     }
 
-    fn edge(&self, edge: usize, round: usize, lane: Instance<'m>) {
+    /// The part of the edge has lines.
+    fn walked(&self, edge: usize) -> Option<Signal<'m>> {
+        [None, Some("n1"), Some("n2")][edge].map(|lines| self.prim[lines].q().any())
+    }
+
+    /// The edge steps: its part has lines, and it is a pixel high at least.
+    fn steps(&self, edge: usize) -> Signal<'m> {
+        let height = self.vertices.heights[edge];
+        let high = height.slice(height.width() - 1, self.plan.widths().center_fraction).any();
+        self.walked(edge).map_or(high, |walked| walked & high)
+    }
+
+    fn edge_exact(&self, edge: usize, round: usize, lane: &Lane<'m>) {
+        let (m, name) = (self.m, EDGES[edge]);
+        m.comment(&format!("Edge: {name}."));
+        let t = self.plan.widths().center_fraction;
+        let (rest, whole) = (lane.instance.output("rest"), lane.instance.output("whole"));
+        let (steps, height) = (self.steps(edge), self.vertices.heights[edge]);
+        let (f, q) = (self.register(name, "f"), self.register(name, "q"));
+        let after = |op: Op| (self.control.rest.ends_in(op, round), self.control.whole.ends_in(op, round));
+        let (rest_now, whole_now) = after(Op::DoubleDx);
+        f.when(rest_now, steps.mux(rest.slice(rest.width() - 1, t).trunc(f.q().width()), 0));
+        q.when(whole_now, steps.mux(whole.trunc(q.q().width()), 0));
+        let (r, c) = (self.register(name, "r"), self.register(name, "c"));
+        let (rest_now, whole_now) = after(Op::Columns);
+        // From the edge on to the next whole column: M less the rest, where there is one.
+        let onward = m.cat(&[height, m.lit(t, 0)]) - rest.trunc(height.width() + t);
+        let mut there = rest.any();
+        let mut column = lane.instance.output("value").trunc(c.q().width());
+        if let Some(walked) = self.walked(edge) {
+            there = there & walked;
+            column = walked.mux(column, 0);
+        }
+        r.when(rest_now, there.mux(onward.slice(onward.width() - 1, t).trunc(r.q().width()), 0));
+        c.when(whole_now, column);
+    }
+
+    fn edge_slope(&self, edge: usize, round: usize, lane: &Lane<'m>) {
         let name = EDGES[edge];
         self.m.comment(&format!("Edge: {name}."));
-        let (columns, bits) = (self.plan.widths().column, remainder_bits(self.plan));
-        let height = self.vertices.heights[edge];
-        let t = self.plan.widths().center_fraction;
-        let is_high =
-            height.slice(height.width() - 1, t).any().named_doc(&format!("{name}_steps"), "DY >= P");
-        let is_there = height.any().named_doc(&format!("{name}_is_there"), "DY > 0");
-        let (q, f, c, r) = match self.plan.edge_kind {
-            EdgeKind::Exact => {
-                let quotient = lane.output("quotient").trunc(columns);
-                let remainder = lane.output("remainder").trunc(bits);
-                let (c, r) = match self.plan.fill {
-                    // −N was divided: its remainder is that of m.
-                    Fill::Exact => (-quotient, remainder),
-                    // N was divided: m = −1 − floor(N/P).
-                    Fill::Textbook => (quotient + 1, height + !remainder),
-                };
-                (quotient, remainder, c, r)
-            }
-            EdgeKind::Slope => {
-                let rounded = lane.output("rounded").trunc(columns + bits);
-                let m = match self.plan.fill {
-                    Fill::Exact => -rounded,
-                    Fill::Textbook => !rounded,
-                };
-                let whole = |of: Signal<'m>| of.slice(columns + bits - 1, bits);
-                (whole(rounded), rounded.trunc(bits), -whole(m), m.trunc(bits))
-            }
+        let (columns, bits) = (self.plan.widths().column, self.plan.edge_fraction);
+        let rounded = lane.instance.output("value").trunc(columns + bits);
+        let steps = self.steps(edge);
+        let slope = self.control.whole.ends_in(Op::DoubleDx, round);
+        let whole = |of: Signal<'m>| of.slice(columns + bits - 1, bits);
+        self.register(name, "q").when(slope, steps.mux(whole(rounded), 0));
+        self.register(name, "f").when(slope, steps.mux(rounded.trunc(bits), 0));
+        let distance = match self.plan.fill {
+            Fill::Exact => -rounded,
+            Fill::Textbook => !rounded,
         };
-        let (step, start) =
-            (self.control.after_in(Op::EdgeStep, round), self.control.after_in(Op::EdgeStart, round));
-        self.register(name, "q").when(step, is_high.mux(q, 0));
-        self.register(name, "f").when(step, is_high.mux(f, 0));
-        self.register(name, "c").when(start, is_there.mux(c, 0));
-        self.register(name, "r").when(start, is_there.mux(r, 0));
+        let start = self.control.whole.ends_in(Op::DoubleColumns, round);
+        let walked = |value: Signal<'m>| self.walked(edge).map_or(value, |walked| walked.mux(value, 0));
+        self.register(name, "c").when(start, walked(-whole(distance)));
+        self.register(name, "r").when(start, walked(distance.trunc(bits)));
     }
 
-    /// Of vertex 0, or the one the left edge begins at: its value as a word, with the half that makes cutting a rounding if
-    /// the channel is rounded.
-    fn with_half(&self, channel: &Channel, value: Signal<'m>) -> Signal<'m> {
-        let m = self.m;
-        let (r, e) = (channel.fraction, channel.vertex_fraction);
-        let zeros =
-            |bits: u32, value: Signal<'m>| if bits == 0 { value } else { m.cat(&[value, m.lit(bits, 0)]) };
-        match e {
-            _ if r == 0 || !channel.kind.is_rounded() => zeros(r - e, value),
-            0 => zeros(r - 1, m.cat(&[value, m.lit(1, 1)])),
-            _ => zeros(r - e, value + (1 << (e - 1))),
-        }
-    }
-
-    fn channel_exact(&self, channel: &Channel, round: usize, lane: Instance<'m>) {
+    fn channel_exact(&self, channel: &Channel, round: usize, lane: &Lane<'m>) {
         let name = channel.name;
         self.m.comment(&format!("Channel: {name}."));
-        let word = |signal: Signal<'m>| signal.trunc(channel.word());
-        let rounded = word(lane.output("rounded"));
-        let after = |op: Op| self.control.after_in(op, round);
-        self.register(name, "g").when(after(Op::Gx), self.prim["major_right"].q().mux(-rounded, rounded));
-        self.register(name, "d0").when(after(Op::Line), rounded);
-        self.register(name, "d1").when(after(Op::Start), word(lane.output("d1")));
-        let top = self.with_half(channel, self.vertices.value(channel, 0));
-        self.register(name, "start").when(after(Op::Start), rounded + top);
+        let rounded = lane.instance.output("value").trunc(channel.word());
+        let t = self.plan.widths().center_fraction;
+        let start = lane.instance.output("whole").slice(channel.word() + t - 1, t);
+        let after = |op: Op| self.control.whole.ends_in(op, round);
+        let right = self.area.negative;
+        self.register(name, "g").when(after(Op::DoubleX), right.mux(-rounded, rounded));
+        self.register(name, "d0").when(after(Op::SumLine), rounded);
+        self.register(name, "d1").when(after(Op::AddLine), rounded);
+        self.register(name, "start").when(after(Op::AddStart), start);
     }
 
-    fn channel_textbook(&self, channel: &Channel, round: usize, lane: Instance<'m>) {
+    fn channel_textbook(&self, channel: &Channel, round: usize, lane: &Lane<'m>) {
         let name = channel.name;
         self.m.comment(&format!("Channel: {name}."));
-        let rounded = lane.output("rounded").trunc(channel.word());
-        let after = |op: Op| self.control.after_in(op, round);
-        self.register(name, "g").when(after(Op::Gx), rounded);
-        // The left edge begins at vertex 1 only in part 2 of a triangle that lies left of its major edge.
-        let value = |place: usize| self.with_half(channel, self.vertices.value(channel, place));
-        let top_b = self.prim["major_right"].q().mux(value(1), value(0));
-        let parts = [("start_a", Op::StartA, "n1", value(0)), ("start_b", Op::StartB, "n2", top_b)];
-        for (start, op, lines, top) in parts {
+        let rounded = lane.instance.output("value").trunc(channel.word());
+        let after = |op: Op| self.control.whole.ends_in(op, round);
+        self.register(name, "g").when(after(Op::DoubleX), rounded);
+        let results = [
+            ("d_a", Op::DoubleA, "n1"),
+            ("start_a", Op::AddA, "n1"),
+            ("d_b", Op::DoubleB, "n2"),
+            ("start_b", Op::AddB, "n2"),
+        ];
+        for (result, op, lines) in results {
             let used = self.prim[lines].q().any();
-            self.register(name, start).when(after(op), used.mux(rounded + top, 0));
-        }
-        for (line, op, lines) in [("d_a", Op::LineA, "n1"), ("d_b", Op::LineB, "n2")] {
-            let used = self.prim[lines].q().any();
-            self.register(name, line).when(after(op), used.mux(rounded, 0));
+            self.register(name, result).when(after(op), used.mux(rounded, 0));
         }
     }
 }

@@ -21,28 +21,33 @@ pub(super) struct Vertices<'m> {
 }
 
 impl<'m> Vertices<'m> {
-    /// Takes a triangle, then compares and swaps (0,1), (1,2), (0,1), a clock each; equals stay as they were.
+    /// Takes a triangle, sorted by v at the port; of equal v the earlier vertex stays first.
     pub fn new(m: &'m Module, plan: &Plan, control: &Control<'m>, triangle: &Token<'m>) -> Vertices<'m> {
-        m.comment("The vertices, in centre coordinates: pixel centres lie on the multiples of P.");
+        m.comment("The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.");
+        let y = |vertex: usize| triangle[format!("y{vertex}").as_str()];
+        let above = |lower: usize, upper: usize| y(lower).slt(y(upper)).named(&format!("y{lower}_above_y{upper}"));
+        let (above10, above20, above21) = (above(1, 0), above(2, 0), above(2, 1));
+        // Which vertex is the top one, which the bottom one; the third lies between.
+        let top = [!above10 & !above20, above10 & !above21, above20 & above21];
+        let bottom = [above10 & above20, !above10 & above21, !above20 & !above21];
+        let sorted = |place: usize, of: [Signal<'m>; 3]| {
+            let is = |vertex: usize| match place {
+                0 => top[vertex],
+                1 => !top[vertex] & !bottom[vertex],
+                _ => bottom[vertex],
+            };
+            is(1).mux(of[1], is(2).mux(of[2], of[0]))
+        };
         let places: Vec<Registers> =
             (0..3).map(|place| Registers::new(m, &format!("p{place}"), vertex(plan))).collect();
-        let above = |lower: usize, upper: usize| places[lower]["v"].q().slt(places[upper]["v"]);
-        let middle = control.step.eq(1).named("second_clock");
-        let swap01 = (control.sorting & !middle & above(1, 0)).named("swap01");
-        let swap12 = (control.sorting & middle & above(2, 1)).named("swap12");
         for (place, registers) in places.iter().enumerate() {
-            let place_name = place.to_string();
-            let port = |name: String| triangle[name.as_str()];
-            let take = |f: &str| match plan.channels().iter().find(|channel| channel.name == f) {
-                Some(channel) => port(channel.at_vertex(&place_name)),
-                None if f == "u" => center(plan, port(format!("x{place}"))),
-                None => center(plan, port(format!("y{place}"))),
-            };
-            let swaps = [(swap01, [1, 0, 2]), (swap12, [0, 2, 1])];
-            for (swap, order) in swaps.into_iter().filter(|(_, order)| order[place] != place) {
-                registers.load(swap, |f| places[order[place]][f].q());
-            }
-            registers.load(control.take, take);
+            registers.load(control.take, |f| match plan.channels().iter().find(|channel| channel.name == f) {
+                Some(channel) => sorted(place, [0, 1, 2].map(|v| triangle[channel.at_vertex(&v.to_string()).as_str()])),
+                None => {
+                    let axis = if f == "u" { "x" } else { "y" };
+                    center(plan, sorted(place, [0, 1, 2].map(|v| triangle[format!("{axis}{v}").as_str()])))
+                }
+            });
         }
 
         m.comment("Differences of the sorted vertices.");

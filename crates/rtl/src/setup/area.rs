@@ -1,0 +1,39 @@
+//! Twice the area of the triangle: a serial product beside the lanes.
+
+use edgewalk_machine::Plan;
+use edgewalk_netlist::{Module, Signal};
+
+use super::control::Control;
+use super::factors::top;
+use super::sort::Vertices;
+
+/// The triangle's area.
+pub(super) struct Area<'m> {
+    /// du1·dv2 - du2·dv1, 1/P² px², signed, 2·DW bits.
+    pub signed: Signal<'m>,
+    /// It is below 0: the major edge lies right.
+    pub negative: Signal<'m>,
+}
+
+impl<'m> Area<'m> {
+    /// The sum over the bits of dv2 and dv1, the highest first.
+    pub fn new(m: &'m Module, plan: &Plan, control: &Control<'m>, vertices: &Vertices<'m>) -> Area<'m> {
+        m.comment("Twice the area: du1 dv2 - du2 dv1, over the bits of dv2 and dv1.");
+        let bits = 2 * plan.widths().difference;
+        let [tall, upper] = [vertices.heights[0], vertices.heights[1]];
+        let digit = m.reg("area_digit", tall.width().ilog2() + 1).doc("place of the digits added");
+        let adds = m.reg("area_adds", 1).doc("digits are added").reset(0);
+        let last = digit.q().eq(0);
+        digit.when(adds.q(), digit.q() - 1).when(control.begin, top(tall).zext(digit.q().width()));
+        adds.when(adds.q() & last, 0).when(control.begin, 1);
+        let part = |of: Signal<'m>, value: Signal<'m>| {
+            of.shr_by(digit.q()).bit(0).mux(value.sext(value.width() + 1), 0)
+        };
+        let added = (part(tall, vertices.du1) - part(upper, vertices.du2)).named("area_part");
+        let area = m.reg("area", bits).doc("1/P^2 px^2, signed");
+        area.when(adds.q(), area.q().shl(1) + added.sext(bits)).when(control.begin, 0);
+        control.area_known.drive(!adds.q() & !control.begin);
+        control.no_area.drive(!area.q().any());
+        Area { signed: area.q(), negative: area.q().msb() }
+    }
+}

@@ -1,0 +1,129 @@
+//! The factors of the sums that the lanes form, and which of their digits a sum has come to.
+
+use edgewalk_machine::{Fill, Plan};
+use edgewalk_netlist::{Module, Signal};
+
+use super::area::Area;
+use super::control::Control;
+use super::lines::Lines;
+use super::sort::Vertices;
+use super::steps::{Op, edge_of, rounds};
+use crate::wires::Registers;
+
+/// Digits of both factors of a sum: of a, of b.
+type Digits<'m> = [Signal<'m>; 2];
+
+/// The digits that are named in a clock.
+pub(super) struct Factors<'m> {
+    /// For all lanes.
+    pub digits: Digits<'m>,
+    /// For a lane with the second minor edge beside lanes with the others.
+    pub of_second: Digits<'m>,
+    /// Signs of the factors, as digits.
+    pub signs: Digits<'m>,
+}
+
+/// What the factors are made of.
+pub(super) struct Sources<'a, 'm> {
+    pub m: &'m Module,
+    pub plan: &'a Plan,
+    pub control: &'a Control<'m>,
+    pub vertices: &'a Vertices<'m>,
+    pub area: &'a Area<'m>,
+    pub lines: &'a Lines<'m>,
+    pub prim: &'a Registers<'m>,
+}
+
+impl<'m> Sources<'_, 'm> {
+    /// The registers of the factors, and their digits.
+    pub fn factors(&self) -> Factors<'m> {
+        let (m, plan, control, lines) = (self.m, self.plan, self.control, self.lines);
+        m.comment("Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.");
+        let bits = plan.widths().difference + 1;
+        let whole = |value: Signal<'m>| value.sext(bits);
+        let natural = |value: Signal<'m>| value.zext(bits);
+        let none = m.lit(bits, 0);
+        let low = |place: usize| natural(self.low_column(place));
+        let edge = |edge: usize| match edge {
+            0 => [low(0), natural(lines.h0)],
+            1 => [low(0), self.walked("n1").mux(natural(lines.h0), 0)],
+            _ => [low(1), self.walked("n2").mux(natural(lines.h1), 0)],
+        };
+        let of_edges = |side: usize| {
+            let choice = |round: usize| edge_of(plan, 0, round).map_or(none, |number| edge(number)[side]);
+            control.named.of_round(rounds(plan)[0], choice)
+        };
+        let heights = &self.vertices.heights;
+        let mut choices: Vec<(Vec<Op>, [Signal<'m>; 2])> =
+            vec![(vec![Op::WaitDx], [of_edges(0), of_edges(1)]), (vec![Op::Wait], [natural(heights[0]), natural(heights[1])])];
+        match plan.fill {
+            Fill::Exact => {
+                let back = |of: Signal<'m>| -whole(of);
+                choices.push((vec![Op::ModulusY], [back(self.vertices.du2), back(self.vertices.du1)]));
+                choices.push((vec![Op::ModulusLine], [whole(self.prim["major_q"].q()), m.lit(bits, 1)]));
+                let column = self.prim["major_c"].q();
+                let px = column - self.area.negative.zext(column.width());
+                let across = m.cat(&[px, m.lit(plan.widths().center_fraction, 0)]);
+                let across = whole(across) - whole(self.vertices.u(0));
+                choices.push((vec![Op::ModulusStart], [across, natural(lines.h0)]));
+            }
+            Fill::Textbook => {
+                let of_part = |n: &str, h: Signal<'m>| [self.walked(n).mux(natural(h), 0), none];
+                choices.push((vec![Op::DoubleA, Op::WaitA], of_part("n1", lines.left_a)));
+                choices.push((vec![Op::DoubleB, Op::WaitB], of_part("n2", lines.left_b)));
+            }
+        }
+        let of_side = |side: usize, name: &str| {
+            let reg = m.reg(name, bits).doc("factor, signed");
+            for (ops, values) in &choices {
+                reg.when(control.named.one_of(ops), values[side]);
+            }
+            reg.q()
+        };
+        let [f, g] = [of_side(0, "f"), of_side(1, "g")];
+        let differs = |of: Signal<'m>| (of ^ of.sar(1)).trunc(bits - 1);
+        let mut digits = differs(f) | differs(g);
+        let second = [self.low_column(1), lines.h1];
+        if plan.lanes == 4 {
+            let counts = (control.named.is(Op::WaitDx) & self.walked("n2")).named("second_counts");
+            let both = (natural(second[0]) | natural(second[1])).trunc(bits - 1);
+            digits = digits | counts.mux(both, 0);
+        }
+        let digits = digits.named_doc("digits", "digits of the factors that differ from their signs");
+        control.top_digit.drive(top(digits).zext(control.left.width()));
+        let at = |of: Signal<'m>| of.shr_by(control.left).bit(0);
+        Factors {
+            digits: [at(f).named("digit_f"), at(g).named("digit_g")],
+            of_second: second.map(at),
+            signs: [f.msb(), g.msb()],
+        }
+    }
+
+    /// The part of an upper end's column below a whole one; textbook fill adds 1/2, which is 1/P there.
+    fn low_column(&self, place: usize) -> Signal<'m> {
+        let low = self.vertices.u(place).trunc(self.plan.widths().center_fraction);
+        if self.plan.fill == Fill::Textbook { low | 1 } else { low }
+    }
+
+    /// A part has lines.
+    fn walked(&self, lines: &str) -> Signal<'m> {
+        self.prim[lines].q().any()
+    }
+}
+
+/// The place of the highest 1; 0 if there is none.
+pub(super) fn top(bits: Signal<'_>) -> Signal<'_> {
+    let width = bits.width();
+    if width == 1 {
+        return bits.module().lit(1, 0);
+    }
+    let half = width.next_power_of_two() / 2;
+    if half == 1 {
+        return bits.bit(1);
+    }
+    let places = half.ilog2();
+    let (high, low) = (bits.slice(width - 1, half), bits.trunc(half));
+    let any = high.any();
+    let below = any.mux(top(high).zext(places), top(low).zext(places));
+    bits.module().cat(&[any, below])
+}

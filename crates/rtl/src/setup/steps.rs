@@ -1,0 +1,243 @@
+//! What SETUP does in which order: the operations of a round, and the steps of the lanes they are made of.
+
+use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
+
+/// A step of a lane (`docs/machine.md`, section 2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Step {
+    /// Nothing.
+    Rest,
+    /// A number is taken in.
+    Load,
+    /// M is added to it if it is below 0; does it fit?
+    Fix,
+    /// Doubled.
+    Double1,
+    /// Doubled twice.
+    Double2,
+    /// The first digits of a sum.
+    First,
+    /// The next digits of a sum.
+    Next,
+    /// The pair -1 + M/M, which is 0: a sum whose first digits may subtract begins with it.
+    Modulus,
+    /// The sign digits of a sum.
+    Sign,
+    /// A pair is added.
+    Add,
+    /// A whole number is added.
+    Whole,
+    /// A number that does not fit: its sign, M or 0 of the rest.
+    Begin,
+    /// Its sign: M - 1 or 0 of the rest.
+    Less1,
+    /// Its next two digits.
+    Digits,
+}
+
+impl Step {
+    /// Bits of its number.
+    pub const BITS: u32 = 4;
+}
+
+/// An operation of all lanes: one step, or as many as its numbers have digits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Op {
+    /// DX of an edge.
+    LoadDx,
+    FixDx,
+    /// q and f.
+    DoubleDx,
+    /// DY.
+    LoadDy,
+    AddDx,
+    WaitDx,
+    /// N of an edge, without whole columns.
+    Sum,
+    /// Whole columns of the upper end: C and R of an exact edge.
+    Columns,
+    /// C and R of a slope edge.
+    DoubleColumns,
+    RoundColumns,
+    /// dc1 of a channel.
+    Load1,
+    Fix1,
+    /// -dc2.
+    Load2,
+    Fix2,
+    Wait12,
+    /// p1 + p2.
+    Add12,
+    Wait,
+    /// gx.
+    SumX,
+    DoubleX,
+    /// gy.
+    ModulusY,
+    SignY,
+    SumY,
+    DoubleY,
+    /// gx + gy.
+    AddX,
+    WaitXy,
+    /// d0.
+    ModulusLine,
+    SignLine,
+    SumLine,
+    /// d1.
+    AddLine,
+    /// start.
+    ModulusStart,
+    SignStart,
+    SumStart,
+    AddStart,
+    /// Part 1 of textbook fill: another modulus, then DC.
+    SetA,
+    LoadA,
+    FixA,
+    /// dA.
+    DoubleA,
+    WaitA,
+    /// startA.
+    SumA,
+    DoubleStartA,
+    AddA,
+    RoundA,
+    /// Part 2.
+    SetB,
+    LoadB,
+    FixB,
+    /// dB.
+    DoubleB,
+    WaitB,
+    /// startB.
+    SumB,
+    DoubleStartB,
+    AddB,
+    RoundB,
+}
+
+/// How many clocks an operation takes.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Length {
+    Clocks(u32),
+    /// As many as its numbers have digits.
+    Digits,
+    /// Doublings, by the channel; two a clock.
+    Doublings(fn(&Plan, &Channel) -> u32),
+}
+
+/// What an operation does to the lanes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Doing {
+    pub step: Step,
+    pub length: Length,
+    /// The slot read, 0 for none; of sums, whose a, b and a + b are the next three, the one before them.
+    pub slot: u32,
+    /// The slot that takes the result.
+    pub result: Option<u32>,
+}
+
+impl Op {
+    /// The operations on each edge, in their order.
+    pub fn of_edges(plan: &Plan) -> &'static [Op] {
+        use Op::*;
+        match plan.edge_kind {
+            EdgeKind::Exact => &[LoadDx, FixDx, DoubleDx, LoadDy, AddDx, WaitDx, Sum, Columns],
+            EdgeKind::Slope => {
+                &[LoadDx, FixDx, DoubleDx, LoadDy, AddDx, WaitDx, Sum, Columns, DoubleColumns, RoundColumns]
+            }
+        }
+    }
+
+    /// The operations on each channel, in their order.
+    pub fn of_channels(plan: &Plan) -> &'static [Op] {
+        use Op::*;
+        match plan.fill {
+            Fill::Exact => &[
+                Load1, Fix1, Load2, Fix2, Wait12, Add12, Wait, SumX, DoubleX, ModulusY, SignY, SumY, DoubleY, AddX,
+                WaitXy, ModulusLine, SignLine, SumLine, AddLine, ModulusStart, SignStart, SumStart, AddStart,
+            ],
+            Fill::Textbook => &[
+                Load1, Fix1, Load2, Fix2, Wait12, Add12, Wait, SumX, DoubleX, SetA, LoadA, FixA, DoubleA, WaitA, SumA,
+                DoubleStartA, AddA, RoundA, SetB, LoadB, FixB, DoubleB, WaitB, SumB, DoubleStartB, AddB, RoundB,
+            ],
+        }
+    }
+
+    /// What it does.
+    pub fn doing(self) -> Doing {
+        use Op::*;
+        let (step, length, slot, result) = match self {
+            LoadDx | Load1 | Load2 | LoadA | LoadB => (Step::Load, Length::Clocks(1), 0, None),
+            LoadDy => (Step::Load, Length::Clocks(1), 0, Some(1)),
+            FixDx | Fix2 => (Step::Fix, Length::Clocks(1), 0, Some(2)),
+            Fix1 | FixA | FixB => (Step::Fix, Length::Clocks(1), 0, Some(1)),
+            DoubleDx => (Step::Double2, Length::Doublings(of_slope), 0, None),
+            DoubleColumns => (Step::Double2, Length::Doublings(of_columns), 0, None),
+            AddDx => (Step::Add, Length::Clocks(1), 2, Some(3)),
+            Add12 => (Step::Add, Length::Clocks(1), 1, Some(3)),
+            WaitDx | Wait => (Step::Rest, Length::Clocks(2), 0, None),
+            RoundColumns | Wait12 | WaitXy | SetA | WaitA | RoundA | SetB | WaitB | RoundB => {
+                (Step::Rest, Length::Clocks(1), 0, None)
+            }
+            Sum | SumX | SumA | SumB => (Step::First, Length::Digits, 0, None),
+            Columns | AddStart | AddA | AddB => (Step::Whole, Length::Clocks(1), 0, None),
+            DoubleX => (Step::Double2, Length::Doublings(of_gradient), 0, Some(5)),
+            DoubleY => (Step::Double2, Length::Doublings(of_gradient), 0, Some(6)),
+            DoubleStartA | DoubleStartB => (Step::Double2, Length::Doublings(of_gradient), 0, None),
+            DoubleA | DoubleB => (Step::Double2, Length::Doublings(of_left_edge), 0, None),
+            ModulusY | ModulusLine | ModulusStart => (Step::Modulus, Length::Clocks(1), 0, None),
+            SignY => (Step::Sign, Length::Clocks(1), 0, None),
+            SignLine | SignStart => (Step::Sign, Length::Clocks(1), 4, None),
+            SumY => (Step::Next, Length::Digits, 0, None),
+            SumLine | SumStart => (Step::Next, Length::Digits, 4, None),
+            AddX => (Step::Add, Length::Clocks(1), 5, Some(7)),
+            AddLine => (Step::Add, Length::Clocks(1), 5, None),
+        };
+        Doing { step, length, slot, result }
+    }
+
+    /// It is one of those on edges.
+    pub fn is_of_edge(self, plan: &Plan) -> bool {
+        Op::of_edges(plan).contains(&self)
+    }
+}
+
+/// t + F: DX/(P·DY) becomes DX·2^F/DY.
+fn of_slope(plan: &Plan, _: &Channel) -> u32 {
+    plan.widths().center_fraction + of_columns(plan, &plan.channels()[0])
+}
+
+/// F, 0 for an exact edge.
+fn of_columns(plan: &Plan, _: &Channel) -> u32 {
+    if plan.edge_kind == EdgeKind::Slope { plan.edge_fraction } else { 0 }
+}
+
+/// log2 K = t + r - e.
+fn of_gradient(plan: &Plan, channel: &Channel) -> u32 {
+    plan.widths().center_fraction + channel.fraction - channel.vertex_fraction
+}
+
+/// 2 t + r - e: DC/(P·DY) becomes DC·P·2^(r-e)/DY.
+fn of_left_edge(plan: &Plan, channel: &Channel) -> u32 {
+    plan.widths().center_fraction + of_gradient(plan, channel)
+}
+
+/// Edges of a triangle: major, first minor, second minor.
+pub(super) const EDGES: usize = 3;
+
+/// The edge of a lane in a round.
+pub(super) fn edge_of(plan: &Plan, lane: usize, round: usize) -> Option<usize> {
+    Some(lane + round * plan.lanes as usize).filter(|edge| *edge < EDGES)
+}
+
+/// The channel of a lane in a round.
+pub(super) fn channel_of(plan: &Plan, lane: usize, round: usize) -> Option<Channel> {
+    plan.channels().get(lane + round * plan.lanes as usize).copied()
+}
+
+/// Rounds in which the lanes do all edges, and all channels.
+pub(super) fn rounds(plan: &Plan) -> [usize; 2] {
+    [EDGES, plan.channels().len()].map(|jobs| jobs.div_ceil(plan.lanes as usize))
+}
