@@ -16,7 +16,7 @@ pub struct SetupClocks {
 pub fn setup_clocks(plan: &Plan) -> SetupClocks {
     let w = plan.widths();
     let (d, t, g) = (w.difference, w.center_fraction, plan.guard_bits);
-    let k = plan.bits_per_clock();
+    let k = 2;
     let mul = 1 + d.div_ceil(k);
     let div = |bits: u32| 1 + bits.div_ceil(k);
     let word = plan.channels().iter().map(|c| c.word()).max().unwrap_or(0); // there are four at least
