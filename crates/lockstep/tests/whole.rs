@@ -109,7 +109,7 @@ fn hazards_on_one_pixel() {
     for (hazard, fill, inflight) in cases {
         let mut machine =
             Machine { width: 6, height: 6, guard_bits: 3, hazard, inflight, ..Machine::default() };
-        (machine.fill, machine.lanes, machine.radix) = (fill, 4, 16);
+        (machine.fill, machine.lanes) = (fill, 4);
         machine.subpixel_bits = if fill == Fill::Textbook { 0 } else { 2 };
         let plan = machine.plan().expect("can be built");
         let port = Triangles::new(&plan);

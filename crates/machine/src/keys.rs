@@ -97,10 +97,9 @@ pub const KEYS: &[Key] = &[
     number!(
         "setup.lanes",
         OneOf(&[1, 2, 4]),
-        "lanes, each a serial multiplier and divider, that work side by side",
+        "lanes that work side by side, each on a quotient with its exact remainder",
         lanes
     ),
-    number!("setup.radix", OneOf(&[2, 4, 16]), "radix of the lanes: 1, 2 or 4 bits a clock", radix),
     Key {
         name: "edge.fill",
         doc: "fill rule: exact (half-open, top-left) or textbook (inclusive, integer vertices)",

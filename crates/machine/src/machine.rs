@@ -71,10 +71,8 @@ pub struct Machine {
     pub adders: u32,
     /// Segments D of each adder: 1, 2 or 4.
     pub segments: u32,
-    /// Setup lanes, each one serial multiplier-divider: 1, 2 or 4.
+    /// Setup lanes, each with one pair of quotient and remainder: 1, 2 or 4.
     pub lanes: u32,
-    /// Radix of the lanes: 2, 4 or 16.
-    pub radix: u32,
     /// Depth of the span FIFO, spans.
     pub span_fifo: u32,
     /// Depth of the in-flight queue of DEPTH, fragments.
@@ -85,12 +83,4 @@ pub struct Machine {
     pub hazard: Hazard,
     /// Bits of the tag that travels with a triangle to its writes; 0 leaves the ports out.
     pub tag_bits: u32,
-}
-
-impl Machine {
-    /// Setup bits a clock, k = log2(radix).
-    #[must_use]
-    pub fn bits_per_clock(&self) -> u32 {
-        self.radix.ilog2()
-    }
 }

@@ -32,7 +32,6 @@ impl Default for Machine {
             adders: 4,
             segments: 1,
             lanes: 4,
-            radix: 4,
             span_fifo: 2,
             inflight: 4,
             latency: 2,
@@ -57,7 +56,6 @@ impl Machine {
                 adders: 1,
                 segments: 4,
                 lanes: 1,
-                radix: 2,
                 hazard: Hazard::Drain,
                 ..Machine::default()
             }),

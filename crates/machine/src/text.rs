@@ -216,6 +216,7 @@ mod tests {
         let cases = [
             ("[screen]\nwidht = 3\n", "line 2: unknown key screen.widht; nearest: screen.width"),
             ("[screen]\nwidth = 0\n", "line 2: screen.width = 0 is not permitted (1 to 8192); nearest: 1"),
+            ("[setup]\nradix = 4\n", "line 2: unknown key setup.radix; nearest: setup.lanes"),
             ("[setup]\nlanes = 3\n", "line 2: setup.lanes = 3 is not permitted (1, 2, 4); nearest: 2"),
             (
                 "[edge]\nfill = \"textbok\"\n",

@@ -22,8 +22,12 @@ macro_rules! events {
 }
 
 events! {
-    /// Triangles that draw nothing.
-    culled,
+    /// Triangles without a line on the screen.
+    culled_lines,
+    /// Triangles with lines, but without a column on the screen.
+    culled_columns,
+    /// Triangles with lines and columns, but without area.
+    culled_area,
     /// Triangles whose major edge lies left.
     major_left,
     /// Triangles whose major edge lies right.

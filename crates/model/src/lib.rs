@@ -32,5 +32,5 @@ pub use frame::{Drawn, Frame, Sample, render, render_with};
 pub use machine::{Inputs, Model, Outputs};
 pub use memory::{Memory, Stalls};
 pub use run::{Cycle, DrawState, Rig};
-pub use setup::{SetupClocks, setup_clocks};
+pub use setup::{Culled, SetupClocks, longest_setup, setup_clocks};
 pub use tokens::Write;

@@ -21,7 +21,6 @@ fn nothing_is_missing() {
                     ("screen.guard_bits", "6"),
                     ("screen.subpixel_bits", s),
                     ("edge.fill", fill),
-                    ("setup.radix", "16"),
                     ("formats.z_bits", "4"),
                     ("formats.z_fraction", "8"),
                     ("memory.hazard", hazard),

@@ -103,7 +103,13 @@ fn every_triangle_on_a_small_grid() {
             .collect();
         events.merge(&check(name, &machine, &triangles).1);
     }
-    assert!(events.culled > 0 && events.knee_on_line > 0, "{events:?}");
+    assert!(
+        events.culled_area > 0
+            && events.culled_lines > 0
+            && events.culled_columns > 0
+            && events.knee_on_line > 0,
+        "{events:?}"
+    );
     assert!(events.no_upper_part > 0 && events.no_lower_part > 0, "{events:?}");
 }
 

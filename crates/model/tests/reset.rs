@@ -18,7 +18,6 @@ fn a_reset_machine_is_a_new_machine() {
                 ("screen.subpixel_bits", s),
                 ("edge.fill", fill),
                 ("interpolator.segments", "4"),
-                ("setup.radix", "16"),
             ]);
             let triangles: Vec<_> = (0..20).map(|_| random_triangle(&machine, 40.0, &mut rng)).collect();
             // Drives a machine for some cycles; what it shows in each.

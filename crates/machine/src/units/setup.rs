@@ -2,7 +2,7 @@
 
 use super::{always, tokens};
 use crate::link::Link;
-use crate::machine::Machine;
+use crate::machine::{Fill, Machine};
 use crate::plan::Plan;
 use crate::unit::{Event, Ports, UnitSpec};
 
@@ -26,7 +26,17 @@ fn ports(plan: &Plan) -> Ports {
 }
 
 const EVENTS: &[Event] = &[
-    Event { name: "culled", doc: "triangles that draw nothing", can_happen: always },
+    Event { name: "culled_lines", doc: "triangles without a line on the screen", can_happen: always },
+    Event {
+        name: "culled_columns",
+        doc: "triangles with lines, but without a column on the screen",
+        can_happen: |plan| plan.fill == Fill::Exact,
+    },
+    Event {
+        name: "culled_area",
+        doc: "triangles with lines and columns, but without area",
+        can_happen: always,
+    },
     Event { name: "major_left", doc: "triangles whose major edge lies left", can_happen: always },
     Event { name: "major_right", doc: "triangles whose major edge lies right", can_happen: always },
     Event {

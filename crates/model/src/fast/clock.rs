@@ -23,7 +23,7 @@ use super::inflight::InFlight;
 use super::walk::Span;
 use crate::counters::Counters;
 use crate::fifo::Fifo;
-use crate::setup::{SetupClocks, setup_clocks};
+use crate::setup::SetupClocks;
 use edgewalk_machine::{Activity, Hazard, Plan};
 
 /// The last fragment of a span, as DEPTH sees it.
@@ -54,7 +54,6 @@ struct Fence {
 /// The times of the machine, from triangle to triangle.
 #[derive(Clone, Debug)]
 pub(super) struct Clock {
-    setup: SetupClocks,
     span_fifo: usize,
     /// T: clocks a pixel.
     pixel: u64,
@@ -90,7 +89,6 @@ pub(super) struct Clock {
 impl Clock {
     pub(super) fn new(plan: &Plan, depth_write: bool) -> Self {
         Clock {
-            setup: setup_clocks(plan),
             span_fifo: plan.span_fifo as usize,
             pixel: u64::from(plan.clocks_per_pixel()),
             segments: u64::from(plan.segments),
@@ -114,15 +112,15 @@ impl Clock {
     }
 
     /// A triangle that SETUP culls.
-    pub(super) fn culled(&mut self) {
+    pub(super) fn culled(&mut self, setup: SetupClocks) {
         self.enter_setup();
-        self.take += u64::from(self.setup.phase1) + 1;
+        self.take += u64::from(setup.phase1) + 1;
     }
 
     /// A triangle that EDGE takes; its lines follow.
-    pub(super) fn triangle(&mut self) {
+    pub(super) fn triangle(&mut self, setup: SetupClocks) {
         self.enter_setup();
-        let ready = self.take + u64::from(self.setup.phase1) + u64::from(self.setup.phase2) + 1;
+        let ready = self.take + u64::from(setup.all()) + 1;
         let prim = ready.max(self.edge_free);
         self.take = prim + 1;
         self.line = prim + 1;

@@ -9,6 +9,7 @@ use super::walk::{Span, Walker};
 use super::{Reason, Refusal};
 use crate::counters::Counters;
 use crate::run::DrawState;
+use crate::setup::SetupClocks;
 use crate::tokens::{FEW, Prim};
 use edgewalk_machine::{Plan, PortVertex};
 
@@ -33,8 +34,8 @@ pub(super) fn draw<P: Pixel, const DETAILS: bool>(
         plan.accept(&vertices, frame.counters.triangles)?;
         frame.counters.triangles += 1;
         match setup.increments(&vertices) {
-            Some(prim) => frame.triangle::<DETAILS>(&walker, &prim, id as i32),
-            None => frame.clock.culled(),
+            (clocks, Some(prim)) => frame.triangle::<DETAILS>(&walker, clocks, &prim, id as i32),
+            (clocks, None) => frame.clock.culled(clocks),
         }
         if frame.clock.interlocked() {
             return Err(Reason::Interlock.into());
@@ -58,8 +59,14 @@ impl<P: Pixel> Frame<'_, P> {
     /// All lines are walked before the first is drawn, so that the memory has time to come near. But a part is drawn
     /// before the clock meets the fence of the next: there it wants to know who passed.
     #[inline(always)]
-    fn triangle<const DETAILS: bool>(&mut self, walker: &Walker, prim: &Prim<FEW>, id: i32) {
-        self.clock.triangle();
+    fn triangle<const DETAILS: bool>(
+        &mut self,
+        walker: &Walker,
+        clocks: SetupClocks,
+        prim: &Prim<FEW>,
+        id: i32,
+    ) {
+        self.clock.triangle(clocks);
         let mut walk = walker.walk(prim);
         let ramp = Ramp::new(walk.gradient);
         let to_left = prim.major_right && !walker.textbook;

@@ -1,10 +1,13 @@
-//! SETUP's results with divisions that take a few clocks each, in 64 bits.
+//! SETUP's results and clocks with divisions that take a few clocks each, in 64 bits.
 //!
 //! Only for exact fill and exact edges, formats whose differences over the screen fit in 62 bits, and triangles whose
 //! numerators do; all else is left to the plain setup, with its 128 bits. Rules: `docs/machine.md`, section 2.
 
 use super::divide::{Divisor, Shift};
-use crate::setup;
+use crate::setup::clocks::Timing;
+use crate::setup::edges::Parts;
+use crate::setup::sort::{Corner, Sorted};
+use crate::setup::{self, SetupClocks};
 use crate::tokens::{EdgeWalk, FEW, Prim, Source, per_channel, sign_extend, word_masks};
 use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex};
 use std::array::from_fn;
@@ -15,8 +18,10 @@ type Words = crate::tokens::Words<FEW>;
 #[derive(Clone, Debug)]
 pub(super) struct Setup {
     plan: Plan,
+    timing: Timing,
     /// The plain setup does it all.
     plain: bool,
+    width: i64,
     height: i64,
     /// log2 P.
     t: u32,
@@ -37,14 +42,6 @@ pub(super) struct Setup {
     half: Words,
 }
 
-/// A vertex in centre coordinates.
-#[derive(Clone, Copy)]
-struct Corner {
-    u: i64,
-    v: i64,
-    value: [i64; 4],
-}
-
 /// A number was too long for 62 bits, or a quotient for the division.
 struct TooLong;
 
@@ -58,7 +55,9 @@ impl Setup {
         let value_bits: [u32; FEW] = per_channel(plan, |c| c.fraction - c.vertex_fraction);
         Setup {
             plan: plan.clone(),
+            timing: Timing::new(plan),
             plain: !exact || difference_bits + w.difference > 62,
+            width: i64::from(plan.width),
             height: i64::from(plan.height),
             t: w.center_fraction,
             unused: 32 - w.vertex,
@@ -75,34 +74,42 @@ impl Setup {
         }
     }
 
-    /// The increments of a triangle, without tag and number; `None` if it is culled.
+    /// The clocks and increments of a triangle, without tag and number; `None` if it is culled.
     #[inline(always)]
-    pub(super) fn increments(&self, vertices: &[PortVertex; 3]) -> Option<Prim<FEW>> {
+    pub(super) fn increments(&self, vertices: &[PortVertex; 3]) -> (SetupClocks, Option<Prim<FEW>>) {
         if !self.plain
-            && let Ok(prim) = self.short(vertices)
+            && let Ok(done) = self.short(vertices)
         {
-            return prim;
+            return done;
         }
-        setup::increments(&self.plan, vertices)
+        let (clocks, prim) = setup::increments(&self.plan, &self.timing, vertices);
+        (clocks, prim.ok())
     }
 
     /// The same in 64 bits.
     #[inline(always)]
-    fn short(&self, vertices: &[PortVertex; 3]) -> Result<Option<Prim<FEW>>, TooLong> {
-        let [a, b, c] = &self.sorted(vertices);
+    fn short(&self, vertices: &[PortVertex; 3]) -> Result<(SetupClocks, Option<Prim<FEW>>), TooLong> {
+        let sorted = self.sorted(vertices);
+        let [a, b, c] = &sorted.corners;
         let (du1, dv1, du2, dv2) = (b.u - a.u, b.v - a.v, c.u - a.u, c.v - a.v);
-        let area = du1 * dv2 - du2 * dv1;
         let [top, knee, bottom] = [a, b, c].map(|corner| -(-corner.v >> self.t)); // rounded up
         let j0 = top.max(0);
         let end = bottom.min(self.height).max(j0);
         let j1 = knee.clamp(j0, end);
-        if area == 0 || end == j0 {
-            return Ok(None);
+        let [left, right] = self.columns([a.u, b.u, c.u]);
+        if end == j0 || right <= left {
+            return Ok((self.timing.culled(), None));
+        }
+        let parts = Parts { first: [j0, j1], lines: [(j1 - j0) as u32, (end - j1) as u32] };
+        let phase1 = self.timing.phase1(&sorted, &parts);
+        let area = du1 * dv2 - du2 * dv1;
+        if area == 0 {
+            return Ok((SetupClocks { phase1, phase2: 0 }, None));
         }
         let line = if j1 > j0 { j0 } else { j1 };
         let major_right = area < 0;
-        let major = self.walk(a, c, line);
-        let minor = [self.walk(a, b, j0), self.walk(b, c, j1)];
+        let major = self.walk(a, c, line, true);
+        let minor = [self.walk(a, b, j0, j1 > j0), self.walk(b, c, j1, end > j1)];
 
         // From the first vertex to the first pixel.
         let x = i64::from(major.c) - i64::from(major_right);
@@ -116,8 +123,8 @@ impl Setup {
             return Err(TooLong);
         }
         let sign = if major_right { -1 } else { 1 };
-        let dc1: [i64; 4] = from_fn(|i| (b.value[i] - a.value[i]).wrapping_mul(sign));
-        let dc2: [i64; 4] = from_fn(|i| (c.value[i] - a.value[i]).wrapping_mul(sign));
+        let dc1: [i64; 4] = from_fn(|i| (b.values[i] - a.values[i]).wrapping_mul(sign));
+        let dc2: [i64; 4] = from_fn(|i| (c.values[i] - a.values[i]).wrapping_mul(sign));
         let nx: [i64; 4] = from_fn(|i| dc1[i].wrapping_mul(dv2).wrapping_sub(dc2[i].wrapping_mul(dv1)));
         let ny: [i64; 4] = from_fn(|i| dc2[i].wrapping_mul(du1).wrapping_sub(dc1[i].wrapping_mul(du2)));
         let n0: [i64; 4] = from_fn(|i| ny[i].wrapping_add(nx[i].wrapping_mul(q)));
@@ -132,15 +139,15 @@ impl Setup {
             return Err(TooLong);
         }
         let word = |values: [i64; 4]| -> Words { from_fn(|i| values[i] as u64 & self.word_masks[i]) };
-        Ok(Some(Prim {
+        let prim = Prim {
             line: line as u32,
-            lines: [(j1 - j0) as u32, (end - j1) as u32],
+            lines: parts.lines,
             major_right,
             major,
             minor,
             start: [
                 from_fn(|i| {
-                    let value = (a.value[i] as u64) << self.value_bits[i];
+                    let value = (a.values[i] as u64) << self.value_bits[i];
                     (start[i] as u64).wrapping_add(value).wrapping_add(self.half[i]) & self.word_masks[i]
                 }),
                 [0; 4],
@@ -148,34 +155,44 @@ impl Setup {
             delta: [word(d0), word(d1)],
             gradient: word(gx.map(|g| g.wrapping_mul(sign))),
             source: Source::default(),
-        }))
+        };
+        let phase2 = self.timing.phase2(&sorted, &parts, &prim);
+        Ok((SetupClocks { phase1, phase2 }, Some(prim)))
     }
 
     /// Top first; of equal v the earlier comes first.
     #[inline(always)]
-    fn sorted(&self, vertices: &[PortVertex; 3]) -> [Corner; 3] {
+    fn sorted(&self, vertices: &[PortVertex; 3]) -> Sorted<FEW> {
         let centre = |x: i32| ((x << self.unused >> self.unused) << self.double) - self.offset;
         let [v0, v1, v2] = [0, 1, 2].map(|i| centre(vertices[i].y()));
         let mut order = [0; 3];
         order[usize::from(v1 < v0) + usize::from(v2 < v0)] = 0;
         order[usize::from(v0 <= v1) + usize::from(v2 < v1)] = 1;
         order[usize::from(v0 <= v2) + usize::from(v1 <= v2)] = 2;
-        order.map(|k: usize| {
+        let corners = order.map(|k: usize| {
             let vertex = &vertices[k];
             Corner {
                 u: i64::from(centre(vertex.x())),
                 v: i64::from(centre(vertex.y())),
-                value: from_fn(|i| vertex.values()[i] & self.vertex_masks[i]),
+                values: from_fn(|i| vertex.values()[i] & self.vertex_masks[i]),
             }
-        })
+        });
+        Sorted { corners }
+    }
+
+    /// k0 and k1: the first column that may have a pixel, and the first behind the last.
+    #[inline(always)]
+    fn columns(&self, u: [i64; 3]) -> [i64; 2] {
+        let [a, b, c] = u.map(|u| -(-u >> self.t)); // rounded up
+        [a.min(b).min(c).max(0), a.max(b).max(c).min(self.width)]
     }
 
     /// The exact edge from `a` down to `b`, as it stands on line `j`.
     #[inline(always)]
-    fn walk(&self, a: &Corner, b: &Corner, j: i64) -> EdgeWalk {
+    fn walk(&self, a: &Corner<FEW>, b: &Corner<FEW>, j: i64, walked: bool) -> EdgeWalk {
         let (dx, dy) = (b.u - a.u, b.v - a.v);
-        if dy == 0 {
-            return EdgeWalk::default();
+        if !walked {
+            return EdgeWalk { m: dy as i32, ..EdgeWalk::default() };
         }
         let divisor = Divisor::new(dy);
         let n = a.u * dy + ((j << self.t) - a.v) * dx;

@@ -26,13 +26,8 @@ pub(super) fn prepare<const C: usize>(plan: &Plan, sorted: &Sorted<C>, parts: &P
             }
             Fill::Textbook => {
                 for part in 0..2 {
-                    let [a, b, c] = &sorted.corners;
-                    let (from, to) = match (prim.major_right, part) {
-                        (false, _) => (a, c),
-                        (true, 0) => (a, b),
-                        (true, _) => (b, c),
-                    };
                     if parts.lines[part] > 0 {
+                        let (from, to) = sorted.left_edge(part);
                         let (start, delta) = left_edge(plan, from, to, parts.first[part], i, channel);
                         prim.start[part][i] = word(i, start);
                         prim.delta[part][i] = word(i, delta);
@@ -61,9 +56,10 @@ fn left_edge<const C: usize>(
 ) -> (i128, i128) {
     let (shift, half) = scale(channel);
     let p = 1i64 << plan.widths().center_fraction;
-    let dc = b.values[i] - a.values[i];
+    let dc = i128::from(b.values[i] - a.values[i]);
     let dy = i128::from(b.v - a.v);
-    let start = round_div((dc * i128::from(j * p - a.v)) << shift, dy) + (a.values[i] << shift) + half;
+    let start =
+        round_div((dc * i128::from(j * p - a.v)) << shift, dy) + (i128::from(a.values[i]) << shift) + half;
     (start, round_div((dc * i128::from(p)) << shift, dy))
 }
 
@@ -86,8 +82,7 @@ impl<'a, const C: usize> Plane<'a, C> {
     fn new(plan: &Plan, sorted: &'a Sorted<C>, i: usize, channel: &Channel) -> Self {
         let [top, b, c] = &sorted.corners;
         let area = sorted.area();
-        let sign = if area < 0 { -1 } else { 1 };
-        let (dc1, dc2) = (sign * (b.values[i] - top.values[i]), sign * (c.values[i] - top.values[i]));
+        let [dc1, dc2] = [b, c].map(|to| i128::from(area.signum() * (to.values[i] - top.values[i])));
         let difference = |to: i64, from: i64| i128::from(to - from);
         let (shift, half) = scale(channel);
         Plane {
@@ -96,8 +91,8 @@ impl<'a, const C: usize> Plane<'a, C> {
                 dc1 * difference(c.v, top.v) - dc2 * difference(b.v, top.v),
                 difference(b.u, top.u) * dc2 - difference(c.u, top.u) * dc1,
             ],
-            area: area.abs(),
-            value: top.values[i],
+            area: i128::from(area.abs()),
+            value: i128::from(top.values[i]),
             t: plan.widths().center_fraction,
             shift,
             half,

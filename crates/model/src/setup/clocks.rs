@@ -1,60 +1,322 @@
-//! How long SETUP takes: serial lanes, k bits a clock.
+//! How long SETUP takes over a triangle: counts of bits, as its lanes go through numbers a bit or two a clock.
+//!
+//! Rules: `docs/machine.md`, section 2, "Pairs". All that is the same for every triangle is added up once, in [`Timing`].
 
+use super::edges::Parts;
+use super::sort::{Corner, Sorted};
+use crate::tokens::Prim;
 use edgewalk_machine::{EdgeKind, Fill, Plan};
 
 /// Clocks of a triangle in SETUP.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SetupClocks {
-    /// S1: sorting, edges, area, cull.
+    /// S1: edges, area, cull.
     pub phase1: u32,
-    /// S2: the channels.
+    /// S2: the channels; 0 of a triangle that is culled.
     pub phase2: u32,
 }
 
-/// S1 and S2 of a machine (`docs/machine.md`, section 2).
+impl SetupClocks {
+    /// Of both phases.
+    #[must_use]
+    pub fn all(self) -> u32 {
+        self.phase1 + self.phase2
+    }
+}
+
+/// S1 of a triangle that is culled by lines or columns.
+const SEEN_AT_ONCE: u32 = 2;
+/// Taking in a number that fits: one clock loads it, one tests it.
+const FITS: u32 = 2;
+/// So far are lanes and results behind the steps of the channels.
+const BEHIND: u32 = 4;
+
+/// The channels that the lanes do side by side.
+#[derive(Clone, Copy, Debug)]
+struct Round {
+    /// A bit a channel.
+    channels: u32,
+    /// Clocks for taking in numbers that do not all fit.
+    long: u32,
+}
+
+/// The clocks of a machine's steps.
+#[derive(Clone, Debug)]
+pub(crate) struct Timing {
+    lanes: usize,
+    textbook: bool,
+    /// log2 P.
+    t: u32,
+    /// Bits of a difference of coordinates: DW.
+    difference: u32,
+    /// Bits of a column: COLW.
+    column: u32,
+    /// Clocks of a round of edges, less those of DX and of the sum.
+    edges: u32,
+    /// Clocks for taking in DX, if not all of them fit.
+    long: u32,
+    rounds: Vec<Round>,
+    /// S2, less the clocks of what is taken in and of the bits of sums.
+    channels: u32,
+}
+
+impl Timing {
+    pub(crate) fn new(plan: &Plan) -> Self {
+        let w = plan.widths();
+        let t = w.center_fraction;
+        let textbook = plan.fill == Fill::Textbook;
+        let lanes = plan.lanes as usize;
+        let long = |bits: u32| 5 + bits.div_ceil(2);
+        let (fraction, rounding) = match plan.edge_kind {
+            EdgeKind::Exact => (0, 0),
+            EdgeKind::Slope => (plan.edge_fraction, plan.edge_fraction.div_ceil(2) + 1),
+        };
+        let mut rounds = Vec::new();
+        let mut channels = BEHIND;
+        for (i, round) in plan.channels().chunks(lanes).enumerate() {
+            let most = |clocks: &dyn Fn(u32) -> u32| {
+                round.iter().map(|c| clocks(c.fraction - c.vertex_fraction)).max().unwrap_or(0) // never empty
+            };
+            let (dbl, dbl2) = (most(&|up| (t + up).div_ceil(2)), most(&|up| (2 * t + up).div_ceil(2)));
+            let bits = round.iter().map(|c| c.vertex_bits()).max().unwrap_or(0);
+            rounds.push(Round { channels: ((1 << round.len()) - 1) << (i * lanes), long: long(bits) });
+            let gx = 2 + 2 + dbl;
+            channels += gx
+                + if textbook {
+                    2 * (1 + dbl2 + 1 + dbl + 2)
+                } else {
+                    let (gy, d0, d1, start) = (1 + dbl + 1, 2, 1, 1 + 1);
+                    gy + d0 + d1 + start
+                };
+        }
+        Timing {
+            lanes,
+            textbook,
+            t,
+            difference: w.difference,
+            column: w.column,
+            edges: (t + fraction).div_ceil(2) + 2 + 2 + 1 + rounding,
+            long: long(w.difference - 1),
+            rounds,
+            channels,
+        }
+    }
+
+    /// Of a triangle that is culled by lines or columns.
+    pub(crate) fn culled(&self) -> SetupClocks {
+        SetupClocks { phase1: SEEN_AT_ONCE, phase2: 0 }
+    }
+
+    /// S1 of any other.
+    #[inline(always)]
+    pub(crate) fn phase1<const C: usize>(&self, sorted: &Sorted<C>, parts: &Parts) -> u32 {
+        let [a, b, c] = &sorted.corners;
+        let (first, walked) = (parts.first, parts.lines.map(|lines| lines > 0));
+        let edges = [(a, c, parts.drawn(), true), (a, b, first[0], walked[0]), (b, c, first[1], walked[1])];
+        let offset = i64::from(self.textbook);
+        let mut clocks = 0;
+        for round in edges.chunks(self.lanes) {
+            let (mut all_fit, mut factors) = (true, 0);
+            for (from, to, j, walked) in round {
+                if *walked {
+                    all_fit &= fits(to.u - from.u, (to.v - from.v) << self.t);
+                    factors |= (from.u + offset) & ((1 << self.t) - 1);
+                    factors |= (j << self.t) - from.v;
+                }
+            }
+            clocks += self.edges + if all_fit { FITS } else { self.long } + unsigned(factors);
+        }
+        clocks.max(unsigned(c.v - a.v) + 2)
+    }
+
+    /// S2 of a triangle whose edges are known.
+    #[inline(always)]
+    pub(crate) fn phase2<const C: usize>(&self, sorted: &Sorted<C>, parts: &Parts, prim: &Prim<C>) -> u32 {
+        let [a, b, c] = &sorted.corners;
+        let area = sorted.area();
+        let sign = area.signum();
+        let (du1, dv1, du2, dv2) = (b.u - a.u, b.v - a.v, c.u - a.u, c.v - a.v);
+        let gx = self.take_in::<C>(area.abs(), |i| sign * (b.values[i] - a.values[i]))
+            + self.take_in::<C>(area.abs(), |i| -sign * (c.values[i] - a.values[i]))
+            + self.sums(unsigned(dv1 | dv2));
+        let rest = if self.textbook {
+            [0, 1].map(|part| self.part(sorted, parts, part)).iter().sum()
+        } else {
+            let x = i64::from(prim.major.c) - i64::from(prim.major_right);
+            let first = [(x << self.t) - a.u, (i64::from(prim.line) << self.t) - a.v];
+            self.sums(signed([-du2, -du1]) + signed([i64::from(prim.major.q)]) + signed(first))
+        };
+        self.channels + gx + rest
+    }
+
+    /// What a part's left edge adds in textbook fill.
+    fn part<const C: usize>(&self, sorted: &Sorted<C>, parts: &Parts, part: usize) -> u32 {
+        if parts.lines[part] == 0 {
+            return self.sums(FITS + unsigned(0));
+        }
+        let (from, to): (&Corner<C>, &Corner<C>) = sorted.left_edge(part);
+        let taken = self.take_in::<C>((to.v - from.v) << self.t, |i| to.values[i] - from.values[i]);
+        taken + self.sums(unsigned((parts.first[part] << self.t) - from.v))
+    }
+
+    /// Takes in a number of every channel, modulo `m`.
+    #[inline(always)]
+    fn take_in<const C: usize>(&self, m: i64, number: impl Fn(usize) -> i64) -> u32 {
+        let mut long = 0u32;
+        for i in 0..C {
+            long |= u32::from(!fits(number(i), m)) << i;
+        }
+        self.rounds.iter().map(|round| if long & round.channels == 0 { FITS } else { round.long }).sum()
+    }
+
+    /// The same clocks in every round of the channels.
+    #[inline(always)]
+    fn sums(&self, clocks: u32) -> u32 {
+        self.rounds.len() as u32 * clocks
+    }
+
+    /// Of a triangle none of whose numbers fits, and whose factors are as long as their formats.
+    fn longest(&self) -> SetupClocks {
+        let rounds = 3usize.div_ceil(self.lanes) as u32;
+        let taken: u32 = self.rounds.iter().map(|round| round.long).sum();
+        let unsigned = self.difference - 1;
+        let (numbers, sums) = if self.textbook {
+            (4, 3 * unsigned)
+        } else {
+            (2, unsigned + self.difference + self.column + self.difference)
+        };
+        SetupClocks {
+            phase1: rounds * (self.edges + self.long + unsigned),
+            phase2: self.channels + numbers * taken + self.sums(sums),
+        }
+    }
+}
+
+/// More clocks than any triangle of this machine takes, or as many: a bound from formats alone.
 #[must_use]
-pub fn setup_clocks(plan: &Plan) -> SetupClocks {
-    let w = plan.widths();
-    let (d, t, g) = (w.difference, w.center_fraction, plan.guard_bits);
-    let k = plan.bits_per_clock();
-    let mul = 1 + d.div_ceil(k);
-    let div = |bits: u32| 1 + bits.div_ceil(k);
-    let word = plan.channels().iter().map(|c| c.word()).max().unwrap_or(0); // there are four at least
-    let (div_q, div_c) = match plan.edge_kind {
-        EdgeKind::Exact => (div(d - 1), div(2 * d - 1 - t)),
-        EdgeKind::Slope => (div(d - 1 + plan.edge_fraction), div(2 * d - 1 + plan.edge_fraction)),
-    };
-    let t1 = div_q + mul + div_c;
-    let t2 = match plan.fill {
-        Fill::Exact => 4 * mul + div(d + word + t) + div(d + word + g + 2 + t) + div(2 * d + word),
-        Fill::Textbook => 3 * mul + 5 * div(d + word + t),
-    };
-    let channels = plan.channels().len() as u32; // at most 8
-    SetupClocks { phase1: 3 + 4 / plan.lanes * t1, phase2: 1 + channels.div_ceil(plan.lanes) * t2 }
+pub fn longest_setup(plan: &Plan) -> SetupClocks {
+    Timing::new(plan).longest()
+}
+
+/// D/M is in [-1, 1): the pair is had by testing.
+#[inline(always)]
+fn fits(d: i64, m: i64) -> bool {
+    -m <= d && d < m
+}
+
+/// u: bits of the longest of some numbers >= 0, at least 1; `all` is their or.
+#[inline(always)]
+fn unsigned(all: i64) -> u32 {
+    64 - (all | 1).leading_zeros()
+}
+
+/// s: the same in two's complement, at least 2.
+#[inline(always)]
+fn signed<const N: usize>(numbers: [i64; N]) -> u32 {
+    1 + unsigned(numbers.iter().fold(0, |all, n| all | (n ^ (n >> 63))))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::setup_clocks;
     use edgewalk_machine::Machine;
 
+    /// S1 and S2 of a triangle, corners in pixels, all values 100 but depths that are `z` higher.
+    fn clocks(machine: &Machine, corners: [[i32; 2]; 3], z: [i64; 3]) -> [u32; 2] {
+        let plan = machine.plan().expect("can be built");
+        let place = |px: i32| px << plan.subpixel_bits;
+        let vertex = |i: usize| {
+            plan.raw_vertex(place(corners[i][0]), place(corners[i][1]), &[100 + z[i], 100, 100, 100])
+        };
+        let SetupClocks { phase1, phase2 } = setup_clocks(&plan, &[0, 1, 2].map(vertex));
+        [phase1, phase2]
+    }
+
+    /// Half of a square of two pixels: u0, v0 and u2 are 384, the others 896; n1 = 0, C = 2, q = 0, A = 2^18.
+    const HALF: [[i32; 2]; 3] = [[2, 2], [4, 2], [2, 4]];
+
     #[test]
-    fn worked_by_hand() {
-        // DW = 23, k = 2: MUL 13, DIVq 12, DIVc 20; DIV(69) 36, DIV(84) 43, DIV(84) 43.
-        assert_eq!(
-            setup_clocks(&Plan::default()),
-            SetupClocks { phase1: 3 + 45, phase2: 1 + 4 * 13 + 36 + 43 + 43 }
-        );
-        // T2 is 174, and five channels take two turns of four lanes, three of two and five of one.
-        for (lanes, turns) in [(4, 2), (2, 3), (1, 5)] {
-            let plan = Machine { extra: 1, lanes, ..Machine::default() }.plan().expect("can be built");
-            assert_eq!(setup_clocks(&plan).phase2, 1 + turns * 174);
+    fn exact_by_hand() {
+        // Two edges: DX, 16 doublings, DY, wait, u(128) = 8, whole part; the one that is not walked asks for u = 1.
+        let (edge, idle) = (2 + 4 + 2 + 2 + 8 + 1, 2 + 4 + 2 + 2 + 1 + 1);
+        // dc1, dc2, p1 + p2, wait; gx, u(512) = 10 and 18 doublings; gy, s(-512) = 10; gx + gy; wait, s(0) = 2; d1;
+        // s(128) = 9; the value.
+        let round = 2 + 2 + 2 + 2 + (10 + 9) + (1 + 10 + 9) + 1 + (2 + 2) + 1 + (1 + 9) + 1;
+        for (lanes, phase1, rounds) in [(4, edge, 1), (2, edge + edge, 2), (1, edge + idle + edge, 4)] {
+            let machine = Machine { lanes, ..Machine::default() };
+            assert_eq!(clocks(&machine, HALF, [0; 3]), [phase1, rounds * round + 4], "{lanes} lanes");
         }
-        // DW = 16, k = 1, one lane, F = 16: MUL 17, DIVq 32, DIVc 48; DIV(16 + 30 + 1) 48.
-        let textbook = Plan::preset("textbook").expect("a preset");
-        assert_eq!(
-            setup_clocks(&textbook),
-            SetupClocks { phase1: 3 + 4 * (32 + 17 + 48), phase2: 1 + 4 * (3 * 17 + 5 * 48) }
-        );
+        // Five channels on four lanes.
+        let five = Machine { extra: 1, ..Machine::default() }.plan().expect("can be built");
+        let vertices = HALF.map(|[x, y]| five.raw_vertex(x << 8, y << 8, &[100; 5]));
+        assert_eq!(setup_clocks(&five, &vertices).phase2, 2 * round + 4);
+        // A slope of 16 fraction bits: 8 clocks of doubling more, 8 after the sum, and rounding.
+        let slope = Machine { edge_kind: EdgeKind::Slope, ..Machine::default() };
+        assert_eq!(clocks(&slope, HALF, [0; 3]), [edge + 8 + 8 + 1, round + 4]);
+    }
+
+    #[test]
+    fn numbers_fit_from_minus_m_to_below_m() {
+        let area = 1 << 18;
+        // 28 bits of z are taken in by 5 + 14 clocks: on four lanes all wait for it, on one lane only it.
+        for (z, long) in [([0, area - 1, 0], 0), ([0, area, 0], 1), ([0, 0, area], 0), ([0, 0, area + 1], 1)]
+        {
+            let more = long * (5 + 14 - 2);
+            for (lanes, all) in [(4, 68), (1, 4 * 64 + 4)] {
+                let machine = Machine { lanes, ..Machine::default() };
+                assert_eq!(clocks(&machine, HALF, z)[1], all + more, "{z:?}, {lanes} lanes");
+            }
+        }
+        // Edges: DX = 512 px over DY of one line or two, P·DY = 256 or 512 px; DW - 1 = 22 bits.
+        for (height, long) in [(1, 5 + 11), (2, 5 + 11), (3, 2)] {
+            let s1 = clocks(&Machine::default(), [[2, 2], [2, 2 + height], [514, 2 + height]], [0; 3])[0];
+            assert_eq!(s1, 19 - 2 + long, "{height} lines");
+        }
+    }
+
+    #[test]
+    fn textbook_by_hand() {
+        let machine = Machine::preset("textbook").expect("a preset");
+        // t = 1: DX, 17 doublings, DY, wait, u(1) = 1, whole part; 16 doublings and rounding. Three turns of one lane.
+        let edge = 2 + 9 + 2 + 2 + 1 + 1 + 8 + 1;
+        // gx: u(16) = 5 and 15 doublings; of each part DC, 16 doublings, u(0) = 1, 15 doublings.
+        let part = 1 + 2 + 8 + 1 + 1 + 8 + 2;
+        let round = 2 + 2 + 2 + 2 + (5 + 8) + 2 * part;
+        assert_eq!(clocks(&machine, [[2, 2], [6, 2], [2, 10]], [0; 3]), [3 * edge, 4 * round + 4]);
+        // z = 64: dc2 = 64 < A = 128, but DC = 64 > P·DY = 32, in the part that has lines; 16 bits.
+        let long = 5 + 8 - 2;
+        assert_eq!(clocks(&machine, [[2, 2], [6, 2], [2, 10]], [0, 0, 64])[1], 4 * round + 4 + long);
+    }
+
+    #[test]
+    fn culled_by_lines_columns_area_in_this_order() {
+        let machine = Machine::default();
+        let [above, left, both] = [[[2, -9], [4, -9], [2, -2]], [[-9, 2], [-2, 2], [-9, 4]], [[-9, -9]; 3]];
+        for corners in [above, left, both] {
+            assert_eq!(clocks(&machine, corners, [0; 3]), [2, 0], "{corners:?}");
+        }
+        assert_eq!(clocks(&machine, [[2, 2], [4, 4], [6, 6]], [0; 3]), [19, 0]);
+        // Textbook fill has no cull by columns; and the bits of dv2 are more than the edges of a flat machine take.
+        let book = Machine::preset("textbook").expect("a preset");
+        let [s1, s2] = clocks(&book, [[-9, 2], [-2, 2], [-9, 4]], [0; 3]);
+        assert!(s1 > 2 && s2 > 0);
+    }
+
+    #[test]
+    fn the_area_may_take_longest() {
+        // No sub-pixel bits: P = 2, u(1) = 1 for every edge, and dv2 = 960 has 10 bits.
+        let whole = Machine { subpixel_bits: 0, ..Machine::default() };
+        assert!(2 + 1 + 2 + 2 + 1 + 1 < 10 + 2);
+        assert_eq!(clocks(&whole, [[2, 0], [4, 0], [2, 480]], [0; 3])[0], 10 + 2);
+    }
+
+    #[test]
+    fn longest_by_hand() {
+        let longest = longest_setup(&Plan::default());
+        // DW = 23, COLW = 15.
+        let edges = 16 + 4 + 2 + 2 + 22 + 1;
+        let channels = 19 + 19 + 2 + 2 + (22 + 9) + (1 + 23 + 9) + 1 + (2 + 15) + 1 + (1 + 23) + 1;
+        assert_eq!(longest, SetupClocks { phase1: edges, phase2: channels + 4 });
     }
 }

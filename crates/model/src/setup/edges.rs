@@ -7,7 +7,7 @@ use edgewalk_machine::{EdgeKind, Fill, Plan};
 
 /// The drawn lines of the upper and the lower part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Parts {
+pub(crate) struct Parts {
     /// j0 and j1: first line of each part.
     pub first: [i64; 2],
     /// n1 and n2.
@@ -16,7 +16,8 @@ pub(super) struct Parts {
 
 impl Parts {
     /// jm: first drawn line of the triangle.
-    pub(super) fn drawn(&self) -> i64 {
+    #[inline(always)]
+    pub(crate) fn drawn(&self) -> i64 {
         self.first[usize::from(self.lines[0] == 0)]
     }
 }
@@ -46,36 +47,55 @@ pub(super) fn parts<const C: usize>(plan: &Plan, sorted: &Sorted<C>) -> Parts {
     }
 }
 
-/// The edge from `a` down to `b`, as it stands on line `j`.
-pub(super) fn walk<const C: usize>(plan: &Plan, a: &Corner<C>, b: &Corner<C>, j: i64) -> EdgeWalk {
+/// No column of pixel centres lies between the smallest and the largest u on the screen; only asked in exact fill.
+pub(super) fn no_columns<const C: usize>(plan: &Plan, sorted: &Sorted<C>) -> bool {
+    let t = plan.widths().center_fraction;
+    let [a, b, c] = sorted.corners.map(|c| -(-c.u >> t)); // rounded up
+    let (k0, k1) = (a.min(b).min(c).max(0), a.max(b).max(c).min(i64::from(plan.width)));
+    plan.fill == Fill::Exact && k1 <= k0
+}
+
+/// The edge from `a` down to `b`, as it stands on line `j`, its first of `lines`. Where it has none it is not walked: its
+/// registers are 0, but for the modulus.
+pub(super) fn walk<const C: usize>(
+    plan: &Plan,
+    a: &Corner<C>,
+    b: &Corner<C>,
+    j: i64,
+    lines: u32,
+) -> EdgeWalk {
     let w = plan.widths();
     let p = 1i64 << w.center_fraction;
     let (dx, dy) = (b.u - a.u, b.v - a.v);
-    if dy == 0 {
-        return EdgeWalk::default();
+    let modulus = match plan.edge_kind {
+        EdgeKind::Exact => dy,
+        EdgeKind::Slope => 1 << plan.edge_fraction,
+    };
+    if lines == 0 {
+        return EdgeWalk { m: modulus as i32, ..EdgeWalk::default() };
     }
     let o = i64::from(plan.fill == Fill::Textbook);
     let n = a.u * dy + (j * p - a.v) * dx + o * dy; // below 2^(2·DW + 1) <= 2^49
     let steps = dy >= p;
-    let (q, f, m, at) = match plan.edge_kind {
+    let (q, f, at) = match plan.edge_kind {
         EdgeKind::Exact => {
             let (q, f) = if steps { (dx.div_euclid(dy), dx.rem_euclid(dy)) } else { (0, 0) };
-            (q, f, dy, (-n - o) >> w.center_fraction)
+            (q, f, (-n - o) >> w.center_fraction)
         }
         EdgeKind::Slope => {
-            let one = 1i64 << plan.edge_fraction;
+            let one = modulus;
             let slope = if steps { round_div(i128::from(dx * one), i128::from(dy)) as i64 } else { 0 };
             // A column of at most 2^49 / 2^t, with F <= 30 fraction bits: it fits, and only COLW + F bits are kept.
             let column = round_div(i128::from(n) * i128::from(one), i128::from(dy * p)) as i64;
-            (slope.div_euclid(one), slope.rem_euclid(one), one, column.wrapping_neg().wrapping_sub(o))
+            (slope.div_euclid(one), slope.rem_euclid(one), column.wrapping_neg().wrapping_sub(o))
         }
     };
     let column = |c: i64| sign_extend(c as i32, w.column); // the low COLW bits
     EdgeWalk {
-        c: column(-at.div_euclid(m)),
-        r: at.rem_euclid(m) as i32,
+        c: column(-at.div_euclid(modulus)),
+        r: at.rem_euclid(modulus) as i32,
         q: column(q),
         f: f as i32,
-        m: m as i32,
+        m: modulus as i32,
     }
 }

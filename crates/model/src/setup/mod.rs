@@ -8,20 +8,21 @@
 //! columns of COLW bits and words of b + r bits, both modular.
 //!
 //! Timing: a triangle taken in cycle n is computed in S1 cycles (edges, area, cull), and S2 more (channels) unless it
-//! is culled; `prim` is offered from cycle n + S1 + S2 + 1 until it is taken, `tri_ready` is high in the cycle after.
+//! is culled, both as its numbers ask for; `prim` is offered from cycle n + S1 + S2 + 1 until it is taken, `tri_ready` is high in the cycle after.
 //!
 //! Rules: `docs/machine.md`, section 2. Not modelled: the lanes bit by bit; all is computed when the triangle arrives
 //! and appears when the hardware would have it.
 
+pub(crate) mod sort;
+pub(crate) mod edges;
 mod channels;
-mod clocks;
-mod edges;
-mod sort;
+pub(crate) mod clocks;
 
-pub use clocks::{SetupClocks, setup_clocks};
+pub use clocks::{SetupClocks, longest_setup};
 
 use crate::Events;
 use crate::tokens::{Prim, Source};
+use clocks::Timing;
 use edgewalk_machine::{Plan, PortVertex};
 use sort::Sorted;
 
@@ -37,11 +38,13 @@ enum State {
 #[derive(Clone, Debug)]
 pub struct Setup<const C: usize> {
     plan: Plan,
-    clocks: SetupClocks,
+    timing: Timing,
     state: State,
     /// Cycles remaining in PHASE1 or PHASE2, less one; 0 in the others.
     remaining: u32,
     culled: bool,
+    /// S2 of this triangle.
+    phase2: u32,
     prim: Prim<C>,
     /// Not hardware: triangles taken in.
     taken: u32,
@@ -53,10 +56,11 @@ impl<const C: usize> Setup<C> {
     pub fn new(plan: &Plan) -> Self {
         Setup {
             plan: plan.clone(),
-            clocks: setup_clocks(plan),
+            timing: Timing::new(plan),
             state: State::Idle,
             remaining: 0,
             culled: false,
+            phase2: 0,
             prim: Prim::default(),
             taken: 0,
         }
@@ -99,7 +103,7 @@ impl<const C: usize> Setup<C> {
                 }
             }
             State::Phase1 if self.culled => self.state = State::Idle,
-            State::Phase1 => self.enter(State::Phase2, self.clocks.phase2),
+            State::Phase1 => self.enter(State::Phase2, self.phase2),
             State::Phase2 => self.state = State::Done,
             State::Done => self.state = State::Idle,
         }
@@ -113,15 +117,19 @@ impl<const C: usize> Setup<C> {
     fn take(&mut self, vertices: &[PortVertex; 3], tag: u32, events: &mut Events) {
         let id = self.taken;
         self.taken = self.taken.wrapping_add(1);
-        self.enter(State::Phase1, self.clocks.phase1);
         let sorted = Sorted::new(&self.plan, vertices);
-        let prim = prepare(&self.plan, &sorted);
-        self.culled = prim.is_none();
-        if let Some(prim) = prim {
-            self.prim = Prim { source: Source { tag, id }, ..prim };
-            self.count(&sorted, events);
-        } else {
-            events.culled += 1;
+        let (clocks, prim) = prepare(&self.plan, &self.timing, &sorted);
+        self.enter(State::Phase1, clocks.phase1);
+        self.phase2 = clocks.phase2;
+        self.culled = prim.is_err();
+        match prim {
+            Ok(prim) => {
+                self.prim = Prim { source: Source { tag, id }, ..prim };
+                self.count(&sorted, events);
+            }
+            Err(Culled::Lines) => events.culled_lines += 1,
+            Err(Culled::Columns) => events.culled_columns += 1,
+            Err(Culled::Area) => events.culled_area += 1,
         }
     }
 
@@ -137,30 +145,62 @@ impl<const C: usize> Setup<C> {
     }
 }
 
-/// The increments of a triangle at the port, without tag and number; `None` if it is culled.
-pub(crate) fn increments<const C: usize>(plan: &Plan, vertices: &[PortVertex; 3]) -> Option<Prim<C>> {
-    prepare(plan, &Sorted::new(plan, vertices))
+/// Why a triangle draws nothing: the first that holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Culled {
+    /// No line of pixel centres lies in it on the screen.
+    Lines,
+    /// No column (exact fill).
+    Columns,
+    /// Its area is 0.
+    Area,
 }
 
-fn prepare<const C: usize>(plan: &Plan, sorted: &Sorted<C>) -> Option<Prim<C>> {
-    let area = sorted.area();
+/// The clocks of a triangle at the port; S2 is 0 if it is culled.
+#[must_use]
+pub fn setup_clocks(plan: &Plan, vertices: &[PortVertex; 3]) -> SetupClocks {
+    increments::<{ edgewalk_machine::MAX_CHANNELS }>(plan, &Timing::new(plan), vertices).0
+}
+
+/// The clocks and increments of a triangle at the port, without tag and number.
+pub(crate) fn increments<const C: usize>(
+    plan: &Plan,
+    timing: &Timing,
+    vertices: &[PortVertex; 3],
+) -> (SetupClocks, Result<Prim<C>, Culled>) {
+    prepare(plan, timing, &Sorted::new(plan, vertices))
+}
+
+fn prepare<const C: usize>(
+    plan: &Plan,
+    timing: &Timing,
+    sorted: &Sorted<C>,
+) -> (SetupClocks, Result<Prim<C>, Culled>) {
     let parts = edges::parts(plan, sorted);
-    if area == 0 || parts.lines == [0, 0] {
-        return None;
+    if parts.lines == [0, 0] {
+        return (timing.culled(), Err(Culled::Lines));
+    }
+    if edges::no_columns(plan, sorted) {
+        return (timing.culled(), Err(Culled::Columns));
+    }
+    let phase1 = timing.phase1(sorted, &parts);
+    let area = sorted.area();
+    if area == 0 {
+        return (SetupClocks { phase1, phase2: 0 }, Err(Culled::Area));
     }
     let [a, b, c] = &sorted.corners;
-    let major = edges::walk(plan, a, c, parts.drawn());
-    let minor = [edges::walk(plan, a, b, parts.first[0]), edges::walk(plan, b, c, parts.first[1])];
+    let ([j0, j1], [n1, n2]) = (parts.first, parts.lines);
     let mut prim = Prim {
         line: parts.drawn() as u32, // first drawn line, 0 <= jm < H
         lines: parts.lines,
         major_right: area < 0,
-        major,
-        minor,
+        major: edges::walk(plan, a, c, parts.drawn(), n1 + n2),
+        minor: [edges::walk(plan, a, b, j0, n1), edges::walk(plan, b, c, j1, n2)],
         ..Prim::default()
     };
     channels::prepare(plan, sorted, &parts, &mut prim);
-    Some(prim)
+    let phase2 = timing.phase2(sorted, &parts, &prim);
+    (SetupClocks { phase1, phase2 }, Ok(prim))
 }
 
 /// floor(n/d + 1/2), d > 0: RN.

@@ -4,18 +4,18 @@ use edgewalk_machine::{Channel, Fill, Plan, PortVertex};
 
 /// A vertex in centre coordinates.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Corner<const C: usize> {
+pub(crate) struct Corner<const C: usize> {
     /// Column, 2^-t px; pixel centres are multiples of P = 2^t.
     pub u: i64,
     /// Line, 2^-t px.
     pub v: i64,
     /// Of every channel, 2^-e LSB, as its kind reads it.
-    pub values: [i128; C],
+    pub values: [i64; C],
 }
 
 /// Three vertices, top first; of equal v the earlier comes first.
 #[derive(Clone, Debug)]
-pub(super) struct Sorted<const C: usize> {
+pub(crate) struct Sorted<const C: usize> {
     pub corners: [Corner<C>; 3],
 }
 
@@ -27,10 +27,20 @@ impl<const C: usize> Sorted<C> {
     }
 
     /// Twice the area with its sign, 2^-2t px²; negative: the major edge 0-2 lies right.
-    pub(super) fn area(&self) -> i128 {
-        let [a, b, c] = self.corners;
-        let cross = (b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v); // 2·DW <= 48 bits
-        i128::from(cross)
+    #[inline(always)]
+    pub(crate) fn area(&self) -> i64 {
+        let [a, b, c] = &self.corners;
+        (b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v) // 2·DW <= 48 bits
+    }
+
+    /// The left edge of a part, from its upper to its lower corner: the major edge unless that lies right.
+    pub(super) fn left_edge(&self, part: usize) -> (&Corner<C>, &Corner<C>) {
+        let [a, b, c] = &self.corners;
+        match (self.area() < 0, part) {
+            (false, _) => (a, c),
+            (true, 0) => (a, b),
+            (true, _) => (b, c),
+        }
     }
 }
 
@@ -48,7 +58,7 @@ fn corner<const C: usize>(plan: &Plan, vertex: &PortVertex) -> Corner<C> {
     let value = |channel: &Channel, value: i64| {
         let unused = 64 - channel.vertex_bits();
         let high = value << unused;
-        i128::from(if channel.kind.is_signed() { high >> unused } else { (high as u64 >> unused) as i64 })
+        if channel.kind.is_signed() { high >> unused } else { (high as u64 >> unused) as i64 }
     };
     let channels = plan.channels();
     let values = std::array::from_fn(|i| channels.get(i).map_or(0, |c| value(c, vertex.values()[i])));

@@ -38,7 +38,6 @@ pub fn small() -> Plan {
         z: Precision { bits: 8, fraction: 8, vertex_fraction: 2 },
         color: Precision { bits: 4, fraction: 8, vertex_fraction: 2 },
         lanes: 1,
-        radix: 16,
         ..Machine::default()
     })
 }
@@ -62,7 +61,7 @@ pub fn twelve() -> Vec<(&'static str, Plan)> {
         ("small", s.clone()),
         ("two_adders_drain", Machine { adders: 2, hazard: Hazard::Drain, lanes: 2, ..s.clone() }),
         ("one_adder_interlock", Machine { adders: 1, hazard: Hazard::Interlock, lanes: 4, ..s.clone() }),
-        ("two_segments", Machine { segments: 2, radix: 4, latency: 1, inflight: 1, ..s.clone() }),
+        ("two_segments", Machine { segments: 2, latency: 1, inflight: 1, ..s.clone() }),
         ("one_adder_of_four_segments", Machine { adders: 1, segments: 4, span_fifo: 1, ..s.clone() }),
         (
             "two_adders_of_two_segments",
@@ -93,7 +92,6 @@ pub fn twelve() -> Vec<(&'static str, Plan)> {
                 subpixel_bits: 1,
                 z: Precision { bits: 4, fraction: 0, vertex_fraction: 0 },
                 color: Precision { bits: 2, fraction: 0, vertex_fraction: 0 },
-                radix: 2,
                 inflight: 1,
                 latency: 1,
                 tag_bits: 3,
