@@ -132,7 +132,7 @@ impl<'m> Control<'m> {
         let works = (in_edges | state.q().eq(channels)).named("works");
         let is_done = state.q().eq(done).named("prim_valid");
         let is_at = |place: usize| at.q().eq(codes[place].1);
-        let begin = with(in_edges & is_at(0), is_round(0)).named_doc("begin", "the first clock of a triangle");
+        let begin = with(in_edges & is_at(0), is_round(0)).named_doc("begins", "the first clock of a triangle");
         let gives_up = with(in_edges & is_at(1), is_round(0)) & nothing.q();
         let gives_up = gives_up.named_doc("gives_up", "the triangle has no line or no column");
         let last = (left.q().eq(0)).named_doc("last", "last clock of the operation");

@@ -46,8 +46,8 @@ impl<'m> Sources<'_, 'm> {
         let low = |place: usize| natural(self.low_column(place));
         let edge = |edge: usize| match edge {
             0 => [low(0), natural(lines.h0)],
-            1 => [low(0), self.walked("n1").mux(natural(lines.h0), 0)],
-            _ => [low(1), self.walked("n2").mux(natural(lines.h1), 0)],
+            1 => [low(0), natural(lines.h0)].map(|factor| self.walked("n1").mux(factor, 0)),
+            _ => [low(1), natural(lines.h1)].map(|factor| self.walked("n2").mux(factor, 0)),
         };
         let of_edges = |side: usize| {
             let choice = |round: usize| edge_of(plan, 0, round).map_or(none, |number| edge(number)[side]);

@@ -99,7 +99,7 @@ pub(super) fn lane(plan: &Plan, name: &str, shape: Shape) -> Result<Arc<Netlist>
     let digits = m.reg("digits_now", 2).set(digits).q();
 
     m.comment("The step: x and the addend, less M as often as it goes.");
-    let now = m.reg("now", Step::BITS).doc("the step done").set(step).q();
+    let now = m.reg("now", Step::BITS).doc("the step done").reset(0).set(step).q();
     let fourfold = one_of(now, &[Step::Double2, Step::Digits]).named("fourfold");
     let twofold = one_of(now, &[Step::Double1, Step::Next]).named("twofold");
     let from_zero = one_of(now, &[Step::Load, Step::First, Step::Modulus, Step::Begin]).named("from_zero");
@@ -160,8 +160,8 @@ pub(super) fn lane(plan: &Plan, name: &str, shape: Shape) -> Result<Arc<Netlist>
     whole.when(!stays, whole_next);
 
     m.comment("What is done is given out rounded: to nearest, halves up, or up.");
-    m.output_doc("rest", rest.q().trunc(slot), "1/M, from the clock after a step");
-    m.output_doc("whole", whole, "modular, a clock later");
+    m.output_doc("rest_out", rest.q().trunc(slot), "1/M, from the clock after a step");
+    m.output_doc("whole_out", whole, "modular, a clock later");
     let half = !plus(m.cat(&[rest.q().trunc(slot), m.lit(1, 0)]).zext(below_two_m + 1), modulus.sext(below_two_m + 1), short)
         .msb();
     let up = m.reg("up", 1).set(upwards.mux(rest.q().trunc(slot).any(), half)).q();

@@ -143,7 +143,7 @@ impl<'a, 'm> Common<'a, 'm> {
         let (m, control) = (self.m, self.control);
         let named = |name: &str| format!("{name}{number}");
         let step = self.step_of(number).named(&named("step"));
-        let next = m.reg(&named("step_next"), Step::BITS).when(control.advance, step).q();
+        let next = m.reg(&named("step_next"), Step::BITS).reset(0).when(control.advance, step).q();
         let again = m.reg(&named("step_again"), Step::BITS);
         let of_pause = control.pause.eq(1).mux(again.q(), self.of_pause);
         let formed = control.advance.mux(next, of_pause).named(&named("step_formed"));

@@ -60,7 +60,7 @@ impl<'m> Results<'_, 'm> {
         let (m, name) = (self.m, EDGES[edge]);
         m.comment(&format!("Edge: {name}."));
         let t = self.plan.widths().center_fraction;
-        let (rest, whole) = (lane.instance.output("rest"), lane.instance.output("whole"));
+        let (rest, whole) = (lane.instance.output("rest_out"), lane.instance.output("whole_out"));
         let (steps, height) = (self.steps(edge), self.vertices.heights[edge]);
         let (f, q) = (self.register(name, "f"), self.register(name, "q"));
         let after = |op: Op| (self.control.rest.ends_in(op, round), self.control.whole.ends_in(op, round));
@@ -69,16 +69,19 @@ impl<'m> Results<'_, 'm> {
         q.when(whole_now, steps.mux(whole.trunc(q.q().width()), 0));
         let (r, c) = (self.register(name, "r"), self.register(name, "c"));
         let (rest_now, whole_now) = after(Op::Columns);
-        // From the edge on to the next whole column: M less the rest, where there is one.
-        let onward = m.cat(&[height, m.lit(t, 0)]) - rest.trunc(height.width() + t);
-        let mut there = rest.any();
-        let mut column = lane.instance.output("value").trunc(c.q().width());
-        if let Some(walked) = self.walked(edge) {
-            there = there & walked;
-            column = walked.mux(column, 0);
-        }
-        r.when(rest_now, there.mux(onward.slice(onward.width() - 1, t).trunc(r.q().width()), 0));
-        c.when(whole_now, column);
+        let walked = |value: Signal<'m>| self.walked(edge).map_or(value, |walked| walked.mux(value, 0));
+        let (onward, column) = match self.plan.fill {
+            // From the edge on to the next whole column: M less the rest, where there is one.
+            Fill::Exact => {
+                let onward = m.cat(&[height, m.lit(t, 0)]) - rest.trunc(height.width() + t);
+                let onward = rest.any().mux(onward.slice(onward.width() - 1, t), 0);
+                (onward, lane.instance.output("value"))
+            }
+            // And one further where it is whole.
+            Fill::Textbook => (height + !rest.slice(height.width() + t - 1, t), whole + 1),
+        };
+        r.when(rest_now, walked(onward.trunc(r.q().width())));
+        c.when(whole_now, walked(column.trunc(c.q().width())));
     }
 
     fn edge_slope(&self, edge: usize, round: usize, lane: &Lane<'m>) {
@@ -106,7 +109,7 @@ impl<'m> Results<'_, 'm> {
         self.m.comment(&format!("Channel: {name}."));
         let rounded = lane.instance.output("value").trunc(channel.word());
         let t = self.plan.widths().center_fraction;
-        let start = lane.instance.output("whole").slice(channel.word() + t - 1, t);
+        let start = lane.instance.output("whole_out").slice(channel.word() + t - 1, t);
         let after = |op: Op| self.control.whole.ends_in(op, round);
         let right = self.area.negative;
         self.register(name, "g").when(after(Op::DoubleX), right.mux(-rounded, rounded));
