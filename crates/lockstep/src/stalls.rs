@@ -132,11 +132,10 @@ const BEFORE_DEPTH: usize = 4;
 /// Each in turn is held for as many triangles as can be in flight behind it and two more, while the others are willing.
 /// Then all are let go at once; the second time at random, so that what leaves meets what enters in every way.
 fn programme(plan: &Plan, interface: &Interface, held: &[&str], seed: u64) -> Vec<Vec<bool>> {
-    let clocks = longest_setup(plan);
-    // Cycles from one small triangle to the next; a unit alone gets fragments as fast as it takes them.
+    // Cycles from one small triangle to the next, at the most; a unit alone gets fragments as fast as it takes them.
     let places = plan.inflight as usize;
     let (triangle, free) = if interface.unit == Unit::MACHINE {
-        ((clocks.phase1 + clocks.phase2) as usize + 8, 3 * (places + 4))
+        (longest_setup(plan).all() as usize + 8, 3 * (places + 4))
     } else {
         (2, places + 3)
     };

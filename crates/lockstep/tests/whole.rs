@@ -48,8 +48,7 @@ fn report(all: &Checked) {
 /// Slow machines get fewer triangles, none less than a dozen: most of the time goes where most triangles come of it.
 fn shares(machines: &[Plan]) -> Vec<u64> {
     let weight = |plan: &Plan| {
-        let clocks = longest_setup(plan);
-        let cycles = f64::from(clocks.phase1 + clocks.phase2 + 6 * plan.clocks_per_pixel());
+        let cycles = f64::from(longest_setup(plan).all() + 6 * plan.clocks_per_pixel());
         (cycles * f64::from(3 + plan.lanes) * plan.channels().len() as f64).powi(-3)
     };
     let all: f64 = machines.iter().map(weight).sum();

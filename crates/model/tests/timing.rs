@@ -3,10 +3,15 @@
 //! `EDGEWALK_BLESS=1 cargo test -p edgewalk-model --test timing` rewrites the table.
 
 mod common;
+#[path = "../examples/common/mod.rs"]
+mod examples;
 
 use common::{ALWAYS, Triangle, machine, place};
-use edgewalk_machine::{MAX_CHANNELS, Machine, Plan};
-use edgewalk_model::{Rig, Stalls, setup_clocks};
+use edgewalk_golden::Shading;
+use edgewalk_machine::channel::Precision;
+use edgewalk_machine::{EdgeKind, MAX_CHANNELS, Machine, Plan};
+use edgewalk_model::{Rig, SetupClocks, Stalls, longest_setup, setup_clocks};
+use edgewalk_scene::Scene;
 use std::convert::Infallible;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -40,69 +45,137 @@ fn trace(machine: &Plan, triangles: &[Triangle]) -> Trace {
     trace
 }
 
-/// Clocks between two triangles that are too small to be waited for; the formula is S1 + S2 + 2.
-fn triangle_interval(machine: &Plan) -> u64 {
-    let one = 1 << machine.subpixel_bits;
-    let tiny = [triangle(machine, [[2, 2], [4, 2], [2, 4]], one); 5];
-    let taken = trace(machine, &tiny).triangles;
+/// The machines of the setup tables.
+fn machines() -> [(&'static str, Machine); 4] {
+    let preset = |name| Machine::preset(name).expect("a preset");
+    let precision = |bits| Precision { bits, fraction: 10, vertex_fraction: 0 };
+    let narrow = Machine {
+        guard_bits: 11,
+        subpixel_bits: 4,
+        z: precision(16),
+        color: precision(8),
+        ..Machine::default()
+    };
+    let slope = Machine { edge_kind: EdgeKind::Slope, ..Machine::default() };
+    [("default", Machine::default()), ("slope", slope), ("narrow", narrow), ("textbook", preset("textbook"))]
+}
+
+/// Three pixels, 60, and one that covers the screen of 640x480; pixels.
+const SHAPES: [[[i32; 2]; 3]; 3] =
+    [[[2, 2], [4, 2], [2, 4]], [[10, 10], [21, 13], [14, 22]], [[0, 0], [1280, 0], [0, 960]]];
+/// Without area.
+const FLAT: [[i32; 2]; 3] = [[2, 2], [4, 4], [6, 6]];
+
+/// A corner with every channel at 0, one at a half of full scale, one at full scale.
+fn shaded(plan: &Plan, corners: [[i32; 2]; 3]) -> Triangle {
+    [0, 1, 2].map(|i| {
+        let values = plan.channels().iter().map(|c| (c.limit() << c.vertex_fraction) as i64 * i / 2);
+        let [x, y] = corners[i as usize].map(|c| c << plan.subpixel_bits);
+        plan.raw_vertex(x, y, &values.collect::<Vec<_>>())
+    })
+}
+
+/// Cycles from one such triangle to the next, where drawing is not waited for.
+fn interval(machine: &Plan, triangle: &Triangle) -> u64 {
+    let taken = trace(machine, &[*triangle; 5]).triangles;
     let gaps: Vec<_> = taken.windows(2).map(|w| w[1] - w[0]).collect();
     assert!(gaps.windows(2).all(|g| g[0] == g[1]), "{gaps:?}");
     gaps[0]
 }
 
-/// The same for triangles that draw nothing; the formula is S1 + 1.
-fn culled_interval(machine: &Plan) -> u64 {
-    let flat = [triangle(machine, [[2, 2], [4, 4], [6, 6]], 1 << machine.subpixel_bits); 3];
-    let taken = trace(machine, &flat).triangles;
-    taken[2] - taken[1]
-}
-
 fn setup_table(table: &mut String) {
     let _ = writeln!(
         table,
-        "## Setup\nClocks of a triangle in SETUP, S1 (edges, cull) and S2 (channels), and from one triangle to the next where drawing\n\
-         is not waited for (S1 + S2 + 2; a culled one S1 + 1). Measured with triangles of three pixels.\n\n\
-         | machine | edges | lanes | radix | S1 | S2 | a triangle every | a culled one every |\n|---|---|---|---|---|---|---|---|"
+        "## Setup\nClocks of a triangle in SETUP, S1 + S2 (edges and cull, channels), for every number of lanes; corners in pixels, every\n\
+         channel at 0, a half and full scale. From one triangle to the next it is two clocks more, where drawing is not waited for;\n\
+         after a culled one, one more. A triangle outside the lines or columns of the screen takes 2. *Bound*: what the formats allow.\n\
+         *slope*: the default machine with edges of 16 fraction bits; *narrow*: vertices of 11 + 4 bits, z of 16 + 10 and colours of 8 + 10 bits.\n\n\
+         | machine | lanes | 3 pixels {:?} | 60 pixels {:?} | the screen {:?} | no area {FLAT:?} | bound |\n|---|---|---|---|---|---|---|",
+        SHAPES[0], SHAPES[1], SHAPES[2]
     );
-    for (name, kind) in [("default", "exact"), ("default", "slope"), ("textbook", "slope")] {
+    for (name, machine) in machines() {
         for lanes in [1, 2, 4] {
-            for radix in [2, 4, 16] {
-                let mut machine = Machine::preset(name).expect("a preset");
-                machine.set("edge.kind", kind).expect("a key");
-                (machine.lanes, machine.radix) = (lanes, radix);
-                let machine = machine.plan().expect("can be built");
-                let clocks = setup_clocks(&machine);
-                let (every, culled) = (triangle_interval(&machine), culled_interval(&machine));
-                assert_eq!(every, u64::from(clocks.phase1 + clocks.phase2 + 2));
-                assert_eq!(culled, u64::from(clocks.phase1 + 1));
-                let _ = writeln!(
-                    table,
-                    "| {name} | {kind} | {lanes} | {radix} | {} | {} | {every} | {culled} |",
-                    clocks.phase1, clocks.phase2
-                );
+            let plan = Machine { lanes, ..machine.clone() }.plan().expect("can be built");
+            let longest = longest_setup(&plan);
+            let _ = write!(table, "| {name} | {lanes} |");
+            for (place, corners) in SHAPES.into_iter().enumerate() {
+                let triangle = shaded(&plan, corners);
+                let SetupClocks { phase1, phase2 } = setup_clocks(&plan, &triangle);
+                assert!(phase1 <= longest.phase1 && phase2 <= longest.phase2);
+                if place == 0 {
+                    assert_eq!(interval(&plan, &triangle), u64::from(phase1 + phase2 + 2));
+                }
+                let _ = write!(table, " {phase1} + {phase2} |");
             }
+            let flat = shaded(&plan, FLAT);
+            let culled = setup_clocks(&plan, &flat);
+            assert_eq!((interval(&plan, &flat), culled.phase2), (u64::from(culled.phase1 + 1), 0));
+            let _ = writeln!(table, " {} | {} + {} |", culled.phase1, longest.phase1, longest.phase2);
         }
     }
 }
 
-/// S2 of machines with channels of the user's own, on every number of lanes; the formula is 1 + ceil(N/lanes) T2.
+/// The torus knot as the program draws it.
+fn knot(plan: &Plan) -> Vec<Triangle> {
+    let scene = Scene::builtin("torus-knot").expect("a scene");
+    let surface = scene.surface(plan.width, plan.height, f64::from((1u32 << plan.guard_bits) - 1));
+    let frame = edgewalk_golden::frame(&scene, &surface, Shading::Gouraud);
+    let frame = frame.triangulated(plan.subpixel_bits).expect("triangles");
+    let vertex = |v: &edgewalk_scene::Vertex| {
+        plan.port_vertex(v.x, v.y, &[v.z, v.r, v.g, v.b]).expect("clipped to the guard band")
+    };
+    frame.triangles.iter().map(|triangle| triangle.0.each_ref().map(vertex)).collect()
+}
+
+/// Mean, what 95 % do not exceed, and most.
+fn spread(mut clocks: Vec<u32>) -> (f64, u32, u32) {
+    clocks.sort_unstable();
+    let mean = clocks.iter().map(|c| f64::from(*c)).sum::<f64>() / clocks.len() as f64;
+    (mean, clocks[(clocks.len() * 95).div_ceil(100) - 1], clocks[clocks.len() - 1])
+}
+
+fn set_table(table: &mut String) {
+    let _ = writeln!(
+        table,
+        "\nThe same of many triangles at 640x480, S1 + S2 of those that are not culled: the scene `torus-knot` (small triangles of a smooth surface),\n\
+         and 2,000 of 60 pixels, of any shape but needles, all values at random.\n\n\
+         | machine | lanes | torus-knot: mean | 95 % | most | random: mean | 95 % | most |\n|---|---|---|---|---|---|---|---|"
+    );
+    for (name, machine) in machines() {
+        let plan = machine.plan().expect("can be built");
+        let sets = [knot(&plan), examples::triangles(&plan, 2000, 60.0)];
+        for lanes in [1, 2, 4] {
+            let plan = Machine { lanes, ..machine.clone() }.plan().expect("can be built");
+            let _ = write!(table, "| {name} | {lanes} |");
+            for set in &sets {
+                let clocks = set.iter().map(|triangle| setup_clocks(&plan, triangle));
+                let drawn: Vec<_> = clocks.filter(|c| c.phase2 > 0).map(SetupClocks::all).collect();
+                assert!(drawn.len() > 1500, "{}", drawn.len());
+                let (mean, most_do, most) = spread(drawn);
+                let _ = write!(table, " {mean:.1} | {most_do} | {most} |");
+            }
+            table.push('\n');
+        }
+    }
+}
+
+/// S2 of machines with channels of the user's own, on every number of lanes.
 fn channel_table(table: &mut String) {
     let _ = writeln!(
         table,
-        "\n## Channels\nS2, clocks of SETUP for the channels, of machines with N of them (radix 4; extra channels of the default's 26 bits, shorter\n\
-         than z), and from one triangle to the next, S1 + S2 + 2. Measured as above.\n\n\
+        "\n## Channels\nS2, clocks of SETUP for the channels, of machines with N of them (extra channels of the default's 26 bits, shorter\n\
+         than z), for the triangle of 60 pixels above, and S1 + S2 + 2.\n\n\
          | machine | N | lanes | S2 | a triangle every |\n|---|---|---|---|---|"
     );
     for name in ["default", "textbook"] {
         for extra in 0..=4 {
             for lanes in [1, 2, 4] {
                 let preset = Machine::preset(name).expect("a preset");
-                let machine = Machine { extra, lanes, radix: 4, ..preset }.plan().expect("can be built");
-                let clocks = setup_clocks(&machine);
-                let every = triangle_interval(&machine);
-                assert_eq!(every, u64::from(clocks.phase1 + clocks.phase2 + 2));
+                let machine = Machine { extra, lanes, ..preset }.plan().expect("can be built");
+                let SetupClocks { phase1, phase2 } = setup_clocks(&machine, &shaded(&machine, SHAPES[1]));
                 let channels = machine.channels().len();
-                let _ = writeln!(table, "| {name} | {channels} | {lanes} | {} | {every} |", clocks.phase2);
+                let _ =
+                    writeln!(table, "| {name} | {channels} | {lanes} | {phase2} | {} |", phase1 + phase2 + 2);
             }
         }
     }
@@ -150,9 +223,9 @@ fn rate_table(table: &mut String) {
                 assert_eq!(clocks, u64::from(machine.clocks_per_pixel()));
                 assert!(lost_long <= 1 && lost_thin <= 1, "lost {lost_long} and {lost_thin}");
                 assert!(fifo == "1" || lost_long + lost_thin == 0);
-                let setup = setup_clocks(&machine);
+                let setup = setup_clocks(&machine, &long);
                 let run = trace(&machine, &[long]);
-                let first = run.reads[0].0 - run.triangles[0] - u64::from(setup.phase1 + setup.phase2);
+                let first = run.reads[0].0 - run.triangles[0] - u64::from(setup.all());
                 // prim, line, span, T clocks of adding, D segments
                 assert_eq!(first, 3 + u64::from(machine.clocks_per_pixel() + machine.segments));
                 let _ = writeln!(
@@ -194,6 +267,7 @@ fn the_timing_table_is_what_the_machine_does() {
                      the test compares it with the machine.\n\n"
         .to_owned();
     setup_table(&mut table);
+    set_table(&mut table);
     channel_table(&mut table);
     rate_table(&mut table);
     depth_table(&mut table);

@@ -13,7 +13,7 @@ use edgewalk_lockstep::{
     Unit, lockstep, model, patterns, status_ports,
 };
 use edgewalk_machine::Plan;
-use edgewalk_model::{DrawState, Events, setup_clocks};
+use edgewalk_model::{DrawState, Events, longest_setup};
 use edgewalk_netlist::Netlist;
 use std::collections::BTreeMap;
 
@@ -205,9 +205,9 @@ impl Run<'_> {
 /// span that comes from far off the screen; and whatever the rig makes them wait.
 fn patience(plan: &Plan, patterns: &[Pattern]) -> u64 {
     let waits: u64 = patterns.iter().map(Pattern::longest_wait).sum();
-    let clocks = setup_clocks(plan);
+    let setup = u64::from(longest_setup(plan).all());
     let span = u64::from(plan.clocks_per_pixel()) << plan.widths().column;
-    u64::from(clocks.phase1) + u64::from(clocks.phase2) + u64::from(plan.height) + span + waits + 1000
+    setup + u64::from(plan.height) + span + waits + 1000
 }
 
 /// Cycles that follow the last event of the model: what comes too much would come here.
