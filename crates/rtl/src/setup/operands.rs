@@ -46,7 +46,7 @@ impl<'m> Sources<'_, 'm> {
         self.m.cat(&[line, self.m.lit(w.center_fraction, 0)]) - v.sext(w.difference)
     }
 
-    /// In exact fill C is a ceiling: setup divides −N.
+    /// In exact fill C is a ceiling: setup divides −E.
     fn negates(&self) -> bool {
         self.plan.fill == Fill::Exact && self.plan.edge_kind == EdgeKind::Exact
     }
@@ -123,7 +123,7 @@ impl<'m> Sources<'_, 'm> {
         lane.ask_results(self.plan);
     }
 
-    /// Factors of the area (job 0), or of N of an edge.
+    /// Factors of the area (job 0), or of E of an edge.
     fn edge_factors(&self, job: usize) -> [Signal<'m>; 2] {
         let (v, dw) = (self.vertices, self.plan.widths().difference);
         let Some(edge) = job.checked_sub(1) else {
@@ -139,7 +139,7 @@ impl<'m> Sources<'_, 'm> {
         [a.sext(dw), self.below(line, v.v(from))]
     }
 
-    /// Terms of the area: du1, −du2; of N: DY, DX, or of −N their negatives.
+    /// Terms of the area: du1, −du2; of E: DY, DX, or of −E their negatives.
     fn edge_terms(&self, job: usize, bits: u32) -> [Signal<'m>; 2] {
         let v = self.vertices;
         let less = |a: Signal<'m>, b: Signal<'m>| a.sext(bits) - b.sext(bits);

@@ -86,9 +86,9 @@ impl<'m> Results<'_, 'm> {
                 let quotient = lane.output("quotient").trunc(columns);
                 let remainder = lane.output("remainder").trunc(bits);
                 let (c, r) = match self.plan.fill {
-                    // −N was divided: its remainder is that of m.
+                    // −E was divided: its remainder is that of m.
                     Fill::Exact => (-quotient, remainder),
-                    // N was divided: m = −1 − floor(N/P).
+                    // E was divided: m = −1 − floor(E/P).
                     Fill::Textbook => (quotient + 1, height + !remainder),
                 };
                 (quotient, remainder, c, r)

@@ -9,19 +9,19 @@ use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
 pub(super) enum Op {
     /// DX / DY of an edge: q and f.
     EdgeStep,
-    /// N of an edge, or the area.
+    /// E of an edge, or the area.
     EdgeProduct,
-    /// N / DY of an edge: C and R.
+    /// E / DY of an edge: C and R.
     EdgeStart,
     /// Nx of a channel.
     Nx,
-    /// gx = Nx·K / A.
+    /// gx = Nx·K / |area|.
     Gx,
     /// Ny.
     Ny,
     /// Ny + q·Nx.
     LineProduct,
-    /// d0 = (Ny + q·Nx)·K / A; d1 follows from it and gx.
+    /// d0 = (Ny + q·Nx)·K / |area|; d1 follows from it and gx.
     Line,
     /// What lies between vertex 0 and the first pixel.
     StartProduct,
@@ -182,7 +182,7 @@ fn slope_bits(plan: &Plan) -> u32 {
 mod tests {
     use super::*;
 
-    /// S1 and S2 as the specification has them, for the default machine: DW = 23, c = 38, t = 8, G = 13, k = 2.
+    /// S1 and S2 as the specification has them, for the default machine: DW = 23, VW = 38, t = 8, G = 13, k = 2.
     #[test]
     fn clocks_of_the_default_machine() {
         let plan = Plan::default();
