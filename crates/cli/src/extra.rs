@@ -75,6 +75,20 @@ impl OwnChannel {
             no_bound: budget.err().map(|why| why.to_string()),
         }
     }
+
+    /// As a line of text.
+    pub fn line(&self) -> String {
+        let Label { name, kind, bits, unit } = &self.label;
+        format!("{name} error, {unit} of {bits} bits, {kind}: {}\n", bound(self.bound, &self.no_bound))
+    }
+}
+
+/// What is proved of an error, in words.
+pub fn bound(bound: Option<f64>, why_not: &Option<String>) -> String {
+    match bound {
+        Some(bound) => format!("proved bound {bound:.4}"),
+        None => format!("no bound: {}", why_not.as_deref().unwrap_or_default()),
+    }
 }
 
 /// What a picture has of one channel, LSB of its output, row 0 on top; 0 where nothing was drawn.

@@ -36,6 +36,28 @@ fn a_waveform_holds_causes_by_name_and_no_constants_and_no_tags() {
     }
 }
 
+/// As every command that has nothing to do; and no file is left.
+#[test]
+fn nothing_to_trace_is_exit_code_2_with_its_reason() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("empty.tri"), "size 8 8\n").expect("written");
+    let away = "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 9]\n\n[[object]]\nbuiltin = \"sphere\"\n";
+    std::fs::write(folder.path().join("away.toml"), away).expect("written");
+    for source in [&["empty.tri"][..], &["away.toml"], &["sphere", "--triangles", "0"]] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_edgewalk"));
+        command.current_dir(folder.path()).arg("trace").args(source);
+        command.args(["--set", "screen.width=8", "--set", "screen.height=8", "-q", "--out", "t.vcd"]);
+        let output = command.output().expect("the program runs");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{source:?}: {message}");
+        assert!(
+            message.contains(&format!("{}: nothing was drawn: it has no triangle", source[0])),
+            "{message}"
+        );
+        assert!(!folder.path().join("t.vcd").exists(), "{source:?}");
+    }
+}
+
 #[test]
 fn tags_that_the_machine_has_are_traced() {
     assert!(vcd(&["memory.tag_bits=4"]).contains(" tri_tag $end"));

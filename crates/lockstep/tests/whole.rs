@@ -6,7 +6,7 @@ mod common;
 use common::fail::checked;
 use common::machines::random_machine;
 use common::triangles::{after_it, one_pixel, random_triangle};
-use edgewalk_lockstep::{Case, Checked, Triangles, Unit};
+use edgewalk_lockstep::{Case, Checked, Interface, Triangles, Unit};
 use edgewalk_machine::{Fill, Hazard, Kind, Machine, Plan};
 use edgewalk_model::longest_setup;
 use rand::{Rng, SeedableRng};
@@ -20,8 +20,8 @@ const TRIANGLES: u64 = 100_000;
 /// A case without triangles: stalls, resets, depth function, all at random.
 fn random_case(plan: &Plan, rng: &mut Pcg64Mcg) -> Case {
     let mut case = Case::new(plan, Unit::MACHINE);
-    let links = ["tri", "rd", "data", "wr"];
-    case.unwilling = links.map(|link| (link.to_owned(), share(rng))).into_iter().collect();
+    let interface = Interface::new(plan, Unit::MACHINE);
+    case.unwilling = interface.waits().map(|link| (link.to_owned(), share(rng))).collect();
     case.depth_func = if rng.random_bool(0.6) { 1 } else { rng.random_range(0..8) };
     case.depth_write = rng.random_bool(0.9);
     case.clear_z = rng.random_bool(0.3).then(|| plan.z.max().div_ceil(2));

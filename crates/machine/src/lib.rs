@@ -43,6 +43,7 @@ pub use link::{Held, Link, MemoryPort, Ready, Status};
 pub use machine::{EdgeKind, ExtraChannel, Fill, Hazard, Machine};
 pub use plan::Plan;
 pub use text::MachineError;
-pub use unit::{Event, Ports, UNITS, UnitSpec};
+pub use unit::{Event, Ports, UnitSpec};
+pub use units::UNITS;
 pub use vertex::{ForeignVertex, PortVertex, VertexError};
 pub use widths::Widths;

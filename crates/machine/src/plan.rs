@@ -3,7 +3,7 @@
 use crate::channel::{Channel, MAX_CHANNELS};
 use crate::machine::Machine;
 use crate::text::MachineError;
-use crate::unit::UNITS;
+use crate::units::UNITS;
 use crate::vertex::PortStamp;
 use crate::widths::Widths;
 use std::ops::{Deref, Range};

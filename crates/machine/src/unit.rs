@@ -5,7 +5,7 @@ use crate::field::Field;
 use crate::link::{Held, Link, MemoryPort, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::units;
+use crate::units::{self, UNITS};
 
 /// A corner or hazard that a unit can meet, and that a suite has to.
 #[derive(Clone, Copy)]
@@ -56,10 +56,6 @@ pub struct UnitSpec {
     /// What can happen to it.
     pub events: &'static [Event],
 }
-
-/// Every unit, in the order the data flows.
-pub const UNITS: &[&UnitSpec] =
-    &[&units::setup::SPEC, &units::edge::SPEC, &units::span::SPEC, &units::pixel::SPEC, &units::depth::SPEC];
 
 impl Plan {
     /// The units of this machine, in the order the data flows.

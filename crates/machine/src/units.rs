@@ -12,7 +12,10 @@ use crate::activity::Activity;
 use crate::field::Field;
 use crate::link::Status;
 use crate::plan::Plan;
-use crate::unit::Event;
+use crate::unit::{Event, UnitSpec};
+
+/// Every unit, in the order the data flows.
+pub const UNITS: &[&UnitSpec] = &[&setup::SPEC, &edge::SPEC, &span::SPEC, &pixel::SPEC, &depth::SPEC];
 
 /// What can happen between units.
 pub const EVENTS: &[Event] =

@@ -4,7 +4,7 @@
 //!  tri ─> setup ─> edge ─> span ─> pixel ─> depth ─> memory
 //! ```
 //! A function a unit takes a [`Plan`](edgewalk_machine::Plan), the checked machine, and builds the unit's netlist with the ports
-//! that [`edgewalk_machine::UNITS`] declares; [`units`] lists the functions, [`machine`] joins what they build.
+//! that [`edgewalk_machine::UNITS`] declares; [`BUILDERS`] lists the functions, [`machine`] joins what they build.
 //! What it does not know: the model, files, Verilog text.
 
 mod wires;
@@ -35,3 +35,7 @@ pub use memory::memory;
 pub use pixel::pixel;
 pub use setup::setup;
 pub use span::span;
+
+/// The name of each unit of [`edgewalk_machine::UNITS`], and what builds it.
+pub const BUILDERS: &[(&str, units::Build)] =
+    &[("setup", setup), ("edge", edge), ("span", span), ("pixel", pixel), ("depth", depth)];

@@ -1,21 +1,14 @@
-//! Which function builds which unit: the one list to add a new one to.
+//! Which function builds which unit.
 
 use std::sync::Arc;
 
 use edgewalk_machine::Plan;
 use edgewalk_netlist::{BuildErrors, Netlist};
 
+use crate::BUILDERS;
+
 /// Builds the netlist of a unit.
 pub type Build = fn(&Plan) -> Result<Arc<Netlist>, BuildErrors>;
-
-/// The name of each unit of [`edgewalk_machine::UNITS`], and what builds it.
-pub const BUILDERS: &[(&str, Build)] = &[
-    ("setup", crate::setup),
-    ("edge", crate::edge),
-    ("span", crate::span),
-    ("pixel", crate::pixel),
-    ("depth", crate::depth),
-];
 
 /// What builds the unit of that name.
 #[must_use]

@@ -2,6 +2,7 @@
 
 mod precision;
 
+use crate::extra::{self, OwnChannel};
 use crate::machine_args::MachineArgs;
 use crate::talk;
 use crate::verdict::Verdict;
@@ -64,7 +65,10 @@ fn explain(machine: &Plan, key: Option<&str>, json: bool) -> Result<String> {
             .map(|k| json!({ "key": k.name, "value": k.show(machine), "permitted": k.permitted(), "doc": k.doc }))
             .collect();
         let all = key.is_none().then(|| Precision::of(machine));
-        return Ok(serde_json::to_string_pretty(&json!({ "keys": list, "precision": all }))?);
+        let own: Vec<_> = extra::channels(machine).iter().map(|c| OwnChannel::of(c, machine)).collect();
+        let own = (key.is_none() && !own.is_empty()).then_some(own);
+        let told = json!({ "keys": list, "precision": all, "channels": own });
+        return Ok(serde_json::to_string_pretty(&told)?);
     }
     let mut text = String::new();
     for k in chosen {
@@ -109,6 +113,10 @@ fn consequences(machine: &Plan) -> String {
         setup.phase1
     );
     text += &Precision::of(machine).text();
+    for channel in extra::channels(machine) {
+        let [name, proved] = [channel.name.to_owned(), OwnChannel::of(channel, machine).line()];
+        _ = write!(text, "    {name:<6} words           {}\n    {proved}", word(*channel));
+    }
     text += "\npresets\n";
     for (name, doc) in PRESETS {
         // Writing to a string cannot fail.

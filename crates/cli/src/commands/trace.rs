@@ -47,6 +47,9 @@ enum Wave {
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = machine.machine(None)?;
     let port = to_port(&args.source.frame(&machine)?, &machine)?;
+    let traced = port.triangles.len().min(args.triangles);
+    let size = (machine.width, machine.height);
+    Verdict::drew(traced as u64).or_nothing(&args.source.input, 0, size)?;
     let kind = args.out.extension().and_then(|e| e.to_str()).unwrap_or_default();
     if !["vcd", "fst"].contains(&kind) {
         return Err(anyhow!("--out {}: the file must end in .vcd or .fst", args.out.display()));

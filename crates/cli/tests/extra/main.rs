@@ -195,6 +195,33 @@ fn a_comparison_tells_each_channels_error_beside_its_bound() {
     assert!(report["channels"][1]["bound"].is_null() && report["channels"][0]["bound"].is_f64());
 }
 
+/// `raster` and `config explain` say of each channel what is proved, `raster` of the machine's engines alone.
+#[test]
+fn what_is_proved_of_each_channel_is_listed() {
+    let (folder, drawing) = (tempfile::tempdir().unwrap(), four_channels());
+    std::fs::write(folder.path().join("in.tri"), drawing.file()).unwrap();
+    let settings = drawing.settings();
+    let page = |arguments: &[&str]| {
+        let output = program(folder.path(), arguments, &settings).output().unwrap();
+        assert!(output.status.success(), "{arguments:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let raster = page(&["raster", "in.tri", "--out", "f"]);
+    let explain = page(&["config", "explain"]);
+    let golden = page(&["raster", "in.tri", "--engine", "golden", "--out", "g"]);
+    let channels = told(folder.path(), &["config", "explain"], &settings)["channels"].clone();
+    let report = told(folder.path(), &["raster", "in.tri", "--out", "f"], &settings);
+    assert_eq!((channels.as_array().unwrap().len(), &channels), (4, &report["channels"]));
+    for (i, own) in OWN.iter().enumerate() {
+        let bound = channels[i]["bound"].as_f64().unwrap();
+        let line = format!("e{i} error, LSB of {} bits, {}: proved bound {bound:.4}\n", own.bits, own.kind);
+        assert!(raster.contains(&line) && explain.contains(&line) && !golden.contains(&line), "{line}");
+        let word = format!("Q{}.{}, {} bits, modular\n", own.bits, own.fraction, own.bits + own.fraction);
+        let words = explain.lines().find(|line| line.contains(&format!("    e{i}     words ")));
+        assert!(words.is_some_and(|words| format!("{words}\n").ends_with(&word)), "{words:?} {word}");
+    }
+}
+
 #[test]
 fn the_example_of_the_format_gives_the_texels_it_says() {
     let page = include_str!("../../../../docs/triangle_file.md");

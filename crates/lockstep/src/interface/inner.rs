@@ -26,18 +26,18 @@ impl Interface {
         self.inner_status.extend(status);
     }
 
-    /// Finds the ports that say whether another counts, and of a link between units the end that belongs to the other.
+    /// Finds the ports that say whether another counts, and of a link between units the end that belongs to the other: the
+    /// unit before gives what a unit takes, whatever each of them calls it.
     pub(super) fn find_guards(&mut self) {
         for i in 0..self.inner.len() {
-            let (owner, name) = (self.inner[i].owner, self.inner[i].name);
-            let end =
-                |what: &str| self.anywhere(owner, &format!("{name}_{what}")).expect("a link has two ends");
-            (self.inner[i].valid, self.inner[i].ready) = (end("valid"), end("ready"));
+            match self.inner[i].direction {
+                Direction::In => self.inner[i].valid = self.inner[i - 1].valid,
+                Direction::Out => self.inner[i].ready = self.inner[i + 1].ready,
+            }
         }
         let guard = |status: &StatusPort| {
-            let found = |name| {
-                self.anywhere(status.port.owner, name).expect("a status counts during a declared port")
-            };
+            let found =
+                |name| self.guard(status.port.owner, name).expect("a status counts during a declared port");
             status.during.map(found)
         };
         let (own, inner): (Vec<_>, Vec<_>) =
@@ -46,10 +46,54 @@ impl Interface {
         self.inner_status.iter_mut().zip(inner).for_each(|(status, guard)| status.guard = guard);
     }
 
-    /// The port of that name: of the unit itself, of another, or of the machine.
-    fn anywhere(&self, owner: &str, name: &str) -> Option<PortId> {
-        let named = |port: &&super::Port| port.name == name;
-        let own = self.ports.iter().filter(named).find(|port| port.owner == owner);
-        own.or_else(|| self.ports.iter().rfind(named)).map(|port| port.id)
+    /// The port that a unit calls so: its own, the valid of the link it takes, or the machine's.
+    fn guard(&self, owner: &str, name: &str) -> Option<PortId> {
+        let own = self.ports.iter().find(|port| port.owner == owner && port.name == name).map(|port| port.id);
+        let taken = || {
+            let mut links = self.inner.iter().filter(|link| link.owner == owner);
+            links.find(|link| name.strip_suffix("_valid") == Some(link.name)).map(|link| link.valid)
+        };
+        let outside = || self.ports.iter().find(|port| port.name == name).map(|port| port.id);
+        own.or_else(taken).or_else(outside)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use edgewalk_machine::units::{depth, pixel, tokens};
+    use edgewalk_machine::{Link as Declared, Plan, Ready, UnitSpec};
+
+    const PASS: UnitSpec = UnitSpec {
+        name: "pass",
+        purpose: "",
+        section: 0,
+        present: |_| true,
+        wants: |_| Vec::new(),
+        ports: |plan| {
+            let link = |name| Declared { name, fields: tokens::fragment(plan), ready: Ready::Always };
+            Ports { takes: Some(link("frag")), gives: Some(link("passed")), ..Ports::default() }
+        },
+        events: &[],
+    };
+
+    /// Between PIXEL and DEPTH, which both say `frag`, a unit that calls what it gives `passed`.
+    #[test]
+    fn a_link_has_its_two_ends_whatever_they_are_called() {
+        let plan = Plan::default();
+        let units = [&pixel::SPEC, &PASS, &depth::SPEC];
+        let whole = Ports { takes: (pixel::SPEC.ports)(&plan).takes, ..(depth::SPEC.ports)(&plan) };
+        let mut interface = Interface::of_ports(Unit::MACHINE, &whole);
+        for unit in units {
+            interface.add_inner(Unit::of(unit), &(unit.ports)(&plan));
+        }
+        interface.find_guards();
+        let at = |owner: &str, name: &str| interface.port(&format!("{owner}.{name}")).expect("a port").id;
+        let ends: Vec<_> = interface.inner.iter().map(|link| (link.valid, link.ready)).collect();
+        let (given, passed) = (at("pixel", "frag_valid"), at("pass", "passed_valid"));
+        let (taken, read) = (at("pass", "frag_ready"), at("depth", "frag_ready"));
+        assert_eq!(ends, [(given, taken), (given, taken), (passed, read), (passed, read)]);
+        let hazard = interface.inner_status.iter().find(|status| status.port.name == "hazard");
+        assert_eq!(hazard.expect("DEPTH tells it").guard, Some(passed));
     }
 }

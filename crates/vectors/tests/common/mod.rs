@@ -2,7 +2,7 @@
 #![allow(dead_code)] // every test file uses a part of it
 
 use edgewalk_machine::units;
-use edgewalk_machine::{EdgeKind, Fill, Hazard, Machine, Plan, Precision};
+use edgewalk_machine::{EdgeKind, Fill, Hazard, Kind, Machine, Plan, Precision};
 use edgewalk_vectors::{Files, Unit};
 use std::path::Path;
 use std::process::Command;
@@ -53,7 +53,18 @@ pub const SPAN: Unit = Unit::of(&units::span::SPEC);
 pub const PIXEL: Unit = Unit::of(&units::pixel::SPEC);
 pub const DEPTH: Unit = Unit::of(&units::depth::SPEC);
 
-/// Twelve machines with their names: adders, segments, lanes, radices, word lengths, fills, edges, hazard policies.
+/// A machine with channels of the user's own, of these kinds and numbers of bits.
+fn with_extras<const K: usize>(machine: Machine, extras: [(Kind, u32); K]) -> Machine {
+    let mut machine = Machine { extra: K as u32, ..machine };
+    for (extra, (kind, bits)) in machine.extras.iter_mut().zip(extras) {
+        extra.kind = kind;
+        extra.precision = Precision { bits, fraction: 8, vertex_fraction: 2 };
+    }
+    machine
+}
+
+/// Twelve machines with their names: adders, segments, lanes, radices, word lengths, fills, edges, hazard policies, and in
+/// two of them channels of the user's own, more than their adders or lanes divide.
 pub fn twelve() -> Vec<(&'static str, Plan)> {
     let s = Machine::clone(&small());
     let textbook = Machine { subpixel_bits: 0, fill: Fill::Textbook, guard_bits: 6, ..s.clone() };
@@ -62,16 +73,25 @@ pub fn twelve() -> Vec<(&'static str, Plan)> {
         ("two_adders_drain", Machine { adders: 2, hazard: Hazard::Drain, lanes: 2, ..s.clone() }),
         ("one_adder_interlock", Machine { adders: 1, hazard: Hazard::Interlock, lanes: 4, ..s.clone() }),
         ("two_segments", Machine { segments: 2, latency: 1, inflight: 1, ..s.clone() }),
-        ("one_adder_of_four_segments", Machine { adders: 1, segments: 4, span_fifo: 1, ..s.clone() }),
         (
-            "two_adders_of_two_segments",
-            Machine { adders: 2, segments: 2, inflight: 7, latency: 5, ..s.clone() },
+            "two_adders_of_two_segments_three_extras",
+            with_extras(
+                Machine { adders: 2, segments: 2, inflight: 7, latency: 5, lanes: 2, ..s.clone() },
+                [(Kind::Floor, 5), (Kind::Unorm, 3), (Kind::Signed, 7)],
+            ),
         ),
+        ("one_adder_of_four_segments", Machine { adders: 1, segments: 4, span_fifo: 1, ..s.clone() }),
         (
             "four_segments_interlock",
             Machine { segments: 4, hazard: Hazard::Interlock, latency: 3, ..s.clone() },
         ),
-        ("slopes", Machine { edge_kind: EdgeKind::Slope, edge_fraction: 12, ..s.clone() }),
+        (
+            "slopes_two_extras",
+            with_extras(
+                Machine { edge_kind: EdgeKind::Slope, edge_fraction: 12, lanes: 4, ..s.clone() },
+                [(Kind::Unorm, 6), (Kind::Signed, 4)],
+            ),
+        ),
         (
             "textbook",
             Machine {
