@@ -22,7 +22,7 @@ mod report;
 pub use cache::Cache;
 pub use cells::Cells;
 pub use design::Design;
-pub use flow::{Flow, Limits};
+pub use flow::Flow;
 pub use packed::Packed;
 pub use part::{Part, UnknownPart};
 pub use report::{Mhz, Outcome, Seed, UnitCells};
