@@ -1,6 +1,6 @@
 //! The Verilog that the tools get.
 
-use crate::harness::harness;
+use crate::harness::{MODULE, harness};
 use crate::part::Part;
 use edgewalk_machine::Plan;
 use edgewalk_netlist::BuildErrors;
@@ -27,7 +27,9 @@ impl Design {
     /// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
     pub fn new(plan: &Plan, part: Part) -> Result<Design, BuildErrors> {
         let netlist = part.netlist(plan)?;
-        let files = edgewalk_verilog::print(&harness(&netlist)?);
+        let mut files = edgewalk_verilog::print(&harness(&netlist)?);
+        // As `*.v` gives them: what Yosys makes of a design depends on the order of its modules by a few per cent.
+        files.sort();
         let mut hash = Sha256::new();
         for (name, text) in &files {
             hash.update(name);
@@ -44,5 +46,11 @@ impl Design {
             units: units.collect(),
             files,
         })
+    }
+
+    /// Names of the files without the harness.
+    pub(crate) fn sources(&self) -> impl Iterator<Item = &str> {
+        let harness = format!("{MODULE}.v");
+        self.files.iter().map(|(name, _)| name.as_str()).filter(move |name| *name != harness)
     }
 }

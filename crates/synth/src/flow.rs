@@ -57,22 +57,20 @@ impl Flow<'_> {
         }
         let job = Job { flow: self, design, target, yosys: outcome.yosys.clone().unwrap_or_default() };
         let (flat, units) = rayon::join(|| job.flat(), || job.units());
-        let mut reasons = Vec::new();
-        let mut known = |stop: &Stop| reasons.push(stop.to_string());
-        outcome.units = units.map_err(|stop| known(&stop)).ok();
+        outcome.units = units.map_err(|stop| outcome.reasons.push(stop.to_string())).ok();
         match flat {
             Ok((cells, netlist)) => {
                 outcome.cells = Some(cells);
-                if let Err(stop) = job.place(&netlist, &mut outcome, &mut known) {
-                    known(&stop);
+                if let Err(stop) = job.place(&netlist, &mut outcome) {
+                    outcome.reasons.push(stop.to_string());
                 }
             }
             Err(stop) => {
-                known(&stop);
+                outcome.reasons.push(stop.to_string());
                 outcome.stop = Some(stop);
             }
         }
-        Outcome { reasons, ..outcome }
+        outcome
     }
 
     fn version(&self, tool: &str, option: &str) -> Result<String, Stop> {
@@ -82,13 +80,14 @@ impl Flow<'_> {
 }
 
 impl Job<'_> {
-    /// Flattened inside the harness, but apart from it: its cells, and the netlist with the harness.
+    /// Flattened, and counted by itself; then the netlist of it in the harness, which is synthesised apart, so that the
+    /// one changes nothing of the other.
     fn flat(&self) -> Result<(Cells, PathBuf), Stop> {
-        let (module, synth) = (&self.design.module, self.target.synth);
+        let (module, synth, around) = (&self.design.module, self.target.synth, harness::MODULE);
         let script = format!(
-            "setattr -mod -set keep_hierarchy 1 {module}; {synth} -top {}; tee -q -o {STATISTICS} stat -json; \
-             setattr -mod -unset keep_hierarchy {module}; flatten; write_json {NETLIST}",
-            harness::MODULE
+            "{synth} -top {module}; tee -q -o {STATISTICS} stat -json; design -stash part; \
+             read_verilog {module}.v {around}.v; blackbox {module}; {synth} -top {around}; delete ={module}; \
+             design -copy-from part ={module}; hierarchy -check -top {around}; flatten; write_json {NETLIST}"
         );
         let folder = self.synthesis(&script, &[STATISTICS, NETLIST])?;
         let cells = Statistics::read(&text(&folder.join(STATISTICS))?)?.module(module)?;
@@ -116,20 +115,18 @@ impl Job<'_> {
     fn synthesis(&self, script: &str, keep: &[&str]) -> Result<PathBuf, Stop> {
         let Job { flow, design, target, .. } = self;
         let folder = flow.cache.step(&[&design.hash, &self.yosys, script], keep, |folder| {
-            let mut command = Command::new(target.yosys);
             for (name, verilog) in &design.files {
                 std::fs::write(folder.join(name), verilog).map_err(|error| Stop::broken(name, &error))?;
-                command.arg(name);
             }
-            // The script comes after the files.
-            run(command.args(["-q", "-p", script]).current_dir(folder), flow.limit).map(drop)
+            let script = format!("read_verilog {}; {script}", design.sources().collect::<Vec<_>>().join(" "));
+            run(Command::new(target.yosys).args(["-q", "-p", &script]).current_dir(folder), flow.limit).map(drop)
         });
         (flow.done)();
         folder
     }
 
     /// Packs, then places and routes with every seed.
-    fn place(&self, netlist: &Path, outcome: &mut Outcome, known: &mut impl FnMut(&Stop)) -> Result<(), Stop> {
+    fn place(&self, netlist: &Path, outcome: &mut Outcome) -> Result<(), Stop> {
         let Job { flow, target, .. } = self;
         let nextpnr = flow.version(target.nextpnr, "--version")?;
         let packed = self.pack(netlist, &nextpnr)?;
@@ -137,7 +134,8 @@ impl Job<'_> {
         let lacks = packed.lacks.clone();
         outcome.packed = Some(packed);
         if let Some(lacks) = lacks {
-            return Err(Stop::Broken { tool: target.nextpnr.to_owned(), lines: vec![lacks] });
+            outcome.reasons.push(lacks);
+            return Ok(());
         }
         let found: Vec<(u32, Result<Timing, Stop>)> =
             flow.seeds.par_iter().with_max_len(1).map(|seed| (*seed, self.seed(netlist, &nextpnr, *seed))).collect();
@@ -146,7 +144,7 @@ impl Job<'_> {
             outcome.seeds.push(Seed { seed, mhz: timing.as_ref().ok().map(|timing| timing.mhz) });
             match timing {
                 Ok(timing) => timings.push(timing),
-                Err(stop) => known(&stop),
+                Err(stop) => outcome.reasons.push(format!("seed {seed}: {stop}")),
             }
         }
         timings.sort_by(|a, b| a.mhz.total_cmp(&b.mhz));
@@ -179,7 +177,7 @@ impl Job<'_> {
         let timing = timing(seed, &report).map_err(|error| Stop::broken(self.target.nextpnr, &error.into()))?;
         timing.ok_or_else(|| Stop::Broken {
             tool: self.target.nextpnr.to_owned(),
-            lines: vec![format!("seed {seed}: it tells of no path from register to register")],
+            lines: vec!["it tells of no path from register to register".to_owned()],
         })
     }
 

@@ -24,7 +24,7 @@ pub const TARGETS: &[Target] = &[
         name: "ice40-hx8k",
         device: "iCE40 HX8K, package ct256",
         yosys: "yosys",
-        synth: "synth_ice40 -device hx",
+        synth: "synth_ice40",
         nextpnr: "nextpnr-ice40",
         options: &["--hx8k", "--package", "ct256"],
         packed: "ICESTORM_LC",
