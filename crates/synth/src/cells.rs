@@ -81,8 +81,8 @@ impl Statistics {
                 let each = self.module(cell)?;
                 (0..*count).for_each(|_| all += each);
             } else if cell != NOTHING {
-                *kind(&mut all, cell).ok_or_else(|| said(format!("{name} has cells {cell}, of unknown kind")))? +=
-                    count;
+                *kind(&mut all, cell)
+                    .ok_or_else(|| said(format!("{name} has cells {cell}, of unknown kind")))? += count;
             }
         }
         Ok(all)

@@ -38,7 +38,8 @@ impl Design {
             hash.update([0]);
         }
         let units = netlist.instances.iter().filter(|_| part.has_units());
-        let units = units.map(|unit| (unit.name.trim_start_matches("u_").to_owned(), unit.module.name.clone()));
+        let units =
+            units.map(|unit| (unit.name.trim_start_matches("u_").to_owned(), unit.module.name.clone()));
         Ok(Design {
             part,
             hash: hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect(),

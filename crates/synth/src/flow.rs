@@ -119,7 +119,8 @@ impl Job<'_> {
                 std::fs::write(folder.join(name), verilog).map_err(|error| Stop::broken(name, &error))?;
             }
             let script = format!("read_verilog {}; {script}", design.sources().collect::<Vec<_>>().join(" "));
-            run(Command::new(target.yosys).args(["-q", "-p", &script]).current_dir(folder), flow.limit).map(drop)
+            run(Command::new(target.yosys).args(["-q", "-p", &script]).current_dir(folder), flow.limit)
+                .map(drop)
         });
         (flow.done)();
         folder
@@ -137,8 +138,12 @@ impl Job<'_> {
             outcome.reasons.push(lacks);
             return Ok(());
         }
-        let found: Vec<(u32, Result<Timing, Stop>)> =
-            flow.seeds.par_iter().with_max_len(1).map(|seed| (*seed, self.seed(netlist, &nextpnr, *seed))).collect();
+        let found: Vec<(u32, Result<Timing, Stop>)> = flow
+            .seeds
+            .par_iter()
+            .with_max_len(1)
+            .map(|seed| (*seed, self.seed(netlist, &nextpnr, *seed)))
+            .collect();
         let mut timings = Vec::new();
         for (seed, timing) in found {
             outcome.seeds.push(Seed { seed, mhz: timing.as_ref().ok().map(|timing| timing.mhz) });
@@ -165,7 +170,8 @@ impl Job<'_> {
             std::fs::write(folder.join(PACKED), packed).map_err(|error| Stop::broken(PACKED, &error))
         });
         (flow.done)();
-        serde_json::from_str(&text(&folder?.join(PACKED))?).map_err(|error| Stop::broken(PACKED, &error.into()))
+        serde_json::from_str(&text(&folder?.join(PACKED))?)
+            .map_err(|error| Stop::broken(PACKED, &error.into()))
     }
 
     fn seed(&self, netlist: &Path, version: &str, seed: u32) -> Result<Timing, Stop> {
@@ -174,7 +180,8 @@ impl Job<'_> {
         let folder = self.placement(netlist, version, &options, &[REPORT], |_| Ok(()));
         (self.flow.done)();
         let report = text(&folder?.join(REPORT))?;
-        let timing = timing(seed, &report).map_err(|error| Stop::broken(self.target.nextpnr, &error.into()))?;
+        let timing =
+            timing(seed, &report).map_err(|error| Stop::broken(self.target.nextpnr, &error.into()))?;
         timing.ok_or_else(|| Stop::Broken {
             tool: self.target.nextpnr.to_owned(),
             lines: vec!["it tells of no path from register to register".to_owned()],

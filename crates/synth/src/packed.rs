@@ -52,8 +52,10 @@ pub(crate) fn packed(cell: &str, written: &str, report: &str) -> serde_json::Res
     let written: Written = serde_json::from_str(written)?;
     let report: Report = serde_json::from_str(report)?;
     let cells = written.modules.values().flat_map(|module| &module.cells);
-    let (design, harness): (Vec<_>, Vec<_>) =
-        cells.filter(|(_, packed)| packed.r#type == cell).map(|(name, _)| name).partition(|name| is_of_design(name));
+    let (design, harness): (Vec<_>, Vec<_>) = cells
+        .filter(|(_, packed)| packed.r#type == cell)
+        .map(|(name, _)| name)
+        .partition(|name| is_of_design(name));
     let lacks = report.utilization.iter().filter(|(_, of)| of.used > of.available);
     let lacks: Vec<String> =
         lacks.map(|(cell, of)| format!("{} {cell}, the device has {}", of.used, of.available)).collect();
@@ -75,7 +77,9 @@ mod tests {
         "harness_in_line_y_SB_DFF_Q_1_DFFLC": {"type": "ICESTORM_LC"}, "clk$sb_io": {"type": "SB_IO"}}}}}"#;
 
     fn of(used: u64) -> Packed {
-        let lc = format!(r#"{{"ICESTORM_LC": {{"available": 7680, "used": {used}}}, "SB_IO": {{"available": 256, "used": 4}}}}"#);
+        let lc = format!(
+            r#"{{"ICESTORM_LC": {{"available": 7680, "used": {used}}}, "SB_IO": {{"available": 256, "used": 4}}}}"#
+        );
         let report = format!(r#"{{"critical_paths": [], "fmax": {{}}, "utilization": {lc}}}"#);
         packed("ICESTORM_LC", WRITTEN, &report).expect("both can be read")
     }

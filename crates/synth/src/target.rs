@@ -66,9 +66,10 @@ impl Target {
     /// An unknown name.
     pub fn named(name: &str) -> Result<Target, UnknownTarget> {
         let names = TARGETS.iter().map(|target| target.name);
-        TARGETS.iter().find(|target| target.name == name).copied().ok_or_else(|| UnknownTarget {
-            name: name.to_owned(),
-            nearest: nearest(name, names),
-        })
+        TARGETS
+            .iter()
+            .find(|target| target.name == name)
+            .copied()
+            .ok_or_else(|| UnknownTarget { name: name.to_owned(), nearest: nearest(name, names) })
     }
 }

@@ -73,7 +73,8 @@ pub(crate) fn timing(seed: u32, report: &str) -> serde_json::Result<Option<Timin
     let report: Report = serde_json::from_str(report)?;
     // There is one clock; pins are in other paths.
     let mhz = report.fmax.values().map(|clock| clock.achieved).min_by(f64::total_cmp);
-    let path = report.critical_paths.iter().find(|path| path.from == path.to && path.from.starts_with("posedge"));
+    let path =
+        report.critical_paths.iter().find(|path| path.from == path.to && path.from.starts_with("posedge"));
     Ok(mhz.zip(path).map(|(mhz, path)| Timing { mhz, path: summary(seed, &path.path) }))
 }
 

@@ -77,12 +77,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     targets.dedup();
     let seeds: Vec<u32> = (1..=args.seeds).collect();
     let bar = progress::bar(0, "runs of tools", talk.quiet);
-    let flow = Flow {
-        cache: &cache,
-        limit: Duration::from_secs(args.limit),
-        seeds: &seeds,
-        done: &|| bar.inc(1),
-    };
+    let flow =
+        Flow { cache: &cache, limit: Duration::from_secs(args.limit), seeds: &seeds, done: &|| bar.inc(1) };
     bar.set_length(flow.steps() * targets.len() as u64);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(args.jobs.map_or(0, usize::from)).build()?;
     let outcomes: Vec<_> =
@@ -120,8 +116,7 @@ fn cache_folder(args: &Args) -> Result<PathBuf> {
     let variable = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let usual = || variable("XDG_CACHE_HOME").or_else(|| Some(variable("HOME")?.join(".cache")));
     let own = |folder: PathBuf| folder.join("edgewalk").join("synth");
-    args.cache
-        .clone()
-        .or_else(|| usual().map(own))
-        .ok_or_else(|| anyhow!("neither XDG_CACHE_HOME nor HOME says where to keep results; say it with --cache DIR"))
+    args.cache.clone().or_else(|| usual().map(own)).ok_or_else(|| {
+        anyhow!("neither XDG_CACHE_HOME nor HOME says where to keep results; say it with --cache DIR")
+    })
 }
