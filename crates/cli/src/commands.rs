@@ -9,5 +9,6 @@ pub mod emit;
 pub mod vectors;
 pub mod verify;
 pub mod trace;
+pub mod synth;
 pub mod bench;
 pub mod config;

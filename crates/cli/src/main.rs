@@ -31,7 +31,7 @@ mod verdict;
 
 use anyhow::Result;
 use clap::{Parser, Subcommand};
-use commands::{bench, config, demo, emit, explain, gallery, raster, render, trace, vectors, verify};
+use commands::{bench, config, demo, emit, explain, gallery, raster, render, synth, trace, vectors, verify};
 use machine_args::MachineArgs;
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -76,6 +76,7 @@ enum Command {
     Vectors(vectors::Args),
     Verify(verify::Args),
     Trace(trace::Args),
+    Synth(synth::Args),
     Bench(bench::Args),
     Config(config::Args),
 }
@@ -105,6 +106,7 @@ fn run(cli: &Cli) -> Result<Verdict> {
         Command::Vectors(a) => vectors::run(a, &cli.machine, talk),
         Command::Verify(a) => verify::run(a, &cli.machine, talk),
         Command::Trace(a) => trace::run(a, &cli.machine, talk),
+        Command::Synth(a) => synth::run(a, &cli.machine, talk),
         Command::Bench(a) => bench::run(a, &cli.machine, talk),
         Command::Config(a) => config::run(a, &cli.machine, talk.json),
     }

@@ -1,7 +1,8 @@
 //! How a command ends: the exit codes every subcommand shares.
 
 use anyhow::{Result, anyhow};
-use edgewalk_vectors::{SimulateError, Stop};
+use edgewalk_tool::Stop;
+use edgewalk_vectors::SimulateError;
 use std::io::Write as _;
 use std::process::ExitCode;
 
@@ -78,11 +79,15 @@ impl Verdict {
 
 /// The exit code of what could not be done: 2 bad input, 3 tool missing or broken, 4 time limit.
 pub fn of_error(error: &anyhow::Error) -> ExitCode {
-    ExitCode::from(match error.downcast_ref::<SimulateError>() {
-        Some(SimulateError::Tool(Stop::TimeLimit { .. })) => 4,
-        Some(SimulateError::Tool(_)) => 3,
-        _ if error.is::<ToolError>() => 3,
-        _ => 2,
+    let of_simulator = error.downcast_ref::<SimulateError>().and_then(|error| match error {
+        SimulateError::Tool(stop) => Some(stop),
+        SimulateError::Read(_) => None,
+    });
+    ExitCode::from(match of_simulator.or_else(|| error.downcast_ref::<Stop>()) {
+        Some(Stop::TimeLimit { .. }) => 4,
+        Some(_) => 3,
+        None if error.is::<ToolError>() => 3,
+        None => 2,
     })
 }
 

@@ -16,12 +16,14 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("jit", &["netlist"]),
     ("rtl", &["machine", "netlist"]),
     ("lockstep", &["machine", "model", "netlist", "rtl"]),
-    ("vectors", &["machine", "model", "netlist", "verilog", "rtl", "lockstep"]),
+    ("tool", &[]),
+    ("vectors", &["machine", "model", "netlist", "verilog", "rtl", "lockstep", "tool"]),
+    ("synth", &["machine", "netlist", "verilog", "rtl", "tool"]),
     (
         "cli",
         &[
             "numerics", "machine", "scene", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl",
-            "lockstep", "vectors",
+            "lockstep", "tool", "vectors", "synth",
         ],
     ),
 ];

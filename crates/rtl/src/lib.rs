@@ -30,7 +30,7 @@ mod machine;
 
 pub use depth::depth;
 pub use edge::edge;
-pub use machine::{assemble, machine};
+pub use machine::{assemble, engine, machine};
 pub use memory::memory;
 pub use pixel::pixel;
 pub use setup::setup;

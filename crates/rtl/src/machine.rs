@@ -19,9 +19,27 @@ use joined::{Joined, Unit};
 /// # Errors
 /// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
 pub fn machine(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
+    assemble(plan, &units(plan))
+}
+
+/// The netlist of the units that draw, all but SETUP, joined as in the machine: it takes primitives. It does not tell the
+/// cause of a cycle, which is SETUP's too.
+///
+/// # Errors
+/// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
+pub fn engine(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
+    let units: Vec<_> = units(plan).into_iter().filter(|(unit, _)| unit.name != "setup").collect();
+    let m = Module::new("edgewalk_engine", "The units that draw, without SETUP.");
+    let units = place(&m, plan, &units)?;
+    units.connect_inputs();
+    units.join();
+    units.connect_outputs();
+    m.finish()
+}
+
+fn units(plan: &Plan) -> Vec<(&'static UnitSpec, Build)> {
     let build = |unit: &UnitSpec| builder(unit.name).expect("a test finds a builder for every declared unit");
-    let units: Vec<(&UnitSpec, Build)> = plan.units().map(|unit| (unit, build(unit))).collect();
-    assemble(plan, &units)
+    plan.units().map(|unit| (unit, build(unit))).collect()
 }
 
 /// Joins these units, in the order the data flows, as their declarations say: a link to the link of the next unit, held values,
@@ -31,12 +49,7 @@ pub fn machine(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 /// Those of the units, and inputs of theirs that nothing drives.
 pub fn assemble(plan: &Plan, units: &[(&UnitSpec, Build)]) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new("edgewalk", &doc(plan, units));
-    let mut placed = Vec::new();
-    for (unit, build) in units {
-        let instance = m.instance(&format!("u_{}", unit.name), &build(plan)?);
-        placed.push(Unit { outside: Interface::new(&m, (unit.ports)(plan)), instance });
-    }
-    let units = Joined(placed);
+    let units = place(&m, plan, units)?;
     units.connect_inputs();
     units.join();
 
@@ -48,6 +61,14 @@ pub fn assemble(plan: &Plan, units: &[(&UnitSpec, Build)]) -> Result<Arc<Netlist
     status.status("activity", activity);
     status.status("idle", activity.eq(Activity::Idle as i32));
     m.finish()
+}
+
+fn place<'m>(m: &'m Module, plan: &Plan, units: &[(&UnitSpec, Build)]) -> Result<Joined<'m>, BuildErrors> {
+    let placed = units.iter().map(|(unit, build)| {
+        let instance = m.instance(&format!("u_{}", unit.name), &build(plan)?);
+        Ok(Unit { outside: Interface::new(m, (unit.ports)(plan)), instance })
+    });
+    Ok(Joined(placed.collect::<Result<_, _>>()?))
 }
 
 fn doc(plan: &Plan, units: &[(&UnitSpec, Build)]) -> String {

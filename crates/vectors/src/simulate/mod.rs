@@ -3,15 +3,14 @@
 //! The only place of this crate that does I/O. Tools read the directory and write to a work directory beside it; every
 //! tool has a time limit. A verdict says how much was compared, and nothing compared is a verdict of its own.
 
-mod process;
 mod synthesis;
 
-pub use process::Stop;
+pub use edgewalk_tool::Stop;
 pub use synthesis::{Cells, synth_ice40};
 
 use crate::manifest::Manifest;
 use crate::read::{ReadError, read};
-use process::run;
+use edgewalk_tool::{first_lines, run};
 use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
@@ -143,9 +142,4 @@ fn verdict(manifest: &Manifest, text: &str) -> Option<Outcome> {
             Outcome::Mismatch { checked, expected: manifest.expected, lines: first_lines(told) }
         }
     })
-}
-
-/// Enough to see what is wrong.
-fn first_lines<'a>(lines: impl Iterator<Item = &'a str>) -> Vec<String> {
-    lines.filter(|line| !line.trim().is_empty()).take(20).map(str::to_owned).collect()
 }

@@ -1,8 +1,8 @@
 //! Synthesis for iCE40 with Yosys: does it accept the design, and how many cells does it take.
 
-use super::process::{Stop, run};
 use super::{SimulateError, hdl};
 use crate::read::read;
+use edgewalk_tool::{Stop, first_lines, run};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -32,7 +32,7 @@ pub fn synth_ice40(directory: &Path, limit: Duration) -> Result<Cells, SimulateE
     command.args(["-Q", "-T", "-p", &format!("synth_ice40 -top {}; stat -json", manifest.module)]);
     let printed = run(command.args(hdl(&manifest)).current_dir(directory), limit)?;
     let cells = cells(&printed).filter(|cells| cells.values().any(|count| *count > 0));
-    let lines = || super::first_lines(printed.lines().rev());
+    let lines = || first_lines(printed.lines().rev());
     Ok(cells.ok_or_else(|| Stop::Broken { tool: "yosys".to_owned(), lines: lines() })?)
 }
 

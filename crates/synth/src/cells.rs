@@ -1,0 +1,106 @@
+//! What Yosys counts: `stat -json`, a module at a time.
+
+use edgewalk_tool::Stop;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::ops::AddAssign;
+
+/// Cells before packing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Cells {
+    /// Look-up tables of four inputs.
+    pub lut4: u64,
+    /// Cells of the carry chain: a bit each on iCE40, two bits each on ECP5.
+    pub carry: u64,
+    /// Flip-flops.
+    pub ff: u64,
+    /// Memories: blocks, and on ECP5 those of 16 words in look-up tables.
+    pub ram: u64,
+    /// Multipliers.
+    pub dsp: u64,
+    /// Multiplexers beside the look-up tables, ECP5 only.
+    pub mux: u64,
+}
+
+/// Cells of Yosys that stand for nothing on the device.
+const NOTHING: &str = "$scopeinfo";
+
+/// What a cell of that type counts as; `None` for a module and for what is not listed.
+fn kind<'c>(cells: &'c mut Cells, cell: &str) -> Option<&'c mut u64> {
+    match cell {
+        "SB_LUT4" | "LUT4" => Some(&mut cells.lut4),
+        "SB_CARRY" | "CCU2C" => Some(&mut cells.carry),
+        "SB_RAM40_4K" | "SB_SPRAM256KA" | "DP16KD" | "PDPW16KD" | "TRELLIS_DPR16X4" => Some(&mut cells.ram),
+        "SB_MAC16" | "MULT18X18D" | "MULT9X9D" | "ALU54B" => Some(&mut cells.dsp),
+        "PFUMX" | "L6MUX21" => Some(&mut cells.mux),
+        "TRELLIS_FF" => Some(&mut cells.ff),
+        _ if cell.starts_with("SB_DFF") => Some(&mut cells.ff),
+        _ => None,
+    }
+}
+
+impl AddAssign for Cells {
+    fn add_assign(&mut self, other: Cells) {
+        self.lut4 += other.lut4;
+        self.carry += other.carry;
+        self.ff += other.ff;
+        self.ram += other.ram;
+        self.dsp += other.dsp;
+        self.mux += other.mux;
+    }
+}
+
+/// What `stat -json` says.
+#[derive(Deserialize)]
+pub(crate) struct Statistics {
+    modules: BTreeMap<String, Module>,
+}
+
+#[derive(Deserialize)]
+struct Module {
+    #[serde(default)]
+    num_cells_by_type: BTreeMap<String, u64>,
+}
+
+impl Statistics {
+    pub fn read(json: &str) -> Result<Statistics, Stop> {
+        let said = |why: String| Stop::Broken { tool: "yosys".to_owned(), lines: vec![why] };
+        serde_json::from_str(json).map_err(|error| said(format!("its statistics cannot be read: {error}")))
+    }
+
+    /// The cells of a module, with those of the modules it uses.
+    ///
+    /// # Errors
+    /// It is not there, or has cells that nobody has listed: then the count would not be whole.
+    pub fn module(&self, name: &str) -> Result<Cells, Stop> {
+        let said = |why: String| Stop::Broken { tool: "yosys".to_owned(), lines: vec![why] };
+        let module = self.find(name).ok_or_else(|| said(format!("its statistics tell nothing of {name}")))?;
+        let mut all = Cells::default();
+        for (cell, count) in &module.num_cells_by_type {
+            if self.find(cell).is_some() {
+                let each = self.module(cell)?;
+                (0..*count).for_each(|_| all += each);
+            } else if cell != NOTHING {
+                *kind(&mut all, cell)
+                    .ok_or_else(|| said(format!("{name} has cells {cell}, of unknown kind")))? += count;
+            }
+        }
+        Ok(all)
+    }
+
+    /// The cells of a module itself, without those of the modules it uses.
+    pub fn own(&self, name: &str) -> Cells {
+        let mut own = Cells::default();
+        for (cell, count) in self.find(name).into_iter().flat_map(|module| &module.num_cells_by_type) {
+            if let Some(kind) = kind(&mut own, cell) {
+                *kind += count;
+            }
+        }
+        own
+    }
+
+    /// Verilog's escape stands before the names of modules, but not where they are used.
+    fn find(&self, name: &str) -> Option<&Module> {
+        self.modules.get(name).or_else(|| self.modules.get(&format!("\\{name}")))
+    }
+}
