@@ -35,8 +35,8 @@ pub enum NoPlace {
     },
 }
 
-impl From<Port> for NoPlace {
-    fn from(port: Port) -> NoPlace {
+impl From<Box<Port>> for NoPlace {
+    fn from(port: Box<Port>) -> NoPlace {
         NoPlace::Port { unit: port.owner.to_owned(), port: port.name }
     }
 }

@@ -74,12 +74,12 @@ impl<T: Named> Table<T> {
     ///
     /// # Errors
     /// The first port that the token has no field for.
-    pub fn of(plan: &Plan, link: &Link) -> Result<Table<T>, Port> {
+    pub fn of(plan: &Plan, link: &Link) -> Result<Table<T>, Box<Port>> {
         let found = link.fields[..link.own].iter().map(|port| {
-            let (slot, number) = T::find(plan, &port.field.name).ok_or_else(|| port.clone())?;
+            let (slot, number) = T::find(plan, &port.field.name).ok_or_else(|| Box::new(port.clone()))?;
             Ok(Place { slot, number, width: port.width(), signed: port.is_signed() })
         });
-        Ok(Table { blank: T::blank(plan), fields: found.collect::<Result<_, Port>>()? })
+        Ok(Table { blank: T::blank(plan), fields: found.collect::<Result<_, Box<Port>>>()? })
     }
 
     /// The fields of a token.
