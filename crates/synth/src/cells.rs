@@ -104,3 +104,33 @@ impl Statistics {
         self.modules.get(name).or_else(|| self.modules.get(&format!("\\{name}")))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As Yosys 0.23 and 0.70 print it, shortened.
+    const PRINTED: &str = r#"{ "creator": "Yosys", "modules": {
+        "\\edgewalk": { "num_cells": 9, "num_cells_by_type": { "SB_LUT4": 3, "edgewalk_lane": 2, "edgewalk_span": 1, "SB_DFF": 1 } },
+        "\\edgewalk_lane": { "num_cells": 12, "num_cells_by_type": { "SB_CARRY": 5, "SB_DFFESR": 4, "SB_LUT4": 7, "SB_DFF": 1 } },
+        "\\edgewalk_span": { "num_cells_by_type": { "$scopeinfo": 1, "LUT4": 4, "CCU2C": 2, "PFUMX": 1, "TRELLIS_FF": 8, "DP16KD": 1, "MULT18X18D": 1 } },
+        "\\odd": { "num_cells_by_type": { "SB_ODD": 1 } } } }"#;
+
+    #[test]
+    fn modules_count_with_those_in_them() {
+        let statistics = Statistics::read(PRINTED).expect("JSON");
+        let all = statistics.module("edgewalk").expect("known cells");
+        assert_eq!(all, Cells { lut4: 3 + 14 + 4, carry: 10 + 2, ff: 1 + 10 + 8, ram: 1, dsp: 1, mux: 1 });
+        assert_eq!(statistics.own("edgewalk"), Cells { lut4: 3, ff: 1, ..Cells::default() });
+    }
+
+    #[test]
+    fn what_cannot_be_counted_is_said() {
+        let statistics = Statistics::read(PRINTED).expect("JSON");
+        for (module, why) in [("odd", "odd has cells SB_ODD, of unknown kind"), ("none", "nothing of none")] {
+            let stop = statistics.module(module).expect_err("not to be counted").to_string();
+            assert!(stop.contains(why), "{stop}");
+        }
+        assert!(Statistics::read("ERROR").is_err());
+    }
+}
