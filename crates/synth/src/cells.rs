@@ -65,7 +65,10 @@ struct Module {
 impl Statistics {
     pub fn read(json: &str) -> Result<Statistics, Stop> {
         let said = |why: String| Stop::Broken { tool: "yosys".to_owned(), lines: vec![why] };
-        serde_json::from_str(json).map_err(|error| said(format!("its statistics cannot be read: {error}")))
+        // Between the modules Yosys 0.23 prints lines of its table of instances, which are no JSON.
+        let json: String =
+            json.lines().filter(|line| line.trim_start().starts_with(['"', '{', '}'])).collect();
+        serde_json::from_str(&json).map_err(|error| said(format!("its statistics cannot be read: {error}")))
     }
 
     /// The cells of a module, with those of the modules it uses.
@@ -102,5 +105,38 @@ impl Statistics {
     /// Verilog's escape stands before the names of modules, but not where they are used.
     fn find(&self, name: &str) -> Option<&Module> {
         self.modules.get(name).or_else(|| self.modules.get(&format!("\\{name}")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As Yosys 0.23 and 0.70 print it, shortened.
+    const PRINTED: &str = r#"{ "creator": "Yosys", "modules": {
+        "\\edgewalk": { "num_cells": 9, "num_cells_by_type": { "SB_LUT4": 3, "edgewalk_lane": 2, "edgewalk_span": 1, "SB_DFF": 1 } },
+        "\\edgewalk_lane": { "num_cells": 12, "num_cells_by_type": { "SB_CARRY": 5, "SB_DFFESR": 4, "SB_LUT4": 7, "SB_DFF": 1 } },
+        "\\edgewalk_span": { "num_cells_by_type": { "$scopeinfo": 1, "LUT4": 4, "CCU2C": 2, "PFUMX": 1, "TRELLIS_FF": 8, "DP16KD": 1, "MULT18X18D": 1 } },
+        "\\odd": { "num_cells_by_type": { "SB_ODD": 1 } }
+        },
+            edgewalk_span            1
+        "design": { "num_cells": 21 } }"#;
+
+    #[test]
+    fn modules_count_with_those_in_them() {
+        let statistics = Statistics::read(PRINTED).expect("JSON");
+        let all = statistics.module("edgewalk").expect("known cells");
+        assert_eq!(all, Cells { lut4: 3 + 14 + 4, carry: 10 + 2, ff: 1 + 10 + 8, ram: 1, dsp: 1, mux: 1 });
+        assert_eq!(statistics.own("edgewalk"), Cells { lut4: 3, ff: 1, ..Cells::default() });
+    }
+
+    #[test]
+    fn what_cannot_be_counted_is_said() {
+        let statistics = Statistics::read(PRINTED).expect("JSON");
+        for (module, why) in [("odd", "odd has cells SB_ODD, of unknown kind"), ("none", "nothing of none")] {
+            let stop = statistics.module(module).expect_err("not to be counted").to_string();
+            assert!(stop.contains(why), "{stop}");
+        }
+        assert!(Statistics::read("ERROR").is_err() && Statistics::read("").is_err());
     }
 }

@@ -109,3 +109,44 @@ fn summary(seed: u32, segments: &[Segment]) -> CriticalPath {
         points,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As nextpnr-ice40 0.4 writes it, shortened.
+    const REPORT: &str = r#"{"critical_paths": [
+        {"from": "<async>", "path": [], "to": "posedge clk$SB_IO_IN_$glb_clk"},
+        {"from": "posedge clk$SB_IO_IN_$glb_clk", "path": [
+            {"delay": 0.5, "from": {"cell": "a", "loc": [7, 3], "port": "CLK"},
+             "to": {"cell": "dut.u_edge.minor_c_SB_DFFE_Q_DFFLC", "loc": [6, 3], "port": "O"}, "type": "clk-to-q"},
+            {"budget": 0, "delay": 1.0, "from": {"cell": "b", "port": "O"}, "net": "dut.u_edge.minor_c[0]",
+             "to": {"cell": "$nextpnr_ICESTORM_LC_3", "port": "I1"}, "type": "routing"},
+            {"delay": 0.25, "from": {"cell": "c", "port": "I1"}, "to": {"cell": "$nextpnr_ICESTORM_LC_3", "port": "COUT"}, "type": "logic"},
+            {"budget": 0, "delay": 0, "from": {"cell": "c", "port": "COUT"}, "net": "$nextpnr_ICESTORM_LC_3$O",
+             "to": {"cell": "dut.u_span.line_ready_SB_LUT4_O_LC", "port": "I3"}, "type": "routing"},
+            {"delay": 0.25, "from": {"cell": "d", "port": "I3"}, "to": {"cell": "d", "port": "O"}, "type": "logic"},
+            {"budget": 0, "delay": 2.0, "from": {"cell": "d", "port": "O"}, "net": "dut.u_span.line_ready_SB_LUT4_O_I0[1]",
+             "to": {"cell": "dut.u_edge.n_SB_DFFE_Q_1_DFFLC", "port": "CEN"}, "type": "routing"},
+            {"delay": 0.125, "from": {"cell": "e", "port": "CEN"},
+             "to": {"cell": "dut.u_edge.n_SB_DFFE_Q_1_DFFLC", "port": "CEN"}, "type": "setup"}],
+         "to": "posedge clk$SB_IO_IN_$glb_clk"}],
+        "fmax": {"clk$SB_IO_IN_$glb_clk": {"achieved": 242.42, "constraint": 12}}, "utilization": {}}"#;
+
+    #[test]
+    fn a_path_is_told_by_names() {
+        let Timing { mhz, path } = timing(4, REPORT).expect("JSON").expect("a path");
+        let points: Vec<(&str, f64)> =
+            path.points.iter().map(|point| (point.name.as_str(), point.ns)).collect();
+        assert_eq!(points, [("edge.minor_c", 0.5), ("span.line_ready", 2.0), ("edge.n", 4.125)]);
+        assert_eq!((mhz, path.seed, path.lut4, path.carry), (242.42, 4, 1, 1));
+        assert_eq!((path.logic_ns, path.routing_ns), (1.125, 3.0));
+    }
+
+    #[test]
+    fn no_path_is_no_clock() {
+        let none = r#"{"critical_paths": [], "fmax": {}, "utilization": {}}"#;
+        assert!(timing(1, none).expect("JSON").is_none());
+        assert!(timing(1, "Warning").is_err());
+    }
+}
