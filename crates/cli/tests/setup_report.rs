@@ -16,11 +16,11 @@ const CORNERS: [[[f64; 2]; 3]; 8] = [
     [[0.0, 0.0], [40.0, 0.0], [0.0, 40.0]],
 ];
 
-/// Renders the first `count` of them; the report as JSON, and as text.
-fn render(count: usize, settings: &[&str]) -> (Value, String) {
+/// Renders such triangles; the report as JSON, and as text.
+fn render(triangles: &[[[f64; 2]; 3]], settings: &[&str]) -> (Value, String) {
     let folder = tempfile::tempdir().unwrap();
     let mut text = "size 64 48\n".to_owned();
-    for corners in &CORNERS[..count] {
+    for corners in triangles {
         text += "T";
         for [x, y] in corners {
             text += &format!(" {x} {y} .5 .5 .5 .5 0");
@@ -41,7 +41,7 @@ fn render(count: usize, settings: &[&str]) -> (Value, String) {
 
 #[test]
 fn clocks_fates_and_sizes_by_hand() {
-    let (report, text) = render(8, &[]);
+    let (report, text) = render(&CORNERS, &[]);
     let expected = json!({
         // S1 is 19; 2 + 2 + 19 for those that are culled.
         "clocks": {
@@ -67,9 +67,20 @@ fn clocks_fates_and_sizes_by_hand() {
 
 #[test]
 fn the_machine_makes_the_clocks_and_nothing_drawn_has_none() {
-    let (report, _) = render(8, &["setup.lanes=1"]);
+    let (report, _) = render(&CORNERS, &["setup.lanes=1"]);
     assert!(report["setup"]["clocks"]["mean"].as_f64().unwrap() > 250.0, "{report}");
-    let (report, _) = render(3, &[]);
+    let (report, _) = render(&CORNERS[..3], &[]);
     let clocks = json!({ "mean": 0.0, "p95": 0, "most": 0, "bound": 201, "mean_with_culled": 23.0 / 3.0 });
     assert_eq!(report["setup"]["clocks"], clocks);
+}
+
+/// From 20 px left of the screen, in both directions: only what is on the screen counts.
+#[test]
+fn pixels_off_the_screen_do_not_count() {
+    for corners in [[[-20.0, 2.0], [3.0, 2.0], [-20.0, 25.0]], [[61.0, 25.0], [84.0, 2.0], [84.0, 25.0]]] {
+        let (report, _) = render(&[corners], &[]);
+        let pixels = report["fragments"].as_u64().unwrap();
+        assert!((1..=3).contains(&pixels), "{pixels}");
+        assert_eq!(report["setup"]["by_pixels"]["1-3"], 1, "{report}");
+    }
 }
