@@ -21,6 +21,7 @@ mod machine_args;
 mod picture;
 mod progress;
 mod report;
+mod setup_report;
 mod scratch;
 mod shading_report;
 mod shadows;

@@ -4,6 +4,7 @@ use crate::Talk;
 use crate::compare::Comparison;
 use crate::engine::{Cycles, Raster};
 use crate::extra::{self, OwnChannel};
+use crate::setup_report::SetupReport;
 use anyhow::Result;
 use edgewalk_machine::Plan;
 use edgewalk_model::Activity;
@@ -22,6 +23,7 @@ pub struct Report {
     cycles: Option<Cycles>,
     corners: Option<edgewalk_model::Events>,
     comparison: Option<Comparison>,
+    setup: Option<SetupReport>,
 }
 
 impl Report {
@@ -38,6 +40,7 @@ impl Report {
             cycles: drawn.cycles,
             corners: drawn.corners.clone(),
             comparison: None,
+            setup: None,
         };
         report.add(drawn);
         report
@@ -60,6 +63,12 @@ impl Report {
     /// The same with a comparison.
     pub fn with(mut self, comparison: Comparison) -> Self {
         self.comparison = Some(comparison);
+        self
+    }
+
+    /// The same with what SETUP did.
+    pub fn with_setup(mut self, setup: SetupReport) -> Self {
+        self.setup = Some(setup);
         self
     }
 
@@ -97,17 +106,17 @@ impl Report {
         if let Some(c) = &self.cycles {
             let causes: Map<_, _> =
                 Activity::ALL.into_iter().map(|a| (a.name().to_owned(), json!(c.spent(a)))).collect();
-            let setup = edgewalk_model::setup_clocks(&self.machine);
             report["cycles"] = json!({
                 "total": c.total,
                 "by_cause": causes,
                 "pixels_per_clock": ratio(self.covered, c.total),
-                "setup_clocks_drawn": (setup.phase1 + setup.phase2),
-                "setup_clocks_culled": setup.phase1,
             });
             if let Some(path) = c.path {
                 report["cycles"]["path"] = path.to_string().into();
             }
+        }
+        if let Some(setup) = &self.setup {
+            report["setup"] = setup.value();
         }
         if let Some(c) = &self.corners {
             report["corners"] = c
@@ -149,15 +158,16 @@ impl Report {
             None if self.cycles.is_none() => {}
             None => extra::channels(m).iter().for_each(|c| t += &OwnChannel::of(c, m).line()),
         }
+        if let Some(setup) = &self.setup {
+            t += &setup.text();
+        }
         if let Some(c) = &self.cycles {
-            let setup = edgewalk_model::setup_clocks(m);
             let _ = writeln!(
                 t,
-                "cycles {}{}, {:.4} pixels a clock; setup {} clocks a triangle",
+                "cycles {}{}, {:.4} pixels a clock",
                 c.total,
                 c.path.map_or_else(String::new, |path| format!(" ({path})")),
-                ratio(self.covered, c.total),
-                (setup.phase1 + setup.phase2)
+                ratio(self.covered, c.total)
             );
             for a in Activity::ALL {
                 let n = c.spent(a);

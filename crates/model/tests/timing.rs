@@ -9,7 +9,7 @@ mod examples;
 use common::{ALWAYS, Triangle, machine, place};
 use edgewalk_golden::Shading;
 use edgewalk_machine::channel::Precision;
-use edgewalk_machine::{EdgeKind, MAX_CHANNELS, Machine, Plan};
+use edgewalk_machine::{EdgeKind, Fill, MAX_CHANNELS, Machine, Plan};
 use edgewalk_model::{Rig, SetupClocks, Stalls, longest_setup, setup_clocks};
 use edgewalk_scene::Scene;
 use std::convert::Infallible;
@@ -60,9 +60,9 @@ fn machines() -> [(&'static str, Machine); 4] {
     [("default", Machine::default()), ("slope", slope), ("narrow", narrow), ("textbook", preset("textbook"))]
 }
 
-/// Three pixels, 60, and one that covers the screen of 640x480; pixels.
+/// Three pixels, an area of 60, and one that covers the screen of 640x480; pixels.
 const SHAPES: [[[i32; 2]; 3]; 3] =
-    [[[2, 2], [4, 2], [2, 4]], [[10, 10], [21, 13], [14, 22]], [[0, 0], [1280, 0], [0, 960]]];
+    [[[2, 2], [5, 2], [2, 5]], [[10, 10], [21, 13], [14, 22]], [[0, 0], [1280, 0], [0, 960]]];
 /// Without area.
 const FLAT: [[i32; 2]; 3] = [[2, 2], [4, 4], [6, 6]];
 
@@ -90,7 +90,7 @@ fn setup_table(table: &mut String) {
          channel at 0, a half and full scale. From one triangle to the next it is two clocks more, where drawing is not waited for;\n\
          after a culled one, one more. A triangle outside the lines or columns of the screen takes 2. *Bound*: what the formats allow.\n\
          *slope*: the default machine with edges of 16 fraction bits; *narrow*: vertices of 11 + 4 bits, z of 16 + 10 and colours of 8 + 10 bits.\n\n\
-         | machine | lanes | 3 pixels {:?} | 60 pixels {:?} | the screen {:?} | no area {FLAT:?} | bound |\n|---|---|---|---|---|---|---|",
+         | machine | lanes | 3 pixels {:?} | area 60 {:?} | the screen {:?} | no area {FLAT:?} | bound |\n|---|---|---|---|---|---|---|",
         SHAPES[0], SHAPES[1], SHAPES[2]
     );
     for (name, machine) in machines() {
@@ -103,6 +103,8 @@ fn setup_table(table: &mut String) {
                 let SetupClocks { phase1, phase2 } = setup_clocks(&plan, &triangle);
                 assert!(phase1 <= longest.phase1 && phase2 <= longest.phase2);
                 if place == 0 {
+                    let pixels = trace(&plan, &[triangle]).reads.len();
+                    assert!(pixels == 3 || plan.fill == Fill::Textbook, "{pixels} pixels");
                     assert_eq!(interval(&plan, &triangle), u64::from(phase1 + phase2 + 2));
                 }
                 let _ = write!(table, " {phase1} + {phase2} |");
@@ -164,7 +166,7 @@ fn channel_table(table: &mut String) {
     let _ = writeln!(
         table,
         "\n## Channels\nS2, clocks of SETUP for the channels, of machines with N of them (extra channels of the default's 26 bits, shorter\n\
-         than z), for the triangle of 60 pixels above, and S1 + S2 + 2.\n\n\
+         than z), for the triangle of area 60 above, and S1 + S2 + 2.\n\n\
          | machine | N | lanes | S2 | a triangle every |\n|---|---|---|---|---|"
     );
     for name in ["default", "textbook"] {

@@ -73,8 +73,8 @@ pub const MUTANTS: &[Mutant] = &[
     (
         "turns of the lanes rounded down",
         "setup/clocks.rs",
-        "channels.div_ceil(plan.lanes)",
-        "(channels / plan.lanes)",
+        "plan.channels().chunks(lanes)",
+        "plan.channels().chunks_exact(lanes)",
     ),
     (
         "the user's channels are not stored",
@@ -83,7 +83,8 @@ pub const MUTANTS: &[Mutant] = &[
         "",
     ),
     // Constants.
-    ("a product takes a clock less", "setup/clocks.rs", "1 + d.div_ceil(k)", "d.div_ceil(k)"),
+    ("lanes are a clock less behind", "setup/clocks.rs", "BEHIND: u32 = 4", "BEHIND: u32 = 3"),
+    ("a number equal to the modulus fits", "setup/clocks.rs", "d < m", "d <= m"),
     (
         "the step of a knee line is that of the upper edge",
         "edge.rs",

@@ -91,7 +91,7 @@ fn explain(machine: &Plan, key: Option<&str>, json: bool) -> Result<String> {
 /// What follows from the keys, and the presets.
 fn consequences(machine: &Plan) -> String {
     let w = machine.widths();
-    let setup = edgewalk_model::setup_clocks(machine);
+    let setup = edgewalk_model::longest_setup(machine);
     let word = |channel: Channel| format!("{}, {} bits, modular", channel.word_format(), channel.word());
     let mut text = format!(
         "\nwhat follows\n    \
@@ -100,7 +100,7 @@ fn consequences(machine: &Plan) -> String {
          colour words           {}\n    \
          address                {} bits: line {} bits, column {} bits\n    \
          pixel rate in a span   1/{} pixel a clock\n    \
-         setup                  {} clocks a triangle, {} if culled\n",
+         setup                  at most {} clocks a triangle\n",
         machine.guard_bits + 1,
         machine.subpixel_bits,
         word(machine.channels()[0]),
@@ -109,8 +109,7 @@ fn consequences(machine: &Plan) -> String {
         w.y,
         w.x,
         machine.clocks_per_pixel(),
-        setup.phase1 + setup.phase2,
-        setup.phase1
+        setup.all()
     );
     text += &Precision::of(machine).text();
     for channel in extra::channels(machine) {

@@ -4,10 +4,11 @@
 use crate::compare::compare;
 use crate::engine::{Engine, draw, from_golden, golden_fill};
 use crate::fast_phong::{FastPhongArgs, FastPhongReport};
-use crate::input::{Shading, Source};
+use crate::input::{Shading, Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::progress::spinner;
 use crate::report::Report;
+use crate::setup_report::SetupReport;
 use crate::shading_report::ShadingReport;
 use crate::shadows::Shadows;
 use crate::staging::Staging;
@@ -186,6 +187,8 @@ pub fn pictures(
     picture::write_heat(out, "z_error.png", (w, h), &comparison.z_map, 1.0)?;
     picture::write_heat(out, "color_error.png", (w, h), &comparison.color_map, 1.0)?;
     let verdict = comparison.verdict();
-    let report = Report::new(name, frame.triangles.len() as u64, machine, &drawn).with(comparison);
+    let setup = SetupReport::new(machine, &to_port(frame, machine)?.triangles);
+    let report =
+        Report::new(name, frame.triangles.len() as u64, machine, &drawn).with(comparison).with_setup(setup);
     Ok(Pictures { report, verdict, ids: drawn.id })
 }
