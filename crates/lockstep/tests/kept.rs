@@ -100,8 +100,7 @@ const FAULTS: &[Kept] = &[
 ];
 
 fn plan(kept: &Kept) -> Plan {
-    let mut machine =
-        Machine { width: 6, height: 6, guard_bits: 3, subpixel_bits: 2, ..Machine::default() };
+    let mut machine = Machine { width: 6, height: 6, guard_bits: 3, subpixel_bits: 2, ..Machine::default() };
     machine.z.bits = 8;
     (kept.machine)(&mut machine);
     machine.plan().expect("can be built")

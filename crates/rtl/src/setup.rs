@@ -70,11 +70,20 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     }
     let area = Area::new(&m, plan, &control, &vertices);
     let lines = Lines::new(&m, plan, &control, &vertices, &prim, &area);
-    let sources = factors::Sources { m: &m, plan, control: &control, vertices: &vertices, lines: &lines, area: &area, prim: &prim };
+    let sources = factors::Sources {
+        m: &m,
+        plan,
+        control: &control,
+        vertices: &vertices,
+        lines: &lines,
+        area: &area,
+        prim: &prim,
+    };
     let factors = sources.factors();
 
     let lanes = lanes::lanes(&m, plan, &control, &factors)?;
-    let sources = operands::Sources { m: &m, plan, control: &control, vertices: &vertices, area: &area, prim: &prim };
+    let sources =
+        operands::Sources { m: &m, plan, control: &control, vertices: &vertices, area: &area, prim: &prim };
     for lane in &lanes {
         sources.connect(lane);
     }

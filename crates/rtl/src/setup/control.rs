@@ -116,13 +116,15 @@ impl<'m> Control<'m> {
         let first = m.reg("first", 1).doc("its first clock");
         let [edge_rounds, channel_rounds] = rounds(plan);
         let most = edge_rounds.max(channel_rounds);
-        let round = (most > 1)
-            .then(|| m.reg("round", (most as u32).next_power_of_two().ilog2()).doc("of the jobs the lanes do in turn"));
+        let round = (most > 1).then(|| {
+            m.reg("round", (most as u32).next_power_of_two().ilog2()).doc("of the jobs the lanes do in turn")
+        });
         let is_round = |number: usize| round.map(|round| round.q().eq(number as i32));
         let with = |a: Signal<'m>, b: Option<Signal<'m>>| b.map_or(a, |b| a & b);
 
         m.comment("Numbers that do not fit hold up what follows: three clocks, and one for two digits.");
-        let most_pairs = (0..most).map(|round| pairs(plan, round)).chain([edge_pairs(plan)]).max().unwrap_or(1);
+        let most_pairs =
+            (0..most).map(|round| pairs(plan, round)).chain([edge_pairs(plan)]).max().unwrap_or(1);
         let pause = m.reg("pause", (most_pairs + 3).ilog2() + 1).doc("clocks left of it").reset(0);
         let advance = pause.q().eq(0).named("advance");
 
@@ -132,11 +134,13 @@ impl<'m> Control<'m> {
         let works = (in_edges | state.q().eq(channels)).named("works");
         let is_done = state.q().eq(done).named("prim_valid");
         let is_at = |place: usize| at.q().eq(codes[place].1);
-        let begin = with(in_edges & is_at(0), is_round(0)).named_doc("begins", "the first clock of a triangle");
+        let begin =
+            with(in_edges & is_at(0), is_round(0)).named_doc("begins", "the first clock of a triangle");
         let gives_up = with(in_edges & is_at(1), is_round(0)) & nothing.q();
         let gives_up = gives_up.named_doc("gives_up", "the triangle has no line or no column");
         let last = (left.q().eq(0)).named_doc("last", "last clock of the operation");
-        let edges_end = with(in_edges & last & is_at(last_edge), is_round(edge_rounds - 1)).named("edges_end");
+        let edges_end =
+            with(in_edges & last & is_at(last_edge), is_round(edge_rounds - 1)).named("edges_end");
         let waits = (edges_end & !area_known.q()).named_doc("waits", "for the area");
         let ends = (works & last & !waits & !gives_up).named_doc("ends", "the operation ends");
         let leaves = (ends & advance).named("leaves");
@@ -165,7 +169,9 @@ impl<'m> Control<'m> {
         }
 
         m.comment("How long the next operation takes.");
-        let doubled = |op: Op, round: usize| m.lit(left_bits, u128::from(round_doublings(plan, op, round).div_ceil(2).max(1)) - 1);
+        let doubled = |op: Op, round: usize| {
+            m.lit(left_bits, u128::from(round_doublings(plan, op, round).div_ceil(2).max(1)) - 1)
+        };
         let mut length = m.lit(left_bits, 0);
         for (before, (op, _)) in codes.iter().enumerate().skip(1).map(|(i, code)| (i - 1, code)) {
             let clocks = match op.doing().length {
@@ -189,7 +195,11 @@ impl<'m> Control<'m> {
         let stage = |at, round: Option<Signal<'m>>, ends| Stage { at, round, ends, codes: codes.clone() };
         let named = stage(at.q(), round.map(Reg::q), ends);
         let held = |name: &str| {
-            (m.reg(&format!("at_{name}"), bits), round.map(|r| m.reg(&format!("round_{name}"), r.q().width())), m.reg(&format!("ends_{name}"), 1))
+            (
+                m.reg(&format!("at_{name}"), bits),
+                round.map(|r| m.reg(&format!("round_{name}"), r.q().width())),
+                m.reg(&format!("ends_{name}"), 1),
+            )
         };
         let moved = |to: &(Reg<'m>, Option<Reg<'m>>, Reg<'m>), when: Option<Signal<'m>>, from: &Stage<'m>| {
             let go = |reg: Reg<'m>, value: Signal<'m>| match when {
@@ -206,10 +216,16 @@ impl<'m> Control<'m> {
         let next = moved(&held("next"), Some(advance), &named);
         let (again, fixed) = (held("again"), held("fixed"));
         let resumes = pause.q().eq(1).named_doc("resumes", "the step after the numbers is formed again");
-        let choose = |resumed: Signal<'m>, fixed: Signal<'m>, next: Signal<'m>| advance.mux(next, resumes.mux(resumed, fixed));
+        let choose = |resumed: Signal<'m>, fixed: Signal<'m>, next: Signal<'m>| {
+            advance.mux(next, resumes.mux(resumed, fixed))
+        };
         let formed = stage(
             choose(again.0.q(), fixed.0.q(), next.at).named("at_formed"),
-            again.1.zip(fixed.1).zip(next.round).map(|((again, fixed), next)| choose(again.q(), fixed.q(), next).named("round_formed")),
+            again
+                .1
+                .zip(fixed.1)
+                .zip(next.round)
+                .map(|((again, fixed), next)| choose(again.q(), fixed.q(), next).named("round_formed")),
             // The last two digits are formed when two clocks are left.
             choose(again.2.q(), pause.q().eq(2), next.ends).named("ends_formed"),
         );
@@ -254,7 +270,9 @@ fn clocks(plan: &Plan, op: Op) -> u32 {
     match op.doing().length {
         Length::Clocks(clocks) => clocks,
         Length::Digits => 1,
-        Length::Doublings(number) => plan.channels().iter().map(|c| number(plan, c).div_ceil(2)).max().unwrap_or(1),
+        Length::Doublings(number) => {
+            plan.channels().iter().map(|c| number(plan, c).div_ceil(2)).max().unwrap_or(1)
+        }
     }
 }
 

@@ -54,8 +54,10 @@ impl<'m> Sources<'_, 'm> {
             control.named.of_round(rounds(plan)[0], choice)
         };
         let heights = &self.vertices.heights;
-        let mut choices: Vec<(Vec<Op>, [Signal<'m>; 2])> =
-            vec![(vec![Op::WaitDx], [of_edges(0), of_edges(1)]), (vec![Op::Wait], [natural(heights[0]), natural(heights[1])])];
+        let mut choices: Vec<(Vec<Op>, [Signal<'m>; 2])> = vec![
+            (vec![Op::WaitDx], [of_edges(0), of_edges(1)]),
+            (vec![Op::Wait], [natural(heights[0]), natural(heights[1])]),
+        ];
         match plan.fill {
             Fill::Exact => {
                 let back = |of: Signal<'m>| -whole(of);

@@ -63,7 +63,8 @@ pub(super) fn lane(plan: &Plan, name: &str, shape: Shape) -> Result<Arc<Netlist>
     let upwards = m.input_doc("upwards", 1, "value rounds up whatever is not whole, not to nearest");
 
     m.comment("The modulus: -M, or its complement -M - 1, with the 1 that is then missing.");
-    let modulus = m.reg("modulus", below_two_m).doc("-M or -M - 1, signed").when(take_modulus, modulus_in).q();
+    let modulus =
+        m.reg("modulus", below_two_m).doc("-M or -M - 1, signed").when(take_modulus, modulus_in).q();
     let short = m.reg("short", 1).doc("1 is missing in modulus").when(take_modulus, modulus_short).q();
 
     m.comment("The rests of the slots. Slot 0 is never written: it holds 0.");
@@ -81,7 +82,8 @@ pub(super) fn lane(plan: &Plan, name: &str, shape: Shape) -> Result<Arc<Netlist>
     let with_sign = is(step, Step::Sign).named("with_sign");
     // The step before a fix is a load, and its n0 the number.
     let add_modulus =
-        (is(step, Step::Modulus) | (is_fix & n0.q().msb()) | (is(step, Step::Begin) & below.q())).named("add_modulus");
+        (is(step, Step::Modulus) | (is_fix & n0.q().msb()) | (is(step, Step::Begin) & below.q()))
+            .named("add_modulus");
     let take_modulus_off = one_of(step, &[Step::Double2, Step::Digits]).named("take_modulus_off");
     let negate = (add_modulus | with_sign | (is(step, Step::Less1) & below.q())).named("negate");
     let of_slot = one_of(step, &[Step::Add, Step::First, Step::Next, Step::Sign]).named("of_slot");
@@ -89,7 +91,9 @@ pub(super) fn lane(plan: &Plan, name: &str, shape: Shape) -> Result<Arc<Netlist>
     let a = of_modulus
         .mux(modulus, of_slot.mux(stored.zext(below_two_m), 0))
         .named_doc("a", "addend, 1/M, or -M");
-    n0.set(is(step, Step::Load).mux(number.sext(shape.rest), (a ^ repeat(negate, below_two_m)).sext(shape.rest)));
+    n0.set(
+        is(step, Step::Load).mux(number.sext(shape.rest), (a ^ repeat(negate, below_two_m)).sext(shape.rest)),
+    );
     n1.set(plus(a.sext(below_two_m + 1), modulus.sext(below_two_m + 1), short));
     let twice = m.cat(&[modulus, short]);
     n2.set(plus(a.sext(below_two_m + 2), twice.sext(below_two_m + 2), short));
@@ -132,7 +136,8 @@ pub(super) fn lane(plan: &Plan, name: &str, shape: Shape) -> Result<Arc<Netlist>
     let read_whole_at = m.reg("read_whole_at", 3).when(advance, read_at);
     let whole = m.reg("whole", shape.whole).doc("modular");
     let whole_next = m.wire("whole_next", shape.whole);
-    let (write_then, write_then_at) = (m.reg("write_then", 1).set(write), m.reg("write_then_at", 3).set(write_at));
+    let (write_then, write_then_at) =
+        (m.reg("write_then", 1).set(write), m.reg("write_then_at", 3).set(write_at));
     let wholes = m.memory("wholes", 3, 8, shape.whole, 0).doc("modular");
     let wholes = wholes.write(write_then.q(), write_then_at.q(), whole_next.q());
     let stored = wholes.read(m.lit(1, 1), read_whole_at.q());
@@ -162,8 +167,12 @@ pub(super) fn lane(plan: &Plan, name: &str, shape: Shape) -> Result<Arc<Netlist>
     m.comment("What is done is given out rounded: to nearest, halves up, or up.");
     m.output_doc("rest_out", rest.q().trunc(slot), "1/M, from the clock after a step");
     m.output_doc("whole_out", whole, "modular, a clock later");
-    let half = !plus(m.cat(&[rest.q().trunc(slot), m.lit(1, 0)]).zext(below_two_m + 1), modulus.sext(below_two_m + 1), short)
-        .msb();
+    let half = !plus(
+        m.cat(&[rest.q().trunc(slot), m.lit(1, 0)]).zext(below_two_m + 1),
+        modulus.sext(below_two_m + 1),
+        short,
+    )
+    .msb();
     let up = m.reg("up", 1).set(upwards.mux(rest.q().trunc(slot).any(), half)).q();
     m.output_doc("value", whole.q() + up.zext(shape.whole), "modular, with whole");
     m.finish()

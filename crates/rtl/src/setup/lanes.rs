@@ -25,7 +25,8 @@ pub(super) fn lanes<'m>(
     control: &Control<'m>,
     factors: &Factors<'m>,
 ) -> Result<Vec<Lane<'m>>, BuildErrors> {
-    let shapes: Vec<Shape> = (0..plan.lanes as usize).map(|number| Shape::new(plan, &channels(plan, number))).collect();
+    let shapes: Vec<Shape> =
+        (0..plan.lanes as usize).map(|number| Shape::new(plan, &channels(plan, number))).collect();
     let netlists = netlists(plan, &shapes)?;
     let common = Common::new(m, plan, control, factors);
     let in_place = |(number, (shape, netlist)): (usize, (Shape, Arc<Netlist>))| {
@@ -81,33 +82,56 @@ struct ReadAt<'m> {
 }
 
 impl<'a, 'm> Common<'a, 'm> {
-    fn new(m: &'m Module, plan: &'a Plan, control: &'a Control<'m>, factors: &'a Factors<'m>) -> Common<'a, 'm> {
+    fn new(
+        m: &'m Module,
+        plan: &'a Plan,
+        control: &'a Control<'m>,
+        factors: &'a Factors<'m>,
+    ) -> Common<'a, 'm> {
         m.comment("What all lanes do.");
         let ops: Vec<Op> = Op::of_edges(plan).iter().chain(Op::of_channels(plan)).copied().collect();
         let code = |step: Step| m.lit(Step::BITS, step as u128);
-        let these = |which: &dyn Fn(Op) -> bool| ops.iter().copied().filter(|op| which(*op)).collect::<Vec<_>>();
+        let these =
+            |which: &dyn Fn(Op) -> bool| ops.iter().copied().filter(|op| which(*op)).collect::<Vec<_>>();
         let steps = |step: Step| these(&|op| op.doing().step == step);
         let mut step = code(Step::Rest);
-        for of in [Step::Load, Step::Fix, Step::Double2, Step::Next, Step::Sign, Step::Modulus, Step::Add, Step::Whole] {
+        for of in [
+            Step::Load,
+            Step::Fix,
+            Step::Double2,
+            Step::Next,
+            Step::Sign,
+            Step::Modulus,
+            Step::Add,
+            Step::Whole,
+        ] {
             step = control.named.one_of(&steps(of)).mux(code(of), step);
         }
         let first = control.first.mux(code(Step::First), code(Step::Next));
         step = control.named.one_of(&steps(Step::First)).mux(first, step);
         let step = control.waits.mux(code(Step::Rest), step).named("step");
 
-        let began = m.reg("began", 1).doc("numbers were found not to fit in the clock before").set(control.advance);
+        let began =
+            m.reg("began", 1).doc("numbers were found not to fit in the clock before").set(control.advance);
         let began_then = m.reg("began_then", 1).doc("and in the one before").set(began);
-        let of_pause = began.q().mux(code(Step::Begin), began_then.q().mux(code(Step::Less1), code(Step::Digits)));
+        let of_pause =
+            began.q().mux(code(Step::Begin), began_then.q().mux(code(Step::Less1), code(Step::Digits)));
 
         let slots = |slot: u32, sum: bool| {
-            these(&|op| op.doing().slot == slot && matches!(op.doing().step, Step::First | Step::Next | Step::Sign) == sum)
+            these(&|op| {
+                op.doing().slot == slot
+                    && matches!(op.doing().step, Step::First | Step::Next | Step::Sign) == sum
+            })
         };
         let single = (1..8).fold(m.lit(3, 0), |chosen, slot| {
             let ops = slots(slot, false);
             if ops.is_empty() { chosen } else { control.named.one_of(&ops).mux(slot as i32, chosen) }
         });
         let read_at = ReadAt {
-            sums: control.named.one_of(&these(&|op| matches!(op.doing().step, Step::First | Step::Next))).named("is_sum"),
+            sums: control
+                .named
+                .one_of(&these(&|op| matches!(op.doing().step, Step::First | Step::Next)))
+                .named("is_sum"),
             signs: control.named.one_of(&steps(Step::Sign)).named("is_sign"),
             base: control.named.one_of(&slots(4, true)).named("of_gradients"),
             single: single.named("read_single_at"),
@@ -166,7 +190,8 @@ impl<'a, 'm> Common<'a, 'm> {
         for op in ops {
             let Length::Doublings(doublings) = op.doing().length else { continue };
             let of_channel = |channel: Channel| {
-                let (clocks, odd) = (doublings(self.plan, &channel).div_ceil(2), doublings(self.plan, &channel) % 2);
+                let (clocks, odd) =
+                    (doublings(self.plan, &channel).div_ceil(2), doublings(self.plan, &channel) % 2);
                 let code = |step: Step| self.m.lit(Step::BITS, step as u128);
                 let mut chosen = code(Step::Double2);
                 if odd == 1 {
@@ -178,7 +203,9 @@ impl<'a, 'm> Common<'a, 'm> {
                 of_channel(self.plan.channels()[0])
             } else {
                 let rounds = rounds(self.plan)[1];
-                let of = |round: usize| of_channel(channel_of(self.plan, number, round).unwrap_or(self.plan.channels()[0]));
+                let of = |round: usize| {
+                    of_channel(channel_of(self.plan, number, round).unwrap_or(self.plan.channels()[0]))
+                };
                 control.named.of_round(rounds, of)
             };
             step = (control.named.is(op) & !control.waits).mux(chosen, step);

@@ -44,7 +44,8 @@ impl<'m> Lines<'m> {
         let (j0, j1) = (line("j0", j0), line("j1", j1));
         let upper = n1.any().named("upper");
         let none = !upper & !n2.any();
-        let outside = no_column.map(|none| m.reg("no_column", 1).doc("no column of the screen").when(take, none).q());
+        let outside =
+            no_column.map(|none| m.reg("no_column", 1).doc("no column of the screen").when(take, none).q());
         control.nothing.drive(outside.map_or(none, |outside| none | outside));
         let jm = upper.mux(j0, j1).named_doc("jm", "first line of the triangle");
         let down = |name: &str, from: usize, to: Signal<'m>| {
@@ -63,7 +64,9 @@ impl<'m> Lines<'m> {
 
 /// No column of pixel centres of the screen lies between the leftmost and the rightmost vertex.
 fn no_column<'m>(m: &'m Module, plan: &Plan, vertices: &Vertices<'m>) -> Signal<'m> {
-    m.comment("Columns: from ceil(u/P) of the leftmost to before ceil(u/P) of the rightmost vertex, on the screen.");
+    m.comment(
+        "Columns: from ceil(u/P) of the leftmost to before ceil(u/P) of the rightmost vertex, on the screen.",
+    );
     let (bits, t) = (plan.widths().column, plan.widths().center_fraction);
     let [a, b, c] = [0, 1, 2].map(|place| vertices.u(place));
     let least = at_most(at_most(a, b), c).named_doc("leftmost", "1/P column");

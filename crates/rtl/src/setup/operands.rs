@@ -49,8 +49,8 @@ impl<'m> Sources<'_, 'm> {
             Some(_) => self.lines("n2"),
             None => yes_or_no(false),
         });
-        let channel =
-            stepped.of_round(channel_rounds, |round| yes_or_no(channel_of(self.plan, lane.number, round).is_some()));
+        let channel = stepped
+            .of_round(channel_rounds, |round| yes_or_no(channel_of(self.plan, lane.number, round).is_some()));
         let part = |fix: Op, lines: &str| !stepped.is(fix) | self.lines(lines);
         let channel = channel & part(Op::FixA, "n1") & part(Op::FixB, "n2");
         stepped.is(Op::FixDx).mux(edge, channel)
@@ -76,14 +76,15 @@ impl<'m> Sources<'_, 'm> {
             _ => u(2).sext(dw) - u(1).sext(dw),
         };
         let of_edge = |value: &dyn Fn(usize) -> Signal<'m>| {
-            formed.of_round(edge_rounds, |round| value(edge_of(self.plan, lane.number, round).unwrap_or(0)).sext(bits))
+            formed.of_round(edge_rounds, |round| {
+                value(edge_of(self.plan, lane.number, round).unwrap_or(0)).sext(bits)
+            })
         };
-        let edge = formed.is(Op::LoadDy).mux(
-            of_edge(&|edge| self.vertices.heights[edge].zext(dw)),
-            of_edge(&dx),
-        );
+        let edge =
+            formed.is(Op::LoadDy).mux(of_edge(&|edge| self.vertices.heights[edge].zext(dw)), of_edge(&dx));
         let channel = formed.of_round(channel_rounds, |round| {
-            channel_of(self.plan, lane.number, round).map_or(m.lit(bits, 0), |channel| self.difference(&channel, bits))
+            channel_of(self.plan, lane.number, round)
+                .map_or(m.lit(bits, 0), |channel| self.difference(&channel, bits))
         });
         formed.one_of(&[Op::LoadDx, Op::FixDx, Op::LoadDy]).mux(edge, channel)
     }
@@ -164,7 +165,9 @@ impl<'m> Sources<'_, 'm> {
         let (m, formed) = (self.m, &self.control.formed);
         let (t, bits) = (self.plan.widths().center_fraction, self.area.signed.width());
         let height = |edge: usize| !m.cat(&[self.vertices.heights[edge], m.lit(t, 0)]).zext(bits);
-        let edge = formed.of_round(rounds(self.plan)[0], |round| height(edge_of(self.plan, lane.number, round).unwrap_or(0)));
+        let edge = formed.of_round(rounds(self.plan)[0], |round| {
+            height(edge_of(self.plan, lane.number, round).unwrap_or(0))
+        });
         let right = self.right();
         let area = right.mux(self.area.signed, !self.area.signed);
         let mut modulus = formed.is(Op::Load1).mux(area, edge);

@@ -23,9 +23,12 @@ pub(super) struct Vertices<'m> {
 impl<'m> Vertices<'m> {
     /// Takes a triangle, sorted by v at the port; of equal v the earlier vertex stays first.
     pub fn new(m: &'m Module, plan: &Plan, control: &Control<'m>, triangle: &Token<'m>) -> Vertices<'m> {
-        m.comment("The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.");
+        m.comment(
+            "The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.",
+        );
         let y = |vertex: usize| triangle[format!("y{vertex}").as_str()];
-        let above = |lower: usize, upper: usize| y(lower).slt(y(upper)).named(&format!("y{lower}_above_y{upper}"));
+        let above =
+            |lower: usize, upper: usize| y(lower).slt(y(upper)).named(&format!("y{lower}_above_y{upper}"));
         let (above10, above20, above21) = (above(1, 0), above(2, 0), above(2, 1));
         // Which vertex is the top one, which the bottom one; the third lies between.
         let top = [!above10 & !above20, above10 & !above21, above20 & above21];
@@ -41,11 +44,18 @@ impl<'m> Vertices<'m> {
         let places: Vec<Registers> =
             (0..3).map(|place| Registers::new(m, &format!("p{place}"), vertex(plan))).collect();
         for (place, registers) in places.iter().enumerate() {
-            registers.load(control.take, |f| match plan.channels().iter().find(|channel| channel.name == f) {
-                Some(channel) => sorted(place, [0, 1, 2].map(|v| triangle[channel.at_vertex(&v.to_string()).as_str()])),
-                None => {
-                    let axis = if f == "u" { "x" } else { "y" };
-                    center(plan, sorted(place, [0, 1, 2].map(|v| triangle[format!("{axis}{v}").as_str()])))
+            registers.load(control.take, |f| {
+                match plan.channels().iter().find(|channel| channel.name == f) {
+                    Some(channel) => {
+                        sorted(place, [0, 1, 2].map(|v| triangle[channel.at_vertex(&v.to_string()).as_str()]))
+                    }
+                    None => {
+                        let axis = if f == "u" { "x" } else { "y" };
+                        center(
+                            plan,
+                            sorted(place, [0, 1, 2].map(|v| triangle[format!("{axis}{v}").as_str()])),
+                        )
+                    }
                 }
             });
         }
