@@ -1,14 +1,14 @@
 // edgewalk_setup: SETUP turns three vertices into edges and increments.
 //
-//   tri ─> [sort by v] ─┬─> lines j0 j1 n1 n2 ────────────────────────────┐
-//                       ├─> area ─> major_right, cull?                    ├─> prim
-//                       ├─> three edges: q f = DX/DY, C R = N/DY ─────────┤
-//                       └─> N channels: increments and start ─────────────┘
-//             the products and quotients are formed in serial lanes, side by side or in rounds
+//   tri ─> [sorted by v] ─┬─> lines j0 j1 n1 n2, columns ─> none? culled
+//                         ├─> area ─> major_right; 0? culled
+//                         └─> differences ─> lanes ─┬─> three edges: q f, C R ──────────────┬─> prim
+//                                                   └─> N channels: g, d0, d1, start ───────┘
+//             a lane holds a pair, whole + rest / M: quotient and exact remainder, doubled and added to
 //
 // Formats: see the ports; P = 2^t is a pixel in centre coordinates.
-// Timing: three clocks to sort, then for each round of the lanes three operations on edges; if the triangle draws
-// anything, for each round the operations on channels, and one clock to store. prim_valid is high from the next on.
+// Timing: the edges, then the channels, as many side by side as there are lanes. How long they take follows the triangle: a sum
+// takes a clock for a bit of its factors. prim_valid is high four clocks after the last operation.
 // Rules: all results are those of exact division, rounded once; a word keeps its low bits.
 
 `timescale 1ns / 1ps
@@ -44,7 +44,7 @@ module edgewalk_setup (
   output wire  [8:0] prim_jm,           // first line
   output reg   [9:0] prim_n1,           // lines of the upper part
   output reg   [9:0] prim_n2,           // lines of the lower part
-  output reg         prim_major_right,  // the major edge is the right one
+  output wire        prim_major_right,  // the major edge is the right one
   output reg  [14:0] prim_major_c,      // signed, first column right of the edge
   output reg  [21:0] prim_major_r,      // distance from the edge to that column, 1/M column
   output reg  [14:0] prim_major_q,      // signed, whole columns a line
@@ -78,103 +78,165 @@ module edgewalk_setup (
   output reg  [21:0] prim_b_g           // UQ8.14 LSB, modular, to the next pixel of the span
 );
 
-  // Control. Sorting takes three clocks; an operation takes one to load, then k bits a clock.
+  // Control: the operations one after the other, a clock each or more; in rounds where there are more jobs than lanes.
   localparam [2:0] IDLE = 3'd0;
-  localparam [2:0] SORT = 3'd1;
-  localparam [2:0] EDGES = 3'd2;
-  localparam [2:0] CHANNELS = 3'd3;
-  localparam [2:0] STORE = 3'd4;
-  localparam [2:0] DONE = 3'd5;
-  localparam [3:0] EDGE_STEP = 4'd0;
-  localparam [3:0] EDGE_PRODUCT = 4'd1;
-  localparam [3:0] EDGE_START = 4'd2;
-  localparam [3:0] NX = 4'd3;
-  localparam [3:0] GX = 4'd4;
-  localparam [3:0] NY = 4'd5;
-  localparam [3:0] LINE_PRODUCT = 4'd6;
-  localparam [3:0] LINE = 4'd7;
-  localparam [3:0] START_PRODUCT = 4'd8;
-  localparam [3:0] START = 4'd9;
-  wire cull;                           // no area, or no line on the screen
+  localparam [2:0] EDGES = 3'd1;
+  localparam [2:0] CHANNELS = 3'd2;
+  localparam [2:0] STORE = 3'd3;
+  localparam [2:0] DONE = 3'd4;
+  localparam [4:0] LOAD_DX = 5'd0;
+  localparam [4:0] FIX_DX = 5'd1;
+  localparam [4:0] DOUBLE_DX = 5'd2;
+  localparam [4:0] LOAD_DY = 5'd3;
+  localparam [4:0] ADD_DX = 5'd4;
+  localparam [4:0] WAIT_DX = 5'd5;
+  localparam [4:0] SUM = 5'd6;
+  localparam [4:0] COLUMNS = 5'd7;
+  localparam [4:0] LOAD1 = 5'd8;
+  localparam [4:0] FIX1 = 5'd9;
+  localparam [4:0] LOAD2 = 5'd10;
+  localparam [4:0] FIX2 = 5'd11;
+  localparam [4:0] WAIT12 = 5'd12;
+  localparam [4:0] ADD12 = 5'd13;
+  localparam [4:0] WAIT = 5'd14;
+  localparam [4:0] SUM_X = 5'd15;
+  localparam [4:0] DOUBLE_X = 5'd16;
+  localparam [4:0] MODULUS_Y = 5'd17;
+  localparam [4:0] SIGN_Y = 5'd18;
+  localparam [4:0] SUM_Y = 5'd19;
+  localparam [4:0] DOUBLE_Y = 5'd20;
+  localparam [4:0] ADD_X = 5'd21;
+  localparam [4:0] WAIT_XY = 5'd22;
+  localparam [4:0] MODULUS_LINE = 5'd23;
+  localparam [4:0] SIGN_LINE = 5'd24;
+  localparam [4:0] SUM_LINE = 5'd25;
+  localparam [4:0] ADD_LINE = 5'd26;
+  localparam [4:0] MODULUS_START = 5'd27;
+  localparam [4:0] SIGN_START = 5'd28;
+  localparam [4:0] SUM_START = 5'd29;
+  localparam [4:0] ADD_START = 5'd30;
+  wire nothing;          // no line, or no column, of the screen
+  wire area_known;
+  wire no_area;
+  wire unfit;            // a number was taken in that is not between -M and M
+  wire [4:0] top_digit;  // place of the first digit of a sum
   reg [2:0] state;
+  reg [4:0] at;          // operation
+  reg [4:0] left;        // its clocks after this one
+  reg first;             // its first clock
+
+  // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
+  reg [4:0] pause;                                   // clocks left of it
+  wire advance = pause == 5'd0;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
-  wire sorting = state == SORT;
   wire in_edges = state == EDGES;
-  wire working = in_edges || (state == CHANNELS);
+  wire works = in_edges || (state == CHANNELS);
   assign prim_valid = state == DONE;
-  reg [5:0] step;                      // clock of the operation; 0 loads
-  reg [3:0] op;                        // operation of the lanes
-  wire load = working && (step == 6'd0);
-  wire stepping = working && (|step);
-  wire is_edge_step = op == EDGE_STEP;
-  wire is_edge_product = op == EDGE_PRODUCT;
-  wire is_edge_start = op == EDGE_START;
-  wire is_nx = op == NX;
-  wire is_gx = op == GX;
-  wire is_ny = op == NY;
-  wire is_line_product = op == LINE_PRODUCT;
-  wire is_line = op == LINE;
-  wire is_start_product = op == START_PRODUCT;
-  wire is_start = op == START;
-  wire [5:0] steps = is_start ? 6'd42  // clocks of the operation after the one that loads
-                   : is_line ? 6'd42
-                   : is_gx ? 6'd35
-                   : is_edge_start ? 6'd19
-                   : is_edge_step ? 6'd11
-                   : 6'd12;
-  wire last_step = working && (step == steps);
-  wire edges_end = last_step && (op == EDGE_START);
-  wire channels_end = last_step && (op == START);
-  wire sorted = sorting && (step == 6'd2);
+  wire begins = in_edges && (at == LOAD_DX);         // the first clock of a triangle
+  wire gives_up = in_edges && (at == FIX_DX) && nothing;  // the triangle has no line or no column
+  wire last = left == 5'd0;                          // last clock of the operation
+  wire edges_end = in_edges && last && (at == COLUMNS);
+  wire waits = edges_end && !area_known;             // for the area
+  wire ends = works && last && !waits && !gives_up;  // the operation ends
+  wire leaves = ends && advance;
+  wire channels_end = at == ADD_START;
 
   always @(posedge clk) begin
     if (rst) begin
       state <= IDLE;
     end else begin
-      if (take) state <= SORT;
-      if (sorted) state <= EDGES;
-      if (edges_end) state <= cull ? IDLE : CHANNELS;
-      if (channels_end) state <= STORE;
-      if (state == STORE) state <= DONE;
+      if (take) state <= EDGES;
+      if (gives_up && advance) state <= IDLE;
+      if (edges_end && leaves) state <= no_area ? IDLE : CHANNELS;
+      if (leaves && channels_end) state <= STORE;
+      if ((state == STORE) && last) state <= DONE;
       if (prim_valid && prim_ready) state <= IDLE;
     end
   end
 
   always @(posedge clk) begin
-    if (sorting || working) step <= step + 6'd1;
-    if (take || sorted || last_step) step <= 6'd0;
+    if (leaves) at <= at + 5'd1;
+    if (take) at <= LOAD_DX;
   end
 
   always @(posedge clk) begin
-    if (last_step) op <= op + 4'd1;
-    if (edges_end) op <= NX;
-    if (channels_end) op <= NX;
-    if (take) op <= EDGE_STEP;
+    if (advance) first <= leaves;
+    if (take) first <= 1'b1;
   end
 
-  // Quotients are taken in the clock after the last step.
-  reg finished;           // an operation ended
-  reg [3:0] finished_op;  // which
-  wire edge_step_done = finished && (finished_op == EDGE_STEP);
-  wire edge_start_done = finished && (finished_op == EDGE_START);
-  wire gx_done = finished && (finished_op == GX);
-  wire line_done = finished && (finished_op == LINE);
-  wire start_done = finished && (finished_op == START);
+  // How long the next operation takes.
+  always @(posedge clk) begin
+    if (advance && works) left <= left - 5'd1;
+    if (leaves) begin
+      left <= (at == SIGN_START) ? top_digit
+            : (at == SIGN_LINE) ? top_digit
+            : (at == SUM_Y) ? 5'd8
+            : (at == SIGN_Y) ? top_digit
+            : (at == SUM_X) ? 5'd8
+            : (at == WAIT) ? top_digit
+            : (at == ADD12) ? 5'd1
+            : (at == WAIT_DX) ? top_digit
+            : (at == ADD_DX) ? 5'd1
+            : (at == FIX_DX) ? 5'd3
+            : 5'd0;
+    end
+    if (leaves && channels_end) left <= 5'd3;
+    if (state == STORE) left <= left - 5'd1;
+    if (waits || take) left <= 5'd0;
+  end
+
+  // The way of an operation: named, its addends formed, its step done, the rest and then the whole of the result.
+  reg [4:0] at_next;
+  reg ends_next;
+  reg [4:0] at_again;
+  reg ends_again;
+  reg [4:0] at_fixed;
+  reg ends_fixed;
+  wire resumes = pause == 5'd1;  // the step after the numbers is formed again
+  wire [4:0] at_formed = advance ? at_next : resumes ? at_again : at_fixed;
+  wire ends_formed = advance ? ends_next : resumes ? ends_again : pause == 5'd2;
+  reg [4:0] at_stepped;
+  reg ends_stepped;
+  reg [4:0] at_rest;
+  reg ends_rest;
+  reg [4:0] at_whole;
+  reg ends_whole;
+  wire rests = waits || gives_up || !works;
 
   always @(posedge clk) begin
-    if (rst) begin
-      finished <= 1'b0;
-    end else begin
-      finished <= last_step;
+    if (advance) begin
+      at_next <= at;
+      ends_next <= ends;
+      at_again <= at_formed;
+      ends_again <= ends_formed;
+      at_fixed <= at_stepped;
+      ends_fixed <= ends_stepped;
     end
   end
 
   always @(posedge clk) begin
-    finished_op <= op;
+    at_stepped <= at_formed;
+    ends_stepped <= ends_formed;
+    at_rest <= at_stepped;
+    ends_rest <= ends_stepped;
+    at_whole <= at_rest;
+    ends_whole <= ends_rest;
   end
 
-  // The vertices, in centre coordinates: pixel centres lie on the multiples of P.
+  always @(posedge clk) begin
+    if (rst) begin
+      pause <= 5'd0;
+    end else begin
+      if (!advance) pause <= pause - 5'd1;
+      if (advance && unfit) pause <= (at_stepped == FIX_DX) ? 5'd14 : 5'd17;
+    end
+  end
+
+  // The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.
+  wire y1_above_y0 = $signed(tri_y1) < $signed(tri_y0);
+  wire y2_above_y0 = $signed(tri_y2) < $signed(tri_y0);
+  wire y2_above_y1 = $signed(tri_y2) < $signed(tri_y1);
   reg [21:0] p0_u;  // Q14.8, signed
   reg [21:0] p0_v;  // Q14.8, signed
   reg [27:0] p0_z;  // UQ24.4 LSB
@@ -193,72 +255,33 @@ module edgewalk_setup (
   reg [11:0] p2_r;  // UQ8.4 LSB
   reg [11:0] p2_g;  // UQ8.4 LSB
   reg [11:0] p2_b;  // UQ8.4 LSB
-  wire second_clock = step == 6'd1;
-  wire swap01 = sorting && !second_clock && ($signed(p1_v) < $signed(p0_v));
-  wire swap12 = sorting && second_clock && ($signed(p2_v) < $signed(p1_v));
+  wire both = y1_above_y0 && !y2_above_y1;
+  wire both_2 = y2_above_y0 && y2_above_y1;
+  wire both_3 = !y1_above_y0 && y2_above_y1;
+  wire both_4 = !y2_above_y0 && !y2_above_y1;
+  wire [21:0] choice = (!both && !both_3) ? tri_x1 : (!both_2 && !both_4) ? tri_x2 : tri_x0;
+  wire [21:0] choice_2 = (!both && !both_3) ? tri_y1 : (!both_2 && !both_4) ? tri_y2 : tri_y0;
 
   always @(posedge clk) begin
-    if (swap01) begin
-      p0_u <= p1_u;
-      p0_v <= p1_v;
-      p0_z <= p1_z;
-      p0_r <= p1_r;
-      p0_g <= p1_g;
-      p0_b <= p1_b;
-    end
     if (take) begin
-      p0_u <= tri_x0 - 22'd128;
-      p0_v <= tri_y0 - 22'd128;
-      p0_z <= tri_z0;
-      p0_r <= tri_r0;
-      p0_g <= tri_g0;
-      p0_b <= tri_b0;
-    end
-  end
-
-  always @(posedge clk) begin
-    if (swap01) begin
-      p1_u <= p0_u;
-      p1_v <= p0_v;
-      p1_z <= p0_z;
-      p1_r <= p0_r;
-      p1_g <= p0_g;
-      p1_b <= p0_b;
-    end
-    if (swap12) begin
-      p1_u <= p2_u;
-      p1_v <= p2_v;
-      p1_z <= p2_z;
-      p1_r <= p2_r;
-      p1_g <= p2_g;
-      p1_b <= p2_b;
-    end
-    if (take) begin
-      p1_u <= tri_x1 - 22'd128;
-      p1_v <= tri_y1 - 22'd128;
-      p1_z <= tri_z1;
-      p1_r <= tri_r1;
-      p1_g <= tri_g1;
-      p1_b <= tri_b1;
-    end
-  end
-
-  always @(posedge clk) begin
-    if (swap12) begin
-      p2_u <= p1_u;
-      p2_v <= p1_v;
-      p2_z <= p1_z;
-      p2_r <= p1_r;
-      p2_g <= p1_g;
-      p2_b <= p1_b;
-    end
-    if (take) begin
-      p2_u <= tri_x2 - 22'd128;
-      p2_v <= tri_y2 - 22'd128;
-      p2_z <= tri_z2;
-      p2_r <= tri_r2;
-      p2_g <= tri_g2;
-      p2_b <= tri_b2;
+      p0_u <= (both ? tri_x1 : both_2 ? tri_x2 : tri_x0) - 22'd128;
+      p0_v <= (both ? tri_y1 : both_2 ? tri_y2 : tri_y0) - 22'd128;
+      p0_z <= both ? tri_z1 : both_2 ? tri_z2 : tri_z0;
+      p0_r <= both ? tri_r1 : both_2 ? tri_r2 : tri_r0;
+      p0_g <= both ? tri_g1 : both_2 ? tri_g2 : tri_g0;
+      p0_b <= both ? tri_b1 : both_2 ? tri_b2 : tri_b0;
+      p1_u <= choice - 22'd128;
+      p1_v <= choice_2 - 22'd128;
+      p1_z <= (!both && !both_3) ? tri_z1 : (!both_2 && !both_4) ? tri_z2 : tri_z0;
+      p1_r <= (!both && !both_3) ? tri_r1 : (!both_2 && !both_4) ? tri_r2 : tri_r0;
+      p1_g <= (!both && !both_3) ? tri_g1 : (!both_2 && !both_4) ? tri_g2 : tri_g0;
+      p1_b <= (!both && !both_3) ? tri_b1 : (!both_2 && !both_4) ? tri_b2 : tri_b0;
+      p2_u <= (both_3 ? tri_x1 : both_4 ? tri_x2 : tri_x0) - 22'd128;
+      p2_v <= (both_3 ? tri_y1 : both_4 ? tri_y2 : tri_y0) - 22'd128;
+      p2_z <= both_3 ? tri_z1 : both_4 ? tri_z2 : tri_z0;
+      p2_r <= both_3 ? tri_r1 : both_4 ? tri_r2 : tri_r0;
+      p2_g <= both_3 ? tri_g1 : both_4 ? tri_g2 : tri_g0;
+      p2_b <= both_3 ? tri_b1 : both_4 ? tri_b2 : tri_b0;
     end
   end
 
@@ -272,363 +295,699 @@ module edgewalk_setup (
   wire [22:0] du01 = {p1_u[21], p1_u} - {p0_u[21], p0_u};  // 1/P column, signed
   wire [22:0] du02 = {p2_u[21], p2_u} - {p0_u[21], p0_u};  // 1/P column, signed
 
+  // Twice the area: du1 dv2 - du2 dv1, over the bits of dv2 and dv1.
+  reg [4:0] area_digit;  // place of the digits added
+  reg area_adds;         // digits are added
+  wire [21:0] shifted = dv02 >> area_digit;
+  wire [21:0] shifted_2 = dv01 >> area_digit;
+  wire [23:0] area_part = (shifted[0] ? {du01[22], du01} : 24'd0)
+                        - (shifted_2[0] ? {du02[22], du02} : 24'd0);
+  reg [45:0] area;       // 1/P^2 px^2, signed
+  assign area_known = !area_adds && !begins;
+  assign no_area = !(|area);
+  wire any = |dv02[21:16];
+  wire [5:0] part_2 = dv02[21:16];
+  wire [1:0] part = part_2[5:4];
+  wire any_2 = |part;
+  wire [3:0] part_4 = part_2[3:0];
+  wire [1:0] part_3 = part_4[3:2];
+  wire any_3 = |part_3;
+  wire [1:0] part_5 = part_4[1:0];
+  wire [2:0] joined = {any_2, any_2 ? {1'b0, part[1]} : {any_3, any_3 ? part_3[1] : part_5[1]}};
+  wire [15:0] part_7 = dv02[15:0];
+  wire [7:0] part_6 = part_7[15:8];
+  wire any_4 = |part_6;
+  wire [3:0] part_8 = part_6[7:4];
+  wire any_5 = |part_8;
+  wire [1:0] part_9 = part_8[3:2];
+  wire any_6 = |part_9;
+  wire [1:0] part_10 = part_8[1:0];
+  wire [3:0] part_12 = part_6[3:0];
+  wire [1:0] part_11 = part_12[3:2];
+  wire any_7 = |part_11;
+  wire [1:0] part_13 = part_12[1:0];
+  wire [1:0] choice_3 = any_5 ? {any_6, any_6 ? part_9[1] : part_10[1]}
+                      : {any_7, any_7 ? part_11[1] : part_13[1]};
+  wire [7:0] part_15 = part_7[7:0];
+  wire [3:0] part_14 = part_15[7:4];
+  wire any_8 = |part_14;
+  wire [1:0] part_16 = part_14[3:2];
+  wire any_9 = |part_16;
+  wire [1:0] part_17 = part_14[1:0];
+  wire [3:0] part_19 = part_15[3:0];
+  wire [1:0] part_18 = part_19[3:2];
+  wire any_10 = |part_18;
+  wire [1:0] part_20 = part_19[1:0];
+  wire [1:0] choice_4 = any_8 ? {any_9, any_9 ? part_16[1] : part_17[1]}
+                      : {any_10, any_10 ? part_18[1] : part_20[1]};
+  wire [3:0] choice_5 = any ? {1'b0, joined} : {any_4, any_4 ? {any_5, choice_3} : {any_8, choice_4}};
+
+  always @(posedge clk) begin
+    if (area_adds) begin
+      area_digit <= area_digit - 5'd1;
+      area <= (area << 1) + {{22{area_part[23]}}, area_part};
+    end
+    if (begins) begin
+      area_digit <= {any, choice_5};
+      area <= 46'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      area_adds <= 1'b0;
+    end else begin
+      if (area_adds && (area_digit == 5'd0)) area_adds <= 1'b0;
+      if (begins) area_adds <= 1'b1;
+    end
+  end
+
   // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
-  wire [13:0] part = p0_v[21:8];
-  wire [14:0] line0 = {part[13], part} + {14'd0, |p0_v[7:0]};  // ceil(v/P)
+  wire [13:0] part_21 = p0_v[21:8];
+  wire [14:0] line0 = {part_21[13], part_21} + {14'd0, |p0_v[7:0]};  // ceil(v/P)
   wire [14:0] j0_next = ($signed(line0) < 15'sd0) ? 15'd0 : line0;
-  wire [13:0] part_2 = p2_v[21:8];
-  wire [14:0] line2 = {part_2[13], part_2} + {14'd0, |p2_v[7:0]};  // ceil(v/P)
-  wire [14:0] choice = ($signed(line2) < 15'sd480) ? line2 : 15'd480;
-  wire [14:0] end_line = ($signed(choice) < $signed(j0_next)) ? j0_next : choice;
-  wire [13:0] part_3 = p1_v[21:8];
-  wire [14:0] line1 = {part_3[13], part_3} + {14'd0, |p1_v[7:0]};  // ceil(v/P)
-  wire [14:0] choice_2 = ($signed(line1) < $signed(j0_next)) ? j0_next : line1;
-  wire [14:0] j1_next = ($signed(choice_2) < $signed(end_line)) ? choice_2 : end_line;
-  wire take_lines = load && is_edge_step;
-  reg [14:0] j0;                     // line, signed
-  reg [14:0] j1;                     // line, signed
+  wire [13:0] part_22 = p2_v[21:8];
+  wire [14:0] line2 = {part_22[13], part_22} + {14'd0, |p2_v[7:0]};  // ceil(v/P)
+  wire [14:0] choice_6 = ($signed(line2) < 15'sd480) ? line2 : 15'd480;
+  wire [14:0] end_line = ($signed(choice_6) < $signed(j0_next)) ? j0_next : choice_6;
+  wire [13:0] part_23 = p1_v[21:8];
+  wire [14:0] line1 = {part_23[13], part_23} + {14'd0, |p1_v[7:0]};  // ceil(v/P)
+  wire [14:0] choice_7 = ($signed(line1) < $signed(j0_next)) ? j0_next : line1;
+  wire [14:0] j1_next = ($signed(choice_7) < $signed(end_line)) ? choice_7 : end_line;
+
+  // Columns: from ceil(u/P) of the leftmost to before ceil(u/P) of the rightmost vertex, on the screen.
+  wire [21:0] choice_8 = ($signed(p0_u) < $signed(p1_u)) ? p0_u : p1_u;
+  wire [21:0] leftmost = ($signed(choice_8) < $signed(p2_u)) ? choice_8 : p2_u;  // 1/P column
+  wire [21:0] choice_9 = ($signed(p0_u) < $signed(p1_u)) ? p1_u : p0_u;
+  wire [21:0] rightmost = ($signed(choice_9) < $signed(p2_u)) ? p2_u : choice_9;  // 1/P column
+  wire [13:0] part_24 = leftmost[21:8];
+  wire [14:0] sum = {part_24[13], part_24} + {14'd0, |leftmost[7:0]};
+  wire [14:0] first_column = ($signed(sum) < 15'sd0) ? 15'd0 : sum;
+  wire [13:0] part_25 = rightmost[21:8];
+  wire [14:0] sum_2 = {part_25[13], part_25} + {14'd0, |rightmost[7:0]};
+  wire [14:0] end_column = ($signed(sum_2) < 15'sd640) ? sum_2 : 15'd640;
+  reg [14:0] j0;                                   // line, signed
+  reg [14:0] j1;                                   // line, signed
   wire upper = |prim_n1;
-  wire [14:0] jm = upper ? j0 : j1;  // first line of the triangle
+  reg no_column;                                   // no column of the screen
+  assign nothing = (!upper && !(|prim_n2)) || no_column;
+  wire [14:0] jm = upper ? j0 : j1;                // first line of the triangle
+  wire [22:0] h0 = {jm, 8'd0} - {p0_v[21], p0_v};  // 1/P line
+  wire [22:0] h1 = {j1, 8'd0} - {p1_v[21], p1_v};  // 1/P line
   wire [14:0] difference_4 = j1_next - j0_next;
   wire [14:0] difference_5 = end_line - j1_next;
 
   always @(posedge clk) begin
-    if (take_lines) begin
+    if (begins) begin
       prim_n1 <= difference_4[9:0];
       prim_n2 <= difference_5[9:0];
       j0 <= j0_next;
       j1 <= j1_next;
+      no_column <= $signed(end_column) <= $signed(first_column);
+    end
+  end
+
+  // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
+  reg [23:0] f;  // factor, signed
+  reg [23:0] g;  // factor, signed
+  wire second_counts = (at == WAIT_DX) && (|prim_n2);
+  wire [23:0] differing = f ^ $unsigned($signed(f) >>> 1);
+  wire [23:0] differing_2 = g ^ $unsigned($signed(g) >>> 1);
+  wire [23:0] either = {16'd0, p1_u[7:0]} | {1'b0, h1};
+  wire [22:0] digits = differing[22:0] | differing_2[22:0] | (second_counts ? either[22:0] : 23'd0);  // digits of the factors that differ from their signs
+  wire any_11 = |digits[22:16];
+  wire [6:0] part_27 = digits[22:16];
+  wire [2:0] part_26 = part_27[6:4];
+  wire any_12 = |part_26;
+  wire any_13 = part_26[2];
+  wire [1:0] part_28 = part_26[1:0];
+  wire [3:0] part_30 = part_27[3:0];
+  wire [1:0] part_29 = part_30[3:2];
+  wire any_14 = |part_29;
+  wire [1:0] part_31 = part_30[1:0];
+  wire [1:0] choice_10 = any_12 ? {any_13, any_13 ? 1'b0 : part_28[1]}
+                       : {any_14, any_14 ? part_29[1] : part_31[1]};
+  wire [15:0] part_33 = digits[15:0];
+  wire [7:0] part_32 = part_33[15:8];
+  wire any_15 = |part_32;
+  wire [3:0] part_34 = part_32[7:4];
+  wire any_16 = |part_34;
+  wire [1:0] part_35 = part_34[3:2];
+  wire any_17 = |part_35;
+  wire [1:0] part_36 = part_34[1:0];
+  wire [3:0] part_38 = part_32[3:0];
+  wire [1:0] part_37 = part_38[3:2];
+  wire any_18 = |part_37;
+  wire [1:0] part_39 = part_38[1:0];
+  wire [1:0] choice_11 = any_16 ? {any_17, any_17 ? part_35[1] : part_36[1]}
+                       : {any_18, any_18 ? part_37[1] : part_39[1]};
+  wire [7:0] part_41 = part_33[7:0];
+  wire [3:0] part_40 = part_41[7:4];
+  wire any_19 = |part_40;
+  wire [1:0] part_42 = part_40[3:2];
+  wire any_20 = |part_42;
+  wire [1:0] part_43 = part_40[1:0];
+  wire [3:0] part_45 = part_41[3:0];
+  wire [1:0] part_44 = part_45[3:2];
+  wire any_21 = |part_44;
+  wire [1:0] part_46 = part_45[1:0];
+  wire [1:0] choice_12 = any_19 ? {any_20, any_20 ? part_42[1] : part_43[1]}
+                       : {any_21, any_21 ? part_44[1] : part_46[1]};
+  wire [3:0] choice_13 = any_11 ? {1'b0, {any_12, choice_10}}
+                       : {any_15, any_15 ? {any_16, choice_11} : {any_19, choice_12}};
+  assign top_digit = {any_11, choice_13};
+  wire [23:0] shifted_3 = f >> left;
+  wire digit_f = shifted_3[0];
+  wire [23:0] shifted_4 = g >> left;
+  wire digit_g = shifted_4[0];
+  wire [22:0] joined_2 = {prim_major_c - {14'd0, area[45]}, 8'd0};
+
+  always @(posedge clk) begin
+    if (at == WAIT_DX) begin
+      f <= {16'd0, p0_u[7:0]};
+      g <= {1'b0, h0};
+    end
+    if (at == WAIT) begin
+      f <= {2'd0, dv02};
+      g <= {2'd0, dv01};
+    end
+    if (at == MODULUS_Y) begin
+      f <= -{du02[22], du02};
+      g <= -{du01[22], du01};
+    end
+    if (at == MODULUS_LINE) begin
+      f <= {{9{prim_major_q[14]}}, prim_major_q};
+      g <= 24'd1;
+    end
+    if (at == MODULUS_START) begin
+      f <= {joined_2[22], joined_2} - {{2{p0_u[21]}}, p0_u};
+      g <= {1'b0, h0};
     end
   end
 
   // What all lanes do.
-  wire is_product = is_edge_product || is_nx || is_ny || is_line_product || is_start_product;
-  wire is_quotient = is_edge_start || is_gx || is_line || is_start;
-  wire is_quotient_of_y = is_edge_step;
-  wire load_terms = load && (is_edge_product || is_nx || is_ny);
-  wire load_product = load && is_product;
-  wire step_product = stepping && is_product;
-  wire first_step = step == 6'd1;
-  wire load_quotient = load && is_quotient;
-  wire load_quotient_of_y = load && is_quotient_of_y;
-  wire step_quotient = stepping && (is_quotient || is_quotient_of_y);
-
-  // Twice the area of the triangle, and the side on which it lies.
-  wire [74:0] lane0_product;
-  wire take_area = load && is_edge_start;
-  reg [44:0] area;  // |du1 dv2 - du2 dv1|
-  assign cull = !(|area) || (!upper && !(|prim_n2));
-  wire [45:0] part_4 = lane0_product[45:0];
-  wire [45:0] choice_3 = part_4[45] ? -part_4 : part_4;
+  wire either_2 = (at == ADD_DX) || (at == ADD12) || (at == ADD_X) || (at == ADD_LINE);
+  wire either_3 = (at == MODULUS_Y) || (at == MODULUS_LINE) || (at == MODULUS_START);
+  wire either_4 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
+  wire [3:0] step = rests ? 4'd0
+                  : ((at == SUM) || (at == SUM_X)) ? (first ? 4'd5 : 4'd6)
+                  : ((at == COLUMNS) || (at == ADD_START)) ? 4'd10
+                  : either_2 ? 4'd9
+                  : either_3 ? 4'd7
+                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 4'd8
+                  : ((at == SUM_Y) || (at == SUM_LINE) || (at == SUM_START)) ? 4'd6
+                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_Y)) ? 4'd4
+                  : ((at == FIX_DX) || (at == FIX1) || (at == FIX2)) ? 4'd2
+                  : either_4 ? 4'd1
+                  : 4'd0;
+  reg began;       // numbers were found not to fit in the clock before
+  reg began_then;  // and in the one before
+  wire is_sum = (at == SUM)
+             || (at == SUM_X)
+             || (at == SUM_Y)
+             || (at == SUM_LINE)
+             || (at == SUM_START);
+  wire is_sign = (at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START);
+  wire of_gradients = (at == SIGN_LINE)
+                   || (at == SUM_LINE)
+                   || (at == SIGN_START)
+                   || (at == SUM_START);
+  wire [2:0] read_single_at = ((at == ADD_X) || (at == ADD_LINE)) ? 3'd5
+                            : (at == ADD_DX) ? 3'd2
+                            : (at == ADD12) ? 3'd1
+                            : 3'd0;
+  wire either_5 = (at_stepped == FIX_DX)
+               || (at_stepped == LOAD_DY)
+               || (at_stepped == ADD_DX)
+               || (at_stepped == FIX1)
+               || (at_stepped == FIX2)
+               || (at_stepped == ADD12)
+               || (at_stepped == DOUBLE_X)
+               || (at_stepped == DOUBLE_Y)
+               || (at_stepped == ADD_X);
+  wire write = ends_stepped && either_5;
+  wire [2:0] write_at = (at_stepped == ADD_X) ? 3'd7
+                      : (at_stepped == DOUBLE_Y) ? 3'd6
+                      : (at_stepped == DOUBLE_X) ? 3'd5
+                      : ((at_stepped == ADD_DX) || (at_stepped == ADD12)) ? 3'd3
+                      : ((at_stepped == FIX_DX) || (at_stepped == FIX2)) ? 3'd2
+                      : ((at_stepped == LOAD_DY) || (at_stepped == FIX1)) ? 3'd1
+                      : 3'd0;
+  wire take_modulus = (at_formed == LOAD_DX) || (at_formed == LOAD1);
 
   always @(posedge clk) begin
-    if (take_area) begin
-      area <= choice_3[44:0];
-      prim_major_right <= part_4[45];
+    began <= advance;
+    began_then <= began;
+  end
+
+  // Lane 0: its steps.
+  wire [3:0] step0 = ((at == DOUBLE_Y) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
+                   : ((at == DOUBLE_X) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
+                   : ((at == DOUBLE_DX) && !rests) ? ((left < 5'd4) ? 4'd4 : 4'd0)
+                   : step;
+  reg [3:0] step_next0;
+  reg [3:0] step_again0;
+  wire [3:0] choice_14 = began ? 4'd11 : began_then ? 4'd12 : 4'd13;
+  wire [3:0] step_formed0 = advance ? step_next0 : (pause == 5'd1) ? step_again0 : choice_14;
+
+  always @(posedge clk) begin
+    if (rst) begin
+      step_next0 <= 4'd0;
+    end else if (advance) begin
+      step_next0 <= step0;
     end
   end
 
-  // Factors and divisor of the operations on channels, the same for all lanes.
-  wire [14:0] px = prim_major_c - {14'd0, prim_major_right};  // column of the first pixel, signed
-  wire [22:0] channel_a = is_start_product ? {px, 8'd0} - {p0_u[21], p0_u}  // signed
-                        : is_line_product ? {{8{prim_major_q[14]}}, prim_major_q}
-                        : is_nx ? {1'b0, dv02}
-                        : du02;
-  wire [22:0] channel_b = is_start_product ? {jm, 8'd0} - {p0_v[21], p0_v}  // signed
-                        : is_line_product ? 23'd1
-                        : is_nx ? {1'b0, dv01}
-                        : du01;
-  wire flip = prim_major_right ^ is_ny;  // differences of channels the other way round
+  always @(posedge clk) begin
+    if (advance) step_again0 <= step_formed0;
+  end
 
-  // Lane 0.
-  wire [28:0] lane0_x_edge = {{7{p1_u[21]}}, p1_u} - {{7{p0_u[21]}}, p0_u};
-  wire [28:0] lane0_y_edge = {{7{p0_u[21]}}, p0_u} - {{7{p2_u[21]}}, p2_u};
-  wire [28:0] lane0_x_channel = (flip ? {1'b0, p0_z} : {1'b0, p1_z})
-                              - (flip ? {1'b0, p1_z} : {1'b0, p0_z});
-  wire [28:0] lane0_y_channel = (flip ? {1'b0, p2_z} : {1'b0, p0_z})
-                              - (flip ? {1'b0, p0_z} : {1'b0, p2_z});
-  wire [37:0] lane0_rounded;
-  wire [37:0] lane0_d1;
-  wire [37:0] lane0_quotient_unused;
-  wire [44:0] lane0_remainder_unused;
+  // Lane 1: its steps.
+  wire [3:0] step1 = ((at == DOUBLE_Y) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
+                   : ((at == DOUBLE_X) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
+                   : ((at == DOUBLE_DX) && !rests) ? ((left < 5'd4) ? 4'd4 : 4'd0)
+                   : step;
+  reg [3:0] step_next1;
+  reg [3:0] step_again1;
+  wire [3:0] step_formed1 = advance ? step_next1 : (pause == 5'd1) ? step_again1 : choice_14;
 
-  edgewalk_setup_lane0 lane0 (
-    .clk            (clk),
-    .load_divisor   (load_quotient),
-    .from_y         (load_quotient_of_y),
-    .y_in           (in_edges ? lane0_y_edge : lane0_y_channel),
-    .step_quotient  (step_quotient),
-    .a_in           (in_edges ? {1'b0, dv02} : channel_a),
-    .b_in           (in_edges ? {1'b0, dv01} : channel_b),
-    .x_in           (in_edges ? lane0_x_edge : lane0_x_channel),
-    .load_terms     (load_terms),
-    .load_factors   (load_product),
-    .step_product   (step_product),
-    .first_step     (first_step),
-    .divisor_in     (in_edges ? {23'd0, dv02} : area),
-    .digit_at       (is_start ? 2'd2 : is_line ? 2'd1 : 2'd0),
-    .keep_nx        (load && is_gx),
-    .load_gradients (load && is_line_product),
-    .keep_gx        (gx_done),
-    .add_line       (line_done),
-    .product        (lane0_product),
-    .quotient       (lane0_quotient_unused),
-    .remainder      (lane0_remainder_unused),
-    .rounded        (lane0_rounded),
-    .d1             (lane0_d1)
-  );
+  always @(posedge clk) begin
+    if (rst) begin
+      step_next1 <= 4'd0;
+    end else if (advance) begin
+      step_next1 <= step1;
+    end
+  end
 
-  // Lane 1.
-  wire [22:0] lane1_x_edge = {p0_v[21], p0_v} - {p2_v[21], p2_v};
-  wire [21:0] choice_4 = is_edge_step ? p2_u : p0_u;
-  wire [21:0] choice_5 = is_edge_step ? p0_u : p2_u;
-  wire [22:0] lane1_y_edge = {choice_4[21], choice_4} - {choice_5[21], choice_5};
-  wire [22:0] lane1_x_channel = (flip ? {11'd0, p0_r} : {11'd0, p1_r})
-                              - (flip ? {11'd0, p1_r} : {11'd0, p0_r});
-  wire [22:0] lane1_y_channel = (flip ? {11'd0, p2_r} : {11'd0, p0_r})
-                              - (flip ? {11'd0, p0_r} : {11'd0, p2_r});
-  wire [21:0] lane1_quotient;
-  wire [44:0] lane1_remainder;
-  wire [21:0] lane1_rounded;
-  wire [21:0] lane1_d1;
-  wire [58:0] lane1_product_unused;
+  always @(posedge clk) begin
+    if (advance) step_again1 <= step_formed1;
+  end
 
-  edgewalk_setup_lane1 lane1 (
-    .clk            (clk),
-    .load_divisor   (load_quotient),
-    .from_y         (load_quotient_of_y),
-    .y_in           (in_edges ? lane1_y_edge : lane1_y_channel),
-    .step_quotient  (step_quotient && (in_edges || (step > 6'd8))),
-    .a_in           (in_edges ? {p0_u[21], p0_u} : channel_a),
-    .b_in           (in_edges ? {jm, 8'd0} - {p0_v[21], p0_v} : channel_b),
-    .x_in           (in_edges ? lane1_x_edge : lane1_x_channel),
-    .load_terms     (load_terms),
-    .load_factors   (load_product),
-    .step_product   (step_product),
-    .first_step     (first_step),
-    .divisor_in     (in_edges ? {23'd0, dv02} : area),
-    .digit_at       (is_start ? 3'd4 : is_line ? 3'd3 : is_gx ? 3'd1 : is_edge_start ? 3'd2 : 3'd0),
-    .keep_nx        (load && is_gx),
-    .load_gradients (load && is_line_product),
-    .keep_gx        (gx_done),
-    .add_line       (line_done),
-    .product        (lane1_product_unused),
-    .quotient       (lane1_quotient),
-    .remainder      (lane1_remainder),
-    .rounded        (lane1_rounded),
-    .d1             (lane1_d1)
-  );
+  // Lane 2: its steps.
+  wire [3:0] step2 = ((at == DOUBLE_Y) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
+                   : ((at == DOUBLE_X) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
+                   : ((at == DOUBLE_DX) && !rests) ? ((left < 5'd4) ? 4'd4 : 4'd0)
+                   : step;
+  reg [3:0] step_next2;
+  reg [3:0] step_again2;
+  wire [3:0] step_formed2 = advance ? step_next2 : (pause == 5'd1) ? step_again2 : choice_14;
 
-  // Lane 2.
-  wire [22:0] lane2_x_edge = {p0_v[21], p0_v} - {p1_v[21], p1_v};
-  wire [21:0] choice_6 = is_edge_step ? p1_u : p0_u;
-  wire [21:0] choice_7 = is_edge_step ? p0_u : p1_u;
-  wire [22:0] lane2_y_edge = {choice_6[21], choice_6} - {choice_7[21], choice_7};
-  wire [22:0] lane2_x_channel = (flip ? {11'd0, p0_g} : {11'd0, p1_g})
-                              - (flip ? {11'd0, p1_g} : {11'd0, p0_g});
-  wire [22:0] lane2_y_channel = (flip ? {11'd0, p2_g} : {11'd0, p0_g})
-                              - (flip ? {11'd0, p0_g} : {11'd0, p2_g});
-  wire [21:0] lane2_quotient;
-  wire [44:0] lane2_remainder;
-  wire [21:0] lane2_rounded;
-  wire [21:0] lane2_d1;
-  wire [58:0] lane2_product_unused;
+  always @(posedge clk) begin
+    if (rst) begin
+      step_next2 <= 4'd0;
+    end else if (advance) begin
+      step_next2 <= step2;
+    end
+  end
 
-  edgewalk_setup_lane1 lane2 (
-    .clk            (clk),
-    .load_divisor   (load_quotient),
-    .from_y         (load_quotient_of_y),
-    .y_in           (in_edges ? lane2_y_edge : lane2_y_channel),
-    .step_quotient  (step_quotient && (in_edges || (step > 6'd8))),
-    .a_in           (in_edges ? {p0_u[21], p0_u} : channel_a),
-    .b_in           (in_edges ? {j0, 8'd0} - {p0_v[21], p0_v} : channel_b),
-    .x_in           (in_edges ? lane2_x_edge : lane2_x_channel),
-    .load_terms     (load_terms),
-    .load_factors   (load_product),
-    .step_product   (step_product),
-    .first_step     (first_step),
-    .divisor_in     (in_edges ? {23'd0, dv01} : area),
-    .digit_at       (is_start ? 3'd4 : is_line ? 3'd3 : is_gx ? 3'd1 : is_edge_start ? 3'd2 : 3'd0),
-    .keep_nx        (load && is_gx),
-    .load_gradients (load && is_line_product),
-    .keep_gx        (gx_done),
-    .add_line       (line_done),
-    .product        (lane2_product_unused),
-    .quotient       (lane2_quotient),
-    .remainder      (lane2_remainder),
-    .rounded        (lane2_rounded),
-    .d1             (lane2_d1)
-  );
+  always @(posedge clk) begin
+    if (advance) step_again2 <= step_formed2;
+  end
 
-  // Lane 3.
-  wire [22:0] lane3_x_edge = {p1_v[21], p1_v} - {p2_v[21], p2_v};
-  wire [21:0] choice_8 = is_edge_step ? p2_u : p1_u;
-  wire [21:0] choice_9 = is_edge_step ? p1_u : p2_u;
-  wire [22:0] lane3_y_edge = {choice_8[21], choice_8} - {choice_9[21], choice_9};
-  wire [22:0] lane3_x_channel = (flip ? {11'd0, p0_b} : {11'd0, p1_b})
-                              - (flip ? {11'd0, p1_b} : {11'd0, p0_b});
-  wire [22:0] lane3_y_channel = (flip ? {11'd0, p2_b} : {11'd0, p0_b})
-                              - (flip ? {11'd0, p0_b} : {11'd0, p2_b});
-  wire [21:0] lane3_quotient;
-  wire [44:0] lane3_remainder;
-  wire [21:0] lane3_rounded;
-  wire [21:0] lane3_d1;
-  wire [58:0] lane3_product_unused;
+  // Lane 3: its steps.
+  wire [3:0] step3 = ((at == DOUBLE_Y) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
+                   : ((at == DOUBLE_X) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
+                   : ((at == DOUBLE_DX) && !rests) ? ((left < 5'd4) ? 4'd4 : 4'd0)
+                   : step;
+  reg [3:0] step_next3;
+  reg [3:0] step_again3;
+  wire [3:0] step_formed3 = advance ? step_next3 : (pause == 5'd1) ? step_again3 : choice_14;
 
-  edgewalk_setup_lane1 lane3 (
-    .clk            (clk),
-    .load_divisor   (load_quotient),
-    .from_y         (load_quotient_of_y),
-    .y_in           (in_edges ? lane3_y_edge : lane3_y_channel),
-    .step_quotient  (step_quotient && (in_edges || (step > 6'd8))),
-    .a_in           (in_edges ? {p1_u[21], p1_u} : channel_a),
-    .b_in           (in_edges ? {j1, 8'd0} - {p1_v[21], p1_v} : channel_b),
-    .x_in           (in_edges ? lane3_x_edge : lane3_x_channel),
-    .load_terms     (load_terms),
-    .load_factors   (load_product),
-    .step_product   (step_product),
-    .first_step     (first_step),
-    .divisor_in     (in_edges ? {23'd0, dv12} : area),
-    .digit_at       (is_start ? 3'd4 : is_line ? 3'd3 : is_gx ? 3'd1 : is_edge_start ? 3'd2 : 3'd0),
-    .keep_nx        (load && is_gx),
-    .load_gradients (load && is_line_product),
-    .keep_gx        (gx_done),
-    .add_line       (line_done),
-    .product        (lane3_product_unused),
-    .quotient       (lane3_quotient),
-    .remainder      (lane3_remainder),
-    .rounded        (lane3_rounded),
-    .d1             (lane3_d1)
-  );
+  always @(posedge clk) begin
+    if (rst) begin
+      step_next3 <= 4'd0;
+    end else if (advance) begin
+      step_next3 <= step3;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (advance) step_again3 <= step_formed3;
+  end
+
+  // Lane 0: what it takes in.
+  wire either_6 = (at_formed == LOAD_DX) || (at_formed == FIX_DX) || (at_formed == LOAD_DY);
+  wire [22:0] extended = {1'b0, dv02};
+  wire [28:0] choice_15 = (at_formed == LOAD_DY) ? {{6{extended[22]}}, extended}
+                        : {{6{du02[22]}}, du02};
+  wire either_7 = (at_formed == LOAD2) || (at_formed == FIX2);
+  wire [28:0] choice_16 = either_7 ? (area[45] ? {1'b0, p2_z} : {1'b0, p0_z})
+                        : area[45] ? {1'b0, p0_z}
+                        : {1'b0, p1_z};
+  wire [28:0] choice_17 = either_7 ? (area[45] ? {1'b0, p0_z} : {1'b0, p2_z})
+                        : area[45] ? {1'b0, p1_z}
+                        : {1'b0, p0_z};
+  wire [28:0] number0 = either_6 ? choice_15 : choice_16 - choice_17;  // signed
+
+  // Lane 1: what it takes in.
+  wire either_8 = (at_formed == LOAD_DX) || (at_formed == FIX_DX) || (at_formed == LOAD_DY);
+  wire either_9 = (at_formed == LOAD2) || (at_formed == FIX2);
+  wire [22:0] choice_18 = either_9 ? (area[45] ? {11'd0, p2_r} : {11'd0, p0_r})
+                        : area[45] ? {11'd0, p0_r}
+                        : {11'd0, p1_r};
+  wire [22:0] choice_19 = either_9 ? (area[45] ? {11'd0, p0_r} : {11'd0, p2_r})
+                        : area[45] ? {11'd0, p1_r}
+                        : {11'd0, p0_r};
+  wire [22:0] number1 = either_8 ? ((at_formed == LOAD_DY) ? {1'b0, dv01} : du01)  // signed
+                      : choice_18 - choice_19;
+
+  // Lane 2: what it takes in.
+  wire either_10 = (at_formed == LOAD_DX) || (at_formed == FIX_DX) || (at_formed == LOAD_DY);
+  wire [22:0] choice_20 = (at_formed == LOAD_DY) ? {1'b0, dv12} : {p2_u[21], p2_u} - {p1_u[21], p1_u};
+  wire either_11 = (at_formed == LOAD2) || (at_formed == FIX2);
+  wire [22:0] choice_21 = either_11 ? (area[45] ? {11'd0, p2_g} : {11'd0, p0_g})
+                        : area[45] ? {11'd0, p0_g}
+                        : {11'd0, p1_g};
+  wire [22:0] choice_22 = either_11 ? (area[45] ? {11'd0, p0_g} : {11'd0, p2_g})
+                        : area[45] ? {11'd0, p1_g}
+                        : {11'd0, p0_g};
+  wire [22:0] number2 = either_10 ? choice_20 : choice_21 - choice_22;  // signed
+
+  // Lane 3: what it takes in.
+  wire either_12 = (at_formed == LOAD_DX) || (at_formed == FIX_DX) || (at_formed == LOAD_DY);
+  wire either_13 = (at_formed == LOAD2) || (at_formed == FIX2);
+  wire [22:0] choice_23 = either_13 ? (area[45] ? {11'd0, p2_b} : {11'd0, p0_b})
+                        : area[45] ? {11'd0, p0_b}
+                        : {11'd0, p1_b};
+  wire [22:0] choice_24 = either_13 ? (area[45] ? {11'd0, p0_b} : {11'd0, p2_b})
+                        : area[45] ? {11'd0, p1_b}
+                        : {11'd0, p0_b};
+  wire [22:0] number3 = either_12 ? ((at_formed == LOAD_DY) ? {1'b0, dv02} : du02)  // signed
+                      : choice_23 - choice_24;
+  wire lane0_unfit;
+  wire lane1_unfit;
+  wire lane2_unfit;
+  wire lane3_unfit;
+  wire choice_25 = (at_stepped == FIX_DX) ? 1'b1 : (1'b1 || (|prim_n1)) && (1'b1 || (|prim_n2));
+  wire choice_26 = (at_stepped == FIX_DX) ? |prim_n1 : (1'b1 || (|prim_n1)) && (1'b1 || (|prim_n2));
+  wire choice_27 = (at_stepped == FIX_DX) ? |prim_n2 : (1'b1 || (|prim_n1)) && (1'b1 || (|prim_n2));
+  wire choice_28 = (at_stepped == FIX_DX) ? 1'b0 : (1'b1 || (|prim_n1)) && (1'b1 || (|prim_n2));
+  assign unfit = (lane0_unfit && choice_25)
+              || (lane1_unfit && choice_26)
+              || (lane2_unfit && choice_27)
+              || (lane3_unfit && choice_28);
 
   // Edge: major.
-  wire major_steps = |dv02[21:8];  // DY >= P
-  wire major_is_there = |dv02;     // DY > 0
+  wire [44:0] lane0_rest_out;
+  wire [45:0] lane0_whole_out;
+  wire [45:0] lane0_value;
+  wire choice_29 = is_sign ? f[23] : digit_f;
+  wire choice_30 = is_sign ? g[23] : digit_g;
+  wire [29:0] shifted_5 = $signed({number0[28], number0}) >>> {pause - 5'd2, 1'b0};
+  wire [13:0] part_47 = p0_u[21:8];
+  wire [48:0] joined_4 = {1'b0, {{{10{p0_z[27]}}, p0_z} + 38'd8, 10'd0}};
+  wire [53:0] joined_3 = {joined_4[45:0], 8'd128};
+  wire equal = at_rest == COLUMNS;
+
+  edgewalk_setup_lane0 lane0 (
+    .clk           (clk),
+    .rst           (rst),
+    .advance       (advance),
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_29 || choice_30), choice_30, choice_29}
+: read_single_at),
+    .step          (step_formed0),
+    .number        (number0),
+    .digits        (shifted_5[1:0]),
+    .write         (write),
+    .write_at      (write_at),
+    .whole_in      ((at_stepped == COLUMNS) ? {{32{part_47[13]}}, part_47} : joined_3[45:0]),
+    .take_modulus  (take_modulus),
+    .modulus_in    ((at_formed == LOAD1) ? (area[45] ? area : ~area) : ~{16'd0, {dv02, 8'd0}}),
+    .modulus_short (!((at_formed == LOAD1) && area[45])),
+    .upwards       (equal),
+    .unfit         (lane0_unfit),
+    .rest_out      (lane0_rest_out),
+    .whole_out     (lane0_whole_out),
+    .value         (lane0_value)
+  );
+
+  wire any_22 = |dv02[21:8];
+  wire [36:0] part_48 = lane0_rest_out[44:8];
 
   always @(posedge clk) begin
-    if (edge_step_done) begin
-      prim_major_q <= major_steps ? lane1_quotient[14:0] : 15'd0;
-      prim_major_f <= major_steps ? lane1_remainder[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_major_f <= any_22 ? part_48[21:0] : 22'd0;
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_DX)) prim_major_q <= any_22 ? lane0_whole_out[14:0] : 15'd0;
+  end
+
+  wire [29:0] difference_6 = {dv02, 8'd0} - lane0_rest_out[29:0];
+
+  always @(posedge clk) begin
+    if (ends_rest && (at_rest == COLUMNS)) begin
+      prim_major_r <= (|lane0_rest_out) ? difference_6[29:8] : 22'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (edge_start_done) begin
-      prim_major_c <= major_is_there ? -lane1_quotient[14:0] : 15'd0;
-      prim_major_r <= major_is_there ? lane1_remainder[21:0] : 22'd0;
-    end
+    if (ends_whole && (at_whole == COLUMNS)) prim_major_c <= lane0_value[14:0];
   end
 
   // Edge: minor1.
-  wire minor1_steps = |dv01[21:8];  // DY >= P
-  wire minor1_is_there = |dv01;     // DY > 0
+  wire [44:0] lane1_rest_out;
+  wire [29:0] lane1_whole_out;
+  wire [29:0] lane1_value;
+  wire choice_31 = is_sign ? f[23] : digit_f;
+  wire choice_32 = is_sign ? g[23] : digit_g;
+  wire [23:0] shifted_6 = $signed({number1[22], number1}) >>> {pause - 5'd2, 1'b0};
+  wire [13:0] part_49 = p0_u[21:8];
+  wire [32:0] joined_6 = {1'b0, {{{10{p0_r[11]}}, p0_r} + 22'd8, 10'd0}};
+  wire [37:0] joined_5 = {joined_6[29:0], 8'd128};
+
+  edgewalk_setup_lane1 lane1 (
+    .clk           (clk),
+    .rst           (rst),
+    .advance       (advance),
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_31 || choice_32), choice_32, choice_31}
+: read_single_at),
+    .step          (step_formed1),
+    .number        (number1),
+    .digits        (shifted_6[1:0]),
+    .write         (write),
+    .write_at      (write_at),
+    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_49[13]}}, part_49} : joined_5[29:0]),
+    .take_modulus  (take_modulus),
+    .modulus_in    ((at_formed == LOAD1) ? (area[45] ? area : ~area) : ~{16'd0, {dv01, 8'd0}}),
+    .modulus_short (!((at_formed == LOAD1) && area[45])),
+    .upwards       (equal),
+    .unfit         (lane1_unfit),
+    .rest_out      (lane1_rest_out),
+    .whole_out     (lane1_whole_out),
+    .value         (lane1_value)
+  );
+
+  wire both_5 = (|prim_n1) && (|dv01[21:8]);
+  wire [36:0] part_50 = lane1_rest_out[44:8];
 
   always @(posedge clk) begin
-    if (edge_step_done) begin
-      prim_minor1_q <= minor1_steps ? lane2_quotient[14:0] : 15'd0;
-      prim_minor1_f <= minor1_steps ? lane2_remainder[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor1_f <= both_5 ? part_50[21:0] : 22'd0;
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_DX)) begin
+      prim_minor1_q <= both_5 ? lane1_whole_out[14:0] : 15'd0;
+    end
+  end
+
+  wire [29:0] difference_7 = {dv01, 8'd0} - lane1_rest_out[29:0];
+
+  always @(posedge clk) begin
+    if (ends_rest && (at_rest == COLUMNS)) begin
+      prim_minor1_r <= (|prim_n1) ? ((|lane1_rest_out) ? difference_7[29:8] : 22'd0) : 22'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (edge_start_done) begin
-      prim_minor1_c <= minor1_is_there ? -lane2_quotient[14:0] : 15'd0;
-      prim_minor1_r <= minor1_is_there ? lane2_remainder[21:0] : 22'd0;
-    end
+    if (ends_whole && (at_whole == COLUMNS)) prim_minor1_c <= (|prim_n1) ? lane1_value[14:0] : 15'd0;
   end
 
   // Edge: minor2.
-  wire minor2_steps = |dv12[21:8];  // DY >= P
-  wire minor2_is_there = |dv12;     // DY > 0
+  wire [44:0] lane2_rest_out;
+  wire [29:0] lane2_whole_out;
+  wire [29:0] lane2_value;
+  wire equal_2 = at == SUM;
+  wire [7:0] shifted_7 = p1_u[7:0] >> left;
+  wire choice_33 = is_sign ? f[23] : equal_2 ? shifted_7[0] : digit_f;
+  wire [22:0] shifted_8 = h1 >> left;
+  wire choice_34 = is_sign ? g[23] : equal_2 ? shifted_8[0] : digit_g;
+  wire [23:0] shifted_9 = $signed({number2[22], number2}) >>> {pause - 5'd2, 1'b0};
+  wire [13:0] part_51 = p1_u[21:8];
+  wire [32:0] joined_8 = {1'b0, {{{10{p0_g[11]}}, p0_g} + 22'd8, 10'd0}};
+  wire [37:0] joined_7 = {joined_8[29:0], 8'd128};
+
+  edgewalk_setup_lane1 lane2 (
+    .clk           (clk),
+    .rst           (rst),
+    .advance       (advance),
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_33 || choice_34), choice_34, choice_33}
+: read_single_at),
+    .step          (step_formed2),
+    .number        (number2),
+    .digits        (shifted_9[1:0]),
+    .write         (write),
+    .write_at      (write_at),
+    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_51[13]}}, part_51} : joined_7[29:0]),
+    .take_modulus  (take_modulus),
+    .modulus_in    ((at_formed == LOAD1) ? (area[45] ? area : ~area) : ~{16'd0, {dv12, 8'd0}}),
+    .modulus_short (!((at_formed == LOAD1) && area[45])),
+    .upwards       (equal),
+    .unfit         (lane2_unfit),
+    .rest_out      (lane2_rest_out),
+    .whole_out     (lane2_whole_out),
+    .value         (lane2_value)
+  );
+
+  wire both_6 = (|prim_n2) && (|dv12[21:8]);
+  wire [36:0] part_52 = lane2_rest_out[44:8];
 
   always @(posedge clk) begin
-    if (edge_step_done) begin
-      prim_minor2_q <= minor2_steps ? lane3_quotient[14:0] : 15'd0;
-      prim_minor2_f <= minor2_steps ? lane3_remainder[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor2_f <= both_6 ? part_52[21:0] : 22'd0;
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_DX)) begin
+      prim_minor2_q <= both_6 ? lane2_whole_out[14:0] : 15'd0;
+    end
+  end
+
+  wire [29:0] difference_8 = {dv12, 8'd0} - lane2_rest_out[29:0];
+
+  always @(posedge clk) begin
+    if (ends_rest && (at_rest == COLUMNS)) begin
+      prim_minor2_r <= (|prim_n2) ? ((|lane2_rest_out) ? difference_8[29:8] : 22'd0) : 22'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (edge_start_done) begin
-      prim_minor2_c <= minor2_is_there ? -lane3_quotient[14:0] : 15'd0;
-      prim_minor2_r <= minor2_is_there ? lane3_remainder[21:0] : 22'd0;
-    end
+    if (ends_whole && (at_whole == COLUMNS)) prim_minor2_c <= (|prim_n2) ? lane2_value[14:0] : 15'd0;
   end
 
   // Channel: z.
   always @(posedge clk) begin
-    if (gx_done) prim_z_g <= prim_major_right ? -lane0_rounded : lane0_rounded;
-  end
-
-  always @(posedge clk) begin
-    if (line_done) prim_z_d0 <= lane0_rounded;
-  end
-
-  always @(posedge clk) begin
-    if (start_done) begin
-      prim_z_d1 <= lane0_d1;
-      prim_z_start <= lane0_rounded + {p0_z + 28'd8, 10'd0};
+    if (ends_whole && (at_whole == DOUBLE_X)) begin
+      prim_z_g <= area[45] ? -lane0_value[37:0] : lane0_value[37:0];
     end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == SUM_LINE)) prim_z_d0 <= lane0_value[37:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_LINE)) prim_z_d1 <= lane0_value[37:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_START)) prim_z_start <= lane0_whole_out[45:8];
   end
 
   // Channel: r.
   always @(posedge clk) begin
-    if (gx_done) prim_r_g <= prim_major_right ? -lane1_rounded : lane1_rounded;
-  end
-
-  always @(posedge clk) begin
-    if (line_done) prim_r_d0 <= lane1_rounded;
-  end
-
-  always @(posedge clk) begin
-    if (start_done) begin
-      prim_r_d1 <= lane1_d1;
-      prim_r_start <= lane1_rounded + {p0_r + 12'd8, 10'd0};
+    if (ends_whole && (at_whole == DOUBLE_X)) begin
+      prim_r_g <= area[45] ? -lane1_value[21:0] : lane1_value[21:0];
     end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == SUM_LINE)) prim_r_d0 <= lane1_value[21:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_LINE)) prim_r_d1 <= lane1_value[21:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_START)) prim_r_start <= lane1_whole_out[29:8];
   end
 
   // Channel: g.
   always @(posedge clk) begin
-    if (gx_done) prim_g_g <= prim_major_right ? -lane2_rounded : lane2_rounded;
-  end
-
-  always @(posedge clk) begin
-    if (line_done) prim_g_d0 <= lane2_rounded;
-  end
-
-  always @(posedge clk) begin
-    if (start_done) begin
-      prim_g_d1 <= lane2_d1;
-      prim_g_start <= lane2_rounded + {p0_g + 12'd8, 10'd0};
+    if (ends_whole && (at_whole == DOUBLE_X)) begin
+      prim_g_g <= area[45] ? -lane2_value[21:0] : lane2_value[21:0];
     end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == SUM_LINE)) prim_g_d0 <= lane2_value[21:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_LINE)) prim_g_d1 <= lane2_value[21:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_START)) prim_g_start <= lane2_whole_out[29:8];
   end
 
   // Channel: b.
-  always @(posedge clk) begin
-    if (gx_done) prim_b_g <= prim_major_right ? -lane3_rounded : lane3_rounded;
-  end
+  wire [29:0] lane3_value;
+  wire [29:0] lane3_whole_out;
+  wire choice_35 = is_sign ? f[23] : digit_f;
+  wire choice_36 = is_sign ? g[23] : digit_g;
+  wire [23:0] shifted_10 = $signed({number3[22], number3}) >>> {pause - 5'd2, 1'b0};
+  wire [13:0] part_53 = p0_u[21:8];
+  wire [32:0] joined_10 = {1'b0, {{{10{p0_b[11]}}, p0_b} + 22'd8, 10'd0}};
+  wire [37:0] joined_9 = {joined_10[29:0], 8'd128};
+  wire [44:0] lane3_rest_out_unused;
+
+  edgewalk_setup_lane1 lane3 (
+    .clk           (clk),
+    .rst           (rst),
+    .advance       (advance),
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_35 || choice_36), choice_36, choice_35}
+: read_single_at),
+    .step          (step_formed3),
+    .number        (number3),
+    .digits        (shifted_10[1:0]),
+    .write         (write),
+    .write_at      (write_at),
+    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_53[13]}}, part_53} : joined_9[29:0]),
+    .take_modulus  (take_modulus),
+    .modulus_in    ((at_formed == LOAD1) ? (area[45] ? area : ~area) : ~{16'd0, {dv02, 8'd0}}),
+    .modulus_short (!((at_formed == LOAD1) && area[45])),
+    .upwards       (equal),
+    .unfit         (lane3_unfit),
+    .rest_out      (lane3_rest_out_unused),
+    .whole_out     (lane3_whole_out),
+    .value         (lane3_value)
+  );
 
   always @(posedge clk) begin
-    if (line_done) prim_b_d0 <= lane3_rounded;
-  end
-
-  always @(posedge clk) begin
-    if (start_done) begin
-      prim_b_d1 <= lane3_d1;
-      prim_b_start <= lane3_rounded + {p0_b + 12'd8, 10'd0};
+    if (ends_whole && (at_whole == DOUBLE_X)) begin
+      prim_b_g <= area[45] ? -lane3_value[21:0] : lane3_value[21:0];
     end
   end
 
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == SUM_LINE)) prim_b_d0 <= lane3_value[21:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_LINE)) prim_b_d1 <= lane3_value[21:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_START)) prim_b_start <= lane3_whole_out[29:8];
+  end
+
   assign prim_jm = jm[8:0];
+  assign prim_major_right = area[45];
   assign prim_major_m = dv02;
   assign prim_minor1_m = dv01;
   assign prim_minor2_m = dv12;
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, lane0_product[74:46], lane1_quotient[21:15], lane1_remainder[44:22], lane2_quotient[21:15],
-    lane2_remainder[44:22], lane3_quotient[21:15], lane3_remainder[44:22], difference[22],
-    difference_2[22], difference_3[22], difference_4[14:10], difference_5[14:10], choice_3[45]
+    1'b0, WAIT12, WAIT_XY, ends_fixed, lane0_value[45:38], lane1_value[29:22], lane2_value[29:22],
+    lane3_value[29:22], lane3_whole_out[7:0], difference[22], difference_2[22], difference_3[22],
+    part_5[0], part_10[0], part_13[0], part_17[0], part_20[0], shifted[21:1], shifted_2[21:1],
+    difference_4[14:10], difference_5[14:10], differing[23], differing_2[23], either[23], part_28[0],
+    part_31[0], part_36[0], part_39[0], part_43[0], part_46[0], shifted_3[23:1], shifted_4[23:1],
+    shifted_7[7:1], shifted_8[22:1], shifted_5[29:2], joined_4[48:46], joined_3[53:46], shifted_6[23:2],
+    joined_6[32:30], joined_5[37:30], shifted_9[23:2], joined_8[32:30], joined_7[37:30],
+    shifted_10[23:2], joined_10[32:30], joined_9[37:30], part_48[36:22], difference_6[7:0],
+    part_50[36:22], difference_7[7:0], part_52[36:22], difference_8[7:0]
   };
 
 endmodule

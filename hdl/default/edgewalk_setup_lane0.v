@@ -1,164 +1,227 @@
-// edgewalk_setup_lane0: A lane of setup multiplies and divides serially, k bits a clock.
+// edgewalk_setup_lane0: A lane of setup holds a pair: the number whole + rest / M, with 0 <= rest < M.
 //
-//   a b ─> digits ─> [acc := 2^k acc + a_i x + b_i y] ─ digits of |acc| ─> [rem := 2 rem + digit, less divisor if it fits]
-//   x y ────────────────┘                                                     └─ 1 if it fit ─> [quot]
+//   slots ─> a ─> [n0 n1 n2 = a, a - M, a - 2M] ─┐
+//                                  x = rest * 1 2 4 ─> + ─> the last sum not below 0 ─> [rest]
+//                                                           how often M was taken off ─> [whole], a clock later
 //
-// Timing: a clock to load, then k bits a clock, the most significant first; results stand from the next clock on.
-// Rules: products are signed; in the first step the sign bits of a and b subtract. Quotients are rounded down
-// (quotient, remainder) or to nearest, halves up (rounded). Of a quotient the low bits are kept: the rest falls out.
+// Timing: a step is named two clocks before it is done: in the first its addend is read, in the second n0 n1 n2 are formed.
+// Rules: a doubling step adds a = -M three times instead, so that up to 3 M can be taken off. What is taken in may lie below 0
+// for one clock. A negated pair is its complement: M is added to its rest, and 1 taken off its whole part.
 
 `timescale 1ns / 1ps
 `default_nettype none
 
 module edgewalk_setup_lane0 (
   input  wire        clk,
+  input  wire        rst,
 
-  input  wire        load_divisor,    // a division of acc begins
-  input  wire        from_y,          // a division of y_in begins
-  input  wire [28:0] y_in,            // signed
-  input  wire        step_quotient,
-  input  wire [22:0] a_in,            // factor of x, signed
-  input  wire [22:0] b_in,            // factor of y, signed
-  input  wire [28:0] x_in,            // signed
-  input  wire        load_terms,      // x := x_in, y := y_in
-  input  wire        load_factors,    // a := a_in, b := b_in, acc := 0
-  input  wire        step_product,
-  input  wire        first_step,      // of a product
-  input  wire [44:0] divisor_in,      // unsigned
-  input  wire  [1:0] digit_at,        // which bits of acc are the next digits
-  input  wire        keep_nx,         // nx := acc
-  input  wire        load_gradients,  // x := nx, y := acc
-  input  wire        keep_gx,         // the quotient is that of gx
-  input  wire        add_line,        // the quotient is that of d0
+  input  wire        advance,        // the steps go on; 0: what was read stays
+  input  wire  [2:0] read_at,        // slot of the addend, two clocks before its step
+  input  wire  [3:0] step,           // a clock before it is done
+  input  wire [28:0] number,         // to take in, signed; with its step
+  input  wire  [1:0] digits,         // of the number, with their step
+  input  wire        write,          // the result of the step goes to a slot
+  input  wire  [2:0] write_at,
+  input  wire [45:0] whole_in,       // whole number to add, with the step done
+  input  wire        take_modulus,
+  input  wire [45:0] modulus_in,     // -M, or -M - 1 if modulus_short; signed
+  input  wire        modulus_short,
+  input  wire        upwards,        // value rounds up whatever is not whole, not to nearest
 
-  output wire [74:0] product,         // signed
-  output wire [37:0] quotient,        // rounded down, modular
-  output wire [44:0] remainder,       // 0 to divisor - 1
-  output wire [37:0] rounded,         // rounded to nearest, halves up, modular
-  output wire [37:0] d1               // modular
+  output wire        unfit,          // the number that was taken in is not between -M and M
+  output wire [44:0] rest_out,       // 1/M, from the clock after a step
+  output wire [45:0] whole_out,      // modular, a clock later
+  output wire [45:0] value           // modular, with whole
 );
 
-  // Terms and factors of a product.
-  reg [51:0] x;  // term, signed
-  reg [51:0] y;  // term, signed
-  reg [23:0] a;  // factor, its next bits at the top
-  reg [23:0] b;  // factor, its next bits at the top
+  // The modulus: -M, or its complement -M - 1, with the 1 that is then missing.
+  reg [45:0] modulus;  // -M or -M - 1, signed
+  reg short;           // 1 is missing in modulus
 
   always @(posedge clk) begin
-    if (step_product) begin
-      a <= a << 2;
-      b <= b << 2;
-    end
-    if (load_factors) begin
-      a <= {a_in[22], a_in};
-      b <= {b_in[22], b_in};
+    if (take_modulus) begin
+      modulus <= modulus_in;
+      short <= modulus_short;
     end
   end
 
-  // A step. The sign bits subtract; then acc is 0, and its doubled lowest bit is free for -t = ~t + 1.
-  reg [74:0] acc;  // product, or what is left of a numerator; signed
-  wire [52:0] sum = (a[23] ? {x[51], x} : 53'd0) + (b[23] ? {y[51], y} : 53'd0);
-  wire [74:0] extended = {{22{sum[52]}}, sum};
-  wire [74:0] sum0 = {acc[73:0], first_step} + (first_step ? ~extended : extended);
-  wire [52:0] sum_2 = (a[22] ? {x[51], x} : 53'd0) + (b[22] ? {y[51], y} : 53'd0);
-  wire [74:0] sum1 = {sum0[73:0], 1'b0} + {{22{sum_2[52]}}, sum_2};
+  // The rests of the slots. Slot 0 is never written: it holds 0.
+  reg [45:0] rest;         // 1/M, signed while a number is taken in
+  wire [45:0] rest_next;
+  reg [44:0] rests [0:7];  // 1/M
 
-  always @(posedge clk) begin
-    if (step_quotient) acc <= acc << 2;
-    if (step_product) acc <= sum1;
-    if (load_factors) acc <= 75'd0;
-    if (from_y) acc <= {{46{y_in[28]}}, y_in};
-  end
-
-  // The numerator: acc without its sign, k digits a clock from where this operation has them.
-  reg negative;  // the numerator is below 0
-  wire [1:0] digits = (digit_at == 2'd2) ? acc[73:72] : (digit_at == 2'd1) ? acc[65:64] : acc[51:50];
-
-  always @(posedge clk) begin
-    if (load_divisor) negative <= acc[74];
-    if (from_y) negative <= y_in[28];
-  end
-
-  // A step: the divisor is taken away wherever it fits.
-  wire begin_division = load_divisor || from_y;
-  reg [44:0] divisor;  // unsigned
-  reg [44:0] rem;      // remainder so far
-  reg [37:0] quot;     // quotient so far, modular
-  wire [45:0] joined = {rem, digits[1] ^ negative};
-  wire [45:0] less0 = joined - {1'b0, divisor};
-  wire fits0 = !less0[45];
-  wire [45:0] choice = fits0 ? less0 : joined;
-  wire [44:0] rest0 = choice[44:0];
-  wire [45:0] joined_2 = {rest0, digits[0] ^ negative};
-  wire [45:0] less1 = joined_2 - {1'b0, divisor};
-  wire fits1 = !less1[45];
-  wire [45:0] choice_2 = fits1 ? less1 : joined_2;
-  wire [44:0] rest1 = choice_2[44:0];
-
-  always @(posedge clk) begin
-    if (begin_division) divisor <= divisor_in;
+  initial begin : rests_init
+    integer rests_index;
+    for (rests_index = 0; rests_index < 8; rests_index = rests_index + 1) rests[rests_index] = 45'd0;
   end
 
   always @(posedge clk) begin
-    if (step_quotient) rem <= rest1;
-    if (begin_division) rem <= 45'd0;
+    if (write) rests[write_at] <= rest_next[44:0];
   end
 
-  wire [37:0] joined_3 = {quot[36:0], fits0};
+  reg [44:0] rests_q;
 
   always @(posedge clk) begin
-    if (step_quotient) quot <= {joined_3[36:0], fits1};
+    if (advance) rests_q <= rests[read_at];
   end
 
-  // Below 0: floor(N/D) = ~floor(~N/D), and the remainder is D - 1 - r.
-  wire [37:0] floor = negative ? ~quot : quot;  // modular
-  wire [44:0] floor_remainder = negative ? divisor + ~rem : rem;
-  wire up = ({rem, negative} < {1'b0, divisor}) == negative;  // the next higher is nearest
-
-  // Nx waits here while Ny is formed; then both are terms.
-  reg [51:0] nx;  // Nx, signed
+  // The addend of the step that follows.
+  reg [45:0] n0;  // a, or a number to take in
+  reg [46:0] n1;  // a - M, signed
+  reg [47:0] n2;  // a - 2 M, signed
+  reg below;      // the number taken in is below 0
+  wire is_fix = step == 4'd2;
+  wire with_sign = step == 4'd8;
+  wire add_modulus = (step == 4'd7) || (is_fix && n0[45]) || ((step == 4'd11) && below);
+  wire take_modulus_off = (step == 4'd4) || (step == 4'd13);
+  wire negate = add_modulus || with_sign || ((step == 4'd12) && below);
+  wire of_slot = (step == 4'd9) || (step == 4'd5) || (step == 4'd6) || (step == 4'd8);
+  wire of_modulus = add_modulus || take_modulus_off;
+  wire [45:0] a = of_modulus ? modulus : of_slot ? {1'b0, rests_q} : 46'd0;  // addend, 1/M, or -M
+  reg carry0;     // 1 to add to the sum of n0
+  reg carry;      // 1 to add to the other sums
+  reg [1:0] digits_now;
+  wire [47:0] sum = {{a[45], a}, 1'b1} + {{modulus[45], modulus}, short};
+  wire [46:0] joined = {modulus, short};
+  wire [48:0] sum_2 = {{{2{a[45]}}, a}, 1'b1} + {{joined[46], joined}, short};
 
   always @(posedge clk) begin
-    if (keep_nx) nx <= acc[51:0];
+    n0 <= (step == 4'd1) ? {{17{number[28]}}, number} : a ^ {46{negate}};
+    n1 <= sum[47:1];
+    n2 <= sum_2[48:1];
+    carry0 <= with_sign || (add_modulus && !short) || (take_modulus_off && short);
+    carry <= take_modulus_off && short;
+    digits_now <= digits;
   end
 
-  always @(posedge clk) begin
-    if (load_terms) begin
-      x <= {{23{x_in[28]}}, x_in};
-      y <= {{23{y_in[28]}}, y_in};
-    end
-    if (load_gradients) begin
-      x <= nx;
-      y <= acc[51:0];
-    end
-  end
+  // The step: x and the addend, less M as often as it goes.
+  reg [3:0] now;            // the step done
+  wire fourfold = (now == 4'd4) || (now == 4'd13);
+  wire twofold = (now == 4'd3) || (now == 4'd6);
+  wire from_zero = (now == 4'd1) || (now == 4'd5) || (now == 4'd7) || (now == 4'd11);
+  wire either = (now == 4'd3)
+             || (now == 4'd4)
+             || (now == 4'd13)
+             || (now == 4'd5)
+             || (now == 4'd6)
+             || (now == 4'd9);
+  wire as_it_is = !either;  // nothing is taken off
+  wire [47:0] extended = {{2{rest[45]}}, rest};
+  wire [47:0] x = fourfold ? {extended[45:0], (now == 4'd13) ? digits_now : 2'd0}
+                : twofold ? extended << 1
+                : from_zero ? 48'd0
+                : extended;
+  wire [48:0] sum_3 = {x, 1'b1} + {{{2{n0[45]}}, n0}, carry0};
+  wire [47:0] s0 = sum_3[48:1];
+  wire [48:0] sum_4 = {x, 1'b1} + {{n1[46], n1}, carry};
+  wire [47:0] s1 = sum_4[48:1];
+  wire [48:0] sum_5 = {x, 1'b1} + {n2, carry};
+  wire [47:0] s2 = sum_5[48:1];
+  wire fits0 = !s0[47];
+  wire fits1 = !s1[47] && !as_it_is;
+  wire fits2 = !s2[47] && !as_it_is;
+  wire stays = fourfold && !fits0;
+  wire [47:0] choice = fits2 ? s2 : fits1 ? s1 : stays ? x : s0;
+  assign rest_next = choice[45:0];
+  wire rest_stays = (now == 4'd0) || (now == 4'd10);
 
-  // d1 = RN of the sum of the numerators of d0 and gx: from the sums of their quotients and remainders.
-  reg [37:0] both;  // sum of the quotients, modular
-  reg [45:0] rest;  // sum of the remainders, below 2 divisors
-  wire [46:0] joined_4 = {rest, 1'b0};
-  wire half = joined_4 >= {2'd0, divisor};
-  wire three_halves = joined_4 >= ({2'd0, divisor} + ({2'd0, divisor} << 1));
-
   always @(posedge clk) begin
-    if (add_line) begin
-      both <= both + floor;
-      rest <= rest + {1'b0, floor_remainder};
-    end
-    if (keep_gx) begin
-      both <= floor;
-      rest <= {1'b0, floor_remainder};
+    if (rst) begin
+      now <= 4'd0;
+    end else begin
+      now <= step;
     end
   end
 
-  assign product = acc;
-  assign quotient = floor;
-  assign remainder = floor_remainder;
-  assign rounded = floor + {37'd0, up};
-  assign d1 = both + {37'd0, half} + {37'd0, three_halves};
+  always @(posedge clk) begin
+    if (!rest_stays) rest <= rest_next;
+  end
+
+  always @(posedge clk) begin
+    if ((now == 4'd1) && advance) below <= n0[45];
+  end
+
+  // The whole part, a clock behind.
+  reg [2:0] read_whole_at;
+  reg [45:0] whole;         // modular
+  wire [45:0] whole_next;
+  reg write_then;
+  reg [2:0] write_then_at;
+  reg [45:0] wholes [0:7];  // modular
+
+  initial begin : wholes_init
+    integer wholes_index;
+    for (wholes_index = 0; wholes_index < 8; wholes_index = wholes_index + 1) wholes[wholes_index] = 46'd0;
+  end
+
+  always @(posedge clk) begin
+    if (write_then) wholes[write_then_at] <= whole_next;
+  end
+
+  reg [45:0] wholes_q;
+
+  always @(posedge clk) begin
+    if (1'b1) wholes_q <= wholes[read_whole_at];
+  end
+
+  reg negated;
+  reg slot_now;
+  reg [45:0] b;     // addend
+  wire twice_or_more = fourfold ? fits1 : fits2;
+  wire once_or_thrice = fourfold ? (fits0 && !fits1) || fits2 : fits1 && !fits2;
+  reg [1:0] taken;  // how often M was taken off
+  reg [3:0] then;   // the step before
+  reg was_fourfold;
+  reg was_twofold;
+  reg was_from_zero;
+  wire [45:0] whole_x = was_fourfold ? {whole[43:0], taken}
+                      : was_twofold ? {whole[44:0], taken[1]}
+                      : was_from_zero ? 46'd0
+                      : whole;
+  wire one = (!was_fourfold && (|taken)) || (then == 4'd8);
+  wire [46:0] sum_6 = {whole_x, 1'b1} + {b, one};
+  assign whole_next = sum_6[46:1];
+  wire whole_stays = (then == 4'd0) || (then == 4'd12);
+
+  always @(posedge clk) begin
+    if (advance) read_whole_at <= read_at;
+  end
+
+  wire [45:0] extended_2 = {46{negated}};
+
+  always @(posedge clk) begin
+    write_then <= write;
+    write_then_at <= write_at;
+    negated <= negate;
+    slot_now <= of_slot;
+    b <= (now == 4'd10) ? whole_in : slot_now ? wholes_q ^ extended_2 : extended_2;
+    taken <= {twice_or_more, once_or_thrice};
+    then <= now;
+    was_fourfold <= fourfold;
+    was_twofold <= twofold;
+    was_from_zero <= from_zero;
+  end
+
+  always @(posedge clk) begin
+    if (!whole_stays) whole <= whole_next;
+  end
+
+  // What is done is given out rounded: to nearest, halves up, or up.
+  reg up;
+  wire [47:0] sum_7 = {{1'b0, {rest[44:0], 1'b0}}, 1'b1} + {{modulus[45], modulus}, short};
+  wire [46:0] part = sum_7[47:1];
+
+  always @(posedge clk) begin
+    up <= upwards ? |rest[44:0] : !part[46];
+  end
+
+  assign unfit = (now == 4'd2) && (below ? s0[47] : !s1[47]);
+  assign rest_out = rest[44:0];
+  assign whole_out = whole;
+  assign value = whole + {45'd0, up};
 
   // Not needed, on purpose.
-  wire unused = &{1'b0, sum0[74], choice[45], joined_3[37], choice_2[45]};
+  wire unused = &{1'b0, sum[0], sum_2[0], sum_3[0], sum_4[0], sum_5[0], choice[47:46], sum_6[0], sum_7[0], part[45:0]};
 
 endmodule
 

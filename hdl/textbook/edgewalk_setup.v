@@ -1,14 +1,14 @@
 // edgewalk_setup: SETUP turns three vertices into edges and increments.
 //
-//   tri ─> [sort by v] ─┬─> lines j0 j1 n1 n2 ────────────────────────────┐
-//                       ├─> area ─> major_right, cull?                    ├─> prim
-//                       ├─> three edges: q f = DX/DY, C R = N/DY ─────────┤
-//                       └─> N channels: increments and start ─────────────┘
-//             the products and quotients are formed in serial lanes, side by side or in rounds
+//   tri ─> [sorted by v] ─┬─> lines j0 j1 n1 n2, columns ─> none? culled
+//                         ├─> area ─> major_right; 0? culled
+//                         └─> differences ─> lanes ─┬─> three edges: q f, C R ──────────────┬─> prim
+//                                                   └─> N channels: g, d0, d1, start ───────┘
+//             a lane holds a pair, whole + rest / M: quotient and exact remainder, doubled and added to
 //
 // Formats: see the ports; P = 2^t is a pixel in centre coordinates.
-// Timing: three clocks to sort, then for each round of the lanes three operations on edges; if the triangle draws
-// anything, for each round the operations on channels, and one clock to store. prim_valid is high from the next on.
+// Timing: the edges, then the channels, as many side by side as there are lanes. How long they take follows the triangle: a sum
+// takes a clock for a bit of its factors. prim_valid is high four clocks after the last operation.
 // Rules: all results are those of exact division, rounded once; a word keeps its low bits.
 
 `timescale 1ns / 1ps
@@ -44,7 +44,7 @@ module edgewalk_setup (
   output wire  [8:0] prim_jm,           // first line
   output reg   [9:0] prim_n1,           // lines of the upper part
   output reg   [9:0] prim_n2,           // lines of the lower part
-  output reg         prim_major_right,  // the major edge is the right one
+  output wire        prim_major_right,  // the major edge is the right one
   output reg  [14:0] prim_major_c,      // signed, first column right of the edge
   output reg  [15:0] prim_major_r,      // distance from the edge to that column, 2^-F column
   output reg  [14:0] prim_major_q,      // signed, whole columns a line
@@ -79,118 +79,221 @@ module edgewalk_setup (
   output reg  [21:0] prim_b_g           // UQ8.14 LSB, modular, to the next pixel of the span
 );
 
-  // Control. Sorting takes three clocks; an operation takes one to load, then k bits a clock.
+  // Control: the operations one after the other, a clock each or more; in rounds where there are more jobs than lanes.
   localparam [2:0] IDLE = 3'd0;
-  localparam [2:0] SORT = 3'd1;
-  localparam [2:0] EDGES = 3'd2;
-  localparam [2:0] CHANNELS = 3'd3;
-  localparam [2:0] STORE = 3'd4;
-  localparam [2:0] DONE = 3'd5;
-  localparam [3:0] EDGE_STEP = 4'd0;
-  localparam [3:0] EDGE_PRODUCT = 4'd1;
-  localparam [3:0] EDGE_START = 4'd2;
-  localparam [3:0] NX = 4'd3;
-  localparam [3:0] GX = 4'd4;
-  localparam [3:0] PRODUCT_A = 4'd5;
-  localparam [3:0] START_A = 4'd6;
-  localparam [3:0] LINE_A = 4'd7;
-  localparam [3:0] PRODUCT_B = 4'd8;
-  localparam [3:0] START_B = 4'd9;
-  localparam [3:0] LINE_B = 4'd10;
-  wire cull;                            // no area, or no line on the screen
+  localparam [2:0] EDGES = 3'd1;
+  localparam [2:0] CHANNELS = 3'd2;
+  localparam [2:0] STORE = 3'd3;
+  localparam [2:0] DONE = 3'd4;
+  localparam [5:0] LOAD_DX = 6'd0;
+  localparam [5:0] FIX_DX = 6'd1;
+  localparam [5:0] DOUBLE_DX = 6'd2;
+  localparam [5:0] LOAD_DY = 6'd3;
+  localparam [5:0] ADD_DX = 6'd4;
+  localparam [5:0] WAIT_DX = 6'd5;
+  localparam [5:0] SUM = 6'd6;
+  localparam [5:0] COLUMNS = 6'd7;
+  localparam [5:0] DOUBLE_COLUMNS = 6'd8;
+  localparam [5:0] ROUND_COLUMNS = 6'd9;
+  localparam [5:0] LOAD1 = 6'd10;
+  localparam [5:0] FIX1 = 6'd11;
+  localparam [5:0] LOAD2 = 6'd12;
+  localparam [5:0] FIX2 = 6'd13;
+  localparam [5:0] WAIT12 = 6'd14;
+  localparam [5:0] ADD12 = 6'd15;
+  localparam [5:0] WAIT = 6'd16;
+  localparam [5:0] SUM_X = 6'd17;
+  localparam [5:0] DOUBLE_X = 6'd18;
+  localparam [5:0] SET_A = 6'd19;
+  localparam [5:0] LOAD_A = 6'd20;
+  localparam [5:0] FIX_A = 6'd21;
+  localparam [5:0] DOUBLE_A = 6'd22;
+  localparam [5:0] WAIT_A = 6'd23;
+  localparam [5:0] SUM_A = 6'd24;
+  localparam [5:0] DOUBLE_START_A = 6'd25;
+  localparam [5:0] ADD_A = 6'd26;
+  localparam [5:0] ROUND_A = 6'd27;
+  localparam [5:0] SET_B = 6'd28;
+  localparam [5:0] LOAD_B = 6'd29;
+  localparam [5:0] FIX_B = 6'd30;
+  localparam [5:0] DOUBLE_B = 6'd31;
+  localparam [5:0] WAIT_B = 6'd32;
+  localparam [5:0] SUM_B = 6'd33;
+  localparam [5:0] DOUBLE_START_B = 6'd34;
+  localparam [5:0] ADD_B = 6'd35;
+  localparam [5:0] ROUND_B = 6'd36;
+  wire nothing;          // no line, or no column, of the screen
+  wire area_known;
+  wire no_area;
+  wire unfit;            // a number was taken in that is not between -M and M
+  wire [4:0] top_digit;  // place of the first digit of a sum
   reg [2:0] state;
+  reg [5:0] at;          // operation
+  reg [4:0] left;        // its clocks after this one
+  reg first;             // its first clock
+  reg [1:0] round;       // of the jobs the lanes do in turn
+
+  // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
+  reg [3:0] pause;                                   // clocks left of it
+  wire advance = pause == 4'd0;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
-  wire sorting = state == SORT;
   wire in_edges = state == EDGES;
-  wire working = in_edges || (state == CHANNELS);
+  wire works = in_edges || (state == CHANNELS);
   assign prim_valid = state == DONE;
-  reg [5:0] step;                       // clock of the operation; 0 loads
-  reg [3:0] op;                         // operation of the lanes
-  reg [1:0] round;                      // of the jobs the lanes do in turn
-  wire load = working && (step == 6'd0);
-  wire stepping = working && (|step);
-  wire is_edge_step = op == EDGE_STEP;
-  wire is_edge_product = op == EDGE_PRODUCT;
-  wire is_edge_start = op == EDGE_START;
-  wire is_nx = op == NX;
-  wire is_gx = op == GX;
-  wire is_product_a = op == PRODUCT_A;
-  wire is_start_a = op == START_A;
-  wire is_line_a = op == LINE_A;
-  wire is_product_b = op == PRODUCT_B;
-  wire is_start_b = op == START_B;
-  wire is_line_b = op == LINE_B;
-  wire [5:0] steps = is_line_b ? 6'd47  // clocks of the operation after the one that loads
-                   : is_start_b ? 6'd47
-                   : is_line_a ? 6'd47
-                   : is_start_a ? 6'd47
-                   : is_gx ? 6'd47
-                   : is_edge_start ? 6'd47
-                   : is_edge_step ? 6'd31
-                   : 6'd16;
-  wire last_step = working && (step == steps);
-  wire edges_end = last_step && (op == EDGE_START);
-  wire channels_end = last_step && (op == LINE_B);
-  wire sorted = sorting && (step == 6'd2);
-  wire equal = round == 2'd3;
+  wire begins = in_edges && (at == LOAD_DX) && (round == 2'd0);  // the first clock of a triangle
+  wire gives_up = in_edges && (at == FIX_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
+  wire last = left == 5'd0;                          // last clock of the operation
+  wire edges_end = in_edges && last && (at == ROUND_COLUMNS) && (round == 2'd2);
+  wire waits = edges_end && !area_known;             // for the area
+  wire ends = works && last && !waits && !gives_up;  // the operation ends
+  wire leaves = ends && advance;
+  wire channels_end = (at == ROUND_B) && (round == 2'd3);
 
   always @(posedge clk) begin
     if (rst) begin
       state <= IDLE;
     end else begin
-      if (take) state <= SORT;
-      if (sorted) state <= EDGES;
-      if (edges_end && equal) state <= cull ? IDLE : CHANNELS;
-      if (channels_end && equal) state <= STORE;
-      if (state == STORE) state <= DONE;
+      if (take) state <= EDGES;
+      if (gives_up && advance) state <= IDLE;
+      if (edges_end && leaves) state <= no_area ? IDLE : CHANNELS;
+      if (leaves && channels_end) state <= STORE;
+      if ((state == STORE) && last) state <= DONE;
       if (prim_valid && prim_ready) state <= IDLE;
     end
   end
 
   always @(posedge clk) begin
-    if (sorting || working) step <= step + 6'd1;
-    if (take || sorted || last_step) step <= 6'd0;
+    if (leaves) begin
+      at <= ((at == ROUND_B) && !channels_end) ? LOAD1
+          : ((at == ROUND_COLUMNS) && !edges_end) ? LOAD_DX
+          : at + 6'd1;
+    end
+    if (take) at <= LOAD_DX;
   end
 
   always @(posedge clk) begin
-    if (last_step) op <= op + 4'd1;
-    if (edges_end) op <= equal ? NX : EDGE_STEP;
-    if (channels_end) op <= NX;
-    if (take) op <= EDGE_STEP;
+    if (advance) first <= leaves;
+    if (take) first <= 1'b1;
   end
 
   always @(posedge clk) begin
-    if (edges_end || channels_end) round <= round + 2'd1;
-    if (take) round <= 2'd0;
+    if (leaves && ((at == ROUND_COLUMNS) || (at == ROUND_B))) round <= round + 2'd1;
+    if ((leaves && edges_end) || take) round <= 2'd0;
   end
 
-  // Quotients are taken in the clock after the last step.
-  reg finished;              // an operation ended
-  reg [3:0] finished_op;     // which
-  reg [1:0] finished_round;  // of the jobs the lanes do in turn
-  wire edge_step_done = finished && (finished_op == EDGE_STEP);
-  wire edge_start_done = finished && (finished_op == EDGE_START);
-  wire gx_done = finished && (finished_op == GX);
-  wire start_a_done = finished && (finished_op == START_A);
-  wire line_a_done = finished && (finished_op == LINE_A);
-  wire start_b_done = finished && (finished_op == START_B);
-  wire line_b_done = finished && (finished_op == LINE_B);
+  // How long the next operation takes.
+  wire [4:0] choice = (round == 2'd3) ? 5'd7 : (round == 2'd2) ? 5'd7 : (round == 2'd1) ? 5'd7 : 5'd7;
+  wire [4:0] choice_2 = (round == 2'd3) ? 5'd7
+                      : (round == 2'd2) ? 5'd7
+                      : (round == 2'd1) ? 5'd7
+                      : 5'd7;
+  wire [4:0] choice_3 = (round == 2'd3) ? 5'd7
+                      : (round == 2'd2) ? 5'd7
+                      : (round == 2'd1) ? 5'd7
+                      : 5'd7;
+  wire [4:0] choice_4 = (round == 2'd3) ? 5'd7
+                      : (round == 2'd2) ? 5'd7
+                      : (round == 2'd1) ? 5'd7
+                      : 5'd7;
+  wire [4:0] choice_5 = (round == 2'd3) ? 5'd7
+                      : (round == 2'd2) ? 5'd7
+                      : (round == 2'd1) ? 5'd7
+                      : 5'd7;
 
   always @(posedge clk) begin
-    if (rst) begin
-      finished <= 1'b0;
-    end else begin
-      finished <= last_step;
+    if (advance && works) left <= left - 5'd1;
+    if (leaves) begin
+      left <= (at == SUM_B) ? choice
+            : (at == WAIT_B) ? top_digit
+            : (at == FIX_B) ? choice_2
+            : (at == SUM_A) ? choice_3
+            : (at == WAIT_A) ? top_digit
+            : (at == FIX_A) ? choice_4
+            : (at == SUM_X) ? choice_5
+            : (at == WAIT) ? top_digit
+            : (at == ADD12) ? 5'd1
+            : (at == COLUMNS) ? 5'd7
+            : (at == WAIT_DX) ? top_digit
+            : (at == ADD_DX) ? 5'd1
+            : (at == FIX_DX) ? 5'd8
+            : 5'd0;
+    end
+    if (leaves && channels_end) left <= 5'd3;
+    if (state == STORE) left <= left - 5'd1;
+    if (waits || take) left <= 5'd0;
+  end
+
+  // The way of an operation: named, its addends formed, its step done, the rest and then the whole of the result.
+  reg [5:0] at_next;
+  reg [1:0] round_next;
+  reg ends_next;
+  reg [5:0] at_again;
+  reg [1:0] round_again;
+  reg ends_again;
+  reg [5:0] at_fixed;
+  reg [1:0] round_fixed;
+  reg ends_fixed;
+  wire resumes = pause == 4'd1;  // the step after the numbers is formed again
+  wire [5:0] at_formed = advance ? at_next : resumes ? at_again : at_fixed;
+  wire [1:0] round_formed = advance ? round_next : resumes ? round_again : round_fixed;
+  wire ends_formed = advance ? ends_next : resumes ? ends_again : pause == 4'd2;
+  reg [5:0] at_stepped;
+  reg [1:0] round_stepped;
+  reg ends_stepped;
+  reg [5:0] at_rest;
+  reg [1:0] round_rest;
+  reg ends_rest;
+  reg [5:0] at_whole;
+  reg [1:0] round_whole;
+  reg ends_whole;
+  wire rests = waits || gives_up || !works;
+
+  always @(posedge clk) begin
+    if (advance) begin
+      at_next <= at;
+      round_next <= round;
+      ends_next <= ends;
+      at_again <= at_formed;
+      round_again <= round_formed;
+      ends_again <= ends_formed;
+      at_fixed <= at_stepped;
+      round_fixed <= round_stepped;
+      ends_fixed <= ends_stepped;
     end
   end
 
   always @(posedge clk) begin
-    finished_op <= op;
-    finished_round <= round;
+    at_stepped <= at_formed;
+    round_stepped <= round_formed;
+    ends_stepped <= ends_formed;
+    at_rest <= at_stepped;
+    round_rest <= round_stepped;
+    ends_rest <= ends_stepped;
+    at_whole <= at_rest;
+    round_whole <= round_rest;
+    ends_whole <= ends_rest;
   end
 
-  // The vertices, in centre coordinates: pixel centres lie on the multiples of P.
+  always @(posedge clk) begin
+    if (rst) begin
+      pause <= 4'd0;
+    end else begin
+      if (!advance) pause <= pause - 4'd1;
+      if (advance && unfit) begin
+        pause <= (at_stepped == FIX_DX) ? 4'd11
+               : (round_stepped == 2'd3) ? 4'd7
+               : (round_stepped == 2'd2) ? 4'd7
+               : (round_stepped == 2'd1) ? 4'd7
+               : 4'd11;
+      end
+    end
+  end
+
+  // The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.
+  wire y1_above_y0 = $signed(tri_y1) < $signed(tri_y0);
+  wire y2_above_y0 = $signed(tri_y2) < $signed(tri_y0);
+  wire y2_above_y1 = $signed(tri_y2) < $signed(tri_y1);
   reg [14:0] p0_u;  // Q14.1, signed
   reg [14:0] p0_v;  // Q14.1, signed
   reg [15:0] p0_z;  // UQ16.0 LSB
@@ -209,72 +312,33 @@ module edgewalk_setup (
   reg [7:0] p2_r;   // UQ8.0 LSB
   reg [7:0] p2_g;   // UQ8.0 LSB
   reg [7:0] p2_b;   // UQ8.0 LSB
-  wire second_clock = step == 6'd1;
-  wire swap01 = sorting && !second_clock && ($signed(p1_v) < $signed(p0_v));
-  wire swap12 = sorting && second_clock && ($signed(p2_v) < $signed(p1_v));
+  wire both = y1_above_y0 && !y2_above_y1;
+  wire both_2 = y2_above_y0 && y2_above_y1;
+  wire both_3 = !y1_above_y0 && y2_above_y1;
+  wire both_4 = !y2_above_y0 && !y2_above_y1;
+  wire [13:0] choice_6 = (!both && !both_3) ? tri_x1 : (!both_2 && !both_4) ? tri_x2 : tri_x0;
+  wire [13:0] choice_7 = (!both && !both_3) ? tri_y1 : (!both_2 && !both_4) ? tri_y2 : tri_y0;
 
   always @(posedge clk) begin
-    if (swap01) begin
-      p0_u <= p1_u;
-      p0_v <= p1_v;
-      p0_z <= p1_z;
-      p0_r <= p1_r;
-      p0_g <= p1_g;
-      p0_b <= p1_b;
-    end
     if (take) begin
-      p0_u <= {tri_x0, 1'b0};
-      p0_v <= {tri_y0, 1'b0};
-      p0_z <= tri_z0;
-      p0_r <= tri_r0;
-      p0_g <= tri_g0;
-      p0_b <= tri_b0;
-    end
-  end
-
-  always @(posedge clk) begin
-    if (swap01) begin
-      p1_u <= p0_u;
-      p1_v <= p0_v;
-      p1_z <= p0_z;
-      p1_r <= p0_r;
-      p1_g <= p0_g;
-      p1_b <= p0_b;
-    end
-    if (swap12) begin
-      p1_u <= p2_u;
-      p1_v <= p2_v;
-      p1_z <= p2_z;
-      p1_r <= p2_r;
-      p1_g <= p2_g;
-      p1_b <= p2_b;
-    end
-    if (take) begin
-      p1_u <= {tri_x1, 1'b0};
-      p1_v <= {tri_y1, 1'b0};
-      p1_z <= tri_z1;
-      p1_r <= tri_r1;
-      p1_g <= tri_g1;
-      p1_b <= tri_b1;
-    end
-  end
-
-  always @(posedge clk) begin
-    if (swap12) begin
-      p2_u <= p1_u;
-      p2_v <= p1_v;
-      p2_z <= p1_z;
-      p2_r <= p1_r;
-      p2_g <= p1_g;
-      p2_b <= p1_b;
-    end
-    if (take) begin
-      p2_u <= {tri_x2, 1'b0};
-      p2_v <= {tri_y2, 1'b0};
-      p2_z <= tri_z2;
-      p2_r <= tri_r2;
-      p2_g <= tri_g2;
-      p2_b <= tri_b2;
+      p0_u <= {both ? tri_x1 : both_2 ? tri_x2 : tri_x0, 1'b0};
+      p0_v <= {both ? tri_y1 : both_2 ? tri_y2 : tri_y0, 1'b0};
+      p0_z <= both ? tri_z1 : both_2 ? tri_z2 : tri_z0;
+      p0_r <= both ? tri_r1 : both_2 ? tri_r2 : tri_r0;
+      p0_g <= both ? tri_g1 : both_2 ? tri_g2 : tri_g0;
+      p0_b <= both ? tri_b1 : both_2 ? tri_b2 : tri_b0;
+      p1_u <= {choice_6, 1'b0};
+      p1_v <= {choice_7, 1'b0};
+      p1_z <= (!both && !both_3) ? tri_z1 : (!both_2 && !both_4) ? tri_z2 : tri_z0;
+      p1_r <= (!both && !both_3) ? tri_r1 : (!both_2 && !both_4) ? tri_r2 : tri_r0;
+      p1_g <= (!both && !both_3) ? tri_g1 : (!both_2 && !both_4) ? tri_g2 : tri_g0;
+      p1_b <= (!both && !both_3) ? tri_b1 : (!both_2 && !both_4) ? tri_b2 : tri_b0;
+      p2_u <= {both_3 ? tri_x1 : both_4 ? tri_x2 : tri_x0, 1'b0};
+      p2_v <= {both_3 ? tri_y1 : both_4 ? tri_y2 : tri_y0, 1'b0};
+      p2_z <= both_3 ? tri_z1 : both_4 ? tri_z2 : tri_z0;
+      p2_r <= both_3 ? tri_r1 : both_4 ? tri_r2 : tri_r0;
+      p2_g <= both_3 ? tri_g1 : both_4 ? tri_g2 : tri_g0;
+      p2_b <= both_3 ? tri_b1 : both_4 ? tri_b2 : tri_b0;
     end
   end
 
@@ -288,396 +352,583 @@ module edgewalk_setup (
   wire [15:0] du01 = {p1_u[14], p1_u} - {p0_u[14], p0_u};  // 1/P column, signed
   wire [15:0] du02 = {p2_u[14], p2_u} - {p0_u[14], p0_u};  // 1/P column, signed
 
-  // Lines of each part: from Y of the upper to Y of the lower end, both drawn, on the screen.
-  wire [13:0] part = p0_v[14:1];
-  wire [14:0] extended = {part[13], part};
-  wire [14:0] j0_next = ($signed(extended) < 15'sd0) ? 15'd0 : extended;
-  wire [13:0] part_2 = p1_v[14:1];
-  wire [14:0] extended_2 = {part_2[13], part_2};
-  wire [14:0] j1_next = ($signed(extended_2) < 15'sd0) ? 15'd0 : extended_2;
-  wire [13:0] part_3 = p1_v[14:1];
-  wire [14:0] extended_3 = {part_3[13], part_3};
-  wire [14:0] last0 = ($signed(extended_3) < 15'sd479) ? extended_3 : 15'd479;
-  wire [13:0] part_4 = p0_v[14:1];
-  wire [13:0] part_5 = p1_v[14:1];
-  wire some0 = ($signed({part_4[13], part_4}) < $signed({part_5[13], part_5}))
-            && ($signed(j0_next) <= $signed(last0));
-  wire [13:0] part_6 = p2_v[14:1];
-  wire [14:0] extended_4 = {part_6[13], part_6};
-  wire [14:0] last1 = ($signed(extended_4) < 15'sd479) ? extended_4 : 15'd479;
-  wire [13:0] part_7 = p1_v[14:1];
-  wire [13:0] part_8 = p2_v[14:1];
-  wire some1 = ($signed({part_7[13], part_7}) < $signed({part_8[13], part_8}))
-            && ($signed(j1_next) <= $signed(last1));
-  wire take_lines = load && is_edge_step;
-  reg [14:0] j0;                     // line, signed
-  reg [14:0] j1;                     // line, signed
-  wire upper = |prim_n1;
-  wire [14:0] jm = upper ? j0 : j1;  // first line of the triangle
-  wire [14:0] choice = some0 ? last0 - j0_next + 15'd1 : 15'd0;
-  wire [14:0] choice_2 = some1 ? last1 - j1_next + 15'd1 : 15'd0;
+  // Twice the area: du1 dv2 - du2 dv1, over the bits of dv2 and dv1.
+  reg [3:0] area_digit;  // place of the digits added
+  reg area_adds;         // digits are added
+  wire [14:0] shifted = dv02 >> area_digit;
+  wire [14:0] shifted_2 = dv01 >> area_digit;
+  wire [16:0] area_part = (shifted[0] ? {du01[15], du01} : 17'd0)
+                        - (shifted_2[0] ? {du02[15], du02} : 17'd0);
+  reg [31:0] area;       // 1/P^2 px^2, signed
+  assign area_known = !area_adds && !begins;
+  assign no_area = !(|area);
+  wire any = |dv02[14:8];
+  wire [6:0] part_2 = dv02[14:8];
+  wire [2:0] part = part_2[6:4];
+  wire any_2 = |part;
+  wire any_3 = part[2];
+  wire [1:0] part_3 = part[1:0];
+  wire [3:0] part_5 = part_2[3:0];
+  wire [1:0] part_4 = part_5[3:2];
+  wire any_4 = |part_4;
+  wire [1:0] part_6 = part_5[1:0];
+  wire [1:0] choice_8 = any_2 ? {any_3, any_3 ? 1'b0 : part_3[1]}
+                      : {any_4, any_4 ? part_4[1] : part_6[1]};
+  wire [7:0] part_8 = dv02[7:0];
+  wire [3:0] part_7 = part_8[7:4];
+  wire any_5 = |part_7;
+  wire [1:0] part_9 = part_7[3:2];
+  wire any_6 = |part_9;
+  wire [1:0] part_10 = part_7[1:0];
+  wire [3:0] part_12 = part_8[3:0];
+  wire [1:0] part_11 = part_12[3:2];
+  wire any_7 = |part_11;
+  wire [1:0] part_13 = part_12[1:0];
+  wire [1:0] choice_9 = any_5 ? {any_6, any_6 ? part_9[1] : part_10[1]}
+                      : {any_7, any_7 ? part_11[1] : part_13[1]};
 
   always @(posedge clk) begin
-    if (take_lines) begin
-      prim_n1 <= choice[9:0];
-      prim_n2 <= choice_2[9:0];
+    if (area_adds) begin
+      area_digit <= area_digit - 4'd1;
+      area <= (area << 1) + {{15{area_part[16]}}, area_part};
+    end
+    if (begins) begin
+      area_digit <= {any, any ? {any_2, choice_8} : {any_5, choice_9}};
+      area <= 32'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      area_adds <= 1'b0;
+    end else begin
+      if (area_adds && (area_digit == 4'd0)) area_adds <= 1'b0;
+      if (begins) area_adds <= 1'b1;
+    end
+  end
+
+  // Lines of each part: from Y of the upper to Y of the lower end, both drawn, on the screen.
+  wire [13:0] part_14 = p0_v[14:1];
+  wire [14:0] extended = {part_14[13], part_14};
+  wire [14:0] j0_next = ($signed(extended) < 15'sd0) ? 15'd0 : extended;
+  wire [13:0] part_15 = p1_v[14:1];
+  wire [14:0] extended_2 = {part_15[13], part_15};
+  wire [14:0] j1_next = ($signed(extended_2) < 15'sd0) ? 15'd0 : extended_2;
+  wire [13:0] part_16 = p1_v[14:1];
+  wire [14:0] extended_3 = {part_16[13], part_16};
+  wire [14:0] last0 = ($signed(extended_3) < 15'sd479) ? extended_3 : 15'd479;
+  wire [13:0] part_17 = p0_v[14:1];
+  wire [13:0] part_18 = p1_v[14:1];
+  wire less = $signed({part_17[13], part_17}) < $signed({part_18[13], part_18});
+  wire some0 = less && ($signed(j0_next) <= $signed(last0));
+  wire [13:0] part_19 = p2_v[14:1];
+  wire [14:0] extended_4 = {part_19[13], part_19};
+  wire [14:0] last1 = ($signed(extended_4) < 15'sd479) ? extended_4 : 15'd479;
+  wire [13:0] part_20 = p1_v[14:1];
+  wire [13:0] part_21 = p2_v[14:1];
+  wire less_2 = $signed({part_20[13], part_20}) < $signed({part_21[13], part_21});
+  wire some1 = less_2 && ($signed(j1_next) <= $signed(last1));
+  reg [14:0] j0;                                   // line, signed
+  reg [14:0] j1;                                   // line, signed
+  wire upper = |prim_n1;
+  assign nothing = !upper && !(|prim_n2);
+  wire [14:0] jm = upper ? j0 : j1;                // first line of the triangle
+  wire [15:0] h0 = {jm, 1'b0} - {p0_v[14], p0_v};  // 1/P line
+  wire [15:0] h1 = {j1, 1'b0} - {p1_v[14], p1_v};  // 1/P line
+  wire [15:0] left_a = {j0, 1'b0} - {p0_v[14], p0_v};  // 1/P line
+  wire [15:0] left_b = {j1, 1'b0} - {p0_v[14], p0_v};  // 1/P line
+  wire [14:0] choice_10 = some0 ? last0 - j0_next + 15'd1 : 15'd0;
+  wire [14:0] choice_11 = some1 ? last1 - j1_next + 15'd1 : 15'd0;
+
+  always @(posedge clk) begin
+    if (begins) begin
+      prim_n1 <= choice_10[9:0];
+      prim_n2 <= choice_11[9:0];
       j0 <= j0_next;
       j1 <= j1_next;
     end
   end
 
-  // What all lanes do.
-  wire is_product = is_edge_product || is_nx || is_product_a || is_product_b;
-  wire is_quotient = is_edge_start || is_gx || is_start_a || is_start_b;
-  wire is_quotient_of_y = is_edge_step || is_line_a || is_line_b;
-  wire load_terms = load && (is_edge_product || is_nx || is_product_a || is_product_b);
-  wire load_product = load && is_product;
-  wire step_product = stepping && is_product;
-  wire first_step = step == 6'd1;
-  wire load_quotient = load && is_quotient;
-  wire load_quotient_of_y = load && is_quotient_of_y;
-  wire step_quotient = stepping && (is_quotient || is_quotient_of_y);
-
-  // Twice the area of the triangle, and the side on which it lies.
-  wire [32:0] lane0_product;
-  wire take_area = load && is_edge_start && (round == 2'd0);
-  reg [30:0] area;  // |du1 dv2 - du2 dv1|
-  assign cull = !(|area) || (!upper && !(|prim_n2));
-  wire [31:0] part_9 = lane0_product[31:0];
-  wire [31:0] choice_3 = part_9[31] ? -part_9 : part_9;
+  // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
+  reg [16:0] f;  // factor, signed
+  reg [16:0] g;  // factor, signed
+  wire [16:0] differing = f ^ $unsigned($signed(f) >>> 1);
+  wire [16:0] differing_2 = g ^ $unsigned($signed(g) >>> 1);
+  wire [15:0] digits = differing[15:0] | differing_2[15:0];  // digits of the factors that differ from their signs
+  wire any_8 = |digits[15:8];
+  wire [7:0] part_23 = digits[15:8];
+  wire [3:0] part_22 = part_23[7:4];
+  wire any_9 = |part_22;
+  wire [1:0] part_24 = part_22[3:2];
+  wire any_10 = |part_24;
+  wire [1:0] part_25 = part_22[1:0];
+  wire [3:0] part_27 = part_23[3:0];
+  wire [1:0] part_26 = part_27[3:2];
+  wire any_11 = |part_26;
+  wire [1:0] part_28 = part_27[1:0];
+  wire [1:0] choice_12 = any_9 ? {any_10, any_10 ? part_24[1] : part_25[1]}
+                       : {any_11, any_11 ? part_26[1] : part_28[1]};
+  wire [7:0] part_30 = digits[7:0];
+  wire [3:0] part_29 = part_30[7:4];
+  wire any_12 = |part_29;
+  wire [1:0] part_31 = part_29[3:2];
+  wire any_13 = |part_31;
+  wire [1:0] part_32 = part_29[1:0];
+  wire [3:0] part_34 = part_30[3:0];
+  wire [1:0] part_33 = part_34[3:2];
+  wire any_14 = |part_33;
+  wire [1:0] part_35 = part_34[1:0];
+  wire [1:0] choice_13 = any_12 ? {any_13, any_13 ? part_31[1] : part_32[1]}
+                       : {any_14, any_14 ? part_33[1] : part_35[1]};
+  assign top_digit = {1'b0, {any_8, any_8 ? {any_9, choice_12} : {any_12, choice_13}}};
+  wire [16:0] shifted_3 = f >> left;
+  wire digit_f = shifted_3[0];
+  wire [16:0] shifted_4 = g >> left;
+  wire digit_g = shifted_4[0];
 
   always @(posedge clk) begin
-    if (take_area) begin
-      area <= choice_3[30:0];
-      prim_major_right <= part_9[31];
+    if (at == WAIT_DX) begin
+      f <= (round == 2'd2) ? ((|prim_n2) ? {16'd0, 1'b1} : 17'd0)
+         : (round == 2'd1) ? ((|prim_n1) ? {16'd0, 1'b1} : 17'd0)
+         : {16'd0, 1'b1};
+      g <= (round == 2'd2) ? ((|prim_n2) ? {1'b0, h1} : 17'd0)
+         : (round == 2'd1) ? ((|prim_n1) ? {1'b0, h0} : 17'd0)
+         : {1'b0, h0};
+    end
+    if (at == WAIT) begin
+      f <= {2'd0, dv02};
+      g <= {2'd0, dv01};
+    end
+    if ((at == DOUBLE_A) || (at == WAIT_A)) begin
+      f <= (|prim_n1) ? {1'b0, left_a} : 17'd0;
+      g <= 17'd0;
+    end
+    if ((at == DOUBLE_B) || (at == WAIT_B)) begin
+      f <= (|prim_n2) ? {1'b0, area[31] ? h1 : left_b} : 17'd0;
+      g <= 17'd0;
     end
   end
 
-  // Factors and divisor of the operations on channels, the same for all lanes.
-  wire in_b = is_product_b || is_start_b || is_line_b;  // part 2
-  wire [15:0] channel_a = is_nx ? {1'b0, dv02} : 16'd0;  // signed
-  wire [14:0] choice_4 = (in_b && prim_major_right) ? p1_v : p0_v;
-  wire [15:0] channel_b = is_nx ? {1'b0, dv01} : {in_b ? j1 : j0, 1'b0} - {choice_4[14], choice_4};  // signed
-  wire flip = prim_major_right;  // differences of channels the other way round
+  // What all lanes do.
+  wire either = (at == DOUBLE_DX)
+             || (at == DOUBLE_COLUMNS)
+             || (at == DOUBLE_X)
+             || (at == DOUBLE_A)
+             || (at == DOUBLE_START_A)
+             || (at == DOUBLE_B)
+             || (at == DOUBLE_START_B);
+  wire either_2 = (at == FIX_DX) || (at == FIX1) || (at == FIX2) || (at == FIX_A) || (at == FIX_B);
+  wire either_3 = (at == LOAD_DX)
+               || (at == LOAD_DY)
+               || (at == LOAD1)
+               || (at == LOAD2)
+               || (at == LOAD_A)
+               || (at == LOAD_B);
+  wire [3:0] step = rests ? 4'd0 : ((at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B)) ? (first ? 4'd5 : 4'd6) : ((at == COLUMNS) || (at == ADD_A) || (at == ADD_B)) ? 4'd10 : ((at == ADD_DX) || (at == ADD12)) ? 4'd9 : either ? 4'd4 : either_2 ? 4'd2 : either_3 ? 4'd1 : 4'd0;
+  reg began;       // numbers were found not to fit in the clock before
+  reg began_then;  // and in the one before
+  wire is_sum = (at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B);
+  wire is_sign = 1'b0;
+  wire of_gradients = 1'b0;
+  wire [2:0] read_single_at = (at == ADD_DX) ? 3'd2 : (at == ADD12) ? 3'd1 : 3'd0;
+  wire either_4 = (at_stepped == FIX_DX)
+               || (at_stepped == LOAD_DY)
+               || (at_stepped == ADD_DX)
+               || (at_stepped == FIX1)
+               || (at_stepped == FIX2)
+               || (at_stepped == ADD12)
+               || (at_stepped == DOUBLE_X)
+               || (at_stepped == FIX_A)
+               || (at_stepped == FIX_B);
+  wire write = ends_stepped && either_4;
+  wire either_5 = (at_stepped == LOAD_DY)
+               || (at_stepped == FIX1)
+               || (at_stepped == FIX_A)
+               || (at_stepped == FIX_B);
+  wire [2:0] write_at = (at_stepped == DOUBLE_X) ? 3'd5
+                      : ((at_stepped == ADD_DX) || (at_stepped == ADD12)) ? 3'd3
+                      : ((at_stepped == FIX_DX) || (at_stepped == FIX2)) ? 3'd2
+                      : either_5 ? 3'd1
+                      : 3'd0;
+  wire take_modulus = (at_formed == LOAD_DX)
+                   || (at_formed == LOAD1)
+                   || (at_formed == LOAD_A)
+                   || (at_formed == LOAD_B);
 
-  // Lane 0.
-  wire [16:0] lane0_x_edge = (round == 2'd3) ? {{2{p2_v[14]}}, p2_v} - {{2{p1_v[14]}}, p1_v}
-                           : (round == 2'd2) ? {{2{p1_v[14]}}, p1_v} - {{2{p0_v[14]}}, p0_v}
-                           : (round == 2'd1) ? {{2{p2_v[14]}}, p2_v} - {{2{p0_v[14]}}, p0_v}
-                           : {{2{p1_u[14]}}, p1_u} - {{2{p0_u[14]}}, p0_u};
-  wire [16:0] lane0_y_edge = (round == 2'd3) ? {{2{p2_u[14]}}, p2_u} - {{2{p1_u[14]}}, p1_u}
-                           : (round == 2'd2) ? {{2{p1_u[14]}}, p1_u} - {{2{p0_u[14]}}, p0_u}
-                           : (round == 2'd1) ? {{2{p2_u[14]}}, p2_u} - {{2{p0_u[14]}}, p0_u}
-                           : {{2{p0_u[14]}}, p0_u} - {{2{p2_u[14]}}, p2_u};
-  wire [16:0] difference_4 = (flip ? {9'd0, p0_b} : {9'd0, p1_b})
-                           - (flip ? {9'd0, p1_b} : {9'd0, p0_b});
-  wire [16:0] difference_5 = (flip ? {9'd0, p0_g} : {9'd0, p1_g})
-                           - (flip ? {9'd0, p1_g} : {9'd0, p0_g});
-  wire [16:0] difference_6 = (flip ? {9'd0, p0_r} : {9'd0, p1_r})
-                           - (flip ? {9'd0, p1_r} : {9'd0, p0_r});
-  wire [16:0] difference_7 = (flip ? {1'b0, p0_z} : {1'b0, p1_z})
-                           - (flip ? {1'b0, p1_z} : {1'b0, p0_z});
-  wire [16:0] lane0_x_channel = (round == 2'd3) ? difference_4
-                              : (round == 2'd2) ? difference_5
-                              : (round == 2'd1) ? difference_6
-                              : difference_7;
-  wire either = is_product_b || is_line_b;
-  wire [16:0] choice_5 = is_nx ? (flip ? {9'd0, p2_b} : {9'd0, p0_b})
-                       : (prim_major_right && !either) ? {9'd0, p1_b}
-                       : {9'd0, p2_b};
-  wire [16:0] choice_6 = is_nx ? (flip ? {9'd0, p0_b} : {9'd0, p2_b})
-                       : (prim_major_right && either) ? {9'd0, p1_b}
-                       : {9'd0, p0_b};
-  wire either_2 = is_product_b || is_line_b;
-  wire [16:0] choice_7 = is_nx ? (flip ? {9'd0, p2_g} : {9'd0, p0_g})
-                       : (prim_major_right && !either_2) ? {9'd0, p1_g}
-                       : {9'd0, p2_g};
-  wire [16:0] choice_8 = is_nx ? (flip ? {9'd0, p0_g} : {9'd0, p2_g})
-                       : (prim_major_right && either_2) ? {9'd0, p1_g}
-                       : {9'd0, p0_g};
-  wire either_3 = is_product_b || is_line_b;
-  wire [16:0] choice_9 = is_nx ? (flip ? {9'd0, p2_r} : {9'd0, p0_r})
-                       : (prim_major_right && !either_3) ? {9'd0, p1_r}
-                       : {9'd0, p2_r};
-  wire [16:0] choice_10 = is_nx ? (flip ? {9'd0, p0_r} : {9'd0, p2_r})
-                        : (prim_major_right && either_3) ? {9'd0, p1_r}
+  always @(posedge clk) begin
+    began <= advance;
+    began_then <= began;
+  end
+
+  // Lane 0: its steps.
+  wire [3:0] choice_14 = (round == 2'd3) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
+                       : (round == 2'd2) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
+                       : (round == 2'd1) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
+                       : (left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4)
+                       : 4'd0;
+  wire [3:0] choice_15 = (round == 2'd3) ? ((left < 5'd8) ? 4'd4 : 4'd0)
+                       : (round == 2'd2) ? ((left < 5'd8) ? 4'd4 : 4'd0)
+                       : (round == 2'd1) ? ((left < 5'd8) ? 4'd4 : 4'd0)
+                       : (left < 5'd8) ? 4'd4
+                       : 4'd0;
+  wire [3:0] choice_16 = (round == 2'd3) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
+                       : (round == 2'd2) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
+                       : (round == 2'd1) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
+                       : (left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4)
+                       : 4'd0;
+  wire [3:0] choice_17 = (round == 2'd3) ? ((left < 5'd8) ? 4'd4 : 4'd0)
+                       : (round == 2'd2) ? ((left < 5'd8) ? 4'd4 : 4'd0)
+                       : (round == 2'd1) ? ((left < 5'd8) ? 4'd4 : 4'd0)
+                       : (left < 5'd8) ? 4'd4
+                       : 4'd0;
+  wire [3:0] choice_18 = (round == 2'd3) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
+                       : (round == 2'd2) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
+                       : (round == 2'd1) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
+                       : (left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4)
+                       : 4'd0;
+  wire [3:0] step0 = ((at == DOUBLE_START_B) && !rests) ? choice_14
+                   : ((at == DOUBLE_B) && !rests) ? choice_15
+                   : ((at == DOUBLE_START_A) && !rests) ? choice_16
+                   : ((at == DOUBLE_A) && !rests) ? choice_17
+                   : ((at == DOUBLE_X) && !rests) ? choice_18
+                   : ((at == DOUBLE_COLUMNS) && !rests) ? ((left < 5'd8) ? 4'd4 : 4'd0)
+                   : ((at == DOUBLE_DX) && !rests) ? ((left < 5'd9) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
+                   : step;
+  reg [3:0] step_next0;
+  reg [3:0] step_again0;
+  wire [3:0] step_formed0 = advance ? step_next0
+                          : (pause == 4'd1) ? step_again0
+                          : began ? 4'd11
+                          : began_then ? 4'd12
+                          : 4'd13;
+
+  always @(posedge clk) begin
+    if (rst) begin
+      step_next0 <= 4'd0;
+    end else if (advance) begin
+      step_next0 <= step0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (advance) step_again0 <= step_formed0;
+  end
+
+  // Lane 0: what it takes in.
+  wire either_6 = (at_formed == LOAD_DX) || (at_formed == FIX_DX) || (at_formed == LOAD_DY);
+  wire [15:0] extended_5 = {1'b0, dv12};
+  wire [15:0] extended_6 = {1'b0, dv01};
+  wire [15:0] extended_7 = {1'b0, dv02};
+  wire [16:0] choice_19 = (round_formed == 2'd2) ? {extended_5[15], extended_5}
+                        : (round_formed == 2'd1) ? {extended_6[15], extended_6}
+                        : {extended_7[15], extended_7};
+  wire [15:0] difference_4 = {p2_u[14], p2_u} - {p1_u[14], p1_u};
+  wire [16:0] choice_20 = (at_formed == LOAD_DY) ? choice_19
+                        : (round_formed == 2'd2) ? {difference_4[15], difference_4}
+                        : (round_formed == 2'd1) ? {du01[15], du01}
+                        : {du02[15], du02};
+  wire either_7 = (at_formed == LOAD_A) || (at_formed == FIX_A);
+  wire either_8 = (at_formed == LOAD_B) || (at_formed == FIX_B);
+  wire either_9 = (at_formed == LOAD2) || (at_formed == FIX2);
+  wire [16:0] choice_21 = (either_7 || either_8) ? ((either_7 && area[31]) ? {9'd0, p1_b} : {9'd0, p2_b})
+                        : either_9 ? (area[31] ? {9'd0, p2_b} : {9'd0, p0_b})
+                        : area[31] ? {9'd0, p0_b}
+                        : {9'd0, p1_b};
+  wire [16:0] choice_22 = (either_7 || either_8) ? ((either_8 && area[31]) ? {9'd0, p1_b} : {9'd0, p0_b})
+                        : either_9 ? (area[31] ? {9'd0, p0_b} : {9'd0, p2_b})
+                        : area[31] ? {9'd0, p1_b}
+                        : {9'd0, p0_b};
+  wire either_10 = (at_formed == LOAD_A) || (at_formed == FIX_A);
+  wire either_11 = (at_formed == LOAD_B) || (at_formed == FIX_B);
+  wire either_12 = (at_formed == LOAD2) || (at_formed == FIX2);
+  wire [16:0] choice_23 = (either_10 || either_11) ? ((either_10 && area[31]) ? {9'd0, p1_g} : {9'd0, p2_g})
+                        : either_12 ? (area[31] ? {9'd0, p2_g} : {9'd0, p0_g})
+                        : area[31] ? {9'd0, p0_g}
+                        : {9'd0, p1_g};
+  wire [16:0] choice_24 = (either_10 || either_11) ? ((either_11 && area[31]) ? {9'd0, p1_g} : {9'd0, p0_g})
+                        : either_12 ? (area[31] ? {9'd0, p0_g} : {9'd0, p2_g})
+                        : area[31] ? {9'd0, p1_g}
+                        : {9'd0, p0_g};
+  wire either_13 = (at_formed == LOAD_A) || (at_formed == FIX_A);
+  wire either_14 = (at_formed == LOAD_B) || (at_formed == FIX_B);
+  wire either_15 = (at_formed == LOAD2) || (at_formed == FIX2);
+  wire [16:0] choice_25 = (either_13 || either_14) ? ((either_13 && area[31]) ? {9'd0, p1_r} : {9'd0, p2_r})
+                        : either_15 ? (area[31] ? {9'd0, p2_r} : {9'd0, p0_r})
+                        : area[31] ? {9'd0, p0_r}
+                        : {9'd0, p1_r};
+  wire [16:0] choice_26 = (either_13 || either_14) ? ((either_14 && area[31]) ? {9'd0, p1_r} : {9'd0, p0_r})
+                        : either_15 ? (area[31] ? {9'd0, p0_r} : {9'd0, p2_r})
+                        : area[31] ? {9'd0, p1_r}
                         : {9'd0, p0_r};
-  wire either_4 = is_product_b || is_line_b;
-  wire [16:0] choice_11 = is_nx ? (flip ? {1'b0, p2_z} : {1'b0, p0_z})
-                        : (prim_major_right && !either_4) ? {1'b0, p1_z}
-                        : {1'b0, p2_z};
-  wire [16:0] choice_12 = is_nx ? (flip ? {1'b0, p0_z} : {1'b0, p2_z})
-                        : (prim_major_right && either_4) ? {1'b0, p1_z}
+  wire either_16 = (at_formed == LOAD_A) || (at_formed == FIX_A);
+  wire either_17 = (at_formed == LOAD_B) || (at_formed == FIX_B);
+  wire either_18 = (at_formed == LOAD2) || (at_formed == FIX2);
+  wire [16:0] choice_27 = (either_16 || either_17) ? ((either_16 && area[31]) ? {1'b0, p1_z} : {1'b0, p2_z})
+                        : either_18 ? (area[31] ? {1'b0, p2_z} : {1'b0, p0_z})
+                        : area[31] ? {1'b0, p0_z}
+                        : {1'b0, p1_z};
+  wire [16:0] choice_28 = (either_16 || either_17) ? ((either_17 && area[31]) ? {1'b0, p1_z} : {1'b0, p0_z})
+                        : either_18 ? (area[31] ? {1'b0, p0_z} : {1'b0, p2_z})
+                        : area[31] ? {1'b0, p1_z}
                         : {1'b0, p0_z};
-  wire [16:0] lane0_y_channel = (round == 2'd3) ? choice_5 - choice_6
-                              : (round == 2'd2) ? choice_7 - choice_8
-                              : (round == 2'd1) ? choice_9 - choice_10
-                              : choice_11 - choice_12;
-  wire [30:0] lane0_rounded;
-  wire choice_13 = (round == 2'd3) ? step > 6'd8
-                 : (round == 2'd2) ? step > 6'd8
-                 : (round == 2'd1) ? step > 6'd8
-                 : step > 6'd0;
-  wire [14:0] joined = {p1_u[14:1], 1'b1};
-  wire [14:0] joined_2 = {p0_u[14:1], 1'b1};
-  wire [14:0] joined_3 = {p0_u[14:1], 1'b1};
-  wire [15:0] choice_14 = (round == 2'd3) ? {joined[14], joined}
-                        : (round == 2'd2) ? {joined_2[14], joined_2}
-                        : (round == 2'd1) ? {joined_3[14], joined_3}
-                        : {1'b0, dv02};
-  wire [15:0] choice_15 = (round == 2'd3) ? {j1, 1'b0} - {p1_v[14], p1_v}
-                        : (round == 2'd2) ? {j0, 1'b0} - {p0_v[14], p0_v}
-                        : (round == 2'd1) ? {jm, 1'b0} - {p0_v[14], p0_v}
-                        : {1'b0, dv01};
-  wire [30:0] choice_16 = (round == 2'd3) ? (is_edge_start ? {16'd0, dv12} << 1 : {16'd0, dv12})
-                        : (round == 2'd2) ? (is_edge_start ? {16'd0, dv01} << 1 : {16'd0, dv01})
-                        : (round == 2'd1) ? (is_edge_start ? {16'd0, dv02} << 1 : {16'd0, dv02})
-                        : is_edge_start ? {16'd0, dv02} << 1
-                        : {16'd0, dv02};
-  wire [30:0] part_10 = is_gx ? area : {16'd0, prim_major_right ? (in_b ? dv12 : dv01) : dv02};
-  wire [2:0] choice_17 = (round == 2'd3) ? 3'd1
-                       : (round == 2'd2) ? 3'd1
-                       : (round == 2'd1) ? 3'd1
-                       : 3'd4;
-  wire [2:0] choice_18 = (round == 2'd3) ? 3'd2
-                       : (round == 2'd2) ? 3'd2
-                       : (round == 2'd1) ? 3'd2
-                       : 3'd5;
-  wire [2:0] choice_19 = (round == 2'd3) ? 3'd1
-                       : (round == 2'd2) ? 3'd1
-                       : (round == 2'd1) ? 3'd1
-                       : 3'd4;
-  wire [2:0] choice_20 = (round == 2'd3) ? 3'd2
-                       : (round == 2'd2) ? 3'd2
-                       : (round == 2'd1) ? 3'd2
-                       : 3'd5;
-  wire [2:0] choice_21 = (round == 2'd3) ? 3'd1
-                       : (round == 2'd2) ? 3'd1
-                       : (round == 2'd1) ? 3'd1
-                       : 3'd4;
-  wire [2:0] choice_22 = (round == 2'd3) ? 3'd3
-                       : (round == 2'd2) ? 3'd3
-                       : (round == 2'd1) ? 3'd3
-                       : 3'd3;
-  wire [30:0] lane0_quotient_unused;
-  wire [30:0] lane0_remainder_unused;
+  wire [16:0] number0 = either_6 ? choice_20  // signed
+                      : (round_formed == 2'd3) ? choice_21 - choice_22
+                      : (round_formed == 2'd2) ? choice_23 - choice_24
+                      : (round_formed == 2'd1) ? choice_25 - choice_26
+                      : choice_27 - choice_28;
+  wire lane0_unfit;
+  wire choice_29 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
+  wire choice_30 = (round_stepped == 2'd3) ? 1'b1
+                 : (round_stepped == 2'd2) ? 1'b1
+                 : (round_stepped == 2'd1) ? 1'b1
+                 : 1'b1;
+  wire both_5 = choice_30
+             && (!(at_stepped == FIX_A) || (|prim_n1))
+             && (!(at_stepped == FIX_B) || (|prim_n2));
+  assign unfit = lane0_unfit && ((at_stepped == FIX_DX) ? choice_29 : both_5);
+
+  // Edge: major.
+  wire [30:0] lane0_value;
+  wire choice_31 = is_sign ? f[16] : digit_f;
+  wire choice_32 = is_sign ? g[16] : digit_g;
+  wire [17:0] shifted_5 = $signed({number0[16], number0}) >>> {pause - 4'd2, 1'b0};
+  wire [13:0] part_36 = p1_u[14:1];
+  wire [13:0] part_37 = p0_u[14:1];
+  wire [13:0] part_38 = p0_u[14:1];
+  wire [30:0] choice_33 = (round_stepped == 2'd2) ? {{17{part_36[13]}}, part_36}
+                        : (round_stepped == 2'd1) ? {{17{part_37[13]}}, part_37}
+                        : {{17{part_38[13]}}, part_38};
+  wire [22:0] joined = {1'b0, {{p1_b, 1'b1}, 13'd0}};
+  wire [22:0] joined_2 = {1'b0, {{p0_b, 1'b1}, 13'd0}};
+  wire [30:0] choice_34 = ((at_stepped == ADD_B) && area[31]) ? {{8{joined[22]}}, joined}
+                        : {{8{joined_2[22]}}, joined_2};
+  wire [22:0] joined_3 = {1'b0, {{p1_g, 1'b1}, 13'd0}};
+  wire [22:0] joined_4 = {1'b0, {{p0_g, 1'b1}, 13'd0}};
+  wire [30:0] choice_35 = ((at_stepped == ADD_B) && area[31]) ? {{8{joined_3[22]}}, joined_3}
+                        : {{8{joined_4[22]}}, joined_4};
+  wire [22:0] joined_5 = {1'b0, {{p1_r, 1'b1}, 13'd0}};
+  wire [22:0] joined_6 = {1'b0, {{p0_r, 1'b1}, 13'd0}};
+  wire [30:0] choice_36 = ((at_stepped == ADD_B) && area[31]) ? {{8{joined_5[22]}}, joined_5}
+                        : {{8{joined_6[22]}}, joined_6};
+  wire [30:0] lane0_rest_out_unused;
+  wire [30:0] lane0_whole_out_unused;
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
-    .load_divisor  (load_quotient),
-    .from_y        (load_quotient_of_y),
-    .y_in          (in_edges ? lane0_y_edge : lane0_y_channel),
-    .step_quotient (step_quotient && (in_edges || choice_13)),
-    .a_in          (in_edges ? choice_14 : channel_a),
-    .b_in          (in_edges ? choice_15 : channel_b),
-    .x_in          (in_edges ? lane0_x_edge : lane0_x_channel),
-    .load_terms    (load_terms),
-    .load_factors  (load_product),
-    .step_product  (step_product),
-    .first_step    (first_step),
-    .divisor_in    (in_edges ? choice_16 : part_10),
-    .digit_at      (is_line_b ? choice_17
-: is_start_b ? choice_18
-: is_line_a ? choice_19
-: is_start_a ? choice_20
-: is_gx ? choice_21
-: is_edge_start ? choice_22
-: 3'd0),
-    .product       (lane0_product),
-    .quotient      (lane0_quotient_unused),
-    .remainder     (lane0_remainder_unused),
-    .rounded       (lane0_rounded)
+    .rst           (rst),
+    .advance       (advance),
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_31 || choice_32), choice_32, choice_31}
+: read_single_at),
+    .step          (step_formed0),
+    .number        (number0),
+    .digits        (shifted_5[1:0]),
+    .write         (write),
+    .write_at      (write_at),
+    .whole_in      ((at_stepped == COLUMNS) ? choice_33
+: (round_stepped == 2'd3) ? choice_34
+: (round_stepped == 2'd2) ? choice_35
+: (round_stepped == 2'd1) ? choice_36
+: ((at_stepped == ADD_B) && area[31]) ? {1'b0, {{p1_z, 1'b1}, 13'd0}}
+: {1'b0, {{p0_z, 1'b1}, 13'd0}}),
+    .take_modulus  (take_modulus),
+    .modulus_in    ((at_formed == LOAD_B) ? (area[31] ? ~{16'd0, {dv12, 1'b0}} : ~{16'd0, {dv02, 1'b0}})
+: (at_formed == LOAD_A) ? (area[31] ? ~{16'd0, {dv01, 1'b0}} : ~{16'd0, {dv02, 1'b0}})
+: (at_formed == LOAD1) ? (area[31] ? area : ~area)
+: (round_formed == 2'd2) ? ~{16'd0, {dv12, 1'b0}}
+: (round_formed == 2'd1) ? ~{16'd0, {dv01, 1'b0}}
+: ~{16'd0, {dv02, 1'b0}}),
+    .modulus_short (!((at_formed == LOAD1) && area[31])),
+    .upwards       (1'b0),
+    .unfit         (lane0_unfit),
+    .rest_out      (lane0_rest_out_unused),
+    .whole_out     (lane0_whole_out_unused),
+    .value         (lane0_value)
   );
 
-  // Edge: major.
-  wire major_steps = |dv02[14:1];  // DY >= P
-  wire major_is_there = |dv02;     // DY > 0
-  wire [30:0] part_11 = lane0_rounded;
+  wire any_15 = |dv02[14:1];
+  wire [30:0] part_39 = lane0_value;
 
   always @(posedge clk) begin
-    if (edge_step_done && (finished_round == 2'd1)) begin
-      prim_major_q <= major_steps ? part_11[30:16] : 15'd0;
-      prim_major_f <= major_steps ? part_11[15:0] : 16'd0;
+    if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd0)) begin
+      prim_major_q <= any_15 ? part_39[30:16] : 15'd0;
+      prim_major_f <= any_15 ? part_39[15:0] : 16'd0;
     end
   end
 
-  wire [30:0] inverse = ~part_11;
+  wire [30:0] inverse = ~part_39;
 
   always @(posedge clk) begin
-    if (edge_start_done && (finished_round == 2'd1)) begin
-      prim_major_c <= major_is_there ? -inverse[30:16] : 15'd0;
-      prim_major_r <= major_is_there ? inverse[15:0] : 16'd0;
+    if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd0)) begin
+      prim_major_c <= -inverse[30:16];
+      prim_major_r <= inverse[15:0];
     end
   end
 
   // Edge: minor1.
-  wire minor1_steps = |dv01[14:1];  // DY >= P
-  wire minor1_is_there = |dv01;     // DY > 0
-  wire [30:0] part_12 = lane0_rounded;
+  wire both_6 = (|prim_n1) && (|dv01[14:1]);
+  wire [30:0] part_40 = lane0_value;
 
   always @(posedge clk) begin
-    if (edge_step_done && (finished_round == 2'd2)) begin
-      prim_minor1_q <= minor1_steps ? part_12[30:16] : 15'd0;
-      prim_minor1_f <= minor1_steps ? part_12[15:0] : 16'd0;
+    if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd1)) begin
+      prim_minor1_q <= both_6 ? part_40[30:16] : 15'd0;
+      prim_minor1_f <= both_6 ? part_40[15:0] : 16'd0;
     end
   end
 
-  wire [30:0] inverse_2 = ~part_12;
+  wire [30:0] inverse_2 = ~part_40;
 
   always @(posedge clk) begin
-    if (edge_start_done && (finished_round == 2'd2)) begin
-      prim_minor1_c <= minor1_is_there ? -inverse_2[30:16] : 15'd0;
-      prim_minor1_r <= minor1_is_there ? inverse_2[15:0] : 16'd0;
+    if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd1)) begin
+      prim_minor1_c <= (|prim_n1) ? -inverse_2[30:16] : 15'd0;
+      prim_minor1_r <= (|prim_n1) ? inverse_2[15:0] : 16'd0;
     end
   end
 
   // Edge: minor2.
-  wire minor2_steps = |dv12[14:1];  // DY >= P
-  wire minor2_is_there = |dv12;     // DY > 0
-  wire [30:0] part_13 = lane0_rounded;
+  wire both_7 = (|prim_n2) && (|dv12[14:1]);
+  wire [30:0] part_41 = lane0_value;
 
   always @(posedge clk) begin
-    if (edge_step_done && (finished_round == 2'd3)) begin
-      prim_minor2_q <= minor2_steps ? part_13[30:16] : 15'd0;
-      prim_minor2_f <= minor2_steps ? part_13[15:0] : 16'd0;
+    if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd2)) begin
+      prim_minor2_q <= both_7 ? part_41[30:16] : 15'd0;
+      prim_minor2_f <= both_7 ? part_41[15:0] : 16'd0;
     end
   end
 
-  wire [30:0] inverse_3 = ~part_13;
+  wire [30:0] inverse_3 = ~part_41;
 
   always @(posedge clk) begin
-    if (edge_start_done && (finished_round == 2'd3)) begin
-      prim_minor2_c <= minor2_is_there ? -inverse_3[30:16] : 15'd0;
-      prim_minor2_r <= minor2_is_there ? inverse_3[15:0] : 16'd0;
+    if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd2)) begin
+      prim_minor2_c <= (|prim_n2) ? -inverse_3[30:16] : 15'd0;
+      prim_minor2_r <= (|prim_n2) ? inverse_3[15:0] : 16'd0;
     end
   end
 
   // Channel: z.
   always @(posedge clk) begin
-    if (gx_done && (finished_round == 2'd0)) prim_z_g <= lane0_rounded[29:0];
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd0)) prim_z_g <= lane0_value[29:0];
   end
 
   always @(posedge clk) begin
-    if (start_a_done && (finished_round == 2'd0)) begin
-      prim_z_start_a <= (|prim_n1) ? lane0_rounded[29:0] + {{p0_z, 1'b1}, 13'd0} : 30'd0;
-    end
-  end
-
-  wire [29:0] sum = lane0_rounded[29:0]
-                  + (prim_major_right ? {{p1_z, 1'b1}, 13'd0} : {{p0_z, 1'b1}, 13'd0});
-
-  always @(posedge clk) begin
-    if (start_b_done && (finished_round == 2'd0)) prim_z_start_b <= (|prim_n2) ? sum : 30'd0;
-  end
-
-  always @(posedge clk) begin
-    if (line_a_done && (finished_round == 2'd0)) begin
-      prim_z_d_a <= (|prim_n1) ? lane0_rounded[29:0] : 30'd0;
+    if (ends_whole && (at_whole == DOUBLE_A) && (round_whole == 2'd0)) begin
+      prim_z_d_a <= (|prim_n1) ? lane0_value[29:0] : 30'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (line_b_done && (finished_round == 2'd0)) begin
-      prim_z_d_b <= (|prim_n2) ? lane0_rounded[29:0] : 30'd0;
+    if (ends_whole && (at_whole == ADD_A) && (round_whole == 2'd0)) begin
+      prim_z_start_a <= (|prim_n1) ? lane0_value[29:0] : 30'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_B) && (round_whole == 2'd0)) begin
+      prim_z_d_b <= (|prim_n2) ? lane0_value[29:0] : 30'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_B) && (round_whole == 2'd0)) begin
+      prim_z_start_b <= (|prim_n2) ? lane0_value[29:0] : 30'd0;
     end
   end
 
   // Channel: r.
   always @(posedge clk) begin
-    if (gx_done && (finished_round == 2'd1)) prim_r_g <= lane0_rounded[21:0];
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd1)) prim_r_g <= lane0_value[21:0];
   end
 
   always @(posedge clk) begin
-    if (start_a_done && (finished_round == 2'd1)) begin
-      prim_r_start_a <= (|prim_n1) ? lane0_rounded[21:0] + {{p0_r, 1'b1}, 13'd0} : 22'd0;
-    end
-  end
-
-  wire [21:0] sum_2 = lane0_rounded[21:0]
-                    + (prim_major_right ? {{p1_r, 1'b1}, 13'd0} : {{p0_r, 1'b1}, 13'd0});
-
-  always @(posedge clk) begin
-    if (start_b_done && (finished_round == 2'd1)) prim_r_start_b <= (|prim_n2) ? sum_2 : 22'd0;
-  end
-
-  always @(posedge clk) begin
-    if (line_a_done && (finished_round == 2'd1)) begin
-      prim_r_d_a <= (|prim_n1) ? lane0_rounded[21:0] : 22'd0;
+    if (ends_whole && (at_whole == DOUBLE_A) && (round_whole == 2'd1)) begin
+      prim_r_d_a <= (|prim_n1) ? lane0_value[21:0] : 22'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (line_b_done && (finished_round == 2'd1)) begin
-      prim_r_d_b <= (|prim_n2) ? lane0_rounded[21:0] : 22'd0;
+    if (ends_whole && (at_whole == ADD_A) && (round_whole == 2'd1)) begin
+      prim_r_start_a <= (|prim_n1) ? lane0_value[21:0] : 22'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_B) && (round_whole == 2'd1)) begin
+      prim_r_d_b <= (|prim_n2) ? lane0_value[21:0] : 22'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_B) && (round_whole == 2'd1)) begin
+      prim_r_start_b <= (|prim_n2) ? lane0_value[21:0] : 22'd0;
     end
   end
 
   // Channel: g.
   always @(posedge clk) begin
-    if (gx_done && (finished_round == 2'd2)) prim_g_g <= lane0_rounded[21:0];
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd2)) prim_g_g <= lane0_value[21:0];
   end
 
   always @(posedge clk) begin
-    if (start_a_done && (finished_round == 2'd2)) begin
-      prim_g_start_a <= (|prim_n1) ? lane0_rounded[21:0] + {{p0_g, 1'b1}, 13'd0} : 22'd0;
-    end
-  end
-
-  wire [21:0] sum_3 = lane0_rounded[21:0]
-                    + (prim_major_right ? {{p1_g, 1'b1}, 13'd0} : {{p0_g, 1'b1}, 13'd0});
-
-  always @(posedge clk) begin
-    if (start_b_done && (finished_round == 2'd2)) prim_g_start_b <= (|prim_n2) ? sum_3 : 22'd0;
-  end
-
-  always @(posedge clk) begin
-    if (line_a_done && (finished_round == 2'd2)) begin
-      prim_g_d_a <= (|prim_n1) ? lane0_rounded[21:0] : 22'd0;
+    if (ends_whole && (at_whole == DOUBLE_A) && (round_whole == 2'd2)) begin
+      prim_g_d_a <= (|prim_n1) ? lane0_value[21:0] : 22'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (line_b_done && (finished_round == 2'd2)) begin
-      prim_g_d_b <= (|prim_n2) ? lane0_rounded[21:0] : 22'd0;
+    if (ends_whole && (at_whole == ADD_A) && (round_whole == 2'd2)) begin
+      prim_g_start_a <= (|prim_n1) ? lane0_value[21:0] : 22'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_B) && (round_whole == 2'd2)) begin
+      prim_g_d_b <= (|prim_n2) ? lane0_value[21:0] : 22'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_B) && (round_whole == 2'd2)) begin
+      prim_g_start_b <= (|prim_n2) ? lane0_value[21:0] : 22'd0;
     end
   end
 
   // Channel: b.
   always @(posedge clk) begin
-    if (gx_done && (finished_round == 2'd3)) prim_b_g <= lane0_rounded[21:0];
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd3)) prim_b_g <= lane0_value[21:0];
   end
 
   always @(posedge clk) begin
-    if (start_a_done && (finished_round == 2'd3)) begin
-      prim_b_start_a <= (|prim_n1) ? lane0_rounded[21:0] + {{p0_b, 1'b1}, 13'd0} : 22'd0;
-    end
-  end
-
-  wire [21:0] sum_4 = lane0_rounded[21:0]
-                    + (prim_major_right ? {{p1_b, 1'b1}, 13'd0} : {{p0_b, 1'b1}, 13'd0});
-
-  always @(posedge clk) begin
-    if (start_b_done && (finished_round == 2'd3)) prim_b_start_b <= (|prim_n2) ? sum_4 : 22'd0;
-  end
-
-  always @(posedge clk) begin
-    if (line_a_done && (finished_round == 2'd3)) begin
-      prim_b_d_a <= (|prim_n1) ? lane0_rounded[21:0] : 22'd0;
+    if (ends_whole && (at_whole == DOUBLE_A) && (round_whole == 2'd3)) begin
+      prim_b_d_a <= (|prim_n1) ? lane0_value[21:0] : 22'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (line_b_done && (finished_round == 2'd3)) begin
-      prim_b_d_b <= (|prim_n2) ? lane0_rounded[21:0] : 22'd0;
+    if (ends_whole && (at_whole == ADD_A) && (round_whole == 2'd3)) begin
+      prim_b_start_a <= (|prim_n1) ? lane0_value[21:0] : 22'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_B) && (round_whole == 2'd3)) begin
+      prim_b_d_b <= (|prim_n2) ? lane0_value[21:0] : 22'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_B) && (round_whole == 2'd3)) begin
+      prim_b_start_b <= (|prim_n2) ? lane0_value[21:0] : 22'd0;
     end
   end
 
   assign prim_jm = jm[8:0];
+  assign prim_major_right = area[31];
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, du01, du02, lane0_product[32], difference[15], difference_2[15], difference_3[15],
-    choice[14:10], choice_2[14:10], choice_3[31]
+    1'b0, WAIT12, SET_A, ROUND_A, SET_B, ends_fixed, difference[15], difference_2[15], difference_3[15],
+    part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1], shifted_2[14:1], choice_10[14:10],
+    choice_11[14:10], differing[16], differing_2[16], part_25[0], part_28[0], part_32[0], part_35[0],
+    shifted_3[16:1], shifted_4[16:1], shifted_5[17:2]
   };
 
 endmodule

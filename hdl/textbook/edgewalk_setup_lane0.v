@@ -1,124 +1,227 @@
-// edgewalk_setup_lane0: A lane of setup multiplies and divides serially, k bits a clock.
+// edgewalk_setup_lane0: A lane of setup holds a pair: the number whole + rest / M, with 0 <= rest < M.
 //
-//   a b ─> digits ─> [acc := 2^k acc + a_i x + b_i y] ─ digits of |acc| ─> [rem := 2 rem + digit, less divisor if it fits]
-//   x y ────────────────┘                                                     └─ 1 if it fit ─> [quot]
+//   slots ─> a ─> [n0 n1 n2 = a, a - M, a - 2M] ─┐
+//                                  x = rest * 1 2 4 ─> + ─> the last sum not below 0 ─> [rest]
+//                                                           how often M was taken off ─> [whole], a clock later
 //
-// Timing: a clock to load, then k bits a clock, the most significant first; results stand from the next clock on.
-// Rules: products are signed; in the first step the sign bits of a and b subtract. Quotients are rounded down
-// (quotient, remainder) or to nearest, halves up (rounded). Of a quotient the low bits are kept: the rest falls out.
+// Timing: a step is named two clocks before it is done: in the first its addend is read, in the second n0 n1 n2 are formed.
+// Rules: a doubling step adds a = -M three times instead, so that up to 3 M can be taken off. What is taken in may lie below 0
+// for one clock. A negated pair is its complement: M is added to its rest, and 1 taken off its whole part.
 
 `timescale 1ns / 1ps
 `default_nettype none
 
 module edgewalk_setup_lane0 (
   input  wire        clk,
+  input  wire        rst,
 
-  input  wire        load_divisor,   // a division of acc begins
-  input  wire        from_y,         // a division of y_in begins
-  input  wire [16:0] y_in,           // signed
-  input  wire        step_quotient,
-  input  wire [15:0] a_in,           // factor of x, signed
-  input  wire [15:0] b_in,           // factor of y, signed
-  input  wire [16:0] x_in,           // signed
-  input  wire        load_terms,     // x := x_in, y := y_in
-  input  wire        load_factors,   // a := a_in, b := b_in, acc := 0
-  input  wire        step_product,
-  input  wire        first_step,     // of a product
-  input  wire [30:0] divisor_in,     // unsigned
-  input  wire  [2:0] digit_at,       // which bits of acc are the next digits
+  input  wire        advance,        // the steps go on; 0: what was read stays
+  input  wire  [2:0] read_at,        // slot of the addend, two clocks before its step
+  input  wire  [3:0] step,           // a clock before it is done
+  input  wire [16:0] number,         // to take in, signed; with its step
+  input  wire  [1:0] digits,         // of the number, with their step
+  input  wire        write,          // the result of the step goes to a slot
+  input  wire  [2:0] write_at,
+  input  wire [30:0] whole_in,       // whole number to add, with the step done
+  input  wire        take_modulus,
+  input  wire [31:0] modulus_in,     // -M, or -M - 1 if modulus_short; signed
+  input  wire        modulus_short,
+  input  wire        upwards,        // value rounds up whatever is not whole, not to nearest
 
-  output wire [32:0] product,        // signed
-  output wire [30:0] quotient,       // rounded down, modular
-  output wire [30:0] remainder,      // 0 to divisor - 1
-  output wire [30:0] rounded         // rounded to nearest, halves up, modular
+  output wire        unfit,          // the number that was taken in is not between -M and M
+  output wire [30:0] rest_out,       // 1/M, from the clock after a step
+  output wire [30:0] whole_out,      // modular, a clock later
+  output wire [30:0] value           // modular, with whole
 );
 
-  // Terms and factors of a product.
-  reg [16:0] x;  // term, signed
-  reg [16:0] y;  // term, signed
-  reg [15:0] a;  // factor, its next bits at the top
-  reg [15:0] b;  // factor, its next bits at the top
+  // The modulus: -M, or its complement -M - 1, with the 1 that is then missing.
+  reg [31:0] modulus;  // -M or -M - 1, signed
+  reg short;           // 1 is missing in modulus
 
   always @(posedge clk) begin
-    if (load_terms) begin
-      x <= x_in;
-      y <= y_in;
+    if (take_modulus) begin
+      modulus <= modulus_in;
+      short <= modulus_short;
+    end
+  end
+
+  // The rests of the slots. Slot 0 is never written: it holds 0.
+  reg [31:0] rest;         // 1/M, signed while a number is taken in
+  wire [31:0] rest_next;
+  reg [30:0] rests [0:7];  // 1/M
+
+  initial begin : rests_init
+    integer rests_index;
+    for (rests_index = 0; rests_index < 8; rests_index = rests_index + 1) rests[rests_index] = 31'd0;
+  end
+
+  always @(posedge clk) begin
+    if (write) rests[write_at] <= rest_next[30:0];
+  end
+
+  reg [30:0] rests_q;
+
+  always @(posedge clk) begin
+    if (advance) rests_q <= rests[read_at];
+  end
+
+  // The addend of the step that follows.
+  reg [31:0] n0;  // a, or a number to take in
+  reg [32:0] n1;  // a - M, signed
+  reg [33:0] n2;  // a - 2 M, signed
+  reg below;      // the number taken in is below 0
+  wire is_fix = step == 4'd2;
+  wire with_sign = step == 4'd8;
+  wire add_modulus = (step == 4'd7) || (is_fix && n0[31]) || ((step == 4'd11) && below);
+  wire take_modulus_off = (step == 4'd4) || (step == 4'd13);
+  wire negate = add_modulus || with_sign || ((step == 4'd12) && below);
+  wire of_slot = (step == 4'd9) || (step == 4'd5) || (step == 4'd6) || (step == 4'd8);
+  wire of_modulus = add_modulus || take_modulus_off;
+  wire [31:0] a = of_modulus ? modulus : of_slot ? {1'b0, rests_q} : 32'd0;  // addend, 1/M, or -M
+  reg carry0;     // 1 to add to the sum of n0
+  reg carry;      // 1 to add to the other sums
+  reg [1:0] digits_now;
+  wire [33:0] sum = {{a[31], a}, 1'b1} + {{modulus[31], modulus}, short};
+  wire [32:0] joined = {modulus, short};
+  wire [34:0] sum_2 = {{{2{a[31]}}, a}, 1'b1} + {{joined[32], joined}, short};
+
+  always @(posedge clk) begin
+    n0 <= (step == 4'd1) ? {{15{number[16]}}, number} : a ^ {32{negate}};
+    n1 <= sum[33:1];
+    n2 <= sum_2[34:1];
+    carry0 <= with_sign || (add_modulus && !short) || (take_modulus_off && short);
+    carry <= take_modulus_off && short;
+    digits_now <= digits;
+  end
+
+  // The step: x and the addend, less M as often as it goes.
+  reg [3:0] now;            // the step done
+  wire fourfold = (now == 4'd4) || (now == 4'd13);
+  wire twofold = (now == 4'd3) || (now == 4'd6);
+  wire from_zero = (now == 4'd1) || (now == 4'd5) || (now == 4'd7) || (now == 4'd11);
+  wire either = (now == 4'd3)
+             || (now == 4'd4)
+             || (now == 4'd13)
+             || (now == 4'd5)
+             || (now == 4'd6)
+             || (now == 4'd9);
+  wire as_it_is = !either;  // nothing is taken off
+  wire [33:0] extended = {{2{rest[31]}}, rest};
+  wire [33:0] x = fourfold ? {extended[31:0], (now == 4'd13) ? digits_now : 2'd0}
+                : twofold ? extended << 1
+                : from_zero ? 34'd0
+                : extended;
+  wire [34:0] sum_3 = {x, 1'b1} + {{{2{n0[31]}}, n0}, carry0};
+  wire [33:0] s0 = sum_3[34:1];
+  wire [34:0] sum_4 = {x, 1'b1} + {{n1[32], n1}, carry};
+  wire [33:0] s1 = sum_4[34:1];
+  wire [34:0] sum_5 = {x, 1'b1} + {n2, carry};
+  wire [33:0] s2 = sum_5[34:1];
+  wire fits0 = !s0[33];
+  wire fits1 = !s1[33] && !as_it_is;
+  wire fits2 = !s2[33] && !as_it_is;
+  wire stays = fourfold && !fits0;
+  wire [33:0] choice = fits2 ? s2 : fits1 ? s1 : stays ? x : s0;
+  assign rest_next = choice[31:0];
+  wire rest_stays = (now == 4'd0) || (now == 4'd10);
+
+  always @(posedge clk) begin
+    if (rst) begin
+      now <= 4'd0;
+    end else begin
+      now <= step;
     end
   end
 
   always @(posedge clk) begin
-    if (step_product) begin
-      a <= a << 1;
-      b <= b << 1;
-    end
-    if (load_factors) begin
-      a <= a_in;
-      b <= b_in;
-    end
-  end
-
-  // A step. The sign bits subtract; then acc is 0, and its doubled lowest bit is free for -t = ~t + 1.
-  reg [32:0] acc;  // product, or what is left of a numerator; signed
-  wire [17:0] sum = (a[15] ? {x[16], x} : 18'd0) + (b[15] ? {y[16], y} : 18'd0);
-  wire [32:0] extended = {{15{sum[17]}}, sum};
-  wire [32:0] sum0 = {acc[31:0], first_step} + (first_step ? ~extended : extended);
-
-  always @(posedge clk) begin
-    if (step_quotient) acc <= acc << 1;
-    if (step_product) acc <= sum0;
-    if (load_factors) acc <= 33'd0;
-    if (from_y) acc <= {{16{y_in[16]}}, y_in};
-  end
-
-  // The numerator: acc without its sign, k digits a clock from where this operation has them.
-  reg negative;  // the numerator is below 0
-  wire digits = (digit_at == 3'd5) ? acc[32]
-              : (digit_at == 3'd4) ? acc[31]
-              : (digit_at == 3'd3) ? acc[30]
-              : (digit_at == 3'd2) ? acc[24]
-              : (digit_at == 3'd1) ? acc[23]
-              : acc[14];
-
-  always @(posedge clk) begin
-    if (load_divisor) negative <= acc[32];
-    if (from_y) negative <= y_in[16];
-  end
-
-  // A step: the divisor is taken away wherever it fits.
-  wire begin_division = load_divisor || from_y;
-  reg [30:0] divisor;  // unsigned
-  reg [30:0] rem;      // remainder so far
-  reg [30:0] quot;     // quotient so far, modular
-  wire [31:0] joined = {rem, digits ^ negative};
-  wire [31:0] less0 = joined - {1'b0, divisor};
-  wire fits0 = !less0[31];
-  wire [31:0] choice = fits0 ? less0 : joined;
-  wire [30:0] rest0 = choice[30:0];
-
-  always @(posedge clk) begin
-    if (begin_division) divisor <= divisor_in;
+    if (!rest_stays) rest <= rest_next;
   end
 
   always @(posedge clk) begin
-    if (step_quotient) rem <= rest0;
-    if (begin_division) rem <= 31'd0;
+    if ((now == 4'd1) && advance) below <= n0[31];
+  end
+
+  // The whole part, a clock behind.
+  reg [2:0] read_whole_at;
+  reg [30:0] whole;         // modular
+  wire [30:0] whole_next;
+  reg write_then;
+  reg [2:0] write_then_at;
+  reg [30:0] wholes [0:7];  // modular
+
+  initial begin : wholes_init
+    integer wholes_index;
+    for (wholes_index = 0; wholes_index < 8; wholes_index = wholes_index + 1) wholes[wholes_index] = 31'd0;
   end
 
   always @(posedge clk) begin
-    if (step_quotient) quot <= {quot[29:0], fits0};
+    if (write_then) wholes[write_then_at] <= whole_next;
   end
 
-  // Below 0: floor(N/D) = ~floor(~N/D), and the remainder is D - 1 - r.
-  wire [30:0] floor = negative ? ~quot : quot;  // modular
-  wire [30:0] floor_remainder = negative ? divisor + ~rem : rem;
-  wire up = ({rem, negative} < {1'b0, divisor}) == negative;  // the next higher is nearest
-  assign product = acc;
-  assign quotient = floor;
-  assign remainder = floor_remainder;
-  assign rounded = floor + {30'd0, up};
+  reg [30:0] wholes_q;
+
+  always @(posedge clk) begin
+    if (1'b1) wholes_q <= wholes[read_whole_at];
+  end
+
+  reg negated;
+  reg slot_now;
+  reg [30:0] b;     // addend
+  wire twice_or_more = fourfold ? fits1 : fits2;
+  wire once_or_thrice = fourfold ? (fits0 && !fits1) || fits2 : fits1 && !fits2;
+  reg [1:0] taken;  // how often M was taken off
+  reg [3:0] then;   // the step before
+  reg was_fourfold;
+  reg was_twofold;
+  reg was_from_zero;
+  wire [30:0] whole_x = was_fourfold ? {whole[28:0], taken}
+                      : was_twofold ? {whole[29:0], taken[1]}
+                      : was_from_zero ? 31'd0
+                      : whole;
+  wire one = (!was_fourfold && (|taken)) || (then == 4'd8);
+  wire [31:0] sum_6 = {whole_x, 1'b1} + {b, one};
+  assign whole_next = sum_6[31:1];
+  wire whole_stays = (then == 4'd0) || (then == 4'd12);
+
+  always @(posedge clk) begin
+    if (advance) read_whole_at <= read_at;
+  end
+
+  wire [30:0] extended_2 = {31{negated}};
+
+  always @(posedge clk) begin
+    write_then <= write;
+    write_then_at <= write_at;
+    negated <= negate;
+    slot_now <= of_slot;
+    b <= (now == 4'd10) ? whole_in : slot_now ? wholes_q ^ extended_2 : extended_2;
+    taken <= {twice_or_more, once_or_thrice};
+    then <= now;
+    was_fourfold <= fourfold;
+    was_twofold <= twofold;
+    was_from_zero <= from_zero;
+  end
+
+  always @(posedge clk) begin
+    if (!whole_stays) whole <= whole_next;
+  end
+
+  // What is done is given out rounded: to nearest, halves up, or up.
+  reg up;
+  wire [33:0] sum_7 = {{1'b0, {rest[30:0], 1'b0}}, 1'b1} + {{modulus[31], modulus}, short};
+  wire [32:0] part = sum_7[33:1];
+
+  always @(posedge clk) begin
+    up <= upwards ? |rest[30:0] : !part[32];
+  end
+
+  assign unfit = (now == 4'd2) && (below ? s0[33] : !s1[33]);
+  assign rest_out = rest[30:0];
+  assign whole_out = whole;
+  assign value = whole + {30'd0, up};
 
   // Not needed, on purpose.
-  wire unused = &{1'b0, choice[31]};
+  wire unused = &{1'b0, sum[0], sum_2[0], sum_3[0], sum_4[0], sum_5[0], choice[33:32], sum_6[0], sum_7[0], part[31:0]};
 
 endmodule
 
