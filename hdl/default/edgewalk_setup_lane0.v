@@ -66,10 +66,10 @@ module edgewalk_setup_lane0 (
   end
 
   // The addend of the step that follows.
-  reg [45:0] n0;  // a, or a number to take in
-  reg [46:0] n1;  // a - M, signed
-  reg [47:0] n2;  // a - 2 M, signed
-  reg below;      // the number taken in is below 0
+  reg [45:0] n0;                           // a, or a number to take in
+  reg [46:0] n1;                           // a - M, signed
+  reg [47:0] n2;                           // a - 2 M, signed
+  reg below;                               // the number taken in is below 0
   wire is_fix = step == 4'd2;
   wire with_sign = step == 4'd8;
   wire add_modulus = (step == 4'd7) || (is_fix && n0[45]) || ((step == 4'd11) && below);
@@ -78,24 +78,24 @@ module edgewalk_setup_lane0 (
   wire of_slot = (step == 4'd9) || (step == 4'd5) || (step == 4'd6) || (step == 4'd8);
   wire of_modulus = add_modulus || take_modulus_off;
   wire [45:0] a = of_modulus ? modulus : of_slot ? {1'b0, rests_q} : 46'd0;  // addend, 1/M, or -M
-  reg carry0;     // 1 to add to the sum of n0
-  reg carry;      // 1 to add to the other sums
+  wire [47:0] a_less_m = {{a[45], a}, 1'b1} + {{modulus[45], modulus}, short};  // and a carry out of the lowest bit
+  wire [46:0] less_2m = {modulus, short};  // -2 M, or -2 M - 1
+  wire [48:0] a_less_2m = {{{2{a[45]}}, a}, 1'b1} + {{less_2m[46], less_2m}, short};  // and a carry out of the lowest bit
+  reg carry0;                              // 1 to add to the sum of n0
+  reg carry;                               // 1 to add to the other sums
   reg [1:0] digits_now;
-  wire [47:0] sum = {{a[45], a}, 1'b1} + {{modulus[45], modulus}, short};
-  wire [46:0] joined = {modulus, short};
-  wire [48:0] sum_2 = {{{2{a[45]}}, a}, 1'b1} + {{joined[46], joined}, short};
 
   always @(posedge clk) begin
     n0 <= (step == 4'd1) ? {{17{number[28]}}, number} : a ^ {46{negate}};
-    n1 <= sum[47:1];
-    n2 <= sum_2[48:1];
+    n1 <= a_less_m[47:1];
+    n2 <= a_less_2m[48:1];
     carry0 <= with_sign || (add_modulus && !short) || (take_modulus_off && short);
     carry <= take_modulus_off && short;
     digits_now <= digits;
   end
 
   // The step: x and the addend, less M as often as it goes.
-  reg [3:0] now;            // the step done
+  reg [3:0] now;                                   // the step done
   wire fourfold = (now == 4'd4) || (now == 4'd13);
   wire twofold = (now == 4'd3) || (now == 4'd6);
   wire from_zero = (now == 4'd1) || (now == 4'd5) || (now == 4'd7) || (now == 4'd11);
@@ -105,18 +105,18 @@ module edgewalk_setup_lane0 (
              || (now == 4'd5)
              || (now == 4'd6)
              || (now == 4'd9);
-  wire as_it_is = !either;  // nothing is taken off
+  wire as_it_is = !either;                         // nothing is taken off
   wire [47:0] extended = {{2{rest[45]}}, rest};
   wire [47:0] x = fourfold ? {extended[45:0], (now == 4'd13) ? digits_now : 2'd0}
                 : twofold ? extended << 1
                 : from_zero ? 48'd0
                 : extended;
-  wire [48:0] sum_3 = {x, 1'b1} + {{{2{n0[45]}}, n0}, carry0};
-  wire [47:0] s0 = sum_3[48:1];
-  wire [48:0] sum_4 = {x, 1'b1} + {{n1[46], n1}, carry};
-  wire [47:0] s1 = sum_4[48:1];
-  wire [48:0] sum_5 = {x, 1'b1} + {n2, carry};
-  wire [47:0] s2 = sum_5[48:1];
+  wire [48:0] x_and_n0 = {x, 1'b1} + {{{2{n0[45]}}, n0}, carry0};  // and a carry out of the lowest bit
+  wire [47:0] s0 = x_and_n0[48:1];
+  wire [48:0] x_and_n1 = {x, 1'b1} + {{n1[46], n1}, carry};  // and a carry out of the lowest bit
+  wire [47:0] s1 = x_and_n1[48:1];
+  wire [48:0] x_and_n2 = {x, 1'b1} + {n2, carry};  // and a carry out of the lowest bit
+  wire [47:0] s2 = x_and_n2[48:1];
   wire fits0 = !s0[47];
   wire fits1 = !s1[47] && !as_it_is;
   wire fits2 = !s2[47] && !as_it_is;
@@ -166,11 +166,11 @@ module edgewalk_setup_lane0 (
 
   reg negated;
   reg slot_now;
-  reg [45:0] b;     // addend
+  reg [45:0] b;                                      // addend
   wire twice_or_more = fourfold ? fits1 : fits2;
   wire once_or_thrice = fourfold ? (fits0 && !fits1) || fits2 : fits1 && !fits2;
-  reg [1:0] taken;  // how often M was taken off
-  reg [3:0] then;   // the step before
+  reg [1:0] taken;                                   // how often M was taken off
+  reg [3:0] then;                                    // the step before
   reg was_fourfold;
   reg was_twofold;
   reg was_from_zero;
@@ -179,8 +179,8 @@ module edgewalk_setup_lane0 (
                       : was_from_zero ? 46'd0
                       : whole;
   wire one = (!was_fourfold && (|taken)) || (then == 4'd8);
-  wire [46:0] sum_6 = {whole_x, 1'b1} + {b, one};
-  assign whole_next = sum_6[46:1];
+  wire [46:0] x_and_b = {whole_x, 1'b1} + {b, one};  // and a carry out of the lowest bit
+  assign whole_next = x_and_b[46:1];
   wire whole_stays = (then == 4'd0) || (then == 4'd12);
 
   always @(posedge clk) begin
@@ -207,9 +207,9 @@ module edgewalk_setup_lane0 (
   end
 
   // What is done is given out rounded: to nearest, halves up, or up.
+  wire [47:0] past_half = {{1'b0, {rest[44:0], 1'b0}}, 1'b1} + {{modulus[45], modulus}, short};  // and a carry out of the lowest bit
   reg up;
-  wire [47:0] sum_7 = {{1'b0, {rest[44:0], 1'b0}}, 1'b1} + {{modulus[45], modulus}, short};
-  wire [46:0] part = sum_7[47:1];
+  wire [46:0] part = past_half[47:1];
 
   always @(posedge clk) begin
     up <= upwards ? |rest[44:0] : !part[46];
@@ -221,7 +221,10 @@ module edgewalk_setup_lane0 (
   assign value = whole + {45'd0, up};
 
   // Not needed, on purpose.
-  wire unused = &{1'b0, sum[0], sum_2[0], sum_3[0], sum_4[0], sum_5[0], choice[47:46], sum_6[0], sum_7[0], part[45:0]};
+  wire unused = &{
+    1'b0, a_less_m[0], a_less_2m[0], x_and_n0[0], x_and_n1[0], x_and_n2[0], x_and_b[0], past_half[0],
+    choice[47:46], part[45:0]
+  };
 
 endmodule
 

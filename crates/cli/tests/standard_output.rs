@@ -11,7 +11,7 @@ use std::process::Stdio;
 use support::{SCREEN, TRIANGLE, edgewalk, ended, names, run};
 
 /// A quick run of each command, as text; those with a report also come with --json.
-const COMMANDS: [&[&str]; 14] = [
+const COMMANDS: [&[&str]; 15] = [
     &["demo", "d.tri", "--out", "demo"],
     &["render", "d.tri", "--out", "render"],
     &["render", "sphere", "--engine", "golden", "--out", "shaded"],
@@ -23,6 +23,7 @@ const COMMANDS: [&[&str]; 14] = [
     &["verify", "d.tri", "--triangles", "1", "--no-simulators"],
     &["trace", "d.tri", "--out", "t.vcd", "--cycles", "10"],
     &["bench", "d.tri", "--engine", "fast", "--repeat", "1"],
+    &["synth", "--unit", "span", "--seeds", "1", "--cache", "kept"],
     &["config", "print"],
     &["config", "check"],
     &["config", "explain"],

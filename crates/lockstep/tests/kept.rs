@@ -89,13 +89,13 @@ const FAULTS: &[Kept] = &[
         name: "setup_equal_heights_sorted",
         unit: "setup",
         machine: |_| {},
-        words: &["LtSigned(p1_v, p0_v)` becomes"],
+        words: &["LtSigned(tri_y1, tri_y0)` becomes"],
     },
     Kept {
         name: "setup_culled_goes_on",
         unit: "setup",
         machine: |_| {},
-        words: &["becomes `Mux(cull, CHANNELS, IDLE)`"],
+        words: &["becomes `Mux(no_area, CHANNELS, IDLE)`"],
     },
 ];
 

@@ -14,8 +14,8 @@ use rand_pcg::Pcg64Mcg;
 
 /// Machines drawn.
 const MACHINES: usize = 400;
-/// Triangles drawn on them, at least.
-const TRIANGLES: u64 = 100_000;
+/// Triangles drawn on them, about.
+const TRIANGLES: u64 = 40_000;
 
 /// A case without triangles: stalls, resets, depth function, all at random.
 fn random_case(plan: &Plan, rng: &mut Pcg64Mcg) -> Case {
@@ -81,7 +81,7 @@ fn whole_machines(half: usize) {
     assert_eq!(run, MACHINES / 2);
     assert!(extra.iter().all(|machines| *machines > 20) && signed > 150);
     // A triangle that a reset took from the machine is not offered again, one in the cycle of the reset is.
-    assert!(all.tokens >= TRIANGLES / 2 - 1000 && all.compared > 10 * all.cycles);
+    assert!(all.tokens >= TRIANGLES * 4 / 10 && all.compared > 10 * all.cycles);
     assert_eq!(all.events.missing(), [""; 0], "not met");
 }
 

@@ -82,7 +82,11 @@ mod tests {
     fn a_link_has_its_two_ends_whatever_they_are_called() {
         let plan = Plan::default();
         let units = [&pixel::SPEC, &PASS, &depth::SPEC];
-        let whole = Ports { takes: (pixel::SPEC.ports)(&plan).takes, ..(depth::SPEC.ports)(&plan) };
+        let whole = Ports {
+            takes: (pixel::SPEC.ports)(&plan).takes,
+            status: Vec::new(),
+            ..(depth::SPEC.ports)(&plan)
+        };
         let mut interface = Interface::of_ports(Unit::MACHINE, &whole);
         for unit in units {
             interface.add_inner(Unit::of(unit), &(unit.ports)(&plan));

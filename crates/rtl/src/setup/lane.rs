@@ -94,9 +94,9 @@ pub(super) fn lane(plan: &Plan, name: &str, shape: Shape) -> Result<Arc<Netlist>
     n0.set(
         is(step, Step::Load).mux(number.sext(shape.rest), (a ^ repeat(negate, below_two_m)).sext(shape.rest)),
     );
-    n1.set(plus(a.sext(below_two_m + 1), modulus.sext(below_two_m + 1), short));
-    let twice = m.cat(&[modulus, short]);
-    n2.set(plus(a.sext(below_two_m + 2), twice.sext(below_two_m + 2), short));
+    n1.set(plus("a_less_m", a.sext(below_two_m + 1), modulus.sext(below_two_m + 1), short));
+    let twice = m.cat(&[modulus, short]).named_doc("less_2m", "-2 M, or -2 M - 1");
+    n2.set(plus("a_less_2m", a.sext(below_two_m + 2), twice.sext(below_two_m + 2), short));
     let carry0 = m.reg("carry0", 1).doc("1 to add to the sum of n0");
     carry0.set(with_sign | (add_modulus & !short) | (take_modulus_off & short));
     let carry = m.reg("carry", 1).doc("1 to add to the other sums").set(take_modulus_off & short);
@@ -114,9 +114,9 @@ pub(super) fn lane(plan: &Plan, name: &str, shape: Shape) -> Result<Arc<Netlist>
     let low = is(now, Step::Digits).mux(digits, 0);
     let four = m.cat(&[old.trunc(sums - 2), low]);
     let x = fourfold.mux(four, twofold.mux(old.shl(1), from_zero.mux(0, old))).named("x");
-    let s0 = plus(x, n0.q().sext(sums), carry0.q()).named("s0");
-    let s1 = plus(x, n1.q().sext(sums), carry.q()).named("s1");
-    let s2 = plus(x, n2.q().sext(sums), carry.q()).named("s2");
+    let s0 = plus("x_and_n0", x, n0.q().sext(sums), carry0.q()).named("s0");
+    let s1 = plus("x_and_n1", x, n1.q().sext(sums), carry.q()).named("s1");
+    let s2 = plus("x_and_n2", x, n2.q().sext(sums), carry.q()).named("s2");
     // A fourfold rest may have M taken off three times, and n0 is the first of them; else n0 takes none off.
     let (f0, f1, f2) = (!s0.msb(), !s1.msb() & !as_it_is, !s2.msb() & !as_it_is);
     let (f0, f1, f2) = (f0.named("fits0"), f1.named("fits1"), f2.named("fits2"));
@@ -160,29 +160,26 @@ pub(super) fn lane(plan: &Plan, name: &str, shape: Shape) -> Result<Arc<Netlist>
     let two = m.cat(&[old.trunc(shape.whole - 1), taken.bit(1)]);
     let x = fourfold.mux(four, twofold.mux(two, from_zero.mux(0, old))).named("whole_x");
     let one = ((!fourfold & taken.any()) | is(then, Step::Sign)).named("one");
-    whole_next.drive(plus(x, b.q(), one));
+    whole_next.drive(plus("x_and_b", x, b.q(), one));
     let stays = one_of(then, &[Step::Rest, Step::Less1]).named("whole_stays");
     whole.when(!stays, whole_next);
 
     m.comment("What is done is given out rounded: to nearest, halves up, or up.");
     m.output_doc("rest_out", rest.q().trunc(slot), "1/M, from the clock after a step");
     m.output_doc("whole_out", whole, "modular, a clock later");
-    let half = !plus(
-        m.cat(&[rest.q().trunc(slot), m.lit(1, 0)]).zext(below_two_m + 1),
-        modulus.sext(below_two_m + 1),
-        short,
-    )
-    .msb();
-    let up = m.reg("up", 1).set(upwards.mux(rest.q().trunc(slot).any(), half)).q();
+    let twice = m.cat(&[rest.q().trunc(slot), m.lit(1, 0)]).zext(below_two_m + 1);
+    let past_half = plus("past_half", twice, modulus.sext(below_two_m + 1), short);
+    let up = m.reg("up", 1).set(upwards.mux(rest.q().trunc(slot).any(), !past_half.msb())).q();
     m.output_doc("value", whole.q() + up.zext(shape.whole), "modular, with whole");
     m.finish()
 }
 
-/// a + b + carry.
-fn plus<'m>(a: Signal<'m>, b: Signal<'m>, carry: Signal<'m>) -> Signal<'m> {
+/// a + b + carry; the sum has a lowest bit more, out of which the carry comes.
+fn plus<'m>(name: &str, a: Signal<'m>, b: Signal<'m>, carry: Signal<'m>) -> Signal<'m> {
     let m = a.module();
-    let bits = a.width();
-    (m.cat(&[a, m.lit(1, 1)]) + m.cat(&[b, carry])).slice(bits, 1)
+    let sum =
+        (m.cat(&[a, m.lit(1, 1)]) + m.cat(&[b, carry])).named_doc(name, "and a carry out of the lowest bit");
+    sum.slice(a.width(), 1)
 }
 
 /// A bit as often as a word is long.

@@ -83,7 +83,7 @@ fn search(ports: &Ports, original: &Arc<Netlist>, faulty: &Arc<Netlist>, limit: 
         "read_verilog original.v; prep -flatten -top {top}; rename {top} original; design -stash original; \
          read_verilog faulty.v; prep -flatten -top {top}; rename {top} faulty; design -stash faulty; \
          design -copy-from original original; design -copy-from faulty faulty; read_verilog miter.v; \
-         prep -flatten -top miter; setundef -undriven -zero; setundef -init -zero; opt -full; techmap; opt -full; \
+         prep -flatten -top miter; setundef -undriven -zero; setundef -init -zero; opt -full; memory; opt -full; techmap; opt -full; \
          dffunmap; aigmap; opt_clean; write_aiger -zinit miter.aig"
     );
     let (code, printed) = run(place.path(), "yosys", &["-Q", "-T", "-p", &gates]);
