@@ -23,7 +23,7 @@ const COMMANDS: [&[&str]; 15] = [
     &["verify", "d.tri", "--triangles", "1", "--no-simulators"],
     &["trace", "d.tri", "--out", "t.vcd", "--cycles", "10"],
     &["bench", "d.tri", "--engine", "fast", "--repeat", "1"],
-    &["synth", "--unit", "span", "--seeds", "1", "--cache", "kept"],
+    &["synth", "--unit", "span", "--seeds", "1", "--cache", concat!(env!("CARGO_TARGET_TMPDIR"), "/synth")],
     &["config", "print"],
     &["config", "check"],
     &["config", "explain"],
