@@ -6,6 +6,8 @@ mod control;
 
 mod sort;
 
+mod top;
+
 mod lines;
 
 mod area;

@@ -4,8 +4,8 @@ use edgewalk_machine::Plan;
 use edgewalk_netlist::{Module, Signal};
 
 use super::control::Control;
-use super::factors::top;
 use super::sort::Vertices;
+use super::top::top;
 
 /// The triangle's area.
 pub(super) struct Area<'m> {

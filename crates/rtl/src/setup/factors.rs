@@ -8,6 +8,7 @@ use super::control::Control;
 use super::lines::Lines;
 use super::sort::Vertices;
 use super::steps::{Op, edge_of, rounds};
+use super::top::top;
 use crate::wires::Registers;
 
 /// Digits of both factors of a sum: of a, of b.
@@ -111,21 +112,4 @@ impl<'m> Sources<'_, 'm> {
     fn walked(&self, lines: &str) -> Signal<'m> {
         self.prim[lines].q().any()
     }
-}
-
-/// The place of the highest 1; 0 if there is none.
-pub(super) fn top(bits: Signal<'_>) -> Signal<'_> {
-    let width = bits.width();
-    if width == 1 {
-        return bits.module().lit(1, 0);
-    }
-    let half = width.next_power_of_two() / 2;
-    if half == 1 {
-        return bits.bit(1);
-    }
-    let places = half.ilog2();
-    let (high, low) = (bits.slice(width - 1, half), bits.trunc(half));
-    let any = high.any();
-    let below = any.mux(top(high).zext(places), top(low).zext(places));
-    bits.module().cat(&[any, below])
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use edgewalk_machine::{Channel, Plan};
+use edgewalk_machine::{Channel, EdgeKind, Plan};
 use edgewalk_netlist::{BuildErrors, Instance, Module, Netlist, Signal};
 
 use super::control::Control;
@@ -145,8 +145,8 @@ impl<'a, 'm> Common<'a, 'm> {
         });
         let loads = [Op::LoadDx, Op::Load1, Op::LoadA, Op::LoadB];
         let upwards = match plan.edge_kind {
-            edgewalk_machine::EdgeKind::Exact => control.rest.is(Op::Columns),
-            edgewalk_machine::EdgeKind::Slope => m.lit(1, 0),
+            EdgeKind::Exact => control.rest.is(Op::Columns),
+            EdgeKind::Slope => m.lit(1, 0),
         };
         Common {
             m,
