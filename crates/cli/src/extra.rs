@@ -14,7 +14,7 @@ pub const BEFORE: usize = 4;
 
 /// The user's own channels of the machine.
 pub fn channels(machine: &Plan) -> &[Channel] {
-    &machine.channels()[BEFORE..]
+    &machine.channels()[BEFORE..BEFORE + machine.extra as usize]
 }
 
 /// That an input which gives `given` values of the user's own at a vertex gives one for each channel of the machine.

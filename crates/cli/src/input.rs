@@ -45,6 +45,7 @@ pub fn draw_state(frame: &Frame, machine: &Plan) -> Result<DrawState> {
         depth_func: frame.depth.unwrap_or(DepthFunc::Always) as u8,
         depth_write: frame.depth_write && frame.depth.is_some(),
         clear: frame.clear.map(|v| (v * max).round_ties_even() as u64),
+        ..DrawState::default()
     })
 }
 

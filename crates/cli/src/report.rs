@@ -105,7 +105,7 @@ impl Report {
         }
         if let Some(c) = &self.cycles {
             let causes: Map<_, _> =
-                Activity::ALL.into_iter().map(|a| (a.name().to_owned(), json!(c.spent(a)))).collect();
+                Activity::of(&self.machine).map(|a| (a.name().to_owned(), json!(c.spent(a)))).collect();
             report["cycles"] = json!({
                 "total": c.total,
                 "by_cause": causes,
@@ -169,11 +169,11 @@ impl Report {
                 c.path.map_or_else(String::new, |path| format!(" ({path})")),
                 ratio(self.covered, c.total)
             );
-            for a in Activity::ALL {
+            for a in Activity::of(m) {
                 let n = c.spent(a);
                 let _ = writeln!(t, "    {:<10} {:>12}  {:>5.1} %", a.name(), n, 100.0 * ratio(n, c.total));
             }
-            let sum: u64 = Activity::ALL.into_iter().map(|a| c.spent(a)).sum();
+            let sum: u64 = Activity::of(m).map(|a| c.spent(a)).sum();
             let _ = writeln!(t, "    {:<10} {:>12}  of {} cycles", "sum", sum, c.total);
         }
         t

@@ -8,7 +8,7 @@ use crate::unit::Unit;
 use crate::values::{PortId, PortValues};
 use crate::{UnknownConstant, case};
 use edgewalk_machine::{Activity, ForeignVertex, Plan, PortVertex};
-use edgewalk_model::tokens::{FEW, output};
+use edgewalk_model::tokens::output;
 use edgewalk_model::{Counters, DrawState, Events, Frame};
 use edgewalk_netlist::{BuildErrors, Simulator};
 
@@ -183,7 +183,7 @@ impl Picture {
         let pixels =
             || (0..plan.height).flat_map(|y| (0..plan.width).map(move |x| (y << x_bits | x) as usize));
         let word = |channel: usize, address: usize| self.stored[channel][address];
-        let extra = plan.channels().iter().enumerate().skip(FEW);
+        let extra = plan.own_channels();
         Frame {
             z: pixels().map(|a| u64::from(word(0, a))).collect(),
             rgb: pixels().map(|a| [1, 2, 3].map(|channel| u64::from(word(channel, a)))).collect(),

@@ -9,7 +9,7 @@
 mod inner;
 mod link;
 
-pub use link::{Direction, Link, Memory, Port, StatusPort};
+pub use link::{Direction, Link, Memory, MemoryWrite, Port, StatusPort};
 
 use crate::unit::Unit;
 use crate::values::{PortId, PortValues};
@@ -95,6 +95,9 @@ impl Interface {
         for memory in &declared.memory {
             add(Direction::Out, &memory.read, &[]);
         }
+        for link in &declared.writes {
+            add(Direction::Out, link, &[]);
+        }
         if let Some(link) = &declared.gives {
             add(Direction::Out, link, &declared.held_out);
         }
@@ -166,11 +169,11 @@ impl Interface {
             let of = |field: &str| {
                 self.links[place].place(field).expect("a declared write has the memory's fields")
             };
-            link::MemoryWrite {
+            MemoryWrite {
                 link: place,
                 address: of(address),
                 word: of(declared.word),
-                enable: of(declared.enable),
+                enable: declared.enable.map(of),
             }
         });
         Memory {

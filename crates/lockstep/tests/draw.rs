@@ -27,8 +27,12 @@ fn the_picture_of_the_netlist_is_that_of_the_model() {
     for i in 0..36 {
         let plan = quick_machine(&mut rng);
         let triangles: Vec<_> = (0..12).map(|_| random_triangle(&plan, &mut rng)).collect();
-        let state =
-            DrawState { depth_func: [1, 3, 7][i % 3], depth_write: rng.random_bool(0.9), clear: [1, 2, 3] };
+        let state = DrawState {
+            depth_func: [1, 3, 7][i % 3],
+            depth_write: rng.random_bool(0.9),
+            clear: [1, 2, 3],
+            ..DrawState::default()
+        };
         let stalls = StallKind::ALL[i % 3];
         let model = render(&plan, triangles.iter().copied(), state, Stalls::NONE).expect("its own triangles");
         let rtl = render_rtl(&plan, triangles.iter().copied(), state, stalls).expect("its own triangles");

@@ -1,5 +1,7 @@
 //! The cause of every cycle (`docs/machine.md`, section 8).
 
+use crate::plan::Plan;
+
 /// What a cycle was spent on; the number is the `activity` port.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
@@ -23,11 +25,13 @@ pub enum Activity {
     Setup,
     /// The last fragments leave the pipeline.
     Flush,
+    /// DEPTH is full, as BLEND takes no fragment.
+    Blend,
 }
 
 impl Activity {
     /// All, in the order of the port's code.
-    pub const ALL: [Activity; 9] = [
+    pub const ALL: [Activity; 10] = [
         Activity::Idle,
         Activity::Draw,
         Activity::Offscreen,
@@ -37,6 +41,7 @@ impl Activity {
         Activity::Edge,
         Activity::Setup,
         Activity::Flush,
+        Activity::Blend,
     ];
 
     /// Bits of the port.
@@ -45,7 +50,15 @@ impl Activity {
     /// Name in reports and, in capitals, in the netlist.
     #[must_use]
     pub fn name(self) -> &'static str {
-        ["idle", "draw", "offscreen", "hazard", "queue", "memory", "edge", "setup", "flush"][self as usize]
+        let names =
+            ["idle", "draw", "offscreen", "hazard", "queue", "memory", "edge", "setup", "flush", "blend"];
+        names[self as usize]
+    }
+
+    /// Those that the machine can have.
+    pub fn of(plan: &Plan) -> impl Iterator<Item = Activity> {
+        let blends = plan.blend.is_there();
+        Activity::ALL.into_iter().filter(move |activity| blends || *activity != Activity::Blend)
     }
 
     /// PIXEL steps in such a cycle; in all others it stalls.
@@ -54,10 +67,10 @@ impl Activity {
         matches!(self, Activity::Draw | Activity::Offscreen)
     }
 
-    /// The codes in words, for the port's documentation: `0 idle 1 draw …`.
+    /// The codes of a machine in words, for the port's documentation: `0 idle 1 draw …`.
     #[must_use]
-    pub fn codes() -> String {
-        let each = Activity::ALL.iter().map(|a| format!("{} {}", *a as u8, a.name()));
+    pub fn codes(plan: &Plan) -> String {
+        let each = Activity::of(plan).map(|a| format!("{} {}", a as u8, a.name()));
         each.collect::<Vec<_>>().join(" ")
     }
 }

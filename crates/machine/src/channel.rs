@@ -20,24 +20,27 @@ pub enum Kind {
     Signed,
     /// Two's complement, the output is the floor: a texel is the floor of its coordinate.
     Floor,
+    /// Unsigned, 2^(b-1) stands for 1.0 and is the largest, so that 1 is exact; the output is rounded to nearest:
+    /// transmission. Not for channels of the user's own.
+    Weight,
 }
 
 impl Kind {
-    /// All, in the order of the key's words.
+    /// Those of the user's own channels, in the order of the key's words.
     pub const ALL: [Kind; 3] = [Kind::Unorm, Kind::Signed, Kind::Floor];
     /// Their words in files and reports.
     pub const NAMES: [&'static str; 3] = ["unorm", "signed", "floor"];
 
     /// The word in files and reports.
     #[must_use]
-    pub const fn name(self) -> &'static str {
-        Self::NAMES[self as usize]
+    pub fn name(self) -> &'static str {
+        Self::NAMES.get(self as usize).copied().unwrap_or("weight")
     }
 
     /// Words and outputs are two's complement.
     #[must_use]
     pub const fn is_signed(self) -> bool {
-        !matches!(self, Kind::Unorm)
+        matches!(self, Kind::Signed | Kind::Floor)
     }
 
     /// The output is rounded to nearest: the first value carries 2^(r-1).
@@ -99,11 +102,15 @@ impl Deref for Channel {
 }
 
 impl Channel {
-    /// Largest magnitude of an output that a vertex may ask for, LSB: 2^b - 1, signed 2^(b-1) - 1. So no mean of vertices
-    /// leaves the range, and no word needs a clamp.
+    /// Largest magnitude of an output that a vertex may ask for, LSB: 2^b - 1, signed 2^(b-1) - 1, of a weight 2^(b-1). So
+    /// no mean of vertices leaves the range, and no word needs a clamp.
     #[must_use]
     pub fn limit(&self) -> u64 {
-        if self.kind.is_signed() { (1 << (self.bits - 1)) - 1 } else { self.max() }
+        match self.kind {
+            Kind::Unorm => self.max(),
+            Kind::Signed | Kind::Floor => (1 << (self.bits - 1)) - 1,
+            Kind::Weight => 1 << (self.bits - 1),
+        }
     }
 
     /// The name of a vertex's value at the port, `place` being the vertex's number: `z0`, `e1_0`.

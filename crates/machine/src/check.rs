@@ -1,6 +1,6 @@
 //! Which combinations can be built, and the reason where one cannot.
 
-use crate::channel::Channel;
+use crate::channel::{Channel, MAX_CHANNELS};
 use crate::keys::KEYS;
 use crate::machine::{EdgeKind, Fill, Machine};
 use crate::text::MachineError;
@@ -16,6 +16,18 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
     screen(machine)?;
     for channel in channels {
         formats(machine, channel)?;
+    }
+    if channels.len() > MAX_CHANNELS {
+        let own = machine.extra as usize;
+        return Err(MachineError::rule(
+            machine,
+            "channels.extra",
+            format!(
+                "with those of the units there are {} channels, {MAX_CHANNELS} is the most",
+                channels.len()
+            ),
+            own.saturating_sub(channels.len() - MAX_CHANNELS).to_string(),
+        ));
     }
     if machine.adders as usize > channels.len() {
         return Err(MachineError::rule(
@@ -61,6 +73,7 @@ fn keys_of(channel: &Channel) -> String {
     match channel.name {
         "r" | "g" | "b" => "formats.color".to_owned(),
         "z" => "formats.z".to_owned(),
+        "kt" => "blend.kt".to_owned(),
         extra => format!("channels.{extra}"),
     }
 }

@@ -55,8 +55,16 @@ impl Field {
 
     /// The output of a channel.
     pub(crate) fn output(channel: &Channel) -> Field {
-        let scale = if channel.kind == Kind::Unorm { Scale::Unorm } else { Scale::Of("LSB") };
-        Field { name: channel.name.to_owned(), format: channel.output_format(), scale, doc: String::new() }
+        let scale = match channel.kind {
+            Kind::Unorm => Scale::Unorm,
+            Kind::Signed | Kind::Floor => Scale::Of("LSB"),
+            Kind::Weight => Scale::Count,
+        };
+        let doc = match channel.kind {
+            Kind::Weight => format!("2^{} stands for 1.0", channel.bits - 1),
+            _ => String::new(),
+        };
+        Field { name: channel.name.to_owned(), format: channel.output_format(), scale, doc }
     }
 
     /// Bits.

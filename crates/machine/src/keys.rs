@@ -3,7 +3,7 @@
 //! To add a parameter: a field in `Machine`, a line here, a rule in `check.rs` if it can clash with another.
 
 use crate::channel::{Kind, MAX_CHANNELS};
-use crate::machine::{EdgeKind, Fill, Hazard, Machine};
+use crate::machine::{BlendKind, EdgeKind, Fill, Hazard, Machine};
 
 /// What a key may be set to.
 #[derive(Clone, Copy, Debug)]
@@ -28,13 +28,31 @@ pub struct Key {
     pub get: fn(&Machine) -> u32,
     /// Writes a value that lies in the domain.
     pub set: fn(&mut Machine, u32),
-    /// The key means something in this machine: those of channels that it has not stay out of its file and its hash.
+    /// The key means something in this machine: those of channels and units that it has not stay out of its file and its hash.
     pub used: fn(&Machine) -> bool,
+    /// The value that says that a unit is not there. It stays out of the hash: so machines keep theirs when a unit is added
+    /// to the program.
+    pub absent: Option<u32>,
 }
 
 macro_rules! number {
     ($name:literal, $domain:expr, $doc:literal, $($field:ident).+) => {
-        Key { name: $name, doc: $doc, domain: $domain, get: |m| m.$($field).+, set: |m, v| m.$($field).+ = v, used: |_| true }
+        Key { name: $name, doc: $doc, domain: $domain, get: |m| m.$($field).+, set: |m, v| m.$($field).+ = v, used: |_| true, absent: None }
+    };
+}
+
+/// A key of BLEND, for machines that have it.
+macro_rules! blend {
+    ($name:literal, $domain:expr, $doc:literal, $field:ident) => {
+        Key {
+            name: $name,
+            doc: $doc,
+            domain: $domain,
+            get: |m| m.blend.$field,
+            set: |m, v| m.blend.$field = v,
+            used: |m| m.blend.is_there(),
+            absent: None,
+        }
     };
 }
 
@@ -48,6 +66,7 @@ macro_rules! extra {
             get: |m| m.extras[$i].precision.$field,
             set: |m, v| m.extras[$i].precision.$field = v,
             used: |m| m.extra > $i,
+            absent: None,
         }
     };
     ($i:literal, "kind") => {
@@ -58,6 +77,7 @@ macro_rules! extra {
             get: |m| m.extras[$i].kind as u32,
             set: |m, v| m.extras[$i].kind = Kind::ALL[v as usize],
             used: |m| m.extra > $i,
+            absent: None,
         }
     };
     ($i:literal, "bits") => {
@@ -79,6 +99,7 @@ macro_rules! extra {
 
 const FILLS: [Fill; 2] = [Fill::Exact, Fill::Textbook];
 const KINDS: [EdgeKind; 2] = [EdgeKind::Exact, EdgeKind::Slope];
+const BLENDS: [BlendKind; 3] = [BlendKind::None, BlendKind::Constant, BlendKind::Interpolated];
 const HAZARDS: [Hazard; 3] = [Hazard::Drain, Hazard::Interlock, Hazard::Forward];
 
 use Domain::{OneOf, Range, Word};
@@ -107,6 +128,7 @@ pub const KEYS: &[Key] = &[
         get: |m| m.fill as u32,
         set: |m, v| m.fill = FILLS[v as usize],
         used: |_| true,
+        absent: None,
     },
     Key {
         name: "edge.kind",
@@ -115,6 +137,7 @@ pub const KEYS: &[Key] = &[
         get: |m| m.edge_kind as u32,
         set: |m, v| m.edge_kind = KINDS[v as usize],
         used: |_| true,
+        absent: None,
     },
     number!(
         "edge.fraction_bits",
@@ -175,9 +198,61 @@ pub const KEYS: &[Key] = &[
         get: |m| m.hazard as u32,
         set: |m, v| m.hazard = HAZARDS[v as usize],
         used: |_| true,
+        absent: None,
     },
     number!("memory.latency", Range(1, 8), "clocks from a depth read to its data, at the least", latency),
     number!("fifo.inflight", Range(1, 16), "fragments in flight between read and compare", inflight),
+    Key {
+        name: "blend.kind",
+        doc: "blending with the pixel: none, by a k_t of the triangle (constant) or of the pixel (interpolated)",
+        domain: Word(&["none", "constant", "interpolated"]),
+        get: |m| m.blend.kind as u32,
+        set: |m, v| m.blend.kind = BLENDS[v as usize],
+        used: |_| true,
+        absent: Some(BlendKind::None as u32),
+    },
+    blend!("blend.kt_bits", Range(4, 12), "bits of k_t below 1; 1 is exact", kt_bits),
+    Key {
+        used: |m| m.blend.kind == BlendKind::Interpolated,
+        ..blend!(
+            "blend.kt_fraction",
+            Range(0, 24),
+            "k_t as a channel: interpolator fraction bits",
+            kt_fraction
+        )
+    },
+    Key {
+        used: |m| m.blend.kind == BlendKind::Interpolated,
+        ..blend!(
+            "blend.kt_vertex",
+            Range(0, 16),
+            "k_t as a channel: fraction bits of the vertex value",
+            kt_vertex
+        )
+    },
+    blend!(
+        "blend.multipliers",
+        OneOf(&[0, 1, 3]),
+        "3: the colours side by side; 1: one after the other, 3 clocks; 0: bit by bit, kt_bits/2 clocks",
+        multipliers
+    ),
+    blend!("blend.stages", Range(1, 2), "stages between BLEND's queue and its write", stages),
+    blend!("fifo.blend", Range(1, 16), "fragments in BLEND's queue", queue),
+    Key {
+        name: "memory.color_hazard",
+        doc: "BLEND: a pixel still in flight: drain, interlock or forward",
+        domain: Word(&["drain", "interlock", "forward"]),
+        get: |m| m.blend.hazard as u32,
+        set: |m, v| m.blend.hazard = HAZARDS[v as usize],
+        used: |m| m.blend.is_there(),
+        absent: None,
+    },
+    blend!(
+        "memory.color_latency",
+        Range(1, 8),
+        "clocks from a colour read to its data, at the least",
+        latency
+    ),
     number!(
         "memory.tag_bits",
         Range(0, 32),
@@ -187,6 +262,12 @@ pub const KEYS: &[Key] = &[
 ];
 
 impl Key {
+    /// The value tells this machine from others.
+    #[must_use]
+    pub fn tells(&self, machine: &Machine) -> bool {
+        (self.used)(machine) && self.absent != Some((self.get)(machine))
+    }
+
     /// The value as written in a file, words without quotes.
     #[must_use]
     pub fn show(&self, machine: &Machine) -> String {

@@ -65,8 +65,8 @@ pub struct MemoryPort {
     pub write: &'static str,
     /// The field of `write` that is stored.
     pub word: &'static str,
-    /// The field of `write` that permits it.
-    pub enable: &'static str,
+    /// The field of `write` that permits it, if not every write of it is meant.
+    pub enable: Option<&'static str>,
     /// Clocks from a read to its data, at the least.
     pub latency: u32,
 }

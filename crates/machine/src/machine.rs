@@ -33,6 +33,54 @@ pub enum Hazard {
     Forward,
 }
 
+/// Whose transmission coefficient k_t BLEND takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum BlendKind {
+    /// Nobody's: the machine has no BLEND.
+    None,
+    /// One for a triangle.
+    Constant,
+    /// One for a pixel: it is a channel.
+    Interpolated,
+}
+
+/// BLEND, and the colour memory behind it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Blend {
+    /// Whose k_t.
+    pub kind: BlendKind,
+    /// Bits of k_t below 1.
+    pub kt_bits: u32,
+    /// Interpolator fraction bits of k_t where it is a channel.
+    pub kt_fraction: u32,
+    /// Fraction bits of its vertex value.
+    pub kt_vertex: u32,
+    /// Multipliers: 3, 1, or 0 for bit by bit.
+    pub multipliers: u32,
+    /// Stages M between the queue and the write.
+    pub stages: u32,
+    /// Depth of its queue, fragments.
+    pub queue: u32,
+    /// What it does when a fragment's pixel is still in flight.
+    pub hazard: Hazard,
+    /// Latency of the colour memory, clocks.
+    pub latency: u32,
+}
+
+impl Blend {
+    /// The unit is there.
+    #[must_use]
+    pub fn is_there(&self) -> bool {
+        self.kind != BlendKind::None
+    }
+
+    /// Word lengths of k_t: one bit more than below 1, so that 1 is exact.
+    #[must_use]
+    pub fn kt(&self) -> Precision {
+        Precision { bits: self.kt_bits + 1, fraction: self.kt_fraction, vertex_fraction: self.kt_vertex }
+    }
+}
+
 /// A channel that the user adds: it is interpolated and written beside the colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ExtraChannel {
@@ -81,6 +129,8 @@ pub struct Machine {
     pub latency: u32,
     /// Hazard policy of DEPTH.
     pub hazard: Hazard,
+    /// BLEND.
+    pub blend: Blend,
     /// Bits of the tag that travels with a triangle to its writes; 0 leaves the ports out.
     pub tag_bits: u32,
 }

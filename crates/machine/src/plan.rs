@@ -1,7 +1,7 @@
 //! The checked machine: what units, drawing and tools take.
 
-use crate::channel::{Channel, MAX_CHANNELS};
-use crate::machine::Machine;
+use crate::channel::Channel;
+use crate::machine::{BlendKind, Machine};
 use crate::text::MachineError;
 use crate::units::UNITS;
 use crate::vertex::PortStamp;
@@ -23,11 +23,18 @@ impl Machine {
     /// # Errors
     /// The first combination of keys that cannot be built, with the reason and a value that would do.
     pub fn plan(&self) -> Result<Plan, MachineError> {
-        let wanted = UNITS.iter().flat_map(|unit| (unit.wants)(self));
-        let channels: Vec<Channel> = wanted.chain(crate::units::memory::wants(self)).collect();
+        // The depth, what the memory stores beside it, and then what only some machines have.
+        let depth = (crate::units::depth::SPEC.wants)(self).into_iter();
+        let others = UNITS.iter().filter(|unit| unit.name != "depth").flat_map(|unit| (unit.wants)(self));
+        let channels: Vec<Channel> = depth.chain(crate::units::memory::wants(self)).chain(others).collect();
         crate::check::check(self, &channels)?;
-        debug_assert!(channels.len() <= MAX_CHANNELS, "units want more channels than vertices have");
-        let port = PortStamp::of(self.guard_bits, self.subpixel_bits, &channels);
+        let constant = self.blend.kind == BlendKind::Constant;
+        let port = PortStamp::of(
+            self.guard_bits,
+            self.subpixel_bits,
+            &channels,
+            if constant { self.blend.kt_bits } else { 0 },
+        );
         Ok(Plan { machine: self.clone(), channels, widths: self.widths(), port })
     }
 }
@@ -49,10 +56,21 @@ impl Default for Plan {
 }
 
 impl Plan {
-    /// The channels that the units want, in the order of the words: z, r, g, b, then the user's own.
+    /// The channels that the units want, in the order of the words: z, r, g, b, the user's own, then kt where it is one.
     #[must_use]
     pub fn channels(&self) -> &[Channel] {
         &self.channels
+    }
+
+    /// The user's own channels, with their places among all.
+    pub fn own_channels(&self) -> impl Iterator<Item = (usize, &Channel)> {
+        self.channels.iter().enumerate().skip(4).take(self.extra as usize)
+    }
+
+    /// A triangle has one transmission coefficient, that of its first vertex.
+    #[must_use]
+    pub fn has_triangle_kt(&self) -> bool {
+        self.blend.kind == BlendKind::Constant
     }
 
     /// The word lengths of this machine.

@@ -1,7 +1,7 @@
 //! The machines that come with the program.
 
 use crate::channel::{Kind, Precision};
-use crate::machine::{EdgeKind, ExtraChannel, Fill, Hazard, Machine};
+use crate::machine::{Blend, BlendKind, EdgeKind, ExtraChannel, Fill, Hazard, Machine};
 use crate::plan::Plan;
 
 /// Names of the presets, for `--machine` and its hints.
@@ -13,6 +13,19 @@ pub const PRESETS: &[(&str, &str)] = &[
 /// What a channel of the user is until it is set: a texture coordinate of 12 bits.
 const EXTRA: ExtraChannel =
     ExtraChannel { kind: Kind::Floor, precision: Precision { bits: 12, fraction: 14, vertex_fraction: 4 } };
+
+/// No BLEND, and what it is until more is set: pixels rarely come again at once, so interlock costs little.
+const BLEND: Blend = Blend {
+    kind: BlendKind::None,
+    kt_bits: 8,
+    kt_fraction: 14,
+    kt_vertex: 4,
+    multipliers: 3,
+    stages: 1,
+    queue: 4,
+    hazard: Hazard::Interlock,
+    latency: 2,
+};
 
 impl Default for Machine {
     /// The preset `default`. r = 14 because a span may step over up to 2^13 columns of the guard band before the screen (bound 4).
@@ -36,6 +49,7 @@ impl Default for Machine {
             inflight: 4,
             latency: 2,
             hazard: Hazard::Forward,
+            blend: BLEND,
             tag_bits: 0,
         }
     }

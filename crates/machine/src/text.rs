@@ -165,7 +165,7 @@ impl Machine {
     #[must_use]
     pub fn hash(&self) -> String {
         let mut digest = Sha256::new();
-        for key in KEYS.iter().filter(|key| (key.used)(self)) {
+        for key in KEYS.iter().filter(|key| key.tells(self)) {
             digest.update(format!("{}={}\n", key.name, key.show(self)));
         }
         digest.finalize().iter().take(6).map(|b| format!("{b:02x}")).collect()
@@ -175,6 +175,7 @@ impl Machine {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::machine::{Blend, BlendKind};
 
     #[test]
     fn what_is_written_reads_back() {
@@ -188,8 +189,9 @@ mod tests {
     fn every_setting_survives_the_file_and_changes_the_hash() {
         let mut seen = std::collections::HashSet::new();
         for key in KEYS {
-            // With all extra channels every key means something.
-            let mut machine = Machine { extra: 4, ..Machine::default() };
+            // With all extra channels and a k_t for every pixel every key means something.
+            let blend = Blend { kind: BlendKind::Interpolated, ..Machine::default().blend };
+            let mut machine = Machine { extra: 4, blend, ..Machine::default() };
             let other = match key.domain {
                 Domain::Range(low, high) => {
                     if (key.get)(&machine) == low {

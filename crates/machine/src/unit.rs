@@ -25,6 +25,8 @@ pub struct Ports {
     pub takes: Option<Link>,
     /// Where its tokens go.
     pub gives: Option<Link>,
+    /// What else it gives, out of the machine: writes of a memory that the link it gives does not write.
+    pub writes: Vec<Link>,
     /// Values of another unit that hold beside the tokens it takes.
     pub held_in: Vec<Held>,
     /// Values that it holds beside the tokens it gives.
@@ -76,6 +78,7 @@ impl Plan {
         Ports {
             takes: all.first().and_then(|ports| ports.takes.clone()),
             gives: all.last().and_then(|ports| ports.gives.clone()),
+            writes: all.iter().flat_map(|ports| ports.writes.clone()).collect(),
             memory: all.iter().flat_map(|ports| ports.memory.clone()).collect(),
             constants: all.iter().flat_map(|ports| ports.constants.clone()).collect(),
             status: units::machine_status(),

@@ -6,6 +6,7 @@ pub mod edge;
 pub mod span;
 pub mod pixel;
 pub mod depth;
+pub mod blend;
 pub mod memory;
 
 use crate::activity::Activity;
@@ -15,7 +16,8 @@ use crate::plan::Plan;
 use crate::unit::{Event, UnitSpec};
 
 /// Every unit, in the order the data flows.
-pub const UNITS: &[&UnitSpec] = &[&setup::SPEC, &edge::SPEC, &span::SPEC, &pixel::SPEC, &depth::SPEC];
+pub const UNITS: &[&UnitSpec] =
+    &[&setup::SPEC, &edge::SPEC, &span::SPEC, &pixel::SPEC, &depth::SPEC, &blend::SPEC];
 
 /// What can happen between units.
 pub const EVENTS: &[Event] =

@@ -8,10 +8,11 @@ use crate::plan::Plan;
 pub(crate) struct PortStamp(u32);
 
 impl PortStamp {
-    /// Stands for the numbers of bits that decide how a vertex is read (FNV-1a over them).
-    pub fn of(guard_bits: u32, subpixel_bits: u32, channels: &[Channel]) -> PortStamp {
+    /// Stands for the numbers of bits that decide how a vertex is read (FNV-1a over them); `kt`: those of a triangle's own
+    /// k_t, 0 if it has none.
+    pub fn of(guard_bits: u32, subpixel_bits: u32, channels: &[Channel], kt: u32) -> PortStamp {
         let formats = channels.iter().flat_map(|c| [c.kind as u32, c.bits, c.vertex_fraction]);
-        let numbers = [guard_bits, subpixel_bits].into_iter().chain(formats);
+        let numbers = [guard_bits, subpixel_bits].into_iter().chain(formats).chain((kt > 0).then_some(kt));
         PortStamp(numbers.fold(0x811c_9dc5, |hash, number| (hash ^ number).wrapping_mul(0x0100_0193)))
     }
 }
@@ -22,6 +23,7 @@ pub struct PortVertex {
     x: i32,
     y: i32,
     values: [i64; MAX_CHANNELS],
+    kt: u32,
     stamp: PortStamp,
 }
 
@@ -42,6 +44,13 @@ impl PortVertex {
     #[must_use]
     pub fn values(&self) -> &[i64; MAX_CHANNELS] {
         &self.values
+    }
+
+    /// Of a machine with `blend.kind = constant`: k_t in 2^-kt_bits, 0 to 2^kt_bits. The triangle's is that of its first
+    /// vertex. Else 0.
+    #[must_use]
+    pub fn kt(&self) -> u32 {
+        self.kt
     }
 }
 
@@ -93,11 +102,11 @@ pub enum VertexError {
 }
 
 impl Channel {
-    /// What the host may give at a vertex: 0 to 1 for `unorm`, else LSB of the output up to the limit.
+    /// What the host may give at a vertex: 0 to 1 for `unorm` and `weight`, else LSB of the output up to the limit.
     #[must_use]
     pub fn host_range(&self) -> (f64, f64) {
         match self.kind {
-            Kind::Unorm => (0.0, 1.0),
+            Kind::Unorm | Kind::Weight => (0.0, 1.0),
             Kind::Signed | Kind::Floor => (-(self.limit() as f64), self.limit() as f64),
         }
     }
@@ -105,15 +114,18 @@ impl Channel {
     /// LSB of the output that the host's 1 stands for.
     #[must_use]
     pub fn host_unit(&self) -> f64 {
-        if self.kind == Kind::Unorm { self.max() as f64 } else { 1.0 }
+        match self.kind {
+            Kind::Unorm | Kind::Weight => self.limit() as f64,
+            Kind::Signed | Kind::Floor => 1.0,
+        }
     }
 }
 
 impl Plan {
-    /// Snaps a vertex (px; z, r, g, b in 0 to 1; extra channels as their kind wants) to the port's formats, each rounded
-    /// half to even.
+    /// Snaps a vertex (px; z, r, g, b in 0 to 1; extra channels as their kind wants; last k_t in 0 to 1, if the machine
+    /// blends) to the port's formats, each rounded half to even.
     ///
-    /// Errors of the result: 2^-(s+1) px in x and y, 2^-(e+1) LSB in a channel.
+    /// Errors of the result: 2^-(s+1) px in x and y, 2^-(e+1) LSB in a channel, 2^-(kt_bits+1) in a triangle's k_t.
     ///
     /// # Errors
     /// What lies outside the guard band or a channel's range, and a number of values that is not that of the channels.
@@ -128,7 +140,8 @@ impl Plan {
             }
         };
         let (x, y) = (snap("x", x)?, snap("y", y)?);
-        let expected = self.channels().len();
+        let channels = self.channels().len();
+        let expected = channels + usize::from(self.has_triangle_kt());
         if values.len() != expected {
             return Err(VertexError::Count { expected, found: values.len() });
         }
@@ -141,18 +154,30 @@ impl Plan {
             let scale = channel.host_unit() * f64::from(1u32 << channel.vertex_fraction);
             *port = (value * scale).round_ties_even() as i64;
         }
-        Ok(PortVertex { x, y, values: port, stamp: self.port_stamp() })
+        let kt = match values.get(channels) {
+            None => 0,
+            Some(value) if (0.0..=1.0).contains(value) => {
+                (value * f64::from(1u32 << self.blend.kt_bits)).round_ties_even() as u32
+            }
+            Some(value) => {
+                return Err(VertexError::Channel { channel: "kt", value: *value, low: 0.0, high: 1.0 });
+            }
+        };
+        Ok(PortVertex { x, y, values: port, kt, stamp: self.port_stamp() })
     }
 
-    /// A vertex of these numbers as the port has them: x and y with `s`, values with `e` fraction bits. What has more bits
-    /// than the port is not seen by the machine; values behind the last channel are 0.
+    /// A vertex of these numbers as the port has them: x and y with `s`, values with `e` fraction bits, behind the last
+    /// channel the triangle's k_t if it has one. What has more bits than the port is not seen by the machine; values that
+    /// are not given are 0.
     #[must_use]
     pub fn raw_vertex(&self, x: i32, y: i32, values: &[i64]) -> PortVertex {
+        let channels = self.channels().len();
         let mut port = [0; MAX_CHANNELS];
-        for (port, value) in port.iter_mut().zip(values).take(self.channels().len()) {
+        for (port, value) in port.iter_mut().zip(values).take(channels) {
             *port = *value;
         }
-        PortVertex { x, y, values: port, stamp: self.port_stamp() }
+        let kt = if self.has_triangle_kt() { values.get(channels).map_or(0, |kt| *kt as u32) } else { 0 };
+        PortVertex { x, y, values: port, kt, stamp: self.port_stamp() }
     }
 
     /// Takes the triangle with this number if its vertices were made for this machine's port.

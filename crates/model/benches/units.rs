@@ -92,7 +92,7 @@ fn pixel(machine: &Plan, spans: &[tokens::Span<FEW>]) -> Vec<Fragment<FEW>> {
     while next.is_some() || unit.occupied() {
         fragments.extend(unit.frag().cloned());
         let taken = unit.span_ready(true);
-        unit.step(next, &[1; FEW], true, &mut Events::default());
+        unit.step(next, &[1; FEW], 0, true, &mut Events::default());
         if taken {
             next = input.next();
         }

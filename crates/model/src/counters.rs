@@ -9,7 +9,7 @@ pub struct Counters {
     /// Clock cycles.
     pub cycles: u64,
     /// Cycles by cause, indexed by [`Activity`].
-    pub activity: [u64; 9],
+    pub activity: [u64; Activity::ALL.len()],
     /// Triangles taken in.
     pub triangles: u64,
     /// Lines that left EDGE.

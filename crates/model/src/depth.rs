@@ -2,21 +2,22 @@
 //!
 //! ```text
 //!  frag ─┬─> rd (addr)            data ──┐
-//!        └─> in-flight queue ─> head ─> compare ─pass─> w ─> wr
-//!               ^── forward ───────────────┴─────────────┘
+//!        └─> in-flight queue ─> head ─> compare ─pass─> w ─> wr, with BLEND zwr
+//!               ^── forward ───────────────┼─────────────┘
+//!                                          └─pass─> colour ─> pass, with BLEND
 //! ```
 //! Formats: outputs of b bits, addresses y·2^xb + x.
 //!
 //! Timing: a fragment and a compare a clock; a compare in cycle n is offered as a write in n + 1.
 //!
-//! Rules: `docs/machine.md`, section 6; the three hazard policies draw the same picture. Queue, policy and forwarding are those
+//! Rules: `docs/machine.md`, section 6, and section 9 for the fork before BLEND; the three hazard policies draw the same picture. Queue, policy and forwarding are those
 //! of any read-modify-write, `crate::rmw`; here is the compare. Not modelled: nothing.
 
 use crate::Events;
 pub use crate::rmw::Block;
 use crate::rmw::{Outcome, Retired, Rmw};
-use crate::tokens::{Fragment, OutputWords, Source, Write};
-use edgewalk_machine::{Hazard, Plan};
+use crate::tokens::{FEW, Fragment, OutputWords, Passed, Source, Write};
+use edgewalk_machine::{BlendKind, Hazard, Plan};
 
 /// The unit's inputs of a cycle, but for the fragment.
 #[derive(Clone, Copy, Debug, Default)]
@@ -29,8 +30,12 @@ pub struct DepthInputs {
     pub rd_ready: bool,
     /// The oldest read's depth.
     pub data: Option<u64>,
-    /// The memory takes a write.
+    /// The memory takes a write: `wr_ready`, with BLEND `zwr_ready`.
     pub wr_ready: bool,
+    /// With BLEND: colours of fragments that pass go on to it.
+    pub color_write: bool,
+    /// With BLEND: it takes the fragment that is offered to it.
+    pub pass_ready: bool,
 }
 
 /// What travels beside the depth.
@@ -38,38 +43,71 @@ pub struct DepthInputs {
 struct Side<const C: usize> {
     /// All values, the new depth among them.
     values: OutputWords<C>,
+    kt: u32,
+    fence: bool,
     source: Source,
 }
 
 impl<const C: usize> Default for Side<C> {
     fn default() -> Self {
-        Side { values: [0; C], source: Source::default() }
+        Side { values: [0; C], kt: 0, fence: false, source: Source::default() }
     }
 }
 
 /// State of DEPTH.
 #[derive(Clone, Debug)]
 pub struct Depth<const C: usize> {
+    /// Its w is the whole write without BLEND, that of the depth with BLEND.
     rmw: Rmw<u32, Side<C>>,
+    fork: Fork<C>,
+}
+
+/// The other half of w, where there is BLEND.
+#[derive(Clone, Debug)]
+struct Fork<const C: usize> {
+    /// There is one. Only machines of more than few channels or with BLEND are built so; for the others nothing of it is.
+    is_there: bool,
+    /// Place of k_t among the channels, if it is one.
+    kt: Option<usize>,
+    /// w_c and what it offers.
+    color: Option<Passed<C>>,
+    /// Fences of fragments that BLEND did not see.
+    pend_fence: bool,
 }
 
 impl<const C: usize> Depth<C> {
     /// An empty unit.
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
-        Depth { rmw: Rmw::new(plan) }
+        let interpolated = plan.blend.kind == BlendKind::Interpolated;
+        let kt = plan.channels().iter().position(|channel| channel.name == "kt");
+        let fork = Fork {
+            is_there: plan.blend.is_there(),
+            kt: kt.filter(|_| interpolated),
+            color: None,
+            pend_fence: false,
+        };
+        Depth { rmw: Rmw::new(plan.hazard, plan.inflight), fork }
     }
 
     /// Synchronous reset.
     pub fn reset(&mut self) {
         self.rmw.reset();
+        self.fork.color = None;
+        self.fork.pend_fence = false;
+    }
+
+    /// The write is parted.
+    #[inline]
+    fn forks(&self) -> bool {
+        C > FEW && self.fork.is_there
     }
 
     /// Fragments or a write are in flight.
     #[inline]
     #[must_use]
     pub fn occupied(&self) -> bool {
-        self.rmw.occupied()
+        self.rmw.occupied() || (self.forks() && self.fork.color.is_some())
     }
 
     /// What keeps the fragment from being read: `rd_valid` = a fragment and no block, `frag_ready` = `rd_ready` and no
@@ -80,14 +118,21 @@ impl<const C: usize> Depth<C> {
         self.rmw.block(frag.map(|f| (f.addr, f.fence)), depth_write)
     }
 
-    /// The old depth can be taken.
+    /// The old depth can be taken. `pass_ready`: with BLEND, it takes the fragment that is offered to it.
     #[inline]
     #[must_use]
-    pub fn data_ready(&self, wr_ready: bool) -> bool {
-        self.rmw.data_ready(wr_ready)
+    pub fn data_ready(&self, wr_ready: bool, pass_ready: bool) -> bool {
+        self.rmw.data_ready(wr_ready) && (!self.forks() || self.fork.color.is_none() || pass_ready)
     }
 
-    /// The write offered to the frame memory.
+    /// The fragment offered to BLEND.
+    #[inline]
+    #[must_use]
+    pub fn pass(&self) -> Option<&Passed<C>> {
+        self.fork.color.as_ref().filter(|_| self.forks())
+    }
+
+    /// The write offered to the frame memory; with BLEND it goes to the depth memory, and only address and depth count.
     #[inline]
     #[must_use]
     pub fn write(&self) -> Option<Write<C>> {
@@ -103,8 +148,8 @@ impl<const C: usize> Depth<C> {
     #[inline]
     #[must_use]
     pub fn last_read(&self) -> Fragment<C> {
-        let (addr, Side { values, source }) = self.rmw.youngest();
-        Fragment { addr, values, fence: false, source }
+        let (addr, Side { values, kt, source, .. }) = self.rmw.youngest();
+        Fragment { addr, values, kt, fence: false, source }
     }
 
     /// Clock edge.
@@ -116,16 +161,20 @@ impl<const C: usize> Depth<C> {
         inputs: &DepthInputs,
         events: &mut Events,
     ) {
-        let compared = inputs.data.filter(|_| self.data_ready(inputs.wr_ready));
+        let compared = inputs.data.filter(|_| self.data_ready(inputs.wr_ready, inputs.pass_ready));
         if let Some(frag) = frag {
             if block.is_none() && inputs.rd_ready {
-                let side = Side { values: frag.values, source: frag.source };
+                let side = Side { values: frag.values, kt: frag.kt, fence: frag.fence, source: frag.source };
                 if self.rmw.enter(frag.addr, side) {
                     events.forward_write += 1;
                 }
             } else {
                 self.count_wait(block, events);
             }
+        }
+        if self.forks() {
+            self.count_fork(inputs, events);
+            self.fork.color.take_if(|_| inputs.pass_ready);
         }
         if let Some(data) = compared {
             self.compare(data as u32, inputs, events); // b <= 32 bits
@@ -150,10 +199,36 @@ impl<const C: usize> Depth<C> {
         let pass = inputs.depth_func >> relation & 1 != 0;
         events.depth_fail = events.depth_fail.wrapping_add(u64::from(!pass)); // in every cycle: not checked
         let result = Outcome { addr, side, word: z, stored: inputs.depth_write };
-        let taken = self.rmw.finish(pass, result);
+        let mut written = pass;
+        if self.forks() {
+            written &= inputs.depth_write;
+            self.hand_on(&result, pass && inputs.color_write, events);
+        }
+        let taken = self.rmw.finish(written, result);
         if taken > 0 {
             events.forward_compare += taken;
         }
+    }
+
+    /// Offers a fragment to BLEND, or keeps its fence for the next that is.
+    fn hand_on(&mut self, of: &Outcome<u32, Side<C>>, passes: bool, events: &mut Events) {
+        let Fork { kt, color, pend_fence, .. } = &mut self.fork;
+        let fence = of.side.fence || *pend_fence;
+        *pend_fence = fence && !passes;
+        if passes {
+            events.fence_handed_on += u64::from(fence && !of.side.fence);
+            let kt = kt.map_or(of.side.kt, |place| of.side.values[place]);
+            *color =
+                Some(Passed { addr: of.addr, values: of.side.values, kt, fence, source: of.side.source });
+        }
+    }
+
+    /// Which half of w leaves first.
+    fn count_fork(&self, inputs: &DepthInputs, events: &mut Events) {
+        let (depth, color) = (self.rmw.write().is_some(), self.fork.color.is_some());
+        events.depth_first += u64::from(depth && inputs.wr_ready && color && !inputs.pass_ready);
+        events.color_first += u64::from(color && inputs.pass_ready && depth && !inputs.wr_ready);
+        events.depth_write_waits += u64::from(depth && !inputs.wr_ready && (!color || inputs.pass_ready));
     }
 
     #[inline]

@@ -86,6 +86,13 @@ impl<const C: usize> Edge<C> {
         &self.held.gradient
     }
 
+    /// k_t of the last prim, for PIXEL; 0 where it is a channel.
+    #[inline]
+    #[must_use]
+    pub fn kt(&self) -> u32 {
+        self.held.kt
+    }
+
     /// Clock edge.
     #[inline(always)]
     pub fn step(

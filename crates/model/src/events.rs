@@ -80,6 +80,40 @@ events! {
     forward_used,
     /// Fragments that failed the compare.
     depth_fail,
+    /// Depths written before BLEND took the colour.
+    depth_first,
+    /// Colours that BLEND took before the depth was written.
+    color_first,
+    /// Cycles in which a depth alone keeps the write register.
+    depth_write_waits,
+    /// Fragments that took over the fence of one that failed.
+    fence_handed_on,
+    /// Fragments that take no colour from their pixel, so that none is read.
+    opaque,
+    /// Such fragments while one that does take one of the same pixel is in flight.
+    opaque_behind,
+    /// Fragments that take a colour from one in flight that took none.
+    behind_opaque,
+    /// Cycles in which BLEND waits at a fence (drain).
+    color_drain_stall,
+    /// Cycles in which BLEND waits for an address in flight (interlock).
+    color_interlock_stall,
+    /// Cycles in which a fragment waits for BLEND's queue.
+    color_queue_full,
+    /// Cycles in which a read waits for the colour memory.
+    color_read_stall,
+    /// Cycles in which a write waits for the colour memory.
+    color_write_stall,
+    /// Cycles in which the oldest fragment waits for a result of its pixel.
+    color_head_wait,
+    /// Fragments in the queue that took the colour from a result.
+    color_forward_queue,
+    /// Fragments entering the queue that took it from a result of the same cycle.
+    color_forward_entry,
+    /// Fragments entering the queue that took it from the write register.
+    color_forward_write,
+    /// Fragments blended with a colour that was forwarded.
+    color_forward_used,
 }
 
 /// Counts what may happen in every cycle: nobody waits for 2^64, so nothing is checked.

@@ -4,7 +4,7 @@ use crate::counters::Counters;
 use crate::events::Events;
 use crate::memory::Stalls;
 use crate::run::{DrawState, Rig};
-use crate::tokens::{FEW, Source, for_channels, output};
+use crate::tokens::{Source, for_channels, output};
 use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
 
 /// A picture, row by row from the top, W×H pixels, and what it took.
@@ -44,7 +44,7 @@ pub struct Sample<'a> {
 pub enum Drawn<'a> {
     /// A fragment's depth read fired.
     Fragment(Sample<'a>),
-    /// A write fired.
+    /// A write fired; with BLEND that of the colour, whose depth is not told.
     Write(Sample<'a>),
 }
 
@@ -84,6 +84,7 @@ fn draw<const C: usize>(
 ) -> Result<Frame, ForeignVertex> {
     let mut rig = Rig::<C>::new(plan, state, stalls);
     let mut tally = Tally::new(plan);
+    let blends = plan.blend.is_there();
     let channels = plan.channels().len().min(C); // C serves the plan; said so that no slice is checked in every cycle
     let triangles = triangles.zip(0..).map(|(t, number)| plan.accept(&t, number).map(|()| t));
     rig.draw(triangles, |_, model, cycle| {
@@ -93,7 +94,12 @@ fn draw<const C: usize>(
             let values = &fragment.values[..channels];
             hook(Drawn::Fragment(Sample { addr, values, source: fragment.source }));
         }
-        if let Some(write) = cycle.write() {
+        if let Some(write) = cycle.write().filter(|_| !blends) {
+            tally.write(write.addr, write.source.id);
+            let values = &write.values[..channels];
+            hook(Drawn::Write(Sample { addr: write.addr, values, source: write.source }));
+        }
+        if let Some(write) = cycle.color_write() {
             tally.write(write.addr, write.source.id);
             let values = &write.values[..channels];
             hook(Drawn::Write(Sample { addr: write.addr, values, source: write.source }));
@@ -102,8 +108,8 @@ fn draw<const C: usize>(
     let x_bits = plan.widths().x;
     let addresses: Vec<usize> =
         (0..plan.height).flat_map(|y| (0..plan.width).map(move |x| (y << x_bits | x) as usize)).collect();
-    let stored = || addresses.iter().map(|addr| rig.memory.pixel(*addr as u32));
-    let extra = plan.channels().iter().enumerate().skip(FEW);
+    let stored = || addresses.iter().map(|addr| rig.pixel(*addr as u32));
+    let extra = plan.own_channels();
     Ok(Frame {
         z: stored().map(|values| u64::from(values[0])).collect(),
         rgb: stored().map(|values| [1, 2, 3].map(|i| u64::from(values[i]))).collect(),

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //!  tri ─> setup ─> edge ─> span ─> pixel ─> depth ─> memory
+//!                                              └─> blend ─> colour memory, if the machine has it
 //! ```
 //! Written from `docs/machine.md` alone. A unit is a plain state struct: methods give its outputs from the state and
 //! from the inputs that reach them within the cycle, `step` is the clock edge. [`Model`] wires the units together,
@@ -12,11 +13,13 @@ pub mod counters;
 pub mod events;
 mod rmw;
 pub mod depth;
+pub mod blend;
 pub mod edge;
 pub mod fifo;
 pub mod machine;
 mod prefetch;
 pub mod memory;
+pub mod color_memory;
 pub mod pixel;
 pub mod run;
 pub mod frame;
@@ -25,11 +28,12 @@ pub mod setup;
 pub mod span;
 pub mod tokens;
 
+pub use color_memory::ColorMemory;
 pub use counters::Counters;
 pub use edgewalk_machine::Activity;
 pub use events::Events;
 pub use frame::{Drawn, Frame, Sample, render, render_with};
-pub use machine::{Inputs, Model, Outputs};
+pub use machine::{BlendInputs, Inputs, Model, Outputs};
 pub use memory::{Memory, Stalls};
 pub use run::{Cycle, DrawState, Rig};
 pub use setup::{Culled, SetupClocks, longest_setup, setup_clocks};

@@ -2,13 +2,16 @@
 //!
 //! ```text
 //!  tri ─> SETUP ─prim─> EDGE ─line─> SPAN ─span─> PIXEL ─frag─> DEPTH ─> wr
-//!                         └────────── gradients ───┘              └─> rd, <─ data
+//!                         └────────── gradients ───┘              ├─> rd, <─ data
+//!                                with BLEND, for wr: ─> zwr, ─pass─> BLEND ─> crd, <─ cdata, ─> cwr
 //! ```
 //! Data runs to the right, readies to the left within the cycle. [`Model::cycle`] therefore works out the readies from
 //! DEPTH back to SETUP, and then clocks the units in the same order, so that each still sees its source as it was.
 //!
-//! Rules: `docs/machine.md`, sections 8 and 9.
+//! Rules: `docs/machine.md`, sections 8 to 10.
 
+use crate::blend::Blend;
+pub use crate::blend::BlendInputs;
 use crate::counters::Counters;
 use crate::depth::{Block, Depth, DepthInputs};
 use crate::edge::Edge;
@@ -16,7 +19,7 @@ use crate::events::{Events, one_more};
 use crate::pixel::Pixel;
 use crate::setup::Setup;
 use crate::span::Span;
-use crate::tokens::{Fragment, Write};
+use crate::tokens::{ColorWrite, FEW, Fragment, Write};
 use edgewalk_machine::{Activity, Plan, PortVertex};
 
 /// Input ports of a cycle; a valid and its data are an `Option`.
@@ -37,6 +40,8 @@ pub struct Inputs<'a> {
     pub data: Option<u64>,
     /// The memory takes a write.
     pub wr_ready: bool,
+    /// What only machines with BLEND have.
+    pub blend: BlendInputs,
 }
 
 /// Output ports of the same cycle. A link fires if it is valid here and ready there.
@@ -48,12 +53,31 @@ pub struct Outputs<const C: usize> {
     pub rd: Option<u32>,
     /// The depth is taken, if it is there.
     pub data_ready: bool,
-    /// A write.
+    /// A write; with BLEND of a depth.
     pub wr: Option<Write<C>>,
+    /// What only machines with BLEND have.
+    pub blend: BlendOutputs<C>,
     /// What the cycle was spent on.
     pub activity: Activity,
     /// Nothing to do: `activity` is 0.
     pub idle: bool,
+}
+
+/// Ports of BLEND.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BlendOutputs<const C: usize> {
+    /// Address of a colour read.
+    pub crd: Option<u32>,
+    /// The colour is taken, if it is there.
+    pub cdata_ready: bool,
+    /// A colour.
+    pub cwr: Option<ColorWrite<C>>,
+}
+
+impl<const C: usize> Default for BlendOutputs<C> {
+    fn default() -> Self {
+        BlendOutputs { crd: None, cdata_ready: false, cwr: None }
+    }
 }
 
 /// Nothing happens.
@@ -64,6 +88,7 @@ impl<const C: usize> Default for Outputs<C> {
             rd: None,
             data_ready: false,
             wr: None,
+            blend: BlendOutputs::default(),
             activity: Activity::Idle,
             idle: false,
         }
@@ -79,6 +104,7 @@ pub struct Model<const C: usize> {
     span: Span<C>,
     pixel: Pixel<C>,
     depth: Depth<C>,
+    blend: Option<Blend<C>>,
     counters: Counters,
     events: Events,
 }
@@ -96,6 +122,8 @@ pub struct Units<'a, const C: usize> {
     pub pixel: &'a Pixel<C>,
     /// Fragments to writes.
     pub depth: &'a Depth<C>,
+    /// Fragments that passed to colours, if the machine has it.
+    pub blend: Option<&'a Blend<C>>,
 }
 
 impl<const C: usize> Model<C> {
@@ -108,6 +136,7 @@ impl<const C: usize> Model<C> {
             span: Span::new(plan),
             pixel: Pixel::new(plan),
             depth: Depth::new(plan),
+            blend: plan.blend.is_there().then(|| Blend::new(plan)),
             counters: Counters::default(),
             events: Events::default(),
         }
@@ -129,7 +158,13 @@ impl<const C: usize> Model<C> {
     #[must_use]
     pub fn units(&self) -> Units<'_, C> {
         let Model { setup, edge, span, pixel, depth, .. } = self;
-        Units { setup, edge, span, pixel, depth }
+        Units { setup, edge, span, pixel, depth, blend: self.blend() }
+    }
+
+    /// BLEND; of machines with few channels, which have none, nothing of it is built.
+    #[inline(always)]
+    fn blend(&self) -> Option<&Blend<C>> {
+        self.blend.as_ref().filter(|_| C > FEW)
     }
 
     /// Not hardware: the fragment whose read fired in the cycle before.
@@ -155,7 +190,13 @@ impl<const C: usize> Model<C> {
             && self.span.span().is_none()
             && !self.pixel.active()
             && !self.pixel.occupied()
-            && !self.depth.occupied()
+            && !self.in_flight()
+    }
+
+    /// A fragment is in flight behind PIXEL.
+    #[inline]
+    fn in_flight(&self) -> bool {
+        self.depth.occupied() || self.blend().is_some_and(Blend::occupied)
     }
 
     /// A cycle in which SPAN, PIXEL and DEPTH have nothing to move and nothing is offered to them: they stay as they
@@ -176,16 +217,23 @@ impl<const C: usize> Model<C> {
 
     #[inline(always)]
     fn cycle_of_all(&mut self, inputs: &Inputs) -> Outputs<C> {
-        // DEPTH, and the memory behind it.
+        // BLEND, DEPTH, and the memories behind them.
+        let pass = self.depth.pass().copied();
+        let pass_ready = self.blend().is_some_and(|blend| blend.pass_ready(pass.as_ref(), &inputs.blend));
         let frag = self.pixel.frag();
         let block = self.depth.block(frag, inputs.depth_write);
         let frag_ready = inputs.rd_ready && block.is_none();
-        let activity = self.activity(block, frag_ready);
+        let activity = self.activity(block, frag_ready, pass.is_some() && !pass_ready);
         let outputs = Outputs {
             tri_ready: self.setup.tri_ready(),
             rd: frag.filter(|_| block.is_none()).map(|f| f.addr),
-            data_ready: self.depth.data_ready(inputs.wr_ready),
+            data_ready: self.depth.data_ready(inputs.wr_ready, pass_ready),
             wr: self.depth.write(),
+            blend: self.blend().map_or_else(BlendOutputs::default, |blend| BlendOutputs {
+                crd: blend.read(pass.as_ref(), inputs.blend.add),
+                cdata_ready: blend.cdata_ready(inputs.blend.cwr_ready),
+                cwr: blend.write(),
+            }),
             activity,
             idle: activity == Activity::Idle,
         };
@@ -193,7 +241,11 @@ impl<const C: usize> Model<C> {
         if outputs.rd.is_some() && inputs.rd_ready {
             one_more(&mut self.counters.fragments);
         }
-        if outputs.wr.is_some() && inputs.wr_ready {
+        let written = match self.blend() {
+            None => outputs.wr.is_some() && inputs.wr_ready,
+            Some(_) => outputs.blend.cwr.is_some() && inputs.blend.cwr_ready,
+        };
+        if written {
             one_more(&mut self.counters.writes);
         }
         if inputs.tri.is_some() && outputs.tri_ready {
@@ -208,7 +260,12 @@ impl<const C: usize> Model<C> {
             rd_ready: inputs.rd_ready,
             data: inputs.data,
             wr_ready: inputs.wr_ready,
+            color_write: inputs.blend.color_write,
+            pass_ready,
         };
+        if let Some(blend) = self.blend.as_mut().filter(|_| C > FEW) {
+            blend.step(pass.as_ref(), &inputs.blend, events);
+        }
         self.depth.step(frag, block, &depth_inputs, events);
 
         // PIXEL.
@@ -216,7 +273,7 @@ impl<const C: usize> Model<C> {
         if span_ready && span.is_some() {
             one_more(&mut self.counters.spans);
         }
-        self.pixel.step(span, self.edge.gradient(), frag_ready, events);
+        self.pixel.step(span, self.edge.gradient(), self.edge.kt(), frag_ready, events);
 
         // SPAN.
         let fresh_queued = self.span.fresh_queued();
@@ -240,14 +297,18 @@ impl<const C: usize> Model<C> {
         self.span.reset();
         self.pixel.reset();
         self.depth.reset();
+        if let Some(blend) = &mut self.blend {
+            blend.reset();
+        }
     }
 
     /// The cause of this cycle, the first that holds.
     #[inline]
-    fn activity(&self, block: Option<Block>, frag_ready: bool) -> Activity {
+    fn activity(&self, block: Option<Block>, frag_ready: bool, pass_waits: bool) -> Activity {
         if !self.pixel.advance(frag_ready) {
             match block {
                 Some(Block::Hazard) => Activity::Hazard,
+                Some(Block::Full) if pass_waits => Activity::Blend,
                 Some(Block::Full) => Activity::Queue,
                 None => Activity::Memory,
             }
@@ -257,7 +318,7 @@ impl<const C: usize> Model<C> {
             Activity::Edge
         } else if !self.setup.tri_ready() {
             Activity::Setup
-        } else if self.pixel.occupied() || self.depth.occupied() {
+        } else if self.pixel.occupied() || self.in_flight() {
             Activity::Flush
         } else {
             Activity::Idle

@@ -148,6 +148,15 @@ impl<const C: usize> Memory<C> {
         self.draw_readies();
     }
 
+    /// As [`Memory::step`] in a machine with BLEND: of a write the depth is stored, and nothing else.
+    #[inline(always)]
+    pub fn step_depth(&mut self, read: Option<u32>, data_taken: bool, write: Option<&Write<C>>) {
+        self.step(read, data_taken, None);
+        if let Some(write) = write {
+            self.z[write.addr as usize] = write.values[0];
+        }
+    }
+
     fn late(&mut self) -> u64 {
         if self.stalls.data == 0 {
             return 0;

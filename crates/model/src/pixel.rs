@@ -37,6 +37,8 @@ pub struct Pixel<const C: usize> {
     step_x: i32,
     values: Words<C>,
     gradient: Words<C>,
+    /// k_t of the triangle, where it has one.
+    kt: u32,
     /// y·2^xb.
     row: u32,
     fence: bool,
@@ -66,6 +68,7 @@ impl<const C: usize> Pixel<C> {
             step_x: 1,
             values: [0; C],
             gradient: [0; C],
+            kt: 0,
             row: 0,
             fence: false,
             source: Source::default(),
@@ -128,12 +131,13 @@ impl<const C: usize> Pixel<C> {
         self.phase == self.last_phase && self.count == 1
     }
 
-    /// Clock edge. `gradient` is EDGE's g.
+    /// Clock edge. `gradient` and `kt` are what EDGE holds.
     #[inline(always)]
     pub fn step(
         &mut self,
         span: Option<&Span<C>>,
         gradient: &Words<C>,
+        kt: u32,
         frag_ready: bool,
         events: &mut Events,
     ) {
@@ -157,7 +161,7 @@ impl<const C: usize> Pixel<C> {
         }
         self.active = span.is_some();
         if let Some(span) = span {
-            self.load(span, gradient);
+            self.load(span, gradient, kt);
         }
     }
 
@@ -193,6 +197,7 @@ impl<const C: usize> Pixel<C> {
         Fragment {
             addr: self.row | self.x as u32,
             values: std::array::from_fn(|i| (self.values[i] >> 32) as u32 & self.masks[i]),
+            kt: self.kt,
             fence: self.fence,
             source: self.source,
         }
@@ -206,7 +211,7 @@ impl<const C: usize> Pixel<C> {
         self.values = std::array::from_fn(|i| self.values[i].wrapping_add(self.gradient[i]));
     }
 
-    fn load(&mut self, span: &Span<C>, gradient: &Words<C>) {
+    fn load(&mut self, span: &Span<C>, gradient: &Words<C>, kt: u32) {
         self.phase = 0;
         self.x = span.x;
         self.count = span.count;
@@ -217,6 +222,7 @@ impl<const C: usize> Pixel<C> {
         self.source = span.source;
         if span.fresh {
             self.gradient = self.aligned(gradient);
+            self.kt = kt;
         }
     }
 

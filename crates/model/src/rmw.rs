@@ -6,15 +6,15 @@
 //!                     ^── forward ─────────────────────────────────────────┘
 //! ```
 //! `T` is the word of the memory, `S` what travels beside it. The unit that works on the words counts the events and says
-//! what becomes of the old word; DEPTH is such a unit.
+//! what becomes of the old word; DEPTH and BLEND are such units.
 //!
 //! Timing: an access and a result a clock; a result of cycle n is offered as a write in n + 1.
 //!
-//! Rules: `docs/machine.md`, section 6. Not modelled: nothing.
+//! Rules: `docs/machine.md`, sections 6 and 9. Not modelled: nothing.
 
-use edgewalk_machine::{Hazard, Plan};
+use edgewalk_machine::Hazard;
 
-/// Places; the machine's queue is at most as deep.
+/// Places; a machine's queues are at most as deep.
 const PLACES: usize = 16;
 
 /// The address of a free place: none on any screen (addresses have at most 28 bits).
@@ -74,11 +74,12 @@ pub(crate) struct Rmw<T, S> {
 }
 
 impl<T: Copy + Default, S: Copy + Default> Rmw<T, S> {
-    pub(crate) fn new(plan: &Plan) -> Self {
+    /// An empty one; `depth`: places of its queue, at most 16.
+    pub(crate) fn new(hazard: Hazard, depth: u32) -> Self {
         Rmw {
-            hazard: plan.hazard,
-            forwards: plan.hazard == Hazard::Forward,
-            depth: plan.inflight as usize,
+            hazard,
+            forwards: hazard == Hazard::Forward,
+            depth: depth as usize,
             head: 0,
             len: 0,
             addr: [NOWHERE; PLACES],
@@ -138,6 +139,18 @@ impl<T: Copy + Default, S: Copy + Default> Rmw<T, S> {
     #[inline]
     fn w_stores(&self, addr: u32) -> bool {
         self.w_valid && self.w.stored && self.w.addr == addr
+    }
+
+    /// The oldest access, its address and side.
+    #[inline]
+    pub(crate) fn head(&self) -> Option<(u32, &S)> {
+        let slot = self.slot(0);
+        (self.len > 0).then_some((self.addr[slot], &self.side[slot]))
+    }
+
+    /// All accesses that are queued, the oldest first.
+    pub(crate) fn queued(&self) -> impl Iterator<Item = (u32, &S)> {
+        (0..self.len).map(|place| (self.addr[self.slot(place)], &self.side[self.slot(place)]))
     }
 
     /// The old word can be taken.

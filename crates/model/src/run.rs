@@ -1,13 +1,14 @@
 //! The machine and its memory in one: cycle by cycle, or until all triangles are drawn.
 //!
 //! ```text
-//!  triangles ─> Model ─rd, wr─> Memory
-//!                  ^────data──────┘
+//!  triangles ─> Model ─rd, wr─> Memory, with BLEND also ─crd, cwr─> ColorMemory
+//!                  ^────data──────┘                ^─────cdata──────────┘
 //! ```
 
-use crate::machine::{Inputs, Model, Outputs};
+use crate::color_memory::ColorMemory;
+use crate::machine::{BlendInputs, Inputs, Model, Outputs};
 use crate::memory::{Memory, Stalls};
-use crate::tokens::Write;
+use crate::tokens::{ColorWrite, FEW, OutputWords, Write};
 use edgewalk_machine::{Plan, PortVertex};
 
 /// What stays the same over a picture.
@@ -17,14 +18,18 @@ pub struct DrawState {
     pub depth_func: u8,
     /// Fragments that pass store their depth.
     pub depth_write: bool,
+    /// Fragments that pass store their colour; without BLEND they always do.
+    pub color_write: bool,
+    /// BLEND adds, else it mixes.
+    pub blend_add: bool,
     /// Colour of the empty screen, b bits each.
     pub clear: [u64; 3],
 }
 
 impl Default for DrawState {
-    /// The nearest fragment wins, on black.
+    /// The nearest fragment wins, mixed with what is there as its k_t says, on black.
     fn default() -> Self {
-        DrawState { depth_func: 1, depth_write: true, clear: [0; 3] }
+        DrawState { depth_func: 1, depth_write: true, color_write: true, blend_add: false, clear: [0; 3] }
     }
 }
 
@@ -33,8 +38,10 @@ impl Default for DrawState {
 pub struct Rig<const C: usize> {
     /// The machine.
     pub model: Model<C>,
-    /// Its memory.
+    /// Its memory; with BLEND that of the depths.
     pub memory: Memory<C>,
+    /// With BLEND that of the colours.
+    pub color: Option<ColorMemory<C>>,
     state: DrawState,
 }
 
@@ -49,6 +56,8 @@ pub struct Cycle<const C: usize> {
     pub read: Option<u32>,
     /// The write of `outputs` fired.
     pub written: bool,
+    /// The colour write of `outputs` fired.
+    pub color_written: bool,
 }
 
 impl<const C: usize> Cycle<C> {
@@ -58,16 +67,36 @@ impl<const C: usize> Cycle<C> {
     pub fn write(&self) -> Option<&Write<C>> {
         self.outputs.wr.as_ref().filter(|_| self.written)
     }
+
+    /// The colour write that fired, with BLEND.
+    #[inline(always)]
+    #[must_use]
+    pub fn color_write(&self) -> Option<&ColorWrite<C>> {
+        self.outputs.blend.cwr.as_ref().filter(|_| C > FEW && self.color_written)
+    }
 }
 
 impl<const C: usize> Rig<C> {
     /// A machine after reset, its memory cleared.
     #[must_use]
     pub fn new(plan: &Plan, state: DrawState, stalls: Stalls) -> Self {
-        Rig { model: Model::new(plan), memory: Memory::new(plan, state.clear, stalls), state }
+        let color = plan.blend.is_there().then(|| ColorMemory::new(plan, state.clear, stalls));
+        Rig { model: Model::new(plan), memory: Memory::new(plan, state.clear, stalls), color, state }
     }
 
-    /// One cycle, with a triangle and its tag offered or none. The memory takes writes if it is ready and `writes_open`.
+    /// What is stored at an address.
+    #[must_use]
+    pub fn pixel(&self, addr: u32) -> OutputWords<C> {
+        let stored = self.memory.pixel(addr);
+        self.color.as_ref().map_or(stored, |color| color.pixel(addr, stored[0]))
+    }
+
+    /// What the next triangles are drawn with; the machine is idle.
+    pub fn set_state(&mut self, state: DrawState) {
+        self.state = state;
+    }
+
+    /// One cycle, with a triangle and its tag offered or none. The memories take writes if they are ready and `writes_open`.
     #[inline(always)]
     pub fn cycle(&mut self, tri: Option<(&[PortVertex; 3], u32)>, writes_open: bool) -> Cycle<C> {
         let inputs = Inputs {
@@ -78,6 +107,7 @@ impl<const C: usize> Rig<C> {
             rd_ready: self.memory.rd_ready(),
             data: self.memory.data(),
             wr_ready: self.memory.wr_ready() && writes_open,
+            blend: self.blend_inputs(writes_open),
         };
         let outputs = self.model.cycle(&inputs);
         let cycle = Cycle {
@@ -85,9 +115,31 @@ impl<const C: usize> Rig<C> {
             triangle: outputs.tri_ready && tri.is_some(),
             read: outputs.rd.filter(|_| inputs.rd_ready),
             written: outputs.wr.is_some() && inputs.wr_ready,
+            color_written: outputs.blend.cwr.is_some() && inputs.blend.cwr_ready,
         };
-        self.memory.step(cycle.read, inputs.data.is_some() && outputs.data_ready, cycle.write());
+        let data_taken = inputs.data.is_some() && outputs.data_ready;
+        match &mut self.color {
+            Some(color) if C > FEW => {
+                self.memory.step_depth(cycle.read, data_taken, cycle.write());
+                let read = outputs.blend.crd.filter(|_| inputs.blend.crd_ready);
+                let taken = inputs.blend.cdata.is_some() && outputs.blend.cdata_ready;
+                color.step(read, taken, cycle.color_write());
+            }
+            _ => self.memory.step(cycle.read, data_taken, cycle.write()),
+        }
         cycle
+    }
+
+    #[inline(always)]
+    fn blend_inputs(&self, writes_open: bool) -> BlendInputs {
+        let Some(color) = self.color.as_ref().filter(|_| C > FEW) else { return BlendInputs::default() };
+        BlendInputs {
+            color_write: self.state.color_write,
+            add: self.state.blend_add,
+            crd_ready: color.crd_ready(),
+            cdata: color.cdata(),
+            cwr_ready: color.cwr_ready() && writes_open,
+        }
     }
 
     /// Offers the triangles one after the other, each as soon as the one before is taken, until the machine is idle again.

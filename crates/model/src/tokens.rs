@@ -21,7 +21,7 @@ macro_rules! tokens {
     };
 }
 
-/// Channels of a machine without channels of the user's own: units of `C` = 4 serve it, of `C` = 8 any machine.
+/// Channels of a machine without BLEND and channels of the user's own: units of `C` = 4 serve it, of `C` = 8 any machine.
 pub const FEW: usize = 4;
 
 /// One word per channel, in the order of [`Plan::channels`]: z, r, g, b, then the user's own; behind the last 0. Words of
@@ -35,7 +35,7 @@ pub type OutputWords<const C: usize> = [u32; C];
 #[macro_export]
 macro_rules! for_channels {
     ($plan:expr, $C:ident => $body:expr) => {
-        if $plan.channels().len() <= $crate::tokens::FEW {
+        if $plan.channels().len() <= $crate::tokens::FEW && !$plan.blend.is_there() {
             const $C: usize = $crate::tokens::FEW;
             $body
         } else {
@@ -100,6 +100,8 @@ tokens! {
         delta: [Words<C>; 2] = [[0; C]; 2],
         /// g: increment a pixel along the span.
         gradient: Words<C> = [0; C],
+        /// k_t of the triangle, 2^-kt_bits; 0 where that is a channel.
+        kt: u32 = 0,
         /// The triangle.
         source: Source = Source::default(),
     }
@@ -148,15 +150,17 @@ tokens! {
     Fragment {
         /// y·2^xb + x.
         addr: u32 = 0,
-        /// Depth, colour and the user's own.
+        /// Depth, colour, the user's own, and k_t where it is a channel.
         values: OutputWords<C> = [0; C],
+        /// k_t of the triangle; 0 where it is a channel.
+        kt: u32 = 0,
         /// First fragment of its triangle or, in textbook fill, of its lower part.
         fence: bool = false,
         /// The triangle.
         source: Source = Source::default(),
     }
 
-    /// DEPTH to the frame memory.
+    /// DEPTH to the frame memory, in a machine without BLEND.
     Write {
         /// y·2^xb + x.
         addr: u32 = 0,
@@ -164,6 +168,34 @@ tokens! {
         values: OutputWords<C> = [0; C],
         /// The depth is stored.
         z_en: bool = false,
+        /// The triangle.
+        source: Source = Source::default(),
+    }
+}
+
+tokens! {
+    /// DEPTH to BLEND: a fragment that passed.
+    Passed {
+        /// y·2^xb + x.
+        addr: u32 = 0,
+        /// Colour and the user's own, at their places.
+        values: OutputWords<C> = [0; C],
+        /// k_t, kt_bits + 1 bits.
+        kt: u32 = 0,
+        /// It, or one before it that did not pass, is the first of its triangle or part.
+        fence: bool = false,
+        /// The triangle.
+        source: Source = Source::default(),
+    }
+
+    /// BLEND to the colour memory.
+    ColorWrite {
+        /// y·2^xb + x.
+        addr: u32 = 0,
+        /// Red, green and blue of b bits, red the most significant.
+        rgb: u64 = 0,
+        /// The user's own, at their places.
+        values: OutputWords<C> = [0; C],
         /// The triangle.
         source: Source = Source::default(),
     }

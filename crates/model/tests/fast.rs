@@ -4,7 +4,7 @@ mod common;
 
 use common::{Triangle, moved, random_values, render};
 use edgewalk_machine::keys::{Domain, KEYS};
-use edgewalk_machine::{ForeignVertex, Machine, Plan};
+use edgewalk_machine::{BlendKind, ForeignVertex, Machine, Plan};
 use edgewalk_model::fast::{self, Path, Reason, Refusal};
 use edgewalk_model::{Activity, DrawState, Events, Frame, Stalls};
 use rand::{Rng, SeedableRng, rngs::StdRng};
@@ -23,6 +23,9 @@ fn random_machine(rng: &mut impl Rng) -> Plan {
         }
         if rng.random_bool(0.7) {
             machine.extra = 0; // others are ticked
+        }
+        if rng.random_bool(0.8) {
+            machine.blend.kind = BlendKind::None; // others too
         }
         machine.width = rng.random_range(1..80);
         machine.height = rng.random_range(1..60);
@@ -104,7 +107,7 @@ fn compare(machine: &Plan, triangles: &[Triangle], state: DrawState) -> Path {
 #[test]
 fn random_machines_equal_ticking() {
     let mut rng = StdRng::seed_from_u64(1);
-    let (mut fast, mut channels, mut queue, mut interlock) = (0, 0, 0, 0);
+    let (mut fast, mut channels, mut blend, mut queue, mut interlock) = (0, 0, 0, 0, 0);
     let mut fragments = 0;
     for _ in 0..600 {
         let machine = random_machine(&mut rng);
@@ -114,10 +117,12 @@ fn random_machines_equal_ticking() {
                 depth_func: if rng.random_bool(0.5) { 1 } else { rng.random_range(0..8) },
                 depth_write: rng.random_bool(0.8),
                 clear: [0; 3].map(|_: u64| rng.random_range(0..=machine.color.max())),
+                ..DrawState::default()
             };
             match compare(&machine, &triangles, state) {
                 Path::Fast => fast += 1,
                 Path::Ticked(Reason::Channels) => channels += 1,
+                Path::Ticked(Reason::Blend) => blend += 1,
                 Path::Ticked(Reason::Queue) => queue += 1,
                 Path::Ticked(Reason::Interlock) => interlock += 1,
             }
@@ -125,11 +130,11 @@ fn random_machines_equal_ticking() {
         }
     }
     println!(
-        "1800 frames, {fragments} triangles: {fast} fast; ticked: {channels} for their channels, {queue} for the queue, \
+        "1800 frames, {fragments} triangles: {fast} fast; ticked: {channels} for their channels, {blend} for BLEND, {queue} for the queue, \
          {interlock} for an interlock"
     );
     assert!(fast > queue + interlock, "more than half of those with four channels must take the fast path");
-    assert!(channels > 0 && queue > 0 && interlock > 0);
+    assert!(channels > 0 && blend > 0 && queue > 0 && interlock > 0);
 }
 
 #[test]

@@ -47,6 +47,7 @@ fn one_pixel_triangles_on_one_address_back_to_back() {
                         depth_func: rng.random_range(0..8),
                         depth_write: rng.random_bool(0.8),
                         clear: [1, 2, 3],
+                        ..DrawState::default()
                     };
                     let addresses = [1, 2, 5][rng.random_range(0..3)];
                     let fragments: Vec<_> = (0..200u32)
@@ -55,6 +56,7 @@ fn one_pixel_triangles_on_one_address_back_to_back() {
                             values: [rng.random_range(0..16), id, 0, 0],
                             fence: true, // each is a triangle of its own
                             source: Source { tag: 0, id },
+                            ..Fragment::default()
                         })
                         .collect();
                     let expected = sequential(&machine, &fragments, state);
@@ -204,7 +206,12 @@ fn every_policy_draws_the_same_picture() {
             })
             .collect();
         for depth_func in 0..8 {
-            let state = DrawState { depth_func, depth_write: depth_func != 5, clear: [9, 8, 7] };
+            let state = DrawState {
+                depth_func,
+                depth_write: depth_func != 5,
+                clear: [9, 8, 7],
+                ..DrawState::default()
+            };
             let mut first = None;
             for policy in POLICIES {
                 for stalls in STALLS {

@@ -116,7 +116,7 @@ fn compare(machine: &Plan, triangles: &[Triangle]) -> usize {
                 let steps = Q::new(1 + pixel.steps, 2 << channel.fraction);
                 // How far the exact value may lie above and below the output.
                 let (above, below) = match channel.kind {
-                    Kind::Unorm | Kind::Signed => (Q::new(1, 2) + steps, Q::new(1, 2) + steps),
+                    Kind::Unorm | Kind::Signed | Kind::Weight => (Q::new(1, 2) + steps, Q::new(1, 2) + steps),
                     Kind::Floor => (Q::from_integer(1) + steps, steps),
                 };
                 // Modulo 2^b, as a bound may be longer than half of that.

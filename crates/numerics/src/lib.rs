@@ -10,10 +10,12 @@ pub mod word;
 pub mod steps;
 pub mod bounds;
 pub mod normal_cone;
+pub mod blend;
 pub mod witness;
 pub mod solver;
 pub mod budget;
 
+pub use blend::{blend_error, blend_error_of_golden};
 pub use bounds::Prestep;
 pub use budget::ErrorBudget;
 pub use dyadic::Dyadic;

@@ -25,6 +25,7 @@ The depth is read whatever the function.";
 /// # Errors
 /// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
 pub fn depth(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
+    crate::blend::refuse(plan)?;
     let m = Module::new("edgewalk_depth", DOC);
     m.doc(&rmw::hazard_doc(plan, "depth"));
     let ports = Interface::new(&m, (SPEC.ports)(plan));

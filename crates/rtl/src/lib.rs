@@ -22,12 +22,15 @@ mod rmw;
 
 mod depth;
 
+mod blend;
+
 mod memory;
 
 pub mod units;
 
 mod machine;
 
+pub use blend::blend;
 pub use depth::depth;
 pub use edge::edge;
 pub use machine::{assemble, engine, machine};
@@ -38,4 +41,4 @@ pub use span::span;
 
 /// The name of each unit of [`edgewalk_machine::UNITS`], and what builds it.
 pub const BUILDERS: &[(&str, units::Build)] =
-    &[("setup", setup), ("edge", edge), ("span", span), ("pixel", pixel), ("depth", depth)];
+    &[("setup", setup), ("edge", edge), ("span", span), ("pixel", pixel), ("depth", depth), ("blend", blend)];

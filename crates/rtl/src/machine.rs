@@ -48,6 +48,7 @@ fn units(plan: &Plan) -> Vec<(&'static UnitSpec, Build)> {
 /// # Errors
 /// Those of the units, and inputs of theirs that nothing drives.
 pub fn assemble(plan: &Plan, units: &[(&UnitSpec, Build)]) -> Result<Arc<Netlist>, BuildErrors> {
+    crate::blend::refuse(plan)?;
     let m = Module::new("edgewalk", &doc(plan, units));
     let units = place(&m, plan, units)?;
     units.connect_inputs();
@@ -83,6 +84,6 @@ Values under the links hold beside their tokens. One clock, synchronous reset rs
 activity is the one cause of the cycle: {};
 in all but draw and offscreen PIXEL stalls.",
         picture::picture(&ports),
-        Activity::codes()
+        Activity::codes(plan)
     )
 }

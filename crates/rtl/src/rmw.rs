@@ -108,7 +108,17 @@ impl<'m> Rmw<'m> {
         let w_valid = m.reg(&format!("{}_valid", write.name), 1).doc("a pixel is being written").reset(0);
         let w = Registers::new(m, write.name, parts(&write.fields));
         let names = Names { frag: frag.name, read: memory.read.name, data: memory.data.name };
-        Rmw { m, hazard: plan.hazard, names, enable: memory.enable, writes, places, count, w_valid, w }
+        Rmw {
+            m,
+            hazard: plan.hazard,
+            names,
+            enable: memory.enable.unwrap_or_default(),
+            writes,
+            places,
+            count,
+            w_valid,
+            w,
+        }
     }
 
     /// A fragment enters when the queue has room and no hazard holds it, in the cycle its word is read.

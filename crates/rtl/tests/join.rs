@@ -39,7 +39,7 @@ fn ports(plan: &Plan) -> Ports {
             data: link("map_data", vec![tokens::depth_word(plan)]),
             write: "wr",
             word: "z",
-            enable: "z_en",
+            enable: Some("z_en"),
             latency: 1,
         }],
         status: occupied.collect(),

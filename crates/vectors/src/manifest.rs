@@ -192,14 +192,15 @@ pub struct Memory {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MemoryWrite {
-    /// The channel; every token of it that moves writes, if `enable` is 1.
+    /// The channel; every token of it that moves writes, if there is no `enable` or it is 1.
     pub channel: String,
     /// The field with the address.
     pub address: String,
     /// The field that is stored.
     pub word: String,
-    /// The field that permits it.
-    pub enable: String,
+    /// The field that permits it; none: every token of the channel is a write.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub enable: Option<String>,
 }
 
 /// How tokens are compared.

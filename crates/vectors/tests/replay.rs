@@ -243,7 +243,11 @@ impl Memory {
             self.waiting.push_back((cycle + self.latency, word));
         }
         let write = |key: &str| text(&self.write[key]).to_owned();
-        if !self.write.is_null() && moved(&write("channel")).is_some() && get(dut, &write("enable")) == 1 {
+        let enabled = |dut: &mut Simulator| match self.write.get("enable") {
+            Some(enable) => get(dut, text(enable)) == 1,
+            None => true,
+        };
+        if !self.write.is_null() && moved(&write("channel")).is_some() && enabled(dut) {
             let address = get(dut, &write("address")) as usize;
             self.words[address] = get(dut, &write("word"));
         }

@@ -12,6 +12,7 @@ mod edge;
 mod span;
 mod pixel;
 mod depth;
+mod blend;
 mod machine;
 
 use super::Device;
@@ -63,6 +64,7 @@ fn of<const C: usize>(plan: &Plan, interface: &Interface) -> Result<Box<dyn Mode
         "span" => Box::new(span::SpanDevice::<C>::new(plan, interface)?),
         "pixel" => Box::new(pixel::PixelDevice::<C>::new(plan, interface)?),
         "depth" => Box::new(depth::DepthDevice::<C>::new(plan, interface)?),
+        "blend" => Box::new(blend::BlendDevice::<C>::new(plan, interface)?),
         other => return Err(NoPlace::Unit(other.to_owned())),
     })
 }

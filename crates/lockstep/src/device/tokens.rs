@@ -2,7 +2,7 @@
 
 use crate::interface::{Link, Port};
 use edgewalk_machine::{EdgeKind, Plan};
-use edgewalk_model::tokens::{EdgeWalk, Fragment, Line, Prim, Source, Span, Write};
+use edgewalk_model::tokens::{ColorWrite, EdgeWalk, Fragment, Line, Passed, Prim, Source, Span, Write};
 
 /// A number inside a token of the model.
 pub enum Slot<'a> {
@@ -129,6 +129,7 @@ impl<const C: usize> Named for Prim<C> {
             "major_q" => (slot!(I32, _i => major.q), 0),
             "major_f" => (slot!(I32, _i => major.f), 0),
             "major_m" => (slot!(I32, _i => major.m), 0),
+            "kt" => (slot!(U32, _i => kt), 0),
             "tag" => (slot!(U32, _i => source.tag), 0),
             _ => return minor(name).or_else(|| result(plan, name)),
         })
@@ -224,6 +225,7 @@ impl<const C: usize> Named for Fragment<C> {
             "addr" => (slot!(U32, _i => addr), 0),
             "fence" => (slot!(Bool, _i => fence), 0),
             "tag" => (slot!(U32, _i => source.tag), 0),
+            "kt" if channel(plan, name).is_none() => (slot!(U32, _i => kt), 0),
             _ => (slot!(U32, i => values[i]), channel(plan, name)?),
         })
     }
@@ -242,6 +244,45 @@ impl<const C: usize> Named for Write<C> {
         Some(match name {
             "addr" => (slot!(U32, _i => addr), 0),
             "z_en" => (slot!(Bool, _i => z_en), 0),
+            "tag" => (slot!(U32, _i => source.tag), 0),
+            _ => (slot!(U32, i => values[i]), channel(plan, name)?),
+        })
+    }
+
+    fn source(&mut self) -> &mut Source {
+        &mut self.source
+    }
+}
+
+impl<const C: usize> Named for Passed<C> {
+    fn blank(_: &Plan) -> Self {
+        Passed::default()
+    }
+
+    fn find(plan: &Plan, name: &str) -> Option<Find<Self>> {
+        Some(match name {
+            "addr" => (slot!(U32, _i => addr), 0),
+            "kt" => (slot!(U32, _i => kt), 0),
+            "fence" => (slot!(Bool, _i => fence), 0),
+            "tag" => (slot!(U32, _i => source.tag), 0),
+            _ => (slot!(U32, i => values[i]), channel(plan, name)?),
+        })
+    }
+
+    fn source(&mut self) -> &mut Source {
+        &mut self.source
+    }
+}
+
+impl<const C: usize> Named for ColorWrite<C> {
+    fn blank(_: &Plan) -> Self {
+        ColorWrite::default()
+    }
+
+    fn find(plan: &Plan, name: &str) -> Option<Find<Self>> {
+        Some(match name {
+            "addr" => (slot!(U32, _i => addr), 0),
+            "rgb" => (slot!(U64, _i => rgb), 0),
             "tag" => (slot!(U32, _i => source.tag), 0),
             _ => (slot!(U32, i => values[i]), channel(plan, name)?),
         })

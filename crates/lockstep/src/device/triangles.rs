@@ -16,12 +16,14 @@ pub struct Triangles {
     fields: Vec<(Part, u32)>,
 }
 
-/// A part of a triangle: of which vertex, and of which channel.
+/// A part of a triangle: of which vertex, and of which channel; or of the whole.
 #[derive(Clone, Copy, Debug)]
 enum Part {
     X(usize),
     Y(usize),
     Value(usize, usize),
+    /// k_t of the triangle, that of its first vertex.
+    Kt,
     Tag,
 }
 
@@ -49,6 +51,7 @@ impl Triangles {
                 Part::X(vertex) => triangle[vertex].x().into(),
                 Part::Y(vertex) => triangle[vertex].y().into(),
                 Part::Value(vertex, channel) => triangle[vertex].values()[channel].into(),
+                Part::Kt => triangle[0].kt().into(),
                 Part::Tag => i128::from(tag),
             };
             number as u128 & (u128::MAX >> (128 - width))
@@ -59,7 +62,8 @@ impl Triangles {
     /// The triangle and the tag of a token.
     #[must_use]
     pub fn unpack(&self, token: &[u128]) -> (Triangle, u32) {
-        let (mut x, mut y, mut values, mut tag) = ([0; 3], [0; 3], [[0; MAX_CHANNELS]; 3], 0);
+        let (mut x, mut y, mut values, mut tag) = ([0; 3], [0; 3], [[0; MAX_CHANNELS + 1]; 3], 0);
+        let channels = self.plan.channels().len();
         for ((part, width), bits) in self.fields.iter().zip(token) {
             let signed = ((bits << (128 - width)) as i128 >> (128 - width)) as i64; // values have at most 48 bits
             match *part {
@@ -69,6 +73,7 @@ impl Triangles {
                     let signed_kind = self.plan.channels()[channel].kind.is_signed();
                     values[vertex][channel] = if signed_kind { signed } else { *bits as i64 };
                 }
+                Part::Kt => values[0][channels] = *bits as i64,
                 Part::Tag => tag = *bits as u32,
             }
         }
@@ -78,8 +83,10 @@ impl Triangles {
 
 impl Part {
     fn named(plan: &Plan, name: &str) -> Option<Part> {
-        if name == "tag" {
-            return Some(Part::Tag);
+        match name {
+            "kt" => return Some(Part::Kt),
+            "tag" => return Some(Part::Tag),
+            _ => {}
         }
         (0..3).find_map(|vertex| {
             let place = vertex.to_string();

@@ -191,8 +191,8 @@ pub struct MemoryWrite {
     pub address: usize,
     /// What.
     pub word: usize,
-    /// Whether.
-    pub enable: usize,
+    /// Whether, if not always.
+    pub enable: Option<usize>,
 }
 
 /// A handshake port of a link.

@@ -79,7 +79,7 @@ impl Served {
         }
         let Some(write) = self.memory.write else { return };
         if let Some(token) = moved(write.link)
-            && token[write.enable] == 1
+            && write.enable.is_none_or(|enable| token[enable] == 1)
             && let Some(word) = self.words.get_mut(token[write.address] as usize)
         {
             *word = token[write.word];

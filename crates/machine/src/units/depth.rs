@@ -22,26 +22,38 @@ pub const SPEC: UnitSpec = UnitSpec {
 fn ports(plan: &Plan) -> Ports {
     // Whether a pixel is in flight is asked of fragments only.
     let frag = Link { ready: Ready::WhileValid, ..Link::new("frag", tokens::fragment(plan)) };
+    let mut constants = vec![
+        Field::count(
+            "depth_func",
+            3,
+            "0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always: new ? old",
+        ),
+        Field::count("depth_write", 1, "depths of passing fragments are written"),
+    ];
+    // Without BLEND one write has it all; with BLEND depths and colours part.
+    let forks = plan.blend.is_there();
+    let (gives, writes) = if forks {
+        constants.push(Field::count("color_write", 1, "colours of passing fragments go on to BLEND"));
+        let zwr = Link::new("zwr", tokens::depth_write(plan));
+        let pass = Link { ready: Ready::WhileValid, ..Link::new("pass", tokens::passed(plan)) };
+        (pass, vec![zwr])
+    } else {
+        (Link::new("wr", tokens::write(plan)), Vec::new())
+    };
     Ports {
         takes: Some(frag),
-        gives: Some(Link::new("wr", tokens::write(plan))),
+        gives: Some(gives),
+        writes,
         memory: vec![MemoryPort {
             name: "depth",
             read: Link::new("rd", vec![tokens::address(plan)]),
             data: Link::new("data", vec![tokens::depth_word(plan)]),
-            write: "wr",
+            write: if forks { "zwr" } else { "wr" },
             word: "z",
-            enable: "z_en",
+            enable: (!forks).then_some("z_en"),
             latency: plan.latency,
         }],
-        constants: vec![
-            Field::count(
-                "depth_func",
-                3,
-                "0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always: new ? old",
-            ),
-            Field::count("depth_write", 1, "depths of passing fragments are written"),
-        ],
+        constants,
         status: vec![
             Status::new("hazard", "the fragment must wait for one in flight").during("frag_valid"),
             Status::new("full", "the in-flight queue is full"),
@@ -49,6 +61,10 @@ fn ports(plan: &Plan) -> Ports {
         ],
         ..Ports::default()
     }
+}
+
+fn forks(plan: &Plan) -> bool {
+    plan.blend.is_there()
 }
 
 fn drains(plan: &Plan) -> bool {
@@ -94,4 +110,20 @@ const EVENTS: &[Event] = &[
     },
     Event { name: "forward_used", doc: "compares that used a forwarded depth", can_happen: forwards },
     Event { name: "depth_fail", doc: "fragments that failed the compare", can_happen: always },
+    Event { name: "depth_first", doc: "depths written before BLEND took the colour", can_happen: forks },
+    Event {
+        name: "color_first",
+        doc: "colours that BLEND took before the depth was written",
+        can_happen: forks,
+    },
+    Event {
+        name: "depth_write_waits",
+        doc: "cycles in which a depth alone keeps the write register",
+        can_happen: forks,
+    },
+    Event {
+        name: "fence_handed_on",
+        doc: "fragments that took over the fence of one that failed",
+        can_happen: forks,
+    },
 ];

@@ -21,7 +21,7 @@ fn ports(plan: &Plan) -> Ports {
     Ports {
         takes: Some(Link::new("span", tokens::span(plan))),
         gives: Some(Link::new("frag", tokens::fragment(plan))),
-        held_in: vec![Held { name: "inc", fields: tokens::words(plan), beside: "span" }],
+        held_in: vec![Held { name: "inc", fields: tokens::held(plan), beside: "span" }],
         status: vec![
             Status::new("active", "a span is being drawn"),
             Status::new("visible", "its pixel is on the screen").during("active"),

@@ -43,7 +43,17 @@ fn tag(plan: &Plan) -> Option<Field> {
     (plan.tag_bits > 0).then(|| Field::count("tag", plan.tag_bits, "of the triangle"))
 }
 
-/// A triangle at the port: three vertices and the tag.
+/// k_t, one bit more than below 1.
+fn kt(plan: &Plan) -> Field {
+    Field::count("kt", plan.blend.kt_bits + 1, format!("2^{} stands for 1.0", plan.blend.kt_bits))
+}
+
+/// The k_t of the triangle, if it has one.
+fn triangle_kt(plan: &Plan) -> Option<Field> {
+    plan.has_triangle_kt().then(|| kt(plan))
+}
+
+/// A triangle at the port: three vertices, its k_t and the tag.
 #[must_use]
 pub fn triangle(plan: &Plan) -> Vec<Field> {
     let position = Format::signed(plan.guard_bits + 1, plan.subpixel_bits);
@@ -54,6 +64,7 @@ pub fn triangle(plan: &Plan) -> Vec<Field> {
         let value = |c: &Channel| Field::of(c.at_vertex(place), c.vertex_format(), "LSB");
         fields.extend(plan.channels().iter().map(value));
     }
+    fields.extend(triangle_kt(plan));
     fields.extend(tag(plan));
     fields
 }
@@ -95,6 +106,7 @@ pub fn prim(plan: &Plan) -> Vec<Field> {
             |(result, doc): &(&str, &str)| Field::word(format!("{}_{result}", channel.name), channel, *doc);
         fields.extend(results(plan).iter().map(result));
     }
+    fields.extend(triangle_kt(plan));
     fields.extend(tag(plan));
     fields
 }
@@ -103,6 +115,12 @@ pub fn prim(plan: &Plan) -> Vec<Field> {
 #[must_use]
 pub fn words(plan: &Plan) -> Vec<Field> {
     plan.channels().iter().map(|channel| Field::word(channel.name, channel, "")).collect()
+}
+
+/// What EDGE holds for PIXEL: the increments, and k_t of the triangle.
+#[must_use]
+pub fn held(plan: &Plan) -> Vec<Field> {
+    words(plan).into_iter().chain(triangle_kt(plan)).collect()
 }
 
 /// EDGE to SPAN: one line of a triangle.
@@ -159,9 +177,14 @@ fn outputs(plan: &Plan) -> impl Iterator<Item = Field> {
 pub fn fragment(plan: &Plan) -> Vec<Field> {
     let mut fields = vec![address(plan)];
     fields.extend(outputs(plan));
-    fields.push(Field::count("fence", 1, "what is in flight may be of the same pixel"));
+    fields.extend(triangle_kt(plan));
+    fields.push(fence());
     fields.extend(tag(plan));
     fields
+}
+
+fn fence() -> Field {
+    Field::count("fence", 1, "what is in flight may be of the same pixel")
 }
 
 /// What is kept of a fragment while a memory is read for it.
@@ -170,7 +193,7 @@ pub fn entry(plan: &Plan) -> Vec<Field> {
     std::iter::once(address(plan)).chain(outputs(plan)).chain(tag(plan)).collect()
 }
 
-/// DEPTH to the memories: one pixel.
+/// DEPTH to the memories: one pixel, in a machine without BLEND.
 #[must_use]
 pub fn write(plan: &Plan) -> Vec<Field> {
     let mut fields = vec![address(plan)];
@@ -190,4 +213,42 @@ pub fn write(plan: &Plan) -> Vec<Field> {
 pub fn depth_word(plan: &Plan) -> Field {
     let z = Field::output(&plan.channels()[0]);
     Field { scale: Scale::Unorm, doc: "old depth".to_owned(), ..z }
+}
+
+/// DEPTH to the depth memory, in a machine with BLEND.
+#[must_use]
+pub fn depth_write(plan: &Plan) -> Vec<Field> {
+    vec![address(plan), Field::output(&plan.channels()[0])]
+}
+
+/// The user's own channels.
+fn own(plan: &Plan) -> impl Iterator<Item = Field> {
+    plan.own_channels().map(|(_, channel)| Field::output(channel))
+}
+
+/// DEPTH to BLEND: a fragment that passed.
+#[must_use]
+pub fn passed(plan: &Plan) -> Vec<Field> {
+    let colours = plan.channels()[1..4].iter().map(Field::output);
+    let mut fields = vec![address(plan)];
+    fields.extend(colours);
+    fields.extend(own(plan));
+    fields.extend([kt(plan), fence()]);
+    fields.extend(tag(plan));
+    fields
+}
+
+/// A word of the colour memory: red, green and blue, red the most significant.
+#[must_use]
+pub fn color_word(plan: &Plan) -> Field {
+    Field::count("rgb", 3 * plan.color.bits, "red, green, blue, red the most significant")
+}
+
+/// BLEND to the colour memory: one pixel.
+#[must_use]
+pub fn color_write(plan: &Plan) -> Vec<Field> {
+    let mut fields = vec![address(plan), color_word(plan)];
+    fields.extend(own(plan));
+    fields.extend(tag(plan));
+    fields
 }

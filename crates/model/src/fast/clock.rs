@@ -83,7 +83,7 @@ pub(super) struct Clock {
     last: Option<LastRead>,
     fences: Fifo<Fence, 8>,
     counted: u64,
-    activity: [u64; 9],
+    activity: [u64; Activity::ALL.len()],
 }
 
 impl Clock {
@@ -107,7 +107,7 @@ impl Clock {
             last: None,
             fences: Fifo::default(),
             counted: 0,
-            activity: [0; 9],
+            activity: [0; Activity::ALL.len()],
         }
     }
 

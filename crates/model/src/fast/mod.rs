@@ -8,7 +8,7 @@
 //! stalls, bit by bit and cycle by cycle. Where that cannot be said without ticking, [`Renderer`] says why, and [`draw`]
 //! ticks.
 //!
-//! Not modelled: [`Events`], memories that stall, channels of the user's own.
+//! Not modelled: [`Events`], memories that stall, channels of the user's own, BLEND.
 
 mod divide;
 mod setup;
@@ -38,6 +38,8 @@ use std::ops::Range;
 pub enum Reason {
     /// The machine has channels of the user's own.
     Channels,
+    /// The machine blends.
+    Blend,
     /// The in-flight queue is so short that it fills: `fifo.inflight` <= `memory.latency` / T.
     Queue,
     /// Interlock, and a fragment may have met its own address in flight.
@@ -79,6 +81,7 @@ impl fmt::Display for Path {
         f.write_str(match self {
             Path::Fast => "without ticking",
             Path::Ticked(Reason::Channels) => "ticked: the machine has extra channels",
+            Path::Ticked(Reason::Blend) => "ticked: the machine has BLEND",
             Path::Ticked(Reason::Queue) => "ticked: the in-flight queue may fill",
             Path::Ticked(Reason::Interlock) => "ticked: a fragment may have met its address in flight",
         })
@@ -124,6 +127,9 @@ impl Renderer {
         state: DrawState,
     ) -> Result<(), Refusal> {
         let Renderer { plan, details, memory, counters } = self;
+        if plan.blend.is_there() {
+            return Err(Reason::Blend.into());
+        }
         if plan.channels().len() > FEW {
             return Err(Reason::Channels.into());
         }

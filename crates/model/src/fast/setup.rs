@@ -154,6 +154,7 @@ impl Setup {
             ],
             delta: [word(d0), word(d1)],
             gradient: word(gx.map(|g| g.wrapping_mul(sign))),
+            kt: 0, // no BLEND here
             source: Source::default(),
         };
         let phase2 = self.timing.phase2(&sorted, &parts, &prim);

@@ -39,6 +39,8 @@ enum State {
 pub struct Setup<const C: usize> {
     plan: Plan,
     timing: Timing,
+    /// Of k_t at the port.
+    kt_mask: u32,
     state: State,
     /// Cycles remaining in PHASE1 or PHASE2, less one; 0 in the others.
     remaining: u32,
@@ -57,6 +59,7 @@ impl<const C: usize> Setup<C> {
         Setup {
             plan: plan.clone(),
             timing: Timing::new(plan),
+            kt_mask: u32::MAX >> (31 - plan.blend.kt_bits), // at most 12
             state: State::Idle,
             remaining: 0,
             culled: false,
@@ -124,7 +127,8 @@ impl<const C: usize> Setup<C> {
         self.culled = prim.is_err();
         match prim {
             Ok(prim) => {
-                self.prim = Prim { source: Source { tag, id }, ..prim };
+                let kt = vertices[0].kt() & self.kt_mask;
+                self.prim = Prim { kt, source: Source { tag, id }, ..prim };
                 self.count(&sorted, events);
             }
             Err(Culled::Lines) => events.culled_lines += 1,

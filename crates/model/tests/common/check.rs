@@ -175,7 +175,7 @@ impl Errors {
         let one = 2i128 << channel.fraction;
         // How far the output may lie above and below.
         let (above, below) = match channel.kind {
-            Kind::Unorm | Kind::Signed => (one / 2 + 1 + steps, one / 2 + 1 + steps),
+            Kind::Unorm | Kind::Signed | Kind::Weight => (one / 2 + 1 + steps, one / 2 + 1 + steps),
             Kind::Floor => (1 + steps, one + 1 + steps),
         };
         self.checked += 1;

@@ -26,10 +26,11 @@ pub fn feed(
             rd_ready: memory.rd_ready(),
             data: memory.data(),
             wr_ready: memory.wr_ready(),
+            ..DepthInputs::default()
         };
         let block = depth.block(frag, state.depth_write);
         let read = frag.filter(|_| block.is_none() && inputs.rd_ready).map(|f| f.addr);
-        let data_taken = inputs.data.is_some() && depth.data_ready(inputs.wr_ready);
+        let data_taken = inputs.data.is_some() && depth.data_ready(inputs.wr_ready, false);
         let write = depth.write().filter(|_| inputs.wr_ready);
         depth.step(frag, block, &inputs, &mut events);
         memory.step(read, data_taken, write.as_ref());

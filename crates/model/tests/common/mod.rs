@@ -1,6 +1,7 @@
 //! Machines, vertices and triangles for the tests.
 #![allow(dead_code, unused_imports, reason = "every test file uses a part")]
 
+pub mod blend;
 pub mod check;
 pub mod depth;
 pub mod rule;
@@ -16,7 +17,8 @@ use rand::Rng;
 pub type Triangle = [PortVertex; 3];
 
 /// Every fragment is read, whatever is stored.
-pub const ALWAYS: DrawState = DrawState { depth_func: 7, depth_write: true, clear: [0; 3] };
+pub const ALWAYS: DrawState =
+    DrawState { depth_func: 7, depth_write: true, color_write: true, blend_add: false, clear: [0; 3] };
 
 pub fn machine(settings: &[(&str, &str)]) -> Plan {
     let mut machine = Machine::default();
@@ -63,7 +65,7 @@ pub fn outputs(plan: &Plan, values: &[u32]) -> Vec<i64> {
 pub fn random_values(plan: &Plan, rng: &mut impl Rng) -> Vec<i64> {
     let value = |channel: &edgewalk_machine::Channel| {
         let most = (channel.limit() << channel.vertex_fraction) as i64;
-        let least = if channel.kind == Kind::Unorm { 0 } else { -most };
+        let least = if channel.kind.is_signed() { -most } else { 0 };
         match rng.random_range(0..16) {
             0 => least,
             1 => most,

@@ -172,7 +172,7 @@ fn memories(trace: &Trace) -> Vec<Memory> {
             channel: interface.links[write.link].name.to_owned(),
             address: port(write.link, write.address),
             word: port(write.link, write.word),
-            enable: port(write.link, write.enable),
+            enable: write.enable.map(|enable| port(write.link, enable)),
         }),
         latency: setting.latency,
         words: setting.words as u64,

@@ -133,7 +133,8 @@ fn memory_end(interface: &Interface, memory: &Memory) -> String {
                 let low: u32 = link.fields[field + 1..].iter().map(Port::width).sum();
                 format!("{}_token[{}:{low}]", link.name, low + link.fields[field].width() - 1)
             };
-            let write_now = format!("{}_fire && {}", link.name, bits(write.enable));
+            let enable = write.enable.map_or_else(String::new, |enable| format!(" && {}", bits(enable)));
+            let write_now = format!("{}_fire{enable}", link.name);
             (write_now, bits(write.address), bits(write.word))
         }
     };

@@ -149,7 +149,7 @@ impl Served {
             let port = |place: usize| simulator.output(&link.fields[place].name);
             Ok([
                 simulator.output(&valid(link))?,
-                port(write.enable)?,
+                write.enable.map_or_else(|| simulator.output(&valid(link)), port)?,
                 port(write.address)?,
                 port(write.word)?,
             ])

@@ -1,6 +1,6 @@
 //! `ports.h` for the harness of Verilator: what it drives and reads, from the ports that the machine declares.
 
-use edgewalk_lockstep::{Direction, Interface, Link, Unit};
+use edgewalk_lockstep::{Direction, Interface, Link, MemoryWrite, Unit};
 use edgewalk_machine::Plan;
 use std::fmt::Write as _;
 
@@ -50,8 +50,9 @@ pub fn header(plan: &Plan) -> String {
         if let Some(write) = memory.write {
             let link = &interface.links[write.link];
             let port = |place: usize| &link.fields[place].name;
-            let (enable, address, word) = (port(write.enable), port(write.address), port(write.word));
-            let condition = format!("m.{}_valid && m.{enable}", link.name);
+            let (address, word) = (port(write.address), port(write.word));
+            let enable = write.enable.map_or_else(String::new, |enable| format!(" && m.{}", port(enable)));
+            let condition = format!("m.{}_valid{enable}", link.name);
             served.push(format!("if ({condition}) memory[{i}].words[m.{address}] = m.{word};"));
         }
     }
@@ -79,8 +80,10 @@ fn store(interface: &Interface) -> Vec<String> {
 /// Of a write the address, and the fields that no memory of the machine stores or looks at: those of the frame.
 pub fn frame_fields(interface: &Interface, link: &Link) -> (usize, Vec<usize>) {
     let writes: Vec<_> = interface.memories.iter().filter_map(|memory| memory.write).collect();
-    let taken =
-        |place: &usize| writes.iter().any(|write| [write.address, write.word, write.enable].contains(place));
+    let taken = |place: &usize| {
+        let places = |write: &MemoryWrite| [Some(write.address), Some(write.word), write.enable];
+        writes.iter().any(|write| places(write).contains(&Some(*place)))
+    };
     let address = writes.first().map_or(0, |write| write.address);
     (address, (0..link.fields.len()).filter(|place| !taken(place)).collect())
 }

@@ -8,7 +8,7 @@ use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
 use edgewalk_model::Events;
 use edgewalk_model::depth::{Block, Depth, DepthInputs};
-use edgewalk_model::tokens::{Fragment, Write};
+use edgewalk_model::tokens::{Fragment, Passed, Write};
 
 /// What DEPTH tells of itself beside its links.
 pub struct DepthStatus {
@@ -53,13 +53,16 @@ pub struct MemoryPorts<const C: usize> {
     data_valid: PortId,
     data_ready: PortId,
     data_z: PortId,
-    pub wr: Giver<Write<C>>,
+    /// `wr`, with BLEND `zwr`.
+    wr: Giver<Write<C>>,
     depth_func: PortId,
     depth_write: PortId,
+    color_write: Option<PortId>,
 }
 
 impl<const C: usize> MemoryPorts<C> {
     pub fn find(scope: Scope) -> Result<Self, NoPlace> {
+        let forks = scope.plan.blend.is_there();
         Ok(MemoryPorts {
             rd_valid: scope.port("rd_valid")?,
             rd_ready: scope.port("rd_ready")?,
@@ -67,12 +70,14 @@ impl<const C: usize> MemoryPorts<C> {
             data_valid: scope.port("data_valid")?,
             data_ready: scope.port("data_ready")?,
             data_z: scope.port("data_z")?,
-            wr: scope.giver("wr")?,
+            wr: scope.giver(if forks { "zwr" } else { "wr" })?,
             depth_func: scope.port("depth_func")?,
             depth_write: scope.port("depth_write")?,
+            color_write: forks.then(|| scope.port("color_write")).transpose()?,
         })
     }
 
+    /// All inputs but whether BLEND takes a fragment.
     pub fn inputs(&self, ports: &PortValues) -> DepthInputs {
         DepthInputs {
             depth_func: ports[self.depth_func] as u8, // 3 bits
@@ -80,6 +85,8 @@ impl<const C: usize> MemoryPorts<C> {
             rd_ready: ports.is_high(self.rd_ready),
             data: ports.is_high(self.data_valid).then_some(ports[self.data_z] as u64), // at most 32 bits
             wr_ready: ports.is_high(self.wr.ready),
+            color_write: self.color_write.is_some_and(|port| ports.is_high(port)),
+            pass_ready: false,
         }
     }
 
@@ -103,6 +110,7 @@ pub struct DepthDevice<const C: usize> {
     events: Events,
     frag: Taker<Fragment<C>>,
     memory: MemoryPorts<C>,
+    pass: Option<Giver<Passed<C>>>,
     status: DepthStatus,
 }
 
@@ -114,6 +122,7 @@ impl<const C: usize> DepthDevice<C> {
             events: Events::default(),
             frag: scope.taker("frag")?,
             memory: MemoryPorts::find(scope)?,
+            pass: plan.blend.is_there().then(|| scope.giver("pass")).transpose()?,
             status: DepthStatus::find(scope)?,
         })
     }
@@ -121,11 +130,16 @@ impl<const C: usize> DepthDevice<C> {
 
 impl<const C: usize> Device for DepthDevice<C> {
     fn cycle(&mut self, ports: &mut PortValues) {
-        let (frag, inputs) = (self.frag.token(ports), self.memory.inputs(ports));
+        let frag = self.frag.token(ports);
+        let pass_ready = self.pass.as_ref().is_some_and(|pass| ports.is_high(pass.ready));
+        let inputs = DepthInputs { pass_ready, ..self.memory.inputs(ports) };
+        if let Some(pass) = &self.pass {
+            pass.offer(self.unit.pass(), ports);
+        }
         let block = self.unit.block(frag.as_ref(), inputs.depth_write);
         let read = frag.filter(|_| block.is_none()).map(|frag| frag.addr);
         let write = self.unit.write();
-        self.memory.show(read, self.unit.data_ready(inputs.wr_ready), write.as_ref(), ports);
+        self.memory.show(read, self.unit.data_ready(inputs.wr_ready, pass_ready), write.as_ref(), ports);
         self.status.show(&self.unit, frag.as_ref(), inputs.rd_ready, inputs.depth_write, ports);
         self.unit.step(frag.as_ref(), block, &inputs, &mut self.events);
         if ports.rst {

@@ -29,7 +29,7 @@ impl<const C: usize> EdgePorts<C> {
     pub fn show(&self, edge: &Edge<C>, fresh_queued: bool, ports: &mut PortValues) {
         ports.set(self.prim_ready, edge.prim_ready(fresh_queued));
         self.line.offer(edge.line(), ports);
-        self.inc.show(edge.gradient(), ports);
+        self.inc.show(edge.gradient(), edge.kt(), ports);
     }
 }
 

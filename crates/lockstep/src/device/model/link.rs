@@ -63,7 +63,10 @@ impl<'a> Scope<'a> {
             let held = link.fields[link.own..].iter().find(|port| port.field.name == channel.name);
             held.map(|port| port.id).ok_or_else(|| self.missing(channel.name))
         });
-        Ok(HeldWords(found.collect::<Result<_, _>>()?))
+        let kt = link.fields[link.own..]
+            .iter()
+            .find(|port| port.field.name == "kt" && self.plan.has_triangle_kt());
+        Ok(HeldWords { words: found.collect::<Result<_, _>>()?, kt: kt.map(|port| port.id) })
     }
 }
 
@@ -105,20 +108,27 @@ impl<T: Named> Giver<T> {
     }
 }
 
-/// Words that a unit holds for another.
+/// Words that a unit holds for another, and k_t of the triangle if it has one.
 #[derive(Clone, Debug)]
-pub struct HeldWords(Vec<PortId>);
+pub struct HeldWords {
+    words: Vec<PortId>,
+    kt: Option<PortId>,
+}
 
 impl HeldWords {
     /// Shows them.
-    pub fn show<const C: usize>(&self, words: &Words<C>, ports: &mut PortValues) {
-        for (port, word) in self.0.iter().zip(words) {
+    pub fn show<const C: usize>(&self, words: &Words<C>, kt: u32, ports: &mut PortValues) {
+        for (port, word) in self.words.iter().zip(words) {
             ports[*port] = u128::from(*word);
+        }
+        if let Some(port) = self.kt {
+            ports[port] = kt.into();
         }
     }
 
-    /// Reads them; behind the last channel 0.
-    pub fn read<const C: usize>(&self, ports: &PortValues) -> Words<C> {
-        std::array::from_fn(|i| self.0.get(i).map_or(0, |port| ports[*port] as u64)) // words have at most 56 bits
+    /// Reads them; behind the last channel 0, and 0 for a k_t that is not there.
+    pub fn read<const C: usize>(&self, ports: &PortValues) -> (Words<C>, u32) {
+        let word = |i: usize| self.words.get(i).map_or(0, |port| ports[*port] as u64); // at most 56 bits
+        (std::array::from_fn(word), self.kt.map_or(0, |port| ports[port] as u32)) // at most 13 bits
     }
 }

@@ -1,8 +1,9 @@
 //! The whole machine, and what its units show inside.
 
+use super::blend::{BlendStatus, ColorPorts};
 use super::depth::{DepthStatus, MemoryPorts};
 use super::edge::EdgePorts;
-use super::link::Scope;
+use super::link::{Giver, Scope};
 use super::pixel::PixelPorts;
 use super::setup::{SetupPorts, TriangleTaker};
 use super::span::SpanPorts;
@@ -11,13 +12,15 @@ use crate::device::Device;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
-use edgewalk_model::{Events, Inputs, Model};
+use edgewalk_model::tokens::Passed;
+use edgewalk_model::{BlendInputs, Events, Inputs, Model};
 
 /// The machine.
 pub struct MachineDevice<const C: usize> {
     model: Model<C>,
     tri: TriangleTaker,
     memory: MemoryPorts<C>,
+    color: Option<ColorPorts<C>>,
     activity: PortId,
     idle: PortId,
     inside: Option<Inside<C>>,
@@ -30,6 +33,7 @@ struct Inside<const C: usize> {
     span: SpanPorts<C>,
     pixel: PixelPorts<C>,
     depth: DepthStatus,
+    blend: Option<(Giver<Passed<C>>, BlendStatus)>,
 }
 
 impl<const C: usize> MachineDevice<C> {
@@ -40,6 +44,7 @@ impl<const C: usize> MachineDevice<C> {
             model: Model::new(plan),
             tri: TriangleTaker::find(plan, interface)?,
             memory: MemoryPorts::find(scope)?,
+            color: plan.blend.is_there().then(|| ColorPorts::find(scope)).transpose()?,
             activity: scope.port("activity")?,
             idle: scope.port("idle")?,
             inside: inside.then(|| Inside::find(plan, interface)).transpose()?,
@@ -50,12 +55,14 @@ impl<const C: usize> MachineDevice<C> {
 impl<const C: usize> Inside<C> {
     fn find(plan: &Plan, interface: &Interface) -> Result<Self, NoPlace> {
         let of = |owner| Scope { plan, interface, owner };
+        let blend = || Ok::<_, NoPlace>((of("depth").giver("pass")?, BlendStatus::find(of("blend"))?));
         Ok(Inside {
             setup: SetupPorts::find(of("setup"))?,
             edge: EdgePorts::find(of("edge"))?,
             span: SpanPorts::find(of("span"))?,
             pixel: PixelPorts::find(of("pixel"))?,
             depth: DepthStatus::find(of("depth"))?,
+            blend: plan.blend.is_there().then(blend).transpose()?,
         })
     }
 
@@ -69,6 +76,10 @@ impl<const C: usize> Inside<C> {
         self.span.show(units.span, units.edge.line(), ports);
         self.pixel.show(units.pixel, frag_ready, ports);
         self.depth.show(units.depth, frag, inputs.rd_ready, inputs.depth_write, ports);
+        if let (Some((pass, status)), Some(unit)) = (&self.blend, units.blend) {
+            pass.offer(units.depth.pass(), ports);
+            status.show(unit, units.depth.pass(), &inputs.blend, ports);
+        }
     }
 }
 
@@ -84,6 +95,10 @@ impl<const C: usize> Device for MachineDevice<C> {
             rd_ready: depth.rd_ready,
             data: depth.data,
             wr_ready: depth.wr_ready,
+            blend: self.color.as_ref().map_or_else(BlendInputs::default, |color| BlendInputs {
+                color_write: depth.color_write,
+                ..color.inputs(ports)
+            }),
         };
         if let Some(inside) = &self.inside {
             inside.show(&self.model, &inputs, ports);
@@ -91,6 +106,10 @@ impl<const C: usize> Device for MachineDevice<C> {
         let outputs = self.model.cycle(&inputs);
         ports.set(self.tri.ready(), outputs.tri_ready);
         self.memory.show(outputs.rd, outputs.data_ready, outputs.wr.as_ref(), ports);
+        if let Some(color) = &self.color {
+            let blend = &outputs.blend;
+            color.show(blend.crd, blend.cdata_ready, blend.cwr.as_ref(), ports);
+        }
         ports[self.activity] = outputs.activity as u128;
         ports.set(self.idle, outputs.idle);
     }

@@ -68,8 +68,8 @@ impl<const C: usize> Device for PixelDevice<C> {
     fn cycle(&mut self, ports: &mut PortValues) {
         let ready = ports.is_high(self.shown.frag.ready);
         self.shown.show(&self.unit, ready, ports);
-        let (span, gradient) = (self.span.token(ports), self.inc.read(ports));
-        self.unit.step(span.as_ref(), &gradient, ready, &mut self.events);
+        let (span, (gradient, kt)) = (self.span.token(ports), self.inc.read(ports));
+        self.unit.step(span.as_ref(), &gradient, kt, ready, &mut self.events);
         if ports.rst {
             self.unit.reset();
         }

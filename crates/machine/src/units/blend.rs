@@ -1,0 +1,136 @@
+//! BLEND: from fragments that passed to colours.
+
+use super::tokens;
+use crate::channel::{Channel, Kind};
+use crate::field::Field;
+use crate::link::{Link, MemoryPort, Ready, Status};
+use crate::machine::{BlendKind, Hazard, Machine};
+use crate::plan::Plan;
+use crate::unit::{Event, Ports, UnitSpec};
+
+/// What BLEND declares.
+pub const SPEC: UnitSpec = UnitSpec {
+    name: "blend",
+    purpose: "weighs the colour of a fragment against that of its pixel, or adds it",
+    section: 9,
+    present: there,
+    wants,
+    ports,
+    events: EVENTS,
+};
+
+fn there(plan: &Plan) -> bool {
+    plan.blend.is_there()
+}
+
+fn wants(machine: &Machine) -> Vec<Channel> {
+    let interpolated = machine.blend.kind == BlendKind::Interpolated;
+    let kt = Channel { name: "kt", kind: Kind::Weight, precision: machine.blend.kt() };
+    interpolated.then_some(kt).into_iter().collect()
+}
+
+fn ports(plan: &Plan) -> Ports {
+    // Whether a pixel is in flight, and whether it has to be read, is asked of fragments only.
+    let pass = Link { ready: Ready::WhileValid, ..Link::new("pass", tokens::passed(plan)) };
+    Ports {
+        takes: Some(pass),
+        gives: Some(Link::new("cwr", tokens::color_write(plan))),
+        memory: vec![MemoryPort {
+            name: "color",
+            read: Link::new("crd", vec![tokens::address(plan)]),
+            data: Link::new("cdata", vec![tokens::color_word(plan)]),
+            write: "cwr",
+            word: "rgb",
+            enable: None,
+            latency: plan.blend.latency,
+        }],
+        constants: vec![Field::count("blend_add", 1, "0 mix by kt, 1 add and saturate")],
+        status: vec![
+            Status::new("color_hazard", "the fragment must wait for one in flight").during("pass_valid"),
+            Status::new("color_full", "the queue is full"),
+            Status::new("occupied", "something is in flight"),
+        ],
+        ..Ports::default()
+    }
+}
+
+fn drains(plan: &Plan) -> bool {
+    there(plan) && plan.blend.hazard == Hazard::Drain
+}
+
+fn interlocks(plan: &Plan) -> bool {
+    there(plan) && plan.blend.hazard == Hazard::Interlock
+}
+
+fn forwards(plan: &Plan) -> bool {
+    there(plan) && plan.blend.hazard == Hazard::Forward
+}
+
+const EVENTS: &[Event] = &[
+    Event {
+        name: "opaque",
+        doc: "fragments that take no colour from their pixel, so that none is read",
+        can_happen: there,
+    },
+    Event {
+        name: "opaque_behind",
+        doc: "such fragments while one that does take one of the same pixel is in flight",
+        can_happen: passes_others,
+    },
+    Event {
+        name: "behind_opaque",
+        doc: "fragments that take a colour from one in flight that took none",
+        can_happen: forwards,
+    },
+    Event { name: "color_drain_stall", doc: "cycles in which BLEND waits at a fence", can_happen: drains },
+    Event {
+        name: "color_interlock_stall",
+        doc: "cycles in which BLEND waits for an address in flight",
+        can_happen: interlocks,
+    },
+    Event {
+        name: "color_queue_full",
+        doc: "cycles in which a fragment waits for BLEND's queue",
+        can_happen: there,
+    },
+    Event {
+        name: "color_read_stall",
+        doc: "cycles in which a read waits for the colour memory",
+        can_happen: there,
+    },
+    Event {
+        name: "color_write_stall",
+        doc: "cycles in which a write waits for the colour memory",
+        can_happen: there,
+    },
+    Event {
+        name: "color_head_wait",
+        doc: "cycles in which the oldest fragment waits for a result of its pixel",
+        can_happen: forwards,
+    },
+    Event {
+        name: "color_forward_queue",
+        doc: "fragments in the queue that took the colour from a result",
+        can_happen: forwards,
+    },
+    Event {
+        name: "color_forward_entry",
+        doc: "fragments entering the queue that took it from a result of the same cycle",
+        can_happen: forwards,
+    },
+    Event {
+        name: "color_forward_write",
+        doc: "fragments entering the queue that took it from the write register",
+        can_happen: forwards,
+    },
+    Event {
+        name: "color_forward_used",
+        doc: "fragments blended with a colour that was forwarded",
+        can_happen: forwards,
+    },
+];
+
+/// With drain a fragment that carries a fence waits, opaque or not; the others of a triangle have pixels of their own.
+fn passes_others(plan: &Plan) -> bool {
+    there(plan) && plan.blend.hazard != Hazard::Drain
+}

@@ -1,0 +1,122 @@
+//! COLOUR MEMORY: the frame memory of a machine with BLEND, which reads it too.
+//!
+//! ```text
+//!  crd ─> rgb[addr] ─> L cycles, in order ─> cdata
+//!  cwr ─> rgb[addr], the user's own [addr]
+//! ```
+//! Formats: addresses y·2^xb + x; words of three colours of b bits, red the most significant.
+//!
+//! Timing: as the depth memory's. Rules: `docs/machine.md`, section 7. Not modelled: refresh, banks, anything but late data
+//! and low readies.
+
+use crate::fifo::Fifo;
+use crate::memory::Stalls;
+use crate::tokens::{ColorWrite, FEW, MAX_CHANNELS, OutputWords};
+use edgewalk_machine::Plan;
+use rand_pcg::Pcg32;
+use rand_pcg::rand_core::{RngCore, SeedableRng};
+
+/// State of the memory.
+#[derive(Clone, Debug)]
+pub struct ColorMemory<const C: usize> {
+    /// b.
+    bits: u32,
+    latency: u64,
+    stalls: Stalls,
+    random: Pcg32,
+    now: u64,
+    crd_ready: bool,
+    cwr_ready: bool,
+    /// Colours read, with the cycle from which on they are offered.
+    reads: Fifo<(u64, u64), 16>,
+    rgb: Vec<u64>,
+    own: Vec<[u32; MAX_CHANNELS - FEW]>,
+}
+
+impl<const C: usize> ColorMemory<C> {
+    /// A cleared memory: the colour `clear` (b bits each) everywhere, and 0 in the user's own. It stalls as often as the
+    /// depth memory, but in other cycles.
+    #[must_use]
+    pub fn new(plan: &Plan, clear: [u64; 3], stalls: Stalls) -> Self {
+        let (words, bits) = (1 << plan.widths().address, plan.color.bits);
+        let mut memory = ColorMemory {
+            bits,
+            latency: u64::from(plan.blend.latency),
+            stalls,
+            random: Pcg32::seed_from_u64(stalls.seed.wrapping_add(1)),
+            now: 0,
+            crd_ready: true,
+            cwr_ready: true,
+            reads: Fifo::default(),
+            rgb: vec![clear.into_iter().fold(0, |word, c| word << bits | c); words],
+            own: vec![[0; MAX_CHANNELS - FEW]; words],
+        };
+        memory.draw_readies();
+        memory
+    }
+
+    /// A read can be taken in this cycle.
+    #[must_use]
+    pub fn crd_ready(&self) -> bool {
+        self.crd_ready
+    }
+
+    /// A write can be taken in this cycle.
+    #[must_use]
+    pub fn cwr_ready(&self) -> bool {
+        self.cwr_ready
+    }
+
+    /// The colour of the oldest read, once it is there.
+    #[must_use]
+    pub fn cdata(&self) -> Option<u64> {
+        let (due, rgb) = *self.reads.head();
+        (!self.reads.is_empty() && due <= self.now).then_some(rgb)
+    }
+
+    /// What is stored at an address, with the depth that another memory has there.
+    #[must_use]
+    pub fn pixel(&self, addr: u32, depth: u32) -> OutputWords<C> {
+        let (word, own) = (self.rgb[addr as usize], self.own[addr as usize]);
+        let color = |i: usize| (word >> (self.bits * (3 - i as u32))) as u32 & ((1 << self.bits) - 1);
+        std::array::from_fn(|i| match i {
+            0 => depth,
+            1..FEW => color(i),
+            _ => own[i - FEW],
+        })
+    }
+
+    /// Clock edge: the read that fired, whether the word was taken, the write that fired.
+    pub fn step(&mut self, read: Option<u32>, taken: bool, write: Option<&ColorWrite<C>>) {
+        if taken {
+            self.reads.pop();
+        }
+        if let Some(addr) = read {
+            let due = self.now.wrapping_add(self.latency).wrapping_add(self.late());
+            self.reads.push((due, self.rgb[addr as usize]));
+        }
+        if let Some(write) = write {
+            self.rgb[write.addr as usize] = write.rgb;
+            self.own[write.addr as usize] =
+                std::array::from_fn(|i| write.values.get(FEW + i).copied().unwrap_or(0));
+        }
+        self.now = self.now.wrapping_add(1);
+        self.draw_readies();
+    }
+
+    fn late(&mut self) -> u64 {
+        if self.stalls.data == 0 {
+            return 0;
+        }
+        let [chance, cycles, ..] = self.random.next_u32().to_le_bytes();
+        if chance < self.stalls.data { 1 + u64::from(cycles % 8) } else { 0 }
+    }
+
+    fn draw_readies(&mut self) {
+        if self.stalls.rd | self.stalls.wr != 0 {
+            let [rd, wr, ..] = self.random.next_u32().to_le_bytes();
+            self.crd_ready = rd >= self.stalls.rd;
+            self.cwr_ready = wr >= self.stalls.wr;
+        }
+    }
+}
