@@ -249,16 +249,18 @@ impl<const C: usize> Blend<C> {
             events.color_forward_used += 1;
             events.behind_opaque += u64::from(head.old.opaque);
         }
-        let rgb = [1, 2, 3].into_iter().fold(0, |rgb, channel| {
+        let (mut side, mut rgb) = (head.side, 0);
+        for channel in 1..=3 {
             let back = head.old.rgb >> (self.bits * (3 - channel as u32)) & ((1 << self.bits) - 1);
-            rgb << self.bits | self.color(head.side.values[channel], back as u32, &head.side, inputs.add)
-        });
-        let word = Colour { rgb, opaque: !head.side.need };
-        Outcome { addr: head.addr, side: head.side, word, stored: true }
+            let color = self.color(side.values[channel], back as u32, &side, inputs.add);
+            side.values[channel] = color;
+            rgb = rgb << self.bits | u64::from(color);
+        }
+        Outcome { addr: head.addr, side, word: Colour { rgb, opaque: !side.need }, stored: true }
     }
 
     /// One colour of a fragment before one of its pixel, b bits each.
-    fn color(&self, front: u32, back: u32, side: &Side<C>, add: bool) -> u64 {
+    fn color(&self, front: u32, back: u32, side: &Side<C>, add: bool) -> u32 {
         let (front, back) = (i64::from(front), i64::from(back));
         let color = if add {
             (front + back).min((1 << self.bits) - 1)
@@ -268,7 +270,7 @@ impl<const C: usize> Blend<C> {
         } else {
             front
         };
-        color as u64
+        color as u32
     }
 
     /// Moves the stages, `entering` into the first, and the last into w and the queue.

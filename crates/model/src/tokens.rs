@@ -178,7 +178,7 @@ tokens! {
     Passed {
         /// y·2^xb + x.
         addr: u32 = 0,
-        /// Colour and the user's own, at their places.
+        /// Colour, the user's own, and the depth, at their places.
         values: OutputWords<C> = [0; C],
         /// k_t, kt_bits + 1 bits.
         kt: u32 = 0,
@@ -194,7 +194,7 @@ tokens! {
         addr: u32 = 0,
         /// Red, green and blue of b bits, red the most significant.
         rgb: u64 = 0,
-        /// The user's own, at their places.
+        /// The same colours, the user's own, and the fragment's depth, at their places.
         values: OutputWords<C> = [0; C],
         /// The triangle.
         source: Source = Source::default(),

@@ -3,10 +3,10 @@
 mod common;
 
 use common::blend::{C, feed, fragment, word};
-use common::machine;
-use edgewalk_machine::Plan;
+use common::{machine, random_machine, random_triangle};
+use edgewalk_machine::{BlendKind, Plan};
 use edgewalk_model::tokens::Passed;
-use edgewalk_model::{Events, Stalls};
+use edgewalk_model::{DrawState, Drawn, Events, Stalls, render_with};
 use edgewalk_numerics::blend_error;
 use rand::{Rng, SeedableRng, rngs::StdRng};
 use std::collections::HashMap;
@@ -279,5 +279,91 @@ fn clocks_a_fragment() {
         let (.., cycles) = feed(&plan, &fragments, false, Stalls::NONE);
         let clocks = cycles as f64 / fragments.len() as f64;
         assert!((clocks - wanted).abs() < 0.01, "{multipliers} multipliers, k = {kt}: {clocks}");
+    }
+}
+
+/// The whole machine, k_t of triangles and of pixels: what its own fragments come to, one after the other.
+#[test]
+fn random_machines_draw_what_their_fragments_come_to() {
+    let mut rng = StdRng::seed_from_u64(7);
+    let (mut all, mut fragments, mut kinds) = (Events::default(), 0, [0; 3]);
+    for number in 0..400 {
+        let width = ["2", "12", "40"][number % 3];
+        let fixed = [("screen.width", width), ("screen.height", width)];
+        let plan = random_machine(&fixed, &mut rng);
+        if !plan.blend.is_there() {
+            continue;
+        }
+        kinds[plan.blend.kind as usize] += 1;
+        let triangles: Vec<_> =
+            (0..60).map(|_| random_triangle(&plan, rng.random_range(1.0..30.0), &mut rng)).collect();
+        let state = DrawState {
+            depth_func: [1, 3, 6, 7][number % 4],
+            depth_write: rng.random_bool(0.7),
+            color_write: rng.random_bool(0.9),
+            blend_add: rng.random_bool(0.2),
+            clear: [1, 2, 3],
+        };
+        let max = plan.color.max() as i64;
+        let one = 1i64 << plan.blend.kt_bits;
+        let place = plan.channels().iter().position(|channel| channel.name == "kt");
+        assert_eq!(place.is_some(), plan.blend.kind == BlendKind::Interpolated);
+        let mut wanted: HashMap<u32, (i64, [i64; 3])> = HashMap::new();
+        let hook = |drawn: Drawn| {
+            let Drawn::Fragment(f) = drawn else { return };
+            fragments += 1;
+            let (z, rgb) = wanted.entry(f.addr).or_insert((plan.z.max() as i64, [1, 2, 3]));
+            let new = i64::from(f.values[0]);
+            let bit = if new < *z {
+                0
+            } else if new == *z {
+                1
+            } else {
+                2
+            };
+            if state.depth_func >> bit & 1 == 0 {
+                return;
+            }
+            if state.depth_write {
+                *z = new;
+            }
+            let kt = match place {
+                Some(place) => f.values[place],
+                None => triangles[f.source.id as usize][0].kt(),
+            };
+            let k = i64::from(kt).min(one);
+            if state.color_write {
+                *rgb = [0, 1, 2].map(|i| {
+                    let front = i64::from(f.values[i + 1]);
+                    if state.blend_add {
+                        (front + rgb[i]).min(max)
+                    } else {
+                        (2 * (front * (one - k) + rgb[i] * k) + one).div_euclid(2 * one)
+                    }
+                });
+            }
+        };
+        let stalls = STALLS[number / 3 % 3];
+        let frame =
+            render_with(&plan, triangles.iter().copied(), state, stalls, hook).expect("its own vertices");
+        let x_bits = plan.widths().x;
+        for (pixel, (z, rgb)) in (0u32..).zip(frame.z.iter().zip(&frame.rgb)) {
+            let addr = pixel / plan.width << x_bits | pixel % plan.width;
+            let found = (*z as i64, rgb.map(|c| c as i64));
+            let expected = wanted.get(&addr).copied().unwrap_or((plan.z.max() as i64, [1, 2, 3]));
+            assert_eq!(found, expected, "machine {number}, pixel {pixel}: {plan:?} {state:?}");
+        }
+        assert!(frame.counters.add_up());
+        all.merge(&frame.events);
+    }
+    println!("{kinds:?} machines by kind, {fragments} fragments, {:?}", all.counts());
+    assert!(kinds[1] > 90 && kinds[2] > 70 && fragments > 100_000, "{kinds:?}, {fragments}");
+    let met = all.counts();
+    let events = [edgewalk_machine::units::blend::SPEC.events, edgewalk_machine::units::depth::SPEC.events];
+    // SETUP keeps triangles so far apart that opaque ones and others rarely meet; BLEND alone meets them above.
+    let apart = ["opaque_behind", "behind_opaque"];
+    for event in events.into_iter().flatten().filter(|event| !apart.contains(&event.name)) {
+        let count = met.iter().find(|(name, _)| *name == event.name).map(|(_, count)| *count);
+        assert!(count > Some(0), "never met: {}", event.name);
     }
 }

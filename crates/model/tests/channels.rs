@@ -22,7 +22,8 @@ fn random_triangles(plan: &Plan, count: usize, rng: &mut impl Rng) -> Vec<Triang
 fn every_channel_of_400_random_machines_lies_within_its_bound() {
     let mut rng = StdRng::seed_from_u64(1);
     let (mut events, mut pixels) = (Events::default(), 0);
-    let mut kinds = Kind::ALL.map(|_| Errors::default());
+    let all = [Kind::Unorm, Kind::Signed, Kind::Floor, Kind::Weight];
+    let mut kinds = all.map(|_| Errors::default());
     let mut sizes: HashMap<_, u32> = HashMap::new();
     for number in 0..400 {
         let extra = (number % 5).to_string();
@@ -49,7 +50,7 @@ fn every_channel_of_400_random_machines_lies_within_its_bound() {
         }
     }
     println!("{pixels} pixels as the rule has them; {} numbers of channels and adders", sizes.len());
-    for (kind, errors) in Kind::ALL.iter().zip(&kinds) {
+    for (kind, errors) in all.iter().zip(&kinds) {
         let Errors { checked, bounded, of_bound, .. } = errors;
         println!("{kind:?}: {checked} outputs, {bounded} of them with a bound, at most {of_bound:.4} of it");
         assert!(*bounded > 100_000 && *of_bound >= 0.9, "{kind:?}: nothing comes near its bound");

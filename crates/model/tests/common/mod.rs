@@ -61,7 +61,8 @@ pub fn outputs(plan: &Plan, values: &[u32]) -> Vec<i64> {
     plan.channels().iter().zip(values).map(|(channel, word)| output(channel, *word)).collect()
 }
 
-/// A random value for every channel; one in eight is the largest in magnitude, so that words wrap.
+/// A random value for every channel, and a k_t if triangles have one; one in eight is the largest in magnitude, so that words
+/// wrap.
 pub fn random_values(plan: &Plan, rng: &mut impl Rng) -> Vec<i64> {
     let value = |channel: &edgewalk_machine::Channel| {
         let most = (channel.limit() << channel.vertex_fraction) as i64;
@@ -72,7 +73,11 @@ pub fn random_values(plan: &Plan, rng: &mut impl Rng) -> Vec<i64> {
             _ => rng.random_range(least..=most),
         }
     };
-    plan.channels().iter().map(value).collect()
+    let mut values: Vec<i64> = plan.channels().iter().map(value).collect();
+    if plan.has_triangle_kt() {
+        values.push(if rng.random_bool(0.3) { 0 } else { rng.random_range(0..=1 << plan.blend.kt_bits) });
+    }
+    values
 }
 
 /// A random triangle around the screen whose corners lie within `size` px of each other.
