@@ -220,7 +220,7 @@ impl<const C: usize> Model<C> {
 
         // SPAN.
         let fresh_queued = self.span.fresh_queued();
-        let line = self.edge.line().filter(|l| self.span.line_ready(l));
+        let line = self.edge.line().filter(|_| self.span.line_ready());
         let line_ready = line.is_some();
         if line_ready {
             one_more(&mut self.counters.lines);

@@ -6,7 +6,7 @@
 //! ```
 //! Formats: columns signed, COLW bits, px; count at least 1.
 //!
-//! Timing: a line taken in cycle n is offered in n + 1 (registered FIFO); a line a clock, empty ones too.
+//! Timing: a line taken in cycle n is offered in n + 1 (registered FIFO); a line a clock while there is room, empty ones too.
 //!
 //! Rules: `docs/machine.md`, section 4. A span is cut where it ends; before its start PIXEL steps over the columns off
 //! the screen. Not modelled: nothing.
@@ -51,11 +51,11 @@ impl<const C: usize> Span<C> {
         self.fresh_queued = false;
     }
 
-    /// The line can be taken: it is empty, or there is room.
+    /// A line can be taken: there is room, whether the line needs it or not.
     #[inline]
     #[must_use]
-    pub fn line_ready(&self, line: &Line<C>) -> bool {
-        self.fifo.len() < self.depth || self.is_empty(line)
+    pub fn line_ready(&self) -> bool {
+        self.fifo.len() < self.depth
     }
 
     /// The span offered to PIXEL.
@@ -72,20 +72,20 @@ impl<const C: usize> Span<C> {
         self.fresh_queued
     }
 
-    /// Clock edge.
+    /// Clock edge; `line`: the one taken, if `line_ready`.
     #[inline(always)]
     pub fn step(&mut self, line: Option<&Line<C>>, span_ready: bool, events: &mut Events) {
-        let full = self.fifo.len() == self.depth;
+        let ready = self.line_ready();
         if span_ready && !self.fifo.is_empty() {
             self.fresh_queued &= !self.fifo.head().fresh;
             self.fifo.pop();
         }
-        if let Some(line) = line {
-            self.take(line, full, events);
+        if let Some(line) = line.filter(|_| ready) {
+            self.take(line, events);
         }
     }
 
-    fn take(&mut self, line: &Line<C>, full: bool, events: &mut Events) {
+    fn take(&mut self, line: &Line<C>, events: &mut Events) {
         let fresh = line.fresh | self.pend_fresh;
         let fence = line.fence | self.pend_fence;
         if self.is_empty(line) {
@@ -93,11 +93,7 @@ impl<const C: usize> Span<C> {
             self.pend_fence = fence;
             events.empty_span += 1;
             events.dropped_fresh += u64::from(fresh);
-            events.dropped_when_full += u64::from(full);
             return;
-        }
-        if full {
-            return; // not ready
         }
         let leftward = line.major_right && !self.textbook;
         let (start, end) = self.columns(line);

@@ -15,7 +15,7 @@ const DOC: &str = "SPAN cuts a line to the screen and queues what is left of it.
   line ─> [end cut to the screen] ─> empty? ─no─> [FIFO] ─> span
                                         └─yes─> dropped; its flags wait for the next span
 
-Timing: a line that is not empty is a span in the next cycle at the earliest; an empty one costs its cycle only.
+Timing: a line is taken when the queue has room; one that is not empty is a span in the next cycle at the earliest.
 Rules: the span is cut on the side where it ends. What lies off the screen on the side where it starts is stepped over
 by PIXEL, as the channels must be stepped there too.";
 
@@ -44,7 +44,8 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let fields = parts(&tokens::span(plan));
     let queue = fifo("edgewalk_span_fifo", plan.span_fifo, &fields)?;
     let queue = m.instance("queue", &queue);
-    let line_ready = (cut.empty | queue.output("in_ready")).named("line_ready");
+    // A full queue holds back empty lines too: whether a line is empty is known too late in its clock.
+    let line_ready = queue.output("in_ready").named("line_ready");
     let taken = (line_valid & line_ready).named("taken");
     let push = (taken & !cut.empty).named("push");
     pend_fresh.when(taken, cut.empty & fresh);

@@ -6,8 +6,8 @@
 //! ```
 //! Every time is the greatest of what it waits for (max-plus), section by section of `docs/machine.md`:
 //! - 2: `a' = p + 1`, or `a + S1 + 1` if culled; `p = max(a + S1 + S2 + 1, EDGE free, first span popped + 1)`;
-//! - 3, 4: a line leaves EDGE a clock after the one before, span k not before `o(k−F) + 1`, the cycle in which the
-//!   registered FIFO shows the room;
+//! - 3, 4: a line leaves EDGE a clock after the one before, and none behind span k − 1 before `o(k−F) + 1`, the cycle in which
+//!   the registered FIFO shows the room;
 //! - 4, 5: `o(k) = max(u(k) + 1, o(k−1) + count·T)`: the registered FIFO shows the token; PIXEL takes it in its last clock;
 //! - 5, 6: a fragment is read D cycles after its last clock, `r`; it is in the queue until `r + L`, and w holds it in
 //!   `r + L + 1` if it passed.
@@ -142,8 +142,7 @@ impl Clock {
         let mut first = true;
         for span in spans {
             let place = self.spans as usize;
-            let push =
-                (self.line + u64::from(span.empty)).max(self.room[place.wrapping_sub(self.span_fifo) & 63]);
+            let push = self.when_there_is_room() + u64::from(span.empty);
             self.line = push + 1;
             let mut pop = self.pixel_free.max(push + 1);
             while !self.fences.is_empty() && self.fences.head().arrival <= pop {
@@ -175,6 +174,12 @@ impl Clock {
         }
     }
 
+    /// The cycle in which a line can leave EDGE: in the FIFO is room for it.
+    #[inline(always)]
+    fn when_there_is_room(&self) -> u64 {
+        self.line.max(self.room[(self.spans as usize).wrapping_sub(self.span_fifo) & 63])
+    }
+
     /// Whether the last fragment of the last span passed the depth test.
     #[inline(always)]
     pub(super) fn last_passed(&mut self, passed: bool) {
@@ -191,7 +196,9 @@ impl Clock {
 
     /// The last line of the triangle has left EDGE, `empty` of them since the last span.
     pub(super) fn end_triangle(&mut self, empty: u32) {
-        self.line += u64::from(empty);
+        if empty > 0 {
+            self.line = self.when_there_is_room() + u64::from(empty);
+        }
         self.edge_free = self.edge_free.max(self.line);
         self.spend(self.line, Activity::Edge);
     }
