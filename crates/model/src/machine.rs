@@ -152,6 +152,7 @@ impl<const C: usize> Model<C> {
     #[inline]
     fn at_rest(&self) -> bool {
         !self.edge.running()
+            && !self.span.line_held()
             && self.span.span().is_none()
             && !self.pixel.active()
             && !self.pixel.occupied()
@@ -253,7 +254,7 @@ impl<const C: usize> Model<C> {
             }
         } else if self.pixel.active() {
             if self.pixel.on_screen() { Activity::Draw } else { Activity::Offscreen }
-        } else if self.span.span().is_some() || self.edge.running() {
+        } else if self.span.span().is_some() || self.span.line_held() || self.edge.running() {
             Activity::Edge
         } else if !self.setup.tri_ready() {
             Activity::Setup

@@ -15,6 +15,7 @@ pub struct SpanPorts<const C: usize> {
     line_ready: PortId,
     span: Giver<tokens::Span<C>>,
     fresh_queued: PortId,
+    line_held: PortId,
 }
 
 impl<const C: usize> SpanPorts<C> {
@@ -23,6 +24,7 @@ impl<const C: usize> SpanPorts<C> {
             line_ready: scope.port("line_ready")?,
             span: scope.giver("span")?,
             fresh_queued: scope.port("fresh_queued")?,
+            line_held: scope.port("line_held")?,
         })
     }
 
@@ -30,6 +32,7 @@ impl<const C: usize> SpanPorts<C> {
         ports.set(self.line_ready, span.line_ready());
         self.span.offer(span.span(), ports);
         ports.set(self.fresh_queued, span.fresh_queued());
+        ports.set(self.line_held, span.line_held());
     }
 }
 
