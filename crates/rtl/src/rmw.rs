@@ -43,6 +43,8 @@ pub(crate) struct Rmw<'m> {
     count: Reg<'m>,
     w_valid: Reg<'m>,
     w: Registers<'m>,
+    /// The head is of the pixel that left the queue in the cycle before; only in machines that forward.
+    head_follows: Option<Reg<'m>>,
 }
 
 /// Of the links, for the handshakes.
@@ -107,6 +109,8 @@ impl<'m> Rmw<'m> {
         let places = (0..plan.inflight).map(place).collect();
         let w_valid = m.reg(&format!("{}_valid", write.name), 1).doc("a pixel is being written").reset(0);
         let w = Registers::new(m, write.name, parts(&write.fields));
+        let head_follows = (plan.hazard == Hazard::Forward)
+            .then(|| m.reg("head_follows", 1).doc("the head is of the pixel that left in the cycle before"));
         let names = Names { frag: frag.name, read: memory.read.name, data: memory.data.name };
         Rmw {
             m,
@@ -118,6 +122,7 @@ impl<'m> Rmw<'m> {
             count,
             w_valid,
             w,
+            head_follows,
         }
     }
 
@@ -145,10 +150,16 @@ impl<'m> Rmw<'m> {
         self.places[0].entry[field].q()
     }
 
-    /// A field of the head's old word: what an older fragment wrote, or else what memory says.
+    /// A field of the head's old word: what an older fragment wrote, or else what memory says. What left the queue in the cycle before
+    /// is in w alone.
     pub fn old(&self, field: &str, data: &Token<'m>) -> Signal<'m> {
-        let data = data[field];
-        self.places[0].forwarded.as_ref().map_or(data, |own| own.valid.q().mux(own.word[field], data))
+        let (Some(own), Some(follows)) = (&self.places[0].forwarded, self.head_follows) else {
+            return data[field];
+        };
+        let in_queue =
+            own.valid.q().mux(own.word[field], data[field]).named(&format!("old_{field}_in_queue"));
+        let from_w = (follows.q() & self.w_writes()).named("head_after_w");
+        from_w.mux(self.w[field], in_queue)
     }
 
     /// The head leaves: if it passes it is written, with these values of the write's fields; then the queue moves up.
@@ -163,8 +174,8 @@ impl<'m> Rmw<'m> {
     ) {
         self.m.comment("Write what passes.");
         self.w_valid.when(write_ready, 0).when(turn.fires, passes);
-        let passed = (turn.fires & passes).named("passed");
-        self.w.load(passed, |f| if f == self.enable { self.writes } else { value(f) });
+        // What does not pass is loaded as well and means nothing: so the compare leads to one register only.
+        self.w.load(turn.fires, |f| if f == self.enable { self.writes } else { value(f) });
 
         self.m.comment("The queue moves up when its head leaves; what enters goes behind the last.");
         let (push, pop, count) = (enter.push, turn.fires, self.count);
@@ -179,7 +190,7 @@ impl<'m> Rmw<'m> {
             place.entry.load(enters[i], |f| frag[f]);
         }
         if self.hazard == Hazard::Forward {
-            self.forward(frag, pop, passed & self.writes, &enters, value);
+            self.forward(frag, pop, &enters);
         }
     }
 
@@ -193,9 +204,14 @@ impl<'m> Rmw<'m> {
         (self.w_valid, self.w.token())
     }
 
+    /// A word is being written.
+    fn w_writes(&self) -> Signal<'m> {
+        self.w_valid.q() & self.w[self.enable]
+    }
+
     /// The word of `addr` is being written.
     fn in_write(&self, addr: Signal<'m>) -> Signal<'m> {
-        self.w_valid.q() & self.w[self.enable] & self.w["addr"].q().eq(addr)
+        self.w_writes() & self.w["addr"].q().eq(addr)
     }
 
     /// The hazard policy.
@@ -215,30 +231,40 @@ impl<'m> Rmw<'m> {
         }
     }
 
-    /// Younger fragments take the word that the head writes; one that enters, also the word being written.
-    fn forward(
-        &self,
-        frag: &Token<'m>,
-        pop: Signal<'m>,
-        head_writes: Signal<'m>,
-        enters: &[Signal<'m>],
-        value: impl Fn(&str) -> Signal<'m>,
-    ) {
-        self.m.comment("Forward: a word that is written goes to every younger fragment of its pixel.");
-        let addr = self.head("addr");
-        let after_head = |other: Signal<'m>| head_writes & other.eq(addr);
-        let from_head = after_head(frag["addr"]).named("enters_after_head");
-        let from_w = self.in_write(frag["addr"]).named("enters_after_w");
-        let behind = self.places.iter().skip(1).map(Some).chain([None]);
-        for ((i, place), behind) in self.places.iter().enumerate().zip(behind) {
+    /// Fragments in the queue take the word being written, if it is of their pixel; so does one that enters.
+    fn forward(&self, frag: &Token<'m>, pop: Signal<'m>, enters: &[Signal<'m>]) {
+        self.m.comment("Forward: a word being written goes to every fragment of its pixel in the queue.");
+        let after_w = |(i, place): (usize, &Place<'m>)| {
+            self.in_write(place.entry["addr"].q()).named(&format!("place{i}_after_w"))
+        };
+        let after_w: Vec<Signal> = self.places.iter().enumerate().map(after_w).collect();
+        let enters_after_w = self.in_write(frag["addr"]).named("enters_after_w");
+        for (i, place) in self.places.iter().enumerate() {
             let Some(own) = &place.forwarded else { continue };
-            if let Some(Place { entry, forwarded: Some(from) }) = behind {
-                let same = after_head(entry["addr"].q()).named(&format!("place{}_after_head", i + 1));
+            let stays = after_w[i];
+            own.valid.when(stays, 1);
+            own.word.load(stays, |f| self.w[f].q());
+            if let Some(Place { forwarded: Some(from), .. }) = self.places.get(i + 1) {
+                let same = after_w[i + 1];
                 own.valid.when(pop, from.valid.q() | same);
-                own.word.load(pop, |f| same.mux(value(f), from.word[f]));
+                own.word.load(pop, |f| same.mux(self.w[f], from.word[f]));
             }
-            own.valid.when(enters[i], from_head | from_w);
-            own.word.load(enters[i], |f| from_head.mux(value(f), self.w[f]));
+            own.valid.when(enters[i], enters_after_w);
+            own.word.load(enters[i], |f| self.w[f].q());
+        }
+
+        self.m.comment("What the head writes is in w a cycle later, when the next may be compared already.");
+        let addr = self.head("addr");
+        let enters_next = frag["addr"].eq(addr).named("enters_after_head");
+        let next = match self.places.get(1) {
+            Some(behind) => {
+                let is_behind = behind.entry["addr"].q().eq(addr).named("place1_after_head");
+                self.count.q().gt(1).mux(is_behind, enters_next)
+            }
+            None => enters_next,
+        };
+        if let Some(follows) = self.head_follows {
+            follows.set(pop & next);
         }
     }
 }
