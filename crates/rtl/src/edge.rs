@@ -97,7 +97,10 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     });
 
     m.comment("The channels at the start of the span, their steps, and the increments for PIXEL.");
-    let increments = Registers::new(&m, "inc", parts(&tokens::words(plan)));
+    let increments = Registers::new(&m, "inc", parts(&tokens::held(plan)));
+    if let (Some(register), Some(kt)) = (increments.get("kt"), prim.get("kt")) {
+        register.when(load, kt);
+    }
     for channel in plan.channels().iter().map(|channel| channel.name) {
         let of_prim = |result: &str| prim[format!("{channel}_{result}").as_str()];
         let held = |result: &str| {

@@ -72,6 +72,10 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let tag =
         Registers::new(&m, "drawn", span.parts().into_iter().filter(|part| part.name == "tag").collect());
     tag.load(load, |f| span[f]);
+    let kt = plan.has_triangle_kt().then(|| {
+        let kt = increments["kt"];
+        m.reg("kt", kt.width()).doc("of the triangle").when(load & span["fresh"], kt)
+    });
 
     m.comment("The additions.");
     let add = match &phase {
@@ -104,6 +108,7 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
                 (Some(bits), None, _) | (None, Some(bits), _) => Some(bits),
                 (None, None, "addr") => Some(address),
                 (None, None, "fence") => Some(fence.q()),
+                (None, None, "kt") => kt.map(Reg::q),
                 (None, None, own) => tag.get(own).map(Reg::q),
             };
             signal.map(|signal| (f, signal))

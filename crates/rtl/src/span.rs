@@ -54,7 +54,9 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let end = end.doc("signed, the column behind the last").when(take, ends.end).q();
     let off = m.reg("held_off", 1).doc("the line ends where no screen is").when(take, ends.off).q();
     let leftward = match plan.fill {
-        Fill::Exact => m.reg("held_leftward", 1).doc("drawn from its last column").when(take, line["major_right"]).q(),
+        Fill::Exact => {
+            m.reg("held_leftward", 1).doc("drawn from its last column").when(take, line["major_right"]).q()
+        }
         Fill::Textbook => m.lit(1, 0),
     };
 

@@ -22,7 +22,10 @@ fn ports(plan: &Plan) -> Ports {
         takes: Some(Link::new("line", tokens::line(plan))),
         gives: Some(Link::new("span", tokens::span(plan))),
         status: vec![
-            Status::new("fresh_queued", "the first span of a triangle is queued, or may come of the line held"),
+            Status::new(
+                "fresh_queued",
+                "the first span of a triangle is queued, or may come of the line held",
+            ),
             Status::new("line_held", "a line stands before the queue"),
         ],
         ..Ports::default()

@@ -15,6 +15,8 @@ pub(super) fn activity<'m>(m: &'m Module, units: &Joined<'m>) -> Signal<'m> {
 
     let advance = units.any("advance");
     let in_flight = units.any("occupied");
+    // DEPTH is full because BLEND takes nothing.
+    let queue = units.keeps_waiting("pass").map_or(queue, |waits| waits.mux(cause(Activity::Blend), queue));
     let waits = units.any("hazard").mux(hazard, units.any("full").mux(queue, memory));
     let lower = in_flight.mux(flush, idle);
     let lower = (!units.ready_for("tri")).mux(setup, lower);
