@@ -65,6 +65,8 @@ pub(crate) struct Rmw<'m> {
     hazard: Hazard,
     names: Names,
     writes: Option<Signal<'m>>,
+    /// Clocks from a read to its word, at the least.
+    latency: u32,
     places: Vec<Place<'m>>,
     /// Entries taken, from place 0.
     count: Reg<'m>,
@@ -132,7 +134,8 @@ impl<'m> Rmw<'m> {
         let head_follows = (hazard == Hazard::Forward && stages.is_empty())
             .then(|| m.reg("head_follows", 1).doc("the head is of the pixel that left in the cycle before"));
         let names = Names { frag: frag.name, read: memory.read.name, data: memory.data.name };
-        Rmw { m, hazard, names, writes, places, count, stages, w, head_follows }
+        let latency = memory.latency;
+        Rmw { m, hazard, names, writes, latency, places, count, stages, w, head_follows }
     }
 
     /// A fragment enters when the queue has room and no hazard holds it, in the cycle its word is read. `needs` it the word, and
@@ -297,13 +300,14 @@ impl<'m> Rmw<'m> {
         let Some(follows) = self.head_follows else { return };
         self.m.comment("What the head writes is in w a cycle later, when the next may be compared already.");
         let addr = self.head("addr");
-        let enters_next = enters_addr.eq(addr).named("enters_after_head");
-        let next = match self.places.get(1) {
-            Some(behind) => {
-                let is_behind = behind.entry["addr"].q().eq(addr).named("place1_after_head");
-                self.count.q().gt(1).mux(is_behind, enters_next)
-            }
-            None => enters_next,
+        let behind =
+            self.places.get(1).map(|place| place.entry["addr"].q().eq(addr).named("place1_after_head"));
+        // A fragment that enters is compared in the next cycle only if its word comes at once.
+        let enters = (self.latency == 1).then(|| enters_addr.eq(addr).named("enters_after_head"));
+        let next = match (behind, enters) {
+            (Some(behind), Some(enters)) => self.count.q().gt(1).mux(behind, enters),
+            (Some(one), None) | (None, Some(one)) => one,
+            (None, None) => self.m.lit(1, 0),
         };
         follows.set(pop & next);
     }
