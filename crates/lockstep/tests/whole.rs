@@ -18,7 +18,10 @@ const MACHINES: usize = 400;
 const TRIANGLES: u64 = 40_000;
 
 /// What random triangles may not meet, and [`colours_on_one_pixel`] does.
-const DIRECTED: [&str; 4] = ["opaque_behind", "behind_opaque", "color_forward_entry", "color_head_wait"];
+const DIRECTED: [&str; 3] = ["opaque_behind", "behind_opaque", "color_head_wait"];
+
+/// What only BLEND alone meets for certain (`tests/units.rs`): triangles of one pixel come too far apart.
+const ALONE: &str = "color_forward_entry";
 
 /// A case without triangles: stalls, resets, depth function, all at random.
 fn random_case(plan: &Plan, rng: &mut Pcg64Mcg) -> Case {
@@ -87,8 +90,12 @@ fn whole_machines(half: usize) {
     assert!(extra.iter().all(|machines| *machines > 20) && signed > 150);
     // A triangle that a reset took from the machine is not offered again, one in the cycle of the reset is.
     assert!(all.tokens >= TRIANGLES * 4 / 10 && all.compared > 10 * all.cycles);
-    let missing: Vec<_> =
-        all.events.missing().into_iter().filter(|event| !DIRECTED.contains(event)).collect();
+    let missing: Vec<_> = all
+        .events
+        .missing()
+        .into_iter()
+        .filter(|event| !DIRECTED.contains(event) && *event != ALONE)
+        .collect();
     assert_eq!(missing, [""; 0], "not met");
 }
 

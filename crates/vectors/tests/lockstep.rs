@@ -8,13 +8,13 @@ use edgewalk_vectors::{StallKind, Suite, Unit, capture, design};
 /// Stalls take turns over machines, suites and units, so that each meets each.
 #[test]
 fn every_unit_and_the_machine() {
-    let machines = common::twelve();
+    let machines: Vec<_> = common::twelve().into_iter().chain(common::glass()).collect();
     let suites = ["hazards", "corners", "random", "sphere"];
     let totals = common::two_at_a_time(&machines, |i, (name, machine)| {
         let (mut runs, mut compared) = (0, 0);
         for (j, suite) in suites.iter().enumerate() {
             let suite = Suite::named(machine, suite, 3, 30).expect("listed");
-            for (k, unit) in Unit::known().enumerate() {
+            for (k, unit) in Unit::all(machine).into_iter().enumerate() {
                 let netlist = design::netlist(machine, unit).expect("a checked machine");
                 let stalls = StallKind::ALL[(i + j + k) % 3];
                 let trace = capture(machine, unit, &suite, DrawState::default(), stalls);
@@ -32,10 +32,31 @@ fn every_unit_and_the_machine() {
     });
     let runs: usize = totals.iter().map(|total| total.0).sum();
     let compared: u64 = totals.iter().map(|total| total.1).sum();
-    let expected = machines.len() * suites.len() * Unit::known().count();
+    let units: usize = machines.iter().map(|(_, machine)| Unit::all(machine).len()).sum();
+    let expected = suites.len() * units;
     println!("{runs} of {expected} runs agree, {compared} port values compared");
     assert_eq!(runs, expected);
     assert!(compared > 1_000_000);
+}
+
+/// Colours added, and colours not written.
+#[test]
+fn every_suite_of_blend() {
+    let mut compared = 0;
+    for (name, machine) in common::glass() {
+        for suite in ["blend_add", "color_unwritten"] {
+            let suite = Suite::named(&machine, suite, 3, 30).expect("listed");
+            for unit in Unit::all(&machine).into_iter().filter(|unit| suite.is_for(*unit)) {
+                let netlist = design::netlist(&machine, unit).expect("a checked machine");
+                let trace = capture(&machine, unit, &suite, suite.state(), suite.stalls);
+                let agreement = trace.lockstep(&netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
+                assert_eq!(agreement.compared, trace.port_values());
+                compared += agreement.compared;
+            }
+        }
+    }
+    println!("{compared} port values compared");
+    assert!(compared > 100_000, "{compared}");
 }
 
 /// Before a depth of half of full scale each function but never and always passes some fragments and not others, under

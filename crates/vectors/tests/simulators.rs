@@ -69,6 +69,35 @@ fn twelve_machines_replay_are_clean_and_synthesise() {
     assert!(done.iter().all(|checked| *checked > 5000), "{done:?}");
 }
 
+/// Machines with BLEND in Icarus, every second in Verilator too; BLEND and DEPTH alone, mixing and adding.
+#[test]
+fn machines_with_blend_replay_and_are_clean() {
+    let machines = common::glass();
+    let done = common::two_at_a_time(&machines, |i, (name, machine)| {
+        let suite = replay(machine);
+        let mut checked = 0;
+        for simulator in Simulator::ALL.into_iter().take(1 + (i + 1) % 2) {
+            checked += passes(simulator, &files(machine, Unit::MACHINE, &suite, 1, StallKind::ALL[i % 3]));
+        }
+        for (suite, unit) in
+            [("hazards", common::DEPTH), ("hazards", common::BLEND), ("blend_add", common::BLEND)]
+        {
+            let suite = Suite::named(machine, suite, 5, 12).expect("listed");
+            let trace = capture(machine, unit, &suite, suite.state(), StallKind::Late);
+            let verilog = design::verilog(machine, unit).expect("a checked machine");
+            checked += passes(Simulator::Icarus, &directory(&suite, &trace, &verilog, Tables::LeftOut));
+        }
+        let place = tempfile::tempdir().expect("a directory");
+        let vectors = place.path().join("the vectors");
+        write(&files(machine, Unit::MACHINE, &suite, 1, StallKind::None), &vectors);
+        lint(&vectors, LIMIT).unwrap_or_else(|error| panic!("{name}: {error}"));
+        println!("{name:54} {checked} checked, lint clean");
+        checked
+    });
+    assert_eq!(done.len(), 8);
+    assert!(done.iter().all(|checked| *checked > 5000), "{done:?}");
+}
+
 /// Every unit of three machines in Icarus, and in Verilator, where building takes its time, of one of them in turn.
 #[test]
 fn every_unit_replays() {

@@ -185,7 +185,13 @@ impl Suite {
                 color_write,
                 blend_add,
                 stalls: StallKind::Late,
-                units: const { &[Unit::MACHINE, Unit::of(&units::depth::SPEC), Unit::of(&units::blend::SPEC)] },
+                // What is not written does not come to BLEND.
+                units: match color_write {
+                    true => {
+                        const { &[Unit::MACHINE, Unit::of(&units::depth::SPEC), Unit::of(&units::blend::SPEC)] }
+                    }
+                    false => const { &[Unit::MACHINE, Unit::of(&units::depth::SPEC)] },
+                },
                 cases: hazards::cases(machine),
                 ..plain
             },

@@ -2,7 +2,7 @@
 #![allow(dead_code)] // every test file uses a part of it
 
 use edgewalk_machine::units;
-use edgewalk_machine::{EdgeKind, Fill, Hazard, Kind, Machine, Plan, Precision};
+use edgewalk_machine::{Blend, BlendKind, EdgeKind, Fill, Hazard, Kind, Machine, Plan, Precision};
 use edgewalk_vectors::{Files, Unit};
 use std::path::Path;
 use std::process::Command;
@@ -52,6 +52,7 @@ pub const EDGE: Unit = Unit::of(&units::edge::SPEC);
 pub const SPAN: Unit = Unit::of(&units::span::SPEC);
 pub const PIXEL: Unit = Unit::of(&units::pixel::SPEC);
 pub const DEPTH: Unit = Unit::of(&units::depth::SPEC);
+pub const BLEND: Unit = Unit::of(&units::blend::SPEC);
 
 /// A machine with channels of the user's own, of these kinds and numbers of bits.
 fn with_extras<const K: usize>(machine: Machine, extras: [(Kind, u32); K]) -> Machine {
@@ -127,6 +128,41 @@ pub fn twelve() -> Vec<(&'static str, Plan)> {
                 color: Precision { bits: 8, fraction: 14, vertex_fraction: 4 },
                 ..s
             },
+        ),
+    ];
+    list.into_iter().map(|(name, machine)| (name, checked(machine))).collect()
+}
+
+/// Eight machines with BLEND: kinds, policies for depths and colours, multipliers, stages, queues, latencies.
+pub fn glass() -> Vec<(&'static str, Plan)> {
+    use BlendKind::{Constant, Interpolated};
+    use Hazard::{Drain, Forward, Interlock};
+    let small = Machine::clone(&small());
+    let machine = |kind, [depths, colors]: [Hazard; 2], [multipliers, stages, queue, latency]: [u32; 4]| {
+        let blend = Blend { kind, hazard: colors, multipliers, stages, queue, latency, ..small.blend };
+        Machine { hazard: depths, blend: Blend { kt_fraction: 8, kt_vertex: 2, ..blend }, ..small.clone() }
+    };
+    let mut odd = machine(Interpolated, [Drain, Forward], [0, 2, 5, 3]);
+    (odd.blend.kt_bits, odd.tag_bits, odd.lanes) = (5, 3, 4);
+    let tagged = Machine { tag_bits: 4, adders: 2, ..machine(Constant, [Interlock, Forward], [1, 2, 3, 2]) };
+    let list = vec![
+        ("constant_interlock", machine(Constant, [Interlock, Interlock], [3, 1, 4, 2])),
+        ("constant_forward", machine(Constant, [Forward, Forward], [3, 1, 4, 2])),
+        ("interpolated_forward_two_stages", machine(Interpolated, [Forward, Forward], [3, 2, 4, 1])),
+        ("interpolated_drain_one_multiplier", machine(Interpolated, [Drain, Drain], [1, 1, 2, 2])),
+        ("constant_forward_one_multiplier_two_stages_tags", tagged),
+        ("interpolated_interlock_bit_by_bit", machine(Interpolated, [Forward, Interlock], [0, 1, 4, 4])),
+        ("interpolated_forward_five_bits_by_bit_two_stages_tags", odd),
+        (
+            "textbook_constant_drain_two_extras",
+            with_extras(
+                Machine {
+                    subpixel_bits: 0,
+                    fill: Fill::Textbook,
+                    ..machine(Constant, [Interlock, Drain], [3, 2, 1, 2])
+                },
+                [(Kind::Signed, 5), (Kind::Unorm, 3)],
+            ),
         ),
     ];
     list.into_iter().map(|(name, machine)| (name, checked(machine))).collect()
