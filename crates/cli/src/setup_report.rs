@@ -132,6 +132,7 @@ fn pixels<const C: usize>(machine: &Plan, prim: &Prim<C>) -> u64 {
     let mut pixels = 0;
     while let Some(line) = edge.line().copied() {
         spans.step(Some(&line), false, events);
+        spans.step(None, false, events); // from its register into the queue
         if let Some(span) = spans.span() {
             let (x, count) = (i64::from(span.x), i64::from(span.count));
             let (first, end) = if span.leftward { (x - count + 1, x + 1) } else { (x, x + count) };
