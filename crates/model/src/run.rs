@@ -6,8 +6,9 @@
 //! ```
 
 use crate::machine::{Inputs, Model, Outputs};
-use crate::memory::{Memory, Stalls};
+use crate::memory::Memory;
 use crate::tokens::Write;
+use crate::waits::Waits;
 use edgewalk_machine::{Plan, PortVertex};
 
 /// What stays the same over a picture.
@@ -63,8 +64,8 @@ impl<const C: usize> Cycle<C> {
 impl<const C: usize> Rig<C> {
     /// A machine after reset, its memory cleared.
     #[must_use]
-    pub fn new(plan: &Plan, state: DrawState, stalls: Stalls) -> Self {
-        Rig { model: Model::new(plan), memory: Memory::new(plan, state.clear, stalls), state }
+    pub fn new(plan: &Plan, state: DrawState, waits: impl Into<Waits>) -> Self {
+        Rig { model: Model::new(plan), memory: Memory::new(plan, state.clear, waits), state }
     }
 
     /// One cycle, with a triangle and its tag offered or none. The memory takes writes if it is ready and `writes_open`.

@@ -65,6 +65,13 @@ impl<const C: usize> Span<C> {
         (!self.fifo.is_empty()).then(|| self.fifo.head())
     }
 
+    /// Not hardware: spans in the FIFO.
+    #[inline]
+    #[must_use]
+    pub fn queued(&self) -> usize {
+        self.fifo.len()
+    }
+
     /// The first span of a triangle is queued: PIXEL still needs EDGE's gradients.
     #[inline]
     #[must_use]

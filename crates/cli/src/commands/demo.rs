@@ -57,7 +57,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let own = [emit::own("hdl/"), vectors::own(&args.out, "vectors/", &suites)].concat();
     let pictures = render::FILES.map(str::to_owned);
     out.publish(&[&own[..], &pictures, &[ACCUMULATOR.to_owned()]].concat())?;
-    report.print(talk)?;
+    talk.say(|| report.json(), || report.text())?;
     if !talk.quiet && !talk.json {
         let at = args.out.display();
         let dda = if dda.is_some() { " z_accumulator.png" } else { "" };

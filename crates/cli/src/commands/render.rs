@@ -1,7 +1,7 @@
 //! `edgewalk render`: a scene or a mesh through the machine, beside the golden picture; or through a shading system of
 //! the golden picture, beside the truth.
 
-use crate::compare::compare;
+use edgewalk_explore::compare::compare;
 use crate::engine::{Engine, draw, from_golden, golden_fill};
 use crate::fast_phong::{FastPhongArgs, FastPhongReport};
 use crate::input::{Shading, Source, to_port};
@@ -15,6 +15,7 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Result, anyhow};
+use edgewalk_explore::reach::reach;
 use edgewalk_golden::{HiddenLines, wireframe};
 use edgewalk_machine::Plan;
 use edgewalk_scene::Frame;
@@ -94,7 +95,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    report.print(talk)?;
+    talk.say(|| report.json(), || report.text())?;
     verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
 }
 
@@ -110,7 +111,7 @@ fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    report.print(talk)?;
+    talk.say(|| report.json(), || report.text())?;
     let primitives = (frame.triangles.len() + frame.polygons.len()) as u64;
     Verdict::drew(report.covered()).or_nothing(&args.source.input, primitives, (drawn.width, drawn.height))
 }
@@ -155,7 +156,7 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    report.print(talk)?;
+    talk.say(|| report.json(), || report.text())?;
     Verdict::drew(error.pixels).or_nothing(&args.source.input, surface.triangles.len() as u64, (w, h))
 }
 
@@ -180,14 +181,19 @@ pub fn pictures(
 ) -> Result<Pictures> {
     let golden = draw(Engine::Golden, frame, machine, quiet)?;
     let drawn = draw(engine, frame, machine, quiet)?;
+    let port = to_port(frame, machine)?;
     let comparison = compare(machine, frame, &golden, &drawn);
+    let comparison = match reach(machine, &port)? {
+        Some(reach) => comparison.reaching(machine, &reach),
+        None => comparison,
+    };
     let (w, h) = (drawn.width, drawn.height);
     picture::write_rgb(out, "golden.png", w, h, &golden.rgb)?;
     picture::write_rgb(out, "image.png", w, h, &drawn.rgb)?;
     picture::write_heat(out, "z_error.png", (w, h), &comparison.z_map, 1.0)?;
     picture::write_heat(out, "color_error.png", (w, h), &comparison.color_map, 1.0)?;
     let verdict = comparison.verdict();
-    let setup = SetupReport::new(machine, &to_port(frame, machine)?.triangles);
+    let setup = SetupReport::new(machine, &port.triangles);
     let report =
         Report::new(name, frame.triangles.len() as u64, machine, &drawn).with(comparison).with_setup(setup);
     Ok(Pictures { report, verdict, ids: drawn.id })

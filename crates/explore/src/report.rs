@@ -1,13 +1,13 @@
 //! One page about a picture: what was drawn, how right it is, and where the cycles went; as text and as JSON.
 
-use crate::Talk;
 use crate::compare::Comparison;
-use crate::engine::{Cycles, Raster};
+use crate::occupancy::Occupancy;
+use crate::raster::{Cycles, Raster};
 use crate::extra::{self, OwnChannel};
 use crate::setup_report::SetupReport;
 use anyhow::Result;
 use edgewalk_machine::Plan;
-use edgewalk_model::Activity;
+use edgewalk_model::{Activity, Events};
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
@@ -21,7 +21,7 @@ pub struct Report {
     writes: u64,
     odd_pixels: u64,
     cycles: Option<Cycles>,
-    corners: Option<edgewalk_model::Events>,
+    corners: Option<Events>,
     comparison: Option<Comparison>,
     setup: Option<SetupReport>,
 }
@@ -37,7 +37,7 @@ impl Report {
             covered: 0,
             odd_pixels: 0,
             writes: 0,
-            cycles: drawn.cycles,
+            cycles: drawn.cycles.clone(),
             corners: drawn.corners.clone(),
             comparison: None,
             setup: None,
@@ -70,6 +70,36 @@ impl Report {
     pub fn with_setup(mut self, setup: SetupReport) -> Self {
         self.setup = Some(setup);
         self
+    }
+
+    /// The same pixels from a machine that differs in timing keys alone.
+    #[must_use]
+    pub fn timed(&self, machine: &Plan, cycles: Cycles, corners: Option<Events>, setup: SetupReport) -> Report {
+        let mut comparison = self.comparison.clone();
+        if let Some(comparison) = &mut comparison {
+            comparison.cycles_unexplained = cycles.unexplained();
+        }
+        Report {
+            name: self.name.clone(),
+            machine: machine.clone(),
+            cycles: Some(cycles),
+            corners,
+            comparison,
+            setup: Some(setup),
+            ..*self
+        }
+    }
+
+    /// What was compared.
+    #[must_use]
+    pub fn comparison(&self) -> Option<&Comparison> {
+        self.comparison.as_ref()
+    }
+
+    /// Where the cycles went.
+    #[must_use]
+    pub fn cycles(&self) -> Option<&Cycles> {
+        self.cycles.as_ref()
     }
 
     /// Triangles and polygons over all pixels together.
@@ -113,6 +143,9 @@ impl Report {
             });
             if let Some(path) = c.path {
                 report["cycles"]["path"] = path.to_string().into();
+            }
+            if let Some(held) = &c.held {
+                report["occupancy"] = Occupancy::of(&self.machine, c.total, held).value();
             }
         }
         if let Some(setup) = &self.setup {
@@ -175,13 +208,11 @@ impl Report {
             }
             let sum: u64 = Activity::ALL.into_iter().map(|a| c.spent(a)).sum();
             let _ = writeln!(t, "    {:<10} {:>12}  of {} cycles", "sum", sum, c.total);
+            if let Some(held) = &c.held {
+                t += &Occupancy::of(m, c.total, held).text();
+            }
         }
         t
-    }
-
-    /// To standard output, as asked.
-    pub fn print(&self, talk: Talk) -> Result<()> {
-        talk.say(|| self.json(), || self.text())
     }
 }
 
@@ -203,6 +234,11 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
         machine.color.bits,
         extra::bound(c.color_bound, &c.color_no_bound)
     );
+    if let Some(additions) = c.additions {
+        let of = |bound: Option<f64>| bound.map_or_else(|| "none".to_owned(), |b| format!("{b:.4}"));
+        let (z, color) = (of(c.z_bound_for_input), of(c.color_bound_for_input));
+        _ = writeln!(t, "bounds for these triangles, at most {additions} additions: z {z}, colour {color}");
+    }
     for own in &c.extra {
         let (of, label) = (&own.channel, &own.channel.label);
         _ = writeln!(
@@ -223,6 +259,6 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
     );
 }
 
-fn ratio(part: u64, whole: u64) -> f64 {
+pub(crate) fn ratio(part: u64, whole: u64) -> f64 {
     if whole == 0 { 0.0 } else { part as f64 / whole as f64 }
 }
