@@ -46,7 +46,8 @@ impl SynthArgs {
     pub fn definition(&self, machine: &Plan) -> Result<Option<Synthesis>> {
         let Some(name) = &self.synth else { return Ok(None) };
         Target::named(name).map_err(|e| anyhow!("--synth: {e}"))?;
-        Part::named(&self.synth_unit, machine).map_err(|e| anyhow!("--synth-unit {}: {e}", self.synth_unit))?;
+        Part::named(&self.synth_unit, machine)
+            .map_err(|e| anyhow!("--synth-unit {}: {e}", self.synth_unit))?;
         Ok(Some(Synthesis { target: name.clone(), unit: self.synth_unit.clone(), seeds: self.synth_seeds }))
     }
 

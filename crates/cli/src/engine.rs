@@ -3,8 +3,8 @@
 use crate::input::to_port;
 use crate::progress::bar;
 use anyhow::{Result, anyhow};
-pub use edgewalk_explore::raster::{Raster, from_golden, golden_fill};
 use edgewalk_explore::draw;
+pub use edgewalk_explore::raster::{Raster, from_golden, golden_fill};
 use edgewalk_explore::raster::{from_machine, from_model, of_primitives};
 use edgewalk_golden::Drawing;
 use edgewalk_lockstep::StallKind;
@@ -24,6 +24,31 @@ pub enum Engine {
     Model,
     /// The machine's netlist in the interpreter
     Rtl,
+}
+
+/// Draws the frame, with a memory that makes the machine wait.
+pub fn draw_waiting(
+    engine: Engine,
+    frame: &Frame,
+    machine: &Plan,
+    waits: Waits,
+    quiet: bool,
+) -> Result<Raster> {
+    match engine {
+        _ if waits == Waits::Never => draw(engine, frame, machine, quiet),
+        Engine::Golden => Err(anyhow!(
+            "--stalls {waits}: the golden picture has no memory that stalls; draw with --engine fast"
+        )),
+        Engine::Rtl => Err(anyhow!(
+            "--stalls {waits}: --engine rtl has a memory that is always ready; draw with --engine fast"
+        )),
+        Engine::Fast => draw::fast(frame, machine, waits),
+        Engine::Model => {
+            let port = to_port(frame, machine)?;
+            let drawn = edgewalk_model::render(machine, port.triangles.iter().copied(), port.state, waits)?;
+            Ok(of_primitives(from_model(machine, drawn), &port.ids))
+        }
+    }
 }
 
 /// Draws the frame.
@@ -64,7 +89,8 @@ pub fn draw_bands(
         }
         Engine::Fast => {
             let port = to_port(frame, machine)?;
-            let drawn = draw::draw(machine, port.state, Waits::Never, || Ok(port.triangles.iter().copied().map(Ok)))?;
+            let drawn =
+                draw::draw(machine, port.state, Waits::Never, || Ok(port.triangles.iter().copied().map(Ok)))?;
             drawn.bands(machine, fast_bands(machine), |band| take(of_primitives(band, &port.ids)))
         }
         Engine::Model | Engine::Rtl => take(draw(engine, frame, machine, quiet)?),
@@ -85,4 +111,3 @@ fn bands(width: u32, height: u32, pixels: u32) -> impl Iterator<Item = Range<u32
     let lines = (pixels / width).max(1);
     (0..height).step_by(lines as usize).map(move |top| top..height.min(top + lines))
 }
-

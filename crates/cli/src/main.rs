@@ -29,8 +29,11 @@ mod verdict;
 
 use anyhow::Result;
 use clap::{Parser, Subcommand};
+use commands::{
+    bench, compare, config, demo, emit, explain, gallery, raster, render, size, sweep, synth, trace, vectors,
+    verify,
+};
 use edgewalk_explore::{extra, report, setup_report};
-use commands::{bench, compare, config, demo, emit, explain, gallery, raster, render, size, sweep, synth, trace, vectors, verify};
 use machine_args::MachineArgs;
 use std::io::Write as _;
 use std::process::ExitCode;

@@ -19,5 +19,6 @@ pub mod setup_report;
 pub mod occupancy;
 pub mod report;
 pub mod sweep;
+pub mod page;
 
 pub use verdict::Verdict;

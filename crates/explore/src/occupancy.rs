@@ -23,7 +23,8 @@ impl Occupancy {
         // A triangle has three edges, and so many channels; each round takes one a lane.
         let jobs = [3, machine.channels().len() as u32];
         let at_work = jobs.map(|jobs| f64::from(jobs) / f64::from(jobs.div_ceil(machine.lanes)));
-        let lane_clocks: f64 = held.setup.iter().zip(at_work).map(|(clocks, lanes)| *clocks as f64 * lanes).sum();
+        let lane_clocks: f64 =
+            held.setup.iter().zip(at_work).map(|(clocks, lanes)| *clocks as f64 * lanes).sum();
         Occupancy {
             spans: (ratio(held.spans, cycles), machine.span_fifo),
             fragments: (ratio(held.fragments, cycles), machine.inflight),

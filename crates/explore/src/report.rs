@@ -1,13 +1,13 @@
 //! One page about a picture: what was drawn, how right it is, and where the cycles went; as text and as JSON.
 
 use crate::compare::Comparison;
+use crate::extra::{self, OwnChannel};
 use crate::occupancy::Occupancy;
 use crate::raster::{Cycles, Raster};
-use crate::extra::{self, OwnChannel};
 use crate::setup_report::SetupReport;
 use anyhow::Result;
 use edgewalk_machine::Plan;
-use edgewalk_model::{Activity, Events};
+use edgewalk_model::{Activity, Events, Waits};
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
@@ -24,6 +24,7 @@ pub struct Report {
     corners: Option<Events>,
     comparison: Option<Comparison>,
     setup: Option<SetupReport>,
+    waits: Waits,
 }
 
 impl Report {
@@ -41,6 +42,7 @@ impl Report {
             corners: drawn.corners.clone(),
             comparison: None,
             setup: None,
+            waits: Waits::Never,
         };
         report.add(drawn);
         report
@@ -66,6 +68,13 @@ impl Report {
         self
     }
 
+    /// The same from a machine whose memory makes it wait.
+    #[must_use]
+    pub fn with_stalls(mut self, waits: Waits) -> Self {
+        self.waits = waits;
+        self
+    }
+
     /// The same with what SETUP did.
     pub fn with_setup(mut self, setup: SetupReport) -> Self {
         self.setup = Some(setup);
@@ -74,7 +83,13 @@ impl Report {
 
     /// The same pixels from a machine that differs in timing keys alone.
     #[must_use]
-    pub fn timed(&self, machine: &Plan, cycles: Cycles, corners: Option<Events>, setup: SetupReport) -> Report {
+    pub fn timed(
+        &self,
+        machine: &Plan,
+        cycles: Cycles,
+        corners: Option<Events>,
+        setup: SetupReport,
+    ) -> Report {
         let mut comparison = self.comparison.clone();
         if let Some(comparison) = &mut comparison {
             comparison.cycles_unexplained = cycles.unexplained();
@@ -144,6 +159,9 @@ impl Report {
             if let Some(path) = c.path {
                 report["cycles"]["path"] = path.to_string().into();
             }
+            if self.waits != Waits::Never {
+                report["cycles"]["stalls"] = self.waits.to_string().into();
+            }
             if let Some(held) = &c.held {
                 report["occupancy"] = Occupancy::of(&self.machine, c.total, held).value();
             }
@@ -195,6 +213,9 @@ impl Report {
             t += &setup.text();
         }
         if let Some(c) = &self.cycles {
+            if self.waits != Waits::Never {
+                let _ = writeln!(t, "memory stalls {}", self.waits);
+            }
             let _ = writeln!(
                 t,
                 "cycles {}{}, {:.4} pixels a clock",

@@ -116,8 +116,7 @@ pub fn size(machine: &Plan, port: &PortFrame, error: f64) -> Result<Size> {
 /// The fewest guard bits in which the screen and all vertices lie.
 fn needed_guard_bits(machine: &Plan, port: &PortFrame) -> u32 {
     let vertices = port.triangles.iter().flatten();
-    let farthest =
-        vertices.map(|v| v.x().unsigned_abs().max(v.y().unsigned_abs())).max().unwrap_or_default();
+    let farthest = vertices.map(|v| v.x().unsigned_abs().max(v.y().unsigned_abs())).max().unwrap_or_default();
     let pixels = (u64::from(farthest)).div_ceil(1 << machine.subpixel_bits);
     let side = u64::from(machine.width.max(machine.height));
     (2..machine.guard_bits).find(|g| (1 << g) > pixels && (1 << g) >= side).unwrap_or(machine.guard_bits)
@@ -131,13 +130,7 @@ fn walked(machine: &Plan, steps: Steps) -> Screen {
 }
 
 impl Answer {
-    fn of(
-        machine: &Plan,
-        place: usize,
-        screen: Screen,
-        reach: Option<&Reach>,
-        error: f64,
-    ) -> Result<Answer> {
+    fn of(machine: &Plan, place: usize, screen: Screen, reach: Option<&Reach>, error: f64) -> Result<Answer> {
         let steps = screen.max_steps();
         let mut answer = Answer {
             additions: steps.total(),

@@ -175,7 +175,11 @@ impl FromStr for Waits {
             let parameters = waits.parameters();
             let Some((_, _, least, most)) = parameters.iter().find(|parameter| parameter.0 == name) else {
                 let names = parameters.iter().map(|parameter| parameter.0);
-                let has = if parameters.is_empty() { "none".to_owned() } else { names.collect::<Vec<_>>().join(", ") };
+                let has = if parameters.is_empty() {
+                    "none".to_owned()
+                } else {
+                    names.collect::<Vec<_>>().join(", ")
+                };
                 return Err(WaitsError(format!("{kind} has no {name}; it has: {has}")));
             };
             let number = value.parse().ok().filter(|value| (*least..=*most).contains(value));
@@ -345,8 +349,12 @@ mod tests {
     #[test]
     fn a_fixed_pace_by_hand() {
         let (yes, no) = (true, false);
-        let steps = run("fixed:rd=2,data=3,wr=1", &[(Some(5), None), (None, Some(5)), (None, None), (None, None)]);
-        assert_eq!(steps.iter().map(|step| step.0).collect::<Vec<_>>(), [[no, yes], [no, no], [yes, yes], [yes, yes]]);
+        let steps =
+            run("fixed:rd=2,data=3,wr=1", &[(Some(5), None), (None, Some(5)), (None, None), (None, None)]);
+        assert_eq!(
+            steps.iter().map(|step| step.0).collect::<Vec<_>>(),
+            [[no, yes], [no, no], [yes, yes], [yes, yes]]
+        );
         assert_eq!(steps[0].1, 3);
     }
 
@@ -358,17 +366,26 @@ mod tests {
         let none = (None, None);
         let open = run(dram, &[read(0), none, none, read(3), read(4), none, none, read(3), read(8)]);
         let late: Vec<u64> = open.iter().map(|step| step.1).collect();
-        assert_eq!(late, [2, 0, 0, 0, 2, 0, 0, 0, 2], "a miss, open, another bank, the first still open, another page");
+        assert_eq!(
+            late,
+            [2, 0, 0, 0, 2, 0, 0, 0, 2],
+            "a miss, open, another bank, the first still open, another page"
+        );
         let ready: Vec<bool> = open.iter().map(|step| step.0[0]).collect();
         assert_eq!(ready, [false, false, true, true, false, false, true, true, false]);
         // A write turns the bus, one that comes with a read takes a clock more.
-        let turned = run(dram, &[read(0), none, none, (None, Some(1)), none, (Some(2), Some(3)), none, none, none]);
+        let turned =
+            run(dram, &[read(0), none, none, (None, Some(1)), none, (Some(2), Some(3)), none, none, none]);
         let ready: Vec<bool> = turned.iter().map(|step| step.0[1]).collect();
         assert_eq!(ready, [false, false, true, false, true, false, false, false, true]);
         assert_eq!(turned[5].1, 1);
         // A refresh closes the page.
         let refreshed = run("dram:miss=2,refresh=2,busy=3", &[read(0), none, none, none, none, none, none]);
         let ready: Vec<bool> = refreshed.iter().map(|step| step.0[0]).collect();
-        assert_eq!(ready, [false, false, false, false, false, false, false], "each refresh takes longer than it is to the next");
+        assert_eq!(
+            ready,
+            [false, false, false, false, false, false, false],
+            "each refresh takes longer than it is to the next"
+        );
     }
 }

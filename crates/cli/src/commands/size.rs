@@ -17,7 +17,7 @@ use std::path::PathBuf;
 ///
 /// Both are proved, for an error of at most --error LSB of the output: N additions behind a pixel err by (N + 1)/2 units of
 /// the last fraction bit. Beside them: the fewest guard bits, and for each answer a triangle behind as many additions that errs
-/// by more with one bit fewer, drawn to see that it does, as witness_z_every.tri, witness_color_these.tri and so on.
+/// by more with one bit fewer, drawn to see that it does, as witness_z_every.tri, witness_color_these.tri and so on; size.json has all of it.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk size teapot.obj
@@ -34,6 +34,9 @@ pub struct Args {
     #[arg(long, value_name = "DIR", default_value = "out/size")]
     out: PathBuf,
 }
+
+/// What is told, as JSON.
+const REPORT: &str = "size.json";
 
 /// The answers, and what their files are called.
 type Answers<'s> = [(&'static str, &'s Answer); 2];
@@ -63,9 +66,12 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             own.push(name);
         }
     }
-    out.publish(&own)?;
     let of = Page { args, machine: &machine, triangles: frame.triangles.len(), found: &found };
-    talk.say(|| Ok(serde_json::to_string_pretty(&of.value()?)? + "\n"), || of.text())?;
+    let json = serde_json::to_string_pretty(&of.value()?)? + "\n";
+    out.write(REPORT, &json)?;
+    own.push(REPORT.to_owned());
+    out.publish(&own)?;
+    talk.say(|| Ok(json), || of.text())?;
     Ok(Verdict::Pass)
 }
 
@@ -107,7 +113,11 @@ impl Page<'_> {
             found.error
         );
         let bits = found.guard_bits;
-        _ = writeln!(t, "guard bits: {}; these triangles and the screen lie in {}", bits.machine, bits.needed);
+        _ = writeln!(
+            t,
+            "guard bits: {}; these triangles and the screen lie in {}",
+            bits.machine, bits.needed
+        );
         for channel in &found.channels {
             _ = writeln!(t, "{} ({} = {})", channel.name, channel.key, channel.fraction_bits);
             let fewest = format!("every triangle, {} guard bits", bits.needed);
@@ -134,7 +144,9 @@ impl Page<'_> {
                             breaker.fraction_bits
                         );
                     }
-                    (None, Some(why)) => _ = writeln!(t, "    no triangle with one bit fewer ({name}): {why}"),
+                    (None, Some(why)) => {
+                        _ = writeln!(t, "    no triangle with one bit fewer ({name}): {why}")
+                    }
                     (None, None) => {}
                 }
             }
@@ -145,12 +157,14 @@ impl Page<'_> {
 
 fn answered(answer: &Answer) -> String {
     let ((lines, columns), n) = (answer.steps, answer.additions);
-    let needed = answer.needed_by.map_or_else(String::new, |(triangle, (x, y))| {
-        format!(", to pixel {x},{y} of triangle {triangle}")
-    });
+    let needed = answer
+        .needed_by
+        .map_or_else(String::new, |(triangle, (x, y))| format!(", to pixel {x},{y} of triangle {triangle}"));
     let additions = format!("N = {n}: {lines} lines + {columns} columns{needed}");
     match (answer.fraction_bits, answer.bound, &answer.out_of_reach) {
         (Some(bits), Some(bound), _) => format!("{bits:>2} bits, bound {bound:.4} LSB; {additions}"),
-        (_, _, why) => format!("no number of bits will do: {}; {additions}", why.as_deref().unwrap_or_default()),
+        (_, _, why) => {
+            format!("no number of bits will do: {}; {additions}", why.as_deref().unwrap_or_default())
+        }
     }
 }

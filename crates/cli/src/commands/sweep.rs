@@ -6,6 +6,7 @@
 
 mod chunks;
 mod outcome;
+mod pictures;
 mod why;
 
 use crate::cost::{SynthArgs, Synthesiser, ToolArgs};
@@ -163,7 +164,9 @@ const DEFINITION: &str = "sweep.json";
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     match &args.part {
-        Some(Part::Plan(plan)) => chunks::plan(&plan.what.definition(machine, Some(plan.chunks))?, plan.what.out()?, talk),
+        Some(Part::Plan(plan)) => {
+            chunks::plan(&plan.what.definition(machine, Some(plan.chunks))?, plan.what.out()?, talk)
+        }
         Some(Part::Run(part)) => chunks::run(part, talk),
         Some(Part::Merge(part)) => chunks::merge(&part.out, talk),
         Some(Part::Why(args)) => why::run(&args.key, &args.out, talk),
@@ -254,7 +257,11 @@ fn kept(out: &Path) -> Result<Sweep> {
     let definition: Definition = serde_json::from_str(&text).with_context(named)?;
     let version = env!("CARGO_PKG_VERSION");
     if definition.version != version {
-        return Err(anyhow!("{}: planned by edgewalk {}, this is {version}; plan it anew", named(), definition.version));
+        return Err(anyhow!(
+            "{}: planned by edgewalk {}, this is {version}; plan it anew",
+            named(),
+            definition.version
+        ));
     }
     Sweep::new(definition).with_context(named)
 }
@@ -263,7 +270,7 @@ fn kept(out: &Path) -> Result<Sweep> {
 fn finished(sweep: &Sweep, out: &Path, ran: Ran, talk: Talk) -> Result<Verdict> {
     let rows = store::by_key(store::read(&out.join(ROWS))?);
     let outcome = Outcome::new(sweep, &rows, out, ran);
-    outcome.publish()?;
+    outcome.publish(talk)?;
     talk.say(|| outcome.json(), || outcome.text())?;
     Ok(outcome.verdict())
 }

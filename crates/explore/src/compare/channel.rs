@@ -1,8 +1,8 @@
 //! The errors of each channel, their bounds, and which outputs wrapped.
 
 use super::order::Over;
-use crate::raster::Raster;
 use crate::extra::{self, OwnChannel};
+use crate::raster::Raster;
 use edgewalk_machine::{Channel, ErrorBudget, NoBound, Plan};
 use serde::Serialize;
 

@@ -3,8 +3,8 @@
 
 use super::{Comparison, compare};
 use crate::draw;
-use crate::raster::Raster;
 use crate::extra::Values;
+use crate::raster::Raster;
 use crate::verdict::Verdict::{self, Mismatch, Pass, Vacuous};
 use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::Waits;

@@ -30,6 +30,25 @@ pub struct Definition {
     pub chunks: Option<u32>,
 }
 
+/// The default machine on no input yet: a starting point.
+impl Default for Definition {
+    fn default() -> Self {
+        Definition {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            inputs: Vec::new(),
+            shading: "gouraud".to_owned(),
+            machine: edgewalk_machine::Machine::default().to_toml(),
+            vary: Vec::new(),
+            stalls: Vec::new(),
+            sample: None,
+            bound: None,
+            objectives: Vec::new(),
+            synth: None,
+            chunks: None,
+        }
+    }
+}
+
 /// Some of the points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sample {

@@ -109,7 +109,8 @@ impl Run<'_> {
         };
         Ok(plan.channels().iter().find(beyond).map(|channel| {
             let bound = reach.bound(plan, channel);
-            let bound = bound.map_or_else(|| "no bound is proved".to_owned(), |b| format!("proved are {b:.4} LSB"));
+            let bound =
+                bound.map_or_else(|| "no bound is proved".to_owned(), |b| format!("proved are {b:.4} LSB"));
             format!(
                 "{} with {} fraction bits behind {} additions: {bound}, asked for are {limit}",
                 channel.name,

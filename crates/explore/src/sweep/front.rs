@@ -14,7 +14,8 @@ pub fn fronts(costs: &[Vec<f64>]) -> Vec<u32> {
     let mut members: Vec<Vec<usize>> = Vec::new();
     let mut ranks = vec![0; costs.len()];
     for point in order {
-        let dominated = |front: &Vec<usize>| front.iter().rev().any(|other| dominates(&costs[*other], &costs[point]));
+        let dominated =
+            |front: &Vec<usize>| front.iter().rev().any(|other| dominates(&costs[*other], &costs[point]));
         let rank = members.iter().position(|front| !dominated(front)).unwrap_or(members.len());
         if rank == members.len() {
             members.push(Vec::new());

@@ -39,7 +39,11 @@ pub const OBJECTIVES: &[Objective] = &[
     least("z_error", "/report/comparison/z_error", "largest depth error, LSB, simulated"),
     least("color_error", "/report/comparison/color_error", "largest colour error, LSB, simulated"),
     least("z_bound", "/report/comparison/z_bound_for_input", "bound of it for these triangles, LSB, proved"),
-    least("color_bound", "/report/comparison/color_bound_for_input", "bound of it for these triangles, LSB, proved"),
+    least(
+        "color_bound",
+        "/report/comparison/color_bound_for_input",
+        "bound of it for these triangles, LSB, proved",
+    ),
     least("word_bits", "/derived/word_bits", "bits of the interpolator's words, all channels"),
     cells("lut4", "/synth/cells/lut4", "look-up tables, synthesised"),
     cells("ff", "/synth/cells/ff", "flip-flops, synthesised"),

@@ -59,9 +59,9 @@ const SHADINGS: [(&str, Shading); 3] = [
 /// The machine does not draw so.
 pub fn shading(name: &str) -> Result<Shading> {
     let found = SHADINGS.iter().find(|(known, _)| *known == name);
-    found.map(|(_, shading)| *shading).ok_or_else(|| {
-        anyhow!("--shading {name}: the machine draws constant, constant-averaged and gouraud")
-    })
+    found
+        .map(|(_, shading)| *shading)
+        .ok_or_else(|| anyhow!("--shading {name}: the machine draws constant, constant-averaged and gouraud"))
 }
 
 impl Sweep {
@@ -226,7 +226,12 @@ fn chosen(whole: u64, sample: Option<Sample>, inputs: u64) -> Result<Vec<u64>> {
     // Distinct ones: on grids of few values a sequence of low discrepancy would repeat itself.
     if whole < 4 * count {
         let drawn = rand::seq::index::sample(&mut random, whole as usize, count as usize);
-        return Ok(drawn.into_iter().map(|number| number as u64).collect::<BTreeSet<_>>().into_iter().collect());
+        return Ok(drawn
+            .into_iter()
+            .map(|number| number as u64)
+            .collect::<BTreeSet<_>>()
+            .into_iter()
+            .collect());
     }
     let mut numbers = BTreeSet::new();
     while (numbers.len() as u64) < count {

@@ -2,8 +2,8 @@
 
 use super::point::{Point, Sweep};
 use super::shared::plan;
-use crate::report::Report;
 use crate::Verdict;
+use crate::report::Report;
 use anyhow::Result;
 use edgewalk_machine::keys::{Domain, KEYS};
 use edgewalk_machine::{Machine, Plan};
@@ -128,7 +128,8 @@ fn derived(plan: &Plan, report: &Report, synth: &Value) -> Value {
         return derived;
     };
     let seconds = cycles.total as f64 / (mhz * 1e6);
-    let (pixels, triangles) = (report.covered() as f64 / seconds / 1e6, report.primitives() as f64 / seconds / 1e6);
+    let (pixels, triangles) =
+        (report.covered() as f64 / seconds / 1e6, report.primitives() as f64 / seconds / 1e6);
     derived["frames_per_s"] = json!(1.0 / seconds);
     derived["mpixels_per_s"] = json!(pixels);
     derived["mtriangles_per_s"] = json!(triangles);

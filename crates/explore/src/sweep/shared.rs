@@ -100,7 +100,8 @@ impl Pixels {
         let (drawn, passage) = if plain {
             let mut renderer = Renderer::new(&fast, true);
             let passage = renderer.draw_passage(port.triangles.iter().copied(), port.state);
-            let passage = passage.map_err(|refusal| anyhow!("the fast engine refuses this frame: {refusal:?}"))?;
+            let passage =
+                passage.map_err(|refusal| anyhow!("the fast engine refuses this frame: {refusal:?}"))?;
             (from_fast(plan, renderer.frame(), Path::Fast), passage)
         } else {
             let drawn = render(&fast, port.triangles.iter().copied(), port.state, Waits::Never)?;
@@ -153,7 +154,7 @@ impl Pixels {
                 (cycles, Some(events))
             }
         };
-        Ok(self.report.timed(plan, cycles, corners, setup.report.clone()))
+        Ok(self.report.timed(plan, cycles, corners, setup.report.clone()).with_stalls(waits))
     }
 
     /// Cycle by cycle, without a look at the pixels.

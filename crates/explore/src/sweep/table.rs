@@ -85,20 +85,33 @@ impl<'t> Table<'t> {
     /// How many rows have each status.
     #[must_use]
     pub fn counts(&self) -> [(Status, usize); 5] {
-        Status::ALL.map(|status| (status, self.rows.iter().filter(|row| row["status"] == status.name()).count()))
+        Status::ALL
+            .map(|status| (status, self.rows.iter().filter(|row| row["status"] == status.name()).count()))
     }
 
-    /// The front of a row's machine.
-    fn front_of(&self) -> BTreeMap<&str, u32> {
+    /// The front of each row's machine, by the row's key.
+    #[must_use]
+    pub fn front_of(&self) -> BTreeMap<&str, u32> {
         let machines = self.machines.iter().filter_map(|machine| Some((machine, machine.front?)));
-        machines.flat_map(|(machine, front)| machine.rows.iter().map(move |row| (text(row, "key"), front))).collect()
+        machines
+            .flat_map(|(machine, front)| machine.rows.iter().map(move |row| (text(row, "key"), front)))
+            .collect()
     }
 
     /// All rows as CSV with a header.
     #[must_use]
     pub fn csv(&self) -> String {
         let mut columns: Vec<(String, String)> = [
-            "key", "status", "reason", "input", "input_hash", "machine", "stalls", "version", "verdict", "seconds",
+            "key",
+            "status",
+            "reason",
+            "input",
+            "input_hash",
+            "machine",
+            "stalls",
+            "version",
+            "verdict",
+            "seconds",
         ]
         .map(|name| (name.to_owned(), format!("/{name}")))
         .into();
@@ -152,13 +165,18 @@ pub fn figures() -> Vec<(String, String)> {
     ]
     .map(|(name, at)| (name.to_owned(), format!("/report/{at}")))
     .into();
-    columns.extend(causes().map(|cause| (format!("cycles_{cause}"), format!("/report/cycles/by_cause/{cause}"))));
+    columns.extend(
+        causes().map(|cause| (format!("cycles_{cause}"), format!("/report/cycles/by_cause/{cause}"))),
+    );
     for channel in ["z", "color"] {
         for figure in ["error", "bound", "bound_for_input"] {
             columns.push((format!("{channel}_{figure}"), format!("/report/comparison/{channel}_{figure}")));
         }
         for figure in ["mean", "p99", "bias"] {
-            columns.push((format!("{channel}_{figure}"), format!("/report/comparison/{channel}_spread/{figure}")));
+            columns.push((
+                format!("{channel}_{figure}"),
+                format!("/report/comparison/{channel}_spread/{figure}"),
+            ));
         }
         columns.push((format!("{channel}_slack"), format!("/slack/{channel}")));
     }
@@ -195,9 +213,11 @@ fn field(value: Option<&Value>) -> String {
     let text = match value {
         None | Some(Value::Null) => return String::new(),
         Some(Value::String(text)) => text.clone(),
-        Some(Value::Array(list)) => {
-            list.iter().map(|item| item.as_str().map_or_else(|| item.to_string(), str::to_owned)).collect::<Vec<_>>().join("; ")
-        }
+        Some(Value::Array(list)) => list
+            .iter()
+            .map(|item| item.as_str().map_or_else(|| item.to_string(), str::to_owned))
+            .collect::<Vec<_>>()
+            .join("; "),
         Some(other) => other.to_string(),
     };
     if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }

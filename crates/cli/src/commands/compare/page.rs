@@ -135,7 +135,8 @@ impl Page {
         let causes = causes().map(|cause| (format!("cycles: {cause}"), format!("/cycles/by_cause/{cause}")));
         let named = FIGURES.iter().map(|(name, at)| ((*name).to_owned(), (*at).to_owned()));
         let all = named.chain(causes).map(|(name, at)| {
-            let [a, b] = self.values.each_ref().map(|value| value.pointer(&at).cloned().unwrap_or(Value::Null));
+            let [a, b] =
+                self.values.each_ref().map(|value| value.pointer(&at).cloned().unwrap_or(Value::Null));
             (name, a, b)
         });
         all.chain(self.cells()).collect()

@@ -32,7 +32,10 @@ pub fn plan(definition: &Definition, out: &Path, talk: Talk) -> Result<Verdict> 
     let sweep = Sweep::new(definition.clone())?;
     let chunks = definition.chunks.unwrap_or(1);
     if u64::from(chunks) > sweep.points.len() as u64 {
-        return Err(anyhow!("--chunks {chunks}: permitted: at most one for each of the {} points", sweep.points.len()));
+        return Err(anyhow!(
+            "--chunks {chunks}: permitted: at most one for each of the {} points",
+            sweep.points.len()
+        ));
     }
     let program = std::env::current_exe().context("this program")?;
     let fill = |template: &str| {
@@ -92,8 +95,17 @@ pub fn run(args: &RunArgs, talk: Talk) -> Result<Verdict> {
     let of = part(&sweep, chunks, chunk);
     let ran = points(&sweep, &of, (&store, rows), &again, &args.tools, talk)?;
     talk.say(
-        || Ok(json!({ "chunk": chunk, "points": of.len(), "made": ran.made, "faults": ran.faults }).to_string()),
-        || format!("part {chunk} of {chunks}: {} points, {} of them were there", of.len(), of.len() - ran.made),
+        || {
+            Ok(json!({ "chunk": chunk, "points": of.len(), "made": ran.made, "faults": ran.faults })
+                .to_string())
+        },
+        || {
+            format!(
+                "part {chunk} of {chunks}: {} points, {} of them were there",
+                of.len(),
+                of.len() - ran.made
+            )
+        },
     )?;
     Ok(if ran.faults > 0 { Verdict::Mismatch } else { Verdict::Pass })
 }
@@ -104,7 +116,9 @@ fn chunk(asked: Option<u32>) -> Result<u32> {
         return Ok(chunk);
     }
     let set = VARIABLES.iter().find_map(|name| Some((name, std::env::var(name).ok()?)));
-    let (name, text) = set.ok_or_else(|| anyhow!("--chunk: which part? Neither {} nor {} says so", VARIABLES[0], VARIABLES[1]))?;
+    let (name, text) = set.ok_or_else(|| {
+        anyhow!("--chunk: which part? Neither {} nor {} says so", VARIABLES[0], VARIABLES[1])
+    })?;
     text.parse().map_err(|_| anyhow!("{name}={text}: no number of a part"))
 }
 
@@ -122,7 +136,10 @@ pub fn merge(out: &Path, talk: Talk) -> Result<Verdict> {
     staging.publish(&[ROWS])?;
     let verdict = finished(&sweep, out, Ran::default(), talk)?;
     if missing > 0 {
-        return Err(anyhow!("{missing} of {} points have no row yet; run their parts, then merge again", sweep.points.len()));
+        return Err(anyhow!(
+            "{missing} of {} points have no row yet; run their parts, then merge again",
+            sweep.points.len()
+        ));
     }
     Ok(verdict)
 }

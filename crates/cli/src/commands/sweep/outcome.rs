@@ -1,13 +1,17 @@
 //! What a sweep leaves: the table, the best machines, the report; and what it says of itself.
 
 use super::Ran;
+use super::pictures::pictures;
+use crate::progress::spinner;
 use crate::staging::Staging;
+use crate::talk::Talk;
 use crate::verdict::Verdict;
 use anyhow::Result;
+use edgewalk_explore::page::{number, page};
 use edgewalk_explore::sweep::objective::OBJECTIVES;
 use edgewalk_explore::sweep::row::Status;
 use edgewalk_explore::sweep::table::{Candidate, Table};
-use edgewalk_explore::sweep::{Objective, Sweep};
+use edgewalk_explore::sweep::{Objective, Sample, Sweep};
 use edgewalk_machine::Machine;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -21,6 +25,7 @@ pub struct Outcome<'o> {
 }
 
 const TABLE: &str = "runs.csv";
+const REPORT: &str = "report.html";
 
 fn best_file(objective: &str) -> String {
     format!("best_{objective}.toml")
@@ -39,11 +44,14 @@ impl<'o> Outcome<'o> {
     }
 
     /// Writes the files.
-    pub fn publish(&self) -> Result<()> {
+    pub fn publish(&self, talk: Talk) -> Result<()> {
+        let spinner = spinner("report", talk.quiet);
         let staging = Staging::new(self.out)?;
+        staging.write(REPORT, page(&self.table, &pictures(&self.table)?, &self.command()))?;
         staging.write(TABLE, self.table.csv())?;
         for (objective, candidate) in self.bests() {
-            if let (Some(machine), Some(value)) = (self.machine(candidate), self.value(objective, candidate)) {
+            if let (Some(machine), Some(value)) = (self.machine(candidate), self.value(objective, candidate))
+            {
                 let text = format!(
                     "# machine {}, best of {} for {}: {value} ({})\n{}",
                     machine.hash(),
@@ -56,7 +64,31 @@ impl<'o> Outcome<'o> {
             }
         }
         let bests = OBJECTIVES.iter().map(|objective| best_file(objective.name));
-        staging.publish(&bests.chain([TABLE.to_owned()]).collect::<Vec<_>>())
+        staging.publish(&bests.chain([TABLE.to_owned(), REPORT.to_owned()]).collect::<Vec<_>>())?;
+        spinner.finish_and_clear();
+        Ok(())
+    }
+
+    /// The command that makes this sweep, but for the machine that its keys are varied in.
+    fn command(&self) -> String {
+        let definition = &self.table.sweep.definition;
+        let mut words = vec!["edgewalk sweep".to_owned()];
+        words.extend(definition.inputs.iter().cloned());
+        words.extend(definition.vary.iter().map(|vary| format!("--vary {vary}")));
+        words.extend(definition.stalls.iter().map(|stalls| format!("--stalls {stalls}")));
+        if let Some(Sample { points, seed }) = definition.sample {
+            words.push(format!("--sample {points} --seed {seed}"));
+        }
+        words.extend(definition.bound.map(|bound| format!("--bound {bound}")));
+        words.extend(definition.objectives.iter().map(|name| format!("--objective {name}")));
+        if let Some(synth) = &definition.synth {
+            words.push(format!(
+                "--synth {} --synth-unit {} --synth-seeds {}",
+                synth.target, synth.unit, synth.seeds
+            ));
+        }
+        words.push(format!("--out {}", self.out.display()));
+        words.join(" ")
     }
 
     /// The keys of the machine.
@@ -117,10 +149,12 @@ impl<'o> Outcome<'o> {
     /// As text. Writing to a string cannot fail.
     pub fn text(&self) -> String {
         let mut t = String::new();
-        let (points, there) = (self.table.sweep.points.len(), self.table.rows.len() - self.ran.made.min(self.table.rows.len()));
+        let (points, there) =
+            (self.table.sweep.points.len(), self.table.rows.len() - self.ran.made.min(self.table.rows.len()));
         let counts = self.table.counts();
         let counts = counts.iter().filter(|(_, count)| *count > 0);
-        let counts: Vec<String> = counts.map(|(status, count)| format!("{count} {}", status.name())).collect();
+        let counts: Vec<String> =
+            counts.map(|(status, count)| format!("{count} {}", status.name())).collect();
         _ = writeln!(t, "{points} points, {there} of them were there: {}", counts.join(", "));
         for status in [Status::Invalid, Status::Failed, Status::Timeout, Status::Pruned] {
             let first = self.table.rows.iter().find(|row| row["status"] == status.name());
@@ -131,18 +165,28 @@ impl<'o> Outcome<'o> {
         for (objective, candidate) in self.bests() {
             let value = self.value(objective, candidate).unwrap_or(f64::NAN);
             let file = self.out.join(best_file(objective.name));
-            _ = writeln!(t, "best {:<14} {value:<12.6} {}", objective.name, file.display());
+            _ = writeln!(t, "best {:<14} {:<12} {}", objective.name, number(value), file.display());
         }
         let front = self.on_first_front();
         let names: Vec<&str> = self.table.sweep.objectives.iter().map(|objective| objective.name).collect();
-        _ = writeln!(t, "front of {}: {} of {} machines", names.join(", "), front.len(), self.table.machines.len());
+        _ = writeln!(
+            t,
+            "front of {}: {} of {} machines",
+            names.join(", "),
+            front.len(),
+            self.table.machines.len()
+        );
         for candidate in front.iter().take(SHOWN) {
             let row = candidate.rows.first().copied().cloned().unwrap_or_default();
             let keys = self.table.sweep.axes.iter().map(|axis| {
                 let value = &row["keys"][axis.key.name];
-                format!("{}={}", axis.key.name, value.as_str().map_or_else(|| value.to_string(), str::to_owned))
+                format!(
+                    "{}={}",
+                    axis.key.name,
+                    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+                )
             });
-            let values = candidate.values.iter().flatten().map(|value| format!("{value:.4}"));
+            let values = candidate.values.iter().flatten().map(|value| number(*value));
             _ = writeln!(
                 t,
                 "    {}  {}",
@@ -158,7 +202,8 @@ impl<'o> Outcome<'o> {
 
     /// Mismatch where an error exceeds what is proved; vacuous where nothing was drawn at all.
     pub fn verdict(&self) -> Verdict {
-        let count = |wanted| self.table.counts().iter().find(|(s, _)| *s == wanted).map_or(0, |(_, n)| *n as u64);
+        let count =
+            |wanted| self.table.counts().iter().find(|(s, _)| *s == wanted).map_or(0, |(_, n)| *n as u64);
         if self.ran.faults > 0 {
             return Verdict::Mismatch;
         }

@@ -48,7 +48,8 @@ fn changed(row: &Value, out: &Path) -> Result<Vec<String>> {
     }
     let name = row["input"].as_str().unwrap_or_default();
     let sweep = kept(out);
-    let system = sweep.as_ref().map(|sweep| sweep.definition.shading.clone()).unwrap_or_else(|_| "gouraud".to_owned());
+    let system =
+        sweep.as_ref().map(|sweep| sweep.definition.shading.clone()).unwrap_or_else(|_| "gouraud".to_owned());
     match shading(&system).and_then(|shading| Input::open(name, shading)).and_then(|input| input.hash()) {
         Ok(hash) if row["input_hash"] == hash => {}
         Ok(hash) => changed.push(format!(
