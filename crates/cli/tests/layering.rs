@@ -19,11 +19,12 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("tool", &[]),
     ("vectors", &["machine", "model", "netlist", "verilog", "rtl", "lockstep", "tool"]),
     ("synth", &["machine", "netlist", "verilog", "rtl", "tool"]),
+    ("explore", &["numerics", "machine", "scene", "golden", "model"]),
     (
         "cli",
         &[
             "numerics", "machine", "scene", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl",
-            "lockstep", "tool", "vectors", "synth",
+            "lockstep", "tool", "vectors", "synth", "explore",
         ],
     ),
 ];

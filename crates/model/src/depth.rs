@@ -110,6 +110,13 @@ impl<const C: usize> Depth<C> {
         self.rmw.occupied() || (self.forks() && self.fork.color.is_some())
     }
 
+    /// Not hardware: fragments between their read and their compare.
+    #[inline]
+    #[must_use]
+    pub fn inflight(&self) -> usize {
+        self.rmw.len()
+    }
+
     /// What keeps the fragment from being read: `rd_valid` = a fragment and no block, `frag_ready` = `rd_ready` and no
     /// block. Without a fragment there is no hazard.
     #[inline]

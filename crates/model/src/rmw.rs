@@ -109,6 +109,12 @@ impl<T: Copy + Default, S: Copy + Default> Rmw<T, S> {
         self.len > 0 || self.w_valid
     }
 
+    /// Accesses between read and compare.
+    #[inline]
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+
     /// What keeps an access, its address and fence, from being read. Without one there is no hazard. `writes`: results may
     /// be stored.
     #[inline]

@@ -7,8 +7,9 @@
 
 use crate::color_memory::ColorMemory;
 use crate::machine::{BlendInputs, Inputs, Model, Outputs};
-use crate::memory::{Memory, Stalls};
+use crate::memory::Memory;
 use crate::tokens::{ColorWrite, FEW, OutputWords, Write};
+use crate::waits::Waits;
 use edgewalk_machine::{Plan, PortVertex};
 
 /// What stays the same over a picture.
@@ -79,9 +80,10 @@ impl<const C: usize> Cycle<C> {
 impl<const C: usize> Rig<C> {
     /// A machine after reset, its memory cleared.
     #[must_use]
-    pub fn new(plan: &Plan, state: DrawState, stalls: Stalls) -> Self {
-        let color = plan.blend.is_there().then(|| ColorMemory::new(plan, state.clear, stalls));
-        Rig { model: Model::new(plan), memory: Memory::new(plan, state.clear, stalls), color, state }
+    pub fn new(plan: &Plan, state: DrawState, waits: impl Into<Waits>) -> Self {
+        let waits = waits.into();
+        let color = plan.blend.is_there().then(|| ColorMemory::new(plan, state.clear, waits));
+        Rig { model: Model::new(plan), memory: Memory::new(plan, state.clear, waits), color, state }
     }
 
     /// What is stored at an address.

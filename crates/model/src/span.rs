@@ -75,6 +75,13 @@ impl<const C: usize> Span<C> {
         (!self.fifo.is_empty()).then(|| self.fifo.head())
     }
 
+    /// Not hardware: spans in the FIFO.
+    #[inline]
+    #[must_use]
+    pub fn queued(&self) -> usize {
+        self.fifo.len()
+    }
+
     /// A line stands before the FIFO.
     #[inline]
     #[must_use]

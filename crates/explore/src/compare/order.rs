@@ -4,8 +4,8 @@
 //! output rounding, 0 for the cleared depth). Nearer ones may come out as less, equal or greater. Playing the depth test at
 //! a pixel through, with every outcome of every test that is open, gives all that the machine may leave there.
 
-use crate::engine::{Raster, golden_fill};
 use crate::extra;
+use crate::raster::{Raster, golden_fill};
 use edgewalk_golden::{Fill, Fragment, fragments};
 use edgewalk_machine::Plan;
 use edgewalk_numerics::Dyadic;
