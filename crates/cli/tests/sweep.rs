@@ -64,6 +64,8 @@ const SWEEPS: [&[&str]; 5] = [
         "memory.latency=1..6",
         "--vary",
         "setup.lanes=1,2,4",
+        "--sample",
+        "60",
     ],
     &[
         "torus",
@@ -81,6 +83,8 @@ const SWEEPS: [&[&str]; 5] = [
         "formats.color_fraction=4,8",
         "--vary",
         "screen.guard_bits=10..13",
+        "--sample",
+        "60",
     ],
     &[
         "sphere",

@@ -83,8 +83,35 @@ pub struct Comparison {
     pub color_map: Vec<f64>,
 }
 
-/// Compares the pictures of `frame`, which has triangles only.
+/// Compares the pictures of `frame`, which has triangles only, with what is proved of the machine alone.
+#[must_use]
 pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -> Comparison {
+    compare_for(machine, frame, golden, drawn, None)
+}
+
+/// The same with what is proved for these triangles, where it is known how far they reach.
+#[must_use]
+pub fn compare_for(
+    machine: &Plan,
+    frame: &Frame,
+    golden: &Raster,
+    drawn: &Raster,
+    reach: Option<&Reach>,
+) -> Comparison {
+    let c = compared(machine, frame, golden, drawn, reach);
+    match reach {
+        Some(reach) => c.reaching(machine, reach),
+        None => c,
+    }
+}
+
+fn compared(
+    machine: &Plan,
+    frame: &Frame,
+    golden: &Raster,
+    drawn: &Raster,
+    reach: Option<&Reach>,
+) -> Comparison {
     let mut tally = Tally::new(machine, golden, drawn);
     let mut c = Comparison {
         pixels: 0,
@@ -127,7 +154,7 @@ pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -
         }
         c.compared += u64::from(golden.coverage[i] > 0);
     }
-    let orders = Orders::new(machine, frame, &differ);
+    let orders = Orders::new(machine, frame, &differ, reach);
     for i in differ {
         match orders.explain(i, drawn.id[i], drawn.writes[i]) {
             Some(shown) => {
@@ -150,8 +177,7 @@ pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -
 
 impl Comparison {
     /// With what is proved for these triangles: there are no more additions behind any of their pixels.
-    #[must_use]
-    pub fn reaching(mut self, machine: &Plan, reach: &Reach) -> Self {
+    fn reaching(mut self, machine: &Plan, reach: &Reach) -> Self {
         let channels = machine.channels();
         self.additions = Some(reach.steps.total());
         self.z_bound_for_input = reach.bound(machine, &channels[0]);

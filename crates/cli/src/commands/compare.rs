@@ -9,7 +9,7 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Context, Result, anyhow};
-use edgewalk_explore::compare::compare;
+use edgewalk_explore::compare::compare_for;
 use edgewalk_explore::draw;
 use edgewalk_explore::raster::Raster;
 use edgewalk_explore::reach::reach;
@@ -99,10 +99,7 @@ fn drawn(args: &Args, plan: &Plan) -> Result<(Report, Raster)> {
     let port = to_port(&frame, plan)?;
     let golden = draw::golden(&frame, plan);
     let raster = draw::fast(&frame, plan, args.stalls)?;
-    let mut comparison = compare(plan, &frame, &golden, &raster);
-    if let Some(reach) = reach(plan, &port)? {
-        comparison = comparison.reaching(plan, &reach);
-    }
+    let comparison = compare_for(plan, &frame, &golden, &raster, reach(plan, &port)?.as_ref());
     let setup = SetupReport::new(plan, &port.triangles);
     let report = Report::new(&args.source.input, frame.triangles.len() as u64, plan, &raster);
     Ok((report.with(comparison).with_setup(setup), raster))

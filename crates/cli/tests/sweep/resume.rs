@@ -69,8 +69,7 @@ fn killed_at_random_it_ends_with_the_same_rows_and_does_nothing_twice() {
     // Once more: nothing is made, the table is the same.
     let table = std::fs::read_to_string(folder.path().join("cut/runs.csv")).unwrap();
     let text = there();
-    let again =
-        edgewalk(folder.path(), &[SWEEP, &["--out", "cut", "--json"]].concat()).output().unwrap();
+    let again = edgewalk(folder.path(), &[SWEEP, &["--out", "cut", "--json"]].concat()).output().unwrap();
     let told: Value = serde_json::from_slice(&again.stdout).unwrap();
     assert_eq!((&told["made"], &told["rows"]), (&0.into(), &whole.len().into()));
     assert_eq!(

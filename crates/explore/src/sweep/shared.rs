@@ -1,7 +1,7 @@
 //! What points share: those of one geometry the frame and golden, those of the same word lengths the pixels.
 
 use super::point::Point;
-use crate::compare::compare;
+use crate::compare::compare_for;
 use crate::draw;
 use crate::input::Input;
 use crate::port::{PortFrame, to_port};
@@ -111,7 +111,7 @@ impl Pixels {
         let reach = Reach::of(plan, &port.ids, &passage).ok_or_else(|| {
             anyhow!("none of the {} triangles covers a pixel of the screen", port.triangles.len())
         })?;
-        let comparison = compare(plan, frame, golden, &drawn).reaching(plan, &reach).without_maps();
+        let comparison = compare_for(plan, frame, golden, &drawn, Some(&reach)).without_maps();
         let report = Report::new(name, frame.triangles.len() as u64, plan, &drawn).with(comparison);
         let culled = port.triangles.iter().map(|triangle| cull(plan, triangle)).collect();
         let exact_edges = plan.edge_kind == edgewalk_machine::EdgeKind::Exact;
