@@ -32,7 +32,7 @@ mod verdict;
 
 use anyhow::Result;
 use clap::{Parser, Subcommand};
-use commands::{bench, config, demo, emit, explain, gallery, raster, render, synth, trace, vectors, verify};
+use commands::{bench, config, demo, emit, explain, gallery, raster, render, replay, synth, trace, vectors, verify};
 use machine_args::MachineArgs;
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -77,6 +77,7 @@ enum Command {
     Vectors(vectors::Args),
     Verify(verify::Args),
     Trace(trace::Args),
+    Replay(replay::Args),
     Synth(synth::Args),
     Bench(bench::Args),
     Config(config::Args),
@@ -107,6 +108,7 @@ fn run(cli: &Cli) -> Result<Verdict> {
         Command::Vectors(a) => vectors::run(a, &cli.machine, talk),
         Command::Verify(a) => verify::run(a, &cli.machine, talk),
         Command::Trace(a) => trace::run(a, &cli.machine, talk),
+        Command::Replay(a) => replay::run(a, &cli.machine, talk),
         Command::Synth(a) => synth::run(a, &cli.machine, talk),
         Command::Bench(a) => bench::run(a, &cli.machine, talk),
         Command::Config(a) => config::run(a, &cli.machine, talk.json),

@@ -44,8 +44,24 @@ impl Activity {
 
     /// Name in reports and, in capitals, in the netlist.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         ["idle", "draw", "offscreen", "hazard", "queue", "memory", "edge", "setup", "flush"][self as usize]
+    }
+
+    /// What it means, in words.
+    #[must_use]
+    pub const fn meaning(self) -> &'static str {
+        [
+            "nothing to do",
+            "a pixel on the screen",
+            "a pixel off the screen is stepped over",
+            "DEPTH waits for a pixel in flight",
+            "the in-flight queue is full",
+            "the depth memory takes no read",
+            "PIXEL waits for a span",
+            "all wait for SETUP",
+            "the last fragments leave the pipeline",
+        ][self as usize]
     }
 
     /// PIXEL steps in such a cycle; in all others it stalls.

@@ -24,6 +24,7 @@ pub mod fast;
 pub mod setup;
 pub mod span;
 pub mod tokens;
+pub mod view;
 
 pub use counters::Counters;
 pub use edgewalk_machine::Activity;
@@ -34,3 +35,4 @@ pub use memory::{Memory, Stalls};
 pub use run::{Cycle, DrawState, Rig};
 pub use setup::{Culled, SetupClocks, longest_setup, setup_clocks};
 pub use tokens::Write;
+pub use view::View;

@@ -9,6 +9,8 @@
 //!
 //! Rules: `docs/machine.md`, sections 8 and 9.
 
+mod view;
+
 use crate::counters::Counters;
 use crate::depth::{Block, Depth, DepthInputs};
 use crate::edge::Edge;

@@ -12,6 +12,8 @@
 //!
 //! Rules: `docs/machine.md`, section 6. Not modelled: nothing.
 
+mod view;
+
 use edgewalk_machine::{Hazard, Plan};
 
 /// Places; the machine's queue is at most as deep.
