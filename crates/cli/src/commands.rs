@@ -12,6 +12,7 @@ pub mod emit;
 pub mod vectors;
 pub mod verify;
 pub mod trace;
+pub mod replay;
 pub mod synth;
 pub mod bench;
 pub mod config;

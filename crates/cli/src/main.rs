@@ -30,8 +30,8 @@ mod verdict;
 use anyhow::Result;
 use clap::{Parser, Subcommand};
 use commands::{
-    bench, compare, config, demo, emit, explain, gallery, raster, render, size, sweep, synth, trace, vectors,
-    verify,
+    bench, compare, config, demo, emit, explain, gallery, raster, render, replay, size, sweep, synth, trace,
+    vectors, verify,
 };
 use edgewalk_explore::{extra, report, setup_report};
 use machine_args::MachineArgs;
@@ -81,6 +81,7 @@ enum Command {
     Vectors(vectors::Args),
     Verify(verify::Args),
     Trace(trace::Args),
+    Replay(replay::Args),
     Synth(synth::Args),
     Bench(bench::Args),
     Config(config::Args),
@@ -114,6 +115,7 @@ fn run(cli: &Cli) -> Result<Verdict> {
         Command::Vectors(a) => vectors::run(a, &cli.machine, talk),
         Command::Verify(a) => verify::run(a, &cli.machine, talk),
         Command::Trace(a) => trace::run(a, &cli.machine, talk),
+        Command::Replay(a) => replay::run(a, &cli.machine, talk),
         Command::Synth(a) => synth::run(a, &cli.machine, talk),
         Command::Bench(a) => bench::run(a, &cli.machine, talk),
         Command::Config(a) => config::run(a, &cli.machine, talk.json),

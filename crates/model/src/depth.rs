@@ -13,6 +13,8 @@
 //! Rules: `docs/machine.md`, section 6, and section 9 for the fork before BLEND; the three hazard policies draw the same picture. Queue, policy and forwarding are those
 //! of any read-modify-write, `crate::rmw`; here is the compare. Not modelled: nothing.
 
+mod view;
+
 use crate::Events;
 pub use crate::rmw::Block;
 use crate::rmw::{Outcome, Retired, Rmw};

@@ -28,6 +28,7 @@ pub mod fast;
 pub mod setup;
 pub mod span;
 pub mod tokens;
+pub mod view;
 
 pub use color_memory::ColorMemory;
 pub use counters::Counters;
@@ -39,4 +40,5 @@ pub use memory::{Memory, Stalls};
 pub use run::{Cycle, DrawState, Rig};
 pub use setup::{Culled, SetupClocks, cull, longest_setup, setup_clocks};
 pub use tokens::Write;
+pub use view::View;
 pub use waits::{Dram, Fixed, KINDS as WAITS, Waits, WaitsError};

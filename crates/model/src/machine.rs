@@ -10,6 +10,8 @@
 //!
 //! Rules: `docs/machine.md`, sections 8 to 10.
 
+mod view;
+
 use crate::blend::Blend;
 pub use crate::blend::BlendInputs;
 use crate::counters::Counters;

@@ -12,6 +12,8 @@
 //!
 //! Rules: `docs/machine.md`, sections 6 and 9. Not modelled: nothing.
 
+mod view;
+
 use edgewalk_machine::Hazard;
 
 /// Places; a machine's queues are at most as deep.

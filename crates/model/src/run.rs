@@ -98,10 +98,11 @@ impl<const C: usize> Rig<C> {
         self.state = state;
     }
 
-    /// One cycle, with a triangle and its tag offered or none. The memories take writes if they are ready and `writes_open`.
+    /// The machine's inputs in a cycle, with a triangle and its tag offered or none.
     #[inline(always)]
-    pub fn cycle(&mut self, tri: Option<(&[PortVertex; 3], u32)>, writes_open: bool) -> Cycle<C> {
-        let inputs = Inputs {
+    #[must_use]
+    pub fn inputs<'a>(&self, tri: Option<(&'a [PortVertex; 3], u32)>, writes_open: bool) -> Inputs<'a> {
+        Inputs {
             rst: false,
             tri,
             depth_func: self.state.depth_func,
@@ -110,7 +111,13 @@ impl<const C: usize> Rig<C> {
             data: self.memory.data(),
             wr_ready: self.memory.wr_ready() && writes_open,
             blend: self.blend_inputs(writes_open),
-        };
+        }
+    }
+
+    /// One cycle, with a triangle and its tag offered or none. The memories take writes if they are ready and `writes_open`.
+    #[inline(always)]
+    pub fn cycle(&mut self, tri: Option<(&[PortVertex; 3], u32)>, writes_open: bool) -> Cycle<C> {
+        let inputs = self.inputs(tri, writes_open);
         let outputs = self.model.cycle(&inputs);
         let cycle = Cycle {
             outputs,

@@ -12,6 +12,8 @@
 //! Rules: `docs/machine.md`, section 4. A span is cut where it ends; before its start PIXEL steps over the columns off
 //! the screen. Not modelled: nothing.
 
+mod view;
+
 use crate::Events;
 use crate::fifo::Fifo;
 use crate::tokens::{self, Line};

@@ -17,6 +17,8 @@ pub(crate) mod sort;
 pub(crate) mod edges;
 mod channels;
 pub(crate) mod clocks;
+mod schedule;
+mod view;
 
 pub use clocks::{SetupClocks, longest_setup};
 
@@ -24,7 +26,7 @@ use crate::Events;
 use crate::tokens::{FEW, Prim, Source};
 use clocks::Timing;
 use edgewalk_machine::{Plan, PortVertex};
-use sort::Sorted;
+use sort::{Corner, Sorted};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
@@ -48,6 +50,7 @@ pub struct Setup<const C: usize> {
     /// Of this triangle.
     clocks: SetupClocks,
     prim: Prim<C>,
+    sorted: Sorted<C>,
     /// Not hardware: triangles taken in.
     taken: u32,
 }
@@ -65,6 +68,7 @@ impl<const C: usize> Setup<C> {
             culled: false,
             clocks: SetupClocks::default(),
             prim: Prim::default(),
+            sorted: Sorted { corners: [Corner { u: 0, v: 0, values: [0; C] }; 3] },
             taken: 0,
         }
     }
@@ -142,6 +146,7 @@ impl<const C: usize> Setup<C> {
             Err(Culled::Columns) => events.culled_columns += 1,
             Err(Culled::Area) => events.culled_area += 1,
         }
+        self.sorted = sorted;
     }
 
     fn count(&self, sorted: &Sorted<C>, events: &mut Events) {
