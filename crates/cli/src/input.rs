@@ -3,70 +3,11 @@
 use crate::extra;
 use crate::machine_args::MachineArgs;
 use anyhow::{Context as _, Result, anyhow};
-use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::DrawState;
-use edgewalk_scene::{DepthFunc, Frame, Scene, ShadeMode, Surface, Triangle, Triangulated, triangle_file};
+use edgewalk_explore::input::{fitting, guard_band, in_triangles, is_triangle_file};
+pub use edgewalk_explore::port::{PortFrame, draw_state, port_triangle, to_port};
+use edgewalk_machine::Plan;
+use edgewalk_scene::{Frame, Scene, Surface, triangle_file};
 use std::path::Path;
-
-/// A frame as the machine's port takes it.
-pub struct PortFrame {
-    /// Triangles in drawing order.
-    pub triangles: Vec<[PortVertex; 3]>,
-    /// For each of them the place of what it is a part of among the frame's triangles and polygons.
-    pub ids: Vec<i32>,
-    /// Depth function, write mask and clear values.
-    pub state: DrawState,
-}
-
-/// Snaps a frame to the port, polygons as triangles, or says what of it the machine cannot take.
-pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
-    let state = draw_state(frame, machine)?;
-    let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
-    let triangles = triangles.iter().zip(&ids);
-    let triangles =
-        triangles.map(|(triangle, id)| port_triangle(*id as usize, triangle, frame.mode, machine));
-    Ok(PortFrame { triangles: triangles.collect::<Result<_>>()?, ids, state })
-}
-
-/// What stays the same over a frame, or what of it the machine cannot draw.
-pub fn draw_state(frame: &Frame, machine: &Plan) -> Result<DrawState> {
-    if frame.blend {
-        return Err(anyhow!(
-            "blend 1 (transparent surfaces): the machine has no blend unit yet; draw with blend 0 or --engine golden"
-        ));
-    }
-    if frame.shadow.is_some() {
-        return Err(anyhow!(
-            "shadow: the machine has no shadow maps yet; draw without the line `shadow` or with --engine golden"
-        ));
-    }
-    let max = machine.color.max() as f64;
-    Ok(DrawState {
-        depth_func: frame.depth.unwrap_or(DepthFunc::Always) as u8,
-        depth_write: frame.depth_write && frame.depth.is_some(),
-        clear: frame.clear.map(|v| (v * max).round_ties_even() as u64),
-        ..DrawState::default()
-    })
-}
-
-/// Snaps triangle number `index` to the port, or says that the machine cannot take it.
-pub fn port_triangle(
-    index: usize,
-    triangle: &Triangle,
-    mode: ShadeMode,
-    machine: &Plan,
-) -> Result<[PortVertex; 3]> {
-    let mut port = [PortVertex::default(); 3];
-    for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
-        let v = if mode == ShadeMode::Flat { v.colored_as(&triangle.0[0]) } else { *v };
-        let [e0, e1, e2, e3] = v.extra;
-        let values = [v.z, v.r, v.g, v.b, e0, e1, e2, e3];
-        *slot = machine
-            .port_vertex(v.x, v.y, &values[..machine.channels().len()])
-            .with_context(|| format!("triangle {index}, vertex {corner}"))?;
-    }
-    Ok(port)
-}
 
 /// A scene, a mesh, or a file of screen-space triangles.
 #[derive(clap::Args, Clone, Debug)]
@@ -112,7 +53,7 @@ impl Shading {
 impl Source {
     /// Whether the input is a triangle file, which has no surface to shade.
     pub fn is_triangle_file(&self) -> bool {
-        Path::new(&self.input).extension().is_some_and(|e| e == "tri")
+        is_triangle_file(&self.input)
     }
 
     /// The scene, and its surface on this machine's screen, clipped to its guard band.
@@ -122,8 +63,7 @@ impl Source {
     pub fn surface(&self, machine: &Plan) -> Result<(Scene, Surface)> {
         extra::fitting(0, machine).with_context(|| self.input.clone())?;
         let scene = Scene::open(&self.input)?;
-        let guard = f64::from((1u32 << machine.guard_bits) - 1);
-        let surface = scene.surface(machine.width, machine.height, guard);
+        let surface = scene.surface(machine.width, machine.height, guard_band(machine));
         Ok((scene, surface))
     }
 
@@ -136,7 +76,7 @@ impl Source {
         }
         let frame = triangle_file::read(Path::new(&self.input))?;
         let machine = args.machine(Some((frame.width, frame.height)))?;
-        let frame = in_triangles(self.fitting(frame, &machine)?, &machine)?;
+        let frame = in_triangles(fitting(&self.input, frame, &machine)?, &machine)?;
         Ok((machine, frame))
     }
 
@@ -170,30 +110,6 @@ impl Source {
             let (scene, surface) = self.surface(machine)?;
             return Ok(edgewalk_golden::frame(&scene, &surface, self.shading.golden()));
         }
-        self.fitting(triangle_file::read(Path::new(&self.input))?, machine)
+        fitting(&self.input, triangle_file::read(Path::new(&self.input))?, machine)
     }
-
-    /// The triangle file's frame, if it is as large as the machine's screen.
-    fn fitting(&self, frame: Frame, machine: &Plan) -> Result<Frame> {
-        if (frame.width, frame.height) != (machine.width, machine.height) {
-            return Err(anyhow!(
-                "{}: size {} {}: the machine's screen is {}x{}; add --set screen.width={} --set screen.height={}",
-                self.input,
-                frame.width,
-                frame.height,
-                machine.width,
-                machine.height,
-                frame.width,
-                frame.height
-            ));
-        }
-        extra::fitting(frame.extra, machine).with_context(|| self.input.clone())?;
-        Ok(frame)
-    }
-}
-
-/// The frame with its polygons as triangles.
-fn in_triangles(frame: Frame, machine: &Plan) -> Result<Frame> {
-    let triangles = frame.triangulated(machine.subpixel_bits)?.triangles.into_owned();
-    Ok(Frame { triangles, polygons: Vec::new(), ..frame })
 }

@@ -10,9 +10,8 @@
 mod accumulators;
 mod arrays;
 mod commands;
-mod compare;
+mod cost;
 mod engine;
-mod extra;
 mod fast;
 mod fast_phong;
 mod input;
@@ -20,8 +19,6 @@ mod jobs;
 mod machine_args;
 mod picture;
 mod progress;
-mod report;
-mod setup_report;
 mod scratch;
 mod shading_report;
 mod shadows;
@@ -32,7 +29,11 @@ mod verdict;
 
 use anyhow::Result;
 use clap::{Parser, Subcommand};
-use commands::{bench, config, demo, emit, explain, gallery, raster, render, synth, trace, vectors, verify};
+use commands::{
+    bench, compare, config, demo, emit, explain, gallery, raster, render, replay, size, sweep, synth, trace,
+    vectors, verify,
+};
+use edgewalk_explore::{extra, report, setup_report};
 use machine_args::MachineArgs;
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -73,10 +74,14 @@ enum Command {
     Gallery(gallery::Args),
     Explain(explain::Args),
     Raster(raster::Args),
+    Size(size::Args),
+    Sweep(Box<sweep::Args>),
+    Compare(compare::Args),
     Emit(emit::Args),
     Vectors(vectors::Args),
     Verify(verify::Args),
     Trace(trace::Args),
+    Replay(replay::Args),
     Synth(synth::Args),
     Bench(bench::Args),
     Config(config::Args),
@@ -103,10 +108,14 @@ fn run(cli: &Cli) -> Result<Verdict> {
         Command::Gallery(a) => gallery::run(a, talk),
         Command::Explain(a) => explain::run(a, &cli.machine, talk),
         Command::Raster(a) => raster::run(a, &cli.machine, talk),
+        Command::Size(a) => size::run(a, &cli.machine, talk),
+        Command::Sweep(a) => sweep::run(a, &cli.machine, talk),
+        Command::Compare(a) => compare::run(a, &cli.machine, talk),
         Command::Emit(a) => emit::run(a, &cli.machine, talk),
         Command::Vectors(a) => vectors::run(a, &cli.machine, talk),
         Command::Verify(a) => verify::run(a, &cli.machine, talk),
         Command::Trace(a) => trace::run(a, &cli.machine, talk),
+        Command::Replay(a) => replay::run(a, &cli.machine, talk),
         Command::Synth(a) => synth::run(a, &cli.machine, talk),
         Command::Bench(a) => bench::run(a, &cli.machine, talk),
         Command::Config(a) => config::run(a, &cli.machine, talk.json),
@@ -122,5 +131,5 @@ fn exit_code(result: Result<Verdict>, quiet: bool) -> ExitCode {
         Ok(_) => {}
         Err(error) => talk::complain(&format!("{error:#}")),
     }
-    result.map_or_else(|error| verdict::of_error(&error), Verdict::exit_code)
+    result.map_or_else(|error| verdict::of_error(&error), verdict::exit_code)
 }

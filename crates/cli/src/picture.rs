@@ -73,6 +73,18 @@ fn write(out: &Staging, name: &str, width: u32, height: u32, pixel: impl Fn(usiz
     picture.finish()
 }
 
+/// An 8-bit picture as the bytes of a PNG file.
+pub fn png((width, height): (u32, u32), pixel: impl Fn(usize) -> [u8; 3]) -> Result<Vec<u8>> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    let pixels: Vec<u8> = (0..width as usize * height as usize).flat_map(pixel).collect();
+    let mut writer = encoder.write_header().context("a picture")?;
+    writer.write_image_data(&pixels).context("a picture")?;
+    writer.finish().context("a picture")?;
+    Ok(file)
+}
+
 /// An 8-bit picture on its way into a file, line by line.
 pub struct Png {
     /// For messages.
@@ -128,7 +140,7 @@ impl io::Write for SharedFile {
 }
 
 /// A colour in 0 to 1 in 8 bits.
-fn bytes(color: [f64; 3]) -> [u8; 3] {
+pub fn bytes(color: [f64; 3]) -> [u8; 3] {
     color.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
 }
 

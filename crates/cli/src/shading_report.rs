@@ -1,6 +1,5 @@
 //! One page about a shading system: what was drawn, and how far it is from the truth; as text and as JSON.
 
-use crate::Talk;
 use crate::fast_phong::FastPhongReport;
 use crate::input::Source;
 use anyhow::Result;
@@ -109,10 +108,5 @@ impl ShadingReport {
             t += &fast_phong.text();
         }
         t
-    }
-
-    /// To standard output, as asked.
-    pub fn print(&self, talk: Talk) -> Result<()> {
-        talk.say(|| self.json(), || self.text())
     }
 }

@@ -1,80 +1,27 @@
 //! How a command ends: the exit codes every subcommand shares.
 
-use anyhow::{Result, anyhow};
+pub use edgewalk_explore::Verdict;
 use edgewalk_tool::Stop;
 use edgewalk_vectors::SimulateError;
 use std::io::Write as _;
 use std::process::ExitCode;
-
-/// What a command found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// All that was asked for was done, all that was compared agrees.
-    Pass,
-    /// Something compared differs.
-    Mismatch,
-    /// A check compared nothing at all.
-    Vacuous,
-}
 
 /// A simulator or synthesis tool that is absent or broken.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct ToolError(pub String);
 
-impl Verdict {
-    /// The verdict of a comparison: `expected` things should have been checked, `checked` were, `wrong` of them differ.
-    pub fn of(checked: u64, expected: u64, wrong: u64) -> Self {
-        match (checked, wrong) {
-            (0, 0) => Verdict::Vacuous,
-            (n, 0) if n == expected => Verdict::Pass,
-            _ => Verdict::Mismatch,
-        }
+/// 0 pass, 1 mismatch, 2 vacuous (and bad input). That nothing was compared is an error, and said even by a quiet program.
+pub fn exit_code(verdict: Verdict) -> ExitCode {
+    if verdict == Verdict::Vacuous {
+        // Where standard error is closed the code has to do.
+        _ = writeln!(std::io::stderr(), "edgewalk: nothing was compared");
     }
-
-    /// That something was drawn: `covered` pixels.
-    pub fn drew(covered: u64) -> Self {
-        Verdict::of(covered, covered, 0)
-    }
-
-    /// The verdict on a picture of these triangles and polygons, or the reason why there was nothing to judge.
-    ///
-    /// # Errors
-    /// No pixel is covered.
-    pub fn or_nothing(self, input: &str, primitives: u64, (width, height): (u32, u32)) -> Result<Self> {
-        if self != Verdict::Vacuous {
-            return Ok(self);
-        }
-        let why = match primitives {
-            0 => "it has no triangle in view".to_owned(),
-            n => {
-                format!("none of its {n} triangles or polygons covers a pixel of the {width}x{height} screen")
-            }
-        };
-        Err(anyhow!("{input}: nothing was drawn: {why}"))
-    }
-
-    /// The worse of two.
-    pub fn and(self, other: Verdict) -> Self {
-        match (self, other) {
-            (Verdict::Pass, v) | (v, Verdict::Pass) => v,
-            (Verdict::Mismatch, _) | (_, Verdict::Mismatch) => Verdict::Mismatch,
-            _ => Verdict::Vacuous,
-        }
-    }
-
-    /// 0 pass, 1 mismatch, 2 vacuous (and bad input). That nothing was compared is an error, and said even by a quiet program.
-    pub fn exit_code(self) -> ExitCode {
-        if self == Verdict::Vacuous {
-            // Where standard error is closed the code has to do.
-            _ = writeln!(std::io::stderr(), "edgewalk: nothing was compared");
-        }
-        ExitCode::from(match self {
-            Verdict::Pass => 0,
-            Verdict::Mismatch => 1,
-            Verdict::Vacuous => 2,
-        })
-    }
+    ExitCode::from(match verdict {
+        Verdict::Pass => 0,
+        Verdict::Mismatch => 1,
+        Verdict::Vacuous => 2,
+    })
 }
 
 /// The exit code of what could not be done: 2 bad input, 3 tool missing or broken, 4 time limit.
@@ -89,43 +36,4 @@ pub fn of_error(error: &anyhow::Error) -> ExitCode {
         None if error.is::<ToolError>() => 3,
         None => 2,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Verdict::{self, Mismatch, Pass, Vacuous};
-
-    #[test]
-    fn what_was_not_checked_is_no_pass() {
-        let table = [
-            ((0, 0, 0), Vacuous),
-            ((0, 7, 0), Vacuous),
-            ((0, 0, 1), Mismatch),
-            ((7, 7, 0), Pass),
-            ((6, 7, 0), Mismatch),
-            ((8, 7, 0), Mismatch),
-            ((7, 7, 1), Mismatch),
-        ];
-        for ((checked, expected, wrong), verdict) in table {
-            assert_eq!(Verdict::of(checked, expected, wrong), verdict, "{checked} {expected} {wrong}");
-        }
-        let worse = [
-            (Pass, Pass, Pass),
-            (Pass, Vacuous, Vacuous),
-            (Pass, Mismatch, Mismatch),
-            (Vacuous, Mismatch, Mismatch),
-        ];
-        for (a, b, both) in worse {
-            assert_eq!((a.and(b), b.and(a)), (both, both));
-        }
-    }
-
-    #[test]
-    fn nothing_drawn_is_named() {
-        assert_eq!(Verdict::drew(3).or_nothing("a.tri", 1, (8, 8)).ok(), Some(Pass));
-        for (primitives, why) in [(0, "no triangle in view"), (2, "none of its 2 triangles")] {
-            let error = Verdict::drew(0).or_nothing("a.tri", primitives, (8, 8)).map_err(|e| e.to_string());
-            assert!(error.as_ref().is_err_and(|e| e.contains("a.tri") && e.contains(why)), "{error:?}");
-        }
-    }
 }

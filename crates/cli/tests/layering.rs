@@ -18,12 +18,14 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("lockstep", &["machine", "model", "netlist", "rtl"]),
     ("tool", &[]),
     ("vectors", &["machine", "model", "netlist", "verilog", "rtl", "lockstep", "tool"]),
+    ("replay", &["machine", "model"]),
     ("synth", &["machine", "netlist", "verilog", "rtl", "tool"]),
+    ("explore", &["numerics", "machine", "scene", "golden", "model"]),
     (
         "cli",
         &[
             "numerics", "machine", "scene", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl",
-            "lockstep", "tool", "vectors", "synth",
+            "lockstep", "tool", "vectors", "replay", "synth", "explore",
         ],
     ),
 ];
@@ -33,6 +35,7 @@ const TESTS: &[(&str, &[&str])] = &[
     ("golden", &["numerics"]),                             // its proved bounds
     ("model", &["numerics", "scene", "golden"]),           // proved bounds, and what ought to be drawn
     ("jit", &["machine", "model", "lockstep", "vectors"]), // whole machines, and what drives them
+    ("replay", &["netlist", "lockstep"]),                  // the machine's registers in the netlist
 ];
 
 /// Written from the same text by different hands: neither may know the other, not in tests either, nor through a third crate.
@@ -40,7 +43,7 @@ const STRANGERS: [&str; 2] = ["model", "rtl"];
 
 /// Crates that read and write no files: they may not even name the standard library's file or process modules.
 const NO_FILES: &[&str] =
-    &["numerics", "machine", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl", "lockstep"];
+    &["numerics", "machine", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl", "lockstep", "replay"];
 
 fn crates() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..")

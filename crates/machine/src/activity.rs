@@ -49,16 +49,32 @@ impl Activity {
 
     /// Name in reports and, in capitals, in the netlist.
     #[must_use]
-    pub fn name(self) -> &'static str {
-        let names =
-            ["idle", "draw", "offscreen", "hazard", "queue", "memory", "edge", "setup", "flush", "blend"];
-        names[self as usize]
+    pub const fn name(self) -> &'static str {
+        ["idle", "draw", "offscreen", "hazard", "queue", "memory", "edge", "setup", "flush", "blend"]
+            [self as usize]
     }
 
     /// Those that the machine can have.
     pub fn of(plan: &Plan) -> impl Iterator<Item = Activity> {
         let blends = plan.blend.is_there();
         Activity::ALL.into_iter().filter(move |activity| blends || *activity != Activity::Blend)
+    }
+
+    /// What it means, in words.
+    #[must_use]
+    pub const fn meaning(self) -> &'static str {
+        [
+            "nothing to do",
+            "a pixel on the screen",
+            "a pixel off the screen is stepped over",
+            "DEPTH waits for a pixel in flight",
+            "the in-flight queue is full",
+            "the depth memory takes no read",
+            "PIXEL waits for a span",
+            "all wait for SETUP",
+            "the last fragments leave the pipeline",
+            "BLEND takes no fragment",
+        ][self as usize]
     }
 
     /// PIXEL steps in such a cycle; in all others it stalls.

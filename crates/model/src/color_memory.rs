@@ -6,15 +6,13 @@
 //! ```
 //! Formats: addresses y·2^xb + x; words of three colours of b bits, red the most significant.
 //!
-//! Timing: as the depth memory's. Rules: `docs/machine.md`, section 7. Not modelled: refresh, banks, anything but late data
-//! and low readies.
+//! Timing: as the depth memory's. Rules: `docs/machine.md`, section 7. Not modelled: that both may be one memory.
 
 use crate::fifo::Fifo;
 use crate::memory::Stalls;
 use crate::tokens::{ColorWrite, FEW, MAX_CHANNELS, OutputWords};
+use crate::waits::{Pacer, Waits};
 use edgewalk_machine::Plan;
-use rand_pcg::Pcg32;
-use rand_pcg::rand_core::{RngCore, SeedableRng};
 
 /// State of the memory.
 #[derive(Clone, Debug)]
@@ -22,11 +20,8 @@ pub struct ColorMemory<const C: usize> {
     /// b.
     bits: u32,
     latency: u64,
-    stalls: Stalls,
-    random: Pcg32,
+    pacer: Pacer,
     now: u64,
-    crd_ready: bool,
-    cwr_ready: bool,
     /// Colours read, with the cycle from which on they are offered.
     reads: Fifo<(u64, u64), 16>,
     rgb: Vec<u64>,
@@ -37,34 +32,33 @@ impl<const C: usize> ColorMemory<C> {
     /// A cleared memory: the colour `clear` (b bits each) everywhere, and 0 in the user's own. It stalls as often as the
     /// depth memory, but in other cycles.
     #[must_use]
-    pub fn new(plan: &Plan, clear: [u64; 3], stalls: Stalls) -> Self {
+    pub fn new(plan: &Plan, clear: [u64; 3], waits: impl Into<Waits>) -> Self {
         let (words, bits) = (1 << plan.widths().address, plan.color.bits);
-        let mut memory = ColorMemory {
+        let waits = match waits.into() {
+            Waits::Random(stalls) => Waits::Random(Stalls { seed: stalls.seed.wrapping_add(1), ..stalls }),
+            as_often => as_often,
+        };
+        ColorMemory {
             bits,
             latency: u64::from(plan.blend.latency),
-            stalls,
-            random: Pcg32::seed_from_u64(stalls.seed.wrapping_add(1)),
+            pacer: Pacer::new(waits),
             now: 0,
-            crd_ready: true,
-            cwr_ready: true,
             reads: Fifo::default(),
             rgb: vec![clear.into_iter().fold(0, |word, c| word << bits | c); words],
             own: vec![[0; MAX_CHANNELS - FEW]; words],
-        };
-        memory.draw_readies();
-        memory
+        }
     }
 
     /// A read can be taken in this cycle.
     #[must_use]
     pub fn crd_ready(&self) -> bool {
-        self.crd_ready
+        self.pacer.rd_ready
     }
 
     /// A write can be taken in this cycle.
     #[must_use]
     pub fn cwr_ready(&self) -> bool {
-        self.cwr_ready
+        self.pacer.wr_ready
     }
 
     /// The colour of the oldest read, once it is there.
@@ -91,8 +85,9 @@ impl<const C: usize> ColorMemory<C> {
         if taken {
             self.reads.pop();
         }
+        let late = self.pacer.step(self.now, read, write.map(|write| write.addr));
         if let Some(addr) = read {
-            let due = self.now.wrapping_add(self.latency).wrapping_add(self.late());
+            let due = self.now.wrapping_add(self.latency).wrapping_add(late);
             self.reads.push((due, self.rgb[addr as usize]));
         }
         if let Some(write) = write {
@@ -101,22 +96,5 @@ impl<const C: usize> ColorMemory<C> {
                 std::array::from_fn(|i| write.values.get(FEW + i).copied().unwrap_or(0));
         }
         self.now = self.now.wrapping_add(1);
-        self.draw_readies();
-    }
-
-    fn late(&mut self) -> u64 {
-        if self.stalls.data == 0 {
-            return 0;
-        }
-        let [chance, cycles, ..] = self.random.next_u32().to_le_bytes();
-        if chance < self.stalls.data { 1 + u64::from(cycles % 8) } else { 0 }
-    }
-
-    fn draw_readies(&mut self) {
-        if self.stalls.rd | self.stalls.wr != 0 {
-            let [rd, wr, ..] = self.random.next_u32().to_le_bytes();
-            self.crd_ready = rd >= self.stalls.rd;
-            self.cwr_ready = wr >= self.stalls.wr;
-        }
     }
 }

@@ -1,6 +1,7 @@
 //! What every cycle was spent on, and what passed through the units.
 
 use crate::events::one_more;
+use crate::setup::SetupClocks;
 use edgewalk_machine::Activity;
 
 /// Performance counters of a run.
@@ -20,6 +21,12 @@ pub struct Counters {
     pub fragments: u64,
     /// Writes to the frame memory.
     pub writes: u64,
+    /// S1 and S2, clocks of SETUP's lanes, of all triangles taken in.
+    pub setup_clocks: [u64; 2],
+    /// Spans in SPAN's FIFO, summed over the cycles.
+    pub queued_spans: u64,
+    /// Fragments between their read and their compare, summed over the cycles.
+    pub inflight: u64,
 }
 
 impl Counters {
@@ -28,6 +35,20 @@ impl Counters {
     pub(crate) fn cycle(&mut self, activity: Activity) {
         one_more(&mut self.cycles);
         one_more(&mut self.activity[activity as usize]);
+    }
+
+    /// SETUP takes so long over a triangle.
+    pub(crate) fn lanes_work(&mut self, setup: SetupClocks) {
+        let [edges, channels] = &mut self.setup_clocks;
+        *edges += u64::from(setup.phase1);
+        *channels += u64::from(setup.phase2);
+    }
+
+    /// So many spans and fragments are held over a cycle.
+    #[inline]
+    pub(crate) fn hold(&mut self, spans: usize, fragments: usize) {
+        self.queued_spans = self.queued_spans.wrapping_add(spans as u64);
+        self.inflight = self.inflight.wrapping_add(fragments as u64);
     }
 
     /// Cycles spent on this.

@@ -13,6 +13,8 @@
 //! Rules: `docs/machine.md`, section 6, and section 9 for the fork before BLEND; the three hazard policies draw the same picture. Queue, policy and forwarding are those
 //! of any read-modify-write, `crate::rmw`; here is the compare. Not modelled: nothing.
 
+mod view;
+
 use crate::Events;
 pub use crate::rmw::Block;
 use crate::rmw::{Outcome, Retired, Rmw};
@@ -108,6 +110,13 @@ impl<const C: usize> Depth<C> {
     #[must_use]
     pub fn occupied(&self) -> bool {
         self.rmw.occupied() || (self.forks() && self.fork.color.is_some())
+    }
+
+    /// Not hardware: fragments between their read and their compare.
+    #[inline]
+    #[must_use]
+    pub fn inflight(&self) -> usize {
+        self.rmw.len()
     }
 
     /// What keeps the fragment from being read: `rd_valid` = a fragment and no block, `frag_ready` = `rd_ready` and no

@@ -12,6 +12,8 @@
 //!
 //! Rules: `docs/machine.md`, section 3. Not modelled: nothing.
 
+mod view;
+
 use crate::events::{Events, one_more};
 use crate::tokens::{EdgeWalk, Line, Prim, Words, add, per_channel, word_masks};
 use edgewalk_machine::{Fill, Plan};

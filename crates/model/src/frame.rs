@@ -2,9 +2,9 @@
 
 use crate::counters::Counters;
 use crate::events::Events;
-use crate::memory::Stalls;
 use crate::run::{DrawState, Rig};
 use crate::tokens::{Source, for_channels, output};
+use crate::waits::Waits;
 use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
 
 /// A picture, row by row from the top, W×H pixels, and what it took.
@@ -56,9 +56,9 @@ pub fn render(
     plan: &Plan,
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
     state: DrawState,
-    stalls: Stalls,
+    waits: impl Into<Waits>,
 ) -> Result<Frame, ForeignVertex> {
-    render_with(plan, triangles, state, stalls, |_| {})
+    render_with(plan, triangles, state, waits, |_| {})
 }
 
 /// As [`render`], and calls `hook` for every fragment and write.
@@ -69,20 +69,20 @@ pub fn render_with(
     plan: &Plan,
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
     state: DrawState,
-    stalls: Stalls,
+    waits: impl Into<Waits>,
     hook: impl FnMut(Drawn),
 ) -> Result<Frame, ForeignVertex> {
-    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), state, stalls, hook))
+    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), state, waits.into(), hook))
 }
 
 fn draw<const C: usize>(
     plan: &Plan,
     triangles: impl Iterator<Item = [PortVertex; 3]>,
     state: DrawState,
-    stalls: Stalls,
+    waits: Waits,
     mut hook: impl FnMut(Drawn),
 ) -> Result<Frame, ForeignVertex> {
-    let mut rig = Rig::<C>::new(plan, state, stalls);
+    let mut rig = Rig::<C>::new(plan, state, waits);
     let mut tally = Tally::new(plan);
     let blends = plan.blend.is_there();
     let channels = plan.channels().len().min(C); // C serves the plan; said so that no slice is checked in every cycle

@@ -10,6 +10,8 @@
 //!
 //! Rules: `docs/machine.md`, sections 8 to 10.
 
+mod view;
+
 use crate::blend::Blend;
 pub use crate::blend::BlendInputs;
 use crate::counters::Counters;
@@ -207,12 +209,12 @@ impl<const C: usize> Model<C> {
         let tri_ready = self.setup.tri_ready();
         let activity = if tri_ready { Activity::Idle } else { Activity::Setup };
         self.counters.cycle(activity);
-        if inputs.tri.is_some() && tri_ready {
-            one_more(&mut self.counters.triangles);
-        }
         let prim_ready = self.edge.prim_ready(false);
         self.edge.step(self.setup.prim(), false, false, &mut self.events);
         self.setup.step(inputs.tri, prim_ready, &mut self.events);
+        if inputs.tri.is_some() && tri_ready {
+            self.taken();
+        }
         Outputs { tri_ready, activity, idle: tri_ready, ..Outputs::default() }
     }
 
@@ -249,8 +251,9 @@ impl<const C: usize> Model<C> {
         if written {
             one_more(&mut self.counters.writes);
         }
-        if inputs.tri.is_some() && outputs.tri_ready {
-            one_more(&mut self.counters.triangles);
+        self.counters.hold(self.span.queued(), self.depth.inflight());
+        let taken = inputs.tri.is_some() && outputs.tri_ready;
+        if taken {
             self.events.setup_overlap += u64::from(self.pixel.active());
         }
         let events = &mut self.events;
@@ -289,7 +292,16 @@ impl<const C: usize> Model<C> {
         let prim_ready = self.edge.prim_ready(fresh_queued);
         self.edge.step(self.setup.prim(), fresh_queued, line_ready, events);
         self.setup.step(inputs.tri, prim_ready, events);
+        if taken {
+            self.taken();
+        }
         outputs
+    }
+
+    /// SETUP has taken a triangle.
+    fn taken(&mut self) {
+        one_more(&mut self.counters.triangles);
+        self.counters.lanes_work(self.setup.clocks());
     }
 
     fn reset(&mut self) {

@@ -9,14 +9,13 @@
 //! Timing: data L cycles after the read fired, later if stalled; held until taken. A read that fires together with a
 //! write sees the old word. One read and one write a clock.
 //!
-//! Rules: `docs/machine.md`, section 7. Not modelled: refresh, banks, anything but late data and low readies.
+//! Rules: `docs/machine.md`, section 7. When data is late and readies are low: [`Waits`](crate::Waits).
 
 use crate::fifo::Fifo;
 use crate::prefetch::prefetch;
 use crate::tokens::{FEW, MAX_CHANNELS, OutputWords, Write};
+use crate::waits::{Pacer, Waits};
 use edgewalk_machine::Plan;
-use rand_pcg::Pcg32;
-use rand_pcg::rand_core::{RngCore, SeedableRng};
 
 /// How often the memory makes the machine wait, in 256ths; all zero: never. The same seed stalls in the same cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -40,13 +39,8 @@ impl Stalls {
 #[derive(Clone, Debug)]
 pub struct Memory<const C: usize> {
     latency: u64,
-    stalls: Stalls,
-    /// Any readies to draw.
-    readies_vary: bool,
-    random: Pcg32,
+    pacer: Pacer,
     now: u64,
-    rd_ready: bool,
-    wr_ready: bool,
     /// Depths read, with the cycle from which on they are offered.
     reads: Fifo<(u64, u32), 16>,
     /// Words from a line to the next.
@@ -67,38 +61,32 @@ fn pack([r, g, b]: [u32; 3]) -> u64 {
 impl<const C: usize> Memory<C> {
     /// A cleared memory: the farthest depth and the colour `clear` (b bits each) everywhere, and 0 in the user's own.
     #[must_use]
-    pub fn new(plan: &Plan, clear: [u64; 3], stalls: Stalls) -> Self {
+    pub fn new(plan: &Plan, clear: [u64; 3], waits: impl Into<Waits>) -> Self {
         let words = 1 << plan.widths().address;
-        let mut memory = Memory {
+        Memory {
             latency: u64::from(plan.latency),
-            stalls,
-            readies_vary: stalls.rd | stalls.wr != 0,
-            random: Pcg32::seed_from_u64(stalls.seed),
+            pacer: Pacer::new(waits.into()),
             now: 0,
-            rd_ready: true,
-            wr_ready: true,
             reads: Fifo::default(),
             pitch: 1 << plan.widths().x,
             z: vec![plan.z.max() as u32; words],             // b <= 32 bits
             rgb: vec![pack(clear.map(|c| c as u32)); words], // b <= 16 bits
             own: vec![[0; MAX_CHANNELS - FEW]; if C > FEW { words } else { 0 }],
-        };
-        memory.draw_readies();
-        memory
+        }
     }
 
     /// A read can be taken in this cycle.
     #[inline]
     #[must_use]
     pub fn rd_ready(&self) -> bool {
-        self.rd_ready
+        self.pacer.rd_ready
     }
 
     /// A write can be taken in this cycle.
     #[inline]
     #[must_use]
     pub fn wr_ready(&self) -> bool {
-        self.wr_ready
+        self.pacer.wr_ready
     }
 
     /// The depth of the oldest read, once it is there.
@@ -123,17 +111,7 @@ impl<const C: usize> Memory<C> {
     /// Clock edge: the read that fired, whether the data was taken, the write that fired.
     #[inline(always)]
     pub fn step(&mut self, read: Option<u32>, data_taken: bool, write: Option<&Write<C>>) {
-        if data_taken {
-            self.reads.pop();
-        }
-        if let Some(addr) = read {
-            let due = self.now.wrapping_add(self.latency).wrapping_add(self.late());
-            self.reads.push((due, self.z[addr as usize]));
-            // Triangles go down: the word below is likely to be next, and the host's own memory is slow.
-            let below = (addr as usize).wrapping_add(self.pitch);
-            prefetch(&self.z, below);
-            prefetch(&self.rgb, below);
-        }
+        self.clock(read, data_taken, write.map(|write| write.addr));
         if let Some(write) = write {
             let (at, values) = (write.addr as usize, &write.values);
             self.rgb[at] = pack([values[1], values[2], values[3]]);
@@ -144,33 +122,32 @@ impl<const C: usize> Memory<C> {
                 self.z[at] = values[0];
             }
         }
-        self.now = self.now.wrapping_add(1);
-        self.draw_readies();
     }
 
     /// As [`Memory::step`] in a machine with BLEND: of a write the depth is stored, and nothing else.
     #[inline(always)]
     pub fn step_depth(&mut self, read: Option<u32>, data_taken: bool, write: Option<&Write<C>>) {
-        self.step(read, data_taken, None);
+        self.clock(read, data_taken, write.map(|write| write.addr));
         if let Some(write) = write {
             self.z[write.addr as usize] = write.values[0];
         }
     }
 
-    fn late(&mut self) -> u64 {
-        if self.stalls.data == 0 {
-            return 0;
+    /// The reads, and the readies of the next cycle; a read in the cycle of a write sees the old word.
+    #[inline(always)]
+    fn clock(&mut self, read: Option<u32>, data_taken: bool, written: Option<u32>) {
+        if data_taken {
+            self.reads.pop();
         }
-        let [chance, cycles, ..] = self.random.next_u32().to_le_bytes();
-        if chance < self.stalls.data { 1 + u64::from(cycles % 8) } else { 0 }
-    }
-
-    #[inline]
-    fn draw_readies(&mut self) {
-        if self.readies_vary {
-            let [rd, wr, ..] = self.random.next_u32().to_le_bytes();
-            self.rd_ready = rd >= self.stalls.rd;
-            self.wr_ready = wr >= self.stalls.wr;
+        let late = self.pacer.step(self.now, read, written);
+        if let Some(addr) = read {
+            let due = self.now.wrapping_add(self.latency).wrapping_add(late);
+            self.reads.push((due, self.z[addr as usize]));
+            // Triangles go down: the word below is likely to be next, and the host's own memory is slow.
+            let below = (addr as usize).wrapping_add(self.pitch);
+            prefetch(&self.z, below);
+            prefetch(&self.rgb, below);
         }
+        self.now = self.now.wrapping_add(1);
     }
 }

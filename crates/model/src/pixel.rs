@@ -13,6 +13,8 @@
 //! Rules: `docs/machine.md`, section 5. Not modelled: the segments of the adders and the channels' turns at them; only
 //! their clocks are seen outside.
 
+mod view;
+
 use crate::Events;
 use crate::tokens::{Fragment, OutputWords, Source, Span, Words, per_channel};
 use edgewalk_machine::Plan;

@@ -12,6 +12,8 @@
 //!
 //! Rules: `docs/machine.md`, sections 6 and 9. Not modelled: nothing.
 
+mod view;
+
 use edgewalk_machine::Hazard;
 
 /// Places; a machine's queues are at most as deep.
@@ -107,6 +109,12 @@ impl<T: Copy + Default, S: Copy + Default> Rmw<T, S> {
     #[inline]
     pub(crate) fn occupied(&self) -> bool {
         self.len > 0 || self.w_valid
+    }
+
+    /// Accesses between read and compare.
+    #[inline]
+    pub(crate) fn len(&self) -> usize {
+        self.len
     }
 
     /// What keeps an access, its address and fence, from being read. Without one there is no hazard. `writes`: results may

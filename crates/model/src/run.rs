@@ -7,8 +7,9 @@
 
 use crate::color_memory::ColorMemory;
 use crate::machine::{BlendInputs, Inputs, Model, Outputs};
-use crate::memory::{Memory, Stalls};
+use crate::memory::Memory;
 use crate::tokens::{ColorWrite, FEW, OutputWords, Write};
+use crate::waits::Waits;
 use edgewalk_machine::{Plan, PortVertex};
 
 /// What stays the same over a picture.
@@ -79,9 +80,10 @@ impl<const C: usize> Cycle<C> {
 impl<const C: usize> Rig<C> {
     /// A machine after reset, its memory cleared.
     #[must_use]
-    pub fn new(plan: &Plan, state: DrawState, stalls: Stalls) -> Self {
-        let color = plan.blend.is_there().then(|| ColorMemory::new(plan, state.clear, stalls));
-        Rig { model: Model::new(plan), memory: Memory::new(plan, state.clear, stalls), color, state }
+    pub fn new(plan: &Plan, state: DrawState, waits: impl Into<Waits>) -> Self {
+        let waits = waits.into();
+        let color = plan.blend.is_there().then(|| ColorMemory::new(plan, state.clear, waits));
+        Rig { model: Model::new(plan), memory: Memory::new(plan, state.clear, waits), color, state }
     }
 
     /// What is stored at an address.
@@ -96,10 +98,11 @@ impl<const C: usize> Rig<C> {
         self.state = state;
     }
 
-    /// One cycle, with a triangle and its tag offered or none. The memories take writes if they are ready and `writes_open`.
+    /// The machine's inputs in a cycle, with a triangle and its tag offered or none.
     #[inline(always)]
-    pub fn cycle(&mut self, tri: Option<(&[PortVertex; 3], u32)>, writes_open: bool) -> Cycle<C> {
-        let inputs = Inputs {
+    #[must_use]
+    pub fn inputs<'a>(&self, tri: Option<(&'a [PortVertex; 3], u32)>, writes_open: bool) -> Inputs<'a> {
+        Inputs {
             rst: false,
             tri,
             depth_func: self.state.depth_func,
@@ -108,7 +111,13 @@ impl<const C: usize> Rig<C> {
             data: self.memory.data(),
             wr_ready: self.memory.wr_ready() && writes_open,
             blend: self.blend_inputs(writes_open),
-        };
+        }
+    }
+
+    /// One cycle, with a triangle and its tag offered or none. The memories take writes if they are ready and `writes_open`.
+    #[inline(always)]
+    pub fn cycle(&mut self, tri: Option<(&[PortVertex; 3], u32)>, writes_open: bool) -> Cycle<C> {
+        let inputs = self.inputs(tri, writes_open);
         let outputs = self.model.cycle(&inputs);
         let cycle = Cycle {
             outputs,

@@ -12,6 +12,8 @@
 //! Rules: `docs/machine.md`, section 4. A span is cut where it ends; before its start PIXEL steps over the columns off
 //! the screen. Not modelled: nothing.
 
+mod view;
+
 use crate::Events;
 use crate::fifo::Fifo;
 use crate::tokens::{self, Line};
@@ -73,6 +75,13 @@ impl<const C: usize> Span<C> {
     #[must_use]
     pub fn span(&self) -> Option<&tokens::Span<C>> {
         (!self.fifo.is_empty()).then(|| self.fifo.head())
+    }
+
+    /// Not hardware: spans in the FIFO.
+    #[inline]
+    #[must_use]
+    pub fn queued(&self) -> usize {
+        self.fifo.len()
     }
 
     /// A line stands before the FIFO.

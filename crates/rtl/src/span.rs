@@ -52,7 +52,7 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let [first, end] = ["first", "end"].map(|name| m.reg(&format!("held_{name}"), ends.first.width()));
     let first = first.doc("signed, first column").when(take, ends.first).q();
     let end = end.doc("signed, the column behind the last").when(take, ends.end).q();
-    let off = m.reg("held_off", 1).doc("the line ends where no screen is").when(take, ends.off).q();
+    let empty = m.reg("held_empty", 1).doc("no column of it is on the screen").when(take, ends.empty).q();
     let leftward = match plan.fill {
         Fill::Exact => {
             m.reg("held_leftward", 1).doc("drawn from its last column").when(take, line["major_right"]).q()
@@ -65,7 +65,6 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let pend_fence = m.reg("pend_fence", 1).doc("fence of dropped lines").reset(0);
     let fresh = (held["fresh"].q() | pend_fresh).named("fresh");
     let fence = (held["fence"].q() | pend_fence).named("fence");
-    let empty = (off | end.sle(first)).named("empty");
     pend_fresh.when(moves, empty & fresh);
     pend_fence.when(moves, empty & fence);
 
@@ -101,21 +100,24 @@ struct Ends<'m> {
     first: Signal<'m>,
     /// The column behind the last.
     end: Signal<'m>,
-    /// The end before its cut lies on the far side of the screen: no column is on it.
-    off: Signal<'m>,
+    /// No column lies between them, or none on the screen.
+    empty: Signal<'m>,
 }
 
 /// Half-open spans from the major edge inwards, to the right or to the left.
 fn ends_exact<'m>(m: &'m Module, plan: &Plan, line: &Token<'m>) -> Ends<'m> {
     let (cmaj, cmin, width) = (line["cmaj"], line["cmin"], plan.width as i32);
     m.comment("To the right from cmaj to before cmin, at most to the end of the screen; to the left to cmin, at least to column 0.");
-    let beyond = cmin.sge(width).named_doc("right_of_screen", "no column of the screen lies right of cmin");
-    let before = cmin.sle(0).named_doc("left_of_screen", "no column of the screen lies left of cmin");
+    let right_of_screen = cmin.sge(width).named_doc("right_of_screen", "no column of the screen lies right of cmin");
+    let left_of_screen = cmin.sle(0).named_doc("left_of_screen", "no column of the screen lies left of cmin");
+    m.comment("Whether a column is left is asked of the edges themselves: no comparison waits for the cut.");
+    let none_right = (cmin.sle(cmaj) | cmaj.sge(width) | left_of_screen).named("none_right");
+    let none_left = (cmaj.sle(cmin) | cmaj.sle(0) | right_of_screen).named("none_left");
     let leftward = line["major_right"];
     Ends {
-        first: leftward.mux(before.mux(0, cmin), cmaj).named("first"),
-        end: leftward.mux(cmaj, beyond.mux(width, cmin)).named("end_cut"),
-        off: leftward.mux(beyond, before).named("off"),
+        first: leftward.mux(left_of_screen.mux(0, cmin), cmaj).named("first"),
+        end: leftward.mux(cmaj, right_of_screen.mux(width, cmin)).named("end_cut"),
+        empty: leftward.mux(none_left, none_right).named("empty"),
     }
 }
 
@@ -125,9 +127,7 @@ fn ends_textbook<'m>(m: &'m Module, plan: &Plan, line: &Token<'m>) -> Ends<'m> {
     let width = plan.width as i32;
     m.comment("From Trunc(X) of the left edge to Trunc(X) of the right edge, both drawn; a column register is Trunc(X) + 1.");
     let xe = major_right.mux(cmaj, cmin).named_doc("xe", "signed, first column after the line");
-    Ends {
-        first: (major_right.mux(cmin, cmaj) - 1).named("first"),
-        end: xe.slt(width).mux(xe, width).named_doc("end_cut", "signed, first column after the span"),
-        off: xe.sle(0).named("off"),
-    }
+    let first = (major_right.mux(cmin, cmaj) - 1).named("first");
+    let end = xe.slt(width).mux(xe, width).named_doc("end_cut", "signed, first column after the span");
+    Ends { first, end, empty: (end.sle(first) | xe.sle(0)).named("empty") }
 }

@@ -60,6 +60,12 @@ pub struct UnknownTarget {
 }
 
 impl Target {
+    /// The programs that it takes.
+    #[must_use]
+    pub fn tools(&self) -> [&'static str; 2] {
+        [self.yosys, self.nextpnr]
+    }
+
     /// The device of that name.
     ///
     /// # Errors

@@ -21,6 +21,7 @@ use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use crate::{Talk, progress};
 use anyhow::{Result, anyhow};
+use edgewalk_model::Waits;
 use engine::Engine;
 use job::Job;
 use table::{Row, Table};
@@ -34,6 +35,7 @@ use table::{Row, Table};
 #[command(after_help = "Examples:
   edgewalk bench triangles.tri
   edgewalk bench teapot.obj --set screen.width=1280 --set screen.height=960 --repeat 21 --json
+  edgewalk bench sphere --stalls dram
   taskset -c 0 edgewalk bench triangles.tri --engine fast,tick --set interpolator.adders=1")]
 pub struct Args {
     #[command(flatten)]
@@ -41,6 +43,9 @@ pub struct Args {
     /// Engines that take part; all of them if left out
     #[arg(long, value_enum, value_delimiter = ',', value_name = "ENGINE,...")]
     engine: Vec<Engine>,
+    /// How the memory makes the machine wait: none, fixed, random, dram, with parameters as fixed:rd=2; only tick takes part then
+    #[arg(long, value_name = "KIND", default_value = "none")]
+    stalls: Waits,
     /// Frames timed for each engine, after a first one
     #[arg(long, default_value_t = 5, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     repeat: u32,
@@ -50,7 +55,7 @@ pub struct Args {
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (machine, frame) = args.source.on_its_screen(machine)?;
     let port = to_port(&frame, &machine)?;
-    let whole = Job::new(&machine, &port.triangles, port.state, args.repeat)?;
+    let whole = Job::new(&machine, &port.triangles, (port.state, args.stalls), args.repeat)?;
     let size = (machine.width, machine.height);
     Verdict::drew(whole.fragments).or_nothing(&args.source.input, whole.triangles.len() as u64, size)?;
     let bar = progress::bar(Engine::ALL.len() as u64, "engines", talk.quiet);

@@ -11,6 +11,7 @@ use crate::staging::Staging;
 use crate::talk::{self, Talk};
 use crate::verdict::Verdict;
 use anyhow::Result;
+use edgewalk_model::Waits;
 use edgewalk_vectors::{Tables, Unit};
 use std::path::PathBuf;
 
@@ -40,8 +41,14 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = machine.machine(None)?;
     let frame = args.source.frame(&machine)?;
     let out = Staging::new(&args.out)?;
-    let Pictures { report, verdict, ids } =
-        render::pictures(&args.source.input, &frame, &machine, Engine::Model, &out, talk.quiet)?;
+    let Pictures { report, verdict, ids } = render::pictures(
+        &args.source.input,
+        &frame,
+        &machine,
+        (Engine::Model, Waits::Never),
+        &out,
+        talk.quiet,
+    )?;
     let port = to_port(&frame, &machine)?;
     let dda = depth_error_over_bound(&machine, &port.triangles, &ids);
     if let Some(map) = &dda {
@@ -57,7 +64,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let own = [emit::own("hdl/"), vectors::own(&args.out, "vectors/", &suites)].concat();
     let pictures = render::FILES.map(str::to_owned);
     out.publish(&[&own[..], &pictures, &[ACCUMULATOR.to_owned()]].concat())?;
-    report.print(talk)?;
+    talk.say(|| report.json(), || report.text())?;
     if !talk.quiet && !talk.json {
         let at = args.out.display();
         let dda = if dda.is_some() { " z_accumulator.png" } else { "" };

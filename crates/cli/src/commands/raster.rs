@@ -81,7 +81,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     };
     out.write("report.json", report.json()?)?;
     out.publish(&FILES)?;
-    report.print(talk)?;
+    talk.say(|| report.json(), || report.text())?;
     let size = (machine.width, machine.height);
     Verdict::drew(report.covered()).or_nothing(&args.file.display().to_string(), report.primitives(), size)
 }

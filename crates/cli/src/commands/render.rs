@@ -1,8 +1,7 @@
 //! `edgewalk render`: a scene or a mesh through the machine, beside the golden picture; or through a shading system of
 //! the golden picture, beside the truth.
 
-use crate::compare::compare;
-use crate::engine::{Engine, draw, from_golden, golden_fill};
+use crate::engine::{Engine, draw, draw_waiting, from_golden, golden_fill};
 use crate::fast_phong::{FastPhongArgs, FastPhongReport};
 use crate::input::{Shading, Source, to_port};
 use crate::machine_args::MachineArgs;
@@ -15,8 +14,11 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Result, anyhow};
+use edgewalk_explore::compare::compare_for;
+use edgewalk_explore::reach::reach;
 use edgewalk_golden::{HiddenLines, wireframe};
 use edgewalk_machine::Plan;
+use edgewalk_model::Waits;
 use edgewalk_scene::Frame;
 use std::path::PathBuf;
 
@@ -30,6 +32,7 @@ use std::path::PathBuf;
   edgewalk render torus-knot
   edgewalk render teapot.obj --out out/teapot --set screen.width=1280 --set screen.height=960
   edgewalk render sphere --shading constant --set interpolator.adders=1 --json
+  edgewalk render sphere --stalls dram:miss=10
   edgewalk render sphere --engine golden --shading phong
   edgewalk render teapot.obj --engine golden --shading constant-averaged
   edgewalk render sphere --engine golden --shading fast-phong --fit six-point --table 4096
@@ -49,6 +52,10 @@ pub struct Args {
     /// With --shading wireframe: also draws the lines that surfaces hide
     #[arg(long)]
     hidden_lines: bool,
+    /// How the memory makes the machine wait: none, fixed, random, dram, with parameters as fixed:rd=2,data=4,wr=1,
+    /// random:seed=1,rd=64,data=64,wr=64 (256ths), dram:banks=4,page=256,miss=6,turn=2,refresh=780,busy=13
+    #[arg(long, value_name = "KIND", default_value = "none")]
+    stalls: Waits,
     /// Output directory
     #[arg(long, value_name = "DIR", default_value = "out/render")]
     out: PathBuf,
@@ -78,6 +85,12 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     if args.hidden_lines && !lines_only {
         return Err(anyhow!("--hidden-lines: permitted with --engine golden --shading wireframe"));
     }
+    if args.engine == Engine::Golden && args.stalls != Waits::Never {
+        return Err(anyhow!(
+            "--stalls {}: the golden picture has no memory that stalls; draw with --engine fast",
+            args.stalls
+        ));
+    }
     if args.engine == Engine::Golden && !lines_only && !args.source.is_triangle_file() {
         return shaded(args, &machine, talk);
     }
@@ -90,11 +103,11 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let frame = args.source.frame(&machine)?;
     let out = Staging::new(&args.out)?;
     let Pictures { report, verdict, .. } =
-        pictures(&args.source.input, &frame, &machine, args.engine, &out, talk.quiet)?;
+        pictures(&args.source.input, &frame, &machine, (args.engine, args.stalls), &out, talk.quiet)?;
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    report.print(talk)?;
+    talk.say(|| report.json(), || report.text())?;
     verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
 }
 
@@ -110,7 +123,7 @@ fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    report.print(talk)?;
+    talk.say(|| report.json(), || report.text())?;
     let primitives = (frame.triangles.len() + frame.polygons.len()) as u64;
     Verdict::drew(report.covered()).or_nothing(&args.source.input, primitives, (drawn.width, drawn.height))
 }
@@ -155,7 +168,7 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    report.print(talk)?;
+    talk.say(|| report.json(), || report.text())?;
     Verdict::drew(error.pixels).or_nothing(&args.source.input, surface.triangles.len() as u64, (w, h))
 }
 
@@ -174,21 +187,25 @@ pub fn pictures(
     name: &str,
     frame: &Frame,
     machine: &Plan,
-    engine: Engine,
+    (engine, waits): (Engine, Waits),
     out: &Staging,
     quiet: bool,
 ) -> Result<Pictures> {
     let golden = draw(Engine::Golden, frame, machine, quiet)?;
-    let drawn = draw(engine, frame, machine, quiet)?;
-    let comparison = compare(machine, frame, &golden, &drawn);
+    let drawn = draw_waiting(engine, frame, machine, waits, quiet)?;
+    let port = to_port(frame, machine)?;
+    let reach = reach(machine, &port)?;
+    let comparison = compare_for(machine, frame, &golden, &drawn, reach.as_ref());
     let (w, h) = (drawn.width, drawn.height);
     picture::write_rgb(out, "golden.png", w, h, &golden.rgb)?;
     picture::write_rgb(out, "image.png", w, h, &drawn.rgb)?;
     picture::write_heat(out, "z_error.png", (w, h), &comparison.z_map, 1.0)?;
     picture::write_heat(out, "color_error.png", (w, h), &comparison.color_map, 1.0)?;
     let verdict = comparison.verdict();
-    let setup = SetupReport::new(machine, &to_port(frame, machine)?.triangles);
-    let report =
-        Report::new(name, frame.triangles.len() as u64, machine, &drawn).with(comparison).with_setup(setup);
+    let setup = SetupReport::new(machine, &port.triangles);
+    let report = Report::new(name, frame.triangles.len() as u64, machine, &drawn)
+        .with(comparison)
+        .with_setup(setup)
+        .with_stalls(waits);
     Ok(Pictures { report, verdict, ids: drawn.id })
 }

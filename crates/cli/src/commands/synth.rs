@@ -16,7 +16,7 @@ use anyhow::{Context, Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_synth::{Cache, Design, Flow, Part, Target, UnknownTarget};
 use rayon::prelude::*;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 use table::Report;
 
@@ -68,7 +68,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let part = Part::named(&args.unit, &machine).map_err(|error| anyhow!("--unit {}: {error}", args.unit))?;
     let design = design(&machine, part)?;
     let out = args.out.as_deref().map(Staging::new).transpose()?;
-    let folder = cache_folder(args)?;
+    let folder = cache_folder(args.cache.as_deref())?;
     // Where results move from: in the same file system, and gone even where a signal ends the program.
     let scratch = Scratch::within(&folder).with_context(|| format!("--cache {}", folder.display()))?;
     let cache = Cache::new(folder, scratch.path().to_owned());
@@ -112,11 +112,12 @@ fn own(machine: &Plan) -> Result<Vec<String>> {
     Ok(own)
 }
 
-fn cache_folder(args: &Args) -> Result<PathBuf> {
+/// Where results of the tools are kept: in the folder asked for, or where the system keeps such things.
+pub fn cache_folder(asked: Option<&Path>) -> Result<PathBuf> {
     let variable = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let usual = || variable("XDG_CACHE_HOME").or_else(|| Some(variable("HOME")?.join(".cache")));
     let own = |folder: PathBuf| folder.join("edgewalk").join("synth");
-    args.cache.clone().or_else(|| usual().map(own)).ok_or_else(|| {
+    asked.map(Path::to_owned).or_else(|| usual().map(own)).ok_or_else(|| {
         anyhow!("neither XDG_CACHE_HOME nor HOME says where to keep results; say it with --cache DIR")
     })
 }

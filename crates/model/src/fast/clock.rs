@@ -81,6 +81,10 @@ pub(super) struct Clock {
     /// Pixels on and off the screen.
     drawn: u64,
     skipped: u64,
+    /// Cycles of all spans in the FIFO.
+    queued: u64,
+    /// S1 and S2 of all triangles.
+    setup: [u64; 2],
     /// Cycles counted as EDGE while lines are walked.
     edge: u64,
     /// PIXEL pops not before.
@@ -109,6 +113,8 @@ impl Clock {
             spans: 0,
             drawn: 0,
             skipped: 0,
+            queued: 0,
+            setup: [0; 2],
             edge: 0,
             pixel_free: 0,
             last: None,
@@ -121,12 +127,15 @@ impl Clock {
     /// A triangle that SETUP culls.
     pub(super) fn culled(&mut self, setup: SetupClocks) {
         self.enter_setup();
+        self.setup[0] += u64::from(setup.phase1);
         self.take += u64::from(setup.phase1) + 1;
     }
 
     /// A triangle that EDGE takes; its lines follow.
     pub(super) fn triangle(&mut self, setup: SetupClocks) {
         self.enter_setup();
+        self.setup[0] += u64::from(setup.phase1);
+        self.setup[1] += u64::from(setup.phase2);
         let ready = self.take + u64::from(setup.all()) + 1;
         let prim = ready.max(self.edge_free);
         self.take = prim + 1;
@@ -146,7 +155,7 @@ impl Clock {
 
     /// Spans of a triangle, from one fence to the next; `fresh`: its first ones.
     #[inline(always)]
-    pub(super) fn spans(&mut self, spans: &[Span], fresh: bool, to_left: bool) {
+    pub(super) fn spans<W>(&mut self, spans: &[Span<W>], fresh: bool, to_left: bool) {
         let mut first = true;
         for span in spans {
             let place = self.spans as usize;
@@ -158,6 +167,7 @@ impl Clock {
                 pop = self.pixel_free.max(push + 1);
             }
             self.room[place & 63] = pop + 1;
+            self.queued += pop - push;
             self.spans += 1;
             let drawn = pop + u64::from(span.skip) * self.pixel;
             if first {
@@ -276,5 +286,8 @@ impl Clock {
         counters.activity = self.activity;
         counters.spans = self.spans;
         counters.fragments = self.drawn;
+        counters.setup_clocks = self.setup;
+        counters.queued_spans = self.queued;
+        counters.inflight = self.drawn * self.latency;
     }
 }

@@ -1,6 +1,7 @@
 //! Walks every triangle as EDGE and SPAN do, draws its spans, and keeps the clock.
 
 use super::clock::Clock;
+use super::passage::Passage;
 use super::picture::Picture;
 use super::pixel::Pixel;
 use super::setup::Setup;
@@ -20,11 +21,13 @@ pub(super) fn draw<P: Pixel, const DETAILS: bool>(
     triangles: impl Iterator<Item = [PortVertex; 3]>,
     state: &DrawState,
     picture: &mut Picture<P>,
+    passage: Option<&mut Passage>,
 ) -> Result<Counters, Refusal> {
     let mut frame = Frame {
         spans: Vec::new(),
         test: DepthTest::new::<P>(plan, state),
         picture,
+        passage,
         clock: Clock::new(plan, state.depth_write),
         counters: Counters::default(),
     };
@@ -35,7 +38,12 @@ pub(super) fn draw<P: Pixel, const DETAILS: bool>(
         frame.counters.triangles += 1;
         match setup.increments(&vertices) {
             (clocks, Some(prim)) => frame.triangle::<DETAILS>(&walker, clocks, &prim, id as i32),
-            (clocks, None) => frame.clock.culled(clocks),
+            (clocks, None) => {
+                frame.clock.culled(clocks);
+                if let Some(passage) = &mut frame.passage {
+                    passage.culled();
+                }
+            }
         }
         if frame.clock.interlocked() {
             return Err(Reason::Interlock.into());
@@ -51,6 +59,7 @@ struct Frame<'a, P: Pixel> {
     spans: Vec<Span>,
     test: DepthTest,
     picture: &'a mut Picture<P>,
+    passage: Option<&'a mut Passage>,
     clock: Clock,
     counters: Counters,
 }
@@ -80,10 +89,17 @@ impl<P: Pixel> Frame<'_, P> {
                 fresh = false;
                 let [leftmost, rightmost] =
                     self.test.draw::<P, DETAILS>(self.picture, &self.spans, &ramp, id);
-                self.clock.last_passed(if to_left { leftmost } else { rightmost });
+                let passed = if to_left { leftmost } else { rightmost };
+                self.clock.last_passed(passed);
+                if let Some(passage) = &mut self.passage {
+                    passage.part(&self.spans, to_left, passed);
+                }
                 self.spans.clear();
             }
         }
         self.clock.end_triangle(empty);
+        if let Some(passage) = &mut self.passage {
+            passage.triangle(prim.lines, empty);
+        }
     }
 }

@@ -51,7 +51,7 @@ impl InFlight {
     }
 
     /// Takes in a span whose first fragment is read in cycle `first`; `fence`: it is the first behind a fence.
-    pub(super) fn meet(&mut self, span: &Span, first: u64, to_left: bool, fence: bool) {
+    pub(super) fn meet<W>(&mut self, span: &Span<W>, first: u64, to_left: bool, fence: bool) {
         let (leftmost, count) = (i64::from(span.pixel), i64::from(span.count));
         let (place, step) = if to_left { (leftmost + count - 1, -1) } else { (leftmost, 1) };
         let reads = Reads { first, place, step, count };

@@ -19,6 +19,7 @@ mod clock;
 mod pixel;
 mod picture;
 mod span;
+mod passage;
 mod frame;
 mod vector;
 
@@ -29,6 +30,7 @@ use crate::memory::Stalls;
 use crate::run::DrawState;
 use crate::tokens::FEW;
 use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
+pub use passage::{Fate, Passage};
 use picture::Picture;
 use std::fmt;
 use std::ops::Range;
@@ -44,6 +46,8 @@ pub enum Reason {
     Queue,
     /// Interlock, and a fragment may have met its own address in flight.
     Interlock,
+    /// The memory makes the machine wait.
+    Memory,
 }
 
 /// Why a frame was not drawn without ticking.
@@ -83,6 +87,7 @@ impl fmt::Display for Path {
             Path::Ticked(Reason::Channels) => "ticked: the machine has extra channels",
             Path::Ticked(Reason::Blend) => "ticked: the machine has BLEND",
             Path::Ticked(Reason::Queue) => "ticked: the in-flight queue may fill",
+            Path::Ticked(Reason::Memory) => "ticked: the memory makes the machine wait",
             Path::Ticked(Reason::Interlock) => "ticked: a fragment may have met its address in flight",
         })
     }
@@ -126,20 +131,38 @@ impl Renderer {
         triangles: impl IntoIterator<Item = [PortVertex; 3]>,
         state: DrawState,
     ) -> Result<(), Refusal> {
+        self.pass(triangles, state, None)
+    }
+
+    /// The same, and keeps how the frame went through the units: it can be clocked again with other timing keys.
+    ///
+    /// # Errors
+    /// As [`Renderer::draw`].
+    pub fn draw_passage(
+        &mut self,
+        triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+        state: DrawState,
+    ) -> Result<Passage, Refusal> {
+        let mut passage = Passage::new(&self.plan, state.depth_write);
+        self.pass(triangles, state, Some(&mut passage))?;
+        passage.drawn(&self.counters);
+        Ok(passage)
+    }
+
+    fn pass(
+        &mut self,
+        triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+        state: DrawState,
+        passage: Option<&mut Passage>,
+    ) -> Result<(), Refusal> {
         let Renderer { plan, details, memory, counters } = self;
-        if plan.blend.is_there() {
-            return Err(Reason::Blend.into());
-        }
-        if plan.channels().len() > FEW {
-            return Err(Reason::Channels.into());
-        }
-        if queue_fills(plan) {
-            return Err(Reason::Queue.into());
+        if let Some(reason) = refused(plan) {
+            return Err(reason.into());
         }
         let triangles = triangles.into_iter();
         *counters = match memory {
-            Memory::Narrow(picture) => vector::draw(plan, triangles, &state, *details, picture),
-            Memory::Wide(picture) => vector::draw(plan, triangles, &state, *details, picture),
+            Memory::Narrow(picture) => vector::draw(plan, triangles, &state, *details, picture, passage),
+            Memory::Wide(picture) => vector::draw(plan, triangles, &state, *details, picture, passage),
         }?;
         Ok(())
     }
@@ -176,6 +199,17 @@ impl Renderer {
             events: Events::default(),
         }
     }
+}
+
+/// Why no frame of the machine can be had without ticking.
+fn refused(plan: &Plan) -> Option<Reason> {
+    if plan.blend.is_there() {
+        return Some(Reason::Blend);
+    }
+    if plan.channels().len() > FEW {
+        return Some(Reason::Channels);
+    }
+    queue_fills(plan).then_some(Reason::Queue)
 }
 
 /// The queue holds at most a fragment every T clocks for L clocks; it never fills if it has room for one more.

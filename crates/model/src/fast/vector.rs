@@ -2,6 +2,7 @@
 
 use super::Refusal;
 use super::frame;
+use super::passage::Passage;
 use super::picture::Picture;
 use super::pixel::Pixel;
 use crate::counters::Counters;
@@ -17,8 +18,9 @@ macro_rules! compiled_for {
             triangles: impl Iterator<Item = [PortVertex; 3]>,
             state: &DrawState,
             picture: &mut Picture<P>,
+            passage: Option<&mut Passage>,
         ) -> Result<Counters, Refusal> {
-            frame::draw::<P, DETAILS>(plan, triangles, state, picture)
+            frame::draw::<P, DETAILS>(plan, triangles, state, picture, passage)
         }
     };
 }
@@ -33,12 +35,13 @@ pub(super) fn draw<P: Pixel>(
     state: &DrawState,
     details: bool,
     picture: &mut Picture<P>,
+    passage: Option<&mut Passage>,
 ) -> Result<Counters, Refusal> {
     picture.clear(plan, state, details);
     if details {
-        widest::<P, true>(plan, triangles, state, picture)
+        widest::<P, true>(plan, triangles, state, picture, passage)
     } else {
-        widest::<P, false>(plan, triangles, state, picture)
+        widest::<P, false>(plan, triangles, state, picture, passage)
     }
 }
 
@@ -47,6 +50,7 @@ fn widest<P: Pixel, const DETAILS: bool>(
     triangles: impl Iterator<Item = [PortVertex; 3]>,
     state: &DrawState,
     picture: &mut Picture<P>,
+    passage: Option<&mut Passage>,
 ) -> Result<Counters, Refusal> {
     #[cfg(target_arch = "x86_64")]
     {
@@ -58,12 +62,12 @@ fn widest<P: Pixel, const DETAILS: bool>(
             && is_x86_feature_detected!("avx512vl")
         {
             // SAFETY: the function is safe code, compiled for exactly the features found here.
-            return unsafe { avx512::<P, DETAILS>(plan, triangles, state, picture) };
+            return unsafe { avx512::<P, DETAILS>(plan, triangles, state, picture, passage) };
         }
         if bmi && is_x86_feature_detected!("avx2") {
             // SAFETY: as above.
-            return unsafe { avx2::<P, DETAILS>(plan, triangles, state, picture) };
+            return unsafe { avx2::<P, DETAILS>(plan, triangles, state, picture, passage) };
         }
     }
-    frame::draw::<P, DETAILS>(plan, triangles, state, picture)
+    frame::draw::<P, DETAILS>(plan, triangles, state, picture, passage)
 }

@@ -13,11 +13,11 @@ use std::array::from_fn;
 
 type Words = crate::tokens::Words<FEW>;
 
-/// Pixels of a line that lie on the screen.
+/// Pixels of a line that lie on the screen; the clock does without their words.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Span {
+pub(super) struct Span<W = Words> {
     /// Words at the leftmost, at the left end of 64 bits.
-    pub words: Words,
+    pub words: W,
     /// Place of the leftmost, y·W + x.
     pub pixel: u32,
     /// Pixels, at least 1.

@@ -17,14 +17,16 @@ pub(crate) mod sort;
 pub(crate) mod edges;
 mod channels;
 pub(crate) mod clocks;
+mod schedule;
+mod view;
 
 pub use clocks::{SetupClocks, longest_setup};
 
 use crate::Events;
-use crate::tokens::{Prim, Source};
+use crate::tokens::{FEW, Prim, Source};
 use clocks::Timing;
 use edgewalk_machine::{Plan, PortVertex};
-use sort::Sorted;
+use sort::{Corner, Sorted};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
@@ -45,9 +47,10 @@ pub struct Setup<const C: usize> {
     /// Cycles remaining in PHASE1 or PHASE2, less one; 0 in the others.
     remaining: u32,
     culled: bool,
-    /// S2 of this triangle.
-    phase2: u32,
+    /// Of this triangle.
+    clocks: SetupClocks,
     prim: Prim<C>,
+    sorted: Sorted<C>,
     /// Not hardware: triangles taken in.
     taken: u32,
 }
@@ -63,8 +66,9 @@ impl<const C: usize> Setup<C> {
             state: State::Idle,
             remaining: 0,
             culled: false,
-            phase2: 0,
+            clocks: SetupClocks::default(),
             prim: Prim::default(),
+            sorted: Sorted { corners: [Corner { u: 0, v: 0, values: [0; C] }; 3] },
             taken: 0,
         }
     }
@@ -89,6 +93,13 @@ impl<const C: usize> Setup<C> {
         (self.state == State::Done).then_some(&self.prim)
     }
 
+    /// Not hardware: the clocks of the triangle taken last.
+    #[inline]
+    #[must_use]
+    pub fn clocks(&self) -> SetupClocks {
+        self.clocks
+    }
+
     /// Clock edge.
     #[inline(always)]
     pub fn step(&mut self, tri: Option<(&[PortVertex; 3], u32)>, prim_ready: bool, events: &mut Events) {
@@ -106,7 +117,7 @@ impl<const C: usize> Setup<C> {
                 }
             }
             State::Phase1 if self.culled => self.state = State::Idle,
-            State::Phase1 => self.enter(State::Phase2, self.phase2),
+            State::Phase1 => self.enter(State::Phase2, self.clocks.phase2),
             State::Phase2 => self.state = State::Done,
             State::Done => self.state = State::Idle,
         }
@@ -123,7 +134,7 @@ impl<const C: usize> Setup<C> {
         let sorted = Sorted::new(&self.plan, vertices);
         let (clocks, prim) = prepare(&self.plan, &self.timing, &sorted);
         self.enter(State::Phase1, clocks.phase1);
-        self.phase2 = clocks.phase2;
+        self.clocks = clocks;
         self.culled = prim.is_err();
         match prim {
             Ok(prim) => {
@@ -135,6 +146,7 @@ impl<const C: usize> Setup<C> {
             Err(Culled::Columns) => events.culled_columns += 1,
             Err(Culled::Area) => events.culled_area += 1,
         }
+        self.sorted = sorted;
     }
 
     fn count(&self, sorted: &Sorted<C>, events: &mut Events) {
@@ -164,6 +176,19 @@ pub enum Culled {
 #[must_use]
 pub fn setup_clocks(plan: &Plan, vertices: &[PortVertex; 3]) -> SetupClocks {
     increments::<{ edgewalk_machine::MAX_CHANNELS }>(plan, &Timing::new(plan), vertices).0
+}
+
+/// Why a triangle at the port draws nothing, if SETUP culls it.
+#[must_use]
+pub fn cull(plan: &Plan, vertices: &[PortVertex; 3]) -> Option<Culled> {
+    let sorted = Sorted::<FEW>::new(plan, vertices);
+    if edges::parts(plan, &sorted).lines == [0, 0] {
+        Some(Culled::Lines)
+    } else if edges::no_columns(plan, &sorted) {
+        Some(Culled::Columns)
+    } else {
+        (sorted.area() == 0).then_some(Culled::Area)
+    }
 }
 
 /// The clocks and increments of a triangle at the port, without tag and number.

@@ -5,6 +5,7 @@ use super::jit;
 use super::job::{Job, Times};
 use super::{fast, interpreter, tick, verilator};
 use anyhow::Result;
+use edgewalk_model::Waits;
 
 /// Who draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -59,6 +60,9 @@ impl Engine {
 
     /// Times the engine, or says why it cannot take part.
     pub fn time(self, job: &Job) -> Result<Result<Times, String>> {
+        if job.waits != Waits::Never && self != Engine::Tick {
+            return Ok(Err("its memory never makes the machine wait".to_owned()));
+        }
         match self {
             Engine::Fast => fast::time(job),
             Engine::Tick => tick::time(job).map(Ok),

@@ -6,7 +6,7 @@ use edgewalk_lockstep::case::constants;
 use edgewalk_lockstep::{Interface, Setting, Unit};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::fast::Renderer;
-use edgewalk_model::{Counters, DrawState, Stalls, render};
+use edgewalk_model::{Counters, DrawState, Waits, render};
 
 /// What the machine does for a frame, whoever says so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +32,8 @@ pub struct Job<'a> {
     pub triangles: &'a [[PortVertex; 3]],
     /// In this state.
     pub state: DrawState,
+    /// How the memory makes the machine wait.
+    pub waits: Waits,
     /// Frames that are timed.
     pub repeat: u32,
     /// Pixels inside the triangles.
@@ -61,16 +63,18 @@ impl<'a> Job<'a> {
     pub fn new(
         machine: &'a Plan,
         triangles: &'a [[PortVertex; 3]],
-        state: DrawState,
+        (state, waits): (DrawState, Waits),
         repeat: u32,
     ) -> Result<Self> {
         let mut renderer = Renderer::new(machine, false);
-        let counters = match renderer.draw(triangles.iter().copied(), state) {
-            Ok(()) => renderer.counters().clone(),
-            Err(_) => render(machine, triangles.iter().copied(), state, Stalls::NONE)?.counters,
+        let drawn = waits == Waits::Never && renderer.draw(triangles.iter().copied(), state).is_ok();
+        let counters = if drawn {
+            renderer.counters().clone()
+        } else {
+            render(machine, triangles.iter().copied(), state, waits)?.counters
         };
         let (fragments, work) = (counters.fragments, Work::of(&counters));
-        Ok(Job { machine, triangles, state, repeat, fragments, work })
+        Ok(Job { machine, triangles, state, waits, repeat, fragments, work })
     }
 
     /// The first triangles, that take about `cycles`, at least one.
@@ -78,7 +82,7 @@ impl<'a> Job<'a> {
         let share = cycles as f64 / self.work.cycles.max(1) as f64;
         let count = (self.triangles.len() as f64 * share).ceil() as usize;
         let part = &self.triangles[..count.min(self.triangles.len())];
-        Job::new(self.machine, part, self.state, self.repeat)
+        Job::new(self.machine, part, (self.state, self.waits), self.repeat)
     }
 
     /// Draws the first frame, with `start` from before the engine was built, and then those that are timed.

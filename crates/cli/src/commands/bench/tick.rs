@@ -3,7 +3,7 @@
 use super::job::{Job, Times, Work};
 use super::stopwatch::Stopwatch;
 use anyhow::Result;
-use edgewalk_model::{Rig, Stalls, for_channels};
+use edgewalk_model::{Rig, for_channels};
 use std::convert::Infallible;
 
 /// Times it.
@@ -13,7 +13,7 @@ pub fn time(job: &Job) -> Result<Times> {
 
 /// Clear and draw all, no more than Verilator's harness does.
 fn frame<const C: usize>(job: &Job) -> Work {
-    let mut rig = Rig::<C>::new(job.machine, job.state, Stalls::NONE);
+    let mut rig = Rig::<C>::new(job.machine, job.state, job.waits);
     let triangles = job.triangles.iter().map(|triangle| Ok::<_, Infallible>(*triangle));
     let Ok(()) = rig.draw(triangles, |_, _, _| {});
     Work::of(rig.model.counters())

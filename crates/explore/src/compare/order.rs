@@ -4,8 +4,9 @@
 //! output rounding, 0 for the cleared depth). Nearer ones may come out as less, equal or greater. Playing the depth test at
 //! a pixel through, with every outcome of every test that is open, gives all that the machine may leave there.
 
-use crate::engine::{Raster, golden_fill};
 use crate::extra;
+use crate::raster::{Raster, golden_fill};
+use crate::reach::Reach;
 use edgewalk_golden::{Fill, Fragment, fragments};
 use edgewalk_machine::Plan;
 use edgewalk_numerics::Dyadic;
@@ -62,8 +63,8 @@ impl Over {
 
 impl<'a> Orders<'a> {
     /// Of these pixels.
-    pub fn new(machine: &Plan, frame: &'a Frame, pixels: &[usize]) -> Self {
-        let apart = apart(machine);
+    pub fn new(machine: &Plan, frame: &'a Frame, pixels: &[usize], reach: Option<&Reach>) -> Self {
+        let apart = apart(machine, reach);
         let over = match (apart, golden_fill(machine)) {
             (Some(_), Fill::Exact { subpixel_bits }) => all_over(machine, frame, subpixel_bits, pixels),
             _ => BTreeMap::new(),
@@ -83,9 +84,11 @@ impl<'a> Orders<'a> {
     }
 }
 
-/// Bound 7 for any two fragments of the machine.
-fn apart(machine: &Plan) -> Option<Apart> {
-    let error = machine.proved_budget(&machine.channels()[0]).ok()?.before_rounding();
+/// Bound 7 for any two fragments of the machine, or of triangles that reach so far.
+fn apart(machine: &Plan, reach: Option<&Reach>) -> Option<Apart> {
+    let depth = &machine.channels()[0];
+    let budget = reach.and_then(|reach| reach.budget(machine, depth));
+    let error = budget.or_else(|| machine.proved_budget(depth).ok())?.before_rounding();
     let lsb = |other| Some(surely_ordered_difference(error, other)?.to_f64() / machine.z.max() as f64);
     Some(Apart { triangles: lsb(error)?, cleared: lsb(Dyadic::ZERO)? })
 }

@@ -5,7 +5,7 @@ use edgewalk_model::edge::Edge;
 use edgewalk_model::setup::Setup;
 use edgewalk_model::span::Span;
 use edgewalk_model::tokens::Prim;
-use edgewalk_model::{Events, for_channels, longest_setup};
+use edgewalk_model::{Culled, Events, for_channels, longest_setup};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -23,6 +23,7 @@ const FATES: [(&str, &str); 5] = [
 const SIZES: [(&str, u64); 5] = [("0", 0), ("1-3", 1), ("4-15", 4), ("16-63", 16), ("64+", 64)];
 
 /// Counts over triangles.
+#[derive(Clone, Debug)]
 pub struct SetupReport {
     /// How many took so many clocks, S1 + S2; without those that were culled.
     clocks: BTreeMap<u32, u64>,
@@ -36,15 +37,46 @@ pub struct SetupReport {
 impl SetupReport {
     /// Of all triangles, in SETUP one after the other.
     pub fn new(machine: &Plan, triangles: &[[PortVertex; 3]]) -> Self {
-        let mut report = SetupReport {
+        let mut report = SetupReport::empty(machine);
+        for_channels!(machine, C => report.all::<C>(machine, triangles));
+        report
+    }
+
+    /// The same of what is known already: of each triangle S1 + S2, why it was culled, and its pixels.
+    pub fn of(machine: &Plan, triangles: impl Iterator<Item = (u32, Option<Culled>, u64)>) -> Self {
+        let mut report = SetupReport::empty(machine);
+        for (clocks, culled, pixels) in triangles {
+            let fate = match culled {
+                Some(Culled::Lines) => 0,
+                Some(Culled::Columns) => 1,
+                Some(Culled::Area) => 2,
+                None if pixels == 0 => 3,
+                None => 4,
+            };
+            report.add(clocks, fate, culled.is_none().then_some(pixels));
+        }
+        report
+    }
+
+    fn empty(machine: &Plan) -> Self {
+        SetupReport {
             clocks: BTreeMap::new(),
             all_clocks: 0,
             fates: [0; FATES.len()],
             sizes: [0; SIZES.len()],
             longest: longest_setup(machine).all(),
-        };
-        for_channels!(machine, C => report.all::<C>(machine, triangles));
-        report
+        }
+    }
+
+    /// A triangle with its clocks, its fate, and its pixels if it was not culled.
+    fn add(&mut self, clocks: u32, fate: usize, pixels: Option<u64>) {
+        self.all_clocks += u64::from(clocks);
+        self.fates[fate] += 1;
+        if pixels.is_some() {
+            *self.clocks.entry(clocks).or_default() += 1;
+        }
+        let reached = SIZES.iter().filter(|(_, least)| pixels.unwrap_or(0) >= *least).count();
+        self.sizes[reached - 1] += 1; // all have 0 at least
     }
 
     fn all<const C: usize>(&mut self, machine: &Plan, triangles: &[[PortVertex; 3]]) {
@@ -59,7 +91,6 @@ impl SetupReport {
             }
             let pixels = setup.prim().map(|prim| pixels(machine, prim));
             setup.step(None, true, &mut met); // EDGE takes it
-            self.all_clocks += u64::from(clocks);
             let fate = match pixels {
                 None if met.culled_lines > 0 => 0,
                 None if met.culled_columns > 0 => 1,
@@ -67,12 +98,7 @@ impl SetupReport {
                 Some(0) => 3,
                 Some(_) => 4,
             };
-            self.fates[fate] += 1;
-            if pixels.is_some() {
-                *self.clocks.entry(clocks).or_default() += 1;
-            }
-            let reached = SIZES.iter().filter(|(_, least)| pixels.unwrap_or(0) >= *least).count();
-            self.sizes[reached - 1] += 1; // all have 0 at least
+            self.add(clocks, fate, pixels);
         }
     }
 
@@ -132,6 +158,7 @@ fn pixels<const C: usize>(machine: &Plan, prim: &Prim<C>) -> u64 {
     let mut pixels = 0;
     while let Some(line) = edge.line().copied() {
         spans.step(Some(&line), false, events);
+        spans.step(None, false, events); // from its register into the queue
         if let Some(span) = spans.span() {
             let (x, count) = (i64::from(span.x), i64::from(span.count));
             let (first, end) = if span.leftward { (x - count + 1, x + 1) } else { (x, x + count) };

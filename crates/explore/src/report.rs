@@ -1,13 +1,13 @@
 //! One page about a picture: what was drawn, how right it is, and where the cycles went; as text and as JSON.
 
-use crate::Talk;
 use crate::compare::Comparison;
-use crate::engine::{Cycles, Raster};
 use crate::extra::{self, OwnChannel};
+use crate::occupancy::Occupancy;
+use crate::raster::{Cycles, Raster};
 use crate::setup_report::SetupReport;
 use anyhow::Result;
 use edgewalk_machine::Plan;
-use edgewalk_model::Activity;
+use edgewalk_model::{Activity, Events, Waits};
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
@@ -21,9 +21,10 @@ pub struct Report {
     writes: u64,
     odd_pixels: u64,
     cycles: Option<Cycles>,
-    corners: Option<edgewalk_model::Events>,
+    corners: Option<Events>,
     comparison: Option<Comparison>,
     setup: Option<SetupReport>,
+    waits: Waits,
 }
 
 impl Report {
@@ -37,10 +38,11 @@ impl Report {
             covered: 0,
             odd_pixels: 0,
             writes: 0,
-            cycles: drawn.cycles,
+            cycles: drawn.cycles.clone(),
             corners: drawn.corners.clone(),
             comparison: None,
             setup: None,
+            waits: Waits::Never,
         };
         report.add(drawn);
         report
@@ -66,10 +68,53 @@ impl Report {
         self
     }
 
+    /// The same from a machine whose memory makes it wait.
+    #[must_use]
+    pub fn with_stalls(mut self, waits: Waits) -> Self {
+        self.waits = waits;
+        self
+    }
+
     /// The same with what SETUP did.
     pub fn with_setup(mut self, setup: SetupReport) -> Self {
         self.setup = Some(setup);
         self
+    }
+
+    /// The same pixels from a machine that differs in timing keys alone.
+    #[must_use]
+    pub fn timed(
+        &self,
+        machine: &Plan,
+        cycles: Cycles,
+        corners: Option<Events>,
+        setup: SetupReport,
+    ) -> Report {
+        let mut comparison = self.comparison.clone();
+        if let Some(comparison) = &mut comparison {
+            comparison.cycles_unexplained = cycles.unexplained();
+        }
+        Report {
+            name: self.name.clone(),
+            machine: machine.clone(),
+            cycles: Some(cycles),
+            corners,
+            comparison,
+            setup: Some(setup),
+            ..*self
+        }
+    }
+
+    /// What was compared.
+    #[must_use]
+    pub fn comparison(&self) -> Option<&Comparison> {
+        self.comparison.as_ref()
+    }
+
+    /// Where the cycles went.
+    #[must_use]
+    pub fn cycles(&self) -> Option<&Cycles> {
+        self.cycles.as_ref()
     }
 
     /// Triangles and polygons over all pixels together.
@@ -113,6 +158,12 @@ impl Report {
             });
             if let Some(path) = c.path {
                 report["cycles"]["path"] = path.to_string().into();
+            }
+            if self.waits != Waits::Never {
+                report["cycles"]["stalls"] = self.waits.to_string().into();
+            }
+            if let Some(held) = &c.held {
+                report["occupancy"] = Occupancy::of(&self.machine, c.total, held).value();
             }
         }
         if let Some(setup) = &self.setup {
@@ -162,6 +213,9 @@ impl Report {
             t += &setup.text();
         }
         if let Some(c) = &self.cycles {
+            if self.waits != Waits::Never {
+                let _ = writeln!(t, "memory stalls {}", self.waits);
+            }
             let _ = writeln!(
                 t,
                 "cycles {}{}, {:.4} pixels a clock",
@@ -175,13 +229,11 @@ impl Report {
             }
             let sum: u64 = Activity::of(m).map(|a| c.spent(a)).sum();
             let _ = writeln!(t, "    {:<10} {:>12}  of {} cycles", "sum", sum, c.total);
+            if let Some(held) = &c.held {
+                t += &Occupancy::of(m, c.total, held).text();
+            }
         }
         t
-    }
-
-    /// To standard output, as asked.
-    pub fn print(&self, talk: Talk) -> Result<()> {
-        talk.say(|| self.json(), || self.text())
     }
 }
 
@@ -203,6 +255,11 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
         machine.color.bits,
         extra::bound(c.color_bound, &c.color_no_bound)
     );
+    if let Some(additions) = c.additions {
+        let of = |bound: Option<f64>| bound.map_or_else(|| "none".to_owned(), |b| format!("{b:.4}"));
+        let (z, color) = (of(c.z_bound_for_input), of(c.color_bound_for_input));
+        _ = writeln!(t, "bounds for these triangles, at most {additions} additions: z {z}, colour {color}");
+    }
     for own in &c.extra {
         let (of, label) = (&own.channel, &own.channel.label);
         _ = writeln!(
@@ -223,6 +280,6 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
     );
 }
 
-fn ratio(part: u64, whole: u64) -> f64 {
+pub(crate) fn ratio(part: u64, whole: u64) -> f64 {
     if whole == 0 { 0.0 } else { part as f64 / whole as f64 }
 }

@@ -13,10 +13,12 @@ mod order;
 #[cfg(test)]
 mod tests;
 
-use crate::engine::Raster;
+use crate::extra;
+use crate::raster::Raster;
+use crate::reach::Reach;
 use crate::verdict::Verdict;
-pub use channel::ExtraError;
 use channel::Tally;
+pub use channel::{ExtraError, Spread};
 use edgewalk_machine::Plan;
 use edgewalk_scene::Frame;
 use order::{Orders, Over};
@@ -50,10 +52,20 @@ pub struct Comparison {
     pub z_error: f64,
     /// Largest colour error, LSB.
     pub color_error: f64,
+    /// How the depth errors are spread.
+    pub z_spread: Spread,
+    /// How the errors of red, green and blue are spread.
+    pub color_spread: Spread,
     /// Proved bound of the depth error, LSB; none where depths may wrap.
     pub z_bound: Option<f64>,
     /// Proved bound of the colour error, LSB; none where colours may wrap.
     pub color_bound: Option<f64>,
+    /// The most additions behind a pixel of these triangles.
+    pub additions: Option<u64>,
+    /// Proved bound of the depth error for these triangles, LSB.
+    pub z_bound_for_input: Option<f64>,
+    /// Proved bound of the colour error for these triangles, LSB.
+    pub color_bound_for_input: Option<f64>,
     /// Why there is none of the depth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub z_no_bound: Option<String>,
@@ -71,8 +83,35 @@ pub struct Comparison {
     pub color_map: Vec<f64>,
 }
 
-/// Compares the pictures of `frame`, which has triangles only.
+/// Compares the pictures of `frame`, which has triangles only, with what is proved of the machine alone.
+#[must_use]
 pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -> Comparison {
+    compare_for(machine, frame, golden, drawn, None)
+}
+
+/// The same with what is proved for these triangles, where it is known how far they reach.
+#[must_use]
+pub fn compare_for(
+    machine: &Plan,
+    frame: &Frame,
+    golden: &Raster,
+    drawn: &Raster,
+    reach: Option<&Reach>,
+) -> Comparison {
+    let c = compared(machine, frame, golden, drawn, reach);
+    match reach {
+        Some(reach) => c.reaching(machine, reach),
+        None => c,
+    }
+}
+
+fn compared(
+    machine: &Plan,
+    frame: &Frame,
+    golden: &Raster,
+    drawn: &Raster,
+    reach: Option<&Reach>,
+) -> Comparison {
     let mut tally = Tally::new(machine, golden, drawn);
     let mut c = Comparison {
         pixels: 0,
@@ -84,9 +123,14 @@ pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -
         order_wrong: 0,
         background_wrong: 0,
         wrapped: 0,
-        cycles_unexplained: drawn.cycles.map_or(0, |cycles| cycles.unexplained()),
+        cycles_unexplained: drawn.cycles.as_ref().map_or(0, |cycles| cycles.unexplained()),
         z_error: 0.0,
         color_error: 0.0,
+        z_spread: Spread::default(),
+        color_spread: Spread::default(),
+        additions: None,
+        z_bound_for_input: None,
+        color_bound_for_input: None,
         z_bound: tally.z.bound(),
         color_bound: tally.color.bound(),
         z_no_bound: tally.z.no_bound(),
@@ -110,7 +154,7 @@ pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -
         }
         c.compared += u64::from(golden.coverage[i] > 0);
     }
-    let orders = Orders::new(machine, frame, &differ);
+    let orders = Orders::new(machine, frame, &differ, reach);
     for i in differ {
         match orders.explain(i, drawn.id[i], drawn.writes[i]) {
             Some(shown) => {
@@ -125,13 +169,32 @@ pub fn compare(machine: &Plan, frame: &Frame, golden: &Raster, drawn: &Raster) -
         c.compared += u64::from(golden.coverage[i] > 0);
     }
     c.wrapped = tally.wrapped;
-    c.extra = tally.extra.iter().map(|errors| ExtraError::of(errors, machine)).collect();
-    (c.z_error, c.z_map) = tally.z.found();
-    (c.color_error, c.color_map) = tally.color.found();
+    c.extra = tally.extra.into_iter().map(|errors| ExtraError::of(errors, machine)).collect();
+    (c.z_error, c.z_spread, c.z_map) = tally.z.found();
+    (c.color_error, c.color_spread, c.color_map) = tally.color.found();
     c
 }
 
 impl Comparison {
+    /// With what is proved for these triangles: there are no more additions behind any of their pixels.
+    fn reaching(mut self, machine: &Plan, reach: &Reach) -> Self {
+        let channels = machine.channels();
+        self.additions = Some(reach.steps.total());
+        self.z_bound_for_input = reach.bound(machine, &channels[0]);
+        self.color_bound_for_input = reach.bound(machine, &channels[1]);
+        for (own, channel) in self.extra.iter_mut().zip(extra::channels(machine)) {
+            own.bound_for_input = reach.bound(machine, channel);
+            own.allowed = own.bound_for_input.unwrap_or(own.allowed);
+        }
+        self
+    }
+
+    /// Without the errors of every pixel.
+    #[must_use]
+    pub fn without_maps(self) -> Self {
+        Comparison { z_map: Vec::new(), color_map: Vec::new(), ..self }
+    }
+
     /// Pass only if all of the screen and all that golden covers was compared, every coverage and order agrees, nothing
     /// wrapped, every cycle has its cause, and every error is within its bound; where none is proved, within 1 LSB (of a floor
     /// 1 1/2).
@@ -145,8 +208,8 @@ impl Comparison {
             + self.background_wrong
             + self.wrapped
             + self.cycles_unexplained
-            + beyond(self.z_error, self.z_bound)
-            + beyond(self.color_error, self.color_bound)
+            + beyond(self.z_error, self.z_bound_for_input.or(self.z_bound))
+            + beyond(self.color_error, self.color_bound_for_input.or(self.color_bound))
             + self.extra.iter().map(|own| beyond(own.error, Some(own.allowed))).sum::<u64>();
         Verdict::of(self.compared, self.covered, wrong).and(Verdict::of(self.pixels, self.screen, wrong))
     }

@@ -1,8 +1,8 @@
 //! The errors of each channel, their bounds, and which outputs wrapped.
 
 use super::order::Over;
-use crate::engine::Raster;
 use crate::extra::{self, OwnChannel};
+use crate::raster::Raster;
 use edgewalk_machine::{Channel, ErrorBudget, NoBound, Plan};
 use serde::Serialize;
 
@@ -26,7 +26,20 @@ pub struct Errors {
     unit: f64,
     budget: Result<ErrorBudget, NoBound>,
     largest: f64,
+    /// Of every value, drawn less exact.
+    all: Vec<f64>,
     map: Vec<f64>,
+}
+
+/// How the errors of a channel are spread over all values compared, LSB.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Spread {
+    /// Mean magnitude.
+    pub mean: f64,
+    /// 99 of 100 values err by no more.
+    pub p99: f64,
+    /// Mean of drawn less exact.
+    pub bias: f64,
 }
 
 impl<'a> Tally<'a> {
@@ -37,6 +50,7 @@ impl<'a> Tally<'a> {
             unit,
             budget: machine.proved_budget(&channel),
             largest: 0.0,
+            all: Vec::new(),
             map: vec![0.0; golden.coverage.len()],
         };
         let of_unit =
@@ -75,7 +89,9 @@ impl<'a> Tally<'a> {
 impl Errors {
     /// Takes in a value that should be `exact`, both as pictures have them; returns whether it wrapped.
     fn add(&mut self, i: usize, exact: f64, drawn: f64) -> bool {
-        let error = (drawn - exact).abs() * self.unit;
+        let signed = (drawn - exact) * self.unit;
+        let error = signed.abs();
+        self.all.push(signed);
         self.largest = worse(self.largest, error);
         self.map[i] = worse(self.map[i], error);
         // An output that stayed in its range is nearer to the exact value than half the range, one that wrapped is not.
@@ -92,9 +108,25 @@ impl Errors {
         self.budget.err().map(|why| why.to_string())
     }
 
-    /// The largest error, and that of every pixel.
-    pub fn found(self) -> (f64, Vec<f64>) {
-        (self.largest, self.map)
+    /// The largest error, how they are spread, and that of every pixel.
+    pub fn found(self) -> (f64, Spread, Vec<f64>) {
+        let Errors { largest, all, map, .. } = self;
+        (largest, Spread::of(all), map)
+    }
+}
+
+impl Spread {
+    fn of(mut errors: Vec<f64>) -> Self {
+        if errors.is_empty() {
+            return Spread::default();
+        }
+        let count = errors.len() as f64;
+        let bias = errors.iter().sum::<f64>() / count;
+        errors.iter_mut().for_each(|error| *error = error.abs());
+        let mean = errors.iter().sum::<f64>() / count;
+        let place = (errors.len() * 99).div_ceil(100) - 1; // not empty
+        let (_, p99, _) = errors.select_nth_unstable_by(place, f64::total_cmp);
+        Spread { mean, p99: *p99, bias }
     }
 }
 
@@ -106,6 +138,11 @@ pub struct ExtraError {
     pub channel: OwnChannel,
     /// Largest error, LSB.
     pub error: f64,
+    /// How the errors are spread.
+    #[serde(flatten)]
+    pub spread: Spread,
+    /// Proved bound of the error for these triangles, LSB; none where outputs may wrap.
+    pub bound_for_input: Option<f64>,
     /// More is wrong, LSB: the bound, and where none is proved the output rounding and half an LSB.
     #[serde(skip)]
     pub allowed: f64,
@@ -113,11 +150,12 @@ pub struct ExtraError {
 
 impl ExtraError {
     /// Of a channel after all pixels.
-    pub fn of(errors: &Errors, machine: &Plan) -> Self {
+    pub fn of(errors: Errors, machine: &Plan) -> Self {
         let channel = OwnChannel::of(&errors.channel, machine);
         let rounding = if errors.channel.kind.is_rounded() { 0.5 } else { 1.0 };
         let allowed = channel.bound.unwrap_or(rounding + 0.5);
-        ExtraError { channel, error: errors.largest, allowed }
+        let (error, spread, _) = errors.found();
+        ExtraError { channel, error, spread, bound_for_input: None, allowed }
     }
 }
 

@@ -2,10 +2,12 @@
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 use super::{Comparison, compare};
-use crate::engine::{Engine, Raster, draw};
+use crate::draw;
 use crate::extra::Values;
+use crate::raster::Raster;
 use crate::verdict::Verdict::{self, Mismatch, Pass, Vacuous};
 use edgewalk_machine::{Machine, Plan};
+use edgewalk_model::Waits;
 use edgewalk_scene::{DepthFunc, Frame, Triangle, Vertex};
 
 /// LSB of the default machine's depth.
@@ -38,7 +40,7 @@ fn frame(depth: Option<DepthFunc>, list: &[(f64, [f64; 3])]) -> Frame {
 }
 
 fn drawn(frame: &Frame) -> [Raster; 2] {
-    [Engine::Golden, Engine::Fast].map(|engine| draw(engine, frame, &machine(), true).unwrap())
+    [draw::golden(frame, &machine()), draw::fast(frame, &machine(), Waits::Never).unwrap()]
 }
 
 /// A pixel under the triangles, and one beside them.
@@ -240,7 +242,7 @@ fn each_value_of_the_users_own_wrong_alone_is_a_mismatch() {
     }
     let machine = own_machine();
     let [golden, right] =
-        [Engine::Golden, Engine::Model].map(|engine| draw(engine, &frame, &machine, true).unwrap());
+        [draw::golden(&frame, &machine), draw::fast(&frame, &machine, Waits::Never).unwrap()];
     let after = |fault: Fault| {
         let mut wrong = right.clone();
         let mut values = [0, 1].map(|i| match &wrong.extra[i] {

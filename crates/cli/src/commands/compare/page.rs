@@ -1,0 +1,252 @@
+//! What differs between two machines, as text and as JSON.
+
+use crate::verdict::Verdict;
+use anyhow::Result;
+use edgewalk_explore::raster::Raster;
+use edgewalk_explore::report::Report;
+use edgewalk_explore::sweep::row::{Cost, causes, keys};
+use edgewalk_machine::Plan;
+use edgewalk_model::Waits;
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+
+/// A machine and what it made of the input.
+pub struct Side {
+    /// As it was asked for.
+    pub name: String,
+    /// The machine.
+    pub plan: Plan,
+    /// What `render` says of it.
+    pub report: Report,
+    /// Its picture.
+    pub raster: Raster,
+    /// What it costs, if asked for.
+    pub cost: Option<Cost>,
+}
+
+/// Two of them.
+pub struct Page {
+    sides: [Side; 2],
+    /// The reports of both.
+    values: [Value; 2],
+    input: String,
+    waits: Waits,
+    /// Of every pixel the largest difference of a colour, in 0 to 1.
+    differences: Vec<f64>,
+    pixels: Pixels,
+}
+
+/// Pixels that differ.
+#[derive(Default)]
+struct Pixels {
+    color: u64,
+    depth: u64,
+    coverage: u64,
+    shown: u64,
+}
+
+/// A figure, and where the reports have it.
+const FIGURES: [(&str, &str); 14] = [
+    ("cycles", "/cycles/total"),
+    ("pixels a clock", "/cycles/pixels_per_clock"),
+    ("fragments", "/fragments"),
+    ("writes", "/writes"),
+    ("z error, LSB", "/comparison/z_error"),
+    ("z bound for input, LSB", "/comparison/z_bound_for_input"),
+    ("colour error, LSB", "/comparison/color_error"),
+    ("colour bound for input, LSB", "/comparison/color_bound_for_input"),
+    ("pixels that wrapped", "/comparison/wrapped"),
+    ("setup clocks, mean", "/setup/clocks/mean"),
+    ("span FIFO, mean", "/occupancy/span_fifo/mean"),
+    ("in flight, mean", "/occupancy/inflight/mean"),
+    ("setup lanes, mean", "/occupancy/lanes/mean"),
+    ("triangles drawn", "/setup/triangles/drawn"),
+];
+
+const CELLS: [(&str, &str); 8] = [
+    ("LUT4", "/cells/lut4"),
+    ("carry", "/cells/carry"),
+    ("flip-flops", "/cells/ff"),
+    ("RAM", "/cells/ram"),
+    ("DSP", "/cells/dsp"),
+    ("MHz, median", "/mhz/median"),
+    ("MHz, slowest", "/mhz/min"),
+    ("MHz, fastest", "/mhz/max"),
+];
+
+impl Page {
+    /// Of two sides on one screen.
+    pub fn new(sides: [Side; 2], input: &str, waits: Waits) -> Result<Self> {
+        let values = [sides[0].report.value()?, sides[1].report.value()?];
+        let [a, b] = [&sides[0].raster, &sides[1].raster];
+        let mut pixels = Pixels::default();
+        let mut differences = Vec::new();
+        for i in 0..a.rgb.len() {
+            let pairs = a.rgb[i].iter().zip(b.rgb[i]);
+            let difference = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            differences.push(difference);
+            pixels.color += u64::from(difference > 0.0);
+            pixels.depth += u64::from(a.z[i] != b.z[i]);
+            pixels.coverage += u64::from(a.coverage[i] != b.coverage[i]);
+            pixels.shown += u64::from(a.id[i] != b.id[i]);
+        }
+        Ok(Page { sides, values, input: input.to_owned(), waits, differences, pixels })
+    }
+
+    /// The pictures.
+    pub fn rasters(&self) -> [&Raster; 2] {
+        self.sides.each_ref().map(|side| &side.raster)
+    }
+
+    /// Of every pixel.
+    pub fn differences(&self) -> &[f64] {
+        &self.differences
+    }
+
+    /// Of all pixels, in 0 to 1.
+    pub fn largest_difference(&self) -> f64 {
+        self.differences.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Triangles of the input.
+    pub fn primitives(&self) -> u64 {
+        self.sides[0].report.primitives()
+    }
+
+    /// Pass if both were drawn: that they differ is what is asked for.
+    pub fn verdict(&self) -> Verdict {
+        let [a, b] = self.sides.each_ref().map(|side| Verdict::drew(side.report.covered()));
+        a.and(b)
+    }
+
+    /// Keys whose values differ, with both.
+    fn keys(&self) -> Vec<(String, Value, Value)> {
+        let [a, b] = self.sides.each_ref().map(|side| keys(&side.plan));
+        let names = a.keys().chain(b.keys().filter(|name| !a.contains_key(*name)));
+        let both = |name: &String| {
+            let of = |keys: &serde_json::Map<String, Value>| keys.get(name).cloned().unwrap_or(Value::Null);
+            (name.clone(), of(&a), of(&b))
+        };
+        names.map(both).filter(|(_, a, b)| a != b).collect()
+    }
+
+    /// Figures of both, those that are known of either.
+    fn figures(&self) -> Vec<(String, Value, Value)> {
+        let causes = causes().map(|cause| (format!("cycles: {cause}"), format!("/cycles/by_cause/{cause}")));
+        let named = FIGURES.iter().map(|(name, at)| ((*name).to_owned(), (*at).to_owned()));
+        let all = named.chain(causes).map(|(name, at)| {
+            let [a, b] =
+                self.values.each_ref().map(|value| value.pointer(&at).cloned().unwrap_or(Value::Null));
+            (name, a, b)
+        });
+        all.chain(self.cells()).collect()
+    }
+
+    fn cells(&self) -> Vec<(String, Value, Value)> {
+        if self.sides.iter().all(|side| side.cost.is_none()) {
+            return Vec::new();
+        }
+        let of = |side: &Side, at: &str| match &side.cost {
+            Some(Ok(cost)) => cost.pointer(at).cloned().unwrap_or(Value::Null),
+            _ => Value::Null,
+        };
+        let [a, b] = &self.sides;
+        CELLS.iter().map(|(name, at)| ((*name).to_owned(), of(a, at), of(b, at))).collect()
+    }
+
+    /// Why a figure of synthesis is not known.
+    fn reasons(side: &Side) -> Vec<String> {
+        match &side.cost {
+            None => Vec::new(),
+            Some(Err((_, why))) => vec![why.clone()],
+            Some(Ok(cost)) => {
+                let list = cost["reasons"].as_array().into_iter().flatten();
+                list.filter_map(|why| why.as_str().map(str::to_owned)).collect()
+            }
+        }
+    }
+
+    /// As JSON.
+    pub fn json(&self) -> Result<String> {
+        let side = |place: usize| {
+            let side = &self.sides[place];
+            let mut value = json!({
+                "machine": side.name,
+                "hash": side.plan.hash(),
+                "report": self.values[place],
+            });
+            if let Some(cost) = &side.cost {
+                value["synth"] = cost.clone().unwrap_or_else(|(_, why)| json!({ "reasons": [why] }));
+            }
+            value
+        };
+        let differ = |list: Vec<(String, Value, Value)>| -> Value {
+            let list = list.into_iter().filter(|(_, a, b)| a != b);
+            list.map(|(name, a, b)| (name, json!([a, b]))).collect::<serde_json::Map<_, _>>().into()
+        };
+        let Pixels { color, depth, coverage, shown } = self.pixels;
+        let value = json!({
+            "input": self.input,
+            "stalls": self.waits.to_string(),
+            "keys": differ(self.keys()),
+            "figures": differ(self.figures()),
+            "pixels": {
+                "all": self.differences.len(),
+                "color": color,
+                "depth": depth,
+                "coverage": coverage,
+                "triangle": shown,
+                "largest_color_difference": self.largest_difference(),
+            },
+            "a": side(0),
+            "b": side(1),
+        });
+        Ok(serde_json::to_string_pretty(&value)? + "\n")
+    }
+
+    /// As text. Writing to a string cannot fail.
+    pub fn text(&self) -> String {
+        let mut t = String::new();
+        let [a, b] = &self.sides;
+        _ = writeln!(t, "{}, stalls {}", self.input, self.waits);
+        _ = writeln!(t, "a: {} ({})\nb: {} ({})", a.name, a.plan.hash(), b.name, b.plan.hash());
+        _ = writeln!(t, "{:<30}{:>16}{:>16}", "keys", "a", "b");
+        for (name, a, b) in self.keys() {
+            _ = writeln!(t, "    {name:<26}{:>16}{:>16}", shown(&a), shown(&b));
+        }
+        _ = writeln!(t, "{:<30}{:>16}{:>16}{:>10}", "figures that differ", "a", "b", "b - a");
+        for (name, a, b) in self.figures().into_iter().filter(|(_, a, b)| a != b) {
+            _ = writeln!(t, "    {name:<26}{:>16}{:>16}{:>10}", shown(&a), shown(&b), change(&a, &b));
+        }
+        for (label, side) in ["a", "b"].into_iter().zip(&self.sides) {
+            for why in Self::reasons(side) {
+                _ = writeln!(t, "{label}: {why}");
+            }
+        }
+        let Pixels { color, depth, coverage, shown } = self.pixels;
+        _ = writeln!(
+            t,
+            "pixels that differ of {}: colour {color} (by at most {:.4} of full scale), depth {depth}, coverage {coverage}, triangle {shown}",
+            self.differences.len(),
+            self.largest_difference()
+        );
+        t
+    }
+}
+
+fn shown(value: &Value) -> String {
+    match value {
+        Value::Null => "-".to_owned(),
+        Value::String(text) => text.clone(),
+        Value::Number(number) if number.is_f64() => format!("{:.4}", number.as_f64().unwrap_or(f64::NAN)),
+        other => other.to_string(),
+    }
+}
+
+/// By how much of `a`, in per cent.
+fn change(a: &Value, b: &Value) -> String {
+    match (a.as_f64(), b.as_f64()) {
+        (Some(a), Some(b)) if a != 0.0 => format!("{:+.1} %", 100.0 * (b - a) / a),
+        _ => String::new(),
+    }
+}

@@ -1,0 +1,167 @@
+//! `edgewalk replay`: a page that shows the machine at work.
+
+mod truth;
+
+use crate::Talk;
+use crate::input::{Source, to_port};
+use crate::machine_args::MachineArgs;
+use crate::staging::Staging;
+use crate::verdict::Verdict;
+use anyhow::{Context, Result, anyhow};
+use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_model::{DrawState, Stalls};
+use edgewalk_replay::lesson::{SCREEN, triangle};
+use edgewalk_replay::{Lesson, Recording, Replay, Truth, Window, lesson, page, record};
+use std::path::PathBuf;
+
+/// Records the machine cycle by cycle and writes one HTML file that shows it at work: open it in a browser, no network needed.
+///
+/// Every unit with its registers and queues, the causes of all cycles, the picture as it fills; a click on a pixel goes to the
+/// cycle that wrote it. With a name that ends in .json the recording alone (docs/replay.md).
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  edgewalk replay sphere --set screen.width=64 --set screen.height=48 --triangles 200 --out out/sphere.html
+  edgewalk replay triangles.tri --out out/t.html --set memory.hazard=drain --set memory.latency=8
+  edgewalk replay --lesson --out out/lesson.html
+  edgewalk replay torus-knot --triangles 12288 --from 500000 --cycles 3000 --stalls mixed --out out/part.html")]
+pub struct Args {
+    #[command(flatten)]
+    source: Source,
+    /// Draws this many triangles of the input
+    #[arg(long, default_value_t = 20)]
+    triangles: usize,
+    /// First cycle that is shown
+    #[arg(long, value_name = "C", default_value_t = 0)]
+    from: u64,
+    /// Last cycle that is shown; that in which the machine is at rest if left out
+    #[arg(long, value_name = "C")]
+    to: Option<u64>,
+    /// Shows this many cycles
+    #[arg(long, conflicts_with = "to", value_parser = clap::value_parser!(u64).range(1..))]
+    cycles: Option<u64>,
+    /// How the memory makes the machine wait
+    #[arg(long, value_enum, default_value_t = Waits::None)]
+    stalls: Waits,
+    /// Walks one triangle through all sections of the specification instead, every number beside the register that holds it
+    #[arg(long, conflicts_with_all = ["input", "shading", "triangles", "from", "to", "cycles", "stalls"])]
+    lesson: bool,
+    /// The page, .html, or the recording alone, .json
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+}
+
+/// The channel that the lesson shows.
+const RED: usize = 1;
+
+/// What the memory does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Waits {
+    /// Always ready
+    None,
+    /// Reads, depths and writes each wait in a third of the cycles
+    Mixed,
+    /// Two depths of three come one to eight cycles late
+    Late,
+}
+
+impl Waits {
+    fn stalls(self) -> Stalls {
+        match self {
+            Waits::None => Stalls::NONE,
+            Waits::Mixed => Stalls { seed: 0, rd: 85, data: 85, wr: 85 },
+            Waits::Late => Stalls { data: 170, ..Stalls::NONE },
+        }
+    }
+}
+
+/// Runs the command.
+pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
+    let kind = args.out.extension().and_then(|e| e.to_str()).unwrap_or_default();
+    if !["html", "json"].contains(&kind) {
+        return Err(anyhow!("--out {}: the file must end in .html or .json", args.out.display()));
+    }
+    let name = args.out.file_name().and_then(|n| n.to_str()).context("--out: no file name")?;
+    let shown = if args.lesson { taught(machine)? } else { drawn(args, machine)? };
+    let Shown { machine, scene, triangles, of, recording, truth, lesson } = &shown;
+    let replay = Replay {
+        plan: machine,
+        scene,
+        triangles,
+        of: *of,
+        recording,
+        truth,
+        command: lesson.is_none().then(|| format!("edgewalk explain {scene} {{x}} {{y}}")),
+        difference: None,
+        lesson: lesson.as_ref(),
+    };
+    let json = replay.json();
+    let text = if kind == "json" { json.to_string() } else { page::html(&json) };
+    let folder = args.out.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(".".as_ref());
+    let out = Staging::new(folder)?;
+    out.write(name, &text)?;
+    out.publish(&[name])?;
+    let (cycles, bytes) = (recording.cycles, text.len());
+    talk.say(
+        || {
+            let report = serde_json::json!({
+                "file": args.out, "cycles": cycles, "triangles": triangles.len(), "bytes": bytes, "hash": machine.hash(),
+            });
+            Ok(report.to_string())
+        },
+        || {
+            let drawn = triangles.len();
+            format!(
+                "{cycles} cycles, {drawn} of {of} triangles, {bytes} bytes -> {}: open it in a browser",
+                args.out.display()
+            )
+        },
+    )?;
+    Ok(Verdict::Pass)
+}
+
+/// What goes into the page.
+struct Shown {
+    machine: Plan,
+    scene: String,
+    triangles: Vec<[PortVertex; 3]>,
+    /// How many there would have been.
+    of: usize,
+    recording: Recording,
+    truth: Vec<Truth>,
+    lesson: Option<Lesson>,
+}
+
+/// The input on the machine.
+fn drawn(args: &Args, machine: &MachineArgs) -> Result<Shown> {
+    let (machine, frame) = args.source.on_its_screen(machine)?;
+    let mut port = to_port(&frame, &machine)?;
+    let of = port.triangles.len();
+    port.triangles.truncate(args.triangles);
+    let (count, size) = (port.triangles.len() as u64, (machine.width, machine.height));
+    Verdict::drew(count).or_nothing(&args.source.input, 0, size)?;
+    let to = args.cycles.map(|cycles| args.from.saturating_add(cycles - 1)).or(args.to);
+    let window = Window { from: args.from, to };
+    let recording = record(&machine, &port.triangles, port.state, args.stalls.stalls(), window)
+        .with_context(|| args.source.input.clone())?;
+    let truth = truth::truth(&machine, &frame, &port.ids, recording.view.tokens());
+    let (scene, triangles) = (args.source.input.clone(), port.triangles);
+    Ok(Shown { machine, scene, triangles, of, recording, truth, lesson: None })
+}
+
+/// The triangle of the lesson, on its screen.
+fn taught(machine: &MachineArgs) -> Result<Shown> {
+    let machine = machine.machine(Some(SCREEN))?;
+    let triangle = triangle(&machine).context("--lesson")?;
+    let state = DrawState::default();
+    let recording = record(&machine, &[triangle], state, Stalls::NONE, Window::default()).context("--lesson")?;
+    let lesson = lesson(&machine, &triangle, &recording, RED).map_err(|why| anyhow!("--lesson: {why}"))?;
+    Ok(Shown {
+        machine,
+        scene: "lesson".to_owned(),
+        triangles: vec![triangle],
+        of: 1,
+        recording,
+        truth: Vec::new(),
+        lesson: Some(lesson),
+    })
+}

@@ -1,0 +1,62 @@
+//! The exact value of every fragment that was recorded, as golden has it, beside the machine's.
+
+use crate::engine::golden_fill;
+use crate::extra;
+use edgewalk_golden::{Fill, fragments};
+use edgewalk_machine::Plan;
+use edgewalk_model::tokens::output;
+use edgewalk_model::view::Tokens;
+use edgewalk_replay::Truth;
+use edgewalk_scene::Frame;
+use std::collections::{HashMap, HashSet};
+
+/// The kind of token that is a fragment: pixel, then the channels.
+const FRAGMENT: &str = "fragment";
+
+/// How far each channel of each fragment is off; pixels that only the machine draws have no exact value.
+pub fn truth(machine: &Plan, frame: &Frame, ids: &[i32], tokens: &Tokens) -> Vec<Truth> {
+    let Some(kind) = tokens.kinds().iter().find(|kind| kind.name == FRAGMENT) else { return Vec::new() };
+    let exact = exact(machine, frame, ids, kind.met.iter().map(|token| token[0]).collect());
+    let channels = machine.channels().iter().enumerate();
+    let told = channels.map(|(place, channel)| {
+        let error = |token: &Vec<u64>| {
+            let exact = exact.get(&(token[0], token[1]))?[place];
+            let found = output(channel, token[place + 2] as u32) as f64; // b <= 32 bits
+            Some(((found - exact) * f64::from(1 << 10)).round() as i32)
+        };
+        let budget = machine.proved_budget(channel);
+        Truth {
+            kind: FRAGMENT,
+            field: channel.name,
+            bound: budget.map(|budget| budget.after_rounding().to_f64()).map_err(|why| why.to_string()),
+            errors: kind.met.iter().map(error).collect(),
+        }
+    });
+    told.collect()
+}
+
+/// The channels, LSB, by triangle and address.
+fn exact(
+    machine: &Plan,
+    frame: &Frame,
+    ids: &[i32],
+    wanted: HashSet<u64>,
+) -> HashMap<(u64, u64), Vec<f64>> {
+    let mut exact = HashMap::new();
+    if !matches!(golden_fill(machine), Fill::Exact { .. }) {
+        return exact;
+    }
+    for (number, id) in ids.iter().enumerate().filter(|(number, _)| wanted.contains(&(*number as u64))) {
+        let Some(triangle) = usize::try_from(*id).ok().and_then(|id| frame.triangles.get(id)) else { continue };
+        let screen = (machine.width, machine.height);
+        fragments(triangle, frame.mode, machine.subpixel_bits, screen, |fragment| {
+            let addr = u64::from(fragment.y) << machine.widths().x | u64::from(fragment.x);
+            let mut values = vec![fragment.z() * machine.z.max() as f64];
+            values.extend(fragment.rgb().map(|value| value * machine.color.max() as f64));
+            let own = extra::channels(machine).iter().enumerate();
+            values.extend(own.map(|(place, channel)| fragment.extra(place) * channel.host_unit()));
+            exact.insert((number as u64, addr), values);
+        });
+    }
+    exact
+}

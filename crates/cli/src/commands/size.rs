@@ -1,0 +1,170 @@
+//! `edgewalk size`: the word lengths that a frame asks for.
+
+use crate::Talk;
+use crate::input::{Source, to_port};
+use crate::machine_args::MachineArgs;
+use crate::staging::Staging;
+use crate::verdict::Verdict;
+use anyhow::{Context, Result};
+use edgewalk_explore::size::{Answer, Breaker, ChannelSize, Size, size};
+use edgewalk_machine::Plan;
+use edgewalk_scene::triangle_file;
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+/// Says how many fraction bits each channel needs: for every triangle in the guard band, and for those of the input.
+///
+/// Both are proved, for an error of at most --error LSB of the output: N additions behind a pixel err by (N + 1)/2 units of
+/// the last fraction bit. Beside them: the fewest guard bits, and for each answer a triangle behind as many additions that errs
+/// by more with one bit fewer, drawn to see that it does, as witness_z_every.tri, witness_color_these.tri and so on; size.json has all of it.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  edgewalk size teapot.obj
+  edgewalk size torus-knot --error 0.75 --json
+  edgewalk size triangles.tri --out out/size
+  edgewalk render out/size/witness_z_every.tri --set formats.z_fraction=13")]
+pub struct Args {
+    #[command(flatten)]
+    source: Source,
+    /// Largest error of an output, LSB; above 0.5, which its rounding takes
+    #[arg(long, default_value_t = 1.0, value_name = "LSB")]
+    error: f64,
+    /// Folder of the witnesses
+    #[arg(long, value_name = "DIR", default_value = "out/size")]
+    out: PathBuf,
+}
+
+/// What is told, as JSON.
+const REPORT: &str = "size.json";
+
+/// The answers, and what their files are called.
+type Answers<'s> = [(&'static str, &'s Answer); 2];
+
+fn answers(channel: &ChannelSize) -> Answers<'_> {
+    [("every", &channel.every), ("these", &channel.these)]
+}
+
+fn file(channel: &str, answer: &str) -> String {
+    format!("witness_{channel}_{answer}.tri")
+}
+
+/// Runs the command.
+pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
+    let (machine, frame) = args.source.on_its_screen(machine)?;
+    let port = to_port(&frame, &machine)?;
+    let found = size(&machine, &port, args.error).with_context(|| args.source.input.clone())?;
+    let out = Staging::new(&args.out)?;
+    let mut own = Vec::new();
+    for channel in &found.channels {
+        for (name, answer) in answers(channel) {
+            let name = file(channel.name, name);
+            if let Some(Breaker { frame, .. }) = &answer.one_bit_fewer {
+                let mut file = out.create(&name)?;
+                triangle_file::write(frame, &mut file).with_context(|| out.name(&name))?;
+            }
+            own.push(name);
+        }
+    }
+    let of = Page { args, machine: &machine, triangles: frame.triangles.len(), found: &found };
+    let json = serde_json::to_string_pretty(&of.value()?)? + "\n";
+    out.write(REPORT, &json)?;
+    own.push(REPORT.to_owned());
+    out.publish(&own)?;
+    talk.say(|| Ok(json), || of.text())?;
+    Ok(Verdict::Pass)
+}
+
+struct Page<'p> {
+    args: &'p Args,
+    machine: &'p Plan,
+    triangles: usize,
+    found: &'p Size,
+}
+
+impl Page<'_> {
+    fn value(&self) -> Result<Value> {
+        let mut value = json!({
+            "input": self.args.source.input,
+            "machine": self.machine.hash(),
+            "width": self.machine.width,
+            "height": self.machine.height,
+            "triangles": self.triangles,
+        });
+        let found = serde_json::to_value(self.found)?;
+        for (key, found) in found.as_object().into_iter().flatten() {
+            value[key] = found.clone();
+        }
+        Ok(value)
+    }
+
+    /// Writing to a string cannot fail.
+    fn text(&self) -> String {
+        let mut t = String::new();
+        let Page { machine, found, .. } = self;
+        _ = writeln!(
+            t,
+            "{}: {} triangles on {}x{}, machine {}, errors of at most {} LSB",
+            self.args.source.input,
+            self.triangles,
+            machine.width,
+            machine.height,
+            machine.hash(),
+            found.error
+        );
+        let bits = found.guard_bits;
+        _ = writeln!(
+            t,
+            "guard bits: {}; these triangles and the screen lie in {}",
+            bits.machine, bits.needed
+        );
+        for channel in &found.channels {
+            _ = writeln!(t, "{} ({} = {})", channel.name, channel.key, channel.fraction_bits);
+            let fewest = format!("every triangle, {} guard bits", bits.needed);
+            for (what, answer) in [
+                ("every triangle in the guard band", &channel.every),
+                (&fewest, &channel.every_in_fewest_guard_bits),
+                ("these triangles", &channel.these),
+            ] {
+                _ = writeln!(t, "    {what:<34}{}", answered(answer));
+            }
+            for (name, answer) in answers(channel) {
+                match (&answer.one_bit_fewer, &answer.no_breaker) {
+                    (Some(breaker), _) => {
+                        let at = self.args.out.join(file(channel.name, name));
+                        _ = writeln!(
+                            t,
+                            "    with {} bits {} errs by {:.4} LSB at {},{}: --set {}={}",
+                            breaker.fraction_bits,
+                            at.display(),
+                            breaker.error,
+                            breaker.pixel.0,
+                            breaker.pixel.1,
+                            channel.key,
+                            breaker.fraction_bits
+                        );
+                    }
+                    (None, Some(why)) => {
+                        _ = writeln!(t, "    no triangle with one bit fewer ({name}): {why}")
+                    }
+                    (None, None) => {}
+                }
+            }
+        }
+        t
+    }
+}
+
+fn answered(answer: &Answer) -> String {
+    let ((lines, columns), n) = (answer.steps, answer.additions);
+    let needed = answer
+        .needed_by
+        .map_or_else(String::new, |(triangle, (x, y))| format!(", to pixel {x},{y} of triangle {triangle}"));
+    let additions = format!("N = {n}: {lines} lines + {columns} columns{needed}");
+    match (answer.fraction_bits, answer.bound, &answer.out_of_reach) {
+        (Some(bits), Some(bound), _) => format!("{bits:>2} bits, bound {bound:.4} LSB; {additions}"),
+        (_, _, why) => {
+            format!("no number of bits will do: {}; {additions}", why.as_deref().unwrap_or_default())
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! `edgewalk sweep`: many machines on the same frames, each a row.
+//!
+//! ```text
+//!  --vary, --stalls, inputs ─> points ─ those without a row ─> runs.jsonl ─> runs.csv, best_*.toml, report.html
+//! ```
+
+mod chunks;
+mod outcome;
+mod pictures;
+mod why;
+
+use crate::cost::{SynthArgs, Synthesiser, ToolArgs};
+use crate::input::Shading;
+use crate::machine_args::MachineArgs;
+use crate::staging::Staging;
+use crate::verdict::Verdict;
+use crate::{Talk, progress};
+use anyhow::{Context, Result, anyhow};
+use edgewalk_explore::sweep::evaluate::{Around, missing};
+use edgewalk_explore::sweep::row::Status;
+use edgewalk_explore::sweep::{Definition, Point, Sample, Store, Sweep, run as evaluate, store};
+use edgewalk_machine::Plan;
+use outcome::Outcome;
+use std::path::{Path, PathBuf};
+
+/// Draws inputs on many machines, and writes a row for each: errors beside golden, cycles by cause, and cells if asked for.
+///
+/// Machines that differ in timing keys alone share their pixels. In --out: runs.jsonl (a row a line, appended as they come),
+/// runs.csv, best_NAME.toml for each objective, report.html, sweep.json. Ended at any time, the same command goes on where it was;
+/// rows that are there are not made again. A row says what `edgewalk render --json` says of its machine.
+#[derive(clap::Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    after_help = "Examples:
+  edgewalk sweep teapot.obj --vary interpolator.adders=1,2,4 --vary formats.z_fraction=6..14 --out out/sweep
+  edgewalk sweep sphere torus --vary memory.latency=1..8 --stalls none --stalls dram:miss=8 --out out/stalls
+  edgewalk sweep teapot.obj --vary setup.lanes=1,2,4 --synth ice40-hx8k --out out/cells
+  edgewalk sweep teapot.obj --vary fifo.span=1..64 --vary fifo.inflight=1..16 --sample 100 --seed 7 --out out/some
+  edgewalk sweep plan teapot.obj --vary formats.z_fraction=4..24 --chunks 8 --out out/grid
+  edgewalk sweep why 3f2a --out out/sweep
+
+Objectives: cycles z_error color_error z_bound color_bound word_bits, and with --synth lut4 ff carry ram mhz frames_per_s
+mpixels_per_s mtriangles_per_s mpixels_per_s_per_lut mtriangles_per_s_per_lut"
+)]
+pub struct Args {
+    #[command(subcommand)]
+    part: Option<Part>,
+    #[command(flatten)]
+    what: What,
+    /// Runs the points again whose rows say so (repeatable)
+    #[arg(long, value_enum, value_name = "STATUS")]
+    retry: Vec<Retry>,
+}
+
+#[derive(clap::Subcommand)]
+enum Part {
+    /// Writes sweep.json and job scripts for parts of the sweep, and runs nothing
+    Plan(Box<PlanArgs>),
+    /// Runs a part of a planned sweep
+    Run(RunArgs),
+    /// Puts the rows of all parts together
+    Merge(OutArgs),
+    /// Says what a row depends on, and which of it has changed since
+    Why(WhyArgs),
+}
+
+/// What is swept over.
+#[derive(clap::Args)]
+struct What {
+    /// Built-in scenes, scene files, meshes, triangle files
+    #[arg(value_name = "INPUT", required = true)]
+    inputs: Vec<String>,
+    /// A key and its values: key=a,b,c or key=lo..hi or key=lo..hi..step (repeatable)
+    #[arg(long, value_name = "KEY=VALUES", required = true)]
+    vary: Vec<String>,
+    /// How the colour of a pixel is come by: constant, constant-averaged, gouraud
+    #[arg(long, value_enum, default_value_t = Shading::Gouraud)]
+    shading: Shading,
+    /// How the memory makes the machine wait: none, fixed, random, dram, with parameters as fixed:rd=2 (repeatable)
+    #[arg(long, value_name = "KIND")]
+    stalls: Vec<String>,
+    /// Only so many of the machines
+    #[arg(long, value_name = "N")]
+    sample: Option<u32>,
+    /// Which, with --sample
+    #[arg(long, value_name = "S", requires = "sample")]
+    seed: Option<u64>,
+    /// Does not simulate points without a proved bound of at most so many LSB for the triangles of the input
+    #[arg(long, value_name = "LSB")]
+    bound: Option<f64>,
+    /// What is best (repeatable)
+    #[arg(long, value_name = "NAME")]
+    objective: Vec<String>,
+    #[command(flatten)]
+    synth: SynthArgs,
+    /// Folder of the sweep
+    #[arg(long, value_name = "DIR", required = true)]
+    out: Option<PathBuf>,
+}
+
+#[derive(clap::Args)]
+struct PlanArgs {
+    #[command(flatten)]
+    what: What,
+    /// Parts; a part should take two minutes or more
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10000))]
+    chunks: u32,
+}
+
+#[derive(clap::Args)]
+struct RunArgs {
+    /// Folder of the sweep
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Which part, from 0; SLURM_ARRAY_TASK_ID or HQ_TASK_ID if left out
+    #[arg(long, value_name = "I")]
+    chunk: Option<u32>,
+    /// Runs the points again whose rows say so (repeatable)
+    #[arg(long, value_enum, value_name = "STATUS")]
+    retry: Vec<Retry>,
+    #[command(flatten)]
+    tools: ToolArgs,
+}
+
+#[derive(clap::Args)]
+struct OutArgs {
+    /// Folder of the sweep
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+#[derive(clap::Args)]
+struct WhyArgs {
+    /// The key of a row, or its first digits
+    key: String,
+    /// Folder of the sweep
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// What may be tried again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Retry {
+    /// What could not be drawn, or a tool failed on
+    Failed,
+    /// What a tool took too long for
+    Timeout,
+}
+
+impl From<Retry> for Status {
+    fn from(retry: Retry) -> Self {
+        match retry {
+            Retry::Failed => Status::Failed,
+            Retry::Timeout => Status::Timeout,
+        }
+    }
+}
+
+/// Rows, and what they belong to.
+const ROWS: &str = "runs.jsonl";
+const DEFINITION: &str = "sweep.json";
+
+/// Runs the command.
+pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
+    match &args.part {
+        Some(Part::Plan(plan)) => {
+            chunks::plan(&plan.what.definition(machine, Some(plan.chunks))?, plan.what.out()?, talk)
+        }
+        Some(Part::Run(part)) => chunks::run(part, talk),
+        Some(Part::Merge(part)) => chunks::merge(&part.out, talk),
+        Some(Part::Why(args)) => why::run(&args.key, &args.out, talk),
+        None => {
+            let out = args.what.out()?;
+            let sweep = Sweep::new(args.what.definition(machine, None)?)?;
+            let again = args.retry.iter().map(|retry| Status::from(*retry)).collect::<Vec<_>>();
+            swept(&sweep, out, &again, args.what.synth.tools(), talk)
+        }
+    }
+}
+
+impl What {
+    fn out(&self) -> Result<&Path> {
+        self.out.as_deref().ok_or_else(|| anyhow!("--out: name the folder of the sweep"))
+    }
+
+    fn definition(&self, machine: &MachineArgs, chunks: Option<u32>) -> Result<Definition> {
+        let base: Plan = machine.machine(None)?;
+        let shading = clap::ValueEnum::to_possible_value(&self.shading);
+        Ok(Definition {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            inputs: self.inputs.clone(),
+            shading: shading.map(|value| value.get_name().to_owned()).unwrap_or_default(),
+            machine: base.to_toml(),
+            vary: self.vary.clone(),
+            stalls: self.stalls.clone(),
+            sample: self.sample.map(|points| Sample { points, seed: self.seed.unwrap_or(1) }),
+            bound: self.bound,
+            objectives: self.objective.clone(),
+            synth: self.synth.definition(&base)?,
+            chunks,
+        })
+    }
+}
+
+/// Runs what is missing, then writes what follows from all rows.
+fn swept(sweep: &Sweep, out: &Path, again: &[Status], tools: &ToolArgs, talk: Talk) -> Result<Verdict> {
+    keep(sweep, out)?;
+    let path = out.join(ROWS);
+    let (store, rows) = Store::open(&path)?;
+    let ran = points(sweep, &sweep.points.iter().collect::<Vec<_>>(), (&store, rows), again, tools, talk)?;
+    finished(sweep, out, ran, talk)
+}
+
+/// How many rows a run made, and how many of them show a fault of the program.
+#[derive(Clone, Copy, Default)]
+struct Ran {
+    made: usize,
+    faults: u64,
+}
+
+/// Runs those of the points that have no row.
+fn points(
+    sweep: &Sweep,
+    of: &[&Point],
+    (store, rows): (&Store, Vec<serde_json::Value>),
+    again: &[Status],
+    tools: &ToolArgs,
+    talk: Talk,
+) -> Result<Ran> {
+    let rows = store::by_key(rows);
+    let todo = missing(of, &rows, again);
+    let synthesiser = sweep.definition.synth.as_ref().map(|of| Synthesiser::new(of, tools)).transpose()?;
+    if let (Some(synthesiser), false) = (&synthesiser, todo.is_empty()) {
+        synthesiser.check()?;
+    }
+    let bar = progress::bar(todo.len() as u64, "points", talk.quiet);
+    let cost = synthesiser.as_ref().map(|synthesiser| |machine: &Plan| synthesiser.cost(machine));
+    let cost = cost.as_ref().map(|cost| cost as &(dyn Fn(&Plan) -> _ + Sync));
+    let faults = evaluate(sweep, &todo, &Around { store, cost, done: &|| bar.inc(1) })?;
+    bar.finish_and_clear();
+    Ok(Ran { made: todo.len(), faults })
+}
+
+/// Writes what the sweep is, before anything runs.
+fn keep(sweep: &Sweep, out: &Path) -> Result<()> {
+    let staging = Staging::new(out)?;
+    staging.write(DEFINITION, serde_json::to_string_pretty(&sweep.definition)? + "\n")?;
+    staging.publish(&[DEFINITION])
+}
+
+/// The sweep that a folder holds.
+fn kept(out: &Path) -> Result<Sweep> {
+    let path = out.join(DEFINITION);
+    let named = || path.display().to_string();
+    let text = std::fs::read_to_string(&path).with_context(named)?;
+    let definition: Definition = serde_json::from_str(&text).with_context(named)?;
+    let version = env!("CARGO_PKG_VERSION");
+    if definition.version != version {
+        return Err(anyhow!(
+            "{}: planned by edgewalk {}, this is {version}; plan it anew",
+            named(),
+            definition.version
+        ));
+    }
+    Sweep::new(definition).with_context(named)
+}
+
+/// Writes and tells what follows from the rows.
+fn finished(sweep: &Sweep, out: &Path, ran: Ran, talk: Talk) -> Result<Verdict> {
+    let rows = store::by_key(store::read(&out.join(ROWS))?);
+    let outcome = Outcome::new(sweep, &rows, out, ran);
+    outcome.publish(talk)?;
+    talk.say(|| outcome.json(), || outcome.text())?;
+    Ok(outcome.verdict())
+}

@@ -1,0 +1,145 @@
+//! Parts of a sweep for other machines: planned, run apart, put together.
+//!
+//! ```text
+//!  plan ─> sweep.json, slurm.sh, hq.sh ─> run, a part each ─> chunks/I.jsonl ─> merge ─> runs.jsonl and what follows
+//! ```
+//! No engine of its own: a job array of Slurm or HyperQueue says which part.
+
+use super::{DEFINITION, ROWS, Ran, RunArgs, finished, kept, points};
+use crate::Talk;
+use crate::staging::Staging;
+use crate::verdict::Verdict;
+use anyhow::{Context, Result, anyhow};
+use edgewalk_explore::sweep::row::Status;
+use edgewalk_explore::sweep::shared::{geometry_key, pixel_key};
+use edgewalk_explore::sweep::{Definition, Point, Store, Sweep, store};
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Where the number of a part is looked for.
+const VARIABLES: [&str; 2] = ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID"];
+
+const SLURM: &str = include_str!("slurm.sh");
+const HYPER_QUEUE: &str = include_str!("hq.sh");
+
+fn file(out: &Path, chunk: u32) -> PathBuf {
+    out.join("chunks").join(format!("{chunk}.jsonl"))
+}
+
+/// Writes the definition and the job scripts.
+pub fn plan(definition: &Definition, out: &Path, talk: Talk) -> Result<Verdict> {
+    let sweep = Sweep::new(definition.clone())?;
+    let chunks = definition.chunks.unwrap_or(1);
+    if u64::from(chunks) > sweep.points.len() as u64 {
+        return Err(anyhow!(
+            "--chunks {chunks}: permitted: at most one for each of the {} points",
+            sweep.points.len()
+        ));
+    }
+    let program = std::env::current_exe().context("this program")?;
+    let fill = |template: &str| {
+        template
+            .replace("@CHUNKS@", &chunks.to_string())
+            .replace("@LAST@", &(chunks - 1).to_string())
+            .replace("@PROGRAM@", &quoted(&program))
+            .replace("@OUT@", &quoted(out))
+    };
+    let staging = Staging::new(out)?;
+    staging.write(DEFINITION, serde_json::to_string_pretty(definition)? + "\n")?;
+    staging.write("slurm.sh", fill(SLURM))?;
+    staging.write("hq.sh", fill(HYPER_QUEUE))?;
+    staging.publish(&[DEFINITION, "slurm.sh", "hq.sh"])?;
+    let sizes: Vec<usize> = (0..chunks).map(|chunk| part(&sweep, chunks, chunk).len()).collect();
+    let shown = out.display();
+    talk.say(
+        || Ok(json!({ "points": sweep.points.len(), "chunks": sizes }).to_string()),
+        || {
+            format!(
+                "{} points in {chunks} parts\n    sbatch {shown}/slurm.sh\n    sh {shown}/hq.sh\n    edgewalk sweep merge --out {shown}\n",
+                sweep.points.len()
+            )
+        },
+    )?;
+    Ok(Verdict::Pass)
+}
+
+/// For a shell.
+fn quoted(path: &Path) -> String {
+    format!("'{}'", path.display().to_string().replace('\'', r"'\''"))
+}
+
+/// The points of a part: neighbours share their pixels, so those of the same pixels stay together as far as may be.
+fn part(sweep: &Sweep, chunks: u32, chunk: u32) -> Vec<&Point> {
+    let mut points: Vec<&Point> = sweep.points.iter().collect();
+    points.sort_by_cached_key(|point| (point.input, geometry_key(&point.machine), pixel_key(&point.machine)));
+    let bound = |chunk: u32| points.len() * chunk as usize / chunks as usize;
+    points[bound(chunk)..bound(chunk + 1)].to_vec()
+}
+
+/// Runs a part into a file of its own.
+pub fn run(args: &RunArgs, talk: Talk) -> Result<Verdict> {
+    let sweep = kept(&args.out)?;
+    let chunks = sweep.definition.chunks.ok_or_else(|| {
+        anyhow!("{}: the sweep has no parts; plan it with --chunks N", args.out.join(DEFINITION).display())
+    })?;
+    let chunk = chunk(args.chunk)?;
+    if chunk >= chunks {
+        return Err(anyhow!("--chunk {chunk}: permitted: 0 to {}", chunks - 1));
+    }
+    let path = file(&args.out, chunk);
+    let folder = args.out.join("chunks");
+    std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
+    let (store, rows) = Store::open(&path)?;
+    let again: Vec<Status> = args.retry.iter().map(|retry| Status::from(*retry)).collect();
+    let of = part(&sweep, chunks, chunk);
+    let ran = points(&sweep, &of, (&store, rows), &again, &args.tools, talk)?;
+    talk.say(
+        || {
+            Ok(json!({ "chunk": chunk, "points": of.len(), "made": ran.made, "faults": ran.faults })
+                .to_string())
+        },
+        || {
+            format!(
+                "part {chunk} of {chunks}: {} points, {} of them were there",
+                of.len(),
+                of.len() - ran.made
+            )
+        },
+    )?;
+    Ok(if ran.faults > 0 { Verdict::Mismatch } else { Verdict::Pass })
+}
+
+/// Which part, by the command line or the job that it runs in.
+fn chunk(asked: Option<u32>) -> Result<u32> {
+    if let Some(chunk) = asked {
+        return Ok(chunk);
+    }
+    let set = VARIABLES.iter().find_map(|name| Some((name, std::env::var(name).ok()?)));
+    let (name, text) = set.ok_or_else(|| {
+        anyhow!("--chunk: which part? Neither {} nor {} says so", VARIABLES[0], VARIABLES[1])
+    })?;
+    text.parse().map_err(|_| anyhow!("{name}={text}: no number of a part"))
+}
+
+/// Puts the rows of all parts together, in the order of the points. Parts that are not there yet are missing and said to be.
+pub fn merge(out: &Path, talk: Talk) -> Result<Verdict> {
+    let sweep = kept(out)?;
+    let mut rows: BTreeMap<String, _> = store::by_key(store::read(&out.join(ROWS))?);
+    for chunk in 0..sweep.definition.chunks.unwrap_or(0) {
+        rows.extend(store::by_key(store::read(&file(out, chunk))?));
+    }
+    let there: Vec<_> = sweep.points.iter().filter_map(|point| rows.get(&point.key)).collect();
+    let missing = sweep.points.len() - there.len();
+    let staging = Staging::new(out)?;
+    staging.write(ROWS, there.iter().map(|row| format!("{row}\n")).collect::<String>())?;
+    staging.publish(&[ROWS])?;
+    let verdict = finished(&sweep, out, Ran::default(), talk)?;
+    if missing > 0 {
+        return Err(anyhow!(
+            "{missing} of {} points have no row yet; run their parts, then merge again",
+            sweep.points.len()
+        ));
+    }
+    Ok(verdict)
+}

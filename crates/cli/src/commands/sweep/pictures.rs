@@ -1,0 +1,46 @@
+//! Pictures of the best machines for the report: the image, and heat maps of its errors.
+
+use crate::picture::{bytes, heat, png};
+use anyhow::Result;
+use edgewalk_explore::compare::compare;
+use edgewalk_explore::draw;
+use edgewalk_explore::page::Pictures;
+use edgewalk_explore::sweep::shared::pixel_key;
+use edgewalk_explore::sweep::table::Table;
+use edgewalk_explore::sweep::{Point, Sweep};
+use edgewalk_model::Waits;
+use std::collections::BTreeSet;
+
+/// Most machines that are drawn for a report, an input each.
+const MOST: usize = 4;
+
+/// Of the best for each objective, then of the front; machines of the same pixels once.
+pub fn pictures(table: &Table) -> Result<Vec<Pictures>> {
+    let sweep = table.sweep;
+    let bests = sweep.objectives.iter().filter_map(|objective| table.best(objective));
+    let front = table.machines.iter().filter(|machine| machine.front == Some(1));
+    let keys = bests.chain(front).flat_map(|machine| &machine.rows).filter_map(|row| row["key"].as_str());
+    let mut seen = BTreeSet::new();
+    let mut list = Vec::new();
+    for key in keys {
+        let Some(point) = sweep.points.iter().find(|point| point.key == key) else { continue };
+        if list.len() < MOST && seen.insert((point.input, pixel_key(&point.machine))) {
+            list.extend(drawn(sweep, point)?);
+        }
+    }
+    Ok(list)
+}
+
+fn drawn(sweep: &Sweep, point: &Point) -> Result<Option<Pictures>> {
+    let Ok(plan) = &point.plan else { return Ok(None) };
+    let frame = sweep.inputs[point.input].0.frame(plan)?;
+    let [golden, drawn] = [draw::golden(&frame, plan), draw::fast(&frame, plan, Waits::Never)?];
+    let found = compare(plan, &frame, &golden, &drawn);
+    let size = (drawn.width, drawn.height);
+    let images = vec![
+        ("picture", png(size, |i| bytes(drawn.rgb[i]))?),
+        ("depth error", png(size, |i| heat(found.z_map[i]))?),
+        ("colour error", png(size, |i| heat(found.color_map[i]))?),
+    ];
+    Ok(Some(Pictures { key: point.key.clone(), images }))
+}

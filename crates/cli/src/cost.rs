@@ -1,0 +1,128 @@
+//! Synthesis of one machine after another, for sweeps and comparisons.
+
+use crate::commands::synth::cache_folder;
+use crate::scratch::Scratch;
+use anyhow::{Context, Result, anyhow};
+use edgewalk_explore::sweep::definition::Synthesis;
+use edgewalk_explore::sweep::row::{Cost, Status};
+use edgewalk_machine::Plan;
+use edgewalk_synth::{Cache, Design, Flow, Outcome, Part, Target};
+use edgewalk_tool::Stop;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+/// `--synth` and what goes with it.
+#[derive(clap::Args, Clone, Debug)]
+pub struct SynthArgs {
+    /// Synthesises every machine for a device: ice40-hx8k, ice40-up5k, ecp5-25
+    #[arg(long, value_name = "TARGET")]
+    synth: Option<String>,
+    /// With --synth: machine, engine (all but setup), or a unit
+    #[arg(long, value_name = "UNIT", default_value = "machine", requires = "synth")]
+    synth_unit: String,
+    /// With --synth: places and routes with the seeds 1 to N
+    #[arg(long, default_value_t = 3, value_name = "N", requires = "synth", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    synth_seeds: u32,
+    #[command(flatten)]
+    tools: ToolArgs,
+}
+
+/// How the tools of synthesis run, which changes no result.
+#[derive(clap::Args, Clone, Debug)]
+pub struct ToolArgs {
+    /// Seconds that each run of a tool may take
+    #[arg(long, default_value_t = 3600, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
+    limit: u64,
+    /// Keeps results of the tools here; as `edgewalk synth` does if left out
+    #[arg(long, value_name = "DIR")]
+    cache: Option<PathBuf>,
+}
+
+impl SynthArgs {
+    /// What is asked for, once it is known that there is such a device and unit.
+    pub fn definition(&self, machine: &Plan) -> Result<Option<Synthesis>> {
+        let Some(name) = &self.synth else { return Ok(None) };
+        Target::named(name).map_err(|e| anyhow!("--synth: {e}"))?;
+        Part::named(&self.synth_unit, machine)
+            .map_err(|e| anyhow!("--synth-unit {}: {e}", self.synth_unit))?;
+        Ok(Some(Synthesis { target: name.clone(), unit: self.synth_unit.clone(), seeds: self.synth_seeds }))
+    }
+
+    /// How the tools run.
+    pub fn tools(&self) -> &ToolArgs {
+        &self.tools
+    }
+}
+
+/// Synthesises machines, each once.
+pub struct Synthesiser {
+    target: Target,
+    unit: String,
+    seeds: Vec<u32>,
+    limit: Duration,
+    cache: Cache,
+    _scratch: Scratch,
+    /// By the machine's hash.
+    known: Mutex<BTreeMap<String, Cost>>,
+}
+
+impl Synthesiser {
+    /// With the cache of the command line.
+    pub fn new(of: &Synthesis, tools: &ToolArgs) -> Result<Self> {
+        let folder = cache_folder(tools.cache.as_deref())?;
+        let scratch = Scratch::within(&folder).with_context(|| format!("--cache {}", folder.display()))?;
+        let cache = Cache::new(folder, scratch.path().to_owned());
+        Ok(Synthesiser {
+            target: Target::named(&of.target).map_err(|e| anyhow!("--synth: {e}"))?,
+            unit: of.unit.clone(),
+            seeds: (1..=of.seeds).collect(),
+            limit: Duration::from_secs(tools.limit),
+            cache,
+            _scratch: scratch,
+            known: Mutex::default(),
+        })
+    }
+
+    /// That its tools are there.
+    pub fn check(&self) -> Result<()> {
+        for tool in self.target.tools() {
+            edgewalk_tool::run(std::process::Command::new(tool).arg("--version"), self.limit)?;
+        }
+        Ok(())
+    }
+
+    /// Cells, clock and critical path; what the device or the tools do not give is null, with the reason.
+    pub fn cost(&self, machine: &Plan) -> Cost {
+        let hash = machine.hash();
+        if let Some(known) = self.known.lock().unwrap_or_else(PoisonError::into_inner).get(&hash) {
+            return known.clone();
+        }
+        let cost = self.synthesised(machine);
+        self.known.lock().unwrap_or_else(PoisonError::into_inner).insert(hash, cost.clone());
+        cost
+    }
+
+    fn synthesised(&self, machine: &Plan) -> Cost {
+        let failed = |why: String| (Status::Failed, why);
+        let part = Part::named(&self.unit, machine).map_err(|e| failed(e.to_string()))?;
+        let design =
+            Design::new(machine, part).map_err(|e| failed(format!("the netlist cannot be built: {e}")))?;
+        let flow = Flow { cache: &self.cache, limit: self.limit, seeds: &self.seeds, done: &|| {} };
+        let outcome = flow.run(&design, &self.target);
+        match &outcome.stop {
+            Some(stop @ Stop::TimeLimit { .. }) => Err((Status::Timeout, stop.to_string())),
+            Some(stop) => Err(failed(stop.to_string())),
+            None => self.value(&outcome, &design).map_err(|e| failed(e.to_string())),
+        }
+    }
+
+    fn value(&self, outcome: &Outcome, design: &Design) -> Result<Value, serde_json::Error> {
+        let mut value = serde_json::to_value(outcome)?;
+        value["unit"] = self.unit.clone().into();
+        value["design"] = design.hash.clone().into();
+        Ok(value)
+    }
+}

@@ -1,0 +1,254 @@
+//! `edgewalk sweep` as a user runs it.
+#![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
+
+mod support;
+#[path = "sweep/refusals.rs"]
+mod refusals;
+#[path = "sweep/resume.rs"]
+mod resume;
+#[path = "sweep/parts.rs"]
+mod parts;
+#[path = "sweep/browser.rs"]
+mod browser;
+#[path = "sweep/report.rs"]
+mod report;
+
+use rand::SeedableRng;
+use rand::seq::IndexedRandom;
+use rand_pcg::Pcg64Mcg;
+use serde_json::Value;
+use std::path::Path;
+use support::{edgewalk, run};
+
+/// Rows of a sweep, by their order in the file.
+fn rows(folder: &Path) -> Vec<Value> {
+    let text = std::fs::read_to_string(folder.join("runs.jsonl")).unwrap();
+    assert!(text.ends_with('\n'));
+    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+/// Keys of the rows, sorted.
+fn keys(folder: &Path) -> Vec<String> {
+    let mut keys: Vec<String> =
+        rows(folder).iter().map(|row| row["key"].as_str().unwrap().to_owned()).collect();
+    keys.sort();
+    keys
+}
+
+/// What `render` says of a row's machine, input and memory.
+fn rendered(folder: &Path, row: &Value) -> Value {
+    let mut arguments: Vec<String> =
+        ["render", row["input"].as_str().unwrap(), "--json"].map(str::to_owned).into();
+    for (key, value) in row["keys"].as_object().unwrap() {
+        let value = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+        arguments.extend(["--set".to_owned(), format!("{key}={value}")]);
+    }
+    arguments.extend(["--stalls".to_owned(), row["stalls"].as_str().unwrap().to_owned()]);
+    let output =
+        edgewalk(folder, &arguments.iter().map(String::as_str).collect::<Vec<_>>()).output().unwrap();
+    serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&output.stderr)))
+}
+
+/// Sweeps over keys that change pixels and keys that do not, machines that have to be ticked among them.
+const SWEEPS: [&[&str]; 5] = [
+    &[
+        "sphere",
+        "--vary",
+        "interpolator.adders=1..4",
+        "--vary",
+        "formats.z_fraction=5,9,14",
+        "--vary",
+        "fifo.inflight=1,2,4",
+        "--vary",
+        "memory.latency=1..6",
+        "--vary",
+        "setup.lanes=1,2,4",
+        "--sample",
+        "60",
+    ],
+    &[
+        "torus",
+        "--vary",
+        "memory.hazard=drain,interlock,forward",
+        "--vary",
+        "memory.latency=1,4,8",
+        "--vary",
+        "fifo.span=1,2,8",
+        "--vary",
+        "interpolator.segments=1,2",
+        "--vary",
+        "edge.kind=exact,slope",
+        "--vary",
+        "formats.color_fraction=4,8",
+        "--vary",
+        "screen.guard_bits=10..13",
+        "--sample",
+        "60",
+    ],
+    &[
+        "sphere",
+        "torus",
+        "--machine",
+        "textbook",
+        "--vary",
+        "interpolator.adders=1,4",
+        "--vary",
+        "formats.z_bits=12,16",
+        "--vary",
+        "memory.hazard=drain,forward",
+    ],
+    &[
+        "own.tri",
+        "--set",
+        "channels.extra=2",
+        "--vary",
+        "channels.e0_kind=unorm,signed,floor",
+        "--vary",
+        "setup.lanes=1,4",
+    ],
+    &[
+        "sphere",
+        "--set",
+        "screen.width=160",
+        "--set",
+        "screen.height=120",
+        "--vary",
+        "memory.latency=1,3",
+        "--vary",
+        "interpolator.adders=1,4",
+        "--stalls",
+        "none",
+        "--stalls",
+        "fixed:rd=3",
+        "--stalls",
+        "random:seed=5",
+        "--stalls",
+        "dram:miss=9",
+    ],
+];
+
+#[test]
+fn rows_drawn_by_seed_equal_render_in_every_figure() {
+    let folder = tempfile::tempdir().unwrap();
+    let own =
+        "size 64 48\nextra 2\nT 0 0 0 1 0 0 0  60 0 0.5 0 1 0 0  0 40 1 0 0 1 0\nX 0 1  0.25 0.5  1 0.75\n";
+    std::fs::write(folder.path().join("own.tri"), own).unwrap();
+    let mut random = Pcg64Mcg::seed_from_u64(12);
+    let (mut checked, mut ticked, mut lossy) = (0, 0, 0);
+    for (place, sweep) in SWEEPS.iter().enumerate() {
+        let out = format!("s{place}");
+        let (code, error) = run(folder.path(), &[&["sweep", "--quiet", "--out", &out], *sweep].concat());
+        assert_eq!((code, error.as_str()), (Some(0), ""), "{sweep:?}");
+        let rows = rows(&folder.path().join(&out));
+        let ok: Vec<&Value> = rows.iter().filter(|row| row["status"] == "ok").collect();
+        for row in ok.choose_multiple(&mut random, 8) {
+            let report = rendered(folder.path(), row);
+            assert_eq!(row["report"], report, "{} differs from render", row["key"]);
+            assert_eq!(row["machine"], report["machine"]);
+            let path = report["cycles"]["path"].as_str().unwrap();
+            ticked += u32::from(path.starts_with("ticked"));
+            lossy += u32::from(row["verdict"] == "mismatch");
+            checked += 1;
+        }
+    }
+    println!("checked {checked} rows, {ticked} of them ticked, {lossy} of machines that draw wrongly");
+    assert!(checked >= 36 && ticked >= 8 && lossy >= 2, "{checked} {ticked} {lossy}");
+}
+
+#[test]
+fn every_point_has_one_row_and_the_best_can_be_rendered() {
+    let folder = tempfile::tempdir().unwrap();
+    let sweep = [
+        "sweep",
+        "sphere",
+        "--vary",
+        "interpolator.adders=1,2,4",
+        "--vary",
+        "formats.z_fraction=3..6",
+        "--vary",
+        "setup.lanes=1,2",
+        "--out",
+        "s",
+        "--json",
+    ];
+    let output = edgewalk(folder.path(), &sweep).output().unwrap();
+    let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    // z_fraction = 3 is less than the vertex's 4 bits.
+    assert_eq!((&told["points"], &told["made"]), (&24.into(), &24.into()));
+    assert_eq!(
+        told["status"],
+        serde_json::json!({"ok": 18, "pruned": 0, "invalid": 6, "failed": 0, "timeout": 0})
+    );
+    let rows = rows(&folder.path().join("s"));
+    let invalid = rows.iter().find(|row| row["status"] == "invalid").unwrap();
+    let (_, error) = run(folder.path(), &["config", "check", "--set", "formats.z_fraction=3"]);
+    let why = invalid["reason"].as_str().unwrap();
+    assert!(error.contains(why) && why.contains("formats.z_vertex = 4 cannot be built"), "{why}: {error}");
+    let mut keys = keys(&folder.path().join("s"));
+    keys.dedup();
+    assert_eq!(keys.len(), 24);
+    for (name, of) in told["best"].as_object().unwrap() {
+        let file = format!("s/best_{name}.toml");
+        assert_eq!(of["file"], file.as_str());
+        let output =
+            edgewalk(folder.path(), &["config", "check", "--json", "--machine", &file]).output().unwrap();
+        let check: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(check["hash"], of["machine"], "{name}");
+    }
+    assert_eq!(told["best"].as_object().unwrap().len(), 4);
+    let least = rows.iter().filter_map(|row| row.pointer("/report/cycles/total")?.as_u64()).min();
+    assert_eq!(told["best"]["cycles"]["values"]["cycles"].as_f64(), least.map(|cycles| cycles as f64));
+    // The table has a line a row and no field more or less.
+    let csv = std::fs::read_to_string(folder.path().join("s/runs.csv")).unwrap();
+    assert_eq!(csv.lines().count(), 25);
+    let header: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
+    assert!(
+        ["key", "setup.lanes", "cycles", "cycles_memory", "z_slack", "front"]
+            .iter()
+            .all(|name| header.contains(name))
+    );
+}
+
+#[test]
+fn points_without_the_bound_are_not_simulated() {
+    let folder = tempfile::tempdir().unwrap();
+    let sweep =
+        ["sweep", "sphere", "--vary", "formats.z_fraction=4..14", "--bound", "1", "--out", "s", "--quiet"];
+    assert_eq!(run(folder.path(), &sweep), (Some(0), String::new()));
+    let (mut kept, mut pruned) = (0, 0);
+    let size = edgewalk(folder.path(), &["size", "sphere", "--json"]).output().unwrap();
+    let size: Value = serde_json::from_slice(&size.stdout).unwrap();
+    let least = size["channels"][0]["these"]["fraction_bits"].as_u64().unwrap();
+    for row in rows(&folder.path().join("s")) {
+        let bits = row["keys"]["formats.z_fraction"].as_u64().unwrap();
+        if bits >= least {
+            assert_eq!(row["status"], "ok");
+            assert!(row["slack"]["z"].as_f64().unwrap() <= 1.0);
+            kept += 1;
+        } else {
+            let why = row["reason"].as_str().unwrap();
+            assert!(
+                row["status"] == "pruned" && why.contains("79 additions") && row["report"].is_null(),
+                "{row}"
+            );
+            pruned += 1;
+        }
+    }
+    assert!(kept >= 5 && pruned >= 2 && kept + pruned == 11, "{kept} {pruned}");
+}
+
+#[test]
+fn a_sample_is_the_same_by_the_same_seed_and_of_the_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let vary = ["--vary", "fifo.span=1..64", "--vary", "fifo.inflight=3..16", "--vary", "memory.latency=1,2"];
+    let sampled = |out: &str, seed: &str| {
+        let sample = ["sweep", "sphere", "--sample", "40", "--seed", seed, "--quiet", "--out", out];
+        assert_eq!(run(folder.path(), &[&sample[..], &vary].concat()), (Some(0), String::new()));
+        keys(&folder.path().join(out))
+    };
+    let [a, again, other] = [sampled("a", "1"), sampled("b", "1"), sampled("c", "2")];
+    assert_eq!((a.len(), &a), (40, &again));
+    assert!(a.iter().filter(|key| other.contains(key)).count() < 10);
+}

@@ -1,0 +1,156 @@
+//! The report in a browser, opened from disk without a network: a point of the front is clicked, and its machine checked.
+
+use crate::support::{edgewalk, run};
+use serde_json::Value;
+use std::path::Path;
+use std::process::Command;
+
+/// Collects what goes wrong before the page's own script runs.
+const BEFORE: &str = "<script>window.faults = []; addEventListener('error', (e) => faults.push(e.message)); \
+                      addEventListener('unhandledrejection', (e) => faults.push(String(e.reason)));</script>";
+
+/// Uses the page as a reader does, and leaves what it saw in an element.
+const AFTER: &str = r##"<script>
+(async () => {
+  const seen = {}, of = (query) => document.querySelector(query), text = (query) => of(query)?.textContent ?? null;
+  const click = (mark, shift) => {
+    const box = mark.getBoundingClientRect();
+    of("#front-chart svg").dispatchEvent(new MouseEvent("click", { clientX: box.x + box.width / 2, clientY: box.y + box.height / 2, shiftKey: shift, bubbles: true }));
+  };
+  const key = (name) => of("#front-chart svg").dispatchEvent(new KeyboardEvent("keydown", { key: name, bubbles: true, cancelable: true }));
+  click(of("#front-chart [data-point]"));
+  seen.toml = text("#toml");
+  seen.command = text("#command");
+  seen.said = text("#said");
+  seen.pictures = document.querySelectorAll("#chosen img").length;
+  seen.wide = [...document.querySelectorAll("#chosen img")].every((image) => image.naturalWidth > 0);
+  key("b");
+  for (let i = 0; i < 5; i++) key("ArrowRight");
+  key("Enter");
+  seen.other = text("#toml");
+  seen.diff = [...document.querySelectorAll("#diff-table tbody tr")].map((row) => row.textContent);
+  const axis = of("#x-axis");
+  axis.value = "cycles_setup";
+  axis.dispatchEvent(new Event("change"));
+  seen.axis = text("#front-chart svg");
+  seen.sections = [...document.querySelectorAll("main section[id]")].filter((s) => !s.hidden).map((s) => s.id);
+  seen.bars = document.querySelectorAll("#causes-chart rect").length;
+  seen.lines = document.querySelectorAll("#parallel-chart .line").length;
+  seen.bounds = document.querySelectorAll("#errors-chart .bound").length;
+  await new Promise((done) => setTimeout(done, 300));
+  seen.pixels = text("#pixels-said");
+  seen.requests = performance.getEntriesByType("resource").map((entry) => entry.name).filter((name) => !name.startsWith("data:"));
+  seen.faults = faults;
+  const result = document.createElement("pre");
+  result.id = "result";
+  result.textContent = encodeURIComponent(JSON.stringify(seen));
+  document.body.append(result);
+})();
+</script>"##;
+
+/// The page in headless Chromium with its network cut; what it looks like in the end.
+fn opened(page: &Path, home: &Path, arguments: &[&str]) -> String {
+    let output = Command::new("chromium")
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-dev-shm-usage",
+            "--proxy-server=127.0.0.1:9",
+        ])
+        .args(["--hide-scrollbars", "--virtual-time-budget=20000", "--timeout=60000"])
+        .arg(format!("--user-data-dir={}", home.join("profile").display()))
+        .args(arguments)
+        .arg(format!("file://{}", page.display()))
+        .output()
+        .expect("chromium is installed by tests/run: apt-get install chromium");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn decoded(text: &str) -> String {
+    let mut bytes = Vec::new();
+    let mut rest = text.bytes();
+    while let Some(byte) = rest.next() {
+        let digits = [rest.clone().next(), rest.clone().nth(1)].map(Option::unwrap_or_default);
+        if byte == b'%' {
+            bytes.push(u8::from_str_radix(std::str::from_utf8(&digits).unwrap(), 16).unwrap());
+            rest.nth(1);
+        } else {
+            bytes.push(byte);
+        }
+    }
+    String::from_utf8(bytes).unwrap()
+}
+
+#[test]
+fn a_point_of_the_front_is_clicked_and_its_machine_is_the_one_of_its_row() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let sweep = [
+        "sweep",
+        "sphere",
+        "--vary",
+        "formats.z_fraction=5..9",
+        "--vary",
+        "interpolator.adders=1,2,4",
+        "--vary",
+        "setup.lanes=1,4",
+        "--out",
+        "s",
+        "--quiet",
+    ];
+    assert_eq!(run(at, &sweep), (Some(0), String::new()));
+    let page = std::fs::read_to_string(at.join("s/report.html")).unwrap();
+    let page = page.replacen("<head>", &format!("<head>{BEFORE}"), 1).replacen(
+        "</body>",
+        &format!("{AFTER}</body>"),
+        1,
+    );
+    let path = at.join("opened.html");
+    std::fs::write(&path, page).unwrap();
+    let dom = opened(&path, at, &["--dump-dom"]);
+    let result = dom
+        .split("<pre id=\"result\">")
+        .nth(1)
+        .unwrap_or_else(|| panic!("the script did not end"))
+        .split('<')
+        .next()
+        .unwrap();
+    let seen: Value = serde_json::from_str(&decoded(result)).unwrap();
+    assert_eq!(
+        (&seen["faults"], &seen["requests"]),
+        (&serde_json::json!([]), &serde_json::json!([])),
+        "{seen}"
+    );
+
+    // The machine file of the point: `config check` finds the hash that it names, and it is that of a row.
+    let rows = crate::rows(&at.join("s"));
+    let mut checked = 0;
+    for toml in ["toml", "other"].map(|name| seen[name].as_str().unwrap()) {
+        std::fs::write(at.join("point.toml"), toml).unwrap();
+        let output =
+            edgewalk(at, &["config", "check", "--json", "--machine", "point.toml"]).output().unwrap();
+        let check: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let hash = check["hash"].as_str().unwrap();
+        assert!(toml.starts_with(&format!("# machine {hash}\n")), "{toml}");
+        assert!(rows.iter().any(|row| row["machine"] == hash), "{hash}");
+        checked += 1;
+    }
+    assert_eq!(checked, 2);
+    assert_ne!(seen["toml"], seen["other"], "arrow keys lead elsewhere");
+    assert_eq!(seen["command"], "edgewalk render sphere --machine point.toml");
+    assert!(seen["said"].as_str().unwrap().contains("interpolator.adders="), "{}", seen["said"]);
+    assert!(seen["pictures"] == 3 && seen["wide"] == true, "{}", seen["pictures"]);
+    assert!(!seen["diff"].as_array().unwrap().is_empty(), "what differs between the two is told");
+    assert!(seen["axis"].as_str().unwrap().contains("cycles_setup"));
+    let sections = ["front", "errors", "causes", "parallel", "diff", "tables", "pictures"];
+    assert!(
+        sections.iter().all(|id| seen["sections"].as_array().unwrap().iter().any(|s| s == id)),
+        "{}",
+        seen["sections"]
+    );
+    for count in ["bars", "lines", "bounds"] {
+        assert!(seen[count].as_u64() > Some(0), "{count}");
+    }
+}

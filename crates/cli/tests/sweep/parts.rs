@@ -1,0 +1,93 @@
+//! Parts run apart and put together; `why`; stalls.
+
+use crate::support::{edgewalk, names, run};
+use crate::{keys, rows};
+use serde_json::Value;
+use std::process::Command;
+
+const VARY: [&str; 5] =
+    ["sphere", "--vary", "formats.z_fraction=8..13", "--vary", "interpolator.adders=1,2,4"];
+
+fn figures(folder: &std::path::Path) -> Vec<Value> {
+    let mut rows = rows(folder);
+    rows.iter_mut().for_each(|row| _ = row.as_object_mut().unwrap().remove("seconds"));
+    rows.sort_by_key(|row| row["key"].as_str().unwrap().to_owned());
+    rows
+}
+
+#[test]
+fn parts_in_any_order_and_twice_merge_to_the_same_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    assert_eq!(
+        run(at, &[&["sweep", "--quiet", "--out", "whole"], &VARY[..]].concat()),
+        (Some(0), String::new())
+    );
+    assert_eq!(
+        run(at, &[&["sweep", "plan", "--quiet", "--chunks", "4", "--out", "s"], &VARY[..]].concat()),
+        (Some(0), String::new())
+    );
+    assert_eq!(names(&at.join("s")), ["hq.sh", "slurm.sh", "sweep.json"]);
+    // Before all parts are there the merge says how many points are missing.
+    let part =
+        |arguments: &[&str]| run(at, &[&["sweep", "run", "--quiet", "--out", "s"], arguments].concat());
+    assert_eq!(part(&["--chunk", "2"]), (Some(0), String::new()));
+    let (code, error) = run(at, &["sweep", "merge", "--quiet", "--out", "s"]);
+    assert!(code == Some(2) && error.contains("14 of 18 points have no row yet"), "{error}");
+    for (variable, chunk) in
+        [("SLURM_ARRAY_TASK_ID", "3"), ("HQ_TASK_ID", "0"), ("HQ_TASK_ID", "0"), ("SLURM_ARRAY_TASK_ID", "1")]
+    {
+        let mut command = edgewalk(at, &["sweep", "run", "--quiet", "--out", "s"]);
+        assert!(command.env(variable, chunk).status().unwrap().success());
+    }
+    for _ in 0..2 {
+        assert_eq!(run(at, &["sweep", "merge", "--quiet", "--out", "s"]), (Some(0), String::new()));
+        assert_eq!(figures(&at.join("s")), figures(&at.join("whole")));
+        assert_eq!(keys(&at.join("s")).len(), 18);
+    }
+    let (code, error) = part(&["--chunk", "4"]);
+    assert!(code == Some(2) && error.contains("0 to 3"), "{error}");
+    let mut lost = edgewalk(at, &["sweep", "run", "--out", "s"]);
+    let output = lost.env_remove("SLURM_ARRAY_TASK_ID").env_remove("HQ_TASK_ID").output().unwrap();
+    assert!(String::from_utf8_lossy(&output.stderr).contains("which part?"));
+    let (code, error) = run(at, &["sweep", "run", "--out", "whole", "--chunk", "0"]);
+    assert!(code == Some(2) && error.contains("no parts"), "{error}");
+    // The job scripts are shell that a shell can read.
+    for script in ["slurm.sh", "hq.sh"] {
+        let checked =
+            Command::new("sh").args(["-n", &format!("s/{script}")]).current_dir(at).output().unwrap();
+        assert!(checked.status.success(), "{script}: {}", String::from_utf8_lossy(&checked.stderr));
+    }
+}
+
+#[test]
+fn why_names_the_input_that_changed() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let triangle = |y: u32| format!("size 64 48\nT 0 0 0 1 0 0 0  60 0 0 0 1 0 0  0 {y} 1 0 0 1 0\n");
+    std::fs::write(at.join("a.tri"), triangle(40)).unwrap();
+    let sweep = ["sweep", "a.tri", "--vary", "setup.lanes=1,4", "--out", "s", "--quiet"];
+    assert_eq!(run(at, &sweep), (Some(0), String::new()));
+    let key = keys(&at.join("s"))[0].clone();
+    let why = |key: &str| {
+        let output = edgewalk(at, &["sweep", "why", key, "--out", "s"]).output().unwrap();
+        (
+            output.status.code(),
+            String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr),
+        )
+    };
+    let (code, text) = why(&key[..6]);
+    assert!(
+        code == Some(0) && text.contains("all of it is the same today") && text.contains("setup.lanes"),
+        "{text}"
+    );
+    std::fs::write(at.join("a.tri"), triangle(30)).unwrap();
+    let (_, text) = why(&key);
+    assert!(text.contains("changed: input_hash: a.tri was"), "{text}");
+    assert_eq!(run(at, &sweep), (Some(0), String::new()));
+    assert_eq!(rows(&at.join("s")).len(), 4, "another file is another row");
+    let (_, text) = why(&key);
+    assert!(text.contains("the same machine") && text.contains("differs in [\"input_hash\"]"), "{text}");
+    let (code, text) = why("nothing");
+    assert!(code == Some(2) && text.contains("no row has this key; nearest: "), "{text}");
+}

@@ -1,0 +1,120 @@
+//! A sweep that is ended at any time goes on where it was.
+
+use crate::support::{edgewalk, run};
+use crate::{keys, rows};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use serde_json::Value;
+use std::fs::OpenOptions;
+use std::io::Write as _;
+use std::path::Path;
+use std::process::Command;
+use std::time::Duration;
+
+const SWEEP: &[&str] = &[
+    "sweep",
+    "torus-knot",
+    "--vary",
+    "interpolator.adders=1..4",
+    "--vary",
+    "fifo.span=1,2,4",
+    "--vary",
+    "memory.latency=1..4",
+    "--vary",
+    "formats.z_fraction=8,10,12",
+    "--vary",
+    "formats.color_fraction=8,12",
+    "--quiet",
+];
+
+fn without_times(folder: &Path) -> Vec<Value> {
+    let mut rows = rows(folder);
+    rows.iter_mut().for_each(|row| _ = row.as_object_mut().unwrap().remove("seconds"));
+    rows.sort_by_key(|row| row["key"].as_str().unwrap().to_owned());
+    rows
+}
+
+#[test]
+fn killed_at_random_it_ends_with_the_same_rows_and_does_nothing_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    let sweep = |out: &str| edgewalk(folder.path(), &[SWEEP, &["--out", out]].concat());
+    assert!(sweep("whole").status().unwrap().success());
+    let mut random = Pcg64Mcg::seed_from_u64(4);
+    let (mut kills, mut cut_short) = (0, 0);
+    let path = folder.path().join("cut/runs.jsonl");
+    let there = || std::fs::read_to_string(&path).unwrap_or_default();
+    for _ in 0..10 {
+        let mut child = sweep("cut").spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(random.random_range(30..350)));
+        cut_short += u32::from(child.try_wait().unwrap().is_none());
+        child.kill().unwrap(); // SIGKILL
+        child.wait().unwrap();
+        kills += 1;
+        // As a write that was cut would leave it, without a kill that happens to meet one.
+        if random.random_bool(0.5) && !there().is_empty() {
+            let torn = "{\"key\":\"0123456789abcdef\",\"status\":\"o";
+            OpenOptions::new().append(true).open(&path).unwrap().write_all(torn.as_bytes()).unwrap();
+        }
+    }
+    let before = there().lines().count();
+    assert!(sweep("cut").status().unwrap().success());
+    let [whole, cut] = ["whole", "cut"].map(|out| without_times(&folder.path().join(out)));
+    assert_eq!(whole.len(), 4 * 3 * 4 * 3 * 2);
+    assert!(whole == cut, "other rows than undisturbed");
+    let mut once = keys(&folder.path().join("cut"));
+    once.dedup();
+    assert_eq!(once.len(), cut.len(), "a row was made twice");
+    println!("{kills} kills, {cut_short} of them in the middle; {before} rows were there at the last start");
+    assert!(kills == 10 && cut_short >= 3, "{cut_short}");
+    // Once more: nothing is made, the table is the same.
+    let table = std::fs::read_to_string(folder.path().join("cut/runs.csv")).unwrap();
+    let text = there();
+    let again = edgewalk(folder.path(), &[SWEEP, &["--out", "cut", "--json"]].concat()).output().unwrap();
+    let told: Value = serde_json::from_slice(&again.stdout).unwrap();
+    assert_eq!((&told["made"], &told["rows"]), (&0.into(), &whole.len().into()));
+    assert_eq!(
+        (there(), std::fs::read_to_string(folder.path().join("cut/runs.csv")).unwrap()),
+        (text, table)
+    );
+}
+
+#[test]
+fn a_full_disk_is_said_and_the_rows_are_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    // No file may grow above so many blocks of 512 bytes: what `ulimit -f` forbids is an error as a full disk is.
+    let line = |blocks: u32, out: &str| {
+        format!(
+            "trap '' XFSZ; ulimit -f {blocks}; exec {} {} --out {out}",
+            env!("CARGO_BIN_EXE_edgewalk"),
+            SWEEP.join(" ")
+        )
+    };
+    let shell = |blocks, out| {
+        Command::new("sh").args(["-c", &line(blocks, out)]).current_dir(folder.path()).output().unwrap()
+    };
+    let output = shell(200, "s");
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(2) && error.contains("s/runs.jsonl"), "{:?} {error}", output.status);
+    let kept = rows(&folder.path().join("s")).len();
+    assert!(kept > 20 && kept < 288, "{kept} rows kept");
+    // With room it goes on from there.
+    let (code, error) = run(folder.path(), &[SWEEP, &["--out", "s"]].concat());
+    assert_eq!((code, error.as_str()), (Some(0), ""));
+    let mut once = keys(&folder.path().join("s"));
+    once.dedup();
+    assert_eq!((once.len(), rows(&folder.path().join("s")).len()), (288, 288));
+}
+
+#[test]
+fn two_at_once_do_not_write_into_one_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut first = edgewalk(folder.path(), &[SWEEP, &["--out", "s"]].concat()).spawn().unwrap();
+    let rows = folder.path().join("s/runs.jsonl");
+    while std::fs::metadata(&rows).map_or(0, |data| data.len()) == 0 {
+        assert!(first.try_wait().unwrap().is_none(), "it ended before it could be met");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let (code, error) = run(folder.path(), &[SWEEP, &["--out", "s"]].concat());
+    assert!(code == Some(2) && error.contains("another sweep is writing"), "{error}");
+    assert!(first.wait().unwrap().success());
+}

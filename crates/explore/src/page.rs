@@ -1,0 +1,123 @@
+//! The report of a sweep: one HTML file without a network address, readable without scripts, better with them.
+//!
+//! ```text
+//!  table ─┬─> data (columns of figures) ─┐
+//!         └─> tables, chart, still ──────┴─> page.html with its style and script
+//! pictures ──────────────────────────────┘
+//! ```
+
+mod chart;
+mod data;
+mod still;
+
+use crate::sweep::table::Table;
+use serde_json::Value;
+
+const PAGE: &str = include_str!("page/page.html");
+const STYLE: &str = include_str!("page/page.css");
+const SCRIPT: &str = include_str!("page/page.js");
+
+/// A machine's pictures of an input, PNG files.
+pub struct Pictures {
+    /// Key of a row; rows of the same pixels have them in common.
+    pub key: String,
+    /// What each shows, and its bytes.
+    pub images: Vec<(&'static str, Vec<u8>)>,
+}
+
+/// The page. `command`: what made the sweep.
+#[must_use]
+pub fn page(table: &Table, pictures: &[Pictures], command: &str) -> String {
+    let data = data::data(table, pictures);
+    let parts = [
+        ("@TITLE@", escaped(&title(table))),
+        ("@STYLE@", STYLE.to_owned()),
+        ("@COMMAND@", escaped(command)),
+        ("@SUMMARY@", still::summary(table)),
+        ("@CHART@", chart::front(table)),
+        ("@BESTS@", still::bests(table)),
+        ("@FRONT@", still::front(table)),
+        ("@PICTURES@", still::pictures(table, pictures)),
+        ("@DATA@", in_script(&data)),
+        ("@SCRIPT@", SCRIPT.to_owned()),
+    ];
+    // One after the other over the template alone: what is put in is not looked at again.
+    let mut page = String::new();
+    let mut rest = PAGE;
+    while let Some((at, (name, text))) =
+        parts.iter().filter_map(|part| Some((rest.find(part.0)?, part))).min_by_key(|(at, _)| *at)
+    {
+        page += &rest[..at];
+        page += text;
+        rest = &rest[at + name.len()..];
+    }
+    page + rest
+}
+
+fn title(table: &Table) -> String {
+    let names: Vec<&str> = table.sweep.inputs.iter().map(|(input, _)| input.name()).collect();
+    format!("{} machines on {}", table.machines.len(), names.join(", "))
+}
+
+/// Text in HTML.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// JSON inside a script element, which ends at the first `</`.
+fn in_script(value: &Value) -> String {
+    value.to_string().replace("</", "<\\/").replace("<!--", "<\\!--")
+}
+
+/// A number for eyes.
+#[must_use]
+pub fn number(value: f64) -> String {
+    if value == value.trunc() && value.abs() < 1e15 {
+        return format!("{value}");
+    }
+    let digits = (4 - value.abs().log10().floor() as i32).clamp(0, 6) as usize;
+    format!("{value:.digits$}")
+}
+
+/// PNG bytes as an address that needs no network.
+fn embedded(png: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::from("data:image/png;base64,");
+    for bytes in png.chunks(3) {
+        let word =
+            bytes.iter().fold(0u32, |word, byte| word << 8 | u32::from(*byte)) << (8 * (3 - bytes.len()));
+        for place in 0..4 {
+            let digit = DIGITS[(word >> (18 - 6 * place) & 63) as usize];
+            text.push(if place > bytes.len() { '=' } else { digit as char });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_in_base_64() {
+        for (bytes, digits) in
+            [("", ""), ("M", "TQ=="), ("Ma", "TWE="), ("Man", "TWFu"), ("light w", "bGlnaHQgdw==")]
+        {
+            assert_eq!(embedded(bytes.as_bytes()), format!("data:image/png;base64,{digits}"));
+        }
+    }
+
+    #[test]
+    fn numbers_for_eyes() {
+        let cases = [
+            (3.0, "3"),
+            (0.529_288_1, "0.52929"),
+            (1234.567, "1234.6"),
+            (1e-7, "0.000000"),
+            (0.05, "0.050000"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(number(value), text);
+        }
+    }
+}

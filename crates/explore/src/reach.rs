@@ -1,0 +1,75 @@
+//! How far the values of a frame's triangles are stepped, and what that proves of their errors.
+
+use crate::port::PortFrame;
+use anyhow::{Result, anyhow};
+use edgewalk_machine::{Channel, ErrorBudget, Fill, Hazard, Machine, Plan};
+use edgewalk_model::fast::{Passage, Renderer};
+use edgewalk_numerics::Steps;
+
+/// The pixel behind the most additions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Reach {
+    /// Place in the frame of its triangle.
+    pub triangle: i32,
+    /// Column and line.
+    pub pixel: (u32, u32),
+    /// Additions behind it.
+    pub steps: Steps,
+}
+
+impl Reach {
+    /// Of the frame that went through the units; none where nothing was drawn.
+    #[must_use]
+    pub fn of(machine: &Plan, ids: &[i32], passage: &Passage) -> Option<Reach> {
+        let farthest = passage.fates().iter().zip(ids).filter_map(|(fate, id)| Some((fate.farthest?, *id)));
+        let ((pixel, [lines, columns]), triangle) =
+            farthest.max_by_key(|((_, [lines, columns]), _)| lines + columns)?;
+        let pixel = (pixel % machine.width, pixel / machine.width);
+        Some(Reach { triangle, pixel, steps: Steps { lines, columns } })
+    }
+
+    /// What is proved of a channel's outputs for no more additions than these; none where they may wrap.
+    #[must_use]
+    pub fn budget(&self, machine: &Plan, channel: &Channel) -> Option<ErrorBudget> {
+        let budget = channel.error_budget(self.steps);
+        (machine.fill == Fill::Exact && budget.holds()).then_some(budget)
+    }
+
+    /// The largest error that it allows, LSB.
+    #[must_use]
+    pub fn bound(&self, machine: &Plan, channel: &Channel) -> Option<f64> {
+        self.budget(machine, channel).map(|budget| budget.after_rounding().to_f64())
+    }
+}
+
+/// The machine with timing keys by which no frame without channels of the user's own has to be ticked; its pixels are the same.
+///
+/// # Errors
+/// None for a machine that was planned.
+pub fn untimed(machine: &Plan) -> Result<Plan> {
+    let keys = Machine { hazard: Hazard::Forward, latency: 1, inflight: 16, ..Machine::clone(machine) };
+    keys.plan().map_err(|e| anyhow!("{e}"))
+}
+
+/// Takes the frame through the units.
+///
+/// # Errors
+/// Vertices of another machine.
+pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
+    let keys = Machine { extra: 0, adders: machine.adders.min(4), ..Machine::clone(machine) };
+    let plan = untimed(&keys.plan().map_err(|e| anyhow!("{e}"))?)?;
+    let of_plan = |triangle: &[_; 3]| {
+        triangle.map(|v: edgewalk_machine::PortVertex| plan.raw_vertex(v.x(), v.y(), v.values()))
+    };
+    let triangles = port.triangles.iter().map(of_plan);
+    let drawn = Renderer::new(&plan, false).draw_passage(triangles, port.state);
+    drawn.map_err(|refusal| anyhow!("the fast engine draws every frame of such a machine: {refusal:?}"))
+}
+
+/// How far the values of these triangles are stepped.
+///
+/// # Errors
+/// Vertices of another machine.
+pub fn reach(machine: &Plan, port: &PortFrame) -> Result<Option<Reach>> {
+    Ok(Reach::of(machine, &port.ids, &passage(machine, port)?))
+}

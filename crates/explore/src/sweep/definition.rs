@@ -1,0 +1,70 @@
+//! What a sweep was asked for, as it is kept beside its rows.
+
+use serde::{Deserialize, Serialize};
+
+/// Everything that makes a sweep the one it is; `sweep.json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Definition {
+    /// Of the program that wrote it.
+    pub version: String,
+    /// Scenes, meshes and triangle files.
+    pub inputs: Vec<String>,
+    /// How the colours of scenes and meshes are come by: constant, constant-averaged, gouraud.
+    pub shading: String,
+    /// The machine that the varied keys are changed in, TOML.
+    pub machine: String,
+    /// Varied keys, as `--vary` has them.
+    pub vary: Vec<String>,
+    /// Behaviours of the memory, as `--stalls` has them.
+    pub stalls: Vec<String>,
+    /// So many of the points, by seed.
+    pub sample: Option<Sample>,
+    /// Points without a proved bound of at most so many LSB are not simulated.
+    pub bound: Option<f64>,
+    /// What is best, by name.
+    pub objectives: Vec<String>,
+    /// Synthesis of every machine.
+    pub synth: Option<Synthesis>,
+    /// Parts in which other machines may run it.
+    pub chunks: Option<u32>,
+}
+
+/// The default machine on no input yet: a starting point.
+impl Default for Definition {
+    fn default() -> Self {
+        Definition {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            inputs: Vec::new(),
+            shading: "gouraud".to_owned(),
+            machine: edgewalk_machine::Machine::default().to_toml(),
+            vary: Vec::new(),
+            stalls: Vec::new(),
+            sample: None,
+            bound: None,
+            objectives: Vec::new(),
+            synth: None,
+            chunks: None,
+        }
+    }
+}
+
+/// Some of the points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Sample {
+    /// How many.
+    pub points: u32,
+    /// Which.
+    pub seed: u64,
+}
+
+/// How machines are synthesised.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Synthesis {
+    /// The device.
+    pub target: String,
+    /// machine, engine, or a unit.
+    pub unit: String,
+    /// Seeds 1 to this for place and route.
+    pub seeds: u32,
+}

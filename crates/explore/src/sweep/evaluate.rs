@@ -1,0 +1,157 @@
+//! Runs the points that are not there yet.
+
+use super::point::{Point, Sweep};
+use super::row::{Cost, Status, with_figures, without_figures};
+use super::shared::{Geometry, Pixels, geometry_key, pixel_key};
+use super::store::Store;
+use crate::port::to_port;
+use crate::reach::{Reach, reach};
+use anyhow::Result;
+use edgewalk_machine::{EdgeKind, Plan};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
+
+/// What a run needs beside its points.
+pub struct Around<'a> {
+    /// Where rows go.
+    pub store: &'a Store,
+    /// Synthesises a machine.
+    pub cost: Option<&'a (dyn Fn(&Plan) -> Cost + Sync)>,
+    /// Told of each finished row.
+    pub done: &'a (dyn Fn() + Sync),
+}
+
+/// Runs these points and appends a row for each. Returns how many of the errors found exceed what is proved.
+///
+/// # Errors
+/// A row that cannot be written; those before it are kept.
+pub fn run(sweep: &Sweep, points: &[&Point], around: &Around) -> Result<u64> {
+    let run = Run { sweep, around, faults: AtomicU64::new(0) };
+    let mut geometries: BTreeMap<(usize, Vec<u32>), Vec<(&Point, &Plan)>> = BTreeMap::new();
+    for point in points {
+        match &point.plan {
+            Ok(plan) => {
+                let key = (point.input, geometry_key(&point.machine));
+                geometries.entry(key).or_default().push((*point, plan));
+            }
+            Err(why) => run.put(without_figures(sweep, point, Status::Invalid, why), Instant::now())?,
+        }
+    }
+    // One at a time: golden's picture is the largest thing there is.
+    for points in geometries.values() {
+        run.geometry(points)?;
+    }
+    Ok(run.faults.into_inner())
+}
+
+struct Run<'r> {
+    sweep: &'r Sweep,
+    around: &'r Around<'r>,
+    faults: AtomicU64,
+}
+
+type Points<'p> = [(&'p Point, &'p Plan)];
+
+impl Run<'_> {
+    fn put(&self, mut row: Value, since: Instant) -> Result<()> {
+        row["seconds"] = json!(since.elapsed().as_secs_f64());
+        self.around.store.append(&row)?;
+        (self.around.done)();
+        Ok(())
+    }
+
+    fn all(&self, points: &Points, status: Status, reason: &str) -> Result<()> {
+        let row = |(point, _): &(&Point, _)| without_figures(self.sweep, point, status, reason);
+        points.iter().try_for_each(|point| self.put(row(point), Instant::now()))
+    }
+
+    /// Points of one input on one screen.
+    fn geometry(&self, points: &Points) -> Result<()> {
+        let Some((first, plan)) = points.first() else { return Ok(()) };
+        let geometry = match Geometry::new(&self.sweep.inputs[first.input].0, plan) {
+            Ok(geometry) => geometry,
+            Err(why) => return self.all(points, Status::Failed, &format!("{why:#}")),
+        };
+        let mut groups: BTreeMap<Vec<u32>, Vec<(&Point, &Plan)>> = BTreeMap::new();
+        for (point, plan) in points {
+            groups.entry(pixel_key(&point.machine)).or_default().push((*point, *plan));
+        }
+        let mut reaches = BTreeMap::new();
+        let mut wanted = Vec::new();
+        for group in groups.into_values() {
+            match self.unwanted(&geometry, group[0].1, &mut reaches) {
+                Ok(Some(why)) => self.all(&group, Status::Pruned, &why)?,
+                Ok(None) => wanted.push(group),
+                Err(why) => self.all(&group, Status::Failed, &format!("{why:#}"))?,
+            }
+        }
+        wanted.par_iter().with_max_len(1).try_for_each(|group| self.pixels(&geometry, group))
+    }
+
+    /// Why points are not wanted: no bound as small as asked for is proved of their machine.
+    fn unwanted(
+        &self,
+        geometry: &Geometry,
+        plan: &Plan,
+        reaches: &mut BTreeMap<(bool, u32), Option<Reach>>,
+    ) -> Result<Option<String>> {
+        let Some(limit) = self.sweep.definition.bound else { return Ok(None) };
+        let edges = (plan.edge_kind == EdgeKind::Exact, plan.edge_fraction);
+        if let std::collections::btree_map::Entry::Vacant(place) = reaches.entry(edges) {
+            place.insert(reach(plan, &to_port(geometry.frame(), plan)?)?);
+        }
+        let Some(reach) = reaches.get(&edges).copied().flatten() else { return Ok(None) };
+        let beyond = |channel: &&edgewalk_machine::Channel| {
+            reach.bound(plan, channel).is_none_or(|bound| bound > limit)
+        };
+        Ok(plan.channels().iter().find(beyond).map(|channel| {
+            let bound = reach.bound(plan, channel);
+            let bound =
+                bound.map_or_else(|| "no bound is proved".to_owned(), |b| format!("proved are {b:.4} LSB"));
+            format!(
+                "{} with {} fraction bits behind {} additions: {bound}, asked for are {limit}",
+                channel.name,
+                channel.fraction,
+                reach.steps.total()
+            )
+        }))
+    }
+
+    /// Points of the same pixels.
+    fn pixels(&self, geometry: &Geometry, points: &Points) -> Result<()> {
+        let pixels = match Pixels::new(geometry, points[0].1) {
+            Ok(pixels) => pixels,
+            Err(why) => return self.all(points, Status::Failed, &format!("{why:#}")),
+        };
+        let mut lanes: BTreeMap<u32, Vec<(&Point, &Plan)>> = BTreeMap::new();
+        for (point, plan) in points {
+            lanes.entry(plan.lanes).or_default().push((*point, *plan));
+        }
+        lanes.par_iter().try_for_each(|(_, points)| {
+            let setup = pixels.setup(points[0].1)?;
+            points.par_iter().try_for_each(|(point, plan)| {
+                let since = Instant::now();
+                let report = pixels.timed(plan, &setup, self.sweep.waits[point.waits])?;
+                let cost = self.around.cost.map(|cost| cost(plan));
+                let row = with_figures(self.sweep, point, &report, pixels.bound_is_proved(), cost)?;
+                if row["status"] == Status::Failed.name() && row["verdict"] == "mismatch" {
+                    self.faults.fetch_add(1, Ordering::Relaxed);
+                }
+                self.put(row, since)
+            })
+        })
+    }
+}
+
+/// Of these points those that have no row, or one that is to be tried again.
+#[must_use]
+pub fn missing<'p>(points: &[&'p Point], rows: &BTreeMap<String, Value>, again: &[Status]) -> Vec<&'p Point> {
+    let wanted = |point: &&&Point| {
+        let row = rows.get(&point.key);
+        row.is_none_or(|row| again.iter().any(|status| row["status"] == status.name()))
+    };
+    points.iter().filter(wanted).copied().collect()
+}

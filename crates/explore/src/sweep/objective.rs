@@ -1,0 +1,109 @@
+//! What is best: a figure of a row, and which way it should go.
+
+use anyhow::{Result, anyhow};
+use edgewalk_machine::nearest::nearest;
+use serde_json::Value;
+
+/// A figure that is to be small or large.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Objective {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// Where a row has it.
+    pub pointer: &'static str,
+    /// Larger is better.
+    pub most: bool,
+    /// Only synthesis gives it.
+    pub synth: bool,
+    /// Of several inputs the sum counts; else the worst.
+    pub sums: bool,
+    /// With its unit, in words.
+    pub doc: &'static str,
+}
+
+const fn least(name: &'static str, pointer: &'static str, doc: &'static str) -> Objective {
+    Objective { name, pointer, most: false, synth: false, sums: false, doc }
+}
+
+const fn cells(name: &'static str, pointer: &'static str, doc: &'static str) -> Objective {
+    Objective { synth: true, ..least(name, pointer, doc) }
+}
+
+const fn rate(name: &'static str, pointer: &'static str, doc: &'static str) -> Objective {
+    Objective { most: true, ..cells(name, pointer, doc) }
+}
+
+/// All of them.
+pub const OBJECTIVES: &[Objective] = &[
+    Objective { sums: true, ..least("cycles", "/report/cycles/total", "cycles of the frame, simulated") },
+    least("z_error", "/report/comparison/z_error", "largest depth error, LSB, simulated"),
+    least("color_error", "/report/comparison/color_error", "largest colour error, LSB, simulated"),
+    least("z_bound", "/report/comparison/z_bound_for_input", "bound of it for these triangles, LSB, proved"),
+    least(
+        "color_bound",
+        "/report/comparison/color_bound_for_input",
+        "bound of it for these triangles, LSB, proved",
+    ),
+    least("word_bits", "/derived/word_bits", "bits of the interpolator's words, all channels"),
+    cells("lut4", "/synth/cells/lut4", "look-up tables, synthesised"),
+    cells("ff", "/synth/cells/ff", "flip-flops, synthesised"),
+    cells("carry", "/synth/cells/carry", "cells of the carry chain, synthesised"),
+    cells("ram", "/synth/cells/ram", "memories, synthesised"),
+    rate("mhz", "/synth/mhz/median", "clock, MHz, placed; median of the seeds"),
+    rate("frames_per_s", "/derived/frames_per_s", "frames a second at that clock"),
+    rate("mpixels_per_s", "/derived/mpixels_per_s", "million fragments a second at that clock"),
+    rate("mtriangles_per_s", "/derived/mtriangles_per_s", "million triangles a second at that clock"),
+    rate("mpixels_per_s_per_lut", "/derived/mpixels_per_s_per_lut", "the same a look-up table"),
+    rate("mtriangles_per_s_per_lut", "/derived/mtriangles_per_s_per_lut", "the same a look-up table"),
+];
+
+/// What is best where nothing is said.
+const USUAL: [&str; 4] = ["cycles", "z_error", "color_error", "word_bits"];
+const USUAL_WITH_SYNTH: [&str; 4] = ["frames_per_s", "lut4", "z_error", "color_error"];
+
+impl Objective {
+    /// Those of these names; the usual ones if there is none.
+    ///
+    /// # Errors
+    /// An unknown name, one that comes twice, one that needs synthesis where there is none.
+    pub fn list(names: &[String], synth: bool) -> Result<Vec<Objective>> {
+        let usual = if synth { USUAL_WITH_SYNTH } else { USUAL };
+        let names: Vec<&str> =
+            if names.is_empty() { usual.to_vec() } else { names.iter().map(String::as_str).collect() };
+        let mut list: Vec<Objective> = Vec::new();
+        for name in names {
+            let all = OBJECTIVES.iter().map(|objective| objective.name);
+            let found = OBJECTIVES.iter().find(|objective| objective.name == name).ok_or_else(|| {
+                anyhow!("--objective {name}: no such figure; nearest: {}", nearest(name, all))
+            })?;
+            if list.contains(found) {
+                return Err(anyhow!("--objective {name}: comes twice"));
+            }
+            if found.synth && !synth {
+                return Err(anyhow!("--objective {name}: only synthesis gives it; add --synth TARGET"));
+            }
+            list.push(*found);
+        }
+        Ok(list)
+    }
+
+    /// What a row says of it.
+    #[must_use]
+    pub fn of(&self, row: &Value) -> Option<f64> {
+        row.pointer(self.pointer)?.as_f64()
+    }
+
+    /// Of a machine on several inputs, whose rows these are; none if one of them has none.
+    #[must_use]
+    pub fn of_all(&self, rows: &[&Value]) -> Option<f64> {
+        let values = rows.iter().map(|row| self.of(row)).collect::<Option<Vec<f64>>>()?;
+        let worse = |a: f64, b: f64| if self.most { a.min(b) } else { a.max(b) };
+        if self.sums { Some(values.iter().sum()) } else { values.into_iter().reduce(worse) }
+    }
+
+    /// The value with its sign such that less is better.
+    #[must_use]
+    pub fn cost(&self, value: f64) -> f64 {
+        if self.most { -value } else { value }
+    }
+}

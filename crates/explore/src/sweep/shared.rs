@@ -1,0 +1,185 @@
+//! What points share: those of one geometry the frame and golden, those of the same word lengths the pixels.
+
+use super::point::Point;
+use crate::compare::compare_for;
+use crate::draw;
+use crate::input::Input;
+use crate::port::{PortFrame, to_port};
+use crate::raster::{Cycles, Raster, from_fast, from_model, of_primitives};
+use crate::reach::{self, Reach, untimed};
+use crate::report::Report;
+use crate::setup_report::SetupReport;
+use anyhow::{Result, anyhow};
+use edgewalk_machine::keys::KEYS;
+use edgewalk_machine::{Machine, Plan};
+use edgewalk_model::fast::{Passage, Path, Reason, Renderer};
+use edgewalk_model::{Culled, Events, Rig, SetupClocks, Waits, cull, for_channels, render};
+use edgewalk_scene::Frame;
+use std::convert::Infallible;
+
+/// Keys that change when things happen, and no pixel.
+pub const TIMING: [&str; 8] = [
+    "setup.lanes",
+    "fifo.span",
+    "interpolator.adders",
+    "interpolator.segments",
+    "memory.hazard",
+    "memory.latency",
+    "fifo.inflight",
+    "memory.tag_bits",
+];
+
+/// Keys that golden depends on.
+const GEOMETRY: [&str; 3] = ["screen.", "edge.fill", "channels."];
+
+/// Machines alike in this have golden and the frame in common.
+#[must_use]
+pub fn geometry_key(machine: &Machine) -> Vec<u32> {
+    values(machine, |name| GEOMETRY.iter().any(|start| name.starts_with(start)))
+}
+
+/// Machines alike in this draw the same pixels.
+#[must_use]
+pub fn pixel_key(machine: &Machine) -> Vec<u32> {
+    values(machine, |name| !TIMING.contains(&name))
+}
+
+fn values(machine: &Machine, wanted: impl Fn(&str) -> bool) -> Vec<u32> {
+    let keys = KEYS.iter().filter(|key| wanted(key.name));
+    keys.map(|key| if (key.used)(machine) { (key.get)(machine) } else { u32::MAX }).collect()
+}
+
+/// A frame, and golden's picture of it.
+pub struct Geometry {
+    name: String,
+    frame: Frame,
+    golden: Raster,
+}
+
+impl Geometry {
+    /// On the screen of this machine.
+    ///
+    /// # Errors
+    /// An input that such a machine cannot draw.
+    pub fn new(input: &Input, plan: &Plan) -> Result<Geometry> {
+        let frame = input.frame(plan)?;
+        let golden = draw::golden(&frame, plan);
+        Ok(Geometry { name: input.name().to_owned(), frame, golden })
+    }
+
+    /// The frame.
+    #[must_use]
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+}
+
+/// Pixels that machines of the same word lengths have in common, compared with golden.
+pub struct Pixels {
+    port: PortFrame,
+    /// The report without what depends on time.
+    report: Report,
+    culled: Vec<Option<Culled>>,
+    passage: Passage,
+    /// The machine has no channels of the user's own.
+    plain: bool,
+    /// Proved for these triangles: where an error exceeds it, the program is wrong.
+    exact_edges: bool,
+}
+
+impl Pixels {
+    /// Draws and compares.
+    ///
+    /// # Errors
+    /// What of the frame the machine cannot take, or nothing is drawn.
+    pub fn new(geometry: &Geometry, plan: &Plan) -> Result<Pixels> {
+        let Geometry { name, frame, golden } = geometry;
+        let port = to_port(frame, plan)?;
+        let plain = plan.channels().len() == crate::extra::BEFORE;
+        let fast = untimed(plan)?;
+        let (drawn, passage) = if plain {
+            let mut renderer = Renderer::new(&fast, true);
+            let passage = renderer.draw_passage(port.triangles.iter().copied(), port.state);
+            let passage =
+                passage.map_err(|refusal| anyhow!("the fast engine refuses this frame: {refusal:?}"))?;
+            (from_fast(plan, renderer.frame(), Path::Fast), passage)
+        } else {
+            let drawn = render(&fast, port.triangles.iter().copied(), port.state, Waits::Never)?;
+            (from_model(plan, drawn), reach::passage(plan, &port)?)
+        };
+        let drawn = of_primitives(drawn, &port.ids);
+        let reach = Reach::of(plan, &port.ids, &passage).ok_or_else(|| {
+            anyhow!("none of the {} triangles covers a pixel of the screen", port.triangles.len())
+        })?;
+        let comparison = compare_for(plan, frame, golden, &drawn, Some(&reach)).without_maps();
+        let report = Report::new(name, frame.triangles.len() as u64, plan, &drawn).with(comparison);
+        let culled = port.triangles.iter().map(|triangle| cull(plan, triangle)).collect();
+        let exact_edges = plan.edge_kind == edgewalk_machine::EdgeKind::Exact;
+        Ok(Pixels { port, report, culled, passage, plain, exact_edges })
+    }
+
+    /// SETUP's clocks on a machine that differs in timing keys alone.
+    ///
+    /// # Errors
+    /// Vertices of another machine.
+    pub fn setup(&self, plan: &Plan) -> Result<Setup> {
+        let clocks = if self.plain {
+            Passage::setup(plan, &self.port.triangles).map_err(|refusal| anyhow!("{refusal:?}"))?
+        } else {
+            let triangles = self.port.triangles.iter();
+            triangles.map(|triangle| edgewalk_model::setup_clocks(plan, triangle)).collect()
+        };
+        let fates = clocks.iter().zip(&self.culled).zip(self.passage.fates());
+        let facts = fates.map(|((clocks, culled), fate)| (clocks.all(), *culled, fate.pixels));
+        let report = SetupReport::of(plan, facts);
+        Ok(Setup { clocks, report })
+    }
+
+    /// What the machine makes of the frame: as [`Report`] has it.
+    ///
+    /// # Errors
+    /// Vertices of another machine.
+    pub fn timed(&self, plan: &Plan, setup: &Setup, waits: Waits) -> Result<Report> {
+        let clocked = if waits != Waits::Never {
+            Err(Reason::Memory)
+        } else if !self.plain {
+            Err(Reason::Channels)
+        } else {
+            self.passage.clocked(plan, &setup.clocks)
+        };
+        let (cycles, corners) = match clocked {
+            Ok(counters) => (Cycles::of(&counters, Some(Path::Fast)), None),
+            Err(reason) => {
+                let (cycles, events) = for_channels!(plan, C => self.ticked::<C>(plan, waits, reason));
+                (cycles, Some(events))
+            }
+        };
+        Ok(self.report.timed(plan, cycles, corners, setup.report.clone()).with_stalls(waits))
+    }
+
+    /// Cycle by cycle, without a look at the pixels.
+    fn ticked<const C: usize>(&self, plan: &Plan, waits: Waits, reason: Reason) -> (Cycles, Events) {
+        let mut rig = Rig::<C>::new(plan, self.port.state, waits);
+        let triangles = self.port.triangles.iter().map(|triangle| Ok::<_, Infallible>(*triangle));
+        let Ok(()) = rig.draw(triangles, |_, _, _| {});
+        (Cycles::of(rig.model.counters(), Some(Path::Ticked(reason))), rig.model.events().clone())
+    }
+
+    /// Whether errors beyond a bound are the program's own fault.
+    #[must_use]
+    pub fn bound_is_proved(&self) -> bool {
+        self.exact_edges
+    }
+}
+
+/// What SETUP does with the triangles.
+pub struct Setup {
+    clocks: Vec<SetupClocks>,
+    report: SetupReport,
+}
+
+/// The machine of a point that can be built.
+#[must_use]
+pub fn plan(point: &Point) -> Option<&Plan> {
+    point.plan.as_ref().ok()
+}

@@ -1,0 +1,147 @@
+//! What is to be seen of DEPTH; its fork before BLEND is not shown.
+
+use super::{Block, Depth, DepthInputs};
+use crate::tokens::Fragment;
+use crate::view::{Id, Shape, View, fragments, output};
+use edgewalk_machine::{Hazard, Plan};
+
+impl<const C: usize> Depth<C> {
+    /// Shows the unit in a cycle with these inputs.
+    pub fn view(&self, plan: &Plan, frag: Option<&Fragment<C>>, inputs: &DepthInputs, view: &mut View) {
+        view.unit(plan, "depth");
+        let block = self.block(frag, inputs.depth_write);
+        let read = frag.filter(|_| block.is_none() && inputs.rd_ready);
+        let bits = (plan.inflight + 1).next_power_of_two().ilog2();
+        view.triangle(self.triangle(frag));
+        view.kind("fragment", "fragments", || fragments::fields(plan));
+        let queued = view.number("queued", "fragments in flight", bits, self.rmw.len() as u64);
+        view.wire(|| "count".to_owned());
+        let head = self.view_queue(plan, view);
+        let compared = inputs.data.filter(|_| self.data_ready(inputs.wr_ready, inputs.pass_ready));
+        let tells = self.view_compare(plan, compared, inputs.depth_func, view);
+        let waiting = view.guard("w_valid", "a pixel is being written", self.rmw.write().is_some());
+        view.wire(|| "wr_valid".to_owned());
+        view.live(Some(waiting));
+        let w = self.rmw.write();
+        let values = w.map(|w| fragments::values(plan, w.addr, &w.side.values));
+        let token = w.zip(values.as_ref()).map(|(w, values)| (w.side.source.id, &values[..]));
+        view.table("write register", &["fragment", "z_en"], false);
+        view.row("w");
+        let written = view.token_cell("the pixel being written", "fragment", token);
+        view.wire(|| "wr".to_owned());
+        let with_depth =
+            view.cell("its depth is written too", || Shape::Flag, w.is_some_and(|w| w.stored).into());
+        view.wire(|| "wr_z_en".to_owned());
+        view.live(None);
+        view.lane(queued, self.occupied());
+        self.say(frag, block, inputs, compared.is_some(), view);
+
+        let offered = frag.map(|frag| (frag.source.id, fragments::values(plan, frag.addr, &frag.values)));
+        let offered = view.aside(
+            "offered",
+            "the fragment at the door",
+            "fragment",
+            offered.as_ref().map(|(id, values)| (*id, &values[..])),
+        );
+        let fires = self.rmw.write().is_some() && inputs.wr_ready;
+        view.moment("fragment", read.is_some(), offered, &[]);
+        view.moment("compare", compared.is_some(), head, &tells);
+        let when = view.moment("written", fires, written, &[]);
+        view.store(when, written, with_depth);
+        view.takes("data", inputs.data.is_some(), self.data_ready(inputs.wr_ready, inputs.pass_ready));
+        view.gives("rd", None, frag.is_some() && block.is_none(), inputs.rd_ready);
+        view.gives("wr", None, self.rmw.write().is_some(), inputs.wr_ready);
+        view.step("write", 'w');
+    }
+
+    /// Of the oldest token.
+    fn triangle(&self, frag: Option<&Fragment<C>>) -> Option<u32> {
+        let written = self.rmw.write().map(|w| w.side.source.id);
+        let queued = self.rmw.flight(0).map(|flight| flight.side.source.id);
+        written.or(queued).or(frag.map(|frag| frag.source.id))
+    }
+
+    /// Gives the head.
+    fn view_queue(&self, plan: &Plan, view: &mut View) -> Id {
+        let forwards = plan.hazard == Hazard::Forward;
+        let columns: &[&str] = if forwards { &["fragment", "fwd", "from"] } else { &["fragment"] };
+        view.table(&format!("in flight, {} places", self.rmw.places()), columns, false);
+        let mut head = 0;
+        for place in 0..self.rmw.places() {
+            let flight = self.rmw.flight(place);
+            let values = flight.as_ref().map(|f| fragments::values(plan, f.addr, &f.side.values));
+            let token = flight.as_ref().zip(values.as_ref());
+            view.row(&if place == 0 { "head".to_owned() } else { place.to_string() });
+            let cell = view.token_cell(
+                "a fragment that waits for its old depth",
+                "fragment",
+                token.map(|(flight, values)| (flight.side.source.id, &values[..])),
+            );
+            view.wire(|| format!("place{place}"));
+            head = if place == 0 { cell } else { head };
+            if forwards {
+                let forward = flight.and_then(|flight| flight.forward);
+                let live =
+                    view.cell("an older fragment wrote this pixel", || Shape::Flag, forward.is_some().into());
+                view.live(Some(live));
+                let z = || output(&plan.channels()[0]);
+                view.cell("the depth it wrote", z, forward.unwrap_or(0).into());
+                view.live(None);
+            }
+        }
+        head
+    }
+
+    /// Gives what is told of a compare.
+    fn view_compare(&self, plan: &Plan, data: Option<u64>, depth_func: u8, view: &mut View) -> [Id; 2] {
+        let head = self.rmw.flight(0).filter(|_| data.is_some());
+        let new = head.as_ref().map_or(0, |head| u64::from(head.side.values[0]));
+        let old = head.and_then(|head| head.forward.map(u64::from)).or(data).unwrap_or(0);
+        let relation = u8::from(new > old) + u8::from(new >= old);
+        let passes = data.is_some() && depth_func >> relation & 1 != 0;
+        let compares = view.guard("compares", "the head and its old depth", data.is_some());
+        view.wire(|| "compare".to_owned());
+        view.live(Some(compares));
+        let z = plan.channels()[0].bits;
+        view.number("new", "depth of the head", z, new);
+        let stored = view.number("stored", "old depth", z, old);
+        view.wire(|| "old".to_owned());
+        let pass = view.flag("pass", "the new one wins", passes);
+        view.wire(|| "pass".to_owned());
+        view.live(None);
+        [stored, pass]
+    }
+
+    fn say(
+        &self,
+        frag: Option<&Fragment<C>>,
+        block: Option<Block>,
+        inputs: &DepthInputs,
+        compares: bool,
+        view: &mut View,
+    ) {
+        let offered = frag.is_some();
+        view.says(
+            offered && block.is_none() && inputs.rd_ready,
+            "reads the stored depth of pixel {offered.addr}.",
+        );
+        view.says(
+            offered && block == Some(Block::Hazard),
+            "holds pixel {offered.addr} back: it may still be in flight.",
+        );
+        view.says(
+            offered && block == Some(Block::Full),
+            "is full: {queued} fragments wait for their depths.",
+        );
+        view.says(offered && block.is_none() && !inputs.rd_ready, "waits: the memory takes no read.");
+        let forwarded = self.rmw.flight(0).is_some_and(|head| head.forward.is_some());
+        view.says(compares, "compares pixel {head.addr}: new {new}, stored {stored}; passes: {pass}.");
+        view.says(compares && forwarded, "the stored depth is that of an older fragment in flight.");
+        let writes = self.rmw.write().is_some();
+        view.says(
+            writes && inputs.wr_ready,
+            "writes pixel {w.addr}; the picture shows it from the next cycle on.",
+        );
+        view.says(writes && !inputs.wr_ready, "waits: the memory takes no write.");
+    }
+}

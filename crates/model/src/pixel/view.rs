@@ -1,0 +1,78 @@
+//! What is to be seen of PIXEL.
+
+use super::Pixel;
+use crate::tokens::Span;
+use crate::view::{View, fragments, increment, word};
+use edgewalk_machine::Plan;
+
+impl<const C: usize> Pixel<C> {
+    /// Shows the unit in a cycle with these inputs.
+    pub fn view(&self, plan: &Plan, span: Option<&Span<C>>, frag_ready: bool, view: &mut View) {
+        view.unit(plan, "pixel");
+        let w = plan.widths();
+        let phases = plan.clocks_per_pixel();
+        view.triangle(self.active.then_some(self.source.id));
+        let active = view.flag("active", "a span is being stepped along", self.active);
+        view.wire(|| "active".to_owned());
+        view.live(Some(active));
+        let x = view.signed("x", "column, may lie off the screen", w.column, self.x.into());
+        view.wire(|| "x".to_owned());
+        let y = view.number("y", "line", w.y, self.row >> w.x);
+        view.number("left", "pixels left of the span, this one too", w.column, self.count);
+        view.wire(|| "count".to_owned());
+        view.number("phase", "clock of the pixel, the adders' turn", 4, self.phase);
+        if phases > 1 {
+            view.wire(|| "phase".to_owned());
+        }
+        view.table("values, LSB", &["value", "g"], false);
+        for (i, channel) in plan.channels().iter().enumerate() {
+            let raw = |aligned: u64| (aligned >> self.align[i]) & (u64::MAX >> (64 - channel.word()));
+            view.row(channel.name);
+            view.cell("at this pixel", || word(channel), raw(self.values[i]));
+            view.cell("to the next pixel", || increment(channel), raw(self.gradient[i]));
+        }
+        view.live(None);
+        self.view_stages(plan, view);
+        if plan.segments > 1 {
+            view.note("the segments of the adders are not modelled, only their clocks");
+        }
+        view.lane(x, self.active);
+        view.mark(x, y);
+
+        let moves = self.advance(frag_ready);
+        let emits = self.active && moves && self.phase == self.last_phase;
+        view.says(emits && self.on_screen(), "sends pixel ({x}, {y}) on its way; every channel adds its g.");
+        view.says(emits && !self.on_screen(), "steps over column {x}, which is off the screen.");
+        view.says(
+            self.active && moves && self.phase < self.last_phase,
+            &format!("adds up pixel ({{x}}, {{y}}): clock {{phase}} of 0 to {}.", phases - 1),
+        );
+        view.says(!moves, "stands still: DEPTH takes no fragment.");
+        let takes = self.span_ready(frag_ready) && span.is_some();
+        view.says(takes, "takes the next span.");
+        view.says(takes && span.is_some_and(|span| span.fresh), "and the increments of a new triangle.");
+        view.gives("frag", Some("depth"), self.out.is_some(), frag_ready);
+        view.step("pixel", 'p');
+    }
+
+    /// The out stages, the last first.
+    fn view_stages(&self, plan: &Plan, view: &mut View) {
+        view.kind("fragment", "fragments", || fragments::fields(plan));
+        view.table("out stages", &["fragment"], false);
+        let before = (0..self.before).map(|place| &self.stages[(self.oldest + place) % self.before]);
+        for (place, stage) in std::iter::once(&self.out).chain(before).enumerate() {
+            let values =
+                stage.as_ref().map(|fragment| fragments::values(plan, fragment.addr, &fragment.values));
+            let token = stage.as_ref().zip(values.as_ref());
+            view.row(&(plan.segments as usize - 1 - place).to_string());
+            view.token_cell(
+                "a fragment on its way out",
+                "fragment",
+                token.map(|(fragment, values)| (fragment.source.id, &values[..])),
+            );
+            if place == 0 {
+                view.wire(|| "frag".to_owned());
+            }
+        }
+    }
+}

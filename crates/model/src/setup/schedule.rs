@@ -1,0 +1,249 @@
+//! What the lanes of SETUP do, job after job, and the clocks of each: for a recording, as the model itself computes a
+//! triangle at once and only counts its clocks.
+//!
+//! Rules: `docs/machine.md`, section 2, "Pairs"; written from there and not from `clocks`, whose sums a test holds against these.
+
+use super::edges::Parts;
+use super::sort::Sorted;
+use crate::tokens::Prim;
+use edgewalk_machine::{EdgeKind, Fill, Plan};
+
+/// What the lanes do in a clock.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Job {
+    Rest,
+    Look,
+    TakeDx,
+    Slope,
+    TakeDy,
+    WaitDy,
+    SumE,
+    Whole,
+    RoundX,
+    Area,
+    TakeDc1,
+    TakeDc2,
+    AddPairs,
+    WaitPairs,
+    Gx,
+    Gy,
+    AddGx,
+    WaitGx,
+    D0,
+    D1,
+    Start,
+    Value,
+    ChangeM,
+    TakeDc,
+    D,
+    WaitD,
+    SumH,
+    DoubleH,
+    RoundStart,
+    Behind,
+}
+
+impl Job {
+    /// Their names, in their order.
+    pub const NAMES: [&'static str; 30] = [
+        "-", "look", "take DX", "slope", "take DY", "wait", "sum E", "whole", "round X", "area", "take dc1",
+        "take dc2", "p1+p2", "wait", "gx", "gy", "gx+gy", "wait", "d0", "d1", "start", "value", "change M",
+        "take DC", "d", "wait", "sum h", "double", "round", "behind",
+    ];
+
+    /// What each does, in a sentence.
+    pub const SAYS: [&'static str; 30] = [
+        "",
+        "looks whether any line and column of the screen lies in the triangle",
+        "every lane takes in DX of its edge as whole + rest / M, M = P DY",
+        "doubles DX / M until it is DX / DY: whole part q, rest f",
+        "takes in DY and adds DX: the sum that follows needs both and their sum",
+        "waits until the pairs stand",
+        "sums up E, the edge at its first line: a bit of both factors a clock",
+        "adds the whole part: the column C, and R from the rest",
+        "doubles and rounds: the column with its fraction bits",
+        "waits for the area",
+        "every lane takes in dc1 of its channel as whole + rest / |area|",
+        "takes in -dc2",
+        "adds the two pairs",
+        "waits until the pairs stand",
+        "sums up gx = dv2 p1 + dv1 p2, a bit of both factors a clock, and doubles it: the step to the right",
+        "sums up gy, the step down, the same way",
+        "adds gx: the step down and right",
+        "waits until the pairs stand",
+        "sums up d0 = q gx + gy: the step along the major edge without a carry",
+        "adds gx: d1, the step with a carry",
+        "sums up start: from the top vertex to the first pixel",
+        "adds the top vertex' value and the half that rounds",
+        "changes the modulus to the height of the part's left edge",
+        "takes in the difference of the left edge's values",
+        "doubles it: d, the step of a line",
+        "waits until the pair stands",
+        "sums up h DC / M: from the left edge's upper end to its first line",
+        "doubles it",
+        "adds the upper end's value and rounds: start",
+        "the last results come out of the lanes",
+    ];
+}
+
+/// The jobs of both phases.
+pub(super) struct Schedule(pub [Vec<(Job, u32)>; 2]);
+
+impl Schedule {
+    /// Clocks of a phase.
+    pub fn clocks(&self, phase: usize) -> u32 {
+        self.0[phase].iter().map(|(_, clocks)| clocks).sum()
+    }
+
+    /// The job of a phase in this clock of it, from 0; which clock of the job, from 1; and how many the job has.
+    pub fn at(&self, phase: usize, clock: u32) -> (Job, u32, u32) {
+        let mut left = clock;
+        for (job, clocks) in &self.0[phase] {
+            if left < *clocks {
+                return (*job, left + 1, *clocks);
+            }
+            left -= clocks;
+        }
+        (Job::Rest, 0, 0)
+    }
+}
+
+/// The jobs of a triangle; `prim` has its edges, unless it is culled before them.
+pub(super) fn schedule<const C: usize>(
+    plan: &Plan,
+    sorted: &Sorted<C>,
+    parts: &Parts,
+    seen_at_once: bool,
+    prim: &Prim<C>,
+) -> Schedule {
+    if seen_at_once {
+        return Schedule([vec![(Job::Look, 2)], Vec::new()]);
+    }
+    let work = Work { plan, sorted, parts, prim, t: plan.widths().center_fraction };
+    Schedule([work.edges(), if sorted.area() == 0 { Vec::new() } else { work.channels() }])
+}
+
+struct Work<'a, const C: usize> {
+    plan: &'a Plan,
+    sorted: &'a Sorted<C>,
+    parts: &'a Parts,
+    prim: &'a Prim<C>,
+    /// log2 P.
+    t: u32,
+}
+
+impl<const C: usize> Work<'_, C> {
+    fn edges(&self) -> Vec<(Job, u32)> {
+        let plan = self.plan;
+        let [a, b, c] = &self.sorted.corners;
+        let [n1, n2] = self.parts.lines;
+        let [j0, j1] = self.parts.first;
+        let edges = [(a, c, self.parts.drawn(), true), (a, b, j0, n1 > 0), (b, c, j1, n2 > 0)];
+        let o = i64::from(plan.fill == Fill::Textbook);
+        let (f, slope) = match plan.edge_kind {
+            EdgeKind::Exact => (0, false),
+            EdgeKind::Slope => (plan.edge_fraction, true),
+        };
+        let mut jobs = Vec::new();
+        for round in edges.chunks(plan.lanes as usize) {
+            let walked = || round.iter().filter(|(.., walked)| *walked);
+            let fits = walked().all(|(from, to, ..)| is_within(to.u - from.u, (to.v - from.v) << self.t));
+            let factors = walked()
+                .flat_map(|(from, _, j, _)| [(from.u + o).rem_euclid(1 << self.t), (j << self.t) - from.v]);
+            let take = if fits { 2 } else { 5 + (plan.widths().difference - 1).div_ceil(2) };
+            jobs.extend([(Job::TakeDx, take), (Job::Slope, (self.t + f).div_ceil(2))]);
+            jobs.extend([(Job::TakeDy, 2), (Job::WaitDy, 2), (Job::SumE, bits(factors)), (Job::Whole, 1)]);
+            if slope {
+                jobs.push((Job::RoundX, f.div_ceil(2) + 1));
+            }
+        }
+        let so_far: u32 = jobs.iter().map(|(_, clocks)| clocks).sum();
+        let area = bits([c.v - a.v]) + 2;
+        jobs.extend((area > so_far).then(|| (Job::Area, area - so_far)));
+        jobs
+    }
+
+    fn channels(&self) -> Vec<(Job, u32)> {
+        let plan = self.plan;
+        let [a, b, c] = &self.sorted.corners;
+        let m = self.sorted.area().abs();
+        let (dv1, dv2) = (b.v - a.v, c.v - a.v);
+        let mut jobs = Vec::new();
+        for (round, channels) in plan.channels().chunks(plan.lanes as usize).enumerate() {
+            let places = || (0..channels.len()).map(|lane| round * plan.lanes as usize + lane);
+            let widest = channels.iter().map(|channel| channel.bits + channel.vertex_fraction).max();
+            let long = 5 + widest.unwrap_or(0).div_ceil(2);
+            let take = |mut all: Box<dyn Iterator<Item = (i64, i64)>>| {
+                if all.all(|(d, m)| is_within(d, m)) { 2 } else { long }
+            };
+            let dbl = |whole: u32| {
+                let each =
+                    channels.iter().map(|c| (whole * self.t + c.fraction - c.vertex_fraction).div_ceil(2));
+                each.max().unwrap_or(0)
+            };
+            let difference = |to: usize, from: usize, sign: i64| -> Vec<(i64, i64)> {
+                let corners = &self.sorted.corners;
+                places().map(|i| (sign * (corners[to].values[i] - corners[from].values[i]), m)).collect()
+            };
+            let sign = self.sorted.area().signum();
+            jobs.push((Job::TakeDc1, take(Box::new(difference(1, 0, sign).into_iter()))));
+            jobs.push((Job::TakeDc2, take(Box::new(difference(2, 0, -sign).into_iter()))));
+            jobs.extend([(Job::AddPairs, 2), (Job::WaitPairs, 2), (Job::Gx, bits([dv2, dv1]) + dbl(1))]);
+            match plan.fill {
+                Fill::Exact => {
+                    let x = i64::from(self.prim.major.c) - i64::from(self.prim.major_right);
+                    let first = [(x << self.t) - a.u, (i64::from(self.prim.line) << self.t) - a.v];
+                    jobs.extend([
+                        (Job::Gy, 1 + signed_bits([a.u - c.u, a.u - b.u]) + dbl(1)),
+                        (Job::AddGx, 1),
+                        (Job::WaitGx, 2),
+                        (Job::D0, signed_bits([i64::from(self.prim.major.q)])),
+                        (Job::D1, 1),
+                        (Job::Start, 1 + signed_bits(first)),
+                        (Job::Value, 1),
+                    ]);
+                }
+                Fill::Textbook => {
+                    for part in 0..2 {
+                        let (from, to) = self.sorted.left_edge(part);
+                        let drawn = self.parts.lines[part] > 0;
+                        let m = (to.v - from.v) << self.t;
+                        let numbers: Vec<(i64, i64)> =
+                            places().map(|i| (to.values[i] - from.values[i], m)).collect();
+                        let taken = if drawn { take(Box::new(numbers.into_iter())) } else { 2 };
+                        let h = if drawn { (self.parts.first[part] << self.t) - from.v } else { 0 };
+                        jobs.extend([
+                            (Job::ChangeM, 1),
+                            (Job::TakeDc, taken),
+                            (Job::D, dbl(2)),
+                            (Job::WaitD, 1),
+                            (Job::SumH, bits([h])),
+                            (Job::DoubleH, dbl(1)),
+                            (Job::RoundStart, 2),
+                        ]);
+                    }
+                }
+            }
+        }
+        jobs.push((Job::Behind, 4));
+        jobs
+    }
+}
+
+/// -M <= D < M.
+fn is_within(d: i64, m: i64) -> bool {
+    (-m..m).contains(&d)
+}
+
+/// u: bits of the longest of some numbers >= 0, at least 1.
+fn bits(numbers: impl IntoIterator<Item = i64>) -> u32 {
+    let longest = numbers.into_iter().map(|n| i64::BITS - n.leading_zeros()).max();
+    longest.unwrap_or(0).max(1)
+}
+
+/// s: in two's complement, at least 2.
+fn signed_bits(numbers: impl IntoIterator<Item = i64>) -> u32 {
+    let of =
+        |n: i64| if n < 0 { i64::BITS - (!n).leading_zeros() + 1 } else { i64::BITS - n.leading_zeros() + 1 };
+    numbers.into_iter().map(of).max().unwrap_or(0).max(2)
+}

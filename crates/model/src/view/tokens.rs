@@ -1,0 +1,57 @@
+//! Tokens, each kept once: registers and queues hold their numbers.
+
+use super::Field;
+use std::collections::HashMap;
+
+/// A kind of token, and every one of it that was met.
+#[derive(Clone, Debug)]
+pub struct Kind {
+    /// Its name.
+    pub name: String,
+    /// What a table of them is called.
+    pub title: String,
+    /// Its fields.
+    pub fields: Vec<Field>,
+    /// Number k + 1: its triangle, then its fields.
+    pub met: Vec<Vec<u64>>,
+    numbers: HashMap<Vec<u64>, u64>,
+}
+
+/// All tokens by kind.
+#[derive(Clone, Debug, Default)]
+pub struct Tokens(Vec<Kind>);
+
+impl Tokens {
+    /// The kinds.
+    #[must_use]
+    pub fn kinds(&self) -> &[Kind] {
+        &self.0
+    }
+
+    pub(super) fn declare(&mut self, name: &str, title: &str, fields: impl FnOnce() -> Vec<Field>) {
+        if self.0.iter().all(|kind| kind.name != name) {
+            let (name, title) = (name.to_owned(), title.to_owned());
+            self.0.push(Kind { name, title, fields: fields(), met: Vec::new(), numbers: HashMap::new() });
+        }
+    }
+
+    /// The place of a kind.
+    pub(super) fn place(&self, name: &str) -> usize {
+        self.0.iter().position(|kind| kind.name == name).expect("units declare the kinds they show")
+    }
+
+    /// The number of a token; 0: none.
+    pub(super) fn number(&mut self, kind: &str, token: Option<(u32, &[u64])>) -> u64 {
+        let Some((triangle, values)) = token else { return 0 };
+        let place = self.place(kind);
+        let kind = &mut self.0[place];
+        let token: Vec<u64> = std::iter::once(u64::from(triangle)).chain(values.iter().copied()).collect();
+        debug_assert_eq!(values.len(), kind.fields.len(), "{}", kind.name);
+        let next = kind.met.len() as u64 + 1;
+        let number = *kind.numbers.entry(token.clone()).or_insert(next);
+        if number == next {
+            kind.met.push(token);
+        }
+        number
+    }
+}

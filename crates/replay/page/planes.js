@@ -1,0 +1,238 @@
+// The picture as memory holds it, and where the units are on it.
+
+class Planes {
+  constructor(app) {
+    this.app = app;
+    this.views = [];
+    const { doc } = app;
+    const { store } = doc;
+    if (!store) return;
+    const register = doc.registers[store.token];
+    this.kind = doc.tokens[register.shape.table];
+    this.address = this.kind.fields[0];
+    this.cycles = listOf(cyclesWith(doc, [store.when]));
+    this.numbers = this.cycles.map((cycle) => rawAt(register, cycle));
+    this.applied = 0;
+    this.findOverwritten();
+    for (const plane of store.planes) this.add(plane);
+  }
+  pixelOf(token) {
+    const raw = this.address.raw[token - 1], pitch = 2 ** this.address.shape.low;
+    return Math.floor(raw / pitch) * this.app.doc.store.width + (raw % pitch);
+  }
+  // For every write the one before it at the same pixel, so that time can run back; by plane, as a plane may leave writes out.
+  findOverwritten() {
+    const { doc } = this.app;
+    const { store } = doc;
+    this.history = store.planes.map((plane) => {
+      const enable = plane.enable === null ? null : doc.registers[plane.enable];
+      const last = new Int32Array(store.width * store.height).fill(-1);
+      const before = new Int32Array(this.cycles.length), stores = new Uint8Array(this.cycles.length);
+      for (let i = 0; i < this.cycles.length; i++) {
+        const pixel = this.pixelOf(this.numbers[i]);
+        before[i] = last[pixel];
+        stores[i] = enable === null || rawAt(enable, this.cycles[i]) !== 0 ? 1 : 0;
+        if (stores[i]) last[pixel] = i;
+      }
+      return { before, stores };
+    });
+  }
+  add(plane) {
+    const { width, height } = this.app.doc.store;
+    const canvas = make("canvas", { width, height });
+    const marks = make("canvas", { class: "marks", tabindex: "0", role: "img" });
+    const frame = make("div", { class: "frame" }, canvas, marks);
+    const note = make("small", {});
+    const under = make("p", { class: "under" });
+    const panel = make("section", { class: "panel plane" }, make("h2", {}, plane.title, " ", note), frame, under);
+    document.getElementById("planes").append(panel);
+    const pen = canvas.getContext("2d");
+    const view = { plane, canvas, marks, frame, note, under, pen, image: pen.createImageData(width, height),
+      top: new Int32Array(width * height) };
+    if (plane.scalar !== undefined) this.range(view);
+    this.views.push(view);
+    marks.addEventListener("click", (event) => this.click(view, event));
+    marks.addEventListener("keydown", (event) => this.key(event));
+    for (let pixel = 0; pixel < width * height; pixel++) this.paint(view, pixel, -1);
+  }
+  // Nearest and farthest value of the run, for the scale of colours.
+  range(view) {
+    const { before } = this.app.doc.store;
+    const { shape, raw } = this.kind.fields[view.plane.scalar + 1];
+    const values = Array.from(this.numbers, (number) => Number(numberOf(shape, raw[number - 1])));
+    const empty = Number(numberOf(shape, before[view.plane.scalar][0]));
+    view.empty = empty;
+    const list = values.length ? values : [empty];
+    view.least = list.reduce((a, b) => Math.min(a, b));
+    view.most = list.reduce((a, b) => Math.max(a, b));
+  }
+  valueAt(channel, write, pixel) {
+    if (write < 0) return this.app.doc.store.before[channel][pixel];
+    return this.kind.fields[channel + 1].raw[this.numbers[write] - 1];
+  }
+  paint(view, pixel, write) {
+    const { plane, image } = view;
+    view.top[pixel] = write;
+    const place = 4 * pixel;
+    if (plane.colour) {
+      for (let i = 0; i < 3; i++) {
+        image.data[place + i] = (255 * this.valueAt(plane.colour[i], write, pixel)) / (2 ** plane.bits - 1);
+      }
+    } else {
+      const { shape } = this.kind.fields[plane.scalar + 1];
+      const value = Number(numberOf(shape, this.valueAt(plane.scalar, write, pixel)));
+      const far = view.most > view.least ? (value - view.least) / (view.most - view.least) : 0;
+      const colour = write < 0 && value === view.empty ? [30, 32, 44] : nearToFar(Math.min(1, Math.max(0, far)));
+      for (let i = 0; i < 3; i++) image.data[place + i] = colour[i];
+    }
+    image.data[place + 3] = 255;
+  }
+  // Brings the pictures to a cycle: those writes are seen that fired before it.
+  draw() {
+    if (!this.kind) return;
+    const wanted = upTo(this.cycles, this.app.cycle - 1);
+    this.views.forEach((view, number) => {
+      const { before, stores } = this.history[number];
+      for (let i = this.applied; i < wanted; i++) if (stores[i]) this.paint(view, this.pixelOf(this.numbers[i]), i);
+      for (let i = this.applied - 1; i >= wanted; i--) {
+        if (stores[i]) this.paint(view, this.pixelOf(this.numbers[i]), before[i]);
+      }
+      view.pen.putImageData(view.image, 0, 0);
+      setText(view.note, `${this.app.doc.store.width}\u00d7${this.app.doc.store.height}, ${wanted} of ${this.cycles.length} writes`);
+      this.drawMarks(view);
+      this.tell(view);
+    });
+    this.applied = wanted;
+  }
+  // The chosen pixel in words, beside the picture.
+  tell(view) {
+    const { chosen, doc } = this.app;
+    const { plane } = view;
+    if (!chosen) {
+      view.marks.setAttribute("aria-label", `${plane.title}; arrow keys choose a pixel`);
+      return setText(view.under, plane.colour ? "Click a pixel: to the cycle that wrote it." : "near: yellow, far: blue");
+    }
+    const pixel = chosen[1] * doc.store.width + chosen[0];
+    const write = view.top[pixel];
+    const channels = plane.colour || [plane.scalar];
+    const text = channels.map((channel) => {
+      const { name, shape } = this.kind.fields[channel + 1];
+      return `${name} ${textOf(shape, this.valueAt(channel, write, pixel), this.app.hex)}`;
+    });
+    const words = `(${chosen[0]}, ${chosen[1]}): ${text.join(", ")}${write < 0 ? ", not written yet" : ""}`;
+    setText(view.under, words);
+    view.marks.setAttribute("aria-label", `${plane.title}, pixel ${words}`);
+  }
+  resize() {
+    if (!this.kind) return;
+    const { width, height } = this.app.doc.store;
+    for (const view of this.views) {
+      const room = view.frame.parentElement.clientWidth - 22;
+      const scale = Math.min(room / width, 300 / height);
+      view.scale = scale >= 1 ? Math.floor(scale) : scale;
+      for (const canvas of [view.canvas, view.marks]) {
+        canvas.style.width = `${Math.round(width * view.scale)}px`;
+        canvas.style.height = `${Math.round(height * view.scale)}px`;
+      }
+      const ratio = window.devicePixelRatio || 1;
+      view.marks.width = Math.round(width * view.scale * ratio);
+      view.marks.height = Math.round(height * view.scale * ratio);
+    }
+  }
+  // Outlines of the triangles at work, lines and pixels of the units, the chosen pixel.
+  drawMarks(view) {
+    const { doc, cycle, chosen } = this.app;
+    const ratio = window.devicePixelRatio || 1, { scale } = view;
+    const pen = view.marks.getContext("2d");
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.clearRect(0, 0, doc.store.width * scale, doc.store.height * scale);
+    const outlined = new Set();
+    const value = (id) => Number(numberOf(doc.registers[id].shape, rawAt(doc.registers[id], cycle)));
+    for (const unit of doc.units) {
+      if (!unit.marks.length || unit.triangle === null) continue;
+      const number = rawAt(doc.registers[unit.triangle], cycle);
+      if (!number) continue;
+      if (!outlined.has(number)) this.outline(pen, scale, doc.triangles[number - 1]);
+      outlined.add(number);
+      for (const mark of unit.marks) {
+        if (mark.x === null) {
+          pen.fillStyle = "rgba(255, 255, 255, 0.3)";
+          pen.fillRect(0, value(mark.y) * scale, doc.store.width * scale, Math.max(1, scale));
+        } else {
+          this.box(pen, scale, value(mark.x), value(mark.y), "#56b4e9");
+        }
+      }
+    }
+    const now = upTo(this.cycles, cycle) - 1;
+    if (now >= 0 && this.cycles[now] === cycle) {
+      const pixel = this.pixelOf(this.numbers[now]);
+      const [x, y] = [pixel % doc.store.width, Math.floor(pixel / doc.store.width)];
+      if (view.plane.colour) {
+        pen.fillStyle = this.app.colourOf(this.kind, this.numbers[now]);
+        pen.fillRect(x * scale, y * scale, scale, scale);
+      }
+      this.box(pen, scale, x, y, "#f0e442");
+    }
+    if (chosen) this.box(pen, scale, chosen[0], chosen[1], "#ffffff", 2);
+  }
+  outline(pen, scale, corners) {
+    if (!corners) return;
+    pen.beginPath();
+    for (const [x, y] of corners) pen.lineTo(x * scale, y * scale);
+    pen.closePath();
+    for (const [style, wide] of [["#000", 3], ["#fff", 1.2]]) {
+      pen.strokeStyle = style;
+      pen.lineWidth = wide;
+      pen.stroke();
+    }
+  }
+  box(pen, scale, x, y, style, around = 0) {
+    const size = Math.max(4, scale) + 2 * around;
+    const left = (x + 0.5) * scale - size / 2, top = (y + 0.5) * scale - size / 2;
+    for (const [colour, wide] of [["#000", 3.5], [style, 1.6]]) {
+      pen.strokeStyle = colour;
+      pen.lineWidth = wide;
+      pen.strokeRect(left, top, size, size);
+    }
+  }
+  click(view, event) {
+    const box = view.marks.getBoundingClientRect();
+    const { width, height } = this.app.doc.store;
+    const x = Math.floor(((event.clientX - box.left) * width) / box.width);
+    const y = Math.floor(((event.clientY - box.top) * height) / box.height);
+    if (x < 0 || y < 0 || x >= width || y >= height) return;
+    this.app.choose([x, y]);
+    this.toWrite();
+  }
+  // To the write that made what is seen of the chosen pixel; if there is none yet, to the first to come.
+  toWrite() {
+    const { doc, chosen, cycle } = this.app;
+    if (!chosen) return;
+    const pixel = chosen[1] * doc.store.width + chosen[0];
+    let to = -1;
+    for (let i = 0; i < this.cycles.length; i++) {
+      if (this.pixelOf(this.numbers[i]) !== pixel) continue;
+      if (this.cycles[i] < cycle || to < 0) to = this.cycles[i];
+    }
+    if (to >= 0) this.app.go(to);
+  }
+  key(event) {
+    const moves = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+    const { width, height } = this.app.doc.store;
+    if (event.key === "Enter") this.toWrite();
+    else if (moves[event.key]) {
+      const [x, y] = this.app.chosen || [width >> 1, height >> 1];
+      const [dx, dy] = moves[event.key];
+      this.app.choose([Math.min(width - 1, Math.max(0, x + dx)), Math.min(height - 1, Math.max(0, y + dy))]);
+    } else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+}
+
+// From yellow to blue, its lightness falling all the way.
+function nearToFar(part) {
+  const stops = [[253, 231, 37], [190, 180, 90], [124, 123, 120], [66, 78, 108], [0, 34, 78]];
+  const at = part * (stops.length - 1), low = Math.min(stops.length - 2, Math.floor(at));
+  return stops[low].map((colour, i) => colour + (stops[low + 1][i] - colour) * (at - low));
+}

@@ -1,0 +1,247 @@
+//! A replay as JSON: what is described in `docs/replay.md`.
+
+use crate::encode::Stream;
+use crate::lesson::{Lesson, Part, Step};
+use crate::recording::Recording;
+use edgewalk_machine::{Activity, Plan, PortVertex};
+use edgewalk_model::view::{Item, Register, Shape, Table, UnitView};
+use serde_json::{Value, json};
+
+/// The format's name, and its version: another major number is another format.
+pub const FORMAT: (&str, [u32; 2]) = ("edgewalk-replay", [1, 0]);
+
+/// All that a page shows.
+pub struct Replay<'a> {
+    /// The machine.
+    pub plan: &'a Plan,
+    /// What was drawn.
+    pub scene: &'a str,
+    /// The triangles drawn.
+    pub triangles: &'a [[PortVertex; 3]],
+    /// How many there would have been.
+    pub of: usize,
+    /// The run.
+    pub recording: &'a Recording,
+    /// What ought to be, for tokens: more columns of a kind of token.
+    pub truth: &'a [Truth],
+    /// The command that explains a pixel, with `{x}` and `{y}`.
+    pub command: Option<String>,
+    /// Where model and another description differ first.
+    pub difference: Option<Value>,
+    /// What is taught beside it.
+    pub lesson: Option<&'a Lesson>,
+}
+
+/// How far a field of a token is off, and how far it may be.
+pub struct Truth {
+    /// The kind.
+    pub kind: &'static str,
+    /// The field.
+    pub field: &'static str,
+    /// The proved bound, LSB, or why there is none.
+    pub bound: Result<f64, String>,
+    /// A token's value less the exact one, 2^-10 LSB, rounded; `None` where it is not known.
+    pub errors: Vec<Option<i32>>,
+}
+
+impl Replay<'_> {
+    /// As JSON.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let (view, plan) = (&self.recording.view, self.plan);
+        let structure = view.structure();
+        let kinds = view.tokens().kinds();
+        let tokens = kinds.iter().map(|kind| {
+            let field = |field: &edgewalk_model::view::Field| json!({ "name": field.name, "shape": shape(field.shape), "brief": field.brief });
+            json!({
+                "name": kind.name,
+                "title": kind.title,
+                "fields": kind.fields.iter().map(field).collect::<Vec<_>>(),
+                "swatch": swatch(kind.fields.iter().map(|field| field.name)),
+                "count": kind.met.len(),
+                "truth": self.truth_of(&kind.name),
+            })
+        });
+        let causes = Activity::ALL.iter().zip(letters()).map(
+            |(cause, letter)| json!({ "name": cause.name(), "letter": letter, "means": cause.meaning() }),
+        );
+        json!({
+            "format": FORMAT.0,
+            "version": FORMAT.1,
+            "scene": { "name": self.scene, "triangles": self.triangles.len(), "of": self.of },
+            "machine": { "hash": plan.hash(), "keys": keys(plan) },
+            "from": self.recording.from,
+            "cycles": self.recording.cycles,
+            "causes": causes.collect::<Vec<_>>(),
+            "cause": structure.cause,
+            "units": structure.units.iter().map(unit).collect::<Vec<_>>(),
+            "links": structure.links.iter().map(|link| json!({
+                "name": link.name, "from": link.from, "to": link.to, "valid": link.valid, "ready": link.ready,
+                "step": link.step.map(|(name, key)| json!({ "name": name, "key": key })),
+            })).collect::<Vec<_>>(),
+            "registers": structure.registers.iter().zip(&self.recording.columns).map(|(register, column)| {
+                of_register(register, column.at.len())
+            }).collect::<Vec<_>>(),
+            "tokens": tokens.collect::<Vec<_>>(),
+            "store": structure.store.map(|store| json!({
+                "width": plan.width, "height": plan.height, "when": store.when, "token": store.fragment,
+                "planes": planes(plan, store.with_depth),
+            })),
+            "triangles": self.triangles.iter().map(|corners| corners.map(|v| {
+                [v.x(), v.y()].map(|place| f64::from(place) / f64::from(1u32 << plan.subpixel_bits))
+            })).collect::<Vec<_>>(),
+            "command": self.command,
+            "difference": self.difference,
+            "lesson": self.lesson.map_or_else(Vec::new, |lesson| lesson.steps.iter().map(step).collect()),
+            "data": self.data(),
+        })
+    }
+
+    fn truth_of(&self, kind: &str) -> Vec<Value> {
+        let of_kind = self.truth.iter().filter(|truth| truth.kind == kind);
+        let told = of_kind.map(|truth| {
+            let (bound, why) = (truth.bound.as_ref().ok(), truth.bound.as_ref().err());
+            json!({ "field": truth.field, "fraction": 10, "bound": bound, "why": why })
+        });
+        told.collect()
+    }
+
+    /// Registers, then tokens, then what is known of their truth, then the picture before.
+    fn data(&self) -> String {
+        let (recording, view) = (self.recording, &self.recording.view);
+        let mut stream = Stream::default();
+        for (register, column) in view.structure().registers.iter().zip(&recording.columns) {
+            stream.column(register.shape.bits(), column);
+        }
+        for kind in view.tokens().kinds() {
+            stream.differences(32, kind.met.iter().map(|token| token[0]));
+            for (place, field) in kind.fields.iter().enumerate() {
+                stream.differences(field.shape.bits(), kind.met.iter().map(|token| token[place + 1]));
+            }
+            for truth in self.truth.iter().filter(|truth| truth.kind == kind.name) {
+                // The least number there is stands for what is not known.
+                let errors = truth.errors.iter().map(|error| error.unwrap_or(i32::MIN) as u32);
+                stream.differences(32, errors.map(u64::from));
+            }
+        }
+        for plane in &recording.before {
+            stream.differences(32, plane.iter().map(|word| u64::from(*word)));
+        }
+        stream.pack()
+    }
+}
+
+/// A letter a cause, no two alike: of its name the first that is free; a dot for the cause of nothing to do.
+fn letters() -> Vec<char> {
+    let mut letters = Vec::new();
+    for cause in Activity::ALL {
+        let own = cause.name().chars().map(|c| c.to_ascii_uppercase()).find(|c| !letters.contains(c));
+        letters.push(if cause == Activity::Idle { '\u{b7}' } else { own.unwrap_or('?') });
+    }
+    letters
+}
+
+/// Keys and values of the machine.
+fn keys(plan: &Plan) -> Vec<[String; 2]> {
+    let keys = edgewalk_machine::keys::KEYS.iter().filter(|key| (key.used)(plan));
+    keys.map(|key| [key.name.to_owned(), key.show(plan)]).collect()
+}
+
+/// The fields that are a colour.
+fn swatch<'a>(fields: impl Iterator<Item = &'a str>) -> Option<[usize; 3]> {
+    let names: Vec<&str> = fields.collect();
+    let place = |name| names.iter().position(|field| *field == name);
+    Some([place("r")?, place("g")?, place("b")?]).filter(|_| names.first() == Some(&"addr"))
+}
+
+/// The pictures: colours in one, every other channel in one of its own.
+fn planes(plan: &Plan, with_depth: usize) -> Vec<Value> {
+    let channels = plan.channels();
+    let mut planes = vec![json!({
+        "title": "Picture", "colour": [1, 2, 3], "bits": channels[1].bits, "enable": null,
+    })];
+    for (place, channel) in channels.iter().enumerate().filter(|(place, _)| !(1..4).contains(place)) {
+        let title = if place == 0 { "Depth memory".to_owned() } else { channel.name.to_owned() };
+        planes.push(json!({
+            "title": title, "scalar": place, "bits": channel.bits, "signed": channel.kind.is_signed(),
+            "enable": (place == 0).then_some(with_depth),
+        }));
+    }
+    planes
+}
+
+fn shape(shape: Shape) -> Value {
+    match shape {
+        Shape::Flag => json!({ "kind": "flag", "bits": 1 }),
+        Shape::Number { bits, fraction, signed, modular } => {
+            json!({ "kind": "number", "bits": bits, "fraction": fraction, "signed": signed, "modular": modular })
+        }
+        Shape::Code(words) => json!({ "kind": "code", "bits": shape.bits(), "words": words }),
+        Shape::Pixel { x_bits, bits } => json!({ "kind": "place", "bits": bits, "low": x_bits }),
+        Shape::Triangle => json!({ "kind": "triangle", "bits": shape.bits() }),
+        Shape::Token(table) => json!({ "kind": "token", "bits": shape.bits(), "table": table }),
+    }
+}
+
+fn of_register(register: &Register, changes: usize) -> Value {
+    json!({
+        "name": register.name,
+        "doc": register.doc,
+        "shape": shape(register.shape),
+        "live": register.live,
+        "wire": register.wire,
+        "changes": changes,
+    })
+}
+
+fn unit(unit: &UnitView) -> Value {
+    let item = |item: &Item| match item {
+        Item::Register(id) => json!({ "register": id }),
+        Item::Table(table) => json!({ "table": of_table(table) }),
+        Item::Schedule { job, during } => json!({ "schedule": { "job": job, "during": during } }),
+    };
+    json!({
+        "name": unit.name,
+        "title": unit.title,
+        "section": unit.section,
+        "does": unit.does,
+        "items": unit.items.iter().map(item).collect::<Vec<_>>(),
+        "aside": unit.aside,
+        "notes": unit.notes,
+        "triangle": unit.triangle,
+        "lane": unit.lane,
+        "works": unit.works,
+        "phase": unit.phase,
+        "says": unit.says.iter().map(|s| json!({ "when": s.when, "text": s.text })).collect::<Vec<_>>(),
+        "moments": unit.moments.iter().map(|m| json!({
+            "title": m.title, "when": m.when, "token": m.token, "tells": m.tells,
+        })).collect::<Vec<_>>(),
+        "marks": unit.marks.iter().map(|m| json!({ "x": m.x, "y": m.y })).collect::<Vec<_>>(),
+    })
+}
+
+fn of_table(table: &Table) -> Value {
+    let rows = table.rows.iter().map(|row| json!({ "name": row.name, "cells": row.cells }));
+    json!({
+        "title": table.title, "columns": table.columns, "folded": table.folded,
+        "rows": rows.collect::<Vec<_>>(),
+    })
+}
+
+fn step(step: &Step) -> Value {
+    let part = |part: &Part| match part {
+        Part::Text(text) => json!({ "text": text }),
+        Part::Number { formula, value, check } => json!({
+            "formula": formula,
+            "value": value.to_string(),
+            "check": check.as_ref().map(|check| json!({
+                "name": check.name, "register": check.register, "field": check.field, "cycle": check.cycle,
+                "raw": check.expected.to_string(), "found": check.shown.to_string(), "same": check.expected == check.found,
+            })),
+        }),
+    };
+    json!({
+        "title": step.title, "sections": step.sections, "cycle": step.cycle,
+        "parts": step.parts.iter().map(part).collect::<Vec<_>>(),
+    })
+}

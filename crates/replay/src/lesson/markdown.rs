@@ -1,0 +1,45 @@
+//! The lesson as a page of text.
+
+use super::{Lesson, Part};
+use std::fmt::Write as _;
+
+/// `docs/lesson.md`, of this lesson. Writing to a string cannot fail.
+#[must_use]
+pub fn markdown(lesson: &Lesson) -> String {
+    let mut text = String::from(
+        "# One triangle through the machine\n\n\
+         Every number follows from the three corners by the formulae of [the specification](machine.md), computed exactly; beside it\n\
+         stands what the machine's register held, and the cycle. `edgewalk replay --lesson --out lesson.html` shows the same beside the\n\
+         machine at work. Written by `EDGEWALK_BLESS=1 cargo test --release -p edgewalk-replay --test lesson`.\n",
+    );
+    for (number, step) in lesson.steps.iter().enumerate() {
+        let sections: Vec<String> = step.sections.iter().map(|n| format!("§{n}")).collect();
+        _ = write!(
+            text,
+            "\n## {}. {}\n{}, cycle {}\n",
+            number + 1,
+            step.title,
+            sections.join(", "),
+            step.cycle
+        );
+        let mut rows = false;
+        for part in &step.parts {
+            match part {
+                Part::Text(words) => {
+                    _ = write!(text, "\n{words}\n");
+                    rows = false;
+                }
+                Part::Number { formula, value, check } => {
+                    text += if rows { "" } else { "\n| number | value | the machine |\n|---|---|---|\n" };
+                    rows = true;
+                    let held = check.as_ref().map_or_else(String::new, |check| {
+                        let sign = if check.expected == check.found { "✓" } else { "✗" };
+                        format!("{sign} `{}` = {}", check.name, check.shown)
+                    });
+                    _ = writeln!(text, "| `{formula}` | {value} | {held} |");
+                }
+            }
+        }
+    }
+    text
+}
