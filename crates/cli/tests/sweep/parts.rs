@@ -45,6 +45,15 @@ fn parts_in_any_order_and_twice_merge_to_the_same_rows() {
         assert_eq!(figures(&at.join("s")), figures(&at.join("whole")));
         assert_eq!(keys(&at.join("s")).len(), 18);
     }
+    // Digit by digit, which reading and writing numbers would not keep.
+    let texts = ["s", "whole"].map(|out| {
+        let text = std::fs::read_to_string(at.join(out).join("runs.jsonl")).unwrap();
+        let mut lines: Vec<String> =
+            text.lines().map(|line| line.split(",\"seconds\"").next().unwrap().to_owned()).collect();
+        lines.sort();
+        lines
+    });
+    assert!(texts[0] == texts[1] && texts[0].len() == 18);
     let (code, error) = part(&["--chunk", "4"]);
     assert!(code == Some(2) && error.contains("0 to 3"), "{error}");
     let mut lost = edgewalk(at, &["sweep", "run", "--out", "s"]);

@@ -97,6 +97,20 @@ fn rows(bytes: &[u8]) -> Result<Vec<Value>> {
         .collect()
 }
 
+/// The lines of such a file as they stand there, by their rows' keys: a number that is read and written again may change in its last digit.
+///
+/// # Errors
+/// As [`read`].
+pub fn lines(path: &Path) -> Result<BTreeMap<String, String>> {
+    let rows = read(path)?;
+    if rows.is_empty() {
+        return Ok(BTreeMap::new());
+    }
+    let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
+    let lines = text.lines().filter(|line| !line.is_empty()).map(str::to_owned);
+    Ok(rows.iter().map(|row| row["key"].as_str().unwrap_or_default().to_owned()).zip(lines).collect())
+}
+
 /// Rows by their keys; of two with one key the later counts.
 #[must_use]
 pub fn by_key(rows: Vec<Value>) -> BTreeMap<String, Value> {

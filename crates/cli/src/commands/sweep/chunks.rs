@@ -125,9 +125,9 @@ fn chunk(asked: Option<u32>) -> Result<u32> {
 /// Puts the rows of all parts together, in the order of the points. Parts that are not there yet are missing and said to be.
 pub fn merge(out: &Path, talk: Talk) -> Result<Verdict> {
     let sweep = kept(out)?;
-    let mut rows: BTreeMap<String, _> = store::by_key(store::read(&out.join(ROWS))?);
+    let mut rows: BTreeMap<String, String> = store::lines(&out.join(ROWS))?;
     for chunk in 0..sweep.definition.chunks.unwrap_or(0) {
-        rows.extend(store::by_key(store::read(&file(out, chunk))?));
+        rows.extend(store::lines(&file(out, chunk))?);
     }
     let there: Vec<_> = sweep.points.iter().filter_map(|point| rows.get(&point.key)).collect();
     let missing = sweep.points.len() - there.len();
