@@ -32,7 +32,9 @@ mod verdict;
 
 use anyhow::Result;
 use clap::{Parser, Subcommand};
-use commands::{bench, config, demo, emit, explain, gallery, raster, render, replay, synth, trace, vectors, verify};
+use commands::{
+    bench, config, demo, emit, explain, gallery, raster, render, replay, synth, trace, vectors, verify,
+};
 use machine_args::MachineArgs;
 use std::io::Write as _;
 use std::process::ExitCode;
