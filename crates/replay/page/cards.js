@@ -156,7 +156,7 @@ class Cards {
   fit() {
     for (const value of this.values) {
       if (value.swatch) continue;
-      value.element.style.minWidth = `${widthOf(value.shape, value.list, this.app.hex)}ch`;
+      value.element.style.minWidth = `${1.02 * widthOf(value.shape, value.list, this.app.hex)}ch`;
     }
   }
   draw() {
@@ -174,10 +174,10 @@ class Cards {
         value.hex = hex;
       }
       const pale = !live || (field && !own);
-      const look = pale ? "pale" : changedAt(register, cycle) ? "new" : "";
+      const look = pale ? "pale" : changedAt(register, cycle) ? "moved" : "";
       if (value.look !== look) {
         element.classList.toggle("pale", look === "pale");
-        element.classList.toggle("new", look === "new");
+        element.classList.toggle("moved", look === "moved");
         value.look = look;
       }
     }
@@ -185,9 +185,9 @@ class Cards {
       const valid = rawAt(doc.registers[link.valid], cycle), ready = rawAt(doc.registers[link.ready], cycle);
       const state = valid ? (ready ? "fires" : "waits") : ready ? "ready" : "not ready";
       setText(word, state);
-      box.dataset.state = state;
+      box.dataset.look = state;
     }
-    for (const { unit, card } of this.heads) card.dataset.state = this.app.stateOf(unit, cycle);
+    for (const { unit, card } of this.heads) card.dataset.look = this.app.stateOf(unit, cycle);
     for (const bar of this.bars) this.drawBar(bar);
   }
   // The jobs of the work that is going on, in their true proportion.

@@ -19,10 +19,9 @@ class App {
     this.lesson = new Lesson(this);
     this.steps = doc.links.map((link, number) => ({ ...link.step, number })).filter((step) => step.key).reverse();
     this.moves = new Map(this.steps.map((step) => [step.name, listOf(this.cells.fires[step.number])]));
-    this.head();
+    this.about();
     this.tools();
     this.keys();
-    this.cards.fit();
     this.fromAddress();
     this.resize();
     new ResizeObserver(() => this.resize()).observe(document.getElementById("strip"));
@@ -46,7 +45,7 @@ class App {
       this.colours.onCause.push(of(`--on${code % 10}`));
     });
   }
-  head() {
+  about() {
     const { doc } = this;
     const { name, triangles, of } = doc.scene;
     const some = triangles === of ? `${triangles}` : `the first ${triangles} of ${of}`;
@@ -175,6 +174,7 @@ class App {
     this.cards.fit();
     this.draw();
     this.remember();
+    this.speak();
   }
   setFold(fold) {
     this.folds.checked = fold;
@@ -272,7 +272,9 @@ class App {
     if (this.hex) parts.push("hex");
     if (!this.cells.fold) parts.push("nofold");
     this.address = `#${parts.join("&")}`;
-    history.replaceState(null, "", this.address);
+    // Browsers allow only so many changes of the address in a while.
+    clearTimeout(this.writing);
+    this.writing = setTimeout(() => history.replaceState(null, "", this.address), 150);
   }
   fromAddress() {
     const parts = new URLSearchParams(location.hash.slice(1));
@@ -288,6 +290,7 @@ class App {
     setText(this.words, this.hex ? "words: hex" : "words: real");
     this.folds.checked = !parts.has("nofold");
     this.cells.setFold(this.folds.checked);
+    this.cards.fit();
     this.strip.drawOverview();
     this.draw();
     this.speak();

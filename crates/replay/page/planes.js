@@ -146,13 +146,20 @@ class Planes {
     const pen = view.marks.getContext("2d");
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, doc.store.width * scale, doc.store.height * scale);
+    if (scale >= 10) {
+      pen.fillStyle = "rgba(255, 255, 255, 0.45)";
+      for (let y = 0; y < doc.store.height; y++) {
+        for (let x = 0; x < doc.store.width; x++) pen.fillRect((x + 0.5) * scale - 1, (y + 0.5) * scale - 1, 2, 2);
+      }
+    }
     const outlined = new Set();
     const value = (id) => Number(numberOf(doc.registers[id].shape, rawAt(doc.registers[id], cycle)));
     for (const unit of doc.units) {
-      if (!unit.marks.length || unit.triangle === null) continue;
+      if (unit.triangle === null) continue;
       const number = rawAt(doc.registers[unit.triangle], cycle);
       if (!number) continue;
-      if (!outlined.has(number)) this.outline(pen, scale, doc.triangles[number - 1]);
+      // Dashed: a unit that is not on the screen yet has it.
+      if (!outlined.has(number)) this.outline(pen, scale, doc.triangles[number - 1], unit.marks.length ? [] : [5, 4]);
       outlined.add(number);
       for (const mark of unit.marks) {
         if (mark.x === null) {
@@ -175,8 +182,9 @@ class Planes {
     }
     if (chosen) this.box(pen, scale, chosen[0], chosen[1], "#ffffff", 2);
   }
-  outline(pen, scale, corners) {
+  outline(pen, scale, corners, dash) {
     if (!corners) return;
+    pen.setLineDash(dash);
     pen.beginPath();
     for (const [x, y] of corners) pen.lineTo(x * scale, y * scale);
     pen.closePath();
@@ -185,6 +193,7 @@ class Planes {
       pen.lineWidth = wide;
       pen.stroke();
     }
+    pen.setLineDash([]);
   }
   box(pen, scale, x, y, style, around = 0) {
     const size = Math.max(4, scale) + 2 * around;

@@ -5,7 +5,8 @@ use crate::lesson::{Lesson, Part, Step};
 use crate::recording::Recording;
 use edgewalk_machine::{Activity, Plan, PortVertex};
 use edgewalk_model::view::{Item, Register, Shape, Table, UnitView};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
+use std::collections::BTreeSet;
 
 /// The format's name, and its version: another major number is another format.
 pub const FORMAT: (&str, [u32; 2]) = ("edgewalk-replay", [1, 0]);
@@ -27,9 +28,22 @@ pub struct Replay<'a> {
     /// The command that explains a pixel, with `{x}` and `{y}`.
     pub command: Option<String>,
     /// Where model and another description differ first.
-    pub difference: Option<Value>,
+    pub difference: Option<Difference>,
     /// What is taught beside it.
     pub lesson: Option<&'a Lesson>,
+}
+
+/// Where two descriptions of the machine differ first.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// The cycle of the recording.
+    pub cycle: u32,
+    /// Where, in words.
+    pub text: String,
+    /// What the model says.
+    pub expected: String,
+    /// What the other says.
+    pub found: String,
 }
 
 /// How far a field of a token is off, and how far it may be.
@@ -83,18 +97,33 @@ impl Replay<'_> {
                 of_register(register, column.at.len())
             }).collect::<Vec<_>>(),
             "tokens": tokens.collect::<Vec<_>>(),
-            "store": structure.store.map(|store| json!({
+            "store": structure.store.filter(|_| !self.recording.before.is_empty()).map(|store| json!({
                 "width": plan.width, "height": plan.height, "when": store.when, "token": store.fragment,
                 "planes": planes(plan, store.with_depth),
             })),
-            "triangles": self.triangles.iter().map(|corners| corners.map(|v| {
-                [v.x(), v.y()].map(|place| f64::from(place) / f64::from(1u32 << plan.subpixel_bits))
-            })).collect::<Vec<_>>(),
+            "triangles": self.seen().into_iter().map(|number| (number.to_string(), self.corners(number))).collect::<Map<_, _>>(),
             "command": self.command,
-            "difference": self.difference,
+            "difference": self.difference.as_ref().map(|difference| json!({
+                "cycle": difference.cycle, "text": difference.text,
+                "expected": difference.expected, "found": difference.found,
+            })),
             "lesson": self.lesson.map_or_else(Vec::new, |lesson| lesson.steps.iter().map(step).collect()),
             "data": self.data(),
         })
+    }
+
+    /// Numbers of the triangles that any unit works on.
+    fn seen(&self) -> BTreeSet<u64> {
+        let registers = self.recording.view.structure().registers.iter().zip(&self.recording.columns);
+        let of = registers.filter(|(register, _)| register.shape == Shape::Triangle);
+        of.flat_map(|(_, column)| &column.value).filter_map(|number| number.checked_sub(1)).collect()
+    }
+
+    /// Corners of a triangle, pixels.
+    fn corners(&self, number: u64) -> Value {
+        let scale = f64::from(1u32 << self.plan.subpixel_bits);
+        let corners = self.triangles.get(number as usize);
+        json!(corners.map(|corners| corners.map(|v| [v.x(), v.y()].map(|place| f64::from(place) / scale))))
     }
 
     fn truth_of(&self, kind: &str) -> Vec<Value> {

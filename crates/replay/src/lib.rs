@@ -14,7 +14,7 @@ pub mod encode;
 pub mod file;
 pub mod page;
 
-pub use file::{Replay, Truth};
+pub use file::{Difference, Replay, Truth};
 pub use lesson::{Lesson, lesson};
 pub use record::{LIMIT, RecordError, Window, record};
 pub use recording::{Column, Recorder, Recording};

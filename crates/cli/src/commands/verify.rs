@@ -1,9 +1,12 @@
 //! `edgewalk verify`: model against netlist in every port and cycle, then the emitted Verilog in both simulators.
 
+mod difference;
+
 use super::vectors::{directed, functions, of_input, stalls, warn_of_gaps};
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::scratch::Scratch;
+use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, jobs, progress};
 use anyhow::{Context, Result, anyhow};
@@ -14,7 +17,7 @@ use edgewalk_vectors::{
 };
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Verifies the machine: model against netlist port by port and cycle by cycle, then its Verilog in Icarus and Verilator.
@@ -41,6 +44,10 @@ pub struct Args {
     /// Compares model and netlist only
     #[arg(long)]
     no_simulators: bool,
+    /// Folder in which a replay of the machine is left, opened at the first difference, for each suite in which model and
+    /// netlist differ
+    #[arg(long, value_name = "DIR", default_value = "out/verify")]
+    out: PathBuf,
 }
 
 const ICARUS: [Simulator; 1] = [Simulator::Icarus];
@@ -87,7 +94,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let bar = progress::bar(work.len() as u64, "suites and units", talk.quiet);
     let done = jobs::all(&work, &bar, |(suite, unit, simulators)| {
         let trace = capture(&machine, *unit, suite, suite.state(), args.stalls.unwrap_or(suite.stalls));
-        let mut checks = vec![against_netlist(&machine, suite, *unit, &trace)?];
+        let mut checks = vec![against_netlist(&machine, suite, *unit, &trace, &args.out)?];
         if !args.no_simulators {
             let folder = write(&machine, suite, *unit, &trace)?;
             for simulator in *simulators {
@@ -104,7 +111,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     Ok(checks.iter().fold(Verdict::Pass, |all, c| all.and(c.verdict())))
 }
 
-fn against_netlist(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> Result<Check> {
+fn against_netlist(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace, out: &Path) -> Result<Check> {
     let netlist =
         edgewalk_lockstep::netlist(machine, unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
     // How much ought to be compared follows from the model's run alone.
@@ -112,7 +119,16 @@ fn against_netlist(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> 
     let (checked, difference) = match trace.lockstep(&netlist) {
         Ok(agreement) => (agreement.compared, None),
         Err(LockstepError::Vacuous) => (0, None),
-        Err(LockstepError::Differs { difference, compared }) => (compared, Some(difference.to_string())),
+        Err(LockstepError::Differs { difference, compared }) => {
+            let mut told = difference.to_string();
+            if let Some(page) = difference::page(suite, trace, &difference)? {
+                let (out, name) = (Staging::new(out)?, format!("{}.html", suite.name));
+                out.write(&name, page)?;
+                told += &format!("\n      replay: {}", out.name(&name));
+                out.publish(&[name])?;
+            }
+            (compared, Some(told))
+        }
         Err(error) => return Err(error.into()),
     };
     let suite = suite.name.clone();

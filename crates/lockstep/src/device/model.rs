@@ -17,8 +17,9 @@ mod machine;
 
 use super::Device;
 use crate::interface::{Interface, Port};
+use crate::values::PortValues;
 use edgewalk_machine::Plan;
-use edgewalk_model::{Events, for_channels};
+use edgewalk_model::{Events, View, for_channels};
 
 /// A declared port that the model has no place for.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -46,6 +47,12 @@ impl From<Box<Port>> for NoPlace {
 pub trait ModelDevice: Device {
     /// What has happened so far.
     fn events(&self) -> &Events;
+
+    /// Shows what is inside in the cycle with these inputs, before its clock edge; false: a unit alone, which is not shown.
+    fn view(&self, ports: &PortValues, view: &mut View) -> bool {
+        let _ = (ports, view);
+        false
+    }
 }
 
 /// The unit of the interface after reset, as the model has it.

@@ -13,10 +13,11 @@ use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
 use edgewalk_model::tokens::Passed;
-use edgewalk_model::{BlendInputs, Events, Inputs, Model};
+use edgewalk_model::{BlendInputs, Events, Inputs, Model, View};
 
 /// The machine.
 pub struct MachineDevice<const C: usize> {
+    plan: Plan,
     model: Model<C>,
     tri: TriangleTaker,
     memory: MemoryPorts<C>,
@@ -41,6 +42,7 @@ impl<const C: usize> MachineDevice<C> {
         let scope = Scope::alone(plan, interface);
         let inside = !interface.inner_outputs().is_empty();
         Ok(MachineDevice {
+            plan: plan.clone(),
             model: Model::new(plan),
             tri: TriangleTaker::find(plan, interface)?,
             memory: MemoryPorts::find(scope)?,
@@ -118,5 +120,21 @@ impl<const C: usize> Device for MachineDevice<C> {
 impl<const C: usize> ModelDevice for MachineDevice<C> {
     fn events(&self) -> &Events {
         self.model.events()
+    }
+
+    fn view(&self, ports: &PortValues, view: &mut View) -> bool {
+        let triangle = self.tri.token(ports);
+        let depth = self.memory.inputs(ports);
+        let inputs = Inputs {
+            rst: ports.rst,
+            tri: triangle.as_ref().map(|(vertices, tag)| (vertices, *tag)),
+            depth_func: depth.depth_func,
+            depth_write: depth.depth_write,
+            rd_ready: depth.rd_ready,
+            data: depth.data,
+            wr_ready: depth.wr_ready,
+        };
+        self.model.view(&self.plan, &inputs, view);
+        true
     }
 }

@@ -1,0 +1,115 @@
+//! A replay of the machine up to the first difference between model and netlist, opened there.
+
+use anyhow::Result;
+use edgewalk_lockstep::{Difference, Rig, model};
+use edgewalk_replay::{LIMIT, Recorder, Replay, page};
+use edgewalk_vectors::{Suite, Trace};
+
+/// Cycles shown before the difference, where the run is too long to be shown from its begin.
+const BEFORE: u64 = 300;
+/// Cycles shown behind it.
+const AFTER: u64 = 40;
+
+/// The page; none for a unit alone.
+pub fn page(suite: &Suite, trace: &Trace, difference: &Difference) -> Result<Option<String>> {
+    let Trace { plan, interface, .. } = trace;
+    let from = if difference.cycle + AFTER < LIMIT { 0 } else { difference.cycle - BEFORE };
+    let mut device = model(plan, interface)?;
+    let mut rig = Rig::new(interface, trace.setting.clone());
+    let (mut ports, mut recorder, mut shown) = (interface.values(), Recorder::new(), true);
+    while rig.cycle() <= difference.cycle + AFTER {
+        rig.drive(&mut ports);
+        if rig.cycle() >= from {
+            recorder.cycle(|view| shown = device.view(&ports, view));
+        }
+        if !shown {
+            return Ok(None);
+        }
+        device.cycle(&mut ports);
+        rig.clock(&ports);
+    }
+    // Of a part the picture before it is not known.
+    let before = if from == 0 { cleared(trace) } else { Vec::new() };
+    let recording = recorder.finish(from, before);
+    let triangles: Vec<_> = suite.triangles().copied().collect();
+    let replay = Replay {
+        plan,
+        scene: &suite.name,
+        triangles: &triangles,
+        of: triangles.len(),
+        recording: &recording,
+        truth: &[],
+        command: None,
+        difference: Some(edgewalk_replay::Difference {
+            cycle: (difference.cycle - from) as u32, // below the limit
+            text: difference.to_string(),
+            expected: difference.port.shown(difference.expected),
+            found: difference.port.shown(difference.found),
+        }),
+        lesson: None,
+    };
+    Ok(Some(page::html(&replay.json())))
+}
+
+/// The memory at the start, by channel and pixel.
+fn cleared(trace: &Trace) -> Vec<Vec<u32>> {
+    let pixels = (trace.plan.width * trace.plan.height) as usize;
+    let depth = trace.setting.memories.first().map_or(0, |memory| memory.clear as u32); // b <= 32 bits
+    let word = |place: usize| if place == 0 { depth } else { 0 };
+    (0..trace.plan.channels().len()).map(|place| vec![word(place); pixels]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use edgewalk_lockstep::{LockstepError, StallKind, Unit, netlist};
+    use edgewalk_machine::Machine;
+    use edgewalk_model::DrawState;
+    use edgewalk_netlist::mutate::mutants;
+    use edgewalk_vectors::capture;
+
+    /// A fault in the netlist is told by a page that opens where it shows first.
+    #[test]
+    fn a_fault_opens_where_it_shows() {
+        let plan = Machine { width: 16, height: 12, ..Machine::default() }.plan().expect("can be built");
+        let suite = edgewalk_vectors::Suite {
+            cases: Vec::new(),
+            ..super::super::directed(&plan).expect("suites")[0].clone()
+        };
+        let corner = |x, y| plan.port_vertex(x, y, &[0.5; 4]).expect("on the screen");
+        let triangle = [corner(1.0, 1.0), corner(12.0, 3.0), corner(4.0, 10.0)];
+        let case = edgewalk_vectors::Case { name: "one".to_owned(), triangles: vec![triangle] };
+        let suite = edgewalk_vectors::Suite { cases: vec![case], clear_z: None, ..suite };
+        let trace = capture(&plan, Unit::MACHINE, &suite, DrawState::default(), StallKind::None);
+        let good = netlist(&plan, Unit::MACHINE).expect("it can be built");
+        let mut pages = 0;
+        let of_pixel = mutants(&good).into_iter().filter(|mutant| mutant.module.contains("pixel"));
+        for mutant in of_pixel.step_by(7).take(12) {
+            let Err(LockstepError::Differs { difference, .. }) = trace.lockstep(&mutant.apply(&good)) else {
+                continue;
+            };
+            let page = super::page(&suite, &trace, &difference).expect("a replay").expect("of the machine");
+            let data = page.split_once("id=\"replay\">").and_then(|(_, rest)| rest.split_once("</script>"));
+            let replay: serde_json::Value =
+                serde_json::from_str(data.expect("a replay in the page").0).expect("JSON");
+            assert_eq!(replay["difference"]["cycle"], difference.cycle);
+            assert_ne!(replay["difference"]["expected"], replay["difference"]["found"]);
+            assert!(replay["cycles"].as_u64() > Some(difference.cycle));
+            assert_eq!(replay["difference"]["text"], difference.to_string());
+            pages += 1;
+        }
+        println!("checked {pages} pages");
+        assert!(pages > 2);
+        let unit = edgewalk_lockstep::Unit::single(&plan)[1];
+        let trace = capture(&plan, unit, &suite, DrawState::default(), StallKind::None);
+        let mut difference = None;
+        for mutant in mutants(&netlist(&plan, unit).expect("it can be built")) {
+            let faulty = mutant.apply(&netlist(&plan, unit).expect("it can be built"));
+            if let Err(LockstepError::Differs { difference: found, .. }) = trace.lockstep(&faulty) {
+                difference = Some(found);
+                break;
+            }
+        }
+        let none = super::page(&suite, &trace, &difference.expect("a fault that shows")).expect("no error");
+        assert!(none.is_none(), "a unit alone has no replay");
+    }
+}
