@@ -11,7 +11,7 @@ use super::{ModelDevice, NoPlace};
 use crate::device::Device;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::tokens::Passed;
 use edgewalk_model::{BlendInputs, Events, Inputs, Model, View};
 
@@ -85,13 +85,13 @@ impl<const C: usize> Inside<C> {
     }
 }
 
-impl<const C: usize> Device for MachineDevice<C> {
-    fn cycle(&mut self, ports: &mut PortValues) {
-        let triangle = self.tri.token(ports);
+impl<const C: usize> MachineDevice<C> {
+    /// The model's inputs of a cycle.
+    fn inputs<'a>(&self, triangle: Option<&'a ([PortVertex; 3], u32)>, ports: &PortValues) -> Inputs<'a> {
         let depth = self.memory.inputs(ports);
-        let inputs = Inputs {
+        Inputs {
             rst: ports.rst,
-            tri: triangle.as_ref().map(|(vertices, tag)| (vertices, *tag)),
+            tri: triangle.map(|(vertices, tag)| (vertices, *tag)),
             depth_func: depth.depth_func,
             depth_write: depth.depth_write,
             rd_ready: depth.rd_ready,
@@ -101,7 +101,14 @@ impl<const C: usize> Device for MachineDevice<C> {
                 color_write: depth.color_write,
                 ..color.inputs(ports)
             }),
-        };
+        }
+    }
+}
+
+impl<const C: usize> Device for MachineDevice<C> {
+    fn cycle(&mut self, ports: &mut PortValues) {
+        let triangle = self.tri.token(ports);
+        let inputs = self.inputs(triangle.as_ref(), ports);
         if let Some(inside) = &self.inside {
             inside.show(&self.model, &inputs, ports);
         }
@@ -123,18 +130,12 @@ impl<const C: usize> ModelDevice for MachineDevice<C> {
     }
 
     fn view(&self, ports: &PortValues, view: &mut View) -> bool {
+        // BLEND is not shown yet.
+        if self.color.is_some() {
+            return false;
+        }
         let triangle = self.tri.token(ports);
-        let depth = self.memory.inputs(ports);
-        let inputs = Inputs {
-            rst: ports.rst,
-            tri: triangle.as_ref().map(|(vertices, tag)| (vertices, *tag)),
-            depth_func: depth.depth_func,
-            depth_write: depth.depth_write,
-            rd_ready: depth.rd_ready,
-            data: depth.data,
-            wr_ready: depth.wr_ready,
-        };
-        self.model.view(&self.plan, &inputs, view);
+        self.model.view(&self.plan, &self.inputs(triangle.as_ref(), ports), view);
         true
     }
 }
