@@ -37,20 +37,27 @@ fn passes(simulator: Simulator, files: &Files) -> u64 {
     }
 }
 
-#[test]
-fn twelve_machines_replay_are_clean_and_synthesise() {
+/// What of the tools a machine goes through.
+struct Tools {
+    simulators: &'static [Simulator],
+    synthesis: bool,
+}
+
+/// Twelve machines: the directed suites through simulators, lint, and synthesis where asked for, by the machine's number.
+fn twelve_machines(tools: impl Fn(usize) -> Tools + Sync) {
     let machines = common::twelve();
     let start = Instant::now();
     let done = common::two_at_a_time(&machines, |i, (name, machine)| {
+        let Tools { simulators, synthesis } = tools(i);
         // The functions that let fragments pass take turns.
         let depth_func = 1 + (i % 7) as u8;
         let suite = replay(machine).on_half_depth(machine);
         let mut line = format!("{name:28}");
         let mut checked = 0;
-        for (j, simulator) in Simulator::ALL.into_iter().enumerate() {
+        for (j, simulator) in simulators.iter().enumerate() {
             let start = Instant::now();
             let stalls = StallKind::ALL[(i + j) % 3];
-            let n = passes(simulator, &files(machine, Unit::MACHINE, &suite, depth_func, stalls));
+            let n = passes(*simulator, &files(machine, Unit::MACHINE, &suite, depth_func, stalls));
             checked += n;
             line +=
                 &format!(" {} ({}) {n} / {n} in {:.1?};", simulator.name(), stalls.name(), start.elapsed());
@@ -59,14 +66,35 @@ fn twelve_machines_replay_are_clean_and_synthesise() {
         let vectors = place.path().join("the vectors");
         write(&files(machine, Unit::MACHINE, &suite, depth_func, StallKind::None), &vectors);
         lint(&vectors, LIMIT).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let start = Instant::now();
-        let cells = synth_ice40(&vectors, LIMIT).unwrap_or_else(|error| panic!("{name}: {error}"));
-        println!("{line} lint clean; {cells:?} in {:.1?}", start.elapsed());
+        line += " lint clean";
+        if synthesis {
+            let start = Instant::now();
+            let cells = synth_ice40(&vectors, LIMIT).unwrap_or_else(|error| panic!("{name}: {error}"));
+            line += &format!("; {cells:?} in {:.1?}", start.elapsed());
+        }
+        println!("{line}");
         checked
     });
     println!("{} machines, {} checked, {:.1?}", done.len(), done.iter().sum::<u64>(), start.elapsed());
     assert_eq!(done.len(), 12);
     assert!(done.iter().all(|checked| *checked > 5000), "{done:?}");
+}
+
+/// Icarus and lint for all, Verilator, where building takes its time, for every third, synthesis for one.
+#[test]
+fn twelve_machines_replay_and_are_clean() {
+    twelve_machines(|i| Tools {
+        simulators: &Simulator::ALL[..1 + usize::from(i % 3 == 0)],
+        synthesis: i == 0,
+    });
+}
+
+/// Both simulators, lint and synthesis for all; not part of the test run:
+/// `cargo test --release -p edgewalk-vectors --test simulators -- --ignored --nocapture`
+#[test]
+#[ignore = "a quarter of an hour"]
+fn twelve_machines_in_every_tool() {
+    twelve_machines(|_| Tools { simulators: &Simulator::ALL, synthesis: true });
 }
 
 /// Machines with BLEND in Icarus, every second in Verilator too; BLEND and DEPTH alone, mixing and adding.
