@@ -42,8 +42,10 @@ const TESTS: &[(&str, &[&str])] = &[
 const STRANGERS: [&str; 2] = ["model", "rtl"];
 
 /// Crates that read and write no files: they may not even name the standard library's file or process modules.
-const NO_FILES: &[&str] =
-    &["numerics", "machine", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl", "lockstep", "replay"];
+const NO_FILES: &[&str] = &[
+    "numerics", "machine", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl", "lockstep",
+    "replay",
+];
 
 fn crates() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..")

@@ -28,7 +28,10 @@ fn rows(name: &str) -> Vec<Row> {
     });
     let header = lines.next().unwrap();
     let rows: Vec<Row> = lines.map(|fields| header.iter().cloned().zip(fields).collect()).collect();
-    assert!(!rows.is_empty() && rows.iter().all(|row| row["status"] == "ok" && row.len() == header.len()), "{name}");
+    assert!(
+        !rows.is_empty() && rows.iter().all(|row| row["status"] == "ok" && row.len() == header.len()),
+        "{name}"
+    );
     rows
 }
 
@@ -46,7 +49,8 @@ fn values(rows: &[Row], name: &str) -> Vec<String> {
 
 /// The sum of a column over the rows that have these values.
 fn sum(rows: &[Row], of: &[(&str, &str)], name: &str) -> f64 {
-    let rows: Vec<&Row> = rows.iter().filter(|row| of.iter().all(|(key, value)| row[*key] == *value)).collect();
+    let rows: Vec<&Row> =
+        rows.iter().filter(|row| of.iter().all(|(key, value)| row[*key] == *value)).collect();
     assert!(!rows.is_empty(), "{of:?}");
     rows.iter().map(|row| number(row, name)).sum()
 }
@@ -71,7 +75,8 @@ fn bits(name: &str, key: &str, channel: &str) -> String {
         let of = |scene: &str| {
             let row = rows.iter().find(|row| row["input"] == scene && row[key] == bits).unwrap();
             let bound = &row[&format!("{channel}_bound_for_input")];
-            let bound = bound.parse::<f64>().map_or_else(|_| "none".to_owned(), |bound| format!("{bound:.3}"));
+            let bound =
+                bound.parse::<f64>().map_or_else(|_| "none".to_owned(), |bound| format!("{bound:.3}"));
             format!("{:.3}, {bound}", number(row, &format!("{channel}_error")))
         };
         [bits.clone()].into_iter().chain(SCENES.map(of)).collect()
@@ -82,8 +87,10 @@ fn bits(name: &str, key: &str, channel: &str) -> String {
 /// Cycles and SETUP's share over adders and lanes.
 fn organisation() -> String {
     let rows = rows("organisation");
-    let header =
-        ["adders", "lanes"].map(str::to_owned).into_iter().chain(SCENES.map(|scene| format!("{scene}: cycles, setup")));
+    let header = ["adders", "lanes"]
+        .map(str::to_owned)
+        .into_iter()
+        .chain(SCENES.map(|scene| format!("{scene}: cycles, setup")));
     let mut body = Vec::new();
     for adders in values(&rows, "interpolator.adders") {
         for lanes in values(&rows, "setup.lanes") {
@@ -116,11 +123,18 @@ fn waiting() -> String {
                 ];
                 format!("{:.3} M", sum(&rows, &at, "cycles") / 1e6)
             };
-            body.push([latency.clone(), hazard.to_owned()].into_iter().chain(depths.iter().map(of)).collect());
+            body.push(
+                [latency.clone(), hazard.to_owned()].into_iter().chain(depths.iter().map(of)).collect(),
+            );
         }
     }
     let spans = values(&rows, "fifo.span").into_iter().map(|spans| {
-        let at = [("memory.latency", "2"), ("memory.hazard", "forward"), ("fifo.inflight", "4"), ("fifo.span", &*spans)];
+        let at = [
+            ("memory.latency", "2"),
+            ("memory.hazard", "forward"),
+            ("fifo.inflight", "4"),
+            ("fifo.span", &*spans),
+        ];
         vec![spans.clone(), format!("{:.3} M", sum(&rows, &at, "cycles") / 1e6)]
     });
     let spans = table(["spans in the FIFO".to_owned(), "cycles".to_owned()], spans.collect::<Vec<_>>());
@@ -141,7 +155,9 @@ fn memories() -> String {
                 let cycles = sum(&rows, &at, "cycles");
                 format!("{:.3} M, {:.0} %", cycles / 1e6, 100.0 * sum(&rows, &at, "cycles_memory") / cycles)
             };
-            body.push([format!("`{stalls}`"), adders.clone()].into_iter().chain(depths.iter().map(of)).collect());
+            body.push(
+                [format!("`{stalls}`"), adders.clone()].into_iter().chain(depths.iter().map(of)).collect(),
+            );
         }
     }
     table(header, body)
@@ -174,7 +190,10 @@ fn the_tables_are_those_of_the_data() {
         ("organisation", organisation()),
         ("waiting", waiting()),
         ("memories", memories()),
-        ("pixel_cells", cells("pixel_cells", &[("interpolator.adders", "adders"), ("interpolator.segments", "segments")])),
+        (
+            "pixel_cells",
+            cells("pixel_cells", &[("interpolator.adders", "adders"), ("interpolator.segments", "segments")]),
+        ),
         ("setup_cells", cells("setup_cells", &[("setup.lanes", "lanes")])),
     ];
     let mut written = text.clone();
@@ -190,5 +209,8 @@ fn the_tables_are_those_of_the_data() {
         std::fs::write(&path, &written).unwrap();
     }
     println!("checked {lines} lines in {} tables", tables.len());
-    assert!(lines > 60 && (written == text || std::env::var_os("EDGEWALK_BLESS").is_some()), "docs/study.md is out of date: docs/study/run");
+    assert!(
+        lines > 60 && (written == text || std::env::var_os("EDGEWALK_BLESS").is_some()),
+        "docs/study.md is out of date: docs/study/run"
+    );
 }

@@ -153,7 +153,8 @@ fn taught(machine: &MachineArgs) -> Result<Shown> {
     let machine = machine.machine(Some(SCREEN))?;
     let triangle = triangle(&machine).context("--lesson")?;
     let state = DrawState::default();
-    let recording = record(&machine, &[triangle], state, Stalls::NONE, Window::default()).context("--lesson")?;
+    let recording =
+        record(&machine, &[triangle], state, Stalls::NONE, Window::default()).context("--lesson")?;
     let lesson = lesson(&machine, &triangle, &recording, RED).map_err(|why| anyhow!("--lesson: {why}"))?;
     Ok(Shown {
         machine,

@@ -36,18 +36,15 @@ pub fn truth(machine: &Plan, frame: &Frame, ids: &[i32], tokens: &Tokens) -> Vec
 }
 
 /// The channels, LSB, by triangle and address.
-fn exact(
-    machine: &Plan,
-    frame: &Frame,
-    ids: &[i32],
-    wanted: HashSet<u64>,
-) -> HashMap<(u64, u64), Vec<f64>> {
+fn exact(machine: &Plan, frame: &Frame, ids: &[i32], wanted: HashSet<u64>) -> HashMap<(u64, u64), Vec<f64>> {
     let mut exact = HashMap::new();
     if !matches!(golden_fill(machine), Fill::Exact { .. }) {
         return exact;
     }
     for (number, id) in ids.iter().enumerate().filter(|(number, _)| wanted.contains(&(*number as u64))) {
-        let Some(triangle) = usize::try_from(*id).ok().and_then(|id| frame.triangles.get(id)) else { continue };
+        let Some(triangle) = usize::try_from(*id).ok().and_then(|id| frame.triangles.get(id)) else {
+            continue;
+        };
         let screen = (machine.width, machine.height);
         fragments(triangle, frame.mode, machine.subpixel_bits, screen, |fragment| {
             let addr = u64::from(fragment.y) << machine.widths().x | u64::from(fragment.x);
