@@ -52,7 +52,7 @@ fn declared(ports: &Ports) -> List {
     };
     let (enters, leaves) = (["in", "out"], ["out", "in"]);
     ports.takes.iter().for_each(|taken| link(taken, enters));
-    ports.gives.iter().for_each(|given| link(given, leaves));
+    ports.gives.iter().chain(&ports.writes).for_each(|given| link(given, leaves));
     for memory in &ports.memory {
         link(&memory.read, leaves);
         link(&memory.data, enters);
@@ -104,4 +104,9 @@ fn ports_of_the_textbook_machine() {
 #[test]
 fn ports_of_a_machine_with_everything_on() {
     check("everything.txt", include_str!("ports/everything.txt"));
+}
+
+#[test]
+fn ports_of_a_machine_with_blend() {
+    check("blend.txt", include_str!("ports/blend.txt"));
 }
