@@ -9,7 +9,7 @@ use edgewalk_golden::Drawing;
 use edgewalk_lockstep::StallKind;
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::fast::Path;
-use edgewalk_model::{Activity, Events, Stalls};
+use edgewalk_model::{Activity, Counters, Events, Stalls, render_passes};
 use edgewalk_scene::Frame;
 use std::ops::Range;
 
@@ -49,6 +49,8 @@ pub struct Raster {
     pub lit: Option<Vec<u8>>,
     /// Where the cycles went, where a machine drew.
     pub cycles: Option<Cycles>,
+    /// The same by pass, where there is more than one.
+    pub passes: Vec<Cycles>,
     /// Hazards and corners met, where a machine drew.
     pub corners: Option<Events>,
 }
@@ -64,6 +66,11 @@ pub struct Cycles {
 }
 
 impl Cycles {
+    /// As the machine counted them.
+    fn of(counters: &Counters) -> Self {
+        Cycles { total: counters.cycles, path: None, spent: counters.activity }
+    }
+
     /// How many cycles have no cause, or more than one.
     pub fn unexplained(&self) -> u64 {
         self.total.abs_diff(self.spent.iter().sum())
@@ -81,8 +88,7 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Resul
         Engine::Golden => Ok(from_golden(edgewalk_golden::draw(frame, golden_fill(machine)), machine)),
         Engine::Fast => {
             let port = to_port(frame, machine)?;
-            let triangles = || Ok(port.triangles.iter().copied().map(Ok));
-            let drawn = fast::draw(machine, port.state, triangles)?;
+            let drawn = fast::draw_frame(machine, &port)?;
             Ok(of_primitives(drawn.raster(machine), &port.ids))
         }
         Engine::Model | Engine::Rtl => {
@@ -90,9 +96,9 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Resul
             let bar = bar(port.triangles.len() as u64, "triangles", quiet);
             let triangles = bar.wrap_iter(port.triangles.iter().copied());
             let raster = if engine == Engine::Model {
-                from_model(machine, edgewalk_model::render(machine, triangles, port.state, Stalls::NONE)?)
+                from_model(machine, render_passes(machine, triangles, &port.passes, Stalls::NONE, |_| {})?)
             } else {
-                let drawn = edgewalk_lockstep::render_rtl(machine, triangles, port.state, StallKind::None);
+                let drawn = edgewalk_lockstep::render_rtl(machine, triangles, port.state()?, StallKind::None);
                 from_machine(machine, drawn.map_err(|e| anyhow!("{e}"))?)
             };
             bar.finish_and_clear();
@@ -118,7 +124,7 @@ pub fn draw_bands(
         }
         Engine::Fast => {
             let port = to_port(frame, machine)?;
-            let drawn = fast::draw(machine, port.state, || Ok(port.triangles.iter().copied().map(Ok)))?;
+            let drawn = fast::draw_frame(machine, &port)?;
             drawn.bands(machine, fast_bands(machine), |band| take(of_primitives(band, &port.ids)))
         }
         Engine::Model | Engine::Rtl => take(draw(engine, frame, machine, quiet)?),
@@ -181,6 +187,7 @@ pub fn from_golden(picture: edgewalk_golden::Picture, machine: &Plan) -> Raster 
         extra: extra.map(|(channel, values)| Values::exact(channel, values)).collect(),
         lit: Some(picture.lit.into_iter().map(|lit| lit as u8).collect()),
         cycles: None,
+        passes: Vec::new(),
         corners: None,
     }
 }
@@ -197,7 +204,12 @@ fn from_machine(machine: &Plan, drawn: edgewalk_model::Frame) -> Raster {
         rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / machine.color.max() as f64)).collect(),
         extra: drawn.extra.into_iter().map(Values::Stored).collect(),
         lit: None,
-        cycles: Some(Cycles { total: drawn.counters.cycles, path: None, spent: drawn.counters.activity }),
+        cycles: Some(Cycles::of(&drawn.counters)),
+        passes: if drawn.passes.len() > 1 {
+            drawn.passes.iter().map(Cycles::of).collect()
+        } else {
+            Vec::new()
+        },
         corners: None,
     }
 }

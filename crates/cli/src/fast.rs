@@ -1,13 +1,13 @@
 //! Pictures without ticking, from a list of triangles or straight from a file.
 
 use crate::engine::{Raster, from_fast};
-use crate::input::{draw_state, port_triangle};
+use crate::input::{PortFrame, draw_state, port_triangle};
 use crate::progress::bar;
 use crate::triangles::TriangleFile;
 use anyhow::{Context, Result};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::fast::{Path, Reason, Refusal, Renderer};
-use edgewalk_model::{DrawState, Frame, Stalls, render};
+use edgewalk_model::{DrawState, Frame, Stalls, render, render_passes};
 use std::ops::Range;
 
 /// A frame that was drawn.
@@ -52,6 +52,20 @@ impl Drawn {
     }
 }
 
+/// Draws a frame whose triangles are all there.
+pub fn draw_frame(machine: &Plan, port: &PortFrame) -> Result<Drawn> {
+    match &port.passes[..] {
+        [pass] => draw(machine, pass.state, || Ok(port.triangles.iter().copied().map(Ok))),
+        passes => {
+            let triangles = port.triangles.iter().copied();
+            Ok(Drawn::Ticked(
+                render_passes(machine, triangles, passes, Stalls::NONE, |_| {})?,
+                Reason::Passes,
+            ))
+        }
+    }
+}
+
 /// Draws without ticking where that is exact, else cycle by cycle. `open` goes to the first triangle; it is called a
 /// second time where drawing without ticking was in vain.
 pub fn draw<I>(machine: &Plan, state: DrawState, mut open: impl FnMut() -> Result<I>) -> Result<Drawn>
@@ -91,13 +105,13 @@ pub fn draw_file(
     quiet: bool,
 ) -> Result<Drawn> {
     let named = || file.name().to_owned();
-    let state = draw_state(header, machine).with_context(named)?;
+    let state = draw_state(header, &header.state(), machine).with_context(named)?;
     let bar = bar(file.length(), "bytes", quiet);
     let drawn = draw(machine, state, || {
         bar.reset();
         let numbered = file.reader(&bar)?.enumerate();
         Ok(numbered.map(|(index, triangle)| {
-            port_triangle(index, &triangle?, header.mode, machine).with_context(named)
+            port_triangle(index, &triangle?, header.mode, header.blend, machine).with_context(named)
         }))
     })?;
     bar.finish_and_clear();

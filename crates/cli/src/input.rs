@@ -3,9 +3,13 @@
 use crate::extra;
 use crate::machine_args::MachineArgs;
 use anyhow::{Context as _, Result, anyhow};
+use edgewalk_golden::Order;
 use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::DrawState;
-use edgewalk_scene::{DepthFunc, Frame, Scene, ShadeMode, Surface, Triangle, Triangulated, triangle_file};
+use edgewalk_model::{DrawState, Pass};
+use edgewalk_scene::{
+    Blending, Change, DepthFunc, Frame, Scene, ShadeMode, State, Surface, Triangle, Triangulated,
+    triangle_file,
+};
 use std::path::Path;
 
 /// A frame as the machine's port takes it.
@@ -14,25 +18,56 @@ pub struct PortFrame {
     pub triangles: Vec<[PortVertex; 3]>,
     /// For each of them the place of what it is a part of among the frame's triangles and polygons.
     pub ids: Vec<i32>,
-    /// Depth function, write mask and clear values.
-    pub state: DrawState,
+    /// The rules, and how many triangles are drawn by each, in order; at least one.
+    pub passes: Vec<Pass>,
+}
+
+impl PortFrame {
+    /// The rules of a frame in which they do not change.
+    ///
+    /// # Errors
+    /// They do.
+    pub fn state(&self) -> Result<DrawState> {
+        match &self.passes[..] {
+            [pass] => Ok(pass.state),
+            passes => Err(anyhow!(
+                "{} passes: the rules change between triangles; permitted for raster, render and explain",
+                passes.len()
+            )),
+        }
+    }
 }
 
 /// Snaps a frame to the port, polygons as triangles, or says what of it the machine cannot take.
 pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
-    let state = draw_state(frame, machine)?;
     let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
-    let triangles = triangles.iter().zip(&ids);
-    let triangles =
-        triangles.map(|(triangle, id)| port_triangle(*id as usize, triangle, frame.mode, machine));
-    Ok(PortFrame { triangles: triangles.collect::<Result<_>>()?, ids, state })
+    let (mut port, mut passes) = (Vec::with_capacity(triangles.len()), Vec::new());
+    for pass in frame.passes() {
+        let parts = ids.iter().take_while(|id| (**id as usize) < pass.primitives.end).count();
+        for (triangle, id) in triangles[port.len()..parts].iter().zip(&ids[port.len()..parts]) {
+            port.push(port_triangle(*id as usize, triangle, frame.mode, pass.state.blend, machine)?);
+        }
+        passes.push(Pass {
+            triangles: parts - passes.iter().map(|pass: &Pass| pass.triangles).sum::<usize>(),
+            state: draw_state(frame, &pass.state, machine)?,
+            clear_depth: pass.clear_depth,
+        });
+    }
+    Ok(PortFrame { triangles: port, ids, passes })
 }
 
-/// What stays the same over a frame, or what of it the machine cannot draw.
-pub fn draw_state(frame: &Frame, machine: &Plan) -> Result<DrawState> {
-    if frame.blend {
+/// The rules of a pass as the machine has them, or what of them it cannot do.
+pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawState> {
+    let blends = machine.blend.is_there();
+    if state.blend != Blending::Off && !blends {
         return Err(anyhow!(
-            "blend 1 (transparent surfaces): the machine has no blend unit yet; draw with blend 0 or --engine golden"
+            "blend {} (transparent surfaces): the machine has no BLEND; add --set blend.kind=interpolated, or draw with blend 0 or --engine golden",
+            state.blend.name()
+        ));
+    }
+    if !state.color_write && !blends {
+        return Err(anyhow!(
+            "colour_write 0: a machine without BLEND writes the colour of every fragment that passes; add --set blend.kind=constant"
         ));
     }
     if frame.shadow.is_some() {
@@ -42,10 +77,11 @@ pub fn draw_state(frame: &Frame, machine: &Plan) -> Result<DrawState> {
     }
     let max = machine.color.max() as f64;
     Ok(DrawState {
-        depth_func: frame.depth.unwrap_or(DepthFunc::Always) as u8,
-        depth_write: frame.depth_write && frame.depth.is_some(),
+        depth_func: state.depth.unwrap_or(DepthFunc::Always) as u8,
+        depth_write: state.stores_depth(),
+        color_write: state.color_write,
+        blend_add: state.blend == Blending::Add,
         clear: frame.clear.map(|v| (v * max).round_ties_even() as u64),
-        ..DrawState::default()
     })
 }
 
@@ -54,16 +90,28 @@ pub fn port_triangle(
     index: usize,
     triangle: &Triangle,
     mode: ShadeMode,
+    blend: Blending,
     machine: &Plan,
 ) -> Result<[PortVertex; 3]> {
+    let mixes = blend == Blending::Mix;
     let mut port = [PortVertex::default(); 3];
     for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
         let v = if mode == ShadeMode::Flat { v.colored_as(&triangle.0[0]) } else { *v };
-        let [e0, e1, e2, e3] = v.extra;
-        let values = [v.z, v.r, v.g, v.b, e0, e1, e2, e3];
-        *slot = machine
-            .port_vertex(v.x, v.y, &values[..machine.channels().len()])
-            .with_context(|| format!("triangle {index}, vertex {corner}"))?;
+        let named = || format!("triangle {index}, vertex {corner}");
+        let mut values = vec![v.z, v.r, v.g, v.b];
+        values.extend_from_slice(&v.extra[..machine.extra as usize]);
+        if machine.blend.is_there() {
+            values.push(if mixes { v.kt } else { 0.0 });
+        }
+        if mixes && machine.has_triangle_kt() && mode == ShadeMode::Gouraud && v.kt != triangle.0[0].kt {
+            return Err(anyhow!(
+                "kt = {} after {}: blend.kind = constant has one for a triangle; add --set blend.kind=interpolated, or draw with mode flat",
+                v.kt,
+                triangle.0[0].kt
+            ))
+            .with_context(named);
+        }
+        *slot = machine.port_vertex(v.x, v.y, &values).with_context(named)?;
     }
     Ok(port)
 }
@@ -146,12 +194,25 @@ impl Source {
         if self.is_triangle_file() {
             return in_triangles(self.outlined(machine)?, machine);
         }
+        Ok(self.sorted(machine)?.0)
+    }
+
+    /// The same, and of a scene with something transparent the order in which its triangles are drawn.
+    pub fn sorted(&self, machine: &Plan) -> Result<(Frame, Option<Order>)> {
+        if self.is_triangle_file() {
+            return Ok((self.frame(machine)?, None));
+        }
         let (scene, surface) = self.surface(machine)?;
         self.frame_of(&scene, &surface, machine)
     }
 
     /// The same of a scene and its surface on the machine's screen.
-    pub fn frame_of(&self, scene: &Scene, surface: &Surface, machine: &Plan) -> Result<Frame> {
+    pub fn frame_of(
+        &self,
+        scene: &Scene,
+        surface: &Surface,
+        machine: &Plan,
+    ) -> Result<(Frame, Option<Order>)> {
         let refused = match self.shading {
             Shading::Phong => Some("phong: the machine has no unit for normals yet"),
             Shading::FastPhong => Some("fast-phong: the machine has no unit for normals yet"),
@@ -161,7 +222,12 @@ impl Source {
         if let Some(why) = refused {
             return Err(anyhow!("--shading {why}; render with --engine golden"));
         }
-        in_triangles(edgewalk_golden::frame(scene, surface, self.shading.golden()), machine)
+        let frame = in_triangles(edgewalk_golden::frame(scene, surface, self.shading.golden()), machine)?;
+        if frame.blend == Blending::Off {
+            return Ok((frame, None));
+        }
+        let (frame, order) = edgewalk_golden::sorted(frame, machine.subpixel_bits);
+        Ok((frame, Some(order)))
     }
 
     /// The frame with the polygons it has.
@@ -194,6 +260,10 @@ impl Source {
 
 /// The frame with its polygons as triangles.
 fn in_triangles(frame: Frame, machine: &Plan) -> Result<Frame> {
-    let triangles = frame.triangulated(machine.subpixel_bits)?.triangles.into_owned();
-    Ok(Frame { triangles, polygons: Vec::new(), ..frame })
+    let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
+    // So many triangles are made of the primitives before each change.
+    let before = |change: &Change| ids.iter().take_while(|id| (**id as usize) < change.after).count();
+    let changes = frame.changes.iter().map(|change| Change { after: before(change), ..*change }).collect();
+    let triangles = triangles.into_owned();
+    Ok(Frame { triangles, changes, polygons: Vec::new(), ..frame })
 }

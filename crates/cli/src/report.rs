@@ -6,6 +6,7 @@ use crate::engine::{Cycles, Raster};
 use crate::extra::{self, OwnChannel};
 use crate::setup_report::SetupReport;
 use anyhow::Result;
+use edgewalk_golden::Order;
 use edgewalk_machine::Plan;
 use edgewalk_model::Activity;
 use serde_json::{Map, Value, json};
@@ -21,6 +22,8 @@ pub struct Report {
     writes: u64,
     odd_pixels: u64,
     cycles: Option<Cycles>,
+    passes: Vec<Cycles>,
+    order: Option<Order>,
     corners: Option<edgewalk_model::Events>,
     comparison: Option<Comparison>,
     setup: Option<SetupReport>,
@@ -38,6 +41,8 @@ impl Report {
             odd_pixels: 0,
             writes: 0,
             cycles: drawn.cycles,
+            passes: drawn.passes.clone(),
+            order: None,
             corners: drawn.corners.clone(),
             comparison: None,
             setup: None,
@@ -63,6 +68,12 @@ impl Report {
     /// The same with a comparison.
     pub fn with(mut self, comparison: Comparison) -> Self {
         self.comparison = Some(comparison);
+        self
+    }
+
+    /// The same of triangles that were sorted for blending.
+    pub fn sorted(mut self, order: Option<Order>) -> Self {
+        self.order = order;
         self
     }
 
@@ -114,14 +125,19 @@ impl Report {
             if let Some(path) = c.path {
                 report["cycles"]["path"] = path.to_string().into();
             }
+            if !self.passes.is_empty() {
+                report["cycles"]["passes"] = self.passes.iter().map(|pass| pass.total).collect();
+            }
         }
         if let Some(setup) = &self.setup {
             report["setup"] = setup.value();
         }
         if let Some(c) = &self.corners {
+            let possible: Vec<_> = self.machine.events().map(|event| event.name).collect();
             report["corners"] = c
                 .counts()
                 .into_iter()
+                .filter(|(name, _)| possible.contains(name))
                 .map(|(name, count)| (name.to_owned(), json!(count)))
                 .collect::<Map<_, _>>()
                 .into();
@@ -152,6 +168,11 @@ impl Report {
             m.hash()
         );
         let _ = writeln!(t, "fragments {}, writes {}", self.covered, self.writes);
+        if let Some(order) = &self.order {
+            let _ =
+                writeln!(t, "transparent triangles, drawn last, from back to front: {}", order.transparent);
+            order.warning().iter().for_each(|warning| t += &format!("warning: {warning}\n"));
+        }
         match &self.comparison {
             Some(c) => compared(&mut t, m, c),
             // Golden does not round.
@@ -172,6 +193,9 @@ impl Report {
             for a in Activity::of(m) {
                 let n = c.spent(a);
                 let _ = writeln!(t, "    {:<10} {:>12}  {:>5.1} %", a.name(), n, 100.0 * ratio(n, c.total));
+            }
+            for (place, pass) in self.passes.iter().enumerate() {
+                let _ = writeln!(t, "    pass {place:<5} {:>12}", pass.total);
             }
             let sum: u64 = Activity::of(m).map(|a| c.spent(a)).sum();
             let _ = writeln!(t, "    {:<10} {:>12}  of {} cycles", "sum", sum, c.total);
@@ -203,6 +227,13 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
         machine.color.bits,
         extra::bound(c.color_bound, &c.color_no_bound)
     );
+    if let Some(b) = &c.blended {
+        _ = writeln!(
+            t,
+            "blended: {} pixels, up to {} layers, running bound up to {:.4} LSB, {:.4} of it reached, {} beyond",
+            b.pixels, b.layers, b.bound, b.of_bound, b.beyond
+        );
+    }
     for own in &c.extra {
         let (of, label) = (&own.channel, &own.channel.label);
         _ = writeln!(

@@ -30,6 +30,20 @@ impl Counters {
         one_more(&mut self.activity[activity as usize]);
     }
 
+    /// What came after these.
+    #[must_use]
+    pub fn since(&self, before: &Counters) -> Counters {
+        Counters {
+            cycles: self.cycles - before.cycles,
+            activity: std::array::from_fn(|i| self.activity[i] - before.activity[i]),
+            triangles: self.triangles - before.triangles,
+            lines: self.lines - before.lines,
+            spans: self.spans - before.spans,
+            fragments: self.fragments - before.fragments,
+            writes: self.writes - before.writes,
+        }
+    }
+
     /// Cycles spent on this.
     #[must_use]
     pub fn spent(&self, activity: Activity) -> u64 {

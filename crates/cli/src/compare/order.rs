@@ -84,7 +84,7 @@ impl<'a> Orders<'a> {
 }
 
 /// Bound 7 for any two fragments of the machine.
-fn apart(machine: &Plan) -> Option<Apart> {
+pub fn apart(machine: &Plan) -> Option<Apart> {
     let error = machine.proved_budget(&machine.channels()[0]).ok()?.before_rounding();
     let lsb = |other| Some(surely_ordered_difference(error, other)?.to_f64() / machine.z.max() as f64);
     Some(Apart { triangles: lsb(error)?, cleared: lsb(Dyadic::ZERO)? })
