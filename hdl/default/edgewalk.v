@@ -118,37 +118,6 @@ module edgewalk (
   wire [21:0] u_span_span_b;
   wire u_span_span_fresh;
   wire u_span_span_fence;
-
-  edgewalk_span u_span (
-    .clk              (clk),
-    .rst              (rst),
-    .line_valid       (u_edge_line_valid),
-    .line_y           (u_edge_line_y),
-    .line_cmaj        (u_edge_line_cmaj),
-    .line_cmin        (u_edge_line_cmin),
-    .line_major_right (u_edge_line_major_right),
-    .line_z           (u_edge_line_z),
-    .line_r           (u_edge_line_r),
-    .line_g           (u_edge_line_g),
-    .line_b           (u_edge_line_b),
-    .line_fresh       (u_edge_line_fresh),
-    .line_fence       (u_edge_line_fence),
-    .span_ready       (u_pixel_span_ready),
-    .line_ready       (u_span_line_ready),
-    .span_valid       (u_span_span_valid),
-    .span_x           (u_span_span_x),
-    .span_y           (u_span_span_y),
-    .span_count       (u_span_span_count),
-    .span_leftward    (u_span_span_leftward),
-    .span_z           (u_span_span_z),
-    .span_r           (u_span_span_r),
-    .span_g           (u_span_span_g),
-    .span_b           (u_span_span_b),
-    .span_fresh       (u_span_span_fresh),
-    .span_fence       (u_span_span_fence),
-    .fresh_queued     (u_span_fresh_queued)
-  );
-
   wire [37:0] u_edge_inc_z;
   wire [21:0] u_edge_inc_r;
   wire [21:0] u_edge_inc_g;
@@ -301,6 +270,39 @@ module edgewalk (
     .prim_b_g         (u_setup_prim_b_g)
   );
 
+  wire u_span_line_held;
+
+  edgewalk_span u_span (
+    .clk              (clk),
+    .rst              (rst),
+    .line_valid       (u_edge_line_valid),
+    .line_y           (u_edge_line_y),
+    .line_cmaj        (u_edge_line_cmaj),
+    .line_cmin        (u_edge_line_cmin),
+    .line_major_right (u_edge_line_major_right),
+    .line_z           (u_edge_line_z),
+    .line_r           (u_edge_line_r),
+    .line_g           (u_edge_line_g),
+    .line_b           (u_edge_line_b),
+    .line_fresh       (u_edge_line_fresh),
+    .line_fence       (u_edge_line_fence),
+    .span_ready       (u_pixel_span_ready),
+    .line_ready       (u_span_line_ready),
+    .span_valid       (u_span_span_valid),
+    .span_x           (u_span_span_x),
+    .span_y           (u_span_span_y),
+    .span_count       (u_span_span_count),
+    .span_leftward    (u_span_span_leftward),
+    .span_z           (u_span_span_z),
+    .span_r           (u_span_span_r),
+    .span_g           (u_span_span_g),
+    .span_b           (u_span_span_b),
+    .span_fresh       (u_span_span_fresh),
+    .span_fence       (u_span_span_fence),
+    .fresh_queued     (u_span_fresh_queued),
+    .line_held        (u_span_line_held)
+  );
+
   wire u_pixel_visible;
   wire u_pixel_active;
 
@@ -338,7 +340,7 @@ module edgewalk (
   );
 
   wire [3:0] choice = u_pixel_active ? (u_pixel_visible ? DRAW : OFFSCREEN)
-                    : (u_span_span_valid || u_edge_line_valid) ? EDGE
+                    : (u_span_span_valid || u_span_line_held || u_edge_line_valid) ? EDGE
                     : !u_setup_tri_ready ? SETUP
                     : (u_pixel_occupied || u_depth_occupied) ? FLUSH
                     : IDLE;

@@ -77,6 +77,7 @@ module edgewalk_depth (
   reg [7:0] place3_b;       // unorm8
   reg place3_fwd_valid;     // an older fragment wrote this pixel
   reg [23:0] place3_fwd_z;  // the depth it wrote
+  reg head_follows;         // the head is of the pixel that left in the cycle before
 
   // A fragment enters when the queue has room and nothing in flight may change its depth.
   assign full = count == 3'd4;
@@ -90,7 +91,9 @@ module edgewalk_depth (
   wire w_free = !wr_valid || wr_ready;
   assign data_ready = (|count) && w_free;
   wire compare = data_valid && data_ready;
-  wire [23:0] old = place0_fwd_valid ? place0_fwd_z : data_z;  // depth to compare with
+  wire [23:0] old_z_in_queue = place0_fwd_valid ? place0_fwd_z : data_z;
+  wire head_after_w = head_follows && wr_valid && wr_z_en;
+  wire [23:0] old = head_after_w ? wr_z : old_z_in_queue;  // depth to compare with
   wire less = place0_z < old;
   wire equal = place0_z == old;
   wire pass = (depth_func[0] && less)
@@ -98,8 +101,6 @@ module edgewalk_depth (
            || (depth_func[2] && !less && !equal);
 
   // Write what passes.
-  wire passed = compare && pass;
-
   always @(posedge clk) begin
     if (rst) begin
       wr_valid <= 1'b0;
@@ -110,7 +111,7 @@ module edgewalk_depth (
   end
 
   always @(posedge clk) begin
-    if (passed) begin
+    if (compare) begin
       wr_addr <= place0_addr;
       wr_z <= place0_z;
       wr_z_en <= depth_write;
@@ -197,52 +198,74 @@ module edgewalk_depth (
     end
   end
 
-  // Forward: a word that is written goes to every younger fragment of its pixel.
-  wire both = passed && depth_write;
-  wire enters_after_head = both && (frag_addr == place0_addr);
+  // Forward: a word being written goes to every fragment of its pixel in the queue.
+  wire place0_after_w = wr_valid && wr_z_en && (wr_addr == place0_addr);
+  wire place1_after_w = wr_valid && wr_z_en && (wr_addr == place1_addr);
+  wire place2_after_w = wr_valid && wr_z_en && (wr_addr == place2_addr);
+  wire place3_after_w = wr_valid && wr_z_en && (wr_addr == place3_addr);
   wire enters_after_w = wr_valid && wr_z_en && (wr_addr == frag_addr);
-  wire place1_after_head = both && (place1_addr == place0_addr);
-  wire place2_after_head = both && (place2_addr == place0_addr);
-  wire place3_after_head = both && (place3_addr == place0_addr);
 
   always @(posedge clk) begin
+    if (place0_after_w) begin
+      place0_fwd_valid <= 1'b1;
+      place0_fwd_z <= wr_z;
+    end
     if (compare) begin
-      place0_fwd_valid <= place1_fwd_valid || place1_after_head;
-      place0_fwd_z <= place1_after_head ? place0_z : place1_fwd_z;
+      place0_fwd_valid <= place1_fwd_valid || place1_after_w;
+      place0_fwd_z <= place1_after_w ? wr_z : place1_fwd_z;
     end
     if (enters0) begin
-      place0_fwd_valid <= enters_after_head || enters_after_w;
-      place0_fwd_z <= enters_after_head ? place0_z : wr_z;
+      place0_fwd_valid <= enters_after_w;
+      place0_fwd_z <= wr_z;
     end
   end
 
   always @(posedge clk) begin
+    if (place1_after_w) begin
+      place1_fwd_valid <= 1'b1;
+      place1_fwd_z <= wr_z;
+    end
     if (compare) begin
-      place1_fwd_valid <= place2_fwd_valid || place2_after_head;
-      place1_fwd_z <= place2_after_head ? place0_z : place2_fwd_z;
+      place1_fwd_valid <= place2_fwd_valid || place2_after_w;
+      place1_fwd_z <= place2_after_w ? wr_z : place2_fwd_z;
     end
     if (enters1) begin
-      place1_fwd_valid <= enters_after_head || enters_after_w;
-      place1_fwd_z <= enters_after_head ? place0_z : wr_z;
+      place1_fwd_valid <= enters_after_w;
+      place1_fwd_z <= wr_z;
     end
   end
 
   always @(posedge clk) begin
+    if (place2_after_w) begin
+      place2_fwd_valid <= 1'b1;
+      place2_fwd_z <= wr_z;
+    end
     if (compare) begin
-      place2_fwd_valid <= place3_fwd_valid || place3_after_head;
-      place2_fwd_z <= place3_after_head ? place0_z : place3_fwd_z;
+      place2_fwd_valid <= place3_fwd_valid || place3_after_w;
+      place2_fwd_z <= place3_after_w ? wr_z : place3_fwd_z;
     end
     if (enters2) begin
-      place2_fwd_valid <= enters_after_head || enters_after_w;
-      place2_fwd_z <= enters_after_head ? place0_z : wr_z;
+      place2_fwd_valid <= enters_after_w;
+      place2_fwd_z <= wr_z;
     end
   end
 
   always @(posedge clk) begin
-    if (enters3) begin
-      place3_fwd_valid <= enters_after_head || enters_after_w;
-      place3_fwd_z <= enters_after_head ? place0_z : wr_z;
+    if (place3_after_w) begin
+      place3_fwd_valid <= 1'b1;
+      place3_fwd_z <= wr_z;
     end
+    if (enters3) begin
+      place3_fwd_valid <= enters_after_w;
+      place3_fwd_z <= wr_z;
+    end
+  end
+
+  // What the head writes is in w a cycle later, when the next may be compared already.
+  wire place1_after_head = place1_addr == place0_addr;
+
+  always @(posedge clk) begin
+    head_follows <= compare && place1_after_head;
   end
 
   assign rd_addr = frag_addr;

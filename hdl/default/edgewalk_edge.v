@@ -80,13 +80,31 @@ module edgewalk_edge (
   wire step = running && line_ready;
 
   // Where in the triangle: the upper part, then the lower.
-  reg [9:0] n1;                        // lines left of the upper part
-  reg [9:0] n2;                        // lines left of the lower part
-  wire upper = |n1;
-  wire knee = (n1 == 10'd1) && (|n2);  // last line of the upper part, the lower follows
-  wire last = upper ? (n1 == 10'd1) && !knee : n2 == 10'd1;  // last line of all
+  reg [9:0] n1;  // lines left of the upper part
+  reg [9:0] n2;  // lines left of the lower part
+  reg upper;     // in the upper part
+  reg knee;      // last line of the upper part, the lower follows
+  reg last;      // last line of all
+  wire some_lower = |n2;
+  wire two_upper = n1 == 10'd2;
+  wire one_upper = n1 == 10'd1;
+  wire lower_follows = |prim_n2;
+  wire one_upper_only = prim_n1 == 10'd1;
   wire at_knee = step && knee;
   wire along = step && !knee;
+
+  always @(posedge clk) begin
+    if (step) begin
+      upper <= upper && !one_upper;
+      knee <= two_upper && some_lower;
+      last <= upper ? (two_upper && !some_lower) || (one_upper && (n2 == 10'd1)) : n2 == 10'd2;
+    end
+    if (load) begin
+      upper <= |prim_n1;
+      knee <= one_upper_only && lower_follows;
+      last <= (|prim_n1) ? one_upper_only && !lower_follows : prim_n2 == 10'd1;
+    end
+  end
 
   always @(posedge clk) begin
     if (load) n1 <= prim_n1;
@@ -128,17 +146,22 @@ module edgewalk_edge (
   reg [14:0] major_q;  // signed, whole columns a line
   reg [21:0] major_f;  // 1/M column a line
   reg [21:0] major_m;  // modulus of r and f: the edge's height, 1/P line
+  wire [22:0] first_less = {1'b0, prim_major_r} - {1'b0, prim_major_f};
+  wire first_carry = first_less[22];
   wire [22:0] major_less = {1'b0, major_r} - {1'b0, major_f};
   wire major_carry = major_less[22];
+  reg carry;           // the major edge carries in its next step
 
   always @(posedge clk) begin
     if (step) begin
-      major_c <= major_c + major_q + {14'd0, major_carry};
+      carry <= major_carry;
+      major_c <= major_c + major_q + {14'd0, carry};
       major_r <= major_carry ? major_less[21:0] + major_m : major_less[21:0];
     end
     if (load) begin
+      carry <= first_carry;
       major_c <= prim_major_c;
-      major_r <= prim_major_r;
+      major_r <= first_carry ? first_less[21:0] + prim_major_m : first_less[21:0];
     end
   end
 
@@ -232,10 +255,10 @@ module edgewalk_edge (
 
   always @(posedge clk) begin
     if (step) begin
-      line_z <= line_z + (major_carry ? z_d1 : z_d0);
-      line_r <= line_r + (major_carry ? r_d1 : r_d0);
-      line_g <= line_g + (major_carry ? g_d1 : g_d0);
-      line_b <= line_b + (major_carry ? b_d1 : b_d0);
+      line_z <= line_z + (carry ? z_d1 : z_d0);
+      line_r <= line_r + (carry ? r_d1 : r_d0);
+      line_g <= line_g + (carry ? g_d1 : g_d0);
+      line_b <= line_b + (carry ? b_d1 : b_d0);
     end
     if (load) begin
       line_z <= prim_z_start;

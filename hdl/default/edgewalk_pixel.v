@@ -50,18 +50,19 @@ module edgewalk_pixel (
 
   // The span being drawn.
   assign advance = !frag_valid || frag_ready;
-  reg [14:0] x;                              // column, signed
-  reg [8:0] y;                               // line
-  reg leftward;                              // towards smaller columns
-  reg [14:0] count;                          // pixels left of the span, this one too
-  reg fence;                                 // for the next fragment
-  wire finish = active && (count == 15'd1);  // last clock of the span
+  reg [14:0] x;                         // column, signed
+  reg [8:0] y;                          // line
+  reg leftward;                         // towards smaller columns
+  reg [14:0] count;                     // pixels left of the span, this one too
+  reg fence;                            // for the next fragment
+  reg last;                             // count is 1
+  wire finish = active && last;         // last clock of the span
   assign span_ready = advance && (!active || finish);
   wire load = span_valid && span_ready;
   assign visible = x < 15'd640;
-  wire leaves = advance && active;           // this pixel is done
-  wire next_pixel = leaves && !finish;       // another one follows
-  wire emit = active && visible;             // a fragment
+  wire leaves = advance && active;      // this pixel is done
+  wire next_pixel = leaves && !finish;  // another one follows
+  wire emit = active && visible;        // a fragment
 
   always @(posedge clk) begin
     if (rst) begin
@@ -76,10 +77,12 @@ module edgewalk_pixel (
     if (next_pixel) begin
       x <= leftward ? x - 15'd1 : x + 15'd1;
       count <= count - 15'd1;
+      last <= count == 15'd2;
     end
     if (load) begin
       x <= span_x;
       count <= span_count;
+      last <= span_count == 15'd1;
     end
   end
 

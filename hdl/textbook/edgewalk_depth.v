@@ -90,8 +90,6 @@ module edgewalk_depth (
            || (depth_func[2] && !less && !equal);
 
   // Write what passes.
-  wire passed = compare && pass;
-
   always @(posedge clk) begin
     if (rst) begin
       wr_valid <= 1'b0;
@@ -102,7 +100,7 @@ module edgewalk_depth (
   end
 
   always @(posedge clk) begin
-    if (passed) begin
+    if (compare) begin
       wr_addr <= place0_addr;
       wr_z <= place0_z;
       wr_z_en <= depth_write;

@@ -81,13 +81,31 @@ module edgewalk_edge (
   wire step = running && line_ready;
 
   // Where in the triangle: the upper part, then the lower.
-  reg [9:0] n1;                        // lines left of the upper part
-  reg [9:0] n2;                        // lines left of the lower part
-  wire upper = |n1;
-  wire knee = (n1 == 10'd1) && (|n2);  // last line of the upper part, the lower follows
-  wire last = upper ? (n1 == 10'd1) && !knee : n2 == 10'd1;  // last line of all
+  reg [9:0] n1;  // lines left of the upper part
+  reg [9:0] n2;  // lines left of the lower part
+  reg upper;     // in the upper part
+  reg knee;      // last line of the upper part, the lower follows
+  reg last;      // last line of all
+  wire some_lower = |n2;
+  wire two_upper = n1 == 10'd2;
+  wire one_upper = n1 == 10'd1;
+  wire lower_follows = |prim_n2;
+  wire one_upper_only = prim_n1 == 10'd1;
   wire at_knee = step && knee;
   wire along = step && !knee;
+
+  always @(posedge clk) begin
+    if (step) begin
+      upper <= upper && !one_upper;
+      knee <= two_upper && some_lower;
+      last <= upper ? (two_upper && !some_lower) || (one_upper && (n2 == 10'd1)) : n2 == 10'd2;
+    end
+    if (load) begin
+      upper <= |prim_n1;
+      knee <= one_upper_only && lower_follows;
+      last <= (|prim_n1) ? one_upper_only && !lower_follows : prim_n2 == 10'd1;
+    end
+  end
 
   always @(posedge clk) begin
     if (load) n1 <= prim_n1;
@@ -133,17 +151,22 @@ module edgewalk_edge (
   reg [15:0] major_r;  // distance from the edge to that column, 2^-F column
   reg [14:0] major_q;  // signed, whole columns a line
   reg [15:0] major_f;  // 2^-F column a line
+  wire [16:0] first_less = {1'b0, prim_major_r} - {1'b0, prim_major_f};
+  wire first_carry = first_less[16];
   wire [16:0] major_less = {1'b0, major_r} - {1'b0, major_f};
   wire major_carry = major_less[16];
+  reg carry;           // the major edge carries in its next step
 
   always @(posedge clk) begin
     if (along) begin
-      major_c <= major_c + major_q + {14'd0, major_carry};
+      carry <= major_carry;
+      major_c <= major_c + major_q + {14'd0, carry};
       major_r <= major_less[15:0];
     end
     if (load) begin
+      carry <= first_carry;
       major_c <= prim_major_c;
-      major_r <= prim_major_r;
+      major_r <= first_less[15:0];
     end
   end
 

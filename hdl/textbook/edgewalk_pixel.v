@@ -62,7 +62,8 @@ module edgewalk_pixel (
   reg fence;                                      // for the next fragment
   reg [1:0] phase;                                // clock of the pixel
   wire last_phase = &phase;
-  wire finish = active && last_phase && (count == 15'd1);  // last clock of the span
+  reg last;                                       // count is 1
+  wire finish = active && last_phase && last;     // last clock of the span
   assign span_ready = advance && (!active || finish);
   wire load = span_valid && span_ready;
   assign visible = x < 15'd640;
@@ -88,10 +89,12 @@ module edgewalk_pixel (
     if (next_pixel) begin
       x <= leftward ? x - 15'd1 : x + 15'd1;
       count <= count - 15'd1;
+      last <= count == 15'd2;
     end
     if (load) begin
       x <= span_x;
       count <= span_count;
+      last <= span_count == 15'd1;
     end
   end
 

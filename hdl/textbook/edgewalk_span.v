@@ -1,9 +1,10 @@
 // edgewalk_span: SPAN cuts a line to the screen and queues what is left of it.
 //
-//   line ─> [end cut to the screen] ─> empty? ─no─> [FIFO] ─> span
-//                                         └─yes─> dropped; its flags wait for the next span
+//   line ─> [end cut to the screen] ─> held ─> empty? ─no─> [FIFO] ─> span
+//                                                └─yes─> dropped; its flags wait for the next span
 //
-// Timing: a line that is not empty is a span in the next cycle at the earliest; an empty one costs its cycle only.
+// Timing: a line is taken while none is held, or the queue has room for the one that is; a span is seen two cycles after its line
+// was taken at the earliest. An empty line takes its turn like any other.
 // Rules: the span is cut on the side where it ends. What lies off the screen on the side where it starts is stepped over
 // by PIXEL, as the channels must be stepped there too.
 
@@ -39,27 +40,75 @@ module edgewalk_span (
   output wire [21:0] span_b,            // UQ8.14 LSB, modular
   output wire        span_fresh,        // first span of the triangle: its increments are new
   output wire        span_fence,        // what is in flight may be of the same pixels
-  output reg         fresh_queued       // the first span of a triangle is queued
+  output wire        fresh_queued,      // the first span of a triangle is queued, or may come of the line held
+  output reg         line_held          // a line stands before the queue
 );
 
   // From Trunc(X) of the left edge to Trunc(X) of the right edge, both drawn; a column register is Trunc(X) + 1.
-  wire [14:0] x = (line_major_right ? line_cmin : line_cmaj) - 15'd1;
   wire [14:0] xe = line_major_right ? line_cmaj : line_cmin;  // signed, first column after the line
+  wire [14:0] first = (line_major_right ? line_cmin : line_cmaj) - 15'd1;
   wire [14:0] end_cut = ($signed(xe) < 15'sd640) ? xe : 15'd640;  // signed, first column after the span
-  wire empty = ($signed(end_cut) <= $signed(x)) || ($signed(xe) <= 15'sd0);
-  wire [14:0] count = end_cut - x;  // columns
+  wire off = $signed(xe) <= 15'sd0;
+
+  // The line held, cut where it ends.
+  wire queue_in_ready;
+  assign line_ready = !line_held || queue_in_ready;
+  wire take = line_valid && line_ready;
+  wire moves = line_held && queue_in_ready;  // the line held is queued or dropped
+  reg [8:0] held_y;                          // line
+  reg [29:0] held_z;                         // UQ16.14 LSB, modular
+  reg [21:0] held_r;                         // UQ8.14 LSB, modular
+  reg [21:0] held_g;                         // UQ8.14 LSB, modular
+  reg [21:0] held_b;                         // UQ8.14 LSB, modular
+  reg held_fresh;                            // first span of the triangle: its increments are new
+  reg held_fence;                            // what is in flight may be of the same pixels
+  reg [14:0] held_first;                     // signed, first column
+  reg [14:0] held_end;                       // signed, the column behind the last
+  reg held_off;                              // the line ends where no screen is
+
+  always @(posedge clk) begin
+    if (rst) begin
+      line_held <= 1'b0;
+    end else begin
+      if (moves) line_held <= 1'b0;
+      if (take) line_held <= 1'b1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (take) begin
+      held_y <= line_y;
+      held_z <= line_z;
+      held_r <= line_r;
+      held_g <= line_g;
+      held_b <= line_b;
+      held_fresh <= line_fresh;
+      held_fence <= line_fence;
+      held_first <= first;
+      held_end <= end_cut;
+      held_off <= off;
+    end
+  end
 
   // Flags of dropped lines wait for the next span.
   reg pend_fresh;  // fresh of dropped lines
   reg pend_fence;  // fence of dropped lines
-  wire fresh = line_fresh || pend_fresh;
-  wire fence = line_fence || pend_fence;
+  wire fresh = held_fresh || pend_fresh;
+  wire fence = held_fence || pend_fence;
+  wire empty = held_off || ($signed(held_end) <= $signed(held_first));
+
+  always @(posedge clk) begin
+    if (rst) begin
+      pend_fresh <= 1'b0;
+      pend_fence <= 1'b0;
+    end else if (moves) begin
+      pend_fresh <= empty && fresh;
+      pend_fence <= empty && fence;
+    end
+  end
 
   // The queue.
-  wire queue_in_ready;
-  assign line_ready = empty || queue_in_ready;
-  wire taken = line_valid && line_ready;
-  wire push = taken && !empty;
+  wire push = moves && !empty;
   wire [14:0] queue_out_x;
   wire [8:0] queue_out_y;
   wire [14:0] queue_out_count;
@@ -76,14 +125,14 @@ module edgewalk_span (
     .clk          (clk),
     .rst          (rst),
     .in_valid     (push),
-    .in_x         (x),
-    .in_y         (line_y),
-    .in_count     (count),
+    .in_x         (held_first),
+    .in_y         (held_y),
+    .in_count     (held_end - held_first),
     .in_leftward  (1'b0),
-    .in_z         (line_z),
-    .in_r         (line_r),
-    .in_g         (line_g),
-    .in_b         (line_b),
+    .in_z         (held_z),
+    .in_r         (held_r),
+    .in_g         (held_g),
+    .in_b         (held_b),
     .in_fresh     (fresh),
     .in_fence     (fence),
     .out_ready    (span_ready),
@@ -101,23 +150,15 @@ module edgewalk_span (
     .out_fence    (queue_out_fence)
   );
 
-  always @(posedge clk) begin
-    if (rst) begin
-      pend_fresh <= 1'b0;
-      pend_fence <= 1'b0;
-    end else if (taken) begin
-      pend_fresh <= empty && fresh;
-      pend_fence <= empty && fence;
-    end
-  end
+  // While a triangle's first span is queued, or may come of the line held, EDGE must keep its increments.
+  reg fresh_in_queue;  // the first span of a triangle is queued
 
-  // While a triangle's first span is queued, EDGE must keep the increments of the triangle.
   always @(posedge clk) begin
     if (rst) begin
-      fresh_queued <= 1'b0;
+      fresh_in_queue <= 1'b0;
     end else begin
-      if (queue_out_valid && span_ready && queue_out_fresh) fresh_queued <= 1'b0;
-      if (push && fresh) fresh_queued <= 1'b1;
+      if (queue_out_valid && span_ready && queue_out_fresh) fresh_in_queue <= 1'b0;
+      if (push && fresh) fresh_in_queue <= 1'b1;
     end
   end
 
@@ -132,6 +173,7 @@ module edgewalk_span (
   assign span_b = queue_out_b;
   assign span_fresh = queue_out_fresh;
   assign span_fence = queue_out_fence;
+  assign fresh_queued = fresh_in_queue || (line_held && fresh);
 
 endmodule
 

@@ -55,7 +55,7 @@ module edgewalk_span_fifo (
     end
   end
 
-  // A new token goes behind the last, one place further up if the first leaves.
+  // The place behind the last token, one further down if the first leaves, takes the input in every cycle; a push makes it count.
   wire [1:0] end_place = pop ? count - 2'd1 : count;
   reg [14:0] place0_x;      // signed, first column
   reg [8:0] place0_y;       // line
@@ -77,8 +77,8 @@ module edgewalk_span_fifo (
   reg [21:0] place1_b;      // UQ8.14 LSB, modular
   reg place1_fresh;         // first span of the triangle: its increments are new
   reg place1_fence;         // what is in flight may be of the same pixels
-  wire enters0 = push && (end_place == 2'd0);
-  wire enters1 = push && (end_place == 2'd1);
+  wire end_is_place0 = end_place == 2'd0;
+  wire end_is_place1 = end_place == 2'd1;
 
   always @(posedge clk) begin
     if (pop) begin
@@ -93,7 +93,7 @@ module edgewalk_span_fifo (
       place0_fresh <= place1_fresh;
       place0_fence <= place1_fence;
     end
-    if (enters0) begin
+    if (end_is_place0) begin
       place0_x <= in_x;
       place0_y <= in_y;
       place0_count <= in_count;
@@ -108,7 +108,7 @@ module edgewalk_span_fifo (
   end
 
   always @(posedge clk) begin
-    if (enters1) begin
+    if (end_is_place1) begin
       place1_x <= in_x;
       place1_y <= in_y;
       place1_count <= in_count;

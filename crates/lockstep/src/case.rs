@@ -9,7 +9,7 @@ use crate::Token;
 use crate::device::{ModelDevice, NetlistDevice, model, netlist};
 use crate::interface::{Interface, Link};
 use crate::lockstep::{Lockstep, LockstepError};
-use crate::rig::Setting;
+use crate::rig::{Setting, bits};
 use crate::stalls::{LENGTHS, Pattern};
 use crate::unit::Unit;
 use edgewalk_machine::Plan;
@@ -35,6 +35,10 @@ pub struct Case {
     pub depth_func: u8,
     /// Passing fragments write their depth.
     pub depth_write: bool,
+    /// Colours of passing fragments go on to BLEND, where there is one.
+    pub color_write: bool,
+    /// BLEND adds; else it mixes.
+    pub blend_add: bool,
     /// Every stored depth at the start, LSB; the largest if `None`.
     pub clear_z: Option<u64>,
     /// By link or level: in so many of 256 cycles the rig is not willing.
@@ -47,7 +51,7 @@ pub struct Case {
     pub disturbed: u64,
     /// Cycles that a unit alone runs; the machine runs until it is idle.
     pub cycles: u64,
-    /// Seed of the patterns, and of what stands in fields without a token.
+    /// Seed of the patterns, of the colour at the start, and of what stands in fields without a token.
     pub seed: u64,
 }
 
@@ -94,6 +98,8 @@ impl Case {
             tokens: Vec::new(),
             depth_func: 1,
             depth_write: true,
+            color_write: true,
+            blend_add: false,
             clear_z: None,
             unwilling: BTreeMap::new(),
             late: 0,
@@ -173,8 +179,8 @@ impl Case {
 
     /// What the rig does.
     fn setting(&self, interface: &Interface) -> Result<Setting, LockstepError> {
-        let state =
-            DrawState { depth_func: self.depth_func, depth_write: self.depth_write, ..DrawState::default() };
+        let Case { depth_func, depth_write, color_write, blend_add, .. } = *self;
+        let state = DrawState { depth_func, depth_write, color_write, blend_add, ..DrawState::default() };
         let mut setting = Setting::willing(interface, &constants(&state))?;
         setting.tokens.clone_from(&self.tokens);
         let mut random = Pcg64Mcg::seed_from_u64(self.seed);
@@ -185,9 +191,12 @@ impl Case {
             Some(share) => Pattern::random(&mut random, length, *share),
         });
         setting.patterns = patterns.collect();
-        for memory in &mut setting.memories {
+        for (memory, declared) in setting.memories.iter_mut().zip(&interface.memories) {
             memory.latency += self.late;
-            memory.clear = self.clear_z.map_or(memory.clear, u128::from);
+            memory.clear = match declared.name {
+                "depth" => self.clear_z.map_or(memory.clear, u128::from),
+                _ => bits(&mut random, declared.word_bits),
+            };
         }
         setting.resets.clone_from(&self.resets);
         setting.noise = Some(self.seed);

@@ -71,6 +71,11 @@ fn run(
     let interface = Interface::new(tagged, Unit::MACHINE);
     let mut device = NetlistDevice::new(&*netlist(tagged, Unit::MACHINE)?, &interface)?;
     let mut setting = Setting::willing(&interface, &case::constants(&state))?;
+    for (memory, setting) in interface.memories.iter().zip(&mut setting.memories) {
+        if memory.name == "color" {
+            setting.clear = color_word(plan, state.clear);
+        }
+    }
     setting.patterns = patterns(tagged, &interface, stalls, 0);
     let (port, mut foreign) = (Triangles::new(tagged), None);
     let tokens = triangles.into_iter().zip(0..).map_while(|(triangle, number): (_, u32)| {
@@ -97,16 +102,19 @@ fn run(
     foreign.map_or(Ok(picture.frame(plan)), |foreign| Err(foreign.into()))
 }
 
+/// A word of the colour memory: red is the most significant.
+fn color_word(plan: &Plan, rgb: [u64; 3]) -> u128 {
+    rgb.into_iter().fold(0, |word, color| word << plan.color.bits | u128::from(color))
+}
+
 /// What the ports tell of every address, and of the run.
 struct Picture {
     tri: Link,
     rd: Link,
-    wr: Link,
-    /// Places of address, enable and tag in a write, and of every channel.
-    address: usize,
-    enable: usize,
+    /// The write of the pixel; with BLEND that of its colours, and the depth has its own.
+    write: Writes,
+    depth_write: Option<Writes>,
     tag: Option<usize>,
-    channels: Vec<usize>,
     activity: PortId,
     idle: PortId,
     /// By channel and address.
@@ -117,23 +125,71 @@ struct Picture {
     counters: Counters,
 }
 
+/// A link that writes, and what of it is stored where.
+struct Writes {
+    link: Link,
+    address: usize,
+    stored: Vec<Stored>,
+}
+
+/// Bits of a field, for a channel.
+struct Stored {
+    channel: usize,
+    field: usize,
+    low: u32,
+    bits: u32,
+    /// The field that permits it.
+    enable: Option<usize>,
+}
+
+impl Writes {
+    /// Every field of a channel; of a word of colours, each of them.
+    fn new(plan: &Plan, link: Link) -> Writes {
+        let place = |field: &str| link.place(field);
+        let mut stored = Vec::new();
+        for (channel, declared) in plan.channels().iter().enumerate() {
+            let enable = if channel == 0 { place("z_en") } else { None };
+            let bits = declared.bits;
+            if let Some(field) = place(declared.name) {
+                stored.push(Stored { channel, field, low: 0, bits, enable });
+            } else if let (1..=3, Some(field)) = (channel, place("rgb")) {
+                stored.push(Stored { channel, field, low: (3 - channel as u32) * bits, bits, enable });
+            }
+        }
+        Writes { address: place("addr").expect("a write declares it"), stored, link }
+    }
+
+    /// Stores what is written in this cycle; where.
+    fn store(&self, ports: &PortValues, memory: &mut [Vec<u32>]) -> Option<usize> {
+        let write = self.link.fires(ports).then(|| self.link.token(ports))?;
+        let address = write[self.address] as usize;
+        for Stored { channel, field, low, bits, enable } in &self.stored {
+            if enable.is_none_or(|enable| write[enable] == 1) {
+                memory[*channel][address] = (write[*field] >> low & (u128::MAX >> (128 - bits))) as u32; // b <= 32
+            }
+        }
+        Some(address)
+    }
+}
+
 impl Picture {
     /// A cleared picture: the farthest depth, the state's colour, and 0 in the user's own channels.
     fn new(plan: &Plan, interface: &Interface, state: &DrawState) -> Picture {
-        let link = |name| interface.link(name).expect("a machine declares it").clone();
+        let find = |name| interface.link(name).cloned();
+        let link = |name| find(name).expect("a machine declares it");
         let status = |name| interface.port(name).expect("a machine declares it").id;
-        let (tri, rd, wr) = (link("tri"), link("rd"), link("wr"));
-        let place = |field: &str| wr.place(field).expect("a write declares it");
+        let write = find("cwr").unwrap_or_else(|| link("wr"));
         let words = 1 << plan.widths().address;
         let clear = |i: usize| match i {
             0 => plan.z.max() as u32,                                       // b <= 32 bits
             _ => state.clear.get(i - 1).map_or(0, |colour| *colour as u32), // b <= 16 bits
         };
         Picture {
-            address: place("addr"),
-            enable: place("z_en"),
-            tag: wr.place("tag"),
-            channels: plan.channels().iter().map(|channel| place(channel.name)).collect(),
+            tri: link("tri"),
+            rd: link("rd"),
+            tag: write.place("tag"),
+            write: Writes::new(plan, write),
+            depth_write: find("zwr").map(|link| Writes::new(plan, link)),
             activity: status("activity"),
             idle: status("idle"),
             stored: (0..plan.channels().len()).map(|i| vec![clear(i); words]).collect(),
@@ -141,9 +197,6 @@ impl Picture {
             writes: vec![0; words],
             id: vec![-1; words],
             counters: Counters::default(),
-            tri,
-            rd,
-            wr,
         }
     }
 
@@ -161,18 +214,13 @@ impl Picture {
             self.coverage[*address as usize] += 1;
             counters.fragments += 1;
         }
-        if self.wr.fires(ports) {
-            let write = self.wr.token(ports);
-            let address = write[self.address] as usize;
-            for (i, (stored, place)) in self.stored.iter_mut().zip(&self.channels).enumerate() {
-                // The depth, the first channel, is stored only where that is permitted.
-                if i > 0 || write[self.enable] == 1 {
-                    stored[address] = write[*place] as u32; // b <= 32 bits
-                }
-            }
+        if let Some(depths) = &self.depth_write {
+            depths.store(ports, &mut self.stored);
+        }
+        if let Some(address) = self.write.store(ports, &mut self.stored) {
             self.writes[address] += 1;
             if let Some(tag) = self.tag {
-                self.id[address] = write[tag] as i32;
+                self.id[address] = self.write.link.token(ports)[tag] as i32;
             }
             counters.writes += 1;
         }

@@ -133,7 +133,8 @@ const BEFORE_DEPTH: usize = 4;
 /// Then all are let go at once; the second time at random, so that what leaves meets what enters in every way.
 fn programme(plan: &Plan, interface: &Interface, held: &[&str], seed: u64) -> Vec<Vec<bool>> {
     // Cycles from one small triangle to the next, at the most; a unit alone gets fragments as fast as it takes them.
-    let places = plan.inflight as usize;
+    let blend = if plan.blend.is_there() { plan.blend.queue + plan.blend.stages + 1 } else { 0 };
+    let places = (plan.inflight + blend) as usize;
     let (triangle, free) = if interface.unit == Unit::MACHINE {
         (longest_setup(plan).all() as usize + 8, 3 * (places + 4))
     } else {

@@ -23,13 +23,15 @@ fn quick_machine(rng: &mut Pcg64Mcg) -> Plan {
 #[test]
 fn the_picture_of_the_netlist_is_that_of_the_model() {
     let mut rng = Pcg64Mcg::seed_from_u64(5);
-    let (mut fragments, mut machines) = (0, [0; 3]);
+    let (mut fragments, mut machines, mut blend) = (0, [0; 3], 0);
     for i in 0..36 {
         let plan = quick_machine(&mut rng);
         let triangles: Vec<_> = (0..12).map(|_| random_triangle(&plan, &mut rng)).collect();
         let state = DrawState {
             depth_func: [1, 3, 7][i % 3],
             depth_write: rng.random_bool(0.9),
+            color_write: rng.random_bool(0.9),
+            blend_add: rng.random_bool(0.3),
             clear: [1, 2, 3],
             ..DrawState::default()
         };
@@ -54,9 +56,12 @@ fn the_picture_of_the_netlist_is_that_of_the_model() {
         }
         fragments += model.counters.fragments;
         machines[i % 3] += 1;
+        blend += u32::from(plan.blend.is_there());
     }
-    println!("{fragments} fragments compared on {machines:?} machines, by stalls");
-    assert!(fragments > 1000, "{fragments}");
+    println!(
+        "{fragments} fragments compared on {machines:?} machines, by stalls; {blend} of them with BLEND"
+    );
+    assert!(fragments > 1000 && blend > 10, "{fragments}");
 }
 
 #[test]

@@ -29,7 +29,7 @@ const FAULTS: &[Kept] = &[
         name: "depth_two_writes_meet_a_third",
         unit: "depth",
         machine: |_| {},
-        words: &["becomes `Xor(enters_after_head, enters_after_w)`"],
+        words: &["becomes `Xor(place1_fwd_valid, place1_after_w)`"],
     },
     Kept {
         name: "depth_forwarded_is_not_used",
@@ -38,16 +38,16 @@ const FAULTS: &[Kept] = &[
         words: &["becomes `Mux(place0_fwd_valid, data_z, place0_fwd_z)`"],
     },
     Kept {
-        name: "depth_write_or_compare_not_passed_on",
+        name: "depth_write_not_seen_by_the_next",
         unit: "depth",
         machine: |_| {},
-        words: &["becomes `And(enters_after_head, enters_after_w)`"],
+        words: &["becomes `Mux(head_after_w, old_z_in_queue, wr_z)`"],
     },
     Kept {
-        name: "depth_compare_not_passed_to_those_queued",
+        name: "depth_write_not_passed_to_those_queued",
         unit: "depth",
         machine: |_| {},
-        words: &["becomes `And(place1_fwd_valid, place1_after_head)`"],
+        words: &["becomes `And(place1_fwd_valid, place1_after_w)`"],
     },
     Kept {
         name: "depth_interlock_of_what_is_written",
@@ -65,7 +65,7 @@ const FAULTS: &[Kept] = &[
         name: "span_mark_of_a_dropped_line",
         unit: "span",
         machine: |_| {},
-        words: &["becomes `And(line_fence, pend_fence)`"],
+        words: &["becomes `And(held_fence, pend_fence)`"],
     },
     Kept {
         name: "edge_waits_for_increments",

@@ -78,7 +78,7 @@ fn span(machine: &Plan, lines: &[Line<FEW>]) -> Vec<tokens::Span<FEW>> {
     let mut spans = Vec::new();
     for line in lines {
         spans.extend(unit.span().cloned());
-        unit.step(Some(line).filter(|line| unit.line_ready(line)), true, &mut Events::default());
+        unit.step(Some(line).filter(|_| unit.line_ready()), true, &mut Events::default());
     }
     spans.extend(unit.span().cloned());
     spans

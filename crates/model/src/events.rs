@@ -50,8 +50,6 @@ events! {
     empty_span,
     /// Lines without a pixel that passed on the mark of a triangle's first line.
     dropped_fresh,
-    /// Lines without a pixel, dropped while the span FIFO was full.
-    dropped_when_full,
     /// Cycles in which a line waits for the span FIFO.
     span_fifo_full,
     /// Cycles in which a triangle waits until the first span of the one before is taken.

@@ -187,6 +187,7 @@ impl<const C: usize> Model<C> {
     #[inline]
     fn at_rest(&self) -> bool {
         !self.edge.running()
+            && !self.span.line_held()
             && self.span.span().is_none()
             && !self.pixel.active()
             && !self.pixel.occupied()
@@ -277,7 +278,7 @@ impl<const C: usize> Model<C> {
 
         // SPAN.
         let fresh_queued = self.span.fresh_queued();
-        let line = self.edge.line().filter(|l| self.span.line_ready(l));
+        let line = self.edge.line().filter(|_| self.span.line_ready());
         let line_ready = line.is_some();
         if line_ready {
             one_more(&mut self.counters.lines);
@@ -314,7 +315,7 @@ impl<const C: usize> Model<C> {
             }
         } else if self.pixel.active() {
             if self.pixel.on_screen() { Activity::Draw } else { Activity::Offscreen }
-        } else if self.span.span().is_some() || self.edge.running() {
+        } else if self.span.span().is_some() || self.span.line_held() || self.edge.running() {
             Activity::Edge
         } else if !self.setup.tri_ready() {
             Activity::Setup

@@ -1,12 +1,13 @@
 //! SPAN: cuts a line to the pixels to draw, and queues it.
 //!
 //! ```text
-//!  line ─> first column, count ──empty?──> dropped, its marks kept
-//!                        └─> FIFO ─> span
+//!  line ─> [held] ─> first column, count ──empty?──> dropped, its marks kept
+//!                                  └─> FIFO ─> span
 //! ```
 //! Formats: columns signed, COLW bits, px; count at least 1.
 //!
-//! Timing: a line taken in cycle n is offered in n + 1 (registered FIFO); a line a clock, empty ones too.
+//! Timing: a line taken in cycle n is held in n + 1 and offered in n + 2 (registered FIFO); a line a clock while there is room,
+//! empty ones too.
 //!
 //! Rules: `docs/machine.md`, section 4. A span is cut where it ends; before its start PIXEL steps over the columns off
 //! the screen. Not modelled: nothing.
@@ -22,10 +23,11 @@ pub struct Span<const C: usize> {
     textbook: bool,
     width: i32,
     depth: usize,
+    held: Option<Line<C>>,
     fifo: Fifo<tokens::Span<C>, 64>,
     pend_fresh: bool,
     pend_fence: bool,
-    fresh_queued: bool,
+    fresh_in_fifo: bool,
 }
 
 impl<const C: usize> Span<C> {
@@ -36,26 +38,34 @@ impl<const C: usize> Span<C> {
             textbook: plan.fill == Fill::Textbook,
             width: plan.width as i32,
             depth: plan.span_fifo as usize,
+            held: None,
             fifo: Fifo::default(),
             pend_fresh: false,
             pend_fence: false,
-            fresh_queued: false,
+            fresh_in_fifo: false,
         }
     }
 
     /// Synchronous reset.
     pub fn reset(&mut self) {
+        self.held = None;
         self.fifo.clear();
         self.pend_fresh = false;
         self.pend_fence = false;
-        self.fresh_queued = false;
+        self.fresh_in_fifo = false;
     }
 
-    /// The line can be taken: it is empty, or there is room.
+    /// A line can be taken: none is held, or the one that is moves on.
     #[inline]
     #[must_use]
-    pub fn line_ready(&self, line: &Line<C>) -> bool {
-        self.fifo.len() < self.depth || self.is_empty(line)
+    pub fn line_ready(&self) -> bool {
+        self.held.is_none() || self.has_room()
+    }
+
+    /// The FIFO takes a token.
+    #[inline]
+    fn has_room(&self) -> bool {
+        self.fifo.len() < self.depth
     }
 
     /// The span offered to PIXEL.
@@ -65,27 +75,38 @@ impl<const C: usize> Span<C> {
         (!self.fifo.is_empty()).then(|| self.fifo.head())
     }
 
-    /// The first span of a triangle is queued: PIXEL still needs EDGE's gradients.
+    /// A line stands before the FIFO.
+    #[inline]
+    #[must_use]
+    pub fn line_held(&self) -> bool {
+        self.held.is_some()
+    }
+
+    /// The first span of a triangle is queued, or may come of the line held: PIXEL still needs EDGE's gradients.
     #[inline]
     #[must_use]
     pub fn fresh_queued(&self) -> bool {
-        self.fresh_queued
+        self.fresh_in_fifo || self.held.as_ref().is_some_and(|line| line.fresh | self.pend_fresh)
     }
 
-    /// Clock edge.
+    /// Clock edge; `line`: the one taken, if `line_ready`.
     #[inline(always)]
     pub fn step(&mut self, line: Option<&Line<C>>, span_ready: bool, events: &mut Events) {
-        let full = self.fifo.len() == self.depth;
+        let (ready, room) = (self.line_ready(), self.has_room());
         if span_ready && !self.fifo.is_empty() {
-            self.fresh_queued &= !self.fifo.head().fresh;
+            self.fresh_in_fifo &= !self.fifo.head().fresh;
             self.fifo.pop();
         }
-        if let Some(line) = line {
-            self.take(line, full, events);
+        if room && let Some(held) = self.held.take() {
+            self.move_on(&held, events);
+        }
+        if ready && let Some(line) = line {
+            self.held = Some(*line);
         }
     }
 
-    fn take(&mut self, line: &Line<C>, full: bool, events: &mut Events) {
+    /// The held line is a span, or dropped.
+    fn move_on(&mut self, line: &Line<C>, events: &mut Events) {
         let fresh = line.fresh | self.pend_fresh;
         let fence = line.fence | self.pend_fence;
         if self.is_empty(line) {
@@ -93,11 +114,7 @@ impl<const C: usize> Span<C> {
             self.pend_fence = fence;
             events.empty_span += 1;
             events.dropped_fresh += u64::from(fresh);
-            events.dropped_when_full += u64::from(full);
             return;
-        }
-        if full {
-            return; // not ready
         }
         let leftward = line.major_right && !self.textbook;
         let (start, end) = self.columns(line);
@@ -113,7 +130,7 @@ impl<const C: usize> Span<C> {
             fence,
             source: line.source,
         });
-        self.fresh_queued |= fresh;
+        self.fresh_in_fifo |= fresh;
         self.pend_fresh = false;
         self.pend_fence = false;
         events.scissor_cut += u64::from(if leftward { start < 0 } else { end > self.width });

@@ -228,8 +228,8 @@ fn rate_table(table: &mut String) {
                 let setup = setup_clocks(&machine, &long);
                 let run = trace(&machine, &[long]);
                 let first = run.reads[0].0 - run.triangles[0] - u64::from(setup.all());
-                // prim, line, span, T clocks of adding, D segments
-                assert_eq!(first, 3 + u64::from(machine.clocks_per_pixel() + machine.segments));
+                // prim, line, line held, span, T clocks of adding, D segments
+                assert_eq!(first, 4 + u64::from(machine.clocks_per_pixel() + machine.segments));
                 let _ = writeln!(
                     table,
                     "| {adders} | {segments} | {fifo} | {clocks} | {lost_long} | {lost_thin} | {first} |"

@@ -1,31 +1,92 @@
-//! BLEND has no netlist yet: a machine with it is refused.
+//! BLEND: weighs the colour of a fragment against that of its pixel, or adds it.
 
-use std::panic::Location;
+mod prepare;
+
+mod step;
+
+mod stages;
+
 use std::sync::Arc;
 
 use edgewalk_machine::Plan;
-use edgewalk_netlist::{BuildError, BuildErrors, Fault, Netlist, Place};
+use edgewalk_machine::units::{blend::SPEC, tokens};
+use edgewalk_netlist::{BuildErrors, Module, Netlist};
+
+use crate::ports::Interface;
+use crate::rmw::{self, Leaves, Rmw, Shape};
+use crate::wires::{Part, parts};
+use prepare::Old;
+use stages::Stages;
+
+const DOC: &str = "BLEND weighs the colour of a fragment against that of its pixel, or adds it.
+
+            ┌────────────── crd (address) ──> colour memory
+  pass ─────┴─> [queue] ── base, weight ─> [stage] ─> [w] ── cwr ──> colour memory
+           colour memory ── cdata ──┘
+
+Formats: colours unsigned; kt as 0 to 2^kt_bits, so that 1 is exact. base is the old colour B, and weight 1 - kt, 0 to 1 without 1:
+a fragment's colour I becomes base + (I - base) * weight, to nearest. Of a fragment with kt = 0 base is I; of a sum base is
+I + B, at most all ones, and weight 0.
+Rules: a fragment with kt = 0 that is not added needs no old colour, and reads none. Colours come in the order of the reads.
+blend_add stays as it is while the machine is busy.";
 
 /// The netlist of BLEND.
 ///
 /// # Errors
-/// Always: it is not written yet.
+/// None for a machine with BLEND that [`edgewalk_machine::Machine::plan`] accepts.
 pub fn blend(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
-    refuse(plan)?;
-    Ok(crate::pixel(plan)?) // not reached: only machines with BLEND have this unit
-}
+    let m = Module::new("edgewalk_blend", DOC);
+    m.doc(step::doc(plan.blend.multipliers));
+    m.doc(&rmw::hazard_doc(plan.blend.hazard, "colour"));
+    let ports = Interface::new(&m, (SPEC.ports)(plan));
+    let blend_add = ports.constant("blend_add");
+    let (pass_valid, pass) = ports.takes();
+    let memory = ports.memory("color");
+    let cwr_ready = ports.gives_ready();
 
-/// Refuses machines with BLEND.
-pub(crate) fn refuse(plan: &Plan) -> Result<(), BuildErrors> {
-    if !plan.blend.is_there() {
-        return Ok(());
-    }
-    let name =
-        "blend: this unit has no netlist yet; set blend.kind = none, or take another engine".to_owned();
-    let place = Place(Location::caller());
-    Err(BuildErrors(vec![BuildError {
-        module: "edgewalk".to_owned(),
-        place,
-        fault: Fault::Undriven { name },
-    }]))
+    m.comment("State: what is being mixed, the queue of what waits for its old colour, and the pixel being written.");
+    let mut carried = parts(&tokens::color_write(plan));
+    carried.retain(|part| part.name != "rgb");
+    let stages = Stages::new(&m, plan, carried);
+    let mut entry = pass.parts();
+    entry.retain(|part| part.name != "fence");
+    entry.push(Part { name: "need".to_owned(), width: 1, doc: "takes its pixel's colour".to_owned() });
+    let shape = Shape {
+        memory: "color",
+        hazard: plan.blend.hazard,
+        places: plan.blend.queue,
+        entry,
+        writes: None,
+        stages: stages.in_flight(),
+        ways: &[("cwr", "a pixel is being written")],
+        write: ("cwr", parts(&ports.gives_link().fields)),
+    };
+    let flight = Rmw::new(&m, &ports, shape);
+
+    m.comment(
+        "A fragment enters when the queue has room and nothing in flight may change the colour it needs.",
+    );
+    let need = (blend_add | pass["kt"].any()).named_doc("need", "it takes its pixel's colour");
+    let enter = flight.enter(pass_valid, &pass, Some(need), memory.read_ready);
+
+    m.comment("The head leaves when its old colour comes and the first stage is free.");
+    let w_free = flight.w_free(&[cwr_ready]);
+    let flow = stages.flow(w_free);
+    let take = flight.turn(memory.data_valid, flow.room, "take");
+    let old = Old { add: blend_add, need: flight.head("need"), rgb: flight.old("rgb", &memory.data) };
+    let prepared = old.prepare(&m, plan, |f| flight.head(f));
+    let rgb = stages.step(&flow, take.fires, &prepared, |f| flight.head(f)).named("rgb");
+
+    m.comment("Write what is mixed.");
+    let leaves = Leaves { ready: cwr_ready, wanted: m.lit(1, 1) };
+    flight.write(flow.leaves, &[leaves], |f| if f == "rgb" { rgb } else { stages.leaving(f) });
+    flight.move_up(&enter, take.fires, |f| if f == "need" { need } else { pass[f] });
+
+    ports.take_ready(enter.frag_ready);
+    ports.read("color", enter.read_valid, pass["addr"], take.data_ready);
+    ports.give(flight.valid(0), |f| flight.written(f));
+    ports.status("color_hazard", enter.hazard);
+    ports.status("color_full", enter.full);
+    ports.status("occupied", flight.any());
+    m.finish()
 }

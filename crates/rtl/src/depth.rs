@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use edgewalk_machine::Plan;
 use edgewalk_machine::units::depth::SPEC;
-use edgewalk_netlist::{BuildErrors, Module, Netlist};
+use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
 use crate::ports::Interface;
-use crate::rmw::{self, Rmw};
+use crate::rmw::{self, Leaves, Rmw, Shape, Way};
+use crate::wires::parts;
 
 const DOC: &str = "DEPTH reads the old depth of every fragment, compares, and writes what passes.
 
@@ -20,28 +21,44 @@ Timing: a fragment is read in the cycle it comes, compared in the cycle its old 
 Rules: depths come in the order of the reads. depth_func and depth_write stay as they are while the machine is busy.
 The depth is read whatever the function.";
 
+const FORK_DOC: &str = "With BLEND w parts: its depth goes to the depth memory by zwr, the rest to BLEND by pass, each by itself. Only what may go to
+the depth memory counts as in flight. The fence of a fragment that BLEND does not see goes to the next that it does.";
+
 /// The netlist of DEPTH.
 ///
 /// # Errors
 /// None for a machine that [`edgewalk_machine::Machine::plan`] accepts.
 pub fn depth(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
-    crate::blend::refuse(plan)?;
     let m = Module::new("edgewalk_depth", DOC);
-    m.doc(&rmw::hazard_doc(plan, "depth"));
+    let forks = plan.blend.is_there();
+    if forks {
+        m.doc(FORK_DOC);
+    }
+    m.doc(&rmw::hazard_doc(plan.hazard, "depth"));
     let ports = Interface::new(&m, (SPEC.ports)(plan));
     let (depth_func, depth_write) = (ports.constant("depth_func"), ports.constant("depth_write"));
+    let color_write = forks.then(|| ports.constant("color_write"));
     let (frag_valid, frag) = ports.takes();
     let memory = ports.memory("depth");
-    let wr_ready = ports.gives_ready();
+    let ready: Vec<Signal> = ports
+        .ports
+        .writes
+        .iter()
+        .map(|link| ports.writes_ready(link.name))
+        .chain([ports.gives_ready()])
+        .collect();
 
     m.comment("State: the queue of what waits for its old depth, and the pixel being written.");
-    let flight = Rmw::new(&m, plan, &ports, "depth", depth_write);
+    let flight = Rmw::new(&m, &ports, shape(plan, &ports, depth_write));
+    let pend_fence =
+        forks.then(|| m.reg("pend_fence", 1).doc("of fragments that BLEND has not seen").reset(0));
 
     m.comment("A fragment enters when the queue has room and nothing in flight may change its depth.");
-    let enter = flight.enter(frag_valid, &frag, memory.read_ready);
+    let enter = flight.enter(frag_valid, &frag, None, memory.read_ready);
 
     m.comment("Compare the head with its old depth when that comes and w is free.");
-    let compare = flight.turn(memory.data_valid, wr_ready, "compare");
+    let w_free = flight.w_free(&ready);
+    let compare = flight.turn(memory.data_valid, w_free, "compare");
     let new = flight.head("z");
     let old = flight.old("z", &memory.data).named_doc("old", "depth to compare with");
     let less = new.lt(old).named("less");
@@ -50,14 +67,48 @@ pub fn depth(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let pass =
         ((depth_func.bit(0) & less) | (depth_func.bit(1) & equal) | (depth_func.bit(2) & !less & !equal))
             .named("pass");
-    flight.finish(&frag, &enter, &compare, wr_ready, pass, |f| flight.head(f));
 
-    let (wr_valid, wr) = flight.write();
+    m.comment("Write what passes.");
+    let wanted = match color_write {
+        None => vec![pass],
+        Some(color_write) => vec![pass & depth_write, pass & color_write],
+    };
+    let ways: Vec<Leaves> =
+        ready.iter().zip(&wanted).map(|(ready, wanted)| Leaves { ready: *ready, wanted: *wanted }).collect();
+    let fence = pend_fence.map(|pend| (pend, (flight.head("fence") | pend).named("fence")));
+    flight.write(compare.fires, &ways, |f| match (f, fence) {
+        ("z_en", _) => depth_write,
+        ("fence", Some((_, fence))) => fence,
+        _ => flight.head(f),
+    });
+    if let (Some((pend, fence)), Some(to_blend)) = (fence, wanted.get(1)) {
+        pend.when(compare.fires, fence & !*to_blend);
+    }
+    flight.move_up(&enter, compare.fires, |f| frag[f]);
+
     ports.take_ready(enter.frag_ready);
     ports.read("depth", enter.read_valid, frag["addr"], compare.data_ready);
-    ports.give(wr_valid, |f| wr[f]);
+    for (way, link) in ports.ports.writes.iter().enumerate() {
+        ports.write(link.name, flight.valid(way), |f| flight.written(f));
+    }
+    ports.give(flight.valid(ports.ports.writes.len()), |f| flight.written(f));
     ports.status("hazard", enter.hazard);
     ports.status("full", enter.full);
     ports.status("occupied", flight.any());
     m.finish()
+}
+
+/// With BLEND depths and colours leave w each by itself, and fences are handed on.
+fn shape<'m>(plan: &Plan, ports: &Interface<'m>, depth_write: Signal<'m>) -> Shape<'static, 'm> {
+    let taken = parts(&ports.takes_link().fields);
+    let without_fence = taken.iter().filter(|part| part.name != "fence").cloned().collect();
+    let (entry, ways, write): (_, &[Way], _) = if plan.blend.is_there() {
+        let ways = &[("zwr", "a depth is being written"), ("pass", "a fragment waits for BLEND")];
+        (taken.clone(), ways, ("w", taken))
+    } else {
+        let write = parts(&ports.gives_link().fields);
+        (without_fence, &[("wr", "a pixel is being written")], ("wr", write))
+    };
+    let (hazard, places, writes) = (plan.hazard, plan.inflight, Some(depth_write));
+    Shape { memory: "depth", hazard, places, entry, writes, stages: Vec::new(), ways, write }
 }

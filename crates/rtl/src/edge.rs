@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use edgewalk_machine::units::{edge::SPEC, tokens};
 use edgewalk_machine::{Fill, Plan};
-use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
+use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg, Signal};
 
 use crate::ports::Interface;
 use crate::wires::{Part, Registers, parts};
@@ -40,10 +40,8 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     m.comment("Where in the triangle: the upper part, then the lower.");
     let n1 = m.reg("n1", prim["n1"].width()).doc("lines left of the upper part");
     let n2 = m.reg("n2", prim["n2"].width()).doc("lines left of the lower part");
-    let upper = n1.q().any().named("upper");
-    let knee =
-        (n1.q().eq(1) & n2.q().any()).named_doc("knee", "last line of the upper part, the lower follows");
-    let last = upper.mux(n1.q().eq(1) & !knee, n2.q().eq(1)).named_doc("last", "last line of all");
+    let place = Place::new(&m, [n1, n2], [prim["n1"], prim["n2"]], load, step);
+    let Place { upper, knee, last } = place;
     n1.when(load, prim["n1"]).when(step & upper, n1.q() - 1);
     n2.when(load, prim["n2"]).when(step & !upper, n2.q() - 1);
     running.when(step & last, 0).when(load, 1);
@@ -74,14 +72,24 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     m.comment("The major edge.");
     let edge = parts_of_edge(&prim.parts());
     let major = Registers::new(&m, "major", edge.clone());
-    let carry = take_step(&major, "major", line_done);
-    major.load(load, |f| prim[format!("major_{f}").as_str()]);
+    let of_prim = |f: &str| prim[format!("major_{f}").as_str()];
+    // The values step by whether the edge carries. So its R is one line ahead, and the carry stands in a register.
+    let (first_carry, first_r) = less(of_prim("r"), of_prim("f"), prim.get("major_m"), "first");
+    let (next_carry, next_r) = less(major["r"].q(), major["f"].q(), major.get("m").map(Reg::q), "major");
+    let carry = m.reg("carry", 1).doc("the major edge carries in its next step");
+    carry.when(line_done, next_carry).when(load, first_carry);
+    major["r"].when(line_done, next_r);
+    take_columns(&major, line_done, carry.q());
+    major.load(load, |f| if f == "r" { first_r } else { of_prim(f) });
+    let carry = carry.q();
 
     m.comment("The minor edge, and the one that takes its place at the knee.");
     let second = Registers::new(&m, "second", edge.clone());
     second.load(load, |f| prim[format!("minor2_{f}").as_str()]);
     let minor = Registers::new(&m, "minor", edge);
-    take_step(&minor, "minor", along);
+    let (minor_carry, minor_r) = less(minor["r"].q(), minor["f"].q(), minor.get("m").map(Reg::q), "minor");
+    minor["r"].when(along, minor_r);
+    take_columns(&minor, along, minor_carry);
     minor.load(at_knee, |f| second[f].q());
     let has_upper = prim["n1"].any().named("has_upper");
     minor.load(load, |f| {
@@ -89,7 +97,10 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     });
 
     m.comment("The channels at the start of the span, their steps, and the increments for PIXEL.");
-    let increments = Registers::new(&m, "inc", parts(&tokens::words(plan)));
+    let increments = Registers::new(&m, "inc", parts(&tokens::held(plan)));
+    if let (Some(register), Some(kt)) = (increments.get("kt"), prim.get("kt")) {
+        register.when(load, kt);
+    }
     for channel in plan.channels().iter().map(|channel| channel.name) {
         let of_prim = |result: &str| prim[format!("{channel}_{result}").as_str()];
         let held = |result: &str| {
@@ -134,16 +145,56 @@ fn parts_of_edge(prim: &[Part]) -> Vec<Part> {
     prim.iter().filter_map(of_edge).collect()
 }
 
-/// One step of an edge; the returned carry says that the column goes one further.
-fn take_step<'m>(edge: &Registers<'m>, name: &str, when: Signal<'m>) -> Signal<'m> {
-    let (r, bits) = (edge["r"].q(), edge["r"].q().width());
-    let less = (r.zext(bits + 1) - edge["f"].q().zext(bits + 1)).named(&format!("{name}_less"));
+/// R of an edge a line further, and whether the step carries.
+fn less<'m>(
+    r: Signal<'m>,
+    f: Signal<'m>,
+    modulus: Option<Signal<'m>>,
+    name: &str,
+) -> (Signal<'m>, Signal<'m>) {
+    let bits = r.width();
+    let less = (r.zext(bits + 1) - f.zext(bits + 1)).named(&format!("{name}_less"));
     let carry = less.msb().named(&format!("{name}_carry"));
     let less = less.trunc(bits);
     // Without a register for it the modulus is 2^F, and R wraps by itself.
-    let wrapped = edge.get("m").map_or(less, |modulus| carry.mux(less + modulus, less));
-    edge["r"].when(when, wrapped);
+    (carry, modulus.map_or(less, |modulus| carry.mux(less + modulus, less)))
+}
+
+/// The column of an edge a line further.
+fn take_columns<'m>(edge: &Registers<'m>, when: Signal<'m>, carry: Signal<'m>) {
     let (c, q) = (edge["c"].q(), edge["q"].q());
     edge["c"].when(when, c + q + carry.zext(c.width()));
-    carry
+}
+
+/// Where in the triangle the line is, in registers: what follows looks at them in every step.
+struct Place<'m> {
+    upper: Signal<'m>,
+    knee: Signal<'m>,
+    last: Signal<'m>,
+}
+
+impl<'m> Place<'m> {
+    fn new(
+        m: &'m Module,
+        left: [Reg<'m>; 2],
+        of_prim: [Signal<'m>; 2],
+        load: Signal<'m>,
+        step: Signal<'m>,
+    ) -> Place<'m> {
+        let [n1, n2] = left.map(Reg::q);
+        let upper = m.reg("upper", 1).doc("in the upper part");
+        let knee = m.reg("knee", 1).doc("last line of the upper part, the lower follows");
+        let last = m.reg("last", 1).doc("last line of all");
+        let some_lower = n2.any().named("some_lower");
+        let (two, one) = (n1.eq(2).named("two_upper"), n1.eq(1).named("one_upper"));
+        upper.when(step, upper.q() & !one);
+        knee.when(step, two & some_lower);
+        last.when(step, upper.q().mux((two & !some_lower) | (one & n2.eq(1)), n2.eq(2)));
+        let [n1, n2] = of_prim;
+        let (some_lower, one) = (n2.any().named("lower_follows"), n1.eq(1).named("one_upper_only"));
+        upper.when(load, n1.any());
+        knee.when(load, one & some_lower);
+        last.when(load, n1.any().mux(one & !some_lower, n2.eq(1)));
+        Place { upper: upper.q(), knee: knee.q(), last: last.q() }
+    }
 }

@@ -33,16 +33,17 @@ Rules: in_ready does not look at out_ready: a full queue takes nothing in, even 
     let pop = (out_valid & out_ready).named("pop");
     count.when(push & !pop, count.q() + 1).when(pop & !push, count.q() - 1);
 
-    m.comment("A new token goes behind the last, one place further up if the first leaves.");
+    // in_valid, which may come late in its cycle, leads to no place.
+    m.comment("The place behind the last token, one further down if the first leaves, takes the input in every cycle; a push makes it count.");
     let end = pop.mux(count.q() - 1, count).named("end_place");
     let places: Vec<_> =
         (0..depth).map(|i| Registers::new(&m, &format!("place{i}"), parts.to_vec())).collect();
     for (i, place) in places.iter().enumerate() {
-        let enters = (push & end.eq(i as i32)).named(&format!("enters{i}"));
+        let is_end = end.eq(i as i32).named(&format!("end_is_place{i}"));
         if let Some(behind) = places.get(i + 1) {
             place.load(pop, |f| behind[f].q());
         }
-        place.load(enters, |f| token[f]);
+        place.load(is_end, |f| token[f]);
     }
 
     m.output("in_ready", in_ready);

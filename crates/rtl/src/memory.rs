@@ -1,10 +1,10 @@
-//! MEMORY: depth and frame behind the channels of DEPTH, for benches and for a first synthesis.
+//! MEMORY: depth and frame behind the channels of the machine, for benches and for a first synthesis.
 
 use std::sync::Arc;
 
-use edgewalk_machine::Plan;
 use edgewalk_machine::units::tokens;
-use edgewalk_netlist::{BuildErrors, Module, Netlist};
+use edgewalk_machine::{Field, Plan};
+use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg, Signal};
 
 use crate::wires::{Token, parts};
 
@@ -18,61 +18,83 @@ Timing: a depth is at data `latency` cycles after its read, and waits there unti
 Rules: a read in the cycle of a write sees the old word. Writes are always taken.
 Not modelled: banks, bursts, refresh.";
 
+const BLEND_DOC: &str = "MEMORY holds the depths and the picture, a word a pixel, behind the channels of DEPTH and BLEND.
+
+  rd (address) ─> [depths] ─> [1] ─> … ─> [latency] ─> data
+  zwr ──────────────┘
+  crd (address) ─> [frame] ─> [1] ─> … ─> [latency] ─> cdata
+  cwr ──────────────┘    └──> scan (address in, colour and extra channels in the next cycle)
+
+Timing: a word is at data or cdata `latency` cycles after its read, each has its own, and waits there until it is taken.
+Rules: a read in the cycle of a write sees the old word. Writes are always taken.
+Not modelled: banks, bursts, refresh.";
+
 /// The netlist of a memory of 2^(xb+yb) pixels. At the start every depth is `clear_z` and every other channel 0.
 ///
 /// # Errors
 /// A `clear_z` that is no depth of this machine.
 pub fn memory(plan: &Plan, clear_z: u64) -> Result<Arc<Netlist>, BuildErrors> {
-    let m = Module::new("edgewalk_memory", DOC);
-    let mut written = parts(&tokens::write(plan));
-    written.retain(|f| f.name != "tag");
-    let rd_valid = m.input("rd_valid", 1);
-    let rd_addr = m.input("rd_addr", plan.widths().address);
-    let data_ready = m.input("data_ready", 1);
-    let wr_valid = m.input("wr_valid", 1);
-    let wr = Token::inputs(&m, "wr", written);
+    let blends = plan.blend.is_there();
+    let m = Module::new("edgewalk_memory", if blends { BLEND_DOC } else { DOC });
+    let stored = |fields: Vec<Field>| {
+        let mut stored = parts(&fields);
+        stored.retain(|f| f.name != "tag");
+        stored
+    };
+    let read = ReadPort::new(&m, plan, ["rd", "data"]);
+    let color_read = blends.then(|| ReadPort::new(&m, plan, ["crd", "cdata"]));
+    let write = |link: &str, fields: Vec<Field>| {
+        (m.input(&format!("{link}_valid"), 1), Token::inputs(&m, link, stored(fields)))
+    };
+    let ((wr_valid, wr), depth_write) = if blends {
+        let zwr = write("zwr", tokens::depth_write(plan));
+        (write("cwr", tokens::color_write(plan)), Some(zwr))
+    } else {
+        (write("wr", tokens::write(plan)), None)
+    };
     let scan_addr = m.input_doc("scan_addr", plan.widths().address, "of the pixel to show");
 
     m.comment("The way of a depth: each stage moves on when the next is free or moves on itself.");
-    let valid: Vec<_> = (1..=plan.latency)
-        .map(|i| m.reg(&format!("valid{i}"), 1).doc(&format!("stage {i} holds a depth")).reset(0))
-        .collect();
-    let mut moves = Vec::new();
-    let mut next_moves = data_ready;
-    for (i, valid) in valid.iter().enumerate().rev() {
-        next_moves = (!valid.q() | next_moves).named(&format!("moves{}", i + 1));
-        moves.push(next_moves);
-    }
-    moves.reverse();
-    let rd_ready = moves[0];
-
+    let way = Way::new(&m, plan.latency, read.data_ready, "", "depth");
     let (address, words) = (plan.widths().address, 1 << plan.widths().address);
     let depths = m.memory("depths", address, words, plan.z.bits, clear_z.into()).doc("depth of each pixel");
-    let depths = depths.write((wr_valid & wr["z_en"]).named("write_z"), wr["addr"], wr["z"]);
-    let mut depth = depths.read((rd_valid & rd_ready).named("read"), rd_addr);
-    valid[0].when(moves[0], rd_valid);
-    for i in 1..valid.len() {
-        valid[i].when(moves[i], valid[i - 1]);
-        depth = m.reg(&format!("depth{}", i + 1), plan.z.bits).when(moves[i], depth).q();
-    }
+    let depths = match &depth_write {
+        None => depths.write((wr_valid & wr["z_en"]).named("write_z"), wr["addr"], wr["z"]),
+        Some((valid, zwr)) => depths.write(*valid, zwr["addr"], zwr["z"]),
+    };
+    let depth = depths.read((read.valid & way.ready).named("read"), read.addr);
+    let depth = way.word(&m, read.valid, depth);
 
     m.comment("The picture.");
     let always = m.lit(1, 1);
-    let color = m.cat(&[wr["r"], wr["g"], wr["b"]]);
+    let color = if blends { wr["rgb"] } else { m.cat(&[wr["r"], wr["g"], wr["b"]]) };
     let frame = m.memory("frame", address, words, color.width(), 0).doc("red, green and blue of each pixel");
-    let shown = frame.write(wr_valid, wr["addr"], color).read(always, scan_addr);
-    let extras = plan.channels().iter().filter(|channel| !["z", "r", "g", "b"].contains(&channel.name));
-    let extras = extras.map(|channel| {
+    let frame = frame.write(wr_valid, wr["addr"], color);
+    let shown = frame.read(always, scan_addr);
+    let color_way = color_read.map(|read| {
+        let way = Way::new(&m, plan.blend.latency, read.data_ready, "color_", "color");
+        let old = frame.read((read.valid & way.ready).named("read_color"), read.addr);
+        let old = way.word(&m, read.valid, old);
+        (way, old)
+    });
+    let extras = plan.own_channels().map(|(_, channel)| {
         let words = m.memory(&format!("frame_{}", channel.name), address, words, channel.bits, 0);
         let words = words.doc(&format!("{} of each pixel", channel.name));
         (channel.name, words.write(wr_valid, wr["addr"], wr[channel.name]).read(always, scan_addr))
     });
     let extras: Vec<_> = extras.collect();
 
-    m.output("rd_ready", rd_ready);
-    m.output("data_valid", valid[valid.len() - 1]);
+    m.output("rd_ready", way.ready);
+    m.output("data_valid", way.at_end());
     m.output("data_z", depth);
-    m.output("wr_ready", m.lit(1, 1));
+    for link in if blends { ["zwr", "cwr"].as_slice() } else { &["wr"] } {
+        m.output(&format!("{link}_ready"), m.lit(1, 1));
+    }
+    if let Some((way, old)) = color_way {
+        m.output("crd_ready", way.ready);
+        m.output("cdata_valid", way.at_end());
+        m.output("cdata_rgb", old);
+    }
     let bits = plan.color.bits;
     for (i, name) in ["b", "g", "r"].into_iter().enumerate() {
         let low = i as u32 * bits;
@@ -82,4 +104,64 @@ pub fn memory(plan: &Plan, clear_z: u64) -> Result<Arc<Netlist>, BuildErrors> {
         m.output(&format!("scan_{name}"), shown);
     }
     m.finish()
+}
+
+/// What asks for words.
+struct ReadPort<'m> {
+    valid: Signal<'m>,
+    addr: Signal<'m>,
+    data_ready: Signal<'m>,
+}
+
+impl<'m> ReadPort<'m> {
+    fn new(m: &'m Module, plan: &Plan, [read, data]: [&str; 2]) -> ReadPort<'m> {
+        ReadPort {
+            valid: m.input(&format!("{read}_valid"), 1),
+            addr: m.input(&format!("{read}_addr"), plan.widths().address),
+            data_ready: m.input(&format!("{data}_ready"), 1),
+        }
+    }
+}
+
+/// The stages of a word that was read.
+struct Way<'m> {
+    valid: Vec<Reg<'m>>,
+    moves: Vec<Signal<'m>>,
+    /// The first takes a word.
+    ready: Signal<'m>,
+    word: &'static str,
+}
+
+impl<'m> Way<'m> {
+    /// Of so many stages; the last gives its word when that is taken.
+    fn new(m: &'m Module, stages: u32, data_ready: Signal<'m>, prefix: &str, word: &'static str) -> Way<'m> {
+        let stage =
+            |i| m.reg(&format!("{prefix}valid{i}"), 1).doc(&format!("stage {i} holds a {word}")).reset(0);
+        let valid: Vec<_> = (1..=stages).map(stage).collect();
+        let mut moves = Vec::new();
+        let mut ready = data_ready;
+        for (i, valid) in valid.iter().enumerate().rev() {
+            ready = (!valid.q() | ready).named(&format!("{prefix}moves{}", i + 1));
+            moves.push(ready);
+        }
+        moves.reverse();
+        Way { valid, moves, ready, word }
+    }
+
+    /// The word that came from the memory, at the end.
+    fn word(&self, m: &'m Module, read_valid: Signal<'m>, from_memory: Signal<'m>) -> Signal<'m> {
+        self.valid[0].when(self.moves[0], read_valid);
+        let mut word = from_memory;
+        for i in 1..self.valid.len() {
+            self.valid[i].when(self.moves[i], self.valid[i - 1]);
+            let name = format!("{}{}", self.word, i + 1);
+            word = m.reg(&name, word.width()).when(self.moves[i], word).q();
+        }
+        word
+    }
+
+    /// A word is there.
+    fn at_end(&self) -> Reg<'m> {
+        self.valid[self.valid.len() - 1]
+    }
 }

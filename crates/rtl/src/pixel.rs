@@ -49,7 +49,8 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let fence = m.reg("fence", 1).doc("for the next fragment");
     let phase = Phase::new(&m, plan.clocks_per_pixel());
     let last_phase = phase.as_ref().map_or(m.lit(1, 1), |phase| phase.last);
-    let finish = (active.q() & last_phase & count.q().eq(1)).named_doc("finish", "last clock of the span");
+    let last = m.reg("last", 1).doc("count is 1");
+    let finish = (active.q() & last_phase & last.q()).named_doc("finish", "last clock of the span");
     let span_ready = (advance & (!active.q() | finish)).named("span_ready");
     let load = (span_valid & span_ready).named("load");
     let visible =
@@ -64,12 +65,17 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     }
     x.when(next, leftward.q().mux(x.q() - 1, x.q() + 1)).when(load, span["x"]);
     count.when(next, count.q() - 1).when(load, span["count"]);
+    last.when(next, count.q().eq(2)).when(load, span["count"].eq(1));
     y.when(load, span["y"]);
     leftward.when(load, span["leftward"]);
     fence.when(advance & emit, 0).when(load, span["fence"]);
     let tag =
         Registers::new(&m, "drawn", span.parts().into_iter().filter(|part| part.name == "tag").collect());
     tag.load(load, |f| span[f]);
+    let kt = plan.has_triangle_kt().then(|| {
+        let kt = increments["kt"];
+        m.reg("kt", kt.width()).doc("of the triangle").when(load & span["fresh"], kt)
+    });
 
     m.comment("The additions.");
     let add = match &phase {
@@ -102,6 +108,7 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
                 (Some(bits), None, _) | (None, Some(bits), _) => Some(bits),
                 (None, None, "addr") => Some(address),
                 (None, None, "fence") => Some(fence.q()),
+                (None, None, "kt") => kt.map(Reg::q),
                 (None, None, own) => tag.get(own).map(Reg::q),
             };
             signal.map(|signal| (f, signal))

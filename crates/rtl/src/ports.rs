@@ -59,6 +59,11 @@ impl<'m> Interface<'m> {
         self.m.input(&format!("{}_ready", link.name), 1)
     }
 
+    /// Ready of another link that leads to a memory.
+    pub fn writes_ready(&self, name: &str) -> Signal<'m> {
+        self.m.input(&format!("{}_ready", self.writes_link(name).name), 1)
+    }
+
     /// An input that holds one value over a run.
     pub fn constant(&self, name: &str) -> Signal<'m> {
         self.input(declared(self.ports.constants.iter().find(|field| field.name == name), name))
@@ -77,6 +82,10 @@ impl<'m> Interface<'m> {
     /// The link it gives to.
     pub fn gives_link(&self) -> &Link {
         declared(self.ports.gives.as_ref(), "a link to give to")
+    }
+
+    fn writes_link(&self, name: &str) -> &Link {
+        declared(self.ports.writes.iter().find(|link| link.name == name), name)
     }
 
     /// A memory behind it.
@@ -101,6 +110,13 @@ impl<'m> Interface<'m> {
     /// Valid and token of the link it gives to.
     pub fn give(&self, valid: impl Operand<'m>, field: impl Fn(&str) -> Signal<'m>) {
         let link = self.gives_link();
+        self.m.output(&format!("{}_valid", link.name), valid);
+        Token::new(parts(&link.fields), field).output(self.m, link.name);
+    }
+
+    /// The same of another link that leads to a memory.
+    pub fn write(&self, name: &str, valid: impl Operand<'m>, field: impl Fn(&str) -> Signal<'m>) {
+        let link = self.writes_link(name);
         self.m.output(&format!("{}_valid", link.name), valid);
         Token::new(parts(&link.fields), field).output(self.m, link.name);
     }

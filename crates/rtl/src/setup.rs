@@ -67,8 +67,10 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let mut kept = parts(&ports.gives_link().fields);
     kept.retain(|f| !computed(&f.name));
     let prim = Registers::new(&m, "prim", kept);
-    if let Some(tag) = triangle.get("tag") {
-        prim["tag"].when(control.take, tag);
+    for name in ["kt", "tag"] {
+        if let (Some(register), Some(value)) = (prim.get(name), triangle.get(name)) {
+            register.when(control.take, value);
+        }
     }
     let area = Area::new(&m, plan, &control, &vertices);
     let lines = Lines::new(&m, plan, &control, &vertices, &prim, &area);

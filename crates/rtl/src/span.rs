@@ -8,14 +8,15 @@ use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
 use crate::fifo::fifo;
 use crate::ports::Interface;
-use crate::wires::{Token, parts};
+use crate::wires::{Registers, Token, parts};
 
 const DOC: &str = "SPAN cuts a line to the screen and queues what is left of it.
 
-  line ─> [end cut to the screen] ─> empty? ─no─> [FIFO] ─> span
-                                        └─yes─> dropped; its flags wait for the next span
+  line ─> [end cut to the screen] ─> held ─> empty? ─no─> [FIFO] ─> span
+                                               └─yes─> dropped; its flags wait for the next span
 
-Timing: a line that is not empty is a span in the next cycle at the earliest; an empty one costs its cycle only.
+Timing: a line is taken while none is held, or the queue has room for the one that is; a span is seen two cycles after its line
+was taken at the earliest. An empty line takes its turn like any other.
 Rules: the span is cut on the side where it ends. What lies off the screen on the side where it starts is stepped over
 by PIXEL, as the channels must be stepped there too.";
 
@@ -29,89 +30,104 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let (line_valid, line) = ports.takes();
     let span_ready = ports.gives_ready();
 
-    let cut = match plan.fill {
-        Fill::Exact => cut_exact(&m, plan, &line),
-        Fill::Textbook => cut_textbook(&m, plan, &line),
+    let ends = match plan.fill {
+        Fill::Exact => ends_exact(&m, plan, &line),
+        Fill::Textbook => ends_textbook(&m, plan, &line),
+    };
+
+    m.comment("The line held, cut where it ends.");
+    let fields = parts(&tokens::span(plan));
+    let queue = fifo("edgewalk_span_fifo", plan.span_fifo, &fields)?;
+    let queue = m.instance("queue", &queue);
+    let room = queue.output("in_ready");
+    let line_held = m.reg("line_held", 1).doc("a line stands before the queue").reset(0);
+    let line_ready = (!line_held.q() | room).named("line_ready");
+    let take = (line_valid & line_ready).named("take");
+    let moves = (line_held.q() & room).named_doc("moves", "the line held is queued or dropped");
+    line_held.when(moves, 0).when(take, 1);
+    let as_it_is: Vec<_> =
+        fields.iter().filter(|f| !matches!(f.name.as_str(), "x" | "count" | "leftward")).cloned().collect();
+    let held = Registers::new(&m, "held", as_it_is);
+    held.load(take, |f| line[f]);
+    let [first, end] = ["first", "end"].map(|name| m.reg(&format!("held_{name}"), ends.first.width()));
+    let first = first.doc("signed, first column").when(take, ends.first).q();
+    let end = end.doc("signed, the column behind the last").when(take, ends.end).q();
+    let off = m.reg("held_off", 1).doc("the line ends where no screen is").when(take, ends.off).q();
+    let leftward = match plan.fill {
+        Fill::Exact => {
+            m.reg("held_leftward", 1).doc("drawn from its last column").when(take, line["major_right"]).q()
+        }
+        Fill::Textbook => m.lit(1, 0),
     };
 
     m.comment("Flags of dropped lines wait for the next span.");
     let pend_fresh = m.reg("pend_fresh", 1).doc("fresh of dropped lines").reset(0);
     let pend_fence = m.reg("pend_fence", 1).doc("fence of dropped lines").reset(0);
-    let fresh = (line["fresh"] | pend_fresh).named("fresh");
-    let fence = (line["fence"] | pend_fence).named("fence");
+    let fresh = (held["fresh"].q() | pend_fresh).named("fresh");
+    let fence = (held["fence"].q() | pend_fence).named("fence");
+    let empty = (off | end.sle(first)).named("empty");
+    pend_fresh.when(moves, empty & fresh);
+    pend_fence.when(moves, empty & fence);
 
     m.comment("The queue.");
-    let fields = parts(&tokens::span(plan));
-    let queue = fifo("edgewalk_span_fifo", plan.span_fifo, &fields)?;
-    let queue = m.instance("queue", &queue);
-    let line_ready = (cut.empty | queue.output("in_ready")).named("line_ready");
-    let taken = (line_valid & line_ready).named("taken");
-    let push = (taken & !cut.empty).named("push");
-    pend_fresh.when(taken, cut.empty & fresh);
-    pend_fence.when(taken, cut.empty & fence);
+    let push = (moves & !empty).named("push");
     let token = Token::new(fields.clone(), |f| match f {
-        "x" => cut.x,
-        "count" => cut.count,
-        "leftward" => cut.leftward,
+        "x" => leftward.mux(end - 1, first),
+        "count" => end - first,
+        "leftward" => leftward,
         "fresh" => fresh,
         "fence" => fence,
-        same => line[same],
+        same => held[same].q(),
     });
     token.connect(queue.connect("in_valid", push).connect("out_ready", span_ready), "in", &fields);
     let span = Token::of_instance(queue, "out", fields);
     let span_valid = queue.output("out_valid");
 
-    m.comment("While a triangle's first span is queued, EDGE must keep the increments of the triangle.");
-    let fresh_queued = m.reg("fresh_queued", 1).doc("the first span of a triangle is queued").reset(0);
-    fresh_queued.when(span_valid & span_ready & span["fresh"], 0).when(push & fresh, 1);
+    m.comment("While a triangle's first span is queued, or may come of the line held, EDGE must keep its increments.");
+    let fresh_in_queue = m.reg("fresh_in_queue", 1).doc("the first span of a triangle is queued").reset(0);
+    fresh_in_queue.when(span_valid & span_ready & span["fresh"], 0).when(push & fresh, 1);
+    let fresh_queued = fresh_in_queue.q() | (line_held.q() & fresh);
 
     ports.take_ready(line_ready);
     ports.give(span_valid, |f| span[f]);
     ports.status("fresh_queued", fresh_queued);
+    ports.status("line_held", line_held);
     m.finish()
 }
 
-/// A line cut to the screen.
-struct Cut<'m> {
-    empty: Signal<'m>,
-    x: Signal<'m>,
-    count: Signal<'m>,
-    leftward: Signal<'m>,
+/// The ends of a line from left to right, the one where its span ends cut to the screen.
+struct Ends<'m> {
+    /// First column.
+    first: Signal<'m>,
+    /// The column behind the last.
+    end: Signal<'m>,
+    /// The end before its cut lies on the far side of the screen: no column is on it.
+    off: Signal<'m>,
 }
 
 /// Half-open spans from the major edge inwards, to the right or to the left.
-fn cut_exact<'m>(m: &'m Module, plan: &Plan, line: &Token<'m>) -> Cut<'m> {
+fn ends_exact<'m>(m: &'m Module, plan: &Plan, line: &Token<'m>) -> Ends<'m> {
     let (cmaj, cmin, width) = (line["cmaj"], line["cmin"], plan.width as i32);
-    m.comment("To the right: from cmaj to before cmin, at most to the end of the screen.");
-    let end_right =
-        cmin.slt(width).mux(cmin, width).named_doc("end_right", "signed, first column after the span");
-    let none_right = (end_right.sle(cmaj) | cmin.sle(0)).named("none_right");
-    m.comment("To the left: from before cmaj to cmin, at least to column 0.");
-    let last_left = (cmaj - 1).named_doc("last_left", "signed, last column left of the major edge");
-    let end_left = cmin.sgt(0).mux(cmin, 0).named_doc("end_left", "signed, last column of the span");
-    let none_left = (last_left.slt(end_left) | cmin.sge(width)).named("none_left");
+    m.comment("To the right from cmaj to before cmin, at most to the end of the screen; to the left to cmin, at least to column 0.");
+    let beyond = cmin.sge(width).named_doc("right_of_screen", "no column of the screen lies right of cmin");
+    let before = cmin.sle(0).named_doc("left_of_screen", "no column of the screen lies left of cmin");
     let leftward = line["major_right"];
-    Cut {
-        empty: leftward.mux(none_left, none_right).named("empty"),
-        x: leftward.mux(last_left, cmaj).named("x"),
-        // end − x, or x − end + 1 = cmaj − end.
-        count: (leftward.mux(cmaj, end_right) - leftward.mux(end_left, cmaj)).named_doc("count", "columns"),
-        leftward,
+    Ends {
+        first: leftward.mux(before.mux(0, cmin), cmaj).named("first"),
+        end: leftward.mux(cmaj, beyond.mux(width, cmin)).named("end_cut"),
+        off: leftward.mux(beyond, before).named("off"),
     }
 }
 
 /// Spans with both ends, always to the right: a column stands one right of `Trunc(X)`.
-fn cut_textbook<'m>(m: &'m Module, plan: &Plan, line: &Token<'m>) -> Cut<'m> {
+fn ends_textbook<'m>(m: &'m Module, plan: &Plan, line: &Token<'m>) -> Ends<'m> {
     let (cmaj, cmin, major_right) = (line["cmaj"], line["cmin"], line["major_right"]);
     let width = plan.width as i32;
     m.comment("From Trunc(X) of the left edge to Trunc(X) of the right edge, both drawn; a column register is Trunc(X) + 1.");
-    let x = (major_right.mux(cmin, cmaj) - 1).named("x");
     let xe = major_right.mux(cmaj, cmin).named_doc("xe", "signed, first column after the line");
-    let end = xe.slt(width).mux(xe, width).named_doc("end_cut", "signed, first column after the span");
-    Cut {
-        empty: (end.sle(x) | xe.sle(0)).named("empty"),
-        x,
-        count: (end - x).named_doc("count", "columns"),
-        leftward: m.lit(1, 0),
+    Ends {
+        first: (major_right.mux(cmin, cmaj) - 1).named("first"),
+        end: xe.slt(width).mux(xe, width).named_doc("end_cut", "signed, first column after the span"),
+        off: xe.sle(0).named("off"),
     }
 }

@@ -1,4 +1,4 @@
-// Depth memory: a read sees the word before a write of its own cycle; its data is offered, in order, LATENCY cycles
+// A memory: a read sees the word before a write of its own cycle; its data is offered, in order, LATENCY cycles
 // later, or in the next cycle in which the bench is willing, and then held until it is taken.
 `timescale 1ns / 1ps
 `default_nettype none

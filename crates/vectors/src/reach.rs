@@ -26,10 +26,16 @@ pub fn not_covered<'a>(runs: impl IntoIterator<Item = &'a Reached>) -> Vec<&'sta
 }
 
 /// What the machine can meet, the state of the picture may rule out: depths that are not written are not waited for and
-/// not passed on.
+/// not passed on, nor are colours, and what is added takes its pixel's colour always.
 fn possible(trace: &Trace, name: &str) -> bool {
     let state = &trace.state;
+    let blends = state.color_write && state.depth_func != 0;
     match name {
+        "opaque" | "opaque_behind" | "behind_opaque" => blends && !state.blend_add,
+        "depth_first" | "color_first" => blends && state.depth_write,
+        "depth_write_waits" => state.depth_write && state.depth_func != 0,
+        "fence_handed_on" => blends && state.depth_func != 7,
+        name if name.starts_with("color_") => blends,
         "interlock_stall" => state.depth_write,
         "forward_write" | "forward_used" | "forward_compare" => state.depth_write && state.depth_func != 0,
         "depth_fail" => state.depth_func != 7,

@@ -30,11 +30,11 @@ pub struct Args {
     /// Takes this many triangles of the input, spread over it evenly; all of them if left out
     #[arg(long, requires = "input", value_parser = clap::value_parser!(u64).range(1..))]
     triangles: Option<u64>,
-    /// Suites: hazards, corners, random, sphere, depth_never to depth_always, depth_unwritten; without an input all of them if
-    /// left out
+    /// Suites: hazards, corners, random, sphere, depth_never to depth_always, depth_unwritten, with BLEND blend_add and
+    /// color_unwritten; without an input all of them if left out
     #[arg(long, value_name = "NAME")]
     suite: Vec<String>,
-    /// Units: machine, setup, edge, span, pixel, depth; all that a suite is for if left out
+    /// Units: machine, setup, edge, span, pixel, depth, blend; all that a suite is for if left out
     #[arg(long, value_name = "NAME", value_parser = unit)]
     unit: Vec<Unit>,
     /// How the bench makes the design wait: none, mixed, late; what suits each suite if left out
@@ -79,7 +79,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         None => (machine.machine(None)?, None),
     };
     let names: Vec<&str> = match (&args.input, args.suite.is_empty()) {
-        (None, true) => SUITES.iter().map(|suite| suite.name).collect(),
+        (None, true) => {
+            SUITES.iter().filter(|suite| suite.is_for(&machine)).map(|suite| suite.name).collect()
+        }
         _ => args.suite.iter().map(String::as_str).collect(),
     };
     let named = names.iter().map(|name| {
@@ -116,6 +118,8 @@ pub fn of_input(input: &str, port: &PortFrame, triangles: Option<u64>) -> Result
     Ok(Suite {
         depth_func: state.depth_func,
         depth_write: state.depth_write,
+        color_write: state.color_write,
+        blend_add: state.blend_add,
         ..Suite::of_triangles(&name, input, triangles)
     })
 }
@@ -125,13 +129,14 @@ pub fn directed(machine: &Plan) -> Result<Vec<Suite>> {
     named(machine, |name| ["hazards", "corners"].contains(&name))
 }
 
-/// The suites of the depth functions.
+/// The suites of the depth functions, and those of BLEND where it is.
 pub fn functions(machine: &Plan) -> Result<Vec<Suite>> {
-    named(machine, |name| name.starts_with("depth_"))
+    named(machine, |name| ["depth_", "blend_", "color_"].iter().any(|kind| name.starts_with(kind)))
 }
 
 fn named(machine: &Plan, wanted: impl Fn(&str) -> bool) -> Result<Vec<Suite>> {
-    let names = SUITES.iter().map(|suite| suite.name).filter(|name| wanted(name));
+    let listed = SUITES.iter().filter(|suite| suite.is_for(machine));
+    let names = listed.map(|suite| suite.name).filter(|name| wanted(name));
     names.map(|name| Suite::named(machine, name, 1, 0).map_err(|e| anyhow!("{e}"))).collect()
 }
 

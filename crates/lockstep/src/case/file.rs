@@ -57,6 +57,10 @@ fn number<T: TryFrom<i64>>(key: &str, value: &Value) -> Result<T, CaseError> {
     number.ok_or_else(|| wrong(key, "a number in range is wanted"))
 }
 
+fn flag(key: &str, value: &Value) -> Result<bool, CaseError> {
+    value.as_bool().ok_or_else(|| wrong(key, "true or false is wanted"))
+}
+
 fn list<'a>(key: &str, value: &'a Value) -> Result<&'a [Value], CaseError> {
     value.as_array().map(Vec::as_slice).ok_or_else(|| wrong(key, "a list is wanted"))
 }
@@ -79,10 +83,9 @@ impl Case {
                 "about" => case.about = text(key, value)?,
                 "fault" => case.fault = Some(text(key, value)?),
                 "depth_func" => case.depth_func = number(key, value)?,
-                "depth_write" => {
-                    case.depth_write =
-                        value.as_bool().ok_or_else(|| wrong(key, "true or false is wanted"))?;
-                }
+                "depth_write" => case.depth_write = flag(key, value)?,
+                "color_write" => case.color_write = flag(key, value)?,
+                "blend_add" => case.blend_add = flag(key, value)?,
                 "clear_z" => case.clear_z = Some(number(key, value)?),
                 "late" => case.late = number(key, value)?,
                 "disturbed" => case.disturbed = number(key, value)?,
@@ -129,6 +132,8 @@ impl Case {
         let whole = |number: u64| Value::from(number as i64); // seeds and cycles have at most 63 bits
         line("depth_func", whole(self.depth_func.into()), whole(usual.depth_func.into()));
         line("depth_write", self.depth_write.into(), usual.depth_write.into());
+        line("color_write", self.color_write.into(), usual.color_write.into());
+        line("blend_add", self.blend_add.into(), usual.blend_add.into());
         if let Some(fault) = &self.fault {
             line("fault", fault.as_str().into(), Value::from(""));
         }

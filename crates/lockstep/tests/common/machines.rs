@@ -1,14 +1,19 @@
 //! Machines drawn at random from the keys, small enough for an interpreter.
 
 use edgewalk_machine::keys::{Domain, KEYS};
-use edgewalk_machine::{Fill, Machine, Plan, Precision};
+use edgewalk_machine::{BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision};
 use rand::Rng;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
 
 /// Keys that take less than their domain: screens that an interpreter fills, queues that get full.
-const NARROW: &[(&str, u32, u32)] =
-    &[("screen.width", 1, 20), ("screen.height", 1, 20), ("fifo.span", 1, 4), ("fifo.inflight", 1, 6)];
+const NARROW: &[(&str, u32, u32)] = &[
+    ("screen.width", 1, 20),
+    ("screen.height", 1, 20),
+    ("fifo.span", 1, 4),
+    ("fifo.inflight", 1, 6),
+    ("fifo.blend", 1, 6),
+];
 
 /// A machine that can be built. Every key takes all kinds of values, so a new key is drawn without a word here.
 pub fn random_machine(rng: &mut Pcg64Mcg) -> Plan {
@@ -21,8 +26,7 @@ pub fn random_machine(rng: &mut Pcg64Mcg) -> Plan {
 
 fn draw(rng: &mut Pcg64Mcg) -> Machine {
     let mut machine = Machine::default();
-    // BLEND has no netlist yet.
-    for key in KEYS.iter().filter(|key| key.absent.is_none()) {
+    for key in KEYS {
         let narrow = NARROW.iter().find(|(name, ..)| *name == key.name);
         let domain = narrow.map_or(key.domain, |(_, low, high)| Domain::Range(*low, *high));
         let value = match domain {
@@ -43,6 +47,10 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     within(&mut machine.z);
     within(&mut machine.color);
     machine.extras.iter_mut().for_each(|extra| within(&mut extra.precision));
-    machine.adders = machine.adders.min(4 + machine.extra);
+    let kt = &mut machine.blend;
+    kt.kt_vertex = kt.kt_vertex.min(kt.kt_fraction);
+    let interpolated = u32::from(kt.kind == BlendKind::Interpolated);
+    machine.extra = machine.extra.min(MAX_CHANNELS as u32 - 4 - interpolated);
+    machine.adders = machine.adders.min(4 + machine.extra + interpolated);
     machine
 }

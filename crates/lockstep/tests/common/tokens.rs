@@ -3,6 +3,7 @@
 use super::triangles::random_triangle;
 use edgewalk_lockstep::{Direction, Interface, Port, Rig, Setting, Token, Triangles, Unit, model};
 use edgewalk_machine::{Fill, Plan};
+use rand::seq::IndexedRandom;
 use rand::{Rng, RngCore};
 use rand_pcg::Pcg64Mcg;
 
@@ -56,6 +57,9 @@ fn prims(plan: &Plan, count: usize, rng: &mut Pcg64Mcg) -> Vec<Token> {
 fn token(plan: &Plan, fields: &[Port], rng: &mut Pcg64Mcg) -> Token {
     let (width, height) = (i128::from(plan.width), i128::from(plan.height));
     let fresh = rng.random_bool(0.3);
+    // kt: 0, 1, more than 1, or anything.
+    let one = 1i128 << plan.blend.kt_bits;
+    let kts = [0, one, one + rng.random_range(0..one), rng.random_range(0..one), rng.random_range(0..one)];
     let value = |port: &Port| {
         let random = u128::from(rng.next_u64()) << 64 | u128::from(rng.next_u64());
         let number = match port.name.as_str() {
@@ -65,9 +69,10 @@ fn token(plan: &Plan, fields: &[Port], rng: &mut Pcg64Mcg) -> Token {
             "line_y" | "span_y" => rng.random_range(0..height),
             "line_fresh" => fresh.into(),
             "line_fence" => (fresh || plan.fill == Fill::Textbook && rng.random_bool(0.2)).into(),
-            "frag_addr" => rng.random_range(0..3.min(1 << plan.widths().address)),
+            "frag_addr" | "pass_addr" => rng.random_range(0..3.min(1 << plan.widths().address)),
             "frag_z" => rng.random_range(0..=few(plan)).into(),
-            "frag_fence" => rng.random_bool(0.3).into(),
+            "pass_kt" => *kts.choose(rng).expect("some"),
+            "frag_fence" | "pass_fence" => rng.random_bool(0.3).into(),
             _ => random as i128,
         };
         number as u128 & (u128::MAX >> (128 - port.width()))

@@ -2,6 +2,7 @@
 
 use edgewalk_machine::{Plan, PortVertex};
 use rand::Rng;
+use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
 
 /// x, y and values of a vertex at the port.
@@ -49,7 +50,7 @@ pub fn after_it(plan: &Plan, rng: &mut Pcg64Mcg, triangle: &[PortVertex; 3]) -> 
     one_pixel(plan, rng, end.0.div_euclid(unit), end.1.div_euclid(unit) - 1)
 }
 
-/// A value for every channel: often the largest or the smallest that it holds. Between such vertices the words of a
+/// A value for every channel, and for a k_t of the triangle's: often the largest or the smallest that it holds. Between such vertices the words of a
 /// signed channel wrap, as each half of their range lies beside the other.
 fn values(plan: &Plan, rng: &mut Pcg64Mcg) -> Vec<i64> {
     let value = |channel: &edgewalk_machine::Channel| {
@@ -61,7 +62,13 @@ fn values(plan: &Plan, rng: &mut Pcg64Mcg) -> Vec<i64> {
             _ => rng.random_range(least..=most),
         }
     };
-    plan.channels().iter().map(value).collect()
+    let mut values: Vec<i64> = plan.channels().iter().map(value).collect();
+    if plan.has_triangle_kt() {
+        let one = 1i64 << plan.blend.kt_bits;
+        let kts = [0, one, rng.random_range(0..=one), rng.random_range(0..=one)];
+        values.extend(kts.choose(rng));
+    }
+    values
 }
 
 /// Now and then: equal heights, whole pixels, centres, no area, equal corners.

@@ -1,7 +1,7 @@
 //! SPAN: from lines to the pixels of a line.
 
 use super::{always, tokens};
-use crate::link::{Link, Ready, Status};
+use crate::link::{Link, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::unit::{Event, Ports, UnitSpec};
@@ -18,12 +18,16 @@ pub const SPEC: UnitSpec = UnitSpec {
 };
 
 fn ports(plan: &Plan) -> Ports {
-    // Whether a line is empty, and therefore taken, is asked of lines only.
-    let line = Link { ready: Ready::WhileValid, ..Link::new("line", tokens::line(plan)) };
     Ports {
-        takes: Some(line),
+        takes: Some(Link::new("line", tokens::line(plan))),
         gives: Some(Link::new("span", tokens::span(plan))),
-        status: vec![Status::new("fresh_queued", "the first span of a triangle is queued")],
+        status: vec![
+            Status::new(
+                "fresh_queued",
+                "the first span of a triangle is queued, or may come of the line held",
+            ),
+            Status::new("line_held", "a line stands before the queue"),
+        ],
         ..Ports::default()
     }
 }
@@ -33,11 +37,6 @@ const EVENTS: &[Event] = &[
     Event {
         name: "dropped_fresh",
         doc: "lines without a pixel that passed on the mark of a triangle's first line",
-        can_happen: always,
-    },
-    Event {
-        name: "dropped_when_full",
-        doc: "lines without a pixel, dropped while the span FIFO was full",
         can_happen: always,
     },
     Event {

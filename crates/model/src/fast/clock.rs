@@ -2,13 +2,14 @@
 //!
 //! ```text
 //!  SETUP            EDGE               SPAN FIFO            PIXEL                 DEPTH
-//!  a ─S1,S2─> prim p ─> line, one ─push u─> room for F ─pop o─> count·T clocks ─D─> read r ─L─> compare
+//!  a ─S1,S2─> prim p ─> line, held ─move m─> room for F ─pop o─> count·T clocks ─D─> read r ─L─> compare
 //! ```
 //! Every time is the greatest of what it waits for (max-plus), section by section of `docs/machine.md`:
 //! - 2: `a' = p + 1`, or `a + S1 + 1` if culled; `p = max(a + S1 + S2 + 1, EDGE free, first span popped + 1)`;
-//! - 3, 4: a line leaves EDGE a clock after the one before, span k not before `o(k−F) + 1`, the cycle in which the
+//! - 3, 4: a line leaves EDGE a clock after the one before, `l`, and in the cycle in which that one moves on from SPAN's register;
+//!   it moves in `m >= l + 1`, span k and what lies between it and span k − 1 not before `o(k−F) + 1`, the cycle in which the
 //!   registered FIFO shows the room;
-//! - 4, 5: `o(k) = max(u(k) + 1, o(k−1) + count·T)`: the registered FIFO shows the token; PIXEL takes it in its last clock;
+//! - 4, 5: `o(k) = max(m(k) + 1, o(k−1) + count·T)`: the registered FIFO shows the token; PIXEL takes it in its last clock;
 //! - 5, 6: a fragment is read D cycles after its last clock, `r`; it is in the queue until `r + L`, and w holds it in
 //!   `r + L + 1` if it passed.
 //!
@@ -69,7 +70,11 @@ pub(super) struct Clock {
     /// EDGE takes a prim not before.
     edge_free: u64,
     /// EDGE offers the next line from this cycle on.
-    line: u64,
+    offer: u64,
+    /// The cycle after the last line has moved on from SPAN's register.
+    moved: u64,
+    /// No span of the triangle has come yet.
+    fresh: bool,
     /// The cycle after the pop of each of the last 64 spans.
     room: [u64; 64],
     spans: u64,
@@ -97,7 +102,9 @@ impl Clock {
             inflight: InFlight::new(plan, depth_write),
             take: 0,
             edge_free: 0,
-            line: 0,
+            offer: 0,
+            moved: 0,
+            fresh: false,
             room: [0; 64],
             spans: 0,
             drawn: 0,
@@ -123,7 +130,8 @@ impl Clock {
         let ready = self.take + u64::from(setup.all()) + 1;
         let prim = ready.max(self.edge_free);
         self.take = prim + 1;
-        self.line = prim + 1;
+        self.offer = prim + 1;
+        self.fresh = true;
         self.spend(prim + 1, Activity::Setup);
     }
 
@@ -142,9 +150,8 @@ impl Clock {
         let mut first = true;
         for span in spans {
             let place = self.spans as usize;
-            let push =
-                (self.line + u64::from(span.empty)).max(self.room[place.wrapping_sub(self.span_fifo) & 63]);
-            self.line = push + 1;
+            self.lines(u64::from(span.empty) + 1);
+            let push = self.moved - 1;
             let mut pop = self.pixel_free.max(push + 1);
             while !self.fences.is_empty() && self.fences.head().arrival <= pop {
                 self.pass_fence(Activity::Edge);
@@ -156,6 +163,7 @@ impl Clock {
             if first {
                 if fresh {
                     self.edge_free = pop + 1;
+                    self.fresh = false;
                 }
                 if self.drain {
                     let arrival = drawn + self.pixel + self.segments;
@@ -175,6 +183,17 @@ impl Clock {
         }
     }
 
+    /// So many lines leave EDGE and move on from SPAN's register, all but the last without a pixel: one waits for room, and those
+    /// behind it find the same room.
+    #[inline(always)]
+    fn lines(&mut self, lines: u64) {
+        let room = self.room[(self.spans as usize).wrapping_sub(self.span_fifo) & 63];
+        let left = self.offer.max(self.moved.saturating_sub(1));
+        self.moved = (left + 1).max(room) + lines;
+        // A line leaves EDGE in the cycle in which the one before it moves on.
+        self.offer = if lines > 1 { self.moved - 1 } else { left + 1 };
+    }
+
     /// Whether the last fragment of the last span passed the depth test.
     #[inline(always)]
     pub(super) fn last_passed(&mut self, passed: bool) {
@@ -191,9 +210,12 @@ impl Clock {
 
     /// The last line of the triangle has left EDGE, `empty` of them since the last span.
     pub(super) fn end_triangle(&mut self, empty: u32) {
-        self.line += u64::from(empty);
-        self.edge_free = self.edge_free.max(self.line);
-        self.spend(self.line, Activity::Edge);
+        if empty > 0 {
+            self.lines(u64::from(empty));
+        }
+        // Without a span its mark goes with the last line.
+        self.edge_free = self.edge_free.max(if self.fresh { self.moved } else { self.offer });
+        self.spend(self.moved, Activity::Edge);
     }
 
     /// Counts the cycles before `until` in which PIXEL has nothing to do.

@@ -15,10 +15,13 @@ pub(super) fn activity<'m>(m: &'m Module, units: &Joined<'m>) -> Signal<'m> {
 
     let advance = units.any("advance");
     let in_flight = units.any("occupied");
+    // DEPTH is full because BLEND takes nothing.
+    let queue = units.keeps_waiting("pass").map_or(queue, |waits| waits.mux(cause(Activity::Blend), queue));
     let waits = units.any("hazard").mux(hazard, units.any("full").mux(queue, memory));
     let lower = in_flight.mux(flush, idle);
     let lower = (!units.ready_for("tri")).mux(setup, lower);
-    let lower = (units.valid("span") | units.valid("line")).mux(edge, lower);
+    let lines = units.valid("span") | units.any("line_held") | units.valid("line");
+    let lower = lines.mux(edge, lower);
     let draws = units.any("visible").mux(draw, offscreen);
     advance.mux(units.any("active").mux(draws, lower), waits)
 }
@@ -27,7 +30,7 @@ impl<'m> Joined<'m> {
     /// One of the units tells this.
     fn any(&self, name: &str) -> Signal<'m> {
         let told = (0..self.0.len()).filter_map(|place| self.told(place, name));
-        told.reduce(|any, one| any | one).expect("PIXEL and DEPTH are in every machine")
+        told.reduce(|any, one| any | one).expect("SPAN, PIXEL and DEPTH are in every machine")
     }
 
     /// What a unit tells, 0 while it means nothing; `None` if it does not tell this.

@@ -37,6 +37,9 @@ impl<'m> Joined<'m> {
                 instance.connect(&port(&memory.data, "valid"), from.data_valid);
                 from.data.connect(*instance, memory.data.name, &parts(&memory.data.fields));
             }
+            for link in &outside.ports.writes {
+                instance.connect(&port(link, "ready"), outside.writes_ready(link.name));
+            }
         }
         if let Some(last) = self.0.last() {
             let link = last.outside.gives_link();
@@ -84,6 +87,10 @@ impl<'m> Joined<'m> {
                 let data_ready = instance.output(&port(&memory.data, "ready"));
                 outside.read(memory.name, valid, address, data_ready);
             }
+            for link in &outside.ports.writes {
+                let valid = instance.output(&port(link, "valid"));
+                outside.write(link.name, valid, |f| instance.output(&port(link, f)));
+            }
         }
         if let Some(last) = self.0.last() {
             let link = last.outside.gives_link();
@@ -97,13 +104,23 @@ impl<'m> Joined<'m> {
         self.unit(|unit| unit.outside.gives_link().name == link).output(&format!("{link}_valid"))
     }
 
+    /// A unit takes nothing of what another offers it by the link of that name; `None`: no unit takes such a link.
+    pub fn keeps_waiting(&self, link: &str) -> Option<Signal<'m>> {
+        let takes = |unit: &&Unit<'m>| unit.outside.takes_link().name == link;
+        self.0.iter().find(takes).map(|_| self.valid(link) & !self.ready_for(link))
+    }
+
     /// Ready of the link that a unit takes under that name.
     pub fn ready_for(&self, link: &str) -> Signal<'m> {
         self.unit(|unit| unit.outside.takes_link().name == link).output(&format!("{link}_ready"))
     }
 
     fn unit(&self, is_it: impl Fn(&Unit<'m>) -> bool) -> Instance<'m> {
-        let unit = self.0.iter().find(|unit| is_it(unit)).expect("SETUP, EDGE and SPAN are in every machine");
+        let unit = self
+            .0
+            .iter()
+            .find(|unit| is_it(unit))
+            .expect("the unit is in the machine that is asked for its link");
         unit.instance
     }
 }

@@ -15,7 +15,9 @@ pub(super) fn picture(units: &[(&str, Ports)]) -> String {
         row += &name.to_uppercase();
         row += &ports.gives.as_ref().map_or_else(String::new, |link| format!(" ─{}─> ", link.name));
     }
-    row += "frame memory";
+    // What the last unit writes is read too, if it is a memory's word: then it is called by that.
+    let last = units.last().and_then(|(_, ports)| ports.memory.iter().find(|memory| memory.enable.is_none()));
+    row += &last.map_or_else(|| "frame memory".to_owned(), |memory| format!("{} memory", memory.name));
 
     let mut below: Vec<Vec<char>> = Vec::new();
     for (place, (_, ports)) in units.iter().enumerate() {
@@ -27,7 +29,10 @@ pub(super) fn picture(units: &[(&str, Ports)]) -> String {
             put(&mut below, from, &arc);
         }
         for memory in &ports.memory {
-            let line = format!("└─{} / {}─ {} memory", memory.read.name, memory.data.name, memory.name);
+            let writes = ports.writes.iter().find(|link| link.name == memory.write);
+            let writes = writes.map_or_else(String::new, |link| format!(", {}", link.name));
+            let (read, data) = (memory.read.name, memory.data.name);
+            let line = format!("└─{read} / {data}{writes}─ {} memory", memory.name);
             put(&mut below, middles[place], &line);
         }
     }

@@ -16,7 +16,7 @@ const ANY_ORDER: &str = "1112221233321131231323221123311213212";
 pub(super) fn cases(machine: &Plan) -> Vec<Case> {
     let pen = Pen::new(machine);
     let falling = |n: u32| (0..n).map(move |i| 1.0 - f64::from(i + 1) / f64::from(n + 1));
-    vec![
+    let mut cases = vec![
         case("one_pixel_again_and_again_nearer", falling(12).map(|z| pen.dot(1.0, 1.0, z))),
         case("one_pixel_again_nearer_and_farther", MIXED.map(|z| pen.dot(2.0, 1.0, z))),
         case("one_pixel_again_at_equal_depth", [0.5; 6].map(|z| pen.dot(0.0, 2.0, z))),
@@ -76,7 +76,35 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
         case("knee_line_of_two_pixels_to_the_left", {
             falling(4).map(|z| pen.shaded([(4.0, 1.0), (2.0, 3.0), (4.0, 5.0)], [z, z * 0.5, z * 0.9]))
         }),
-    ]
+    ];
+    if machine.blend.is_there() {
+        cases.extend([1, 2, 3].map(|pixels| {
+            case(&format!("glass_on_{pixels}_pixels_in_turn"), glass(&pen, pixels, machine.z.bits))
+        }));
+        cases.push(case("glass_in_any_order", {
+            let column = |digit: char| 2.0 + f64::from(digit.to_digit(10).unwrap_or(0));
+            let z = |i: usize| 1.0 - (i + 1) as f64 / ANY_ORDER.len() as f64;
+            let dot = |(i, at)| pen.glass_dot(column(at), 4.0, z(i), GLASS[i % GLASS.len()]);
+            ANY_ORDER.chars().enumerate().map(dot).collect::<Vec<_>>()
+        }));
+    }
+    cases
+}
+
+/// k_t: each of clear, opaque and between follows each.
+const GLASS: [f64; 11] = [0.5, 0.5, 0.0, 0.75, 1.0, 0.0, 0.0, 0.25, 1.0, 1.0, 0.6];
+
+/// Glass before glass, as many layers as there are depths for, on so many pixels in turn.
+fn glass(pen: &Pen, pixels: u32, z_bits: u32) -> Vec<Triangle> {
+    let layers = (1u32 << z_bits.min(5)) - 1;
+    let layer = |i: u32| {
+        let z = 1.0 - f64::from(i + 1) / f64::from(layers);
+        (0..pixels).map(move |pixel| {
+            let kt = GLASS[((i * pixels + pixel) as usize) % GLASS.len()];
+            pen.glass_dot(f64::from(pixel + 3), 3.0, z, kt)
+        })
+    };
+    (0..layers).flat_map(layer).collect()
 }
 
 /// Depth in fifteenths of full scale: 4 bits hold it.

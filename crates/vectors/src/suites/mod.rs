@@ -6,6 +6,7 @@
 //!  random           four kinds of triangles; number k depends only on (seed, suite, k)
 //!  sphere           a small shaded mesh
 //!  depth_never ..   a suite for each depth function, and one without depth writes
+//!  blend_add ..     machines with BLEND: colours that are added, and colours that are not written
 //! ```
 //! A suite knows the formats of the machine, nothing of what it draws.
 
@@ -50,6 +51,10 @@ pub struct Suite {
     pub depth_func: u8,
     /// Fragments that pass store their depth.
     pub depth_write: bool,
+    /// Colours of fragments that pass go on to BLEND; of no meaning without it.
+    pub color_write: bool,
+    /// BLEND adds, else it mixes.
+    pub blend_add: bool,
     /// Under which stalls it shows what it is for.
     pub stalls: StallKind,
     /// The units that it says something about; all, if none is named.
@@ -73,6 +78,8 @@ enum Kind {
     Shapes(StallKind, fn(&Plan, u64, u64) -> Vec<Case>),
     /// One drawing under this depth function, with or without depth writes.
     Function(u8, bool),
+    /// The same drawing for BLEND: with or without colours written, added or mixed.
+    Colors { color_write: bool, blend_add: bool },
 }
 
 const fn shapes(
@@ -88,8 +95,16 @@ const fn function(name: &'static str, about: &'static str, depth_func: u8, depth
     Entry { name, about, kind: Kind::Function(depth_func, depth_write) }
 }
 
+impl Entry {
+    /// It says something about this machine.
+    #[must_use]
+    pub fn is_for(&self, machine: &Plan) -> bool {
+        !matches!(self.kind, Kind::Colors { .. }) || machine.blend.is_there()
+    }
+}
+
 /// The suites that come with the program.
-pub const SUITES: [Entry; 13] = [
+pub const SUITES: [Entry; 15] = [
     shapes(
         "hazards",
         "pixels met again while they are in flight: one-pixel triangles on one address, knee lines drawn twice",
@@ -120,6 +135,16 @@ pub const SUITES: [Entry; 13] = [
     function("depth_gequal", "the depth function gequal, before half of full scale", 6, true),
     function("depth_always", "the depth function always, before half of full scale", 7, true),
     function("depth_unwritten", "depth_write = 0 under less, before half of full scale", 1, false),
+    Entry {
+        name: "blend_add",
+        about: "colours are added, in machines with BLEND",
+        kind: Kind::Colors { color_write: true, blend_add: true },
+    },
+    Entry {
+        name: "color_unwritten",
+        about: "color_write = 0: depths alone are written, in machines with BLEND",
+        kind: Kind::Colors { color_write: false, blend_add: false },
+    },
 ];
 
 /// No suite of that name.
@@ -156,6 +181,14 @@ impl Suite {
                 };
                 suite.on_half_depth(machine)
             }
+            Kind::Colors { color_write, blend_add } => Suite {
+                color_write,
+                blend_add,
+                stalls: StallKind::Late,
+                units: const { &[Unit::MACHINE, Unit::of(&units::depth::SPEC), Unit::of(&units::blend::SPEC)] },
+                cases: hazards::cases(machine),
+                ..plain
+            },
         })
     }
 
@@ -171,6 +204,8 @@ impl Suite {
             clear_z: None,
             depth_func: less.depth_func,
             depth_write: less.depth_write,
+            color_write: less.color_write,
+            blend_add: less.blend_add,
             stalls: StallKind::Mixed,
             units: &[],
             cases: vec![case],
@@ -186,7 +221,8 @@ impl Suite {
     /// The state that the suite is drawn with.
     #[must_use]
     pub fn state(&self) -> DrawState {
-        DrawState { depth_func: self.depth_func, depth_write: self.depth_write, ..DrawState::default() }
+        let Suite { depth_func, depth_write, color_write, blend_add, .. } = *self;
+        DrawState { depth_func, depth_write, color_write, blend_add, ..DrawState::default() }
     }
 
     /// One suite after the other, as one.

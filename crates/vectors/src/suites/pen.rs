@@ -26,15 +26,28 @@ impl<'a> Pen<'a> {
         (f64::from(self.machine.width), f64::from(self.machine.height))
     }
 
-    /// A vertex at (x, y) px with shares of the range of every channel: Z, R, G, B, and again for the user's own.
+    /// A vertex at (x, y) px with shares of the range of every channel: Z, R, G, B, and again for the user's own. Its k_t, where
+    /// there is one, follows from the depth: that of one in four is 0, of another 1.
     pub fn vertex(&self, at: (f64, f64), shares: [f64; 4]) -> PortVertex {
+        let z = shares[0].clamp(0.0, 1.0);
+        let kt = match (z * 37.0).round() as u32 % 4 {
+            0 => 0.0,
+            1 => 1.0,
+            _ => (z * 37.0).fract().max(0.25),
+        };
+        self.glass(at, shares, kt)
+    }
+
+    /// The same with this k_t.
+    pub fn glass(&self, at: (f64, f64), shares: [f64; 4], kt: f64) -> PortVertex {
         let limit = self.limit();
         let channels = self.machine.channels().iter().zip(shares.into_iter().cycle());
         let values = channels.map(|(channel, share)| {
             let (low, high) = channel.host_range();
+            let share = if channel.name == "kt" { kt } else { share };
             low + (high - low) * share.clamp(0.0, 1.0)
         });
-        let values: Vec<f64> = values.collect();
+        let values: Vec<f64> = values.chain(self.machine.has_triangle_kt().then_some(kt)).collect();
         self.machine
             .port_vertex(at.0.clamp(-limit, limit), at.1.clamp(-limit, limit), &values)
             .expect("clamped to what the port takes")
@@ -56,6 +69,15 @@ impl<'a> Pen<'a> {
     /// A triangle that in exact fill covers the pixel (column, line) alone, on any sub-pixel grid.
     pub fn dot(&self, column: f64, line: f64, z: f64) -> Triangle {
         self.level([(column, line), (column + 1.5, line), (column, line + 1.5)], z)
+    }
+
+    /// The same with this k_t.
+    pub fn glass_dot(&self, column: f64, line: f64, z: f64, kt: f64) -> Triangle {
+        let at = [(column, line), (column + 1.5, line), (column, line + 1.5)];
+        std::array::from_fn(|i| {
+            let [r, g, b] = COLORS[i];
+            self.glass(at[i], [z, r, g, b], kt)
+        })
     }
 }
 

@@ -73,7 +73,7 @@ impl<const C: usize> Inside<C> {
         let frag_ready = inputs.rd_ready && units.depth.block(frag, inputs.depth_write).is_none();
         self.setup.show(units.setup, ports);
         self.edge.show(units.edge, units.span.fresh_queued(), ports);
-        self.span.show(units.span, units.edge.line(), ports);
+        self.span.show(units.span, ports);
         self.pixel.show(units.pixel, frag_ready, ports);
         self.depth.show(units.depth, frag, inputs.rd_ready, inputs.depth_write, ports);
         if let (Some((pass, status)), Some(unit)) = (&self.blend, units.blend) {

@@ -15,6 +15,7 @@ pub struct SpanPorts<const C: usize> {
     line_ready: PortId,
     span: Giver<tokens::Span<C>>,
     fresh_queued: PortId,
+    line_held: PortId,
 }
 
 impl<const C: usize> SpanPorts<C> {
@@ -23,14 +24,15 @@ impl<const C: usize> SpanPorts<C> {
             line_ready: scope.port("line_ready")?,
             span: scope.giver("span")?,
             fresh_queued: scope.port("fresh_queued")?,
+            line_held: scope.port("line_held")?,
         })
     }
 
-    /// A ready without a line means nothing.
-    pub fn show(&self, span: &Span<C>, line: Option<&Line<C>>, ports: &mut PortValues) {
-        ports.set(self.line_ready, line.is_some_and(|line| span.line_ready(line)));
+    pub fn show(&self, span: &Span<C>, ports: &mut PortValues) {
+        ports.set(self.line_ready, span.line_ready());
         self.span.offer(span.span(), ports);
         ports.set(self.fresh_queued, span.fresh_queued());
+        ports.set(self.line_held, span.line_held());
     }
 }
 
@@ -57,9 +59,8 @@ impl<const C: usize> SpanDevice<C> {
 impl<const C: usize> Device for SpanDevice<C> {
     fn cycle(&mut self, ports: &mut PortValues) {
         let line = self.line.token(ports);
-        self.shown.show(&self.unit, line.as_ref(), ports);
-        let taken = line.as_ref().filter(|line| self.unit.line_ready(line));
-        self.unit.step(taken, ports.is_high(self.shown.span.ready), &mut self.events);
+        self.shown.show(&self.unit, ports);
+        self.unit.step(line.as_ref(), ports.is_high(self.shown.span.ready), &mut self.events);
         if ports.rst {
             self.unit.reset();
         }
