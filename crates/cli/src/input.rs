@@ -81,6 +81,8 @@ pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawSt
         depth_write: state.stores_depth(),
         color_write: state.color_write,
         blend_add: state.blend == Blending::Add,
+        shadow_on: false,
+        ambient: 0,
         clear: frame.clear.map(|v| (v * max).round_ties_even() as u64),
     })
 }
@@ -100,6 +102,9 @@ pub fn port_triangle(
         let named = || format!("triangle {index}, vertex {corner}");
         let mut values = vec![v.z, v.r, v.g, v.b];
         values.extend_from_slice(&v.extra[..machine.extra as usize]);
+        if machine.shadow.is_there() {
+            values.extend([0.0; 3]); // no map is looked up
+        }
         if machine.blend.is_there() {
             values.push(if mixes { v.kt } else { 0.0 });
         }

@@ -17,6 +17,11 @@ const MACHINES: usize = 400;
 /// Triangles drawn on them, about.
 const TRIANGLES: u64 = 40_000;
 
+/// SHADOW has no netlist yet.
+fn no_netlist(event: &str) -> bool {
+    edgewalk_machine::units::shadow::SPEC.events.iter().any(|of| of.name == event)
+}
+
 /// What random triangles may not meet, and [`colours_on_one_pixel`] does.
 const DIRECTED: [&str; 4] = ["opaque_behind", "behind_opaque", "color_forward_entry", "color_head_wait"];
 
@@ -87,8 +92,12 @@ fn whole_machines(half: usize) {
     assert!(extra.iter().all(|machines| *machines > 20) && signed > 150);
     // A triangle that a reset took from the machine is not offered again, one in the cycle of the reset is.
     assert!(all.tokens >= TRIANGLES * 4 / 10 && all.compared > 10 * all.cycles);
-    let missing: Vec<_> =
-        all.events.missing().into_iter().filter(|event| !DIRECTED.contains(event)).collect();
+    let missing: Vec<_> = all
+        .events
+        .missing()
+        .into_iter()
+        .filter(|event| !DIRECTED.contains(event) && !no_netlist(event))
+        .collect();
     assert_eq!(missing, [""; 0], "not met");
 }
 

@@ -27,11 +27,13 @@ pub enum Activity {
     Flush,
     /// DEPTH is full, as BLEND takes no fragment.
     Blend,
+    /// SHADOW waits for the light's map.
+    Light,
 }
 
 impl Activity {
     /// All, in the order of the port's code.
-    pub const ALL: [Activity; 10] = [
+    pub const ALL: [Activity; 11] = [
         Activity::Idle,
         Activity::Draw,
         Activity::Offscreen,
@@ -42,6 +44,7 @@ impl Activity {
         Activity::Setup,
         Activity::Flush,
         Activity::Blend,
+        Activity::Light,
     ];
 
     /// Bits of the port.
@@ -50,15 +53,30 @@ impl Activity {
     /// Name in reports and, in capitals, in the netlist.
     #[must_use]
     pub fn name(self) -> &'static str {
-        let names =
-            ["idle", "draw", "offscreen", "hazard", "queue", "memory", "edge", "setup", "flush", "blend"];
+        let names = [
+            "idle",
+            "draw",
+            "offscreen",
+            "hazard",
+            "queue",
+            "memory",
+            "edge",
+            "setup",
+            "flush",
+            "blend",
+            "light",
+        ];
         names[self as usize]
     }
 
     /// Those that the machine can have.
     pub fn of(plan: &Plan) -> impl Iterator<Item = Activity> {
-        let blends = plan.blend.is_there();
-        Activity::ALL.into_iter().filter(move |activity| blends || *activity != Activity::Blend)
+        let (blends, shadows) = (plan.blend.is_there(), plan.shadow.is_there());
+        Activity::ALL.into_iter().filter(move |activity| match activity {
+            Activity::Blend => blends,
+            Activity::Light => shadows,
+            _ => true,
+        })
     }
 
     /// PIXEL steps in such a cycle; in all others it stalls.
