@@ -262,3 +262,128 @@ fn the_map_changes_colours_and_nothing_else() {
     println!("{machines} machines, {checked} fragments, {dark} in shadow");
     assert!(checked > 50_000 && dark > 1_000);
 }
+
+/// A fragment a read fired for, in order, and the map that lay there.
+fn fragments(plan: &Plan, triangles: &[common::Triangle], map: Option<&[u32]>) -> Vec<Fragment<C>> {
+    let state = DrawState { shadow_on: map.is_some(), ..common::ALWAYS };
+    let mut rig = Rig::<C>::new(plan, state, Stalls::NONE);
+    if let (Some(memory), Some(map)) = (&mut rig.map, map) {
+        memory.depths_mut().copy_from_slice(map);
+    }
+    let mut seen = Vec::new();
+    let all = triangles.iter().map(|triangle| Ok::<_, ()>(*triangle));
+    rig.draw(all, |_, model, cycle| seen.extend(cycle.read.map(|_| model.last_read()))).expect("no errors");
+    seen
+}
+
+/// Every decision of a million fragments beside the exact planes through the vertices at the port: the texel is the floor of
+/// the exact coordinate, or within the proved error of one; lit is what the exact depth says against the same texel, or within
+/// the proved error of the boundary; and what is not farther than its texel is never in shadow. Texels hold depths within an
+/// LSB of a fragment's own, so that comparisons are hard.
+#[test]
+fn every_decision_of_a_million_fragments_is_explained() {
+    let mut rng = StdRng::seed_from_u64(3);
+    let settings = [
+        ("screen.width", "160".to_owned()),
+        ("screen.height", "120".to_owned()),
+        ("shadow.light_vertex", "4".to_owned()),
+    ];
+    let (mut checked, mut looked_up, mut near) = (0u64, 0u64, 0u64);
+    let (mut texels, mut decisions, mut reached) = (0u64, 0u64, 0.0f64);
+    for (batch, fraction) in [14, 14, 11, 18].into_iter().cycle().enumerate() {
+        if checked >= 1_000_000 {
+            break;
+        }
+        let plan = with(&[&settings[..], &[("shadow.light_fraction", fraction.to_string())]].concat());
+        let far = f64::from(1u32 << plan.shadow.depth_bits);
+        let triangles: Vec<common::Triangle> = (0..120)
+            .map(|_| {
+                let size = 2f64.powf(rng.random_range(2.0..7.0));
+                let at = [rng.random_range(0.0..160.0), rng.random_range(0.0..120.0)];
+                let texel = [0, 1].map(|_| rng.random_range(-50.0..560.0));
+                let depth = rng.random_range(-0.1..1.1) * far;
+                std::array::from_fn(|_| {
+                    let mut near = |from: f64, by: f64| from + rng.random_range(-0.5..0.5) * by;
+                    let (x, y) = (near(at[0], size), near(at[1], size));
+                    let light =
+                        [near(texel[0], 3.0 * size), near(texel[1], 3.0 * size), near(depth, 0.05 * far)];
+                    plan.port_vertex(x, y, &[0.5, 0.5, 0.5, 0.5, light[0], light[1], light[2]])
+                        .expect("in range")
+                })
+            })
+            .collect();
+        let at = |f: &Fragment<C>, i: usize| edgewalk_model::tokens::output(&plan.channels()[i], f.values[i]);
+        let exact = |f: &Fragment<C>, i: usize| {
+            let (x, y) = common::place(&plan, f.addr);
+            common::rule::exact_value(&plan, &triangles[f.source.id as usize], i, x, y)
+        };
+        let size = i64::from(plan.shadow.size);
+        let texel = |f: &Fragment<C>| {
+            let (x, y) = (at(f, 4), at(f, 5));
+            let inside = (0..size).contains(&x) && (0..size).contains(&y);
+            inside.then(|| (y << plan.shadow.side_bits() | x) as usize)
+        };
+        let mut map = vec![0; 1 << (2 * plan.shadow.side_bits())];
+        for f in fragments(&plan, &triangles, None) {
+            if let Some(texel) = texel(&f) {
+                let (n, d) = exact(&f, 6);
+                let depth = (n as f64 / d as f64).round() + f64::from(rng.random_range(-1..=1));
+                map[texel] = depth.clamp(0.0, far - 1.0) as u32;
+            }
+        }
+        for f in fragments(&plan, &triangles, Some(&map)) {
+            checked += 1;
+            let (x, y) = common::place(&plan, f.addr);
+            let steps = common::rule::steps(&plan, &triangles[f.source.id as usize], x, y);
+            // (1 + N)·2^-(r+1), as a fraction.
+            let (error, unit) = (1 + i128::from(steps.total()), 2i128 << fraction);
+            for i in [4, 5] {
+                let ((n, d), found) = (exact(&f, i), i128::from(at(&f, i)));
+                let wanted = n.div_euclid(d);
+                if found != wanted {
+                    // The integer between the two, and how far the exact coordinate is from it.
+                    let side = found.max(wanted);
+                    let away = (side * d - n).abs();
+                    assert!(
+                        (found - wanted).abs() == 1 && away * unit <= error * d,
+                        "texel {found} for {n}/{d}"
+                    );
+                    reached = reached.max((away * unit) as f64 / (error * d) as f64);
+                    texels += 1;
+                }
+            }
+            let Some(place) = texel(&f) else {
+                assert!(f.lit, "outside the map");
+                continue;
+            };
+            looked_up += 1;
+            let ((n, d), m) = (exact(&f, 6), i128::from(map[place]));
+            // Behind the map all is in shadow; else against the texel's depth and a half.
+            let boundary =
+                if at(&f, 6) >= 1 << plan.shadow.depth_bits { i128::from(far as i64) - 1 } else { m };
+            let boundary = if at(&f, 6) < 0 { -1 } else { boundary };
+            // In units of 1/(2·d): lit if 2n < (2·boundary + 1)·d; before the map the other way round.
+            let less = 2 * n < (2 * boundary + 1) * d;
+            let wanted = at(&f, 6) < 0 || less;
+            let off = (2 * n - (2 * boundary + 1) * d).abs();
+            let open = off * unit <= 2 * error * d;
+            near += u64::from(open);
+            if at(&f, 6) < 0 {
+                assert!(f.lit && (less || open), "before the map");
+            } else if f.lit != wanted {
+                assert!(open, "lit {} for {n}/{d} against {m}", f.lit);
+                decisions += 1;
+            }
+            assert!(
+                f.lit || n > m * d || at(&f, 6) >= 1 << plan.shadow.depth_bits,
+                "false shadow: {n}/{d} against {m}"
+            );
+        }
+        assert!(batch < 10_000);
+    }
+    println!(
+        "{checked} fragments, {looked_up} looked up, {near} within the error of the boundary: {texels} texels and {decisions} \
+         decisions differ, all explained, {reached:.3} of the texel's error reached; no false shadow"
+    );
+    assert!(looked_up > 600_000 && texels > 1_000 && decisions > 50 && reached > 0.8);
+}
