@@ -9,7 +9,7 @@ use edgewalk_explore::raster::{from_machine, from_model, of_primitives};
 use edgewalk_golden::Drawing;
 use edgewalk_lockstep::StallKind;
 use edgewalk_machine::Plan;
-use edgewalk_model::Waits;
+use edgewalk_model::{Waits, render_passes};
 use edgewalk_scene::Frame;
 use std::ops::Range;
 
@@ -45,7 +45,7 @@ pub fn draw_waiting(
         Engine::Fast => draw::fast(frame, machine, waits),
         Engine::Model => {
             let port = to_port(frame, machine)?;
-            let drawn = edgewalk_model::render(machine, port.triangles.iter().copied(), port.state, waits)?;
+            let drawn = render_passes(machine, port.triangles.iter().copied(), &port.passes, waits, |_| {})?;
             Ok(of_primitives(from_model(machine, drawn), &port.ids))
         }
     }
@@ -61,9 +61,9 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Resul
             let bar = bar(port.triangles.len() as u64, "triangles", quiet);
             let triangles = bar.wrap_iter(port.triangles.iter().copied());
             let raster = if engine == Engine::Model {
-                from_model(machine, edgewalk_model::render(machine, triangles, port.state, Waits::Never)?)
+                from_model(machine, render_passes(machine, triangles, &port.passes, Waits::Never, |_| {})?)
             } else {
-                let drawn = edgewalk_lockstep::render_rtl(machine, triangles, port.state, StallKind::None);
+                let drawn = edgewalk_lockstep::render_rtl(machine, triangles, port.state()?, StallKind::None);
                 from_machine(machine, drawn.map_err(|e| anyhow!("{e}"))?)
             };
             bar.finish_and_clear();
@@ -89,8 +89,7 @@ pub fn draw_bands(
         }
         Engine::Fast => {
             let port = to_port(frame, machine)?;
-            let drawn =
-                draw::draw(machine, port.state, Waits::Never, || Ok(port.triangles.iter().copied().map(Ok)))?;
+            let drawn = draw::draw_frame(machine, &port, Waits::Never)?;
             drawn.bands(machine, fast_bands(machine), |band| take(of_primitives(band, &port.ids)))
         }
         Engine::Model | Engine::Rtl => take(draw(engine, frame, machine, quiet)?),

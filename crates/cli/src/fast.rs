@@ -16,13 +16,13 @@ pub fn draw_file(
     quiet: bool,
 ) -> Result<Drawn> {
     let named = || file.name().to_owned();
-    let state = draw_state(header, machine).with_context(named)?;
+    let state = draw_state(header, &header.state(), machine).with_context(named)?;
     let bar = bar(file.length(), "bytes", quiet);
     let drawn = draw(machine, state, Waits::Never, || {
         bar.reset();
         let numbered = file.reader(&bar)?.enumerate();
         Ok(numbered.map(|(index, triangle)| {
-            port_triangle(index, &triangle?, header.mode, machine).with_context(named)
+            port_triangle(index, &triangle?, header.mode, header.blend, machine).with_context(named)
         }))
     })?;
     bar.finish_and_clear();

@@ -5,8 +5,9 @@ use crate::machine_args::MachineArgs;
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_explore::input::{fitting, guard_band, in_triangles, is_triangle_file};
 pub use edgewalk_explore::port::{PortFrame, draw_state, port_triangle, to_port};
+use edgewalk_golden::Order;
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Frame, Scene, Surface, triangle_file};
+use edgewalk_scene::{Blending, Frame, Scene, Surface, triangle_file};
 use std::path::Path;
 
 /// A scene, a mesh, or a file of screen-space triangles.
@@ -86,12 +87,25 @@ impl Source {
         if self.is_triangle_file() {
             return in_triangles(self.outlined(machine)?, machine);
         }
+        Ok(self.sorted(machine)?.0)
+    }
+
+    /// The same, and of a scene with something transparent the order in which its triangles are drawn.
+    pub fn sorted(&self, machine: &Plan) -> Result<(Frame, Option<Order>)> {
+        if self.is_triangle_file() {
+            return Ok((self.frame(machine)?, None));
+        }
         let (scene, surface) = self.surface(machine)?;
         self.frame_of(&scene, &surface, machine)
     }
 
     /// The same of a scene and its surface on the machine's screen.
-    pub fn frame_of(&self, scene: &Scene, surface: &Surface, machine: &Plan) -> Result<Frame> {
+    pub fn frame_of(
+        &self,
+        scene: &Scene,
+        surface: &Surface,
+        machine: &Plan,
+    ) -> Result<(Frame, Option<Order>)> {
         let refused = match self.shading {
             Shading::Phong => Some("phong: the machine has no unit for normals yet"),
             Shading::FastPhong => Some("fast-phong: the machine has no unit for normals yet"),
@@ -101,7 +115,12 @@ impl Source {
         if let Some(why) = refused {
             return Err(anyhow!("--shading {why}; render with --engine golden"));
         }
-        in_triangles(edgewalk_golden::frame(scene, surface, self.shading.golden()), machine)
+        let frame = in_triangles(edgewalk_golden::frame(scene, surface, self.shading.golden()), machine)?;
+        if frame.blend == Blending::Off {
+            return Ok((frame, None));
+        }
+        let (frame, order) = edgewalk_golden::sorted(frame, machine.subpixel_bits);
+        Ok((frame, Some(order)))
     }
 
     /// The frame with the polygons it has.

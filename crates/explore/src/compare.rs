@@ -10,6 +10,7 @@
 
 mod channel;
 mod order;
+mod layers;
 #[cfg(test)]
 mod tests;
 
@@ -21,6 +22,8 @@ use channel::Tally;
 pub use channel::{ExtraError, Spread};
 use edgewalk_machine::Plan;
 use edgewalk_scene::Frame;
+use layers::Layers;
+pub use layers::{Blended, Errors};
 use order::{Orders, Over};
 use serde::Serialize;
 
@@ -72,6 +75,9 @@ pub struct Comparison {
     /// Why there is none of the colour.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color_no_bound: Option<String>,
+    /// Of a blended picture, whose colours have a bound at each pixel in place of `color_bound`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub blended: Option<Blended>,
     /// Channels of the user's own.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<ExtraError>,
@@ -135,10 +141,15 @@ fn compared(
         color_bound: tally.color.bound(),
         z_no_bound: tally.z.no_bound(),
         color_no_bound: tally.color.no_bound(),
+        blended: None,
         extra: Vec::new(),
         z_map: Vec::new(),
         color_map: Vec::new(),
     };
+    if let Some(layers) = Layers::of(machine, frame) {
+        blended(&mut c, &mut tally, &layers, frame, golden);
+        return finished(c, tally, machine);
+    }
     let mut differ = Vec::new();
     for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
         c.pixels += 1;
@@ -168,6 +179,41 @@ fn compared(
         }
         c.compared += u64::from(golden.coverage[i] > 0);
     }
+    finished(c, tally, machine)
+}
+
+/// Every pixel where all depth tests are sure: there all layers must be golden's, and the colour within their bound.
+fn blended(c: &mut Comparison, tally: &mut Tally, layers: &Layers, frame: &Frame, golden: &Raster) {
+    let mut found = Blended::default();
+    for i in 0..golden.coverage.len().min(tally.drawn.coverage.len()) {
+        c.pixels += 1;
+        c.coverage_mismatches += u64::from(golden.coverage[i] != tally.drawn.coverage[i]);
+        c.compared += u64::from(golden.coverage[i] > 0);
+        if layers.open[i] {
+            c.order_undecided += 1;
+        } else if (golden.id[i], golden.writes[i]) != (tally.drawn.id[i], tally.drawn.writes[i]) {
+            c.order_wrong += 1;
+        } else if golden.id[i] >= 0 {
+            tally.triangle(i, golden.z[i], &Over::golden(golden, i));
+            let error = tally.color.at(i);
+            found.pixels += 1;
+            found.layers = found.layers.max(layers.stored[i]);
+            found.bound = found.bound.max(layers.bound[i]);
+            found.of_bound = found.of_bound.max(error / layers.bound[i]);
+            found.beyond += u64::from(error.is_nan() || error > layers.bound[i] + 1e-9);
+        } else if golden.z[i] == 1.0 {
+            c.background_wrong += u64::from(!tally.is_background(i, frame.clear));
+        } else {
+            c.background_wrong += u64::from(!tally.depth_only(i, golden.z[i], frame.clear));
+        }
+    }
+    c.blended = Some(found);
+    c.color_bound = None;
+    c.color_no_bound = Some("each pixel has that of its layers".to_owned());
+}
+
+/// The same with what all pixels together come to.
+fn finished(mut c: Comparison, tally: Tally, machine: &Plan) -> Comparison {
     c.wrapped = tally.wrapped;
     c.extra = tally.extra.into_iter().map(|errors| ExtraError::of(errors, machine)).collect();
     (c.z_error, c.z_spread, c.z_map) = tally.z.found();
@@ -209,7 +255,10 @@ impl Comparison {
             + self.wrapped
             + self.cycles_unexplained
             + beyond(self.z_error, self.z_bound_for_input.or(self.z_bound))
-            + beyond(self.color_error, self.color_bound_for_input.or(self.color_bound))
+            + self.blended.map_or_else(
+                || beyond(self.color_error, self.color_bound_for_input.or(self.color_bound)),
+                |blended| blended.beyond,
+            )
             + self.extra.iter().map(|own| beyond(own.error, Some(own.allowed))).sum::<u64>();
         Verdict::of(self.compared, self.covered, wrong).and(Verdict::of(self.pixels, self.screen, wrong))
     }

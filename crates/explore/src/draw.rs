@@ -5,7 +5,7 @@ use crate::raster::{Raster, from_fast, from_golden, golden_fill, of_primitives};
 use anyhow::Result;
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::fast::{Path, Reason, Refusal, Renderer};
-use edgewalk_model::{DrawState, Frame, Waits, render};
+use edgewalk_model::{DrawState, Frame, Waits, render, render_passes};
 use std::ops::Range;
 
 /// The golden picture on the machine's screen.
@@ -19,9 +19,22 @@ pub fn golden(frame: &edgewalk_scene::Frame, machine: &Plan) -> Raster {
 /// # Errors
 /// What of the frame the machine cannot take.
 pub fn fast(frame: &edgewalk_scene::Frame, machine: &Plan, waits: Waits) -> Result<Raster> {
-    let PortFrame { triangles, ids, state } = to_port(frame, machine)?;
-    let drawn = draw(machine, state, waits, || Ok(triangles.iter().copied().map(Ok)))?;
-    Ok(of_primitives(drawn.raster(machine), &ids))
+    let port = to_port(frame, machine)?;
+    Ok(of_primitives(draw_frame(machine, &port, waits)?.raster(machine), &port.ids))
+}
+
+/// Draws a frame whose triangles are all there.
+///
+/// # Errors
+/// None but of triangles of another machine.
+pub fn draw_frame(machine: &Plan, port: &PortFrame, waits: Waits) -> Result<Drawn> {
+    match &port.passes[..] {
+        [pass] => draw(machine, pass.state, waits, || Ok(port.triangles.iter().copied().map(Ok))),
+        passes => {
+            let triangles = port.triangles.iter().copied();
+            Ok(Drawn::Ticked(render_passes(machine, triangles, passes, waits, |_| {})?, Reason::Passes))
+        }
+    }
 }
 
 /// A frame that was drawn.

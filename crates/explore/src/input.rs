@@ -4,7 +4,7 @@ use crate::extra;
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::Shading;
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Frame, Scene, triangle_file};
+use edgewalk_scene::{Blending, Change, Frame, Scene, Triangulated, triangle_file};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
@@ -69,7 +69,12 @@ impl Input {
             What::Scene(scene, shading) => {
                 extra::fitting(0, machine).with_context(|| self.name.clone())?;
                 let surface = scene.surface(machine.width, machine.height, guard_band(machine));
-                edgewalk_golden::frame(scene, &surface, *shading)
+                let frame = edgewalk_golden::frame(scene, &surface, *shading);
+                if frame.blend == Blending::Off {
+                    frame
+                } else {
+                    return Ok(edgewalk_golden::sorted(in_triangles(frame, machine)?, machine.subpixel_bits).0);
+                }
             }
         };
         in_triangles(frame, machine)
@@ -113,8 +118,12 @@ pub fn fitting(name: &str, frame: Frame, machine: &Plan) -> Result<Frame> {
 /// # Errors
 /// A polygon that cannot be cut into triangles.
 pub fn in_triangles(frame: Frame, machine: &Plan) -> Result<Frame> {
-    let triangles = frame.triangulated(machine.subpixel_bits)?.triangles.into_owned();
-    Ok(Frame { triangles, polygons: Vec::new(), ..frame })
+    let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
+    // So many triangles are made of the primitives before each change.
+    let before = |change: &Change| ids.iter().take_while(|id| (**id as usize) < change.after).count();
+    let changes = frame.changes.iter().map(|change| Change { after: before(change), ..*change }).collect();
+    let triangles = triangles.into_owned();
+    Ok(Frame { triangles, changes, polygons: Vec::new(), ..frame })
 }
 
 /// Twelve hex digits that stand for a frame of triangles: every bit of its vertices and of its state.
@@ -123,8 +132,8 @@ pub fn hash(frame: &Frame) -> String {
     let mut digest = Sha256::new();
     let Frame { width, height, mode, depth, depth_write, blend, clear, extra, .. } = frame;
     digest.update(format!(
-        "{width} {height} {mode:?} {depth:?} {depth_write} {blend} {clear:?} {extra} {:?}\n",
-        frame.shadow
+        "{width} {height} {mode:?} {depth:?} {depth_write} {blend:?} {clear:?} {extra} {:?} {} {:?}\n",
+        frame.shadow, frame.color_write, frame.changes
     ));
     digest.update(format!("{:?}\n", frame.polygons));
     for vertex in frame.triangles.iter().flat_map(|triangle| &triangle.0) {

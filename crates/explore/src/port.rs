@@ -2,8 +2,8 @@
 
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::DrawState;
-use edgewalk_scene::{DepthFunc, Frame, ShadeMode, Triangle, Triangulated};
+use edgewalk_model::{DrawState, Pass};
+use edgewalk_scene::{Blending, DepthFunc, Frame, ShadeMode, State, Triangle, Triangulated};
 
 /// A frame as the machine's port takes it.
 pub struct PortFrame {
@@ -11,25 +11,56 @@ pub struct PortFrame {
     pub triangles: Vec<[PortVertex; 3]>,
     /// For each of them the place of what it is a part of among the frame's triangles and polygons.
     pub ids: Vec<i32>,
-    /// Depth function, write mask and clear values.
-    pub state: DrawState,
+    /// The rules, and how many triangles are drawn by each, in order; at least one.
+    pub passes: Vec<Pass>,
+}
+
+impl PortFrame {
+    /// The rules of a frame in which they do not change.
+    ///
+    /// # Errors
+    /// They do.
+    pub fn state(&self) -> Result<DrawState> {
+        match &self.passes[..] {
+            [pass] => Ok(pass.state),
+            passes => Err(anyhow!(
+                "{} passes: the rules change between triangles; permitted for raster, render and explain",
+                passes.len()
+            )),
+        }
+    }
 }
 
 /// Snaps a frame to the port, polygons as triangles, or says what of it the machine cannot take.
 pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
-    let state = draw_state(frame, machine)?;
     let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
-    let triangles = triangles.iter().zip(&ids);
-    let triangles =
-        triangles.map(|(triangle, id)| port_triangle(*id as usize, triangle, frame.mode, machine));
-    Ok(PortFrame { triangles: triangles.collect::<Result<_>>()?, ids, state })
+    let (mut port, mut passes) = (Vec::with_capacity(triangles.len()), Vec::new());
+    for pass in frame.passes() {
+        let parts = ids.iter().take_while(|id| (**id as usize) < pass.primitives.end).count();
+        for (triangle, id) in triangles[port.len()..parts].iter().zip(&ids[port.len()..parts]) {
+            port.push(port_triangle(*id as usize, triangle, frame.mode, pass.state.blend, machine)?);
+        }
+        passes.push(Pass {
+            triangles: parts - passes.iter().map(|pass: &Pass| pass.triangles).sum::<usize>(),
+            state: draw_state(frame, &pass.state, machine)?,
+            clear_depth: pass.clear_depth,
+        });
+    }
+    Ok(PortFrame { triangles: port, ids, passes })
 }
 
-/// What stays the same over a frame, or what of it the machine cannot draw.
-pub fn draw_state(frame: &Frame, machine: &Plan) -> Result<DrawState> {
-    if frame.blend {
+/// The rules of a pass as the machine has them, or what of them it cannot do.
+pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawState> {
+    let blends = machine.blend.is_there();
+    if state.blend != Blending::Off && !blends {
         return Err(anyhow!(
-            "blend 1 (transparent surfaces): the machine has no blend unit yet; draw with blend 0 or --engine golden"
+            "blend {} (transparent surfaces): the machine has no BLEND; add --set blend.kind=interpolated, or draw with blend 0 or --engine golden",
+            state.blend.name()
+        ));
+    }
+    if !state.color_write && !blends {
+        return Err(anyhow!(
+            "colour_write 0: a machine without BLEND writes the colour of every fragment that passes; add --set blend.kind=constant"
         ));
     }
     if frame.shadow.is_some() {
@@ -39,10 +70,13 @@ pub fn draw_state(frame: &Frame, machine: &Plan) -> Result<DrawState> {
     }
     let max = machine.color.max() as f64;
     Ok(DrawState {
-        depth_func: frame.depth.unwrap_or(DepthFunc::Always) as u8,
-        depth_write: frame.depth_write && frame.depth.is_some(),
+        depth_func: state.depth.unwrap_or(DepthFunc::Always) as u8,
+        depth_write: state.stores_depth(),
+        color_write: state.color_write,
+        blend_add: state.blend == Blending::Add,
+        shadow_on: false,
+        ambient: 0,
         clear: frame.clear.map(|v| (v * max).round_ties_even() as u64),
-        ..DrawState::default()
     })
 }
 
@@ -51,16 +85,31 @@ pub fn port_triangle(
     index: usize,
     triangle: &Triangle,
     mode: ShadeMode,
+    blend: Blending,
     machine: &Plan,
 ) -> Result<[PortVertex; 3]> {
+    let mixes = blend == Blending::Mix;
     let mut port = [PortVertex::default(); 3];
     for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
         let v = if mode == ShadeMode::Flat { v.colored_as(&triangle.0[0]) } else { *v };
-        let [e0, e1, e2, e3] = v.extra;
-        let values = [v.z, v.r, v.g, v.b, e0, e1, e2, e3];
-        *slot = machine
-            .port_vertex(v.x, v.y, &values[..machine.channels().len()])
-            .with_context(|| format!("triangle {index}, vertex {corner}"))?;
+        let named = || format!("triangle {index}, vertex {corner}");
+        let mut values = vec![v.z, v.r, v.g, v.b];
+        values.extend_from_slice(&v.extra[..machine.extra as usize]);
+        if machine.shadow.is_there() {
+            values.extend([0.0; 3]); // no map is looked up
+        }
+        if machine.blend.is_there() {
+            values.push(if mixes { v.kt } else { 0.0 });
+        }
+        if mixes && machine.has_triangle_kt() && mode == ShadeMode::Gouraud && v.kt != triangle.0[0].kt {
+            return Err(anyhow!(
+                "kt = {} after {}: blend.kind = constant has one for a triangle; add --set blend.kind=interpolated, or draw with mode flat",
+                v.kt,
+                triangle.0[0].kt
+            ))
+            .with_context(named);
+        }
+        *slot = machine.port_vertex(v.x, v.y, &values).with_context(named)?;
     }
     Ok(port)
 }

@@ -28,6 +28,8 @@ pub struct Raster {
     pub lit: Option<Vec<u8>>,
     /// Where the cycles went, where a machine drew.
     pub cycles: Option<Cycles>,
+    /// The same by pass, where there is more than one.
+    pub passes: Vec<Cycles>,
     /// Hazards and corners met, where a machine drew.
     pub corners: Option<Events>,
 }
@@ -126,6 +128,7 @@ pub fn from_golden(picture: edgewalk_golden::Picture, machine: &Plan) -> Raster 
         extra: extra.map(|(channel, values)| Values::exact(channel, values)).collect(),
         lit: Some(picture.lit.into_iter().map(|lit| lit as u8).collect()),
         cycles: None,
+        passes: Vec::new(),
         corners: None,
     }
 }
@@ -144,6 +147,10 @@ pub fn from_machine(machine: &Plan, drawn: edgewalk_model::Frame) -> Raster {
         extra: drawn.extra.into_iter().map(Values::Stored).collect(),
         lit: None,
         cycles: Some(Cycles { held: None, ..Cycles::of(&drawn.counters, None) }),
+        passes: match &drawn.passes[..] {
+            [] | [_] => Vec::new(),
+            passes => passes.iter().map(|pass| Cycles::of(pass, None)).collect(),
+        },
         corners: None,
     }
 }

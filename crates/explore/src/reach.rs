@@ -54,15 +54,18 @@ pub fn untimed(machine: &Plan) -> Result<Plan> {
 /// Takes the frame through the units.
 ///
 /// # Errors
-/// Vertices of another machine.
+/// A machine with BLEND or SHADOW, a frame of several passes, vertices of another machine.
 pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
+    if machine.blend.is_there() || machine.shadow.is_there() {
+        return Err(anyhow!("size, sweep and compare take no machine with BLEND or SHADOW yet; set blend.kind = none and shadow.light = none"));
+    }
     let keys = Machine { extra: 0, adders: machine.adders.min(4), ..Machine::clone(machine) };
     let plan = untimed(&keys.plan().map_err(|e| anyhow!("{e}"))?)?;
     let of_plan = |triangle: &[_; 3]| {
         triangle.map(|v: edgewalk_machine::PortVertex| plan.raw_vertex(v.x(), v.y(), v.values()))
     };
     let triangles = port.triangles.iter().map(of_plan);
-    let drawn = Renderer::new(&plan, false).draw_passage(triangles, port.state);
+    let drawn = Renderer::new(&plan, false).draw_passage(triangles, port.state()?);
     drawn.map_err(|refusal| anyhow!("the fast engine draws every frame of such a machine: {refusal:?}"))
 }
 

@@ -6,6 +6,7 @@ use crate::occupancy::Occupancy;
 use crate::raster::{Cycles, Raster};
 use crate::setup_report::SetupReport;
 use anyhow::Result;
+use edgewalk_golden::Order;
 use edgewalk_machine::Plan;
 use edgewalk_model::{Activity, Events, Waits};
 use serde_json::{Map, Value, json};
@@ -21,6 +22,8 @@ pub struct Report {
     writes: u64,
     odd_pixels: u64,
     cycles: Option<Cycles>,
+    passes: Vec<Cycles>,
+    order: Option<Order>,
     corners: Option<Events>,
     comparison: Option<Comparison>,
     setup: Option<SetupReport>,
@@ -39,6 +42,8 @@ impl Report {
             odd_pixels: 0,
             writes: 0,
             cycles: drawn.cycles.clone(),
+            passes: drawn.passes.clone(),
+            order: None,
             corners: drawn.corners.clone(),
             comparison: None,
             setup: None,
@@ -75,6 +80,13 @@ impl Report {
         self
     }
 
+    /// The same of triangles that were sorted for blending.
+    #[must_use]
+    pub fn sorted(mut self, order: Option<Order>) -> Self {
+        self.order = order;
+        self
+    }
+
     /// The same with what SETUP did.
     pub fn with_setup(mut self, setup: SetupReport) -> Self {
         self.setup = Some(setup);
@@ -101,6 +113,8 @@ impl Report {
             corners,
             comparison,
             setup: Some(setup),
+            passes: Vec::new(),
+            order: self.order.clone(),
             ..*self
         }
     }
@@ -165,14 +179,19 @@ impl Report {
             if let Some(held) = &c.held {
                 report["occupancy"] = Occupancy::of(&self.machine, c.total, held).value();
             }
+            if !self.passes.is_empty() {
+                report["cycles"]["passes"] = self.passes.iter().map(|pass| pass.total).collect();
+            }
         }
         if let Some(setup) = &self.setup {
             report["setup"] = setup.value();
         }
         if let Some(c) = &self.corners {
+            let possible: Vec<_> = self.machine.events().map(|event| event.name).collect();
             report["corners"] = c
                 .counts()
                 .into_iter()
+                .filter(|(name, _)| possible.contains(name))
                 .map(|(name, count)| (name.to_owned(), json!(count)))
                 .collect::<Map<_, _>>()
                 .into();
@@ -203,6 +222,11 @@ impl Report {
             m.hash()
         );
         let _ = writeln!(t, "fragments {}, writes {}", self.covered, self.writes);
+        if let Some(order) = &self.order {
+            let _ =
+                writeln!(t, "transparent triangles, drawn last, from back to front: {}", order.transparent);
+            order.warning().iter().for_each(|warning| t += &format!("warning: {warning}\n"));
+        }
         match &self.comparison {
             Some(c) => compared(&mut t, m, c),
             // Golden does not round.
@@ -226,6 +250,9 @@ impl Report {
             for a in Activity::of(m) {
                 let n = c.spent(a);
                 let _ = writeln!(t, "    {:<10} {:>12}  {:>5.1} %", a.name(), n, 100.0 * ratio(n, c.total));
+            }
+            for (place, pass) in self.passes.iter().enumerate() {
+                let _ = writeln!(t, "    pass {place:<5} {:>12}", pass.total);
             }
             let sum: u64 = Activity::of(m).map(|a| c.spent(a)).sum();
             let _ = writeln!(t, "    {:<10} {:>12}  of {} cycles", "sum", sum, c.total);
@@ -259,6 +286,13 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
         let of = |bound: Option<f64>| bound.map_or_else(|| "none".to_owned(), |b| format!("{b:.4}"));
         let (z, color) = (of(c.z_bound_for_input), of(c.color_bound_for_input));
         _ = writeln!(t, "bounds for these triangles, at most {additions} additions: z {z}, colour {color}");
+    }
+    if let Some(b) = &c.blended {
+        _ = writeln!(
+            t,
+            "blended: {} pixels, up to {} layers, running bound up to {:.4} LSB, {:.4} of it reached, {} beyond",
+            b.pixels, b.layers, b.bound, b.of_bound, b.beyond
+        );
     }
     for own in &c.extra {
         let (of, label) = (&own.channel, &own.channel.label);

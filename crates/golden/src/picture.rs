@@ -5,7 +5,7 @@ use crate::draw_list::{DrawList, Item};
 use crate::fill::Fill;
 use crate::fragment::{Fragment, Weight};
 use crate::polygon;
-use edgewalk_scene::{Frame, MAX_EXTRA, Vertex};
+use edgewalk_scene::{Blending, Frame, MAX_EXTRA, Pass, State, Vertex};
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -33,9 +33,9 @@ pub struct Picture {
     pub height: u32,
     /// Fragments over the pixel, whether they pass the depth test or not.
     pub coverage: Vec<u32>,
-    /// Fragments that passed the depth test.
+    /// Fragments that passed the depth test and whose colour is stored.
     pub writes: Vec<u32>,
-    /// Place among the frame's primitives of the last one that passed, or [`NO_TRIANGLE`].
+    /// Place among the frame's primitives of the last of these, or [`NO_TRIANGLE`].
     pub id: Vec<i32>,
     /// Depth, cleared to 1.
     pub z: Vec<f64>,
@@ -63,19 +63,33 @@ impl<'a> Drawing<'a> {
 
     /// Some lines of the picture, as a picture.
     pub fn lines(&self, lines: Range<u32>) -> Picture {
+        self.watched(lines, |_| {})
+    }
+
+    /// The same; `watch` sees every depth test and every colour stored, in order.
+    pub fn watched(&self, lines: Range<u32>, mut watch: impl FnMut(Step)) -> Picture {
         let list = &self.0;
         let (frame, width) = (list.frame(), list.frame().width);
         let mut picture = Picture::cleared(frame, lines.len());
+        let mut nearest = vec![NO_TRIANGLE; picture.z.len()];
         let at = |x: u32, y: u32| (y - lines.start) as usize * width as usize + x as usize;
-        for (item, id) in list.items().iter().zip(0..) {
-            match item {
-                Item::Triangle(triangle) => {
-                    let plot = |f: &Fragment| picture.plot(list, id, at(f.x, f.y), f);
-                    list.fill().fragments_of_lines(triangle, frame.mode, width, lines.clone(), plot);
+        for Pass { primitives, state, clear_depth } in frame.passes() {
+            if clear_depth {
+                picture.z.fill(1.0);
+                nearest.fill(NO_TRIANGLE);
+            }
+            for (item, id) in list.items()[primitives.clone()].iter().zip(primitives.start as i32..) {
+                let (picture, nearest, watch) = (&mut picture, &mut nearest[..], &mut watch);
+                let mut pen = Pen { list, state, id, picture, nearest, watch };
+                match item {
+                    Item::Triangle(triangle) => {
+                        let plot = |f: &Fragment| pen.plot(at(f.x, f.y), f);
+                        list.fill().fragments_of_lines(triangle, frame.mode, width, lines.clone(), plot);
+                    }
+                    Item::Polygon(table) => polygon::fragments_of_lines(table, width, lines.clone(), |f| {
+                        pen.plot(at(f.x, f.y), f);
+                    }),
                 }
-                Item::Polygon(table) => polygon::fragments_of_lines(table, width, lines.clone(), |f| {
-                    picture.plot(list, id, at(f.x, f.y), f);
-                }),
             }
         }
         picture
@@ -98,55 +112,98 @@ impl Picture {
             lit: vec![Lit::Nothing; size],
         }
     }
+}
 
-    fn plot<const N: usize, W: Weight>(
-        &mut self,
-        list: &DrawList,
-        id: i32,
+/// What happens at a pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Step {
+    /// A fragment's depth is compared with the stored one.
+    Tested {
+        /// Place of the pixel, from the first of the lines.
         at: usize,
-        fragment: &Fragment<N, W>,
-    ) {
-        let frame = list.frame();
-        self.coverage[at] += 1;
+        /// Place of the primitive in the list.
+        id: i32,
+        /// That of the one whose depth is stored, or [`NO_TRIANGLE`]: the cleared one.
+        stored: i32,
+        /// How far they are apart.
+        gap: f64,
+    },
+    /// A colour is stored.
+    Stored {
+        /// Place of the pixel, from the first of the lines.
+        at: usize,
+        /// Place of the primitive in the list.
+        id: i32,
+        /// The fragment's.
+        front: [f64; 3],
+        /// Its k_t.
+        kt: f64,
+        /// What the pixel had.
+        back: [f64; 3],
+        /// How they are put together.
+        blend: Blending,
+    },
+}
+
+/// A primitive while it is drawn.
+struct Pen<'a, F> {
+    list: &'a DrawList<'a>,
+    state: State,
+    id: i32,
+    picture: &'a mut Picture,
+    /// The primitive whose depth is stored at each pixel, or [`NO_TRIANGLE`]: the cleared one.
+    nearest: &'a mut [i32],
+    watch: &'a mut F,
+}
+
+impl<F: FnMut(Step)> Pen<'_, F> {
+    fn plot<const N: usize, W: Weight>(&mut self, at: usize, fragment: &Fragment<N, W>) {
+        let (list, state) = (self.list, self.state);
+        self.picture.coverage[at] += 1;
         let z = fragment.z();
-        if let Some(func) = frame.depth {
-            let order =
-                compare(z, self.z[at], list.fill().doubt()).unwrap_or_else(|| self.order(list, at, fragment));
-            if !passes(func, order) {
+        if let Some(func) = state.depth {
+            let gap = (z - self.picture.z[at]).abs();
+            (self.watch)(Step::Tested { at, id: self.id, stored: self.nearest[at], gap });
+            let order = compare(z, self.picture.z[at], list.fill().doubt());
+            if !passes(func, order.unwrap_or_else(|| self.order(at, fragment))) {
                 return;
             }
         }
-        if frame.depth_write {
-            self.z[at] = z;
+        let picture = &mut *self.picture;
+        if state.stores_depth() {
+            picture.z[at] = z;
+            self.nearest[at] = self.id;
+        }
+        if !state.color_write {
+            return;
         }
         let mut front = fragment.rgb();
-        self.lit[at] = Lit::Lit;
+        picture.lit[at] = Lit::Lit;
         if let Some(map) = list.shadow()
             && !map.lit(fragment.x, fragment.y, z)
         {
             front = front.map(|channel| channel * map.ambient());
-            self.lit[at] = Lit::Shadow;
+            picture.lit[at] = Lit::Shadow;
         }
-        self.rgb[at] = if frame.blend { mix(front, fragment.kt(), self.rgb[at]) } else { front };
-        for (channel, values) in self.extra.iter_mut().enumerate() {
+        let back = picture.rgb[at];
+        (self.watch)(Step::Stored { at, id: self.id, front, kt: fragment.kt(), back, blend: state.blend });
+        picture.rgb[at] = match state.blend {
+            Blending::Off => front,
+            Blending::Mix => mix(front, fragment.kt(), back),
+            Blending::Add => std::array::from_fn(|channel| (front[channel] + back[channel]).min(1.0)),
+        };
+        for (channel, values) in picture.extra.iter_mut().enumerate() {
             values[at] = fragment.extra(channel);
         }
-        self.writes[at] += 1;
-        self.id[at] = id;
+        picture.writes[at] += 1;
+        picture.id[at] = self.id;
     }
 
     /// The exact order of a fragment's depth and the stored one.
-    fn order<const N: usize, W: Weight>(
-        &self,
-        list: &DrawList,
-        at: usize,
-        fragment: &Fragment<N, W>,
-    ) -> Ordering {
-        // Without depth writes the stored depth is still the cleared one.
-        let stored = if list.frame().depth_write { usize::try_from(self.id[at]).ok() } else { None };
-        match stored {
-            Some(stored) => list.order(fragment, stored),
-            None => fragment.compare_exact_z(&CLEARED),
+    fn order<const N: usize, W: Weight>(&self, at: usize, fragment: &Fragment<N, W>) -> Ordering {
+        match usize::try_from(self.nearest[at]) {
+            Ok(stored) => self.list.order(fragment, stored),
+            Err(_) => fragment.compare_exact_z(&CLEARED),
         }
     }
 }

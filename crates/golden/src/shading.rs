@@ -14,7 +14,7 @@ use crate::fragment::Fragment;
 use crate::picture::Picture;
 use crate::transparency::is_transparent;
 use crate::weights::Weights;
-use edgewalk_scene::{Frame, Scene, ShadeMode, Surface, SurfaceTriangle, SurfaceVertex};
+use edgewalk_scene::{Blending, Frame, Scene, ShadeMode, Surface, SurfaceTriangle, SurfaceVertex};
 use glam::{DVec2, DVec3};
 
 /// How the colour of a pixel is come by.
@@ -57,7 +57,7 @@ pub fn frame(scene: &Scene, surface: &Surface, shading: Shading) -> Frame {
     Frame {
         mode,
         clear: scene.background.to_array(),
-        blend: triangles.iter().any(is_transparent),
+        blend: if triangles.iter().any(is_transparent) { Blending::Mix } else { Blending::Off },
         triangles,
         ..Frame::new(surface.width, surface.height)
     }

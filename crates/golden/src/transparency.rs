@@ -13,7 +13,7 @@ mod overlap;
 mod pairs;
 
 use crate::cover::snap;
-use edgewalk_scene::Triangle;
+use edgewalk_scene::{Blending, Change, Frame, State, Triangle};
 use overlap::{Side, side};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -91,6 +91,17 @@ pub fn back_to_front(triangles: &[Triangle], subpixel_bits: u32) -> Order {
     order.order.extend(sorted.into_iter().map(|rank| clear[rank]));
     order.cycles.extend(cycles.into_iter().map(|rank| clear[rank]));
     order
+}
+
+/// A frame whose triangles are drawn one after the other as they can be blended: what is opaque by the frame's own rules,
+/// then what is not, from back to front, which leaves the depth alone.
+pub fn sorted(frame: Frame, subpixel_bits: u32) -> (Frame, Order) {
+    let order = back_to_front(&frame.triangles, subpixel_bits);
+    let triangles: Vec<_> = order.order.iter().map(|place| frame.triangles[*place]).collect();
+    let state = State { blend: Blending::Mix, depth_write: false, ..frame.state() };
+    let after = triangles.len() - order.transparent;
+    let changes = vec![Change { after, state, clear_depth: false }];
+    (Frame { triangles, changes, blend: Blending::Off, ..frame }, order)
 }
 
 /// Whether something is seen through it.

@@ -1,7 +1,7 @@
 //! The depth test, write mask, blending and what a picture records.
 
 use edgewalk_golden::{Fill, NO_TRIANGLE, Picture, draw};
-use edgewalk_scene::{DepthFunc, Frame, Triangle, Vertex};
+use edgewalk_scene::{Blending, DepthFunc, Frame, Triangle, Vertex};
 
 const EXACT: Fill = Fill::Exact { subpixel_bits: 8 };
 
@@ -132,6 +132,6 @@ fn blending_mixes_by_the_transmission_coefficient() {
     // kt = 1/4 over black, then over that.
     let mut two = frame(None, vec![over_all([0.5; 3], 1.0), over_all([0.5; 3], 0.5)]);
     assert_eq!(centre(&draw(&two, EXACT)).4, 0.5, "without blend kt has no effect");
-    two.blend = true;
+    two.blend = Blending::Mix;
     assert_eq!(centre(&draw(&two, EXACT)).4, 0.75 * 0.5 + 0.25 * 0.75);
 }

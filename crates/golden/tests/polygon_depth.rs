@@ -3,7 +3,7 @@
 mod shapes;
 
 use edgewalk_golden::{Fill, NO_TRIANGLE, draw};
-use edgewalk_scene::{DepthFunc, Frame, Polygon, Triangle, Vertex};
+use edgewalk_scene::{Blending, DepthFunc, Frame, Polygon, Triangle, Vertex};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use shapes::{Point, SCREEN, expected};
@@ -145,7 +145,7 @@ fn a_transparent_polygon_lets_what_is_behind_through() {
     let with = |value: f64, kt: f64| square(0.0, 4.0, 0.5).map(|v| Vertex { r: value, kt, ..v }).to_vec();
     let frame = Frame {
         depth: Some(DepthFunc::Lequal),
-        blend: true,
+        blend: Blending::Mix,
         polygons: [with(0.5, 0.0), with(1.0, 0.25)].map(|c| Polygon { contours: vec![c], after: 0 }).to_vec(),
         ..Frame::new(4, 4)
     };

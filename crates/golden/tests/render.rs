@@ -3,7 +3,7 @@
 use edgewalk_golden::{
     Fill, Rays, Shading, ShadowMaps, Visibility, back_to_front, draw, fragments, frame, render,
 };
-use edgewalk_scene::{Camera, Face, Frame, Light, Material, Mesh, Scene, ShadeMode};
+use edgewalk_scene::{Blending, Camera, Face, Frame, Light, Material, Mesh, Scene, ShadeMode};
 use glam::DVec3;
 
 const FILL: Fill = Fill::Exact { subpixel_bits: 8 };
@@ -141,7 +141,7 @@ fn panes_in_any_list_order_are_the_exact_composition() {
             let expected = composed(&sorted);
             let order = back_to_front(&sorted.triangles, 8).order;
             sorted.triangles = order.iter().map(|place| sorted.triangles[*place]).collect();
-            sorted.blend = true;
+            sorted.blend = Blending::Mix;
             let by_list = draw(&sorted, FILL);
             for (at, rgb) in rendered.shaded.picture.rgb.iter().enumerate() {
                 assert!(far(rgb, &expected[at]) < 1e-12, "turn {turn}, {shading:?}, pixel {at}");

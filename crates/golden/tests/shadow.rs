@@ -4,7 +4,7 @@
 //! infinitely smaller one, lies strictly inside; it keeps a list of fragments a pixel and composes it afterwards.
 
 use edgewalk_golden::{Fill, Lit, Picture, draw};
-use edgewalk_scene::{DepthFunc, Frame, ShadeMode, Shadow, Triangle, Vertex, triangle_file};
+use edgewalk_scene::{Blending, DepthFunc, Frame, ShadeMode, Shadow, Triangle, Vertex, triangle_file};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -233,7 +233,7 @@ fn expected(frame: &Frame, subpixel_bits: u32, map: &[f64], x: u32, y: u32) -> O
                 }
             }
         }
-        let kt = if frame.blend { front[3] } else { 0.0 };
+        let kt = if frame.blend == Blending::Mix { front[3] } else { 0.0 };
         rgb = [0, 1, 2].map(|c| front[c] - kt * front[c] + kt * rgb[c]);
         if frame.depth_write {
             z = new;
@@ -254,7 +254,7 @@ fn random(random: &mut Pcg64Mcg) -> Frame {
         Some(DepthFunc::Always),
     ][random.random_range(0..5)];
     frame.depth_write = frame.depth.is_some() && random.random_bool(0.7);
-    frame.blend = random.random_bool(0.7);
+    frame.blend = if random.random_bool(0.7) { Blending::Mix } else { Blending::Off };
     frame.clear = random.random();
     let point = |random: &mut Pcg64Mcg| {
         // Half of them on multiples of a quarter pixel, so that centres meet edges.

@@ -1,7 +1,7 @@
 //! Sorted blending against an exact composition from back to front, pixel by pixel.
 
 use edgewalk_golden::{Fill, back_to_front, draw, fragments};
-use edgewalk_scene::{Frame, ShadeMode, Triangle, Vertex};
+use edgewalk_scene::{Blending, Frame, ShadeMode, Triangle, Vertex};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -34,7 +34,7 @@ fn sorted(mut frame: Frame) -> (Frame, Option<String>) {
     let (warning, count) = (order.warning(), frame.triangles.len());
     assert_eq!(order.order.len(), count);
     frame.triangles = order.order.iter().map(|place| frame.triangles[*place]).collect();
-    frame.blend = true;
+    frame.blend = Blending::Mix;
     (frame, warning)
 }
 
@@ -86,7 +86,7 @@ fn where_an_order_exists_the_picture_is_the_exact_composition() {
     for _ in 0..300 {
         let frame = random(&mut source, false);
         let mut as_it_is = frame.clone();
-        as_it_is.blend = true;
+        as_it_is.blend = Blending::Mix;
         unsorted += compare(&as_it_is).1;
         let (frame, warning) = sorted(frame);
         assert_eq!(warning, None);

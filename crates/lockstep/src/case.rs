@@ -206,12 +206,14 @@ impl Case {
 
 /// The values that a picture gives to the machine's constants, by their declared names.
 #[must_use]
-pub fn constants(state: &DrawState) -> [(&'static str, u128); 4] {
+pub fn constants(state: &DrawState) -> [(&'static str, u128); 6] {
     [
         ("depth_func", state.depth_func.into()),
         ("depth_write", state.depth_write.into()),
         ("color_write", state.color_write.into()),
         ("blend_add", state.blend_add.into()),
+        ("shadow_on", state.shadow_on.into()),
+        ("ambient", state.ambient.into()),
     ]
 }
 

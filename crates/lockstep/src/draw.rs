@@ -241,6 +241,7 @@ impl Picture {
             coverage: pixels().map(|a| self.coverage[a]).collect(),
             writes: pixels().map(|a| self.writes[a]).collect(),
             id: pixels().map(|a| self.id[a]).collect(),
+            passes: vec![self.counters.clone()],
             counters: self.counters,
             events: Events::default(),
         }

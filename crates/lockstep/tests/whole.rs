@@ -17,6 +17,11 @@ const MACHINES: usize = 400;
 /// Triangles drawn on them, about.
 const TRIANGLES: u64 = 40_000;
 
+/// SHADOW has no netlist yet.
+fn no_netlist(event: &str) -> bool {
+    edgewalk_machine::units::shadow::SPEC.events.iter().any(|of| of.name == event)
+}
+
 /// What random triangles may not meet, and [`colours_on_one_pixel`] does.
 const DIRECTED: [&str; 3] = ["opaque_behind", "behind_opaque", "color_head_wait"];
 
@@ -94,7 +99,7 @@ fn whole_machines(half: usize) {
         .events
         .missing()
         .into_iter()
-        .filter(|event| !DIRECTED.contains(event) && *event != ALONE)
+        .filter(|event| !DIRECTED.contains(event) && *event != ALONE && !no_netlist(event))
         .collect();
     assert_eq!(missing, [""; 0], "not met");
 }

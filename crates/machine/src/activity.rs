@@ -27,11 +27,13 @@ pub enum Activity {
     Flush,
     /// DEPTH is full, as BLEND takes no fragment.
     Blend,
+    /// SHADOW waits for the light's map.
+    Light,
 }
 
 impl Activity {
     /// All, in the order of the port's code.
-    pub const ALL: [Activity; 10] = [
+    pub const ALL: [Activity; 11] = [
         Activity::Idle,
         Activity::Draw,
         Activity::Offscreen,
@@ -42,6 +44,7 @@ impl Activity {
         Activity::Setup,
         Activity::Flush,
         Activity::Blend,
+        Activity::Light,
     ];
 
     /// Bits of the port.
@@ -50,14 +53,29 @@ impl Activity {
     /// Name in reports and, in capitals, in the netlist.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        ["idle", "draw", "offscreen", "hazard", "queue", "memory", "edge", "setup", "flush", "blend"]
-            [self as usize]
+        [
+            "idle",
+            "draw",
+            "offscreen",
+            "hazard",
+            "queue",
+            "memory",
+            "edge",
+            "setup",
+            "flush",
+            "blend",
+            "light",
+        ][self as usize]
     }
 
     /// Those that the machine can have.
     pub fn of(plan: &Plan) -> impl Iterator<Item = Activity> {
-        let blends = plan.blend.is_there();
-        Activity::ALL.into_iter().filter(move |activity| blends || *activity != Activity::Blend)
+        let (blends, shadows) = (plan.blend.is_there(), plan.shadow.is_there());
+        Activity::ALL.into_iter().filter(move |activity| match activity {
+            Activity::Blend => blends,
+            Activity::Light => shadows,
+            _ => true,
+        })
     }
 
     /// What it means, in words.
@@ -74,6 +92,7 @@ impl Activity {
             "all wait for SETUP",
             "the last fragments leave the pipeline",
             "BLEND takes no fragment",
+            "SHADOW takes no fragment",
         ][self as usize]
     }
 

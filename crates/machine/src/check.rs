@@ -74,6 +74,7 @@ fn keys_of(channel: &Channel) -> String {
         "r" | "g" | "b" => "formats.color".to_owned(),
         "z" => "formats.z".to_owned(),
         "kt" => "blend.kt".to_owned(),
+        "lx" | "ly" | "lz" => "shadow.light".to_owned(),
         extra => format!("channels.{extra}"),
     }
 }

@@ -3,7 +3,7 @@
 //! To add a parameter: a field in `Machine`, a line here, a rule in `check.rs` if it can clash with another.
 
 use crate::channel::{Kind, MAX_CHANNELS};
-use crate::machine::{BlendKind, EdgeKind, Fill, Hazard, Machine};
+use crate::machine::{BlendKind, EdgeKind, Fill, Gate, Hazard, Machine, ShadowLight};
 
 /// What a key may be set to.
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +38,21 @@ pub struct Key {
 macro_rules! number {
     ($name:literal, $domain:expr, $doc:literal, $($field:ident).+) => {
         Key { name: $name, doc: $doc, domain: $domain, get: |m| m.$($field).+, set: |m, v| m.$($field).+ = v, used: |_| true, absent: None }
+    };
+}
+
+/// A key of SHADOW, for machines that have it.
+macro_rules! shadow {
+    ($name:literal, $domain:expr, $doc:literal, $field:ident) => {
+        Key {
+            name: $name,
+            doc: $doc,
+            domain: $domain,
+            get: |m| m.shadow.$field,
+            set: |m, v| m.shadow.$field = v,
+            used: |m| m.shadow.is_there(),
+            absent: None,
+        }
     };
 }
 
@@ -100,6 +115,8 @@ macro_rules! extra {
 const FILLS: [Fill; 2] = [Fill::Exact, Fill::Textbook];
 const KINDS: [EdgeKind; 2] = [EdgeKind::Exact, EdgeKind::Slope];
 const BLENDS: [BlendKind; 3] = [BlendKind::None, BlendKind::Constant, BlendKind::Interpolated];
+const LIGHTS: [ShadowLight; 2] = [ShadowLight::None, ShadowLight::Parallel];
+const GATES: [Gate; 2] = [Gate::And, Gate::Scale];
 const HAZARDS: [Hazard; 3] = [Hazard::Drain, Hazard::Interlock, Hazard::Forward];
 
 use Domain::{OneOf, Range, Word};
@@ -202,6 +219,46 @@ pub const KEYS: &[Key] = &[
     },
     number!("memory.latency", Range(1, 8), "clocks from a depth read to its data, at the least", latency),
     number!("fifo.inflight", Range(1, 16), "fragments in flight between read and compare", inflight),
+    Key {
+        name: "shadow.light",
+        doc: "the light whose depth map is looked up: none, parallel",
+        domain: Word(&["none", "parallel"]),
+        get: |m| m.shadow.light as u32,
+        set: |m, v| m.shadow.light = LIGHTS[v as usize],
+        used: |_| true,
+        absent: Some(ShadowLight::None as u32),
+    },
+    shadow!("shadow.size", Range(1, 4096), "side of the map, texels", size),
+    shadow!("shadow.guard_bits", Range(0, 6), "vertices lie within 2^guard_bits maps", guard_bits),
+    shadow!("shadow.depth_bits", Range(4, 24), "bits of a depth in the map", depth_bits),
+    shadow!(
+        "shadow.light_fraction",
+        Range(0, 24),
+        "light-space values: interpolator fraction bits",
+        fraction
+    ),
+    shadow!(
+        "shadow.light_vertex",
+        Range(0, 16),
+        "light-space values: fraction bits of the vertex value",
+        vertex_fraction
+    ),
+    Key {
+        name: "shadow.gate",
+        doc: "a colour in shadow: and (0), or scale (the share `ambient` of it)",
+        domain: Word(&["and", "scale"]),
+        get: |m| m.shadow.gate as u32,
+        set: |m, v| m.shadow.gate = GATES[v as usize],
+        used: |m| m.shadow.is_there(),
+        absent: None,
+    },
+    shadow!("fifo.shadow", Range(1, 16), "fragments in SHADOW's queue", queue),
+    shadow!(
+        "memory.map_latency",
+        Range(1, 8),
+        "clocks from a read of the map to its data, at the least",
+        latency
+    ),
     Key {
         name: "blend.kind",
         doc: "blending with the pixel: none, by a k_t of the triangle (constant) or of the pixel (interpolated)",

@@ -40,7 +40,9 @@ pub use channel::{Channel, Kind, MAX_CHANNELS, Precision};
 pub use edgewalk_numerics::ErrorBudget;
 pub use field::{Field, Scale};
 pub use link::{Held, Link, MemoryPort, Ready, Status};
-pub use machine::{Blend, BlendKind, EdgeKind, ExtraChannel, Fill, Hazard, Machine};
+pub use machine::{
+    Blend, BlendKind, EdgeKind, ExtraChannel, Fill, Gate, Hazard, Machine, Shadow, ShadowLight,
+};
 pub use plan::Plan;
 pub use text::MachineError;
 pub use unit::{Event, Ports, UnitSpec};

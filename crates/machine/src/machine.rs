@@ -81,6 +81,77 @@ impl Blend {
     }
 }
 
+/// The light whose map SHADOW looks up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ShadowLight {
+    /// None: the machine has no SHADOW.
+    None,
+    /// Parallel: light-space values are linear over the screen.
+    Parallel,
+}
+
+/// What becomes of the colour of a fragment in shadow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Gate {
+    /// 0.
+    And,
+    /// The share `ambient` of it.
+    Scale,
+}
+
+/// SHADOW, and the map behind it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Shadow {
+    /// Which light.
+    pub light: ShadowLight,
+    /// Side of the map, texels.
+    pub size: u32,
+    /// Bits that light-space texels have beyond the map.
+    pub guard_bits: u32,
+    /// Bits of a depth in the map.
+    pub depth_bits: u32,
+    /// Interpolator fraction bits of light-space values.
+    pub fraction: u32,
+    /// Fraction bits of their vertex values.
+    pub vertex_fraction: u32,
+    /// What shadow does.
+    pub gate: Gate,
+    /// Depth of its queue, fragments.
+    pub queue: u32,
+    /// Latency of the map, clocks.
+    pub latency: u32,
+}
+
+impl Shadow {
+    /// The unit is there.
+    #[must_use]
+    pub fn is_there(&self) -> bool {
+        self.light != ShadowLight::None
+    }
+
+    /// SB: bits of a texel's column or line.
+    #[must_use]
+    pub fn side_bits(&self) -> u32 {
+        self.size.next_power_of_two().ilog2().max(1)
+    }
+
+    /// Word lengths of lx and ly.
+    #[must_use]
+    pub fn texel(&self) -> Precision {
+        self.precision(self.side_bits() + 1 + self.guard_bits)
+    }
+
+    /// Word lengths of lz.
+    #[must_use]
+    pub fn light_depth(&self) -> Precision {
+        self.precision(self.depth_bits + 2)
+    }
+
+    fn precision(&self, bits: u32) -> Precision {
+        Precision { bits, fraction: self.fraction, vertex_fraction: self.vertex_fraction }
+    }
+}
+
 /// A channel that the user adds: it is interpolated and written beside the colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ExtraChannel {
@@ -129,6 +200,8 @@ pub struct Machine {
     pub latency: u32,
     /// Hazard policy of DEPTH.
     pub hazard: Hazard,
+    /// SHADOW.
+    pub shadow: Shadow,
     /// BLEND.
     pub blend: Blend,
     /// Bits of the tag that travels with a triangle to its writes; 0 leaves the ports out.

@@ -1,7 +1,9 @@
 //! The machines that come with the program.
 
 use crate::channel::{Kind, Precision};
-use crate::machine::{Blend, BlendKind, EdgeKind, ExtraChannel, Fill, Hazard, Machine};
+use crate::machine::{
+    Blend, BlendKind, EdgeKind, ExtraChannel, Fill, Gate, Hazard, Machine, Shadow, ShadowLight,
+};
 use crate::plan::Plan;
 
 /// Names of the presets, for `--machine` and its hints.
@@ -13,6 +15,19 @@ pub const PRESETS: &[(&str, &str)] = &[
 /// What a channel of the user is until it is set: a texture coordinate of 12 bits.
 const EXTRA: ExtraChannel =
     ExtraChannel { kind: Kind::Floor, precision: Precision { bits: 12, fraction: 14, vertex_fraction: 4 } };
+
+/// No SHADOW, and what it is until more is set.
+const SHADOW: Shadow = Shadow {
+    light: ShadowLight::None,
+    size: 512,
+    guard_bits: 2,
+    depth_bits: 16,
+    fraction: 14,
+    vertex_fraction: 4,
+    gate: Gate::And,
+    queue: 4,
+    latency: 2,
+};
 
 /// No BLEND, and what it is until more is set: pixels rarely come again at once, so interlock costs little.
 const BLEND: Blend = Blend {
@@ -49,6 +64,7 @@ impl Default for Machine {
             inflight: 4,
             latency: 2,
             hazard: Hazard::Forward,
+            shadow: SHADOW,
             blend: BLEND,
             tag_bits: 0,
         }

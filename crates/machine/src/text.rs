@@ -175,7 +175,7 @@ impl Machine {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine::{Blend, BlendKind};
+    use crate::machine::{Blend, BlendKind, Shadow, ShadowLight};
 
     #[test]
     fn what_is_written_reads_back() {
@@ -189,9 +189,10 @@ mod tests {
     fn every_setting_survives_the_file_and_changes_the_hash() {
         let mut seen = std::collections::HashSet::new();
         for key in KEYS {
-            // With all extra channels and a k_t for every pixel every key means something.
+            // With all extra channels, a light and a k_t for every pixel every key means something.
             let blend = Blend { kind: BlendKind::Interpolated, ..Machine::default().blend };
-            let mut machine = Machine { extra: 4, blend, ..Machine::default() };
+            let shadow = Shadow { light: ShadowLight::Parallel, ..Machine::default().shadow };
+            let mut machine = Machine { extra: 4, blend, shadow, ..Machine::default() };
             let other = match key.domain {
                 Domain::Range(low, high) => {
                     if (key.get)(&machine) == low {

@@ -5,6 +5,7 @@ pub mod setup;
 pub mod edge;
 pub mod span;
 pub mod pixel;
+pub mod shadow;
 pub mod depth;
 pub mod blend;
 pub mod memory;
@@ -17,7 +18,7 @@ use crate::unit::{Event, UnitSpec};
 
 /// Every unit, in the order the data flows.
 pub const UNITS: &[&UnitSpec] =
-    &[&setup::SPEC, &edge::SPEC, &span::SPEC, &pixel::SPEC, &depth::SPEC, &blend::SPEC];
+    &[&setup::SPEC, &edge::SPEC, &span::SPEC, &pixel::SPEC, &shadow::SPEC, &depth::SPEC, &blend::SPEC];
 
 /// What can happen between units.
 pub const EVENTS: &[Event] =

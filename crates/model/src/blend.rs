@@ -44,12 +44,13 @@ struct Side<const C: usize> {
     k: u32,
     /// The pixel's colour counts.
     need: bool,
+    lit: bool,
     source: Source,
 }
 
 impl<const C: usize> Default for Side<C> {
     fn default() -> Self {
-        Side { values: [0; C], k: 0, need: false, source: Source::default() }
+        Side { values: [0; C], k: 0, need: false, lit: false, source: Source::default() }
     }
 }
 
@@ -157,6 +158,7 @@ impl<const C: usize> Blend<C> {
             addr: w.addr,
             rgb: w.word.rgb,
             values: w.side.values,
+            lit: w.side.lit,
             source: w.side.source,
         })
     }
@@ -194,7 +196,8 @@ impl<const C: usize> Blend<C> {
     }
 
     fn side(&self, pass: &Passed<C>, add: bool) -> Side<C> {
-        Side { values: pass.values, k: self.k(pass), need: self.needs(pass, add), source: pass.source }
+        let Passed { values, lit, source, .. } = *pass;
+        Side { values, k: self.k(pass), need: self.needs(pass, add), lit, source }
     }
 
     /// A stage has a fragment of this address.

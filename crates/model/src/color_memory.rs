@@ -9,7 +9,6 @@
 //! Timing: as the depth memory's. Rules: `docs/machine.md`, section 7. Not modelled: that both may be one memory.
 
 use crate::fifo::Fifo;
-use crate::memory::Stalls;
 use crate::tokens::{ColorWrite, FEW, MAX_CHANNELS, OutputWords};
 use crate::waits::{Pacer, Waits};
 use edgewalk_machine::Plan;
@@ -34,14 +33,10 @@ impl<const C: usize> ColorMemory<C> {
     #[must_use]
     pub fn new(plan: &Plan, clear: [u64; 3], waits: impl Into<Waits>) -> Self {
         let (words, bits) = (1 << plan.widths().address, plan.color.bits);
-        let waits = match waits.into() {
-            Waits::Random(stalls) => Waits::Random(Stalls { seed: stalls.seed.wrapping_add(1), ..stalls }),
-            as_often => as_often,
-        };
         ColorMemory {
             bits,
             latency: u64::from(plan.blend.latency),
-            pacer: Pacer::new(waits),
+            pacer: Pacer::new(waits.into().of_another(1)),
             now: 0,
             reads: Fifo::default(),
             rgb: vec![clear.into_iter().fold(0, |word, c| word << bits | c); words],

@@ -51,6 +51,23 @@ impl Counters {
         self.inflight = self.inflight.wrapping_add(fragments as u64);
     }
 
+    /// What came after these.
+    #[must_use]
+    pub fn since(&self, before: &Counters) -> Counters {
+        Counters {
+            cycles: self.cycles - before.cycles,
+            activity: std::array::from_fn(|i| self.activity[i] - before.activity[i]),
+            triangles: self.triangles - before.triangles,
+            lines: self.lines - before.lines,
+            spans: self.spans - before.spans,
+            fragments: self.fragments - before.fragments,
+            writes: self.writes - before.writes,
+            setup_clocks: std::array::from_fn(|i| self.setup_clocks[i] - before.setup_clocks[i]),
+            queued_spans: self.queued_spans - before.queued_spans,
+            inflight: self.inflight - before.inflight,
+        }
+    }
+
     /// Cycles spent on this.
     #[must_use]
     pub fn spent(&self, activity: Activity) -> u64 {

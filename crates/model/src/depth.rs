@@ -46,13 +46,14 @@ struct Side<const C: usize> {
     /// All values, the new depth among them.
     values: OutputWords<C>,
     kt: u32,
+    lit: bool,
     fence: bool,
     source: Source,
 }
 
 impl<const C: usize> Default for Side<C> {
     fn default() -> Self {
-        Side { values: [0; C], kt: 0, fence: false, source: Source::default() }
+        Side { values: [0; C], kt: 0, lit: false, fence: false, source: Source::default() }
     }
 }
 
@@ -149,6 +150,7 @@ impl<const C: usize> Depth<C> {
             addr: w.addr,
             values: w.side.values,
             z_en: w.stored,
+            lit: w.side.lit,
             source: w.side.source,
         })
     }
@@ -157,8 +159,8 @@ impl<const C: usize> Depth<C> {
     #[inline]
     #[must_use]
     pub fn last_read(&self) -> Fragment<C> {
-        let (addr, Side { values, kt, source, .. }) = self.rmw.youngest();
-        Fragment { addr, values, kt, fence: false, source }
+        let (addr, Side { values, kt, lit, source, .. }) = self.rmw.youngest();
+        Fragment { addr, values, kt, lit, fence: false, source }
     }
 
     /// Clock edge.
@@ -173,7 +175,8 @@ impl<const C: usize> Depth<C> {
         let compared = inputs.data.filter(|_| self.data_ready(inputs.wr_ready, inputs.pass_ready));
         if let Some(frag) = frag {
             if block.is_none() && inputs.rd_ready {
-                let side = Side { values: frag.values, kt: frag.kt, fence: frag.fence, source: frag.source };
+                let Fragment { values, kt, lit, fence, source, .. } = *frag;
+                let side = Side { values, kt, lit, fence, source };
                 if self.rmw.enter(frag.addr, side) {
                     events.forward_write += 1;
                 }
@@ -227,8 +230,8 @@ impl<const C: usize> Depth<C> {
         if passes {
             events.fence_handed_on += u64::from(fence && !of.side.fence);
             let kt = kt.map_or(of.side.kt, |place| of.side.values[place]);
-            *color =
-                Some(Passed { addr: of.addr, values: of.side.values, kt, fence, source: of.side.source });
+            let Side { values, lit, source, .. } = of.side;
+            *color = Some(Passed { addr: of.addr, values, kt, lit, fence, source });
         }
     }
 

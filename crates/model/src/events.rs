@@ -78,6 +78,28 @@ events! {
     forward_used,
     /// Fragments that failed the compare.
     depth_fail,
+    /// Fragments that were not looked up, as the map does not count.
+    shadow_off,
+    /// Fragments outside the map: lit.
+    outside_map,
+    /// Fragments nearer to the light than the map begins: lit.
+    before_map,
+    /// Fragments farther from the light than the map ends: in shadow.
+    behind_map,
+    /// Fragments that their texel finds lit.
+    texel_lit,
+    /// Fragments that their texel finds in shadow.
+    texel_shadow,
+    /// Fragments exactly as far as their texel: lit.
+    texel_tie,
+    /// Cycles in which a fragment could go on but for its texel.
+    texel_wait,
+    /// Cycles in which a fragment waits for SHADOW's queue.
+    shadow_queue_full,
+    /// Cycles in which a read waits for the map.
+    map_stall,
+    /// Fragments that need no texel and come behind one that waits for its own.
+    known_behind_read,
     /// Depths written before BLEND took the colour.
     depth_first,
     /// Colours that BLEND took before the depth was written.

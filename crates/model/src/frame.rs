@@ -2,7 +2,9 @@
 
 use crate::counters::Counters;
 use crate::events::Events;
-use crate::run::{DrawState, Rig};
+use crate::machine::Model;
+use crate::passes::Pass;
+use crate::run::{Cycle, DrawState, Rig};
 use crate::tokens::{Source, for_channels, output};
 use crate::waits::Waits;
 use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
@@ -24,6 +26,8 @@ pub struct Frame {
     pub id: Vec<i32>,
     /// Performance counters.
     pub counters: Counters,
+    /// The same of each pass.
+    pub passes: Vec<Counters>,
     /// Events of the units.
     pub events: Events,
 }
@@ -72,22 +76,39 @@ pub fn render_with(
     waits: impl Into<Waits>,
     hook: impl FnMut(Drawn),
 ) -> Result<Frame, ForeignVertex> {
-    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), state, waits.into(), hook))
+    let passes = [Pass::all(state)];
+    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), &passes, waits.into(), hook))
+}
+
+/// As [`render_with`], pass by pass.
+///
+/// # Errors
+/// A triangle whose vertices were made for another machine.
+pub fn render_passes(
+    plan: &Plan,
+    triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+    passes: &[Pass],
+    waits: impl Into<Waits>,
+    hook: impl FnMut(Drawn),
+) -> Result<Frame, ForeignVertex> {
+    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), passes, waits.into(), hook))
 }
 
 fn draw<const C: usize>(
     plan: &Plan,
     triangles: impl Iterator<Item = [PortVertex; 3]>,
-    state: DrawState,
+    passes: &[Pass],
     waits: Waits,
     mut hook: impl FnMut(Drawn),
 ) -> Result<Frame, ForeignVertex> {
+    let state = passes.first().map_or_else(DrawState::default, |pass| pass.state);
     let mut rig = Rig::<C>::new(plan, state, waits);
+    let mut counters: Vec<Counters> = Vec::new();
     let mut tally = Tally::new(plan);
     let blends = plan.blend.is_there();
     let channels = plan.channels().len().min(C); // C serves the plan; said so that no slice is checked in every cycle
-    let triangles = triangles.zip(0..).map(|(t, number)| plan.accept(&t, number).map(|()| t));
-    rig.draw(triangles, |_, model, cycle| {
+    let mut triangles = triangles.zip(0..).map(|(t, number)| plan.accept(&t, number).map(|()| t));
+    let mut watch = |_, model: &Model<C>, cycle: &Cycle<C>| {
         if let Some(addr) = cycle.read {
             tally.read(addr);
             let fragment = model.last_read();
@@ -104,7 +125,16 @@ fn draw<const C: usize>(
             let values = &write.values[..channels];
             hook(Drawn::Write(Sample { addr: write.addr, values, source: write.source }));
         }
-    })?;
+    };
+    for pass in passes {
+        let before = rig.model.counters().clone();
+        rig.set_state(pass.state);
+        if pass.clear_depth {
+            rig.memory.clear_depth(plan);
+        }
+        rig.draw(triangles.by_ref().take(pass.triangles), &mut watch)?;
+        counters.push(rig.model.counters().since(&before));
+    }
     let x_bits = plan.widths().x;
     let addresses: Vec<usize> =
         (0..plan.height).flat_map(|y| (0..plan.width).map(move |x| (y << x_bits | x) as usize)).collect();
@@ -120,6 +150,7 @@ fn draw<const C: usize>(
         writes: addresses.iter().map(|addr| tally.writes[*addr]).collect(),
         id: addresses.iter().map(|addr| tally.id[*addr]).collect(),
         counters: rig.model.counters().clone(),
+        passes: counters,
         events: rig.model.events().clone(),
     })
 }

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //!  tri ─> setup ─> edge ─> span ─> pixel ─> depth ─> memory
+//!                        shadow before depth, blend behind it, if the machine has them
 //!                                              └─> blend ─> colour memory, if the machine has it
 //! ```
 //! Written from `docs/machine.md` alone. A unit is a plain state struct: methods give its outputs from the state and
@@ -12,6 +13,7 @@
 pub mod counters;
 pub mod events;
 mod rmw;
+pub mod shadow;
 pub mod depth;
 pub mod blend;
 pub mod edge;
@@ -20,9 +22,11 @@ pub mod machine;
 mod prefetch;
 mod waits;
 pub mod memory;
+pub mod map_memory;
 pub mod color_memory;
 pub mod pixel;
 pub mod run;
+pub mod passes;
 pub mod frame;
 pub mod fast;
 pub mod setup;
@@ -34,9 +38,11 @@ pub use color_memory::ColorMemory;
 pub use counters::Counters;
 pub use edgewalk_machine::Activity;
 pub use events::Events;
-pub use frame::{Drawn, Frame, Sample, render, render_with};
-pub use machine::{BlendInputs, Inputs, Model, Outputs};
+pub use frame::{Drawn, Frame, Sample, render, render_passes, render_with};
+pub use machine::{BlendInputs, Inputs, Model, Outputs, ShadowInputs};
+pub use map_memory::MapMemory;
 pub use memory::{Memory, Stalls};
+pub use passes::Pass;
 pub use run::{Cycle, DrawState, Rig};
 pub use setup::{Culled, SetupClocks, cull, longest_setup, setup_clocks};
 pub use tokens::Write;

@@ -8,7 +8,7 @@
 //! Data runs to the right, readies to the left within the cycle. [`Model::cycle`] therefore works out the readies from
 //! DEPTH back to SETUP, and then clocks the units in the same order, so that each still sees its source as it was.
 //!
-//! Rules: `docs/machine.md`, sections 8 to 10.
+//! Rules: `docs/machine.md`, sections 8 to 11.
 
 mod view;
 
@@ -20,6 +20,8 @@ use crate::edge::Edge;
 use crate::events::{Events, one_more};
 use crate::pixel::Pixel;
 use crate::setup::Setup;
+use crate::shadow::Shadow;
+pub use crate::shadow::ShadowInputs;
 use crate::span::Span;
 use crate::tokens::{ColorWrite, FEW, Fragment, Write};
 use edgewalk_machine::{Activity, Plan, PortVertex};
@@ -42,6 +44,8 @@ pub struct Inputs<'a> {
     pub data: Option<u64>,
     /// The memory takes a write.
     pub wr_ready: bool,
+    /// What only machines with SHADOW have.
+    pub shadow: ShadowInputs,
     /// What only machines with BLEND have.
     pub blend: BlendInputs,
 }
@@ -57,6 +61,10 @@ pub struct Outputs<const C: usize> {
     pub data_ready: bool,
     /// A write; with BLEND of a depth.
     pub wr: Option<Write<C>>,
+    /// With SHADOW: address of a texel.
+    pub mrd: Option<u32>,
+    /// With SHADOW: the depth of a texel is taken, if it is there.
+    pub mdata_ready: bool,
     /// What only machines with BLEND have.
     pub blend: BlendOutputs<C>,
     /// What the cycle was spent on.
@@ -90,6 +98,8 @@ impl<const C: usize> Default for Outputs<C> {
             rd: None,
             data_ready: false,
             wr: None,
+            mrd: None,
+            mdata_ready: false,
             blend: BlendOutputs::default(),
             activity: Activity::Idle,
             idle: false,
@@ -105,10 +115,20 @@ pub struct Model<const C: usize> {
     edge: Edge<C>,
     span: Span<C>,
     pixel: Pixel<C>,
+    shadow: Option<Shadow<C>>,
     depth: Depth<C>,
     blend: Option<Blend<C>>,
     counters: Counters,
     events: Events,
+}
+
+/// What keeps fragments waiting besides DEPTH.
+#[derive(Clone, Copy)]
+struct Waits {
+    /// SHADOW has room, and so waits for the map's ready, or has nothing to offer, and so for its data.
+    light: bool,
+    /// BLEND does not take what DEPTH offers.
+    pass: bool,
 }
 
 /// The units of a [`Model`].
@@ -122,6 +142,8 @@ pub struct Units<'a, const C: usize> {
     pub span: &'a Span<C>,
     /// Spans to fragments.
     pub pixel: &'a Pixel<C>,
+    /// Fragments to fragments lit or not, if the machine has it.
+    pub shadow: Option<&'a Shadow<C>>,
     /// Fragments to writes.
     pub depth: &'a Depth<C>,
     /// Fragments that passed to colours, if the machine has it.
@@ -137,6 +159,7 @@ impl<const C: usize> Model<C> {
             edge: Edge::new(plan),
             span: Span::new(plan),
             pixel: Pixel::new(plan),
+            shadow: plan.shadow.is_there().then(|| Shadow::new(plan)),
             depth: Depth::new(plan),
             blend: plan.blend.is_there().then(|| Blend::new(plan)),
             counters: Counters::default(),
@@ -160,7 +183,13 @@ impl<const C: usize> Model<C> {
     #[must_use]
     pub fn units(&self) -> Units<'_, C> {
         let Model { setup, edge, span, pixel, depth, .. } = self;
-        Units { setup, edge, span, pixel, depth, blend: self.blend() }
+        Units { setup, edge, span, pixel, shadow: self.shadow(), depth, blend: self.blend() }
+    }
+
+    /// SHADOW, as BLEND below.
+    #[inline(always)]
+    fn shadow(&self) -> Option<&Shadow<C>> {
+        self.shadow.as_ref().filter(|_| C > FEW)
     }
 
     /// BLEND; of machines with few channels, which have none, nothing of it is built.
@@ -199,7 +228,9 @@ impl<const C: usize> Model<C> {
     /// A fragment is in flight behind PIXEL.
     #[inline]
     fn in_flight(&self) -> bool {
-        self.depth.occupied() || self.blend().is_some_and(Blend::occupied)
+        self.depth.occupied()
+            || self.shadow().is_some_and(Shadow::occupied)
+            || self.blend().is_some_and(Blend::occupied)
     }
 
     /// A cycle in which SPAN, PIXEL and DEPTH have nothing to move and nothing is offered to them: they stay as they
@@ -224,12 +255,19 @@ impl<const C: usize> Model<C> {
         let pass = self.depth.pass().copied();
         let pass_ready = self.blend().is_some_and(|blend| blend.pass_ready(pass.as_ref(), &inputs.blend));
         let frag = self.pixel.frag();
-        let block = self.depth.block(frag, inputs.depth_write);
-        let frag_ready = inputs.rd_ready && block.is_none();
-        let activity = self.activity(block, frag_ready, pass.is_some() && !pass_ready);
+        let shaded = self.shadow().and_then(|shadow| shadow.shaded(&inputs.shadow));
+        let seen = if self.shadow().is_some() { shaded.as_ref() } else { frag };
+        let block = self.depth.block(seen, inputs.depth_write);
+        let seen_ready = inputs.rd_ready && block.is_none();
+        let frag_ready = self.shadow().map_or(seen_ready, |shadow| shadow.frag_ready(frag, &inputs.shadow));
+        let light = self.shadow().is_some_and(|shadow| !shadow.full() || shaded.is_none());
+        let waits = Waits { light, pass: pass.is_some() && !pass_ready };
+        let activity = self.activity(block, frag_ready, waits);
         let outputs = Outputs {
             tri_ready: self.setup.tri_ready(),
-            rd: frag.filter(|_| block.is_none()).map(|f| f.addr),
+            rd: seen.filter(|_| block.is_none()).map(|f| f.addr),
+            mrd: self.shadow().and_then(|shadow| shadow.read(frag, inputs.shadow.on)),
+            mdata_ready: self.shadow().is_some_and(|shadow| shadow.mdata_ready(seen_ready)),
             data_ready: self.depth.data_ready(inputs.wr_ready, pass_ready),
             wr: self.depth.write(),
             blend: self.blend().map_or_else(BlendOutputs::default, |blend| BlendOutputs {
@@ -270,7 +308,10 @@ impl<const C: usize> Model<C> {
         if let Some(blend) = self.blend.as_mut().filter(|_| C > FEW) {
             blend.step(pass.as_ref(), &inputs.blend, events);
         }
-        self.depth.step(frag, block, &depth_inputs, events);
+        self.depth.step(seen, block, &depth_inputs, events);
+        if let Some(shadow) = self.shadow.as_mut().filter(|_| C > FEW) {
+            shadow.step(frag, &inputs.shadow, seen_ready && shaded.is_some(), events);
+        }
 
         // PIXEL.
         let span = self.span.span();
@@ -310,6 +351,9 @@ impl<const C: usize> Model<C> {
         self.span.reset();
         self.pixel.reset();
         self.depth.reset();
+        if let Some(shadow) = &mut self.shadow {
+            shadow.reset();
+        }
         if let Some(blend) = &mut self.blend {
             blend.reset();
         }
@@ -317,11 +361,12 @@ impl<const C: usize> Model<C> {
 
     /// The cause of this cycle, the first that holds.
     #[inline]
-    fn activity(&self, block: Option<Block>, frag_ready: bool, pass_waits: bool) -> Activity {
+    fn activity(&self, block: Option<Block>, frag_ready: bool, waits: Waits) -> Activity {
         if !self.pixel.advance(frag_ready) {
             match block {
+                _ if waits.light => Activity::Light,
                 Some(Block::Hazard) => Activity::Hazard,
-                Some(Block::Full) if pass_waits => Activity::Blend,
+                Some(Block::Full) if waits.pass => Activity::Blend,
                 Some(Block::Full) => Activity::Queue,
                 None => Activity::Memory,
             }

@@ -97,6 +97,11 @@ impl<const C: usize> Memory<C> {
         (!self.reads.is_empty() && due <= self.now).then_some(u64::from(z))
     }
 
+    /// The farthest depth everywhere.
+    pub fn clear_depth(&mut self, plan: &Plan) {
+        self.z.fill(plan.z.max() as u32); // b <= 32 bits
+    }
+
     /// What is stored at an address.
     #[must_use]
     pub fn pixel(&self, addr: u32) -> OutputWords<C> {

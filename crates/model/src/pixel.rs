@@ -200,6 +200,7 @@ impl<const C: usize> Pixel<C> {
             addr: self.row | self.x as u32,
             values: std::array::from_fn(|i| (self.values[i] >> 32) as u32 & self.masks[i]),
             kt: self.kt,
+            lit: false, // SHADOW says
             fence: self.fence,
             source: self.source,
         }

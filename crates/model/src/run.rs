@@ -6,7 +6,8 @@
 //! ```
 
 use crate::color_memory::ColorMemory;
-use crate::machine::{BlendInputs, Inputs, Model, Outputs};
+use crate::machine::{BlendInputs, Inputs, Model, Outputs, ShadowInputs};
+use crate::map_memory::MapMemory;
 use crate::memory::Memory;
 use crate::tokens::{ColorWrite, FEW, OutputWords, Write};
 use crate::waits::Waits;
@@ -19,6 +20,10 @@ pub struct DrawState {
     pub depth_func: u8,
     /// Fragments that pass store their depth.
     pub depth_write: bool,
+    /// With SHADOW: the map counts.
+    pub shadow_on: bool,
+    /// With SHADOW's gate `scale`: what a colour in shadow is multiplied by, b bits.
+    pub ambient: u64,
     /// Fragments that pass store their colour; without BLEND they always do.
     pub color_write: bool,
     /// BLEND adds, else it mixes.
@@ -30,7 +35,15 @@ pub struct DrawState {
 impl Default for DrawState {
     /// The nearest fragment wins, mixed with what is there as its k_t says, on black.
     fn default() -> Self {
-        DrawState { depth_func: 1, depth_write: true, color_write: true, blend_add: false, clear: [0; 3] }
+        DrawState {
+            depth_func: 1,
+            depth_write: true,
+            color_write: true,
+            blend_add: false,
+            shadow_on: true,
+            ambient: 0,
+            clear: [0; 3],
+        }
     }
 }
 
@@ -41,6 +54,8 @@ pub struct Rig<const C: usize> {
     pub model: Model<C>,
     /// Its memory; with BLEND that of the depths.
     pub memory: Memory<C>,
+    /// With SHADOW the light's map.
+    pub map: Option<MapMemory>,
     /// With BLEND that of the colours.
     pub color: Option<ColorMemory<C>>,
     state: DrawState,
@@ -82,8 +97,13 @@ impl<const C: usize> Rig<C> {
     #[must_use]
     pub fn new(plan: &Plan, state: DrawState, waits: impl Into<Waits>) -> Self {
         let waits = waits.into();
-        let color = plan.blend.is_there().then(|| ColorMemory::new(plan, state.clear, waits));
-        Rig { model: Model::new(plan), memory: Memory::new(plan, state.clear, waits), color, state }
+        Rig {
+            model: Model::new(plan),
+            memory: Memory::new(plan, state.clear, waits),
+            map: plan.shadow.is_there().then(|| MapMemory::new(plan, waits)),
+            color: plan.blend.is_there().then(|| ColorMemory::new(plan, state.clear, waits)),
+            state,
+        }
     }
 
     /// What is stored at an address.
@@ -110,6 +130,7 @@ impl<const C: usize> Rig<C> {
             rd_ready: self.memory.rd_ready(),
             data: self.memory.data(),
             wr_ready: self.memory.wr_ready() && writes_open,
+            shadow: self.shadow_inputs(),
             blend: self.blend_inputs(writes_open),
         }
     }
@@ -126,6 +147,10 @@ impl<const C: usize> Rig<C> {
             written: outputs.wr.is_some() && inputs.wr_ready,
             color_written: outputs.blend.cwr.is_some() && inputs.blend.cwr_ready,
         };
+        if let Some(map) = self.map.as_mut().filter(|_| C > FEW) {
+            let read = outputs.mrd.filter(|_| inputs.shadow.mrd_ready);
+            map.step(read, inputs.shadow.mdata.is_some() && outputs.mdata_ready);
+        }
         let data_taken = inputs.data.is_some() && outputs.data_ready;
         match &mut self.color {
             Some(color) if C > FEW => {
@@ -137,6 +162,17 @@ impl<const C: usize> Rig<C> {
             _ => self.memory.step(cycle.read, data_taken, cycle.write()),
         }
         cycle
+    }
+
+    #[inline(always)]
+    fn shadow_inputs(&self) -> ShadowInputs {
+        let Some(map) = self.map.as_ref().filter(|_| C > FEW) else { return ShadowInputs::default() };
+        ShadowInputs {
+            on: self.state.shadow_on,
+            ambient: self.state.ambient as u32, // b <= 16 bits
+            mrd_ready: map.mrd_ready(),
+            mdata: map.mdata(),
+        }
     }
 
     #[inline(always)]

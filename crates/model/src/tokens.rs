@@ -154,6 +154,8 @@ tokens! {
         values: OutputWords<C> = [0; C],
         /// k_t of the triangle; 0 where it is a channel.
         kt: u32 = 0,
+        /// Behind SHADOW: the light reaches it.
+        lit: bool = false,
         /// First fragment of its triangle or, in textbook fill, of its lower part.
         fence: bool = false,
         /// The triangle.
@@ -168,6 +170,8 @@ tokens! {
         values: OutputWords<C> = [0; C],
         /// The depth is stored.
         z_en: bool = false,
+        /// With SHADOW: the light reaches it.
+        lit: bool = false,
         /// The triangle.
         source: Source = Source::default(),
     }
@@ -182,6 +186,8 @@ tokens! {
         values: OutputWords<C> = [0; C],
         /// k_t, kt_bits + 1 bits.
         kt: u32 = 0,
+        /// With SHADOW: the light reaches it.
+        lit: bool = false,
         /// It, or one before it that did not pass, is the first of its triangle or part.
         fence: bool = false,
         /// The triangle.
@@ -196,6 +202,8 @@ tokens! {
         rgb: u64 = 0,
         /// The same colours, the user's own, and the fragment's depth, at their places.
         values: OutputWords<C> = [0; C],
+        /// With SHADOW: the light reaches it.
+        lit: bool = false,
         /// The triangle.
         source: Source = Source::default(),
     }

@@ -82,6 +82,16 @@ impl Waits {
         }
     }
 
+    /// Those of another memory: as often, but at random in other cycles.
+    pub(crate) fn of_another(self, number: u64) -> Waits {
+        match self {
+            Waits::Random(stalls) => {
+                Waits::Random(Stalls { seed: stalls.seed.wrapping_add(number), ..stalls })
+            }
+            as_often => as_often,
+        }
+    }
+
     fn kind(&self) -> &'static str {
         match self {
             Waits::Never => "none",

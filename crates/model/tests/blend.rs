@@ -303,6 +303,7 @@ fn random_machines_draw_what_their_fragments_come_to() {
             color_write: rng.random_bool(0.9),
             blend_add: rng.random_bool(0.2),
             clear: [1, 2, 3],
+            ..DrawState::default()
         };
         let max = plan.color.max() as i64;
         let one = 1i64 << plan.blend.kt_bits;

@@ -123,6 +123,7 @@ fn random_machines_equal_ticking() {
                 Path::Fast => fast += 1,
                 Path::Ticked(Reason::Channels) => channels += 1,
                 Path::Ticked(Reason::Blend) => blend += 1,
+                Path::Ticked(Reason::Passes) => unreachable!("one pass"),
                 Path::Ticked(Reason::Queue) => queue += 1,
                 Path::Ticked(Reason::Interlock) => interlock += 1,
                 Path::Ticked(Reason::Memory) => panic!("this memory never stalls"),

@@ -19,8 +19,8 @@ pub struct Window {
 /// Why there is no recording.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RecordError {
-    /// A machine with BLEND.
-    #[error("blend.kind: a replay does not show BLEND; set blend.kind = none")]
+    /// A machine with BLEND or SHADOW.
+    #[error("a replay does not show BLEND and SHADOW; set blend.kind = none and shadow.light = none")]
     Blend,
     /// The triangles are for another machine.
     #[error(transparent)]
@@ -59,7 +59,7 @@ pub fn record(
     stalls: Stalls,
     window: Window,
 ) -> Result<Recording, RecordError> {
-    if plan.blend.is_there() {
+    if plan.blend.is_there() || plan.shadow.is_there() {
         return Err(RecordError::Blend);
     }
     for (triangle, number) in triangles.iter().zip(0..) {

@@ -21,6 +21,8 @@ mod pixel;
 
 mod rmw;
 
+mod shadow;
+
 mod depth;
 
 mod blend;
@@ -38,8 +40,16 @@ pub use machine::{assemble, engine, machine};
 pub use memory::memory;
 pub use pixel::pixel;
 pub use setup::setup;
+pub use shadow::shadow;
 pub use span::span;
 
 /// The name of each unit of [`edgewalk_machine::UNITS`], and what builds it.
-pub const BUILDERS: &[(&str, units::Build)] =
-    &[("setup", setup), ("edge", edge), ("span", span), ("pixel", pixel), ("depth", depth), ("blend", blend)];
+pub const BUILDERS: &[(&str, units::Build)] = &[
+    ("setup", setup),
+    ("edge", edge),
+    ("span", span),
+    ("pixel", pixel),
+    ("shadow", shadow),
+    ("depth", depth),
+    ("blend", blend),
+];

@@ -1,5 +1,7 @@
 //! A frame: the screen, the rules for depth and blending, and triangles and polygons in pixels.
 
+use crate::pass::{Blending, Change};
+
 /// Largest side of a screen, pixels.
 pub const MAX_SIDE: u32 = 16384;
 
@@ -145,7 +147,7 @@ pub struct Shadow {
     pub triangles: Vec<[[f64; 3]; 3]>,
 }
 
-/// One picture to draw: triangles and polygons in list order on a cleared screen.
+/// One picture to draw: triangles and polygons in list order on a cleared screen, by rules that may change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
     /// Width, 1..=[`MAX_SIDE`] pixels.
@@ -158,8 +160,10 @@ pub struct Frame {
     pub depth: Option<DepthFunc>,
     /// Whether a fragment that passes stores its depth; false where `depth` is `None`.
     pub depth_write: bool,
-    /// Whether a fragment is mixed with what it covers: (1 - k_t) I + k_t I_back (ch. 7.5).
-    pub blend: bool,
+    /// What becomes of the colour of a fragment that passes.
+    pub blend: Blending,
+    /// Whether it is stored at all.
+    pub color_write: bool,
     /// Colour of the empty screen, [0, 1] each; the empty depth is 1.
     pub clear: [f64; 3],
     /// How many values of the user's own a vertex has, 0..=[`MAX_EXTRA`]; without polygons where it has any. Where nothing
@@ -169,6 +173,8 @@ pub struct Frame {
     pub shadow: Option<Shadow>,
     /// The triangles, drawn in this order.
     pub triangles: Vec<Triangle>,
+    /// Where other rules than those above begin to hold, in order ([`Frame::passes`]).
+    pub changes: Vec<Change>,
     /// The polygons, in this order, each after as many triangles as it says ([`Frame::primitives`]).
     pub polygons: Vec<Polygon>,
 }
@@ -182,7 +188,9 @@ impl Frame {
             mode: ShadeMode::Gouraud,
             depth: Some(DepthFunc::Less),
             depth_write: true,
-            blend: false,
+            blend: Blending::Off,
+            color_write: true,
+            changes: Vec::new(),
             clear: [0.0; 3],
             extra: 0,
             shadow: None,

@@ -20,6 +20,7 @@ mod scene_file;
 pub mod triangle_file;
 mod polygon;
 mod frame;
+mod pass;
 
 pub use camera::Camera;
 pub use error::{InputError, nearest};
@@ -31,6 +32,7 @@ pub use light::{Attenuation, Incident, Light};
 pub use light_view::{InMap, LightView};
 pub use mesh::{Face, FaceData, Material, Mesh};
 pub use normals::{Crease, NormalRule, Weight};
+pub use pass::{Blending, Change, Pass, State};
 pub use polygon::{CrossingEdges, Primitive, Triangulated};
 pub use scene::Scene;
 pub use shading::{LightTerms, Lighting, Point, Specular, Terms};

@@ -5,6 +5,7 @@
 
 mod shadow;
 mod extra;
+mod rules;
 mod reader;
 mod writer;
 

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 use edgewalk_scene::{
-    DepthFunc, Frame, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_SIDE, Polygon, Primitive, ShadeMode,
-    Shadow, Triangle, Vertex, triangle_file,
+    Blending, Change, DepthFunc, Frame, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_SIDE, Polygon,
+    Primitive, ShadeMode, Shadow, State, Triangle, Vertex, triangle_file,
 };
 use proptest::prelude::*;
 
@@ -25,7 +25,10 @@ fn every_item_is_taken() {
          clear 0 0.5 1e0\nT 1 2 0.25 .5 0.5 0.5 1\t-1e6 +1 0 0 0 0 0 1 1 1 1 1 1 1#end",
     );
     assert_eq!((frame.width, frame.height, frame.mode), (3, 4, ShadeMode::Flat));
-    assert_eq!((frame.depth, frame.depth_write, frame.blend), (Some(DepthFunc::Gequal), false, true));
+    assert_eq!(
+        (frame.depth, frame.depth_write, frame.blend),
+        (Some(DepthFunc::Gequal), false, Blending::Mix)
+    );
     assert_eq!(frame.clear, [0.0, 0.5, 1.0]);
     let first = Vertex { x: 1.0, y: 2.0, z: 0.25, r: 0.5, g: 0.5, b: 0.5, kt: 1.0, ..Vertex::default() };
     assert_eq!(frame.triangles.len(), 1);
@@ -174,7 +177,7 @@ fn malformed_values_name_place_and_remedy() {
 fn malformed_files_name_place_and_remedy() {
     let t = |bad: &str| format!("size 9 9\n{}", T.replacen("0.5", bad, 1));
     let p = |n: &str, z: &str| t(z).replacen("T ", &format!("P {n} "), 1);
-    let cases: [(String, &[&str]); 36] = [
+    let cases: [(String, &[&str]); 42] = [
         ("".into(), &["a.tri:1: size", "`size W H` is missing", "16384"]),
         (T.into(), &["a.tri:1: size", "missing"]),
         ("size 0 9".into(), &["a.tri:1: size W: `0`", "an integer from 1 to 16384"]),
@@ -192,7 +195,13 @@ fn malformed_files_name_place_and_remedy() {
         ("size 9 9\ndepth lesss".into(), &["depth: `lesss`", "did you mean `less`"]),
         ("size 9 9\ndepth of".into(), &["depth: `of`", "did you mean `off`"]),
         ("size 9 9\ndepth_write yes".into(), &["depth_write: `yes`", "0 1"]),
-        ("size 9 9\nblend 2".into(), &["blend: `2`", "0 1"]),
+        ("size 9 9\nblend 2".into(), &["blend: `2`", "0 1 add"]),
+        (format!("size 9 9\n{T}\nblend ad"), &["a.tri:3: blend: `ad`", "did you mean `add`"]),
+        ("size 9 9\ncolour_write 2".into(), &["colour_write: `2`", "0 1"]),
+        (format!("size 9 9\n{T}\ncolor_write 0"), &["a.tri:3:", "did you mean `colour_write`"]),
+        (format!("size 9 9\n{T}\nclear_depth 1"), &["a.tri:3: clear_depth: `1 given`", "0 values"]),
+        (format!("size 9 9\n{T}\nclear 0 0 0"), &["a.tri:3: clear", "before the first triangle"]),
+        (p("3", "0.5") + "\ndepth off\nH 3", &["a.tri:4:", "`H`", "only on the lines after a polygon"]),
         ("size 9 9\nclear 0 0 1.5".into(), &["a.tri:2: clear b: `1.5`", "a number from 0 to 1"]),
         ("size 9 9\nclear 0 0".into(), &["clear: `2 given`", "3 values"]),
         (format!("size 9 9\n{T}\nmode flat"), &["a.tri:3: mode", "before the first triangle"]),
@@ -213,7 +222,7 @@ fn malformed_files_name_place_and_remedy() {
             format!("size 9 9\n{}", T.replacen("9 0", "1e7 0", 1)),
             &["T vertex 2 x: `1e7`", "-1000000 to 1000000"],
         ),
-        (format!("size 9 9\n# ok\n{}", "x".repeat(500)), &["a.tri:3:", "xxx...`", "size mode depth"]),
+        (format!("size 9 9\n# ok\n{}", "x".repeat(500)), &["a.tri:3:", "xxx...`", "size mode clear"]),
     ];
     for (text, fragments) in cases {
         let message = match triangle_file::parse("a.tri", text.as_bytes()) {
@@ -248,6 +257,33 @@ fn triangle_by_triangle_a_late_shadow_is_refused() {
             && error.contains("only triangles from here on"),
         "{error}"
     );
+}
+
+#[test]
+fn rules_change_between_triangles() {
+    let text = format!(
+        "size 9 9\nblend 1\n{T}\ndepth equal\ndepth_write 0\n{T}\n{T}\nclear_depth\nblend add\ncolour_write 0\ndepth off\n{T}\n"
+    );
+    let frame = triangle_file::parse("a.tri", text.as_bytes()).unwrap();
+    let passes: Vec<_> = frame
+        .passes()
+        .into_iter()
+        .map(|pass| {
+            let State { depth, depth_write, blend, color_write } = pass.state;
+            (pass.primitives, depth, depth_write, blend, color_write, pass.clear_depth)
+        })
+        .collect();
+    let wanted = [
+        (0..1, Some(DepthFunc::Less), true, Blending::Mix, true, false),
+        (1..3, Some(DepthFunc::Equal), false, Blending::Mix, true, false),
+        (3..4, None, false, Blending::Add, false, true),
+    ];
+    assert_eq!(passes, wanted);
+    // What is drawn while it is read has one list of rules.
+    let mut reader = triangle_file::Reader::new("a.tri", text.as_bytes()).unwrap();
+    assert!(reader.next().is_some_and(|triangle| triangle.is_ok()));
+    let error = reader.next().unwrap().unwrap_err().to_string();
+    assert!(error.contains("a.tri:4:") && error.contains("only triangles from here on"), "{error}");
 }
 
 #[test]
@@ -310,13 +346,42 @@ prop_compose! {
 }
 
 prop_compose! {
+    fn state()(
+        depth in prop::option::of(prop::sample::select(DepthFunc::ALL.to_vec())),
+        write in any::<bool>(),
+        blend in prop::sample::select(Blending::ALL.to_vec()),
+        color_write in any::<bool>(),
+    ) -> State {
+        State { depth, depth_write: write && depth.is_some(), blend, color_write }
+    }
+}
+
+/// Those between primitives that change something, one at a place.
+fn changes_of(frame: &Frame, rules: Vec<(prop::sample::Index, State, bool)>) -> Vec<Change> {
+    let count = frame.triangles.len() + frame.polygons.len();
+    let mut rules: Vec<_> =
+        rules.into_iter().map(|(at, state, clear)| (at.index(count + 1), state, clear)).collect();
+    rules.sort_by_key(|(after, ..)| *after);
+    let mut changes: Vec<Change> = Vec::new();
+    for (after, state, clear_depth) in rules {
+        let last = changes.last().map_or((0, frame.state()), |change| (change.after, change.state));
+        if after > last.0 && after < count && (state != last.1 || clear_depth) {
+            changes.push(Change { after, state, clear_depth });
+        }
+    }
+    changes
+}
+
+prop_compose! {
     fn frame()(
         width in 1..=MAX_SIDE,
         height in 1..=MAX_SIDE,
         mode in prop::sample::select(ShadeMode::ALL.to_vec()),
         depth in prop::option::of(prop::sample::select(DepthFunc::ALL.to_vec())),
         write in any::<bool>(),
-        blend in any::<bool>(),
+        blend in prop::sample::select(Blending::ALL.to_vec()),
+        color_write in any::<bool>(),
+        rules in prop::collection::vec((any::<prop::sample::Index>(), state(), any::<bool>()), 0..6),
         clear in prop::array::uniform3(0.0..=1.0f64),
         shadow in prop::option::of(shadow()),
         extra in 0..=MAX_EXTRA,
@@ -337,7 +402,12 @@ prop_compose! {
             vertex.extra[..extra].copy_from_slice(&values[..extra]);
         }
         let depth_write = write && depth.is_some();
-        Frame { width, height, mode, depth, depth_write, blend, clear, extra, shadow, triangles, polygons }
+        let changes = Vec::new();
+        let mut frame = Frame {
+            width, height, mode, depth, depth_write, blend, color_write, clear, extra, shadow, triangles, changes, polygons,
+        };
+        frame.changes = changes_of(&frame, rules);
+        frame
     }
 }
 
@@ -348,7 +418,7 @@ proptest! {
         triangle_file::write(&frame, &mut text).unwrap();
         let streamed: Result<Vec<Triangle>, _> =
             triangle_file::Reader::new("a.tri", &text[..]).unwrap().collect();
-        prop_assert_eq!(streamed.is_ok(), frame.polygons.is_empty());
+        prop_assert_eq!(streamed.is_ok(), frame.polygons.is_empty() && frame.changes.is_empty());
         prop_assert!(streamed.map_or(true, |triangles| triangles == frame.triangles));
         prop_assert_eq!(triangle_file::parse("a.tri", &text[..]).unwrap(), frame);
     }

@@ -1,6 +1,7 @@
 //! `edgewalk explain`: why a pixel looks as it does.
 
 mod additions;
+mod layers;
 mod terms;
 mod page;
 
@@ -14,7 +15,8 @@ use additions::{Walk, walk};
 use anyhow::{Result, anyhow};
 use edgewalk_golden::{ShadowMaps, draw, fragments};
 use edgewalk_machine::{EdgeKind, Fill, Plan};
-use edgewalk_scene::{Frame, Scene, Surface};
+use edgewalk_scene::{Frame, Scene, State, Surface};
+use layers::{Layer, layers};
 use serde::Serialize;
 use terms::{LitPoint, lit_point};
 
@@ -55,6 +57,9 @@ struct Explanation {
     extra: Vec<f64>,
     /// Where the scene has a surface.
     light: Option<LitPoint>,
+    /// Of a blended frame the colours stored here, in order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    layers: Vec<Layer>,
     /// Where the machine has exact fill and exact edges, and draws the triangle.
     machine: Option<Walk>,
 }
@@ -79,9 +84,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     // Opened once: it may be a pipe.
     let scene = if args.source.is_triangle_file() { None } else { Some(args.source.surface(&machine)?) };
-    let frame = match &scene {
+    let (frame, order) = match &scene {
         Some((scene, surface)) => args.source.frame_of(scene, surface, &machine)?,
-        None => args.source.frame(&machine)?,
+        None => (args.source.frame(&machine)?, None),
     };
     let picture = draw(&frame, golden_fill(&machine));
     let at = (y * machine.width + x) as usize;
@@ -96,17 +101,22 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         rgb: picture.rgb[at],
         extra: own(&machine, |channel| picture.extra[channel][at]),
         light: match (seen, &scene) {
-            (Some(_), Some((scene, surface))) => light(scene, surface, id as usize, &machine, (x, y)),
+            (Some(_), Some((scene, surface))) => {
+                let place = order.as_ref().map_or(id as usize, |order| order.order[id as usize]);
+                light(scene, surface, place, &machine, (x, y))
+            }
             _ => None,
         },
+        layers: layers(&frame, &machine, (x, y))?,
         machine: match seen {
             Some(triangle) if machine.fill == Fill::Exact && machine.edge_kind == EdgeKind::Exact => {
-                walk(&machine, &port_triangle(id as usize, triangle, frame.mode, &machine)?, x, y)
+                let blend = state_of(&frame, id as usize).blend;
+                walk(&machine, &port_triangle(id as usize, triangle, frame.mode, blend, &machine)?, x, y)
             }
             _ => None,
         },
     };
-    talk.say(|| Ok(serde_json::to_string(&explanation)?), || page::text(&explanation))?;
+    talk.say(|| Ok(serde_json::to_string(&explanation)?), || page::text(&explanation, machine.color.bits))?;
     // A pixel may be empty, but not the whole picture.
     let covered = picture.coverage.iter().map(|count| u64::from(*count)).sum();
     Verdict::drew(covered).or_nothing(
@@ -114,6 +124,12 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         frame.triangles.len() as u64,
         (machine.width, machine.height),
     )
+}
+
+/// The rules of a triangle.
+fn state_of(frame: &Frame, id: usize) -> State {
+    let passes = frame.passes();
+    passes.iter().find(|pass| pass.primitives.contains(&id)).map_or(frame.state(), |pass| pass.state)
 }
 
 /// The triangles over a pixel, by the exact rule.

@@ -32,7 +32,9 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
   mode gouraud|flat
   depth less|lequal|always|off|...
   depth_write 0|1
-  blend 0|1                                               1: (1-kt) I + kt I_back; golden only
+  blend 0|1|add                                           1: (1-kt) I + kt I_back; add: I + I_back; needs blend.kind
+  colour_write 0|1                                        0: depth only; needs blend.kind
+  clear_depth                                             depth to blend and this also between triangles
   clear r g b
   extra N                                                 values of your own at a vertex, 0 to 4: channels.extra = N
   shadow SIZE BIAS AMBIENT m00 m01 .. m33                 a light's depth map, matrix by rows; golden only

@@ -100,10 +100,11 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     if lines_only {
         return lines(args, &machine, talk);
     }
-    let frame = args.source.frame(&machine)?;
+    let (frame, order) = args.source.sorted(&machine)?;
     let out = Staging::new(&args.out)?;
     let Pictures { report, verdict, .. } =
         pictures(&args.source.input, &frame, &machine, (args.engine, args.stalls), &out, talk.quiet)?;
+    let report = report.sorted(order);
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;

@@ -141,7 +141,7 @@ fn drawn(args: &Args, machine: &MachineArgs) -> Result<Shown> {
     Verdict::drew(count).or_nothing(&args.source.input, 0, size)?;
     let to = args.cycles.map(|cycles| args.from.saturating_add(cycles - 1)).or(args.to);
     let window = Window { from: args.from, to };
-    let recording = record(&machine, &port.triangles, port.state, args.stalls.stalls(), window)
+    let recording = record(&machine, &port.triangles, port.state()?, args.stalls.stalls(), window)
         .with_context(|| args.source.input.clone())?;
     let truth = truth::truth(&machine, &frame, &port.ids, recording.view.tokens());
     let (scene, triangles) = (args.source.input.clone(), port.triangles);

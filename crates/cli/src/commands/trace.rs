@@ -62,7 +62,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let mut failure: Result<()> = Ok(());
     let mut cycles = 0;
     let triangles = port.triangles.iter().take(args.triangles).copied();
-    edgewalk_lockstep::render_rtl_with(&machine, triangles, port.state, StallKind::None, |sim| {
+    edgewalk_lockstep::render_rtl_with(&machine, triangles, port.state()?, StallKind::None, |sim| {
         failure = sample(&mut wave, &mut file, kind, sim);
         cycles += 1;
         failure.is_ok() && cycles < args.cycles

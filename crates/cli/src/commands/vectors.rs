@@ -114,11 +114,12 @@ pub fn of_input(input: &str, port: &PortFrame, triangles: Option<u64>) -> Result
     let wanted = triangles.map_or(usize::MAX, |n| usize::try_from(n).unwrap_or(usize::MAX));
     let every = port.triangles.len().div_ceil(wanted).max(1);
     let triangles: Vec<_> = port.triangles.iter().step_by(every).copied().collect();
+    let state = port.state()?;
     Ok(Suite {
-        depth_func: port.state.depth_func,
-        depth_write: port.state.depth_write,
-        color_write: port.state.color_write,
-        blend_add: port.state.blend_add,
+        depth_func: state.depth_func,
+        depth_write: state.depth_write,
+        color_write: state.color_write,
+        blend_add: state.blend_add,
         ..Suite::of_triangles(&name, input, triangles)
     })
 }

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 /// Errors found so far.
 pub struct Tally<'a> {
-    drawn: &'a Raster,
+    pub drawn: &'a Raster,
     /// Depth.
     pub z: Errors,
     /// Colour, the worst of three.
@@ -78,11 +78,21 @@ impl<'a> Tally<'a> {
 
     /// Whether pixel `i` has the cleared depth, to the nearest LSB the cleared colour, and 0 in the user's own channels.
     pub fn is_background(&self, i: usize, clear: [f64; 3]) -> bool {
+        self.drawn.z[i] == 1.0 && self.is_clear(i, clear)
+    }
+
+    /// Pixel `i` has a depth, but no colour: whether what else it has is that of the empty screen.
+    pub fn depth_only(&mut self, i: usize, z: f64, clear: [f64; 3]) -> bool {
+        self.wrapped += u64::from(self.z.add(i, z, self.drawn.z[i]));
+        self.is_clear(i, clear)
+    }
+
+    fn is_clear(&self, i: usize, clear: [f64; 3]) -> bool {
         let half = 0.5 + 1e-9; // the division by 2^b - 1 rounds
         let near =
             |(exact, drawn): (f64, f64)| (exact - drawn).abs() * self.color.channel.max() as f64 <= half;
         let own = self.drawn.extra.iter().all(|values| values.at(i) == 0.0);
-        own && self.drawn.z[i] == 1.0 && clear.into_iter().zip(self.drawn.rgb[i]).all(near)
+        own && clear.into_iter().zip(self.drawn.rgb[i]).all(near)
     }
 }
 
@@ -96,6 +106,11 @@ impl Errors {
         self.map[i] = worse(self.map[i], error);
         // An output that stayed in its range is nearer to the exact value than half the range, one that wrapped is not.
         error > 0.5 * (self.channel.max() + 1) as f64
+    }
+
+    /// The largest error found at a pixel.
+    pub fn at(&self, i: usize) -> f64 {
+        self.map[i]
     }
 
     /// Proved largest error of the output: vertex rounding, all additions, output rounding (bounds 2, 4).

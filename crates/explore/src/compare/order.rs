@@ -85,7 +85,7 @@ impl<'a> Orders<'a> {
 }
 
 /// Bound 7 for any two fragments of the machine, or of triangles that reach so far.
-fn apart(machine: &Plan, reach: Option<&Reach>) -> Option<Apart> {
+pub fn apart(machine: &Plan, reach: Option<&Reach>) -> Option<Apart> {
     let depth = &machine.channels()[0];
     let budget = reach.and_then(|reach| reach.budget(machine, depth));
     let error = budget.or_else(|| machine.proved_budget(depth).ok())?.before_rounding();

@@ -13,7 +13,7 @@ use anyhow::{Result, anyhow};
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::fast::{Passage, Path, Reason, Renderer};
-use edgewalk_model::{Culled, Events, Rig, SetupClocks, Waits, cull, for_channels, render};
+use edgewalk_model::{DrawState, Culled, Events, Rig, SetupClocks, Waits, cull, for_channels, render};
 use edgewalk_scene::Frame;
 use std::convert::Infallible;
 
@@ -99,12 +99,12 @@ impl Pixels {
         let fast = untimed(plan)?;
         let (drawn, passage) = if plain {
             let mut renderer = Renderer::new(&fast, true);
-            let passage = renderer.draw_passage(port.triangles.iter().copied(), port.state);
+            let passage = renderer.draw_passage(port.triangles.iter().copied(), port.state()?);
             let passage =
                 passage.map_err(|refusal| anyhow!("the fast engine refuses this frame: {refusal:?}"))?;
             (from_fast(plan, renderer.frame(), Path::Fast), passage)
         } else {
-            let drawn = render(&fast, port.triangles.iter().copied(), port.state, Waits::Never)?;
+            let drawn = render(&fast, port.triangles.iter().copied(), port.state()?, Waits::Never)?;
             (from_model(plan, drawn), reach::passage(plan, &port)?)
         };
         let drawn = of_primitives(drawn, &port.ids);
@@ -159,7 +159,9 @@ impl Pixels {
 
     /// Cycle by cycle, without a look at the pixels.
     fn ticked<const C: usize>(&self, plan: &Plan, waits: Waits, reason: Reason) -> (Cycles, Events) {
-        let mut rig = Rig::<C>::new(plan, self.port.state, waits);
+        // Frames of several passes were refused.
+        let state = self.port.passes.first().map_or_else(DrawState::default, |pass| pass.state);
+        let mut rig = Rig::<C>::new(plan, state, waits);
         let triangles = self.port.triangles.iter().map(|triangle| Ok::<_, Infallible>(*triangle));
         let Ok(()) = rig.draw(triangles, |_, _, _| {});
         (Cycles::of(rig.model.counters(), Some(Path::Ticked(reason))), rig.model.events().clone())

@@ -11,6 +11,7 @@ mod setup;
 mod edge;
 mod span;
 mod pixel;
+mod shadow;
 mod depth;
 mod blend;
 mod machine;
@@ -70,6 +71,7 @@ fn of<const C: usize>(plan: &Plan, interface: &Interface) -> Result<Box<dyn Mode
         "edge" => Box::new(edge::EdgeDevice::<C>::new(plan, interface)?),
         "span" => Box::new(span::SpanDevice::<C>::new(plan, interface)?),
         "pixel" => Box::new(pixel::PixelDevice::<C>::new(plan, interface)?),
+        "shadow" => Box::new(shadow::ShadowDevice::<C>::new(plan, interface)?),
         "depth" => Box::new(depth::DepthDevice::<C>::new(plan, interface)?),
         "blend" => Box::new(blend::BlendDevice::<C>::new(plan, interface)?),
         other => return Err(NoPlace::Unit(other.to_owned())),

@@ -224,6 +224,7 @@ impl<const C: usize> Named for Fragment<C> {
         Some(match name {
             "addr" => (slot!(U32, _i => addr), 0),
             "fence" => (slot!(Bool, _i => fence), 0),
+            "lit" => (slot!(Bool, _i => lit), 0),
             "tag" => (slot!(U32, _i => source.tag), 0),
             "kt" if channel(plan, name).is_none() => (slot!(U32, _i => kt), 0),
             _ => (slot!(U32, i => values[i]), channel(plan, name)?),
@@ -244,6 +245,7 @@ impl<const C: usize> Named for Write<C> {
         Some(match name {
             "addr" => (slot!(U32, _i => addr), 0),
             "z_en" => (slot!(Bool, _i => z_en), 0),
+            "lit" => (slot!(Bool, _i => lit), 0),
             "tag" => (slot!(U32, _i => source.tag), 0),
             _ => (slot!(U32, i => values[i]), channel(plan, name)?),
         })
@@ -264,6 +266,7 @@ impl<const C: usize> Named for Passed<C> {
             "addr" => (slot!(U32, _i => addr), 0),
             "kt" => (slot!(U32, _i => kt), 0),
             "fence" => (slot!(Bool, _i => fence), 0),
+            "lit" => (slot!(Bool, _i => lit), 0),
             "tag" => (slot!(U32, _i => source.tag), 0),
             _ => (slot!(U32, i => values[i]), channel(plan, name)?),
         })
@@ -283,6 +286,7 @@ impl<const C: usize> Named for ColorWrite<C> {
         Some(match name {
             "addr" => (slot!(U32, _i => addr), 0),
             "rgb" => (slot!(U64, _i => rgb), 0),
+            "lit" => (slot!(Bool, _i => lit), 0),
             "tag" => (slot!(U32, _i => source.tag), 0),
             _ => (slot!(U32, i => values[i]), channel(plan, name)?),
         })

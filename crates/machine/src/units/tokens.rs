@@ -172,6 +172,41 @@ fn outputs(plan: &Plan) -> impl Iterator<Item = Field> {
     plan.channels().iter().map(Field::output)
 }
 
+/// Bits, 1 for what the light reaches; only with SHADOW.
+fn lit(plan: &Plan) -> Option<Field> {
+    plan.shadow.is_there().then(|| Field::count("lit", 1, "the light reaches it"))
+}
+
+/// The outputs that go beyond SHADOW.
+fn seen(plan: &Plan) -> impl Iterator<Item = Field> {
+    outputs(plan).filter(|field| !["lx", "ly", "lz"].contains(&field.name.as_str()))
+}
+
+/// SHADOW to DEPTH: a fragment, lit or not; without SHADOW what PIXEL gives.
+#[must_use]
+pub fn shaded(plan: &Plan) -> Vec<Field> {
+    let mut fields = vec![address(plan)];
+    fields.extend(seen(plan));
+    fields.extend(triangle_kt(plan));
+    fields.extend(lit(plan));
+    fields.push(fence());
+    fields.extend(tag(plan));
+    fields
+}
+
+/// The address of a texel, `ty·2^SB + tx`.
+#[must_use]
+pub fn texel_address(plan: &Plan) -> Field {
+    let side = plan.shadow.side_bits();
+    Field::count("addr", 2 * side, format!("line * 2^{side} + column of the map"))
+}
+
+/// A word of the light's map.
+#[must_use]
+pub fn map_word(plan: &Plan) -> Field {
+    Field::count("depth", plan.shadow.depth_bits, "depth from the light of what is nearest to it")
+}
+
 /// PIXEL to DEPTH: a fragment.
 #[must_use]
 pub fn fragment(plan: &Plan) -> Vec<Field> {
@@ -190,20 +225,21 @@ fn fence() -> Field {
 /// What is kept of a fragment while a memory is read for it.
 #[must_use]
 pub fn entry(plan: &Plan) -> Vec<Field> {
-    std::iter::once(address(plan)).chain(outputs(plan)).chain(tag(plan)).collect()
+    std::iter::once(address(plan)).chain(seen(plan)).chain(lit(plan)).chain(tag(plan)).collect()
 }
 
 /// DEPTH to the memories: one pixel, in a machine without BLEND.
 #[must_use]
 pub fn write(plan: &Plan) -> Vec<Field> {
     let mut fields = vec![address(plan)];
-    for field in outputs(plan) {
+    for field in seen(plan) {
         let is_depth = field.name == "z";
         fields.push(field);
         if is_depth {
             fields.push(Field::count("z_en", 1, "the depth is written too"));
         }
     }
+    fields.extend(lit(plan));
     fields.extend(tag(plan));
     fields
 }
@@ -233,7 +269,9 @@ pub fn passed(plan: &Plan) -> Vec<Field> {
     let mut fields = vec![address(plan)];
     fields.extend(colours);
     fields.extend(own(plan));
-    fields.extend([kt(plan), fence()]);
+    fields.push(kt(plan));
+    fields.extend(lit(plan));
+    fields.push(fence());
     fields.extend(tag(plan));
     fields
 }
@@ -249,6 +287,7 @@ pub fn color_word(plan: &Plan) -> Field {
 pub fn color_write(plan: &Plan) -> Vec<Field> {
     let mut fields = vec![address(plan), color_word(plan)];
     fields.extend(own(plan));
+    fields.extend(lit(plan));
     fields.extend(tag(plan));
     fields
 }

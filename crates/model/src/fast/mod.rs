@@ -42,6 +42,8 @@ pub enum Reason {
     Channels,
     /// The machine blends.
     Blend,
+    /// The rules change between triangles.
+    Passes,
     /// The in-flight queue is so short that it fills: `fifo.inflight` <= `memory.latency` / T.
     Queue,
     /// Interlock, and a fragment may have met its own address in flight.
@@ -86,6 +88,7 @@ impl fmt::Display for Path {
             Path::Fast => "without ticking",
             Path::Ticked(Reason::Channels) => "ticked: the machine has extra channels",
             Path::Ticked(Reason::Blend) => "ticked: the machine has BLEND",
+            Path::Ticked(Reason::Passes) => "ticked: the rules change between triangles",
             Path::Ticked(Reason::Queue) => "ticked: the in-flight queue may fill",
             Path::Ticked(Reason::Memory) => "ticked: the memory makes the machine wait",
             Path::Ticked(Reason::Interlock) => "ticked: a fragment may have met its address in flight",
@@ -196,6 +199,7 @@ impl Renderer {
             writes: part(&details.writes),
             id: details.id.get(start..end).unwrap_or_default().to_vec(),
             counters: self.counters.clone(),
+            passes: vec![self.counters.clone()],
             events: Events::default(),
         }
     }

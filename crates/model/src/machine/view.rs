@@ -32,6 +32,6 @@ impl<const C: usize> Model<C> {
         span.view(plan, line, span_ready, view);
         pixel.view(plan, span.span(), frag_ready, view);
         depth.view(plan, frag, &depth_inputs, view);
-        view.cause(self.activity(block, frag_ready, false));
+        view.cause(self.activity(block, frag_ready, super::Waits { light: false, pass: false }));
     }
 }

@@ -69,7 +69,8 @@ pub fn sequential<const C: usize>(plan: &Plan, fragments: &[Fragment<C>], state:
             if !state.depth_write {
                 pixel[0] = old;
             }
-            writes.push(Write { addr: f.addr, values: f.values, z_en: state.depth_write, source: f.source });
+            let (z_en, lit) = (state.depth_write, f.lit);
+            writes.push(Write { addr: f.addr, values: f.values, z_en, lit, source: f.source });
         }
     }
     Sequential { stored, writes }

@@ -17,8 +17,15 @@ use rand::Rng;
 pub type Triangle = [PortVertex; 3];
 
 /// Every fragment is read, whatever is stored.
-pub const ALWAYS: DrawState =
-    DrawState { depth_func: 7, depth_write: true, color_write: true, blend_add: false, clear: [0; 3] };
+pub const ALWAYS: DrawState = DrawState {
+    depth_func: 7,
+    depth_write: true,
+    color_write: true,
+    blend_add: false,
+    shadow_on: true,
+    ambient: 0,
+    clear: [0; 3],
+};
 
 pub fn machine(settings: &[(&str, &str)]) -> Plan {
     let mut machine = Machine::default();

@@ -10,7 +10,8 @@ use rand_pcg::Pcg64Mcg;
 pub fn random_plan(rng: &mut Pcg64Mcg) -> Plan {
     let mut plan = Plan::default();
     for _ in 0..3 {
-        let mut keys: Vec<&Key> = KEYS.iter().collect();
+        // SHADOW has no netlist yet.
+        let mut keys: Vec<&Key> = KEYS.iter().filter(|key| key.name != "shadow.light").collect();
         keys.shuffle(rng);
         for key in keys {
             let mut machine: Machine = (*plan).clone();

@@ -1,33 +1,40 @@
 //! Reads a triangle file line by line: as a whole, or triangle by triangle, whatever its length.
 
 use super::extra;
+use super::rules;
 use super::shadow::{occluder, shadow};
 use crate::error::InputError;
-use crate::frame::{
-    DepthFunc, Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_SIDE, Polygon, ShadeMode, Triangle, Vertex,
-};
+use crate::frame::{Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_SIDE, Polygon, ShadeMode, Triangle, Vertex};
+use crate::pass::State;
 use crate::text::{Lines, Place, words};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
+use std::ops::Range;
 use std::path::Path;
 
 /// Every word a line may start with.
-const KEYS: [&str; 13] =
-    ["size", "mode", "depth", "depth_write", "blend", "clear", "extra", "shadow", "L", "T", "X", "P", "H"];
+const KEYS: [&str; 15] = [
+    "size",
+    "mode",
+    "clear",
+    "extra",
+    "shadow",
+    "L",
+    "depth",
+    "depth_write",
+    "blend",
+    "colour_write",
+    "clear_depth",
+    "T",
+    "X",
+    "P",
+    "H",
+];
 const SIZE: usize = 0;
+/// `depth` to `clear_depth`: also permitted between triangles.
+const RULES: Range<usize> = 6..11;
 /// `T`, `X`, `P` and `H`: the header has ended.
-const PRIMITIVE: usize = 9;
-
-/// `off` behind the eight functions.
-const DEPTH_NAMES: [&str; 9] = {
-    let mut names = ["off"; 9];
-    let mut i = 0;
-    while i < DepthFunc::NAMES.len() {
-        names[i] = DepthFunc::NAMES[i];
-        i += 1;
-    }
-    names
-};
+const PRIMITIVE: usize = 11;
 
 /// The numbers of a vertex, in the order of the file.
 const ATTRIBUTES: [&str; 7] = ["x", "y", "z", "r", "g", "b", "kt"];
@@ -56,8 +63,8 @@ pub fn parse(file: &str, input: impl BufRead) -> Result<Frame, InputError> {
 
 /// A file triangle by triangle: takes as much memory as its longest line.
 ///
-/// An item is a triangle, or an error; there is nothing worth reading after that. A polygon, and `shadow` behind a
-/// triangle, are [`InputError::NeedsWhole`].
+/// An item is a triangle, or an error; there is nothing worth reading after that. A polygon, and `shadow` or other rules
+/// behind a triangle, are [`InputError::NeedsWhole`].
 pub struct Reader<R> {
     lines: Lines<R>,
     parser: Parser,
@@ -69,13 +76,11 @@ impl<R: BufRead> Reader<R> {
     /// # Errors
     /// `input` fails, or an item down to the first triangle or polygon is not permitted.
     pub fn new(file: &str, input: R) -> Result<Self, InputError> {
-        let parser = Parser { frame: Frame::new(0, 0), seen: [false; KEYS.len()], open: None };
+        let frame = Frame::new(0, 0);
+        let parser = Parser { rules: frame.state(), frame, seen: [false; KEYS.len()], open: None };
         let mut reader = Self { lines: Lines::new(file, input), parser };
         while !reader.parser.seen[PRIMITIVE] && reader.line()? {}
         reader.parser.require_size(reader.lines.end(), b"end of file")?;
-        if reader.parser.frame.depth.is_none() {
-            reader.parser.frame.depth_write = false;
-        }
         Ok(reader)
     }
 
@@ -119,6 +124,11 @@ impl<R: BufRead> Iterator for Reader<R> {
                 Ok(true) if !shadows && self.parser.frame.shadow.is_some() => {
                     return Some(Err(self.needs_whole("shadow")));
                 }
+                Ok(true) if !self.parser.frame.changes.is_empty() => {
+                    return Some(Err(
+                        self.needs_whole("depth, depth_write, blend, colour_write or clear_depth")
+                    ));
+                }
                 Ok(true) => {}
                 Ok(false) => return None,
                 Err(error) => return Some(Err(error)),
@@ -129,6 +139,8 @@ impl<R: BufRead> Iterator for Reader<R> {
 
 struct Parser {
     frame: Frame,
+    /// The rules of the next primitive, as the file has them.
+    rules: State,
     /// Which of `KEYS` have come.
     seen: [bool; KEYS.len()],
     /// The line of the last triangle, if its values of the user's own are still to come.
@@ -157,6 +169,9 @@ impl Parser {
             self.seen[PRIMITIVE] = true;
             return self.primitive(place, name, words);
         }
+        if RULES.contains(&key) && self.seen[PRIMITIVE] {
+            return rules::change(place, name, words, &mut self.rules, &mut self.frame);
+        }
         if self.seen[PRIMITIVE] && name != "shadow" {
             let why = "permitted only before the first triangle or polygon";
             return Err(place.fault(name, word, why).into());
@@ -174,17 +189,9 @@ impl Parser {
                 let [mode] = place.values(name, words)?;
                 self.frame.mode = ShadeMode::ALL[place.choice(name, mode, &ShadeMode::NAMES)?];
             }
-            "depth" => {
-                let [func] = place.values(name, words)?;
-                self.frame.depth = DepthFunc::ALL.get(place.choice(name, func, &DEPTH_NAMES)?).copied();
-            }
-            "depth_write" => {
-                let [flag] = place.values(name, words)?;
-                self.frame.depth_write = place.choice(name, flag, &["0", "1"])? == 1;
-            }
-            "blend" => {
-                let [flag] = place.values(name, words)?;
-                self.frame.blend = place.choice(name, flag, &["0", "1"])? == 1;
+            _ if RULES.contains(&key) => {
+                rules::read(place, name, words, &mut self.rules)?;
+                rules::begin(self.rules, &mut self.frame);
             }
             "extra" => self.frame.extra = extra::count(place, words)?,
             "shadow" => self.frame.shadow = Some(shadow(place, words)?),
@@ -206,6 +213,8 @@ impl Parser {
         words: impl Iterator<Item = &'a [u8]>,
     ) -> Result<(), InputError> {
         let after = self.frame.triangles.len();
+        let drawn = after + self.frame.polygons.len();
+        let changed = self.frame.changes.last().is_some_and(|change| change.after == drawn);
         match name {
             "T" => {
                 self.frame.triangles.push(triangle(place, words)?);
@@ -217,7 +226,7 @@ impl Parser {
             }
             _ if self.frame.extra > 0 => return Err(extra::polygon(place, name, self.frame.extra)),
             "P" => self.frame.polygons.push(Polygon { contours: vec![contour(place, name, words)?], after }),
-            _ => match self.frame.polygons.last_mut().filter(|polygon| polygon.after == after) {
+            _ => match self.frame.polygons.last_mut().filter(|polygon| polygon.after == after && !changed) {
                 Some(polygon) => polygon.contours.push(contour(place, name, words)?),
                 None => {
                     let why = "permitted only on the lines after a polygon `P n x y z r g b kt ...`";

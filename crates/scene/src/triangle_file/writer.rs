@@ -1,6 +1,7 @@
 //! Writes a triangle file; every number comes back bit for bit.
 
 use crate::frame::{Frame, Shadow, Triangle, Vertex};
+use crate::pass::State;
 use crate::polygon::Primitive;
 use std::io::{self, Write};
 use std::iter;
@@ -12,9 +13,7 @@ use std::iter;
 pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
     writeln!(out, "size {} {}", frame.width, frame.height)?;
     writeln!(out, "mode {}", frame.mode.name())?;
-    writeln!(out, "depth {}", frame.depth.map_or("off", |func| func.name()))?;
-    writeln!(out, "depth_write {}", u8::from(frame.depth_write))?;
-    writeln!(out, "blend {}", u8::from(frame.blend))?;
+    rules(None, frame.state(), &mut out)?;
     let [r, g, b] = frame.clear;
     writeln!(out, "clear {r} {g} {b}")?;
     if frame.extra > 0 {
@@ -23,7 +22,15 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
     if let Some(shadow) = &frame.shadow {
         write_shadow(shadow, &mut out)?;
     }
-    for primitive in frame.primitives() {
+    let (mut state, mut changes) = (frame.state(), frame.changes.iter().peekable());
+    for (place, primitive) in frame.primitives().into_iter().enumerate() {
+        while let Some(change) = changes.next_if(|change| change.after <= place) {
+            rules(Some(state), change.state, &mut out)?;
+            state = change.state;
+            if change.clear_depth {
+                writeln!(out, "clear_depth")?;
+            }
+        }
         match primitive {
             Primitive::Triangle(triangle) => {
                 write!(out, "T")?;
@@ -39,6 +46,25 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
                 }
             }
         }
+    }
+    Ok(())
+}
+
+/// The rules that differ from those before; all that are not as usual if there are none before.
+fn rules(before: Option<State>, now: State, out: &mut impl Write) -> io::Result<()> {
+    let differs = |same: fn(&State, &State) -> bool| before.is_none_or(|before| !same(&before, &now));
+    if differs(|a, b| a.depth == b.depth) {
+        writeln!(out, "depth {}", now.depth.map_or("off", |func| func.name()))?;
+    }
+    if differs(|a, b| a.depth_write == b.depth_write) {
+        writeln!(out, "depth_write {}", u8::from(now.depth_write))?;
+    }
+    if differs(|a, b| a.blend == b.blend) {
+        writeln!(out, "blend {}", now.blend.name())?;
+    }
+    let usual = before.is_none() && now.color_write;
+    if !usual && differs(|a, b| a.color_write == b.color_write) {
+        writeln!(out, "colour_write {}", u8::from(now.color_write))?;
     }
     Ok(())
 }

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 const SHOWN: usize = 8;
 
 // Writing to a string cannot fail.
-pub(super) fn text(of: &Explanation) -> String {
+pub(super) fn text(of: &Explanation, color_bits: u32) -> String {
     let mut page =
         format!("pixel ({}, {}): z {:.9}, rgb {}{}\n", of.x, of.y, of.z, three(of.rgb), own(&of.extra));
     _ = writeln!(page, "triangles over it: {}", of.fragments.len());
@@ -18,6 +18,7 @@ pub(super) fn text(of: &Explanation) -> String {
         let own = own(&over.extra);
         _ = writeln!(page, "  {:>6}  z {:.9}  rgb {}{own}{seen}", over.id, over.z, three(over.rgb));
     }
+    page += &super::layers::text(&of.layers, color_bits);
     if let Some(light) = &of.light {
         _ = writeln!(page, "\nlight at {}, normal {}", three(light.position), three(light.normal));
         _ = writeln!(page, "  emission            {}", three(light.emission));

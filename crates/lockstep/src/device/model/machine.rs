@@ -6,6 +6,7 @@ use super::edge::EdgePorts;
 use super::link::{Giver, Scope};
 use super::pixel::PixelPorts;
 use super::setup::{SetupPorts, TriangleTaker};
+use super::shadow::{MapPorts, ShadowPorts};
 use super::span::SpanPorts;
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
@@ -13,7 +14,7 @@ use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::tokens::Passed;
-use edgewalk_model::{BlendInputs, Events, Inputs, Model, View};
+use edgewalk_model::{BlendInputs, Events, Inputs, Model, ShadowInputs, View};
 
 /// The machine.
 pub struct MachineDevice<const C: usize> {
@@ -21,6 +22,7 @@ pub struct MachineDevice<const C: usize> {
     model: Model<C>,
     tri: TriangleTaker,
     memory: MemoryPorts<C>,
+    map: Option<MapPorts>,
     color: Option<ColorPorts<C>>,
     activity: PortId,
     idle: PortId,
@@ -33,6 +35,7 @@ struct Inside<const C: usize> {
     edge: EdgePorts<C>,
     span: SpanPorts<C>,
     pixel: PixelPorts<C>,
+    shadow: Option<ShadowPorts<C>>,
     depth: DepthStatus,
     blend: Option<(Giver<Passed<C>>, BlendStatus)>,
 }
@@ -46,6 +49,7 @@ impl<const C: usize> MachineDevice<C> {
             model: Model::new(plan),
             tri: TriangleTaker::find(plan, interface)?,
             memory: MemoryPorts::find(scope)?,
+            map: plan.shadow.is_there().then(|| MapPorts::find(scope)).transpose()?,
             color: plan.blend.is_there().then(|| ColorPorts::find(scope)).transpose()?,
             activity: scope.port("activity")?,
             idle: scope.port("idle")?,
@@ -63,6 +67,7 @@ impl<const C: usize> Inside<C> {
             edge: EdgePorts::find(of("edge"))?,
             span: SpanPorts::find(of("span"))?,
             pixel: PixelPorts::find(of("pixel"))?,
+            shadow: plan.shadow.is_there().then(|| ShadowPorts::find(of("shadow"))).transpose()?,
             depth: DepthStatus::find(of("depth"))?,
             blend: plan.blend.is_there().then(blend).transpose()?,
         })
@@ -72,12 +77,18 @@ impl<const C: usize> Inside<C> {
     fn show(&self, model: &Model<C>, inputs: &Inputs, ports: &mut PortValues) {
         let units = model.units();
         let frag = units.pixel.frag();
-        let frag_ready = inputs.rd_ready && units.depth.block(frag, inputs.depth_write).is_none();
+        let shaded = units.shadow.and_then(|shadow| shadow.shaded(&inputs.shadow));
+        let seen = if units.shadow.is_some() { shaded.as_ref() } else { frag };
+        let seen_ready = inputs.rd_ready && units.depth.block(seen, inputs.depth_write).is_none();
+        let frag_ready = units.shadow.map_or(seen_ready, |shadow| shadow.frag_ready(frag, &inputs.shadow));
         self.setup.show(units.setup, ports);
         self.edge.show(units.edge, units.span.fresh_queued(), ports);
         self.span.show(units.span, ports);
         self.pixel.show(units.pixel, frag_ready, ports);
-        self.depth.show(units.depth, frag, inputs.rd_ready, inputs.depth_write, ports);
+        if let (Some(shown), Some(unit)) = (&self.shadow, units.shadow) {
+            shown.show(unit, frag, &inputs.shadow, ports);
+        }
+        self.depth.show(units.depth, seen, inputs.rd_ready, inputs.depth_write, ports);
         if let (Some((pass, status)), Some(unit)) = (&self.blend, units.blend) {
             pass.offer(units.depth.pass(), ports);
             status.show(unit, units.depth.pass(), &inputs.blend, ports);
@@ -97,6 +108,7 @@ impl<const C: usize> MachineDevice<C> {
             rd_ready: depth.rd_ready,
             data: depth.data,
             wr_ready: depth.wr_ready,
+            shadow: self.map.as_ref().map_or_else(ShadowInputs::default, |map| map.inputs(ports)),
             blend: self.color.as_ref().map_or_else(BlendInputs::default, |color| BlendInputs {
                 color_write: depth.color_write,
                 ..color.inputs(ports)
@@ -115,6 +127,9 @@ impl<const C: usize> Device for MachineDevice<C> {
         let outputs = self.model.cycle(&inputs);
         ports.set(self.tri.ready(), outputs.tri_ready);
         self.memory.show(outputs.rd, outputs.data_ready, outputs.wr.as_ref(), ports);
+        if let Some(map) = &self.map {
+            map.show(outputs.mrd, outputs.mdata_ready, ports);
+        }
         if let Some(color) = &self.color {
             let blend = &outputs.blend;
             color.show(blend.crd, blend.cdata_ready, blend.cwr.as_ref(), ports);

@@ -1,0 +1,213 @@
+//! Blending and rules that change, through the program: beside golden within the running bound, every engine alike, and
+//! what is refused with which words.
+#![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
+
+mod support;
+
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use serde_json::Value;
+use std::fmt::Write as _;
+use std::path::Path;
+use support::{edgewalk, npy, run};
+
+/// A machine with a k_t for every pixel, one pixel a clock.
+const INTERPOLATED: [&str; 4] = ["--set", "blend.kind=interpolated", "--set", "interpolator.adders=5"];
+
+/// Runs a command that has to succeed, and gives its report.
+fn report(folder: &Path, arguments: &[&str]) -> Value {
+    let output = edgewalk(folder, arguments).arg("--json").output().unwrap();
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// Two triangles over a screen, random colours and k_t at the corners.
+fn layer(text: &mut String, [w, h]: [u32; 2], kt: impl Fn(&mut Pcg64Mcg) -> f64, random: &mut Pcg64Mcg) {
+    let corner = |x: u32, y: u32, random: &mut Pcg64Mcg| {
+        let [r, g, b]: [f64; 3] = random.random();
+        format!("{x} {y} 0.5 {r} {g} {b} {}", kt(random))
+    };
+    let [a, b, c, d] = [(0, 0), (w, 0), (0, h), (w, h)].map(|(x, y)| corner(x, y, random));
+    let _ = writeln!(text, "T {a} {b} {c}\nT {b} {d} {c}");
+}
+
+/// 100,000 pixels under 30 layers each, colours and k_t interpolated: within the bound of its layers at every pixel.
+#[test]
+fn thirty_layers_over_100_000_pixels_lie_within_the_running_bound() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut random = Pcg64Mcg::seed_from_u64(1);
+    let mut reached = 0.0f64;
+    for (name, least) in [("any", 0.0), ("near", 0.9)] {
+        let mut text = "size 400 250\ndepth off\nblend 1\nclear 0.2 0.4 0.6\n".to_owned();
+        for _ in 0..30 {
+            layer(&mut text, [400, 250], |random| random.random_range(least..=1.0), &mut random);
+        }
+        std::fs::write(folder.path().join("stack.tri"), text).unwrap();
+        let arguments = ["render", "stack.tri", "--engine", "model", "--out", "out"];
+        let screen = ["--set", "screen.width=400", "--set", "screen.height=250"];
+        let report = report(folder.path(), &[&arguments[..], &screen, &INTERPOLATED].concat());
+        let blended = &report["comparison"]["blended"];
+        println!("{name}: {blended}");
+        assert_eq!((&blended["pixels"], &blended["layers"]), (&100_000.into(), &30.into()));
+        assert_eq!((&blended["beyond"], &report["comparison"]["order_wrong"]), (&0.into(), &0.into()));
+        reached = reached.max(blended["of_bound"].as_f64().unwrap());
+    }
+    assert!(reached > 0.4, "the bound is far from what happens: {reached}");
+}
+
+/// The example of `docs/triangle_file.md`, and the same with everything that may change.
+const PASSES: &str = "size 64 64
+colour_write 0
+T  0 0 0.5 1 0 0 0   64 0 0.5 1 0 0 0   0 64 0.5 1 0 0 0
+colour_write 1
+depth equal
+depth_write 0
+T  0 0 0.5 1 0 0 0   64 0 0.5 1 0 0 0   0 64 0.5 1 0 0 0
+depth less
+blend 1
+T  0 0 0.4 0 0 1 0.5   64 0 0.4 0 0 1 0.5   0 64 0.4 0 0 1 0.5
+";
+
+#[test]
+fn a_frame_of_passes_is_the_same_in_every_engine() {
+    let folder = tempfile::tempdir().unwrap();
+    let more = format!(
+        "{PASSES}clear_depth\nblend add\ndepth_write 1\nT 0 0 0.9 0.5 0.25 0 1  40 0 0.9 0.5 0.25 0 1  0 40 0.9 0.5 0.25 0 1\n\
+         depth greater\nblend 0\nP 4 2 2 0.95 0 1 0 0  9 2 0.95 0 1 0 0  9 9 0.95 0 1 0 0  2 9 0.95 0 1 0 0\n"
+    );
+    std::fs::write(folder.path().join("passes.tri"), &more).unwrap();
+    let set = ["--set", "blend.kind=constant"];
+    let mut pictures = Vec::new();
+    for engine in ["golden", "model", "fast"] {
+        let arguments = ["raster", "passes.tri", "--engine", engine, "--out", engine];
+        let report = report(folder.path(), &[&arguments[..], &set].concat());
+        let file = |name: &str| npy(&folder.path().join(engine).join(name)).2;
+        let rgb: Vec<f64> = file("rgb.npy")
+            .chunks_exact(8)
+            .map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap()))
+            .collect();
+        pictures.push((rgb, ["coverage.npy", "writes.npy", "id.npy"].map(file)));
+        if engine != "golden" {
+            let passes: Vec<u64> =
+                report["cycles"]["passes"].as_array().unwrap().iter().map(|n| n.as_u64().unwrap()).collect();
+            assert_eq!((passes.len(), passes.iter().sum()), (5, report["cycles"]["total"].as_u64().unwrap()));
+        }
+        if engine == "fast" {
+            let why = "ticked: the rules change between triangles";
+            assert_eq!(report["cycles"]["path"], why);
+        }
+    }
+    let [(golden, rest), (model, own), (fast, same)] = &pictures[..] else { panic!("three") };
+    assert_eq!((model, own), (fast, same));
+    assert_eq!(rest, own, "coverage, writes, ids");
+    let at = |x: usize, y: usize| [0, 1, 2].map(|c| golden[3 * (64 * y + x) + c]);
+    // Glass over red, light added; the polygon, which is farther than what was cleared anew; glass over red alone.
+    assert_eq!((at(20, 2), at(5, 5), at(50, 2)), ([1.0, 0.25, 0.5], [0.0, 1.0, 0.0], [0.5, 0.0, 0.5]));
+    let worst = golden.iter().zip(model).map(|(a, b)| 255.0 * (a - b).abs()).fold(0.0, f64::max);
+    assert!(worst <= 1.5, "{worst} LSB");
+    // And beside golden, with its bound.
+    let screen = ["--set", "screen.width=64", "--set", "screen.height=64"];
+    let arguments = ["render", "passes.tri", "--out", "r"];
+    let report = report(folder.path(), &[&arguments[..], &set, &screen].concat());
+    assert_eq!(report["comparison"]["blended"]["beyond"], 0);
+    assert!(report["comparison"]["blended"]["pixels"].as_u64().unwrap() > 1000);
+}
+
+/// Every layer of a pixel, beside the machine's.
+#[test]
+fn explain_shows_the_layers_of_a_pixel() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("passes.tri"), PASSES).unwrap();
+    let screen = ["--set", "screen.width=64", "--set", "screen.height=64", "--set", "blend.kind=constant"];
+    let arguments = [&["explain", "passes.tri", "9", "7"][..], &screen].concat();
+    let output = edgewalk(folder.path(), &arguments).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    for line in [
+        "layer 0: triangle 1: 1.000 0.000 0.000",
+        "    golden 255.000 0.000 0.000 LSB of 8 bits, machine 255 0 0, error 0.0000, bound 0.7851",
+        "layer 1: triangle 2: (1 - 0.5000) * (0.000 0.000 1.000) + 0.5000 * (1.000 0.000 0.000)",
+        "    golden 127.500 0.000 127.500 LSB of 8 bits, machine 128 0 128, error 0.5000, bound 1.7831",
+    ] {
+        assert!(text.contains(line), "{text}\nlacks {line}");
+    }
+}
+
+#[test]
+fn a_scene_of_glass_is_sorted_and_blended_by_the_machine() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scenes/glass.toml");
+    let small = ["--set", "screen.width=320", "--set", "screen.height=240", "--set", "blend.kind=constant"];
+    let report = report(folder.path(), &[&["render", scene, "--out", "o"][..], &small].concat());
+    let comparison = &report["comparison"];
+    println!("{comparison}");
+    assert_eq!(comparison["coverage_mismatches"], 0);
+    assert_eq!(comparison["blended"]["beyond"], 0);
+    assert!(comparison["blended"]["layers"].as_u64() >= Some(3), "a pane over a pane over the floor");
+    let text = std::fs::read_to_string(folder.path().join("o/report.txt")).unwrap();
+    assert!(text.contains("transparent triangles, drawn last, from back to front: 4"), "{text}");
+    // A machine without the unit says so.
+    let (code, error) = run(folder.path(), &["render", scene, "--out", "o"]);
+    assert_eq!(code, Some(2), "{error}");
+    assert!(error.contains("the machine has no BLEND; add --set blend.kind="), "{error}");
+}
+
+#[test]
+fn what_the_machine_cannot_do_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let triangle = "T 0 0 0.5 1 0 0 0.5  60 0 0.5 0 1 0 0.25  0 60 0.5 0 0 1 0.5\n";
+    let file = |rules: &str| format!("size 64 64\n{rules}\n{triangle}");
+    let two = format!("{}depth equal\n{triangle}", file(""));
+    let constant = ["--set", "blend.kind=constant"];
+    let cases: [(&str, &str, &[&str], &[&str]); 14] = [
+        (&file("blend 1"), "raster", &[], &["blend 1", "no BLEND", "blend.kind=interpolated"]),
+        (&file("blend add"), "raster", &[], &["blend add", "no BLEND"]),
+        (&file("colour_write 0"), "raster", &[], &["colour_write 0", "blend.kind=constant"]),
+        (
+            &file("blend 1"),
+            "raster",
+            &constant,
+            &["triangle 0, vertex 1", "kt = 0.25", "blend.kind=interpolated"],
+        ),
+        (&file("blend 2"), "raster", &constant, &["blend: `2`", "0 1 add"]),
+        (&file("blend 1").replace("0.25", "1.25"), "raster", &constant, &["vertex 2 kt", "`1.25`"]),
+        (&two, "trace", &[], &["2 passes", "raster, render and explain"]),
+        (
+            &file(""),
+            "raster",
+            &["--set", "blend.kind=constnat"],
+            &["blend.kind = constnat", "nearest: constant"],
+        ),
+        (
+            &file(""),
+            "raster",
+            &["--set", "blend.kt_bits=13"],
+            &["blend.kt_bits = 13", "4 to 12", "nearest: 12"],
+        ),
+        (&file(""), "raster", &["--set", "blend.multipliers=2"], &["blend.multipliers = 2", "0, 1, 3"]),
+        (&file(""), "raster", &["--set", "blend.stages=3"], &["blend.stages = 3", "nearest: 2"]),
+        (&file(""), "raster", &["--set", "fifo.blend=0"], &["fifo.blend = 0", "nearest: 1"]),
+        (
+            &file(""),
+            "raster",
+            &["--set", "blend.kind=interpolated", "--set", "channels.extra=4"],
+            &["channels.extra = 4 cannot be built", "9 channels, 8 is the most", "try channels.extra = 3"],
+        ),
+        (
+            &file(""),
+            "raster",
+            &["--set", "blend.kind=interpolated", "--set", "blend.kt_fraction=2"],
+            &["blend.kt_vertex = 4 cannot be built", "try blend.kt_vertex = 2"],
+        ),
+    ];
+    for (text, command, settings, words) in cases {
+        std::fs::write(folder.path().join("a.tri"), text).unwrap();
+        let screen = ["--set", "screen.width=64", "--set", "screen.height=64"];
+        let (screen, out) = if command == "raster" { (&[][..], "out") } else { (&screen[..], "out.vcd") };
+        let arguments = [&[command, "a.tri", "--out", out][..], settings, screen].concat();
+        let (code, error) = run(folder.path(), &arguments);
+        assert_eq!(code, Some(2), "{arguments:?}: {error}");
+        for word in words {
+            assert!(error.contains(word), "{arguments:?}: {error} lacks {word}");
+        }
+    }
+}

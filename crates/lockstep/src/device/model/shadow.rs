@@ -1,0 +1,131 @@
+//! SHADOW.
+
+use super::link::{Giver, Scope, Taker};
+use super::{ModelDevice, NoPlace};
+use crate::device::Device;
+use crate::interface::Interface;
+use crate::values::{PortId, PortValues};
+use edgewalk_machine::Plan;
+use edgewalk_model::shadow::Shadow;
+use edgewalk_model::tokens::Fragment;
+use edgewalk_model::{Events, ShadowInputs};
+
+/// What SHADOW shows of itself, beside the ports of the map.
+pub struct ShadowPorts<const C: usize> {
+    frag_ready: PortId,
+    shaded: Giver<Fragment<C>>,
+    shadow_full: PortId,
+    occupied: PortId,
+}
+
+impl<const C: usize> ShadowPorts<C> {
+    pub fn find(scope: Scope) -> Result<Self, NoPlace> {
+        Ok(ShadowPorts {
+            frag_ready: scope.port("frag_ready")?,
+            shaded: scope.giver("shaded")?,
+            shadow_full: scope.port("shadow_full")?,
+            occupied: scope.port("occupied")?,
+        })
+    }
+
+    pub fn show(
+        &self,
+        shadow: &Shadow<C>,
+        frag: Option<&Fragment<C>>,
+        inputs: &ShadowInputs,
+        ports: &mut PortValues,
+    ) {
+        ports.set(self.frag_ready, shadow.frag_ready(frag, inputs));
+        self.shaded.offer(shadow.shaded(inputs).as_ref(), ports);
+        ports.set(self.shadow_full, shadow.full());
+        ports.set(self.occupied, shadow.occupied());
+    }
+}
+
+/// The links to the map, and the constants: ports of SHADOW that are those of the machine as well.
+pub struct MapPorts {
+    mrd_valid: PortId,
+    mrd_ready: PortId,
+    mrd_addr: PortId,
+    mdata_valid: PortId,
+    mdata_ready: PortId,
+    mdata_depth: PortId,
+    shadow_on: PortId,
+    ambient: Option<PortId>,
+}
+
+impl MapPorts {
+    pub fn find(scope: Scope) -> Result<Self, NoPlace> {
+        let scales = scope.plan.shadow.gate == edgewalk_machine::Gate::Scale;
+        Ok(MapPorts {
+            mrd_valid: scope.port("mrd_valid")?,
+            mrd_ready: scope.port("mrd_ready")?,
+            mrd_addr: scope.port("mrd_addr")?,
+            mdata_valid: scope.port("mdata_valid")?,
+            mdata_ready: scope.port("mdata_ready")?,
+            mdata_depth: scope.port("mdata_depth")?,
+            shadow_on: scope.port("shadow_on")?,
+            ambient: scales.then(|| scope.port("ambient")).transpose()?,
+        })
+    }
+
+    pub fn inputs(&self, ports: &PortValues) -> ShadowInputs {
+        let depth = || ports[self.mdata_depth] as u64; // at most 24 bits
+        ShadowInputs {
+            on: ports.is_high(self.shadow_on),
+            ambient: self.ambient.map_or(0, |port| ports[port] as u32), // at most 16 bits
+            mrd_ready: ports.is_high(self.mrd_ready),
+            mdata: ports.is_high(self.mdata_valid).then(depth),
+        }
+    }
+
+    pub fn show(&self, read: Option<u32>, data_ready: bool, ports: &mut PortValues) {
+        ports.set(self.mrd_valid, read.is_some());
+        ports[self.mrd_addr] = read.unwrap_or(0).into();
+        ports.set(self.mdata_ready, data_ready);
+    }
+}
+
+/// SHADOW alone.
+pub struct ShadowDevice<const C: usize> {
+    unit: Shadow<C>,
+    events: Events,
+    frag: Taker<Fragment<C>>,
+    shaded_ready: PortId,
+    map: MapPorts,
+    shown: ShadowPorts<C>,
+}
+
+impl<const C: usize> ShadowDevice<C> {
+    pub fn new(plan: &Plan, interface: &Interface) -> Result<Self, NoPlace> {
+        let scope = Scope::alone(plan, interface);
+        Ok(ShadowDevice {
+            unit: Shadow::new(plan),
+            events: Events::default(),
+            frag: scope.taker("frag")?,
+            shaded_ready: scope.port("shaded_ready")?,
+            map: MapPorts::find(scope)?,
+            shown: ShadowPorts::find(scope)?,
+        })
+    }
+}
+
+impl<const C: usize> Device for ShadowDevice<C> {
+    fn cycle(&mut self, ports: &mut PortValues) {
+        let (frag, inputs) = (self.frag.token(ports), self.map.inputs(ports));
+        let ready = ports.is_high(self.shaded_ready);
+        self.map.show(self.unit.read(frag.as_ref(), inputs.on), self.unit.mdata_ready(ready), ports);
+        self.shown.show(&self.unit, frag.as_ref(), &inputs, ports);
+        let taken = ready && self.unit.shaded(&inputs).is_some();
+        self.unit.step(frag.as_ref(), &inputs, taken, &mut self.events);
+        if ports.rst {
+            self.unit.reset();
+        }
+    }
+}
+
+impl<const C: usize> ModelDevice for ShadowDevice<C> {
+    fn events(&self) -> &Events {
+        &self.events
+    }
+}

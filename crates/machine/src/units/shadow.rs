@@ -1,0 +1,101 @@
+//! SHADOW: from fragments to fragments that are lit or not.
+
+use super::tokens;
+use crate::channel::{Channel, Kind};
+use crate::field::Field;
+use crate::link::{Link, MemoryPort, Ready, Status};
+use crate::machine::{Gate, Machine};
+use crate::plan::Plan;
+use crate::unit::{Event, Ports, UnitSpec};
+
+/// What SHADOW declares.
+pub const SPEC: UnitSpec = UnitSpec {
+    name: "shadow",
+    purpose: "looks up a light's depth map, and darkens what lies behind it",
+    section: 10,
+    present: there,
+    wants,
+    ports,
+    events: EVENTS,
+};
+
+fn there(plan: &Plan) -> bool {
+    plan.shadow.is_there()
+}
+
+fn wants(machine: &Machine) -> Vec<Channel> {
+    if !machine.shadow.is_there() {
+        return Vec::new();
+    }
+    let texel = Channel { name: "lx", kind: Kind::Floor, precision: machine.shadow.texel() };
+    let depth = Channel { name: "lz", kind: Kind::Signed, precision: machine.shadow.light_depth() };
+    vec![texel, Channel { name: "ly", ..texel }, depth]
+}
+
+fn ports(plan: &Plan) -> Ports {
+    // Whether a texel has to be read is asked of fragments only.
+    let frag = Link { ready: Ready::WhileValid, ..Link::new("frag", tokens::fragment(plan)) };
+    let mut constants = vec![Field::count("shadow_on", 1, "the map counts; else all is lit")];
+    if plan.shadow.gate == Gate::Scale {
+        let doc = "what a colour in shadow is multiplied by, all ones for 1";
+        constants.push(Field::count("ambient", plan.color.bits, doc));
+    }
+    // Whether a word is taken depends on whether the fragment it lights is.
+    Ports {
+        takes: Some(frag),
+        gives: Some(Link::new("shaded", tokens::shaded(plan))),
+        memory: vec![MemoryPort {
+            name: "map",
+            read: Link::new("mrd", vec![tokens::texel_address(plan)]),
+            data: Link { ready: Ready::WhileValid, ..Link::new("mdata", vec![tokens::map_word(plan)]) },
+            write: "",
+            word: "",
+            enable: None,
+            latency: plan.shadow.latency,
+        }],
+        constants,
+        status: vec![
+            Status::new("shadow_full", "the queue is full"),
+            Status::new("occupied", "a fragment waits for its texel, or to be taken"),
+        ],
+        ..Ports::default()
+    }
+}
+
+const EVENTS: &[Event] = &[
+    Event {
+        name: "shadow_off",
+        doc: "fragments that were not looked up, as the map does not count",
+        can_happen: there,
+    },
+    Event { name: "outside_map", doc: "fragments outside the map: lit", can_happen: there },
+    Event {
+        name: "before_map",
+        doc: "fragments nearer to the light than the map begins: lit",
+        can_happen: there,
+    },
+    Event {
+        name: "behind_map",
+        doc: "fragments farther from the light than the map ends: in shadow",
+        can_happen: there,
+    },
+    Event { name: "texel_lit", doc: "fragments that their texel finds lit", can_happen: there },
+    Event { name: "texel_shadow", doc: "fragments that their texel finds in shadow", can_happen: there },
+    Event { name: "texel_tie", doc: "fragments exactly as far as their texel: lit", can_happen: there },
+    Event {
+        name: "texel_wait",
+        doc: "cycles in which a fragment could go on but for its texel",
+        can_happen: there,
+    },
+    Event {
+        name: "shadow_queue_full",
+        doc: "cycles in which a fragment waits for SHADOW's queue",
+        can_happen: there,
+    },
+    Event { name: "map_stall", doc: "cycles in which a read waits for the map", can_happen: there },
+    Event {
+        name: "known_behind_read",
+        doc: "fragments that need no texel and come behind one that waits for its own",
+        can_happen: there,
+    },
+];

@@ -1,0 +1,22 @@
+//! A frame as a list of passes: triangles that are drawn by the same rules, one list after the other.
+
+use crate::run::DrawState;
+
+/// Some triangles and their rules. The machine is idle before a pass begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pass {
+    /// How many, those behind the pass before.
+    pub triangles: usize,
+    /// The rules; `clear` is that of the first pass.
+    pub state: DrawState,
+    /// The depth memory is cleared first.
+    pub clear_depth: bool,
+}
+
+impl Pass {
+    /// All triangles by the same rules.
+    #[must_use]
+    pub fn all(state: DrawState) -> Pass {
+        Pass { triangles: usize::MAX, state, clear_depth: false }
+    }
+}

@@ -1,0 +1,246 @@
+//! SHADOW: is the fragment seen from the light?
+//!
+//! ```text
+//!  frag ─┬─> mrd (texel)                   mdata ──┐
+//!        └─> queue ─> head ─ d, known, value ──────┴─> lit ─> gate ─> shaded
+//! ```
+//! Formats: lx and ly the texel, lz the depth from the light in 2^-bz of the map, two's complement; the map's word bz bits.
+//!
+//! Timing: a fragment taken in cycle n is offered to DEPTH from n + 1 on, or as soon as its texel is there. One a clock.
+//!
+//! Rules: `docs/machine.md`, section 10. Not modelled: who draws the map.
+
+use crate::Events;
+use crate::fifo::Fifo;
+use crate::tokens::Fragment;
+use edgewalk_machine::{Gate, Plan};
+
+/// The unit's inputs of a cycle, but for the fragment and whether DEPTH takes one.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ShadowInputs {
+    /// The map counts; else all is lit.
+    pub on: bool,
+    /// What the colour of a point in shadow is multiplied by, b bits; of the gate `scale`.
+    pub ambient: u32,
+    /// The map takes a read.
+    pub mrd_ready: bool,
+    /// The oldest read's depth.
+    pub mdata: Option<u64>,
+}
+
+/// A fragment on its way.
+#[derive(Clone, Copy, Debug)]
+struct Entry<const C: usize> {
+    fragment: Fragment<C>,
+    /// No texel decides.
+    known: bool,
+    /// It is lit, if that is known.
+    value: bool,
+    /// Depth from the light.
+    d: i64,
+}
+
+impl<const C: usize> Default for Entry<C> {
+    fn default() -> Self {
+        Entry { fragment: Fragment::default(), known: false, value: false, d: 0 }
+    }
+}
+
+/// Where a fragment lies in the map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Place {
+    Off,
+    Outside,
+    Before,
+    Behind,
+    /// Address of its texel.
+    Texel(u32),
+}
+
+/// State of SHADOW.
+#[derive(Clone, Debug)]
+pub struct Shadow<const C: usize> {
+    size: i64,
+    /// SB.
+    side: u32,
+    /// bz.
+    depth_bits: u32,
+    /// Places of lx, ly, lz among the channels, and their bits.
+    at: [usize; 3],
+    bits: [u32; 3],
+    gate: Gate,
+    color_bits: u32,
+    places: usize,
+    queue: Fifo<Entry<C>, 16>,
+}
+
+impl<const C: usize> Shadow<C> {
+    /// An empty unit.
+    #[must_use]
+    pub fn new(plan: &Plan) -> Self {
+        let shadow = &plan.shadow;
+        let place = |name: &str| plan.channels().iter().position(|channel| channel.name == name).unwrap_or(0);
+        let at = ["lx", "ly", "lz"].map(place);
+        Shadow {
+            size: shadow.size.into(),
+            side: shadow.side_bits(),
+            depth_bits: shadow.depth_bits,
+            at,
+            bits: at.map(|place| plan.channels()[place].bits),
+            gate: shadow.gate,
+            color_bits: plan.color.bits,
+            places: shadow.queue as usize,
+            queue: Fifo::default(),
+        }
+    }
+
+    /// Synchronous reset.
+    pub fn reset(&mut self) {
+        self.queue.clear();
+    }
+
+    /// A fragment waits here.
+    #[must_use]
+    pub fn occupied(&self) -> bool {
+        !self.queue.is_empty()
+    }
+
+    /// The queue is full.
+    #[must_use]
+    pub fn full(&self) -> bool {
+        self.queue.len() == self.places
+    }
+
+    /// Address of a texel to be read.
+    #[must_use]
+    pub fn read(&self, frag: Option<&Fragment<C>>, on: bool) -> Option<u32> {
+        match self.place(frag?, on) {
+            Place::Texel(addr) if !self.full() => Some(addr),
+            _ => None,
+        }
+    }
+
+    /// The fragment that is offered can be taken.
+    #[must_use]
+    pub fn frag_ready(&self, frag: Option<&Fragment<C>>, inputs: &ShadowInputs) -> bool {
+        let reads = frag.is_some_and(|frag| matches!(self.place(frag, inputs.on), Place::Texel(_)));
+        !self.full() && (inputs.mrd_ready || !reads)
+    }
+
+    /// The fragment offered to DEPTH.
+    #[must_use]
+    pub fn shaded(&self, inputs: &ShadowInputs) -> Option<Fragment<C>> {
+        let head = (!self.queue.is_empty()).then(|| *self.queue.head())?;
+        let lit = if head.known { head.value } else { head.d <= inputs.mdata? as i64 }; // bz <= 24 bits
+        let mut fragment = head.fragment;
+        fragment.lit = lit;
+        if !lit {
+            for channel in 1..=3 {
+                fragment.values[channel] = self.gated(fragment.values[channel], inputs.ambient);
+            }
+        }
+        Some(fragment)
+    }
+
+    /// The depth of a texel can be taken.
+    #[must_use]
+    pub fn mdata_ready(&self, shaded_ready: bool) -> bool {
+        !self.queue.is_empty() && !self.queue.head().known && shaded_ready
+    }
+
+    /// Clock edge. `taken`: DEPTH takes the fragment that is offered to it.
+    pub fn step(
+        &mut self,
+        frag: Option<&Fragment<C>>,
+        inputs: &ShadowInputs,
+        taken: bool,
+        events: &mut Events,
+    ) {
+        let pushed = frag.filter(|frag| self.frag_ready(Some(frag), inputs));
+        self.count(frag, pushed.is_some(), inputs, taken, events);
+        if taken {
+            self.queue.pop();
+        }
+        if let Some(fragment) = pushed {
+            let place = self.place(fragment, inputs.on);
+            let known = !matches!(place, Place::Texel(_));
+            let entry = Entry {
+                fragment: *fragment,
+                known,
+                value: place != Place::Behind,
+                d: self.coordinate(fragment, 2),
+            };
+            self.queue.push(entry);
+        }
+    }
+
+    /// lx, ly or lz, signed.
+    fn coordinate(&self, fragment: &Fragment<C>, which: usize) -> i64 {
+        let (word, sign) = (i64::from(fragment.values[self.at[which]]), 1 << (self.bits[which] - 1));
+        (word ^ sign) - sign
+    }
+
+    fn place(&self, fragment: &Fragment<C>, on: bool) -> Place {
+        let [tx, ty, d] = [0, 1, 2].map(|which| self.coordinate(fragment, which));
+        let inside = |t: i64| (0..self.size).contains(&t);
+        if !on {
+            Place::Off
+        } else if !inside(tx) || !inside(ty) {
+            Place::Outside
+        } else if d < 0 {
+            Place::Before
+        } else if d >> self.depth_bits > 0 {
+            Place::Behind
+        } else {
+            Place::Texel((ty << self.side | tx) as u32) // at most 24 bits
+        }
+    }
+
+    /// A colour in shadow.
+    fn gated(&self, color: u32, ambient: u32) -> u32 {
+        match self.gate {
+            Gate::And => 0,
+            Gate::Scale => {
+                let product = u64::from(color) * u64::from(ambient) + (1 << (self.color_bits - 1));
+                ((product + (product >> self.color_bits)) >> self.color_bits) as u32
+            }
+        }
+    }
+
+    fn count(
+        &self,
+        frag: Option<&Fragment<C>>,
+        pushed: bool,
+        inputs: &ShadowInputs,
+        taken: bool,
+        events: &mut Events,
+    ) {
+        if let Some(frag) = frag {
+            let place = self.place(frag, inputs.on);
+            let waits = (0..self.queue.len()).any(|i| !self.queue.at(i).known);
+            match place {
+                _ if self.full() => events.shadow_queue_full += 1,
+                Place::Texel(_) => events.map_stall += u64::from(!pushed),
+                Place::Off => events.shadow_off += 1,
+                Place::Outside => events.outside_map += 1,
+                Place::Before => events.before_map += 1,
+                Place::Behind => events.behind_map += 1,
+            }
+            events.known_behind_read += u64::from(pushed && waits && !matches!(place, Place::Texel(_)));
+        }
+        if self.queue.is_empty() || self.queue.head().known {
+            return;
+        }
+        let head = self.queue.head();
+        match inputs.mdata {
+            None => events.texel_wait += 1,
+            Some(depth) if taken => {
+                let depth = depth as i64;
+                events.texel_lit += u64::from(head.d <= depth);
+                events.texel_shadow += u64::from(head.d > depth);
+                events.texel_tie += u64::from(head.d == depth);
+            }
+            Some(_) => {}
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! A frame as a list of passes: what is drawn by the same rules, and what changes between.
+
+use crate::frame::{DepthFunc, Frame};
+use std::ops::Range;
+
+/// How the colour I of a fragment that passes is put together with what its pixel has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Blending {
+    /// I alone.
+    Off,
+    /// (1 - k_t) I + k_t I_back (ch. 7.5).
+    Mix,
+    /// I + I_back, at most 1.
+    Add,
+}
+
+impl Blending {
+    /// All, in the order of [`Self::NAMES`].
+    pub const ALL: [Self; 3] = [Self::Off, Self::Mix, Self::Add];
+    /// The names in files.
+    pub const NAMES: [&'static str; 3] = ["0", "1", "add"];
+
+    /// The name in files.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+}
+
+/// The rules for fragments.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct State {
+    /// The depth test; `None` lets every fragment pass and leaves the stored depth alone.
+    pub depth: Option<DepthFunc>,
+    /// Whether a fragment that passes stores its depth; without effect where `depth` is `None`.
+    pub depth_write: bool,
+    /// What becomes of the colour.
+    pub blend: Blending,
+    /// Whether a fragment that passes stores its colour and the values of the user's own.
+    pub color_write: bool,
+}
+
+impl State {
+    /// A fragment that passes stores its depth.
+    pub fn stores_depth(&self) -> bool {
+        self.depth_write && self.depth.is_some()
+    }
+}
+
+/// Other rules from a place in the list on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Change {
+    /// Primitives drawn before it; at least as many as before the change in front of it.
+    pub after: usize,
+    /// The rules from there on.
+    pub state: State,
+    /// The depth is cleared first.
+    pub clear_depth: bool,
+}
+
+/// Primitives that are drawn by the same rules, one after the other.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Pass {
+    /// Their places in the list, [`Frame::primitives`].
+    pub primitives: Range<usize>,
+    /// The rules.
+    pub state: State,
+    /// The depth is cleared before it.
+    pub clear_depth: bool,
+}
+
+impl Frame {
+    /// The rules at the beginning.
+    pub fn state(&self) -> State {
+        State {
+            depth: self.depth,
+            depth_write: self.depth_write,
+            blend: self.blend,
+            color_write: self.color_write,
+        }
+    }
+
+    /// The passes in order, at least one; those without a primitive are left out unless nothing is drawn at all. What they
+    /// clear the next one clears.
+    pub fn passes(&self) -> Vec<Pass> {
+        let all = self.triangles.len() + self.polygons.len();
+        let mut passes = Vec::new();
+        let (mut from, mut state, mut clear_depth) = (0, self.state(), false);
+        for change in &self.changes {
+            let to = change.after.clamp(from, all);
+            if to > from {
+                passes.push(Pass {
+                    primitives: from..to,
+                    state,
+                    clear_depth: std::mem::take(&mut clear_depth),
+                });
+            }
+            (from, state) = (to, change.state);
+            clear_depth |= change.clear_depth;
+        }
+        if all > from || passes.is_empty() {
+            passes.push(Pass { primitives: from..all, state, clear_depth });
+        }
+        passes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::Triangle;
+
+    #[test]
+    fn every_primitive_has_one_pass() {
+        let mut frame = Frame::new(4, 4);
+        assert_eq!(frame.passes().len(), 1, "an empty frame has its rules too");
+        frame.triangles = vec![Triangle::default(); 5];
+        let add = State { blend: Blending::Add, ..frame.state() };
+        let off = State { depth: None, ..add };
+        let change = |after, state, clear_depth| Change { after, state, clear_depth };
+        frame.changes =
+            vec![change(2, add, false), change(2, off, true), change(4, add, false), change(5, off, true)];
+        let passes: Vec<_> =
+            frame.passes().into_iter().map(|p| (p.primitives, p.state, p.clear_depth)).collect();
+        assert_eq!(passes, [(0..2, frame.state(), false), (2..4, off, true), (4..5, add, false)]);
+    }
+}
