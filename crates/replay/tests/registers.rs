@@ -74,6 +74,7 @@ fn run<const C: usize>(plan: &Plan, triangles: &[[PortVertex; 3]], stalls: Stall
             rd_ready: ports.is_high(rd_ready),
             data: ports.is_high(data_valid).then(|| ports[data] as u64),
             wr_ready: ports.is_high(wr_ready),
+            ..Inputs::default()
         };
         model.view(plan, &inputs, &mut view);
         if all.is_empty() {
