@@ -47,9 +47,17 @@ module edgewalk_span (
   // To the right from cmaj to before cmin, at most to the end of the screen; to the left to cmin, at least to column 0.
   wire right_of_screen = $signed(line_cmin) >= 15'sd640;  // no column of the screen lies right of cmin
   wire left_of_screen = $signed(line_cmin) <= 15'sd0;  // no column of the screen lies left of cmin
+
+  // Whether a column is left is asked of the edges themselves: no comparison waits for the cut.
+  wire none_right = ($signed(line_cmin) <= $signed(line_cmaj))
+                 || ($signed(line_cmaj) >= 15'sd640)
+                 || left_of_screen;
+  wire none_left = ($signed(line_cmaj) <= $signed(line_cmin))
+                || ($signed(line_cmaj) <= 15'sd0)
+                || right_of_screen;
   wire [14:0] first = line_major_right ? (left_of_screen ? 15'd0 : line_cmin) : line_cmaj;
   wire [14:0] end_cut = line_major_right ? line_cmaj : right_of_screen ? 15'd640 : line_cmin;
-  wire off = line_major_right ? right_of_screen : left_of_screen;
+  wire empty = line_major_right ? none_left : none_right;
 
   // The line held, cut where it ends.
   wire queue_in_ready;
@@ -65,7 +73,7 @@ module edgewalk_span (
   reg held_fence;                            // what is in flight may be of the same pixels
   reg [14:0] held_first;                     // signed, first column
   reg [14:0] held_end;                       // signed, the column behind the last
-  reg held_off;                              // the line ends where no screen is
+  reg held_empty;                            // no column of it is on the screen
   reg held_leftward;                         // drawn from its last column
 
   always @(posedge clk) begin
@@ -88,7 +96,7 @@ module edgewalk_span (
       held_fence <= line_fence;
       held_first <= first;
       held_end <= end_cut;
-      held_off <= off;
+      held_empty <= empty;
       held_leftward <= line_major_right;
     end
   end
@@ -98,20 +106,19 @@ module edgewalk_span (
   reg pend_fence;  // fence of dropped lines
   wire fresh = held_fresh || pend_fresh;
   wire fence = held_fence || pend_fence;
-  wire empty = held_off || ($signed(held_end) <= $signed(held_first));
 
   always @(posedge clk) begin
     if (rst) begin
       pend_fresh <= 1'b0;
       pend_fence <= 1'b0;
     end else if (moves) begin
-      pend_fresh <= empty && fresh;
-      pend_fence <= empty && fence;
+      pend_fresh <= held_empty && fresh;
+      pend_fence <= held_empty && fence;
     end
   end
 
   // The queue.
-  wire push = moves && !empty;
+  wire push = moves && !held_empty;
   wire [14:0] queue_out_x;
   wire [8:0] queue_out_y;
   wire [14:0] queue_out_count;

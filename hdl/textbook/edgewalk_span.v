@@ -48,7 +48,7 @@ module edgewalk_span (
   wire [14:0] xe = line_major_right ? line_cmaj : line_cmin;  // signed, first column after the line
   wire [14:0] first = (line_major_right ? line_cmin : line_cmaj) - 15'd1;
   wire [14:0] end_cut = ($signed(xe) < 15'sd640) ? xe : 15'd640;  // signed, first column after the span
-  wire off = $signed(xe) <= 15'sd0;
+  wire empty = ($signed(end_cut) <= $signed(first)) || ($signed(xe) <= 15'sd0);
 
   // The line held, cut where it ends.
   wire queue_in_ready;
@@ -64,7 +64,7 @@ module edgewalk_span (
   reg held_fence;                            // what is in flight may be of the same pixels
   reg [14:0] held_first;                     // signed, first column
   reg [14:0] held_end;                       // signed, the column behind the last
-  reg held_off;                              // the line ends where no screen is
+  reg held_empty;                            // no column of it is on the screen
 
   always @(posedge clk) begin
     if (rst) begin
@@ -86,7 +86,7 @@ module edgewalk_span (
       held_fence <= line_fence;
       held_first <= first;
       held_end <= end_cut;
-      held_off <= off;
+      held_empty <= empty;
     end
   end
 
@@ -95,20 +95,19 @@ module edgewalk_span (
   reg pend_fence;  // fence of dropped lines
   wire fresh = held_fresh || pend_fresh;
   wire fence = held_fence || pend_fence;
-  wire empty = held_off || ($signed(held_end) <= $signed(held_first));
 
   always @(posedge clk) begin
     if (rst) begin
       pend_fresh <= 1'b0;
       pend_fence <= 1'b0;
     end else if (moves) begin
-      pend_fresh <= empty && fresh;
-      pend_fence <= empty && fence;
+      pend_fresh <= held_empty && fresh;
+      pend_fence <= held_empty && fence;
     end
   end
 
   // The queue.
-  wire push = moves && !empty;
+  wire push = moves && !held_empty;
   wire [14:0] queue_out_x;
   wire [8:0] queue_out_y;
   wire [14:0] queue_out_count;

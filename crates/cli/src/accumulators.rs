@@ -59,6 +59,7 @@ fn each_fragment<const C: usize>(
     while let Some(line) = edge.line().copied() {
         let mut spans = Span::new(machine);
         spans.step(Some(&line), false, events);
+        spans.step(None, false, events); // from its register into the queue
         if let Some(span) = spans.span() {
             let direction = if span.leftward { -1 } else { 1 };
             let mut values = span.values;

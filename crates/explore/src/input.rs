@@ -73,7 +73,9 @@ impl Input {
                 if frame.blend == Blending::Off {
                     frame
                 } else {
-                    return Ok(edgewalk_golden::sorted(in_triangles(frame, machine)?, machine.subpixel_bits).0);
+                    return Ok(
+                        edgewalk_golden::sorted(in_triangles(frame, machine)?, machine.subpixel_bits).0
+                    );
                 }
             }
         };

@@ -57,7 +57,9 @@ pub fn untimed(machine: &Plan) -> Result<Plan> {
 /// A machine with BLEND or SHADOW, a frame of several passes, vertices of another machine.
 pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     if machine.blend.is_there() || machine.shadow.is_there() {
-        return Err(anyhow!("size, sweep and compare take no machine with BLEND or SHADOW yet; set blend.kind = none and shadow.light = none"));
+        return Err(anyhow!(
+            "size, sweep and compare take no machine with BLEND or SHADOW yet; set blend.kind = none and shadow.light = none"
+        ));
     }
     let keys = Machine { extra: 0, adders: machine.adders.min(4), ..Machine::clone(machine) };
     let plan = untimed(&keys.plan().map_err(|e| anyhow!("{e}"))?)?;
@@ -69,10 +71,13 @@ pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     drawn.map_err(|refusal| anyhow!("the fast engine draws every frame of such a machine: {refusal:?}"))
 }
 
-/// How far the values of these triangles are stepped.
+/// How far the values of these triangles are stepped; none where the machine has BLEND or SHADOW, or the frame several passes.
 ///
 /// # Errors
 /// Vertices of another machine.
 pub fn reach(machine: &Plan, port: &PortFrame) -> Result<Option<Reach>> {
+    if machine.blend.is_there() || machine.shadow.is_there() || port.passes.len() != 1 {
+        return Ok(None);
+    }
     Ok(Reach::of(machine, &port.ids, &passage(machine, port)?))
 }

@@ -53,19 +53,8 @@ impl Activity {
     /// Name in reports and, in capitals, in the netlist.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        [
-            "idle",
-            "draw",
-            "offscreen",
-            "hazard",
-            "queue",
-            "memory",
-            "edge",
-            "setup",
-            "flush",
-            "blend",
-            "light",
-        ][self as usize]
+        ["idle", "draw", "offscreen", "hazard", "queue", "memory", "edge", "setup", "flush", "blend", "light"]
+            [self as usize]
     }
 
     /// Those that the machine can have.

@@ -80,6 +80,9 @@ fn span(machine: &Plan, lines: &[Line<FEW>]) -> Vec<tokens::Span<FEW>> {
         spans.extend(unit.span().cloned());
         unit.step(Some(line).filter(|_| unit.line_ready()), true, &mut Events::default());
     }
+    // The last line goes from the register into the queue.
+    spans.extend(unit.span().cloned());
+    unit.step(None, true, &mut Events::default());
     spans.extend(unit.span().cloned());
     spans
 }

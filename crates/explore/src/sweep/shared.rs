@@ -13,7 +13,7 @@ use anyhow::{Result, anyhow};
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::fast::{Passage, Path, Reason, Renderer};
-use edgewalk_model::{DrawState, Culled, Events, Rig, SetupClocks, Waits, cull, for_channels, render};
+use edgewalk_model::{Culled, DrawState, Events, Rig, SetupClocks, Waits, cull, for_channels, render};
 use edgewalk_scene::Frame;
 use std::convert::Infallible;
 

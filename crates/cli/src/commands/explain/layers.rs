@@ -1,9 +1,9 @@
 //! The layers of a blended pixel: golden's and the machine's, one over the other, with error and bound.
 
-use edgewalk_explore::compare::Errors;
 use crate::engine::golden_fill;
 use crate::input::to_port;
 use anyhow::Result;
+use edgewalk_explore::compare::Errors;
 use edgewalk_golden::{Drawing, Step};
 use edgewalk_machine::Plan;
 use edgewalk_model::{Drawn, Stalls, render_passes};
