@@ -130,10 +130,6 @@ impl<const C: usize> ModelDevice for MachineDevice<C> {
     }
 
     fn view(&self, ports: &PortValues, view: &mut View) -> bool {
-        // BLEND is not shown yet.
-        if self.color.is_some() {
-            return false;
-        }
         let triangle = self.tri.token(ports);
         self.model.view(&self.plan, &self.inputs(triangle.as_ref(), ports), view);
         true
