@@ -84,6 +84,10 @@ fn what_cannot_be_shown_is_refused_in_words() {
         (vec!["replay", "t.tri", "--out", "o.txt"], &["--out o.txt: the file must end in .html or .json"]),
         (vec!["replay", "spere", "--out", "o.html"], &["spere", "sphere"]),
         (vec!["replay", "t.tri", "--lesson", "--out", "o.html"], &["--lesson", "cannot be used with"]),
+        (
+            vec!["replay", "--lesson", "--out", "o.html", "--set", "blend.kind=constant"],
+            &["--lesson", "blend.kind", "none"],
+        ),
         (vec!["replay", "t.tri", "--stalls", "often", "--out", "o.html"], &["often", "mixed"]),
         (vec!["replay", "t.tri", "--cycles", "0", "--out", "o.html"], &["--cycles", "0"]),
     ] {

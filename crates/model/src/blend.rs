@@ -15,6 +15,8 @@
 //! those of any read-modify-write, `crate::rmw`; here are the stages, the wait for a result in them, and the arithmetic.
 //! Not modelled: the products bit by bit; a result is computed when its fragment is taken.
 
+mod view;
+
 use crate::Events;
 pub use crate::rmw::Block;
 use crate::rmw::{Outcome, Rmw};

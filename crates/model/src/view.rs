@@ -266,11 +266,14 @@ impl View {
         }
     }
 
-    /// The picture is written here: when, with which fragment, and whether the depth is stored too.
-    pub(crate) fn store(&mut self, when: Id, fragment: Id, with_depth: Id) {
-        if !self.declared {
-            self.structure.store = Some(Store { when, fragment, with_depth });
-        }
+    /// Colours are written here.
+    pub(crate) fn stores_color(&mut self, when: Id, fragment: Id) {
+        self.structure.color = Some(Store { when, fragment, enable: None });
+    }
+
+    /// Depths are written here.
+    pub(crate) fn stores_depth(&mut self, when: Id, fragment: Id, enable: Option<Id>) {
+        self.structure.depth = Some(Store { when, fragment, enable });
     }
 
     /// A place on the screen at which the unit is, to be marked in the picture.

@@ -94,7 +94,7 @@ async function decode(text) {
   }
   if (doc.store) {
     const pixels = doc.store.width * doc.store.height;
-    const channels = doc.tokens[doc.registers[doc.store.token].shape.table].fields.length - 1;
+    const channels = doc.tokens[doc.registers[doc.store.planes[0].token].shape.table].fields.length - 1;
     doc.store.before = [];
     for (let i = 0; i < channels; i++) doc.store.before.push(stream.differences(32, pixels));
   }

@@ -7,34 +7,34 @@ class Planes {
     const { doc } = app;
     const { store } = doc;
     if (!store) return;
-    const register = doc.registers[store.token];
-    this.kind = doc.tokens[register.shape.table];
+    this.lists = store.planes.map((plane) => this.listOf(plane));
+    if (!store.planes.length) return;
+    ({ kind: this.kind, cycles: this.cycles, numbers: this.numbers } = this.lists[0]);
     this.address = this.kind.fields[0];
-    this.cycles = listOf(cyclesWith(doc, [store.when]));
-    this.numbers = this.cycles.map((cycle) => rawAt(register, cycle));
-    this.applied = 0;
-    this.findOverwritten();
+    for (const list of this.lists) this.findOverwritten(list);
     for (const plane of store.planes) this.add(plane);
+  }
+  // The writes of a plane: cycles, and which token.
+  listOf({ when, token, enable }) {
+    const { doc } = this.app;
+    const register = doc.registers[token];
+    const cycles = listOf(cyclesWith(doc, enable === null ? [when] : [when, enable]));
+    const numbers = cycles.map((cycle) => rawAt(register, cycle));
+    return { kind: doc.tokens[register.shape.table], cycles, numbers, applied: 0 };
   }
   pixelOf(token) {
     const raw = this.address.raw[token - 1], pitch = 2 ** this.address.shape.low;
     return Math.floor(raw / pitch) * this.app.doc.store.width + (raw % pitch);
   }
-  // For every write the one before it at the same pixel, so that time can run back; by plane, as a plane may leave writes out.
-  findOverwritten() {
-    const { doc } = this.app;
-    const { store } = doc;
-    this.history = store.planes.map((plane) => {
-      const enable = plane.enable === null ? null : doc.registers[plane.enable];
-      const last = new Int32Array(store.width * store.height).fill(-1);
-      const before = new Int32Array(this.cycles.length), stores = new Uint8Array(this.cycles.length);
-      for (let i = 0; i < this.cycles.length; i++) {
-        const pixel = this.pixelOf(this.numbers[i]);
-        before[i] = last[pixel];
-        stores[i] = enable === null || rawAt(enable, this.cycles[i]) !== 0 ? 1 : 0;
-        if (stores[i]) last[pixel] = i;
-      }
-      return { before, stores };
+  // For every write the one before it at the same pixel, so that time can run back.
+  findOverwritten(list) {
+    const { width, height } = this.app.doc.store;
+    const last = new Int32Array(width * height).fill(-1);
+    list.before = new Int32Array(list.cycles.length);
+    list.numbers.forEach((number, i) => {
+      const pixel = this.pixelOf(number);
+      list.before[i] = last[pixel];
+      last[pixel] = i;
     });
   }
   add(plane) {
@@ -47,7 +47,8 @@ class Planes {
     const panel = make("section", { class: "panel plane" }, make("h2", {}, plane.title, " ", note), frame, under);
     document.getElementById("planes").append(panel);
     const pen = canvas.getContext("2d");
-    const view = { plane, canvas, marks, frame, note, under, pen, image: pen.createImageData(width, height),
+    const list = this.lists[this.views.length];
+    const view = { plane, list, canvas, marks, frame, note, under, pen, image: pen.createImageData(width, height),
       top: new Int32Array(width * height) };
     if (plane.scalar !== undefined) this.range(view);
     this.views.push(view);
@@ -59,16 +60,16 @@ class Planes {
   range(view) {
     const { before } = this.app.doc.store;
     const { shape, raw } = this.kind.fields[view.plane.scalar + 1];
-    const values = Array.from(this.numbers, (number) => Number(numberOf(shape, raw[number - 1])));
+    const values = Array.from(view.list.numbers, (number) => Number(numberOf(shape, raw[number - 1])));
     const empty = Number(numberOf(shape, before[view.plane.scalar][0]));
     view.empty = empty;
     const list = values.length ? values : [empty];
     view.least = list.reduce((a, b) => Math.min(a, b));
     view.most = list.reduce((a, b) => Math.max(a, b));
   }
-  valueAt(channel, write, pixel) {
+  valueAt(view, channel, write, pixel) {
     if (write < 0) return this.app.doc.store.before[channel][pixel];
-    return this.kind.fields[channel + 1].raw[this.numbers[write] - 1];
+    return this.kind.fields[channel + 1].raw[view.list.numbers[write] - 1];
   }
   paint(view, pixel, write) {
     const { plane, image } = view;
@@ -76,11 +77,11 @@ class Planes {
     const place = 4 * pixel;
     if (plane.colour) {
       for (let i = 0; i < 3; i++) {
-        image.data[place + i] = (255 * this.valueAt(plane.colour[i], write, pixel)) / (2 ** plane.bits - 1);
+        image.data[place + i] = (255 * this.valueAt(view, plane.colour[i], write, pixel)) / (2 ** plane.bits - 1);
       }
     } else {
       const { shape } = this.kind.fields[plane.scalar + 1];
-      const value = Number(numberOf(shape, this.valueAt(plane.scalar, write, pixel)));
+      const value = Number(numberOf(shape, this.valueAt(view, plane.scalar, write, pixel)));
       const far = view.most > view.least ? (value - view.least) / (view.most - view.least) : 0;
       const colour = write < 0 && value === view.empty ? [30, 32, 44] : nearToFar(Math.min(1, Math.max(0, far)));
       for (let i = 0; i < 3; i++) image.data[place + i] = colour[i];
@@ -90,19 +91,18 @@ class Planes {
   // Brings the pictures to a cycle: those writes are seen that fired before it.
   draw() {
     if (!this.kind) return;
-    const wanted = upTo(this.cycles, this.app.cycle - 1);
-    this.views.forEach((view, number) => {
-      const { before, stores } = this.history[number];
-      for (let i = this.applied; i < wanted; i++) if (stores[i]) this.paint(view, this.pixelOf(this.numbers[i]), i);
-      for (let i = this.applied - 1; i >= wanted; i--) {
-        if (stores[i]) this.paint(view, this.pixelOf(this.numbers[i]), before[i]);
-      }
+    for (const view of this.views) {
+      const { list } = view;
+      const wanted = upTo(list.cycles, this.app.cycle - 1);
+      for (let i = list.applied; i < wanted; i++) this.paint(view, this.pixelOf(list.numbers[i]), i);
+      for (let i = list.applied - 1; i >= wanted; i--) this.paint(view, this.pixelOf(list.numbers[i]), list.before[i]);
+      list.applied = wanted;
       view.pen.putImageData(view.image, 0, 0);
-      setText(view.note, `${this.app.doc.store.width}\u00d7${this.app.doc.store.height}, ${wanted} of ${this.cycles.length} writes`);
+      const size = `${this.app.doc.store.width}\u00d7${this.app.doc.store.height}`;
+      setText(view.note, `${size}, ${wanted} of ${list.cycles.length} writes`);
       this.drawMarks(view);
       this.tell(view);
-    });
-    this.applied = wanted;
+    }
   }
   // The chosen pixel in words, beside the picture.
   tell(view) {
@@ -117,7 +117,7 @@ class Planes {
     const channels = plane.colour || [plane.scalar];
     const text = channels.map((channel) => {
       const { name, shape } = this.kind.fields[channel + 1];
-      return `${name} ${textOf(shape, this.valueAt(channel, write, pixel), this.app.hex)}`;
+      return `${name} ${textOf(shape, this.valueAt(view, channel, write, pixel), this.app.hex)}`;
     });
     const words = `(${chosen[0]}, ${chosen[1]}): ${text.join(", ")}${write < 0 ? ", not written yet" : ""}`;
     setText(view.under, words);
@@ -170,12 +170,13 @@ class Planes {
         }
       }
     }
-    const now = upTo(this.cycles, cycle) - 1;
-    if (now >= 0 && this.cycles[now] === cycle) {
-      const pixel = this.pixelOf(this.numbers[now]);
+    const { cycles, numbers } = view.list;
+    const now = upTo(cycles, cycle) - 1;
+    if (now >= 0 && cycles[now] === cycle) {
+      const pixel = this.pixelOf(numbers[now]);
       const [x, y] = [pixel % doc.store.width, Math.floor(pixel / doc.store.width)];
       if (view.plane.colour) {
-        pen.fillStyle = this.app.colourOf(this.kind, this.numbers[now]);
+        pen.fillStyle = this.app.colourOf(this.kind, numbers[now]);
         pen.fillRect(x * scale, y * scale, scale, scale);
       }
       this.box(pen, scale, x, y, "#f0e442");

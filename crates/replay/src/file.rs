@@ -3,8 +3,8 @@
 use crate::encode::Stream;
 use crate::lesson::{Lesson, Part, Step};
 use crate::recording::Recording;
-use edgewalk_machine::{Activity, Plan, PortVertex};
-use edgewalk_model::view::{Item, Register, Shape, Table, UnitView};
+use edgewalk_machine::{Activity, Kind, Plan, PortVertex};
+use edgewalk_model::view::{Item, Register, Shape, Store, Structure, Table, UnitView};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 
@@ -97,9 +97,8 @@ impl Replay<'_> {
                 of_register(register, column.at.len())
             }).collect::<Vec<_>>(),
             "tokens": tokens.collect::<Vec<_>>(),
-            "store": structure.store.filter(|_| !self.recording.before.is_empty()).map(|store| json!({
-                "width": plan.width, "height": plan.height, "when": store.when, "token": store.fragment,
-                "planes": planes(plan, store.with_depth),
+            "store": (!self.recording.before.is_empty()).then(|| json!({
+                "width": plan.width, "height": plan.height, "planes": planes(plan, structure),
             })),
             "triangles": self.seen().into_iter().map(|number| (number.to_string(), self.corners(number))).collect::<Map<_, _>>(),
             "command": self.command,
@@ -183,20 +182,28 @@ fn swatch<'a>(fields: impl Iterator<Item = &'a str>) -> Option<[usize; 3]> {
     Some([place("r")?, place("g")?, place("b")?]).filter(|_| names.first() == Some(&"addr"))
 }
 
-/// The pictures: colours in one, every other channel in one of its own.
-fn planes(plan: &Plan, with_depth: usize) -> Vec<Value> {
+/// The pictures: colours in one, every other channel that is stored in one of its own.
+fn planes(plan: &Plan, structure: &Structure) -> Vec<Value> {
     let channels = plan.channels();
-    let mut planes = vec![json!({
-        "title": "Picture", "colour": [1, 2, 3], "bits": channels[1].bits, "enable": null,
-    })];
-    for (place, channel) in channels.iter().enumerate().filter(|(place, _)| !(1..4).contains(place)) {
-        let title = if place == 0 { "Depth memory".to_owned() } else { channel.name.to_owned() };
-        planes.push(json!({
-            "title": title, "scalar": place, "bits": channel.bits, "signed": channel.kind.is_signed(),
-            "enable": (place == 0).then_some(with_depth),
-        }));
+    let plane = |store: Option<Store>, more: Value| {
+        let store = store?;
+        let mut plane = json!({ "when": store.when, "token": store.fragment, "enable": store.enable });
+        let more = more.as_object().cloned().unwrap_or_default();
+        plane.as_object_mut()?.extend(more);
+        Some(plane)
+    };
+    let picture = json!({ "title": "Picture", "colour": [1, 2, 3], "bits": channels[1].bits });
+    let mut planes = vec![plane(structure.color, picture)];
+    let others = channels
+        .iter()
+        .enumerate()
+        .filter(|(place, channel)| !(1..4).contains(place) && channel.kind != Kind::Weight);
+    for (place, channel) in others {
+        let title = if place == 0 { "Depth memory" } else { channel.name };
+        let store = if place == 0 { structure.depth } else { structure.color };
+        planes.push(plane(store, json!({ "title": title, "scalar": place, "bits": channel.bits })));
     }
-    planes
+    planes.into_iter().flatten().collect()
 }
 
 fn shape(shape: Shape) -> Value {

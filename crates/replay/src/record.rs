@@ -2,7 +2,7 @@
 
 use crate::recording::{Recorder, Recording};
 use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
-use edgewalk_model::{Cycle, DrawState, Memory, Rig, Stalls, for_channels};
+use edgewalk_model::{Cycle, DrawState, Rig, Stalls, for_channels};
 
 /// The most cycles that a replay holds: about 200 MB in a browser and two seconds until they can be seen.
 pub const LIMIT: u64 = 200_000;
@@ -19,9 +19,9 @@ pub struct Window {
 /// Why there is no recording.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RecordError {
-    /// A machine with BLEND or SHADOW.
-    #[error("a replay does not show BLEND and SHADOW; set blend.kind = none and shadow.light = none")]
-    Blend,
+    /// A machine with SHADOW.
+    #[error("a replay does not show SHADOW; set shadow.light = none")]
+    Shadow,
     /// The triangles are for another machine.
     #[error(transparent)]
     Vertex(#[from] ForeignVertex),
@@ -51,7 +51,7 @@ pub enum RecordError {
 /// with the cycle in which the machine is at rest again.
 ///
 /// # Errors
-/// A machine with BLEND; a triangle for another machine; a window that is empty, or longer than [`LIMIT`].
+/// A triangle for another machine; a window that is empty, or longer than [`LIMIT`].
 pub fn record(
     plan: &Plan,
     triangles: &[[PortVertex; 3]],
@@ -59,8 +59,8 @@ pub fn record(
     stalls: Stalls,
     window: Window,
 ) -> Result<Recording, RecordError> {
-    if plan.blend.is_there() || plan.shadow.is_there() {
-        return Err(RecordError::Blend);
+    if plan.shadow.is_there() {
+        return Err(RecordError::Shadow);
     }
     for (triangle, number) in triangles.iter().zip(0..) {
         plan.accept(triangle, number)?;
@@ -93,7 +93,7 @@ fn run<const C: usize>(
     for _ in 0..window.from {
         run.cycle();
     }
-    let before = planes(plan, &run.rig.memory);
+    let before = planes(plan, &run.rig);
     let mut recorder = Recorder::new();
     for _ in 0..asked {
         recorder.cycle(|view| run.rig.model.view(plan, &run.rig.inputs(run.offered(), true), view));
@@ -103,10 +103,10 @@ fn run<const C: usize>(
 }
 
 /// What memory holds, by channel and pixel, row by row.
-fn planes<const C: usize>(plan: &Plan, memory: &Memory<C>) -> Vec<Vec<u32>> {
+fn planes<const C: usize>(plan: &Plan, rig: &Rig<C>) -> Vec<Vec<u32>> {
     let x_bits = plan.widths().x;
     let addresses = || (0..plan.height).flat_map(|y| (0..plan.width).map(move |x| y << x_bits | x));
-    (0..plan.channels().len()).map(|i| addresses().map(|addr| memory.pixel(addr)[i]).collect()).collect()
+    (0..plan.channels().len()).map(|i| addresses().map(|addr| rig.pixel(addr)[i]).collect()).collect()
 }
 
 /// A machine that draws triangles, one cycle at a time.

@@ -1,4 +1,4 @@
-//! What is to be seen of DEPTH; its fork before BLEND is not shown.
+//! What is to be seen of DEPTH.
 
 use super::{Block, Depth, DepthInputs};
 use crate::tokens::Fragment;
@@ -19,20 +19,7 @@ impl<const C: usize> Depth<C> {
         let head = self.view_queue(plan, view);
         let compared = inputs.data.filter(|_| self.data_ready(inputs.wr_ready, inputs.pass_ready));
         let tells = self.view_compare(plan, compared, inputs.depth_func, view);
-        let waiting = view.guard("w_valid", "a pixel is being written", self.rmw.write().is_some());
-        view.wire(|| "wr_valid".to_owned());
-        view.live(Some(waiting));
-        let w = self.rmw.write();
-        let values = w.map(|w| fragments::values(plan, w.addr, &w.side.values));
-        let token = w.zip(values.as_ref()).map(|(w, values)| (w.side.source.id, &values[..]));
-        view.table("write register", &["fragment", "z_en"], false);
-        view.row("w");
-        let written = view.token_cell("the pixel being written", "fragment", token);
-        view.wire(|| "wr".to_owned());
-        let with_depth =
-            view.cell("its depth is written too", || Shape::Flag, w.is_some_and(|w| w.stored).into());
-        view.wire(|| "wr_z_en".to_owned());
-        view.live(None);
+        let written = self.view_write(plan, view);
         view.lane(queued, self.occupied());
         self.say(frag, block, inputs, compared.is_some(), view);
 
@@ -46,12 +33,48 @@ impl<const C: usize> Depth<C> {
         let fires = self.rmw.write().is_some() && inputs.wr_ready;
         view.moment("fragment", read.is_some(), offered, &[]);
         view.moment("compare", compared.is_some(), head, &tells);
-        let when = view.moment("written", fires, written, &[]);
-        view.store(when, written, with_depth);
+        let when = view.moment(if self.forks() { "depth" } else { "written" }, fires, written.0, &[]);
+        view.stores_depth(when, written.0, written.1);
         view.takes("data", inputs.data.is_some(), self.data_ready(inputs.wr_ready, inputs.pass_ready));
         view.gives("rd", None, frag.is_some() && block.is_none(), inputs.rd_ready);
-        view.gives("wr", None, self.rmw.write().is_some(), inputs.wr_ready);
-        view.step("write", 'w');
+        if self.forks() {
+            view.gives("zwr", None, self.rmw.write().is_some(), inputs.wr_ready);
+            view.gives("pass", Some("blend"), self.pass().is_some(), inputs.pass_ready);
+        } else {
+            view.stores_color(when, written.0);
+            view.gives("wr", None, self.rmw.write().is_some(), inputs.wr_ready);
+            view.step("write", 'w');
+        }
+    }
+
+    /// Gives the fragment in w, and the flag that says whether its depth is written.
+    fn view_write(&self, plan: &Plan, view: &mut View) -> (Id, Option<Id>) {
+        let forks = self.forks();
+        let waiting = view.guard("w_valid", "a pixel is being written", self.rmw.write().is_some());
+        view.wire(|| if forks { "zwr_valid" } else { "wr_valid" }.to_owned());
+        let w = self.rmw.write();
+        let values = w.map(|w| fragments::values(plan, w.addr, &w.side.values));
+        let token = w.zip(values.as_ref()).map(|(w, values)| (w.side.source.id, &values[..]));
+        view.table("write register", if forks { &["fragment"] } else { &["fragment", "z_en"] }, false);
+        view.row("w");
+        view.live(Some(waiting));
+        let written = view.token_cell("the pixel being written", "fragment", token);
+        let mut with_depth = None;
+        if forks {
+            let passes = self.pass();
+            let values = passes.map(|pass| fragments::values(plan, pass.addr, &pass.values));
+            let token = passes.zip(values.as_ref()).map(|(pass, values)| (pass.source.id, &values[..]));
+            view.live(None);
+            view.row("pass");
+            view.token_cell("the fragment on its way to BLEND", "fragment", token);
+        } else {
+            view.wire(|| "wr".to_owned());
+            let stored = w.is_some_and(|w| w.stored);
+            with_depth = Some(view.cell("its depth is written too", || Shape::Flag, stored.into()));
+            view.wire(|| "wr_z_en".to_owned());
+        }
+        view.live(None);
+        (written, with_depth)
     }
 
     /// Of the oldest token.
@@ -137,11 +160,15 @@ impl<const C: usize> Depth<C> {
         let forwarded = self.rmw.flight(0).is_some_and(|head| head.forward.is_some());
         view.says(compares, "compares pixel {head.addr}: new {new}, stored {stored}; passes: {pass}.");
         view.says(compares && forwarded, "the stored depth is that of an older fragment in flight.");
-        let writes = self.rmw.write().is_some();
+        let (writes, passes) = (self.rmw.write().is_some(), self.pass().is_some());
         view.says(
             writes && inputs.wr_ready,
-            "writes pixel {w.addr}; the picture shows it from the next cycle on.",
+            "writes pixel {w.addr}; memory shows it from the next cycle on.",
         );
+        if self.forks() {
+            view.says(passes && inputs.pass_ready, "hands pixel {pass.addr} on to BLEND.");
+            view.says(passes && !inputs.pass_ready, "waits with pixel {pass.addr}: BLEND takes none.");
+        }
         view.says(writes && !inputs.wr_ready, "waits: the memory takes no write.");
     }
 }

@@ -4,7 +4,7 @@ use super::Edge;
 use crate::tokens::EdgeWalk;
 use crate::tokens::Prim;
 use crate::view::{View, increment, word};
-use edgewalk_machine::units::tokens::results;
+use edgewalk_machine::units::tokens::{remainder_bits, results};
 use edgewalk_machine::{Fill, Plan};
 
 impl<const C: usize> Edge<C> {
@@ -35,13 +35,19 @@ impl<const C: usize> Edge<C> {
         view.wire(|| "line_major_right".to_owned());
         view.table("edges", &EdgeWalk::COLUMNS, false);
         view.row("major");
-        self.major.view(plan, Some("major"), view);
+        self.major.view(plan, Some(("major", false)), view);
         view.row("minor");
-        self.minor.view(plan, Some("minor"), view);
+        self.minor.view(plan, Some(("minor", true)), view);
         view.row("second");
-        self.held.minor[1].view(plan, Some("second"), view);
+        self.held.minor[1].view(plan, Some(("second", true)), view);
         let carry = self.major.r < self.major.f;
         view.flag("carry", "R < f of the major edge: the column goes one further", carry);
+        view.wire(|| "carry".to_owned());
+        let mut next = self.major;
+        next.step(w.column);
+        let bits = remainder_bits(plan);
+        view.number("ahead", "R of the next line: the hardware's register is that far", bits, next.r as u64);
+        view.wire(|| "major_r".to_owned());
         self.view_channels(plan, view);
         view.live(None);
         view.lane(y, self.running);

@@ -1,5 +1,4 @@
-//! What is to be seen of the machine: its units one after the other, with the readies between them; of a
-//! machine without BLEND.
+//! What is to be seen of the machine: its units one after the other, with the readies between them.
 
 use super::{Inputs, Model};
 use crate::depth::DepthInputs;
@@ -11,6 +10,8 @@ impl<const C: usize> Model<C> {
     pub fn view(&self, plan: &Plan, inputs: &Inputs, view: &mut View) {
         view.begin();
         let Model { setup, edge, span, pixel, depth, .. } = self;
+        let pass = depth.pass();
+        let pass_ready = self.blend().is_some_and(|blend| blend.pass_ready(pass, &inputs.blend));
         let frag = pixel.frag();
         let block = depth.block(frag, inputs.depth_write);
         let frag_ready = inputs.rd_ready && block.is_none();
@@ -25,13 +26,16 @@ impl<const C: usize> Model<C> {
             data: inputs.data,
             wr_ready: inputs.wr_ready,
             color_write: inputs.blend.color_write,
-            pass_ready: false,
+            pass_ready,
         };
         setup.view(inputs.tri, edge.prim_ready(fresh_queued), view);
         edge.view(plan, prim, fresh_queued, line_ready, view);
         span.view(plan, line, span_ready, view);
         pixel.view(plan, span.span(), frag_ready, view);
         depth.view(plan, frag, &depth_inputs, view);
-        view.cause(self.activity(block, frag_ready, super::Waits { light: false, pass: false }));
+        if let Some(blend) = self.blend() {
+            blend.view(plan, pass, &inputs.blend, view);
+        }
+        view.cause(self.activity(block, frag_ready, super::Waits { light: false, pass: pass.is_some() && !pass_ready }));
     }
 }

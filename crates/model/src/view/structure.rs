@@ -238,15 +238,15 @@ pub struct LinkView {
     pub step: Option<(&'static str, char)>,
 }
 
-/// How the picture comes about.
+/// How a memory comes to what it holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Store {
     /// A fragment is written in this cycle; memory shows it from the next on.
     pub when: Id,
     /// Which.
     pub fragment: Id,
-    /// Its depth is stored too.
-    pub with_depth: Id,
+    /// Only if this flag is up; `None`: always.
+    pub enable: Option<Id>,
 }
 
 /// All there is.
@@ -260,8 +260,10 @@ pub struct Structure {
     pub registers: Vec<Register>,
     /// The cause of the cycle.
     pub cause: Id,
-    /// The picture.
-    pub store: Option<Store>,
+    /// What is written to the colour memory.
+    pub color: Option<Store>,
+    /// What is written to the depth memory.
+    pub depth: Option<Store>,
 }
 
 impl Structure {

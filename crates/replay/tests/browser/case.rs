@@ -61,7 +61,8 @@ pub fn icosahedron(plan: &Plan) -> Vec<Triangle> {
     let vertex = |k: usize| {
         let (x, y, values) = corner(k);
         let mut values = values.to_vec();
-        values.resize(plan.channels().len(), 0.0);
+        // What else there is is half transparent.
+        values.resize(plan.channels().len(), 0.5);
         plan.port_vertex(x, y, &values).expect("on the screen")
     };
     FACES.iter().map(|face| face.map(vertex)).collect()
@@ -75,8 +76,8 @@ pub fn machine(base: Machine, settings: &[(&str, &str)]) -> Plan {
     machine.plan().expect("can be built")
 }
 
-/// Default, one adder, drain with a slow memory, and the textbook.
-pub fn four() -> Vec<Case> {
+/// Default, one adder, drain with a slow memory, the textbook, and one that blends.
+pub fn five() -> Vec<Case> {
     let textbook = Machine::preset("textbook").expect("a preset");
     let drain = [("memory.hazard", "drain"), ("memory.latency", "8"), ("fifo.inflight", "6")];
     let machines = [
@@ -87,6 +88,7 @@ pub fn four() -> Vec<Case> {
         ),
         ("drain", machine(Machine::default(), &drain)),
         ("textbook", machine(textbook, &[])),
+        ("blend", machine(Machine::default(), &[("blend.kind", "interpolated")])),
     ];
     let case = |(name, plan): (&'static str, Plan)| {
         let stalls =

@@ -161,7 +161,7 @@ fn picture(browser: &mut Browser, case: &Case, frame: &edgewalk_model::Frame) ->
     let shown = browser.eval(
         "(() => { const { width, height } = app.doc.store, [a, b] = app.planes.views; return {
             rgb: [...a.canvas.getContext('2d').getImageData(0, 0, width, height).data].filter((_, i) => i % 4 !== 3),
-            z: Array.from(b.top, (write, pixel) => app.planes.valueAt(0, write, pixel)) }; })()",
+            z: Array.from(b.top, (write, pixel) => app.planes.valueAt(b, 0, write, pixel)) }; })()",
     );
     let max = case.plan.color.max() as f64;
     let mut compared = 0;

@@ -8,7 +8,7 @@ mod made_up;
 mod names;
 mod text;
 
-use case::{Case, Triangle, file, four, icosahedron, machine};
+use case::{Case, Triangle, file, five, icosahedron, machine};
 use checks::{Checked, pictures, shown_text};
 use chromium::Browser;
 use edgewalk_machine::Machine;
@@ -19,9 +19,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 #[test]
-fn the_page_shows_the_model_at_thirty_cycles_of_four_machines() {
+fn the_page_shows_the_model_at_thirty_cycles_of_five_machines() {
     let mut browser = Browser::start();
-    for case in four() {
+    for case in five() {
         let compared = shown_text(&mut browser, &case, &case.html())
             .unwrap_or_else(|why| panic!("{}: {why}", case.name));
         println!("{}: {compared} texts", case.name);
@@ -33,7 +33,7 @@ fn the_page_shows_the_model_at_thirty_cycles_of_four_machines() {
 #[test]
 fn the_last_picture_is_the_models_and_time_runs_back() {
     let mut browser = Browser::start();
-    for case in four() {
+    for case in five() {
         let compared =
             pictures(&mut browser, &case, &case.html()).unwrap_or_else(|why| panic!("{}: {why}", case.name));
         println!("{}: {compared} values", case.name);
@@ -56,8 +56,8 @@ const MUTANTS: [(&str, &str, &str); 4] = [
     ),
     (
         "writes are not undone",
-        "this.paint(view, this.pixelOf(this.numbers[i]), before[i])",
-        "this.paint(view, this.pixelOf(this.numbers[i]), i)",
+        "this.paint(view, this.pixelOf(list.numbers[i]), list.before[i])",
+        "this.paint(view, this.pixelOf(list.numbers[i]), i)",
     ),
     ("signed read as unsigned", "if (!shape.signed) return raw;", "return raw;"),
 ];
@@ -65,7 +65,7 @@ const MUTANTS: [(&str, &str, &str); 4] = [
 #[test]
 fn faults_of_the_page_are_found() {
     let mut browser = Browser::start();
-    let case = &four()[0];
+    let case = &five()[0];
     let html = case.html();
     let check = |browser: &mut Browser, html: &str| -> Checked {
         Ok(shown_text(browser, case, html)? + pictures(browser, case, html)?)
@@ -112,7 +112,7 @@ fn on_page(browser: &mut Browser, plane: usize, (x, y): (u32, u32)) -> (f64, f64
 fn a_click_on_a_pixel_lands_on_its_write() {
     let mut browser = Browser::start();
     let (mut clicks, mut twice) = (0, 0);
-    for case in [&four()[0], &four()[3]] {
+    for case in [&five()[0], &five()[3]] {
         let mut writes: BTreeMap<u32, Vec<(u32, u32)>> = BTreeMap::new();
         case.watch(|cycle, _, write| {
             if let Some((addr, triangle)) = write {
@@ -162,7 +162,7 @@ fn a_click_on_a_pixel_lands_on_its_write() {
 #[test]
 fn every_key_does_what_the_help_says() {
     let mut browser = Browser::start();
-    let case = &four()[0];
+    let case = &five()[0];
     let (_folder, path) = file(&case.html());
     browser.open(&path, "");
     // Where a token moves on a link, from the model.
@@ -268,7 +268,7 @@ fn every_key_does_what_the_help_says() {
 fn the_legend_is_the_reports_counters_and_the_address_keeps_the_state() {
     let mut browser = Browser::start();
     let mut checked = 0;
-    for case in four() {
+    for case in five() {
         let counters = case.frame().counters;
         let (_folder, path) = file(&case.html());
         browser.open(&path, "");
@@ -338,7 +338,7 @@ const LAYOUT: &str = "(() => {
 fn nothing_overlaps_is_cut_or_moves() {
     let mut browser = Browser::start();
     let mut checked = 0;
-    for case in four() {
+    for case in five() {
         let (_folder, path) = file(&case.html());
         for (width, height) in [(900, 700), (1400, 900)] {
             browser.size(width, height);
@@ -374,7 +374,7 @@ fn nothing_overlaps_is_cut_or_moves() {
     }
     browser.is_quiet();
     println!("checked {checked} states");
-    assert!(checked == 4 * 2 * 2 * 50);
+    assert!(checked == 5 * 2 * 2 * 50);
 }
 
 /// Text with less than 4.5 to 1 on what lies behind it; what is pale on purpose says nothing.
@@ -396,7 +396,7 @@ const CONTRAST: &str = "(() => {
 #[test]
 fn every_control_has_a_name_and_is_reached_by_tab() {
     let mut browser = Browser::start();
-    let case = &four()[0];
+    let case = &five()[0];
     let (_folder, path) = file(&case.html());
     browser.open(&path, "#px=31,20");
     let controls = browser.eval(
@@ -444,7 +444,7 @@ fn measure(browser: &mut Browser, html: &str) -> (f64, f64) {
 #[test]
 fn small_and_quick() {
     let mut browser = Browser::start();
-    let case = &four()[0];
+    let case = &five()[0];
     let html = case.html();
     measure(&mut browser, &html);
     let (open, step) = measure(&mut browser, &html);
@@ -526,7 +526,7 @@ fn lesson_page(machine: Machine) -> String {
 #[test]
 fn a_replay_of_another_version_is_refused_in_words() {
     let mut browser = Browser::start();
-    let case = &four()[0];
+    let case = &five()[0];
     let html = case.html();
     for (from, to, word) in [
         ("\"version\":[1,0]", "\"version\":[2,0]", "version 2.0; this page shows version 1"),
@@ -552,7 +552,7 @@ fn pictures_for_the_documentation() {
         ["replay", "replay-drain", "replay-dark", "lesson"].map(|name| docs.join(format!("{name}.png")));
     if std::env::var_os("EDGEWALK_BLESS").is_some() {
         let mut browser = Browser::start();
-        let cases = four();
+        let cases = five();
         for (place, (html, hash, scheme)) in [
             (cases[0].html(), "#c=1503&px=31,20", "light"),
             (cases[2].html(), "#c=1200&px=31,20", "light"),

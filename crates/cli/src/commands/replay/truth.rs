@@ -13,11 +13,13 @@ use std::collections::{HashMap, HashSet};
 /// The kind of token that is a fragment: pixel, then the channels.
 const FRAGMENT: &str = "fragment";
 
-/// How far each channel of each fragment is off; pixels that only the machine draws have no exact value.
+/// How far each channel of each fragment is off; pixels that only the machine draws have no exact value. With BLEND the
+/// depth alone: a fragment's colour is mixed on its way.
 pub fn truth(machine: &Plan, frame: &Frame, ids: &[i32], tokens: &Tokens) -> Vec<Truth> {
     let Some(kind) = tokens.kinds().iter().find(|kind| kind.name == FRAGMENT) else { return Vec::new() };
     let exact = exact(machine, frame, ids, kind.met.iter().map(|token| token[0]).collect());
-    let channels = machine.channels().iter().enumerate();
+    let told_of = if machine.blend.is_there() { 1 } else { machine.channels().len() };
+    let channels = machine.channels()[..told_of].iter().enumerate();
     let told = channels.map(|(place, channel)| {
         let error = |token: &Vec<u64>| {
             let exact = exact.get(&(token[0], token[1]))?[place];

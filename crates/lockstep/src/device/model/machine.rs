@@ -145,8 +145,8 @@ impl<const C: usize> ModelDevice for MachineDevice<C> {
     }
 
     fn view(&self, ports: &PortValues, view: &mut View) -> bool {
-        // BLEND and SHADOW are not shown yet.
-        if self.color.is_some() || self.map.is_some() {
+        // SHADOW is not shown yet.
+        if self.map.is_some() {
             return false;
         }
         let triangle = self.tri.token(ports);
