@@ -16,7 +16,7 @@ pub struct Input {
 
 enum What {
     Scene(Box<Scene>, Shading),
-    Triangles(Frame),
+    Triangles(Box<Frame>),
 }
 
 impl Input {
@@ -26,7 +26,7 @@ impl Input {
     /// No such scene or file, or a fault in it.
     pub fn open(name: &str, shading: Shading) -> Result<Input> {
         let what = if is_triangle_file(name) {
-            What::Triangles(triangle_file::read(Path::new(name))?)
+            What::Triangles(Box::new(triangle_file::read(Path::new(name))?))
         } else {
             What::Scene(Box::new(Scene::open(name)?), shading)
         };
@@ -65,7 +65,7 @@ impl Input {
     /// A triangle file of another size, channels of the user's own without values for them.
     pub fn frame(&self, machine: &Plan) -> Result<Frame> {
         let frame = match &self.what {
-            What::Triangles(frame) => fitting(&self.name, frame.clone(), machine)?,
+            What::Triangles(frame) => fitting(&self.name, Frame::clone(frame), machine)?,
             What::Scene(scene, shading) => {
                 extra::fitting(0, machine).with_context(|| self.name.clone())?;
                 let surface = scene.surface(machine.width, machine.height, guard_band(machine));

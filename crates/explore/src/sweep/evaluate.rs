@@ -30,7 +30,7 @@ pub struct Around<'a> {
 /// A row that cannot be written; those before it are kept.
 pub fn run(sweep: &Sweep, points: &[&Point], around: &Around) -> Result<u64> {
     let run = Run { sweep, around, faults: AtomicU64::new(0) };
-    let mut geometries: BTreeMap<(usize, Vec<u32>), Vec<(&Point, &Plan)>> = BTreeMap::new();
+    let mut geometries: BTreeMap<(usize, Vec<u32>), Vec<Planned>> = BTreeMap::new();
     for point in points {
         match &point.plan {
             Ok(plan) => {
@@ -53,7 +53,9 @@ struct Run<'r> {
     faults: AtomicU64,
 }
 
-type Points<'p> = [(&'p Point, &'p Plan)];
+/// A point with its machine.
+type Planned<'p> = (&'p Point, &'p Plan);
+type Points<'p> = [Planned<'p>];
 
 impl Run<'_> {
     fn put(&self, mut row: Value, since: Instant) -> Result<()> {
@@ -75,7 +77,7 @@ impl Run<'_> {
             Ok(geometry) => geometry,
             Err(why) => return self.all(points, Status::Failed, &format!("{why:#}")),
         };
-        let mut groups: BTreeMap<Vec<u32>, Vec<(&Point, &Plan)>> = BTreeMap::new();
+        let mut groups: BTreeMap<Vec<u32>, Vec<Planned>> = BTreeMap::new();
         for (point, plan) in points {
             groups.entry(pixel_key(&point.machine)).or_default().push((*point, *plan));
         }
@@ -126,7 +128,7 @@ impl Run<'_> {
             Ok(pixels) => pixels,
             Err(why) => return self.all(points, Status::Failed, &format!("{why:#}")),
         };
-        let mut lanes: BTreeMap<u32, Vec<(&Point, &Plan)>> = BTreeMap::new();
+        let mut lanes: BTreeMap<u32, Vec<Planned>> = BTreeMap::new();
         for (point, plan) in points {
             lanes.entry(plan.lanes).or_default().push((*point, *plan));
         }
