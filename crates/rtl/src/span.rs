@@ -108,7 +108,8 @@ struct Ends<'m> {
 fn ends_exact<'m>(m: &'m Module, plan: &Plan, line: &Token<'m>) -> Ends<'m> {
     let (cmaj, cmin, width) = (line["cmaj"], line["cmin"], plan.width as i32);
     m.comment("To the right from cmaj to before cmin, at most to the end of the screen; to the left to cmin, at least to column 0.");
-    let right_of_screen = cmin.sge(width).named_doc("right_of_screen", "no column of the screen lies right of cmin");
+    let right_of_screen =
+        cmin.sge(width).named_doc("right_of_screen", "no column of the screen lies right of cmin");
     let left_of_screen = cmin.sle(0).named_doc("left_of_screen", "no column of the screen lies left of cmin");
     m.comment("Whether a column is left is asked of the edges themselves: no comparison waits for the cut.");
     let none_right = (cmin.sle(cmaj) | cmaj.sge(width) | left_of_screen).named("none_right");
