@@ -23,6 +23,10 @@ fn what_differs_is_told_and_nothing_else() {
     assert_eq!(adders["figures"]["cycles"], json!([a["cycles"]["total"], b["cycles"]["total"]]));
     assert!(a["cycles"]["total"].as_u64() < b["cycles"]["total"].as_u64());
     assert!(adders["figures"]["fragments"].is_null() && adders["figures"]["z error, LSB"].is_null());
+    let text = std::fs::read_to_string(folder.path().join("out/compare/compare.txt")).unwrap();
+    let keys = text.split("keys").nth(1).unwrap().split("figures that differ").next().unwrap();
+    assert!(keys.contains("interpolator.adders") && keys.lines().count() == 2, "{text}");
+    assert!(text.contains("cycles: draw") && !text.contains("z error"), "{text}");
     // Each side is what `render` says.
     let rendered = edgewalk(folder.path(), &["render", "sphere", "--json", "--set", "interpolator.adders=1"])
         .output()

@@ -76,7 +76,11 @@ fn occupancy_is_the_same_ticked_or_not_and_by_hand() {
         // One triangle: three edges and four channels at once on four lanes.
         let clocks = number(&fast["setup"]["clocks"]["most"]);
         let lanes = number(&fast["occupancy"]["lanes"]["mean"]) * number(&fast["cycles"]["total"]);
-        assert!(lanes > 3.0 * clocks && lanes < 4.0 * clocks, "{lanes} {clocks}");
+        let edges = 4.0 * clocks - lanes;
+        assert!(
+            (edges - edges.round()).abs() < 1e-6 && (16.0..24.0).contains(&edges),
+            "S1 = {edges} of {clocks}"
+        );
         assert!(
             number(&fast["occupancy"]["span_fifo"]["mean"]) <= number(&fast["occupancy"]["span_fifo"]["of"])
         );

@@ -194,7 +194,6 @@ fn the_tables_are_those_of_the_data() {
             "pixel_cells",
             cells("pixel_cells", &[("interpolator.adders", "adders"), ("interpolator.segments", "segments")]),
         ),
-        ("setup_cells", cells("setup_cells", &[("setup.lanes", "lanes")])),
     ];
     let mut written = text.clone();
     let mut lines = 0;

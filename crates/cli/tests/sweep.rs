@@ -51,7 +51,7 @@ fn rendered(folder: &Path, row: &Value) -> Value {
 }
 
 /// Sweeps over keys that change pixels and keys that do not, machines that have to be ticked among them.
-const SWEEPS: [&[&str]; 5] = [
+const SWEEPS: [&[&str]; 6] = [
     &[
         "sphere",
         "--vary",
@@ -97,6 +97,17 @@ const SWEEPS: [&[&str]; 5] = [
         "formats.z_bits=12,16",
         "--vary",
         "memory.hazard=drain,forward",
+    ],
+    &[
+        "sphere",
+        "--set",
+        "screen.width=160",
+        "--set",
+        "screen.height=120",
+        "--vary",
+        "blend.kind=none,constant,interpolated",
+        "--vary",
+        "setup.lanes=1,4",
     ],
     &[
         "own.tri",

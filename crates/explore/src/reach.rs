@@ -42,7 +42,8 @@ impl Reach {
     }
 }
 
-/// The machine with timing keys by which no frame without channels of the user's own has to be ticked; its pixels are the same.
+/// The machine with timing keys by which no frame has to be ticked, if it has neither channels of the user's own nor BLEND; its
+/// pixels are the same.
 ///
 /// # Errors
 /// None for a machine that was planned.
@@ -51,17 +52,21 @@ pub fn untimed(machine: &Plan) -> Result<Plan> {
     keys.plan().map_err(|e| anyhow!("{e}"))
 }
 
-/// Takes the frame through the units.
+/// Takes the frame through the units, as far as it is the same with and without channels of the user's own and BLEND.
 ///
 /// # Errors
-/// A machine with BLEND or SHADOW, a frame of several passes, vertices of another machine.
+/// A machine with SHADOW, a frame of several passes, vertices of another machine.
 pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
-    if machine.blend.is_there() || machine.shadow.is_there() {
-        return Err(anyhow!(
-            "size, sweep and compare take no machine with BLEND or SHADOW yet; set blend.kind = none and shadow.light = none"
-        ));
+    if machine.shadow.is_there() {
+        return Err(anyhow!("size, sweep and compare take no machine with SHADOW yet; set shadow.light = none"));
     }
-    let keys = Machine { extra: 0, adders: machine.adders.min(4), ..Machine::clone(machine) };
+    let bare = Machine::default();
+    let keys = Machine {
+        extra: bare.extra,
+        blend: bare.blend,
+        adders: machine.adders.min(bare.adders),
+        ..Machine::clone(machine)
+    };
     let plan = untimed(&keys.plan().map_err(|e| anyhow!("{e}"))?)?;
     let of_plan = |triangle: &[_; 3]| {
         triangle.map(|v: edgewalk_machine::PortVertex| plan.raw_vertex(v.x(), v.y(), v.values()))

@@ -12,7 +12,7 @@ use crate::setup_report::SetupReport;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Machine, Plan};
-use edgewalk_model::fast::{Passage, Path, Reason, Renderer};
+use edgewalk_model::fast::{Passage, Path, Reason, Refusal, Renderer};
 use edgewalk_model::{Culled, DrawState, Events, Rig, SetupClocks, Waits, cull, for_channels, render};
 use edgewalk_scene::Frame;
 use std::convert::Infallible;
@@ -81,7 +81,7 @@ pub struct Pixels {
     report: Report,
     culled: Vec<Option<Culled>>,
     passage: Passage,
-    /// The machine has no channels of the user's own.
+    /// It was drawn without ticking.
     plain: bool,
     /// Proved for these triangles: where an error exceeds it, the program is wrong.
     exact_edges: bool,
@@ -95,17 +95,16 @@ impl Pixels {
     pub fn new(geometry: &Geometry, plan: &Plan) -> Result<Pixels> {
         let Geometry { name, frame, golden } = geometry;
         let port = to_port(frame, plan)?;
-        let plain = plan.channels().len() == crate::extra::BEFORE;
         let fast = untimed(plan)?;
-        let (drawn, passage) = if plain {
-            let mut renderer = Renderer::new(&fast, true);
-            let passage = renderer.draw_passage(port.triangles.iter().copied(), port.state()?);
-            let passage =
-                passage.map_err(|refusal| anyhow!("the fast engine refuses this frame: {refusal:?}"))?;
-            (from_fast(plan, renderer.frame(), Path::Fast), passage)
-        } else {
-            let drawn = render(&fast, port.triangles.iter().copied(), port.state()?, Waits::Never)?;
-            (from_model(plan, drawn), reach::passage(plan, &port)?)
+        let mut renderer = Renderer::new(&fast, true);
+        let (drawn, passage, plain) = match renderer.draw_passage(port.triangles.iter().copied(), port.state()?)
+        {
+            Ok(passage) => (from_fast(plan, renderer.frame(), Path::Fast), passage, true),
+            Err(Refusal::Tick(_)) => {
+                let drawn = render(&fast, port.triangles.iter().copied(), port.state()?, Waits::Never)?;
+                (from_model(plan, drawn), reach::passage(plan, &port)?, false)
+            }
+            Err(Refusal::Foreign(foreign)) => return Err(foreign.into()),
         };
         let drawn = of_primitives(drawn, &port.ids);
         let reach = Reach::of(plan, &port.ids, &passage).ok_or_else(|| {
@@ -142,8 +141,6 @@ impl Pixels {
     pub fn timed(&self, plan: &Plan, setup: &Setup, waits: Waits) -> Result<Report> {
         let clocked = if waits != Waits::Never {
             Err(Reason::Memory)
-        } else if !self.plain {
-            Err(Reason::Channels)
         } else {
             self.passage.clocked(plan, &setup.clocks)
         };
