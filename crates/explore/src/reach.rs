@@ -58,7 +58,9 @@ pub fn untimed(machine: &Plan) -> Result<Plan> {
 /// A machine with SHADOW, a frame of several passes, vertices of another machine.
 pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     if machine.shadow.is_there() {
-        return Err(anyhow!("size, sweep and compare take no machine with SHADOW yet; set shadow.light = none"));
+        return Err(anyhow!(
+            "size, sweep and compare take no machine with SHADOW yet; set shadow.light = none"
+        ));
     }
     let bare = Machine::default();
     let keys = Machine {

@@ -36,6 +36,10 @@ impl<const C: usize> Model<C> {
         if let Some(blend) = self.blend() {
             blend.view(plan, pass, &inputs.blend, view);
         }
-        view.cause(self.activity(block, frag_ready, super::Waits { light: false, pass: pass.is_some() && !pass_ready }));
+        view.cause(self.activity(
+            block,
+            frag_ready,
+            super::Waits { light: false, pass: pass.is_some() && !pass_ready },
+        ));
     }
 }
