@@ -99,7 +99,6 @@ fn twelve_machines_in_every_tool() {
 
 /// Machines with BLEND in Icarus, every second in Verilator too; BLEND and DEPTH alone, mixing and adding.
 #[test]
-#[ignore = "compiled, not run yet"]
 fn machines_with_blend_replay_and_are_clean() {
     let machines = common::glass();
     let done = common::two_at_a_time(&machines, |i, (name, machine)| {
