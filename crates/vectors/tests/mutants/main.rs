@@ -45,7 +45,6 @@ const BLEND_STEPS: [usize; 5] = [2, 2, 2, 2, 2];
 const BLEND_LEAST: usize = 98;
 
 #[test]
-#[ignore = "compiled, its share not measured yet"]
 fn single_faults_of_blend_are_found() {
     let kinds = [
         (common::BLEND, Hazard::Forward, 3, 1),
