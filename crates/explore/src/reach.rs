@@ -78,12 +78,12 @@ pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     drawn.map_err(|refusal| anyhow!("the fast engine draws every frame of such a machine: {refusal:?}"))
 }
 
-/// How far the values of these triangles are stepped; none where the machine has BLEND or SHADOW, or the frame several passes.
+/// How far the values of these triangles are stepped; none where the machine has SHADOW, or the frame several passes.
 ///
 /// # Errors
 /// Vertices of another machine.
 pub fn reach(machine: &Plan, port: &PortFrame) -> Result<Option<Reach>> {
-    if machine.blend.is_there() || machine.shadow.is_there() || port.passes.len() != 1 {
+    if machine.shadow.is_there() || port.passes.len() != 1 {
         return Ok(None);
     }
     Ok(Reach::of(machine, &port.ids, &passage(machine, port)?))

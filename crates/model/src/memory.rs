@@ -9,7 +9,7 @@
 //! Timing: data L cycles after the read fired, later if stalled; held until taken. A read that fires together with a
 //! write sees the old word. One read and one write a clock.
 //!
-//! Rules: `docs/machine.md`, section 7. When data is late and readies are low: [`Waits`](crate::Waits).
+//! Rules: `docs/machine.md`, section 7. When data is late and readies are low: [`Waits`].
 
 use crate::fifo::Fifo;
 use crate::prefetch::prefetch;

@@ -40,7 +40,7 @@ impl Default for DrawState {
             depth_write: true,
             color_write: true,
             blend_add: false,
-            shadow_on: true,
+            shadow_on: false,
             ambient: 0,
             clear: [0; 3],
         }

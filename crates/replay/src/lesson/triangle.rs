@@ -20,7 +20,7 @@ pub fn triangle(plan: &Plan) -> Result<[PortVertex; 3], VertexError> {
     let mut port = [PortVertex::default(); 3];
     for (slot, ([x, y], values)) in port.iter_mut().zip(CORNERS) {
         let mut values = values.to_vec();
-        values.resize(plan.channels().len(), 0.0);
+        values.resize(plan.channels().len() + usize::from(plan.has_triangle_kt()), 0.0);
         *slot = plan.port_vertex(x, y, &values)?;
     }
     Ok(port)
