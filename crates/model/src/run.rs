@@ -33,7 +33,7 @@ pub struct DrawState {
 }
 
 impl Default for DrawState {
-    /// The nearest fragment wins, mixed with what is there as its k_t says, on black.
+    /// The nearest fragment wins, mixed with what is there as its k_t says, on black; no map counts.
     fn default() -> Self {
         DrawState {
             depth_func: 1,

@@ -22,7 +22,7 @@ pub const ALWAYS: DrawState = DrawState {
     depth_write: true,
     color_write: true,
     blend_add: false,
-    shadow_on: true,
+    shadow_on: false,
     ambient: 0,
     clear: [0; 3],
 };
