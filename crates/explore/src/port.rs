@@ -68,6 +68,12 @@ pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawSt
             "shadow: the machine has no shadow maps yet; draw without the line `shadow` or with --engine golden"
         ));
     }
+    if let Some(shading) = &frame.shading {
+        return Err(anyhow!(
+            "mode {}: the machine has no unit for normals yet; draw with mode gouraud or with --engine golden",
+            shading.method.name()
+        ));
+    }
     let max = machine.color.max() as f64;
     Ok(DrawState {
         depth_func: state.depth.unwrap_or(DepthFunc::Always) as u8,

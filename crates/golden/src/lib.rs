@@ -20,6 +20,7 @@ mod shadow;
 mod draw_list;
 mod ray;
 mod visibility;
+mod pixel_shading;
 mod picture;
 mod wireframe;
 mod transparency;

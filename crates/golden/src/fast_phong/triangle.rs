@@ -8,7 +8,7 @@ use crate::cover::snap;
 use crate::fast_phong::differences::Walk;
 use crate::fast_phong::normal_plane::NormalPlane;
 use crate::fast_phong::quadratic::Quadratic;
-use crate::fast_phong::six_point::six_point;
+use crate::fast_phong::six_point::{nodes, six_point};
 use crate::fast_phong::table::PowerTable;
 use crate::fast_phong::taylor::taylor;
 use edgewalk_scene::{Light, Material, SurfaceTriangle};
@@ -123,16 +123,10 @@ pub fn quadratics(
             Some([taylor(&plane, toward), taylor(&plane, halfway(middle))])
         }
         Fit::SixPoint => {
-            let light = |normal: DVec3, _: DVec3| normal.normalize_or_zero().dot(toward);
-            let highlight =
-                |normal: DVec3, position: DVec3| normal.normalize_or_zero().dot(halfway(position));
-            let through = |cosine: &dyn Fn(DVec3, DVec3) -> f64| {
-                let vertices = std::array::from_fn(|k| cosine(normals[k], positions[k]));
-                let middle = |values: [DVec3; 3], k: usize| (values[(k + 1) % 3] + values[(k + 2) % 3]) / 2.0;
-                let midpoints = std::array::from_fn(|k| cosine(middle(normals, k), middle(positions, k)));
-                six_point(points, vertices, midpoints)
-            };
-            Some([through(&light)?, through(&highlight)?])
+            let through = |[vertices, midpoints]: [[f64; 3]; 2]| six_point(points, vertices, midpoints);
+            let light = nodes(normals, positions, |normal, _| normal.dot(toward));
+            let highlight = nodes(normals, positions, |normal, position| normal.dot(halfway(position)));
+            Some([through(light)?, through(highlight)?])
         }
     }
 }
