@@ -13,6 +13,7 @@ pub mod normal_cone;
 pub mod blend;
 pub mod witness;
 pub mod solver;
+pub mod term;
 pub mod budget;
 
 pub use blend::{blend_error, blend_error_of_golden};
