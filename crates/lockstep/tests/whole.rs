@@ -17,9 +17,11 @@ const MACHINES: usize = 400;
 /// Triangles drawn on them, about.
 const TRIANGLES: u64 = 40_000;
 
-/// SHADOW has no netlist yet.
+/// SHADOW, TERM and SHADE have no netlist yet.
 fn no_netlist(event: &str) -> bool {
-    edgewalk_machine::units::shadow::SPEC.events.iter().any(|of| of.name == event)
+    use edgewalk_machine::units::{shade, shadow, term};
+    let mut events = [&shadow::SPEC, &term::SPEC, &shade::SPEC].into_iter().flat_map(|unit| unit.events);
+    events.any(|of| of.name == event)
 }
 
 /// What random triangles may not meet, and [`colours_on_one_pixel`] does.

@@ -19,6 +19,8 @@ mod span;
 
 mod pixel;
 
+mod shade;
+
 mod rmw;
 
 mod shadow;
@@ -40,6 +42,7 @@ pub use machine::{assemble, engine, machine};
 pub use memory::memory;
 pub use pixel::pixel;
 pub use setup::setup;
+pub use shade::{shade, term};
 pub use shadow::shadow;
 pub use span::span;
 
@@ -48,7 +51,9 @@ pub const BUILDERS: &[(&str, units::Build)] = &[
     ("setup", setup),
     ("edge", edge),
     ("span", span),
+    ("term", term),
     ("pixel", pixel),
+    ("shade", shade),
     ("shadow", shadow),
     ("depth", depth),
     ("blend", blend),
