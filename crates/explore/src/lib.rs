@@ -10,6 +10,7 @@ pub mod verdict;
 pub mod extra;
 pub mod input;
 pub mod port;
+pub mod shade;
 pub mod raster;
 pub mod reach;
 pub mod draw;

@@ -1,5 +1,6 @@
 //! A frame's way to the machine's port.
 
+use crate::shade::{Feed, feed};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::{DrawState, Pass};
@@ -13,6 +14,8 @@ pub struct PortFrame {
     pub ids: Vec<i32>,
     /// The rules, and how many triangles are drawn by each, in order; at least one.
     pub passes: Vec<Pass>,
+    /// For TERM and SHADE, where the frame is shaded at each pixel.
+    pub shade: Option<Feed>,
 }
 
 impl PortFrame {
@@ -46,7 +49,8 @@ pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
             clear_depth: pass.clear_depth,
         });
     }
-    Ok(PortFrame { triangles: port, ids, passes })
+    let port = PortFrame { triangles: port, ids, passes, shade: None };
+    Ok(PortFrame { shade: feed(frame, &port, machine)?, ..port })
 }
 
 /// The rules of a pass as the machine has them, or what of them it cannot do.
@@ -66,12 +70,6 @@ pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawSt
     if frame.shadow.is_some() {
         return Err(anyhow!(
             "shadow: the machine has no shadow maps yet; draw without the line `shadow` or with --engine golden"
-        ));
-    }
-    if let Some(shading) = &frame.shading {
-        return Err(anyhow!(
-            "mode {}: the machine has no unit for normals yet; draw with mode gouraud or with --engine golden",
-            shading.method.name()
         ));
     }
     let max = machine.color.max() as f64;

@@ -66,6 +66,7 @@ pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     let keys = Machine {
         extra: bare.extra,
         blend: bare.blend,
+        shade: bare.shade,
         adders: machine.adders.min(bare.adders),
         ..Machine::clone(machine)
     };

@@ -8,7 +8,7 @@ use edgewalk_scene::{PixelMethod, PixelShading, PixelTriangle};
 use glam::DVec3;
 
 /// A triangle about to be shaded.
-pub(crate) struct PixelBrush<'a> {
+pub struct PixelBrush<'a> {
     shading: &'a PixelShading,
     triangle: &'a PixelTriangle,
     /// Of the lights in their order; none for Phong.
@@ -25,7 +25,7 @@ struct Cosines {
 
 impl<'a> PixelBrush<'a> {
     /// Of the triangle with this place; `None` if the frame has no normals for it.
-    pub(crate) fn new(shading: &'a PixelShading, place: usize) -> Option<Self> {
+    pub fn new(shading: &'a PixelShading, place: usize) -> Option<Self> {
         let triangle = shading.triangles.get(place)?;
         let cosines = match shading.method {
             PixelMethod::Phong => Vec::new(),
@@ -50,7 +50,7 @@ impl<'a> PixelBrush<'a> {
     }
 
     /// The colour at a pixel of the triangle, each in [0, 1].
-    pub(crate) fn color<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>) -> [f64; 3] {
+    pub fn color<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>) -> [f64; 3] {
         let (shares, surface) = (fragment.shares(), DVec3::from(fragment.rgb()));
         let mean = |values: [DVec3; 3]| values.iter().zip(shares).map(|(v, share)| *v * share).sum::<DVec3>();
         let color = match self.shading.method {
@@ -58,25 +58,48 @@ impl<'a> PixelBrush<'a> {
                 let PixelTriangle { normals, positions, .. } = *self.triangle;
                 self.shading.color(self.triangle, mean(positions), mean(normals), surface)
             }
-            PixelMethod::FastPhong => self.fast(&shares, surface),
+            PixelMethod::FastPhong => self.fast(&shares, surface, 0),
         };
         color.to_array()
     }
 
-    /// I_e + c k_a I_a + sum of I_l (c k_d D + k_s f(H)^n) over the lights with D > 0.
-    fn fast(&self, shares: &[f64], surface: DVec3) -> DVec3 {
+    /// In fast Phong the colours that the pixel may have for one who knows the cosines N·L to within `doubt`: for each light
+    /// whose N·L is no farther from 0, as if it stood above the horizon and as if below. The first is that of
+    /// [`Self::color`]; in Phong it is the only one.
+    pub fn branches<const N: usize, W: Weight>(
+        &self,
+        fragment: &Fragment<N, W>,
+        doubt: f64,
+    ) -> Vec<[f64; 3]> {
+        let (shares, surface) = (fragment.shares(), DVec3::from(fragment.rgb()));
+        let mut turned = vec![0];
+        for (light, cosines) in self.cosines.iter().enumerate() {
+            if six_point_at(&shares, &cosines.diffuse).abs() <= doubt {
+                let others: Vec<u64> = turned.iter().map(|set| set | 1 << light).collect();
+                turned.extend(others);
+            }
+        }
+        match turned[..] {
+            [_] => vec![self.color(fragment)],
+            _ => turned.into_iter().map(|set| self.fast(&shares, surface, set).to_array()).collect(),
+        }
+    }
+
+    /// I_e + c k_a I_a + sum of I_l (c k_d D + k_s f(H)^n) over the lights with D > 0; those in the set `turned` as if on the
+    /// other side of the horizon.
+    fn fast(&self, shares: &[f64], surface: DVec3, turned: u64) -> DVec3 {
         let material = self.shading.material(self.triangle, surface);
-        let part = |light: &Cosines| {
+        let part = |(place, light): (usize, &Cosines)| {
             let cosine = six_point_at(shares, &light.diffuse);
-            if cosine <= 0.0 {
+            if (cosine <= 0.0) != (turned >> place & 1 == 1) {
                 return DVec3::ZERO;
             }
-            // Around a highlight the quadratic exceeds 1.
+            // The quadratics go beyond 0 and 1.
             let halfway = six_point_at(shares, &light.halfway).clamp(0.0, 1.0);
             let power = PowerTable::exact(self.shading.specular, material.exponent, halfway);
-            light.intensity * (material.diffuse * cosine + material.specular * power)
+            light.intensity * (material.diffuse * cosine.clamp(0.0, 1.0) + material.specular * power)
         };
-        let sum: DVec3 = self.cosines.iter().map(part).sum();
+        let sum: DVec3 = self.cosines.iter().enumerate().map(part).sum();
         (material.emission + material.ambient * self.shading.ambient + sum).clamp(DVec3::ZERO, DVec3::ONE)
     }
 }

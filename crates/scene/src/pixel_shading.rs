@@ -6,9 +6,13 @@
 //! ```
 //! Triangle files have viewer and lights infinitely far away; a scene's frame has its own.
 
+use crate::frame::{Frame, Triangle, Vertex};
 use crate::light::Light;
 use crate::mesh::Material;
+use crate::pass::Blending;
+use crate::scene::Scene;
 use crate::shading::{Lighting, Point, Specular};
+use crate::surface::{Surface, SurfaceVertex};
 use glam::DVec3;
 
 /// How the cosines of a pixel are come by.
@@ -106,6 +110,62 @@ impl PixelShading {
         let triangles = places.into_iter().map(|place| self.triangles[place]).collect();
         Self { triangles, ..self }
     }
+}
+
+impl Scene {
+    /// The frame of a surface of this scene with the equation at each pixel. Highlights are of the form that N·H gives: for the
+    /// mirror form that of ch. 7.12. A texture colours the vertices, a relief is not seen.
+    pub fn pixel_frame(&self, surface: &Surface, method: PixelMethod) -> Frame {
+        let plain: Vec<(DVec3, Material)> = self.mesh.materials().iter().map(in_grey).collect();
+        let corner = |face: u32, vertex: &SurfaceVertex| {
+            let place = self.mesh.faces()[face as usize].material as usize;
+            // What the texture multiplies white with.
+            let tint = self.mesh.material_at(face, vertex.texture).diffuse;
+            let texture = tint / self.mesh.materials()[place].diffuse;
+            let [r, g, b] =
+                (plain[place].0 * DVec3::select(texture.is_finite_mask(), texture, DVec3::ONE)).to_array();
+            Vertex { r, g, b, ..vertex.screen }
+        };
+        let triangles = surface.triangles.iter();
+        let own = triangles.clone().map(|triangle| PixelTriangle {
+            normals: triangle.vertices.map(|vertex| vertex.normal),
+            positions: triangle.vertices.map(|vertex| vertex.position),
+            material: self.mesh.faces()[triangle.face as usize].material,
+        });
+        let shading = PixelShading {
+            method,
+            viewer: Viewer::At(self.camera.eye),
+            ambient: self.ambient,
+            lights: self.lights.clone(),
+            specular: if self.specular == Specular::Mirror { Specular::Halfway } else { self.specular },
+            triangles: own.collect(),
+            materials: plain.iter().map(|(_, material)| *material).collect(),
+        };
+        let triangles: Vec<Triangle> = triangles
+            .map(|triangle| Triangle(triangle.vertices.map(|vertex| corner(triangle.face, &vertex))))
+            .collect();
+        let clear = triangles.iter().flat_map(|triangle| triangle.0).any(|vertex| vertex.kt > 0.0);
+        Frame {
+            clear: self.background.to_array(),
+            blend: if clear { Blending::Mix } else { Blending::Off },
+            triangles,
+            shading: Some(shading),
+            ..Frame::new(surface.width, surface.height)
+        }
+    }
+}
+
+/// The colour c of a material and the material without it: k_d in grey, where k_a and I_e allow it.
+fn in_grey(material: &Material) -> (DVec3, Material) {
+    let brightest = material.diffuse.max_element();
+    let color = material.diffuse / brightest;
+    let grey = material.ambient.max_element();
+    let of_one_color = brightest > 0.0 && (material.ambient - color * grey).abs().max_element() < 1e-12;
+    if !of_one_color {
+        return (DVec3::ONE, Material { texture: None, bump: None, ..*material });
+    }
+    let [ambient, diffuse] = [grey, brightest].map(DVec3::splat);
+    (color, Material { ambient, diffuse, texture: None, bump: None, ..*material })
 }
 
 /// A vector in its direction of length 1; one that has it already comes back as it is, so that files are read back bit for

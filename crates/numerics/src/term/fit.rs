@@ -107,7 +107,7 @@ impl Shares {
 /// RN of a number over 2^[`NODE_BITS`] times `total`, modulo 2^64.
 fn rounded(number: BigInt, total: &BigInt) -> u64 {
     let divisor: BigInt = total << (NODE_BITS + 1);
-    let sum = number * 2 + (total << NODE_BITS);
+    let sum: BigInt = number * 2 + (total << NODE_BITS);
     // Floor, whatever the signs.
     let quotient = if divisor < BigInt::ZERO { floor(-sum, -divisor) } else { floor(sum, divisor) };
     low_word(&quotient)

@@ -15,10 +15,11 @@ use rand_pcg::Pcg64Mcg;
 fn formula(words: [u64; 6], (i, n): (i64, i64), width: u32) -> u64 {
     let [v, x, y, xx, xy, yy] = words.map(BigInt::from);
     let (i, n) = (BigInt::from(i), BigInt::from(n));
-    let pairs = |k: &BigInt| k * (k - 1) / 2;
-    let value = v + &i * x + &n * y + pairs(&i) * xx + pairs(&n) * yy + &i * &n * xy;
+    let pairs = |k: &BigInt| -> BigInt { k * (k - 1) / 2 };
+    let value: BigInt = v + &i * x + &n * y + pairs(&i) * xx + pairs(&n) * yy + &i * &n * xy;
     let modulus = BigInt::from(1) << width;
-    let rest = ((value % &modulus) + &modulus) % &modulus;
+    let rest: BigInt = value % &modulus;
+    let rest: BigInt = (rest + &modulus) % &modulus;
     rest.to_u64().unwrap()
 }
 
@@ -111,7 +112,9 @@ fn rounded_once_and_never_farther_than_the_bound() {
             // Both modulo 2^64: the word may have wrapped, their difference is small.
             let modulus = power_of_two(64);
             let away = ratio(words.at(i, n), 1) - truth;
-            let away = &away - round_to_integer(&(&away / &modulus), Rounding::NearestHalfUp) * &modulus;
+            let turns =
+                BigRational::from_integer(round_to_integer(&(&away / &modulus), Rounding::NearestHalfUp));
+            let away = away - turns * &modulus;
             let roundings = term_roundings(degree, i, n);
             let bound = exact(term_error(fraction, roundings).unwrap()) * power_of_two(fraction);
             let share = (away.abs() / &bound).to_f64().unwrap();
