@@ -9,7 +9,7 @@ use edgewalk_explore::raster::{from_machine, from_model, of_primitives};
 use edgewalk_golden::Drawing;
 use edgewalk_lockstep::StallKind;
 use edgewalk_machine::Plan;
-use edgewalk_model::{Waits, render_passes};
+use edgewalk_model::{Waits, render_shaded};
 use edgewalk_scene::Frame;
 use std::ops::Range;
 
@@ -45,7 +45,8 @@ pub fn draw_waiting(
         Engine::Fast => draw::fast(frame, machine, waits),
         Engine::Model => {
             let port = to_port(frame, machine)?;
-            let drawn = render_passes(machine, port.triangles.iter().copied(), &port.passes, waits, |_| {})?;
+            let triangles = port.triangles.iter().copied();
+            let drawn = render_shaded(machine, triangles, &port.passes, waits, port.words(), |_| {})?;
             Ok(of_primitives(from_model(machine, drawn), &port.ids))
         }
     }
@@ -61,7 +62,8 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Resul
             let bar = bar(port.triangles.len() as u64, "triangles", quiet);
             let triangles = bar.wrap_iter(port.triangles.iter().copied());
             let raster = if engine == Engine::Model {
-                from_model(machine, render_passes(machine, triangles, &port.passes, Waits::Never, |_| {})?)
+                let (passes, words) = (&port.passes, port.words());
+                from_model(machine, render_shaded(machine, triangles, passes, Waits::Never, words, |_| {})?)
             } else {
                 let drawn = edgewalk_lockstep::render_rtl(machine, triangles, port.state()?, StallKind::None);
                 from_machine(machine, drawn.map_err(|e| anyhow!("{e}"))?)

@@ -17,6 +17,7 @@ mod tests;
 use crate::extra;
 use crate::raster::Raster;
 use crate::reach::Reach;
+use crate::shade::{Allowed, Proof, Shaded};
 use crate::verdict::Verdict;
 use channel::Tally;
 pub use channel::{ExtraError, Spread};
@@ -78,6 +79,9 @@ pub struct Comparison {
     /// Of a blended picture, whose colours have a bound at each pixel in place of `color_bound`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blended: Option<Blended>,
+    /// Of a picture shaded at each pixel, whose colours have the bound of their triangle in place of `color_bound`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shaded: Option<Shaded>,
     /// Channels of the user's own.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<ExtraError>,
@@ -104,7 +108,22 @@ pub fn compare_for(
     drawn: &Raster,
     reach: Option<&Reach>,
 ) -> Comparison {
-    let c = compared(machine, frame, golden, drawn, reach);
+    compare_shaded(machine, frame, golden, drawn, reach, None)
+}
+
+/// The same of a frame that is shaded at each pixel, with what is proved of its colours.
+#[must_use]
+pub fn compare_shaded(
+    machine: &Plan,
+    frame: &Frame,
+    golden: &Raster,
+    drawn: &Raster,
+    reach: Option<&Reach>,
+    proof: Option<&Proof>,
+) -> Comparison {
+    let allowed = frame.shading.as_ref().zip(proof);
+    let allowed = allowed.map(|(shading, proof)| Allowed::new(machine, frame, shading, golden, proof));
+    let c = compared(machine, frame, golden, drawn, reach, allowed);
     match reach {
         Some(reach) => c.reaching(machine, reach),
         None => c,
@@ -117,6 +136,7 @@ fn compared(
     golden: &Raster,
     drawn: &Raster,
     reach: Option<&Reach>,
+    mut allowed: Option<Allowed>,
 ) -> Comparison {
     let mut tally = Tally::new(machine, golden, drawn);
     let mut c = Comparison {
@@ -142,6 +162,7 @@ fn compared(
         z_no_bound: tally.z.no_bound(),
         color_no_bound: tally.color.no_bound(),
         blended: None,
+        shaded: None,
         extra: Vec::new(),
         z_map: Vec::new(),
         color_map: Vec::new(),
@@ -159,7 +180,12 @@ fn compared(
             continue;
         }
         if golden.id[i] >= 0 {
-            tally.triangle(i, golden.z[i], &Over::golden(golden, i));
+            let mut over = Over::golden(golden, i);
+            if let Some(allowed) = &mut allowed {
+                let one = machine.color.max() as f64;
+                over.rgb = allowed.at(i, golden.id[i], golden.rgb[i], drawn.rgb[i], one);
+            }
+            tally.triangle(i, golden.z[i], &over);
         } else {
             c.background_wrong += u64::from(!tally.is_background(i, frame.clear));
         }
@@ -171,6 +197,10 @@ fn compared(
             Some(shown) => {
                 c.order_undecided += 1;
                 match shown {
+                    // Its colour is not that of a plane, and which pixels these are hangs on depths alone.
+                    Some(shown) if allowed.is_some() => {
+                        tally.depth(i, if frame.depth_write { shown.z } else { 1.0 })
+                    }
                     Some(shown) => tally.triangle(i, if frame.depth_write { shown.z } else { 1.0 }, &shown),
                     None => c.background_wrong += u64::from(!tally.is_background(i, frame.clear)),
                 }
@@ -178,6 +208,11 @@ fn compared(
             None => c.order_wrong += 1,
         }
         c.compared += u64::from(golden.coverage[i] > 0);
+    }
+    if let Some(allowed) = allowed {
+        c.shaded = Some(allowed.found());
+        c.color_bound = None;
+        c.color_no_bound = Some("each triangle has that of its terms and tables".to_owned());
     }
     finished(c, tally, machine)
 }
@@ -227,7 +262,9 @@ impl Comparison {
         let channels = machine.channels();
         self.additions = Some(reach.steps.total());
         self.z_bound_for_input = reach.bound(machine, &channels[0]);
-        self.color_bound_for_input = reach.bound(machine, &channels[1]);
+        if self.shaded.is_none() {
+            self.color_bound_for_input = reach.bound(machine, &channels[1]);
+        }
         for (own, channel) in self.extra.iter_mut().zip(extra::channels(machine)) {
             own.bound_for_input = reach.bound(machine, channel);
             own.allowed = own.bound_for_input.unwrap_or(own.allowed);
@@ -255,10 +292,11 @@ impl Comparison {
             + self.wrapped
             + self.cycles_unexplained
             + beyond(self.z_error, self.z_bound_for_input.or(self.z_bound))
-            + self.blended.map_or_else(
-                || beyond(self.color_error, self.color_bound_for_input.or(self.color_bound)),
-                |blended| blended.beyond,
-            )
+            + match (self.blended, self.shaded) {
+                (Some(blended), _) => blended.beyond,
+                (None, Some(shaded)) => shaded.beyond,
+                (None, None) => beyond(self.color_error, self.color_bound_for_input.or(self.color_bound)),
+            }
             + self.extra.iter().map(|own| beyond(own.error, Some(own.allowed))).sum::<u64>();
         Verdict::of(self.compared, self.covered, wrong).and(Verdict::of(self.pixels, self.screen, wrong))
     }

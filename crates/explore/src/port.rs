@@ -1,9 +1,9 @@
 //! A frame's way to the machine's port.
 
-use crate::shade::{Feed, feed};
+use crate::shade::{Feed, feed, shading_for};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::{DrawState, Pass};
+use edgewalk_model::{DrawState, Pass, Shading};
 use edgewalk_scene::{Blending, DepthFunc, Frame, ShadeMode, State, Triangle, Triangulated};
 
 /// A frame as the machine's port takes it.
@@ -18,7 +18,15 @@ pub struct PortFrame {
     pub shade: Option<Feed>,
 }
 
+/// Of a frame that is not shaded at each pixel.
+const UNSHADED: &Shading = &Shading { records: Vec::new(), tables: Vec::new() };
+
 impl PortFrame {
+    /// What the memories behind TERM and SHADE hold.
+    pub fn words(&self) -> &Shading {
+        self.shade.as_ref().map_or(UNSHADED, |feed| &feed.words)
+    }
+
     /// The rules of a frame in which they do not change.
     ///
     /// # Errors
@@ -72,6 +80,7 @@ pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawSt
             "shadow: the machine has no shadow maps yet; draw without the line `shadow` or with --engine golden"
         ));
     }
+    shading_for(frame, machine)?;
     let max = machine.color.max() as f64;
     Ok(DrawState {
         depth_func: state.depth.unwrap_or(DepthFunc::Always) as u8,

@@ -13,41 +13,46 @@ mod place;
 mod records;
 mod tables;
 
+mod compare;
+
 pub use bound::{Proof, Shaded};
+pub(crate) use compare::Allowed;
+pub use place::Place;
+pub use records::IndexErrors;
 
 use crate::port::PortFrame;
 use anyhow::{Result, anyhow};
-use edgewalk_machine::{Fill, Plan, Record, ShadeColour};
+use edgewalk_machine::{Fill, Plan, ShadeColour};
+use edgewalk_model::Shading;
 use edgewalk_scene::{Frame, PixelMethod, PixelShading};
 use lights::Lamp;
+use tables::Surfaces;
 
 /// What the memories behind the machine hold, and what follows from it.
 #[derive(Clone, Debug)]
 pub struct Feed {
-    /// Of the triangles in their order.
-    pub records: Vec<Record>,
-    /// Words of the memory of the tables, by place.
-    pub tables: Vec<u128>,
+    /// The words.
+    pub words: Shading,
     /// What is proved of the colours.
     pub proof: Proof,
+    surfaces: Surfaces,
+}
+
+impl Feed {
+    /// m' of each light's table of highlights for a triangle.
+    pub fn glosses(&self, triangle: usize) -> Vec<u32> {
+        self.surfaces.glosses(self.surfaces.of_triangle[triangle])
+    }
 }
 
 /// What a frame on its way to the port needs; `None` where neither frame nor machine shades pixels.
 ///
 /// # Errors
-/// Only one of them does, or the machine cannot take the frame's lights or materials, or as many triangles.
+/// Only one of them does, or the machine cannot take the frame's lights or materials.
 pub fn feed(frame: &Frame, port: &PortFrame, machine: &Plan) -> Result<Option<Feed>> {
     let Some(shading) = shading_for(frame, machine)? else { return Ok(None) };
-    let most = 1u64 << machine.shade.record_bits;
-    if port.triangles.len() as u64 > most {
-        let bits = port.triangles.len().next_power_of_two().ilog2();
-        return Err(anyhow!(
-            "{} triangles: the memory of the terms holds {most}; add --set term.record_bits={bits}",
-            port.triangles.len()
-        ));
-    }
     let lamps = Lamp::all(shading, machine)?;
-    let surfaces = tables::Surfaces::of(frame, shading, &lamps, machine)?;
+    let surfaces = Surfaces::of(frame, shading, &lamps, machine)?;
     let mut records = Vec::with_capacity(port.triangles.len());
     let mut errors = Vec::with_capacity(port.triangles.len());
     for (index, triangle) in port.triangles.iter().enumerate() {
@@ -59,11 +64,11 @@ pub fn feed(frame: &Frame, port: &PortFrame, machine: &Plan) -> Result<Option<Fe
         errors.push(error);
     }
     let proof = Proof::new(machine, &surfaces, errors);
-    Ok(Some(Feed { records, tables: surfaces.words(machine), proof }))
+    Ok(Some(Feed { words: Shading { records, tables: surfaces.words(machine) }, proof, surfaces }))
 }
 
 /// Whether the frame is shaded at each pixel and the machine can do so.
-fn shading_for<'a>(frame: &'a Frame, machine: &Plan) -> Result<Option<&'a PixelShading>> {
+pub(crate) fn shading_for<'a>(frame: &'a Frame, machine: &Plan) -> Result<Option<&'a PixelShading>> {
     let there = machine.shade.is_there();
     let Some(shading) = &frame.shading else {
         return if there {
@@ -79,15 +84,15 @@ fn shading_for<'a>(frame: &'a Frame, machine: &Plan) -> Result<Option<&'a PixelS
     if !there {
         let remedy = match shading.method {
             PixelMethod::FastPhong => "add --set shade.kind=fast-phong",
-            PixelMethod::Phong => "take mode fast-phong with --set shade.kind=fast-phong",
+            PixelMethod::Phong => "take fast-phong with --set shade.kind=fast-phong",
         };
         return Err(anyhow!(
-            "mode {name}: the machine has no TERM and SHADE; {remedy}, or draw with --engine golden"
+            "mode {name} (--shading {name}): the machine has no TERM and SHADE; {remedy}, or draw with --engine golden"
         ));
     }
     if shading.method == PixelMethod::Phong {
         return Err(anyhow!(
-            "mode phong: the machine brings no normal to length 1 at a pixel; draw with mode fast-phong, or with --engine golden"
+            "mode phong (--shading phong): the machine brings no normal to length 1 at a pixel; draw with mode fast-phong, or with --engine golden"
         ));
     }
     if machine.fill == Fill::Textbook {

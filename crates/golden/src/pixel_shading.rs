@@ -29,12 +29,12 @@ impl<'a> PixelBrush<'a> {
         let triangle = shading.triangles.get(place)?;
         let cosines = match shading.method {
             PixelMethod::Phong => Vec::new(),
-            PixelMethod::FastPhong => Self::cosines(shading, triangle),
+            PixelMethod::FastPhong => Self::of_lights(shading, triangle),
         };
         Some(Self { shading, triangle, cosines })
     }
 
-    fn cosines(shading: &PixelShading, triangle: &PixelTriangle) -> Vec<Cosines> {
+    fn of_lights(shading: &PixelShading, triangle: &PixelTriangle) -> Vec<Cosines> {
         let PixelTriangle { normals, positions, .. } = *triangle;
         let middle = (positions[0] + positions[1] + positions[2]) / 3.0;
         let of = |light: &edgewalk_scene::Light| {
@@ -61,6 +61,13 @@ impl<'a> PixelBrush<'a> {
             PixelMethod::FastPhong => self.fast(&shares, surface, 0),
         };
         color.to_array()
+    }
+
+    /// In fast Phong N·L and N·H of each light at a pixel, not cut; in Phong none.
+    pub fn cosines<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>) -> Vec<[f64; 2]> {
+        let shares = fragment.shares();
+        let at = |light: &Cosines| [&light.diffuse, &light.halfway].map(|nodes| six_point_at(&shares, nodes));
+        self.cosines.iter().map(at).collect()
     }
 
     /// In fast Phong the colours that the pixel may have for one who knows the cosines N·L to within `doubt`: for each light

@@ -12,6 +12,8 @@ pub struct Proof {
     pub bounds: Vec<f64>,
     /// How far a cosine N·L may be from golden's.
     pub doubts: Vec<f64>,
+    /// How far the indices may be from those of golden's cosines.
+    pub errors: Vec<IndexErrors>,
 }
 
 impl Proof {
@@ -22,18 +24,24 @@ impl Proof {
         let surface_error = color.map_or(1.0, |budget| budget.after_rounding().to_f64());
         let bound = |(triangle, error): (usize, &IndexErrors)| {
             let lights = &surfaces.tables[surfaces.of_triangle[triangle] as usize];
-            color_bound(machine, lights, error, surface_error)
+            color_bound(machine, lights, error, (surfaces.brightest[triangle], surface_error))
         };
         let one = f64::from(1u32 << machine.shade.table_bits);
         Proof {
             bounds: errors.iter().enumerate().map(bound).collect(),
             doubts: errors.iter().map(|error| error.diffuse / one).collect(),
+            errors,
         }
     }
 }
 
-/// The bound of a colour, LSB; `surface_error` is that of the fragment's colour.
-fn color_bound(machine: &Plan, lights: &[LightTables], error: &IndexErrors, surface_error: f64) -> f64 {
+/// The bound of a colour, LSB, of a triangle with fragments of at most this colour, 0 to 1, and error, LSB.
+fn color_bound(
+    machine: &Plan,
+    lights: &[LightTables],
+    error: &IndexErrors,
+    (brightest, surface_error): (f64, f64),
+) -> f64 {
     let highlights = lights.iter().zip(&error.highlight).map(|(light, e)| light.highlight.error(*e));
     let highlights: f64 = highlights.sum();
     let diffuse = |k: usize| lights.iter().map(|light| light.diffuse[k].error(error.diffuse)).sum::<f64>();
@@ -43,7 +51,8 @@ fn color_bound(machine: &Plan, lights: &[LightTables], error: &IndexErrors, surf
         // |c'l' - cl| <= c' |l' - l| + l |c' - c| with l at most 1, and the product is rounded.
         ShadeColour::Multiply => {
             let one = f64::from(1u32 << (machine.color.bits + 2));
-            machine.color.max() as f64 * diffuse(0) / one + surface_error + 0.5 + highlights
+            let most = brightest * machine.color.max() as f64 + surface_error;
+            most * diffuse(0) / one + surface_error + 0.5 + highlights
         }
     }
 }

@@ -19,9 +19,12 @@ pub struct LightTables {
 }
 
 /// The surfaces of a frame.
+#[derive(Clone, Debug)]
 pub struct Surfaces {
     /// By triangle the number of its surface.
     pub of_triangle: Vec<u32>,
+    /// The largest of its colours at a vertex, 0 to 1.
+    pub brightest: Vec<f64>,
     /// By surface and light.
     pub tables: Vec<Vec<LightTables>>,
 }
@@ -33,7 +36,7 @@ impl Surfaces {
     /// What the machine's tables cannot hold.
     pub fn of(frame: &Frame, shading: &PixelShading, lamps: &[Lamp], machine: &Plan) -> Result<Surfaces> {
         let mut numbers = HashMap::new();
-        let mut surfaces = Surfaces { of_triangle: Vec::new(), tables: Vec::new() };
+        let mut surfaces = Surfaces { of_triangle: Vec::new(), brightest: Vec::new(), tables: Vec::new() };
         for (index, (triangle, own)) in frame.triangles.iter().zip(&shading.triangles).enumerate() {
             let color =
                 if multiplies(machine) { DVec3::ONE } else { one_color(index, triangle, frame.mode)? };
@@ -45,6 +48,7 @@ impl Surfaces {
                 surfaces.tables.push(light_tables(&material, shading, lamps, machine)?);
             }
             surfaces.of_triangle.push(number);
+            surfaces.brightest.push(triangle.0.iter().fold(0.0, |most, v| v.r.max(v.g).max(v.b).max(most)));
         }
         let most = 1usize << machine.shade.material_bits;
         if surfaces.tables.len() > most {
@@ -107,6 +111,14 @@ fn light_tables(
     if multiply && material.emission != DVec3::ZERO {
         return Err(anyhow!(
             "emission: shade.colour = multiply has no light that colour does not multiply; take tables"
+        ));
+    }
+    let brightest =
+        lamps.iter().fold(ambient, |sum, lamp| sum + material.diffuse * lamp.intensity).max_element();
+    if multiply && brightest > 1.0 {
+        return Err(anyhow!(
+            "ambient and diffuse light come to {brightest} together: with shade.colour = multiply it is at most 1, the colour itself; \
+             take weaker lights or shade.colour = tables"
         ));
     }
     let one = if multiply { f64::from(1u32 << (machine.color.bits + 2)) } else { max };
