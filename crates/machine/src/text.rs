@@ -193,7 +193,7 @@ mod tests {
             // With all extra channels, a light and a k_t for every pixel every key means something.
             let blend = Blend { kind: BlendKind::Interpolated, ..Machine::default().blend };
             let shadow = Shadow { light: ShadowLight::Parallel, ..Machine::default().shadow };
-            let shade = Shade { kind: ShadeKind::FastPhong, ..Machine::default().shade };
+            let shade = Shade { kind: ShadeKind::Phong, ..Machine::default().shade };
             let mut machine = Machine { extra: 4, blend, shadow, shade, ..Machine::default() };
             let other = match key.domain {
                 Domain::Range(low, high) => {

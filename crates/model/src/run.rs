@@ -6,7 +6,9 @@
 //! ```
 
 use crate::color_memory::ColorMemory;
-use crate::machine::{BlendInputs, Inputs, Model, Outputs, ShadeInputs, ShadowInputs, TermInputs};
+use crate::machine::{
+    BlendInputs, Inputs, Model, NormalInputs, Outputs, ShadeInputs, ShadowInputs, TermInputs,
+};
 use crate::map_memory::MapMemory;
 use crate::memory::Memory;
 use crate::tokens::{ColorWrite, FEW, OutputWords, Write};
@@ -57,6 +59,8 @@ pub struct Rig<const C: usize> {
     pub memory: Memory<C>,
     /// With TERM the records of the terms.
     pub terms: Option<WordMemory>,
+    /// With NORMAL its roots.
+    pub roots: Option<WordMemory>,
     /// With SHADE the materials' tables.
     pub tables: Option<WordMemory>,
     /// With SHADOW the light's map.
@@ -106,6 +110,7 @@ impl<const C: usize> Rig<C> {
             model: Model::new(plan),
             memory: Memory::new(plan, state.clear, waits),
             terms: plan.shade.is_there().then(|| WordMemory::new(plan.shade.term_latency, waits, 3)),
+            roots: plan.shade.normalises().then(|| WordMemory::new(plan.shade.root_latency, waits, 5)),
             tables: plan.shade.is_there().then(|| WordMemory::new(plan.shade.table_latency, waits, 4)),
             map: plan.shadow.is_there().then(|| MapMemory::new(plan, waits)),
             color: plan.blend.is_there().then(|| ColorMemory::new(plan, state.clear, waits)),
@@ -147,6 +152,7 @@ impl<const C: usize> Rig<C> {
             data: self.memory.data(),
             wr_ready: self.memory.wr_ready() && writes_open,
             term: self.term_inputs(),
+            normal: self.normal_inputs(),
             shade: self.shade_inputs(),
             shadow: self.shadow_inputs(),
             blend: self.blend_inputs(writes_open),
@@ -168,6 +174,10 @@ impl<const C: usize> Rig<C> {
         if let Some(terms) = self.terms.as_mut().filter(|_| C > FEW) {
             let read = outputs.trd.filter(|_| inputs.term.trd_ready);
             terms.step(read, inputs.term.tdata.is_some() && outputs.tdata_ready);
+        }
+        if let Some(roots) = self.roots.as_mut().filter(|_| C > FEW) {
+            let read = outputs.rrd.filter(|_| inputs.normal.rrd_ready);
+            roots.step(read, inputs.normal.rdata.is_some() && outputs.rdata_ready);
         }
         if let Some(tables) = self.tables.as_mut().filter(|_| C > FEW) {
             let read = outputs.srd.filter(|_| inputs.shade.srd_ready);
@@ -194,6 +204,12 @@ impl<const C: usize> Rig<C> {
     fn term_inputs(&self) -> TermInputs {
         let Some(terms) = self.terms.as_ref().filter(|_| C > FEW) else { return TermInputs::default() };
         TermInputs { trd_ready: terms.read_ready(), tdata: terms.data().map(|word| word as u64) }
+    }
+
+    #[inline(always)]
+    fn normal_inputs(&self) -> NormalInputs {
+        let Some(roots) = self.roots.as_ref().filter(|_| C > FEW) else { return NormalInputs::default() };
+        NormalInputs { rrd_ready: roots.read_ready(), rdata: roots.data() }
     }
 
     #[inline(always)]
