@@ -257,7 +257,7 @@ pub const KEYS: &[Key] = &[
         COLOURS
     ),
     shade!("shade.table_bits", Range(8, 10), "a table has 2^table_bits entries", table_bits),
-    shade!("shade.gloss_bits", Range(0, 4), "N.H reaches down to 2^gloss_bits tables below 0", gloss_bits),
+    shade!("shade.gloss_bits", Range(0, 8), "N.H reaches down to 2^gloss_bits tables below 0", gloss_bits),
     shade!("shade.lights", Range(1, 2), "lights at once", lights),
     shade!("shade.material_bits", Range(0, 8), "there are 2^material_bits materials", material_bits),
     shade!(
@@ -273,7 +273,7 @@ pub const KEYS: &[Key] = &[
         walk,
         WALKS
     ),
-    shade!("term.fraction", Range(0, 46), "fraction bits of a term of degree 2", fraction),
+    shade!("term.fraction", Range(0, 44), "fraction bits of a term of degree 2", fraction),
     Key {
         used: |m| m.shade.normalises(),
         ..shade!("term.linear_fraction", Range(0, 46), "fraction bits of a term of degree 1", linear_fraction)

@@ -168,7 +168,7 @@ pub enum Entry {
 }
 
 /// Bits of gloss, which goes with the material to NORMAL.
-pub const GLOSS_BITS: u32 = 3;
+pub const GLOSS_BITS: u32 = 4;
 
 /// Bits of the unnormalised cosines and of N·N, 2^16 for 1.0.
 const UNIT_BITS: u32 = 18;

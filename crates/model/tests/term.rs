@@ -61,8 +61,8 @@ fn every_word_is_that_of_the_formula() {
     for number in 0..200u32 {
         let walk = ["register", "memory"][number as usize % 2];
         // Every length of word from 10 bits to 64.
-        let (table, gloss) = (8 + number % 3, number % 5);
-        let fraction = (number * 7 % 47).to_string();
+        let (table, gloss) = (8 + number % 3, number % 9);
+        let fraction = (number * 7 % 45).to_string();
         let (table, gloss) = (table.to_string(), gloss.to_string());
         let fixed = [
             ("shade.kind", if number % 5 == 0 { "phong" } else { "fast-phong" }),

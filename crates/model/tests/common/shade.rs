@@ -137,7 +137,7 @@ fn random_record(plan: &Plan, triangle: &Triangle, materials: u32, rng: &mut imp
     let x = rng.random_range(left..=right).clamp(-8, wide) + rng.random_range(-3..=3);
     let y = (top - rng.random_range(0..3)).clamp(0, i64::from(plan.height) - 1);
     let terms = plan.terms().iter().map(|_| random_words(rng)).collect();
-    let gloss = if plan.shade.normalises() { rng.random_range(0..8) } else { 0 };
+    let gloss = if plan.shade.normalises() { rng.random_range(0..=8) } else { 0 };
     Record { x: x as i32, y: y as u32, material: rng.random_range(0..materials), gloss, terms }
 }
 
