@@ -136,12 +136,7 @@ fn draw<const C: usize>(
     let blends = plan.blend.is_there();
     let channels = plan.channels().len().min(C); // C serves the plan; said so that no slice is checked in every cycle
     let mut triangles = triangles.zip(0..).map(|(t, number)| plan.accept(&t, number).map(|()| t)).peekable();
-    if let Some(tables) = &mut rig.tables {
-        tables.write(0, shading.tables.iter().copied());
-    }
-    if let Some(roots) = &mut rig.roots {
-        roots.write(0, shading.roots.iter().copied());
-    }
+    rig.write_shading(plan, shading);
     let mut records = shading.records.iter().enumerate();
     let at_once = if plan.shade.is_there() { 1 << plan.shade.record_bits } else { usize::MAX };
     let mut watch = |_, model: &Model<C>, cycle: &Cycle<C>| {

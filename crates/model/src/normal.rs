@@ -12,6 +12,8 @@
 //! Rules: `docs/machine.md`, section 13. Not modelled: what each stage holds, as R does not change; cosines are found on
 //! the way in.
 
+mod view;
+
 use crate::Events;
 use crate::fetch::Fetch;
 use crate::shade::Cosines;

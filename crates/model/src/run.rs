@@ -6,6 +6,7 @@
 //! ```
 
 use crate::color_memory::ColorMemory;
+use crate::frame::Shading;
 use crate::machine::{
     BlendInputs, Inputs, Model, NormalInputs, Outputs, ShadeInputs, ShadowInputs, TermInputs,
 };
@@ -115,6 +116,20 @@ impl<const C: usize> Rig<C> {
             map: plan.shadow.is_there().then(|| MapMemory::new(plan, waits)),
             color: plan.blend.is_there().then(|| ColorMemory::new(plan, state.clear, waits)),
             state,
+        }
+    }
+
+    /// Writes tables, roots, and the records of the first triangles, as many as the memory holds; the machine is idle.
+    pub fn write_shading(&mut self, plan: &Plan, shading: &Shading) {
+        if let Some(tables) = &mut self.tables {
+            tables.write(0, shading.tables.iter().copied());
+        }
+        if let Some(roots) = &mut self.roots {
+            roots.write(0, shading.roots.iter().copied());
+        }
+        let records = shading.records.iter().enumerate().take(1 << plan.shade.record_bits);
+        for (triangle, record) in records {
+            self.write_record(plan, triangle, record);
         }
     }
 

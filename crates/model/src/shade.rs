@@ -12,6 +12,8 @@
 //!
 //! Rules: `docs/machine.md`, section 12. Not modelled: nothing.
 
+mod view;
+
 use crate::Events;
 use crate::fetch::Fetch;
 use crate::term::MAX_TERMS;

@@ -12,6 +12,8 @@
 //! Rules: `docs/machine.md`, section 11. Not modelled: the operations of a step one by one; nothing shows a word before the
 //! step is done, only their clocks are seen.
 
+mod view;
+
 use crate::Events;
 use crate::fetch::Fetch;
 use crate::tokens::{Span, sign_extend};

@@ -15,10 +15,7 @@ const C: usize = MAX_CHANNELS;
 /// The machine with these triangles, their records and tables, before its first cycle.
 fn rig(plan: &Plan, shading: &Shading, stalls: Stalls) -> Rig<C> {
     let mut rig = Rig::<C>::new(plan, ALWAYS, stalls);
-    for (triangle, record) in shading.records.iter().enumerate() {
-        rig.write_record(plan, triangle, record);
-    }
-    rig.tables.as_mut().expect("a machine with SHADE").write(0, shading.tables.iter().copied());
+    rig.write_shading(plan, shading);
     rig
 }
 

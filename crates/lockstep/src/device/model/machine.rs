@@ -198,8 +198,8 @@ impl<const C: usize> ModelDevice for MachineDevice<C> {
     }
 
     fn view(&self, ports: &PortValues, view: &mut View) -> bool {
-        // SHADOW, TERM and SHADE are not shown yet.
-        if self.map.is_some() || self.words.is_some() {
+        // SHADOW is not shown yet.
+        if self.map.is_some() {
             return false;
         }
         let triangle = self.tri.token(ports);
