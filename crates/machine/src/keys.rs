@@ -144,7 +144,7 @@ const KINDS: [EdgeKind; 2] = [EdgeKind::Exact, EdgeKind::Slope];
 const BLENDS: [BlendKind; 3] = [BlendKind::None, BlendKind::Constant, BlendKind::Interpolated];
 const LIGHTS: [ShadowLight; 2] = [ShadowLight::None, ShadowLight::Parallel];
 const GATES: [Gate; 2] = [Gate::And, Gate::Scale];
-const SHADES: [ShadeKind; 2] = [ShadeKind::None, ShadeKind::FastPhong];
+const SHADES: [ShadeKind; 3] = [ShadeKind::None, ShadeKind::FastPhong, ShadeKind::Phong];
 const COLOURS: [ShadeColour; 2] = [ShadeColour::Tables, ShadeColour::Multiply];
 const WALKS: [Walk; 2] = [Walk::Register, Walk::Memory];
 const HAZARDS: [Hazard; 3] = [Hazard::Drain, Hazard::Interlock, Hazard::Forward];
@@ -243,8 +243,8 @@ pub const KEYS: &[Key] = &[
         absent: Some(ShadeKind::None as u32),
         ..shade!(
             "shade.kind",
-            &["none", "fast-phong"],
-            "what is shaded at each pixel: nothing, or fast-phong (both cosines quadratics)",
+            &["none", "fast-phong", "phong"],
+            "what is shaded at each pixel: nothing, by fast-phong (both cosines quadratics), or by phong (unit normals)",
             kind,
             SHADES
         )
@@ -274,6 +274,19 @@ pub const KEYS: &[Key] = &[
         WALKS
     ),
     shade!("term.fraction", Range(0, 44), "fraction bits of a term of degree 2", fraction),
+    Key {
+        used: |m| m.shade.normalises(),
+        ..shade!("term.linear_fraction", Range(0, 46), "fraction bits of a term of degree 1", linear_fraction)
+    },
+    Key {
+        used: |m| m.shade.normalises(),
+        ..shade!(
+            "memory.root_latency",
+            Range(1, 8),
+            "clocks from a read of a root to its data, at the least",
+            root_latency
+        )
+    },
     shade!(
         "term.record_bits",
         Range(1, 20),
