@@ -46,7 +46,7 @@ pub fn draw_waiting(
         Engine::Model => {
             let port = to_port(frame, machine)?;
             let drawn = render_passes(machine, port.triangles.iter().copied(), &port.passes, waits, |_| {})?;
-            Ok(of_primitives(from_model(machine, drawn), &port.ids))
+            Ok(of_primitives(from_model(machine, drawn), &port))
         }
     }
 }
@@ -67,7 +67,7 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Resul
                 from_machine(machine, drawn.map_err(|e| anyhow!("{e}"))?)
             };
             bar.finish_and_clear();
-            Ok(of_primitives(raster, &port.ids))
+            Ok(of_primitives(raster, &port))
         }
     }
 }
@@ -85,12 +85,14 @@ pub fn draw_bands(
         Engine::Golden => {
             let drawing = Drawing::new(frame, golden_fill(machine));
             let mut bands = bands(frame.width, frame.height, GOLDEN_BAND);
-            bands.try_for_each(|lines| take(from_golden(drawing.lines(lines), machine)))
+            bands.try_for_each(|lines| {
+                take(Raster { host: frame.host, ..from_golden(drawing.lines(lines), machine) })
+            })
         }
         Engine::Fast => {
             let port = to_port(frame, machine)?;
             let drawn = draw::draw_frame(machine, &port, Waits::Never)?;
-            drawn.bands(machine, fast_bands(machine), |band| take(of_primitives(band, &port.ids)))
+            drawn.bands(machine, fast_bands(machine), |band| take(of_primitives(band, &port)))
         }
         Engine::Model | Engine::Rtl => take(draw(engine, frame, machine, quiet)?),
     }

@@ -11,7 +11,7 @@ use std::ops::Range;
 /// The golden picture on the machine's screen.
 #[must_use]
 pub fn golden(frame: &edgewalk_scene::Frame, machine: &Plan) -> Raster {
-    from_golden(edgewalk_golden::draw(frame, golden_fill(machine)), machine)
+    Raster { host: frame.host, ..from_golden(edgewalk_golden::draw(frame, golden_fill(machine)), machine) }
 }
 
 /// The machine's picture and cycles, without ticking where that is exact.
@@ -20,7 +20,7 @@ pub fn golden(frame: &edgewalk_scene::Frame, machine: &Plan) -> Raster {
 /// What of the frame the machine cannot take.
 pub fn fast(frame: &edgewalk_scene::Frame, machine: &Plan, waits: Waits) -> Result<Raster> {
     let port = to_port(frame, machine)?;
-    Ok(of_primitives(draw_frame(machine, &port, waits)?.raster(machine), &port.ids))
+    Ok(of_primitives(draw_frame(machine, &port, waits)?.raster(machine), &port))
 }
 
 /// Draws a frame whose triangles are all there.

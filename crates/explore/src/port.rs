@@ -3,7 +3,10 @@
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::{DrawState, Pass};
-use edgewalk_scene::{Blending, DepthFunc, Frame, ShadeMode, State, Triangle, Triangulated};
+use edgewalk_scene::{
+    Blending, CrossingEdges, DepthFunc, Frame, Host, ShadeMode, State, Triangle, Triangulated, fits,
+};
+use std::borrow::Cow;
 
 /// A frame as the machine's port takes it.
 pub struct PortFrame {
@@ -13,6 +16,8 @@ pub struct PortFrame {
     pub ids: Vec<i32>,
     /// The rules, and how many triangles are drawn by each, in order; at least one.
     pub passes: Vec<Pass>,
+    /// What was done to the triangles on the way.
+    pub host: Host,
 }
 
 impl PortFrame {
@@ -31,9 +36,33 @@ impl PortFrame {
     }
 }
 
+/// What a frame sends to the machine: its polygons as triangles, and no triangle beyond the guard band.
+///
+/// # Errors
+/// A polygon that cannot be cut into triangles.
+pub fn sent<'a>(frame: &'a Frame, machine: &Plan) -> Result<(Triangulated<'a>, Host), CrossingEdges> {
+    let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
+    let (limit, mut host) = (guard_band(machine), frame.host);
+    if triangles.iter().all(|triangle| fits(triangle, limit)) {
+        return Ok((Triangulated { triangles, ids }, host));
+    }
+    let (mut pieces, mut of) = (Vec::with_capacity(triangles.len()), Vec::with_capacity(ids.len()));
+    for (triangle, id) in triangles.iter().zip(ids) {
+        pieces.extend_from_slice(&host.in_band(triangle, frame, limit));
+        of.resize(pieces.len(), id);
+    }
+    Ok((Triangulated { triangles: Cow::Owned(pieces), ids: of }, host))
+}
+
+/// Half a side of the machine's guard band, pixels.
+#[must_use]
+pub fn guard_band(machine: &Plan) -> f64 {
+    f64::from((1u32 << machine.guard_bits) - 1)
+}
+
 /// Snaps a frame to the port, polygons as triangles, or says what of it the machine cannot take.
 pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
-    let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
+    let (Triangulated { triangles, ids }, host) = sent(frame, machine)?;
     let (mut port, mut passes) = (Vec::with_capacity(triangles.len()), Vec::new());
     for pass in frame.passes() {
         let parts = ids.iter().take_while(|id| (**id as usize) < pass.primitives.end).count();
@@ -46,7 +75,7 @@ pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
             clear_depth: pass.clear_depth,
         });
     }
-    Ok(PortFrame { triangles: port, ids, passes })
+    Ok(PortFrame { triangles: port, ids, passes, host })
 }
 
 /// The rules of a pass as the machine has them, or what of them it cannot do.

@@ -1,9 +1,11 @@
 //! One picture, whoever drew it, in the units of the golden one.
 
 use crate::extra::{self, Values};
+use crate::port::PortFrame;
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::fast::Path;
 use edgewalk_model::{Activity, Counters, Events};
+use edgewalk_scene::Host;
 
 /// A picture: row 0 on top, `[y][x]`.
 #[derive(Clone)]
@@ -26,6 +28,8 @@ pub struct Raster {
     pub extra: Vec<Values>,
     /// 0 nothing written, 1 in shadow, 2 lit, by the last write; where golden drew.
     pub lit: Option<Vec<u8>>,
+    /// What was done to the triangles before they were drawn.
+    pub host: Host,
     /// Where the cycles went, where a machine drew.
     pub cycles: Option<Cycles>,
     /// The same by pass, where there is more than one.
@@ -79,14 +83,14 @@ impl Cycles {
     }
 }
 
-/// The ids of the frame's triangles and polygons for those of the triangles the machine drew.
+/// The ids of the frame's triangles and polygons for those of the triangles the machine drew, and what was done to them.
 #[must_use]
-pub fn of_primitives(mut raster: Raster, ids: &[i32]) -> Raster {
+pub fn of_primitives(mut raster: Raster, port: &PortFrame) -> Raster {
     for id in &mut raster.id {
         // Where nothing was drawn the id is negative.
-        *id = usize::try_from(*id).map_or(*id, |triangle| ids[triangle]);
+        *id = usize::try_from(*id).map_or(*id, |triangle| port.ids[triangle]);
     }
-    raster
+    Raster { host: port.host, ..raster }
 }
 
 /// A frame of the fast engine; the corners are counted only where it ticked.
@@ -127,6 +131,7 @@ pub fn from_golden(picture: edgewalk_golden::Picture, machine: &Plan) -> Raster 
         rgb: picture.rgb,
         extra: extra.map(|(channel, values)| Values::exact(channel, values)).collect(),
         lit: Some(picture.lit.into_iter().map(|lit| lit as u8).collect()),
+        host: Host::default(),
         cycles: None,
         passes: Vec::new(),
         corners: None,
@@ -146,6 +151,7 @@ pub fn from_machine(machine: &Plan, drawn: edgewalk_model::Frame) -> Raster {
         rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / machine.color.max() as f64)).collect(),
         extra: drawn.extra.into_iter().map(Values::Stored).collect(),
         lit: None,
+        host: Host::default(),
         cycles: Some(Cycles { held: None, ..Cycles::of(&drawn.counters, None) }),
         passes: match &drawn.passes[..] {
             [] | [_] => Vec::new(),

@@ -9,6 +9,7 @@ use anyhow::Result;
 use edgewalk_golden::Order;
 use edgewalk_machine::Plan;
 use edgewalk_model::{Activity, Events, Waits};
+use edgewalk_scene::Host;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
@@ -28,6 +29,7 @@ pub struct Report {
     comparison: Option<Comparison>,
     setup: Option<SetupReport>,
     waits: Waits,
+    host: Host,
 }
 
 impl Report {
@@ -48,6 +50,7 @@ impl Report {
             comparison: None,
             setup: None,
             waits: Waits::Never,
+            host: drawn.host,
         };
         report.add(drawn);
         report
@@ -64,6 +67,13 @@ impl Report {
     /// The same of an input that has polygons too.
     pub fn with_polygons(mut self, count: u64) -> Self {
         self.polygons = count;
+        self
+    }
+
+    /// The same of triangles to which the host did this.
+    #[must_use]
+    pub fn with_host(mut self, host: Host) -> Self {
+        self.host = host;
         self
     }
 
@@ -153,6 +163,12 @@ impl Report {
             "fragments": self.covered,
             "writes": self.writes,
             "odd_pixels": self.odd_pixels,
+            "host": {
+                "off_screen": self.host.off_screen,
+                "clipped": self.host.clipped,
+                "pieces": self.host.pieces,
+                "clamped_depths": self.host.clamped_depths,
+            },
         });
         let own = extra::channels(&self.machine);
         if !own.is_empty() {
@@ -221,6 +237,7 @@ impl Report {
             m.height,
             m.hash()
         );
+        t += &host(&self.host);
         let _ = writeln!(t, "fragments {}, writes {}", self.covered, self.writes);
         if let Some(order) = &self.order {
             let _ =
@@ -262,6 +279,22 @@ impl Report {
         }
         t
     }
+}
+
+/// What was done to the triangles before the machine, if anything was.
+fn host(host: &Host) -> String {
+    let Host { off_screen, clipped, pieces, clamped_depths } = *host;
+    let mut done = Vec::new();
+    if off_screen > 0 {
+        done.push(format!("{off_screen} beyond the guard band and off the screen, left out"));
+    }
+    if clipped > 0 {
+        done.push(format!("{clipped} cut at the guard band into {pieces}"));
+    }
+    if clamped_depths > 0 {
+        done.push(format!("{clamped_depths} depths beyond 0 or 1 by rounding, clamped"));
+    }
+    if done.is_empty() { String::new() } else { format!("host: {}\n", done.join("; ")) }
 }
 
 /// What the comparison found. Writing to a string cannot fail.

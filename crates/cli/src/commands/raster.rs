@@ -3,6 +3,7 @@
 mod page;
 
 use crate::engine::{Engine, Raster, draw_bands, fast_bands};
+use crate::fast::BeyondBand;
 use crate::machine_args::MachineArgs;
 use crate::report::Report;
 use crate::staging::Staging;
@@ -95,14 +96,17 @@ fn while_it_is_read(
     out: &Staging,
     talk: Talk,
 ) -> Result<Report> {
-    let drawn = match fast::draw_file(file, header, machine, talk.quiet) {
-        Err(error) if matches!(error.downcast_ref(), Some(InputError::NeedsWhole(_))) => {
+    let (drawn, host) = match fast::draw_file(file, header, machine, talk.quiet) {
+        Err(error)
+            if matches!(error.downcast_ref(), Some(InputError::NeedsWhole(_)))
+                || error.is::<BeyondBand>() =>
+        {
             return whole(file, Engine::Fast, machine, out, talk);
         }
         drawn => drawn?,
     };
     let triangles = drawn.triangles();
-    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band);
+    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band).with_host(host);
     let mut page = Page::new(out, machine, report);
     let bands = fast_bands(machine);
     drawn.bands(machine, bands, |band| page.add(&band))?;

@@ -106,7 +106,7 @@ impl Pixels {
                 }
                 Err(Refusal::Foreign(foreign)) => return Err(foreign.into()),
             };
-        let drawn = of_primitives(drawn, &port.ids);
+        let drawn = of_primitives(drawn, &port);
         let reach = Reach::of(plan, &port.ids, &passage).ok_or_else(|| {
             anyhow!("none of the {} triangles covers a pixel of the screen", port.triangles.len())
         })?;
