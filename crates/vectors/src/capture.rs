@@ -142,8 +142,12 @@ impl Run<'_> {
         let mut setting = Setting::willing(interface, &constants(&self.state))
             .expect("a test of lockstep runs every unit with these constants");
         setting.patterns = patterns(self.plan, interface, stalls, self.suite.seed);
-        for memory in &mut setting.memories {
-            memory.clear = self.suite.clear_z.map_or(memory.clear, u128::from);
+        for (memory, declared) in setting.memories.iter_mut().zip(&interface.memories) {
+            if declared.name == "map" {
+                memory.start = self.suite.map.iter().map(|word| u128::from(*word)).collect();
+            } else {
+                memory.clear = self.suite.clear_z.map_or(memory.clear, u128::from);
+            }
         }
         Setting { tokens, ..setting }
     }
