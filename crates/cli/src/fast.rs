@@ -22,7 +22,7 @@ pub fn draw_file(
         bar.reset();
         let numbered = file.reader(&bar)?.enumerate();
         Ok(numbered.map(|(index, triangle)| {
-            port_triangle(index, &triangle?, header.mode, header.blend, machine).with_context(named)
+            port_triangle(index, &triangle?, header, header.blend, machine).with_context(named)
         }))
     })?;
     bar.finish_and_clear();

@@ -6,7 +6,7 @@
 //!                                                           fed with what the one before gave
 //! ```
 
-use crate::suites::Suite;
+use crate::suites::{self, Suite};
 use edgewalk_lockstep::case::constants;
 use edgewalk_lockstep::{
     Agreement, Direction, Interface, Link, LockstepError, Pattern, Rig, Setting, StallKind, Token, Triangles,
@@ -73,7 +73,7 @@ pub fn capture_tokens(
     stalls: StallKind,
     seed: u64,
 ) -> Trace {
-    let suite = Suite { seed, ..Suite::of_triangles("tokens", "", Vec::new()) };
+    let suite = Suite { seed, map: suites::map(plan), ..Suite::of_triangles("tokens", "", Vec::new()) };
     let triangles = (0..tokens.len() as u32).collect();
     Run { plan, suite: &suite, state }.observe(unit, Stimulus { tokens, triangles }, stalls)
 }

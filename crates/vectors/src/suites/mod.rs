@@ -171,6 +171,12 @@ pub const SUITES: [Entry; 17] = [
     },
 ];
 
+/// The words of the light's map that the suites are drawn with; none without SHADOW.
+#[must_use]
+pub fn map(machine: &Plan) -> Vec<u32> {
+    if machine.shadow.is_there() { light::map(machine) } else { Vec::new() }
+}
+
 /// No suite of that name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("unknown suite {name}; nearest: {nearest}")]
@@ -194,7 +200,7 @@ impl Suite {
         let mut plain = Suite { seed, ..Suite::of_triangles(name, entry.about, Vec::new()) };
         if machine.shadow.is_there() {
             // Every suite is drawn with the map at work, but for the one without.
-            (plain.shadow_on, plain.map) = (true, light::map(machine));
+            (plain.shadow_on, plain.map) = (true, map(machine));
             plain.ambient = machine.color.max() / 3;
         }
         Ok(match entry.kind {

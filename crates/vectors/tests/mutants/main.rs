@@ -8,7 +8,7 @@ mod common;
 mod miter;
 mod proof;
 
-use edgewalk_machine::{Blend, BlendKind, Hazard, Machine, Plan, Precision};
+use edgewalk_machine::{Blend, BlendKind, Gate, Hazard, Machine, Plan, Precision, Shadow, ShadowLight};
 use edgewalk_model::DrawState;
 use edgewalk_netlist::mutate::mutants;
 use edgewalk_vectors::{Interface, StallKind, Suite, Trace, Unit, capture, capture_tokens, design};
@@ -44,6 +44,9 @@ const BLEND_STEPS: [usize; 5] = [2, 2, 2, 2, 2];
 /// Of BLEND and of DEPTH's fork.
 const BLEND_LEAST: usize = 98;
 
+/// Of SHADOW.
+const SHADOW_LEAST: usize = 98;
+
 #[test]
 fn single_faults_of_blend_are_found() {
     let kinds = [
@@ -66,6 +69,23 @@ fn single_faults_of_blend_are_found() {
         })
         .collect();
     share_found(&work, BLEND_LEAST);
+}
+
+/// SHADOW with each gate, a side that is a power of two and one that is not.
+#[test]
+fn single_faults_of_shadow_are_found() {
+    let kinds = [([4, 1, 4], Gate::And, 3), ([3, 1, 4], Gate::Scale, 2)];
+    let work: Vec<_> = kinds
+        .into_iter()
+        .map(|([size, guard_bits, depth_bits], gate, queue)| {
+            let mut machine = Machine::clone(&machine_for(common::DEPTH));
+            let light =
+                Shadow { light: ShadowLight::Parallel, size, guard_bits, depth_bits, ..machine.shadow };
+            machine.shadow = Shadow { gate, queue, fraction: 8, vertex_fraction: 2, ..light };
+            (machine.plan().expect("can be built"), common::SHADOW, 1)
+        })
+        .collect();
+    share_found(&work, SHADOW_LEAST);
 }
 
 fn share_found(work: &[(Plan, Unit, usize)], least: usize) {
@@ -148,18 +168,28 @@ fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
     let mut traces = Vec::new();
     for depth_func in functions {
         for stalls in StallKind::ALL {
-            let state = DrawState { depth_func, ..DrawState::default() };
+            let state = DrawState { depth_func, ..suite.state() };
             let suite = if depth_func & 4 != 0 { &half } else { &suite };
             traces.push(capture(machine, unit, suite, state, stalls));
         }
     }
-    let masked = DrawState { depth_write: false, ..DrawState::default() };
+    let masked = DrawState { depth_write: false, ..suite.state() };
     traces.push(capture(machine, unit, &suite, masked, StallKind::Mixed));
     if machine.blend.is_there() && unit == common::DEPTH {
         let unwritten = DrawState { color_write: false, ..DrawState::default() };
         traces.push(capture(machine, unit, &suite, unwritten, StallKind::Mixed));
     }
     match unit.name() {
+        "shadow" => {
+            for name in ["light", "light_off"] {
+                let suite = Suite::named(machine, name, 1, 24).expect("listed");
+                traces.push(capture(machine, unit, &suite, suite.state(), suite.stalls));
+            }
+            let any = [StallKind::Mixed, StallKind::None, StallKind::Late].into_iter().zip(1..);
+            let any: Vec<_> =
+                any.map(|(stalls, seed)| any_fragments(machine, &traces[1], stalls, seed)).collect();
+            traces.extend(any);
+        }
         "setup" => traces.push(specks(machine)),
         "span" => traces.extend((1..=4).map(|seed| any_lines(machine, &traces[1], seed)).collect::<Vec<_>>()),
         "blend" => {
@@ -212,6 +242,26 @@ fn any_lines(machine: &Plan, of: &Trace, seed: u64) -> Trace {
     // A line without flags comes first: what a reset left would be seen.
     flags.iter().for_each(|flag| tokens[0][*flag] = 0);
     capture_tokens(machine, of.interface.unit, tokens, DrawState::default(), StallKind::Mixed, seed)
+}
+
+/// As many fragments around the map, as no PIXEL gives them.
+fn any_fragments(machine: &Plan, of: &Trace, stalls: StallKind, seed: u64) -> Trace {
+    let frag = &of.interface.links[0];
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let mut tokens = of.setting.tokens.clone();
+    for token in &mut tokens {
+        for (field, port) in frag.fields.iter().enumerate() {
+            let number = match port.field.name.as_str() {
+                "lx" | "ly" => random.random_range(-2..=i64::from(machine.shadow.size) + 1),
+                "lz" => random.random_range(-2..=(1 << machine.shadow.depth_bits) + 1),
+                _ => random.random_range(0..1 << port.width().min(32)),
+            };
+            token[field] = number as u128 & (u128::MAX >> (128 - port.width()));
+        }
+    }
+    let ambient = random.random_range(1..=machine.color.max());
+    let state = DrawState { shadow_on: true, ambient, ..DrawState::default() };
+    capture_tokens(machine, of.interface.unit, tokens, state, stalls, seed)
 }
 
 /// As many fragments on three pixels, each in four with a k_t of 0, or of 1 and more, and fences as no DEPTH gives them.
