@@ -5,7 +5,7 @@ use crate::progress::bar;
 use anyhow::{Result, anyhow};
 use edgewalk_explore::draw;
 pub use edgewalk_explore::raster::{Raster, from_golden, golden_fill};
-use edgewalk_explore::raster::{from_machine, from_model, of_primitives};
+use edgewalk_explore::raster::{from_machine, from_model, of_port};
 use edgewalk_golden::Drawing;
 use edgewalk_lockstep::StallKind;
 use edgewalk_machine::Plan;
@@ -45,8 +45,9 @@ pub fn draw_waiting(
         Engine::Fast => draw::fast(frame, machine, waits),
         Engine::Model => {
             let port = to_port(frame, machine)?;
-            let drawn = render_passes(machine, port.triangles.iter().copied(), &port.passes, waits, |_| {})?;
-            Ok(of_primitives(from_model(machine, drawn), &port))
+            let triangles = port.triangles.iter().copied();
+            let drawn = render_passes(machine, triangles, &port.passes, &port.maps(), waits, |_| {})?;
+            Ok(of_port(from_model(machine, drawn), &port))
         }
     }
 }
@@ -60,14 +61,16 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Resul
             let port = to_port(frame, machine)?;
             let bar = bar(port.triangles.len() as u64, "triangles", quiet);
             let triangles = bar.wrap_iter(port.triangles.iter().copied());
+            let (passes, maps) = (&port.passes, &port.maps());
             let raster = if engine == Engine::Model {
-                from_model(machine, render_passes(machine, triangles, &port.passes, Waits::Never, |_| {})?)
+                from_model(machine, render_passes(machine, triangles, passes, maps, Waits::Never, |_| {})?)
             } else {
-                let drawn = edgewalk_lockstep::render_rtl(machine, triangles, port.state()?, StallKind::None);
+                let drawn =
+                    edgewalk_lockstep::render_rtl_passes(machine, triangles, passes, maps, StallKind::None);
                 from_machine(machine, drawn.map_err(|e| anyhow!("{e}"))?)
             };
             bar.finish_and_clear();
-            Ok(of_primitives(raster, &port))
+            Ok(of_port(raster, &port))
         }
     }
 }
@@ -92,7 +95,7 @@ pub fn draw_bands(
         Engine::Fast => {
             let port = to_port(frame, machine)?;
             let drawn = draw::draw_frame(machine, &port, Waits::Never)?;
-            drawn.bands(machine, fast_bands(machine), |band| take(of_primitives(band, &port)))
+            drawn.bands(machine, fast_bands(machine), |band| take(of_port(band, &port)))
         }
         Engine::Model | Engine::Rtl => take(draw(engine, frame, machine, quiet)?),
     }

@@ -11,6 +11,7 @@
 mod channel;
 mod order;
 mod layers;
+mod lit;
 #[cfg(test)]
 mod tests;
 
@@ -24,6 +25,8 @@ use edgewalk_machine::Plan;
 use edgewalk_scene::Frame;
 use layers::Layers;
 pub use layers::{Blended, Errors};
+use lit::Light;
+pub use lit::Lit;
 use order::{Orders, Over};
 use serde::Serialize;
 
@@ -78,6 +81,9 @@ pub struct Comparison {
     /// Of a blended picture, whose colours have a bound at each pixel in place of `color_bound`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blended: Option<Blended>,
+    /// Of a picture under a light.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lit: Option<Lit>,
     /// Channels of the user's own.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<ExtraError>,
@@ -142,6 +148,7 @@ fn compared(
         z_no_bound: tally.z.no_bound(),
         color_no_bound: tally.color.no_bound(),
         blended: None,
+        lit: None,
         extra: Vec::new(),
         z_map: Vec::new(),
         color_map: Vec::new(),
@@ -150,6 +157,7 @@ fn compared(
         blended(&mut c, &mut tally, &layers, frame, golden);
         return finished(c, tally, machine);
     }
+    let mut light = Light::of(machine, frame, drawn, reach);
     let mut differ = Vec::new();
     for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
         c.pixels += 1;
@@ -159,7 +167,12 @@ fn compared(
             continue;
         }
         if golden.id[i] >= 0 {
-            tally.triangle(i, golden.z[i], &Over::golden(golden, i));
+            let agrees = light.as_mut().is_none_or(|light| light.agrees(i, golden, drawn));
+            if agrees {
+                tally.triangle(i, golden.z[i], &Over::golden(golden, i));
+            } else {
+                tally.depth(i, golden.z[i]); // the colour is another
+            }
         } else {
             c.background_wrong += u64::from(!tally.is_background(i, frame.clear));
         }
@@ -171,6 +184,10 @@ fn compared(
             Some(shown) => {
                 c.order_undecided += 1;
                 match shown {
+                    // Its colour hangs on the light.
+                    Some(shown) if light.is_some() => {
+                        tally.depth(i, if frame.depth_write { shown.z } else { 1.0 })
+                    }
                     Some(shown) => tally.triangle(i, if frame.depth_write { shown.z } else { 1.0 }, &shown),
                     None => c.background_wrong += u64::from(!tally.is_background(i, frame.clear)),
                 }
@@ -179,7 +196,12 @@ fn compared(
         }
         c.compared += u64::from(golden.coverage[i] > 0);
     }
-    finished(c, tally, machine)
+    c = finished(c, tally, machine);
+    if let Some(light) = light {
+        c.color_bound = c.color_bound.map(|bound| light.color_bound(bound));
+        c.lit = Some(light.found());
+    }
+    c
 }
 
 /// Every pixel where all depth tests are sure: there all layers must be golden's, and the colour within their bound.
@@ -227,7 +249,9 @@ impl Comparison {
         let channels = machine.channels();
         self.additions = Some(reach.steps.total());
         self.z_bound_for_input = reach.bound(machine, &channels[0]);
-        self.color_bound_for_input = reach.bound(machine, &channels[1]);
+        // Under a light the gate's part comes on top of it.
+        let color = reach.bound(machine, &channels[1]);
+        self.color_bound_for_input = color.filter(|_| self.lit.is_none());
         for (own, channel) in self.extra.iter_mut().zip(extra::channels(machine)) {
             own.bound_for_input = reach.bound(machine, channel);
             own.allowed = own.bound_for_input.unwrap_or(own.allowed);
@@ -259,6 +283,7 @@ impl Comparison {
                 || beyond(self.color_error, self.color_bound_for_input.or(self.color_bound)),
                 |blended| blended.beyond,
             )
+            + self.lit.map_or(0, |lit| lit.unexplained)
             + self.extra.iter().map(|own| beyond(own.error, Some(own.allowed))).sum::<u64>();
         Verdict::of(self.compared, self.covered, wrong).and(Verdict::of(self.pixels, self.screen, wrong))
     }

@@ -1,5 +1,6 @@
 //! A frame's way to the machine's port.
 
+use crate::light::{self, Map};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::{DrawState, Pass};
@@ -18,9 +19,17 @@ pub struct PortFrame {
     pub passes: Vec<Pass>,
     /// What was done to the triangles on the way.
     pub host: Host,
+    /// The lights' maps.
+    pub lights: Vec<Map>,
 }
 
 impl PortFrame {
+    /// The words of the lights' maps.
+    #[must_use]
+    pub fn maps(&self) -> Vec<Vec<u32>> {
+        self.lights.iter().map(|light| light.words.clone()).collect()
+    }
+
     /// The rules of a frame in which they do not change.
     ///
     /// # Errors
@@ -62,20 +71,25 @@ pub fn guard_band(machine: &Plan) -> f64 {
 
 /// Snaps a frame to the port, polygons as triangles, or says what of it the machine cannot take.
 pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
+    if let Some(shadow) = &frame.shadow {
+        light::check(shadow, machine)?;
+    }
     let (Triangulated { triangles, ids }, host) = sent(frame, machine)?;
     let (mut port, mut passes) = (Vec::with_capacity(triangles.len()), Vec::new());
     for pass in frame.passes() {
         let parts = ids.iter().take_while(|id| (**id as usize) < pass.primitives.end).count();
         for (triangle, id) in triangles[port.len()..parts].iter().zip(&ids[port.len()..parts]) {
-            port.push(port_triangle(*id as usize, triangle, frame.mode, pass.state.blend, machine)?);
+            port.push(port_triangle(*id as usize, triangle, frame, pass.state.blend, machine)?);
         }
         passes.push(Pass {
             triangles: parts - passes.iter().map(|pass: &Pass| pass.triangles).sum::<usize>(),
             state: draw_state(frame, &pass.state, machine)?,
             clear_depth: pass.clear_depth,
+            map: (passes.is_empty() && frame.shadow.is_some()).then_some(0),
         });
     }
-    Ok(PortFrame { triangles: port, ids, passes, host })
+    let lights = frame.shadow.iter().map(|shadow| light::map(shadow, machine)).collect::<Result<_>>()?;
+    Ok(PortFrame { triangles: port, ids, passes, lights, host })
 }
 
 /// The rules of a pass as the machine has them, or what of them it cannot do.
@@ -92,19 +106,14 @@ pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawSt
             "colour_write 0: a machine without BLEND writes the colour of every fragment that passes; add --set blend.kind=constant"
         ));
     }
-    if frame.shadow.is_some() {
-        return Err(anyhow!(
-            "shadow: the machine has no shadow maps yet; draw without the line `shadow` or with --engine golden"
-        ));
-    }
     let max = machine.color.max() as f64;
     Ok(DrawState {
         depth_func: state.depth.unwrap_or(DepthFunc::Always) as u8,
         depth_write: state.stores_depth(),
         color_write: state.color_write,
         blend_add: state.blend == Blending::Add,
-        shadow_on: false,
-        ambient: 0,
+        shadow_on: frame.shadow.is_some(),
+        ambient: frame.shadow.as_ref().map_or(0, |shadow| light::ambient(shadow, machine)),
         clear: frame.clear.map(|v| (v * max).round_ties_even() as u64),
     })
 }
@@ -113,11 +122,11 @@ pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawSt
 pub fn port_triangle(
     index: usize,
     triangle: &Triangle,
-    mode: ShadeMode,
+    frame: &Frame,
     blend: Blending,
     machine: &Plan,
 ) -> Result<[PortVertex; 3]> {
-    let mixes = blend == Blending::Mix;
+    let (mixes, mode) = (blend == Blending::Mix, frame.mode);
     let mut port = [PortVertex::default(); 3];
     for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
         let v = if mode == ShadeMode::Flat { v.colored_as(&triangle.0[0]) } else { *v };
@@ -125,7 +134,7 @@ pub fn port_triangle(
         let mut values = vec![v.z, v.r, v.g, v.b];
         values.extend_from_slice(&v.extra[..machine.extra as usize]);
         if machine.shadow.is_there() {
-            values.extend([0.0; 3]); // no map is looked up
+            values.extend(light::values(frame.shadow.as_ref(), &v, machine));
         }
         if machine.blend.is_there() {
             values.push(if mixes { v.kt } else { 0.0 });

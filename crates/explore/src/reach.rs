@@ -62,8 +62,14 @@ pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
             "size, sweep and compare take no machine with SHADOW yet; set shadow.light = none"
         ));
     }
+    geometry(machine, port)
+}
+
+/// The same whatever the machine has: where its triangles are stepped.
+fn geometry(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     let bare = Machine::default();
     let keys = Machine {
+        shadow: bare.shadow,
         extra: bare.extra,
         blend: bare.blend,
         adders: machine.adders.min(bare.adders),
@@ -78,13 +84,13 @@ pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     drawn.map_err(|refusal| anyhow!("the fast engine draws every frame of such a machine: {refusal:?}"))
 }
 
-/// How far the values of these triangles are stepped; none where the machine has SHADOW, or the frame several passes.
+/// How far the values of these triangles are stepped; none where the frame has several passes.
 ///
 /// # Errors
 /// Vertices of another machine.
 pub fn reach(machine: &Plan, port: &PortFrame) -> Result<Option<Reach>> {
-    if machine.shadow.is_there() || port.passes.len() != 1 {
+    if port.passes.len() != 1 {
         return Ok(None);
     }
-    Ok(Reach::of(machine, &port.ids, &passage(machine, port)?))
+    Ok(Reach::of(machine, &port.ids, &geometry(machine, port)?))
 }

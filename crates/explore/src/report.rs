@@ -24,6 +24,7 @@ pub struct Report {
     odd_pixels: u64,
     cycles: Option<Cycles>,
     passes: Vec<Cycles>,
+    lights: Vec<Cycles>,
     order: Option<Order>,
     corners: Option<Events>,
     comparison: Option<Comparison>,
@@ -45,6 +46,7 @@ impl Report {
             writes: 0,
             cycles: drawn.cycles.clone(),
             passes: drawn.passes.clone(),
+            lights: drawn.lights.iter().map(|light| light.cycles.clone()).collect(),
             order: None,
             corners: drawn.corners.clone(),
             comparison: None,
@@ -124,6 +126,7 @@ impl Report {
             comparison,
             setup: Some(setup),
             passes: Vec::new(),
+            lights: Vec::new(),
             order: self.order.clone(),
             ..*self
         }
@@ -194,6 +197,9 @@ impl Report {
             }
             if let Some(held) = &c.held {
                 report["occupancy"] = Occupancy::of(&self.machine, c.total, held).value();
+            }
+            if !self.lights.is_empty() {
+                report["cycles"]["maps"] = self.lights.iter().map(|light| light.total).collect();
             }
             if !self.passes.is_empty() {
                 report["cycles"]["passes"] = self.passes.iter().map(|pass| pass.total).collect();
@@ -271,6 +277,9 @@ impl Report {
             for (place, pass) in self.passes.iter().enumerate() {
                 let _ = writeln!(t, "    pass {place:<5} {:>12}", pass.total);
             }
+            for (place, light) in self.lights.iter().enumerate() {
+                let _ = writeln!(t, "    map {place:<6} {:>12}  before, not among these", light.total);
+            }
             let sum: u64 = Activity::of(m).map(|a| c.spent(a)).sum();
             let _ = writeln!(t, "    {:<10} {:>12}  of {} cycles", "sum", sum, c.total);
             if let Some(held) = &c.held {
@@ -325,6 +334,13 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
             t,
             "blended: {} pixels, up to {} layers, running bound up to {:.4} LSB, {:.4} of it reached, {} beyond",
             b.pixels, b.layers, b.bound, b.of_bound, b.beyond
+        );
+    }
+    if let Some(l) = &c.lit {
+        _ = writeln!(
+            t,
+            "light: {} pixels, {} in shadow, {} decided otherwise than golden; unexplained by texels within {:.4} and depths within {:.4} LSB: {}",
+            l.pixels, l.shadow, l.differ, l.texel_bound, l.depth_bound, l.unexplained
         );
     }
     for own in &c.extra {

@@ -136,6 +136,33 @@ fn machines_with_blend(machines: &[(&str, Plan)], simulators: impl Fn(usize) -> 
     assert!(done.len() >= 4 && done.iter().all(|checked| *checked > 4000), "{done:?}");
 }
 
+/// Machines with SHADOW in Icarus, every third in Verilator too; SHADOW alone.
+#[test]
+fn machines_with_shadow_replay_and_are_clean() {
+    let machines = common::lights();
+    let done = common::two_at_a_time(&machines, |i, (name, machine)| {
+        let suites = ["hazards", "light"].map(|name| Suite::named(machine, name, 5, 12).expect("listed"));
+        let suite = Suite::joined("replay", "", suites);
+        let place = tempfile::tempdir().expect("a directory");
+        let vectors = place.path().join("the vectors");
+        let of = |unit, suite: &Suite, stalls| {
+            let trace = capture(machine, unit, suite, suite.state(), stalls);
+            let verilog = design::verilog(machine, unit).expect("a checked machine");
+            directory(suite, &trace, &verilog, Tables::LeftOut)
+        };
+        let whole = of(Unit::MACHINE, &suite, StallKind::ALL[i % 3]);
+        let simulators = Simulator::ALL.into_iter().take(1 + usize::from(i % 3 == 1));
+        let mut checked: u64 = simulators.map(|simulator| passes(simulator, &whole)).sum();
+        checked += passes(Simulator::Icarus, &of(common::SHADOW, &suite, StallKind::Late));
+        write(&whole, &vectors);
+        lint(&vectors, LIMIT).unwrap_or_else(|error| panic!("{name}: {error}"));
+        println!("{name:34} {checked} checked, lint clean");
+        checked
+    });
+    assert_eq!(done.len(), 6);
+    assert!(done.iter().all(|checked| *checked > 5000), "{done:?}");
+}
+
 /// Every unit of three machines in Icarus, and in Verilator, where building takes its time, of one of them in turn.
 #[test]
 fn every_unit_replays() {

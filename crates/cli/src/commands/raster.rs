@@ -19,7 +19,7 @@ use std::path::PathBuf;
 /// Draws a file of screen-space triangles and writes what every pixel got.
 ///
 /// Writes coverage.npy, writes.npy (u32), id.npy (i32), z.npy (H,W) and rgb.npy (H,W,3) (f64 in 0 to 1), image.png and
-/// report.json; row 0 on top. Golden does not quantise z and rgb, and adds lit.npy (u8: 0 nothing written, 1 in shadow, 2 lit).
+/// report.json; row 0 on top. Golden does not quantise z and rgb; golden and a machine with SHADOW add lit.npy (u8: 0 nothing written, 1 in shadow, 2 lit).
 /// With channels.extra = n also e0.npy and on, LSB of the channel's output: i64, golden's plane as f64, 0 where nothing was drawn.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -38,7 +38,7 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
   clear_depth                                             depth to blend and this also between triangles
   clear r g b
   extra N                                                 values of your own at a vertex, 0 to 4: channels.extra = N
-  shadow SIZE BIAS AMBIENT m00 m01 .. m33                 a light's depth map, matrix by rows; golden only
+  shadow SIZE BIAS AMBIENT m00 m01 .. m33                 a light's depth map, matrix by rows; shadow.light = parallel or golden
   L x y z  x y z  x y z                                   a triangle of that map, in texels
   T x y z r g b kt  x y z r g b kt  x y z r g b kt        a triangle, pixels
   X e0 .. e0 .. e0 ..                                     N values of vertex 1, of 2, of 3: unorm [0,1], else LSB
@@ -79,7 +79,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = machine.machine(Some((header.width, header.height)))?;
     extra::fitting(header.extra, &machine).with_context(|| file.name().to_owned())?;
     let report = match args.engine {
-        Engine::Fast => while_it_is_read(&file, &header, &machine, &out, talk)?,
+        // Of a light all triangles are needed before the first pixel.
+        Engine::Fast if header.shadow.is_none() => while_it_is_read(&file, &header, &machine, &out, talk)?,
         engine => whole(&file, engine, &machine, &out, talk)?,
     };
     out.write("report.json", report.json()?)?;

@@ -129,9 +129,9 @@ pub fn directed(machine: &Plan) -> Result<Vec<Suite>> {
     named(machine, |name| ["hazards", "corners"].contains(&name))
 }
 
-/// The suites of the depth functions, and those of BLEND where it is.
+/// The suites of the depth functions, and those of BLEND and SHADOW where they are.
 pub fn functions(machine: &Plan) -> Result<Vec<Suite>> {
-    named(machine, |name| ["depth_", "blend_", "color_"].iter().any(|kind| name.starts_with(kind)))
+    named(machine, |name| ["depth_", "blend_", "color_", "light"].iter().any(|kind| name.starts_with(kind)))
 }
 
 fn named(machine: &Plan, wanted: impl Fn(&str) -> bool) -> Result<Vec<Suite>> {
