@@ -30,11 +30,24 @@ impl PortFrame {
         self.lights.iter().map(|light| light.words.clone()).collect()
     }
 
+    /// The rules of a frame in which they do not change, for who has no light's map.
+    ///
+    /// # Errors
+    /// They do, or the frame has a light.
+    pub fn state(&self) -> Result<DrawState> {
+        if !self.lights.is_empty() {
+            return Err(anyhow!(
+                "shadow: a light's map; permitted for raster, render, explain, vectors and verify"
+            ));
+        }
+        self.one_state()
+    }
+
     /// The rules of a frame in which they do not change.
     ///
     /// # Errors
     /// They do.
-    pub fn state(&self) -> Result<DrawState> {
+    pub fn one_state(&self) -> Result<DrawState> {
         match &self.passes[..] {
             [pass] => Ok(pass.state),
             passes => Err(anyhow!(

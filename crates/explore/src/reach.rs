@@ -80,7 +80,7 @@ fn geometry(machine: &Plan, port: &PortFrame) -> Result<Passage> {
         triangle.map(|v: edgewalk_machine::PortVertex| plan.raw_vertex(v.x(), v.y(), v.values()))
     };
     let triangles = port.triangles.iter().map(of_plan);
-    let drawn = Renderer::new(&plan, false).draw_passage(triangles, port.state()?);
+    let drawn = Renderer::new(&plan, false).draw_passage(triangles, port.one_state()?);
     drawn.map_err(|refusal| anyhow!("the fast engine draws every frame of such a machine: {refusal:?}"))
 }
 
