@@ -1,8 +1,8 @@
 //! The machine as netlists, a unit a file, written from `docs/machine.md`.
 //!
 //! ```text
-//!  tri ─> setup ─> edge ─> span ─> pixel ─> depth ─> memory
-//!                                             └──> blend ─> memory
+//!  tri ─> setup ─> edge ─> span ─> pixel ─> [shadow] ─> depth ─> memory
+//!                                                        └──> blend ─> memory
 //! ```
 //! A function a unit takes a [`Plan`](edgewalk_machine::Plan), the checked machine, and builds the unit's netlist with the ports
 //! that [`edgewalk_machine::UNITS`] declares; [`BUILDERS`] lists the functions, [`machine`] joins what they build.

@@ -73,6 +73,10 @@ fn token(plan: &Plan, fields: &[Port], rng: &mut Pcg64Mcg) -> Token {
             "frag_z" => rng.random_range(0..=few(plan)).into(),
             "pass_kt" => *kts.choose(rng).expect("some"),
             "frag_fence" | "pass_fence" => rng.random_bool(0.3).into(),
+            "frag_lx" | "frag_ly" if rng.random_bool(0.9) => {
+                rng.random_range(-1..=i128::from(plan.shadow.size))
+            }
+            "frag_lz" if rng.random_bool(0.9) => rng.random_range(-1..=1i128 << plan.shadow.depth_bits),
             _ => random as i128,
         };
         number as u128 & (u128::MAX >> (128 - port.width()))
