@@ -10,8 +10,7 @@ use rand_pcg::Pcg64Mcg;
 pub fn random_plan(rng: &mut Pcg64Mcg) -> Plan {
     let mut plan = Plan::default();
     for _ in 0..3 {
-        // TERM and SHADE have no netlist yet.
-        let mut keys: Vec<&Key> = KEYS.iter().filter(|key| key.name != "shade.kind").collect();
+        let mut keys: Vec<&Key> = KEYS.iter().collect();
         keys.shuffle(rng);
         for key in keys {
             let mut machine: Machine = (*plan).clone();
