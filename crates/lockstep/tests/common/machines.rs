@@ -15,6 +15,8 @@ const NARROW: &[(&str, u32, u32)] = &[
     ("fifo.blend", 1, 6),
     ("fifo.shadow", 1, 6),
     ("shadow.size", 1, 40),
+    ("term.record_bits", 1, 4),
+    ("shade.material_bits", 0, 2),
 ];
 
 /// A machine that can be built. Every key takes all kinds of values, so a new key is drawn without a word here.
@@ -28,8 +30,7 @@ pub fn random_machine(rng: &mut Pcg64Mcg) -> Plan {
 
 fn draw(rng: &mut Pcg64Mcg) -> Machine {
     let mut machine = Machine::default();
-    // TERM and SHADE have no netlist yet.
-    for key in KEYS.iter().filter(|key| key.name != "shade.kind") {
+    for key in KEYS {
         let narrow = NARROW.iter().find(|(name, ..)| *name == key.name);
         let domain = narrow.map_or(key.domain, |(_, low, high)| Domain::Range(*low, *high));
         let value = match domain {
