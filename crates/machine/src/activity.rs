@@ -29,11 +29,15 @@ pub enum Activity {
     Blend,
     /// SHADOW waits for the light's map.
     Light,
+    /// A span waits for TERM's walk.
+    Term,
+    /// A fragment waits for SHADE's tables.
+    Shade,
 }
 
 impl Activity {
     /// All, in the order of the port's code.
-    pub const ALL: [Activity; 11] = [
+    pub const ALL: [Activity; 13] = [
         Activity::Idle,
         Activity::Draw,
         Activity::Offscreen,
@@ -45,6 +49,8 @@ impl Activity {
         Activity::Flush,
         Activity::Blend,
         Activity::Light,
+        Activity::Term,
+        Activity::Shade,
     ];
 
     /// Bits of the port.
@@ -53,16 +59,31 @@ impl Activity {
     /// Name in reports and, in capitals, in the netlist.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        ["idle", "draw", "offscreen", "hazard", "queue", "memory", "edge", "setup", "flush", "blend", "light"]
-            [self as usize]
+        [
+            "idle",
+            "draw",
+            "offscreen",
+            "hazard",
+            "queue",
+            "memory",
+            "edge",
+            "setup",
+            "flush",
+            "blend",
+            "light",
+            "term",
+            "shade",
+        ][self as usize]
     }
 
     /// Those that the machine can have.
     pub fn of(plan: &Plan) -> impl Iterator<Item = Activity> {
-        let (blends, shadows) = (plan.blend.is_there(), plan.shadow.is_there());
+        let (blends, shadows, shades) =
+            (plan.blend.is_there(), plan.shadow.is_there(), plan.shade.is_there());
         Activity::ALL.into_iter().filter(move |activity| match activity {
             Activity::Blend => blends,
             Activity::Light => shadows,
+            Activity::Term | Activity::Shade => shades,
             _ => true,
         })
     }
@@ -82,6 +103,8 @@ impl Activity {
             "the last fragments leave the pipeline",
             "BLEND takes no fragment",
             "SHADOW takes no fragment",
+            "TERM walks to the start of a span",
+            "SHADE fetches tables",
         ][self as usize]
     }
 

@@ -139,7 +139,7 @@ impl Machine {
     pub fn to_toml(&self) -> String {
         let mut text = String::new();
         let mut sections: Vec<&str> = Vec::new();
-        for key in KEYS {
+        for key in KEYS.iter().filter(|key| (key.used)(self)) {
             let section = key.name.split('.').next().unwrap_or_default();
             if !sections.contains(&section) {
                 sections.push(section);
@@ -176,6 +176,7 @@ impl Machine {
 mod tests {
     use super::*;
     use crate::machine::{Blend, BlendKind, Shadow, ShadowLight};
+    use crate::shading::{Shade, ShadeKind};
 
     #[test]
     fn what_is_written_reads_back() {
@@ -192,7 +193,8 @@ mod tests {
             // With all extra channels, a light and a k_t for every pixel every key means something.
             let blend = Blend { kind: BlendKind::Interpolated, ..Machine::default().blend };
             let shadow = Shadow { light: ShadowLight::Parallel, ..Machine::default().shadow };
-            let mut machine = Machine { extra: 4, blend, shadow, ..Machine::default() };
+            let shade = Shade { kind: ShadeKind::FastPhong, ..Machine::default().shade };
+            let mut machine = Machine { extra: 4, blend, shadow, shade, ..Machine::default() };
             let other = match key.domain {
                 Domain::Range(low, high) => {
                     if (key.get)(&machine) == low {

@@ -78,6 +78,42 @@ events! {
     forward_used,
     /// Fragments that failed the compare.
     depth_fail,
+    /// Records that were read.
+    record_read,
+    /// Steps of TERM's walk to the next line.
+    walk_down,
+    /// Steps of the walk towards the end of a span.
+    walk_forward,
+    /// Steps of the walk away from the end of a span.
+    walk_back,
+    /// Cycles in which the walk stands at a span that PIXEL does not take yet.
+    walk_waits,
+    /// Cycles in which a span waits for the last result of the walk alone (memory).
+    walk_result_last,
+    /// Cycles in which a read waits for the memory of the terms.
+    term_read_stall,
+    /// Materials whose tables were fetched.
+    tables_read,
+    /// Materials that another one took the place of.
+    material_change,
+    /// Cycles in which new tables wait for fragments of the old ones.
+    tables_drain,
+    /// Cycles in which a read waits for the memory of the tables.
+    table_read_stall,
+    /// Cosines N·L below 0, a light a fragment.
+    diffuse_below,
+    /// Cosines N·L beyond the table's end.
+    diffuse_above,
+    /// Cosines N·H before the table's beginning.
+    highlight_below,
+    /// Cosines N·H beyond the table's end.
+    highlight_above,
+    /// Highlights that are dropped, as the light is below the horizon.
+    highlight_unlit,
+    /// Colours cut to the largest.
+    color_saturated,
+    /// Cycles in which all stages of SHADE stand still.
+    shade_stall,
     /// Fragments that were not looked up, as the map does not count.
     shadow_off,
     /// Fragments outside the map: lit.

@@ -3,12 +3,13 @@
 //! ```text
 //!  tri ─> SETUP ─prim─> EDGE ─line─> SPAN ─span─> PIXEL ─frag─> DEPTH ─> wr
 //!                         └────────── gradients ───┘              ├─> rd, <─ data
+//!     with TERM and SHADE: SPAN ─span─> TERM ─walked─> PIXEL ─frag─> SHADE ─tinted─> DEPTH
 //!                                with BLEND, for wr: ─> zwr, ─pass─> BLEND ─> crd, <─ cdata, ─> cwr
 //! ```
 //! Data runs to the right, readies to the left within the cycle. [`Model::cycle`] therefore works out the readies from
 //! DEPTH back to SETUP, and then clocks the units in the same order, so that each still sees its source as it was.
 //!
-//! Rules: `docs/machine.md`, sections 8 to 11.
+//! Rules: `docs/machine.md`, sections 8 to 13.
 
 mod view;
 
@@ -20,9 +21,13 @@ use crate::edge::Edge;
 use crate::events::{Events, one_more};
 use crate::pixel::Pixel;
 use crate::setup::Setup;
+pub use crate::shade::ShadeInputs;
+use crate::shade::{Cosines, Shade};
 use crate::shadow::Shadow;
 pub use crate::shadow::ShadowInputs;
 use crate::span::Span;
+pub use crate::term::TermInputs;
+use crate::term::{Term, Walked};
 use crate::tokens::{ColorWrite, FEW, Fragment, Write};
 use edgewalk_machine::{Activity, Plan, PortVertex};
 
@@ -44,6 +49,10 @@ pub struct Inputs<'a> {
     pub data: Option<u64>,
     /// The memory takes a write.
     pub wr_ready: bool,
+    /// What only machines with TERM have.
+    pub term: TermInputs,
+    /// What only machines with SHADE have.
+    pub shade: ShadeInputs,
     /// What only machines with SHADOW have.
     pub shadow: ShadowInputs,
     /// What only machines with BLEND have.
@@ -61,6 +70,14 @@ pub struct Outputs<const C: usize> {
     pub data_ready: bool,
     /// A write; with BLEND of a depth.
     pub wr: Option<Write<C>>,
+    /// With TERM: address of a word of a record.
+    pub trd: Option<u32>,
+    /// With TERM: a word of a record is taken, if it is there.
+    pub tdata_ready: bool,
+    /// With SHADE: address of an entry of the tables.
+    pub srd: Option<u32>,
+    /// With SHADE: an entry is taken, if it is there.
+    pub sdata_ready: bool,
     /// With SHADOW: address of a texel.
     pub mrd: Option<u32>,
     /// With SHADOW: the depth of a texel is taken, if it is there.
@@ -98,6 +115,10 @@ impl<const C: usize> Default for Outputs<C> {
             rd: None,
             data_ready: false,
             wr: None,
+            trd: None,
+            tdata_ready: false,
+            srd: None,
+            sdata_ready: false,
             mrd: None,
             mdata_ready: false,
             blend: BlendOutputs::default(),
@@ -114,7 +135,9 @@ pub struct Model<const C: usize> {
     setup: Setup<C>,
     edge: Edge<C>,
     span: Span<C>,
+    term: Option<Term>,
     pixel: Pixel<C>,
+    shade: Option<Shade<C>>,
     shadow: Option<Shadow<C>>,
     depth: Depth<C>,
     blend: Option<Blend<C>>,
@@ -129,6 +152,10 @@ struct Waits {
     light: bool,
     /// BLEND does not take what DEPTH offers.
     pass: bool,
+    /// The walk of TERM is not at the span that is offered.
+    walk: bool,
+    /// SHADE has not the tables of the fragment that is offered.
+    tables: bool,
 }
 
 /// The units of a [`Model`].
@@ -140,8 +167,12 @@ pub struct Units<'a, const C: usize> {
     pub edge: &'a Edge<C>,
     /// Lines to spans.
     pub span: &'a Span<C>,
+    /// Spans to spans with terms, if the machine has it.
+    pub term: Option<&'a Term>,
     /// Spans to fragments.
     pub pixel: &'a Pixel<C>,
+    /// Fragments to fragments with a colour, if the machine has it.
+    pub shade: Option<&'a Shade<C>>,
     /// Fragments to fragments lit or not, if the machine has it.
     pub shadow: Option<&'a Shadow<C>>,
     /// Fragments to writes.
@@ -158,7 +189,9 @@ impl<const C: usize> Model<C> {
             setup: Setup::new(plan),
             edge: Edge::new(plan),
             span: Span::new(plan),
+            term: plan.shade.is_there().then(|| Term::new(plan)),
             pixel: Pixel::new(plan),
+            shade: plan.shade.is_there().then(|| Shade::new(plan)),
             shadow: plan.shadow.is_there().then(|| Shadow::new(plan)),
             depth: Depth::new(plan),
             blend: plan.blend.is_there().then(|| Blend::new(plan)),
@@ -183,7 +216,20 @@ impl<const C: usize> Model<C> {
     #[must_use]
     pub fn units(&self) -> Units<'_, C> {
         let Model { setup, edge, span, pixel, depth, .. } = self;
-        Units { setup, edge, span, pixel, shadow: self.shadow(), depth, blend: self.blend() }
+        let (term, shade, shadow, blend) = (self.term(), self.shade(), self.shadow(), self.blend());
+        Units { setup, edge, span, term, pixel, shade, shadow, depth, blend }
+    }
+
+    /// TERM, as BLEND below.
+    #[inline(always)]
+    fn term(&self) -> Option<&Term> {
+        self.term.as_ref().filter(|_| C > FEW)
+    }
+
+    /// SHADE, as BLEND below.
+    #[inline(always)]
+    fn shade(&self) -> Option<&Shade<C>> {
+        self.shade.as_ref().filter(|_| C > FEW)
     }
 
     /// SHADOW, as BLEND below.
@@ -229,6 +275,7 @@ impl<const C: usize> Model<C> {
     #[inline]
     fn in_flight(&self) -> bool {
         self.depth.occupied()
+            || self.shade().is_some_and(Shade::occupied)
             || self.shadow().is_some_and(Shadow::occupied)
             || self.blend().is_some_and(Blend::occupied)
     }
@@ -254,18 +301,31 @@ impl<const C: usize> Model<C> {
         // BLEND, DEPTH, and the memories behind them.
         let pass = self.depth.pass().copied();
         let pass_ready = self.blend().is_some_and(|blend| blend.pass_ready(pass.as_ref(), &inputs.blend));
-        let frag = self.pixel.frag();
+        let tinted = self.shade().and_then(Shade::tinted).copied();
+        let frag = if self.shade().is_some() { tinted.as_ref() } else { self.pixel.frag() };
         let shaded = self.shadow().and_then(|shadow| shadow.shaded(&inputs.shadow));
         let seen = if self.shadow().is_some() { shaded.as_ref() } else { frag };
         let block = self.depth.block(seen, inputs.depth_write);
         let seen_ready = inputs.rd_ready && block.is_none();
         let frag_ready = self.shadow().map_or(seen_ready, |shadow| shadow.frag_ready(frag, &inputs.shadow));
         let light = self.shadow().is_some_and(|shadow| !shadow.full() || shaded.is_none());
-        let waits = Waits { light, pass: pass.is_some() && !pass_ready };
-        let activity = self.activity(block, frag_ready, waits);
+        let cosines = if self.shade().is_some() { *self.pixel.cosines() } else { Cosines::default() };
+        let drawn_ready = self.shade().map_or(frag_ready, |shade| shade.frag_ready(&cosines, frag_ready));
+        let there = self.term().is_none_or(|term| term.there(self.span.span()));
+        let waits = Waits {
+            light,
+            pass: pass.is_some() && !pass_ready,
+            walk: !there && self.span.span().is_some(),
+            tables: self.shade().is_some_and(|shade| shade.waits(self.pixel.frag(), &cosines)),
+        };
+        let activity = self.activity(block, drawn_ready, waits);
         let outputs = Outputs {
             tri_ready: self.setup.tri_ready(),
             rd: seen.filter(|_| block.is_none()).map(|f| f.addr),
+            trd: self.term().and_then(|term| term.read(self.edge.record())),
+            tdata_ready: self.term().is_some_and(Term::tdata_ready),
+            srd: self.shade().and_then(Shade::read),
+            sdata_ready: self.shade().is_some_and(Shade::sdata_ready),
             mrd: self.shadow().and_then(|shadow| shadow.read(frag, inputs.shadow.on)),
             mdata_ready: self.shadow().is_some_and(|shadow| shadow.mdata_ready(seen_ready)),
             data_ready: self.depth.data_ready(inputs.wr_ready, pass_ready),
@@ -295,7 +355,7 @@ impl<const C: usize> Model<C> {
             self.events.setup_overlap += u64::from(self.pixel.active());
         }
         let events = &mut self.events;
-        let span_ready = self.pixel.span_ready(frag_ready);
+        let span_ready = there && self.pixel.span_ready(drawn_ready);
         let depth_inputs = DepthInputs {
             depth_func: inputs.depth_func,
             depth_write: inputs.depth_write,
@@ -313,12 +373,21 @@ impl<const C: usize> Model<C> {
             shadow.step(frag, &inputs.shadow, seen_ready && shaded.is_some(), events);
         }
 
-        // PIXEL.
+        if let Some(shade) = self.shade.as_mut().filter(|_| C > FEW) {
+            shade.step(self.pixel.frag(), &cosines, &inputs.shade, frag_ready, events);
+        }
+
+        // PIXEL and TERM.
         let span = self.span.span();
+        let walked = || self.term.as_ref().map_or_else(Walked::default, Term::walked);
         if span_ready && span.is_some() {
             one_more(&mut self.counters.spans);
         }
-        self.pixel.step(span, self.edge.gradient(), self.edge.kt(), frag_ready, events);
+        let reached = span.filter(|_| there);
+        self.pixel.step(reached, self.edge.gradient(), self.edge.kt(), walked, drawn_ready, events);
+        if let Some(term) = self.term.as_mut().filter(|_| C > FEW) {
+            term.step(span, &inputs.term, span_ready, events);
+        }
 
         // SPAN.
         let fresh_queued = self.span.fresh_queued();
@@ -351,6 +420,12 @@ impl<const C: usize> Model<C> {
         self.span.reset();
         self.pixel.reset();
         self.depth.reset();
+        if let Some(term) = &mut self.term {
+            term.reset();
+        }
+        if let Some(shade) = &mut self.shade {
+            shade.reset();
+        }
         if let Some(shadow) = &mut self.shadow {
             shadow.reset();
         }
@@ -364,6 +439,7 @@ impl<const C: usize> Model<C> {
     fn activity(&self, block: Option<Block>, frag_ready: bool, waits: Waits) -> Activity {
         if !self.pixel.advance(frag_ready) {
             match block {
+                _ if waits.tables => Activity::Shade,
                 _ if waits.light => Activity::Light,
                 Some(Block::Hazard) => Activity::Hazard,
                 Some(Block::Full) if waits.pass => Activity::Blend,
@@ -372,6 +448,8 @@ impl<const C: usize> Model<C> {
             }
         } else if self.pixel.active() {
             if self.pixel.on_screen() { Activity::Draw } else { Activity::Offscreen }
+        } else if waits.walk {
+            Activity::Term
         } else if self.span.span().is_some() || self.span.line_held() || self.edge.running() {
             Activity::Edge
         } else if !self.setup.tri_ready() {

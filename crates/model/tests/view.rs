@@ -34,7 +34,7 @@ fn watch(plan: &Plan, triangles: &[Triangle], stalls: Stalls, mut see: impl FnMu
 fn machines(count: usize, rng: &mut Pcg64Mcg) -> Vec<Plan> {
     let small = [("screen.width", "40"), ("screen.height", "24")];
     let mut machines = vec![machine(&small), machine(&[])];
-    // A replay refuses machines with SHADOW: that unit is not on the page yet.
+    // A replay refuses machines with SHADOW, TERM or SHADE: those units are not on the page yet.
     let shown = std::iter::repeat_with(|| random_machine(&small, rng)).filter(|plan| !plan.shadow.is_there());
     machines.extend(shown.take(count));
     machines

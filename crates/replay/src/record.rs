@@ -22,6 +22,9 @@ pub enum RecordError {
     /// A machine with SHADOW.
     #[error("a replay does not show SHADOW; set shadow.light = none")]
     Shadow,
+    /// A machine with TERM and SHADE.
+    #[error("a replay does not show TERM and SHADE; set shade.kind = none")]
+    Shade,
     /// The triangles are for another machine.
     #[error(transparent)]
     Vertex(#[from] ForeignVertex),
@@ -61,6 +64,9 @@ pub fn record(
 ) -> Result<Recording, RecordError> {
     if plan.shadow.is_there() {
         return Err(RecordError::Shadow);
+    }
+    if plan.shade.is_there() {
+        return Err(RecordError::Shade);
     }
     for (triangle, number) in triangles.iter().zip(0..) {
         plan.accept(triangle, number)?;

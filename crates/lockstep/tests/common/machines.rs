@@ -15,6 +15,8 @@ const NARROW: &[(&str, u32, u32)] = &[
     ("fifo.blend", 1, 6),
     ("fifo.shadow", 1, 6),
     ("shadow.size", 1, 40),
+    ("term.record_bits", 1, 4),
+    ("shade.material_bits", 0, 2),
 ];
 
 /// A machine that can be built. Every key takes all kinds of values, so a new key is drawn without a word here.

@@ -39,7 +39,7 @@ impl<const C: usize> Model<C> {
         view.cause(self.activity(
             block,
             frag_ready,
-            super::Waits { light: false, pass: pass.is_some() && !pass_ready },
+            super::Waits { light: false, pass: pass.is_some() && !pass_ready, walk: false, tables: false },
         ));
     }
 }

@@ -1,0 +1,245 @@
+//! TERM and SHADE: their keys, the terms that follow from them, and where their words lie in the memories behind them
+//! (`docs/machine.md`, sections 11 and 12).
+//!
+//! ```text
+//!  Record ──Plan::record_words──> memory `terms`       Entry ──Plan::table_word──> memory `tables`
+//! ```
+//! The numbers in them are whoever shades': this file says where they stand, not what they are.
+
+use crate::machine::Machine;
+use crate::plan::Plan;
+
+/// What is shaded at each pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ShadeKind {
+    /// Nothing: the machine has neither TERM nor SHADE.
+    None,
+    /// Both cosines are quadratics over the triangle.
+    FastPhong,
+}
+
+/// Where a colour comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ShadeColour {
+    /// Tables hold it.
+    Tables,
+    /// A table holds the light; it is multiplied by the fragment's colour.
+    Multiply,
+}
+
+/// Where TERM keeps the words it walks with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Walk {
+    /// In registers: a step is one clock, or two.
+    Register,
+    /// In a memory, with one adder: a step is a clock for each word that changes.
+    Memory,
+}
+
+/// TERM, SHADE and the memories behind them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Shade {
+    /// What is shaded.
+    pub kind: ShadeKind,
+    /// Where a colour comes from.
+    pub colour: ShadeColour,
+    /// t: a table has 2^t entries.
+    pub table_bits: u32,
+    /// m: N·H reaches down to -2^m tables.
+    pub gloss_bits: u32,
+    /// Lights at once.
+    pub lights: u32,
+    /// Bits of the number of a material.
+    pub material_bits: u32,
+    /// Latency of the memory of the tables, clocks.
+    pub table_latency: u32,
+    /// Where TERM keeps its words.
+    pub walk: Walk,
+    /// Fraction bits of a term of degree 2.
+    pub fraction: u32,
+    /// Bits of the number of a triangle's record.
+    pub record_bits: u32,
+    /// Latency of the memory of the terms, clocks.
+    pub term_latency: u32,
+}
+
+impl Shade {
+    /// The units are there.
+    #[must_use]
+    pub fn is_there(&self) -> bool {
+        self.kind != ShadeKind::None
+    }
+
+    /// Bits of an entry of T: three colours of b bits, or the light in 2^-(b+2) with 1 exact.
+    #[must_use]
+    pub fn diffuse_bits(&self, color_bits: u32) -> u32 {
+        match self.colour {
+            ShadeColour::Tables => 3 * color_bits,
+            ShadeColour::Multiply => color_bits + 3,
+        }
+    }
+
+    /// Entries of a material, of all its lights: WT.
+    #[must_use]
+    pub fn entries(&self) -> u32 {
+        self.lights << self.table_bits
+    }
+
+    /// Bits of the place of an entry among those of its material.
+    #[must_use]
+    pub fn entry_bits(&self) -> u32 {
+        self.lights.next_power_of_two().ilog2() + self.table_bits
+    }
+}
+
+/// A polynomial in the place of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Term {
+    /// Its name in ports and reports.
+    pub name: &'static str,
+    /// 1 or 2.
+    pub degree: u32,
+    /// Output bits b, the sign included.
+    pub bits: u32,
+    /// Fraction bits r below the output's last bit.
+    pub fraction: u32,
+}
+
+impl Term {
+    /// Bits of the word, w = b + r, at most 64.
+    #[must_use]
+    pub fn word(&self) -> u32 {
+        self.bits + self.fraction
+    }
+
+    /// Words of a record that are its own: V, X, Y, and of degree 2 XX, XY, YY.
+    #[must_use]
+    pub fn words(&self) -> u32 {
+        3 * self.degree
+    }
+}
+
+/// What the memory of the terms holds for a triangle.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Record {
+    /// Column of the reference pixel, may lie off the screen.
+    pub x: i32,
+    /// Line of the reference pixel, not below the first line drawn.
+    pub y: u32,
+    /// The material.
+    pub material: u32,
+    /// For each term of [`Plan::terms`] V, X, Y, XX, XY, YY, modulo 2^w; of degree 1 the last three are not looked at.
+    pub terms: Vec<[u64; 6]>,
+}
+
+/// An entry of the tables of a light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Entry {
+    /// With [`ShadeColour::Tables`]: red, green, blue, and the highlight, LSB of the colour.
+    Colours([u32; 3], u32),
+    /// With [`ShadeColour::Multiply`]: the light, 2^(b+2) for 1.0, and the highlight, LSB of the colour.
+    Light(u32, u32),
+}
+
+const NAMES: [[&str; 2]; 2] = [["nl0", "nh0"], ["nl1", "nh1"]];
+
+/// The terms of a machine, in the order of their words.
+pub(crate) fn terms(machine: &Machine) -> Vec<Term> {
+    let shade = &machine.shade;
+    let quadratic = |name, bits| Term { name, degree: 2, bits, fraction: shade.fraction };
+    let light = |names: [&'static str; 2]| {
+        let [diffuse, highlight] = names;
+        let bits = shade.table_bits + 2;
+        [quadratic(diffuse, bits), quadratic(highlight, bits + shade.gloss_bits)]
+    };
+    match shade.kind {
+        ShadeKind::None => Vec::new(),
+        ShadeKind::FastPhong => NAMES.into_iter().take(shade.lights as usize).flat_map(light).collect(),
+    }
+}
+
+impl Plan {
+    /// WR: words of a record.
+    #[must_use]
+    pub fn record_length(&self) -> u32 {
+        3 + self.terms().iter().map(Term::words).sum::<u32>()
+    }
+
+    /// wb: bits of the place of a word in its record.
+    #[must_use]
+    pub fn record_place_bits(&self) -> u32 {
+        self.record_length().next_power_of_two().ilog2()
+    }
+
+    /// dw: bits of a word of a record.
+    #[must_use]
+    pub fn record_word_bits(&self) -> u32 {
+        let longest = self.terms().iter().map(Term::word).max().unwrap_or(1);
+        longest.max(self.widths().column).max(self.widths().y).max(self.shade.material_bits)
+    }
+
+    /// The words of a record as they lie in the memory, from the record's first place on, 2^wb of them.
+    #[must_use]
+    pub fn record_words(&self, record: &Record) -> Vec<u64> {
+        let mask = u64::MAX >> (64 - self.record_word_bits());
+        let mut words = vec![record.x as u64, record.y.into(), record.material.into()];
+        for (term, own) in self.terms().iter().zip(&record.terms) {
+            words.extend(&own[..term.words() as usize]);
+        }
+        words.resize(1 << self.record_place_bits(), 0);
+        words.into_iter().map(|word| word & mask).collect()
+    }
+
+    /// The word of an entry of the tables; what has more bits than the entry is cut.
+    #[must_use]
+    pub fn table_word(&self, entry: Entry) -> u128 {
+        let bits = self.color.bits;
+        let low = |value: u32, bits: u32| u128::from(value) & (u128::MAX >> (128 - bits));
+        let (diffuse, highlight) = match entry {
+            Entry::Colours(colours, highlight) => {
+                (colours.into_iter().fold(0, |word, colour| word << bits | low(colour, bits)), highlight)
+            }
+            Entry::Light(light, highlight) => (low(light, bits + 3), highlight),
+        };
+        diffuse << bits | low(highlight, bits)
+    }
+
+    /// The place of an entry of a material's light in the memory of the tables.
+    #[must_use]
+    pub fn table_place(&self, material: u32, light: u32, entry: u32) -> usize {
+        ((material as usize) << self.shade.entry_bits())
+            + ((light as usize) << self.shade.table_bits)
+            + entry as usize
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plan(settings: &[(&str, &str)]) -> Plan {
+        let mut machine = Machine::default();
+        for (key, value) in settings {
+            machine.set(key, value).expect("a key");
+        }
+        machine.plan().expect("can be built")
+    }
+
+    #[test]
+    fn words_lie_where_the_specification_says() {
+        let one = plan(&[("shade.kind", "fast-phong")]);
+        let (nl0, nh0) = (one.terms()[0], one.terms()[1]);
+        assert_eq!((nl0.word(), nh0.word(), one.record_length(), one.record_place_bits()), (28, 32, 15, 4));
+        let terms = vec![[1, 2, 3, 4, 5, 6], [7, 8, 9, 10, 11, u64::MAX]];
+        let words = one.record_words(&Record { x: -1, y: 7, material: 5, terms });
+        assert_eq!(words, [u32::MAX.into(), 7, 5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, u32::MAX.into(), 0]);
+        assert_eq!(one.table_word(Entry::Colours([1, 2, 3], 4)), 0x0102_0304);
+        assert_eq!(one.table_place(3, 0, 5), 3 * 512 + 5);
+
+        let two = plan(&[("shade.kind", "fast-phong"), ("shade.lights", "2"), ("shade.colour", "multiply")]);
+        assert_eq!((two.record_length(), two.record_place_bits()), (27, 5));
+        assert_eq!(two.table_word(Entry::Light(1024, 255)), 1024 << 8 | 255);
+        assert_eq!(two.table_place(1, 1, 0), 1024 + 512);
+        assert_eq!(Plan::default().terms(), []);
+    }
+}

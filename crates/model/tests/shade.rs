@@ -1,0 +1,206 @@
+//! SHADE: the unit and the whole machine against the rule in plain numbers.
+
+mod common;
+
+use common::shade::{colour, leftward, output, random_shading, words};
+use common::{ALWAYS, Triangle, machine, place, random_machine, random_triangle};
+use edgewalk_machine::{Activity, Entry, Plan, Record};
+use edgewalk_model::{Drawn, Events, Frame, Pass, Shading, Stalls, render_shaded};
+use rand::{Rng, SeedableRng, rngs::StdRng};
+
+/// A fragment that DEPTH took: triangle, address, outputs of the channels.
+type Fragment = (u32, u32, Vec<u32>);
+
+fn fragments(
+    plan: &Plan,
+    triangles: &[Triangle],
+    shading: &Shading,
+    stalls: Stalls,
+) -> (Vec<Fragment>, Frame) {
+    let mut all = Vec::new();
+    let hook = |drawn: Drawn| {
+        if let Drawn::Fragment(sample) = drawn {
+            all.push((sample.source.id, sample.addr, sample.values.to_vec()));
+        }
+    };
+    let passes = [Pass::all(ALWAYS)];
+    let frame = render_shaded(plan, triangles.iter().copied(), &passes, stalls, shading, hook)
+        .expect("this machine's vertices");
+    (all, frame)
+}
+
+/// Every fragment has the colour that its words ask for, and all else as the same machine without SHADE has it.
+fn compare(plan: &Plan, triangles: &[Triangle], shading: &Shading, stalls: Stalls) -> (usize, Frame) {
+    let mut plain = (**plan).clone();
+    plain.set("shade.kind", "none").expect("a key");
+    let (own, _) = fragments(&plain.plan().expect("simpler"), triangles, shading, stalls);
+    let (found, frame) = fragments(plan, triangles, shading, stalls);
+    assert_eq!(found.len(), own.len());
+    for ((id, addr, values), before) in found.iter().zip(&own) {
+        assert_eq!((id, addr), (&before.0, &before.1));
+        let record = &shading.records[*id as usize];
+        let left = leftward(plan, &triangles[*id as usize]);
+        let words = words(plan, record, left, place(plan, *addr));
+        let cosines: Vec<i64> =
+            plan.terms().iter().zip(words).map(|(term, word)| output(term, word)).collect();
+        let own = [before.2[1], before.2[2], before.2[3]];
+        let wanted = colour(plan, &shading.tables, record.material, &cosines, own);
+        let mut all = before.2.clone();
+        all[1..4].copy_from_slice(&wanted);
+        assert_eq!(*values, all, "triangle {id} at {:?} of {cosines:?}, {plan:?}", place(plan, *addr));
+    }
+    assert!(frame.counters.add_up() && frame.counters.fragments == found.len() as u64);
+    (found.len(), frame)
+}
+
+#[test]
+fn three_hundred_machines_draw_what_their_words_and_tables_ask_for() {
+    let mut rng = StdRng::seed_from_u64(5);
+    let (mut checked, mut events) = (0, Events::default());
+    let mut spent = [0; 2];
+    for number in 0..300u64 {
+        let fixed = [
+            ("shade.kind", "fast-phong"),
+            ("screen.width", "53"),
+            ("screen.height", "39"),
+            ("screen.guard_bits", "8"),
+            ("term.record_bits", if number % 10 == 0 { "2" } else { "5" }),
+        ];
+        let plan = random_machine(&fixed, &mut rng);
+        let triangles: Vec<Triangle> = (0..rng.random_range(1..24))
+            .map(|_| {
+                let size = 2f64.powf(rng.random_range(0.0..7.0));
+                random_triangle(&plan, size, &mut rng)
+            })
+            .collect();
+        let shading = random_shading(&plan, &triangles, &mut rng);
+        let stalls = match number % 3 {
+            0 => Stalls::NONE,
+            1 => Stalls { seed: number, rd: 60, data: 60, wr: 60 },
+            _ => Stalls { seed: number, rd: 200, data: 10, wr: 200 },
+        };
+        let (drawn, frame) = compare(&plan, &triangles, &shading, stalls);
+        checked += drawn;
+        events.merge(&frame.events);
+        for (sum, activity) in spent.iter_mut().zip([Activity::Term, Activity::Shade]) {
+            *sum += frame.counters.spent(activity);
+        }
+    }
+    println!("300 machines, {checked} fragments equal; clocks lost to TERM and SHADE {spent:?}");
+    assert!(checked > 100_000 && spent.iter().all(|clocks| *clocks > 0));
+    for (name, count) in events.counts() {
+        let units = [&edgewalk_machine::units::term::SPEC, &edgewalk_machine::units::shade::SPEC];
+        let own = units.iter().flat_map(|unit| unit.events).any(|event| event.name == name);
+        assert!(!own || count > 0, "{name} was not met");
+    }
+}
+
+/// Words that random triangles never have: both cosines exactly at, and one unit beside, every end of the tables.
+#[test]
+fn words_at_the_ends_of_the_tables() {
+    let mut rng = StdRng::seed_from_u64(6);
+    let mut checked = 0;
+    for (colour, lights) in [("tables", "1"), ("tables", "2"), ("multiply", "1"), ("multiply", "2")] {
+        let plan = machine(&[
+            ("shade.kind", "fast-phong"),
+            ("shade.colour", colour),
+            ("shade.lights", lights),
+            ("shade.material_bits", "0"),
+            ("term.fraction", "3"),
+            ("screen.width", "8"),
+            ("screen.height", "8"),
+        ]);
+        let (entry, end) = (8i64, 512 * 8);
+        let diffuse = [
+            -2 * end,
+            -end * 5 / 3,
+            -entry - 1,
+            -entry,
+            -1,
+            0,
+            1,
+            entry - 1,
+            entry,
+            end / 2,
+            end - 1,
+            end,
+            end + 1,
+            end * 5 / 3,
+        ];
+        let highlight =
+            [-32 * end, -end * 16 * 5 / 3, -1, 0, 7, 8, end - 8, end - 1, end, end + 7, 2 * end, 31 * end];
+        let mut triangles = Vec::new();
+        let mut shading = Shading::default();
+        for d in diffuse {
+            for h in highlight {
+                let [a, b] = [
+                    plan.raw_vertex(-256, -256, &[0, 4000, 2000, 77]),
+                    plan.raw_vertex(3000, 0, &[0, 4000, 2000, 77]),
+                ];
+                triangles.push([a, b, plan.raw_vertex(0, 3000, &[0, 4000, 2000, 77])]);
+                let flat = |word: i64| [word as u64, 0, 0, 0, 0, 0];
+                let others = [flat(rng.random_range(-end..2 * end)), flat(rng.random_range(-end..2 * end))];
+                let terms = [flat(d), flat(h)].into_iter().chain(others).take(plan.terms().len()).collect();
+                shading.records.push(Record { terms, ..Record::default() });
+            }
+        }
+        for place in 0..plan.shade.entries() {
+            // Neighbours differ in every part, and the ends from all.
+            let part = |factor: u32| (place * factor + 1) % 256;
+            let entry = match colour {
+                "tables" => Entry::Colours([part(1), part(3), part(5)], part(7) / 2),
+                _ => Entry::Light(part(1) * 4 + 3, part(7) / 2),
+            };
+            shading.tables.push(plan.table_word(entry));
+        }
+        checked += compare(&plan, &triangles, &shading, Stalls::NONE).0;
+    }
+    println!("{checked} fragments at the ends of the tables");
+    assert!(checked > 4 * 168 * 20);
+}
+
+/// Records of culled triangles are stepped over: 17 between two that are drawn, and more triangles than records.
+#[test]
+fn culled_triangles_have_records_that_nobody_reads() {
+    let mut rng = StdRng::seed_from_u64(8);
+    let plan = machine(&[
+        ("shade.kind", "fast-phong"),
+        ("term.record_bits", "3"),
+        ("screen.width", "32"),
+        ("screen.height", "32"),
+    ]);
+    let mut triangles = Vec::new();
+    for _ in 0..6 {
+        triangles.push(random_triangle(&plan, 40.0, &mut rng));
+        triangles.extend([[plan.raw_vertex(-5000, -5000, &[0; 4]); 3]; 17]);
+    }
+    let shading = random_shading(&plan, &triangles, &mut rng);
+    let (checked, frame) = compare(&plan, &triangles, &shading, Stalls::NONE);
+    println!("{checked} fragments, {} records read of {}", frame.events.record_read, triangles.len());
+    assert!(checked > 500 && (1..=6).contains(&frame.events.record_read));
+}
+
+/// One fragment a clock: SHADE adds its stages, and nothing a fragment.
+#[test]
+fn shading_costs_no_clock_a_pixel() {
+    let mut rng = StdRng::seed_from_u64(9);
+    for (colour, stages) in [("tables", 3), ("multiply", 4)] {
+        let plan =
+            machine(&[("shade.kind", "fast-phong"), ("shade.colour", colour), ("shade.table_bits", "8")]);
+        let vertex = |x, y| plan.raw_vertex(x, y, &[0; 4]);
+        let triangle = [vertex(0, 0), vertex(600 * 256, 0), vertex(0, 400 * 256)];
+        let mut shading = random_shading(&plan, &[triangle], &mut rng);
+        (shading.records[0].x, shading.records[0].y) = (0, 0);
+        let (checked, frame) = compare(&plan, &[triangle], &shading, Stalls::NONE);
+        let counters = frame.counters;
+        let (term, shade) = (counters.spent(Activity::Term), counters.spent(Activity::Shade));
+        println!(
+            "{colour}: {checked} fragments, TERM {term} clocks, SHADE {shade} clocks, FLUSH {}",
+            counters.spent(Activity::Flush)
+        );
+        assert_eq!(counters.spent(Activity::Draw), checked as u64);
+        // The record: begin, 15 words, latency; and the span is there. The tables: as many with 256 words.
+        assert_eq!((term, shade), (15 + 2 + 1, 256 + 2 + 1));
+        assert_eq!(counters.spent(Activity::Flush), 1 + stages + 2 + 1);
+    }
+}
