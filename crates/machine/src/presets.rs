@@ -28,6 +28,8 @@ const SHADE: Shade = Shade {
     table_latency: 2,
     walk: Walk::Register,
     fraction: 17,
+    linear_fraction: 10,
+    root_latency: 2,
     record_bits: 12,
     term_latency: 2,
 };

@@ -6,6 +6,7 @@ pub mod edge;
 pub mod span;
 pub mod term;
 pub mod pixel;
+pub mod normal;
 pub mod shade;
 pub mod shadow;
 pub mod depth;
@@ -25,6 +26,7 @@ pub const UNITS: &[&UnitSpec] = &[
     &span::SPEC,
     &term::SPEC,
     &pixel::SPEC,
+    &normal::SPEC,
     &shade::SPEC,
     &shadow::SPEC,
     &depth::SPEC,

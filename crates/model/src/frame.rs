@@ -45,13 +45,15 @@ pub struct Sample<'a> {
     pub source: Source,
 }
 
-/// What the memories behind TERM and SHADE hold.
+/// What the memories behind TERM, NORMAL and SHADE hold.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Shading {
     /// The record of every triangle, culled or not, in their order; of those behind the last the memory holds nothing.
     pub records: Vec<Record>,
     /// Entries of the tables, [`Plan::table_word`] at [`Plan::table_place`]; what is not there is 0.
     pub tables: Vec<u128>,
+    /// Entries of NORMAL's table, [`Plan::root_word`], 256 of them.
+    pub roots: Vec<u128>,
 }
 
 /// What [`render_with`] reports, in order.
@@ -139,9 +141,7 @@ fn draw<const C: usize>(
     let blends = plan.blend.is_there();
     let channels = plan.channels().len().min(C); // C serves the plan; said so that no slice is checked in every cycle
     let mut triangles = triangles.zip(0..).map(|(t, number)| plan.accept(&t, number).map(|()| t)).peekable();
-    if let Some(tables) = &mut rig.tables {
-        tables.write(0, shading.tables.iter().copied());
-    }
+    rig.write_shading(plan, shading);
     let mut records = shading.records.iter().enumerate();
     let at_once = if plan.shade.is_there() { 1 << plan.shade.record_bits } else { usize::MAX };
     let mut watch = |_, model: &Model<C>, cycle: &Cycle<C>| {

@@ -3,13 +3,13 @@
 //! ```text
 //!  tri ─> SETUP ─prim─> EDGE ─line─> SPAN ─span─> PIXEL ─frag─> DEPTH ─> wr
 //!                         └────────── gradients ───┘              ├─> rd, <─ data
-//!     with TERM and SHADE: SPAN ─span─> TERM ─walked─> PIXEL ─frag─> SHADE ─tinted─> DEPTH
+//!     with TERM and SHADE: SPAN ─span─> TERM ─walked─> PIXEL ─frag─> [NORMAL] ─> SHADE ─tinted─> DEPTH
 //!                                with BLEND, for wr: ─> zwr, ─pass─> BLEND ─> crd, <─ cdata, ─> cwr
 //! ```
 //! Data runs to the right, readies to the left within the cycle. [`Model::cycle`] therefore works out the readies from
 //! DEPTH back to SETUP, and then clocks the units in the same order, so that each still sees its source as it was.
 //!
-//! Rules: `docs/machine.md`, sections 8 to 13.
+//! Rules: `docs/machine.md`, sections 8 to 14.
 
 mod view;
 
@@ -19,6 +19,8 @@ use crate::counters::Counters;
 use crate::depth::{Block, Depth, DepthInputs};
 use crate::edge::Edge;
 use crate::events::{Events, one_more};
+use crate::normal::Normal;
+pub use crate::normal::NormalInputs;
 use crate::pixel::Pixel;
 use crate::setup::Setup;
 pub use crate::shade::ShadeInputs;
@@ -51,6 +53,8 @@ pub struct Inputs<'a> {
     pub wr_ready: bool,
     /// What only machines with TERM have.
     pub term: TermInputs,
+    /// What only machines with NORMAL have.
+    pub normal: NormalInputs,
     /// What only machines with SHADE have.
     pub shade: ShadeInputs,
     /// What only machines with SHADOW have.
@@ -74,6 +78,10 @@ pub struct Outputs<const C: usize> {
     pub trd: Option<u32>,
     /// With TERM: a word of a record is taken, if it is there.
     pub tdata_ready: bool,
+    /// With NORMAL: address of a root.
+    pub rrd: Option<u32>,
+    /// With NORMAL: a root is taken, if it is there.
+    pub rdata_ready: bool,
     /// With SHADE: address of an entry of the tables.
     pub srd: Option<u32>,
     /// With SHADE: an entry is taken, if it is there.
@@ -117,6 +125,8 @@ impl<const C: usize> Default for Outputs<C> {
             wr: None,
             trd: None,
             tdata_ready: false,
+            rrd: None,
+            rdata_ready: false,
             srd: None,
             sdata_ready: false,
             mrd: None,
@@ -137,6 +147,7 @@ pub struct Model<const C: usize> {
     span: Span<C>,
     term: Option<Term>,
     pixel: Pixel<C>,
+    normal: Option<Normal<C>>,
     shade: Option<Shade<C>>,
     shadow: Option<Shadow<C>>,
     depth: Depth<C>,
@@ -154,7 +165,7 @@ struct Waits {
     pass: bool,
     /// The walk of TERM is not at the span that is offered.
     walk: bool,
-    /// SHADE has not the tables of the fragment that is offered.
+    /// SHADE has not the tables of the fragment that is offered to it, or NORMAL not the roots.
     tables: bool,
 }
 
@@ -171,6 +182,8 @@ pub struct Units<'a, const C: usize> {
     pub term: Option<&'a Term>,
     /// Spans to fragments.
     pub pixel: &'a Pixel<C>,
+    /// Products to cosines, if the machine has it.
+    pub normal: Option<&'a Normal<C>>,
     /// Fragments to fragments with a colour, if the machine has it.
     pub shade: Option<&'a Shade<C>>,
     /// Fragments to fragments lit or not, if the machine has it.
@@ -191,6 +204,7 @@ impl<const C: usize> Model<C> {
             span: Span::new(plan),
             term: plan.shade.is_there().then(|| Term::new(plan)),
             pixel: Pixel::new(plan),
+            normal: plan.shade.normalises().then(|| Normal::new(plan)),
             shade: plan.shade.is_there().then(|| Shade::new(plan)),
             shadow: plan.shadow.is_there().then(|| Shadow::new(plan)),
             depth: Depth::new(plan),
@@ -216,14 +230,21 @@ impl<const C: usize> Model<C> {
     #[must_use]
     pub fn units(&self) -> Units<'_, C> {
         let Model { setup, edge, span, pixel, depth, .. } = self;
-        let (term, shade, shadow, blend) = (self.term(), self.shade(), self.shadow(), self.blend());
-        Units { setup, edge, span, term, pixel, shade, shadow, depth, blend }
+        let (term, normal, shade) = (self.term(), self.normal(), self.shade());
+        let (shadow, blend) = (self.shadow(), self.blend());
+        Units { setup, edge, span, term, pixel, normal, shade, shadow, depth, blend }
     }
 
     /// TERM, as BLEND below.
     #[inline(always)]
     fn term(&self) -> Option<&Term> {
         self.term.as_ref().filter(|_| C > FEW)
+    }
+
+    /// NORMAL, as BLEND below.
+    #[inline(always)]
+    fn normal(&self) -> Option<&Normal<C>> {
+        self.normal.as_ref().filter(|_| C > FEW)
     }
 
     /// SHADE, as BLEND below.
@@ -275,6 +296,7 @@ impl<const C: usize> Model<C> {
     #[inline]
     fn in_flight(&self) -> bool {
         self.depth.occupied()
+            || self.normal().is_some_and(Normal::occupied)
             || self.shade().is_some_and(Shade::occupied)
             || self.shadow().is_some_and(Shadow::occupied)
             || self.blend().is_some_and(Blend::occupied)
@@ -309,14 +331,21 @@ impl<const C: usize> Model<C> {
         let seen_ready = inputs.rd_ready && block.is_none();
         let frag_ready = self.shadow().map_or(seen_ready, |shadow| shadow.frag_ready(frag, &inputs.shadow));
         let light = self.shadow().is_some_and(|shadow| !shadow.full() || shaded.is_none());
-        let cosines = if self.shade().is_some() { *self.pixel.cosines() } else { Cosines::default() };
-        let drawn_ready = self.shade().map_or(frag_ready, |shade| shade.frag_ready(&cosines, frag_ready));
+        let terms = if self.shade().is_some() { *self.pixel.cosines() } else { Cosines::default() };
+        let (normed, cosines) = match self.normal().map(Normal::normed) {
+            None => (self.pixel.frag().copied(), terms),
+            Some(None) => (None, Cosines::default()),
+            Some(Some((fragment, cosines))) => (Some(*fragment), *cosines),
+        };
+        let normed_ready = self.shade().map_or(frag_ready, |shade| shade.frag_ready(&cosines, frag_ready));
+        let drawn_ready = self.normal().map_or(normed_ready, |normal| normal.frag_ready(normed_ready));
         let there = self.term().is_none_or(|term| term.there(self.span.span()));
         let waits = Waits {
             light,
             pass: pass.is_some() && !pass_ready,
             walk: !there && self.span.span().is_some(),
-            tables: self.shade().is_some_and(|shade| shade.waits(self.pixel.frag(), &cosines)),
+            tables: self.shade().is_some_and(|shade| shade.waits(normed.as_ref(), &cosines))
+                || self.normal().is_some_and(|normal| normal.waits(self.pixel.frag())),
         };
         let activity = self.activity(block, drawn_ready, waits);
         let outputs = Outputs {
@@ -324,6 +353,8 @@ impl<const C: usize> Model<C> {
             rd: seen.filter(|_| block.is_none()).map(|f| f.addr),
             trd: self.term().and_then(|term| term.read(self.edge.record())),
             tdata_ready: self.term().is_some_and(Term::tdata_ready),
+            rrd: self.normal().and_then(Normal::read),
+            rdata_ready: self.normal().is_some_and(Normal::rdata_ready),
             srd: self.shade().and_then(Shade::read),
             sdata_ready: self.shade().is_some_and(Shade::sdata_ready),
             mrd: self.shadow().and_then(|shadow| shadow.read(frag, inputs.shadow.on)),
@@ -374,7 +405,10 @@ impl<const C: usize> Model<C> {
         }
 
         if let Some(shade) = self.shade.as_mut().filter(|_| C > FEW) {
-            shade.step(self.pixel.frag(), &cosines, &inputs.shade, frag_ready, events);
+            shade.step(normed.as_ref(), &cosines, &inputs.shade, frag_ready, events);
+        }
+        if let Some(normal) = self.normal.as_mut().filter(|_| C > FEW) {
+            normal.step(self.pixel.frag(), &terms, &inputs.normal, normed_ready, events);
         }
 
         // PIXEL and TERM.
@@ -422,6 +456,9 @@ impl<const C: usize> Model<C> {
         self.depth.reset();
         if let Some(term) = &mut self.term {
             term.reset();
+        }
+        if let Some(normal) = &mut self.normal {
+            normal.reset();
         }
         if let Some(shade) = &mut self.shade {
             shade.reset();

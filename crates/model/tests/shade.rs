@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::shade::{colour, leftward, output, random_shading, words};
+use common::shade::{colour, cosines, leftward, output, random_shading, true_roots, words};
 use common::{ALWAYS, Triangle, machine, place, random_machine, random_triangle};
 use edgewalk_machine::{Activity, Entry, Plan, Record};
 use edgewalk_model::{Drawn, Events, Frame, Pass, Shading, Stalls, render_shaded};
@@ -41,8 +41,9 @@ fn compare(plan: &Plan, triangles: &[Triangle], shading: &Shading, stalls: Stall
         let record = &shading.records[*id as usize];
         let left = leftward(plan, &triangles[*id as usize]);
         let words = words(plan, record, left, place(plan, *addr));
-        let cosines: Vec<i64> =
+        let outputs: Vec<i64> =
             plan.terms().iter().zip(words).map(|(term, word)| output(term, word)).collect();
+        let cosines = cosines(plan, &shading.roots, record, &outputs);
         let own = [before.2[1], before.2[2], before.2[3]];
         let wanted = colour(plan, &shading.tables, record.material, &cosines, own);
         let mut all = before.2.clone();
@@ -60,7 +61,7 @@ fn three_hundred_machines_draw_what_their_words_and_tables_ask_for() {
     let mut spent = [0; 2];
     for number in 0..300u64 {
         let fixed = [
-            ("shade.kind", "fast-phong"),
+            ("shade.kind", if number % 2 == 0 { "fast-phong" } else { "phong" }),
             ("screen.width", "53"),
             ("screen.height", "39"),
             ("screen.guard_bits", "8"),
@@ -89,7 +90,8 @@ fn three_hundred_machines_draw_what_their_words_and_tables_ask_for() {
     println!("300 machines, {checked} fragments equal; clocks lost to TERM and SHADE {spent:?}");
     assert!(checked > 100_000 && spent.iter().all(|clocks| *clocks > 0));
     for (name, count) in events.counts() {
-        let units = [&edgewalk_machine::units::term::SPEC, &edgewalk_machine::units::shade::SPEC];
+        use edgewalk_machine::units::{normal, shade, term};
+        let units = [&term::SPEC, &normal::SPEC, &shade::SPEC];
         let own = units.iter().flat_map(|unit| unit.events).any(|event| event.name == name);
         assert!(!own || count > 0, "{name} was not met");
     }
@@ -180,13 +182,36 @@ fn culled_triangles_have_records_that_nobody_reads() {
     assert!(checked > 500 && (1..=6).contains(&frame.events.record_read));
 }
 
+/// Roots of the whole range of N·N, every value of it, against f64.
+#[test]
+fn roots_are_as_near_as_the_specification_says() {
+    let plan = machine(&[("shade.kind", "phong")]);
+    let roots = true_roots(&plan);
+    let (mut at, mut cut, mut checked) = (0.0f64, 0.0f64, 0);
+    for s in 1u64 << 14..1 << 16 {
+        let (v, slope) = ((roots[s as usize >> 8] >> 10) as f64, roots[s as usize >> 8] as u64 & 1023);
+        let y = v - ((slope * (s & 255) + 128) / 256) as f64;
+        let error = |square: u64| (y / 65536.0 * (square as f64 / 65536.0).sqrt() - 1.0).abs();
+        at = at.max(error(s));
+        cut = cut.max(error(s + 1)); // N·N lay just below s + 1 before it was cut
+        checked += 1;
+    }
+    println!(
+        "{checked} roots, largest relative error 2^{:.2}, with the cut of N·N 2^{:.2}",
+        at.log2(),
+        cut.log2()
+    );
+    assert!(checked == 49_152 && at < 2f64.powf(-15.6) && cut < 2f64.powf(-14.3) && cut > at);
+}
+
 /// One fragment a clock: SHADE adds its stages, and nothing a fragment.
 #[test]
 fn shading_costs_no_clock_a_pixel() {
     let mut rng = StdRng::seed_from_u64(9);
-    for (colour, stages) in [("tables", 3), ("multiply", 4)] {
-        let plan =
-            machine(&[("shade.kind", "fast-phong"), ("shade.colour", colour), ("shade.table_bits", "8")]);
+    for (kind, colour, stages, roots) in
+        [("fast-phong", "tables", 3, 0), ("fast-phong", "multiply", 4, 0), ("phong", "tables", 8, 259)]
+    {
+        let plan = machine(&[("shade.kind", kind), ("shade.colour", colour), ("shade.table_bits", "8")]);
         let vertex = |x, y| plan.raw_vertex(x, y, &[0; 4]);
         let triangle = [vertex(0, 0), vertex(600 * 256, 0), vertex(0, 400 * 256)];
         let mut shading = random_shading(&plan, &[triangle], &mut rng);
@@ -200,7 +225,7 @@ fn shading_costs_no_clock_a_pixel() {
         );
         assert_eq!(counters.spent(Activity::Draw), checked as u64);
         // The record: begin, 15 words, latency; and the span is there. The tables: as many with 256 words.
-        assert_eq!((term, shade), (15 + 2 + 1, 256 + 2 + 1));
+        assert_eq!((term, shade), (15 + 2 + 1, roots + 256 + 2 + 1));
         assert_eq!(counters.spent(Activity::Flush), 1 + stages + 2 + 1);
     }
 }

@@ -1,7 +1,7 @@
 //! Machines drawn at random from the keys, small enough for an interpreter.
 
 use edgewalk_machine::keys::{Domain, KEYS};
-use edgewalk_machine::{BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision};
+use edgewalk_machine::{BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeKind};
 use rand::Rng;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
@@ -39,6 +39,9 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
             Domain::Word(words) => rng.random_range(0..words.len() as u32),
         };
         (key.set)(&mut machine, value);
+    }
+    if machine.shade.kind == ShadeKind::Phong {
+        machine.shade.kind = ShadeKind::FastPhong; // NORMAL has no netlist yet
     }
     // What would make nearly all of them clash.
     machine.guard_bits =

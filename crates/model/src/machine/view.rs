@@ -2,6 +2,8 @@
 
 use super::{Inputs, Model};
 use crate::depth::DepthInputs;
+use crate::normal::Normal;
+use crate::shade::{Cosines, Shade};
 use crate::view::View;
 use edgewalk_machine::Plan;
 
@@ -12,10 +14,20 @@ impl<const C: usize> Model<C> {
         let Model { setup, edge, span, pixel, depth, .. } = self;
         let pass = depth.pass();
         let pass_ready = self.blend().is_some_and(|blend| blend.pass_ready(pass, &inputs.blend));
-        let frag = pixel.frag();
+        let drawn = pixel.frag();
+        let terms = *pixel.cosines();
+        let (normed, cosines) = match self.normal().map(Normal::normed) {
+            None => (drawn, terms),
+            Some(normed) => normed.map_or((None, Cosines::default()), |(f, cosines)| (Some(f), *cosines)),
+        };
+        let frag = self.shade().map_or(drawn, Shade::tinted);
         let block = depth.block(frag, inputs.depth_write);
         let frag_ready = inputs.rd_ready && block.is_none();
-        let (span_ready, fresh_queued) = (pixel.span_ready(frag_ready), span.fresh_queued());
+        let normed_ready = self.shade().map_or(frag_ready, |shade| shade.frag_ready(&cosines, frag_ready));
+        let drawn_ready = self.normal().map_or(normed_ready, |normal| normal.frag_ready(normed_ready));
+        let (pixel_ready, fresh_queued) = (pixel.span_ready(drawn_ready), span.fresh_queued());
+        let there = self.term().is_none_or(|term| term.there(span.span()));
+        let span_ready = there && pixel_ready;
         let line = edge.line();
         let line_ready = line.is_some() && span.line_ready();
         let prim = setup.prim();
@@ -31,15 +43,27 @@ impl<const C: usize> Model<C> {
         setup.view(inputs.tri, edge.prim_ready(fresh_queued), view);
         edge.view(plan, prim, fresh_queued, line_ready, view);
         span.view(plan, line, span_ready, view);
-        pixel.view(plan, span.span(), frag_ready, view);
+        if let Some(term) = self.term() {
+            term.view(plan, span.span(), &inputs.term, pixel_ready, view);
+        }
+        pixel.view(plan, span.span().filter(|_| there), drawn_ready, view);
+        if let Some(normal) = self.normal() {
+            normal.view(plan, drawn, &inputs.normal, normed_ready, view);
+        }
+        if let Some(shade) = self.shade() {
+            shade.view(plan, (normed, &cosines), &inputs.shade, ("depth", frag_ready), view);
+        }
         depth.view(plan, frag, &depth_inputs, view);
         if let Some(blend) = self.blend() {
             blend.view(plan, pass, &inputs.blend, view);
         }
-        view.cause(self.activity(
-            block,
-            frag_ready,
-            super::Waits { light: false, pass: pass.is_some() && !pass_ready, walk: false, tables: false },
-        ));
+        let waits = super::Waits {
+            light: false,
+            pass: pass.is_some() && !pass_ready,
+            walk: !there && span.span().is_some(),
+            tables: self.shade().is_some_and(|shade| shade.waits(normed, &cosines))
+                || self.normal().is_some_and(|normal| normal.waits(drawn)),
+        };
+        view.cause(self.activity(block, drawn_ready, waits));
     }
 }

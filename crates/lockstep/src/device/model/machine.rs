@@ -4,6 +4,7 @@ use super::blend::{BlendStatus, ColorPorts};
 use super::depth::{DepthStatus, MemoryPorts};
 use super::edge::EdgePorts;
 use super::link::{Giver, Scope};
+use super::normal::{self, NormalPorts};
 use super::pixel::PixelPorts;
 use super::setup::{SetupPorts, TriangleTaker};
 use super::shade::{self, ShadePorts};
@@ -15,8 +16,12 @@ use crate::device::Device;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_model::shade::Cosines;
+use edgewalk_model::term::MAX_TERMS;
 use edgewalk_model::tokens::Passed;
-use edgewalk_model::{BlendInputs, Events, Inputs, Model, ShadeInputs, ShadowInputs, TermInputs, View};
+use edgewalk_model::{
+    BlendInputs, Events, Inputs, Model, NormalInputs, ShadeInputs, ShadowInputs, TermInputs, View,
+};
 
 /// The machine.
 pub struct MachineDevice<const C: usize> {
@@ -26,6 +31,7 @@ pub struct MachineDevice<const C: usize> {
     memory: MemoryPorts<C>,
     /// Of TERM and of SHADE.
     words: Option<(WordPorts, WordPorts)>,
+    roots: Option<WordPorts>,
     map: Option<MapPorts>,
     color: Option<ColorPorts<C>>,
     activity: PortId,
@@ -40,6 +46,7 @@ struct Inside<const C: usize> {
     span: SpanPorts<C>,
     term: Option<TermPorts<C>>,
     pixel: PixelPorts<C>,
+    normal: Option<NormalPorts<C>>,
     shade: Option<ShadePorts<C>>,
     shadow: Option<ShadowPorts<C>>,
     depth: DepthStatus,
@@ -60,6 +67,7 @@ impl<const C: usize> MachineDevice<C> {
             tri: TriangleTaker::find(plan, interface)?,
             memory: MemoryPorts::find(scope)?,
             words: plan.shade.is_there().then(words).transpose()?,
+            roots: plan.shade.normalises().then(|| WordPorts::find(scope, "rrd", "rdata")).transpose()?,
             map: plan.shadow.is_there().then(|| MapPorts::find(scope)).transpose()?,
             color: plan.blend.is_there().then(|| ColorPorts::find(scope)).transpose()?,
             activity: scope.port("activity")?,
@@ -68,6 +76,9 @@ impl<const C: usize> MachineDevice<C> {
         })
     }
 }
+
+/// Beside no fragment.
+const NONE: &Cosines = &Cosines { terms: [0; MAX_TERMS], material: 0, gloss: 0 };
 
 impl<const C: usize> Inside<C> {
     fn find(plan: &Plan, interface: &Interface) -> Result<Self, NoPlace> {
@@ -79,6 +90,7 @@ impl<const C: usize> Inside<C> {
             span: SpanPorts::find(of("span"))?,
             term: plan.shade.is_there().then(|| TermPorts::find(of("term"))).transpose()?,
             pixel: PixelPorts::find(of("pixel"))?,
+            normal: plan.shade.normalises().then(|| NormalPorts::find(of("normal"))).transpose()?,
             shade: plan.shade.is_there().then(|| ShadePorts::find(of("shade"))).transpose()?,
             shadow: plan.shadow.is_there().then(|| ShadowPorts::find(of("shadow"))).transpose()?,
             depth: DepthStatus::find(of("depth"))?,
@@ -89,7 +101,9 @@ impl<const C: usize> Inside<C> {
     /// The links between the units in a cycle with these inputs, from the units' states before the clock edge.
     fn show(&self, model: &Model<C>, inputs: &Inputs, ports: &mut PortValues) {
         let units = model.units();
-        let (drawn, cosines) = (units.pixel.frag(), units.pixel.cosines());
+        let drawn = units.pixel.frag();
+        let normed = units.normal.map(|normal| normal.normed().map_or((None, NONE), |(f, c)| (Some(f), c)));
+        let (tinting, cosines) = normed.unwrap_or((drawn, units.pixel.cosines()));
         let frag = units.shade.map_or(drawn, |shade| shade.tinted());
         let shaded = units.shadow.and_then(|shadow| shadow.shaded(&inputs.shadow));
         let seen = if units.shadow.is_some() { shaded.as_ref() } else { frag };
@@ -98,13 +112,17 @@ impl<const C: usize> Inside<C> {
         self.setup.show(units.setup, ports);
         self.edge.show(units.edge, units.span.fresh_queued(), ports);
         self.span.show(units.span, ports);
-        let drawn_ready = units.shade.map_or(frag_ready, |shade| shade.frag_ready(cosines, frag_ready));
+        let normed_ready = units.shade.map_or(frag_ready, |shade| shade.frag_ready(cosines, frag_ready));
+        let drawn_ready = units.normal.map_or(normed_ready, |normal| normal.frag_ready(normed_ready));
         if let (Some(shown), Some(unit)) = (&self.term, units.term) {
             shown.show(unit, units.span.span(), units.pixel.span_ready(drawn_ready), ports);
         }
         self.pixel.show(units.pixel, drawn_ready, ports);
+        if let (Some(shown), Some(unit)) = (&self.normal, units.normal) {
+            shown.show(unit, drawn, normed_ready, ports);
+        }
         if let (Some(shown), Some(unit)) = (&self.shade, units.shade) {
-            shown.show(unit, (drawn, cosines), frag_ready, ports);
+            shown.show(unit, (tinting, cosines), frag_ready, ports);
         }
         if let (Some(shown), Some(unit)) = (&self.shadow, units.shadow) {
             shown.show(unit, frag, &inputs.shadow, ports);
@@ -131,6 +149,10 @@ impl<const C: usize> MachineDevice<C> {
             data: depth.data,
             wr_ready: depth.wr_ready,
             term: words.map_or_else(TermInputs::default, |(terms, _)| terms.term_inputs(ports)),
+            normal: self
+                .roots
+                .as_ref()
+                .map_or_else(NormalInputs::default, |roots| normal::inputs(roots, ports)),
             shade: words.map_or_else(ShadeInputs::default, |(_, tables)| shade::inputs(tables, ports)),
             shadow: self.map.as_ref().map_or_else(ShadowInputs::default, |map| map.inputs(ports)),
             blend: self.color.as_ref().map_or_else(BlendInputs::default, |color| BlendInputs {
@@ -155,6 +177,9 @@ impl<const C: usize> Device for MachineDevice<C> {
             terms.show(outputs.trd, outputs.tdata_ready, ports);
             tables.show(outputs.srd, outputs.sdata_ready, ports);
         }
+        if let Some(roots) = &self.roots {
+            roots.show(outputs.rrd, outputs.rdata_ready, ports);
+        }
         if let Some(map) = &self.map {
             map.show(outputs.mrd, outputs.mdata_ready, ports);
         }
@@ -173,8 +198,8 @@ impl<const C: usize> ModelDevice for MachineDevice<C> {
     }
 
     fn view(&self, ports: &PortValues, view: &mut View) -> bool {
-        // SHADOW, TERM and SHADE are not shown yet.
-        if self.map.is_some() || self.words.is_some() {
+        // SHADOW is not shown yet.
+        if self.map.is_some() {
             return false;
         }
         let triangle = self.tri.token(ports);
