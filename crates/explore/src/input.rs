@@ -133,6 +133,9 @@ pub fn hash(frame: &Frame) -> String {
         frame.shadow, frame.color_write, frame.changes
     ));
     digest.update(format!("{:?}\n", frame.polygons));
+    if let Some(shading) = &frame.shading {
+        digest.update(format!("{shading:?}\n"));
+    }
     for vertex in frame.triangles.iter().flat_map(|triangle| &triangle.0) {
         let [e0, e1, e2, e3] = vertex.extra;
         let values = [vertex.x, vertex.y, vertex.z, vertex.r, vertex.g, vertex.b, vertex.kt, e0, e1, e2, e3];

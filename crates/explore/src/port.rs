@@ -1,9 +1,10 @@
 //! A frame's way to the machine's port.
 
 use crate::light::{self, Map};
+use crate::shade::{Feed, feed, shading_for};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::{DrawState, Pass};
+use edgewalk_model::{DrawState, Pass, Shading};
 use edgewalk_scene::{
     Blending, CrossingEdges, DepthFunc, Frame, Host, ShadeMode, State, Triangle, Triangulated, fits,
 };
@@ -21,9 +22,20 @@ pub struct PortFrame {
     pub host: Host,
     /// The lights' maps.
     pub lights: Vec<Map>,
+    /// For TERM and SHADE, where the frame is shaded at each pixel.
+    pub shade: Option<Feed>,
 }
 
+/// Of a frame that is not shaded at each pixel.
+const UNSHADED: &Shading = &Shading { records: Vec::new(), tables: Vec::new() };
+
 impl PortFrame {
+    /// What the memories behind TERM and SHADE hold.
+    #[must_use]
+    pub fn words(&self) -> &Shading {
+        self.shade.as_ref().map_or(UNSHADED, |feed| &feed.words)
+    }
+
     /// The words of the lights' maps.
     #[must_use]
     pub fn maps(&self) -> Vec<Vec<u32>> {
@@ -65,7 +77,8 @@ impl PortFrame {
 pub fn sent<'a>(frame: &'a Frame, machine: &Plan) -> Result<(Triangulated<'a>, Host), CrossingEdges> {
     let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
     let (limit, mut host) = (guard_band(machine), frame.host);
-    if triangles.iter().all(|triangle| fits(triangle, limit)) {
+    // The terms of a shaded triangle are those of all of it.
+    if frame.shading.is_some() || triangles.iter().all(|triangle| fits(triangle, limit)) {
         return Ok((Triangulated { triangles, ids }, host));
     }
     let (mut pieces, mut of) = (Vec::with_capacity(triangles.len()), Vec::with_capacity(ids.len()));
@@ -102,7 +115,8 @@ pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
         });
     }
     let lights = frame.shadow.iter().map(|shadow| light::map(shadow, machine)).collect::<Result<_>>()?;
-    Ok(PortFrame { triangles: port, ids, passes, lights, host })
+    let port = PortFrame { triangles: port, ids, passes, lights, host, shade: None };
+    Ok(PortFrame { shade: feed(frame, &port, machine)?, ..port })
 }
 
 /// The rules of a pass as the machine has them, or what of them it cannot do.
@@ -119,6 +133,7 @@ pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawSt
             "colour_write 0: a machine without BLEND writes the colour of every fragment that passes; add --set blend.kind=constant"
         ));
     }
+    shading_for(frame, machine)?;
     let max = machine.color.max() as f64;
     Ok(DrawState {
         depth_func: state.depth.unwrap_or(DepthFunc::Always) as u8,

@@ -343,6 +343,18 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
             l.pixels, l.shadow, l.differ, l.texel_bound, l.depth_bound, l.unexplained
         );
     }
+    if let Some(s) = &c.shaded {
+        _ = writeln!(
+            t,
+            "shaded: {} pixels, largest error {:.4} LSB from fast Phong, bounds up to {:.4}, {:.4} of one reached, {} beyond",
+            s.pixels, s.error, s.bound, s.of_bound, s.beyond
+        );
+        _ = writeln!(
+            t,
+            "a light at the horizon in {} of them, on its other side in {}; from Phong shading at most {:.4}, {:.4} in the mean",
+            s.at_horizon, s.other_branch, s.from_phong, s.mean_from_phong
+        );
+    }
     for own in &c.extra {
         let (of, label) = (&own.channel, &own.channel.label);
         _ = writeln!(

@@ -2,6 +2,7 @@
 
 use crate::band::Host;
 use crate::pass::{Blending, Change};
+use crate::pixel_shading::PixelShading;
 
 /// Largest side of a screen, pixels.
 pub const MAX_SIDE: u32 = 16384;
@@ -175,6 +176,8 @@ pub struct Frame {
     pub extra: usize,
     /// The shadows of a light, if it casts any.
     pub shadow: Option<Shadow>,
+    /// The equation at each pixel, in place of the vertices' colours; without polygons where it is.
+    pub shading: Option<PixelShading>,
     /// The triangles, drawn in this order.
     pub triangles: Vec<Triangle>,
     /// Where other rules than those above begin to hold, in order ([`Frame::passes`]).
@@ -200,6 +203,7 @@ impl Frame {
             clear: [0.0; 3],
             extra: 0,
             shadow: None,
+            shading: None,
             triangles: Vec::new(),
             polygons: Vec::new(),
             host: Host::default(),

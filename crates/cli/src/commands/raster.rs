@@ -30,7 +30,9 @@ use std::path::PathBuf;
 
 The triangle file (docs/triangle_file.md), one item a line, # comments:
   size W H                                                first
-  mode gouraud|flat
+  mode gouraud|flat|phong|fast-phong
+  view x y z   sun x y z i   specular halfway|blinn       of phong and fast-phong: to the viewer, to a light
+  material ka kd ks n                                     of the triangles behind it
   depth less|lequal|always|off|...
   depth_write 0|1
   blend 0|1|add                                           1: (1-kt) I + kt I_back; add: I + I_back; needs blend.kind
@@ -42,6 +44,7 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
   L x y z  x y z  x y z                                   a triangle of that map, in texels
   T x y z r g b kt  x y z r g b kt  x y z r g b kt        a triangle, pixels
   X e0 .. e0 .. e0 ..                                     N values of vertex 1, of 2, of 3: unorm [0,1], else LSB
+  N nx ny nz  nx ny nz  nx ny nz                          normals of a triangle in mode phong or fast-phong
   P n  x y z r g b kt ..                                  a polygon of n vertices; the machine draws it as triangles
   H n  x y z r g b kt ..                                  one more contour of the polygon on the line before")]
 pub struct Args {
