@@ -5,12 +5,13 @@
 //!  normals, lights, viewer ─six cosines a light─> exact fit ─RN in the middle of the box─> words ─moved─> Record
 //!  materials, colours, intensities ─────────────────────────> tables of bins ─────────────> words of the tables
 //! ```
-//! Bounds 12 and 13 (`docs/numerics.md`) give the bound of a colour against golden's fast Phong.
+//! Bounds 12 and 13 (`docs/numerics.md`) give the bound of a colour against golden's fast Phong, with bound 14 against its Phong.
 
 mod bound;
 mod lights;
 mod place;
 mod records;
+mod roots;
 mod tables;
 
 mod compare;
@@ -53,18 +54,20 @@ pub fn feed(frame: &Frame, port: &PortFrame, machine: &Plan) -> Result<Option<Fe
     let Some(shading) = shading_for(frame, machine)? else { return Ok(None) };
     let lamps = Lamp::all(shading, machine)?;
     let surfaces = Surfaces::of(frame, shading, &lamps, machine)?;
+    let root_error = if machine.shade.normalises() { roots::relative_error() } else { 0.0 };
     let mut records = Vec::with_capacity(port.triangles.len());
     let mut errors = Vec::with_capacity(port.triangles.len());
     for (index, triangle) in port.triangles.iter().enumerate() {
         let own = &shading.triangles[port.ids[index] as usize];
         let surface = surfaces.of_triangle[port.ids[index] as usize];
         let glosses = surfaces.glosses(surface);
-        let (record, error) = records::record(triangle, own, shading, &lamps, (surface, &glosses), machine);
+        let (record, error) = records::record(triangle, own, shading, &lamps, (surface, &glosses), root_error, machine);
         records.push(record);
         errors.push(error);
     }
+    let roots = if machine.shade.normalises() { roots::words(machine) } else { Vec::new() };
     let proof = Proof::new(machine, &surfaces, errors);
-    Ok(Some(Feed { words: Shading { records, tables: surfaces.words(machine) }, proof, surfaces }))
+    Ok(Some(Feed { words: Shading { records, tables: surfaces.words(machine), roots }, proof, surfaces }))
 }
 
 /// Whether the frame is shaded at each pixel and the machine can do so.
@@ -73,8 +76,8 @@ pub(crate) fn shading_for<'a>(frame: &'a Frame, machine: &Plan) -> Result<Option
     let Some(shading) = &frame.shading else {
         return if there {
             Err(anyhow!(
-                "shade.kind = fast-phong: the machine shades by normals and the input has none; draw with --shading \
-                 fast-phong or mode fast-phong, or with --set shade.kind=none"
+                "shade.kind: the machine shades by normals and the input has none; draw with --shading fast-phong or mode \
+                 fast-phong (phong), or with --set shade.kind=none"
             ))
         } else {
             Ok(None)
@@ -82,17 +85,16 @@ pub(crate) fn shading_for<'a>(frame: &'a Frame, machine: &Plan) -> Result<Option
     };
     let name = shading.method.name();
     if !there {
-        let remedy = match shading.method {
-            PixelMethod::FastPhong => "add --set shade.kind=fast-phong",
-            PixelMethod::Phong => "take fast-phong with --set shade.kind=fast-phong",
-        };
         return Err(anyhow!(
-            "mode {name} (--shading {name}): the machine has no TERM and SHADE; {remedy}, or draw with --engine golden"
+            "mode {name} (--shading {name}): the machine has no TERM and SHADE; add --set shade.kind={name}, or draw with --engine \
+             golden"
         ));
     }
-    if shading.method == PixelMethod::Phong {
+    let kind = if machine.shade.normalises() { PixelMethod::Phong } else { PixelMethod::FastPhong };
+    if shading.method != kind {
         return Err(anyhow!(
-            "mode phong (--shading phong): the machine brings no normal to length 1 at a pixel; draw with mode fast-phong, or with --engine golden"
+            "mode {name} (--shading {name}): the machine's shade.kind is {}; add --set shade.kind={name}, or draw with --engine golden",
+            kind.name()
         ));
     }
     if machine.fill == Fill::Textbook {

@@ -9,7 +9,7 @@ use edgewalk_explore::port::to_port;
 use edgewalk_explore::raster::from_machine;
 use edgewalk_golden::{PixelBrush, fragments};
 use edgewalk_machine::{Machine, Plan, Record};
-use edgewalk_model::{Waits, render_shaded};
+use edgewalk_model::{Shading, Waits, render_shaded};
 use edgewalk_scene::{
     Attenuation, Frame, Light, Material, PixelMethod, PixelShading, PixelTriangle, Specular, Triangle,
     Vertex, Viewer,
@@ -35,10 +35,29 @@ fn output(words: &[u64; 6], (i, n): (i64, i64), bits: u32, fraction: u32) -> i64
     (((word << unused) >> unused) >> fraction) as i64
 }
 
+/// What SHADE takes for a light: the outputs of its terms, or with NORMAL (section 13) what that makes of them.
+fn cosines(machine: &Plan, roots: &[u128], record: &Record, place: (i64, i64), l: usize) -> [i64; 2] {
+    let at = |k: usize| {
+        let term = machine.terms()[k];
+        output(&record.terms[k], place, term.bits, term.fraction)
+    };
+    let products = [at(2 * l), at(2 * l + 1)];
+    if !machine.shade.normalises() {
+        return products;
+    }
+    let s = at(machine.terms().len() - 1).clamp(1 << 14, (1 << 16) - 1);
+    let (entry, low) = (roots[(s >> 8) as usize], s & 255);
+    let (v, slope) = ((entry >> 10) as i64, (entry & 1023) as i64);
+    let y = v - ((slope * low + 128) >> 8);
+    let [n, h] = products.map(|p| (p * y + (1 << 15)) >> 16);
+    let t = machine.shade.table_bits;
+    [n >> (16 - t), (((h - (1 << 16)) << record.gloss) + (1 << 16)) >> (16 - t)]
+}
+
 /// A fragment's colour as SHADE makes it of its terms; and whether a cosine N·L or N·H was beyond the end, or N·L below 0.
 fn tinted(
     machine: &Plan,
-    tables: &[u128],
+    Shading { tables, roots, .. }: &Shading,
     record: &Record,
     place: (i64, i64),
     own: [u64; 3],
@@ -48,11 +67,7 @@ fn tinted(
     let multiply = machine.shade.diffuse_bits(b) != 3 * b;
     let (mut sum, mut light, mut highlights, mut met) = ([0u64; 3], 0, 0, [false; 3]);
     for l in 0..machine.shade.lights {
-        let at = |k: usize| {
-            let term = machine.terms()[2 * l as usize + k];
-            output(&record.terms[2 * l as usize + k], place, term.bits, term.fraction)
-        };
-        let (d, h) = (at(0), at(1));
+        let [d, h] = cosines(machine, roots, record, place, l as usize);
         met = [met[0] || d > last, met[1] || h > last, met[2] || d < 0];
         let read = |index: i64| tables[machine.table_place(record.material, l, index.clamp(0, last) as u32)];
         let (diffuse, highlight) = (read(d) >> b, read(h) as u64 & max);
@@ -104,7 +119,7 @@ fn compare(frame: &Frame, machine: &Plan, found: &mut Found) {
             // Of a surface of one colour PIXEL hands on the vertex's.
             let own = fragment.rgb().map(|c| (c * max).round() as u64);
             let place = (if leftward { -right } else { right }, line);
-            let (color, met) = tinted(machine, &feed.words.tables, record, place, own);
+            let (color, met) = tinted(machine, &feed.words, record, place, own);
             let off = |golden: &[f64; 3]| {
                 let far = |(a, b): (u64, &f64)| (a as f64 - b * max).abs();
                 color.into_iter().zip(golden).map(far).fold(0.0, f64::max)
@@ -203,11 +218,22 @@ fn case(random: &mut Pcg64Mcg, number: u32, lights: usize, gloss: f64) -> Frame 
     Frame { triangles: vec![triangle], shading: Some(shading), ..Frame::new(640, 480) }
 }
 
+/// The same frame by the method of the machine.
+fn by(mut frame: Frame, machine: &Plan) -> Frame {
+    if let Some(shading) = frame.shading.as_mut().filter(|_| machine.shade.normalises()) {
+        shading.method = PixelMethod::Phong;
+    }
+    frame
+}
+
 #[test]
 fn colours_of_random_triangles_are_within_the_bound() {
     let kind = ("shade.kind", "fast-phong");
     let glossy = ("shade.gloss_bits", "8");
-    let machines: [(&[(&str, &str)], u32, usize, f64); 5] = [
+    let phong = ("shade.kind", "phong");
+    let machines: [(&[(&str, &str)], u32, usize, f64); 7] = [
+        (&[phong, glossy], 800, 1, 200.0),
+        (&[phong, glossy, ("shade.table_bits", "10"), ("shade.lights", "2")], 600, 2, 200.0),
         (&[kind, glossy], 2200, 1, 200.0),
         (&[kind, glossy, ("shade.table_bits", "10")], 1200, 1, 200.0),
         (&[kind, glossy, ("shade.lights", "2")], 800, 2, 200.0),
@@ -220,7 +246,8 @@ fn colours_of_random_triangles_are_within_the_bound() {
         let mut random = Pcg64Mcg::seed_from_u64(2022);
         let mut found = Found::default();
         for number in 0..count {
-            compare(&case(&mut random, number, lights, gloss), &machine, &mut found);
+            let frame = by(case(&mut random, number, lights, gloss), &machine);
+            compare(&frame, &machine, &mut found);
         }
         let Found { error: (error, its), bound, share, horizon, other, met, .. } = found;
         println!(
@@ -263,7 +290,7 @@ fn what_the_machine_cannot_take_is_named_with_a_remedy() {
         s.triangles = vec![s.triangles[0]; 3];
     };
     let phong = |_: &mut Frame, s: &mut PixelShading| s.method = PixelMethod::Phong;
-    let cases: [(Frame, Plan, &[&str]); 11] = [
+    let cases: [(Frame, Plan, &[&str]); 14] = [
         (
             frame.clone(),
             Plan::default(),
@@ -274,8 +301,8 @@ fn what_the_machine_cannot_take_is_named_with_a_remedy() {
             fast(&[]),
             &["the input has none", "--set shade.kind=none"],
         ),
-        (with(&phong), fast(&[]), &["mode phong", "mode fast-phong"]),
-        (with(&phong), Plan::default(), &["mode phong", "take fast-phong with"]),
+        (with(&phong), fast(&[]), &["mode phong", "shade.kind is fast-phong", "shade.kind=phong"]),
+        (with(&phong), Plan::default(), &["mode phong", "--set shade.kind=phong"]),
         (with(&|_, s| s.lights = vec![s.lights[0]; 2]), fast(&[]), &["2 lights", "shade.lights=2"]),
         (
             with(&|_, s| s.lights = vec![s.lights[0]; 3]),
@@ -283,6 +310,23 @@ fn what_the_machine_cannot_take_is_named_with_a_remedy() {
             &["3 lights", "take 2"],
         ),
         (with(&|_, s| s.lights = vec![lamp(weak)]), fast(&[]), &["light 1", "does not weaken"]),
+        (frame.clone(), plan(&[("shade.kind", "phong")]), &["mode fast-phong", "shade.kind is phong"]),
+        (
+            with(&|f, s| {
+                phong(f, s);
+                s.viewer = Viewer::At(DVec3::ONE);
+            }),
+            plan(&[("shade.kind", "phong")]),
+            &["a viewer at a point", "shade.kind = fast-phong"],
+        ),
+        (
+            with(&|f, s| {
+                phong(f, s);
+                s.lights = vec![lamp(Attenuation::NONE)];
+            }),
+            plan(&[("shade.kind", "phong")]),
+            &["light 1", "every light is directional"],
+        ),
         (with(&|f, _| f.triangles[0].0[1].g = 0.123), fast(&[]), &["triangle 0", "shade.colour=multiply"]),
         (
             with(&|_, s| s.materials[0].ambient = DVec3::splat(1.0)),
@@ -332,7 +376,8 @@ fn scene(random: &mut Pcg64Mcg, count: u32, lights: usize) -> Frame {
 #[test]
 fn the_model_draws_what_the_words_say_and_the_comparison_passes() {
     let kind = ("shade.kind", "fast-phong");
-    let machines: [(&[(&str, &str)], usize); 4] = [
+    let machines: [(&[(&str, &str)], usize); 5] = [
+        (&[("shade.kind", "phong"), ("shade.material_bits", "8")], 1),
         (&[kind, ("shade.material_bits", "8")], 1),
         (&[kind, ("shade.material_bits", "8"), ("term.walk", "memory"), ("term.record_bits", "3")], 1),
         (&[kind, ("shade.lights", "2"), ("shade.colour", "multiply"), ("shade.table_bits", "8")], 2),
@@ -350,7 +395,7 @@ fn the_model_draws_what_the_words_say_and_the_comparison_passes() {
     for (settings, lights) in machines {
         let machine = plan(settings);
         let mut random = Pcg64Mcg::seed_from_u64(5);
-        let frame = scene(&mut random, 40, lights);
+        let frame = by(scene(&mut random, 40, lights), &machine);
         let port = to_port(&frame, &machine).unwrap();
         let feed = port.shade.as_ref().unwrap();
         let drawn = draw::fast(&frame, &machine, Waits::Never).unwrap();
@@ -365,7 +410,7 @@ fn the_model_draws_what_the_words_say_and_the_comparison_passes() {
                 let right = i64::from(fragment.x) - i64::from(record.x);
                 let place =
                     (if leftward { -right } else { right }, i64::from(fragment.y) - i64::from(record.y));
-                let (color, _) = tinted(&machine, &feed.words.tables, record, place, [0; 3]);
+                let (color, _) = tinted(&machine, &feed.words, record, place, [0; 3]);
                 assert_eq!(
                     drawn.rgb[at].map(|c| (c * 255.0).round() as u64),
                     color,
@@ -381,7 +426,7 @@ fn the_model_draws_what_the_words_say_and_the_comparison_passes() {
             found.verdict() == Verdict::Pass && shaded.beyond == 0 && shaded.pixels > 20_000,
             "{found:?}"
         );
-        assert!(shaded.of_bound > 0.5 && shaded.of_bound <= 1.0 && shaded.from_phong > 0.1);
+        assert!(shaded.of_bound > 0.5 && shaded.of_bound <= 1.0 && shaded.from_phong > 0.1, "{shaded:?}");
         // One table entry off, and it does not pass.
         let mut wrong = feed.words.clone();
         for word in &mut wrong.tables {

@@ -2,7 +2,7 @@
 
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Attenuation, Light, PixelShading, PixelTriangle};
+use edgewalk_scene::{Attenuation, Light, PixelShading, PixelTriangle, Viewer};
 use glam::DVec3;
 
 /// A light whose intensity is the same everywhere.
@@ -31,11 +31,21 @@ impl Lamp {
                 "{given} lights: the machine has terms for {most}; {remedy}, or draw with --engine golden"
             ));
         }
+        if machine.shade.normalises() && matches!(shading.viewer, Viewer::At(_)) {
+            return Err(anyhow!(
+                "a viewer at a point: with shade.kind = phong N·H is linear, so the viewer is far away; take shade.kind = fast-phong"
+            ));
+        }
         let lamp = |(place, light): (usize, &Light)| match *light {
             Light::Directional { intensity, .. } => Ok(Lamp { light: *light, intensity }),
-            Light::Positional { intensity, attenuation: Attenuation::NONE, .. } => {
+            Light::Positional { intensity, attenuation: Attenuation::NONE, .. } if !machine.shade.normalises() => {
                 Ok(Lamp { light: *light, intensity })
             }
+            _ if machine.shade.normalises() => Err(anyhow!(
+                "light {}: with shade.kind = phong N·L is linear, so every light is directional; take shade.kind = fast-phong, or \
+                 draw with --engine golden",
+                place + 1
+            )),
             Light::Positional { .. } | Light::Flood { .. } => Err(anyhow!(
                 "light {}: its intensity is not the same everywhere, and the machine's tables hold one; take a directional \
                  light or a positional one that does not weaken, or draw with --engine golden",
@@ -43,6 +53,12 @@ impl Lamp {
             )),
         };
         shading.lights.iter().enumerate().map(lamp).collect()
+    }
+
+    /// L and H where both are the same everywhere: of a directional light and a viewer far away.
+    pub fn directions(&self, shading: &PixelShading) -> [DVec3; 2] {
+        let toward = self.light.incident(DVec3::ZERO).toward;
+        [toward, (toward + shading.viewer_at(DVec3::ZERO)).normalize_or_zero()]
     }
 
     /// N·L and N·H of a triangle.
