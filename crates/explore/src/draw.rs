@@ -30,7 +30,7 @@ pub fn fast(frame: &edgewalk_scene::Frame, machine: &Plan, waits: Waits) -> Resu
 pub fn draw_frame(machine: &Plan, port: &PortFrame, waits: Waits) -> Result<Drawn> {
     if port.shade.is_some() {
         let triangles = port.triangles.iter().copied();
-        let frame = render_shaded(machine, triangles, &port.passes, waits, port.words(), |_| {})?;
+        let frame = render_shaded(machine, triangles, &port.passes, &[], waits, port.words(), |_| {})?;
         return Ok(Drawn::Ticked(frame, Reason::Shade));
     }
     match &port.passes[..] {

@@ -99,6 +99,11 @@ pub fn guard_band(machine: &Plan) -> f64 {
 pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
     if let Some(shadow) = &frame.shadow {
         light::check(shadow, machine)?;
+        if frame.shading.is_some() {
+            return Err(anyhow!(
+                "shadow: a frame that is shaded at each pixel has no light's map in the machine; draw with mode gouraud, or with --engine golden"
+            ));
+        }
     }
     let (Triangulated { triangles, ids }, host) = sent(frame, machine)?;
     let (mut port, mut passes) = (Vec::with_capacity(triangles.len()), Vec::new());

@@ -61,7 +61,8 @@ pub fn feed(frame: &Frame, port: &PortFrame, machine: &Plan) -> Result<Option<Fe
         let own = &shading.triangles[port.ids[index] as usize];
         let surface = surfaces.of_triangle[port.ids[index] as usize];
         let glosses = surfaces.glosses(surface);
-        let (record, error) = records::record(triangle, own, shading, &lamps, (surface, &glosses), root_error, machine);
+        let (record, error) =
+            records::record(triangle, own, shading, &lamps, (surface, &glosses), root_error, machine);
         records.push(record);
         errors.push(error);
     }

@@ -72,12 +72,19 @@ impl<'a> PixelBrush<'a> {
 
     /// N·L and N·H of each light at a pixel; those of fast Phong are not cut.
     pub fn cosines<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>) -> Vec<[f64; 2]> {
-        self.lit(&fragment.shares()).into_iter().map(|Lit { diffuse, halfway, .. }| [diffuse, halfway]).collect()
+        self.lit(&fragment.shares())
+            .into_iter()
+            .map(|Lit { diffuse, halfway, .. }| [diffuse, halfway])
+            .collect()
     }
 
     /// The colours that the pixel may have for one who knows the cosines N·L to within `doubt`: for each light whose N·L is
     /// no farther from 0, as if it stood above the horizon and as if below. The first is that of [`Self::color`].
-    pub fn branches<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>, doubt: f64) -> Vec<[f64; 3]> {
+    pub fn branches<const N: usize, W: Weight>(
+        &self,
+        fragment: &Fragment<N, W>,
+        doubt: f64,
+    ) -> Vec<[f64; 3]> {
         let lights = self.lit(&fragment.shares());
         let surface = DVec3::from(fragment.rgb());
         let mut turned = vec![0];

@@ -24,7 +24,7 @@ fn fragments(
         }
     };
     let passes = [Pass::all(ALWAYS)];
-    let frame = render_shaded(plan, triangles.iter().copied(), &passes, stalls, shading, hook)
+    let frame = render_shaded(plan, triangles.iter().copied(), &passes, &[], stalls, shading, hook)
         .expect("this machine's vertices");
     (all, frame)
 }

@@ -92,11 +92,6 @@ impl<'a> Tally<'a> {
         self.is_clear(i, clear)
     }
 
-    /// Pixel `i` has this depth; whether anything else is right is not asked.
-    pub fn depth(&mut self, i: usize, z: f64) {
-        self.wrapped += u64::from(self.z.add(i, z, self.drawn.z[i]));
-    }
-
     fn is_clear(&self, i: usize, clear: [f64; 3]) -> bool {
         let half = 0.5 + 1e-9; // the division by 2^b - 1 rounds
         let near =

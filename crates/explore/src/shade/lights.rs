@@ -38,7 +38,9 @@ impl Lamp {
         }
         let lamp = |(place, light): (usize, &Light)| match *light {
             Light::Directional { intensity, .. } => Ok(Lamp { light: *light, intensity }),
-            Light::Positional { intensity, attenuation: Attenuation::NONE, .. } if !machine.shade.normalises() => {
+            Light::Positional { intensity, attenuation: Attenuation::NONE, .. }
+                if !machine.shade.normalises() =>
+            {
                 Ok(Lamp { light: *light, intensity })
             }
             _ if machine.shade.normalises() => Err(anyhow!(

@@ -43,7 +43,8 @@ pub fn record(
     };
     let start = place.steps_to(place.start);
     // Of a triangle that is drawn the weights do not sum to 0, and a planned word has at most 64 bits.
-    let moved = |words: Option<TermWords>| words.map_or([0; 6], |words| words.moved(start.0, start.1).words());
+    let moved =
+        |words: Option<TermWords>| words.map_or([0; 6], |words| words.moved(start.0, start.1).words());
     let [width, height] = place.sides;
     let error_of = |degree, fraction: u32| {
         term_roundings_of_box(degree, width, height) as f64 / 2f64.powi(fraction as i32 + 1)
@@ -113,7 +114,8 @@ fn normal_terms(
     for (place, term) in machine.terms().iter().enumerate() {
         if term.degree == 2 {
             let middle = |k: usize| (own.normals[(k + 1) % 3] + own.normals[(k + 2) % 3]) / 2.0;
-            let squares = [own.normals, [0, 1, 2].map(middle)].map(|list| list.map(|n| node(n.length_squared())));
+            let squares =
+                [own.normals, [0, 1, 2].map(middle)].map(|list| list.map(|n| node(n.length_squared())));
             terms.push(shares.six_point(squares, UNIT_BITS + term.fraction, 0, term.word()));
             continue;
         }

@@ -152,17 +152,20 @@ fn light_tables(
             highlight: highlight.sharpest(machine.shade.gloss_bits),
         })
     };
-    let mut lights: Vec<LightTables> = (0..machine.shade.lights as usize).map(table).collect::<Result<_>>()?;
+    let mut lights: Vec<LightTables> =
+        (0..machine.shade.lights as usize).map(table).collect::<Result<_>>()?;
     if machine.shade.normalises() && lights.len() == 2 {
         // A record has one m' for both: the one with which the worse of them is least.
         let at = |gloss: u32| {
-            let of = |light: &LightTables| IndexTable::new(bits, Highlight { gloss, ..*light.highlight.function() });
+            let of = |light: &LightTables| {
+                IndexTable::new(bits, Highlight { gloss, ..*light.highlight.function() })
+            };
             [of(&lights[0]), of(&lights[1])]
         };
         let error = |tables: &[IndexTable<Highlight>; 2]| tables[0].error(0.0).max(tables[1].error(0.0));
-        let best = (1..=machine.shade.gloss_bits).map(at).fold(at(0), |best, next| {
-            if error(&next) < error(&best) { next } else { best }
-        });
+        let best = (1..=machine.shade.gloss_bits)
+            .map(at)
+            .fold(at(0), |best, next| if error(&next) < error(&best) { next } else { best });
         for (light, highlight) in lights.iter_mut().zip(best) {
             light.highlight = highlight;
         }
