@@ -19,9 +19,10 @@ const TRIANGLES: u64 = 40_000;
 
 /// SHADOW, TERM and SHADE have no netlist yet.
 fn no_netlist(event: &str) -> bool {
-    use edgewalk_machine::units::{normal, shade, shadow, term};
-    let mut events =
-        [&shadow::SPEC, &term::SPEC, &normal::SPEC, &shade::SPEC].into_iter().flat_map(|unit| unit.events);
+    use edgewalk_machine::units::{normal, shade, shadow, term, texel};
+    let mut events = [&shadow::SPEC, &term::SPEC, &texel::SPEC, &normal::SPEC, &shade::SPEC]
+        .into_iter()
+        .flat_map(|unit| unit.events);
     events.any(|of| of.name == event)
 }
 

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::shade::{colour, cosines, leftward, output, random_shading, true_roots, words};
+use common::shade::{colour, cosines, leftward, output, random_shading, textured, true_roots, words};
 use common::{ALWAYS, Triangle, machine, place, random_machine, random_triangle};
 use edgewalk_machine::{Activity, Entry, Plan, Record};
 use edgewalk_model::{Drawn, Events, Frame, Pass, Shading, Stalls, render_shaded};
@@ -45,6 +45,7 @@ fn compare(plan: &Plan, triangles: &[Triangle], shading: &Shading, stalls: Stall
             plan.terms().iter().zip(words).map(|(term, word)| output(term, word)).collect();
         let cosines = cosines(plan, &shading.roots, record, &outputs);
         let own = [before.2[1], before.2[2], before.2[3]];
+        let own = textured(plan, &shading.textures, record.material, &outputs, own);
         let wanted = colour(plan, &shading.tables, record.material, &cosines, own);
         let mut all = before.2.clone();
         all[1..4].copy_from_slice(&wanted);
@@ -58,13 +59,15 @@ fn compare(plan: &Plan, triangles: &[Triangle], shading: &Shading, stalls: Stall
 fn three_hundred_machines_draw_what_their_words_and_tables_ask_for() {
     let mut rng = StdRng::seed_from_u64(5);
     let (mut checked, mut events) = (0, Events::default());
-    let mut spent = [0; 2];
+    let mut spent = [0; 3];
     for number in 0..300u64 {
         let fixed = [
             ("shade.kind", if number % 2 == 0 { "fast-phong" } else { "phong" }),
             ("screen.width", "53"),
             ("screen.height", "39"),
             ("screen.guard_bits", "8"),
+            ("texture.kind", if number % 5 < 2 { "nearest" } else { "none" }),
+            ("texture.bits", ["1", "2", "5", "7"][number as usize % 4]),
             ("term.record_bits", if number % 10 == 0 { "2" } else { "5" }),
         ];
         let plan = random_machine(&fixed, &mut rng);
@@ -83,15 +86,15 @@ fn three_hundred_machines_draw_what_their_words_and_tables_ask_for() {
         let (drawn, frame) = compare(&plan, &triangles, &shading, stalls);
         checked += drawn;
         events.merge(&frame.events);
-        for (sum, activity) in spent.iter_mut().zip([Activity::Term, Activity::Shade]) {
+        for (sum, activity) in spent.iter_mut().zip([Activity::Term, Activity::Shade, Activity::Texel]) {
             *sum += frame.counters.spent(activity);
         }
     }
-    println!("300 machines, {checked} fragments equal; clocks lost to TERM and SHADE {spent:?}");
+    println!("300 machines, {checked} fragments equal; clocks lost to TERM, SHADE and TEXEL {spent:?}");
     assert!(checked > 100_000 && spent.iter().all(|clocks| *clocks > 0));
     for (name, count) in events.counts() {
-        use edgewalk_machine::units::{normal, shade, term};
-        let units = [&term::SPEC, &normal::SPEC, &shade::SPEC];
+        use edgewalk_machine::units::{normal, shade, term, texel};
+        let units = [&term::SPEC, &texel::SPEC, &normal::SPEC, &shade::SPEC];
         let own = units.iter().flat_map(|unit| unit.events).any(|event| event.name == name);
         assert!(!own || count > 0, "{name} was not met");
     }

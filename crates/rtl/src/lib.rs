@@ -42,7 +42,7 @@ pub use machine::{assemble, engine, machine};
 pub use memory::memory;
 pub use pixel::pixel;
 pub use setup::setup;
-pub use shade::{normal, shade, term};
+pub use shade::{normal, shade, term, texel};
 pub use shadow::shadow;
 pub use span::span;
 
@@ -53,6 +53,7 @@ pub const BUILDERS: &[(&str, units::Build)] = &[
     ("span", span),
     ("term", term),
     ("pixel", pixel),
+    ("texel", texel),
     ("normal", normal),
     ("shade", shade),
     ("shadow", shadow),

@@ -14,6 +14,14 @@ pub fn term(_: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     Err(missing())
 }
 
+/// The netlist of TEXEL.
+///
+/// # Errors
+/// Always: it is not written yet.
+pub fn texel(_: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
+    Err(missing())
+}
+
 /// The netlist of NORMAL.
 ///
 /// # Errors
@@ -37,7 +45,7 @@ pub(crate) fn refuse(plan: &Plan) -> Result<(), BuildErrors> {
 
 fn missing() -> BuildErrors {
     let name =
-        "term, normal, shade: these units have no netlist yet; set shade.kind = none, or take another engine"
+        "term, texel, normal, shade: these units have no netlist yet; set shade.kind = none, or take another engine"
             .to_owned();
     let place = Place(Location::caller());
     BuildErrors(vec![BuildError { module: "edgewalk".to_owned(), place, fault: Fault::Undriven { name } }])
