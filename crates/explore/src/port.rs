@@ -27,7 +27,8 @@ pub struct PortFrame {
 }
 
 /// Of a frame that is not shaded at each pixel.
-const UNSHADED: &Shading = &Shading { records: Vec::new(), tables: Vec::new(), roots: Vec::new() };
+const UNSHADED: &Shading =
+    &Shading { records: Vec::new(), tables: Vec::new(), roots: Vec::new(), textures: Vec::new() };
 
 impl PortFrame {
     /// What the memories behind TERM and SHADE hold.

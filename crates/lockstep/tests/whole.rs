@@ -17,9 +17,10 @@ const MACHINES: usize = 400;
 /// Triangles drawn on them, about.
 const TRIANGLES: u64 = 40_000;
 
-/// NORMAL has no netlist yet.
+/// TEXEL and NORMAL have no netlist yet.
 fn no_netlist(event: &str) -> bool {
-    edgewalk_machine::units::normal::SPEC.events.iter().any(|of| of.name == event)
+    use edgewalk_machine::units::{normal, texel};
+    [&texel::SPEC, &normal::SPEC].iter().flat_map(|unit| unit.events).any(|of| of.name == event)
 }
 
 /// What random triangles may not meet, and [`colours_on_one_pixel`] does.

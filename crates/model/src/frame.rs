@@ -45,7 +45,7 @@ pub struct Sample<'a> {
     pub source: Source,
 }
 
-/// What the memories behind TERM, NORMAL and SHADE hold.
+/// What the memories behind TERM, TEXEL, NORMAL and SHADE hold.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Shading {
     /// The record of every triangle, culled or not, in their order; of those behind the last the memory holds nothing.
@@ -54,6 +54,8 @@ pub struct Shading {
     pub tables: Vec<u128>,
     /// Entries of NORMAL's table, [`Plan::root_word`], 256 of them.
     pub roots: Vec<u128>,
+    /// Texels, [`Plan::texel_word`] at [`Plan::texel_place`].
+    pub textures: Vec<u128>,
 }
 
 /// What [`render_with`] reports, in order.

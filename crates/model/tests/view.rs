@@ -36,7 +36,8 @@ fn machines(count: usize, rng: &mut Pcg64Mcg) -> Vec<Plan> {
     let mut machines = vec![machine(&small), machine(&[])];
     // A replay refuses machines with SHADOW: that unit is not on the page yet.
     let kinds = ["none", "fast-phong", "none", "phong"].into_iter().cycle();
-    let shading = |kind| [small[0], small[1], ("shade.kind", kind), ("term.record_bits", "8")];
+    let shading =
+        |kind| [small[0], small[1], ("shade.kind", kind), ("texture.bits", "4"), ("term.record_bits", "8")];
     let random = kinds.map(|kind| random_machine(&shading(kind), rng));
     let shown = random.filter(|plan| !plan.shadow.is_there());
     machines.extend(shown.take(count));

@@ -21,7 +21,7 @@ mod term;
 
 mod pixel;
 
-mod normal;
+mod missing;
 
 mod shade;
 
@@ -44,7 +44,7 @@ pub use depth::depth;
 pub use edge::edge;
 pub use machine::{assemble, engine, machine};
 pub use memory::memory;
-pub use normal::normal;
+pub use missing::{normal, texel};
 pub use pixel::pixel;
 pub use setup::setup;
 pub use shade::shade;
@@ -59,6 +59,7 @@ pub const BUILDERS: &[(&str, units::Build)] = &[
     ("span", span),
     ("term", term),
     ("pixel", pixel),
+    ("texel", texel),
     ("normal", normal),
     ("shade", shade),
     ("shadow", shadow),
