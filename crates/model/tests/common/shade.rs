@@ -42,7 +42,7 @@ pub fn cosines(plan: &Plan, roots: &[u128], record: &Record, outputs: &[i64]) ->
     let Some((square, products)) = outputs.split_last().filter(|_| plan.shade.normalises()) else {
         return outputs.to_vec();
     };
-    let s = (*square).max(16384).min(65535);
+    let s = (*square).clamp(16384, 65535);
     let entry = roots[(s / 256) as usize];
     let (v, slope) = ((entry / 1024 % 131_072) as i64, (entry % 1024) as i64);
     let y = (v - (slope * (s % 256) + 128).div_euclid(256)).rem_euclid(131_072);
