@@ -3,7 +3,8 @@
 use crate::extra;
 use crate::machine_args::MachineArgs;
 use anyhow::{Context as _, Result, anyhow};
-use edgewalk_explore::input::{fitting, guard_band, in_triangles, is_triangle_file};
+use edgewalk_explore::input::{fitting, in_triangles, is_triangle_file};
+use edgewalk_explore::port::guard_band;
 pub use edgewalk_explore::port::{PortFrame, draw_state, port_triangle, to_port};
 use edgewalk_golden::Order;
 use edgewalk_machine::Plan;

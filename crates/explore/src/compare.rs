@@ -11,6 +11,7 @@
 mod channel;
 mod order;
 mod layers;
+mod lit;
 #[cfg(test)]
 mod tests;
 
@@ -25,6 +26,8 @@ use edgewalk_machine::Plan;
 use edgewalk_scene::Frame;
 use layers::Layers;
 pub use layers::{Blended, Errors};
+use lit::Light;
+pub use lit::Lit;
 use order::{Orders, Over};
 use serde::Serialize;
 
@@ -79,6 +82,9 @@ pub struct Comparison {
     /// Of a blended picture, whose colours have a bound at each pixel in place of `color_bound`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blended: Option<Blended>,
+    /// Of a picture under a light.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lit: Option<Lit>,
     /// Of a picture shaded at each pixel, whose colours have the bound of their triangle in place of `color_bound`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shaded: Option<Shaded>,
@@ -162,6 +168,7 @@ fn compared(
         z_no_bound: tally.z.no_bound(),
         color_no_bound: tally.color.no_bound(),
         blended: None,
+        lit: None,
         shaded: None,
         extra: Vec::new(),
         z_map: Vec::new(),
@@ -171,6 +178,7 @@ fn compared(
         blended(&mut c, &mut tally, &layers, frame, golden);
         return finished(c, tally, machine);
     }
+    let mut light = Light::of(machine, frame, drawn, reach);
     let mut differ = Vec::new();
     for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
         c.pixels += 1;
@@ -180,12 +188,17 @@ fn compared(
             continue;
         }
         if golden.id[i] >= 0 {
+            let agrees = light.as_mut().is_none_or(|light| light.agrees(i, golden, drawn));
             let mut over = Over::golden(golden, i);
             if let Some(allowed) = &mut allowed {
                 let one = machine.color.max() as f64;
                 over.rgb = allowed.at(i, golden.id[i], golden.rgb[i], drawn.rgb[i], one);
             }
-            tally.triangle(i, golden.z[i], &over);
+            if agrees {
+                tally.triangle(i, golden.z[i], &over);
+            } else {
+                tally.depth(i, golden.z[i]); // the colour is another
+            }
         } else {
             c.background_wrong += u64::from(!tally.is_background(i, frame.clear));
         }
@@ -197,8 +210,8 @@ fn compared(
             Some(shown) => {
                 c.order_undecided += 1;
                 match shown {
-                    // Its colour is not that of a plane, and which pixels these are hangs on depths alone.
-                    Some(shown) if allowed.is_some() => {
+                    // Its colour hangs on the light, or is not that of a plane; which pixels these are hangs on depths alone.
+                    Some(shown) if light.is_some() || allowed.is_some() => {
                         tally.depth(i, if frame.depth_write { shown.z } else { 1.0 })
                     }
                     Some(shown) => tally.triangle(i, if frame.depth_write { shown.z } else { 1.0 }, &shown),
@@ -214,7 +227,12 @@ fn compared(
         c.color_bound = None;
         c.color_no_bound = Some("each triangle has that of its terms and tables".to_owned());
     }
-    finished(c, tally, machine)
+    c = finished(c, tally, machine);
+    if let Some(light) = light {
+        c.color_bound = c.color_bound.map(|bound| light.color_bound(bound));
+        c.lit = Some(light.found());
+    }
+    c
 }
 
 /// Every pixel where all depth tests are sure: there all layers must be golden's, and the colour within their bound.
@@ -262,9 +280,9 @@ impl Comparison {
         let channels = machine.channels();
         self.additions = Some(reach.steps.total());
         self.z_bound_for_input = reach.bound(machine, &channels[0]);
-        if self.shaded.is_none() {
-            self.color_bound_for_input = reach.bound(machine, &channels[1]);
-        }
+        // Under a light the gate's part comes on top of it; what is shaded has its own.
+        let color = reach.bound(machine, &channels[1]);
+        self.color_bound_for_input = color.filter(|_| self.lit.is_none() && self.shaded.is_none());
         for (own, channel) in self.extra.iter_mut().zip(extra::channels(machine)) {
             own.bound_for_input = reach.bound(machine, channel);
             own.allowed = own.bound_for_input.unwrap_or(own.allowed);
@@ -297,6 +315,7 @@ impl Comparison {
                 (None, Some(shaded)) => shaded.beyond,
                 (None, None) => beyond(self.color_error, self.color_bound_for_input.or(self.color_bound)),
             }
+            + self.lit.map_or(0, |lit| lit.unexplained)
             + self.extra.iter().map(|own| beyond(own.error, Some(own.allowed))).sum::<u64>();
         Verdict::of(self.compared, self.covered, wrong).and(Verdict::of(self.pixels, self.screen, wrong))
     }

@@ -9,6 +9,7 @@
 pub mod verdict;
 pub mod extra;
 pub mod input;
+pub mod light;
 pub mod port;
 pub mod shade;
 pub mod raster;

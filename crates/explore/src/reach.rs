@@ -65,8 +65,14 @@ pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     if machine.shade.is_there() {
         return Err(anyhow!("size, sweep and compare take no machine with SHADE yet; set shade.kind = none"));
     }
+    geometry(machine, port)
+}
+
+/// The same whatever the machine has: where its triangles are stepped.
+fn geometry(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     let bare = Machine::default();
     let keys = Machine {
+        shadow: bare.shadow,
         extra: bare.extra,
         blend: bare.blend,
         adders: machine.adders.min(bare.adders),
@@ -77,20 +83,20 @@ pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
         triangle.map(|v: edgewalk_machine::PortVertex| plan.raw_vertex(v.x(), v.y(), v.values()))
     };
     let triangles = port.triangles.iter().map(of_plan);
-    let drawn = Renderer::new(&plan, false).draw_passage(triangles, port.state()?);
+    let drawn = Renderer::new(&plan, false).draw_passage(triangles, port.one_state()?);
     drawn.map_err(|refusal| anyhow!("the fast engine draws every frame of such a machine: {refusal:?}"))
 }
 
-/// How far the values of these triangles are stepped; none where the machine has SHADOW, or the frame several passes.
+/// How far the values of these triangles are stepped; none where the frame has several passes.
 ///
 /// # Errors
 /// Vertices of another machine.
 pub fn reach(machine: &Plan, port: &PortFrame) -> Result<Option<Reach>> {
-    if machine.shadow.is_there() || port.passes.len() != 1 {
+    if port.passes.len() != 1 {
         return Ok(None);
     }
     // Depths do not hang on what is shaded.
     let keys = Machine { shade: Machine::default().shade, ..Machine::clone(machine) };
     let plan = keys.plan().map_err(|e| anyhow!("{e}"))?;
-    Ok(Reach::of(machine, &port.ids, &passage(&plan, port)?))
+    Ok(Reach::of(machine, &port.ids, &geometry(&plan, port)?))
 }

@@ -68,7 +68,11 @@ pub fn feed(frame: &Frame, port: &PortFrame, machine: &Plan) -> Result<Option<Fe
     }
     let roots = if machine.shade.normalises() { roots::words(machine) } else { Vec::new() };
     let proof = Proof::new(machine, &surfaces, errors);
-    Ok(Some(Feed { words: Shading { records, tables: surfaces.words(machine), roots }, proof, surfaces }))
+    Ok(Some(Feed {
+        words: Shading { records, tables: surfaces.words(machine), roots, textures: Vec::new() },
+        proof,
+        surfaces,
+    }))
 }
 
 /// Whether the frame is shaded at each pixel and the machine can do so.
@@ -96,6 +100,11 @@ pub(crate) fn shading_for<'a>(frame: &'a Frame, machine: &Plan) -> Result<Option
         return Err(anyhow!(
             "mode {name} (--shading {name}): the machine's shade.kind is {}; add --set shade.kind={name}, or draw with --engine golden",
             kind.name()
+        ));
+    }
+    if machine.shade.textures() {
+        return Err(anyhow!(
+            "texture.kind = nearest: no scene or file brings its texels to the machine yet; set texture.kind = none"
         ));
     }
     if machine.fill == Fill::Textbook {

@@ -433,8 +433,15 @@ fn the_model_draws_what_the_words_say_and_the_comparison_passes() {
             *word = word.wrapping_add(4 << 8);
         }
         let passes = &port.passes;
-        let off =
-            render_shaded(&machine, port.triangles.iter().copied(), passes, Waits::Never, &wrong, |_| {});
+        let off = render_shaded(
+            &machine,
+            port.triangles.iter().copied(),
+            passes,
+            &[],
+            Waits::Never,
+            &wrong,
+            |_| {},
+        );
         let off = from_machine(&machine, off.unwrap());
         let found = compare_shaded(&machine, &frame, &golden, &off, None, Some(&feed.proof));
         assert!(found.verdict() != Verdict::Pass || lights == 2, "four LSB more");

@@ -3,6 +3,8 @@
 
 mod file;
 
+mod words;
+
 pub use file::CaseError;
 
 use crate::Token;
@@ -39,6 +41,10 @@ pub struct Case {
     pub color_write: bool,
     /// BLEND adds; else it mixes.
     pub blend_add: bool,
+    /// SHADOW looks up its map, whose words are random.
+    pub shadow_on: bool,
+    /// What SHADOW leaves of a colour in shadow, with the gate `scale`.
+    pub ambient: u64,
     /// Every stored depth at the start, LSB; the largest if `None`.
     pub clear_z: Option<u64>,
     /// By link or level: in so many of 256 cycles the rig is not willing.
@@ -51,7 +57,7 @@ pub struct Case {
     pub disturbed: u64,
     /// Cycles that a unit alone runs; the machine runs until it is idle.
     pub cycles: u64,
-    /// Seed of the patterns, of the colour at the start, and of what stands in fields without a token.
+    /// Seed of the patterns, of the colour at the start, of the light's map, of the memories of terms and tables, and of what stands in fields without a token.
     pub seed: u64,
 }
 
@@ -100,6 +106,8 @@ impl Case {
             depth_write: true,
             color_write: true,
             blend_add: false,
+            shadow_on: false,
+            ambient: 0,
             clear_z: None,
             unwilling: BTreeMap::new(),
             late: 0,
@@ -179,8 +187,9 @@ impl Case {
 
     /// What the rig does.
     fn setting(&self, interface: &Interface) -> Result<Setting, LockstepError> {
-        let Case { depth_func, depth_write, color_write, blend_add, .. } = *self;
-        let state = DrawState { depth_func, depth_write, color_write, blend_add, ..DrawState::default() };
+        let Case { depth_func, depth_write, color_write, blend_add, shadow_on, ambient, .. } = *self;
+        let clear = [0; 3];
+        let state = DrawState { depth_func, depth_write, color_write, blend_add, shadow_on, ambient, clear };
         let mut setting = Setting::willing(interface, &constants(&state))?;
         setting.tokens.clone_from(&self.tokens);
         let mut random = Pcg64Mcg::seed_from_u64(self.seed);
@@ -197,6 +206,7 @@ impl Case {
                 "depth" => self.clear_z.map_or(memory.clear, u128::from),
                 _ => bits(&mut random, declared.word_bits),
             };
+            memory.start = words::start(&self.plan, declared, &mut random);
         }
         setting.resets.clone_from(&self.resets);
         setting.noise = Some(self.seed);

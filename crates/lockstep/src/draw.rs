@@ -9,8 +9,9 @@ use crate::values::{PortId, PortValues};
 use crate::{UnknownConstant, case};
 use edgewalk_machine::{Activity, ForeignVertex, Plan, PortVertex};
 use edgewalk_model::tokens::output;
-use edgewalk_model::{Counters, DrawState, Events, Frame};
+use edgewalk_model::{Counters, DrawState, Events, Frame, Pass};
 use edgewalk_netlist::{BuildErrors, Simulator};
+use std::sync::Arc;
 
 /// Why a netlist cannot draw.
 #[derive(Debug, thiserror::Error)]
@@ -42,7 +43,21 @@ pub fn render_rtl(
     state: DrawState,
     stalls: StallKind,
 ) -> Result<Frame, DrawError> {
-    run(plan, &plan.tagged(), triangles, state, stalls, |_| true)
+    run(plan, &plan.tagged(), triangles, &[Pass::all(state)], &[], stalls, |_| true)
+}
+
+/// As [`render_rtl`], pass by pass, as [`edgewalk_model::render_passes`] does; `maps`: the words of the lights' maps.
+///
+/// # Errors
+/// Triangles whose vertices were made for another machine.
+pub fn render_rtl_passes(
+    plan: &Plan,
+    triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+    passes: &[Pass],
+    maps: &[Vec<u32>],
+    stalls: StallKind,
+) -> Result<Frame, DrawError> {
+    run(plan, &plan.tagged(), triangles, passes, maps, stalls, |_| true)
 }
 
 /// As [`render_rtl`], with the machine as it is, so that ids are the tags that it has, or none; `watch` sees the netlist in
@@ -57,54 +72,80 @@ pub fn render_rtl_with(
     stalls: StallKind,
     watch: impl FnMut(&mut Simulator) -> bool,
 ) -> Result<Frame, DrawError> {
-    run(plan, plan, triangles, state, stalls, watch)
+    run(plan, plan, triangles, &[Pass::all(state)], &[], stalls, watch)
 }
 
 fn run(
     plan: &Plan,
     tagged: &Plan,
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
-    state: DrawState,
+    passes: &[Pass],
+    maps: &[Vec<u32>],
     stalls: StallKind,
     mut watch: impl FnMut(&mut Simulator) -> bool,
 ) -> Result<Frame, DrawError> {
     let interface = Interface::new(tagged, Unit::MACHINE);
     let mut device = NetlistDevice::new(&*netlist(tagged, Unit::MACHINE)?, &interface)?;
-    let mut setting = Setting::willing(&interface, &case::constants(&state))?;
-    for (memory, setting) in interface.memories.iter().zip(&mut setting.memories) {
-        if memory.name == "color" {
-            setting.clear = color_word(plan, state.clear);
-        }
-    }
-    setting.patterns = patterns(tagged, &interface, stalls, 0);
     let (port, mut foreign) = (Triangles::new(tagged), None);
-    let tokens = triangles.into_iter().zip(0..).map_while(|(triangle, number): (_, u32)| {
+    let mut tokens = triangles.into_iter().zip(0..).map_while(|(triangle, number): (_, u32)| {
         foreign = plan.accept(&triangle, number.into()).err();
         foreign.is_none().then(|| port.pack(&triangle, number))
     });
-    let mut picture = Picture::new(plan, &interface, &state);
+    let first = passes.first().map_or_else(DrawState::default, |pass| pass.state);
+    let mut picture = Picture::new(plan, &interface, &first);
     let mut ports = interface.values();
-    let mut rig = Rig::fed(&interface, setting, tokens);
-    loop {
-        // In the cycle in which it takes the last triangle the machine is still idle.
-        let exhausted = rig.exhausted();
-        rig.drive(&mut ports);
-        device.settle(&mut ports);
-        let more = watch(device.simulator());
-        picture.see(&ports);
-        device.clock();
-        rig.clock(&ports);
-        if !more || (exhausted && picture.is_idle(&ports)) {
+    let mut map: Arc<[u128]> = Arc::default();
+    for pass in passes {
+        if pass.clear_depth {
+            picture.stored[0].fill(plan.z.max() as u32); // b <= 32 bits
+        }
+        if let Some(words) = pass.map.and_then(|map| maps.get(map)) {
+            map = words.iter().map(|word| u128::from(*word)).collect();
+        }
+        // The memories are as the pass before has left them.
+        let mut setting = Setting::willing(&interface, &case::constants(&pass.state))?;
+        for (memory, setting) in interface.memories.iter().zip(&mut setting.memories) {
+            setting.start = match memory.name {
+                "map" => Arc::clone(&map),
+                "color" => picture.colors(plan),
+                _ => picture.stored[0].iter().map(|word| u128::from(*word)).collect(),
+            };
+        }
+        setting.patterns = patterns(tagged, &interface, stalls, 0);
+        let tokens = tokens.by_ref().take(pass.triangles);
+        let rig = Rig::fed(&interface, setting, tokens);
+        if !draw_pass(rig, &mut device, &mut picture, &mut ports, &mut watch) {
             break;
         }
     }
-    drop(rig);
+    drop(tokens);
     foreign.map_or(Ok(picture.frame(plan)), |foreign| Err(foreign.into()))
 }
 
-/// A word of the colour memory: red is the most significant.
-fn color_word(plan: &Plan, rgb: [u64; 3]) -> u128 {
-    rgb.into_iter().fold(0, |word, color| word << plan.color.bits | u128::from(color))
+/// Until the machine is idle again; false if `watch` has seen enough.
+fn draw_pass(
+    mut rig: Rig<'_>,
+    device: &mut NetlistDevice,
+    picture: &mut Picture,
+    ports: &mut PortValues,
+    watch: &mut impl FnMut(&mut Simulator) -> bool,
+) -> bool {
+    let before = picture.counters.clone();
+    loop {
+        // In the cycle in which it takes the last triangle the machine is still idle.
+        let exhausted = rig.exhausted();
+        rig.drive(ports);
+        device.settle(ports);
+        let more = watch(device.simulator());
+        picture.see(ports);
+        device.clock();
+        rig.clock(ports);
+        if !more || (exhausted && picture.is_idle(ports)) {
+            let counters = picture.counters.since(&before);
+            picture.passes.push(counters);
+            return more;
+        }
+    }
 }
 
 /// What the ports tell of every address, and of the run.
@@ -115,6 +156,8 @@ struct Picture {
     write: Writes,
     depth_write: Option<Writes>,
     tag: Option<usize>,
+    /// With SHADOW the field of the write that says whether it is lit.
+    lit_field: Option<usize>,
     activity: PortId,
     idle: PortId,
     /// By channel and address.
@@ -122,7 +165,10 @@ struct Picture {
     coverage: Vec<u32>,
     writes: Vec<u32>,
     id: Vec<i32>,
+    /// 0 never written, 1 in shadow, 2 lit.
+    lit: Vec<u8>,
     counters: Counters,
+    passes: Vec<Counters>,
 }
 
 /// A link that writes, and what of it is stored where.
@@ -188,6 +234,7 @@ impl Picture {
             tri: link("tri"),
             rd: link("rd"),
             tag: write.place("tag"),
+            lit_field: write.place("lit"),
             write: Writes::new(plan, write),
             depth_write: find("zwr").map(|link| Writes::new(plan, link)),
             activity: status("activity"),
@@ -196,8 +243,18 @@ impl Picture {
             coverage: vec![0; words],
             writes: vec![0; words],
             id: vec![-1; words],
+            lit: vec![0; words],
             counters: Counters::default(),
+            passes: Vec::new(),
         }
+    }
+
+    /// The words of the colour memory: red is the most significant.
+    fn colors(&self, plan: &Plan) -> Arc<[u128]> {
+        let [_, red, green, blue, ..] = &self.stored[..] else { return Arc::default() };
+        let bits = plan.color.bits;
+        let words = red.iter().zip(green).zip(blue);
+        words.map(|((r, g), b)| (u128::from(*r) << bits | u128::from(*g)) << bits | u128::from(*b)).collect()
     }
 
     fn is_idle(&self, ports: &PortValues) -> bool {
@@ -222,6 +279,9 @@ impl Picture {
             if let Some(tag) = self.tag {
                 self.id[address] = self.write.link.token(ports)[tag] as i32;
             }
+            if let Some(lit) = self.lit_field {
+                self.lit[address] = 1 + self.write.link.token(ports)[lit] as u8; // a bit
+            }
             counters.writes += 1;
         }
     }
@@ -241,7 +301,11 @@ impl Picture {
             coverage: pixels().map(|a| self.coverage[a]).collect(),
             writes: pixels().map(|a| self.writes[a]).collect(),
             id: pixels().map(|a| self.id[a]).collect(),
-            passes: vec![self.counters.clone()],
+            lit: match plan.shadow.is_there() {
+                true => pixels().map(|a| self.lit[a]).collect(),
+                false => Vec::new(),
+            },
+            passes: self.passes,
             counters: self.counters,
             events: Events::default(),
         }

@@ -134,7 +134,8 @@ const BEFORE_DEPTH: usize = 4;
 fn programme(plan: &Plan, interface: &Interface, held: &[&str], seed: u64) -> Vec<Vec<bool>> {
     // Cycles from one small triangle to the next, at the most; a unit alone gets fragments as fast as it takes them.
     let blend = if plan.blend.is_there() { plan.blend.queue + plan.blend.stages + 1 } else { 0 };
-    let places = (plan.inflight + blend) as usize;
+    let shadow = if plan.shadow.is_there() { plan.shadow.queue } else { 0 };
+    let places = (plan.inflight + blend + shadow) as usize;
     let (triangle, free) = if interface.unit == Unit::MACHINE {
         (longest_setup(plan).all() as usize + 8, 3 * (places + 4))
     } else {
@@ -144,7 +145,7 @@ fn programme(plan: &Plan, interface: &Interface, held: &[&str], seed: u64) -> Ve
         interface.memories.iter().map(|memory| interface.links[memory.read].name).collect();
     let mut rows = Vec::new();
     for name in held {
-        let triangles = if reads.contains(name) { BEFORE_DEPTH } else { places + 2 };
+        let triangles = if reads.contains(name) { BEFORE_DEPTH + shadow as usize } else { places + 2 };
         for at_random in [false, true] {
             let row: Vec<bool> = held.iter().map(|held| held != name).collect();
             rows.extend(std::iter::repeat_n(row, triangles * triangle));

@@ -23,7 +23,7 @@ fn quick_machine(rng: &mut Pcg64Mcg) -> Plan {
 #[test]
 fn the_picture_of_the_netlist_is_that_of_the_model() {
     let mut rng = Pcg64Mcg::seed_from_u64(5);
-    let (mut fragments, mut machines, mut blend) = (0, [0; 3], 0);
+    let (mut fragments, mut machines, mut blend, mut shadow, mut waited) = (0, [0; 3], 0, 0, 0);
     for i in 0..36 {
         let plan = quick_machine(&mut rng);
         let triangles: Vec<_> = (0..12).map(|_| random_triangle(&plan, &mut rng)).collect();
@@ -32,6 +32,7 @@ fn the_picture_of_the_netlist_is_that_of_the_model() {
             depth_write: rng.random_bool(0.9),
             color_write: rng.random_bool(0.9),
             blend_add: rng.random_bool(0.3),
+            shadow_on: true,
             clear: [1, 2, 3],
             ..DrawState::default()
         };
@@ -39,6 +40,7 @@ fn the_picture_of_the_netlist_is_that_of_the_model() {
         let model = render(&plan, triangles.iter().copied(), state, Stalls::NONE).expect("its own triangles");
         let rtl = render_rtl(&plan, triangles.iter().copied(), state, stalls).expect("its own triangles");
         assert_eq!((&rtl.z, &rtl.rgb, &rtl.extra), (&model.z, &model.rgb, &model.extra), "{plan:?}");
+        assert_eq!(rtl.lit, model.lit, "{plan:?}");
         assert_eq!(
             (&rtl.coverage, &rtl.writes, &rtl.id),
             (&model.coverage, &model.writes, &model.id),
@@ -49,19 +51,19 @@ fn the_picture_of_the_netlist_is_that_of_the_model() {
                 |c: &edgewalk_model::Counters| (c.cycles, c.activity, c.triangles, c.fragments, c.writes);
             assert_eq!(seen(&rtl.counters), seen(&model.counters), "{plan:?}");
         } else {
-            assert!(
-                rtl.counters.cycles > model.counters.cycles || model.counters.fragments == 0,
-                "it never waited"
-            );
+            // Few fragments may find every memory willing.
+            assert!(rtl.counters.cycles >= model.counters.cycles, "{plan:?}");
+            waited += u32::from(rtl.counters.cycles > model.counters.cycles);
         }
         fragments += model.counters.fragments;
         machines[i % 3] += 1;
         blend += u32::from(plan.blend.is_there());
+        shadow += u32::from(plan.shadow.is_there());
     }
     println!(
-        "{fragments} fragments compared on {machines:?} machines, by stalls; {blend} of them with BLEND"
+        "{fragments} fragments compared on {machines:?} machines, by stalls; {blend} of them with BLEND, {shadow} with SHADOW, {waited} of 24 waited"
     );
-    assert!(fragments > 1000 && blend > 10, "{fragments}");
+    assert!(fragments > 1000 && blend > 10 && shadow > 5 && waited > 15, "{fragments}");
 }
 
 #[test]

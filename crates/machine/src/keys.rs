@@ -4,7 +4,7 @@
 
 use crate::channel::{Kind, MAX_CHANNELS};
 use crate::machine::{BlendKind, EdgeKind, Fill, Gate, Hazard, Machine, ShadowLight};
-use crate::shading::{ShadeColour, ShadeKind, Walk};
+use crate::shading::{ShadeColour, ShadeKind, Texture, Walk};
 
 /// What a key may be set to.
 #[derive(Clone, Copy, Debug)]
@@ -146,6 +146,7 @@ const LIGHTS: [ShadowLight; 2] = [ShadowLight::None, ShadowLight::Parallel];
 const GATES: [Gate; 2] = [Gate::And, Gate::Scale];
 const SHADES: [ShadeKind; 3] = [ShadeKind::None, ShadeKind::FastPhong, ShadeKind::Phong];
 const COLOURS: [ShadeColour; 2] = [ShadeColour::Tables, ShadeColour::Multiply];
+const TEXTURES: [Texture; 2] = [Texture::None, Texture::Nearest];
 const WALKS: [Walk; 2] = [Walk::Register, Walk::Memory];
 const HAZARDS: [Hazard; 3] = [Hazard::Drain, Hazard::Interlock, Hazard::Forward];
 
@@ -266,6 +267,33 @@ pub const KEYS: &[Key] = &[
         "clocks from a read of a material's table to its data, at the least",
         table_latency
     ),
+    Key {
+        absent: Some(Texture::None as u32),
+        ..shade!(
+            "texture.kind",
+            &["none", "nearest"],
+            "texture of the colour: none, or the nearest texel",
+            texture,
+            TEXTURES
+        )
+    },
+    Key {
+        used: |m| m.shade.textures(),
+        ..shade!("texture.bits", Range(1, 11), "a texture has 2^bits columns and lines", texture_bits)
+    },
+    Key {
+        used: |m| m.shade.textures(),
+        ..shade!("fifo.texel", Range(1, 16), "fragments in TEXEL's queue", texel_queue)
+    },
+    Key {
+        used: |m| m.shade.textures(),
+        ..shade!(
+            "memory.texel_latency",
+            Range(1, 8),
+            "clocks from a read of a texel to its data, at the least",
+            texel_latency
+        )
+    },
     shade!(
         "term.walk",
         &["register", "memory"],
@@ -275,7 +303,7 @@ pub const KEYS: &[Key] = &[
     ),
     shade!("term.fraction", Range(0, 44), "fraction bits of a term of degree 2", fraction),
     Key {
-        used: |m| m.shade.normalises(),
+        used: |m| m.shade.has_linear_terms(),
         ..shade!("term.linear_fraction", Range(0, 46), "fraction bits of a term of degree 1", linear_fraction)
     },
     Key {

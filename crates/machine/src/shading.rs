@@ -38,7 +38,16 @@ pub enum Walk {
     Memory,
 }
 
-/// TERM, SHADE and the memories behind them.
+/// What a texture does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Texture {
+    /// There is none: the machine has no TEXEL.
+    None,
+    /// The nearest texel modulates the colour.
+    Nearest,
+}
+
+/// TERM, TEXEL, NORMAL, SHADE and the memories behind them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Shade {
     /// What is shaded.
@@ -63,6 +72,14 @@ pub struct Shade {
     pub linear_fraction: u32,
     /// Latency of the memory of the roots, clocks.
     pub root_latency: u32,
+    /// A texture for the colour.
+    pub texture: Texture,
+    /// A texture has 2^texture_bits columns and lines.
+    pub texture_bits: u32,
+    /// Depth of TEXEL's queue, fragments.
+    pub texel_queue: u32,
+    /// Latency of the memory of the textures, clocks.
+    pub texel_latency: u32,
     /// Bits of the number of a triangle's record.
     pub record_bits: u32,
     /// Latency of the memory of the terms, clocks.
@@ -80,6 +97,18 @@ impl Shade {
     #[must_use]
     pub fn normalises(&self) -> bool {
         self.kind == ShadeKind::Phong
+    }
+
+    /// TEXEL is there.
+    #[must_use]
+    pub fn textures(&self) -> bool {
+        self.is_there() && self.texture != Texture::None
+    }
+
+    /// A term of degree 1 is there.
+    #[must_use]
+    pub fn has_linear_terms(&self) -> bool {
+        self.normalises() || self.textures()
     }
 
     /// Bits of N·L as SHADE takes it: t + 2.
@@ -184,19 +213,23 @@ pub(crate) fn terms(machine: &Machine) -> Vec<Term> {
     let shade = &machine.shade;
     let lights = shade.lights as usize;
     let quadratic = |name, bits| Term { name, degree: 2, bits, fraction: shade.fraction };
-    let linear = |name| Term { name, degree: 1, bits: UNIT_BITS, fraction: shade.linear_fraction };
+    let linear = |name, bits| Term { name, degree: 1, bits, fraction: shade.linear_fraction };
     let of_light = |[diffuse, highlight]: [&'static str; 2]| {
         let bits = [shade.diffuse_index_bits(), shade.highlight_index_bits()];
         [quadratic(diffuse, bits[0]), quadratic(highlight, bits[1])]
     };
-    match shade.kind {
+    let mut terms: Vec<Term> = match shade.kind {
         ShadeKind::None => Vec::new(),
         ShadeKind::FastPhong => COSINES.into_iter().take(lights).flat_map(of_light).collect(),
         ShadeKind::Phong => {
-            let products = PRODUCTS.into_iter().take(lights).flatten().map(linear);
+            let products = PRODUCTS.into_iter().take(lights).flatten().map(|name| linear(name, UNIT_BITS));
             products.chain([quadratic("nn", UNIT_BITS)]).collect()
         }
+    };
+    if shade.textures() {
+        terms.extend(["u", "v"].map(|name| linear(name, shade.texture_bits)));
     }
+    terms
 }
 
 impl Plan {
@@ -239,6 +272,20 @@ impl Plan {
     #[must_use]
     pub fn root_word(&self, v: u32, slope: u32) -> u128 {
         u128::from(v & 0x1_ffff) << 10 | u128::from(slope & 0x3ff)
+    }
+
+    /// The word of a texel, LSB of the colour; what has more bits is cut.
+    #[must_use]
+    pub fn texel_word(&self, colours: [u32; 3]) -> u128 {
+        let mask = (1 << self.color.bits) - 1;
+        colours.into_iter().fold(0, |word, colour| word << self.color.bits | u128::from(colour & mask))
+    }
+
+    /// The place of a material's texel in the memory of the textures.
+    #[must_use]
+    pub fn texel_place(&self, material: u32, u: u32, v: u32) -> usize {
+        let bits = self.shade.texture_bits;
+        ((material as usize) << bits | v as usize) << bits | u as usize
     }
 
     /// The word of an entry of the tables; what has more bits than the entry is cut.

@@ -176,7 +176,7 @@ impl Machine {
 mod tests {
     use super::*;
     use crate::machine::{Blend, BlendKind, Shadow, ShadowLight};
-    use crate::shading::{Shade, ShadeKind};
+    use crate::shading::{Shade, ShadeKind, Texture};
 
     const TEXTBOOK: &str = "0ee73237105a";
 
@@ -195,7 +195,8 @@ mod tests {
             // With all extra channels, a light and a k_t for every pixel every key means something.
             let blend = Blend { kind: BlendKind::Interpolated, ..Machine::default().blend };
             let shadow = Shadow { light: ShadowLight::Parallel, ..Machine::default().shadow };
-            let shade = Shade { kind: ShadeKind::Phong, ..Machine::default().shade };
+            let (kind, texture) = (ShadeKind::Phong, Texture::Nearest);
+            let shade = Shade { kind, texture, ..Machine::default().shade };
             let mut machine = Machine { extra: 4, blend, shadow, shade, ..Machine::default() };
             let other = match key.domain {
                 Domain::Range(low, high) => {

@@ -6,6 +6,7 @@ pub mod edge;
 pub mod span;
 pub mod term;
 pub mod pixel;
+pub mod texel;
 pub mod normal;
 pub mod shade;
 pub mod shadow;
@@ -26,6 +27,7 @@ pub const UNITS: &[&UnitSpec] = &[
     &span::SPEC,
     &term::SPEC,
     &pixel::SPEC,
+    &texel::SPEC,
     &normal::SPEC,
     &shade::SPEC,
     &shadow::SPEC,

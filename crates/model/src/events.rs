@@ -92,6 +92,14 @@ events! {
     walk_result_last,
     /// Cycles in which a read waits for the memory of the terms.
     term_read_stall,
+    /// Texels that were read.
+    texel_read,
+    /// Cycles in which a read waits for the memory of the textures.
+    texel_read_stall,
+    /// Cycles in which a fragment waits for TEXEL's queue.
+    texel_queue_full,
+    /// Cycles in which the oldest fragment waits for its texel.
+    texel_data_wait,
     /// Times that NORMAL's roots were fetched.
     roots_read,
     /// Cycles in which a read waits for the roots.

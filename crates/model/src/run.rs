@@ -8,7 +8,7 @@
 use crate::color_memory::ColorMemory;
 use crate::frame::Shading;
 use crate::machine::{
-    BlendInputs, Inputs, Model, NormalInputs, Outputs, ShadeInputs, ShadowInputs, TermInputs,
+    BlendInputs, Inputs, Model, NormalInputs, Outputs, ShadeInputs, ShadowInputs, TermInputs, TexelInputs,
 };
 use crate::map_memory::MapMemory;
 use crate::memory::Memory;
@@ -60,6 +60,8 @@ pub struct Rig<const C: usize> {
     pub memory: Memory<C>,
     /// With TERM the records of the terms.
     pub terms: Option<WordMemory>,
+    /// With TEXEL the materials' textures.
+    pub textures: Option<WordMemory>,
     /// With NORMAL its roots.
     pub roots: Option<WordMemory>,
     /// With SHADE the materials' tables.
@@ -111,6 +113,7 @@ impl<const C: usize> Rig<C> {
             model: Model::new(plan),
             memory: Memory::new(plan, state.clear, waits),
             terms: plan.shade.is_there().then(|| WordMemory::new(plan.shade.term_latency, waits, 3)),
+            textures: plan.shade.textures().then(|| WordMemory::new(plan.shade.texel_latency, waits, 6)),
             roots: plan.shade.normalises().then(|| WordMemory::new(plan.shade.root_latency, waits, 5)),
             tables: plan.shade.is_there().then(|| WordMemory::new(plan.shade.table_latency, waits, 4)),
             map: plan.shadow.is_there().then(|| MapMemory::new(plan, waits)),
@@ -119,10 +122,13 @@ impl<const C: usize> Rig<C> {
         }
     }
 
-    /// Writes tables, roots, and the records of the first triangles, as many as the memory holds; the machine is idle.
+    /// Writes tables, roots, textures, and the records of the first triangles, as many as the memory holds; the machine is idle.
     pub fn write_shading(&mut self, plan: &Plan, shading: &Shading) {
         if let Some(tables) = &mut self.tables {
             tables.write(0, shading.tables.iter().copied());
+        }
+        if let Some(textures) = &mut self.textures {
+            textures.write(0, shading.textures.iter().copied());
         }
         if let Some(roots) = &mut self.roots {
             roots.write(0, shading.roots.iter().copied());
@@ -167,6 +173,7 @@ impl<const C: usize> Rig<C> {
             data: self.memory.data(),
             wr_ready: self.memory.wr_ready() && writes_open,
             term: self.term_inputs(),
+            texel: self.texel_inputs(),
             normal: self.normal_inputs(),
             shade: self.shade_inputs(),
             shadow: self.shadow_inputs(),
@@ -189,6 +196,10 @@ impl<const C: usize> Rig<C> {
         if let Some(terms) = self.terms.as_mut().filter(|_| C > FEW) {
             let read = outputs.trd.filter(|_| inputs.term.trd_ready);
             terms.step(read, inputs.term.tdata.is_some() && outputs.tdata_ready);
+        }
+        if let Some(textures) = self.textures.as_mut().filter(|_| C > FEW) {
+            let read = outputs.xrd.filter(|_| inputs.texel.xrd_ready);
+            textures.step(read, inputs.texel.xdata.is_some() && outputs.xdata_ready);
         }
         if let Some(roots) = self.roots.as_mut().filter(|_| C > FEW) {
             let read = outputs.rrd.filter(|_| inputs.normal.rrd_ready);
@@ -219,6 +230,14 @@ impl<const C: usize> Rig<C> {
     fn term_inputs(&self) -> TermInputs {
         let Some(terms) = self.terms.as_ref().filter(|_| C > FEW) else { return TermInputs::default() };
         TermInputs { trd_ready: terms.read_ready(), tdata: terms.data().map(|word| word as u64) }
+    }
+
+    #[inline(always)]
+    fn texel_inputs(&self) -> TexelInputs {
+        let Some(textures) = self.textures.as_ref().filter(|_| C > FEW) else {
+            return TexelInputs::default();
+        };
+        TexelInputs { xrd_ready: textures.read_ready(), xdata: textures.data() }
     }
 
     #[inline(always)]

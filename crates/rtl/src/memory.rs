@@ -16,7 +16,7 @@ const DOC: &str = "MEMORY holds the depths and the picture, a word a pixel, behi
 
 Timing: a depth is at data `latency` cycles after its read, and waits there until it is taken.
 Rules: a read in the cycle of a write sees the old word. Writes are always taken.
-Not modelled: banks, bursts, refresh.";
+Not modelled: banks, bursts, refresh; a light's map, and what it lights.";
 
 const BLEND_DOC: &str = "MEMORY holds the depths and the picture, a word a pixel, behind the channels of DEPTH and BLEND.
 
@@ -27,7 +27,7 @@ const BLEND_DOC: &str = "MEMORY holds the depths and the picture, a word a pixel
 
 Timing: a word is at data or cdata `latency` cycles after its read, each has its own, and waits there until it is taken.
 Rules: a read in the cycle of a write sees the old word. Writes are always taken.
-Not modelled: banks, bursts, refresh.";
+Not modelled: banks, bursts, refresh; a light's map, and what it lights.";
 
 /// The netlist of a memory of 2^(xb+yb) pixels. At the start every depth is `clear_z` and every other channel 0.
 ///
@@ -38,7 +38,7 @@ pub fn memory(plan: &Plan, clear_z: u64) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new("edgewalk_memory", if blends { BLEND_DOC } else { DOC });
     let stored = |fields: Vec<Field>| {
         let mut stored = parts(&fields);
-        stored.retain(|f| f.name != "tag");
+        stored.retain(|f| f.name != "tag" && f.name != "lit");
         stored
     };
     let read = ReadPort::new(&m, plan, ["rd", "data"]);

@@ -1,27 +1,138 @@
-//! SHADOW has no netlist yet: a machine with it is refused.
+//! SHADOW: looks up a light's depth map for every fragment, and darkens what lies behind it.
 
-use std::panic::Location;
 use std::sync::Arc;
 
-use edgewalk_machine::Plan;
-use edgewalk_netlist::{BuildError, BuildErrors, Fault, Netlist, Place};
+use edgewalk_machine::units::{shadow::SPEC, tokens};
+use edgewalk_machine::{Gate, Plan};
+use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
+
+use crate::fifo::fifo;
+use crate::ports::Interface;
+use crate::wires::{Part, Token, parts};
+
+const DOC: &str = "SHADOW looks up a light's depth map for every fragment, and darkens what lies behind it.
+
+           ┌───── mrd (address) ──> map memory
+  frag ────┴─> [queue] ─┬─ compare ─> gate ─> shaded
+    map memory ─ mdata ─┘
+
+Formats: lx, ly signed, the texel; lz signed, the depth from the light less the bias, as the map's words but with two more bits: before 0
+and beyond them all. lit is 1 where lz is not more than the texel's word.
+Timing: a texel is read in the cycle its fragment comes; the fragment goes on in the cycle the word comes.
+Rules: what lies outside the map or before it is lit, what lies behind it is in shadow; neither is read for. Words come in the order of
+the reads. shadow_on stays as it is while the machine is busy.";
+
+/// Light-space values, which end here.
+const LIGHT: [&str; 3] = ["lx", "ly", "lz"];
+const COLORS: [&str; 3] = ["r", "g", "b"];
 
 /// The netlist of SHADOW.
 ///
 /// # Errors
-/// Always: it is not written yet.
-pub fn shadow(_: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
-    Err(missing())
+/// None for a machine with SHADOW that [`edgewalk_machine::Machine::plan`] accepts.
+pub fn shadow(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
+    let m = Module::new("edgewalk_shadow", DOC);
+    let ports = Interface::new(&m, (SPEC.ports)(plan));
+    let shadow_on = ports.constant("shadow_on");
+    let gate = match plan.shadow.gate {
+        Gate::And => None,
+        Gate::Scale => Some(ports.constant("ambient")),
+    };
+    let (frag_valid, frag) = ports.takes();
+    let memory = ports.memory("map");
+    let shaded_ready = ports.gives_ready();
+
+    let [tx, ty, d] = LIGHT.map(|name| frag[name]);
+    let found = find(plan, shadow_on, tx, ty, d);
+
+    m.comment("A fragment enters when the queue has room, in the cycle its texel is read; one that is known is not read for.");
+    let queue =
+        m.instance("queue", &fifo("edgewalk_shadow_fifo", plan.shadow.queue, &entry_parts(plan, &frag))?);
+    let room = queue.output("in_ready");
+    let mrd_valid = (frag_valid & room & !found.known).named("mrd_valid");
+    let read_done = (found.known | memory.read_ready).named_doc("read_done", "or not asked for");
+    let frag_ready = (room & read_done).named("frag_ready");
+    let address = m.cat(&[ty, tx].map(|t| t.trunc(plan.shadow.side_bits())));
+    let entry = Token::new(entry_parts(plan, &frag), |f| match f {
+        "known" => found.known,
+        "value" => found.value,
+        "d" => d.trunc(plan.shadow.depth_bits),
+        same => frag[same],
+    });
+    entry.connect(queue.connect("in_valid", frag_valid & read_done), "in", &entry_parts(plan, &frag));
+
+    m.comment("The head goes on when its word comes, or at once if it is known.");
+    let head = Token::of_instance(queue, "out", entry_parts(plan, &frag));
+    let waiting = queue.output("out_valid");
+    let decided = (head["known"] | memory.data_valid).named("decided");
+    let shaded_valid = (waiting & decided).named("shaded_valid");
+    let mdata_ready = (waiting & !head["known"] & shaded_ready).named("mdata_ready");
+    queue.connect("out_ready", shaded_ready & decided);
+    let lit = head["known"].mux(head["value"], head["d"].le(memory.data["depth"])).named("lit");
+
+    m.comment("The gate.");
+    let gated = |c: &str| match gate {
+        None => lit.mux(head[c], 0),
+        Some(ambient) => lit.mux(head[c], share(&m, c, head[c], ambient)),
+    };
+    ports.take_ready(frag_ready);
+    ports.read("map", mrd_valid, address, mdata_ready);
+    ports.give(shaded_valid, |f| match f {
+        "lit" => lit,
+        color if COLORS.contains(&color) => gated(color).named(&format!("gated_{color}")),
+        same => head[same],
+    });
+    ports.status("shadow_full", !room);
+    ports.status("occupied", waiting);
+    m.finish()
 }
 
-/// Refuses machines with SHADOW.
-pub(crate) fn refuse(plan: &Plan) -> Result<(), BuildErrors> {
-    if plan.shadow.is_there() { Err(missing()) } else { Ok(()) }
+/// What the queue keeps of a fragment.
+fn entry_parts(plan: &Plan, frag: &Token<'_>) -> Vec<Part> {
+    let mut entry = frag.parts();
+    entry.retain(|part| !LIGHT.contains(&part.name.as_str()));
+    let depth = tokens::map_word(plan);
+    let part = |name: &str, width, doc: &str| Part { name: name.to_owned(), width, doc: doc.to_owned() };
+    entry.push(part("known", 1, "lit or not without a texel"));
+    entry.push(part("value", 1, "lit, if that is known"));
+    entry.push(part("d", parts([&depth])[0].width, "depth from the light, if that has to be compared"));
+    entry
 }
 
-fn missing() -> BuildErrors {
-    let name =
-        "shadow: this unit has no netlist yet; set shadow.light = none, or take another engine".to_owned();
-    let place = Place(Location::caller());
-    BuildErrors(vec![BuildError { module: "edgewalk".to_owned(), place, fault: Fault::Undriven { name } }])
+/// What is said of a fragment without a look at the map.
+struct Found<'m> {
+    /// It needs no texel.
+    known: Signal<'m>,
+    /// It is lit, if that is known.
+    value: Signal<'m>,
+}
+
+fn find<'m>(plan: &Plan, shadow_on: Signal<'m>, tx: Signal<'m>, ty: Signal<'m>, d: Signal<'m>) -> Found<'m> {
+    let m = tx.module();
+    let (side, size, depth) = (plan.shadow.side_bits(), plan.shadow.size, plan.shadow.depth_bits);
+    m.comment("Whether the fragment lies on the map: its sign and the bits beyond the map's side are 0.");
+    let on_axis = |t: Signal<'m>, name: &str| {
+        let on_side = !t.slice(t.width() - 1, side).any();
+        // A side that is no power of two ends before its bits do.
+        let on = if size == 1 << side { on_side } else { on_side & t.trunc(side).lt(size as i32) };
+        on.named(name)
+    };
+    let in_map = on_axis(tx, "column_in_map") & on_axis(ty, "line_in_map");
+    let looked_up = (shadow_on & in_map).named_doc("looked_up", "the map counts, and has this place");
+    let nearer = d.msb().named_doc("nearer", "nearer than the map can say");
+    let off_range =
+        d.slice(depth + 1, depth).any().named_doc("off_range", "before or behind all that the map can say");
+    Found {
+        known: (!looked_up | off_range).named("known"),
+        value: (!looked_up | nearer).named_doc("value", "lit, if known"),
+    }
+}
+
+/// `color * ambient / (2^b - 1)`, to nearest.
+fn share<'m>(m: &'m Module, name: &str, color: Signal<'m>, ambient: Signal<'m>) -> Signal<'m> {
+    let bits = color.width();
+    let half = m.lit(2 * bits, 1 << (bits - 1));
+    let p = (color * ambient + half).named_doc(&format!("p_{name}"), "the product and a half");
+    // Neither sum is more than (2^b - 1)^2 + 2^b + 2^(b-1), which 2b bits hold.
+    (p + p.slice(2 * bits - 1, bits).zext(2 * bits)).slice(2 * bits - 1, bits)
 }

@@ -110,3 +110,8 @@ fn ports_of_a_machine_with_everything_on() {
 fn ports_of_a_machine_with_blend() {
     check("blend.txt", include_str!("ports/blend.txt"));
 }
+
+#[test]
+fn ports_of_a_machine_with_shadow() {
+    check("shadow.txt", include_str!("ports/shadow.txt"));
+}

@@ -22,7 +22,9 @@ pub mod triangle_file;
 mod polygon;
 mod frame;
 mod pass;
+mod band;
 
+pub use band::{Host, fits};
 pub use camera::Camera;
 pub use error::{InputError, nearest};
 pub use frame::{

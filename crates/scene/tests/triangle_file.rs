@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 use edgewalk_scene::{
-    Blending, Change, DepthFunc, Frame, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_SIDE, Polygon,
+    Blending, Change, DepthFunc, Frame, Host, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_SIDE, Polygon,
     Primitive, ShadeMode, Shadow, State, Triangle, Vertex, triangle_file,
 };
 use proptest::prelude::*;
@@ -406,6 +406,7 @@ prop_compose! {
         let mut frame = Frame {
             width, height, mode, depth, depth_write, blend, color_write, clear, extra, shadow, triangles, changes, polygons,
             shading: None,
+            host: Host::default(),
         };
         frame.changes = changes_of(&frame, rules);
         frame

@@ -124,7 +124,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         machine: match seen {
             Some(triangle) if machine.fill == Fill::Exact && machine.edge_kind == EdgeKind::Exact => {
                 let blend = state_of(&frame, id as usize).blend;
-                walk(&machine, &port_triangle(id as usize, triangle, frame.mode, blend, &machine)?, x, y)
+                walk(&machine, &port_triangle(id as usize, triangle, &frame, blend, &machine)?, x, y)
             }
             _ => None,
         },

@@ -86,6 +86,8 @@ impl Case {
                 "depth_write" => case.depth_write = flag(key, value)?,
                 "color_write" => case.color_write = flag(key, value)?,
                 "blend_add" => case.blend_add = flag(key, value)?,
+                "shadow_on" => case.shadow_on = flag(key, value)?,
+                "ambient" => case.ambient = number(key, value)?,
                 "clear_z" => case.clear_z = Some(number(key, value)?),
                 "late" => case.late = number(key, value)?,
                 "disturbed" => case.disturbed = number(key, value)?,
@@ -134,6 +136,8 @@ impl Case {
         line("depth_write", self.depth_write.into(), usual.depth_write.into());
         line("color_write", self.color_write.into(), usual.color_write.into());
         line("blend_add", self.blend_add.into(), usual.blend_add.into());
+        line("shadow_on", self.shadow_on.into(), usual.shadow_on.into());
+        line("ambient", whole(self.ambient), whole(0));
         if let Some(fault) = &self.fault {
             line("fault", fault.as_str().into(), Value::from(""));
         }

@@ -4,14 +4,17 @@
 use crate::interface::{Link, Memory};
 use crate::values::PortValues;
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 /// How a memory behaves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MemorySetting {
     /// Clocks from a read to its data, at the least.
     pub latency: u64,
-    /// Every word at the start.
+    /// Every word at the start that is not among these.
     pub clear: u128,
+    /// The words at the start, from address 0 on.
+    pub start: Arc<[u128]>,
     /// Words.
     pub words: usize,
 }
@@ -23,6 +26,7 @@ impl MemorySetting {
         MemorySetting {
             latency: memory.latency,
             clear: u128::MAX >> (128 - memory.word_bits),
+            start: Arc::default(),
             words: 1 << memory.address_bits,
         }
     }
@@ -40,12 +44,9 @@ pub(super) struct Served {
 
 impl Served {
     pub fn new(memory: &Memory, setting: MemorySetting) -> Served {
-        Served {
-            memory: memory.clone(),
-            latency: setting.latency,
-            words: vec![setting.clear; setting.words],
-            queue: VecDeque::new(),
-        }
+        let mut words = setting.start.to_vec();
+        words.resize(setting.words, setting.clear);
+        Served { memory: memory.clone(), latency: setting.latency, words, queue: VecDeque::new() }
     }
 
     /// Number of the link of its words.

@@ -1,7 +1,7 @@
 //! Machines drawn at random from the keys, small enough for an interpreter.
 
 use edgewalk_machine::keys::{Domain, KEYS};
-use edgewalk_machine::{BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision};
+use edgewalk_machine::{BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeKind, Texture};
 use rand::Rng;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
@@ -13,6 +13,10 @@ const NARROW: &[(&str, u32, u32)] = &[
     ("fifo.span", 1, 4),
     ("fifo.inflight", 1, 6),
     ("fifo.blend", 1, 6),
+    ("fifo.shadow", 1, 6),
+    ("shadow.size", 1, 40),
+    ("term.record_bits", 1, 4),
+    ("shade.material_bits", 0, 2),
 ];
 
 /// A machine that can be built. Every key takes all kinds of values, so a new key is drawn without a word here.
@@ -26,8 +30,7 @@ pub fn random_machine(rng: &mut Pcg64Mcg) -> Plan {
 
 fn draw(rng: &mut Pcg64Mcg) -> Machine {
     let mut machine = Machine::default();
-    // SHADOW, TERM and SHADE have no netlist yet.
-    for key in KEYS.iter().filter(|key| !["shadow.light", "shade.kind"].contains(&key.name)) {
+    for key in KEYS {
         let narrow = NARROW.iter().find(|(name, ..)| *name == key.name);
         let domain = narrow.map_or(key.domain, |(_, low, high)| Domain::Range(*low, *high));
         let value = match domain {
@@ -37,6 +40,10 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
         };
         (key.set)(&mut machine, value);
     }
+    if machine.shade.kind == ShadeKind::Phong {
+        machine.shade.kind = ShadeKind::FastPhong; // NORMAL has no netlist yet
+    }
+    machine.shade.texture = Texture::None; // nor has TEXEL
     // What would make nearly all of them clash.
     machine.guard_bits =
         if rng.random_bool(0.1) { rng.random_range(8..=14) } else { rng.random_range(2..=6) };
@@ -50,8 +57,10 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     machine.extras.iter_mut().for_each(|extra| within(&mut extra.precision));
     let kt = &mut machine.blend;
     kt.kt_vertex = kt.kt_vertex.min(kt.kt_fraction);
-    let interpolated = u32::from(kt.kind == BlendKind::Interpolated);
-    machine.extra = machine.extra.min(MAX_CHANNELS as u32 - 4 - interpolated);
-    machine.adders = machine.adders.min(4 + machine.extra + interpolated);
+    let light = &mut machine.shadow;
+    light.vertex_fraction = light.vertex_fraction.min(light.fraction);
+    let own = u32::from(kt.kind == BlendKind::Interpolated) + 3 * u32::from(light.is_there());
+    machine.extra = machine.extra.min(MAX_CHANNELS as u32 - 4 - own);
+    machine.adders = machine.adders.min(4 + machine.extra + own);
     machine
 }

@@ -56,6 +56,17 @@ fn values(plan: &Plan, rng: &mut Pcg64Mcg) -> Vec<i64> {
     let value = |channel: &edgewalk_machine::Channel| {
         let most = (channel.limit() << channel.vertex_fraction) as i64;
         let least = if channel.kind.is_signed() { -most } else { 0 };
+        // What the light's map covers is a small part of what its values may be.
+        let (side, depth) = (i64::from(plan.shadow.size), 1 << plan.shadow.depth_bits);
+        let on_map = match channel.name {
+            "lx" | "ly" => Some(side),
+            "lz" => Some(depth),
+            _ => None,
+        };
+        if let Some(end) = on_map.filter(|_| rng.random_bool(0.7)) {
+            let (unit, end) = (1i64 << channel.vertex_fraction, end << channel.vertex_fraction);
+            return rng.random_range(-unit..=end).clamp(least, most);
+        }
         match rng.random_range(0..4) {
             0 => most,
             1 => least,

@@ -284,6 +284,16 @@ pub fn fragment(plan: &Plan) -> Vec<Field> {
     fragment_with(plan, terms.collect())
 }
 
+/// What TEXEL gives: the same without u and v, its colours new; without TEXEL what PIXEL gives.
+#[must_use]
+pub fn textured(plan: &Plan) -> Vec<Field> {
+    let mut fields = fragment(plan);
+    if plan.shade.textures() {
+        fields.retain(|field| !["u", "v"].contains(&field.name.as_str()));
+    }
+    fields
+}
+
 /// What SHADE takes: a fragment with two cosines a light.
 #[must_use]
 pub fn cosines(plan: &Plan) -> Vec<Field> {

@@ -1,9 +1,9 @@
 //! What is to be seen of the machine: its units one after the other, with the readies between them.
 
+use super::shading::parts;
 use super::{Inputs, Model};
 use crate::depth::DepthInputs;
-use crate::normal::Normal;
-use crate::shade::{Cosines, Shade};
+use crate::shade::Shade;
 use crate::view::View;
 use edgewalk_machine::Plan;
 
@@ -15,17 +15,13 @@ impl<const C: usize> Model<C> {
         let pass = depth.pass();
         let pass_ready = self.blend().is_some_and(|blend| blend.pass_ready(pass, &inputs.blend));
         let drawn = pixel.frag();
-        let terms = *pixel.cosines();
-        let (normed, cosines) = match self.normal().map(Normal::normed) {
-            None => (drawn, terms),
-            Some(normed) => normed.map_or((None, Cosines::default()), |(f, cosines)| (Some(f), *cosines)),
-        };
+        let units = self.units();
+        let offered = units.offered(&inputs.texel);
         let frag = self.shade().map_or(drawn, Shade::tinted);
         let block = depth.block(frag, inputs.depth_write);
         let frag_ready = inputs.rd_ready && block.is_none();
-        let normed_ready = self.shade().map_or(frag_ready, |shade| shade.frag_ready(&cosines, frag_ready));
-        let drawn_ready = self.normal().map_or(normed_ready, |normal| normal.frag_ready(normed_ready));
-        let (pixel_ready, fresh_queued) = (pixel.span_ready(drawn_ready), span.fresh_queued());
+        let readies = units.readies(&offered, &inputs.texel, frag_ready);
+        let (pixel_ready, fresh_queued) = (pixel.span_ready(readies.drawn), span.fresh_queued());
         let there = self.term().is_none_or(|term| term.there(span.span()));
         let span_ready = there && pixel_ready;
         let line = edge.line();
@@ -46,12 +42,18 @@ impl<const C: usize> Model<C> {
         if let Some(term) = self.term() {
             term.view(plan, span.span(), &inputs.term, pixel_ready, view);
         }
-        pixel.view(plan, span.span().filter(|_| there), drawn_ready, view);
+        pixel.view(plan, span.span().filter(|_| there), readies.drawn, view);
+        if let Some(texel) = self.texel() {
+            let next = if self.normal().is_some() { "normal" } else { "shade" };
+            let (frag, terms) = parts(&offered.drawn);
+            texel.view(plan, (frag, &terms), &inputs.texel, (next, readies.textured), view);
+        }
         if let Some(normal) = self.normal() {
-            normal.view(plan, drawn, &inputs.normal, normed_ready, view);
+            normal.view(plan, parts(&offered.textured).0, &inputs.normal, readies.normed, view);
         }
         if let Some(shade) = self.shade() {
-            shade.view(plan, (normed, &cosines), &inputs.shade, ("depth", frag_ready), view);
+            let (frag, cosines) = parts(&offered.normed);
+            shade.view(plan, (frag, &cosines), &inputs.shade, ("depth", frag_ready), view);
         }
         depth.view(plan, frag, &depth_inputs, view);
         if let Some(blend) = self.blend() {
@@ -61,9 +63,9 @@ impl<const C: usize> Model<C> {
             light: false,
             pass: pass.is_some() && !pass_ready,
             walk: !there && span.span().is_some(),
-            tables: self.shade().is_some_and(|shade| shade.waits(normed, &cosines))
-                || self.normal().is_some_and(|normal| normal.waits(drawn)),
+            texel: units.texel_waits(&offered),
+            tables: units.tables_wait(&offered),
         };
-        view.cause(self.activity(block, drawn_ready, waits));
+        view.cause(self.activity(block, readies.drawn, waits));
     }
 }

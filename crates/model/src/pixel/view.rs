@@ -52,11 +52,8 @@ impl<const C: usize> Pixel<C> {
         let takes = self.span_ready(frag_ready) && span.is_some();
         view.says(takes, "takes the next span.");
         view.says(takes && span.is_some_and(|span| span.fresh), "and the increments of a new triangle.");
-        let next = match (plan.shade.normalises(), plan.shade.is_there()) {
-            (true, _) => "normal",
-            (false, true) => "shade",
-            (false, false) => "depth",
-        };
+        let behind = plan.units().skip_while(|unit| unit.name != "pixel").nth(1);
+        let next = behind.map_or("depth", |unit| unit.name);
         view.gives("frag", Some(next), self.out.is_some(), frag_ready);
         view.step("pixel", 'p');
     }

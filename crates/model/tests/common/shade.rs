@@ -38,10 +38,11 @@ pub fn output(term: &Term, word: u64) -> i64 {
 
 /// The cosines that SHADE sees, of the outputs of the terms: these, or with NORMAL by its table, in plain numbers.
 pub fn cosines(plan: &Plan, roots: &[u128], record: &Record, outputs: &[i64]) -> Vec<i64> {
+    let outputs = &outputs[..outputs.len() - if plan.shade.textures() { 2 } else { 0 }];
     let Some((square, products)) = outputs.split_last().filter(|_| plan.shade.normalises()) else {
         return outputs.to_vec();
     };
-    let s = (*square).max(16384).min(65535);
+    let s = (*square).clamp(16384, 65535);
     let entry = roots[(s / 256) as usize];
     let (v, slope) = ((entry / 1024 % 131_072) as i64, (entry % 1024) as i64);
     let y = (v - (slope * (s % 256) + 128).div_euclid(256)).rem_euclid(131_072);
@@ -54,6 +55,21 @@ pub fn cosines(plan: &Plan, roots: &[u128], record: &Record, outputs: &[i64]) ->
         scaled.div_euclid(1 << (16 - t)).max(-half).min(half - 1)
     };
     products.iter().enumerate().map(index).collect()
+}
+
+/// The colour of a fragment behind TEXEL: c·x/(2^b - 1) rounded to nearest, x the texel's, which repeats.
+pub fn textured(plan: &Plan, textures: &[u128], material: u32, outputs: &[i64], own: [u32; 3]) -> [u32; 3] {
+    if !plan.shade.textures() {
+        return own;
+    }
+    let side = 1i64 << plan.shade.texture_bits;
+    let [u, v] = [outputs.len() - 2, outputs.len() - 1].map(|i| outputs[i].rem_euclid(side) as u32);
+    let word = textures[plan.texel_place(material, u, v)];
+    let (b, max) = (plan.color.bits, plan.color.max());
+    std::array::from_fn(|i| {
+        let part = (word >> (b * (2 - i as u32))) as u64 & max;
+        ((2 * u64::from(own[i]) * part + max) / (2 * max)) as u32
+    })
 }
 
 /// The chords of 1/√x, each lowered by half of its gap.
@@ -113,8 +129,11 @@ pub fn random_shading(plan: &Plan, triangles: &[Triangle], rng: &mut impl Rng) -
         }
     }
     let roots = (0..256).map(|_| plan.root_word(rng.random(), rng.random())).collect();
+    let texels = if plan.shade.textures() { plan.texel_place(materials, 0, 0) } else { 0 };
+    let colour = |rng: &mut _| [(); 3].map(|()| Rng::random(rng));
+    let textures = (0..texels).map(|_| plan.texel_word(colour(rng))).collect();
     let records = triangles.iter().map(|triangle| random_record(plan, triangle, materials, rng)).collect();
-    Shading { records, tables, roots }
+    Shading { records, tables, roots, textures }
 }
 
 fn random_entry(plan: &Plan, rng: &mut impl Rng) -> Entry {

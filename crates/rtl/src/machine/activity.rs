@@ -18,10 +18,15 @@ pub(super) fn activity<'m>(m: &'m Module, units: &Joined<'m>) -> Signal<'m> {
     // DEPTH is full because BLEND takes nothing.
     let queue = units.keeps_waiting("pass").map_or(queue, |waits| waits.mux(cause(Activity::Blend), queue));
     let waits = units.any("hazard").mux(hazard, units.any("full").mux(queue, memory));
+    // SHADOW's own doing, if it takes nothing for want of a texel to read, or of the word of one.
+    let light = units.find("shadow_full").map(|full| !full | !units.valid("shaded"));
+    let waits = light.map_or(waits, |light| light.mux(cause(Activity::Light), waits));
+    let waits = units.find("table_wait").map_or(waits, |no| no.mux(cause(Activity::Shade), waits));
     let lower = in_flight.mux(flush, idle);
     let lower = (!units.ready_for("tri")).mux(setup, lower);
     let lines = units.valid("span") | units.any("line_held") | units.valid("line");
     let lower = lines.mux(edge, lower);
+    let lower = units.find("term_wait").map_or(lower, |no| no.mux(cause(Activity::Term), lower));
     let draws = units.any("visible").mux(draw, offscreen);
     advance.mux(units.any("active").mux(draws, lower), waits)
 }
@@ -29,8 +34,13 @@ pub(super) fn activity<'m>(m: &'m Module, units: &Joined<'m>) -> Signal<'m> {
 impl<'m> Joined<'m> {
     /// One of the units tells this.
     fn any(&self, name: &str) -> Signal<'m> {
+        self.find(name).expect("SPAN, PIXEL and DEPTH are in every machine")
+    }
+
+    /// The same; `None` if the machine has no unit that tells it.
+    fn find(&self, name: &str) -> Option<Signal<'m>> {
         let told = (0..self.0.len()).filter_map(|place| self.told(place, name));
-        told.reduce(|any, one| any | one).expect("SPAN, PIXEL and DEPTH are in every machine")
+        told.reduce(|any, one| any | one)
     }
 
     /// What a unit tells, 0 while it means nothing; `None` if it does not tell this.

@@ -4,8 +4,9 @@ use super::extra;
 use super::rules;
 use super::shading::{self, Header};
 use super::shadow::{occluder, shadow};
+use crate::band::Host;
 use crate::error::InputError;
-use crate::frame::{Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_SIDE, Polygon, Triangle, Vertex};
+use crate::frame::{DEPTH_ROUNDING, Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_SIDE, Polygon, Triangle, Vertex};
 use crate::pass::State;
 use crate::text::{Lines, Place, words};
 use std::fs::File;
@@ -235,7 +236,8 @@ impl Parser {
         let changed = self.frame.changes.last().is_some_and(|change| change.after == drawn);
         match name {
             "T" => {
-                self.frame.triangles.push(triangle(place, words)?);
+                let triangle = triangle(place, words, &mut self.frame.host)?;
+                self.frame.triangles.push(triangle);
                 self.open = (self.frame.extra > 0).then_some(place.line);
                 if let Some(shading) = &mut self.frame.shading {
                     self.header.triangle(place, shading)?;
@@ -254,9 +256,12 @@ impl Parser {
             _ if let Some(shading) = &self.frame.shading => {
                 return Err(shading::polygon(place, name, shading.method));
             }
-            "P" => self.frame.polygons.push(Polygon { contours: vec![contour(place, name, words)?], after }),
+            "P" => {
+                let contours = vec![contour(place, name, words, &mut self.frame.host)?];
+                self.frame.polygons.push(Polygon { contours, after });
+            }
             _ => match self.frame.polygons.last_mut().filter(|polygon| polygon.after == after && !changed) {
-                Some(polygon) => polygon.contours.push(contour(place, name, words)?),
+                Some(polygon) => polygon.contours.push(contour(place, name, words, &mut self.frame.host)?),
                 None => {
                     let why = "permitted only on the lines after a polygon `P n x y z r g b kt ...`";
                     return Err(place.fault("line starts with", name.as_bytes(), why).into());
@@ -291,12 +296,16 @@ impl Parser {
     }
 }
 
-fn triangle<'a>(place: Place, words: impl Iterator<Item = &'a [u8]>) -> Result<Triangle, InputError> {
+fn triangle<'a>(
+    place: Place,
+    words: impl Iterator<Item = &'a [u8]>,
+    host: &mut Host,
+) -> Result<Triangle, InputError> {
     let words: [&[u8]; 3 * ATTRIBUTES.len()] = place.values("T", words)?;
     let mut triangle = Triangle::default();
     for (index, (slot, words)) in triangle.0.iter_mut().zip(words.chunks_exact(ATTRIBUTES.len())).enumerate()
     {
-        *slot = vertex(place, "T", index, words)?;
+        *slot = vertex(place, "T", index, words, host)?;
     }
     Ok(triangle)
 }
@@ -306,6 +315,7 @@ fn contour<'a>(
     place: Place,
     key: &str,
     mut words: impl Iterator<Item = &'a [u8]>,
+    host: &mut Host,
 ) -> Result<Vec<Vertex>, InputError> {
     let count = words.next().unwrap_or_default();
     let count = place.number(format_args!("{key} n"), count, "an integer", 3..=MAX_CONTOUR)?;
@@ -318,16 +328,29 @@ fn contour<'a>(
         );
         return Err(place.fault(key, found.as_bytes(), permitted).into());
     }
-    words.chunks_exact(ATTRIBUTES.len()).enumerate().map(|(i, words)| vertex(place, key, i, words)).collect()
+    let vertices = words.chunks_exact(ATTRIBUTES.len()).enumerate();
+    vertices.map(|(i, words)| vertex(place, key, i, words, host)).collect()
 }
 
-fn vertex(place: Place, key: &str, index: usize, words: &[&[u8]]) -> Result<Vertex, InputError> {
+fn vertex(
+    place: Place,
+    key: &str,
+    index: usize,
+    words: &[&[u8]],
+    host: &mut Host,
+) -> Result<Vertex, InputError> {
     let mut numbers = [0.0; ATTRIBUTES.len()];
     for (a, (number, word)) in numbers.iter_mut().zip(words).enumerate() {
-        let range = if a < 2 { -MAX_COORDINATE..=MAX_COORDINATE } else { 0.0..=1.0 };
+        let range = match a {
+            0 | 1 => -MAX_COORDINATE..=MAX_COORDINATE,
+            2 => -DEPTH_ROUNDING..=1.0 + DEPTH_ROUNDING,
+            _ => 0.0..=1.0,
+        };
         let key = format_args!("{key} vertex {} {}", index + 1, ATTRIBUTES[a]);
         *number = place.number(key, word, "a number", range)?;
     }
-    let [x, y, z, r, g, b, kt] = numbers;
+    let [x, y, depth, r, g, b, kt] = numbers;
+    let z = depth.clamp(0.0, 1.0);
+    host.clamped_depths += u64::from(z != depth);
     Ok(Vertex { x, y, z, r, g, b, kt, ..Vertex::default() })
 }

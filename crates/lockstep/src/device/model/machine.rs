@@ -11,16 +11,17 @@ use super::shade::{self, ShadePorts};
 use super::shadow::{MapPorts, ShadowPorts};
 use super::span::SpanPorts;
 use super::term::{TermPorts, WordPorts};
+use super::texel::{self, TexelPorts};
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::shade::Cosines;
-use edgewalk_model::term::MAX_TERMS;
+use edgewalk_model::machine::shading::parts;
 use edgewalk_model::tokens::Passed;
 use edgewalk_model::{
-    BlendInputs, Events, Inputs, Model, NormalInputs, ShadeInputs, ShadowInputs, TermInputs, View,
+    BlendInputs, Events, Inputs, Model, NormalInputs, ShadeInputs, ShadowInputs, TermInputs, TexelInputs,
+    View,
 };
 
 /// The machine.
@@ -31,6 +32,7 @@ pub struct MachineDevice<const C: usize> {
     memory: MemoryPorts<C>,
     /// Of TERM and of SHADE.
     words: Option<(WordPorts, WordPorts)>,
+    textures: Option<WordPorts>,
     roots: Option<WordPorts>,
     map: Option<MapPorts>,
     color: Option<ColorPorts<C>>,
@@ -46,6 +48,7 @@ struct Inside<const C: usize> {
     span: SpanPorts<C>,
     term: Option<TermPorts<C>>,
     pixel: PixelPorts<C>,
+    texel: Option<TexelPorts<C>>,
     normal: Option<NormalPorts<C>>,
     shade: Option<ShadePorts<C>>,
     shadow: Option<ShadowPorts<C>>,
@@ -67,6 +70,7 @@ impl<const C: usize> MachineDevice<C> {
             tri: TriangleTaker::find(plan, interface)?,
             memory: MemoryPorts::find(scope)?,
             words: plan.shade.is_there().then(words).transpose()?,
+            textures: plan.shade.textures().then(|| texel::find(scope)).transpose()?,
             roots: plan.shade.normalises().then(|| WordPorts::find(scope, "rrd", "rdata")).transpose()?,
             map: plan.shadow.is_there().then(|| MapPorts::find(scope)).transpose()?,
             color: plan.blend.is_there().then(|| ColorPorts::find(scope)).transpose()?,
@@ -76,9 +80,6 @@ impl<const C: usize> MachineDevice<C> {
         })
     }
 }
-
-/// Beside no fragment.
-const NONE: &Cosines = &Cosines { terms: [0; MAX_TERMS], material: 0, gloss: 0 };
 
 impl<const C: usize> Inside<C> {
     fn find(plan: &Plan, interface: &Interface) -> Result<Self, NoPlace> {
@@ -90,6 +91,7 @@ impl<const C: usize> Inside<C> {
             span: SpanPorts::find(of("span"))?,
             term: plan.shade.is_there().then(|| TermPorts::find(of("term"))).transpose()?,
             pixel: PixelPorts::find(of("pixel"))?,
+            texel: plan.shade.textures().then(|| TexelPorts::find(of("texel"))).transpose()?,
             normal: plan.shade.normalises().then(|| NormalPorts::find(of("normal"))).transpose()?,
             shade: plan.shade.is_there().then(|| ShadePorts::find(of("shade"))).transpose()?,
             shadow: plan.shadow.is_there().then(|| ShadowPorts::find(of("shadow"))).transpose()?,
@@ -102,8 +104,7 @@ impl<const C: usize> Inside<C> {
     fn show(&self, model: &Model<C>, inputs: &Inputs, ports: &mut PortValues) {
         let units = model.units();
         let drawn = units.pixel.frag();
-        let normed = units.normal.map(|normal| normal.normed().map_or((None, NONE), |(f, c)| (Some(f), c)));
-        let (tinting, cosines) = normed.unwrap_or((drawn, units.pixel.cosines()));
+        let offered = units.offered(&inputs.texel);
         let frag = units.shade.map_or(drawn, |shade| shade.tinted());
         let shaded = units.shadow.and_then(|shadow| shadow.shaded(&inputs.shadow));
         let seen = if units.shadow.is_some() { shaded.as_ref() } else { frag };
@@ -112,17 +113,20 @@ impl<const C: usize> Inside<C> {
         self.setup.show(units.setup, ports);
         self.edge.show(units.edge, units.span.fresh_queued(), ports);
         self.span.show(units.span, ports);
-        let normed_ready = units.shade.map_or(frag_ready, |shade| shade.frag_ready(cosines, frag_ready));
-        let drawn_ready = units.normal.map_or(normed_ready, |normal| normal.frag_ready(normed_ready));
+        let readies = units.readies(&offered, &inputs.texel, frag_ready);
         if let (Some(shown), Some(unit)) = (&self.term, units.term) {
-            shown.show(unit, units.span.span(), units.pixel.span_ready(drawn_ready), ports);
+            shown.show(unit, units.span.span(), units.pixel.span_ready(readies.drawn), ports);
         }
-        self.pixel.show(units.pixel, drawn_ready, ports);
+        self.pixel.show(units.pixel, readies.drawn, ports);
+        if let (Some(shown), Some(unit)) = (&self.texel, units.texel) {
+            shown.show(unit, &inputs.texel, ports);
+        }
         if let (Some(shown), Some(unit)) = (&self.normal, units.normal) {
-            shown.show(unit, drawn, normed_ready, ports);
+            shown.show(unit, parts(&offered.textured).0, readies.normed, ports);
         }
         if let (Some(shown), Some(unit)) = (&self.shade, units.shade) {
-            shown.show(unit, (tinting, cosines), frag_ready, ports);
+            let (frag, cosines) = parts(&offered.normed);
+            shown.show(unit, (frag, &cosines), frag_ready, ports);
         }
         if let (Some(shown), Some(unit)) = (&self.shadow, units.shadow) {
             shown.show(unit, frag, &inputs.shadow, ports);
@@ -149,6 +153,10 @@ impl<const C: usize> MachineDevice<C> {
             data: depth.data,
             wr_ready: depth.wr_ready,
             term: words.map_or_else(TermInputs::default, |(terms, _)| terms.term_inputs(ports)),
+            texel: self
+                .textures
+                .as_ref()
+                .map_or_else(TexelInputs::default, |memory| texel::inputs(memory, ports)),
             normal: self
                 .roots
                 .as_ref()
@@ -176,6 +184,9 @@ impl<const C: usize> Device for MachineDevice<C> {
         if let Some((terms, tables)) = &self.words {
             terms.show(outputs.trd, outputs.tdata_ready, ports);
             tables.show(outputs.srd, outputs.sdata_ready, ports);
+        }
+        if let Some(textures) = &self.textures {
+            textures.show(outputs.xrd, outputs.xdata_ready, ports);
         }
         if let Some(roots) = &self.roots {
             roots.show(outputs.rrd, outputs.rdata_ready, ports);
