@@ -218,6 +218,9 @@ fn case(random: &mut Pcg64Mcg, number: u32, lights: usize, gloss: f64) -> Frame 
     Frame { triangles: vec![triangle], shading: Some(shading), ..Frame::new(640, 480) }
 }
 
+/// Settings of a machine, how many triangles, how many lights, and the sharpest highlight's exponent.
+type Case<'a> = (&'a [(&'a str, &'a str)], u32, usize, f64);
+
 /// The same frame by the method of the machine.
 fn by(mut frame: Frame, machine: &Plan) -> Frame {
     if let Some(shading) = frame.shading.as_mut().filter(|_| machine.shade.normalises()) {
@@ -231,7 +234,7 @@ fn colours_of_random_triangles_are_within_the_bound() {
     let kind = ("shade.kind", "fast-phong");
     let glossy = ("shade.gloss_bits", "8");
     let phong = ("shade.kind", "phong");
-    let machines: [(&[(&str, &str)], u32, usize, f64); 7] = [
+    let machines: [Case; 7] = [
         (&[phong, glossy], 800, 1, 200.0),
         (&[phong, glossy, ("shade.table_bits", "10"), ("shade.lights", "2")], 600, 2, 200.0),
         (&[kind, glossy], 2200, 1, 200.0),
