@@ -9,7 +9,7 @@ use edgewalk_explore::raster::{from_machine, from_model, of_port};
 use edgewalk_golden::Drawing;
 use edgewalk_lockstep::StallKind;
 use edgewalk_machine::Plan;
-use edgewalk_model::{Waits, render_passes};
+use edgewalk_model::{Waits, render_shaded};
 use edgewalk_scene::Frame;
 use std::ops::Range;
 
@@ -46,7 +46,8 @@ pub fn draw_waiting(
         Engine::Model => {
             let port = to_port(frame, machine)?;
             let triangles = port.triangles.iter().copied();
-            let drawn = render_passes(machine, triangles, &port.passes, &port.maps(), waits, |_| {})?;
+            let (passes, maps) = (&port.passes, &port.maps());
+            let drawn = render_shaded(machine, triangles, passes, maps, waits, port.words(), |_| {})?;
             Ok(of_port(from_model(machine, drawn), &port))
         }
     }
@@ -63,7 +64,11 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Resul
             let triangles = bar.wrap_iter(port.triangles.iter().copied());
             let (passes, maps) = (&port.passes, &port.maps());
             let raster = if engine == Engine::Model {
-                from_model(machine, render_passes(machine, triangles, passes, maps, Waits::Never, |_| {})?)
+                let words = port.words();
+                from_model(
+                    machine,
+                    render_shaded(machine, triangles, passes, maps, Waits::Never, words, |_| {})?,
+                )
             } else {
                 let drawn =
                     edgewalk_lockstep::render_rtl_passes(machine, triangles, passes, maps, StallKind::None);
@@ -88,7 +93,9 @@ pub fn draw_bands(
         Engine::Golden => {
             let drawing = Drawing::new(frame, golden_fill(machine));
             let mut bands = bands(frame.width, frame.height, GOLDEN_BAND);
-            bands.try_for_each(|lines| take(from_golden(drawing.lines(lines), machine)))
+            bands.try_for_each(|lines| {
+                take(Raster { host: frame.host, ..from_golden(drawing.lines(lines), machine) })
+            })
         }
         Engine::Fast => {
             let port = to_port(frame, machine)?;

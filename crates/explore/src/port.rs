@@ -1,10 +1,14 @@
 //! A frame's way to the machine's port.
 
 use crate::light::{self, Map};
+use crate::shade::{Feed, feed, shading_for};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::{DrawState, Pass};
-use edgewalk_scene::{Blending, DepthFunc, Frame, ShadeMode, State, Triangle, Triangulated};
+use edgewalk_model::{DrawState, Pass, Shading};
+use edgewalk_scene::{
+    Blending, CrossingEdges, DepthFunc, Frame, Host, ShadeMode, State, Triangle, Triangulated, fits,
+};
+use std::borrow::Cow;
 
 /// A frame as the machine's port takes it.
 pub struct PortFrame {
@@ -14,11 +18,25 @@ pub struct PortFrame {
     pub ids: Vec<i32>,
     /// The rules, and how many triangles are drawn by each, in order; at least one.
     pub passes: Vec<Pass>,
+    /// What was done to the triangles on the way.
+    pub host: Host,
     /// The lights' maps.
     pub lights: Vec<Map>,
+    /// For TERM and SHADE, where the frame is shaded at each pixel.
+    pub shade: Option<Feed>,
 }
 
+/// Of a frame that is not shaded at each pixel.
+const UNSHADED: &Shading =
+    &Shading { records: Vec::new(), tables: Vec::new(), roots: Vec::new(), textures: Vec::new() };
+
 impl PortFrame {
+    /// What the memories behind TERM and SHADE hold.
+    #[must_use]
+    pub fn words(&self) -> &Shading {
+        self.shade.as_ref().map_or(UNSHADED, |feed| &feed.words)
+    }
+
     /// The words of the lights' maps.
     #[must_use]
     pub fn maps(&self) -> Vec<Vec<u32>> {
@@ -53,12 +71,42 @@ impl PortFrame {
     }
 }
 
+/// What a frame sends to the machine: its polygons as triangles, and no triangle beyond the guard band.
+///
+/// # Errors
+/// A polygon that cannot be cut into triangles.
+pub fn sent<'a>(frame: &'a Frame, machine: &Plan) -> Result<(Triangulated<'a>, Host), CrossingEdges> {
+    let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
+    let (limit, mut host) = (guard_band(machine), frame.host);
+    // The terms of a shaded triangle are those of all of it.
+    if frame.shading.is_some() || triangles.iter().all(|triangle| fits(triangle, limit)) {
+        return Ok((Triangulated { triangles, ids }, host));
+    }
+    let (mut pieces, mut of) = (Vec::with_capacity(triangles.len()), Vec::with_capacity(ids.len()));
+    for (triangle, id) in triangles.iter().zip(ids) {
+        pieces.extend_from_slice(&host.in_band(triangle, frame, limit));
+        of.resize(pieces.len(), id);
+    }
+    Ok((Triangulated { triangles: Cow::Owned(pieces), ids: of }, host))
+}
+
+/// Half a side of the machine's guard band, pixels.
+#[must_use]
+pub fn guard_band(machine: &Plan) -> f64 {
+    f64::from((1u32 << machine.guard_bits) - 1)
+}
+
 /// Snaps a frame to the port, polygons as triangles, or says what of it the machine cannot take.
 pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
     if let Some(shadow) = &frame.shadow {
         light::check(shadow, machine)?;
+        if frame.shading.is_some() {
+            return Err(anyhow!(
+                "shadow: a frame that is shaded at each pixel has no light's map in the machine; draw with mode gouraud, or with --engine golden"
+            ));
+        }
     }
-    let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
+    let (Triangulated { triangles, ids }, host) = sent(frame, machine)?;
     let (mut port, mut passes) = (Vec::with_capacity(triangles.len()), Vec::new());
     for pass in frame.passes() {
         let parts = ids.iter().take_while(|id| (**id as usize) < pass.primitives.end).count();
@@ -73,7 +121,8 @@ pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
         });
     }
     let lights = frame.shadow.iter().map(|shadow| light::map(shadow, machine)).collect::<Result<_>>()?;
-    Ok(PortFrame { triangles: port, ids, passes, lights })
+    let port = PortFrame { triangles: port, ids, passes, lights, host, shade: None };
+    Ok(PortFrame { shade: feed(frame, &port, machine)?, ..port })
 }
 
 /// The rules of a pass as the machine has them, or what of them it cannot do.
@@ -90,6 +139,7 @@ pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawSt
             "colour_write 0: a machine without BLEND writes the colour of every fragment that passes; add --set blend.kind=constant"
         ));
     }
+    shading_for(frame, machine)?;
     let max = machine.color.max() as f64;
     Ok(DrawState {
         depth_func: state.depth.unwrap_or(DepthFunc::Always) as u8,

@@ -6,6 +6,7 @@ use crate::port::PortFrame;
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::fast::Path;
 use edgewalk_model::{Activity, Counters, Events};
+use edgewalk_scene::Host;
 
 /// A picture: row 0 on top, `[y][x]`.
 #[derive(Clone)]
@@ -28,6 +29,8 @@ pub struct Raster {
     pub extra: Vec<Values>,
     /// 0 nothing written, 1 in shadow, 2 lit, by the last write; where golden or a machine with SHADOW drew.
     pub lit: Option<Vec<u8>>,
+    /// What was done to the triangles before they were drawn.
+    pub host: Host,
     /// Where the cycles went, where a machine drew.
     pub cycles: Option<Cycles>,
     /// The same by pass, where there is more than one.
@@ -92,7 +95,7 @@ impl Cycles {
     }
 }
 
-/// The ids of the frame's triangles and polygons for those of the triangles the machine drew, and what the lights' maps took.
+/// The ids of the frame's triangles and polygons for those of the triangles the machine drew, what the lights' maps took, and what the host did.
 #[must_use]
 pub fn of_port(mut raster: Raster, port: &PortFrame) -> Raster {
     for id in &mut raster.id {
@@ -102,7 +105,7 @@ pub fn of_port(mut raster: Raster, port: &PortFrame) -> Raster {
     let pass =
         |light: &Map| LightPass { cycles: Cycles::of(&light.counters, None), words: light.words.clone() };
     let lights = port.lights.iter().map(pass).collect();
-    Raster { lights, ..raster }
+    Raster { lights, host: port.host, ..raster }
 }
 
 /// A frame of the fast engine; the corners are counted only where it ticked.
@@ -143,6 +146,7 @@ pub fn from_golden(picture: edgewalk_golden::Picture, machine: &Plan) -> Raster 
         rgb: picture.rgb,
         extra: extra.map(|(channel, values)| Values::exact(channel, values)).collect(),
         lit: Some(picture.lit.into_iter().map(|lit| lit as u8).collect()),
+        host: Host::default(),
         cycles: None,
         passes: Vec::new(),
         lights: Vec::new(),
@@ -163,6 +167,7 @@ pub fn from_machine(machine: &Plan, drawn: edgewalk_model::Frame) -> Raster {
         rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / machine.color.max() as f64)).collect(),
         extra: drawn.extra.into_iter().map(Values::Stored).collect(),
         lit: (!drawn.lit.is_empty()).then_some(drawn.lit),
+        host: Host::default(),
         cycles: Some(Cycles { held: None, ..Cycles::of(&drawn.counters, None) }),
         passes: match &drawn.passes[..] {
             [] | [_] => Vec::new(),

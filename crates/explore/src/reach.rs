@@ -55,12 +55,15 @@ pub fn untimed(machine: &Plan) -> Result<Plan> {
 /// Takes the frame through the units, as far as it is the same with and without channels of the user's own and BLEND.
 ///
 /// # Errors
-/// A machine with SHADOW, a frame of several passes, vertices of another machine.
+/// A machine with SHADOW or SHADE, a frame of several passes, vertices of another machine.
 pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     if machine.shadow.is_there() {
         return Err(anyhow!(
             "size, sweep and compare take no machine with SHADOW yet; set shadow.light = none"
         ));
+    }
+    if machine.shade.is_there() {
+        return Err(anyhow!("size, sweep and compare take no machine with SHADE yet; set shade.kind = none"));
     }
     geometry(machine, port)
 }
@@ -92,5 +95,8 @@ pub fn reach(machine: &Plan, port: &PortFrame) -> Result<Option<Reach>> {
     if port.passes.len() != 1 {
         return Ok(None);
     }
-    Ok(Reach::of(machine, &port.ids, &geometry(machine, port)?))
+    // Depths do not hang on what is shaded.
+    let keys = Machine { shade: Machine::default().shade, ..Machine::clone(machine) };
+    let plan = keys.plan().map_err(|e| anyhow!("{e}"))?;
+    Ok(Reach::of(machine, &port.ids, &geometry(&plan, port)?))
 }

@@ -9,6 +9,7 @@ use anyhow::Result;
 use edgewalk_golden::Order;
 use edgewalk_machine::Plan;
 use edgewalk_model::{Activity, Events, Waits};
+use edgewalk_scene::Host;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
@@ -29,6 +30,7 @@ pub struct Report {
     comparison: Option<Comparison>,
     setup: Option<SetupReport>,
     waits: Waits,
+    host: Host,
 }
 
 impl Report {
@@ -50,6 +52,7 @@ impl Report {
             comparison: None,
             setup: None,
             waits: Waits::Never,
+            host: drawn.host,
         };
         report.add(drawn);
         report
@@ -66,6 +69,13 @@ impl Report {
     /// The same of an input that has polygons too.
     pub fn with_polygons(mut self, count: u64) -> Self {
         self.polygons = count;
+        self
+    }
+
+    /// The same of triangles to which the host did this.
+    #[must_use]
+    pub fn with_host(mut self, host: Host) -> Self {
+        self.host = host;
         self
     }
 
@@ -156,6 +166,12 @@ impl Report {
             "fragments": self.covered,
             "writes": self.writes,
             "odd_pixels": self.odd_pixels,
+            "host": {
+                "off_screen": self.host.off_screen,
+                "clipped": self.host.clipped,
+                "pieces": self.host.pieces,
+                "clamped_depths": self.host.clamped_depths,
+            },
         });
         let own = extra::channels(&self.machine);
         if !own.is_empty() {
@@ -227,6 +243,7 @@ impl Report {
             m.height,
             m.hash()
         );
+        t += &host(&self.host);
         let _ = writeln!(t, "fragments {}, writes {}", self.covered, self.writes);
         if let Some(order) = &self.order {
             let _ =
@@ -273,6 +290,22 @@ impl Report {
     }
 }
 
+/// What was done to the triangles before the machine, if anything was.
+fn host(host: &Host) -> String {
+    let Host { off_screen, clipped, pieces, clamped_depths } = *host;
+    let mut done = Vec::new();
+    if off_screen > 0 {
+        done.push(format!("{off_screen} beyond the guard band and off the screen, left out"));
+    }
+    if clipped > 0 {
+        done.push(format!("{clipped} cut at the guard band into {pieces}"));
+    }
+    if clamped_depths > 0 {
+        done.push(format!("{clamped_depths} depths beyond 0 or 1 by rounding, clamped"));
+    }
+    if done.is_empty() { String::new() } else { format!("host: {}\n", done.join("; ")) }
+}
+
 /// What the comparison found. Writing to a string cannot fail.
 fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
     _ = writeln!(t, "compared {} / {} covered pixels", c.compared, c.covered);
@@ -308,6 +341,18 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
             t,
             "light: {} pixels, {} in shadow, {} decided otherwise than golden; unexplained by texels within {:.4} and depths within {:.4} LSB: {}",
             l.pixels, l.shadow, l.differ, l.texel_bound, l.depth_bound, l.unexplained
+        );
+    }
+    if let Some(s) = &c.shaded {
+        _ = writeln!(
+            t,
+            "shaded: {} pixels, largest error {:.4} LSB from fast Phong, bounds up to {:.4}, {:.4} of one reached, {} beyond",
+            s.pixels, s.error, s.bound, s.of_bound, s.beyond
+        );
+        _ = writeln!(
+            t,
+            "a light at the horizon in {} of them, on its other side in {}; from Phong shading at most {:.4}, {:.4} in the mean",
+            s.at_horizon, s.other_branch, s.from_phong, s.mean_from_phong
         );
     }
     for own in &c.extra {

@@ -3,6 +3,8 @@
 
 mod file;
 
+mod words;
+
 pub use file::CaseError;
 
 use crate::Token;
@@ -55,7 +57,7 @@ pub struct Case {
     pub disturbed: u64,
     /// Cycles that a unit alone runs; the machine runs until it is idle.
     pub cycles: u64,
-    /// Seed of the patterns, of the colour at the start, of the light's map, and of what stands in fields without a token.
+    /// Seed of the patterns, of the colour at the start, of the light's map, of the memories of terms and tables, and of what stands in fields without a token.
     pub seed: u64,
 }
 
@@ -204,9 +206,7 @@ impl Case {
                 "depth" => self.clear_z.map_or(memory.clear, u128::from),
                 _ => bits(&mut random, declared.word_bits),
             };
-            if declared.name == "map" {
-                memory.start = (0..memory.words).map(|_| bits(&mut random, declared.word_bits)).collect();
-            }
+            memory.start = words::start(&self.plan, declared, &mut random);
         }
         setting.resets.clone_from(&self.resets);
         setting.noise = Some(self.seed);

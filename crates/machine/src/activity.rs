@@ -29,11 +29,17 @@ pub enum Activity {
     Blend,
     /// SHADOW waits for the light's map.
     Light,
+    /// A span waits for TERM's walk.
+    Term,
+    /// A fragment waits for SHADE's tables.
+    Shade,
+    /// TEXEL waits for the memory of the textures.
+    Texel,
 }
 
 impl Activity {
     /// All, in the order of the port's code.
-    pub const ALL: [Activity; 11] = [
+    pub const ALL: [Activity; 14] = [
         Activity::Idle,
         Activity::Draw,
         Activity::Offscreen,
@@ -45,6 +51,9 @@ impl Activity {
         Activity::Flush,
         Activity::Blend,
         Activity::Light,
+        Activity::Term,
+        Activity::Shade,
+        Activity::Texel,
     ];
 
     /// Bits of the port.
@@ -53,16 +62,33 @@ impl Activity {
     /// Name in reports and, in capitals, in the netlist.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        ["idle", "draw", "offscreen", "hazard", "queue", "memory", "edge", "setup", "flush", "blend", "light"]
-            [self as usize]
+        [
+            "idle",
+            "draw",
+            "offscreen",
+            "hazard",
+            "queue",
+            "memory",
+            "edge",
+            "setup",
+            "flush",
+            "blend",
+            "light",
+            "term",
+            "shade",
+            "texel",
+        ][self as usize]
     }
 
     /// Those that the machine can have.
     pub fn of(plan: &Plan) -> impl Iterator<Item = Activity> {
         let (blends, shadows) = (plan.blend.is_there(), plan.shadow.is_there());
+        let (shades, textures) = (plan.shade.is_there(), plan.shade.textures());
         Activity::ALL.into_iter().filter(move |activity| match activity {
             Activity::Blend => blends,
             Activity::Light => shadows,
+            Activity::Term | Activity::Shade => shades,
+            Activity::Texel => textures,
             _ => true,
         })
     }
@@ -82,6 +108,9 @@ impl Activity {
             "the last fragments leave the pipeline",
             "BLEND takes no fragment",
             "SHADOW takes no fragment",
+            "TERM walks to the start of a span",
+            "SHADE fetches tables",
+            "TEXEL takes no fragment",
         ][self as usize]
     }
 

@@ -4,6 +4,7 @@
 
 use crate::channel::{Kind, MAX_CHANNELS};
 use crate::machine::{BlendKind, EdgeKind, Fill, Gate, Hazard, Machine, ShadowLight};
+use crate::shading::{ShadeColour, ShadeKind, Texture, Walk};
 
 /// What a key may be set to.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +52,32 @@ macro_rules! shadow {
             get: |m| m.shadow.$field,
             set: |m, v| m.shadow.$field = v,
             used: |m| m.shadow.is_there(),
+            absent: None,
+        }
+    };
+}
+
+/// A key of TERM or SHADE, for machines that have them.
+macro_rules! shade {
+    ($name:literal, $domain:expr, $doc:literal, $field:ident) => {
+        Key {
+            name: $name,
+            doc: $doc,
+            domain: $domain,
+            get: |m| m.shade.$field,
+            set: |m, v| m.shade.$field = v,
+            used: |m| m.shade.is_there(),
+            absent: None,
+        }
+    };
+    ($name:literal, $words:expr, $doc:literal, $field:ident, $values:ident) => {
+        Key {
+            name: $name,
+            doc: $doc,
+            domain: Word($words),
+            get: |m| m.shade.$field as u32,
+            set: |m, v| m.shade.$field = $values[v as usize],
+            used: |m| m.shade.is_there(),
             absent: None,
         }
     };
@@ -117,6 +144,10 @@ const KINDS: [EdgeKind; 2] = [EdgeKind::Exact, EdgeKind::Slope];
 const BLENDS: [BlendKind; 3] = [BlendKind::None, BlendKind::Constant, BlendKind::Interpolated];
 const LIGHTS: [ShadowLight; 2] = [ShadowLight::None, ShadowLight::Parallel];
 const GATES: [Gate; 2] = [Gate::And, Gate::Scale];
+const SHADES: [ShadeKind; 3] = [ShadeKind::None, ShadeKind::FastPhong, ShadeKind::Phong];
+const COLOURS: [ShadeColour; 2] = [ShadeColour::Tables, ShadeColour::Multiply];
+const TEXTURES: [Texture; 2] = [Texture::None, Texture::Nearest];
+const WALKS: [Walk; 2] = [Walk::Register, Walk::Memory];
 const HAZARDS: [Hazard; 3] = [Hazard::Drain, Hazard::Interlock, Hazard::Forward];
 
 use Domain::{OneOf, Range, Word};
@@ -207,6 +238,94 @@ pub const KEYS: &[Key] = &[
         OneOf(&[1, 2, 4]),
         "pipeline segments of each adder; the carry moves a segment a clock",
         segments
+    ),
+    Key {
+        used: |_| true,
+        absent: Some(ShadeKind::None as u32),
+        ..shade!(
+            "shade.kind",
+            &["none", "fast-phong", "phong"],
+            "what is shaded at each pixel: nothing, by fast-phong (both cosines quadratics), or by phong (unit normals)",
+            kind,
+            SHADES
+        )
+    },
+    shade!(
+        "shade.colour",
+        &["tables", "multiply"],
+        "colours from tables, or light from a table times the fragment's colour",
+        colour,
+        COLOURS
+    ),
+    shade!("shade.table_bits", Range(8, 10), "a table has 2^table_bits entries", table_bits),
+    shade!("shade.gloss_bits", Range(0, 8), "N.H reaches down to 2^gloss_bits tables below 0", gloss_bits),
+    shade!("shade.lights", Range(1, 2), "lights at once", lights),
+    shade!("shade.material_bits", Range(0, 8), "there are 2^material_bits materials", material_bits),
+    shade!(
+        "memory.table_latency",
+        Range(1, 8),
+        "clocks from a read of a material's table to its data, at the least",
+        table_latency
+    ),
+    Key {
+        absent: Some(Texture::None as u32),
+        ..shade!(
+            "texture.kind",
+            &["none", "nearest"],
+            "texture of the colour: none, or the nearest texel",
+            texture,
+            TEXTURES
+        )
+    },
+    Key {
+        used: |m| m.shade.textures(),
+        ..shade!("texture.bits", Range(1, 11), "a texture has 2^bits columns and lines", texture_bits)
+    },
+    Key {
+        used: |m| m.shade.textures(),
+        ..shade!("fifo.texel", Range(1, 16), "fragments in TEXEL's queue", texel_queue)
+    },
+    Key {
+        used: |m| m.shade.textures(),
+        ..shade!(
+            "memory.texel_latency",
+            Range(1, 8),
+            "clocks from a read of a texel to its data, at the least",
+            texel_latency
+        )
+    },
+    shade!(
+        "term.walk",
+        &["register", "memory"],
+        "words of the walk from span to span: in registers, or in a memory with one adder",
+        walk,
+        WALKS
+    ),
+    shade!("term.fraction", Range(0, 44), "fraction bits of a term of degree 2", fraction),
+    Key {
+        used: |m| m.shade.has_linear_terms(),
+        ..shade!("term.linear_fraction", Range(0, 46), "fraction bits of a term of degree 1", linear_fraction)
+    },
+    Key {
+        used: |m| m.shade.normalises(),
+        ..shade!(
+            "memory.root_latency",
+            Range(1, 8),
+            "clocks from a read of a root to its data, at the least",
+            root_latency
+        )
+    },
+    shade!(
+        "term.record_bits",
+        Range(1, 20),
+        "the memory of the terms has 2^record_bits records",
+        record_bits
+    ),
+    shade!(
+        "memory.term_latency",
+        Range(1, 8),
+        "clocks from a read of a term's word to its data, at the least",
+        term_latency
     ),
     Key {
         name: "memory.hazard",

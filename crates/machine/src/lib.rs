@@ -19,6 +19,7 @@
 
 pub mod channel;
 pub mod machine;
+pub mod shading;
 pub mod keys;
 pub mod nearest;
 pub mod text;
@@ -44,6 +45,7 @@ pub use machine::{
     Blend, BlendKind, EdgeKind, ExtraChannel, Fill, Gate, Hazard, Machine, Shadow, ShadowLight,
 };
 pub use plan::Plan;
+pub use shading::{Entry, Record, Shade, ShadeColour, ShadeKind, Term, Texture, Walk};
 pub use text::MachineError;
 pub use unit::{Event, Ports, UnitSpec};
 pub use units::UNITS;

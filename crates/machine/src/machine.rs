@@ -3,6 +3,7 @@
 //! The fields are documented once, in [`crate::keys::KEYS`]; the symbols are those of `docs/machine.md`.
 
 use crate::channel::{Kind, Precision};
+use crate::shading::Shade;
 
 /// Which pixels a triangle covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -200,6 +201,8 @@ pub struct Machine {
     pub latency: u32,
     /// Hazard policy of DEPTH.
     pub hazard: Hazard,
+    /// TERM and SHADE.
+    pub shade: Shade,
     /// SHADOW.
     pub shadow: Shadow,
     /// BLEND.

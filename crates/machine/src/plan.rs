@@ -2,6 +2,7 @@
 
 use crate::channel::Channel;
 use crate::machine::{BlendKind, Machine};
+use crate::shading::{self, Term};
 use crate::text::MachineError;
 use crate::units::UNITS;
 use crate::vertex::PortStamp;
@@ -13,6 +14,7 @@ use std::ops::{Deref, Range};
 pub struct Plan {
     machine: Machine,
     channels: Vec<Channel>,
+    terms: Vec<Term>,
     widths: Widths,
     port: PortStamp,
 }
@@ -35,7 +37,8 @@ impl Machine {
             &channels,
             if constant { self.blend.kt_bits } else { 0 },
         );
-        Ok(Plan { machine: self.clone(), channels, widths: self.widths(), port })
+        let terms = shading::terms(self);
+        Ok(Plan { machine: self.clone(), channels, terms, widths: self.widths(), port })
     }
 }
 
@@ -65,6 +68,12 @@ impl Plan {
     /// The user's own channels, with their places among all.
     pub fn own_channels(&self) -> impl Iterator<Item = (usize, &Channel)> {
         self.channels.iter().enumerate().skip(4).take(self.extra as usize)
+    }
+
+    /// The terms that TERM walks and PIXEL steps, in the order of their words.
+    #[must_use]
+    pub fn terms(&self) -> &[Term] {
+        &self.terms
     }
 
     /// A triangle has one transmission coefficient, that of its first vertex.

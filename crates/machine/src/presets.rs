@@ -5,6 +5,7 @@ use crate::machine::{
     Blend, BlendKind, EdgeKind, ExtraChannel, Fill, Gate, Hazard, Machine, Shadow, ShadowLight,
 };
 use crate::plan::Plan;
+use crate::shading::{Shade, ShadeColour, ShadeKind, Texture, Walk};
 
 /// Names of the presets, for `--machine` and its hints.
 pub const PRESETS: &[(&str, &str)] = &[
@@ -15,6 +16,27 @@ pub const PRESETS: &[(&str, &str)] = &[
 /// What a channel of the user is until it is set: a texture coordinate of 12 bits.
 const EXTRA: ExtraChannel =
     ExtraChannel { kind: Kind::Floor, precision: Precision { bits: 12, fraction: 14, vertex_fraction: 4 } };
+
+/// Neither TERM nor SHADE, and what they are until more is set.
+const SHADE: Shade = Shade {
+    kind: ShadeKind::None,
+    colour: ShadeColour::Tables,
+    table_bits: 9,
+    gloss_bits: 4,
+    lights: 1,
+    material_bits: 4,
+    table_latency: 2,
+    walk: Walk::Register,
+    fraction: 17,
+    linear_fraction: 10,
+    root_latency: 2,
+    texture: Texture::None,
+    texture_bits: 8,
+    texel_queue: 4,
+    texel_latency: 2,
+    record_bits: 12,
+    term_latency: 2,
+};
 
 /// No SHADOW, and what it is until more is set.
 const SHADOW: Shadow = Shadow {
@@ -64,6 +86,7 @@ impl Default for Machine {
             inflight: 4,
             latency: 2,
             hazard: Hazard::Forward,
+            shade: SHADE,
             shadow: SHADOW,
             blend: BLEND,
             tag_bits: 0,

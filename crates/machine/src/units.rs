@@ -4,7 +4,11 @@ pub mod tokens;
 pub mod setup;
 pub mod edge;
 pub mod span;
+pub mod term;
 pub mod pixel;
+pub mod texel;
+pub mod normal;
+pub mod shade;
 pub mod shadow;
 pub mod depth;
 pub mod blend;
@@ -17,8 +21,19 @@ use crate::plan::Plan;
 use crate::unit::{Event, UnitSpec};
 
 /// Every unit, in the order the data flows.
-pub const UNITS: &[&UnitSpec] =
-    &[&setup::SPEC, &edge::SPEC, &span::SPEC, &pixel::SPEC, &shadow::SPEC, &depth::SPEC, &blend::SPEC];
+pub const UNITS: &[&UnitSpec] = &[
+    &setup::SPEC,
+    &edge::SPEC,
+    &span::SPEC,
+    &term::SPEC,
+    &pixel::SPEC,
+    &texel::SPEC,
+    &normal::SPEC,
+    &shade::SPEC,
+    &shadow::SPEC,
+    &depth::SPEC,
+    &blend::SPEC,
+];
 
 /// What can happen between units.
 pub const EVENTS: &[Event] =

@@ -16,6 +16,7 @@ use edgewalk_model::fast::Renderer;
 use edgewalk_model::pixel::Pixel;
 use edgewalk_model::setup::Setup;
 use edgewalk_model::span::Span;
+use edgewalk_model::term::Walked;
 use edgewalk_model::tokens::{self, FEW, Fragment, Line, Prim};
 use edgewalk_model::{DrawState, Events, Stalls, render};
 use rand::{Rng, SeedableRng, rngs::StdRng};
@@ -95,7 +96,7 @@ fn pixel(machine: &Plan, spans: &[tokens::Span<FEW>]) -> Vec<Fragment<FEW>> {
     while next.is_some() || unit.occupied() {
         fragments.extend(unit.frag().cloned());
         let taken = unit.span_ready(true);
-        unit.step(next, &[1; FEW], 0, true, &mut Events::default());
+        unit.step(next, &[1; FEW], 0, Walked::default, true, &mut Events::default());
         if taken {
             next = input.next();
         }

@@ -95,6 +95,13 @@ impl<const C: usize> Edge<C> {
         self.held.kt
     }
 
+    /// The record of the last prim, for TERM.
+    #[inline]
+    #[must_use]
+    pub fn record(&self) -> u32 {
+        self.held.record
+    }
+
     /// Clock edge.
     #[inline(always)]
     pub fn step(

@@ -78,6 +78,62 @@ events! {
     forward_used,
     /// Fragments that failed the compare.
     depth_fail,
+    /// Records that were read.
+    record_read,
+    /// Steps of TERM's walk to the next line.
+    walk_down,
+    /// Steps of the walk towards the end of a span.
+    walk_forward,
+    /// Steps of the walk away from the end of a span.
+    walk_back,
+    /// Cycles in which the walk stands at a span that PIXEL does not take yet.
+    walk_waits,
+    /// Cycles in which a span waits for the last result of the walk alone (memory).
+    walk_result_last,
+    /// Cycles in which a read waits for the memory of the terms.
+    term_read_stall,
+    /// Texels that were read.
+    texel_read,
+    /// Cycles in which a read waits for the memory of the textures.
+    texel_read_stall,
+    /// Cycles in which a fragment waits for TEXEL's queue.
+    texel_queue_full,
+    /// Cycles in which the oldest fragment waits for its texel.
+    texel_data_wait,
+    /// Times that NORMAL's roots were fetched.
+    roots_read,
+    /// Cycles in which a read waits for the roots.
+    root_read_stall,
+    /// Normals shorter than half.
+    normal_short,
+    /// Normals of length 1, or longer.
+    normal_long,
+    /// Cosines beyond what SHADE takes.
+    cosine_cut,
+    /// Cycles in which all stages of NORMAL stand still.
+    normal_stall,
+    /// Materials whose tables were fetched.
+    tables_read,
+    /// Materials that another one took the place of.
+    material_change,
+    /// Cycles in which new tables wait for fragments of the old ones.
+    tables_drain,
+    /// Cycles in which a read waits for the memory of the tables.
+    table_read_stall,
+    /// Cosines N·L below 0, a light a fragment.
+    diffuse_below,
+    /// Cosines N·L beyond the table's end.
+    diffuse_above,
+    /// Cosines N·H before the table's beginning.
+    highlight_below,
+    /// Cosines N·H beyond the table's end.
+    highlight_above,
+    /// Highlights that are dropped, as the light is below the horizon.
+    highlight_unlit,
+    /// Colours cut to the largest.
+    color_saturated,
+    /// Cycles in which all stages of SHADE stand still.
+    shade_stall,
     /// Fragments that were not looked up, as the map does not count.
     shadow_off,
     /// Fragments outside the map: lit.

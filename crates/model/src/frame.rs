@@ -7,7 +7,7 @@ use crate::passes::Pass;
 use crate::run::{Cycle, DrawState, Rig};
 use crate::tokens::{Source, for_channels, output};
 use crate::waits::Waits;
-use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
+use edgewalk_machine::{ForeignVertex, Plan, PortVertex, Record};
 
 /// A picture, row by row from the top, W×H pixels, and what it took.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -45,6 +45,19 @@ pub struct Sample<'a> {
     pub source: Source,
 }
 
+/// What the memories behind TERM, TEXEL, NORMAL and SHADE hold.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Shading {
+    /// The record of every triangle, culled or not, in their order; of those behind the last the memory holds nothing.
+    pub records: Vec<Record>,
+    /// Entries of the tables, [`Plan::table_word`] at [`Plan::table_place`]; what is not there is 0.
+    pub tables: Vec<u128>,
+    /// Entries of NORMAL's table, [`Plan::root_word`], 256 of them.
+    pub roots: Vec<u128>,
+    /// Texels, [`Plan::texel_word`] at [`Plan::texel_place`].
+    pub textures: Vec<u128>,
+}
+
 /// What [`render_with`] reports, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drawn<'a> {
@@ -79,7 +92,7 @@ pub fn render_with(
     hook: impl FnMut(Drawn),
 ) -> Result<Frame, ForeignVertex> {
     let passes = [Pass::all(state)];
-    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), &passes, &[], waits.into(), hook))
+    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), &passes, &[], waits.into(), &Shading::default(), hook))
 }
 
 /// As [`render_with`], pass by pass; `maps`: the words of the lights' maps, by address; before the first of them nothing is hidden.
@@ -94,7 +107,24 @@ pub fn render_passes(
     waits: impl Into<Waits>,
     hook: impl FnMut(Drawn),
 ) -> Result<Frame, ForeignVertex> {
-    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), passes, maps, waits.into(), hook))
+    render_shaded(plan, triangles, passes, maps, waits, &Shading::default(), hook)
+}
+
+/// As [`render_passes`], on a machine with TERM and SHADE. After as many triangles as there are records in the memory the
+/// machine is idle for a while, and the next records are written.
+///
+/// # Errors
+/// A triangle whose vertices were made for another machine.
+pub fn render_shaded(
+    plan: &Plan,
+    triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+    passes: &[Pass],
+    maps: &[Vec<u32>],
+    waits: impl Into<Waits>,
+    shading: &Shading,
+    hook: impl FnMut(Drawn),
+) -> Result<Frame, ForeignVertex> {
+    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), passes, maps, waits.into(), shading, hook))
 }
 
 fn draw<const C: usize>(
@@ -103,6 +133,7 @@ fn draw<const C: usize>(
     passes: &[Pass],
     maps: &[Vec<u32>],
     waits: Waits,
+    shading: &Shading,
     mut hook: impl FnMut(Drawn),
 ) -> Result<Frame, ForeignVertex> {
     let state = passes.first().map_or_else(DrawState::default, |pass| pass.state);
@@ -111,7 +142,10 @@ fn draw<const C: usize>(
     let mut tally = Tally::new(plan);
     let blends = plan.blend.is_there();
     let channels = plan.channels().len().min(C); // C serves the plan; said so that no slice is checked in every cycle
-    let mut triangles = triangles.zip(0..).map(|(t, number)| plan.accept(&t, number).map(|()| t));
+    let mut triangles = triangles.zip(0..).map(|(t, number)| plan.accept(&t, number).map(|()| t)).peekable();
+    rig.write_shading(plan, shading);
+    let mut records = shading.records.iter().enumerate();
+    let at_once = if plan.shade.is_there() { 1 << plan.shade.record_bits } else { usize::MAX };
     let mut watch = |_, model: &Model<C>, cycle: &Cycle<C>| {
         if let Some(addr) = cycle.read {
             tally.read(addr);
@@ -139,7 +173,18 @@ fn draw<const C: usize>(
         if let (Some(memory), Some(map)) = (&mut rig.map, pass.map.and_then(|map| maps.get(map))) {
             memory.depths_mut().iter_mut().zip(map).for_each(|(word, depth)| *word = *depth);
         }
-        rig.draw(triangles.by_ref().take(pass.triangles), &mut watch)?;
+        let mut left = pass.triangles;
+        loop {
+            let part = left.min(at_once);
+            for (triangle, record) in records.by_ref().take(part) {
+                rig.write_record(plan, triangle, record);
+            }
+            rig.draw(triangles.by_ref().take(part), &mut watch)?;
+            left -= part;
+            if left == 0 || triangles.peek().is_none() {
+                break;
+            }
+        }
         counters.push(rig.model.counters().since(&before));
     }
     let x_bits = plan.widths().x;

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  tri ─> setup ─> edge ─> span ─> pixel ─> depth ─> memory
-//!                        shadow before depth, blend behind it, if the machine has them
+//!                 term before pixel; texel, normal, shade and shadow before depth, blend behind it, if the machine has them
 //!                                              └─> blend ─> colour memory, if the machine has it
 //! ```
 //! Written from `docs/machine.md` alone. A unit is a plain state struct: methods give its outputs from the state and
@@ -13,6 +13,10 @@
 pub mod counters;
 pub mod events;
 mod rmw;
+mod fetch;
+pub mod texel;
+pub mod normal;
+pub mod shade;
 pub mod shadow;
 pub mod depth;
 pub mod blend;
@@ -31,6 +35,8 @@ pub mod frame;
 pub mod fast;
 pub mod setup;
 pub mod span;
+pub mod term;
+pub mod word_memory;
 pub mod tokens;
 pub mod view;
 
@@ -38,8 +44,10 @@ pub use color_memory::ColorMemory;
 pub use counters::Counters;
 pub use edgewalk_machine::Activity;
 pub use events::Events;
-pub use frame::{Drawn, Frame, Sample, render, render_passes, render_with};
-pub use machine::{BlendInputs, Inputs, Model, Outputs, ShadowInputs};
+pub use frame::{Drawn, Frame, Sample, Shading, render, render_passes, render_shaded, render_with};
+pub use machine::{
+    BlendInputs, Inputs, Model, NormalInputs, Outputs, ShadeInputs, ShadowInputs, TermInputs, TexelInputs,
+};
 pub use map_memory::MapMemory;
 pub use memory::{Memory, Stalls};
 pub use passes::Pass;
@@ -48,3 +56,4 @@ pub use setup::{Culled, SetupClocks, cull, longest_setup, setup_clocks};
 pub use tokens::Write;
 pub use view::View;
 pub use waits::{Dram, Fixed, KINDS as WAITS, Waits, WaitsError};
+pub use word_memory::WordMemory;

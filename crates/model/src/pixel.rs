@@ -16,7 +16,9 @@
 mod view;
 
 use crate::Events;
-use crate::tokens::{Fragment, OutputWords, Source, Span, Words, per_channel};
+use crate::shade::Cosines;
+use crate::term::{MAX_TERMS, Walked};
+use crate::tokens::{FEW, Fragment, OutputWords, Source, Span, Words, per_channel};
 use edgewalk_machine::Plan;
 
 /// State of PIXEL.
@@ -29,6 +31,9 @@ pub struct Pixel<const C: usize> {
     /// 2^b - 1.
     masks: OutputWords<C>,
     last_phase: u32,
+    has_terms: bool,
+    /// r and b of the terms; behind the last of 1 bit.
+    term_formats: [(u32, u32); MAX_TERMS],
 
     active: bool,
     phase: u32,
@@ -51,6 +56,10 @@ pub struct Pixel<const C: usize> {
     stages: [Option<Fragment<C>>; 3],
     before: usize,
     oldest: usize,
+    /// With TERM: the terms at the pixel, and those of the fragments in the stages.
+    walked: Walked,
+    out_cosines: Cosines,
+    cosines: [Cosines; 3],
 }
 
 impl<const C: usize> Pixel<C> {
@@ -63,6 +72,10 @@ impl<const C: usize> Pixel<C> {
             align: per_channel(plan, |c| 32 - c.fraction), // r <= 24
             masks: per_channel(plan, |c| u32::MAX >> (32 - c.bits)),
             last_phase: plan.clocks_per_pixel() - 1,
+            has_terms: !plan.terms().is_empty(),
+            term_formats: std::array::from_fn(|i| {
+                plan.terms().get(i).map_or((0, 1), |term| (term.fraction, term.bits))
+            }),
             active: false,
             phase: 0,
             x: 0,
@@ -78,6 +91,9 @@ impl<const C: usize> Pixel<C> {
             stages: [None; 3],
             before: plan.segments as usize - 1, // D is 1, 2 or 4
             oldest: 0,
+            walked: Walked::default(),
+            out_cosines: Cosines::default(),
+            cosines: [Cosines::default(); 3],
         }
     }
 
@@ -115,6 +131,31 @@ impl<const C: usize> Pixel<C> {
         self.out.as_ref()
     }
 
+    /// With TERM: the outputs of the terms, and the material, of the fragment offered.
+    #[inline]
+    #[must_use]
+    pub fn cosines(&self) -> &Cosines {
+        &self.out_cosines
+    }
+
+    /// Column and line of the pixel, while active.
+    #[must_use]
+    pub fn place(&self) -> (i32, u32) {
+        (self.x, self.row >> self.x_bits)
+    }
+
+    /// Its triangle, while active.
+    #[must_use]
+    pub fn source(&self) -> Source {
+        self.source
+    }
+
+    /// With TERM: the words of the terms at the pixel; the low b + r bits count.
+    #[must_use]
+    pub fn walked(&self) -> &Walked {
+        &self.walked
+    }
+
     /// The pipeline moves.
     #[inline]
     #[must_use]
@@ -133,13 +174,14 @@ impl<const C: usize> Pixel<C> {
         self.phase == self.last_phase && self.count == 1
     }
 
-    /// Clock edge. `gradient` and `kt` are what EDGE holds.
+    /// Clock edge. `gradient` and `kt` are what EDGE holds; `walked`, with TERM, what comes with the span.
     #[inline(always)]
     pub fn step(
         &mut self,
         span: Option<&Span<C>>,
         gradient: &Words<C>,
         kt: u32,
+        walked: impl FnOnce() -> Walked,
         frag_ready: bool,
         events: &mut Events,
     ) {
@@ -164,17 +206,24 @@ impl<const C: usize> Pixel<C> {
         self.active = span.is_some();
         if let Some(span) = span {
             self.load(span, gradient, kt);
+            if C > FEW && self.has_terms {
+                self.walked = walked();
+            }
         }
     }
 
     /// Moves the out stages, `entering` into the first.
     #[inline]
     fn shift(&mut self, entering: Option<Fragment<C>>) {
+        let cosines =
+            if C > FEW && self.has_terms && entering.is_some() { self.outputs() } else { Cosines::default() };
         if self.before == 0 {
             self.out = entering;
+            self.out_cosines = cosines;
             return;
         }
         self.out = std::mem::replace(&mut self.stages[self.oldest], entering);
+        self.out_cosines = std::mem::replace(&mut self.cosines[self.oldest], cosines);
         self.oldest = (self.oldest + 1) % self.before;
     }
 
@@ -206,12 +255,28 @@ impl<const C: usize> Pixel<C> {
         }
     }
 
+    /// The outputs of the terms at this pixel: b bits above the r of the fraction.
+    fn outputs(&self) -> Cosines {
+        let output = |i: usize| {
+            let (fraction, bits) = self.term_formats[i];
+            (((self.walked.terms[i].v >> fraction) << (64 - bits)) as i64 >> (64 - bits)) as i32 // b <= 32
+        };
+        let Walked { material, gloss, .. } = self.walked;
+        Cosines { terms: std::array::from_fn(output), material, gloss }
+    }
+
     #[inline]
     fn next_pixel(&mut self) {
         self.phase = 0;
         self.count -= 1;
         self.x = self.x.wrapping_add(self.step_x);
         self.values = std::array::from_fn(|i| self.values[i].wrapping_add(self.gradient[i]));
+        if C > FEW && self.has_terms {
+            for term in &mut self.walked.terms {
+                term.v = term.v.wrapping_add(term.g);
+                term.g = term.g.wrapping_add(term.gg);
+            }
+        }
     }
 
     fn load(&mut self, span: &Span<C>, gradient: &Words<C>, kt: u32) {

@@ -6,12 +6,16 @@
 //! ```
 
 use crate::color_memory::ColorMemory;
-use crate::machine::{BlendInputs, Inputs, Model, Outputs, ShadowInputs};
+use crate::frame::Shading;
+use crate::machine::{
+    BlendInputs, Inputs, Model, NormalInputs, Outputs, ShadeInputs, ShadowInputs, TermInputs, TexelInputs,
+};
 use crate::map_memory::MapMemory;
 use crate::memory::Memory;
 use crate::tokens::{ColorWrite, FEW, OutputWords, Write};
 use crate::waits::Waits;
-use edgewalk_machine::{Plan, PortVertex};
+use crate::word_memory::WordMemory;
+use edgewalk_machine::{Plan, PortVertex, Record};
 
 /// What stays the same over a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,6 +58,14 @@ pub struct Rig<const C: usize> {
     pub model: Model<C>,
     /// Its memory; with BLEND that of the depths.
     pub memory: Memory<C>,
+    /// With TERM the records of the terms.
+    pub terms: Option<WordMemory>,
+    /// With TEXEL the materials' textures.
+    pub textures: Option<WordMemory>,
+    /// With NORMAL its roots.
+    pub roots: Option<WordMemory>,
+    /// With SHADE the materials' tables.
+    pub tables: Option<WordMemory>,
     /// With SHADOW the light's map.
     pub map: Option<MapMemory>,
     /// With BLEND that of the colours.
@@ -100,9 +112,39 @@ impl<const C: usize> Rig<C> {
         Rig {
             model: Model::new(plan),
             memory: Memory::new(plan, state.clear, waits),
+            terms: plan.shade.is_there().then(|| WordMemory::new(plan.shade.term_latency, waits, 3)),
+            textures: plan.shade.textures().then(|| WordMemory::new(plan.shade.texel_latency, waits, 6)),
+            roots: plan.shade.normalises().then(|| WordMemory::new(plan.shade.root_latency, waits, 5)),
+            tables: plan.shade.is_there().then(|| WordMemory::new(plan.shade.table_latency, waits, 4)),
             map: plan.shadow.is_there().then(|| MapMemory::new(plan, waits)),
             color: plan.blend.is_there().then(|| ColorMemory::new(plan, state.clear, waits)),
             state,
+        }
+    }
+
+    /// Writes tables, roots, textures, and the records of the first triangles, as many as the memory holds; the machine is idle.
+    pub fn write_shading(&mut self, plan: &Plan, shading: &Shading) {
+        if let Some(tables) = &mut self.tables {
+            tables.write(0, shading.tables.iter().copied());
+        }
+        if let Some(textures) = &mut self.textures {
+            textures.write(0, shading.textures.iter().copied());
+        }
+        if let Some(roots) = &mut self.roots {
+            roots.write(0, shading.roots.iter().copied());
+        }
+        let records = shading.records.iter().enumerate().take(1 << plan.shade.record_bits);
+        for (triangle, record) in records {
+            self.write_record(plan, triangle, record);
+        }
+    }
+
+    /// Writes the record of the triangle with this number, counted from 0; the machine is idle.
+    pub fn write_record(&mut self, plan: &Plan, triangle: usize, record: &Record) {
+        let place = triangle % (1 << plan.shade.record_bits);
+        if let Some(terms) = &mut self.terms {
+            let words = plan.record_words(record).into_iter().map(u128::from);
+            terms.write(place << plan.record_place_bits(), words);
         }
     }
 
@@ -130,6 +172,10 @@ impl<const C: usize> Rig<C> {
             rd_ready: self.memory.rd_ready(),
             data: self.memory.data(),
             wr_ready: self.memory.wr_ready() && writes_open,
+            term: self.term_inputs(),
+            texel: self.texel_inputs(),
+            normal: self.normal_inputs(),
+            shade: self.shade_inputs(),
             shadow: self.shadow_inputs(),
             blend: self.blend_inputs(writes_open),
         }
@@ -147,6 +193,22 @@ impl<const C: usize> Rig<C> {
             written: outputs.wr.is_some() && inputs.wr_ready,
             color_written: outputs.blend.cwr.is_some() && inputs.blend.cwr_ready,
         };
+        if let Some(terms) = self.terms.as_mut().filter(|_| C > FEW) {
+            let read = outputs.trd.filter(|_| inputs.term.trd_ready);
+            terms.step(read, inputs.term.tdata.is_some() && outputs.tdata_ready);
+        }
+        if let Some(textures) = self.textures.as_mut().filter(|_| C > FEW) {
+            let read = outputs.xrd.filter(|_| inputs.texel.xrd_ready);
+            textures.step(read, inputs.texel.xdata.is_some() && outputs.xdata_ready);
+        }
+        if let Some(roots) = self.roots.as_mut().filter(|_| C > FEW) {
+            let read = outputs.rrd.filter(|_| inputs.normal.rrd_ready);
+            roots.step(read, inputs.normal.rdata.is_some() && outputs.rdata_ready);
+        }
+        if let Some(tables) = self.tables.as_mut().filter(|_| C > FEW) {
+            let read = outputs.srd.filter(|_| inputs.shade.srd_ready);
+            tables.step(read, inputs.shade.sdata.is_some() && outputs.sdata_ready);
+        }
         if let Some(map) = self.map.as_mut().filter(|_| C > FEW) {
             let read = outputs.mrd.filter(|_| inputs.shadow.mrd_ready);
             map.step(read, inputs.shadow.mdata.is_some() && outputs.mdata_ready);
@@ -162,6 +224,32 @@ impl<const C: usize> Rig<C> {
             _ => self.memory.step(cycle.read, data_taken, cycle.write()),
         }
         cycle
+    }
+
+    #[inline(always)]
+    fn term_inputs(&self) -> TermInputs {
+        let Some(terms) = self.terms.as_ref().filter(|_| C > FEW) else { return TermInputs::default() };
+        TermInputs { trd_ready: terms.read_ready(), tdata: terms.data().map(|word| word as u64) }
+    }
+
+    #[inline(always)]
+    fn texel_inputs(&self) -> TexelInputs {
+        let Some(textures) = self.textures.as_ref().filter(|_| C > FEW) else {
+            return TexelInputs::default();
+        };
+        TexelInputs { xrd_ready: textures.read_ready(), xdata: textures.data() }
+    }
+
+    #[inline(always)]
+    fn normal_inputs(&self) -> NormalInputs {
+        let Some(roots) = self.roots.as_ref().filter(|_| C > FEW) else { return NormalInputs::default() };
+        NormalInputs { rrd_ready: roots.read_ready(), rdata: roots.data() }
+    }
+
+    #[inline(always)]
+    fn shade_inputs(&self) -> ShadeInputs {
+        let Some(tables) = self.tables.as_ref().filter(|_| C > FEW) else { return ShadeInputs::default() };
+        ShadeInputs { srd_ready: tables.read_ready(), sdata: tables.data() }
     }
 
     #[inline(always)]

@@ -21,7 +21,7 @@ macro_rules! tokens {
     };
 }
 
-/// Channels of a machine without BLEND and channels of the user's own: units of `C` = 4 serve it, of `C` = 8 any machine.
+/// Channels of a machine without BLEND, TERM and SHADE and channels of the user's own: units of `C` = 4 serve it, of `C` = 8 any machine.
 pub const FEW: usize = 4;
 
 /// One word per channel, in the order of [`Plan::channels`]: z, r, g, b, then the user's own; behind the last 0. Words of
@@ -35,7 +35,8 @@ pub type OutputWords<const C: usize> = [u32; C];
 #[macro_export]
 macro_rules! for_channels {
     ($plan:expr, $C:ident => $body:expr) => {
-        if $plan.channels().len() <= $crate::tokens::FEW && !$plan.blend.is_there() {
+        if $plan.channels().len() <= $crate::tokens::FEW && !$plan.blend.is_there() && !$plan.shade.is_there()
+        {
             const $C: usize = $crate::tokens::FEW;
             $body
         } else {
@@ -102,6 +103,8 @@ tokens! {
         gradient: Words<C> = [0; C],
         /// k_t of the triangle, 2^-kt_bits; 0 where that is a channel.
         kt: u32 = 0,
+        /// With TERM: the number of its record.
+        record: u32 = 0,
         /// The triangle.
         source: Source = Source::default(),
     }

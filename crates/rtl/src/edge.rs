@@ -97,9 +97,11 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     });
 
     m.comment("The channels at the start of the span, their steps, and the increments for PIXEL.");
-    let increments = Registers::new(&m, "inc", parts(&tokens::held(plan)));
-    if let (Some(register), Some(kt)) = (increments.get("kt"), prim.get("kt")) {
-        register.when(load, kt);
+    let increments = Registers::new(&m, "inc", parts(&tokens::held_by_edge(plan)));
+    for name in ["kt", "record"] {
+        if let (Some(register), Some(value)) = (increments.get(name), prim.get(name)) {
+            register.when(load, value);
+        }
     }
     for channel in plan.channels().iter().map(|channel| channel.name) {
         let of_prim = |result: &str| prim[format!("{channel}_{result}").as_str()];

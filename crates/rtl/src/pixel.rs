@@ -2,6 +2,8 @@
 
 mod adder;
 
+mod terms;
+
 use std::sync::Arc;
 
 use edgewalk_machine::Plan;
@@ -11,6 +13,7 @@ use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg, Signal};
 use crate::ports::Interface;
 use crate::wires::{Part, Registers, Token, parts};
 use adder::{Step, Words};
+use terms::Terms;
 
 const DOC: &str = "PIXEL steps along a span, a pixel every ceil(N/A) clocks, with A adders shared by the N channels.
 
@@ -32,6 +35,9 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new("edgewalk_pixel", DOC);
     if plan.segments > 1 {
         m.doc(adder::SKEW_DOC);
+    }
+    if !plan.terms().is_empty() {
+        m.doc(terms::DOC);
     }
     let ports = Interface::new(&m, (SPEC.ports)(plan));
     let (span_valid, span) = ports.takes();
@@ -69,9 +75,9 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     y.when(load, span["y"]);
     leftward.when(load, span["leftward"]);
     fence.when(advance & emit, 0).when(load, span["fence"]);
-    let tag =
-        Registers::new(&m, "drawn", span.parts().into_iter().filter(|part| part.name == "tag").collect());
-    tag.load(load, |f| span[f]);
+    let as_they_are = |part: &Part| ["material", "tag"].contains(&part.name.as_str());
+    let drawn = Registers::new(&m, "drawn", span.parts().into_iter().filter(as_they_are).collect());
+    drawn.load(load, |f| span[f]);
     let kt = plan.has_triangle_kt().then(|| {
         let kt = increments["kt"];
         m.reg("kt", kt.width()).doc("of the triangle").when(load & span["fresh"], kt)
@@ -90,6 +96,7 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let slot = phase.map(|phase| phase.next().named_doc("slot", "channel of each adder in this clock"));
     let first = Step { load, fresh: span["fresh"], add, slot };
     let words = Words::new(&m, plan, advance, first, &span, &increments);
+    let terms = Terms::new(&m, plan, &span, load, next);
 
     m.comment("The output: in each stage the bits of one more segment.");
     let address = m.cat(&[y.q(), x.q().trunc(plan.widths().x)]);
@@ -109,7 +116,7 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
                 (None, None, "addr") => Some(address),
                 (None, None, "fence") => Some(fence.q()),
                 (None, None, "kt") => kt.map(Reg::q),
-                (None, None, own) => tag.get(own).map(Reg::q),
+                (None, None, own) => terms.output(own).or(drawn.get(own).map(Reg::q)),
             };
             signal.map(|signal| (f, signal))
         };

@@ -72,6 +72,10 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
             register.when(control.take, value);
         }
     }
+    if let Some(record) = prim.get("record") {
+        // Culled triangles count: the first after a reset has record 0.
+        record.reset((1 << plan.shade.record_bits) - 1).when(control.take, record.q() + 1);
+    }
     let area = Area::new(&m, plan, &control, &vertices);
     let lines = Lines::new(&m, plan, &control, &vertices, &prim, &area);
     let sources = factors::Sources {

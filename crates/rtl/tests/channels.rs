@@ -5,7 +5,7 @@ mod drive;
 mod random;
 
 use drive::{Memory, Seen};
-use edgewalk_machine::{BlendKind, Channel, Kind, Machine, Plan, Precision};
+use edgewalk_machine::{BlendKind, Channel, Kind, Machine, Plan, Precision, ShadeKind};
 use edgewalk_rtl as rtl;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -44,8 +44,8 @@ fn extra_channels_are_as_the_first_four() {
 fn machines(rng: &mut Pcg64Mcg) -> (Plan, Plan) {
     loop {
         let mut machine: Machine = (*random::random_plan(rng)).clone();
-        // Without BLEND a fragment's values are written as they are, by one link.
-        machine.blend.kind = BlendKind::None;
+        // Without BLEND and SHADE a fragment's values are written as they are, by one link.
+        (machine.blend.kind, machine.shade.kind) = (BlendKind::None, ShadeKind::None);
         machine.width = rng.random_range(1..=16);
         machine.height = rng.random_range(1..=16);
         machine.guard_bits = rng.random_range(4..=6);

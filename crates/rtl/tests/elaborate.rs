@@ -5,7 +5,7 @@ mod random;
 use std::collections::BTreeSet;
 
 use edgewalk_machine::keys::{Domain, KEYS};
-use edgewalk_machine::{BlendKind, MAX_CHANNELS, Machine, Plan, ShadowLight};
+use edgewalk_machine::{BlendKind, MAX_CHANNELS, Machine, Plan, ShadeKind, ShadowLight};
 use edgewalk_rtl as rtl;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
@@ -35,6 +35,7 @@ fn every_machine_elaborates() {
     // All that can be chosen from a list was chosen, and every number of channels and adders met.
     let mut most = Machine { extra: 4, ..Machine::default() };
     (most.blend.kind, most.shadow.light) = (BlendKind::Interpolated, ShadowLight::Parallel);
+    most.shade.kind = ShadeKind::FastPhong;
     for key in KEYS.iter().filter(|key| (key.used)(&most)) {
         let all = match key.domain {
             Domain::OneOf(list) => list.len(),

@@ -3,6 +3,7 @@
 mod page;
 
 use crate::engine::{Engine, Raster, draw_bands, fast_bands};
+use crate::fast::BeyondBand;
 use crate::machine_args::MachineArgs;
 use crate::report::Report;
 use crate::staging::Staging;
@@ -29,7 +30,9 @@ use std::path::PathBuf;
 
 The triangle file (docs/triangle_file.md), one item a line, # comments:
   size W H                                                first
-  mode gouraud|flat
+  mode gouraud|flat|phong|fast-phong
+  view x y z   sun x y z i   specular halfway|blinn       of phong and fast-phong: to the viewer, to a light
+  material ka kd ks n                                     of the triangles behind it
   depth less|lequal|always|off|...
   depth_write 0|1
   blend 0|1|add                                           1: (1-kt) I + kt I_back; add: I + I_back; needs blend.kind
@@ -41,6 +44,7 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
   L x y z  x y z  x y z                                   a triangle of that map, in texels
   T x y z r g b kt  x y z r g b kt  x y z r g b kt        a triangle, pixels
   X e0 .. e0 .. e0 ..                                     N values of vertex 1, of 2, of 3: unorm [0,1], else LSB
+  N nx ny nz  nx ny nz  nx ny nz                          normals of a triangle in mode phong or fast-phong
   P n  x y z r g b kt ..                                  a polygon of n vertices; the machine draws it as triangles
   H n  x y z r g b kt ..                                  one more contour of the polygon on the line before")]
 pub struct Args {
@@ -96,14 +100,17 @@ fn while_it_is_read(
     out: &Staging,
     talk: Talk,
 ) -> Result<Report> {
-    let drawn = match fast::draw_file(file, header, machine, talk.quiet) {
-        Err(error) if matches!(error.downcast_ref(), Some(InputError::NeedsWhole(_))) => {
+    let (drawn, host) = match fast::draw_file(file, header, machine, talk.quiet) {
+        Err(error)
+            if matches!(error.downcast_ref(), Some(InputError::NeedsWhole(_)))
+                || error.is::<BeyondBand>() =>
+        {
             return whole(file, Engine::Fast, machine, out, talk);
         }
         drawn => drawn?,
     };
     let triangles = drawn.triangles();
-    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band);
+    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band).with_host(host);
     let mut page = Page::new(out, machine, report);
     let bands = fast_bands(machine);
     drawn.bands(machine, bands, |band| page.add(&band))?;

@@ -14,7 +14,7 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Result, anyhow};
-use edgewalk_explore::compare::compare_for;
+use edgewalk_explore::compare::compare_shaded;
 use edgewalk_explore::reach::reach;
 use edgewalk_golden::{HiddenLines, wireframe};
 use edgewalk_machine::Plan;
@@ -201,7 +201,8 @@ pub fn pictures(
     let drawn = draw_waiting(engine, frame, machine, waits, quiet)?;
     let port = to_port(frame, machine)?;
     let reach = reach(machine, &port)?;
-    let comparison = compare_for(machine, frame, &golden, &drawn, reach.as_ref());
+    let proof = port.shade.as_ref().map(|feed| &feed.proof);
+    let comparison = compare_shaded(machine, frame, &golden, &drawn, reach.as_ref(), proof);
     let (w, h) = (drawn.width, drawn.height);
     picture::write_rgb(out, "golden.png", w, h, &golden.rgb)?;
     picture::write_rgb(out, "image.png", w, h, &drawn.rgb)?;

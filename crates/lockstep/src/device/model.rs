@@ -10,7 +10,11 @@ mod link;
 mod setup;
 mod edge;
 mod span;
+mod term;
 mod pixel;
+mod texel;
+mod normal;
+mod shade;
 mod shadow;
 mod depth;
 mod blend;
@@ -71,6 +75,10 @@ fn of<const C: usize>(plan: &Plan, interface: &Interface) -> Result<Box<dyn Mode
         "edge" => Box::new(edge::EdgeDevice::<C>::new(plan, interface)?),
         "span" => Box::new(span::SpanDevice::<C>::new(plan, interface)?),
         "pixel" => Box::new(pixel::PixelDevice::<C>::new(plan, interface)?),
+        "term" => Box::new(term::TermDevice::<C>::new(plan, interface)?),
+        "texel" => Box::new(texel::TexelDevice::<C>::new(plan, interface)?),
+        "normal" => Box::new(normal::NormalDevice::<C>::new(plan, interface)?),
+        "shade" => Box::new(shade::ShadeDevice::<C>::new(plan, interface)?),
         "shadow" => Box::new(shadow::ShadowDevice::<C>::new(plan, interface)?),
         "depth" => Box::new(depth::DepthDevice::<C>::new(plan, interface)?),
         "blend" => Box::new(blend::BlendDevice::<C>::new(plan, interface)?),

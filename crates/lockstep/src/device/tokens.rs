@@ -39,7 +39,7 @@ impl Slot<'_> {
 }
 
 /// Where a field stands in the token; the number is that of an edge, a part or a channel.
-type Find<T> = (fn(&mut T, usize) -> Slot<'_>, usize);
+pub type Find<T> = (fn(&mut T, usize) -> Slot<'_>, usize);
 
 /// A token of the model whose fields have names.
 pub trait Named: Copy {
@@ -130,6 +130,7 @@ impl<const C: usize> Named for Prim<C> {
             "major_f" => (slot!(I32, _i => major.f), 0),
             "major_m" => (slot!(I32, _i => major.m), 0),
             "kt" => (slot!(U32, _i => kt), 0),
+            "record" => (slot!(U32, _i => record), 0),
             "tag" => (slot!(U32, _i => source.tag), 0),
             _ => return minor(name).or_else(|| result(plan, name)),
         })

@@ -22,6 +22,9 @@ pub fn random_tokens(plan: &Plan, unit: Unit, count: usize, rng: &mut Pcg64Mcg) 
             if let (Some(first), Some(fresh)) = (tokens.first_mut(), fresh) {
                 first[fresh] = 1;
             }
+            if unit.name() == "term" {
+                side_by_side(plan, &interface, &mut tokens, rng);
+            }
             tokens
         }
     }
@@ -53,6 +56,27 @@ fn prims(plan: &Plan, count: usize, rng: &mut Pcg64Mcg) -> Vec<Token> {
     prims
 }
 
+/// Most spans a line or a few below the one before, so that TERM is not on its way for most of the time.
+fn side_by_side(plan: &Plan, interface: &Interface, tokens: &mut [Token], rng: &mut Pcg64Mcg) {
+    let y = interface.links[0].place("y").expect("a span has a line");
+    for i in 1..tokens.len() {
+        if rng.random_bool(0.9) {
+            tokens[i][y] = (tokens[i - 1][y] + rng.random_range(0..3)) % u128::from(plan.height);
+        }
+    }
+}
+
+/// A number around the ends of a table of SHADE, or any other of so many bits.
+fn cosine(plan: &Plan, bits: u32, rng: &mut Pcg64Mcg) -> i128 {
+    let (last, most) = ((1i128 << plan.shade.table_bits) - 1, (1i128 << (bits - 1)) - 1);
+    let ends = [-1, 0, last, last + 1, -most - 1, most];
+    match rng.random_range(0..4) {
+        0 => *ends.choose(rng).expect("some"),
+        1 => rng.random_range(-most - 1..=most),
+        _ => rng.random_range(0..=last),
+    }
+}
+
 /// Random bits, but columns and lines around the screen, short spans, few addresses and few depths, so that they meet.
 fn token(plan: &Plan, fields: &[Port], rng: &mut Pcg64Mcg) -> Token {
     let (width, height) = (i128::from(plan.width), i128::from(plan.height));
@@ -73,6 +97,8 @@ fn token(plan: &Plan, fields: &[Port], rng: &mut Pcg64Mcg) -> Token {
             "frag_z" => rng.random_range(0..=few(plan)).into(),
             "pass_kt" => *kts.choose(rng).expect("some"),
             "frag_fence" | "pass_fence" => rng.random_bool(0.3).into(),
+            "frag_material" if rng.random_bool(0.99) => 0,
+            "frag_nl0" | "frag_nh0" | "frag_nl1" | "frag_nh1" => cosine(plan, port.width(), rng),
             "frag_lx" | "frag_ly" if rng.random_bool(0.9) => {
                 rng.random_range(-1..=i128::from(plan.shadow.size))
             }

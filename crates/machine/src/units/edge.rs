@@ -22,7 +22,7 @@ fn ports(plan: &Plan) -> Ports {
     Ports {
         takes: Some(Link::new("prim", tokens::prim(plan))),
         gives: Some(Link::new("line", tokens::line(plan))),
-        held_out: vec![Held { name: "inc", fields: tokens::held(plan), beside: "line" }],
+        held_out: vec![Held { name: "inc", fields: tokens::held_by_edge(plan), beside: "line" }],
         levels: vec![Field::count("fresh_queued", 1, "the triangle before has not reached PIXEL yet")],
         ..Ports::default()
     }

@@ -19,7 +19,7 @@ pub const SPEC: UnitSpec = UnitSpec {
 
 fn ports(plan: &Plan) -> Ports {
     Ports {
-        takes: Some(Link::new("span", tokens::span(plan))),
+        takes: Some(Link::new("span", tokens::walked(plan))),
         gives: Some(Link::new("frag", tokens::fragment(plan))),
         held_in: vec![Held { name: "inc", fields: tokens::held(plan), beside: "span" }],
         status: vec![

@@ -39,7 +39,7 @@ fn wants(machine: &Machine) -> Vec<Channel> {
 
 fn ports(plan: &Plan) -> Ports {
     // Whether a texel has to be read is asked of fragments only.
-    let frag = Link { ready: Ready::WhileValid, ..Link::new("frag", tokens::fragment(plan)) };
+    let frag = Link { ready: Ready::WhileValid, ..Link::new("frag", tokens::tinted(plan)) };
     let mut constants = vec![Field::count("shadow_on", 1, "the map counts; else all is lit")];
     if plan.shadow.gate == Gate::Scale {
         let doc = "what a colour in shadow is multiplied by, all ones for 1";

@@ -4,6 +4,7 @@ use crate::channel::Channel;
 use crate::field::{Field, Scale};
 use crate::machine::{EdgeKind, Fill};
 use crate::plan::Plan;
+use crate::shading::{self, Term};
 use edgewalk_numerics::Format;
 
 /// Names of the three edges of a prim: 0–2, 0–1 and 1–2 in the order of the sorted vertices.
@@ -51,6 +52,13 @@ fn kt(plan: &Plan) -> Field {
 /// The k_t of the triangle, if it has one.
 fn triangle_kt(plan: &Plan) -> Option<Field> {
     plan.has_triangle_kt().then(|| kt(plan))
+}
+
+/// The number of the triangle's record, if the machine has TERM.
+#[must_use]
+pub fn record(plan: &Plan) -> Option<Field> {
+    let bits = plan.shade.record_bits;
+    plan.shade.is_there().then(|| Field::count("record", bits, "of the triangle's terms"))
 }
 
 /// A triangle at the port: three vertices, its k_t and the tag.
@@ -107,6 +115,7 @@ pub fn prim(plan: &Plan) -> Vec<Field> {
         fields.extend(results(plan).iter().map(result));
     }
     fields.extend(triangle_kt(plan));
+    fields.extend(record(plan));
     fields.extend(tag(plan));
     fields
 }
@@ -121,6 +130,12 @@ pub fn words(plan: &Plan) -> Vec<Field> {
 #[must_use]
 pub fn held(plan: &Plan) -> Vec<Field> {
     words(plan).into_iter().chain(triangle_kt(plan)).collect()
+}
+
+/// What EDGE holds: that, and the triangle's record for TERM.
+#[must_use]
+pub fn held_by_edge(plan: &Plan) -> Vec<Field> {
+    held(plan).into_iter().chain(record(plan)).collect()
 }
 
 /// EDGE to SPAN: one line of a triangle.
@@ -145,6 +160,59 @@ pub fn line(plan: &Plan) -> Vec<Field> {
 /// SPAN to PIXEL: the pixels of a line.
 #[must_use]
 pub fn span(plan: &Plan) -> Vec<Field> {
+    span_with(plan, Vec::new())
+}
+
+/// TERM to PIXEL: the same with the terms at its first pixel; without TERM what SPAN gives.
+#[must_use]
+pub fn walked(plan: &Plan) -> Vec<Field> {
+    let mut fields = Vec::new();
+    for term in plan.terms() {
+        let word = |part: &str, doc: &str| Field {
+            doc: doc.to_owned(),
+            scale: Scale::Modular("LSB"),
+            ..Field::of(format!("{}_{part}", term.name), word_format(term), "LSB")
+        };
+        fields.extend([word("v", "at the first pixel"), word("g", "to the next pixel")]);
+        fields.extend((term.degree == 2).then(|| word("gg", "from a step to the next")));
+    }
+    fields.extend(material(plan));
+    fields.extend(gloss(plan));
+    span_with(plan, fields)
+}
+
+/// b integer and r fraction bits, signed.
+fn word_format(term: &Term) -> Format {
+    Format::signed(term.bits, term.fraction).expect("a planned term has at most 64 bits")
+}
+
+/// The material, if there is more than one.
+fn material(plan: &Plan) -> Option<Field> {
+    let bits = plan.shade.material_bits;
+    (plan.shade.is_there() && bits > 0).then(|| Field::count("material", bits, "whose tables count"))
+}
+
+/// Of the material's highlights, on the way to NORMAL.
+fn gloss(plan: &Plan) -> Option<Field> {
+    let doc = "highlights reach down to 2^gloss tables below 0";
+    plan.shade.normalises().then(|| Field::count("gloss", shading::GLOSS_BITS, doc))
+}
+
+/// A word of the memory of the terms.
+#[must_use]
+pub fn term_address(plan: &Plan) -> Field {
+    let place = plan.record_place_bits();
+    Field::count("addr", plan.shade.record_bits + place, format!("record * 2^{place} + word"))
+}
+
+/// A word of the memory of the tables.
+#[must_use]
+pub fn table_address(plan: &Plan) -> Field {
+    let entry = plan.shade.entry_bits();
+    Field::count("addr", plan.shade.material_bits + entry, format!("material * 2^{entry} + entry"))
+}
+
+fn span_with(plan: &Plan, terms: Vec<Field>) -> Vec<Field> {
     let w = plan.widths();
     let mut fields = vec![
         Field::signed("x", w.column, "first column"),
@@ -153,6 +221,7 @@ pub fn span(plan: &Plan) -> Vec<Field> {
         Field::count("leftward", 1, "towards smaller columns"),
     ];
     fields.extend(words(plan));
+    fields.extend(terms);
     fields.extend([
         Field::count("fresh", 1, "first span of the triangle: its increments are new"),
         Field::count("fence", 1, "what is in flight may be of the same pixels"),
@@ -207,12 +276,45 @@ pub fn map_word(plan: &Plan) -> Field {
     Field::count("depth", plan.shadow.depth_bits, "depth from the light of what is nearest to it")
 }
 
-/// PIXEL to DEPTH: a fragment.
+/// What PIXEL gives: a fragment, with the outputs of the terms.
 #[must_use]
 pub fn fragment(plan: &Plan) -> Vec<Field> {
+    let output = |term: &Term| Field::signed(term.name, term.bits, "floor of the term");
+    let terms = plan.terms().iter().map(output).chain(material(plan)).chain(gloss(plan));
+    fragment_with(plan, terms.collect())
+}
+
+/// What TEXEL gives: the same without u and v, its colours new; without TEXEL what PIXEL gives.
+#[must_use]
+pub fn textured(plan: &Plan) -> Vec<Field> {
+    let mut fields = fragment(plan);
+    if plan.shade.textures() {
+        fields.retain(|field| !["u", "v"].contains(&field.name.as_str()));
+    }
+    fields
+}
+
+/// What SHADE takes: a fragment with two cosines a light.
+#[must_use]
+pub fn cosines(plan: &Plan) -> Vec<Field> {
+    let bits = [plan.shade.diffuse_index_bits(), plan.shade.highlight_index_bits()];
+    let index = |(name, bits)| Field::signed(name, bits, "in entries of a table");
+    let lights = shading::COSINES.into_iter().take(plan.shade.lights as usize);
+    let cosines = lights.flat_map(|names| names.into_iter().zip(bits)).map(index);
+    fragment_with(plan, cosines.chain(material(plan)).collect())
+}
+
+/// What SHADE gives: a fragment without terms and material, its colours new; without SHADE what PIXEL gives.
+#[must_use]
+pub fn tinted(plan: &Plan) -> Vec<Field> {
+    fragment_with(plan, Vec::new())
+}
+
+fn fragment_with(plan: &Plan, terms: Vec<Field>) -> Vec<Field> {
     let mut fields = vec![address(plan)];
     fields.extend(outputs(plan));
     fields.extend(triangle_kt(plan));
+    fields.extend(terms);
     fields.push(fence());
     fields.extend(tag(plan));
     fields

@@ -8,7 +8,7 @@
 //! stalls, bit by bit and cycle by cycle. Where that cannot be said without ticking, [`Renderer`] says why, and [`draw`]
 //! ticks.
 //!
-//! Not modelled: [`Events`], memories that stall, channels of the user's own, BLEND.
+//! Not modelled: [`Events`], memories that stall, channels of the user's own, BLEND, TERM and SHADE.
 
 mod divide;
 mod setup;
@@ -44,6 +44,8 @@ pub enum Reason {
     Shadow,
     /// The machine blends.
     Blend,
+    /// The machine shades at each pixel.
+    Shade,
     /// The rules change between triangles.
     Passes,
     /// The in-flight queue is so short that it fills: `fifo.inflight` <= `memory.latency` / T.
@@ -91,6 +93,7 @@ impl fmt::Display for Path {
             Path::Ticked(Reason::Channels) => "ticked: the machine has extra channels",
             Path::Ticked(Reason::Shadow) => "ticked: the machine has SHADOW",
             Path::Ticked(Reason::Blend) => "ticked: the machine has BLEND",
+            Path::Ticked(Reason::Shade) => "ticked: the machine has TERM and SHADE",
             Path::Ticked(Reason::Passes) => "ticked: the rules change between triangles",
             Path::Ticked(Reason::Queue) => "ticked: the in-flight queue may fill",
             Path::Ticked(Reason::Memory) => "ticked: the memory makes the machine wait",
@@ -216,6 +219,9 @@ fn refused(plan: &Plan) -> Option<Reason> {
     }
     if plan.shadow.is_there() {
         return Some(Reason::Shadow);
+    }
+    if plan.shade.is_there() {
+        return Some(Reason::Shade);
     }
     if plan.channels().len() > FEW {
         return Some(Reason::Channels);

@@ -154,7 +154,8 @@ impl Setup {
             ],
             delta: [word(d0), word(d1)],
             gradient: word(gx.map(|g| g.wrapping_mul(sign))),
-            kt: 0, // no BLEND here
+            kt: 0,     // no BLEND here
+            record: 0, // no TERM here
             source: Source::default(),
         };
         let phase2 = self.timing.phase2(&sorted, &parts, &prim);

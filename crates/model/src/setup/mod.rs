@@ -43,6 +43,7 @@ pub struct Setup<const C: usize> {
     timing: Timing,
     /// Of k_t at the port.
     kt_mask: u32,
+    record_mask: u32,
     state: State,
     /// Cycles remaining in PHASE1 or PHASE2, less one; 0 in the others.
     remaining: u32,
@@ -53,6 +54,8 @@ pub struct Setup<const C: usize> {
     sorted: Sorted<C>,
     /// Not hardware: triangles taken in.
     taken: u32,
+    /// With TERM: the number of the last triangle since reset, -1 before the first.
+    record: u32,
 }
 
 impl<const C: usize> Setup<C> {
@@ -62,6 +65,7 @@ impl<const C: usize> Setup<C> {
         Setup {
             plan: plan.clone(),
             timing: Timing::new(plan),
+            record_mask: (1 << plan.shade.record_bits) - 1, // at most 20
             kt_mask: u32::MAX >> (31 - plan.blend.kt_bits), // at most 12
             state: State::Idle,
             remaining: 0,
@@ -70,6 +74,7 @@ impl<const C: usize> Setup<C> {
             prim: Prim::default(),
             sorted: Sorted { corners: [Corner { u: 0, v: 0, values: [0; C] }; 3] },
             taken: 0,
+            record: u32::MAX,
         }
     }
 
@@ -77,6 +82,7 @@ impl<const C: usize> Setup<C> {
     pub fn reset(&mut self) {
         self.state = State::Idle;
         self.remaining = 0;
+        self.record = u32::MAX;
     }
 
     /// A triangle can be taken: the unit is IDLE.
@@ -131,6 +137,7 @@ impl<const C: usize> Setup<C> {
     fn take(&mut self, vertices: &[PortVertex; 3], tag: u32, events: &mut Events) {
         let id = self.taken;
         self.taken = self.taken.wrapping_add(1);
+        self.record = self.record.wrapping_add(1);
         let sorted = Sorted::new(&self.plan, vertices);
         let (clocks, prim) = prepare(&self.plan, &self.timing, &sorted);
         self.enter(State::Phase1, clocks.phase1);
@@ -139,7 +146,8 @@ impl<const C: usize> Setup<C> {
         match prim {
             Ok(prim) => {
                 let kt = vertices[0].kt() & self.kt_mask;
-                self.prim = Prim { kt, source: Source { tag, id }, ..prim };
+                let record = self.record & self.record_mask;
+                self.prim = Prim { kt, record, source: Source { tag, id }, ..prim };
                 self.count(&sorted, events);
             }
             Err(Culled::Lines) => events.culled_lines += 1,

@@ -5,11 +5,12 @@ pub mod blend;
 pub mod check;
 pub mod depth;
 pub mod rule;
+pub mod shade;
 
 pub use check::Check;
 pub use rule::inside;
 
-use edgewalk_machine::{Kind, Machine, Plan, PortVertex};
+use edgewalk_machine::{Kind, Machine, Plan, PortVertex, ShadeKind};
 use edgewalk_model::tokens::output;
 use edgewalk_model::{DrawState, Frame, Sample, Stalls};
 use rand::Rng;
@@ -98,7 +99,8 @@ pub fn random_triangle(plan: &Plan, size: f64, rng: &mut impl Rng) -> Triangle {
     })
 }
 
-/// A machine with every key drawn at random, that can be built; `fixed` settings stay.
+/// A machine with every key drawn at random, that can be built; `fixed` settings stay. Without TERM and SHADE, if they do not
+/// ask for them: those make colours of their own, from records and tables.
 pub fn random_machine(fixed: &[(&str, &str)], rng: &mut impl Rng) -> Plan {
     use edgewalk_machine::keys::{Domain, KEYS};
     loop {
@@ -111,6 +113,7 @@ pub fn random_machine(fixed: &[(&str, &str)], rng: &mut impl Rng) -> Plan {
             };
             (key.set)(&mut machine, value);
         }
+        machine.shade.kind = ShadeKind::None;
         for (key, value) in fixed {
             machine.set(key, value).expect("a key of the machine");
         }

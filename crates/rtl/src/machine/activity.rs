@@ -21,10 +21,12 @@ pub(super) fn activity<'m>(m: &'m Module, units: &Joined<'m>) -> Signal<'m> {
     // SHADOW's own doing, if it takes nothing for want of a texel to read, or of the word of one.
     let light = units.find("shadow_full").map(|full| !full | !units.valid("shaded"));
     let waits = light.map_or(waits, |light| light.mux(cause(Activity::Light), waits));
+    let waits = units.find("table_wait").map_or(waits, |no| no.mux(cause(Activity::Shade), waits));
     let lower = in_flight.mux(flush, idle);
     let lower = (!units.ready_for("tri")).mux(setup, lower);
     let lines = units.valid("span") | units.any("line_held") | units.valid("line");
     let lower = lines.mux(edge, lower);
+    let lower = units.find("term_wait").map_or(lower, |no| no.mux(cause(Activity::Term), lower));
     let draws = units.any("visible").mux(draw, offscreen);
     advance.mux(units.any("active").mux(draws, lower), waits)
 }

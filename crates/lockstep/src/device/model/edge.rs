@@ -15,6 +15,7 @@ pub struct EdgePorts<const C: usize> {
     prim_ready: PortId,
     line: Giver<Line<C>>,
     inc: HeldWords,
+    record: Option<PortId>,
 }
 
 impl<const C: usize> EdgePorts<C> {
@@ -23,6 +24,7 @@ impl<const C: usize> EdgePorts<C> {
             prim_ready: scope.port("prim_ready")?,
             line: scope.giver("line")?,
             inc: scope.held("line")?,
+            record: scope.plan.shade.is_there().then(|| scope.port("inc_record")).transpose()?,
         })
     }
 
@@ -30,6 +32,9 @@ impl<const C: usize> EdgePorts<C> {
         ports.set(self.prim_ready, edge.prim_ready(fresh_queued));
         self.line.offer(edge.line(), ports);
         self.inc.show(edge.gradient(), edge.kt(), ports);
+        if let Some(port) = self.record {
+            ports[port] = edge.record().into();
+        }
     }
 }
 

@@ -4,17 +4,25 @@ use super::blend::{BlendStatus, ColorPorts};
 use super::depth::{DepthStatus, MemoryPorts};
 use super::edge::EdgePorts;
 use super::link::{Giver, Scope};
+use super::normal::{self, NormalPorts};
 use super::pixel::PixelPorts;
 use super::setup::{SetupPorts, TriangleTaker};
+use super::shade::{self, ShadePorts};
 use super::shadow::{MapPorts, ShadowPorts};
 use super::span::SpanPorts;
+use super::term::{TermPorts, WordPorts};
+use super::texel::{self, TexelPorts};
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_model::machine::shading::parts;
 use edgewalk_model::tokens::Passed;
-use edgewalk_model::{BlendInputs, Events, Inputs, Model, ShadowInputs, View};
+use edgewalk_model::{
+    BlendInputs, Events, Inputs, Model, NormalInputs, ShadeInputs, ShadowInputs, TermInputs, TexelInputs,
+    View,
+};
 
 /// The machine.
 pub struct MachineDevice<const C: usize> {
@@ -22,6 +30,10 @@ pub struct MachineDevice<const C: usize> {
     model: Model<C>,
     tri: TriangleTaker,
     memory: MemoryPorts<C>,
+    /// Of TERM and of SHADE.
+    words: Option<(WordPorts, WordPorts)>,
+    textures: Option<WordPorts>,
+    roots: Option<WordPorts>,
     map: Option<MapPorts>,
     color: Option<ColorPorts<C>>,
     activity: PortId,
@@ -34,7 +46,11 @@ struct Inside<const C: usize> {
     setup: SetupPorts<C>,
     edge: EdgePorts<C>,
     span: SpanPorts<C>,
+    term: Option<TermPorts<C>>,
     pixel: PixelPorts<C>,
+    texel: Option<TexelPorts<C>>,
+    normal: Option<NormalPorts<C>>,
+    shade: Option<ShadePorts<C>>,
     shadow: Option<ShadowPorts<C>>,
     depth: DepthStatus,
     blend: Option<(Giver<Passed<C>>, BlendStatus)>,
@@ -43,12 +59,19 @@ struct Inside<const C: usize> {
 impl<const C: usize> MachineDevice<C> {
     pub fn new(plan: &Plan, interface: &Interface) -> Result<Self, NoPlace> {
         let scope = Scope::alone(plan, interface);
+        let words = || {
+            let find = |read, data| WordPorts::find(scope, read, data);
+            Ok::<_, NoPlace>((find("trd", "tdata")?, find("srd", "sdata")?))
+        };
         let inside = !interface.inner_outputs().is_empty();
         Ok(MachineDevice {
             plan: plan.clone(),
             model: Model::new(plan),
             tri: TriangleTaker::find(plan, interface)?,
             memory: MemoryPorts::find(scope)?,
+            words: plan.shade.is_there().then(words).transpose()?,
+            textures: plan.shade.textures().then(|| texel::find(scope)).transpose()?,
+            roots: plan.shade.normalises().then(|| WordPorts::find(scope, "rrd", "rdata")).transpose()?,
             map: plan.shadow.is_there().then(|| MapPorts::find(scope)).transpose()?,
             color: plan.blend.is_there().then(|| ColorPorts::find(scope)).transpose()?,
             activity: scope.port("activity")?,
@@ -66,7 +89,11 @@ impl<const C: usize> Inside<C> {
             setup: SetupPorts::find(of("setup"))?,
             edge: EdgePorts::find(of("edge"))?,
             span: SpanPorts::find(of("span"))?,
+            term: plan.shade.is_there().then(|| TermPorts::find(of("term"))).transpose()?,
             pixel: PixelPorts::find(of("pixel"))?,
+            texel: plan.shade.textures().then(|| TexelPorts::find(of("texel"))).transpose()?,
+            normal: plan.shade.normalises().then(|| NormalPorts::find(of("normal"))).transpose()?,
+            shade: plan.shade.is_there().then(|| ShadePorts::find(of("shade"))).transpose()?,
             shadow: plan.shadow.is_there().then(|| ShadowPorts::find(of("shadow"))).transpose()?,
             depth: DepthStatus::find(of("depth"))?,
             blend: plan.blend.is_there().then(blend).transpose()?,
@@ -76,7 +103,9 @@ impl<const C: usize> Inside<C> {
     /// The links between the units in a cycle with these inputs, from the units' states before the clock edge.
     fn show(&self, model: &Model<C>, inputs: &Inputs, ports: &mut PortValues) {
         let units = model.units();
-        let frag = units.pixel.frag();
+        let drawn = units.pixel.frag();
+        let offered = units.offered(&inputs.texel);
+        let frag = units.shade.map_or(drawn, |shade| shade.tinted());
         let shaded = units.shadow.and_then(|shadow| shadow.shaded(&inputs.shadow));
         let seen = if units.shadow.is_some() { shaded.as_ref() } else { frag };
         let seen_ready = inputs.rd_ready && units.depth.block(seen, inputs.depth_write).is_none();
@@ -84,7 +113,21 @@ impl<const C: usize> Inside<C> {
         self.setup.show(units.setup, ports);
         self.edge.show(units.edge, units.span.fresh_queued(), ports);
         self.span.show(units.span, ports);
-        self.pixel.show(units.pixel, frag_ready, ports);
+        let readies = units.readies(&offered, &inputs.texel, frag_ready);
+        if let (Some(shown), Some(unit)) = (&self.term, units.term) {
+            shown.show(unit, units.span.span(), units.pixel.span_ready(readies.drawn), ports);
+        }
+        self.pixel.show(units.pixel, readies.drawn, ports);
+        if let (Some(shown), Some(unit)) = (&self.texel, units.texel) {
+            shown.show(unit, &inputs.texel, ports);
+        }
+        if let (Some(shown), Some(unit)) = (&self.normal, units.normal) {
+            shown.show(unit, parts(&offered.textured).0, readies.normed, ports);
+        }
+        if let (Some(shown), Some(unit)) = (&self.shade, units.shade) {
+            let (frag, cosines) = parts(&offered.normed);
+            shown.show(unit, (frag, &cosines), frag_ready, ports);
+        }
         if let (Some(shown), Some(unit)) = (&self.shadow, units.shadow) {
             shown.show(unit, frag, &inputs.shadow, ports);
         }
@@ -100,6 +143,7 @@ impl<const C: usize> MachineDevice<C> {
     /// The model's inputs of a cycle.
     fn inputs<'a>(&self, triangle: Option<&'a ([PortVertex; 3], u32)>, ports: &PortValues) -> Inputs<'a> {
         let depth = self.memory.inputs(ports);
+        let words = self.words.as_ref();
         Inputs {
             rst: ports.rst,
             tri: triangle.map(|(vertices, tag)| (vertices, *tag)),
@@ -108,6 +152,16 @@ impl<const C: usize> MachineDevice<C> {
             rd_ready: depth.rd_ready,
             data: depth.data,
             wr_ready: depth.wr_ready,
+            term: words.map_or_else(TermInputs::default, |(terms, _)| terms.term_inputs(ports)),
+            texel: self
+                .textures
+                .as_ref()
+                .map_or_else(TexelInputs::default, |memory| texel::inputs(memory, ports)),
+            normal: self
+                .roots
+                .as_ref()
+                .map_or_else(NormalInputs::default, |roots| normal::inputs(roots, ports)),
+            shade: words.map_or_else(ShadeInputs::default, |(_, tables)| shade::inputs(tables, ports)),
             shadow: self.map.as_ref().map_or_else(ShadowInputs::default, |map| map.inputs(ports)),
             blend: self.color.as_ref().map_or_else(BlendInputs::default, |color| BlendInputs {
                 color_write: depth.color_write,
@@ -127,6 +181,16 @@ impl<const C: usize> Device for MachineDevice<C> {
         let outputs = self.model.cycle(&inputs);
         ports.set(self.tri.ready(), outputs.tri_ready);
         self.memory.show(outputs.rd, outputs.data_ready, outputs.wr.as_ref(), ports);
+        if let Some((terms, tables)) = &self.words {
+            terms.show(outputs.trd, outputs.tdata_ready, ports);
+            tables.show(outputs.srd, outputs.sdata_ready, ports);
+        }
+        if let Some(textures) = &self.textures {
+            textures.show(outputs.xrd, outputs.xdata_ready, ports);
+        }
+        if let Some(roots) = &self.roots {
+            roots.show(outputs.rrd, outputs.rdata_ready, ports);
+        }
         if let Some(map) = &self.map {
             map.show(outputs.mrd, outputs.mdata_ready, ports);
         }

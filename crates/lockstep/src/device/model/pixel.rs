@@ -3,17 +3,18 @@
 use super::link::{Giver, HeldWords, Scope, Taker};
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
+use crate::device::terms::{TermFragment, TermSpan};
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
 use edgewalk_model::Events;
 use edgewalk_model::pixel::Pixel;
-use edgewalk_model::tokens::{Fragment, Span};
+use edgewalk_model::term::Walked;
 
 /// What PIXEL shows of itself.
 pub struct PixelPorts<const C: usize> {
     span_ready: PortId,
-    frag: Giver<Fragment<C>>,
+    frag: Giver<TermFragment<C>>,
     active: PortId,
     visible: PortId,
     advance: PortId,
@@ -34,7 +35,9 @@ impl<const C: usize> PixelPorts<C> {
 
     pub fn show(&self, pixel: &Pixel<C>, frag_ready: bool, ports: &mut PortValues) {
         ports.set(self.span_ready, pixel.span_ready(frag_ready));
-        self.frag.offer(pixel.frag(), ports);
+        let frag =
+            pixel.frag().map(|fragment| TermFragment { fragment: *fragment, cosines: *pixel.cosines() });
+        self.frag.offer(frag.as_ref(), ports);
         ports.set(self.active, pixel.active());
         ports.set(self.visible, pixel.on_screen());
         ports.set(self.advance, pixel.advance(frag_ready));
@@ -46,7 +49,7 @@ impl<const C: usize> PixelPorts<C> {
 pub struct PixelDevice<const C: usize> {
     unit: Pixel<C>,
     events: Events,
-    span: Taker<Span<C>>,
+    span: Taker<TermSpan<C>>,
     inc: HeldWords,
     shown: PixelPorts<C>,
 }
@@ -69,7 +72,9 @@ impl<const C: usize> Device for PixelDevice<C> {
         let ready = ports.is_high(self.shown.frag.ready);
         self.shown.show(&self.unit, ready, ports);
         let (span, (gradient, kt)) = (self.span.token(ports), self.inc.read(ports));
-        self.unit.step(span.as_ref(), &gradient, kt, ready, &mut self.events);
+        let walked = || span.as_ref().map_or_else(Walked::default, |span| span.walked);
+        let plain = span.as_ref().map(|span| &span.span);
+        self.unit.step(plain, &gradient, kt, walked, ready, &mut self.events);
         if ports.rst {
             self.unit.reset();
         }

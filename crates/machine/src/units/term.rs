@@ -1,0 +1,76 @@
+//! TERM: from spans to spans with the words of the terms at their first pixel.
+
+use super::tokens;
+use crate::field::Field;
+use crate::link::{Held, Link, MemoryPort, Ready, Status};
+use crate::machine::Machine;
+use crate::plan::Plan;
+use crate::shading::Walk;
+use crate::unit::{Event, Ports, UnitSpec};
+
+/// What TERM declares.
+pub const SPEC: UnitSpec = UnitSpec {
+    name: "term",
+    purpose: "walks polynomials of the pixel's place from the start of a span to the start of the next",
+    section: 11,
+    present: there,
+    wants: |_: &Machine| Vec::new(),
+    ports,
+    events: EVENTS,
+};
+
+fn there(plan: &Plan) -> bool {
+    plan.shade.is_there()
+}
+
+fn ports(plan: &Plan) -> Ports {
+    // Whether the walk is there depends on the span.
+    let span = Link { ready: Ready::WhileValid, ..Link::new("span", tokens::span(plan)) };
+    let bits = plan.record_word_bits();
+    Ports {
+        takes: Some(span),
+        gives: Some(Link::new("walked", tokens::walked(plan))),
+        held_in: vec![Held {
+            name: "inc",
+            fields: tokens::record(plan).into_iter().collect(),
+            beside: "span",
+        }],
+        memory: vec![MemoryPort {
+            name: "terms",
+            read: Link::new("trd", vec![tokens::term_address(plan)]),
+            data: Link::new("tdata", vec![Field::count("word", bits, "of a record; the low bits count")]),
+            write: "",
+            word: "",
+            enable: None,
+            latency: plan.shade.term_latency,
+        }],
+        status: vec![Status::new("term_wait", "a span is there, the walk not yet")],
+        ..Ports::default()
+    }
+}
+
+fn in_memory(plan: &Plan) -> bool {
+    there(plan) && plan.shade.walk == Walk::Memory
+}
+
+const EVENTS: &[Event] = &[
+    Event { name: "record_read", doc: "records that were read", can_happen: there },
+    Event { name: "walk_down", doc: "steps of the walk to the next line", can_happen: there },
+    Event { name: "walk_forward", doc: "steps of the walk towards the end of a span", can_happen: there },
+    Event { name: "walk_back", doc: "steps of the walk away from the end of a span", can_happen: there },
+    Event {
+        name: "walk_waits",
+        doc: "cycles in which the walk stands at a span that PIXEL does not take yet",
+        can_happen: there,
+    },
+    Event {
+        name: "walk_result_last",
+        doc: "cycles in which a span waits for the last result of the walk alone",
+        can_happen: in_memory,
+    },
+    Event {
+        name: "term_read_stall",
+        doc: "cycles in which a read waits for the memory of the terms",
+        can_happen: there,
+    },
+];

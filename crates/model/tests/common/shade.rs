@@ -1,0 +1,166 @@
+//! Formula (1) of the specification, the colour that tables ask for, and random records and tables, in plain numbers.
+
+use super::Triangle;
+use edgewalk_machine::{Entry, Fill, Plan, Record, ShadeColour, Term};
+use edgewalk_model::Shading;
+use rand::Rng;
+
+/// The spans of the triangle run to the left: its major edge lies right.
+pub fn leftward(plan: &Plan, triangle: &Triangle) -> bool {
+    let mut sorted = triangle.map(|v| (i128::from(v.x()), i128::from(v.y())));
+    sorted.sort_by_key(|v| v.1);
+    let [(u0, v0), (u1, v1), (u2, v2)] = sorted;
+    plan.fill == Fill::Exact && (u1 - u0) * (v2 - v0) < (u2 - u0) * (v1 - v0)
+}
+
+/// The word of a term by formula (1), modulo 2^w.
+pub fn word(term: &Term, words: &[u64; 6], i: i64, n: i64) -> u64 {
+    let (i, n) = (i128::from(i), i128::from(n));
+    let factors = [1, i, n, i * (i - 1) / 2, i * n, n * (n - 1) / 2];
+    let used = term.words() as usize;
+    let products =
+        words.iter().zip(factors).take(used).map(|(word, f)| u128::from(*word).wrapping_mul(f as u128));
+    products.fold(0, u128::wrapping_add) as u64 & (u64::MAX >> (64 - term.word()))
+}
+
+/// The words of all terms at a pixel of a triangle.
+pub fn words(plan: &Plan, record: &Record, leftward: bool, (x, y): (i64, i64)) -> Vec<u64> {
+    let i = (x - i64::from(record.x)) * if leftward { -1 } else { 1 };
+    let n = y - i64::from(record.y);
+    plan.terms().iter().zip(&record.terms).map(|(term, own)| word(term, own, i, n)).collect()
+}
+
+/// The output of a term: floor(word / 2^r), signed.
+pub fn output(term: &Term, word: u64) -> i64 {
+    let value = (word >> term.fraction) as i64;
+    if value >> (term.bits - 1) > 0 { value - (1 << term.bits) } else { value }
+}
+
+/// The cosines that SHADE sees, of the outputs of the terms: these, or with NORMAL by its table, in plain numbers.
+pub fn cosines(plan: &Plan, roots: &[u128], record: &Record, outputs: &[i64]) -> Vec<i64> {
+    let outputs = &outputs[..outputs.len() - if plan.shade.textures() { 2 } else { 0 }];
+    let Some((square, products)) = outputs.split_last().filter(|_| plan.shade.normalises()) else {
+        return outputs.to_vec();
+    };
+    let s = (*square).clamp(16384, 65535);
+    let entry = roots[(s / 256) as usize];
+    let (v, slope) = ((entry / 1024 % 131_072) as i64, (entry % 1024) as i64);
+    let y = (v - (slope * (s % 256) + 128).div_euclid(256)).rem_euclid(131_072);
+    let t = plan.shade.table_bits;
+    let index = |(place, product): (usize, &i64)| {
+        let c = (product * y + 32768).div_euclid(65536);
+        let highlight = place % 2 == 1;
+        let scaled = if highlight { ((c - 65536) << record.gloss) + 65536 } else { c };
+        let half = 1i64 << (t + 1 + if highlight { plan.shade.gloss_bits } else { 0 });
+        scaled.div_euclid(1 << (16 - t)).max(-half).min(half - 1)
+    };
+    products.iter().enumerate().map(index).collect()
+}
+
+/// The colour of a fragment behind TEXEL: c·x/(2^b - 1) rounded to nearest, x the texel's, which repeats.
+pub fn textured(plan: &Plan, textures: &[u128], material: u32, outputs: &[i64], own: [u32; 3]) -> [u32; 3] {
+    if !plan.shade.textures() {
+        return own;
+    }
+    let side = 1i64 << plan.shade.texture_bits;
+    let [u, v] = [outputs.len() - 2, outputs.len() - 1].map(|i| outputs[i].rem_euclid(side) as u32);
+    let word = textures[plan.texel_place(material, u, v)];
+    let (b, max) = (plan.color.bits, plan.color.max());
+    std::array::from_fn(|i| {
+        let part = (word >> (b * (2 - i as u32))) as u64 & max;
+        ((2 * u64::from(own[i]) * part + max) / (2 * max)) as u32
+    })
+}
+
+/// The chords of 1/√x, each lowered by half of its gap.
+pub fn true_roots(plan: &Plan) -> Vec<u128> {
+    let root = |x: f64| (x / 256.0).powf(-0.5);
+    let entry = |k: u32| {
+        let (low, high) = (root(k.into()), root(f64::from(k) + 1.0));
+        let chord = |f: f64| low + (high - low) * f;
+        let gap = (0..=256)
+            .map(|f| f64::from(f) / 256.0)
+            .map(|f| chord(f) - root(f64::from(k) + f))
+            .fold(0.0, f64::max);
+        let v = ((low - gap / 2.0) * 65536.0).round() as u32;
+        plan.root_word(v, ((low - high) * 65536.0).round() as u32)
+    };
+    (0..256).map(|k| if k < 64 { 0 } else { entry(k) }).collect()
+}
+
+/// The colour of a fragment of these cosines, and of this colour of its own.
+pub fn colour(plan: &Plan, tables: &[u128], material: u32, cosines: &[i64], own: [u32; 3]) -> [u32; 3] {
+    let (b, end) = (plan.color.bits, 1i64 << plan.shade.table_bits);
+    let max = (1u128 << b) - 1;
+    let index = |cosine: i64| cosine.max(0).min(end - 1) as u32;
+    let (mut light, mut highlight) = ([0u128; 3], 0);
+    for (l, pair) in (0..).zip(cosines.chunks(2)) {
+        let at = |cosine| tables[plan.table_place(material, l, index(cosine))];
+        let diffuse = at(pair[0]) >> b;
+        for (place, light) in (0..3u32).rev().zip(&mut light) {
+            *light += match plan.shade.colour {
+                ShadeColour::Tables => diffuse >> (place * b) & max,
+                ShadeColour::Multiply => diffuse,
+            };
+        }
+        highlight += if pair[0] < 0 { 0 } else { at(pair[1]) & max };
+    }
+    let one = 4u128 << b;
+    std::array::from_fn(|i| {
+        let diffuse = match plan.shade.colour {
+            ShadeColour::Tables => light[i],
+            // To nearest, half up.
+            ShadeColour::Multiply => (2 * u128::from(own[i]) * light[i].min(one) + one) / (2 * one),
+        };
+        (diffuse + highlight).min(max) as u32
+    })
+}
+
+/// Records of random words for the triangles, their reference pixels about where each begins, and random tables, of every
+/// material that a record has.
+pub fn random_shading(plan: &Plan, triangles: &[Triangle], rng: &mut impl Rng) -> Shading {
+    let materials = rng.random_range(1..=3u32.min(1 << plan.shade.material_bits));
+    let mut tables = vec![0; plan.table_place(materials, 0, 0)];
+    for material in 0..materials {
+        for light in 0..plan.shade.lights {
+            for entry in 0..1 << plan.shade.table_bits {
+                tables[plan.table_place(material, light, entry)] = plan.table_word(random_entry(plan, rng));
+            }
+        }
+    }
+    let roots = (0..256).map(|_| plan.root_word(rng.random(), rng.random())).collect();
+    let texels = if plan.shade.textures() { plan.texel_place(materials, 0, 0) } else { 0 };
+    let colour = |rng: &mut _| [(); 3].map(|()| Rng::random(rng));
+    let textures = (0..texels).map(|_| plan.texel_word(colour(rng))).collect();
+    let records = triangles.iter().map(|triangle| random_record(plan, triangle, materials, rng)).collect();
+    Shading { records, tables, roots, textures }
+}
+
+fn random_entry(plan: &Plan, rng: &mut impl Rng) -> Entry {
+    let largest = plan.color.max() as u32;
+    // Sums that are cut and sums that are not.
+    let most = if rng.random_bool(0.5) { largest / 3 } else { largest };
+    let mut part = || rng.random_range(0..=most);
+    match plan.shade.colour {
+        ShadeColour::Tables => Entry::Colours([part(), part(), part()], part()),
+        ShadeColour::Multiply => Entry::Light(part() * 5, part()),
+    }
+}
+
+fn random_record(plan: &Plan, triangle: &Triangle, materials: u32, rng: &mut impl Rng) -> Record {
+    let one = 1i64 << plan.subpixel_bits;
+    let columns = triangle.map(|v| i64::from(v.x()).div_euclid(one));
+    let top = triangle.iter().map(|v| i64::from(v.y()).div_euclid(one)).min().unwrap_or(0);
+    let (left, right) = (columns.into_iter().min().unwrap_or(0), columns.into_iter().max().unwrap_or(0));
+    let wide = i64::from(plan.width) + 8;
+    let x = rng.random_range(left..=right).clamp(-8, wide) + rng.random_range(-3..=3);
+    let y = (top - rng.random_range(0..3)).clamp(0, i64::from(plan.height) - 1);
+    let terms = plan.terms().iter().map(|_| random_words(rng)).collect();
+    let gloss = if plan.shade.normalises() { rng.random_range(0..=8) } else { 0 };
+    Record { x: x as i32, y: y as u32, material: rng.random_range(0..materials), gloss, terms }
+}
+
+/// Any bits; now and then a step of 0.
+fn random_words(rng: &mut impl Rng) -> [u64; 6] {
+    std::array::from_fn(|_| if rng.random_bool(0.1) { 0 } else { rng.random() })
+}

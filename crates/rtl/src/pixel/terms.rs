@@ -1,0 +1,53 @@
+//! The terms in PIXEL: copies of TERM's words at a pixel, with an adder each, or two.
+
+use edgewalk_machine::{Plan, Term};
+use edgewalk_netlist::{Module, Reg, Signal};
+
+use crate::wires::Token;
+
+/// For the header of machines with terms.
+pub(super) const DOC: &str =
+    "Terms: a span brings each term's word v, its step g, and of degree 2 the step's step gg; they step with the channels,
+each with adders of its own, in one clock. They are not cut into segments, and wait for the others in the output stages.";
+
+/// The words of all terms.
+pub(super) struct Terms<'m>(Vec<(Term, Reg<'m>)>);
+
+impl<'m> Terms<'m> {
+    /// They are loaded with a span, and step where another pixel follows.
+    pub fn new(
+        m: &'m Module,
+        plan: &Plan,
+        span: &Token<'m>,
+        load: Signal<'m>,
+        next: Signal<'m>,
+    ) -> Terms<'m> {
+        if !plan.terms().is_empty() {
+            m.comment("The terms.");
+        }
+        let copy = |term: &Term, part: &str, doc: &str| {
+            let name = format!("{}_{part}", term.name);
+            let loaded = span[name.as_str()];
+            (m.reg(&name, loaded.width()).doc(doc), loaded)
+        };
+        let words = plan.terms().iter().map(|term| {
+            let (v, first) = copy(term, "v", "modular, at this pixel");
+            let (g, step) = copy(term, "g", "modular, to the next pixel");
+            v.when(next, v.q() + g.q()).when(load, first);
+            if term.degree == 2 {
+                let (gg, step) = copy(term, "gg", "modular, from a step to the next");
+                gg.when(load, step);
+                g.when(next, g.q() + gg.q());
+            }
+            g.when(load, step);
+            (*term, v)
+        });
+        Terms(words.collect())
+    }
+
+    /// The output of the term of that name, its word without the fraction.
+    pub fn output(&self, name: &str) -> Option<Signal<'m>> {
+        let (term, v) = self.0.iter().find(|(term, _)| term.name == name)?;
+        Some(v.q().slice(term.word() - 1, term.fraction))
+    }
+}

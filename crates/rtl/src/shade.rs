@@ -1,0 +1,107 @@
+//! SHADE: makes the colour of a fragment of its cosines, by tables that hold the material.
+
+mod tables;
+
+mod index;
+
+mod colour;
+
+use std::sync::Arc;
+
+use edgewalk_machine::units::{shade::SPEC, tokens};
+use edgewalk_machine::{Plan, ShadeColour};
+use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg, Signal};
+
+use crate::ports::Interface;
+use crate::wires::{Registers, parts};
+use colour::{COLOURS, Shone};
+use index::Index;
+use tables::Tables;
+
+const DOC: &str = "SHADE makes the colour of a fragment of its cosines, by tables that hold the material.
+
+  frag ─> index ─> [A] ─> tables T, S ─> [B] ─────────> sum ─> [C] ─> tinted
+  material ─ srd (address) ─> tables memory ─ sdata ─┘
+
+Formats: nl*, nh* signed, in entries of a table; below 0 counts as 0, beyond the last entry as the last. T holds the diffuse light, S
+the highlight, LSB of the colour; where nl is below 0 there is no highlight. Sums are cut to the largest colour.
+Timing: a fragment a clock, offered three clocks after it was taken (four if it is multiplied). All stages move together.
+Rules: the tables of one material are inside. A fragment of another waits until the stages are empty and its tables have been read,
+a word a clock.";
+
+const MULTIPLY_DOC: &str = "Multiplied: T holds the light, 2^(b+2) for 1.0. Between B and C a stage [M] takes the fragment's colour times the light.";
+
+/// The netlist of SHADE.
+///
+/// # Errors
+/// None for a machine with SHADE that [`edgewalk_machine::Machine::plan`] accepts.
+pub fn shade(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
+    let m = Module::new("edgewalk_shade", DOC);
+    let multiplies = plan.shade.colour == ShadeColour::Multiply;
+    if multiplies {
+        m.doc(MULTIPLY_DOC);
+    }
+    let ports = Interface::new(&m, (SPEC.ports)(plan));
+    let (frag_valid, frag) = ports.takes();
+    let memory = ports.memory("tables");
+    let tinted_ready = ports.gives_ready();
+
+    m.comment("The stages, and what goes through them as it is.");
+    let names: &[&str] = if multiplies { &["a", "b", "m", "c"] } else { &["a", "b", "c"] };
+    let tinted = parts(&tokens::tinted(plan));
+    let stages: Vec<Stage> = names
+        .iter()
+        .map(|name| {
+            // The triangle's colour goes as far as it is multiplied.
+            let colour = multiplies && ["a", "b"].contains(name);
+            let is_kept = |part: &str| colour || !COLOURS.contains(&part);
+            let kept = tinted.iter().filter(|part| is_kept(&part.name)).cloned().collect();
+            let valid = m.reg(&format!("{name}_valid"), 1).doc("a fragment is in this stage").reset(0);
+            Stage { valid, kept: Registers::new(&m, name, kept) }
+        })
+        .collect();
+    let last = stages[stages.len() - 1].valid.q();
+    let advance = (!last | tinted_ready).named_doc("advance", "all stages move on");
+    let occupied = stages.iter().map(|stage| stage.valid.q()).reduce(|any, one| any | one);
+    let occupied = occupied.expect("there are three stages or four").named("occupied");
+
+    let tables = Tables::new(&m, plan, &memory, frag_valid, frag.get("material"), occupied);
+    let frag_ready = (advance & tables.fits).named("frag_ready");
+    let take = (frag_valid & frag_ready).named("take");
+    let mut valid = take;
+    let mut before = frag.clone();
+    for Stage { valid: filled, kept } in &stages {
+        filled.when(advance, valid);
+        kept.load(advance, |f| before[f]);
+        (valid, before) = (filled.q(), kept.token());
+    }
+
+    m.comment("Stage A: which entries.");
+    let indices: Vec<Index> =
+        (0..plan.shade.lights).map(|light| Index::new(&m, plan, light, &frag, advance)).collect();
+    let lights = tables.look_up(&m, advance, &indices);
+    let shone = Shone { m: &m, plan, advance, lights };
+    let colours = if multiplies { shone.multiplied(&stages[1].kept) } else { shone.told() };
+
+    ports.take_ready(frag_ready);
+    ports.read("tables", tables.read_valid, tables.read_place, tables.loading);
+    ports.give(last, |f| match COLOURS.iter().position(|colour| *colour == f) {
+        Some(i) => colours[i].q(),
+        None => before[f],
+    });
+    ports.status("table_wait", frag_valid & !tables.fits);
+    ports.status("occupied", occupied);
+    m.finish()
+}
+
+/// A fragment on its way.
+struct Stage<'m> {
+    valid: Reg<'m>,
+    kept: Registers<'m>,
+}
+
+/// At most the number of all ones in so many bits, and this signal.
+fn cut(signal: Signal<'_>, bits: u32) -> Signal<'_> {
+    let above = signal.slice(signal.width() - 1, bits).any();
+    signal.trunc(bits) | signal.module().cat(&vec![above; bits as usize])
+}

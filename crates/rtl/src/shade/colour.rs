@@ -1,0 +1,79 @@
+//! The sums of the lights: stages M and C.
+
+use edgewalk_machine::Plan;
+use edgewalk_netlist::{Module, Reg, Signal};
+
+use super::cut;
+use super::tables::Light;
+use crate::wires::Registers;
+
+/// The colours, in the order of a word: red, the most significant, first.
+pub(super) const COLOURS: [&str; 3] = ["r", "g", "b"];
+
+/// What the lights give in stage B.
+pub(super) struct Shone<'a, 'm> {
+    pub m: &'m Module,
+    pub plan: &'a Plan,
+    pub advance: Signal<'m>,
+    pub lights: Vec<Light<'m>>,
+}
+
+impl<'m> Shone<'_, 'm> {
+    /// Stage C where the tables hold colours.
+    pub fn told(&self) -> [Reg<'m>; 3] {
+        let b = self.plan.color.bits;
+        self.m.comment("Stage C: what all lights give, cut to the largest colour.");
+        let highlights = self.highlights();
+        [0, 1, 2].map(|i| {
+            let low = (2 - i as u32) * b;
+            let own = self.lights.iter().map(|light| light.diffuse.slice(low + b - 1, low));
+            let all = total(own.chain(highlights.iter().copied()).collect());
+            self.colour(i, all)
+        })
+    }
+
+    /// Stages M and C where they hold the light; the colours of the triangle stand in stage B.
+    pub fn multiplied(&self, triangle: &Registers<'m>) -> [Reg<'m>; 3] {
+        let (m, b) = (self.m, self.plan.color.bits);
+        m.comment("Stage M: the light of all lights, at most 1.0, times the triangle's colour; the highlights of all.");
+        let sum = total(self.lights.iter().map(|light| light.diffuse).collect());
+        // 1.0 is one bit, so whatever is more has that bit or one above.
+        let whole = sum.slice(sum.width() - 1, b + 2).any().named_doc("whole", "1.0 or more");
+        let light = m.cat(&[whole, whole.mux(0, sum.trunc(b + 2))]).named_doc("light", "2^-(b+2)");
+        let highlight = m.reg("m_highlight", b).doc("of all lights");
+        highlight.when(self.advance, self.cut(total(self.highlights())));
+        let colours = COLOURS.map(|name| {
+            let product = (triangle[name].q() * light).named(&format!("product_{name}"));
+            let half = m.lit(product.width(), 1 << (b + 1));
+            let nearest = (product + half).slice(2 * b + 1, b + 2);
+            m.reg(&format!("m_{name}"), b)
+                .doc("the triangle's colour in this light")
+                .when(self.advance, nearest)
+        });
+        m.comment("Stage C: that and the highlight, cut to the largest colour.");
+        [0, 1, 2].map(|i| self.colour(i, total(vec![colours[i].q(), highlight.q()])))
+    }
+
+    /// Of each light; none below the horizon.
+    fn highlights(&self) -> Vec<Signal<'m>> {
+        let lights = self.lights.iter().enumerate();
+        lights.map(|(i, light)| light.lit.mux(light.highlight, 0).named(&format!("s{i}"))).collect()
+    }
+
+    fn colour(&self, i: usize, all: Signal<'m>) -> Reg<'m> {
+        let name = format!("c_{}", COLOURS[i]);
+        self.m.reg(&name, self.plan.color.bits).doc("of the pixel").when(self.advance, self.cut(all))
+    }
+
+    fn cut(&self, sum: Signal<'m>) -> Signal<'m> {
+        let bits = self.plan.color.bits;
+        if sum.width() > bits { cut(sum, bits) } else { sum }
+    }
+}
+
+/// The sum of numbers of one width, with the bits that it may have more.
+fn total(numbers: Vec<Signal<'_>>) -> Signal<'_> {
+    let bits = numbers[0].width() + (numbers.len() as u32).next_power_of_two().ilog2();
+    let wide = numbers.into_iter().map(|number| number.zext(bits));
+    wide.reduce(|sum, one| sum + one).expect("a light at least")
+}

@@ -1,0 +1,46 @@
+//! Where the walk stands, and which way the span lies.
+
+use edgewalk_netlist::{Module, Reg, Signal};
+
+use super::record::{REF_X, REF_Y, Record};
+use crate::wires::Token;
+
+/// The pixel that the words are those of.
+pub(super) struct Place<'m> {
+    x: Reg<'m>,
+    y: Reg<'m>,
+    leftward: Signal<'m>,
+    /// It is the span's first.
+    pub reached: Signal<'m>,
+    /// The next step, where it is not: of these one, or else back.
+    pub down: Signal<'m>,
+    pub forward: Signal<'m>,
+}
+
+impl<'m> Place<'m> {
+    /// Against the span that is offered.
+    pub fn new(m: &'m Module, span: &Token<'m>) -> Place<'m> {
+        m.comment("Where the walk stands, and where to go: down first, then along the line.");
+        let x = m.reg("x", span["x"].width()).doc("column, signed");
+        let y = m.reg("y", span["y"].width()).doc("line");
+        let down = y.q().ne(span["y"]).named_doc("down", "to the next line");
+        let ahead = (span["x"] - x.q()).named_doc("ahead", "columns to the right, signed");
+        let leftward = span["leftward"];
+        // The least number has no opposite: it is negative either way.
+        let (left, more) = (ahead.msb(), ahead.trunc(ahead.width() - 1).any());
+        let forward = leftward.mux(left & more, !left);
+        let forward = (!down & forward).named_doc("forward", "to the next pixel of the span");
+        let reached = (!down & !ahead.any()).named("reached");
+        Place { x, y, leftward, reached, down, forward }
+    }
+
+    /// It goes on when a step is done, and to the reference pixel of a record.
+    pub fn step(&self, stepped: Signal<'m>, record: &Record<'m>) {
+        let right = (self.forward ^ self.leftward).named_doc("rightward", "the step, if not down");
+        let one = self.x.q().module().lit(self.x.q().width(), 1);
+        self.x.when(stepped & !self.down, self.x.q() + right.mux(one, -1));
+        self.y.when(stepped & self.down, self.y.q() + 1);
+        record.load(self.x, REF_X);
+        record.load(self.y, REF_Y);
+    }
+}

@@ -1,0 +1,58 @@
+//! The walk with all words in registers.
+
+use edgewalk_machine::Plan;
+use edgewalk_netlist::{Module, Signal};
+
+use super::place::Place;
+use super::record::{Record, V, X, XX, XY, Y, YY, places};
+use super::{Words, sum};
+
+pub(super) const DOC: &str = "Walk: in registers, with an adder for each of V, X and Y.
+  down     V += Y; X += XY; Y += YY      one clock
+  forward  V += X; X += XX; Y += XY      one clock
+  back     X -= XX; Y -= XY, then V -= X two clocks";
+
+/// The words, stepped where the walk `works`.
+pub(super) fn words<'m>(
+    m: &'m Module,
+    plan: &Plan,
+    works: Signal<'m>,
+    place: &Place<'m>,
+    record: &Record<'m>,
+) -> Words<'m> {
+    m.comment("A step back takes two clocks.");
+    let half = m.reg("half", 1).doc("of a step back the second clock").reset(0);
+    let back = (!place.down & !place.forward).named("back");
+    half.when(works, back & !half.q());
+    let second = half.q();
+    let first = (works & !second).named_doc("first_clock", "of a step");
+    let stepped = (works & (!back | second)).named_doc("stepped", "the step is done");
+
+    let mut shown = Vec::new();
+    for (term, at) in places(plan) {
+        m.comment(&format!("The words of {}.", term.name));
+        let word = |part: &str, doc: &str, offset: u32| {
+            let register = m.reg(&format!("{}_{part}", term.name), term.word()).doc(doc);
+            record.load(register, at + offset);
+            register
+        };
+        let named = |what: &str, signal: Signal<'m>| signal.named(&format!("{}_{what}", term.name));
+        let v = word("v", "modular", V);
+        let x = word("x", "modular, to the next pixel", X);
+        let y = word("y", "modular, to the next line", Y);
+        let v_step = named("v_step", place.down.mux(y, x));
+        v.when(stepped, named("v_next", sum(v.q(), v_step, back)));
+        shown.extend([(format!("{}_v", term.name), v.q()), (format!("{}_g", term.name), x.q())]);
+        if term.degree == 2 {
+            let xx = word("xx", "modular, of x to the next pixel", XX).q();
+            let xy = word("xy", "modular, of x to the next line", XY).q();
+            let yy = word("yy", "modular, of y to the next line", YY).q();
+            let x_step = named("x_step", place.down.mux(xy, xx));
+            let y_step = named("y_step", place.down.mux(yy, xy));
+            x.when(first, named("x_next", sum(x.q(), x_step, back)));
+            y.when(first, named("y_next", sum(y.q(), y_step, back)));
+            shown.push((format!("{}_gg", term.name), xx));
+        }
+    }
+    Words { shown, stepped, settled: None }
+}
