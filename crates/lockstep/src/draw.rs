@@ -7,9 +7,9 @@ use crate::stalls::{StallKind, patterns};
 use crate::unit::Unit;
 use crate::values::{PortId, PortValues};
 use crate::{UnknownConstant, case};
-use edgewalk_machine::{Activity, ForeignVertex, Plan, PortVertex};
+use edgewalk_machine::{Activity, ForeignVertex, Plan, PortVertex, Record};
 use edgewalk_model::tokens::output;
-use edgewalk_model::{Counters, DrawState, Events, Frame};
+use edgewalk_model::{Counters, DrawState, Events, Frame, Shading};
 use edgewalk_netlist::{BuildErrors, Simulator};
 
 /// Why a netlist cannot draw.
@@ -42,7 +42,22 @@ pub fn render_rtl(
     state: DrawState,
     stalls: StallKind,
 ) -> Result<Frame, DrawError> {
-    run(plan, &plan.tagged(), triangles, state, stalls, |_| true)
+    render_rtl_shaded(plan, triangles, state, stalls, &Shading::default())
+}
+
+/// As [`render_rtl`], on a machine with TERM and SHADE, as [`edgewalk_model::render_shaded`] does: after as many triangles as there
+/// are records in the memory the machine is idle for a while, and the next records are written.
+///
+/// # Errors
+/// Triangles whose vertices were made for another machine.
+pub fn render_rtl_shaded(
+    plan: &Plan,
+    triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+    state: DrawState,
+    stalls: StallKind,
+    shading: &Shading,
+) -> Result<Frame, DrawError> {
+    run(plan, &plan.tagged(), triangles, state, stalls, shading, |_| true)
 }
 
 /// As [`render_rtl`], with the machine as it is, so that ids are the tags that it has, or none; `watch` sees the netlist in
@@ -57,7 +72,7 @@ pub fn render_rtl_with(
     stalls: StallKind,
     watch: impl FnMut(&mut Simulator) -> bool,
 ) -> Result<Frame, DrawError> {
-    run(plan, plan, triangles, state, stalls, watch)
+    run(plan, plan, triangles, state, stalls, &Shading::default(), watch)
 }
 
 fn run(
@@ -66,14 +81,18 @@ fn run(
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
     state: DrawState,
     stalls: StallKind,
+    shading: &Shading,
     mut watch: impl FnMut(&mut Simulator) -> bool,
 ) -> Result<Frame, DrawError> {
     let interface = Interface::new(tagged, Unit::MACHINE);
     let mut device = NetlistDevice::new(&*netlist(tagged, Unit::MACHINE)?, &interface)?;
     let mut setting = Setting::willing(&interface, &case::constants(&state))?;
     for (memory, setting) in interface.memories.iter().zip(&mut setting.memories) {
-        if memory.name == "color" {
-            setting.clear = color_word(plan, state.clear);
+        match memory.name {
+            "color" => setting.clear = color_word(plan, state.clear),
+            "terms" => setting.clear = 0,
+            "tables" => (setting.clear, setting.start) = (0, shading.tables.clone().into()),
+            _ => {}
         }
     }
     setting.patterns = patterns(tagged, &interface, stalls, 0);
@@ -85,6 +104,8 @@ fn run(
     let mut picture = Picture::new(plan, &interface, &state);
     let mut ports = interface.values();
     let mut rig = Rig::fed(&interface, setting, tokens);
+    let mut records = Records::new(plan, shading);
+    records.write_next(plan, &mut rig);
     loop {
         // In the cycle in which it takes the last triangle the machine is still idle.
         let exhausted = rig.exhausted();
@@ -94,12 +115,41 @@ fn run(
         picture.see(&ports);
         device.clock();
         rig.clock(&ports);
-        if !more || (exhausted && picture.is_idle(&ports)) {
+        let rests = exhausted && picture.is_idle(&ports);
+        if !more || (rests && rig.finished()) {
             break;
+        }
+        if rests {
+            records.write_next(plan, &mut rig);
         }
     }
     drop(rig);
     foreign.map_or(Ok(picture.frame(plan)), |foreign| Err(foreign.into()))
+}
+
+/// The records that are not in the memory yet.
+struct Records<'a> {
+    left: std::iter::Enumerate<std::slice::Iter<'a, Record>>,
+    /// Triangles whose records fit into the memory.
+    at_once: u32,
+    permitted: u32,
+}
+
+impl Records<'_> {
+    fn new<'a>(plan: &Plan, shading: &'a Shading) -> Records<'a> {
+        let at_once = if plan.shade.is_there() { 1 << plan.shade.record_bits } else { u32::MAX };
+        Records { left: shading.records.iter().enumerate(), at_once, permitted: 0 }
+    }
+
+    /// Writes as many as fit, and permits their triangles.
+    fn write_next(&mut self, plan: &Plan, rig: &mut Rig) {
+        for (triangle, record) in self.left.by_ref().take(self.at_once as usize) {
+            let place = (triangle % self.at_once as usize) << plan.record_place_bits();
+            rig.write("terms", place, plan.record_words(record).into_iter().map(u128::from));
+        }
+        self.permitted = self.permitted.saturating_add(self.at_once);
+        rig.permit(self.permitted);
+    }
 }
 
 /// A word of the colour memory: red is the most significant.
