@@ -7,9 +7,9 @@ use crate::stalls::{StallKind, patterns};
 use crate::unit::Unit;
 use crate::values::{PortId, PortValues};
 use crate::{UnknownConstant, case};
-use edgewalk_machine::{Activity, ForeignVertex, Plan, PortVertex};
+use edgewalk_machine::{Activity, ForeignVertex, Plan, PortVertex, Record};
 use edgewalk_model::tokens::output;
-use edgewalk_model::{Counters, DrawState, Events, Frame, Pass};
+use edgewalk_model::{Counters, DrawState, Events, Frame, Pass, Shading};
 use edgewalk_netlist::{BuildErrors, Simulator};
 use std::sync::Arc;
 
@@ -43,10 +43,11 @@ pub fn render_rtl(
     state: DrawState,
     stalls: StallKind,
 ) -> Result<Frame, DrawError> {
-    run(plan, &plan.tagged(), triangles, &[Pass::all(state)], &[], stalls, |_| true)
+    render_rtl_passes(plan, triangles, &[Pass::all(state)], &[], stalls, &Shading::default())
 }
 
-/// As [`render_rtl`], pass by pass, as [`edgewalk_model::render_passes`] does; `maps`: the words of the lights' maps.
+/// As [`render_rtl`], pass by pass, as [`edgewalk_model::render_shaded`] does; `maps`: the words of the lights' maps. With TERM and SHADE,
+/// after as many triangles as there are records in the memory, the machine is idle for a while, and the next records are written.
 ///
 /// # Errors
 /// Triangles whose vertices were made for another machine.
@@ -56,8 +57,9 @@ pub fn render_rtl_passes(
     passes: &[Pass],
     maps: &[Vec<u32>],
     stalls: StallKind,
+    shading: &Shading,
 ) -> Result<Frame, DrawError> {
-    run(plan, &plan.tagged(), triangles, passes, maps, stalls, |_| true)
+    run(plan, &plan.tagged(), triangles, passes, (maps, shading), stalls, |_| true)
 }
 
 /// As [`render_rtl`], with the machine as it is, so that ids are the tags that it has, or none; `watch` sees the netlist in
@@ -72,7 +74,7 @@ pub fn render_rtl_with(
     stalls: StallKind,
     watch: impl FnMut(&mut Simulator) -> bool,
 ) -> Result<Frame, DrawError> {
-    run(plan, plan, triangles, &[Pass::all(state)], &[], stalls, watch)
+    run(plan, plan, triangles, &[Pass::all(state)], (&[], &Shading::default()), stalls, watch)
 }
 
 fn run(
@@ -80,7 +82,7 @@ fn run(
     tagged: &Plan,
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
     passes: &[Pass],
-    maps: &[Vec<u32>],
+    (maps, shading): (&[Vec<u32>], &Shading),
     stalls: StallKind,
     mut watch: impl FnMut(&mut Simulator) -> bool,
 ) -> Result<Frame, DrawError> {
@@ -95,6 +97,8 @@ fn run(
     let mut picture = Picture::new(plan, &interface, &first);
     let mut ports = interface.values();
     let mut map: Arc<[u128]> = Arc::default();
+    let tables: Arc<[u128]> = shading.tables.clone().into();
+    let mut begun = 0;
     for pass in passes {
         if pass.clear_depth {
             picture.stored[0].fill(plan.z.max() as u32); // b <= 32 bits
@@ -105,16 +109,22 @@ fn run(
         // The memories are as the pass before has left them.
         let mut setting = Setting::willing(&interface, &case::constants(&pass.state))?;
         for (memory, setting) in interface.memories.iter().zip(&mut setting.memories) {
+            if ["terms", "tables"].contains(&memory.name) {
+                setting.clear = 0;
+            }
             setting.start = match memory.name {
                 "map" => Arc::clone(&map),
+                "tables" => Arc::clone(&tables),
+                "terms" => Arc::default(),
                 "color" => picture.colors(plan),
                 _ => picture.stored[0].iter().map(|word| u128::from(*word)).collect(),
             };
         }
         setting.patterns = patterns(tagged, &interface, stalls, 0);
-        let tokens = tokens.by_ref().take(pass.triangles);
-        let rig = Rig::fed(&interface, setting, tokens);
-        if !draw_pass(rig, &mut device, &mut picture, &mut ports, &mut watch) {
+        let rig = Rig::fed(&interface, setting, tokens.by_ref().take(pass.triangles));
+        let records = Records::new(plan, shading, begun);
+        begun += pass.triangles;
+        if !draw_pass((rig, records), plan, &mut device, &mut picture, &mut ports, &mut watch) {
             break;
         }
     }
@@ -122,15 +132,17 @@ fn run(
     foreign.map_or(Ok(picture.frame(plan)), |foreign| Err(foreign.into()))
 }
 
-/// Until the machine is idle again; false if `watch` has seen enough.
+/// Until all its triangles are drawn; false if `watch` has seen enough.
 fn draw_pass(
-    mut rig: Rig<'_>,
+    (mut rig, mut records): (Rig<'_>, Records<'_>),
+    plan: &Plan,
     device: &mut NetlistDevice,
     picture: &mut Picture,
     ports: &mut PortValues,
     watch: &mut impl FnMut(&mut Simulator) -> bool,
 ) -> bool {
     let before = picture.counters.clone();
+    records.write_next(plan, &mut rig);
     loop {
         // In the cycle in which it takes the last triangle the machine is still idle.
         let exhausted = rig.exhausted();
@@ -140,11 +152,41 @@ fn draw_pass(
         picture.see(ports);
         device.clock();
         rig.clock(ports);
-        if !more || (exhausted && picture.is_idle(ports)) {
+        let rests = exhausted && picture.is_idle(ports);
+        if !more || (rests && rig.finished()) {
             let counters = picture.counters.since(&before);
             picture.passes.push(counters);
             return more;
         }
+        if rests {
+            records.write_next(plan, &mut rig);
+        }
+    }
+}
+
+/// The records that are not in the memory yet.
+struct Records<'a> {
+    left: std::iter::Skip<std::iter::Enumerate<std::slice::Iter<'a, Record>>>,
+    /// Triangles whose records fit into the memory.
+    at_once: u32,
+    permitted: u32,
+}
+
+impl Records<'_> {
+    /// From triangle number `begun` on.
+    fn new<'a>(plan: &Plan, shading: &'a Shading, begun: usize) -> Records<'a> {
+        let at_once = if plan.shade.is_there() { 1 << plan.shade.record_bits } else { u32::MAX };
+        Records { left: shading.records.iter().enumerate().skip(begun), at_once, permitted: 0 }
+    }
+
+    /// Writes as many as fit, and permits their triangles.
+    fn write_next(&mut self, plan: &Plan, rig: &mut Rig) {
+        for (triangle, record) in self.left.by_ref().take(self.at_once as usize) {
+            let place = (triangle % self.at_once as usize) << plan.record_place_bits();
+            rig.write("terms", place, plan.record_words(record).into_iter().map(u128::from));
+        }
+        self.permitted = self.permitted.saturating_add(self.at_once);
+        rig.permit(self.permitted);
     }
 }
 

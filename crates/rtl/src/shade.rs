@@ -100,8 +100,7 @@ struct Stage<'m> {
     kept: Registers<'m>,
 }
 
-/// At most the number of all ones in so many bits, and this signal.
-fn cut(signal: Signal<'_>, bits: u32) -> Signal<'_> {
-    let above = signal.slice(signal.width() - 1, bits).any();
-    signal.trunc(bits) | signal.module().cat(&vec![above; bits as usize])
+/// The largest number of so many bits.
+fn largest(m: &Module, bits: u32) -> Signal<'_> {
+    m.lit(bits, u128::MAX >> (128 - bits))
 }

@@ -93,9 +93,9 @@ fn lowest(signal: Signal<'_>, bits: u32) -> Signal<'_> {
     if signal.width() == bits { signal } else { signal.trunc(bits) }
 }
 
-/// `a + b`, or `a - b`.
-fn sum<'m>(a: Signal<'m>, b: Signal<'m>, subtract: Signal<'m>) -> Signal<'m> {
+/// `a + b`, or `a - b`; the operand that is added has a name.
+fn sum<'m>(a: Signal<'m>, b: Signal<'m>, subtract: Signal<'m>, name: &str) -> Signal<'m> {
     let bits = a.width();
-    let ones = a.module().cat(&vec![subtract; bits as usize]);
-    a + (b ^ ones) + subtract.zext(bits)
+    let added = subtract.mux(!b, b).named_doc(name, "inverted where it is taken off");
+    a + added + subtract.zext(bits)
 }

@@ -115,3 +115,8 @@ fn ports_of_a_machine_with_blend() {
 fn ports_of_a_machine_with_shadow() {
     check("shadow.txt", include_str!("ports/shadow.txt"));
 }
+
+#[test]
+fn ports_of_a_machine_that_shades() {
+    check("shade.txt", include_str!("ports/shade.txt"));
+}

@@ -22,7 +22,7 @@ fn record(plan: &Plan, random: &mut Pcg64Mcg) -> Vec<u128> {
     let record = Record {
         x: random.random_range(-4..plan.width as i32 + 4),
         y: random.random_range(0..plan.height),
-        material: if random.random_bool(0.8) {
+        material: if random.random_bool(0.95) {
             0
         } else {
             random.random_range(0..1 << plan.shade.material_bits)

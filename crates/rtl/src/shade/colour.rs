@@ -3,7 +3,7 @@
 use edgewalk_machine::Plan;
 use edgewalk_netlist::{Module, Reg, Signal};
 
-use super::cut;
+use super::largest;
 use super::tables::Light;
 use crate::wires::Registers;
 
@@ -41,7 +41,7 @@ impl<'m> Shone<'_, 'm> {
         let whole = sum.slice(sum.width() - 1, b + 2).any().named_doc("whole", "1.0 or more");
         let light = m.cat(&[whole, whole.mux(0, sum.trunc(b + 2))]).named_doc("light", "2^-(b+2)");
         let highlight = m.reg("m_highlight", b).doc("of all lights");
-        highlight.when(self.advance, self.cut(total(self.highlights())));
+        highlight.when(self.advance, self.cut(total(self.highlights()), "highlights"));
         let colours = COLOURS.map(|name| {
             let product = (triangle[name].q() * light).named(&format!("product_{name}"));
             let half = m.lit(product.width(), 1 << (b + 1));
@@ -61,13 +61,18 @@ impl<'m> Shone<'_, 'm> {
     }
 
     fn colour(&self, i: usize, all: Signal<'m>) -> Reg<'m> {
-        let name = format!("c_{}", COLOURS[i]);
-        self.m.reg(&name, self.plan.color.bits).doc("of the pixel").when(self.advance, self.cut(all))
+        let name = COLOURS[i];
+        let register = self.m.reg(&format!("c_{name}"), self.plan.color.bits).doc("of the pixel");
+        register.when(self.advance, self.cut(all, &format!("all_{name}")))
     }
 
-    fn cut(&self, sum: Signal<'m>) -> Signal<'m> {
-        let bits = self.plan.color.bits;
-        if sum.width() > bits { cut(sum, bits) } else { sum }
+    /// At most the largest colour; the sum gets a name.
+    fn cut(&self, sum: Signal<'m>, name: &str) -> Signal<'m> {
+        let (bits, sum) = (self.plan.color.bits, sum.named(name));
+        if sum.width() == bits {
+            return sum;
+        }
+        sum.slice(sum.width() - 1, bits).any().mux(largest(self.m, bits), sum.trunc(bits))
     }
 }
 

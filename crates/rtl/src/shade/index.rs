@@ -3,6 +3,7 @@
 use edgewalk_machine::Plan;
 use edgewalk_netlist::{Module, Signal};
 
+use super::largest;
 use crate::wires::Token;
 
 /// Stage A, for one light.
@@ -32,8 +33,8 @@ impl<'m> Index<'m> {
 }
 
 /// A signed number as an entry: 0 for one below, the last for one beyond.
-fn entry<'m>(number: Signal<'m>, table_bits: u32) -> Signal<'m> {
-    let all = |bit: Signal<'m>| number.module().cat(&vec![bit; table_bits as usize]);
+fn entry(number: Signal<'_>, table_bits: u32) -> Signal<'_> {
     let beyond = number.slice(number.width() - 2, table_bits).any();
-    (number.trunc(table_bits) | all(beyond)) & all(!number.msb())
+    let last = largest(number.module(), table_bits);
+    number.msb().mux(0, beyond.mux(last, number.trunc(table_bits)))
 }

@@ -73,7 +73,7 @@ pub(super) fn words<'m>(
     let words = m.memory("words", place_bits, 1 << place_bits, record.word.width(), 0);
     let words = words.doc("as in the record").write(write, write_at, written);
     let (target, source) = (words.read(works, target), words.read(works, source.named("source")));
-    let result = sum(target, source, subtract).named("result");
+    let result = sum(target, source, subtract, "added").named("result");
     written.drive(under_way.mux(result, record.word));
 
     m.comment("What walked shows.");

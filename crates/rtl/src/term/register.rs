@@ -36,21 +36,21 @@ pub(super) fn words<'m>(
             record.load(register, at + offset);
             register
         };
-        let named = |what: &str, signal: Signal<'m>| signal.named(&format!("{}_{what}", term.name));
+        let next = |word: Signal<'m>, step: Signal<'m>, of: &str| {
+            let named = |what: &str| format!("{}_{of}_{what}", term.name);
+            sum(word, step, back, &named("added")).named(&named("next"))
+        };
         let v = word("v", "modular", V);
         let x = word("x", "modular, to the next pixel", X);
         let y = word("y", "modular, to the next line", Y);
-        let v_step = named("v_step", place.down.mux(y, x));
-        v.when(stepped, named("v_next", sum(v.q(), v_step, back)));
+        v.when(stepped, next(v.q(), place.down.mux(y, x), "v"));
         shown.extend([(format!("{}_v", term.name), v.q()), (format!("{}_g", term.name), x.q())]);
         if term.degree == 2 {
             let xx = word("xx", "modular, of x to the next pixel", XX).q();
             let xy = word("xy", "modular, of x to the next line", XY).q();
             let yy = word("yy", "modular, of y to the next line", YY).q();
-            let x_step = named("x_step", place.down.mux(xy, xx));
-            let y_step = named("y_step", place.down.mux(yy, xy));
-            x.when(first, named("x_next", sum(x.q(), x_step, back)));
-            y.when(first, named("y_next", sum(y.q(), y_step, back)));
+            x.when(first, next(x.q(), place.down.mux(xy, xx), "x"));
+            y.when(first, next(y.q(), place.down.mux(yy, xy), "y"));
             shown.push((format!("{}_gg", term.name), xx));
         }
     }
