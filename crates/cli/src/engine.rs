@@ -5,11 +5,11 @@ use crate::progress::bar;
 use anyhow::{Result, anyhow};
 use edgewalk_explore::draw;
 pub use edgewalk_explore::raster::{Raster, from_golden, golden_fill};
-use edgewalk_explore::raster::{from_machine, from_model, of_primitives};
+use edgewalk_explore::raster::{from_machine, from_model, of_port};
 use edgewalk_golden::Drawing;
 use edgewalk_lockstep::StallKind;
 use edgewalk_machine::Plan;
-use edgewalk_model::{Waits, render_passes};
+use edgewalk_model::{Waits, render_shaded};
 use edgewalk_scene::Frame;
 use std::ops::Range;
 
@@ -45,8 +45,10 @@ pub fn draw_waiting(
         Engine::Fast => draw::fast(frame, machine, waits),
         Engine::Model => {
             let port = to_port(frame, machine)?;
-            let drawn = render_passes(machine, port.triangles.iter().copied(), &port.passes, waits, |_| {})?;
-            Ok(of_primitives(from_model(machine, drawn), &port.ids))
+            let triangles = port.triangles.iter().copied();
+            let (passes, maps) = (&port.passes, &port.maps());
+            let drawn = render_shaded(machine, triangles, passes, maps, waits, port.words(), |_| {})?;
+            Ok(of_port(from_model(machine, drawn), &port))
         }
     }
 }
@@ -60,14 +62,20 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Resul
             let port = to_port(frame, machine)?;
             let bar = bar(port.triangles.len() as u64, "triangles", quiet);
             let triangles = bar.wrap_iter(port.triangles.iter().copied());
+            let (passes, maps) = (&port.passes, &port.maps());
             let raster = if engine == Engine::Model {
-                from_model(machine, render_passes(machine, triangles, &port.passes, Waits::Never, |_| {})?)
+                let words = port.words();
+                from_model(
+                    machine,
+                    render_shaded(machine, triangles, passes, maps, Waits::Never, words, |_| {})?,
+                )
             } else {
-                let drawn = edgewalk_lockstep::render_rtl(machine, triangles, port.state()?, StallKind::None);
+                let drawn =
+                    edgewalk_lockstep::render_rtl_passes(machine, triangles, passes, maps, StallKind::None);
                 from_machine(machine, drawn.map_err(|e| anyhow!("{e}"))?)
             };
             bar.finish_and_clear();
-            Ok(of_primitives(raster, &port.ids))
+            Ok(of_port(raster, &port))
         }
     }
 }
@@ -85,12 +93,14 @@ pub fn draw_bands(
         Engine::Golden => {
             let drawing = Drawing::new(frame, golden_fill(machine));
             let mut bands = bands(frame.width, frame.height, GOLDEN_BAND);
-            bands.try_for_each(|lines| take(from_golden(drawing.lines(lines), machine)))
+            bands.try_for_each(|lines| {
+                take(Raster { host: frame.host, ..from_golden(drawing.lines(lines), machine) })
+            })
         }
         Engine::Fast => {
             let port = to_port(frame, machine)?;
             let drawn = draw::draw_frame(machine, &port, Waits::Never)?;
-            drawn.bands(machine, fast_bands(machine), |band| take(of_primitives(band, &port.ids)))
+            drawn.bands(machine, fast_bands(machine), |band| take(of_port(band, &port)))
         }
         Engine::Model | Engine::Rtl => take(draw(engine, frame, machine, quiet)?),
     }

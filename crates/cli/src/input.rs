@@ -3,11 +3,12 @@
 use crate::extra;
 use crate::machine_args::MachineArgs;
 use anyhow::{Context as _, Result, anyhow};
-use edgewalk_explore::input::{fitting, guard_band, in_triangles, is_triangle_file};
+use edgewalk_explore::input::{fitting, in_triangles, is_triangle_file};
+use edgewalk_explore::port::guard_band;
 pub use edgewalk_explore::port::{PortFrame, draw_state, port_triangle, to_port};
 use edgewalk_golden::Order;
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Blending, Frame, Scene, Surface, triangle_file};
+use edgewalk_scene::{Blending, Frame, PixelMethod, Scene, Surface, triangle_file};
 use std::path::Path;
 
 /// A scene, a mesh, or a file of screen-space triangles.
@@ -16,7 +17,8 @@ pub struct Source {
     /// A built-in scene, a scene file (.toml), a mesh (.obj, .gltf, .glb) or a triangle file (.tri)
     #[arg(value_name = "SCENE|MESH", default_value = "torus-knot")]
     pub input: String,
-    /// How the colour of a pixel is come by; phong, fast-phong and wireframe need --engine golden
+    /// How the colour of a pixel is come by; phong and wireframe need --engine golden, fast-phong that or a machine with
+    /// shade.kind = fast-phong
     #[arg(long, value_enum, default_value_t = Shading::Gouraud)]
     pub shading: Shading,
 }
@@ -47,6 +49,15 @@ impl Shading {
             // Lines run between the colours of the vertices.
             Self::Gouraud | Self::Wireframe => edgewalk_golden::Shading::Gouraud,
             Self::Phong | Self::FastPhong => edgewalk_golden::Shading::Phong,
+        }
+    }
+
+    /// How cosines are come by, where the equation holds at each pixel.
+    fn at_pixels(self) -> Option<PixelMethod> {
+        match self {
+            Self::Phong => Some(PixelMethod::Phong),
+            Self::FastPhong => Some(PixelMethod::FastPhong),
+            Self::Constant | Self::ConstantAveraged | Self::Gouraud | Self::Wireframe => None,
         }
     }
 }
@@ -106,16 +117,16 @@ impl Source {
         surface: &Surface,
         machine: &Plan,
     ) -> Result<(Frame, Option<Order>)> {
-        let refused = match self.shading {
-            Shading::Phong => Some("phong: the machine has no unit for normals yet"),
-            Shading::FastPhong => Some("fast-phong: the machine has no unit for normals yet"),
-            Shading::Wireframe => Some("wireframe: the machine draws no lines"),
-            Shading::Constant | Shading::ConstantAveraged | Shading::Gouraud => None,
-        };
-        if let Some(why) = refused {
-            return Err(anyhow!("--shading {why}; render with --engine golden"));
+        if self.shading == Shading::Wireframe {
+            return Err(anyhow!(
+                "--shading wireframe: the machine draws no lines; render with --engine golden"
+            ));
         }
-        let frame = in_triangles(edgewalk_golden::frame(scene, surface, self.shading.golden()), machine)?;
+        let frame = match self.shading.at_pixels() {
+            Some(method) => scene.pixel_frame(surface, method),
+            None => edgewalk_golden::frame(scene, surface, self.shading.golden()),
+        };
+        let frame = in_triangles(frame, machine)?;
         if frame.blend == Blending::Off {
             return Ok((frame, None));
         }

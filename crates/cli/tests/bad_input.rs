@@ -44,7 +44,7 @@ const FILES: &[(&str, &str, &[&str])] = &[
         &[":2:", "m22", "nan", "finite"],
     ),
     ("tri", "size 64 64\nshdow 8\n", &[":2:", "shdow", "shadow"]),
-    // A good file, but this engine has no shadow maps.
+    // A good file, but this machine has no SHADOW.
     (
         "tri",
         "size 64 64\nshadow 8 0 1  1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n",
@@ -54,7 +54,7 @@ const FILES: &[(&str, &str, &[&str])] = &[
     (
         "tri",
         "size 64 64\nT 0 0 0 0 0 0 0  1 0 0 0 0 0 0  0 1 0 0 0 0 0\nshadow 8 0 1  1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n",
-        &["input.tri", "no shadow maps", "golden"],
+        &["input.tri", "no SHADOW", "golden"],
     ),
     ("tri", "\u{fffd}\u{0}\u{1}", &[":1:"]),
 ];

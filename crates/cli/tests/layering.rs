@@ -9,7 +9,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("machine", &["numerics"]),
     ("scene", &[]),
     ("golden", &["scene"]),
-    ("gallery", &["scene", "golden"]),
+    ("gallery", &["machine", "scene", "golden", "model", "explore"]),
     ("model", &["machine"]),
     ("netlist", &[]),
     ("verilog", &["netlist"]),

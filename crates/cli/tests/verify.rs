@@ -49,6 +49,26 @@ fn pass_counts_what_the_stimulus_asks_for() {
     assert!(!text.contains("not covered"), "{text}");
 }
 
+/// A machine with SHADOW, under the light of the file: its own map is looked up, and SHADOW's suites leave nothing out.
+#[test]
+fn a_light_is_verified() {
+    let light = "shadow 4 0.01 0  0.2 0 0 0  0 0.2 0 0  0 0 1 0  0 0 0 1\nL 0 0 0.4  4 0 0.4  0 4 0.4\n";
+    let settings = ["shadow.light=parallel", "shadow.size=4", "fifo.shadow=3"];
+    let settings = settings.iter().flat_map(|setting| ["--set", setting]);
+    let arguments: Vec<&str> = settings.chain(["--no-simulators"]).collect();
+    let (code, text) = told(&verify(&format!("{light}{TRIANGLE}"), &arguments, None));
+    assert_eq!(code, Some(0), "{text}");
+    for of in [
+        "pass  input           machine",
+        "pass  light           machine",
+        "pass  light           shadow",
+        "pass  light_off       shadow",
+    ] {
+        assert!(text.contains(of), "{of}: {text}");
+    }
+    assert!(!text.contains("not covered"), "{text}");
+}
+
 #[test]
 fn what_is_not_covered_is_said() {
     let (code, text) = told(&verify(TRIANGLE, &["--no-simulators", "--stalls", "none"], None));

@@ -11,12 +11,14 @@
 mod channel;
 mod order;
 mod layers;
+mod lit;
 #[cfg(test)]
 mod tests;
 
 use crate::extra;
 use crate::raster::Raster;
 use crate::reach::Reach;
+use crate::shade::{Allowed, Proof, Shaded};
 use crate::verdict::Verdict;
 use channel::Tally;
 pub use channel::{ExtraError, Spread};
@@ -24,6 +26,8 @@ use edgewalk_machine::Plan;
 use edgewalk_scene::Frame;
 use layers::Layers;
 pub use layers::{Blended, Errors};
+use lit::Light;
+pub use lit::Lit;
 use order::{Orders, Over};
 use serde::Serialize;
 
@@ -78,6 +82,12 @@ pub struct Comparison {
     /// Of a blended picture, whose colours have a bound at each pixel in place of `color_bound`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blended: Option<Blended>,
+    /// Of a picture under a light.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lit: Option<Lit>,
+    /// Of a picture shaded at each pixel, whose colours have the bound of their triangle in place of `color_bound`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shaded: Option<Shaded>,
     /// Channels of the user's own.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<ExtraError>,
@@ -104,7 +114,22 @@ pub fn compare_for(
     drawn: &Raster,
     reach: Option<&Reach>,
 ) -> Comparison {
-    let c = compared(machine, frame, golden, drawn, reach);
+    compare_shaded(machine, frame, golden, drawn, reach, None)
+}
+
+/// The same of a frame that is shaded at each pixel, with what is proved of its colours.
+#[must_use]
+pub fn compare_shaded(
+    machine: &Plan,
+    frame: &Frame,
+    golden: &Raster,
+    drawn: &Raster,
+    reach: Option<&Reach>,
+    proof: Option<&Proof>,
+) -> Comparison {
+    let allowed = frame.shading.as_ref().zip(proof);
+    let allowed = allowed.map(|(shading, proof)| Allowed::new(machine, frame, shading, golden, proof));
+    let c = compared(machine, frame, golden, drawn, reach, allowed);
     match reach {
         Some(reach) => c.reaching(machine, reach),
         None => c,
@@ -117,6 +142,7 @@ fn compared(
     golden: &Raster,
     drawn: &Raster,
     reach: Option<&Reach>,
+    mut allowed: Option<Allowed>,
 ) -> Comparison {
     let mut tally = Tally::new(machine, golden, drawn);
     let mut c = Comparison {
@@ -142,6 +168,8 @@ fn compared(
         z_no_bound: tally.z.no_bound(),
         color_no_bound: tally.color.no_bound(),
         blended: None,
+        lit: None,
+        shaded: None,
         extra: Vec::new(),
         z_map: Vec::new(),
         color_map: Vec::new(),
@@ -150,6 +178,7 @@ fn compared(
         blended(&mut c, &mut tally, &layers, frame, golden);
         return finished(c, tally, machine);
     }
+    let mut light = Light::of(machine, frame, drawn, reach);
     let mut differ = Vec::new();
     for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
         c.pixels += 1;
@@ -159,7 +188,17 @@ fn compared(
             continue;
         }
         if golden.id[i] >= 0 {
-            tally.triangle(i, golden.z[i], &Over::golden(golden, i));
+            let agrees = light.as_mut().is_none_or(|light| light.agrees(i, golden, drawn));
+            let mut over = Over::golden(golden, i);
+            if let Some(allowed) = &mut allowed {
+                let one = machine.color.max() as f64;
+                over.rgb = allowed.at(i, golden.id[i], golden.rgb[i], drawn.rgb[i], one);
+            }
+            if agrees {
+                tally.triangle(i, golden.z[i], &over);
+            } else {
+                tally.depth(i, golden.z[i]); // the colour is another
+            }
         } else {
             c.background_wrong += u64::from(!tally.is_background(i, frame.clear));
         }
@@ -171,6 +210,10 @@ fn compared(
             Some(shown) => {
                 c.order_undecided += 1;
                 match shown {
+                    // Its colour hangs on the light, or is not that of a plane; which pixels these are hangs on depths alone.
+                    Some(shown) if light.is_some() || allowed.is_some() => {
+                        tally.depth(i, if frame.depth_write { shown.z } else { 1.0 })
+                    }
                     Some(shown) => tally.triangle(i, if frame.depth_write { shown.z } else { 1.0 }, &shown),
                     None => c.background_wrong += u64::from(!tally.is_background(i, frame.clear)),
                 }
@@ -179,7 +222,17 @@ fn compared(
         }
         c.compared += u64::from(golden.coverage[i] > 0);
     }
-    finished(c, tally, machine)
+    if let Some(allowed) = allowed {
+        c.shaded = Some(allowed.found());
+        c.color_bound = None;
+        c.color_no_bound = Some("each triangle has that of its terms and tables".to_owned());
+    }
+    c = finished(c, tally, machine);
+    if let Some(light) = light {
+        c.color_bound = c.color_bound.map(|bound| light.color_bound(bound));
+        c.lit = Some(light.found());
+    }
+    c
 }
 
 /// Every pixel where all depth tests are sure: there all layers must be golden's, and the colour within their bound.
@@ -227,7 +280,9 @@ impl Comparison {
         let channels = machine.channels();
         self.additions = Some(reach.steps.total());
         self.z_bound_for_input = reach.bound(machine, &channels[0]);
-        self.color_bound_for_input = reach.bound(machine, &channels[1]);
+        // Under a light the gate's part comes on top of it; what is shaded has its own.
+        let color = reach.bound(machine, &channels[1]);
+        self.color_bound_for_input = color.filter(|_| self.lit.is_none() && self.shaded.is_none());
         for (own, channel) in self.extra.iter_mut().zip(extra::channels(machine)) {
             own.bound_for_input = reach.bound(machine, channel);
             own.allowed = own.bound_for_input.unwrap_or(own.allowed);
@@ -255,10 +310,12 @@ impl Comparison {
             + self.wrapped
             + self.cycles_unexplained
             + beyond(self.z_error, self.z_bound_for_input.or(self.z_bound))
-            + self.blended.map_or_else(
-                || beyond(self.color_error, self.color_bound_for_input.or(self.color_bound)),
-                |blended| blended.beyond,
-            )
+            + match (self.blended, self.shaded) {
+                (Some(blended), _) => blended.beyond,
+                (None, Some(shaded)) => shaded.beyond,
+                (None, None) => beyond(self.color_error, self.color_bound_for_input.or(self.color_bound)),
+            }
+            + self.lit.map_or(0, |lit| lit.unexplained)
             + self.extra.iter().map(|own| beyond(own.error, Some(own.allowed))).sum::<u64>();
         Verdict::of(self.compared, self.covered, wrong).and(Verdict::of(self.pixels, self.screen, wrong))
     }

@@ -1,17 +1,17 @@
 //! A frame through golden, or through a machine.
 
 use crate::port::{PortFrame, to_port};
-use crate::raster::{Raster, from_fast, from_golden, golden_fill, of_primitives};
+use crate::raster::{Raster, from_fast, from_golden, golden_fill, of_port};
 use anyhow::Result;
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::fast::{Path, Reason, Refusal, Renderer};
-use edgewalk_model::{DrawState, Frame, Waits, render, render_passes};
+use edgewalk_model::{DrawState, Frame, Waits, render, render_passes, render_shaded};
 use std::ops::Range;
 
 /// The golden picture on the machine's screen.
 #[must_use]
 pub fn golden(frame: &edgewalk_scene::Frame, machine: &Plan) -> Raster {
-    from_golden(edgewalk_golden::draw(frame, golden_fill(machine)), machine)
+    Raster { host: frame.host, ..from_golden(edgewalk_golden::draw(frame, golden_fill(machine)), machine) }
 }
 
 /// The machine's picture and cycles, without ticking where that is exact.
@@ -20,7 +20,7 @@ pub fn golden(frame: &edgewalk_scene::Frame, machine: &Plan) -> Raster {
 /// What of the frame the machine cannot take.
 pub fn fast(frame: &edgewalk_scene::Frame, machine: &Plan, waits: Waits) -> Result<Raster> {
     let port = to_port(frame, machine)?;
-    Ok(of_primitives(draw_frame(machine, &port, waits)?.raster(machine), &port.ids))
+    Ok(of_port(draw_frame(machine, &port, waits)?.raster(machine), &port))
 }
 
 /// Draws a frame whose triangles are all there.
@@ -28,11 +28,20 @@ pub fn fast(frame: &edgewalk_scene::Frame, machine: &Plan, waits: Waits) -> Resu
 /// # Errors
 /// None but of triangles of another machine.
 pub fn draw_frame(machine: &Plan, port: &PortFrame, waits: Waits) -> Result<Drawn> {
+    if port.shade.is_some() {
+        let triangles = port.triangles.iter().copied();
+        let frame = render_shaded(machine, triangles, &port.passes, &[], waits, port.words(), |_| {})?;
+        return Ok(Drawn::Ticked(frame, Reason::Shade));
+    }
     match &port.passes[..] {
-        [pass] => draw(machine, pass.state, waits, || Ok(port.triangles.iter().copied().map(Ok))),
+        [pass] if port.lights.is_empty() => {
+            draw(machine, pass.state, waits, || Ok(port.triangles.iter().copied().map(Ok)))
+        }
         passes => {
             let triangles = port.triangles.iter().copied();
-            Ok(Drawn::Ticked(render_passes(machine, triangles, passes, waits, |_| {})?, Reason::Passes))
+            let why = if port.lights.is_empty() { Reason::Passes } else { Reason::Shadow };
+            let drawn = render_passes(machine, triangles, passes, &port.maps(), waits, |_| {})?;
+            Ok(Drawn::Ticked(drawn, why))
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What is to be drawn on one machine after another: read once, made into a frame for each screen.
 
 use crate::extra;
+use crate::port::{guard_band, sent};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::Shading;
 use edgewalk_machine::Plan;
@@ -59,7 +60,7 @@ impl Input {
         })
     }
 
-    /// The frame as the machine draws it, polygons as triangles, clipped to its guard band if it is a scene.
+    /// The frame as the machine draws it, polygons as triangles, clipped to its guard band.
     ///
     /// # Errors
     /// A triangle file of another size, channels of the user's own without values for them.
@@ -81,12 +82,6 @@ impl Input {
         };
         in_triangles(frame, machine)
     }
-}
-
-/// Half a side of the machine's guard band, pixels.
-#[must_use]
-pub fn guard_band(machine: &Plan) -> f64 {
-    f64::from((1u32 << machine.guard_bits) - 1)
 }
 
 /// Whether a name is that of a file of screen-space triangles.
@@ -115,17 +110,17 @@ pub fn fitting(name: &str, frame: Frame, machine: &Plan) -> Result<Frame> {
     Ok(frame)
 }
 
-/// The frame with its polygons as triangles.
+/// The frame with its polygons as triangles, all in the machine's guard band.
 ///
 /// # Errors
 /// A polygon that cannot be cut into triangles.
 pub fn in_triangles(frame: Frame, machine: &Plan) -> Result<Frame> {
-    let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
+    let (Triangulated { triangles, ids }, host) = sent(&frame, machine)?;
     // So many triangles are made of the primitives before each change.
     let before = |change: &Change| ids.iter().take_while(|id| (**id as usize) < change.after).count();
     let changes = frame.changes.iter().map(|change| Change { after: before(change), ..*change }).collect();
     let triangles = triangles.into_owned();
-    Ok(Frame { triangles, changes, polygons: Vec::new(), ..frame })
+    Ok(Frame { triangles, changes, polygons: Vec::new(), host, ..frame })
 }
 
 /// Twelve hex digits that stand for a frame of triangles: every bit of its vertices and of its state.
@@ -138,6 +133,9 @@ pub fn hash(frame: &Frame) -> String {
         frame.shadow, frame.color_write, frame.changes
     ));
     digest.update(format!("{:?}\n", frame.polygons));
+    if let Some(shading) = &frame.shading {
+        digest.update(format!("{shading:?}\n"));
+    }
     for vertex in frame.triangles.iter().flat_map(|triangle| &triangle.0) {
         let [e0, e1, e2, e3] = vertex.extra;
         let values = [vertex.x, vertex.y, vertex.z, vertex.r, vertex.g, vertex.b, vertex.kt, e0, e1, e2, e3];

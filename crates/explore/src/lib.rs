@@ -9,7 +9,9 @@
 pub mod verdict;
 pub mod extra;
 pub mod input;
+pub mod light;
 pub mod port;
+pub mod shade;
 pub mod raster;
 pub mod reach;
 pub mod draw;

@@ -1,9 +1,14 @@
 //! A frame's way to the machine's port.
 
+use crate::light::{self, Map};
+use crate::shade::{Feed, feed, shading_for};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::{DrawState, Pass};
-use edgewalk_scene::{Blending, DepthFunc, Frame, ShadeMode, State, Triangle, Triangulated};
+use edgewalk_model::{DrawState, Pass, Shading};
+use edgewalk_scene::{
+    Blending, CrossingEdges, DepthFunc, Frame, Host, ShadeMode, State, Triangle, Triangulated, fits,
+};
+use std::borrow::Cow;
 
 /// A frame as the machine's port takes it.
 pub struct PortFrame {
@@ -13,14 +18,49 @@ pub struct PortFrame {
     pub ids: Vec<i32>,
     /// The rules, and how many triangles are drawn by each, in order; at least one.
     pub passes: Vec<Pass>,
+    /// What was done to the triangles on the way.
+    pub host: Host,
+    /// The lights' maps.
+    pub lights: Vec<Map>,
+    /// For TERM and SHADE, where the frame is shaded at each pixel.
+    pub shade: Option<Feed>,
 }
 
+/// Of a frame that is not shaded at each pixel.
+const UNSHADED: &Shading =
+    &Shading { records: Vec::new(), tables: Vec::new(), roots: Vec::new(), textures: Vec::new() };
+
 impl PortFrame {
+    /// What the memories behind TERM and SHADE hold.
+    #[must_use]
+    pub fn words(&self) -> &Shading {
+        self.shade.as_ref().map_or(UNSHADED, |feed| &feed.words)
+    }
+
+    /// The words of the lights' maps.
+    #[must_use]
+    pub fn maps(&self) -> Vec<Vec<u32>> {
+        self.lights.iter().map(|light| light.words.clone()).collect()
+    }
+
+    /// The rules of a frame in which they do not change, for who has no light's map.
+    ///
+    /// # Errors
+    /// They do, or the frame has a light.
+    pub fn state(&self) -> Result<DrawState> {
+        if !self.lights.is_empty() {
+            return Err(anyhow!(
+                "shadow: a light's map; permitted for raster, render, explain, vectors and verify"
+            ));
+        }
+        self.one_state()
+    }
+
     /// The rules of a frame in which they do not change.
     ///
     /// # Errors
     /// They do.
-    pub fn state(&self) -> Result<DrawState> {
+    pub fn one_state(&self) -> Result<DrawState> {
         match &self.passes[..] {
             [pass] => Ok(pass.state),
             passes => Err(anyhow!(
@@ -31,22 +71,58 @@ impl PortFrame {
     }
 }
 
+/// What a frame sends to the machine: its polygons as triangles, and no triangle beyond the guard band.
+///
+/// # Errors
+/// A polygon that cannot be cut into triangles.
+pub fn sent<'a>(frame: &'a Frame, machine: &Plan) -> Result<(Triangulated<'a>, Host), CrossingEdges> {
+    let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
+    let (limit, mut host) = (guard_band(machine), frame.host);
+    // The terms of a shaded triangle are those of all of it.
+    if frame.shading.is_some() || triangles.iter().all(|triangle| fits(triangle, limit)) {
+        return Ok((Triangulated { triangles, ids }, host));
+    }
+    let (mut pieces, mut of) = (Vec::with_capacity(triangles.len()), Vec::with_capacity(ids.len()));
+    for (triangle, id) in triangles.iter().zip(ids) {
+        pieces.extend_from_slice(&host.in_band(triangle, frame, limit));
+        of.resize(pieces.len(), id);
+    }
+    Ok((Triangulated { triangles: Cow::Owned(pieces), ids: of }, host))
+}
+
+/// Half a side of the machine's guard band, pixels.
+#[must_use]
+pub fn guard_band(machine: &Plan) -> f64 {
+    f64::from((1u32 << machine.guard_bits) - 1)
+}
+
 /// Snaps a frame to the port, polygons as triangles, or says what of it the machine cannot take.
 pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
-    let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
+    if let Some(shadow) = &frame.shadow {
+        light::check(shadow, machine)?;
+        if frame.shading.is_some() {
+            return Err(anyhow!(
+                "shadow: a frame that is shaded at each pixel has no light's map in the machine; draw with mode gouraud, or with --engine golden"
+            ));
+        }
+    }
+    let (Triangulated { triangles, ids }, host) = sent(frame, machine)?;
     let (mut port, mut passes) = (Vec::with_capacity(triangles.len()), Vec::new());
     for pass in frame.passes() {
         let parts = ids.iter().take_while(|id| (**id as usize) < pass.primitives.end).count();
         for (triangle, id) in triangles[port.len()..parts].iter().zip(&ids[port.len()..parts]) {
-            port.push(port_triangle(*id as usize, triangle, frame.mode, pass.state.blend, machine)?);
+            port.push(port_triangle(*id as usize, triangle, frame, pass.state.blend, machine)?);
         }
         passes.push(Pass {
             triangles: parts - passes.iter().map(|pass: &Pass| pass.triangles).sum::<usize>(),
             state: draw_state(frame, &pass.state, machine)?,
             clear_depth: pass.clear_depth,
+            map: (passes.is_empty() && frame.shadow.is_some()).then_some(0),
         });
     }
-    Ok(PortFrame { triangles: port, ids, passes })
+    let lights = frame.shadow.iter().map(|shadow| light::map(shadow, machine)).collect::<Result<_>>()?;
+    let port = PortFrame { triangles: port, ids, passes, lights, host, shade: None };
+    Ok(PortFrame { shade: feed(frame, &port, machine)?, ..port })
 }
 
 /// The rules of a pass as the machine has them, or what of them it cannot do.
@@ -63,19 +139,15 @@ pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawSt
             "colour_write 0: a machine without BLEND writes the colour of every fragment that passes; add --set blend.kind=constant"
         ));
     }
-    if frame.shadow.is_some() {
-        return Err(anyhow!(
-            "shadow: the machine has no shadow maps yet; draw without the line `shadow` or with --engine golden"
-        ));
-    }
+    shading_for(frame, machine)?;
     let max = machine.color.max() as f64;
     Ok(DrawState {
         depth_func: state.depth.unwrap_or(DepthFunc::Always) as u8,
         depth_write: state.stores_depth(),
         color_write: state.color_write,
         blend_add: state.blend == Blending::Add,
-        shadow_on: false,
-        ambient: 0,
+        shadow_on: frame.shadow.is_some(),
+        ambient: frame.shadow.as_ref().map_or(0, |shadow| light::ambient(shadow, machine)),
         clear: frame.clear.map(|v| (v * max).round_ties_even() as u64),
     })
 }
@@ -84,11 +156,11 @@ pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawSt
 pub fn port_triangle(
     index: usize,
     triangle: &Triangle,
-    mode: ShadeMode,
+    frame: &Frame,
     blend: Blending,
     machine: &Plan,
 ) -> Result<[PortVertex; 3]> {
-    let mixes = blend == Blending::Mix;
+    let (mixes, mode) = (blend == Blending::Mix, frame.mode);
     let mut port = [PortVertex::default(); 3];
     for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
         let v = if mode == ShadeMode::Flat { v.colored_as(&triangle.0[0]) } else { *v };
@@ -96,7 +168,7 @@ pub fn port_triangle(
         let mut values = vec![v.z, v.r, v.g, v.b];
         values.extend_from_slice(&v.extra[..machine.extra as usize]);
         if machine.shadow.is_there() {
-            values.extend([0.0; 3]); // no map is looked up
+            values.extend(light::values(frame.shadow.as_ref(), &v, machine));
         }
         if machine.blend.is_there() {
             values.push(if mixes { v.kt } else { 0.0 });

@@ -1,9 +1,12 @@
 //! One picture, whoever drew it, in the units of the golden one.
 
 use crate::extra::{self, Values};
+use crate::light::Map;
+use crate::port::PortFrame;
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::fast::Path;
 use edgewalk_model::{Activity, Counters, Events};
+use edgewalk_scene::Host;
 
 /// A picture: row 0 on top, `[y][x]`.
 #[derive(Clone)]
@@ -24,14 +27,27 @@ pub struct Raster {
     pub rgb: Vec<[f64; 3]>,
     /// Channels of the user's own.
     pub extra: Vec<Values>,
-    /// 0 nothing written, 1 in shadow, 2 lit, by the last write; where golden drew.
+    /// 0 nothing written, 1 in shadow, 2 lit, by the last write; where golden or a machine with SHADOW drew.
     pub lit: Option<Vec<u8>>,
+    /// What was done to the triangles before they were drawn.
+    pub host: Host,
     /// Where the cycles went, where a machine drew.
     pub cycles: Option<Cycles>,
     /// The same by pass, where there is more than one.
     pub passes: Vec<Cycles>,
+    /// The lights' own passes, before.
+    pub lights: Vec<LightPass>,
     /// Hazards and corners met, where a machine drew.
     pub corners: Option<Events>,
+}
+
+/// A light's own pass.
+#[derive(Clone, Debug)]
+pub struct LightPass {
+    /// Where its cycles went.
+    pub cycles: Cycles,
+    /// The words of its map, by address.
+    pub words: Vec<u32>,
 }
 
 /// Cycles by cause, the codes of the `activity` port.
@@ -79,14 +95,17 @@ impl Cycles {
     }
 }
 
-/// The ids of the frame's triangles and polygons for those of the triangles the machine drew.
+/// The ids of the frame's triangles and polygons for those of the triangles the machine drew, what the lights' maps took, and what the host did.
 #[must_use]
-pub fn of_primitives(mut raster: Raster, ids: &[i32]) -> Raster {
+pub fn of_port(mut raster: Raster, port: &PortFrame) -> Raster {
     for id in &mut raster.id {
         // Where nothing was drawn the id is negative.
-        *id = usize::try_from(*id).map_or(*id, |triangle| ids[triangle]);
+        *id = usize::try_from(*id).map_or(*id, |triangle| port.ids[triangle]);
     }
-    raster
+    let pass =
+        |light: &Map| LightPass { cycles: Cycles::of(&light.counters, None), words: light.words.clone() };
+    let lights = port.lights.iter().map(pass).collect();
+    Raster { lights, host: port.host, ..raster }
 }
 
 /// A frame of the fast engine; the corners are counted only where it ticked.
@@ -127,8 +146,10 @@ pub fn from_golden(picture: edgewalk_golden::Picture, machine: &Plan) -> Raster 
         rgb: picture.rgb,
         extra: extra.map(|(channel, values)| Values::exact(channel, values)).collect(),
         lit: Some(picture.lit.into_iter().map(|lit| lit as u8).collect()),
+        host: Host::default(),
         cycles: None,
         passes: Vec::new(),
+        lights: Vec::new(),
         corners: None,
     }
 }
@@ -145,12 +166,14 @@ pub fn from_machine(machine: &Plan, drawn: edgewalk_model::Frame) -> Raster {
         z: unorm(&drawn.z, machine.z.max()),
         rgb: drawn.rgb.iter().map(|c| c.map(|v| v as f64 / machine.color.max() as f64)).collect(),
         extra: drawn.extra.into_iter().map(Values::Stored).collect(),
-        lit: None,
+        lit: (!drawn.lit.is_empty()).then_some(drawn.lit),
+        host: Host::default(),
         cycles: Some(Cycles { held: None, ..Cycles::of(&drawn.counters, None) }),
         passes: match &drawn.passes[..] {
             [] | [_] => Vec::new(),
             passes => passes.iter().map(|pass| Cycles::of(pass, None)).collect(),
         },
+        lights: Vec::new(),
         corners: None,
     }
 }

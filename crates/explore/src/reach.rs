@@ -55,15 +55,24 @@ pub fn untimed(machine: &Plan) -> Result<Plan> {
 /// Takes the frame through the units, as far as it is the same with and without channels of the user's own and BLEND.
 ///
 /// # Errors
-/// A machine with SHADOW, a frame of several passes, vertices of another machine.
+/// A machine with SHADOW or SHADE, a frame of several passes, vertices of another machine.
 pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     if machine.shadow.is_there() {
         return Err(anyhow!(
             "size, sweep and compare take no machine with SHADOW yet; set shadow.light = none"
         ));
     }
+    if machine.shade.is_there() {
+        return Err(anyhow!("size, sweep and compare take no machine with SHADE yet; set shade.kind = none"));
+    }
+    geometry(machine, port)
+}
+
+/// The same whatever the machine has: where its triangles are stepped.
+fn geometry(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     let bare = Machine::default();
     let keys = Machine {
+        shadow: bare.shadow,
         extra: bare.extra,
         blend: bare.blend,
         adders: machine.adders.min(bare.adders),
@@ -74,17 +83,20 @@ pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
         triangle.map(|v: edgewalk_machine::PortVertex| plan.raw_vertex(v.x(), v.y(), v.values()))
     };
     let triangles = port.triangles.iter().map(of_plan);
-    let drawn = Renderer::new(&plan, false).draw_passage(triangles, port.state()?);
+    let drawn = Renderer::new(&plan, false).draw_passage(triangles, port.one_state()?);
     drawn.map_err(|refusal| anyhow!("the fast engine draws every frame of such a machine: {refusal:?}"))
 }
 
-/// How far the values of these triangles are stepped; none where the machine has SHADOW, or the frame several passes.
+/// How far the values of these triangles are stepped; none where the frame has several passes.
 ///
 /// # Errors
 /// Vertices of another machine.
 pub fn reach(machine: &Plan, port: &PortFrame) -> Result<Option<Reach>> {
-    if machine.shadow.is_there() || port.passes.len() != 1 {
+    if port.passes.len() != 1 {
         return Ok(None);
     }
-    Ok(Reach::of(machine, &port.ids, &passage(machine, port)?))
+    // Depths do not hang on what is shaded.
+    let keys = Machine { shade: Machine::default().shade, ..Machine::clone(machine) };
+    let plan = keys.plan().map_err(|e| anyhow!("{e}"))?;
+    Ok(Reach::of(machine, &port.ids, &geometry(&plan, port)?))
 }

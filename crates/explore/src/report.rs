@@ -9,6 +9,7 @@ use anyhow::Result;
 use edgewalk_golden::Order;
 use edgewalk_machine::Plan;
 use edgewalk_model::{Activity, Events, Waits};
+use edgewalk_scene::Host;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
@@ -23,11 +24,13 @@ pub struct Report {
     odd_pixels: u64,
     cycles: Option<Cycles>,
     passes: Vec<Cycles>,
+    lights: Vec<Cycles>,
     order: Option<Order>,
     corners: Option<Events>,
     comparison: Option<Comparison>,
     setup: Option<SetupReport>,
     waits: Waits,
+    host: Host,
 }
 
 impl Report {
@@ -43,11 +46,13 @@ impl Report {
             writes: 0,
             cycles: drawn.cycles.clone(),
             passes: drawn.passes.clone(),
+            lights: drawn.lights.iter().map(|light| light.cycles.clone()).collect(),
             order: None,
             corners: drawn.corners.clone(),
             comparison: None,
             setup: None,
             waits: Waits::Never,
+            host: drawn.host,
         };
         report.add(drawn);
         report
@@ -64,6 +69,13 @@ impl Report {
     /// The same of an input that has polygons too.
     pub fn with_polygons(mut self, count: u64) -> Self {
         self.polygons = count;
+        self
+    }
+
+    /// The same of triangles to which the host did this.
+    #[must_use]
+    pub fn with_host(mut self, host: Host) -> Self {
+        self.host = host;
         self
     }
 
@@ -114,6 +126,7 @@ impl Report {
             comparison,
             setup: Some(setup),
             passes: Vec::new(),
+            lights: Vec::new(),
             order: self.order.clone(),
             ..*self
         }
@@ -153,6 +166,12 @@ impl Report {
             "fragments": self.covered,
             "writes": self.writes,
             "odd_pixels": self.odd_pixels,
+            "host": {
+                "off_screen": self.host.off_screen,
+                "clipped": self.host.clipped,
+                "pieces": self.host.pieces,
+                "clamped_depths": self.host.clamped_depths,
+            },
         });
         let own = extra::channels(&self.machine);
         if !own.is_empty() {
@@ -178,6 +197,9 @@ impl Report {
             }
             if let Some(held) = &c.held {
                 report["occupancy"] = Occupancy::of(&self.machine, c.total, held).value();
+            }
+            if !self.lights.is_empty() {
+                report["cycles"]["maps"] = self.lights.iter().map(|light| light.total).collect();
             }
             if !self.passes.is_empty() {
                 report["cycles"]["passes"] = self.passes.iter().map(|pass| pass.total).collect();
@@ -221,6 +243,7 @@ impl Report {
             m.height,
             m.hash()
         );
+        t += &host(&self.host);
         let _ = writeln!(t, "fragments {}, writes {}", self.covered, self.writes);
         if let Some(order) = &self.order {
             let _ =
@@ -254,6 +277,9 @@ impl Report {
             for (place, pass) in self.passes.iter().enumerate() {
                 let _ = writeln!(t, "    pass {place:<5} {:>12}", pass.total);
             }
+            for (place, light) in self.lights.iter().enumerate() {
+                let _ = writeln!(t, "    map {place:<6} {:>12}  before, not among these", light.total);
+            }
             let sum: u64 = Activity::of(m).map(|a| c.spent(a)).sum();
             let _ = writeln!(t, "    {:<10} {:>12}  of {} cycles", "sum", sum, c.total);
             if let Some(held) = &c.held {
@@ -262,6 +288,22 @@ impl Report {
         }
         t
     }
+}
+
+/// What was done to the triangles before the machine, if anything was.
+fn host(host: &Host) -> String {
+    let Host { off_screen, clipped, pieces, clamped_depths } = *host;
+    let mut done = Vec::new();
+    if off_screen > 0 {
+        done.push(format!("{off_screen} beyond the guard band and off the screen, left out"));
+    }
+    if clipped > 0 {
+        done.push(format!("{clipped} cut at the guard band into {pieces}"));
+    }
+    if clamped_depths > 0 {
+        done.push(format!("{clamped_depths} depths beyond 0 or 1 by rounding, clamped"));
+    }
+    if done.is_empty() { String::new() } else { format!("host: {}\n", done.join("; ")) }
 }
 
 /// What the comparison found. Writing to a string cannot fail.
@@ -292,6 +334,25 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
             t,
             "blended: {} pixels, up to {} layers, running bound up to {:.4} LSB, {:.4} of it reached, {} beyond",
             b.pixels, b.layers, b.bound, b.of_bound, b.beyond
+        );
+    }
+    if let Some(l) = &c.lit {
+        _ = writeln!(
+            t,
+            "light: {} pixels, {} in shadow, {} decided otherwise than golden; unexplained by texels within {:.4} and depths within {:.4} LSB: {}",
+            l.pixels, l.shadow, l.differ, l.texel_bound, l.depth_bound, l.unexplained
+        );
+    }
+    if let Some(s) = &c.shaded {
+        _ = writeln!(
+            t,
+            "shaded: {} pixels, largest error {:.4} LSB from fast Phong, bounds up to {:.4}, {:.4} of one reached, {} beyond",
+            s.pixels, s.error, s.bound, s.of_bound, s.beyond
+        );
+        _ = writeln!(
+            t,
+            "a light at the horizon in {} of them, on its other side in {}; from Phong shading at most {:.4}, {:.4} in the mean",
+            s.at_horizon, s.other_branch, s.from_phong, s.mean_from_phong
         );
     }
     for own in &c.extra {

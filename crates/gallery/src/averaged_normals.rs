@@ -8,7 +8,7 @@ use std::path::Path;
 
 const SCENE: &str = include_str!("../../../docs/scenes/averaged-normals.toml");
 
-pub(crate) fn averaged_normals() -> Result<Exhibit, InputError> {
+pub(crate) fn averaged_normals() -> anyhow::Result<Exhibit> {
     let folds = |crease: f64, weight: Weight| -> Result<Scene, InputError> {
         let scene = Scene::parse(Path::new("averaged-normals.toml"), SCENE)?;
         let normals = NormalRule { crease: Crease::Angle(crease.to_radians()), weight, ..scene.normals };

@@ -1,8 +1,9 @@
 //! Fast Phong shading: quadratics by additions instead of a division and a square root (BW86).
 
 use crate::exhibit::{Exhibit, GUARD, HEIGHT, View, WIDTH, figure};
+use crate::machine::Beside;
 use edgewalk_golden::fast_phong::{Directional, Fit, Settings, shade};
-use edgewalk_scene::{InputError, Scene};
+use edgewalk_scene::Scene;
 use std::path::Path;
 
 const SCENE: &str = include_str!("../../../docs/scenes/fast-phong.toml");
@@ -10,7 +11,7 @@ const SCENE: &str = include_str!("../../../docs/scenes/fast-phong.toml");
 /// Error shown as white, LSB.
 const WHITE: f64 = 16.0;
 
-pub(crate) fn fast_phong() -> Result<Exhibit, InputError> {
+pub(crate) fn fast_phong() -> anyhow::Result<Exhibit> {
     let scene = Scene::parse(Path::new("fast-phong.toml"), SCENE)?;
     let surface = scene.surface(WIDTH, HEIGHT, GUARD);
     // The scene has no other kind.
@@ -35,6 +36,9 @@ pub(crate) fn fast_phong() -> Result<Exhibit, InputError> {
         phong = drawn.phong;
     }
     views.push(View::colors("phong", "Phong", phong));
+    let machine = Beside::of(&scene)?;
+    figures.extend(machine.figures());
+    views.extend(machine.views());
     Ok(Exhibit {
         name: "fast-phong",
         title: "Fast Phong (S9)",

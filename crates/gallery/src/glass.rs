@@ -2,7 +2,7 @@
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use edgewalk_golden::{Rays, Shading, ShadowMaps, Visibility, render};
-use edgewalk_scene::{InputError, Scene};
+use edgewalk_scene::Scene;
 use glam::DVec3;
 use std::path::Path;
 
@@ -11,7 +11,7 @@ const SCENE: &str = include_str!("../../../docs/scenes/glass.toml");
 /// Points of the floor: beside the panes, under the red, under the blue, under both.
 const PLACES: [[f64; 2]; 4] = [[-2.0, 0.0], [-1.0, 0.0], [1.0, 0.0], [0.0, 0.0]];
 
-pub(crate) fn glass() -> Result<Exhibit, InputError> {
+pub(crate) fn glass() -> anyhow::Result<Exhibit> {
     let scene = Scene::parse(Path::new("glass.toml"), SCENE)?;
     let surface = scene.surface(WIDTH, HEIGHT, GUARD);
     let drawn = |visibility: &Visibility| render(&scene, &surface, Shading::Phong, FILL, visibility);

@@ -6,6 +6,7 @@
 mod exhibit;
 mod plot;
 mod profile;
+mod machine;
 
 mod worked_example;
 mod polygons;
@@ -23,12 +24,10 @@ mod t_joint;
 mod silhouette;
 mod averaged_normals;
 
-use edgewalk_scene::InputError;
-
 pub use exhibit::{Exhibit, Image, View};
 
 /// Makes an exhibit.
-pub type Maker = fn() -> Result<Exhibit, InputError>;
+pub type Maker = fn() -> anyhow::Result<Exhibit>;
 
 /// All of them, in the order in which they are shown, by the names of their files.
 pub const EXHIBITS: [(&str, Maker); 15] = [

@@ -2,13 +2,13 @@
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, LSB, View, WIDTH, figure};
 use edgewalk_golden::{Shading, shade};
-use edgewalk_scene::{InputError, Light, Scene};
+use edgewalk_scene::{Light, Scene};
 use glam::DVec3;
 use std::path::Path;
 
 const SCENE: &str = include_str!("../../../docs/scenes/lights.toml");
 
-pub(crate) fn lights() -> Result<Exhibit, InputError> {
+pub(crate) fn lights() -> anyhow::Result<Exhibit> {
     let scene = Scene::parse(Path::new("lights.toml"), SCENE)?;
     let lit = |lights: Vec<Light>| {
         let scene = Scene { lights, ..scene.clone() };

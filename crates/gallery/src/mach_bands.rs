@@ -4,12 +4,12 @@ use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use crate::plot::plot;
 use crate::profile::Profile;
 use edgewalk_golden::{Shading, shade};
-use edgewalk_scene::{InputError, Scene};
+use edgewalk_scene::Scene;
 use std::path::Path;
 
 const SCENE: &str = include_str!("../../../docs/scenes/mach-bands.toml");
 
-pub(crate) fn mach_bands() -> Result<Exhibit, InputError> {
+pub(crate) fn mach_bands() -> anyhow::Result<Exhibit> {
     let scene = Scene::parse(Path::new("mach-bands.toml"), SCENE)?;
     let surface = scene.surface(WIDTH, HEIGHT, GUARD);
     let [constant, gouraud, phong] = [Shading::Constant, Shading::Gouraud, Shading::Phong]

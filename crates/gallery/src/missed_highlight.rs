@@ -1,8 +1,9 @@
 //! A highlight inside a polygon that Gouraud shading misses (slides, notes).
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, LSB, View, WIDTH, figure};
+use crate::machine::Beside;
 use edgewalk_golden::{Shading, shade};
-use edgewalk_scene::{InputError, Scene};
+use edgewalk_scene::Scene;
 use std::path::Path;
 
 const SCENE: &str = include_str!("../../../docs/scenes/missed-highlight.toml");
@@ -10,7 +11,7 @@ const SCENE: &str = include_str!("../../../docs/scenes/missed-highlight.toml");
 /// Squares along a side of the finer scene.
 const FINE: u32 = 16;
 
-pub(crate) fn missed_highlight() -> Result<Exhibit, InputError> {
+pub(crate) fn missed_highlight() -> anyhow::Result<Exhibit> {
     let scene = Scene::parse(Path::new("missed-highlight.toml"), SCENE)?;
     let fine = Scene::parse(Path::new("missed-highlight.toml"), &cut_up(SCENE))?;
     let draw = |scene: &Scene, by| shade(scene, &scene.surface(WIDTH, HEIGHT, GUARD), by, FILL);
@@ -24,7 +25,8 @@ pub(crate) fn missed_highlight() -> Result<Exhibit, InputError> {
         });
         (x - u).hypot(y - v)
     };
-    Ok(Exhibit {
+    let machine = Beside::of(&scene)?;
+    let mut exhibit = Exhibit {
         name: "missed-highlight",
         title: "The missed highlight (S16)",
         cause: "Gouraud shading evaluates the equation at the vertices only. A highlight that lies inside a polygon \
@@ -52,7 +54,10 @@ pub(crate) fn missed_highlight() -> Result<Exhibit, InputError> {
             View::colors("phong", "Phong: a highlight, but too far down and to the right", phong.picture.rgb),
             View::colors("truth", "Truth", gouraud.truth),
         ],
-    })
+    };
+    exhibit.figures.extend(machine.figures());
+    exhibit.views.extend(machine.views());
+    Ok(exhibit)
 }
 
 /// The pixel with the most green.

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 /// Squares of the chequer over the floor.
 const SQUARES: u32 = 8;
 
-pub(crate) fn perspective() -> Result<Exhibit, InputError> {
+pub(crate) fn perspective() -> anyhow::Result<Exhibit> {
     let cuts = [1, 2, 4, 8, 16, 32];
     let mut points = Vec::new();
     for parts in cuts {

@@ -3,7 +3,7 @@
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use edgewalk_golden::polygon::{EdgeTable, Grid};
 use edgewalk_golden::{HiddenLines, Picture, draw, wireframe};
-use edgewalk_scene::{Frame, InputError, Polygon, Scene, ShadeMode, Vertex};
+use edgewalk_scene::{Frame, Polygon, Scene, ShadeMode, Vertex};
 use std::f64::consts::TAU;
 
 /// The lecture's polygon A to F.
@@ -12,7 +12,7 @@ const SAMPLE: [[f64; 2]; 6] = [[2.0, 3.0], [7.0, 1.0], [13.0, 5.0], [13.0, 11.0]
 /// Pixels of the picture to one of the lecture's.
 const SCALE: f64 = 18.0;
 
-pub(crate) fn polygons() -> Result<Exhibit, InputError> {
+pub(crate) fn polygons() -> anyhow::Result<Exhibit> {
     let sample = SAMPLE.map(|[x, y]| [SCALE * x + 20.0, SCALE * y + 8.0]).to_vec();
     let ring = |radius: f64, sides: u32, step: u32| -> Vec<[f64; 2]> {
         let corner = |k: u32| {

@@ -2,12 +2,12 @@
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use edgewalk_golden::{Rays, Shaded, Shading, ShadowMaps, Visibility, render};
-use edgewalk_scene::{InputError, Scene};
+use edgewalk_scene::Scene;
 use std::path::Path;
 
 const SCENE: &str = include_str!("../../../docs/scenes/shadows.toml");
 
-pub(crate) fn shadows() -> Result<Exhibit, InputError> {
+pub(crate) fn shadows() -> anyhow::Result<Exhibit> {
     let scene = Scene::parse(Path::new("shadows.toml"), SCENE)?;
     let surface = scene.surface(WIDTH, HEIGHT, GUARD);
     let drawn = |visibility| render(&scene, &surface, Shading::Phong, FILL, &visibility).shaded.picture;

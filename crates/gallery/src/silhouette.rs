@@ -3,12 +3,12 @@
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use crate::plot::{Series, plot};
 use edgewalk_golden::{Shading, shade};
-use edgewalk_scene::{InputError, Scene};
+use edgewalk_scene::Scene;
 use std::path::Path;
 
 const SCENE: &str = include_str!("../../../docs/scenes/silhouette.toml");
 
-pub(crate) fn silhouette() -> Result<Exhibit, InputError> {
+pub(crate) fn silhouette() -> anyhow::Result<Exhibit> {
     let (mut points, mut pictures) = (Vec::new(), Vec::new());
     for (columns, rows) in [(8, 4), (12, 6), (16, 8), (24, 12), (48, 24), (96, 48)] {
         let text = SCENE

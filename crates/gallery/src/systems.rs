@@ -1,8 +1,9 @@
 //! The shading systems side by side, each with its error: constant twice, Gouraud, Phong (ch. 7.6 to 7.12).
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
+use crate::machine::Beside;
 use edgewalk_golden::{Shading, shade};
-use edgewalk_scene::{InputError, Scene};
+use edgewalk_scene::Scene;
 use std::path::Path;
 
 const SCENE: &str = include_str!("../../../docs/scenes/systems.toml");
@@ -10,7 +11,7 @@ const SCENE: &str = include_str!("../../../docs/scenes/systems.toml");
 /// Error shown as white, LSB.
 const WHITE: f64 = 32.0;
 
-pub(crate) fn systems() -> Result<Exhibit, InputError> {
+pub(crate) fn systems() -> anyhow::Result<Exhibit> {
     let scene = Scene::parse(Path::new("systems.toml"), SCENE)?;
     let surface = scene.surface(WIDTH, HEIGHT, GUARD);
     let systems = [
@@ -44,6 +45,9 @@ pub(crate) fn systems() -> Result<Exhibit, InputError> {
         truth = shaded.truth;
     }
     views.push(View::colors("truth", "Truth", truth));
+    let machine = Beside::of(&scene)?;
+    figures.extend(machine.figures());
+    views.extend(machine.views());
     Ok(Exhibit {
         name: "systems",
         title: "Constant, Gouraud and Phong shading (S5, S6, S8)",

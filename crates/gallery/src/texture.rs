@@ -2,12 +2,12 @@
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use edgewalk_golden::{Shaded, Shading, shade};
-use edgewalk_scene::{InputError, Scene};
+use edgewalk_scene::Scene;
 use std::path::Path;
 
 const SCENE: &str = include_str!("../../../docs/scenes/texture-and-relief.toml");
 
-pub(crate) fn texture() -> Result<Exhibit, InputError> {
+pub(crate) fn texture() -> anyhow::Result<Exhibit> {
     let smooth = SCENE.replace("bump_height = 0.05", "bump_height = 0");
     let scene = |text: &str| Scene::parse(Path::new("texture-and-relief.toml"), text);
     let drawn = |scene: &Scene, by| shade(scene, &scene.surface(WIDTH, HEIGHT, GUARD), by, FILL);

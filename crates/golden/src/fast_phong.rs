@@ -24,6 +24,7 @@ pub use normal_plane::NormalPlane;
 pub use picture::{FastShaded, Settings, shade};
 pub use quadratic::Quadratic;
 pub use six_point::six_point;
+pub(crate) use six_point::{nodes, six_point_at};
 pub use table::PowerTable;
 pub use taylor::taylor;
 pub use triangle::{Directional, FastPhong, Fit, quadratics};

@@ -73,6 +73,11 @@ impl<const N: usize, W: Weight> Fragment<'_, N, W> {
         if weights.iter().all(|weight| *weight >= 0.0) { value.clamp(low, high) } else { value }
     }
 
+    /// What each vertex weighs, as parts of 1.
+    pub(crate) fn shares(&self) -> [f64; N] {
+        self.weights.map(|weight| weight.as_() / self.total.as_())
+    }
+
     /// The plane of an attribute at this pixel, without any rounding.
     pub fn exact(&self, attribute: impl Fn(&Vertex) -> f64) -> BigRational {
         BigRational::new(self.exact_numerator(attribute), self.total.into() << UNIT)

@@ -4,6 +4,7 @@ use crate::depth::{compare, passes};
 use crate::draw_list::{DrawList, Item};
 use crate::fill::Fill;
 use crate::fragment::{Fragment, Weight};
+use crate::pixel_shading::PixelBrush;
 use crate::polygon;
 use edgewalk_scene::{Blending, Frame, MAX_EXTRA, Pass, State, Vertex};
 use std::cmp::Ordering;
@@ -80,7 +81,9 @@ impl<'a> Drawing<'a> {
             }
             for (item, id) in list.items()[primitives.clone()].iter().zip(primitives.start as i32..) {
                 let (picture, nearest, watch) = (&mut picture, &mut nearest[..], &mut watch);
-                let mut pen = Pen { list, state, id, picture, nearest, watch };
+                let shading = frame.shading.as_ref();
+                let brush = shading.and_then(|shading| PixelBrush::new(shading, id as usize));
+                let mut pen = Pen { list, state, id, brush, picture, nearest, watch };
                 match item {
                     Item::Triangle(triangle) => {
                         let plot = |f: &Fragment| pen.plot(at(f.x, f.y), f);
@@ -150,6 +153,8 @@ struct Pen<'a, F> {
     list: &'a DrawList<'a>,
     state: State,
     id: i32,
+    /// Where the equation holds at each pixel.
+    brush: Option<PixelBrush<'a>>,
     picture: &'a mut Picture,
     /// The primitive whose depth is stored at each pixel, or [`NO_TRIANGLE`]: the cleared one.
     nearest: &'a mut [i32],
@@ -177,7 +182,7 @@ impl<F: FnMut(Step)> Pen<'_, F> {
         if !state.color_write {
             return;
         }
-        let mut front = fragment.rgb();
+        let mut front = self.brush.as_ref().map_or_else(|| fragment.rgb(), |brush| brush.color(fragment));
         picture.lit[at] = Lit::Lit;
         if let Some(map) = list.shadow()
             && !map.lit(fragment.x, fragment.y, z)

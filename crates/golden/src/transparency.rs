@@ -101,7 +101,8 @@ pub fn sorted(frame: Frame, subpixel_bits: u32) -> (Frame, Order) {
     let state = State { blend: Blending::Mix, depth_write: false, ..frame.state() };
     let after = triangles.len() - order.transparent;
     let changes = vec![Change { after, state, clear_depth: false }];
-    (Frame { triangles, changes, blend: Blending::Off, ..frame }, order)
+    let shading = frame.shading.map(|shading| shading.picked(order.order.iter().copied()));
+    (Frame { triangles, changes, shading, blend: Blending::Off, ..frame }, order)
 }
 
 /// Whether something is seen through it.

@@ -96,7 +96,7 @@ fn the_empty_map_holds_depth_one() {
 }
 
 #[test]
-fn perspective_divides_and_q_has_no_sign() {
+fn perspective_divides_and_nothing_is_behind_the_light() {
     // q = x/2 + 1/4 at pixel i is 1/2, 1, 3/2, 2: X = 3 x^2 is no plane, so X = 3 q, one texel everywhere; depth z / q.
     let matrix = ["1.5 0 0 .75", "0 1 0 0", "0 0 1 0", ".5 0 0 .25"];
     // Y = y must be y/q: texel lines differ, so the occluder covers all lines.
@@ -105,7 +105,10 @@ fn perspective_divides_and_q_has_no_sign() {
     assert_eq!(lit(&text(&matrix.join(" "), 0.4)), "1122");
     assert_eq!(lit(&text(&matrix.join(" "), 0.3)), "1112");
     let negative = "-1.5 0 0 -.75  0 -1 0 0  0 0 -1 0  -.5 0 0 -.25";
-    assert_eq!(lit(&text(negative, 0.4)), "1122", "the same points");
+    assert_eq!(lit(&text(negative, 0.4)), "2222", "q < 0 is behind the light");
+    // q = x - 2 is negative in the left half; divided, all of it would be texel (1, 1) at depth 1.
+    let behind = ["1 0 0 -2"; 4].join("  ");
+    assert_eq!(lit(&text(&behind, 0.3)), "2211", "only what lies before the light is looked up");
     assert_eq!(lit(&text("1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 0", 0.1)), "2222", "q = 0 is outside the map");
     assert_eq!(lit(&text("0 0 0 0  0 0 0 0  0 0 1 0  0 0 0 0", 0.1)), "2222", "0 / 0 too");
 }
@@ -222,7 +225,7 @@ fn expected(frame: &Frame, subpixel_bits: u32, map: &[f64], x: u32, y: u32) -> O
                 return None;
             }
             let side = f64::from(shadow.size);
-            if tx > 0.0 && tx < side && ty > 0.0 && ty < side {
+            if m(3) > 0.0 && tx > 0.0 && tx < side && ty > 0.0 && ty < side {
                 let stored = map[ty as usize * shadow.size as usize + tx as usize];
                 if (depth - stored - shadow.bias).abs() < 1e-9 {
                     return None;

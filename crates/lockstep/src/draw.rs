@@ -9,8 +9,9 @@ use crate::values::{PortId, PortValues};
 use crate::{UnknownConstant, case};
 use edgewalk_machine::{Activity, ForeignVertex, Plan, PortVertex, Record};
 use edgewalk_model::tokens::output;
-use edgewalk_model::{Counters, DrawState, Events, Frame, Shading};
+use edgewalk_model::{Counters, DrawState, Events, Frame, Pass, Shading};
 use edgewalk_netlist::{BuildErrors, Simulator};
+use std::sync::Arc;
 
 /// Why a netlist cannot draw.
 #[derive(Debug, thiserror::Error)]
@@ -42,22 +43,37 @@ pub fn render_rtl(
     state: DrawState,
     stalls: StallKind,
 ) -> Result<Frame, DrawError> {
-    render_rtl_shaded(plan, triangles, state, stalls, &Shading::default())
+    run(plan, &plan.tagged(), triangles, &[Pass::all(state)], &[], stalls, &Shading::default(), |_| true)
 }
 
-/// As [`render_rtl`], on a machine with TERM and SHADE, as [`edgewalk_model::render_shaded`] does: after as many triangles as there
-/// are records in the memory the machine is idle for a while, and the next records are written.
+/// As [`render_rtl`], pass by pass, as [`edgewalk_model::render_passes`] does; `maps`: the words of the lights' maps.
+///
+/// # Errors
+/// Triangles whose vertices were made for another machine.
+pub fn render_rtl_passes(
+    plan: &Plan,
+    triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+    passes: &[Pass],
+    maps: &[Vec<u32>],
+    stalls: StallKind,
+) -> Result<Frame, DrawError> {
+    render_rtl_shaded(plan, triangles, passes, maps, stalls, &Shading::default())
+}
+
+/// As [`render_rtl_passes`], on a machine with TERM and SHADE, as [`edgewalk_model::render_shaded`] does: after as many triangles
+/// as there are records in the memory the machine is idle for a while, and the next records are written.
 ///
 /// # Errors
 /// Triangles whose vertices were made for another machine.
 pub fn render_rtl_shaded(
     plan: &Plan,
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
-    state: DrawState,
+    passes: &[Pass],
+    maps: &[Vec<u32>],
     stalls: StallKind,
     shading: &Shading,
 ) -> Result<Frame, DrawError> {
-    run(plan, &plan.tagged(), triangles, state, stalls, shading, |_| true)
+    run(plan, &plan.tagged(), triangles, passes, maps, stalls, shading, |_| true)
 }
 
 /// As [`render_rtl`], with the machine as it is, so that ids are the tags that it has, or none; `watch` sees the netlist in
@@ -72,89 +88,132 @@ pub fn render_rtl_with(
     stalls: StallKind,
     watch: impl FnMut(&mut Simulator) -> bool,
 ) -> Result<Frame, DrawError> {
-    run(plan, plan, triangles, state, stalls, &Shading::default(), watch)
+    run(plan, plan, triangles, &[Pass::all(state)], &[], stalls, &Shading::default(), watch)
 }
 
+#[allow(clippy::too_many_arguments)] // what a frame is made of, and how it is run
 fn run(
     plan: &Plan,
     tagged: &Plan,
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
-    state: DrawState,
+    passes: &[Pass],
+    maps: &[Vec<u32>],
     stalls: StallKind,
     shading: &Shading,
     mut watch: impl FnMut(&mut Simulator) -> bool,
 ) -> Result<Frame, DrawError> {
     let interface = Interface::new(tagged, Unit::MACHINE);
     let mut device = NetlistDevice::new(&*netlist(tagged, Unit::MACHINE)?, &interface)?;
-    let mut setting = Setting::willing(&interface, &case::constants(&state))?;
-    for (memory, setting) in interface.memories.iter().zip(&mut setting.memories) {
-        match memory.name {
-            "color" => setting.clear = color_word(plan, state.clear),
-            "terms" => setting.clear = 0,
-            "tables" => (setting.clear, setting.start) = (0, shading.tables.clone().into()),
-            _ => {}
-        }
-    }
-    setting.patterns = patterns(tagged, &interface, stalls, 0);
     let (port, mut foreign) = (Triangles::new(tagged), None);
-    let tokens = triangles.into_iter().zip(0..).map_while(|(triangle, number): (_, u32)| {
+    let mut tokens = triangles.into_iter().zip(0..).map_while(|(triangle, number): (_, u32)| {
         foreign = plan.accept(&triangle, number.into()).err();
         foreign.is_none().then(|| port.pack(&triangle, number))
     });
-    let mut picture = Picture::new(plan, &interface, &state);
+    let first = passes.first().map_or_else(DrawState::default, |pass| pass.state);
+    let mut picture = Picture::new(plan, &interface, &first);
     let mut ports = interface.values();
-    let mut rig = Rig::fed(&interface, setting, tokens);
+    let mut map: Arc<[u128]> = Arc::default();
     let mut records = Records::new(plan, shading);
-    records.write_next(plan, &mut rig);
-    loop {
-        // In the cycle in which it takes the last triangle the machine is still idle.
-        let exhausted = rig.exhausted();
-        rig.drive(&mut ports);
-        device.settle(&mut ports);
-        let more = watch(device.simulator());
-        picture.see(&ports);
-        device.clock();
-        rig.clock(&ports);
-        let rests = exhausted && picture.is_idle(&ports);
-        if !more || (rests && rig.finished()) {
+    let tables: Arc<[u128]> = shading.tables.clone().into();
+    for pass in passes {
+        if pass.clear_depth {
+            picture.stored[0].fill(plan.z.max() as u32); // b <= 32 bits
+        }
+        if let Some(words) = pass.map.and_then(|map| maps.get(map)) {
+            map = words.iter().map(|word| u128::from(*word)).collect();
+        }
+        // The memories are as the pass before has left them.
+        let mut setting = Setting::willing(&interface, &case::constants(&pass.state))?;
+        for (memory, setting) in interface.memories.iter().zip(&mut setting.memories) {
+            setting.start = match memory.name {
+                "map" => Arc::clone(&map),
+                "color" => picture.colors(plan),
+                "terms" => records.written.clone().into(),
+                "tables" => Arc::clone(&tables),
+                _ => picture.stored[0].iter().map(|word| u128::from(*word)).collect(),
+            };
+            if matches!(memory.name, "terms" | "tables") {
+                setting.clear = 0;
+            }
+        }
+        setting.patterns = patterns(tagged, &interface, stalls, 0);
+        let tokens = tokens.by_ref().take(pass.triangles);
+        let rig = Rig::fed(&interface, setting, tokens);
+        if !draw_pass(rig, pass.triangles, &mut device, &mut picture, &mut ports, &mut records, &mut watch) {
             break;
         }
-        if rests {
-            records.write_next(plan, &mut rig);
-        }
     }
-    drop(rig);
+    drop(tokens);
     foreign.map_or(Ok(picture.frame(plan)), |foreign| Err(foreign.into()))
 }
 
-/// The records that are not in the memory yet.
+/// The records of the triangles, those that have been written and those that have not.
 struct Records<'a> {
+    plan: &'a Plan,
     left: std::iter::Enumerate<std::slice::Iter<'a, Record>>,
     /// Triangles whose records fit into the memory.
     at_once: u32,
-    permitted: u32,
+    /// What the memory holds, for the next pass.
+    written: Vec<u128>,
 }
 
-impl Records<'_> {
-    fn new<'a>(plan: &Plan, shading: &'a Shading) -> Records<'a> {
+impl<'a> Records<'a> {
+    fn new(plan: &'a Plan, shading: &'a Shading) -> Records<'a> {
         let at_once = if plan.shade.is_there() { 1 << plan.shade.record_bits } else { u32::MAX };
-        Records { left: shading.records.iter().enumerate(), at_once, permitted: 0 }
+        let has_memory = plan.shade.is_there() && !shading.records.is_empty();
+        let words = if has_memory { (at_once as usize) << plan.record_place_bits() } else { 0 };
+        Records { plan, left: shading.records.iter().enumerate(), at_once, written: vec![0; words] }
     }
 
-    /// Writes as many as fit, and permits their triangles.
-    fn write_next(&mut self, plan: &Plan, rig: &mut Rig) {
-        for (triangle, record) in self.left.by_ref().take(self.at_once as usize) {
-            let place = (triangle % self.at_once as usize) << plan.record_place_bits();
-            rig.write("terms", place, plan.record_words(record).into_iter().map(u128::from));
+    /// Writes those of the next triangles of a pass, of which so many are `left`, and permits as many more tokens.
+    fn write_next(&mut self, rig: &mut Rig<'_>, left: &mut usize) {
+        if !self.plan.shade.is_there() {
+            return;
         }
-        self.permitted = self.permitted.saturating_add(self.at_once);
-        rig.permit(self.permitted);
+        let part = (*left).min(self.at_once as usize);
+        *left -= part;
+        for (triangle, record) in self.left.by_ref().take(part) {
+            let place = (triangle % self.at_once as usize) << self.plan.record_place_bits();
+            let words: Vec<u128> = self.plan.record_words(record).into_iter().map(u128::from).collect();
+            self.written[place..place + words.len()].copy_from_slice(&words);
+            rig.write("terms", place, words);
+        }
+        rig.permit(rig.sent() + part as u32);
     }
 }
 
-/// A word of the colour memory: red is the most significant.
-fn color_word(plan: &Plan, rgb: [u64; 3]) -> u128 {
-    rgb.into_iter().fold(0, |word, color| word << plan.color.bits | u128::from(color))
+/// Until the machine is idle again; false if `watch` has seen enough.
+fn draw_pass(
+    mut rig: Rig<'_>,
+    triangles: usize,
+    device: &mut NetlistDevice,
+    picture: &mut Picture,
+    ports: &mut PortValues,
+    records: &mut Records<'_>,
+    watch: &mut impl FnMut(&mut Simulator) -> bool,
+) -> bool {
+    let before = picture.counters.clone();
+    let mut left = triangles;
+    records.write_next(&mut rig, &mut left);
+    loop {
+        // In the cycle in which it takes the last triangle the machine is still idle.
+        let exhausted = rig.exhausted();
+        rig.drive(ports);
+        device.settle(ports);
+        let more = watch(device.simulator());
+        picture.see(ports);
+        device.clock();
+        rig.clock(ports);
+        let rests = exhausted && picture.is_idle(ports);
+        if !more || (rests && rig.finished()) {
+            let counters = picture.counters.since(&before);
+            picture.passes.push(counters);
+            return more;
+        }
+        if rests {
+            records.write_next(&mut rig, &mut left);
+        }
+    }
 }
 
 /// What the ports tell of every address, and of the run.
@@ -165,6 +224,8 @@ struct Picture {
     write: Writes,
     depth_write: Option<Writes>,
     tag: Option<usize>,
+    /// With SHADOW the field of the write that says whether it is lit.
+    lit_field: Option<usize>,
     activity: PortId,
     idle: PortId,
     /// By channel and address.
@@ -172,7 +233,10 @@ struct Picture {
     coverage: Vec<u32>,
     writes: Vec<u32>,
     id: Vec<i32>,
+    /// 0 never written, 1 in shadow, 2 lit.
+    lit: Vec<u8>,
     counters: Counters,
+    passes: Vec<Counters>,
 }
 
 /// A link that writes, and what of it is stored where.
@@ -238,6 +302,7 @@ impl Picture {
             tri: link("tri"),
             rd: link("rd"),
             tag: write.place("tag"),
+            lit_field: write.place("lit"),
             write: Writes::new(plan, write),
             depth_write: find("zwr").map(|link| Writes::new(plan, link)),
             activity: status("activity"),
@@ -246,8 +311,18 @@ impl Picture {
             coverage: vec![0; words],
             writes: vec![0; words],
             id: vec![-1; words],
+            lit: vec![0; words],
             counters: Counters::default(),
+            passes: Vec::new(),
         }
+    }
+
+    /// The words of the colour memory: red is the most significant.
+    fn colors(&self, plan: &Plan) -> Arc<[u128]> {
+        let [_, red, green, blue, ..] = &self.stored[..] else { return Arc::default() };
+        let bits = plan.color.bits;
+        let words = red.iter().zip(green).zip(blue);
+        words.map(|((r, g), b)| (u128::from(*r) << bits | u128::from(*g)) << bits | u128::from(*b)).collect()
     }
 
     fn is_idle(&self, ports: &PortValues) -> bool {
@@ -272,6 +347,9 @@ impl Picture {
             if let Some(tag) = self.tag {
                 self.id[address] = self.write.link.token(ports)[tag] as i32;
             }
+            if let Some(lit) = self.lit_field {
+                self.lit[address] = 1 + self.write.link.token(ports)[lit] as u8; // a bit
+            }
             counters.writes += 1;
         }
     }
@@ -291,7 +369,11 @@ impl Picture {
             coverage: pixels().map(|a| self.coverage[a]).collect(),
             writes: pixels().map(|a| self.writes[a]).collect(),
             id: pixels().map(|a| self.id[a]).collect(),
-            passes: vec![self.counters.clone()],
+            lit: match plan.shadow.is_there() {
+                true => pixels().map(|a| self.lit[a]).collect(),
+                false => Vec::new(),
+            },
+            passes: self.passes,
             counters: self.counters,
             events: Events::default(),
         }

@@ -26,6 +26,7 @@ fn random_shading(plan: &Plan, triangles: usize, rng: &mut Pcg64Mcg) -> Shading 
         x: rng.random_range(-4..plan.width as i32 + 4),
         y: rng.random_range(0..plan.height),
         material: rng.random_range(0..1 << plan.shade.material_bits),
+        gloss: 0,
         terms: plan.terms().iter().map(|_| std::array::from_fn(|_| rng.random())).collect(),
     };
     let bits = plan.shade.diffuse_bits(plan.color.bits) + plan.color.bits;
@@ -33,13 +34,14 @@ fn random_shading(plan: &Plan, triangles: usize, rng: &mut Pcg64Mcg) -> Shading 
     Shading {
         records: (0..triangles).map(|_| record(rng)).collect(),
         tables: (0..entries).map(|_| rng.random::<u128>() >> (128 - bits)).collect(),
+        ..Shading::default()
     }
 }
 
 #[test]
 fn the_picture_of_the_netlist_is_that_of_the_model() {
     let mut rng = Pcg64Mcg::seed_from_u64(5);
-    let (mut fragments, mut machines, mut blend, mut shade, mut waited) = (0, [0; 3], 0, 0, 0);
+    let (mut fragments, mut machines, mut blend, mut shadow, mut shade, mut waited) = (0, [0; 3], 0, 0, 0, 0);
     for i in 0..36 {
         let plan = quick_machine(&mut rng);
         let triangles: Vec<_> = (0..12).map(|_| random_triangle(&plan, &mut rng)).collect();
@@ -48,17 +50,18 @@ fn the_picture_of_the_netlist_is_that_of_the_model() {
             depth_write: rng.random_bool(0.9),
             color_write: rng.random_bool(0.9),
             blend_add: rng.random_bool(0.3),
+            shadow_on: true,
             clear: [1, 2, 3],
             ..DrawState::default()
         };
         let stalls = StallKind::ALL[i % 3];
         let shading = random_shading(&plan, triangles.len(), &mut rng);
-        let passes = [Pass::all(state)];
-        let model = render_shaded(&plan, triangles.iter().copied(), &passes, Stalls::NONE, &shading, |_| {})
+        let (all, passes) = (|| triangles.iter().copied(), [Pass::all(state)]);
+        let model = render_shaded(&plan, all(), &passes, &[], Stalls::NONE, &shading, |_| {})
             .expect("its own triangles");
-        let rtl = render_rtl_shaded(&plan, triangles.iter().copied(), state, stalls, &shading)
-            .expect("its own triangles");
+        let rtl = render_rtl_shaded(&plan, all(), &passes, &[], stalls, &shading).expect("its own triangles");
         assert_eq!((&rtl.z, &rtl.rgb, &rtl.extra), (&model.z, &model.rgb, &model.extra), "{plan:?}");
+        assert_eq!(rtl.lit, model.lit, "{plan:?}");
         assert_eq!(
             (&rtl.coverage, &rtl.writes, &rtl.id),
             (&model.coverage, &model.writes, &model.id),
@@ -69,19 +72,20 @@ fn the_picture_of_the_netlist_is_that_of_the_model() {
                 |c: &edgewalk_model::Counters| (c.cycles, c.activity, c.triangles, c.fragments, c.writes);
             assert_eq!(seen(&rtl.counters), seen(&model.counters), "{plan:?}");
         } else {
-            // SETUP, or the reading of tables, may take so long that a stall is hidden behind it.
-            let longer = rtl.counters.cycles.checked_sub(model.counters.cycles).expect("it waits");
-            waited += u32::from(longer > 0);
+            // Few fragments may find every memory willing.
+            assert!(rtl.counters.cycles >= model.counters.cycles, "{plan:?}");
+            waited += u32::from(rtl.counters.cycles > model.counters.cycles);
         }
         fragments += model.counters.fragments;
         machines[i % 3] += 1;
         blend += u32::from(plan.blend.is_there());
+        shadow += u32::from(plan.shadow.is_there());
         shade += u32::from(plan.shade.is_there());
     }
     println!(
-        "{fragments} fragments compared on {machines:?} machines, by stalls; {blend} of them with BLEND, {shade} with SHADE, {waited} waited"
+        "{fragments} fragments compared on {machines:?} machines, by stalls; {blend} of them with BLEND, {shadow} with SHADOW, {shade} with SHADE, {waited} of 24 waited"
     );
-    assert!(fragments > 1000 && blend > 10 && shade > 10 && waited > 12, "{fragments}");
+    assert!(fragments > 1000 && blend > 10 && shadow > 5 && shade > 5 && waited > 15, "{fragments}");
 }
 
 #[test]

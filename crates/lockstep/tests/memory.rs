@@ -15,7 +15,7 @@ use rand_pcg::Pcg64Mcg;
 const MACHINES: u64 = 300;
 const CYCLES: u64 = 2000;
 
-/// The netlist with the ports of the machine's declared links, without the tag, which no memory keeps.
+/// The netlist with the ports of the machine's declared links, without the tag and what is lit, which no memory keeps.
 struct Module {
     sim: Simulator,
     rd_valid: InputId,
@@ -35,7 +35,7 @@ impl Module {
         let netlist = edgewalk_rtl::memory(plan, plan.z.max()).expect("can be built");
         let mut sim = Simulator::new(&netlist);
         let machine = Interface::new(plan, Unit::MACHINE);
-        let memory = &machine.memories[0];
+        let memory = machine.memories.iter().find(|memory| memory.name == "depth").expect("DEPTH reads");
         let write = &machine.links[memory.write.expect("DEPTH writes").link];
         let (read, data) = (&machine.links[memory.read], &machine.links[memory.data]);
         sim.set_input("rst", 1).expect("a reset");
@@ -43,7 +43,7 @@ impl Module {
         sim.set_input("rst", 0).expect("a reset");
         let input = |name: &str| sim.input(name).expect(name);
         let signal = |name: &str| sim.signal(name).expect(name);
-        let stored = write.fields.iter().filter(|port| port.field.name != "tag");
+        let stored = write.fields.iter().filter(|port| !["lit", "tag"].contains(&port.field.name.as_str()));
         Module {
             rd_valid: input(&format!("{}_valid", read.name)),
             rd_addr: input(&read.fields[0].name),

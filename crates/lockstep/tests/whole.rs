@@ -17,6 +17,12 @@ const MACHINES: usize = 400;
 /// Triangles drawn on them, about.
 const TRIANGLES: u64 = 40_000;
 
+/// TEXEL and NORMAL have no netlist yet.
+fn no_netlist(event: &str) -> bool {
+    use edgewalk_machine::units::{normal, texel};
+    [&texel::SPEC, &normal::SPEC].iter().flat_map(|unit| unit.events).any(|of| of.name == event)
+}
+
 /// What random triangles may not meet, and [`colours_on_one_pixel`] does.
 const DIRECTED: [&str; 3] = ["opaque_behind", "behind_opaque", "color_head_wait"];
 
@@ -103,7 +109,7 @@ fn whole_machines(half: usize) {
         .events
         .missing()
         .into_iter()
-        .filter(|event| !DIRECTED.contains(event) && !ALONE.contains(event))
+        .filter(|event| !DIRECTED.contains(event) && !ALONE.contains(event) && !no_netlist(event))
         .collect();
     assert_eq!(missing, [""; 0], "not met");
 }

@@ -33,11 +33,13 @@ pub enum Activity {
     Term,
     /// A fragment waits for SHADE's tables.
     Shade,
+    /// TEXEL waits for the memory of the textures.
+    Texel,
 }
 
 impl Activity {
     /// All, in the order of the port's code.
-    pub const ALL: [Activity; 13] = [
+    pub const ALL: [Activity; 14] = [
         Activity::Idle,
         Activity::Draw,
         Activity::Offscreen,
@@ -51,6 +53,7 @@ impl Activity {
         Activity::Light,
         Activity::Term,
         Activity::Shade,
+        Activity::Texel,
     ];
 
     /// Bits of the port.
@@ -73,17 +76,19 @@ impl Activity {
             "light",
             "term",
             "shade",
+            "texel",
         ][self as usize]
     }
 
     /// Those that the machine can have.
     pub fn of(plan: &Plan) -> impl Iterator<Item = Activity> {
-        let (blends, shadows, shades) =
-            (plan.blend.is_there(), plan.shadow.is_there(), plan.shade.is_there());
+        let (blends, shadows) = (plan.blend.is_there(), plan.shadow.is_there());
+        let (shades, textures) = (plan.shade.is_there(), plan.shade.textures());
         Activity::ALL.into_iter().filter(move |activity| match activity {
             Activity::Blend => blends,
             Activity::Light => shadows,
             Activity::Term | Activity::Shade => shades,
+            Activity::Texel => textures,
             _ => true,
         })
     }
@@ -105,6 +110,7 @@ impl Activity {
             "SHADOW takes no fragment",
             "TERM walks to the start of a span",
             "SHADE fetches tables",
+            "TEXEL takes no fragment",
         ][self as usize]
     }
 

@@ -3,6 +3,7 @@
 use crate::channel::{Channel, MAX_CHANNELS};
 use crate::keys::KEYS;
 use crate::machine::{EdgeKind, Fill, Machine};
+use crate::shading::ShadeColour;
 use crate::text::MachineError;
 
 /// Longest word a setup lane may need.
@@ -16,6 +17,15 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
     screen(machine)?;
     for channel in channels {
         formats(machine, channel)?;
+    }
+    if machine.shade.textures() && machine.shade.colour == ShadeColour::Tables {
+        return Err(MachineError::rule(
+            machine,
+            "texture.kind",
+            "tables hold the colour, so nobody would see the texel's; or set shade.colour = multiply"
+                .to_owned(),
+            "none".to_owned(),
+        ));
     }
     if channels.len() > MAX_CHANNELS {
         let own = machine.extra as usize;

@@ -4,7 +4,7 @@
 
 use crate::channel::{Kind, MAX_CHANNELS};
 use crate::machine::{BlendKind, EdgeKind, Fill, Gate, Hazard, Machine, ShadowLight};
-use crate::shading::{ShadeColour, ShadeKind, Walk};
+use crate::shading::{ShadeColour, ShadeKind, Texture, Walk};
 
 /// What a key may be set to.
 #[derive(Clone, Copy, Debug)]
@@ -144,8 +144,9 @@ const KINDS: [EdgeKind; 2] = [EdgeKind::Exact, EdgeKind::Slope];
 const BLENDS: [BlendKind; 3] = [BlendKind::None, BlendKind::Constant, BlendKind::Interpolated];
 const LIGHTS: [ShadowLight; 2] = [ShadowLight::None, ShadowLight::Parallel];
 const GATES: [Gate; 2] = [Gate::And, Gate::Scale];
-const SHADES: [ShadeKind; 2] = [ShadeKind::None, ShadeKind::FastPhong];
+const SHADES: [ShadeKind; 3] = [ShadeKind::None, ShadeKind::FastPhong, ShadeKind::Phong];
 const COLOURS: [ShadeColour; 2] = [ShadeColour::Tables, ShadeColour::Multiply];
+const TEXTURES: [Texture; 2] = [Texture::None, Texture::Nearest];
 const WALKS: [Walk; 2] = [Walk::Register, Walk::Memory];
 const HAZARDS: [Hazard; 3] = [Hazard::Drain, Hazard::Interlock, Hazard::Forward];
 
@@ -243,8 +244,8 @@ pub const KEYS: &[Key] = &[
         absent: Some(ShadeKind::None as u32),
         ..shade!(
             "shade.kind",
-            &["none", "fast-phong"],
-            "what is shaded at each pixel: nothing, or fast-phong (both cosines quadratics)",
+            &["none", "fast-phong", "phong"],
+            "what is shaded at each pixel: nothing, by fast-phong (both cosines quadratics), or by phong (unit normals)",
             kind,
             SHADES
         )
@@ -257,7 +258,7 @@ pub const KEYS: &[Key] = &[
         COLOURS
     ),
     shade!("shade.table_bits", Range(8, 10), "a table has 2^table_bits entries", table_bits),
-    shade!("shade.gloss_bits", Range(0, 4), "N.H reaches down to 2^gloss_bits tables below 0", gloss_bits),
+    shade!("shade.gloss_bits", Range(0, 8), "N.H reaches down to 2^gloss_bits tables below 0", gloss_bits),
     shade!("shade.lights", Range(1, 2), "lights at once", lights),
     shade!("shade.material_bits", Range(0, 8), "there are 2^material_bits materials", material_bits),
     shade!(
@@ -266,6 +267,33 @@ pub const KEYS: &[Key] = &[
         "clocks from a read of a material's table to its data, at the least",
         table_latency
     ),
+    Key {
+        absent: Some(Texture::None as u32),
+        ..shade!(
+            "texture.kind",
+            &["none", "nearest"],
+            "texture of the colour: none, or the nearest texel",
+            texture,
+            TEXTURES
+        )
+    },
+    Key {
+        used: |m| m.shade.textures(),
+        ..shade!("texture.bits", Range(1, 11), "a texture has 2^bits columns and lines", texture_bits)
+    },
+    Key {
+        used: |m| m.shade.textures(),
+        ..shade!("fifo.texel", Range(1, 16), "fragments in TEXEL's queue", texel_queue)
+    },
+    Key {
+        used: |m| m.shade.textures(),
+        ..shade!(
+            "memory.texel_latency",
+            Range(1, 8),
+            "clocks from a read of a texel to its data, at the least",
+            texel_latency
+        )
+    },
     shade!(
         "term.walk",
         &["register", "memory"],
@@ -273,7 +301,20 @@ pub const KEYS: &[Key] = &[
         walk,
         WALKS
     ),
-    shade!("term.fraction", Range(0, 48), "fraction bits of a term of degree 2", fraction),
+    shade!("term.fraction", Range(0, 44), "fraction bits of a term of degree 2", fraction),
+    Key {
+        used: |m| m.shade.has_linear_terms(),
+        ..shade!("term.linear_fraction", Range(0, 46), "fraction bits of a term of degree 1", linear_fraction)
+    },
+    Key {
+        used: |m| m.shade.normalises(),
+        ..shade!(
+            "memory.root_latency",
+            Range(1, 8),
+            "clocks from a read of a root to its data, at the least",
+            root_latency
+        )
+    },
     shade!(
         "term.record_bits",
         Range(1, 20),

@@ -45,7 +45,7 @@ pub use machine::{
     Blend, BlendKind, EdgeKind, ExtraChannel, Fill, Gate, Hazard, Machine, Shadow, ShadowLight,
 };
 pub use plan::Plan;
-pub use shading::{Entry, Record, Shade, ShadeColour, ShadeKind, Term, Walk};
+pub use shading::{Entry, Record, Shade, ShadeColour, ShadeKind, Term, Texture, Walk};
 pub use text::MachineError;
 pub use unit::{Event, Ports, UnitSpec};
 pub use units::UNITS;

@@ -5,7 +5,7 @@ use crate::machine::{
     Blend, BlendKind, EdgeKind, ExtraChannel, Fill, Gate, Hazard, Machine, Shadow, ShadowLight,
 };
 use crate::plan::Plan;
-use crate::shading::{Shade, ShadeColour, ShadeKind, Walk};
+use crate::shading::{Shade, ShadeColour, ShadeKind, Texture, Walk};
 
 /// Names of the presets, for `--machine` and its hints.
 pub const PRESETS: &[(&str, &str)] = &[
@@ -28,6 +28,12 @@ const SHADE: Shade = Shade {
     table_latency: 2,
     walk: Walk::Register,
     fraction: 17,
+    linear_fraction: 10,
+    root_latency: 2,
+    texture: Texture::None,
+    texture_bits: 8,
+    texel_queue: 4,
+    texel_latency: 2,
     record_bits: 12,
     term_latency: 2,
 };

@@ -16,6 +16,8 @@ pub enum ShadeKind {
     None,
     /// Both cosines are quadratics over the triangle.
     FastPhong,
+    /// The normal is linear over the triangle, and made a unit normal at each pixel: the machine has NORMAL too.
+    Phong,
 }
 
 /// Where a colour comes from.
@@ -36,7 +38,16 @@ pub enum Walk {
     Memory,
 }
 
-/// TERM, SHADE and the memories behind them.
+/// What a texture does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Texture {
+    /// There is none: the machine has no TEXEL.
+    None,
+    /// The nearest texel modulates the colour.
+    Nearest,
+}
+
+/// TERM, TEXEL, NORMAL, SHADE and the memories behind them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Shade {
     /// What is shaded.
@@ -57,6 +68,18 @@ pub struct Shade {
     pub walk: Walk,
     /// Fraction bits of a term of degree 2.
     pub fraction: u32,
+    /// Fraction bits of a term of degree 1.
+    pub linear_fraction: u32,
+    /// Latency of the memory of the roots, clocks.
+    pub root_latency: u32,
+    /// A texture for the colour.
+    pub texture: Texture,
+    /// A texture has 2^texture_bits columns and lines.
+    pub texture_bits: u32,
+    /// Depth of TEXEL's queue, fragments.
+    pub texel_queue: u32,
+    /// Latency of the memory of the textures, clocks.
+    pub texel_latency: u32,
     /// Bits of the number of a triangle's record.
     pub record_bits: u32,
     /// Latency of the memory of the terms, clocks.
@@ -68,6 +91,36 @@ impl Shade {
     #[must_use]
     pub fn is_there(&self) -> bool {
         self.kind != ShadeKind::None
+    }
+
+    /// NORMAL is there.
+    #[must_use]
+    pub fn normalises(&self) -> bool {
+        self.kind == ShadeKind::Phong
+    }
+
+    /// TEXEL is there.
+    #[must_use]
+    pub fn textures(&self) -> bool {
+        self.is_there() && self.texture != Texture::None
+    }
+
+    /// A term of degree 1 is there.
+    #[must_use]
+    pub fn has_linear_terms(&self) -> bool {
+        self.normalises() || self.textures()
+    }
+
+    /// Bits of N·L as SHADE takes it: t + 2.
+    #[must_use]
+    pub fn diffuse_index_bits(&self) -> u32 {
+        self.table_bits + 2
+    }
+
+    /// Bits of N·H as SHADE takes it: t + m + 2.
+    #[must_use]
+    pub fn highlight_index_bits(&self) -> u32 {
+        self.table_bits + self.gloss_bits + 2
     }
 
     /// Bits of an entry of T: three colours of b bits, or the light in 2^-(b+2) with 1 exact.
@@ -128,6 +181,8 @@ pub struct Record {
     pub y: u32,
     /// The material.
     pub material: u32,
+    /// Of the material's highlights; with [`ShadeKind::Phong`] alone.
+    pub gloss: u32,
     /// For each term of [`Plan::terms`] V, X, Y, XX, XY, YY, modulo 2^w; of degree 1 the last three are not looked at.
     pub terms: Vec<[u64; 6]>,
 }
@@ -141,21 +196,40 @@ pub enum Entry {
     Light(u32, u32),
 }
 
-const NAMES: [[&str; 2]; 2] = [["nl0", "nh0"], ["nl1", "nh1"]];
+/// Bits of gloss, which goes with the material to NORMAL.
+pub const GLOSS_BITS: u32 = 4;
+
+/// Bits of the unnormalised cosines and of N·N, 2^16 for 1.0.
+const UNIT_BITS: u32 = 18;
+
+/// What SHADE takes, light by light: N·L and N·H in entries of a table.
+pub(crate) const COSINES: [[&str; 2]; 2] = [["nl0", "nh0"], ["nl1", "nh1"]];
+
+/// The same of a normal of any length.
+const PRODUCTS: [[&str; 2]; 2] = [["pl0", "ph0"], ["pl1", "ph1"]];
 
 /// The terms of a machine, in the order of their words.
 pub(crate) fn terms(machine: &Machine) -> Vec<Term> {
     let shade = &machine.shade;
+    let lights = shade.lights as usize;
     let quadratic = |name, bits| Term { name, degree: 2, bits, fraction: shade.fraction };
-    let light = |names: [&'static str; 2]| {
-        let [diffuse, highlight] = names;
-        let bits = shade.table_bits + 2;
-        [quadratic(diffuse, bits), quadratic(highlight, bits + shade.gloss_bits)]
+    let linear = |name, bits| Term { name, degree: 1, bits, fraction: shade.linear_fraction };
+    let of_light = |[diffuse, highlight]: [&'static str; 2]| {
+        let bits = [shade.diffuse_index_bits(), shade.highlight_index_bits()];
+        [quadratic(diffuse, bits[0]), quadratic(highlight, bits[1])]
     };
-    match shade.kind {
+    let mut terms: Vec<Term> = match shade.kind {
         ShadeKind::None => Vec::new(),
-        ShadeKind::FastPhong => NAMES.into_iter().take(shade.lights as usize).flat_map(light).collect(),
+        ShadeKind::FastPhong => COSINES.into_iter().take(lights).flat_map(of_light).collect(),
+        ShadeKind::Phong => {
+            let products = PRODUCTS.into_iter().take(lights).flatten().map(|name| linear(name, UNIT_BITS));
+            products.chain([quadratic("nn", UNIT_BITS)]).collect()
+        }
+    };
+    if shade.textures() {
+        terms.extend(["u", "v"].map(|name| linear(name, shade.texture_bits)));
     }
+    terms
 }
 
 impl Plan {
@@ -175,19 +249,43 @@ impl Plan {
     #[must_use]
     pub fn record_word_bits(&self) -> u32 {
         let longest = self.terms().iter().map(Term::word).max().unwrap_or(1);
-        longest.max(self.widths().column).max(self.widths().y).max(self.shade.material_bits)
+        let gloss = if self.shade.normalises() { GLOSS_BITS } else { 0 };
+        longest.max(self.widths().column).max(self.widths().y).max(self.shade.material_bits + gloss)
     }
 
     /// The words of a record as they lie in the memory, from the record's first place on, 2^wb of them.
     #[must_use]
     pub fn record_words(&self, record: &Record) -> Vec<u64> {
         let mask = u64::MAX >> (64 - self.record_word_bits());
-        let mut words = vec![record.x as u64, record.y.into(), record.material.into()];
+        let gloss =
+            if self.shade.normalises() { u64::from(record.gloss) << self.shade.material_bits } else { 0 };
+        let material = u64::from(record.material) + gloss;
+        let mut words = vec![record.x as u64, record.y.into(), material];
         for (term, own) in self.terms().iter().zip(&record.terms) {
             words.extend(&own[..term.words() as usize]);
         }
         words.resize(1 << self.record_place_bits(), 0);
         words.into_iter().map(|word| word & mask).collect()
+    }
+
+    /// The word of an entry of NORMAL's table R: v of 17 bits, slope of 10; what has more bits is cut.
+    #[must_use]
+    pub fn root_word(&self, v: u32, slope: u32) -> u128 {
+        u128::from(v & 0x1_ffff) << 10 | u128::from(slope & 0x3ff)
+    }
+
+    /// The word of a texel, LSB of the colour; what has more bits is cut.
+    #[must_use]
+    pub fn texel_word(&self, colours: [u32; 3]) -> u128 {
+        let mask = (1 << self.color.bits) - 1;
+        colours.into_iter().fold(0, |word, colour| word << self.color.bits | u128::from(colour & mask))
+    }
+
+    /// The place of a material's texel in the memory of the textures.
+    #[must_use]
+    pub fn texel_place(&self, material: u32, u: u32, v: u32) -> usize {
+        let bits = self.shade.texture_bits;
+        ((material as usize) << bits | v as usize) << bits | u as usize
     }
 
     /// The word of an entry of the tables; what has more bits than the entry is cut.
@@ -231,7 +329,7 @@ mod tests {
         let (nl0, nh0) = (one.terms()[0], one.terms()[1]);
         assert_eq!((nl0.word(), nh0.word(), one.record_length(), one.record_place_bits()), (28, 32, 15, 4));
         let terms = vec![[1, 2, 3, 4, 5, 6], [7, 8, 9, 10, 11, u64::MAX]];
-        let words = one.record_words(&Record { x: -1, y: 7, material: 5, terms });
+        let words = one.record_words(&Record { x: -1, y: 7, material: 5, gloss: 1, terms });
         assert_eq!(words, [u32::MAX.into(), 7, 5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, u32::MAX.into(), 0]);
         assert_eq!(one.table_word(Entry::Colours([1, 2, 3], 4)), 0x0102_0304);
         assert_eq!(one.table_place(3, 0, 5), 3 * 512 + 5);
@@ -240,6 +338,16 @@ mod tests {
         assert_eq!((two.record_length(), two.record_place_bits()), (27, 5));
         assert_eq!(two.table_word(Entry::Light(1024, 255)), 1024 << 8 | 255);
         assert_eq!(two.table_place(1, 1, 0), 1024 + 512);
+        let phong = plan(&[("shade.kind", "phong")]);
+        let words: Vec<u32> = phong.terms().iter().map(Term::word).collect();
+        assert_eq!(
+            (&words[..], phong.record_length(), phong.record_word_bits()),
+            (&[28, 28, 35][..], 15, 35)
+        );
+        let terms = vec![[1, 2, 3, 0, 0, 0], [4, 5, 6, 0, 0, 0], [7, 8, 9, 10, 11, 12]];
+        let words = phong.record_words(&Record { x: 1, y: 2, material: 5, gloss: 3, terms });
+        assert_eq!(words, [1, 2, 3 * 16 + 5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0]);
+        assert_eq!(phong.root_word(0x1_0001, 0x3ff), 0x1_0001 << 10 | 0x3ff);
         assert_eq!(Plan::default().terms(), []);
     }
 }

@@ -6,6 +6,8 @@ pub mod edge;
 pub mod span;
 pub mod term;
 pub mod pixel;
+pub mod texel;
+pub mod normal;
 pub mod shade;
 pub mod shadow;
 pub mod depth;
@@ -25,6 +27,8 @@ pub const UNITS: &[&UnitSpec] = &[
     &span::SPEC,
     &term::SPEC,
     &pixel::SPEC,
+    &texel::SPEC,
+    &normal::SPEC,
     &shade::SPEC,
     &shadow::SPEC,
     &depth::SPEC,

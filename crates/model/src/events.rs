@@ -92,6 +92,26 @@ events! {
     walk_result_last,
     /// Cycles in which a read waits for the memory of the terms.
     term_read_stall,
+    /// Texels that were read.
+    texel_read,
+    /// Cycles in which a read waits for the memory of the textures.
+    texel_read_stall,
+    /// Cycles in which a fragment waits for TEXEL's queue.
+    texel_queue_full,
+    /// Cycles in which the oldest fragment waits for its texel.
+    texel_data_wait,
+    /// Times that NORMAL's roots were fetched.
+    roots_read,
+    /// Cycles in which a read waits for the roots.
+    root_read_stall,
+    /// Normals shorter than half.
+    normal_short,
+    /// Normals of length 1, or longer.
+    normal_long,
+    /// Cosines beyond what SHADE takes.
+    cosine_cut,
+    /// Cycles in which all stages of NORMAL stand still.
+    normal_stall,
     /// Materials whose tables were fetched.
     tables_read,
     /// Materials that another one took the place of.

@@ -24,6 +24,8 @@ pub struct Frame {
     pub writes: Vec<u32>,
     /// Number of the triangle that wrote the pixel last, -1: none.
     pub id: Vec<i32>,
+    /// With SHADOW: 0 no colour was written, 1 the last was in shadow, 2 lit. Else empty.
+    pub lit: Vec<u8>,
     /// Performance counters.
     pub counters: Counters,
     /// The same of each pass.
@@ -43,13 +45,17 @@ pub struct Sample<'a> {
     pub source: Source,
 }
 
-/// What the memories behind TERM and SHADE hold.
+/// What the memories behind TERM, TEXEL, NORMAL and SHADE hold.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Shading {
     /// The record of every triangle, culled or not, in their order; of those behind the last the memory holds nothing.
     pub records: Vec<Record>,
     /// Entries of the tables, [`Plan::table_word`] at [`Plan::table_place`]; what is not there is 0.
     pub tables: Vec<u128>,
+    /// Entries of NORMAL's table, [`Plan::root_word`], 256 of them.
+    pub roots: Vec<u128>,
+    /// Texels, [`Plan::texel_word`] at [`Plan::texel_place`].
+    pub textures: Vec<u128>,
 }
 
 /// What [`render_with`] reports, in order.
@@ -86,10 +92,10 @@ pub fn render_with(
     hook: impl FnMut(Drawn),
 ) -> Result<Frame, ForeignVertex> {
     let passes = [Pass::all(state)];
-    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), &passes, waits.into(), &Shading::default(), hook))
+    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), &passes, &[], waits.into(), &Shading::default(), hook))
 }
 
-/// As [`render_with`], pass by pass.
+/// As [`render_with`], pass by pass; `maps`: the words of the lights' maps, by address; before the first of them nothing is hidden.
 ///
 /// # Errors
 /// A triangle whose vertices were made for another machine.
@@ -97,10 +103,11 @@ pub fn render_passes(
     plan: &Plan,
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
     passes: &[Pass],
+    maps: &[Vec<u32>],
     waits: impl Into<Waits>,
     hook: impl FnMut(Drawn),
 ) -> Result<Frame, ForeignVertex> {
-    render_shaded(plan, triangles, passes, waits, &Shading::default(), hook)
+    render_shaded(plan, triangles, passes, maps, waits, &Shading::default(), hook)
 }
 
 /// As [`render_passes`], on a machine with TERM and SHADE. After as many triangles as there are records in the memory the
@@ -112,17 +119,19 @@ pub fn render_shaded(
     plan: &Plan,
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
     passes: &[Pass],
+    maps: &[Vec<u32>],
     waits: impl Into<Waits>,
     shading: &Shading,
     hook: impl FnMut(Drawn),
 ) -> Result<Frame, ForeignVertex> {
-    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), passes, waits.into(), shading, hook))
+    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), passes, maps, waits.into(), shading, hook))
 }
 
 fn draw<const C: usize>(
     plan: &Plan,
     triangles: impl Iterator<Item = [PortVertex; 3]>,
     passes: &[Pass],
+    maps: &[Vec<u32>],
     waits: Waits,
     shading: &Shading,
     mut hook: impl FnMut(Drawn),
@@ -134,9 +143,7 @@ fn draw<const C: usize>(
     let blends = plan.blend.is_there();
     let channels = plan.channels().len().min(C); // C serves the plan; said so that no slice is checked in every cycle
     let mut triangles = triangles.zip(0..).map(|(t, number)| plan.accept(&t, number).map(|()| t)).peekable();
-    if let Some(tables) = &mut rig.tables {
-        tables.write(0, shading.tables.iter().copied());
-    }
+    rig.write_shading(plan, shading);
     let mut records = shading.records.iter().enumerate();
     let at_once = if plan.shade.is_there() { 1 << plan.shade.record_bits } else { usize::MAX };
     let mut watch = |_, model: &Model<C>, cycle: &Cycle<C>| {
@@ -147,12 +154,12 @@ fn draw<const C: usize>(
             hook(Drawn::Fragment(Sample { addr, values, source: fragment.source }));
         }
         if let Some(write) = cycle.write().filter(|_| !blends) {
-            tally.write(write.addr, write.source.id);
+            tally.write(write.addr, write.source.id, write.lit);
             let values = &write.values[..channels];
             hook(Drawn::Write(Sample { addr: write.addr, values, source: write.source }));
         }
         if let Some(write) = cycle.color_write() {
-            tally.write(write.addr, write.source.id);
+            tally.write(write.addr, write.source.id, write.lit);
             let values = &write.values[..channels];
             hook(Drawn::Write(Sample { addr: write.addr, values, source: write.source }));
         }
@@ -162,6 +169,9 @@ fn draw<const C: usize>(
         rig.set_state(pass.state);
         if pass.clear_depth {
             rig.memory.clear_depth(plan);
+        }
+        if let (Some(memory), Some(map)) = (&mut rig.map, pass.map.and_then(|map| maps.get(map))) {
+            memory.depths_mut().iter_mut().zip(map).for_each(|(word, depth)| *word = *depth);
         }
         let mut left = pass.triangles;
         loop {
@@ -191,6 +201,10 @@ fn draw<const C: usize>(
         coverage: addresses.iter().map(|addr| tally.reads[*addr]).collect(),
         writes: addresses.iter().map(|addr| tally.writes[*addr]).collect(),
         id: addresses.iter().map(|addr| tally.id[*addr]).collect(),
+        lit: match plan.shadow.is_there() {
+            true => addresses.iter().map(|addr| tally.lit[*addr]).collect(),
+            false => Vec::new(),
+        },
         counters: rig.model.counters().clone(),
         passes: counters,
         events: rig.model.events().clone(),
@@ -203,12 +217,14 @@ struct Tally {
     writes: Vec<u32>,
     /// Number of the triangle that wrote it last, -1: none.
     id: Vec<i32>,
+    /// 0 never written, 1 in shadow, 2 lit.
+    lit: Vec<u8>,
 }
 
 impl Tally {
     fn new(plan: &Plan) -> Self {
         let words = 1 << plan.widths().address;
-        Tally { reads: vec![0; words], writes: vec![0; words], id: vec![-1; words] }
+        Tally { reads: vec![0; words], writes: vec![0; words], id: vec![-1; words], lit: vec![0; words] }
     }
 
     fn read(&mut self, addr: u32) {
@@ -216,9 +232,10 @@ impl Tally {
         *reads = reads.wrapping_add(1);
     }
 
-    fn write(&mut self, addr: u32, id: u32) {
+    fn write(&mut self, addr: u32, id: u32, lit: bool) {
         let writes = &mut self.writes[addr as usize];
         *writes = writes.wrapping_add(1);
         self.id[addr as usize] = id as i32;
+        self.lit[addr as usize] = 1 + u8::from(lit);
     }
 }

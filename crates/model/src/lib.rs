@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  tri ─> setup ─> edge ─> span ─> pixel ─> depth ─> memory
-//!                 term before pixel, shade and shadow before depth, blend behind it, if the machine has them
+//!                 term before pixel; texel, normal, shade and shadow before depth, blend behind it, if the machine has them
 //!                                              └─> blend ─> colour memory, if the machine has it
 //! ```
 //! Written from `docs/machine.md` alone. A unit is a plain state struct: methods give its outputs from the state and
@@ -13,6 +13,9 @@
 pub mod counters;
 pub mod events;
 mod rmw;
+mod fetch;
+pub mod texel;
+pub mod normal;
 pub mod shade;
 pub mod shadow;
 pub mod depth;
@@ -42,7 +45,9 @@ pub use counters::Counters;
 pub use edgewalk_machine::Activity;
 pub use events::Events;
 pub use frame::{Drawn, Frame, Sample, Shading, render, render_passes, render_shaded, render_with};
-pub use machine::{BlendInputs, Inputs, Model, Outputs, ShadeInputs, ShadowInputs, TermInputs};
+pub use machine::{
+    BlendInputs, Inputs, Model, NormalInputs, Outputs, ShadeInputs, ShadowInputs, TermInputs, TexelInputs,
+};
 pub use map_memory::MapMemory;
 pub use memory::{Memory, Stalls};
 pub use passes::Pass;

@@ -3,14 +3,15 @@
 //! ```text
 //!  tri ─> SETUP ─prim─> EDGE ─line─> SPAN ─span─> PIXEL ─frag─> DEPTH ─> wr
 //!                         └────────── gradients ───┘              ├─> rd, <─ data
-//!     with TERM and SHADE: SPAN ─span─> TERM ─walked─> PIXEL ─frag─> SHADE ─tinted─> DEPTH
+//!     with TERM and SHADE: SPAN ─span─> TERM ─walked─> PIXEL ─frag─> [TEXEL] ─> [NORMAL] ─> SHADE ─tinted─> DEPTH
 //!                                with BLEND, for wr: ─> zwr, ─pass─> BLEND ─> crd, <─ cdata, ─> cwr
 //! ```
 //! Data runs to the right, readies to the left within the cycle. [`Model::cycle`] therefore works out the readies from
 //! DEPTH back to SETUP, and then clocks the units in the same order, so that each still sees its source as it was.
 //!
-//! Rules: `docs/machine.md`, sections 8 to 13.
+//! Rules: `docs/machine.md`, sections 8 to 15.
 
+pub mod shading;
 mod view;
 
 use crate::blend::Blend;
@@ -19,17 +20,22 @@ use crate::counters::Counters;
 use crate::depth::{Block, Depth, DepthInputs};
 use crate::edge::Edge;
 use crate::events::{Events, one_more};
+use crate::normal::Normal;
+pub use crate::normal::NormalInputs;
 use crate::pixel::Pixel;
 use crate::setup::Setup;
+use crate::shade::Shade;
 pub use crate::shade::ShadeInputs;
-use crate::shade::{Cosines, Shade};
 use crate::shadow::Shadow;
 pub use crate::shadow::ShadowInputs;
 use crate::span::Span;
 pub use crate::term::TermInputs;
 use crate::term::{Term, Walked};
+use crate::texel::Texel;
+pub use crate::texel::TexelInputs;
 use crate::tokens::{ColorWrite, FEW, Fragment, Write};
 use edgewalk_machine::{Activity, Plan, PortVertex};
+use shading::parts;
 
 /// Input ports of a cycle; a valid and its data are an `Option`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -51,6 +57,10 @@ pub struct Inputs<'a> {
     pub wr_ready: bool,
     /// What only machines with TERM have.
     pub term: TermInputs,
+    /// What only machines with TEXEL have.
+    pub texel: TexelInputs,
+    /// What only machines with NORMAL have.
+    pub normal: NormalInputs,
     /// What only machines with SHADE have.
     pub shade: ShadeInputs,
     /// What only machines with SHADOW have.
@@ -74,6 +84,14 @@ pub struct Outputs<const C: usize> {
     pub trd: Option<u32>,
     /// With TERM: a word of a record is taken, if it is there.
     pub tdata_ready: bool,
+    /// With TEXEL: address of a texel.
+    pub xrd: Option<u32>,
+    /// With TEXEL: a texel is taken, if it is there.
+    pub xdata_ready: bool,
+    /// With NORMAL: address of a root.
+    pub rrd: Option<u32>,
+    /// With NORMAL: a root is taken, if it is there.
+    pub rdata_ready: bool,
     /// With SHADE: address of an entry of the tables.
     pub srd: Option<u32>,
     /// With SHADE: an entry is taken, if it is there.
@@ -117,6 +135,10 @@ impl<const C: usize> Default for Outputs<C> {
             wr: None,
             trd: None,
             tdata_ready: false,
+            xrd: None,
+            xdata_ready: false,
+            rrd: None,
+            rdata_ready: false,
             srd: None,
             sdata_ready: false,
             mrd: None,
@@ -137,6 +159,8 @@ pub struct Model<const C: usize> {
     span: Span<C>,
     term: Option<Term>,
     pixel: Pixel<C>,
+    texel: Option<Texel<C>>,
+    normal: Option<Normal<C>>,
     shade: Option<Shade<C>>,
     shadow: Option<Shadow<C>>,
     depth: Depth<C>,
@@ -154,7 +178,9 @@ struct Waits {
     pass: bool,
     /// The walk of TERM is not at the span that is offered.
     walk: bool,
-    /// SHADE has not the tables of the fragment that is offered.
+    /// TEXEL waits for its memory's ready, or for its data.
+    texel: bool,
+    /// SHADE has not the tables of the fragment that is offered to it, or NORMAL not the roots.
     tables: bool,
 }
 
@@ -171,6 +197,10 @@ pub struct Units<'a, const C: usize> {
     pub term: Option<&'a Term>,
     /// Spans to fragments.
     pub pixel: &'a Pixel<C>,
+    /// Fragments to fragments of the colour of a texel, if the machine has it.
+    pub texel: Option<&'a Texel<C>>,
+    /// Products to cosines, if the machine has it.
+    pub normal: Option<&'a Normal<C>>,
     /// Fragments to fragments with a colour, if the machine has it.
     pub shade: Option<&'a Shade<C>>,
     /// Fragments to fragments lit or not, if the machine has it.
@@ -191,6 +221,8 @@ impl<const C: usize> Model<C> {
             span: Span::new(plan),
             term: plan.shade.is_there().then(|| Term::new(plan)),
             pixel: Pixel::new(plan),
+            texel: plan.shade.textures().then(|| Texel::new(plan)),
+            normal: plan.shade.normalises().then(|| Normal::new(plan)),
             shade: plan.shade.is_there().then(|| Shade::new(plan)),
             shadow: plan.shadow.is_there().then(|| Shadow::new(plan)),
             depth: Depth::new(plan),
@@ -213,17 +245,31 @@ impl<const C: usize> Model<C> {
     }
 
     /// The units as they stand, to look at.
+    #[inline(always)]
     #[must_use]
     pub fn units(&self) -> Units<'_, C> {
         let Model { setup, edge, span, pixel, depth, .. } = self;
-        let (term, shade, shadow, blend) = (self.term(), self.shade(), self.shadow(), self.blend());
-        Units { setup, edge, span, term, pixel, shade, shadow, depth, blend }
+        let (term, texel, normal, shade) = (self.term(), self.texel(), self.normal(), self.shade());
+        let (shadow, blend) = (self.shadow(), self.blend());
+        Units { setup, edge, span, term, pixel, texel, normal, shade, shadow, depth, blend }
     }
 
     /// TERM, as BLEND below.
     #[inline(always)]
     fn term(&self) -> Option<&Term> {
         self.term.as_ref().filter(|_| C > FEW)
+    }
+
+    /// TEXEL, as BLEND below.
+    #[inline(always)]
+    fn texel(&self) -> Option<&Texel<C>> {
+        self.texel.as_ref().filter(|_| C > FEW)
+    }
+
+    /// NORMAL, as BLEND below.
+    #[inline(always)]
+    fn normal(&self) -> Option<&Normal<C>> {
+        self.normal.as_ref().filter(|_| C > FEW)
     }
 
     /// SHADE, as BLEND below.
@@ -275,6 +321,8 @@ impl<const C: usize> Model<C> {
     #[inline]
     fn in_flight(&self) -> bool {
         self.depth.occupied()
+            || self.texel().is_some_and(Texel::occupied)
+            || self.normal().is_some_and(Normal::occupied)
             || self.shade().is_some_and(Shade::occupied)
             || self.shadow().is_some_and(Shadow::occupied)
             || self.blend().is_some_and(Blend::occupied)
@@ -309,21 +357,26 @@ impl<const C: usize> Model<C> {
         let seen_ready = inputs.rd_ready && block.is_none();
         let frag_ready = self.shadow().map_or(seen_ready, |shadow| shadow.frag_ready(frag, &inputs.shadow));
         let light = self.shadow().is_some_and(|shadow| !shadow.full() || shaded.is_none());
-        let cosines = if self.shade().is_some() { *self.pixel.cosines() } else { Cosines::default() };
-        let drawn_ready = self.shade().map_or(frag_ready, |shade| shade.frag_ready(&cosines, frag_ready));
+        let offered = self.units().offered(&inputs.texel);
+        let readies = self.units().readies(&offered, &inputs.texel, frag_ready);
         let there = self.term().is_none_or(|term| term.there(self.span.span()));
         let waits = Waits {
             light,
             pass: pass.is_some() && !pass_ready,
             walk: !there && self.span.span().is_some(),
-            tables: self.shade().is_some_and(|shade| shade.waits(self.pixel.frag(), &cosines)),
+            texel: self.units().texel_waits(&offered),
+            tables: self.units().tables_wait(&offered),
         };
-        let activity = self.activity(block, drawn_ready, waits);
+        let activity = self.activity(block, readies.drawn, waits);
         let outputs = Outputs {
             tri_ready: self.setup.tri_ready(),
             rd: seen.filter(|_| block.is_none()).map(|f| f.addr),
             trd: self.term().and_then(|term| term.read(self.edge.record())),
             tdata_ready: self.term().is_some_and(Term::tdata_ready),
+            xrd: self.texel().and_then(|texel| texel.read(self.pixel.frag(), self.pixel.cosines())),
+            xdata_ready: self.texel().is_some_and(|texel| texel.xdata_ready(readies.textured)),
+            rrd: self.normal().and_then(Normal::read),
+            rdata_ready: self.normal().is_some_and(Normal::rdata_ready),
             srd: self.shade().and_then(Shade::read),
             sdata_ready: self.shade().is_some_and(Shade::sdata_ready),
             mrd: self.shadow().and_then(|shadow| shadow.read(frag, inputs.shadow.on)),
@@ -355,7 +408,7 @@ impl<const C: usize> Model<C> {
             self.events.setup_overlap += u64::from(self.pixel.active());
         }
         let events = &mut self.events;
-        let span_ready = there && self.pixel.span_ready(drawn_ready);
+        let span_ready = there && self.pixel.span_ready(readies.drawn);
         let depth_inputs = DepthInputs {
             depth_func: inputs.depth_func,
             depth_write: inputs.depth_write,
@@ -374,7 +427,17 @@ impl<const C: usize> Model<C> {
         }
 
         if let Some(shade) = self.shade.as_mut().filter(|_| C > FEW) {
-            shade.step(self.pixel.frag(), &cosines, &inputs.shade, frag_ready, events);
+            let (frag, cosines) = parts(&offered.normed);
+            shade.step(frag, &cosines, &inputs.shade, frag_ready, events);
+        }
+        if let Some(normal) = self.normal.as_mut().filter(|_| C > FEW) {
+            let (frag, terms) = parts(&offered.textured);
+            normal.step(frag, &terms, &inputs.normal, readies.normed, events);
+        }
+        if let Some(texel) = self.texel.as_mut().filter(|_| C > FEW) {
+            let (frag, terms) = parts(&offered.drawn);
+            let taken = readies.textured && offered.textured.is_some();
+            texel.step(frag, &terms, &inputs.texel, taken, events);
         }
 
         // PIXEL and TERM.
@@ -384,7 +447,7 @@ impl<const C: usize> Model<C> {
             one_more(&mut self.counters.spans);
         }
         let reached = span.filter(|_| there);
-        self.pixel.step(reached, self.edge.gradient(), self.edge.kt(), walked, drawn_ready, events);
+        self.pixel.step(reached, self.edge.gradient(), self.edge.kt(), walked, readies.drawn, events);
         if let Some(term) = self.term.as_mut().filter(|_| C > FEW) {
             term.step(span, &inputs.term, span_ready, events);
         }
@@ -423,6 +486,12 @@ impl<const C: usize> Model<C> {
         if let Some(term) = &mut self.term {
             term.reset();
         }
+        if let Some(texel) = &mut self.texel {
+            texel.reset();
+        }
+        if let Some(normal) = &mut self.normal {
+            normal.reset();
+        }
         if let Some(shade) = &mut self.shade {
             shade.reset();
         }
@@ -439,6 +508,7 @@ impl<const C: usize> Model<C> {
     fn activity(&self, block: Option<Block>, frag_ready: bool, waits: Waits) -> Activity {
         if !self.pixel.advance(frag_ready) {
             match block {
+                _ if waits.texel => Activity::Texel,
                 _ if waits.tables => Activity::Shade,
                 _ if waits.light => Activity::Light,
                 Some(Block::Hazard) => Activity::Hazard,

@@ -11,12 +11,14 @@ pub struct Pass {
     pub state: DrawState,
     /// The depth memory is cleared first.
     pub clear_depth: bool,
+    /// With SHADOW the map that is looked up, by its place among those that come with the passes; none: that of the pass before.
+    pub map: Option<usize>,
 }
 
 impl Pass {
     /// All triangles by the same rules.
     #[must_use]
     pub fn all(state: DrawState) -> Pass {
-        Pass { triangles: usize::MAX, state, clear_depth: false }
+        Pass { triangles: usize::MAX, state, clear_depth: false, map: None }
     }
 }

@@ -261,7 +261,8 @@ impl<const C: usize> Pixel<C> {
             let (fraction, bits) = self.term_formats[i];
             (((self.walked.terms[i].v >> fraction) << (64 - bits)) as i64 >> (64 - bits)) as i32 // b <= 32
         };
-        Cosines { terms: std::array::from_fn(output), material: self.walked.material }
+        let Walked { material, gloss, .. } = self.walked;
+        Cosines { terms: std::array::from_fn(output), material, gloss }
     }
 
     #[inline]

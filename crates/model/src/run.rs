@@ -6,7 +6,10 @@
 //! ```
 
 use crate::color_memory::ColorMemory;
-use crate::machine::{BlendInputs, Inputs, Model, Outputs, ShadeInputs, ShadowInputs, TermInputs};
+use crate::frame::Shading;
+use crate::machine::{
+    BlendInputs, Inputs, Model, NormalInputs, Outputs, ShadeInputs, ShadowInputs, TermInputs, TexelInputs,
+};
 use crate::map_memory::MapMemory;
 use crate::memory::Memory;
 use crate::tokens::{ColorWrite, FEW, OutputWords, Write};
@@ -57,6 +60,10 @@ pub struct Rig<const C: usize> {
     pub memory: Memory<C>,
     /// With TERM the records of the terms.
     pub terms: Option<WordMemory>,
+    /// With TEXEL the materials' textures.
+    pub textures: Option<WordMemory>,
+    /// With NORMAL its roots.
+    pub roots: Option<WordMemory>,
     /// With SHADE the materials' tables.
     pub tables: Option<WordMemory>,
     /// With SHADOW the light's map.
@@ -106,10 +113,29 @@ impl<const C: usize> Rig<C> {
             model: Model::new(plan),
             memory: Memory::new(plan, state.clear, waits),
             terms: plan.shade.is_there().then(|| WordMemory::new(plan.shade.term_latency, waits, 3)),
+            textures: plan.shade.textures().then(|| WordMemory::new(plan.shade.texel_latency, waits, 6)),
+            roots: plan.shade.normalises().then(|| WordMemory::new(plan.shade.root_latency, waits, 5)),
             tables: plan.shade.is_there().then(|| WordMemory::new(plan.shade.table_latency, waits, 4)),
             map: plan.shadow.is_there().then(|| MapMemory::new(plan, waits)),
             color: plan.blend.is_there().then(|| ColorMemory::new(plan, state.clear, waits)),
             state,
+        }
+    }
+
+    /// Writes tables, roots, textures, and the records of the first triangles, as many as the memory holds; the machine is idle.
+    pub fn write_shading(&mut self, plan: &Plan, shading: &Shading) {
+        if let Some(tables) = &mut self.tables {
+            tables.write(0, shading.tables.iter().copied());
+        }
+        if let Some(textures) = &mut self.textures {
+            textures.write(0, shading.textures.iter().copied());
+        }
+        if let Some(roots) = &mut self.roots {
+            roots.write(0, shading.roots.iter().copied());
+        }
+        let records = shading.records.iter().enumerate().take(1 << plan.shade.record_bits);
+        for (triangle, record) in records {
+            self.write_record(plan, triangle, record);
         }
     }
 
@@ -147,6 +173,8 @@ impl<const C: usize> Rig<C> {
             data: self.memory.data(),
             wr_ready: self.memory.wr_ready() && writes_open,
             term: self.term_inputs(),
+            texel: self.texel_inputs(),
+            normal: self.normal_inputs(),
             shade: self.shade_inputs(),
             shadow: self.shadow_inputs(),
             blend: self.blend_inputs(writes_open),
@@ -168,6 +196,14 @@ impl<const C: usize> Rig<C> {
         if let Some(terms) = self.terms.as_mut().filter(|_| C > FEW) {
             let read = outputs.trd.filter(|_| inputs.term.trd_ready);
             terms.step(read, inputs.term.tdata.is_some() && outputs.tdata_ready);
+        }
+        if let Some(textures) = self.textures.as_mut().filter(|_| C > FEW) {
+            let read = outputs.xrd.filter(|_| inputs.texel.xrd_ready);
+            textures.step(read, inputs.texel.xdata.is_some() && outputs.xdata_ready);
+        }
+        if let Some(roots) = self.roots.as_mut().filter(|_| C > FEW) {
+            let read = outputs.rrd.filter(|_| inputs.normal.rrd_ready);
+            roots.step(read, inputs.normal.rdata.is_some() && outputs.rdata_ready);
         }
         if let Some(tables) = self.tables.as_mut().filter(|_| C > FEW) {
             let read = outputs.srd.filter(|_| inputs.shade.srd_ready);
@@ -194,6 +230,20 @@ impl<const C: usize> Rig<C> {
     fn term_inputs(&self) -> TermInputs {
         let Some(terms) = self.terms.as_ref().filter(|_| C > FEW) else { return TermInputs::default() };
         TermInputs { trd_ready: terms.read_ready(), tdata: terms.data().map(|word| word as u64) }
+    }
+
+    #[inline(always)]
+    fn texel_inputs(&self) -> TexelInputs {
+        let Some(textures) = self.textures.as_ref().filter(|_| C > FEW) else {
+            return TexelInputs::default();
+        };
+        TexelInputs { xrd_ready: textures.read_ready(), xdata: textures.data() }
+    }
+
+    #[inline(always)]
+    fn normal_inputs(&self) -> NormalInputs {
+        let Some(roots) = self.roots.as_ref().filter(|_| C > FEW) else { return NormalInputs::default() };
+        NormalInputs { rrd_ready: roots.read_ready(), rdata: roots.data() }
     }
 
     #[inline(always)]

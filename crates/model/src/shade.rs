@@ -12,7 +12,10 @@
 //!
 //! Rules: `docs/machine.md`, section 12. Not modelled: nothing.
 
+mod view;
+
 use crate::Events;
+use crate::fetch::Fetch;
 use crate::term::MAX_TERMS;
 use crate::tokens::Fragment;
 use edgewalk_machine::{Plan, ShadeColour};
@@ -20,13 +23,16 @@ use edgewalk_machine::{Plan, ShadeColour};
 /// Most lights at once.
 const LIGHTS: usize = 2;
 
-/// What PIXEL adds to a fragment: the outputs of the terms, signed, and the material.
+/// What PIXEL adds to a fragment: the outputs of the terms, signed, and the material. What NORMAL gives has cosines in place
+/// of the terms.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cosines {
     /// A value a term, LSB of its output; behind the last 0.
     pub terms: [i32; MAX_TERMS],
     /// The material.
     pub material: u32,
+    /// Of the material's highlights, for NORMAL.
+    pub gloss: u32,
 }
 
 /// The unit's inputs of a cycle, but for the fragment and whether its own is taken.
@@ -64,16 +70,11 @@ pub struct Shade<const C: usize> {
     table_bits: u32,
     entry_bits: u32,
     lights: usize,
-    /// WT.
-    entries: u32,
 
     have: bool,
     /// cur.
     material: u32,
-    loading: bool,
-    /// i and j: reads sent, words come.
-    read: u32,
-    come: u32,
+    fetch: Fetch,
     /// Entries of T and S, light by light.
     tables: Vec<(u64, u32)>,
     a: Stage<[Indices; LIGHTS], C>,
@@ -94,12 +95,9 @@ impl<const C: usize> Shade<C> {
             table_bits: shade.table_bits,
             entry_bits: shade.entry_bits(),
             lights: shade.lights as usize,
-            entries: shade.entries(),
             have: false,
             material: 0,
-            loading: false,
-            read: 0,
-            come: 0,
+            fetch: Fetch::of(shade.entries()),
             tables: vec![(0, 0); shade.entries() as usize],
             a: None,
             b: None,
@@ -111,7 +109,7 @@ impl<const C: usize> Shade<C> {
     /// Synchronous reset.
     pub fn reset(&mut self) {
         self.have = false;
-        self.loading = false;
+        self.fetch.reset();
         (self.a, self.b, self.m, self.c) = (None, None, None, None);
     }
 
@@ -151,13 +149,13 @@ impl<const C: usize> Shade<C> {
     /// Address of an entry to be read.
     #[must_use]
     pub fn read(&self) -> Option<u32> {
-        (self.loading && self.read < self.entries).then_some(self.material << self.entry_bits | self.read)
+        self.fetch.read().map(|entry| self.material << self.entry_bits | entry)
     }
 
     /// An entry can be taken.
     #[must_use]
     pub fn sdata_ready(&self) -> bool {
-        self.loading
+        self.fetch.loading()
     }
 
     /// Clock edge.
@@ -170,16 +168,15 @@ impl<const C: usize> Shade<C> {
         events: &mut Events,
     ) {
         let waits = self.waits(frag, cosines);
-        if self.loading {
+        if self.fetch.loading() {
             self.load(inputs, events);
         } else if waits && self.occupied() {
             events.tables_drain += u64::from(self.have);
         } else if waits {
             events.material_change += u64::from(self.have);
-            self.loading = true;
+            self.fetch.begin();
             self.have = false;
             self.material = cosines.material;
-            (self.read, self.come) = (0, 0);
         }
         if !self.advance(tinted_ready) {
             events.shade_stall += 1;
@@ -199,19 +196,13 @@ impl<const C: usize> Shade<C> {
     }
 
     fn load(&mut self, inputs: &ShadeInputs, events: &mut Events) {
-        if self.read < self.entries {
-            self.read += u32::from(inputs.srd_ready);
-            events.table_read_stall += u64::from(!inputs.srd_ready);
-        }
+        events.table_read_stall += u64::from(self.fetch.send(inputs.srd_ready));
         let Some(word) = inputs.sdata else { return };
         let highlight = word as u32 & self.largest(); // b <= 16 bits
-        self.tables[self.come as usize] = ((word >> self.color_bits) as u64, highlight);
-        self.come += 1;
-        if self.come == self.entries {
-            self.loading = false;
-            self.have = true;
-            events.tables_read += 1;
-        }
+        let (number, last) = self.fetch.take();
+        self.tables[number as usize] = ((word >> self.color_bits) as u64, highlight);
+        self.have = last;
+        events.tables_read += u64::from(last);
     }
 
     /// 2^b - 1.

@@ -12,8 +12,12 @@
 //! Rules: `docs/machine.md`, section 11. Not modelled: the operations of a step one by one; nothing shows a word before the
 //! step is done, only their clocks are seen.
 
+mod view;
+
 use crate::Events;
+use crate::fetch::Fetch;
 use crate::tokens::{Span, sign_extend};
+use edgewalk_machine::shading::GLOSS_BITS;
 use edgewalk_machine::{Plan, Walk};
 
 /// Most terms of a machine.
@@ -40,6 +44,8 @@ pub struct Walked {
     pub terms: [Steps; MAX_TERMS],
     /// The material.
     pub material: u32,
+    /// Of the material's highlights, for NORMAL.
+    pub gloss: u32,
 }
 
 /// The unit's inputs of a cycle, but for the span and whether PIXEL takes one.
@@ -64,26 +70,25 @@ pub struct Term {
     in_memory: bool,
     column_bits: u32,
     line_mask: u32,
-    material_mask: u32,
-    /// WR and wb.
-    length: u32,
+    /// μ, and the bits of gloss.
+    material_bits: u32,
+    gloss_mask: u32,
+    /// wb.
     place_bits: u32,
     /// Words of the terms in a record, in order: which term, which of its words.
     layout: Vec<(usize, usize)>,
     /// S: operations of a step with the words in a memory.
     operations: u32,
 
-    loading: bool,
+    fetch: Fetch,
     begun: bool,
-    /// i and j: reads sent, words come.
-    read: u32,
-    come: u32,
     x: i32,
     y: u32,
     /// Clocks of the step that are done; with a memory `op`, else `half`.
     done: u32,
     under_way: bool,
     material: u32,
+    gloss: u32,
     terms: [Words; MAX_TERMS],
 }
 
@@ -99,27 +104,26 @@ impl Term {
             in_memory: plan.shade.walk == Walk::Memory,
             column_bits: plan.widths().column,
             line_mask: (1 << plan.widths().y) - 1,
-            material_mask: (1 << plan.shade.material_bits) - 1,
-            length: plan.record_length(),
+            material_bits: plan.shade.material_bits,
+            gloss_mask: if plan.shade.normalises() { (1 << GLOSS_BITS) - 1 } else { 0 },
             place_bits: plan.record_place_bits(),
             layout: terms.iter().enumerate().flat_map(words).collect(),
             operations: (terms.len() + 2 * quadratics) as u32, // at most 24
-            loading: false,
+            fetch: Fetch::of(plan.record_length()),
             begun: false,
-            read: 0,
-            come: 0,
             x: 0,
             y: 0,
             done: 0,
             under_way: false,
             material: 0,
+            gloss: 0,
             terms: [[0; 6]; MAX_TERMS],
         }
     }
 
     /// Synchronous reset.
     pub fn reset(&mut self) {
-        self.loading = false;
+        self.fetch.reset();
         self.begun = false;
         self.done = 0;
         self.under_way = false;
@@ -127,7 +131,7 @@ impl Term {
 
     /// The span belongs to the words that are here.
     fn fits<const C: usize>(&self, span: &Span<C>) -> bool {
-        !self.loading && (self.begun || !span.fresh)
+        !self.fetch.loading() && (self.begun || !span.fresh)
     }
 
     /// The walk stands at the span's first pixel.
@@ -150,20 +154,20 @@ impl Term {
     /// Address of a word of the record to be read.
     #[must_use]
     pub fn read(&self, record: u32) -> Option<u32> {
-        (self.loading && self.read < self.length).then_some(record << self.place_bits | self.read)
+        self.fetch.read().map(|word| record << self.place_bits | word)
     }
 
     /// A word of the record can be taken.
     #[must_use]
     pub fn tdata_ready(&self) -> bool {
-        self.loading
+        self.fetch.loading()
     }
 
     /// What goes on with the span that is there.
     #[must_use]
     pub fn walked(&self) -> Walked {
         let terms = self.terms.map(|[v, g, _, gg, ..]| Steps { v, g, gg });
-        Walked { terms, material: self.material }
+        Walked { terms, material: self.material, gloss: self.gloss }
     }
 
     /// Clock edge. `taken`: PIXEL takes the span that is there.
@@ -174,7 +178,7 @@ impl Term {
         taken: bool,
         events: &mut Events,
     ) {
-        if self.loading {
+        if self.fetch.loading() {
             self.load(inputs, events);
             return;
         }
@@ -182,8 +186,7 @@ impl Term {
         if taken {
             self.begun = false;
         } else if !self.fits(span) {
-            self.loading = true;
-            (self.read, self.come) = (0, 0);
+            self.fetch.begin();
         } else if !self.stands_at(span) {
             self.under_way = self.in_memory;
             self.walk(span, events);
@@ -195,26 +198,23 @@ impl Term {
     }
 
     fn load(&mut self, inputs: &TermInputs, events: &mut Events) {
-        if self.read < self.length {
-            self.read += u32::from(inputs.trd_ready);
-            events.term_read_stall += u64::from(!inputs.trd_ready);
-        }
+        events.term_read_stall += u64::from(self.fetch.send(inputs.trd_ready));
         let Some(word) = inputs.tdata else { return };
-        match self.come {
+        let (number, last) = self.fetch.take();
+        match number {
             0 => self.x = sign_extend(word as i32, self.column_bits),
             1 => self.y = word as u32 & self.line_mask,
-            2 => self.material = word as u32 & self.material_mask,
+            2 => {
+                self.material = word as u32 & ((1 << self.material_bits) - 1);
+                self.gloss = (word >> self.material_bits) as u32 & self.gloss_mask;
+            }
             place => {
                 let (term, which) = self.layout[place as usize - 3];
                 self.terms[term][which] = word;
             }
         }
-        self.come += 1;
-        if self.come == self.length {
-            self.loading = false;
-            self.begun = true;
-            events.record_read += 1;
-        }
+        self.begun = last;
+        events.record_read += u64::from(last);
     }
 
     /// A clock of the step that leads on to the span.

@@ -4,7 +4,7 @@ mod common;
 
 use common::{Triangle, moved, random_values, render};
 use edgewalk_machine::keys::{Domain, KEYS};
-use edgewalk_machine::{BlendKind, ForeignVertex, Machine, Plan, ShadeKind};
+use edgewalk_machine::{BlendKind, ForeignVertex, Machine, Plan, ShadeKind, ShadowLight};
 use edgewalk_model::fast::{self, Path, Reason, Refusal};
 use edgewalk_model::{Activity, DrawState, Events, Frame, Stalls};
 use rand::{Rng, SeedableRng, rngs::StdRng};
@@ -26,6 +26,9 @@ fn random_machine(rng: &mut impl Rng) -> Plan {
         }
         if rng.random_bool(0.8) {
             machine.blend.kind = BlendKind::None; // others too
+        }
+        if rng.random_bool(0.9) {
+            machine.shadow.light = ShadowLight::None; // and these
         }
         if rng.random_bool(0.9) {
             machine.shade.kind = ShadeKind::None; // and others
@@ -111,7 +114,8 @@ fn compare(machine: &Plan, triangles: &[Triangle], state: DrawState) -> Path {
 #[test]
 fn random_machines_equal_ticking() {
     let mut rng = StdRng::seed_from_u64(1);
-    let (mut fast, mut channels, mut blend, mut shade, mut queue, mut interlock) = (0, 0, 0, 0, 0, 0);
+    let (mut fast, mut channels, mut shadow, mut blend, mut shade, mut queue, mut interlock) =
+        (0, 0, 0, 0, 0, 0, 0);
     let mut fragments = 0;
     for _ in 0..600 {
         let machine = random_machine(&mut rng);
@@ -126,6 +130,7 @@ fn random_machines_equal_ticking() {
             match compare(&machine, &triangles, state) {
                 Path::Fast => fast += 1,
                 Path::Ticked(Reason::Channels) => channels += 1,
+                Path::Ticked(Reason::Shadow) => shadow += 1,
                 Path::Ticked(Reason::Blend) => blend += 1,
                 Path::Ticked(Reason::Shade) => shade += 1,
                 Path::Ticked(Reason::Passes) => unreachable!("one pass"),
@@ -137,11 +142,11 @@ fn random_machines_equal_ticking() {
         }
     }
     println!(
-        "1800 frames, {fragments} triangles: {fast} fast; ticked: {channels} for their channels, {blend} for BLEND, {shade} for SHADE, {queue} for the queue, \
+        "1800 frames, {fragments} triangles: {fast} fast; ticked: {channels} for their channels, {shadow} for SHADOW, {blend} for BLEND, {shade} for SHADE, {queue} for the queue, \
          {interlock} for an interlock"
     );
     assert!(fast > queue + interlock, "more than half of those with four channels must take the fast path");
-    assert!(channels > 0 && blend > 0 && shade > 0 && queue > 0 && interlock > 0);
+    assert!(channels > 0 && shadow > 0 && blend > 0 && shade > 0 && queue > 0 && interlock > 0);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::shade::{colour, leftward, output, random_shading, words};
+use common::shade::{colour, cosines, leftward, output, random_shading, textured, true_roots, words};
 use common::{ALWAYS, Triangle, machine, place, random_machine, random_triangle};
 use edgewalk_machine::{Activity, Entry, Plan, Record};
 use edgewalk_model::{Drawn, Events, Frame, Pass, Shading, Stalls, render_shaded};
@@ -24,7 +24,7 @@ fn fragments(
         }
     };
     let passes = [Pass::all(ALWAYS)];
-    let frame = render_shaded(plan, triangles.iter().copied(), &passes, stalls, shading, hook)
+    let frame = render_shaded(plan, triangles.iter().copied(), &passes, &[], stalls, shading, hook)
         .expect("this machine's vertices");
     (all, frame)
 }
@@ -41,9 +41,11 @@ fn compare(plan: &Plan, triangles: &[Triangle], shading: &Shading, stalls: Stall
         let record = &shading.records[*id as usize];
         let left = leftward(plan, &triangles[*id as usize]);
         let words = words(plan, record, left, place(plan, *addr));
-        let cosines: Vec<i64> =
+        let outputs: Vec<i64> =
             plan.terms().iter().zip(words).map(|(term, word)| output(term, word)).collect();
+        let cosines = cosines(plan, &shading.roots, record, &outputs);
         let own = [before.2[1], before.2[2], before.2[3]];
+        let own = textured(plan, &shading.textures, record.material, &outputs, own);
         let wanted = colour(plan, &shading.tables, record.material, &cosines, own);
         let mut all = before.2.clone();
         all[1..4].copy_from_slice(&wanted);
@@ -57,13 +59,15 @@ fn compare(plan: &Plan, triangles: &[Triangle], shading: &Shading, stalls: Stall
 fn three_hundred_machines_draw_what_their_words_and_tables_ask_for() {
     let mut rng = StdRng::seed_from_u64(5);
     let (mut checked, mut events) = (0, Events::default());
-    let mut spent = [0; 2];
+    let mut spent = [0; 3];
     for number in 0..300u64 {
         let fixed = [
-            ("shade.kind", "fast-phong"),
+            ("shade.kind", if number % 2 == 0 { "fast-phong" } else { "phong" }),
             ("screen.width", "53"),
             ("screen.height", "39"),
             ("screen.guard_bits", "8"),
+            ("texture.kind", if number % 5 < 2 { "nearest" } else { "none" }),
+            ("texture.bits", ["1", "2", "5", "7"][number as usize % 4]),
             ("term.record_bits", if number % 10 == 0 { "2" } else { "5" }),
         ];
         let plan = random_machine(&fixed, &mut rng);
@@ -82,14 +86,15 @@ fn three_hundred_machines_draw_what_their_words_and_tables_ask_for() {
         let (drawn, frame) = compare(&plan, &triangles, &shading, stalls);
         checked += drawn;
         events.merge(&frame.events);
-        for (sum, activity) in spent.iter_mut().zip([Activity::Term, Activity::Shade]) {
+        for (sum, activity) in spent.iter_mut().zip([Activity::Term, Activity::Shade, Activity::Texel]) {
             *sum += frame.counters.spent(activity);
         }
     }
-    println!("300 machines, {checked} fragments equal; clocks lost to TERM and SHADE {spent:?}");
+    println!("300 machines, {checked} fragments equal; clocks lost to TERM, SHADE and TEXEL {spent:?}");
     assert!(checked > 100_000 && spent.iter().all(|clocks| *clocks > 0));
     for (name, count) in events.counts() {
-        let units = [&edgewalk_machine::units::term::SPEC, &edgewalk_machine::units::shade::SPEC];
+        use edgewalk_machine::units::{normal, shade, term, texel};
+        let units = [&term::SPEC, &texel::SPEC, &normal::SPEC, &shade::SPEC];
         let own = units.iter().flat_map(|unit| unit.events).any(|event| event.name == name);
         assert!(!own || count > 0, "{name} was not met");
     }
@@ -159,6 +164,88 @@ fn words_at_the_ends_of_the_tables() {
     assert!(checked > 4 * 168 * 20);
 }
 
+/// A machine with all of it on a small screen, a triangle over most of that for each record, tables, and a texture.
+fn flat_pictures(
+    kind: &str,
+    side: &str,
+    records: Vec<Record>,
+    rng: &mut StdRng,
+) -> (Plan, Vec<Triangle>, Shading) {
+    let plan = machine(&[
+        ("shade.kind", kind),
+        ("shade.colour", "multiply"),
+        ("shade.material_bits", "0"),
+        ("texture.kind", "nearest"),
+        ("texture.bits", side),
+        ("term.fraction", "3"),
+        ("term.linear_fraction", "2"),
+        ("screen.width", "8"),
+        ("screen.height", "8"),
+        ("screen.guard_bits", "6"),
+    ]);
+    let color = [0, 4000, 2000, 77];
+    let [a, b, c] = [(-256, -256), (3000, 0), (0, 3000)].map(|(x, y)| plan.raw_vertex(x, y, &color));
+    let triangles = vec![[a, b, c]; records.len()];
+    let shading = Shading { records, roots: true_roots(&plan), ..random_shading(&plan, &triangles, rng) };
+    (plan, triangles, shading)
+}
+
+/// Normals of length exactly half and exactly 1, a unit beside, none at all, and products of any sign and size beside them.
+#[test]
+fn normals_at_the_ends_of_their_lengths() {
+    let mut rng = StdRng::seed_from_u64(16);
+    let one = 1i64 << 16;
+    let mut records = Vec::new();
+    for square in [-2 * one, -1, 0, one / 4 - 1, one / 4, one / 4 + 255, one / 2, one - 1, one, 2 * one - 1] {
+        for product in [-2 * one, -one, -1, 0, 1, one / 2, one - 1, one, 2 * one - 1] {
+            for gloss in [0, 1, 4, 8, 15] {
+                let highlight = rng.random_range(one / 2..=one);
+                let linear = |value: i64| [(value * 4) as u64, 0, 0, 0, 0, 0];
+                let others = [linear(0), linear(0)];
+                let quadratic = [(square * 8) as u64, 0, 0, 0, 0, 0];
+                let terms =
+                    [linear(product), linear(highlight), quadratic].into_iter().chain(others).collect();
+                records.push(Record { terms, gloss, ..Record::default() });
+            }
+        }
+    }
+    let (plan, triangles, shading) = flat_pictures("phong", "2", records, &mut rng);
+    let (checked, frame) = compare(&plan, &triangles, &shading, Stalls::NONE);
+    let events = frame.events;
+    println!(
+        "{checked} fragments; short {}, long {}, cut {}",
+        events.normal_short, events.normal_long, events.cosine_cut
+    );
+    assert!(checked > 450 * 20 && events.normal_short > 0 && events.normal_long > 0 && events.cosine_cut > 0);
+}
+
+/// Textures of 2 to 2048 texels a side, walked over their ends in both directions.
+#[test]
+fn textures_repeat() {
+    let mut rng = StdRng::seed_from_u64(17);
+    let mut checked = 0;
+    for side in ["1", "5", "11"] {
+        let texels = 1i64 << side.parse::<u32>().expect("a number");
+        let steps =
+            [(-4, 0), (4, 0), (0, 4), (0, -4), (5, -3), (4 * texels, -4 * texels), (4 * texels - 1, 1)];
+        let records = steps.map(|(across, down)| {
+            let walk = |first: i64| [first, across, down].map(|word| word as u64);
+            let linear = |first: i64| {
+                let [v, x, y] = walk(first);
+                [v, x, y, 0, 0, 0]
+            };
+            // Three texels before the end, and at its beginning.
+            let terms =
+                vec![[2000, 0, 0, 0, 0, 0], [1000, 0, 0, 0, 0, 0], linear(4 * (texels - 3)), linear(-1)];
+            Record { terms, ..Record::default() }
+        });
+        let (plan, triangles, shading) = flat_pictures("fast-phong", side, records.to_vec(), &mut rng);
+        checked += compare(&plan, &triangles, &shading, Stalls::NONE).0;
+    }
+    println!("{checked} fragments of textures that repeat");
+    assert!(checked > 21 * 20);
+}
+
 /// Records of culled triangles are stepped over: 17 between two that are drawn, and more triangles than records.
 #[test]
 fn culled_triangles_have_records_that_nobody_reads() {
@@ -180,13 +267,36 @@ fn culled_triangles_have_records_that_nobody_reads() {
     assert!(checked > 500 && (1..=6).contains(&frame.events.record_read));
 }
 
+/// Roots of the whole range of N·N, every value of it, against f64.
+#[test]
+fn roots_are_as_near_as_the_specification_says() {
+    let plan = machine(&[("shade.kind", "phong")]);
+    let roots = true_roots(&plan);
+    let (mut at, mut cut, mut checked) = (0.0f64, 0.0f64, 0);
+    for s in 1u64 << 14..1 << 16 {
+        let (v, slope) = ((roots[s as usize >> 8] >> 10) as f64, roots[s as usize >> 8] as u64 & 1023);
+        let y = v - ((slope * (s & 255) + 128) / 256) as f64;
+        let error = |square: u64| (y / 65536.0 * (square as f64 / 65536.0).sqrt() - 1.0).abs();
+        at = at.max(error(s));
+        cut = cut.max(error(s + 1)); // N·N lay just below s + 1 before it was cut
+        checked += 1;
+    }
+    println!(
+        "{checked} roots, largest relative error 2^{:.2}, with the cut of N·N 2^{:.2}",
+        at.log2(),
+        cut.log2()
+    );
+    assert!(checked == 49_152 && at < 2f64.powf(-15.6) && cut < 2f64.powf(-14.3) && cut > at);
+}
+
 /// One fragment a clock: SHADE adds its stages, and nothing a fragment.
 #[test]
 fn shading_costs_no_clock_a_pixel() {
     let mut rng = StdRng::seed_from_u64(9);
-    for (colour, stages) in [("tables", 3), ("multiply", 4)] {
-        let plan =
-            machine(&[("shade.kind", "fast-phong"), ("shade.colour", colour), ("shade.table_bits", "8")]);
+    for (kind, colour, stages, roots) in
+        [("fast-phong", "tables", 3, 0), ("fast-phong", "multiply", 4, 0), ("phong", "tables", 8, 259)]
+    {
+        let plan = machine(&[("shade.kind", kind), ("shade.colour", colour), ("shade.table_bits", "8")]);
         let vertex = |x, y| plan.raw_vertex(x, y, &[0; 4]);
         let triangle = [vertex(0, 0), vertex(600 * 256, 0), vertex(0, 400 * 256)];
         let mut shading = random_shading(&plan, &[triangle], &mut rng);
@@ -200,7 +310,7 @@ fn shading_costs_no_clock_a_pixel() {
         );
         assert_eq!(counters.spent(Activity::Draw), checked as u64);
         // The record: begin, 15 words, latency; and the span is there. The tables: as many with 256 words.
-        assert_eq!((term, shade), (15 + 2 + 1, 256 + 2 + 1));
+        assert_eq!((term, shade), (15 + 2 + 1, roots + 256 + 2 + 1));
         assert_eq!(counters.spent(Activity::Flush), 1 + stages + 2 + 1);
     }
 }

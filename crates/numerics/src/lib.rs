@@ -13,6 +13,8 @@ pub mod normal_cone;
 pub mod blend;
 pub mod witness;
 pub mod solver;
+pub mod term;
+pub mod index_table;
 pub mod budget;
 
 pub use blend::{blend_error, blend_error_of_golden};

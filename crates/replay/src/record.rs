@@ -2,7 +2,7 @@
 
 use crate::recording::{Recorder, Recording};
 use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
-use edgewalk_model::{Cycle, DrawState, Rig, Stalls, for_channels};
+use edgewalk_model::{Cycle, DrawState, Rig, Shading, Stalls, for_channels};
 
 /// The most cycles that a replay holds: about 200 MB in a browser and two seconds until they can be seen.
 pub const LIMIT: u64 = 200_000;
@@ -22,9 +22,18 @@ pub enum RecordError {
     /// A machine with SHADOW.
     #[error("a replay does not show SHADOW; set shadow.light = none")]
     Shadow,
-    /// A machine with TERM and SHADE.
-    #[error("a replay does not show TERM and SHADE; set shade.kind = none")]
-    Shade,
+    /// A machine with TERM and SHADE, and not a record for each triangle, or more than its memory holds.
+    #[error(
+        "{triangles} triangles and {records} records of their terms: permitted: as many, and at most {most}; or set shade.kind = none"
+    )]
+    Records {
+        /// Triangles to be drawn.
+        triangles: usize,
+        /// Records there are.
+        records: usize,
+        /// Records that the memory holds.
+        most: usize,
+    },
     /// The triangles are for another machine.
     #[error(transparent)]
     Vertex(#[from] ForeignVertex),
@@ -62,27 +71,44 @@ pub fn record(
     stalls: Stalls,
     window: Window,
 ) -> Result<Recording, RecordError> {
+    record_shaded(plan, triangles, &Shading::default(), state, stalls, window)
+}
+
+/// As [`record`], on a machine with TERM and SHADE.
+///
+/// # Errors
+/// As those, and a number of records that is not that of the triangles.
+pub fn record_shaded(
+    plan: &Plan,
+    triangles: &[[PortVertex; 3]],
+    shading: &Shading,
+    state: DrawState,
+    stalls: Stalls,
+    window: Window,
+) -> Result<Recording, RecordError> {
     if plan.shadow.is_there() {
         return Err(RecordError::Shadow);
     }
-    if plan.shade.is_there() {
-        return Err(RecordError::Shade);
+    let (records, most) = (shading.records.len(), 1 << plan.shade.record_bits);
+    if plan.shade.is_there() && (records != triangles.len() || records > most) {
+        return Err(RecordError::Records { triangles: triangles.len(), records, most });
     }
     for (triangle, number) in triangles.iter().zip(0..) {
         plan.accept(triangle, number)?;
     }
-    for_channels!(plan, C => run::<C>(plan, triangles, state, stalls, window))
+    for_channels!(plan, C => run::<C>(plan, triangles, shading, state, stalls, window))
 }
 
 fn run<const C: usize>(
     plan: &Plan,
     triangles: &[[PortVertex; 3]],
+    shading: &Shading,
     state: DrawState,
     stalls: Stalls,
     window: Window,
 ) -> Result<Recording, RecordError> {
     let mut total = 0;
-    let mut dry = Run::<C>::new(plan, triangles, state, stalls);
+    let mut dry = Run::<C>::new(plan, triangles, shading, state, stalls);
     while !dry.ended {
         dry.cycle();
         total += 1;
@@ -95,7 +121,7 @@ fn run<const C: usize>(
     if asked > LIMIT {
         return Err(RecordError::TooLong { asked, total });
     }
-    let mut run = Run::<C>::new(plan, triangles, state, stalls);
+    let mut run = Run::<C>::new(plan, triangles, shading, state, stalls);
     for _ in 0..window.from {
         run.cycle();
     }
@@ -123,8 +149,16 @@ struct Run<'a, const C: usize> {
 }
 
 impl<'a, const C: usize> Run<'a, C> {
-    fn new(plan: &Plan, triangles: &'a [[PortVertex; 3]], state: DrawState, stalls: Stalls) -> Self {
-        Run { rig: Rig::new(plan, state, stalls), waiting: triangles, ended: false }
+    fn new(
+        plan: &Plan,
+        triangles: &'a [[PortVertex; 3]],
+        shading: &Shading,
+        state: DrawState,
+        stalls: Stalls,
+    ) -> Self {
+        let mut rig = Rig::new(plan, state, stalls);
+        rig.write_shading(plan, shading);
+        Run { rig, waiting: triangles, ended: false }
     }
 
     fn offered(&self) -> Option<(&'a [PortVertex; 3], u32)> {

@@ -21,6 +21,8 @@ mod term;
 
 mod pixel;
 
+mod missing;
+
 mod shade;
 
 mod rmw;
@@ -42,6 +44,7 @@ pub use depth::depth;
 pub use edge::edge;
 pub use machine::{assemble, engine, machine};
 pub use memory::memory;
+pub use missing::{normal, texel};
 pub use pixel::pixel;
 pub use setup::setup;
 pub use shade::shade;
@@ -56,6 +59,8 @@ pub const BUILDERS: &[(&str, units::Build)] = &[
     ("span", span),
     ("term", term),
     ("pixel", pixel),
+    ("texel", texel),
+    ("normal", normal),
     ("shade", shade),
     ("shadow", shadow),
     ("depth", depth),

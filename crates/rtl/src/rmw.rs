@@ -281,17 +281,27 @@ impl<'m> Rmw<'m> {
         let after_w = |(i, place): (usize, &Place<'m>)| {
             self.w.of(place.entry["addr"].q()).named(&format!("place{i}_after_w"))
         };
-        let after_w: Vec<Signal> = self.places.iter().enumerate().map(after_w).collect();
+        // Where w takes the head itself, nobody stands in the last place in the cycle in which w is new: the head has just left.
+        let matched = self.places.len() - usize::from(self.stages.is_empty());
+        let after_w: Vec<Signal> = self.places.iter().enumerate().take(matched).map(after_w).collect();
         let enters_after_w = self.w.of(enters_addr).named("enters_after_w");
         for (i, place) in self.places.iter().enumerate() {
             let Some(own) = &place.forwarded else { continue };
-            let stays = after_w[i];
-            own.valid.when(stays, 1);
-            own.word.load(stays, |f| self.w[f].q());
+            if let Some(stays) = after_w.get(i).copied() {
+                own.valid.when(stays, 1);
+                own.word.load(stays, |f| self.w[f].q());
+            }
             if let Some(Place { forwarded: Some(from), .. }) = self.places.get(i + 1) {
-                let same = after_w[i + 1];
-                own.valid.when(pop, from.valid.q() | same);
-                own.word.load(pop, |f| same.mux(self.w[f], from.word[f]));
+                match after_w.get(i + 1).copied() {
+                    Some(same) => {
+                        own.valid.when(pop, from.valid.q() | same);
+                        own.word.load(pop, |f| same.mux(self.w[f], from.word[f]));
+                    }
+                    None => {
+                        own.valid.when(pop, from.valid.q());
+                        own.word.load(pop, |f| from.word[f].q());
+                    }
+                }
             }
             own.valid.when(enters[i], enters_after_w);
             own.word.load(enters[i], |f| self.w[f].q());

@@ -147,6 +147,7 @@ fn words_are_those_of_the_formula_in_the_clocks_that_are_said() {
             let leftward = rng.random_bool(0.5);
             let mut at = Pixel { x: rng.random_range(-9..40), y: rng.random_range(0..lines) };
             let record = Record {
+                gloss: 0,
                 x: at.x as i32,
                 y: at.y as u32,
                 material: rng.random_range(0..1 << plan.shade.material_bits),

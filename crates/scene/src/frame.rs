@@ -1,6 +1,8 @@
 //! A frame: the screen, the rules for depth and blending, and triangles and polygons in pixels.
 
+use crate::band::Host;
 use crate::pass::{Blending, Change};
+use crate::pixel_shading::PixelShading;
 
 /// Largest side of a screen, pixels.
 pub const MAX_SIDE: u32 = 16384;
@@ -8,6 +10,9 @@ pub const MAX_SIDE: u32 = 16384;
 /// Largest |x| or |y| of a vertex, pixels. Times 2^8 sub-pixels it is an integer below 2^28, so edge products stay
 /// far inside 64 bits.
 pub const MAX_COORDINATE: f64 = 1e6;
+
+/// By how much a depth may lie outside of [0, 1]: what single precision makes of one that does not. It is clamped.
+pub const DEPTH_ROUNDING: f64 = 1e-5;
 
 /// Most vertices of a contour.
 pub const MAX_CONTOUR: usize = 65536;
@@ -171,12 +176,16 @@ pub struct Frame {
     pub extra: usize,
     /// The shadows of a light, if it casts any.
     pub shadow: Option<Shadow>,
+    /// The equation at each pixel, in place of the vertices' colours; without polygons where it is.
+    pub shading: Option<PixelShading>,
     /// The triangles, drawn in this order.
     pub triangles: Vec<Triangle>,
     /// Where other rules than those above begin to hold, in order ([`Frame::passes`]).
     pub changes: Vec<Change>,
     /// The polygons, in this order, each after as many triangles as it says ([`Frame::primitives`]).
     pub polygons: Vec<Polygon>,
+    /// What was done to them since the program gave them.
+    pub host: Host,
 }
 
 impl Frame {
@@ -194,8 +203,10 @@ impl Frame {
             clear: [0.0; 3],
             extra: 0,
             shadow: None,
+            shading: None,
             triangles: Vec::new(),
             polygons: Vec::new(),
+            host: Host::default(),
         }
     }
 }

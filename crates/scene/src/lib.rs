@@ -12,6 +12,7 @@ mod normals;
 mod camera;
 mod light;
 mod shading;
+mod pixel_shading;
 mod surface;
 mod clip;
 mod light_view;
@@ -21,7 +22,9 @@ pub mod triangle_file;
 mod polygon;
 mod frame;
 mod pass;
+mod band;
 
+pub use band::{Host, fits};
 pub use camera::Camera;
 pub use error::{InputError, nearest};
 pub use frame::{
@@ -33,6 +36,7 @@ pub use light_view::{InMap, LightView};
 pub use mesh::{Face, FaceData, Material, Mesh};
 pub use normals::{Crease, NormalRule, Weight};
 pub use pass::{Blending, Change, Pass, State};
+pub use pixel_shading::{PixelMethod, PixelShading, PixelTriangle, Viewer};
 pub use polygon::{CrossingEdges, Primitive, Triangulated};
 pub use scene::Scene;
 pub use shading::{LightTerms, Lighting, Point, Specular, Terms};

@@ -30,6 +30,8 @@ pub enum Texture {
     },
     /// From a file.
     Image(Arc<Image>),
+    /// The same with one colour in each texel.
+    Texels(Arc<Image>),
     /// A file that is named and is not there: white.
     Absent(String),
 }
@@ -70,6 +72,15 @@ impl Texture {
         Image::new(&picture).map(|image| Self::Image(Arc::new(image))).ok_or_else(|| fault("empty".into()))
     }
 
+    /// The same with one colour in each texel, as hardware without a filter reads it.
+    #[must_use]
+    pub fn nearest(self) -> Self {
+        match self {
+            Self::Image(image) => Self::Texels(image),
+            other => other,
+        }
+    }
+
     /// The colour at texture coordinates, [0, 1] each; pictures of files bilinear between the centres of the texels.
     pub fn at(&self, place: DVec2) -> DVec3 {
         match self {
@@ -83,6 +94,7 @@ impl Texture {
                 DVec3::splat((1.0 + wave(place.x) * wave(place.y)) / 2.0)
             }
             Self::Image(image) => image.at(place),
+            Self::Texels(image) => image.nearest(place),
             Self::Absent(_) => DVec3::ONE,
         }
     }
@@ -94,7 +106,7 @@ impl Texture {
             Self::Checker { squares: count, .. } | Self::Waves { count } => {
                 DVec2::splat(1.0 / (FINE * f64::from((*count).max(1))))
             }
-            Self::Image(image) => 1.0 / image.size(),
+            Self::Image(image) | Self::Texels(image) => 1.0 / image.size(),
             Self::Absent(_) => return DVec2::ZERO,
         };
         let height = |place: DVec2| self.at(place).element_sum() / 3.0;
@@ -125,6 +137,12 @@ impl Image {
         let part = texel - low;
         let line = |y: f64| self.texel(low.x, y).lerp(self.texel(low.x + 1.0, y), part.x);
         line(low.y).lerp(line(low.y + 1.0), part.y)
+    }
+
+    /// The texel that a place lies in.
+    fn nearest(&self, place: DVec2) -> DVec3 {
+        let texel = (DVec2::new(place.x, 1.0 - place.y) * self.size()).floor();
+        self.texel(texel.x, texel.y)
     }
 
     /// One texel of the endless repetition.

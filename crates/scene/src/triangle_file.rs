@@ -6,6 +6,7 @@
 mod shadow;
 mod extra;
 mod rules;
+mod shading;
 mod reader;
 mod writer;
 

@@ -34,6 +34,28 @@ fn v_runs_up_and_texels_mix_between_their_centres() {
 }
 
 #[test]
+fn nearest_is_the_texel_that_a_place_lies_in() {
+    let texture = four().nearest();
+    for (u, v, expected) in [
+        (0.0, 0.999, [0.0, 0.0, 0.0]),
+        (0.499, 0.501, [0.0, 0.0, 0.0]),
+        (0.5, 0.75, [1.0, 0.0, 0.0]),
+        (0.499, 0.5, [0.0, 1.0, 0.0]),
+        (0.999, 0.001, [1.0, 1.0, 1.0]),
+        (1.0, 0.75, [0.0, 0.0, 0.0]),
+        (-0.001, -0.001, [1.0, 0.0, 0.0]),
+        (2.75, 7.25, [1.0, 1.0, 1.0]),
+    ] {
+        assert_eq!(texture.at(DVec2::new(u, v)), DVec3::from(expected), "{u} {v}");
+    }
+    for strange in [f64::NAN, f64::INFINITY, -1e300, 1e300] {
+        let _ = texture.at(DVec2::splat(strange));
+    }
+    let checker = Texture::Checker { squares: 2, colors: [DVec3::ONE, DVec3::ZERO] };
+    assert_eq!(checker.clone().nearest(), checker);
+}
+
+#[test]
 fn a_checker_alternates_both_ways() {
     let texture = Texture::Checker { squares: 4, colors: [DVec3::ONE, DVec3::ZERO] };
     let red = |u: f64, v: f64| texture.at(DVec2::new(u, v)).x;

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 use edgewalk_scene::{
-    Blending, Change, DepthFunc, Frame, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_SIDE, Polygon,
+    Blending, Change, DepthFunc, Frame, Host, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_SIDE, Polygon,
     Primitive, ShadeMode, Shadow, State, Triangle, Vertex, triangle_file,
 };
 use proptest::prelude::*;
@@ -190,7 +190,7 @@ fn malformed_files_name_place_and_remedy() {
         ("\nsiez 9 9".into(), &["a.tri:2: line starts with: `siez`", "did you mean `size`"]),
         ("size 9 9\nt 0 0".into(), &["a.tri:2:", "did you mean `T`"]),
         ("size 9 9\nSIZE 9 9".into(), &["did you mean `size`"]),
-        ("size 9 9\nmode phong".into(), &["a.tri:2: mode: `phong`", "gouraud flat"]),
+        ("size 9 9\nmode phong".into(), &["a.tri:3: view: `end of file`", "missing"]),
         ("size 9 9\nmode gourad".into(), &["did you mean `gouraud`"]),
         ("size 9 9\ndepth lesss".into(), &["depth: `lesss`", "did you mean `less`"]),
         ("size 9 9\ndepth of".into(), &["depth: `of`", "did you mean `off`"]),
@@ -222,7 +222,7 @@ fn malformed_files_name_place_and_remedy() {
             format!("size 9 9\n{}", T.replacen("9 0", "1e7 0", 1)),
             &["T vertex 2 x: `1e7`", "-1000000 to 1000000"],
         ),
-        (format!("size 9 9\n# ok\n{}", "x".repeat(500)), &["a.tri:3:", "xxx...`", "size mode clear"]),
+        (format!("size 9 9\n# ok\n{}", "x".repeat(500)), &["a.tri:3:", "xxx...`", "size mode view"]),
     ];
     for (text, fragments) in cases {
         let message = match triangle_file::parse("a.tri", text.as_bytes()) {
@@ -405,6 +405,8 @@ prop_compose! {
         let changes = Vec::new();
         let mut frame = Frame {
             width, height, mode, depth, depth_write, blend, color_write, clear, extra, shadow, triangles, changes, polygons,
+            shading: None,
+            host: Host::default(),
         };
         frame.changes = changes_of(&frame, rules);
         frame

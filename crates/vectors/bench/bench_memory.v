@@ -6,7 +6,9 @@ module bench_memory #(
     parameter ADDRESS = 1,
     parameter WIDTH = 1,
     parameter LATENCY = 1,
-    parameter [WIDTH-1:0] CLEAR = 0
+    parameter [WIDTH-1:0] CLEAR = 0,
+    parameter STARTS = 0,  // words of its own, from address 0 on
+    parameter START = ""   // their file
 ) (
     input  wire               clk,
     input  wire               rst,
@@ -31,7 +33,10 @@ module bench_memory #(
     reg [WIDTH-1:0] words [0:(1 << ADDRESS) - 1];
     integer         i;
 
-    initial for (i = 0; i < (1 << ADDRESS); i = i + 1) words[i] = CLEAR;
+    initial begin
+        for (i = 0; i < (1 << ADDRESS); i = i + 1) words[i] = CLEAR;
+        if (STARTS > 0) $readmemh(START, words, 0, STARTS - 1);
+    end
 
     assign valid = !rst && first != free && due[first] <= cycle && (held || willing);
     assign data  = valid ? waiting[first] : {WIDTH{1'b0}};

@@ -6,7 +6,7 @@
 //!                                                           fed with what the one before gave
 //! ```
 
-use crate::suites::Suite;
+use crate::suites::{self, Suite};
 use edgewalk_lockstep::case::constants;
 use edgewalk_lockstep::{
     Agreement, Direction, Interface, Link, LockstepError, Pattern, Rig, Setting, StallKind, Token, Triangles,
@@ -73,7 +73,7 @@ pub fn capture_tokens(
     stalls: StallKind,
     seed: u64,
 ) -> Trace {
-    let suite = Suite { seed, ..Suite::of_triangles("tokens", "", Vec::new()) };
+    let suite = Suite { seed, map: suites::map(plan), ..Suite::of_triangles("tokens", "", Vec::new()) };
     let triangles = (0..tokens.len() as u32).collect();
     Run { plan, suite: &suite, state }.observe(unit, Stimulus { tokens, triangles }, stalls)
 }
@@ -142,8 +142,12 @@ impl Run<'_> {
         let mut setting = Setting::willing(interface, &constants(&self.state))
             .expect("a test of lockstep runs every unit with these constants");
         setting.patterns = patterns(self.plan, interface, stalls, self.suite.seed);
-        for memory in &mut setting.memories {
-            memory.clear = self.suite.clear_z.map_or(memory.clear, u128::from);
+        for (memory, declared) in setting.memories.iter_mut().zip(&interface.memories) {
+            if declared.name == "map" {
+                memory.start = self.suite.map.iter().map(|word| u128::from(*word)).collect();
+            } else {
+                memory.clear = self.suite.clear_z.map_or(memory.clear, u128::from);
+            }
         }
         Setting { tokens, ..setting }
     }

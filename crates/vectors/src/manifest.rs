@@ -13,7 +13,7 @@ pub const SCHEMA: &str = include_str!("../manifest.schema.json");
 /// Value of [`Manifest::format`].
 pub const FORMAT: &str = "edgewalk-vectors";
 /// The newest format there is; a reader refuses what is newer.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// All of `manifest.json`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -182,8 +182,11 @@ pub struct Memory {
     pub latency: u64,
     /// Words.
     pub words: u64,
-    /// Every word at the start.
+    /// Every word at the start, but for those of `start`.
     pub clear: u64,
+    /// Memory file of the first words at the start, from address 0 on; none: all are `clear`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<String>,
     /// What a read sees that fires together with a write.
     pub read_during_write: String,
 }

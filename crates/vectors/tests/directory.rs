@@ -99,11 +99,12 @@ fn the_units_one_behind_the_other_are_the_machine() {
 #[test]
 fn directed_suites_reach_every_hazard_and_corner() {
     let mut reached = edgewalk_model::Events::default();
-    for (_, machine) in common::twelve().into_iter().chain(common::glass()) {
-        for name in ["hazards", "corners", "sphere"] {
+    for (_, machine) in common::twelve().into_iter().chain(common::glass()).chain(common::lights()) {
+        let light = machine.shadow.is_there().then_some(["light", "light_off"]);
+        for name in ["hazards", "corners", "sphere"].into_iter().chain(light.into_iter().flatten()) {
             for stalls in [StallKind::None, StallKind::Mixed, StallKind::Late] {
                 let suite = suite(&machine, name);
-                reached.merge(&capture(&machine, Unit::MACHINE, &suite, DrawState::default(), stalls).events);
+                reached.merge(&capture(&machine, Unit::MACHINE, &suite, suite.state(), stalls).events);
             }
         }
     }
@@ -116,7 +117,7 @@ fn directed_suites_reach_every_hazard_and_corner() {
 #[test]
 fn the_shipped_suites_leave_nothing_uncovered() {
     let (mut lists, mut expected) = (0, 0);
-    for (name, machine) in common::twelve().into_iter().chain(common::glass()) {
+    for (name, machine) in common::twelve().into_iter().chain(common::glass()).chain(common::lights()) {
         expected += Unit::all(&machine).len();
         for unit in Unit::all(&machine) {
             let suites = SUITES.iter().filter(|entry| entry.is_for(&machine));
@@ -180,7 +181,7 @@ fn what_is_written_reads_back() {
 #[test]
 fn what_is_not_as_written_is_refused() {
     let files = small_directory();
-    let newer = replace(&files, manifest::FILE, "\"format_version\": 2", "\"format_version\": 3");
+    let newer = replace(&files, manifest::FILE, "\"format_version\": 3", "\"format_version\": 4");
     let other = replace(&files, manifest::FILE, "\"edgewalk-vectors\"", "\"something\"");
     let unknown = replace(&files, manifest::FILE, "\"unit\":", "\"colour\": 1, \"unit\":");
     let module = replace(&files, manifest::FILE, "\"module\": \"edgewalk\"", "\"module\": \"a; b\"");
@@ -190,7 +191,7 @@ fn what_is_not_as_written_is_refused() {
     let mut missing = files.clone();
     missing.retain(|(n, _)| n != "tb.v");
     let cases = [
-        (newer, "manifest.json: format_version 3 is newer than 2, the newest this program reads"),
+        (newer, "manifest.json: format_version 4 is newer than 3, the newest this program reads"),
         (other, "manifest.json: format is \"something\", not \"edgewalk-vectors\""),
         (unknown, "manifest.json: unknown field `colour`"),
         (module, "manifest.json: module \"a; b\" is no Verilog name"),
@@ -207,10 +208,13 @@ fn what_is_not_as_written_is_refused() {
 #[test]
 fn the_manifest_keeps_to_its_schema() {
     let schema: Value = serde_json::from_str(manifest::SCHEMA).expect("JSON");
-    for unit in Unit::all(&common::small()) {
-        let machine = common::small();
-        let suite = suite(&machine, "hazards");
-        let trace = capture(&machine, unit, &suite, DrawState::default(), StallKind::Late);
+    let (_, with_all) = common::lights().remove(3);
+    let machines = [common::small(), with_all];
+    let units =
+        machines.iter().flat_map(|machine| Unit::all(machine).into_iter().map(move |unit| (machine, unit)));
+    for (machine, unit) in units {
+        let suite = suite(machine, "hazards");
+        let trace = capture(machine, unit, &suite, suite.state(), StallKind::Late);
         let files = directory(&suite, &trace, &[], Tables::Written);
         let value: Value = serde_json::from_slice(&files[0].1).expect("JSON");
         let mut checked = 0;

@@ -6,6 +6,7 @@
 mod common;
 
 use common::write;
+use edgewalk_machine::Plan;
 use edgewalk_netlist::Simulator;
 use edgewalk_vectors::{StallKind, Suite, Tables, Unit, capture, design, directory, manifest};
 use serde_json::Value;
@@ -79,7 +80,8 @@ impl Stranger<'_> {
             .collect();
         let status = self.tokens(&manifest["status"]);
         let since = self.cycles(&manifest["status"]["moved"]);
-        let mut memories: Vec<Memory> = list(&manifest["memories"]).iter().map(Memory::of).collect();
+        let mut memories: Vec<Memory> =
+            list(&manifest["memories"]).iter().map(|m| Memory::of(self, m)).collect();
         for (port, value) in manifest["constants"].as_object().expect("an object") {
             set(dut, port, u128::from(number(value)));
         }
@@ -217,12 +219,18 @@ struct Memory {
 }
 
 impl Memory {
-    fn of(value: &Value) -> Memory {
+    fn of(stranger: &Stranger, value: &Value) -> Memory {
+        let mut words = vec![u128::from(number(&value["clear"])); number(&value["words"]) as usize];
+        if !value["start"].is_null() {
+            let start = stranger.lines(&value["start"]);
+            let start = start.iter().map(|line| u128::from_str_radix(line, 16).expect("a number"));
+            words.iter_mut().zip(start).for_each(|(word, start)| *word = start);
+        }
         Memory {
             read: text(&value["read"]).to_owned(),
             data: text(&value["data"]).to_owned(),
             write: value["write"].clone(),
-            words: vec![u128::from(number(&value["clear"])); number(&value["words"]) as usize],
+            words,
             latency: number(&value["latency"]),
             waiting: VecDeque::new(),
         }
@@ -269,16 +277,15 @@ fn reset(dut: &mut Simulator) {
     }
 }
 
-fn replayed(unit: Unit, change: impl Fn(&mut Value)) -> (u64, u64, Option<String>) {
-    let machine = common::small();
-    let suite = Suite::named(&machine, "corners", 1, 0).expect("listed");
-    let trace = capture(&machine, unit, &suite, suite.state(), StallKind::Mixed);
+fn replayed(machine: &Plan, unit: Unit, change: impl Fn(&mut Value)) -> (u64, u64, Option<String>) {
+    let suite = Suite::named(machine, "corners", 1, 0).expect("listed");
+    let trace = capture(machine, unit, &suite, suite.state(), StallKind::Mixed);
     let folder = tempfile::tempdir().expect("a folder");
     write(&directory(&suite, &trace, &[], Tables::LeftOut), folder.path());
     let json = std::fs::read(folder.path().join(manifest::FILE)).expect("written");
     let mut manifest: Value = serde_json::from_slice(&json).expect("JSON");
     change(&mut manifest);
-    let netlist = design::netlist(&machine, unit).expect("a checked machine");
+    let netlist = design::netlist(machine, unit).expect("a checked machine");
     let stranger = Stranger { folder: folder.path(), manifest };
     let (checked, fault) = stranger.replay(&mut Simulator::new(&netlist));
     (checked, number(&stranger.manifest["expected"]), fault)
@@ -286,8 +293,12 @@ fn replayed(unit: Unit, change: impl Fn(&mut Value)) -> (u64, u64, Option<String
 
 #[test]
 fn every_unit_replays_from_its_manifest_alone() {
-    for unit in Unit::all(&common::small()) {
-        let (checked, expected, fault) = replayed(unit, |_| {});
+    let (_, with_all) = common::lights().remove(3);
+    let machines = [common::small(), with_all];
+    let units =
+        machines.iter().flat_map(|machine| Unit::all(machine).into_iter().map(move |unit| (machine, unit)));
+    for (machine, unit) in units {
+        let (checked, expected, fault) = replayed(machine, unit, |_| {});
         println!("{}: checked {checked} / {expected}", unit.name());
         assert_eq!(fault, None, "{}", unit.name());
         assert_eq!(checked, expected, "{}", unit.name());
@@ -298,10 +309,16 @@ fn every_unit_replays_from_its_manifest_alone() {
 /// What the manifest says is used: without it the replay ends early or differs.
 #[test]
 fn a_manifest_that_leaves_something_out_is_found() {
-    let without_side_input = replayed(common::EDGE, |m| m["side_inputs"] = serde_json::json!([]));
+    let small = common::small();
+    let (_, light) = common::lights().remove(0);
+    let without_its_map = replayed(&light, common::SHADOW, |m| {
+        m["memories"][0].as_object_mut().expect("an object").remove("start");
+    });
+    assert!(without_its_map.2.is_some(), "SHADOW without the words of its map");
+    let without_side_input = replayed(&small, common::EDGE, |m| m["side_inputs"] = serde_json::json!([]));
     assert!(without_side_input.2.is_some(), "EDGE without fresh_queued");
-    let impatient = replayed(common::SETUP, |m| m["limits"]["idle"] = 3.into());
+    let impatient = replayed(&small, common::SETUP, |m| m["limits"]["idle"] = 3.into());
     assert!(impatient.0 < impatient.1, "{impatient:?}");
-    let short = replayed(common::PIXEL, |m| m["limits"]["cycles"] = 40.into());
+    let short = replayed(&small, common::PIXEL, |m| m["limits"]["cycles"] = 40.into());
     assert!(short.0 < short.1, "{short:?}");
 }

@@ -2,13 +2,14 @@
 
 mod additions;
 mod layers;
+mod shaded;
 mod terms;
 mod page;
 
 use crate::Talk;
 use crate::engine::golden_fill;
 use crate::extra;
-use crate::input::{Source, port_triangle};
+use crate::input::{PortFrame, Source, port_triangle, to_port};
 use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use additions::{Walk, walk};
@@ -18,6 +19,7 @@ use edgewalk_machine::{EdgeKind, Fill, Plan};
 use edgewalk_scene::{Frame, Scene, State, Surface};
 use layers::{Layer, layers};
 use serde::Serialize;
+use shaded::{ShadedPixel, leftward, shaded};
 use terms::{LitPoint, lit_point};
 
 /// Says which triangles lie over a pixel, how its light is made up, and every addition of the machine on the way to it,
@@ -60,6 +62,9 @@ struct Explanation {
     /// Of a blended frame the colours stored here, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     layers: Vec<Layer>,
+    /// Where the frame is shaded at each pixel, and the machine does so.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shaded: Option<ShadedPixel>,
     /// Where the machine has exact fill and exact edges, and draws the triangle.
     machine: Option<Walk>,
 }
@@ -89,6 +94,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         None => (args.source.frame(&machine)?, None),
     };
     let picture = draw(&frame, golden_fill(&machine));
+    let port = frame.shading.is_some().then(|| to_port(&frame, &machine)).transpose()?;
     let at = (y * machine.width + x) as usize;
     let id = picture.id[at];
     let seen = usize::try_from(id).ok().and_then(|id| frame.triangles.get(id));
@@ -108,10 +114,17 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             _ => None,
         },
         layers: layers(&frame, &machine, (x, y))?,
+        shaded: match (usize::try_from(id), &port) {
+            (Ok(id), Some(PortFrame { triangles, shade: Some(feed), .. })) => {
+                let leftward = leftward(&machine, &triangles[id]);
+                shaded(&machine, &frame, feed, id, (x, y), leftward)
+            }
+            _ => None,
+        },
         machine: match seen {
             Some(triangle) if machine.fill == Fill::Exact && machine.edge_kind == EdgeKind::Exact => {
                 let blend = state_of(&frame, id as usize).blend;
-                walk(&machine, &port_triangle(id as usize, triangle, frame.mode, blend, &machine)?, x, y)
+                walk(&machine, &port_triangle(id as usize, triangle, &frame, blend, &machine)?, x, y)
             }
             _ => None,
         },

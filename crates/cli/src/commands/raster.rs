@@ -3,6 +3,7 @@
 mod page;
 
 use crate::engine::{Engine, Raster, draw_bands, fast_bands};
+use crate::fast::BeyondBand;
 use crate::machine_args::MachineArgs;
 use crate::report::Report;
 use crate::staging::Staging;
@@ -18,7 +19,7 @@ use std::path::PathBuf;
 /// Draws a file of screen-space triangles and writes what every pixel got.
 ///
 /// Writes coverage.npy, writes.npy (u32), id.npy (i32), z.npy (H,W) and rgb.npy (H,W,3) (f64 in 0 to 1), image.png and
-/// report.json; row 0 on top. Golden does not quantise z and rgb, and adds lit.npy (u8: 0 nothing written, 1 in shadow, 2 lit).
+/// report.json; row 0 on top. Golden does not quantise z and rgb; golden and a machine with SHADOW add lit.npy (u8: 0 nothing written, 1 in shadow, 2 lit).
 /// With channels.extra = n also e0.npy and on, LSB of the channel's output: i64, golden's plane as f64, 0 where nothing was drawn.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -29,7 +30,9 @@ use std::path::PathBuf;
 
 The triangle file (docs/triangle_file.md), one item a line, # comments:
   size W H                                                first
-  mode gouraud|flat
+  mode gouraud|flat|phong|fast-phong
+  view x y z   sun x y z i   specular halfway|blinn       of phong and fast-phong: to the viewer, to a light
+  material ka kd ks n                                     of the triangles behind it
   depth less|lequal|always|off|...
   depth_write 0|1
   blend 0|1|add                                           1: (1-kt) I + kt I_back; add: I + I_back; needs blend.kind
@@ -37,10 +40,11 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
   clear_depth                                             depth to blend and this also between triangles
   clear r g b
   extra N                                                 values of your own at a vertex, 0 to 4: channels.extra = N
-  shadow SIZE BIAS AMBIENT m00 m01 .. m33                 a light's depth map, matrix by rows; golden only
+  shadow SIZE BIAS AMBIENT m00 m01 .. m33                 a light's depth map, matrix by rows; shadow.light = parallel or golden
   L x y z  x y z  x y z                                   a triangle of that map, in texels
   T x y z r g b kt  x y z r g b kt  x y z r g b kt        a triangle, pixels
   X e0 .. e0 .. e0 ..                                     N values of vertex 1, of 2, of 3: unorm [0,1], else LSB
+  N nx ny nz  nx ny nz  nx ny nz                          normals of a triangle in mode phong or fast-phong
   P n  x y z r g b kt ..                                  a polygon of n vertices; the machine draws it as triangles
   H n  x y z r g b kt ..                                  one more contour of the polygon on the line before")]
 pub struct Args {
@@ -78,7 +82,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = machine.machine(Some((header.width, header.height)))?;
     extra::fitting(header.extra, &machine).with_context(|| file.name().to_owned())?;
     let report = match args.engine {
-        Engine::Fast => while_it_is_read(&file, &header, &machine, &out, talk)?,
+        // Of a light all triangles are needed before the first pixel.
+        Engine::Fast if header.shadow.is_none() => while_it_is_read(&file, &header, &machine, &out, talk)?,
         engine => whole(&file, engine, &machine, &out, talk)?,
     };
     out.write("report.json", report.json()?)?;
@@ -95,14 +100,17 @@ fn while_it_is_read(
     out: &Staging,
     talk: Talk,
 ) -> Result<Report> {
-    let drawn = match fast::draw_file(file, header, machine, talk.quiet) {
-        Err(error) if matches!(error.downcast_ref(), Some(InputError::NeedsWhole(_))) => {
+    let (drawn, host) = match fast::draw_file(file, header, machine, talk.quiet) {
+        Err(error)
+            if matches!(error.downcast_ref(), Some(InputError::NeedsWhole(_)))
+                || error.is::<BeyondBand>() =>
+        {
             return whole(file, Engine::Fast, machine, out, talk);
         }
         drawn => drawn?,
     };
     let triangles = drawn.triangles();
-    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band);
+    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band).with_host(host);
     let mut page = Page::new(out, machine, report);
     let bands = fast_bands(machine);
     drawn.bands(machine, bands, |band| page.add(&band))?;

@@ -14,12 +14,12 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Result, anyhow};
-use edgewalk_explore::compare::compare_for;
+use edgewalk_explore::compare::compare_shaded;
 use edgewalk_explore::reach::reach;
 use edgewalk_golden::{HiddenLines, wireframe};
 use edgewalk_machine::Plan;
 use edgewalk_model::Waits;
-use edgewalk_scene::Frame;
+use edgewalk_scene::{Blending, Frame};
 use std::path::PathBuf;
 
 /// Renders a scene or mesh through the machine and compares it with the golden picture.
@@ -192,11 +192,17 @@ pub fn pictures(
     out: &Staging,
     quiet: bool,
 ) -> Result<Pictures> {
+    if frame.shadow.is_some() && (frame.passes().len() > 1 || frame.blend != Blending::Off) {
+        return Err(anyhow!(
+            "{name}: shadow: layers under a light's map are not compared with golden; draw with `edgewalk raster`"
+        ));
+    }
     let golden = draw(Engine::Golden, frame, machine, quiet)?;
     let drawn = draw_waiting(engine, frame, machine, waits, quiet)?;
     let port = to_port(frame, machine)?;
     let reach = reach(machine, &port)?;
-    let comparison = compare_for(machine, frame, &golden, &drawn, reach.as_ref());
+    let proof = port.shade.as_ref().map(|feed| &feed.proof);
+    let comparison = compare_shaded(machine, frame, &golden, &drawn, reach.as_ref(), proof);
     let (w, h) = (drawn.width, drawn.height);
     picture::write_rgb(out, "golden.png", w, h, &golden.rgb)?;
     picture::write_rgb(out, "image.png", w, h, &drawn.rgb)?;

@@ -31,10 +31,10 @@ pub struct Args {
     #[arg(long, requires = "input", value_parser = clap::value_parser!(u64).range(1..))]
     triangles: Option<u64>,
     /// Suites: hazards, corners, random, sphere, depth_never to depth_always, depth_unwritten, with BLEND blend_add and
-    /// color_unwritten; without an input all of them if left out
+    /// color_unwritten, with SHADOW light and light_off; without an input all of them if left out
     #[arg(long, value_name = "NAME")]
     suite: Vec<String>,
-    /// Units: machine, setup, edge, span, pixel, depth, blend; all that a suite is for if left out
+    /// Units: machine, setup, edge, span, pixel, shadow, depth, blend; all that a suite is for if left out
     #[arg(long, value_name = "NAME", value_parser = unit)]
     unit: Vec<Unit>,
     /// How the bench makes the design wait: none, mixed, late; what suits each suite if left out
@@ -114,8 +114,11 @@ pub fn of_input(input: &str, port: &PortFrame, triangles: Option<u64>) -> Result
     let wanted = triangles.map_or(usize::MAX, |n| usize::try_from(n).unwrap_or(usize::MAX));
     let every = port.triangles.len().div_ceil(wanted).max(1);
     let triangles: Vec<_> = port.triangles.iter().step_by(every).copied().collect();
-    let state = port.state()?;
+    let state = port.one_state()?;
     Ok(Suite {
+        shadow_on: state.shadow_on,
+        ambient: state.ambient,
+        map: port.maps().pop().unwrap_or_default(),
         depth_func: state.depth_func,
         depth_write: state.depth_write,
         color_write: state.color_write,
@@ -129,9 +132,9 @@ pub fn directed(machine: &Plan) -> Result<Vec<Suite>> {
     named(machine, |name| ["hazards", "corners"].contains(&name))
 }
 
-/// The suites of the depth functions, and those of BLEND where it is.
+/// The suites of the depth functions, and those of BLEND and SHADOW where they are.
 pub fn functions(machine: &Plan) -> Result<Vec<Suite>> {
-    named(machine, |name| ["depth_", "blend_", "color_"].iter().any(|kind| name.starts_with(kind)))
+    named(machine, |name| ["depth_", "blend_", "color_", "light"].iter().any(|kind| name.starts_with(kind)))
 }
 
 fn named(machine: &Plan, wanted: impl Fn(&str) -> bool) -> Result<Vec<Suite>> {

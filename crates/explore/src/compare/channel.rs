@@ -76,6 +76,11 @@ impl<'a> Tally<'a> {
         self.wrapped += u64::from(wrapped);
     }
 
+    /// Of pixel `i` only the depth counts.
+    pub fn depth(&mut self, i: usize, z: f64) {
+        self.wrapped += u64::from(self.z.add(i, z, self.drawn.z[i]));
+    }
+
     /// Whether pixel `i` has the cleared depth, to the nearest LSB the cleared colour, and 0 in the user's own channels.
     pub fn is_background(&self, i: usize, clear: [f64; 3]) -> bool {
         self.drawn.z[i] == 1.0 && self.is_clear(i, clear)
@@ -83,7 +88,7 @@ impl<'a> Tally<'a> {
 
     /// Pixel `i` has a depth, but no colour: whether what else it has is that of the empty screen.
     pub fn depth_only(&mut self, i: usize, z: f64, clear: [f64; 3]) -> bool {
-        self.wrapped += u64::from(self.z.add(i, z, self.drawn.z[i]));
+        self.depth(i, z);
         self.is_clear(i, clear)
     }
 

@@ -5,7 +5,7 @@ use crate::compare::compare_for;
 use crate::draw;
 use crate::input::Input;
 use crate::port::{PortFrame, to_port};
-use crate::raster::{Cycles, Raster, from_fast, from_model, of_primitives};
+use crate::raster::{Cycles, Raster, from_fast, from_model, of_port};
 use crate::reach::{self, Reach, untimed};
 use crate::report::Report;
 use crate::setup_report::SetupReport;
@@ -106,7 +106,7 @@ impl Pixels {
                 }
                 Err(Refusal::Foreign(foreign)) => return Err(foreign.into()),
             };
-        let drawn = of_primitives(drawn, &port.ids);
+        let drawn = of_port(drawn, &port);
         let reach = Reach::of(plan, &port.ids, &passage).ok_or_else(|| {
             anyhow!("none of the {} triangles covers a pixel of the screen", port.triangles.len())
         })?;

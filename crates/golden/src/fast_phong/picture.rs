@@ -7,6 +7,7 @@ use crate::fill::Fill;
 use crate::incremental::Incremental;
 use crate::render::shade as shade_by;
 use crate::shading::{Shaded, Shading, ShadingError};
+use crate::weights::Weights;
 use edgewalk_scene::{Scene, ShadeMode, Surface};
 use glam::{DVec2, DVec3};
 
@@ -40,7 +41,7 @@ impl FastShaded {
 
 /// Draws a scene under `lights`, those of the scene. `surface` is the scene's own on this screen.
 ///
-/// A texture modulates k_d and k_a as in Phong shading; a relief is not seen, for there is no normal to turn.
+/// A texture modulates k_d and k_a as in Phong shading; a relief turns the normal to first order.
 pub fn shade(scene: &Scene, surface: &Surface, lights: &[Directional], settings: Settings) -> FastShaded {
     let Settings { fit, table_size, subpixel_bits } = settings;
     let by_phong = |scene: &Scene| shade_by(scene, surface, Shading::Phong, Fill::Exact { subpixel_bits });
@@ -57,6 +58,7 @@ pub fn shade(scene: &Scene, surface: &Surface, lights: &[Directional], settings:
     let screen = (surface.width, surface.height);
     for (triangle, id) in surface.triangles.iter().zip(0..) {
         let table = &tables[scene.mesh.faces()[triangle.face as usize].material as usize];
+        let normals = triangle.vertices.map(|vertex| vertex.normal);
         let mut texture = Incremental::new(triangle.vertices.map(|vertex| vertex.texture.to_array()));
         let mut walk = None;
         fragments(&triangle.on_screen(), ShadeMode::Gouraud, subpixel_bits, screen, |fragment| {
@@ -69,7 +71,8 @@ pub fn shade(scene: &Scene, surface: &Surface, lights: &[Directional], settings:
             let at = y as usize * surface.width as usize + x as usize;
             if picture.id[at] == id {
                 let material = scene.mesh.material_at(triangle.face, texture);
-                let color = walk.color(&material, scene.ambient, table);
+                let turn = scene.mesh.turn(triangle.face, texture, Weights::linear(fragment).of(normals));
+                let color = walk.turned(turn, &material, scene.ambient, table);
                 picture.rgb[at] = color.clamp(DVec3::ZERO, DVec3::ONE).to_array();
             }
         });

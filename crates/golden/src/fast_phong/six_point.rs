@@ -9,7 +9,7 @@
 //! ```
 
 use crate::fast_phong::quadratic::Quadratic;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// Through `vertices` at three points on the screen, in pixels, and `midpoints`, each opposite the vertex of its place;
 /// `None` if the points lie on a line.
@@ -36,6 +36,26 @@ pub fn six_point(points: [DVec2; 3], vertices: [f64; 3], midpoints: [f64; 3]) ->
         l[(k + 1) % 3].times(l[(k + 2) % 3], 4.0 * midpoints[k], &mut t);
     }
     Some(Quadratic { origin, t })
+}
+
+/// The same sum where the vertices weigh `shares`, which add up to 1: `values` at the vertices and at the midpoints.
+pub(crate) fn six_point_at(shares: &[f64], [vertices, midpoints]: &[[f64; 3]; 2]) -> f64 {
+    let l = |k: usize| shares[k % 3];
+    let part = |k: usize| vertices[k] * l(k) * (2.0 * l(k) - 1.0) + 4.0 * midpoints[k] * l(k + 1) * l(k + 2);
+    part(0) + part(1) + part(2)
+}
+
+/// A cosine at the vertices and at the midpoints, each opposite the vertex of its place: `cosine` takes a unit normal and
+/// the point it stands at.
+pub(crate) fn nodes(
+    normals: [DVec3; 3],
+    positions: [DVec3; 3],
+    cosine: impl Fn(DVec3, DVec3) -> f64,
+) -> [[f64; 3]; 2] {
+    let at = |normal: DVec3, position| cosine(normal.normalize_or_zero(), position);
+    let middle = |values: [DVec3; 3], k: usize| (values[(k + 1) % 3] + values[(k + 2) % 3]) / 2.0;
+    let midpoint = |k| at(middle(normals, k), middle(positions, k));
+    [std::array::from_fn(|k| at(normals[k], positions[k])), std::array::from_fn(midpoint)]
 }
 
 /// `x` times x plus `y` times y plus `one`.

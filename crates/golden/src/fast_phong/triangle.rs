@@ -8,7 +8,7 @@ use crate::cover::snap;
 use crate::fast_phong::differences::Walk;
 use crate::fast_phong::normal_plane::NormalPlane;
 use crate::fast_phong::quadratic::Quadratic;
-use crate::fast_phong::six_point::six_point;
+use crate::fast_phong::six_point::{nodes, six_point};
 use crate::fast_phong::table::PowerTable;
 use crate::fast_phong::taylor::taylor;
 use edgewalk_scene::{Light, Material, SurfaceTriangle};
@@ -52,6 +52,8 @@ struct Cosines {
     intensity: DVec3,
     diffuse: Walk<f64>,
     halfway: Walk<f64>,
+    /// L, and H at the centroid.
+    directions: [DVec3; 2],
 }
 
 /// A triangle shaded by fast Phong, line by line from the top, each span from the left.
@@ -70,10 +72,17 @@ impl FastPhong {
         at: (u32, u32),
     ) -> Self {
         let centre = DVec2::new(f64::from(at.0) + 0.5, f64::from(at.1) + 0.5);
+        let middle = triangle.vertices.iter().map(|vertex| vertex.position).sum::<DVec3>() / 3.0;
         let walk = |quadratic: Quadratic| Walk::new(quadratic.differences(centre), at);
         let cosines = |light: &Directional| {
             let [diffuse, halfway] = quadratics(triangle, subpixel_bits, fit, light.toward, eye)?;
-            Some(Cosines { intensity: light.intensity, diffuse: walk(diffuse), halfway: walk(halfway) })
+            let directions = [light.toward, halfway_at(light.toward, eye, middle)];
+            Some(Cosines {
+                intensity: light.intensity,
+                diffuse: walk(diffuse),
+                halfway: walk(halfway),
+                directions,
+            })
         };
         Self(lights.iter().filter_map(cosines).collect())
     }
@@ -90,12 +99,18 @@ impl FastPhong {
     /// The colour there, not cut to [0, 1]: I_e + k_a I_a + sum of I_l (k_d N·L + k_s table(N·H)) over the lights with
     /// N·L > 0. `table` has the exponent of the material.
     pub fn color(&self, material: &Material, ambient: DVec3, table: &PowerTable) -> DVec3 {
-        let part = |Cosines { intensity, diffuse, halfway }: &Cosines| {
-            let cosine = diffuse.value();
+        self.turned(DVec3::ZERO, material, ambient, table)
+    }
+
+    /// The same where a relief adds `turn` to the normal, which counts to first order: N·L and N·H grow by turn·L and turn·H.
+    pub fn turned(&self, turn: DVec3, material: &Material, ambient: DVec3, table: &PowerTable) -> DVec3 {
+        let part = |Cosines { intensity, diffuse, halfway, directions: [l, h] }: &Cosines| {
+            let cosine = diffuse.value() + turn.dot(*l);
             if cosine <= 0.0 {
                 return DVec3::ZERO;
             }
-            *intensity * (material.diffuse * cosine + material.specular * table.read(halfway.value()))
+            let highlight = table.read(halfway.value() + turn.dot(*h));
+            *intensity * (material.diffuse * cosine + material.specular * highlight)
         };
         material.emission + material.ambient * ambient + self.0.iter().map(part).sum::<DVec3>()
     }
@@ -115,7 +130,7 @@ pub fn quadratics(
     });
     let normals = triangle.vertices.map(|v| v.normal);
     let positions = triangle.vertices.map(|v| v.position);
-    let halfway = |position: DVec3| (toward + (eye - position).normalize_or_zero()).normalize_or_zero();
+    let halfway = |position: DVec3| halfway_at(toward, eye, position);
     match fit {
         Fit::Taylor => {
             let plane = NormalPlane::new(points, normals)?;
@@ -123,16 +138,15 @@ pub fn quadratics(
             Some([taylor(&plane, toward), taylor(&plane, halfway(middle))])
         }
         Fit::SixPoint => {
-            let light = |normal: DVec3, _: DVec3| normal.normalize_or_zero().dot(toward);
-            let highlight =
-                |normal: DVec3, position: DVec3| normal.normalize_or_zero().dot(halfway(position));
-            let through = |cosine: &dyn Fn(DVec3, DVec3) -> f64| {
-                let vertices = std::array::from_fn(|k| cosine(normals[k], positions[k]));
-                let middle = |values: [DVec3; 3], k: usize| (values[(k + 1) % 3] + values[(k + 2) % 3]) / 2.0;
-                let midpoints = std::array::from_fn(|k| cosine(middle(normals, k), middle(positions, k)));
-                six_point(points, vertices, midpoints)
-            };
-            Some([through(&light)?, through(&highlight)?])
+            let through = |[vertices, midpoints]: [[f64; 3]; 2]| six_point(points, vertices, midpoints);
+            let light = nodes(normals, positions, |normal, _| normal.dot(toward));
+            let highlight = nodes(normals, positions, |normal, position| normal.dot(halfway(position)));
+            Some([through(light)?, through(highlight)?])
         }
     }
+}
+
+/// H for light from a direction, seen from `eye`.
+fn halfway_at(toward: DVec3, eye: DVec3, position: DVec3) -> DVec3 {
+    (toward + (eye - position).normalize_or_zero()).normalize_or_zero()
 }

@@ -29,8 +29,9 @@ impl<'a> ShadowMap<'a> {
     pub(crate) fn lit(&self, x: u32, y: u32, z: f64) -> bool {
         let point = [f64::from(x) + 0.5, f64::from(y) + 0.5, z, 1.0];
         let [x, y, depth, q] = self.shadow.matrix.map(|row| (0..4).map(|k| row[k] * point[k]).sum::<f64>());
-        // Where q is 0, x and y are infinite or NaN.
-        self.map.at(x / q, y / q).is_none_or(|stored| depth / q <= stored + self.shadow.bias)
+        // Behind the light, q < 0, points would come back mirrored.
+        let stored = if q > 0.0 { self.map.at(x / q, y / q) } else { None };
+        stored.is_none_or(|stored| depth / q <= stored + self.shadow.bias)
     }
 
     /// What the colour of a point in shadow is multiplied by.

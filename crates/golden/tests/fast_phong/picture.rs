@@ -107,3 +107,40 @@ fn the_phong_beside_it_has_the_highlights_of_the_table() {
     println!("from the truth with mirror highlights {form:.3}, with those of ch. 7.12 {rest:.3} LSB");
     assert!(form > 2.0 * rest);
 }
+
+/// A relief of small slopes: what first order leaves out is |turn|²/2 of each cosine, and the quadratics' own error.
+#[test]
+fn a_relief_counts_to_first_order() {
+    let text = include_str!("../../../../docs/scenes/texture-and-relief.toml");
+    let read = |height: &str| {
+        let text = text.replace("bump_height = 0.05", &format!("bump_height = {height}"));
+        let scene = Scene::parse(std::path::Path::new("relief.toml"), &text).unwrap();
+        assert!(scene.mesh.materials().iter().any(|material| material.bump.is_some()));
+        let lights = Directional::all(&scene.lights).unwrap();
+        let settings = Settings { fit: Fit::SixPoint, table_size: 1 << 20, subpixel_bits: 8 };
+        let surface = surface(&scene);
+        (shade(&scene, &surface, &lights, settings), surface, scene)
+    };
+    let (flat, ..) = read("0");
+    let mut left_out = Vec::new();
+    for height in ["0.0005", "0.001", "0.002"] {
+        let (drawn, ..) = read(height);
+        let relief: f64 = drawn
+            .shaded
+            .picture
+            .rgb
+            .iter()
+            .zip(&flat.shaded.picture.rgb)
+            .map(|(a, b)| (a[0] - b[0]).abs())
+            .sum();
+        let rest: f64 =
+            drawn.phong.iter().zip(&drawn.shaded.picture.rgb).map(|(a, b)| (a[0] - b[0]).abs()).sum::<f64>();
+        let base: f64 =
+            flat.phong.iter().zip(&flat.shaded.picture.rgb).map(|(a, b)| (a[0] - b[0]).abs()).sum();
+        println!("height {height}: the relief changes {relief:.3}, of which {:.4} are left out", rest - base);
+        assert!(rest - base < 0.12 * relief, "{rest} {base} {relief}");
+        left_out.push(rest - base);
+    }
+    let growth = [left_out[1] / left_out[0], left_out[2] / left_out[1]];
+    assert!(growth.iter().all(|growth| (3.0..5.5).contains(growth)), "of second order: {left_out:?}");
+}

@@ -27,6 +27,7 @@ fn record(plan: &Plan, random: &mut Pcg64Mcg) -> Vec<u128> {
         } else {
             random.random_range(0..1 << plan.shade.material_bits)
         },
+        gloss: random.random_range(0..=8),
         terms: plan.terms().iter().map(|_| std::array::from_fn(|_| random.next_u64())).collect(),
     };
     plan.record_words(&record).into_iter().map(u128::from).collect()

@@ -12,6 +12,8 @@ mod edge;
 mod span;
 mod term;
 mod pixel;
+mod texel;
+mod normal;
 mod shade;
 mod shadow;
 mod depth;
@@ -74,6 +76,8 @@ fn of<const C: usize>(plan: &Plan, interface: &Interface) -> Result<Box<dyn Mode
         "span" => Box::new(span::SpanDevice::<C>::new(plan, interface)?),
         "pixel" => Box::new(pixel::PixelDevice::<C>::new(plan, interface)?),
         "term" => Box::new(term::TermDevice::<C>::new(plan, interface)?),
+        "texel" => Box::new(texel::TexelDevice::<C>::new(plan, interface)?),
+        "normal" => Box::new(normal::NormalDevice::<C>::new(plan, interface)?),
         "shade" => Box::new(shade::ShadeDevice::<C>::new(plan, interface)?),
         "shadow" => Box::new(shadow::ShadowDevice::<C>::new(plan, interface)?),
         "depth" => Box::new(depth::DepthDevice::<C>::new(plan, interface)?),

@@ -13,7 +13,10 @@ pub struct TermSpan<const C: usize> {
     pub walked: Walked,
 }
 
-/// What PIXEL gives.
+/// What NORMAL finds, in the order of the terms.
+const COSINES: [&str; 4] = ["nl0", "nh0", "nl1", "nh1"];
+
+/// What PIXEL gives, and what SHADE takes.
 #[derive(Clone, Copy, Debug)]
 pub struct TermFragment<const C: usize> {
     pub fragment: Fragment<C>,
@@ -33,6 +36,9 @@ impl<const C: usize> Named for TermSpan<C> {
     fn find(plan: &Plan, name: &str) -> Option<Find<Self>> {
         if name == "material" {
             return Some((|t, _| Slot::U32(&mut t.walked.material), 0));
+        }
+        if name == "gloss" {
+            return Some((|t, _| Slot::U32(&mut t.walked.gloss), 0));
         }
         if let Some((place, part)) = name.split_once('_').and_then(|(of, part)| Some((term(plan, of)?, part)))
         {
@@ -71,7 +77,10 @@ impl<const C: usize> Named for TermFragment<C> {
         if name == "material" {
             return Some((|t, _| Slot::U32(&mut t.cosines.material), 0));
         }
-        if let Some(place) = term(plan, name) {
+        if name == "gloss" {
+            return Some((|t, _| Slot::U32(&mut t.cosines.gloss), 0));
+        }
+        if let Some(place) = term(plan, name).or_else(|| COSINES.iter().position(|cosine| *cosine == name)) {
             return Some((|t, i| Slot::I32(&mut t.cosines.terms[i]), place));
         }
         let place = plan.channels().iter().position(|channel| channel.name == name);

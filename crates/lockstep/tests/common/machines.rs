@@ -1,7 +1,7 @@
 //! Machines drawn at random from the keys, small enough for an interpreter.
 
 use edgewalk_machine::keys::{Domain, KEYS};
-use edgewalk_machine::{BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision};
+use edgewalk_machine::{BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeKind, Texture};
 use rand::Rng;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
@@ -40,6 +40,10 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
         };
         (key.set)(&mut machine, value);
     }
+    if machine.shade.kind == ShadeKind::Phong {
+        machine.shade.kind = ShadeKind::FastPhong; // NORMAL has no netlist yet
+    }
+    machine.shade.texture = Texture::None; // nor has TEXEL
     // What would make nearly all of them clash.
     machine.guard_bits =
         if rng.random_bool(0.1) { rng.random_range(8..=14) } else { rng.random_range(2..=6) };

@@ -23,6 +23,11 @@ fn there(plan: &Plan) -> bool {
     plan.shadow.is_there()
 }
 
+/// Behind a fragment in the queue there is room for another.
+fn several(plan: &Plan) -> bool {
+    plan.shadow.is_there() && plan.shadow.queue > 1
+}
+
 fn wants(machine: &Machine) -> Vec<Channel> {
     if !machine.shadow.is_there() {
         return Vec::new();
@@ -96,6 +101,6 @@ const EVENTS: &[Event] = &[
     Event {
         name: "known_behind_read",
         doc: "fragments that need no texel and come behind one that waits for its own",
-        can_happen: there,
+        can_happen: several,
     },
 ];

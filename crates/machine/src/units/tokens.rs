@@ -4,7 +4,7 @@ use crate::channel::Channel;
 use crate::field::{Field, Scale};
 use crate::machine::{EdgeKind, Fill};
 use crate::plan::Plan;
-use crate::shading::Term;
+use crate::shading::{self, Term};
 use edgewalk_numerics::Format;
 
 /// Names of the three edges of a prim: 0–2, 0–1 and 1–2 in the order of the sorted vertices.
@@ -177,6 +177,7 @@ pub fn walked(plan: &Plan) -> Vec<Field> {
         fields.extend((term.degree == 2).then(|| word("gg", "from a step to the next")));
     }
     fields.extend(material(plan));
+    fields.extend(gloss(plan));
     span_with(plan, fields)
 }
 
@@ -189,6 +190,12 @@ fn word_format(term: &Term) -> Format {
 fn material(plan: &Plan) -> Option<Field> {
     let bits = plan.shade.material_bits;
     (plan.shade.is_there() && bits > 0).then(|| Field::count("material", bits, "whose tables count"))
+}
+
+/// Of the material's highlights, on the way to NORMAL.
+fn gloss(plan: &Plan) -> Option<Field> {
+    let doc = "highlights reach down to 2^gloss tables below 0";
+    plan.shade.normalises().then(|| Field::count("gloss", shading::GLOSS_BITS, doc))
 }
 
 /// A word of the memory of the terms.
@@ -273,21 +280,34 @@ pub fn map_word(plan: &Plan) -> Field {
 #[must_use]
 pub fn fragment(plan: &Plan) -> Vec<Field> {
     let output = |term: &Term| Field::signed(term.name, term.bits, "floor of the term");
-    fragment_with(plan, plan.terms().iter().map(output).collect())
+    let terms = plan.terms().iter().map(output).chain(material(plan)).chain(gloss(plan));
+    fragment_with(plan, terms.collect())
+}
+
+/// What TEXEL gives: the same without u and v, its colours new; without TEXEL what PIXEL gives.
+#[must_use]
+pub fn textured(plan: &Plan) -> Vec<Field> {
+    let mut fields = fragment(plan);
+    if plan.shade.textures() {
+        fields.retain(|field| !["u", "v"].contains(&field.name.as_str()));
+    }
+    fields
 }
 
 /// What SHADE takes: a fragment with two cosines a light.
 #[must_use]
 pub fn cosines(plan: &Plan) -> Vec<Field> {
-    fragment(plan)
+    let bits = [plan.shade.diffuse_index_bits(), plan.shade.highlight_index_bits()];
+    let index = |(name, bits)| Field::signed(name, bits, "in entries of a table");
+    let lights = shading::COSINES.into_iter().take(plan.shade.lights as usize);
+    let cosines = lights.flat_map(|names| names.into_iter().zip(bits)).map(index);
+    fragment_with(plan, cosines.chain(material(plan)).collect())
 }
 
 /// What SHADE gives: a fragment without terms and material, its colours new; without SHADE what PIXEL gives.
 #[must_use]
 pub fn tinted(plan: &Plan) -> Vec<Field> {
-    let mut fields = fragment_with(plan, Vec::new());
-    fields.retain(|field| field.name != "material");
-    fields
+    fragment_with(plan, Vec::new())
 }
 
 fn fragment_with(plan: &Plan, terms: Vec<Field>) -> Vec<Field> {
@@ -295,7 +315,6 @@ fn fragment_with(plan: &Plan, terms: Vec<Field>) -> Vec<Field> {
     fields.extend(outputs(plan));
     fields.extend(triangle_kt(plan));
     fields.extend(terms);
-    fields.extend(material(plan));
     fields.push(fence());
     fields.extend(tag(plan));
     fields

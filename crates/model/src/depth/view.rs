@@ -129,7 +129,7 @@ impl<const C: usize> Depth<C> {
         view.number("new", "depth of the head", z, new);
         let stored = view.number("stored", "old depth", z, old);
         view.wire(|| "old".to_owned());
-        let pass = view.flag("pass", "the new one wins", passes);
+        let pass = view.flag("passes", "the new one wins", passes);
         view.wire(|| "pass".to_owned());
         view.live(None);
         [stored, pass]
@@ -158,7 +158,7 @@ impl<const C: usize> Depth<C> {
         );
         view.says(offered && block.is_none() && !inputs.rd_ready, "waits: the memory takes no read.");
         let forwarded = self.rmw.flight(0).is_some_and(|head| head.forward.is_some());
-        view.says(compares, "compares pixel {head.addr}: new {new}, stored {stored}; passes: {pass}.");
+        view.says(compares, "compares pixel {head.addr}: new {new}, stored {stored}; passes: {passes}.");
         view.says(compares && forwarded, "the stored depth is that of an older fragment in flight.");
         let (writes, passes) = (self.rmw.write().is_some(), self.pass().is_some());
         view.says(

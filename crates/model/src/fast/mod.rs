@@ -40,6 +40,8 @@ use std::ops::Range;
 pub enum Reason {
     /// The machine has channels of the user's own.
     Channels,
+    /// The machine has SHADOW.
+    Shadow,
     /// The machine blends.
     Blend,
     /// The machine shades at each pixel.
@@ -89,6 +91,7 @@ impl fmt::Display for Path {
         f.write_str(match self {
             Path::Fast => "without ticking",
             Path::Ticked(Reason::Channels) => "ticked: the machine has extra channels",
+            Path::Ticked(Reason::Shadow) => "ticked: the machine has SHADOW",
             Path::Ticked(Reason::Blend) => "ticked: the machine has BLEND",
             Path::Ticked(Reason::Shade) => "ticked: the machine has TERM and SHADE",
             Path::Ticked(Reason::Passes) => "ticked: the rules change between triangles",
@@ -201,6 +204,7 @@ impl Renderer {
             coverage: part(&details.coverage),
             writes: part(&details.writes),
             id: details.id.get(start..end).unwrap_or_default().to_vec(),
+            lit: Vec::new(),
             counters: self.counters.clone(),
             passes: vec![self.counters.clone()],
             events: Events::default(),
@@ -212,6 +216,9 @@ impl Renderer {
 fn refused(plan: &Plan) -> Option<Reason> {
     if plan.blend.is_there() {
         return Some(Reason::Blend);
+    }
+    if plan.shadow.is_there() {
+        return Some(Reason::Shadow);
     }
     if plan.shade.is_there() {
         return Some(Reason::Shade);

@@ -1,7 +1,9 @@
 //! What is to be seen of the machine: its units one after the other, with the readies between them.
 
+use super::shading::parts;
 use super::{Inputs, Model};
 use crate::depth::DepthInputs;
+use crate::shade::Shade;
 use crate::view::View;
 use edgewalk_machine::Plan;
 
@@ -12,10 +14,16 @@ impl<const C: usize> Model<C> {
         let Model { setup, edge, span, pixel, depth, .. } = self;
         let pass = depth.pass();
         let pass_ready = self.blend().is_some_and(|blend| blend.pass_ready(pass, &inputs.blend));
-        let frag = pixel.frag();
+        let drawn = pixel.frag();
+        let units = self.units();
+        let offered = units.offered(&inputs.texel);
+        let frag = self.shade().map_or(drawn, Shade::tinted);
         let block = depth.block(frag, inputs.depth_write);
         let frag_ready = inputs.rd_ready && block.is_none();
-        let (span_ready, fresh_queued) = (pixel.span_ready(frag_ready), span.fresh_queued());
+        let readies = units.readies(&offered, &inputs.texel, frag_ready);
+        let (pixel_ready, fresh_queued) = (pixel.span_ready(readies.drawn), span.fresh_queued());
+        let there = self.term().is_none_or(|term| term.there(span.span()));
+        let span_ready = there && pixel_ready;
         let line = edge.line();
         let line_ready = line.is_some() && span.line_ready();
         let prim = setup.prim();
@@ -31,15 +39,33 @@ impl<const C: usize> Model<C> {
         setup.view(inputs.tri, edge.prim_ready(fresh_queued), view);
         edge.view(plan, prim, fresh_queued, line_ready, view);
         span.view(plan, line, span_ready, view);
-        pixel.view(plan, span.span(), frag_ready, view);
+        if let Some(term) = self.term() {
+            term.view(plan, span.span(), &inputs.term, pixel_ready, view);
+        }
+        pixel.view(plan, span.span().filter(|_| there), readies.drawn, view);
+        if let Some(texel) = self.texel() {
+            let next = if self.normal().is_some() { "normal" } else { "shade" };
+            let (frag, terms) = parts(&offered.drawn);
+            texel.view(plan, (frag, &terms), &inputs.texel, (next, readies.textured), view);
+        }
+        if let Some(normal) = self.normal() {
+            normal.view(plan, parts(&offered.textured).0, &inputs.normal, readies.normed, view);
+        }
+        if let Some(shade) = self.shade() {
+            let (frag, cosines) = parts(&offered.normed);
+            shade.view(plan, (frag, &cosines), &inputs.shade, ("depth", frag_ready), view);
+        }
         depth.view(plan, frag, &depth_inputs, view);
         if let Some(blend) = self.blend() {
             blend.view(plan, pass, &inputs.blend, view);
         }
-        view.cause(self.activity(
-            block,
-            frag_ready,
-            super::Waits { light: false, pass: pass.is_some() && !pass_ready, walk: false, tables: false },
-        ));
+        let waits = super::Waits {
+            light: false,
+            pass: pass.is_some() && !pass_ready,
+            walk: !there && span.span().is_some(),
+            texel: units.texel_waits(&offered),
+            tables: units.tables_wait(&offered),
+        };
+        view.cause(self.activity(block, readies.drawn, waits));
     }
 }

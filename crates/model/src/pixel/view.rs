@@ -2,7 +2,7 @@
 
 use super::Pixel;
 use crate::tokens::Span;
-use crate::view::{View, fragments, increment, word};
+use crate::view::{Shape, View, fragments, increment, modulo, word};
 use edgewalk_machine::Plan;
 
 impl<const C: usize> Pixel<C> {
@@ -31,6 +31,7 @@ impl<const C: usize> Pixel<C> {
             view.cell("at this pixel", || word(channel), raw(self.values[i]));
             view.cell("to the next pixel", || increment(channel), raw(self.gradient[i]));
         }
+        self.view_terms(plan, view);
         view.live(None);
         self.view_stages(plan, view);
         if plan.segments > 1 {
@@ -47,12 +48,33 @@ impl<const C: usize> Pixel<C> {
             self.active && moves && self.phase < self.last_phase,
             &format!("adds up pixel ({{x}}, {{y}}): clock {{phase}} of 0 to {}.", phases - 1),
         );
-        view.says(!moves, "stands still: DEPTH takes no fragment.");
+        view.says(!moves, "stands still: nobody takes its fragment.");
         let takes = self.span_ready(frag_ready) && span.is_some();
         view.says(takes, "takes the next span.");
         view.says(takes && span.is_some_and(|span| span.fresh), "and the increments of a new triangle.");
-        view.gives("frag", Some("depth"), self.out.is_some(), frag_ready);
+        let behind = plan.units().skip_while(|unit| unit.name != "pixel").nth(1);
+        let next = behind.map_or("depth", |unit| unit.name);
+        view.gives("frag", Some(next), self.out.is_some(), frag_ready);
         view.step("pixel", 'p');
+    }
+
+    /// With TERM, the terms at this pixel.
+    fn view_terms(&self, plan: &Plan, view: &mut View) {
+        if plan.terms().is_empty() {
+            return;
+        }
+        view.table("terms", &["v", "g", "gg"], false);
+        for (term, steps) in plan.terms().iter().zip(&self.walked.terms) {
+            let docs = ["at this pixel", "to the next pixel", "from a step to the next"];
+            view.row(term.name);
+            for (word, doc) in
+                [steps.v, steps.g, steps.gg].into_iter().zip(docs).take(term.degree as usize + 1)
+            {
+                let (bits, fraction) = (term.word(), term.fraction);
+                let shape = Shape::Number { bits, fraction, signed: true, modular: true };
+                view.cell(doc, || shape, modulo(word as i64, bits));
+            }
+        }
     }
 
     /// The out stages, the last first.

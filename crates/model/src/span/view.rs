@@ -50,7 +50,8 @@ impl<const C: usize> Span<C> {
         view.says(held.is_some() && !moves, "is full: line {held_y} has to wait.");
         let fires = !self.fifo.is_empty() && span_ready;
         view.says(fires, "hands over {head.count} pixels of line {head.y} from column {head.x} on.");
-        view.gives("span", Some("pixel"), !self.fifo.is_empty(), span_ready);
+        let next = if plan.shade.is_there() { "term" } else { "pixel" };
+        view.gives("span", Some(next), !self.fifo.is_empty(), span_ready);
         view.step("span", 's');
     }
 }

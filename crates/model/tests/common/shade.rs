@@ -36,6 +36,58 @@ pub fn output(term: &Term, word: u64) -> i64 {
     if value >> (term.bits - 1) > 0 { value - (1 << term.bits) } else { value }
 }
 
+/// The cosines that SHADE sees, of the outputs of the terms: these, or with NORMAL by its table, in plain numbers.
+pub fn cosines(plan: &Plan, roots: &[u128], record: &Record, outputs: &[i64]) -> Vec<i64> {
+    let outputs = &outputs[..outputs.len() - if plan.shade.textures() { 2 } else { 0 }];
+    let Some((square, products)) = outputs.split_last().filter(|_| plan.shade.normalises()) else {
+        return outputs.to_vec();
+    };
+    let s = (*square).clamp(16384, 65535);
+    let entry = roots[(s / 256) as usize];
+    let (v, slope) = ((entry / 1024 % 131_072) as i64, (entry % 1024) as i64);
+    let y = (v - (slope * (s % 256) + 128).div_euclid(256)).rem_euclid(131_072);
+    let t = plan.shade.table_bits;
+    let index = |(place, product): (usize, &i64)| {
+        let c = (product * y + 32768).div_euclid(65536);
+        let highlight = place % 2 == 1;
+        let scaled = if highlight { ((c - 65536) << record.gloss) + 65536 } else { c };
+        let half = 1i64 << (t + 1 + if highlight { plan.shade.gloss_bits } else { 0 });
+        scaled.div_euclid(1 << (16 - t)).max(-half).min(half - 1)
+    };
+    products.iter().enumerate().map(index).collect()
+}
+
+/// The colour of a fragment behind TEXEL: c·x/(2^b - 1) rounded to nearest, x the texel's, which repeats.
+pub fn textured(plan: &Plan, textures: &[u128], material: u32, outputs: &[i64], own: [u32; 3]) -> [u32; 3] {
+    if !plan.shade.textures() {
+        return own;
+    }
+    let side = 1i64 << plan.shade.texture_bits;
+    let [u, v] = [outputs.len() - 2, outputs.len() - 1].map(|i| outputs[i].rem_euclid(side) as u32);
+    let word = textures[plan.texel_place(material, u, v)];
+    let (b, max) = (plan.color.bits, plan.color.max());
+    std::array::from_fn(|i| {
+        let part = (word >> (b * (2 - i as u32))) as u64 & max;
+        ((2 * u64::from(own[i]) * part + max) / (2 * max)) as u32
+    })
+}
+
+/// The chords of 1/√x, each lowered by half of its gap.
+pub fn true_roots(plan: &Plan) -> Vec<u128> {
+    let root = |x: f64| (x / 256.0).powf(-0.5);
+    let entry = |k: u32| {
+        let (low, high) = (root(k.into()), root(f64::from(k) + 1.0));
+        let chord = |f: f64| low + (high - low) * f;
+        let gap = (0..=256)
+            .map(|f| f64::from(f) / 256.0)
+            .map(|f| chord(f) - root(f64::from(k) + f))
+            .fold(0.0, f64::max);
+        let v = ((low - gap / 2.0) * 65536.0).round() as u32;
+        plan.root_word(v, ((low - high) * 65536.0).round() as u32)
+    };
+    (0..256).map(|k| if k < 64 { 0 } else { entry(k) }).collect()
+}
+
 /// The colour of a fragment of these cosines, and of this colour of its own.
 pub fn colour(plan: &Plan, tables: &[u128], material: u32, cosines: &[i64], own: [u32; 3]) -> [u32; 3] {
     let (b, end) = (plan.color.bits, 1i64 << plan.shade.table_bits);
@@ -76,8 +128,12 @@ pub fn random_shading(plan: &Plan, triangles: &[Triangle], rng: &mut impl Rng) -
             }
         }
     }
+    let roots = (0..256).map(|_| plan.root_word(rng.random(), rng.random())).collect();
+    let texels = if plan.shade.textures() { plan.texel_place(materials, 0, 0) } else { 0 };
+    let colour = |rng: &mut _| [(); 3].map(|()| Rng::random(rng));
+    let textures = (0..texels).map(|_| plan.texel_word(colour(rng))).collect();
     let records = triangles.iter().map(|triangle| random_record(plan, triangle, materials, rng)).collect();
-    Shading { records, tables }
+    Shading { records, tables, roots, textures }
 }
 
 fn random_entry(plan: &Plan, rng: &mut impl Rng) -> Entry {
@@ -100,7 +156,8 @@ fn random_record(plan: &Plan, triangle: &Triangle, materials: u32, rng: &mut imp
     let x = rng.random_range(left..=right).clamp(-8, wide) + rng.random_range(-3..=3);
     let y = (top - rng.random_range(0..3)).clamp(0, i64::from(plan.height) - 1);
     let terms = plan.terms().iter().map(|_| random_words(rng)).collect();
-    Record { x: x as i32, y: y as u32, material: rng.random_range(0..materials), terms }
+    let gloss = if plan.shade.normalises() { rng.random_range(0..=8) } else { 0 };
+    Record { x: x as i32, y: y as u32, material: rng.random_range(0..materials), gloss, terms }
 }
 
 /// Any bits; now and then a step of 0.

@@ -11,6 +11,7 @@ mod intervals;
 mod bounds;
 mod sharp;
 mod second_order;
+mod term;
 mod normal_cone;
 mod triangles;
 mod solver;

@@ -14,16 +14,21 @@ impl Mesh {
     /// The normal of a face, by its place, at texture coordinates, `normal` (a unit vector) turned by the relief of its
     /// material; unchanged where there is none.
     pub fn bumped_normal(&self, face: u32, texture: DVec2, normal: DVec3) -> DVec3 {
+        (normal + self.turn(face, texture, normal)).try_normalize().unwrap_or(normal)
+    }
+
+    /// What the relief of its material adds to a normal of a face: linear in the normal, 0 where there is no relief.
+    pub fn turn(&self, face: u32, texture: DVec2, normal: DVec3) -> DVec3 {
         let corners = &self.faces[face as usize];
         let material = &self.materials[corners.material as usize];
         let relief = material.bump.and_then(|place| self.textures.get(place as usize));
         let (Some(relief), Some(places)) = (relief, self.face_data[face as usize].texture) else {
-            return normal;
+            return DVec3::ZERO;
         };
-        let Some([along_u, along_v]) = tangents(self.corners(corners), places) else { return normal };
+        let Some([along_u, along_v]) = tangents(self.corners(corners), places) else { return DVec3::ZERO };
         let slope = relief.slope(texture) * material.bump_height;
         let turned = slope.x * normal.cross(along_v) - slope.y * normal.cross(along_u);
-        (normal + turned / along_u.cross(along_v).length()).try_normalize().unwrap_or(normal)
+        turned / along_u.cross(along_v).length()
     }
 }
 

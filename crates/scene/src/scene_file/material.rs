@@ -17,6 +17,7 @@ const KEYS: &[&str] = &[
     "transmission",
     "coefficients",
     "texture",
+    "texels",
     "checker",
     "colors",
     "bump",
@@ -26,6 +27,9 @@ const KEYS: &[&str] = &[
 
 /// Place of `plain` among the values of `coefficients`: those of ch. 7.4.
 const PLAIN: usize = 1;
+
+/// Place of `nearest` among the values of `texels`.
+const NEAREST: usize = 1;
 
 /// Largest exponent of a highlight.
 const MAX_EXPONENT: f64 = 1e5;
@@ -78,8 +82,18 @@ impl Materials {
 
     /// A picture, or the built-in chequer.
     fn texture(&mut self, table: &Table, path: &Path) -> Result<Option<u32>, InputError> {
+        let texels = table.choice("texels", &["bilinear", "nearest"])?;
         if let Some(file) = one_of(table, ["texture", "checker"])? {
-            return Ok(Some(self.add(Texture::read(&path.with_file_name(file))?)));
+            let picture = Texture::read(&path.with_file_name(file))?;
+            let nearest = texels == Some(NEAREST);
+            return Ok(Some(self.add(if nearest { picture.nearest() } else { picture })));
+        }
+        if texels.is_some() {
+            return Err(table.fault(
+                "texels",
+                "given",
+                "permitted only beside `texture`, a picture of texels",
+            ));
         }
         let Some(squares) = table.number("checker", 1.0..=65536.0)? else {
             return Ok(None);

@@ -2,9 +2,11 @@
 
 use super::extra;
 use super::rules;
+use super::shading::{self, Header};
 use super::shadow::{occluder, shadow};
+use crate::band::Host;
 use crate::error::InputError;
-use crate::frame::{Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_SIDE, Polygon, ShadeMode, Triangle, Vertex};
+use crate::frame::{DEPTH_ROUNDING, Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_SIDE, Polygon, Triangle, Vertex};
 use crate::pass::State;
 use crate::text::{Lines, Place, words};
 use std::fs::File;
@@ -13,9 +15,12 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Every word a line may start with.
-const KEYS: [&str; 15] = [
+const KEYS: [&str; 20] = [
     "size",
     "mode",
+    "view",
+    "sun",
+    "specular",
     "clear",
     "extra",
     "shadow",
@@ -25,16 +30,18 @@ const KEYS: [&str; 15] = [
     "blend",
     "colour_write",
     "clear_depth",
+    "material",
     "T",
     "X",
+    "N",
     "P",
     "H",
 ];
 const SIZE: usize = 0;
 /// `depth` to `clear_depth`: also permitted between triangles.
-const RULES: Range<usize> = 6..11;
-/// `T`, `X`, `P` and `H`: the header has ended.
-const PRIMITIVE: usize = 11;
+const RULES: Range<usize> = 9..14;
+/// `T` to `H`: the header has ended.
+const PRIMITIVE: usize = 15;
 
 /// The numbers of a vertex, in the order of the file.
 const ATTRIBUTES: [&str; 7] = ["x", "y", "z", "r", "g", "b", "kt"];
@@ -77,7 +84,8 @@ impl<R: BufRead> Reader<R> {
     /// `input` fails, or an item down to the first triangle or polygon is not permitted.
     pub fn new(file: &str, input: R) -> Result<Self, InputError> {
         let frame = Frame::new(0, 0);
-        let parser = Parser { rules: frame.state(), frame, seen: [false; KEYS.len()], open: None };
+        let (rules, header) = (frame.state(), Header::default());
+        let parser = Parser { rules, frame, header, seen: [false; KEYS.len()], open: None, bare: None };
         let mut reader = Self { lines: Lines::new(file, input), parser };
         while !reader.parser.seen[PRIMITIVE] && reader.line()? {}
         reader.parser.require_size(reader.lines.end(), b"end of file")?;
@@ -98,7 +106,7 @@ impl<R: BufRead> Reader<R> {
     /// Reads a line into the frame; false at the end.
     fn line(&mut self) -> Result<bool, InputError> {
         let Some((place, text)) = self.lines.next()? else {
-            self.parser.require_values(self.lines.end(), b"end of file")?;
+            self.parser.end(self.lines.end())?;
             return Ok(false);
         };
         self.parser.line(place, text)?;
@@ -113,6 +121,9 @@ impl<R: BufRead> Iterator for Reader<R> {
         loop {
             if !self.parser.frame.polygons.is_empty() {
                 return Some(Err(self.needs_whole("P")));
+            }
+            if let Some(shading) = &self.parser.frame.shading {
+                return Some(Err(self.needs_whole(shading.method.name())));
             }
             if self.parser.open.is_none()
                 && let Some(triangle) = self.parser.frame.triangles.pop()
@@ -143,8 +154,12 @@ struct Parser {
     rules: State,
     /// Which of `KEYS` have come.
     seen: [bool; KEYS.len()],
+    /// Of shading at each pixel, until the first triangle.
+    header: Header,
     /// The line of the last triangle, if its values of the user's own are still to come.
     open: Option<usize>,
+    /// The same of its normals.
+    bare: Option<usize>,
 }
 
 impl Parser {
@@ -153,7 +168,7 @@ impl Parser {
         let Some(word) = words.next() else { return Ok(()) };
         let key = place.choice("line starts with", word, &KEYS)?;
         let name = KEYS[key];
-        if name != "X" {
+        if !["X", "N"].contains(&name) {
             self.require_values(place, word)?;
         }
         if name == "L" {
@@ -166,17 +181,23 @@ impl Parser {
         }
         if key >= PRIMITIVE {
             self.require_size(place, word)?;
-            self.seen[PRIMITIVE] = true;
+            if !std::mem::replace(&mut self.seen[PRIMITIVE], true) {
+                self.header.end(place, word, &mut self.frame)?;
+            }
             return self.primitive(place, name, words);
         }
         if RULES.contains(&key) && self.seen[PRIMITIVE] {
             return rules::change(place, name, words, &mut self.rules, &mut self.frame);
         }
+        if name == "material" {
+            let behind = self.seen[PRIMITIVE].then_some(&self.frame);
+            return self.header.material(place, words, behind);
+        }
         if self.seen[PRIMITIVE] && name != "shadow" {
             let why = "permitted only before the first triangle or polygon";
             return Err(place.fault(name, word, why).into());
         }
-        if std::mem::replace(&mut self.seen[key], true) {
+        if std::mem::replace(&mut self.seen[key], true) && name != "sun" {
             return Err(place.fault(name, word, "permitted once; it was set before").into());
         }
         match name {
@@ -185,10 +206,8 @@ impl Parser {
                 self.frame.width = place.number("size W", width, "an integer", 1..=MAX_SIDE)?;
                 self.frame.height = place.number("size H", height, "an integer", 1..=MAX_SIDE)?;
             }
-            "mode" => {
-                let [mode] = place.values(name, words)?;
-                self.frame.mode = ShadeMode::ALL[place.choice(name, mode, &ShadeMode::NAMES)?];
-            }
+            "mode" => self.header.mode(place, words, &mut self.frame)?,
+            "view" | "sun" | "specular" => self.header.line(place, name, words)?,
             _ if RULES.contains(&key) => {
                 rules::read(place, name, words, &mut self.rules)?;
                 rules::begin(self.rules, &mut self.frame);
@@ -217,17 +236,32 @@ impl Parser {
         let changed = self.frame.changes.last().is_some_and(|change| change.after == drawn);
         match name {
             "T" => {
-                self.frame.triangles.push(triangle(place, words)?);
+                let triangle = triangle(place, words, &mut self.frame.host)?;
+                self.frame.triangles.push(triangle);
                 self.open = (self.frame.extra > 0).then_some(place.line);
+                if let Some(shading) = &mut self.frame.shading {
+                    self.header.triangle(place, shading)?;
+                    self.bare = Some(place.line);
+                }
+            }
+            "N" => {
+                let open = self.bare.take().is_some();
+                shading::normals(place, words, open, self.frame.shading.as_mut())?;
             }
             "X" => {
                 let open = self.open.take().and_then(|_| self.frame.triangles.last_mut());
                 extra::values(place, words, self.frame.extra, open)?;
             }
             _ if self.frame.extra > 0 => return Err(extra::polygon(place, name, self.frame.extra)),
-            "P" => self.frame.polygons.push(Polygon { contours: vec![contour(place, name, words)?], after }),
+            _ if let Some(shading) = &self.frame.shading => {
+                return Err(shading::polygon(place, name, shading.method));
+            }
+            "P" => {
+                let contours = vec![contour(place, name, words, &mut self.frame.host)?];
+                self.frame.polygons.push(Polygon { contours, after });
+            }
             _ => match self.frame.polygons.last_mut().filter(|polygon| polygon.after == after && !changed) {
-                Some(polygon) => polygon.contours.push(contour(place, name, words)?),
+                Some(polygon) => polygon.contours.push(contour(place, name, words, &mut self.frame.host)?),
                 None => {
                     let why = "permitted only on the lines after a polygon `P n x y z r g b kt ...`";
                     return Err(place.fault("line starts with", name.as_bytes(), why).into());
@@ -237,9 +271,20 @@ impl Parser {
         Ok(())
     }
 
-    /// A triangle has its values before anything else comes.
+    /// The file ends; its header too, if nothing is drawn.
+    fn end(&mut self, place: Place) -> Result<(), InputError> {
+        let before = b"end of file";
+        self.require_values(place, before)?;
+        if self.seen[PRIMITIVE] { Ok(()) } else { self.header.end(place, before, &mut self.frame) }
+    }
+
+    /// A triangle has its values and its normals before anything else comes.
     fn require_values(&self, place: Place, before: &[u8]) -> Result<(), InputError> {
-        self.open.map_or(Ok(()), |line| Err(extra::missing(place, before, self.frame.extra, line)))
+        match (self.open, self.bare) {
+            (Some(line), _) => Err(extra::missing(place, before, self.frame.extra, line)),
+            (None, Some(line)) => Err(shading::missing(place, before, line)),
+            (None, None) => Ok(()),
+        }
     }
 
     fn require_size(&self, place: Place, before: &[u8]) -> Result<(), InputError> {
@@ -251,12 +296,16 @@ impl Parser {
     }
 }
 
-fn triangle<'a>(place: Place, words: impl Iterator<Item = &'a [u8]>) -> Result<Triangle, InputError> {
+fn triangle<'a>(
+    place: Place,
+    words: impl Iterator<Item = &'a [u8]>,
+    host: &mut Host,
+) -> Result<Triangle, InputError> {
     let words: [&[u8]; 3 * ATTRIBUTES.len()] = place.values("T", words)?;
     let mut triangle = Triangle::default();
     for (index, (slot, words)) in triangle.0.iter_mut().zip(words.chunks_exact(ATTRIBUTES.len())).enumerate()
     {
-        *slot = vertex(place, "T", index, words)?;
+        *slot = vertex(place, "T", index, words, host)?;
     }
     Ok(triangle)
 }
@@ -266,6 +315,7 @@ fn contour<'a>(
     place: Place,
     key: &str,
     mut words: impl Iterator<Item = &'a [u8]>,
+    host: &mut Host,
 ) -> Result<Vec<Vertex>, InputError> {
     let count = words.next().unwrap_or_default();
     let count = place.number(format_args!("{key} n"), count, "an integer", 3..=MAX_CONTOUR)?;
@@ -278,16 +328,29 @@ fn contour<'a>(
         );
         return Err(place.fault(key, found.as_bytes(), permitted).into());
     }
-    words.chunks_exact(ATTRIBUTES.len()).enumerate().map(|(i, words)| vertex(place, key, i, words)).collect()
+    let vertices = words.chunks_exact(ATTRIBUTES.len()).enumerate();
+    vertices.map(|(i, words)| vertex(place, key, i, words, host)).collect()
 }
 
-fn vertex(place: Place, key: &str, index: usize, words: &[&[u8]]) -> Result<Vertex, InputError> {
+fn vertex(
+    place: Place,
+    key: &str,
+    index: usize,
+    words: &[&[u8]],
+    host: &mut Host,
+) -> Result<Vertex, InputError> {
     let mut numbers = [0.0; ATTRIBUTES.len()];
     for (a, (number, word)) in numbers.iter_mut().zip(words).enumerate() {
-        let range = if a < 2 { -MAX_COORDINATE..=MAX_COORDINATE } else { 0.0..=1.0 };
+        let range = match a {
+            0 | 1 => -MAX_COORDINATE..=MAX_COORDINATE,
+            2 => -DEPTH_ROUNDING..=1.0 + DEPTH_ROUNDING,
+            _ => 0.0..=1.0,
+        };
         let key = format_args!("{key} vertex {} {}", index + 1, ATTRIBUTES[a]);
         *number = place.number(key, word, "a number", range)?;
     }
-    let [x, y, z, r, g, b, kt] = numbers;
+    let [x, y, depth, r, g, b, kt] = numbers;
+    let z = depth.clamp(0.0, 1.0);
+    host.clamped_depths += u64::from(z != depth);
     Ok(Vertex { x, y, z, r, g, b, kt, ..Vertex::default() })
 }

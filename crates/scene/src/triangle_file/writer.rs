@@ -1,7 +1,10 @@
 //! Writes a triangle file; every number comes back bit for bit.
 
 use crate::frame::{Frame, Shadow, Triangle, Vertex};
+use crate::light::Light;
+use crate::mesh::Material;
 use crate::pass::State;
+use crate::pixel_shading::{PixelShading, Viewer};
 use crate::polygon::Primitive;
 use std::io::{self, Write};
 use std::iter;
@@ -12,7 +15,10 @@ use std::iter;
 /// `out` fails.
 pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
     writeln!(out, "size {} {}", frame.width, frame.height)?;
-    writeln!(out, "mode {}", frame.mode.name())?;
+    match &frame.shading {
+        Some(shading) => header(shading, &mut out)?,
+        None => writeln!(out, "mode {}", frame.mode.name())?,
+    }
     rules(None, frame.state(), &mut out)?;
     let [r, g, b] = frame.clear;
     writeln!(out, "clear {r} {g} {b}")?;
@@ -22,6 +28,7 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
     if let Some(shadow) = &frame.shadow {
         write_shadow(shadow, &mut out)?;
     }
+    let mut material = None;
     let (mut state, mut changes) = (frame.state(), frame.changes.iter().peekable());
     for (place, primitive) in frame.primitives().into_iter().enumerate() {
         while let Some(change) = changes.next_if(|change| change.after <= place) {
@@ -33,10 +40,26 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
         }
         match primitive {
             Primitive::Triangle(triangle) => {
+                // Without polygons the place is that among the triangles.
+                let shaded = frame.shading.as_ref().map(|shading| (shading, shading.triangles[place]));
+                if let Some((shading, own)) = shaded
+                    && material.replace(own.material) != Some(own.material)
+                {
+                    let Material { ambient, diffuse, specular, exponent, .. } =
+                        shading.materials[own.material as usize];
+                    writeln!(out, "material {} {} {} {exponent}", ambient.x, diffuse.x, specular.x)?;
+                }
                 write!(out, "T")?;
                 vertices(&triangle.0, &mut out)?;
                 if frame.extra > 0 {
                     extra(triangle, frame.extra, &mut out)?;
+                }
+                if let Some((_, own)) = shaded {
+                    write!(out, "N")?;
+                    for normal in own.normals {
+                        write!(out, "  {} {} {}", normal.x, normal.y, normal.z)?;
+                    }
+                    writeln!(out)?;
                 }
             }
             Primitive::Polygon(polygon) => {
@@ -48,6 +71,24 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
         }
     }
     Ok(())
+}
+
+/// Mode, viewer and lights. Only what a file can say: that of another frame is none of a file.
+fn header(shading: &PixelShading, out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "mode {}", shading.method.name())?;
+    let unsaid =
+        |what: &str| io::Error::new(io::ErrorKind::Unsupported, format!("{what} in a triangle file"));
+    let Viewer::Toward(view) = shading.viewer else { return Err(unsaid("a viewer at a point")) };
+    writeln!(out, "view {} {} {}", view.x, view.y, view.z)?;
+    for light in &shading.lights {
+        let Light::Directional { toward, intensity } = light else {
+            return Err(unsaid("a light at a point"));
+        };
+        writeln!(out, "sun {} {} {} {}", toward.x, toward.y, toward.z, intensity.x)?;
+    }
+    let form = PixelShading::FORMS.iter().position(|form| *form == shading.specular);
+    let form = form.ok_or_else(|| unsaid("the mirror form"))?;
+    writeln!(out, "specular {}", PixelShading::FORM_NAMES[form])
 }
 
 /// The rules that differ from those before; all that are not as usual if there are none before.

@@ -7,12 +7,14 @@
 //!  sphere           a small shaded mesh
 //!  depth_never ..   a suite for each depth function, and one without depth writes
 //!  blend_add ..     machines with BLEND: colours that are added, and colours that are not written
+//!  light ..         machines with SHADOW: the corners of its map, and no map
 //! ```
 //! A suite knows the formats of the machine, nothing of what it draws.
 
 mod corners;
 mod functions;
 mod hazards;
+mod light;
 mod pen;
 mod random;
 mod sphere;
@@ -55,6 +57,12 @@ pub struct Suite {
     pub color_write: bool,
     /// BLEND adds, else it mixes.
     pub blend_add: bool,
+    /// SHADOW looks up its map; of no meaning without it.
+    pub shadow_on: bool,
+    /// What SHADOW leaves of a colour in shadow, where its gate scales, LSB.
+    pub ambient: u64,
+    /// The words of the light's map, from address 0 on; beyond them all ones.
+    pub map: Vec<u32>,
     /// Under which stalls it shows what it is for.
     pub stalls: StallKind,
     /// The units that it says something about; all, if none is named.
@@ -80,6 +88,8 @@ enum Kind {
     Function(u8, bool),
     /// The same drawing for BLEND: with or without colours written, added or mixed.
     Colors { color_write: bool, blend_add: bool },
+    /// For SHADOW: its map at work or not.
+    Light { shadow_on: bool },
 }
 
 const fn shapes(
@@ -99,12 +109,16 @@ impl Entry {
     /// It says something about this machine.
     #[must_use]
     pub fn is_for(&self, machine: &Plan) -> bool {
-        !matches!(self.kind, Kind::Colors { .. }) || machine.blend.is_there()
+        match self.kind {
+            Kind::Colors { .. } => machine.blend.is_there(),
+            Kind::Light { .. } => machine.shadow.is_there(),
+            Kind::Shapes(..) | Kind::Function(..) => true,
+        }
     }
 }
 
 /// The suites that come with the program.
-pub const SUITES: [Entry; 15] = [
+pub const SUITES: [Entry; 17] = [
     shapes(
         "hazards",
         "pixels met again while they are in flight: one-pixel triangles on one address, knee lines drawn twice",
@@ -145,7 +159,23 @@ pub const SUITES: [Entry; 15] = [
         about: "color_write = 0: depths alone are written, in machines with BLEND",
         kind: Kind::Colors { color_write: false, blend_add: false },
     },
+    Entry {
+        name: "light",
+        about: "a light's map: its corners and sides, depths exactly those of a texel, before and behind it, in machines with SHADOW",
+        kind: Kind::Light { shadow_on: true },
+    },
+    Entry {
+        name: "light_off",
+        about: "shadow_on = 0: all is lit, in machines with SHADOW",
+        kind: Kind::Light { shadow_on: false },
+    },
 ];
+
+/// The words of the light's map that the suites are drawn with; none without SHADOW.
+#[must_use]
+pub fn map(machine: &Plan) -> Vec<u32> {
+    if machine.shadow.is_there() { light::map(machine) } else { Vec::new() }
+}
 
 /// No suite of that name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -167,7 +197,12 @@ impl Suite {
             name: name.to_owned(),
             nearest: nearest(name, SUITES.iter().map(|entry| entry.name)),
         })?;
-        let plain = Suite { seed, ..Suite::of_triangles(name, entry.about, Vec::new()) };
+        let mut plain = Suite { seed, ..Suite::of_triangles(name, entry.about, Vec::new()) };
+        if machine.shadow.is_there() {
+            // Every suite is drawn with the map at work, but for the one without.
+            (plain.shadow_on, plain.map) = (true, map(machine));
+            plain.ambient = machine.color.max() / 3;
+        }
         Ok(match entry.kind {
             Kind::Shapes(stalls, cases) => Suite { stalls, cases: cases(machine, seed, count), ..plain },
             Kind::Function(depth_func, depth_write) => {
@@ -195,6 +230,14 @@ impl Suite {
                 cases: hazards::cases(machine),
                 ..plain
             },
+            Kind::Light { shadow_on } => Suite {
+                shadow_on,
+                depth_func: 7,
+                stalls: StallKind::Late,
+                units: const { &[Unit::MACHINE, Unit::of(&units::shadow::SPEC)] },
+                cases: light::cases(machine),
+                ..plain
+            },
         })
     }
 
@@ -212,6 +255,9 @@ impl Suite {
             depth_write: less.depth_write,
             color_write: less.color_write,
             blend_add: less.blend_add,
+            shadow_on: less.shadow_on,
+            ambient: less.ambient,
+            map: Vec::new(),
             stalls: StallKind::Mixed,
             units: &[],
             cases: vec![case],
@@ -227,8 +273,9 @@ impl Suite {
     /// The state that the suite is drawn with.
     #[must_use]
     pub fn state(&self) -> DrawState {
-        let Suite { depth_func, depth_write, color_write, blend_add, .. } = *self;
-        DrawState { depth_func, depth_write, color_write, blend_add, ..DrawState::default() }
+        let Suite { depth_func, depth_write, color_write, blend_add, shadow_on, ambient, .. } = *self;
+        let clear = [0; 3];
+        DrawState { depth_func, depth_write, color_write, blend_add, shadow_on, ambient, clear }
     }
 
     /// One suite after the other, as one.
@@ -237,6 +284,9 @@ impl Suite {
         let mut joined = Suite { cases: Vec::new(), ..Suite::of_triangles(name, about, Vec::new()) };
         for suite in suites {
             joined.seed = joined.seed.max(suite.seed);
+            // The light is the machine's.
+            (joined.shadow_on, joined.ambient) = (suite.shadow_on, suite.ambient);
+            joined.map = suite.map;
             joined.cases.extend(suite.cases);
         }
         joined

@@ -40,14 +40,38 @@ impl<'a> Pen<'a> {
 
     /// The same with this k_t.
     pub fn glass(&self, at: (f64, f64), shares: [f64; 4], kt: f64) -> PortVertex {
-        let limit = self.limit();
         let channels = self.machine.channels().iter().zip(shares.into_iter().cycle());
         let values = channels.map(|(channel, share)| {
             let (low, high) = channel.host_range();
+            // Of what a light-space value may be the map is a small part: around that.
+            let (low, high) = match channel.name {
+                "lx" | "ly" => around(f64::from(self.machine.shadow.size), low, high),
+                "lz" => around(f64::from(1u32 << self.machine.shadow.depth_bits), low, high),
+                _ => (low, high),
+            };
             let share = if channel.name == "kt" { kt } else { share };
             low + (high - low) * share.clamp(0.0, 1.0)
         });
-        let values: Vec<f64> = values.chain(self.machine.has_triangle_kt().then_some(kt)).collect();
+        self.placed(at, values.chain(self.machine.has_triangle_kt().then_some(kt)).collect())
+    }
+
+    /// A vertex with shares as in [`Pen::vertex`] at these texels and this depth of a light's map, LSB.
+    pub fn lit(&self, at: (f64, f64), shares: [f64; 4], light: [f64; 3]) -> PortVertex {
+        let channels = self.machine.channels().iter().zip(shares.into_iter().cycle());
+        let values = channels.map(|(channel, share)| {
+            let (low, high) = channel.host_range();
+            match ["lx", "ly", "lz"].iter().position(|name| *name == channel.name) {
+                Some(i) => light[i].clamp(low, high),
+                // Opaque.
+                None if channel.name == "kt" => 0.0,
+                None => low + (high - low) * share,
+            }
+        });
+        self.placed(at, values.chain(self.machine.has_triangle_kt().then_some(0.0)).collect())
+    }
+
+    fn placed(&self, at: (f64, f64), values: Vec<f64>) -> PortVertex {
+        let limit = self.limit();
         self.machine
             .port_vertex(at.0.clamp(-limit, limit), at.1.clamp(-limit, limit), &values)
             .expect("clamped to what the port takes")
@@ -79,6 +103,11 @@ impl<'a> Pen<'a> {
             self.glass(at[i], [z, r, g, b], kt)
         })
     }
+}
+
+/// From a little before 0 to a little beyond the end, within what there is.
+fn around(end: f64, low: f64, high: f64) -> (f64, f64) {
+    ((-end / 8.0).max(low), (end * 1.125).min(high))
 }
 
 /// A case of these triangles.

@@ -1,8 +1,8 @@
 //! The manifest of a trace.
 
 use super::{
-    Files, Tables, cycle_file, known, params, patterns, status_fields, table_file, token_file, triangle_file,
-    willing_file,
+    Files, Tables, cycle_file, known, params, patterns, start_file, status_fields, table_file, token_file,
+    triangle_file, willing_file,
 };
 use crate::capture::Trace;
 use crate::manifest::{
@@ -176,7 +176,8 @@ fn memories(trace: &Trace) -> Vec<Memory> {
         }),
         latency: setting.latency,
         words: setting.words as u64,
-        clear: setting.clear as u64, // at most 32 bits
+        clear: setting.clear as u64, // at most 32 bits, 48 of colours
+        start: memory.write.is_none().then(|| start_file(memory.name)),
         read_during_write: "old word".to_owned(),
     });
     memories.collect()

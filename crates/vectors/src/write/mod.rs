@@ -6,6 +6,7 @@
 //!  <channel>.exp.mem  <channel>.cyc.mem     tokens out of it, and the cycles
 //!  <channel>.triangle.mem                   the triangle that each of them belongs to, where that is known
 //!  status.exp.mem     status.cyc.mem        outputs compared in every cycle, where they change
+//!  <memory>.start.mem                       the words of a memory that nobody writes
 //!  <channel>.willing.mem                    when the bench offers and takes
 //!  *.csv                                    all of this for eyes, unless left out
 //!  params.vh  cases.vh  tb.v  bench_*.v     the test bench
@@ -69,6 +70,12 @@ pub fn directory(suite: &Suite, trace: &Trace, design: &[(String, String)], tabl
     for (name, pattern) in patterns(trace) {
         add(willing_file(name), mem::bits(pattern.bits()));
     }
+    for (memory, setting) in interface.memories.iter().zip(&trace.setting.memories) {
+        if memory.write.is_none() {
+            let words: Vec<u64> = setting.start.iter().map(|word| *word as u64).collect(); // at most 24 bits
+            add(start_file(memory.name), mem::numbers(memory.word_bits, &words));
+        }
+    }
     add("params.vh".to_owned(), params::params(trace));
     add("cases.vh".to_owned(), faults::cases(suite));
     // All that the bench reads is there.
@@ -114,6 +121,10 @@ fn triangle_file(channel: &str) -> String {
 
 fn willing_file(channel: &str) -> String {
     format!("{channel}.willing.mem")
+}
+
+fn start_file(memory: &str) -> String {
+    format!("{memory}.start.mem")
 }
 
 fn table_file(channel: &str) -> String {

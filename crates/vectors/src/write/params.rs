@@ -36,6 +36,9 @@ pub fn params(trace: &Trace) -> String {
         let latency = format!("{name}_LATENCY = {};", setting.latency);
         line(latency, "cycles from a read to its data, at the least");
         line(sized(&format!("{name}_CLEAR"), memory.word_bits, setting.clear), "every word at the start");
+        if memory.write.is_none() {
+            line(format!("{name}_START = {};", setting.start.len()), "words of its own before that");
+        }
     }
     for (constant, value) in interface.constants.iter().zip(&trace.setting.constants) {
         line(sized(&constant.name.to_uppercase(), constant.width(), *value), &constant.field.to_string());

@@ -138,7 +138,14 @@ fn memory_end(interface: &Interface, memory: &Memory) -> String {
             (write_now, bits(write.address), bits(write.word))
         }
     };
+    // Words of its own, for a memory that nobody writes.
+    let start = if memory.write.is_none() {
+        ",\n        .STARTS({MEMORY}_START), .START(\"{memory}.start.mem\")"
+    } else {
+        ""
+    };
     MEMORY
+        .replace("{start}", start)
         .replace("{memory}", memory.name)
         .replace("{MEMORY}", &memory.name.to_uppercase())
         .replace("{read}", read)
@@ -149,7 +156,7 @@ fn memory_end(interface: &Interface, memory: &Memory) -> String {
 }
 
 const MEMORY: &str = r#"    bench_memory #(
-        .ADDRESS({READ}_WIDTH), .WIDTH({NAME}_WIDTH), .LATENCY({MEMORY}_LATENCY), .CLEAR({MEMORY}_CLEAR)
+        .ADDRESS({READ}_WIDTH), .WIDTH({NAME}_WIDTH), .LATENCY({MEMORY}_LATENCY), .CLEAR({MEMORY}_CLEAR){start}
     ) {memory}_memory (
         .clk(clk), .rst(rst), .cycle(cycle), .willing({name}_willing),
         .read({read}_fire), .read_address({read}_token),

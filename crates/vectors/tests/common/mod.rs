@@ -2,7 +2,9 @@
 #![allow(dead_code)] // every test file uses a part of it
 
 use edgewalk_machine::units;
-use edgewalk_machine::{Blend, BlendKind, EdgeKind, Fill, Hazard, Kind, Machine, Plan, Precision};
+use edgewalk_machine::{
+    Blend, BlendKind, EdgeKind, Fill, Gate, Hazard, Kind, Machine, Plan, Precision, Shadow, ShadowLight,
+};
 use edgewalk_vectors::{Files, Unit};
 use std::path::Path;
 use std::process::Command;
@@ -52,6 +54,7 @@ pub const EDGE: Unit = Unit::of(&units::edge::SPEC);
 pub const SPAN: Unit = Unit::of(&units::span::SPEC);
 pub const PIXEL: Unit = Unit::of(&units::pixel::SPEC);
 pub const DEPTH: Unit = Unit::of(&units::depth::SPEC);
+pub const SHADOW: Unit = Unit::of(&units::shadow::SPEC);
 pub const BLEND: Unit = Unit::of(&units::blend::SPEC);
 
 /// A machine with channels of the user's own, of these kinds and numbers of bits.
@@ -162,6 +165,48 @@ pub fn glass() -> Vec<(&'static str, Plan)> {
                     ..machine(Constant, [Interlock, Drain], [3, 2, 1, 2])
                 },
                 [(Kind::Signed, 5), (Kind::Unorm, 3)],
+            ),
+        ),
+    ];
+    list.into_iter().map(|(name, machine)| (name, checked(machine))).collect()
+}
+
+/// Six machines with SHADOW: gates, sides that are powers of two and not, queues, latencies, adders; three of them with BLEND, two with
+/// channels of the user's own.
+pub fn lights() -> Vec<(&'static str, Plan)> {
+    let small = Machine::clone(&small());
+    let light = |[size, guard_bits, depth_bits]: [u32; 3], gate, [queue, latency]: [u32; 2]| {
+        let light = Shadow { light: ShadowLight::Parallel, fraction: 8, vertex_fraction: 2, ..small.shadow };
+        let shadow = Shadow { size, guard_bits, depth_bits, gate, queue, latency, ..light };
+        Machine { shadow, ..small.clone() }
+    };
+    let glass = |kind, hazard, machine: Machine| {
+        let blend = Blend { kind, hazard, kt_fraction: 8, kt_vertex: 2, ..small.blend };
+        Machine { blend, ..machine }
+    };
+    let tagged = Machine { tag_bits: 3, adders: 2, ..light([5, 1, 8], Gate::Scale, [3, 1]) };
+    let tagged = with_extras(tagged, [(Kind::Signed, 5)]);
+    let list = vec![
+        ("and", light([8, 2, 8], Gate::And, [4, 2])),
+        ("scale_five_texels_tags_one_extra", tagged),
+        ("and_one_place", Machine { adders: 1, ..light([3, 0, 4], Gate::And, [1, 1]) }),
+        (
+            "scale_constant_kt",
+            glass(BlendKind::Constant, Hazard::Forward, light([4, 1, 6], Gate::Scale, [2, 2])),
+        ),
+        (
+            "and_interpolated_kt",
+            glass(BlendKind::Interpolated, Hazard::Interlock, light([1, 2, 5], Gate::And, [5, 3])),
+        ),
+        (
+            "textbook_constant_kt_one_extra",
+            with_extras(
+                Machine {
+                    subpixel_bits: 0,
+                    fill: Fill::Textbook,
+                    ..glass(BlendKind::Constant, Hazard::Drain, light([6, 1, 7], Gate::Scale, [4, 4]))
+                },
+                [(Kind::Unorm, 3)],
             ),
         ),
     ];

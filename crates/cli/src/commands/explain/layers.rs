@@ -88,7 +88,8 @@ fn machine_colors(frame: &Frame, machine: &Plan, (x, y): (u32, u32)) -> Result<V
             stored.push([1, 2, 3].map(|i| sample.values[i]));
         }
     };
-    render_passes(machine, port.triangles.iter().copied(), &port.passes, Stalls::NONE, hook)?;
+    let triangles = port.triangles.iter().copied();
+    render_passes(machine, triangles, &port.passes, &port.maps(), Stalls::NONE, hook)?;
     Ok(stored)
 }
 

@@ -34,6 +34,9 @@ pub(super) fn text(of: &Explanation, color_bits: u32) -> String {
         }
         _ = writeln!(page, "  sum, none hidden    {}", three(light.total));
     }
+    if let Some(pixel) = &of.shaded {
+        page += &super::shaded::text(pixel);
+    }
     if let Some(walk) = &of.machine {
         machine(&mut page, walk);
     }

@@ -4,19 +4,25 @@ use super::blend::{BlendStatus, ColorPorts};
 use super::depth::{DepthStatus, MemoryPorts};
 use super::edge::EdgePorts;
 use super::link::{Giver, Scope};
+use super::normal::{self, NormalPorts};
 use super::pixel::PixelPorts;
 use super::setup::{SetupPorts, TriangleTaker};
 use super::shade::{self, ShadePorts};
 use super::shadow::{MapPorts, ShadowPorts};
 use super::span::SpanPorts;
 use super::term::{TermPorts, WordPorts};
+use super::texel::{self, TexelPorts};
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_model::machine::shading::parts;
 use edgewalk_model::tokens::Passed;
-use edgewalk_model::{BlendInputs, Events, Inputs, Model, ShadeInputs, ShadowInputs, TermInputs, View};
+use edgewalk_model::{
+    BlendInputs, Events, Inputs, Model, NormalInputs, ShadeInputs, ShadowInputs, TermInputs, TexelInputs,
+    View,
+};
 
 /// The machine.
 pub struct MachineDevice<const C: usize> {
@@ -26,6 +32,8 @@ pub struct MachineDevice<const C: usize> {
     memory: MemoryPorts<C>,
     /// Of TERM and of SHADE.
     words: Option<(WordPorts, WordPorts)>,
+    textures: Option<WordPorts>,
+    roots: Option<WordPorts>,
     map: Option<MapPorts>,
     color: Option<ColorPorts<C>>,
     activity: PortId,
@@ -40,6 +48,8 @@ struct Inside<const C: usize> {
     span: SpanPorts<C>,
     term: Option<TermPorts<C>>,
     pixel: PixelPorts<C>,
+    texel: Option<TexelPorts<C>>,
+    normal: Option<NormalPorts<C>>,
     shade: Option<ShadePorts<C>>,
     shadow: Option<ShadowPorts<C>>,
     depth: DepthStatus,
@@ -60,6 +70,8 @@ impl<const C: usize> MachineDevice<C> {
             tri: TriangleTaker::find(plan, interface)?,
             memory: MemoryPorts::find(scope)?,
             words: plan.shade.is_there().then(words).transpose()?,
+            textures: plan.shade.textures().then(|| texel::find(scope)).transpose()?,
+            roots: plan.shade.normalises().then(|| WordPorts::find(scope, "rrd", "rdata")).transpose()?,
             map: plan.shadow.is_there().then(|| MapPorts::find(scope)).transpose()?,
             color: plan.blend.is_there().then(|| ColorPorts::find(scope)).transpose()?,
             activity: scope.port("activity")?,
@@ -79,6 +91,8 @@ impl<const C: usize> Inside<C> {
             span: SpanPorts::find(of("span"))?,
             term: plan.shade.is_there().then(|| TermPorts::find(of("term"))).transpose()?,
             pixel: PixelPorts::find(of("pixel"))?,
+            texel: plan.shade.textures().then(|| TexelPorts::find(of("texel"))).transpose()?,
+            normal: plan.shade.normalises().then(|| NormalPorts::find(of("normal"))).transpose()?,
             shade: plan.shade.is_there().then(|| ShadePorts::find(of("shade"))).transpose()?,
             shadow: plan.shadow.is_there().then(|| ShadowPorts::find(of("shadow"))).transpose()?,
             depth: DepthStatus::find(of("depth"))?,
@@ -89,7 +103,8 @@ impl<const C: usize> Inside<C> {
     /// The links between the units in a cycle with these inputs, from the units' states before the clock edge.
     fn show(&self, model: &Model<C>, inputs: &Inputs, ports: &mut PortValues) {
         let units = model.units();
-        let (drawn, cosines) = (units.pixel.frag(), units.pixel.cosines());
+        let drawn = units.pixel.frag();
+        let offered = units.offered(&inputs.texel);
         let frag = units.shade.map_or(drawn, |shade| shade.tinted());
         let shaded = units.shadow.and_then(|shadow| shadow.shaded(&inputs.shadow));
         let seen = if units.shadow.is_some() { shaded.as_ref() } else { frag };
@@ -98,13 +113,20 @@ impl<const C: usize> Inside<C> {
         self.setup.show(units.setup, ports);
         self.edge.show(units.edge, units.span.fresh_queued(), ports);
         self.span.show(units.span, ports);
-        let drawn_ready = units.shade.map_or(frag_ready, |shade| shade.frag_ready(cosines, frag_ready));
+        let readies = units.readies(&offered, &inputs.texel, frag_ready);
         if let (Some(shown), Some(unit)) = (&self.term, units.term) {
-            shown.show(unit, units.span.span(), units.pixel.span_ready(drawn_ready), ports);
+            shown.show(unit, units.span.span(), units.pixel.span_ready(readies.drawn), ports);
         }
-        self.pixel.show(units.pixel, drawn_ready, ports);
+        self.pixel.show(units.pixel, readies.drawn, ports);
+        if let (Some(shown), Some(unit)) = (&self.texel, units.texel) {
+            shown.show(unit, &inputs.texel, ports);
+        }
+        if let (Some(shown), Some(unit)) = (&self.normal, units.normal) {
+            shown.show(unit, parts(&offered.textured).0, readies.normed, ports);
+        }
         if let (Some(shown), Some(unit)) = (&self.shade, units.shade) {
-            shown.show(unit, (drawn, cosines), frag_ready, ports);
+            let (frag, cosines) = parts(&offered.normed);
+            shown.show(unit, (frag, &cosines), frag_ready, ports);
         }
         if let (Some(shown), Some(unit)) = (&self.shadow, units.shadow) {
             shown.show(unit, frag, &inputs.shadow, ports);
@@ -131,6 +153,14 @@ impl<const C: usize> MachineDevice<C> {
             data: depth.data,
             wr_ready: depth.wr_ready,
             term: words.map_or_else(TermInputs::default, |(terms, _)| terms.term_inputs(ports)),
+            texel: self
+                .textures
+                .as_ref()
+                .map_or_else(TexelInputs::default, |memory| texel::inputs(memory, ports)),
+            normal: self
+                .roots
+                .as_ref()
+                .map_or_else(NormalInputs::default, |roots| normal::inputs(roots, ports)),
             shade: words.map_or_else(ShadeInputs::default, |(_, tables)| shade::inputs(tables, ports)),
             shadow: self.map.as_ref().map_or_else(ShadowInputs::default, |map| map.inputs(ports)),
             blend: self.color.as_ref().map_or_else(BlendInputs::default, |color| BlendInputs {
@@ -155,6 +185,12 @@ impl<const C: usize> Device for MachineDevice<C> {
             terms.show(outputs.trd, outputs.tdata_ready, ports);
             tables.show(outputs.srd, outputs.sdata_ready, ports);
         }
+        if let Some(textures) = &self.textures {
+            textures.show(outputs.xrd, outputs.xdata_ready, ports);
+        }
+        if let Some(roots) = &self.roots {
+            roots.show(outputs.rrd, outputs.rdata_ready, ports);
+        }
         if let Some(map) = &self.map {
             map.show(outputs.mrd, outputs.mdata_ready, ports);
         }
@@ -173,8 +209,8 @@ impl<const C: usize> ModelDevice for MachineDevice<C> {
     }
 
     fn view(&self, ports: &PortValues, view: &mut View) -> bool {
-        // SHADOW, TERM and SHADE are not shown yet.
-        if self.map.is_some() || self.words.is_some() {
+        // SHADOW is not shown yet.
+        if self.map.is_some() {
             return false;
         }
         let triangle = self.tri.token(ports);

@@ -49,6 +49,11 @@ pub struct WordPorts {
 impl WordPorts {
     /// `read` and `data`: the links.
     pub fn find(scope: Scope, read: &str, data: &str) -> Result<Self, NoPlace> {
+        WordPorts::of(scope, read, data, "word")
+    }
+
+    /// The same of a word that is called otherwise.
+    pub fn of(scope: Scope, read: &str, data: &str, word: &str) -> Result<Self, NoPlace> {
         let port = |link: &str, part: &str| scope.port(&format!("{link}_{part}"));
         Ok(WordPorts {
             read_valid: port(read, "valid")?,
@@ -56,7 +61,7 @@ impl WordPorts {
             read_addr: port(read, "addr")?,
             data_valid: port(data, "valid")?,
             data_ready: port(data, "ready")?,
-            word: port(data, "word")?,
+            word: port(data, word)?,
         })
     }
 

@@ -1,0 +1,173 @@
+//! A pixel that is shaded: the walk of its terms, what the tables hold there, and how far golden is.
+
+use edgewalk_explore::shade::{Feed, IndexErrors, Place};
+use edgewalk_golden::{PixelBrush, fragments};
+use edgewalk_machine::{Plan, PortVertex, Record};
+use edgewalk_numerics::term::TermWords;
+use edgewalk_scene::Frame;
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// Rows of a walk shown at either end.
+const SHOWN: usize = 4;
+
+/// What TERM and SHADE make of a pixel.
+#[derive(Debug, Serialize)]
+pub struct ShadedPixel {
+    /// The number of the triangle's material.
+    material: u32,
+    /// Of each light N·L, then N·H.
+    terms: Vec<TermWalk>,
+    /// Proved bound of the colour against golden's fast Phong, LSB.
+    bound: f64,
+}
+
+/// The way of a term from where its record begins to the pixel: down, then along the span.
+#[derive(Debug, Serialize)]
+struct TermWalk {
+    name: &'static str,
+    bits: u32,
+    fraction: u32,
+    steps: Vec<TermStep>,
+    /// The word's floor: what SHADE takes.
+    output: i64,
+    /// The word, entries of the table.
+    index: f64,
+    /// Golden's, and how far the machine's may be from it.
+    golden: f64,
+    bound: f64,
+    /// The entry that is read, and the word of the table there.
+    entry: u32,
+    table: String,
+}
+
+/// Words of a term, signed, in units of their last bit.
+#[derive(Debug, Serialize)]
+struct TermStep {
+    step: &'static str,
+    x: i64,
+    y: i64,
+    v: i64,
+    x_step: i64,
+    y_step: i64,
+}
+
+/// Of pixel (x, y), which shows triangle `id`; `leftward` says which way its spans run.
+pub fn shaded(
+    machine: &Plan,
+    frame: &Frame,
+    feed: &Feed,
+    id: usize,
+    (x, y): (u32, u32),
+    leftward: bool,
+) -> Option<ShadedPixel> {
+    let (record, errors) = (feed.words.records.get(id)?, feed.proof.errors.get(id)?);
+    let brush = PixelBrush::new(frame.shading.as_ref()?, id)?;
+    let mut cosines = Vec::new();
+    let screen = (frame.width, frame.height);
+    fragments(&frame.triangles[id], frame.mode, machine.subpixel_bits, screen, |fragment| {
+        if (fragment.x, fragment.y) == (x, y) {
+            cosines = brush.cosines(fragment);
+        }
+    });
+    let glosses = feed.glosses(id);
+    let terms = machine.terms().iter().zip(&record.terms).enumerate().map(|(place, (term, words))| {
+        let (light, highlight) = (place / 2, place % 2 == 1);
+        let words = TermWords::new(term.word(), *words)?;
+        let to = (i64::from(x), i64::from(y));
+        let steps = steps(record, &words, to, leftward);
+        let word = steps.last()?.v;
+        let (gloss, bound) = of_term(errors, &glosses, light, highlight);
+        let (entries, cosine) = (2f64.powi(machine.shade.table_bits as i32), cosines.get(light)?[place % 2]);
+        let output = word >> term.fraction;
+        let entry = output.clamp(0, entries as i64 - 1) as u32;
+        let at = machine.table_place(record.material, light as u32, entry);
+        Some(TermWalk {
+            name: term.name,
+            bits: term.bits,
+            fraction: term.fraction,
+            steps,
+            output,
+            index: word as f64 / 2f64.powi(term.fraction as i32),
+            golden: entries - (1.0 - cosine) * entries * 2f64.powi(gloss as i32),
+            bound,
+            entry,
+            table: table(machine, feed.words.tables.get(at).copied()?, highlight),
+        })
+    });
+    // Lights that the frame has not are left out.
+    let terms: Vec<TermWalk> = terms.map_while(|term| term).collect();
+    Some(ShadedPixel { material: record.material, terms, bound: *feed.proof.bounds.get(id)? })
+}
+
+/// m' and the bound of the index; N·L is scaled by the table alone.
+fn of_term(errors: &IndexErrors, glosses: &[u32], light: usize, highlight: bool) -> (u32, f64) {
+    match highlight {
+        true => (glosses[light], errors.highlight[light]),
+        false => (0, errors.diffuse),
+    }
+}
+
+fn steps(record: &Record, words: &TermWords, (x, y): (i64, i64), leftward: bool) -> Vec<TermStep> {
+    let (from_x, from_y) = (i64::from(record.x), i64::from(record.y));
+    let columns = if leftward { from_x - x } else { x - from_x };
+    let step = |name, i: i64, n: i64| {
+        let there = words.moved(i, n);
+        let signed = |word: u64| {
+            let unused = 64 - words.width();
+            ((word << unused) as i64) >> unused
+        };
+        let [v, x_step, y_step, ..] = there.words().map(signed);
+        let x = if leftward { from_x - i } else { from_x + i };
+        TermStep { step: name, x, y: from_y + n, v, x_step, y_step }
+    };
+    let lines = y - from_y;
+    let mut steps = vec![step("record", 0, 0)];
+    steps.extend((1..=lines).map(|n| step("down", 0, n)));
+    let name = if columns < 0 { "back" } else { "forward" };
+    steps.extend((1..=columns.abs()).map(|i| step(name, i * columns.signum(), lines)));
+    steps
+}
+
+/// What a word of the tables says.
+fn table(machine: &Plan, word: u128, highlight: bool) -> String {
+    let (bits, max) = (machine.color.bits, u128::from(machine.color.max()));
+    let part = |place: u32| (word >> (place * bits)) & max;
+    if highlight {
+        return format!("highlight {}", part(0));
+    }
+    if machine.shade.diffuse_bits(bits) == 3 * bits {
+        return format!("red {} green {} blue {}", part(3), part(2), part(1));
+    }
+    format!("light {} / {}", word >> bits, 1u64 << (bits + 2))
+}
+
+/// As lines of text; writing to a string cannot fail.
+pub fn text(of: &ShadedPixel) -> String {
+    let mut page =
+        format!("\nmaterial {}: colour within {:.4} LSB of golden's fast Phong\n", of.material, of.bound);
+    for term in &of.terms {
+        let TermWalk { name, bits, fraction, steps, output, index, golden, bound, entry, table } = term;
+        _ = writeln!(
+            page,
+            "{name}, Q{bits}.{fraction}: index {index:.4}, golden's {golden:.4}, error {:.6}, bound {bound:.6}",
+            index - golden
+        );
+        _ = writeln!(page, "  output {output}, entry {entry}: {table}");
+        for (place, step) in steps.iter().enumerate() {
+            if place == SHOWN && steps.len() > 2 * SHOWN {
+                _ = writeln!(page, "  ... {} more; all of them with --json", steps.len() - 2 * SHOWN);
+            }
+            if place < SHOWN || place + SHOWN >= steps.len() {
+                let TermStep { step, x, y, v, x_step, y_step } = step;
+                _ = writeln!(page, "  {step:<7}  ({x}, {y})  V {v:>14}  X {x_step:>12}  Y {y_step:>12}");
+            }
+        }
+    }
+    page
+}
+
+/// Spans of a triangle run to the left if its major edge is the right one.
+pub fn leftward(machine: &Plan, triangle: &[PortVertex; 3]) -> bool {
+    Place::of(machine, triangle).is_some_and(|place| place.leftward)
+}

@@ -1,0 +1,119 @@
+//! What the host sends to TERM and SHADE for a frame with normals: records of terms, tables of materials, and what is proved
+//! of the colours that come of them.
+//!
+//! ```text
+//!  normals, lights, viewer ─six cosines a light─> exact fit ─RN in the middle of the box─> words ─moved─> Record
+//!  materials, colours, intensities ─────────────────────────> tables of bins ─────────────> words of the tables
+//! ```
+//! Bounds 12 and 13 (`docs/numerics.md`) give the bound of a colour against golden's fast Phong, with bound 14 against its Phong.
+
+mod bound;
+mod lights;
+mod place;
+mod records;
+mod roots;
+mod tables;
+
+mod compare;
+
+pub use bound::{Proof, Shaded};
+pub(crate) use compare::Allowed;
+pub use place::Place;
+pub use records::IndexErrors;
+
+use crate::port::PortFrame;
+use anyhow::{Result, anyhow};
+use edgewalk_machine::{Fill, Plan, ShadeColour};
+use edgewalk_model::Shading;
+use edgewalk_scene::{Frame, PixelMethod, PixelShading};
+use lights::Lamp;
+use tables::Surfaces;
+
+/// What the memories behind the machine hold, and what follows from it.
+#[derive(Clone, Debug)]
+pub struct Feed {
+    /// The words.
+    pub words: Shading,
+    /// What is proved of the colours.
+    pub proof: Proof,
+    surfaces: Surfaces,
+}
+
+impl Feed {
+    /// m' of each light's table of highlights for a triangle.
+    pub fn glosses(&self, triangle: usize) -> Vec<u32> {
+        self.surfaces.glosses(self.surfaces.of_triangle[triangle])
+    }
+}
+
+/// What a frame on its way to the port needs; `None` where neither frame nor machine shades pixels.
+///
+/// # Errors
+/// Only one of them does, or the machine cannot take the frame's lights or materials.
+pub fn feed(frame: &Frame, port: &PortFrame, machine: &Plan) -> Result<Option<Feed>> {
+    let Some(shading) = shading_for(frame, machine)? else { return Ok(None) };
+    let lamps = Lamp::all(shading, machine)?;
+    let surfaces = Surfaces::of(frame, shading, &lamps, machine)?;
+    let root_error = if machine.shade.normalises() { roots::relative_error() } else { 0.0 };
+    let mut records = Vec::with_capacity(port.triangles.len());
+    let mut errors = Vec::with_capacity(port.triangles.len());
+    for (index, triangle) in port.triangles.iter().enumerate() {
+        let own = &shading.triangles[port.ids[index] as usize];
+        let surface = surfaces.of_triangle[port.ids[index] as usize];
+        let glosses = surfaces.glosses(surface);
+        let (record, error) =
+            records::record(triangle, own, shading, &lamps, (surface, &glosses), root_error, machine);
+        records.push(record);
+        errors.push(error);
+    }
+    let roots = if machine.shade.normalises() { roots::words(machine) } else { Vec::new() };
+    let proof = Proof::new(machine, &surfaces, errors);
+    Ok(Some(Feed {
+        words: Shading { records, tables: surfaces.words(machine), roots, textures: Vec::new() },
+        proof,
+        surfaces,
+    }))
+}
+
+/// Whether the frame is shaded at each pixel and the machine can do so.
+pub(crate) fn shading_for<'a>(frame: &'a Frame, machine: &Plan) -> Result<Option<&'a PixelShading>> {
+    let there = machine.shade.is_there();
+    let Some(shading) = &frame.shading else {
+        return if there {
+            Err(anyhow!(
+                "shade.kind: the machine shades by normals and the input has none; draw with --shading fast-phong or mode \
+                 fast-phong (phong), or with --set shade.kind=none"
+            ))
+        } else {
+            Ok(None)
+        };
+    };
+    let name = shading.method.name();
+    if !there {
+        return Err(anyhow!(
+            "mode {name} (--shading {name}): the machine has no TERM and SHADE; add --set shade.kind={name}, or draw with --engine \
+             golden"
+        ));
+    }
+    let kind = if machine.shade.normalises() { PixelMethod::Phong } else { PixelMethod::FastPhong };
+    if shading.method != kind {
+        return Err(anyhow!(
+            "mode {name} (--shading {name}): the machine's shade.kind is {}; add --set shade.kind={name}, or draw with --engine golden",
+            kind.name()
+        ));
+    }
+    if machine.shade.textures() {
+        return Err(anyhow!(
+            "texture.kind = nearest: no scene or file brings its texels to the machine yet; set texture.kind = none"
+        ));
+    }
+    if machine.fill == Fill::Textbook {
+        return Err(anyhow!("mode {name}: edge.fill = textbook starts spans between pixels; use exact"));
+    }
+    Ok(Some(shading))
+}
+
+/// Whether the surface's colour is multiplied in at each pixel.
+fn multiplies(machine: &Plan) -> bool {
+    machine.shade.colour == ShadeColour::Multiply
+}

@@ -1,0 +1,87 @@
+//! The lights of a frame as the machine takes them, and a triangle's six cosines of each.
+
+use anyhow::{Result, anyhow};
+use edgewalk_machine::Plan;
+use edgewalk_scene::{Attenuation, Light, PixelShading, PixelTriangle, Viewer};
+use glam::DVec3;
+
+/// A light whose intensity is the same everywhere.
+#[derive(Clone, Copy, Debug)]
+pub struct Lamp {
+    /// Where it is.
+    light: Light,
+    /// I_l.
+    pub intensity: DVec3,
+}
+
+/// A cosine at the vertices, and in the middles of the edges opposite them.
+pub type Nodes = [[f64; 3]; 2];
+
+impl Lamp {
+    /// The lights of the frame.
+    ///
+    /// # Errors
+    /// More than the machine has terms for, or one that weakens with distance or direction: a table holds its intensity.
+    pub fn all(shading: &PixelShading, machine: &Plan) -> Result<Vec<Lamp>> {
+        let (given, most) = (shading.lights.len(), machine.shade.lights as usize);
+        if given > most {
+            let remedy =
+                if given <= 2 { format!("add --set shade.lights={given}") } else { "take 2".to_owned() };
+            return Err(anyhow!(
+                "{given} lights: the machine has terms for {most}; {remedy}, or draw with --engine golden"
+            ));
+        }
+        if machine.shade.normalises() && matches!(shading.viewer, Viewer::At(_)) {
+            return Err(anyhow!(
+                "a viewer at a point: with shade.kind = phong N·H is linear, so the viewer is far away; take shade.kind = fast-phong"
+            ));
+        }
+        let lamp = |(place, light): (usize, &Light)| match *light {
+            Light::Directional { intensity, .. } => Ok(Lamp { light: *light, intensity }),
+            Light::Positional { intensity, attenuation: Attenuation::NONE, .. }
+                if !machine.shade.normalises() =>
+            {
+                Ok(Lamp { light: *light, intensity })
+            }
+            _ if machine.shade.normalises() => Err(anyhow!(
+                "light {}: with shade.kind = phong N·L is linear, so every light is directional; take shade.kind = fast-phong, or \
+                 draw with --engine golden",
+                place + 1
+            )),
+            Light::Positional { .. } | Light::Flood { .. } => Err(anyhow!(
+                "light {}: its intensity is not the same everywhere, and the machine's tables hold one; take a directional \
+                 light or a positional one that does not weaken, or draw with --engine golden",
+                place + 1
+            )),
+        };
+        shading.lights.iter().enumerate().map(lamp).collect()
+    }
+
+    /// L and H where both are the same everywhere: of a directional light and a viewer far away.
+    pub fn directions(&self, shading: &PixelShading) -> [DVec3; 2] {
+        let toward = self.light.incident(DVec3::ZERO).toward;
+        [toward, (toward + shading.viewer_at(DVec3::ZERO)).normalize_or_zero()]
+    }
+
+    /// N·L and N·H of a triangle.
+    pub fn cosines(&self, triangle: &PixelTriangle, shading: &PixelShading) -> [Nodes; 2] {
+        let PixelTriangle { normals, positions, .. } = triangle;
+        let at = |normal: DVec3, position: DVec3| {
+            let normal = normal.normalize_or_zero();
+            let toward = self.light.incident(position).toward;
+            let halfway = (toward + shading.viewer_at(position)).normalize_or_zero();
+            [normal.dot(toward), normal.dot(halfway)]
+        };
+        let mut nodes = [[[0.0; 3]; 2]; 2];
+        for k in 0..3 {
+            let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+            let vertex = at(normals[k], positions[k]);
+            let middle = at((normals[next] + normals[last]) / 2.0, (positions[next] + positions[last]) / 2.0);
+            for cosine in 0..2 {
+                nodes[cosine][0][k] = vertex[cosine];
+                nodes[cosine][1][k] = middle[cosine];
+            }
+        }
+        nodes
+    }
+}

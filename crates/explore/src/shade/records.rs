@@ -1,0 +1,181 @@
+//! The record of a triangle: its terms fitted exactly, rounded in the middle of its box, moved to where its walk begins.
+
+use super::lights::Lamp;
+use super::place::Place;
+use edgewalk_machine::{Plan, PortVertex, Record};
+use edgewalk_numerics::term::{Degree, NODE_BITS, TermWords, node, term_roundings_of_box};
+use edgewalk_scene::{PixelShading, PixelTriangle};
+use glam::DVec3;
+
+/// How far the cosine that a term stands for is from golden's: six values rounded to [`NODE_BITS`] count for at most 5/3·2^-41
+/// together, the rest is for f64 on either side.
+const COSINE_ERROR: f64 = 1.0 / (1u64 << NODE_BITS) as f64;
+
+/// 1.0 in NORMAL.
+const UNIT_BITS: u32 = 16;
+const UNIT: f64 = (1u32 << UNIT_BITS) as f64;
+
+/// How far the indices of a triangle may be from those of golden's quadratics.
+#[derive(Clone, Debug, Default)]
+pub struct IndexErrors {
+    /// Of N·L, entries; the same for all lights.
+    pub diffuse: f64,
+    /// Of N·H, entries, by light.
+    pub highlight: Vec<f64>,
+}
+
+/// The record of a triangle with this surface; `glosses` has the scale m' of each light's table of highlights, `root_error` is
+/// that of NORMAL's table. A triangle that is culled has an empty one, as nobody reads it.
+pub fn record(
+    triangle: &[PortVertex; 3],
+    own: &PixelTriangle,
+    shading: &PixelShading,
+    lamps: &[Lamp],
+    (material, glosses): (u32, &[u32]),
+    root_error: f64,
+    machine: &Plan,
+) -> (Record, IndexErrors) {
+    let Some(place) = Place::of(machine, triangle) else { return Default::default() };
+    let words = if machine.shade.normalises() {
+        normal_terms(&place, own, shading, lamps, machine)
+    } else {
+        cosine_terms(&place, own, shading, lamps, glosses, machine)
+    };
+    let start = place.steps_to(place.start);
+    // Of a triangle that is drawn the weights do not sum to 0, and a planned word has at most 64 bits.
+    let moved =
+        |words: Option<TermWords>| words.map_or([0; 6], |words| words.moved(start.0, start.1).words());
+    let [width, height] = place.sides;
+    let error_of = |degree, fraction: u32| {
+        term_roundings_of_box(degree, width, height) as f64 / 2f64.powi(fraction as i32 + 1)
+    };
+    let quadratic = error_of(Degree::Quadratic, machine.shade.fraction);
+    let entries = machine.shade.table_bits;
+    let index_error = |gloss: u32| {
+        let one = 2f64.powi((entries + gloss) as i32);
+        if machine.shade.normalises() {
+            let linear = error_of(Degree::Linear, machine.shade.linear_fraction);
+            normal_error(own, linear, quadratic, root_error) * one / UNIT
+        } else {
+            quadratic + COSINE_ERROR * one
+        }
+    };
+    let errors = IndexErrors {
+        diffuse: index_error(0),
+        highlight: glosses.iter().map(|gloss| index_error(*gloss)).collect(),
+    };
+    let [x, y] = place.start;
+    let record = Record {
+        x: x as i32, // in the guard band
+        y: y as u32, // on the screen
+        material,
+        gloss: glosses.first().copied().unwrap_or(0),
+        terms: words.into_iter().map(moved).collect(),
+    };
+    (record, errors)
+}
+
+/// N·L and N·H, quadratics through six cosines: 2^t for 1.0, and index = 2^t - (1 - N·H)·2^(m' + t).
+fn cosine_terms(
+    place: &Place,
+    own: &PixelTriangle,
+    shading: &PixelShading,
+    lamps: &[Lamp],
+    glosses: &[u32],
+    machine: &Plan,
+) -> Vec<Option<TermWords>> {
+    let (shares, entries) = (place.shares(), machine.shade.table_bits);
+    let mut terms = Vec::with_capacity(machine.terms().len());
+    for (light, of_light) in machine.terms().chunks_exact(2).enumerate() {
+        let Some(lamp) = lamps.get(light) else {
+            terms.extend([None; 2]); // no light: its tables are black
+            continue;
+        };
+        let cosines = lamp.cosines(own, shading).map(|nodes| nodes.map(|list| list.map(node)));
+        let lowest = (1i64 << entries) - (1i64 << (entries + glosses[light]));
+        let scales = [(entries, 0), (entries + glosses[light], lowest)];
+        for ((term, nodes), (bits, offset)) in of_light.iter().zip(cosines).zip(scales) {
+            terms.push(shares.six_point(nodes, bits + term.fraction, offset << term.fraction, term.word()));
+        }
+    }
+    terms
+}
+
+/// Products with a normal of any length, planes rounded to nearest by half an output's last bit, and N·N: 2^16 for 1.0.
+fn normal_terms(
+    place: &Place,
+    own: &PixelTriangle,
+    shading: &PixelShading,
+    lamps: &[Lamp],
+    machine: &Plan,
+) -> Vec<Option<TermWords>> {
+    let shares = place.shares();
+    let mut terms = Vec::with_capacity(machine.terms().len());
+    for (place, term) in machine.terms().iter().enumerate() {
+        if term.degree == 2 {
+            let middle = |k: usize| (own.normals[(k + 1) % 3] + own.normals[(k + 2) % 3]) / 2.0;
+            let squares =
+                [own.normals, [0, 1, 2].map(middle)].map(|list| list.map(|n| node(n.length_squared())));
+            terms.push(shares.six_point(squares, UNIT_BITS + term.fraction, 0, term.word()));
+            continue;
+        }
+        terms.push(lamps.get(place / 2).and_then(|lamp| {
+            let direction = lamp.directions(shading)[place % 2];
+            let products = own.normals.map(|normal| node(normal.dot(direction)));
+            let half = if term.fraction > 0 { 1 << (term.fraction - 1) } else { 0 };
+            shares.plane(products, UNIT_BITS + term.fraction, half, term.word())
+        }));
+    }
+    terms
+}
+
+/// Bound 14: how far a cosine by NORMAL is from that of a normal of length 1, 2^-16; `linear` and `quadratic` bound the words
+/// of the terms. A normal that may be shorter than half has none but the whole range.
+fn normal_error(own: &PixelTriangle, linear: f64, quadratic: f64, root_error: f64) -> f64 {
+    let shortest = shortest(own.normals);
+    let least = shortest * shortest * UNIT - quadratic - 1.0;
+    if least < UNIT / 4.0 {
+        return 2.0 * UNIT;
+    }
+    let relative = root_error + 1.01 * (quadratic + COSINE_ERROR * UNIT) / (2.0 * least);
+    let root = (UNIT / least).sqrt() * (1.0 + relative);
+    (linear + 0.5 + COSINE_ERROR * UNIT) * root + UNIT * relative + 0.5
+}
+
+/// The length of the shortest normal over a triangle: how far 0 is from the triangle that its normals span.
+fn shortest(normals: [DVec3; 3]) -> f64 {
+    let sides = [0, 1, 2].map(|k| [normals[k], normals[(k + 1) % 3]]);
+    let to_side = |[a, b]: [DVec3; 2]| {
+        let along = b - a;
+        let part = (-a.dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        (a + part * along).length()
+    };
+    let least = sides.into_iter().map(to_side).fold(f64::INFINITY, f64::min);
+    let across = (normals[1] - normals[0]).cross(normals[2] - normals[0]);
+    let Some(direction) = across.try_normalize() else { return least };
+    let height = direction.dot(normals[0]);
+    let inside = sides.into_iter().all(|[a, b]| (b - a).cross(height * direction - a).dot(direction) >= 0.0);
+    if inside { height.abs() } else { least }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shortest_normal_lies_in_the_middle_on_an_edge_or_at_a_corner() {
+        let tilted = |x: f64, y: f64| DVec3::new(x, y, 1.0).normalize();
+        let around = [tilted(1.0, 0.0), tilted(-0.5, 0.75f64.sqrt()), tilted(-0.5, -(0.75f64.sqrt()))];
+        assert!((shortest(around) - 0.5f64.sqrt()).abs() < 1e-12);
+        assert!((shortest([DVec3::X, DVec3::Y, DVec3::X]) - 0.5f64.sqrt()).abs() < 1e-12);
+        assert!((shortest([DVec3::X; 3]) - 1.0).abs() < 1e-12);
+        assert!(shortest([DVec3::X, -DVec3::X, DVec3::Y]) < 1e-12);
+        let mut least = f64::INFINITY;
+        let list = [tilted(0.9, 0.3), tilted(-0.2, 0.8), tilted(0.1, -0.7)];
+        for (i, j) in (0..=400).flat_map(|i| (0..=400 - i).map(move |j| (i, j))) {
+            let [a, b] = [i, j].map(|k: i32| f64::from(k) / 400.0);
+            least = least.min((list[0] * a + list[1] * b + list[2] * (1.0 - a - b)).length());
+        }
+        assert!(shortest(list) <= least && least - shortest(list) < 1e-4, "{least}");
+    }
+}

@@ -1,0 +1,70 @@
+//! What a machine with TERM and SHADE makes of an exhibit's scene, beside golden's fast Phong of the same triangles.
+
+use crate::exhibit::{GUARD, HEIGHT, View, WIDTH, figure};
+use anyhow::{Result, anyhow};
+use edgewalk_explore::compare::compare_shaded;
+use edgewalk_explore::draw::{draw_frame, golden};
+use edgewalk_explore::port::to_port;
+use edgewalk_explore::shade::Shaded;
+use edgewalk_machine::Machine;
+use edgewalk_model::Waits;
+use edgewalk_scene::{PixelMethod, Scene};
+
+/// Error shown as white, LSB.
+const WHITE: f64 = 4.0;
+
+/// The machine's picture and how far it is off.
+pub(crate) struct Beside {
+    golden: Vec<[f64; 3]>,
+    machine: Vec<[f64; 3]>,
+    map: Vec<f64>,
+    shaded: Shaded,
+}
+
+impl Beside {
+    /// Draws the scene with tables of 1024 entries.
+    ///
+    /// # Errors
+    /// What of the scene such a machine cannot take.
+    pub(crate) fn of(scene: &Scene) -> Result<Beside> {
+        let mut keys = Machine { width: WIDTH, height: HEIGHT, ..Machine::default() };
+        let lights = scene.lights.len().to_string();
+        for (key, value) in [
+            ("shade.kind", "fast-phong"),
+            ("shade.table_bits", "10"),
+            ("shade.gloss_bits", "8"),
+            ("shade.lights", &lights),
+        ] {
+            keys.set(key, value).map_err(|e| anyhow!("{e}"))?;
+        }
+        let plan = keys.plan().map_err(|e| anyhow!("{e}"))?;
+        let frame = scene.pixel_frame(&scene.surface(WIDTH, HEIGHT, GUARD), PixelMethod::FastPhong);
+        let port = to_port(&frame, &plan)?;
+        let golden = golden(&frame, &plan);
+        let drawn = draw_frame(&plan, &port, Waits::Never)?.raster(&plan);
+        let proof = port.shade.as_ref().map(|feed| &feed.proof);
+        let found = compare_shaded(&plan, &frame, &golden, &drawn, None, proof);
+        let shaded = found.shaded.ok_or_else(|| anyhow!("a frame without normals"))?;
+        Ok(Beside { golden: golden.rgb, machine: drawn.rgb, map: found.color_map, shaded })
+    }
+
+    /// The figures of the exhibit's own.
+    pub(crate) fn figures(&self) -> Vec<(String, String)> {
+        let Shaded { error, bound, from_phong, mean_from_phong, .. } = self.shaded;
+        vec![
+            figure("machine: largest error against fast Phong in f64, LSB", error, 2),
+            figure("machine: proved bound of that, LSB", bound, 2),
+            figure("machine: largest difference from Phong, LSB", from_phong, 2),
+            figure("machine: mean difference from Phong, LSB", mean_from_phong, 3),
+        ]
+    }
+
+    /// Its pictures.
+    pub(crate) fn views(self) -> Vec<View> {
+        vec![
+            View::colors("machine", "The machine: terms and tables", self.machine),
+            View::colors("machine-golden", "Golden beside it: fast Phong in f64", self.golden),
+            View::error("machine-error", format!("Its error, white at {WHITE} LSB"), &self.map, WHITE),
+        ]
+    }
+}

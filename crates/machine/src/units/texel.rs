@@ -1,0 +1,67 @@
+//! TEXEL: from fragments to fragments whose colour is that of their texel too.
+
+use super::tokens;
+use crate::field::Field;
+use crate::link::{Link, MemoryPort, Status};
+use crate::machine::Machine;
+use crate::plan::Plan;
+use crate::unit::{Event, Ports, UnitSpec};
+
+/// What TEXEL declares.
+pub const SPEC: UnitSpec = UnitSpec {
+    name: "texel",
+    purpose: "multiplies the colour of a fragment by that of the nearest texel",
+    section: 14,
+    present: there,
+    wants: |_: &Machine| Vec::new(),
+    ports,
+    events: EVENTS,
+};
+
+fn there(plan: &Plan) -> bool {
+    plan.shade.textures()
+}
+
+fn ports(plan: &Plan) -> Ports {
+    // Whether a word is taken depends on whether the fragment it colours is.
+    let data = Field::count("rgb", 3 * plan.color.bits, "red, green, blue, red the most significant");
+    let bits = plan.shade.material_bits + 2 * plan.shade.texture_bits;
+    let doc = format!("(material * 2^{0} + line) * 2^{0} + column", plan.shade.texture_bits);
+    Ports {
+        takes: Some(Link::new("frag", tokens::fragment(plan))),
+        gives: Some(Link::new("textured", tokens::textured(plan))),
+        memory: vec![MemoryPort {
+            name: "textures",
+            read: Link::new("xrd", vec![Field::count("addr", bits, doc)]),
+            data: Link::new("xdata", vec![data]),
+            write: "",
+            word: "",
+            enable: None,
+            latency: plan.shade.texel_latency,
+        }],
+        status: vec![
+            Status::new("texel_full", "the queue is full"),
+            Status::new("occupied", "a fragment waits for its texel, or to be taken"),
+        ],
+        ..Ports::default()
+    }
+}
+
+const EVENTS: &[Event] = &[
+    Event { name: "texel_read", doc: "texels that were read", can_happen: there },
+    Event {
+        name: "texel_read_stall",
+        doc: "cycles in which a read waits for the memory of the textures",
+        can_happen: there,
+    },
+    Event {
+        name: "texel_queue_full",
+        doc: "cycles in which a fragment waits for TEXEL's queue",
+        can_happen: there,
+    },
+    Event {
+        name: "texel_data_wait",
+        doc: "cycles in which the oldest fragment waits for its texel",
+        can_happen: there,
+    },
+];

@@ -1,0 +1,81 @@
+//! The fragments between PIXEL and SHADE in a cycle, and who can take them.
+//!
+//! ```text
+//!  PIXEL ─drawn─> [TEXEL] ─textured─> [NORMAL] ─normed─> SHADE ─> tinted
+//! ```
+//! Of a unit that the machine has not, what it would give is what it would take.
+
+use super::{TexelInputs, Units};
+use crate::shade::Cosines;
+use crate::tokens::Fragment;
+
+/// A fragment with its terms or cosines.
+type Beside<const C: usize> = (Fragment<C>, Cosines);
+
+/// The fragments that are offered in a cycle; none in a machine without SHADE.
+#[derive(Clone, Copy, Debug)]
+pub struct Offered<const C: usize> {
+    /// By PIXEL.
+    pub drawn: Option<Beside<C>>,
+    /// To NORMAL.
+    pub textured: Option<Beside<C>>,
+    /// To SHADE.
+    pub normed: Option<Beside<C>>,
+}
+
+/// Whether they can be taken.
+#[derive(Clone, Copy, Debug)]
+pub struct Readies {
+    /// Of PIXEL's.
+    pub drawn: bool,
+    /// Of NORMAL's.
+    pub textured: bool,
+    /// Of SHADE's.
+    pub normed: bool,
+}
+
+/// A fragment and what is beside it.
+#[inline(always)]
+pub fn parts<const C: usize>(offered: &Option<Beside<C>>) -> (Option<&Fragment<C>>, Cosines) {
+    offered.as_ref().map_or((None, Cosines::default()), |(fragment, cosines)| (Some(fragment), *cosines))
+}
+
+impl<const C: usize> Units<'_, C> {
+    /// What is offered between PIXEL and SHADE.
+    #[inline(always)]
+    #[must_use]
+    pub fn offered(&self, texel: &TexelInputs) -> Offered<C> {
+        if self.shade.is_none() {
+            return Offered { drawn: None, textured: None, normed: None };
+        }
+        let drawn = self.pixel.frag().map(|fragment| (*fragment, *self.pixel.cosines()));
+        let textured = self.texel.map_or(drawn, |unit| unit.textured(texel));
+        let normed = self.normal.map_or(textured, |unit| unit.normed().copied());
+        Offered { drawn, textured, normed }
+    }
+
+    /// What can be taken, if what SHADE gives is taken or not; in a machine without SHADE: what PIXEL gives.
+    #[inline(always)]
+    #[must_use]
+    pub fn readies(&self, offered: &Offered<C>, texel: &TexelInputs, tinted_ready: bool) -> Readies {
+        let cosines = parts(&offered.normed).1;
+        let normed = self.shade.map_or(tinted_ready, |unit| unit.frag_ready(&cosines, tinted_ready));
+        let textured = self.normal.map_or(normed, |unit| unit.frag_ready(normed));
+        let drawn = self.texel.map_or(textured, |unit| unit.frag_ready(texel));
+        Readies { drawn, textured, normed }
+    }
+
+    /// A fragment waits for tables, or for roots.
+    #[inline(always)]
+    pub(super) fn tables_wait(&self, offered: &Offered<C>) -> bool {
+        let (frag, cosines) = parts(&offered.normed);
+        self.shade.is_some_and(|unit| unit.waits(frag, &cosines))
+            || self.normal.is_some_and(|unit| unit.waits(parts(&offered.textured).0))
+    }
+
+    /// TEXEL waits for its memory.
+    #[inline(always)]
+    pub(super) fn texel_waits(&self, offered: &Offered<C>) -> bool {
+        self.texel.is_some_and(|unit| !unit.full() || offered.textured.is_none())
+    }
+}

@@ -1,0 +1,175 @@
+//! NORMAL: divides the products of a fragment's normal by the normal's length.
+//!
+//! ```text
+//!  frag ─> [N1] s ─> [N2] R[s] ─> [N3] slope·low ─> [N4] y = 1/√s ─> [N5] p·y, index ─> normed
+//!    └─first─> rrd, rdata ─> R
+//! ```
+//! Formats: products and s in 2^-16, y too; cosines in entries of SHADE's tables.
+//!
+//! Timing: a fragment taken in cycle n is offered in n + 5; one a clock. All stages move together. The table R is fetched
+//! once, one entry a clock, when the first fragment is there.
+//!
+//! Rules: `docs/machine.md`, section 13. Not modelled: what each stage holds, as R does not change; cosines are found on
+//! the way in.
+
+mod view;
+
+use crate::Events;
+use crate::fetch::Fetch;
+use crate::shade::Cosines;
+use crate::term::MAX_TERMS;
+use crate::tokens::Fragment;
+use edgewalk_machine::Plan;
+
+/// Entries of R.
+const ENTRIES: u32 = 256;
+
+/// The unit's inputs of a cycle, but for the fragment and whether its own is taken.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NormalInputs {
+    /// The memory of the roots takes a read.
+    pub rrd_ready: bool,
+    /// The oldest read's word.
+    pub rdata: Option<u128>,
+}
+
+/// State of NORMAL.
+#[derive(Clone, Debug)]
+pub struct Normal<const C: usize> {
+    table_bits: u32,
+    gloss_bits: u32,
+    /// Place of N·N among the terms; before it two a light.
+    square: usize,
+    have: bool,
+    fetch: Fetch,
+    /// v and slope.
+    roots: Vec<(i64, i64)>,
+    /// N1 to N5.
+    stages: [Option<(Fragment<C>, Cosines)>; 5],
+}
+
+impl<const C: usize> Normal<C> {
+    /// An empty unit, without roots.
+    #[must_use]
+    pub fn new(plan: &Plan) -> Self {
+        Normal {
+            table_bits: plan.shade.table_bits,
+            gloss_bits: plan.shade.gloss_bits,
+            square: 2 * plan.shade.lights as usize,
+            have: false,
+            fetch: Fetch::of(ENTRIES),
+            roots: vec![(0, 0); ENTRIES as usize],
+            stages: [None; 5],
+        }
+    }
+
+    /// Synchronous reset.
+    pub fn reset(&mut self) {
+        self.have = false;
+        self.fetch.reset();
+        self.stages = [None; 5];
+    }
+
+    /// A fragment is in a stage.
+    #[must_use]
+    pub fn occupied(&self) -> bool {
+        self.stages.iter().any(Option::is_some)
+    }
+
+    /// The fragment offered to SHADE, with its cosines.
+    #[must_use]
+    pub fn normed(&self) -> Option<&(Fragment<C>, Cosines)> {
+        self.stages[4].as_ref()
+    }
+
+    fn advance(&self, normed_ready: bool) -> bool {
+        self.normed().is_none() || normed_ready
+    }
+
+    /// A fragment can be taken.
+    #[must_use]
+    pub fn frag_ready(&self, normed_ready: bool) -> bool {
+        self.advance(normed_ready) && self.have
+    }
+
+    /// A fragment waits for the roots.
+    #[must_use]
+    pub fn waits(&self, frag: Option<&Fragment<C>>) -> bool {
+        frag.is_some() && !self.have
+    }
+
+    /// Address of a root to be read.
+    #[must_use]
+    pub fn read(&self) -> Option<u32> {
+        self.fetch.read()
+    }
+
+    /// A root can be taken.
+    #[must_use]
+    pub fn rdata_ready(&self) -> bool {
+        self.fetch.loading()
+    }
+
+    /// Clock edge. `terms`: the outputs of the terms of the fragment.
+    pub fn step(
+        &mut self,
+        frag: Option<&Fragment<C>>,
+        terms: &Cosines,
+        inputs: &NormalInputs,
+        normed_ready: bool,
+        events: &mut Events,
+    ) {
+        let waits = self.waits(frag);
+        if self.fetch.loading() {
+            self.load(inputs, events);
+        } else if waits {
+            self.fetch.begin();
+        }
+        if !self.advance(normed_ready) {
+            events.normal_stall += 1;
+            return;
+        }
+        self.stages.rotate_right(1);
+        let taken = frag.filter(|_| !waits);
+        self.stages[0] = taken.map(|fragment| (*fragment, self.cosines(terms, events)));
+    }
+
+    fn load(&mut self, inputs: &NormalInputs, events: &mut Events) {
+        events.root_read_stall += u64::from(self.fetch.send(inputs.rrd_ready));
+        let Some(word) = inputs.rdata else { return };
+        let (number, last) = self.fetch.take();
+        self.roots[number as usize] = ((word >> 10) as i64 & 0x1_ffff, word as i64 & 0x3ff);
+        self.have = last;
+        events.roots_read += u64::from(last);
+    }
+
+    /// What SHADE takes.
+    fn cosines(&self, terms: &Cosines, events: &mut Events) -> Cosines {
+        let y = self.root(terms.terms[self.square].into(), events);
+        let (t, gloss) = (self.table_bits, terms.gloss);
+        let mut cosines = Cosines { material: terms.material, ..Cosines::default() };
+        for (place, product) in terms.terms[..self.square].iter().enumerate() {
+            let cosine = (i64::from(*product) * y + (1 << 15)) >> 16;
+            let highlight = place % 2 == 1;
+            let (scaled, bits) = match highlight {
+                false => (cosine, t + 2),
+                true => (((cosine - (1 << 16)) << gloss) + (1 << 16), t + self.gloss_bits + 2),
+            };
+            let (index, end) = (scaled >> (16 - t), 1i64 << (bits - 1));
+            events.cosine_cut += u64::from(!(-end..end).contains(&index));
+            cosines.terms[place] = index.clamp(-end, end - 1) as i32; // at most 16 bits
+        }
+        cosines
+    }
+
+    /// y: 1/√s in 2^-16.
+    fn root(&self, square: i64, events: &mut Events) -> i64 {
+        events.normal_short += u64::from(square < 1 << 14);
+        events.normal_long += u64::from(square >= 1 << 16);
+        let s = square.clamp(1 << 14, (1 << 16) - 1);
+        let (v, slope) = self.roots[(s >> 8) as usize];
+        (v - ((slope * (s & 0xff) + (1 << 7)) >> 8)) & 0x1_ffff
+    }
+}
+
+const _: () = assert!(MAX_TERMS >= 5, "two lights and N·N");

@@ -1,0 +1,207 @@
+//! The lines `mode phong`, `mode fast-phong`, `view`, `sun`, `specular`, `material` and `N`: shading at each pixel.
+
+use crate::error::InputError;
+use crate::frame::{Frame, ShadeMode};
+use crate::light::Light;
+use crate::mesh::Material;
+use crate::pixel_shading::{PixelMethod, PixelShading, PixelTriangle, Viewer, unit};
+use crate::shading::Specular;
+use crate::text::Place;
+use glam::DVec3;
+
+/// Brightest sun.
+const MAX_INTENSITY: f64 = 100.0;
+
+/// Sharpest highlight.
+const MAX_EXPONENT: f64 = 1024.0;
+
+/// How far from 1 a normal's length may be; it is then brought to 1.
+const LENGTH_SLACK: f64 = 0.01;
+
+/// All that `mode` may say.
+const MODES: [&str; 4] =
+    [ShadeMode::NAMES[0], ShadeMode::NAMES[1], PixelMethod::NAMES[0], PixelMethod::NAMES[1]];
+
+/// What to write for shading at each pixel to be on.
+const NEEDS_MODE: &str = "permitted only with `mode phong` or `mode fast-phong` before the first triangle";
+
+/// What the header has said so far of shading at each pixel.
+#[derive(Default)]
+pub(super) struct Header {
+    method: Option<PixelMethod>,
+    /// The first line that only such a mode has, by its word and place.
+    used: Option<(&'static str, usize)>,
+    view: Option<DVec3>,
+    suns: Vec<Light>,
+    specular: Option<Specular>,
+    /// Of the triangles to come, none of which has come.
+    material: Option<Material>,
+}
+
+impl Header {
+    /// The word behind `mode`.
+    pub fn mode<'a>(
+        &mut self,
+        place: Place,
+        words: impl Iterator<Item = &'a [u8]>,
+        frame: &mut Frame,
+    ) -> Result<(), InputError> {
+        let [mode] = place.values("mode", words)?;
+        let mode = place.choice("mode", mode, &MODES)?;
+        match mode.checked_sub(ShadeMode::ALL.len()) {
+            None => frame.mode = ShadeMode::ALL[mode],
+            Some(method) => self.method = Some(PixelMethod::ALL[method]),
+        }
+        Ok(())
+    }
+
+    /// A line `view`, `sun` or `specular`.
+    pub fn line<'a>(
+        &mut self,
+        place: Place,
+        name: &'static str,
+        words: impl Iterator<Item = &'a [u8]>,
+    ) -> Result<(), InputError> {
+        self.used.get_or_insert((name, place.line));
+        match name {
+            "view" => self.view = Some(direction(place, name, place.values(name, words)?)?),
+            "sun" => {
+                let [x, y, z, i] = place.values(name, words)?;
+                let toward = direction(place, name, [x, y, z])?;
+                let intensity = place.number("sun i", i, "a number", 0.0..=MAX_INTENSITY)?;
+                self.suns.push(Light::Directional { toward, intensity: DVec3::splat(intensity) });
+            }
+            _ => {
+                let [form] = place.values(name, words)?;
+                let form = place.choice(name, form, &PixelShading::FORM_NAMES)?;
+                self.specular = Some(PixelShading::FORMS[form]);
+            }
+        }
+        Ok(())
+    }
+
+    /// A line `material`, also between triangles.
+    pub fn material<'a>(
+        &mut self,
+        place: Place,
+        words: impl Iterator<Item = &'a [u8]>,
+        behind: Option<&Frame>,
+    ) -> Result<(), InputError> {
+        self.used.get_or_insert(("material", place.line));
+        if behind.is_some_and(|frame| frame.shading.is_none()) {
+            return Err(place.fault("line starts with", b"material", NEEDS_MODE).into());
+        }
+        let words: [&[u8]; 4] = place.values("material", words)?;
+        let mut numbers = [0.0; 4];
+        for (at, (number, word)) in numbers.iter_mut().zip(words).enumerate() {
+            let (name, range) =
+                [("ka", 0.0..=1.0), ("kd", 0.0..=1.0), ("ks", 0.0..=1.0), ("n", 1.0..=MAX_EXPONENT)][at]
+                    .clone();
+            *number = place.number(format_args!("material {name}"), word, "a number", range)?;
+        }
+        let [ka, kd, ks, exponent] = numbers;
+        let [ambient, specular] = [ka, ks].map(DVec3::splat);
+        self.material = Some(Material { ambient, specular, exponent, ..Material::matte(DVec3::splat(kd)) });
+        Ok(())
+    }
+
+    /// The header ends before the word `before`.
+    pub fn end(&mut self, place: Place, before: &[u8], frame: &mut Frame) -> Result<(), InputError> {
+        let Some(method) = self.method else {
+            return match self.used {
+                Some((name, line)) => {
+                    Err(Place { line, ..place }.fault("line starts with", name.as_bytes(), NEEDS_MODE).into())
+                }
+                None => Ok(()),
+            };
+        };
+        let Some(view) = self.view else {
+            let why =
+                format!("`view x y z`, the way to the viewer, is missing; `mode {}` needs it", method.name());
+            return Err(place.fault("view", before, why).into());
+        };
+        frame.shading = Some(PixelShading {
+            method,
+            viewer: Viewer::Toward(view),
+            ambient: DVec3::ONE,
+            lights: std::mem::take(&mut self.suns),
+            specular: self.specular.unwrap_or(Specular::Halfway),
+            materials: Vec::new(),
+            triangles: Vec::new(),
+        });
+        Ok(())
+    }
+
+    /// A triangle has come; its normals are still to come.
+    pub fn triangle(&mut self, place: Place, shading: &mut PixelShading) -> Result<(), InputError> {
+        shading.materials.extend(self.material.take());
+        let Some(material) = shading.materials.len().checked_sub(1) else {
+            let why = "`material ka kd ks n` is missing; it must come before the first triangle";
+            return Err(place.fault("material", b"T", why).into());
+        };
+        shading.triangles.push(PixelTriangle {
+            normals: [DVec3::ZERO; 3],
+            positions: [DVec3::ZERO; 3],
+            material: material as u32, // a file has fewer lines than 2^32: each takes 32 bytes in memory
+        });
+        Ok(())
+    }
+}
+
+/// The numbers behind `N` into the triangle that is open, if one is.
+pub(super) fn normals<'a>(
+    place: Place,
+    words: impl Iterator<Item = &'a [u8]>,
+    open: bool,
+    shading: Option<&mut PixelShading>,
+) -> Result<(), InputError> {
+    let Some(shading) = shading else {
+        return Err(place.fault("line starts with", b"N", NEEDS_MODE).into());
+    };
+    let Some(triangle) = shading.triangles.last_mut().filter(|_| open) else {
+        return Err(place.fault("line starts with", b"N", "permitted once, behind a triangle `T`").into());
+    };
+    let words: [&[u8]; 9] = place.values("N", words)?;
+    for (vertex, (slot, words)) in triangle.normals.iter_mut().zip(words.chunks_exact(3)).enumerate() {
+        let key = format!("N vertex {}", vertex + 1);
+        let normal = vector(place, &key, words)?;
+        let nearest = unit(normal);
+        *slot = nearest.filter(|_| (normal.length() - 1.0).abs() <= LENGTH_SLACK).ok_or_else(|| {
+            let nearest =
+                nearest.map_or_else(String::new, |n| format!("; the nearest is {} {} {}", n.x, n.y, n.z));
+            let why = format!("permitted: a vector of length 1, to within {LENGTH_SLACK}{nearest}");
+            place.fault(&key, words.join(&b' ').as_slice(), why)
+        })?;
+    }
+    Ok(())
+}
+
+/// The triangle of this line has no normals, and `before` comes.
+pub(super) fn missing(place: Place, before: &[u8], line: usize) -> InputError {
+    let why = format!(
+        "the `N` of the triangle in line {line} is missing; permitted: 9 values, nx ny nz of vertex 1, then of 2, then of 3"
+    );
+    place.fault("N", before, why).into()
+}
+
+/// A polygon where pixels are shaded.
+pub(super) fn polygon(place: Place, key: &str, method: PixelMethod) -> InputError {
+    let why = format!("polygons have no `N`; permitted with `mode {}`: only triangles", method.name());
+    place.fault("line starts with", key.as_bytes(), why).into()
+}
+
+/// A unit vector from one of any length.
+fn direction(place: Place, key: &str, words: [&[u8]; 3]) -> Result<DVec3, InputError> {
+    unit(vector(place, key, &words)?).ok_or_else(|| {
+        let why = "permitted: a vector with a direction, as `0 0 1`";
+        place.fault(key, words.join(&b' ').as_slice(), why).into()
+    })
+}
+
+fn vector(place: Place, key: &str, words: &[&[u8]]) -> Result<DVec3, InputError> {
+    let mut vector = DVec3::ZERO;
+    for (axis, word) in words.iter().enumerate() {
+        vector[axis] = place.finite(format_args!("{key} {}", ["x", "y", "z"][axis]), word)?;
+    }
+    Ok(vector)
+}

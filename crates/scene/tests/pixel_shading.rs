@@ -1,0 +1,205 @@
+//! Triangle files with normals: every item, round trip, and what is refused with which words.
+#![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
+
+use edgewalk_scene::{
+    Frame, Light, Material, PixelMethod, PixelShading, PixelTriangle, ShadeMode, Specular, Triangle, Vertex,
+    Viewer, triangle_file,
+};
+use glam::DVec3;
+use proptest::prelude::*;
+
+const T: &str = "T 0 0 0 1 1 1 0  9 0 0.5 1 1 1 0  0 9 1 1 1 1 0";
+const N: &str = "N 0 0 1  0.6 0 0.8  0 -0.6 0.8";
+
+/// A header with all that `mode phong` needs.
+const HEADER: &str = "size 9 9\nmode phong\nview 0 0 2\nmaterial 0.1 0.5 0.4 20\n";
+
+fn parse(text: &str) -> Frame {
+    triangle_file::parse("a.tri", text.as_bytes()).unwrap()
+}
+
+#[test]
+fn every_item_is_taken_in_any_order() {
+    let text = format!(
+        "material 0.2 0.5 0.4 20\nsun 0 3 4 0.75 # second\nspecular blinn\nsize 9 9\nextra 1\nsun 1 0 0 2\nview 0 0 -2\nmode \
+         fast-phong\n{T}\n{N}\nX 1 2 3\nmaterial 0 1 0 1\nmaterial 1 0 0.5 7.5\n{T}\n\nX 4 5 6 # before N\n{N}\n{T}\nN \
+         1.001 0 0 0 1 0 0 0 1\nX 7 8 9\n"
+    );
+    let frame = parse(&text);
+    let shading = frame.shading.unwrap();
+    assert_eq!((frame.mode, shading.method), (ShadeMode::Gouraud, PixelMethod::FastPhong));
+    assert_eq!(shading.viewer, Viewer::Toward(DVec3::NEG_Z));
+    assert_eq!((shading.ambient, shading.specular), (DVec3::ONE, Specular::Blinn));
+    let sun = |x, y, z, i| Light::Directional { toward: DVec3::new(x, y, z), intensity: DVec3::splat(i) };
+    assert_eq!(shading.lights, [sun(0.0, 0.6, 0.8, 0.75), sun(1.0, 0.0, 0.0, 2.0)]);
+    let coefficients =
+        |m: &Material| [m.ambient, m.diffuse, m.specular].map(|k| k.x).into_iter().chain([m.exponent]);
+    let materials: Vec<Vec<f64>> = shading.materials.iter().map(|m| coefficients(m).collect()).collect();
+    assert_eq!(materials, [[0.2, 0.5, 0.4, 20.0], [1.0, 0.0, 0.5, 7.5]], "the second was never used");
+    let used: Vec<u32> = shading.triangles.iter().map(|triangle| triangle.material).collect();
+    assert_eq!(used, [0, 1, 1]);
+    let first = [DVec3::Z, DVec3::new(0.6, 0.0, 0.8), DVec3::new(0.0, -0.6, 0.8)];
+    assert_eq!(shading.triangles[0].normals, first);
+    assert_eq!(shading.triangles[2].normals, [DVec3::X, DVec3::Y, DVec3::Z], "brought to length 1");
+    assert_eq!(frame.triangles[1].0[2].extra[0], 6.0);
+}
+
+#[test]
+fn without_such_a_mode_nothing_changes_and_halfway_is_usual() {
+    assert_eq!(parse(&format!("size 9 9\n{T}")).shading, None);
+    let shading = parse(&format!("{HEADER}{T}\n{N}")).shading.unwrap();
+    assert_eq!((shading.specular, shading.lights.len()), (Specular::Halfway, 0));
+    let empty = parse("size 9 9\nmode phong\nview 0 0 1").shading.unwrap();
+    assert_eq!((empty.materials.len(), empty.triangles.len()), (0, 0));
+}
+
+#[test]
+fn malformed_shading_names_place_and_remedy() {
+    let with = |line: &str| format!("{HEADER}{line}\n{T}\n{N}");
+    let behind = |line: &str| format!("{HEADER}{T}\n{line}");
+    let without = |line: &str| format!("{HEADER}{T}\n{N}").replace(line, "");
+    let cases: [(String, &[&str]); 41] = [
+        (
+            "size 9 9\nmode fong".into(),
+            &["a.tri:2: mode: `fong`", "gouraud flat phong fast-phong", "did you mean `phong`?"],
+        ),
+        ("size 9 9\nmode fastphong".into(), &["did you mean `fast-phong`?"]),
+        ("size 9 9\nmode phong 2".into(), &["a.tri:2: mode: `2 given`", "1 value"]),
+        (
+            without("view 0 0 2\n"),
+            &["a.tri:4: view: `T`", "`view x y z`", "is missing", "`mode phong` needs it"],
+        ),
+        ("size 9 9\nmode fast-phong".into(), &["a.tri:3: view: `end of file`", "missing"]),
+        (
+            without("material 0.1 0.5 0.4 20\n"),
+            &["a.tri:4: material: `T`", "`material ka kd ks n` is missing"],
+        ),
+        (with("view 0 0 1"), &["a.tri:5: view", "once"]),
+        (with("veiw 0 0 1"), &["a.tri:5:", "did you mean `view`?"]),
+        (
+            without("view 0 0 2").replace("mode phong", "mode phong\nview 0 0"),
+            &["a.tri:3: view: `2 given`", "3 values"],
+        ),
+        (
+            without("view 0 0 2").replace("mode phong", "mode phong\nview 0 0 0"),
+            &["view: `0 0 0`", "a vector with a direction"],
+        ),
+        (
+            without("view 0 0 2").replace("mode phong", "mode phong\nview 0 up 0"),
+            &["view y: `up`", "a finite number"],
+        ),
+        (
+            without("view 0 0 2").replace("mode phong", "mode phong\nview 1e308 1e308 0"),
+            &["view: `1e308 1e308 0`", "a direction"],
+        ),
+        (with("sun 0 0 1"), &["a.tri:5: sun: `3 given`", "4 values"]),
+        (with("sun 0 0 1 1 1 1"), &["sun: `6 given`", "4 values"]),
+        (with("sun 0 0 inf 1"), &["sun z: `inf`", "a finite number"]),
+        (with("sun 0 0 0 1"), &["sun: `0 0 0`", "a vector with a direction"]),
+        (with("sun 0 0 1 -0.5"), &["sun i: `-0.5`", "a number from 0 to 100"]),
+        (with("sun 0 0 1 101"), &["sun i: `101`", "from 0 to 100"]),
+        (with("son 0 0 1 1"), &["did you mean `sun`?"]),
+        (with("specular mirror"), &["a.tri:5: specular: `mirror`", "permitted: halfway blinn"]),
+        (with("specular half-way"), &["did you mean `halfway`?"]),
+        (with("specular blinn\nspecular blinn"), &["a.tri:6: specular", "once"]),
+        (with("material 0.1 0.5 0.4"), &["a.tri:5: material: `3 given`", "4 values"]),
+        (with("material 1.5 0.5 0.4 20"), &["material ka: `1.5`", "a number from 0 to 1"]),
+        (with("material 0.1 -1 0.4 20"), &["material kd: `-1`", "from 0 to 1"]),
+        (with("material 0.1 0.5 nan 20"), &["material ks: `nan`"]),
+        (with("material 0.1 0.5 0.4 0.5"), &["material n: `0.5`", "a number from 1 to 1024"]),
+        (with("materiel 0 0 0 1"), &["did you mean `material`?"]),
+        (
+            "size 9 9\nsun 0 0 1 1\nview 0 0 1".into(),
+            &["a.tri:2: line starts with: `sun`", "only with `mode phong` or `mode fast-phong`"],
+        ),
+        (format!("size 9 9\n{T}\nmaterial 0 0 0 1"), &["a.tri:3:", "`material`", "only with `mode phong`"]),
+        (format!("size 9 9\n{T}\n{N}"), &["a.tri:3:", "`N`", "only with `mode phong`"]),
+        (behind("sun 0 0 1 1"), &["a.tri:6: N: `sun`", "the `N` of the triangle in line 5 is missing"]),
+        (format!("{HEADER}{T}\n{N}\nsun 0 0 1 1"), &["a.tri:7: sun", "only before the first triangle"]),
+        (
+            behind(T),
+            &["a.tri:6: N: `T`", "of the triangle in line 5 is missing", "9 values, nx ny nz of vertex 1"],
+        ),
+        (behind(""), &["a.tri:6: N: `end of file`", "line 5 is missing"]),
+        (behind("N 0 0 1 0 0 1 0 0"), &["a.tri:6: N: `8 given`", "9 values"]),
+        (behind("N 0 0 1 0 0 1 0 0 one"), &["N vertex 3 z: `one`", "a finite number"]),
+        (
+            behind("N 0 0 1 3 0 4 0 0 1"),
+            &["N vertex 2: `3 0 4`", "of length 1, to within 0.01", "the nearest is 0.6 0 0.8"],
+        ),
+        (behind("N 0 0 1 0 0 0 0 0 1"), &["N vertex 2: `0 0 0`", "of length 1, to within 0.01"]),
+        (behind(&format!("{N}\n{N}")), &["a.tri:7:", "`N`", "once, behind a triangle `T`"]),
+        (
+            format!("{HEADER}{}", T.replace('T', "P 3")),
+            &["a.tri:5:", "`P`", "no `N`", "`mode phong`: only triangles"],
+        ),
+    ];
+    for (text, words) in &cases {
+        let error = triangle_file::parse("a.tri", text.as_bytes()).unwrap_err().to_string();
+        for word in *words {
+            assert!(error.contains(word), "{text:?}: {word:?} is not in {error:?}");
+        }
+    }
+}
+
+#[test]
+fn what_is_drawn_while_it_is_read_has_no_normals() {
+    let text = format!("{HEADER}{T}\n{N}");
+    let mut reader = triangle_file::Reader::new("a.tri", text.as_bytes()).unwrap();
+    assert!(reader.header().shading.is_some());
+    let error = reader.next().unwrap().unwrap_err().to_string();
+    assert!(error.contains("`phong`") && error.contains("only triangles from here on"), "{error}");
+}
+
+fn direction() -> impl Strategy<Value = DVec3> {
+    prop::array::uniform3(-1.0..=1.0f64)
+        .prop_map(DVec3::from)
+        .prop_filter("a direction", |v| v.length() > 1e-3)
+        .prop_map(DVec3::normalize)
+}
+
+prop_compose! {
+    fn shading()(
+        method in prop::sample::select(PixelMethod::ALL.to_vec()),
+        viewer in direction().prop_map(Viewer::Toward),
+        lights in prop::collection::vec((direction(), 0.0..=100.0f64), 0..4),
+        specular in prop::sample::select(PixelShading::FORMS.to_vec()),
+        materials in prop::collection::vec((prop::array::uniform3(0.0..=1.0f64), 1.0..=1024.0f64), 1..4),
+        normals in prop::collection::vec(prop::array::uniform3(direction()), 1..5),
+    ) -> PixelShading {
+        let light = |(toward, i)| Light::Directional { toward, intensity: DVec3::splat(i) };
+        let material = |([a, d, s], exponent): ([f64; 3], f64)| {
+            let [ambient, specular] = [a, s].map(DVec3::splat);
+            Material { ambient, specular, exponent, ..Material::matte(DVec3::splat(d)) }
+        };
+        // Each material has a triangle.
+        let triangles = (0..materials.len() as u32).flat_map(|material| {
+            let own = move |normals: &[DVec3; 3]| PixelTriangle { normals: *normals, positions: [DVec3::ZERO; 3], material };
+            normals.iter().map(own).collect::<Vec<_>>()
+        });
+        PixelShading {
+            method, viewer, ambient: DVec3::ONE, specular,
+            lights: lights.into_iter().map(light).collect(),
+            triangles: triangles.collect(),
+            materials: materials.into_iter().map(material).collect(),
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn what_is_written_is_read_back(shading in shading()) {
+        let corner = |x, y| Vertex { x, y, ..Vertex::default() };
+        let triangle = Triangle([corner(0.0, 0.5), corner(9.0, 1.0), corner(3.0, 8.0)]);
+        let triangles = vec![triangle; shading.triangles.len()];
+        let frame = Frame { triangles, shading: Some(shading), ..Frame::new(9, 9) };
+        let mut text = Vec::new();
+        triangle_file::write(&frame, &mut text).unwrap();
+        prop_assert_eq!(triangle_file::parse("a.tri", &text[..]).unwrap(), frame);
+    }
+
+    #[test]
+    fn no_text_panics(text in "(size 9 9\n|mode phong\n|view|sun|specular|material|T|N|X|P 3|[0-9 .e-]|\n){0,40}") {
+        let _ = triangle_file::parse("a.tri", text.as_bytes());
+    }
+}
