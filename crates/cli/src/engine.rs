@@ -70,8 +70,14 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Resul
                     render_shaded(machine, triangles, passes, maps, Waits::Never, words, |_| {})?,
                 )
             } else {
-                let drawn =
-                    edgewalk_lockstep::render_rtl_passes(machine, triangles, passes, maps, StallKind::None);
+                let drawn = edgewalk_lockstep::render_rtl_passes(
+                    machine,
+                    triangles,
+                    passes,
+                    maps,
+                    StallKind::None,
+                    port.words(),
+                );
                 from_machine(machine, drawn.map_err(|e| anyhow!("{e}"))?)
             };
             bar.finish_and_clear();

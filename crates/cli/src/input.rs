@@ -17,8 +17,8 @@ pub struct Source {
     /// A built-in scene, a scene file (.toml), a mesh (.obj, .gltf, .glb) or a triangle file (.tri)
     #[arg(value_name = "SCENE|MESH", default_value = "torus-knot")]
     pub input: String,
-    /// How the colour of a pixel is come by; phong and wireframe need --engine golden, fast-phong that or a machine with
-    /// shade.kind = fast-phong
+    /// How the colour of a pixel is come by; wireframe needs --engine golden, phong and fast-phong that or a machine with
+    /// that shade.kind
     #[arg(long, value_enum, default_value_t = Shading::Gouraud)]
     pub shading: Shading,
 }

@@ -71,8 +71,10 @@ fn faults_end_with_file_line_key_and_remedy() {
         let text = example();
         assert!(text.contains(from), "{from:?}");
         std::fs::write(folder.path().join("bad.tri"), text.replace(from, to)).unwrap();
-        for engine in ["golden", "fast"] {
-            let (code, error) = run(folder.path(), &["raster", "bad.tri", "--engine", engine, "--out", "o"]);
+        let machine = ["--set", "shade.kind=phong", "--set", "shade.lights=2"];
+        for (engine, settings) in [("golden", &[][..]), ("fast", &machine)] {
+            let raster = ["raster", "bad.tri", "--engine", engine, "--out", "o"];
+            let (code, error) = run(folder.path(), &[&raster, settings].concat());
             assert_eq!(code, Some(2), "{to}: {error}");
             for word in words {
                 assert!(error.contains(word), "{to:?}: {word:?} is not in {error:?}");
@@ -105,9 +107,11 @@ const SHADES: [&str; 4] = ["--set", "shade.kind=fast-phong", "--set", "shade.glo
 fn a_file_with_normals_goes_through_the_machine() {
     let folder = tempfile::tempdir().unwrap();
     let text = example().replace("mode phong", "mode fast-phong");
+    let exact = text.replace("mode fast-phong", "mode phong");
     // A second surface, coloured by the vertices where the machine multiplies.
     let more = "material 0.2 0.8 0 1\nT 20 31 0.4 1 0.5 0 0  31 31 0.4 1 0.5 0 0  31 12 0.4 1 0.5 0 0\nN 0 0 1 0 0 1 0.6 0 0.8\n";
     std::fs::write(folder.path().join("a.tri"), text.clone() + more).unwrap();
+    std::fs::write(folder.path().join("c.tri"), exact + more).unwrap();
     std::fs::write(folder.path().join("b.tri"), text + &more.replace("31 12 0.4 1", "31 12 0.4 0.2"))
         .unwrap();
     let mut checked = 0;
@@ -115,6 +119,7 @@ fn a_file_with_normals_goes_through_the_machine() {
         ("a.tri", &["--set", "shade.lights=2"][..]),
         ("a.tri", &["--set", "shade.lights=2", "--set", "term.walk=memory", "--set", "shade.table_bits=10"]),
         ("b.tri", &["--set", "shade.lights=2", "--set", "shade.colour=multiply"]),
+        ("c.tri", &["--set", "shade.lights=2", "--set", "shade.kind=phong"]),
     ] {
         let golden = ["raster", file, "--engine", "golden", "--out", "g"];
         assert_eq!(run(folder.path(), &golden).0, Some(0));
@@ -140,7 +145,7 @@ fn a_file_with_normals_goes_through_the_machine() {
         assert!(worst > 0.2 && worst < 4.5, "{worst}");
         checked += g.len();
     }
-    assert_eq!(checked, 3 * 32 * 32 * 3);
+    assert_eq!(checked, 4 * 32 * 32 * 3);
 }
 
 #[test]
@@ -149,10 +154,12 @@ fn render_holds_the_bound_and_says_how_near_it_came() {
     let small = ["--set", "screen.width=160", "--set", "screen.height=120"];
     for (scene, more, engine) in [
         ("sphere", &[][..], "fast"),
-        ("torus", &["--set", "shade.colour=multiply"], "model"),
+        ("sphere", &["--set", "shade.colour=multiply"], "model"),
         ("room", &["--set", "shade.lights=2"], "fast"),
+        ("sphere", &["--set", "shade.kind=phong"], "fast"),
     ] {
-        let render = ["render", scene, "--shading", "fast-phong", "--engine", engine, "--json", "--out", "r"];
+        let shading = if more.contains(&"shade.kind=phong") { "phong" } else { "fast-phong" };
+        let render = ["render", scene, "--shading", shading, "--engine", engine, "--json", "--out", "r"];
         let output =
             edgewalk(folder.path(), &[&render, &SHADES[..], &small, more].concat()).output().unwrap();
         assert!(output.status.success(), "{scene}: {}", String::from_utf8_lossy(&output.stderr));
@@ -183,7 +190,7 @@ fn a_machine_and_an_input_that_do_not_fit_say_so() {
             &["raster", "a.tri", "--out", "o"],
             &["mode fast-phong", "--set shade.kind=fast-phong", "--engine golden"],
         ),
-        (&["raster", "p.tri", "--out", "o"], &["mode phong", "--engine golden"]),
+        (&["raster", "p.tri", "--out", "o"], &["mode phong", "shade.kind=phong", "--engine golden"]),
         (&[&["raster", "a.tri", "--out", "o"], &shades[..]].concat(), &["2 lights", "shade.lights=2"]),
         (
             &[&["raster", "t.tri", "--out", "o"], &shades[..]].concat(),
@@ -205,4 +212,28 @@ fn a_machine_and_an_input_that_do_not_fit_say_so() {
             assert!(error.contains(word), "{arguments:?}: {word:?} is not in {error:?}");
         }
     }
+}
+
+#[test]
+fn explain_walks_the_terms_of_a_pixel() {
+    let folder = tempfile::tempdir().unwrap();
+    let explain = ["explain", "sphere", "80", "60", "--shading", "fast-phong", "--set", "screen.width=160"];
+    let more = ["--set", "screen.height=120"];
+    let output = edgewalk(folder.path(), &[&explain[..], &more, &SHADES].concat()).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{text}");
+    for word in ["nl0, Q11.17", "nh0, Q19.17", "golden's", "entry", "record", "highlight", "red"] {
+        assert!(text.contains(word), "{word:?} is not in {text}");
+    }
+    // Each error within its bound.
+    let mut checked = 0;
+    for line in text.lines().filter(|line| line.contains("golden's") && line.contains("bound")) {
+        let number = |behind: &str| -> f64 {
+            let rest = line.split_once(behind).unwrap().1;
+            rest.split([';', ',']).next().unwrap().trim().parse().unwrap()
+        };
+        assert!(number("error ").abs() <= number("bound "), "{line}");
+        checked += 1;
+    }
+    assert_eq!(checked, 2, "{text}");
 }

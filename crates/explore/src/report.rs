@@ -346,7 +346,7 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
     if let Some(s) = &c.shaded {
         _ = writeln!(
             t,
-            "shaded: {} pixels, largest error {:.4} LSB from fast Phong, bounds up to {:.4}, {:.4} of one reached, {} beyond",
+            "shaded: {} pixels, largest error {:.4} LSB from golden, bounds up to {:.4}, {:.4} of one reached, {} beyond",
             s.pixels, s.error, s.bound, s.of_bound, s.beyond
         );
         _ = writeln!(

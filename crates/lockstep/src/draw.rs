@@ -43,10 +43,11 @@ pub fn render_rtl(
     state: DrawState,
     stalls: StallKind,
 ) -> Result<Frame, DrawError> {
-    run(plan, &plan.tagged(), triangles, &[Pass::all(state)], &[], stalls, &Shading::default(), |_| true)
+    render_rtl_passes(plan, triangles, &[Pass::all(state)], &[], stalls, &Shading::default())
 }
 
-/// As [`render_rtl`], pass by pass, as [`edgewalk_model::render_passes`] does; `maps`: the words of the lights' maps.
+/// As [`render_rtl`], pass by pass, as [`edgewalk_model::render_shaded`] does; `maps`: the words of the lights' maps. With TERM and SHADE,
+/// after as many triangles as there are records in the memory, the machine is idle for a while, and the next records are written.
 ///
 /// # Errors
 /// Triangles whose vertices were made for another machine.
@@ -56,24 +57,9 @@ pub fn render_rtl_passes(
     passes: &[Pass],
     maps: &[Vec<u32>],
     stalls: StallKind,
-) -> Result<Frame, DrawError> {
-    render_rtl_shaded(plan, triangles, passes, maps, stalls, &Shading::default())
-}
-
-/// As [`render_rtl_passes`], on a machine with TERM and SHADE, as [`edgewalk_model::render_shaded`] does: after as many triangles
-/// as there are records in the memory the machine is idle for a while, and the next records are written.
-///
-/// # Errors
-/// Triangles whose vertices were made for another machine.
-pub fn render_rtl_shaded(
-    plan: &Plan,
-    triangles: impl IntoIterator<Item = [PortVertex; 3]>,
-    passes: &[Pass],
-    maps: &[Vec<u32>],
-    stalls: StallKind,
     shading: &Shading,
 ) -> Result<Frame, DrawError> {
-    run(plan, &plan.tagged(), triangles, passes, maps, stalls, shading, |_| true)
+    run(plan, &plan.tagged(), triangles, passes, (maps, shading), stalls, |_| true)
 }
 
 /// As [`render_rtl`], with the machine as it is, so that ids are the tags that it has, or none; `watch` sees the netlist in
@@ -88,18 +74,16 @@ pub fn render_rtl_with(
     stalls: StallKind,
     watch: impl FnMut(&mut Simulator) -> bool,
 ) -> Result<Frame, DrawError> {
-    run(plan, plan, triangles, &[Pass::all(state)], &[], stalls, &Shading::default(), watch)
+    run(plan, plan, triangles, &[Pass::all(state)], (&[], &Shading::default()), stalls, watch)
 }
 
-#[allow(clippy::too_many_arguments)] // what a frame is made of, and how it is run
 fn run(
     plan: &Plan,
     tagged: &Plan,
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
     passes: &[Pass],
-    maps: &[Vec<u32>],
+    (maps, shading): (&[Vec<u32>], &Shading),
     stalls: StallKind,
-    shading: &Shading,
     mut watch: impl FnMut(&mut Simulator) -> bool,
 ) -> Result<Frame, DrawError> {
     let interface = Interface::new(tagged, Unit::MACHINE);
@@ -113,8 +97,8 @@ fn run(
     let mut picture = Picture::new(plan, &interface, &first);
     let mut ports = interface.values();
     let mut map: Arc<[u128]> = Arc::default();
-    let mut records = Records::new(plan, shading);
     let tables: Arc<[u128]> = shading.tables.clone().into();
+    let mut begun = 0;
     for pass in passes {
         if pass.clear_depth {
             picture.stored[0].fill(plan.z.max() as u32); // b <= 32 bits
@@ -125,21 +109,22 @@ fn run(
         // The memories are as the pass before has left them.
         let mut setting = Setting::willing(&interface, &case::constants(&pass.state))?;
         for (memory, setting) in interface.memories.iter().zip(&mut setting.memories) {
-            setting.start = match memory.name {
-                "map" => Arc::clone(&map),
-                "color" => picture.colors(plan),
-                "terms" => records.written.clone().into(),
-                "tables" => Arc::clone(&tables),
-                _ => picture.stored[0].iter().map(|word| u128::from(*word)).collect(),
-            };
-            if matches!(memory.name, "terms" | "tables") {
+            if ["terms", "tables"].contains(&memory.name) {
                 setting.clear = 0;
             }
+            setting.start = match memory.name {
+                "map" => Arc::clone(&map),
+                "tables" => Arc::clone(&tables),
+                "terms" => Arc::default(),
+                "color" => picture.colors(plan),
+                _ => picture.stored[0].iter().map(|word| u128::from(*word)).collect(),
+            };
         }
         setting.patterns = patterns(tagged, &interface, stalls, 0);
-        let tokens = tokens.by_ref().take(pass.triangles);
-        let rig = Rig::fed(&interface, setting, tokens);
-        if !draw_pass(rig, pass.triangles, &mut device, &mut picture, &mut ports, &mut records, &mut watch) {
+        let rig = Rig::fed(&interface, setting, tokens.by_ref().take(pass.triangles));
+        let records = Records::new(plan, shading, begun);
+        begun += pass.triangles;
+        if !draw_pass((rig, records), plan, &mut device, &mut picture, &mut ports, &mut watch) {
             break;
         }
     }
@@ -147,54 +132,17 @@ fn run(
     foreign.map_or(Ok(picture.frame(plan)), |foreign| Err(foreign.into()))
 }
 
-/// The records of the triangles, those that have been written and those that have not.
-struct Records<'a> {
-    plan: &'a Plan,
-    left: std::iter::Enumerate<std::slice::Iter<'a, Record>>,
-    /// Triangles whose records fit into the memory.
-    at_once: u32,
-    /// What the memory holds, for the next pass.
-    written: Vec<u128>,
-}
-
-impl<'a> Records<'a> {
-    fn new(plan: &'a Plan, shading: &'a Shading) -> Records<'a> {
-        let at_once = if plan.shade.is_there() { 1 << plan.shade.record_bits } else { u32::MAX };
-        let has_memory = plan.shade.is_there() && !shading.records.is_empty();
-        let words = if has_memory { (at_once as usize) << plan.record_place_bits() } else { 0 };
-        Records { plan, left: shading.records.iter().enumerate(), at_once, written: vec![0; words] }
-    }
-
-    /// Writes those of the next triangles of a pass, of which so many are `left`, and permits as many more tokens.
-    fn write_next(&mut self, rig: &mut Rig<'_>, left: &mut usize) {
-        if !self.plan.shade.is_there() {
-            return;
-        }
-        let part = (*left).min(self.at_once as usize);
-        *left -= part;
-        for (triangle, record) in self.left.by_ref().take(part) {
-            let place = (triangle % self.at_once as usize) << self.plan.record_place_bits();
-            let words: Vec<u128> = self.plan.record_words(record).into_iter().map(u128::from).collect();
-            self.written[place..place + words.len()].copy_from_slice(&words);
-            rig.write("terms", place, words);
-        }
-        rig.permit(rig.sent() + part as u32);
-    }
-}
-
-/// Until the machine is idle again; false if `watch` has seen enough.
+/// Until all its triangles are drawn; false if `watch` has seen enough.
 fn draw_pass(
-    mut rig: Rig<'_>,
-    triangles: usize,
+    (mut rig, mut records): (Rig<'_>, Records<'_>),
+    plan: &Plan,
     device: &mut NetlistDevice,
     picture: &mut Picture,
     ports: &mut PortValues,
-    records: &mut Records<'_>,
     watch: &mut impl FnMut(&mut Simulator) -> bool,
 ) -> bool {
     let before = picture.counters.clone();
-    let mut left = triangles;
-    records.write_next(&mut rig, &mut left);
+    records.write_next(plan, &mut rig);
     loop {
         // In the cycle in which it takes the last triangle the machine is still idle.
         let exhausted = rig.exhausted();
@@ -211,8 +159,34 @@ fn draw_pass(
             return more;
         }
         if rests {
-            records.write_next(&mut rig, &mut left);
+            records.write_next(plan, &mut rig);
         }
+    }
+}
+
+/// The records that are not in the memory yet.
+struct Records<'a> {
+    left: std::iter::Skip<std::iter::Enumerate<std::slice::Iter<'a, Record>>>,
+    /// Triangles whose records fit into the memory.
+    at_once: u32,
+    permitted: u32,
+}
+
+impl Records<'_> {
+    /// From triangle number `begun` on.
+    fn new<'a>(plan: &Plan, shading: &'a Shading, begun: usize) -> Records<'a> {
+        let at_once = if plan.shade.is_there() { 1 << plan.shade.record_bits } else { u32::MAX };
+        Records { left: shading.records.iter().enumerate().skip(begun), at_once, permitted: 0 }
+    }
+
+    /// Writes as many as fit, and permits their triangles.
+    fn write_next(&mut self, plan: &Plan, rig: &mut Rig) {
+        for (triangle, record) in self.left.by_ref().take(self.at_once as usize) {
+            let place = (triangle % self.at_once as usize) << plan.record_place_bits();
+            rig.write("terms", place, plan.record_words(record).into_iter().map(u128::from));
+        }
+        self.permitted = self.permitted.saturating_add(self.at_once);
+        rig.permit(self.permitted);
     }
 }
 

@@ -4,7 +4,7 @@ mod common;
 
 use common::machines::random_machine;
 use common::triangles::random_triangle;
-use edgewalk_lockstep::{DrawError, StallKind, render_rtl, render_rtl_shaded, render_rtl_with};
+use edgewalk_lockstep::{DrawError, StallKind, render_rtl, render_rtl_passes, render_rtl_with};
 use edgewalk_machine::{Machine, Plan, Record};
 use edgewalk_model::{DrawState, Pass, Shading, Stalls, longest_setup, render_shaded};
 use rand::{Rng, SeedableRng};
@@ -23,18 +23,19 @@ fn quick_machine(rng: &mut Pcg64Mcg) -> Plan {
 /// Records of random words for so many triangles, and random tables.
 fn random_shading(plan: &Plan, triangles: usize, rng: &mut Pcg64Mcg) -> Shading {
     let record = |rng: &mut Pcg64Mcg| Record {
+        gloss: 0,
         x: rng.random_range(-4..plan.width as i32 + 4),
         y: rng.random_range(0..plan.height),
         material: rng.random_range(0..1 << plan.shade.material_bits),
-        gloss: 0,
         terms: plan.terms().iter().map(|_| std::array::from_fn(|_| rng.random())).collect(),
     };
     let bits = plan.shade.diffuse_bits(plan.color.bits) + plan.color.bits;
     let entries = plan.table_place(1 << plan.shade.material_bits, 0, 0);
     Shading {
+        roots: Vec::new(),
+        textures: Vec::new(),
         records: (0..triangles).map(|_| record(rng)).collect(),
         tables: (0..entries).map(|_| rng.random::<u128>() >> (128 - bits)).collect(),
-        ..Shading::default()
     }
 }
 
@@ -56,10 +57,12 @@ fn the_picture_of_the_netlist_is_that_of_the_model() {
         };
         let stalls = StallKind::ALL[i % 3];
         let shading = random_shading(&plan, triangles.len(), &mut rng);
-        let (all, passes) = (|| triangles.iter().copied(), [Pass::all(state)]);
-        let model = render_shaded(&plan, all(), &passes, &[], Stalls::NONE, &shading, |_| {})
+        let passes = [Pass::all(state)];
+        let model =
+            render_shaded(&plan, triangles.iter().copied(), &passes, &[], Stalls::NONE, &shading, |_| {})
+                .expect("its own triangles");
+        let rtl = render_rtl_passes(&plan, triangles.iter().copied(), &passes, &[], stalls, &shading)
             .expect("its own triangles");
-        let rtl = render_rtl_shaded(&plan, all(), &passes, &[], stalls, &shading).expect("its own triangles");
         assert_eq!((&rtl.z, &rtl.rgb, &rtl.extra), (&model.z, &model.rgb, &model.extra), "{plan:?}");
         assert_eq!(rtl.lit, model.lit, "{plan:?}");
         assert_eq!(
@@ -72,9 +75,9 @@ fn the_picture_of_the_netlist_is_that_of_the_model() {
                 |c: &edgewalk_model::Counters| (c.cycles, c.activity, c.triangles, c.fragments, c.writes);
             assert_eq!(seen(&rtl.counters), seen(&model.counters), "{plan:?}");
         } else {
-            // Few fragments may find every memory willing.
-            assert!(rtl.counters.cycles >= model.counters.cycles, "{plan:?}");
-            waited += u32::from(rtl.counters.cycles > model.counters.cycles);
+            // SETUP, or the reading of tables, may take so long that a stall is hidden behind it.
+            let longer = rtl.counters.cycles.checked_sub(model.counters.cycles).expect("it waits");
+            waited += u32::from(longer > 0);
         }
         fragments += model.counters.fragments;
         machines[i % 3] += 1;
@@ -83,9 +86,10 @@ fn the_picture_of_the_netlist_is_that_of_the_model() {
         shade += u32::from(plan.shade.is_there());
     }
     println!(
-        "{fragments} fragments compared on {machines:?} machines, by stalls; {blend} of them with BLEND, {shadow} with SHADOW, {shade} with SHADE, {waited} of 24 waited"
+        "{fragments} fragments compared on {machines:?} machines, by stalls; {blend} of them with BLEND, {shadow} with SHADOW, {shade} with SHADE, \
+         {waited} of 24 waited"
     );
-    assert!(fragments > 1000 && blend > 10 && shadow > 5 && shade > 5 && waited > 15, "{fragments}");
+    assert!(fragments > 1000 && blend > 10 && shadow > 5 && shade > 10 && waited > 12, "{fragments}");
 }
 
 #[test]

@@ -6,7 +6,7 @@
 
 use edgewalk_lockstep::{StallKind, render_rtl_passes};
 use edgewalk_machine::{Blend, BlendKind, Hazard, Machine, Plan, PortVertex, Shadow, ShadowLight};
-use edgewalk_model::{DrawState, Frame, Pass, Stalls, render_passes};
+use edgewalk_model::{DrawState, Frame, Pass, Shading, Stalls, render_passes};
 
 /// A screen of a few pixels and a map of four texels, with this policy.
 fn machine(hazard: Hazard) -> Plan {
@@ -129,7 +129,9 @@ fn the_netlist_does_so_too() {
         let plan = &policies[i % 3];
         let (triangles, passes, maps) = frame(plan, &depths);
         let kind = StallKind::ALL[i % 2];
-        let rtl = render_rtl_passes(plan, triangles.iter().copied(), &passes, &maps, kind).expect("its own");
+        let rtl =
+            render_rtl_passes(plan, triangles.iter().copied(), &passes, &maps, kind, &Shading::default())
+                .expect("its own");
         assert_eq!(pixel(&rtl), [expected(&depths); 3], "{depths:?}");
         let model = render_passes(plan, triangles, &passes, &maps, Stalls::NONE, |_| {}).expect("its own");
         assert_eq!((&rtl.z, &rtl.rgb, &rtl.lit, &rtl.id), (&model.z, &model.rgb, &model.lit, &model.id));

@@ -4,7 +4,7 @@ mod common;
 
 use common::{Triangle, moved, random_values, render};
 use edgewalk_machine::keys::{Domain, KEYS};
-use edgewalk_machine::{BlendKind, ForeignVertex, Machine, Plan, ShadeKind, ShadowLight};
+use edgewalk_machine::{BlendKind, ForeignVertex, Machine, Plan, ShadeKind, ShadowLight, Walk};
 use edgewalk_model::fast::{self, Path, Reason, Refusal};
 use edgewalk_model::{Activity, DrawState, Events, Frame, Stalls};
 use rand::{Rng, SeedableRng, rngs::StdRng};
@@ -30,9 +30,10 @@ fn random_machine(rng: &mut impl Rng) -> Plan {
         if rng.random_bool(0.9) {
             machine.shadow.light = ShadowLight::None; // and these
         }
-        if rng.random_bool(0.9) {
+        if rng.random_bool(0.97) {
             machine.shade.kind = ShadeKind::None; // and others
         }
+        machine.shade.walk = Walk::Register; // triangles out to the guard band, and records of zeros: the walks are long
         machine.shade.record_bits = 8;
         machine.width = rng.random_range(1..80);
         machine.height = rng.random_range(1..60);

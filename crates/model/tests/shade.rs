@@ -5,8 +5,11 @@ mod common;
 use common::shade::{colour, cosines, leftward, output, random_shading, textured, true_roots, words};
 use common::{ALWAYS, Triangle, machine, place, random_machine, random_triangle};
 use edgewalk_machine::{Activity, Entry, Plan, Record};
-use edgewalk_model::{Drawn, Events, Frame, Pass, Shading, Stalls, render_shaded};
+use edgewalk_model::shade::{Cosines, Shade};
+use edgewalk_model::{Drawn, Events, Frame, Pass, ShadeInputs, Shading, Stalls, render_shaded};
 use rand::{Rng, SeedableRng, rngs::StdRng};
+
+const C: usize = edgewalk_model::tokens::MAX_CHANNELS;
 
 /// A fragment that DEPTH took: triangle, address, outputs of the channels.
 type Fragment = (u32, u32, Vec<u32>);
@@ -244,6 +247,37 @@ fn textures_repeat() {
     }
     println!("{checked} fragments of textures that repeat");
     assert!(checked > 21 * 20);
+}
+
+/// New tables wait until no stage holds a fragment of the old ones, however long that takes.
+#[test]
+fn tables_stay_while_a_stage_needs_them() {
+    let plan = machine(&[("shade.kind", "fast-phong"), ("shade.table_bits", "8")]);
+    let (mut unit, mut events) = (Shade::<C>::new(&plan), Events::default());
+    let fragment = edgewalk_model::tokens::Fragment::default();
+    let of = |material| Cosines { material, ..Cosines::default() };
+    // A word is there in the cycle after its read.
+    let mut due = None;
+    let mut cycle = |unit: &mut Shade<C>, material: u32, ready: bool| {
+        let inputs = ShadeInputs { srd_ready: true, sdata: due.take() };
+        due = unit.read().map(u128::from);
+        let taken = unit.frag_ready(&of(material), ready);
+        unit.step(Some(&fragment), &of(material), &inputs, ready, &mut events);
+        taken
+    };
+    let clocks = (0..).find(|_| cycle(&mut unit, 3, false)).expect("the tables come");
+    assert_eq!(clocks, 256 + 1 + 1);
+    // One moves to the end and stays there; another material is offered.
+    for _ in 0..400 {
+        cycle(&mut unit, 5, false);
+        assert!(unit.occupied() && unit.read().is_none());
+    }
+    // It leaves, all is empty, the fetch begins, and its first read follows.
+    let reads = (0..).find(|_| {
+        cycle(&mut unit, 5, true);
+        unit.read().is_some()
+    });
+    assert_eq!((reads, unit.read()), (Some(1), Some(5 << 8)));
 }
 
 /// Records of culled triangles are stepped over: 17 between two that are drawn, and more triangles than records.

@@ -16,11 +16,11 @@ const DOC: &str = "SHADOW looks up a light's depth map for every fragment, and d
   frag ────┴─> [queue] ─┬─ compare ─> gate ─> shaded
     map memory ─ mdata ─┘
 
-Formats: lx, ly signed, the texel; lz signed, the depth from the light less the bias, as the map's words but with two more bits: before 0
-and beyond them all. lit is 1 where lz is not more than the texel's word.
+Formats: lx, ly signed, the texel; lz signed, the depth from the light less the bias, with two bits more than the map's words:
+before 0 and beyond them all. lit is 1 where lz is not more than the texel's word.
 Timing: a texel is read in the cycle its fragment comes; the fragment goes on in the cycle the word comes.
-Rules: what lies outside the map or before it is lit, what lies behind it is in shadow; neither is read for. Words come in the order of
-the reads. shadow_on stays as it is while the machine is busy.";
+Rules: what lies outside the map or before it is lit, what lies behind it is in shadow; neither is read for. Words come in the
+order of the reads. shadow_on stays as it is while the machine is busy.";
 
 /// Light-space values, which end here.
 const LIGHT: [&str; 3] = ["lx", "ly", "lz"];
@@ -75,6 +75,7 @@ pub fn shadow(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         None => lit.mux(head[c], 0),
         Some(ambient) => lit.mux(head[c], share(&m, c, head[c], ambient)),
     };
+
     ports.take_ready(frag_ready);
     ports.read("map", mrd_valid, address, mdata_ready);
     ports.give(shaded_valid, |f| match f {
@@ -134,5 +135,6 @@ fn share<'m>(m: &'m Module, name: &str, color: Signal<'m>, ambient: Signal<'m>) 
     let half = m.lit(2 * bits, 1 << (bits - 1));
     let p = (color * ambient + half).named_doc(&format!("p_{name}"), "the product and a half");
     // Neither sum is more than (2^b - 1)^2 + 2^b + 2^(b-1), which 2b bits hold.
-    (p + p.slice(2 * bits - 1, bits).zext(2 * bits)).slice(2 * bits - 1, bits)
+    let folded = p + p.slice(2 * bits - 1, bits).zext(2 * bits);
+    folded.named_doc(&format!("folded_{name}"), "its high half of the share").slice(2 * bits - 1, bits)
 }

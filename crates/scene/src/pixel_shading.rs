@@ -6,6 +6,7 @@
 //! ```
 //! Triangle files have viewer and lights infinitely far away; a scene's frame has its own.
 
+use crate::camera::Camera;
 use crate::frame::{Frame, Triangle, Vertex};
 use crate::light::Light;
 use crate::mesh::Material;
@@ -114,8 +115,14 @@ impl PixelShading {
 
 impl Scene {
     /// The frame of a surface of this scene with the equation at each pixel. Highlights are of the form that N·H gives: for the
-    /// mirror form that of ch. 7.12. A texture colours the vertices, a relief is not seen.
+    /// mirror form that of ch. 7.12. In Phong the viewer is far away, as hardware with linear products has it. A texture colours
+    /// the vertices, a relief is not seen.
     pub fn pixel_frame(&self, surface: &Surface, method: PixelMethod) -> Frame {
+        let Camera { eye, target, .. } = self.camera;
+        let viewer = match method {
+            PixelMethod::FastPhong => Viewer::At(eye),
+            PixelMethod::Phong => Viewer::Toward((eye - target).normalize_or_zero()),
+        };
         let plain: Vec<(DVec3, Material)> = self.mesh.materials().iter().map(in_grey).collect();
         let corner = |face: u32, vertex: &SurfaceVertex| {
             let place = self.mesh.faces()[face as usize].material as usize;
@@ -134,7 +141,7 @@ impl Scene {
         });
         let shading = PixelShading {
             method,
-            viewer: Viewer::At(self.camera.eye),
+            viewer,
             ambient: self.ambient,
             lights: self.lights.clone(),
             specular: if self.specular == Specular::Mirror { Specular::Halfway } else { self.specular },

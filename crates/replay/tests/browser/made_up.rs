@@ -145,7 +145,7 @@ fn a_machine_that_there_is_not_is_drawn() {
     let says = browser.eval("app.go(2); document.querySelectorAll('#says div').length");
     assert_eq!(says, 8);
     assert_eq!(browser.eval("document.querySelector('#says').textContent.includes('{')"), false);
-    let faults = browser.eval(crate::LAYOUT);
+    let faults = browser.eval(crate::layout::LAYOUT);
     assert_eq!(faults, json!([]));
     browser.is_quiet();
     println!("checked {compared} values");

@@ -18,7 +18,7 @@ pub struct ShadedPixel {
     material: u32,
     /// Of each light N·L, then N·H.
     terms: Vec<TermWalk>,
-    /// Proved bound of the colour against golden's fast Phong, LSB.
+    /// Proved bound of the colour against golden's, LSB.
     bound: f64,
 }
 
@@ -31,12 +31,20 @@ struct TermWalk {
     steps: Vec<TermStep>,
     /// The word's floor: what SHADE takes.
     output: i64,
-    /// The word, entries of the table.
-    index: f64,
-    /// Golden's, and how far the machine's may be from it.
+    /// The word, in units of the output.
+    value: f64,
+    /// Where it is the index of a table.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    read: Option<TableRead>,
+}
+
+/// A table read at an index.
+#[derive(Debug, Serialize)]
+struct TableRead {
+    /// Golden's index, and how far the machine's may be from it.
     golden: f64,
     bound: f64,
-    /// The entry that is read, and the word of the table there.
+    /// The entry, and what stands there.
     entry: u32,
     table: String,
 }
@@ -74,25 +82,35 @@ pub fn shaded(
     let terms = machine.terms().iter().zip(&record.terms).enumerate().map(|(place, (term, words))| {
         let (light, highlight) = (place / 2, place % 2 == 1);
         let words = TermWords::new(term.word(), *words)?;
-        let to = (i64::from(x), i64::from(y));
-        let steps = steps(record, &words, to, leftward);
+        let steps = steps(record, &words, (i64::from(x), i64::from(y)), leftward);
         let word = steps.last()?.v;
-        let (gloss, bound) = of_term(errors, &glosses, light, highlight);
-        let (entries, cosine) = (2f64.powi(machine.shade.table_bits as i32), cosines.get(light)?[place % 2]);
         let output = word >> term.fraction;
-        let entry = output.clamp(0, entries as i64 - 1) as u32;
-        let at = machine.table_place(record.material, light as u32, entry);
+        // NORMAL stands between terms and tables.
+        let read = if machine.shade.normalises() {
+            None
+        } else {
+            let (gloss, bound) = of_term(errors, &glosses, light, highlight);
+            let (entries, cosine) =
+                (2f64.powi(machine.shade.table_bits as i32), cosines.get(light)?[place % 2]);
+            let entry = output.clamp(0, entries as i64 - 1) as u32;
+            let at = machine.table_place(record.material, light as u32, entry);
+            let golden = entries - (1.0 - cosine) * entries * 2f64.powi(gloss as i32);
+            Some(TableRead {
+                golden,
+                bound,
+                entry,
+                table: table(machine, *feed.words.tables.get(at)?, highlight),
+            })
+        };
+        let value = word as f64 / 2f64.powi(term.fraction as i32);
         Some(TermWalk {
             name: term.name,
             bits: term.bits,
             fraction: term.fraction,
             steps,
             output,
-            index: word as f64 / 2f64.powi(term.fraction as i32),
-            golden: entries - (1.0 - cosine) * entries * 2f64.powi(gloss as i32),
-            bound,
-            entry,
-            table: table(machine, feed.words.tables.get(at).copied()?, highlight),
+            value,
+            read,
         })
     });
     // Lights that the frame has not are left out.
@@ -144,16 +162,18 @@ fn table(machine: &Plan, word: u128, highlight: bool) -> String {
 
 /// As lines of text; writing to a string cannot fail.
 pub fn text(of: &ShadedPixel) -> String {
-    let mut page =
-        format!("\nmaterial {}: colour within {:.4} LSB of golden's fast Phong\n", of.material, of.bound);
+    let mut page = format!("\nmaterial {}: colour within {:.4} LSB of golden's\n", of.material, of.bound);
     for term in &of.terms {
-        let TermWalk { name, bits, fraction, steps, output, index, golden, bound, entry, table } = term;
-        _ = writeln!(
-            page,
-            "{name}, Q{bits}.{fraction}: index {index:.4}, golden's {golden:.4}, error {:.6}, bound {bound:.6}",
-            index - golden
-        );
-        _ = writeln!(page, "  output {output}, entry {entry}: {table}");
+        let TermWalk { name, bits, fraction, steps, output, value, read } = term;
+        _ = write!(page, "{name}, Q{bits}.{fraction}: {value:.4}, output {output}");
+        if let Some(TableRead { golden, bound, entry, table }) = read {
+            let error = value - golden;
+            _ = write!(
+                page,
+                "; golden's {golden:.4}, error {error:.6}, bound {bound:.6}; entry {entry}: {table}"
+            );
+        }
+        page += "\n";
         for (place, step) in steps.iter().enumerate() {
             if place == SHOWN && steps.len() > 2 * SHOWN {
                 _ = writeln!(page, "  ... {} more; all of them with --json", steps.len() - 2 * SHOWN);
