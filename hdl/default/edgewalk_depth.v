@@ -202,7 +202,6 @@ module edgewalk_depth (
   wire place0_after_w = wr_valid && wr_z_en && (wr_addr == place0_addr);
   wire place1_after_w = wr_valid && wr_z_en && (wr_addr == place1_addr);
   wire place2_after_w = wr_valid && wr_z_en && (wr_addr == place2_addr);
-  wire place3_after_w = wr_valid && wr_z_en && (wr_addr == place3_addr);
   wire enters_after_w = wr_valid && wr_z_en && (wr_addr == frag_addr);
 
   always @(posedge clk) begin
@@ -241,8 +240,8 @@ module edgewalk_depth (
       place2_fwd_z <= wr_z;
     end
     if (compare) begin
-      place2_fwd_valid <= place3_fwd_valid || place3_after_w;
-      place2_fwd_z <= place3_after_w ? wr_z : place3_fwd_z;
+      place2_fwd_valid <= place3_fwd_valid;
+      place2_fwd_z <= place3_fwd_z;
     end
     if (enters2) begin
       place2_fwd_valid <= enters_after_w;
@@ -251,10 +250,6 @@ module edgewalk_depth (
   end
 
   always @(posedge clk) begin
-    if (place3_after_w) begin
-      place3_fwd_valid <= 1'b1;
-      place3_fwd_z <= wr_z;
-    end
     if (enters3) begin
       place3_fwd_valid <= enters_after_w;
       place3_fwd_z <= wr_z;

@@ -11,7 +11,7 @@ use std::process::Stdio;
 use support::{SCREEN, TRIANGLE, edgewalk, ended, names, run};
 
 /// A quick run of each command, as text; those with a report also come with --json.
-const COMMANDS: [&[&str]; 15] = [
+const COMMANDS: [&[&str]; 19] = [
     &["demo", "d.tri", "--out", "demo"],
     &["render", "d.tri", "--out", "render"],
     &["render", "sphere", "--engine", "golden", "--out", "shaded"],
@@ -24,6 +24,10 @@ const COMMANDS: [&[&str]; 15] = [
     &["trace", "d.tri", "--out", "t.vcd", "--cycles", "10"],
     &["bench", "d.tri", "--engine", "fast", "--repeat", "1"],
     &["synth", "--unit", "span", "--seeds", "1", "--cache", concat!(env!("CARGO_TARGET_TMPDIR"), "/synth")],
+    &["size", "d.tri"],
+    &["sweep", "d.tri", "--vary", "interpolator.adders=1,2", "--out", "sweep"],
+    &["compare", "default", "default", "d.tri"],
+    &["replay", "d.tri", "--out", "r.html"],
     &["config", "print"],
     &["config", "check"],
     &["config", "explain"],
