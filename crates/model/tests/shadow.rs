@@ -260,7 +260,7 @@ fn the_map_changes_colours_and_nothing_else() {
         }
     }
     println!("{machines} machines, {checked} fragments, {dark} in shadow");
-    assert!(checked > 50_000 && dark > 1_000);
+    assert!(checked > 50_000 && dark > 500);
 }
 
 /// A fragment a read fired for, in order, and the map that lay there.
