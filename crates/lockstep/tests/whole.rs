@@ -88,7 +88,7 @@ fn shares(machines: &[Plan]) -> Vec<u64> {
 fn whole_machines(half: usize) {
     let mut rng = Pcg64Mcg::seed_from_u64(2);
     let machines: Vec<Plan> = (0..MACHINES).map(|number| drawn_machine(number, &mut rng)).collect();
-    let (mut all, mut run, mut signed, mut extra) = (Checked::default(), 0, 0, [0; 5]);
+    let (mut all, mut run, mut given, mut signed, mut extra) = (Checked::default(), 0, 0, 0, [0; 5]);
     for (i, (plan, share)) in machines.iter().zip(shares(&machines)).enumerate() {
         if i % 2 != half {
             continue;
@@ -99,6 +99,7 @@ fn whole_machines(half: usize) {
         case.tokens = (0..share).map(|k| port.pack(&random_triangle(plan, &mut rng), k as u32)).collect();
         all.merge(&checked(&case));
         run += 1;
+        given += share;
         extra[plan.extra as usize] += 1;
         signed += plan.channels().iter().filter(|channel| channel.kind != Kind::Unorm).count();
     }
@@ -110,7 +111,7 @@ fn whole_machines(half: usize) {
     assert_eq!(run, MACHINES / 2);
     assert!(extra.iter().all(|machines| *machines > 8) && signed > 150);
     // A triangle that a reset took from the machine is not offered again, one in the cycle of the reset is.
-    assert!(all.tokens >= TRIANGLES * 4 / 10 && all.compared > 10 * all.cycles);
+    assert!(all.tokens >= given * 9 / 10 && all.compared > 10 * all.cycles);
     let missing: Vec<_> = all
         .events
         .missing()

@@ -413,10 +413,13 @@ impl Seen {
     fn check(&mut self, plan: &Plan, count: usize, rng: &mut StdRng) {
         let mut setup = Setup::new(plan);
         let longest = longest_setup(plan);
-        for _ in 0..count {
+        for number in 0..count as u32 {
             let triangle = any_triangle(plan, rng);
             let work = Work::new(plan, &triangle);
             let (clocks, prim) = work.prim();
+            // The k-th triangle has record k mod 2^p, culled or not.
+            let record = number % (1 << plan.shade.record_bits);
+            let prim = prim.map(|prim| Prim { record, ..prim });
             let (cycles, ticked) = ticked(&mut setup, &triangle);
             let context = || format!("{triangle:?} on {plan:?}");
             assert_eq!(ticked, prim, "{}", context());
