@@ -3,7 +3,7 @@
 use crate::channel::{Channel, MAX_CHANNELS};
 use crate::keys::KEYS;
 use crate::machine::{EdgeKind, Fill, Machine};
-use crate::shading::ShadeColour;
+use crate::shade::ShadeColour;
 use crate::text::MachineError;
 
 /// Longest word a setup lane may need.

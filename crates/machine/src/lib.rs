@@ -18,9 +18,14 @@
 //! ```
 
 pub mod channel;
+pub mod key;
+pub mod extra;
+pub mod shade;
+pub mod shadow;
+pub mod blend;
 pub mod machine;
-pub mod shading;
 pub mod keys;
+pub mod record;
 pub mod nearest;
 pub mod text;
 pub mod presets;
@@ -36,16 +41,18 @@ pub mod unit;
 pub mod units;
 
 pub use activity::Activity;
+pub use blend::{Blend, BlendKind};
 pub use budget::NoBound;
 pub use channel::{Channel, Kind, MAX_CHANNELS, Precision};
 pub use edgewalk_numerics::ErrorBudget;
+pub use extra::ExtraChannel;
 pub use field::{Field, Scale};
 pub use link::{Held, Link, MemoryPort, Ready, Status};
-pub use machine::{
-    Blend, BlendKind, EdgeKind, ExtraChannel, Fill, Gate, Hazard, Machine, Shadow, ShadowLight,
-};
+pub use machine::{EdgeKind, Fill, Hazard, Machine};
 pub use plan::Plan;
-pub use shading::{Entry, Record, Shade, ShadeColour, ShadeKind, Term, Texture, Walk};
+pub use record::{Entry, Record, Term};
+pub use shade::{Shade, ShadeColour, ShadeKind, Texture, Walk};
+pub use shadow::{Gate, Shadow, ShadowLight};
 pub use text::MachineError;
 pub use unit::{Event, Ports, UnitSpec};
 pub use units::UNITS;

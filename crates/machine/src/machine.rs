@@ -1,9 +1,16 @@
-//! One configuration of the machine: every number an architect may choose.
+//! One configuration of the machine: every number an architect may choose. Units that not every machine has keep theirs
+//! in files of their own.
 //!
-//! The fields are documented once, in [`crate::keys::KEYS`]; the symbols are those of `docs/machine.md`.
+//! To add a parameter: a field, its value in the default machine and its line among the keys, all in one file; a rule in
+//! `check.rs` if it can clash with another. The symbols are those of `docs/machine.md`.
 
-use crate::channel::{Kind, Precision};
-use crate::shading::Shade;
+use crate::blend::Blend;
+use crate::channel::{MAX_CHANNELS, Precision};
+use crate::extra::ExtraChannel;
+use crate::key::Domain::{OneOf, Range};
+use crate::key::{Domain, Key, number, word};
+use crate::shade::Shade;
+use crate::shadow::Shadow;
 
 /// Which pixels a triangle covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -32,134 +39,6 @@ pub enum Hazard {
     Interlock,
     /// A fragment takes the depth from the older fragment that writes it.
     Forward,
-}
-
-/// Whose transmission coefficient k_t BLEND takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum BlendKind {
-    /// Nobody's: the machine has no BLEND.
-    None,
-    /// One for a triangle.
-    Constant,
-    /// One for a pixel: it is a channel.
-    Interpolated,
-}
-
-/// BLEND, and the colour memory behind it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Blend {
-    /// Whose k_t.
-    pub kind: BlendKind,
-    /// Bits of k_t below 1.
-    pub kt_bits: u32,
-    /// Interpolator fraction bits of k_t where it is a channel.
-    pub kt_fraction: u32,
-    /// Fraction bits of its vertex value.
-    pub kt_vertex: u32,
-    /// Multipliers: 3, 1, or 0 for bit by bit.
-    pub multipliers: u32,
-    /// Stages M between the queue and the write.
-    pub stages: u32,
-    /// Depth of its queue, fragments.
-    pub queue: u32,
-    /// What it does when a fragment's pixel is still in flight.
-    pub hazard: Hazard,
-    /// Latency of the colour memory, clocks.
-    pub latency: u32,
-}
-
-impl Blend {
-    /// The unit is there.
-    #[must_use]
-    pub fn is_there(&self) -> bool {
-        self.kind != BlendKind::None
-    }
-
-    /// Word lengths of k_t: one bit more than below 1, so that 1 is exact.
-    #[must_use]
-    pub fn kt(&self) -> Precision {
-        Precision { bits: self.kt_bits + 1, fraction: self.kt_fraction, vertex_fraction: self.kt_vertex }
-    }
-}
-
-/// The light whose map SHADOW looks up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ShadowLight {
-    /// None: the machine has no SHADOW.
-    None,
-    /// Parallel: light-space values are linear over the screen.
-    Parallel,
-}
-
-/// What becomes of the colour of a fragment in shadow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Gate {
-    /// 0.
-    And,
-    /// The share `ambient` of it.
-    Scale,
-}
-
-/// SHADOW, and the map behind it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Shadow {
-    /// Which light.
-    pub light: ShadowLight,
-    /// Side of the map, texels.
-    pub size: u32,
-    /// Bits that light-space texels have beyond the map.
-    pub guard_bits: u32,
-    /// Bits of a depth in the map.
-    pub depth_bits: u32,
-    /// Interpolator fraction bits of light-space values.
-    pub fraction: u32,
-    /// Fraction bits of their vertex values.
-    pub vertex_fraction: u32,
-    /// What shadow does.
-    pub gate: Gate,
-    /// Depth of its queue, fragments.
-    pub queue: u32,
-    /// Latency of the map, clocks.
-    pub latency: u32,
-}
-
-impl Shadow {
-    /// The unit is there.
-    #[must_use]
-    pub fn is_there(&self) -> bool {
-        self.light != ShadowLight::None
-    }
-
-    /// SB: bits of a texel's column or line.
-    #[must_use]
-    pub fn side_bits(&self) -> u32 {
-        self.size.next_power_of_two().ilog2().max(1)
-    }
-
-    /// Word lengths of lx and ly.
-    #[must_use]
-    pub fn texel(&self) -> Precision {
-        self.precision(self.side_bits() + 1 + self.guard_bits)
-    }
-
-    /// Word lengths of lz.
-    #[must_use]
-    pub fn light_depth(&self) -> Precision {
-        self.precision(self.depth_bits + 2)
-    }
-
-    fn precision(&self, bits: u32) -> Precision {
-        Precision { bits, fraction: self.fraction, vertex_fraction: self.vertex_fraction }
-    }
-}
-
-/// A channel that the user adds: it is interpolated and written beside the colour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct ExtraChannel {
-    /// How it is read and rounded.
-    pub kind: Kind,
-    /// Its word lengths.
-    pub precision: Precision,
 }
 
 /// The keys of one machine, which may clash; [`Machine::plan`] says whether it can be built.
@@ -210,3 +89,118 @@ pub struct Machine {
     /// Bits of the tag that travels with a triangle to its writes; 0 leaves the ports out.
     pub tag_bits: u32,
 }
+
+impl Default for Machine {
+    /// The preset `default`. r = 14 because a span may step over up to 2^13 columns of the guard band before the screen (bound 4).
+    fn default() -> Self {
+        Machine {
+            width: 640,
+            height: 480,
+            guard_bits: 13,
+            subpixel_bits: 8,
+            fill: Fill::Exact,
+            edge_kind: EdgeKind::Exact,
+            edge_fraction: 16,
+            z: Precision { bits: 24, fraction: 14, vertex_fraction: 4 },
+            color: Precision { bits: 8, fraction: 14, vertex_fraction: 4 },
+            extras: [ExtraChannel::default(); 4],
+            extra: 0,
+            adders: 4,
+            segments: 1,
+            lanes: 4,
+            span_fifo: 2,
+            inflight: 4,
+            latency: 2,
+            hazard: Hazard::Forward,
+            shade: Shade::default(),
+            shadow: Shadow::default(),
+            blend: Blend::default(),
+            tag_bits: 0,
+        }
+    }
+}
+
+/// The keys of screen, SETUP, EDGE, SPAN and of the channels that each machine has.
+pub(crate) const FRONT: &[Key] = &[
+    number!("screen.width", Range(1, 8192), "visible columns, pixels", width),
+    number!("screen.height", Range(1, 8192), "visible lines, pixels", height),
+    number!(
+        "screen.guard_bits",
+        Range(2, 14),
+        "vertices lie in |x|,|y| <= 2^guard_bits - 1 pixels; nothing inside is clipped",
+        guard_bits
+    ),
+    number!("screen.subpixel_bits", Range(0, 8), "fraction bits of vertex coordinates", subpixel_bits),
+    number!(
+        "setup.lanes",
+        OneOf(&[1, 2, 4]),
+        "lanes that work side by side, each on a quotient with its exact remainder",
+        lanes
+    ),
+    word!(
+        "edge.fill",
+        Fill { "exact" => Exact, "textbook" => Textbook },
+        "fill rule: exact (half-open, top-left) or textbook (inclusive, integer vertices)",
+        fill
+    ),
+    word!(
+        "edge.kind",
+        EdgeKind { "exact" => Exact, "slope" => Slope },
+        "edge walk: exact (quotient and remainder) or slope (fixed point)",
+        edge_kind
+    ),
+    number!(
+        "edge.fraction_bits",
+        Range(1, 30),
+        "fraction bits of a slope edge; unused by exact edges",
+        edge_fraction
+    ),
+    number!("fifo.span", Range(1, 64), "depth of the span FIFO, spans", span_fifo),
+    number!("formats.z_bits", Range(4, 32), "depth: output bits", z.bits),
+    number!("formats.z_fraction", Range(0, 24), "depth: interpolator fraction bits", z.fraction),
+    number!("formats.z_vertex", Range(0, 16), "depth: fraction bits of the vertex value", z.vertex_fraction),
+    number!("formats.color_bits", Range(2, 16), "colour: output bits", color.bits),
+    number!("formats.color_fraction", Range(0, 24), "colour: interpolator fraction bits", color.fraction),
+    number!(
+        "formats.color_vertex",
+        Range(0, 16),
+        "colour: fraction bits of the vertex value",
+        color.vertex_fraction
+    ),
+];
+
+/// The keys of PIXEL.
+pub(crate) const PIXEL: &[Key] = &[
+    number!(
+        "interpolator.adders",
+        Range(1, MAX_CHANNELS as u32),
+        "adders shared by the N channels: ceil(N/adders) clocks a pixel",
+        adders
+    ),
+    number!(
+        "interpolator.segments",
+        OneOf(&[1, 2, 4]),
+        "pipeline segments of each adder; the carry moves a segment a clock",
+        segments
+    ),
+];
+
+/// The keys of DEPTH.
+pub(crate) const DEPTH: &[Key] = &[
+    word!(
+        "memory.hazard",
+        Hazard { "drain" => Drain, "interlock" => Interlock, "forward" => Forward },
+        "a pixel still in flight: drain, interlock or forward",
+        hazard
+    ),
+    number!("memory.latency", Range(1, 8), "clocks from a depth read to its data, at the least", latency),
+    number!("fifo.inflight", Range(1, 16), "fragments in flight between read and compare", inflight),
+];
+
+/// The key of what goes with a triangle to its writes.
+pub(crate) const TAG: &[Key] = &[number!(
+    "memory.tag_bits",
+    Range(0, 32),
+    "bits of a tag that travels with a triangle to its writes; 0: none",
+    tag_bits
+)];

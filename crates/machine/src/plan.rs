@@ -1,8 +1,9 @@
 //! The checked machine: what units, drawing and tools take.
 
+use crate::blend::BlendKind;
 use crate::channel::Channel;
-use crate::machine::{BlendKind, Machine};
-use crate::shading::{self, Term};
+use crate::machine::Machine;
+use crate::record::{self, Term};
 use crate::text::MachineError;
 use crate::units::UNITS;
 use crate::vertex::PortStamp;
@@ -37,7 +38,7 @@ impl Machine {
             &channels,
             if constant { self.blend.kt_bits } else { 0 },
         );
-        let terms = shading::terms(self);
+        let terms = record::terms(self);
         Ok(Plan { machine: self.clone(), channels, terms, widths: self.widths(), port })
     }
 }

@@ -1,6 +1,7 @@
 //! Machine files: TOML in, TOML out, single settings, and the hash that everything made from a machine carries.
 
-use crate::keys::{Domain, KEYS, Key};
+use crate::key::{Domain, Key};
+use crate::keys::KEYS;
 use crate::machine::Machine;
 use crate::nearest::nearest;
 use crate::presets::PRESETS;
@@ -176,7 +177,7 @@ impl Machine {
 mod tests {
     use super::*;
     use crate::machine::{Blend, BlendKind, Shadow, ShadowLight};
-    use crate::shading::{Shade, ShadeKind, Texture};
+    use crate::shade::{Shade, ShadeKind, Texture};
 
     const TEXTBOOK: &str = "0ee73237105a";
 

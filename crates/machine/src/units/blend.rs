@@ -1,10 +1,11 @@
 //! BLEND: from fragments that passed to colours.
 
 use super::tokens;
+use crate::blend::BlendKind;
 use crate::channel::{Channel, Kind};
 use crate::field::Field;
 use crate::link::{Link, MemoryPort, Ready, Status};
-use crate::machine::{BlendKind, Hazard, Machine};
+use crate::machine::{Hazard, Machine};
 use crate::plan::Plan;
 use crate::unit::{Event, Ports, UnitSpec};
 

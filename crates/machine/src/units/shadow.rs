@@ -4,8 +4,9 @@ use super::tokens;
 use crate::channel::{Channel, Kind};
 use crate::field::Field;
 use crate::link::{Link, MemoryPort, Ready, Status};
-use crate::machine::{Gate, Machine};
+use crate::machine::Machine;
 use crate::plan::Plan;
+use crate::shadow::Gate;
 use crate::unit::{Event, Ports, UnitSpec};
 
 /// What SHADOW declares.

@@ -5,7 +5,7 @@ use crate::field::Field;
 use crate::link::{Held, Link, MemoryPort, Ready, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::shading::Walk;
+use crate::shade::Walk;
 use crate::unit::{Event, Ports, UnitSpec};
 
 /// What TERM declares.

@@ -4,7 +4,7 @@ use crate::channel::Channel;
 use crate::field::{Field, Scale};
 use crate::machine::{EdgeKind, Fill};
 use crate::plan::Plan;
-use crate::shading::{self, Term};
+use crate::record::{self, Term};
 use edgewalk_numerics::Format;
 
 /// Names of the three edges of a prim: 0–2, 0–1 and 1–2 in the order of the sorted vertices.
@@ -195,7 +195,7 @@ fn material(plan: &Plan) -> Option<Field> {
 /// Of the material's highlights, on the way to NORMAL.
 fn gloss(plan: &Plan) -> Option<Field> {
     let doc = "highlights reach down to 2^gloss tables below 0";
-    plan.shade.normalises().then(|| Field::count("gloss", shading::GLOSS_BITS, doc))
+    plan.shade.normalises().then(|| Field::count("gloss", record::GLOSS_BITS, doc))
 }
 
 /// A word of the memory of the terms.
@@ -299,7 +299,7 @@ pub fn textured(plan: &Plan) -> Vec<Field> {
 pub fn cosines(plan: &Plan) -> Vec<Field> {
     let bits = [plan.shade.diffuse_index_bits(), plan.shade.highlight_index_bits()];
     let index = |(name, bits)| Field::signed(name, bits, "in entries of a table");
-    let lights = shading::COSINES.into_iter().take(plan.shade.lights as usize);
+    let lights = record::COSINES.into_iter().take(plan.shade.lights as usize);
     let cosines = lights.flat_map(|names| names.into_iter().zip(bits)).map(index);
     fragment_with(plan, cosines.chain(material(plan)).collect())
 }

@@ -1,5 +1,5 @@
-//! TERM and SHADE: their keys, the terms that follow from them, and where their words lie in the memories behind them
-//! (`docs/machine.md`, sections 11 and 12).
+//! What the memories behind TERM, TEXEL, NORMAL and SHADE hold, and where in them
+//! (`docs/machine.md`, sections 11 to 14).
 //!
 //! ```text
 //!  Record ──Plan::record_words──> memory `terms`       Entry ──Plan::table_word──> memory `tables`
@@ -8,142 +8,7 @@
 
 use crate::machine::Machine;
 use crate::plan::Plan;
-
-/// What is shaded at each pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ShadeKind {
-    /// Nothing: the machine has neither TERM nor SHADE.
-    None,
-    /// Both cosines are quadratics over the triangle.
-    FastPhong,
-    /// The normal is linear over the triangle, and made a unit normal at each pixel: the machine has NORMAL too.
-    Phong,
-}
-
-/// Where a colour comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ShadeColour {
-    /// Tables hold it.
-    Tables,
-    /// A table holds the light; it is multiplied by the fragment's colour.
-    Multiply,
-}
-
-/// Where TERM keeps the words it walks with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Walk {
-    /// In registers: a step is one clock, or two.
-    Register,
-    /// In a memory, with one adder: a step is a clock for each word that changes.
-    Memory,
-}
-
-/// What a texture does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Texture {
-    /// There is none: the machine has no TEXEL.
-    None,
-    /// The nearest texel modulates the colour.
-    Nearest,
-}
-
-/// TERM, TEXEL, NORMAL, SHADE and the memories behind them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Shade {
-    /// What is shaded.
-    pub kind: ShadeKind,
-    /// Where a colour comes from.
-    pub colour: ShadeColour,
-    /// t: a table has 2^t entries.
-    pub table_bits: u32,
-    /// m: N·H reaches down to -2^m tables.
-    pub gloss_bits: u32,
-    /// Lights at once.
-    pub lights: u32,
-    /// Bits of the number of a material.
-    pub material_bits: u32,
-    /// Latency of the memory of the tables, clocks.
-    pub table_latency: u32,
-    /// Where TERM keeps its words.
-    pub walk: Walk,
-    /// Fraction bits of a term of degree 2.
-    pub fraction: u32,
-    /// Fraction bits of a term of degree 1.
-    pub linear_fraction: u32,
-    /// Latency of the memory of the roots, clocks.
-    pub root_latency: u32,
-    /// A texture for the colour.
-    pub texture: Texture,
-    /// A texture has 2^texture_bits columns and lines.
-    pub texture_bits: u32,
-    /// Depth of TEXEL's queue, fragments.
-    pub texel_queue: u32,
-    /// Latency of the memory of the textures, clocks.
-    pub texel_latency: u32,
-    /// Bits of the number of a triangle's record.
-    pub record_bits: u32,
-    /// Latency of the memory of the terms, clocks.
-    pub term_latency: u32,
-}
-
-impl Shade {
-    /// The units are there.
-    #[must_use]
-    pub fn is_there(&self) -> bool {
-        self.kind != ShadeKind::None
-    }
-
-    /// NORMAL is there.
-    #[must_use]
-    pub fn normalises(&self) -> bool {
-        self.kind == ShadeKind::Phong
-    }
-
-    /// TEXEL is there.
-    #[must_use]
-    pub fn textures(&self) -> bool {
-        self.is_there() && self.texture != Texture::None
-    }
-
-    /// A term of degree 1 is there.
-    #[must_use]
-    pub fn has_linear_terms(&self) -> bool {
-        self.normalises() || self.textures()
-    }
-
-    /// Bits of N·L as SHADE takes it: t + 2.
-    #[must_use]
-    pub fn diffuse_index_bits(&self) -> u32 {
-        self.table_bits + 2
-    }
-
-    /// Bits of N·H as SHADE takes it: t + m + 2.
-    #[must_use]
-    pub fn highlight_index_bits(&self) -> u32 {
-        self.table_bits + self.gloss_bits + 2
-    }
-
-    /// Bits of an entry of T: three colours of b bits, or the light in 2^-(b+2) with 1 exact.
-    #[must_use]
-    pub fn diffuse_bits(&self, color_bits: u32) -> u32 {
-        match self.colour {
-            ShadeColour::Tables => 3 * color_bits,
-            ShadeColour::Multiply => color_bits + 3,
-        }
-    }
-
-    /// Entries of a material, of all its lights: WT.
-    #[must_use]
-    pub fn entries(&self) -> u32 {
-        self.lights << self.table_bits
-    }
-
-    /// Bits of the place of an entry among those of its material.
-    #[must_use]
-    pub fn entry_bits(&self) -> u32 {
-        self.lights.next_power_of_two().ilog2() + self.table_bits
-    }
-}
+use crate::shade::ShadeKind;
 
 /// A polynomial in the place of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -190,9 +55,9 @@ pub struct Record {
 /// An entry of the tables of a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Entry {
-    /// With [`ShadeColour::Tables`]: red, green, blue, and the highlight, LSB of the colour.
+    /// With [`crate::ShadeColour::Tables`]: red, green, blue, and the highlight, LSB of the colour.
     Colours([u32; 3], u32),
-    /// With [`ShadeColour::Multiply`]: the light, 2^(b+2) for 1.0, and the highlight, LSB of the colour.
+    /// With [`crate::ShadeColour::Multiply`]: the light, 2^(b+2) for 1.0, and the highlight, LSB of the colour.
     Light(u32, u32),
 }
 
