@@ -71,7 +71,7 @@ fn alone(unit: Unit, seed: u64) {
         "{name}: {machines} of {MACHINES} machines, {without} do not have it, {cycles} cycles each, {tokens} tokens, {compared} values of ports compared"
     );
     assert!(
-        machines + without > MACHINES * 9 / 10 && machines > MACHINES * 2 / 5 && compared > cycles * machines
+        machines + without > MACHINES * 9 / 10 && machines > MACHINES / 10 && compared > cycles * machines
     );
     let met = all.events.counts().into_iter().filter(|(_, count)| *count > 0).map(|(name, _)| name);
     let met: Vec<&str> = met.collect();
@@ -84,9 +84,7 @@ fn alone(unit: Unit, seed: u64) {
 #[test]
 fn every_unit_alone() {
     std::thread::scope(|scope| {
-        // TEXEL and NORMAL have no netlist yet.
-        let with_netlist = Unit::known().skip(1).filter(|unit| !["texel", "normal"].contains(&unit.name()));
-        for (seed, unit) in (11..).zip(with_netlist) {
+        for (seed, unit) in (11..).zip(Unit::known().skip(1)) {
             scope.spawn(move || alone(unit, seed));
         }
     });

@@ -12,16 +12,9 @@ use edgewalk_model::longest_setup;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// Machines drawn.
-const MACHINES: usize = 400;
-/// Triangles drawn on them, about.
-const TRIANGLES: u64 = 40_000;
-
-/// TEXEL and NORMAL have no netlist yet.
-fn no_netlist(event: &str) -> bool {
-    use edgewalk_machine::units::{normal, texel};
-    [&texel::SPEC, &normal::SPEC].iter().flat_map(|unit| unit.events).any(|of| of.name == event)
-}
+/// How many machines are drawn, and about how many triangles on each.
+const MACHINES: [usize; 2] = [120, 400];
+const TRIANGLES: u64 = 100;
 
 /// What random triangles may not meet, and [`colours_on_one_pixel`] does.
 const DIRECTED: [&str; 3] = ["opaque_behind", "behind_opaque", "color_head_wait"];
@@ -74,6 +67,7 @@ fn report(all: &Checked) {
 
 /// Slow machines get fewer triangles, none less than a dozen: most of the time goes where most triangles come of it.
 fn shares(machines: &[Plan]) -> Vec<u64> {
+    let triangles = TRIANGLES * machines.len() as u64;
     let weight = |plan: &Plan| {
         // Of a machine with SHADE now and then a triangle is of another material.
         let tables = if plan.shade.is_there() { plan.shade.entries() / 8 } else { 0 };
@@ -81,13 +75,13 @@ fn shares(machines: &[Plan]) -> Vec<u64> {
         (cycles * f64::from(3 + plan.lanes) * plan.channels().len() as f64).powi(-3)
     };
     let all: f64 = machines.iter().map(weight).sum();
-    machines.iter().map(|plan| 12 + (TRIANGLES as f64 * weight(plan) / all).ceil() as u64).collect()
+    machines.iter().map(|plan| 12 + (triangles as f64 * weight(plan) / all).ceil() as u64).collect()
 }
 
-/// Half of the machines, so that two threads share them.
-fn whole_machines(half: usize) {
+/// Half of so many machines, so that two threads share them.
+fn whole_machines(half: usize, count: usize) {
     let mut rng = Pcg64Mcg::seed_from_u64(2);
-    let machines: Vec<Plan> = (0..MACHINES).map(|number| drawn_machine(number, &mut rng)).collect();
+    let machines: Vec<Plan> = (0..count).map(|number| drawn_machine(number, &mut rng)).collect();
     let (mut all, mut run, mut given, mut signed, mut extra) = (Checked::default(), 0, 0, 0, [0; 5]);
     for (i, (plan, share)) in machines.iter().zip(shares(&machines)).enumerate() {
         if i % 2 != half {
@@ -105,30 +99,43 @@ fn whole_machines(half: usize) {
     }
     println!(
         "{run} of {} machines, {extra:?} with 0 to 4 extra channels, {signed} of them signed",
-        MACHINES / 2
+        count / 2
     );
     report(&all);
-    assert_eq!(run, MACHINES / 2);
-    assert!(extra.iter().all(|machines| *machines > 8) && signed > 150);
+    assert_eq!(run, count / 2);
+    assert!(extra.iter().all(|machines| machines * 20 >= run) && signed > run);
     // A triangle that a reset took from the machine is not offered again, one in the cycle of the reset is.
     assert!(all.tokens >= given * 9 / 10 && all.compared > 10 * all.cycles);
     let missing: Vec<_> = all
         .events
         .missing()
         .into_iter()
-        .filter(|event| !DIRECTED.contains(event) && !ALONE.contains(event) && !no_netlist(event))
+        .filter(|event| !DIRECTED.contains(event) && !ALONE.contains(event))
         .collect();
     assert_eq!(missing, [""; 0], "not met");
 }
 
 #[test]
 fn machines_of_even_number() {
-    whole_machines(0);
+    whole_machines(0, MACHINES[0]);
 }
 
 #[test]
 fn machines_of_odd_number() {
-    whole_machines(1);
+    whole_machines(1, MACHINES[0]);
+}
+
+/// A campaign: `cargo test --release --workspace --test whole -- --ignored --nocapture`.
+#[test]
+#[ignore = "minutes"]
+fn all_machines_of_even_number() {
+    whole_machines(0, MACHINES[1]);
+}
+
+#[test]
+#[ignore = "minutes"]
+fn all_machines_of_odd_number() {
+    whole_machines(1, MACHINES[1]);
 }
 
 /// Triangles of one pixel on one address, right behind others that end there: what the in-flight queue must get right.

@@ -1,8 +1,8 @@
 //! The machine as netlists, a unit a file, written from `docs/machine.md`.
 //!
 //! ```text
-//!  tri ─> setup ─> edge ─> span ─> [term] ─> pixel ─> [shade] ─> [shadow] ─> depth ─> memory
-//!                                                                             └──> blend ─> memory
+//!  tri ─> setup ─> edge ─> span ─> [term] ─> pixel ─> [texel] ─> [normal] ─> [shade] ─> [shadow] ─> depth ─> memory
+//!                                                                                                   └──> blend ─> memory
 //! ```
 //! A function a unit takes a [`Plan`](edgewalk_machine::Plan), the checked machine, and builds the unit's netlist with the ports
 //! that [`edgewalk_machine::UNITS`] declares; [`BUILDERS`] lists the functions, [`machine`] joins what they build.
@@ -21,7 +21,11 @@ mod term;
 
 mod pixel;
 
-mod missing;
+mod share;
+
+mod texel;
+
+mod normal;
 
 mod shade;
 
@@ -44,13 +48,14 @@ pub use depth::depth;
 pub use edge::edge;
 pub use machine::{assemble, engine, machine};
 pub use memory::memory;
-pub use missing::{normal, texel};
+pub use normal::normal;
 pub use pixel::pixel;
 pub use setup::setup;
 pub use shade::shade;
 pub use shadow::shadow;
 pub use span::span;
 pub use term::term;
+pub use texel::texel;
 
 /// The name of each unit of [`edgewalk_machine::UNITS`], and what builds it.
 pub const BUILDERS: &[(&str, units::Build)] = &[

@@ -8,6 +8,7 @@ use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
 use crate::fifo::fifo;
 use crate::ports::Interface;
+use crate::share::share;
 use crate::wires::{Part, Token, parts};
 
 const DOC: &str = "SHADOW looks up a light's depth map for every fragment, and darkens what lies behind it.
@@ -127,14 +128,4 @@ fn find<'m>(plan: &Plan, shadow_on: Signal<'m>, tx: Signal<'m>, ty: Signal<'m>, 
         known: (!looked_up | off_range).named("known"),
         value: (!looked_up | nearer).named_doc("value", "lit, if known"),
     }
-}
-
-/// `color * ambient / (2^b - 1)`, to nearest.
-fn share<'m>(m: &'m Module, name: &str, color: Signal<'m>, ambient: Signal<'m>) -> Signal<'m> {
-    let bits = color.width();
-    let half = m.lit(2 * bits, 1 << (bits - 1));
-    let p = (color * ambient + half).named_doc(&format!("p_{name}"), "the product and a half");
-    // Neither sum is more than (2^b - 1)^2 + 2^b + 2^(b-1), which 2b bits hold.
-    let folded = p + p.slice(2 * bits - 1, bits).zext(2 * bits);
-    folded.named_doc(&format!("folded_{name}"), "its high half of the share").slice(2 * bits - 1, bits)
 }

@@ -10,8 +10,10 @@ use std::sync::Arc;
 /// The words of a memory from address 0 on; none of one that the machine writes.
 pub(super) fn start(plan: &Plan, memory: &Memory, random: &mut Pcg64Mcg) -> Arc<[u128]> {
     match memory.name {
-        "map" => (0..1 << memory.address_bits).map(|_| bits(random, memory.word_bits)).collect(),
         "terms" => (0..1 << plan.shade.record_bits).flat_map(|_| record(plan, random)).collect(),
+        "map" | "roots" | "textures" => {
+            (0..1 << memory.address_bits).map(|_| bits(random, memory.word_bits)).collect()
+        }
         "tables" => (0..1 << memory.address_bits).map(|_| entry(plan, memory, random)).collect(),
         _ => Arc::default(),
     }
@@ -27,7 +29,7 @@ fn record(plan: &Plan, random: &mut Pcg64Mcg) -> Vec<u128> {
         } else {
             random.random_range(0..1 << plan.shade.material_bits)
         },
-        gloss: random.random_range(0..=8),
+        gloss: random.random_range(0..=plan.shade.gloss_bits),
         terms: plan.terms().iter().map(|_| std::array::from_fn(|_| random.next_u64())).collect(),
     };
     plan.record_words(&record).into_iter().map(u128::from).collect()

@@ -1,7 +1,8 @@
 //! Machines drawn at random from the keys, small enough for an interpreter.
 
-use edgewalk_machine::keys::{Domain, KEYS};
-use edgewalk_machine::{BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeKind, Texture};
+use edgewalk_machine::key::Domain;
+use edgewalk_machine::keys::KEYS;
+use edgewalk_machine::{BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeColour, Texture};
 use rand::Rng;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
@@ -17,6 +18,7 @@ const NARROW: &[(&str, u32, u32)] = &[
     ("shadow.size", 1, 40),
     ("term.record_bits", 1, 4),
     ("shade.material_bits", 0, 2),
+    ("texture.bits", 1, 4),
 ];
 
 /// A machine that can be built. Every key takes all kinds of values, so a new key is drawn without a word here.
@@ -40,10 +42,9 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
         };
         (key.set)(&mut machine, value);
     }
-    if machine.shade.kind == ShadeKind::Phong {
-        machine.shade.kind = ShadeKind::FastPhong; // NORMAL has no netlist yet
+    if machine.shade.texture != Texture::None {
+        machine.shade.colour = ShadeColour::Multiply; // tables have no colour to multiply
     }
-    machine.shade.texture = Texture::None; // nor has TEXEL
     // What would make nearly all of them clash.
     machine.guard_bits =
         if rng.random_bool(0.1) { rng.random_range(8..=14) } else { rng.random_range(2..=6) };

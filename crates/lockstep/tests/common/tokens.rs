@@ -99,6 +99,9 @@ fn token(plan: &Plan, fields: &[Port], rng: &mut Pcg64Mcg) -> Token {
             "frag_fence" | "pass_fence" => rng.random_bool(0.3).into(),
             "frag_material" if rng.random_bool(0.99) => 0,
             "frag_nl0" | "frag_nh0" | "frag_nl1" | "frag_nh1" => cosine(plan, port.width(), rng),
+            "frag_gloss" => rng.random_range(0..=plan.shade.gloss_bits).into(),
+            // N.N is cut below 2^14 and from 2^16 on.
+            "frag_nn" if rng.random_bool(0.7) => rng.random_range((1 << 14) - 2..(1 << 16) + 2),
             "frag_lx" | "frag_ly" if rng.random_bool(0.9) => {
                 rng.random_range(-1..=i128::from(plan.shadow.size))
             }

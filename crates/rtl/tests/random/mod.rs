@@ -1,7 +1,8 @@
 //! Machines drawn at random from the table of keys, so that a new key is drawn without a word here.
 
-use edgewalk_machine::keys::{Domain, KEYS, Key};
-use edgewalk_machine::{Machine, Plan, ShadeKind, Texture};
+use edgewalk_machine::key::{Domain, Key};
+use edgewalk_machine::keys::KEYS;
+use edgewalk_machine::{Machine, Plan};
 use rand::Rng;
 use rand::seq::{IndexedRandom, SliceRandom};
 use rand_pcg::Pcg64Mcg;
@@ -15,9 +16,6 @@ pub fn random_plan(rng: &mut Pcg64Mcg) -> Plan {
         for key in keys {
             let mut machine: Machine = (*plan).clone();
             (key.set)(&mut machine, draw(rng, key.domain));
-            if machine.shade.kind == ShadeKind::Phong || machine.shade.texture != Texture::None {
-                continue; // NORMAL and TEXEL have no netlist yet
-            }
             plan = machine.plan().unwrap_or(plan);
         }
     }

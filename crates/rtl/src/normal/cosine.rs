@@ -1,0 +1,51 @@
+//! From a product with a normal of any length to the place of the cosine in SHADE's tables.
+
+use edgewalk_machine::Plan;
+use edgewalk_netlist::{Module, Signal};
+
+use crate::wires::Part;
+
+/// 1.0 in products and cosines is 2^16.
+const ONE: u32 = 16;
+
+/// The index `part`: `product`, signed, times `y`, unsigned, 2^-16; with `gloss` so much larger around 1.0.
+pub(super) fn cosine<'m>(
+    m: &'m Module,
+    plan: &Plan,
+    part: &Part,
+    product: Signal<'m>,
+    y: Signal<'m>,
+    gloss: Option<Signal<'m>>,
+) -> Signal<'m> {
+    let name = &part.name;
+    let exact = product.smul(y.zext(y.width() + 1));
+    // Below 2^34 in magnitude, so a half more overflows nothing.
+    let rounded = exact + m.lit(exact.width(), 1 << (ONE - 1));
+    let c = rounded.slice(rounded.width() - 1, ONE).named_doc(&format!("c_{name}"), "the cosine, 2^-16");
+    let placed = match gloss {
+        None => c,
+        Some(gloss) => {
+            let most = plan.shade.gloss_bits;
+            let width = c.width() + 1 + most;
+            let one = m.lit(width, 1 << ONE);
+            let below_one = c.sext(width) - one;
+            // A material's gloss is at most the machine's.
+            let bits = (most + 1).next_power_of_two().ilog2();
+            let scaled = if most == 0 { below_one } else { below_one.shl_by(gloss.trunc(bits)) };
+            (scaled + one).named_doc(&format!("scaled_{name}"), "2^gloss times as far from 1.0, 2^-16")
+        }
+    };
+    let index = placed.slice(placed.width() - 1, ONE - plan.shade.table_bits);
+    cut(m, index.named_doc(&format!("index_{name}"), "in entries"), part.width)
+}
+
+/// A signed number cut to the ends of `width` bits.
+fn cut<'m>(m: &'m Module, number: Signal<'m>, width: u32) -> Signal<'m> {
+    if number.width() <= width {
+        return number.sext(width);
+    }
+    let above = number.slice(number.width() - 1, width - 1);
+    let fits = (above.all() | !above.any()).named("fits");
+    let end = m.cat(&[number.msb(), (!number.msb()).sext(width - 1)]);
+    fits.mux(number.trunc(width), end)
+}

@@ -1,0 +1,69 @@
+//! TEXEL: multiplies the colour of a fragment by that of the nearest texel.
+
+use std::sync::Arc;
+
+use edgewalk_machine::Plan;
+use edgewalk_machine::units::{texel::SPEC, tokens};
+use edgewalk_netlist::{BuildErrors, Module, Netlist};
+
+use crate::fifo::fifo;
+use crate::ports::Interface;
+use crate::share::share;
+use crate::wires::{Token, parts};
+
+const DOC: &str = "TEXEL multiplies the colour of a fragment by that of the nearest texel.
+
+           ┌────── xrd (address) ──> texture memory
+  frag ────┴─> [queue] ─┬─ multiply ─> textured
+  texture memory ─ xdata ┘
+
+Formats: u, v the texel's column and line, unsigned, of a texture that repeats; xdata {red, green, blue}. A colour c and its
+part x of the texel become c * x / (2^b - 1), to nearest.
+Timing: a texel is read in the cycle its fragment comes; the fragment goes on in the cycle the word comes.
+Rules: words come in the order of the reads.";
+
+/// The colours, in the order of a word: red, the most significant, first.
+const COLOURS: [&str; 3] = ["r", "g", "b"];
+
+/// The netlist of TEXEL.
+///
+/// # Errors
+/// None for a machine with TEXEL that [`edgewalk_machine::Machine::plan`] accepts.
+pub fn texel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
+    let m = Module::new("edgewalk_texel", DOC);
+    let ports = Interface::new(&m, (SPEC.ports)(plan));
+    let (frag_valid, frag) = ports.takes();
+    let memory = ports.memory("textures");
+    let textured_ready = ports.gives_ready();
+
+    m.comment("A fragment enters when the queue has room, in the cycle its texel is read.");
+    let kept = parts(&tokens::textured(plan));
+    let queue = m.instance("queue", &fifo("edgewalk_texel_fifo", plan.shade.texel_queue, &kept)?);
+    let room = queue.output("in_ready");
+    let address: Vec<_> = frag.get("material").into_iter().chain([frag["v"], frag["u"]]).collect();
+    frag.connect(queue.connect("in_valid", frag_valid & memory.read_ready), "in", &kept);
+
+    m.comment("The head goes on when its word comes.");
+    let head = Token::of_instance(queue, "out", kept);
+    let waiting = queue.output("out_valid");
+    let textured_valid = (waiting & memory.data_valid).named("textured_valid");
+    queue.connect("out_ready", textured_ready & memory.data_valid);
+
+    m.comment("Its colour times the texel's.");
+    let (word, b) = (memory.data["rgb"], plan.color.bits);
+    let colour = |i: usize| {
+        let low = (2 - i as u32) * b;
+        share(&m, COLOURS[i], head[COLOURS[i]], word.slice(low + b - 1, low))
+    };
+    let colours = [0, 1, 2].map(colour);
+
+    ports.take_ready(room & memory.read_ready);
+    ports.read("textures", frag_valid & room, m.cat(&address), waiting & textured_ready);
+    ports.give(textured_valid, |f| match COLOURS.iter().position(|colour| *colour == f) {
+        Some(i) => colours[i],
+        None => head[f],
+    });
+    ports.status("texel_full", !room);
+    ports.status("occupied", waiting);
+    m.finish()
+}
