@@ -1,4 +1,4 @@
-//! The patch of `docs/adding_a_unit.md` still fits this tree, and the document's figures are the patch's.
+//! The patches of `docs/adding_a_unit.md` still fit this tree, and the document's figures are theirs.
 
 use std::path::Path;
 
@@ -39,13 +39,14 @@ fn changes(patch: &str) -> Vec<Change<'_>> {
     changes
 }
 
-#[test]
-fn the_patch_applies_and_is_counted_right() {
+/// The patch of that name touches so many files, and each of its hunks finds its place.
+fn applies_and_is_counted_right(name: &str, files: usize, least: usize, most_lines: usize) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let read = |path: &str| std::fs::read_to_string(root.join(path));
-    let patch = read("docs/adding_a_unit.patch").expect("the patch");
+    let patch = read(&format!("docs/{name}.patch")).expect("the patch");
     let page = read("docs/adding_a_unit.md").expect("the document");
-    assert!(patch.lines().count() < 500, "the patch has grown: {} lines", patch.lines().count());
+    let lines = patch.lines().count();
+    assert!(lines < most_lines, "the patch has grown: {lines} lines");
     let changes = changes(&patch);
     let mut hunks = 0;
     for Change { path, new, hunks: expected, added, removed } in &changes {
@@ -64,7 +65,18 @@ fn the_patch_applies_and_is_counted_right() {
             hunks += 1;
         }
     }
-    println!("{} files, {hunks} hunks", changes.len());
-    assert!(hunks >= 20, "only {hunks} hunks");
-    assert!(page.contains(&format!("**{} files**", changes.len())), "{} files", changes.len());
+    println!("{name}: {} files, {hunks} hunks", changes.len());
+    assert!(hunks >= least, "only {hunks} hunks");
+    assert_eq!(changes.len(), files);
+    assert!(page.contains(&format!("**{files} files**")), "{files} files");
+}
+
+#[test]
+fn a_unit_takes_twelve_files() {
+    applies_and_is_counted_right("adding_a_unit", 12, 20, 500);
+}
+
+#[test]
+fn a_parameter_takes_five_files() {
+    applies_and_is_counted_right("adding_a_parameter", 5, 6, 120);
 }

@@ -197,7 +197,7 @@ fn least(machine: &Plan, channel: &Channel, steps: Steps, error: f64) -> Result<
     let most = edgewalk_machine::keys::KEYS.iter().find(|key| key.name == "formats.z_fraction");
     let bits = in_range.max(near).max(channel.vertex_fraction);
     match most.map(|key| key.domain) {
-        Some(edgewalk_machine::keys::Domain::Range(_, most)) if bits > most => {
+        Some(edgewalk_machine::key::Domain::Range(_, most)) if bits > most => {
             Err(format!("{bits} fraction bits would be needed, a channel has at most {most}"))
         }
         _ => Ok((bits, target)),

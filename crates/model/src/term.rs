@@ -17,7 +17,7 @@ mod view;
 use crate::Events;
 use crate::fetch::Fetch;
 use crate::tokens::{Span, sign_extend};
-use edgewalk_machine::shading::GLOSS_BITS;
+use edgewalk_machine::record::GLOSS_BITS;
 use edgewalk_machine::{Plan, Walk};
 
 /// Most terms of a machine.

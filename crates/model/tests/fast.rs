@@ -3,7 +3,8 @@
 mod common;
 
 use common::{Triangle, moved, random_values, render};
-use edgewalk_machine::keys::{Domain, KEYS};
+use edgewalk_machine::key::Domain;
+use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{BlendKind, ForeignVertex, Machine, Plan, ShadeKind, ShadowLight, Walk};
 use edgewalk_model::fast::{self, Path, Reason, Refusal};
 use edgewalk_model::{Activity, DrawState, Events, Frame, Stalls};

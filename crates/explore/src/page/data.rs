@@ -3,7 +3,8 @@
 use super::Pictures;
 use crate::sweep::row::{Status, causes};
 use crate::sweep::table::{Table, figures};
-use edgewalk_machine::keys::{Domain, KEYS};
+use edgewalk_machine::key::Domain;
+use edgewalk_machine::keys::KEYS;
 use serde_json::{Map, Value, json};
 
 /// Rows, columns, keys, pictures.

@@ -2,7 +2,8 @@
 
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Machine;
-use edgewalk_machine::keys::{Domain, KEYS, Key};
+use edgewalk_machine::key::{Domain, Key};
+use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::nearest::nearest;
 
 /// A key that is varied.

@@ -5,7 +5,8 @@ use super::shared::plan;
 use crate::Verdict;
 use crate::report::Report;
 use anyhow::Result;
-use edgewalk_machine::keys::{Domain, KEYS};
+use edgewalk_machine::key::Domain;
+use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::Activity;
 use serde_json::{Map, Value, json};
@@ -41,7 +42,7 @@ impl Status {
 #[must_use]
 pub fn keys(machine: &Machine) -> Map<String, Value> {
     let used = KEYS.iter().filter(|key| (key.used)(machine));
-    let value = |key: &edgewalk_machine::keys::Key| match key.domain {
+    let value = |key: &edgewalk_machine::key::Key| match key.domain {
         Domain::Word(_) => json!(key.show(machine)),
         _ => json!((key.get)(machine)),
     };

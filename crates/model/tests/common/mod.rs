@@ -102,7 +102,8 @@ pub fn random_triangle(plan: &Plan, size: f64, rng: &mut impl Rng) -> Triangle {
 /// A machine with every key drawn at random, that can be built; `fixed` settings stay. Without TERM and SHADE, if they do not
 /// ask for them: those make colours of their own, from records and tables.
 pub fn random_machine(fixed: &[(&str, &str)], rng: &mut impl Rng) -> Plan {
-    use edgewalk_machine::keys::{Domain, KEYS};
+    use edgewalk_machine::key::Domain;
+    use edgewalk_machine::keys::KEYS;
     loop {
         let mut machine = Machine::default();
         for key in KEYS {
