@@ -176,8 +176,9 @@ impl Machine {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine::{Blend, BlendKind, Shadow, ShadowLight};
+    use crate::blend::{Blend, BlendKind};
     use crate::shade::{Shade, ShadeKind, Texture};
+    use crate::shadow::{Shadow, ShadowLight};
 
     const TEXTBOOK: &str = "0ee73237105a";
 

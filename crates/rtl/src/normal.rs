@@ -65,29 +65,25 @@ pub fn normal(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         kept.load(advance, |f| before[f]);
         (valid, before) = (filled.q(), kept.token());
     }
-    let moved = |name: &str, doc: &str, value: Signal<'_>| {
-        m.reg(name, value.width()).doc(doc).when(advance, value).q()
-    };
-
     m.comment("N1: N.N from 1/4 to below 1.");
     let nn = frag["nn"];
     let (sign, whole) = (nn.msb(), nn.slice(nn.width() - 2, 16).any());
     let short = (sign | (!whole & !nn.slice(15, 14).any())).named_doc("short", "shorter than a half");
     let at_most = whole.mux(m.lit(16, 0xffff), nn.trunc(16));
-    let n1_s = moved("n1_s", "N.N, 2^-16", short.mux(m.lit(16, 1 << 14), at_most));
+    let n1_s = moved(&m, advance, "n1_s", "N.N, 2^-16", short.mux(m.lit(16, 1 << 14), at_most));
 
     m.comment("N2: the entry, and how far N.N lies beyond it.");
     let entry = roots.read(advance, n1_s.slice(15, 8));
-    let low = moved("n2_low", "2^-16", n1_s.trunc(8));
+    let low = moved(&m, advance, "n2_low", "2^-16", n1_s.trunc(8));
 
     m.comment("N3: how much less the root is there.");
     let (v, slope) = (entry.slice(26, 10), entry.slice(9, 0));
-    let n3_v = moved("n3_v", "of the entry, 2^-16", v);
-    let less = moved("n3_less", "2^-24", slope * low);
+    let n3_v = moved(&m, advance, "n3_v", "of the entry, 2^-16", v);
+    let less = moved(&m, advance, "n3_less", "2^-24", slope * low);
 
     m.comment("N4: the root.");
     let rounded = (less + m.lit(18, 1 << 7)).slice(17, 8).named_doc("rounded", "2^-16");
-    let y = moved("n4_y", "1/sqrt(N.N), 2^-16", n3_v - rounded.zext(17));
+    let y = moved(&m, advance, "n4_y", "1/sqrt(N.N), 2^-16", n3_v - rounded.zext(17));
 
     m.comment("N5: the cosines, and where they stand in SHADE's tables.");
     let n4 = stages[3].kept.token();
@@ -98,7 +94,7 @@ pub fn normal(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
             let gloss = part.name.starts_with("nh").then(|| n4["gloss"]);
             let product = n4[part.name.replacen('n', "p", 1).as_str()];
             let index = cosine(&m, plan, part, product, y, gloss);
-            (part.name.clone(), moved(&format!("n5_{}", part.name), &part.doc, index))
+            (part.name.clone(), moved(&m, advance, &format!("n5_{}", part.name), &part.doc, index))
         })
         .collect();
 
@@ -111,6 +107,11 @@ pub fn normal(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     ports.status("table_wait", frag_valid & !roots.have);
     ports.status("occupied", occupied);
     m.finish()
+}
+
+/// A register of a stage.
+fn moved<'m>(m: &'m Module, advance: Signal<'m>, name: &str, doc: &str, value: Signal<'m>) -> Signal<'m> {
+    m.reg(name, value.width()).doc(doc).when(advance, value).q()
 }
 
 /// A fragment on its way.
