@@ -75,7 +75,7 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     y.when(load, span["y"]);
     leftward.when(load, span["leftward"]);
     fence.when(advance & emit, 0).when(load, span["fence"]);
-    let as_they_are = |part: &Part| ["material", "tag"].contains(&part.name.as_str());
+    let as_they_are = |part: &Part| ["material", "gloss", "tag"].contains(&part.name.as_str());
     let drawn = Registers::new(&m, "drawn", span.parts().into_iter().filter(as_they_are).collect());
     drawn.load(load, |f| span[f]);
     let kt = plan.has_triangle_kt().then(|| {

@@ -10,6 +10,7 @@ mod memory;
 
 use std::sync::Arc;
 
+use edgewalk_machine::record::GLOSS_BITS;
 use edgewalk_machine::units::term::SPEC;
 use edgewalk_machine::{Plan, Walk};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
@@ -63,6 +64,11 @@ pub fn term(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         record.load(material, MATERIAL);
         material.q()
     });
+    let gloss = plan.shade.normalises().then(|| {
+        let gloss = m.reg("gloss", GLOSS_BITS).doc("of the material's highlights");
+        record.load_above(gloss, MATERIAL, plan.shade.material_bits);
+        gloss.q()
+    });
     let stands = fits & place.reached;
     let there = words.settled.map_or(stands, |settled| stands & settled).named("walked_valid");
     let span_ready = (there & walked_ready).named("span_ready");
@@ -72,7 +78,12 @@ pub fn term(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     ports.read("terms", record.read_valid, m.cat(&[number, record.read_place]), record.loading);
     ports.give(there, |f| {
         let word = words.shown.iter().find(|(name, _)| name == f).map(|(_, word)| *word);
-        word.or(material.filter(|_| f == "material")).unwrap_or_else(|| span[f])
+        let of_material = match f {
+            "material" => material,
+            "gloss" => gloss,
+            _ => None,
+        };
+        word.or(of_material).unwrap_or_else(|| span[f])
     });
     ports.status("term_wait", span_valid & !there);
     m.finish()

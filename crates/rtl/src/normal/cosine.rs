@@ -8,7 +8,8 @@ use crate::wires::Part;
 /// 1.0 in products and cosines is 2^16.
 const ONE: u32 = 16;
 
-/// The index `part`: `product`, signed, times `y`, unsigned, 2^-16; with `gloss` so much larger around 1.0.
+/// The index `part`: `product`, signed, times `y`, unsigned, 2^-16; with `gloss` so much larger around 1.0; what is beyond its
+/// bits is the last that they say.
 pub(super) fn cosine<'m>(
     m: &'m Module,
     plan: &Plan,
@@ -36,16 +37,12 @@ pub(super) fn cosine<'m>(
         }
     };
     let index = placed.slice(placed.width() - 1, ONE - plan.shade.table_bits);
-    cut(m, index.named_doc(&format!("index_{name}"), "in entries"), part.width)
-}
-
-/// A signed number cut to the ends of `width` bits.
-fn cut<'m>(m: &'m Module, number: Signal<'m>, width: u32) -> Signal<'m> {
-    if number.width() <= width {
-        return number.sext(width);
+    let index = index.named_doc(&format!("index_{name}"), "in entries");
+    if index.width() <= part.width {
+        return index.sext(part.width);
     }
-    let above = number.slice(number.width() - 1, width - 1);
-    let fits = (above.all() | !above.any()).named("fits");
-    let end = m.cat(&[number.msb(), (!number.msb()).sext(width - 1)]);
-    fits.mux(number.trunc(width), end)
+    let above = index.slice(index.width() - 1, part.width - 1);
+    let fits = (above.all() | !above.any()).named(&format!("{name}_fits"));
+    let end = m.cat(&[index.msb(), (!index.msb()).sext(part.width - 1)]);
+    fits.mux(index.trunc(part.width), end)
 }

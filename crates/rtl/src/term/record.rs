@@ -74,7 +74,14 @@ impl<'m> Record<'m> {
 
     /// The register takes the word of that place, its low bits.
     pub fn load(&self, register: Reg<'m>, place: u32) {
+        self.load_above(register, place, 0);
+    }
+
+    /// The register takes its bits from bit `low` on.
+    pub fn load_above(&self, register: Reg<'m>, place: u32, low: u32) {
         let takes = self.comes & self.place.eq(place as i32);
-        register.when(takes, lowest(self.word, register.q().width()));
+        let bits = register.q().width();
+        let own = if low == 0 { lowest(self.word, bits) } else { self.word.slice(low + bits - 1, low) };
+        register.when(takes, own);
     }
 }
