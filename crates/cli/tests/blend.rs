@@ -2,14 +2,12 @@
 //! what is refused with which words.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod support;
-
+use crate::support::{edgewalk, npy, run};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::Path;
-use support::{edgewalk, npy, run};
 
 /// A machine with a k_t for every pixel, one pixel a clock.
 const INTERPOLATED: [&str; 4] = ["--set", "blend.kind=interpolated", "--set", "interpolator.adders=5"];

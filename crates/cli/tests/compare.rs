@@ -1,11 +1,9 @@
 //! `edgewalk compare` as a user runs it.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod support;
-
+use crate::support::{edgewalk, names, run};
 use serde_json::{Value, json};
 use std::path::Path;
-use support::{edgewalk, names, run};
 
 fn compare(folder: &Path, arguments: &[&str]) -> Value {
     let output = edgewalk(folder, &[&["compare"], arguments, &["--json"]].concat()).output().unwrap();

@@ -27,7 +27,7 @@ fn the_gallery_is_what_is_drawn_today() {
     assert!(status.success());
     let [drawn, kept] =
         [&out, &committed].map(|at| std::fs::read_to_string(at.join("README.md")).expect("a page"));
-    assert!(drawn == kept, "figures changed; look at them, then EDGEWALK_BLESS=1 cargo test --test gallery");
+    assert!(drawn == kept, "figures changed; look at them, then EDGEWALK_BLESS=1 cargo test gallery::");
     let mut checked = 0;
     for entry in std::fs::read_dir(&out).expect("the gallery") {
         let name = entry.expect("an entry").file_name();

@@ -1,13 +1,11 @@
 //! Triangles beyond the guard band, as real programs send them: left out or cut by the host, counted, and drawn right.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod support;
-
+use crate::support::{SCREEN, edgewalk, ended, npy, run};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use serde_json::Value;
 use std::path::Path;
-use support::{SCREEN, edgewalk, ended, npy, run};
 
 const WIDTH: usize = 64;
 const HEIGHT: usize = 48;

@@ -1,13 +1,11 @@
 //! Inputs that are no plain files, begin with a byte order mark, or cannot be read.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod support;
-
+use crate::support::{SCREEN, TRIANGLE, edgewalk, ended, run};
 use std::io::Write as _;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
-use support::{SCREEN, TRIANGLE, edgewalk, ended, run};
 
 /// Triangles, then a polygon: the engine that draws while it reads has to begin again.
 const POLYGON: &str = "size 64 48\nT 0 0 0 1 0 0 0  60 0 0 0 1 0 0  0 40 1 0 0 1 0\n\

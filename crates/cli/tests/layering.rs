@@ -137,3 +137,30 @@ fn the_core_reads_and_writes_no_files() {
     println!("checked {checked} source files");
     assert!(checked >= 2 * NO_FILES.len());
 }
+
+/// A suite is a file of `tests`, or a folder with a `mod.rs`; where they are one program, `main.rs` lists them.
+#[test]
+fn every_suite_is_listed() {
+    let (mut programs, mut suites) = (0, 0);
+    for (name, _) in LAYERS {
+        let tests = crates().join(name).join("tests");
+        let Ok(list) = std::fs::read_to_string(tests.join("main.rs")) else {
+            continue; // each file is a program of its own
+        };
+        programs += 1;
+        for entry in std::fs::read_dir(&tests).expect("a folder of suites") {
+            let path = entry.expect("an entry").path();
+            let suite = path.file_stem().and_then(|stem| stem.to_str()).expect("a name").to_owned();
+            let is_module = path.join("mod.rs").exists() || path.extension().is_some_and(|end| end == "rs");
+            if is_module && suite != "main" {
+                assert!(
+                    list.contains(&format!("mod {suite};\n")),
+                    "{name}/tests/main.rs lacks `mod {suite};`"
+                );
+                suites += 1;
+            }
+        }
+    }
+    println!("checked {suites} suites in {programs} programs");
+    assert!(programs >= 7 && suites > 100);
+}

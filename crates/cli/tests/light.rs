@@ -1,13 +1,11 @@
 //! `edgewalk raster` with a light's map: the machine beside golden, and what it cannot do.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod support;
-
+use crate::support::{edgewalk, npy, run};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::fmt::Write as _;
 use std::path::Path;
-use support::{edgewalk, npy, run};
 
 /// The example of `docs/triangle_file.md`: a square that darkens the half of the picture under it.
 const HALF: &str = "size 4 4

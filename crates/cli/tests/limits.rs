@@ -1,13 +1,11 @@
 //! Large pictures and endless words: memory stays small, and a refusal comes at once.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod support;
-
+use crate::support::ended;
 use std::fs::File;
 use std::path::Path;
 use std::process::{Command, Output};
 use std::time::{Duration, Instant};
-use support::ended;
 
 /// Runs the program with so many megabytes of address space.
 fn within(megabytes: u64, folder: &Path, arguments: &[&str]) -> Output {

@@ -1,9 +1,8 @@
 //! Triangle files with normals through the program: the example of `docs/triangle_file.md` and faults in it.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod support;
-
-use support::{edgewalk, npy, run};
+use crate::support;
+use crate::support::{edgewalk, npy, run};
 
 /// The example of the chapter on normals.
 fn example() -> String {

@@ -1,13 +1,11 @@
 //! What stands in the folder after a run, whatever becomes of it: all of its files or none, and nothing of an earlier run.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod support;
-
+use crate::support::{SCREEN, TRIANGLE, edgewalk, ended, names, run};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
-use support::{SCREEN, TRIANGLE, edgewalk, ended, names, run};
 
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();

@@ -2,11 +2,9 @@
 //! pixel known.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod support;
-
+use crate::support::npy;
 use std::path::Path;
 use std::process::{Command, Output};
-use support::npy;
 use zune_png::PngDecoder;
 
 const WIDTH: usize = 5;

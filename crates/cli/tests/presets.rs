@@ -1,6 +1,6 @@
 //! The Verilog of the presets, committed under `hdl/`, is what the generator prints today.
 //!
-//! `EDGEWALK_BLESS=1 cargo test -p edgewalk-cli --test presets` rewrites it after a deliberate change.
+//! `EDGEWALK_BLESS=1 cargo test -p edgewalk-cli presets::` rewrites it after a deliberate change.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -1,9 +1,7 @@
 //! `edgewalk replay` as a user runs it: what it writes, what it refuses and in which words.
 
-mod support;
-
+use crate::support::{SCREEN, TRIANGLE, names, run};
 use std::path::Path;
-use support::{SCREEN, TRIANGLE, names, run};
 
 fn replay(folder: &Path, arguments: &[&str]) -> serde_json::Value {
     let (code, error) = run(folder, arguments);

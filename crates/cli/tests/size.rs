@@ -1,12 +1,10 @@
 //! `edgewalk size` as a user runs it: the answers hold when they are drawn, and one bit fewer does not.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod support;
-
+use crate::support::{SCREEN, TRIANGLE, edgewalk, names, run};
 use serde_json::Value;
 use std::path::Path;
 use std::time::Instant;
-use support::{SCREEN, TRIANGLE, edgewalk, names, run};
 
 fn json(folder: &Path, arguments: &[&str]) -> (Option<i32>, Value) {
     let output = edgewalk(folder, &[arguments, &["--json"]].concat()).output().unwrap();

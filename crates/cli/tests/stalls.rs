@@ -1,11 +1,9 @@
 //! `--stalls` in `render` and `bench`, and how full queues and lanes are.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod support;
-
+use crate::support::{SCREEN, TRIANGLE, edgewalk, run};
 use serde_json::Value;
 use std::path::Path;
-use support::{SCREEN, TRIANGLE, edgewalk, run};
 
 fn json(folder: &Path, arguments: &[&str]) -> Value {
     let output = edgewalk(folder, &[arguments, &["--json"]].concat()).output().unwrap();

@@ -1,14 +1,12 @@
 //! Every command with a reader that has gone away, and with an output that is full.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod support;
-
+use crate::support::{SCREEN, TRIANGLE, edgewalk, ended, names, run};
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::BufRead as _;
 use std::path::Path;
 use std::process::Stdio;
-use support::{SCREEN, TRIANGLE, edgewalk, ended, names, run};
 
 /// A quick run of each command, as text; those with a report also come with --json.
 const COMMANDS: [&[&str]; 19] = [

@@ -1,24 +1,18 @@
 //! `edgewalk sweep` as a user runs it.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod support;
-#[path = "sweep/refusals.rs"]
 mod refusals;
-#[path = "sweep/resume.rs"]
 mod resume;
-#[path = "sweep/parts.rs"]
 mod parts;
-#[path = "sweep/browser.rs"]
 mod browser;
-#[path = "sweep/report.rs"]
 mod report;
 
+use crate::support::{edgewalk, run};
 use rand::SeedableRng;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
 use serde_json::Value;
 use std::path::Path;
-use support::{edgewalk, run};
 
 /// Rows of a sweep, by their order in the file.
 fn rows(folder: &Path) -> Vec<Value> {

@@ -1,12 +1,11 @@
 //! `edgewalk synth` as a user runs it: real tools, small designs.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod support;
-
+use crate::support;
+use crate::support::{edgewalk, names, run};
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output};
-use support::{edgewalk, names, run};
 
 fn synth(folder: &Path, arguments: &[&str]) -> Output {
     let fixed = ["synth", "--cache", "cache", "--json"];

@@ -1,15 +1,14 @@
 //! Coverage of polygons by edge tables against an exact point-in-polygon test at pixel centres.
 
-mod shapes;
-
+use crate::shapes;
+use crate::shapes::{
+    Point, SCREEN, concave, convex, covered, doubled, expected, inside, inside_by_a_vertical_ray,
+    random_point, random_points, star_with_hole,
+};
 use edgewalk_golden::polygon::{EdgeTable, Grid, fragments};
 use edgewalk_scene::ShadeMode;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
-use shapes::{
-    Point, SCREEN, concave, convex, covered, doubled, expected, inside, inside_by_a_vertical_ray,
-    random_point, random_points, star_with_hole,
-};
 
 /// Polygons of every kind, by its number.
 fn random_polygon(rng: &mut Pcg64, kind: usize, bits: u32) -> Vec<Vec<Point>> {

@@ -1,12 +1,11 @@
 //! The depth buffer over many polygons (seed B), ties decided exactly, and the order among triangles.
 
-mod shapes;
-
+use crate::shapes;
+use crate::shapes::{Point, SCREEN, expected};
 use edgewalk_golden::{Fill, NO_TRIANGLE, draw};
 use edgewalk_scene::{Blending, DepthFunc, Frame, Polygon, Triangle, Vertex};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
-use shapes::{Point, SCREEN, expected};
 
 const BITS: u32 = 4;
 const EXACT: Fill = Fill::Exact { subpixel_bits: BITS };

@@ -1,13 +1,12 @@
 //! A polygon cut into triangles covers the same pixels, each once.
 #![allow(clippy::unwrap_used)] // simple polygons have triangles
 
-mod shapes;
-
+use crate::shapes;
+use crate::shapes::{Pixels, Point, SCREEN, concave, convex, covered, random_points, star_with_hole};
 use edgewalk_golden::{Fill, draw, fragments};
 use edgewalk_scene::{Frame, Polygon, ShadeMode, Vertex};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
-use shapes::{Pixels, Point, SCREEN, concave, convex, covered, random_points, star_with_hole};
 
 /// Draws the triangles with half-planes; how many there are.
 fn check(contours: &[Vec<Point>], bits: u32) -> (usize, usize) {

@@ -1,8 +1,8 @@
 //! Values in polygons: the plane in triangles, l_a, l_b and l_p in exact rationals elsewhere.
 #![allow(clippy::unwrap_used)] // finite numbers have rationals
 
-mod shapes;
-
+use crate::shapes;
+use crate::shapes::SCREEN;
 use edgewalk_golden::polygon::{self, EdgeTable, Grid};
 use edgewalk_golden::{Fragment, fragments, snap};
 use edgewalk_scene::{Polygon, ShadeMode, Triangle, Vertex};
@@ -10,7 +10,6 @@ use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
-use shapes::SCREEN;
 use std::collections::BTreeMap;
 
 fn vertex(rng: &mut Pcg64, [x, y]: [f64; 2]) -> Vertex {

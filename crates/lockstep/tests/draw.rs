@@ -1,9 +1,7 @@
 //! The netlist draws what the model draws, in the same cycles where nothing makes it wait.
 
-mod common;
-
-use common::machines::random_machine;
-use common::triangles::random_triangle;
+use crate::common::machines::random_machine;
+use crate::common::triangles::random_triangle;
 use edgewalk_lockstep::{DrawError, StallKind, render_rtl, render_rtl_passes, render_rtl_with};
 use edgewalk_machine::{Machine, Plan, Record};
 use edgewalk_model::{DrawState, Pass, Shading, Stalls, longest_setup, render_shaded};

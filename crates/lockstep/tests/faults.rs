@@ -1,9 +1,7 @@
 //! What the comparison must not overlook: a device that differs in any one port, a rig that never makes it wait, a reset
 //! that forgets.
 
-mod common;
-
-use common::triangles::random_triangle;
+use crate::common::triangles::random_triangle;
 use edgewalk_lockstep::{
     Case, Device, Interface, LockstepError, ModelDevice, PortId, PortValues, Triangles, Unit, model,
 };

@@ -1,9 +1,8 @@
 //! What is declared is what model and netlist have: every port is found on random machines. (Lists kept by hand, so that a
 //! wrong declaration is not wrong everywhere alike, are in the tests of rtl.)
 
-mod common;
-
-use common::machines::random_machine;
+use crate::common;
+use crate::common::machines::random_machine;
 use edgewalk_lockstep::{Interface, NetlistDevice, NoPlace, PortError, Triangles, Unit, model, netlist};
 use edgewalk_machine::{Field, Plan};
 use rand::{Rng, SeedableRng};

@@ -1,11 +1,9 @@
 //! Every failure that is kept, as a file in `cases`, run again; and each still finds the fault that it is kept for.
 //!
-//! `EDGEWALK_BLESS=1 cargo test --release -p edgewalk-lockstep --test kept -- --ignored` looks for the cases of `FAULTS` anew.
+//! `EDGEWALK_BLESS=1 cargo test --release -p edgewalk-lockstep kept:: -- --ignored` looks for the cases of `FAULTS` anew.
 
-mod common;
-
-use common::fail::shrunk_with;
-use common::tokens::{few, random_tokens};
+use crate::common::fail::shrunk_with;
+use crate::common::tokens::{few, random_tokens};
 use edgewalk_lockstep::{Case, Checked, Interface, LockstepError, NetlistDevice, Unit, model, netlist};
 use edgewalk_machine::{Fill, Hazard, Machine, Plan};
 use edgewalk_netlist::Netlist;

@@ -1,9 +1,7 @@
 //! The memory module against the model's memory: reads and writes on all pixels, words taken at random; at the end the
 //! contents. Its ports are the far ends of the machine's links to its memories.
 
-mod common;
-
-use common::machines::random_machine;
+use crate::common::machines::random_machine;
 use edgewalk_lockstep::{Interface, Unit};
 use edgewalk_machine::Plan;
 use edgewalk_model::tokens::ColorWrite;

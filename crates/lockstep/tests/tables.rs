@@ -1,6 +1,6 @@
 //! The port tables of `docs/machine.md`, section 15, are what the units declare.
 //!
-//! `EDGEWALK_BLESS=1 cargo test -p edgewalk-lockstep --test tables` rewrites them.
+//! `EDGEWALK_BLESS=1 cargo test -p edgewalk-lockstep tables::` rewrites them.
 
 use edgewalk_lockstep::{Direction, Interface, Link, Port, StatusPort, Unit};
 use edgewalk_machine::{Plan, Scale};

@@ -1,10 +1,8 @@
 //! Every unit alone, model against netlist, under inputs that the rest of the machine would rarely give it.
 
-mod common;
-
-use common::fail::checked;
-use common::machines::random_machine;
-use common::tokens::{few, random_tokens};
+use crate::common::fail::checked;
+use crate::common::machines::random_machine;
+use crate::common::tokens::{few, random_tokens};
 use edgewalk_lockstep::{Case, Checked, Interface, Unit};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;

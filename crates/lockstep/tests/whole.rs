@@ -1,11 +1,9 @@
 //! Whole machines: the model against the netlist, every port of the machine and of every unit in it, every cycle, on
 //! machines and triangles drawn at random.
 
-mod common;
-
-use common::fail::checked;
-use common::machines::random_machine;
-use common::triangles::{after_it, one_pixel, random_triangle};
+use crate::common::fail::checked;
+use crate::common::machines::random_machine;
+use crate::common::triangles::{after_it, one_pixel, random_triangle};
 use edgewalk_lockstep::{Case, Checked, Interface, Triangles, Unit};
 use edgewalk_machine::{Blend, BlendKind, Fill, Hazard, Kind, Machine, Plan};
 use edgewalk_model::longest_setup;
@@ -125,7 +123,7 @@ fn machines_of_odd_number() {
     whole_machines(1, MACHINES[0]);
 }
 
-/// A campaign: `cargo test --release --workspace --test whole -- --ignored --nocapture`.
+/// A campaign: `cargo test --release -p edgewalk-lockstep whole:: -- --ignored --nocapture`.
 #[test]
 #[ignore = "minutes"]
 fn all_machines_of_even_number() {

@@ -1,9 +1,7 @@
 //! BLEND: its arithmetic against exact numbers and golden's weighted sum, its hazards against a plain loop.
 
-mod common;
-
-use common::blend::{C, feed, fragment, word};
-use common::{machine, random_machine, random_triangle};
+use crate::common::blend::{C, feed, fragment, word};
+use crate::common::{machine, random_machine, random_triangle};
 use edgewalk_machine::{BlendKind, Plan};
 use edgewalk_model::tokens::Passed;
 use edgewalk_model::{DrawState, Drawn, Events, Stalls, render_with};

@@ -1,10 +1,8 @@
 //! Channels of the user's own: any number, kind, format, adders and segments; exact coverage, and every output within the
 //! bound of its channel.
 
-mod common;
-
-use common::check::Errors;
-use common::{ALWAYS, Check, Triangle, outputs, place, random_machine, random_triangle};
+use crate::common::check::Errors;
+use crate::common::{ALWAYS, Check, Triangle, outputs, place, random_machine, random_triangle};
 use edgewalk_machine::{Kind, Plan};
 use edgewalk_model::{DrawState, Drawn, Events, Stalls, render_with};
 use rand::{Rng, SeedableRng, rngs::StdRng};

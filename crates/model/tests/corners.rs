@@ -1,8 +1,6 @@
 //! Every event that a unit declares is counted under its name and met by some run here, and the counts add up.
 
-mod common;
-
-use common::{machine, random_triangle, render};
+use crate::common::{machine, random_triangle, render};
 use edgewalk_machine::{UNITS, units};
 use edgewalk_model::{Activity, DrawState, Events, Stalls};
 use rand::{Rng, SeedableRng, rngs::StdRng};

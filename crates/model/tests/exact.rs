@@ -1,9 +1,7 @@
 //! Exact fill with exact edges: coverage equal to the rule at every pixel; z within 1 LSB of 24 bits and colour within
 //! 1 LSB of 8 bits of the exact value, and within the proved bound.
 
-mod common;
-
-use common::{Check, Triangle, machine, moved, random_triangle, random_values};
+use crate::common::{Check, Triangle, machine, moved, random_triangle, random_values};
 use edgewalk_machine::Plan;
 use edgewalk_model::{Events, Stalls};
 use rand::{Rng, SeedableRng, rngs::StdRng};

@@ -1,8 +1,6 @@
 //! The fast path against ticking: every pixel, every count, over machines and triangles drawn at random.
 
-mod common;
-
-use common::{Triangle, moved, random_values, render};
+use crate::common::{Triangle, moved, random_values, render};
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{BlendKind, ForeignVertex, Machine, Plan, ShadeKind, ShadowLight, Walk};

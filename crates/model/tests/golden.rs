@@ -1,8 +1,7 @@
 //! The machine against the golden pictures, which share no arithmetic with it.
 
-mod common;
-
-use common::{random_triangle, render};
+use crate::common;
+use crate::common::{random_triangle, render};
 use edgewalk_golden::{Fill, draw, fragments, half_triangles};
 use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::{DrawState, Stalls};

@@ -1,9 +1,7 @@
 //! A pixel in flight: every policy draws what a plain loop over the fragments draws, whatever the memory does.
 
-mod common;
-
-use common::depth::{Sequential, feed, sequential};
-use common::{Triangle, machine, random_triangle, random_values};
+use crate::common::depth::{Sequential, feed, sequential};
+use crate::common::{Triangle, machine, random_triangle, random_values};
 use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::tokens::{FEW, Fragment, Source, Write};
 use edgewalk_model::{DrawState, Events, Memory, Rig, Stalls};

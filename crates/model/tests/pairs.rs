@@ -1,9 +1,7 @@
 //! SETUP by pairs, step by step as `docs/machine.md` describes its lanes, against what the model gives by closed
 //! formulae: every field of every prim, and the clocks that the steps took.
 
-mod common;
-
-use common::{Triangle, moved, random_machine, random_triangle};
+use crate::common::{Triangle, moved, random_machine, random_triangle};
 use edgewalk_machine::{Channel, EdgeKind, Fill, MAX_CHANNELS, Machine, Plan};
 use edgewalk_model::setup::Setup;
 use edgewalk_model::tokens::{EdgeWalk, Prim, sign_extend};

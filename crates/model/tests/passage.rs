@@ -1,8 +1,6 @@
 //! A frame that was drawn once, clocked for other timing keys, against ticking; and memories that stall.
 
-mod common;
-
-use common::{Triangle, random_values, render};
+use crate::common::{Triangle, random_values, render};
 use edgewalk_machine::{Fill, Hazard, Machine, Plan};
 use edgewalk_model::fast::{Passage, Reason, Renderer};
 use edgewalk_model::{Activity, Culled, DrawState, Stalls, WAITS, Waits, cull, setup_clocks};

@@ -1,8 +1,6 @@
 //! Reset in the middle of a picture: the machine starts anew and draws as a new one.
 
-mod common;
-
-use common::{machine, random_triangle};
+use crate::common::{machine, random_triangle};
 use edgewalk_model::tokens::FEW;
 use edgewalk_model::{DrawState, Inputs, Memory, Outputs, Rig, Stalls};
 use rand::{Rng, SeedableRng, rngs::StdRng};

@@ -1,9 +1,7 @@
 //! SHADE: the unit and the whole machine against the rule in plain numbers.
 
-mod common;
-
-use common::shade::{colour, cosines, leftward, output, random_shading, textured, true_roots, words};
-use common::{ALWAYS, Triangle, machine, place, random_machine, random_triangle};
+use crate::common::shade::{colour, cosines, leftward, output, random_shading, textured, true_roots, words};
+use crate::common::{ALWAYS, Triangle, machine, place, random_machine, random_triangle};
 use edgewalk_machine::{Activity, Entry, Plan, Record};
 use edgewalk_model::shade::{Cosines, Shade};
 use edgewalk_model::{Drawn, Events, Frame, Pass, ShadeInputs, Shading, Stalls, render_shaded};

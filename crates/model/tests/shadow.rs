@@ -1,8 +1,7 @@
 //! SHADOW: the unit against the rule in plain numbers, the machine with it against itself without, and its rate.
 
-mod common;
-
-use common::{machine, random_machine, random_triangle};
+use crate::common;
+use crate::common::{machine, random_machine, random_triangle};
 use edgewalk_machine::{Gate, Plan};
 use edgewalk_model::shadow::Shadow;
 use edgewalk_model::tokens::{Fragment, MAX_CHANNELS};

@@ -1,8 +1,6 @@
 //! Slope edges: a pixel may differ from the exact rule only within (n_y + 1)·2^-(F+1) px of an edge (bound 5).
 
-mod common;
-
-use common::{Check, Triangle, random_machine, random_triangle};
+use crate::common::{Check, Triangle, random_machine, random_triangle};
 use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::Stalls;
 use rand::{Rng, SeedableRng, rngs::StdRng};

@@ -1,9 +1,7 @@
 //! TERM: every word of every pixel is that of formula (1), in both walks; the clocks of its steps; what it costs.
 
-mod common;
-
-use common::shade::{leftward, random_shading, words};
-use common::{ALWAYS, Triangle, machine, random_machine, random_triangle};
+use crate::common::shade::{leftward, random_shading, words};
+use crate::common::{ALWAYS, Triangle, machine, random_machine, random_triangle};
 use edgewalk_machine::{Activity, Plan, Walk};
 use edgewalk_model::term::{Term, TermInputs};
 use edgewalk_model::tokens::{MAX_CHANNELS, Span};

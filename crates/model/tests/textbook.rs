@@ -1,8 +1,7 @@
 //! Textbook fill against the listing of chapter 7 in exact fractions: inclusive lines and spans, +0.5, Trunc.
 
-mod common;
-
-use common::{ALWAYS, Triangle, random_machine, random_values, render};
+use crate::common;
+use crate::common::{ALWAYS, Triangle, random_machine, random_values, render};
 use edgewalk_machine::{Kind, Machine, Plan, PortVertex};
 use edgewalk_model::Stalls;
 use num_rational::Ratio;

@@ -1,12 +1,11 @@
 //! Clocks, measured cycle by cycle on the machine and held against its specification; `docs/timing.md` is their table.
 //!
-//! `EDGEWALK_BLESS=1 cargo test -p edgewalk-model --test timing` rewrites the table.
+//! `EDGEWALK_BLESS=1 cargo test -p edgewalk-model timing::` rewrites the table.
 
-mod common;
 #[path = "../examples/common/mod.rs"]
 mod examples;
 
-use common::{ALWAYS, Triangle, machine, place};
+use crate::common::{ALWAYS, Triangle, machine, place};
 use edgewalk_golden::Shading;
 use edgewalk_machine::channel::Precision;
 use edgewalk_machine::{EdgeKind, Fill, MAX_CHANNELS, Machine, Plan};
@@ -265,7 +264,7 @@ fn depth_table(table: &mut String) {
 
 #[test]
 fn the_timing_table_is_what_the_machine_does() {
-    let mut table = "# Timing\n\nWritten by `EDGEWALK_BLESS=1 cargo test -p edgewalk-model --test timing`; \
+    let mut table = "# Timing\n\nWritten by `EDGEWALK_BLESS=1 cargo test -p edgewalk-model timing::`; \
                      the test compares it with the machine.\n\n"
         .to_owned();
     setup_table(&mut table);

@@ -1,8 +1,6 @@
 //! What is to be seen of the machine: every unit declares it, values fit their shapes, SETUP's jobs fill its clocks.
 
-mod common;
-
-use common::{machine, random_machine, random_triangle};
+use crate::common::{machine, random_machine, random_triangle};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::view::{Item, Shape, Structure, UnitView};
 use edgewalk_model::{DrawState, Rig, Stalls, View, for_channels};

@@ -1,10 +1,9 @@
 //! Extra channels against the first four: what has the same format and the same vertices comes out the same, and nothing else
 //! changes. Every machine is drawn at random, so the channels meet in all kinds of rounds, adders and segments.
 
-mod drive;
-mod random;
-
-use drive::{Memory, Seen};
+use crate::drive;
+use crate::drive::{Memory, Seen};
+use crate::random;
 use edgewalk_machine::{BlendKind, Channel, Kind, Machine, Plan, Precision, ShadeKind};
 use edgewalk_rtl as rtl;
 use rand::{Rng, SeedableRng};

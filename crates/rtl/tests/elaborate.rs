@@ -1,7 +1,6 @@
 //! Every permitted machine becomes a netlist.
 
-mod random;
-
+use crate::random;
 use std::collections::BTreeSet;
 
 use edgewalk_machine::key::Domain;

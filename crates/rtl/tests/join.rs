@@ -1,11 +1,10 @@
 //! A unit that only declares itself is wired into the machine: here one between PIXEL and DEPTH, with a memory of its own, that
 //! lets every fragment pass when its word has come.
 
-mod drive;
-
+use crate::drive;
 use std::sync::Arc;
 
-use drive::Memory;
+use crate::drive::Memory;
 use edgewalk_machine::units::{depth, tokens};
 use edgewalk_machine::{Activity, Field, Hazard, Link, Machine, MemoryPort, Plan, Ports, Ready, UnitSpec};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Simulator};

@@ -1,8 +1,7 @@
 //! SHADE against the definition in `docs/machine.md`, section 12: random tables, cosines around the tables' ends, in the clocks
 //! that are said there.
 
-mod random;
-
+use crate::random;
 use std::collections::VecDeque;
 
 use edgewalk_machine::units::tokens;

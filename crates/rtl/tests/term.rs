@@ -1,7 +1,6 @@
 //! TERM against formula (1) of `docs/machine.md`, section 11: random words, random spans, in the clocks that are said there.
 
-mod random;
-
+use crate::random;
 use std::collections::VecDeque;
 
 use edgewalk_machine::{Plan, Record, Walk};

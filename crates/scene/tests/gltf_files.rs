@@ -1,9 +1,7 @@
 //! glTF files: what is taken, and what is refused with which words.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod common;
-
-use common::{file, front, read, refusal};
+use crate::common::{file, front, read, refusal};
 use edgewalk_scene::{Mesh, Texture};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;

@@ -1,9 +1,8 @@
 //! What MTL and glTF say of surfaces, and what OBJ says of corners.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod common;
-
-use common::{file, front, read};
+use crate::common;
+use crate::common::{file, front, read};
 use edgewalk_scene::{Material, Mesh, Texture};
 use glam::{DVec2, DVec3};
 use std::fs;

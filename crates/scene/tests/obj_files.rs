@@ -1,9 +1,7 @@
 //! OBJ files and the choice of reader: what is taken, and what is refused with which words.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-mod common;
-
-use common::{file, front, read, refusal};
+use crate::common::{file, front, read, refusal};
 use edgewalk_scene::{Mesh, Scene};
 use glam::DVec3;
 use proptest::prelude::*;

@@ -2,9 +2,8 @@
 //! else passes. For each line of the bench that keeps a wrong design out there is one that only this line keeps out:
 //! without the line it passes.
 
-mod common;
-
-use common::{made, write};
+use crate::common;
+use crate::common::{made, write};
 use edgewalk_vectors::{Files, StallKind, Suite, Tables, Unit, capture, design, directory};
 use std::path::{Path, PathBuf};
 

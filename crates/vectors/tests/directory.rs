@@ -1,7 +1,6 @@
 //! What is written reads back, says what it is, and is refused when it is not that.
 
-mod common;
-
+use crate::common;
 use edgewalk_machine::Plan;
 use edgewalk_model::{DrawState, Drawn, Stalls, render_with};
 use edgewalk_vectors::{

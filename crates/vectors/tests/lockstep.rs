@@ -1,7 +1,6 @@
 //! The model and the netlist are the same machine: every port, every cycle.
 
-mod common;
-
+use crate::common;
 use edgewalk_model::DrawState;
 use edgewalk_vectors::{StallKind, Suite, Unit, capture, design};
 

@@ -3,9 +3,8 @@
 //! It takes names of ports, files, widths, patterns, side inputs, the memory and the limits from the manifest, drives the
 //! netlist by the names of its ports, and shares no code with the writer.
 
-mod common;
-
-use common::write;
+use crate::common;
+use crate::common::write;
 use edgewalk_machine::Plan;
 use edgewalk_netlist::Simulator;
 use edgewalk_vectors::{StallKind, Suite, Tables, Unit, capture, design, directory, manifest};

@@ -1,9 +1,8 @@
 //! The printed design replays vectors in Icarus and Verilator, is lint-clean, and synthesises; and a design with a
 //! fault, or a directory with nothing in it, does not pass.
 
-mod common;
-
-use common::write;
+use crate::common;
+use crate::common::write;
 use edgewalk_machine::Plan;
 use edgewalk_model::DrawState;
 use edgewalk_vectors::{
@@ -90,7 +89,7 @@ fn twelve_machines_replay_and_are_clean() {
 }
 
 /// Both simulators, lint and synthesis for all; not part of the test run:
-/// `cargo test --release -p edgewalk-vectors --test simulators -- --ignored --nocapture`
+/// `cargo test --release -p edgewalk-vectors simulators:: -- --ignored --nocapture`
 #[test]
 #[ignore = "a quarter of an hour"]
 fn twelve_machines_in_every_tool() {

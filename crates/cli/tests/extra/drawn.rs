@@ -1,7 +1,7 @@
 //! What the program drew: its arrays, read by this test's own code.
 
 use super::shapes::Drawing;
-use super::support::npy;
+use crate::support::npy;
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;

@@ -1,6 +1,6 @@
 //! Inputs and machines that do not fit each other.
 
-use super::support::run;
+use crate::support::run;
 
 const T: &str = "T 0 0 0 0 0 0 0  9 0 0 0 0 0 0  0 9 0 0 0 0 0\n";
 const SCREEN: [&str; 4] = ["--set", "screen.width=64", "--set", "screen.height=48"];
@@ -45,7 +45,7 @@ fn another_number_of_channels_names_the_key_both_numbers_and_the_remedy() {
     }
     println!("checked {refused} / 33 command lines");
     assert_eq!(refused, 33);
-    assert_eq!(super::support::names(folder.path()), ["none.tri", "two.tri"], "nothing was left behind");
+    assert_eq!(crate::support::names(folder.path()), ["none.tri", "two.tri"], "nothing was left behind");
 }
 
 #[test]

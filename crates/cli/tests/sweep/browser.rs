@@ -125,7 +125,7 @@ fn a_point_of_the_front_is_clicked_and_its_machine_is_the_one_of_its_row() {
     );
 
     // The machine file of the point: `config check` finds the hash that it names, and it is that of a row.
-    let rows = crate::rows(&at.join("s"));
+    let rows = super::rows(&at.join("s"));
     let mut checked = 0;
     for toml in ["toml", "other"].map(|name| seen[name].as_str().unwrap()) {
         std::fs::write(at.join("point.toml"), toml).unwrap();

@@ -1,7 +1,7 @@
 //! Parts run apart and put together; `why`; stalls.
 
+use super::{keys, rows};
 use crate::support::{edgewalk, names, run};
-use crate::{keys, rows};
 use serde_json::Value;
 use std::process::Command;
 

@@ -1,7 +1,7 @@
 //! A sweep that is ended at any time goes on where it was.
 
+use super::{keys, rows};
 use crate::support::{edgewalk, run};
-use crate::{keys, rows};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use serde_json::Value;

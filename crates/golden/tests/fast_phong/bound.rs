@@ -1,6 +1,6 @@
 //! The error at every pixel against bound 10.
 
-use crate::cases::{Case, cone, direction};
+use super::cases::{Case, cone, direction};
 use edgewalk_golden::fast_phong::{Quadratic, Walk};
 use edgewalk_golden::{Weights, fragments};
 use edgewalk_numerics::normal_cone::{six_point_error, taylor_error};

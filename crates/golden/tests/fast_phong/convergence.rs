@@ -1,6 +1,6 @@
 //! Third order: halving a triangle divides the error by about eight, and what breaks that.
 
-use crate::cases::{Case, cone, direction, quantile};
+use super::cases::{Case, cone, direction, quantile};
 use edgewalk_golden::fast_phong::Quadratic;
 use glam::DVec2;
 use rand::{Rng, SeedableRng};

@@ -1,6 +1,6 @@
 //! The table of powers.
 
-use crate::cases::Case;
+use super::cases::Case;
 use edgewalk_golden::fast_phong::PowerTable;
 use edgewalk_scene::Specular;
 use glam::{DVec2, DVec3};
@@ -54,7 +54,7 @@ fn the_quadratic_overshoots_at_a_highlight() {
         let light = DVec3::new(f64::from(tilt) / 100.0, 0.0, 1.0).normalize();
         let case = Case { points, normals: normals.map(DVec3::normalize), light };
         let quadratic = case.taylor();
-        let values = crate::cases::grid(20).map(|weights| quadratic.at(case.point(weights)));
+        let values = super::cases::grid(20).map(|weights| quadratic.at(case.point(weights)));
         most = values.fold(most, f64::max);
     }
     println!("largest value of a cosine's quadratic: {most:.4}");

@@ -1,6 +1,6 @@
 //! The walk: only additions, two a pixel for a quadratic, and the same as the closed form.
 
-use crate::cases::{Case, cone, direction};
+use super::cases::{Case, cone, direction};
 use edgewalk_golden::fast_phong::{Differences, Directional, FastPhong, Fit, PowerTable, Walk, quadratics};
 use edgewalk_golden::fragments;
 use edgewalk_scene::{Material, ShadeMode, Specular, SurfaceTriangle, SurfaceVertex, Vertex};

@@ -13,7 +13,7 @@
 //! reset. Both copies begin with every register 0, run on free inputs, and are compared from their first reset on. Yosys
 //! turns the two printed designs into gates; ABC (`scorr`, `pdr`) finds the invariant or the cycles to a difference.
 
-use crate::miter::{Ports, miter};
+use super::miter::{Ports, miter};
 use edgewalk_netlist::Netlist;
 use edgewalk_netlist::mutate::Mutant;
 use edgewalk_netlist::netlist::{Input, Item, Output, Source};

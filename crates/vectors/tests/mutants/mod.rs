@@ -4,13 +4,12 @@
 //! nothing to find. Such a fault is named as equivalent and not counted; nothing else is taken out of the count.
 //!
 //! The test run takes every eighth fault. All of them:
-//! `cargo test --release -p edgewalk-vectors --test mutants -- --ignored --nocapture`
+//! `cargo test --release -p edgewalk-vectors mutants:: -- --ignored --nocapture`
 
-#[path = "../common/mod.rs"]
-mod common;
 mod miter;
 mod proof;
 
+use crate::common;
 use edgewalk_machine::{Blend, BlendKind, Gate, Hazard, Machine, Plan, Precision, Shadow, ShadowLight};
 use edgewalk_model::DrawState;
 use edgewalk_netlist::mutate::mutants;

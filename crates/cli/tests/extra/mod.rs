@@ -4,8 +4,6 @@
 mod drawn;
 mod refused;
 mod shapes;
-#[path = "../support/mod.rs"]
-mod support;
 
 use drawn::{Drawn, all, program, told};
 use serde_json::Value;
@@ -232,7 +230,7 @@ fn the_example_of_the_format_gives_the_texels_it_says() {
         let arguments = ["raster", "in.tri", "--engine", engine, "--out", engine];
         told(folder.path(), &arguments, &["channels.extra=2".to_owned()]);
         let line = |name: &str| -> Vec<i64> {
-            let (_, shape, bytes) = support::npy(&folder.path().join(engine).join(name));
+            let (_, shape, bytes) = crate::support::npy(&folder.path().join(engine).join(name));
             assert_eq!(shape, [32, 32]);
             let line = bytes.chunks_exact(8).skip(32).take(32);
             line.map(|b| i64::from_le_bytes(b.try_into().unwrap())).collect()

@@ -1,12 +1,10 @@
 //! Faults planted in the emitted Verilog (`edits.toml`) make the shipped vectors fail, run as a user runs them.
 //!
 //! A few are part of the test run. All of them, on the whole machine and on the unit with the fault:
-//! `cargo test --release -p edgewalk-vectors --test edits -- --ignored --nocapture`
+//! `cargo test --release -p edgewalk-vectors edits:: -- --ignored --nocapture`
 
-#[path = "../common/mod.rs"]
-mod common;
-
-use common::{made, write};
+use crate::common;
+use crate::common::{made, write};
 use edgewalk_machine::Machine;
 use edgewalk_vectors::{Suite, Tables, Unit, capture, design, directory};
 use serde::Deserialize;

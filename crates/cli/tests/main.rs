@@ -1,0 +1,42 @@
+//! The suites of this crate as one program, a file a suite: built once, and none waits for the one before.
+
+mod support;
+
+mod adding_a_unit;
+mod bad_input;
+mod bench;
+mod blend;
+mod compare;
+mod demo;
+mod explain;
+mod extra;
+mod fast_phong;
+mod gallery;
+mod guard_band;
+mod input_files;
+mod layering;
+mod light;
+mod limits;
+mod meshes;
+mod normals;
+mod output;
+mod pictures;
+mod precision;
+mod presets;
+mod raster;
+mod replay;
+mod scenes;
+mod setup_report;
+mod shading;
+mod shadows;
+mod size;
+mod stalls;
+mod standard_output;
+mod study;
+mod sweep;
+mod synth;
+mod threads;
+mod trace;
+mod vectors;
+mod verdicts;
+mod verify;

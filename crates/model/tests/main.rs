@@ -1,0 +1,21 @@
+//! The suites of this crate as one program, a file a suite: built once, and none waits for the one before.
+
+mod common;
+
+mod blend;
+mod channels;
+mod corners;
+mod exact;
+mod fast;
+mod golden;
+mod hazards;
+mod pairs;
+mod passage;
+mod reset;
+mod shade;
+mod shadow;
+mod slope;
+mod term;
+mod textbook;
+mod timing;
+mod view;

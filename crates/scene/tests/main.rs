@@ -1,0 +1,14 @@
+//! The suites of this crate as one program, a file a suite: built once, and none waits for the one before.
+
+mod common;
+
+mod builtin;
+mod clipping;
+mod gltf_files;
+mod materials;
+mod obj_files;
+mod pixel_shading;
+mod placed_objects;
+mod scene_file;
+mod textures;
+mod triangle_file;
