@@ -417,7 +417,8 @@ impl Seen {
             let (clocks, prim) = work.prim();
             // The k-th triangle has record k mod 2^p, culled or not.
             let record = number % (1 << plan.shade.record_bits);
-            let prim = prim.map(|prim| Prim { record, ..prim });
+            let kt = if plan.has_triangle_kt() { triangle[0].kt() } else { 0 };
+            let prim = prim.map(|prim| Prim { record, kt, ..prim });
             let (cycles, ticked) = ticked(&mut setup, &triangle);
             let context = || format!("{triangle:?} on {plan:?}");
             assert_eq!(ticked, prim, "{}", context());

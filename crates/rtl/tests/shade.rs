@@ -41,7 +41,7 @@ fn fragment(plan: &Plan, material: u128, rng: &mut Pcg64Mcg) -> Fields {
     let fields = tokens::cosines(plan);
     let value = |name: &str, bits: u32, rng: &mut Pcg64Mcg| match name {
         "material" => material,
-        cosine_of if plan.terms().iter().any(|term| term.name == cosine_of) => cosine(plan, bits, rng),
+        "nl0" | "nh0" | "nl1" | "nh1" => cosine(plan, bits, rng),
         _ => (u128::from(rng.next_u64()) << 64 | u128::from(rng.next_u64())) >> (128 - bits),
     };
     fields.iter().map(|f| (f.name.clone(), value(&f.name, f.width(), rng))).collect()
@@ -52,7 +52,7 @@ fn colours(plan: &Plan, tables: &[u128], fragment: &Fields) -> [u128; 3] {
     let (b, t) = (plan.color.bits, plan.shade.table_bits);
     let (most, last) = ((1u128 << b) - 1, (1u128 << t) - 1);
     let number = |name: &str| {
-        let bits = plan.terms().iter().find(|term| term.name == name).expect("a term").bits;
+        let bits = tokens::cosines(plan).iter().find(|field| field.name == name).expect("a cosine").width();
         (field(fragment, name) << (128 - bits)) as i128 >> (128 - bits)
     };
     let entry = |number: i128| number.clamp(0, last as i128) as usize;

@@ -48,6 +48,7 @@ fn words(plan: &Plan, record: &Record, leftward: bool, at: Pixel, term: usize) -
     let i = signed(if leftward { -columns } else { columns } as i64, plan.widths().column);
     let n = i128::from((at.y - i64::from(record.y)) & ((1 << plan.widths().y) - 1));
     let [v, x, y, xx, xy, yy] = record.terms[term].map(i128::from);
+    let [xx, xy, yy] = if plan.terms()[term].degree == 2 { [xx, xy, yy] } else { [0; 3] };
     let halves = |k: i128| k * (k - 1) / 2;
     let sum = [(1, v), (i, x), (n, y), (halves(i), xx), (halves(n), yy), (i * n, xy)];
     let all =
@@ -146,7 +147,7 @@ fn words_are_those_of_the_formula_in_the_clocks_that_are_said() {
             let leftward = rng.random_bool(0.5);
             let mut at = Pixel { x: rng.random_range(-9..40), y: rng.random_range(0..lines) };
             let record = Record {
-                gloss: 0,
+                gloss: rng.random_range(0..=plan.shade.gloss_bits),
                 x: at.x as i32,
                 y: at.y as u32,
                 material: rng.random_range(0..1 << plan.shade.material_bits),
@@ -166,11 +167,16 @@ fn words_are_those_of_the_formula_in_the_clocks_that_are_said() {
                 assert_eq!(took, read + clocks(&plan, at, to, leftward), "clocks, {plan:?}");
                 for (place, term) in plan.terms().iter().enumerate() {
                     let wanted = words(&plan, &record, leftward, to, place);
-                    for (part, wanted) in ["v", "g", "gg"].into_iter().zip(wanted) {
+                    let parts = &["v", "g", "gg"][..1 + term.degree as usize];
+                    for (part, wanted) in parts.iter().zip(wanted) {
                         let found = get(&mut rig.sim, &format!("walked_{}_{part}", term.name));
                         assert_eq!(found, wanted, "{} {part}, {plan:?}", term.name);
                         words_checked += 1;
                     }
+                }
+                if plan.shade.normalises() {
+                    assert_eq!(get(&mut rig.sim, "walked_gloss"), record.gloss.into(), "gloss, {plan:?}");
+                    words_checked += 1;
                 }
                 if plan.shade.material_bits > 0 {
                     assert_eq!(get(&mut rig.sim, "walked_material"), record.material.into());

@@ -18,10 +18,13 @@ pub(super) fn activity<'m>(m: &'m Module, units: &Joined<'m>) -> Signal<'m> {
     // DEPTH is full because BLEND takes nothing.
     let queue = units.keeps_waiting("pass").map_or(queue, |waits| waits.mux(cause(Activity::Blend), queue));
     let waits = units.any("hazard").mux(hazard, units.any("full").mux(queue, memory));
-    // SHADOW's own doing, if it takes nothing for want of a texel to read, or of the word of one.
-    let light = units.find("shadow_full").map(|full| !full | !units.valid("shaded"));
+    // The own doing of a unit that reads a memory, if it takes nothing for want of a read, or of the word of one.
+    let own_doing = |full: &str, gives: &str| units.find(full).map(|full| !full | !units.valid(gives));
+    let light = own_doing("shadow_full", "shaded");
     let waits = light.map_or(waits, |light| light.mux(cause(Activity::Light), waits));
     let waits = units.find("table_wait").map_or(waits, |no| no.mux(cause(Activity::Shade), waits));
+    let texel = own_doing("texel_full", "textured");
+    let waits = texel.map_or(waits, |texel| texel.mux(cause(Activity::Texel), waits));
     let lower = in_flight.mux(flush, idle);
     let lower = (!units.ready_for("tri")).mux(setup, lower);
     let lines = units.valid("span") | units.any("line_held") | units.valid("line");
