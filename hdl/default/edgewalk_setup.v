@@ -1,7 +1,7 @@
 // edgewalk_setup: SETUP turns three vertices into edges and increments.
 //
 //   tri ─> [sorted by v] ─┬─> lines j0 j1 n1 n2, columns ─> none? culled
-//                         ├─> area ─> major_right; 0? culled
+//                         ├─> area ─> major_right; 0? culled; fourfold till values fit: M
 //                         └─> differences ─> lanes ─┬─> three edges: q f, C R ──────────────┬─> prim
 //                                                   └─> N channels: g, d0, d1, start ───────┘
 //             a lane holds a pair, whole + rest / M: quotient and exact remainder, doubled and added to

@@ -153,6 +153,8 @@ module edgewalk_span (
     .out_fence    (queue_out_fence)
   );
 
+  wire fresh_in_queue = queue_any_fresh;
+
   assign span_valid = queue_out_valid;
   assign span_x = queue_out_x;
   assign span_y = queue_out_y;
@@ -164,7 +166,7 @@ module edgewalk_span (
   assign span_b = queue_out_b;
   assign span_fresh = queue_out_fresh;
   assign span_fence = queue_out_fence;
-  assign fresh_queued = queue_any_fresh || (line_held && fresh);
+  assign fresh_queued = fresh_in_queue || (line_held && fresh);
 
 endmodule
 
