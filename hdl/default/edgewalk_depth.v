@@ -122,6 +122,13 @@ module edgewalk_depth (
   end
 
   // The queue moves up when its head leaves; what enters goes behind the last.
+  wire place0_moves = compare || (count <= 3'd0);
+  wire place0_has_next = count > 3'd1;
+  wire place1_moves = compare || (count <= 3'd1);
+  wire place1_has_next = count > 3'd2;
+  wire place2_moves = compare || (count <= 3'd2);
+  wire place2_has_next = count > 3'd3;
+  wire place3_moves = compare || (count <= 3'd3);
   wire [2:0] end_place = compare ? count - 3'd1 : count;
   wire enters0 = push && (end_place == 3'd0);
   wire enters1 = push && (end_place == 3'd1);
@@ -138,58 +145,37 @@ module edgewalk_depth (
   end
 
   always @(posedge clk) begin
-    if (compare) begin
-      place0_addr <= place1_addr;
-      place0_z <= place1_z;
-      place0_r <= place1_r;
-      place0_g <= place1_g;
-      place0_b <= place1_b;
-    end
-    if (enters0) begin
-      place0_addr <= frag_addr;
-      place0_z <= frag_z;
-      place0_r <= frag_r;
-      place0_g <= frag_g;
-      place0_b <= frag_b;
+    if (place0_moves) begin
+      place0_addr <= place0_has_next ? place1_addr : frag_addr;
+      place0_z <= place0_has_next ? place1_z : frag_z;
+      place0_r <= place0_has_next ? place1_r : frag_r;
+      place0_g <= place0_has_next ? place1_g : frag_g;
+      place0_b <= place0_has_next ? place1_b : frag_b;
     end
   end
 
   always @(posedge clk) begin
-    if (compare) begin
-      place1_addr <= place2_addr;
-      place1_z <= place2_z;
-      place1_r <= place2_r;
-      place1_g <= place2_g;
-      place1_b <= place2_b;
-    end
-    if (enters1) begin
-      place1_addr <= frag_addr;
-      place1_z <= frag_z;
-      place1_r <= frag_r;
-      place1_g <= frag_g;
-      place1_b <= frag_b;
+    if (place1_moves) begin
+      place1_addr <= place1_has_next ? place2_addr : frag_addr;
+      place1_z <= place1_has_next ? place2_z : frag_z;
+      place1_r <= place1_has_next ? place2_r : frag_r;
+      place1_g <= place1_has_next ? place2_g : frag_g;
+      place1_b <= place1_has_next ? place2_b : frag_b;
     end
   end
 
   always @(posedge clk) begin
-    if (compare) begin
-      place2_addr <= place3_addr;
-      place2_z <= place3_z;
-      place2_r <= place3_r;
-      place2_g <= place3_g;
-      place2_b <= place3_b;
-    end
-    if (enters2) begin
-      place2_addr <= frag_addr;
-      place2_z <= frag_z;
-      place2_r <= frag_r;
-      place2_g <= frag_g;
-      place2_b <= frag_b;
+    if (place2_moves) begin
+      place2_addr <= place2_has_next ? place3_addr : frag_addr;
+      place2_z <= place2_has_next ? place3_z : frag_z;
+      place2_r <= place2_has_next ? place3_r : frag_r;
+      place2_g <= place2_has_next ? place3_g : frag_g;
+      place2_b <= place2_has_next ? place3_b : frag_b;
     end
   end
 
   always @(posedge clk) begin
-    if (enters3) begin
+    if (place3_moves) begin
       place3_addr <= frag_addr;
       place3_z <= frag_z;
       place3_r <= frag_r;

@@ -150,16 +150,24 @@ module edgewalk_edge (
   wire first_carry = first_less[22];
   wire [22:0] major_less = {1'b0, major_r} - {1'b0, major_f};
   wire major_carry = major_less[22];
-  reg carry;           // the major edge carries in its next step
+  reg carry;           // the major edge carries in its next step; 0 between triangles
+
+  always @(posedge clk) begin
+    if (rst) begin
+      carry <= 1'b0;
+    end else begin
+      if (step) carry <= major_carry;
+      if (step && last) carry <= 1'b0;
+      if (load) carry <= first_carry;
+    end
+  end
 
   always @(posedge clk) begin
     if (step) begin
-      carry <= major_carry;
       major_c <= major_c + major_q + {14'd0, carry};
       major_r <= major_carry ? major_less[21:0] + major_m : major_less[21:0];
     end
     if (load) begin
-      carry <= first_carry;
       major_c <= prim_major_c;
       major_r <= first_carry ? first_less[21:0] + prim_major_m : first_less[21:0];
     end
@@ -226,15 +234,19 @@ module edgewalk_edge (
     end
   end
 
-  // The channels at the start of the span, their steps, and the increments for PIXEL.
+  // Between triangles what is added is the start: it needs no choice behind the adder.
   reg [37:0] z_d0;  // as in the triangle
   reg [37:0] z_d1;  // as in the triangle
+  wire [37:0] z_added = carry ? z_d1 : running ? z_d0 : prim_z_start;
   reg [21:0] r_d0;  // as in the triangle
   reg [21:0] r_d1;  // as in the triangle
+  wire [21:0] r_added = carry ? r_d1 : running ? r_d0 : prim_r_start;
   reg [21:0] g_d0;  // as in the triangle
   reg [21:0] g_d1;  // as in the triangle
+  wire [21:0] g_added = carry ? g_d1 : running ? g_d0 : prim_g_start;
   reg [21:0] b_d0;  // as in the triangle
   reg [21:0] b_d1;  // as in the triangle
+  wire [21:0] b_added = carry ? b_d1 : running ? b_d0 : prim_b_start;
 
   always @(posedge clk) begin
     if (load) begin
@@ -254,17 +266,11 @@ module edgewalk_edge (
   end
 
   always @(posedge clk) begin
-    if (step) begin
-      line_z <= line_z + (carry ? z_d1 : z_d0);
-      line_r <= line_r + (carry ? r_d1 : r_d0);
-      line_g <= line_g + (carry ? g_d1 : g_d0);
-      line_b <= line_b + (carry ? b_d1 : b_d0);
-    end
-    if (load) begin
-      line_z <= prim_z_start;
-      line_r <= prim_r_start;
-      line_g <= prim_g_start;
-      line_b <= prim_b_start;
+    if (step || load) begin
+      line_z <= running ? line_z + z_added : z_added;
+      line_r <= running ? line_r + r_added : r_added;
+      line_g <= running ? line_g + g_added : g_added;
+      line_b <= running ? line_b + b_added : b_added;
     end
   end
 

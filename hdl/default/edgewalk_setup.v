@@ -1,7 +1,7 @@
 // edgewalk_setup: SETUP turns three vertices into edges and increments.
 //
 //   tri ─> [sorted by v] ─┬─> lines j0 j1 n1 n2, columns ─> none? culled
-//                         ├─> area ─> major_right; 0? culled
+//                         ├─> area ─> major_right; 0? culled; fourfold till values fit: M
 //                         └─> differences ─> lanes ─┬─> three edges: q f, C R ──────────────┬─> prim
 //                                                   └─> N channels: g, d0, d1, start ───────┘
 //             a lane holds a pair, whole + rest / M: quotient and exact remainder, doubled and added to
@@ -116,8 +116,9 @@ module edgewalk_setup (
   localparam [4:0] SUM_START = 5'd29;
   localparam [4:0] ADD_START = 5'd30;
   wire nothing;          // no line, or no column, of the screen
-  wire area_known;
+  wire area_known;       // and scaled for the next round of channels
   wire no_area;
+  wire [3:0] scale;      // the modulus is the area 4^scale times
   wire unfit;            // a number was taken in that is not between -M and M
   wire [4:0] top_digit;  // place of the first digit of a sum
   reg [2:0] state;
@@ -126,8 +127,8 @@ module edgewalk_setup (
   reg first;             // its first clock
 
   // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
-  reg [4:0] pause;                                   // clocks left of it
-  wire advance = pause == 5'd0;
+  reg [3:0] pause;                                   // clocks left of it
+  wire advance = pause == 4'd0;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
   wire in_edges = state == EDGES;
@@ -137,7 +138,7 @@ module edgewalk_setup (
   wire gives_up = in_edges && (at == FIX_DX) && nothing;  // the triangle has no line or no column
   wire last = left == 5'd0;                          // last clock of the operation
   wire edges_end = in_edges && last && (at == COLUMNS);
-  wire waits = edges_end && !area_known;             // for the area
+  wire waits = edges_end && !area_known;             // for the area or its scale
   wire ends = works && last && !waits && !gives_up;  // the operation ends
   wire leaves = ends && advance;
   wire channels_end = at == ADD_START;
@@ -171,9 +172,9 @@ module edgewalk_setup (
     if (leaves) begin
       left <= (at == SIGN_START) ? top_digit
             : (at == SIGN_LINE) ? top_digit
-            : (at == SUM_Y) ? 5'd8
+            : (at == SUM_Y) ? 5'd8 + {1'b0, scale}
             : (at == SIGN_Y) ? top_digit
-            : (at == SUM_X) ? 5'd8
+            : (at == SUM_X) ? 5'd8 + {1'b0, scale}
             : (at == WAIT) ? top_digit
             : (at == ADD12) ? 5'd1
             : (at == WAIT_DX) ? top_digit
@@ -193,9 +194,9 @@ module edgewalk_setup (
   reg ends_again;
   reg [4:0] at_fixed;
   reg ends_fixed;
-  wire resumes = pause == 5'd1;  // the step after the numbers is formed again
+  wire resumes = pause == 4'd1;  // the step after the numbers is formed again
   wire [4:0] at_formed = advance ? at_next : resumes ? at_again : at_fixed;
-  wire ends_formed = advance ? ends_next : resumes ? ends_again : pause == 5'd2;
+  wire ends_formed = advance ? ends_next : resumes ? ends_again : pause == 4'd2;
   reg [4:0] at_stepped;
   reg ends_stepped;
   reg [4:0] at_rest;
@@ -226,10 +227,10 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (rst) begin
-      pause <= 5'd0;
+      pause <= 4'd0;
     end else begin
-      if (!advance) pause <= pause - 5'd1;
-      if (advance && unfit) pause <= (at_stepped == FIX_DX) ? 5'd14 : 5'd17;
+      if (!advance) pause <= pause - 4'd1;
+      if (advance && unfit) pause <= 4'd14;
     end
   end
 
@@ -237,24 +238,15 @@ module edgewalk_setup (
   wire y1_above_y0 = $signed(tri_y1) < $signed(tri_y0);
   wire y2_above_y0 = $signed(tri_y2) < $signed(tri_y0);
   wire y2_above_y1 = $signed(tri_y2) < $signed(tri_y1);
-  reg [21:0] p0_u;  // Q14.8, signed
-  reg [21:0] p0_v;  // Q14.8, signed
-  reg [27:0] p0_z;  // UQ24.4 LSB
-  reg [11:0] p0_r;  // UQ8.4 LSB
-  reg [11:0] p0_g;  // UQ8.4 LSB
-  reg [11:0] p0_b;  // UQ8.4 LSB
-  reg [21:0] p1_u;  // Q14.8, signed
-  reg [21:0] p1_v;  // Q14.8, signed
-  reg [27:0] p1_z;  // UQ24.4 LSB
-  reg [11:0] p1_r;  // UQ8.4 LSB
-  reg [11:0] p1_g;  // UQ8.4 LSB
-  reg [11:0] p1_b;  // UQ8.4 LSB
-  reg [21:0] p2_u;  // Q14.8, signed
-  reg [21:0] p2_v;  // Q14.8, signed
-  reg [27:0] p2_z;  // UQ24.4 LSB
-  reg [11:0] p2_r;  // UQ8.4 LSB
-  reg [11:0] p2_g;  // UQ8.4 LSB
-  reg [11:0] p2_b;  // UQ8.4 LSB
+  reg [21:0] p0_u;      // Q14.8, signed
+  reg [21:0] p0_v;      // Q14.8, signed
+  reg [21:0] p1_u;      // Q14.8, signed
+  reg [21:0] p1_v;      // Q14.8, signed
+  reg [21:0] p2_u;      // Q14.8, signed
+  reg [21:0] p2_v;      // Q14.8, signed
+  reg [1:0] p0_vertex;  // whose values are those at this place
+  reg [1:0] p1_vertex;  // whose values are those at this place
+  reg [1:0] p2_vertex;  // whose values are those at this place
   wire both = y1_above_y0 && !y2_above_y1;
   wire both_2 = y2_above_y0 && y2_above_y1;
   wire both_3 = !y1_above_y0 && y2_above_y1;
@@ -266,22 +258,44 @@ module edgewalk_setup (
     if (take) begin
       p0_u <= (both ? tri_x1 : both_2 ? tri_x2 : tri_x0) - 22'd128;
       p0_v <= (both ? tri_y1 : both_2 ? tri_y2 : tri_y0) - 22'd128;
-      p0_z <= both ? tri_z1 : both_2 ? tri_z2 : tri_z0;
-      p0_r <= both ? tri_r1 : both_2 ? tri_r2 : tri_r0;
-      p0_g <= both ? tri_g1 : both_2 ? tri_g2 : tri_g0;
-      p0_b <= both ? tri_b1 : both_2 ? tri_b2 : tri_b0;
       p1_u <= choice - 22'd128;
       p1_v <= choice_2 - 22'd128;
-      p1_z <= (!both && !both_3) ? tri_z1 : (!both_2 && !both_4) ? tri_z2 : tri_z0;
-      p1_r <= (!both && !both_3) ? tri_r1 : (!both_2 && !both_4) ? tri_r2 : tri_r0;
-      p1_g <= (!both && !both_3) ? tri_g1 : (!both_2 && !both_4) ? tri_g2 : tri_g0;
-      p1_b <= (!both && !both_3) ? tri_b1 : (!both_2 && !both_4) ? tri_b2 : tri_b0;
       p2_u <= (both_3 ? tri_x1 : both_4 ? tri_x2 : tri_x0) - 22'd128;
       p2_v <= (both_3 ? tri_y1 : both_4 ? tri_y2 : tri_y0) - 22'd128;
-      p2_z <= both_3 ? tri_z1 : both_4 ? tri_z2 : tri_z0;
-      p2_r <= both_3 ? tri_r1 : both_4 ? tri_r2 : tri_r0;
-      p2_g <= both_3 ? tri_g1 : both_4 ? tri_g2 : tri_g0;
-      p2_b <= both_3 ? tri_b1 : both_4 ? tri_b2 : tri_b0;
+      p0_vertex <= {both_2, both};
+      p1_vertex <= {!both_2 && !both_4, !both && !both_3};
+      p2_vertex <= {both_4, both_3};
+    end
+  end
+
+  // The values at the vertices, as they came.
+  reg [27:0] vertex0_z;  // UQ24.4 LSB
+  reg [11:0] vertex0_r;  // UQ8.4 LSB
+  reg [11:0] vertex0_g;  // UQ8.4 LSB
+  reg [11:0] vertex0_b;  // UQ8.4 LSB
+  reg [27:0] vertex1_z;  // UQ24.4 LSB
+  reg [11:0] vertex1_r;  // UQ8.4 LSB
+  reg [11:0] vertex1_g;  // UQ8.4 LSB
+  reg [11:0] vertex1_b;  // UQ8.4 LSB
+  reg [27:0] vertex2_z;  // UQ24.4 LSB
+  reg [11:0] vertex2_r;  // UQ8.4 LSB
+  reg [11:0] vertex2_g;  // UQ8.4 LSB
+  reg [11:0] vertex2_b;  // UQ8.4 LSB
+
+  always @(posedge clk) begin
+    if (take) begin
+      vertex0_z <= tri_z0;
+      vertex0_r <= tri_r0;
+      vertex0_g <= tri_g0;
+      vertex0_b <= tri_b0;
+      vertex1_z <= tri_z1;
+      vertex1_r <= tri_r1;
+      vertex1_g <= tri_g1;
+      vertex1_b <= tri_b1;
+      vertex2_z <= tri_z2;
+      vertex2_r <= tri_r2;
+      vertex2_g <= tri_g2;
+      vertex2_b <= tri_b2;
     end
   end
 
@@ -303,7 +317,6 @@ module edgewalk_setup (
   wire [23:0] area_part = (shifted[0] ? {du01[22], du01} : 24'd0)
                         - (shifted_2[0] ? {du02[22], du02} : 24'd0);
   reg [45:0] area;       // 1/P^2 px^2, signed
-  assign area_known = !area_adds && !begins;
   assign no_area = !(|area);
   wire any = |dv02[21:16];
   wire [5:0] part_2 = dv02[21:16];
@@ -353,25 +366,72 @@ module edgewalk_setup (
     end
   end
 
+  wire equal = area_digit == 5'd0;
+
   always @(posedge clk) begin
     if (rst) begin
       area_adds <= 1'b0;
     end else begin
-      if (area_adds && (area_digit == 5'd0)) area_adds <= 1'b0;
+      if (area_adds && equal) area_adds <= 1'b0;
       if (begins) area_adds <= 1'b1;
     end
   end
 
+  // The area as modulus: fourfold, i times, until the differences of the next round's values fit.
+  reg [27:0] differences;  // their bits, or those of complements
+  reg [45:0] scaled;       // -M or -M - 1, signed
+  reg scale_taken;         // the area is taken
+  reg scaling;             // it is compared
+  reg [3:0] scale_next;    // times that it is fourfold
+  wire [46:0] less_m = {{18'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
+  wire [45:0] part_21 = less_m[46:1];
+  wire fits = part_21[45] || !(|area);
+  wire grows = scaling && !fits;
+  assign area_known = !area_adds && !begins && !scale_taken && !scaling;
+  assign scale = scale_next;
+
+  always @(posedge clk) begin
+    if (rst) begin
+      scale_taken <= 1'b0;
+    end else begin
+      scale_taken <= area_adds && equal && !begins;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      scaling <= 1'b0;
+    end else begin
+      if (fits) scaling <= 1'b0;
+      if (scale_taken) scaling <= 1'b1;
+      if (begins) scaling <= 1'b0;
+    end
+  end
+
+  wire inverse = !area[45];
+  wire [45:0] extended = area;
+
+  always @(posedge clk) begin
+    if (grows) begin
+      scaled <= {scaled[43:0], inverse, inverse};
+      scale_next <= scale_next + 4'd1;
+    end
+    if (scale_taken) begin
+      scaled <= inverse ? ~extended : extended;
+      scale_next <= 4'd0;
+    end
+  end
+
   // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
-  wire [13:0] part_21 = p0_v[21:8];
-  wire [14:0] line0 = {part_21[13], part_21} + {14'd0, |p0_v[7:0]};  // ceil(v/P)
+  wire [13:0] part_22 = p0_v[21:8];
+  wire [14:0] line0 = {part_22[13], part_22} + {14'd0, |p0_v[7:0]};  // ceil(v/P)
   wire [14:0] j0_next = ($signed(line0) < 15'sd0) ? 15'd0 : line0;
-  wire [13:0] part_22 = p2_v[21:8];
-  wire [14:0] line2 = {part_22[13], part_22} + {14'd0, |p2_v[7:0]};  // ceil(v/P)
+  wire [13:0] part_23 = p2_v[21:8];
+  wire [14:0] line2 = {part_23[13], part_23} + {14'd0, |p2_v[7:0]};  // ceil(v/P)
   wire [14:0] choice_6 = ($signed(line2) < 15'sd480) ? line2 : 15'd480;
   wire [14:0] end_line = ($signed(choice_6) < $signed(j0_next)) ? j0_next : choice_6;
-  wire [13:0] part_23 = p1_v[21:8];
-  wire [14:0] line1 = {part_23[13], part_23} + {14'd0, |p1_v[7:0]};  // ceil(v/P)
+  wire [13:0] part_24 = p1_v[21:8];
+  wire [14:0] line1 = {part_24[13], part_24} + {14'd0, |p1_v[7:0]};  // ceil(v/P)
   wire [14:0] choice_7 = ($signed(line1) < $signed(j0_next)) ? j0_next : line1;
   wire [14:0] j1_next = ($signed(choice_7) < $signed(end_line)) ? choice_7 : end_line;
 
@@ -380,11 +440,11 @@ module edgewalk_setup (
   wire [21:0] leftmost = ($signed(choice_8) < $signed(p2_u)) ? choice_8 : p2_u;  // 1/P column
   wire [21:0] choice_9 = ($signed(p0_u) < $signed(p1_u)) ? p1_u : p0_u;
   wire [21:0] rightmost = ($signed(choice_9) < $signed(p2_u)) ? p2_u : choice_9;  // 1/P column
-  wire [13:0] part_24 = leftmost[21:8];
-  wire [14:0] sum = {part_24[13], part_24} + {14'd0, |leftmost[7:0]};
+  wire [13:0] part_25 = leftmost[21:8];
+  wire [14:0] sum = {part_25[13], part_25} + {14'd0, |leftmost[7:0]};
   wire [14:0] first_column = ($signed(sum) < 15'sd0) ? 15'd0 : sum;
-  wire [13:0] part_25 = rightmost[21:8];
-  wire [14:0] sum_2 = {part_25[13], part_25} + {14'd0, |rightmost[7:0]};
+  wire [13:0] part_26 = rightmost[21:8];
+  wire [14:0] sum_2 = {part_26[13], part_26} + {14'd0, |rightmost[7:0]};
   wire [14:0] end_column = ($signed(sum_2) < 15'sd640) ? sum_2 : 15'd640;
   reg [14:0] j0;                                   // line, signed
   reg [14:0] j1;                                   // line, signed
@@ -416,43 +476,43 @@ module edgewalk_setup (
   wire [23:0] either = {16'd0, p1_u[7:0]} | {1'b0, h1};
   wire [22:0] digits = differing[22:0] | differing_2[22:0] | (second_counts ? either[22:0] : 23'd0);  // digits of the factors that differ from their signs
   wire any_11 = |digits[22:16];
-  wire [6:0] part_27 = digits[22:16];
-  wire [2:0] part_26 = part_27[6:4];
-  wire any_12 = |part_26;
-  wire any_13 = part_26[2];
-  wire [1:0] part_28 = part_26[1:0];
-  wire [3:0] part_30 = part_27[3:0];
-  wire [1:0] part_29 = part_30[3:2];
-  wire any_14 = |part_29;
-  wire [1:0] part_31 = part_30[1:0];
-  wire [1:0] choice_10 = any_12 ? {any_13, any_13 ? 1'b0 : part_28[1]}
-                       : {any_14, any_14 ? part_29[1] : part_31[1]};
-  wire [15:0] part_33 = digits[15:0];
-  wire [7:0] part_32 = part_33[15:8];
-  wire any_15 = |part_32;
-  wire [3:0] part_34 = part_32[7:4];
-  wire any_16 = |part_34;
-  wire [1:0] part_35 = part_34[3:2];
-  wire any_17 = |part_35;
-  wire [1:0] part_36 = part_34[1:0];
-  wire [3:0] part_38 = part_32[3:0];
-  wire [1:0] part_37 = part_38[3:2];
-  wire any_18 = |part_37;
-  wire [1:0] part_39 = part_38[1:0];
-  wire [1:0] choice_11 = any_16 ? {any_17, any_17 ? part_35[1] : part_36[1]}
-                       : {any_18, any_18 ? part_37[1] : part_39[1]};
-  wire [7:0] part_41 = part_33[7:0];
-  wire [3:0] part_40 = part_41[7:4];
-  wire any_19 = |part_40;
-  wire [1:0] part_42 = part_40[3:2];
-  wire any_20 = |part_42;
-  wire [1:0] part_43 = part_40[1:0];
-  wire [3:0] part_45 = part_41[3:0];
-  wire [1:0] part_44 = part_45[3:2];
-  wire any_21 = |part_44;
-  wire [1:0] part_46 = part_45[1:0];
-  wire [1:0] choice_12 = any_19 ? {any_20, any_20 ? part_42[1] : part_43[1]}
-                       : {any_21, any_21 ? part_44[1] : part_46[1]};
+  wire [6:0] part_28 = digits[22:16];
+  wire [2:0] part_27 = part_28[6:4];
+  wire any_12 = |part_27;
+  wire any_13 = part_27[2];
+  wire [1:0] part_29 = part_27[1:0];
+  wire [3:0] part_31 = part_28[3:0];
+  wire [1:0] part_30 = part_31[3:2];
+  wire any_14 = |part_30;
+  wire [1:0] part_32 = part_31[1:0];
+  wire [1:0] choice_10 = any_12 ? {any_13, any_13 ? 1'b0 : part_29[1]}
+                       : {any_14, any_14 ? part_30[1] : part_32[1]};
+  wire [15:0] part_34 = digits[15:0];
+  wire [7:0] part_33 = part_34[15:8];
+  wire any_15 = |part_33;
+  wire [3:0] part_35 = part_33[7:4];
+  wire any_16 = |part_35;
+  wire [1:0] part_36 = part_35[3:2];
+  wire any_17 = |part_36;
+  wire [1:0] part_37 = part_35[1:0];
+  wire [3:0] part_39 = part_33[3:0];
+  wire [1:0] part_38 = part_39[3:2];
+  wire any_18 = |part_38;
+  wire [1:0] part_40 = part_39[1:0];
+  wire [1:0] choice_11 = any_16 ? {any_17, any_17 ? part_36[1] : part_37[1]}
+                       : {any_18, any_18 ? part_38[1] : part_40[1]};
+  wire [7:0] part_42 = part_34[7:0];
+  wire [3:0] part_41 = part_42[7:4];
+  wire any_19 = |part_41;
+  wire [1:0] part_43 = part_41[3:2];
+  wire any_20 = |part_43;
+  wire [1:0] part_44 = part_41[1:0];
+  wire [3:0] part_46 = part_42[3:0];
+  wire [1:0] part_45 = part_46[3:2];
+  wire any_21 = |part_45;
+  wire [1:0] part_47 = part_46[1:0];
+  wire [1:0] choice_12 = any_19 ? {any_20, any_20 ? part_43[1] : part_44[1]}
+                       : {any_21, any_21 ? part_45[1] : part_47[1]};
   wire [3:0] choice_13 = any_11 ? {1'b0, {any_12, choice_10}}
                        : {any_15, any_15 ? {any_16, choice_11} : {any_19, choice_12}};
   assign top_digit = {any_11, choice_13};
@@ -541,14 +601,14 @@ module edgewalk_setup (
   end
 
   // Lane 0: its steps.
-  wire [3:0] step0 = ((at == DOUBLE_Y) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
-                   : ((at == DOUBLE_X) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
-                   : ((at == DOUBLE_DX) && !rests) ? ((left < 5'd4) ? 4'd4 : 4'd0)
+  wire [3:0] step0 = ((at == DOUBLE_Y) && !rests) ? 4'd4
+                   : ((at == DOUBLE_X) && !rests) ? 4'd4
+                   : ((at == DOUBLE_DX) && !rests) ? 4'd4
                    : step;
   reg [3:0] step_next0;
   reg [3:0] step_again0;
   wire [3:0] choice_14 = began ? 4'd11 : began_then ? 4'd12 : 4'd13;
-  wire [3:0] step_formed0 = advance ? step_next0 : (pause == 5'd1) ? step_again0 : choice_14;
+  wire [3:0] step_formed0 = advance ? step_next0 : (pause == 4'd1) ? step_again0 : choice_14;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -563,13 +623,13 @@ module edgewalk_setup (
   end
 
   // Lane 1: its steps.
-  wire [3:0] step1 = ((at == DOUBLE_Y) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
-                   : ((at == DOUBLE_X) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
-                   : ((at == DOUBLE_DX) && !rests) ? ((left < 5'd4) ? 4'd4 : 4'd0)
+  wire [3:0] step1 = ((at == DOUBLE_Y) && !rests) ? 4'd4
+                   : ((at == DOUBLE_X) && !rests) ? 4'd4
+                   : ((at == DOUBLE_DX) && !rests) ? 4'd4
                    : step;
   reg [3:0] step_next1;
   reg [3:0] step_again1;
-  wire [3:0] step_formed1 = advance ? step_next1 : (pause == 5'd1) ? step_again1 : choice_14;
+  wire [3:0] step_formed1 = advance ? step_next1 : (pause == 4'd1) ? step_again1 : choice_14;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -584,13 +644,13 @@ module edgewalk_setup (
   end
 
   // Lane 2: its steps.
-  wire [3:0] step2 = ((at == DOUBLE_Y) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
-                   : ((at == DOUBLE_X) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
-                   : ((at == DOUBLE_DX) && !rests) ? ((left < 5'd4) ? 4'd4 : 4'd0)
+  wire [3:0] step2 = ((at == DOUBLE_Y) && !rests) ? 4'd4
+                   : ((at == DOUBLE_X) && !rests) ? 4'd4
+                   : ((at == DOUBLE_DX) && !rests) ? 4'd4
                    : step;
   reg [3:0] step_next2;
   reg [3:0] step_again2;
-  wire [3:0] step_formed2 = advance ? step_next2 : (pause == 5'd1) ? step_again2 : choice_14;
+  wire [3:0] step_formed2 = advance ? step_next2 : (pause == 4'd1) ? step_again2 : choice_14;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -605,13 +665,13 @@ module edgewalk_setup (
   end
 
   // Lane 3: its steps.
-  wire [3:0] step3 = ((at == DOUBLE_Y) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
-                   : ((at == DOUBLE_X) && !rests) ? ((left < 5'd9) ? 4'd4 : 4'd0)
-                   : ((at == DOUBLE_DX) && !rests) ? ((left < 5'd4) ? 4'd4 : 4'd0)
+  wire [3:0] step3 = ((at == DOUBLE_Y) && !rests) ? 4'd4
+                   : ((at == DOUBLE_X) && !rests) ? 4'd4
+                   : ((at == DOUBLE_DX) && !rests) ? 4'd4
                    : step;
   reg [3:0] step_next3;
   reg [3:0] step_again3;
-  wire [3:0] step_formed3 = advance ? step_next3 : (pause == 5'd1) ? step_again3 : choice_14;
+  wire [3:0] step_formed3 = advance ? step_next3 : (pause == 4'd1) ? step_again3 : choice_14;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -625,96 +685,142 @@ module edgewalk_setup (
     if (advance) step_again3 <= step_formed3;
   end
 
+  // The vertices whose values the lanes are shown.
+  wire either_6 = (at_formed == FIX_DX) || (at_formed == LOAD2) || (at_formed == FIX2);
+  wire both_5 = either_6 && !begins;
+  wire both_6 = area[45] && ((at_formed == LOAD1) || (at_formed == LOAD2)) && !begins;
+  wire [1:0] from_vertex = both_5 ? (both_6 ? p0_vertex : p2_vertex) : both_6 ? p1_vertex : p0_vertex;
+  wire both_7 = (at_formed == ADD_START) && !begins;
+  wire [1:0] to_vertex = both_7 ? (1'b0 ? p1_vertex : p0_vertex)
+                       : both_5 ? (both_6 ? p2_vertex : p0_vertex)
+                       : both_6 ? p0_vertex
+                       : p1_vertex;
+  wire single_value = both_7;
+
   // Lane 0: what it takes in.
-  wire either_6 = (at_formed == LOAD_DX) || (at_formed == FIX_DX) || (at_formed == LOAD_DY);
-  wire [22:0] extended = {1'b0, dv02};
-  wire [28:0] choice_15 = (at_formed == LOAD_DY) ? {{6{extended[22]}}, extended}
+  wire either_7 = (at_formed == LOAD_DX)
+               || (at_formed == LOAD_DY)
+               || ((at_formed == FIX_DX) && !advance);
+  wire [22:0] extended_2 = {1'b0, dv02};
+  wire [28:0] choice_15 = (at_formed == LOAD_DY) ? {{6{extended_2[22]}}, extended_2}
                         : {{6{du02[22]}}, du02};
-  wire either_7 = (at_formed == LOAD2) || (at_formed == FIX2);
-  wire [28:0] choice_16 = either_7 ? (area[45] ? {1'b0, p2_z} : {1'b0, p0_z})
-                        : area[45] ? {1'b0, p0_z}
-                        : {1'b0, p1_z};
-  wire [28:0] choice_17 = either_7 ? (area[45] ? {1'b0, p0_z} : {1'b0, p2_z})
-                        : area[45] ? {1'b0, p1_z}
-                        : {1'b0, p0_z};
-  wire [28:0] number0 = either_6 ? choice_15 : choice_16 - choice_17;  // signed
+  wire [28:0] choice_16 = to_vertex[1] ? {1'b0, vertex2_z}
+                        : to_vertex[0] ? {1'b0, vertex1_z}
+                        : {1'b0, vertex0_z};
+  wire [28:0] choice_17 = single_value ? 29'h1ffffff8
+                        : from_vertex[1] ? {1'b0, vertex2_z}
+                        : from_vertex[0] ? {1'b0, vertex1_z}
+                        : {1'b0, vertex0_z};
+  wire [28:0] number0 = (either_7 && !begins) ? choice_15 : choice_16 - choice_17;  // signed
+  reg [28:0] value0;  // first value, signed
+
+  always @(posedge clk) begin
+    value0 <= number0;
+  end
 
   // Lane 1: what it takes in.
-  wire either_8 = (at_formed == LOAD_DX) || (at_formed == FIX_DX) || (at_formed == LOAD_DY);
-  wire either_9 = (at_formed == LOAD2) || (at_formed == FIX2);
-  wire [22:0] choice_18 = either_9 ? (area[45] ? {11'd0, p2_r} : {11'd0, p0_r})
-                        : area[45] ? {11'd0, p0_r}
-                        : {11'd0, p1_r};
-  wire [22:0] choice_19 = either_9 ? (area[45] ? {11'd0, p0_r} : {11'd0, p2_r})
-                        : area[45] ? {11'd0, p1_r}
-                        : {11'd0, p0_r};
-  wire [22:0] number1 = either_8 ? ((at_formed == LOAD_DY) ? {1'b0, dv01} : du01)  // signed
+  wire either_8 = (at_formed == LOAD_DX)
+               || (at_formed == LOAD_DY)
+               || ((at_formed == FIX_DX) && !advance);
+  wire [22:0] choice_18 = to_vertex[1] ? {11'd0, vertex2_r}
+                        : to_vertex[0] ? {11'd0, vertex1_r}
+                        : {11'd0, vertex0_r};
+  wire [22:0] choice_19 = single_value ? 23'h7ffff8
+                        : from_vertex[1] ? {11'd0, vertex2_r}
+                        : from_vertex[0] ? {11'd0, vertex1_r}
+                        : {11'd0, vertex0_r};
+  wire [22:0] number1 = (either_8 && !begins) ? ((at_formed == LOAD_DY) ? {1'b0, dv01} : du01)  // signed
                       : choice_18 - choice_19;
+  reg [22:0] value1;  // first value, signed
+
+  always @(posedge clk) begin
+    value1 <= number1;
+  end
 
   // Lane 2: what it takes in.
-  wire either_10 = (at_formed == LOAD_DX) || (at_formed == FIX_DX) || (at_formed == LOAD_DY);
+  wire either_9 = (at_formed == LOAD_DX)
+               || (at_formed == LOAD_DY)
+               || ((at_formed == FIX_DX) && !advance);
   wire [22:0] choice_20 = (at_formed == LOAD_DY) ? {1'b0, dv12} : {p2_u[21], p2_u} - {p1_u[21], p1_u};
-  wire either_11 = (at_formed == LOAD2) || (at_formed == FIX2);
-  wire [22:0] choice_21 = either_11 ? (area[45] ? {11'd0, p2_g} : {11'd0, p0_g})
-                        : area[45] ? {11'd0, p0_g}
-                        : {11'd0, p1_g};
-  wire [22:0] choice_22 = either_11 ? (area[45] ? {11'd0, p0_g} : {11'd0, p2_g})
-                        : area[45] ? {11'd0, p1_g}
-                        : {11'd0, p0_g};
-  wire [22:0] number2 = either_10 ? choice_20 : choice_21 - choice_22;  // signed
+  wire [22:0] choice_21 = to_vertex[1] ? {11'd0, vertex2_g}
+                        : to_vertex[0] ? {11'd0, vertex1_g}
+                        : {11'd0, vertex0_g};
+  wire [22:0] choice_22 = single_value ? 23'h7ffff8
+                        : from_vertex[1] ? {11'd0, vertex2_g}
+                        : from_vertex[0] ? {11'd0, vertex1_g}
+                        : {11'd0, vertex0_g};
+  wire [22:0] number2 = (either_9 && !begins) ? choice_20 : choice_21 - choice_22;  // signed
+  reg [22:0] value2;  // first value, signed
+
+  always @(posedge clk) begin
+    value2 <= number2;
+  end
 
   // Lane 3: what it takes in.
-  wire either_12 = (at_formed == LOAD_DX) || (at_formed == FIX_DX) || (at_formed == LOAD_DY);
-  wire either_13 = (at_formed == LOAD2) || (at_formed == FIX2);
-  wire [22:0] choice_23 = either_13 ? (area[45] ? {11'd0, p2_b} : {11'd0, p0_b})
-                        : area[45] ? {11'd0, p0_b}
-                        : {11'd0, p1_b};
-  wire [22:0] choice_24 = either_13 ? (area[45] ? {11'd0, p0_b} : {11'd0, p2_b})
-                        : area[45] ? {11'd0, p1_b}
-                        : {11'd0, p0_b};
-  wire [22:0] number3 = either_12 ? ((at_formed == LOAD_DY) ? {1'b0, dv02} : du02)  // signed
+  wire either_10 = (at_formed == LOAD_DX)
+                || (at_formed == LOAD_DY)
+                || ((at_formed == FIX_DX) && !advance);
+  wire [22:0] choice_23 = to_vertex[1] ? {11'd0, vertex2_b}
+                        : to_vertex[0] ? {11'd0, vertex1_b}
+                        : {11'd0, vertex0_b};
+  wire [22:0] choice_24 = single_value ? 23'h7ffff8
+                        : from_vertex[1] ? {11'd0, vertex2_b}
+                        : from_vertex[0] ? {11'd0, vertex1_b}
+                        : {11'd0, vertex0_b};
+  wire [22:0] number3 = (either_10 && !begins) ? ((at_formed == LOAD_DY) ? {1'b0, dv02} : du02)  // signed
                       : choice_23 - choice_24;
+  reg [22:0] value3;  // first value, signed
+  wire [27:0] shown = (number0[27:0] ^ {28{number0[28]}})
+                    | {5'd0, number1 ^ {23{number1[22]}}}
+                    | {5'd0, number2 ^ {23{number2[22]}}}
+                    | {5'd0, number3 ^ {23{number3[22]}}};
   wire lane0_unfit;
   wire lane1_unfit;
   wire lane2_unfit;
   wire lane3_unfit;
-  wire choice_25 = (at_stepped == FIX_DX) ? 1'b1 : (1'b1 || (|prim_n1)) && (1'b1 || (|prim_n2));
-  wire choice_26 = (at_stepped == FIX_DX) ? |prim_n1 : (1'b1 || (|prim_n1)) && (1'b1 || (|prim_n2));
-  wire choice_27 = (at_stepped == FIX_DX) ? |prim_n2 : (1'b1 || (|prim_n1)) && (1'b1 || (|prim_n2));
-  wire choice_28 = (at_stepped == FIX_DX) ? 1'b0 : (1'b1 || (|prim_n1)) && (1'b1 || (|prim_n2));
-  assign unfit = (lane0_unfit && choice_25)
-              || (lane1_unfit && choice_26)
-              || (lane2_unfit && choice_27)
-              || (lane3_unfit && choice_28);
+  wire both_8 = lane1_unfit && (((at_stepped == FIX_DX) && (|prim_n1)) || 1'b0 || 1'b0);
+  wire both_9 = lane2_unfit && (((at_stepped == FIX_DX) && (|prim_n2)) || 1'b0 || 1'b0);
+  assign unfit = (lane0_unfit && ((at_stepped == FIX_DX) || 1'b0 || 1'b0))
+              || both_8
+              || both_9
+              || (lane3_unfit && (1'b0 || 1'b0 || 1'b0));
+
+  always @(posedge clk) begin
+    value3 <= number3;
+  end
+
+  always @(posedge clk) begin
+    if ((at_formed == FIX_DX) && advance) differences <= differences | shown;
+    if (begins) differences <= shown;
+  end
 
   // Edge: major.
   wire [44:0] lane0_rest_out;
   wire [45:0] lane0_whole_out;
   wire [45:0] lane0_value;
-  wire choice_29 = is_sign ? f[23] : digit_f;
-  wire choice_30 = is_sign ? g[23] : digit_g;
-  wire [29:0] shifted_5 = $signed({number0[28], number0}) >>> {pause - 5'd2, 1'b0};
-  wire [13:0] part_47 = p0_u[21:8];
-  wire [48:0] joined_4 = {1'b0, {{{10{p0_z[27]}}, p0_z} + 38'd8, 10'd0}};
-  wire [53:0] joined_3 = {joined_4[45:0], 8'd128};
-  wire equal = at_rest == COLUMNS;
+  wire choice_25 = is_sign ? f[23] : digit_f;
+  wire choice_26 = is_sign ? g[23] : digit_g;
+  wire [29:0] shifted_5 = $signed({number0[28], number0}) >>> {pause - 4'd2, 1'b0};
+  wire [13:0] part_48 = p0_u[21:8];
+  wire [46:0] joined_3 = {{value0, 10'd0}, 8'd128};
+  wire equal_2 = at_rest == COLUMNS;
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_29 || choice_30), choice_30, choice_29}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_25 || choice_26), choice_26, choice_25}
 : read_single_at),
     .step          (step_formed0),
     .number        (number0),
     .digits        (shifted_5[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? {{32{part_47[13]}}, part_47} : joined_3[45:0]),
+    .whole_in      ((at_stepped == COLUMNS) ? {{32{part_48[13]}}, part_48} : joined_3[45:0]),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_formed == LOAD1) ? (area[45] ? area : ~area) : ~{16'd0, {dv02, 8'd0}}),
+    .modulus_in    ((at_formed == LOAD1) ? scaled : ~{16'd0, {dv02, 8'd0}}),
     .modulus_short (!((at_formed == LOAD1) && area[45])),
-    .upwards       (equal),
+    .upwards       (equal_2),
     .unfit         (lane0_unfit),
     .rest_out      (lane0_rest_out),
     .whole_out     (lane0_whole_out),
@@ -722,10 +828,10 @@ module edgewalk_setup (
   );
 
   wire any_22 = |dv02[21:8];
-  wire [36:0] part_48 = lane0_rest_out[44:8];
+  wire [36:0] part_49 = lane0_rest_out[44:8];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == DOUBLE_DX)) prim_major_f <= any_22 ? part_48[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_major_f <= any_22 ? part_49[21:0] : 22'd0;
   end
 
   always @(posedge clk) begin
@@ -748,45 +854,44 @@ module edgewalk_setup (
   wire [44:0] lane1_rest_out;
   wire [29:0] lane1_whole_out;
   wire [29:0] lane1_value;
-  wire choice_31 = is_sign ? f[23] : digit_f;
-  wire choice_32 = is_sign ? g[23] : digit_g;
-  wire [23:0] shifted_6 = $signed({number1[22], number1}) >>> {pause - 5'd2, 1'b0};
-  wire [13:0] part_49 = p0_u[21:8];
-  wire [32:0] joined_6 = {1'b0, {{{10{p0_r[11]}}, p0_r} + 22'd8, 10'd0}};
-  wire [37:0] joined_5 = {joined_6[29:0], 8'd128};
+  wire choice_27 = is_sign ? f[23] : digit_f;
+  wire choice_28 = is_sign ? g[23] : digit_g;
+  wire [23:0] shifted_6 = $signed({number1[22], number1}) >>> {pause - 4'd2, 1'b0};
+  wire [13:0] part_50 = p0_u[21:8];
+  wire [40:0] joined_4 = {{value1, 10'd0}, 8'd128};
 
   edgewalk_setup_lane1 lane1 (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_31 || choice_32), choice_32, choice_31}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_27 || choice_28), choice_28, choice_27}
 : read_single_at),
     .step          (step_formed1),
     .number        (number1),
     .digits        (shifted_6[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_49[13]}}, part_49} : joined_5[29:0]),
+    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_50[13]}}, part_50} : joined_4[29:0]),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_formed == LOAD1) ? (area[45] ? area : ~area) : ~{16'd0, {dv01, 8'd0}}),
+    .modulus_in    ((at_formed == LOAD1) ? scaled : ~{16'd0, {dv01, 8'd0}}),
     .modulus_short (!((at_formed == LOAD1) && area[45])),
-    .upwards       (equal),
+    .upwards       (equal_2),
     .unfit         (lane1_unfit),
     .rest_out      (lane1_rest_out),
     .whole_out     (lane1_whole_out),
     .value         (lane1_value)
   );
 
-  wire both_5 = (|prim_n1) && (|dv01[21:8]);
-  wire [36:0] part_50 = lane1_rest_out[44:8];
+  wire both_10 = (|prim_n1) && (|dv01[21:8]);
+  wire [36:0] part_51 = lane1_rest_out[44:8];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor1_f <= both_5 ? part_50[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor1_f <= both_10 ? part_51[21:0] : 22'd0;
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX)) begin
-      prim_minor1_q <= both_5 ? lane1_whole_out[14:0] : 15'd0;
+      prim_minor1_q <= both_10 ? lane1_whole_out[14:0] : 15'd0;
     end
   end
 
@@ -806,48 +911,47 @@ module edgewalk_setup (
   wire [44:0] lane2_rest_out;
   wire [29:0] lane2_whole_out;
   wire [29:0] lane2_value;
-  wire equal_2 = at == SUM;
+  wire equal_3 = at == SUM;
   wire [7:0] shifted_7 = p1_u[7:0] >> left;
-  wire choice_33 = is_sign ? f[23] : equal_2 ? shifted_7[0] : digit_f;
+  wire choice_29 = is_sign ? f[23] : equal_3 ? shifted_7[0] : digit_f;
   wire [22:0] shifted_8 = h1 >> left;
-  wire choice_34 = is_sign ? g[23] : equal_2 ? shifted_8[0] : digit_g;
-  wire [23:0] shifted_9 = $signed({number2[22], number2}) >>> {pause - 5'd2, 1'b0};
-  wire [13:0] part_51 = p1_u[21:8];
-  wire [32:0] joined_8 = {1'b0, {{{10{p0_g[11]}}, p0_g} + 22'd8, 10'd0}};
-  wire [37:0] joined_7 = {joined_8[29:0], 8'd128};
+  wire choice_30 = is_sign ? g[23] : equal_3 ? shifted_8[0] : digit_g;
+  wire [23:0] shifted_9 = $signed({number2[22], number2}) >>> {pause - 4'd2, 1'b0};
+  wire [13:0] part_52 = p1_u[21:8];
+  wire [40:0] joined_5 = {{value2, 10'd0}, 8'd128};
 
   edgewalk_setup_lane1 lane2 (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_33 || choice_34), choice_34, choice_33}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_29 || choice_30), choice_30, choice_29}
 : read_single_at),
     .step          (step_formed2),
     .number        (number2),
     .digits        (shifted_9[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_51[13]}}, part_51} : joined_7[29:0]),
+    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_52[13]}}, part_52} : joined_5[29:0]),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_formed == LOAD1) ? (area[45] ? area : ~area) : ~{16'd0, {dv12, 8'd0}}),
+    .modulus_in    ((at_formed == LOAD1) ? scaled : ~{16'd0, {dv12, 8'd0}}),
     .modulus_short (!((at_formed == LOAD1) && area[45])),
-    .upwards       (equal),
+    .upwards       (equal_2),
     .unfit         (lane2_unfit),
     .rest_out      (lane2_rest_out),
     .whole_out     (lane2_whole_out),
     .value         (lane2_value)
   );
 
-  wire both_6 = (|prim_n2) && (|dv12[21:8]);
-  wire [36:0] part_52 = lane2_rest_out[44:8];
+  wire both_11 = (|prim_n2) && (|dv12[21:8]);
+  wire [36:0] part_53 = lane2_rest_out[44:8];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor2_f <= both_6 ? part_52[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor2_f <= both_11 ? part_53[21:0] : 22'd0;
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX)) begin
-      prim_minor2_q <= both_6 ? lane2_whole_out[14:0] : 15'd0;
+      prim_minor2_q <= both_11 ? lane2_whole_out[14:0] : 15'd0;
     end
   end
 
@@ -923,30 +1027,29 @@ module edgewalk_setup (
   // Channel: b.
   wire [29:0] lane3_value;
   wire [29:0] lane3_whole_out;
-  wire choice_35 = is_sign ? f[23] : digit_f;
-  wire choice_36 = is_sign ? g[23] : digit_g;
-  wire [23:0] shifted_10 = $signed({number3[22], number3}) >>> {pause - 5'd2, 1'b0};
-  wire [13:0] part_53 = p0_u[21:8];
-  wire [32:0] joined_10 = {1'b0, {{{10{p0_b[11]}}, p0_b} + 22'd8, 10'd0}};
-  wire [37:0] joined_9 = {joined_10[29:0], 8'd128};
+  wire choice_31 = is_sign ? f[23] : digit_f;
+  wire choice_32 = is_sign ? g[23] : digit_g;
+  wire [23:0] shifted_10 = $signed({number3[22], number3}) >>> {pause - 4'd2, 1'b0};
+  wire [13:0] part_54 = p0_u[21:8];
+  wire [40:0] joined_6 = {{value3, 10'd0}, 8'd128};
   wire [44:0] lane3_rest_out_unused;
 
   edgewalk_setup_lane1 lane3 (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_35 || choice_36), choice_36, choice_35}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_31 || choice_32), choice_32, choice_31}
 : read_single_at),
     .step          (step_formed3),
     .number        (number3),
     .digits        (shifted_10[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_53[13]}}, part_53} : joined_9[29:0]),
+    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_54[13]}}, part_54} : joined_6[29:0]),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_formed == LOAD1) ? (area[45] ? area : ~area) : ~{16'd0, {dv02, 8'd0}}),
+    .modulus_in    ((at_formed == LOAD1) ? scaled : ~{16'd0, {dv02, 8'd0}}),
     .modulus_short (!((at_formed == LOAD1) && area[45])),
-    .upwards       (equal),
+    .upwards       (equal_2),
     .unfit         (lane3_unfit),
     .rest_out      (lane3_rest_out_unused),
     .whole_out     (lane3_whole_out),
@@ -979,15 +1082,15 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, WAIT12, WAIT_XY, ends_fixed, lane0_value[45:38], lane1_value[29:22], lane2_value[29:22],
-    lane3_value[29:22], lane3_whole_out[7:0], difference[22], difference_2[22], difference_3[22],
-    part_5[0], part_10[0], part_13[0], part_17[0], part_20[0], shifted[21:1], shifted_2[21:1],
-    difference_4[14:10], difference_5[14:10], differing[23], differing_2[23], either[23], part_28[0],
-    part_31[0], part_36[0], part_39[0], part_43[0], part_46[0], shifted_3[23:1], shifted_4[23:1],
-    shifted_7[7:1], shifted_8[22:1], shifted_5[29:2], joined_4[48:46], joined_3[53:46], shifted_6[23:2],
-    joined_6[32:30], joined_5[37:30], shifted_9[23:2], joined_8[32:30], joined_7[37:30],
-    shifted_10[23:2], joined_10[32:30], joined_9[37:30], part_48[36:22], difference_6[7:0],
-    part_50[36:22], difference_7[7:0], part_52[36:22], difference_8[7:0]
+    1'b0, WAIT12, WAIT_XY, ends_fixed, less_m[0], lane0_value[45:38], lane1_value[29:22],
+    lane2_value[29:22], lane3_value[29:22], lane3_whole_out[7:0], difference[22], difference_2[22],
+    difference_3[22], part_5[0], part_10[0], part_13[0], part_17[0], part_20[0], shifted[21:1],
+    shifted_2[21:1], part_21[44:0], difference_4[14:10], difference_5[14:10], differing[23],
+    differing_2[23], either[23], part_29[0], part_32[0], part_37[0], part_40[0], part_44[0], part_47[0],
+    shifted_3[23:1], shifted_4[23:1], shifted_7[7:1], shifted_8[22:1], shifted_5[29:2], joined_3[46],
+    shifted_6[23:2], joined_4[40:30], shifted_9[23:2], joined_5[40:30], shifted_10[23:2],
+    joined_6[40:30], part_49[36:22], difference_6[7:0], part_51[36:22], difference_7[7:0],
+    part_53[36:22], difference_8[7:0]
   };
 
 endmodule

@@ -131,6 +131,9 @@ module edgewalk_span (
   wire queue_out_fence;
   wire queue_out_valid;
 
+  // While a triangle's first span is queued, or may come of the line held, EDGE must keep its increments.
+  wire queue_any_fresh;
+
   edgewalk_span_fifo queue (
     .clk          (clk),
     .rst          (rst),
@@ -146,6 +149,7 @@ module edgewalk_span (
     .in_fresh     (fresh),
     .in_fence     (fence),
     .out_ready    (span_ready),
+    .any_fresh    (queue_any_fresh),
     .in_ready     (queue_in_ready),
     .out_valid    (queue_out_valid),
     .out_x        (queue_out_x),
@@ -160,17 +164,7 @@ module edgewalk_span (
     .out_fence    (queue_out_fence)
   );
 
-  // While a triangle's first span is queued, or may come of the line held, EDGE must keep its increments.
-  reg fresh_in_queue;  // the first span of a triangle is queued
-
-  always @(posedge clk) begin
-    if (rst) begin
-      fresh_in_queue <= 1'b0;
-    end else begin
-      if (queue_out_valid && span_ready && queue_out_fresh) fresh_in_queue <= 1'b0;
-      if (push && fresh) fresh_in_queue <= 1'b1;
-    end
-  end
+  wire fresh_in_queue = queue_any_fresh;
 
   assign span_valid = queue_out_valid;
   assign span_x = queue_out_x;

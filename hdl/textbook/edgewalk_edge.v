@@ -155,16 +155,24 @@ module edgewalk_edge (
   wire first_carry = first_less[16];
   wire [16:0] major_less = {1'b0, major_r} - {1'b0, major_f};
   wire major_carry = major_less[16];
-  reg carry;           // the major edge carries in its next step
+  reg carry;           // the major edge carries in its next step; 0 between triangles
+
+  always @(posedge clk) begin
+    if (rst) begin
+      carry <= 1'b0;
+    end else begin
+      if (along) carry <= major_carry;
+      if (step && last) carry <= 1'b0;
+      if (load) carry <= first_carry;
+    end
+  end
 
   always @(posedge clk) begin
     if (along) begin
-      carry <= major_carry;
       major_c <= major_c + major_q + {14'd0, carry};
       major_r <= major_less[15:0];
     end
     if (load) begin
-      carry <= first_carry;
       major_c <= prim_major_c;
       major_r <= first_less[15:0];
     end

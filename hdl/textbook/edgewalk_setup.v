@@ -1,7 +1,7 @@
 // edgewalk_setup: SETUP turns three vertices into edges and increments.
 //
 //   tri ─> [sorted by v] ─┬─> lines j0 j1 n1 n2, columns ─> none? culled
-//                         ├─> area ─> major_right; 0? culled
+//                         ├─> area ─> major_right; 0? culled; fourfold till values fit: M
 //                         └─> differences ─> lanes ─┬─> three edges: q f, C R ──────────────┬─> prim
 //                                                   └─> N channels: g, d0, d1, start ───────┘
 //             a lane holds a pair, whole + rest / M: quotient and exact remainder, doubled and added to
@@ -123,8 +123,9 @@ module edgewalk_setup (
   localparam [5:0] ADD_B = 6'd35;
   localparam [5:0] ROUND_B = 6'd36;
   wire nothing;          // no line, or no column, of the screen
-  wire area_known;
+  wire area_known;       // and scaled for the next round of channels
   wire no_area;
+  wire [3:0] scale;      // the modulus is the area 4^scale times
   wire unfit;            // a number was taken in that is not between -M and M
   wire [4:0] top_digit;  // place of the first digit of a sum
   reg [2:0] state;
@@ -145,7 +146,8 @@ module edgewalk_setup (
   wire gives_up = in_edges && (at == FIX_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
   wire last = left == 5'd0;                          // last clock of the operation
   wire edges_end = in_edges && last && (at == ROUND_COLUMNS) && (round == 2'd2);
-  wire waits = edges_end && !area_known;             // for the area
+  wire round_ends = (state == CHANNELS) && last && (at == ROUND_B) && !(round == 2'd3);
+  wire waits = (edges_end || round_ends) && !area_known;  // for the area or its scale
   wire ends = works && last && !waits && !gives_up;  // the operation ends
   wire leaves = ends && advance;
   wire channels_end = (at == ROUND_B) && (round == 2'd3);
@@ -210,7 +212,7 @@ module edgewalk_setup (
             : (at == SUM_A) ? choice_3
             : (at == WAIT_A) ? top_digit
             : (at == FIX_A) ? choice_4
-            : (at == SUM_X) ? choice_5
+            : (at == SUM_X) ? choice_5 + {1'b0, scale}
             : (at == WAIT) ? top_digit
             : (at == ADD12) ? 5'd1
             : (at == COLUMNS) ? 5'd7
@@ -294,24 +296,15 @@ module edgewalk_setup (
   wire y1_above_y0 = $signed(tri_y1) < $signed(tri_y0);
   wire y2_above_y0 = $signed(tri_y2) < $signed(tri_y0);
   wire y2_above_y1 = $signed(tri_y2) < $signed(tri_y1);
-  reg [14:0] p0_u;  // Q14.1, signed
-  reg [14:0] p0_v;  // Q14.1, signed
-  reg [15:0] p0_z;  // UQ16.0 LSB
-  reg [7:0] p0_r;   // UQ8.0 LSB
-  reg [7:0] p0_g;   // UQ8.0 LSB
-  reg [7:0] p0_b;   // UQ8.0 LSB
-  reg [14:0] p1_u;  // Q14.1, signed
-  reg [14:0] p1_v;  // Q14.1, signed
-  reg [15:0] p1_z;  // UQ16.0 LSB
-  reg [7:0] p1_r;   // UQ8.0 LSB
-  reg [7:0] p1_g;   // UQ8.0 LSB
-  reg [7:0] p1_b;   // UQ8.0 LSB
-  reg [14:0] p2_u;  // Q14.1, signed
-  reg [14:0] p2_v;  // Q14.1, signed
-  reg [15:0] p2_z;  // UQ16.0 LSB
-  reg [7:0] p2_r;   // UQ8.0 LSB
-  reg [7:0] p2_g;   // UQ8.0 LSB
-  reg [7:0] p2_b;   // UQ8.0 LSB
+  reg [14:0] p0_u;      // Q14.1, signed
+  reg [14:0] p0_v;      // Q14.1, signed
+  reg [14:0] p1_u;      // Q14.1, signed
+  reg [14:0] p1_v;      // Q14.1, signed
+  reg [14:0] p2_u;      // Q14.1, signed
+  reg [14:0] p2_v;      // Q14.1, signed
+  reg [1:0] p0_vertex;  // whose values are those at this place
+  reg [1:0] p1_vertex;  // whose values are those at this place
+  reg [1:0] p2_vertex;  // whose values are those at this place
   wire both = y1_above_y0 && !y2_above_y1;
   wire both_2 = y2_above_y0 && y2_above_y1;
   wire both_3 = !y1_above_y0 && y2_above_y1;
@@ -323,22 +316,44 @@ module edgewalk_setup (
     if (take) begin
       p0_u <= {both ? tri_x1 : both_2 ? tri_x2 : tri_x0, 1'b0};
       p0_v <= {both ? tri_y1 : both_2 ? tri_y2 : tri_y0, 1'b0};
-      p0_z <= both ? tri_z1 : both_2 ? tri_z2 : tri_z0;
-      p0_r <= both ? tri_r1 : both_2 ? tri_r2 : tri_r0;
-      p0_g <= both ? tri_g1 : both_2 ? tri_g2 : tri_g0;
-      p0_b <= both ? tri_b1 : both_2 ? tri_b2 : tri_b0;
       p1_u <= {choice_6, 1'b0};
       p1_v <= {choice_7, 1'b0};
-      p1_z <= (!both && !both_3) ? tri_z1 : (!both_2 && !both_4) ? tri_z2 : tri_z0;
-      p1_r <= (!both && !both_3) ? tri_r1 : (!both_2 && !both_4) ? tri_r2 : tri_r0;
-      p1_g <= (!both && !both_3) ? tri_g1 : (!both_2 && !both_4) ? tri_g2 : tri_g0;
-      p1_b <= (!both && !both_3) ? tri_b1 : (!both_2 && !both_4) ? tri_b2 : tri_b0;
       p2_u <= {both_3 ? tri_x1 : both_4 ? tri_x2 : tri_x0, 1'b0};
       p2_v <= {both_3 ? tri_y1 : both_4 ? tri_y2 : tri_y0, 1'b0};
-      p2_z <= both_3 ? tri_z1 : both_4 ? tri_z2 : tri_z0;
-      p2_r <= both_3 ? tri_r1 : both_4 ? tri_r2 : tri_r0;
-      p2_g <= both_3 ? tri_g1 : both_4 ? tri_g2 : tri_g0;
-      p2_b <= both_3 ? tri_b1 : both_4 ? tri_b2 : tri_b0;
+      p0_vertex <= {both_2, both};
+      p1_vertex <= {!both_2 && !both_4, !both && !both_3};
+      p2_vertex <= {both_4, both_3};
+    end
+  end
+
+  // The values at the vertices, as they came.
+  reg [15:0] vertex0_z;  // UQ16.0 LSB
+  reg [7:0] vertex0_r;   // UQ8.0 LSB
+  reg [7:0] vertex0_g;   // UQ8.0 LSB
+  reg [7:0] vertex0_b;   // UQ8.0 LSB
+  reg [15:0] vertex1_z;  // UQ16.0 LSB
+  reg [7:0] vertex1_r;   // UQ8.0 LSB
+  reg [7:0] vertex1_g;   // UQ8.0 LSB
+  reg [7:0] vertex1_b;   // UQ8.0 LSB
+  reg [15:0] vertex2_z;  // UQ16.0 LSB
+  reg [7:0] vertex2_r;   // UQ8.0 LSB
+  reg [7:0] vertex2_g;   // UQ8.0 LSB
+  reg [7:0] vertex2_b;   // UQ8.0 LSB
+
+  always @(posedge clk) begin
+    if (take) begin
+      vertex0_z <= tri_z0;
+      vertex0_r <= tri_r0;
+      vertex0_g <= tri_g0;
+      vertex0_b <= tri_b0;
+      vertex1_z <= tri_z1;
+      vertex1_r <= tri_r1;
+      vertex1_g <= tri_g1;
+      vertex1_b <= tri_b1;
+      vertex2_z <= tri_z2;
+      vertex2_r <= tri_r2;
+      vertex2_g <= tri_g2;
+      vertex2_b <= tri_b2;
     end
   end
 
@@ -360,7 +375,6 @@ module edgewalk_setup (
   wire [16:0] area_part = (shifted[0] ? {du01[15], du01} : 17'd0)
                         - (shifted_2[0] ? {du02[15], du02} : 17'd0);
   reg [31:0] area;       // 1/P^2 px^2, signed
-  assign area_known = !area_adds && !begins;
   assign no_area = !(|area);
   wire any = |dv02[14:8];
   wire [6:0] part_2 = dv02[14:8];
@@ -398,35 +412,88 @@ module edgewalk_setup (
     end
   end
 
+  wire equal = area_digit == 4'd0;
+
   always @(posedge clk) begin
     if (rst) begin
       area_adds <= 1'b0;
     end else begin
-      if (area_adds && (area_digit == 4'd0)) area_adds <= 1'b0;
+      if (area_adds && equal) area_adds <= 1'b0;
       if (begins) area_adds <= 1'b1;
     end
   end
 
+  // The area as modulus: fourfold, i times, until the differences of the next round's values fit.
+  reg [15:0] differences;  // their bits, or those of complements
+  reg [31:0] scaled;       // -M or -M - 1, signed
+  reg scale_taken;         // the area is taken
+  reg scaling;             // it is compared
+  reg [3:0] scale_next;    // times that it is fourfold
+  wire [32:0] less_m = {{16'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
+  wire [31:0] part_14 = less_m[32:1];
+  wire fits = part_14[31] || !(|area);
+  wire grows = scaling && !fits;
+  assign area_known = !area_adds && !begins && !scale_taken && !scaling;
+  reg [3:0] scale_now;     // of the round
+  assign scale = scale_now;
+  wire either = (area_adds && equal) || ((at_formed == FIX2) && !(round_formed == 2'd3));
+
+  always @(posedge clk) begin
+    if (rst) begin
+      scale_taken <= 1'b0;
+    end else begin
+      scale_taken <= either && !begins;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      scaling <= 1'b0;
+    end else begin
+      if (fits) scaling <= 1'b0;
+      if (scale_taken) scaling <= 1'b1;
+      if (begins) scaling <= 1'b0;
+    end
+  end
+
+  wire inverse = !area[31];
+  wire [31:0] extended = area;
+
+  always @(posedge clk) begin
+    if (grows) begin
+      scaled <= {scaled[29:0], inverse, inverse};
+      scale_next <= scale_next + 4'd1;
+    end
+    if (scale_taken) begin
+      scaled <= inverse ? ~extended : extended;
+      scale_next <= 4'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (at_formed == LOAD1) scale_now <= scale_next;
+  end
+
   // Lines of each part: from Y of the upper to Y of the lower end, both drawn, on the screen.
-  wire [13:0] part_14 = p0_v[14:1];
-  wire [14:0] extended = {part_14[13], part_14};
-  wire [14:0] j0_next = ($signed(extended) < 15'sd0) ? 15'd0 : extended;
-  wire [13:0] part_15 = p1_v[14:1];
+  wire [13:0] part_15 = p0_v[14:1];
   wire [14:0] extended_2 = {part_15[13], part_15};
-  wire [14:0] j1_next = ($signed(extended_2) < 15'sd0) ? 15'd0 : extended_2;
+  wire [14:0] j0_next = ($signed(extended_2) < 15'sd0) ? 15'd0 : extended_2;
   wire [13:0] part_16 = p1_v[14:1];
   wire [14:0] extended_3 = {part_16[13], part_16};
-  wire [14:0] last0 = ($signed(extended_3) < 15'sd479) ? extended_3 : 15'd479;
-  wire [13:0] part_17 = p0_v[14:1];
-  wire [13:0] part_18 = p1_v[14:1];
-  wire less = $signed({part_17[13], part_17}) < $signed({part_18[13], part_18});
+  wire [14:0] j1_next = ($signed(extended_3) < 15'sd0) ? 15'd0 : extended_3;
+  wire [13:0] part_17 = p1_v[14:1];
+  wire [14:0] extended_4 = {part_17[13], part_17};
+  wire [14:0] last0 = ($signed(extended_4) < 15'sd479) ? extended_4 : 15'd479;
+  wire [13:0] part_18 = p0_v[14:1];
+  wire [13:0] part_19 = p1_v[14:1];
+  wire less = $signed({part_18[13], part_18}) < $signed({part_19[13], part_19});
   wire some0 = less && ($signed(j0_next) <= $signed(last0));
-  wire [13:0] part_19 = p2_v[14:1];
-  wire [14:0] extended_4 = {part_19[13], part_19};
-  wire [14:0] last1 = ($signed(extended_4) < 15'sd479) ? extended_4 : 15'd479;
-  wire [13:0] part_20 = p1_v[14:1];
-  wire [13:0] part_21 = p2_v[14:1];
-  wire less_2 = $signed({part_20[13], part_20}) < $signed({part_21[13], part_21});
+  wire [13:0] part_20 = p2_v[14:1];
+  wire [14:0] extended_5 = {part_20[13], part_20};
+  wire [14:0] last1 = ($signed(extended_5) < 15'sd479) ? extended_5 : 15'd479;
+  wire [13:0] part_21 = p1_v[14:1];
+  wire [13:0] part_22 = p2_v[14:1];
+  wire less_2 = $signed({part_21[13], part_21}) < $signed({part_22[13], part_22});
   wire some1 = less_2 && ($signed(j1_next) <= $signed(last1));
   reg [14:0] j0;                                   // line, signed
   reg [14:0] j1;                                   // line, signed
@@ -456,30 +523,30 @@ module edgewalk_setup (
   wire [16:0] differing_2 = g ^ $unsigned($signed(g) >>> 1);
   wire [15:0] digits = differing[15:0] | differing_2[15:0];  // digits of the factors that differ from their signs
   wire any_8 = |digits[15:8];
-  wire [7:0] part_23 = digits[15:8];
-  wire [3:0] part_22 = part_23[7:4];
-  wire any_9 = |part_22;
-  wire [1:0] part_24 = part_22[3:2];
-  wire any_10 = |part_24;
-  wire [1:0] part_25 = part_22[1:0];
-  wire [3:0] part_27 = part_23[3:0];
-  wire [1:0] part_26 = part_27[3:2];
-  wire any_11 = |part_26;
-  wire [1:0] part_28 = part_27[1:0];
-  wire [1:0] choice_12 = any_9 ? {any_10, any_10 ? part_24[1] : part_25[1]}
-                       : {any_11, any_11 ? part_26[1] : part_28[1]};
-  wire [7:0] part_30 = digits[7:0];
-  wire [3:0] part_29 = part_30[7:4];
-  wire any_12 = |part_29;
-  wire [1:0] part_31 = part_29[3:2];
-  wire any_13 = |part_31;
-  wire [1:0] part_32 = part_29[1:0];
-  wire [3:0] part_34 = part_30[3:0];
-  wire [1:0] part_33 = part_34[3:2];
-  wire any_14 = |part_33;
-  wire [1:0] part_35 = part_34[1:0];
-  wire [1:0] choice_13 = any_12 ? {any_13, any_13 ? part_31[1] : part_32[1]}
-                       : {any_14, any_14 ? part_33[1] : part_35[1]};
+  wire [7:0] part_24 = digits[15:8];
+  wire [3:0] part_23 = part_24[7:4];
+  wire any_9 = |part_23;
+  wire [1:0] part_25 = part_23[3:2];
+  wire any_10 = |part_25;
+  wire [1:0] part_26 = part_23[1:0];
+  wire [3:0] part_28 = part_24[3:0];
+  wire [1:0] part_27 = part_28[3:2];
+  wire any_11 = |part_27;
+  wire [1:0] part_29 = part_28[1:0];
+  wire [1:0] choice_12 = any_9 ? {any_10, any_10 ? part_25[1] : part_26[1]}
+                       : {any_11, any_11 ? part_27[1] : part_29[1]};
+  wire [7:0] part_31 = digits[7:0];
+  wire [3:0] part_30 = part_31[7:4];
+  wire any_12 = |part_30;
+  wire [1:0] part_32 = part_30[3:2];
+  wire any_13 = |part_32;
+  wire [1:0] part_33 = part_30[1:0];
+  wire [3:0] part_35 = part_31[3:0];
+  wire [1:0] part_34 = part_35[3:2];
+  wire any_14 = |part_34;
+  wire [1:0] part_36 = part_35[1:0];
+  wire [1:0] choice_13 = any_12 ? {any_13, any_13 ? part_32[1] : part_33[1]}
+                       : {any_14, any_14 ? part_34[1] : part_36[1]};
   assign top_digit = {1'b0, {any_8, any_8 ? {any_9, choice_12} : {any_12, choice_13}}};
   wire [16:0] shifted_3 = f >> left;
   wire digit_f = shifted_3[0];
@@ -510,28 +577,28 @@ module edgewalk_setup (
   end
 
   // What all lanes do.
-  wire either = (at == DOUBLE_DX)
-             || (at == DOUBLE_COLUMNS)
-             || (at == DOUBLE_X)
-             || (at == DOUBLE_A)
-             || (at == DOUBLE_START_A)
-             || (at == DOUBLE_B)
-             || (at == DOUBLE_START_B);
-  wire either_2 = (at == FIX_DX) || (at == FIX1) || (at == FIX2) || (at == FIX_A) || (at == FIX_B);
-  wire either_3 = (at == LOAD_DX)
+  wire either_2 = (at == DOUBLE_DX)
+               || (at == DOUBLE_COLUMNS)
+               || (at == DOUBLE_X)
+               || (at == DOUBLE_A)
+               || (at == DOUBLE_START_A)
+               || (at == DOUBLE_B)
+               || (at == DOUBLE_START_B);
+  wire either_3 = (at == FIX_DX) || (at == FIX1) || (at == FIX2) || (at == FIX_A) || (at == FIX_B);
+  wire either_4 = (at == LOAD_DX)
                || (at == LOAD_DY)
                || (at == LOAD1)
                || (at == LOAD2)
                || (at == LOAD_A)
                || (at == LOAD_B);
-  wire [3:0] step = rests ? 4'd0 : ((at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B)) ? (first ? 4'd5 : 4'd6) : ((at == COLUMNS) || (at == ADD_A) || (at == ADD_B)) ? 4'd10 : ((at == ADD_DX) || (at == ADD12)) ? 4'd9 : either ? 4'd4 : either_2 ? 4'd2 : either_3 ? 4'd1 : 4'd0;
+  wire [3:0] step = rests ? 4'd0 : ((at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B)) ? (first ? 4'd5 : 4'd6) : ((at == COLUMNS) || (at == ADD_A) || (at == ADD_B)) ? 4'd10 : ((at == ADD_DX) || (at == ADD12)) ? 4'd9 : either_2 ? 4'd4 : either_3 ? 4'd2 : either_4 ? 4'd1 : 4'd0;
   reg began;       // numbers were found not to fit in the clock before
   reg began_then;  // and in the one before
   wire is_sum = (at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B);
   wire is_sign = 1'b0;
   wire of_gradients = 1'b0;
   wire [2:0] read_single_at = (at == ADD_DX) ? 3'd2 : (at == ADD12) ? 3'd1 : 3'd0;
-  wire either_4 = (at_stepped == FIX_DX)
+  wire either_5 = (at_stepped == FIX_DX)
                || (at_stepped == LOAD_DY)
                || (at_stepped == ADD_DX)
                || (at_stepped == FIX1)
@@ -540,15 +607,15 @@ module edgewalk_setup (
                || (at_stepped == DOUBLE_X)
                || (at_stepped == FIX_A)
                || (at_stepped == FIX_B);
-  wire write = ends_stepped && either_4;
-  wire either_5 = (at_stepped == LOAD_DY)
+  wire write = ends_stepped && either_5;
+  wire either_6 = (at_stepped == LOAD_DY)
                || (at_stepped == FIX1)
                || (at_stepped == FIX_A)
                || (at_stepped == FIX_B);
   wire [2:0] write_at = (at_stepped == DOUBLE_X) ? 3'd5
                       : ((at_stepped == ADD_DX) || (at_stepped == ADD12)) ? 3'd3
                       : ((at_stepped == FIX_DX) || (at_stepped == FIX2)) ? 3'd2
-                      : either_5 ? 3'd1
+                      : either_6 ? 3'd1
                       : 3'd0;
   wire take_modulus = (at_formed == LOAD_DX)
                    || (at_formed == LOAD1)
@@ -561,38 +628,36 @@ module edgewalk_setup (
   end
 
   // Lane 0: its steps.
-  wire [3:0] choice_14 = (round == 2'd3) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
-                       : (round == 2'd2) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
-                       : (round == 2'd1) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
-                       : (left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4)
-                       : 4'd0;
-  wire [3:0] choice_15 = (round == 2'd3) ? ((left < 5'd8) ? 4'd4 : 4'd0)
-                       : (round == 2'd2) ? ((left < 5'd8) ? 4'd4 : 4'd0)
-                       : (round == 2'd1) ? ((left < 5'd8) ? 4'd4 : 4'd0)
-                       : (left < 5'd8) ? 4'd4
-                       : 4'd0;
-  wire [3:0] choice_16 = (round == 2'd3) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
-                       : (round == 2'd2) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
-                       : (round == 2'd1) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
-                       : (left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4)
-                       : 4'd0;
-  wire [3:0] choice_17 = (round == 2'd3) ? ((left < 5'd8) ? 4'd4 : 4'd0)
-                       : (round == 2'd2) ? ((left < 5'd8) ? 4'd4 : 4'd0)
-                       : (round == 2'd1) ? ((left < 5'd8) ? 4'd4 : 4'd0)
-                       : (left < 5'd8) ? 4'd4
-                       : 4'd0;
-  wire [3:0] choice_18 = (round == 2'd3) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
-                       : (round == 2'd2) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
-                       : (round == 2'd1) ? ((left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
-                       : (left < 5'd8) ? ((left == 5'd0) ? 4'd3 : 4'd4)
-                       : 4'd0;
+  wire [3:0] choice_14 = (round == 2'd3) ? ((left == 5'd0) ? 4'd3 : 4'd4)
+                       : (round == 2'd2) ? ((left == 5'd0) ? 4'd3 : 4'd4)
+                       : (round == 2'd1) ? ((left == 5'd0) ? 4'd3 : 4'd4)
+                       : (left == 5'd0) ? 4'd3
+                       : 4'd4;
+  wire [3:0] choice_15 = (round == 2'd3) ? 4'd4
+                       : (round == 2'd2) ? 4'd4
+                       : (round == 2'd1) ? 4'd4
+                       : 4'd4;
+  wire [3:0] choice_16 = (round == 2'd3) ? ((left == 5'd0) ? 4'd3 : 4'd4)
+                       : (round == 2'd2) ? ((left == 5'd0) ? 4'd3 : 4'd4)
+                       : (round == 2'd1) ? ((left == 5'd0) ? 4'd3 : 4'd4)
+                       : (left == 5'd0) ? 4'd3
+                       : 4'd4;
+  wire [3:0] choice_17 = (round == 2'd3) ? 4'd4
+                       : (round == 2'd2) ? 4'd4
+                       : (round == 2'd1) ? 4'd4
+                       : 4'd4;
+  wire [3:0] choice_18 = (round == 2'd3) ? ((left == 5'd0) ? 4'd3 : 4'd4)
+                       : (round == 2'd2) ? ((left == 5'd0) ? 4'd3 : 4'd4)
+                       : (round == 2'd1) ? ((left == 5'd0) ? 4'd3 : 4'd4)
+                       : (left == 5'd0) ? 4'd3
+                       : 4'd4;
   wire [3:0] step0 = ((at == DOUBLE_START_B) && !rests) ? choice_14
                    : ((at == DOUBLE_B) && !rests) ? choice_15
                    : ((at == DOUBLE_START_A) && !rests) ? choice_16
                    : ((at == DOUBLE_A) && !rests) ? choice_17
                    : ((at == DOUBLE_X) && !rests) ? choice_18
-                   : ((at == DOUBLE_COLUMNS) && !rests) ? ((left < 5'd8) ? 4'd4 : 4'd0)
-                   : ((at == DOUBLE_DX) && !rests) ? ((left < 5'd9) ? ((left == 5'd0) ? 4'd3 : 4'd4) : 4'd0)
+                   : ((at == DOUBLE_COLUMNS) && !rests) ? 4'd4
+                   : ((at == DOUBLE_DX) && !rests) ? ((left == 5'd0) ? 4'd3 : 4'd4)
                    : step;
   reg [3:0] step_next0;
   reg [3:0] step_again0;
@@ -614,102 +679,100 @@ module edgewalk_setup (
     if (advance) step_again0 <= step_formed0;
   end
 
+  // The vertices whose values the lanes are shown.
+  wire either_7 = (at_formed == LOAD_A) || (at_formed == FIX_A);
+  wire either_8 = (at_formed == LOAD_B) || (at_formed == FIX_B);
+  wire both_5 = (either_7 || either_8) && !begins;
+  wire either_9 = (at_formed == FIX_DX) || (at_formed == LOAD2) || (at_formed == FIX2);
+  wire both_6 = either_9 && !begins;
+  wire both_7 = area[31] && ((at_formed == LOAD1) || (at_formed == LOAD2)) && !begins;
+  wire [1:0] from_vertex = both_5 ? ((either_8 && area[31]) ? p1_vertex : p0_vertex)
+                         : both_6 ? (both_7 ? p0_vertex : p2_vertex)
+                         : both_7 ? p1_vertex
+                         : p0_vertex;
+  wire both_8 = ((at_formed == ADD_A) || (at_formed == ADD_B)) && !begins;
+  wire [1:0] to_vertex = both_5 ? ((either_7 && area[31]) ? p1_vertex : p2_vertex)
+                       : both_8 ? (((at_formed == ADD_B) && area[31]) ? p1_vertex : p0_vertex)
+                       : both_6 ? (both_7 ? p2_vertex : p0_vertex)
+                       : both_7 ? p0_vertex
+                       : p1_vertex;
+  wire single_value = both_8;
+  wire either_10 = (at_formed == FIX1) || (at_formed == FIX2);
+  wire either_11 = (at_formed == FIX_DX) || begins;
+  wire values_of_round1 = (either_10 ? round_formed == 2'd0 : round_formed == 2'd1) && !either_11;
+  wire values_of_round2 = (either_10 ? round_formed == 2'd1 : round_formed == 2'd2) && !either_11;
+  wire values_of_round3 = (either_10 ? round_formed == 2'd2 : round_formed == 2'd3) && !either_11;
+
   // Lane 0: what it takes in.
-  wire either_6 = (at_formed == LOAD_DX) || (at_formed == FIX_DX) || (at_formed == LOAD_DY);
-  wire [15:0] extended_5 = {1'b0, dv12};
-  wire [15:0] extended_6 = {1'b0, dv01};
-  wire [15:0] extended_7 = {1'b0, dv02};
-  wire [16:0] choice_19 = (round_formed == 2'd2) ? {extended_5[15], extended_5}
-                        : (round_formed == 2'd1) ? {extended_6[15], extended_6}
-                        : {extended_7[15], extended_7};
+  wire either_12 = (at_formed == LOAD_DX)
+                || (at_formed == LOAD_DY)
+                || ((at_formed == FIX_DX) && !advance);
+  wire [15:0] extended_6 = {1'b0, dv12};
+  wire [15:0] extended_7 = {1'b0, dv01};
+  wire [15:0] extended_8 = {1'b0, dv02};
+  wire [16:0] choice_19 = (round_formed == 2'd2) ? {extended_6[15], extended_6}
+                        : (round_formed == 2'd1) ? {extended_7[15], extended_7}
+                        : {extended_8[15], extended_8};
   wire [15:0] difference_4 = {p2_u[14], p2_u} - {p1_u[14], p1_u};
   wire [16:0] choice_20 = (at_formed == LOAD_DY) ? choice_19
                         : (round_formed == 2'd2) ? {difference_4[15], difference_4}
                         : (round_formed == 2'd1) ? {du01[15], du01}
                         : {du02[15], du02};
-  wire either_7 = (at_formed == LOAD_A) || (at_formed == FIX_A);
-  wire either_8 = (at_formed == LOAD_B) || (at_formed == FIX_B);
-  wire either_9 = (at_formed == LOAD2) || (at_formed == FIX2);
-  wire [16:0] choice_21 = (either_7 || either_8) ? ((either_7 && area[31]) ? {9'd0, p1_b} : {9'd0, p2_b})
-                        : either_9 ? (area[31] ? {9'd0, p2_b} : {9'd0, p0_b})
-                        : area[31] ? {9'd0, p0_b}
-                        : {9'd0, p1_b};
-  wire [16:0] choice_22 = (either_7 || either_8) ? ((either_8 && area[31]) ? {9'd0, p1_b} : {9'd0, p0_b})
-                        : either_9 ? (area[31] ? {9'd0, p0_b} : {9'd0, p2_b})
-                        : area[31] ? {9'd0, p1_b}
-                        : {9'd0, p0_b};
-  wire either_10 = (at_formed == LOAD_A) || (at_formed == FIX_A);
-  wire either_11 = (at_formed == LOAD_B) || (at_formed == FIX_B);
-  wire either_12 = (at_formed == LOAD2) || (at_formed == FIX2);
-  wire [16:0] choice_23 = (either_10 || either_11) ? ((either_10 && area[31]) ? {9'd0, p1_g} : {9'd0, p2_g})
-                        : either_12 ? (area[31] ? {9'd0, p2_g} : {9'd0, p0_g})
-                        : area[31] ? {9'd0, p0_g}
-                        : {9'd0, p1_g};
-  wire [16:0] choice_24 = (either_10 || either_11) ? ((either_11 && area[31]) ? {9'd0, p1_g} : {9'd0, p0_g})
-                        : either_12 ? (area[31] ? {9'd0, p0_g} : {9'd0, p2_g})
-                        : area[31] ? {9'd0, p1_g}
-                        : {9'd0, p0_g};
-  wire either_13 = (at_formed == LOAD_A) || (at_formed == FIX_A);
-  wire either_14 = (at_formed == LOAD_B) || (at_formed == FIX_B);
-  wire either_15 = (at_formed == LOAD2) || (at_formed == FIX2);
-  wire [16:0] choice_25 = (either_13 || either_14) ? ((either_13 && area[31]) ? {9'd0, p1_r} : {9'd0, p2_r})
-                        : either_15 ? (area[31] ? {9'd0, p2_r} : {9'd0, p0_r})
-                        : area[31] ? {9'd0, p0_r}
-                        : {9'd0, p1_r};
-  wire [16:0] choice_26 = (either_13 || either_14) ? ((either_14 && area[31]) ? {9'd0, p1_r} : {9'd0, p0_r})
-                        : either_15 ? (area[31] ? {9'd0, p0_r} : {9'd0, p2_r})
-                        : area[31] ? {9'd0, p1_r}
-                        : {9'd0, p0_r};
-  wire either_16 = (at_formed == LOAD_A) || (at_formed == FIX_A);
-  wire either_17 = (at_formed == LOAD_B) || (at_formed == FIX_B);
-  wire either_18 = (at_formed == LOAD2) || (at_formed == FIX2);
-  wire [16:0] choice_27 = (either_16 || either_17) ? ((either_16 && area[31]) ? {1'b0, p1_z} : {1'b0, p2_z})
-                        : either_18 ? (area[31] ? {1'b0, p2_z} : {1'b0, p0_z})
-                        : area[31] ? {1'b0, p0_z}
-                        : {1'b0, p1_z};
-  wire [16:0] choice_28 = (either_16 || either_17) ? ((either_17 && area[31]) ? {1'b0, p1_z} : {1'b0, p0_z})
-                        : either_18 ? (area[31] ? {1'b0, p0_z} : {1'b0, p2_z})
-                        : area[31] ? {1'b0, p1_z}
-                        : {1'b0, p0_z};
-  wire [16:0] number0 = either_6 ? choice_20  // signed
-                      : (round_formed == 2'd3) ? choice_21 - choice_22
-                      : (round_formed == 2'd2) ? choice_23 - choice_24
-                      : (round_formed == 2'd1) ? choice_25 - choice_26
-                      : choice_27 - choice_28;
+  wire [16:0] choice_21 = values_of_round3 ? {9'd0, vertex2_b}
+                        : values_of_round2 ? {9'd0, vertex2_g}
+                        : values_of_round1 ? {9'd0, vertex2_r}
+                        : {1'b0, vertex2_z};
+  wire [16:0] choice_22 = values_of_round3 ? {9'd0, vertex1_b}
+                        : values_of_round2 ? {9'd0, vertex1_g}
+                        : values_of_round1 ? {9'd0, vertex1_r}
+                        : {1'b0, vertex1_z};
+  wire [16:0] choice_23 = values_of_round3 ? {9'd0, vertex0_b}
+                        : values_of_round2 ? {9'd0, vertex0_g}
+                        : values_of_round1 ? {9'd0, vertex0_r}
+                        : {1'b0, vertex0_z};
+  wire [16:0] choice_24 = values_of_round3 ? 17'd0
+                        : values_of_round2 ? 17'd0
+                        : values_of_round1 ? 17'd0
+                        : 17'd0;
+  wire [16:0] choice_25 = single_value ? choice_24
+                        : from_vertex[1] ? choice_21
+                        : from_vertex[0] ? choice_22
+                        : choice_23;
+  wire [16:0] difference_5 = (to_vertex[1] ? choice_21 : to_vertex[0] ? choice_22 : choice_23)
+                           - choice_25;
+  wire [16:0] number0 = (either_12 && !begins) ? choice_20 : difference_5;  // signed
+  reg [16:0] value0;  // first value, signed
+  wire [15:0] shown = number0[15:0] ^ {16{number0[16]}};
   wire lane0_unfit;
-  wire choice_29 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
-  wire choice_30 = (round_stepped == 2'd3) ? 1'b1
+  wire choice_26 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
+  wire either_13 = ((at_stepped == FIX_A) && (|prim_n1)) || ((at_stepped == FIX_B) && (|prim_n2));
+  wire choice_27 = (round_stepped == 2'd3) ? 1'b1
                  : (round_stepped == 2'd2) ? 1'b1
                  : (round_stepped == 2'd1) ? 1'b1
                  : 1'b1;
-  wire both_5 = choice_30
-             && (!(at_stepped == FIX_A) || (|prim_n1))
-             && (!(at_stepped == FIX_B) || (|prim_n2));
-  assign unfit = lane0_unfit && ((at_stepped == FIX_DX) ? choice_29 : both_5);
+  wire either_14 = ((at_stepped == FIX_DX) && choice_26) || (either_13 && choice_27);
+  assign unfit = lane0_unfit && either_14;
+
+  always @(posedge clk) begin
+    value0 <= number0;
+  end
+
+  always @(posedge clk) begin
+    if (((at_formed == FIX_DX) || (at_formed == FIX2)) && advance) differences <= differences | shown;
+    if (begins || (at_formed == FIX1)) differences <= shown;
+  end
 
   // Edge: major.
   wire [30:0] lane0_value;
-  wire choice_31 = is_sign ? f[16] : digit_f;
-  wire choice_32 = is_sign ? g[16] : digit_g;
+  wire choice_28 = is_sign ? f[16] : digit_f;
+  wire choice_29 = is_sign ? g[16] : digit_g;
   wire [17:0] shifted_5 = $signed({number0[16], number0}) >>> {pause - 4'd2, 1'b0};
-  wire [13:0] part_36 = p1_u[14:1];
-  wire [13:0] part_37 = p0_u[14:1];
+  wire [13:0] part_37 = p1_u[14:1];
   wire [13:0] part_38 = p0_u[14:1];
-  wire [30:0] choice_33 = (round_stepped == 2'd2) ? {{17{part_36[13]}}, part_36}
-                        : (round_stepped == 2'd1) ? {{17{part_37[13]}}, part_37}
-                        : {{17{part_38[13]}}, part_38};
-  wire [22:0] joined = {1'b0, {{p1_b, 1'b1}, 13'd0}};
-  wire [22:0] joined_2 = {1'b0, {{p0_b, 1'b1}, 13'd0}};
-  wire [30:0] choice_34 = ((at_stepped == ADD_B) && area[31]) ? {{8{joined[22]}}, joined}
-                        : {{8{joined_2[22]}}, joined_2};
-  wire [22:0] joined_3 = {1'b0, {{p1_g, 1'b1}, 13'd0}};
-  wire [22:0] joined_4 = {1'b0, {{p0_g, 1'b1}, 13'd0}};
-  wire [30:0] choice_35 = ((at_stepped == ADD_B) && area[31]) ? {{8{joined_3[22]}}, joined_3}
-                        : {{8{joined_4[22]}}, joined_4};
-  wire [22:0] joined_5 = {1'b0, {{p1_r, 1'b1}, 13'd0}};
-  wire [22:0] joined_6 = {1'b0, {{p0_r, 1'b1}, 13'd0}};
-  wire [30:0] choice_36 = ((at_stepped == ADD_B) && area[31]) ? {{8{joined_5[22]}}, joined_5}
-                        : {{8{joined_6[22]}}, joined_6};
+  wire [13:0] part_39 = p0_u[14:1];
+  wire [30:0] choice_30 = (round_stepped == 2'd2) ? {{17{part_37[13]}}, part_37}
+                        : (round_stepped == 2'd1) ? {{17{part_38[13]}}, part_38}
+                        : {{17{part_39[13]}}, part_39};
   wire [30:0] lane0_rest_out_unused;
   wire [30:0] lane0_whole_out_unused;
 
@@ -717,23 +780,22 @@ module edgewalk_setup (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_31 || choice_32), choice_32, choice_31}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_28 || choice_29), choice_29, choice_28}
 : read_single_at),
     .step          (step_formed0),
     .number        (number0),
     .digits        (shifted_5[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? choice_33
-: (round_stepped == 2'd3) ? choice_34
-: (round_stepped == 2'd2) ? choice_35
-: (round_stepped == 2'd1) ? choice_36
-: ((at_stepped == ADD_B) && area[31]) ? {1'b0, {{p1_z, 1'b1}, 13'd0}}
-: {1'b0, {{p0_z, 1'b1}, 13'd0}}),
+    .whole_in      ((at_stepped == COLUMNS) ? choice_30
+: (round_stepped == 2'd3) ? {{value0, 1'b1}, 13'd0}
+: (round_stepped == 2'd2) ? {{value0, 1'b1}, 13'd0}
+: (round_stepped == 2'd1) ? {{value0, 1'b1}, 13'd0}
+: {{value0, 1'b1}, 13'd0}),
     .take_modulus  (take_modulus),
     .modulus_in    ((at_formed == LOAD_B) ? (area[31] ? ~{16'd0, {dv12, 1'b0}} : ~{16'd0, {dv02, 1'b0}})
 : (at_formed == LOAD_A) ? (area[31] ? ~{16'd0, {dv01, 1'b0}} : ~{16'd0, {dv02, 1'b0}})
-: (at_formed == LOAD1) ? (area[31] ? area : ~area)
+: (at_formed == LOAD1) ? scaled
 : (round_formed == 2'd2) ? ~{16'd0, {dv12, 1'b0}}
 : (round_formed == 2'd1) ? ~{16'd0, {dv01, 1'b0}}
 : ~{16'd0, {dv02, 1'b0}}),
@@ -746,61 +808,61 @@ module edgewalk_setup (
   );
 
   wire any_15 = |dv02[14:1];
-  wire [30:0] part_39 = lane0_value;
-
-  always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd0)) begin
-      prim_major_q <= any_15 ? part_39[30:16] : 15'd0;
-      prim_major_f <= any_15 ? part_39[15:0] : 16'd0;
-    end
-  end
-
-  wire [30:0] inverse = ~part_39;
-
-  always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd0)) begin
-      prim_major_c <= -inverse[30:16];
-      prim_major_r <= inverse[15:0];
-    end
-  end
-
-  // Edge: minor1.
-  wire both_6 = (|prim_n1) && (|dv01[14:1]);
   wire [30:0] part_40 = lane0_value;
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd1)) begin
-      prim_minor1_q <= both_6 ? part_40[30:16] : 15'd0;
-      prim_minor1_f <= both_6 ? part_40[15:0] : 16'd0;
+    if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd0)) begin
+      prim_major_q <= any_15 ? part_40[30:16] : 15'd0;
+      prim_major_f <= any_15 ? part_40[15:0] : 16'd0;
     end
   end
 
   wire [30:0] inverse_2 = ~part_40;
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd1)) begin
-      prim_minor1_c <= (|prim_n1) ? -inverse_2[30:16] : 15'd0;
-      prim_minor1_r <= (|prim_n1) ? inverse_2[15:0] : 16'd0;
+    if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd0)) begin
+      prim_major_c <= -inverse_2[30:16];
+      prim_major_r <= inverse_2[15:0];
     end
   end
 
-  // Edge: minor2.
-  wire both_7 = (|prim_n2) && (|dv12[14:1]);
+  // Edge: minor1.
+  wire both_9 = (|prim_n1) && (|dv01[14:1]);
   wire [30:0] part_41 = lane0_value;
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd2)) begin
-      prim_minor2_q <= both_7 ? part_41[30:16] : 15'd0;
-      prim_minor2_f <= both_7 ? part_41[15:0] : 16'd0;
+    if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd1)) begin
+      prim_minor1_q <= both_9 ? part_41[30:16] : 15'd0;
+      prim_minor1_f <= both_9 ? part_41[15:0] : 16'd0;
     end
   end
 
   wire [30:0] inverse_3 = ~part_41;
 
   always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd1)) begin
+      prim_minor1_c <= (|prim_n1) ? -inverse_3[30:16] : 15'd0;
+      prim_minor1_r <= (|prim_n1) ? inverse_3[15:0] : 16'd0;
+    end
+  end
+
+  // Edge: minor2.
+  wire both_10 = (|prim_n2) && (|dv12[14:1]);
+  wire [30:0] part_42 = lane0_value;
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd2)) begin
+      prim_minor2_q <= both_10 ? part_42[30:16] : 15'd0;
+      prim_minor2_f <= both_10 ? part_42[15:0] : 16'd0;
+    end
+  end
+
+  wire [30:0] inverse_4 = ~part_42;
+
+  always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd2)) begin
-      prim_minor2_c <= (|prim_n2) ? -inverse_3[30:16] : 15'd0;
-      prim_minor2_r <= (|prim_n2) ? inverse_3[15:0] : 16'd0;
+      prim_minor2_c <= (|prim_n2) ? -inverse_4[30:16] : 15'd0;
+      prim_minor2_r <= (|prim_n2) ? inverse_4[15:0] : 16'd0;
     end
   end
 
@@ -925,10 +987,10 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, WAIT12, SET_A, ROUND_A, SET_B, ends_fixed, difference[15], difference_2[15], difference_3[15],
-    part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1], shifted_2[14:1], choice_10[14:10],
-    choice_11[14:10], differing[16], differing_2[16], part_25[0], part_28[0], part_32[0], part_35[0],
-    shifted_3[16:1], shifted_4[16:1], shifted_5[17:2]
+    1'b0, WAIT12, SET_A, ROUND_A, SET_B, ends_fixed, less_m[0], difference[15], difference_2[15],
+    difference_3[15], part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1], shifted_2[14:1],
+    part_14[30:0], choice_10[14:10], choice_11[14:10], differing[16], differing_2[16], part_26[0],
+    part_29[0], part_33[0], part_36[0], shifted_3[16:1], shifted_4[16:1], shifted_5[17:2]
   };
 
 endmodule

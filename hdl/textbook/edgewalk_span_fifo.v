@@ -25,6 +25,7 @@ module edgewalk_span_fifo (
   input  wire        in_fence,      // what is in flight may be of the same pixels
   input  wire        out_ready,
 
+  output wire        any_fresh,     // of a token in the queue
   output wire        in_ready,
   output wire        out_valid,
   output wire [14:0] out_x,         // signed, first column
@@ -55,8 +56,7 @@ module edgewalk_span_fifo (
     end
   end
 
-  // The place behind the last token, one further down if the first leaves, takes the input in every cycle; a push makes it count.
-  wire [1:0] end_place = pop ? count - 2'd1 : count;
+  // A free place takes the input in every cycle, the last taken one as its token moves up; a push makes it count.
   reg [14:0] place0_x;      // signed, first column
   reg [8:0] place0_y;       // line
   reg [14:0] place0_count;  // pixels, at least 1
@@ -77,38 +77,27 @@ module edgewalk_span_fifo (
   reg [21:0] place1_b;      // UQ8.14 LSB, modular
   reg place1_fresh;         // first span of the triangle: its increments are new
   reg place1_fence;         // what is in flight may be of the same pixels
-  wire end_is_place0 = end_place == 2'd0;
-  wire end_is_place1 = end_place == 2'd1;
+  wire place0_moves = pop || (count <= 2'd0);
+  wire place0_has_next = count > 2'd1;
+  wire place1_moves = pop || (count <= 2'd1);
 
   always @(posedge clk) begin
-    if (pop) begin
-      place0_x <= place1_x;
-      place0_y <= place1_y;
-      place0_count <= place1_count;
-      place0_leftward <= place1_leftward;
-      place0_z <= place1_z;
-      place0_r <= place1_r;
-      place0_g <= place1_g;
-      place0_b <= place1_b;
-      place0_fresh <= place1_fresh;
-      place0_fence <= place1_fence;
-    end
-    if (end_is_place0) begin
-      place0_x <= in_x;
-      place0_y <= in_y;
-      place0_count <= in_count;
-      place0_leftward <= in_leftward;
-      place0_z <= in_z;
-      place0_r <= in_r;
-      place0_g <= in_g;
-      place0_b <= in_b;
-      place0_fresh <= in_fresh;
-      place0_fence <= in_fence;
+    if (place0_moves) begin
+      place0_x <= place0_has_next ? place1_x : in_x;
+      place0_y <= place0_has_next ? place1_y : in_y;
+      place0_count <= place0_has_next ? place1_count : in_count;
+      place0_leftward <= place0_has_next ? place1_leftward : in_leftward;
+      place0_z <= place0_has_next ? place1_z : in_z;
+      place0_r <= place0_has_next ? place1_r : in_r;
+      place0_g <= place0_has_next ? place1_g : in_g;
+      place0_b <= place0_has_next ? place1_b : in_b;
+      place0_fresh <= place0_has_next ? place1_fresh : in_fresh;
+      place0_fence <= place0_has_next ? place1_fence : in_fence;
     end
   end
 
   always @(posedge clk) begin
-    if (end_is_place1) begin
+    if (place1_moves) begin
       place1_x <= in_x;
       place1_y <= in_y;
       place1_count <= in_count;
@@ -122,6 +111,7 @@ module edgewalk_span_fifo (
     end
   end
 
+  assign any_fresh = ((count > 2'd0) && place0_fresh) || ((count > 2'd1) && place1_fresh);
   assign out_x = place0_x;
   assign out_y = place0_y;
   assign out_count = place0_count;

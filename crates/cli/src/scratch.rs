@@ -1,7 +1,7 @@
 //! Folders that do not outlive the program, even where SIGINT or SIGTERM ends it.
 //!
-//! A signal waits for what must not be cut short (a guard of [`undisturbed`], the making of a file or folder), removes
-//! every scratch folder and ends the program as it would have without a handler. From then on nothing is made any more.
+//! A signal waits for what must not be cut short (a guard of [`undisturbed`], the making of a file or folder), ends the
+//! tools that run, removes every scratch folder and ends the program as it would have without a handler. From then on nothing is made any more.
 
 use anyhow::{Context, Result};
 use signal_hook::consts::{SIGINT, SIGTERM};
@@ -81,7 +81,7 @@ impl Drop for Scratch {
 
 impl Leftover {
     fn remove(&self) {
-        // A tool that still runs may write between the listing and the removal.
+        // A tool that is being ended may write between the listing and the removal.
         for _ in 0..3 {
             if fs::remove_dir_all(&self.scratch).is_ok() {
                 break;
@@ -100,13 +100,14 @@ fn exclusive() -> RwLockWriteGuard<'static, Vec<Leftover>> {
     LIVE.write().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes what is left when a signal ends the program, from now on.
+/// Ends the tools that run and removes what is left when a signal ends the program, from now on.
 pub fn watch_signals() -> Result<()> {
     let mut signals = Signals::new([SIGINT, SIGTERM]).context("signals")?;
     std::thread::spawn(move || {
         for signal in signals.forever() {
             // Held to the end.
             let live = exclusive();
+            edgewalk_tool::end_all();
             live.iter().for_each(Leftover::remove);
             // It ends the program; there is nothing to do if even that fails.
             let _ = emulate_default_handler(signal);

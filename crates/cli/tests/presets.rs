@@ -23,7 +23,7 @@ fn files(folder: &Path) -> BTreeMap<String, String> {
 fn hdl_is_what_is_printed_today() {
     let hdl = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../hdl");
     let mut checked = 0;
-    for preset in ["default", "textbook"] {
+    for preset in ["default", "textbook", "small", "ecp5"] {
         let out = tempfile::tempdir().expect("a folder");
         let printed = out.path().join(preset);
         let status = Command::new(env!("CARGO_BIN_EXE_edgewalk"))

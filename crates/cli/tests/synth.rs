@@ -216,3 +216,41 @@ fn a_tool_that_takes_too_long_is_ended() {
     assert_eq!(code, Some(4), "{said}");
     assert!(said.contains("was ended after 1 s"), "{said}");
 }
+
+#[test]
+fn a_signal_ends_the_tools_too() {
+    use std::os::unix::fs::PermissionsExt;
+    use std::time::{Duration, Instant};
+    let folder = tempfile::tempdir().unwrap();
+    let pid = folder.path().join("pid");
+    let tool = folder.path().join("yosys");
+    std::fs::write(&tool, "#!/bin/sh\necho $$ > pid.new; mv pid.new pid; exec sleep 60\n").unwrap();
+    std::fs::set_permissions(&tool, std::fs::Permissions::from_mode(0o755)).unwrap();
+    let path = format!("{}:{}", folder.path().display(), std::env::var("PATH").unwrap());
+    let signalled = |signal: &str, pid: &str| {
+        let kill = Command::new("kill").args(["-s", signal, pid]).output().unwrap();
+        kill.status.success()
+    };
+    let until = |done: &dyn Fn() -> bool| {
+        let start = Instant::now();
+        while !done() {
+            assert!(start.elapsed() < Duration::from_secs(30), "nothing came of it");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    };
+    for signal in ["INT", "TERM"] {
+        let arguments = ["synth", "--cache", "cache", "--unit", "span", "--seeds", "1"];
+        let mut program = edgewalk(folder.path(), &arguments)
+            .env("PATH", &path)
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .unwrap();
+        until(&|| pid.exists());
+        let tool = std::fs::read_to_string(&pid).unwrap().trim().to_owned();
+        assert!(signalled("0", &tool), "the tool works");
+        assert!(signalled(signal, &program.id().to_string()));
+        assert_eq!(program.wait().unwrap().code(), None, "SIG{signal} ends it");
+        until(&|| !signalled("0", &tool));
+        std::fs::remove_file(&pid).unwrap();
+    }
+}

@@ -129,7 +129,7 @@ mod tests {
             let machine = Machine::preset(name).expect("listed");
             assert!(machine.plan().is_ok(), "{name}");
         }
-        assert_eq!(PRESETS.len(), 2);
+        assert_eq!(PRESETS.len(), 4);
     }
 
     #[test]

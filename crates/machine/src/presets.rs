@@ -8,6 +8,8 @@ use crate::plan::Plan;
 pub const PRESETS: &[(&str, &str)] = &[
     ("default", "640x480, exact fill, 24-bit depth, 8-bit colour, one pixel a clock"),
     ("textbook", "chapter 7: integer vertices, inclusive spans, slopes, one shared adder pipeline"),
+    ("small", "240x160, 16-bit depth, 5-bit colour, one pixel a clock, one lane: for an iCE40 UP5K"),
+    ("ecp5", "640x480, 16-bit depth, 8-bit colour, one pixel a clock, one lane: for a small ECP5"),
 ];
 
 impl Machine {
@@ -28,8 +30,34 @@ impl Machine {
                 hazard: Hazard::Drain,
                 ..Machine::default()
             }),
+            "small" => Some(Machine {
+                width: 240,
+                height: 160,
+                guard_bits: 8,
+                z: Precision { bits: 16, fraction: 10, vertex_fraction: 0 },
+                color: Precision { bits: 5, fraction: 10, vertex_fraction: 0 },
+                span_fifo: 1,
+                inflight: 2,
+                latency: 1,
+                ..narrow()
+            }),
+            "ecp5" => Some(narrow()),
             _ => None,
         }
+    }
+}
+
+/// Coordinates and words as short as the screen allows, one lane: SETUP takes three times as long as with four. Fragments wait
+/// between triangles, which costs a few clocks where a triangle takes hundreds.
+fn narrow() -> Machine {
+    Machine {
+        guard_bits: 10,
+        subpixel_bits: 4,
+        z: Precision { bits: 16, fraction: 12, vertex_fraction: 0 },
+        color: Precision { bits: 8, fraction: 12, vertex_fraction: 0 },
+        lanes: 1,
+        hazard: Hazard::Drain,
+        ..Machine::default()
     }
 }
 

@@ -29,7 +29,8 @@ pub struct Span<const C: usize> {
     fifo: Fifo<tokens::Span<C>, 64>,
     pend_fresh: bool,
     pend_fence: bool,
-    fresh_in_fifo: bool,
+    /// Tokens with fresh in the FIFO.
+    fresh_in_fifo: u32,
 }
 
 impl<const C: usize> Span<C> {
@@ -44,7 +45,7 @@ impl<const C: usize> Span<C> {
             fifo: Fifo::default(),
             pend_fresh: false,
             pend_fence: false,
-            fresh_in_fifo: false,
+            fresh_in_fifo: 0,
         }
     }
 
@@ -54,7 +55,7 @@ impl<const C: usize> Span<C> {
         self.fifo.clear();
         self.pend_fresh = false;
         self.pend_fence = false;
-        self.fresh_in_fifo = false;
+        self.fresh_in_fifo = 0;
     }
 
     /// A line can be taken: none is held, or the one that is moves on.
@@ -95,7 +96,7 @@ impl<const C: usize> Span<C> {
     #[inline]
     #[must_use]
     pub fn fresh_queued(&self) -> bool {
-        self.fresh_in_fifo || self.held.as_ref().is_some_and(|line| line.fresh | self.pend_fresh)
+        self.fresh_in_fifo > 0 || self.held.as_ref().is_some_and(|line| line.fresh | self.pend_fresh)
     }
 
     /// Clock edge; `line`: the one taken, if `line_ready`.
@@ -103,7 +104,7 @@ impl<const C: usize> Span<C> {
     pub fn step(&mut self, line: Option<&Line<C>>, span_ready: bool, events: &mut Events) {
         let (ready, room) = (self.line_ready(), self.has_room());
         if span_ready && !self.fifo.is_empty() {
-            self.fresh_in_fifo &= !self.fifo.head().fresh;
+            self.fresh_in_fifo -= u32::from(self.fifo.head().fresh);
             self.fifo.pop();
         }
         if room && let Some(held) = self.held.take() {
@@ -139,7 +140,7 @@ impl<const C: usize> Span<C> {
             fence,
             source: line.source,
         });
-        self.fresh_in_fifo |= fresh;
+        self.fresh_in_fifo += u32::from(fresh);
         self.pend_fresh = false;
         self.pend_fence = false;
         events.scissor_cut += u64::from(if leftward { start < 0 } else { end > self.width });

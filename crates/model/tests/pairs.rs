@@ -202,7 +202,7 @@ impl<'a> Work<'a> {
             clocks += self.edge_round(round, &mut edges);
         }
         let dv2 = p2.v - p0.v;
-        (edges.try_into().expect("three edges"), clocks.max(u(&[dv2]) + 2))
+        (edges.try_into().expect("three edges"), clocks.max(u(&[dv2]) + 4 + self.scale(0)))
     }
 
     fn edge_round(&self, round: &[Task], edges: &mut Vec<EdgeWalk>) -> u32 {
@@ -251,11 +251,30 @@ impl<'a> Work<'a> {
     /// Fills in the words of all channels; S2.
     fn channels(&self, prim: &mut Prim<MAX_CHANNELS>) -> u32 {
         let channels: Vec<_> = self.plan.channels().iter().enumerate().collect();
-        channels.chunks(self.plan.lanes as usize).map(|round| self.channel_round(round, prim)).sum::<u32>()
-            + 4
+        let mut clocks = 4;
+        for (number, round) in channels.chunks(self.plan.lanes as usize).enumerate() {
+            let last = channels.len() <= (number + 1) * self.plan.lanes as usize;
+            let least = if last { 0 } else { 8 + self.scale(number + 1) };
+            clocks += self.channel_round(round, self.scale(number), prim).max(least);
+        }
+        clocks
     }
 
-    fn channel_round(&self, round: &[(usize, &Channel)], prim: &mut Prim<MAX_CHANNELS>) -> u32 {
+    /// i of a round: the modulus |area|·4^i takes in all its differences, of either sign.
+    fn scale(&self, round: usize) -> u32 {
+        let lanes = self.plan.lanes as usize;
+        let [p0, p1, p2] = self.corners;
+        let channels = (0..self.plan.channels().len()).skip(round * lanes).take(lanes);
+        let differences = channels.flat_map(|i| [p1.values[i] - p0.values[i], p0.values[i] - p2.values[i]]);
+        let all = differences.map(|d| if d < 0 { -d - 1 } else { d }).fold(0, |all, d| all | d);
+        let mut i = 0;
+        while self.area != 0 && all + i128::from(self.area < 0) >= self.area.abs() << (2 * i) {
+            i += 1;
+        }
+        i
+    }
+
+    fn channel_round(&self, round: &[(usize, &Channel)], scale: u32, prim: &mut Prim<MAX_CHANNELS>) -> u32 {
         let [p0, p1, p2] = self.corners;
         let (t, p) = (self.t, 1i128 << self.t);
         let (dv1, dv2) = (p1.v - p0.v, p2.v - p0.v);
@@ -265,28 +284,28 @@ impl<'a> Work<'a> {
         let doublings =
             |more: u32| round.iter().map(|(_, c)| (more + up(c)).div_ceil(2)).max().expect("a channel");
         let lane = |channel: &Channel, m: i128| Lane { m, bits: channel.word() + t };
-        let area = self.area.abs();
+        let modulus = self.area.abs() << (2 * scale);
         let dc1 = |i: usize| sigma * (p1.values[i] - p0.values[i]);
         let dc2 = |i: usize| -sigma * (p2.values[i] - p0.values[i]);
         let tested =
             |m: i128, number: &dyn Fn(usize) -> i128| round.iter().all(|(i, c)| lane(c, m).fits(number(*i)));
-        let [fit1, fit2] = [tested(area, &dc1), tested(area, &dc2)];
+        assert!(tested(modulus, &dc1) && tested(modulus, &dc2), "scaled so that all fit");
         let along = u(&[dv2, dv1]);
-        let mut clocks = takes(fit1, bits) + takes(fit2, bits) + 2 + 2 + along + doublings(t);
+        let mut clocks = 2 + 2 + 2 + 2 + along + scale + doublings(t);
         let q = i128::from(prim.major.q);
         let px = i128::from(prim.major.c) - i128::from(prim.major_right);
         let (down, across) = ([p0.u - p2.u, p0.u - p1.u], [px * p - p0.u, i128::from(prim.line) * p - p0.v]);
         for (i, channel) in round {
-            let (i, lane) = (*i, lane(channel, area));
+            let (i, lane) = (*i, lane(channel, modulus));
             let word = |value: i128| (value & ((1 << channel.word()) - 1)) as u64;
-            let first = lane.take_in(dc1(i), fit1, bits);
-            let second = lane.take_in(dc2(i), fit2, bits);
+            let first = lane.take_in(dc1(i), true, bits);
+            let second = lane.take_in(dc2(i), true, bits);
             let both = [first, second];
-            let gx = lane.double(lane.sum([dv2, dv1], both, along, false), t + up(channel));
+            let gx = lane.double(lane.sum([dv2, dv1], both, along, false), 2 * scale + t + up(channel));
             let sign = if prim.major_right && self.plan.fill == Fill::Exact { -1 } else { 1 };
             prim.gradient[i] = word(sign * lane.round(gx));
             if self.plan.fill == Fill::Exact {
-                let gy = lane.double(lane.sum(down, both, s(&down), true), t + up(channel));
+                let gy = lane.double(lane.sum(down, both, s(&down), true), 2 * scale + t + up(channel));
                 let d0 = lane.sum([q, 1], [gx, gy], s(&[q]), true);
                 let d1 = lane.add(d0, gx);
                 prim.delta[0][i] = word(lane.round(d0));
@@ -297,7 +316,7 @@ impl<'a> Work<'a> {
             }
         }
         if self.plan.fill == Fill::Exact {
-            let gy = 1 + s(&down) + doublings(t) + 1;
+            let gy = 1 + s(&down) + scale + doublings(t) + 1;
             return clocks + gy + 2 + s(&[q]) + 1 + 1 + s(&across) + 1;
         }
         for part in 0..2 {
@@ -364,7 +383,8 @@ fn ticked(setup: &mut Setup<MAX_CHANNELS>, triangle: &Triangle) -> (u32, Option<
         setup.step(None, false, events);
         cycles += 1;
     }
-    let prim = setup.prim().map(|prim| Prim { source: Default::default(), ..*prim });
+    // k_t is handed on and records are counted: neither is set up.
+    let prim = setup.prim().map(|prim| Prim { source: Default::default(), kt: 0, record: 0, ..*prim });
     if prim.is_some() {
         setup.step(None, true, events);
     }

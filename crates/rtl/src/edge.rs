@@ -76,8 +76,9 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     // The values step by whether the edge carries. So its R is one line ahead, and the carry stands in a register.
     let (first_carry, first_r) = less(of_prim("r"), of_prim("f"), prim.get("major_m"), "first");
     let (next_carry, next_r) = less(major["r"].q(), major["f"].q(), major.get("m").map(Reg::q), "major");
-    let carry = m.reg("carry", 1).doc("the major edge carries in its next step");
-    carry.when(line_done, next_carry).when(load, first_carry);
+    let carry =
+        m.reg("carry", 1).doc("the major edge carries in its next step; 0 between triangles").reset(0);
+    carry.when(line_done, next_carry).when(step & last, 0).when(load, first_carry);
     major["r"].when(line_done, next_r);
     take_columns(&major, line_done, carry.q());
     major.load(load, |f| if f == "r" { first_r } else { of_prim(f) });
@@ -103,6 +104,9 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
             register.when(load, value);
         }
     }
+    if plan.fill == Fill::Exact {
+        m.comment("Between triangles what is added is the start: it needs no choice behind the adder.");
+    }
     for channel in plan.channels().iter().map(|channel| channel.name) {
         let of_prim = |result: &str| prim[format!("{channel}_{result}").as_str()];
         let held = |result: &str| {
@@ -114,7 +118,9 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         match plan.fill {
             Fill::Exact => {
                 let (d0, d1) = (held("d0"), held("d1"));
-                value.when(step, value.q() + carry.mux(d1, d0)).when(load, of_prim("start"));
+                let added =
+                    carry.mux(d1, running.q().mux(d0, of_prim("start"))).named(&format!("{channel}_added"));
+                value.when(step | load, running.q().mux(value.q() + added, added));
             }
             Fill::Textbook => {
                 let (d_a, start_b, d_b) = (held("d_a"), held("start_b"), held("d_b"));

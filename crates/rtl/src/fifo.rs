@@ -6,8 +6,13 @@ use edgewalk_netlist::{BuildErrors, Module, Netlist};
 
 use crate::wires::{Part, Registers, Token};
 
-/// The queue's netlist, for tokens of these parts.
-pub(crate) fn fifo(name: &str, depth: u32, parts: &[Part]) -> Result<Arc<Netlist>, BuildErrors> {
+/// The queue's netlist, for tokens of these parts; says of `flags` whether any token in it has one.
+pub(crate) fn fifo(
+    name: &str,
+    depth: u32,
+    parts: &[Part],
+    flags: &[&str],
+) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new(
         name,
         &format!(
@@ -33,17 +38,26 @@ Rules: in_ready does not look at out_ready: a full queue takes nothing in, even 
     let pop = (out_valid & out_ready).named("pop");
     count.when(push & !pop, count.q() + 1).when(pop & !push, count.q() - 1);
 
-    // in_valid, which may come late in its cycle, leads to no place.
-    m.comment("The place behind the last token, one further down if the first leaves, takes the input in every cycle; a push makes it count.");
-    let end = pop.mux(count.q() - 1, count).named("end_place");
+    // in_valid and out_ready may come late in their cycle: the one leads to no place, the other only to their enables.
+    m.comment("A free place takes the input in every cycle, the last taken one as its token moves up; a push makes it count.");
     let places: Vec<_> =
         (0..depth).map(|i| Registers::new(&m, &format!("place{i}"), parts.to_vec())).collect();
     for (i, place) in places.iter().enumerate() {
-        let is_end = end.eq(i as i32).named(&format!("end_is_place{i}"));
-        if let Some(behind) = places.get(i + 1) {
-            place.load(pop, |f| behind[f].q());
+        let moves = (pop | count.q().le(i as i32)).named(&format!("place{i}_moves"));
+        match places.get(i + 1) {
+            Some(behind) => {
+                let follows = count.q().gt(i as i32 + 1).named(&format!("place{i}_has_next"));
+                place.load(moves, |f| follows.mux(behind[f], token[f]));
+            }
+            None => place.load(moves, |f| token[f]),
         }
-        place.load(is_end, |f| token[f]);
+    }
+    for flag in flags {
+        let mut any = m.lit(1, 0);
+        for (i, place) in places.iter().enumerate() {
+            any = any | (count.q().gt(i as i32) & place[*flag].q());
+        }
+        m.output_doc(&format!("any_{flag}"), any, "of a token in the queue");
     }
 
     m.output("in_ready", in_ready);

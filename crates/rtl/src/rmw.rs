@@ -220,16 +220,21 @@ impl<'m> Rmw<'m> {
         self.m.comment("The queue moves up when its head leaves; what enters goes behind the last.");
         let (push, count) = (enter.push, self.count);
         count.when(push & !pop, count.q() + 1).when(pop & !push, count.q() - 1);
-        let end = pop.mux(count.q() - 1, count).named("end_place");
-        let enters = |i| (push & end.eq(i as i32)).named(&format!("enters{i}"));
-        let enters: Vec<Signal> = (0..self.places.len()).map(enters).collect();
+        // A free place takes what may enter in every cycle: neither push nor pop, which may come late, leads into an entry.
         for (i, place) in self.places.iter().enumerate() {
-            if let Some(behind) = self.places.get(i + 1) {
-                place.entry.load(pop, |f| behind.entry[f].q());
+            let moves = (pop | count.q().le(i as i32)).named(&format!("place{i}_moves"));
+            match self.places.get(i + 1) {
+                Some(behind) => {
+                    let follows = count.q().gt(i as i32 + 1).named(&format!("place{i}_has_next"));
+                    place.entry.load(moves, |f| follows.mux(behind.entry[f], value(f)));
+                }
+                None => place.entry.load(moves, &value),
             }
-            place.entry.load(enters[i], &value);
         }
         if self.hazard == Hazard::Forward {
+            let end = pop.mux(count.q() - 1, count).named("end_place");
+            let enters = |i| (push & end.eq(i as i32)).named(&format!("enters{i}"));
+            let enters: Vec<Signal> = (0..self.places.len()).map(enters).collect();
             self.forward(value("addr"), pop, &enters);
         }
     }

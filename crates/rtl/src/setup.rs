@@ -12,6 +12,8 @@ mod lines;
 
 mod area;
 
+mod scale;
+
 mod factors;
 
 mod lane;
@@ -34,12 +36,13 @@ use area::Area;
 use control::Control;
 use lines::Lines;
 use results::Results;
+use scale::Scale;
 use sort::Vertices;
 
 const DOC: &str = "SETUP turns three vertices into edges and increments.
 
   tri ─> [sorted by v] ─┬─> lines j0 j1 n1 n2, columns ─> none? culled
-                        ├─> area ─> major_right; 0? culled
+                        ├─> area ─> major_right; 0? culled; fourfold till values fit: M
                         └─> differences ─> lanes ─┬─> three edges: q f, C R ──────────────┬─> prim
                                                   └─> N channels: g, d0, d1, start ───────┘
             a lane holds a pair, whole + rest / M: quotient and exact remainder, doubled and added to
@@ -77,6 +80,7 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         record.reset((1 << plan.shade.record_bits) - 1).when(control.take, record.q() + 1);
     }
     let area = Area::new(&m, plan, &control, &vertices);
+    let scale = Scale::new(&m, plan, &control, &area);
     let lines = Lines::new(&m, plan, &control, &vertices, &prim, &area);
     let sources = factors::Sources {
         m: &m,
@@ -90,11 +94,19 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let factors = sources.factors();
 
     let lanes = lanes::lanes(&m, plan, &control, &factors)?;
-    let sources =
-        operands::Sources { m: &m, plan, control: &control, vertices: &vertices, area: &area, prim: &prim };
-    for lane in &lanes {
-        sources.connect(lane);
-    }
+    let values = operands::Values::new(&m, plan, &control, &vertices, &area);
+    let sources = operands::Sources {
+        m: &m,
+        plan,
+        control: &control,
+        vertices: &vertices,
+        area: &area,
+        scale: &scale,
+        prim: &prim,
+        values: &values,
+    };
+    let numbers: Vec<_> = lanes.iter().map(|lane| sources.connect(lane)).collect();
+    scale.gather(plan, &control, &numbers);
     let unfit = lanes.iter().map(|lane| lane.instance.output("unfit") & sources.needed(lane));
     control.unfit.drive(unfit.reduce(|any, one| any | one).unwrap_or(m.lit(1, 0)));
     Results { m: &m, plan, control: &control, vertices: &vertices, area: &area, prim: &prim }.take(&lanes);

@@ -47,8 +47,8 @@ pub fn shadow(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let found = find(plan, shadow_on, tx, ty, d);
 
     m.comment("A fragment enters when the queue has room, in the cycle its texel is read; one that is known is not read for.");
-    let queue =
-        m.instance("queue", &fifo("edgewalk_shadow_fifo", plan.shadow.queue, &entry_parts(plan, &frag))?);
+    let queue = m
+        .instance("queue", &fifo("edgewalk_shadow_fifo", plan.shadow.queue, &entry_parts(plan, &frag), &[])?);
     let room = queue.output("in_ready");
     let mrd_valid = (frag_valid & room & !found.known).named("mrd_valid");
     let read_done = (found.known | memory.read_ready).named_doc("read_done", "or not asked for");

@@ -37,7 +37,7 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 
     m.comment("The line held, cut where it ends.");
     let fields = parts(&tokens::span(plan));
-    let queue = fifo("edgewalk_span_fifo", plan.span_fifo, &fields)?;
+    let queue = fifo("edgewalk_span_fifo", plan.span_fifo, &fields, &["fresh"])?;
     let queue = m.instance("queue", &queue);
     let room = queue.output("in_ready");
     let line_held = m.reg("line_held", 1).doc("a line stands before the queue").reset(0);
@@ -83,9 +83,8 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let span_valid = queue.output("out_valid");
 
     m.comment("While a triangle's first span is queued, or may come of the line held, EDGE must keep its increments.");
-    let fresh_in_queue = m.reg("fresh_in_queue", 1).doc("the first span of a triangle is queued").reset(0);
-    fresh_in_queue.when(span_valid & span_ready & span["fresh"], 0).when(push & fresh, 1);
-    let fresh_queued = fresh_in_queue.q() | (line_held.q() & fresh);
+    let fresh_in_queue = queue.output("any_fresh").named("fresh_in_queue");
+    let fresh_queued = fresh_in_queue | (line_held.q() & fresh);
 
     ports.take_ready(line_ready);
     ports.give(span_valid, |f| span[f]);

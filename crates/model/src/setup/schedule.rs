@@ -62,8 +62,8 @@ impl Job {
         "sums up E, the edge at its first line: a bit of both factors a clock",
         "adds the whole part: the column C, and R from the rest",
         "doubles and rounds: the column with its fraction bits",
-        "waits for the area",
-        "every lane takes in dc1 of its channel as whole + rest / |area|",
+        "waits for the area, and for its scale: fourfold until the differences of values fit",
+        "every lane takes in dc1 of its channel as whole + rest / M, M the area, scaled",
         "takes in -dc2",
         "adds the two pairs",
         "waits until the pairs stand",
@@ -158,7 +158,7 @@ impl<const C: usize> Work<'_, C> {
             }
         }
         let so_far: u32 = jobs.iter().map(|(_, clocks)| clocks).sum();
-        let area = bits([c.v - a.v]) + 2;
+        let area = bits([c.v - a.v]) + 4 + self.scale(0);
         jobs.extend((area > so_far).then(|| (Job::Area, area - so_far)));
         jobs
     }
@@ -166,7 +166,6 @@ impl<const C: usize> Work<'_, C> {
     fn channels(&self) -> Vec<(Job, u32)> {
         let plan = self.plan;
         let [a, b, c] = &self.sorted.corners;
-        let m = self.sorted.area().abs();
         let (dv1, dv2) = (b.v - a.v, c.v - a.v);
         let mut jobs = Vec::new();
         for (round, channels) in plan.channels().chunks(plan.lanes as usize).enumerate() {
@@ -181,20 +180,15 @@ impl<const C: usize> Work<'_, C> {
                     channels.iter().map(|c| (whole * self.t + c.fraction - c.vertex_fraction).div_ceil(2));
                 each.max().unwrap_or(0)
             };
-            let difference = |to: usize, from: usize, sign: i64| -> Vec<(i64, i64)> {
-                let corners = &self.sorted.corners;
-                places().map(|i| (sign * (corners[to].values[i] - corners[from].values[i]), m)).collect()
-            };
-            let sign = self.sorted.area().signum();
-            jobs.push((Job::TakeDc1, take(Box::new(difference(1, 0, sign).into_iter()))));
-            jobs.push((Job::TakeDc2, take(Box::new(difference(2, 0, -sign).into_iter()))));
-            jobs.extend([(Job::AddPairs, 2), (Job::WaitPairs, 2), (Job::Gx, bits([dv2, dv1]) + dbl(1))]);
+            let (begins, scale) = (jobs.len(), self.scale(round));
+            jobs.extend([(Job::TakeDc1, 2), (Job::TakeDc2, 2), (Job::AddPairs, 2), (Job::WaitPairs, 2)]);
+            jobs.push((Job::Gx, bits([dv2, dv1]) + scale + dbl(1)));
             match plan.fill {
                 Fill::Exact => {
                     let x = i64::from(self.prim.major.c) - i64::from(self.prim.major_right);
                     let first = [(x << self.t) - a.u, (i64::from(self.prim.line) << self.t) - a.v];
                     jobs.extend([
-                        (Job::Gy, 1 + signed_bits([a.u - c.u, a.u - b.u]) + dbl(1)),
+                        (Job::Gy, 1 + signed_bits([a.u - c.u, a.u - b.u]) + scale + dbl(1)),
                         (Job::AddGx, 1),
                         (Job::WaitGx, 2),
                         (Job::D0, signed_bits([i64::from(self.prim.major.q)])),
@@ -224,9 +218,25 @@ impl<const C: usize> Work<'_, C> {
                     }
                 }
             }
+            if (round + 1) * (plan.lanes as usize) < plan.channels().len() {
+                let taken: u32 = jobs[begins..].iter().map(|(_, clocks)| clocks).sum();
+                let scaled = 8 + self.scale(round + 1);
+                jobs.extend((scaled > taken).then(|| (Job::Area, scaled - taken)));
+            }
         }
         jobs.push((Job::Behind, 4));
         jobs
+    }
+
+    /// How often the area is fourfold for a round of channels.
+    fn scale(&self, round: usize) -> u32 {
+        let lanes = self.plan.lanes as usize;
+        let [a, b, c] = &self.sorted.corners;
+        let places = (round * lanes..self.plan.channels().len()).take(lanes);
+        let differences = places.flat_map(|i| [b.values[i] - a.values[i], a.values[i] - c.values[i]]);
+        let longest = differences.fold(0, |all, d| all | if d < 0 { -d - 1 } else { d });
+        let (area, right) = (self.sorted.area().abs(), i64::from(self.sorted.area() < 0));
+        if area == 0 { 0 } else { (0..).find(|i| longest + right < area << (2 * i)).unwrap_or(0) }
     }
 }
 

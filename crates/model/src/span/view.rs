@@ -33,7 +33,7 @@ impl<const C: usize> Span<C> {
         view.flag(
             "fresh_in_queue",
             "the first span of a triangle waits: PIXEL needs the increments",
-            self.fresh_in_fifo,
+            self.fresh_in_fifo > 0,
         );
         view.wire(|| "fresh_in_queue".to_owned());
         view.flag("pend_fresh", "a first line was dropped", self.pend_fresh);

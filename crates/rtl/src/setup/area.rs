@@ -13,6 +13,10 @@ pub(super) struct Area<'m> {
     pub signed: Signal<'m>,
     /// It is below 0: the major edge lies right.
     pub negative: Signal<'m>,
+    /// It is summed up.
+    pub adds: Signal<'m>,
+    /// In the last clock of that.
+    pub ends: Signal<'m>,
 }
 
 impl<'m> Area<'m> {
@@ -32,8 +36,7 @@ impl<'m> Area<'m> {
         let added = (part(tall, vertices.du1) - part(upper, vertices.du2)).named("area_part");
         let area = m.reg("area", bits).doc("1/P^2 px^2, signed");
         area.when(adds.q(), area.q().shl(1) + added.sext(bits)).when(control.begin, 0);
-        control.area_known.drive(!adds.q() & !control.begin);
         control.no_area.drive(!area.q().any());
-        Area { signed: area.q(), negative: area.q().msb() }
+        Area { signed: area.q(), negative: area.q().msb(), adds: adds.q(), ends: adds.q() & last }
     }
 }

@@ -1,9 +1,9 @@
 //! The sequence of setup: its states, the operation that begins in a clock, and how far it has come on its way.
 
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Channel, Fill, Plan};
 use edgewalk_netlist::{Module, Reg, Signal, Wire};
 
-use super::steps::{Length, Op, channel_of, rounds};
+use super::steps::{Length, Op, channel_of, most_scale, round_clocks, rounds};
 
 /// An operation on its way through the lanes: where it is in a clock.
 pub(super) struct Stage<'m> {
@@ -81,6 +81,8 @@ pub(super) struct Control<'m> {
     pub area_known: Wire<'m>,
     /// To be driven: it is 0.
     pub no_area: Wire<'m>,
+    /// To be driven: how often the modulus of the round of channels is fourfold.
+    pub scale: Wire<'m>,
     /// To be driven: a number that is needed did not fit.
     pub unfit: Wire<'m>,
     /// To be driven: place of the first digit of the next sum.
@@ -102,8 +104,10 @@ impl<'m> Control<'m> {
         let (first_channel, last_channel) = (last_edge + 1, ops.len() - 1);
 
         let nothing = m.wire("nothing", 1).doc("no line, or no column, of the screen");
-        let area_known = m.wire("area_known", 1);
+        let area_known = m.wire("area_known", 1).doc("and scaled for the next round of channels");
         let no_area = m.wire("no_area", 1);
+        let scale =
+            m.wire("scale", most_scale(plan).ilog2() + 1).doc("the modulus is the area 4^scale times");
         let unfit = m.wire("unfit", 1).doc("a number was taken in that is not between -M and M");
         let longest = ops.iter().map(|op| clocks(plan, *op)).max().unwrap_or(1).max(4);
         let digits = plan.widths().difference; // a sum has as many at most, without the sign
@@ -123,8 +127,8 @@ impl<'m> Control<'m> {
         let with = |a: Signal<'m>, b: Option<Signal<'m>>| b.map_or(a, |b| a & b);
 
         m.comment("Numbers that do not fit hold up what follows: three clocks, and one for two digits.");
-        let most_pairs =
-            (0..most).map(|round| pairs(plan, round)).chain([edge_pairs(plan)]).max().unwrap_or(1);
+        let of_parts = (0..most).filter(|_| plan.fill == Fill::Textbook).map(|round| pairs(plan, round));
+        let most_pairs = of_parts.chain([edge_pairs(plan)]).max().unwrap_or(1);
         let pause = m.reg("pause", (most_pairs + 3).ilog2() + 1).doc("clocks left of it").reset(0);
         let advance = pause.q().eq(0).named("advance");
 
@@ -141,7 +145,13 @@ impl<'m> Control<'m> {
         let last = (left.q().eq(0)).named_doc("last", "last clock of the operation");
         let edges_end =
             with(in_edges & last & is_at(last_edge), is_round(edge_rounds - 1)).named("edges_end");
-        let waits = (edges_end & !area_known.q()).named_doc("waits", "for the area");
+        let mut begins_channels = edges_end;
+        if channel_rounds > 1 {
+            let turn = state.q().eq(channels) & last & is_at(last_channel);
+            let turn = is_round(channel_rounds - 1).map_or(turn, |is_last| turn & !is_last);
+            begins_channels = edges_end | turn.named("round_ends");
+        }
+        let waits = (begins_channels & !area_known.q()).named_doc("waits", "for the area or its scale");
         let ends = (works & last & !waits & !gives_up).named_doc("ends", "the operation ends");
         let leaves = (ends & advance).named("leaves");
         let channels_end = with(is_at(last_channel), is_round(channel_rounds - 1)).named("channels_end");
@@ -170,7 +180,15 @@ impl<'m> Control<'m> {
 
         m.comment("How long the next operation takes.");
         let doubled = |op: Op, round: usize| {
-            m.lit(left_bits, u128::from(round_doublings(plan, op, round).div_ceil(2).max(1)) - 1)
+            let (Length::Doublings(doublings) | Length::Scaled(doublings)) = op.doing().length else {
+                return m.lit(left_bits, 0);
+            };
+            m.lit(left_bits, u128::from(round_clocks(plan, doublings, op.is_of_edge(plan), round).max(1)) - 1)
+        };
+        let of_channels = |op: Op| {
+            (1..channel_rounds).fold(doubled(op, 0), |chosen, number| {
+                is_round(number).map_or(chosen, |is| is.mux(doubled(op, number), chosen))
+            })
         };
         let mut length = m.lit(left_bits, 0);
         for (before, (op, _)) in codes.iter().enumerate().skip(1).map(|(i, code)| (i - 1, code)) {
@@ -179,9 +197,8 @@ impl<'m> Control<'m> {
                 Length::Clocks(clocks) => m.lit(left_bits, u128::from(clocks) - 1),
                 Length::Digits => top_digit.q(),
                 Length::Doublings(_) if op.is_of_edge(plan) => doubled(*op, 0),
-                Length::Doublings(_) => (1..channel_rounds).fold(doubled(*op, 0), |chosen, number| {
-                    is_round(number).map_or(chosen, |is| is.mux(doubled(*op, number), chosen))
-                }),
+                Length::Doublings(_) => of_channels(*op),
+                Length::Scaled(_) => of_channels(*op) + scale.q().zext(left_bits),
             };
             length = is_at(before).mux(clocks, length);
         }
@@ -235,11 +252,11 @@ impl<'m> Control<'m> {
         let rest = moved(&held("rest"), None, &stepped);
         let whole = moved(&held("whole"), None, &rest);
         let needed = |round: usize| m.lit(pause.q().width(), u128::from(pairs(plan, round)) + 3);
-        let of_channels = stepped.of_round(channel_rounds, needed);
-        let of_edges = m.lit(pause.q().width(), u128::from(edge_pairs(plan)) + 3);
-        pause
-            .when(!advance, pause.q() - 1)
-            .when(advance & unfit.q(), stepped.is(Op::FixDx).mux(of_edges, of_channels));
+        let mut clocks = m.lit(pause.q().width(), u128::from(edge_pairs(plan)) + 3);
+        if plan.fill == Fill::Textbook {
+            clocks = stepped.is(Op::FixDx).mux(clocks, stepped.of_round(channel_rounds, needed));
+        }
+        pause.when(!advance, pause.q() - 1).when(advance & unfit.q(), clocks);
 
         Control {
             idle: is_idle,
@@ -259,6 +276,7 @@ impl<'m> Control<'m> {
             nothing,
             area_known,
             no_area,
+            scale,
             unfit,
             top_digit,
         }
@@ -270,20 +288,14 @@ fn clocks(plan: &Plan, op: Op) -> u32 {
     match op.doing().length {
         Length::Clocks(clocks) => clocks,
         Length::Digits => 1,
-        Length::Doublings(number) => {
-            plan.channels().iter().map(|c| number(plan, c).div_ceil(2)).max().unwrap_or(1)
-        }
+        Length::Doublings(number) => most_clocks(plan, number),
+        Length::Scaled(number) => most_clocks(plan, number) + most_scale(plan),
     }
 }
 
-/// The doublings of an operation in a round, of the channel that needs the most.
-fn round_doublings(plan: &Plan, op: Op, round: usize) -> u32 {
-    let Length::Doublings(number) = op.doing().length else { return 0 };
-    if op.is_of_edge(plan) {
-        return number(plan, &plan.channels()[0]);
-    }
-    let channels = (0..plan.lanes as usize).filter_map(|lane| channel_of(plan, lane, round));
-    channels.map(|channel| number(plan, &channel)).max().unwrap_or(1)
+/// Clocks of the channel that is doubled the most.
+fn most_clocks(plan: &Plan, doublings: fn(&Plan, &Channel) -> u32) -> u32 {
+    plan.channels().iter().map(|channel| doublings(plan, channel).div_ceil(2)).max().unwrap_or(1)
 }
 
 /// Pairs of digits of the longest vertex value in a round.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use edgewalk_machine::{Channel, EdgeKind, Plan};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
-use super::steps::Step;
+use super::steps::{Step, longest_value};
 
 /// Word lengths of a lane, bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,6 +16,8 @@ pub(super) struct Shape {
     pub rest: u32,
     /// The whole part, modular.
     pub whole: u32,
+    /// The modulus, negated.
+    pub modulus: u32,
 }
 
 impl Shape {
@@ -29,8 +31,14 @@ impl Shape {
         let values = channels.iter().map(|c| c.vertex_bits() + 1).max().unwrap_or(1);
         let words = channels.iter().map(|c| c.word() + w.center_fraction).max().unwrap_or(1);
         let number = w.difference.max(values);
-        Shape { number, rest: (2 * w.difference).max(number), whole: of_edge.max(words) }
+        let modulus = modulus_bits(plan);
+        Shape { number, rest: modulus.max(number), whole: of_edge.max(words), modulus }
     }
+}
+
+/// Bits of the modulus, negated: P·DY, the area, or up to four times the longest difference of values.
+pub(super) fn modulus_bits(plan: &Plan) -> u32 {
+    (2 * plan.widths().difference).max(longest_value(plan) + 4)
 }
 
 const DOC: &str = "A lane of setup holds a pair: the number whole + rest / M, with 0 <= rest < M.
@@ -44,9 +52,9 @@ Rules: a doubling step adds a = -M three times instead, so that up to 3 M can be
 for one clock. A negated pair is its complement: M is added to its rest, and 1 taken off its whole part.";
 
 /// The netlist of a lane.
-pub(super) fn lane(plan: &Plan, name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors> {
+pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new(name, DOC);
-    let below_two_m = 2 * plan.widths().difference; // M has a bit less; room for a sign
+    let below_two_m = shape.modulus; // M has a bit less; room for a sign
     let (sums, slot) = ((below_two_m + 2).max(shape.rest + 1), below_two_m - 1);
 
     let advance = m.input_doc("advance", 1, "the steps go on; 0: what was read stays");
@@ -175,7 +183,7 @@ pub(super) fn lane(plan: &Plan, name: &str, shape: Shape) -> Result<Arc<Netlist>
 }
 
 /// a + b + carry; the sum has a lowest bit more, out of which the carry comes.
-fn plus<'m>(name: &str, a: Signal<'m>, b: Signal<'m>, carry: Signal<'m>) -> Signal<'m> {
+pub(super) fn plus<'m>(name: &str, a: Signal<'m>, b: Signal<'m>, carry: Signal<'m>) -> Signal<'m> {
     let m = a.module();
     let sum =
         (m.cat(&[a, m.lit(1, 1)]) + m.cat(&[b, carry])).named_doc(name, "and a carry out of the lowest bit");

@@ -8,7 +8,7 @@ use edgewalk_netlist::{BuildErrors, Instance, Module, Netlist, Signal};
 use super::control::Control;
 use super::factors::Factors;
 use super::lane::{Shape, lane};
-use super::steps::{Length, Op, Step, channel_of, edge_of, rounds};
+use super::steps::{Length, Op, Step, channel_of, edge_of, round_clocks, rounds};
 
 /// One lane in place.
 pub(super) struct Lane<'m> {
@@ -27,7 +27,7 @@ pub(super) fn lanes<'m>(
 ) -> Result<Vec<Lane<'m>>, BuildErrors> {
     let shapes: Vec<Shape> =
         (0..plan.lanes as usize).map(|number| Shape::new(plan, &channels(plan, number))).collect();
-    let netlists = netlists(plan, &shapes)?;
+    let netlists = netlists(&shapes)?;
     let common = Common::new(m, plan, control, factors);
     let in_place = |(number, (shape, netlist)): (usize, (Shape, Arc<Netlist>))| {
         m.comment(&format!("Lane {number}: its steps."));
@@ -39,13 +39,13 @@ pub(super) fn lanes<'m>(
 }
 
 /// One netlist a lane; lanes of the same shape share it.
-fn netlists(plan: &Plan, shapes: &[Shape]) -> Result<Vec<Arc<Netlist>>, BuildErrors> {
+fn netlists(shapes: &[Shape]) -> Result<Vec<Arc<Netlist>>, BuildErrors> {
     let mut netlists: Vec<Arc<Netlist>> = Vec::new();
     for (i, shape) in shapes.iter().enumerate() {
         let same = shapes[..i].iter().position(|other| other == shape);
         netlists.push(match same {
             Some(other) => Arc::clone(&netlists[other]),
-            None => lane(plan, &format!("edgewalk_setup_lane{i}"), *shape)?,
+            None => lane(&format!("edgewalk_setup_lane{i}"), *shape)?,
         });
     }
     Ok(netlists)
@@ -188,8 +188,13 @@ impl<'a, 'm> Common<'a, 'm> {
         let ops = Op::of_edges(self.plan).iter().chain(Op::of_channels(self.plan)).copied();
         let mut step = self.step;
         for op in ops {
-            let Length::Doublings(doublings) = op.doing().length else { continue };
-            let of_channel = |channel: Channel| {
+            let (doublings, scaled) = match op.doing().length {
+                Length::Doublings(doublings) => (doublings, false),
+                Length::Scaled(doublings) => (doublings, true),
+                _ => continue,
+            };
+            let of_edge = op.is_of_edge(self.plan);
+            let of_channel = |channel: Channel, round: usize| {
                 let (clocks, odd) =
                     (doublings(self.plan, &channel).div_ceil(2), doublings(self.plan, &channel) % 2);
                 let code = |step: Step| self.m.lit(Step::BITS, step as u128);
@@ -197,14 +202,22 @@ impl<'a, 'm> Common<'a, 'm> {
                 if odd == 1 {
                     chosen = control.left.eq(0).mux(code(Step::Double1), chosen);
                 }
-                control.left.lt(clocks as i32).mux(chosen, code(Step::Rest))
+                if clocks == round_clocks(self.plan, doublings, of_edge, round) {
+                    return chosen;
+                }
+                let mut own = self.m.lit(control.left.width(), clocks.into());
+                if scaled {
+                    own = own + control.scale.q().zext(control.left.width());
+                }
+                control.left.lt(own).mux(chosen, code(Step::Rest))
             };
-            let chosen = if op.is_of_edge(self.plan) {
-                of_channel(self.plan.channels()[0])
+            let chosen = if of_edge {
+                of_channel(self.plan.channels()[0], 0)
             } else {
                 let rounds = rounds(self.plan)[1];
                 let of = |round: usize| {
-                    of_channel(channel_of(self.plan, number, round).unwrap_or(self.plan.channels()[0]))
+                    let channel = channel_of(self.plan, number, round);
+                    of_channel(channel.unwrap_or(self.plan.channels()[0]), round)
                 };
                 control.named.of_round(rounds, of)
             };

@@ -5,7 +5,9 @@ use edgewalk_netlist::{Module, Signal};
 
 use super::area::Area;
 use super::control::Control;
+use super::lane::modulus_bits;
 use super::lanes::Lane;
+use super::scale::Scale;
 use super::sort::{ENDS, Vertices};
 use super::steps::{Op, channel_of, edge_of, rounds};
 use crate::wires::Registers;
@@ -17,12 +19,65 @@ pub(super) struct Sources<'a, 'm> {
     pub control: &'a Control<'m>,
     pub vertices: &'a Vertices<'m>,
     pub area: &'a Area<'m>,
+    pub scale: &'a Scale<'m>,
     pub prim: &'a Registers<'m>,
+    pub values: &'a Values<'m>,
+}
+
+/// Which values at vertices the lanes are shown: the difference of two, or the one that a first value is counted from.
+pub(super) struct Values<'m> {
+    from: Signal<'m>,
+    to: Signal<'m>,
+    /// Only `to`, and its rounding.
+    single: Signal<'m>,
+    /// Of the channels of round 1, 2, ...; else of round 0.
+    rounds: Vec<Signal<'m>>,
+}
+
+impl<'m> Values<'m> {
+    /// dc1 and -dc2, both as the area has its sign, but not when only shown; textbook fill: of the ends of the left edges too.
+    pub fn new(
+        m: &'m Module,
+        plan: &Plan,
+        control: &Control<'m>,
+        vertices: &Vertices<'m>,
+        area: &Area<'m>,
+    ) -> Values<'m> {
+        m.comment("The vertices whose values the lanes are shown.");
+        let (formed, right) = (&control.formed, area.negative);
+        let at = |place: usize| vertices.order[place];
+        let second = formed.one_of(&[Op::FixDx, Op::Load2, Op::Fix2]) & !control.begin;
+        let turned = right & formed.one_of(&[Op::Load1, Op::Load2]) & !control.begin;
+        // dc1 = c1 - c0, -dc2 = c0 - c2, the other way round where the area is below 0.
+        let mut from = second.mux(turned.mux(at(0), at(2)), turned.mux(at(1), at(0)));
+        let mut to = second.mux(turned.mux(at(2), at(0)), turned.mux(at(0), at(1)));
+        let single = formed.one_of(&[Op::AddStart, Op::AddA, Op::AddB]) & !control.begin;
+        to = single.mux((formed.is(Op::AddB) & right).mux(at(1), at(0)), to);
+        if plan.fill == Fill::Textbook {
+            // The left edge is the major one, or that of the part.
+            let (a, b) = (formed.one_of(&[Op::LoadA, Op::FixA]), formed.one_of(&[Op::LoadB, Op::FixB]));
+            let of_part = (a | b) & !control.begin;
+            from = of_part.mux((b & right).mux(at(1), at(0)), from);
+            to = of_part.mux((a & right).mux(at(1), at(2)), to);
+        }
+        // While a number is tested the lanes are shown those of the next round, to scale its modulus.
+        let (shown, of_first) = (formed.one_of(&[Op::Fix1, Op::Fix2]), formed.is(Op::FixDx) | control.begin);
+        let round = |round: usize| {
+            let (own, before) = (formed.in_round(round)?, formed.in_round(round - 1)?);
+            Some((shown.mux(before, own) & !of_first).named(&format!("values_of_round{round}")))
+        };
+        Values {
+            from: from.named("from_vertex"),
+            to: to.named("to_vertex"),
+            single: single.named("single_value"),
+            rounds: (1..rounds(plan)[1]).filter_map(round).collect(),
+        }
+    }
 }
 
 impl<'m> Sources<'_, 'm> {
-    /// Connects what a lane takes in.
-    pub fn connect(&self, lane: &Lane<'m>) {
+    /// Connects what a lane takes in, and gives the numbers it is shown.
+    pub fn connect(&self, lane: &Lane<'m>) -> Signal<'m> {
         let (m, control) = (self.m, self.control);
         m.comment(&format!("Lane {}: what it takes in.", lane.number));
         let number = self.number(lane).named_doc(&format!("number{}", lane.number), "signed");
@@ -33,16 +88,18 @@ impl<'m> Sources<'_, 'm> {
         lane.instance
             .connect("number", number)
             .connect("digits", digits)
-            .connect("whole_in", self.whole(lane))
+            .connect("whole_in", self.whole(lane, number))
             .connect("modulus_in", modulus)
             .connect("modulus_short", short);
+        number
     }
 
-    /// A number that was taken in is needed, by this lane.
+    /// A number that was taken in is needed, by this lane, and may be too long: those of the area's modulus never are.
     pub fn needed(&self, lane: &Lane<'m>) -> Signal<'m> {
         let (m, stepped) = (self.m, &self.control.stepped);
         let yes_or_no = |yes: bool| m.lit(1, yes.into());
         let [edge_rounds, channel_rounds] = rounds(self.plan);
+        let dx = stepped.is(Op::FixDx);
         let edge = stepped.of_round(edge_rounds, |round| match edge_of(self.plan, lane.number, round) {
             Some(0) => yes_or_no(true),
             Some(1) => self.lines("n1"),
@@ -51,9 +108,9 @@ impl<'m> Sources<'_, 'm> {
         });
         let channel = stepped
             .of_round(channel_rounds, |round| yes_or_no(channel_of(self.plan, lane.number, round).is_some()));
-        let part = |fix: Op, lines: &str| !stepped.is(fix) | self.lines(lines);
-        let channel = channel & part(Op::FixA, "n1") & part(Op::FixB, "n2");
-        stepped.is(Op::FixDx).mux(edge, channel)
+        let part = |fix: Op, lines: &str| stepped.is(fix) & self.lines(lines);
+        let parts = part(Op::FixA, "n1") | part(Op::FixB, "n2");
+        (dx & edge) | (parts & channel)
     }
 
     fn lines(&self, part: &str) -> Signal<'m> {
@@ -66,8 +123,8 @@ impl<'m> Sources<'_, 'm> {
     }
 
     fn number(&self, lane: &Lane<'m>) -> Signal<'m> {
-        let (m, formed, bits) = (self.m, &self.control.formed, lane.shape.number);
-        let [edge_rounds, channel_rounds] = rounds(self.plan);
+        let (control, formed, bits) = (self.control, &self.control.formed, lane.shape.number);
+        let edge_rounds = rounds(self.plan)[0];
         let u = |place: usize| self.vertices.u(place);
         let dw = self.plan.widths().difference;
         let dx = |edge: usize| match edge {
@@ -82,35 +139,36 @@ impl<'m> Sources<'_, 'm> {
         };
         let edge =
             formed.is(Op::LoadDy).mux(of_edge(&|edge| self.vertices.heights[edge].zext(dw)), of_edge(&dx));
-        let channel = formed.of_round(channel_rounds, |round| {
-            channel_of(self.plan, lane.number, round)
-                .map_or(m.lit(bits, 0), |channel| self.difference(&channel, bits))
-        });
-        formed.one_of(&[Op::LoadDx, Op::FixDx, Op::LoadDy]).mux(edge, channel)
+        let of_edge_now =
+            formed.one_of(&[Op::LoadDx, Op::LoadDy]) | (formed.is(Op::FixDx) & !control.advance);
+        (of_edge_now & !control.begin).mux(edge, self.difference(lane, bits))
     }
 
-    /// dc1 and -dc2, both as the area has its sign; textbook fill: of the ends of the left edges too.
-    fn difference(&self, channel: &Channel, bits: u32) -> Signal<'m> {
-        let formed = &self.control.formed;
-        let value = |place: usize| {
-            let value = self.vertices.value(channel, place);
-            if channel.kind.is_signed() { value.sext(bits) } else { value.zext(bits) }
+    /// The difference of a channel's values at two vertices; of a single one its rounding is taken off.
+    fn difference(&self, lane: &Lane<'m>, bits: u32) -> Signal<'m> {
+        let (m, values) = (self.m, self.values);
+        let of_round = |of: &dyn Fn(&Channel) -> Signal<'m>| {
+            let of = |round: usize| {
+                channel_of(self.plan, lane.number, round).map_or(m.lit(bits, 0), |channel| of(&channel))
+            };
+            let others = values.rounds.iter().enumerate();
+            others.fold(of(0), |chosen, (i, is)| is.mux(of(i + 1), chosen))
         };
-        let right = self.right();
-        let second = formed.one_of(&[Op::Load2, Op::Fix2]);
-        // dc1 = c1 - c0, -dc2 = c0 - c2, the other way round where the area is below 0.
-        let mut from = second.mux(right.mux(value(0), value(2)), right.mux(value(1), value(0)));
-        let mut to = second.mux(right.mux(value(2), value(0)), right.mux(value(0), value(1)));
-        if self.plan.fill == Fill::Textbook {
-            // The left edge is the major one, or that of the part.
-            let (a, b) = (formed.one_of(&[Op::LoadA, Op::FixA]), formed.one_of(&[Op::LoadB, Op::FixB]));
-            from = (a | b).mux((b & right).mux(value(1), value(0)), from);
-            to = (a | b).mux((a & right).mux(value(1), value(2)), to);
-        }
-        to - from
+        let at = [0, 1, 2].map(|vertex| {
+            of_round(&|channel| {
+                let value = self.vertices.value(channel, vertex);
+                if channel.kind.is_signed() { value.sext(bits) } else { value.zext(bits) }
+            })
+        });
+        let pick = |vertex: Signal<'m>| vertex.bit(1).mux(at[2], vertex.bit(0).mux(at[1], at[0]));
+        let rounding = of_round(&|channel| match half(channel) {
+            Half::Within(bit) => m.lit(bits, (1 << bits) - (1 << bit)), // less 2^bit
+            Half::Behind | Half::None => m.lit(bits, 0),
+        });
+        pick(values.to) - values.single.mux(rounding, pick(values.from))
     }
 
-    fn whole(&self, lane: &Lane<'m>) -> Signal<'m> {
+    fn whole(&self, lane: &Lane<'m>, number: Signal<'m>) -> Signal<'m> {
         let (stepped, bits) = (&self.control.stepped, lane.shape.whole);
         let [edge_rounds, channel_rounds] = rounds(self.plan);
         let t = self.plan.widths().center_fraction;
@@ -121,56 +179,45 @@ impl<'m> Sources<'_, 'm> {
         let edge = stepped.of_round(edge_rounds, |round| {
             column(ENDS[edge_of(self.plan, lane.number, round).unwrap_or(0)].0)
         });
+        let first = self
+            .m
+            .reg(&format!("value{}", lane.number), number.width())
+            .doc("first value, signed")
+            .set(number);
         let channel = stepped.of_round(channel_rounds, |round| {
             let channel = channel_of(self.plan, lane.number, round);
-            channel.map_or(self.m.lit(bits, 0), |channel| self.first_value(&channel, bits))
+            channel.map_or(self.m.lit(bits, 0), |channel| self.first_value(&channel, first.q(), bits))
         });
         stepped.is(Op::Columns).mux(edge, channel)
     }
 
-    /// The value the first one is counted from, with the halves that make cutting a rounding.
-    fn first_value(&self, channel: &Channel, bits: u32) -> Signal<'m> {
+    /// The value the first one is counted from, as a word, with the halves that make cutting a rounding.
+    fn first_value(&self, channel: &Channel, value: Signal<'m>, bits: u32) -> Signal<'m> {
         let (m, t) = (self.m, self.plan.widths().center_fraction);
-        let from = |place: usize| {
-            let value = self.with_half(channel, self.vertices.value(channel, place));
-            if channel.kind.is_signed() { fit(value, bits) } else { fit(m.cat(&[m.lit(1, 0), value]), bits) }
-        };
+        let mut below = channel.fraction - channel.vertex_fraction;
+        let mut value = value;
+        if let Half::Behind = half(channel) {
+            (value, below) = (m.cat(&[value, m.lit(1, 1)]), below - 1);
+        }
+        if below > 0 {
+            value = m.cat(&[value, m.lit(below, 0)]);
+        }
         match self.plan.fill {
-            Fill::Exact => {
-                let half = m.lit(t, 1 << (t - 1));
-                fit(m.cat(&[from(0), half]), bits)
-            }
-            Fill::Textbook => {
-                let b = self.control.stepped.is(Op::AddB);
-                (b & self.right()).mux(from(1), from(0))
-            }
+            Fill::Exact => fit(m.cat(&[value, m.lit(t, 1 << (t - 1))]), bits),
+            Fill::Textbook => fit(value, bits),
         }
     }
 
-    /// A vertex value as a word, with the half that makes cutting a rounding if the channel is rounded.
-    fn with_half(&self, channel: &Channel, value: Signal<'m>) -> Signal<'m> {
-        let m = self.m;
-        let (r, e) = (channel.fraction, channel.vertex_fraction);
-        let zeros =
-            |bits: u32, value: Signal<'m>| if bits == 0 { value } else { m.cat(&[value, m.lit(bits, 0)]) };
-        match e {
-            _ if r == 0 || !channel.kind.is_rounded() => zeros(r - e, value),
-            0 => zeros(r - 1, m.cat(&[value, m.lit(1, 1)])),
-            _ => zeros(r - e, fit(value, channel.word()) + (1 << (e - 1))),
-        }
-    }
-
-    /// -M - 1 of an edge, P·DY; of the channels -A, or -A - 1 where the area is above 0.
+    /// -M - 1 of an edge, P·DY; of the channels the scaled area's.
     fn modulus(&self, lane: &Lane<'m>) -> (Signal<'m>, Signal<'m>) {
         let (m, formed) = (self.m, &self.control.formed);
-        let (t, bits) = (self.plan.widths().center_fraction, self.area.signed.width());
+        let (t, bits) = (self.plan.widths().center_fraction, modulus_bits(self.plan));
         let height = |edge: usize| !m.cat(&[self.vertices.heights[edge], m.lit(t, 0)]).zext(bits);
         let edge = formed.of_round(rounds(self.plan)[0], |round| {
             height(edge_of(self.plan, lane.number, round).unwrap_or(0))
         });
         let right = self.right();
-        let area = right.mux(self.area.signed, !self.area.signed);
-        let mut modulus = formed.is(Op::Load1).mux(area, edge);
+        let mut modulus = formed.is(Op::Load1).mux(self.scale.modulus, edge);
         if self.plan.fill == Fill::Textbook {
             modulus = formed.is(Op::LoadA).mux(right.mux(height(1), height(0)), modulus);
             modulus = formed.is(Op::LoadB).mux(right.mux(height(2), height(0)), modulus);
@@ -182,4 +229,22 @@ impl<'m> Sources<'_, 'm> {
 /// The low bits of a signed number, or as many more of its sign.
 fn fit(value: Signal<'_>, bits: u32) -> Signal<'_> {
     if value.width() >= bits { value.trunc(bits) } else { value.sext(bits) }
+}
+
+/// Where the half that makes cutting a rounding lies in a vertex value.
+enum Half {
+    /// The channel is cut as it is.
+    None,
+    /// Just behind its last bit.
+    Behind,
+    /// The value of this bit.
+    Within(u32),
+}
+
+fn half(channel: &Channel) -> Half {
+    match channel.vertex_fraction {
+        _ if channel.fraction == 0 || !channel.kind.is_rounded() => Half::None,
+        0 => Half::Behind,
+        e => Half::Within(e - 1),
+    }
 }

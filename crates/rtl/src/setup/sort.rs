@@ -1,4 +1,4 @@
-//! The three vertices in centre coordinates, sorted by v.
+//! The three vertices in centre coordinates, sorted by v; their values stay as they came, as a lane asks for one or two at a time.
 
 use edgewalk_machine::{Channel, Fill, Plan};
 use edgewalk_netlist::{Module, Signal};
@@ -12,6 +12,10 @@ pub(super) const ENDS: [(usize, usize); 3] = [(0, 2), (0, 1), (1, 2)];
 /// The triangle's vertices; after sorting 0 is the top and 2 the bottom.
 pub(super) struct Vertices<'m> {
     places: Vec<Registers<'m>>,
+    /// By the order at the port.
+    values: Vec<Registers<'m>>,
+    /// The vertex of the port that is at a place: 0, 1 or 2.
+    pub order: Vec<Signal<'m>>,
     /// v of the lower end less v of the upper one, by edge; unsigned, DW − 1 bits.
     pub heights: Vec<Signal<'m>>,
     /// u1 − u0 and u2 − u0, signed, DW bits.
@@ -33,30 +37,35 @@ impl<'m> Vertices<'m> {
         // Which vertex is the top one, which the bottom one; the third lies between.
         let top = [!above10 & !above20, above10 & !above21, above20 & above21];
         let bottom = [above10 & above20, !above10 & above21, !above20 & !above21];
-        let sorted = |place: usize, of: [Signal<'m>; 3]| {
-            let is = |vertex: usize| match place {
-                0 => top[vertex],
-                1 => !top[vertex] & !bottom[vertex],
-                _ => bottom[vertex],
-            };
-            is(1).mux(of[1], is(2).mux(of[2], of[0]))
+        let is_at = |place: usize, vertex: usize| match place {
+            0 => top[vertex],
+            1 => !top[vertex] & !bottom[vertex],
+            _ => bottom[vertex],
         };
+        let sorted =
+            |place: usize, of: [Signal<'m>; 3]| is_at(place, 1).mux(of[1], is_at(place, 2).mux(of[2], of[0]));
         let places: Vec<Registers> =
-            (0..3).map(|place| Registers::new(m, &format!("p{place}"), vertex(plan))).collect();
+            (0..3).map(|place| Registers::new(m, &format!("p{place}"), corner(plan))).collect();
         for (place, registers) in places.iter().enumerate() {
             registers.load(control.take, |f| {
-                match plan.channels().iter().find(|channel| channel.name == f) {
-                    Some(channel) => {
-                        sorted(place, [0, 1, 2].map(|v| triangle[channel.at_vertex(&v.to_string()).as_str()]))
-                    }
-                    None => {
-                        let axis = if f == "u" { "x" } else { "y" };
-                        center(
-                            plan,
-                            sorted(place, [0, 1, 2].map(|v| triangle[format!("{axis}{v}").as_str()])),
-                        )
-                    }
-                }
+                let axis = if f == "u" { "x" } else { "y" };
+                center(plan, sorted(place, [0, 1, 2].map(|v| triangle[format!("{axis}{v}").as_str()])))
+            });
+        }
+        let order = |place: usize| {
+            let vertex = m.reg(&format!("p{place}_vertex"), 2).doc("whose values are those at this place");
+            vertex.when(control.take, m.cat(&[is_at(place, 2), is_at(place, 1)])).q()
+        };
+        let order = (0..3).map(order).collect();
+
+        m.comment("The values at the vertices, as they came.");
+        let values: Vec<Registers> =
+            (0..3).map(|vertex| Registers::new(m, &format!("vertex{vertex}"), values(plan))).collect();
+        for (vertex, registers) in values.iter().enumerate() {
+            registers.load(control.take, |f| {
+                let channel = plan.channels().iter().find(|channel| channel.name == f);
+                let port = channel.map(|channel| channel.at_vertex(&vertex.to_string()));
+                triangle[port.unwrap_or_default().as_str()]
             });
         }
 
@@ -70,7 +79,7 @@ impl<'m> Vertices<'m> {
         let heights = ENDS.into_iter().map(height).collect();
         let du1 = less("u", 0, 1).named_doc("du01", "1/P column, signed");
         let du2 = less("u", 0, 2).named_doc("du02", "1/P column, signed");
-        Vertices { places, heights, du1, du2 }
+        Vertices { places, values, order, heights, du1, du2 }
     }
 
     /// Column of a vertex, 1/P column, signed.
@@ -83,23 +92,27 @@ impl<'m> Vertices<'m> {
         self.places[place]["v"].q()
     }
 
-    /// A channel's value at a vertex, of the format at the port.
-    pub fn value(&self, channel: &Channel, place: usize) -> Signal<'m> {
-        self.places[place][channel.name].q()
+    /// A channel's value at a vertex, in the order and of the format at the port.
+    pub fn value(&self, channel: &Channel, vertex: usize) -> Signal<'m> {
+        self.values[vertex][channel.name].q()
     }
 }
 
-/// What is kept of a vertex: its place in centre coordinates, and a value a channel.
-fn vertex(plan: &Plan) -> Vec<Part> {
+/// Where a vertex is, in centre coordinates.
+fn corner(plan: &Plan) -> Vec<Part> {
     let w = plan.widths();
     let center = format!("Q{}.{}, signed", w.center - w.center_fraction, w.center_fraction);
-    let place = ["u", "v"].map(|name| Part { name: name.to_owned(), width: w.center, doc: center.clone() });
+    ["u", "v"].map(|name| Part { name: name.to_owned(), width: w.center, doc: center.clone() }).into()
+}
+
+/// Its values, one a channel.
+fn values(plan: &Plan) -> Vec<Part> {
     let value = |channel: &Channel| Part {
         name: channel.name.to_owned(),
         width: channel.vertex_bits(),
         doc: format!("{} LSB", channel.vertex_format()),
     };
-    place.into_iter().chain(plan.channels().iter().map(value)).collect()
+    plan.channels().iter().map(value).collect()
 }
 
 /// A port's coordinate as a centre coordinate.

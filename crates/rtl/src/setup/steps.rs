@@ -125,6 +125,8 @@ pub(super) enum Length {
     Digits,
     /// Doublings, by the channel; two a clock.
     Doublings(fn(&Plan, &Channel) -> u32),
+    /// Doublings, and the scale of the round once more, two a clock.
+    Scaled(fn(&Plan, &Channel) -> u32),
 }
 
 /// What an operation does to the lanes.
@@ -229,8 +231,8 @@ impl Op {
             }
             Sum | SumX | SumA | SumB => (Step::First, Length::Digits, 0, None),
             Columns | AddStart | AddA | AddB => (Step::Whole, Length::Clocks(1), 0, None),
-            DoubleX => (Step::Double2, Length::Doublings(of_gradient), 0, Some(5)),
-            DoubleY => (Step::Double2, Length::Doublings(of_gradient), 0, Some(6)),
+            DoubleX => (Step::Double2, Length::Scaled(of_gradient), 0, Some(5)),
+            DoubleY => (Step::Double2, Length::Scaled(of_gradient), 0, Some(6)),
             DoubleStartA | DoubleStartB => (Step::Double2, Length::Doublings(of_gradient), 0, None),
             DoubleA | DoubleB => (Step::Double2, Length::Doublings(of_left_edge), 0, None),
             ModulusY | ModulusLine | ModulusStart => (Step::Modulus, Length::Clocks(1), 0, None),
@@ -281,6 +283,30 @@ pub(super) fn edge_of(plan: &Plan, lane: usize, round: usize) -> Option<usize> {
 /// The channel of a lane in a round.
 pub(super) fn channel_of(plan: &Plan, lane: usize, round: usize) -> Option<Channel> {
     plan.channels().get(lane + round * plan.lanes as usize).copied()
+}
+
+/// Bits of the longest vertex value of all.
+pub(super) fn longest_value(plan: &Plan) -> u32 {
+    plan.channels().iter().map(|channel| channel.vertex_bits()).max().unwrap_or(1)
+}
+
+/// The largest scale: differences and the area's sign are at most 2 to the bits of a value.
+pub(super) fn most_scale(plan: &Plan) -> u32 {
+    longest_value(plan) / 2 + 1
+}
+
+/// Clocks of a doubling operation, not scaled, in a round: those of the channel that needs the most.
+pub(super) fn round_clocks(
+    plan: &Plan,
+    doublings: fn(&Plan, &Channel) -> u32,
+    of_edge: bool,
+    round: usize,
+) -> u32 {
+    if of_edge {
+        return doublings(plan, &plan.channels()[0]).div_ceil(2);
+    }
+    let channels = (0..plan.lanes as usize).filter_map(|lane| channel_of(plan, lane, round));
+    channels.map(|channel| doublings(plan, &channel).div_ceil(2)).max().unwrap_or(1)
 }
 
 /// Rounds in which the lanes do all edges, and all channels.

@@ -1,0 +1,72 @@
+//! The modulus of the channels: the area, fourfold until all differences of values fit.
+
+use edgewalk_machine::Plan;
+use edgewalk_netlist::{Module, Reg, Signal};
+
+use super::area::Area;
+use super::control::Control;
+use super::lane::{modulus_bits, plus};
+use super::steps::{Op, longest_value, rounds};
+
+/// The area scaled for a round of channels, and how the differences come to be known.
+pub(super) struct Scale<'m> {
+    /// -M, or its complement -M - 1 where the area is above 0.
+    pub modulus: Signal<'m>,
+    /// Of a round: each bit is set in one of the differences or their complements.
+    differences: Reg<'m>,
+}
+
+impl<'m> Scale<'m> {
+    /// The registers; what they are scaled for is gathered by [`Scale::gather`].
+    pub fn new(m: &'m Module, plan: &Plan, control: &Control<'m>, area: &Area<'m>) -> Scale<'m> {
+        m.comment(
+            "The area as modulus: fourfold, i times, until the differences of the next round's values fit.",
+        );
+        let (bits, rounds) = (modulus_bits(plan), rounds(plan)[1]);
+        let differences =
+            m.reg("differences", longest_value(plan)).doc("their bits, or those of complements");
+        let scaled = m.reg("scaled", bits).doc("-M or -M - 1, signed");
+        let taken = m.reg("scale_taken", 1).doc("the area is taken").reset(0);
+        let scaling = m.reg("scaling", 1).doc("it is compared").reset(0);
+        let i = m.reg("scale_next", control.scale.q().width()).doc("times that it is fourfold");
+        let mut takes = area.ends;
+        if let Some(last) = control.formed.in_round(rounds - 1) {
+            takes = takes | (control.formed.is(Op::Fix2) & !last);
+        }
+        taken.set(takes & !control.begin);
+        let short = !area.negative;
+        let of_area = area.signed.sext(bits);
+        let less = plus("less_m", differences.q().zext(bits), scaled.q(), m.lit(1, 1));
+        let fits = (less.msb() | !area.signed.any()).named("fits");
+        let grows = (scaling.q() & !fits).named("grows");
+        scaling.when(fits, 0).when(taken.q(), 1).when(control.begin, 0);
+        scaled
+            .when(grows, m.cat(&[scaled.q().trunc(bits - 2), short, short]))
+            .when(taken.q(), short.mux(!of_area, of_area));
+        i.when(grows, i.q() + 1).when(taken.q(), 0);
+        control.area_known.drive(!area.adds & !control.begin & !taken.q() & !scaling.q());
+        control.scale.drive(if rounds > 1 {
+            m.reg("scale_now", i.q().width()).doc("of the round").when(control.formed.is(Op::Load1), i).q()
+        } else {
+            i.q()
+        });
+        Scale { modulus: scaled.q(), differences }
+    }
+
+    /// Takes the differences that the lanes are shown: the first of a round, then the second.
+    pub fn gather(&self, plan: &Plan, control: &Control<'m>, numbers: &[Signal<'m>]) {
+        let bits = self.differences.q().width();
+        let magnitude = |number: &Signal<'m>| {
+            let low = number.width().min(bits);
+            (number.trunc(low) ^ number.msb().sext(low)).zext(bits)
+        };
+        let any = numbers.iter().map(magnitude).reduce(|any, one| any | one);
+        let Some(any) = any.map(|any| any.named("shown")) else { return };
+        let several = rounds(plan)[1] > 1;
+        let seconds: &[Op] = if several { &[Op::FixDx, Op::Fix2] } else { &[Op::FixDx] };
+        let second = control.formed.one_of(seconds) & control.advance;
+        self.differences.when(second, self.differences.q() | any);
+        let first = if several { control.begin | control.formed.is(Op::Fix1) } else { control.begin };
+        self.differences.when(first, any);
+    }
+}

@@ -1,0 +1,284 @@
+// edgewalk_edge: EDGE walks the major and the minor edge of a triangle, a line a step.
+//
+//   prim ─> [major C R q f M] ── cmaj ───────┐
+//           [minor C R q f M] ── cmin ───────┼─> line
+//           [a value a channel] ─ by carry ──┘
+//           [g of each channel] ───────────────> inc, held for PIXEL
+//
+// Timing: the first line is valid in the cycle after the triangle was taken, then one line a clock while line_ready.
+// Rules: a step takes f from R; where R is too small M is added back and the column goes one further (carry).
+// The columns are not cut to the screen here: SPAN does that.
+
+`timescale 1ns / 1ps
+`default_nettype none
+
+module edgewalk_edge (
+  input  wire        clk,
+  input  wire        rst,
+
+  input  wire        prim_valid,
+  input  wire  [8:0] prim_jm,           // first line
+  input  wire  [9:0] prim_n1,           // lines of the upper part
+  input  wire  [9:0] prim_n2,           // lines of the lower part
+  input  wire        prim_major_right,  // the major edge is the right one
+  input  wire [11:0] prim_major_c,      // signed, first column right of the edge
+  input  wire [14:0] prim_major_r,      // distance from the edge to that column, 1/M column
+  input  wire [11:0] prim_major_q,      // signed, whole columns a line
+  input  wire [14:0] prim_major_f,      // 1/M column a line
+  input  wire [14:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
+  input  wire [11:0] prim_minor1_c,     // signed, first column right of the edge
+  input  wire [14:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
+  input  wire [11:0] prim_minor1_q,     // signed, whole columns a line
+  input  wire [14:0] prim_minor1_f,     // 1/M column a line
+  input  wire [14:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
+  input  wire [11:0] prim_minor2_c,     // signed, first column right of the edge
+  input  wire [14:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
+  input  wire [11:0] prim_minor2_q,     // signed, whole columns a line
+  input  wire [14:0] prim_minor2_f,     // 1/M column a line
+  input  wire [14:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
+  input  wire [27:0] prim_z_start,      // UQ16.12 LSB, modular, at the first pixel of the first line
+  input  wire [27:0] prim_z_d0,         // UQ16.12 LSB, modular, to the next line, edge without carry
+  input  wire [27:0] prim_z_d1,         // UQ16.12 LSB, modular, to the next line, edge with carry
+  input  wire [27:0] prim_z_g,          // UQ16.12 LSB, modular, to the next pixel of the span
+  input  wire [19:0] prim_r_start,      // UQ8.12 LSB, modular, at the first pixel of the first line
+  input  wire [19:0] prim_r_d0,         // UQ8.12 LSB, modular, to the next line, edge without carry
+  input  wire [19:0] prim_r_d1,         // UQ8.12 LSB, modular, to the next line, edge with carry
+  input  wire [19:0] prim_r_g,          // UQ8.12 LSB, modular, to the next pixel of the span
+  input  wire [19:0] prim_g_start,      // UQ8.12 LSB, modular, at the first pixel of the first line
+  input  wire [19:0] prim_g_d0,         // UQ8.12 LSB, modular, to the next line, edge without carry
+  input  wire [19:0] prim_g_d1,         // UQ8.12 LSB, modular, to the next line, edge with carry
+  input  wire [19:0] prim_g_g,          // UQ8.12 LSB, modular, to the next pixel of the span
+  input  wire [19:0] prim_b_start,      // UQ8.12 LSB, modular, at the first pixel of the first line
+  input  wire [19:0] prim_b_d0,         // UQ8.12 LSB, modular, to the next line, edge without carry
+  input  wire [19:0] prim_b_d1,         // UQ8.12 LSB, modular, to the next line, edge with carry
+  input  wire [19:0] prim_b_g,          // UQ8.12 LSB, modular, to the next pixel of the span
+  input  wire        line_ready,
+  input  wire        fresh_queued,      // the triangle before has not reached PIXEL yet
+
+  output wire        prim_ready,
+  output wire        line_valid,
+  output reg   [8:0] line_y,            // line
+  output wire [11:0] line_cmaj,         // signed, first column right of the major edge
+  output wire [11:0] line_cmin,         // signed, first column right of the minor edge
+  output reg         line_major_right,  // the major edge is the right one
+  output reg  [27:0] line_z,            // UQ16.12 LSB, modular
+  output reg  [19:0] line_r,            // UQ8.12 LSB, modular
+  output reg  [19:0] line_g,            // UQ8.12 LSB, modular
+  output reg  [19:0] line_b,            // UQ8.12 LSB, modular
+  output reg         line_fresh,        // first line of the triangle
+  output wire        line_fence,        // what is in flight may be of the same pixels
+  output reg  [27:0] inc_z,             // UQ16.12 LSB, modular
+  output reg  [19:0] inc_r,             // UQ8.12 LSB, modular
+  output reg  [19:0] inc_g,             // UQ8.12 LSB, modular
+  output reg  [19:0] inc_b              // UQ8.12 LSB, modular
+);
+
+  // A triangle is taken when the one before is walked and PIXEL has its increments.
+  reg running;
+  assign prim_ready = !running && !fresh_queued;
+  wire load = prim_valid && prim_ready;
+  wire step = running && line_ready;
+
+  // Where in the triangle: the upper part, then the lower.
+  reg [9:0] n1;  // lines left of the upper part
+  reg [9:0] n2;  // lines left of the lower part
+  reg upper;     // in the upper part
+  reg knee;      // last line of the upper part, the lower follows
+  reg last;      // last line of all
+  wire some_lower = |n2;
+  wire two_upper = n1 == 10'd2;
+  wire one_upper = n1 == 10'd1;
+  wire lower_follows = |prim_n2;
+  wire one_upper_only = prim_n1 == 10'd1;
+  wire at_knee = step && knee;
+  wire along = step && !knee;
+
+  always @(posedge clk) begin
+    if (step) begin
+      upper <= upper && !one_upper;
+      knee <= two_upper && some_lower;
+      last <= upper ? (two_upper && !some_lower) || (one_upper && (n2 == 10'd1)) : n2 == 10'd2;
+    end
+    if (load) begin
+      upper <= |prim_n1;
+      knee <= one_upper_only && lower_follows;
+      last <= (|prim_n1) ? one_upper_only && !lower_follows : prim_n2 == 10'd1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (load) n1 <= prim_n1;
+    if (step && upper) n1 <= n1 - 10'd1;
+  end
+
+  always @(posedge clk) begin
+    if (load) n2 <= prim_n2;
+    if (step && !upper) n2 <= n2 - 10'd1;
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      running <= 1'b0;
+    end else begin
+      if (step && last) running <= 1'b0;
+      if (load) running <= 1'b1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (load) begin
+      line_y <= prim_jm;
+      line_fresh <= 1'b1;
+    end
+    if (step) begin
+      line_y <= line_y + 9'd1;
+      line_fresh <= 1'b0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (load) line_major_right <= prim_major_right;
+  end
+
+  // The major edge.
+  reg [11:0] major_c;  // signed, first column right of the edge
+  reg [14:0] major_r;  // distance from the edge to that column, 1/M column
+  reg [11:0] major_q;  // signed, whole columns a line
+  reg [14:0] major_f;  // 1/M column a line
+  reg [14:0] major_m;  // modulus of r and f: the edge's height, 1/P line
+  wire [15:0] first_less = {1'b0, prim_major_r} - {1'b0, prim_major_f};
+  wire first_carry = first_less[15];
+  wire [15:0] major_less = {1'b0, major_r} - {1'b0, major_f};
+  wire major_carry = major_less[15];
+  reg carry;           // the major edge carries in its next step; 0 between triangles
+
+  always @(posedge clk) begin
+    if (rst) begin
+      carry <= 1'b0;
+    end else begin
+      if (step) carry <= major_carry;
+      if (step && last) carry <= 1'b0;
+      if (load) carry <= first_carry;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (step) begin
+      major_c <= major_c + major_q + {11'd0, carry};
+      major_r <= major_carry ? major_less[14:0] + major_m : major_less[14:0];
+    end
+    if (load) begin
+      major_c <= prim_major_c;
+      major_r <= first_carry ? first_less[14:0] + prim_major_m : first_less[14:0];
+    end
+  end
+
+  always @(posedge clk) begin
+    if (load) begin
+      major_q <= prim_major_q;
+      major_f <= prim_major_f;
+      major_m <= prim_major_m;
+    end
+  end
+
+  // The minor edge, and the one that takes its place at the knee.
+  reg [11:0] second_c;  // signed, first column right of the edge
+  reg [14:0] second_r;  // distance from the edge to that column, 1/M column
+  reg [11:0] second_q;  // signed, whole columns a line
+  reg [14:0] second_f;  // 1/M column a line
+  reg [14:0] second_m;  // modulus of r and f: the edge's height, 1/P line
+  reg [11:0] minor_c;   // signed, first column right of the edge
+  reg [14:0] minor_r;   // distance from the edge to that column, 1/M column
+  reg [11:0] minor_q;   // signed, whole columns a line
+  reg [14:0] minor_f;   // 1/M column a line
+  reg [14:0] minor_m;   // modulus of r and f: the edge's height, 1/P line
+  wire [15:0] minor_less = {1'b0, minor_r} - {1'b0, minor_f};
+  wire minor_carry = minor_less[15];
+  wire has_upper = |prim_n1;
+
+  always @(posedge clk) begin
+    if (load) begin
+      second_c <= prim_minor2_c;
+      second_r <= prim_minor2_r;
+      second_q <= prim_minor2_q;
+      second_f <= prim_minor2_f;
+      second_m <= prim_minor2_m;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (along) begin
+      minor_c <= minor_c + minor_q + {11'd0, minor_carry};
+      minor_r <= minor_carry ? minor_less[14:0] + minor_m : minor_less[14:0];
+    end
+    if (at_knee) begin
+      minor_c <= second_c;
+      minor_r <= second_r;
+    end
+    if (load) begin
+      minor_c <= has_upper ? prim_minor1_c : prim_minor2_c;
+      minor_r <= has_upper ? prim_minor1_r : prim_minor2_r;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (at_knee) begin
+      minor_q <= second_q;
+      minor_f <= second_f;
+      minor_m <= second_m;
+    end
+    if (load) begin
+      minor_q <= has_upper ? prim_minor1_q : prim_minor2_q;
+      minor_f <= has_upper ? prim_minor1_f : prim_minor2_f;
+      minor_m <= has_upper ? prim_minor1_m : prim_minor2_m;
+    end
+  end
+
+  // Between triangles what is added is the start: it needs no choice behind the adder.
+  reg [27:0] z_d0;  // as in the triangle
+  reg [27:0] z_d1;  // as in the triangle
+  wire [27:0] z_added = carry ? z_d1 : running ? z_d0 : prim_z_start;
+  reg [19:0] r_d0;  // as in the triangle
+  reg [19:0] r_d1;  // as in the triangle
+  wire [19:0] r_added = carry ? r_d1 : running ? r_d0 : prim_r_start;
+  reg [19:0] g_d0;  // as in the triangle
+  reg [19:0] g_d1;  // as in the triangle
+  wire [19:0] g_added = carry ? g_d1 : running ? g_d0 : prim_g_start;
+  reg [19:0] b_d0;  // as in the triangle
+  reg [19:0] b_d1;  // as in the triangle
+  wire [19:0] b_added = carry ? b_d1 : running ? b_d0 : prim_b_start;
+
+  always @(posedge clk) begin
+    if (load) begin
+      inc_z <= prim_z_g;
+      z_d0 <= prim_z_d0;
+      z_d1 <= prim_z_d1;
+      inc_r <= prim_r_g;
+      r_d0 <= prim_r_d0;
+      r_d1 <= prim_r_d1;
+      inc_g <= prim_g_g;
+      g_d0 <= prim_g_d0;
+      g_d1 <= prim_g_d1;
+      inc_b <= prim_b_g;
+      b_d0 <= prim_b_d0;
+      b_d1 <= prim_b_d1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (step || load) begin
+      line_z <= running ? line_z + z_added : z_added;
+      line_r <= running ? line_r + r_added : r_added;
+      line_g <= running ? line_g + g_added : g_added;
+      line_b <= running ? line_b + b_added : b_added;
+    end
+  end
+
+  assign line_valid = running;
+  assign line_cmaj = major_c;
+  assign line_cmin = minor_c;
+  assign line_fence = line_fresh;
+
+endmodule
+
+`default_nettype wire

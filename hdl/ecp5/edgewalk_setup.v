@@ -1,0 +1,960 @@
+// edgewalk_setup: SETUP turns three vertices into edges and increments.
+//
+//   tri ─> [sorted by v] ─┬─> lines j0 j1 n1 n2, columns ─> none? culled
+//                         ├─> area ─> major_right; 0? culled; fourfold till values fit: M
+//                         └─> differences ─> lanes ─┬─> three edges: q f, C R ──────────────┬─> prim
+//                                                   └─> N channels: g, d0, d1, start ───────┘
+//             a lane holds a pair, whole + rest / M: quotient and exact remainder, doubled and added to
+//
+// Formats: see the ports; P = 2^t is a pixel in centre coordinates.
+// Timing: the edges, then the channels, as many side by side as there are lanes. How long they take follows the triangle: a sum
+// takes a clock for a bit of its factors. prim_valid is high four clocks after the last operation.
+// Rules: all results are those of exact division, rounded once; a word keeps its low bits.
+
+`timescale 1ns / 1ps
+`default_nettype none
+
+module edgewalk_setup (
+  input  wire        clk,
+  input  wire        rst,
+
+  input  wire        tri_valid,
+  input  wire [14:0] tri_x0,            // Q11.4 px
+  input  wire [14:0] tri_y0,            // Q11.4 px
+  input  wire [15:0] tri_z0,            // UQ16.0 LSB
+  input  wire  [7:0] tri_r0,            // UQ8.0 LSB
+  input  wire  [7:0] tri_g0,            // UQ8.0 LSB
+  input  wire  [7:0] tri_b0,            // UQ8.0 LSB
+  input  wire [14:0] tri_x1,            // Q11.4 px
+  input  wire [14:0] tri_y1,            // Q11.4 px
+  input  wire [15:0] tri_z1,            // UQ16.0 LSB
+  input  wire  [7:0] tri_r1,            // UQ8.0 LSB
+  input  wire  [7:0] tri_g1,            // UQ8.0 LSB
+  input  wire  [7:0] tri_b1,            // UQ8.0 LSB
+  input  wire [14:0] tri_x2,            // Q11.4 px
+  input  wire [14:0] tri_y2,            // Q11.4 px
+  input  wire [15:0] tri_z2,            // UQ16.0 LSB
+  input  wire  [7:0] tri_r2,            // UQ8.0 LSB
+  input  wire  [7:0] tri_g2,            // UQ8.0 LSB
+  input  wire  [7:0] tri_b2,            // UQ8.0 LSB
+  input  wire        prim_ready,
+
+  output wire        tri_ready,
+  output wire        prim_valid,
+  output wire  [8:0] prim_jm,           // first line
+  output reg   [9:0] prim_n1,           // lines of the upper part
+  output reg   [9:0] prim_n2,           // lines of the lower part
+  output wire        prim_major_right,  // the major edge is the right one
+  output reg  [11:0] prim_major_c,      // signed, first column right of the edge
+  output reg  [14:0] prim_major_r,      // distance from the edge to that column, 1/M column
+  output reg  [11:0] prim_major_q,      // signed, whole columns a line
+  output reg  [14:0] prim_major_f,      // 1/M column a line
+  output wire [14:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
+  output reg  [11:0] prim_minor1_c,     // signed, first column right of the edge
+  output reg  [14:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
+  output reg  [11:0] prim_minor1_q,     // signed, whole columns a line
+  output reg  [14:0] prim_minor1_f,     // 1/M column a line
+  output wire [14:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
+  output reg  [11:0] prim_minor2_c,     // signed, first column right of the edge
+  output reg  [14:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
+  output reg  [11:0] prim_minor2_q,     // signed, whole columns a line
+  output reg  [14:0] prim_minor2_f,     // 1/M column a line
+  output wire [14:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
+  output reg  [27:0] prim_z_start,      // UQ16.12 LSB, modular, at the first pixel of the first line
+  output reg  [27:0] prim_z_d0,         // UQ16.12 LSB, modular, to the next line, edge without carry
+  output reg  [27:0] prim_z_d1,         // UQ16.12 LSB, modular, to the next line, edge with carry
+  output reg  [27:0] prim_z_g,          // UQ16.12 LSB, modular, to the next pixel of the span
+  output reg  [19:0] prim_r_start,      // UQ8.12 LSB, modular, at the first pixel of the first line
+  output reg  [19:0] prim_r_d0,         // UQ8.12 LSB, modular, to the next line, edge without carry
+  output reg  [19:0] prim_r_d1,         // UQ8.12 LSB, modular, to the next line, edge with carry
+  output reg  [19:0] prim_r_g,          // UQ8.12 LSB, modular, to the next pixel of the span
+  output reg  [19:0] prim_g_start,      // UQ8.12 LSB, modular, at the first pixel of the first line
+  output reg  [19:0] prim_g_d0,         // UQ8.12 LSB, modular, to the next line, edge without carry
+  output reg  [19:0] prim_g_d1,         // UQ8.12 LSB, modular, to the next line, edge with carry
+  output reg  [19:0] prim_g_g,          // UQ8.12 LSB, modular, to the next pixel of the span
+  output reg  [19:0] prim_b_start,      // UQ8.12 LSB, modular, at the first pixel of the first line
+  output reg  [19:0] prim_b_d0,         // UQ8.12 LSB, modular, to the next line, edge without carry
+  output reg  [19:0] prim_b_d1,         // UQ8.12 LSB, modular, to the next line, edge with carry
+  output reg  [19:0] prim_b_g           // UQ8.12 LSB, modular, to the next pixel of the span
+);
+
+  // Control: the operations one after the other, a clock each or more; in rounds where there are more jobs than lanes.
+  localparam [2:0] IDLE = 3'd0;
+  localparam [2:0] EDGES = 3'd1;
+  localparam [2:0] CHANNELS = 3'd2;
+  localparam [2:0] STORE = 3'd3;
+  localparam [2:0] DONE = 3'd4;
+  localparam [4:0] LOAD_DX = 5'd0;
+  localparam [4:0] FIX_DX = 5'd1;
+  localparam [4:0] DOUBLE_DX = 5'd2;
+  localparam [4:0] LOAD_DY = 5'd3;
+  localparam [4:0] ADD_DX = 5'd4;
+  localparam [4:0] WAIT_DX = 5'd5;
+  localparam [4:0] SUM = 5'd6;
+  localparam [4:0] COLUMNS = 5'd7;
+  localparam [4:0] LOAD1 = 5'd8;
+  localparam [4:0] FIX1 = 5'd9;
+  localparam [4:0] LOAD2 = 5'd10;
+  localparam [4:0] FIX2 = 5'd11;
+  localparam [4:0] WAIT12 = 5'd12;
+  localparam [4:0] ADD12 = 5'd13;
+  localparam [4:0] WAIT = 5'd14;
+  localparam [4:0] SUM_X = 5'd15;
+  localparam [4:0] DOUBLE_X = 5'd16;
+  localparam [4:0] MODULUS_Y = 5'd17;
+  localparam [4:0] SIGN_Y = 5'd18;
+  localparam [4:0] SUM_Y = 5'd19;
+  localparam [4:0] DOUBLE_Y = 5'd20;
+  localparam [4:0] ADD_X = 5'd21;
+  localparam [4:0] WAIT_XY = 5'd22;
+  localparam [4:0] MODULUS_LINE = 5'd23;
+  localparam [4:0] SIGN_LINE = 5'd24;
+  localparam [4:0] SUM_LINE = 5'd25;
+  localparam [4:0] ADD_LINE = 5'd26;
+  localparam [4:0] MODULUS_START = 5'd27;
+  localparam [4:0] SIGN_START = 5'd28;
+  localparam [4:0] SUM_START = 5'd29;
+  localparam [4:0] ADD_START = 5'd30;
+  wire nothing;          // no line, or no column, of the screen
+  wire area_known;       // and scaled for the next round of channels
+  wire no_area;
+  wire [3:0] scale;      // the modulus is the area 4^scale times
+  wire unfit;            // a number was taken in that is not between -M and M
+  wire [4:0] top_digit;  // place of the first digit of a sum
+  reg [2:0] state;
+  reg [4:0] at;          // operation
+  reg [4:0] left;        // its clocks after this one
+  reg first;             // its first clock
+  reg [1:0] round;       // of the jobs the lanes do in turn
+
+  // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
+  reg [3:0] pause;                                   // clocks left of it
+  wire advance = pause == 4'd0;
+  assign tri_ready = state == IDLE;
+  wire take = tri_valid && tri_ready;
+  wire in_edges = state == EDGES;
+  wire works = in_edges || (state == CHANNELS);
+  assign prim_valid = state == DONE;
+  wire begins = in_edges && (at == LOAD_DX) && (round == 2'd0);  // the first clock of a triangle
+  wire gives_up = in_edges && (at == FIX_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
+  wire last = left == 5'd0;                          // last clock of the operation
+  wire edges_end = in_edges && last && (at == COLUMNS) && (round == 2'd2);
+  wire round_ends = (state == CHANNELS) && last && (at == ADD_START) && !(round == 2'd3);
+  wire waits = (edges_end || round_ends) && !area_known;  // for the area or its scale
+  wire ends = works && last && !waits && !gives_up;  // the operation ends
+  wire leaves = ends && advance;
+  wire channels_end = (at == ADD_START) && (round == 2'd3);
+
+  always @(posedge clk) begin
+    if (rst) begin
+      state <= IDLE;
+    end else begin
+      if (take) state <= EDGES;
+      if (gives_up && advance) state <= IDLE;
+      if (edges_end && leaves) state <= no_area ? IDLE : CHANNELS;
+      if (leaves && channels_end) state <= STORE;
+      if ((state == STORE) && last) state <= DONE;
+      if (prim_valid && prim_ready) state <= IDLE;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (leaves) begin
+      at <= ((at == ADD_START) && !channels_end) ? LOAD1
+          : ((at == COLUMNS) && !edges_end) ? LOAD_DX
+          : at + 5'd1;
+    end
+    if (take) at <= LOAD_DX;
+  end
+
+  always @(posedge clk) begin
+    if (advance) first <= leaves;
+    if (take) first <= 1'b1;
+  end
+
+  always @(posedge clk) begin
+    if (leaves && ((at == COLUMNS) || (at == ADD_START))) round <= round + 2'd1;
+    if ((leaves && edges_end) || take) round <= 2'd0;
+  end
+
+  // How long the next operation takes.
+  wire [4:0] choice = (round == 2'd3) ? 5'd7 : (round == 2'd2) ? 5'd7 : (round == 2'd1) ? 5'd7 : 5'd7;
+  wire [4:0] choice_2 = (round == 2'd3) ? 5'd7
+                      : (round == 2'd2) ? 5'd7
+                      : (round == 2'd1) ? 5'd7
+                      : 5'd7;
+
+  always @(posedge clk) begin
+    if (advance && works) left <= left - 5'd1;
+    if (leaves) begin
+      left <= (at == SIGN_START) ? top_digit
+            : (at == SIGN_LINE) ? top_digit
+            : (at == SUM_Y) ? choice + {1'b0, scale}
+            : (at == SIGN_Y) ? top_digit
+            : (at == SUM_X) ? choice_2 + {1'b0, scale}
+            : (at == WAIT) ? top_digit
+            : (at == ADD12) ? 5'd1
+            : (at == WAIT_DX) ? top_digit
+            : (at == ADD_DX) ? 5'd1
+            : (at == FIX_DX) ? 5'd1
+            : 5'd0;
+    end
+    if (leaves && channels_end) left <= 5'd3;
+    if (state == STORE) left <= left - 5'd1;
+    if (waits || take) left <= 5'd0;
+  end
+
+  // The way of an operation: named, its addends formed, its step done, the rest and then the whole of the result.
+  reg [4:0] at_next;
+  reg [1:0] round_next;
+  reg ends_next;
+  reg [4:0] at_again;
+  reg [1:0] round_again;
+  reg ends_again;
+  reg [4:0] at_fixed;
+  reg [1:0] round_fixed;
+  reg ends_fixed;
+  wire resumes = pause == 4'd1;  // the step after the numbers is formed again
+  wire [4:0] at_formed = advance ? at_next : resumes ? at_again : at_fixed;
+  wire [1:0] round_formed = advance ? round_next : resumes ? round_again : round_fixed;
+  wire ends_formed = advance ? ends_next : resumes ? ends_again : pause == 4'd2;
+  reg [4:0] at_stepped;
+  reg [1:0] round_stepped;
+  reg ends_stepped;
+  reg [4:0] at_rest;
+  reg [1:0] round_rest;
+  reg ends_rest;
+  reg [4:0] at_whole;
+  reg [1:0] round_whole;
+  reg ends_whole;
+  wire rests = waits || gives_up || !works;
+
+  always @(posedge clk) begin
+    if (advance) begin
+      at_next <= at;
+      round_next <= round;
+      ends_next <= ends;
+      at_again <= at_formed;
+      round_again <= round_formed;
+      ends_again <= ends_formed;
+      at_fixed <= at_stepped;
+      round_fixed <= round_stepped;
+      ends_fixed <= ends_stepped;
+    end
+  end
+
+  always @(posedge clk) begin
+    at_stepped <= at_formed;
+    round_stepped <= round_formed;
+    ends_stepped <= ends_formed;
+    at_rest <= at_stepped;
+    round_rest <= round_stepped;
+    ends_rest <= ends_stepped;
+    at_whole <= at_rest;
+    round_whole <= round_rest;
+    ends_whole <= ends_rest;
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      pause <= 4'd0;
+    end else begin
+      if (!advance) pause <= pause - 4'd1;
+      if (advance && unfit) pause <= 4'd11;
+    end
+  end
+
+  // The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.
+  wire y1_above_y0 = $signed(tri_y1) < $signed(tri_y0);
+  wire y2_above_y0 = $signed(tri_y2) < $signed(tri_y0);
+  wire y2_above_y1 = $signed(tri_y2) < $signed(tri_y1);
+  reg [14:0] p0_u;      // Q11.4, signed
+  reg [14:0] p0_v;      // Q11.4, signed
+  reg [14:0] p1_u;      // Q11.4, signed
+  reg [14:0] p1_v;      // Q11.4, signed
+  reg [14:0] p2_u;      // Q11.4, signed
+  reg [14:0] p2_v;      // Q11.4, signed
+  reg [1:0] p0_vertex;  // whose values are those at this place
+  reg [1:0] p1_vertex;  // whose values are those at this place
+  reg [1:0] p2_vertex;  // whose values are those at this place
+  wire both = y1_above_y0 && !y2_above_y1;
+  wire both_2 = y2_above_y0 && y2_above_y1;
+  wire both_3 = !y1_above_y0 && y2_above_y1;
+  wire both_4 = !y2_above_y0 && !y2_above_y1;
+  wire [14:0] choice_3 = (!both && !both_3) ? tri_x1 : (!both_2 && !both_4) ? tri_x2 : tri_x0;
+  wire [14:0] choice_4 = (!both && !both_3) ? tri_y1 : (!both_2 && !both_4) ? tri_y2 : tri_y0;
+
+  always @(posedge clk) begin
+    if (take) begin
+      p0_u <= (both ? tri_x1 : both_2 ? tri_x2 : tri_x0) - 15'd8;
+      p0_v <= (both ? tri_y1 : both_2 ? tri_y2 : tri_y0) - 15'd8;
+      p1_u <= choice_3 - 15'd8;
+      p1_v <= choice_4 - 15'd8;
+      p2_u <= (both_3 ? tri_x1 : both_4 ? tri_x2 : tri_x0) - 15'd8;
+      p2_v <= (both_3 ? tri_y1 : both_4 ? tri_y2 : tri_y0) - 15'd8;
+      p0_vertex <= {both_2, both};
+      p1_vertex <= {!both_2 && !both_4, !both && !both_3};
+      p2_vertex <= {both_4, both_3};
+    end
+  end
+
+  // The values at the vertices, as they came.
+  reg [15:0] vertex0_z;  // UQ16.0 LSB
+  reg [7:0] vertex0_r;   // UQ8.0 LSB
+  reg [7:0] vertex0_g;   // UQ8.0 LSB
+  reg [7:0] vertex0_b;   // UQ8.0 LSB
+  reg [15:0] vertex1_z;  // UQ16.0 LSB
+  reg [7:0] vertex1_r;   // UQ8.0 LSB
+  reg [7:0] vertex1_g;   // UQ8.0 LSB
+  reg [7:0] vertex1_b;   // UQ8.0 LSB
+  reg [15:0] vertex2_z;  // UQ16.0 LSB
+  reg [7:0] vertex2_r;   // UQ8.0 LSB
+  reg [7:0] vertex2_g;   // UQ8.0 LSB
+  reg [7:0] vertex2_b;   // UQ8.0 LSB
+
+  always @(posedge clk) begin
+    if (take) begin
+      vertex0_z <= tri_z0;
+      vertex0_r <= tri_r0;
+      vertex0_g <= tri_g0;
+      vertex0_b <= tri_b0;
+      vertex1_z <= tri_z1;
+      vertex1_r <= tri_r1;
+      vertex1_g <= tri_g1;
+      vertex1_b <= tri_b1;
+      vertex2_z <= tri_z2;
+      vertex2_r <= tri_r2;
+      vertex2_g <= tri_g2;
+      vertex2_b <= tri_b2;
+    end
+  end
+
+  // Differences of the sorted vertices.
+  wire [15:0] difference = {p2_v[14], p2_v} - {p0_v[14], p0_v};
+  wire [14:0] dv02 = difference[14:0];    // 1/P line
+  wire [15:0] difference_2 = {p1_v[14], p1_v} - {p0_v[14], p0_v};
+  wire [14:0] dv01 = difference_2[14:0];  // 1/P line
+  wire [15:0] difference_3 = {p2_v[14], p2_v} - {p1_v[14], p1_v};
+  wire [14:0] dv12 = difference_3[14:0];  // 1/P line
+  wire [15:0] du01 = {p1_u[14], p1_u} - {p0_u[14], p0_u};  // 1/P column, signed
+  wire [15:0] du02 = {p2_u[14], p2_u} - {p0_u[14], p0_u};  // 1/P column, signed
+
+  // Twice the area: du1 dv2 - du2 dv1, over the bits of dv2 and dv1.
+  reg [3:0] area_digit;  // place of the digits added
+  reg area_adds;         // digits are added
+  wire [14:0] shifted = dv02 >> area_digit;
+  wire [14:0] shifted_2 = dv01 >> area_digit;
+  wire [16:0] area_part = (shifted[0] ? {du01[15], du01} : 17'd0)
+                        - (shifted_2[0] ? {du02[15], du02} : 17'd0);
+  reg [31:0] area;       // 1/P^2 px^2, signed
+  assign no_area = !(|area);
+  wire any = |dv02[14:8];
+  wire [6:0] part_2 = dv02[14:8];
+  wire [2:0] part = part_2[6:4];
+  wire any_2 = |part;
+  wire any_3 = part[2];
+  wire [1:0] part_3 = part[1:0];
+  wire [3:0] part_5 = part_2[3:0];
+  wire [1:0] part_4 = part_5[3:2];
+  wire any_4 = |part_4;
+  wire [1:0] part_6 = part_5[1:0];
+  wire [1:0] choice_5 = any_2 ? {any_3, any_3 ? 1'b0 : part_3[1]}
+                      : {any_4, any_4 ? part_4[1] : part_6[1]};
+  wire [7:0] part_8 = dv02[7:0];
+  wire [3:0] part_7 = part_8[7:4];
+  wire any_5 = |part_7;
+  wire [1:0] part_9 = part_7[3:2];
+  wire any_6 = |part_9;
+  wire [1:0] part_10 = part_7[1:0];
+  wire [3:0] part_12 = part_8[3:0];
+  wire [1:0] part_11 = part_12[3:2];
+  wire any_7 = |part_11;
+  wire [1:0] part_13 = part_12[1:0];
+  wire [1:0] choice_6 = any_5 ? {any_6, any_6 ? part_9[1] : part_10[1]}
+                      : {any_7, any_7 ? part_11[1] : part_13[1]};
+
+  always @(posedge clk) begin
+    if (area_adds) begin
+      area_digit <= area_digit - 4'd1;
+      area <= (area << 1) + {{15{area_part[16]}}, area_part};
+    end
+    if (begins) begin
+      area_digit <= {any, any ? {any_2, choice_5} : {any_5, choice_6}};
+      area <= 32'd0;
+    end
+  end
+
+  wire equal = area_digit == 4'd0;
+
+  always @(posedge clk) begin
+    if (rst) begin
+      area_adds <= 1'b0;
+    end else begin
+      if (area_adds && equal) area_adds <= 1'b0;
+      if (begins) area_adds <= 1'b1;
+    end
+  end
+
+  // The area as modulus: fourfold, i times, until the differences of the next round's values fit.
+  reg [15:0] differences;  // their bits, or those of complements
+  reg [31:0] scaled;       // -M or -M - 1, signed
+  reg scale_taken;         // the area is taken
+  reg scaling;             // it is compared
+  reg [3:0] scale_next;    // times that it is fourfold
+  wire [32:0] less_m = {{16'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
+  wire [31:0] part_14 = less_m[32:1];
+  wire fits = part_14[31] || !(|area);
+  wire grows = scaling && !fits;
+  assign area_known = !area_adds && !begins && !scale_taken && !scaling;
+  reg [3:0] scale_now;     // of the round
+  assign scale = scale_now;
+  wire either = (area_adds && equal) || ((at_formed == FIX2) && !(round_formed == 2'd3));
+
+  always @(posedge clk) begin
+    if (rst) begin
+      scale_taken <= 1'b0;
+    end else begin
+      scale_taken <= either && !begins;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      scaling <= 1'b0;
+    end else begin
+      if (fits) scaling <= 1'b0;
+      if (scale_taken) scaling <= 1'b1;
+      if (begins) scaling <= 1'b0;
+    end
+  end
+
+  wire inverse = !area[31];
+  wire [31:0] extended = area;
+
+  always @(posedge clk) begin
+    if (grows) begin
+      scaled <= {scaled[29:0], inverse, inverse};
+      scale_next <= scale_next + 4'd1;
+    end
+    if (scale_taken) begin
+      scaled <= inverse ? ~extended : extended;
+      scale_next <= 4'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (at_formed == LOAD1) scale_now <= scale_next;
+  end
+
+  // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
+  wire [10:0] part_15 = p0_v[14:4];
+  wire [11:0] line0 = {part_15[10], part_15} + {11'd0, |p0_v[3:0]};  // ceil(v/P)
+  wire [11:0] j0_next = ($signed(line0) < 12'sd0) ? 12'd0 : line0;
+  wire [10:0] part_16 = p2_v[14:4];
+  wire [11:0] line2 = {part_16[10], part_16} + {11'd0, |p2_v[3:0]};  // ceil(v/P)
+  wire [11:0] choice_7 = ($signed(line2) < 12'sd480) ? line2 : 12'd480;
+  wire [11:0] end_line = ($signed(choice_7) < $signed(j0_next)) ? j0_next : choice_7;
+  wire [10:0] part_17 = p1_v[14:4];
+  wire [11:0] line1 = {part_17[10], part_17} + {11'd0, |p1_v[3:0]};  // ceil(v/P)
+  wire [11:0] choice_8 = ($signed(line1) < $signed(j0_next)) ? j0_next : line1;
+  wire [11:0] j1_next = ($signed(choice_8) < $signed(end_line)) ? choice_8 : end_line;
+
+  // Columns: from ceil(u/P) of the leftmost to before ceil(u/P) of the rightmost vertex, on the screen.
+  wire [14:0] choice_9 = ($signed(p0_u) < $signed(p1_u)) ? p0_u : p1_u;
+  wire [14:0] leftmost = ($signed(choice_9) < $signed(p2_u)) ? choice_9 : p2_u;  // 1/P column
+  wire [14:0] choice_10 = ($signed(p0_u) < $signed(p1_u)) ? p1_u : p0_u;
+  wire [14:0] rightmost = ($signed(choice_10) < $signed(p2_u)) ? p2_u : choice_10;  // 1/P column
+  wire [10:0] part_18 = leftmost[14:4];
+  wire [11:0] sum = {part_18[10], part_18} + {11'd0, |leftmost[3:0]};
+  wire [11:0] first_column = ($signed(sum) < 12'sd0) ? 12'd0 : sum;
+  wire [10:0] part_19 = rightmost[14:4];
+  wire [11:0] sum_2 = {part_19[10], part_19} + {11'd0, |rightmost[3:0]};
+  wire [11:0] end_column = ($signed(sum_2) < 12'sd640) ? sum_2 : 12'd640;
+  reg [11:0] j0;                                   // line, signed
+  reg [11:0] j1;                                   // line, signed
+  wire upper = |prim_n1;
+  reg no_column;                                   // no column of the screen
+  assign nothing = (!upper && !(|prim_n2)) || no_column;
+  wire [11:0] jm = upper ? j0 : j1;                // first line of the triangle
+  wire [15:0] h0 = {jm, 4'd0} - {p0_v[14], p0_v};  // 1/P line
+  wire [15:0] h1 = {j1, 4'd0} - {p1_v[14], p1_v};  // 1/P line
+  wire [11:0] difference_4 = j1_next - j0_next;
+  wire [11:0] difference_5 = end_line - j1_next;
+
+  always @(posedge clk) begin
+    if (begins) begin
+      prim_n1 <= difference_4[9:0];
+      prim_n2 <= difference_5[9:0];
+      j0 <= j0_next;
+      j1 <= j1_next;
+      no_column <= $signed(end_column) <= $signed(first_column);
+    end
+  end
+
+  // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
+  reg [16:0] f;  // factor, signed
+  reg [16:0] g;  // factor, signed
+  wire [16:0] differing = f ^ $unsigned($signed(f) >>> 1);
+  wire [16:0] differing_2 = g ^ $unsigned($signed(g) >>> 1);
+  wire [15:0] digits = differing[15:0] | differing_2[15:0];  // digits of the factors that differ from their signs
+  wire any_8 = |digits[15:8];
+  wire [7:0] part_21 = digits[15:8];
+  wire [3:0] part_20 = part_21[7:4];
+  wire any_9 = |part_20;
+  wire [1:0] part_22 = part_20[3:2];
+  wire any_10 = |part_22;
+  wire [1:0] part_23 = part_20[1:0];
+  wire [3:0] part_25 = part_21[3:0];
+  wire [1:0] part_24 = part_25[3:2];
+  wire any_11 = |part_24;
+  wire [1:0] part_26 = part_25[1:0];
+  wire [1:0] choice_11 = any_9 ? {any_10, any_10 ? part_22[1] : part_23[1]}
+                       : {any_11, any_11 ? part_24[1] : part_26[1]};
+  wire [7:0] part_28 = digits[7:0];
+  wire [3:0] part_27 = part_28[7:4];
+  wire any_12 = |part_27;
+  wire [1:0] part_29 = part_27[3:2];
+  wire any_13 = |part_29;
+  wire [1:0] part_30 = part_27[1:0];
+  wire [3:0] part_32 = part_28[3:0];
+  wire [1:0] part_31 = part_32[3:2];
+  wire any_14 = |part_31;
+  wire [1:0] part_33 = part_32[1:0];
+  wire [1:0] choice_12 = any_12 ? {any_13, any_13 ? part_29[1] : part_30[1]}
+                       : {any_14, any_14 ? part_31[1] : part_33[1]};
+  assign top_digit = {1'b0, {any_8, any_8 ? {any_9, choice_11} : {any_12, choice_12}}};
+  wire [16:0] shifted_3 = f >> left;
+  wire digit_f = shifted_3[0];
+  wire [16:0] shifted_4 = g >> left;
+  wire digit_g = shifted_4[0];
+  wire [15:0] joined = {prim_major_c - {11'd0, area[31]}, 4'd0};
+
+  always @(posedge clk) begin
+    if (at == WAIT_DX) begin
+      f <= (round == 2'd2) ? ((|prim_n2) ? {13'd0, p1_u[3:0]} : 17'd0)
+         : (round == 2'd1) ? ((|prim_n1) ? {13'd0, p0_u[3:0]} : 17'd0)
+         : {13'd0, p0_u[3:0]};
+      g <= (round == 2'd2) ? ((|prim_n2) ? {1'b0, h1} : 17'd0)
+         : (round == 2'd1) ? ((|prim_n1) ? {1'b0, h0} : 17'd0)
+         : {1'b0, h0};
+    end
+    if (at == WAIT) begin
+      f <= {2'd0, dv02};
+      g <= {2'd0, dv01};
+    end
+    if (at == MODULUS_Y) begin
+      f <= -{du02[15], du02};
+      g <= -{du01[15], du01};
+    end
+    if (at == MODULUS_LINE) begin
+      f <= {{5{prim_major_q[11]}}, prim_major_q};
+      g <= 17'd1;
+    end
+    if (at == MODULUS_START) begin
+      f <= {joined[15], joined} - {{2{p0_u[14]}}, p0_u};
+      g <= {1'b0, h0};
+    end
+  end
+
+  // What all lanes do.
+  wire either_2 = (at == ADD_DX) || (at == ADD12) || (at == ADD_X) || (at == ADD_LINE);
+  wire either_3 = (at == MODULUS_Y) || (at == MODULUS_LINE) || (at == MODULUS_START);
+  wire either_4 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
+  wire [3:0] step = rests ? 4'd0
+                  : ((at == SUM) || (at == SUM_X)) ? (first ? 4'd5 : 4'd6)
+                  : ((at == COLUMNS) || (at == ADD_START)) ? 4'd10
+                  : either_2 ? 4'd9
+                  : either_3 ? 4'd7
+                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 4'd8
+                  : ((at == SUM_Y) || (at == SUM_LINE) || (at == SUM_START)) ? 4'd6
+                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_Y)) ? 4'd4
+                  : ((at == FIX_DX) || (at == FIX1) || (at == FIX2)) ? 4'd2
+                  : either_4 ? 4'd1
+                  : 4'd0;
+  reg began;       // numbers were found not to fit in the clock before
+  reg began_then;  // and in the one before
+  wire is_sum = (at == SUM)
+             || (at == SUM_X)
+             || (at == SUM_Y)
+             || (at == SUM_LINE)
+             || (at == SUM_START);
+  wire is_sign = (at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START);
+  wire of_gradients = (at == SIGN_LINE)
+                   || (at == SUM_LINE)
+                   || (at == SIGN_START)
+                   || (at == SUM_START);
+  wire [2:0] read_single_at = ((at == ADD_X) || (at == ADD_LINE)) ? 3'd5
+                            : (at == ADD_DX) ? 3'd2
+                            : (at == ADD12) ? 3'd1
+                            : 3'd0;
+  wire either_5 = (at_stepped == FIX_DX)
+               || (at_stepped == LOAD_DY)
+               || (at_stepped == ADD_DX)
+               || (at_stepped == FIX1)
+               || (at_stepped == FIX2)
+               || (at_stepped == ADD12)
+               || (at_stepped == DOUBLE_X)
+               || (at_stepped == DOUBLE_Y)
+               || (at_stepped == ADD_X);
+  wire write = ends_stepped && either_5;
+  wire [2:0] write_at = (at_stepped == ADD_X) ? 3'd7
+                      : (at_stepped == DOUBLE_Y) ? 3'd6
+                      : (at_stepped == DOUBLE_X) ? 3'd5
+                      : ((at_stepped == ADD_DX) || (at_stepped == ADD12)) ? 3'd3
+                      : ((at_stepped == FIX_DX) || (at_stepped == FIX2)) ? 3'd2
+                      : ((at_stepped == LOAD_DY) || (at_stepped == FIX1)) ? 3'd1
+                      : 3'd0;
+  wire take_modulus = (at_formed == LOAD_DX) || (at_formed == LOAD1);
+
+  always @(posedge clk) begin
+    began <= advance;
+    began_then <= began;
+  end
+
+  // Lane 0: its steps.
+  wire [3:0] choice_13 = (round == 2'd3) ? 4'd4
+                       : (round == 2'd2) ? 4'd4
+                       : (round == 2'd1) ? 4'd4
+                       : 4'd4;
+  wire [3:0] choice_14 = (round == 2'd3) ? 4'd4
+                       : (round == 2'd2) ? 4'd4
+                       : (round == 2'd1) ? 4'd4
+                       : 4'd4;
+  wire [3:0] step0 = ((at == DOUBLE_Y) && !rests) ? choice_13
+                   : ((at == DOUBLE_X) && !rests) ? choice_14
+                   : ((at == DOUBLE_DX) && !rests) ? 4'd4
+                   : step;
+  reg [3:0] step_next0;
+  reg [3:0] step_again0;
+  wire [3:0] step_formed0 = advance ? step_next0
+                          : (pause == 4'd1) ? step_again0
+                          : began ? 4'd11
+                          : began_then ? 4'd12
+                          : 4'd13;
+
+  always @(posedge clk) begin
+    if (rst) begin
+      step_next0 <= 4'd0;
+    end else if (advance) begin
+      step_next0 <= step0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (advance) step_again0 <= step_formed0;
+  end
+
+  // The vertices whose values the lanes are shown.
+  wire either_6 = (at_formed == FIX_DX) || (at_formed == LOAD2) || (at_formed == FIX2);
+  wire both_5 = either_6 && !begins;
+  wire both_6 = area[31] && ((at_formed == LOAD1) || (at_formed == LOAD2)) && !begins;
+  wire [1:0] from_vertex = both_5 ? (both_6 ? p0_vertex : p2_vertex) : both_6 ? p1_vertex : p0_vertex;
+  wire both_7 = (at_formed == ADD_START) && !begins;
+  wire [1:0] to_vertex = both_7 ? (1'b0 ? p1_vertex : p0_vertex)
+                       : both_5 ? (both_6 ? p2_vertex : p0_vertex)
+                       : both_6 ? p0_vertex
+                       : p1_vertex;
+  wire single_value = both_7;
+  wire either_7 = (at_formed == FIX1) || (at_formed == FIX2);
+  wire either_8 = (at_formed == FIX_DX) || begins;
+  wire values_of_round1 = (either_7 ? round_formed == 2'd0 : round_formed == 2'd1) && !either_8;
+  wire values_of_round2 = (either_7 ? round_formed == 2'd1 : round_formed == 2'd2) && !either_8;
+  wire values_of_round3 = (either_7 ? round_formed == 2'd2 : round_formed == 2'd3) && !either_8;
+
+  // Lane 0: what it takes in.
+  wire either_9 = (at_formed == LOAD_DX)
+               || (at_formed == LOAD_DY)
+               || ((at_formed == FIX_DX) && !advance);
+  wire [15:0] extended_2 = {1'b0, dv12};
+  wire [15:0] extended_3 = {1'b0, dv01};
+  wire [15:0] extended_4 = {1'b0, dv02};
+  wire [16:0] choice_15 = (round_formed == 2'd2) ? {extended_2[15], extended_2}
+                        : (round_formed == 2'd1) ? {extended_3[15], extended_3}
+                        : {extended_4[15], extended_4};
+  wire [15:0] difference_6 = {p2_u[14], p2_u} - {p1_u[14], p1_u};
+  wire [16:0] choice_16 = (at_formed == LOAD_DY) ? choice_15
+                        : (round_formed == 2'd2) ? {difference_6[15], difference_6}
+                        : (round_formed == 2'd1) ? {du01[15], du01}
+                        : {du02[15], du02};
+  wire [16:0] choice_17 = values_of_round3 ? {9'd0, vertex2_b}
+                        : values_of_round2 ? {9'd0, vertex2_g}
+                        : values_of_round1 ? {9'd0, vertex2_r}
+                        : {1'b0, vertex2_z};
+  wire [16:0] choice_18 = values_of_round3 ? {9'd0, vertex1_b}
+                        : values_of_round2 ? {9'd0, vertex1_g}
+                        : values_of_round1 ? {9'd0, vertex1_r}
+                        : {1'b0, vertex1_z};
+  wire [16:0] choice_19 = values_of_round3 ? {9'd0, vertex0_b}
+                        : values_of_round2 ? {9'd0, vertex0_g}
+                        : values_of_round1 ? {9'd0, vertex0_r}
+                        : {1'b0, vertex0_z};
+  wire [16:0] choice_20 = values_of_round3 ? 17'd0
+                        : values_of_round2 ? 17'd0
+                        : values_of_round1 ? 17'd0
+                        : 17'd0;
+  wire [16:0] choice_21 = single_value ? choice_20
+                        : from_vertex[1] ? choice_17
+                        : from_vertex[0] ? choice_18
+                        : choice_19;
+  wire [16:0] difference_7 = (to_vertex[1] ? choice_17 : to_vertex[0] ? choice_18 : choice_19)
+                           - choice_21;
+  wire [16:0] number0 = (either_9 && !begins) ? choice_16 : difference_7;  // signed
+  reg [16:0] value0;  // first value, signed
+  wire [15:0] shown = number0[15:0] ^ {16{number0[16]}};
+  wire lane0_unfit;
+  wire choice_22 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
+  wire choice_23 = (round_stepped == 2'd3) ? 1'b1
+                 : (round_stepped == 2'd2) ? 1'b1
+                 : (round_stepped == 2'd1) ? 1'b1
+                 : 1'b1;
+  wire either_10 = ((at_stepped == FIX_DX) && choice_22) || ((1'b0 || 1'b0) && choice_23);
+  assign unfit = lane0_unfit && either_10;
+
+  always @(posedge clk) begin
+    value0 <= number0;
+  end
+
+  always @(posedge clk) begin
+    if (((at_formed == FIX_DX) || (at_formed == FIX2)) && advance) differences <= differences | shown;
+    if (begins || (at_formed == FIX1)) differences <= shown;
+  end
+
+  // Edge: major.
+  wire [30:0] lane0_rest_out;
+  wire [31:0] lane0_whole_out;
+  wire [31:0] lane0_value;
+  wire choice_24 = is_sign ? f[16] : digit_f;
+  wire choice_25 = is_sign ? g[16] : digit_g;
+  wire [17:0] shifted_5 = $signed({number0[16], number0}) >>> {pause - 4'd2, 1'b0};
+  wire [10:0] part_34 = p1_u[14:4];
+  wire [10:0] part_35 = p0_u[14:4];
+  wire [10:0] part_36 = p0_u[14:4];
+  wire [31:0] choice_26 = (round_stepped == 2'd2) ? {{21{part_34[10]}}, part_34}
+                        : (round_stepped == 2'd1) ? {{21{part_35[10]}}, part_35}
+                        : {{21{part_36[10]}}, part_36};
+  wire [32:0] joined_2 = {{{value0, 1'b1}, 11'd0}, 4'd8};
+  wire [32:0] joined_3 = {{{value0, 1'b1}, 11'd0}, 4'd8};
+  wire [32:0] joined_4 = {{{value0, 1'b1}, 11'd0}, 4'd8};
+  wire [32:0] joined_5 = {{{value0, 1'b1}, 11'd0}, 4'd8};
+
+  edgewalk_setup_lane0 lane0 (
+    .clk           (clk),
+    .rst           (rst),
+    .advance       (advance),
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_24 || choice_25), choice_25, choice_24}
+: read_single_at),
+    .step          (step_formed0),
+    .number        (number0),
+    .digits        (shifted_5[1:0]),
+    .write         (write),
+    .write_at      (write_at),
+    .whole_in      ((at_stepped == COLUMNS) ? choice_26
+: (round_stepped == 2'd3) ? joined_2[31:0]
+: (round_stepped == 2'd2) ? joined_3[31:0]
+: (round_stepped == 2'd1) ? joined_4[31:0]
+: joined_5[31:0]),
+    .take_modulus  (take_modulus),
+    .modulus_in    ((at_formed == LOAD1) ? scaled
+: (round_formed == 2'd2) ? ~{13'd0, {dv12, 4'd0}}
+: (round_formed == 2'd1) ? ~{13'd0, {dv01, 4'd0}}
+: ~{13'd0, {dv02, 4'd0}}),
+    .modulus_short (!((at_formed == LOAD1) && area[31])),
+    .upwards       (at_rest == COLUMNS),
+    .unfit         (lane0_unfit),
+    .rest_out      (lane0_rest_out),
+    .whole_out     (lane0_whole_out),
+    .value         (lane0_value)
+  );
+
+  wire any_15 = |dv02[14:4];
+  wire [26:0] part_37 = lane0_rest_out[30:4];
+
+  always @(posedge clk) begin
+    if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd0)) begin
+      prim_major_f <= any_15 ? part_37[14:0] : 15'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd0)) begin
+      prim_major_q <= any_15 ? lane0_whole_out[11:0] : 12'd0;
+    end
+  end
+
+  wire [18:0] difference_8 = {dv02, 4'd0} - lane0_rest_out[18:0];
+
+  always @(posedge clk) begin
+    if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd0)) begin
+      prim_major_r <= (|lane0_rest_out) ? difference_8[18:4] : 15'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == COLUMNS) && (round_whole == 2'd0)) begin
+      prim_major_c <= lane0_value[11:0];
+    end
+  end
+
+  // Edge: minor1.
+  wire both_8 = (|prim_n1) && (|dv01[14:4]);
+  wire [26:0] part_38 = lane0_rest_out[30:4];
+
+  always @(posedge clk) begin
+    if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd1)) begin
+      prim_minor1_f <= both_8 ? part_38[14:0] : 15'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd1)) begin
+      prim_minor1_q <= both_8 ? lane0_whole_out[11:0] : 12'd0;
+    end
+  end
+
+  wire [18:0] difference_9 = {dv01, 4'd0} - lane0_rest_out[18:0];
+
+  always @(posedge clk) begin
+    if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd1)) begin
+      prim_minor1_r <= (|prim_n1) ? ((|lane0_rest_out) ? difference_9[18:4] : 15'd0) : 15'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == COLUMNS) && (round_whole == 2'd1)) begin
+      prim_minor1_c <= (|prim_n1) ? lane0_value[11:0] : 12'd0;
+    end
+  end
+
+  // Edge: minor2.
+  wire both_9 = (|prim_n2) && (|dv12[14:4]);
+  wire [26:0] part_39 = lane0_rest_out[30:4];
+
+  always @(posedge clk) begin
+    if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd2)) begin
+      prim_minor2_f <= both_9 ? part_39[14:0] : 15'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd2)) begin
+      prim_minor2_q <= both_9 ? lane0_whole_out[11:0] : 12'd0;
+    end
+  end
+
+  wire [18:0] difference_10 = {dv12, 4'd0} - lane0_rest_out[18:0];
+
+  always @(posedge clk) begin
+    if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd2)) begin
+      prim_minor2_r <= (|prim_n2) ? ((|lane0_rest_out) ? difference_10[18:4] : 15'd0) : 15'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == COLUMNS) && (round_whole == 2'd2)) begin
+      prim_minor2_c <= (|prim_n2) ? lane0_value[11:0] : 12'd0;
+    end
+  end
+
+  // Channel: z.
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd0)) begin
+      prim_z_g <= area[31] ? -lane0_value[27:0] : lane0_value[27:0];
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == SUM_LINE) && (round_whole == 2'd0)) prim_z_d0 <= lane0_value[27:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd0)) prim_z_d1 <= lane0_value[27:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd0)) begin
+      prim_z_start <= lane0_whole_out[31:4];
+    end
+  end
+
+  // Channel: r.
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd1)) begin
+      prim_r_g <= area[31] ? -lane0_value[19:0] : lane0_value[19:0];
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == SUM_LINE) && (round_whole == 2'd1)) prim_r_d0 <= lane0_value[19:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd1)) prim_r_d1 <= lane0_value[19:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd1)) begin
+      prim_r_start <= lane0_whole_out[23:4];
+    end
+  end
+
+  // Channel: g.
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd2)) begin
+      prim_g_g <= area[31] ? -lane0_value[19:0] : lane0_value[19:0];
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == SUM_LINE) && (round_whole == 2'd2)) prim_g_d0 <= lane0_value[19:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd2)) prim_g_d1 <= lane0_value[19:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd2)) begin
+      prim_g_start <= lane0_whole_out[23:4];
+    end
+  end
+
+  // Channel: b.
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd3)) begin
+      prim_b_g <= area[31] ? -lane0_value[19:0] : lane0_value[19:0];
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == SUM_LINE) && (round_whole == 2'd3)) prim_b_d0 <= lane0_value[19:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd3)) prim_b_d1 <= lane0_value[19:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd3)) begin
+      prim_b_start <= lane0_whole_out[23:4];
+    end
+  end
+
+  assign prim_jm = jm[8:0];
+  assign prim_major_right = area[31];
+  assign prim_major_m = dv02;
+  assign prim_minor1_m = dv01;
+  assign prim_minor2_m = dv12;
+
+  // Not needed, on purpose.
+  wire unused = &{
+    1'b0, WAIT12, WAIT_XY, ends_fixed, less_m[0], lane0_value[31:28], difference[15], difference_2[15],
+    difference_3[15], part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1], shifted_2[14:1],
+    part_14[30:0], difference_4[11:10], difference_5[11:10], differing[16], differing_2[16], part_23[0],
+    part_26[0], part_30[0], part_33[0], shifted_3[16:1], shifted_4[16:1], shifted_5[17:2], joined_5[32],
+    joined_4[32], joined_3[32], joined_2[32], part_37[26:15], difference_8[3:0], part_38[26:15],
+    difference_9[3:0], part_39[26:15], difference_10[3:0]
+  };
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,142 @@
+// edgewalk_depth: DEPTH reads the old depth of every fragment, compares, and writes what passes.
+//
+//            ┌──────────────── rd (address) ──> depth memory
+//   frag ────┴─> [in-flight queue] ─┬─ compare ─> [w] ── wr ──> depth and frame memory
+//            depth memory ── data ──┘
+//
+// Formats: unsigned depths; depth_func 0 never, 1 less, 2 equal, 3 lequal, 4 greater, 5 notequal, 6 gequal, 7 always.
+// Timing: a fragment is read in the cycle it comes, compared in the cycle its old depth comes, written in the next.
+// Rules: depths come in the order of the reads. depth_func and depth_write stay as they are while the machine is busy.
+// The depth is read whatever the function.
+// Hazard: a fragment with fence waits until nothing is in flight.
+
+`timescale 1ns / 1ps
+`default_nettype none
+
+module edgewalk_depth (
+  input  wire        clk,
+  input  wire        rst,
+
+  input  wire  [2:0] depth_func,   // 0 never 1 less 2 equal 3 lequal 4 greater 5 notequal 6 gequal 7 always: new ? old
+  input  wire        depth_write,  // depths of passing fragments are written
+  input  wire        frag_valid,
+  input  wire [15:0] frag_addr,    // line * 2^8 + column
+  input  wire [15:0] frag_z,       // unorm16
+  input  wire  [4:0] frag_r,       // unorm5
+  input  wire  [4:0] frag_g,       // unorm5
+  input  wire  [4:0] frag_b,       // unorm5
+  input  wire        frag_fence,   // what is in flight may be of the same pixel
+  input  wire        rd_ready,
+  input  wire        data_valid,
+  input  wire [15:0] data_z,       // unorm16, old depth
+  input  wire        wr_ready,
+
+  output wire        frag_ready,
+  output wire        rd_valid,
+  output wire [15:0] rd_addr,      // line * 2^8 + column
+  output wire        data_ready,
+  output reg         wr_valid,     // a pixel is being written
+  output reg  [15:0] wr_addr,      // line * 2^8 + column
+  output reg  [15:0] wr_z,         // unorm16
+  output reg         wr_z_en,      // the depth is written too
+  output reg   [4:0] wr_r,         // unorm5
+  output reg   [4:0] wr_g,         // unorm5
+  output reg   [4:0] wr_b,         // unorm5
+  output wire        hazard,       // the fragment must wait for one in flight
+  output wire        full,         // the in-flight queue is full
+  output wire        occupied      // something is in flight
+);
+
+  // State: the queue of what waits for its old depth, and the pixel being written.
+  reg [1:0] count;         // fragments in flight
+  reg [15:0] place0_addr;  // line * 2^8 + column
+  reg [15:0] place0_z;     // unorm16
+  reg [4:0] place0_r;      // unorm5
+  reg [4:0] place0_g;      // unorm5
+  reg [4:0] place0_b;      // unorm5
+  reg [15:0] place1_addr;  // line * 2^8 + column
+  reg [15:0] place1_z;     // unorm16
+  reg [4:0] place1_r;      // unorm5
+  reg [4:0] place1_g;      // unorm5
+  reg [4:0] place1_b;      // unorm5
+
+  // A fragment enters when the queue has room and nothing in flight may change its depth.
+  assign full = count == 2'd2;
+  assign hazard = frag_fence && ((|count) || wr_valid);
+  wire clear_to_read = !full && !hazard;
+  assign rd_valid = frag_valid && clear_to_read;
+  assign frag_ready = rd_ready && clear_to_read;
+  wire push = rd_valid && rd_ready;
+
+  // Compare the head with its old depth when that comes and w is free.
+  wire w_free = !wr_valid || wr_ready;
+  assign data_ready = (|count) && w_free;
+  wire compare = data_valid && data_ready;
+  wire [15:0] old = data_z;  // depth to compare with
+  wire less = place0_z < old;
+  wire equal = place0_z == old;
+  wire pass = (depth_func[0] && less)
+           || (depth_func[1] && equal)
+           || (depth_func[2] && !less && !equal);
+
+  // Write what passes.
+  always @(posedge clk) begin
+    if (rst) begin
+      wr_valid <= 1'b0;
+    end else begin
+      if (wr_ready) wr_valid <= 1'b0;
+      if (compare) wr_valid <= pass;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (compare) begin
+      wr_addr <= place0_addr;
+      wr_z <= place0_z;
+      wr_z_en <= depth_write;
+      wr_r <= place0_r;
+      wr_g <= place0_g;
+      wr_b <= place0_b;
+    end
+  end
+
+  // The queue moves up when its head leaves; what enters goes behind the last.
+  wire place0_moves = compare || (count <= 2'd0);
+  wire place0_has_next = count > 2'd1;
+  wire place1_moves = compare || (count <= 2'd1);
+
+  always @(posedge clk) begin
+    if (rst) begin
+      count <= 2'd0;
+    end else begin
+      if (push && !compare) count <= count + 2'd1;
+      if (compare && !push) count <= count - 2'd1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (place0_moves) begin
+      place0_addr <= place0_has_next ? place1_addr : frag_addr;
+      place0_z <= place0_has_next ? place1_z : frag_z;
+      place0_r <= place0_has_next ? place1_r : frag_r;
+      place0_g <= place0_has_next ? place1_g : frag_g;
+      place0_b <= place0_has_next ? place1_b : frag_b;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (place1_moves) begin
+      place1_addr <= frag_addr;
+      place1_z <= frag_z;
+      place1_r <= frag_r;
+      place1_g <= frag_g;
+      place1_b <= frag_b;
+    end
+  end
+
+  assign rd_addr = frag_addr;
+  assign occupied = (|count) || wr_valid;
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,189 @@
+// edgewalk_pixel: PIXEL steps along a span, a pixel every ceil(N/A) clocks, with A adders shared by the N channels.
+//
+//   span ─> [x count]───────────────────────────────────────┐
+//       └─> [a value a channel] <─ + <─ [increments] <─ inc ├─> [out] ─> frag
+//                  └────────────────────────────────────────┘
+//
+// Formats: values and increments are modular words; a fragment takes the bits above the fraction.
+// Timing: a pixel leaves in the last of its phases. The additions for the next pixel begin in that same phase and go on
+// in the first phases of the next pixel, one channel of each adder a clock; an adder without one more rests.
+// Rules: everything stands still while a fragment waits at the output. Columns off the screen cost their phases, and give
+// no fragment.
+
+`timescale 1ns / 1ps
+`default_nettype none
+
+module edgewalk_pixel (
+  input  wire        clk,
+  input  wire        rst,
+
+  input  wire        span_valid,
+  input  wire  [9:0] span_x,         // signed, first column
+  input  wire  [7:0] span_y,         // line
+  input  wire  [9:0] span_count,     // pixels, at least 1
+  input  wire        span_leftward,  // towards smaller columns
+  input  wire [25:0] span_z,         // UQ16.10 LSB, modular
+  input  wire [14:0] span_r,         // UQ5.10 LSB, modular
+  input  wire [14:0] span_g,         // UQ5.10 LSB, modular
+  input  wire [14:0] span_b,         // UQ5.10 LSB, modular
+  input  wire        span_fresh,     // first span of the triangle: its increments are new
+  input  wire        span_fence,     // what is in flight may be of the same pixels
+  input  wire [25:0] inc_z,          // UQ16.10 LSB, modular
+  input  wire [14:0] inc_r,          // UQ5.10 LSB, modular
+  input  wire [14:0] inc_g,          // UQ5.10 LSB, modular
+  input  wire [14:0] inc_b,          // UQ5.10 LSB, modular
+  input  wire        frag_ready,
+
+  output wire        span_ready,
+  output reg         frag_valid,
+  output reg  [15:0] frag_addr,      // line * 2^8 + column
+  output reg  [15:0] frag_z,         // unorm16
+  output reg   [4:0] frag_r,         // unorm5
+  output reg   [4:0] frag_g,         // unorm5
+  output reg   [4:0] frag_b,         // unorm5
+  output reg         frag_fence,     // what is in flight may be of the same pixel
+  output reg         active,         // a span is being drawn
+  output wire        visible,        // its pixel is on the screen
+  output wire        advance,        // nothing waits at the output
+  output wire        occupied        // a fragment is in an output stage
+);
+
+  // The span being drawn.
+  assign advance = !frag_valid || frag_ready;
+  reg [9:0] x;                          // column, signed
+  reg [7:0] y;                          // line
+  reg leftward;                         // towards smaller columns
+  reg [9:0] count;                      // pixels left of the span, this one too
+  reg fence;                            // for the next fragment
+  reg last;                             // count is 1
+  wire finish = active && last;         // last clock of the span
+  assign span_ready = advance && (!active || finish);
+  wire load = span_valid && span_ready;
+  assign visible = x < 10'd240;
+  wire leaves = advance && active;      // this pixel is done
+  wire next_pixel = leaves && !finish;  // another one follows
+  wire emit = active && visible;        // a fragment
+
+  always @(posedge clk) begin
+    if (rst) begin
+      active <= 1'b0;
+    end else begin
+      if (leaves && finish) active <= 1'b0;
+      if (load) active <= 1'b1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (next_pixel) begin
+      x <= leftward ? x - 10'd1 : x + 10'd1;
+      count <= count - 10'd1;
+      last <= count == 10'd2;
+    end
+    if (load) begin
+      x <= span_x;
+      count <= span_count;
+      last <= span_count == 10'd1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (load) begin
+      y <= span_y;
+      leftward <= span_leftward;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (advance && emit) fence <= 1'b0;
+    if (load) fence <= span_fence;
+  end
+
+  // The words of z.
+  reg [25:0] z_value;  // UQ16.10 LSB, modular
+  reg [25:0] z_inc;    // UQ16.10 LSB, modular
+
+  always @(posedge clk) begin
+    if (load && span_fresh) z_inc <= inc_z;
+  end
+
+  // Its adder.
+  wire [25:0] z_sum = z_value + z_inc;
+
+  always @(posedge clk) begin
+    if (load) z_value <= span_z;
+    if (next_pixel) z_value <= z_sum;
+  end
+
+  // The words of r.
+  reg [14:0] r_value;  // UQ5.10 LSB, modular
+  reg [14:0] r_inc;    // UQ5.10 LSB, modular
+
+  always @(posedge clk) begin
+    if (load && span_fresh) r_inc <= inc_r;
+  end
+
+  // Its adder.
+  wire [14:0] r_sum = r_value + r_inc;
+
+  always @(posedge clk) begin
+    if (load) r_value <= span_r;
+    if (next_pixel) r_value <= r_sum;
+  end
+
+  // The words of g.
+  reg [14:0] g_value;  // UQ5.10 LSB, modular
+  reg [14:0] g_inc;    // UQ5.10 LSB, modular
+
+  always @(posedge clk) begin
+    if (load && span_fresh) g_inc <= inc_g;
+  end
+
+  // Its adder.
+  wire [14:0] g_sum = g_value + g_inc;
+
+  always @(posedge clk) begin
+    if (load) g_value <= span_g;
+    if (next_pixel) g_value <= g_sum;
+  end
+
+  // The words of b.
+  reg [14:0] b_value;  // UQ5.10 LSB, modular
+  reg [14:0] b_inc;    // UQ5.10 LSB, modular
+
+  always @(posedge clk) begin
+    if (load && span_fresh) b_inc <= inc_b;
+  end
+
+  // Its adder.
+  wire [14:0] b_sum = b_value + b_inc;
+
+  always @(posedge clk) begin
+    if (load) b_value <= span_b;
+    if (next_pixel) b_value <= b_sum;
+  end
+
+  // The output: in each stage the bits of one more segment.
+  always @(posedge clk) begin
+    if (advance) begin
+      frag_addr <= {y, x[7:0]};
+      frag_z <= z_value[25:10];
+      frag_r <= r_value[14:10];
+      frag_g <= g_value[14:10];
+      frag_b <= b_value[14:10];
+      frag_fence <= fence;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      frag_valid <= 1'b0;
+    end else if (advance) begin
+      frag_valid <= emit;
+    end
+  end
+
+  assign occupied = frag_valid;
+
+endmodule
+
+`default_nettype wire

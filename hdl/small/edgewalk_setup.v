@@ -1,0 +1,953 @@
+// edgewalk_setup: SETUP turns three vertices into edges and increments.
+//
+//   tri ─> [sorted by v] ─┬─> lines j0 j1 n1 n2, columns ─> none? culled
+//                         ├─> area ─> major_right; 0? culled; fourfold till values fit: M
+//                         └─> differences ─> lanes ─┬─> three edges: q f, C R ──────────────┬─> prim
+//                                                   └─> N channels: g, d0, d1, start ───────┘
+//             a lane holds a pair, whole + rest / M: quotient and exact remainder, doubled and added to
+//
+// Formats: see the ports; P = 2^t is a pixel in centre coordinates.
+// Timing: the edges, then the channels, as many side by side as there are lanes. How long they take follows the triangle: a sum
+// takes a clock for a bit of its factors. prim_valid is high four clocks after the last operation.
+// Rules: all results are those of exact division, rounded once; a word keeps its low bits.
+
+`timescale 1ns / 1ps
+`default_nettype none
+
+module edgewalk_setup (
+  input  wire        clk,
+  input  wire        rst,
+
+  input  wire        tri_valid,
+  input  wire [12:0] tri_x0,            // Q9.4 px
+  input  wire [12:0] tri_y0,            // Q9.4 px
+  input  wire [15:0] tri_z0,            // UQ16.0 LSB
+  input  wire  [4:0] tri_r0,            // UQ5.0 LSB
+  input  wire  [4:0] tri_g0,            // UQ5.0 LSB
+  input  wire  [4:0] tri_b0,            // UQ5.0 LSB
+  input  wire [12:0] tri_x1,            // Q9.4 px
+  input  wire [12:0] tri_y1,            // Q9.4 px
+  input  wire [15:0] tri_z1,            // UQ16.0 LSB
+  input  wire  [4:0] tri_r1,            // UQ5.0 LSB
+  input  wire  [4:0] tri_g1,            // UQ5.0 LSB
+  input  wire  [4:0] tri_b1,            // UQ5.0 LSB
+  input  wire [12:0] tri_x2,            // Q9.4 px
+  input  wire [12:0] tri_y2,            // Q9.4 px
+  input  wire [15:0] tri_z2,            // UQ16.0 LSB
+  input  wire  [4:0] tri_r2,            // UQ5.0 LSB
+  input  wire  [4:0] tri_g2,            // UQ5.0 LSB
+  input  wire  [4:0] tri_b2,            // UQ5.0 LSB
+  input  wire        prim_ready,
+
+  output wire        tri_ready,
+  output wire        prim_valid,
+  output wire  [7:0] prim_jm,           // first line
+  output reg   [8:0] prim_n1,           // lines of the upper part
+  output reg   [8:0] prim_n2,           // lines of the lower part
+  output wire        prim_major_right,  // the major edge is the right one
+  output reg   [9:0] prim_major_c,      // signed, first column right of the edge
+  output reg  [12:0] prim_major_r,      // distance from the edge to that column, 1/M column
+  output reg   [9:0] prim_major_q,      // signed, whole columns a line
+  output reg  [12:0] prim_major_f,      // 1/M column a line
+  output wire [12:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
+  output reg   [9:0] prim_minor1_c,     // signed, first column right of the edge
+  output reg  [12:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
+  output reg   [9:0] prim_minor1_q,     // signed, whole columns a line
+  output reg  [12:0] prim_minor1_f,     // 1/M column a line
+  output wire [12:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
+  output reg   [9:0] prim_minor2_c,     // signed, first column right of the edge
+  output reg  [12:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
+  output reg   [9:0] prim_minor2_q,     // signed, whole columns a line
+  output reg  [12:0] prim_minor2_f,     // 1/M column a line
+  output wire [12:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
+  output reg  [25:0] prim_z_start,      // UQ16.10 LSB, modular, at the first pixel of the first line
+  output reg  [25:0] prim_z_d0,         // UQ16.10 LSB, modular, to the next line, edge without carry
+  output reg  [25:0] prim_z_d1,         // UQ16.10 LSB, modular, to the next line, edge with carry
+  output reg  [25:0] prim_z_g,          // UQ16.10 LSB, modular, to the next pixel of the span
+  output reg  [14:0] prim_r_start,      // UQ5.10 LSB, modular, at the first pixel of the first line
+  output reg  [14:0] prim_r_d0,         // UQ5.10 LSB, modular, to the next line, edge without carry
+  output reg  [14:0] prim_r_d1,         // UQ5.10 LSB, modular, to the next line, edge with carry
+  output reg  [14:0] prim_r_g,          // UQ5.10 LSB, modular, to the next pixel of the span
+  output reg  [14:0] prim_g_start,      // UQ5.10 LSB, modular, at the first pixel of the first line
+  output reg  [14:0] prim_g_d0,         // UQ5.10 LSB, modular, to the next line, edge without carry
+  output reg  [14:0] prim_g_d1,         // UQ5.10 LSB, modular, to the next line, edge with carry
+  output reg  [14:0] prim_g_g,          // UQ5.10 LSB, modular, to the next pixel of the span
+  output reg  [14:0] prim_b_start,      // UQ5.10 LSB, modular, at the first pixel of the first line
+  output reg  [14:0] prim_b_d0,         // UQ5.10 LSB, modular, to the next line, edge without carry
+  output reg  [14:0] prim_b_d1,         // UQ5.10 LSB, modular, to the next line, edge with carry
+  output reg  [14:0] prim_b_g           // UQ5.10 LSB, modular, to the next pixel of the span
+);
+
+  // Control: the operations one after the other, a clock each or more; in rounds where there are more jobs than lanes.
+  localparam [2:0] IDLE = 3'd0;
+  localparam [2:0] EDGES = 3'd1;
+  localparam [2:0] CHANNELS = 3'd2;
+  localparam [2:0] STORE = 3'd3;
+  localparam [2:0] DONE = 3'd4;
+  localparam [4:0] LOAD_DX = 5'd0;
+  localparam [4:0] FIX_DX = 5'd1;
+  localparam [4:0] DOUBLE_DX = 5'd2;
+  localparam [4:0] LOAD_DY = 5'd3;
+  localparam [4:0] ADD_DX = 5'd4;
+  localparam [4:0] WAIT_DX = 5'd5;
+  localparam [4:0] SUM = 5'd6;
+  localparam [4:0] COLUMNS = 5'd7;
+  localparam [4:0] LOAD1 = 5'd8;
+  localparam [4:0] FIX1 = 5'd9;
+  localparam [4:0] LOAD2 = 5'd10;
+  localparam [4:0] FIX2 = 5'd11;
+  localparam [4:0] WAIT12 = 5'd12;
+  localparam [4:0] ADD12 = 5'd13;
+  localparam [4:0] WAIT = 5'd14;
+  localparam [4:0] SUM_X = 5'd15;
+  localparam [4:0] DOUBLE_X = 5'd16;
+  localparam [4:0] MODULUS_Y = 5'd17;
+  localparam [4:0] SIGN_Y = 5'd18;
+  localparam [4:0] SUM_Y = 5'd19;
+  localparam [4:0] DOUBLE_Y = 5'd20;
+  localparam [4:0] ADD_X = 5'd21;
+  localparam [4:0] WAIT_XY = 5'd22;
+  localparam [4:0] MODULUS_LINE = 5'd23;
+  localparam [4:0] SIGN_LINE = 5'd24;
+  localparam [4:0] SUM_LINE = 5'd25;
+  localparam [4:0] ADD_LINE = 5'd26;
+  localparam [4:0] MODULUS_START = 5'd27;
+  localparam [4:0] SIGN_START = 5'd28;
+  localparam [4:0] SUM_START = 5'd29;
+  localparam [4:0] ADD_START = 5'd30;
+  wire nothing;          // no line, or no column, of the screen
+  wire area_known;       // and scaled for the next round of channels
+  wire no_area;
+  wire [3:0] scale;      // the modulus is the area 4^scale times
+  wire unfit;            // a number was taken in that is not between -M and M
+  wire [4:0] top_digit;  // place of the first digit of a sum
+  reg [2:0] state;
+  reg [4:0] at;          // operation
+  reg [4:0] left;        // its clocks after this one
+  reg first;             // its first clock
+  reg [1:0] round;       // of the jobs the lanes do in turn
+
+  // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
+  reg [3:0] pause;                                   // clocks left of it
+  wire advance = pause == 4'd0;
+  assign tri_ready = state == IDLE;
+  wire take = tri_valid && tri_ready;
+  wire in_edges = state == EDGES;
+  wire works = in_edges || (state == CHANNELS);
+  assign prim_valid = state == DONE;
+  wire begins = in_edges && (at == LOAD_DX) && (round == 2'd0);  // the first clock of a triangle
+  wire gives_up = in_edges && (at == FIX_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
+  wire last = left == 5'd0;                          // last clock of the operation
+  wire edges_end = in_edges && last && (at == COLUMNS) && (round == 2'd2);
+  wire round_ends = (state == CHANNELS) && last && (at == ADD_START) && !(round == 2'd3);
+  wire waits = (edges_end || round_ends) && !area_known;  // for the area or its scale
+  wire ends = works && last && !waits && !gives_up;  // the operation ends
+  wire leaves = ends && advance;
+  wire channels_end = (at == ADD_START) && (round == 2'd3);
+
+  always @(posedge clk) begin
+    if (rst) begin
+      state <= IDLE;
+    end else begin
+      if (take) state <= EDGES;
+      if (gives_up && advance) state <= IDLE;
+      if (edges_end && leaves) state <= no_area ? IDLE : CHANNELS;
+      if (leaves && channels_end) state <= STORE;
+      if ((state == STORE) && last) state <= DONE;
+      if (prim_valid && prim_ready) state <= IDLE;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (leaves) begin
+      at <= ((at == ADD_START) && !channels_end) ? LOAD1
+          : ((at == COLUMNS) && !edges_end) ? LOAD_DX
+          : at + 5'd1;
+    end
+    if (take) at <= LOAD_DX;
+  end
+
+  always @(posedge clk) begin
+    if (advance) first <= leaves;
+    if (take) first <= 1'b1;
+  end
+
+  always @(posedge clk) begin
+    if (leaves && ((at == COLUMNS) || (at == ADD_START))) round <= round + 2'd1;
+    if ((leaves && edges_end) || take) round <= 2'd0;
+  end
+
+  // How long the next operation takes.
+  wire [4:0] choice = (round == 2'd3) ? 5'd6 : (round == 2'd2) ? 5'd6 : (round == 2'd1) ? 5'd6 : 5'd6;
+  wire [4:0] choice_2 = (round == 2'd3) ? 5'd6
+                      : (round == 2'd2) ? 5'd6
+                      : (round == 2'd1) ? 5'd6
+                      : 5'd6;
+
+  always @(posedge clk) begin
+    if (advance && works) left <= left - 5'd1;
+    if (leaves) begin
+      left <= (at == SIGN_START) ? top_digit
+            : (at == SIGN_LINE) ? top_digit
+            : (at == SUM_Y) ? choice + {1'b0, scale}
+            : (at == SIGN_Y) ? top_digit
+            : (at == SUM_X) ? choice_2 + {1'b0, scale}
+            : (at == WAIT) ? top_digit
+            : (at == ADD12) ? 5'd1
+            : (at == WAIT_DX) ? top_digit
+            : (at == ADD_DX) ? 5'd1
+            : (at == FIX_DX) ? 5'd1
+            : 5'd0;
+    end
+    if (leaves && channels_end) left <= 5'd3;
+    if (state == STORE) left <= left - 5'd1;
+    if (waits || take) left <= 5'd0;
+  end
+
+  // The way of an operation: named, its addends formed, its step done, the rest and then the whole of the result.
+  reg [4:0] at_next;
+  reg [1:0] round_next;
+  reg ends_next;
+  reg [4:0] at_again;
+  reg [1:0] round_again;
+  reg ends_again;
+  reg [4:0] at_fixed;
+  reg [1:0] round_fixed;
+  reg ends_fixed;
+  wire resumes = pause == 4'd1;  // the step after the numbers is formed again
+  wire [4:0] at_formed = advance ? at_next : resumes ? at_again : at_fixed;
+  wire [1:0] round_formed = advance ? round_next : resumes ? round_again : round_fixed;
+  wire ends_formed = advance ? ends_next : resumes ? ends_again : pause == 4'd2;
+  reg [4:0] at_stepped;
+  reg [1:0] round_stepped;
+  reg ends_stepped;
+  reg [4:0] at_rest;
+  reg [1:0] round_rest;
+  reg ends_rest;
+  reg [4:0] at_whole;
+  reg [1:0] round_whole;
+  reg ends_whole;
+  wire rests = waits || gives_up || !works;
+
+  always @(posedge clk) begin
+    if (advance) begin
+      at_next <= at;
+      round_next <= round;
+      ends_next <= ends;
+      at_again <= at_formed;
+      round_again <= round_formed;
+      ends_again <= ends_formed;
+      at_fixed <= at_stepped;
+      round_fixed <= round_stepped;
+      ends_fixed <= ends_stepped;
+    end
+  end
+
+  always @(posedge clk) begin
+    at_stepped <= at_formed;
+    round_stepped <= round_formed;
+    ends_stepped <= ends_formed;
+    at_rest <= at_stepped;
+    round_rest <= round_stepped;
+    ends_rest <= ends_stepped;
+    at_whole <= at_rest;
+    round_whole <= round_rest;
+    ends_whole <= ends_rest;
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      pause <= 4'd0;
+    end else begin
+      if (!advance) pause <= pause - 4'd1;
+      if (advance && unfit) pause <= 4'd10;
+    end
+  end
+
+  // The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.
+  wire y1_above_y0 = $signed(tri_y1) < $signed(tri_y0);
+  wire y2_above_y0 = $signed(tri_y2) < $signed(tri_y0);
+  wire y2_above_y1 = $signed(tri_y2) < $signed(tri_y1);
+  reg [12:0] p0_u;      // Q9.4, signed
+  reg [12:0] p0_v;      // Q9.4, signed
+  reg [12:0] p1_u;      // Q9.4, signed
+  reg [12:0] p1_v;      // Q9.4, signed
+  reg [12:0] p2_u;      // Q9.4, signed
+  reg [12:0] p2_v;      // Q9.4, signed
+  reg [1:0] p0_vertex;  // whose values are those at this place
+  reg [1:0] p1_vertex;  // whose values are those at this place
+  reg [1:0] p2_vertex;  // whose values are those at this place
+  wire both = y1_above_y0 && !y2_above_y1;
+  wire both_2 = y2_above_y0 && y2_above_y1;
+  wire both_3 = !y1_above_y0 && y2_above_y1;
+  wire both_4 = !y2_above_y0 && !y2_above_y1;
+  wire [12:0] choice_3 = (!both && !both_3) ? tri_x1 : (!both_2 && !both_4) ? tri_x2 : tri_x0;
+  wire [12:0] choice_4 = (!both && !both_3) ? tri_y1 : (!both_2 && !both_4) ? tri_y2 : tri_y0;
+
+  always @(posedge clk) begin
+    if (take) begin
+      p0_u <= (both ? tri_x1 : both_2 ? tri_x2 : tri_x0) - 13'd8;
+      p0_v <= (both ? tri_y1 : both_2 ? tri_y2 : tri_y0) - 13'd8;
+      p1_u <= choice_3 - 13'd8;
+      p1_v <= choice_4 - 13'd8;
+      p2_u <= (both_3 ? tri_x1 : both_4 ? tri_x2 : tri_x0) - 13'd8;
+      p2_v <= (both_3 ? tri_y1 : both_4 ? tri_y2 : tri_y0) - 13'd8;
+      p0_vertex <= {both_2, both};
+      p1_vertex <= {!both_2 && !both_4, !both && !both_3};
+      p2_vertex <= {both_4, both_3};
+    end
+  end
+
+  // The values at the vertices, as they came.
+  reg [15:0] vertex0_z;  // UQ16.0 LSB
+  reg [4:0] vertex0_r;   // UQ5.0 LSB
+  reg [4:0] vertex0_g;   // UQ5.0 LSB
+  reg [4:0] vertex0_b;   // UQ5.0 LSB
+  reg [15:0] vertex1_z;  // UQ16.0 LSB
+  reg [4:0] vertex1_r;   // UQ5.0 LSB
+  reg [4:0] vertex1_g;   // UQ5.0 LSB
+  reg [4:0] vertex1_b;   // UQ5.0 LSB
+  reg [15:0] vertex2_z;  // UQ16.0 LSB
+  reg [4:0] vertex2_r;   // UQ5.0 LSB
+  reg [4:0] vertex2_g;   // UQ5.0 LSB
+  reg [4:0] vertex2_b;   // UQ5.0 LSB
+
+  always @(posedge clk) begin
+    if (take) begin
+      vertex0_z <= tri_z0;
+      vertex0_r <= tri_r0;
+      vertex0_g <= tri_g0;
+      vertex0_b <= tri_b0;
+      vertex1_z <= tri_z1;
+      vertex1_r <= tri_r1;
+      vertex1_g <= tri_g1;
+      vertex1_b <= tri_b1;
+      vertex2_z <= tri_z2;
+      vertex2_r <= tri_r2;
+      vertex2_g <= tri_g2;
+      vertex2_b <= tri_b2;
+    end
+  end
+
+  // Differences of the sorted vertices.
+  wire [13:0] difference = {p2_v[12], p2_v} - {p0_v[12], p0_v};
+  wire [12:0] dv02 = difference[12:0];    // 1/P line
+  wire [13:0] difference_2 = {p1_v[12], p1_v} - {p0_v[12], p0_v};
+  wire [12:0] dv01 = difference_2[12:0];  // 1/P line
+  wire [13:0] difference_3 = {p2_v[12], p2_v} - {p1_v[12], p1_v};
+  wire [12:0] dv12 = difference_3[12:0];  // 1/P line
+  wire [13:0] du01 = {p1_u[12], p1_u} - {p0_u[12], p0_u};  // 1/P column, signed
+  wire [13:0] du02 = {p2_u[12], p2_u} - {p0_u[12], p0_u};  // 1/P column, signed
+
+  // Twice the area: du1 dv2 - du2 dv1, over the bits of dv2 and dv1.
+  reg [3:0] area_digit;  // place of the digits added
+  reg area_adds;         // digits are added
+  wire [12:0] shifted = dv02 >> area_digit;
+  wire [12:0] shifted_2 = dv01 >> area_digit;
+  wire [14:0] area_part = (shifted[0] ? {du01[13], du01} : 15'd0)
+                        - (shifted_2[0] ? {du02[13], du02} : 15'd0);
+  reg [27:0] area;       // 1/P^2 px^2, signed
+  assign no_area = !(|area);
+  wire any = |dv02[12:8];
+  wire [4:0] part = dv02[12:8];
+  wire any_2 = part[4];
+  wire [3:0] part_3 = part[3:0];
+  wire [1:0] part_2 = part_3[3:2];
+  wire any_3 = |part_2;
+  wire [1:0] part_4 = part_3[1:0];
+  wire [7:0] part_6 = dv02[7:0];
+  wire [3:0] part_5 = part_6[7:4];
+  wire any_4 = |part_5;
+  wire [1:0] part_7 = part_5[3:2];
+  wire any_5 = |part_7;
+  wire [1:0] part_8 = part_5[1:0];
+  wire [3:0] part_10 = part_6[3:0];
+  wire [1:0] part_9 = part_10[3:2];
+  wire any_6 = |part_9;
+  wire [1:0] part_11 = part_10[1:0];
+  wire [1:0] choice_5 = any_4 ? {any_5, any_5 ? part_7[1] : part_8[1]}
+                      : {any_6, any_6 ? part_9[1] : part_11[1]};
+  wire [2:0] choice_6 = any ? {any_2, any_2 ? 2'd0 : {any_3, any_3 ? part_2[1] : part_4[1]}}
+                      : {any_4, choice_5};
+
+  always @(posedge clk) begin
+    if (area_adds) begin
+      area_digit <= area_digit - 4'd1;
+      area <= (area << 1) + {{13{area_part[14]}}, area_part};
+    end
+    if (begins) begin
+      area_digit <= {any, choice_6};
+      area <= 28'd0;
+    end
+  end
+
+  wire equal = area_digit == 4'd0;
+
+  always @(posedge clk) begin
+    if (rst) begin
+      area_adds <= 1'b0;
+    end else begin
+      if (area_adds && equal) area_adds <= 1'b0;
+      if (begins) area_adds <= 1'b1;
+    end
+  end
+
+  // The area as modulus: fourfold, i times, until the differences of the next round's values fit.
+  reg [15:0] differences;  // their bits, or those of complements
+  reg [27:0] scaled;       // -M or -M - 1, signed
+  reg scale_taken;         // the area is taken
+  reg scaling;             // it is compared
+  reg [3:0] scale_next;    // times that it is fourfold
+  wire [28:0] less_m = {{12'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
+  wire [27:0] part_12 = less_m[28:1];
+  wire fits = part_12[27] || !(|area);
+  wire grows = scaling && !fits;
+  assign area_known = !area_adds && !begins && !scale_taken && !scaling;
+  reg [3:0] scale_now;     // of the round
+  assign scale = scale_now;
+  wire either = (area_adds && equal) || ((at_formed == FIX2) && !(round_formed == 2'd3));
+
+  always @(posedge clk) begin
+    if (rst) begin
+      scale_taken <= 1'b0;
+    end else begin
+      scale_taken <= either && !begins;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
+      scaling <= 1'b0;
+    end else begin
+      if (fits) scaling <= 1'b0;
+      if (scale_taken) scaling <= 1'b1;
+      if (begins) scaling <= 1'b0;
+    end
+  end
+
+  wire inverse = !area[27];
+  wire [27:0] extended = area;
+
+  always @(posedge clk) begin
+    if (grows) begin
+      scaled <= {scaled[25:0], inverse, inverse};
+      scale_next <= scale_next + 4'd1;
+    end
+    if (scale_taken) begin
+      scaled <= inverse ? ~extended : extended;
+      scale_next <= 4'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (at_formed == LOAD1) scale_now <= scale_next;
+  end
+
+  // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
+  wire [8:0] part_13 = p0_v[12:4];
+  wire [9:0] line0 = {part_13[8], part_13} + {9'd0, |p0_v[3:0]};  // ceil(v/P)
+  wire [9:0] j0_next = ($signed(line0) < 10'sd0) ? 10'd0 : line0;
+  wire [8:0] part_14 = p2_v[12:4];
+  wire [9:0] line2 = {part_14[8], part_14} + {9'd0, |p2_v[3:0]};  // ceil(v/P)
+  wire [9:0] choice_7 = ($signed(line2) < 10'sd160) ? line2 : 10'd160;
+  wire [9:0] end_line = ($signed(choice_7) < $signed(j0_next)) ? j0_next : choice_7;
+  wire [8:0] part_15 = p1_v[12:4];
+  wire [9:0] line1 = {part_15[8], part_15} + {9'd0, |p1_v[3:0]};  // ceil(v/P)
+  wire [9:0] choice_8 = ($signed(line1) < $signed(j0_next)) ? j0_next : line1;
+  wire [9:0] j1_next = ($signed(choice_8) < $signed(end_line)) ? choice_8 : end_line;
+
+  // Columns: from ceil(u/P) of the leftmost to before ceil(u/P) of the rightmost vertex, on the screen.
+  wire [12:0] choice_9 = ($signed(p0_u) < $signed(p1_u)) ? p0_u : p1_u;
+  wire [12:0] leftmost = ($signed(choice_9) < $signed(p2_u)) ? choice_9 : p2_u;  // 1/P column
+  wire [12:0] choice_10 = ($signed(p0_u) < $signed(p1_u)) ? p1_u : p0_u;
+  wire [12:0] rightmost = ($signed(choice_10) < $signed(p2_u)) ? p2_u : choice_10;  // 1/P column
+  wire [8:0] part_16 = leftmost[12:4];
+  wire [9:0] sum = {part_16[8], part_16} + {9'd0, |leftmost[3:0]};
+  wire [9:0] first_column = ($signed(sum) < 10'sd0) ? 10'd0 : sum;
+  wire [8:0] part_17 = rightmost[12:4];
+  wire [9:0] sum_2 = {part_17[8], part_17} + {9'd0, |rightmost[3:0]};
+  wire [9:0] end_column = ($signed(sum_2) < 10'sd240) ? sum_2 : 10'd240;
+  reg [9:0] j0;                                    // line, signed
+  reg [9:0] j1;                                    // line, signed
+  wire upper = |prim_n1;
+  reg no_column;                                   // no column of the screen
+  assign nothing = (!upper && !(|prim_n2)) || no_column;
+  wire [9:0] jm = upper ? j0 : j1;                 // first line of the triangle
+  wire [13:0] h0 = {jm, 4'd0} - {p0_v[12], p0_v};  // 1/P line
+  wire [13:0] h1 = {j1, 4'd0} - {p1_v[12], p1_v};  // 1/P line
+  wire [9:0] difference_4 = j1_next - j0_next;
+  wire [9:0] difference_5 = end_line - j1_next;
+
+  always @(posedge clk) begin
+    if (begins) begin
+      prim_n1 <= difference_4[8:0];
+      prim_n2 <= difference_5[8:0];
+      j0 <= j0_next;
+      j1 <= j1_next;
+      no_column <= $signed(end_column) <= $signed(first_column);
+    end
+  end
+
+  // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
+  reg [14:0] f;  // factor, signed
+  reg [14:0] g;  // factor, signed
+  wire [14:0] differing = f ^ $unsigned($signed(f) >>> 1);
+  wire [14:0] differing_2 = g ^ $unsigned($signed(g) >>> 1);
+  wire [13:0] digits = differing[13:0] | differing_2[13:0];  // digits of the factors that differ from their signs
+  wire any_7 = |digits[13:8];
+  wire [5:0] part_19 = digits[13:8];
+  wire [1:0] part_18 = part_19[5:4];
+  wire any_8 = |part_18;
+  wire [3:0] part_21 = part_19[3:0];
+  wire [1:0] part_20 = part_21[3:2];
+  wire any_9 = |part_20;
+  wire [1:0] part_22 = part_21[1:0];
+  wire [1:0] choice_11 = any_8 ? {1'b0, part_18[1]} : {any_9, any_9 ? part_20[1] : part_22[1]};
+  wire [7:0] part_24 = digits[7:0];
+  wire [3:0] part_23 = part_24[7:4];
+  wire any_10 = |part_23;
+  wire [1:0] part_25 = part_23[3:2];
+  wire any_11 = |part_25;
+  wire [1:0] part_26 = part_23[1:0];
+  wire [3:0] part_28 = part_24[3:0];
+  wire [1:0] part_27 = part_28[3:2];
+  wire any_12 = |part_27;
+  wire [1:0] part_29 = part_28[1:0];
+  wire [1:0] choice_12 = any_10 ? {any_11, any_11 ? part_25[1] : part_26[1]}
+                       : {any_12, any_12 ? part_27[1] : part_29[1]};
+  assign top_digit = {1'b0, {any_7, any_7 ? {any_8, choice_11} : {any_10, choice_12}}};
+  wire [14:0] shifted_3 = f >> left;
+  wire digit_f = shifted_3[0];
+  wire [14:0] shifted_4 = g >> left;
+  wire digit_g = shifted_4[0];
+  wire [13:0] joined = {prim_major_c - {9'd0, area[27]}, 4'd0};
+
+  always @(posedge clk) begin
+    if (at == WAIT_DX) begin
+      f <= (round == 2'd2) ? ((|prim_n2) ? {11'd0, p1_u[3:0]} : 15'd0)
+         : (round == 2'd1) ? ((|prim_n1) ? {11'd0, p0_u[3:0]} : 15'd0)
+         : {11'd0, p0_u[3:0]};
+      g <= (round == 2'd2) ? ((|prim_n2) ? {1'b0, h1} : 15'd0)
+         : (round == 2'd1) ? ((|prim_n1) ? {1'b0, h0} : 15'd0)
+         : {1'b0, h0};
+    end
+    if (at == WAIT) begin
+      f <= {2'd0, dv02};
+      g <= {2'd0, dv01};
+    end
+    if (at == MODULUS_Y) begin
+      f <= -{du02[13], du02};
+      g <= -{du01[13], du01};
+    end
+    if (at == MODULUS_LINE) begin
+      f <= {{5{prim_major_q[9]}}, prim_major_q};
+      g <= 15'd1;
+    end
+    if (at == MODULUS_START) begin
+      f <= {joined[13], joined} - {{2{p0_u[12]}}, p0_u};
+      g <= {1'b0, h0};
+    end
+  end
+
+  // What all lanes do.
+  wire either_2 = (at == ADD_DX) || (at == ADD12) || (at == ADD_X) || (at == ADD_LINE);
+  wire either_3 = (at == MODULUS_Y) || (at == MODULUS_LINE) || (at == MODULUS_START);
+  wire either_4 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
+  wire [3:0] step = rests ? 4'd0
+                  : ((at == SUM) || (at == SUM_X)) ? (first ? 4'd5 : 4'd6)
+                  : ((at == COLUMNS) || (at == ADD_START)) ? 4'd10
+                  : either_2 ? 4'd9
+                  : either_3 ? 4'd7
+                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 4'd8
+                  : ((at == SUM_Y) || (at == SUM_LINE) || (at == SUM_START)) ? 4'd6
+                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_Y)) ? 4'd4
+                  : ((at == FIX_DX) || (at == FIX1) || (at == FIX2)) ? 4'd2
+                  : either_4 ? 4'd1
+                  : 4'd0;
+  reg began;       // numbers were found not to fit in the clock before
+  reg began_then;  // and in the one before
+  wire is_sum = (at == SUM)
+             || (at == SUM_X)
+             || (at == SUM_Y)
+             || (at == SUM_LINE)
+             || (at == SUM_START);
+  wire is_sign = (at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START);
+  wire of_gradients = (at == SIGN_LINE)
+                   || (at == SUM_LINE)
+                   || (at == SIGN_START)
+                   || (at == SUM_START);
+  wire [2:0] read_single_at = ((at == ADD_X) || (at == ADD_LINE)) ? 3'd5
+                            : (at == ADD_DX) ? 3'd2
+                            : (at == ADD12) ? 3'd1
+                            : 3'd0;
+  wire either_5 = (at_stepped == FIX_DX)
+               || (at_stepped == LOAD_DY)
+               || (at_stepped == ADD_DX)
+               || (at_stepped == FIX1)
+               || (at_stepped == FIX2)
+               || (at_stepped == ADD12)
+               || (at_stepped == DOUBLE_X)
+               || (at_stepped == DOUBLE_Y)
+               || (at_stepped == ADD_X);
+  wire write = ends_stepped && either_5;
+  wire [2:0] write_at = (at_stepped == ADD_X) ? 3'd7
+                      : (at_stepped == DOUBLE_Y) ? 3'd6
+                      : (at_stepped == DOUBLE_X) ? 3'd5
+                      : ((at_stepped == ADD_DX) || (at_stepped == ADD12)) ? 3'd3
+                      : ((at_stepped == FIX_DX) || (at_stepped == FIX2)) ? 3'd2
+                      : ((at_stepped == LOAD_DY) || (at_stepped == FIX1)) ? 3'd1
+                      : 3'd0;
+  wire take_modulus = (at_formed == LOAD_DX) || (at_formed == LOAD1);
+
+  always @(posedge clk) begin
+    began <= advance;
+    began_then <= began;
+  end
+
+  // Lane 0: its steps.
+  wire [3:0] choice_13 = (round == 2'd3) ? 4'd4
+                       : (round == 2'd2) ? 4'd4
+                       : (round == 2'd1) ? 4'd4
+                       : 4'd4;
+  wire [3:0] choice_14 = (round == 2'd3) ? 4'd4
+                       : (round == 2'd2) ? 4'd4
+                       : (round == 2'd1) ? 4'd4
+                       : 4'd4;
+  wire [3:0] step0 = ((at == DOUBLE_Y) && !rests) ? choice_13
+                   : ((at == DOUBLE_X) && !rests) ? choice_14
+                   : ((at == DOUBLE_DX) && !rests) ? 4'd4
+                   : step;
+  reg [3:0] step_next0;
+  reg [3:0] step_again0;
+  wire [3:0] step_formed0 = advance ? step_next0
+                          : (pause == 4'd1) ? step_again0
+                          : began ? 4'd11
+                          : began_then ? 4'd12
+                          : 4'd13;
+
+  always @(posedge clk) begin
+    if (rst) begin
+      step_next0 <= 4'd0;
+    end else if (advance) begin
+      step_next0 <= step0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (advance) step_again0 <= step_formed0;
+  end
+
+  // The vertices whose values the lanes are shown.
+  wire either_6 = (at_formed == FIX_DX) || (at_formed == LOAD2) || (at_formed == FIX2);
+  wire both_5 = either_6 && !begins;
+  wire both_6 = area[27] && ((at_formed == LOAD1) || (at_formed == LOAD2)) && !begins;
+  wire [1:0] from_vertex = both_5 ? (both_6 ? p0_vertex : p2_vertex) : both_6 ? p1_vertex : p0_vertex;
+  wire both_7 = (at_formed == ADD_START) && !begins;
+  wire [1:0] to_vertex = both_7 ? (1'b0 ? p1_vertex : p0_vertex)
+                       : both_5 ? (both_6 ? p2_vertex : p0_vertex)
+                       : both_6 ? p0_vertex
+                       : p1_vertex;
+  wire single_value = both_7;
+  wire either_7 = (at_formed == FIX1) || (at_formed == FIX2);
+  wire either_8 = (at_formed == FIX_DX) || begins;
+  wire values_of_round1 = (either_7 ? round_formed == 2'd0 : round_formed == 2'd1) && !either_8;
+  wire values_of_round2 = (either_7 ? round_formed == 2'd1 : round_formed == 2'd2) && !either_8;
+  wire values_of_round3 = (either_7 ? round_formed == 2'd2 : round_formed == 2'd3) && !either_8;
+
+  // Lane 0: what it takes in.
+  wire either_9 = (at_formed == LOAD_DX)
+               || (at_formed == LOAD_DY)
+               || ((at_formed == FIX_DX) && !advance);
+  wire [13:0] extended_2 = {1'b0, dv12};
+  wire [13:0] extended_3 = {1'b0, dv01};
+  wire [13:0] extended_4 = {1'b0, dv02};
+  wire [16:0] choice_15 = (round_formed == 2'd2) ? {{3{extended_2[13]}}, extended_2}
+                        : (round_formed == 2'd1) ? {{3{extended_3[13]}}, extended_3}
+                        : {{3{extended_4[13]}}, extended_4};
+  wire [13:0] difference_6 = {p2_u[12], p2_u} - {p1_u[12], p1_u};
+  wire [16:0] choice_16 = (at_formed == LOAD_DY) ? choice_15
+                        : (round_formed == 2'd2) ? {{3{difference_6[13]}}, difference_6}
+                        : (round_formed == 2'd1) ? {{3{du01[13]}}, du01}
+                        : {{3{du02[13]}}, du02};
+  wire [16:0] choice_17 = values_of_round3 ? {12'd0, vertex2_b}
+                        : values_of_round2 ? {12'd0, vertex2_g}
+                        : values_of_round1 ? {12'd0, vertex2_r}
+                        : {1'b0, vertex2_z};
+  wire [16:0] choice_18 = values_of_round3 ? {12'd0, vertex1_b}
+                        : values_of_round2 ? {12'd0, vertex1_g}
+                        : values_of_round1 ? {12'd0, vertex1_r}
+                        : {1'b0, vertex1_z};
+  wire [16:0] choice_19 = values_of_round3 ? {12'd0, vertex0_b}
+                        : values_of_round2 ? {12'd0, vertex0_g}
+                        : values_of_round1 ? {12'd0, vertex0_r}
+                        : {1'b0, vertex0_z};
+  wire [16:0] choice_20 = values_of_round3 ? 17'd0
+                        : values_of_round2 ? 17'd0
+                        : values_of_round1 ? 17'd0
+                        : 17'd0;
+  wire [16:0] choice_21 = single_value ? choice_20
+                        : from_vertex[1] ? choice_17
+                        : from_vertex[0] ? choice_18
+                        : choice_19;
+  wire [16:0] difference_7 = (to_vertex[1] ? choice_17 : to_vertex[0] ? choice_18 : choice_19)
+                           - choice_21;
+  wire [16:0] number0 = (either_9 && !begins) ? choice_16 : difference_7;  // signed
+  reg [16:0] value0;  // first value, signed
+  wire [15:0] shown = number0[15:0] ^ {16{number0[16]}};
+  wire lane0_unfit;
+  wire choice_22 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
+  wire choice_23 = (round_stepped == 2'd3) ? 1'b1
+                 : (round_stepped == 2'd2) ? 1'b1
+                 : (round_stepped == 2'd1) ? 1'b1
+                 : 1'b1;
+  wire either_10 = ((at_stepped == FIX_DX) && choice_22) || ((1'b0 || 1'b0) && choice_23);
+  assign unfit = lane0_unfit && either_10;
+
+  always @(posedge clk) begin
+    value0 <= number0;
+  end
+
+  always @(posedge clk) begin
+    if (((at_formed == FIX_DX) || (at_formed == FIX2)) && advance) differences <= differences | shown;
+    if (begins || (at_formed == FIX1)) differences <= shown;
+  end
+
+  // Edge: major.
+  wire [26:0] lane0_rest_out;
+  wire [29:0] lane0_whole_out;
+  wire [29:0] lane0_value;
+  wire choice_24 = is_sign ? f[14] : digit_f;
+  wire choice_25 = is_sign ? g[14] : digit_g;
+  wire [17:0] shifted_5 = $signed({number0[16], number0}) >>> {pause - 4'd2, 1'b0};
+  wire [8:0] part_30 = p1_u[12:4];
+  wire [8:0] part_31 = p0_u[12:4];
+  wire [8:0] part_32 = p0_u[12:4];
+  wire [29:0] choice_26 = (round_stepped == 2'd2) ? {{21{part_30[8]}}, part_30}
+                        : (round_stepped == 2'd1) ? {{21{part_31[8]}}, part_31}
+                        : {{21{part_32[8]}}, part_32};
+  wire [30:0] joined_2 = {{{value0, 1'b1}, 9'd0}, 4'd8};
+  wire [30:0] joined_3 = {{{value0, 1'b1}, 9'd0}, 4'd8};
+  wire [30:0] joined_4 = {{{value0, 1'b1}, 9'd0}, 4'd8};
+  wire [30:0] joined_5 = {{{value0, 1'b1}, 9'd0}, 4'd8};
+
+  edgewalk_setup_lane0 lane0 (
+    .clk           (clk),
+    .rst           (rst),
+    .advance       (advance),
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_24 || choice_25), choice_25, choice_24}
+: read_single_at),
+    .step          (step_formed0),
+    .number        (number0),
+    .digits        (shifted_5[1:0]),
+    .write         (write),
+    .write_at      (write_at),
+    .whole_in      ((at_stepped == COLUMNS) ? choice_26
+: (round_stepped == 2'd3) ? joined_2[29:0]
+: (round_stepped == 2'd2) ? joined_3[29:0]
+: (round_stepped == 2'd1) ? joined_4[29:0]
+: joined_5[29:0]),
+    .take_modulus  (take_modulus),
+    .modulus_in    ((at_formed == LOAD1) ? scaled
+: (round_formed == 2'd2) ? ~{11'd0, {dv12, 4'd0}}
+: (round_formed == 2'd1) ? ~{11'd0, {dv01, 4'd0}}
+: ~{11'd0, {dv02, 4'd0}}),
+    .modulus_short (!((at_formed == LOAD1) && area[27])),
+    .upwards       (at_rest == COLUMNS),
+    .unfit         (lane0_unfit),
+    .rest_out      (lane0_rest_out),
+    .whole_out     (lane0_whole_out),
+    .value         (lane0_value)
+  );
+
+  wire any_13 = |dv02[12:4];
+  wire [22:0] part_33 = lane0_rest_out[26:4];
+
+  always @(posedge clk) begin
+    if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd0)) begin
+      prim_major_f <= any_13 ? part_33[12:0] : 13'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd0)) begin
+      prim_major_q <= any_13 ? lane0_whole_out[9:0] : 10'd0;
+    end
+  end
+
+  wire [16:0] difference_8 = {dv02, 4'd0} - lane0_rest_out[16:0];
+
+  always @(posedge clk) begin
+    if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd0)) begin
+      prim_major_r <= (|lane0_rest_out) ? difference_8[16:4] : 13'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == COLUMNS) && (round_whole == 2'd0)) begin
+      prim_major_c <= lane0_value[9:0];
+    end
+  end
+
+  // Edge: minor1.
+  wire both_8 = (|prim_n1) && (|dv01[12:4]);
+  wire [22:0] part_34 = lane0_rest_out[26:4];
+
+  always @(posedge clk) begin
+    if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd1)) begin
+      prim_minor1_f <= both_8 ? part_34[12:0] : 13'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd1)) begin
+      prim_minor1_q <= both_8 ? lane0_whole_out[9:0] : 10'd0;
+    end
+  end
+
+  wire [16:0] difference_9 = {dv01, 4'd0} - lane0_rest_out[16:0];
+
+  always @(posedge clk) begin
+    if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd1)) begin
+      prim_minor1_r <= (|prim_n1) ? ((|lane0_rest_out) ? difference_9[16:4] : 13'd0) : 13'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == COLUMNS) && (round_whole == 2'd1)) begin
+      prim_minor1_c <= (|prim_n1) ? lane0_value[9:0] : 10'd0;
+    end
+  end
+
+  // Edge: minor2.
+  wire both_9 = (|prim_n2) && (|dv12[12:4]);
+  wire [22:0] part_35 = lane0_rest_out[26:4];
+
+  always @(posedge clk) begin
+    if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd2)) begin
+      prim_minor2_f <= both_9 ? part_35[12:0] : 13'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd2)) begin
+      prim_minor2_q <= both_9 ? lane0_whole_out[9:0] : 10'd0;
+    end
+  end
+
+  wire [16:0] difference_10 = {dv12, 4'd0} - lane0_rest_out[16:0];
+
+  always @(posedge clk) begin
+    if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd2)) begin
+      prim_minor2_r <= (|prim_n2) ? ((|lane0_rest_out) ? difference_10[16:4] : 13'd0) : 13'd0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == COLUMNS) && (round_whole == 2'd2)) begin
+      prim_minor2_c <= (|prim_n2) ? lane0_value[9:0] : 10'd0;
+    end
+  end
+
+  // Channel: z.
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd0)) begin
+      prim_z_g <= area[27] ? -lane0_value[25:0] : lane0_value[25:0];
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == SUM_LINE) && (round_whole == 2'd0)) prim_z_d0 <= lane0_value[25:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd0)) prim_z_d1 <= lane0_value[25:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd0)) begin
+      prim_z_start <= lane0_whole_out[29:4];
+    end
+  end
+
+  // Channel: r.
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd1)) begin
+      prim_r_g <= area[27] ? -lane0_value[14:0] : lane0_value[14:0];
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == SUM_LINE) && (round_whole == 2'd1)) prim_r_d0 <= lane0_value[14:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd1)) prim_r_d1 <= lane0_value[14:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd1)) begin
+      prim_r_start <= lane0_whole_out[18:4];
+    end
+  end
+
+  // Channel: g.
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd2)) begin
+      prim_g_g <= area[27] ? -lane0_value[14:0] : lane0_value[14:0];
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == SUM_LINE) && (round_whole == 2'd2)) prim_g_d0 <= lane0_value[14:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd2)) prim_g_d1 <= lane0_value[14:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd2)) begin
+      prim_g_start <= lane0_whole_out[18:4];
+    end
+  end
+
+  // Channel: b.
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd3)) begin
+      prim_b_g <= area[27] ? -lane0_value[14:0] : lane0_value[14:0];
+    end
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == SUM_LINE) && (round_whole == 2'd3)) prim_b_d0 <= lane0_value[14:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd3)) prim_b_d1 <= lane0_value[14:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd3)) begin
+      prim_b_start <= lane0_whole_out[18:4];
+    end
+  end
+
+  assign prim_jm = jm[7:0];
+  assign prim_major_right = area[27];
+  assign prim_major_m = dv02;
+  assign prim_minor1_m = dv01;
+  assign prim_minor2_m = dv12;
+
+  // Not needed, on purpose.
+  wire unused = &{
+    1'b0, WAIT12, WAIT_XY, ends_fixed, less_m[0], lane0_value[29:26], difference[13], difference_2[13],
+    difference_3[13], part_4[0], part_8[0], part_11[0], shifted[12:1], shifted_2[12:1], part_12[26:0],
+    difference_4[9], difference_5[9], differing[14], differing_2[14], part_22[0], part_26[0],
+    part_29[0], shifted_3[14:1], shifted_4[14:1], shifted_5[17:2], joined_5[30], joined_4[30],
+    joined_3[30], joined_2[30], part_33[22:13], difference_8[3:0], part_34[22:13], difference_9[3:0],
+    part_35[22:13], difference_10[3:0]
+  };
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,231 @@
+// edgewalk_setup_lane0: A lane of setup holds a pair: the number whole + rest / M, with 0 <= rest < M.
+//
+//   slots ─> a ─> [n0 n1 n2 = a, a - M, a - 2M] ─┐
+//                                  x = rest * 1 2 4 ─> + ─> the last sum not below 0 ─> [rest]
+//                                                           how often M was taken off ─> [whole], a clock later
+//
+// Timing: a step is named two clocks before it is done: in the first its addend is read, in the second n0 n1 n2 are formed.
+// Rules: a doubling step adds a = -M three times instead, so that up to 3 M can be taken off. What is taken in may lie below 0
+// for one clock. A negated pair is its complement: M is added to its rest, and 1 taken off its whole part.
+
+`timescale 1ns / 1ps
+`default_nettype none
+
+module edgewalk_setup_lane0 (
+  input  wire        clk,
+  input  wire        rst,
+
+  input  wire        advance,        // the steps go on; 0: what was read stays
+  input  wire  [2:0] read_at,        // slot of the addend, two clocks before its step
+  input  wire  [3:0] step,           // a clock before it is done
+  input  wire [16:0] number,         // to take in, signed; with its step
+  input  wire  [1:0] digits,         // of the number, with their step
+  input  wire        write,          // the result of the step goes to a slot
+  input  wire  [2:0] write_at,
+  input  wire [29:0] whole_in,       // whole number to add, with the step done
+  input  wire        take_modulus,
+  input  wire [27:0] modulus_in,     // -M, or -M - 1 if modulus_short; signed
+  input  wire        modulus_short,
+  input  wire        upwards,        // value rounds up whatever is not whole, not to nearest
+
+  output wire        unfit,          // the number that was taken in is not between -M and M
+  output wire [26:0] rest_out,       // 1/M, from the clock after a step
+  output wire [29:0] whole_out,      // modular, a clock later
+  output wire [29:0] value           // modular, with whole
+);
+
+  // The modulus: -M, or its complement -M - 1, with the 1 that is then missing.
+  reg [27:0] modulus;  // -M or -M - 1, signed
+  reg short;           // 1 is missing in modulus
+
+  always @(posedge clk) begin
+    if (take_modulus) begin
+      modulus <= modulus_in;
+      short <= modulus_short;
+    end
+  end
+
+  // The rests of the slots. Slot 0 is never written: it holds 0.
+  reg [27:0] rest;         // 1/M, signed while a number is taken in
+  wire [27:0] rest_next;
+  reg [26:0] rests [0:7];  // 1/M
+
+  initial begin : rests_init
+    integer rests_index;
+    for (rests_index = 0; rests_index < 8; rests_index = rests_index + 1) rests[rests_index] = 27'd0;
+  end
+
+  always @(posedge clk) begin
+    if (write) rests[write_at] <= rest_next[26:0];
+  end
+
+  reg [26:0] rests_q;
+
+  always @(posedge clk) begin
+    if (advance) rests_q <= rests[read_at];
+  end
+
+  // The addend of the step that follows.
+  reg [27:0] n0;                           // a, or a number to take in
+  reg [28:0] n1;                           // a - M, signed
+  reg [29:0] n2;                           // a - 2 M, signed
+  reg below;                               // the number taken in is below 0
+  wire is_fix = step == 4'd2;
+  wire with_sign = step == 4'd8;
+  wire add_modulus = (step == 4'd7) || (is_fix && n0[27]) || ((step == 4'd11) && below);
+  wire take_modulus_off = (step == 4'd4) || (step == 4'd13);
+  wire negate = add_modulus || with_sign || ((step == 4'd12) && below);
+  wire of_slot = (step == 4'd9) || (step == 4'd5) || (step == 4'd6) || (step == 4'd8);
+  wire of_modulus = add_modulus || take_modulus_off;
+  wire [27:0] a = of_modulus ? modulus : of_slot ? {1'b0, rests_q} : 28'd0;  // addend, 1/M, or -M
+  wire [29:0] a_less_m = {{a[27], a}, 1'b1} + {{modulus[27], modulus}, short};  // and a carry out of the lowest bit
+  wire [28:0] less_2m = {modulus, short};  // -2 M, or -2 M - 1
+  wire [30:0] a_less_2m = {{{2{a[27]}}, a}, 1'b1} + {{less_2m[28], less_2m}, short};  // and a carry out of the lowest bit
+  reg carry0;                              // 1 to add to the sum of n0
+  reg carry;                               // 1 to add to the other sums
+  reg [1:0] digits_now;
+
+  always @(posedge clk) begin
+    n0 <= (step == 4'd1) ? {{11{number[16]}}, number} : a ^ {28{negate}};
+    n1 <= a_less_m[29:1];
+    n2 <= a_less_2m[30:1];
+    carry0 <= with_sign || (add_modulus && !short) || (take_modulus_off && short);
+    carry <= take_modulus_off && short;
+    digits_now <= digits;
+  end
+
+  // The step: x and the addend, less M as often as it goes.
+  reg [3:0] now;                                   // the step done
+  wire fourfold = (now == 4'd4) || (now == 4'd13);
+  wire twofold = (now == 4'd3) || (now == 4'd6);
+  wire from_zero = (now == 4'd1) || (now == 4'd5) || (now == 4'd7) || (now == 4'd11);
+  wire either = (now == 4'd3)
+             || (now == 4'd4)
+             || (now == 4'd13)
+             || (now == 4'd5)
+             || (now == 4'd6)
+             || (now == 4'd9);
+  wire as_it_is = !either;                         // nothing is taken off
+  wire [29:0] extended = {{2{rest[27]}}, rest};
+  wire [29:0] x = fourfold ? {extended[27:0], (now == 4'd13) ? digits_now : 2'd0}
+                : twofold ? extended << 1
+                : from_zero ? 30'd0
+                : extended;
+  wire [30:0] x_and_n0 = {x, 1'b1} + {{{2{n0[27]}}, n0}, carry0};  // and a carry out of the lowest bit
+  wire [29:0] s0 = x_and_n0[30:1];
+  wire [30:0] x_and_n1 = {x, 1'b1} + {{n1[28], n1}, carry};  // and a carry out of the lowest bit
+  wire [29:0] s1 = x_and_n1[30:1];
+  wire [30:0] x_and_n2 = {x, 1'b1} + {n2, carry};  // and a carry out of the lowest bit
+  wire [29:0] s2 = x_and_n2[30:1];
+  wire fits0 = !s0[29];
+  wire fits1 = !s1[29] && !as_it_is;
+  wire fits2 = !s2[29] && !as_it_is;
+  wire stays = fourfold && !fits0;
+  wire [29:0] choice = fits2 ? s2 : fits1 ? s1 : stays ? x : s0;
+  assign rest_next = choice[27:0];
+  wire rest_stays = (now == 4'd0) || (now == 4'd10);
+
+  always @(posedge clk) begin
+    if (rst) begin
+      now <= 4'd0;
+    end else begin
+      now <= step;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (!rest_stays) rest <= rest_next;
+  end
+
+  always @(posedge clk) begin
+    if ((now == 4'd1) && advance) below <= n0[27];
+  end
+
+  // The whole part, a clock behind.
+  reg [2:0] read_whole_at;
+  reg [29:0] whole;         // modular
+  wire [29:0] whole_next;
+  reg write_then;
+  reg [2:0] write_then_at;
+  reg [29:0] wholes [0:7];  // modular
+
+  initial begin : wholes_init
+    integer wholes_index;
+    for (wholes_index = 0; wholes_index < 8; wholes_index = wholes_index + 1) wholes[wholes_index] = 30'd0;
+  end
+
+  always @(posedge clk) begin
+    if (write_then) wholes[write_then_at] <= whole_next;
+  end
+
+  reg [29:0] wholes_q;
+
+  always @(posedge clk) begin
+    if (1'b1) wholes_q <= wholes[read_whole_at];
+  end
+
+  reg negated;
+  reg slot_now;
+  reg [29:0] b;                                      // addend
+  wire twice_or_more = fourfold ? fits1 : fits2;
+  wire once_or_thrice = fourfold ? (fits0 && !fits1) || fits2 : fits1 && !fits2;
+  reg [1:0] taken;                                   // how often M was taken off
+  reg [3:0] then;                                    // the step before
+  reg was_fourfold;
+  reg was_twofold;
+  reg was_from_zero;
+  wire [29:0] whole_x = was_fourfold ? {whole[27:0], taken}
+                      : was_twofold ? {whole[28:0], taken[1]}
+                      : was_from_zero ? 30'd0
+                      : whole;
+  wire one = (!was_fourfold && (|taken)) || (then == 4'd8);
+  wire [30:0] x_and_b = {whole_x, 1'b1} + {b, one};  // and a carry out of the lowest bit
+  assign whole_next = x_and_b[30:1];
+  wire whole_stays = (then == 4'd0) || (then == 4'd12);
+
+  always @(posedge clk) begin
+    if (advance) read_whole_at <= read_at;
+  end
+
+  wire [29:0] extended_2 = {30{negated}};
+
+  always @(posedge clk) begin
+    write_then <= write;
+    write_then_at <= write_at;
+    negated <= negate;
+    slot_now <= of_slot;
+    b <= (now == 4'd10) ? whole_in : slot_now ? wholes_q ^ extended_2 : extended_2;
+    taken <= {twice_or_more, once_or_thrice};
+    then <= now;
+    was_fourfold <= fourfold;
+    was_twofold <= twofold;
+    was_from_zero <= from_zero;
+  end
+
+  always @(posedge clk) begin
+    if (!whole_stays) whole <= whole_next;
+  end
+
+  // What is done is given out rounded: to nearest, halves up, or up.
+  wire [29:0] past_half = {{1'b0, {rest[26:0], 1'b0}}, 1'b1} + {{modulus[27], modulus}, short};  // and a carry out of the lowest bit
+  reg up;
+  wire [28:0] part = past_half[29:1];
+
+  always @(posedge clk) begin
+    up <= upwards ? |rest[26:0] : !part[28];
+  end
+
+  assign unfit = (now == 4'd2) && (below ? s0[29] : !s1[29]);
+  assign rest_out = rest[26:0];
+  assign whole_out = whole;
+  assign value = whole + {29'd0, up};
+
+  // Not needed, on purpose.
+  wire unused = &{
+    1'b0, a_less_m[0], a_less_2m[0], x_and_n0[0], x_and_n1[0], x_and_n2[0], x_and_b[0], past_half[0],
+    choice[29:28], part[27:0]
+  };
+
+endmodule
+
+`default_nettype wire
