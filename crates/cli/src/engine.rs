@@ -1,6 +1,9 @@
 //! One picture, whichever engine drew it.
 
-use crate::input::to_port;
+#[cfg(feature = "jit")]
+mod native;
+
+use crate::input::{PortFrame, to_port};
 use crate::progress::bar;
 use anyhow::{Result, anyhow};
 use edgewalk_explore::draw;
@@ -8,8 +11,8 @@ pub use edgewalk_explore::raster::{Raster, from_golden, golden_fill};
 use edgewalk_explore::raster::{from_machine, from_model, of_port};
 use edgewalk_golden::Drawing;
 use edgewalk_lockstep::StallKind;
-use edgewalk_machine::Plan;
-use edgewalk_model::{Waits, render_shaded};
+use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_model::{Frame as Drawn, Waits, render_shaded};
 use edgewalk_scene::Frame;
 use std::ops::Range;
 
@@ -24,6 +27,8 @@ pub enum Engine {
     Model,
     /// The machine's netlist in the interpreter
     Rtl,
+    /// The machine's netlist as native code; needs edgewalk built with the feature jit
+    Jit,
 }
 
 /// Draws the frame, with a memory that makes the machine wait.
@@ -39,8 +44,8 @@ pub fn draw_waiting(
         Engine::Golden => Err(anyhow!(
             "--stalls {waits}: the golden picture has no memory that stalls; draw with --engine fast"
         )),
-        Engine::Rtl => Err(anyhow!(
-            "--stalls {waits}: --engine rtl has a memory that is always ready; draw with --engine fast"
+        Engine::Rtl | Engine::Jit => Err(anyhow!(
+            "--stalls {waits}: the netlist, --engine rtl or jit, has a memory that is always ready; draw with --engine fast"
         )),
         Engine::Fast => draw::fast(frame, machine, waits),
         Engine::Model => {
@@ -58,32 +63,64 @@ pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Resul
     match engine {
         Engine::Golden => Ok(draw::golden(frame, machine)),
         Engine::Fast => draw::fast(frame, machine, Waits::Never),
-        Engine::Model | Engine::Rtl => {
+        Engine::Model | Engine::Rtl | Engine::Jit => {
             let port = to_port(frame, machine)?;
             let bar = bar(port.triangles.len() as u64, "triangles", quiet);
             let triangles = bar.wrap_iter(port.triangles.iter().copied());
-            let (passes, maps) = (&port.passes, &port.maps());
-            let raster = if engine == Engine::Model {
-                let words = port.words();
-                from_model(
-                    machine,
-                    render_shaded(machine, triangles, passes, maps, Waits::Never, words, |_| {})?,
-                )
-            } else {
-                let drawn = edgewalk_lockstep::render_rtl_passes(
-                    machine,
-                    triangles,
-                    passes,
-                    maps,
-                    StallKind::None,
-                    port.words(),
-                );
-                from_machine(machine, drawn.map_err(|e| anyhow!("{e}"))?)
+            let raster = match engine {
+                Engine::Model => {
+                    let (passes, maps, words) = (&port.passes, &port.maps(), port.words());
+                    let drawn = render_shaded(machine, triangles, passes, maps, Waits::Never, words, |_| {})?;
+                    from_model(machine, drawn)
+                }
+                Engine::Jit => from_machine(machine, native(machine, triangles, &port)?),
+                _ => from_machine(machine, interpreted(machine, triangles, &port)?),
             };
             bar.finish_and_clear();
             Ok(of_port(raster, &port))
         }
     }
+}
+
+/// The netlist's frame, by the interpreter.
+fn interpreted(
+    machine: &Plan,
+    triangles: impl Iterator<Item = [PortVertex; 3]>,
+    port: &PortFrame,
+) -> Result<Drawn> {
+    let (passes, maps) = (&port.passes, &port.maps());
+    let drawn =
+        edgewalk_lockstep::render_rtl_passes(machine, triangles, passes, maps, StallKind::None, port.words());
+    drawn.map_err(|e| anyhow!("{e}"))
+}
+
+/// The netlist's frame, by native code.
+#[cfg(feature = "jit")]
+fn native(
+    machine: &Plan,
+    triangles: impl Iterator<Item = [PortVertex; 3]>,
+    port: &PortFrame,
+) -> Result<Drawn> {
+    let mut device = native::Native::new(&machine.tagged())?;
+    let (passes, maps) = (&port.passes, &port.maps());
+    let drawn = edgewalk_lockstep::render_on(
+        &mut device,
+        machine,
+        triangles,
+        passes,
+        maps,
+        StallKind::None,
+        port.words(),
+    );
+    drawn.map_err(|e| anyhow!("{e}"))
+}
+
+#[cfg(not(feature = "jit"))]
+fn native(_: &Plan, _: impl Iterator<Item = [PortVertex; 3]>, _: &PortFrame) -> Result<Drawn> {
+    Err(anyhow!(
+        "--engine jit: this edgewalk was built without the feature jit; \
+         build one that has it with `cargo build --release --features jit`, or draw with --engine rtl"
+    ))
 }
 
 /// Draws the frame and gives it from the top, a band of lines at a time where the engine can do so: a whole picture in
@@ -108,7 +145,7 @@ pub fn draw_bands(
             let drawn = draw::draw_frame(machine, &port, Waits::Never)?;
             drawn.bands(machine, fast_bands(machine), |band| take(of_port(band, &port)))
         }
-        Engine::Model | Engine::Rtl => take(draw(engine, frame, machine, quiet)?),
+        Engine::Model | Engine::Rtl | Engine::Jit => take(draw(engine, frame, machine, quiet)?),
     }
 }
 

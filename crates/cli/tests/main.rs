@@ -18,6 +18,7 @@ mod layering;
 mod light;
 mod limits;
 mod meshes;
+mod mix;
 mod normals;
 mod output;
 mod pictures;

@@ -1,6 +1,6 @@
-//! Draws triangles with the machine's netlist in the interpreter, the rig behind its ports.
+//! Draws triangles with the machine's netlist, in the interpreter or whatever else runs it, the rig behind its ports.
 
-use crate::device::{NetlistDevice, PortError, Triangles, netlist};
+use crate::device::{Device, NetlistDevice, PortError, Triangles, netlist};
 use crate::interface::{Interface, Link};
 use crate::rig::{Rig, Setting};
 use crate::stalls::{StallKind, patterns};
@@ -59,7 +59,30 @@ pub fn render_rtl_passes(
     stalls: StallKind,
     shading: &Shading,
 ) -> Result<Frame, DrawError> {
-    run(plan, &plan.tagged(), triangles, passes, (maps, shading), stalls, |_| true)
+    let tagged = plan.tagged();
+    let mut device =
+        NetlistDevice::new(&*netlist(&tagged, Unit::MACHINE)?, &Interface::new(&tagged, Unit::MACHINE))?;
+    render_on(&mut device, plan, triangles, passes, maps, stalls, shading)
+}
+
+/// As [`render_rtl_passes`], by a device that has just been reset and has the ports of the machine with tags of 32 bits,
+/// [`Plan::tagged`]; the outputs inside are not asked for.
+///
+/// # Errors
+/// Triangles whose vertices were made for another machine.
+pub fn render_on(
+    device: &mut impl Device,
+    plan: &Plan,
+    triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+    passes: &[Pass],
+    maps: &[Vec<u32>],
+    stalls: StallKind,
+    shading: &Shading,
+) -> Result<Frame, DrawError> {
+    run(plan, &plan.tagged(), triangles, passes, (maps, shading), stalls, |ports| {
+        device.cycle(ports);
+        true
+    })
 }
 
 /// As [`render_rtl`], with the machine as it is, so that ids are the tags that it has, or none; `watch` sees the netlist in
@@ -72,11 +95,19 @@ pub fn render_rtl_with(
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
     state: DrawState,
     stalls: StallKind,
-    watch: impl FnMut(&mut Simulator) -> bool,
+    mut watch: impl FnMut(&mut Simulator) -> bool,
 ) -> Result<Frame, DrawError> {
-    run(plan, plan, triangles, &[Pass::all(state)], (&[], &Shading::default()), stalls, watch)
+    let mut device =
+        NetlistDevice::new(&*netlist(plan, Unit::MACHINE)?, &Interface::new(plan, Unit::MACHINE))?;
+    run(plan, plan, triangles, &[Pass::all(state)], (&[], &Shading::default()), stalls, |ports| {
+        device.settle(ports);
+        let more = watch(device.simulator());
+        device.clock();
+        more
+    })
 }
 
+/// `cycle`: a clock of the device, which gives the outputs before the edge; false if enough was seen.
 fn run(
     plan: &Plan,
     tagged: &Plan,
@@ -84,10 +115,9 @@ fn run(
     passes: &[Pass],
     (maps, shading): (&[Vec<u32>], &Shading),
     stalls: StallKind,
-    mut watch: impl FnMut(&mut Simulator) -> bool,
+    mut cycle: impl FnMut(&mut PortValues) -> bool,
 ) -> Result<Frame, DrawError> {
     let interface = Interface::new(tagged, Unit::MACHINE);
-    let mut device = NetlistDevice::new(&*netlist(tagged, Unit::MACHINE)?, &interface)?;
     let (port, mut foreign) = (Triangles::new(tagged), None);
     let mut tokens = triangles.into_iter().zip(0..).map_while(|(triangle, number): (_, u32)| {
         foreign = plan.accept(&triangle, number.into()).err();
@@ -124,7 +154,7 @@ fn run(
         let rig = Rig::fed(&interface, setting, tokens.by_ref().take(pass.triangles));
         let records = Records::new(plan, shading, begun);
         begun += pass.triangles;
-        if !draw_pass((rig, records), plan, &mut device, &mut picture, &mut ports, &mut watch) {
+        if !draw_pass((rig, records), plan, &mut picture, &mut ports, &mut cycle) {
             break;
         }
     }
@@ -132,14 +162,13 @@ fn run(
     foreign.map_or(Ok(picture.frame(plan)), |foreign| Err(foreign.into()))
 }
 
-/// Until all its triangles are drawn; false if `watch` has seen enough.
+/// Until all its triangles are drawn; false if enough was seen before.
 fn draw_pass(
     (mut rig, mut records): (Rig<'_>, Records<'_>),
     plan: &Plan,
-    device: &mut NetlistDevice,
     picture: &mut Picture,
     ports: &mut PortValues,
-    watch: &mut impl FnMut(&mut Simulator) -> bool,
+    cycle: &mut impl FnMut(&mut PortValues) -> bool,
 ) -> bool {
     let before = picture.counters.clone();
     records.write_next(plan, &mut rig);
@@ -147,10 +176,8 @@ fn draw_pass(
         // In the cycle in which it takes the last triangle the machine is still idle.
         let exhausted = rig.exhausted();
         rig.drive(ports);
-        device.settle(ports);
-        let more = watch(device.simulator());
+        let more = cycle(ports);
         picture.see(ports);
-        device.clock();
         rig.clock(ports);
         let rests = exhausted && picture.is_idle(ports);
         if !more || (rests && rig.finished()) {

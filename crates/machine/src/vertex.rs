@@ -184,6 +184,7 @@ impl Plan {
     ///
     /// # Errors
     /// Vertices of another machine.
+    #[inline]
     pub fn accept(&self, triangle: &[PortVertex; 3], number: u64) -> Result<(), ForeignVertex> {
         if triangle.iter().all(|vertex| vertex.stamp == self.port_stamp()) {
             return Ok(());

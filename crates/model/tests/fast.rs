@@ -3,7 +3,7 @@
 use crate::common::{Triangle, moved, random_values, render};
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
-use edgewalk_machine::{BlendKind, ForeignVertex, Machine, Plan, ShadeKind, ShadowLight, Walk};
+use edgewalk_machine::{BlendKind, ForeignVertex, Hazard, Machine, Plan, ShadeKind, ShadowLight, Walk};
 use edgewalk_model::fast::{self, Path, Reason, Refusal};
 use edgewalk_model::{Activity, DrawState, Events, Frame, Stalls};
 use rand::{Rng, SeedableRng, rngs::StdRng};
@@ -160,4 +160,39 @@ fn triangles_of_another_machine_are_refused() {
     let mut renderer = fast::Renderer::new(&plan, false);
     assert_eq!(renderer.draw([own, foreign], state), Err(Refusal::Foreign(error)));
     assert_eq!(renderer.draw([own, own], state), Ok(()));
+}
+
+/// A frame is cleared only where the one before was drawn, also where that was given up half way.
+#[test]
+fn nothing_is_left_of_the_frame_before() {
+    let mut rng = StdRng::seed_from_u64(7);
+    let foreign = [Plan::preset("textbook").expect("a preset").raw_vertex(0, 0, &[]); 3];
+    let (mut frames, mut fragments) = (0, 0);
+    for _ in 0..40 {
+        let machine = Machine { hazard: Hazard::Forward, ..Machine::default() };
+        let machine =
+            Machine { width: rng.random_range(16..80), height: rng.random_range(16..60), ..machine };
+        let machine = machine.plan().expect("can be built");
+        let mut renderer = fast::Renderer::new(&machine, rng.random());
+        let state = DrawState::default();
+        for number in 0..4 {
+            let mut triangles = random_triangles(&machine, &mut rng);
+            triangles.truncate(rng.random_range(0..12));
+            if number == 1 {
+                triangles.extend([foreign; 9]);
+                let refused = renderer.draw(triangles, state);
+                assert!(matches!(refused, Err(Refusal::Foreign(_))), "{refused:?}");
+                continue;
+            }
+            let mut fresh = fast::Renderer::new(&machine, false);
+            assert_eq!(fresh.draw(triangles.iter().copied(), state), Ok(()));
+            assert_eq!(renderer.draw(triangles, state), Ok(()));
+            let [found, wanted] = [&renderer, &fresh].map(fast::Renderer::frame);
+            assert!(found.z == wanted.z && found.rgb == wanted.rgb, "frame {number} on {machine:?}");
+            assert_eq!(found.counters, wanted.counters);
+            (frames, fragments) = (frames + 1, fragments + found.counters.fragments);
+        }
+    }
+    println!("{frames} frames after others, {fragments} fragments");
+    assert!(frames == 120 && fragments > 20_000, "{fragments} fragments");
 }

@@ -26,6 +26,7 @@ use std::path::PathBuf;
   edgewalk raster triangles.tri --out out/r
   edgewalk raster triangles.tri --engine golden --out out/g --json
   edgewalk raster triangles.tri --engine rtl --out out/n --set interpolator.adders=1
+  edgewalk raster triangles.tri --engine jit --out out/n     the same, as native code; needs cargo build --features jit
   edgewalk raster textured.tri --out out/t --set channels.extra=2
 
 The triangle file (docs/triangle_file.md), one item a line, # comments:

@@ -4,15 +4,17 @@ use super::clock::Clock;
 use super::passage::Passage;
 use super::picture::Picture;
 use super::pixel::Pixel;
-use super::setup::Setup;
+use super::setup::{BATCH, Setup};
 use super::span::{DepthTest, Ramp};
-use super::walk::{Span, Walker};
+use super::walk::{Spans, Walker};
 use super::{Reason, Refusal};
 use crate::counters::Counters;
 use crate::run::DrawState;
 use crate::setup::SetupClocks;
+use crate::setup::sort::Sorted;
 use crate::tokens::{FEW, Prim};
 use edgewalk_machine::{Plan, PortVertex};
+use std::array::from_fn;
 
 /// Draws the triangles into a cleared picture.
 #[inline(always)]
@@ -24,7 +26,7 @@ pub(super) fn draw<P: Pixel, const DETAILS: bool>(
     passage: Option<&mut Passage>,
 ) -> Result<Counters, Refusal> {
     let mut frame = Frame {
-        spans: Vec::new(),
+        spans: Spans::new(plan),
         test: DepthTest::new::<P>(plan, state),
         picture,
         passage,
@@ -33,20 +35,37 @@ pub(super) fn draw<P: Pixel, const DETAILS: bool>(
     };
     let setup = Setup::new(plan);
     let walker = Walker::new(plan);
-    for (id, vertices) in triangles.enumerate() {
-        plan.accept(&vertices, frame.counters.triangles)?;
-        frame.counters.triangles += 1;
-        match setup.increments(&vertices) {
-            (clocks, Some(prim)) => frame.triangle::<DETAILS>(&walker, clocks, &prim, id as i32),
-            (clocks, None) => {
-                frame.clock.culled(clocks);
+    let mut triangles = triangles;
+    let mut sorted: [Sorted<FEW>; BATCH] = from_fn(|_| Sorted::default());
+    let mut prims: [Prim<FEW>; BATCH] = [Prim::default(); BATCH];
+    let mut done = [(SetupClocks::default(), false); BATCH];
+    loop {
+        let (first, mut count) = (frame.counters.triangles, 0);
+        triangles.by_ref().take(BATCH).try_for_each(|vertices| {
+            plan.accept(&vertices, first + count as u64)?;
+            sorted[count] = setup.sort(&vertices);
+            count += 1;
+            Ok::<_, Refusal>(())
+        })?;
+        frame.counters.triangles += count as u64;
+        for ((done, prim), sorted) in done.iter_mut().zip(&mut prims).zip(&sorted[..count]) {
+            *done = setup.increments(sorted, prim);
+        }
+        for (id, ((clocks, is_drawn), prim)) in (first..).zip(done.iter().zip(&prims)).take(count) {
+            if *is_drawn {
+                frame.triangle::<DETAILS>(&walker, *clocks, prim, id as i32);
+            } else {
+                frame.clock.culled(*clocks);
                 if let Some(passage) = &mut frame.passage {
                     passage.culled();
                 }
             }
+            if frame.clock.interlocked() {
+                return Err(Reason::Interlock.into());
+            }
         }
-        if frame.clock.interlocked() {
-            return Err(Reason::Interlock.into());
+        if count < BATCH {
+            break;
         }
     }
     frame.counters.writes = frame.test.passed();
@@ -56,7 +75,7 @@ pub(super) fn draw<P: Pixel, const DETAILS: bool>(
 
 struct Frame<'a, P: Pixel> {
     /// Walked, and not yet drawn.
-    spans: Vec<Span>,
+    spans: Spans,
     test: DepthTest,
     picture: &'a mut Picture<P>,
     passage: Option<&'a mut Passage>,
@@ -81,18 +100,17 @@ impl<P: Pixel> Frame<'_, P> {
         let to_left = prim.major_right && !walker.textbook;
         let (mut empty, mut fresh) = (0, true);
         for part in 0..2 {
-            let pixels = &self.picture.pixels;
-            empty = walker.part(prim, part, &mut walk, &mut self.spans, empty, pixels);
+            empty = walker.part(prim, part, &mut walk, &mut self.spans, empty, self.picture);
             self.counters.lines += u64::from(prim.lines[part]);
-            if (walker.textbook || part == 1) && !self.spans.is_empty() {
-                self.clock.spans(&self.spans, fresh, to_left);
+            if (walker.textbook || part == 1) && !self.spans.walked().is_empty() {
+                let spans = self.spans.walked();
+                self.clock.spans(spans, fresh, to_left);
                 fresh = false;
-                let [leftmost, rightmost] =
-                    self.test.draw::<P, DETAILS>(self.picture, &self.spans, &ramp, id);
+                let [leftmost, rightmost] = self.test.draw::<P, DETAILS>(self.picture, spans, &ramp, id);
                 let passed = if to_left { leftmost } else { rightmost };
                 self.clock.last_passed(passed);
                 if let Some(passage) = &mut self.passage {
-                    passage.part(&self.spans, to_left, passed);
+                    passage.part(spans, to_left, passed);
                 }
                 self.spans.clear();
             }

@@ -12,6 +12,7 @@ use super::walk::Span;
 use super::{Reason, Refusal, refused};
 use crate::counters::Counters;
 use crate::setup::SetupClocks;
+use crate::tokens::Prim;
 use edgewalk_machine::{Plan, PortVertex};
 
 /// A frame that was drawn.
@@ -123,7 +124,7 @@ impl Passage {
         let setup = Setup::new(plan);
         let clocks = |(triangle, number): (&[PortVertex; 3], u64)| {
             plan.accept(triangle, number)?;
-            Ok(setup.increments(triangle).0)
+            Ok(setup.increments(&setup.sort(triangle), &mut Prim::default()).0)
         };
         triangles.iter().zip(0..).map(clocks).collect()
     }

@@ -6,7 +6,7 @@ use edgewalk_machine::Plan;
 use std::ops::Range;
 
 /// Pixels of a chunk, which are drawn side by side.
-pub(super) const LANES: usize = 8;
+pub(super) const LANES: usize = 4;
 
 /// What happened at every pixel.
 #[derive(Clone, Debug, Default)]
@@ -34,14 +34,30 @@ impl Details {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Picture<P> {
     pub pixels: Vec<P>,
+    /// Of every row the columns outside of which it is clear, from the first to that behind the last.
+    pub drawn: Vec<[i32; 2]>,
+    /// What a clear pixel is.
+    clear: P,
     pub details: Details,
 }
 
 impl<P: Pixel> Picture<P> {
     /// The farthest depth and the clear colour everywhere.
     pub(super) fn clear(&mut self, plan: &Plan, state: &DrawState, details: bool) {
-        let pixels = plan.width as usize * plan.height as usize + LANES;
-        refill(&mut self.pixels, pixels, pixel(plan, plan.z.max(), state.clear));
+        let (width, height) = (plan.width as usize, plan.height as usize);
+        let pixels = width * height + LANES;
+        let clear = pixel(plan, plan.z.max(), state.clear);
+        if (self.pixels.len(), self.drawn.len(), self.clear) == (pixels, height, clear) {
+            for (row, [from, to]) in self.pixels.chunks_exact_mut(width).zip(&self.drawn) {
+                if let Some(drawn) = row.get_mut((*from).max(0) as usize..(*to).max(0) as usize) {
+                    drawn.fill(clear);
+                }
+            }
+        } else {
+            refill(&mut self.pixels, pixels, clear);
+        }
+        refill(&mut self.drawn, height, [i32::MAX, 0]);
+        self.clear = clear;
         if details {
             refill(&mut self.details.coverage, pixels, 0);
             refill(&mut self.details.writes, pixels, 0);

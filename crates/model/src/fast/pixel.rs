@@ -3,7 +3,7 @@
 use edgewalk_machine::Plan;
 
 /// A stored pixel: depth in the low 32 bits, colour above.
-pub(super) trait Pixel: Copy + Default {
+pub(super) trait Pixel: Copy + Default + Eq {
     /// Lane of an interpolated colour; the word stands at its left end.
     type Color: Copy + Default;
     /// Width of that lane.

@@ -5,14 +5,19 @@ use crate::prefetch;
 /// A cache line, bytes.
 const LINE: usize = 64;
 
-/// Brings `count` elements from `place` on into the cache, where the processor knows how.
+/// Brings `count` elements from `place` on into the cache, where the processor knows how; if there are none, no matter what.
 #[inline(always)]
-pub(super) fn prefetch<T>(memory: &[T], place: usize, count: usize) {
+pub(super) fn prefetch<T>(memory: &[T], place: usize, count: i32) {
+    // First and last always: how many lines lie between them is not worth a guess of the processor where there are none.
+    let last = place.wrapping_add_signed(count as isize - 1);
+    prefetch::prefetch(memory, place);
+    prefetch::prefetch(memory, last);
     let step = LINE / size_of::<T>();
-    let mut at = place;
-    // Wherever in a line the first element lies, the last is met. A `step_by` here costs 30 instructions a span.
-    while at < place + count + step - 1 {
-        prefetch::prefetch(memory, at);
-        at += step;
+    if count > step as i32 {
+        let mut at = place + step;
+        while at < last {
+            prefetch::prefetch(memory, at);
+            at += step;
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! SETUP's results and clocks with divisions that take a few clocks each, in 64 bits.
 //!
+//! A triangle is sorted when it is brought in, some triangles before the one that is drawn ([`BATCH`]).
 //! Only for exact fill and exact edges, formats whose differences over the screen fit in 62 bits, and triangles whose
 //! numerators do; all else is left to the plain setup, with its 128 bits. Rules: `docs/machine.md`, section 2.
 
@@ -13,6 +14,9 @@ use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex};
 use std::array::from_fn;
 
 type Words = crate::tokens::Words<FEW>;
+
+/// Triangles brought in and set up before the first of them is drawn: their vertices come from far memory side by side.
+pub(super) const BATCH: usize = 8;
 
 /// What the setup needs to know of a plan.
 #[derive(Clone, Debug)]
@@ -74,22 +78,29 @@ impl Setup {
         }
     }
 
-    /// The clocks and increments of a triangle, without tag and number; `None` if it is culled.
+    /// A triangle's vertices as SETUP sees them.
     #[inline(always)]
-    pub(super) fn increments(&self, vertices: &[PortVertex; 3]) -> (SetupClocks, Option<Prim<FEW>>) {
+    pub(super) fn sort(&self, vertices: &[PortVertex; 3]) -> Sorted<FEW> {
+        if self.plain { Sorted::new(&self.plan, vertices) } else { self.sorted(vertices) }
+    }
+
+    /// The clocks of a triangle, and whether it is drawn; if so, `prim` gets its increments, without tag and number.
+    #[inline(always)]
+    pub(super) fn increments(&self, sorted: &Sorted<FEW>, prim: &mut Prim<FEW>) -> (SetupClocks, bool) {
         if !self.plain
-            && let Ok(done) = self.short(vertices)
+            && let Ok(done) = self.short(sorted, prim)
         {
             return done;
         }
-        let (clocks, prim) = setup::increments(&self.plan, &self.timing, vertices);
-        (clocks, prim.ok())
+        let (clocks, plain) = setup::prepare(&self.plan, &self.timing, sorted);
+        let is_drawn = plain.is_ok();
+        *prim = plain.unwrap_or_default();
+        (clocks, is_drawn)
     }
 
     /// The same in 64 bits.
     #[inline(always)]
-    fn short(&self, vertices: &[PortVertex; 3]) -> Result<(SetupClocks, Option<Prim<FEW>>), TooLong> {
-        let sorted = self.sorted(vertices);
+    fn short(&self, sorted: &Sorted<FEW>, prim: &mut Prim<FEW>) -> Result<(SetupClocks, bool), TooLong> {
         let [a, b, c] = &sorted.corners;
         let (du1, dv1, du2, dv2) = (b.u - a.u, b.v - a.v, c.u - a.u, c.v - a.v);
         let [top, knee, bottom] = [a, b, c].map(|corner| -(-corner.v >> self.t)); // rounded up
@@ -98,13 +109,13 @@ impl Setup {
         let j1 = knee.clamp(j0, end);
         let [left, right] = self.columns([a.u, b.u, c.u]);
         if end == j0 || right <= left {
-            return Ok((self.timing.culled(), None));
+            return Ok((self.timing.culled(), false));
         }
         let parts = Parts { first: [j0, j1], lines: [(j1 - j0) as u32, (end - j1) as u32] };
-        let phase1 = self.timing.phase1(&sorted, &parts);
+        let phase1 = self.timing.phase1(sorted, &parts);
         let area = du1 * dv2 - du2 * dv1;
         if area == 0 {
-            return Ok((SetupClocks { phase1, phase2: 0 }, None));
+            return Ok((SetupClocks { phase1, phase2: 0 }, false));
         }
         let line = if j1 > j0 { j0 } else { j1 };
         let major_right = area < 0;
@@ -139,7 +150,7 @@ impl Setup {
             return Err(TooLong);
         }
         let word = |values: [i64; 4]| -> Words { from_fn(|i| values[i] as u64 & self.word_masks[i]) };
-        let prim = Prim {
+        *prim = Prim {
             line: line as u32,
             lines: parts.lines,
             major_right,
@@ -158,8 +169,8 @@ impl Setup {
             record: 0, // no TERM here
             source: Source::default(),
         };
-        let phase2 = self.timing.phase2(&sorted, &parts, &prim);
-        Ok((SetupClocks { phase1, phase2 }, Some(prim)))
+        let phase2 = self.timing.phase2(sorted, &parts, prim);
+        Ok((SetupClocks { phase1, phase2 }, true))
     }
 
     /// Top first; of equal v the earlier comes first.
@@ -167,19 +178,18 @@ impl Setup {
     fn sorted(&self, vertices: &[PortVertex; 3]) -> Sorted<FEW> {
         let centre = |x: i32| ((x << self.unused >> self.unused) << self.double) - self.offset;
         let [v0, v1, v2] = [0, 1, 2].map(|i| centre(vertices[i].y()));
-        let mut order = [0; 3];
+        let mut order = [0usize; 3];
         order[usize::from(v1 < v0) + usize::from(v2 < v0)] = 0;
         order[usize::from(v0 <= v1) + usize::from(v2 < v1)] = 1;
         order[usize::from(v0 <= v2) + usize::from(v1 <= v2)] = 2;
-        let corners = order.map(|k: usize| {
-            let vertex = &vertices[k];
-            Corner {
-                u: i64::from(centre(vertex.x())),
-                v: i64::from(centre(vertex.y())),
-                values: from_fn(|i| vertex.values()[i] & self.vertex_masks[i]),
-            }
-        });
-        Sorted { corners }
+        // Written out: mapped over an array, the corners are copied several times.
+        let corner = |vertex: &PortVertex| Corner {
+            u: i64::from(centre(vertex.x())),
+            v: i64::from(centre(vertex.y())),
+            values: from_fn(|i| vertex.values()[i] & self.vertex_masks[i]),
+        };
+        let [top, middle, bottom] = order;
+        Sorted { corners: [corner(&vertices[top]), corner(&vertices[middle]), corner(&vertices[bottom])] }
     }
 
     /// k0 and k1: the first column that may have a pixel, and the first behind the last.

@@ -28,12 +28,13 @@ impl<P: Pixel> Ramp<P> {
     pub(super) fn new(gradient: Words<FEW>) -> Self {
         let [z, rgb @ ..] = gradient;
         let times = |word: u64, i: usize| word.wrapping_mul(i as u64);
-        Ramp {
+        // Through memory, as `place` below: that the first lane adds nothing is not worth knowing.
+        std::hint::black_box(Ramp {
             z: from_fn(|i| times(z, i)),
             z_step: times(z, LANES),
             rgb: rgb.map(|c| from_fn(|i| P::color(times(c, i)))),
             rgb_step: rgb.map(|c| P::color(times(c, LANES))),
-        }
+        })
     }
 }
 
@@ -51,8 +52,8 @@ pub(super) struct DepthTest {
     rgb_drop: u32,
     /// 0 to LANES - 1. From memory: known numbers tempt the compiler to treat every lane in its own way.
     place: [i32; LANES],
-    /// Fragments that passed, by lane.
-    passed: [u64; LANES],
+    /// Fragments that passed.
+    passed: u64,
 }
 
 #[inline(always)]
@@ -70,22 +71,14 @@ impl DepthTest {
             z_drop: 64 - plan.z.bits,
             rgb_drop: P::COLOR_BITS - plan.color.bits,
             place: std::hint::black_box(from_fn(|i| i as i32)),
-            passed: [0; LANES],
+            passed: 0,
         }
     }
 
     /// Fragments that passed.
     #[inline(always)]
     pub(super) fn passed(&self) -> u64 {
-        self.passed.iter().sum()
-    }
-
-    #[inline(always)]
-    fn compare(&self, new: u32, old: u32) -> u32 {
-        let less = if new < old { self.less } else { 0 };
-        let equal = if new == old { self.equal } else { 0 };
-        let greater = if new > old { self.greater } else { 0 };
-        less | equal | greater
+        self.passed
     }
 
     /// Draws spans, at least one. Returns whether the leftmost and the rightmost pixel of the last passed.
@@ -97,7 +90,10 @@ impl DepthTest {
         ramp: &Ramp<P>,
         id: i32,
     ) -> [bool; 2] {
-        let mut lanes = self.passed;
+        // In registers: what is stored below might be these, for all the compiler knows.
+        let DepthTest { less, equal, greater, write, z_drop, rgb_drop, place, .. } = *self;
+        let (not_less, equal) = (less ^ greater, greater ^ equal);
+        let mut lanes = [0u32; LANES]; // a triangle has fewer pixels
         let (mut leftmost, mut pass) = (0, [0; LANES]);
         for span in spans {
             let mut z: [u64; LANES] = from_fn(|i| span.words[0].wrapping_add(ramp.z[i]));
@@ -109,13 +105,18 @@ impl DepthTest {
             while let Some(stored) = picture.pixels.get_mut(at..).and_then(|p| p.first_chunk_mut::<LANES>()) {
                 let old = *stored;
                 let old_z = old.map(P::depth);
-                let new_z: [u32; LANES] = from_fn(|i| z[i].wrapping_shr(self.z_drop) as u32);
-                let inside: [u32; LANES] = from_fn(|i| mask(self.place[i] < remaining));
-                pass = from_fn(|i| self.compare(new_z[i], old_z[i]) & inside[i]);
+                let new_z: [u32; LANES] = from_fn(|i| z[i].wrapping_shr(z_drop) as u32);
+                let inside: [u32; LANES] = from_fn(|i| mask(place[i] < remaining));
+                // What is not less, and equal or not, differs from what is less as its masks do.
+                pass = from_fn(|i| {
+                    let at_least = mask(new_z[i] >= old_z[i]) & not_less;
+                    let same = mask(new_z[i] == old_z[i]) & equal;
+                    (less ^ at_least ^ same) & inside[i]
+                });
                 let new: [P; LANES] =
-                    from_fn(|i| P::pack(new_z[i], [rgb[0][i], rgb[1][i], rgb[2][i]], self.rgb_drop));
-                *stored = from_fn(|i| new[i].select(old[i], pass[i], self.write));
-                lanes = from_fn(|i| lanes[i].wrapping_add(u64::from(pass[i] & 1)));
+                    from_fn(|i| P::pack(new_z[i], [rgb[0][i], rgb[1][i], rgb[2][i]], rgb_drop));
+                *stored = from_fn(|i| new[i].select(old[i], pass[i], write));
+                lanes = from_fn(|i| lanes[i].wrapping_sub(pass[i])); // all ones is -1
                 if at == span.pixel as usize {
                     leftmost = pass[0];
                 }
@@ -131,7 +132,7 @@ impl DepthTest {
                 remaining -= LANES as i32;
             }
         }
-        self.passed = lanes;
+        self.passed += lanes.iter().map(|count| u64::from(*count)).sum::<u64>();
         let rightmost = spans.last().map_or(0, |span| pass[span.count.wrapping_sub(1) as usize % LANES]);
         [leftmost != 0, rightmost != 0]
     }

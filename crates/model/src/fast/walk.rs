@@ -6,6 +6,7 @@
 //! Formats: columns of COLW bits and words of b + r bits stand at the left end of 32 and 64 bits, so that they wrap by
 //! themselves. Rules: `docs/machine.md`, sections 3 and 4; its cuts come to the same interval whichever way a span runs.
 
+use super::picture::Picture;
 use super::prefetch::prefetch;
 use crate::tokens::{EdgeWalk, FEW, Prim, per_channel};
 use edgewalk_machine::{Fill, Plan};
@@ -26,6 +27,32 @@ pub(super) struct Span<W = Words> {
     pub skip: u32,
     /// Lines without a pixel before this one, since the last span of the triangle.
     pub empty: u32,
+}
+
+/// Spans walked and not yet drawn, and room for one more than a triangle can have: a line without a pixel writes there too, so
+/// that nothing depends on whether it has one.
+#[derive(Clone, Debug)]
+pub(super) struct Spans {
+    room: Vec<Span>,
+    count: usize,
+}
+
+impl Spans {
+    /// None of a machine's. In textbook fill the knee line is drawn twice.
+    pub(super) fn new(plan: &Plan) -> Self {
+        let none = Span { words: [0; FEW], pixel: 0, count: 0, skip: 0, empty: 0 };
+        Spans { room: vec![none; plan.height as usize + 2], count: 0 }
+    }
+
+    #[inline(always)]
+    pub(super) fn walked(&self) -> &[Span] {
+        &self.room[..self.count]
+    }
+
+    #[inline(always)]
+    pub(super) fn clear(&mut self) {
+        self.count = 0;
+    }
 }
 
 /// What a walk needs to know of a machine.
@@ -113,16 +140,16 @@ impl Walker {
     }
 
     /// Walks down a part, 0 or 1, and appends its spans. `empty`: lines without a pixel since the last span, before and
-    /// after. Pixels are fetched from `memory`, y·W + x.
+    /// after. Pixels are fetched from the picture, and their lines marked.
     #[inline(always)]
     pub(super) fn part<P>(
         &self,
         prim: &Prim<FEW>,
         part: usize,
         walk: &mut Walk,
-        spans: &mut Vec<Span>,
+        spans: &mut Spans,
         mut empty: u32,
-        memory: &[P],
+        picture: &mut Picture<P>,
     ) -> u32 {
         let free = self.free;
         let minor = Edge::new(&prim.minor[part], free);
@@ -137,40 +164,54 @@ impl Walker {
         }
         // In textbook fill the left end is `Trunc`, one less than C, and the knee line is drawn again.
         let inward = i32::from(self.textbook);
-        let knee = if self.textbook && part == 0 { prim.lines[0] } else { u32::MAX };
+        let lines = prim.lines[part];
+        let stays = self.textbook && part == 0 && lines > 0;
+        let more: Words = from_fn(|i| delta[1][i].wrapping_sub(delta[0][i]));
         let mut row = walk.y * self.width as u32;
-        for line in 1..=prim.lines[part] {
-            let (l, r) = ((left.c >> free) - inward, right.c >> free);
+        // From the first pixel of a line to its leftmost.
+        let to_leftmost = if walk.to_left { walk.gradient.map(u64::wrapping_neg) } else { walk.gradient };
+        let memory = &picture.pixels;
+        // All lines are on the screen.
+        let rows = picture.drawn.get_mut(walk.y as usize..(walk.y + lines) as usize).unwrap_or_default();
+        let mut count = spans.count;
+        for (drawn, below) in rows.iter_mut().zip((0..lines).rev()) {
+            let (l, r) = ((left.c >> free).wrapping_sub(inward), right.c >> free);
             let (low, high) = (l.max(0), r.min(self.width));
-            if low < high {
-                // The columns stepped over, and from the first of the span to the leftmost on the screen.
-                let (skip, columns) = if walk.to_left { (r - high, low - r + 1) } else { (low - l, low - l) };
-                let span = Span {
-                    words: from_fn(|i| {
-                        words[i].wrapping_add(walk.gradient[i].wrapping_mul(columns as i64 as u64))
-                    }),
-                    pixel: row + low as u32,
-                    count: (high - low) as u32,
-                    skip: skip as u32,
-                    empty,
-                };
-                prefetch(memory, span.pixel as usize, span.count as usize);
-                spans.push(span);
-                empty = 0;
+            // No difference of columns is longer than 32 bits.
+            let from_left = low.wrapping_sub(l);
+            let [skip, columns] = if walk.to_left {
+                [r.wrapping_sub(high), r.wrapping_sub(1).wrapping_sub(low)]
             } else {
-                empty += 1;
-            }
-            if line == knee {
+                [from_left; 2]
+            };
+            let pixels = high.wrapping_sub(low);
+            let Some(span) = spans.room.get_mut(count) else { break }; // there is room: see `Spans`
+            *span = Span {
+                words: from_fn(|i| {
+                    words[i].wrapping_add(to_leftmost[i].wrapping_mul(u64::from(columns as u32)))
+                }),
+                pixel: row.wrapping_add(low as u32),
+                count: pixels as u32,
+                skip: skip as u32,
+                empty,
+            };
+            prefetch(memory, span.pixel as usize, pixels);
+            *drawn = [drawn[0].min(low), drawn[1].max(high)];
+            let is_empty = u32::from(pixels <= 0);
+            count += 1 - is_empty as usize;
+            empty = (empty + 1) * is_empty;
+            if stays && below == 0 {
                 break;
             }
-            row += self.width as u32;
+            row = row.wrapping_add(self.width as u32);
             let carry_left = left.step(free);
             let carry_right = right.step(free);
             let carry = if walk.major_right { carry_right } else { carry_left };
-            let delta = &delta[(carry & 1) as usize];
-            words = from_fn(|i| words[i].wrapping_add(delta[i]));
+            let carry = i64::from(carry) as u64; // all ones or zero
+            words = from_fn(|i| words[i].wrapping_add(delta[0][i]).wrapping_add(more[i] & carry));
         }
-        walk.y = row / self.width as u32;
+        spans.count = count;
+        walk.y += lines - u32::from(stays);
         walk.words = words;
         walk.major = if walk.major_right { right } else { left };
         empty

@@ -208,7 +208,8 @@ pub(crate) fn increments<const C: usize>(
     prepare(plan, timing, &Sorted::new(plan, vertices))
 }
 
-fn prepare<const C: usize>(
+/// The same of a triangle that is sorted.
+pub(crate) fn prepare<const C: usize>(
     plan: &Plan,
     timing: &Timing,
     sorted: &Sorted<C>,

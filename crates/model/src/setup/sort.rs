@@ -19,8 +19,14 @@ pub(crate) struct Sorted<const C: usize> {
     pub corners: [Corner<C>; 3],
 }
 
+impl<const C: usize> Default for Sorted<C> {
+    fn default() -> Self {
+        Sorted { corners: [Corner { u: 0, v: 0, values: [0; C] }; 3] }
+    }
+}
+
 impl<const C: usize> Sorted<C> {
-    pub(super) fn new(plan: &Plan, vertices: &[PortVertex; 3]) -> Self {
+    pub(crate) fn new(plan: &Plan, vertices: &[PortVertex; 3]) -> Self {
         let mut corners = vertices.map(|v| corner(plan, &v));
         corners.sort_by_key(|c| c.v); // stable
         Sorted { corners }
