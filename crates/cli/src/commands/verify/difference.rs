@@ -51,7 +51,7 @@ pub fn page(suite: &Suite, trace: &Trace, difference: &Difference) -> Result<Opt
     Ok(Some(page::html(&replay.json())))
 }
 
-/// The memory at the start, by channel and pixel.
+/// The memory at the start, by field of the tokens that are stored and by pixel.
 fn cleared(trace: &Trace) -> Vec<Vec<u32>> {
     let pixels = (trace.plan.width * trace.plan.height) as usize;
     let clear = |memory: usize| trace.setting.memories.get(memory).map_or(0, |memory| memory.clear);
@@ -62,7 +62,8 @@ fn cleared(trace: &Trace) -> Vec<Vec<u32>> {
         1..=3 => (color >> (bits * (3 - place as u32))) as u32 & (u32::MAX >> (32 - bits)),
         _ => 0,
     };
-    (0..trace.plan.channels().len()).map(|place| vec![word(place); pixels]).collect()
+    let lit = usize::from(trace.plan.shadow.is_there());
+    (0..trace.plan.seen_channels().count() + lit).map(|place| vec![word(place); pixels]).collect()
 }
 
 #[cfg(test)]
