@@ -23,12 +23,12 @@ pub struct MachineArgs {
 }
 
 impl MachineArgs {
-    /// The machine `FILE|PRESET[,key=value...]`, with what --set says on top.
-    pub fn named(&self, text: &str) -> Result<Plan> {
+    /// The machine `FILE|PRESET[,key=value...]`, with what --set says on top; the screen as in [`MachineArgs::machine`].
+    pub fn named(&self, text: &str, size: Option<(u32, u32)>) -> Result<Plan> {
         let mut words = text.split(',').map(str::trim);
         let machine = words.next().unwrap_or_default().to_owned();
         let set = words.map(str::to_owned).chain(self.set.iter().cloned()).collect();
-        MachineArgs { machine, set }.machine(None).with_context(|| text.to_owned())
+        MachineArgs { machine, set }.machine(size).with_context(|| text.to_owned())
     }
 
     /// The machine asked for, with its screen replaced where the input brings its own size.

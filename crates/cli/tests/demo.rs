@@ -43,6 +43,12 @@ fn the_demo_is_as_readme_says() {
         assert!(png(&drawn) == png(&kept), "{} is not what is drawn today", kept.display());
     }
 
+    // Its last line is the command that shows the machine at work.
+    let command = printed.lines().find_map(|line| line.strip_prefix("at work   edgewalk ")).unwrap();
+    let arguments: Vec<&str> = command.split(": ").next().unwrap().split(' ').collect();
+    assert!(edgewalk(&arguments).contains("20 of 12288 triangles"));
+    assert!(out.path().join("replay.html").is_file());
+
     // The map of the accumulators says what `explain` says of single pixels.
     let (width, map) = png(&out.path().join("z_accumulator.png"));
     assert_eq!((width, map.len()), (640, 640 * (480 + 22)));

@@ -1,6 +1,6 @@
 //! `edgewalk replay` as a user runs it: what it writes, what it refuses and in which words.
 
-use crate::support::{SCREEN, TRIANGLE, names, run};
+use crate::support::{SCREEN, TRIANGLE, edgewalk, names, run};
 use std::path::Path;
 
 fn replay(folder: &Path, arguments: &[&str]) -> serde_json::Value {
@@ -65,11 +65,94 @@ fn the_lesson_needs_no_scene() {
     );
 }
 
+/// Passes with blending; a light's map; normals, more triangles than records at once.
+const PASSES: &str = "size 64 64
+colour_write 0
+T  0 0 0.5 1 0 0 0   64 0 0.5 1 0 0 0   0 64 0.5 1 0 0 0
+colour_write 1
+depth equal
+depth_write 0
+T  0 0 0.5 1 0 0 0   64 0 0.5 1 0 0 0   0 64 0.5 1 0 0 0
+depth less
+blend 1
+T  0 0 0.4 0 0 1 0.5   64 0 0.4 0 0 1 0.5   0 64 0.4 0 0 1 0.5
+";
+const HALF: &str = "size 4 4
+depth lequal
+shadow 4 0.001 0.25   1 0 0 0   0 1 0 0   0 0 1 0   0 0 0 1
+L  0 0 0.25   2 0 0.25   0 4 0.25
+L  2 0 0.25   2 4 0.25   0 4 0.25
+T  0 0 0.5 1 1 1 0   8 0 0.5 1 1 1 0   0 8 0.5 1 1 1 0
+";
+const NORMALS: &str = "size 32 32
+mode fast-phong
+view 0 0 1
+sun 0.3 0.3 1 0.7
+material 0.1 0.7 0.5 40
+T 1 1 0.5 0 0.2 1 0  31 1 0.5 0 0.2 1 0  1 31 0.5 0 0.2 1 0
+N -0.3 -0.3 0.9055  0.5 -0.3 0.8124  -0.3 0.5 0.8124
+T 20 31 0.4 1 0.5 0 0  31 31 0.4 1 0.5 0 0  31 12 0.4 1 0.5 0 0
+N 0 0 1  0 0 1  0.6 0 0.8
+T 2 31 0.4 1 0.5 0 0  12 31 0.4 1 0.5 0 0  6 12 0.4 1 0.5 0 0
+N 0 0 1  0 0 1  0.6 0 0.8
+";
+
+/// Whatever the machine draws it shows: the units that it has, in as many cycles as it draws in.
+#[test]
+fn every_unit_appears_where_the_machine_has_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let phong = NORMALS.replace("fast-phong", "phong");
+    let files = [("passes.tri", PASSES), ("half.tri", HALF), ("fast.tri", NORMALS), ("phong.tri", &phong)];
+    for (name, text) in files {
+        std::fs::write(folder.path().join(name), text).expect("written");
+    }
+    let mut checked = 0;
+    for (file, settings, units) in [
+        ("passes.tri", &["blend.kind=constant"][..], &["blend"][..]),
+        ("half.tri", &["shadow.light=parallel", "shadow.size=4", "shadow.gate=scale"], &["shadow"]),
+        (
+            "half.tri",
+            &["shadow.light=parallel", "shadow.size=4", "shadow.gate=scale", "blend.kind=constant"],
+            &["shadow", "blend"],
+        ),
+        ("fast.tri", &["shade.kind=fast-phong", "term.record_bits=1"], &["term", "shade"]),
+        ("phong.tri", &["shade.kind=phong", "term.walk=memory"], &["term", "normal", "shade"]),
+    ] {
+        let set: Vec<&str> = settings.iter().flat_map(|setting| ["--set", setting]).collect();
+        let shown = replay(
+            folder.path(),
+            &[&["replay", file, "--triangles", "9", "--out", "r.json", "-q"], &set[..]].concat(),
+        );
+        let raster = ["raster", file, "--engine", "model", "--json", "--out", "m"];
+        let output = edgewalk(folder.path(), &[&raster[..], &set].concat()).output().expect("runs");
+        let drawn: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert_eq!(shown["cycles"], drawn["cycles"]["total"], "{file} {settings:?}");
+        assert!(shown["cycles"].as_u64() > Some(100));
+        let names: Vec<&str> = shown["units"]
+            .as_array()
+            .expect("units")
+            .iter()
+            .filter_map(|unit| unit["name"].as_str())
+            .collect();
+        assert!(units.iter().all(|unit| names.contains(unit)), "{file}: {names:?}");
+        let registers = shown["registers"].as_array().expect("registers");
+        assert!(registers.iter().all(|register| register["changes"].as_u64() >= Some(1)));
+        let light =
+            shown["store"]["planes"].as_array().expect("planes").iter().any(|plane| plane["title"] == "Lit");
+        assert_eq!(light, units.contains(&"shadow"));
+        checked += units.len();
+    }
+    assert_eq!(checked, 9);
+}
+
 #[test]
 fn what_cannot_be_shown_is_refused_in_words() {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("t.tri"), TRIANGLE).expect("written");
     std::fs::write(folder.path().join("empty.tri"), "size 8 8\n").expect("written");
+    let cleared = TRIANGLE.to_owned() + "clear_depth\nT 0 0 0 1 0 0 0  60 0 0 0 1 0 0  0 40 1 0 0 1 0\n";
+    std::fs::write(folder.path().join("cleared.tri"), cleared).expect("written");
+    std::fs::write(folder.path().join("normals.tri"), NORMALS).expect("written");
     let screen = [&["replay", "sphere", "--out", "o.html"][..], &SCREEN].concat();
     let many = [&screen[..], &["--triangles", "2208", "--stalls", "mixed", "--set", "interpolator.adders=1"]]
         .concat();
@@ -85,6 +168,11 @@ fn what_cannot_be_shown_is_refused_in_words() {
         (
             vec!["replay", "--lesson", "--out", "o.html", "--set", "blend.kind=constant"],
             &["--lesson", "blend.kind", "none"],
+        ),
+        (vec!["replay", "cleared.tri", "--out", "o.html"], &["cleared before cycle", "--to ", "--from "]),
+        (
+            vec!["replay", "normals.tri", "--out", "o.html"],
+            &["mode fast-phong", "--set shade.kind=fast-phong"],
         ),
         (vec!["replay", "t.tri", "--stalls", "often", "--out", "o.html"], &["often", "mixed"]),
         (vec!["replay", "t.tri", "--cycles", "0", "--out", "o.html"], &["--cycles", "0"]),

@@ -163,6 +163,23 @@ fn memories() -> String {
     table(header, body)
 }
 
+/// SETUP's clocks a triangle that is not culled, by lanes: mean, 95 % at most, most.
+fn setup() -> String {
+    let rows = rows("organisation");
+    let header = ["lanes".to_owned()].into_iter();
+    let header = header.chain(SCENES.map(|scene| format!("{scene}: mean, 95 %, most")));
+    let body = values(&rows, "setup.lanes").into_iter().map(|lanes| {
+        let of = |scene: &str| {
+            let at = [("input", scene), ("interpolator.adders", "4"), ("setup.lanes", &*lanes)];
+            let [mean, p95, most] =
+                ["setup_mean", "setup_p95", "setup_most"].map(|name| sum(&rows, &at, name));
+            format!("{mean:.1}, {p95}, {most}")
+        };
+        [lanes.clone()].into_iter().chain(SCENES.map(of)).collect()
+    });
+    table(header, body.collect::<Vec<_>>())
+}
+
 /// Cells and clock of a unit.
 fn cells(name: &str, keys: &[(&str, &str)]) -> String {
     let rows = rows(name);
@@ -194,6 +211,7 @@ fn the_tables_are_those_of_the_data() {
             "pixel_cells",
             cells("pixel_cells", &[("interpolator.adders", "adders"), ("interpolator.segments", "segments")]),
         ),
+        ("setup", setup()),
     ];
     let mut written = text.clone();
     let mut lines = 0;

@@ -6,6 +6,8 @@ mod resume;
 mod parts;
 mod browser;
 mod report;
+#[path = "sweep/synth.rs"]
+mod synth;
 
 use crate::support::{edgewalk, run};
 use rand::SeedableRng;
@@ -45,7 +47,7 @@ fn rendered(folder: &Path, row: &Value) -> Value {
 }
 
 /// Sweeps over keys that change pixels and keys that do not, machines that have to be ticked among them.
-const SWEEPS: [&[&str]; 6] = [
+const SWEEPS: [&[&str]; 9] = [
     &[
         "sphere",
         "--vary",
@@ -131,14 +133,82 @@ const SWEEPS: [&[&str]; 6] = [
         "--stalls",
         "dram:miss=9",
     ],
+    // Frames that no two machines share.
+    &[
+        "passes.tri",
+        "--set",
+        "blend.kind=constant",
+        "--vary",
+        "setup.lanes=1,4",
+        "--vary",
+        "blend.multipliers=0,3",
+        "--stalls",
+        "none",
+        "--stalls",
+        "fixed:rd=3",
+    ],
+    &[
+        "light.tri",
+        "--set",
+        "shadow.light=parallel",
+        "--set",
+        "shadow.size=4",
+        "--set",
+        "shadow.gate=scale",
+        "--vary",
+        "setup.lanes=1,4",
+        "--vary",
+        "memory.latency=1,4",
+        "--vary",
+        "formats.z_fraction=8,14",
+    ],
+    &[
+        "normals.tri",
+        "--set",
+        "shade.kind=fast-phong",
+        "--vary",
+        "shade.table_bits=8..10",
+        "--vary",
+        "term.walk=register,memory",
+    ],
 ];
+
+const PASSES: &str = "size 64 64
+colour_write 0
+T  0 0 0.5 1 0 0 0   64 0 0.5 1 0 0 0   0 64 0.5 1 0 0 0
+colour_write 1
+depth equal
+depth_write 0
+T  0 0 0.5 1 0 0 0   64 0 0.5 1 0 0 0   0 64 0.5 1 0 0 0
+depth less
+blend 1
+T  0 0 0.4 0 0 1 0.5   64 0 0.4 0 0 1 0.5   0 64 0.4 0 0 1 0.5
+";
+const LIGHT: &str = "size 4 4
+depth lequal
+shadow 4 0.001 0.25   1 0 0 0   0 1 0 0   0 0 1 0   0 0 0 1
+L  0 0 0.25   2 0 0.25   0 4 0.25
+L  2 0 0.25   2 4 0.25   0 4 0.25
+T  0 0 0.5 1 1 1 0   8 0 0.5 1 1 1 0   0 8 0.5 1 1 1 0
+";
+const NORMALS: &str = "size 32 32
+mode fast-phong
+view 0 0 1
+sun 0.3 0.3 1 0.7
+material 0.1 0.7 0.5 40
+T 1 1 0.5 0 0.2 1 0  31 1 0.5 0 0.2 1 0  1 31 0.5 0 0.2 1 0
+N -0.3 -0.3 0.9055  0.5 -0.3 0.8124  -0.3 0.5 0.8124
+";
 
 #[test]
 fn rows_drawn_by_seed_equal_render_in_every_figure() {
     let folder = tempfile::tempdir().unwrap();
     let own =
         "size 64 48\nextra 2\nT 0 0 0 1 0 0 0  60 0 0.5 0 1 0 0  0 40 1 0 0 1 0\nX 0 1  0.25 0.5  1 0.75\n";
-    std::fs::write(folder.path().join("own.tri"), own).unwrap();
+    let files = [("own.tri", own), ("passes.tri", PASSES), ("light.tri", LIGHT), ("normals.tri", NORMALS)];
+    for (name, text) in files {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
     let mut random = Pcg64Mcg::seed_from_u64(12);
     let (mut checked, mut ticked, mut lossy) = (0, 0, 0);
     for (place, sweep) in SWEEPS.iter().enumerate() {
@@ -158,7 +228,40 @@ fn rows_drawn_by_seed_equal_render_in_every_figure() {
         }
     }
     println!("checked {checked} rows, {ticked} of them ticked, {lossy} of machines that draw wrongly");
-    assert!(checked >= 36 && ticked >= 8 && lossy >= 2, "{checked} {ticked} {lossy}");
+    assert!(checked >= 55 && ticked >= 20 && lossy >= 2, "{checked} {ticked} {lossy}");
+}
+
+#[test]
+fn size_and_compare_take_them_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut checked = 0;
+    for (name, text, settings, other) in [
+        ("passes.tri", PASSES, "blend.kind=constant", "interpolator.adders=1"),
+        ("light.tri", LIGHT, "shadow.light=parallel,shadow.size=4,shadow.gate=scale", "setup.lanes=1"),
+        ("normals.tri", NORMALS, "shade.kind=fast-phong", "shade.table_bits=10"),
+    ] {
+        std::fs::write(folder.path().join(name), text).unwrap();
+        let set: Vec<&str> = settings.split(',').flat_map(|setting| ["--set", setting]).collect();
+        let output =
+            edgewalk(folder.path(), &[&["size", name, "--json"], &set[..]].concat()).output().unwrap();
+        let size: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let channels: Vec<&str> = size["channels"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter_map(|channel| channel["name"].as_str())
+            .collect();
+        assert_eq!(channels, ["z", "color"], "{name}: the words that size can answer for");
+        assert!(size["channels"][0]["these"]["fraction_bits"].as_u64() > Some(3), "{name}");
+        let [a, b] = [format!("default,{settings}"), format!("default,{settings},{other}")];
+        let output =
+            edgewalk(folder.path(), &["compare", &a, &b, name, "--json", "--out", "c"]).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+        let key = other.split('=').next().unwrap();
+        assert!(String::from_utf8_lossy(&output.stdout).contains(key), "{name}: {key} differs");
+        checked += 1;
+    }
+    assert_eq!(checked, 3);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use crate::port::{guard_band, sent};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::Shading;
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Blending, Change, Frame, Scene, Triangulated, triangle_file};
+use edgewalk_scene::{Blending, Change, Frame, PixelMethod, Scene, Triangulated, triangle_file};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
@@ -15,8 +15,17 @@ pub struct Input {
     what: What,
 }
 
+/// Where a scene's colours are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shaded {
+    /// At the corners, by this system.
+    Corners(Shading),
+    /// At each pixel, by the machine's SHADE.
+    Pixels(PixelMethod),
+}
+
 enum What {
-    Scene(Box<Scene>, Shading),
+    Scene(Box<Scene>, Shaded),
     Triangles(Box<Frame>),
 }
 
@@ -25,7 +34,7 @@ impl Input {
     ///
     /// # Errors
     /// No such scene or file, or a fault in it.
-    pub fn open(name: &str, shading: Shading) -> Result<Input> {
+    pub fn open(name: &str, shading: Shaded) -> Result<Input> {
         let what = if is_triangle_file(name) {
             What::Triangles(Box::new(triangle_file::read(Path::new(name))?))
         } else {
@@ -70,7 +79,10 @@ impl Input {
             What::Scene(scene, shading) => {
                 extra::fitting(0, machine).with_context(|| self.name.clone())?;
                 let surface = scene.surface(machine.width, machine.height, guard_band(machine));
-                let frame = edgewalk_golden::frame(scene, &surface, *shading);
+                let frame = match *shading {
+                    Shaded::Corners(system) => edgewalk_golden::frame(scene, &surface, system),
+                    Shaded::Pixels(method) => scene.pixel_frame(&surface, method),
+                };
                 if frame.blend == Blending::Off {
                     frame
                 } else {

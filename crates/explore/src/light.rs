@@ -9,7 +9,7 @@ use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::snap;
 use edgewalk_machine::{Gate, Machine, Plan, Precision};
 use edgewalk_model::{Counters, DrawState, Waits};
-use edgewalk_scene::{Shadow, Vertex};
+use edgewalk_scene::{Blending, Frame, Shadow, Vertex};
 
 /// The largest depth of a map, which stands for 1.
 fn farthest(machine: &Plan) -> f64 {
@@ -56,6 +56,19 @@ pub fn values(shadow: Option<&Shadow>, vertex: &Vertex, machine: &Plan) -> [f64;
     let point = [pixels(vertex.x), pixels(vertex.y), vertex.z, 1.0];
     let [x, y, z, q] = shadow.matrix.map(|row| (0..4).map(|k| row[k] * point[k]).sum::<f64>());
     [x / q, y / q, (z / q - shadow.bias) * farthest(machine)]
+}
+
+/// Whether the frame's picture can be judged beside golden's.
+///
+/// # Errors
+/// Layers under a light's map.
+pub fn judged(frame: &Frame) -> Result<()> {
+    if frame.shadow.is_some() && (frame.passes().len() > 1 || frame.blend != Blending::Off) {
+        return Err(anyhow!(
+            "shadow: layers under a light's map are not compared with golden; draw with `edgewalk raster`"
+        ));
+    }
+    Ok(())
 }
 
 /// AMBIENT as the gate multiplies by it.

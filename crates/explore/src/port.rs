@@ -50,7 +50,7 @@ impl PortFrame {
     pub fn state(&self) -> Result<DrawState> {
         if !self.lights.is_empty() {
             return Err(anyhow!(
-                "shadow: a light's map; permitted for raster, render, explain, vectors and verify"
+                "shadow: a light's map; permitted for raster, render, explain, replay, sweep, compare, size, vectors and verify"
             ));
         }
         self.one_state()
@@ -64,7 +64,7 @@ impl PortFrame {
         match &self.passes[..] {
             [pass] => Ok(pass.state),
             passes => Err(anyhow!(
-                "{} passes: the rules change between triangles; permitted for raster, render and explain",
+                "{} passes: the rules change between triangles; permitted for raster, render, explain, replay, sweep, compare and size",
                 passes.len()
             )),
         }

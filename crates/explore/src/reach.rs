@@ -3,6 +3,7 @@
 use crate::port::PortFrame;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::{Channel, ErrorBudget, Fill, Hazard, Machine, Plan};
+use edgewalk_model::DrawState;
 use edgewalk_model::fast::{Passage, Renderer};
 use edgewalk_numerics::Steps;
 
@@ -52,26 +53,14 @@ pub fn untimed(machine: &Plan) -> Result<Plan> {
     keys.plan().map_err(|e| anyhow!("{e}"))
 }
 
-/// Takes the frame through the units, as far as it is the same with and without channels of the user's own and BLEND.
+/// Takes the frame through the units, as far as it is the same whatever the machine has besides: where its triangles are stepped.
 ///
 /// # Errors
-/// A machine with SHADOW or SHADE, a frame of several passes, vertices of another machine.
-pub fn passage(machine: &Plan, port: &PortFrame) -> Result<Passage> {
-    if machine.shadow.is_there() {
-        return Err(anyhow!(
-            "size, sweep and compare take no machine with SHADOW yet; set shadow.light = none"
-        ));
-    }
-    if machine.shade.is_there() {
-        return Err(anyhow!("size, sweep and compare take no machine with SHADE yet; set shade.kind = none"));
-    }
-    geometry(machine, port)
-}
-
-/// The same whatever the machine has: where its triangles are stepped.
-fn geometry(machine: &Plan, port: &PortFrame) -> Result<Passage> {
+/// Vertices of another machine.
+pub fn geometry(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     let bare = Machine::default();
     let keys = Machine {
+        shade: bare.shade,
         shadow: bare.shadow,
         extra: bare.extra,
         blend: bare.blend,
@@ -83,8 +72,18 @@ fn geometry(machine: &Plan, port: &PortFrame) -> Result<Passage> {
         triangle.map(|v: edgewalk_machine::PortVertex| plan.raw_vertex(v.x(), v.y(), v.values()))
     };
     let triangles = port.triangles.iter().map(of_plan);
-    let drawn = Renderer::new(&plan, false).draw_passage(triangles, port.one_state()?);
+    // The rules decide what is stored, not where it is stepped: those of the first pass serve.
+    let state = port.passes.first().map_or_else(DrawState::default, |pass| pass.state);
+    let drawn = Renderer::new(&plan, false).draw_passage(triangles, state);
     drawn.map_err(|refusal| anyhow!("the fast engine draws every frame of such a machine: {refusal:?}"))
+}
+
+/// The same of all passes together.
+///
+/// # Errors
+/// Vertices of another machine.
+pub fn walked(machine: &Plan, port: &PortFrame) -> Result<Option<Reach>> {
+    Ok(Reach::of(machine, &port.ids, &geometry(machine, port)?))
 }
 
 /// How far the values of these triangles are stepped; none where the frame has several passes.
@@ -95,8 +94,5 @@ pub fn reach(machine: &Plan, port: &PortFrame) -> Result<Option<Reach>> {
     if port.passes.len() != 1 {
         return Ok(None);
     }
-    // Depths do not hang on what is shaded.
-    let keys = Machine { shade: Machine::default().shade, ..Machine::clone(machine) };
-    let plan = keys.plan().map_err(|e| anyhow!("{e}"))?;
-    Ok(Reach::of(machine, &port.ids, &geometry(&plan, port)?))
+    walked(machine, port)
 }

@@ -8,10 +8,10 @@
 mod breaker;
 
 use crate::port::PortFrame;
-use crate::reach::{Reach, reach};
+use crate::reach::{Reach, walked as reached};
 use anyhow::{Result, anyhow};
 pub use breaker::Breaker;
-use edgewalk_machine::{Channel, Fill, Plan};
+use edgewalk_machine::{Channel, Fill, Machine, Plan};
 use edgewalk_numerics::solver::least_fraction_bits;
 use edgewalk_numerics::{Dyadic, Rounding, Screen, Steps, Target};
 use serde::Serialize;
@@ -88,10 +88,12 @@ pub fn size(machine: &Plan, port: &PortFrame, error: f64) -> Result<Size> {
             "--error {error}: permitted: above {low}, which the output's rounding takes, to {high} LSB"
         ));
     }
-    let reach = reach(machine, port)?
+    let reach = reached(machine, port)?
         .ok_or_else(|| anyhow!("none of these triangles covers a pixel, so none says what it needs"))?;
     let guard_bits = GuardBits { machine: machine.guard_bits, needed: needed_guard_bits(machine, port) };
     let fewest = Screen { guard_columns: (1 << guard_bits.needed) - 1, ..machine.screen() };
+    // What is made of the values on their way to memory changes nothing of their words.
+    let machine = &plain(machine)?;
     // Red, green and blue are of one format.
     let all = machine.channels().iter().enumerate().filter(|(place, _)| !(2..4).contains(place));
     let of = |(place, channel): (usize, &Channel)| {
@@ -111,6 +113,20 @@ pub fn size(machine: &Plan, port: &PortFrame, error: f64) -> Result<Size> {
         })
     };
     Ok(Size { error, guard_bits, channels: all.map(of).collect::<Result<_>>()? })
+}
+
+/// The machine without SHADE, SHADOW and BLEND.
+fn plain(machine: &Plan) -> Result<Plan> {
+    let bare = Machine::default();
+    let adders = machine.adders.min(bare.adders + machine.extra);
+    let keys = Machine {
+        shade: bare.shade,
+        shadow: bare.shadow,
+        blend: bare.blend,
+        adders,
+        ..Machine::clone(machine)
+    };
+    keys.plan().map_err(|e| anyhow!("{e}"))
 }
 
 /// The fewest guard bits in which the screen and all vertices lie.
@@ -184,7 +200,7 @@ fn least(machine: &Plan, channel: &Channel, steps: Steps, error: f64) -> Result<
     let left = left.filter(|left| *left > Dyadic::ZERO).ok_or_else(|| {
         let parts = budget.output.to_f64() + budget.vertex.to_f64();
         format!(
-            "the roundings of the vertices and of the output may err by {parts} LSB already; raise the vertex's fraction bits ({})",
+            "the roundings of the vertices and of the output may err by {parts} LSB already; raise the vertex's fraction bits ({}), or allow more with --error",
             channel.vertex_fraction
         )
     })?;

@@ -39,6 +39,7 @@ pub mod definition;
 pub mod point;
 pub mod objective;
 pub mod shared;
+pub mod apart;
 pub mod row;
 pub mod store;
 pub mod evaluate;

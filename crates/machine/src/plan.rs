@@ -71,6 +71,11 @@ impl Plan {
         self.channels.iter().enumerate().skip(4).take(self.extra as usize)
     }
 
+    /// The channels that go beyond SHADOW, with their places: all but those of the light.
+    pub fn seen_channels(&self) -> impl Iterator<Item = (usize, &Channel)> {
+        self.channels.iter().enumerate().filter(|(_, channel)| !["lx", "ly", "lz"].contains(&channel.name))
+    }
+
     /// The terms that TERM walks and PIXEL steps, in the order of their words.
     #[must_use]
     pub fn terms(&self) -> &[Term] {

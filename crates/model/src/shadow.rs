@@ -10,6 +10,8 @@
 //!
 //! Rules: `docs/machine.md`, section 10. Not modelled: who draws the map.
 
+mod view;
+
 use crate::Events;
 use crate::fifo::Fifo;
 use crate::tokens::Fragment;

@@ -83,7 +83,8 @@ class Planes {
       const { shape } = this.kind.fields[plane.scalar + 1];
       const value = Number(numberOf(shape, this.valueAt(view, plane.scalar, write, pixel)));
       const far = view.most > view.least ? (value - view.least) / (view.most - view.least) : 0;
-      const colour = write < 0 && value === view.empty ? [30, 32, 44] : nearToFar(Math.min(1, Math.max(0, far)));
+      const shade = Math.min(1, Math.max(0, plane.bright ? 1 - far : far));
+      const colour = write < 0 && value === view.empty ? [30, 32, 44] : nearToFar(shade);
       for (let i = 0; i < 3; i++) image.data[place + i] = colour[i];
     }
     image.data[place + 3] = 255;
@@ -110,7 +111,8 @@ class Planes {
     const { plane } = view;
     if (!chosen) {
       view.marks.setAttribute("aria-label", `${plane.title}; arrow keys choose a pixel`);
-      return setText(view.under, plane.colour ? "Click a pixel: to the cycle that wrote it." : "near: yellow, far: blue");
+      const scale = plane.bright ? "most: yellow, least: blue" : "least: yellow, most: blue";
+      return setText(view.under, plane.colour ? "Click a pixel: to the cycle that wrote it." : scale);
     }
     const pixel = chosen[1] * doc.store.width + chosen[0];
     const write = view.top[pixel];

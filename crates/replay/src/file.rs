@@ -3,7 +3,7 @@
 use crate::encode::Stream;
 use crate::lesson::{Lesson, Part, Step};
 use crate::recording::Recording;
-use edgewalk_machine::{Activity, Kind, Plan, PortVertex};
+use edgewalk_machine::{Activity, Plan, PortVertex};
 use edgewalk_model::view::{Item, Register, Shape, Store, Structure, Table, UnitView};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
@@ -182,7 +182,7 @@ fn swatch<'a>(fields: impl Iterator<Item = &'a str>) -> Option<[usize; 3]> {
     Some([place("r")?, place("g")?, place("b")?]).filter(|_| names.first() == Some(&"addr"))
 }
 
-/// The pictures: colours in one, every other channel that is stored in one of its own.
+/// The pictures: colours in one, depth, every channel of the user's own and the light's answer in one each.
 fn planes(plan: &Plan, structure: &Structure) -> Vec<Value> {
     let channels = plan.channels();
     let plane = |store: Option<Store>, more: Value| {
@@ -194,14 +194,18 @@ fn planes(plan: &Plan, structure: &Structure) -> Vec<Value> {
     };
     let picture = json!({ "title": "Picture", "colour": [1, 2, 3], "bits": channels[1].bits });
     let mut planes = vec![plane(structure.color, picture)];
-    let others = channels
-        .iter()
-        .enumerate()
-        .filter(|(place, channel)| !(1..4).contains(place) && channel.kind != Kind::Weight);
-    for (place, channel) in others {
-        let title = if place == 0 { "Depth memory" } else { channel.name };
-        let store = if place == 0 { structure.depth } else { structure.color };
-        planes.push(plane(store, json!({ "title": title, "scalar": place, "bits": channel.bits })));
+    planes.push(plane(
+        structure.depth,
+        json!({ "title": "Depth memory", "scalar": 0, "bits": channels[0].bits }),
+    ));
+    for (place, channel) in plan.own_channels() {
+        let own = json!({ "title": channel.name, "scalar": place, "bits": channel.bits });
+        planes.push(plane(structure.color, own));
+    }
+    if plan.shadow.is_there() {
+        let lit =
+            json!({ "title": "Lit", "scalar": plan.seen_channels().count(), "bits": 1, "bright": true });
+        planes.push(plane(structure.color, lit));
     }
     planes.into_iter().flatten().collect()
 }

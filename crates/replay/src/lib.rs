@@ -16,5 +16,5 @@ pub mod page;
 
 pub use file::{Difference, Replay, Truth};
 pub use lesson::{Lesson, lesson};
-pub use record::{LIMIT, RecordError, Window, record, record_shaded};
+pub use record::{LIMIT, RecordError, Rules, Window, record, record_passes};
 pub use recording::{Column, Recorder, Recording};

@@ -1,17 +1,18 @@
 //! What a recording says of a register is what the netlist's register of that name holds, in every cycle in which it means
 //! something: model and netlist in lock-step inside, not only at their ports.
 
-use edgewalk_lockstep::case::constants;
 use edgewalk_lockstep::{
-    Interface, NetlistDevice, Rig, Setting, StallKind, Triangles, Unit, netlist, patterns,
+    Case, Device, Interface, ModelDevice, NetlistDevice, PortValues, Triangles, Unit, model, netlist,
 };
 use edgewalk_machine::{Machine, Plan, PortVertex};
 use edgewalk_model::view::Shape;
-use edgewalk_model::{BlendInputs, DrawState, Inputs, Model, View, for_channels};
+use edgewalk_model::{Events, View};
 use edgewalk_netlist::SignalId;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// A signal beside the register, or the field of the token in it, that it must be equal to.
 struct Pair {
@@ -44,55 +45,41 @@ fn pairs(view: &View, device: &mut NetlistDevice) -> Vec<Pair> {
     pairs
 }
 
-/// Draws with model and netlist under one rig; gives by path the values compared.
-fn compare(plan: &Plan, triangles: &[[PortVertex; 3]], stalls: StallKind) -> Vec<(String, u64)> {
-    for_channels!(plan, C => run::<C>(plan, triangles, stalls))
+/// The model, and what is to be seen of it in the cycle.
+struct Seen {
+    model: Box<dyn ModelDevice>,
+    view: Rc<RefCell<View>>,
 }
 
-fn run<const C: usize>(plan: &Plan, triangles: &[[PortVertex; 3]], stalls: StallKind) -> Vec<(String, u64)> {
-    let interface = Interface::new(plan, Unit::MACHINE);
-    let built = netlist(plan, Unit::MACHINE).expect("it can be built");
-    let mut device = NetlistDevice::new(&built, &interface).expect("its ports are declared");
-    let state = DrawState::default();
-    let port = Triangles::new(plan);
-    let tokens = triangles.iter().zip(0..).map(|(triangle, k)| port.pack(triangle, k)).collect();
-    let setting = Setting::willing(&interface, &constants(&state)).expect("all constants");
-    let setting = Setting { tokens, patterns: patterns(plan, &interface, stalls, 5), ..setting };
-    let mut rig = Rig::new(&interface, setting);
-    let id = |name: &str| interface.port(name).unwrap_or_else(|| panic!("{name}")).id;
-    let blends = plan.blend.is_there();
-    let [tri, idle, rd_ready, data_valid, data] =
-        ["tri_valid", "idle", "rd_ready", "data_valid", "data_z"].map(id);
-    let wr_ready = id(if blends { "zwr_ready" } else { "wr_ready" });
-    let color = blends.then(|| ["crd_ready", "cdata_valid", "cdata_rgb", "cwr_ready"].map(id));
-    let (mut model, mut view, mut ports) = (Model::<C>::new(plan), View::new(), interface.values());
-    let mut all: Vec<Pair> = Vec::new();
-    loop {
-        let exhausted = rig.exhausted();
-        rig.drive(&mut ports);
-        device.settle(&mut ports);
-        let inputs = Inputs {
-            rst: false,
-            tri: ports.is_high(tri).then(|| (&triangles[rig.sent() as usize], rig.sent())),
-            depth_func: state.depth_func,
-            depth_write: state.depth_write,
-            rd_ready: ports.is_high(rd_ready),
-            data: ports.is_high(data_valid).then(|| ports[data] as u64),
-            wr_ready: ports.is_high(wr_ready),
-            blend: color.map_or_else(BlendInputs::default, |[read, valid, rgb, write]| BlendInputs {
-                color_write: state.color_write,
-                add: state.blend_add,
-                crd_ready: ports.is_high(read),
-                cdata: ports.is_high(valid).then(|| ports[rgb] as u64),
-                cwr_ready: ports.is_high(write),
-            }),
-            ..Inputs::default()
-        };
-        model.view(plan, &inputs, &mut view);
-        if all.is_empty() {
-            all = pairs(&view, &mut device);
+impl Device for Seen {
+    fn cycle(&mut self, ports: &mut PortValues) {
+        assert!(self.model.view(ports, &mut self.view.borrow_mut()), "the whole machine can be seen");
+        self.model.cycle(ports);
+    }
+}
+
+impl ModelDevice for Seen {
+    fn events(&self) -> &Events {
+        self.model.events()
+    }
+}
+
+/// The netlist, whose signals are compared with what was seen of the model in the same cycle.
+struct Compared {
+    netlist: NetlistDevice,
+    view: Rc<RefCell<View>>,
+    pairs: Vec<Pair>,
+    cycle: u64,
+}
+
+impl Device for Compared {
+    fn cycle(&mut self, ports: &mut PortValues) {
+        self.netlist.settle(ports);
+        let view = self.view.borrow();
+        if self.pairs.is_empty() {
+            self.pairs = pairs(&view, &mut self.netlist);
         }
-        for pair in &mut all {
+        for pair in &mut self.pairs {
             let register = &view.structure().registers[pair.register];
             let own = view.values()[pair.register];
             if register.live.is_some_and(|live| view.values()[live] == 0) {
@@ -105,38 +92,63 @@ fn run<const C: usize>(plan: &Plan, triangles: &[[PortVertex; 3]], stalls: Stall
                 }
                 _ => own,
             };
-            let found = device.simulator().value(pair.signal);
+            let found = self.netlist.simulator().value(pair.signal);
             if u128::from(expected) != found && pair.differs.is_none() {
-                pair.differs = Some((rig.cycle(), expected, found));
+                pair.differs = Some((self.cycle, expected, found));
             }
             pair.compared += 1;
         }
-        model.cycle(&inputs);
-        device.clock();
-        let done = exhausted && ports.is_high(idle);
-        rig.clock(&ports);
-        if done {
-            break;
-        }
+        drop(view);
+        self.netlist.clock();
+        self.cycle += 1;
     }
-    let differ: Vec<_> = all.iter().filter_map(|pair| Some((&pair.path, pair.differs?))).collect();
-    assert!(differ.is_empty(), "machine {}: {differ:?}", plan.hash());
-    all.into_iter().map(|pair| (pair.path, pair.compared)).collect()
 }
 
+/// Draws with model and netlist under one rig; gives by path the values compared. `waits`: in so many of 256 cycles no link is willing.
+fn compare(plan: &Plan, triangles: &[[PortVertex; 3]], waits: u8) -> Vec<(String, u64)> {
+    let mut case = Case::new(plan, Unit::MACHINE);
+    let port = Triangles::new(plan);
+    case.tokens = triangles.iter().zip(0..).map(|(triangle, k)| port.pack(triangle, k)).collect();
+    let interface = Interface::new(plan, Unit::MACHINE);
+    case.unwilling = interface.waits().map(|link| (link.to_owned(), waits)).collect();
+    (case.shadow_on, case.ambient, case.seed) = (true, plan.color.max() / 3, 5);
+    let built = netlist(plan, Unit::MACHINE).expect("it can be built");
+    let view = Rc::new(RefCell::new(View::new()));
+    let model = model(plan, &interface).expect("its ports are declared");
+    let mut seen = Seen { model, view: Rc::clone(&view) };
+    let device = NetlistDevice::new(&built, &interface).expect("its ports are declared");
+    let mut compared = Compared { netlist: device, view, pairs: Vec::new(), cycle: 0 };
+    let ran = case.run_devices(&interface, &mut seen, &mut compared);
+    // A register that differs comes before the port at which it shows.
+    let differ: Vec<_> = compared.pairs.iter().filter_map(|pair| Some((&pair.path, pair.differs?))).collect();
+    assert!(differ.is_empty(), "machine {}: {differ:?}", plan.hash());
+    ran.unwrap_or_else(|why| panic!("machine {}: {why}", plan.hash()));
+    compared.pairs.into_iter().map(|pair| (pair.path, pair.compared)).collect()
+}
+
+/// Around the screen, and around the light's map.
 fn random_triangle(plan: &Plan, rng: &mut impl Rng) -> [PortVertex; 3] {
-    let p = 1i32 << plan.subpixel_bits;
-    let (w, h) = (plan.width as i32 * p, plan.height as i32 * p);
+    let (w, h) = (f64::from(plan.width), f64::from(plan.height));
     std::array::from_fn(|_| {
-        let values: Vec<i64> =
-            plan.channels().iter().map(|c| rng.random_range(0..=c.limit() as i64)).collect();
-        plan.raw_vertex(rng.random_range(-w / 4..w * 5 / 4), rng.random_range(-h / 4..h * 5 / 4), &values)
+        let value = |channel: &edgewalk_machine::Channel, share: f64| {
+            let (low, high) = channel.host_range();
+            match channel.name {
+                "lx" | "ly" => f64::from(plan.shadow.size) * (share * 1.4 - 0.2),
+                "lz" => f64::from(1 << plan.shadow.depth_bits) * (share * 1.2 - 0.1),
+                _ => low + (high - low) * share,
+            }
+        };
+        let mut values: Vec<f64> =
+            plan.channels().iter().map(|channel| value(channel, rng.random_range(0.0..=1.0))).collect();
+        values.extend(plan.has_triangle_kt().then_some(0.25));
+        plan.port_vertex(w * rng.random_range(-0.25..1.25), h * rng.random_range(-0.25..1.25), &values)
+            .expect("in its ranges")
     })
 }
 
 #[test]
 fn registers_of_the_model_are_those_of_the_netlist() {
-    let settings: [&[(&str, &str)]; 10] = [
+    let settings: [&[(&str, &str)]; 13] = [
         &[],
         &[("interpolator.adders", "1"), ("interpolator.segments", "2")],
         &[("memory.hazard", "drain"), ("memory.latency", "8"), ("fifo.inflight", "8")],
@@ -152,6 +164,14 @@ fn registers_of_the_model_are_those_of_the_netlist() {
             ("blend.stages", "2"),
             ("memory.hazard", "drain"),
         ],
+        &[
+            ("shadow.light", "parallel"),
+            ("shadow.gate", "scale"),
+            ("shadow.size", "64"),
+            ("channels.extra", "1"),
+        ],
+        &[("shadow.light", "parallel"), ("blend.kind", "interpolated"), ("memory.hazard", "interlock")],
+        &[("shade.kind", "fast-phong"), ("term.record_bits", "4")],
     ];
     let mut compared = BTreeMap::<String, u64>::new();
     for (number, settings) in settings.iter().enumerate() {
@@ -164,8 +184,8 @@ fn registers_of_the_model_are_those_of_the_netlist() {
         let mut rng = Pcg64Mcg::seed_from_u64(number as u64);
         let triangles: Vec<_> = (0..12).map(|_| random_triangle(&plan, &mut rng)).collect();
         let before: u64 = compared.values().sum();
-        for stalls in [StallKind::None, StallKind::Mixed] {
-            for (path, values) in compare(&plan, &triangles, stalls) {
+        for waits in [0, 85] {
+            for (path, values) in compare(&plan, &triangles, waits) {
                 *compared.entry(path).or_default() += values;
             }
         }

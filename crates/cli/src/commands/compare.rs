@@ -9,8 +9,9 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Context, Result, anyhow};
-use edgewalk_explore::compare::compare_for;
+use edgewalk_explore::compare::compare_shaded;
 use edgewalk_explore::draw;
+use edgewalk_explore::light::judged;
 use edgewalk_explore::raster::Raster;
 use edgewalk_explore::reach::reach;
 use edgewalk_explore::report::Report;
@@ -55,7 +56,8 @@ const FILES: [&str; 5] = ["a.png", "b.png", "difference.png", "compare.json", "c
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let [a, b] = [machine.named(&args.a)?, machine.named(&args.b)?];
+    let screen = args.source.screen()?;
+    let [a, b] = [machine.named(&args.a, screen)?, machine.named(&args.b, screen)?];
     if (a.width, a.height) != (b.width, b.height) {
         return Err(anyhow!(
             "the screens differ, {}x{} and {}x{}, so no pixels can be compared; set screen.width and screen.height",
@@ -99,7 +101,9 @@ fn drawn(args: &Args, plan: &Plan) -> Result<(Report, Raster)> {
     let port = to_port(&frame, plan)?;
     let golden = draw::golden(&frame, plan);
     let raster = draw::fast(&frame, plan, args.stalls)?;
-    let comparison = compare_for(plan, &frame, &golden, &raster, reach(plan, &port)?.as_ref());
+    judged(&frame)?;
+    let proof = port.shade.as_ref().map(|feed| &feed.proof);
+    let comparison = compare_shaded(plan, &frame, &golden, &raster, reach(plan, &port)?.as_ref(), proof);
     let setup = SetupReport::new(plan, &port.triangles);
     let report = Report::new(&args.source.input, frame.triangles.len() as u64, plan, &raster);
     Ok((report.with(comparison).with_setup(setup), raster))

@@ -72,9 +72,11 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             "pictures  {at}/golden.png image.png z_error.png color_error.png{dda}\n\
              report    {at}/report.txt report.json\n\
              verilog   {at}/hdl, {} modules\n\
-             vectors   {at}/vectors: {}",
+             vectors   {at}/vectors: {}\n\
+             at work   edgewalk replay {} --out {at}/replay.html: open it in a browser",
             modules.len(),
-            suites.join(" ")
+            suites.join(" "),
+            args.source.input
         ))?;
     }
     verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))

@@ -13,13 +13,14 @@ use crate::shadows::Shadows;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
-use anyhow::{Result, anyhow};
+use anyhow::{Context as _, Result, anyhow};
 use edgewalk_explore::compare::compare_shaded;
+use edgewalk_explore::light::judged;
 use edgewalk_explore::reach::reach;
 use edgewalk_golden::{HiddenLines, wireframe};
 use edgewalk_machine::Plan;
 use edgewalk_model::Waits;
-use edgewalk_scene::{Blending, Frame};
+use edgewalk_scene::Frame;
 use std::path::PathBuf;
 
 /// Renders a scene or mesh through the machine and compares it with the golden picture.
@@ -192,11 +193,7 @@ pub fn pictures(
     out: &Staging,
     quiet: bool,
 ) -> Result<Pictures> {
-    if frame.shadow.is_some() && (frame.passes().len() > 1 || frame.blend != Blending::Off) {
-        return Err(anyhow!(
-            "{name}: shadow: layers under a light's map are not compared with golden; draw with `edgewalk raster`"
-        ));
-    }
+    judged(frame).with_context(|| name.to_owned())?;
     let golden = draw(Engine::Golden, frame, machine, quiet)?;
     let drawn = draw_waiting(engine, frame, machine, waits, quiet)?;
     let port = to_port(frame, machine)?;

@@ -11,7 +11,7 @@ use anyhow::{Context, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::{DrawState, Stalls};
 use edgewalk_replay::lesson::{SCREEN, triangle};
-use edgewalk_replay::{Lesson, Recording, Replay, Truth, Window, lesson, page, record};
+use edgewalk_replay::{Lesson, Recording, Replay, Rules, Truth, Window, lesson, page, record, record_passes};
 use std::path::PathBuf;
 
 /// Records the machine cycle by cycle and writes one HTML file that shows it at work: open it in a browser, no network needed.
@@ -141,7 +141,10 @@ fn drawn(args: &Args, machine: &MachineArgs) -> Result<Shown> {
     Verdict::drew(count).or_nothing(&args.source.input, 0, size)?;
     let to = args.cycles.map(|cycles| args.from.saturating_add(cycles - 1)).or(args.to);
     let window = Window { from: args.from, to };
-    let recording = record(&machine, &port.triangles, port.state()?, args.stalls.stalls(), window)
+    let mut shading = port.words().clone();
+    shading.records.truncate(port.triangles.len());
+    let rules = Rules { passes: &port.passes, maps: &port.maps(), shading: &shading };
+    let recording = record_passes(&machine, &port.triangles, &rules, args.stalls.stalls(), window)
         .with_context(|| args.source.input.clone())?;
     let truth = truth::truth(&machine, &frame, &port.ids, recording.view.tokens());
     let (scene, triangles) = (args.source.input.clone(), port.triangles);

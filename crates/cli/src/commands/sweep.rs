@@ -74,7 +74,8 @@ struct What {
     /// A key and its values: key=a,b,c or key=lo..hi or key=lo..hi..step (repeatable)
     #[arg(long, value_name = "KEY=VALUES", required = true)]
     vary: Vec<String>,
-    /// How the colour of a pixel is come by: constant, constant-averaged, gouraud
+    /// How the colour of a pixel is come by: constant, constant-averaged, gouraud; phong and fast-phong on machines with that
+    /// shade.kind
     #[arg(long, value_enum, default_value_t = Shading::Gouraud)]
     shading: Shading,
     /// How the memory makes the machine wait: none, fixed, random, dram, with parameters as fixed:rd=2 (repeatable)

@@ -46,7 +46,7 @@ const REFUSED: [(&[&str], &[&str]); 22] = [
     (&["sphere", "--vary", "setup.lanes=1", "--bound", "0.4"], &["--bound 0.4", "above 0.5"]),
     (&["sphere", "sphere", "--vary", "setup.lanes=1"], &["sphere", "comes twice"]),
     (&["spehre", "--vary", "setup.lanes=1"], &["spehre", "sphere"]),
-    (&["sphere", "--vary", "setup.lanes=1", "--shading", "phong"], &["phong", "gouraud"]),
+    (&["sphere", "--vary", "setup.lanes=1", "--shading", "wireframe"], &["wireframe", "gouraud"]),
 ];
 
 #[test]

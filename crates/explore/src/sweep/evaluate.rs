@@ -1,5 +1,6 @@
 //! Runs the points that are not there yet.
 
+use super::apart::{self, stands_apart};
 use super::point::{Point, Sweep};
 use super::row::{Cost, Status, with_figures, without_figures};
 use super::shared::{Geometry, Pixels, geometry_key, pixel_key};
@@ -124,6 +125,9 @@ impl Run<'_> {
 
     /// Points of the same pixels.
     fn pixels(&self, geometry: &Geometry, points: &Points) -> Result<()> {
+        if stands_apart(geometry.frame(), points[0].1) {
+            return points.par_iter().try_for_each(|(point, plan)| self.apart(geometry, point, plan));
+        }
         let pixels = match Pixels::new(geometry, points[0].1) {
             Ok(pixels) => pixels,
             Err(why) => return self.all(points, Status::Failed, &format!("{why:#}")),
@@ -145,6 +149,21 @@ impl Run<'_> {
                 self.put(row, since)
             })
         })
+    }
+}
+
+impl Run<'_> {
+    /// A point that shares nothing. What is proved of it is judged pixel by pixel, and told by its verdict.
+    fn apart(&self, geometry: &Geometry, point: &Point, plan: &Plan) -> Result<()> {
+        let since = Instant::now();
+        let row = match apart::report(geometry, plan, self.sweep.waits[point.waits]) {
+            Ok(report) => {
+                let cost = self.around.cost.map(|cost| cost(plan));
+                with_figures(self.sweep, point, &report, false, cost)?
+            }
+            Err(why) => without_figures(self.sweep, point, Status::Failed, &format!("{why:#}")),
+        };
+        self.put(row, since)
     }
 }
 

@@ -3,11 +3,12 @@
 use super::axis::Axis;
 use super::definition::{Definition, Sample};
 use super::objective::Objective;
-use crate::input::{Input, hex};
+use crate::input::{Input, Shaded, hex};
 use anyhow::{Context, Result, anyhow};
 use edgewalk_golden::Shading;
 use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::Waits;
+use edgewalk_scene::PixelMethod;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use sha2::{Digest, Sha256};
@@ -47,21 +48,23 @@ pub struct Point {
 }
 
 /// Ways of shading by their names on the command line.
-const SHADINGS: [(&str, Shading); 3] = [
-    ("constant", Shading::Constant),
-    ("constant-averaged", Shading::ConstantAveraged),
-    ("gouraud", Shading::Gouraud),
+const SHADINGS: [(&str, Shaded); 5] = [
+    ("constant", Shaded::Corners(Shading::Constant)),
+    ("constant-averaged", Shaded::Corners(Shading::ConstantAveraged)),
+    ("gouraud", Shaded::Corners(Shading::Gouraud)),
+    ("phong", Shaded::Pixels(PixelMethod::Phong)),
+    ("fast-phong", Shaded::Pixels(PixelMethod::FastPhong)),
 ];
 
 /// The way of shading of that name.
 ///
 /// # Errors
 /// The machine does not draw so.
-pub fn shading(name: &str) -> Result<Shading> {
+pub fn shading(name: &str) -> Result<Shaded> {
     let found = SHADINGS.iter().find(|(known, _)| *known == name);
     found
         .map(|(_, shading)| *shading)
-        .ok_or_else(|| anyhow!("--shading {name}: the machine draws constant, constant-averaged and gouraud"))
+        .ok_or_else(|| anyhow!("--shading {name}: the machine draws constant, constant-averaged and gouraud, with shade.kind fast-phong and phong"))
 }
 
 impl Sweep {
@@ -240,7 +243,7 @@ fn chosen(whole: u64, sample: Option<Sample>, inputs: u64) -> Result<Vec<u64>> {
     Ok(numbers.into_iter().collect())
 }
 
-fn inputs(names: &[String], shading: Shading) -> Result<Vec<(Input, String)>> {
+fn inputs(names: &[String], shading: Shaded) -> Result<Vec<(Input, String)>> {
     let mut all: Vec<(Input, String)> = Vec::new();
     for name in names {
         if all.iter().any(|(before, _)| before.name() == name) {

@@ -51,9 +51,9 @@ fn values(machine: &Machine, wanted: impl Fn(&str) -> bool) -> Vec<u32> {
 
 /// A frame, and golden's picture of it.
 pub struct Geometry {
-    name: String,
-    frame: Frame,
-    golden: Raster,
+    pub(super) name: String,
+    pub(super) frame: Frame,
+    pub(super) golden: Raster,
 }
 
 impl Geometry {
@@ -102,7 +102,7 @@ impl Pixels {
                 Ok(passage) => (from_fast(plan, renderer.frame(), Path::Fast), passage, true),
                 Err(Refusal::Tick(_)) => {
                     let drawn = render(&fast, port.triangles.iter().copied(), port.state()?, Waits::Never)?;
-                    (from_model(plan, drawn), reach::passage(plan, &port)?, false)
+                    (from_model(plan, drawn), reach::geometry(plan, &port)?, false)
                 }
                 Err(Refusal::Foreign(foreign)) => return Err(foreign.into()),
             };
@@ -156,7 +156,7 @@ impl Pixels {
 
     /// Cycle by cycle, without a look at the pixels.
     fn ticked<const C: usize>(&self, plan: &Plan, waits: Waits, reason: Reason) -> (Cycles, Events) {
-        // Frames of several passes were refused.
+        // Frames of several passes stand apart.
         let state = self.port.passes.first().map_or_else(DrawState::default, |pass| pass.state);
         let mut rig = Rig::<C>::new(plan, state, waits);
         let triangles = self.port.triangles.iter().map(|triangle| Ok::<_, Infallible>(*triangle));

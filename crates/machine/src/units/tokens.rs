@@ -248,7 +248,7 @@ fn lit(plan: &Plan) -> Option<Field> {
 
 /// The outputs that go beyond SHADOW.
 fn seen(plan: &Plan) -> impl Iterator<Item = Field> {
-    outputs(plan).filter(|field| !["lx", "ly", "lz"].contains(&field.name.as_str()))
+    plan.seen_channels().map(|(_, channel)| Field::output(channel))
 }
 
 /// SHADOW to DEPTH: a fragment, lit or not; without SHADOW what PIXEL gives.

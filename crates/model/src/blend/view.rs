@@ -11,7 +11,8 @@ impl<const C: usize> Blend<C> {
     pub fn view(&self, plan: &Plan, pass: Option<&Passed<C>>, inputs: &BlendInputs, view: &mut View) {
         view.unit(plan, "blend");
         let bits = (plan.blend.queue + 1).next_power_of_two().ilog2();
-        view.kind("fragment", "fragments", || fragments::fields(plan));
+        let (kind, title) = fragments::seen(plan);
+        view.kind(kind, title, || fragments::seen_fields(plan));
         view.triangle(self.triangle(pass));
         let queued =
             view.number("queued", "fragments that wait for their old colour", bits, self.rmw.len() as u64);
@@ -48,14 +49,16 @@ impl<const C: usize> Blend<C> {
     }
 
     fn view_queue(&self, plan: &Plan, view: &mut View) {
+        let (kind, _) = fragments::seen(plan);
         view.table(&format!("queue of {}", self.rmw.places()), &["fragment", "k", "need", "fwd"], false);
         for place in 0..self.rmw.places() {
             let flight = self.rmw.flight(place);
-            let values = flight.as_ref().map(|f| fragments::values(plan, f.addr, &f.side.values));
+            let values =
+                flight.as_ref().map(|f| fragments::seen_values(plan, f.addr, &f.side.values, f.side.lit));
             let shown = flight.as_ref().zip(values.as_ref());
             view.row(&if place == 0 { "head".to_owned() } else { place.to_string() });
             let shown = shown.map(|(flight, values)| (flight.side.source.id, &values[..]));
-            let fragment = view.token_cell("a fragment that waits", "fragment", shown);
+            let fragment = view.token_cell("a fragment that waits", kind, shown);
             view.live(Some(fragment));
             let side = flight.as_ref().map(|flight| flight.side);
             let k = side.map_or(0, |side| side.k);
@@ -110,7 +113,10 @@ fn token<const C: usize>(
     view: &mut View,
     doc: &str,
 ) -> Id {
-    let values = result.map(|result| fragments::values(plan, result.addr, &result.side.values));
+    let of = |result: &Outcome<Colour, Side<C>>| {
+        fragments::seen_values(plan, result.addr, &result.side.values, result.side.lit)
+    };
+    let (values, (kind, _)) = (result.map(of), fragments::seen(plan));
     let shown = result.zip(values.as_ref());
-    view.token_cell(doc, "fragment", shown.map(|(result, values)| (result.side.source.id, &values[..])))
+    view.token_cell(doc, kind, shown.map(|(result, values)| (result.side.source.id, &values[..])))
 }

@@ -13,7 +13,8 @@ impl<const C: usize> Depth<C> {
         let read = frag.filter(|_| block.is_none() && inputs.rd_ready);
         let bits = (plan.inflight + 1).next_power_of_two().ilog2();
         view.triangle(self.triangle(frag));
-        view.kind("fragment", "fragments", || fragments::fields(plan));
+        let (kind, title) = fragments::seen(plan);
+        view.kind(kind, title, || fragments::seen_fields(plan));
         let queued = view.number("queued", "fragments in flight", bits, self.rmw.len() as u64);
         view.wire(|| "count".to_owned());
         let head = self.view_queue(plan, view);
@@ -23,11 +24,12 @@ impl<const C: usize> Depth<C> {
         view.lane(queued, self.occupied());
         self.say(frag, block, inputs, compared.is_some(), view);
 
-        let offered = frag.map(|frag| (frag.source.id, fragments::values(plan, frag.addr, &frag.values)));
+        let offered = frag
+            .map(|frag| (frag.source.id, fragments::seen_values(plan, frag.addr, &frag.values, frag.lit)));
         let offered = view.aside(
             "offered",
             "the fragment at the door",
-            "fragment",
+            kind,
             offered.as_ref().map(|(id, values)| (*id, &values[..])),
         );
         let fires = self.rmw.write().is_some() && inputs.wr_ready;
@@ -49,24 +51,24 @@ impl<const C: usize> Depth<C> {
 
     /// Gives the fragment in w, and the flag that says whether its depth is written.
     fn view_write(&self, plan: &Plan, view: &mut View) -> (Id, Option<Id>) {
-        let forks = self.forks();
+        let (forks, (kind, _)) = (self.forks(), fragments::seen(plan));
         let waiting = view.guard("w_valid", "a pixel is being written", self.rmw.write().is_some());
         view.wire(|| if forks { "zwr_valid" } else { "wr_valid" }.to_owned());
         let w = self.rmw.write();
-        let values = w.map(|w| fragments::values(plan, w.addr, &w.side.values));
+        let values = w.map(|w| fragments::seen_values(plan, w.addr, &w.side.values, w.side.lit));
         let token = w.zip(values.as_ref()).map(|(w, values)| (w.side.source.id, &values[..]));
         view.table("write register", if forks { &["fragment"] } else { &["fragment", "z_en"] }, false);
         view.row("w");
         view.live(Some(waiting));
-        let written = view.token_cell("the pixel being written", "fragment", token);
+        let written = view.token_cell("the pixel being written", kind, token);
         let mut with_depth = None;
         if forks {
             let passes = self.pass();
-            let values = passes.map(|pass| fragments::values(plan, pass.addr, &pass.values));
+            let values = passes.map(|pass| fragments::seen_values(plan, pass.addr, &pass.values, pass.lit));
             let token = passes.zip(values.as_ref()).map(|(pass, values)| (pass.source.id, &values[..]));
             view.live(None);
             view.row("pass");
-            view.token_cell("the fragment on its way to BLEND", "fragment", token);
+            view.token_cell("the fragment on its way to BLEND", kind, token);
         } else {
             view.wire(|| "wr".to_owned());
             let stored = w.is_some_and(|w| w.stored);
@@ -86,18 +88,20 @@ impl<const C: usize> Depth<C> {
 
     /// Gives the head.
     fn view_queue(&self, plan: &Plan, view: &mut View) -> Id {
+        let (kind, _) = fragments::seen(plan);
         let forwards = plan.hazard == Hazard::Forward;
         let columns: &[&str] = if forwards { &["fragment", "fwd", "from"] } else { &["fragment"] };
         view.table(&format!("in flight, {} places", self.rmw.places()), columns, false);
         let mut head = 0;
         for place in 0..self.rmw.places() {
             let flight = self.rmw.flight(place);
-            let values = flight.as_ref().map(|f| fragments::values(plan, f.addr, &f.side.values));
+            let values =
+                flight.as_ref().map(|f| fragments::seen_values(plan, f.addr, &f.side.values, f.side.lit));
             let token = flight.as_ref().zip(values.as_ref());
             view.row(&if place == 0 { "head".to_owned() } else { place.to_string() });
             let cell = view.token_cell(
                 "a fragment that waits for its old depth",
-                "fragment",
+                kind,
                 token.map(|(flight, values)| (flight.side.source.id, &values[..])),
             );
             view.wire(|| format!("place{place}"));

@@ -18,8 +18,11 @@ impl<const C: usize> Model<C> {
         let units = self.units();
         let offered = units.offered(&inputs.texel);
         let frag = self.shade().map_or(drawn, Shade::tinted);
-        let block = depth.block(frag, inputs.depth_write);
-        let frag_ready = inputs.rd_ready && block.is_none();
+        let shaded = self.shadow().and_then(|shadow| shadow.shaded(&inputs.shadow));
+        let seen = if self.shadow().is_some() { shaded.as_ref() } else { frag };
+        let block = depth.block(seen, inputs.depth_write);
+        let seen_ready = inputs.rd_ready && block.is_none();
+        let frag_ready = self.shadow().map_or(seen_ready, |shadow| shadow.frag_ready(frag, &inputs.shadow));
         let readies = units.readies(&offered, &inputs.texel, frag_ready);
         let (pixel_ready, fresh_queued) = (pixel.span_ready(readies.drawn), span.fresh_queued());
         let there = self.term().is_none_or(|term| term.there(span.span()));
@@ -53,14 +56,18 @@ impl<const C: usize> Model<C> {
         }
         if let Some(shade) = self.shade() {
             let (frag, cosines) = parts(&offered.normed);
-            shade.view(plan, (frag, &cosines), &inputs.shade, ("depth", frag_ready), view);
+            let next = if self.shadow().is_some() { "shadow" } else { "depth" };
+            shade.view(plan, (frag, &cosines), &inputs.shade, (next, frag_ready), view);
         }
-        depth.view(plan, frag, &depth_inputs, view);
+        if let Some(shadow) = self.shadow() {
+            shadow.view(plan, frag, &inputs.shadow, seen_ready, view);
+        }
+        depth.view(plan, seen, &depth_inputs, view);
         if let Some(blend) = self.blend() {
             blend.view(plan, pass, &inputs.blend, view);
         }
         let waits = super::Waits {
-            light: false,
+            light: self.shadow().is_some_and(|shadow| !shadow.full() || shaded.is_none()),
             pass: pass.is_some() && !pass_ready,
             walk: !there && span.span().is_some(),
             texel: units.texel_waits(&offered),

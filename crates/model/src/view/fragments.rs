@@ -1,22 +1,44 @@
-//! A fragment as a token: its pixel and what every channel has there. The same token goes through the queues to the write.
+//! A fragment as a token: its pixel and what every channel has there. The same token goes through the queues to the write;
+//! SHADOW makes another of it.
 
 use super::{Field, Shape, output};
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Channel, Plan};
 
 /// Its fields.
 pub(crate) fn fields(plan: &Plan) -> Vec<Field> {
-    let w = plan.widths();
-    let pixel = Field { name: "addr", shape: Shape::Pixel { x_bits: w.x, bits: w.address }, brief: true };
-    let channels = plan.channels().iter().enumerate().map(|(place, channel)| Field {
-        name: channel.name,
-        shape: output(channel),
-        brief: place == 0,
-    });
-    std::iter::once(pixel).chain(channels).collect()
+    std::iter::once(pixel(plan)).chain(plan.channels().iter().enumerate().map(channel)).collect()
 }
 
 /// The values of one.
 pub(crate) fn values<const C: usize>(plan: &Plan, addr: u32, outputs: &[u32; C]) -> Vec<u64> {
     let outputs = outputs[..plan.channels().len()].iter().map(|value| u64::from(*value));
     std::iter::once(u64::from(addr)).chain(outputs).collect()
+}
+
+/// Names of the kind of token from DEPTH on, and of a table of them.
+pub(crate) fn seen(plan: &Plan) -> (&'static str, &'static str) {
+    if plan.shadow.is_there() { ("shaded", "fragments, lit or not") } else { ("fragment", "fragments") }
+}
+
+/// Its fields: with SHADOW without the channels that end there, and with its answer.
+pub(crate) fn seen_fields(plan: &Plan) -> Vec<Field> {
+    let channels = plan.seen_channels().map(channel);
+    let lit = plan.shadow.is_there().then_some(Field { name: "lit", shape: Shape::Flag, brief: true });
+    std::iter::once(pixel(plan)).chain(channels).chain(lit).collect()
+}
+
+/// The values of one.
+pub(crate) fn seen_values<const C: usize>(plan: &Plan, addr: u32, outputs: &[u32; C], lit: bool) -> Vec<u64> {
+    let channels = plan.seen_channels().map(|(place, _)| u64::from(outputs[place]));
+    let lit = plan.shadow.is_there().then_some(lit.into());
+    std::iter::once(u64::from(addr)).chain(channels).chain(lit).collect()
+}
+
+fn pixel(plan: &Plan) -> Field {
+    let w = plan.widths();
+    Field { name: "addr", shape: Shape::Pixel { x_bits: w.x, bits: w.address }, brief: true }
+}
+
+fn channel((place, channel): (usize, &Channel)) -> Field {
+    Field { name: channel.name, shape: output(channel), brief: place == 0 }
 }

@@ -1,18 +1,24 @@
 //! What is shown: an icosahedron on four machines, its page in a file, and the model run anew beside it.
 
-use edgewalk_machine::{Machine, Plan, PortVertex};
-use edgewalk_model::{DrawState, Frame, Rig, Stalls, View, for_channels, render};
-use edgewalk_replay::{Recording, Replay, Window, page, record};
+use edgewalk_machine::{Machine, Plan, PortVertex, Record};
+use edgewalk_model::{DrawState, Frame, Pass, Rig, Shading, Stalls, View, for_channels, render_shaded};
+use edgewalk_replay::{Recording, Replay, Rules, Window, page, record_passes};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 use std::path::PathBuf;
 use tempfile::TempDir;
 
 pub type Triangle = [PortVertex; 3];
 
-/// A machine, and what it draws.
+/// A machine, and what it draws by which rules.
 pub struct Case {
     pub name: &'static str,
     pub plan: Plan,
     pub triangles: Vec<Triangle>,
+    pub passes: Vec<Pass>,
+    /// Of a light, if there is one.
+    pub maps: Vec<Vec<u32>>,
+    pub shading: Shading,
     pub stalls: Stalls,
 }
 
@@ -59,10 +65,17 @@ pub fn icosahedron(plan: &Plan) -> Vec<Triangle> {
         (place(x, plan.width), place(-y, plan.height), [unit(-z), unit(x), unit(y), unit(z)])
     };
     let vertex = |k: usize| {
-        let (x, y, values) = corner(k);
-        let mut values = values.to_vec();
-        // What else there is is half transparent.
-        values.resize(plan.channels().len(), 0.5);
+        let (x, y, near) = corner(k);
+        let mut values = near.to_vec();
+        // The light comes from where the eye is: texels follow the screen, its depths those of the picture. What else there is is
+        // half transparent.
+        let (size, deep) = (f64::from(plan.shadow.size), f64::from(1 << plan.shadow.depth_bits));
+        values.extend(plan.channels()[4..].iter().map(|channel| match channel.name {
+            "lx" => x / f64::from(plan.width) * size,
+            "ly" => y / f64::from(plan.height) * size,
+            "lz" => near[0] * deep,
+            _ => 0.5,
+        }));
         plan.port_vertex(x, y, &values).expect("on the screen")
     };
     FACES.iter().map(|face| face.map(vertex)).collect()
@@ -76,10 +89,17 @@ pub fn machine(base: Machine, settings: &[(&str, &str)]) -> Plan {
     machine.plan().expect("can be built")
 }
 
-/// Default, one adder, drain with a slow memory, the textbook, and one that blends.
-pub fn five() -> Vec<Case> {
+/// Default, one adder, drain with a slow memory, the textbook, one that blends, one with a light, one that shades pixels.
+pub fn seven() -> Vec<Case> {
     let textbook = Machine::preset("textbook").expect("a preset");
     let drain = [("memory.hazard", "drain"), ("memory.latency", "8"), ("fifo.inflight", "6")];
+    let shade = [
+        ("shade.kind", "phong"),
+        ("term.record_bits", "3"),
+        ("shade.colour", "multiply"),
+        ("texture.kind", "nearest"),
+        ("texture.bits", "3"),
+    ];
     let machines = [
         ("default", machine(Machine::default(), &[])),
         (
@@ -89,18 +109,58 @@ pub fn five() -> Vec<Case> {
         ("drain", machine(Machine::default(), &drain)),
         ("textbook", machine(textbook, &[])),
         ("blend", machine(Machine::default(), &[("blend.kind", "interpolated")])),
+        ("light", machine(Machine::default(), &[("shadow.light", "parallel"), ("shadow.size", "16")])),
+        ("shade", machine(Machine::default(), &shade)),
     ];
     let case = |(name, plan): (&'static str, Plan)| {
         let stalls =
             if name == "drain" { Stalls { seed: 1, rd: 40, data: 40, wr: 40 } } else { Stalls::NONE };
-        Case { name, triangles: icosahedron(&plan), plan, stalls }
+        Case { stalls, ..Case::of(name, plan) }
     };
     machines.into_iter().map(case).collect()
 }
 
+/// Words of any terms, a few pixels from the screen at most; tables and roots of any numbers.
+fn shading(plan: &Plan, triangles: usize) -> Shading {
+    let mut rng = Pcg64Mcg::seed_from_u64(3);
+    if !plan.shade.is_there() {
+        return Shading::default();
+    }
+    let mut record = || Record {
+        x: rng.random_range(0..plan.width as i32),
+        y: rng.random_range(0..plan.height),
+        material: rng.random_range(0..1 << plan.shade.material_bits.min(1)),
+        gloss: 2,
+        terms: plan.terms().iter().map(|_| std::array::from_fn(|_| rng.random::<u64>() >> 40)).collect(),
+    };
+    let records = (0..triangles).map(|_| record()).collect();
+    let mut words = |count: usize| (0..count).map(|_| (rng.random::<u64>() >> 40).into()).collect();
+    let texels = 1 << (plan.shade.material_bits + 2 * plan.shade.texture_bits);
+    Shading { records, tables: words(1 << 13), roots: words(256), textures: words(texels) }
+}
+
 impl Case {
+    /// All triangles by the same rules; a light that is there sees every other texel nearer than anything.
+    pub fn of(name: &'static str, plan: Plan) -> Case {
+        let light = plan.shadow.is_there();
+        let state = DrawState { shadow_on: light, ..DrawState::default() };
+        let texels = 0..1u32 << (2 * plan.shadow.side_bits());
+        let map = texels.map(|texel| if texel % 2 == 0 { 0 } else { (1 << plan.shadow.depth_bits) - 1 });
+        let triangles = icosahedron(&plan);
+        Case {
+            name,
+            passes: vec![Pass { map: light.then_some(0), ..Pass::all(state) }],
+            maps: if light { vec![map.collect()] } else { Vec::new() },
+            shading: shading(&plan, triangles.len()),
+            triangles,
+            plan,
+            stalls: Stalls::NONE,
+        }
+    }
+
     pub fn recording(&self, window: Window) -> Recording {
-        record(&self.plan, &self.triangles, DrawState::default(), self.stalls, window).expect("recorded")
+        let rules = Rules { passes: &self.passes, maps: &self.maps, shading: &self.shading };
+        record_passes(&self.plan, &self.triangles, &rules, self.stalls, window).expect("recorded")
     }
 
     pub fn replay<'a>(&'a self, recording: &'a Recording) -> Replay<'a> {
@@ -124,23 +184,36 @@ impl Case {
     /// The picture as the model draws it.
     pub fn frame(&self) -> Frame {
         let triangles = self.triangles.iter().copied();
-        render(&self.plan, triangles, DrawState::default(), self.stalls).expect("its own vertices")
+        render_shaded(&self.plan, triangles, &self.passes, &self.maps, self.stalls, &self.shading, |_| {})
+            .expect("its own vertices")
     }
 
     /// Runs the model anew and sees every cycle, and the write that fires in it: address and triangle.
     pub fn watch(&self, mut see: impl FnMut(u32, &View, Option<(u32, u32)>)) {
         for_channels!(self.plan, C => {
-            let mut rig = Rig::<C>::new(&self.plan, DrawState::default(), self.stalls);
-            let (mut view, mut waiting) = (View::new(), &self.triangles[..]);
+            let mut rig = Rig::<C>::new(&self.plan, self.passes[0].state, self.stalls);
+            rig.write_shading(&self.plan, &self.shading);
+            if let (Some(memory), Some(map)) = (&mut rig.map, self.maps.first()) {
+                memory.depths_mut().copy_from_slice(map);
+            }
+            // As many at once as there is room for their records.
+            let at_once = if self.plan.shade.is_there() { 1 << self.plan.shade.record_bits } else { usize::MAX };
+            let (mut view, mut waiting, mut part) = (View::new(), &self.triangles[..], at_once);
             for now in 0.. {
-                let offered = waiting.first().map(|triangle| (triangle, 0));
+                let offered = waiting.first().filter(|_| part > 0).map(|triangle| (triangle, 0));
                 rig.model.view(&self.plan, &rig.inputs(offered, true), &mut view);
                 let cycle = rig.cycle(offered, true);
                 see(now, &view, cycle.write().map(|write| (write.addr, write.source.id)));
                 if cycle.triangle {
-                    waiting = &waiting[1..];
+                    (waiting, part) = (&waiting[1..], part - 1);
                 } else if cycle.outputs.idle && waiting.is_empty() {
                     break;
+                } else if cycle.outputs.idle && part == 0 {
+                    let drawn = self.triangles.len() - waiting.len();
+                    for (number, record) in self.shading.records.iter().enumerate().skip(drawn).take(at_once) {
+                        rig.write_record(&self.plan, number, record);
+                    }
+                    part = at_once;
                 }
             }
         });

@@ -1,6 +1,6 @@
 //! What hands do: clicks on pixels, every key, the legend, and the state in the address.
 
-use crate::case::{file, five};
+use crate::case::{file, seven};
 use crate::chromium::Browser;
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ fn on_page(browser: &mut Browser, plane: usize, (x, y): (u32, u32)) -> (f64, f64
 fn a_click_on_a_pixel_lands_on_its_write() {
     let mut browser = Browser::start();
     let (mut clicks, mut twice) = (0, 0);
-    for case in [&five()[0], &five()[3]] {
+    for case in [&seven()[0], &seven()[3]] {
         let mut writes: BTreeMap<u32, Vec<(u32, u32)>> = BTreeMap::new();
         case.watch(|cycle, _, write| {
             if let Some((addr, triangle)) = write {
@@ -68,7 +68,7 @@ fn a_click_on_a_pixel_lands_on_its_write() {
 #[test]
 fn every_key_does_what_the_help_says() {
     let mut browser = Browser::start();
-    let case = &five()[0];
+    let case = &seven()[0];
     let (_folder, path) = file(&case.html());
     browser.open(&path, "");
     // Where a token moves on a link, from the model.
@@ -174,7 +174,7 @@ fn every_key_does_what_the_help_says() {
 fn the_legend_is_the_reports_counters_and_the_address_keeps_the_state() {
     let mut browser = Browser::start();
     let mut checked = 0;
-    for case in five() {
+    for case in seven() {
         let counters = case.frame().counters;
         let (_folder, path) = file(&case.html());
         browser.open(&path, "");

@@ -1,6 +1,6 @@
 //! How it stands on the page: nothing overlaps or is cut, every control has a name.
 
-use crate::case::{file, five};
+use crate::case::{file, seven};
 use crate::chromium::Browser;
 
 /// The faults of the layout: what is cut off, what lies over another, what sticks out.
@@ -29,7 +29,7 @@ pub const LAYOUT: &str = "(() => {
 fn nothing_overlaps_is_cut_or_moves() {
     let mut browser = Browser::start();
     let mut checked = 0;
-    for case in five() {
+    for case in seven() {
         let (_folder, path) = file(&case.html());
         for (width, height) in [(900, 700), (1400, 900)] {
             browser.size(width, height);
@@ -65,7 +65,7 @@ fn nothing_overlaps_is_cut_or_moves() {
     }
     browser.is_quiet();
     println!("checked {checked} states");
-    assert!(checked == 5 * 2 * 2 * 50);
+    assert!(checked == 7 * 2 * 2 * 50);
 }
 
 /// Text with less than 4.5 to 1 on what lies behind it; what is pale on purpose says nothing.
@@ -87,7 +87,7 @@ const CONTRAST: &str = "(() => {
 #[test]
 fn every_control_has_a_name_and_is_reached_by_tab() {
     let mut browser = Browser::start();
-    let case = &five()[0];
+    let case = &seven()[0];
     let (_folder, path) = file(&case.html());
     browser.open(&path, "#px=31,20");
     let controls = browser.eval(

@@ -11,7 +11,7 @@ mod made_up;
 mod names;
 mod text;
 
-use case::{Case, Triangle, file, five, icosahedron, machine};
+use case::{Case, Triangle, file, icosahedron, machine, seven};
 use checks::{Checked, pictures, shown_text};
 use chromium::Browser;
 use edgewalk_machine::Machine;
@@ -21,9 +21,9 @@ use lesson::lesson_page;
 use std::path::{Path, PathBuf};
 
 #[test]
-fn the_page_shows_the_model_at_thirty_cycles_of_five_machines() {
+fn the_page_shows_the_model_at_thirty_cycles_of_seven_machines() {
     let mut browser = Browser::start();
-    for case in five() {
+    for case in seven() {
         let compared = shown_text(&mut browser, &case, &case.html())
             .unwrap_or_else(|why| panic!("{}: {why}", case.name));
         println!("{}: {compared} texts", case.name);
@@ -35,7 +35,7 @@ fn the_page_shows_the_model_at_thirty_cycles_of_five_machines() {
 #[test]
 fn the_last_picture_is_the_models_and_time_runs_back() {
     let mut browser = Browser::start();
-    for case in five() {
+    for case in seven() {
         let compared =
             pictures(&mut browser, &case, &case.html()).unwrap_or_else(|why| panic!("{}: {why}", case.name));
         println!("{}: {compared} values", case.name);
@@ -67,7 +67,7 @@ const MUTANTS: [(&str, &str, &str); 4] = [
 #[test]
 fn faults_of_the_page_are_found() {
     let mut browser = Browser::start();
-    let case = &five()[0];
+    let case = &seven()[0];
     let html = case.html();
     let check = |browser: &mut Browser, html: &str| -> Checked {
         Ok(shown_text(browser, case, html)? + pictures(browser, case, html)?)
@@ -116,7 +116,7 @@ fn measure(browser: &mut Browser, html: &str) -> (f64, f64) {
 #[test]
 fn small_and_quick() {
     let mut browser = Browser::start();
-    let case = &five()[0];
+    let case = &seven()[0];
     let html = case.html();
     measure(&mut browser, &html);
     let (open, step) = measure(&mut browser, &html);
@@ -131,7 +131,7 @@ fn small_and_quick() {
         &[("screen.width", "320"), ("screen.height", "240"), ("interpolator.adders", "1")],
     );
     let triangles: Vec<Triangle> = [0, 1, 2].into_iter().flat_map(|_| icosahedron(&plan)).collect();
-    let large = Case { name: "large", plan, triangles, stalls: Stalls::NONE };
+    let large = Case { triangles, ..Case::of("large", plan) };
     let all = record(&large.plan, &large.triangles, DrawState::default(), Stalls::NONE, Window::default());
     assert!(matches!(all, Err(RecordError::TooLong { .. })), "too small to try the limit");
     let recording = large.recording(Window { from: 0, to: Some(LIMIT - 1) });
@@ -146,7 +146,7 @@ fn small_and_quick() {
 #[test]
 fn a_replay_of_another_version_is_refused_in_words() {
     let mut browser = Browser::start();
-    let case = &five()[0];
+    let case = &seven()[0];
     let html = case.html();
     for (from, to, word) in [
         ("\"version\":[1,0]", "\"version\":[2,0]", "version 2.0; this page shows version 1"),
@@ -172,7 +172,7 @@ fn pictures_for_the_documentation() {
         ["replay", "replay-drain", "replay-dark", "lesson"].map(|name| docs.join(format!("{name}.png")));
     if std::env::var_os("EDGEWALK_BLESS").is_some() {
         let mut browser = Browser::start();
-        let cases = five();
+        let cases = seven();
         for (place, (html, hash, scheme)) in [
             (cases[0].html(), "#c=1503&px=31,20", "light"),
             (cases[2].html(), "#c=1200&px=31,20", "light"),

@@ -1,6 +1,6 @@
 //! The page knows no machine: no name of a unit, a link, a register or a field stands in it.
 
-use crate::case::five;
+use crate::case::seven;
 use edgewalk_replay::{Window, page};
 use std::collections::BTreeSet;
 
@@ -37,7 +37,7 @@ fn no_name_of_the_machine_stands_in_the_page() {
     let source = page::source();
     let source = source.split_once("<script>").expect("a script").1;
     let mut names = BTreeSet::new();
-    for case in five() {
+    for case in seven() {
         let recording = case.recording(Window { from: 0, to: Some(400) });
         let structure = recording.view.structure();
         names.extend(structure.units.iter().map(|unit| unit.name.clone()));

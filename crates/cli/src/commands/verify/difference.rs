@@ -51,7 +51,7 @@ pub fn page(suite: &Suite, trace: &Trace, difference: &Difference) -> Result<Opt
     Ok(Some(page::html(&replay.json())))
 }
 
-/// The memory at the start, by channel and pixel.
+/// The memory at the start, by field of the tokens that are stored and by pixel.
 fn cleared(trace: &Trace) -> Vec<Vec<u32>> {
     let pixels = (trace.plan.width * trace.plan.height) as usize;
     let clear = |memory: usize| trace.setting.memories.get(memory).map_or(0, |memory| memory.clear);
@@ -62,49 +62,67 @@ fn cleared(trace: &Trace) -> Vec<Vec<u32>> {
         1..=3 => (color >> (bits * (3 - place as u32))) as u32 & (u32::MAX >> (32 - bits)),
         _ => 0,
     };
-    (0..trace.plan.channels().len()).map(|place| vec![word(place); pixels]).collect()
+    let lit = usize::from(trace.plan.shadow.is_there());
+    (0..trace.plan.seen_channels().count() + lit).map(|place| vec![word(place); pixels]).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use edgewalk_lockstep::{LockstepError, StallKind, Unit, netlist};
-    use edgewalk_machine::Machine;
+    use edgewalk_machine::{Machine, Plan};
     use edgewalk_model::DrawState;
     use edgewalk_netlist::mutate::mutants;
-    use edgewalk_vectors::capture;
+    use edgewalk_vectors::{Suite, capture};
+
+    /// A triangle on a small machine with these settings.
+    fn one(settings: &[(&str, &str)]) -> (Plan, Suite) {
+        let mut machine = Machine { width: 16, height: 12, ..Machine::default() };
+        settings.iter().for_each(|(key, value)| machine.set(key, value).expect("a key"));
+        let plan = machine.plan().expect("can be built");
+        let suite = super::super::directed(&plan).expect("suites")[0].clone();
+        let values = vec![0.5; plan.channels().len()];
+        let corner = |x, y| plan.port_vertex(x, y, &values).expect("on the screen");
+        let triangle = [corner(1.0, 1.0), corner(12.0, 3.0), corner(4.0, 10.0)];
+        let case = edgewalk_vectors::Case { name: "one".to_owned(), triangles: vec![triangle] };
+        (plan, Suite { cases: vec![case], clear_z: None, ..suite })
+    }
 
     /// A fault in the netlist is told by a page that opens where it shows first.
     #[test]
     fn a_fault_opens_where_it_shows() {
-        let plan = Machine { width: 16, height: 12, ..Machine::default() }.plan().expect("can be built");
-        let suite = edgewalk_vectors::Suite {
-            cases: Vec::new(),
-            ..super::super::directed(&plan).expect("suites")[0].clone()
-        };
-        let corner = |x, y| plan.port_vertex(x, y, &[0.5; 4]).expect("on the screen");
-        let triangle = [corner(1.0, 1.0), corner(12.0, 3.0), corner(4.0, 10.0)];
-        let case = edgewalk_vectors::Case { name: "one".to_owned(), triangles: vec![triangle] };
-        let suite = edgewalk_vectors::Suite { cases: vec![case], clear_z: None, ..suite };
-        let trace = capture(&plan, Unit::MACHINE, &suite, DrawState::default(), StallKind::None);
-        let good = netlist(&plan, Unit::MACHINE).expect("it can be built");
         let mut pages = 0;
-        let of_pixel = mutants(&good).into_iter().filter(|mutant| mutant.module.contains("pixel"));
-        for mutant in of_pixel.step_by(7).take(12) {
-            let Err(LockstepError::Differs { difference, .. }) = trace.lockstep(&mutant.apply(&good)) else {
-                continue;
-            };
-            let page = super::page(&suite, &trace, &difference).expect("a replay").expect("of the machine");
-            let data = page.split_once("id=\"replay\">").and_then(|(_, rest)| rest.split_once("</script>"));
-            let replay: serde_json::Value =
-                serde_json::from_str(data.expect("a replay in the page").0).expect("JSON");
-            assert_eq!(replay["difference"]["cycle"], difference.cycle);
-            assert_ne!(replay["difference"]["expected"], replay["difference"]["found"]);
-            assert!(replay["cycles"].as_u64() > Some(difference.cycle));
-            assert_eq!(replay["difference"]["text"], difference.to_string());
-            pages += 1;
+        for (settings, module) in [(&[][..], "pixel"), (&[("shadow.light", "parallel")], "shadow")] {
+            let (plan, suite) = one(settings);
+            let state = DrawState { shadow_on: true, ..DrawState::default() };
+            let trace = capture(&plan, Unit::MACHINE, &suite, state, StallKind::None);
+            let good = netlist(&plan, Unit::MACHINE).expect("it can be built");
+            let before = pages;
+            let of_module = mutants(&good).into_iter().filter(|mutant| mutant.module.contains(module));
+            for mutant in of_module.step_by(7).take(12) {
+                let Err(LockstepError::Differs { difference, .. }) = trace.lockstep(&mutant.apply(&good))
+                else {
+                    continue;
+                };
+                let page =
+                    super::page(&suite, &trace, &difference).expect("a replay").expect("of the machine");
+                let data =
+                    page.split_once("id=\"replay\">").and_then(|(_, rest)| rest.split_once("</script>"));
+                let replay: serde_json::Value =
+                    serde_json::from_str(data.expect("a replay in the page").0).expect("JSON");
+                assert_eq!(replay["difference"]["cycle"], difference.cycle);
+                assert_ne!(replay["difference"]["expected"], replay["difference"]["found"]);
+                assert!(replay["cycles"].as_u64() > Some(difference.cycle));
+                assert_eq!(replay["difference"]["text"], difference.to_string());
+                pages += 1;
+            }
+            println!("{module}: checked {} pages", pages - before);
+            assert!(pages > before + 1, "{module}");
         }
-        println!("checked {pages} pages");
-        assert!(pages > 2);
+    }
+
+    #[test]
+    fn a_unit_alone_has_no_replay() {
+        let (plan, suite) = one(&[]);
         let unit = edgewalk_lockstep::Unit::single(&plan)[1];
         let trace = capture(&plan, unit, &suite, DrawState::default(), StallKind::None);
         let mut difference = None;

@@ -209,10 +209,6 @@ impl<const C: usize> ModelDevice for MachineDevice<C> {
     }
 
     fn view(&self, ports: &PortValues, view: &mut View) -> bool {
-        // SHADOW is not shown yet.
-        if self.map.is_some() {
-            return false;
-        }
         let triangle = self.tri.token(ports);
         self.model.view(&self.plan, &self.inputs(triangle.as_ref(), ports), view);
         true

@@ -1,0 +1,73 @@
+//! A sweep with synthesis: cells and clock of each machine beside its errors, made once, null with the reason where there are none.
+
+use crate::rows;
+use crate::support::{TRIANGLE, run};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+/// Every file below a folder, and when it was written.
+fn files(folder: &Path, found: &mut BTreeMap<PathBuf, SystemTime>) {
+    for entry in std::fs::read_dir(folder).unwrap().map(Result::unwrap) {
+        if entry.file_type().unwrap().is_dir() {
+            files(&entry.path(), found);
+        } else {
+            found.insert(entry.path(), entry.metadata().unwrap().modified().unwrap());
+        }
+    }
+}
+
+#[test]
+fn machines_are_synthesised_once_and_stand_in_fronts() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("a.tri"), TRIANGLE).unwrap();
+    let sweep = |target: &str, unit: &str, out: &str| {
+        let cells = ["--synth", target, "--synth-unit", unit, "--synth-seeds", "1", "--cache", "cache"];
+        let vary = ["sweep", "a.tri", "--vary", "fifo.span=1,2", "--out", out, "--quiet"];
+        assert_eq!(run(at, &[&vary[..], &cells].concat()), (Some(0), String::new()));
+        rows(&at.join(out))
+    };
+    let first = sweep("ice40-hx8k", "span", "first");
+    let mut written = BTreeMap::new();
+    files(&at.join("cache"), &mut written);
+    let second = sweep("ice40-hx8k", "span", "second");
+    let mut kept = BTreeMap::new();
+    files(&at.join("cache"), &mut kept);
+    assert!(!written.is_empty() && written == kept, "a tool ran again");
+    let mut checked = 0;
+    for row in &first {
+        let same = second.iter().find(|other| other["key"] == row["key"]).unwrap();
+        assert_eq!(same["synth"], row["synth"]);
+        let mhz = row["synth"]["mhz"]["median"].as_f64().unwrap();
+        assert!(row["synth"]["cells"]["lut4"].as_u64() > Some(20) && mhz > 20.0, "{}", row["synth"]);
+        // A frame a second at that clock.
+        let rate = row["derived"]["frames_per_s"].as_f64().unwrap();
+        let cycles = row["report"]["cycles"]["total"].as_f64().unwrap();
+        assert!((rate - 1e6 * mhz / cycles).abs() < 1e-6 * rate, "{rate} {mhz} {cycles}");
+        checked += 1;
+    }
+    assert_eq!(checked, 2);
+    let table = std::fs::read_to_string(at.join("first/runs.csv")).unwrap();
+    let fronts: Vec<&str> = table.lines().skip(1).map(|line| line.rsplit(',').next().unwrap()).collect();
+    assert!(fronts.contains(&"1"), "{table}");
+    assert!(at.join("first/best_lut4.toml").is_file());
+}
+
+#[test]
+fn what_could_not_be_synthesised_is_null_with_the_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("a.tri"), TRIANGLE).unwrap();
+    let sweep = ["sweep", "a.tri", "--vary", "fifo.span=2", "--out", "s", "--quiet"];
+    let cells = ["--synth", "ice40-up5k", "--synth-unit", "setup", "--limit", "1", "--cache", "cache"];
+    _ = run(at, &[&sweep[..], &cells].concat());
+    let rows = rows(&at.join("s"));
+    let [row] = &rows[..] else { panic!("one row") };
+    assert!(row["status"] == "timeout" && row["reason"].as_str().unwrap().contains("1 s"), "{row}");
+    assert!(row["synth"].is_null() && row["derived"]["frames_per_s"].is_null(), "{row}");
+    let table = std::fs::read_to_string(at.join("s/runs.csv")).unwrap();
+    let lines: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    let lut4 = lines[0].iter().position(|name| *name == "lut4").unwrap();
+    assert_eq!(lines[1][lut4], "", "what is not known is empty");
+}

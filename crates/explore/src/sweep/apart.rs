@@ -1,0 +1,39 @@
+//! Points that share nothing: frames whose rules change, with a light's map, or shaded at each pixel. Each is drawn anew, as
+//! `render` draws it.
+
+use super::shared::Geometry;
+use crate::compare::compare_shaded;
+use crate::draw::draw_frame;
+use crate::light;
+use crate::port::to_port;
+use crate::raster::of_port;
+use crate::reach::reach;
+use crate::report::Report;
+use crate::setup_report::SetupReport;
+use anyhow::Result;
+use edgewalk_machine::Plan;
+use edgewalk_model::Waits;
+use edgewalk_scene::Frame;
+
+/// Whether machines draw such a frame one by one.
+#[must_use]
+pub fn stands_apart(frame: &Frame, plan: &Plan) -> bool {
+    frame.passes().len() > 1 || plan.shadow.is_there() || plan.shade.is_there()
+}
+
+/// What the machine makes of the frame.
+///
+/// # Errors
+/// What of the frame the machine cannot take.
+pub fn report(geometry: &Geometry, plan: &Plan, waits: Waits) -> Result<Report> {
+    let Geometry { name, frame, golden } = geometry;
+    light::judged(frame)?;
+    let port = to_port(frame, plan)?;
+    let drawn = of_port(draw_frame(plan, &port, waits)?.raster(plan), &port);
+    let (reach, proof) = (reach(plan, &port)?, port.shade.as_ref().map(|feed| &feed.proof));
+    let comparison = compare_shaded(plan, frame, golden, &drawn, reach.as_ref(), proof).without_maps();
+    Ok(Report::new(name, frame.triangles.len() as u64, plan, &drawn)
+        .with(comparison)
+        .with_setup(SetupReport::new(plan, &port.triangles))
+        .with_stalls(waits))
+}
