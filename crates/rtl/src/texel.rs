@@ -38,7 +38,7 @@ pub fn texel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 
     m.comment("A fragment enters when the queue has room, in the cycle its texel is read.");
     let kept = parts(&tokens::textured(plan));
-    let queue = m.instance("queue", &fifo("edgewalk_texel_fifo", plan.shade.texel_queue, &kept)?);
+    let queue = m.instance("queue", &fifo("edgewalk_texel_fifo", plan.shade.texel_queue, &kept, &[])?);
     let room = queue.output("in_ready");
     let address: Vec<_> = frag.get("material").into_iter().chain([frag["v"], frag["u"]]).collect();
     frag.connect(queue.connect("in_valid", frag_valid & memory.read_ready), "in", &kept);

@@ -1,6 +1,6 @@
 //! A sweep with synthesis: cells and clock of each machine beside its errors, made once, null with the reason where there are none.
 
-use crate::rows;
+use super::rows;
 use crate::support::{TRIANGLE, run};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
