@@ -165,7 +165,6 @@ module edgewalk_span (
   );
 
   wire fresh_in_queue = queue_any_fresh;
-
   assign span_valid = queue_out_valid;
   assign span_x = queue_out_x;
   assign span_y = queue_out_y;

@@ -299,7 +299,7 @@ mod tests {
             ([0, 0, area + 1], 1),
             ([0, 16 * area - 1, 0], 2),
             ([0, 16 * area, 0], 3),
-            ([0, area - 1, -area], 1), // c0 - c2 = A
+            ([area, 2 * area - 1, 0], 1), // c0 - c2 = A
         ] {
             // On four lanes all wait for z, on one lane only it.
             for (lanes, all) in [(4, 68), (1, 4 * 64 + 4)] {
@@ -311,7 +311,7 @@ mod tests {
         let right = [[4, 2], [2, 2], [2, 4]];
         let s2 = |z| clocks(&Machine::default(), right, z)[1];
         assert_eq!(
-            [[0, area - 2, 0], [0, area - 1, 0], [0, -area, 0]].map(|z| s2(z) - s2([0; 3])),
+            [[0, area - 2, 0], [0, area - 1, 0], [area, 0, area]].map(|z| s2(z) - s2([0; 3])),
             [0, 2, 2]
         );
         // Edges: DX = 512 px over DY of one line or two, P·DY = 256 or 512 px; DW - 1 = 22 bits.
