@@ -49,6 +49,14 @@ fn a_part_is_that_part_of_the_run() {
     assert_eq!(part["cycles"], cycles - 400);
     let stalled = replay(folder.path(), &["replay", "t.tri", "--stalls", "mixed", "--out", "b.json", "-q"]);
     assert!(stalled["cycles"].as_u64() > Some(cycles), "stalls take time");
+    // Those that `render` knows, and in as many cycles.
+    let dram = ["--stalls", "dram:miss=9"];
+    let stalled = replay(folder.path(), &[&["replay", "t.tri", "--out", "b.json", "-q"], &dram[..]].concat());
+    let render = ["render", "t.tri", "--json", "--out", "r"];
+    let output = edgewalk(folder.path(), &[&render[..], &dram, &SCREEN].concat()).output().expect("runs");
+    let drawn: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(stalled["cycles"], drawn["cycles"]["total"]);
+    assert!(stalled["cycles"].as_u64() > Some(cycles + 100));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::recording::{Recorder, Recording};
 use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
-use edgewalk_model::{Cycle, DrawState, Pass, Rig, Shading, Stalls, for_channels};
+use edgewalk_model::{Cycle, DrawState, Pass, Rig, Shading, Waits, for_channels};
 use std::collections::VecDeque;
 
 /// The most cycles that a replay holds: about 200 MB in a browser and two seconds until they can be seen.
@@ -81,11 +81,11 @@ pub fn record(
     plan: &Plan,
     triangles: &[[PortVertex; 3]],
     state: DrawState,
-    stalls: Stalls,
+    waits: impl Into<Waits>,
     window: Window,
 ) -> Result<Recording, RecordError> {
     let rules = Rules { passes: &[Pass::all(state)], maps: &[], shading: &Shading::default() };
-    record_passes(plan, triangles, &rules, stalls, window)
+    record_passes(plan, triangles, &rules, waits, window)
 }
 
 /// As [`record`], pass by pass, as [`edgewalk_model::render_shaded`] draws.
@@ -96,29 +96,29 @@ pub fn record_passes(
     plan: &Plan,
     triangles: &[[PortVertex; 3]],
     rules: &Rules,
-    stalls: Stalls,
+    waits: impl Into<Waits>,
     window: Window,
 ) -> Result<Recording, RecordError> {
-    let records = rules.shading.records.len();
+    let (records, waits) = (rules.shading.records.len(), waits.into());
     if plan.shade.is_there() && records != triangles.len() {
         return Err(RecordError::Records { triangles: triangles.len(), records });
     }
     for (triangle, number) in triangles.iter().zip(0..) {
         plan.accept(triangle, number)?;
     }
-    for_channels!(plan, C => run::<C>(plan, triangles, rules, stalls, window))
+    for_channels!(plan, C => run::<C>(plan, triangles, rules, waits, window))
 }
 
 fn run<const C: usize>(
     plan: &Plan,
     triangles: &[[PortVertex; 3]],
     rules: &Rules,
-    stalls: Stalls,
+    waits: Waits,
     window: Window,
 ) -> Result<Recording, RecordError> {
     let mut total = 0;
     let mut cleared = Vec::new();
-    let mut dry = Run::<C>::new(plan, triangles, rules, stalls);
+    let mut dry = Run::<C>::new(plan, triangles, rules, waits);
     while !dry.ended {
         if dry.cycle() {
             cleared.push(total + 1);
@@ -136,7 +136,7 @@ fn run<const C: usize>(
     if let Some(cycle) = cleared.into_iter().find(|cycle| (window.from + 1..=last).contains(cycle)) {
         return Err(RecordError::Cleared { cycle });
     }
-    let mut run = Run::<C>::new(plan, triangles, rules, stalls);
+    let mut run = Run::<C>::new(plan, triangles, rules, waits);
     for _ in 0..window.from {
         _ = run.cycle();
     }
@@ -197,9 +197,9 @@ struct Run<'a, const C: usize> {
 }
 
 impl<'a, const C: usize> Run<'a, C> {
-    fn new(plan: &'a Plan, triangles: &'a [[PortVertex; 3]], rules: &'a Rules, stalls: Stalls) -> Self {
+    fn new(plan: &'a Plan, triangles: &'a [[PortVertex; 3]], rules: &'a Rules, waits: Waits) -> Self {
         let state = rules.passes.first().map_or_else(DrawState::default, |pass| pass.state);
-        let mut rig = Rig::new(plan, state, stalls);
+        let mut rig = Rig::new(plan, state, waits);
         rig.write_shading(plan, rules.shading);
         let parts = parts(plan, triangles.len(), rules.passes);
         let mut run = Run { plan, rules, rig, triangles, taken: 0, left: 0, parts, ended: false };

@@ -9,7 +9,7 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::{DrawState, Stalls};
+use edgewalk_model::{DrawState, Stalls, Waits};
 use edgewalk_replay::lesson::{SCREEN, triangle};
 use edgewalk_replay::{Lesson, Recording, Replay, Rules, Truth, Window, lesson, page, record, record_passes};
 use std::path::PathBuf;
@@ -39,8 +39,8 @@ pub struct Args {
     /// Shows this many cycles
     #[arg(long, conflicts_with = "to", value_parser = clap::value_parser!(u64).range(1..))]
     cycles: Option<u64>,
-    /// How the memory makes the machine wait
-    #[arg(long, value_enum, default_value_t = Waits::None)]
+    /// How the memory makes the machine wait: none, fixed, random, dram, with parameters as fixed:rd=2; or mixed, late
+    #[arg(long, value_name = "KIND", default_value = "none", value_parser = kind)]
     stalls: Waits,
     /// Walks one triangle through all sections of the specification instead, every number beside the register that holds it
     #[arg(long, conflicts_with_all = ["input", "shading", "triangles", "from", "to", "cycles", "stalls"])]
@@ -53,24 +53,14 @@ pub struct Args {
 /// The channel that the lesson shows.
 const RED: usize = 1;
 
-/// What the memory does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Waits {
-    /// Always ready
-    None,
-    /// Reads, depths and writes each wait in a third of the cycles
-    Mixed,
-    /// Two depths of three come one to eight cycles late
-    Late,
-}
-
-impl Waits {
-    fn stalls(self) -> Stalls {
-        match self {
-            Waits::None => Stalls::NONE,
-            Waits::Mixed => Stalls { seed: 0, rd: 85, data: 85, wr: 85 },
-            Waits::Late => Stalls { data: 170, ..Stalls::NONE },
-        }
+/// How the memory makes the machine wait: a kind of `render`'s, or one that meets much in few cycles.
+fn kind(text: &str) -> Result<Waits, String> {
+    match text {
+        // Reads, depths and writes each wait in a third of the cycles.
+        "mixed" => Ok(Stalls { seed: 0, rd: 85, data: 85, wr: 85 }.into()),
+        // Two depths of three come one to eight cycles late.
+        "late" => Ok(Stalls { data: 170, ..Stalls::NONE }.into()),
+        _ => text.parse().map_err(|error| format!("{error}; or mixed, late")),
     }
 }
 
@@ -144,7 +134,7 @@ fn drawn(args: &Args, machine: &MachineArgs) -> Result<Shown> {
     let mut shading = port.words().clone();
     shading.records.truncate(port.triangles.len());
     let rules = Rules { passes: &port.passes, maps: &port.maps(), shading: &shading };
-    let recording = record_passes(&machine, &port.triangles, &rules, args.stalls.stalls(), window)
+    let recording = record_passes(&machine, &port.triangles, &rules, args.stalls, window)
         .with_context(|| args.source.input.clone())?;
     let truth = truth::truth(&machine, &frame, &port.ids, recording.view.tokens());
     let (scene, triangles) = (args.source.input.clone(), port.triangles);

@@ -94,7 +94,7 @@ fn typeset(words: &[String]) -> String {
         };
         before = if sign { "sign" } else { word };
     }
-    text.replace("(−", "(−").replace('-', "−")
+    text.replace('-', "−")
 }
 
 /// Numbers, names and signs.
