@@ -11,7 +11,8 @@ fn without_the_feature_it_says_how_to_build_it() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("one.tri"), support::TRIANGLE).unwrap();
     for command in ["raster", "render"] {
-        let (status, said) = run(folder.path(), &[command, "one.tri", "--engine", "jit", "--out", "out"]);
+        let arguments = [command, "one.tri", "--engine", "jit", "--out", "out"];
+        let (status, said) = run(folder.path(), &[&arguments[..], &support::SCREEN].concat());
         assert_eq!(status, Some(2), "{said}");
         assert!(
             said.contains("--engine jit") && said.contains("`cargo build --release --features jit`"),

@@ -127,7 +127,13 @@ fn run(
     let mut picture = Picture::new(plan, &interface, &first);
     let mut ports = interface.values();
     let mut map: Arc<[u128]> = Arc::default();
-    let tables: Arc<[u128]> = shading.tables.clone().into();
+    // What the host fills once for the frame; what it leaves out is 0.
+    let filled = |name: &str| match name {
+        "tables" => Some(&shading.tables),
+        "roots" => Some(&shading.roots),
+        "textures" => Some(&shading.textures),
+        _ => None,
+    };
     let mut begun = 0;
     for pass in passes {
         if pass.clear_depth {
@@ -139,12 +145,15 @@ fn run(
         // The memories are as the pass before has left them.
         let mut setting = Setting::willing(&interface, &case::constants(&pass.state))?;
         for (memory, setting) in interface.memories.iter().zip(&mut setting.memories) {
-            if ["terms", "tables"].contains(&memory.name) {
+            if let Some(words) = filled(memory.name) {
+                (setting.clear, setting.start) = (0, words.as_slice().into());
+                continue;
+            }
+            if memory.name == "terms" {
                 setting.clear = 0;
             }
             setting.start = match memory.name {
                 "map" => Arc::clone(&map),
-                "tables" => Arc::clone(&tables),
                 "terms" => Arc::default(),
                 "color" => picture.colors(plan),
                 _ => picture.stored[0].iter().map(|word| u128::from(*word)).collect(),

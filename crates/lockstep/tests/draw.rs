@@ -21,19 +21,23 @@ fn quick_machine(rng: &mut Pcg64Mcg) -> Plan {
 /// Records of random words for so many triangles, and random tables.
 fn random_shading(plan: &Plan, triangles: usize, rng: &mut Pcg64Mcg) -> Shading {
     let record = |rng: &mut Pcg64Mcg| Record {
-        gloss: 0,
+        gloss: rng.random_range(0..=plan.shade.gloss_bits),
         x: rng.random_range(-4..plan.width as i32 + 4),
         y: rng.random_range(0..plan.height),
         material: rng.random_range(0..1 << plan.shade.material_bits),
         terms: plan.terms().iter().map(|_| std::array::from_fn(|_| rng.random())).collect(),
     };
     let bits = plan.shade.diffuse_bits(plan.color.bits) + plan.color.bits;
-    let entries = plan.table_place(1 << plan.shade.material_bits, 0, 0);
+    let materials = 1 << plan.shade.material_bits;
+    let entries = plan.table_place(materials, 0, 0);
+    let texels = if plan.shade.textures() { plan.texel_place(materials, 0, 0) } else { 0 };
+    let records = (0..triangles).map(|_| record(rng)).collect();
+    let mut words = |count, bits| (0..count).map(|_| rng.random::<u128>() >> (128 - bits)).collect();
     Shading {
-        roots: Vec::new(),
-        textures: Vec::new(),
-        records: (0..triangles).map(|_| record(rng)).collect(),
-        tables: (0..entries).map(|_| rng.random::<u128>() >> (128 - bits)).collect(),
+        records,
+        tables: words(entries, bits),
+        roots: words(256, 27),
+        textures: words(texels, 3 * plan.color.bits),
     }
 }
 

@@ -383,8 +383,7 @@ fn ticked(setup: &mut Setup<MAX_CHANNELS>, triangle: &Triangle) -> (u32, Option<
         setup.step(None, false, events);
         cycles += 1;
     }
-    // k_t is handed on and records are counted: neither is set up.
-    let prim = setup.prim().map(|prim| Prim { source: Default::default(), kt: 0, record: 0, ..*prim });
+    let prim = setup.prim().map(|prim| Prim { source: Default::default(), ..*prim });
     if prim.is_some() {
         setup.step(None, true, events);
     }
@@ -435,7 +434,7 @@ impl Seen {
             let triangle = any_triangle(plan, rng);
             let work = Work::new(plan, &triangle);
             let (clocks, prim) = work.prim();
-            // The k-th triangle has record k mod 2^p, culled or not.
+            // The k-th triangle has record k mod 2^p, culled or not; k_t is that of its first vertex.
             let record = number % (1 << plan.shade.record_bits);
             let kt = if plan.has_triangle_kt() { triangle[0].kt() } else { 0 };
             let prim = prim.map(|prim| Prim { record, kt, ..prim });
