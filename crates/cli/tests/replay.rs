@@ -162,8 +162,8 @@ fn what_cannot_be_shown_is_refused_in_words() {
     std::fs::write(folder.path().join("cleared.tri"), cleared).expect("written");
     std::fs::write(folder.path().join("normals.tri"), NORMALS).expect("written");
     let screen = [&["replay", "sphere", "--out", "o.html"][..], &SCREEN].concat();
-    let many = [&screen[..], &["--triangles", "2208", "--stalls", "mixed", "--set", "interpolator.adders=1"]]
-        .concat();
+    let many =
+        [&screen[..], &["--triangles", "2208", "--stalls", "mixed", "--set", "setup.lanes=1"]].concat();
     for (arguments, words) in [
         (many, &["sphere", "permitted: at most 200000", "--triangles", "--from"][..]),
         ([&screen[..], &["--from", "99999999"]].concat(), &["--from 99999999", "permitted: 0 to "]),
