@@ -250,11 +250,12 @@ impl<const C: usize> Blend<C> {
     fn result(&mut self, inputs: &BlendInputs, events: &mut Events) -> Outcome<Colour, Side<C>> {
         let old = Colour { rgb: inputs.cdata.unwrap_or(0), opaque: false };
         let head = self.rmw.retire(old);
-        if head.side.need && head.forwarded {
+        let mut side = *self.rmw.side(&head);
+        if side.need && head.forwarded {
             events.color_forward_used += 1;
             events.behind_opaque += u64::from(head.old.opaque);
         }
-        let (mut side, mut rgb) = (head.side, 0);
+        let mut rgb = 0;
         for channel in 1..=3 {
             let back = head.old.rgb >> (self.bits * (3 - channel as u32)) & ((1 << self.bits) - 1);
             let color = self.color(side.values[channel], back as u32, &side, inputs.add);
@@ -291,7 +292,7 @@ impl<const C: usize> Blend<C> {
         let last = self.stages[self.last].filter(|_| leaves);
         if let Some(result) = last {
             let to_entry = u64::from(pushed.is_some_and(|pass| pass.addr == result.addr));
-            let taken = self.rmw.finish(true, result);
+            let taken = self.rmw.finish_with(result);
             if taken > 0 {
                 events.color_forward_entry += to_entry;
                 events.color_forward_queue += taken - to_entry;

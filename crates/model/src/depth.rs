@@ -17,7 +17,7 @@ mod view;
 
 use crate::Events;
 pub use crate::rmw::Block;
-use crate::rmw::{Outcome, Retired, Rmw};
+use crate::rmw::{Retired, Rmw};
 use crate::tokens::{FEW, Fragment, OutputWords, Passed, Source, Write};
 use edgewalk_machine::{BlendKind, Hazard, Plan};
 
@@ -201,36 +201,37 @@ impl<const C: usize> Depth<C> {
     /// Compares the oldest fragment; if it passes it is written.
     #[inline]
     fn compare(&mut self, data: u32, inputs: &DepthInputs, events: &mut Events) {
-        let Retired { addr, side, old, forwarded } = self.rmw.retire(data);
+        let head = self.rmw.retire(data);
+        let Retired { old, forwarded, .. } = head;
         if forwarded {
             events.forward_used += 1;
         }
-        let z = side.values[0];
+        let z = self.rmw.side(&head).values[0];
         // Bits 0, 1 and 2 of the function say whether less, equal and greater pass.
         let relation = u8::from(z > old) + u8::from(z >= old);
         let pass = inputs.depth_func >> relation & 1 != 0;
         events.depth_fail = events.depth_fail.wrapping_add(u64::from(!pass)); // in every cycle: not checked
-        let result = Outcome { addr, side, word: z, stored: inputs.depth_write };
         let mut written = pass;
         if self.forks() {
             written &= inputs.depth_write;
-            self.hand_on(&result, pass && inputs.color_write, events);
+            self.hand_on(&head, pass && inputs.color_write, events);
         }
-        let taken = self.rmw.finish(written, result);
+        let taken = self.rmw.finish(written, &head, z, inputs.depth_write);
         if taken > 0 {
             events.forward_compare += taken;
         }
     }
 
     /// Offers a fragment to BLEND, or keeps its fence for the next that is.
-    fn hand_on(&mut self, of: &Outcome<u32, Side<C>>, passes: bool, events: &mut Events) {
+    fn hand_on(&mut self, of: &Retired<u32>, passes: bool, events: &mut Events) {
         let Fork { kt, color, pend_fence, .. } = &mut self.fork;
-        let fence = of.side.fence || *pend_fence;
+        let side = self.rmw.side(of);
+        let fence = side.fence || *pend_fence;
         *pend_fence = fence && !passes;
         if passes {
-            events.fence_handed_on += u64::from(fence && !of.side.fence);
-            let kt = kt.map_or(of.side.kt, |place| of.side.values[place]);
-            let Side { values, lit, source, .. } = of.side;
+            events.fence_handed_on += u64::from(fence && !side.fence);
+            let kt = kt.map_or(side.kt, |place| side.values[place]);
+            let Side { values, lit, source, .. } = *side;
             *color = Some(Passed { addr: of.addr, values, kt, lit, fence, source });
         }
     }

@@ -33,9 +33,10 @@ pub enum Block {
 
 /// An access that has its word.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Retired<T, S> {
+pub(crate) struct Retired<T> {
     pub addr: u32,
-    pub side: S,
+    /// Place of its side, [`Rmw::side`], which stands there until another access enters.
+    slot: usize,
     /// The word before this access.
     pub old: T,
     /// It comes from an older access, not from the memory.
@@ -199,35 +200,55 @@ impl<T: Copy + Default, S: Copy + Default> Rmw<T, S> {
 
     /// Drops the oldest access and gives it its old word; `data` is what the memory says.
     #[inline]
-    pub(crate) fn retire(&mut self, data: T) -> Retired<T, S> {
+    pub(crate) fn retire(&mut self, data: T) -> Retired<T> {
         let slot = self.slot(0);
         let forwarded = self.forwarded[slot];
         let old = if forwarded { self.forward[slot] } else { data };
-        let retired = Retired { addr: self.addr[slot], side: self.side[slot], old, forwarded };
+        let retired = Retired { addr: self.addr[slot], slot, old, forwarded };
         self.addr[slot] = NOWHERE;
         self.head = self.slot(1);
         self.len = self.len.wrapping_sub(1);
         retired
     }
 
-    /// Loads w with the result of the access just retired, `None`: there is none. Gives the number of accesses in flight
-    /// that take its word: those queued, the one that entered in this same cycle among them.
+    /// What travels beside an access just retired.
     #[inline]
-    pub(crate) fn finish(&mut self, valid: bool, result: Outcome<T, S>) -> u64 {
-        // Nobody looks at w where it is not valid; so it is loaded without asking, as a register would be.
+    pub(crate) fn side(&self, of: &Retired<T>) -> &S {
+        &self.side[of.slot]
+    }
+
+    /// Loads w with a new word for the access just retired, its side as it is. Nobody looks at w where it is not `valid`; so
+    /// it is loaded without asking, as a register would be. Gives the number of accesses in flight that take its word: those
+    /// queued, the one that entered in this same cycle among them.
+    #[inline]
+    pub(crate) fn finish(&mut self, valid: bool, of: &Retired<T>, word: T, stored: bool) -> u64 {
         self.w_valid = valid;
+        // From its place in the queue straight to w: a copy on the way is one that the host has to wait for.
+        self.w = Outcome { addr: of.addr, side: self.side[of.slot], word, stored };
+        self.forward_w()
+    }
+
+    /// As [`Self::finish`], with a side that changed since the access retired.
+    #[inline]
+    pub(crate) fn finish_with(&mut self, result: Outcome<T, S>) -> u64 {
+        self.w_valid = true;
         self.w = result;
-        if self.forwards && valid && result.stored && self.holds(result.addr) {
-            self.forward_to_queue(result.addr, result.word)
-        } else {
-            0
-        }
+        self.forward_w()
     }
 
     /// No access retires: w is empty once its write is taken.
     #[inline]
     pub(crate) fn no_result(&mut self, wr_ready: bool) {
         self.w_valid &= !wr_ready;
+    }
+
+    #[inline]
+    fn forward_w(&mut self) -> u64 {
+        if self.forwards && self.w_valid && self.w.stored && self.holds(self.w.addr) {
+            self.forward_to_queue(self.w.addr, self.w.word)
+        } else {
+            0
+        }
     }
 
     fn forward_to_queue(&mut self, addr: u32, word: T) -> u64 {
