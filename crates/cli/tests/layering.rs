@@ -35,6 +35,7 @@ const TESTS: &[(&str, &[&str])] = &[
     ("golden", &["numerics"]),                             // its proved bounds
     ("model", &["numerics", "scene", "golden"]),           // proved bounds, and what ought to be drawn
     ("jit", &["machine", "model", "lockstep", "vectors"]), // whole machines, and what drives them
+    ("vectors", &["jit"]),                                 // what runs netlists quickly
     ("replay", &["netlist", "lockstep"]),                  // the machine's registers in the netlist
 ];
 

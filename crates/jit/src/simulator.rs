@@ -213,3 +213,32 @@ impl fmt::Debug for Simulator {
         f.debug_struct("Simulator").field("words", &self.compiled.layout.size).finish_non_exhaustive()
     }
 }
+
+impl edgewalk_netlist::Simulate for Simulator {
+    type Input = InputId;
+    type Signal = SignalId;
+
+    fn input(&self, name: &str) -> Result<InputId, SimError> {
+        Simulator::input(self, name)
+    }
+
+    fn signal(&self, path: &str) -> Result<SignalId, SimError> {
+        Simulator::signal(self, path)
+    }
+
+    fn width(&self, signal: SignalId) -> u32 {
+        Simulator::width(self, signal)
+    }
+
+    fn set(&mut self, input: InputId, value: u128) {
+        Simulator::set(self, input, value);
+    }
+
+    fn value(&mut self, signal: SignalId) -> u128 {
+        Simulator::value(self, signal)
+    }
+
+    fn tick(&mut self) {
+        Simulator::tick(self);
+    }
+}

@@ -7,7 +7,7 @@ use crate::interface::Interface;
 use crate::rig::{Rig, Setting};
 use crate::values::PortValues;
 use edgewalk_machine::Plan;
-use edgewalk_netlist::{BuildErrors, Netlist};
+use edgewalk_netlist::{BuildErrors, Simulate};
 
 /// Two descriptions agree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,10 +122,9 @@ pub fn lockstep(
     interface: &Interface,
     setting: &Setting,
     cycles: u64,
-    netlist: &Netlist,
+    device: &mut NetlistDevice<impl Simulate>,
 ) -> Result<Agreement, LockstepError> {
-    let mut device = NetlistDevice::new(netlist, interface)?;
-    let run = |device: &mut NetlistDevice, cycles: u64| {
+    let run = |device: &mut NetlistDevice<_>, cycles: u64| {
         let mut reference = model(plan, interface)?;
         let mut pair = Lockstep::new(plan, interface, setting.clone());
         while pair.rig.cycle() < cycles {
@@ -136,8 +135,8 @@ pub fn lockstep(
     for cycles in CUT_SHORT {
         device.disturb(cycles);
         device.reset();
-        run(&mut device, cycles)?;
+        run(device, cycles)?;
         device.reset();
     }
-    run(&mut device, cycles)
+    run(device, cycles)
 }

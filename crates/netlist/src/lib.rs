@@ -46,5 +46,5 @@ pub use build::{Instance, Memory, Module, Operand, Reg, Signal, Wire};
 pub use error::{BuildError, BuildErrors, Fault, Place};
 pub use netlist::{Netlist, NodeId};
 pub use ops::Op;
-pub use simulate::{InputId, SignalId, SimError, Simulator};
+pub use simulate::{InputId, SignalId, SimError, Simulate, Simulator};
 pub use trace::{FstTrace, Labels, VcdTrace};

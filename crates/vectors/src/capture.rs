@@ -9,12 +9,12 @@
 use crate::suites::{self, Suite};
 use edgewalk_lockstep::case::constants;
 use edgewalk_lockstep::{
-    Agreement, Direction, Interface, Link, LockstepError, Pattern, Rig, Setting, StallKind, Token, Triangles,
-    Unit, lockstep, model, patterns, status_ports,
+    Agreement, Direction, Interface, Link, LockstepError, NetlistDevice, Pattern, Rig, Setting, StallKind,
+    Token, Triangles, Unit, lockstep, model, patterns, status_ports,
 };
 use edgewalk_machine::Plan;
 use edgewalk_model::{DrawState, Events, longest_setup};
-use edgewalk_netlist::Netlist;
+use edgewalk_netlist::{Netlist, Simulate};
 use std::collections::BTreeMap;
 
 /// What moved at one link.
@@ -257,9 +257,17 @@ impl Trace {
     /// # Errors
     /// The first difference.
     pub fn lockstep(&self, netlist: &Netlist) -> Result<Agreement, LockstepError> {
+        self.lockstep_of(&mut NetlistDevice::new(netlist, &self.interface)?)
+    }
+
+    /// As [`Trace::lockstep`], of a netlist that something else than the interpreter may run.
+    ///
+    /// # Errors
+    /// The first difference.
+    pub fn lockstep_of(&self, device: &mut NetlistDevice<impl Simulate>) -> Result<Agreement, LockstepError> {
         if self.tokens_out() == 0 {
             return Err(LockstepError::Vacuous);
         }
-        lockstep(&self.plan, &self.interface, &self.setting, self.cycles + AFTER, netlist)
+        lockstep(&self.plan, &self.interface, &self.setting, self.cycles + AFTER, device)
     }
 }

@@ -1,4 +1,4 @@
-//! The model and the netlist are the same machine: every port, every cycle.
+//! The model and the netlist, as native code, are the same machine: every port, every cycle.
 
 use crate::common;
 use edgewalk_model::DrawState;
@@ -17,7 +17,7 @@ fn every_unit_and_the_machine() {
                 let netlist = design::netlist(machine, unit).expect("a checked machine");
                 let stalls = StallKind::ALL[(i + j + k) % 3];
                 let trace = capture(machine, unit, &suite, DrawState::default(), stalls);
-                match trace.lockstep(&netlist) {
+                match common::lockstep(&trace, &netlist) {
                     Ok(agreement) => {
                         assert_eq!(agreement.compared, trace.port_values());
                         compared += agreement.compared;
@@ -50,7 +50,8 @@ fn every_suite_of_blend() {
             for unit in Unit::all(machine).into_iter().filter(in_turn) {
                 let netlist = design::netlist(machine, unit).expect("a checked machine");
                 let trace = capture(machine, unit, &suite, suite.state(), suite.stalls);
-                let agreement = trace.lockstep(&netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
+                let agreement =
+                    common::lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
                 assert_eq!(agreement.compared, trace.port_values());
                 compared += agreement.compared;
             }
@@ -75,7 +76,8 @@ fn every_suite_of_shadow() {
             for unit in Unit::all(machine).into_iter().filter(in_turn) {
                 let netlist = design::netlist(machine, unit).expect("a checked machine");
                 let trace = capture(machine, unit, &suite, suite.state(), StallKind::ALL[(i + j) % 3]);
-                let agreement = trace.lockstep(&netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
+                let agreement =
+                    common::lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
                 assert_eq!(agreement.compared, trace.port_values());
                 compared += agreement.compared;
             }
@@ -109,7 +111,8 @@ fn every_depth_function_passes_and_fails() {
                     assert!(passed >= 8 && fragments - passed >= 8, "{name}, function {depth_func}: {passed}")
                 }
             }
-            let agreement = trace.lockstep(&netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let agreement =
+                common::lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
             assert_eq!(agreement.compared, trace.port_values(), "{name}, function {depth_func}");
             compared += agreement.compared;
         }

@@ -5,8 +5,10 @@ use crate::support::{edgewalk, run};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use serde_json::Value;
-use std::fs::OpenOptions;
+use std::fs::{OpenOptions, Permissions};
 use std::io::Write as _;
+use std::os::unix::fs::{MetadataExt as _, PermissionsExt as _};
+use std::os::unix::process::CommandExt as _;
 use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
@@ -107,6 +109,47 @@ fn a_full_disk_is_said_and_the_rows_are_kept() {
     let mut once = keys(&folder.path().join("s"));
     once.dedup();
     assert_eq!((once.len(), rows(&folder.path().join("s")).len()), (288, 288));
+}
+
+#[test]
+fn a_read_only_folder_is_said_and_the_rows_are_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = folder.path().join("edgewalk");
+    std::fs::copy(env!("CARGO_BIN_EXE_edgewalk"), &program).unwrap();
+    let (code, error) = run(folder.path(), &[SWEEP, &["--sample", "40", "--out", "s"]].concat());
+    assert_eq!((code, error.as_str()), (Some(0), ""));
+    let permit = |path: &Path, mode| std::fs::set_permissions(path, Permissions::from_mode(mode)).unwrap();
+    let kept = || std::fs::read_to_string(folder.path().join("s/runs.jsonl")).unwrap();
+    let before = kept();
+    permit(&folder.path().join("s/runs.jsonl"), 0o444);
+    permit(&folder.path().join("s"), 0o555);
+    permit(folder.path(), 0o555);
+    let somebody = |out: &str| {
+        let mut command = Command::new(&program);
+        command.args(SWEEP).args(["--out", out]).current_dir(folder.path());
+        // Permissions do not bind root.
+        if std::fs::metadata(&program).unwrap().uid() == 0 {
+            command.gid(65534).uid(65534);
+        }
+        let output = command.output().unwrap();
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    for (out, named) in [("s", "s"), ("new", "new")] {
+        let (code, error) = somebody(out);
+        assert!(
+            code == Some(2) && error.contains(named) && error.contains("ermission denied"),
+            "{code:?} {error}"
+        );
+        assert_eq!(error.lines().filter(|line| line.starts_with("edgewalk:")).count(), 1, "{error}");
+    }
+    assert_eq!(kept(), before);
+    assert!(!folder.path().join("new").exists());
+    permit(folder.path(), 0o755);
+    permit(&folder.path().join("s"), 0o755);
+    permit(&folder.path().join("s/runs.jsonl"), 0o644);
+    let (code, error) = run(folder.path(), &[SWEEP, &["--out", "s"]].concat());
+    assert_eq!((code, error.as_str()), (Some(0), ""));
+    assert_eq!((before.lines().count(), rows(&folder.path().join("s")).len()), (40, 288));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! A netlist in the interpreter as a device.
+//! A netlist as a device: in the interpreter, or whatever else runs it.
 
 use super::Device;
 use crate::interface::{Interface, Port};
@@ -6,7 +6,7 @@ use crate::rig::bits;
 use crate::unit::Unit;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
-use edgewalk_netlist::{BuildErrors, InputId, Netlist, SignalId, Simulator};
+use edgewalk_netlist::{BuildErrors, Netlist, Simulate, Simulator};
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use std::sync::Arc;
@@ -25,11 +25,11 @@ pub fn netlist(plan: &Plan, unit: Unit) -> Result<Arc<Netlist>, BuildErrors> {
 
 /// A netlist whose ports are those of an interface, after a clock of reset.
 #[derive(Clone, Debug)]
-pub struct NetlistDevice {
-    simulator: Simulator,
-    rst: Option<InputId>,
-    inputs: Vec<(PortId, InputId, u32)>,
-    outputs: Vec<(PortId, SignalId)>,
+pub struct NetlistDevice<S: Simulate = Simulator> {
+    simulator: S,
+    rst: Option<S::Input>,
+    inputs: Vec<(PortId, S::Input, u32)>,
+    outputs: Vec<(PortId, S::Signal)>,
 }
 
 /// A port of the interface that the netlist does not have so.
@@ -68,12 +68,21 @@ pub enum PortError {
 }
 
 impl NetlistDevice {
-    /// Finds every port and resets the netlist.
+    /// The netlist in the interpreter.
+    ///
+    /// # Errors
+    /// As [`NetlistDevice::run_by`].
+    pub fn new(netlist: &Netlist, interface: &Interface) -> Result<Self, PortError> {
+        NetlistDevice::run_by(Simulator::new(netlist), netlist, interface)
+    }
+}
+
+impl<S: Simulate> NetlistDevice<S> {
+    /// Finds every port of a netlist that `simulator` runs, and resets it.
     ///
     /// # Errors
     /// A port that is missing, of another width, or too much.
-    pub fn new(netlist: &Netlist, interface: &Interface) -> Result<Self, PortError> {
-        let simulator = Simulator::new(netlist);
+    pub fn run_by(simulator: S, netlist: &Netlist, interface: &Interface) -> Result<Self, PortError> {
         let module = || netlist.name.clone();
         let known =
             |name: &str| interface.inputs().iter().chain(interface.outputs()).any(|port| port.name == name);
@@ -151,12 +160,12 @@ impl NetlistDevice {
     }
 
     /// The running netlist, for a look inside.
-    pub fn simulator(&mut self) -> &mut Simulator {
+    pub fn simulator(&mut self) -> &mut S {
         &mut self.simulator
     }
 }
 
-impl Device for NetlistDevice {
+impl<S: Simulate> Device for NetlistDevice<S> {
     fn cycle(&mut self, ports: &mut PortValues) {
         self.settle(ports);
         self.clock();

@@ -92,12 +92,12 @@ impl Timing {
             };
             let (dbl, dbl2) = (most(&|up| (t + up).div_ceil(2)), most(&|up| (2 * t + up).div_ceil(2)));
             let bits = round.iter().map(|c| c.vertex_bits()).max().unwrap_or(0);
-            let gx = FITS + FITS + 2 + 2 + dbl;
+            let gx = FITS + FITS + 1 + 2 + dbl;
             let clocks = gx
                 + if textbook {
                     2 * (1 + dbl2 + 1 + dbl + 2)
                 } else {
-                    let (gy, d0, d1, start) = (1 + dbl + 1, 2, 1, 1 + 1);
+                    let (gy, d0, d1, start) = (dbl + 1, 1, 1, 1);
                     gy + d0 + d1 + start
                 };
             let channels = ((1 << round.len()) - 1) << (i * lanes);
@@ -273,9 +273,9 @@ mod tests {
     fn exact_by_hand() {
         // Two edges: DX, 16 doublings, DY, wait, u(128) = 8, whole part; the one that is not walked asks for u = 1.
         let (edge, idle) = (2 + 4 + 2 + 2 + 8 + 1, 2 + 4 + 2 + 2 + 1 + 1);
-        // dc1, dc2, p1 + p2, wait; gx, u(512) = 10 and 18 doublings; gy, s(-512) = 10; gx + gy; wait, s(0) = 2; d1;
-        // s(128) = 9; the value.
-        let round = 2 + 2 + 2 + 2 + (10 + 9) + (1 + 10 + 9) + 1 + (2 + 2) + 1 + (1 + 9) + 1;
+        // dc1, dc2, p1 + p2, wait; gx, u(512) = 10 and 18 doublings; gy, s(-512) = 10; gx + gy; s(0) = 2, gy; d1; s(128) = 9;
+        // the value.
+        let round = 2 + 2 + 1 + 2 + (10 + 9) + (10 + 9) + 1 + (2 + 1) + 1 + 9 + 1;
         for (lanes, phase1, rounds) in [(4, edge, 1), (2, edge + edge, 2), (1, edge + idle + edge, 4)] {
             let machine = Machine { lanes, ..Machine::default() };
             assert_eq!(clocks(&machine, HALF, [0; 3]), [phase1, rounds * round + 4], "{lanes} lanes");
@@ -302,7 +302,7 @@ mod tests {
             ([area, 2 * area - 1, 0], 1), // c0 - c2 = A
         ] {
             // On four lanes all wait for z, on one lane only it.
-            for (lanes, all) in [(4, 68), (1, 4 * 64 + 4)] {
+            for (lanes, all) in [(4, 64), (1, 4 * 60 + 4)] {
                 let machine = Machine { lanes, ..Machine::default() };
                 assert_eq!(clocks(&machine, HALF, z)[1], all + 2 * i, "{z:?}, {lanes} lanes");
             }
@@ -328,7 +328,7 @@ mod tests {
         let edge = 2 + 9 + 2 + 2 + 1 + 1 + 8 + 1;
         // gx: u(16) = 5 and 15 doublings; of each part DC, 16 doublings, u(0) = 1, 15 doublings.
         let part = 1 + 2 + 8 + 1 + 1 + 8 + 2;
-        let round = 2 + 2 + 2 + 2 + (5 + 8) + 2 * part;
+        let round = 2 + 2 + 1 + 2 + (5 + 8) + 2 * part;
         assert_eq!(clocks(&machine, [[2, 2], [6, 2], [2, 10]], [0; 3]), [3 * edge, 4 * round + 4]);
         // z = 64: dc2 = 64 < A = 128, but DC = 64 > P·DY = 32, in the part that has lines; 16 bits.
         let long = 5 + 8 - 2;
@@ -364,7 +364,7 @@ mod tests {
         let longest = longest_setup(&Plan::default());
         // DW = 23, COLW = 15, z of 28 bits at most 4^15 times as large as an area.
         let edges = 16 + 4 + 2 + 2 + 22 + 1; // the area and its scale: 22 + 4 + 15
-        let channels = 2 + 2 + 2 + 2 + (22 + 15 + 9) + (1 + 23 + 15 + 9) + 1 + (2 + 15) + 1 + (1 + 23) + 1;
+        let channels = 2 + 2 + 1 + 2 + (22 + 15 + 9) + (23 + 15 + 9) + 1 + (15 + 1) + 1 + 23 + 1;
         assert_eq!(longest, SetupClocks { phase1: edges, phase2: channels + 4 });
     }
 }

@@ -28,7 +28,6 @@ pub(crate) enum Job {
     Gx,
     Gy,
     AddGx,
-    WaitGx,
     D0,
     D1,
     Start,
@@ -45,14 +44,14 @@ pub(crate) enum Job {
 
 impl Job {
     /// Their names, in their order.
-    pub const NAMES: [&'static str; 30] = [
+    pub const NAMES: [&'static str; 29] = [
         "-", "look", "take DX", "slope", "take DY", "wait", "sum E", "whole", "round X", "area", "take dc1",
-        "take dc2", "p1+p2", "wait", "gx", "gy", "gx+gy", "wait", "d0", "d1", "start", "value", "change M",
+        "take dc2", "p1+p2", "wait", "gx", "gy", "gx+gy", "d0", "d1", "start", "value", "change M",
         "take DC", "d", "wait", "sum h", "double", "round", "behind",
     ];
 
     /// What each does, in a sentence.
-    pub const SAYS: [&'static str; 30] = [
+    pub const SAYS: [&'static str; 29] = [
         "",
         "looks whether any line and column of the screen lies in the triangle",
         "every lane takes in DX of its edge as whole + rest / M, M = P DY",
@@ -70,8 +69,7 @@ impl Job {
         "sums up gx = dv2 p1 + dv1 p2, a bit of both factors a clock, and doubles it: the step to the right",
         "sums up gy, the step down, the same way",
         "adds gx: the step down and right",
-        "waits until the pairs stand",
-        "sums up d0 = q gx + gy: the step along the major edge without a carry",
+        "sums up q gx and adds gy: d0, the step along the major edge without a carry",
         "adds gx: d1, the step with a carry",
         "sums up start: from the top vertex to the first pixel",
         "adds the top vertex' value and the half that rounds",
@@ -181,19 +179,18 @@ impl<const C: usize> Work<'_, C> {
                 each.max().unwrap_or(0)
             };
             let (begins, scale) = (jobs.len(), self.scale(round));
-            jobs.extend([(Job::TakeDc1, 2), (Job::TakeDc2, 2), (Job::AddPairs, 2), (Job::WaitPairs, 2)]);
+            jobs.extend([(Job::TakeDc1, 2), (Job::TakeDc2, 2), (Job::AddPairs, 1), (Job::WaitPairs, 2)]);
             jobs.push((Job::Gx, bits([dv2, dv1]) + scale + dbl(1)));
             match plan.fill {
                 Fill::Exact => {
                     let x = i64::from(self.prim.major.c) - i64::from(self.prim.major_right);
                     let first = [(x << self.t) - a.u, (i64::from(self.prim.line) << self.t) - a.v];
                     jobs.extend([
-                        (Job::Gy, 1 + signed_bits([a.u - c.u, a.u - b.u]) + scale + dbl(1)),
+                        (Job::Gy, signed_bits([a.u - c.u, a.u - b.u]) + scale + dbl(1)),
                         (Job::AddGx, 1),
-                        (Job::WaitGx, 2),
-                        (Job::D0, signed_bits([i64::from(self.prim.major.q)])),
+                        (Job::D0, signed_bits([i64::from(self.prim.major.q)]) + 1),
                         (Job::D1, 1),
-                        (Job::Start, 1 + signed_bits(first)),
+                        (Job::Start, signed_bits(first)),
                         (Job::Value, 1),
                     ]);
                 }

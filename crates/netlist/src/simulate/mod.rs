@@ -1,6 +1,67 @@
-//! The interpreter: the meaning of a netlist, cycle by cycle.
+//! The interpreter: the meaning of a netlist, cycle by cycle; and what else runs one looks like.
 
 mod flatten;
 mod simulator;
 
 pub use simulator::{InputId, SignalId, SimError, Simulator};
+
+/// What runs a netlist clock by clock: the [`Simulator`] here, or code that was made of it.
+pub trait Simulate {
+    /// Names an input of the top module.
+    type Input: Copy;
+    /// Names a signal by its path.
+    type Signal: Copy;
+
+    /// The input of that name; `rst` is one of them if there is a register with reset.
+    ///
+    /// # Errors
+    /// If there is none.
+    fn input(&self, name: &str) -> Result<Self::Input, SimError>;
+
+    /// A port, register or named wire by its path, as [`Simulator::signal`].
+    ///
+    /// # Errors
+    /// If there is none.
+    fn signal(&self, path: &str) -> Result<Self::Signal, SimError>;
+
+    /// Bits of a signal.
+    fn width(&self, signal: Self::Signal) -> u32;
+
+    /// Sets an input; bits beyond its width are dropped, as by a wire.
+    fn set(&mut self, input: Self::Input, value: u128);
+
+    /// The value of a signal in this cycle.
+    fn value(&mut self, signal: Self::Signal) -> u128;
+
+    /// One rising edge of `clk`.
+    fn tick(&mut self);
+}
+
+impl Simulate for Simulator {
+    type Input = InputId;
+    type Signal = SignalId;
+
+    fn input(&self, name: &str) -> Result<InputId, SimError> {
+        Simulator::input(self, name)
+    }
+
+    fn signal(&self, path: &str) -> Result<SignalId, SimError> {
+        Simulator::signal(self, path)
+    }
+
+    fn width(&self, signal: SignalId) -> u32 {
+        Simulator::width(self, signal)
+    }
+
+    fn set(&mut self, input: InputId, value: u128) {
+        Simulator::set(self, input, value);
+    }
+
+    fn value(&mut self, signal: SignalId) -> u128 {
+        Simulator::value(self, signal)
+    }
+
+    fn tick(&mut self) {
+        Simulator::tick(self);
+    }
+}

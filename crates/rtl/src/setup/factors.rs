@@ -62,13 +62,13 @@ impl<'m> Sources<'_, 'm> {
         match plan.fill {
             Fill::Exact => {
                 let back = |of: Signal<'m>| -whole(of);
-                choices.push((vec![Op::ModulusY], [back(self.vertices.du2), back(self.vertices.du1)]));
-                choices.push((vec![Op::ModulusLine], [whole(self.prim["major_q"].q()), m.lit(bits, 1)]));
+                choices.push((vec![Op::DoubleX], [back(self.vertices.du2), back(self.vertices.du1)]));
+                choices.push((vec![Op::AddX], [whole(self.prim["major_q"].q()), none]));
                 let column = self.prim["major_c"].q();
                 let px = column - self.area.negative.zext(column.width());
                 let across = m.cat(&[px, m.lit(plan.widths().center_fraction, 0)]);
                 let across = whole(across) - whole(self.vertices.u(0));
-                choices.push((vec![Op::ModulusStart], [across, natural(lines.h0)]));
+                choices.push((vec![Op::AddLine], [across, natural(lines.h0)]));
             }
             Fill::Textbook => {
                 let of_part = |n: &str, h: Signal<'m>| [self.walked(n).mux(natural(h), 0), none];

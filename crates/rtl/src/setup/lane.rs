@@ -5,6 +5,7 @@ use std::sync::Arc;
 use edgewalk_machine::{Channel, EdgeKind, Plan};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
+use super::operands::fit;
 use super::steps::{Step, longest_value};
 
 /// Word lengths of a lane, bits.
@@ -89,9 +90,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let is_fix = is(step, Step::Fix).named("is_fix");
     let with_sign = is(step, Step::Sign).named("with_sign");
     // The step before a fix is a load, and its n0 the number.
-    let add_modulus =
-        (is(step, Step::Modulus) | (is_fix & n0.q().msb()) | (is(step, Step::Begin) & below.q()))
-            .named("add_modulus");
+    let add_modulus = ((is_fix & n0.q().msb()) | (is(step, Step::Begin) & below.q())).named("add_modulus");
     let take_modulus_off = one_of(step, &[Step::Double2, Step::Digits]).named("take_modulus_off");
     let negate = (add_modulus | with_sign | (is(step, Step::Less1) & below.q())).named("negate");
     let of_slot = one_of(step, &[Step::Add, Step::First, Step::Next, Step::Sign]).named("of_slot");
@@ -99,10 +98,12 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let a = of_modulus
         .mux(modulus, of_slot.mux(stored.zext(below_two_m), 0))
         .named_doc("a", "addend, 1/M, or -M");
-    n0.set(
-        is(step, Step::Load).mux(number.sext(shape.rest), (a ^ repeat(negate, below_two_m)).sext(shape.rest)),
-    );
-    n1.set(plus("a_less_m", a.sext(below_two_m + 1), modulus.sext(below_two_m + 1), short));
+    let less_m = plus("a_less_m", a.sext(below_two_m + 1), modulus.sext(below_two_m + 1), short);
+    let negated =
+        with_sign.mux(less_m, a.sext(below_two_m + 1)).named_doc("to_negate", "-a is -1 + (M - a)/M");
+    let addend = negated ^ repeat(negate, below_two_m + 1);
+    n0.set(is(step, Step::Load).mux(number.sext(shape.rest), fit(addend, shape.rest)));
+    n1.set(less_m);
     let twice = m.cat(&[modulus, short]).named_doc("less_2m", "-2 M, or -2 M - 1");
     n2.set(plus("a_less_2m", a.sext(below_two_m + 2), twice.sext(below_two_m + 2), short));
     let carry0 = m.reg("carry0", 1).doc("1 to add to the sum of n0");
@@ -114,7 +115,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let now = m.reg("now", Step::BITS).doc("the step done").reset(0).set(step).q();
     let fourfold = one_of(now, &[Step::Double2, Step::Digits]).named("fourfold");
     let twofold = one_of(now, &[Step::Double1, Step::Next]).named("twofold");
-    let from_zero = one_of(now, &[Step::Load, Step::First, Step::Modulus, Step::Begin]).named("from_zero");
+    let from_zero = one_of(now, &[Step::Load, Step::First, Step::Sign, Step::Begin]).named("from_zero");
     let compared = [Step::Double1, Step::Double2, Step::Digits, Step::First, Step::Next, Step::Add];
     let as_it_is = !one_of(now, &compared);
     let as_it_is = as_it_is.named_doc("as_it_is", "nothing is taken off");
@@ -154,7 +155,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let b = m.reg("b", shape.whole).doc("addend");
     let same = repeat(negated, shape.whole);
     b.set(is(now, Step::Whole).mux(whole_in, slot_now.mux(stored ^ same, same)));
-    // Of a fourfold rest: 0 to 3 times; of others 0 to 2. A sign step has carried the 1 of a complement.
+    // Of a fourfold rest: 0 to 3 times; of others 0 to 2.
     let many = (fourfold.mux(f1, f2)).named("twice_or_more");
     let odd = fourfold.mux((f0 & !f1) | f2, f1 & !f2).named("once_or_thrice");
     let taken = m.reg("taken", 2).doc("how often M was taken off").set(m.cat(&[many, odd])).q();
@@ -167,7 +168,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     // 2 times: the doubled lowest bit is free for one of them.
     let two = m.cat(&[old.trunc(shape.whole - 1), taken.bit(1)]);
     let x = fourfold.mux(four, twofold.mux(two, from_zero.mux(0, old))).named("whole_x");
-    let one = ((!fourfold & taken.any()) | is(then, Step::Sign)).named("one");
+    let one = (!fourfold & taken.any()).named("one");
     whole_next.drive(plus("x_and_b", x, b.q(), one));
     let stays = one_of(then, &[Step::Rest, Step::Less1]).named("whole_stays");
     whole.when(!stays, whole_next);

@@ -95,16 +95,7 @@ impl<'a, 'm> Common<'a, 'm> {
             |which: &dyn Fn(Op) -> bool| ops.iter().copied().filter(|op| which(*op)).collect::<Vec<_>>();
         let steps = |step: Step| these(&|op| op.doing().step == step);
         let mut step = code(Step::Rest);
-        for of in [
-            Step::Load,
-            Step::Fix,
-            Step::Double2,
-            Step::Next,
-            Step::Sign,
-            Step::Modulus,
-            Step::Add,
-            Step::Whole,
-        ] {
+        for of in [Step::Load, Step::Fix, Step::Double2, Step::Next, Step::Sign, Step::Add, Step::Whole] {
             step = control.named.one_of(&steps(of)).mux(code(of), step);
         }
         let first = control.first.mux(code(Step::First), code(Step::Next));

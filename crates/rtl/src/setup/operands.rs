@@ -227,7 +227,7 @@ impl<'m> Sources<'_, 'm> {
 }
 
 /// The low bits of a signed number, or as many more of its sign.
-fn fit(value: Signal<'_>, bits: u32) -> Signal<'_> {
+pub(super) fn fit(value: Signal<'_>, bits: u32) -> Signal<'_> {
     if value.width() >= bits { value.trunc(bits) } else { value.sext(bits) }
 }
 

@@ -113,7 +113,7 @@ impl<'m> Results<'_, 'm> {
         let after = |op: Op| self.control.whole.ends_in(op, round);
         let right = self.area.negative;
         self.register(name, "g").when(after(Op::DoubleX), right.mux(-rounded, rounded));
-        self.register(name, "d0").when(after(Op::SumLine), rounded);
+        self.register(name, "d0").when(after(Op::AddY), rounded);
         self.register(name, "d1").when(after(Op::AddLine), rounded);
         self.register(name, "start").when(after(Op::AddStart), start);
     }

@@ -19,9 +19,7 @@ pub(super) enum Step {
     First,
     /// The next digits of a sum.
     Next,
-    /// The pair -1 + M/M, which is 0: a sum whose first digits may subtract begins with it.
-    Modulus,
-    /// The sign digits of a sum.
+    /// The sign digits of a sum, which subtract: its first.
     Sign,
     /// A pair is added.
     Add,
@@ -65,7 +63,6 @@ pub(super) enum Op {
     /// -dc2.
     Load2,
     Fix2,
-    Wait12,
     /// p1 + p2.
     Add12,
     Wait,
@@ -73,21 +70,18 @@ pub(super) enum Op {
     SumX,
     DoubleX,
     /// gy.
-    ModulusY,
     SignY,
     SumY,
     DoubleY,
     /// gx + gy.
     AddX,
-    WaitXy,
-    /// d0.
-    ModulusLine,
+    /// q gx, and gy: d0.
     SignLine,
     SumLine,
+    AddY,
     /// d1.
     AddLine,
     /// start.
-    ModulusStart,
     SignStart,
     SumStart,
     AddStart,
@@ -157,36 +151,14 @@ impl Op {
         use Op::*;
         match plan.fill {
             Fill::Exact => &[
-                Load1,
-                Fix1,
-                Load2,
-                Fix2,
-                Wait12,
-                Add12,
-                Wait,
-                SumX,
-                DoubleX,
-                ModulusY,
-                SignY,
-                SumY,
-                DoubleY,
-                AddX,
-                WaitXy,
-                ModulusLine,
-                SignLine,
-                SumLine,
-                AddLine,
-                ModulusStart,
-                SignStart,
-                SumStart,
-                AddStart,
+                Load1, Fix1, Load2, Fix2, Add12, Wait, SumX, DoubleX, SignY, SumY, DoubleY, AddX, SignLine,
+                SumLine, AddY, AddLine, SignStart, SumStart, AddStart,
             ],
             Fill::Textbook => &[
                 Load1,
                 Fix1,
                 Load2,
                 Fix2,
-                Wait12,
                 Add12,
                 Wait,
                 SumX,
@@ -226,7 +198,7 @@ impl Op {
             AddDx => (Step::Add, Length::Clocks(1), 2, Some(3)),
             Add12 => (Step::Add, Length::Clocks(1), 1, Some(3)),
             WaitDx | Wait => (Step::Rest, Length::Clocks(2), 0, None),
-            RoundColumns | Wait12 | WaitXy | SetA | WaitA | RoundA | SetB | WaitB | RoundB => {
+            RoundColumns | SetA | WaitA | RoundA | SetB | WaitB | RoundB => {
                 (Step::Rest, Length::Clocks(1), 0, None)
             }
             Sum | SumX | SumA | SumB => (Step::First, Length::Digits, 0, None),
@@ -235,12 +207,12 @@ impl Op {
             DoubleY => (Step::Double2, Length::Scaled(of_gradient), 0, Some(6)),
             DoubleStartA | DoubleStartB => (Step::Double2, Length::Doublings(of_gradient), 0, None),
             DoubleA | DoubleB => (Step::Double2, Length::Doublings(of_left_edge), 0, None),
-            ModulusY | ModulusLine | ModulusStart => (Step::Modulus, Length::Clocks(1), 0, None),
             SignY => (Step::Sign, Length::Clocks(1), 0, None),
             SignLine | SignStart => (Step::Sign, Length::Clocks(1), 4, None),
             SumY => (Step::Next, Length::Digits, 0, None),
             SumLine | SumStart => (Step::Next, Length::Digits, 4, None),
             AddX => (Step::Add, Length::Clocks(1), 5, Some(7)),
+            AddY => (Step::Add, Length::Clocks(1), 6, None),
             AddLine => (Step::Add, Length::Clocks(1), 5, None),
         };
         Doing { step, length, slot, result }

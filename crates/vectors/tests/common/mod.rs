@@ -1,11 +1,13 @@
 //! Machines that the tests share.
 #![allow(dead_code)] // every test file uses a part of it
 
+use edgewalk_lockstep::{Agreement, Interface, LockstepError, NetlistDevice, PortError};
 use edgewalk_machine::units;
 use edgewalk_machine::{
     Blend, BlendKind, EdgeKind, Fill, Gate, Hazard, Kind, Machine, Plan, Precision, Shadow, ShadowLight,
 };
-use edgewalk_vectors::{Files, Unit};
+use edgewalk_netlist::Netlist;
+use edgewalk_vectors::{Files, Trace, Unit};
 use std::path::Path;
 use std::process::Command;
 
@@ -16,6 +18,20 @@ pub fn write(files: &Files, to: &Path) {
         std::fs::create_dir_all(path.parent().expect("inside")).expect("a directory");
         std::fs::write(path, bytes).expect("a file");
     }
+}
+
+/// A netlist compiled: quicker by far than the interpreter, which tests of its own hold it against.
+pub fn native(
+    netlist: &Netlist,
+    interface: &Interface,
+) -> Result<NetlistDevice<edgewalk_jit::Simulator>, PortError> {
+    let simulator = edgewalk_jit::Simulator::new(netlist).expect("a code generator for this host");
+    NetlistDevice::run_by(simulator, netlist, interface)
+}
+
+/// Runs a netlist, compiled, beside the model.
+pub fn lockstep(trace: &Trace, netlist: &Netlist) -> Result<Agreement, LockstepError> {
+    trace.lockstep_of(&mut native(netlist, &trace.interface)?)
 }
 
 /// `make` in a directory as a user runs it: whether it passes, and all that is said.

@@ -158,13 +158,14 @@ fn tally(machine: &Plan, unit: Unit, step: usize) -> Tally {
     let interface = Interface::new(machine, unit);
     let traces = traces(machine, unit);
     for trace in &traces {
-        trace.lockstep(&netlist).expect("the netlist without a fault agrees");
+        common::lockstep(trace, &netlist).expect("the netlist without a fault agrees");
     }
     let mut tally = Tally::default();
     for mutant in mutants(&netlist).iter().step_by(step) {
         let faulty = mutant.apply(&netlist);
         tally.tried += 1;
-        if traces.iter().any(|trace| trace.lockstep(&faulty).is_err()) {
+        let device = common::native(&faulty, &interface).expect("the same ports");
+        if traces.iter().any(|trace| trace.lockstep_of(&mut device.clone()).is_err()) {
             tally.killed += 1;
             continue;
         }
