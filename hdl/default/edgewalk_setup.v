@@ -96,25 +96,21 @@ module edgewalk_setup (
   localparam [4:0] FIX1 = 5'd9;
   localparam [4:0] LOAD2 = 5'd10;
   localparam [4:0] FIX2 = 5'd11;
-  localparam [4:0] WAIT12 = 5'd12;
-  localparam [4:0] ADD12 = 5'd13;
-  localparam [4:0] WAIT = 5'd14;
-  localparam [4:0] SUM_X = 5'd15;
-  localparam [4:0] DOUBLE_X = 5'd16;
-  localparam [4:0] MODULUS_Y = 5'd17;
-  localparam [4:0] SIGN_Y = 5'd18;
-  localparam [4:0] SUM_Y = 5'd19;
-  localparam [4:0] DOUBLE_Y = 5'd20;
-  localparam [4:0] ADD_X = 5'd21;
-  localparam [4:0] WAIT_XY = 5'd22;
-  localparam [4:0] MODULUS_LINE = 5'd23;
-  localparam [4:0] SIGN_LINE = 5'd24;
-  localparam [4:0] SUM_LINE = 5'd25;
-  localparam [4:0] ADD_LINE = 5'd26;
-  localparam [4:0] MODULUS_START = 5'd27;
-  localparam [4:0] SIGN_START = 5'd28;
-  localparam [4:0] SUM_START = 5'd29;
-  localparam [4:0] ADD_START = 5'd30;
+  localparam [4:0] ADD12 = 5'd12;
+  localparam [4:0] WAIT = 5'd13;
+  localparam [4:0] SUM_X = 5'd14;
+  localparam [4:0] DOUBLE_X = 5'd15;
+  localparam [4:0] SIGN_Y = 5'd16;
+  localparam [4:0] SUM_Y = 5'd17;
+  localparam [4:0] DOUBLE_Y = 5'd18;
+  localparam [4:0] ADD_X = 5'd19;
+  localparam [4:0] SIGN_LINE = 5'd20;
+  localparam [4:0] SUM_LINE = 5'd21;
+  localparam [4:0] ADD_Y = 5'd22;
+  localparam [4:0] ADD_LINE = 5'd23;
+  localparam [4:0] SIGN_START = 5'd24;
+  localparam [4:0] SUM_START = 5'd25;
+  localparam [4:0] ADD_START = 5'd26;
   wire nothing;          // no line, or no column, of the screen
   wire area_known;       // and scaled for the next round of channels
   wire no_area;
@@ -531,34 +527,36 @@ module edgewalk_setup (
       f <= {2'd0, dv02};
       g <= {2'd0, dv01};
     end
-    if (at == MODULUS_Y) begin
+    if (at == DOUBLE_X) begin
       f <= -{du02[22], du02};
       g <= -{du01[22], du01};
     end
-    if (at == MODULUS_LINE) begin
+    if (at == ADD_X) begin
       f <= {{9{prim_major_q[14]}}, prim_major_q};
-      g <= 24'd1;
+      g <= 24'd0;
     end
-    if (at == MODULUS_START) begin
+    if (at == ADD_LINE) begin
       f <= {joined_2[22], joined_2} - {{2{p0_u[21]}}, p0_u};
       g <= {1'b0, h0};
     end
   end
 
   // What all lanes do.
-  wire either_2 = (at == ADD_DX) || (at == ADD12) || (at == ADD_X) || (at == ADD_LINE);
-  wire either_3 = (at == MODULUS_Y) || (at == MODULUS_LINE) || (at == MODULUS_START);
-  wire either_4 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
+  wire either_2 = (at == ADD_DX)
+               || (at == ADD12)
+               || (at == ADD_X)
+               || (at == ADD_Y)
+               || (at == ADD_LINE);
+  wire either_3 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
   wire [3:0] step = rests ? 4'd0
                   : ((at == SUM) || (at == SUM_X)) ? (first ? 4'd5 : 4'd6)
-                  : ((at == COLUMNS) || (at == ADD_START)) ? 4'd10
-                  : either_2 ? 4'd9
-                  : either_3 ? 4'd7
-                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 4'd8
+                  : ((at == COLUMNS) || (at == ADD_START)) ? 4'd9
+                  : either_2 ? 4'd8
+                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 4'd7
                   : ((at == SUM_Y) || (at == SUM_LINE) || (at == SUM_START)) ? 4'd6
                   : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_Y)) ? 4'd4
                   : ((at == FIX_DX) || (at == FIX1) || (at == FIX2)) ? 4'd2
-                  : either_4 ? 4'd1
+                  : either_3 ? 4'd1
                   : 4'd0;
   reg began;       // numbers were found not to fit in the clock before
   reg began_then;  // and in the one before
@@ -572,11 +570,12 @@ module edgewalk_setup (
                    || (at == SUM_LINE)
                    || (at == SIGN_START)
                    || (at == SUM_START);
-  wire [2:0] read_single_at = ((at == ADD_X) || (at == ADD_LINE)) ? 3'd5
+  wire [2:0] read_single_at = (at == ADD_Y) ? 3'd6
+                            : ((at == ADD_X) || (at == ADD_LINE)) ? 3'd5
                             : (at == ADD_DX) ? 3'd2
                             : (at == ADD12) ? 3'd1
                             : 3'd0;
-  wire either_5 = (at_stepped == FIX_DX)
+  wire either_4 = (at_stepped == FIX_DX)
                || (at_stepped == LOAD_DY)
                || (at_stepped == ADD_DX)
                || (at_stepped == FIX1)
@@ -585,7 +584,7 @@ module edgewalk_setup (
                || (at_stepped == DOUBLE_X)
                || (at_stepped == DOUBLE_Y)
                || (at_stepped == ADD_X);
-  wire write = ends_stepped && either_5;
+  wire write = ends_stepped && either_4;
   wire [2:0] write_at = (at_stepped == ADD_X) ? 3'd7
                       : (at_stepped == DOUBLE_Y) ? 3'd6
                       : (at_stepped == DOUBLE_X) ? 3'd5
@@ -607,7 +606,7 @@ module edgewalk_setup (
                    : step;
   reg [3:0] step_next0;
   reg [3:0] step_again0;
-  wire [3:0] choice_14 = began ? 4'd11 : began_then ? 4'd12 : 4'd13;
+  wire [3:0] choice_14 = began ? 4'd10 : began_then ? 4'd11 : 4'd12;
   wire [3:0] step_formed0 = advance ? step_next0 : (pause == 4'd1) ? step_again0 : choice_14;
 
   always @(posedge clk) begin
@@ -686,8 +685,8 @@ module edgewalk_setup (
   end
 
   // The vertices whose values the lanes are shown.
-  wire either_6 = (at_formed == FIX_DX) || (at_formed == LOAD2) || (at_formed == FIX2);
-  wire both_5 = either_6 && !begins;
+  wire either_5 = (at_formed == FIX_DX) || (at_formed == LOAD2) || (at_formed == FIX2);
+  wire both_5 = either_5 && !begins;
   wire both_6 = area[45] && ((at_formed == LOAD1) || (at_formed == LOAD2)) && !begins;
   wire [1:0] from_vertex = both_5 ? (both_6 ? p0_vertex : p2_vertex) : both_6 ? p1_vertex : p0_vertex;
   wire both_7 = (at_formed == ADD_START) && !begins;
@@ -698,7 +697,7 @@ module edgewalk_setup (
   wire single_value = both_7;
 
   // Lane 0: what it takes in.
-  wire either_7 = (at_formed == LOAD_DX)
+  wire either_6 = (at_formed == LOAD_DX)
                || (at_formed == LOAD_DY)
                || ((at_formed == FIX_DX) && !advance);
   wire [22:0] extended_2 = {1'b0, dv02};
@@ -711,7 +710,7 @@ module edgewalk_setup (
                         : from_vertex[1] ? {1'b0, vertex2_z}
                         : from_vertex[0] ? {1'b0, vertex1_z}
                         : {1'b0, vertex0_z};
-  wire [28:0] number0 = (either_7 && !begins) ? choice_15 : choice_16 - choice_17;  // signed
+  wire [28:0] number0 = (either_6 && !begins) ? choice_15 : choice_16 - choice_17;  // signed
   reg [28:0] value0;  // first value, signed
 
   always @(posedge clk) begin
@@ -719,7 +718,7 @@ module edgewalk_setup (
   end
 
   // Lane 1: what it takes in.
-  wire either_8 = (at_formed == LOAD_DX)
+  wire either_7 = (at_formed == LOAD_DX)
                || (at_formed == LOAD_DY)
                || ((at_formed == FIX_DX) && !advance);
   wire [22:0] choice_18 = to_vertex[1] ? {11'd0, vertex2_r}
@@ -729,7 +728,7 @@ module edgewalk_setup (
                         : from_vertex[1] ? {11'd0, vertex2_r}
                         : from_vertex[0] ? {11'd0, vertex1_r}
                         : {11'd0, vertex0_r};
-  wire [22:0] number1 = (either_8 && !begins) ? ((at_formed == LOAD_DY) ? {1'b0, dv01} : du01)  // signed
+  wire [22:0] number1 = (either_7 && !begins) ? ((at_formed == LOAD_DY) ? {1'b0, dv01} : du01)  // signed
                       : choice_18 - choice_19;
   reg [22:0] value1;  // first value, signed
 
@@ -738,7 +737,7 @@ module edgewalk_setup (
   end
 
   // Lane 2: what it takes in.
-  wire either_9 = (at_formed == LOAD_DX)
+  wire either_8 = (at_formed == LOAD_DX)
                || (at_formed == LOAD_DY)
                || ((at_formed == FIX_DX) && !advance);
   wire [22:0] choice_20 = (at_formed == LOAD_DY) ? {1'b0, dv12} : {p2_u[21], p2_u} - {p1_u[21], p1_u};
@@ -749,7 +748,7 @@ module edgewalk_setup (
                         : from_vertex[1] ? {11'd0, vertex2_g}
                         : from_vertex[0] ? {11'd0, vertex1_g}
                         : {11'd0, vertex0_g};
-  wire [22:0] number2 = (either_9 && !begins) ? choice_20 : choice_21 - choice_22;  // signed
+  wire [22:0] number2 = (either_8 && !begins) ? choice_20 : choice_21 - choice_22;  // signed
   reg [22:0] value2;  // first value, signed
 
   always @(posedge clk) begin
@@ -757,9 +756,9 @@ module edgewalk_setup (
   end
 
   // Lane 3: what it takes in.
-  wire either_10 = (at_formed == LOAD_DX)
-                || (at_formed == LOAD_DY)
-                || ((at_formed == FIX_DX) && !advance);
+  wire either_9 = (at_formed == LOAD_DX)
+               || (at_formed == LOAD_DY)
+               || ((at_formed == FIX_DX) && !advance);
   wire [22:0] choice_23 = to_vertex[1] ? {11'd0, vertex2_b}
                         : to_vertex[0] ? {11'd0, vertex1_b}
                         : {11'd0, vertex0_b};
@@ -767,7 +766,7 @@ module edgewalk_setup (
                         : from_vertex[1] ? {11'd0, vertex2_b}
                         : from_vertex[0] ? {11'd0, vertex1_b}
                         : {11'd0, vertex0_b};
-  wire [22:0] number3 = (either_10 && !begins) ? ((at_formed == LOAD_DY) ? {1'b0, dv02} : du02)  // signed
+  wire [22:0] number3 = (either_9 && !begins) ? ((at_formed == LOAD_DY) ? {1'b0, dv02} : du02)  // signed
                       : choice_23 - choice_24;
   reg [22:0] value3;  // first value, signed
   wire [27:0] shown = (number0[27:0] ^ {28{number0[28]}})
@@ -975,7 +974,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_LINE)) prim_z_d0 <= lane0_value[37:0];
+    if (ends_whole && (at_whole == ADD_Y)) prim_z_d0 <= lane0_value[37:0];
   end
 
   always @(posedge clk) begin
@@ -994,7 +993,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_LINE)) prim_r_d0 <= lane1_value[21:0];
+    if (ends_whole && (at_whole == ADD_Y)) prim_r_d0 <= lane1_value[21:0];
   end
 
   always @(posedge clk) begin
@@ -1013,7 +1012,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_LINE)) prim_g_d0 <= lane2_value[21:0];
+    if (ends_whole && (at_whole == ADD_Y)) prim_g_d0 <= lane2_value[21:0];
   end
 
   always @(posedge clk) begin
@@ -1063,7 +1062,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_LINE)) prim_b_d0 <= lane3_value[21:0];
+    if (ends_whole && (at_whole == ADD_Y)) prim_b_d0 <= lane3_value[21:0];
   end
 
   always @(posedge clk) begin
@@ -1082,15 +1081,15 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, WAIT12, WAIT_XY, ends_fixed, less_m[0], lane0_value[45:38], lane1_value[29:22],
-    lane2_value[29:22], lane3_value[29:22], lane3_whole_out[7:0], difference[22], difference_2[22],
-    difference_3[22], part_5[0], part_10[0], part_13[0], part_17[0], part_20[0], shifted[21:1],
-    shifted_2[21:1], part_21[44:0], difference_4[14:10], difference_5[14:10], differing[23],
-    differing_2[23], either[23], part_29[0], part_32[0], part_37[0], part_40[0], part_44[0], part_47[0],
-    shifted_3[23:1], shifted_4[23:1], shifted_7[7:1], shifted_8[22:1], shifted_5[29:2], joined_3[46],
-    shifted_6[23:2], joined_4[40:30], shifted_9[23:2], joined_5[40:30], shifted_10[23:2],
-    joined_6[40:30], part_49[36:22], difference_6[7:0], part_51[36:22], difference_7[7:0],
-    part_53[36:22], difference_8[7:0]
+    1'b0, ends_fixed, less_m[0], lane0_value[45:38], lane1_value[29:22], lane2_value[29:22],
+    lane3_value[29:22], lane3_whole_out[7:0], difference[22], difference_2[22], difference_3[22],
+    part_5[0], part_10[0], part_13[0], part_17[0], part_20[0], shifted[21:1], shifted_2[21:1],
+    part_21[44:0], difference_4[14:10], difference_5[14:10], differing[23], differing_2[23], either[23],
+    part_29[0], part_32[0], part_37[0], part_40[0], part_44[0], part_47[0], shifted_3[23:1],
+    shifted_4[23:1], shifted_7[7:1], shifted_8[22:1], shifted_5[29:2], joined_3[46], shifted_6[23:2],
+    joined_4[40:30], shifted_9[23:2], joined_5[40:30], shifted_10[23:2], joined_6[40:30],
+    part_49[36:22], difference_6[7:0], part_51[36:22], difference_7[7:0], part_53[36:22],
+    difference_8[7:0]
   };
 
 endmodule

@@ -71,22 +71,24 @@ module edgewalk_setup_lane0 (
   reg [47:0] n2;                           // a - 2 M, signed
   reg below;                               // the number taken in is below 0
   wire is_fix = step == 4'd2;
-  wire with_sign = step == 4'd8;
-  wire add_modulus = (step == 4'd7) || (is_fix && n0[45]) || ((step == 4'd11) && below);
-  wire take_modulus_off = (step == 4'd4) || (step == 4'd13);
-  wire negate = add_modulus || with_sign || ((step == 4'd12) && below);
-  wire of_slot = (step == 4'd9) || (step == 4'd5) || (step == 4'd6) || (step == 4'd8);
+  wire with_sign = step == 4'd7;
+  wire add_modulus = (is_fix && n0[45]) || ((step == 4'd10) && below);
+  wire take_modulus_off = (step == 4'd4) || (step == 4'd12);
+  wire negate = add_modulus || with_sign || ((step == 4'd11) && below);
+  wire of_slot = (step == 4'd8) || (step == 4'd5) || (step == 4'd6) || (step == 4'd7);
   wire of_modulus = add_modulus || take_modulus_off;
   wire [45:0] a = of_modulus ? modulus : of_slot ? {1'b0, rests_q} : 46'd0;  // addend, 1/M, or -M
   wire [47:0] a_less_m = {{a[45], a}, 1'b1} + {{modulus[45], modulus}, short};  // and a carry out of the lowest bit
+  wire [46:0] to_negate = with_sign ? a_less_m[47:1] : {a[45], a};  // -a is -1 + (M - a)/M
   wire [46:0] less_2m = {modulus, short};  // -2 M, or -2 M - 1
   wire [48:0] a_less_2m = {{{2{a[45]}}, a}, 1'b1} + {{less_2m[46], less_2m}, short};  // and a carry out of the lowest bit
   reg carry0;                              // 1 to add to the sum of n0
   reg carry;                               // 1 to add to the other sums
   reg [1:0] digits_now;
+  wire [46:0] differing = to_negate ^ {47{negate}};
 
   always @(posedge clk) begin
-    n0 <= (step == 4'd1) ? {{17{number[28]}}, number} : a ^ {46{negate}};
+    n0 <= (step == 4'd1) ? {{17{number[28]}}, number} : differing[45:0];
     n1 <= a_less_m[47:1];
     n2 <= a_less_2m[48:1];
     carry0 <= with_sign || (add_modulus && !short) || (take_modulus_off && short);
@@ -96,18 +98,18 @@ module edgewalk_setup_lane0 (
 
   // The step: x and the addend, less M as often as it goes.
   reg [3:0] now;                                   // the step done
-  wire fourfold = (now == 4'd4) || (now == 4'd13);
+  wire fourfold = (now == 4'd4) || (now == 4'd12);
   wire twofold = (now == 4'd3) || (now == 4'd6);
-  wire from_zero = (now == 4'd1) || (now == 4'd5) || (now == 4'd7) || (now == 4'd11);
+  wire from_zero = (now == 4'd1) || (now == 4'd5) || (now == 4'd7) || (now == 4'd10);
   wire either = (now == 4'd3)
              || (now == 4'd4)
-             || (now == 4'd13)
+             || (now == 4'd12)
              || (now == 4'd5)
              || (now == 4'd6)
-             || (now == 4'd9);
+             || (now == 4'd8);
   wire as_it_is = !either;                         // nothing is taken off
   wire [47:0] extended = {{2{rest[45]}}, rest};
-  wire [47:0] x = fourfold ? {extended[45:0], (now == 4'd13) ? digits_now : 2'd0}
+  wire [47:0] x = fourfold ? {extended[45:0], (now == 4'd12) ? digits_now : 2'd0}
                 : twofold ? extended << 1
                 : from_zero ? 48'd0
                 : extended;
@@ -123,7 +125,7 @@ module edgewalk_setup_lane0 (
   wire stays = fourfold && !fits0;
   wire [47:0] choice = fits2 ? s2 : fits1 ? s1 : stays ? x : s0;
   assign rest_next = choice[45:0];
-  wire rest_stays = (now == 4'd0) || (now == 4'd10);
+  wire rest_stays = (now == 4'd0) || (now == 4'd9);
 
   always @(posedge clk) begin
     if (rst) begin
@@ -178,10 +180,10 @@ module edgewalk_setup_lane0 (
                       : was_twofold ? {whole[44:0], taken[1]}
                       : was_from_zero ? 46'd0
                       : whole;
-  wire one = (!was_fourfold && (|taken)) || (then == 4'd8);
+  wire one = !was_fourfold && (|taken);
   wire [46:0] x_and_b = {whole_x, 1'b1} + {b, one};  // and a carry out of the lowest bit
   assign whole_next = x_and_b[46:1];
-  wire whole_stays = (then == 4'd0) || (then == 4'd12);
+  wire whole_stays = (then == 4'd0) || (then == 4'd11);
 
   always @(posedge clk) begin
     if (advance) read_whole_at <= read_at;
@@ -194,7 +196,7 @@ module edgewalk_setup_lane0 (
     write_then_at <= write_at;
     negated <= negate;
     slot_now <= of_slot;
-    b <= (now == 4'd10) ? whole_in : slot_now ? wholes_q ^ extended_2 : extended_2;
+    b <= (now == 4'd9) ? whole_in : slot_now ? wholes_q ^ extended_2 : extended_2;
     taken <= {twice_or_more, once_or_thrice};
     then <= now;
     was_fourfold <= fourfold;
@@ -223,7 +225,7 @@ module edgewalk_setup_lane0 (
   // Not needed, on purpose.
   wire unused = &{
     1'b0, a_less_m[0], a_less_2m[0], x_and_n0[0], x_and_n1[0], x_and_n2[0], x_and_b[0], past_half[0],
-    choice[47:46], part[45:0]
+    differing[46], choice[47:46], part[45:0]
   };
 
 endmodule

@@ -96,25 +96,21 @@ module edgewalk_setup (
   localparam [4:0] FIX1 = 5'd9;
   localparam [4:0] LOAD2 = 5'd10;
   localparam [4:0] FIX2 = 5'd11;
-  localparam [4:0] WAIT12 = 5'd12;
-  localparam [4:0] ADD12 = 5'd13;
-  localparam [4:0] WAIT = 5'd14;
-  localparam [4:0] SUM_X = 5'd15;
-  localparam [4:0] DOUBLE_X = 5'd16;
-  localparam [4:0] MODULUS_Y = 5'd17;
-  localparam [4:0] SIGN_Y = 5'd18;
-  localparam [4:0] SUM_Y = 5'd19;
-  localparam [4:0] DOUBLE_Y = 5'd20;
-  localparam [4:0] ADD_X = 5'd21;
-  localparam [4:0] WAIT_XY = 5'd22;
-  localparam [4:0] MODULUS_LINE = 5'd23;
-  localparam [4:0] SIGN_LINE = 5'd24;
-  localparam [4:0] SUM_LINE = 5'd25;
-  localparam [4:0] ADD_LINE = 5'd26;
-  localparam [4:0] MODULUS_START = 5'd27;
-  localparam [4:0] SIGN_START = 5'd28;
-  localparam [4:0] SUM_START = 5'd29;
-  localparam [4:0] ADD_START = 5'd30;
+  localparam [4:0] ADD12 = 5'd12;
+  localparam [4:0] WAIT = 5'd13;
+  localparam [4:0] SUM_X = 5'd14;
+  localparam [4:0] DOUBLE_X = 5'd15;
+  localparam [4:0] SIGN_Y = 5'd16;
+  localparam [4:0] SUM_Y = 5'd17;
+  localparam [4:0] DOUBLE_Y = 5'd18;
+  localparam [4:0] ADD_X = 5'd19;
+  localparam [4:0] SIGN_LINE = 5'd20;
+  localparam [4:0] SUM_LINE = 5'd21;
+  localparam [4:0] ADD_Y = 5'd22;
+  localparam [4:0] ADD_LINE = 5'd23;
+  localparam [4:0] SIGN_START = 5'd24;
+  localparam [4:0] SUM_START = 5'd25;
+  localparam [4:0] ADD_START = 5'd26;
   wire nothing;          // no line, or no column, of the screen
   wire area_known;       // and scaled for the next round of channels
   wire no_area;
@@ -542,34 +538,36 @@ module edgewalk_setup (
       f <= {2'd0, dv02};
       g <= {2'd0, dv01};
     end
-    if (at == MODULUS_Y) begin
+    if (at == DOUBLE_X) begin
       f <= -{du02[15], du02};
       g <= -{du01[15], du01};
     end
-    if (at == MODULUS_LINE) begin
+    if (at == ADD_X) begin
       f <= {{5{prim_major_q[11]}}, prim_major_q};
-      g <= 17'd1;
+      g <= 17'd0;
     end
-    if (at == MODULUS_START) begin
+    if (at == ADD_LINE) begin
       f <= {joined[15], joined} - {{2{p0_u[14]}}, p0_u};
       g <= {1'b0, h0};
     end
   end
 
   // What all lanes do.
-  wire either_2 = (at == ADD_DX) || (at == ADD12) || (at == ADD_X) || (at == ADD_LINE);
-  wire either_3 = (at == MODULUS_Y) || (at == MODULUS_LINE) || (at == MODULUS_START);
-  wire either_4 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
+  wire either_2 = (at == ADD_DX)
+               || (at == ADD12)
+               || (at == ADD_X)
+               || (at == ADD_Y)
+               || (at == ADD_LINE);
+  wire either_3 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
   wire [3:0] step = rests ? 4'd0
                   : ((at == SUM) || (at == SUM_X)) ? (first ? 4'd5 : 4'd6)
-                  : ((at == COLUMNS) || (at == ADD_START)) ? 4'd10
-                  : either_2 ? 4'd9
-                  : either_3 ? 4'd7
-                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 4'd8
+                  : ((at == COLUMNS) || (at == ADD_START)) ? 4'd9
+                  : either_2 ? 4'd8
+                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 4'd7
                   : ((at == SUM_Y) || (at == SUM_LINE) || (at == SUM_START)) ? 4'd6
                   : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_Y)) ? 4'd4
                   : ((at == FIX_DX) || (at == FIX1) || (at == FIX2)) ? 4'd2
-                  : either_4 ? 4'd1
+                  : either_3 ? 4'd1
                   : 4'd0;
   reg began;       // numbers were found not to fit in the clock before
   reg began_then;  // and in the one before
@@ -583,11 +581,12 @@ module edgewalk_setup (
                    || (at == SUM_LINE)
                    || (at == SIGN_START)
                    || (at == SUM_START);
-  wire [2:0] read_single_at = ((at == ADD_X) || (at == ADD_LINE)) ? 3'd5
+  wire [2:0] read_single_at = (at == ADD_Y) ? 3'd6
+                            : ((at == ADD_X) || (at == ADD_LINE)) ? 3'd5
                             : (at == ADD_DX) ? 3'd2
                             : (at == ADD12) ? 3'd1
                             : 3'd0;
-  wire either_5 = (at_stepped == FIX_DX)
+  wire either_4 = (at_stepped == FIX_DX)
                || (at_stepped == LOAD_DY)
                || (at_stepped == ADD_DX)
                || (at_stepped == FIX1)
@@ -596,7 +595,7 @@ module edgewalk_setup (
                || (at_stepped == DOUBLE_X)
                || (at_stepped == DOUBLE_Y)
                || (at_stepped == ADD_X);
-  wire write = ends_stepped && either_5;
+  wire write = ends_stepped && either_4;
   wire [2:0] write_at = (at_stepped == ADD_X) ? 3'd7
                       : (at_stepped == DOUBLE_Y) ? 3'd6
                       : (at_stepped == DOUBLE_X) ? 3'd5
@@ -628,9 +627,9 @@ module edgewalk_setup (
   reg [3:0] step_again0;
   wire [3:0] step_formed0 = advance ? step_next0
                           : (pause == 4'd1) ? step_again0
-                          : began ? 4'd11
-                          : began_then ? 4'd12
-                          : 4'd13;
+                          : began ? 4'd10
+                          : began_then ? 4'd11
+                          : 4'd12;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -645,8 +644,8 @@ module edgewalk_setup (
   end
 
   // The vertices whose values the lanes are shown.
-  wire either_6 = (at_formed == FIX_DX) || (at_formed == LOAD2) || (at_formed == FIX2);
-  wire both_5 = either_6 && !begins;
+  wire either_5 = (at_formed == FIX_DX) || (at_formed == LOAD2) || (at_formed == FIX2);
+  wire both_5 = either_5 && !begins;
   wire both_6 = area[31] && ((at_formed == LOAD1) || (at_formed == LOAD2)) && !begins;
   wire [1:0] from_vertex = both_5 ? (both_6 ? p0_vertex : p2_vertex) : both_6 ? p1_vertex : p0_vertex;
   wire both_7 = (at_formed == ADD_START) && !begins;
@@ -655,14 +654,14 @@ module edgewalk_setup (
                        : both_6 ? p0_vertex
                        : p1_vertex;
   wire single_value = both_7;
-  wire either_7 = (at_formed == FIX1) || (at_formed == FIX2);
-  wire either_8 = (at_formed == FIX_DX) || begins;
-  wire values_of_round1 = (either_7 ? round_formed == 2'd0 : round_formed == 2'd1) && !either_8;
-  wire values_of_round2 = (either_7 ? round_formed == 2'd1 : round_formed == 2'd2) && !either_8;
-  wire values_of_round3 = (either_7 ? round_formed == 2'd2 : round_formed == 2'd3) && !either_8;
+  wire either_6 = (at_formed == FIX1) || (at_formed == FIX2);
+  wire either_7 = (at_formed == FIX_DX) || begins;
+  wire values_of_round1 = (either_6 ? round_formed == 2'd0 : round_formed == 2'd1) && !either_7;
+  wire values_of_round2 = (either_6 ? round_formed == 2'd1 : round_formed == 2'd2) && !either_7;
+  wire values_of_round3 = (either_6 ? round_formed == 2'd2 : round_formed == 2'd3) && !either_7;
 
   // Lane 0: what it takes in.
-  wire either_9 = (at_formed == LOAD_DX)
+  wire either_8 = (at_formed == LOAD_DX)
                || (at_formed == LOAD_DY)
                || ((at_formed == FIX_DX) && !advance);
   wire [15:0] extended_2 = {1'b0, dv12};
@@ -698,7 +697,7 @@ module edgewalk_setup (
                         : choice_19;
   wire [16:0] difference_7 = (to_vertex[1] ? choice_17 : to_vertex[0] ? choice_18 : choice_19)
                            - choice_21;
-  wire [16:0] number0 = (either_9 && !begins) ? choice_16 : difference_7;  // signed
+  wire [16:0] number0 = (either_8 && !begins) ? choice_16 : difference_7;  // signed
   reg [16:0] value0;  // first value, signed
   wire [15:0] shown = number0[15:0] ^ {16{number0[16]}};
   wire lane0_unfit;
@@ -707,8 +706,8 @@ module edgewalk_setup (
                  : (round_stepped == 2'd2) ? 1'b1
                  : (round_stepped == 2'd1) ? 1'b1
                  : 1'b1;
-  wire either_10 = ((at_stepped == FIX_DX) && choice_22) || ((1'b0 || 1'b0) && choice_23);
-  assign unfit = lane0_unfit && either_10;
+  wire either_9 = ((at_stepped == FIX_DX) && choice_22) || ((1'b0 || 1'b0) && choice_23);
+  assign unfit = lane0_unfit && either_9;
 
   always @(posedge clk) begin
     value0 <= number0;
@@ -863,7 +862,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_LINE) && (round_whole == 2'd0)) prim_z_d0 <= lane0_value[27:0];
+    if (ends_whole && (at_whole == ADD_Y) && (round_whole == 2'd0)) prim_z_d0 <= lane0_value[27:0];
   end
 
   always @(posedge clk) begin
@@ -884,7 +883,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_LINE) && (round_whole == 2'd1)) prim_r_d0 <= lane0_value[19:0];
+    if (ends_whole && (at_whole == ADD_Y) && (round_whole == 2'd1)) prim_r_d0 <= lane0_value[19:0];
   end
 
   always @(posedge clk) begin
@@ -905,7 +904,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_LINE) && (round_whole == 2'd2)) prim_g_d0 <= lane0_value[19:0];
+    if (ends_whole && (at_whole == ADD_Y) && (round_whole == 2'd2)) prim_g_d0 <= lane0_value[19:0];
   end
 
   always @(posedge clk) begin
@@ -926,7 +925,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_LINE) && (round_whole == 2'd3)) prim_b_d0 <= lane0_value[19:0];
+    if (ends_whole && (at_whole == ADD_Y) && (round_whole == 2'd3)) prim_b_d0 <= lane0_value[19:0];
   end
 
   always @(posedge clk) begin
@@ -947,10 +946,10 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, WAIT12, WAIT_XY, ends_fixed, less_m[0], lane0_value[31:28], difference[15], difference_2[15],
-    difference_3[15], part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1], shifted_2[14:1],
-    part_14[30:0], difference_4[11:10], difference_5[11:10], differing[16], differing_2[16], part_23[0],
-    part_26[0], part_30[0], part_33[0], shifted_3[16:1], shifted_4[16:1], shifted_5[17:2], joined_5[32],
+    1'b0, ends_fixed, less_m[0], lane0_value[31:28], difference[15], difference_2[15], difference_3[15],
+    part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1], shifted_2[14:1], part_14[30:0],
+    difference_4[11:10], difference_5[11:10], differing[16], differing_2[16], part_23[0], part_26[0],
+    part_30[0], part_33[0], shifted_3[16:1], shifted_4[16:1], shifted_5[17:2], joined_5[32],
     joined_4[32], joined_3[32], joined_2[32], part_37[26:15], difference_8[3:0], part_38[26:15],
     difference_9[3:0], part_39[26:15], difference_10[3:0]
   };

@@ -99,29 +99,28 @@ module edgewalk_setup (
   localparam [5:0] FIX1 = 6'd11;
   localparam [5:0] LOAD2 = 6'd12;
   localparam [5:0] FIX2 = 6'd13;
-  localparam [5:0] WAIT12 = 6'd14;
-  localparam [5:0] ADD12 = 6'd15;
-  localparam [5:0] WAIT = 6'd16;
-  localparam [5:0] SUM_X = 6'd17;
-  localparam [5:0] DOUBLE_X = 6'd18;
-  localparam [5:0] SET_A = 6'd19;
-  localparam [5:0] LOAD_A = 6'd20;
-  localparam [5:0] FIX_A = 6'd21;
-  localparam [5:0] DOUBLE_A = 6'd22;
-  localparam [5:0] WAIT_A = 6'd23;
-  localparam [5:0] SUM_A = 6'd24;
-  localparam [5:0] DOUBLE_START_A = 6'd25;
-  localparam [5:0] ADD_A = 6'd26;
-  localparam [5:0] ROUND_A = 6'd27;
-  localparam [5:0] SET_B = 6'd28;
-  localparam [5:0] LOAD_B = 6'd29;
-  localparam [5:0] FIX_B = 6'd30;
-  localparam [5:0] DOUBLE_B = 6'd31;
-  localparam [5:0] WAIT_B = 6'd32;
-  localparam [5:0] SUM_B = 6'd33;
-  localparam [5:0] DOUBLE_START_B = 6'd34;
-  localparam [5:0] ADD_B = 6'd35;
-  localparam [5:0] ROUND_B = 6'd36;
+  localparam [5:0] ADD12 = 6'd14;
+  localparam [5:0] WAIT = 6'd15;
+  localparam [5:0] SUM_X = 6'd16;
+  localparam [5:0] DOUBLE_X = 6'd17;
+  localparam [5:0] SET_A = 6'd18;
+  localparam [5:0] LOAD_A = 6'd19;
+  localparam [5:0] FIX_A = 6'd20;
+  localparam [5:0] DOUBLE_A = 6'd21;
+  localparam [5:0] WAIT_A = 6'd22;
+  localparam [5:0] SUM_A = 6'd23;
+  localparam [5:0] DOUBLE_START_A = 6'd24;
+  localparam [5:0] ADD_A = 6'd25;
+  localparam [5:0] ROUND_A = 6'd26;
+  localparam [5:0] SET_B = 6'd27;
+  localparam [5:0] LOAD_B = 6'd28;
+  localparam [5:0] FIX_B = 6'd29;
+  localparam [5:0] DOUBLE_B = 6'd30;
+  localparam [5:0] WAIT_B = 6'd31;
+  localparam [5:0] SUM_B = 6'd32;
+  localparam [5:0] DOUBLE_START_B = 6'd33;
+  localparam [5:0] ADD_B = 6'd34;
+  localparam [5:0] ROUND_B = 6'd35;
   wire nothing;          // no line, or no column, of the screen
   wire area_known;       // and scaled for the next round of channels
   wire no_area;
@@ -591,7 +590,7 @@ module edgewalk_setup (
                || (at == LOAD2)
                || (at == LOAD_A)
                || (at == LOAD_B);
-  wire [3:0] step = rests ? 4'd0 : ((at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B)) ? (first ? 4'd5 : 4'd6) : ((at == COLUMNS) || (at == ADD_A) || (at == ADD_B)) ? 4'd10 : ((at == ADD_DX) || (at == ADD12)) ? 4'd9 : either_2 ? 4'd4 : either_3 ? 4'd2 : either_4 ? 4'd1 : 4'd0;
+  wire [3:0] step = rests ? 4'd0 : ((at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B)) ? (first ? 4'd5 : 4'd6) : ((at == COLUMNS) || (at == ADD_A) || (at == ADD_B)) ? 4'd9 : ((at == ADD_DX) || (at == ADD12)) ? 4'd8 : either_2 ? 4'd4 : either_3 ? 4'd2 : either_4 ? 4'd1 : 4'd0;
   reg began;       // numbers were found not to fit in the clock before
   reg began_then;  // and in the one before
   wire is_sum = (at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B);
@@ -663,9 +662,9 @@ module edgewalk_setup (
   reg [3:0] step_again0;
   wire [3:0] step_formed0 = advance ? step_next0
                           : (pause == 4'd1) ? step_again0
-                          : began ? 4'd11
-                          : began_then ? 4'd12
-                          : 4'd13;
+                          : began ? 4'd10
+                          : began_then ? 4'd11
+                          : 4'd12;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -987,7 +986,7 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, WAIT12, SET_A, ROUND_A, SET_B, ends_fixed, less_m[0], difference[15], difference_2[15],
+    1'b0, SET_A, ROUND_A, SET_B, ends_fixed, less_m[0], difference[15], difference_2[15],
     difference_3[15], part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1], shifted_2[14:1],
     part_14[30:0], choice_10[14:10], choice_11[14:10], differing[16], differing_2[16], part_26[0],
     part_29[0], part_33[0], part_36[0], shifted_3[16:1], shifted_4[16:1], shifted_5[17:2]

@@ -212,6 +212,13 @@ fn the_tables_are_those_of_the_data() {
             cells("pixel_cells", &[("interpolator.adders", "adders"), ("interpolator.segments", "segments")]),
         ),
         ("setup", setup()),
+        (
+            "setup_cells",
+            cells("setup_cells", &[("setup.lanes", "lanes"), ("cycles", "cycles of torus-knot")]),
+        ),
+        ("depth_cells", cells("depth_cells", &[("memory.hazard", "hazard"), ("fifo.inflight", "in flight")])),
+        ("span_cells", cells("span_cells", &[("fifo.span", "spans in the FIFO")])),
+        ("word_cells", cells("word_cells", &[("formats.color_fraction", "bits of a colour")])),
     ];
     let mut written = text.clone();
     let mut lines = 0;
