@@ -9,7 +9,7 @@
 //! Data runs to the right, readies to the left within the cycle. [`Model::cycle`] therefore works out the readies from
 //! DEPTH back to SETUP, and then clocks the units in the same order, so that each still sees its source as it was.
 //!
-//! Rules: `docs/machine.md`, sections 8 to 15.
+//! Rules: `docs/machine.md`, sections 8 to 16.
 
 pub mod shading;
 mod view;
