@@ -49,8 +49,12 @@ const EVENTS: &[Event] = &[
         doc: "fragments behind the light, or beside it: w <= 0",
         can_happen: there,
     },
-    Event { name: "map_edge", doc: "fragments on the far edge of the map: x or y is w", can_happen: there },
-    Event { name: "texel_edge", doc: "fragments on the edge of a texel", can_happen: there },
+    Event {
+        name: "map_edge",
+        doc: "columns and lines on the far edge of the map: x or y is w",
+        can_happen: there,
+    },
+    Event { name: "texel_edge", doc: "columns and lines on the edge of a texel", can_happen: there },
     Event {
         name: "depth_to_end",
         doc: "depths before the map's end that are rounded to it",
