@@ -22,6 +22,11 @@ const DIRECTED: [&str; 3] = ["opaque_behind", "behind_opaque", "color_head_wait"
 const ALONE: [&str; 5] =
     ["color_forward_entry", "color_forward_write", "material_change", "tables_drain", "texel_tie"];
 
+/// PROJECT has no netlist yet.
+fn no_netlist(event: &str) -> bool {
+    edgewalk_machine::units::project::SPEC.events.iter().any(|of| of.name == event)
+}
+
 /// Machines with SHADE read tables of hundreds of words, so three of sixteen may have it.
 fn drawn_machine(number: usize, rng: &mut Pcg64Mcg) -> Plan {
     let mut machines = std::iter::repeat_with(|| random_machine(rng));
@@ -115,7 +120,7 @@ fn whole_machines(count: usize) {
         .events
         .missing()
         .into_iter()
-        .filter(|event| !DIRECTED.contains(event) && !ALONE.contains(event))
+        .filter(|event| !DIRECTED.contains(event) && !ALONE.contains(event) && !no_netlist(event))
         .collect();
     assert_eq!(missing, [""; 0], "not met");
 }

@@ -2,7 +2,9 @@
 
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
-use edgewalk_machine::{BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeColour, Texture};
+use edgewalk_machine::{
+    BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeColour, ShadowLight, Texture,
+};
 use rand::Rng;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
@@ -45,6 +47,9 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     if machine.shade.texture != Texture::None {
         machine.shade.colour = ShadeColour::Multiply; // tables have no colour to multiply
     }
+    if machine.shadow.projects() {
+        machine.shadow.light = ShadowLight::Parallel; // PROJECT has no netlist yet
+    }
     // What would make nearly all of them clash.
     machine.guard_bits =
         if rng.random_bool(0.1) { rng.random_range(8..=14) } else { rng.random_range(2..=6) };
@@ -60,7 +65,7 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     kt.kt_vertex = kt.kt_vertex.min(kt.kt_fraction);
     let light = &mut machine.shadow;
     light.vertex_fraction = light.vertex_fraction.min(light.fraction);
-    let own = u32::from(kt.kind == BlendKind::Interpolated) + 3 * u32::from(light.is_there());
+    let own = u32::from(kt.kind == BlendKind::Interpolated) + light.channels().len() as u32;
     machine.extra = machine.extra.min(MAX_CHANNELS as u32 - 4 - own);
     machine.adders = machine.adders.min(4 + machine.extra + own);
     machine
