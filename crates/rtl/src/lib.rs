@@ -29,7 +29,7 @@ mod normal;
 
 mod shade;
 
-mod missing;
+mod project;
 
 mod rmw;
 
@@ -50,9 +50,9 @@ pub use depth::depth;
 pub use edge::edge;
 pub use machine::{assemble, engine, machine};
 pub use memory::memory;
-pub use missing::project;
 pub use normal::normal;
 pub use pixel::pixel;
+pub use project::project;
 pub use setup::setup;
 pub use shade::shade;
 pub use shadow::shadow;

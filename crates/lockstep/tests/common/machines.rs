@@ -47,9 +47,6 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     if machine.shade.texture != Texture::None {
         machine.shade.colour = ShadeColour::Multiply; // tables have no colour to multiply
     }
-    if machine.shadow.projects() {
-        machine.shadow.light = ShadowLight::Parallel; // PROJECT has no netlist yet
-    }
     // What would make nearly all of them clash.
     machine.guard_bits =
         if rng.random_bool(0.1) { rng.random_range(8..=14) } else { rng.random_range(2..=6) };
@@ -65,6 +62,12 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     kt.kt_vertex = kt.kt_vertex.min(kt.kt_fraction);
     let light = &mut machine.shadow;
     light.vertex_fraction = light.vertex_fraction.min(light.fraction);
+    if machine.extra > 2 && rng.random() {
+        light.light = ShadowLight::None; // it leaves no room for so many channels of the user's own
+    }
+    if light.projects() && kt.kind == BlendKind::Interpolated {
+        kt.kind = BlendKind::Constant; // there are eight channels at most
+    }
     let own = u32::from(kt.kind == BlendKind::Interpolated) + light.channels().len() as u32;
     machine.extra = machine.extra.min(MAX_CHANNELS as u32 - 4 - own);
     machine.adders = machine.adders.min(4 + machine.extra + own);

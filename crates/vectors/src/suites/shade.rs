@@ -59,7 +59,7 @@ impl Brush<'_> {
     fn at_the_ends(&self) -> Shaded {
         let level = |n: usize, i: usize, term: &Term| {
             let levels = self.levels(term);
-            let turn = if i % 2 == 0 { n } else { n / levels.len() };
+            let turn = if i.is_multiple_of(2) { n } else { n / levels.len() };
             levels[(turn + i / 2 * 3) % levels.len()]
         };
         let count = self.machine.terms().first().map_or(0, |term| self.levels(term).len().pow(2));
