@@ -6,6 +6,7 @@ mod file;
 mod words;
 
 pub use file::CaseError;
+pub use words::words_at_start;
 
 use crate::Token;
 use crate::device::{ModelDevice, NetlistDevice, model, netlist};
@@ -206,7 +207,7 @@ impl Case {
                 "depth" => self.clear_z.map_or(memory.clear, u128::from),
                 _ => bits(&mut random, declared.word_bits),
             };
-            memory.start = words::start(&self.plan, declared, &mut random);
+            memory.start = words_at_start(&self.plan, declared, &mut random);
         }
         setting.resets.clone_from(&self.resets);
         setting.noise = Some(self.seed);

@@ -17,10 +17,17 @@ const TRIANGLES: u64 = 100;
 /// What random triangles may not meet, and [`colours_on_one_pixel`] does.
 const DIRECTED: [&str; 3] = ["opaque_behind", "behind_opaque", "color_head_wait"];
 
-/// What only BLEND, SHADE and SHADOW alone meet for certain (`tests/units.rs`): triangles of one pixel, and of two materials, come too far apart, and
-/// few of their depths are a texel's.
-const ALONE: [&str; 5] =
-    ["color_forward_entry", "color_forward_write", "material_change", "tables_drain", "texel_tie"];
+/// What only BLEND, SHADE, PROJECT and SHADOW alone meet for certain (`tests/units.rs`): triangles of one pixel, and of two materials, come too far
+/// apart, and few of their depths are a texel's, or quotients on an edge.
+const ALONE: [&str; 7] = [
+    "color_forward_entry",
+    "color_forward_write",
+    "material_change",
+    "tables_drain",
+    "texel_tie",
+    "map_edge",
+    "depth_to_end",
+];
 
 /// Machines with SHADE read tables of hundreds of words, so three of sixteen may have it.
 fn drawn_machine(number: usize, rng: &mut Pcg64Mcg) -> Plan {

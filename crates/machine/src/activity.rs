@@ -1,6 +1,7 @@
 //! The cause of every cycle (`docs/machine.md`, section 8).
 
 use crate::plan::Plan;
+use crate::shadow::Project;
 
 /// What a cycle was spent on; the number is the `activity` port.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,11 +36,13 @@ pub enum Activity {
     Shade,
     /// TEXEL waits for the memory of the textures.
     Texel,
+    /// PROJECT divides, and takes no fragment.
+    Project,
 }
 
 impl Activity {
     /// All, in the order of the port's code.
-    pub const ALL: [Activity; 14] = [
+    pub const ALL: [Activity; 15] = [
         Activity::Idle,
         Activity::Draw,
         Activity::Offscreen,
@@ -54,6 +57,7 @@ impl Activity {
         Activity::Term,
         Activity::Shade,
         Activity::Texel,
+        Activity::Project,
     ];
 
     /// Bits of the port.
@@ -77,6 +81,7 @@ impl Activity {
             "term",
             "shade",
             "texel",
+            "project",
         ][self as usize]
     }
 
@@ -84,11 +89,13 @@ impl Activity {
     pub fn of(plan: &Plan) -> impl Iterator<Item = Activity> {
         let (blends, shadows) = (plan.blend.is_there(), plan.shadow.is_there());
         let (shades, textures) = (plan.shade.is_there(), plan.shade.textures());
+        let divides = plan.shadow.projects() && plan.shadow.project == Project::Serial;
         Activity::ALL.into_iter().filter(move |activity| match activity {
             Activity::Blend => blends,
             Activity::Light => shadows,
             Activity::Term | Activity::Shade => shades,
             Activity::Texel => textures,
+            Activity::Project => divides,
             _ => true,
         })
     }
@@ -111,6 +118,7 @@ impl Activity {
             "TERM walks to the start of a span",
             "SHADE fetches tables",
             "TEXEL takes no fragment",
+            "PROJECT divides",
         ][self as usize]
     }
 

@@ -4,6 +4,7 @@ use crate::channel::{Channel, MAX_CHANNELS};
 use crate::keys::KEYS;
 use crate::machine::{EdgeKind, Fill, Machine};
 use crate::shade::ShadeColour;
+use crate::shadow::LIGHT_SPACE;
 use crate::text::MachineError;
 
 /// Longest word a setup lane may need.
@@ -27,7 +28,21 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
             "none".to_owned(),
         ));
     }
+    if machine.shadow.projects() {
+        project(machine)?;
+    }
     if channels.len() > MAX_CHANNELS {
+        if machine.extra == 0 {
+            return Err(MachineError::rule(
+                machine,
+                "blend.kind",
+                format!(
+                    "with the four values of a perspective light and k_t there are {} channels, {MAX_CHANNELS} is the most",
+                    channels.len()
+                ),
+                "constant".to_owned(),
+            ));
+        }
         let own = machine.extra as usize;
         return Err(MachineError::rule(
             machine,
@@ -84,7 +99,7 @@ fn keys_of(channel: &Channel) -> String {
         "r" | "g" | "b" => "formats.color".to_owned(),
         "z" => "formats.z".to_owned(),
         "kt" => "blend.kt".to_owned(),
-        "lx" | "ly" | "lz" => "shadow.light".to_owned(),
+        name if LIGHT_SPACE.contains(&name) => "shadow.light".to_owned(),
         extra => format!("channels.{extra}"),
     }
 }
@@ -116,6 +131,22 @@ fn formats(machine: &Machine, channel: &Channel) -> Result<(), MachineError> {
         ));
     }
     Ok(())
+}
+
+/// What is divided has the bits of its quotients at least.
+fn project(machine: &Machine) -> Result<(), MachineError> {
+    let (p, bz, side) = (machine.shadow.light_bits, machine.shadow.depth_bits, machine.shadow.side_bits());
+    if p >= bz.max(side) {
+        return Ok(());
+    }
+    let (what, bits) =
+        if bz >= side { ("a depth in the map has", bz) } else { ("a column of the map has", side) };
+    Err(MachineError::rule(
+        machine,
+        "shadow.light_bits",
+        format!("{what} {bits} bits, and a value that is divided may not have fewer"),
+        bits.to_string(),
+    ))
 }
 
 /// A lane can hold what it divides. The channel with the longest word stands in the way, if any does.

@@ -4,6 +4,7 @@ use crate::blend::BlendKind;
 use crate::channel::Channel;
 use crate::machine::Machine;
 use crate::record::{self, Term};
+use crate::shadow::LIGHT_SPACE;
 use crate::text::MachineError;
 use crate::units::UNITS;
 use crate::vertex::PortStamp;
@@ -73,7 +74,7 @@ impl Plan {
 
     /// The channels that go beyond SHADOW, with their places: all but those of the light.
     pub fn seen_channels(&self) -> impl Iterator<Item = (usize, &Channel)> {
-        self.channels.iter().enumerate().filter(|(_, channel)| !["lx", "ly", "lz"].contains(&channel.name))
+        self.channels.iter().enumerate().filter(|(_, channel)| !LIGHT_SPACE.contains(&channel.name))
     }
 
     /// The terms that TERM walks and PIXEL steps, in the order of their words.

@@ -1,6 +1,6 @@
-//! SHADOW: its keys.
+//! SHADOW, and PROJECT before it: their keys.
 
-use crate::channel::Precision;
+use crate::channel::{Channel, Kind, Precision};
 use crate::key::Domain::Range;
 use crate::key::{Domain, Key, number, word};
 use crate::machine::Machine;
@@ -12,6 +12,17 @@ pub enum ShadowLight {
     None,
     /// Parallel: light-space values are linear over the screen.
     Parallel,
+    /// Perspective: they are quotients of values that are; the machine has PROJECT.
+    Perspective,
+}
+
+/// How PROJECT divides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Project {
+    /// A stage a row: a fragment a clock.
+    Pipelined,
+    /// The rows of one fragment after the other.
+    Serial,
 }
 
 /// What becomes of the colour of a fragment in shadow.
@@ -34,6 +45,10 @@ pub struct Shadow {
     pub guard_bits: u32,
     /// Bits of a depth in the map.
     pub depth_bits: u32,
+    /// p: bits of the values that PROJECT divides, without their sign.
+    pub light_bits: u32,
+    /// How it divides them.
+    pub project: Project,
     /// Interpolator fraction bits of light-space values.
     pub fraction: u32,
     /// Fraction bits of their vertex values.
@@ -59,22 +74,55 @@ impl Shadow {
         self.size.next_power_of_two().ilog2().max(1)
     }
 
-    /// Word lengths of lx and ly.
+    /// The machine has PROJECT.
     #[must_use]
-    pub fn texel(&self) -> Precision {
-        self.precision(self.side_bits() + 1 + self.guard_bits)
+    pub fn projects(&self) -> bool {
+        self.light == ShadowLight::Perspective
     }
 
-    /// Word lengths of lz.
+    /// What SHADOW takes of a texel's column or line, bits with the sign.
     #[must_use]
-    pub fn light_depth(&self) -> Precision {
-        self.precision(self.depth_bits + 2)
+    pub fn texel_bits(&self) -> u32 {
+        let guard = if self.projects() { 0 } else { self.guard_bits };
+        self.side_bits() + 1 + guard
+    }
+
+    /// What SHADOW takes of a depth from the light, bits with the sign.
+    #[must_use]
+    pub fn distance_bits(&self) -> u32 {
+        self.depth_bits + 2
+    }
+
+    /// R: rows of PROJECT's division.
+    #[must_use]
+    pub fn rows(&self) -> u32 {
+        self.side_bits().max(self.depth_bits + 1)
+    }
+
+    /// The light-space values, in the order of their words.
+    #[must_use]
+    pub fn channels(&self) -> Vec<Channel> {
+        let channel = |name, kind, bits| Channel { name, kind, precision: self.precision(bits) };
+        match self.light {
+            ShadowLight::None => Vec::new(),
+            ShadowLight::Parallel => vec![
+                channel("lx", Kind::Floor, self.texel_bits()),
+                channel("ly", Kind::Floor, self.texel_bits()),
+                channel("lz", Kind::Signed, self.distance_bits()),
+            ],
+            ShadowLight::Perspective => {
+                LIGHT_SPACE.map(|name| channel(name, Kind::Signed, self.light_bits + 1)).into()
+            }
+        }
     }
 
     fn precision(&self, bits: u32) -> Precision {
         Precision { bits, fraction: self.fraction, vertex_fraction: self.vertex_fraction }
     }
 }
+
+/// Names of the light-space values; the last is of perspective lights only.
+pub const LIGHT_SPACE: [&str; 4] = ["lx", "ly", "lz", "lw"];
 
 /// No SHADOW, and what it is until more is set.
 impl Default for Shadow {
@@ -84,6 +132,8 @@ impl Default for Shadow {
             size: 512,
             guard_bits: 2,
             depth_bits: 16,
+            light_bits: 20,
+            project: Project::Pipelined,
             fraction: 14,
             vertex_fraction: 4,
             gate: Gate::And,
@@ -97,19 +147,33 @@ fn there(machine: &Machine) -> bool {
     machine.shadow.is_there()
 }
 
-/// The keys of SHADOW.
+fn parallel(machine: &Machine) -> bool {
+    machine.shadow.light == ShadowLight::Parallel
+}
+
+fn projects(machine: &Machine) -> bool {
+    machine.shadow.projects()
+}
+
+/// The keys of SHADOW and PROJECT.
 pub const KEYS: &[Key] = &[
     Key {
         absent: Some(ShadowLight::None as u32),
         ..word!(
             "shadow.light",
-            ShadowLight { "none" => None, "parallel" => Parallel },
-            "the light whose depth map is looked up: none, parallel",
+            ShadowLight { "none" => None, "parallel" => Parallel, "perspective" => Perspective },
+            "the light whose depth map is looked up: none, parallel (and the view too), perspective",
             shadow.light
         )
     },
     number!("shadow.size", Range(1, 4096), "side of the map, texels", shadow.size, if there),
-    number!("shadow.guard_bits", Range(0, 6), "vertices lie within 2^guard_bits maps", shadow.guard_bits, if there),
+    number!(
+        "shadow.guard_bits",
+        Range(0, 6),
+        "parallel: vertices lie within 2^guard_bits maps",
+        shadow.guard_bits,
+        if parallel
+    ),
     number!("shadow.depth_bits", Range(4, 24), "bits of a depth in the map", shadow.depth_bits, if there),
     number!(
         "shadow.light_fraction",
@@ -124,6 +188,20 @@ pub const KEYS: &[Key] = &[
         "light-space values: fraction bits of the vertex value",
         shadow.vertex_fraction,
         if there
+    ),
+    number!(
+        "shadow.light_bits",
+        Range(4, 28),
+        "perspective: bits of a light-space value, without its sign",
+        shadow.light_bits,
+        if projects
+    ),
+    word!(
+        "shadow.project",
+        Project { "pipelined" => Pipelined, "serial" => Serial },
+        "perspective: pipelined (a fragment a clock), or serial (one after the other, a clock a row)",
+        shadow.project,
+        if projects
     ),
     word!(
         "shadow.gate",

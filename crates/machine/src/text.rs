@@ -196,7 +196,14 @@ mod tests {
         for key in KEYS {
             // With all extra channels, a light and a k_t for every pixel every key means something.
             let blend = Blend { kind: BlendKind::Interpolated, ..Machine::default().blend };
-            let shadow = Shadow { light: ShadowLight::Parallel, ..Machine::default().shadow };
+            let parallel = Shadow { light: ShadowLight::Parallel, ..Machine::default().shadow };
+            let used = (key.used)(&Machine { shadow: parallel, ..Machine::default() });
+            let light = if key.name.starts_with("shadow.") && !used {
+                ShadowLight::Perspective
+            } else {
+                ShadowLight::Parallel
+            };
+            let shadow = Shadow { light, ..parallel };
             let (kind, texture) = (ShadeKind::Phong, Texture::Nearest);
             let shade = Shade { kind, texture, ..Machine::default().shade };
             let mut machine = Machine { extra: 4, blend, shadow, shade, ..Machine::default() };

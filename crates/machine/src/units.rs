@@ -9,6 +9,7 @@ pub mod pixel;
 pub mod texel;
 pub mod normal;
 pub mod shade;
+pub mod project;
 pub mod shadow;
 pub mod depth;
 pub mod blend;
@@ -30,6 +31,7 @@ pub const UNITS: &[&UnitSpec] = &[
     &texel::SPEC,
     &normal::SPEC,
     &shade::SPEC,
+    &project::SPEC,
     &shadow::SPEC,
     &depth::SPEC,
     &blend::SPEC,

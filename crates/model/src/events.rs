@@ -134,6 +134,18 @@ events! {
     color_saturated,
     /// Cycles in which all stages of SHADE stand still.
     shade_stall,
+    /// Fragments behind the light, or beside it.
+    behind_light,
+    /// Columns and lines on the far edge of the map.
+    map_edge,
+    /// Columns and lines on the edge of a texel.
+    texel_edge,
+    /// Depths before the map's end that are rounded to it.
+    depth_to_end,
+    /// Cycles in which all stages of PROJECT stand still.
+    project_stall,
+    /// Cycles in which a fragment waits until another is divided.
+    project_wait,
     /// Fragments that were not looked up, as the map does not count.
     shadow_off,
     /// Fragments outside the map: lit.

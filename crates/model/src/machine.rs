@@ -3,13 +3,14 @@
 //! ```text
 //!  tri ─> SETUP ─prim─> EDGE ─line─> SPAN ─span─> PIXEL ─frag─> DEPTH ─> wr
 //!                         └────────── gradients ───┘              ├─> rd, <─ data
+//!     with SHADOW, before DEPTH: ─> [PROJECT] ─> SHADOW ─shaded─> DEPTH
 //!     with TERM and SHADE: SPAN ─span─> TERM ─walked─> PIXEL ─frag─> [TEXEL] ─> [NORMAL] ─> SHADE ─tinted─> DEPTH
 //!                                with BLEND, for wr: ─> zwr, ─pass─> BLEND ─> crd, <─ cdata, ─> cwr
 //! ```
 //! Data runs to the right, readies to the left within the cycle. [`Model::cycle`] therefore works out the readies from
 //! DEPTH back to SETUP, and then clocks the units in the same order, so that each still sees its source as it was.
 //!
-//! Rules: `docs/machine.md`, sections 8 to 15.
+//! Rules: `docs/machine.md`, sections 8 to 16.
 
 pub mod shading;
 mod view;
@@ -23,6 +24,7 @@ use crate::events::{Events, one_more};
 use crate::normal::Normal;
 pub use crate::normal::NormalInputs;
 use crate::pixel::Pixel;
+use crate::project::Project;
 use crate::setup::Setup;
 use crate::shade::Shade;
 pub use crate::shade::ShadeInputs;
@@ -162,6 +164,7 @@ pub struct Model<const C: usize> {
     texel: Option<Texel<C>>,
     normal: Option<Normal<C>>,
     shade: Option<Shade<C>>,
+    project: Option<Project<C>>,
     shadow: Option<Shadow<C>>,
     depth: Depth<C>,
     blend: Option<Blend<C>>,
@@ -180,6 +183,8 @@ struct Waits {
     walk: bool,
     /// TEXEL waits for its memory's ready, or for its data.
     texel: bool,
+    /// PROJECT divides, and takes no fragment.
+    dividing: bool,
     /// SHADE has not the tables of the fragment that is offered to it, or NORMAL not the roots.
     tables: bool,
 }
@@ -203,6 +208,8 @@ pub struct Units<'a, const C: usize> {
     pub normal: Option<&'a Normal<C>>,
     /// Fragments to fragments with a colour, if the machine has it.
     pub shade: Option<&'a Shade<C>>,
+    /// Fragments to fragments with their place in the light's map, if the machine has it.
+    pub project: Option<&'a Project<C>>,
     /// Fragments to fragments lit or not, if the machine has it.
     pub shadow: Option<&'a Shadow<C>>,
     /// Fragments to writes.
@@ -224,6 +231,7 @@ impl<const C: usize> Model<C> {
             texel: plan.shade.textures().then(|| Texel::new(plan)),
             normal: plan.shade.normalises().then(|| Normal::new(plan)),
             shade: plan.shade.is_there().then(|| Shade::new(plan)),
+            project: plan.shadow.projects().then(|| Project::new(plan)),
             shadow: plan.shadow.is_there().then(|| Shadow::new(plan)),
             depth: Depth::new(plan),
             blend: plan.blend.is_there().then(|| Blend::new(plan)),
@@ -250,8 +258,8 @@ impl<const C: usize> Model<C> {
     pub fn units(&self) -> Units<'_, C> {
         let Model { setup, edge, span, pixel, depth, .. } = self;
         let (term, texel, normal, shade) = (self.term(), self.texel(), self.normal(), self.shade());
-        let (shadow, blend) = (self.shadow(), self.blend());
-        Units { setup, edge, span, term, pixel, texel, normal, shade, shadow, depth, blend }
+        let (project, shadow, blend) = (self.project(), self.shadow(), self.blend());
+        Units { setup, edge, span, term, pixel, texel, normal, shade, project, shadow, depth, blend }
     }
 
     /// TERM, as BLEND below.
@@ -276,6 +284,12 @@ impl<const C: usize> Model<C> {
     #[inline(always)]
     fn shade(&self) -> Option<&Shade<C>> {
         self.shade.as_ref().filter(|_| C > FEW)
+    }
+
+    /// PROJECT, as BLEND below.
+    #[inline(always)]
+    fn project(&self) -> Option<&Project<C>> {
+        self.project.as_ref().filter(|_| C > FEW)
     }
 
     /// SHADOW, as BLEND below.
@@ -324,6 +338,7 @@ impl<const C: usize> Model<C> {
             || self.texel().is_some_and(Texel::occupied)
             || self.normal().is_some_and(Normal::occupied)
             || self.shade().is_some_and(Shade::occupied)
+            || self.project().is_some_and(Project::occupied)
             || self.shadow().is_some_and(Shadow::occupied)
             || self.blend().is_some_and(Blend::occupied)
     }
@@ -350,15 +365,18 @@ impl<const C: usize> Model<C> {
         let pass = self.depth.pass().copied();
         let pass_ready = self.blend().is_some_and(|blend| blend.pass_ready(pass.as_ref(), &inputs.blend));
         let tinted = self.shade().and_then(Shade::tinted).copied();
-        let frag = if self.shade().is_some() { tinted.as_ref() } else { self.pixel.frag() };
+        let colored = if self.shade().is_some() { tinted.as_ref() } else { self.pixel.frag() };
+        let projected = self.project().and_then(Project::projected).copied();
+        let frag = if self.project().is_some() { projected.as_ref() } else { colored };
         let shaded = self.shadow().and_then(|shadow| shadow.shaded(&inputs.shadow));
         let seen = if self.shadow().is_some() { shaded.as_ref() } else { frag };
         let block = self.depth.block(seen, inputs.depth_write);
         let seen_ready = inputs.rd_ready && block.is_none();
         let frag_ready = self.shadow().map_or(seen_ready, |shadow| shadow.frag_ready(frag, &inputs.shadow));
+        let colored_ready = self.project().map_or(frag_ready, |project| project.frag_ready(frag_ready));
         let light = self.shadow().is_some_and(|shadow| !shadow.full() || shaded.is_none());
         let offered = self.units().offered(&inputs.texel);
-        let readies = self.units().readies(&offered, &inputs.texel, frag_ready);
+        let readies = self.units().readies(&offered, &inputs.texel, colored_ready);
         let there = self.term().is_none_or(|term| term.there(self.span.span()));
         let waits = Waits {
             light,
@@ -366,6 +384,7 @@ impl<const C: usize> Model<C> {
             walk: !there && self.span.span().is_some(),
             texel: self.units().texel_waits(&offered),
             tables: self.units().tables_wait(&offered),
+            dividing: self.project().is_some_and(Project::dividing),
         };
         let activity = self.activity(block, readies.drawn, waits);
         let outputs = Outputs {
@@ -425,10 +444,12 @@ impl<const C: usize> Model<C> {
         if let Some(shadow) = self.shadow.as_mut().filter(|_| C > FEW) {
             shadow.step(frag, &inputs.shadow, seen_ready && shaded.is_some(), events);
         }
-
+        if let Some(project) = self.project.as_mut().filter(|_| C > FEW) {
+            project.step(colored, frag_ready, events);
+        }
         if let Some(shade) = self.shade.as_mut().filter(|_| C > FEW) {
             let (frag, cosines) = parts(&offered.normed);
-            shade.step(frag, &cosines, &inputs.shade, frag_ready, events);
+            shade.step(frag, &cosines, &inputs.shade, colored_ready, events);
         }
         if let Some(normal) = self.normal.as_mut().filter(|_| C > FEW) {
             let (frag, terms) = parts(&offered.textured);
@@ -495,6 +516,9 @@ impl<const C: usize> Model<C> {
         if let Some(shade) = &mut self.shade {
             shade.reset();
         }
+        if let Some(project) = &mut self.project {
+            project.reset();
+        }
         if let Some(shadow) = &mut self.shadow {
             shadow.reset();
         }
@@ -510,6 +534,7 @@ impl<const C: usize> Model<C> {
             match block {
                 _ if waits.texel => Activity::Texel,
                 _ if waits.tables => Activity::Shade,
+                _ if waits.dividing => Activity::Project,
                 _ if waits.light => Activity::Light,
                 Some(Block::Hazard) => Activity::Hazard,
                 Some(Block::Full) if waits.pass => Activity::Blend,

@@ -88,7 +88,7 @@ impl<const C: usize> Shadow<C> {
             side: shadow.side_bits(),
             depth_bits: shadow.depth_bits,
             at,
-            bits: at.map(|place| plan.channels()[place].bits),
+            bits: [shadow.texel_bits(), shadow.texel_bits(), shadow.distance_bits()],
             gate: shadow.gate,
             color_bits: plan.color.bits,
             places: shadow.queue as usize,

@@ -108,7 +108,8 @@ fn every_unit_declares_what_is_to_be_seen_of_it() {
         }
     }
     println!("checked {units} units, {links} links, {named} names in sentences, of {met:?}");
-    let all = ["setup", "edge", "span", "term", "pixel", "normal", "shade", "shadow", "depth", "blend"];
+    let all =
+        ["setup", "edge", "span", "term", "pixel", "normal", "shade", "project", "shadow", "depth", "blend"];
     assert!(all.iter().all(|unit| met.contains(unit)), "not met: all of {all:?}");
     assert!(units >= 60 && links >= 84 && named > 300);
 }

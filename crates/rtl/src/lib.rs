@@ -1,8 +1,8 @@
 //! The machine as netlists, a unit a file, written from `docs/machine.md`.
 //!
 //! ```text
-//!  tri ─> setup ─> edge ─> span ─> [term] ─> pixel ─> [texel] ─> [normal] ─> [shade] ─> [shadow] ─> depth ─> memory
-//!                                                                                                   └──> blend ─> memory
+//!  tri ─> setup ─> edge ─> span ─> [term] ─> pixel ─> [texel] ─> [normal] ─> [shade] ─> [project] ─> [shadow] ─> depth ─> memory
+//!                                                                                                                └──> blend ─> memory
 //! ```
 //! A function a unit takes a [`Plan`](edgewalk_machine::Plan), the checked machine, and builds the unit's netlist with the ports
 //! that [`edgewalk_machine::UNITS`] declares; [`BUILDERS`] lists the functions, [`machine`] joins what they build.
@@ -29,6 +29,8 @@ mod normal;
 
 mod shade;
 
+mod project;
+
 mod rmw;
 
 mod shadow;
@@ -50,6 +52,7 @@ pub use machine::{assemble, engine, machine};
 pub use memory::memory;
 pub use normal::normal;
 pub use pixel::pixel;
+pub use project::project;
 pub use setup::setup;
 pub use shade::shade;
 pub use shadow::shadow;
@@ -67,6 +70,7 @@ pub const BUILDERS: &[(&str, units::Build)] = &[
     ("texel", texel),
     ("normal", normal),
     ("shade", shade),
+    ("project", project),
     ("shadow", shadow),
     ("depth", depth),
     ("blend", blend),

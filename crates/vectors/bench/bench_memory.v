@@ -24,11 +24,11 @@ module bench_memory #(
     output wire [WIDTH-1:0]   data,
     output wire               fire
 );
-    // More than the 16 reads that can be in flight.
-    reg [WIDTH-1:0] waiting [0:31];
-    reg [31:0]      due [0:31];
-    reg [4:0]       first;
-    reg [4:0]       free;
+    // More than the 2048 reads that can be in flight: tables are asked for faster than they are taken.
+    reg [WIDTH-1:0] waiting [0:4095];
+    reg [31:0]      due [0:4095];
+    reg [11:0]      first;
+    reg [11:0]      free;
     reg             held;
     reg [WIDTH-1:0] words [0:(1 << ADDRESS) - 1];
     integer         i;

@@ -12,7 +12,7 @@ use edgewalk_lockstep::{
     Agreement, Direction, Interface, Link, LockstepError, NetlistDevice, Pattern, Rig, Setting, StallKind,
     Token, Triangles, Unit, lockstep, model, patterns, status_ports,
 };
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Plan, Walk};
 use edgewalk_model::{DrawState, Events, longest_setup};
 use edgewalk_netlist::{Netlist, Simulate};
 use std::collections::BTreeMap;
@@ -73,7 +73,11 @@ pub fn capture_tokens(
     stalls: StallKind,
     seed: u64,
 ) -> Trace {
-    let suite = Suite { seed, map: suites::map(plan), ..Suite::of_triangles("tokens", "", Vec::new()) };
+    let suite = Suite {
+        seed,
+        words: suites::words(plan, seed, tokens.len()),
+        ..Suite::of_triangles("tokens", "", Vec::new())
+    };
     let triangles = (0..tokens.len() as u32).collect();
     Run { plan, suite: &suite, state }.observe(unit, Stimulus { tokens, triangles }, stalls)
 }
@@ -143,9 +147,10 @@ impl Run<'_> {
             .expect("a test of lockstep runs every unit with these constants");
         setting.patterns = patterns(self.plan, interface, stalls, self.suite.seed);
         for (memory, declared) in setting.memories.iter_mut().zip(&interface.memories) {
-            if declared.name == "map" {
-                memory.start = self.suite.map.iter().map(|word| u128::from(*word)).collect();
-            } else {
+            if let Some(words) = self.suite.words.get(declared.name) {
+                // Of more triangles than the memory has records the first ones'.
+                memory.start = words[..words.len().min(memory.words)].into();
+            } else if declared.name == "depth" {
                 memory.clear = self.suite.clear_z.map_or(memory.clear, u128::from);
             }
         }
@@ -206,12 +211,18 @@ impl Run<'_> {
 }
 
 /// Longest time in which nothing may move at the ports though something will: SETUP, then lines without pixels, then a
-/// span that comes from far off the screen; and whatever the rig makes them wait.
+/// span that comes from far off the screen, to which TERM walks first; and whatever the rig makes them wait.
 fn patience(plan: &Plan, patterns: &[Pattern]) -> u64 {
     let waits: u64 = patterns.iter().map(Pattern::longest_wait).sum();
     let setup = u64::from(longest_setup(plan).all());
     let span = u64::from(plan.clocks_per_pixel()) << plan.widths().column;
-    setup + u64::from(plan.height) + span + waits + 1000
+    let walk = if plan.shade.is_there() {
+        let step = if plan.shade.walk == Walk::Memory { plan.terms().len() as u64 * 3 } else { 2 };
+        step * ((1 << (plan.widths().column - 1)) + (1 << plan.widths().y))
+    } else {
+        0
+    };
+    setup + u64::from(plan.height) + span + walk + waits + 1000
 }
 
 /// Cycles that follow the last event of the model: what comes too much would come here.

@@ -88,6 +88,35 @@ fn every_suite_of_shadow() {
     assert!(compared.iter().all(|compared| *compared > 100_000), "{compared:?}");
 }
 
+/// TERM, TEXEL, NORMAL and SHADE, their directed suite and those of hazards; the whole machine, whose lock-step takes the longest, once each.
+#[test]
+fn every_suite_of_shade() {
+    let machines = common::shades();
+    let suites = ["shade", "hazards", "corners", "random"];
+    let compared: Vec<u64> = common::two_at_a_time(&machines, |i, (name, machine)| {
+        let mut compared = 0;
+        for (j, suite) in suites.into_iter().enumerate() {
+            let suite = Suite::named(machine, suite, 3, 30).expect("listed");
+            let in_turn = |unit: &Unit| match *unit == Unit::MACHINE {
+                true => j == 0 || i % 3 + 1 == j,
+                false => {
+                    [common::TERM, common::PIXEL, common::TEXEL, common::NORMAL, common::SHADE].contains(unit)
+                }
+            };
+            for unit in Unit::all(machine).into_iter().filter(in_turn) {
+                let netlist = design::netlist(machine, unit).expect("a checked machine");
+                let trace = capture(machine, unit, &suite, suite.state(), StallKind::ALL[(i + j) % 3]);
+                let agreement = trace.lockstep(&netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
+                assert_eq!(agreement.compared, trace.port_values());
+                compared += agreement.compared;
+            }
+        }
+        compared
+    });
+    println!("{} machines, {} port values compared", compared.len(), compared.iter().sum::<u64>());
+    assert!(compared.iter().all(|compared| *compared > 100_000), "{compared:?}");
+}
+
 /// Before a depth of half of full scale each function but never and always passes some fragments and not others, under
 /// each policy, with and without the write mask.
 #[test]

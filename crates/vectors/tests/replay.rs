@@ -292,7 +292,7 @@ fn replayed(machine: &Plan, unit: Unit, change: impl Fn(&mut Value)) -> (u64, u6
 
 #[test]
 fn every_unit_replays_from_its_manifest_alone() {
-    let (_, with_all) = common::lights().remove(3);
+    let (_, with_all) = common::shades().remove(6);
     let machines = [common::small(), with_all];
     let units =
         machines.iter().flat_map(|machine| Unit::all(machine).into_iter().map(move |unit| (machine, unit)));

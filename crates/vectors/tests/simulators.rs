@@ -162,6 +162,55 @@ fn machines_with_shadow_replay_and_are_clean() {
     assert!(done.iter().all(|checked| *checked > 5000), "{done:?}");
 }
 
+/// A Phong machine with a texture in Icarus, a fast-phong machine in Verilator too, and their units in Icarus.
+#[test]
+fn machines_with_shade_replay_and_are_clean() {
+    let mut machines = common::shades();
+    let machines = [machines.remove(6), machines.remove(1)];
+    machines_with_shade(&machines, |i| &Simulator::ALL[..1 + i], &["shade"]);
+}
+
+/// All eight in both; not part of the test run.
+#[test]
+#[ignore = "minutes"]
+fn machines_with_shade_in_every_tool() {
+    machines_with_shade(
+        &common::shades(),
+        |_| &Simulator::ALL,
+        &["hazards", "corners", "random", "sphere", "shade"],
+    );
+}
+
+fn machines_with_shade(
+    machines: &[(&str, Plan)],
+    simulators: impl Fn(usize) -> &'static [Simulator] + Sync,
+    suites: &[&str],
+) {
+    let done = common::two_at_a_time(machines, |i, (name, machine)| {
+        let suites = suites.iter().map(|name| Suite::named(machine, name, 5, 12).expect("listed"));
+        let suite = Suite::joined("replay", "", suites);
+        let of = |unit, stalls| {
+            let trace = capture(machine, unit, &suite, suite.state(), stalls);
+            let verilog = design::verilog(machine, unit).expect("a checked machine");
+            directory(&suite, &trace, &verilog, Tables::LeftOut)
+        };
+        let whole = of(Unit::MACHINE, StallKind::ALL[(i + 1) % 3]);
+        let mut checked: u64 = simulators(i).iter().map(|simulator| passes(*simulator, &whole)).sum();
+        let own = [common::TERM, common::PIXEL, common::TEXEL, common::NORMAL, common::SHADE];
+        for (j, unit) in own.into_iter().filter(|unit| Unit::all(machine).contains(unit)).enumerate() {
+            checked += passes(Simulator::Icarus, &of(unit, StallKind::ALL[(i + j) % 3]));
+        }
+        let place = tempfile::tempdir().expect("a directory");
+        let vectors = place.path().join("the vectors");
+        write(&whole, &vectors);
+        lint(&vectors, LIMIT).unwrap_or_else(|error| panic!("{name}: {error}"));
+        println!("{name:44} {checked} checked, lint clean");
+        checked
+    });
+    assert_eq!(done.len(), machines.len());
+    assert!(done.iter().all(|checked| *checked > 5000), "{done:?}");
+}
+
 /// Every unit of three machines in Icarus, and in Verilator, where building takes its time, of one of them in turn.
 #[test]
 fn every_unit_replays() {

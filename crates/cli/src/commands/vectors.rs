@@ -8,7 +8,8 @@ use crate::{Talk, jobs, progress, talk};
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_vectors::{
-    Files, Reached, SUITES, StallKind, Suite, Tables, Unit, capture, design, directory, not_covered, reached,
+    Files, Reached, SUITES, StallKind, Suite, Tables, Unit, Words, capture, design, directory, not_covered,
+    reached,
 };
 use std::path::{Component, Path, PathBuf};
 
@@ -31,10 +32,10 @@ pub struct Args {
     #[arg(long, requires = "input", value_parser = clap::value_parser!(u64).range(1..))]
     triangles: Option<u64>,
     /// Suites: hazards, corners, random, sphere, depth_never to depth_always, depth_unwritten, with BLEND blend_add and
-    /// color_unwritten, with SHADOW light and light_off; without an input all of them if left out
+    /// color_unwritten, with SHADOW light and light_off, with SHADE shade; without an input all of them if left out
     #[arg(long, value_name = "NAME")]
     suite: Vec<String>,
-    /// Units: machine, setup, edge, span, pixel, shadow, depth, blend; all that a suite is for if left out
+    /// Units: machine, setup, edge, span, term, pixel, texel, normal, shade, shadow, depth, blend; all that a suite is for if left out
     #[arg(long, value_name = "NAME", value_parser = unit)]
     unit: Vec<Unit>,
     /// How the bench makes the design wait: none, mixed, late; what suits each suite if left out
@@ -73,7 +74,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         Some(input) => {
             let source = Source { input: input.clone(), shading: Shading::Gouraud };
             let (machine, frame) = source.on_its_screen(machine)?;
-            let suite = of_input(input, &to_port(&frame, &machine)?, args.triangles)?;
+            let suite = of_input(input, &machine, &to_port(&frame, &machine)?, args.triangles)?;
             (machine, Some(Suite { seed: args.seed, ..suite }))
         }
         None => (machine.machine(None)?, None),
@@ -106,7 +107,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 }
 
 /// The triangles of an input as a suite with its depth function; `triangles` of them, spread over it evenly.
-pub fn of_input(input: &str, port: &PortFrame, triangles: Option<u64>) -> Result<Suite> {
+pub fn of_input(input: &str, machine: &Plan, port: &PortFrame, triangles: Option<u64>) -> Result<Suite> {
     let name = Path::new(input).file_stem().map_or_else(|| input.into(), |stem| stem.to_string_lossy());
     // It becomes the name of a directory.
     let name: String =
@@ -118,7 +119,7 @@ pub fn of_input(input: &str, port: &PortFrame, triangles: Option<u64>) -> Result
     Ok(Suite {
         shadow_on: state.shadow_on,
         ambient: state.ambient,
-        map: port.maps().pop().unwrap_or_default(),
+        words: words_of_input(machine, port, every)?,
         depth_func: state.depth_func,
         depth_write: state.depth_write,
         color_write: state.color_write,
@@ -127,14 +128,38 @@ pub fn of_input(input: &str, port: &PortFrame, triangles: Option<u64>) -> Result
     })
 }
 
+/// What the memories hold for every so manieth triangle of an input.
+fn words_of_input(machine: &Plan, port: &PortFrame, every: usize) -> Result<Words> {
+    let mut words = Words::new();
+    if let Some(map) = port.maps().pop() {
+        words.insert("map", map.into_iter().map(u128::from).collect());
+    }
+    let shading = port.words();
+    let taken = shading.records.len().div_ceil(every);
+    if machine.shade.is_there() && taken > 1 << machine.shade.record_bits {
+        return Err(anyhow!(
+            "{taken} triangles with a record each, and the memory of the terms has {}; add --triangles {0}, or --set term.record_bits={}",
+            1u64 << machine.shade.record_bits,
+            taken.next_power_of_two().ilog2()
+        ));
+    }
+    let records = shading.records.iter().step_by(every).flat_map(|record| machine.record_words(record));
+    let filled = [("tables", &shading.tables), ("roots", &shading.roots), ("textures", &shading.textures)];
+    words.insert("terms", records.map(u128::from).collect());
+    words.extend(filled.map(|(memory, words)| (memory, words.as_slice().into())));
+    Ok(words)
+}
+
 /// The suites that meet every corner on purpose.
 pub fn directed(machine: &Plan) -> Result<Vec<Suite>> {
     named(machine, |name| ["hazards", "corners"].contains(&name))
 }
 
-/// The suites of the depth functions, and those of BLEND and SHADOW where they are.
+/// The suites of the depth functions, and those of BLEND, SHADOW and SHADE where they are.
 pub fn functions(machine: &Plan) -> Result<Vec<Suite>> {
-    named(machine, |name| ["depth_", "blend_", "color_", "light"].iter().any(|kind| name.starts_with(kind)))
+    named(machine, |name| {
+        ["depth_", "blend_", "color_", "light", "shade"].iter().any(|kind| name.starts_with(kind))
+    })
 }
 
 fn named(machine: &Plan, wanted: impl Fn(&str) -> bool) -> Result<Vec<Suite>> {

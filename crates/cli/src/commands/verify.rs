@@ -76,8 +76,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = machine.machine(None)?;
     let frame = args.source.frame(&machine)?;
     let port = to_port(&frame, &machine)?;
-    let input =
-        Suite { name: "input".to_owned(), ..of_input(&args.source.input, &port, Some(args.triangles))? };
+    let input = Suite {
+        name: "input".to_owned(),
+        ..of_input(&args.source.input, &machine, &port, Some(args.triangles))?
+    };
     let mut work: Vec<(Suite, Unit, &[Simulator])> = vec![(input, Unit::MACHINE, &Simulator::ALL)];
     for suite in directed(&machine)? {
         // A build with Verilator takes seconds: the whole machine is enough for it.

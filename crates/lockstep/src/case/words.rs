@@ -8,7 +8,8 @@ use rand_pcg::Pcg64Mcg;
 use std::sync::Arc;
 
 /// The words of a memory from address 0 on; none of one that the machine writes.
-pub(super) fn start(plan: &Plan, memory: &Memory, random: &mut Pcg64Mcg) -> Arc<[u128]> {
+#[must_use]
+pub fn words_at_start(plan: &Plan, memory: &Memory, random: &mut Pcg64Mcg) -> Arc<[u128]> {
     match memory.name {
         "terms" => (0..1 << plan.shade.record_bits).flat_map(|_| record(plan, random)).collect(),
         "map" | "roots" | "textures" => {

@@ -15,6 +15,7 @@ mod pixel;
 mod texel;
 mod normal;
 mod shade;
+mod project;
 mod shadow;
 mod depth;
 mod blend;
@@ -79,6 +80,7 @@ fn of<const C: usize>(plan: &Plan, interface: &Interface) -> Result<Box<dyn Mode
         "texel" => Box::new(texel::TexelDevice::<C>::new(plan, interface)?),
         "normal" => Box::new(normal::NormalDevice::<C>::new(plan, interface)?),
         "shade" => Box::new(shade::ShadeDevice::<C>::new(plan, interface)?),
+        "project" => Box::new(project::ProjectDevice::<C>::new(plan, interface)?),
         "shadow" => Box::new(shadow::ShadowDevice::<C>::new(plan, interface)?),
         "depth" => Box::new(depth::DepthDevice::<C>::new(plan, interface)?),
         "blend" => Box::new(blend::BlendDevice::<C>::new(plan, interface)?),

@@ -2,7 +2,9 @@
 
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
-use edgewalk_machine::{BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeColour, Texture};
+use edgewalk_machine::{
+    BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeColour, ShadowLight, Texture,
+};
 use rand::Rng;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
@@ -60,7 +62,13 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     kt.kt_vertex = kt.kt_vertex.min(kt.kt_fraction);
     let light = &mut machine.shadow;
     light.vertex_fraction = light.vertex_fraction.min(light.fraction);
-    let own = u32::from(kt.kind == BlendKind::Interpolated) + 3 * u32::from(light.is_there());
+    if machine.extra > 2 && rng.random() {
+        light.light = ShadowLight::None; // it leaves no room for so many channels of the user's own
+    }
+    if light.projects() && kt.kind == BlendKind::Interpolated {
+        kt.kind = BlendKind::Constant; // there are eight channels at most
+    }
+    let own = u32::from(kt.kind == BlendKind::Interpolated) + light.channels().len() as u32;
     machine.extra = machine.extra.min(MAX_CHANNELS as u32 - 4 - own);
     machine.adders = machine.adders.min(4 + machine.extra + own);
     machine

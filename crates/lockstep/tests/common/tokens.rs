@@ -84,6 +84,11 @@ fn token(plan: &Plan, fields: &[Port], rng: &mut Pcg64Mcg) -> Token {
     // kt: 0, 1, more than 1, or anything.
     let one = 1i128 << plan.blend.kt_bits;
     let kts = [0, one, one + rng.random_range(0..one), rng.random_range(0..one), rng.random_range(0..one)];
+    // PROJECT divides by a weight, the others by it; SHADOW behind it has none.
+    let most = 1i128 << plan.shadow.light_bits;
+    let weights = [rng.random_range(-most..most), rng.random_range(1..4), rng.random_range(1..most)];
+    let weight =
+        fields.iter().any(|port| port.name == "frag_lw").then(|| *weights.choose(rng).expect("some"));
     let value = |port: &Port| {
         let random = u128::from(rng.next_u64()) << 64 | u128::from(rng.next_u64());
         let number = match port.name.as_str() {
@@ -102,6 +107,17 @@ fn token(plan: &Plan, fields: &[Port], rng: &mut Pcg64Mcg) -> Token {
             "frag_gloss" => rng.random_range(0..=plan.shade.gloss_bits).into(),
             // N.N is cut below 2^14 and from 2^16 on.
             "frag_nn" if rng.random_bool(0.7) => rng.random_range((1 << 14) - 2..(1 << 16) + 2),
+            "frag_lw" => weight.unwrap_or(0),
+            "frag_lx" | "frag_ly" | "frag_lz" if weight.is_some() => {
+                let w = weight.unwrap_or(0);
+                match rng.random_range(0..8) {
+                    0 => w,
+                    1 => rng.random_range(-most..most),
+                    2 => w - 1,
+                    3 => -1,
+                    _ => rng.random_range(0..=w.max(0)),
+                }
+            }
             "frag_lx" | "frag_ly" if rng.random_bool(0.9) => {
                 rng.random_range(-1..=i128::from(plan.shadow.size))
             }

@@ -59,6 +59,9 @@ fn values(plan: &Plan, rng: &mut Pcg64Mcg) -> Vec<i64> {
         // What the light's map covers is a small part of what its values may be.
         let (side, depth) = (i64::from(plan.shadow.size), 1 << plan.shadow.depth_bits);
         let on_map = match channel.name {
+            // Quotients below 1, but for some.
+            "lw" if rng.random_bool(0.7) => return rng.random_range(most / 2..=most),
+            "lx" | "ly" | "lz" if plan.shadow.projects() => Some(1 << (plan.shadow.light_bits - 1)),
             "lx" | "ly" => Some(side),
             "lz" => Some(depth),
             _ => None,

@@ -1,7 +1,6 @@
 //! SHADOW: from fragments to fragments that are lit or not.
 
 use super::tokens;
-use crate::channel::{Channel, Kind};
 use crate::field::Field;
 use crate::link::{Link, MemoryPort, Ready, Status};
 use crate::machine::Machine;
@@ -15,7 +14,7 @@ pub const SPEC: UnitSpec = UnitSpec {
     purpose: "looks up a light's depth map, and darkens what lies behind it",
     section: 10,
     present: there,
-    wants,
+    wants: |machine: &Machine| machine.shadow.channels(),
     ports,
     events: EVENTS,
 };
@@ -29,18 +28,9 @@ fn several(plan: &Plan) -> bool {
     plan.shadow.is_there() && plan.shadow.queue > 1
 }
 
-fn wants(machine: &Machine) -> Vec<Channel> {
-    if !machine.shadow.is_there() {
-        return Vec::new();
-    }
-    let texel = Channel { name: "lx", kind: Kind::Floor, precision: machine.shadow.texel() };
-    let depth = Channel { name: "lz", kind: Kind::Signed, precision: machine.shadow.light_depth() };
-    vec![texel, Channel { name: "ly", ..texel }, depth]
-}
-
 fn ports(plan: &Plan) -> Ports {
     // Whether a texel has to be read is asked of fragments only.
-    let frag = Link { ready: Ready::WhileValid, ..Link::new("frag", tokens::tinted(plan)) };
+    let frag = Link { ready: Ready::WhileValid, ..Link::new("frag", tokens::projected(plan)) };
     let mut constants = vec![Field::count("shadow_on", 1, "the map counts; else all is lit")];
     if plan.shadow.gate == Gate::Scale {
         let doc = "what a colour in shadow is multiplied by, all ones for 1";

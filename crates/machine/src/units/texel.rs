@@ -2,7 +2,7 @@
 
 use super::tokens;
 use crate::field::Field;
-use crate::link::{Link, MemoryPort, Status};
+use crate::link::{Link, MemoryPort, Ready, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::unit::{Event, Ports, UnitSpec};
@@ -23,17 +23,18 @@ fn there(plan: &Plan) -> bool {
 }
 
 fn ports(plan: &Plan) -> Ports {
-    // Whether a word is taken depends on whether the fragment it colours is.
     let data = Field::count("rgb", 3 * plan.color.bits, "red, green, blue, red the most significant");
     let bits = plan.shade.material_bits + 2 * plan.shade.texture_bits;
     let doc = format!("(material * 2^{0} + line) * 2^{0} + column", plan.shade.texture_bits);
+    // Whether a fragment is taken depends on whether its read is, and whether a word is taken on who takes the fragment it colours.
+    let frag = Link { ready: Ready::WhileValid, ..Link::new("frag", tokens::fragment(plan)) };
     Ports {
-        takes: Some(Link::new("frag", tokens::fragment(plan))),
+        takes: Some(frag),
         gives: Some(Link::new("textured", tokens::textured(plan))),
         memory: vec![MemoryPort {
             name: "textures",
             read: Link::new("xrd", vec![Field::count("addr", bits, doc)]),
-            data: Link::new("xdata", vec![data]),
+            data: Link { ready: Ready::WhileValid, ..Link::new("xdata", vec![data]) },
             write: "",
             word: "",
             enable: None,

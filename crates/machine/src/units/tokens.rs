@@ -310,6 +310,28 @@ pub fn tinted(plan: &Plan) -> Vec<Field> {
     fragment_with(plan, Vec::new())
 }
 
+/// What SHADOW takes: a fragment with its texel and its depth from the light; without PROJECT what SHADE gives.
+#[must_use]
+pub fn projected(plan: &Plan) -> Vec<Field> {
+    let mut fields = tinted(plan);
+    if plan.shadow.projects() {
+        let (texel, distance) = (plan.shadow.texel_bits(), plan.shadow.distance_bits());
+        fields.retain(|field| field.name != "lw");
+        for field in &mut fields {
+            match field.name.as_str() {
+                "lx" => *field = Field::signed("lx", texel, "column of its texel, -1 outside the map"),
+                "ly" => *field = Field::signed("ly", texel, "line of its texel, -1 outside the map"),
+                "lz" => {
+                    let doc = format!("depth from the light in 2^-{}, or -1", plan.shadow.depth_bits);
+                    *field = Field::signed("lz", distance, doc);
+                }
+                _ => {}
+            }
+        }
+    }
+    fields
+}
+
 fn fragment_with(plan: &Plan, terms: Vec<Field>) -> Vec<Field> {
     let mut fields = vec![address(plan)];
     fields.extend(outputs(plan));

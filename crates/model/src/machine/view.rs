@@ -3,6 +3,7 @@
 use super::shading::parts;
 use super::{Inputs, Model};
 use crate::depth::DepthInputs;
+use crate::project::Project;
 use crate::shade::Shade;
 use crate::view::View;
 use edgewalk_machine::Plan;
@@ -17,13 +18,15 @@ impl<const C: usize> Model<C> {
         let drawn = pixel.frag();
         let units = self.units();
         let offered = units.offered(&inputs.texel);
-        let frag = self.shade().map_or(drawn, Shade::tinted);
+        let colored = self.shade().map_or(drawn, Shade::tinted);
+        let frag = self.project().map_or(colored, Project::projected);
         let shaded = self.shadow().and_then(|shadow| shadow.shaded(&inputs.shadow));
         let seen = if self.shadow().is_some() { shaded.as_ref() } else { frag };
         let block = depth.block(seen, inputs.depth_write);
         let seen_ready = inputs.rd_ready && block.is_none();
         let frag_ready = self.shadow().map_or(seen_ready, |shadow| shadow.frag_ready(frag, &inputs.shadow));
-        let readies = units.readies(&offered, &inputs.texel, frag_ready);
+        let colored_ready = self.project().map_or(frag_ready, |project| project.frag_ready(frag_ready));
+        let readies = units.readies(&offered, &inputs.texel, colored_ready);
         let (pixel_ready, fresh_queued) = (pixel.span_ready(readies.drawn), span.fresh_queued());
         let there = self.term().is_none_or(|term| term.there(span.span()));
         let span_ready = there && pixel_ready;
@@ -56,8 +59,15 @@ impl<const C: usize> Model<C> {
         }
         if let Some(shade) = self.shade() {
             let (frag, cosines) = parts(&offered.normed);
-            let next = if self.shadow().is_some() { "shadow" } else { "depth" };
-            shade.view(plan, (frag, &cosines), &inputs.shade, (next, frag_ready), view);
+            let next = match (self.project(), self.shadow()) {
+                (Some(_), _) => "project",
+                (None, Some(_)) => "shadow",
+                (None, None) => "depth",
+            };
+            shade.view(plan, (frag, &cosines), &inputs.shade, (next, colored_ready), view);
+        }
+        if let Some(project) = self.project() {
+            project.view(plan, colored, frag_ready, view);
         }
         if let Some(shadow) = self.shadow() {
             shadow.view(plan, frag, &inputs.shadow, seen_ready, view);
@@ -72,6 +82,7 @@ impl<const C: usize> Model<C> {
             walk: !there && span.span().is_some(),
             texel: units.texel_waits(&offered),
             tables: units.tables_wait(&offered),
+            dividing: self.project().is_some_and(Project::dividing),
         };
         view.cause(self.activity(block, readies.drawn, waits));
     }

@@ -16,7 +16,8 @@ impl<const C: usize> Shadow<C> {
         view: &mut View,
     ) {
         view.unit(plan, "shadow");
-        view.kind("fragment", "fragments", || fragments::fields(plan));
+        let kind = fragments::looked_up(plan);
+        view.kind(kind.0, kind.1, || fragments::looked_up_fields(plan));
         let head = (!self.queue.is_empty()).then(|| *self.queue.head());
         view.triangle(head.as_ref().map(|head| &head.fragment).or(frag).map(|frag| frag.source.id));
         let bits = (self.places as u32 + 1).next_power_of_two().ilog2();
@@ -54,14 +55,14 @@ impl<const C: usize> Shadow<C> {
         view.table(&format!("queue of {}", self.places), &["fragment", "known", "value", "d"], false);
         for number in 0..self.places {
             let entry = (number < self.queue.len()).then(|| *self.queue.at(number));
-            let values =
-                entry.map(|entry| fragments::values(plan, entry.fragment.addr, &entry.fragment.values));
+            let values = entry
+                .map(|entry| fragments::looked_up_values(plan, entry.fragment.addr, &entry.fragment.values));
             let shown = entry.as_ref().zip(values.as_ref());
             let shown = shown.map(|(entry, values)| (entry.fragment.source.id, &values[..]));
             let wire = |part: &str| format!("queue.place{number}_{part}");
             let entry = entry.unwrap_or_default();
             view.row(&if number == 0 { "head".to_owned() } else { number.to_string() });
-            let there = view.token_cell("a fragment that waits", "fragment", shown);
+            let there = view.token_cell("a fragment that waits", fragments::looked_up(plan).0, shown);
             view.live(Some(there));
             let known = view.cell("lit or not without a texel", || Shape::Flag, entry.known.into());
             view.wire(|| wire("known"));

@@ -15,6 +15,41 @@ pub(crate) fn values<const C: usize>(plan: &Plan, addr: u32, outputs: &[u32; C])
     std::iter::once(u64::from(addr)).chain(outputs).collect()
 }
 
+/// Names of the kind of token that SHADOW takes, and of a table of them.
+pub(crate) fn looked_up(plan: &Plan) -> (&'static str, &'static str) {
+    if plan.shadow.projects() {
+        ("projected", "fragments with their texel and depth")
+    } else {
+        ("fragment", "fragments")
+    }
+}
+
+/// Its fields: with PROJECT without the weight, and quotients in the place of what is divided.
+pub(crate) fn looked_up_fields(plan: &Plan) -> Vec<Field> {
+    let (texel, distance) = (plan.shadow.texel_bits(), plan.shadow.distance_bits());
+    let field = |(place, own): (usize, &Channel)| match own.name {
+        "lx" | "ly" if plan.shadow.projects() => {
+            Field { name: own.name, shape: Shape::signed(texel), brief: false }
+        }
+        "lz" if plan.shadow.projects() => {
+            Field { name: own.name, shape: Shape::signed(distance), brief: false }
+        }
+        _ => channel((place, own)),
+    };
+    std::iter::once(pixel(plan)).chain(but_weight(plan).map(field)).collect()
+}
+
+/// The values of one.
+pub(crate) fn looked_up_values<const C: usize>(plan: &Plan, addr: u32, outputs: &[u32; C]) -> Vec<u64> {
+    let values = but_weight(plan).map(|(place, _)| u64::from(outputs[place]));
+    std::iter::once(u64::from(addr)).chain(values).collect()
+}
+
+/// The channels that SHADOW takes.
+fn but_weight(plan: &Plan) -> impl Iterator<Item = (usize, &Channel)> {
+    plan.channels().iter().enumerate().filter(|(_, channel)| channel.name != "lw")
+}
+
 /// Names of the kind of token from DEPTH on, and of a table of them.
 pub(crate) fn seen(plan: &Plan) -> (&'static str, &'static str) {
     if plan.shadow.is_there() { ("shaded", "fragments, lit or not") } else { ("fragment", "fragments") }

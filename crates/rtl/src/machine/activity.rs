@@ -22,6 +22,7 @@ pub(super) fn activity<'m>(m: &'m Module, units: &Joined<'m>) -> Signal<'m> {
     let own_doing = |full: &str, gives: &str| units.find(full).map(|full| !full | !units.valid(gives));
     let light = own_doing("shadow_full", "shaded");
     let waits = light.map_or(waits, |light| light.mux(cause(Activity::Light), waits));
+    let waits = units.find("dividing").map_or(waits, |no| no.mux(cause(Activity::Project), waits));
     let waits = units.find("table_wait").map_or(waits, |no| no.mux(cause(Activity::Shade), waits));
     let texel = own_doing("texel_full", "textured");
     let waits = texel.map_or(waits, |texel| texel.mux(cause(Activity::Texel), waits));

@@ -8,6 +8,7 @@
 //!  depth_never ..   a suite for each depth function, and one without depth writes
 //!  blend_add ..     machines with BLEND: colours that are added, and colours that are not written
 //!  light ..         machines with SHADOW: the corners of its map, and no map
+//!  shade            machines with SHADE: words at the ends of its tables, materials in turn
 //! ```
 //! A suite knows the formats of the machine, nothing of what it draws.
 
@@ -17,8 +18,12 @@ mod hazards;
 mod light;
 mod pen;
 mod random;
+mod shade;
 mod sphere;
 mod ties;
+mod words;
+
+pub use words::{Words, words};
 
 use edgewalk_lockstep::{StallKind, Unit};
 use edgewalk_machine::nearest::nearest;
@@ -61,8 +66,8 @@ pub struct Suite {
     pub shadow_on: bool,
     /// What SHADOW leaves of a colour in shadow, where its gate scales, LSB.
     pub ambient: u64,
-    /// The words of the light's map, from address 0 on; beyond them all ones.
-    pub map: Vec<u32>,
+    /// What the memories hold that nobody writes.
+    pub words: Words,
     /// Under which stalls it shows what it is for.
     pub stalls: StallKind,
     /// The units that it says something about; all, if none is named.
@@ -90,6 +95,8 @@ enum Kind {
     Colors { color_write: bool, blend_add: bool },
     /// For SHADOW: its map at work or not.
     Light { shadow_on: bool },
+    /// For TERM, TEXEL, NORMAL and SHADE: words of its own.
+    Shade,
 }
 
 const fn shapes(
@@ -112,13 +119,14 @@ impl Entry {
         match self.kind {
             Kind::Colors { .. } => machine.blend.is_there(),
             Kind::Light { .. } => machine.shadow.is_there(),
+            Kind::Shade => machine.shade.is_there(),
             Kind::Shapes(..) | Kind::Function(..) => true,
         }
     }
 }
 
 /// The suites that come with the program.
-pub const SUITES: [Entry; 17] = [
+pub const SUITES: [Entry; 18] = [
     shapes(
         "hazards",
         "pixels met again while they are in flight: one-pixel triangles on one address, knee lines drawn twice",
@@ -169,13 +177,12 @@ pub const SUITES: [Entry; 17] = [
         about: "shadow_on = 0: all is lit, in machines with SHADOW",
         kind: Kind::Light { shadow_on: false },
     },
+    Entry {
+        name: "shade",
+        about: "cosines at and beside the ends of the tables, normals of every length, textures that repeat, materials in turn, triangles that are culled between, in machines with SHADE",
+        kind: Kind::Shade,
+    },
 ];
-
-/// The words of the light's map that the suites are drawn with; none without SHADOW.
-#[must_use]
-pub fn map(machine: &Plan) -> Vec<u32> {
-    if machine.shadow.is_there() { light::map(machine) } else { Vec::new() }
-}
 
 /// No suite of that name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -200,10 +207,9 @@ impl Suite {
         let mut plain = Suite { seed, ..Suite::of_triangles(name, entry.about, Vec::new()) };
         if machine.shadow.is_there() {
             // Every suite is drawn with the map at work, but for the one without.
-            (plain.shadow_on, plain.map) = (true, map(machine));
-            plain.ambient = machine.color.max() / 3;
+            (plain.shadow_on, plain.ambient) = (true, machine.color.max() / 3);
         }
-        Ok(match entry.kind {
+        let suite = match entry.kind {
             Kind::Shapes(stalls, cases) => Suite { stalls, cases: cases(machine, seed, count), ..plain },
             Kind::Function(depth_func, depth_write) => {
                 let suite = Suite {
@@ -238,7 +244,13 @@ impl Suite {
                 cases: light::cases(machine),
                 ..plain
             },
-        })
+            Kind::Shade => {
+                let (cases, records) = shade::cases(machine);
+                let words = words::with_records(machine, seed, &records);
+                return Ok(Suite { stalls: StallKind::Mixed, cases, words, ..plain });
+            }
+        };
+        Ok(Suite { words: words(machine, seed, suite.triangles().count()), ..suite })
     }
 
     /// A suite of one case under `less`: triangles from elsewhere.
@@ -257,7 +269,7 @@ impl Suite {
             blend_add: less.blend_add,
             shadow_on: less.shadow_on,
             ambient: less.ambient,
-            map: Vec::new(),
+            words: Words::new(),
             stalls: StallKind::Mixed,
             units: &[],
             cases: vec![case],
@@ -284,9 +296,16 @@ impl Suite {
         let mut joined = Suite { cases: Vec::new(), ..Suite::of_triangles(name, about, Vec::new()) };
         for suite in suites {
             joined.seed = joined.seed.max(suite.seed);
-            // The light is the machine's.
+            // The light is the machine's, and so are tables; a record is a triangle's.
             (joined.shadow_on, joined.ambient) = (suite.shadow_on, suite.ambient);
-            joined.map = suite.map;
+            for (memory, words) in suite.words {
+                match joined.words.get_mut(memory) {
+                    Some(before) if memory == words::RECORDS => {
+                        *before = before.iter().chain(words.iter()).copied().collect();
+                    }
+                    _ => _ = joined.words.insert(memory, words),
+                }
+            }
             joined.cases.extend(suite.cases);
         }
         joined

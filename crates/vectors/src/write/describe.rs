@@ -176,7 +176,7 @@ fn memories(trace: &Trace) -> Vec<Memory> {
         }),
         latency: setting.latency,
         words: setting.words as u64,
-        clear: setting.clear as u64, // at most 32 bits, 48 of colours
+        clear: setting.clear as u64, // at most 64 bits
         start: memory.write.is_none().then(|| start_file(memory.name)),
         read_during_write: "old word".to_owned(),
     });

@@ -72,7 +72,7 @@ pub fn directory(suite: &Suite, trace: &Trace, design: &[(String, String)], tabl
     }
     for (memory, setting) in interface.memories.iter().zip(&trace.setting.memories) {
         if memory.write.is_none() {
-            let words: Vec<u64> = setting.start.iter().map(|word| *word as u64).collect(); // at most 24 bits
+            let words: Vec<u64> = setting.start.iter().map(|word| *word as u64).collect(); // at most 64 bits
             add(start_file(memory.name), mem::numbers(memory.word_bits, &words));
         }
     }

@@ -4,7 +4,8 @@
 use edgewalk_lockstep::{Agreement, Interface, LockstepError, NetlistDevice, PortError};
 use edgewalk_machine::units;
 use edgewalk_machine::{
-    Blend, BlendKind, EdgeKind, Fill, Gate, Hazard, Kind, Machine, Plan, Precision, Shadow, ShadowLight,
+    Blend, BlendKind, EdgeKind, Fill, Gate, Hazard, Kind, Machine, Plan, Precision, Shade, ShadeColour,
+    ShadeKind, Shadow, ShadowLight, Texture, Walk,
 };
 use edgewalk_netlist::Netlist;
 use edgewalk_vectors::{Files, Trace, Unit};
@@ -68,7 +69,11 @@ fn checked(machine: Machine) -> Plan {
 pub const SETUP: Unit = Unit::of(&units::setup::SPEC);
 pub const EDGE: Unit = Unit::of(&units::edge::SPEC);
 pub const SPAN: Unit = Unit::of(&units::span::SPEC);
+pub const TERM: Unit = Unit::of(&units::term::SPEC);
 pub const PIXEL: Unit = Unit::of(&units::pixel::SPEC);
+pub const TEXEL: Unit = Unit::of(&units::texel::SPEC);
+pub const NORMAL: Unit = Unit::of(&units::normal::SPEC);
+pub const SHADE: Unit = Unit::of(&units::shade::SPEC);
 pub const DEPTH: Unit = Unit::of(&units::depth::SPEC);
 pub const SHADOW: Unit = Unit::of(&units::shadow::SPEC);
 pub const BLEND: Unit = Unit::of(&units::blend::SPEC);
@@ -224,6 +229,64 @@ pub fn lights() -> Vec<(&'static str, Plan)> {
                 },
                 [(Kind::Unorm, 3)],
             ),
+        ),
+    ];
+    list.into_iter().map(|(name, machine)| (name, checked(machine))).collect()
+}
+
+/// Eight machines with TERM and SHADE: fast Phong and Phong, both walks, colours from tables and multiplied, one light and two, materials,
+/// textures, latencies; with BLEND, SHADOW, channels of the user's own, segments, textbook fill.
+pub fn shades() -> Vec<(&'static str, Plan)> {
+    use ShadeColour::{Multiply, Tables};
+    use ShadeKind::{FastPhong, Phong};
+    use Walk::{Memory, Register};
+    let small = Machine::clone(&small());
+    let shade = |kind, walk, colour, [lights, material_bits, gloss_bits, latency]: [u32; 4]| {
+        let short = Shade { table_bits: 8, fraction: 8, linear_fraction: 4, record_bits: 5, ..small.shade };
+        let shade = Shade { kind, walk, colour, lights, material_bits, gloss_bits, ..short };
+        let latencies = Shade { term_latency: latency, table_latency: latency, ..shade };
+        Machine {
+            shade: Shade { root_latency: latency, texel_latency: latency, ..latencies },
+            ..small.clone()
+        }
+    };
+    let textured = |bits, queue, machine: Machine| {
+        let shade =
+            Shade { texture: Texture::Nearest, texture_bits: bits, texel_queue: queue, ..machine.shade };
+        Machine { shade, ..machine }
+    };
+    let light = Shadow { light: ShadowLight::Parallel, fraction: 8, vertex_fraction: 2, ..small.shadow };
+    let light = Shadow { size: 4, guard_bits: 1, depth_bits: 6, gate: Gate::Scale, ..light };
+    let glass = |kind| Blend { kind, hazard: Hazard::Forward, kt_fraction: 8, kt_vertex: 2, ..small.blend };
+    let all = textured(2, 3, shade(Phong, Memory, Multiply, [1, 1, 3, 3]));
+    let list = vec![
+        ("fast_phong_registers_tables", shade(FastPhong, Register, Tables, [1, 2, 4, 2])),
+        ("fast_phong_memory_tables_two_lights", shade(FastPhong, Memory, Tables, [2, 1, 2, 1])),
+        (
+            "fast_phong_memory_multiply_tags_segments",
+            Machine { tag_bits: 3, segments: 2, ..shade(FastPhong, Memory, Multiply, [1, 0, 0, 3]) },
+        ),
+        ("fast_phong_registers_texture", textured(3, 4, shade(FastPhong, Register, Multiply, [1, 1, 4, 2]))),
+        ("phong_registers_tables", shade(Phong, Register, Tables, [1, 1, 4, 2])),
+        (
+            "phong_memory_multiply_two_lights_one_extra",
+            with_extras(
+                Machine { adders: 2, ..shade(Phong, Memory, Multiply, [2, 1, 6, 1]) },
+                [(Kind::Signed, 5)],
+            ),
+        ),
+        (
+            "phong_memory_texture_shadow_interpolated_kt",
+            Machine { shadow: light, blend: glass(BlendKind::Interpolated), ..all },
+        ),
+        (
+            "textbook_fast_phong_texture_constant_kt",
+            Machine {
+                subpixel_bits: 0,
+                fill: Fill::Textbook,
+                blend: glass(BlendKind::Constant),
+                ..textured(1, 1, shade(FastPhong, Register, Multiply, [2, 1, 2, 4]))
+            },
         ),
     ];
     list.into_iter().map(|(name, machine)| (name, checked(machine))).collect()

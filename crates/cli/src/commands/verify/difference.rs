@@ -54,11 +54,14 @@ pub fn page(suite: &Suite, trace: &Trace, difference: &Difference) -> Result<Opt
 /// The memory at the start, by field of the tokens that are stored and by pixel.
 fn cleared(trace: &Trace) -> Vec<Vec<u32>> {
     let pixels = (trace.plan.width * trace.plan.height) as usize;
-    let clear = |memory: usize| trace.setting.memories.get(memory).map_or(0, |memory| memory.clear);
-    // Red, green and blue in one word, red the most significant; without BLEND there is no second memory.
-    let (bits, color) = (trace.plan.color.bits, clear(1));
+    let clear = |name: &str| {
+        let place = trace.interface.memories.iter().position(|memory| memory.name == name);
+        place.map_or(0, |place| trace.setting.memories[place].clear)
+    };
+    // Red, green and blue in one word, red the most significant; without BLEND there is no such memory.
+    let (bits, color) = (trace.plan.color.bits, clear("color"));
     let word = |place: usize| match place {
-        0 => clear(0) as u32, // b <= 32 bits
+        0 => clear("depth") as u32, // b <= 32 bits
         1..=3 => (color >> (bits * (3 - place as u32))) as u32 & (u32::MAX >> (32 - bits)),
         _ => 0,
     };

@@ -6,6 +6,7 @@ use super::edge::EdgePorts;
 use super::link::{Giver, Scope};
 use super::normal::{self, NormalPorts};
 use super::pixel::PixelPorts;
+use super::project::ProjectPorts;
 use super::setup::{SetupPorts, TriangleTaker};
 use super::shade::{self, ShadePorts};
 use super::shadow::{MapPorts, ShadowPorts};
@@ -51,6 +52,7 @@ struct Inside<const C: usize> {
     texel: Option<TexelPorts<C>>,
     normal: Option<NormalPorts<C>>,
     shade: Option<ShadePorts<C>>,
+    project: Option<ProjectPorts<C>>,
     shadow: Option<ShadowPorts<C>>,
     depth: DepthStatus,
     blend: Option<(Giver<Passed<C>>, BlendStatus)>,
@@ -94,6 +96,7 @@ impl<const C: usize> Inside<C> {
             texel: plan.shade.textures().then(|| TexelPorts::find(of("texel"))).transpose()?,
             normal: plan.shade.normalises().then(|| NormalPorts::find(of("normal"))).transpose()?,
             shade: plan.shade.is_there().then(|| ShadePorts::find(of("shade"))).transpose()?,
+            project: plan.shadow.projects().then(|| ProjectPorts::find(of("project"))).transpose()?,
             shadow: plan.shadow.is_there().then(|| ShadowPorts::find(of("shadow"))).transpose()?,
             depth: DepthStatus::find(of("depth"))?,
             blend: plan.blend.is_there().then(blend).transpose()?,
@@ -105,15 +108,17 @@ impl<const C: usize> Inside<C> {
         let units = model.units();
         let drawn = units.pixel.frag();
         let offered = units.offered(&inputs.texel);
-        let frag = units.shade.map_or(drawn, |shade| shade.tinted());
+        let colored = units.shade.map_or(drawn, |shade| shade.tinted());
+        let frag = units.project.map_or(colored, |project| project.projected());
         let shaded = units.shadow.and_then(|shadow| shadow.shaded(&inputs.shadow));
         let seen = if units.shadow.is_some() { shaded.as_ref() } else { frag };
         let seen_ready = inputs.rd_ready && units.depth.block(seen, inputs.depth_write).is_none();
         let frag_ready = units.shadow.map_or(seen_ready, |shadow| shadow.frag_ready(frag, &inputs.shadow));
+        let colored_ready = units.project.map_or(frag_ready, |project| project.frag_ready(frag_ready));
         self.setup.show(units.setup, ports);
         self.edge.show(units.edge, units.span.fresh_queued(), ports);
         self.span.show(units.span, ports);
-        let readies = units.readies(&offered, &inputs.texel, frag_ready);
+        let readies = units.readies(&offered, &inputs.texel, colored_ready);
         if let (Some(shown), Some(unit)) = (&self.term, units.term) {
             shown.show(unit, units.span.span(), units.pixel.span_ready(readies.drawn), ports);
         }
@@ -126,7 +131,10 @@ impl<const C: usize> Inside<C> {
         }
         if let (Some(shown), Some(unit)) = (&self.shade, units.shade) {
             let (frag, cosines) = parts(&offered.normed);
-            shown.show(unit, (frag, &cosines), frag_ready, ports);
+            shown.show(unit, (frag, &cosines), colored_ready, ports);
+        }
+        if let (Some(shown), Some(unit)) = (&self.project, units.project) {
+            shown.show(unit, frag_ready, ports);
         }
         if let (Some(shown), Some(unit)) = (&self.shadow, units.shadow) {
             shown.show(unit, frag, &inputs.shadow, ports);

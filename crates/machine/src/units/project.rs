@@ -1,0 +1,73 @@
+//! PROJECT: from light-space values to their quotients.
+
+use super::tokens;
+use crate::link::{Link, Status};
+use crate::machine::Machine;
+use crate::plan::Plan;
+use crate::shadow::Project;
+use crate::unit::{Event, Ports, UnitSpec};
+
+/// What PROJECT declares.
+pub const SPEC: UnitSpec = UnitSpec {
+    name: "project",
+    purpose: "divides a fragment's place in the light's view by its weight",
+    section: 15,
+    present: there,
+    // SHADOW names the light-space values of either light.
+    wants: |_: &Machine| Vec::new(),
+    ports,
+    events: EVENTS,
+};
+
+fn there(plan: &Plan) -> bool {
+    plan.shadow.projects()
+}
+
+fn pipelined(plan: &Plan) -> bool {
+    there(plan) && plan.shadow.project == Project::Pipelined
+}
+
+fn serial(plan: &Plan) -> bool {
+    there(plan) && plan.shadow.project == Project::Serial
+}
+
+fn ports(plan: &Plan) -> Ports {
+    let occupied = "a fragment is in a stage, or divided";
+    let dividing =
+        serial(plan).then(|| Status::new("dividing", "rows are left to be done, no fragment can come"));
+    Ports {
+        takes: Some(Link::new("frag", tokens::tinted(plan))),
+        gives: Some(Link::new("projected", tokens::projected(plan))),
+        status: dividing.into_iter().chain([Status::new("occupied", occupied)]).collect(),
+        ..Ports::default()
+    }
+}
+
+const EVENTS: &[Event] = &[
+    Event {
+        name: "behind_light",
+        doc: "fragments behind the light, or beside it: w <= 0",
+        can_happen: there,
+    },
+    Event {
+        name: "map_edge",
+        doc: "columns and lines on the far edge of the map: x or y is w",
+        can_happen: there,
+    },
+    Event { name: "texel_edge", doc: "columns and lines on the edge of a texel", can_happen: there },
+    Event {
+        name: "depth_to_end",
+        doc: "depths before the map's end that are rounded to it",
+        can_happen: there,
+    },
+    Event {
+        name: "project_stall",
+        doc: "cycles in which all stages stand still (pipelined)",
+        can_happen: pipelined,
+    },
+    Event {
+        name: "project_wait",
+        doc: "cycles in which a fragment waits until another is divided (serial)",
+        can_happen: serial,
+    },
+];

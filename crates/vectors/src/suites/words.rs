@@ -1,0 +1,103 @@
+//! What the memories hold that nobody writes: a light's map, and the records, tables, roots and texels behind TERM, SHADE, NORMAL and
+//! TEXEL. Records start around the ends of the tables; tables, roots and texels are random, so that no error of the arithmetic is
+//! small by chance.
+
+use super::light;
+use edgewalk_lockstep::case::words_at_start;
+use edgewalk_lockstep::{Interface, Unit};
+use edgewalk_machine::{Plan, Record, Term};
+use rand::seq::IndexedRandom;
+use rand::{Rng, RngCore, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// By memory the words from address 0 on; what lies beyond them is all ones.
+pub type Words = BTreeMap<&'static str, Arc<[u128]>>;
+
+/// The memory of the terms: a record for each triangle.
+pub(super) const RECORDS: &str = "terms";
+
+/// Materials with words of their own; the last of all is made of ones.
+const MATERIALS: usize = 2;
+
+/// The words for a drawing of so many triangles.
+#[must_use]
+pub fn words(machine: &Plan, seed: u64, triangles: usize) -> Words {
+    let shaded = if machine.shade.is_there() { triangles } else { 0 };
+    let records: Vec<Record> = (0..shaded).map(|k| record(machine, seed, k)).collect();
+    with_records(machine, seed, &records)
+}
+
+/// The words for triangles with these records.
+pub(super) fn with_records(machine: &Plan, seed: u64, records: &[Record]) -> Words {
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let mut words = Words::new();
+    if machine.shadow.is_there() {
+        words.insert("map", light::map(machine).into_iter().map(u128::from).collect());
+    }
+    let of_materials = |each: usize| each * MATERIALS.min(1 << machine.shade.material_bits);
+    for memory in Interface::new(machine, Unit::MACHINE).memories {
+        let most = match memory.name {
+            "tables" => of_materials(1 << machine.shade.entry_bits()),
+            "textures" => of_materials(1 << (2 * machine.shade.texture_bits)),
+            "roots" => 256,
+            _ => continue,
+        };
+        let all = words_at_start(machine, &memory, &mut random);
+        words.insert(memory.name, all[..most].into());
+    }
+    if machine.shade.is_there() {
+        let records = records.iter().flat_map(|record| machine.record_words(record));
+        words.insert(RECORDS, records.map(u128::from).collect());
+    }
+    words
+}
+
+/// That of triangle number k: reference pixel on the screen or beside it, most of them of the first material.
+fn record(machine: &Plan, seed: u64, k: usize) -> Record {
+    let mut random = Pcg64Mcg::seed_from_u64(seed << 32 ^ k as u64);
+    let last = (1u32 << machine.shade.material_bits) - 1;
+    // Tables take long to come.
+    let material = [(5, 1.min(last)), (6, last)].into_iter().find(|(place, _)| k % 16 == *place);
+    let material = material.map_or(0, |(_, material)| material);
+    Record {
+        // Where the suites draw; a walk over all of a large screen would take long.
+        x: random.random_range(-4..machine.width.min(20) as i32 + 4),
+        y: random.random_range(0..machine.height.min(20)),
+        material,
+        gloss: random.random_range(0..=machine.shade.gloss_bits),
+        terms: machine.terms().iter().map(|term| around(machine, term, k % 8 == 4, &mut random)).collect(),
+    }
+}
+
+/// Words of a term that begins at one of its ends or between them and crosses them in some pixels; or any words.
+fn around(machine: &Plan, term: &Term, any: bool, random: &mut Pcg64Mcg) -> [u64; 6] {
+    if any {
+        return std::array::from_fn(|_| random.next_u64());
+    }
+    let ends = ends(machine, term);
+    let (low, high) = (ends[0], ends[ends.len() - 1]);
+    let at = match random.random() {
+        true => *ends.choose(random).unwrap_or(&low),
+        false => random.random_range(low..=high),
+    };
+    let range = (high - low) << term.fraction;
+    let mut upto = |most: i128| random.random_range(-most..=most) as u64;
+    let (slope, bend) = (range / 16, range / 256);
+    let below = upto((1 << term.fraction) / 2);
+    let v = ((at << term.fraction) as u64).wrapping_add(below);
+    [v, upto(slope), upto(slope), upto(bend), upto(bend), upto(bend)]
+}
+
+/// Outputs of a term at which something changes behind it, the lowest first.
+pub(super) fn ends(machine: &Plan, term: &Term) -> Vec<i128> {
+    let one = 1i128 << machine.shade.table_bits;
+    match &term.name[..1] {
+        "n" if term.name == "nn" => vec![0x4000, 0x1_0000],
+        "n" => vec![0, one],
+        "p" => vec![0, 0x1_0000],
+        // A texture begins anew.
+        _ => vec![0, (1 << term.bits) - 1],
+    }
+}
