@@ -8,21 +8,24 @@
 //! Each frame is a picture of its own, for golden and for the machine, and is judged by itself; the picture of all passes must then
 //! be the sum of theirs, bit by bit.
 
-use crate::compare::Comparison;
+use crate::compare::{Comparison, compare};
+use crate::draw;
 use crate::port::{PortFrame, to_port};
-use crate::raster::Raster;
+use crate::raster::{Raster, of_port};
 use crate::verdict::Verdict;
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::{Gated, Shading};
 use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::{DrawState, Pass};
+use edgewalk_model::{DrawState, Pass, Waits};
 use edgewalk_scene::{Blending, Frame, Light, LightView, Scene, Shadow, Surface, Triangle, Vertex};
 use glam::DVec3;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// Taken off every depth from a light beside the slope of its polygon, LSB of the map: what rounding may hide.
+/// Taken off every depth from a light beside the slope of its polygon: LSB of the map, for what rounding may hide; and a part of the
+/// diagonal of the box around the mesh, as golden does, for sub-pixels, which move points off their planes.
 const BIAS: f64 = 2.0;
+const BIAS_OF_BOX: f64 = 1e-4;
 
 /// The ambient frame, and one for each light of the scene, on this machine's screen.
 ///
@@ -88,9 +91,12 @@ fn shadow(scene: &Scene, surface: &Surface, view: &LightView, machine: &Plan) ->
         .from_screen(&scene.camera, surface.width, surface.height)
         .ok_or_else(|| anyhow!("the camera's matrix is singular"))?;
     let points = |triangle: &Triangle| triangle.0.each_ref().map(|vertex| [vertex.x, vertex.y, vertex.z]);
+    let [low, high] = scene.mesh.bounds();
     let slope = |triangle: &edgewalk_scene::SurfaceTriangle| {
         let face = &scene.mesh.faces()[triangle.face as usize];
-        view.depth_slope(scene.mesh.corners(face))
+        let corners = scene.mesh.corners(face);
+        let rate = corners.into_iter().map(|corner| view.depth_rate(corner)).fold(0.0, f64::max);
+        (view.depth_slope(corners) + BIAS_OF_BOX * (high - low).length() * rate).min(1.0)
     };
     Ok(Shadow {
         size: view.size(),
@@ -162,6 +168,24 @@ pub fn sum(pictures: &[Raster]) -> Option<Raster> {
         }
     }
     Some(sum)
+}
+
+/// The scene on the machine without its netlist: the picture of all passes, golden's, and what was found.
+///
+/// # Errors
+/// What of the scene the machine cannot take.
+pub fn beside_golden(scene: &Scene, surface: &Surface, machine: &Plan) -> Result<(Raster, Raster, Passes)> {
+    let frames = frames(scene, surface, machine)?;
+    let golden: Vec<Raster> = frames.iter().map(|frame| draw::golden(frame, machine)).collect();
+    let drawn = frames.iter().map(|frame| draw::fast(frame, machine, Waits::Never));
+    let drawn = drawn.collect::<Result<Vec<_>>>()?;
+    let beside = frames.iter().zip(&golden).zip(&drawn);
+    let parts = beside.map(|((frame, golden), drawn)| compare(machine, frame, golden, drawn)).collect();
+    let port = in_passes(&frames, machine)?;
+    let together = of_port(draw::draw_frame(machine, &port, Waits::Never)?.raster(machine), &port);
+    let passes = Passes::of(parts, machine, (&golden, &drawn), &together);
+    let exact = sum(&golden).ok_or_else(|| anyhow!("no frame"))?;
+    Ok((together, exact, passes))
 }
 
 /// What was found of the passes, each by itself and together.

@@ -190,6 +190,19 @@ impl LightView {
         if slope.is_nan() { 1.0 } else { slope.min(1.0) }
     }
 
+    /// How much the depth in the map changes over a unit of length along the axis at a point, at most: nearer than the near plane as much
+    /// as there.
+    pub fn depth_rate(&self, point: DVec3) -> f64 {
+        let range = self.far - self.near;
+        match self.lens {
+            Lens::Parallel(_) => 1.0 / range,
+            Lens::Pyramid(_) => {
+                let distance = (point - self.eye).dot(self.axis).max(self.near);
+                self.far * self.near / (range * distance * distance)
+            }
+        }
+    }
+
     /// The opaque faces of a mesh, in texels.
     pub fn triangles(&self, mesh: &Mesh) -> Vec<Triangle> {
         let viewport = Viewport { width: self.size, height: self.size, guard: 2.0 * f64::from(self.size) };
@@ -308,7 +321,7 @@ mod tests {
         let (intensity, attenuation) = (DVec3::ONE, Attenuation::NONE);
         let far = Light::Positional { position: DVec3::new(1.0, 6.0, 0.5), intensity, attenuation };
         let mut places = 0;
-        for (light, is_there) in lights().into_iter().chain([far]).zip([true, false, true, false, true]) {
+        for (light, is_there) in lights().into_iter().chain([far]).zip([true, false, true, true, true]) {
             let view = light.view(&points, 64);
             assert_eq!(view.is_some(), is_there, "{light:?}");
             for point in points.iter().filter(|point| light.incident(**point).intensity != DVec3::ZERO) {
@@ -357,6 +370,9 @@ mod tests {
             let slope = (normal.x.abs() + normal.y.abs()) / normal.z.abs();
             assert!((view.depth_slope(points) / slope.min(1.0) - 1.0).abs() < 1e-6, "{slope}");
             assert_eq!(view.depth_slope([points[0]; 3]), 1.0, "no plane");
+            // A little farther along the axis.
+            let rate = (place(points[0] + 1e-6 * view.axis).z - place(points[0]).z) / 1e-6;
+            assert!((view.depth_rate(points[0]) / rate - 1.0).abs() < 1e-4, "{rate}");
         }
         assert!(checked >= 6, "{checked}");
     }
