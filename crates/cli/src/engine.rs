@@ -40,46 +40,47 @@ pub fn draw_waiting(
     quiet: bool,
 ) -> Result<Raster> {
     match engine {
-        _ if waits == Waits::Never => draw(engine, frame, machine, quiet),
-        Engine::Golden => Err(anyhow!(
+        Engine::Golden if waits != Waits::Never => Err(anyhow!(
             "--stalls {waits}: the golden picture has no memory that stalls; draw with --engine fast"
         )),
-        Engine::Rtl | Engine::Jit => Err(anyhow!(
-            "--stalls {waits}: the netlist, --engine rtl or jit, has a memory that is always ready; draw with --engine fast"
-        )),
-        Engine::Fast => draw::fast(frame, machine, waits),
-        Engine::Model => {
-            let port = to_port(frame, machine)?;
-            let triangles = port.triangles.iter().copied();
-            let (passes, maps) = (&port.passes, &port.maps());
-            let drawn = render_shaded(machine, triangles, passes, maps, waits, port.words(), |_| {})?;
-            Ok(of_port(from_model(machine, drawn), &port))
-        }
+        Engine::Golden => Ok(draw::golden(frame, machine)),
+        _ => draw_port(engine, &to_port(frame, machine)?, machine, waits, quiet),
     }
 }
 
 /// Draws the frame.
 pub fn draw(engine: Engine, frame: &Frame, machine: &Plan, quiet: bool) -> Result<Raster> {
-    match engine {
-        Engine::Golden => Ok(draw::golden(frame, machine)),
-        Engine::Fast => draw::fast(frame, machine, Waits::Never),
-        Engine::Model | Engine::Rtl | Engine::Jit => {
-            let port = to_port(frame, machine)?;
-            let bar = bar(port.triangles.len() as u64, "triangles", quiet);
-            let triangles = bar.wrap_iter(port.triangles.iter().copied());
-            let raster = match engine {
-                Engine::Model => {
-                    let (passes, maps, words) = (&port.passes, &port.maps(), port.words());
-                    let drawn = render_shaded(machine, triangles, passes, maps, Waits::Never, words, |_| {})?;
-                    from_model(machine, drawn)
-                }
-                Engine::Jit => from_machine(machine, native(machine, triangles, &port)?),
-                _ => from_machine(machine, interpreted(machine, triangles, &port)?),
-            };
-            bar.finish_and_clear();
-            Ok(of_port(raster, &port))
-        }
+    draw_waiting(engine, frame, machine, Waits::Never, quiet)
+}
+
+/// Draws what is at the port, by an engine that has one.
+pub fn draw_port(
+    engine: Engine,
+    port: &PortFrame,
+    machine: &Plan,
+    waits: Waits,
+    quiet: bool,
+) -> Result<Raster> {
+    if waits != Waits::Never && matches!(engine, Engine::Rtl | Engine::Jit) {
+        return Err(anyhow!(
+            "--stalls {waits}: the netlist, --engine rtl or jit, has a memory that is always ready; draw with --engine fast"
+        ));
     }
+    if matches!(engine, Engine::Fast | Engine::Golden) {
+        return Ok(of_port(draw::draw_frame(machine, port, waits)?.raster(machine), port));
+    }
+    let bar = bar(port.triangles.len() as u64, "triangles", quiet || waits != Waits::Never);
+    let triangles = bar.wrap_iter(port.triangles.iter().copied());
+    let raster = match engine {
+        Engine::Jit => from_machine(machine, native(machine, triangles, port)?),
+        Engine::Rtl => from_machine(machine, interpreted(machine, triangles, port)?),
+        _ => {
+            let (passes, maps, words) = (&port.passes, &port.maps(), port.words());
+            from_model(machine, render_shaded(machine, triangles, passes, maps, waits, words, |_| {})?)
+        }
+    };
+    bar.finish_and_clear();
+    Ok(of_port(raster, port))
 }
 
 /// The netlist's frame, by the interpreter.

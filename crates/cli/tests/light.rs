@@ -135,13 +135,148 @@ fn every_decision_is_explained() {
     assert!(pixels > 15_000 && dark > 2_000 && differ > 100, "{pixels} {dark} {differ}");
 }
 
+type Vector = [f64; 3];
+
+fn dot(a: Vector, b: Vector) -> f64 {
+    (0..3).map(|k| a[k] * b[k]).sum()
+}
+
+fn scaled(a: Vector, by: f64) -> Vector {
+    a.map(|c| c * by)
+}
+
+fn minus(a: Vector, b: Vector) -> Vector {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+fn unit(a: Vector) -> Vector {
+    scaled(a, 1.0 / dot(a, a).sqrt())
+}
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// A frame seen through a camera that looks in perspective from the origin along z, under a parallel light or one that looks in
+/// perspective, as a file: world to screen x = 40 + 50 X/Z, y = 30 + 50 Y/Z, depth A - B/Z between Z = 2 and Z = 12.
+fn through_a_lens(random: &mut Pcg64Mcg, size: f64, bias: f64, parallel: bool) -> String {
+    const A: f64 = 12.0 / 10.0;
+    const B: f64 = 2.0 * A;
+    // Where the light is, and how it is turned; it looks at the middle of the scene or so.
+    let mut any = |from: Vector, by: f64| from.map(|c| c + random.random_range(-by..by));
+    let (eye, target) = (any([0.0, -3.0, 4.0], 2.5), any([0.0, 0.0, 6.0], 1.0));
+    let axis = unit(minus(target, eye));
+    let right = unit(cross(axis, any([0.0, 0.0, 0.0], 1.0)));
+    let up = cross(axis, right);
+    let turned = |p: Vector| [right, up, axis].map(|way| dot(way, minus(p, eye)));
+    // Column, line, depth and weight of a point, homogeneous; the light sees from 0.5 to 14 away.
+    let (near, far) = (0.5, 14.0);
+    let seen = |p: Vector| {
+        let [x, y, z] = turned(p);
+        let half = size / 2.0;
+        if parallel {
+            [half * (1.0 + x / 5.0), half * (1.0 + y / 5.0), (z - near) / (far - near), 1.0]
+        } else {
+            let a = far / (far - near);
+            [half * (z + x / 0.8), half * (z + y / 0.8), a * (z - near), z]
+        }
+    };
+    // The same of a point at infinity, (X, Y, Z, 0): what is left of the difference to the origin's.
+    let origin = seen([0.0; 3]);
+    let way = |p: Vector| -> [f64; 4] { std::array::from_fn(|k| seen(p)[k] - origin[k]) };
+    // From the screen to the world, homogeneous: ((x - 40)/50, (y - 30)/50, 1, (A - z)/B).
+    let column = |x: Vector, w: f64| -> [f64; 4] { std::array::from_fn(|k| way(x)[k] + w * origin[k]) };
+    let columns = [
+        column([1.0 / 50.0, 0.0, 0.0], 0.0),
+        column([0.0, 1.0 / 50.0, 0.0], 0.0),
+        column([0.0; 3], -1.0 / B),
+        column([-40.0 / 50.0, -30.0 / 50.0, 1.0], A / B),
+    ];
+    let mut text = format!("size 80 60\nshadow {size} {bias} 0.3 ");
+    (0..4).for_each(|row| columns.iter().for_each(|column| _ = write!(text, " {:e}", column[row])));
+    text.push('\n');
+    for _ in 0..25 {
+        let middle = [0, 1, 2].map(|k| random.random_range([-3.0..3.0, -2.5..2.5, 3.0..10.0][k].clone()));
+        let corners = [(); 3].map(|()| {
+            let at = middle.map(|c: f64| c + random.random_range(-2.0..2.0));
+            [at[0], at[1], at[2].clamp(2.1, 11.9)]
+        });
+        let _ = write!(text, "T");
+        for [x, y, z] in corners {
+            let _ =
+                write!(text, "  {} {} {} 0.9 0.5 1 0", 40.0 + 50.0 * x / z, 30.0 + 50.0 * y / z, A - B / z);
+        }
+        let _ = writeln!(text);
+        let light = corners.map(seen);
+        // What lies before the light's near plane anywhere stands in no map.
+        if corners.iter().all(|corner| turned(*corner)[2] > near) {
+            let _ = write!(text, "L");
+            light.iter().for_each(|[x, y, z, w]| {
+                _ = write!(text, "  {} {} {}", x / w, y / w, (z / w).clamp(0.0, 1.0));
+            });
+            let _ = writeln!(text);
+        }
+    }
+    text
+}
+
+/// Perspective views, parallel lights and such as look in perspective, some with a part of the scene behind them.
+#[test]
+fn every_decision_through_a_lens_is_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut random = Pcg64Mcg::seed_from_u64(3);
+    let (mut pixels, mut dark, mut differ, mut open) = (0, 0, 0, 0);
+    for i in 0..24 {
+        let (size, bias) = ([64.0, 100.0][i % 2], [0.002, 0.0][i / 2 % 2]);
+        std::fs::write(folder.path().join("a.tri"), through_a_lens(&mut random, size, bias, i % 3 == 0))
+            .unwrap();
+        let size = format!("shadow.size={size}");
+        let settings = ["shadow.light=perspective", "shadow.gate=scale", &size, "shadow.light_fraction=16"];
+        let screen = ["screen.width=80", "screen.height=60", "screen.guard_bits=10"];
+        let bits = ["shadow.light_bits=20", "shadow.light_bits=16"][i / 4 % 2];
+        let project = ["shadow.project=pipelined", "shadow.project=serial"][i % 2];
+        let mut command = edgewalk(folder.path(), &["render", "a.tri", "--json", "--engine", "model"]);
+        settings
+            .iter()
+            .chain(&screen)
+            .chain([&project, &bits])
+            .for_each(|setting| _ = command.args(["--set", setting]));
+        let output = command.output().unwrap();
+        assert!(!output.stdout.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert!(output.status.success(), "{report:#}");
+        let lit = &report["comparison"]["lit"];
+        let number = |key: &str| lit[key].as_u64().unwrap();
+        assert_eq!(number("unexplained"), 0, "{lit}");
+        assert!(lit["texel_bound"].as_f64().unwrap() > 0.0, "{lit}");
+        let divides = report["cycles"]["by_cause"]["project"].as_u64().unwrap_or(0);
+        assert_eq!(divides > 1000, project.ends_with("serial"), "{}", report["cycles"]);
+        (pixels, dark) = (pixels + number("pixels"), dark + number("shadow"));
+        (differ, open) = (differ + number("differ"), open + number("open"));
+    }
+    println!(
+        "{pixels} pixels, {dark} in shadow, {differ} decided otherwise than golden, {open} open, 0 unexplained"
+    );
+    assert!(
+        pixels > 40_000 && dark > 10_000 && differ > 25 && open * 1000 < pixels,
+        "{pixels} {dark} {differ} {open}"
+    );
+}
+
 #[test]
 fn what_the_machine_cannot_do_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let parallel = ["--set", "shadow.light=parallel"];
     let fitting = ["--set", "shadow.light=parallel", "--set", "shadow.size=4", "--set", "shadow.gate=scale"];
     let (four, tilted) = (&["--set", "shadow.light=parallel", "--set", "shadow.size=4"], "0 0 0.1 1\nL");
-    let cases: [(String, &[&str], &[&str]); 8] = [
+    let lens = ["--set", "shadow.light=perspective", "--set", "shadow.size=4", "--set", "shadow.gate=scale"];
+    let also = |setting: &'static str| [&lens[..], &["--set", setting]].concat();
+    let [few, many, narrow] =
+        ["shadow.light_bits=3", "shadow.light_bits=29", "shadow.light_bits=12"].map(also);
+    let [mixed, own, unknown] =
+        ["blend.kind=interpolated", "channels.extra=1", "shadow.project=parallel"].map(also);
+    let rows = "1 0 0 0   0 1 0 0   0 0 1 0   0 0 0 1";
+    let cases: [(String, &[&str], &[&str]); 18] = [
         (HALF.to_owned(), &[], &["no SHADOW", "shadow.light=parallel", "shadow.size=4"]),
         (HALF.to_owned(), &parallel, &["shadow 4", "512 x 512 texels", "shadow.size=4"]),
         (HALF.to_owned(), four, &["AMBIENT = 0.25", "shadow.gate=scale"]),
@@ -153,6 +288,20 @@ fn what_the_machine_cannot_do_is_said() {
             &["triangle 0, vertex 1", "lx = 72", "-15 to 15"],
         ),
         (HALF.replacen("L  0 0", "L  -9000 0", 1), &fitting, &["triangle 0 of the map", "guard"]),
+        (
+            HALF.replacen("0 0 0 1\nL", "0 0 0 0\nL", 1),
+            &lens,
+            &["m30 m31 m32 m33 = 0 0 0 0", "infinity", "0 0 0 1"],
+        ),
+        (HALF.replacen(rows, &rows.replace('1', "1e300"), 1), &lens, &["triangle 0", "1e-200 to 1e200"]),
+        (HALF.replacen(rows, &rows.replace('1', "1e-300"), 1), &lens, &["triangle 0", "1e-200 to 1e200"]),
+        (HALF.replacen("shadow 4", "shadow 8", 1), &lens, &["shadow 8", "4 x 4 texels", "shadow.size=8"]),
+        (HALF.to_owned(), &few, &["shadow.light_bits = 3", "4 to 28", "nearest: 4"]),
+        (HALF.to_owned(), &many, &["shadow.light_bits = 29", "4 to 28", "nearest: 28"]),
+        (HALF.to_owned(), &narrow, &["shadow.light_bits = 12", "16 bits", "try shadow.light_bits = 16"]),
+        (HALF.to_owned(), &mixed, &["blend.kind = interpolated", "9 channels", "try blend.kind = constant"]),
+        (HALF.to_owned(), &own, &["channels.extra = 1", "9 channels", "try channels.extra = 0"]),
+        (HALF.to_owned(), &unknown, &["shadow.project = parallel", "pipelined, serial", "nearest: serial"]),
         (
             HALF.to_owned(),
             &["--set", "shadow.size=5000"],
@@ -167,5 +316,53 @@ fn what_the_machine_cannot_do_is_said() {
         for word in words {
             assert!(error.contains(word), "{settings:?}: {error} lacks {word}");
         }
+    }
+}
+
+/// What `explain` says of a pixel under a light: exact place, what is divided, texel, depth, the map's word and the answer.
+#[test]
+fn explain_shows_what_the_light_makes_of_a_pixel() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.tri"), HALF).unwrap();
+    let fitting = ["shadow.size=4", "shadow.gate=scale", "screen.width=4", "screen.height=4"];
+    for light in ["shadow.light=perspective", "shadow.light=parallel"] {
+        for (x, words) in [
+            (
+                "0",
+                [
+                    "texel (0.500000, 0.500000), depth 32701.965000 LSB",
+                    "texel (0, 0), depth 32702; the map has 16384: in shadow",
+                ],
+            ),
+            (
+                "3",
+                [
+                    "texel (3.500000, 0.500000), depth 32701.965000 LSB",
+                    "texel (3, 0), depth 32702; the map has 65535: lit",
+                ],
+            ),
+        ] {
+            let mut command = edgewalk(folder.path(), &["explain", "a.tri", x, "0"]);
+            fitting.iter().chain([&light]).for_each(|setting| _ = command.args(["--set", setting]));
+            let output = command.output().unwrap();
+            let page = String::from_utf8_lossy(&output.stdout).into_owned();
+            for word in words {
+                assert!(
+                    page.contains(word),
+                    "{light}: {page} lacks {word}; {}",
+                    String::from_utf8_lossy(&output.stderr)
+                );
+            }
+            assert_eq!(page.contains("  lw "), light.ends_with("perspective"), "{page}");
+        }
+    }
+    // Of a scene each light, and of one that takes six maps the reason why there is none.
+    let amid = "[[object]]\nbuiltin = \"room\"\n[[light]]\nkind = \"positional\"\nposition = [0, 1, 0]\n";
+    std::fs::write(folder.path().join("amid.toml"), amid).unwrap();
+    let lens = ["--set", "shadow.light=perspective", "--set", "blend.kind=constant"];
+    for (scene, word) in [("room", "light 2's map: texel ("), ("amid.toml", "no map on the machine: ")] {
+        let output = edgewalk(folder.path(), &["explain", scene, "320", "240"]).args(lens).output().unwrap();
+        let page = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(page.contains(word), "{page} lacks {word}; {}", String::from_utf8_lossy(&output.stderr));
     }
 }

@@ -16,6 +16,7 @@ pub mod raster;
 pub mod reach;
 pub mod draw;
 pub mod compare;
+pub mod lights;
 pub mod size;
 pub mod setup_report;
 pub mod occupancy;

@@ -2,8 +2,10 @@
 //!
 //! ```text
 //!  L lines ──> machine of SIZE x SIZE, z of bz bits ──> depths ──> words of the map
-//!  matrix, BIAS, vertex ──> lx, ly in texels, lz in 2^-bz ──> port
+//!  matrix, BIAS, vertex ──> parallel: lx, ly in texels, lz in 2^-bz ──────────────────> port
+//!                      └──> perspective: (X/2^SB, Y/2^SB, Z - BIAS W, W) times 2^k ──> port
 //! ```
+//! 2^k is of the triangle, so that its numbers fill their words; what PROJECT divides does not see it.
 
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::snap;
@@ -34,9 +36,14 @@ pub fn check(shadow: &Shadow, machine: &Plan) -> Result<()> {
         ));
     }
     let [q0, q1, q2, q3] = shadow.matrix[3];
-    if [q0, q1, q2] != [0.0; 3] || q3 <= 0.0 {
+    if [q0, q1, q2, q3] == [0.0; 4] {
         return Err(anyhow!(
-            "shadow: m30 m31 m32 m33 = {q0} {q1} {q2} {q3}: the machine's light is parallel, which has 0 0 0 and more than 0; draw with --engine golden"
+            "shadow: m30 m31 m32 m33 = 0 0 0 0: every point lies at infinity; a parallel light has 0 0 0 1"
+        ));
+    }
+    if !machine.shadow.projects() && ([q0, q1, q2] != [0.0; 3] || q3 <= 0.0) {
+        return Err(anyhow!(
+            "shadow: m30 m31 m32 m33 = {q0} {q1} {q2} {q3}: the machine's light is parallel, which has 0 0 0 and more than 0; add --set shadow.light=perspective, or draw with --engine golden"
         ));
     }
     if shadow.ambient > 0.0 && machine.shadow.gate == Gate::And {
@@ -48,14 +55,68 @@ pub fn check(shadow: &Shadow, machine: &Plan) -> Result<()> {
     Ok(())
 }
 
-/// lx, ly and lz of a vertex as it is snapped; where no light is, zeros.
-#[must_use]
-pub fn values(shadow: Option<&Shadow>, vertex: &Vertex, machine: &Plan) -> [f64; 3] {
-    let Some(shadow) = shadow else { return [0.0; 3] };
+/// The light-space values of the vertices of the triangle at this place as they are snapped, by vertex, in the order of their channels; where no
+/// light is, zeros.
+///
+/// # Errors
+/// Of a perspective light, numbers beyond all scale.
+pub fn values(
+    shadow: Option<&Shadow>,
+    place: usize,
+    vertices: &[Vertex; 3],
+    machine: &Plan,
+) -> Result<[Vec<f64>; 3]> {
+    let channels = machine.shadow.channels().len();
+    let Some(shadow) = shadow else { return Ok([(); 3].map(|()| vec![0.0; channels])) };
+    let (seen, bias) =
+        (vertices.each_ref().map(|vertex| seen(shadow, vertex, machine)), shadow.bias_of(place));
+    if !machine.shadow.projects() {
+        let far = farthest(machine);
+        return Ok(seen.map(|[x, y, z, q]| vec![x / q, y / q, (z / q - bias) * far]));
+    }
+    let divided = seen.map(|seen| divided(bias, seen, machine));
+    let scale = scale_of(&divided, machine)?;
+    Ok(divided.map(|values| values.map(|value| value * scale).to_vec()))
+}
+
+/// 2^k of the triangle at this place under a perspective light: with it the largest magnitude of its twelve values comes to more
+/// than half of what a vertex may have.
+///
+/// # Errors
+/// There is none, as numbers are too large or too small.
+pub fn scale(shadow: &Shadow, place: usize, vertices: &[Vertex; 3], machine: &Plan) -> Result<f64> {
+    let bias = shadow.bias_of(place);
+    scale_of(
+        &vertices.each_ref().map(|vertex| divided(bias, seen(shadow, vertex, machine), machine)),
+        machine,
+    )
+}
+
+fn scale_of(values: &[[f64; 4]; 3], machine: &Plan) -> Result<f64> {
+    let largest = values.iter().flatten().fold(0.0f64, |most, value| most.max(value.abs()));
+    let most = f64::from((1u32 << machine.shadow.light_bits) - 1);
+    // Beyond, 2^k and what it scales would lose bits.
+    if !(1e-200..1e200).contains(&largest) {
+        return Err(anyhow!(
+            "shadow: the matrix takes a vertex to numbers of {largest:e}; 1e-200 to 1e200 is permitted"
+        ));
+    }
+    let guess = 2f64.powi((most / largest).log2().floor() as i32);
+    Ok(if guess * largest > most { guess / 2.0 } else { guess })
+}
+
+/// (X, Y, Z, q) of a vertex as it is snapped.
+fn seen(shadow: &Shadow, vertex: &Vertex, machine: &Plan) -> [f64; 4] {
     let pixels = |c: f64| snap(c, machine.subpixel_bits) as f64 / f64::from(1u32 << machine.subpixel_bits);
     let point = [pixels(vertex.x), pixels(vertex.y), vertex.z, 1.0];
-    let [x, y, z, q] = shadow.matrix.map(|row| (0..4).map(|k| row[k] * point[k]).sum::<f64>());
-    [x / q, y / q, (z / q - shadow.bias) * farthest(machine)]
+    shadow.matrix.map(|row| (0..4).map(|k| row[k] * point[k]).sum())
+}
+
+/// What PROJECT divides, before its scale: quotients below 1 lie on the map.
+fn divided(bias: f64, [x, y, z, q]: [f64; 4], machine: &Plan) -> [f64; 4] {
+    let side = f64::from(1u32 << machine.shadow.side_bits());
+    let depth = (z - bias * q) * farthest(machine) / (farthest(machine) + 1.0);
+    [x / side, y / side, depth, q]
 }
 
 /// Whether the frame's picture can be judged beside golden's.

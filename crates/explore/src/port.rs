@@ -162,13 +162,15 @@ pub fn port_triangle(
 ) -> Result<[PortVertex; 3]> {
     let (mixes, mode) = (blend == Blending::Mix, frame.mode);
     let mut port = [PortVertex::default(); 3];
+    let light = light::values(frame.shadow.as_ref(), index, &triangle.0, machine)
+        .with_context(|| format!("triangle {index}"))?;
     for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
         let v = if mode == ShadeMode::Flat { v.colored_as(&triangle.0[0]) } else { *v };
         let named = || format!("triangle {index}, vertex {corner}");
         let mut values = vec![v.z, v.r, v.g, v.b];
         values.extend_from_slice(&v.extra[..machine.extra as usize]);
         if machine.shadow.is_there() {
-            values.extend(light::values(frame.shadow.as_ref(), &v, machine));
+            values.extend_from_slice(&light[corner]);
         }
         if machine.blend.is_there() {
             values.push(if mixes { v.kt } else { 0.0 });

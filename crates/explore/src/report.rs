@@ -2,6 +2,7 @@
 
 use crate::compare::Comparison;
 use crate::extra::{self, OwnChannel};
+use crate::lights::Passes;
 use crate::occupancy::Occupancy;
 use crate::raster::{Cycles, Raster};
 use crate::setup_report::SetupReport;
@@ -28,6 +29,7 @@ pub struct Report {
     order: Option<Order>,
     corners: Option<Events>,
     comparison: Option<Comparison>,
+    parts: Option<Passes>,
     setup: Option<SetupReport>,
     waits: Waits,
     host: Host,
@@ -50,6 +52,7 @@ impl Report {
             order: None,
             corners: drawn.corners.clone(),
             comparison: None,
+            parts: None,
             setup: None,
             waits: Waits::Never,
             host: drawn.host,
@@ -82,6 +85,13 @@ impl Report {
     /// The same with a comparison.
     pub fn with(mut self, comparison: Comparison) -> Self {
         self.comparison = Some(comparison);
+        self
+    }
+
+    /// The same of a picture in passes, one for each light.
+    #[must_use]
+    pub fn with_parts(mut self, parts: Passes) -> Self {
+        self.parts = Some(parts);
         self
     }
 
@@ -128,6 +138,7 @@ impl Report {
             passes: Vec::new(),
             lights: Vec::new(),
             order: self.order.clone(),
+            parts: None,
             ..*self
         }
     }
@@ -180,6 +191,9 @@ impl Report {
         }
         if let Some(c) = &self.comparison {
             report["comparison"] = serde_json::to_value(c)?;
+        }
+        if let Some(parts) = &self.parts {
+            report["parts"] = serde_json::to_value(parts)?;
         }
         if let Some(c) = &self.cycles {
             let causes: Map<_, _> =
@@ -252,6 +266,7 @@ impl Report {
         }
         match &self.comparison {
             Some(c) => compared(&mut t, m, c),
+            None if self.parts.is_some() => t += &self.parts.as_ref().map_or_else(String::new, Passes::text),
             // Golden does not round.
             None if self.cycles.is_none() => {}
             None => extra::channels(m).iter().for_each(|c| t += &OwnChannel::of(c, m).line()),
@@ -339,8 +354,8 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
     if let Some(l) = &c.lit {
         _ = writeln!(
             t,
-            "light: {} pixels, {} in shadow, {} decided otherwise than golden; unexplained by texels within {:.4} and depths within {:.4} LSB: {}",
-            l.pixels, l.shadow, l.differ, l.texel_bound, l.depth_bound, l.unexplained
+            "light: {} pixels, {} in shadow, {} decided otherwise than golden; {} of {} open; unexplained by texels within {:.4} and depths within {:.4} LSB: {}",
+            l.pixels, l.shadow, l.differ, l.open, l.pixels, l.texel_bound, l.depth_bound, l.unexplained
         );
     }
     if let Some(s) = &c.shaded {

@@ -37,7 +37,7 @@ pub use pixel_shading::PixelBrush;
 pub use ray::Rays;
 pub use render::{Rendered, render, shade};
 pub use shading::{Shaded, Shading, ShadingError, frame};
-pub use shadow::ShadowMaps;
+pub use shadow::{Gated, ShadowMaps};
 pub use textbook::{Half, half_triangles};
 pub use transparency::{MAX_PAIRS, Order, back_to_front, sorted};
 pub use visibility::Visibility;

@@ -185,7 +185,7 @@ impl<F: FnMut(Step)> Pen<'_, F> {
         let mut front = self.brush.as_ref().map_or_else(|| fragment.rgb(), |brush| brush.color(fragment));
         picture.lit[at] = Lit::Lit;
         if let Some(map) = list.shadow()
-            && !map.lit(fragment.x, fragment.y, z)
+            && !map.lit(fragment.x, fragment.y, z, self.id as usize)
         {
             front = front.map(|channel| channel * map.ambient());
             picture.lit[at] = Lit::Shadow;

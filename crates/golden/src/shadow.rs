@@ -11,5 +11,5 @@ mod maps;
 mod gated;
 
 pub(crate) use frame::ShadowMap;
-pub(crate) use gated::Gated;
+pub use gated::Gated;
 pub use maps::ShadowMaps;

@@ -284,7 +284,7 @@ fn random(random: &mut Pcg64Mcg) -> Frame {
         let (bias, ambient) = (near(0.0, 0.05), near(0.5, 0.5));
         let size = random.random_range(1..=32);
         let triangles = (0..random.random_range(0..8)).map(|_| [0; 3].map(|_| point(random))).collect();
-        frame.shadow = Some(Shadow { size, bias, ambient, matrix, triangles });
+        frame.shadow = Some(Shadow { size, bias, slopes: Vec::new(), ambient, matrix, triangles });
     }
     frame
 }

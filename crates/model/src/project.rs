@@ -42,6 +42,14 @@ pub struct Project<const C: usize> {
     rows: Rows<C>,
 }
 
+/// Texel and depth of a place in the light's view, as SHADOW takes them.
+#[must_use]
+pub fn quotients(plan: &Plan, [x, y, z, w]: [i64; 4]) -> [i64; 3] {
+    let unit = Project::<8>::new(plan);
+    let events = &mut Events::default();
+    [unit.texel(x, w, events), unit.texel(y, w, events), unit.depth(z, w, events)]
+}
+
 impl<const C: usize> Project<C> {
     /// An empty unit.
     #[must_use]

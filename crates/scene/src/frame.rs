@@ -143,6 +143,8 @@ pub struct Shadow {
     pub size: u32,
     /// A point is in shadow if it lies farther from the light than the map's depth by more than this, [-1, 1].
     pub bias: f64,
+    /// What comes on top of it for a point of each of the frame's triangles and polygons, by their places; empty: nothing.
+    pub slopes: Vec<f64>,
     /// What the colour of a point in shadow is multiplied by, [0, 1].
     pub ambient: f64,
     /// Rows of the matrix that takes a fragment's column vector (x + 1/2, y + 1/2, z, 1), in pixels and depth, to homogeneous
@@ -150,6 +152,13 @@ pub struct Shadow {
     pub matrix: [[f64; 4]; 4],
     /// What the light sees: x, y in texels, z its depth in [0, 1]; the nearest wins.
     pub triangles: Vec<[[f64; 3]; 3]>,
+}
+
+impl Shadow {
+    /// The bias of a triangle or polygon, by its place in the frame.
+    pub fn bias_of(&self, place: usize) -> f64 {
+        self.bias + self.slopes.get(place).unwrap_or(&0.0)
+    }
 }
 
 /// One picture to draw: triangles and polygons in list order on a cleared screen, by rules that may change.

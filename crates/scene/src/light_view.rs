@@ -12,11 +12,12 @@
 //!
 //! Not modelled: what is nearer to a positional or flood light than 1/10,000 of the mesh's farthest point casts no shadow.
 
+use crate::camera::Camera;
 use crate::clip::{ClipVertex, Viewport, clip};
 use crate::frame::Triangle;
 use crate::light::Light;
 use crate::mesh::Mesh;
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 
 /// Near plane of a pyramid as a part of the far one.
 const NEAR: f64 = 1e-4;
@@ -50,6 +51,9 @@ enum Lens {
     Pyramid(f64),
 }
 
+/// The same where one pyramid has to do.
+const WIDEST_ALONE: f64 = 7.0 * std::f64::consts::PI / 18.0;
+
 /// Where a point is in a map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InMap {
@@ -75,6 +79,38 @@ impl Light {
     }
 }
 
+impl Light {
+    /// The one depth map, of `size` by `size` texels, that holds each of these points that the light shines on, as near to them as it
+    /// may be; `None` where it takes several.
+    pub fn view(&self, points: &[DVec3], size: u32) -> Option<LightView> {
+        let bounds = bounds(points)?;
+        let pyramid = |position, axis, tangent| LightView::pyramid(position, axis, tangent, bounds, size);
+        let view = match *self {
+            Self::Directional { toward, .. } => return Some(LightView::parallel(-toward, bounds, size)),
+            Self::Flood { position, axis, cone, .. } if cone <= WIDEST => pyramid(position, axis, cone.tan()),
+            // Of a few directions that from which the points spread least.
+            Self::Positional { position, .. } | Self::Flood { position, .. } => {
+                let middle = ((bounds[0] + bounds[1]) / 2.0 - position).try_normalize();
+                let axes = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]).chain(middle);
+                let spread = |axis| pyramid(position, axis, 1.0).spread(points);
+                let (tangent, axis) =
+                    axes.map(|axis| (spread(axis), axis)).min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+                (tangent <= WIDEST_ALONE.tan()).then(|| pyramid(position, axis, tangent))?
+            }
+        };
+        let Lens::Pyramid(tangent) = view.lens else { return Some(view) };
+        let along = points.iter().map(|point| view.turned(*point - view.eye).z);
+        let near = (along.fold(view.far, f64::min) * (1.0 - MARGIN)).max(NEAR * view.far);
+        Some(LightView { lens: Lens::Pyramid(tangent * (1.0 + MARGIN)), near, ..view })
+    }
+}
+
+/// The box around points.
+fn bounds(points: &[DVec3]) -> Option<[DVec3; 2]> {
+    let low = points.iter().copied().reduce(DVec3::min)?;
+    Some([low, points.iter().copied().reduce(DVec3::max)?])
+}
+
 impl LightView {
     fn parallel(axis: DVec3, bounds: [DVec3; 2], size: u32) -> Self {
         let (right, up) = axis.any_orthonormal_pair();
@@ -94,6 +130,15 @@ impl LightView {
         Self { size, eye, right, up, axis, lens: Lens::Pyramid(tangent), near: NEAR * far, far }
     }
 
+    /// The tangent of half the angle over which points are seen to the side or up; infinite if one does not lie before the light.
+    fn spread(&self, points: &[DVec3]) -> f64 {
+        let tangent = |point: &DVec3| {
+            let p = self.turned(*point - self.eye);
+            if p.z > 0.0 { p.x.abs().max(p.y.abs()) / p.z } else { f64::INFINITY }
+        };
+        points.iter().map(tangent).fold(0.0, f64::max)
+    }
+
     /// Texels a side.
     pub fn size(&self) -> u32 {
         self.size
@@ -111,6 +156,50 @@ impl LightView {
         match self.lens {
             Lens::Parallel(half) => DVec4::new(p.x / half.x, p.y / half.y, depth, 1.0),
             Lens::Pyramid(tangent) => DVec4::new(p.x / tangent, p.y / tangent, depth * self.far, p.z),
+        }
+    }
+
+    /// Where a point is, homogeneous: texel x, texel y and depth, each times the last, which is above 0 before the light.
+    pub fn texels(&self, point: DVec3) -> DVec4 {
+        let DVec4 { x, y, z, w } = self.to_clip(point);
+        let side = f64::from(self.size);
+        DVec4::new((0.5 * w + 0.5 * x) * side, (0.5 * w - 0.5 * y) * side, z, w)
+    }
+
+    /// The matrix that takes a pixel's (x, y, depth, 1) on the screen of a camera to [`Self::texels`] of what it shows, by rows; `None`
+    /// for a camera that sees nothing.
+    pub fn from_screen(&self, camera: &Camera, width: u32, height: u32) -> Option<[[f64; 4]; 4]> {
+        let (half_width, half_height) = (f64::from(width) / 2.0, f64::from(height) / 2.0);
+        let viewport = DMat4::from_translation(DVec3::new(half_width, half_height, 0.0))
+            * DMat4::from_scale(DVec3::new(half_width, -half_height, 1.0));
+        // What a linear function of homogeneous points makes of the unit points is its matrix.
+        let origin = self.texels(DVec3::ZERO);
+        let [x, y, z] = DVec3::AXES.map(|axis| self.texels(axis) - origin);
+        let to_world = (viewport * camera.to_clip(width, height)).inverse();
+        let matrix = DMat4::from_cols(x, y, z, origin) * to_world;
+        matrix.is_finite().then(|| matrix.transpose().to_cols_array_2d())
+    }
+
+    /// How much the depth of a plane changes over a texel to the side and one down, both together, given three of its points; 1, more
+    /// than which no depth changes, where the light sees it edge-on.
+    pub fn depth_slope(&self, points: [DVec3; 3]) -> f64 {
+        let seen = points.map(|point| self.texels(point));
+        let plane = DMat3::from_cols_array_2d(&seen.map(|p| [p.x, p.y, p.w])).transpose().inverse();
+        let [x, y, _] = (plane * DVec3::from_array(seen.map(|p| p.z))).to_array();
+        let slope = x.abs() + y.abs();
+        if slope.is_nan() { 1.0 } else { slope.min(1.0) }
+    }
+
+    /// How much the depth in the map changes over a unit of length along the axis at a point, at most: nearer than the near plane as much
+    /// as there.
+    pub fn depth_rate(&self, point: DVec3) -> f64 {
+        let range = self.far - self.near;
+        match self.lens {
+            Lens::Parallel(_) => 1.0 / range,
+            Lens::Pyramid(_) => {
+                let distance = (point - self.eye).dot(self.axis).max(self.near);
+                self.far * self.near / (range * distance * distance)
+            }
         }
     }
 
@@ -218,6 +307,74 @@ mod tests {
             }
         }
         assert!(places > 1500, "{places}");
+    }
+
+    /// One view holds all that is lit, where there is one; none of a light amid the points.
+    #[test]
+    fn one_view_holds_every_lit_point() {
+        let points: Vec<DVec3> = (0..300u32)
+            .map(|k| {
+                let part = |prime: u32| f64::from(k * prime % 101) / 100.0;
+                BOUNDS[0] + (BOUNDS[1] - BOUNDS[0]) * DVec3::new(part(37), part(53), part(71))
+            })
+            .collect();
+        let (intensity, attenuation) = (DVec3::ONE, Attenuation::NONE);
+        let far = Light::Positional { position: DVec3::new(1.0, 6.0, 0.5), intensity, attenuation };
+        let mut places = 0;
+        for (light, is_there) in lights().into_iter().chain([far]).zip([true, false, true, true, true]) {
+            let view = light.view(&points, 64);
+            assert_eq!(view.is_some(), is_there, "{light:?}");
+            for point in points.iter().filter(|point| light.incident(**point).intensity != DVec3::ZERO) {
+                let Some(view) = view else { continue };
+                let place = view.place(*point).expect("in the map");
+                let texels = view.texels(*point);
+                assert!((place.texel - texels.truncate().truncate() / texels.w).length() < 1e-9);
+                assert!((0.0..=1.0).contains(&(texels.z / texels.w)), "{light:?} {point}");
+                places += 1;
+            }
+        }
+        assert!(places > 700, "{places}");
+    }
+
+    /// What a pixel shows has the texel of its point; the depth of a plane changes over a texel as its slope says.
+    #[test]
+    fn the_matrix_of_the_screen_goes_to_the_same_texel() {
+        let camera = Camera {
+            eye: DVec3::new(4.0, 5.0, 9.0),
+            target: DVec3::ZERO,
+            up: DVec3::Y,
+            angle: 0.9,
+            near: 1.0,
+            far: 50.0,
+        };
+        let points = [DVec3::new(0.3, 0.2, 0.1), DVec3::new(1.0, 0.9, -1.0), DVec3::new(-0.5, 0.4, 1.5)];
+        let mut checked = 0;
+        for view in lights().iter().filter_map(|light| light.view(&points, 100)) {
+            let matrix = view.from_screen(&camera, 64, 48).expect("a camera that sees");
+            for point in points {
+                let clip = camera.to_clip(64, 48) * point.extend(1.0);
+                let (x, y) = (32.0 + 32.0 * clip.x / clip.w, 24.0 - 24.0 * clip.y / clip.w);
+                let pixel = [x, y, clip.z / clip.w, 1.0];
+                let seen = matrix.map(|row| (0..4).map(|k| row[k] * pixel[k]).sum::<f64>());
+                let texels = view.texels(point);
+                // Homogeneous, so the same but for a factor above 0.
+                assert!(seen[3] > 0.0 && texels.w > 0.0);
+                for k in 0..3 {
+                    assert!((seen[k] / seen[3] - texels[k] / texels.w).abs() < 1e-9, "{k}");
+                }
+                checked += 1;
+            }
+            let place = |point: DVec3| view.texels(point).truncate() / view.texels(point).w;
+            let [a, b, c] = points.map(place);
+            let normal = (b - a).cross(c - a);
+            let slope = (normal.x.abs() + normal.y.abs()) / normal.z.abs();
+            assert!((view.depth_slope(points) / slope.min(1.0) - 1.0).abs() < 1e-6, "{slope}");
+            assert_eq!(view.depth_slope([points[0]; 3]), 1.0, "no plane");
+            // A little farther along the axis.
+            let rate = (place(points[0] + 1e-6 * view.axis).z - place(points[0]).z) / 1e-6;
+            assert!((view.depth_rate(points[0]) / rate - 1.0).abs() < 1e-4, "{rate}");
+        }
+        assert!(checked >= 6, "{checked}");
     }
 
     #[test]

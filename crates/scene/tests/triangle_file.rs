@@ -341,7 +341,7 @@ prop_compose! {
         triangles in prop::collection::vec(
             prop::array::uniform3([-MAX_COORDINATE..=MAX_COORDINATE, -9.0..=9.0, 0.0..=1.0]), 0..9),
     ) -> Shadow {
-        Shadow { size, bias, ambient, matrix, triangles }
+        Shadow { size, bias, slopes: Vec::new(), ambient, matrix, triangles }
     }
 }
 

@@ -3,6 +3,7 @@
 mod additions;
 mod layers;
 mod shaded;
+mod shadowed;
 mod terms;
 mod page;
 
@@ -20,6 +21,7 @@ use edgewalk_scene::{Frame, Scene, State, Surface};
 use layers::{Layer, layers};
 use serde::Serialize;
 use shaded::{ShadedPixel, leftward, shaded};
+use shadowed::{ShadowedPixel, shadowed};
 use terms::{LitPoint, lit_point};
 
 /// Says which triangles lie over a pixel, how its light is made up, and every addition of the machine on the way to it,
@@ -65,6 +67,12 @@ struct Explanation {
     /// Where the frame is shaded at each pixel, and the machine does so.
     #[serde(skip_serializing_if = "Option::is_none")]
     shaded: Option<ShadedPixel>,
+    /// Under lights whose maps the machine looks up.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    shadows: Vec<ShadowedPixel>,
+    /// Why there are none of a scene, though the machine could look up maps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_shadows: Option<String>,
     /// Where the machine has exact fill and exact edges, and draws the triangle.
     machine: Option<Walk>,
 }
@@ -98,6 +106,18 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let at = (y * machine.width + x) as usize;
     let id = picture.id[at];
     let seen = usize::try_from(id).ok().and_then(|id| frame.triangles.get(id));
+    let (shadows, no_shadows) = match (usize::try_from(id), &scene) {
+        (Ok(id), None) => {
+            (shadowed(&frame, &machine, id, (x, y), picture.z[at])?.into_iter().collect(), None)
+        }
+        (Ok(id), Some((scene, surface))) if machine.shadow.projects() => {
+            match lights(scene, surface, &machine, id, (x, y), picture.z[at]) {
+                Ok(shadows) => (shadows, None),
+                Err(reason) => (Vec::new(), Some(reason.to_string())),
+            }
+        }
+        _ => (Vec::new(), None),
+    };
     let explanation = Explanation {
         x,
         y,
@@ -121,6 +141,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             }
             _ => None,
         },
+        shadows,
+        no_shadows,
         machine: match seen {
             Some(triangle) if machine.fill == Fill::Exact && machine.edge_kind == EdgeKind::Exact => {
                 let blend = state_of(&frame, id as usize).blend;
@@ -164,6 +186,20 @@ fn over(frame: &Frame, machine: &Plan, pixel: (u32, u32)) -> Vec<Over> {
 fn own(machine: &Plan, value: impl Fn(usize) -> f64) -> Vec<f64> {
     let channels = extra::channels(machine).iter().enumerate();
     channels.map(|(place, channel)| value(place) * channel.host_unit()).collect()
+}
+
+/// The pixel under each light of a scene that is drawn with shadows.
+fn lights(
+    scene: &Scene,
+    surface: &Surface,
+    machine: &Plan,
+    id: usize,
+    pixel: (u32, u32),
+    z: f64,
+) -> Result<Vec<ShadowedPixel>> {
+    let frames = edgewalk_explore::lights::frames(scene, surface, machine)?;
+    let each = frames.iter().map(|frame| shadowed(frame, machine, id, pixel, z));
+    Ok(each.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect())
 }
 
 fn light(scene: &Scene, surface: &Surface, id: usize, machine: &Plan, pixel: (u32, u32)) -> Option<LitPoint> {

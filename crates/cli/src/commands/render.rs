@@ -1,6 +1,8 @@
 //! `edgewalk render`: a scene or a mesh through the machine, beside the golden picture; or through a shading system of
 //! the golden picture, beside the truth.
 
+mod lights;
+
 use crate::engine::{Engine, draw, draw_waiting, from_golden, golden_fill};
 use crate::fast_phong::{FastPhongArgs, FastPhongReport};
 use crate::input::{Shading, Source, to_port};
@@ -38,6 +40,7 @@ use std::path::PathBuf;
   edgewalk render teapot.obj --engine golden --shading constant-averaged
   edgewalk render sphere --engine golden --shading fast-phong --fit six-point --table 4096
   edgewalk render terrain --engine golden --shading phong --shadows map
+  edgewalk render terrain --shadows map --set shadow.light=perspective --set blend.kind=constant
   edgewalk render torus --engine golden --shading wireframe --hidden-lines")]
 pub struct Args {
     #[command(flatten)]
@@ -47,7 +50,8 @@ pub struct Args {
     engine: Engine,
     #[command(flatten)]
     fast_phong: FastPhongArgs,
-    /// What lies in shadow; needs --engine golden
+    /// What lies in shadow; with another engine than golden `map`, for a machine with shadow.light = perspective and BLEND: a
+    /// pass for each light, whose map the machine draws
     #[arg(long, value_enum, default_value_t = Shadows::Off)]
     shadows: Shadows,
     /// With --shading wireframe: also draws the lines that surfaces hide
@@ -96,7 +100,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         return shaded(args, &machine, talk);
     }
     if args.shadows != Shadows::Off {
-        return Err(anyhow!("--shadows: only shaded scenes and meshes have them, with --engine golden"));
+        return lights::run(args, &machine, talk);
     }
     if lines_only {
         return lines(args, &machine, talk);

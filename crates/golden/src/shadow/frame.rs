@@ -25,13 +25,14 @@ impl<'a> ShadowMap<'a> {
         Self { shadow, map: DepthMap::draw(shadow.size, fill, triangles) }
     }
 
-    /// Whether the light reaches the point at this pixel and depth: it is outside the map, or not behind what the map holds.
-    pub(crate) fn lit(&self, x: u32, y: u32, z: f64) -> bool {
+    /// Whether the light reaches the point at this pixel and depth of the triangle or polygon at this place: it is outside the map,
+    /// or not behind what the map holds.
+    pub(crate) fn lit(&self, x: u32, y: u32, z: f64, place: usize) -> bool {
         let point = [f64::from(x) + 0.5, f64::from(y) + 0.5, z, 1.0];
         let [x, y, depth, q] = self.shadow.matrix.map(|row| (0..4).map(|k| row[k] * point[k]).sum::<f64>());
         // Behind the light, q < 0, points would come back mirrored.
         let stored = if q > 0.0 { self.map.at(x / q, y / q) } else { None };
-        stored.is_none_or(|stored| depth / q <= stored + self.shadow.bias)
+        stored.is_none_or(|stored| depth / q <= stored + self.shadow.bias_of(place))
     }
 
     /// What the colour of a point in shadow is multiplied by.

@@ -9,15 +9,16 @@ use edgewalk_scene::{Scene, SurfaceTriangle};
 use glam::DVec3;
 
 /// The colours of the vertices of a triangle, part by part.
-pub(crate) struct Gated {
+pub struct Gated {
     /// I_e + k_a I_a.
-    always: [DVec3; 3],
+    pub always: [DVec3; 3],
     /// What each light adds while nothing hides it.
-    lights: Vec<[DVec3; 3]>,
+    pub lights: Vec<[DVec3; 3]>,
 }
 
 impl Gated {
-    pub(crate) fn new(scene: &Scene, triangle: &SurfaceTriangle) -> Self {
+    /// Of a triangle of the scene's surface.
+    pub fn new(scene: &Scene, triangle: &SurfaceTriangle) -> Self {
         let terms = triangle.vertices.map(|vertex| {
             let material = scene.mesh.material_at(triangle.face, vertex.texture);
             let point = scene.point(vertex.position, vertex.normal.normalize_or_zero());

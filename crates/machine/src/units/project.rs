@@ -31,6 +31,11 @@ fn serial(plan: &Plan) -> bool {
     there(plan) && plan.shadow.project == Project::Serial
 }
 
+/// A weight has room for a depth within half an LSB of the end, 1 - 1/w.
+fn rounds_to_end(plan: &Plan) -> bool {
+    there(plan) && plan.shadow.light_bits >= plan.shadow.depth_bits + 2
+}
+
 fn ports(plan: &Plan) -> Ports {
     let occupied = "a fragment is in a stage, or divided";
     let dividing =
@@ -58,7 +63,7 @@ const EVENTS: &[Event] = &[
     Event {
         name: "depth_to_end",
         doc: "depths before the map's end that are rounded to it",
-        can_happen: there,
+        can_happen: rounds_to_end,
     },
     Event {
         name: "project_stall",

@@ -15,6 +15,7 @@ pub(super) fn shadow<'a>(place: Place, words: impl Iterator<Item = &'a [u8]>) ->
     Ok(Shadow {
         size: place.number("shadow SIZE", size, "an integer", 1..=MAX_SIDE)?,
         bias: place.number("shadow BIAS", bias, "a number", -1.0..=1.0)?,
+        slopes: Vec::new(),
         ambient: place.number("shadow AMBIENT", ambient, "a number", 0.0..=1.0)?,
         matrix,
         triangles: Vec::new(),

@@ -45,7 +45,7 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
         [(last + away, last), (last, last + away), (last - away - whole, last - away - whole)]
     });
     let at = |(x, y): (f64, f64)| f64::from(dots.word(x, y));
-    vec![
+    let mut cases = vec![
         case("each_corner_around_its_depth", {
             corners.into_iter().flat_map(|c| [-1.0, 0.0, 1.0].map(|off| dots.dot(c, at(c) + off)))
         }),
@@ -89,6 +89,56 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
             })
         }),
         case("across_the_map", [dots.across(0.25), dots.across(0.75)]),
+    ];
+    if machine.shadow.projects() {
+        cases.extend(divided(&dots));
+    }
+    cases
+}
+
+/// What PROJECT divides, and what it does not: weights of every sign and size, quotients on the edges of texels, on the far edge of the
+/// map and right before it, depths that are rounded to the end.
+fn divided(dots: &Dots) -> Vec<Case> {
+    let most = f64::from((1u32 << dots.machine.shadow.light_bits) - 1);
+    let half = dots.pen.weight();
+    let side = f64::from(1u32 << dots.machine.shadow.side_bits());
+    let weights = [1.0, 2.0, 3.0, half - 1.0, half, most - 1.0, most];
+    vec![
+        case("behind_the_light", {
+            [0.0, -1.0, -half, -most].into_iter().flat_map(|w| {
+                [[0.0, 0.0, 0.0, w], [w, w, w, w], [w / 2.0, w / 2.0, w / 2.0, w], [half, half, half, w]]
+                    .map(|seen| dots.seen(seen))
+            })
+        }),
+        case("the_far_edge", {
+            weights.into_iter().flat_map(|w| {
+                [
+                    [w, 0.0, 0.0, w],
+                    [0.0, w, 0.0, w],
+                    [0.0, 0.0, w, w],
+                    [w - 1.0, w - 1.0, w - 1.0, w],
+                    [-1.0, 0.0, 0.0, w],
+                ]
+                .map(|seen| dots.seen(seen))
+            })
+        }),
+        case("edges_of_texels_of_any_weight", {
+            weights.into_iter().flat_map(|w| {
+                let texel = (w / side).floor();
+                [[texel, 0.0, 0.0, w], [texel - 1.0, texel, -1.0, w], [w - texel, w - texel - 1.0, 1.0, w]]
+                    .map(|seen| dots.seen(seen))
+            })
+        }),
+        case("weights_that_change_sign", {
+            [0.25, 0.5].map(|z| {
+                let (w, h) = dots.pen.size();
+                let ends = [((0.0, 0.0), half), ((w, 0.0), -half / 4.0), ((0.0, h), most)];
+                ends.map(|(at, weight)| {
+                    let seen = [half / 8.0, half / 4.0, half / 2.0, weight];
+                    dots.pen.seen(at, [z, 0.9, 0.5, 0.7], seen)
+                })
+            })
+        }),
     ]
 }
 
@@ -118,6 +168,12 @@ impl Dots<'_> {
         // Nearer and nearer, so that every one is seen.
         let at = [(2.0, 1.0), (3.5, 1.0), (2.0, 2.5)];
         std::array::from_fn(|i| self.pen.lit(at[i], [0.0, 0.9, 0.5, 0.7], [x, y, d]))
+    }
+
+    /// One pixel of these light-space values.
+    fn seen(&self, light: [f64; 4]) -> Triangle {
+        let at = [(2.0, 1.0), (3.5, 1.0), (2.0, 2.5)];
+        std::array::from_fn(|i| self.pen.seen(at[i], [0.0, 0.9, 0.5, 0.7], light))
     }
 
     /// Over much of the screen, from one side of the map beyond the other, from before it to behind it.

@@ -169,7 +169,7 @@ pub const SUITES: [Entry; 18] = [
     },
     Entry {
         name: "light",
-        about: "a light's map: its corners and sides, depths exactly those of a texel, before and behind it, in machines with SHADOW",
+        about: "a light's map: its corners and sides, depths exactly those of a texel, before and behind it, weights of any sign, in machines with SHADOW",
         kind: Kind::Light { shadow_on: true },
     },
     Entry {
@@ -240,7 +240,11 @@ impl Suite {
                 shadow_on,
                 depth_func: 7,
                 stalls: StallKind::Late,
-                units: const { &[Unit::MACHINE, Unit::of(&units::shadow::SPEC)] },
+                units: if machine.shadow.projects() {
+                    const { &[Unit::MACHINE, Unit::of(&units::project::SPEC), Unit::of(&units::shadow::SPEC)] }
+                } else {
+                    const { &[Unit::MACHINE, Unit::of(&units::shadow::SPEC)] }
+                },
                 cases: light::cases(machine),
                 ..plain
             },

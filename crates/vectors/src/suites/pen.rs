@@ -1,7 +1,7 @@
 //! Draws cases in pixels and in shares of full scale; what a machine cannot hold is moved to the nearest it can.
 
 use super::{Case, Triangle};
-use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_machine::{LIGHT_SPACE, Plan, PortVertex};
 
 /// Red, green and blue of the three corners, so that every channel varies in both directions.
 const COLORS: [[f64; 3]; 3] = [[1.0, 0.1, 0.3], [0.2, 0.9, 0.0], [0.0, 0.4, 1.0]];
@@ -45,6 +45,8 @@ impl<'a> Pen<'a> {
             let (low, high) = channel.host_range();
             // Of what a light-space value may be the map is a small part: around that.
             let (low, high) = match channel.name {
+                "lw" => (-self.weight() / 16.0, high),
+                "lx" | "ly" | "lz" if self.machine.shadow.projects() => around(self.weight(), low, high),
                 "lx" | "ly" => around(f64::from(self.machine.shadow.size), low, high),
                 "lz" => around(f64::from(1u32 << self.machine.shadow.depth_bits), low, high),
                 _ => (low, high),
@@ -55,12 +57,27 @@ impl<'a> Pen<'a> {
         self.placed(at, values.chain(self.machine.has_triangle_kt().then_some(kt)).collect())
     }
 
+    /// A weight in the middle of what a vertex may have.
+    pub fn weight(&self) -> f64 {
+        f64::from(1u32 << (self.machine.shadow.light_bits - 1))
+    }
+
     /// A vertex with shares as in [`Pen::vertex`] at these texels and this depth of a light's map, LSB.
-    pub fn lit(&self, at: (f64, f64), shares: [f64; 4], light: [f64; 3]) -> PortVertex {
+    pub fn lit(&self, at: (f64, f64), shares: [f64; 4], [x, y, d]: [f64; 3]) -> PortVertex {
+        if !self.machine.shadow.projects() {
+            return self.seen(at, shares, [x, y, d, 0.0]);
+        }
+        let side = f64::from(1u32 << self.machine.shadow.side_bits());
+        let depth = f64::from(1u32 << self.machine.shadow.depth_bits);
+        self.seen(at, shares, [x / side, y / side, d / depth, 1.0].map(|quotient| quotient * self.weight()))
+    }
+
+    /// The same with these light-space values, LSB.
+    pub fn seen(&self, at: (f64, f64), shares: [f64; 4], light: [f64; 4]) -> PortVertex {
         let channels = self.machine.channels().iter().zip(shares.into_iter().cycle());
         let values = channels.map(|(channel, share)| {
             let (low, high) = channel.host_range();
-            match ["lx", "ly", "lz"].iter().position(|name| *name == channel.name) {
+            match LIGHT_SPACE.iter().position(|name| *name == channel.name) {
                 Some(i) => light[i].clamp(low, high),
                 // Opaque.
                 None if channel.name == "kt" => 0.0,

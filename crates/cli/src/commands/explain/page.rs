@@ -37,6 +37,12 @@ pub(super) fn text(of: &Explanation, color_bits: u32) -> String {
     if let Some(pixel) = &of.shaded {
         page += &super::shaded::text(pixel);
     }
+    for (place, pixel) in of.shadows.iter().enumerate() {
+        page += &super::shadowed::text(pixel, place + 1);
+    }
+    if let Some(reason) = &of.no_shadows {
+        _ = writeln!(page, "\nno map on the machine: {reason}");
+    }
     if let Some(walk) = &of.machine {
         machine(&mut page, walk);
     }

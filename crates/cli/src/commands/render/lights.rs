@@ -1,0 +1,61 @@
+//! `render SCENE --shadows map` on a machine: each light's part by itself beside golden, and all of them as passes of one picture.
+
+use super::{Args, FILES};
+use crate::engine::{Engine, draw, draw_port, draw_waiting};
+use crate::input::{Shading, to_port};
+use crate::shadows::Shadows;
+use crate::staging::Staging;
+use crate::verdict::Verdict;
+use crate::{Talk, picture};
+use anyhow::{Context as _, Result, anyhow};
+use edgewalk_explore::compare::compare_for;
+use edgewalk_explore::lights::{Passes, frames, in_passes, sum};
+use edgewalk_explore::reach::reach;
+use edgewalk_explore::report::Report;
+use edgewalk_explore::setup_report::SetupReport;
+use edgewalk_machine::Plan;
+
+/// Draws, compares part by part, and writes the picture of all passes beside golden's.
+pub fn run(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
+    let source = &args.source;
+    if source.is_triangle_file() {
+        return Err(anyhow!("--shadows: a triangle file brings its own, the line `shadow`"));
+    }
+    if args.shadows == Shadows::Ray || source.shading != Shading::Gouraud {
+        return Err(anyhow!(
+            "--shadows: the machine has maps under --shading gouraud; draw others with --engine golden"
+        ));
+    }
+    let (scene, surface) = source.surface(machine)?;
+    let frames = frames(&scene, &surface, machine).with_context(|| source.input.clone())?;
+    let (mut golden, mut drawn, mut parts) = (Vec::new(), Vec::new(), Vec::new());
+    for frame in &frames {
+        let exact = draw(Engine::Golden, frame, machine, true)?;
+        let part = draw_waiting(args.engine, frame, machine, args.stalls, talk.quiet)?;
+        let reach = reach(machine, &to_port(frame, machine)?)?;
+        parts.push(compare_for(machine, frame, &exact, &part, reach.as_ref()));
+        golden.push(exact);
+        drawn.push(part);
+    }
+    let port = in_passes(&frames, machine).with_context(|| source.input.clone())?;
+    let together = draw_port(args.engine, &port, machine, args.stalls, talk.quiet)?;
+    let passes = Passes::of(parts, machine, (&golden, &drawn), &together);
+    let verdict = passes.verdict();
+    let out = Staging::new(&args.out)?;
+    let (w, h) = (together.width, together.height);
+    if let Some(golden) = sum(&golden) {
+        picture::write_rgb(&out, "golden.png", w, h, &golden.rgb)?;
+    }
+    picture::write_rgb(&out, "image.png", w, h, &together.rgb)?;
+    let setup = SetupReport::new(machine, &port.triangles);
+    let triangles = surface.triangles.len() as u64;
+    let report = Report::new(&source.input, triangles, machine, &together)
+        .with_parts(passes)
+        .with_setup(setup)
+        .with_stalls(args.stalls);
+    out.write("report.json", report.json()?)?;
+    out.write("report.txt", report.text())?;
+    out.publish(&FILES)?;
+    talk.say(|| report.json(), || report.text())?;
+    verdict.or_nothing(&source.input, triangles, (w, h))
+}

@@ -1,0 +1,281 @@
+//! The lights of a scene on the machine: what no light makes is drawn first, then the part of each light is added where its map says
+//! lit, i = i_a + sum of r_l i_l.
+//!
+//! ```text
+//!  scene ─┬─ ambient colours ──────────────> frame 0 ─┐
+//!         └─ light l: its part, view, map ─> frame l ─┴─> passes of one picture, z of pass l nearer by an LSB than of l - 1
+//! ```
+//! Each frame is a picture of its own, for golden and for the machine, and is judged by itself; the picture of all passes must then
+//! be the sum of theirs, bit by bit.
+
+use crate::compare::{Comparison, compare};
+use crate::draw;
+use crate::port::{PortFrame, to_port};
+use crate::raster::{Raster, of_port};
+use crate::verdict::Verdict;
+use anyhow::{Context as _, Result, anyhow};
+use edgewalk_golden::{Gated, Shading};
+use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_model::{DrawState, Pass, Waits};
+use edgewalk_scene::{Blending, Frame, Light, LightView, Scene, Shadow, Surface, Triangle, Vertex};
+use glam::DVec3;
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// Taken off every depth from a light beside the slope of its polygon: LSB of the map, for what rounding may hide; and a part of the
+/// diagonal of the box around the mesh, as golden does, for sub-pixels, which move points off their planes.
+const BIAS: f64 = 2.0;
+const BIAS_OF_BOX: f64 = 1e-4;
+
+/// The ambient frame, and one for each light of the scene, on this machine's screen.
+///
+/// # Errors
+/// Units or a light that the machine has not, surfaces that are seen through.
+pub fn frames(scene: &Scene, surface: &Surface, machine: &Plan) -> Result<Vec<Frame>> {
+    if !machine.shadow.projects() {
+        return Err(anyhow!(
+            "--shadows map: a camera looks in perspective, and the machine has no PROJECT; add --set shadow.light=perspective, or draw with --engine golden"
+        ));
+    }
+    if !machine.blend.is_there() {
+        return Err(anyhow!(
+            "--shadows map: the part of each light is added, and the machine has no BLEND; add --set blend.kind=constant, or draw with --engine golden"
+        ));
+    }
+    let plain = edgewalk_golden::frame(scene, surface, Shading::Gouraud);
+    if plain.blend != Blending::Off {
+        return Err(anyhow!(
+            "--shadows map: a transparent surface; the machine's passes add lights to opaque ones, draw with --engine golden"
+        ));
+    }
+    let parts: Vec<Gated> = surface.triangles.iter().map(|triangle| Gated::new(scene, triangle)).collect();
+    let colored = |part: &dyn Fn(&Gated) -> [DVec3; 3]| {
+        let triangles = plain.triangles.iter().zip(&parts).map(|(triangle, gated)| {
+            let mut corners = triangle.0;
+            for (vertex, color) in corners.iter_mut().zip(part(gated)) {
+                let [r, g, b] = color.clamp(DVec3::ZERO, DVec3::ONE).to_array();
+                *vertex = Vertex { r, g, b, ..*vertex };
+            }
+            Triangle(corners)
+        });
+        triangles.collect::<Vec<_>>()
+    };
+    let mut frames = vec![Frame { triangles: colored(&|gated| gated.always), ..plain.clone() }];
+    for (l, light) in scene.lights.iter().enumerate() {
+        let (name, size) = (named(l, light), machine.shadow.size);
+        let view = light.view(scene.mesh.positions(), size).ok_or_else(|| {
+            anyhow!(
+                "--shadows map: {name} takes six maps, and a pass looks up one; permitted: directional, flood with a cone up to 60, others that see the whole mesh within 70 degrees of an axis or of its middle; or draw with --engine golden"
+            )
+        })?;
+        let shadow = shadow(scene, surface, &view, machine).with_context(|| name)?;
+        let (shadow, triangles) = (Some(shadow), colored(&|gated| gated.lights[l]));
+        frames.push(Frame { shadow, triangles, clear: [0.0; 3], ..plain.clone() });
+    }
+    Ok(frames)
+}
+
+/// The light in words, as it is counted.
+fn named(place: usize, light: &Light) -> String {
+    let kind = match light {
+        Light::Directional { .. } => "directional",
+        Light::Positional { .. } => "positional",
+        Light::Flood { .. } => "flood",
+    };
+    format!("light {} ({kind})", place + 1)
+}
+
+/// The map of a light, and the way into it.
+fn shadow(scene: &Scene, surface: &Surface, view: &LightView, machine: &Plan) -> Result<Shadow> {
+    let matrix = view
+        .from_screen(&scene.camera, surface.width, surface.height)
+        .ok_or_else(|| anyhow!("the camera's matrix is singular"))?;
+    let points = |triangle: &Triangle| triangle.0.each_ref().map(|vertex| [vertex.x, vertex.y, vertex.z]);
+    let [low, high] = scene.mesh.bounds();
+    let slope = |triangle: &edgewalk_scene::SurfaceTriangle| {
+        let face = &scene.mesh.faces()[triangle.face as usize];
+        let corners = scene.mesh.corners(face);
+        let rate = corners.into_iter().map(|corner| view.depth_rate(corner)).fold(0.0, f64::max);
+        (view.depth_slope(corners) + BIAS_OF_BOX * (high - low).length() * rate).min(1.0)
+    };
+    Ok(Shadow {
+        size: view.size(),
+        bias: BIAS / f64::from((1u32 << machine.shadow.depth_bits) - 1),
+        slopes: surface.triangles.iter().map(slope).collect(),
+        ambient: 0.0,
+        matrix,
+        triangles: view.triangles(&scene.mesh).iter().map(points).collect(),
+    })
+}
+
+/// The frames as passes of one picture. All triangles of pass l lie as many LSB farther than those of the last as passes are to come, so
+/// under `less` a pixel takes in each pass exactly the fragment that the first pass has left there.
+///
+/// # Errors
+/// What of a frame the machine cannot take, and a depth for which these LSB leave no room.
+pub fn in_passes(frames: &[Frame], machine: &Plan) -> Result<PortFrame> {
+    let mut together: Option<PortFrame> = None;
+    for (l, frame) in frames.iter().enumerate() {
+        let mut port = to_port(frame, machine)?;
+        let farther = (frames.len() - 1 - l) as i64;
+        for (number, triangle) in port.triangles.iter_mut().enumerate() {
+            for vertex in triangle {
+                *vertex = moved(vertex, farther, machine).with_context(|| format!("triangle {number}"))?;
+            }
+        }
+        let (lit, triangles) = (l > 0, port.triangles.len());
+        let first = port.passes.first().map_or_else(DrawState::default, |pass| pass.state);
+        let state = DrawState { blend_add: lit, shadow_on: lit, ..first };
+        let pass = Pass { triangles, state, clear_depth: false, map: lit.then(|| l - 1) };
+        match &mut together {
+            None => together = Some(PortFrame { passes: vec![pass], ..port }),
+            Some(all) => {
+                all.triangles.append(&mut port.triangles);
+                all.ids.append(&mut port.ids);
+                all.lights.append(&mut port.lights);
+                all.passes.push(pass);
+            }
+        }
+    }
+    together.ok_or_else(|| anyhow!("no frame"))
+}
+
+/// The vertex, so many LSB farther away.
+fn moved(vertex: &PortVertex, farther: i64, machine: &Plan) -> Result<PortVertex> {
+    let z = machine.channels()[0];
+    let most = (z.limit() << z.vertex_fraction) as i64; // at most 48 bits
+    let mut values = vertex.values()[..machine.channels().len()].to_vec();
+    values[0] += farther << z.vertex_fraction;
+    if values[0] > most {
+        return Err(anyhow!(
+            "a depth of {} LSB, at most {} of the farthest: passes of {farther} more lights want as many LSB; bring the camera's far plane farther away",
+            (values[0] >> z.vertex_fraction) - farther,
+            z.limit()
+        ));
+    }
+    values.extend(machine.has_triangle_kt().then(|| i64::from(vertex.kt())));
+    Ok(machine.raw_vertex(vertex.x(), vertex.y(), &values))
+}
+
+/// The sum of pictures, cut to 1, in the place of the first.
+#[must_use]
+pub fn sum(pictures: &[Raster]) -> Option<Raster> {
+    let (first, others) = pictures.split_first()?;
+    let mut sum = first.clone();
+    for picture in others {
+        for (color, part) in sum.rgb.iter_mut().zip(&picture.rgb) {
+            *color = std::array::from_fn(|channel| (color[channel] + part[channel]).min(1.0));
+        }
+    }
+    Some(sum)
+}
+
+/// The scene on the machine without its netlist: the picture of all passes, golden's, and what was found.
+///
+/// # Errors
+/// What of the scene the machine cannot take.
+pub fn beside_golden(scene: &Scene, surface: &Surface, machine: &Plan) -> Result<(Raster, Raster, Passes)> {
+    let frames = frames(scene, surface, machine)?;
+    let golden: Vec<Raster> = frames.iter().map(|frame| draw::golden(frame, machine)).collect();
+    let drawn = frames.iter().map(|frame| draw::fast(frame, machine, Waits::Never));
+    let drawn = drawn.collect::<Result<Vec<_>>>()?;
+    let beside = frames.iter().zip(&golden).zip(&drawn);
+    let parts = beside.map(|((frame, golden), drawn)| compare(machine, frame, golden, drawn)).collect();
+    let port = in_passes(&frames, machine)?;
+    let together = of_port(draw::draw_frame(machine, &port, Waits::Never)?.raster(machine), &port);
+    let passes = Passes::of(parts, machine, (&golden, &drawn), &together);
+    let exact = sum(&golden).ok_or_else(|| anyhow!("no frame"))?;
+    Ok((together, exact, passes))
+}
+
+/// What was found of the passes, each by itself and together.
+#[derive(Clone, Debug, Serialize)]
+pub struct Passes {
+    /// The ambient one, then a light each.
+    pub parts: Vec<Comparison>,
+    /// Pixels of the picture of all passes that were compared with the sum of the parts.
+    pub added: u64,
+    /// Those that are another colour, depth or triangle.
+    pub wrong: u64,
+    /// Largest colour error of the picture, of the pixels where golden decides alike for every light, LSB.
+    pub color_error: f64,
+    /// How many these are.
+    pub alike: u64,
+}
+
+impl Passes {
+    /// `golden`, `drawn`: the parts; `together`: the picture of all passes.
+    #[must_use]
+    pub fn of(
+        parts: Vec<Comparison>,
+        machine: &Plan,
+        (golden, drawn): (&[Raster], &[Raster]),
+        together: &Raster,
+    ) -> Passes {
+        let mut found = Passes { parts, added: 0, wrong: 0, color_error: 0.0, alike: 0 };
+        let (Some(exact), Some(whole)) = (sum(golden), sum(drawn)) else { return found };
+        let max = machine.color.max() as f64;
+        let lsb = |color: [f64; 3]| color.map(|channel| (channel * max).round() as u64);
+        let lit = |raster: &Raster, i: usize| raster.lit.as_ref().and_then(|lit| lit.get(i).copied());
+        for i in 0..together.rgb.len().min(whole.rgb.len()) {
+            found.added += 1;
+            let same = lsb(together.rgb[i]) == lsb(whole.rgb[i])
+                && together.z[i] == whole.z[i]
+                && together.id[i] == whole.id[i];
+            found.wrong += u64::from(!same);
+            let alike = golden.iter().zip(drawn).all(|(a, b)| a.id[i] == b.id[i] && lit(a, i) == lit(b, i));
+            if alike && whole.id[i] >= 0 {
+                found.alike += 1;
+                for channel in 0..3 {
+                    let error = (together.rgb[i][channel] - exact.rgb[i][channel]).abs() * max;
+                    found.color_error = found.color_error.max(error);
+                }
+            }
+        }
+        found
+    }
+
+    /// What the picture's colours may err by, LSB: every pass as much as one.
+    #[must_use]
+    pub fn color_bound(&self) -> Option<f64> {
+        self.parts.iter().map(|part| part.color_bound_for_input.or(part.color_bound)).sum()
+    }
+
+    /// Pass only if every part passes, and all of the screen is their sum within the parts' bounds.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        let screen = self.parts.first().map_or(0, |part| part.screen);
+        let beyond = self.color_bound().is_some_and(|bound| self.color_error > bound + 1e-9);
+        let whole = Verdict::of(self.added, screen, self.wrong + u64::from(beyond));
+        self.parts.iter().map(Comparison::verdict).fold(whole, Verdict::and)
+    }
+
+    /// The same in words.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut t = String::new();
+        for (place, part) in self.parts.iter().enumerate() {
+            let name = if place == 0 { "ambient".to_owned() } else { format!("light {place}") };
+            _ = write!(
+                t,
+                "{name}: coverage mismatches {} of {}, largest errors z {:.4}, colour {:.4} LSB",
+                part.coverage_mismatches, part.pixels, part.z_error, part.color_error
+            );
+            if let Some(lit) = &part.lit {
+                _ = write!(
+                    t,
+                    "; {} of {} pixels in shadow, {} decided otherwise than golden, {} open, {} unexplained",
+                    lit.shadow, lit.pixels, lit.differ, lit.open, lit.unexplained
+                );
+            }
+            t.push('\n');
+        }
+        let bound = self.color_bound().map_or_else(|| "none".to_owned(), |bound| format!("{bound:.4}"));
+        _ = writeln!(
+            t,
+            "passes together: {} pixels, {} not the sum of the parts; largest colour error {:.4} of {bound} LSB over {} pixels decided alike",
+            self.added, self.wrong, self.color_error, self.alike
+        );
+        t
+    }
+}
