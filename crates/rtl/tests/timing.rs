@@ -43,7 +43,7 @@ fn with_lanes(lanes: u32) -> Plan {
 #[test]
 fn a_triangle_takes_the_clocks_of_its_bits() {
     let edges = 2 + 4 + 2 + 2 + 8 + 1;
-    let channels = 2 + 2 + 2 + 2 + (14 + 9) + (1 + 14 + 9) + 1 + 2 + 2 + 1 + (1 + 9) + 1;
+    let channels = 2 + 2 + 1 + 2 + (14 + 9) + (14 + 9) + 1 + (2 + 1) + 1 + 9 + 1;
     for (lanes, edge_rounds, channel_rounds) in [(4, 1, 1), (2, 2, 2), (1, 3, 4)] {
         let clocks = edge_rounds * edges + channel_rounds * channels + 4;
         let found = cycles_until(&with_lanes(lanes), [[10, 10], [40, 20], [20, 60]], "prim_valid");
