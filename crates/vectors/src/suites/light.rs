@@ -45,7 +45,7 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
         [(last + away, last), (last, last + away), (last - away - whole, last - away - whole)]
     });
     let at = |(x, y): (f64, f64)| f64::from(dots.word(x, y));
-    vec![
+    let mut cases = vec![
         case("each_corner_around_its_depth", {
             corners.into_iter().flat_map(|c| [-1.0, 0.0, 1.0].map(|off| dots.dot(c, at(c) + off)))
         }),
@@ -89,7 +89,11 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
             })
         }),
         case("across_the_map", [dots.across(0.25), dots.across(0.75)]),
-    ]
+    ];
+    if machine.shadow.projects() {
+        cases.push(case("weights_at_their_ends", dots.weights()));
+    }
+    cases
 }
 
 struct Dots<'a> {
@@ -118,6 +122,24 @@ impl Dots<'_> {
         // Nearer and nearer, so that every one is seen.
         let at = [(2.0, 1.0), (3.5, 1.0), (2.0, 2.5)];
         std::array::from_fn(|i| self.pen.lit(at[i], [0.0, 0.9, 0.5, 0.7], [x, y, d]))
+    }
+
+    /// One pixel of every place, 0, one LSB beside it, half of the weight, the weight and one LSB beside that; of weights 0 and 1, below 0,
+    /// and the largest.
+    fn weights(&self) -> Vec<Triangle> {
+        let most = f64::from(self.machine.shadow.light_bits).exp2() - 1.0;
+        let mut dots = Vec::new();
+        for w in [most, most - 1.0, 1.0, 2.0, 0.0, -1.0, -most] {
+            let places = [-most, -1.0, 0.0, 1.0, (w / 2.0).floor(), w - 1.0, w, w + 1.0, most];
+            for (i, x) in places.into_iter().enumerate() {
+                let [y, z] = [3, 7].map(|turn| places[(i * turn + 1) % places.len()]);
+                for light in [[x, y, z, w], [1.0, w / 2.0, x, w]] {
+                    let at = [(2.0, 1.0), (3.5, 1.0), (2.0, 2.5)];
+                    dots.push(at.map(|at| self.pen.weighted(at, [0.0, 0.9, 0.5, 0.7], light)));
+                }
+            }
+        }
+        dots
     }
 
     /// Over much of the screen, from one side of the map beyond the other, from before it to behind it.

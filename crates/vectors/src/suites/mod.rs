@@ -240,7 +240,12 @@ impl Suite {
                 shadow_on,
                 depth_func: 7,
                 stalls: StallKind::Late,
-                units: const { &[Unit::MACHINE, Unit::of(&units::shadow::SPEC)] },
+                units: match machine.shadow.projects() {
+                    true => {
+                        const { &[Unit::MACHINE, Unit::of(&units::project::SPEC), Unit::of(&units::shadow::SPEC)] }
+                    }
+                    false => const { &[Unit::MACHINE, Unit::of(&units::shadow::SPEC)] },
+                },
                 cases: light::cases(machine),
                 ..plain
             },

@@ -1,7 +1,7 @@
 //! Draws cases in pixels and in shares of full scale; what a machine cannot hold is moved to the nearest it can.
 
 use super::{Case, Triangle};
-use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_machine::{LIGHT_SPACE, Plan, PortVertex};
 
 /// Red, green and blue of the three corners, so that every channel varies in both directions.
 const COLORS: [[f64; 3]; 3] = [[1.0, 0.1, 0.3], [0.2, 0.9, 0.0], [0.0, 0.4, 1.0]];
@@ -45,6 +45,8 @@ impl<'a> Pen<'a> {
             let (low, high) = channel.host_range();
             // Of what a light-space value may be the map is a small part: around that.
             let (low, high) = match channel.name {
+                "lx" | "ly" | "lz" if self.machine.shadow.projects() => (-high / 8.0, high),
+                "lw" => (high / 2.0, high),
                 "lx" | "ly" => around(f64::from(self.machine.shadow.size), low, high),
                 "lz" => around(f64::from(1u32 << self.machine.shadow.depth_bits), low, high),
                 _ => (low, high),
@@ -57,10 +59,23 @@ impl<'a> Pen<'a> {
 
     /// A vertex with shares as in [`Pen::vertex`] at these texels and this depth of a light's map, LSB.
     pub fn lit(&self, at: (f64, f64), shares: [f64; 4], light: [f64; 3]) -> PortVertex {
+        let shadow = &self.machine.shadow;
+        if !shadow.projects() {
+            return self.weighted(at, shares, [light[0], light[1], light[2], 0.0]);
+        }
+        // Half of the largest weight: its quotients are exact.
+        let w = f64::from(shadow.light_bits - 1).exp2();
+        let [x, y, z] = light;
+        let side = w / f64::from(shadow.side_bits()).exp2();
+        self.weighted(at, shares, [x * side, y * side, z * w / f64::from(shadow.depth_bits).exp2(), w])
+    }
+
+    /// The same with these light-space values, the last of them their weight, where there is one.
+    pub fn weighted(&self, at: (f64, f64), shares: [f64; 4], light: [f64; 4]) -> PortVertex {
         let channels = self.machine.channels().iter().zip(shares.into_iter().cycle());
         let values = channels.map(|(channel, share)| {
             let (low, high) = channel.host_range();
-            match ["lx", "ly", "lz"].iter().position(|name| *name == channel.name) {
+            match LIGHT_SPACE.iter().position(|name| *name == channel.name) {
                 Some(i) => light[i].clamp(low, high),
                 // Opaque.
                 None if channel.name == "kt" => 0.0,
