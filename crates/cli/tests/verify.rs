@@ -7,9 +7,13 @@ const SMALL: [&str; 6] =
     ["--set", "screen.width=24", "--set", "screen.height=20", "--set", "screen.guard_bits=6"];
 
 fn verify(triangles: &str, arguments: &[&str], path: Option<&str>) -> Output {
+    verify_file(&format!("size 24 20\nmode gouraud\n{triangles}"), arguments, path)
+}
+
+fn verify_file(text: &str, arguments: &[&str], path: Option<&str>) -> Output {
     let place = tempfile::tempdir().expect("a directory");
     let file = place.path().join("input.tri");
-    std::fs::write(&file, format!("size 24 20\nmode gouraud\n{triangles}")).expect("a file");
+    std::fs::write(&file, text).expect("a file");
     let mut command = Command::new(env!("CARGO_BIN_EXE_edgewalk"));
     command.arg("verify").arg(&file).args(SMALL).args(arguments);
     if let Some(path) = path {
@@ -65,6 +69,26 @@ fn a_light_is_verified() {
         "pass  light_off       shadow",
     ] {
         assert!(text.contains(of), "{of}: {text}");
+    }
+    assert!(!text.contains("not covered"), "{text}");
+}
+
+/// A machine that shades, with a file that is: its units are there, and what their suites can meet they do.
+#[test]
+fn a_shaded_frame_is_verified() {
+    let text = format!(
+        "size 24 20\nmode phong\nview 0 0 1\nsun 0.3 0.3 1 0.9\nmaterial 0.1 0.6 0.3 20\n{}N 0 0 1  0 0 1  0.6 0 0.8\n",
+        "T 1 1 0.2 1 0.5 0 1  12 3 0.5 1 0.5 0 1  4 15 0.8 1 0.5 0 1\n"
+    );
+    let settings = ["shade.kind=phong", "shade.table_bits=8", "shade.material_bits=1"];
+    let settings = settings.iter().flat_map(|setting| ["--set", setting]);
+    let arguments: Vec<&str> = settings.chain(["--no-simulators"]).collect();
+    let (code, text) = told(&verify_file(&text, &arguments, None));
+    assert_eq!(code, Some(0), "{text}");
+    for of in
+        ["input           machine", "shade           term", "shade           normal", "shade           shade"]
+    {
+        assert!(text.contains(&format!("pass  {of}")), "{of}: {text}");
     }
     assert!(!text.contains("not covered"), "{text}");
 }

@@ -2,7 +2,7 @@
 
 use crate::interface::{Direction, Interface};
 use crate::unit::Unit;
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Plan, Project};
 use edgewalk_model::longest_setup;
 use rand::Rng;
 use rand_pcg::Pcg64Mcg;
@@ -134,7 +134,7 @@ const BEFORE_DEPTH: usize = 4;
 fn programme(plan: &Plan, interface: &Interface, held: &[&str], seed: u64) -> Vec<Vec<bool>> {
     // Cycles from one small triangle to the next, at the most; a unit alone gets fragments as fast as it takes them.
     let blend = if plan.blend.is_there() { plan.blend.queue + plan.blend.stages + 1 } else { 0 };
-    let shadow = if plan.shadow.is_there() { plan.shadow.queue } else { 0 };
+    let shadow = if plan.shadow.is_there() { plan.shadow.queue + divided(plan) } else { 0 };
     let places = (plan.inflight + blend + shadow) as usize;
     let (triangle, free) = if interface.unit == Unit::MACHINE {
         (longest_setup(plan).all() as usize + 8, 3 * (places + 4))
@@ -155,6 +155,15 @@ fn programme(plan: &Plan, interface: &Interface, held: &[&str], seed: u64) -> Ve
         }
     }
     rows
+}
+
+/// Fragments in PROJECT.
+fn divided(plan: &Plan) -> u32 {
+    match plan.shadow.project {
+        _ if !plan.shadow.projects() => 0,
+        Project::Pipelined => plan.shadow.rows() + 1,
+        Project::Serial => 1,
+    }
 }
 
 /// Random bytes that depend only on seed and link.

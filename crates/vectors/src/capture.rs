@@ -222,7 +222,8 @@ fn patience(plan: &Plan, patterns: &[Pattern]) -> u64 {
     } else {
         0
     };
-    setup + u64::from(plan.height) + span + walk + waits + 1000
+    let rows = if plan.shadow.projects() { u64::from(plan.shadow.rows()) } else { 0 };
+    setup + u64::from(plan.height) + span + walk + rows + waits + 1000
 }
 
 /// Cycles that follow the last event of the model: what comes too much would come here.

@@ -135,7 +135,7 @@ fn machines_with_blend(machines: &[(&str, Plan)], simulators: impl Fn(usize) -> 
     assert!(done.len() >= 4 && done.iter().all(|checked| *checked > 4000), "{done:?}");
 }
 
-/// Machines with SHADOW in Icarus, every third in Verilator too; SHADOW alone.
+/// Machines with SHADOW in Icarus, every third in Verilator too; SHADOW and PROJECT alone.
 #[test]
 fn machines_with_shadow_replay_and_are_clean() {
     let machines = common::lights();
@@ -152,13 +152,17 @@ fn machines_with_shadow_replay_and_are_clean() {
         let whole = of(Unit::MACHINE, &suite, StallKind::ALL[i % 3]);
         let simulators = Simulator::ALL.into_iter().take(1 + usize::from(i % 3 == 1));
         let mut checked: u64 = simulators.map(|simulator| passes(simulator, &whole)).sum();
-        checked += passes(Simulator::Icarus, &of(common::SHADOW, &suite, StallKind::Late));
+        for unit in
+            [common::PROJECT, common::SHADOW].into_iter().filter(|unit| Unit::all(machine).contains(unit))
+        {
+            checked += passes(Simulator::Icarus, &of(unit, &suite, StallKind::Late));
+        }
         write(&whole, &vectors);
         lint(&vectors, LIMIT).unwrap_or_else(|error| panic!("{name}: {error}"));
         println!("{name:34} {checked} checked, lint clean");
         checked
     });
-    assert_eq!(done.len(), 6);
+    assert_eq!(done.len(), 8);
     assert!(done.iter().all(|checked| *checked > 5000), "{done:?}");
 }
 

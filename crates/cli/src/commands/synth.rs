@@ -35,7 +35,7 @@ use table::Report;
   edgewalk synth --unit span --seeds 1 --set interpolator.adders=1
   edgewalk synth --target ecp5-25 --out out/synth")]
 pub struct Args {
-    /// machine, engine (all but setup), or a unit: setup, edge, span, pixel, depth
+    /// machine, engine (all but setup), or a unit: setup, edge, span, pixel, depth, and those that this machine has beside them
     #[arg(long, value_name = "UNIT", default_value = "machine")]
     unit: String,
     /// Device: ice40-hx8k, ice40-up5k, ecp5-25 (repeatable)

@@ -91,6 +91,7 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
         case("across_the_map", [dots.across(0.25), dots.across(0.75)]),
     ];
     if machine.shadow.projects() {
+<<<<<<< HEAD
         cases.extend(divided(&dots));
     }
     cases
@@ -140,6 +141,11 @@ fn divided(dots: &Dots) -> Vec<Case> {
             })
         }),
     ]
+=======
+        cases.push(case("weights_at_their_ends", dots.weights()));
+    }
+    cases
+>>>>>>> gates
 }
 
 struct Dots<'a> {
@@ -170,10 +176,29 @@ impl Dots<'_> {
         std::array::from_fn(|i| self.pen.lit(at[i], [0.0, 0.9, 0.5, 0.7], [x, y, d]))
     }
 
+<<<<<<< HEAD
     /// One pixel of these light-space values.
     fn seen(&self, light: [f64; 4]) -> Triangle {
         let at = [(2.0, 1.0), (3.5, 1.0), (2.0, 2.5)];
         std::array::from_fn(|i| self.pen.seen(at[i], [0.0, 0.9, 0.5, 0.7], light))
+=======
+    /// One pixel of every place, 0, one LSB beside it, half of the weight, the weight and one LSB beside that; of weights 0 and 1, below 0,
+    /// and the largest.
+    fn weights(&self) -> Vec<Triangle> {
+        let most = f64::from(self.machine.shadow.light_bits).exp2() - 1.0;
+        let mut dots = Vec::new();
+        for w in [most, most - 1.0, 1.0, 2.0, 0.0, -1.0, -most] {
+            let places = [-most, -1.0, 0.0, 1.0, (w / 2.0).floor(), w - 1.0, w, w + 1.0, most];
+            for (i, x) in places.into_iter().enumerate() {
+                let [y, z] = [3, 7].map(|turn| places[(i * turn + 1) % places.len()]);
+                for light in [[x, y, z, w], [1.0, w / 2.0, x, w]] {
+                    let at = [(2.0, 1.0), (3.5, 1.0), (2.0, 2.5)];
+                    dots.push(at.map(|at| self.pen.weighted(at, [0.0, 0.9, 0.5, 0.7], light)));
+                }
+            }
+        }
+        dots
+>>>>>>> gates
     }
 
     /// Over much of the screen, from one side of the map beyond the other, from before it to behind it.

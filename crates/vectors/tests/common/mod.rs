@@ -4,8 +4,8 @@
 use edgewalk_lockstep::{Agreement, Interface, LockstepError, NetlistDevice, PortError};
 use edgewalk_machine::units;
 use edgewalk_machine::{
-    Blend, BlendKind, EdgeKind, Fill, Gate, Hazard, Kind, Machine, Plan, Precision, Shade, ShadeColour,
-    ShadeKind, Shadow, ShadowLight, Texture, Walk,
+    Blend, BlendKind, EdgeKind, Fill, Gate, Hazard, Kind, Machine, Plan, Precision, Project, Shade,
+    ShadeColour, ShadeKind, Shadow, ShadowLight, Texture, Walk,
 };
 use edgewalk_netlist::Netlist;
 use edgewalk_vectors::{Files, Trace, Unit};
@@ -75,6 +75,7 @@ pub const TEXEL: Unit = Unit::of(&units::texel::SPEC);
 pub const NORMAL: Unit = Unit::of(&units::normal::SPEC);
 pub const SHADE: Unit = Unit::of(&units::shade::SPEC);
 pub const DEPTH: Unit = Unit::of(&units::depth::SPEC);
+pub const PROJECT: Unit = Unit::of(&units::project::SPEC);
 pub const SHADOW: Unit = Unit::of(&units::shadow::SPEC);
 pub const BLEND: Unit = Unit::of(&units::blend::SPEC);
 
@@ -192,7 +193,7 @@ pub fn glass() -> Vec<(&'static str, Plan)> {
     list.into_iter().map(|(name, machine)| (name, checked(machine))).collect()
 }
 
-/// Six machines with SHADOW: gates, sides that are powers of two and not, queues, latencies, adders; three of them with BLEND, two with
+/// Eight machines with SHADOW, two of them with PROJECT: gates, sides that are powers of two and not, queues, latencies, adders; three of them with BLEND, two with
 /// channels of the user's own.
 pub fn lights() -> Vec<(&'static str, Plan)> {
     let small = Machine::clone(&small());
@@ -204,6 +205,12 @@ pub fn lights() -> Vec<(&'static str, Plan)> {
     let glass = |kind, hazard, machine: Machine| {
         let blend = Blend { kind, hazard, kt_fraction: 8, kt_vertex: 2, ..small.blend };
         Machine { blend, ..machine }
+    };
+    let perspective = |size, depth_bits, project, gate| {
+        let machine = light([size, 0, depth_bits], gate, [3, 2]);
+        let shadow =
+            Shadow { light: ShadowLight::Perspective, light_bits: depth_bits + 4, project, ..machine.shadow };
+        Machine { shadow, ..machine }
     };
     let tagged = Machine { tag_bits: 3, adders: 2, ..light([5, 1, 8], Gate::Scale, [3, 1]) };
     let tagged = with_extras(tagged, [(Kind::Signed, 5)]);
@@ -229,6 +236,14 @@ pub fn lights() -> Vec<(&'static str, Plan)> {
                 },
                 [(Kind::Unorm, 3)],
             ),
+        ),
+        (
+            "perspective_pipelined_scale_tags",
+            Machine { tag_bits: 3, ..perspective(5, 4, Project::Pipelined, Gate::Scale) },
+        ),
+        (
+            "perspective_serial_constant_kt",
+            glass(BlendKind::Constant, Hazard::Forward, perspective(8, 6, Project::Serial, Gate::And)),
         ),
     ];
     list.into_iter().map(|(name, machine)| (name, checked(machine))).collect()

@@ -8,6 +8,7 @@
 
 mod miter;
 mod proof;
+mod shaded;
 
 use crate::common;
 use edgewalk_machine::{Blend, BlendKind, Gate, Hazard, Machine, Plan, Precision, Shadow, ShadowLight};
@@ -117,6 +118,30 @@ fn every_fault_of_shadow_is_found() {
     share_found(&machines_with_shadow(), |_| 1, SHADOW_LEAST);
 }
 
+/// Of these units, whose tables and records take long to come, the test run tries one fault of so many.
+const SAMPLE_OF_SHADE: usize = 40;
+
+/// Of TERM, PIXEL's terms, TEXEL, NORMAL and SHADE; of PROJECT.
+const SHADE_LEAST: usize = 98;
+
+#[test]
+fn single_faults_of_shade_and_project_are_found() {
+    let work = [shaded::machines(), shaded::machines_with_project()].concat();
+    share_found(&work, |_| SAMPLE_OF_SHADE, LEAST);
+}
+
+#[test]
+#[ignore = "a quarter of an hour: each fault of TERM, PIXEL's terms, TEXEL, NORMAL and SHADE"]
+fn every_fault_of_shade_is_found() {
+    share_found(&shaded::machines(), |_| 1, SHADE_LEAST);
+}
+
+#[test]
+#[ignore = "minutes: each fault of PROJECT"]
+fn every_fault_of_project_is_found() {
+    share_found(&shaded::machines_with_project(), |_| 1, SHADE_LEAST);
+}
+
 /// Of each unit's faults every so manieth, as `step` says.
 fn share_found(work: &[(Plan, Unit)], step: impl Fn(Unit) -> usize + Sync, least: usize) {
     let tallies = common::two_at_a_time(work, |_, (machine, unit)| {
@@ -219,6 +244,19 @@ fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
             let any = [StallKind::Mixed, StallKind::None, StallKind::Late].into_iter().zip(1..);
             let any: Vec<_> =
                 any.map(|(stalls, seed)| any_fragments(machine, &traces[1], stalls, seed)).collect();
+            traces.extend(any);
+        }
+        "term" | "texel" | "normal" | "shade" | "project" => {
+            let own = if unit == common::PROJECT { "light" } else { "shade" };
+            let suite = Suite::named(machine, own, 1, 24).expect("listed");
+            // The directed words once, the rest at random: whole suites under every stall take long.
+            traces.truncate(1);
+            for stalls in [StallKind::Mixed, StallKind::Late] {
+                traces.push(capture(machine, unit, &suite, suite.state(), stalls));
+            }
+            let any = StallKind::ALL.into_iter().zip(1..);
+            let any: Vec<_> =
+                any.map(|(stalls, seed)| shaded::any_tokens(machine, &traces[0], stalls, seed)).collect();
             traces.extend(any);
         }
         "setup" => traces.push(specks(machine)),
