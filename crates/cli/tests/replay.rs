@@ -151,7 +151,7 @@ fn every_unit_appears_where_the_machine_has_it() {
         assert_eq!(light, units.contains(&"shadow"));
         checked += units.len();
     }
-    assert_eq!(checked, 9);
+    assert_eq!(checked, 11);
 }
 
 #[test]
