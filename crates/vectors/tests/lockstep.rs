@@ -106,7 +106,8 @@ fn every_suite_of_shade() {
             for unit in Unit::all(machine).into_iter().filter(in_turn) {
                 let netlist = design::netlist(machine, unit).expect("a checked machine");
                 let trace = capture(machine, unit, &suite, suite.state(), StallKind::ALL[(i + j) % 3]);
-                let agreement = common::lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
+                let agreement =
+                    common::lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
                 assert_eq!(agreement.compared, trace.port_values());
                 compared += agreement.compared;
             }

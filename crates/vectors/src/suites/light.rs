@@ -91,8 +91,8 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
         case("across_the_map", [dots.across(0.25), dots.across(0.75)]),
     ];
     if machine.shadow.projects() {
-<<<<<<< HEAD
         cases.extend(divided(&dots));
+        cases.push(case("weights_at_their_ends", dots.weights()));
     }
     cases
 }
@@ -141,11 +141,6 @@ fn divided(dots: &Dots) -> Vec<Case> {
             })
         }),
     ]
-=======
-        cases.push(case("weights_at_their_ends", dots.weights()));
-    }
-    cases
->>>>>>> gates
 }
 
 struct Dots<'a> {
@@ -176,12 +171,12 @@ impl Dots<'_> {
         std::array::from_fn(|i| self.pen.lit(at[i], [0.0, 0.9, 0.5, 0.7], [x, y, d]))
     }
 
-<<<<<<< HEAD
     /// One pixel of these light-space values.
     fn seen(&self, light: [f64; 4]) -> Triangle {
         let at = [(2.0, 1.0), (3.5, 1.0), (2.0, 2.5)];
         std::array::from_fn(|i| self.pen.seen(at[i], [0.0, 0.9, 0.5, 0.7], light))
-=======
+    }
+
     /// One pixel of every place, 0, one LSB beside it, half of the weight, the weight and one LSB beside that; of weights 0 and 1, below 0,
     /// and the largest.
     fn weights(&self) -> Vec<Triangle> {
@@ -193,12 +188,11 @@ impl Dots<'_> {
                 let [y, z] = [3, 7].map(|turn| places[(i * turn + 1) % places.len()]);
                 for light in [[x, y, z, w], [1.0, w / 2.0, x, w]] {
                     let at = [(2.0, 1.0), (3.5, 1.0), (2.0, 2.5)];
-                    dots.push(at.map(|at| self.pen.weighted(at, [0.0, 0.9, 0.5, 0.7], light)));
+                    dots.push(at.map(|at| self.pen.seen(at, [0.0, 0.9, 0.5, 0.7], light)));
                 }
             }
         }
         dots
->>>>>>> gates
     }
 
     /// Over much of the screen, from one side of the map beyond the other, from before it to behind it.

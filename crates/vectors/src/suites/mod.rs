@@ -240,18 +240,10 @@ impl Suite {
                 shadow_on,
                 depth_func: 7,
                 stalls: StallKind::Late,
-<<<<<<< HEAD
                 units: if machine.shadow.projects() {
                     const { &[Unit::MACHINE, Unit::of(&units::project::SPEC), Unit::of(&units::shadow::SPEC)] }
                 } else {
                     const { &[Unit::MACHINE, Unit::of(&units::shadow::SPEC)] }
-=======
-                units: match machine.shadow.projects() {
-                    true => {
-                        const { &[Unit::MACHINE, Unit::of(&units::project::SPEC), Unit::of(&units::shadow::SPEC)] }
-                    }
-                    false => const { &[Unit::MACHINE, Unit::of(&units::shadow::SPEC)] },
->>>>>>> gates
                 },
                 cases: light::cases(machine),
                 ..plain

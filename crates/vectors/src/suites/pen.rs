@@ -45,13 +45,8 @@ impl<'a> Pen<'a> {
             let (low, high) = channel.host_range();
             // Of what a light-space value may be the map is a small part: around that.
             let (low, high) = match channel.name {
-<<<<<<< HEAD
                 "lw" => (-self.weight() / 16.0, high),
                 "lx" | "ly" | "lz" if self.machine.shadow.projects() => around(self.weight(), low, high),
-=======
-                "lx" | "ly" | "lz" if self.machine.shadow.projects() => (-high / 8.0, high),
-                "lw" => (high / 2.0, high),
->>>>>>> gates
                 "lx" | "ly" => around(f64::from(self.machine.shadow.size), low, high),
                 "lz" => around(f64::from(1u32 << self.machine.shadow.depth_bits), low, high),
                 _ => (low, high),
@@ -68,7 +63,6 @@ impl<'a> Pen<'a> {
     }
 
     /// A vertex with shares as in [`Pen::vertex`] at these texels and this depth of a light's map, LSB.
-<<<<<<< HEAD
     pub fn lit(&self, at: (f64, f64), shares: [f64; 4], [x, y, d]: [f64; 3]) -> PortVertex {
         if !self.machine.shadow.projects() {
             return self.seen(at, shares, [x, y, d, 0.0]);
@@ -80,22 +74,6 @@ impl<'a> Pen<'a> {
 
     /// The same with these light-space values, LSB.
     pub fn seen(&self, at: (f64, f64), shares: [f64; 4], light: [f64; 4]) -> PortVertex {
-=======
-    pub fn lit(&self, at: (f64, f64), shares: [f64; 4], light: [f64; 3]) -> PortVertex {
-        let shadow = &self.machine.shadow;
-        if !shadow.projects() {
-            return self.weighted(at, shares, [light[0], light[1], light[2], 0.0]);
-        }
-        // Half of the largest weight: its quotients are exact.
-        let w = f64::from(shadow.light_bits - 1).exp2();
-        let [x, y, z] = light;
-        let side = w / f64::from(shadow.side_bits()).exp2();
-        self.weighted(at, shares, [x * side, y * side, z * w / f64::from(shadow.depth_bits).exp2(), w])
-    }
-
-    /// The same with these light-space values, the last of them their weight, where there is one.
-    pub fn weighted(&self, at: (f64, f64), shares: [f64; 4], light: [f64; 4]) -> PortVertex {
->>>>>>> gates
         let channels = self.machine.channels().iter().zip(shares.into_iter().cycle());
         let values = channels.map(|(channel, share)| {
             let (low, high) = channel.host_range();
