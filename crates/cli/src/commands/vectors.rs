@@ -34,7 +34,7 @@ pub struct Args {
     /// color_unwritten, with SHADOW light and light_off; without an input all of them if left out
     #[arg(long, value_name = "NAME")]
     suite: Vec<String>,
-    /// Units: machine, setup, edge, span, pixel, shadow, depth, blend; all that a suite is for if left out
+    /// Units: machine, setup, edge, span, pixel, project, shadow, depth, blend; all that a suite is for if left out
     #[arg(long, value_name = "NAME", value_parser = unit)]
     unit: Vec<Unit>,
     /// How the bench makes the design wait: none, mixed, late; what suits each suite if left out
