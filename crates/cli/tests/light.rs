@@ -263,6 +263,31 @@ fn every_decision_through_a_lens_is_explained() {
     );
 }
 
+/// Where the weight is so small that a texel may be off by one or more nothing is proved: such pixels are counted, not passed over.
+#[test]
+fn decisions_without_a_bound_count_as_open() {
+    let folder = tempfile::tempdir().unwrap();
+    let matrix = "0.5 0 0 0   0 0.5 0 0   0 0 0.5 0   0.02 0 0 -0.005";
+    let triangle = "T  0 0 0.5 1 1 1 0   160 0 0.5 1 1 1 0   0 120 0.5 1 1 1 0";
+    let text = format!("size 80 60\nshadow 64 0 0.3   {matrix}\nL 0 0 0.3  64 0 0.3  0 64 0.3\n{triangle}\n");
+    std::fs::write(folder.path().join("a.tri"), text).unwrap();
+    let open = |bits: &str| {
+        let sizes =
+            ["shadow.light=perspective", "shadow.gate=scale", "shadow.size=64", "shadow.depth_bits=8"];
+        let screen = ["screen.width=80", "screen.height=60", bits];
+        let mut command = edgewalk(folder.path(), &["render", "a.tri", "--json"]);
+        sizes.iter().chain(&screen).for_each(|setting| _ = command.args(["--set", setting]));
+        let output = command.output().unwrap();
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert!(output.status.success(), "{report:#}");
+        let lit = &report["comparison"]["lit"];
+        assert_eq!((lit["pixels"].as_u64(), lit["unexplained"].as_u64()), (Some(4800), Some(0)), "{lit}");
+        lit["open"].as_u64().unwrap()
+    };
+    let (few, many) = (open("shadow.light_bits=8"), open("shadow.light_bits=24"));
+    assert!(few > 1000 && many == 0, "{few} open with 8 bits, {many} with 24");
+}
+
 #[test]
 fn what_the_machine_cannot_do_is_said() {
     let folder = tempfile::tempdir().unwrap();

@@ -5,7 +5,7 @@ use edgewalk_netlist::Netlist;
 use edgewalk_vectors::Interface;
 use std::fmt::Write as _;
 
-/// The ports of both designs, without clock and reset.
+/// The ports of both designs but clock and reset.
 pub struct Ports {
     inputs: Vec<(String, u32)>,
     /// Inputs that change at a reset only.
@@ -13,8 +13,6 @@ pub struct Ports {
     outputs: Vec<(String, u32)>,
     /// Outputs that count; with the port that must be 1 for it.
     compared: Vec<(String, Option<String>)>,
-    has_clock: bool,
-    has_reset: bool,
 }
 
 impl Ports {
@@ -27,8 +25,6 @@ impl Ports {
             constants: Vec::new(),
             outputs: outputs.collect(),
             compared: module.outputs.iter().map(|output| (output.name.clone(), None)).collect(),
-            has_clock: module.has_clock,
-            has_reset: module.has_reset,
         }
     }
 
@@ -49,8 +45,6 @@ impl Ports {
             constants: interface.constants.iter().map(|port| port.name.clone()).collect(),
             outputs: widths(interface.outputs()),
             compared: status.chain(interface.links.iter().flat_map(of_link)).collect(),
-            has_clock: true,
-            has_reset: true,
         }
     }
 }
@@ -60,15 +54,13 @@ fn widths(ports: &[Port]) -> Vec<(String, u32)> {
 }
 
 /// The module `miter` of the modules `original` and `faulty`; its output `bad` is 1 where they differ.
-pub fn miter(ports: &Ports) -> String {
+pub fn miter(ports: &Ports, original: &Netlist, faulty: &Netlist) -> String {
     let range = |width: u32| format!("[{}:0]", width - 1);
     let mut header = String::from("input clk, input rst");
     let mut body = String::from(
         "reg started;\ninitial started = 1'b0;\nalways @(posedge clk) if (rst) started <= 1'b1;\n",
     );
-    let clock = [(ports.has_clock, "clk"), (ports.has_reset, "rst")];
-    let clock = clock.into_iter().filter(|(has, _)| *has).map(|(_, name)| name.to_owned());
-    let mut shared: Vec<String> = clock.collect();
+    let mut shared: Vec<String> = Vec::new();
     for (port, width) in &ports.inputs {
         let range = range(*width);
         if ports.constants.contains(port) {
@@ -83,8 +75,11 @@ pub fn miter(ports: &Ports) -> String {
     for (port, width) in &ports.outputs {
         let _ = writeln!(body, "wire {} {port}, other_{port};", range(*width));
     }
-    let connections = |prefix: &str| {
-        let inputs = shared.iter().map(|port| format!(".{port}({port})"));
+    let connections = |netlist: &Netlist, prefix: &str| {
+        // A fault may take away the only register with a reset, and the port with it.
+        let clock = [(netlist.has_clock, "clk"), (netlist.has_reset, "rst")];
+        let clock = clock.into_iter().filter(|(has, _)| *has).map(|(_, name)| name);
+        let inputs = clock.chain(shared.iter().map(String::as_str)).map(|port| format!(".{port}({port})"));
         let outputs = ports.outputs.iter().map(|(port, _)| format!(".{port}({prefix}{port})"));
         inputs.chain(outputs).collect::<Vec<_>>().join(", ")
     };
@@ -96,8 +91,8 @@ pub fn miter(ports: &Ports) -> String {
     format!(
         "module miter({header}, output bad);\n{body}original a({});\nfaulty b({});\n\
          assign bad = started && !rst && ({});\nendmodule\n",
-        connections(""),
-        connections("other_"),
+        connections(original, ""),
+        connections(faulty, "other_"),
         differ.join(" || ")
     )
 }

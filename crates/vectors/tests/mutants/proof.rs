@@ -77,7 +77,7 @@ fn search(ports: &Ports, original: &Arc<Netlist>, faulty: &Arc<Netlist>, limit: 
     let write = |name: &str, text: String| std::fs::write(place.path().join(name), text).expect("a file");
     write("original.v", text(original));
     write("faulty.v", text(faulty));
-    write("miter.v", miter(ports));
+    write("miter.v", miter(ports, original, faulty));
     let top = &original.name;
     let gates = format!(
         "read_verilog original.v; prep -flatten -top {top}; rename {top} original; design -stash original; \
