@@ -15,6 +15,7 @@ mod gallery;
 mod guard_band;
 mod input_files;
 mod layering;
+mod lens;
 mod light;
 mod limits;
 mod meshes;

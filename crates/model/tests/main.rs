@@ -11,6 +11,7 @@ mod golden;
 mod hazards;
 mod pairs;
 mod passage;
+mod perspective;
 mod project;
 mod reset;
 mod shade;
