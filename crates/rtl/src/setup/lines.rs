@@ -62,19 +62,22 @@ impl<'m> Lines<'m> {
     }
 }
 
-/// No column of pixel centres of the screen lies between the leftmost and the rightmost vertex.
+/// No column of pixel centres of the screen lies between the leftmost and the rightmost vertex: k1 ≤ k0. As k0 is the least of
+/// the three ceil(u/P) or 0, and k1 the largest or W, that is so where all three are equal, none is above 0, or none below W; so
+/// neither vertex needs to be found.
 fn no_column<'m>(m: &'m Module, plan: &Plan, vertices: &Vertices<'m>) -> Signal<'m> {
-    m.comment(
-        "Columns: from ceil(u/P) of the leftmost to before ceil(u/P) of the rightmost vertex, on the screen.",
-    );
+    m.comment("Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.");
     let (bits, t) = (plan.widths().column, plan.widths().center_fraction);
-    let [a, b, c] = [0, 1, 2].map(|place| vertices.u(place));
-    let least = at_most(at_most(a, b), c).named_doc("leftmost", "1/P column");
-    let most = at_least(at_least(a, b), c).named_doc("rightmost", "1/P column");
-    let ceil = |u: Signal<'m>| u.slice(u.width() - 1, t).sext(bits) + u.trunc(t).any().zext(bits);
-    let first = at_least(ceil(least), m.lit(bits, 0)).named("first_column");
-    let end = at_most(ceil(most), m.lit(bits, plan.width.into())).named("end_column");
-    end.sle(first)
+    let u = [0, 1, 2].map(|place| vertices.u(place));
+    let last = m.lit(u[0].width(), (u128::from(plan.width) - 1) << t);
+    let columns = u.map(|u| u.slice(u.width() - 1, t).sext(bits) + u.trunc(t).any().zext(bits));
+    let column = |place: usize| columns[place].named_doc(&format!("column{place}"), "ceil(u/P)");
+    let [a, b, c] = [column(0), column(1), column(2)];
+    let none_between = (a.eq(b) & b.eq(c)).named("none_between");
+    let all = |is: &dyn Fn(Signal<'m>) -> Signal<'m>| is(u[0]) & is(u[1]) & is(u[2]);
+    let before = all(&|u| u.msb() | !u.any()).named_doc("before_screen", "ceil(u/P) is 0 or less");
+    let behind = all(&|u| !u.sle(last)).named_doc("behind_screen", "ceil(u/P) is W or more");
+    none_between | before | behind
 }
 
 fn at_least<'m>(a: Signal<'m>, b: Signal<'m>) -> Signal<'m> {
