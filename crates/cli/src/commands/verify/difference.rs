@@ -70,6 +70,7 @@ fn cleared(trace: &Trace) -> Vec<Vec<u32>> {
 }
 
 #[cfg(test)]
+#[allow(clippy::print_stdout, reason = "a test says what it checked")]
 mod tests {
     use edgewalk_lockstep::{LockstepError, StallKind, Unit, netlist};
     use edgewalk_machine::{Machine, Plan};
