@@ -431,17 +431,18 @@ module edgewalk_setup (
   wire [14:0] choice_7 = ($signed(line1) < $signed(j0_next)) ? j0_next : line1;
   wire [14:0] j1_next = ($signed(choice_7) < $signed(end_line)) ? choice_7 : end_line;
 
-  // Columns: from ceil(u/P) of the leftmost to before ceil(u/P) of the rightmost vertex, on the screen.
-  wire [21:0] choice_8 = ($signed(p0_u) < $signed(p1_u)) ? p0_u : p1_u;
-  wire [21:0] leftmost = ($signed(choice_8) < $signed(p2_u)) ? choice_8 : p2_u;  // 1/P column
-  wire [21:0] choice_9 = ($signed(p0_u) < $signed(p1_u)) ? p1_u : p0_u;
-  wire [21:0] rightmost = ($signed(choice_9) < $signed(p2_u)) ? p2_u : choice_9;  // 1/P column
-  wire [13:0] part_25 = leftmost[21:8];
-  wire [14:0] sum = {part_25[13], part_25} + {14'd0, |leftmost[7:0]};
-  wire [14:0] first_column = ($signed(sum) < 15'sd0) ? 15'd0 : sum;
-  wire [13:0] part_26 = rightmost[21:8];
-  wire [14:0] sum_2 = {part_26[13], part_26} + {14'd0, |rightmost[7:0]};
-  wire [14:0] end_column = ($signed(sum_2) < 15'sd640) ? sum_2 : 15'd640;
+  // Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.
+  wire [13:0] part_25 = p0_u[21:8];
+  wire [14:0] column0 = {part_25[13], part_25} + {14'd0, |p0_u[7:0]};  // ceil(u/P)
+  wire [13:0] part_26 = p1_u[21:8];
+  wire [14:0] column1 = {part_26[13], part_26} + {14'd0, |p1_u[7:0]};  // ceil(u/P)
+  wire [13:0] part_27 = p2_u[21:8];
+  wire [14:0] column2 = {part_27[13], part_27} + {14'd0, |p2_u[7:0]};  // ceil(u/P)
+  wire none_between = (column0 == column1) && (column1 == column2);
+  wire before_screen = (p0_u[21] || !(|p0_u)) && (p1_u[21] || !(|p1_u)) && (p2_u[21] || !(|p2_u));  // ceil(u/P) is 0 or less
+  wire behind_screen = !($signed(p0_u) <= 22'sh27f00)  // ceil(u/P) is W or more
+                    && !($signed(p1_u) <= 22'sh27f00)
+                    && !($signed(p2_u) <= 22'sh27f00);
   reg [14:0] j0;                                   // line, signed
   reg [14:0] j1;                                   // line, signed
   wire upper = |prim_n1;
@@ -459,7 +460,7 @@ module edgewalk_setup (
       prim_n2 <= difference_5[9:0];
       j0 <= j0_next;
       j1 <= j1_next;
-      no_column <= $signed(end_column) <= $signed(first_column);
+      no_column <= none_between || before_screen || behind_screen;
     end
   end
 
@@ -472,46 +473,46 @@ module edgewalk_setup (
   wire [23:0] either = {16'd0, p1_u[7:0]} | {1'b0, h1};
   wire [22:0] digits = differing[22:0] | differing_2[22:0] | (second_counts ? either[22:0] : 23'd0);  // digits of the factors that differ from their signs
   wire any_11 = |digits[22:16];
-  wire [6:0] part_28 = digits[22:16];
-  wire [2:0] part_27 = part_28[6:4];
-  wire any_12 = |part_27;
-  wire any_13 = part_27[2];
-  wire [1:0] part_29 = part_27[1:0];
-  wire [3:0] part_31 = part_28[3:0];
-  wire [1:0] part_30 = part_31[3:2];
-  wire any_14 = |part_30;
-  wire [1:0] part_32 = part_31[1:0];
-  wire [1:0] choice_10 = any_12 ? {any_13, any_13 ? 1'b0 : part_29[1]}
-                       : {any_14, any_14 ? part_30[1] : part_32[1]};
-  wire [15:0] part_34 = digits[15:0];
-  wire [7:0] part_33 = part_34[15:8];
-  wire any_15 = |part_33;
-  wire [3:0] part_35 = part_33[7:4];
-  wire any_16 = |part_35;
-  wire [1:0] part_36 = part_35[3:2];
-  wire any_17 = |part_36;
-  wire [1:0] part_37 = part_35[1:0];
-  wire [3:0] part_39 = part_33[3:0];
-  wire [1:0] part_38 = part_39[3:2];
-  wire any_18 = |part_38;
-  wire [1:0] part_40 = part_39[1:0];
-  wire [1:0] choice_11 = any_16 ? {any_17, any_17 ? part_36[1] : part_37[1]}
-                       : {any_18, any_18 ? part_38[1] : part_40[1]};
-  wire [7:0] part_42 = part_34[7:0];
-  wire [3:0] part_41 = part_42[7:4];
-  wire any_19 = |part_41;
-  wire [1:0] part_43 = part_41[3:2];
-  wire any_20 = |part_43;
-  wire [1:0] part_44 = part_41[1:0];
-  wire [3:0] part_46 = part_42[3:0];
-  wire [1:0] part_45 = part_46[3:2];
-  wire any_21 = |part_45;
-  wire [1:0] part_47 = part_46[1:0];
-  wire [1:0] choice_12 = any_19 ? {any_20, any_20 ? part_43[1] : part_44[1]}
-                       : {any_21, any_21 ? part_45[1] : part_47[1]};
-  wire [3:0] choice_13 = any_11 ? {1'b0, {any_12, choice_10}}
-                       : {any_15, any_15 ? {any_16, choice_11} : {any_19, choice_12}};
-  assign top_digit = {any_11, choice_13};
+  wire [6:0] part_29 = digits[22:16];
+  wire [2:0] part_28 = part_29[6:4];
+  wire any_12 = |part_28;
+  wire any_13 = part_28[2];
+  wire [1:0] part_30 = part_28[1:0];
+  wire [3:0] part_32 = part_29[3:0];
+  wire [1:0] part_31 = part_32[3:2];
+  wire any_14 = |part_31;
+  wire [1:0] part_33 = part_32[1:0];
+  wire [1:0] choice_8 = any_12 ? {any_13, any_13 ? 1'b0 : part_30[1]}
+                      : {any_14, any_14 ? part_31[1] : part_33[1]};
+  wire [15:0] part_35 = digits[15:0];
+  wire [7:0] part_34 = part_35[15:8];
+  wire any_15 = |part_34;
+  wire [3:0] part_36 = part_34[7:4];
+  wire any_16 = |part_36;
+  wire [1:0] part_37 = part_36[3:2];
+  wire any_17 = |part_37;
+  wire [1:0] part_38 = part_36[1:0];
+  wire [3:0] part_40 = part_34[3:0];
+  wire [1:0] part_39 = part_40[3:2];
+  wire any_18 = |part_39;
+  wire [1:0] part_41 = part_40[1:0];
+  wire [1:0] choice_9 = any_16 ? {any_17, any_17 ? part_37[1] : part_38[1]}
+                      : {any_18, any_18 ? part_39[1] : part_41[1]};
+  wire [7:0] part_43 = part_35[7:0];
+  wire [3:0] part_42 = part_43[7:4];
+  wire any_19 = |part_42;
+  wire [1:0] part_44 = part_42[3:2];
+  wire any_20 = |part_44;
+  wire [1:0] part_45 = part_42[1:0];
+  wire [3:0] part_47 = part_43[3:0];
+  wire [1:0] part_46 = part_47[3:2];
+  wire any_21 = |part_46;
+  wire [1:0] part_48 = part_47[1:0];
+  wire [1:0] choice_10 = any_19 ? {any_20, any_20 ? part_44[1] : part_45[1]}
+                       : {any_21, any_21 ? part_46[1] : part_48[1]};
+  wire [3:0] choice_11 = any_11 ? {1'b0, {any_12, choice_8}}
+                       : {any_15, any_15 ? {any_16, choice_9} : {any_19, choice_10}};
+  assign top_digit = {any_11, choice_11};
   wire [23:0] shifted_3 = f >> left;
   wire digit_f = shifted_3[0];
   wire [23:0] shifted_4 = g >> left;
@@ -606,8 +607,8 @@ module edgewalk_setup (
                    : step;
   reg [3:0] step_next0;
   reg [3:0] step_again0;
-  wire [3:0] choice_14 = began ? 4'd10 : began_then ? 4'd11 : 4'd12;
-  wire [3:0] step_formed0 = advance ? step_next0 : (pause == 4'd1) ? step_again0 : choice_14;
+  wire [3:0] choice_12 = began ? 4'd10 : began_then ? 4'd11 : 4'd12;
+  wire [3:0] step_formed0 = advance ? step_next0 : (pause == 4'd1) ? step_again0 : choice_12;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -628,7 +629,7 @@ module edgewalk_setup (
                    : step;
   reg [3:0] step_next1;
   reg [3:0] step_again1;
-  wire [3:0] step_formed1 = advance ? step_next1 : (pause == 4'd1) ? step_again1 : choice_14;
+  wire [3:0] step_formed1 = advance ? step_next1 : (pause == 4'd1) ? step_again1 : choice_12;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -649,7 +650,7 @@ module edgewalk_setup (
                    : step;
   reg [3:0] step_next2;
   reg [3:0] step_again2;
-  wire [3:0] step_formed2 = advance ? step_next2 : (pause == 4'd1) ? step_again2 : choice_14;
+  wire [3:0] step_formed2 = advance ? step_next2 : (pause == 4'd1) ? step_again2 : choice_12;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -670,7 +671,7 @@ module edgewalk_setup (
                    : step;
   reg [3:0] step_next3;
   reg [3:0] step_again3;
-  wire [3:0] step_formed3 = advance ? step_next3 : (pause == 4'd1) ? step_again3 : choice_14;
+  wire [3:0] step_formed3 = advance ? step_next3 : (pause == 4'd1) ? step_again3 : choice_12;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -701,16 +702,16 @@ module edgewalk_setup (
                || (at_formed == LOAD_DY)
                || ((at_formed == FIX_DX) && !advance);
   wire [22:0] extended_2 = {1'b0, dv02};
-  wire [28:0] choice_15 = (at_formed == LOAD_DY) ? {{6{extended_2[22]}}, extended_2}
+  wire [28:0] choice_13 = (at_formed == LOAD_DY) ? {{6{extended_2[22]}}, extended_2}
                         : {{6{du02[22]}}, du02};
-  wire [28:0] choice_16 = to_vertex[1] ? {1'b0, vertex2_z}
+  wire [28:0] choice_14 = to_vertex[1] ? {1'b0, vertex2_z}
                         : to_vertex[0] ? {1'b0, vertex1_z}
                         : {1'b0, vertex0_z};
-  wire [28:0] choice_17 = single_value ? 29'h1ffffff8
+  wire [28:0] choice_15 = single_value ? 29'h1ffffff8
                         : from_vertex[1] ? {1'b0, vertex2_z}
                         : from_vertex[0] ? {1'b0, vertex1_z}
                         : {1'b0, vertex0_z};
-  wire [28:0] number0 = (either_6 && !begins) ? choice_15 : choice_16 - choice_17;  // signed
+  wire [28:0] number0 = (either_6 && !begins) ? choice_13 : choice_14 - choice_15;  // signed
   reg [28:0] value0;  // first value, signed
 
   always @(posedge clk) begin
@@ -721,15 +722,15 @@ module edgewalk_setup (
   wire either_7 = (at_formed == LOAD_DX)
                || (at_formed == LOAD_DY)
                || ((at_formed == FIX_DX) && !advance);
-  wire [22:0] choice_18 = to_vertex[1] ? {11'd0, vertex2_r}
+  wire [22:0] choice_16 = to_vertex[1] ? {11'd0, vertex2_r}
                         : to_vertex[0] ? {11'd0, vertex1_r}
                         : {11'd0, vertex0_r};
-  wire [22:0] choice_19 = single_value ? 23'h7ffff8
+  wire [22:0] choice_17 = single_value ? 23'h7ffff8
                         : from_vertex[1] ? {11'd0, vertex2_r}
                         : from_vertex[0] ? {11'd0, vertex1_r}
                         : {11'd0, vertex0_r};
   wire [22:0] number1 = (either_7 && !begins) ? ((at_formed == LOAD_DY) ? {1'b0, dv01} : du01)  // signed
-                      : choice_18 - choice_19;
+                      : choice_16 - choice_17;
   reg [22:0] value1;  // first value, signed
 
   always @(posedge clk) begin
@@ -740,15 +741,15 @@ module edgewalk_setup (
   wire either_8 = (at_formed == LOAD_DX)
                || (at_formed == LOAD_DY)
                || ((at_formed == FIX_DX) && !advance);
-  wire [22:0] choice_20 = (at_formed == LOAD_DY) ? {1'b0, dv12} : {p2_u[21], p2_u} - {p1_u[21], p1_u};
-  wire [22:0] choice_21 = to_vertex[1] ? {11'd0, vertex2_g}
+  wire [22:0] choice_18 = (at_formed == LOAD_DY) ? {1'b0, dv12} : {p2_u[21], p2_u} - {p1_u[21], p1_u};
+  wire [22:0] choice_19 = to_vertex[1] ? {11'd0, vertex2_g}
                         : to_vertex[0] ? {11'd0, vertex1_g}
                         : {11'd0, vertex0_g};
-  wire [22:0] choice_22 = single_value ? 23'h7ffff8
+  wire [22:0] choice_20 = single_value ? 23'h7ffff8
                         : from_vertex[1] ? {11'd0, vertex2_g}
                         : from_vertex[0] ? {11'd0, vertex1_g}
                         : {11'd0, vertex0_g};
-  wire [22:0] number2 = (either_8 && !begins) ? choice_20 : choice_21 - choice_22;  // signed
+  wire [22:0] number2 = (either_8 && !begins) ? choice_18 : choice_19 - choice_20;  // signed
   reg [22:0] value2;  // first value, signed
 
   always @(posedge clk) begin
@@ -759,15 +760,15 @@ module edgewalk_setup (
   wire either_9 = (at_formed == LOAD_DX)
                || (at_formed == LOAD_DY)
                || ((at_formed == FIX_DX) && !advance);
-  wire [22:0] choice_23 = to_vertex[1] ? {11'd0, vertex2_b}
+  wire [22:0] choice_21 = to_vertex[1] ? {11'd0, vertex2_b}
                         : to_vertex[0] ? {11'd0, vertex1_b}
                         : {11'd0, vertex0_b};
-  wire [22:0] choice_24 = single_value ? 23'h7ffff8
+  wire [22:0] choice_22 = single_value ? 23'h7ffff8
                         : from_vertex[1] ? {11'd0, vertex2_b}
                         : from_vertex[0] ? {11'd0, vertex1_b}
                         : {11'd0, vertex0_b};
   wire [22:0] number3 = (either_9 && !begins) ? ((at_formed == LOAD_DY) ? {1'b0, dv02} : du02)  // signed
-                      : choice_23 - choice_24;
+                      : choice_21 - choice_22;
   reg [22:0] value3;  // first value, signed
   wire [27:0] shown = (number0[27:0] ^ {28{number0[28]}})
                     | {5'd0, number1 ^ {23{number1[22]}}}
@@ -797,10 +798,10 @@ module edgewalk_setup (
   wire [44:0] lane0_rest_out;
   wire [45:0] lane0_whole_out;
   wire [45:0] lane0_value;
-  wire choice_25 = is_sign ? f[23] : digit_f;
-  wire choice_26 = is_sign ? g[23] : digit_g;
+  wire choice_23 = is_sign ? f[23] : digit_f;
+  wire choice_24 = is_sign ? g[23] : digit_g;
   wire [29:0] shifted_5 = $signed({number0[28], number0}) >>> {pause - 4'd2, 1'b0};
-  wire [13:0] part_48 = p0_u[21:8];
+  wire [13:0] part_49 = p0_u[21:8];
   wire [46:0] joined_3 = {{value0, 10'd0}, 8'd128};
   wire equal_2 = at_rest == COLUMNS;
 
@@ -808,14 +809,14 @@ module edgewalk_setup (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_25 || choice_26), choice_26, choice_25}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_23 || choice_24), choice_24, choice_23}
 : read_single_at),
     .step          (step_formed0),
     .number        (number0),
     .digits        (shifted_5[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? {{32{part_48[13]}}, part_48} : joined_3[45:0]),
+    .whole_in      ((at_stepped == COLUMNS) ? {{32{part_49[13]}}, part_49} : joined_3[45:0]),
     .take_modulus  (take_modulus),
     .modulus_in    ((at_formed == LOAD1) ? scaled : ~{16'd0, {dv02, 8'd0}}),
     .modulus_short (!((at_formed == LOAD1) && area[45])),
@@ -827,10 +828,10 @@ module edgewalk_setup (
   );
 
   wire any_22 = |dv02[21:8];
-  wire [36:0] part_49 = lane0_rest_out[44:8];
+  wire [36:0] part_50 = lane0_rest_out[44:8];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == DOUBLE_DX)) prim_major_f <= any_22 ? part_49[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_major_f <= any_22 ? part_50[21:0] : 22'd0;
   end
 
   always @(posedge clk) begin
@@ -853,24 +854,24 @@ module edgewalk_setup (
   wire [44:0] lane1_rest_out;
   wire [29:0] lane1_whole_out;
   wire [29:0] lane1_value;
-  wire choice_27 = is_sign ? f[23] : digit_f;
-  wire choice_28 = is_sign ? g[23] : digit_g;
+  wire choice_25 = is_sign ? f[23] : digit_f;
+  wire choice_26 = is_sign ? g[23] : digit_g;
   wire [23:0] shifted_6 = $signed({number1[22], number1}) >>> {pause - 4'd2, 1'b0};
-  wire [13:0] part_50 = p0_u[21:8];
+  wire [13:0] part_51 = p0_u[21:8];
   wire [40:0] joined_4 = {{value1, 10'd0}, 8'd128};
 
   edgewalk_setup_lane1 lane1 (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_27 || choice_28), choice_28, choice_27}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_25 || choice_26), choice_26, choice_25}
 : read_single_at),
     .step          (step_formed1),
     .number        (number1),
     .digits        (shifted_6[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_50[13]}}, part_50} : joined_4[29:0]),
+    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_51[13]}}, part_51} : joined_4[29:0]),
     .take_modulus  (take_modulus),
     .modulus_in    ((at_formed == LOAD1) ? scaled : ~{16'd0, {dv01, 8'd0}}),
     .modulus_short (!((at_formed == LOAD1) && area[45])),
@@ -882,10 +883,10 @@ module edgewalk_setup (
   );
 
   wire both_10 = (|prim_n1) && (|dv01[21:8]);
-  wire [36:0] part_51 = lane1_rest_out[44:8];
+  wire [36:0] part_52 = lane1_rest_out[44:8];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor1_f <= both_10 ? part_51[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor1_f <= both_10 ? part_52[21:0] : 22'd0;
   end
 
   always @(posedge clk) begin
@@ -912,25 +913,25 @@ module edgewalk_setup (
   wire [29:0] lane2_value;
   wire equal_3 = at == SUM;
   wire [7:0] shifted_7 = p1_u[7:0] >> left;
-  wire choice_29 = is_sign ? f[23] : equal_3 ? shifted_7[0] : digit_f;
+  wire choice_27 = is_sign ? f[23] : equal_3 ? shifted_7[0] : digit_f;
   wire [22:0] shifted_8 = h1 >> left;
-  wire choice_30 = is_sign ? g[23] : equal_3 ? shifted_8[0] : digit_g;
+  wire choice_28 = is_sign ? g[23] : equal_3 ? shifted_8[0] : digit_g;
   wire [23:0] shifted_9 = $signed({number2[22], number2}) >>> {pause - 4'd2, 1'b0};
-  wire [13:0] part_52 = p1_u[21:8];
+  wire [13:0] part_53 = p1_u[21:8];
   wire [40:0] joined_5 = {{value2, 10'd0}, 8'd128};
 
   edgewalk_setup_lane1 lane2 (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_29 || choice_30), choice_30, choice_29}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_27 || choice_28), choice_28, choice_27}
 : read_single_at),
     .step          (step_formed2),
     .number        (number2),
     .digits        (shifted_9[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_52[13]}}, part_52} : joined_5[29:0]),
+    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_53[13]}}, part_53} : joined_5[29:0]),
     .take_modulus  (take_modulus),
     .modulus_in    ((at_formed == LOAD1) ? scaled : ~{16'd0, {dv12, 8'd0}}),
     .modulus_short (!((at_formed == LOAD1) && area[45])),
@@ -942,10 +943,10 @@ module edgewalk_setup (
   );
 
   wire both_11 = (|prim_n2) && (|dv12[21:8]);
-  wire [36:0] part_53 = lane2_rest_out[44:8];
+  wire [36:0] part_54 = lane2_rest_out[44:8];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor2_f <= both_11 ? part_53[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor2_f <= both_11 ? part_54[21:0] : 22'd0;
   end
 
   always @(posedge clk) begin
@@ -1026,10 +1027,10 @@ module edgewalk_setup (
   // Channel: b.
   wire [29:0] lane3_value;
   wire [29:0] lane3_whole_out;
-  wire choice_31 = is_sign ? f[23] : digit_f;
-  wire choice_32 = is_sign ? g[23] : digit_g;
+  wire choice_29 = is_sign ? f[23] : digit_f;
+  wire choice_30 = is_sign ? g[23] : digit_g;
   wire [23:0] shifted_10 = $signed({number3[22], number3}) >>> {pause - 4'd2, 1'b0};
-  wire [13:0] part_54 = p0_u[21:8];
+  wire [13:0] part_55 = p0_u[21:8];
   wire [40:0] joined_6 = {{value3, 10'd0}, 8'd128};
   wire [44:0] lane3_rest_out_unused;
 
@@ -1037,14 +1038,14 @@ module edgewalk_setup (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_31 || choice_32), choice_32, choice_31}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_29 || choice_30), choice_30, choice_29}
 : read_single_at),
     .step          (step_formed3),
     .number        (number3),
     .digits        (shifted_10[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_54[13]}}, part_54} : joined_6[29:0]),
+    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_55[13]}}, part_55} : joined_6[29:0]),
     .take_modulus  (take_modulus),
     .modulus_in    ((at_formed == LOAD1) ? scaled : ~{16'd0, {dv02, 8'd0}}),
     .modulus_short (!((at_formed == LOAD1) && area[45])),
@@ -1085,10 +1086,10 @@ module edgewalk_setup (
     lane3_value[29:22], lane3_whole_out[7:0], difference[22], difference_2[22], difference_3[22],
     part_5[0], part_10[0], part_13[0], part_17[0], part_20[0], shifted[21:1], shifted_2[21:1],
     part_21[44:0], difference_4[14:10], difference_5[14:10], differing[23], differing_2[23], either[23],
-    part_29[0], part_32[0], part_37[0], part_40[0], part_44[0], part_47[0], shifted_3[23:1],
+    part_30[0], part_33[0], part_38[0], part_41[0], part_45[0], part_48[0], shifted_3[23:1],
     shifted_4[23:1], shifted_7[7:1], shifted_8[22:1], shifted_5[29:2], joined_3[46], shifted_6[23:2],
     joined_4[40:30], shifted_9[23:2], joined_5[40:30], shifted_10[23:2], joined_6[40:30],
-    part_49[36:22], difference_6[7:0], part_51[36:22], difference_7[7:0], part_53[36:22],
+    part_50[36:22], difference_6[7:0], part_52[36:22], difference_7[7:0], part_54[36:22],
     difference_8[7:0]
   };
 

@@ -455,17 +455,18 @@ module edgewalk_setup (
   wire [11:0] choice_8 = ($signed(line1) < $signed(j0_next)) ? j0_next : line1;
   wire [11:0] j1_next = ($signed(choice_8) < $signed(end_line)) ? choice_8 : end_line;
 
-  // Columns: from ceil(u/P) of the leftmost to before ceil(u/P) of the rightmost vertex, on the screen.
-  wire [14:0] choice_9 = ($signed(p0_u) < $signed(p1_u)) ? p0_u : p1_u;
-  wire [14:0] leftmost = ($signed(choice_9) < $signed(p2_u)) ? choice_9 : p2_u;  // 1/P column
-  wire [14:0] choice_10 = ($signed(p0_u) < $signed(p1_u)) ? p1_u : p0_u;
-  wire [14:0] rightmost = ($signed(choice_10) < $signed(p2_u)) ? p2_u : choice_10;  // 1/P column
-  wire [10:0] part_18 = leftmost[14:4];
-  wire [11:0] sum = {part_18[10], part_18} + {11'd0, |leftmost[3:0]};
-  wire [11:0] first_column = ($signed(sum) < 12'sd0) ? 12'd0 : sum;
-  wire [10:0] part_19 = rightmost[14:4];
-  wire [11:0] sum_2 = {part_19[10], part_19} + {11'd0, |rightmost[3:0]};
-  wire [11:0] end_column = ($signed(sum_2) < 12'sd640) ? sum_2 : 12'd640;
+  // Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.
+  wire [10:0] part_18 = p0_u[14:4];
+  wire [11:0] column0 = {part_18[10], part_18} + {11'd0, |p0_u[3:0]};  // ceil(u/P)
+  wire [10:0] part_19 = p1_u[14:4];
+  wire [11:0] column1 = {part_19[10], part_19} + {11'd0, |p1_u[3:0]};  // ceil(u/P)
+  wire [10:0] part_20 = p2_u[14:4];
+  wire [11:0] column2 = {part_20[10], part_20} + {11'd0, |p2_u[3:0]};  // ceil(u/P)
+  wire none_between = (column0 == column1) && (column1 == column2);
+  wire before_screen = (p0_u[14] || !(|p0_u)) && (p1_u[14] || !(|p1_u)) && (p2_u[14] || !(|p2_u));  // ceil(u/P) is 0 or less
+  wire behind_screen = !($signed(p0_u) <= 15'sh27f0)  // ceil(u/P) is W or more
+                    && !($signed(p1_u) <= 15'sh27f0)
+                    && !($signed(p2_u) <= 15'sh27f0);
   reg [11:0] j0;                                   // line, signed
   reg [11:0] j1;                                   // line, signed
   wire upper = |prim_n1;
@@ -483,7 +484,7 @@ module edgewalk_setup (
       prim_n2 <= difference_5[9:0];
       j0 <= j0_next;
       j1 <= j1_next;
-      no_column <= $signed(end_column) <= $signed(first_column);
+      no_column <= none_between || before_screen || behind_screen;
     end
   end
 
@@ -494,31 +495,31 @@ module edgewalk_setup (
   wire [16:0] differing_2 = g ^ $unsigned($signed(g) >>> 1);
   wire [15:0] digits = differing[15:0] | differing_2[15:0];  // digits of the factors that differ from their signs
   wire any_8 = |digits[15:8];
-  wire [7:0] part_21 = digits[15:8];
-  wire [3:0] part_20 = part_21[7:4];
-  wire any_9 = |part_20;
-  wire [1:0] part_22 = part_20[3:2];
-  wire any_10 = |part_22;
-  wire [1:0] part_23 = part_20[1:0];
-  wire [3:0] part_25 = part_21[3:0];
-  wire [1:0] part_24 = part_25[3:2];
-  wire any_11 = |part_24;
-  wire [1:0] part_26 = part_25[1:0];
-  wire [1:0] choice_11 = any_9 ? {any_10, any_10 ? part_22[1] : part_23[1]}
-                       : {any_11, any_11 ? part_24[1] : part_26[1]};
-  wire [7:0] part_28 = digits[7:0];
-  wire [3:0] part_27 = part_28[7:4];
-  wire any_12 = |part_27;
-  wire [1:0] part_29 = part_27[3:2];
-  wire any_13 = |part_29;
-  wire [1:0] part_30 = part_27[1:0];
-  wire [3:0] part_32 = part_28[3:0];
-  wire [1:0] part_31 = part_32[3:2];
-  wire any_14 = |part_31;
-  wire [1:0] part_33 = part_32[1:0];
-  wire [1:0] choice_12 = any_12 ? {any_13, any_13 ? part_29[1] : part_30[1]}
-                       : {any_14, any_14 ? part_31[1] : part_33[1]};
-  assign top_digit = {1'b0, {any_8, any_8 ? {any_9, choice_11} : {any_12, choice_12}}};
+  wire [7:0] part_22 = digits[15:8];
+  wire [3:0] part_21 = part_22[7:4];
+  wire any_9 = |part_21;
+  wire [1:0] part_23 = part_21[3:2];
+  wire any_10 = |part_23;
+  wire [1:0] part_24 = part_21[1:0];
+  wire [3:0] part_26 = part_22[3:0];
+  wire [1:0] part_25 = part_26[3:2];
+  wire any_11 = |part_25;
+  wire [1:0] part_27 = part_26[1:0];
+  wire [1:0] choice_9 = any_9 ? {any_10, any_10 ? part_23[1] : part_24[1]}
+                      : {any_11, any_11 ? part_25[1] : part_27[1]};
+  wire [7:0] part_29 = digits[7:0];
+  wire [3:0] part_28 = part_29[7:4];
+  wire any_12 = |part_28;
+  wire [1:0] part_30 = part_28[3:2];
+  wire any_13 = |part_30;
+  wire [1:0] part_31 = part_28[1:0];
+  wire [3:0] part_33 = part_29[3:0];
+  wire [1:0] part_32 = part_33[3:2];
+  wire any_14 = |part_32;
+  wire [1:0] part_34 = part_33[1:0];
+  wire [1:0] choice_10 = any_12 ? {any_13, any_13 ? part_30[1] : part_31[1]}
+                       : {any_14, any_14 ? part_32[1] : part_34[1]};
+  assign top_digit = {1'b0, {any_8, any_8 ? {any_9, choice_9} : {any_12, choice_10}}};
   wire [16:0] shifted_3 = f >> left;
   wire digit_f = shifted_3[0];
   wire [16:0] shifted_4 = g >> left;
@@ -611,16 +612,16 @@ module edgewalk_setup (
   end
 
   // Lane 0: its steps.
-  wire [3:0] choice_13 = (round == 2'd3) ? 4'd4
+  wire [3:0] choice_11 = (round == 2'd3) ? 4'd4
                        : (round == 2'd2) ? 4'd4
                        : (round == 2'd1) ? 4'd4
                        : 4'd4;
-  wire [3:0] choice_14 = (round == 2'd3) ? 4'd4
+  wire [3:0] choice_12 = (round == 2'd3) ? 4'd4
                        : (round == 2'd2) ? 4'd4
                        : (round == 2'd1) ? 4'd4
                        : 4'd4;
-  wire [3:0] step0 = ((at == DOUBLE_Y) && !rests) ? choice_13
-                   : ((at == DOUBLE_X) && !rests) ? choice_14
+  wire [3:0] step0 = ((at == DOUBLE_Y) && !rests) ? choice_11
+                   : ((at == DOUBLE_X) && !rests) ? choice_12
                    : ((at == DOUBLE_DX) && !rests) ? 4'd4
                    : step;
   reg [3:0] step_next0;
@@ -667,46 +668,46 @@ module edgewalk_setup (
   wire [15:0] extended_2 = {1'b0, dv12};
   wire [15:0] extended_3 = {1'b0, dv01};
   wire [15:0] extended_4 = {1'b0, dv02};
-  wire [16:0] choice_15 = (round_formed == 2'd2) ? {extended_2[15], extended_2}
+  wire [16:0] choice_13 = (round_formed == 2'd2) ? {extended_2[15], extended_2}
                         : (round_formed == 2'd1) ? {extended_3[15], extended_3}
                         : {extended_4[15], extended_4};
   wire [15:0] difference_6 = {p2_u[14], p2_u} - {p1_u[14], p1_u};
-  wire [16:0] choice_16 = (at_formed == LOAD_DY) ? choice_15
+  wire [16:0] choice_14 = (at_formed == LOAD_DY) ? choice_13
                         : (round_formed == 2'd2) ? {difference_6[15], difference_6}
                         : (round_formed == 2'd1) ? {du01[15], du01}
                         : {du02[15], du02};
-  wire [16:0] choice_17 = values_of_round3 ? {9'd0, vertex2_b}
+  wire [16:0] choice_15 = values_of_round3 ? {9'd0, vertex2_b}
                         : values_of_round2 ? {9'd0, vertex2_g}
                         : values_of_round1 ? {9'd0, vertex2_r}
                         : {1'b0, vertex2_z};
-  wire [16:0] choice_18 = values_of_round3 ? {9'd0, vertex1_b}
+  wire [16:0] choice_16 = values_of_round3 ? {9'd0, vertex1_b}
                         : values_of_round2 ? {9'd0, vertex1_g}
                         : values_of_round1 ? {9'd0, vertex1_r}
                         : {1'b0, vertex1_z};
-  wire [16:0] choice_19 = values_of_round3 ? {9'd0, vertex0_b}
+  wire [16:0] choice_17 = values_of_round3 ? {9'd0, vertex0_b}
                         : values_of_round2 ? {9'd0, vertex0_g}
                         : values_of_round1 ? {9'd0, vertex0_r}
                         : {1'b0, vertex0_z};
-  wire [16:0] choice_20 = values_of_round3 ? 17'd0
+  wire [16:0] choice_18 = values_of_round3 ? 17'd0
                         : values_of_round2 ? 17'd0
                         : values_of_round1 ? 17'd0
                         : 17'd0;
-  wire [16:0] choice_21 = single_value ? choice_20
-                        : from_vertex[1] ? choice_17
-                        : from_vertex[0] ? choice_18
-                        : choice_19;
-  wire [16:0] difference_7 = (to_vertex[1] ? choice_17 : to_vertex[0] ? choice_18 : choice_19)
-                           - choice_21;
-  wire [16:0] number0 = (either_8 && !begins) ? choice_16 : difference_7;  // signed
+  wire [16:0] choice_19 = single_value ? choice_18
+                        : from_vertex[1] ? choice_15
+                        : from_vertex[0] ? choice_16
+                        : choice_17;
+  wire [16:0] difference_7 = (to_vertex[1] ? choice_15 : to_vertex[0] ? choice_16 : choice_17)
+                           - choice_19;
+  wire [16:0] number0 = (either_8 && !begins) ? choice_14 : difference_7;  // signed
   reg [16:0] value0;  // first value, signed
   wire [15:0] shown = number0[15:0] ^ {16{number0[16]}};
   wire lane0_unfit;
-  wire choice_22 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
-  wire choice_23 = (round_stepped == 2'd3) ? 1'b1
+  wire choice_20 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
+  wire choice_21 = (round_stepped == 2'd3) ? 1'b1
                  : (round_stepped == 2'd2) ? 1'b1
                  : (round_stepped == 2'd1) ? 1'b1
                  : 1'b1;
-  wire either_9 = ((at_stepped == FIX_DX) && choice_22) || ((1'b0 || 1'b0) && choice_23);
+  wire either_9 = ((at_stepped == FIX_DX) && choice_20) || ((1'b0 || 1'b0) && choice_21);
   assign unfit = lane0_unfit && either_9;
 
   always @(posedge clk) begin
@@ -722,15 +723,15 @@ module edgewalk_setup (
   wire [30:0] lane0_rest_out;
   wire [31:0] lane0_whole_out;
   wire [31:0] lane0_value;
-  wire choice_24 = is_sign ? f[16] : digit_f;
-  wire choice_25 = is_sign ? g[16] : digit_g;
+  wire choice_22 = is_sign ? f[16] : digit_f;
+  wire choice_23 = is_sign ? g[16] : digit_g;
   wire [17:0] shifted_5 = $signed({number0[16], number0}) >>> {pause - 4'd2, 1'b0};
-  wire [10:0] part_34 = p1_u[14:4];
-  wire [10:0] part_35 = p0_u[14:4];
+  wire [10:0] part_35 = p1_u[14:4];
   wire [10:0] part_36 = p0_u[14:4];
-  wire [31:0] choice_26 = (round_stepped == 2'd2) ? {{21{part_34[10]}}, part_34}
-                        : (round_stepped == 2'd1) ? {{21{part_35[10]}}, part_35}
-                        : {{21{part_36[10]}}, part_36};
+  wire [10:0] part_37 = p0_u[14:4];
+  wire [31:0] choice_24 = (round_stepped == 2'd2) ? {{21{part_35[10]}}, part_35}
+                        : (round_stepped == 2'd1) ? {{21{part_36[10]}}, part_36}
+                        : {{21{part_37[10]}}, part_37};
   wire [32:0] joined_2 = {{{value0, 1'b1}, 11'd0}, 4'd8};
   wire [32:0] joined_3 = {{{value0, 1'b1}, 11'd0}, 4'd8};
   wire [32:0] joined_4 = {{{value0, 1'b1}, 11'd0}, 4'd8};
@@ -740,14 +741,14 @@ module edgewalk_setup (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_24 || choice_25), choice_25, choice_24}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_22 || choice_23), choice_23, choice_22}
 : read_single_at),
     .step          (step_formed0),
     .number        (number0),
     .digits        (shifted_5[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? choice_26
+    .whole_in      ((at_stepped == COLUMNS) ? choice_24
 : (round_stepped == 2'd3) ? joined_2[31:0]
 : (round_stepped == 2'd2) ? joined_3[31:0]
 : (round_stepped == 2'd1) ? joined_4[31:0]
@@ -766,11 +767,11 @@ module edgewalk_setup (
   );
 
   wire any_15 = |dv02[14:4];
-  wire [26:0] part_37 = lane0_rest_out[30:4];
+  wire [26:0] part_38 = lane0_rest_out[30:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd0)) begin
-      prim_major_f <= any_15 ? part_37[14:0] : 15'd0;
+      prim_major_f <= any_15 ? part_38[14:0] : 15'd0;
     end
   end
 
@@ -796,11 +797,11 @@ module edgewalk_setup (
 
   // Edge: minor1.
   wire both_8 = (|prim_n1) && (|dv01[14:4]);
-  wire [26:0] part_38 = lane0_rest_out[30:4];
+  wire [26:0] part_39 = lane0_rest_out[30:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd1)) begin
-      prim_minor1_f <= both_8 ? part_38[14:0] : 15'd0;
+      prim_minor1_f <= both_8 ? part_39[14:0] : 15'd0;
     end
   end
 
@@ -826,11 +827,11 @@ module edgewalk_setup (
 
   // Edge: minor2.
   wire both_9 = (|prim_n2) && (|dv12[14:4]);
-  wire [26:0] part_39 = lane0_rest_out[30:4];
+  wire [26:0] part_40 = lane0_rest_out[30:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd2)) begin
-      prim_minor2_f <= both_9 ? part_39[14:0] : 15'd0;
+      prim_minor2_f <= both_9 ? part_40[14:0] : 15'd0;
     end
   end
 
@@ -948,10 +949,10 @@ module edgewalk_setup (
   wire unused = &{
     1'b0, ends_fixed, less_m[0], lane0_value[31:28], difference[15], difference_2[15], difference_3[15],
     part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1], shifted_2[14:1], part_14[30:0],
-    difference_4[11:10], difference_5[11:10], differing[16], differing_2[16], part_23[0], part_26[0],
-    part_30[0], part_33[0], shifted_3[16:1], shifted_4[16:1], shifted_5[17:2], joined_5[32],
-    joined_4[32], joined_3[32], joined_2[32], part_37[26:15], difference_8[3:0], part_38[26:15],
-    difference_9[3:0], part_39[26:15], difference_10[3:0]
+    difference_4[11:10], difference_5[11:10], differing[16], differing_2[16], part_24[0], part_27[0],
+    part_31[0], part_34[0], shifted_3[16:1], shifted_4[16:1], shifted_5[17:2], joined_5[32],
+    joined_4[32], joined_3[32], joined_2[32], part_38[26:15], difference_8[3:0], part_39[26:15],
+    difference_9[3:0], part_40[26:15], difference_10[3:0]
   };
 
 endmodule

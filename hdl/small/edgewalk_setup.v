@@ -452,17 +452,18 @@ module edgewalk_setup (
   wire [9:0] choice_8 = ($signed(line1) < $signed(j0_next)) ? j0_next : line1;
   wire [9:0] j1_next = ($signed(choice_8) < $signed(end_line)) ? choice_8 : end_line;
 
-  // Columns: from ceil(u/P) of the leftmost to before ceil(u/P) of the rightmost vertex, on the screen.
-  wire [12:0] choice_9 = ($signed(p0_u) < $signed(p1_u)) ? p0_u : p1_u;
-  wire [12:0] leftmost = ($signed(choice_9) < $signed(p2_u)) ? choice_9 : p2_u;  // 1/P column
-  wire [12:0] choice_10 = ($signed(p0_u) < $signed(p1_u)) ? p1_u : p0_u;
-  wire [12:0] rightmost = ($signed(choice_10) < $signed(p2_u)) ? p2_u : choice_10;  // 1/P column
-  wire [8:0] part_16 = leftmost[12:4];
-  wire [9:0] sum = {part_16[8], part_16} + {9'd0, |leftmost[3:0]};
-  wire [9:0] first_column = ($signed(sum) < 10'sd0) ? 10'd0 : sum;
-  wire [8:0] part_17 = rightmost[12:4];
-  wire [9:0] sum_2 = {part_17[8], part_17} + {9'd0, |rightmost[3:0]};
-  wire [9:0] end_column = ($signed(sum_2) < 10'sd240) ? sum_2 : 10'd240;
+  // Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.
+  wire [8:0] part_16 = p0_u[12:4];
+  wire [9:0] column0 = {part_16[8], part_16} + {9'd0, |p0_u[3:0]};  // ceil(u/P)
+  wire [8:0] part_17 = p1_u[12:4];
+  wire [9:0] column1 = {part_17[8], part_17} + {9'd0, |p1_u[3:0]};  // ceil(u/P)
+  wire [8:0] part_18 = p2_u[12:4];
+  wire [9:0] column2 = {part_18[8], part_18} + {9'd0, |p2_u[3:0]};  // ceil(u/P)
+  wire none_between = (column0 == column1) && (column1 == column2);
+  wire before_screen = (p0_u[12] || !(|p0_u)) && (p1_u[12] || !(|p1_u)) && (p2_u[12] || !(|p2_u));  // ceil(u/P) is 0 or less
+  wire behind_screen = !($signed(p0_u) <= 13'sd3824)  // ceil(u/P) is W or more
+                    && !($signed(p1_u) <= 13'sd3824)
+                    && !($signed(p2_u) <= 13'sd3824);
   reg [9:0] j0;                                    // line, signed
   reg [9:0] j1;                                    // line, signed
   wire upper = |prim_n1;
@@ -480,7 +481,7 @@ module edgewalk_setup (
       prim_n2 <= difference_5[8:0];
       j0 <= j0_next;
       j1 <= j1_next;
-      no_column <= $signed(end_column) <= $signed(first_column);
+      no_column <= none_between || before_screen || behind_screen;
     end
   end
 
@@ -491,27 +492,27 @@ module edgewalk_setup (
   wire [14:0] differing_2 = g ^ $unsigned($signed(g) >>> 1);
   wire [13:0] digits = differing[13:0] | differing_2[13:0];  // digits of the factors that differ from their signs
   wire any_7 = |digits[13:8];
-  wire [5:0] part_19 = digits[13:8];
-  wire [1:0] part_18 = part_19[5:4];
-  wire any_8 = |part_18;
-  wire [3:0] part_21 = part_19[3:0];
-  wire [1:0] part_20 = part_21[3:2];
-  wire any_9 = |part_20;
-  wire [1:0] part_22 = part_21[1:0];
-  wire [1:0] choice_11 = any_8 ? {1'b0, part_18[1]} : {any_9, any_9 ? part_20[1] : part_22[1]};
-  wire [7:0] part_24 = digits[7:0];
-  wire [3:0] part_23 = part_24[7:4];
-  wire any_10 = |part_23;
-  wire [1:0] part_25 = part_23[3:2];
-  wire any_11 = |part_25;
-  wire [1:0] part_26 = part_23[1:0];
-  wire [3:0] part_28 = part_24[3:0];
-  wire [1:0] part_27 = part_28[3:2];
-  wire any_12 = |part_27;
-  wire [1:0] part_29 = part_28[1:0];
-  wire [1:0] choice_12 = any_10 ? {any_11, any_11 ? part_25[1] : part_26[1]}
-                       : {any_12, any_12 ? part_27[1] : part_29[1]};
-  assign top_digit = {1'b0, {any_7, any_7 ? {any_8, choice_11} : {any_10, choice_12}}};
+  wire [5:0] part_20 = digits[13:8];
+  wire [1:0] part_19 = part_20[5:4];
+  wire any_8 = |part_19;
+  wire [3:0] part_22 = part_20[3:0];
+  wire [1:0] part_21 = part_22[3:2];
+  wire any_9 = |part_21;
+  wire [1:0] part_23 = part_22[1:0];
+  wire [1:0] choice_9 = any_8 ? {1'b0, part_19[1]} : {any_9, any_9 ? part_21[1] : part_23[1]};
+  wire [7:0] part_25 = digits[7:0];
+  wire [3:0] part_24 = part_25[7:4];
+  wire any_10 = |part_24;
+  wire [1:0] part_26 = part_24[3:2];
+  wire any_11 = |part_26;
+  wire [1:0] part_27 = part_24[1:0];
+  wire [3:0] part_29 = part_25[3:0];
+  wire [1:0] part_28 = part_29[3:2];
+  wire any_12 = |part_28;
+  wire [1:0] part_30 = part_29[1:0];
+  wire [1:0] choice_10 = any_10 ? {any_11, any_11 ? part_26[1] : part_27[1]}
+                       : {any_12, any_12 ? part_28[1] : part_30[1]};
+  assign top_digit = {1'b0, {any_7, any_7 ? {any_8, choice_9} : {any_10, choice_10}}};
   wire [14:0] shifted_3 = f >> left;
   wire digit_f = shifted_3[0];
   wire [14:0] shifted_4 = g >> left;
@@ -604,16 +605,16 @@ module edgewalk_setup (
   end
 
   // Lane 0: its steps.
-  wire [3:0] choice_13 = (round == 2'd3) ? 4'd4
+  wire [3:0] choice_11 = (round == 2'd3) ? 4'd4
                        : (round == 2'd2) ? 4'd4
                        : (round == 2'd1) ? 4'd4
                        : 4'd4;
-  wire [3:0] choice_14 = (round == 2'd3) ? 4'd4
+  wire [3:0] choice_12 = (round == 2'd3) ? 4'd4
                        : (round == 2'd2) ? 4'd4
                        : (round == 2'd1) ? 4'd4
                        : 4'd4;
-  wire [3:0] step0 = ((at == DOUBLE_Y) && !rests) ? choice_13
-                   : ((at == DOUBLE_X) && !rests) ? choice_14
+  wire [3:0] step0 = ((at == DOUBLE_Y) && !rests) ? choice_11
+                   : ((at == DOUBLE_X) && !rests) ? choice_12
                    : ((at == DOUBLE_DX) && !rests) ? 4'd4
                    : step;
   reg [3:0] step_next0;
@@ -660,46 +661,46 @@ module edgewalk_setup (
   wire [13:0] extended_2 = {1'b0, dv12};
   wire [13:0] extended_3 = {1'b0, dv01};
   wire [13:0] extended_4 = {1'b0, dv02};
-  wire [16:0] choice_15 = (round_formed == 2'd2) ? {{3{extended_2[13]}}, extended_2}
+  wire [16:0] choice_13 = (round_formed == 2'd2) ? {{3{extended_2[13]}}, extended_2}
                         : (round_formed == 2'd1) ? {{3{extended_3[13]}}, extended_3}
                         : {{3{extended_4[13]}}, extended_4};
   wire [13:0] difference_6 = {p2_u[12], p2_u} - {p1_u[12], p1_u};
-  wire [16:0] choice_16 = (at_formed == LOAD_DY) ? choice_15
+  wire [16:0] choice_14 = (at_formed == LOAD_DY) ? choice_13
                         : (round_formed == 2'd2) ? {{3{difference_6[13]}}, difference_6}
                         : (round_formed == 2'd1) ? {{3{du01[13]}}, du01}
                         : {{3{du02[13]}}, du02};
-  wire [16:0] choice_17 = values_of_round3 ? {12'd0, vertex2_b}
+  wire [16:0] choice_15 = values_of_round3 ? {12'd0, vertex2_b}
                         : values_of_round2 ? {12'd0, vertex2_g}
                         : values_of_round1 ? {12'd0, vertex2_r}
                         : {1'b0, vertex2_z};
-  wire [16:0] choice_18 = values_of_round3 ? {12'd0, vertex1_b}
+  wire [16:0] choice_16 = values_of_round3 ? {12'd0, vertex1_b}
                         : values_of_round2 ? {12'd0, vertex1_g}
                         : values_of_round1 ? {12'd0, vertex1_r}
                         : {1'b0, vertex1_z};
-  wire [16:0] choice_19 = values_of_round3 ? {12'd0, vertex0_b}
+  wire [16:0] choice_17 = values_of_round3 ? {12'd0, vertex0_b}
                         : values_of_round2 ? {12'd0, vertex0_g}
                         : values_of_round1 ? {12'd0, vertex0_r}
                         : {1'b0, vertex0_z};
-  wire [16:0] choice_20 = values_of_round3 ? 17'd0
+  wire [16:0] choice_18 = values_of_round3 ? 17'd0
                         : values_of_round2 ? 17'd0
                         : values_of_round1 ? 17'd0
                         : 17'd0;
-  wire [16:0] choice_21 = single_value ? choice_20
-                        : from_vertex[1] ? choice_17
-                        : from_vertex[0] ? choice_18
-                        : choice_19;
-  wire [16:0] difference_7 = (to_vertex[1] ? choice_17 : to_vertex[0] ? choice_18 : choice_19)
-                           - choice_21;
-  wire [16:0] number0 = (either_8 && !begins) ? choice_16 : difference_7;  // signed
+  wire [16:0] choice_19 = single_value ? choice_18
+                        : from_vertex[1] ? choice_15
+                        : from_vertex[0] ? choice_16
+                        : choice_17;
+  wire [16:0] difference_7 = (to_vertex[1] ? choice_15 : to_vertex[0] ? choice_16 : choice_17)
+                           - choice_19;
+  wire [16:0] number0 = (either_8 && !begins) ? choice_14 : difference_7;  // signed
   reg [16:0] value0;  // first value, signed
   wire [15:0] shown = number0[15:0] ^ {16{number0[16]}};
   wire lane0_unfit;
-  wire choice_22 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
-  wire choice_23 = (round_stepped == 2'd3) ? 1'b1
+  wire choice_20 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
+  wire choice_21 = (round_stepped == 2'd3) ? 1'b1
                  : (round_stepped == 2'd2) ? 1'b1
                  : (round_stepped == 2'd1) ? 1'b1
                  : 1'b1;
-  wire either_9 = ((at_stepped == FIX_DX) && choice_22) || ((1'b0 || 1'b0) && choice_23);
+  wire either_9 = ((at_stepped == FIX_DX) && choice_20) || ((1'b0 || 1'b0) && choice_21);
   assign unfit = lane0_unfit && either_9;
 
   always @(posedge clk) begin
@@ -715,15 +716,15 @@ module edgewalk_setup (
   wire [26:0] lane0_rest_out;
   wire [29:0] lane0_whole_out;
   wire [29:0] lane0_value;
-  wire choice_24 = is_sign ? f[14] : digit_f;
-  wire choice_25 = is_sign ? g[14] : digit_g;
+  wire choice_22 = is_sign ? f[14] : digit_f;
+  wire choice_23 = is_sign ? g[14] : digit_g;
   wire [17:0] shifted_5 = $signed({number0[16], number0}) >>> {pause - 4'd2, 1'b0};
-  wire [8:0] part_30 = p1_u[12:4];
-  wire [8:0] part_31 = p0_u[12:4];
+  wire [8:0] part_31 = p1_u[12:4];
   wire [8:0] part_32 = p0_u[12:4];
-  wire [29:0] choice_26 = (round_stepped == 2'd2) ? {{21{part_30[8]}}, part_30}
-                        : (round_stepped == 2'd1) ? {{21{part_31[8]}}, part_31}
-                        : {{21{part_32[8]}}, part_32};
+  wire [8:0] part_33 = p0_u[12:4];
+  wire [29:0] choice_24 = (round_stepped == 2'd2) ? {{21{part_31[8]}}, part_31}
+                        : (round_stepped == 2'd1) ? {{21{part_32[8]}}, part_32}
+                        : {{21{part_33[8]}}, part_33};
   wire [30:0] joined_2 = {{{value0, 1'b1}, 9'd0}, 4'd8};
   wire [30:0] joined_3 = {{{value0, 1'b1}, 9'd0}, 4'd8};
   wire [30:0] joined_4 = {{{value0, 1'b1}, 9'd0}, 4'd8};
@@ -733,14 +734,14 @@ module edgewalk_setup (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_24 || choice_25), choice_25, choice_24}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_22 || choice_23), choice_23, choice_22}
 : read_single_at),
     .step          (step_formed0),
     .number        (number0),
     .digits        (shifted_5[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? choice_26
+    .whole_in      ((at_stepped == COLUMNS) ? choice_24
 : (round_stepped == 2'd3) ? joined_2[29:0]
 : (round_stepped == 2'd2) ? joined_3[29:0]
 : (round_stepped == 2'd1) ? joined_4[29:0]
@@ -759,11 +760,11 @@ module edgewalk_setup (
   );
 
   wire any_13 = |dv02[12:4];
-  wire [22:0] part_33 = lane0_rest_out[26:4];
+  wire [22:0] part_34 = lane0_rest_out[26:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd0)) begin
-      prim_major_f <= any_13 ? part_33[12:0] : 13'd0;
+      prim_major_f <= any_13 ? part_34[12:0] : 13'd0;
     end
   end
 
@@ -789,11 +790,11 @@ module edgewalk_setup (
 
   // Edge: minor1.
   wire both_8 = (|prim_n1) && (|dv01[12:4]);
-  wire [22:0] part_34 = lane0_rest_out[26:4];
+  wire [22:0] part_35 = lane0_rest_out[26:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd1)) begin
-      prim_minor1_f <= both_8 ? part_34[12:0] : 13'd0;
+      prim_minor1_f <= both_8 ? part_35[12:0] : 13'd0;
     end
   end
 
@@ -819,11 +820,11 @@ module edgewalk_setup (
 
   // Edge: minor2.
   wire both_9 = (|prim_n2) && (|dv12[12:4]);
-  wire [22:0] part_35 = lane0_rest_out[26:4];
+  wire [22:0] part_36 = lane0_rest_out[26:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd2)) begin
-      prim_minor2_f <= both_9 ? part_35[12:0] : 13'd0;
+      prim_minor2_f <= both_9 ? part_36[12:0] : 13'd0;
     end
   end
 
@@ -941,9 +942,9 @@ module edgewalk_setup (
   wire unused = &{
     1'b0, ends_fixed, less_m[0], lane0_value[29:26], difference[13], difference_2[13], difference_3[13],
     part_4[0], part_8[0], part_11[0], shifted[12:1], shifted_2[12:1], part_12[26:0], difference_4[9],
-    difference_5[9], differing[14], differing_2[14], part_22[0], part_26[0], part_29[0],
+    difference_5[9], differing[14], differing_2[14], part_23[0], part_27[0], part_30[0],
     shifted_3[14:1], shifted_4[14:1], shifted_5[17:2], joined_5[30], joined_4[30], joined_3[30],
-    joined_2[30], part_33[22:13], difference_8[3:0], part_34[22:13], difference_9[3:0], part_35[22:13],
+    joined_2[30], part_34[22:13], difference_8[3:0], part_35[22:13], difference_9[3:0], part_36[22:13],
     difference_10[3:0]
   };
 
