@@ -1,7 +1,7 @@
 //! A stage a row: a fragment a clock.
 
 use edgewalk_machine::{LIGHT_SPACE, Plan};
-use edgewalk_netlist::{Module, Reg, Signal};
+use edgewalk_netlist::{Module, Signal};
 
 use super::beside::beside;
 use super::row::Row;
@@ -23,18 +23,10 @@ pub(super) fn build<'m>(m: &'m Module, plan: &Plan, ports: &Interface<'m>) {
     let (last, bits) = (plan.shadow.rows(), plan.shadow.light_bits);
 
     m.comment("The stages.");
-    let valids: Vec<Reg> = (0..=last)
-        .map(|i| m.reg(&format!("valid{i}"), 1).doc(&format!("a fragment is in stage {i}")).reset(0))
-        .collect();
-    let projected_valid = valids[last as usize].q();
+    let valid = m.reg("valid", last + 1).doc("a fragment is in the stage of that number").reset(0);
+    let projected_valid = valid.q().msb().named("projected_valid");
     let advance = (!projected_valid | projected_ready).named_doc("advance", "all stages move on");
-    let mut valid = frag_valid;
-    for stage in &valids {
-        stage.when(advance, valid);
-        valid = stage.q();
-    }
-    let occupied = valids.iter().map(|stage| stage.q()).reduce(|any, one| any | one);
-    let occupied = occupied.expect("there are two stages at least").named("occupied");
+    valid.when(advance, m.cat(&[valid.q().trunc(last), frag_valid]));
 
     let kept = kept(plan, &frag);
     let kept = beside(m, last + 1, advance, &kept);
@@ -71,5 +63,5 @@ pub(super) fn build<'m>(m: &'m Module, plan: &Plan, ports: &Interface<'m>) {
     let quotients = numbers.map(|(_, quotient)| quotient.expect("each has a row at least"));
     ports.take_ready(advance);
     give(plan, ports, projected_valid, &kept, quotients);
-    ports.status("occupied", occupied);
+    ports.status("occupied", valid.q().any());
 }
