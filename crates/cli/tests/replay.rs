@@ -123,7 +123,11 @@ fn every_unit_appears_where_the_machine_has_it() {
             &["shadow.light=parallel", "shadow.size=4", "shadow.gate=scale", "blend.kind=constant"],
             &["shadow", "blend"],
         ),
-        ("half.tri", &["shadow.light=perspective", "shadow.size=4"], &["project", "shadow"]),
+        (
+            "half.tri",
+            &["shadow.light=perspective", "shadow.size=4", "shadow.gate=scale"],
+            &["project", "shadow"],
+        ),
         ("fast.tri", &["shade.kind=fast-phong", "term.record_bits=1"], &["term", "shade"]),
         ("phong.tri", &["shade.kind=phong", "term.walk=memory"], &["term", "normal", "shade"]),
     ] {
