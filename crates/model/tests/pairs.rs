@@ -291,7 +291,7 @@ impl<'a> Work<'a> {
             |m: i128, number: &dyn Fn(usize) -> i128| round.iter().all(|(i, c)| lane(c, m).fits(number(*i)));
         assert!(tested(modulus, &dc1) && tested(modulus, &dc2), "scaled so that all fit");
         let along = u(&[dv2, dv1]);
-        let mut clocks = 2 + 2 + 2 + 2 + along + scale + doublings(t);
+        let mut clocks = 2 + 2 + 1 + 2 + along + scale + doublings(t);
         let q = i128::from(prim.major.q);
         let px = i128::from(prim.major.c) - i128::from(prim.major_right);
         let (down, across) = ([p0.u - p2.u, p0.u - p1.u], [px * p - p0.u, i128::from(prim.line) * p - p0.v]);
@@ -306,7 +306,7 @@ impl<'a> Work<'a> {
             prim.gradient[i] = word(sign * lane.round(gx));
             if self.plan.fill == Fill::Exact {
                 let gy = lane.double(lane.sum(down, both, s(&down), true), 2 * scale + t + up(channel));
-                let d0 = lane.sum([q, 1], [gx, gy], s(&[q]), true);
+                let d0 = lane.add(lane.sum([q, 0], [gx, gy], s(&[q]), true), gy);
                 let d1 = lane.add(d0, gx);
                 prim.delta[0][i] = word(lane.round(d0));
                 prim.delta[1][i] = word(lane.round(d1));
@@ -316,8 +316,8 @@ impl<'a> Work<'a> {
             }
         }
         if self.plan.fill == Fill::Exact {
-            let gy = 1 + s(&down) + scale + doublings(t) + 1;
-            return clocks + gy + 2 + s(&[q]) + 1 + 1 + s(&across) + 1;
+            let gy = s(&down) + scale + doublings(t) + 1;
+            return clocks + gy + s(&[q]) + 1 + 1 + s(&across) + 1;
         }
         for part in 0..2 {
             let (a, b) = match (self.area < 0, part) {

@@ -1,7 +1,7 @@
 //! A machine's fragments against the exact rule and the exact values.
 
 use super::rule::{exact_value, inside, steps};
-use super::{ALWAYS, Triangle, outputs, place};
+use super::{ALWAYS, Triangle, is_divided, outputs, place};
 use edgewalk_machine::{Channel, Kind, Plan};
 use edgewalk_model::{Drawn, Frame, Sample, Stalls, render_with};
 
@@ -85,6 +85,9 @@ impl<'a> Check<'a> {
         let steps = steps(self.plan, triangle, x, y);
         let outputs = outputs(self.plan, sample.values);
         for (i, (channel, output)) in self.plan.channels().iter().zip(outputs).enumerate() {
+            if is_divided(self.plan, channel) {
+                continue;
+            }
             let exact = exact_value(self.plan, triangle, i, x, y);
             let total = i128::from(steps.total());
             let holds = channel.error_budget(steps).holds();

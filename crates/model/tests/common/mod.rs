@@ -10,7 +10,7 @@ pub mod shade;
 pub use check::Check;
 pub use rule::inside;
 
-use edgewalk_machine::{Kind, Machine, Plan, PortVertex, ShadeKind};
+use edgewalk_machine::{Channel, Kind, Machine, Plan, PortVertex, ShadeKind};
 use edgewalk_model::tokens::output;
 use edgewalk_model::{DrawState, Frame, Sample, Stalls};
 use rand::Rng;
@@ -39,6 +39,11 @@ pub fn machine(settings: &[(&str, &str)]) -> Plan {
 /// The same vertex elsewhere.
 pub fn moved(plan: &Plan, vertex: &PortVertex, x: i32, y: i32) -> PortVertex {
     plan.raw_vertex(x, y, vertex.values())
+}
+
+/// PROJECT divides the channel: what leaves the machine is a quotient, which suites of its own judge.
+pub fn is_divided(plan: &Plan, channel: &Channel) -> bool {
+    plan.shadow.projects() && ["lx", "ly", "lz", "lw"].contains(&channel.name)
 }
 
 /// As [`edgewalk_model::render`], of triangles that are this machine's.
