@@ -65,7 +65,9 @@ fn culls() {
     for (lanes, edges) in [(4, 19), (2, 38), (1, 57)] {
         let ready = |triangle| cycles_until(&with_lanes(lanes), triangle, "tri_ready");
         assert_eq!(ready([[10, 10], [40, 10], [20, 10]]), 3, "no line");
-        assert_eq!(ready([[-50, 10], [-40, 30], [-20, 20]]), 3, "no column");
+        assert_eq!(ready([[-50, 10], [-40, 30], [-20, 20]]), 3, "no column: before the screen");
+        assert_eq!(ready([[640, 10], [700, 30], [680, 20]]), 3, "no column: behind it");
+        assert_eq!(ready([[10, 10], [10, 30], [10, 20]]), 3, "no column between");
         assert_eq!(ready([[10, 10], [20, 20], [30, 30]]), edges + 1, "no area");
     }
 }
