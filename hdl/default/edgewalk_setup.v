@@ -124,7 +124,8 @@ module edgewalk_setup (
 
   // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
   reg [3:0] pause;                                   // clocks left of it
-  wire advance = pause == 4'd0;
+  reg paused;                                        // it is not over
+  wire advance = !paused;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
   wire in_edges = state == EDGES;
@@ -230,6 +231,15 @@ module edgewalk_setup (
     end
   end
 
+  always @(posedge clk) begin
+    if (rst) begin
+      paused <= 1'b0;
+    end else begin
+      if (resumes) paused <= 1'b0;
+      if (advance && unfit) paused <= 1'b1;
+    end
+  end
+
   // The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.
   wire y1_above_y0 = $signed(tri_y1) < $signed(tri_y0);
   wire y2_above_y0 = $signed(tri_y2) < $signed(tri_y0);
@@ -295,15 +305,29 @@ module edgewalk_setup (
     end
   end
 
-  // Differences of the sorted vertices.
+  // Differences of the sorted vertices, from upper to lower ends of edges.
   wire [22:0] difference = {p2_v[21], p2_v} - {p0_v[21], p0_v};
-  wire [21:0] dv02 = difference[21:0];    // 1/P line
-  wire [22:0] difference_2 = {p1_v[21], p1_v} - {p0_v[21], p0_v};
-  wire [21:0] dv01 = difference_2[21:0];  // 1/P line
-  wire [22:0] difference_3 = {p2_v[21], p2_v} - {p1_v[21], p1_v};
-  wire [21:0] dv12 = difference_3[21:0];  // 1/P line
-  wire [22:0] du01 = {p1_u[21], p1_u} - {p0_u[21], p0_u};  // 1/P column, signed
-  wire [22:0] du02 = {p2_u[21], p2_u} - {p0_u[21], p0_u};  // 1/P column, signed
+  wire [21:0] tall = difference[21:0];
+  reg [21:0] dv02;  // 1/P line
+  reg [21:0] dv01;  // 1/P line
+  reg [21:0] dv12;  // 1/P line
+  reg [22:0] du02;  // 1/P column, signed
+  reg [22:0] du01;  // 1/P column, signed
+  reg [22:0] du12;  // 1/P column, signed
+  wire [22:0] difference_2 = {p2_v[21], p2_v} - {p0_v[21], p0_v};
+  wire [22:0] difference_3 = {p1_v[21], p1_v} - {p0_v[21], p0_v};
+  wire [22:0] difference_4 = {p2_v[21], p2_v} - {p1_v[21], p1_v};
+
+  always @(posedge clk) begin
+    if (begins) begin
+      dv02 <= difference_2[21:0];
+      dv01 <= difference_3[21:0];
+      dv12 <= difference_4[21:0];
+      du02 <= {p2_u[21], p2_u} - {p0_u[21], p0_u};
+      du01 <= {p1_u[21], p1_u} - {p0_u[21], p0_u};
+      du12 <= {p2_u[21], p2_u} - {p1_u[21], p1_u};
+    end
+  end
 
   // Twice the area: du1 dv2 - du2 dv1, over the bits of dv2 and dv1.
   reg [4:0] area_digit;  // place of the digits added
@@ -314,8 +338,8 @@ module edgewalk_setup (
                         - (shifted_2[0] ? {du02[22], du02} : 24'd0);
   reg [45:0] area;       // 1/P^2 px^2, signed
   assign no_area = !(|area);
-  wire any = |dv02[21:16];
-  wire [5:0] part_2 = dv02[21:16];
+  wire any = |tall[21:16];
+  wire [5:0] part_2 = tall[21:16];
   wire [1:0] part = part_2[5:4];
   wire any_2 = |part;
   wire [3:0] part_4 = part_2[3:0];
@@ -323,7 +347,7 @@ module edgewalk_setup (
   wire any_3 = |part_3;
   wire [1:0] part_5 = part_4[1:0];
   wire [2:0] joined = {any_2, any_2 ? {1'b0, part[1]} : {any_3, any_3 ? part_3[1] : part_5[1]}};
-  wire [15:0] part_7 = dv02[15:0];
+  wire [15:0] part_7 = tall[15:0];
   wire [7:0] part_6 = part_7[15:8];
   wire any_4 = |part_6;
   wire [3:0] part_8 = part_6[7:4];
@@ -421,15 +445,31 @@ module edgewalk_setup (
   // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
   wire [13:0] part_22 = p0_v[21:8];
   wire [14:0] line0 = {part_22[13], part_22} + {14'd0, |p0_v[7:0]};  // ceil(v/P)
-  wire [14:0] j0_next = ($signed(line0) < 15'sd0) ? 15'd0 : line0;
-  wire [13:0] part_23 = p2_v[21:8];
-  wire [14:0] line2 = {part_23[13], part_23} + {14'd0, |p2_v[7:0]};  // ceil(v/P)
-  wire [14:0] choice_6 = ($signed(line2) < 15'sd480) ? line2 : 15'd480;
-  wire [14:0] end_line = ($signed(choice_6) < $signed(j0_next)) ? j0_next : choice_6;
-  wire [13:0] part_24 = p1_v[21:8];
-  wire [14:0] line1 = {part_24[13], part_24} + {14'd0, |p1_v[7:0]};  // ceil(v/P)
-  wire [14:0] choice_7 = ($signed(line1) < $signed(j0_next)) ? j0_next : line1;
-  wire [14:0] j1_next = ($signed(choice_7) < $signed(end_line)) ? choice_7 : end_line;
+  reg [14:0] j0;        // line of the screen
+  wire [13:0] part_23 = p1_v[21:8];
+  wire [14:0] line1 = {part_23[13], part_23} + {14'd0, |p1_v[7:0]};  // ceil(v/P)
+  reg [14:0] j1;        // line of the screen
+  wire [13:0] part_24 = p2_v[21:8];
+  wire [14:0] line2 = {part_24[13], part_24} + {14'd0, |p2_v[7:0]};  // ceil(v/P)
+  reg [14:0] end_line;  // line of the screen
+
+  always @(posedge clk) begin
+    if (begins) begin
+      j0 <= p0_v[21] ? 15'd0 : ($signed(p0_v) <= 22'sh1df00) ? line0 : 15'd480;
+      j1 <= p1_v[21] ? 15'd0 : ($signed(p1_v) <= 22'sh1df00) ? line1 : 15'd480;
+      end_line <= p2_v[21] ? 15'd0 : ($signed(p2_v) <= 22'sh1df00) ? line2 : 15'd480;
+    end
+  end
+
+  wire [14:0] difference_5 = j1 - j0;
+  wire [14:0] difference_6 = end_line - j1;
+
+  always @(posedge clk) begin
+    if (at == FIX_DX) begin
+      prim_n1 <= difference_5[9:0];
+      prim_n2 <= difference_6[9:0];
+    end
+  end
 
   // Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.
   wire [13:0] part_25 = p0_u[21:8];
@@ -443,25 +483,15 @@ module edgewalk_setup (
   wire behind_screen = !($signed(p0_u) <= 22'sh27f00)  // ceil(u/P) is W or more
                     && !($signed(p1_u) <= 22'sh27f00)
                     && !($signed(p2_u) <= 22'sh27f00);
-  reg [14:0] j0;                                   // line, signed
-  reg [14:0] j1;                                   // line, signed
-  wire upper = |prim_n1;
   reg no_column;                                   // no column of the screen
-  assign nothing = (!upper && !(|prim_n2)) || no_column;
+  assign nothing = (j0 == end_line) || no_column;
+  wire upper = |prim_n1;
   wire [14:0] jm = upper ? j0 : j1;                // first line of the triangle
   wire [22:0] h0 = {jm, 8'd0} - {p0_v[21], p0_v};  // 1/P line
   wire [22:0] h1 = {j1, 8'd0} - {p1_v[21], p1_v};  // 1/P line
-  wire [14:0] difference_4 = j1_next - j0_next;
-  wire [14:0] difference_5 = end_line - j1_next;
 
   always @(posedge clk) begin
-    if (begins) begin
-      prim_n1 <= difference_4[9:0];
-      prim_n2 <= difference_5[9:0];
-      j0 <= j0_next;
-      j1 <= j1_next;
-      no_column <= none_between || before_screen || behind_screen;
-    end
+    if (begins) no_column <= none_between || before_screen || behind_screen;
   end
 
   // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
@@ -482,7 +512,7 @@ module edgewalk_setup (
   wire [1:0] part_31 = part_32[3:2];
   wire any_14 = |part_31;
   wire [1:0] part_33 = part_32[1:0];
-  wire [1:0] choice_8 = any_12 ? {any_13, any_13 ? 1'b0 : part_30[1]}
+  wire [1:0] choice_6 = any_12 ? {any_13, any_13 ? 1'b0 : part_30[1]}
                       : {any_14, any_14 ? part_31[1] : part_33[1]};
   wire [15:0] part_35 = digits[15:0];
   wire [7:0] part_34 = part_35[15:8];
@@ -496,7 +526,7 @@ module edgewalk_setup (
   wire [1:0] part_39 = part_40[3:2];
   wire any_18 = |part_39;
   wire [1:0] part_41 = part_40[1:0];
-  wire [1:0] choice_9 = any_16 ? {any_17, any_17 ? part_37[1] : part_38[1]}
+  wire [1:0] choice_7 = any_16 ? {any_17, any_17 ? part_37[1] : part_38[1]}
                       : {any_18, any_18 ? part_39[1] : part_41[1]};
   wire [7:0] part_43 = part_35[7:0];
   wire [3:0] part_42 = part_43[7:4];
@@ -508,11 +538,11 @@ module edgewalk_setup (
   wire [1:0] part_46 = part_47[3:2];
   wire any_21 = |part_46;
   wire [1:0] part_48 = part_47[1:0];
-  wire [1:0] choice_10 = any_19 ? {any_20, any_20 ? part_44[1] : part_45[1]}
-                       : {any_21, any_21 ? part_46[1] : part_48[1]};
-  wire [3:0] choice_11 = any_11 ? {1'b0, {any_12, choice_8}}
-                       : {any_15, any_15 ? {any_16, choice_9} : {any_19, choice_10}};
-  assign top_digit = {any_11, choice_11};
+  wire [1:0] choice_8 = any_19 ? {any_20, any_20 ? part_44[1] : part_45[1]}
+                      : {any_21, any_21 ? part_46[1] : part_48[1]};
+  wire [3:0] choice_9 = any_11 ? {1'b0, {any_12, choice_6}}
+                      : {any_15, any_15 ? {any_16, choice_7} : {any_19, choice_8}};
+  assign top_digit = {any_11, choice_9};
   wire [23:0] shifted_3 = f >> left;
   wire digit_f = shifted_3[0];
   wire [23:0] shifted_4 = g >> left;
@@ -549,18 +579,17 @@ module edgewalk_setup (
                || (at == ADD_Y)
                || (at == ADD_LINE);
   wire either_3 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
-  wire [3:0] step = rests ? 4'd0
-                  : ((at == SUM) || (at == SUM_X)) ? (first ? 4'd5 : 4'd6)
-                  : ((at == COLUMNS) || (at == ADD_START)) ? 4'd9
-                  : either_2 ? 4'd8
-                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 4'd7
-                  : ((at == SUM_Y) || (at == SUM_LINE) || (at == SUM_START)) ? 4'd6
-                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_Y)) ? 4'd4
-                  : ((at == FIX_DX) || (at == FIX1) || (at == FIX2)) ? 4'd2
-                  : either_3 ? 4'd1
-                  : 4'd0;
-  reg began;       // numbers were found not to fit in the clock before
-  reg began_then;  // and in the one before
+  wire [4:0] step = rests ? 5'd0
+                  : ((at == SUM) || (at == SUM_X)) ? (first ? 5'd17 : 5'd18)
+                  : ((at == COLUMNS) || (at == ADD_START)) ? 5'd20
+                  : either_2 ? 5'd16
+                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 5'd19
+                  : ((at == SUM_Y) || (at == SUM_LINE) || (at == SUM_START)) ? 5'd18
+                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_Y)) ? 5'd8
+                  : ((at == FIX_DX) || (at == FIX1) || (at == FIX2)) ? 5'd4
+                  : either_3 ? 5'd1
+                  : 5'd0;
+  reg began;  // numbers were found not to fit in the clock before
   wire is_sum = (at == SUM)
              || (at == SUM_X)
              || (at == SUM_Y)
@@ -593,29 +622,34 @@ module edgewalk_setup (
                       : ((at_stepped == FIX_DX) || (at_stepped == FIX2)) ? 3'd2
                       : ((at_stepped == LOAD_DY) || (at_stepped == FIX1)) ? 3'd1
                       : 3'd0;
-  wire take_modulus = (at_formed == LOAD_DX) || (at_formed == LOAD1);
+  wire take_modulus = (at_next == LOAD_DX) || (at_next == LOAD1);
 
   always @(posedge clk) begin
     began <= advance;
-    began_then <= began;
   end
 
   // Lane 0: its steps.
-  wire [3:0] step0 = ((at == DOUBLE_Y) && !rests) ? 4'd4
-                   : ((at == DOUBLE_X) && !rests) ? 4'd4
-                   : ((at == DOUBLE_DX) && !rests) ? 4'd4
+  wire [4:0] step0 = ((at == DOUBLE_Y) && !rests) ? 5'd8
+                   : ((at == DOUBLE_X) && !rests) ? 5'd8
+                   : ((at == DOUBLE_DX) && !rests) ? 5'd8
                    : step;
-  reg [3:0] step_next0;
-  reg [3:0] step_again0;
-  wire [3:0] choice_12 = began ? 4'd10 : began_then ? 4'd11 : 4'd12;
-  wire [3:0] step_formed0 = advance ? step_next0 : (pause == 4'd1) ? step_again0 : choice_12;
+  reg [4:0] step_next0;
+  reg [4:0] step_again0;
+  reg [4:0] step_of_pause0;
+  wire [4:0] step_formed0 = advance ? step_next0 : step_of_pause0;
 
   always @(posedge clk) begin
     if (rst) begin
-      step_next0 <= 4'd0;
+      step_next0 <= 5'd0;
     end else if (advance) begin
       step_next0 <= step0;
     end
+  end
+
+  wire [4:0] choice_10 = advance ? 5'd5 : began ? 5'd2 : 5'd9;
+
+  always @(posedge clk) begin
+    step_of_pause0 <= (pause == 4'd2) ? step_again0 : choice_10;
   end
 
   always @(posedge clk) begin
@@ -623,20 +657,25 @@ module edgewalk_setup (
   end
 
   // Lane 1: its steps.
-  wire [3:0] step1 = ((at == DOUBLE_Y) && !rests) ? 4'd4
-                   : ((at == DOUBLE_X) && !rests) ? 4'd4
-                   : ((at == DOUBLE_DX) && !rests) ? 4'd4
+  wire [4:0] step1 = ((at == DOUBLE_Y) && !rests) ? 5'd8
+                   : ((at == DOUBLE_X) && !rests) ? 5'd8
+                   : ((at == DOUBLE_DX) && !rests) ? 5'd8
                    : step;
-  reg [3:0] step_next1;
-  reg [3:0] step_again1;
-  wire [3:0] step_formed1 = advance ? step_next1 : (pause == 4'd1) ? step_again1 : choice_12;
+  reg [4:0] step_next1;
+  reg [4:0] step_again1;
+  reg [4:0] step_of_pause1;
+  wire [4:0] step_formed1 = advance ? step_next1 : step_of_pause1;
 
   always @(posedge clk) begin
     if (rst) begin
-      step_next1 <= 4'd0;
+      step_next1 <= 5'd0;
     end else if (advance) begin
       step_next1 <= step1;
     end
+  end
+
+  always @(posedge clk) begin
+    step_of_pause1 <= (pause == 4'd2) ? step_again1 : choice_10;
   end
 
   always @(posedge clk) begin
@@ -644,20 +683,25 @@ module edgewalk_setup (
   end
 
   // Lane 2: its steps.
-  wire [3:0] step2 = ((at == DOUBLE_Y) && !rests) ? 4'd4
-                   : ((at == DOUBLE_X) && !rests) ? 4'd4
-                   : ((at == DOUBLE_DX) && !rests) ? 4'd4
+  wire [4:0] step2 = ((at == DOUBLE_Y) && !rests) ? 5'd8
+                   : ((at == DOUBLE_X) && !rests) ? 5'd8
+                   : ((at == DOUBLE_DX) && !rests) ? 5'd8
                    : step;
-  reg [3:0] step_next2;
-  reg [3:0] step_again2;
-  wire [3:0] step_formed2 = advance ? step_next2 : (pause == 4'd1) ? step_again2 : choice_12;
+  reg [4:0] step_next2;
+  reg [4:0] step_again2;
+  reg [4:0] step_of_pause2;
+  wire [4:0] step_formed2 = advance ? step_next2 : step_of_pause2;
 
   always @(posedge clk) begin
     if (rst) begin
-      step_next2 <= 4'd0;
+      step_next2 <= 5'd0;
     end else if (advance) begin
       step_next2 <= step2;
     end
+  end
+
+  always @(posedge clk) begin
+    step_of_pause2 <= (pause == 4'd2) ? step_again2 : choice_10;
   end
 
   always @(posedge clk) begin
@@ -665,111 +709,124 @@ module edgewalk_setup (
   end
 
   // Lane 3: its steps.
-  wire [3:0] step3 = ((at == DOUBLE_Y) && !rests) ? 4'd4
-                   : ((at == DOUBLE_X) && !rests) ? 4'd4
-                   : ((at == DOUBLE_DX) && !rests) ? 4'd4
+  wire [4:0] step3 = ((at == DOUBLE_Y) && !rests) ? 5'd8
+                   : ((at == DOUBLE_X) && !rests) ? 5'd8
+                   : ((at == DOUBLE_DX) && !rests) ? 5'd8
                    : step;
-  reg [3:0] step_next3;
-  reg [3:0] step_again3;
-  wire [3:0] step_formed3 = advance ? step_next3 : (pause == 4'd1) ? step_again3 : choice_12;
+  reg [4:0] step_next3;
+  reg [4:0] step_again3;
+  reg [4:0] step_of_pause3;
+  wire [4:0] step_formed3 = advance ? step_next3 : step_of_pause3;
 
   always @(posedge clk) begin
     if (rst) begin
-      step_next3 <= 4'd0;
+      step_next3 <= 5'd0;
     end else if (advance) begin
       step_next3 <= step3;
     end
   end
 
   always @(posedge clk) begin
+    step_of_pause3 <= (pause == 4'd2) ? step_again3 : choice_10;
+  end
+
+  always @(posedge clk) begin
     if (advance) step_again3 <= step_formed3;
   end
 
-  // The vertices whose values the lanes are shown.
-  wire either_5 = (at_formed == FIX_DX) || (at_formed == LOAD2) || (at_formed == FIX2);
-  wire both_5 = either_5 && !begins;
-  wire both_6 = area[45] && ((at_formed == LOAD1) || (at_formed == LOAD2)) && !begins;
-  wire [1:0] from_vertex = both_5 ? (both_6 ? p0_vertex : p2_vertex) : both_6 ? p1_vertex : p0_vertex;
-  wire both_7 = (at_formed == ADD_START) && !begins;
-  wire [1:0] to_vertex = both_7 ? (1'b0 ? p1_vertex : p0_vertex)
-                       : both_5 ? (both_6 ? p2_vertex : p0_vertex)
-                       : both_6 ? p0_vertex
-                       : p1_vertex;
-  wire single_value = both_7;
+  // What the lanes are shown in the next clock; in the first of a triangle dc1 of the first round.
+  reg [1:0] from_place;
+  wire [1:0] from_vertex = from_place[1] ? p2_vertex : from_place[0] ? p1_vertex : p0_vertex;
+  reg [1:0] to_place;
+  wire [1:0] to_vertex = to_place[1] ? p2_vertex : to_place[0] ? p1_vertex : p0_vertex;
+  reg single_value;
+  reg number_of_edge;
+  reg number_is_height;
+  wire either_5 = (at == FIX_DX) || (at == LOAD2) || (at == FIX2);
+  wire both_5 = area[45] && ((at == LOAD1) || (at == LOAD2));
+  wire equal_2 = at == ADD_START;
+
+  always @(posedge clk) begin
+    if (advance) begin
+      from_place <= either_5 ? (both_5 ? 2'd0 : 2'd2) : both_5 ? 2'd1 : 2'd0;
+      to_place <= equal_2 ? (1'b0 ? 2'd1 : 2'd0)
+                : either_5 ? (both_5 ? 2'd2 : 2'd0)
+                : both_5 ? 2'd0
+                : 2'd1;
+      single_value <= equal_2;
+      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
+      number_is_height <= at == LOAD_DY;
+    end
+    if (take) begin
+      from_place <= 2'd0;
+      to_place <= 2'd1;
+      single_value <= 1'b0;
+      number_of_edge <= 1'b0;
+      number_is_height <= 1'b0;
+    end
+  end
 
   // Lane 0: what it takes in.
-  wire either_6 = (at_formed == LOAD_DX)
-               || (at_formed == LOAD_DY)
-               || ((at_formed == FIX_DX) && !advance);
   wire [22:0] extended_2 = {1'b0, dv02};
-  wire [28:0] choice_13 = (at_formed == LOAD_DY) ? {{6{extended_2[22]}}, extended_2}
+  wire [28:0] choice_11 = number_is_height ? {{6{extended_2[22]}}, extended_2}
                         : {{6{du02[22]}}, du02};
-  wire [28:0] choice_14 = to_vertex[1] ? {1'b0, vertex2_z}
+  wire [28:0] choice_12 = to_vertex[1] ? {1'b0, vertex2_z}
                         : to_vertex[0] ? {1'b0, vertex1_z}
                         : {1'b0, vertex0_z};
-  wire [28:0] choice_15 = single_value ? 29'h1ffffff8
+  wire [28:0] choice_13 = single_value ? 29'h1ffffff8
                         : from_vertex[1] ? {1'b0, vertex2_z}
                         : from_vertex[0] ? {1'b0, vertex1_z}
                         : {1'b0, vertex0_z};
-  wire [28:0] number0 = (either_6 && !begins) ? choice_13 : choice_14 - choice_15;  // signed
-  reg [28:0] value0;  // first value, signed
+  wire [28:0] number0 = number_of_edge ? choice_11 : choice_12 - choice_13;  // signed
+  reg [28:0] kept0;  // a number that may not fit, or a first value; signed
 
   always @(posedge clk) begin
-    value0 <= number0;
+    if ((at_next == LOAD_DX) || (at_next == ADD_START)) kept0 <= number0;
   end
 
   // Lane 1: what it takes in.
-  wire either_7 = (at_formed == LOAD_DX)
-               || (at_formed == LOAD_DY)
-               || ((at_formed == FIX_DX) && !advance);
-  wire [22:0] choice_16 = to_vertex[1] ? {11'd0, vertex2_r}
+  wire [22:0] choice_14 = to_vertex[1] ? {11'd0, vertex2_r}
                         : to_vertex[0] ? {11'd0, vertex1_r}
                         : {11'd0, vertex0_r};
-  wire [22:0] choice_17 = single_value ? 23'h7ffff8
+  wire [22:0] choice_15 = single_value ? 23'h7ffff8
                         : from_vertex[1] ? {11'd0, vertex2_r}
                         : from_vertex[0] ? {11'd0, vertex1_r}
                         : {11'd0, vertex0_r};
-  wire [22:0] number1 = (either_7 && !begins) ? ((at_formed == LOAD_DY) ? {1'b0, dv01} : du01)  // signed
-                      : choice_16 - choice_17;
-  reg [22:0] value1;  // first value, signed
+  wire [22:0] number1 = number_of_edge ? (number_is_height ? {1'b0, dv01} : du01)  // signed
+                      : choice_14 - choice_15;
+  reg [22:0] kept1;  // a number that may not fit, or a first value; signed
 
   always @(posedge clk) begin
-    value1 <= number1;
+    if ((at_next == LOAD_DX) || (at_next == ADD_START)) kept1 <= number1;
   end
 
   // Lane 2: what it takes in.
-  wire either_8 = (at_formed == LOAD_DX)
-               || (at_formed == LOAD_DY)
-               || ((at_formed == FIX_DX) && !advance);
-  wire [22:0] choice_18 = (at_formed == LOAD_DY) ? {1'b0, dv12} : {p2_u[21], p2_u} - {p1_u[21], p1_u};
-  wire [22:0] choice_19 = to_vertex[1] ? {11'd0, vertex2_g}
+  wire [22:0] choice_16 = to_vertex[1] ? {11'd0, vertex2_g}
                         : to_vertex[0] ? {11'd0, vertex1_g}
                         : {11'd0, vertex0_g};
-  wire [22:0] choice_20 = single_value ? 23'h7ffff8
+  wire [22:0] choice_17 = single_value ? 23'h7ffff8
                         : from_vertex[1] ? {11'd0, vertex2_g}
                         : from_vertex[0] ? {11'd0, vertex1_g}
                         : {11'd0, vertex0_g};
-  wire [22:0] number2 = (either_8 && !begins) ? choice_18 : choice_19 - choice_20;  // signed
-  reg [22:0] value2;  // first value, signed
+  wire [22:0] number2 = number_of_edge ? (number_is_height ? {1'b0, dv12} : du12)  // signed
+                      : choice_16 - choice_17;
+  reg [22:0] kept2;  // a number that may not fit, or a first value; signed
 
   always @(posedge clk) begin
-    value2 <= number2;
+    if ((at_next == LOAD_DX) || (at_next == ADD_START)) kept2 <= number2;
   end
 
   // Lane 3: what it takes in.
-  wire either_9 = (at_formed == LOAD_DX)
-               || (at_formed == LOAD_DY)
-               || ((at_formed == FIX_DX) && !advance);
-  wire [22:0] choice_21 = to_vertex[1] ? {11'd0, vertex2_b}
+  wire [22:0] choice_18 = to_vertex[1] ? {11'd0, vertex2_b}
                         : to_vertex[0] ? {11'd0, vertex1_b}
                         : {11'd0, vertex0_b};
-  wire [22:0] choice_22 = single_value ? 23'h7ffff8
+  wire [22:0] choice_19 = single_value ? 23'h7ffff8
                         : from_vertex[1] ? {11'd0, vertex2_b}
                         : from_vertex[0] ? {11'd0, vertex1_b}
                         : {11'd0, vertex0_b};
-  wire [22:0] number3 = (either_9 && !begins) ? ((at_formed == LOAD_DY) ? {1'b0, dv02} : du02)  // signed
-                      : choice_21 - choice_22;
-  reg [22:0] value3;  // first value, signed
+  wire [22:0] number3 = number_of_edge ? (number_is_height ? {1'b0, dv02} : du02)  // signed
+                      : choice_18 - choice_19;
+  reg [22:0] kept3;  // a number that may not fit, or a first value; signed
   wire [27:0] shown = (number0[27:0] ^ {28{number0[28]}})
                     | {5'd0, number1 ^ {23{number1[22]}}}
                     | {5'd0, number2 ^ {23{number2[22]}}}
@@ -778,19 +835,19 @@ module edgewalk_setup (
   wire lane1_unfit;
   wire lane2_unfit;
   wire lane3_unfit;
-  wire both_8 = lane1_unfit && (((at_stepped == FIX_DX) && (|prim_n1)) || 1'b0 || 1'b0);
-  wire both_9 = lane2_unfit && (((at_stepped == FIX_DX) && (|prim_n2)) || 1'b0 || 1'b0);
+  wire both_6 = lane1_unfit && (((at_stepped == FIX_DX) && (|prim_n1)) || 1'b0 || 1'b0);
+  wire both_7 = lane2_unfit && (((at_stepped == FIX_DX) && (|prim_n2)) || 1'b0 || 1'b0);
   assign unfit = (lane0_unfit && ((at_stepped == FIX_DX) || 1'b0 || 1'b0))
-              || both_8
-              || both_9
+              || both_6
+              || both_7
               || (lane3_unfit && (1'b0 || 1'b0 || 1'b0));
 
   always @(posedge clk) begin
-    value3 <= number3;
+    if ((at_next == LOAD_DX) || (at_next == ADD_START)) kept3 <= number3;
   end
 
   always @(posedge clk) begin
-    if ((at_formed == FIX_DX) && advance) differences <= differences | shown;
+    if (at_next == FIX_DX) differences <= differences | shown;
     if (begins) differences <= shown;
   end
 
@@ -798,18 +855,18 @@ module edgewalk_setup (
   wire [44:0] lane0_rest_out;
   wire [45:0] lane0_whole_out;
   wire [45:0] lane0_value;
-  wire choice_23 = is_sign ? f[23] : digit_f;
-  wire choice_24 = is_sign ? g[23] : digit_g;
-  wire [29:0] shifted_5 = $signed({number0[28], number0}) >>> {pause - 4'd2, 1'b0};
+  wire choice_20 = is_sign ? f[23] : digit_f;
+  wire choice_21 = is_sign ? g[23] : digit_g;
+  wire [29:0] shifted_5 = $signed({kept0[28], kept0}) >>> {pause - 4'd2, 1'b0};
   wire [13:0] part_49 = p0_u[21:8];
-  wire [46:0] joined_3 = {{value0, 10'd0}, 8'd128};
-  wire equal_2 = at_rest == COLUMNS;
+  wire [46:0] joined_3 = {{kept0, 10'd0}, 8'd128};
+  wire equal_3 = at_rest == COLUMNS;
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_23 || choice_24), choice_24, choice_23}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_20 || choice_21), choice_21, choice_20}
 : read_single_at),
     .step          (step_formed0),
     .number        (number0),
@@ -818,9 +875,9 @@ module edgewalk_setup (
     .write_at      (write_at),
     .whole_in      ((at_stepped == COLUMNS) ? {{32{part_49[13]}}, part_49} : joined_3[45:0]),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_formed == LOAD1) ? scaled : ~{16'd0, {dv02, 8'd0}}),
-    .modulus_short (!((at_formed == LOAD1) && area[45])),
-    .upwards       (equal_2),
+    .modulus_in    ((at_next == LOAD1) ? scaled : ~{16'd0, {dv02, 8'd0}}),
+    .modulus_short (!((at_next == LOAD1) && area[45])),
+    .upwards       (equal_3),
     .unfit         (lane0_unfit),
     .rest_out      (lane0_rest_out),
     .whole_out     (lane0_whole_out),
@@ -838,11 +895,11 @@ module edgewalk_setup (
     if (ends_whole && (at_whole == DOUBLE_DX)) prim_major_q <= any_22 ? lane0_whole_out[14:0] : 15'd0;
   end
 
-  wire [29:0] difference_6 = {dv02, 8'd0} - lane0_rest_out[29:0];
+  wire [29:0] difference_7 = {dv02, 8'd0} - lane0_rest_out[29:0];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == COLUMNS)) begin
-      prim_major_r <= (|lane0_rest_out) ? difference_6[29:8] : 22'd0;
+      prim_major_r <= (|lane0_rest_out) ? difference_7[29:8] : 22'd0;
     end
   end
 
@@ -854,17 +911,17 @@ module edgewalk_setup (
   wire [44:0] lane1_rest_out;
   wire [29:0] lane1_whole_out;
   wire [29:0] lane1_value;
-  wire choice_25 = is_sign ? f[23] : digit_f;
-  wire choice_26 = is_sign ? g[23] : digit_g;
-  wire [23:0] shifted_6 = $signed({number1[22], number1}) >>> {pause - 4'd2, 1'b0};
+  wire choice_22 = is_sign ? f[23] : digit_f;
+  wire choice_23 = is_sign ? g[23] : digit_g;
+  wire [23:0] shifted_6 = $signed({kept1[22], kept1}) >>> {pause - 4'd2, 1'b0};
   wire [13:0] part_51 = p0_u[21:8];
-  wire [40:0] joined_4 = {{value1, 10'd0}, 8'd128};
+  wire [40:0] joined_4 = {{kept1, 10'd0}, 8'd128};
 
   edgewalk_setup_lane1 lane1 (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_25 || choice_26), choice_26, choice_25}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_22 || choice_23), choice_23, choice_22}
 : read_single_at),
     .step          (step_formed1),
     .number        (number1),
@@ -873,33 +930,33 @@ module edgewalk_setup (
     .write_at      (write_at),
     .whole_in      ((at_stepped == COLUMNS) ? {{16{part_51[13]}}, part_51} : joined_4[29:0]),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_formed == LOAD1) ? scaled : ~{16'd0, {dv01, 8'd0}}),
-    .modulus_short (!((at_formed == LOAD1) && area[45])),
-    .upwards       (equal_2),
+    .modulus_in    ((at_next == LOAD1) ? scaled : ~{16'd0, {dv01, 8'd0}}),
+    .modulus_short (!((at_next == LOAD1) && area[45])),
+    .upwards       (equal_3),
     .unfit         (lane1_unfit),
     .rest_out      (lane1_rest_out),
     .whole_out     (lane1_whole_out),
     .value         (lane1_value)
   );
 
-  wire both_10 = (|prim_n1) && (|dv01[21:8]);
+  wire both_8 = (|prim_n1) && (|dv01[21:8]);
   wire [36:0] part_52 = lane1_rest_out[44:8];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor1_f <= both_10 ? part_52[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor1_f <= both_8 ? part_52[21:0] : 22'd0;
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX)) begin
-      prim_minor1_q <= both_10 ? lane1_whole_out[14:0] : 15'd0;
+      prim_minor1_q <= both_8 ? lane1_whole_out[14:0] : 15'd0;
     end
   end
 
-  wire [29:0] difference_7 = {dv01, 8'd0} - lane1_rest_out[29:0];
+  wire [29:0] difference_8 = {dv01, 8'd0} - lane1_rest_out[29:0];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == COLUMNS)) begin
-      prim_minor1_r <= (|prim_n1) ? ((|lane1_rest_out) ? difference_7[29:8] : 22'd0) : 22'd0;
+      prim_minor1_r <= (|prim_n1) ? ((|lane1_rest_out) ? difference_8[29:8] : 22'd0) : 22'd0;
     end
   end
 
@@ -911,20 +968,20 @@ module edgewalk_setup (
   wire [44:0] lane2_rest_out;
   wire [29:0] lane2_whole_out;
   wire [29:0] lane2_value;
-  wire equal_3 = at == SUM;
+  wire equal_4 = at == SUM;
   wire [7:0] shifted_7 = p1_u[7:0] >> left;
-  wire choice_27 = is_sign ? f[23] : equal_3 ? shifted_7[0] : digit_f;
+  wire choice_24 = is_sign ? f[23] : equal_4 ? shifted_7[0] : digit_f;
   wire [22:0] shifted_8 = h1 >> left;
-  wire choice_28 = is_sign ? g[23] : equal_3 ? shifted_8[0] : digit_g;
-  wire [23:0] shifted_9 = $signed({number2[22], number2}) >>> {pause - 4'd2, 1'b0};
+  wire choice_25 = is_sign ? g[23] : equal_4 ? shifted_8[0] : digit_g;
+  wire [23:0] shifted_9 = $signed({kept2[22], kept2}) >>> {pause - 4'd2, 1'b0};
   wire [13:0] part_53 = p1_u[21:8];
-  wire [40:0] joined_5 = {{value2, 10'd0}, 8'd128};
+  wire [40:0] joined_5 = {{kept2, 10'd0}, 8'd128};
 
   edgewalk_setup_lane1 lane2 (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_27 || choice_28), choice_28, choice_27}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_24 || choice_25), choice_25, choice_24}
 : read_single_at),
     .step          (step_formed2),
     .number        (number2),
@@ -933,33 +990,33 @@ module edgewalk_setup (
     .write_at      (write_at),
     .whole_in      ((at_stepped == COLUMNS) ? {{16{part_53[13]}}, part_53} : joined_5[29:0]),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_formed == LOAD1) ? scaled : ~{16'd0, {dv12, 8'd0}}),
-    .modulus_short (!((at_formed == LOAD1) && area[45])),
-    .upwards       (equal_2),
+    .modulus_in    ((at_next == LOAD1) ? scaled : ~{16'd0, {dv12, 8'd0}}),
+    .modulus_short (!((at_next == LOAD1) && area[45])),
+    .upwards       (equal_3),
     .unfit         (lane2_unfit),
     .rest_out      (lane2_rest_out),
     .whole_out     (lane2_whole_out),
     .value         (lane2_value)
   );
 
-  wire both_11 = (|prim_n2) && (|dv12[21:8]);
+  wire both_9 = (|prim_n2) && (|dv12[21:8]);
   wire [36:0] part_54 = lane2_rest_out[44:8];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor2_f <= both_11 ? part_54[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor2_f <= both_9 ? part_54[21:0] : 22'd0;
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX)) begin
-      prim_minor2_q <= both_11 ? lane2_whole_out[14:0] : 15'd0;
+      prim_minor2_q <= both_9 ? lane2_whole_out[14:0] : 15'd0;
     end
   end
 
-  wire [29:0] difference_8 = {dv12, 8'd0} - lane2_rest_out[29:0];
+  wire [29:0] difference_9 = {dv12, 8'd0} - lane2_rest_out[29:0];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == COLUMNS)) begin
-      prim_minor2_r <= (|prim_n2) ? ((|lane2_rest_out) ? difference_8[29:8] : 22'd0) : 22'd0;
+      prim_minor2_r <= (|prim_n2) ? ((|lane2_rest_out) ? difference_9[29:8] : 22'd0) : 22'd0;
     end
   end
 
@@ -1027,18 +1084,18 @@ module edgewalk_setup (
   // Channel: b.
   wire [29:0] lane3_value;
   wire [29:0] lane3_whole_out;
-  wire choice_29 = is_sign ? f[23] : digit_f;
-  wire choice_30 = is_sign ? g[23] : digit_g;
-  wire [23:0] shifted_10 = $signed({number3[22], number3}) >>> {pause - 4'd2, 1'b0};
+  wire choice_26 = is_sign ? f[23] : digit_f;
+  wire choice_27 = is_sign ? g[23] : digit_g;
+  wire [23:0] shifted_10 = $signed({kept3[22], kept3}) >>> {pause - 4'd2, 1'b0};
   wire [13:0] part_55 = p0_u[21:8];
-  wire [40:0] joined_6 = {{value3, 10'd0}, 8'd128};
+  wire [40:0] joined_6 = {{kept3, 10'd0}, 8'd128};
   wire [44:0] lane3_rest_out_unused;
 
   edgewalk_setup_lane1 lane3 (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_29 || choice_30), choice_30, choice_29}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_26 || choice_27), choice_27, choice_26}
 : read_single_at),
     .step          (step_formed3),
     .number        (number3),
@@ -1047,9 +1104,9 @@ module edgewalk_setup (
     .write_at      (write_at),
     .whole_in      ((at_stepped == COLUMNS) ? {{16{part_55[13]}}, part_55} : joined_6[29:0]),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_formed == LOAD1) ? scaled : ~{16'd0, {dv02, 8'd0}}),
-    .modulus_short (!((at_formed == LOAD1) && area[45])),
-    .upwards       (equal_2),
+    .modulus_in    ((at_next == LOAD1) ? scaled : ~{16'd0, {dv02, 8'd0}}),
+    .modulus_short (!((at_next == LOAD1) && area[45])),
+    .upwards       (equal_3),
     .unfit         (lane3_unfit),
     .rest_out      (lane3_rest_out_unused),
     .whole_out     (lane3_whole_out),
@@ -1084,13 +1141,13 @@ module edgewalk_setup (
   wire unused = &{
     1'b0, ends_fixed, less_m[0], lane0_value[45:38], lane1_value[29:22], lane2_value[29:22],
     lane3_value[29:22], lane3_whole_out[7:0], difference[22], difference_2[22], difference_3[22],
-    part_5[0], part_10[0], part_13[0], part_17[0], part_20[0], shifted[21:1], shifted_2[21:1],
-    part_21[44:0], difference_4[14:10], difference_5[14:10], differing[23], differing_2[23], either[23],
-    part_30[0], part_33[0], part_38[0], part_41[0], part_45[0], part_48[0], shifted_3[23:1],
-    shifted_4[23:1], shifted_7[7:1], shifted_8[22:1], shifted_5[29:2], joined_3[46], shifted_6[23:2],
-    joined_4[40:30], shifted_9[23:2], joined_5[40:30], shifted_10[23:2], joined_6[40:30],
-    part_50[36:22], difference_6[7:0], part_52[36:22], difference_7[7:0], part_54[36:22],
-    difference_8[7:0]
+    difference_4[22], part_5[0], part_10[0], part_13[0], part_17[0], part_20[0], shifted[21:1],
+    shifted_2[21:1], part_21[44:0], difference_5[14:10], difference_6[14:10], differing[23],
+    differing_2[23], either[23], part_30[0], part_33[0], part_38[0], part_41[0], part_45[0], part_48[0],
+    shifted_3[23:1], shifted_4[23:1], shifted_7[7:1], shifted_8[22:1], shifted_5[29:2], joined_3[46],
+    shifted_6[23:2], joined_4[40:30], shifted_9[23:2], joined_5[40:30], shifted_10[23:2],
+    joined_6[40:30], part_50[36:22], difference_7[7:0], part_52[36:22], difference_8[7:0],
+    part_54[36:22], difference_9[7:0]
   };
 
 endmodule

@@ -125,7 +125,8 @@ module edgewalk_setup (
 
   // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
   reg [3:0] pause;                                   // clocks left of it
-  wire advance = pause == 4'd0;
+  reg paused;                                        // it is not over
+  wire advance = !paused;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
   wire in_edges = state == EDGES;
@@ -260,6 +261,15 @@ module edgewalk_setup (
     end
   end
 
+  always @(posedge clk) begin
+    if (rst) begin
+      paused <= 1'b0;
+    end else begin
+      if (resumes) paused <= 1'b0;
+      if (advance && unfit) paused <= 1'b1;
+    end
+  end
+
   // The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.
   wire y1_above_y0 = $signed(tri_y1) < $signed(tri_y0);
   wire y2_above_y0 = $signed(tri_y2) < $signed(tri_y0);
@@ -325,15 +335,29 @@ module edgewalk_setup (
     end
   end
 
-  // Differences of the sorted vertices.
+  // Differences of the sorted vertices, from upper to lower ends of edges.
   wire [15:0] difference = {p2_v[14], p2_v} - {p0_v[14], p0_v};
-  wire [14:0] dv02 = difference[14:0];    // 1/P line
-  wire [15:0] difference_2 = {p1_v[14], p1_v} - {p0_v[14], p0_v};
-  wire [14:0] dv01 = difference_2[14:0];  // 1/P line
-  wire [15:0] difference_3 = {p2_v[14], p2_v} - {p1_v[14], p1_v};
-  wire [14:0] dv12 = difference_3[14:0];  // 1/P line
-  wire [15:0] du01 = {p1_u[14], p1_u} - {p0_u[14], p0_u};  // 1/P column, signed
-  wire [15:0] du02 = {p2_u[14], p2_u} - {p0_u[14], p0_u};  // 1/P column, signed
+  wire [14:0] tall = difference[14:0];
+  reg [14:0] dv02;  // 1/P line
+  reg [14:0] dv01;  // 1/P line
+  reg [14:0] dv12;  // 1/P line
+  reg [15:0] du02;  // 1/P column, signed
+  reg [15:0] du01;  // 1/P column, signed
+  reg [15:0] du12;  // 1/P column, signed
+  wire [15:0] difference_2 = {p2_v[14], p2_v} - {p0_v[14], p0_v};
+  wire [15:0] difference_3 = {p1_v[14], p1_v} - {p0_v[14], p0_v};
+  wire [15:0] difference_4 = {p2_v[14], p2_v} - {p1_v[14], p1_v};
+
+  always @(posedge clk) begin
+    if (begins) begin
+      dv02 <= difference_2[14:0];
+      dv01 <= difference_3[14:0];
+      dv12 <= difference_4[14:0];
+      du02 <= {p2_u[14], p2_u} - {p0_u[14], p0_u};
+      du01 <= {p1_u[14], p1_u} - {p0_u[14], p0_u};
+      du12 <= {p2_u[14], p2_u} - {p1_u[14], p1_u};
+    end
+  end
 
   // Twice the area: du1 dv2 - du2 dv1, over the bits of dv2 and dv1.
   reg [3:0] area_digit;  // place of the digits added
@@ -344,8 +368,8 @@ module edgewalk_setup (
                         - (shifted_2[0] ? {du02[15], du02} : 17'd0);
   reg [31:0] area;       // 1/P^2 px^2, signed
   assign no_area = !(|area);
-  wire any = |dv02[14:8];
-  wire [6:0] part_2 = dv02[14:8];
+  wire any = |tall[14:8];
+  wire [6:0] part_2 = tall[14:8];
   wire [2:0] part = part_2[6:4];
   wire any_2 = |part;
   wire any_3 = part[2];
@@ -356,7 +380,7 @@ module edgewalk_setup (
   wire [1:0] part_6 = part_5[1:0];
   wire [1:0] choice_5 = any_2 ? {any_3, any_3 ? 1'b0 : part_3[1]}
                       : {any_4, any_4 ? part_4[1] : part_6[1]};
-  wire [7:0] part_8 = dv02[7:0];
+  wire [7:0] part_8 = tall[7:0];
   wire [3:0] part_7 = part_8[7:4];
   wire any_5 = |part_7;
   wire [1:0] part_9 = part_7[3:2];
@@ -404,7 +428,7 @@ module edgewalk_setup (
   assign area_known = !area_adds && !begins && !scale_taken && !scaling;
   reg [3:0] scale_now;     // of the round
   assign scale = scale_now;
-  wire either = (area_adds && equal) || ((at_formed == FIX2) && !(round_formed == 2'd3));
+  wire either = (area_adds && equal) || ((at_next == FIX2) && !(round_next == 2'd3));
 
   always @(posedge clk) begin
     if (rst) begin
@@ -439,21 +463,37 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (at_formed == LOAD1) scale_now <= scale_next;
+    if (at_next == LOAD1) scale_now <= scale_next;
   end
 
   // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
   wire [10:0] part_15 = p0_v[14:4];
   wire [11:0] line0 = {part_15[10], part_15} + {11'd0, |p0_v[3:0]};  // ceil(v/P)
-  wire [11:0] j0_next = ($signed(line0) < 12'sd0) ? 12'd0 : line0;
-  wire [10:0] part_16 = p2_v[14:4];
-  wire [11:0] line2 = {part_16[10], part_16} + {11'd0, |p2_v[3:0]};  // ceil(v/P)
-  wire [11:0] choice_7 = ($signed(line2) < 12'sd480) ? line2 : 12'd480;
-  wire [11:0] end_line = ($signed(choice_7) < $signed(j0_next)) ? j0_next : choice_7;
-  wire [10:0] part_17 = p1_v[14:4];
-  wire [11:0] line1 = {part_17[10], part_17} + {11'd0, |p1_v[3:0]};  // ceil(v/P)
-  wire [11:0] choice_8 = ($signed(line1) < $signed(j0_next)) ? j0_next : line1;
-  wire [11:0] j1_next = ($signed(choice_8) < $signed(end_line)) ? choice_8 : end_line;
+  reg [11:0] j0;        // line of the screen
+  wire [10:0] part_16 = p1_v[14:4];
+  wire [11:0] line1 = {part_16[10], part_16} + {11'd0, |p1_v[3:0]};  // ceil(v/P)
+  reg [11:0] j1;        // line of the screen
+  wire [10:0] part_17 = p2_v[14:4];
+  wire [11:0] line2 = {part_17[10], part_17} + {11'd0, |p2_v[3:0]};  // ceil(v/P)
+  reg [11:0] end_line;  // line of the screen
+
+  always @(posedge clk) begin
+    if (begins) begin
+      j0 <= p0_v[14] ? 12'd0 : ($signed(p0_v) <= 15'sd7664) ? line0 : 12'd480;
+      j1 <= p1_v[14] ? 12'd0 : ($signed(p1_v) <= 15'sd7664) ? line1 : 12'd480;
+      end_line <= p2_v[14] ? 12'd0 : ($signed(p2_v) <= 15'sd7664) ? line2 : 12'd480;
+    end
+  end
+
+  wire [11:0] difference_5 = j1 - j0;
+  wire [11:0] difference_6 = end_line - j1;
+
+  always @(posedge clk) begin
+    if (at == FIX_DX) begin
+      prim_n1 <= difference_5[9:0];
+      prim_n2 <= difference_6[9:0];
+    end
+  end
 
   // Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.
   wire [10:0] part_18 = p0_u[14:4];
@@ -467,25 +507,15 @@ module edgewalk_setup (
   wire behind_screen = !($signed(p0_u) <= 15'sh27f0)  // ceil(u/P) is W or more
                     && !($signed(p1_u) <= 15'sh27f0)
                     && !($signed(p2_u) <= 15'sh27f0);
-  reg [11:0] j0;                                   // line, signed
-  reg [11:0] j1;                                   // line, signed
-  wire upper = |prim_n1;
   reg no_column;                                   // no column of the screen
-  assign nothing = (!upper && !(|prim_n2)) || no_column;
+  assign nothing = (j0 == end_line) || no_column;
+  wire upper = |prim_n1;
   wire [11:0] jm = upper ? j0 : j1;                // first line of the triangle
   wire [15:0] h0 = {jm, 4'd0} - {p0_v[14], p0_v};  // 1/P line
   wire [15:0] h1 = {j1, 4'd0} - {p1_v[14], p1_v};  // 1/P line
-  wire [11:0] difference_4 = j1_next - j0_next;
-  wire [11:0] difference_5 = end_line - j1_next;
 
   always @(posedge clk) begin
-    if (begins) begin
-      prim_n1 <= difference_4[9:0];
-      prim_n2 <= difference_5[9:0];
-      j0 <= j0_next;
-      j1 <= j1_next;
-      no_column <= none_between || before_screen || behind_screen;
-    end
+    if (begins) no_column <= none_between || before_screen || behind_screen;
   end
 
   // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
@@ -505,7 +535,7 @@ module edgewalk_setup (
   wire [1:0] part_25 = part_26[3:2];
   wire any_11 = |part_25;
   wire [1:0] part_27 = part_26[1:0];
-  wire [1:0] choice_9 = any_9 ? {any_10, any_10 ? part_23[1] : part_24[1]}
+  wire [1:0] choice_7 = any_9 ? {any_10, any_10 ? part_23[1] : part_24[1]}
                       : {any_11, any_11 ? part_25[1] : part_27[1]};
   wire [7:0] part_29 = digits[7:0];
   wire [3:0] part_28 = part_29[7:4];
@@ -517,9 +547,9 @@ module edgewalk_setup (
   wire [1:0] part_32 = part_33[3:2];
   wire any_14 = |part_32;
   wire [1:0] part_34 = part_33[1:0];
-  wire [1:0] choice_10 = any_12 ? {any_13, any_13 ? part_30[1] : part_31[1]}
-                       : {any_14, any_14 ? part_32[1] : part_34[1]};
-  assign top_digit = {1'b0, {any_8, any_8 ? {any_9, choice_9} : {any_12, choice_10}}};
+  wire [1:0] choice_8 = any_12 ? {any_13, any_13 ? part_30[1] : part_31[1]}
+                      : {any_14, any_14 ? part_32[1] : part_34[1]};
+  assign top_digit = {1'b0, {any_8, any_8 ? {any_9, choice_7} : {any_12, choice_8}}};
   wire [16:0] shifted_3 = f >> left;
   wire digit_f = shifted_3[0];
   wire [16:0] shifted_4 = g >> left;
@@ -560,18 +590,17 @@ module edgewalk_setup (
                || (at == ADD_Y)
                || (at == ADD_LINE);
   wire either_3 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
-  wire [3:0] step = rests ? 4'd0
-                  : ((at == SUM) || (at == SUM_X)) ? (first ? 4'd5 : 4'd6)
-                  : ((at == COLUMNS) || (at == ADD_START)) ? 4'd9
-                  : either_2 ? 4'd8
-                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 4'd7
-                  : ((at == SUM_Y) || (at == SUM_LINE) || (at == SUM_START)) ? 4'd6
-                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_Y)) ? 4'd4
-                  : ((at == FIX_DX) || (at == FIX1) || (at == FIX2)) ? 4'd2
-                  : either_3 ? 4'd1
-                  : 4'd0;
-  reg began;       // numbers were found not to fit in the clock before
-  reg began_then;  // and in the one before
+  wire [4:0] step = rests ? 5'd0
+                  : ((at == SUM) || (at == SUM_X)) ? (first ? 5'd17 : 5'd18)
+                  : ((at == COLUMNS) || (at == ADD_START)) ? 5'd20
+                  : either_2 ? 5'd16
+                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 5'd19
+                  : ((at == SUM_Y) || (at == SUM_LINE) || (at == SUM_START)) ? 5'd18
+                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_Y)) ? 5'd8
+                  : ((at == FIX_DX) || (at == FIX1) || (at == FIX2)) ? 5'd4
+                  : either_3 ? 5'd1
+                  : 5'd0;
+  reg began;  // numbers were found not to fit in the clock before
   wire is_sum = (at == SUM)
              || (at == SUM_X)
              || (at == SUM_Y)
@@ -604,161 +633,183 @@ module edgewalk_setup (
                       : ((at_stepped == FIX_DX) || (at_stepped == FIX2)) ? 3'd2
                       : ((at_stepped == LOAD_DY) || (at_stepped == FIX1)) ? 3'd1
                       : 3'd0;
-  wire take_modulus = (at_formed == LOAD_DX) || (at_formed == LOAD1);
+  wire take_modulus = (at_next == LOAD_DX) || (at_next == LOAD1);
 
   always @(posedge clk) begin
     began <= advance;
-    began_then <= began;
   end
 
   // Lane 0: its steps.
-  wire [3:0] choice_11 = (round == 2'd3) ? 4'd4
-                       : (round == 2'd2) ? 4'd4
-                       : (round == 2'd1) ? 4'd4
-                       : 4'd4;
-  wire [3:0] choice_12 = (round == 2'd3) ? 4'd4
-                       : (round == 2'd2) ? 4'd4
-                       : (round == 2'd1) ? 4'd4
-                       : 4'd4;
-  wire [3:0] step0 = ((at == DOUBLE_Y) && !rests) ? choice_11
-                   : ((at == DOUBLE_X) && !rests) ? choice_12
-                   : ((at == DOUBLE_DX) && !rests) ? 4'd4
+  wire [4:0] choice_9 = (round == 2'd3) ? 5'd8
+                      : (round == 2'd2) ? 5'd8
+                      : (round == 2'd1) ? 5'd8
+                      : 5'd8;
+  wire [4:0] choice_10 = (round == 2'd3) ? 5'd8
+                       : (round == 2'd2) ? 5'd8
+                       : (round == 2'd1) ? 5'd8
+                       : 5'd8;
+  wire [4:0] step0 = ((at == DOUBLE_Y) && !rests) ? choice_9
+                   : ((at == DOUBLE_X) && !rests) ? choice_10
+                   : ((at == DOUBLE_DX) && !rests) ? 5'd8
                    : step;
-  reg [3:0] step_next0;
-  reg [3:0] step_again0;
-  wire [3:0] step_formed0 = advance ? step_next0
-                          : (pause == 4'd1) ? step_again0
-                          : began ? 4'd10
-                          : began_then ? 4'd11
-                          : 4'd12;
+  reg [4:0] step_next0;
+  reg [4:0] step_again0;
+  reg [4:0] step_of_pause0;
+  wire [4:0] step_formed0 = advance ? step_next0 : step_of_pause0;
 
   always @(posedge clk) begin
     if (rst) begin
-      step_next0 <= 4'd0;
+      step_next0 <= 5'd0;
     end else if (advance) begin
       step_next0 <= step0;
     end
   end
 
   always @(posedge clk) begin
+    step_of_pause0 <= (pause == 4'd2) ? step_again0 : advance ? 5'd5 : began ? 5'd2 : 5'd9;
+  end
+
+  always @(posedge clk) begin
     if (advance) step_again0 <= step_formed0;
   end
 
-  // The vertices whose values the lanes are shown.
-  wire either_5 = (at_formed == FIX_DX) || (at_formed == LOAD2) || (at_formed == FIX2);
-  wire both_5 = either_5 && !begins;
-  wire both_6 = area[31] && ((at_formed == LOAD1) || (at_formed == LOAD2)) && !begins;
-  wire [1:0] from_vertex = both_5 ? (both_6 ? p0_vertex : p2_vertex) : both_6 ? p1_vertex : p0_vertex;
-  wire both_7 = (at_formed == ADD_START) && !begins;
-  wire [1:0] to_vertex = both_7 ? (1'b0 ? p1_vertex : p0_vertex)
-                       : both_5 ? (both_6 ? p2_vertex : p0_vertex)
-                       : both_6 ? p0_vertex
-                       : p1_vertex;
-  wire single_value = both_7;
-  wire either_6 = (at_formed == FIX1) || (at_formed == FIX2);
-  wire either_7 = (at_formed == FIX_DX) || begins;
-  wire values_of_round1 = (either_6 ? round_formed == 2'd0 : round_formed == 2'd1) && !either_7;
-  wire values_of_round2 = (either_6 ? round_formed == 2'd1 : round_formed == 2'd2) && !either_7;
-  wire values_of_round3 = (either_6 ? round_formed == 2'd2 : round_formed == 2'd3) && !either_7;
+  // What the lanes are shown in the next clock; in the first of a triangle dc1 of the first round.
+  reg [1:0] from_place;
+  wire [1:0] from_vertex = from_place[1] ? p2_vertex : from_place[0] ? p1_vertex : p0_vertex;
+  reg [1:0] to_place;
+  wire [1:0] to_vertex = to_place[1] ? p2_vertex : to_place[0] ? p1_vertex : p0_vertex;
+  reg single_value;
+  reg values_of_round1;
+  reg values_of_round2;
+  reg values_of_round3;
+  reg number_of_edge;
+  reg number_is_height;
+  wire either_5 = (at == FIX_DX) || (at == LOAD2) || (at == FIX2);
+  wire both_5 = area[31] && ((at == LOAD1) || (at == LOAD2));
+  wire equal_2 = at == ADD_START;
+  wire either_6 = (at == FIX1) || (at == FIX2);
+  wire equal_3 = at == FIX_DX;
+
+  always @(posedge clk) begin
+    if (advance) begin
+      from_place <= either_5 ? (both_5 ? 2'd0 : 2'd2) : both_5 ? 2'd1 : 2'd0;
+      to_place <= equal_2 ? (1'b0 ? 2'd1 : 2'd0)
+                : either_5 ? (both_5 ? 2'd2 : 2'd0)
+                : both_5 ? 2'd0
+                : 2'd1;
+      single_value <= equal_2;
+      values_of_round1 <= (either_6 ? round == 2'd0 : round == 2'd1) && !equal_3;
+      values_of_round2 <= (either_6 ? round == 2'd1 : round == 2'd2) && !equal_3;
+      values_of_round3 <= (either_6 ? round == 2'd2 : round == 2'd3) && !equal_3;
+      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
+      number_is_height <= at == LOAD_DY;
+    end
+    if (take) begin
+      from_place <= 2'd0;
+      to_place <= 2'd1;
+      single_value <= 1'b0;
+      values_of_round1 <= 1'b0;
+      values_of_round2 <= 1'b0;
+      values_of_round3 <= 1'b0;
+      number_of_edge <= 1'b0;
+      number_is_height <= 1'b0;
+    end
+  end
 
   // Lane 0: what it takes in.
-  wire either_8 = (at_formed == LOAD_DX)
-               || (at_formed == LOAD_DY)
-               || ((at_formed == FIX_DX) && !advance);
   wire [15:0] extended_2 = {1'b0, dv12};
   wire [15:0] extended_3 = {1'b0, dv01};
   wire [15:0] extended_4 = {1'b0, dv02};
-  wire [16:0] choice_13 = (round_formed == 2'd2) ? {extended_2[15], extended_2}
-                        : (round_formed == 2'd1) ? {extended_3[15], extended_3}
+  wire [16:0] choice_11 = (round_next == 2'd2) ? {extended_2[15], extended_2}
+                        : (round_next == 2'd1) ? {extended_3[15], extended_3}
                         : {extended_4[15], extended_4};
-  wire [15:0] difference_6 = {p2_u[14], p2_u} - {p1_u[14], p1_u};
-  wire [16:0] choice_14 = (at_formed == LOAD_DY) ? choice_13
-                        : (round_formed == 2'd2) ? {difference_6[15], difference_6}
-                        : (round_formed == 2'd1) ? {du01[15], du01}
+  wire [16:0] choice_12 = number_is_height ? choice_11
+                        : (round_next == 2'd2) ? {du12[15], du12}
+                        : (round_next == 2'd1) ? {du01[15], du01}
                         : {du02[15], du02};
-  wire [16:0] choice_15 = values_of_round3 ? {9'd0, vertex2_b}
+  wire [16:0] choice_13 = values_of_round3 ? {9'd0, vertex2_b}
                         : values_of_round2 ? {9'd0, vertex2_g}
                         : values_of_round1 ? {9'd0, vertex2_r}
                         : {1'b0, vertex2_z};
-  wire [16:0] choice_16 = values_of_round3 ? {9'd0, vertex1_b}
+  wire [16:0] choice_14 = values_of_round3 ? {9'd0, vertex1_b}
                         : values_of_round2 ? {9'd0, vertex1_g}
                         : values_of_round1 ? {9'd0, vertex1_r}
                         : {1'b0, vertex1_z};
-  wire [16:0] choice_17 = values_of_round3 ? {9'd0, vertex0_b}
+  wire [16:0] choice_15 = values_of_round3 ? {9'd0, vertex0_b}
                         : values_of_round2 ? {9'd0, vertex0_g}
                         : values_of_round1 ? {9'd0, vertex0_r}
                         : {1'b0, vertex0_z};
-  wire [16:0] choice_18 = values_of_round3 ? 17'd0
+  wire [16:0] choice_16 = values_of_round3 ? 17'd0
                         : values_of_round2 ? 17'd0
                         : values_of_round1 ? 17'd0
                         : 17'd0;
-  wire [16:0] choice_19 = single_value ? choice_18
-                        : from_vertex[1] ? choice_15
-                        : from_vertex[0] ? choice_16
-                        : choice_17;
-  wire [16:0] difference_7 = (to_vertex[1] ? choice_15 : to_vertex[0] ? choice_16 : choice_17)
-                           - choice_19;
-  wire [16:0] number0 = (either_8 && !begins) ? choice_14 : difference_7;  // signed
-  reg [16:0] value0;  // first value, signed
+  wire [16:0] choice_17 = single_value ? choice_16
+                        : from_vertex[1] ? choice_13
+                        : from_vertex[0] ? choice_14
+                        : choice_15;
+  wire [16:0] difference_7 = (to_vertex[1] ? choice_13 : to_vertex[0] ? choice_14 : choice_15)
+                           - choice_17;
+  wire [16:0] number0 = number_of_edge ? choice_12 : difference_7;  // signed
+  reg [16:0] kept0;  // a number that may not fit, or a first value; signed
   wire [15:0] shown = number0[15:0] ^ {16{number0[16]}};
   wire lane0_unfit;
-  wire choice_20 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
-  wire choice_21 = (round_stepped == 2'd3) ? 1'b1
+  wire choice_18 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
+  wire choice_19 = (round_stepped == 2'd3) ? 1'b1
                  : (round_stepped == 2'd2) ? 1'b1
                  : (round_stepped == 2'd1) ? 1'b1
                  : 1'b1;
-  wire either_9 = ((at_stepped == FIX_DX) && choice_20) || ((1'b0 || 1'b0) && choice_21);
-  assign unfit = lane0_unfit && either_9;
+  wire either_7 = ((at_stepped == FIX_DX) && choice_18) || ((1'b0 || 1'b0) && choice_19);
+  assign unfit = lane0_unfit && either_7;
 
   always @(posedge clk) begin
-    value0 <= number0;
+    if ((at_next == LOAD_DX) || (at_next == ADD_START)) kept0 <= number0;
   end
 
   always @(posedge clk) begin
-    if (((at_formed == FIX_DX) || (at_formed == FIX2)) && advance) differences <= differences | shown;
-    if (begins || (at_formed == FIX1)) differences <= shown;
+    if ((at_next == FIX_DX) || (at_next == FIX2)) differences <= differences | shown;
+    if (begins || (at_next == FIX1)) differences <= shown;
   end
 
   // Edge: major.
   wire [30:0] lane0_rest_out;
   wire [31:0] lane0_whole_out;
   wire [31:0] lane0_value;
-  wire choice_22 = is_sign ? f[16] : digit_f;
-  wire choice_23 = is_sign ? g[16] : digit_g;
-  wire [17:0] shifted_5 = $signed({number0[16], number0}) >>> {pause - 4'd2, 1'b0};
+  wire choice_20 = is_sign ? f[16] : digit_f;
+  wire choice_21 = is_sign ? g[16] : digit_g;
+  wire [17:0] shifted_5 = $signed({kept0[16], kept0}) >>> {pause - 4'd2, 1'b0};
   wire [10:0] part_35 = p1_u[14:4];
   wire [10:0] part_36 = p0_u[14:4];
   wire [10:0] part_37 = p0_u[14:4];
-  wire [31:0] choice_24 = (round_stepped == 2'd2) ? {{21{part_35[10]}}, part_35}
+  wire [31:0] choice_22 = (round_stepped == 2'd2) ? {{21{part_35[10]}}, part_35}
                         : (round_stepped == 2'd1) ? {{21{part_36[10]}}, part_36}
                         : {{21{part_37[10]}}, part_37};
-  wire [32:0] joined_2 = {{{value0, 1'b1}, 11'd0}, 4'd8};
-  wire [32:0] joined_3 = {{{value0, 1'b1}, 11'd0}, 4'd8};
-  wire [32:0] joined_4 = {{{value0, 1'b1}, 11'd0}, 4'd8};
-  wire [32:0] joined_5 = {{{value0, 1'b1}, 11'd0}, 4'd8};
+  wire [32:0] joined_2 = {{{kept0, 1'b1}, 11'd0}, 4'd8};
+  wire [32:0] joined_3 = {{{kept0, 1'b1}, 11'd0}, 4'd8};
+  wire [32:0] joined_4 = {{{kept0, 1'b1}, 11'd0}, 4'd8};
+  wire [32:0] joined_5 = {{{kept0, 1'b1}, 11'd0}, 4'd8};
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_22 || choice_23), choice_23, choice_22}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_20 || choice_21), choice_21, choice_20}
 : read_single_at),
     .step          (step_formed0),
     .number        (number0),
     .digits        (shifted_5[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? choice_24
+    .whole_in      ((at_stepped == COLUMNS) ? choice_22
 : (round_stepped == 2'd3) ? joined_2[31:0]
 : (round_stepped == 2'd2) ? joined_3[31:0]
 : (round_stepped == 2'd1) ? joined_4[31:0]
 : joined_5[31:0]),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_formed == LOAD1) ? scaled
-: (round_formed == 2'd2) ? ~{13'd0, {dv12, 4'd0}}
-: (round_formed == 2'd1) ? ~{13'd0, {dv01, 4'd0}}
+    .modulus_in    ((at_next == LOAD1) ? scaled
+: (round_next == 2'd2) ? ~{13'd0, {dv12, 4'd0}}
+: (round_next == 2'd1) ? ~{13'd0, {dv01, 4'd0}}
 : ~{13'd0, {dv02, 4'd0}}),
-    .modulus_short (!((at_formed == LOAD1) && area[31])),
+    .modulus_short (!((at_next == LOAD1) && area[31])),
     .upwards       (at_rest == COLUMNS),
     .unfit         (lane0_unfit),
     .rest_out      (lane0_rest_out),
@@ -796,18 +847,18 @@ module edgewalk_setup (
   end
 
   // Edge: minor1.
-  wire both_8 = (|prim_n1) && (|dv01[14:4]);
+  wire both_6 = (|prim_n1) && (|dv01[14:4]);
   wire [26:0] part_39 = lane0_rest_out[30:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd1)) begin
-      prim_minor1_f <= both_8 ? part_39[14:0] : 15'd0;
+      prim_minor1_f <= both_6 ? part_39[14:0] : 15'd0;
     end
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd1)) begin
-      prim_minor1_q <= both_8 ? lane0_whole_out[11:0] : 12'd0;
+      prim_minor1_q <= both_6 ? lane0_whole_out[11:0] : 12'd0;
     end
   end
 
@@ -826,18 +877,18 @@ module edgewalk_setup (
   end
 
   // Edge: minor2.
-  wire both_9 = (|prim_n2) && (|dv12[14:4]);
+  wire both_7 = (|prim_n2) && (|dv12[14:4]);
   wire [26:0] part_40 = lane0_rest_out[30:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd2)) begin
-      prim_minor2_f <= both_9 ? part_40[14:0] : 15'd0;
+      prim_minor2_f <= both_7 ? part_40[14:0] : 15'd0;
     end
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd2)) begin
-      prim_minor2_q <= both_9 ? lane0_whole_out[11:0] : 12'd0;
+      prim_minor2_q <= both_7 ? lane0_whole_out[11:0] : 12'd0;
     end
   end
 
@@ -948,9 +999,9 @@ module edgewalk_setup (
   // Not needed, on purpose.
   wire unused = &{
     1'b0, ends_fixed, less_m[0], lane0_value[31:28], difference[15], difference_2[15], difference_3[15],
-    part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1], shifted_2[14:1], part_14[30:0],
-    difference_4[11:10], difference_5[11:10], differing[16], differing_2[16], part_24[0], part_27[0],
-    part_31[0], part_34[0], shifted_3[16:1], shifted_4[16:1], shifted_5[17:2], joined_5[32],
+    difference_4[15], part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1], shifted_2[14:1],
+    part_14[30:0], difference_5[11:10], difference_6[11:10], differing[16], differing_2[16], part_24[0],
+    part_27[0], part_31[0], part_34[0], shifted_3[16:1], shifted_4[16:1], shifted_5[17:2], joined_5[32],
     joined_4[32], joined_3[32], joined_2[32], part_38[26:15], difference_8[3:0], part_39[26:15],
     difference_9[3:0], part_40[26:15], difference_10[3:0]
   };

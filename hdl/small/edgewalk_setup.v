@@ -125,7 +125,8 @@ module edgewalk_setup (
 
   // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
   reg [3:0] pause;                                   // clocks left of it
-  wire advance = pause == 4'd0;
+  reg paused;                                        // it is not over
+  wire advance = !paused;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
   wire in_edges = state == EDGES;
@@ -260,6 +261,15 @@ module edgewalk_setup (
     end
   end
 
+  always @(posedge clk) begin
+    if (rst) begin
+      paused <= 1'b0;
+    end else begin
+      if (resumes) paused <= 1'b0;
+      if (advance && unfit) paused <= 1'b1;
+    end
+  end
+
   // The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.
   wire y1_above_y0 = $signed(tri_y1) < $signed(tri_y0);
   wire y2_above_y0 = $signed(tri_y2) < $signed(tri_y0);
@@ -325,15 +335,29 @@ module edgewalk_setup (
     end
   end
 
-  // Differences of the sorted vertices.
+  // Differences of the sorted vertices, from upper to lower ends of edges.
   wire [13:0] difference = {p2_v[12], p2_v} - {p0_v[12], p0_v};
-  wire [12:0] dv02 = difference[12:0];    // 1/P line
-  wire [13:0] difference_2 = {p1_v[12], p1_v} - {p0_v[12], p0_v};
-  wire [12:0] dv01 = difference_2[12:0];  // 1/P line
-  wire [13:0] difference_3 = {p2_v[12], p2_v} - {p1_v[12], p1_v};
-  wire [12:0] dv12 = difference_3[12:0];  // 1/P line
-  wire [13:0] du01 = {p1_u[12], p1_u} - {p0_u[12], p0_u};  // 1/P column, signed
-  wire [13:0] du02 = {p2_u[12], p2_u} - {p0_u[12], p0_u};  // 1/P column, signed
+  wire [12:0] tall = difference[12:0];
+  reg [12:0] dv02;  // 1/P line
+  reg [12:0] dv01;  // 1/P line
+  reg [12:0] dv12;  // 1/P line
+  reg [13:0] du02;  // 1/P column, signed
+  reg [13:0] du01;  // 1/P column, signed
+  reg [13:0] du12;  // 1/P column, signed
+  wire [13:0] difference_2 = {p2_v[12], p2_v} - {p0_v[12], p0_v};
+  wire [13:0] difference_3 = {p1_v[12], p1_v} - {p0_v[12], p0_v};
+  wire [13:0] difference_4 = {p2_v[12], p2_v} - {p1_v[12], p1_v};
+
+  always @(posedge clk) begin
+    if (begins) begin
+      dv02 <= difference_2[12:0];
+      dv01 <= difference_3[12:0];
+      dv12 <= difference_4[12:0];
+      du02 <= {p2_u[12], p2_u} - {p0_u[12], p0_u};
+      du01 <= {p1_u[12], p1_u} - {p0_u[12], p0_u};
+      du12 <= {p2_u[12], p2_u} - {p1_u[12], p1_u};
+    end
+  end
 
   // Twice the area: du1 dv2 - du2 dv1, over the bits of dv2 and dv1.
   reg [3:0] area_digit;  // place of the digits added
@@ -344,14 +368,14 @@ module edgewalk_setup (
                         - (shifted_2[0] ? {du02[13], du02} : 15'd0);
   reg [27:0] area;       // 1/P^2 px^2, signed
   assign no_area = !(|area);
-  wire any = |dv02[12:8];
-  wire [4:0] part = dv02[12:8];
+  wire any = |tall[12:8];
+  wire [4:0] part = tall[12:8];
   wire any_2 = part[4];
   wire [3:0] part_3 = part[3:0];
   wire [1:0] part_2 = part_3[3:2];
   wire any_3 = |part_2;
   wire [1:0] part_4 = part_3[1:0];
-  wire [7:0] part_6 = dv02[7:0];
+  wire [7:0] part_6 = tall[7:0];
   wire [3:0] part_5 = part_6[7:4];
   wire any_4 = |part_5;
   wire [1:0] part_7 = part_5[3:2];
@@ -401,7 +425,7 @@ module edgewalk_setup (
   assign area_known = !area_adds && !begins && !scale_taken && !scaling;
   reg [3:0] scale_now;     // of the round
   assign scale = scale_now;
-  wire either = (area_adds && equal) || ((at_formed == FIX2) && !(round_formed == 2'd3));
+  wire either = (area_adds && equal) || ((at_next == FIX2) && !(round_next == 2'd3));
 
   always @(posedge clk) begin
     if (rst) begin
@@ -436,21 +460,37 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (at_formed == LOAD1) scale_now <= scale_next;
+    if (at_next == LOAD1) scale_now <= scale_next;
   end
 
   // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
   wire [8:0] part_13 = p0_v[12:4];
   wire [9:0] line0 = {part_13[8], part_13} + {9'd0, |p0_v[3:0]};  // ceil(v/P)
-  wire [9:0] j0_next = ($signed(line0) < 10'sd0) ? 10'd0 : line0;
-  wire [8:0] part_14 = p2_v[12:4];
-  wire [9:0] line2 = {part_14[8], part_14} + {9'd0, |p2_v[3:0]};  // ceil(v/P)
-  wire [9:0] choice_7 = ($signed(line2) < 10'sd160) ? line2 : 10'd160;
-  wire [9:0] end_line = ($signed(choice_7) < $signed(j0_next)) ? j0_next : choice_7;
-  wire [8:0] part_15 = p1_v[12:4];
-  wire [9:0] line1 = {part_15[8], part_15} + {9'd0, |p1_v[3:0]};  // ceil(v/P)
-  wire [9:0] choice_8 = ($signed(line1) < $signed(j0_next)) ? j0_next : line1;
-  wire [9:0] j1_next = ($signed(choice_8) < $signed(end_line)) ? choice_8 : end_line;
+  reg [9:0] j0;        // line of the screen
+  wire [8:0] part_14 = p1_v[12:4];
+  wire [9:0] line1 = {part_14[8], part_14} + {9'd0, |p1_v[3:0]};  // ceil(v/P)
+  reg [9:0] j1;        // line of the screen
+  wire [8:0] part_15 = p2_v[12:4];
+  wire [9:0] line2 = {part_15[8], part_15} + {9'd0, |p2_v[3:0]};  // ceil(v/P)
+  reg [9:0] end_line;  // line of the screen
+
+  always @(posedge clk) begin
+    if (begins) begin
+      j0 <= p0_v[12] ? 10'd0 : ($signed(p0_v) <= 13'sd2544) ? line0 : 10'd160;
+      j1 <= p1_v[12] ? 10'd0 : ($signed(p1_v) <= 13'sd2544) ? line1 : 10'd160;
+      end_line <= p2_v[12] ? 10'd0 : ($signed(p2_v) <= 13'sd2544) ? line2 : 10'd160;
+    end
+  end
+
+  wire [9:0] difference_5 = j1 - j0;
+  wire [9:0] difference_6 = end_line - j1;
+
+  always @(posedge clk) begin
+    if (at == FIX_DX) begin
+      prim_n1 <= difference_5[8:0];
+      prim_n2 <= difference_6[8:0];
+    end
+  end
 
   // Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.
   wire [8:0] part_16 = p0_u[12:4];
@@ -464,25 +504,15 @@ module edgewalk_setup (
   wire behind_screen = !($signed(p0_u) <= 13'sd3824)  // ceil(u/P) is W or more
                     && !($signed(p1_u) <= 13'sd3824)
                     && !($signed(p2_u) <= 13'sd3824);
-  reg [9:0] j0;                                    // line, signed
-  reg [9:0] j1;                                    // line, signed
-  wire upper = |prim_n1;
   reg no_column;                                   // no column of the screen
-  assign nothing = (!upper && !(|prim_n2)) || no_column;
+  assign nothing = (j0 == end_line) || no_column;
+  wire upper = |prim_n1;
   wire [9:0] jm = upper ? j0 : j1;                 // first line of the triangle
   wire [13:0] h0 = {jm, 4'd0} - {p0_v[12], p0_v};  // 1/P line
   wire [13:0] h1 = {j1, 4'd0} - {p1_v[12], p1_v};  // 1/P line
-  wire [9:0] difference_4 = j1_next - j0_next;
-  wire [9:0] difference_5 = end_line - j1_next;
 
   always @(posedge clk) begin
-    if (begins) begin
-      prim_n1 <= difference_4[8:0];
-      prim_n2 <= difference_5[8:0];
-      j0 <= j0_next;
-      j1 <= j1_next;
-      no_column <= none_between || before_screen || behind_screen;
-    end
+    if (begins) no_column <= none_between || before_screen || behind_screen;
   end
 
   // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
@@ -499,7 +529,7 @@ module edgewalk_setup (
   wire [1:0] part_21 = part_22[3:2];
   wire any_9 = |part_21;
   wire [1:0] part_23 = part_22[1:0];
-  wire [1:0] choice_9 = any_8 ? {1'b0, part_19[1]} : {any_9, any_9 ? part_21[1] : part_23[1]};
+  wire [1:0] choice_7 = any_8 ? {1'b0, part_19[1]} : {any_9, any_9 ? part_21[1] : part_23[1]};
   wire [7:0] part_25 = digits[7:0];
   wire [3:0] part_24 = part_25[7:4];
   wire any_10 = |part_24;
@@ -510,9 +540,9 @@ module edgewalk_setup (
   wire [1:0] part_28 = part_29[3:2];
   wire any_12 = |part_28;
   wire [1:0] part_30 = part_29[1:0];
-  wire [1:0] choice_10 = any_10 ? {any_11, any_11 ? part_26[1] : part_27[1]}
-                       : {any_12, any_12 ? part_28[1] : part_30[1]};
-  assign top_digit = {1'b0, {any_7, any_7 ? {any_8, choice_9} : {any_10, choice_10}}};
+  wire [1:0] choice_8 = any_10 ? {any_11, any_11 ? part_26[1] : part_27[1]}
+                      : {any_12, any_12 ? part_28[1] : part_30[1]};
+  assign top_digit = {1'b0, {any_7, any_7 ? {any_8, choice_7} : {any_10, choice_8}}};
   wire [14:0] shifted_3 = f >> left;
   wire digit_f = shifted_3[0];
   wire [14:0] shifted_4 = g >> left;
@@ -553,18 +583,17 @@ module edgewalk_setup (
                || (at == ADD_Y)
                || (at == ADD_LINE);
   wire either_3 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
-  wire [3:0] step = rests ? 4'd0
-                  : ((at == SUM) || (at == SUM_X)) ? (first ? 4'd5 : 4'd6)
-                  : ((at == COLUMNS) || (at == ADD_START)) ? 4'd9
-                  : either_2 ? 4'd8
-                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 4'd7
-                  : ((at == SUM_Y) || (at == SUM_LINE) || (at == SUM_START)) ? 4'd6
-                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_Y)) ? 4'd4
-                  : ((at == FIX_DX) || (at == FIX1) || (at == FIX2)) ? 4'd2
-                  : either_3 ? 4'd1
-                  : 4'd0;
-  reg began;       // numbers were found not to fit in the clock before
-  reg began_then;  // and in the one before
+  wire [4:0] step = rests ? 5'd0
+                  : ((at == SUM) || (at == SUM_X)) ? (first ? 5'd17 : 5'd18)
+                  : ((at == COLUMNS) || (at == ADD_START)) ? 5'd20
+                  : either_2 ? 5'd16
+                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 5'd19
+                  : ((at == SUM_Y) || (at == SUM_LINE) || (at == SUM_START)) ? 5'd18
+                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_Y)) ? 5'd8
+                  : ((at == FIX_DX) || (at == FIX1) || (at == FIX2)) ? 5'd4
+                  : either_3 ? 5'd1
+                  : 5'd0;
+  reg began;  // numbers were found not to fit in the clock before
   wire is_sum = (at == SUM)
              || (at == SUM_X)
              || (at == SUM_Y)
@@ -597,161 +626,183 @@ module edgewalk_setup (
                       : ((at_stepped == FIX_DX) || (at_stepped == FIX2)) ? 3'd2
                       : ((at_stepped == LOAD_DY) || (at_stepped == FIX1)) ? 3'd1
                       : 3'd0;
-  wire take_modulus = (at_formed == LOAD_DX) || (at_formed == LOAD1);
+  wire take_modulus = (at_next == LOAD_DX) || (at_next == LOAD1);
 
   always @(posedge clk) begin
     began <= advance;
-    began_then <= began;
   end
 
   // Lane 0: its steps.
-  wire [3:0] choice_11 = (round == 2'd3) ? 4'd4
-                       : (round == 2'd2) ? 4'd4
-                       : (round == 2'd1) ? 4'd4
-                       : 4'd4;
-  wire [3:0] choice_12 = (round == 2'd3) ? 4'd4
-                       : (round == 2'd2) ? 4'd4
-                       : (round == 2'd1) ? 4'd4
-                       : 4'd4;
-  wire [3:0] step0 = ((at == DOUBLE_Y) && !rests) ? choice_11
-                   : ((at == DOUBLE_X) && !rests) ? choice_12
-                   : ((at == DOUBLE_DX) && !rests) ? 4'd4
+  wire [4:0] choice_9 = (round == 2'd3) ? 5'd8
+                      : (round == 2'd2) ? 5'd8
+                      : (round == 2'd1) ? 5'd8
+                      : 5'd8;
+  wire [4:0] choice_10 = (round == 2'd3) ? 5'd8
+                       : (round == 2'd2) ? 5'd8
+                       : (round == 2'd1) ? 5'd8
+                       : 5'd8;
+  wire [4:0] step0 = ((at == DOUBLE_Y) && !rests) ? choice_9
+                   : ((at == DOUBLE_X) && !rests) ? choice_10
+                   : ((at == DOUBLE_DX) && !rests) ? 5'd8
                    : step;
-  reg [3:0] step_next0;
-  reg [3:0] step_again0;
-  wire [3:0] step_formed0 = advance ? step_next0
-                          : (pause == 4'd1) ? step_again0
-                          : began ? 4'd10
-                          : began_then ? 4'd11
-                          : 4'd12;
+  reg [4:0] step_next0;
+  reg [4:0] step_again0;
+  reg [4:0] step_of_pause0;
+  wire [4:0] step_formed0 = advance ? step_next0 : step_of_pause0;
 
   always @(posedge clk) begin
     if (rst) begin
-      step_next0 <= 4'd0;
+      step_next0 <= 5'd0;
     end else if (advance) begin
       step_next0 <= step0;
     end
   end
 
   always @(posedge clk) begin
+    step_of_pause0 <= (pause == 4'd2) ? step_again0 : advance ? 5'd5 : began ? 5'd2 : 5'd9;
+  end
+
+  always @(posedge clk) begin
     if (advance) step_again0 <= step_formed0;
   end
 
-  // The vertices whose values the lanes are shown.
-  wire either_5 = (at_formed == FIX_DX) || (at_formed == LOAD2) || (at_formed == FIX2);
-  wire both_5 = either_5 && !begins;
-  wire both_6 = area[27] && ((at_formed == LOAD1) || (at_formed == LOAD2)) && !begins;
-  wire [1:0] from_vertex = both_5 ? (both_6 ? p0_vertex : p2_vertex) : both_6 ? p1_vertex : p0_vertex;
-  wire both_7 = (at_formed == ADD_START) && !begins;
-  wire [1:0] to_vertex = both_7 ? (1'b0 ? p1_vertex : p0_vertex)
-                       : both_5 ? (both_6 ? p2_vertex : p0_vertex)
-                       : both_6 ? p0_vertex
-                       : p1_vertex;
-  wire single_value = both_7;
-  wire either_6 = (at_formed == FIX1) || (at_formed == FIX2);
-  wire either_7 = (at_formed == FIX_DX) || begins;
-  wire values_of_round1 = (either_6 ? round_formed == 2'd0 : round_formed == 2'd1) && !either_7;
-  wire values_of_round2 = (either_6 ? round_formed == 2'd1 : round_formed == 2'd2) && !either_7;
-  wire values_of_round3 = (either_6 ? round_formed == 2'd2 : round_formed == 2'd3) && !either_7;
+  // What the lanes are shown in the next clock; in the first of a triangle dc1 of the first round.
+  reg [1:0] from_place;
+  wire [1:0] from_vertex = from_place[1] ? p2_vertex : from_place[0] ? p1_vertex : p0_vertex;
+  reg [1:0] to_place;
+  wire [1:0] to_vertex = to_place[1] ? p2_vertex : to_place[0] ? p1_vertex : p0_vertex;
+  reg single_value;
+  reg values_of_round1;
+  reg values_of_round2;
+  reg values_of_round3;
+  reg number_of_edge;
+  reg number_is_height;
+  wire either_5 = (at == FIX_DX) || (at == LOAD2) || (at == FIX2);
+  wire both_5 = area[27] && ((at == LOAD1) || (at == LOAD2));
+  wire equal_2 = at == ADD_START;
+  wire either_6 = (at == FIX1) || (at == FIX2);
+  wire equal_3 = at == FIX_DX;
+
+  always @(posedge clk) begin
+    if (advance) begin
+      from_place <= either_5 ? (both_5 ? 2'd0 : 2'd2) : both_5 ? 2'd1 : 2'd0;
+      to_place <= equal_2 ? (1'b0 ? 2'd1 : 2'd0)
+                : either_5 ? (both_5 ? 2'd2 : 2'd0)
+                : both_5 ? 2'd0
+                : 2'd1;
+      single_value <= equal_2;
+      values_of_round1 <= (either_6 ? round == 2'd0 : round == 2'd1) && !equal_3;
+      values_of_round2 <= (either_6 ? round == 2'd1 : round == 2'd2) && !equal_3;
+      values_of_round3 <= (either_6 ? round == 2'd2 : round == 2'd3) && !equal_3;
+      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
+      number_is_height <= at == LOAD_DY;
+    end
+    if (take) begin
+      from_place <= 2'd0;
+      to_place <= 2'd1;
+      single_value <= 1'b0;
+      values_of_round1 <= 1'b0;
+      values_of_round2 <= 1'b0;
+      values_of_round3 <= 1'b0;
+      number_of_edge <= 1'b0;
+      number_is_height <= 1'b0;
+    end
+  end
 
   // Lane 0: what it takes in.
-  wire either_8 = (at_formed == LOAD_DX)
-               || (at_formed == LOAD_DY)
-               || ((at_formed == FIX_DX) && !advance);
   wire [13:0] extended_2 = {1'b0, dv12};
   wire [13:0] extended_3 = {1'b0, dv01};
   wire [13:0] extended_4 = {1'b0, dv02};
-  wire [16:0] choice_13 = (round_formed == 2'd2) ? {{3{extended_2[13]}}, extended_2}
-                        : (round_formed == 2'd1) ? {{3{extended_3[13]}}, extended_3}
+  wire [16:0] choice_11 = (round_next == 2'd2) ? {{3{extended_2[13]}}, extended_2}
+                        : (round_next == 2'd1) ? {{3{extended_3[13]}}, extended_3}
                         : {{3{extended_4[13]}}, extended_4};
-  wire [13:0] difference_6 = {p2_u[12], p2_u} - {p1_u[12], p1_u};
-  wire [16:0] choice_14 = (at_formed == LOAD_DY) ? choice_13
-                        : (round_formed == 2'd2) ? {{3{difference_6[13]}}, difference_6}
-                        : (round_formed == 2'd1) ? {{3{du01[13]}}, du01}
+  wire [16:0] choice_12 = number_is_height ? choice_11
+                        : (round_next == 2'd2) ? {{3{du12[13]}}, du12}
+                        : (round_next == 2'd1) ? {{3{du01[13]}}, du01}
                         : {{3{du02[13]}}, du02};
-  wire [16:0] choice_15 = values_of_round3 ? {12'd0, vertex2_b}
+  wire [16:0] choice_13 = values_of_round3 ? {12'd0, vertex2_b}
                         : values_of_round2 ? {12'd0, vertex2_g}
                         : values_of_round1 ? {12'd0, vertex2_r}
                         : {1'b0, vertex2_z};
-  wire [16:0] choice_16 = values_of_round3 ? {12'd0, vertex1_b}
+  wire [16:0] choice_14 = values_of_round3 ? {12'd0, vertex1_b}
                         : values_of_round2 ? {12'd0, vertex1_g}
                         : values_of_round1 ? {12'd0, vertex1_r}
                         : {1'b0, vertex1_z};
-  wire [16:0] choice_17 = values_of_round3 ? {12'd0, vertex0_b}
+  wire [16:0] choice_15 = values_of_round3 ? {12'd0, vertex0_b}
                         : values_of_round2 ? {12'd0, vertex0_g}
                         : values_of_round1 ? {12'd0, vertex0_r}
                         : {1'b0, vertex0_z};
-  wire [16:0] choice_18 = values_of_round3 ? 17'd0
+  wire [16:0] choice_16 = values_of_round3 ? 17'd0
                         : values_of_round2 ? 17'd0
                         : values_of_round1 ? 17'd0
                         : 17'd0;
-  wire [16:0] choice_19 = single_value ? choice_18
-                        : from_vertex[1] ? choice_15
-                        : from_vertex[0] ? choice_16
-                        : choice_17;
-  wire [16:0] difference_7 = (to_vertex[1] ? choice_15 : to_vertex[0] ? choice_16 : choice_17)
-                           - choice_19;
-  wire [16:0] number0 = (either_8 && !begins) ? choice_14 : difference_7;  // signed
-  reg [16:0] value0;  // first value, signed
+  wire [16:0] choice_17 = single_value ? choice_16
+                        : from_vertex[1] ? choice_13
+                        : from_vertex[0] ? choice_14
+                        : choice_15;
+  wire [16:0] difference_7 = (to_vertex[1] ? choice_13 : to_vertex[0] ? choice_14 : choice_15)
+                           - choice_17;
+  wire [16:0] number0 = number_of_edge ? choice_12 : difference_7;  // signed
+  reg [16:0] kept0;  // a number that may not fit, or a first value; signed
   wire [15:0] shown = number0[15:0] ^ {16{number0[16]}};
   wire lane0_unfit;
-  wire choice_20 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
-  wire choice_21 = (round_stepped == 2'd3) ? 1'b1
+  wire choice_18 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
+  wire choice_19 = (round_stepped == 2'd3) ? 1'b1
                  : (round_stepped == 2'd2) ? 1'b1
                  : (round_stepped == 2'd1) ? 1'b1
                  : 1'b1;
-  wire either_9 = ((at_stepped == FIX_DX) && choice_20) || ((1'b0 || 1'b0) && choice_21);
-  assign unfit = lane0_unfit && either_9;
+  wire either_7 = ((at_stepped == FIX_DX) && choice_18) || ((1'b0 || 1'b0) && choice_19);
+  assign unfit = lane0_unfit && either_7;
 
   always @(posedge clk) begin
-    value0 <= number0;
+    if ((at_next == LOAD_DX) || (at_next == ADD_START)) kept0 <= number0;
   end
 
   always @(posedge clk) begin
-    if (((at_formed == FIX_DX) || (at_formed == FIX2)) && advance) differences <= differences | shown;
-    if (begins || (at_formed == FIX1)) differences <= shown;
+    if ((at_next == FIX_DX) || (at_next == FIX2)) differences <= differences | shown;
+    if (begins || (at_next == FIX1)) differences <= shown;
   end
 
   // Edge: major.
   wire [26:0] lane0_rest_out;
   wire [29:0] lane0_whole_out;
   wire [29:0] lane0_value;
-  wire choice_22 = is_sign ? f[14] : digit_f;
-  wire choice_23 = is_sign ? g[14] : digit_g;
-  wire [17:0] shifted_5 = $signed({number0[16], number0}) >>> {pause - 4'd2, 1'b0};
+  wire choice_20 = is_sign ? f[14] : digit_f;
+  wire choice_21 = is_sign ? g[14] : digit_g;
+  wire [17:0] shifted_5 = $signed({kept0[16], kept0}) >>> {pause - 4'd2, 1'b0};
   wire [8:0] part_31 = p1_u[12:4];
   wire [8:0] part_32 = p0_u[12:4];
   wire [8:0] part_33 = p0_u[12:4];
-  wire [29:0] choice_24 = (round_stepped == 2'd2) ? {{21{part_31[8]}}, part_31}
+  wire [29:0] choice_22 = (round_stepped == 2'd2) ? {{21{part_31[8]}}, part_31}
                         : (round_stepped == 2'd1) ? {{21{part_32[8]}}, part_32}
                         : {{21{part_33[8]}}, part_33};
-  wire [30:0] joined_2 = {{{value0, 1'b1}, 9'd0}, 4'd8};
-  wire [30:0] joined_3 = {{{value0, 1'b1}, 9'd0}, 4'd8};
-  wire [30:0] joined_4 = {{{value0, 1'b1}, 9'd0}, 4'd8};
-  wire [30:0] joined_5 = {{{value0, 1'b1}, 9'd0}, 4'd8};
+  wire [30:0] joined_2 = {{{kept0, 1'b1}, 9'd0}, 4'd8};
+  wire [30:0] joined_3 = {{{kept0, 1'b1}, 9'd0}, 4'd8};
+  wire [30:0] joined_4 = {{{kept0, 1'b1}, 9'd0}, 4'd8};
+  wire [30:0] joined_5 = {{{kept0, 1'b1}, 9'd0}, 4'd8};
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_22 || choice_23), choice_23, choice_22}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_20 || choice_21), choice_21, choice_20}
 : read_single_at),
     .step          (step_formed0),
     .number        (number0),
     .digits        (shifted_5[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? choice_24
+    .whole_in      ((at_stepped == COLUMNS) ? choice_22
 : (round_stepped == 2'd3) ? joined_2[29:0]
 : (round_stepped == 2'd2) ? joined_3[29:0]
 : (round_stepped == 2'd1) ? joined_4[29:0]
 : joined_5[29:0]),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_formed == LOAD1) ? scaled
-: (round_formed == 2'd2) ? ~{11'd0, {dv12, 4'd0}}
-: (round_formed == 2'd1) ? ~{11'd0, {dv01, 4'd0}}
+    .modulus_in    ((at_next == LOAD1) ? scaled
+: (round_next == 2'd2) ? ~{11'd0, {dv12, 4'd0}}
+: (round_next == 2'd1) ? ~{11'd0, {dv01, 4'd0}}
 : ~{11'd0, {dv02, 4'd0}}),
-    .modulus_short (!((at_formed == LOAD1) && area[27])),
+    .modulus_short (!((at_next == LOAD1) && area[27])),
     .upwards       (at_rest == COLUMNS),
     .unfit         (lane0_unfit),
     .rest_out      (lane0_rest_out),
@@ -789,18 +840,18 @@ module edgewalk_setup (
   end
 
   // Edge: minor1.
-  wire both_8 = (|prim_n1) && (|dv01[12:4]);
+  wire both_6 = (|prim_n1) && (|dv01[12:4]);
   wire [22:0] part_35 = lane0_rest_out[26:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd1)) begin
-      prim_minor1_f <= both_8 ? part_35[12:0] : 13'd0;
+      prim_minor1_f <= both_6 ? part_35[12:0] : 13'd0;
     end
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd1)) begin
-      prim_minor1_q <= both_8 ? lane0_whole_out[9:0] : 10'd0;
+      prim_minor1_q <= both_6 ? lane0_whole_out[9:0] : 10'd0;
     end
   end
 
@@ -819,18 +870,18 @@ module edgewalk_setup (
   end
 
   // Edge: minor2.
-  wire both_9 = (|prim_n2) && (|dv12[12:4]);
+  wire both_7 = (|prim_n2) && (|dv12[12:4]);
   wire [22:0] part_36 = lane0_rest_out[26:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd2)) begin
-      prim_minor2_f <= both_9 ? part_36[12:0] : 13'd0;
+      prim_minor2_f <= both_7 ? part_36[12:0] : 13'd0;
     end
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd2)) begin
-      prim_minor2_q <= both_9 ? lane0_whole_out[9:0] : 10'd0;
+      prim_minor2_q <= both_7 ? lane0_whole_out[9:0] : 10'd0;
     end
   end
 
@@ -941,11 +992,11 @@ module edgewalk_setup (
   // Not needed, on purpose.
   wire unused = &{
     1'b0, ends_fixed, less_m[0], lane0_value[29:26], difference[13], difference_2[13], difference_3[13],
-    part_4[0], part_8[0], part_11[0], shifted[12:1], shifted_2[12:1], part_12[26:0], difference_4[9],
-    difference_5[9], differing[14], differing_2[14], part_23[0], part_27[0], part_30[0],
-    shifted_3[14:1], shifted_4[14:1], shifted_5[17:2], joined_5[30], joined_4[30], joined_3[30],
-    joined_2[30], part_34[22:13], difference_8[3:0], part_35[22:13], difference_9[3:0], part_36[22:13],
-    difference_10[3:0]
+    difference_4[13], part_4[0], part_8[0], part_11[0], shifted[12:1], shifted_2[12:1], part_12[26:0],
+    difference_5[9], difference_6[9], differing[14], differing_2[14], part_23[0], part_27[0],
+    part_30[0], shifted_3[14:1], shifted_4[14:1], shifted_5[17:2], joined_5[30], joined_4[30],
+    joined_3[30], joined_2[30], part_34[22:13], difference_8[3:0], part_35[22:13], difference_9[3:0],
+    part_36[22:13], difference_10[3:0]
   };
 
 endmodule

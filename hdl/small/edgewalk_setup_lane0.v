@@ -17,7 +17,7 @@ module edgewalk_setup_lane0 (
 
   input  wire        advance,        // the steps go on; 0: what was read stays
   input  wire  [2:0] read_at,        // slot of the addend, two clocks before its step
-  input  wire  [3:0] step,           // a clock before it is done
+  input  wire  [4:0] step,           // a clock before it is done
   input  wire [16:0] number,         // to take in, signed; with its step
   input  wire  [1:0] digits,         // of the number, with their step
   input  wire        write,          // the result of the step goes to a slot
@@ -70,12 +70,11 @@ module edgewalk_setup_lane0 (
   reg [28:0] n1;                           // a - M, signed
   reg [29:0] n2;                           // a - 2 M, signed
   reg below;                               // the number taken in is below 0
-  wire is_fix = step == 4'd2;
-  wire with_sign = step == 4'd7;
-  wire add_modulus = (is_fix && n0[27]) || ((step == 4'd10) && below);
-  wire take_modulus_off = (step == 4'd4) || (step == 4'd12);
-  wire negate = add_modulus || with_sign || ((step == 4'd11) && below);
-  wire of_slot = (step == 4'd8) || (step == 4'd5) || (step == 4'd6) || (step == 4'd7);
+  wire add_modulus = step[2] && ((step[0] && below) || (!step[0] && n0[27]));
+  wire take_modulus_off = step[3];
+  wire of_slot = step[4];
+  wire with_sign = of_slot && step[1] && step[0];
+  wire negate = add_modulus || with_sign || ((step == 5'd2) && below);
   wire of_modulus = add_modulus || take_modulus_off;
   wire [27:0] a = of_modulus ? modulus : of_slot ? {1'b0, rests_q} : 28'd0;  // addend, 1/M, or -M
   wire [29:0] a_less_m = {{a[27], a}, 1'b1} + {{modulus[27], modulus}, short};  // and a carry out of the lowest bit
@@ -84,32 +83,25 @@ module edgewalk_setup_lane0 (
   wire [30:0] a_less_2m = {{{2{a[27]}}, a}, 1'b1} + {{less_2m[28], less_2m}, short};  // and a carry out of the lowest bit
   reg carry0;                              // 1 to add to the sum of n0
   reg carry;                               // 1 to add to the other sums
-  reg [1:0] digits_now;
   wire [28:0] differing = to_negate ^ {29{negate}};
 
   always @(posedge clk) begin
-    n0 <= (step == 4'd1) ? {{11{number[16]}}, number} : differing[27:0];
+    n0 <= (step == 5'd1) ? {{11{number[16]}}, number} : differing[27:0];
     n1 <= a_less_m[29:1];
     n2 <= a_less_2m[30:1];
     carry0 <= with_sign || (add_modulus && !short) || (take_modulus_off && short);
     carry <= take_modulus_off && short;
-    digits_now <= digits;
   end
 
   // The step: x and the addend, less M as often as it goes.
-  reg [3:0] now;                                   // the step done
-  wire fourfold = (now == 4'd4) || (now == 4'd12);
-  wire twofold = (now == 4'd3) || (now == 4'd6);
-  wire from_zero = (now == 4'd1) || (now == 4'd5) || (now == 4'd7) || (now == 4'd10);
-  wire either = (now == 4'd3)
-             || (now == 4'd4)
-             || (now == 4'd12)
-             || (now == 4'd5)
-             || (now == 4'd6)
-             || (now == 4'd8);
-  wire as_it_is = !either;                         // nothing is taken off
+  reg [4:0] now;                                   // the step done
+  reg fourfold;
+  reg twofold;
+  reg from_zero;
+  reg compared;                                    // M is taken off if it goes
+  reg [1:0] digits_now;
   wire [29:0] extended = {{2{rest[27]}}, rest};
-  wire [29:0] x = fourfold ? {extended[27:0], (now == 4'd12) ? digits_now : 2'd0}
+  wire [29:0] x = fourfold ? {extended[27:0], digits_now}
                 : twofold ? extended << 1
                 : from_zero ? 30'd0
                 : extended;
@@ -120,19 +112,32 @@ module edgewalk_setup_lane0 (
   wire [30:0] x_and_n2 = {x, 1'b1} + {n2, carry};  // and a carry out of the lowest bit
   wire [29:0] s2 = x_and_n2[30:1];
   wire fits0 = !s0[29];
-  wire fits1 = !s1[29] && !as_it_is;
-  wire fits2 = !s2[29] && !as_it_is;
+  wire fits1 = !s1[29] && compared;
+  wire fits2 = !s2[29] && compared;
   wire stays = fourfold && !fits0;
   wire [29:0] choice = fits2 ? s2 : fits1 ? s1 : stays ? x : s0;
   assign rest_next = choice[27:0];
-  wire rest_stays = (now == 4'd0) || (now == 4'd9);
+  wire rest_stays = (now == 5'd0) || (now == 5'd20);
 
   always @(posedge clk) begin
     if (rst) begin
-      now <= 4'd0;
+      now <= 5'd0;
     end else begin
       now <= step;
     end
+  end
+
+  always @(posedge clk) begin
+    fourfold <= (step == 5'd8) || (step == 5'd9);
+    twofold <= (step == 5'd3) || (step == 5'd18);
+    from_zero <= (step == 5'd1) || (step == 5'd17) || (step == 5'd19) || (step == 5'd5);
+    compared <= (step == 5'd3)
+             || (step == 5'd8)
+             || (step == 5'd9)
+             || (step == 5'd17)
+             || (step == 5'd18)
+             || (step == 5'd16);
+    digits_now <= (step == 5'd9) ? digits : 2'd0;
   end
 
   always @(posedge clk) begin
@@ -140,7 +145,7 @@ module edgewalk_setup_lane0 (
   end
 
   always @(posedge clk) begin
-    if ((now == 4'd1) && advance) below <= n0[27];
+    if ((now == 5'd1) && advance) below <= n0[27];
   end
 
   // The whole part, a clock behind.
@@ -172,7 +177,7 @@ module edgewalk_setup_lane0 (
   wire twice_or_more = fourfold ? fits1 : fits2;
   wire once_or_thrice = fourfold ? (fits0 && !fits1) || fits2 : fits1 && !fits2;
   reg [1:0] taken;                                   // how often M was taken off
-  reg [3:0] then;                                    // the step before
+  reg [4:0] then;                                    // the step before
   reg was_fourfold;
   reg was_twofold;
   reg was_from_zero;
@@ -183,7 +188,7 @@ module edgewalk_setup_lane0 (
   wire one = !was_fourfold && (|taken);
   wire [30:0] x_and_b = {whole_x, 1'b1} + {b, one};  // and a carry out of the lowest bit
   assign whole_next = x_and_b[30:1];
-  wire whole_stays = (then == 4'd0) || (then == 4'd11);
+  wire whole_stays = (then == 5'd0) || (then == 5'd2);
 
   always @(posedge clk) begin
     if (advance) read_whole_at <= read_at;
@@ -196,7 +201,7 @@ module edgewalk_setup_lane0 (
     write_then_at <= write_at;
     negated <= negate;
     slot_now <= of_slot;
-    b <= (now == 4'd9) ? whole_in : slot_now ? wholes_q ^ extended_2 : extended_2;
+    b <= (now == 5'd20) ? whole_in : slot_now ? wholes_q ^ extended_2 : extended_2;
     taken <= {twice_or_more, once_or_thrice};
     then <= now;
     was_fourfold <= fourfold;
@@ -217,7 +222,7 @@ module edgewalk_setup_lane0 (
     up <= upwards ? |rest[26:0] : !part[28];
   end
 
-  assign unfit = (now == 4'd2) && (below ? s0[29] : !s1[29]);
+  assign unfit = (now == 5'd4) && (below ? s0[29] : !s1[29]);
   assign rest_out = rest[26:0];
   assign whole_out = whole;
   assign value = whole + {29'd0, up};

@@ -135,7 +135,8 @@ module edgewalk_setup (
 
   // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
   reg [3:0] pause;                                   // clocks left of it
-  wire advance = pause == 4'd0;
+  reg paused;                                        // it is not over
+  wire advance = !paused;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
   wire in_edges = state == EDGES;
@@ -291,6 +292,15 @@ module edgewalk_setup (
     end
   end
 
+  always @(posedge clk) begin
+    if (rst) begin
+      paused <= 1'b0;
+    end else begin
+      if (resumes) paused <= 1'b0;
+      if (advance && unfit) paused <= 1'b1;
+    end
+  end
+
   // The vertices sorted by line, in centre coordinates: pixel centres lie on the multiples of P.
   wire y1_above_y0 = $signed(tri_y1) < $signed(tri_y0);
   wire y2_above_y0 = $signed(tri_y2) < $signed(tri_y0);
@@ -356,15 +366,29 @@ module edgewalk_setup (
     end
   end
 
-  // Differences of the sorted vertices.
+  // Differences of the sorted vertices, from upper to lower ends of edges.
   wire [15:0] difference = {p2_v[14], p2_v} - {p0_v[14], p0_v};
-  wire [14:0] dv02 = difference[14:0];    // 1/P line
-  wire [15:0] difference_2 = {p1_v[14], p1_v} - {p0_v[14], p0_v};
-  wire [14:0] dv01 = difference_2[14:0];  // 1/P line
-  wire [15:0] difference_3 = {p2_v[14], p2_v} - {p1_v[14], p1_v};
-  wire [14:0] dv12 = difference_3[14:0];  // 1/P line
-  wire [15:0] du01 = {p1_u[14], p1_u} - {p0_u[14], p0_u};  // 1/P column, signed
-  wire [15:0] du02 = {p2_u[14], p2_u} - {p0_u[14], p0_u};  // 1/P column, signed
+  wire [14:0] tall = difference[14:0];
+  reg [14:0] dv02;  // 1/P line
+  reg [14:0] dv01;  // 1/P line
+  reg [14:0] dv12;  // 1/P line
+  reg [15:0] du02;  // 1/P column, signed
+  reg [15:0] du01;  // 1/P column, signed
+  reg [15:0] du12;  // 1/P column, signed
+  wire [15:0] difference_2 = {p2_v[14], p2_v} - {p0_v[14], p0_v};
+  wire [15:0] difference_3 = {p1_v[14], p1_v} - {p0_v[14], p0_v};
+  wire [15:0] difference_4 = {p2_v[14], p2_v} - {p1_v[14], p1_v};
+
+  always @(posedge clk) begin
+    if (begins) begin
+      dv02 <= difference_2[14:0];
+      dv01 <= difference_3[14:0];
+      dv12 <= difference_4[14:0];
+      du02 <= {p2_u[14], p2_u} - {p0_u[14], p0_u};
+      du01 <= {p1_u[14], p1_u} - {p0_u[14], p0_u};
+      du12 <= {p2_u[14], p2_u} - {p1_u[14], p1_u};
+    end
+  end
 
   // Twice the area: du1 dv2 - du2 dv1, over the bits of dv2 and dv1.
   reg [3:0] area_digit;  // place of the digits added
@@ -375,8 +399,8 @@ module edgewalk_setup (
                         - (shifted_2[0] ? {du02[15], du02} : 17'd0);
   reg [31:0] area;       // 1/P^2 px^2, signed
   assign no_area = !(|area);
-  wire any = |dv02[14:8];
-  wire [6:0] part_2 = dv02[14:8];
+  wire any = |tall[14:8];
+  wire [6:0] part_2 = tall[14:8];
   wire [2:0] part = part_2[6:4];
   wire any_2 = |part;
   wire any_3 = part[2];
@@ -387,7 +411,7 @@ module edgewalk_setup (
   wire [1:0] part_6 = part_5[1:0];
   wire [1:0] choice_8 = any_2 ? {any_3, any_3 ? 1'b0 : part_3[1]}
                       : {any_4, any_4 ? part_4[1] : part_6[1]};
-  wire [7:0] part_8 = dv02[7:0];
+  wire [7:0] part_8 = tall[7:0];
   wire [3:0] part_7 = part_8[7:4];
   wire any_5 = |part_7;
   wire [1:0] part_9 = part_7[3:2];
@@ -435,7 +459,7 @@ module edgewalk_setup (
   assign area_known = !area_adds && !begins && !scale_taken && !scaling;
   reg [3:0] scale_now;     // of the round
   assign scale = scale_now;
-  wire either = (area_adds && equal) || ((at_formed == FIX2) && !(round_formed == 2'd3));
+  wire either = (area_adds && equal) || ((at_next == FIX2) && !(round_next == 2'd3));
 
   always @(posedge clk) begin
     if (rst) begin
@@ -470,7 +494,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (at_formed == LOAD1) scale_now <= scale_next;
+    if (at_next == LOAD1) scale_now <= scale_next;
   end
 
   // Lines of each part: from Y of the upper to Y of the lower end, both drawn, on the screen.
@@ -479,14 +503,15 @@ module edgewalk_setup (
   wire [14:0] j0_next = ($signed(extended_2) < 15'sd0) ? 15'd0 : extended_2;
   wire [13:0] part_16 = p1_v[14:1];
   wire [14:0] extended_3 = {part_16[13], part_16};
-  wire [14:0] j1_next = ($signed(extended_3) < 15'sd0) ? 15'd0 : extended_3;
-  wire [13:0] part_17 = p1_v[14:1];
-  wire [14:0] extended_4 = {part_17[13], part_17};
-  wire [14:0] last0 = ($signed(extended_4) < 15'sd479) ? extended_4 : 15'd479;
-  wire [13:0] part_18 = p0_v[14:1];
-  wire [13:0] part_19 = p1_v[14:1];
-  wire less = $signed({part_18[13], part_18}) < $signed({part_19[13], part_19});
+  wire [14:0] last0 = ($signed(extended_3) < 15'sd479) ? extended_3 : 15'd479;
+  wire [13:0] part_17 = p0_v[14:1];
+  wire [13:0] part_18 = p1_v[14:1];
+  wire less = $signed({part_17[13], part_17}) < $signed({part_18[13], part_18});
   wire some0 = less && ($signed(j0_next) <= $signed(last0));
+  reg [14:0] j0;                                   // line, signed
+  wire [13:0] part_19 = p1_v[14:1];
+  wire [14:0] extended_4 = {part_19[13], part_19};
+  wire [14:0] j1_next = ($signed(extended_4) < 15'sd0) ? 15'd0 : extended_4;
   wire [13:0] part_20 = p2_v[14:1];
   wire [14:0] extended_5 = {part_20[13], part_20};
   wire [14:0] last1 = ($signed(extended_5) < 15'sd479) ? extended_5 : 15'd479;
@@ -494,10 +519,9 @@ module edgewalk_setup (
   wire [13:0] part_22 = p2_v[14:1];
   wire less_2 = $signed({part_21[13], part_21}) < $signed({part_22[13], part_22});
   wire some1 = less_2 && ($signed(j1_next) <= $signed(last1));
-  reg [14:0] j0;                                   // line, signed
   reg [14:0] j1;                                   // line, signed
+  assign nothing = !(|prim_n1) && !(|prim_n2);
   wire upper = |prim_n1;
-  assign nothing = !upper && !(|prim_n2);
   wire [14:0] jm = upper ? j0 : j1;                // first line of the triangle
   wire [15:0] h0 = {jm, 1'b0} - {p0_v[14], p0_v};  // 1/P line
   wire [15:0] h1 = {j1, 1'b0} - {p1_v[14], p1_v};  // 1/P line
@@ -509,8 +533,8 @@ module edgewalk_setup (
   always @(posedge clk) begin
     if (begins) begin
       prim_n1 <= choice_10[9:0];
-      prim_n2 <= choice_11[9:0];
       j0 <= j0_next;
+      prim_n2 <= choice_11[9:0];
       j1 <= j1_next;
     end
   end
@@ -590,9 +614,8 @@ module edgewalk_setup (
                || (at == LOAD2)
                || (at == LOAD_A)
                || (at == LOAD_B);
-  wire [3:0] step = rests ? 4'd0 : ((at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B)) ? (first ? 4'd5 : 4'd6) : ((at == COLUMNS) || (at == ADD_A) || (at == ADD_B)) ? 4'd9 : ((at == ADD_DX) || (at == ADD12)) ? 4'd8 : either_2 ? 4'd4 : either_3 ? 4'd2 : either_4 ? 4'd1 : 4'd0;
-  reg began;       // numbers were found not to fit in the clock before
-  reg began_then;  // and in the one before
+  wire [4:0] step = rests ? 5'd0 : ((at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B)) ? (first ? 5'd17 : 5'd18) : ((at == COLUMNS) || (at == ADD_A) || (at == ADD_B)) ? 5'd20 : ((at == ADD_DX) || (at == ADD12)) ? 5'd16 : either_2 ? 5'd8 : either_3 ? 5'd4 : either_4 ? 5'd1 : 5'd0;
+  reg began;  // numbers were found not to fit in the clock before
   wire is_sum = (at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B);
   wire is_sign = 1'b0;
   wire of_gradients = 1'b0;
@@ -616,106 +639,127 @@ module edgewalk_setup (
                       : ((at_stepped == FIX_DX) || (at_stepped == FIX2)) ? 3'd2
                       : either_6 ? 3'd1
                       : 3'd0;
-  wire take_modulus = (at_formed == LOAD_DX)
-                   || (at_formed == LOAD1)
-                   || (at_formed == LOAD_A)
-                   || (at_formed == LOAD_B);
+  wire take_modulus = (at_next == LOAD_DX)
+                   || (at_next == LOAD1)
+                   || (at_next == LOAD_A)
+                   || (at_next == LOAD_B);
 
   always @(posedge clk) begin
     began <= advance;
-    began_then <= began;
   end
 
   // Lane 0: its steps.
-  wire [3:0] choice_14 = (round == 2'd3) ? ((left == 5'd0) ? 4'd3 : 4'd4)
-                       : (round == 2'd2) ? ((left == 5'd0) ? 4'd3 : 4'd4)
-                       : (round == 2'd1) ? ((left == 5'd0) ? 4'd3 : 4'd4)
-                       : (left == 5'd0) ? 4'd3
-                       : 4'd4;
-  wire [3:0] choice_15 = (round == 2'd3) ? 4'd4
-                       : (round == 2'd2) ? 4'd4
-                       : (round == 2'd1) ? 4'd4
-                       : 4'd4;
-  wire [3:0] choice_16 = (round == 2'd3) ? ((left == 5'd0) ? 4'd3 : 4'd4)
-                       : (round == 2'd2) ? ((left == 5'd0) ? 4'd3 : 4'd4)
-                       : (round == 2'd1) ? ((left == 5'd0) ? 4'd3 : 4'd4)
-                       : (left == 5'd0) ? 4'd3
-                       : 4'd4;
-  wire [3:0] choice_17 = (round == 2'd3) ? 4'd4
-                       : (round == 2'd2) ? 4'd4
-                       : (round == 2'd1) ? 4'd4
-                       : 4'd4;
-  wire [3:0] choice_18 = (round == 2'd3) ? ((left == 5'd0) ? 4'd3 : 4'd4)
-                       : (round == 2'd2) ? ((left == 5'd0) ? 4'd3 : 4'd4)
-                       : (round == 2'd1) ? ((left == 5'd0) ? 4'd3 : 4'd4)
-                       : (left == 5'd0) ? 4'd3
-                       : 4'd4;
-  wire [3:0] step0 = ((at == DOUBLE_START_B) && !rests) ? choice_14
+  wire [4:0] choice_14 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                       : (round == 2'd2) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                       : (round == 2'd1) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                       : (left == 5'd0) ? 5'd3
+                       : 5'd8;
+  wire [4:0] choice_15 = (round == 2'd3) ? 5'd8
+                       : (round == 2'd2) ? 5'd8
+                       : (round == 2'd1) ? 5'd8
+                       : 5'd8;
+  wire [4:0] choice_16 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                       : (round == 2'd2) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                       : (round == 2'd1) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                       : (left == 5'd0) ? 5'd3
+                       : 5'd8;
+  wire [4:0] choice_17 = (round == 2'd3) ? 5'd8
+                       : (round == 2'd2) ? 5'd8
+                       : (round == 2'd1) ? 5'd8
+                       : 5'd8;
+  wire [4:0] choice_18 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                       : (round == 2'd2) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                       : (round == 2'd1) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                       : (left == 5'd0) ? 5'd3
+                       : 5'd8;
+  wire [4:0] step0 = ((at == DOUBLE_START_B) && !rests) ? choice_14
                    : ((at == DOUBLE_B) && !rests) ? choice_15
                    : ((at == DOUBLE_START_A) && !rests) ? choice_16
                    : ((at == DOUBLE_A) && !rests) ? choice_17
                    : ((at == DOUBLE_X) && !rests) ? choice_18
-                   : ((at == DOUBLE_COLUMNS) && !rests) ? 4'd4
-                   : ((at == DOUBLE_DX) && !rests) ? ((left == 5'd0) ? 4'd3 : 4'd4)
+                   : ((at == DOUBLE_COLUMNS) && !rests) ? 5'd8
+                   : ((at == DOUBLE_DX) && !rests) ? ((left == 5'd0) ? 5'd3 : 5'd8)
                    : step;
-  reg [3:0] step_next0;
-  reg [3:0] step_again0;
-  wire [3:0] step_formed0 = advance ? step_next0
-                          : (pause == 4'd1) ? step_again0
-                          : began ? 4'd10
-                          : began_then ? 4'd11
-                          : 4'd12;
+  reg [4:0] step_next0;
+  reg [4:0] step_again0;
+  reg [4:0] step_of_pause0;
+  wire [4:0] step_formed0 = advance ? step_next0 : step_of_pause0;
 
   always @(posedge clk) begin
     if (rst) begin
-      step_next0 <= 4'd0;
+      step_next0 <= 5'd0;
     end else if (advance) begin
       step_next0 <= step0;
     end
   end
 
   always @(posedge clk) begin
+    step_of_pause0 <= (pause == 4'd2) ? step_again0 : advance ? 5'd5 : began ? 5'd2 : 5'd9;
+  end
+
+  always @(posedge clk) begin
     if (advance) step_again0 <= step_formed0;
   end
 
-  // The vertices whose values the lanes are shown.
-  wire either_7 = (at_formed == LOAD_A) || (at_formed == FIX_A);
-  wire either_8 = (at_formed == LOAD_B) || (at_formed == FIX_B);
-  wire both_5 = (either_7 || either_8) && !begins;
-  wire either_9 = (at_formed == FIX_DX) || (at_formed == LOAD2) || (at_formed == FIX2);
-  wire both_6 = either_9 && !begins;
-  wire both_7 = area[31] && ((at_formed == LOAD1) || (at_formed == LOAD2)) && !begins;
-  wire [1:0] from_vertex = both_5 ? ((either_8 && area[31]) ? p1_vertex : p0_vertex)
-                         : both_6 ? (both_7 ? p0_vertex : p2_vertex)
-                         : both_7 ? p1_vertex
-                         : p0_vertex;
-  wire both_8 = ((at_formed == ADD_A) || (at_formed == ADD_B)) && !begins;
-  wire [1:0] to_vertex = both_5 ? ((either_7 && area[31]) ? p1_vertex : p2_vertex)
-                       : both_8 ? (((at_formed == ADD_B) && area[31]) ? p1_vertex : p0_vertex)
-                       : both_6 ? (both_7 ? p2_vertex : p0_vertex)
-                       : both_7 ? p0_vertex
-                       : p1_vertex;
-  wire single_value = both_8;
-  wire either_10 = (at_formed == FIX1) || (at_formed == FIX2);
-  wire either_11 = (at_formed == FIX_DX) || begins;
-  wire values_of_round1 = (either_10 ? round_formed == 2'd0 : round_formed == 2'd1) && !either_11;
-  wire values_of_round2 = (either_10 ? round_formed == 2'd1 : round_formed == 2'd2) && !either_11;
-  wire values_of_round3 = (either_10 ? round_formed == 2'd2 : round_formed == 2'd3) && !either_11;
+  // What the lanes are shown in the next clock; in the first of a triangle dc1 of the first round.
+  reg [1:0] from_place;
+  wire [1:0] from_vertex = from_place[1] ? p2_vertex : from_place[0] ? p1_vertex : p0_vertex;
+  reg [1:0] to_place;
+  wire [1:0] to_vertex = to_place[1] ? p2_vertex : to_place[0] ? p1_vertex : p0_vertex;
+  reg single_value;
+  reg values_of_round1;
+  reg values_of_round2;
+  reg values_of_round3;
+  reg number_of_edge;
+  reg number_is_height;
+  wire either_7 = (at == LOAD_A) || (at == FIX_A);
+  wire either_8 = (at == LOAD_B) || (at == FIX_B);
+  wire either_9 = (at == FIX_DX) || (at == LOAD2) || (at == FIX2);
+  wire both_5 = area[31] && ((at == LOAD1) || (at == LOAD2));
+  wire either_10 = (at == ADD_A) || (at == ADD_B);
+  wire either_11 = (at == FIX1) || (at == FIX2);
+  wire equal_2 = at == FIX_DX;
+
+  always @(posedge clk) begin
+    if (advance) begin
+      from_place <= (either_7 || either_8) ? ((either_8 && area[31]) ? 2'd1 : 2'd0)
+                  : either_9 ? (both_5 ? 2'd0 : 2'd2)
+                  : both_5 ? 2'd1
+                  : 2'd0;
+      to_place <= (either_7 || either_8) ? ((either_7 && area[31]) ? 2'd1 : 2'd2)
+                : either_10 ? (((at == ADD_B) && area[31]) ? 2'd1 : 2'd0)
+                : either_9 ? (both_5 ? 2'd2 : 2'd0)
+                : both_5 ? 2'd0
+                : 2'd1;
+      single_value <= either_10;
+      values_of_round1 <= (either_11 ? round == 2'd0 : round == 2'd1) && !equal_2;
+      values_of_round2 <= (either_11 ? round == 2'd1 : round == 2'd2) && !equal_2;
+      values_of_round3 <= (either_11 ? round == 2'd2 : round == 2'd3) && !equal_2;
+      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
+      number_is_height <= at == LOAD_DY;
+    end
+    if (take) begin
+      from_place <= 2'd0;
+      to_place <= 2'd1;
+      single_value <= 1'b0;
+      values_of_round1 <= 1'b0;
+      values_of_round2 <= 1'b0;
+      values_of_round3 <= 1'b0;
+      number_of_edge <= 1'b0;
+      number_is_height <= 1'b0;
+    end
+  end
 
   // Lane 0: what it takes in.
-  wire either_12 = (at_formed == LOAD_DX)
-                || (at_formed == LOAD_DY)
-                || ((at_formed == FIX_DX) && !advance);
   wire [15:0] extended_6 = {1'b0, dv12};
   wire [15:0] extended_7 = {1'b0, dv01};
   wire [15:0] extended_8 = {1'b0, dv02};
-  wire [16:0] choice_19 = (round_formed == 2'd2) ? {extended_6[15], extended_6}
-                        : (round_formed == 2'd1) ? {extended_7[15], extended_7}
+  wire [16:0] choice_19 = (round_next == 2'd2) ? {extended_6[15], extended_6}
+                        : (round_next == 2'd1) ? {extended_7[15], extended_7}
                         : {extended_8[15], extended_8};
-  wire [15:0] difference_4 = {p2_u[14], p2_u} - {p1_u[14], p1_u};
-  wire [16:0] choice_20 = (at_formed == LOAD_DY) ? choice_19
-                        : (round_formed == 2'd2) ? {difference_4[15], difference_4}
-                        : (round_formed == 2'd1) ? {du01[15], du01}
+  wire [16:0] choice_20 = number_is_height ? choice_19
+                        : (round_next == 2'd2) ? {du12[15], du12}
+                        : (round_next == 2'd1) ? {du01[15], du01}
                         : {du02[15], du02};
   wire [16:0] choice_21 = values_of_round3 ? {9'd0, vertex2_b}
                         : values_of_round2 ? {9'd0, vertex2_g}
@@ -739,33 +783,39 @@ module edgewalk_setup (
                         : choice_23;
   wire [16:0] difference_5 = (to_vertex[1] ? choice_21 : to_vertex[0] ? choice_22 : choice_23)
                            - choice_25;
-  wire [16:0] number0 = (either_12 && !begins) ? choice_20 : difference_5;  // signed
-  reg [16:0] value0;  // first value, signed
+  wire [16:0] number0 = number_of_edge ? choice_20 : difference_5;  // signed
+  reg [16:0] kept0;  // a number that may not fit, or a first value; signed
   wire [15:0] shown = number0[15:0] ^ {16{number0[16]}};
   wire lane0_unfit;
   wire choice_26 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
-  wire either_13 = ((at_stepped == FIX_A) && (|prim_n1)) || ((at_stepped == FIX_B) && (|prim_n2));
+  wire either_12 = ((at_stepped == FIX_A) && (|prim_n1)) || ((at_stepped == FIX_B) && (|prim_n2));
   wire choice_27 = (round_stepped == 2'd3) ? 1'b1
                  : (round_stepped == 2'd2) ? 1'b1
                  : (round_stepped == 2'd1) ? 1'b1
                  : 1'b1;
-  wire either_14 = ((at_stepped == FIX_DX) && choice_26) || (either_13 && choice_27);
-  assign unfit = lane0_unfit && either_14;
+  wire either_13 = ((at_stepped == FIX_DX) && choice_26) || (either_12 && choice_27);
+  assign unfit = lane0_unfit && either_13;
 
   always @(posedge clk) begin
-    value0 <= number0;
+    if ((at_next == LOAD_DX)
+     || (at_next == LOAD_A)
+     || (at_next == ADD_A)
+     || (at_next == LOAD_B)
+     || (at_next == ADD_B)) begin
+      kept0 <= number0;
+    end
   end
 
   always @(posedge clk) begin
-    if (((at_formed == FIX_DX) || (at_formed == FIX2)) && advance) differences <= differences | shown;
-    if (begins || (at_formed == FIX1)) differences <= shown;
+    if ((at_next == FIX_DX) || (at_next == FIX2)) differences <= differences | shown;
+    if (begins || (at_next == FIX1)) differences <= shown;
   end
 
   // Edge: major.
   wire [30:0] lane0_value;
   wire choice_28 = is_sign ? f[16] : digit_f;
   wire choice_29 = is_sign ? g[16] : digit_g;
-  wire [17:0] shifted_5 = $signed({number0[16], number0}) >>> {pause - 4'd2, 1'b0};
+  wire [17:0] shifted_5 = $signed({kept0[16], kept0}) >>> {pause - 4'd2, 1'b0};
   wire [13:0] part_37 = p1_u[14:1];
   wire [13:0] part_38 = p0_u[14:1];
   wire [13:0] part_39 = p0_u[14:1];
@@ -787,18 +837,18 @@ module edgewalk_setup (
     .write         (write),
     .write_at      (write_at),
     .whole_in      ((at_stepped == COLUMNS) ? choice_30
-: (round_stepped == 2'd3) ? {{value0, 1'b1}, 13'd0}
-: (round_stepped == 2'd2) ? {{value0, 1'b1}, 13'd0}
-: (round_stepped == 2'd1) ? {{value0, 1'b1}, 13'd0}
-: {{value0, 1'b1}, 13'd0}),
+: (round_stepped == 2'd3) ? {{kept0, 1'b1}, 13'd0}
+: (round_stepped == 2'd2) ? {{kept0, 1'b1}, 13'd0}
+: (round_stepped == 2'd1) ? {{kept0, 1'b1}, 13'd0}
+: {{kept0, 1'b1}, 13'd0}),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_formed == LOAD_B) ? (area[31] ? ~{16'd0, {dv12, 1'b0}} : ~{16'd0, {dv02, 1'b0}})
-: (at_formed == LOAD_A) ? (area[31] ? ~{16'd0, {dv01, 1'b0}} : ~{16'd0, {dv02, 1'b0}})
-: (at_formed == LOAD1) ? scaled
-: (round_formed == 2'd2) ? ~{16'd0, {dv12, 1'b0}}
-: (round_formed == 2'd1) ? ~{16'd0, {dv01, 1'b0}}
+    .modulus_in    ((at_next == LOAD_B) ? (area[31] ? ~{16'd0, {dv12, 1'b0}} : ~{16'd0, {dv02, 1'b0}})
+: (at_next == LOAD_A) ? (area[31] ? ~{16'd0, {dv01, 1'b0}} : ~{16'd0, {dv02, 1'b0}})
+: (at_next == LOAD1) ? scaled
+: (round_next == 2'd2) ? ~{16'd0, {dv12, 1'b0}}
+: (round_next == 2'd1) ? ~{16'd0, {dv01, 1'b0}}
 : ~{16'd0, {dv02, 1'b0}}),
-    .modulus_short (!((at_formed == LOAD1) && area[31])),
+    .modulus_short (!((at_next == LOAD1) && area[31])),
     .upwards       (1'b0),
     .unfit         (lane0_unfit),
     .rest_out      (lane0_rest_out_unused),
@@ -826,13 +876,13 @@ module edgewalk_setup (
   end
 
   // Edge: minor1.
-  wire both_9 = (|prim_n1) && (|dv01[14:1]);
+  wire both_6 = (|prim_n1) && (|dv01[14:1]);
   wire [30:0] part_41 = lane0_value;
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd1)) begin
-      prim_minor1_q <= both_9 ? part_41[30:16] : 15'd0;
-      prim_minor1_f <= both_9 ? part_41[15:0] : 16'd0;
+      prim_minor1_q <= both_6 ? part_41[30:16] : 15'd0;
+      prim_minor1_f <= both_6 ? part_41[15:0] : 16'd0;
     end
   end
 
@@ -846,13 +896,13 @@ module edgewalk_setup (
   end
 
   // Edge: minor2.
-  wire both_10 = (|prim_n2) && (|dv12[14:1]);
+  wire both_7 = (|prim_n2) && (|dv12[14:1]);
   wire [30:0] part_42 = lane0_value;
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd2)) begin
-      prim_minor2_q <= both_10 ? part_42[30:16] : 15'd0;
-      prim_minor2_f <= both_10 ? part_42[15:0] : 16'd0;
+      prim_minor2_q <= both_7 ? part_42[30:16] : 15'd0;
+      prim_minor2_f <= both_7 ? part_42[15:0] : 16'd0;
     end
   end
 
@@ -987,9 +1037,9 @@ module edgewalk_setup (
   // Not needed, on purpose.
   wire unused = &{
     1'b0, SET_A, ROUND_A, SET_B, ends_fixed, less_m[0], difference[15], difference_2[15],
-    difference_3[15], part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1], shifted_2[14:1],
-    part_14[30:0], choice_10[14:10], choice_11[14:10], differing[16], differing_2[16], part_26[0],
-    part_29[0], part_33[0], part_36[0], shifted_3[16:1], shifted_4[16:1], shifted_5[17:2]
+    difference_3[15], difference_4[15], part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1],
+    shifted_2[14:1], part_14[30:0], choice_10[14:10], choice_11[14:10], differing[16], differing_2[16],
+    part_26[0], part_29[0], part_33[0], part_36[0], shifted_3[16:1], shifted_4[16:1], shifted_5[17:2]
   };
 
 endmodule

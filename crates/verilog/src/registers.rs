@@ -1,15 +1,12 @@
 //! A group of registers as one `always` block, shaped the way it was built.
 
 use edgewalk_netlist::netlist::{Netlist, NodeId, Source};
-use edgewalk_netlist::ops::{Bits, Op};
+use edgewalk_netlist::ops::Bits;
 
 use crate::expression::Writer;
 use crate::groups::Group;
 use crate::literal;
 use crate::paragraph::{Body, LINE};
-
-/// The name of a reset value is looked for this deep in choices.
-const CHOICE_DEPTH: u32 = 3;
 
 impl Group {
     /// The `always` block; what its expressions need is declared in `body` before it.
@@ -73,18 +70,15 @@ fn reset(netlist: &Netlist, index: usize) -> String {
     let register = &netlist.registers[index];
     let bits = Bits { value: register.reset.unwrap_or(0), width: netlist.width(register.node) };
     let mut values = register.updates.iter().map(|update| update.value);
-    let name = values.find_map(|value| constant_name(netlist, value, bits.value, CHOICE_DEPTH));
+    let name = values.find_map(|value| constant_name(netlist, value, bits.value));
     let value = name.map_or_else(|| literal::unsigned(bits), String::from);
     format!("    {} <= {value};", register.name)
 }
 
-/// The name under which `value` is among the choices that `id` makes: so a state is called by its name in reset too.
-fn constant_name(netlist: &Netlist, id: NodeId, value: u128, depth: u32) -> Option<&str> {
+/// The name of the constant `id` if it is `value`: so a state that is loaded by its name is called by it in reset too.
+fn constant_name(netlist: &Netlist, id: NodeId, value: u128) -> Option<&str> {
     match &netlist.node(id).source {
         Source::Constant { value: other, name: Some(name) } if *other == value => Some(name),
-        Source::Op(Op::Mux, operands) if depth > 0 => {
-            operands[1..].iter().find_map(|choice| constant_name(netlist, *choice, value, depth - 1))
-        }
         _ => None,
     }
 }

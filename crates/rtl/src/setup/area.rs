@@ -28,12 +28,12 @@ impl<'m> Area<'m> {
         let digit = m.reg("area_digit", tall.width().ilog2() + 1).doc("place of the digits added");
         let adds = m.reg("area_adds", 1).doc("digits are added").reset(0);
         let last = digit.q().eq(0);
-        digit.when(adds.q(), digit.q() - 1).when(control.begin, top(tall).zext(digit.q().width()));
+        digit.when(adds.q(), digit.q() - 1).when(control.begin, top(vertices.tall).zext(digit.q().width()));
         adds.when(adds.q() & last, 0).when(control.begin, 1);
         let part = |of: Signal<'m>, value: Signal<'m>| {
             of.shr_by(digit.q()).bit(0).mux(value.sext(value.width() + 1), 0)
         };
-        let added = (part(tall, vertices.du1) - part(upper, vertices.du2)).named("area_part");
+        let added = (part(tall, vertices.across[1]) - part(upper, vertices.across[0])).named("area_part");
         let area = m.reg("area", bits).doc("1/P^2 px^2, signed");
         area.when(adds.q(), area.q().shl(1) + added.sext(bits)).when(control.begin, 0);
         control.no_area.drive(!area.q().any());

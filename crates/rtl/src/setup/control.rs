@@ -63,8 +63,9 @@ pub(super) struct Control<'m> {
     pub left: Signal<'m>,
     /// It waits for the area.
     pub waits: Signal<'m>,
-    /// A clock later: its addends are formed.
-    pub formed: Stage<'m>,
+    /// A clock later: what is loaded is chosen by it. Held while numbers do not fit, when nothing is loaded: no load follows a
+    /// test of such numbers within two clocks.
+    pub next: Stage<'m>,
     /// Two clocks later: its step is done.
     pub stepped: Stage<'m>,
     /// Three: the rest of the result stands, its whole part is formed.
@@ -130,7 +131,8 @@ impl<'m> Control<'m> {
         let of_parts = (0..most).filter(|_| plan.fill == Fill::Textbook).map(|round| pairs(plan, round));
         let most_pairs = of_parts.chain([edge_pairs(plan)]).max().unwrap_or(1);
         let pause = m.reg("pause", (most_pairs + 3).ilog2() + 1).doc("clocks left of it").reset(0);
-        let advance = pause.q().eq(0).named("advance");
+        let paused = m.reg("paused", 1).doc("it is not over").reset(0);
+        let advance = (!paused.q()).named("advance");
 
         let is_idle = state.q().eq(idle).named("tri_ready");
         let take = (tri_valid & is_idle).named("take");
@@ -257,6 +259,7 @@ impl<'m> Control<'m> {
             clocks = stepped.is(Op::FixDx).mux(clocks, stepped.of_round(channel_rounds, needed));
         }
         pause.when(!advance, pause.q() - 1).when(advance & unfit.q(), clocks);
+        paused.when(resumes, 0).when(advance & unfit.q(), 1);
 
         Control {
             idle: is_idle,
@@ -267,7 +270,7 @@ impl<'m> Control<'m> {
             first: first.q(),
             left: left.q(),
             waits: (waits | gives_up | !works).named("rests"),
-            formed,
+            next,
             stepped,
             rest,
             whole,

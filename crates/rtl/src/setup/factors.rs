@@ -62,7 +62,10 @@ impl<'m> Sources<'_, 'm> {
         match plan.fill {
             Fill::Exact => {
                 let back = |of: Signal<'m>| -whole(of);
-                choices.push((vec![Op::DoubleX], [back(self.vertices.du2), back(self.vertices.du1)]));
+                choices.push((
+                    vec![Op::DoubleX],
+                    [back(self.vertices.across[0]), back(self.vertices.across[1])],
+                ));
                 choices.push((vec![Op::AddX], [whole(self.prim["major_q"].q()), none]));
                 let column = self.prim["major_c"].q();
                 let px = column - self.area.negative.zext(column.width());

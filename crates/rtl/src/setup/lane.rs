@@ -87,13 +87,13 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let n1 = m.reg("n1", below_two_m + 1).doc("a - M, signed");
     let n2 = m.reg("n2", below_two_m + 2).doc("a - 2 M, signed");
     let below = m.reg("below", 1).doc("the number taken in is below 0");
-    let is_fix = is(step, Step::Fix).named("is_fix");
-    let with_sign = is(step, Step::Sign).named("with_sign");
     // The step before a fix is a load, and its n0 the number.
-    let add_modulus = ((is_fix & n0.q().msb()) | (is(step, Step::Begin) & below.q())).named("add_modulus");
-    let take_modulus_off = one_of(step, &[Step::Double2, Step::Digits]).named("take_modulus_off");
+    let below_0 = (step.bit(0) & below.q()) | (!step.bit(0) & n0.q().msb());
+    let add_modulus = (step.bit(2) & below_0).named("add_modulus");
+    let take_modulus_off = step.bit(3).named("take_modulus_off");
+    let of_slot = step.bit(4).named("of_slot");
+    let with_sign = (of_slot & step.bit(1) & step.bit(0)).named("with_sign");
     let negate = (add_modulus | with_sign | (is(step, Step::Less1) & below.q())).named("negate");
-    let of_slot = one_of(step, &[Step::Add, Step::First, Step::Next, Step::Sign]).named("of_slot");
     let of_modulus = (add_modulus | take_modulus_off).named("of_modulus");
     let a = of_modulus
         .mux(modulus, of_slot.mux(stored.zext(below_two_m), 0))
@@ -109,25 +109,24 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let carry0 = m.reg("carry0", 1).doc("1 to add to the sum of n0");
     carry0.set(with_sign | (add_modulus & !short) | (take_modulus_off & short));
     let carry = m.reg("carry", 1).doc("1 to add to the other sums").set(take_modulus_off & short);
-    let digits = m.reg("digits_now", 2).set(digits).q();
 
     m.comment("The step: x and the addend, less M as often as it goes.");
     let now = m.reg("now", Step::BITS).doc("the step done").reset(0).set(step).q();
-    let fourfold = one_of(now, &[Step::Double2, Step::Digits]).named("fourfold");
-    let twofold = one_of(now, &[Step::Double1, Step::Next]).named("twofold");
-    let from_zero = one_of(now, &[Step::Load, Step::First, Step::Sign, Step::Begin]).named("from_zero");
+    let fourfold = flag(&m, "fourfold", one_of(step, &[Step::Double2, Step::Digits]));
+    let twofold = flag(&m, "twofold", one_of(step, &[Step::Double1, Step::Next]));
+    let from_zero = one_of(step, &[Step::Load, Step::First, Step::Sign, Step::Begin]);
+    let from_zero = flag(&m, "from_zero", from_zero);
     let compared = [Step::Double1, Step::Double2, Step::Digits, Step::First, Step::Next, Step::Add];
-    let as_it_is = !one_of(now, &compared);
-    let as_it_is = as_it_is.named_doc("as_it_is", "nothing is taken off");
+    let compared = m.reg("compared", 1).doc("M is taken off if it goes").set(one_of(step, &compared)).q();
+    let digits = m.reg("digits_now", 2).set(is(step, Step::Digits).mux(digits, 0)).q();
     let old = rest.q().sext(sums);
-    let low = is(now, Step::Digits).mux(digits, 0);
-    let four = m.cat(&[old.trunc(sums - 2), low]);
+    let four = m.cat(&[old.trunc(sums - 2), digits]);
     let x = fourfold.mux(four, twofold.mux(old.shl(1), from_zero.mux(0, old))).named("x");
     let s0 = plus("x_and_n0", x, n0.q().sext(sums), carry0.q()).named("s0");
     let s1 = plus("x_and_n1", x, n1.q().sext(sums), carry.q()).named("s1");
     let s2 = plus("x_and_n2", x, n2.q().sext(sums), carry.q()).named("s2");
     // A fourfold rest may have M taken off three times, and n0 is the first of them; else n0 takes none off.
-    let (f0, f1, f2) = (!s0.msb(), !s1.msb() & !as_it_is, !s2.msb() & !as_it_is);
+    let (f0, f1, f2) = (!s0.msb(), !s1.msb() & compared, !s2.msb() & compared);
     let (f0, f1, f2) = (f0.named("fits0"), f1.named("fits1"), f2.named("fits2"));
     let stays = (fourfold & !f0).named("stays");
     let chosen = f2.mux(s2, f1.mux(s1, stays.mux(x, s0)));
@@ -160,9 +159,9 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let odd = fourfold.mux((f0 & !f1) | f2, f1 & !f2).named("once_or_thrice");
     let taken = m.reg("taken", 2).doc("how often M was taken off").set(m.cat(&[many, odd])).q();
     let then = m.reg("then", Step::BITS).doc("the step before").set(now).q();
-    let fourfold = m.reg("was_fourfold", 1).set(fourfold).q();
-    let twofold = m.reg("was_twofold", 1).set(twofold).q();
-    let from_zero = m.reg("was_from_zero", 1).set(from_zero).q();
+    let fourfold = flag(&m, "was_fourfold", fourfold);
+    let twofold = flag(&m, "was_twofold", twofold);
+    let from_zero = flag(&m, "was_from_zero", from_zero);
     let old = whole.q();
     let four = m.cat(&[old.trunc(shape.whole - 2), taken]);
     // 2 times: the doubled lowest bit is free for one of them.
@@ -189,6 +188,11 @@ pub(super) fn plus<'m>(name: &str, a: Signal<'m>, b: Signal<'m>, carry: Signal<'
     let sum =
         (m.cat(&[a, m.lit(1, 1)]) + m.cat(&[b, carry])).named_doc(name, "and a carry out of the lowest bit");
     sum.slice(a.width(), 1)
+}
+
+/// Whether it was so a clock before.
+fn flag<'m>(m: &'m Module, name: &str, is: Signal<'m>) -> Signal<'m> {
+    m.reg(name, 1).set(is).q()
 }
 
 /// A bit as often as a word is long.

@@ -64,7 +64,7 @@ struct Common<'a, 'm> {
     factors: &'a Factors<'m>,
     /// The step that is named.
     step: Signal<'m>,
-    /// In place of what is formed while numbers do not fit: sign, sign, digits.
+    /// In the next clock, in place of what is formed, while numbers do not fit: sign, sign, digits.
     of_pause: Signal<'m>,
     read_at: ReadAt<'m>,
     write: Signal<'m>,
@@ -102,11 +102,13 @@ impl<'a, 'm> Common<'a, 'm> {
         step = control.named.one_of(&steps(Step::First)).mux(first, step);
         let step = control.waits.mux(code(Step::Rest), step).named("step");
 
-        let began =
-            m.reg("began", 1).doc("numbers were found not to fit in the clock before").set(control.advance);
-        let began_then = m.reg("began_then", 1).doc("and in the one before").set(began);
+        let began = m
+            .reg("began", 1)
+            .doc("numbers were found not to fit in the clock before")
+            .set(control.advance)
+            .q();
         let of_pause =
-            began.q().mux(code(Step::Begin), began_then.q().mux(code(Step::Less1), code(Step::Digits)));
+            control.advance.mux(code(Step::Begin), began.mux(code(Step::Less1), code(Step::Digits)));
 
         let slots = |slot: u32, sum: bool| {
             these(&|op| {
@@ -149,7 +151,7 @@ impl<'a, 'm> Common<'a, 'm> {
             read_at,
             write,
             write_at: write_at.named("write_at"),
-            take_modulus: control.formed.one_of(&loads).named("take_modulus"),
+            take_modulus: control.next.one_of(&loads).named("take_modulus"),
             upwards,
         }
     }
@@ -160,7 +162,8 @@ impl<'a, 'm> Common<'a, 'm> {
         let step = self.step_of(number).named(&named("step"));
         let next = m.reg(&named("step_next"), Step::BITS).reset(0).when(control.advance, step).q();
         let again = m.reg(&named("step_again"), Step::BITS);
-        let of_pause = control.pause.eq(1).mux(again.q(), self.of_pause);
+        let of_pause = control.pause.eq(2).mux(again.q(), self.of_pause);
+        let of_pause = m.reg(&named("step_of_pause"), Step::BITS).set(of_pause).q();
         let formed = control.advance.mux(next, of_pause).named(&named("step_formed"));
         again.when(control.advance, formed);
         instance

@@ -1,11 +1,12 @@
 //! Which lines of the screen the two parts of a triangle meet.
 
 use edgewalk_machine::{Fill, Plan};
-use edgewalk_netlist::{Module, Signal};
+use edgewalk_netlist::{Module, Reg, Signal};
 
 use super::area::Area;
 use super::control::Control;
 use super::sort::Vertices;
+use super::steps::Op;
 use crate::wires::Registers;
 
 /// First lines, signed, G + 2 bits, and how far below the upper ends of edges they lie, 1/P line.
@@ -23,7 +24,7 @@ pub(super) struct Lines<'m> {
 }
 
 impl<'m> Lines<'m> {
-    /// j0, j1 and the counts n1, n2 of the prim, taken in the clock after the triangle.
+    /// j0 and j1 are taken in the clock after the triangle, the counts n1 and n2 of the prim in the clock after that at the latest.
     pub fn new(
         m: &'m Module,
         plan: &Plan,
@@ -32,21 +33,12 @@ impl<'m> Lines<'m> {
         prim: &Registers<'m>,
         area: &Area<'m>,
     ) -> Lines<'m> {
-        let [j0, j1, n1, n2] = match plan.fill {
-            Fill::Exact => exact(m, plan, vertices),
-            Fill::Textbook => textbook(m, plan, vertices),
+        let counts = ["n1", "n2"].map(|name| prim[name]);
+        let (j0, j1) = match plan.fill {
+            Fill::Exact => exact(m, plan, control, vertices, counts),
+            Fill::Textbook => textbook(m, plan, control, vertices, counts),
         };
-        let no_column = (plan.fill == Fill::Exact).then(|| no_column(m, plan, vertices));
-        let take = control.begin;
-        let count = |name: &str, n: Signal<'m>| prim[name].when(take, n.trunc(prim[name].q().width())).q();
-        let (n1, n2) = (count("n1", n1), count("n2", n2));
-        let line = |name: &str, j: Signal<'m>| m.reg(name, j.width()).doc("line, signed").when(take, j).q();
-        let (j0, j1) = (line("j0", j0), line("j1", j1));
-        let upper = n1.any().named("upper");
-        let none = !upper & !n2.any();
-        let outside =
-            no_column.map(|none| m.reg("no_column", 1).doc("no column of the screen").when(take, none).q());
-        control.nothing.drive(outside.map_or(none, |outside| none | outside));
+        let upper = prim["n1"].q().any().named("upper");
         let jm = upper.mux(j0, j1).named_doc("jm", "first line of the triangle");
         let down = |name: &str, from: usize, to: Signal<'m>| {
             let line = m.cat(&[to, m.lit(plan.widths().center_fraction, 0)]);
@@ -88,33 +80,61 @@ fn at_most<'m>(a: Signal<'m>, b: Signal<'m>) -> Signal<'m> {
     a.slt(b).mux(a, b)
 }
 
-/// Centres from vertex to vertex, the upper end included, the lower not.
-fn exact<'m>(m: &'m Module, plan: &Plan, vertices: &Vertices<'m>) -> [Signal<'m>; 4] {
+/// Centres from vertex to vertex, the upper end included, the lower not. As v is sorted, each end may be cut to the screen by
+/// itself; a triangle wholly above or below has all of them at the same side.
+fn exact<'m>(
+    m: &'m Module,
+    plan: &Plan,
+    control: &Control<'m>,
+    vertices: &Vertices<'m>,
+    counts: [Reg<'m>; 2],
+) -> (Signal<'m>, Signal<'m>) {
     m.comment("Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.");
     let (bits, t) = (plan.widths().column, plan.widths().center_fraction);
-    let ceil = |place: usize| {
+    let line = |place: usize, name: &str| {
         let v = vertices.v(place);
+        let last = m.lit(v.width(), (u128::from(plan.height) - 1) << t);
         let up = v.trunc(t).any().zext(bits);
-        (v.slice(v.width() - 1, t).sext(bits) + up).named_doc(&format!("line{place}"), "ceil(v/P)")
+        let ceil =
+            (v.slice(v.width() - 1, t).sext(bits) + up).named_doc(&format!("line{place}"), "ceil(v/P)");
+        let on_screen = v.sle(last).mux(ceil, m.lit(bits, plan.height.into()));
+        let j = m.reg(name, bits).doc("line of the screen").when(control.begin, v.msb().mux(0, on_screen));
+        j.q()
     };
-    let j0 = at_least(ceil(0), m.lit(bits, 0)).named("j0_next");
-    let end = at_least(at_most(ceil(2), m.lit(bits, plan.height.into())), j0).named("end_line");
-    let j1 = at_most(at_least(ceil(1), j0), end).named("j1_next");
-    [j0, j1, j1 - j0, end - j1]
+    let (j0, j1, end) = (line(0, "j0"), line(1, "j1"), line(2, "end_line"));
+    let [n1, n2] = counts;
+    let count = |n: Reg<'m>, lines: Signal<'m>| {
+        n.when(control.named.is(Op::FixDx), lines.trunc(n.q().width()));
+    };
+    count(n1, j1 - j0);
+    count(n2, end - j1);
+    let outside = no_column(m, plan, vertices);
+    let outside = m.reg("no_column", 1).doc("no column of the screen").when(control.begin, outside).q();
+    control.nothing.drive(j0.eq(end) | outside);
+    (j0, j1)
 }
 
 /// Lines from vertex to vertex, both included; a part without height has none.
-fn textbook<'m>(m: &'m Module, plan: &Plan, vertices: &Vertices<'m>) -> [Signal<'m>; 4] {
+fn textbook<'m>(
+    m: &'m Module,
+    plan: &Plan,
+    control: &Control<'m>,
+    vertices: &Vertices<'m>,
+    counts: [Reg<'m>; 2],
+) -> (Signal<'m>, Signal<'m>) {
     m.comment("Lines of each part: from Y of the upper to Y of the lower end, both drawn, on the screen.");
     let (bits, t) = (plan.widths().column, plan.widths().center_fraction);
     let y = |place: usize| vertices.v(place).slice(plan.widths().center - 1, t).sext(bits);
-    let first = |place: usize, name: &str| at_least(y(place), m.lit(bits, 0)).named(name);
-    let (j0, j1) = (first(0, "j0_next"), first(1, "j1_next"));
-    let count = |part: usize, first: Signal<'m>| {
+    let first = |place: usize| at_least(y(place), m.lit(bits, 0)).named(&format!("j{place}_next"));
+    let lines = [0, 1].map(|part| {
+        let first = first(part);
         let last =
             at_most(y(part + 1), m.lit(bits, u128::from(plan.height) - 1)).named(&format!("last{part}"));
         let some = (y(part).slt(y(part + 1)) & first.sle(last)).named(&format!("some{part}"));
-        some.mux(last - first + 1, 0)
-    };
-    [j0, j1, count(0, j0), count(1, j1)]
+        let n = counts[part];
+        n.when(control.begin, some.mux(last - first + 1, 0).trunc(n.q().width()));
+        m.reg(&format!("j{part}"), bits).doc("line, signed").when(control.begin, first).q()
+    });
+    control.nothing.drive(!counts[0].q().any() & !counts[1].q().any());
+    (lines[0], lines[1])
 }

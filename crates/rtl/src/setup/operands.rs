@@ -24,7 +24,8 @@ pub(super) struct Sources<'a, 'm> {
     pub values: &'a Values<'m>,
 }
 
-/// Which values at vertices the lanes are shown: the difference of two, or the one that a first value is counted from.
+/// What the lanes are shown: DX or DY of an edge, or of values at vertices the difference of two, or the one that a first value is
+/// counted from. All are chosen a clock before.
 pub(super) struct Values<'m> {
     from: Signal<'m>,
     to: Signal<'m>,
@@ -32,6 +33,9 @@ pub(super) struct Values<'m> {
     single: Signal<'m>,
     /// Of the channels of round 1, 2, ...; else of round 0.
     rounds: Vec<Signal<'m>>,
+    of_edge: Signal<'m>,
+    /// Of edges: DY.
+    height: Signal<'m>,
 }
 
 impl<'m> Values<'m> {
@@ -43,34 +47,44 @@ impl<'m> Values<'m> {
         vertices: &Vertices<'m>,
         area: &Area<'m>,
     ) -> Values<'m> {
-        m.comment("The vertices whose values the lanes are shown.");
-        let (formed, right) = (&control.formed, area.negative);
-        let at = |place: usize| vertices.order[place];
-        let second = formed.one_of(&[Op::FixDx, Op::Load2, Op::Fix2]) & !control.begin;
-        let turned = right & formed.one_of(&[Op::Load1, Op::Load2]) & !control.begin;
+        m.comment(
+            "What the lanes are shown in the next clock; in the first of a triangle dc1 of the first round.",
+        );
+        let (named, right) = (&control.named, area.negative);
+        let place = |number: u128| m.lit(2, number);
+        let reg = |name: &str, value: Signal<'m>, at_first: u128| {
+            let reg = m.reg(name, value.width());
+            reg.when(control.advance, value).when(control.take, m.lit(value.width(), at_first)).q()
+        };
+        let second = named.one_of(&[Op::FixDx, Op::Load2, Op::Fix2]);
+        let turned = right & named.one_of(&[Op::Load1, Op::Load2]);
         // dc1 = c1 - c0, -dc2 = c0 - c2, the other way round where the area is below 0.
-        let mut from = second.mux(turned.mux(at(0), at(2)), turned.mux(at(1), at(0)));
-        let mut to = second.mux(turned.mux(at(2), at(0)), turned.mux(at(0), at(1)));
-        let single = formed.one_of(&[Op::AddStart, Op::AddA, Op::AddB]) & !control.begin;
-        to = single.mux((formed.is(Op::AddB) & right).mux(at(1), at(0)), to);
+        let mut from = second.mux(turned.mux(place(0), place(2)), turned.mux(place(1), place(0)));
+        let mut to = second.mux(turned.mux(place(2), place(0)), turned.mux(place(0), place(1)));
+        let single = named.one_of(&[Op::AddStart, Op::AddA, Op::AddB]);
+        to = single.mux((named.is(Op::AddB) & right).mux(place(1), place(0)), to);
         if plan.fill == Fill::Textbook {
             // The left edge is the major one, or that of the part.
-            let (a, b) = (formed.one_of(&[Op::LoadA, Op::FixA]), formed.one_of(&[Op::LoadB, Op::FixB]));
-            let of_part = (a | b) & !control.begin;
-            from = of_part.mux((b & right).mux(at(1), at(0)), from);
-            to = of_part.mux((a & right).mux(at(1), at(2)), to);
+            let (a, b) = (named.one_of(&[Op::LoadA, Op::FixA]), named.one_of(&[Op::LoadB, Op::FixB]));
+            from = (a | b).mux((b & right).mux(place(1), place(0)), from);
+            to = (a | b).mux((a & right).mux(place(1), place(2)), to);
         }
         // While a number is tested the lanes are shown those of the next round, to scale its modulus.
-        let (shown, of_first) = (formed.one_of(&[Op::Fix1, Op::Fix2]), formed.is(Op::FixDx) | control.begin);
+        let (shown, of_first) = (named.one_of(&[Op::Fix1, Op::Fix2]), named.is(Op::FixDx));
         let round = |round: usize| {
-            let (own, before) = (formed.in_round(round)?, formed.in_round(round - 1)?);
-            Some((shown.mux(before, own) & !of_first).named(&format!("values_of_round{round}")))
+            let (own, before) = (named.in_round(round)?, named.in_round(round - 1)?);
+            Some(reg(&format!("values_of_round{round}"), shown.mux(before, own) & !of_first, 0))
+        };
+        let vertex = |place: Signal<'m>| {
+            place.bit(1).mux(vertices.order[2], place.bit(0).mux(vertices.order[1], vertices.order[0]))
         };
         Values {
-            from: from.named("from_vertex"),
-            to: to.named("to_vertex"),
-            single: single.named("single_value"),
+            from: vertex(reg("from_place", from, 0)).named("from_vertex"),
+            to: vertex(reg("to_place", to, 1)).named("to_vertex"),
+            single: reg("single_value", single, 0),
             rounds: (1..rounds(plan)[1]).filter_map(round).collect(),
+            of_edge: reg("number_of_edge", named.one_of(&[Op::LoadDx, Op::LoadDy]), 0),
+            height: reg("number_is_height", named.is(Op::LoadDy), 0),
         }
     }
 }
@@ -81,14 +95,20 @@ impl<'m> Sources<'_, 'm> {
         let (m, control) = (self.m, self.control);
         m.comment(&format!("Lane {}: what it takes in.", lane.number));
         let number = self.number(lane).named_doc(&format!("number{}", lane.number), "signed");
+        let kept = [Op::LoadDx, Op::LoadA, Op::LoadB, Op::AddStart, Op::AddA, Op::AddB];
+        let kept = m
+            .reg(&format!("kept{}", lane.number), number.width())
+            .doc("a number that may not fit, or a first value; signed")
+            .when(control.next.one_of(&kept), number)
+            .q();
         // When three clocks or more are left the digits are not read; when two, the lowest.
         let pair = m.cat(&[control.pause - 2, m.lit(1, 0)]);
-        let digits = number.sext(number.width() + 1).sar_by(pair).trunc(2);
+        let digits = kept.sext(kept.width() + 1).sar_by(pair).trunc(2);
         let (modulus, short) = self.modulus(lane);
         lane.instance
             .connect("number", number)
             .connect("digits", digits)
-            .connect("whole_in", self.whole(lane, number))
+            .connect("whole_in", self.whole(lane, kept))
             .connect("modulus_in", modulus)
             .connect("modulus_short", short);
         number
@@ -123,25 +143,17 @@ impl<'m> Sources<'_, 'm> {
     }
 
     fn number(&self, lane: &Lane<'m>) -> Signal<'m> {
-        let (control, formed, bits) = (self.control, &self.control.formed, lane.shape.number);
+        let (next, bits) = (&self.control.next, lane.shape.number);
         let edge_rounds = rounds(self.plan)[0];
-        let u = |place: usize| self.vertices.u(place);
         let dw = self.plan.widths().difference;
-        let dx = |edge: usize| match edge {
-            0 => self.vertices.du2,
-            1 => self.vertices.du1,
-            _ => u(2).sext(dw) - u(1).sext(dw),
-        };
         let of_edge = |value: &dyn Fn(usize) -> Signal<'m>| {
-            formed.of_round(edge_rounds, |round| {
+            next.of_round(edge_rounds, |round| {
                 value(edge_of(self.plan, lane.number, round).unwrap_or(0)).sext(bits)
             })
         };
-        let edge =
-            formed.is(Op::LoadDy).mux(of_edge(&|edge| self.vertices.heights[edge].zext(dw)), of_edge(&dx));
-        let of_edge_now =
-            formed.one_of(&[Op::LoadDx, Op::LoadDy]) | (formed.is(Op::FixDx) & !control.advance);
-        (of_edge_now & !control.begin).mux(edge, self.difference(lane, bits))
+        let height = of_edge(&|edge| self.vertices.heights[edge].zext(dw));
+        let edge = self.values.height.mux(height, of_edge(&|edge| self.vertices.across[edge]));
+        self.values.of_edge.mux(edge, self.difference(lane, bits))
     }
 
     /// The difference of a channel's values at two vertices; of a single one its rounding is taken off.
@@ -168,7 +180,7 @@ impl<'m> Sources<'_, 'm> {
         pick(values.to) - values.single.mux(rounding, pick(values.from))
     }
 
-    fn whole(&self, lane: &Lane<'m>, number: Signal<'m>) -> Signal<'m> {
+    fn whole(&self, lane: &Lane<'m>, kept: Signal<'m>) -> Signal<'m> {
         let (stepped, bits) = (&self.control.stepped, lane.shape.whole);
         let [edge_rounds, channel_rounds] = rounds(self.plan);
         let t = self.plan.widths().center_fraction;
@@ -179,14 +191,9 @@ impl<'m> Sources<'_, 'm> {
         let edge = stepped.of_round(edge_rounds, |round| {
             column(ENDS[edge_of(self.plan, lane.number, round).unwrap_or(0)].0)
         });
-        let first = self
-            .m
-            .reg(&format!("value{}", lane.number), number.width())
-            .doc("first value, signed")
-            .set(number);
         let channel = stepped.of_round(channel_rounds, |round| {
             let channel = channel_of(self.plan, lane.number, round);
-            channel.map_or(self.m.lit(bits, 0), |channel| self.first_value(&channel, first.q(), bits))
+            channel.map_or(self.m.lit(bits, 0), |channel| self.first_value(&channel, kept, bits))
         });
         stepped.is(Op::Columns).mux(edge, channel)
     }
@@ -210,19 +217,19 @@ impl<'m> Sources<'_, 'm> {
 
     /// -M - 1 of an edge, P·DY; of the channels the scaled area's.
     fn modulus(&self, lane: &Lane<'m>) -> (Signal<'m>, Signal<'m>) {
-        let (m, formed) = (self.m, &self.control.formed);
+        let (m, next) = (self.m, &self.control.next);
         let (t, bits) = (self.plan.widths().center_fraction, modulus_bits(self.plan));
         let height = |edge: usize| !m.cat(&[self.vertices.heights[edge], m.lit(t, 0)]).zext(bits);
-        let edge = formed.of_round(rounds(self.plan)[0], |round| {
+        let edge = next.of_round(rounds(self.plan)[0], |round| {
             height(edge_of(self.plan, lane.number, round).unwrap_or(0))
         });
         let right = self.right();
-        let mut modulus = formed.is(Op::Load1).mux(self.scale.modulus, edge);
+        let mut modulus = next.is(Op::Load1).mux(self.scale.modulus, edge);
         if self.plan.fill == Fill::Textbook {
-            modulus = formed.is(Op::LoadA).mux(right.mux(height(1), height(0)), modulus);
-            modulus = formed.is(Op::LoadB).mux(right.mux(height(2), height(0)), modulus);
+            modulus = next.is(Op::LoadA).mux(right.mux(height(1), height(0)), modulus);
+            modulus = next.is(Op::LoadB).mux(right.mux(height(2), height(0)), modulus);
         }
-        (modulus, !(formed.is(Op::Load1) & right))
+        (modulus, !(next.is(Op::Load1) & right))
     }
 }
 

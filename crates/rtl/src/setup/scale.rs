@@ -30,8 +30,8 @@ impl<'m> Scale<'m> {
         let scaling = m.reg("scaling", 1).doc("it is compared").reset(0);
         let i = m.reg("scale_next", control.scale.q().width()).doc("times that it is fourfold");
         let mut takes = area.ends;
-        if let Some(last) = control.formed.in_round(rounds - 1) {
-            takes = takes | (control.formed.is(Op::Fix2) & !last);
+        if let Some(last) = control.next.in_round(rounds - 1) {
+            takes = takes | (control.next.is(Op::Fix2) & !last);
         }
         taken.set(takes & !control.begin);
         let short = !area.negative;
@@ -46,7 +46,7 @@ impl<'m> Scale<'m> {
         i.when(grows, i.q() + 1).when(taken.q(), 0);
         control.area_known.drive(!area.adds & !control.begin & !taken.q() & !scaling.q());
         control.scale.drive(if rounds > 1 {
-            m.reg("scale_now", i.q().width()).doc("of the round").when(control.formed.is(Op::Load1), i).q()
+            m.reg("scale_now", i.q().width()).doc("of the round").when(control.next.is(Op::Load1), i).q()
         } else {
             i.q()
         });
@@ -64,9 +64,8 @@ impl<'m> Scale<'m> {
         let Some(any) = any.map(|any| any.named("shown")) else { return };
         let several = rounds(plan)[1] > 1;
         let seconds: &[Op] = if several { &[Op::FixDx, Op::Fix2] } else { &[Op::FixDx] };
-        let second = control.formed.one_of(seconds) & control.advance;
-        self.differences.when(second, self.differences.q() | any);
-        let first = if several { control.begin | control.formed.is(Op::Fix1) } else { control.begin };
+        self.differences.when(control.next.one_of(seconds), self.differences.q() | any);
+        let first = if several { control.begin | control.next.is(Op::Fix1) } else { control.begin };
         self.differences.when(first, any);
     }
 }

@@ -16,12 +16,12 @@ pub(super) struct Vertices<'m> {
     values: Vec<Registers<'m>>,
     /// The vertex of the port that is at a place: 0, 1 or 2.
     pub order: Vec<Signal<'m>>,
-    /// v of the lower end less v of the upper one, by edge; unsigned, DW − 1 bits.
-    pub heights: Vec<Signal<'m>>,
-    /// u1 − u0 and u2 − u0, signed, DW bits.
-    pub du1: Signal<'m>,
-    /// See `du1`.
-    pub du2: Signal<'m>,
+    /// v of the bottom vertex less v of the top one, a clock before `heights` has it.
+    pub tall: Signal<'m>,
+    /// v of the lower end less v of the upper one, by edge; unsigned, DW − 1 bits. From the second clock of a triangle.
+    pub heights: [Signal<'m>; 3],
+    /// u of the lower end less u of the upper one, by edge; signed, DW bits. From the second clock of a triangle.
+    pub across: [Signal<'m>; 3],
 }
 
 impl<'m> Vertices<'m> {
@@ -69,17 +69,19 @@ impl<'m> Vertices<'m> {
             });
         }
 
-        m.comment("Differences of the sorted vertices.");
+        m.comment("Differences of the sorted vertices, from upper to lower ends of edges.");
         let bits = plan.widths().difference;
         let less =
             |f: &str, from: usize, to: usize| places[to][f].q().sext(bits) - places[from][f].q().sext(bits);
-        let height = |(from, to): (usize, usize)| {
-            less("v", from, to).trunc(bits - 1).named_doc(&format!("dv{from}{to}"), "1/P line")
+        let kept = |name: &str, (from, to): (usize, usize), doc: &str, value: Signal<'m>| {
+            m.reg(&format!("{name}{from}{to}"), value.width()).doc(doc).when(control.begin, value).q()
         };
-        let heights = ENDS.into_iter().map(height).collect();
-        let du1 = less("u", 0, 1).named_doc("du01", "1/P column, signed");
-        let du2 = less("u", 0, 2).named_doc("du02", "1/P column, signed");
-        Vertices { places, values, order, heights, du1, du2 }
+        let tall = less("v", 0, 2).trunc(bits - 1).named("tall");
+        let height =
+            |ends: (usize, usize)| kept("dv", ends, "1/P line", less("v", ends.0, ends.1).trunc(bits - 1));
+        let heights = ENDS.map(height);
+        let across = ENDS.map(|ends| kept("du", ends, "1/P column, signed", less("u", ends.0, ends.1)));
+        Vertices { places, values, order, tall, heights, across }
     }
 
     /// Column of a vertex, 1/P column, signed.

@@ -2,40 +2,41 @@
 
 use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
 
-/// A step of a lane (`docs/machine.md`, section 2).
+/// A step of a lane (`docs/machine.md`, section 2). Bit 4 of its number says that the addend is a stored pair, bit 3 that M is taken
+/// off, bit 2 that M is added if a sign says so, which one bit 0: the lane reads them off where time is short.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Step {
     /// Nothing.
-    Rest,
+    Rest = 0,
     /// A number is taken in.
-    Load,
-    /// M is added to it if it is below 0; does it fit?
-    Fix,
+    Load = 0b1,
+    /// A number that does not fit, its sign: M - 1 or 0 of the rest.
+    Less1 = 0b10,
     /// Doubled.
-    Double1,
+    Double1 = 0b11,
+    /// M is added to a number that was taken in, if it is below 0; does it fit?
+    Fix = 0b100,
+    /// A number that does not fit, its sign first: M or 0 of the rest.
+    Begin = 0b101,
     /// Doubled twice.
-    Double2,
-    /// The first digits of a sum.
-    First,
-    /// The next digits of a sum.
-    Next,
-    /// The sign digits of a sum, which subtract: its first.
-    Sign,
+    Double2 = 0b1000,
+    /// The next two digits of a number that does not fit.
+    Digits = 0b1001,
     /// A pair is added.
-    Add,
-    /// A whole number is added.
-    Whole,
-    /// A number that does not fit: its sign, M or 0 of the rest.
-    Begin,
-    /// Its sign: M - 1 or 0 of the rest.
-    Less1,
-    /// Its next two digits.
-    Digits,
+    Add = 0b1_0000,
+    /// The first digits of a sum.
+    First = 0b1_0001,
+    /// The next digits of a sum.
+    Next = 0b1_0010,
+    /// The sign digits of a sum, which subtract: its first.
+    Sign = 0b1_0011,
+    /// A whole number is added; the rest stays, whatever its addend.
+    Whole = 0b1_0100,
 }
 
 impl Step {
     /// Bits of its number.
-    pub const BITS: u32 = 4;
+    pub const BITS: u32 = 5;
 }
 
 /// An operation of all lanes: one step, or as many as its numbers have digits.
