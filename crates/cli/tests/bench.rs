@@ -59,6 +59,41 @@ fn every_engine_says_how_fast_it_is() {
     }
 }
 
+/// Terms, tables, roots and texels from the host: every engine takes the same cycles and makes the same writes.
+#[test]
+fn machines_that_shade_take_part() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("shaded.tri");
+    let mut text = String::from(
+        "size 40 30\nmode phong\nview 0 0 1\nsun 0 1 1 0.8\nmaterial 0.1 0.8 0.3 20\ntexture 2 1 ff0000 00ff80\n",
+    );
+    for i in 0..9 {
+        writeln!(text, "T {i} 2 0.5 1 1 0 0  {i} 29 0.4 0 1 1 0  39.5 {} 0.3 1 0 1 0", 3 * i).unwrap();
+        text += "N 0 0 1  0 0.6 0.8  0.6 0 0.8\nUV 0 0  3 0  0 2\n";
+    }
+    std::fs::write(&file, text).unwrap();
+    let run = |more: &[&str]| {
+        let shades = ["shade.kind=phong", "shade.colour=multiply", "texture.kind=nearest", "texture.bits=3"];
+        let mut command = Command::new(env!("CARGO_BIN_EXE_edgewalk"));
+        command.arg("bench").arg(&file).args(["--json", "--repeat", "1"]).args(more);
+        shades.iter().for_each(|setting| _ = command.args(["--set", setting]));
+        command.output().unwrap()
+    };
+    let output = run(&["--set", "term.record_bits=4", "--set", "shade.material_bits=1"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let engines = result["engines"].as_array().unwrap();
+    assert_eq!(engines.len(), 4);
+    assert_eq!(engines[0]["absent"], "ticked: the machine has TERM and SHADE");
+    for row in engines.iter().filter(|row| row["absent"].is_null()) {
+        assert_eq!((&row["cycles"], &row["triangles"]), (&result["cycles"], &9.into()), "{row}");
+    }
+    let output = run(&["--set", "term.record_bits=3"]);
+    assert_eq!(output.status.code(), Some(2));
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(error.contains("9 triangles") && error.contains("term.record_bits=4"), "{error}");
+}
+
 #[test]
 fn an_engine_that_is_not_exact_takes_no_part() {
     let result = bench(&["--engine", "tick,fast", "--set", "memory.latency=8"]);

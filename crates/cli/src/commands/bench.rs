@@ -55,7 +55,7 @@ pub struct Args {
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (machine, frame) = args.source.on_its_screen(machine)?;
     let port = to_port(&frame, &machine)?;
-    let whole = Job::new(&machine, &port.triangles, (port.state()?, args.stalls), args.repeat)?;
+    let whole = Job::new(&machine, &port.triangles, port.words(), (port.state()?, args.stalls), args.repeat)?;
     let size = (machine.width, machine.height);
     Verdict::drew(whole.fragments).or_nothing(&args.source.input, whole.triangles.len() as u64, size)?;
     let bar = progress::bar(Engine::ALL.len() as u64, "engines", talk.quiet);

@@ -1,26 +1,31 @@
 // Drives the verilated machine with the same triangles and the same memories as the model: for timing only.
 // Usage: harness STIMULUS FRAMES CONSTANT ...
 // Prints for each frame: cycles, writes, milliseconds on the processor, milliseconds on the wall.
-// STIMULUS: little-endian 64-bit words, the fields of one triangle after the other, as at the port.
+// STIMULUS: little-endian 64-bit words, the fields of one triangle after the other, as at the port. memory0.bin, memory1.bin ..: the words
+// of the memories that the machine does not write.
 #include "Vmachine.h"
 #include "verilated.h"
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <string>
 #include <vector>
 
-struct Read { uint64_t due; uint32_t word; };
+struct Read { uint64_t due, word; };
 
-// A memory behind the machine; no word of the machine has more than 32 bits.
+// A memory behind the machine; no word of the machine has more than 64 bits. Beyond its words it is 0.
 struct Memory {
-    std::vector<uint32_t> words;
+    std::vector<uint64_t> words;
     Read queue[64];
     uint64_t head = 0, tail = 0;
     bool due(uint64_t cycle) const { return head != tail && queue[head % 64].due <= cycle; }
-    uint32_t front() const { return queue[head % 64].word; }
+    uint64_t front() const { return queue[head % 64].word; }
     void pop() { ++head; }
-    void read(size_t address, uint64_t when) { queue[tail % 64] = {when, words[address]}; ++tail; }
+    void read(size_t address, uint64_t when) {
+        queue[tail % 64] = {when, address < words.size() ? words[address] : 0};
+        ++tail;
+    }
 };
 
 #include "ports.h"
@@ -46,14 +51,16 @@ int main(int argc, char **argv) {
     const auto words = read_all(argv[1]);
     const int frames = std::atoi(argv[2]);
     static Memory memory[MEMORIES];
-    std::vector<uint64_t> picture(WORDS[0]);
+    std::vector<uint64_t> picture(PICTURE);
+    for (size_t i = 0; i < MEMORIES; ++i)
+        if (!WRITTEN[i]) memory[i].words = read_all(("memory" + std::to_string(i) + ".bin").c_str());
     Vmachine m;
     set_constants(m, argv + 3);
     always_ready(m);
     for (int frame = 0; frame < frames; ++frame) {
         const double cpu = milliseconds(CLOCK_PROCESS_CPUTIME_ID), wall = milliseconds(CLOCK_MONOTONIC);
         for (size_t i = 0; i < MEMORIES; ++i) {
-            memory[i].words.assign(WORDS[i], CLEAR[i]);
+            if (WRITTEN[i]) memory[i].words.assign(WORDS[i], CLEAR[i]);
             memory[i].head = memory[i].tail = 0;
         }
         std::fill(picture.begin(), picture.end(), 0);

@@ -3,12 +3,14 @@
 use super::job::{Job, Times, Work};
 use super::stopwatch::Stopwatch;
 use anyhow::{Result, anyhow};
-use edgewalk_lockstep::{StallKind, render_rtl};
+use edgewalk_lockstep::{StallKind, render_rtl_passes};
+use edgewalk_model::Pass;
 
 /// Times it.
 pub fn time(job: &Job) -> Result<Times> {
     job.time(&Stopwatch::start(), || {
-        let drawn = render_rtl(job.machine, job.triangles.iter().copied(), job.state, StallKind::None);
+        let (triangles, passes) = (job.triangles.iter().copied(), [Pass::all(job.state)]);
+        let drawn = render_rtl_passes(job.machine, triangles, &passes, &[], StallKind::None, job.shading);
         drawn.map(|frame| Work::of(&frame.counters)).map_err(|e| anyhow!("{e}"))
     })
 }

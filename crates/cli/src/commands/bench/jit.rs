@@ -35,10 +35,10 @@ struct Native {
 /// A memory and its ports.
 struct Served {
     setting: MemorySetting,
-    /// By address; no word of the machine has more than 32 bits.
-    words: Vec<u32>,
+    /// By address; no word of the machine has more than 64 bits, and beyond them it is 0.
+    words: Vec<u64>,
     /// Words read, with the cycle from which on they are offered.
-    reads: VecDeque<(u64, u32)>,
+    reads: VecDeque<(u64, u64)>,
     data_valid: InputId,
     data: InputId,
     data_ready: OutputId,
@@ -67,7 +67,10 @@ impl Native {
         let fields = |places: Vec<usize>| -> Result<Vec<OutputId>, SimError> {
             places.into_iter().map(|place| output(&wr.fields[place].name)).collect()
         };
-        let memories = interface.memories.iter().map(|memory| Served::new(memory, &interface, &simulator));
+        let memories = interface
+            .memories
+            .iter()
+            .map(|memory| Served::new(memory, job.words(memory.name), &interface, &simulator));
         Ok(Native {
             rst: simulator.input("rst")?,
             idle: output("idle")?,
@@ -142,7 +145,12 @@ impl Native {
 }
 
 impl Served {
-    fn new(memory: &Memory, interface: &Interface, simulator: &Simulator) -> Result<Served, SimError> {
+    fn new(
+        memory: &Memory,
+        words: Vec<u64>,
+        interface: &Interface,
+        simulator: &Simulator,
+    ) -> Result<Served, SimError> {
         let (read, data) = (&interface.links[memory.read], &interface.links[memory.data]);
         let write = memory.write.map(|write| {
             let link = &interface.links[write.link];
@@ -156,7 +164,7 @@ impl Served {
         });
         Ok(Served {
             setting: MemorySetting::of(memory),
-            words: Vec::new(),
+            words,
             reads: VecDeque::new(),
             data_valid: simulator.input(&valid(data))?,
             data: simulator.input(&data.fields[0].name)?,
@@ -168,8 +176,10 @@ impl Served {
     }
 
     fn clear(&mut self) {
-        self.words.clear();
-        self.words.resize(self.setting.words, self.setting.clear as u32);
+        if self.write.is_some() {
+            self.words.clear();
+            self.words.resize(self.setting.words, self.setting.clear as u64);
+        }
         self.reads.clear();
     }
 
@@ -187,14 +197,14 @@ impl Served {
             self.reads.pop_front();
         }
         if word(self.read_valid) == 1 {
-            let read = self.words[word(self.address) as usize];
+            let read = self.words.get(word(self.address) as usize).copied().unwrap_or(0);
             self.reads.push_back((cycle + self.setting.latency, read));
         }
         if let Some([valid, enable, address, data]) = self.write
             && word(valid) == 1
             && word(enable) == 1
         {
-            self.words[word(address) as usize] = word(data) as u32;
+            self.words[word(address) as usize] = word(data);
         }
     }
 }

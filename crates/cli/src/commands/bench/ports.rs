@@ -17,11 +17,14 @@ pub fn header(plan: &Plan) -> String {
     };
     let _ = writeln!(text, "static const size_t MEMORIES = {};", memories.len());
     let _ = writeln!(text, "static const size_t WORDS[] = {{{}}};", list(|memory| 1 << memory.address_bits));
-    let _ = writeln!(
-        text,
-        "static const uint32_t CLEAR[] = {{{}}};",
-        list(|memory| u64::MAX >> (64 - memory.word_bits))
-    );
+    // As many as its first memory has that is written: those that the host fills may stand before.
+    let picture = memories.iter().find(|memory| memory.write.is_some());
+    let picture = picture.map_or(0, |memory| 1u64 << memory.address_bits);
+    let _ = writeln!(text, "static const size_t PICTURE = {picture};");
+    let written = list(|memory| memory.write.is_some().into());
+    let _ = writeln!(text, "static const bool WRITTEN[] = {{{written}}};");
+    let clear = list(|memory| u64::MAX >> (64 - memory.word_bits)).replace(',', "ULL,");
+    let _ = writeln!(text, "static const uint64_t CLEAR[] = {{{clear}ULL}};");
     let mut function = |head: &str, lines: Vec<String>| {
         let _ = writeln!(text, "static inline {head} {{");
         lines.iter().for_each(|line| _ = writeln!(text, "    {line}"));

@@ -6,7 +6,7 @@ use super::stopwatch::{Stopwatch, Time};
 use crate::scratch::Scratch;
 use crate::verdict::ToolError;
 use anyhow::{Context, Result, anyhow};
-use edgewalk_lockstep::Triangles;
+use edgewalk_lockstep::{Interface, Triangles, Unit};
 use std::path::Path;
 use std::process::Command;
 
@@ -22,6 +22,10 @@ pub fn time(job: &Job) -> Result<Result<Times, String>> {
     build(job, folder.path())?;
     let built = start.read().wall;
     std::fs::write(folder.path().join("stimulus.bin"), stimulus(job))?;
+    for (i, memory) in Interface::new(job.machine, Unit::MACHINE).memories.iter().enumerate() {
+        let words = job.words(memory.name).into_iter().flat_map(u64::to_le_bytes);
+        std::fs::write(folder.path().join(format!("memory{i}.bin")), words.collect::<Vec<u8>>())?;
+    }
     let output = Command::new(folder.path().join("obj_dir/Vmachine"))
         .current_dir(folder.path())
         .arg("stimulus.bin")
