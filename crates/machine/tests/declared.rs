@@ -1,0 +1,101 @@
+//! What machines of several kinds declare, by hand: widths that follow from two keys, what is there for some machines only.
+
+use edgewalk_machine::{Machine, Plan, UNITS, UnitSpec};
+
+/// The default machine but for these keys.
+fn machine(keys: &[(&str, &str)]) -> Machine {
+    let mut machine = Machine::default();
+    for (key, value) in keys {
+        machine.set(key, value).expect("a key of the machine");
+    }
+    machine
+}
+
+fn plan(keys: &[(&str, &str)]) -> Plan {
+    machine(keys).plan().expect("can be built")
+}
+
+fn unit(name: &str) -> &'static UnitSpec {
+    UNITS.iter().find(|unit| unit.name == name).expect("a unit")
+}
+
+/// Bits of the address by which a unit reads its memory.
+fn address_bits(name: &str, plan: &Plan) -> u32 {
+    let ports = (unit(name).ports)(plan);
+    ports.memory[0].read.fields[0].width()
+}
+
+fn can_happen(name: &str, event: &str, plan: &Plan) -> bool {
+    let event = unit(name).events.iter().find(|declared| declared.name == event).expect("an event");
+    (event.can_happen)(plan)
+}
+
+#[test]
+fn a_texel_is_addressed_by_material_line_and_column() {
+    for (materials, side) in [(0, 1), (4, 8), (8, 11)] {
+        let keys = [
+            ("shade.kind", "phong".to_owned()),
+            ("shade.colour", "multiply".to_owned()),
+            ("texture.kind", "nearest".to_owned()),
+            ("shade.material_bits", materials.to_string()),
+            ("texture.bits", side.to_string()),
+        ];
+        let keys: Vec<_> = keys.iter().map(|(key, value)| (*key, value.as_str())).collect();
+        assert_eq!(address_bits("texel", &plan(&keys)), materials + 2 * side);
+    }
+}
+
+#[test]
+fn a_map_is_addressed_by_the_bits_of_its_side() {
+    for (size, side) in [("1", 1), ("2", 1), ("3", 2), ("512", 9), ("513", 10), ("4096", 12)] {
+        let plan = plan(&[("shadow.light", "parallel"), ("shadow.size", size)]);
+        assert_eq!((plan.shadow.side_bits(), address_bits("shadow", &plan)), (side, 2 * side), "{size}");
+    }
+}
+
+#[test]
+fn materials_change_only_where_there_are_several() {
+    for (bits, several) in [("0", false), ("1", true)] {
+        let plan = plan(&[("shade.kind", "fast-phong"), ("shade.material_bits", bits)]);
+        assert_eq!(can_happen("shade", "material_change", &plan), several);
+        assert!(can_happen("shade", "tables_read", &plan));
+    }
+    assert!(!can_happen("shade", "tables_read", &Plan::default()));
+}
+
+#[test]
+fn a_light_is_divided_only_in_perspective() {
+    for (light, divided) in [("none", false), ("parallel", false), ("perspective", true)] {
+        let plan = plan(&[("shadow.light", light)]);
+        assert_eq!((unit("project").present)(&plan), divided, "{light}");
+        assert_eq!((unit("shadow").present)(&plan), light != "none");
+    }
+}
+
+#[test]
+fn k_t_is_the_triangles_or_a_channel() {
+    for (kind, of_triangle, channels) in
+        [("none", false, 4), ("constant", true, 4), ("interpolated", false, 5)]
+    {
+        let plan = plan(&[("blend.kind", kind)]);
+        let port = (unit("setup").ports)(&plan).takes.expect("triangles");
+        let kt = |name: &str| port.fields.iter().any(|field| field.name == name);
+        assert_eq!(
+            (kt("kt"), kt("kt0"), plan.channels().len()),
+            (of_triangle, channels == 5, channels),
+            "{kind}"
+        );
+    }
+}
+
+#[test]
+fn k_t_of_a_vertex_is_a_share() {
+    let plan = plan(&[("blend.kind", "constant"), ("blend.kt_bits", "8")]);
+    let vertex = |kt: f64| plan.port_vertex(0.0, 0.0, &[0.0, 0.0, 0.0, 0.0, kt]);
+    for (kt, word) in [(0.0, 0), (0.25, 64), (1.0, 256)] {
+        assert_eq!(vertex(kt).expect("a share").kt(), word);
+    }
+    for kt in [-0.001, 1.001, f64::NAN] {
+        assert!(vertex(kt).expect_err("no share").to_string().contains("kt"));
+    }
+}
