@@ -113,7 +113,7 @@ impl Cover {
             // The pixels x with spare + x per_x >= 0.
             let spare = plane.origin + i64::from(y) * plane.per_y - plane.least;
             match plane.per_x {
-                0 if spare < 0 => return 0..0,
+                // A horizontal edge bounds the lines.
                 0 => {}
                 rise if rise > 0 => start = start.max(-spare.div_euclid(rise)),
                 fall => end = end.min(spare.div_euclid(-fall) + 1),

@@ -14,7 +14,8 @@ pub(crate) struct DrawList<'a> {
     frame: &'a Frame,
     fill: Fill,
     items: Vec<Item<'a>>,
-    shadow: Option<ShadowMap<'a>>,
+    /// By the lights' numbers, from 1.
+    maps: Vec<ShadowMap<'a>>,
 }
 
 /// A primitive ready to be drawn.
@@ -30,8 +31,8 @@ impl<'a> DrawList<'a> {
             Primitive::Polygon(polygon) => Item::Polygon(EdgeTable::new(polygon, frame.mode, fill.grid())),
         };
         let items = frame.primitives().into_iter().map(item).collect();
-        let shadow = frame.shadow.as_ref().map(|shadow| ShadowMap::draw(shadow, fill));
-        Self { frame, fill, items, shadow }
+        let maps = frame.shadows.iter().map(|shadow| ShadowMap::draw(shadow, fill)).collect();
+        Self { frame, fill, items, maps }
     }
 
     pub(crate) fn frame(&self) -> &'a Frame {
@@ -47,8 +48,9 @@ impl<'a> DrawList<'a> {
         &self.items
     }
 
-    pub(crate) fn shadow(&self) -> Option<&ShadowMap<'a>> {
-        self.shadow.as_ref()
+    /// That of the light with this number.
+    pub(crate) fn map(&self, light: usize) -> Option<&ShadowMap<'a>> {
+        self.maps.get(light.checked_sub(1)?)
     }
 
     /// The exact order of a fragment's depth and that of the primitive with this id at the same pixel.

@@ -131,14 +131,22 @@ pub enum Step {
         /// How far they are apart.
         gap: f64,
     },
-    /// A colour is stored.
+    /// A colour is stored: `own` times `share`, put together with what the pixel had.
     Stored {
         /// Place of the pixel, from the first of the lines.
         at: usize,
         /// Place of the primitive in the list.
         id: i32,
-        /// The fragment's.
-        front: [f64; 3],
+        /// The fragment's depth.
+        z: f64,
+        /// Its colour, before a light's map.
+        own: [f64; 3],
+        /// What the map does.
+        lit: Lit,
+        /// The share of the colour that it leaves.
+        share: f64,
+        /// The number of the light, as the rules have it.
+        light: usize,
         /// Its k_t.
         kt: f64,
         /// What the pixel had.
@@ -182,16 +190,14 @@ impl<F: FnMut(Step)> Pen<'_, F> {
         if !state.color_write {
             return;
         }
-        let mut front = self.brush.as_ref().map_or_else(|| fragment.rgb(), |brush| brush.color(fragment));
-        picture.lit[at] = Lit::Lit;
-        if let Some(map) = list.shadow()
-            && !map.lit(fragment.x, fragment.y, z, self.id as usize)
-        {
-            front = front.map(|channel| channel * map.ambient());
-            picture.lit[at] = Lit::Shadow;
-        }
-        let back = picture.rgb[at];
-        (self.watch)(Step::Stored { at, id: self.id, front, kt: fragment.kt(), back, blend: state.blend });
+        let own = self.brush.as_ref().map_or_else(|| fragment.rgb(), |brush| brush.color(fragment));
+        let map = list.map(state.light);
+        let (lit, share) =
+            map.map_or((Lit::Lit, 1.0), |map| map.share(fragment.x, fragment.y, z, self.id as usize));
+        picture.lit[at] = lit;
+        let front = own.map(|channel| channel * share);
+        let (back, kt, blend, light) = (picture.rgb[at], fragment.kt(), state.blend, state.light);
+        (self.watch)(Step::Stored { at, id: self.id, z, own, light, lit, share, kt, back, blend });
         picture.rgb[at] = match state.blend {
             Blending::Off => front,
             Blending::Mix => mix(front, fragment.kt(), back),

@@ -4,13 +4,15 @@
 
 use crate::fast_phong::{PowerTable, nodes, six_point_at};
 use crate::fragment::{Fragment, Weight};
-use edgewalk_scene::{Light, PixelMethod, PixelShading, PixelTriangle};
-use glam::DVec3;
+use edgewalk_scene::{Image, Light, PixelMethod, PixelShading, PixelTriangle};
+use glam::{DVec2, DVec3};
+use std::ops::{Add, Mul};
 
 /// A triangle about to be shaded.
 pub struct PixelBrush<'a> {
     shading: &'a PixelShading,
     triangle: &'a PixelTriangle,
+    texture: Option<&'a Image>,
     /// Of the lights in their order; none for Phong.
     cosines: Vec<Cosines>,
 }
@@ -38,7 +40,7 @@ impl<'a> PixelBrush<'a> {
             PixelMethod::Phong => Vec::new(),
             PixelMethod::FastPhong => Self::of_lights(shading, triangle),
         };
-        Some(Self { shading, triangle, cosines })
+        Some(Self { shading, triangle, texture: shading.texture(triangle).map(|image| &**image), cosines })
     }
 
     fn of_lights(shading: &PixelShading, triangle: &PixelTriangle) -> Vec<Cosines> {
@@ -58,7 +60,12 @@ impl<'a> PixelBrush<'a> {
 
     /// The colour at a pixel of the triangle, each in [0, 1].
     pub fn color<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>) -> [f64; 3] {
-        let (shares, surface) = (fragment.shares(), DVec3::from(fragment.rgb()));
+        self.color_by(fragment, self.texel(fragment))
+    }
+
+    /// The same with this texel for its own; it is white where there is no texture.
+    pub fn color_by<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>, texel: DVec3) -> [f64; 3] {
+        let (shares, surface) = (fragment.shares(), DVec3::from(fragment.rgb()) * texel);
         let color = match self.shading.method {
             PixelMethod::Phong => {
                 let PixelTriangle { normals, positions, .. } = *self.triangle;
@@ -70,6 +77,17 @@ impl<'a> PixelBrush<'a> {
         color.to_array()
     }
 
+    /// Where a pixel lies in the texture, u to the right and v up; `None` without one.
+    pub fn place<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>) -> Option<DVec2> {
+        self.texture.map(|_| mean(self.triangle.texture, &fragment.shares()))
+    }
+
+    /// The texel at a pixel.
+    pub fn texel<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>) -> DVec3 {
+        let place = self.place(fragment);
+        self.texture.zip(place).map_or(DVec3::ONE, |(image, place)| image.nearest(place))
+    }
+
     /// N·L and N·H of each light at a pixel; those of fast Phong are not cut.
     pub fn cosines<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>) -> Vec<[f64; 2]> {
         self.lit(&fragment.shares())
@@ -79,14 +97,15 @@ impl<'a> PixelBrush<'a> {
     }
 
     /// The colours that the pixel may have for one who knows the cosines N·L to within `doubt`: for each light whose N·L is
-    /// no farther from 0, as if it stood above the horizon and as if below. The first is that of [`Self::color`].
+    /// no farther from 0, as if it stood above the horizon and as if below. The first is that of [`Self::color_by`].
     pub fn branches<const N: usize, W: Weight>(
         &self,
         fragment: &Fragment<N, W>,
+        texel: DVec3,
         doubt: f64,
     ) -> Vec<[f64; 3]> {
         let lights = self.lit(&fragment.shares());
-        let surface = DVec3::from(fragment.rgb());
+        let surface = DVec3::from(fragment.rgb()) * texel;
         let mut turned = vec![0];
         for (light, lit) in lights.iter().enumerate().take(MOST_TURNED) {
             if lit.diffuse.abs() <= doubt {
@@ -95,7 +114,7 @@ impl<'a> PixelBrush<'a> {
             }
         }
         let others = turned[1..].iter().map(|set| self.sum(&lights, surface, *set).to_array());
-        [self.color(fragment)].into_iter().chain(others).collect()
+        [self.color_by(fragment, texel)].into_iter().chain(others).collect()
     }
 
     /// The cosines of each light where the vertices weigh `shares`.
@@ -141,6 +160,9 @@ impl<'a> PixelBrush<'a> {
 const MOST_TURNED: usize = 8;
 
 /// A mean over the triangle.
-fn mean(values: [DVec3; 3], shares: &[f64]) -> DVec3 {
-    values.iter().zip(shares).map(|(value, share)| *value * *share).sum()
+fn mean<V>(values: [V; 3], shares: &[f64]) -> V
+where
+    V: Copy + Default + Add<Output = V> + Mul<f64, Output = V>,
+{
+    values.iter().zip(shares).fold(V::default(), |sum, (value, share)| sum + *value * *share)
 }

@@ -9,7 +9,7 @@ use glam::DVec3;
 pub enum Visibility<'a> {
     /// r_l = 1: no light casts shadows.
     Full,
-    /// 0 or 1 by the lights' depth maps; faces that transmit light hide nothing.
+    /// By the lights' maps: 0, or the product of k_t of what transmits light before the texel.
     Maps(ShadowMaps),
     /// By rays: the product of k_t of the faces on the way.
     Rays(Rays<'a>),
@@ -21,7 +21,7 @@ impl Visibility<'_> {
         let lights = scene.lights.iter().enumerate();
         let factor = |(l, light)| match self {
             Self::Full => 1.0,
-            Self::Maps(maps) => f64::from(u8::from(maps.lit(l, point, triangle.own_normal))),
+            Self::Maps(maps) => maps.transmitted(l, point, triangle.own_normal),
             Self::Rays(rays) => rays.transmitted(light, point, triangle.face),
         };
         lights.map(factor).collect()

@@ -20,6 +20,7 @@ fn state(random: &mut StdRng) -> State {
         depth_write: random.random_bool(0.7),
         blend: Blending::ALL[random.random_range(0..3)],
         color_write: random.random_bool(0.8),
+        light: 1,
     }
 }
 

@@ -6,7 +6,7 @@ use edgewalk_scene::{
     Attenuation, Light, Material, PixelMethod, PixelShading, PixelTriangle, ShadeMode, Specular, Triangle,
     Vertex, Viewer, triangle_file,
 };
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -193,7 +193,8 @@ fn a_light_at_a_point_is_sampled_by_the_six_points() {
                 lights: vec![light],
                 specular: Specular::Halfway,
                 materials: vec![Material::matte(DVec3::ONE)],
-                triangles: vec![PixelTriangle { normals, positions, material: 0 }],
+                textures: Vec::new(),
+                triangles: vec![PixelTriangle { normals, positions, texture: [DVec2::ZERO; 3], material: 0 }],
             };
             let exact = PixelShading { method: PixelMethod::Phong, ..shading.clone() };
             let brushes = [&shading, &exact].map(|shading| PixelBrush::new(shading, 0).unwrap());
@@ -210,4 +211,30 @@ fn a_light_at_a_point_is_sampled_by_the_six_points() {
     }
     // Halving what the light turns by divides what is left out by up to eight, down to what the normals leave.
     assert!(worst[0] > 4.0 * worst[2] && worst[2] < 2.0 && worst[4] < 0.5, "{worst:?}");
+}
+
+/// Two lights near the horizon: whoever knows the cosines only so far allows each to stand on either side.
+#[test]
+fn lights_within_doubt_of_the_horizon_may_stand_on_either_side() {
+    let text = "size 4 4\nmode phong\nview 0 0 1\nsun 1 0 0.001 0.5\nsun 0 1 0.002 0.25\nmaterial 0.125 0.5 0 1\n\
+                T 0 0 0 1 1 1 0  9 0 0 1 1 1 0  0 9 0 1 1 1 0\nN 0 0 1  0 0 1  0 0 1";
+    let frame = triangle_file::parse("a.tri", text.as_bytes()).unwrap();
+    let brush = PixelBrush::new(frame.shading.as_ref().unwrap(), 0).unwrap();
+    let mut checked = 0;
+    fragments(&frame.triangles[0], ShadeMode::Gouraud, 8, (4, 4), |fragment| {
+        let of = |doubt: f64| brush.branches(fragment, DVec3::ONE, doubt);
+        let own = brush.color(fragment);
+        // As it is: both lights shine, a little.
+        let lit = 0.125 + 0.5 * (0.5 * 0.001 + 0.25 * 0.002);
+        assert!((own[0] - lit).abs() < 1e-5, "{own:?}");
+        assert_eq!(of(0.0), [own]);
+        let one = of(0.0015);
+        assert_eq!((one.len(), one[0]), (2, own));
+        assert!((one[1][0] - (0.125 + 0.5 * 0.25 * 0.002)).abs() < 1e-5, "{one:?}");
+        let both = of(0.01);
+        assert_eq!((both.len(), both[0]), (4, own));
+        assert!(both.iter().any(|color| (color[0] - 0.125).abs() < 1e-12), "{both:?}");
+        checked += 1;
+    });
+    assert_eq!(checked, 16);
 }

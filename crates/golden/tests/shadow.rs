@@ -4,7 +4,7 @@
 //! infinitely smaller one, lies strictly inside; it keeps a list of fragments a pixel and composes it afterwards.
 
 use edgewalk_golden::{Fill, Lit, Picture, draw};
-use edgewalk_scene::{Blending, DepthFunc, Frame, ShadeMode, Shadow, Triangle, Vertex, triangle_file};
+use edgewalk_scene::{Blending, DepthFunc, Frame, Pane, ShadeMode, Shadow, Triangle, Vertex, triangle_file};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -189,7 +189,13 @@ fn weights(corners: &[[i128; 2]; 3], x: u32, y: u32) -> Option<[f64; 3]> {
 }
 
 /// What the second rasterizer says of a pixel; `None` where a decision is too near for f64.
-fn expected(frame: &Frame, subpixel_bits: u32, map: &[f64], x: u32, y: u32) -> Option<(f64, [f64; 3], u8)> {
+fn expected(
+    frame: &Frame,
+    subpixel_bits: u32,
+    map: &[(f64, f64)],
+    x: u32,
+    y: u32,
+) -> Option<(f64, [f64; 3], u8)> {
     let (mut z, mut rgb, mut lit) = (1.0, frame.clear, 0);
     for triangle in &frame.triangles {
         let Some(w) = weights(&corners(triangle, subpixel_bits), x, y) else { continue };
@@ -215,7 +221,7 @@ fn expected(frame: &Frame, subpixel_bits: u32, map: &[f64], x: u32, y: u32) -> O
             ShadeMode::Flat => [triangle.0[0].r, triangle.0[0].g, triangle.0[0].b, triangle.0[0].kt],
         };
         lit = 2;
-        if let Some(shadow) = &frame.shadow {
+        if let Some(shadow) = frame.shadow(1) {
             let m = |r: usize| {
                 let [a, b, c, d] = shadow.matrix[r];
                 d + c * new + b * (f64::from(y) + 0.5) + a * (f64::from(x) + 0.5)
@@ -226,14 +232,18 @@ fn expected(frame: &Frame, subpixel_bits: u32, map: &[f64], x: u32, y: u32) -> O
             }
             let side = f64::from(shadow.size);
             if m(3) > 0.0 && tx > 0.0 && tx < side && ty > 0.0 && ty < side {
-                let stored = map[ty as usize * shadow.size as usize + tx as usize];
-                if (depth - stored - shadow.bias).abs() < 1e-9 {
+                let (stored, left) = map[ty as usize * shadow.size as usize + tx as usize];
+                if (depth - stored - shadow.bias).abs() < 1e-9 || (depth - shadow.bias).abs() < 1e-9 {
                     return None;
                 }
-                if depth > stored + shadow.bias {
-                    lit = 1;
-                    (0..3).for_each(|c| front[c] *= shadow.ambient);
-                }
+                let lights = shadow.ambient..1.0; // what is left is between these two
+                let share = match depth > stored + shadow.bias {
+                    true => lights.start,
+                    false if depth < shadow.bias => lights.end,
+                    false => lights.start * (1.0 - left) + lights.end * left,
+                };
+                lit = if depth > stored + shadow.bias { 1 } else { 2 };
+                (0..3).for_each(|c| front[c] *= share);
             }
         }
         let kt = if frame.blend == Blending::Mix { front[3] } else { 0.0 };
@@ -284,7 +294,10 @@ fn random(random: &mut Pcg64Mcg) -> Frame {
         let (bias, ambient) = (near(0.0, 0.05), near(0.5, 0.5));
         let size = random.random_range(1..=32);
         let triangles = (0..random.random_range(0..8)).map(|_| [0; 3].map(|_| point(random))).collect();
-        frame.shadow = Some(Shadow { size, bias, slopes: Vec::new(), ambient, matrix, triangles });
+        let pane =
+            |random: &mut Pcg64Mcg| Pane { corners: [0; 3].map(|_| point(random)), kt: random.random() };
+        let panes = (0..random.random_range(0..6)).map(|_| pane(random)).collect();
+        frame.shadows = vec![Shadow { size, bias, slopes: Vec::new(), ambient, matrix, triangles, panes }];
     }
     frame
 }
@@ -297,20 +310,22 @@ fn random_frames_against_a_second_rasterizer() {
         let frame = random(&mut source);
         let subpixel_bits = source.random_range(0..=8);
         let picture = draw(&frame, Fill::Exact { subpixel_bits });
-        let map = frame.shadow.as_ref().map_or(Vec::new(), |shadow| {
-            let triangles: Vec<Triangle> = shadow
-                .triangles
-                .iter()
-                .map(|t| Triangle(t.map(|[x, y, z]| Vertex { x, y, z, ..Vertex::default() })))
-                .collect();
-            let nearest = |i: u32| {
-                let here = triangles.iter().filter_map(|t| {
-                    let w = weights(&corners(t, subpixel_bits), i % shadow.size, i / shadow.size)?;
-                    Some((0..3).map(|k| w[k] * t.0[k].z).sum::<f64>())
-                });
-                here.fold(1.0, f64::min)
+        let map = frame.shadow(1).map_or(Vec::new(), |shadow| {
+            let on_map =
+                |t: &[[f64; 3]; 3]| Triangle(t.map(|[x, y, z]| Vertex { x, y, z, ..Vertex::default() }));
+            let triangles: Vec<Triangle> = shadow.triangles.iter().map(on_map).collect();
+            let panes: Vec<Triangle> = shadow.panes.iter().map(|pane| on_map(&pane.corners)).collect();
+            let depth = |t: &Triangle, i: u32| {
+                let w = weights(&corners(t, subpixel_bits), i % shadow.size, i / shadow.size)?;
+                Some((0..3).map(|k| w[k] * t.0[k].z).sum::<f64>())
             };
-            (0..shadow.size * shadow.size).map(nearest).collect()
+            let texel = |i: u32| {
+                let nearest = triangles.iter().filter_map(|t| depth(t, i)).fold(1.0, f64::min);
+                let before =
+                    shadow.panes.iter().zip(&panes).filter(|(_, t)| depth(t, i).is_some_and(|z| z < nearest));
+                (nearest, before.map(|(pane, _)| pane.kt).product::<f64>())
+            };
+            (0..shadow.size * shadow.size).map(texel).collect()
         });
         for (at, place) in (0..frame.width * frame.height).enumerate() {
             let (x, y) = (place % frame.width, place / frame.width);

@@ -6,6 +6,7 @@ use edgewalk_golden::{Fill, Rays, ShadowMaps, Weights, draw, fragments};
 use edgewalk_scene::{Attenuation, Light, LightView, Scene, ShadeMode};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
+use std::path::Path;
 
 const SCREEN: (u32, u32) = (240, 180);
 const TEXELS: u32 = 512;
@@ -118,6 +119,67 @@ fn near(points: &HashMap<[i64; 2], Vec<DVec2>>, texel: DVec2) -> bool {
     around.filter_map(|place| points.get(&place)).flatten().any(|p| (*p - texel).abs().max_element() <= 1.125)
 }
 
+/// Scenes with panes, over a floor and beside a sphere.
+fn with_glass() -> [(&'static str, Scene); 2] {
+    [
+        ("glass", include_str!("../../../docs/scenes/glass.toml")),
+        ("both", include_str!("../../../docs/scenes/glass-and-shadows.toml")),
+    ]
+    .map(|(name, text)| (name, Scene::parse(Path::new(name), text).expect("a scene")))
+}
+
+/// r_l at faces that hide the light; at those that transmit it the map also counts their own k_t and what lies behind them.
+#[test]
+fn behind_glass_maps_and_rays_agree_but_within_a_texel_of_an_edge() {
+    let (mut total, mut between, mut panes) = ([0; 3], 0, [0; 2]);
+    for (name, mut scene) in with_glass() {
+        let seen = visible(&scene);
+        let (kinds, lights): (Vec<_>, Vec<_>) = lights(&scene).into_iter().unzip();
+        scene.lights = lights;
+        let (maps, rays) = (ShadowMaps::draw(&scene, TEXELS), Rays::new(&scene.mesh));
+        for (l, light) in scene.lights.iter().enumerate() {
+            let all = edges(&scene, light).concat();
+            let mut by_view: Vec<(LightView, HashMap<_, _>)> = Vec::new();
+            let mut count = [0; 3];
+            for at in seen.iter().filter(|at| light.incident(at.position).intensity != DVec3::ZERO) {
+                let by_map = maps.transmitted(l, at.position, at.normal);
+                let by_ray = rays.transmitted(light, at.position, at.face);
+                let material = scene.mesh.faces()[at.face as usize].material;
+                if scene.mesh.materials()[material as usize].transmission > 0.0 {
+                    panes[0] += 1;
+                    panes[1] += u64::from(by_map > 0.0 && by_map < by_ray);
+                    continue;
+                }
+                count[0] += 1;
+                between += u64::from(by_ray > 0.0 && by_ray < 1.0);
+                if (by_map - by_ray).abs() < 1e-12 {
+                    continue;
+                }
+                let (view, _) = maps.bias(l, at.position, at.normal).expect("a lit point has a texel");
+                let texel = view.place(at.position).expect("in this view").texel;
+                let place = by_view.iter().position(|(other, _)| other == view).unwrap_or_else(|| {
+                    by_view.push((*view, by_texel(view, &all)));
+                    by_view.len() - 1
+                });
+                count[if near(&by_view[place].1, texel) { 1 } else { 2 }] += 1;
+            }
+            println!(
+                "{name:6} {:11} {:6} points, {:4} differ within a texel of an edge, elsewhere {}",
+                kinds[l], count[0], count[1], count[2]
+            );
+            total.iter_mut().zip(count).for_each(|(sum, count)| *sum += count);
+        }
+    }
+    let [points, edge, other] = total;
+    println!(
+        "checked {points} values of r_l, {between} of them between 0 and 1: {edge} differ within a texel of an edge, {other} elsewhere; \
+         of {} points of panes {} are darker by the map",
+        panes[0], panes[1]
+    );
+    assert!(points > 50_000 && between > 5_000 && other == 0 && edge * 50 < points);
+    assert!(panes[1] * 2 > panes[0], "a pane counts itself");
+}
+
 #[test]
 fn maps_and_rays_agree_but_within_the_bias_and_a_texel_of_an_edge() {
     let mut total = [0; 5];
@@ -145,7 +207,7 @@ fn maps_and_rays_agree_but_within_the_bias_and_a_texel_of_an_edge() {
                     continue;
                 }
                 points += 1;
-                let by_map = maps.lit(l, at.position, at.normal);
+                let by_map = maps.transmitted(l, at.position, at.normal) == 1.0;
                 let hidden = rays.nearest_opaque(light, at.position, at.face);
                 shadow += u64::from(hidden.is_some());
                 assert_eq!(hidden.is_none(), rays.transmitted(light, at.position, at.face) == 1.0);

@@ -17,6 +17,9 @@ pub const DEPTH_ROUNDING: f64 = 1e-5;
 /// Most vertices of a contour.
 pub const MAX_CONTOUR: usize = 65536;
 
+/// Most lights with shadows.
+pub const MAX_LIGHTS: usize = 16;
+
 /// Most values of the user's own at a vertex.
 pub const MAX_EXTRA: usize = 4;
 
@@ -145,13 +148,26 @@ pub struct Shadow {
     pub bias: f64,
     /// What comes on top of it for a point of each of the frame's triangles and polygons, by their places; empty: nothing.
     pub slopes: Vec<f64>,
-    /// What the colour of a point in shadow is multiplied by, [0, 1].
+    /// What the colour of a point in shadow is multiplied by, [0, 1]; that of one behind panes alone by this and, of what is missing to 1, as
+    /// much as they transmit.
     pub ambient: f64,
     /// Rows of the matrix that takes a fragment's column vector (x + 1/2, y + 1/2, z, 1), in pixels and depth, to homogeneous
     /// (texel x, texel y, depth, q).
     pub matrix: [[f64; 4]; 4],
-    /// What the light sees: x, y in texels, z its depth in [0, 1]; the nearest wins.
+    /// What hides the light: x, y in texels, z its depth in [0, 1]; the nearest wins.
     pub triangles: Vec<[[f64; 3]; 3]>,
+    /// What lets some of it through.
+    pub panes: Vec<Pane>,
+}
+
+/// A triangle that transmits light. Behind all of them that cover a texel and are nearer than what hides the light there, the product of their
+/// k_t is left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pane {
+    /// As those of [`Shadow::triangles`].
+    pub corners: [[f64; 3]; 3],
+    /// Its transmission coefficient, (0, 1].
+    pub kt: f64,
 }
 
 impl Shadow {
@@ -183,8 +199,10 @@ pub struct Frame {
     /// How many values of the user's own a vertex has, 0..=[`MAX_EXTRA`]; without polygons where it has any. Where nothing
     /// is drawn they are 0.
     pub extra: usize,
-    /// The shadows of a light, if it casts any.
-    pub shadow: Option<Shadow>,
+    /// The shadows of lights, whose numbers count from 1.
+    pub shadows: Vec<Shadow>,
+    /// The number of the light whose shadows count, until a change; 0, or one that there is not: none.
+    pub light: usize,
     /// The equation at each pixel, in place of the vertices' colours; without polygons where it is.
     pub shading: Option<PixelShading>,
     /// The triangles, drawn in this order.
@@ -211,7 +229,8 @@ impl Frame {
             changes: Vec::new(),
             clear: [0.0; 3],
             extra: 0,
-            shadow: None,
+            shadows: Vec::new(),
+            light: 1,
             shading: None,
             triangles: Vec::new(),
             polygons: Vec::new(),

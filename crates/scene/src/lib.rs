@@ -28,8 +28,8 @@ pub use band::{Host, fits};
 pub use camera::Camera;
 pub use error::{InputError, nearest};
 pub use frame::{
-    DepthFunc, Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_SIDE, Polygon, ShadeMode,
-    Shadow, Triangle, Vertex,
+    DepthFunc, Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_LIGHTS, MAX_SIDE, Pane,
+    Polygon, ShadeMode, Shadow, Triangle, Vertex,
 };
 pub use light::{Attenuation, Incident, Light};
 pub use light_view::{InMap, LightView};

@@ -14,7 +14,7 @@
 
 use crate::camera::Camera;
 use crate::clip::{ClipVertex, Viewport, clip};
-use crate::frame::Triangle;
+use crate::frame::{Triangle, Vertex};
 use crate::light::Light;
 use crate::mesh::Mesh;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
@@ -203,17 +203,16 @@ impl LightView {
         }
     }
 
-    /// The opaque faces of a mesh, in texels.
-    pub fn triangles(&self, mesh: &Mesh) -> Vec<Triangle> {
+    /// The faces of a mesh in texels, with their k_t: those that hide the light, and those that transmit some of it.
+    pub fn triangles(&self, mesh: &Mesh) -> [Vec<Triangle>; 2] {
         let viewport = Viewport { width: self.size, height: self.size, guard: 2.0 * f64::from(self.size) };
-        let mut triangles = Vec::new();
+        let mut triangles = [Vec::new(), Vec::new()];
         for face in mesh.faces() {
-            if mesh.materials()[face.material as usize].transmission > 0.0 {
-                continue;
-            }
+            let kt = mesh.materials()[face.material as usize].transmission;
+            let triangles = &mut triangles[usize::from(kt > 0.0)];
             let corners = mesh.corners(face).map(|position| ClipVertex::bare(self.to_clip(position)));
             clip(corners, &viewport, |vertices| {
-                triangles.push(Triangle(vertices.map(|vertex| vertex.screen)))
+                triangles.push(Triangle(vertices.map(|vertex| Vertex { kt, ..vertex.screen })));
             });
         }
         triangles

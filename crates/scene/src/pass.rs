@@ -1,6 +1,6 @@
 //! A frame as a list of passes: what is drawn by the same rules, and what changes between.
 
-use crate::frame::{DepthFunc, Frame};
+use crate::frame::{DepthFunc, Frame, Shadow};
 use std::ops::Range;
 
 /// How the colour I of a fragment that passes is put together with what its pixel has.
@@ -37,6 +37,8 @@ pub struct State {
     pub blend: Blending,
     /// Whether a fragment that passes stores its colour and the values of the user's own.
     pub color_write: bool,
+    /// The number of the light whose shadows count, from 1; 0, or one that the frame has not: none.
+    pub light: usize,
 }
 
 impl State {
@@ -76,7 +78,13 @@ impl Frame {
             depth_write: self.depth_write,
             blend: self.blend,
             color_write: self.color_write,
+            light: self.light,
         }
+    }
+
+    /// The shadows of the light with this number.
+    pub fn shadow(&self, light: usize) -> Option<&Shadow> {
+        self.shadows.get(light.checked_sub(1)?)
     }
 
     /// The passes in order, at least one; those without a primitive are left out unless nothing is drawn at all. What they

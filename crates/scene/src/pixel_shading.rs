@@ -3,6 +3,7 @@
 //! ```text
 //!   normals, positions at the vertices ──linear over the screen──> N, to length 1 ──> the equation ──> colour
 //!   r g b at the vertices ──────────────linear over the screen──> c, which k_a and k_d are multiplied with
+//!   u v at the vertices ────────────────linear over the screen──> the nearest texel, which c is multiplied with
 //! ```
 //! Triangle files have viewer and lights infinitely far away; a scene's frame has its own.
 
@@ -14,7 +15,9 @@ use crate::pass::Blending;
 use crate::scene::Scene;
 use crate::shading::{Lighting, Point, Specular};
 use crate::surface::{Surface, SurfaceVertex};
-use glam::DVec3;
+use crate::texture::{Image, Texture};
+use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// How the cosines of a pixel are come by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -53,6 +56,8 @@ pub struct PixelTriangle {
     pub normals: [DVec3; 3],
     /// The vertices in the world; 0 where nothing depends on them.
     pub positions: [DVec3; 3],
+    /// Texture coordinates at the vertices, u to the right and v up; 0 where there are none.
+    pub texture: [DVec2; 3],
     /// Place among the materials.
     pub material: u32,
 }
@@ -70,8 +75,10 @@ pub struct PixelShading {
     pub lights: Vec<Light>,
     /// `Halfway` or `Blinn`: what N·H alone gives.
     pub specular: Specular,
-    /// Without textures and reliefs.
+    /// Without reliefs; what a texture is, is said here.
     pub materials: Vec<Material>,
+    /// What the materials name by its place.
+    pub textures: Vec<Arc<Image>>,
     /// As many as the frame has triangles, in their order.
     pub triangles: Vec<PixelTriangle>,
 }
@@ -105,6 +112,11 @@ impl PixelShading {
         Material { ambient: material.ambient * surface, diffuse: material.diffuse * surface, ..material }
     }
 
+    /// The picture that colours a triangle.
+    pub fn texture(&self, triangle: &PixelTriangle) -> Option<&Arc<Image>> {
+        self.materials[triangle.material as usize].texture.and_then(|place| self.textures.get(place as usize))
+    }
+
     /// Only the triangles at these places, in this order.
     #[must_use]
     pub fn picked(self, places: impl IntoIterator<Item = usize>) -> Self {
@@ -115,17 +127,45 @@ impl PixelShading {
 
 impl Scene {
     /// The frame of a surface of this scene with the equation at each pixel. Highlights are of the form that N·H gives: for the
-    /// mirror form that of ch. 7.12. In Phong the viewer is far away, as hardware with linear products has it. A texture colours
-    /// the vertices, a relief is not seen.
+    /// mirror form that of ch. 7.12. In Phong the viewer is far away, as hardware with linear products has it. A texture of nearest
+    /// texels is looked up at each pixel, another colours the vertices; a relief is not seen.
     pub fn pixel_frame(&self, surface: &Surface, method: PixelMethod) -> Frame {
         let Camera { eye, target, .. } = self.camera;
         let viewer = match method {
             PixelMethod::FastPhong => Viewer::At(eye),
             PixelMethod::Phong => Viewer::Toward((eye - target).normalize_or_zero()),
         };
-        let plain: Vec<(DVec3, Material)> = self.mesh.materials().iter().map(in_grey).collect();
+        let mut textures = Vec::new();
+        let places: Vec<Option<u32>> = self
+            .mesh
+            .textures()
+            .iter()
+            .map(|picture| match picture {
+                Texture::Texels(image) => {
+                    textures.push(Arc::clone(image));
+                    Some(textures.len() as u32 - 1)
+                }
+                _ => None,
+            })
+            .collect();
+        let texels = |material: &Material| {
+            material.texture.and_then(|place| places.get(place as usize).copied().flatten())
+        };
+        let plain: Vec<(DVec3, Material)> = self
+            .mesh
+            .materials()
+            .iter()
+            .map(|material| {
+                let (color, grey) = in_grey(material);
+                (color, Material { texture: texels(material), ..grey })
+            })
+            .collect();
         let corner = |face: u32, vertex: &SurfaceVertex| {
             let place = self.mesh.faces()[face as usize].material as usize;
+            if plain[place].1.texture.is_some() {
+                let [r, g, b] = plain[place].0.to_array();
+                return Vertex { r, g, b, ..vertex.screen };
+            }
             // What the texture multiplies white with.
             let tint = self.mesh.material_at(face, vertex.texture).diffuse;
             let texture = tint / self.mesh.materials()[place].diffuse;
@@ -137,6 +177,7 @@ impl Scene {
         let own = triangles.clone().map(|triangle| PixelTriangle {
             normals: triangle.vertices.map(|vertex| vertex.normal),
             positions: triangle.vertices.map(|vertex| vertex.position),
+            texture: triangle.vertices.map(|vertex| vertex.texture),
             material: self.mesh.faces()[triangle.face as usize].material,
         });
         let shading = PixelShading {
@@ -147,6 +188,7 @@ impl Scene {
             specular: if self.specular == Specular::Mirror { Specular::Halfway } else { self.specular },
             triangles: own.collect(),
             materials: plain.iter().map(|(_, material)| *material).collect(),
+            textures,
         };
         let triangles: Vec<Triangle> = triangles
             .map(|triangle| Triangle(triangle.vertices.map(|vertex| corner(triangle.face, &vertex))))

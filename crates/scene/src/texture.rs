@@ -72,11 +72,19 @@ impl Texture {
         Image::new(&picture).map(|image| Self::Image(Arc::new(image))).ok_or_else(|| fault("empty".into()))
     }
 
-    /// The same with one colour in each texel, as hardware without a filter reads it.
+    /// The same with one colour in each texel, as hardware without a filter reads it; of a checker a square is a texel.
     #[must_use]
     pub fn nearest(self) -> Self {
         match self {
             Self::Image(image) => Self::Texels(image),
+            Self::Checker { squares, colors } if squares <= MAX_TEXTURE_SIDE => {
+                let stored = colors.map(|color| color.to_array().map(|part| (part * ONE).round() as u16));
+                // Lines run from the top, and the square at the origin is the first of the last line.
+                let square = |k: u32| stored[((k % squares + squares - 1 - k / squares) % 2) as usize];
+                let texels = (0..squares * squares).map(square).collect();
+                Image::of(squares, squares, texels)
+                    .map_or(Self::Checker { squares, colors }, |image| Self::Texels(Arc::new(image)))
+            }
             other => other,
         }
     }
@@ -118,13 +126,31 @@ impl Texture {
 /// What counts as texels in a square or a wave of what is built in.
 const FINE: f64 = 64.0;
 
+/// A stored 1.
+const ONE: f64 = u16::MAX as f64;
+
 impl Image {
+    /// Texels line by line from the top, 65535 for 1; `None` if they are not as many, or none.
+    pub fn of(width: u32, height: u32, texels: Vec<[u16; 3]>) -> Option<Self> {
+        let count = u64::from(width) * u64::from(height);
+        (count > 0 && texels.len() as u64 == count).then_some(Self { width, height, texels })
+    }
+
+    /// Texels a line, and lines.
+    pub fn sides(&self) -> [u32; 2] {
+        [self.width, self.height]
+    }
+
+    /// The texels, line by line from the top; 65535 is 1.
+    pub fn texels(&self) -> &[[u16; 3]] {
+        &self.texels
+    }
+
     /// `None` of no texels.
     fn new(picture: &DynamicImage) -> Option<Self> {
         let picture = picture.to_rgb16();
         let (width, height) = picture.dimensions();
-        let texels = picture.pixels().map(|texel| texel.0).collect();
-        (width > 0 && height > 0).then_some(Self { width, height, texels })
+        Self::of(width, height, picture.pixels().map(|texel| texel.0).collect())
     }
 
     fn size(&self) -> DVec2 {
@@ -139,8 +165,8 @@ impl Image {
         line(low.y).lerp(line(low.y + 1.0), part.y)
     }
 
-    /// The texel that a place lies in.
-    fn nearest(&self, place: DVec2) -> DVec3 {
+    /// The texel that a place lies in, u to the right and v up.
+    pub fn nearest(&self, place: DVec2) -> DVec3 {
         let texel = (DVec2::new(place.x, 1.0 - place.y) * self.size()).floor();
         self.texel(texel.x, texel.y)
     }
@@ -151,6 +177,6 @@ impl Image {
         let wrap =
             |place: f64, count: u32| (place.rem_euclid(f64::from(count)) as usize).min(count as usize - 1);
         let texel = self.texels[wrap(y, self.height) * self.width as usize + wrap(x, self.width)];
-        DVec3::from(texel.map(f64::from)) / f64::from(u16::MAX)
+        DVec3::from(texel.map(f64::from)) / ONE
     }
 }

@@ -3,10 +3,12 @@
 //! One item a line. The header sets the screen and the rules; then come the triangles in drawing order, and apart from
 //! those the triangles of a light's depth map.
 
+mod vertices;
 mod shadow;
 mod extra;
 mod rules;
 mod shading;
+mod texture;
 mod reader;
 mod writer;
 

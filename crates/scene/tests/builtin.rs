@@ -3,6 +3,7 @@
 
 use edgewalk_scene::{Mesh, Scene, ShadeMode};
 use std::collections::HashMap;
+use std::f64::consts::{PI, TAU};
 
 const GUARD: f64 = 8191.0;
 
@@ -58,6 +59,25 @@ fn frames_keep_their_ranges_and_are_the_same_each_time() {
             }
         }
     }
+}
+
+#[test]
+fn the_sphere_wears_its_texture_by_longitude_and_latitude() {
+    let mesh = Scene::builtin("sphere").unwrap().mesh;
+    let mut checked = 0;
+    for (face, data) in mesh.faces().iter().zip(mesh.face_data()) {
+        for (position, place) in mesh.corners(face).into_iter().zip(data.texture.unwrap()) {
+            let latitude = 1.0 - position.y.clamp(-1.0, 1.0).acos() / PI;
+            assert!((place.y - latitude).abs() < 1e-9, "{position} {place}");
+            // At a pole every longitude meets.
+            if position.y.abs() < 1.0 - 1e-9 {
+                let turns = place.x - position.x.atan2(position.z) / TAU;
+                assert!((turns - turns.round()).abs() < 1e-9, "{position} {place}");
+                checked += 1;
+            }
+        }
+    }
+    assert!(checked > 1000);
 }
 
 #[test]

@@ -11,4 +11,5 @@ mod pixel_shading;
 mod placed_objects;
 mod scene_file;
 mod textures;
+mod texture_lines;
 mod triangle_file;

@@ -2,11 +2,12 @@
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 use edgewalk_scene::{
-    Frame, Light, Material, PixelMethod, PixelShading, PixelTriangle, ShadeMode, Specular, Triangle, Vertex,
-    Viewer, triangle_file,
+    Frame, Image, Light, Material, PixelMethod, PixelShading, PixelTriangle, ShadeMode, Specular, Triangle,
+    Vertex, Viewer, triangle_file,
 };
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use proptest::prelude::*;
+use std::sync::Arc;
 
 const T: &str = "T 0 0 0 1 1 1 0  9 0 0.5 1 1 1 0  0 9 1 1 1 1 0";
 const N: &str = "N 0 0 1  0.6 0 0.8  0 -0.6 0.8";
@@ -159,6 +160,17 @@ fn direction() -> impl Strategy<Value = DVec3> {
 }
 
 prop_compose! {
+    /// Of 8 bits a colour, or of 16.
+    fn picture()(width in 1..5u32, height in 1..5u32, eight in any::<bool>())(
+        texels in prop::collection::vec(any::<[u16; 3]>(), (width * height) as usize),
+        (width, height, eight) in Just((width, height, eight)),
+    ) -> Image {
+        let part = |part: u16| if eight { part / 257 * 257 } else { part };
+        Image::of(width, height, texels.into_iter().map(|texel| texel.map(part)).collect()).unwrap()
+    }
+}
+
+prop_compose! {
     fn shading()(
         method in prop::sample::select(PixelMethod::ALL.to_vec()),
         viewer in direction().prop_map(Viewer::Toward),
@@ -166,22 +178,35 @@ prop_compose! {
         specular in prop::sample::select(PixelShading::FORMS.to_vec()),
         materials in prop::collection::vec((prop::array::uniform3(0.0..=1.0f64), 1.0..=1024.0f64), 1..4),
         normals in prop::collection::vec(prop::array::uniform3(direction()), 1..5),
+        pictures in prop::collection::vec(prop::option::of(picture()), 4),
     ) -> PixelShading {
+        let mut textures = Vec::new();
+        let of_material: Vec<Option<u32>> = pictures.into_iter().take(materials.len()).map(|picture| {
+            textures.push(Arc::new(picture?));
+            Some(textures.len() as u32 - 1)
+        }).collect();
         let light = |(toward, i)| Light::Directional { toward, intensity: DVec3::splat(i) };
-        let material = |([a, d, s], exponent): ([f64; 3], f64)| {
+        let material = |(([a, d, s], exponent), texture): (([f64; 3], f64), &Option<u32>)| {
             let [ambient, specular] = [a, s].map(DVec3::splat);
-            Material { ambient, specular, exponent, ..Material::matte(DVec3::splat(d)) }
+            Material { ambient, specular, exponent, texture: *texture, ..Material::matte(DVec3::splat(d)) }
         };
+        let textured = |material: u32| of_material[material as usize].is_some();
         // Each material has a triangle.
         let triangles = (0..materials.len() as u32).flat_map(|material| {
-            let own = move |normals: &[DVec3; 3]| PixelTriangle { normals: *normals, positions: [DVec3::ZERO; 3], material };
+            let own = |normals: &[DVec3; 3]| {
+                // Any numbers that a file can say.
+                let place = |k: usize| DVec2::new(normals[k].x * 1e3, normals[k].y / 3.0);
+                let texture = if textured(material) { [0, 1, 2].map(place) } else { [DVec2::ZERO; 3] };
+                PixelTriangle { normals: *normals, positions: [DVec3::ZERO; 3], texture, material }
+            };
             normals.iter().map(own).collect::<Vec<_>>()
         });
         PixelShading {
             method, viewer, ambient: DVec3::ONE, specular,
             lights: lights.into_iter().map(light).collect(),
             triangles: triangles.collect(),
-            materials: materials.into_iter().map(material).collect(),
+            materials: materials.into_iter().zip(&of_material).map(material).collect(),
+            textures,
         }
     }
 }
@@ -199,7 +224,7 @@ proptest! {
     }
 
     #[test]
-    fn no_text_panics(text in "(size 9 9\n|mode phong\n|view|sun|specular|material|T|N|X|P 3|[0-9 .e-]|\n){0,40}") {
+    fn no_text_panics(text in "(size 9 9\n|mode phong\n|view|sun|specular|material|texture 1 1|T|N|UV|X|P 3|[0-9 .e-]|\n){0,40}") {
         let _ = triangle_file::parse("a.tri", text.as_bytes());
     }
 }

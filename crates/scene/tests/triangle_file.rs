@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
 use edgewalk_scene::{
-    Blending, Change, DepthFunc, Frame, Host, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_SIDE, Polygon,
-    Primitive, ShadeMode, Shadow, State, Triangle, Vertex, triangle_file,
+    Blending, Change, DepthFunc, Frame, Host, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_LIGHTS,
+    MAX_SIDE, Pane, Polygon, Primitive, ShadeMode, Shadow, State, Triangle, Vertex, triangle_file,
 };
 use proptest::prelude::*;
 
@@ -65,7 +65,7 @@ const SHADOW: &str = "shadow 8 0.01 0.25  1 2 3 4  5 6 7 8  9 10 11 12  13 14 15
 fn the_shadow_and_its_triangles_stand_apart_from_the_picture() {
     let frame =
         parse(&format!("size 9 9\n{SHADOW}\nL 1 2 0 -4 5 1 7 8 0.5\nmode flat\n{T}\nL 0 0 0 1 1 1 2 2 1"));
-    let shadow = frame.shadow.unwrap();
+    let shadow = &frame.shadows[0];
     assert_eq!((shadow.size, shadow.bias, shadow.ambient), (8, 0.01, 0.25));
     assert_eq!(shadow.matrix[0], [1.0, 2.0, 3.0, 4.0]);
     assert_eq!(shadow.matrix[3], [13.0, 14.0, 15.0, -1e300]);
@@ -73,7 +73,7 @@ fn the_shadow_and_its_triangles_stand_apart_from_the_picture() {
     assert_eq!(shadow.triangles[0], [[1.0, 2.0, 0.0], [-4.0, 5.0, 1.0], [7.0, 8.0, 0.5]]);
     assert_eq!((frame.mode, frame.triangles.len()), (ShadeMode::Flat, 1));
     assert_eq!(
-        parse(&format!("size 9 9\n{T}\n{SHADOW}")).shadow.unwrap().size,
+        parse(&format!("size 9 9\n{T}\n{SHADOW}")).shadows[0].size,
         8,
         "behind the picture's triangles"
     );
@@ -83,7 +83,8 @@ fn the_shadow_and_its_triangles_stand_apart_from_the_picture() {
 fn malformed_shadows_name_place_and_remedy() {
     let with = |from: &str, to: &str| format!("size 9 9\n{}", SHADOW.replacen(from, to, 1));
     let l = "L 1 2 0 4 5 1 7 8 0.5";
-    let cases: [(String, &[&str]); 18] = [
+    let sized = with("", "");
+    let cases: [(String, &[&str]); 27] = [
         (with("8", "0"), &["a.tri:2: shadow SIZE: `0`", "an integer from 1 to 16384"]),
         (with("8", "16385"), &["shadow SIZE: `16385`"]),
         (with("8", "8.5"), &["shadow SIZE: `8.5`", "an integer"]),
@@ -95,11 +96,20 @@ fn malformed_shadows_name_place_and_remedy() {
         (with("-1e300", "-1e309"), &["shadow m33: `-1e309`", "a finite number"]),
         (with(" 7 ", " seven "), &["shadow m12: `seven`", "a finite number"]),
         (with("-1e300", ""), &["a.tri:2: shadow: `18 given`", "19 values"]),
-        (format!("{}\n{SHADOW}", with("", "")), &["a.tri:3: shadow", "once"]),
+        (format!("{sized}{}", format!("\n{SHADOW}").repeat(16)), &["a.tri:18: shadow", "at most 16 times"]),
+        (format!("{sized}\n{l} 1.5"), &["a.tri:3: L kt: `1.5`", "a number from 0 to 1"]),
+        (format!("{sized}\n{l} -0.5"), &["a.tri:3: L kt: `-0.5`", "a number from 0 to 1"]),
+        (format!("{sized}\n{l} nan"), &["a.tri:3: L kt: `nan`"]),
+        (format!("{sized}\n{l} glass"), &["a.tri:3: L kt: `glass`"]),
+        (format!("{sized}\nlight 2\n{T}"), &["a.tri:3: light: `2`", "0 to 1, as many lights"]),
+        (format!("{sized}\nlight 1\n{T}\nlight 3\n{T}"), &["a.tri:5: light: `3`", "0 to 1"]),
+        (format!("size 9 9\nlight 1\n{T}"), &["a.tri:2: light: `1`", "0 to 0"]),
+        (format!("{sized}\nlight 17"), &["a.tri:3: light: `17`", "an integer from 0 to 16"]),
+        (format!("{sized}\nlight on"), &["a.tri:3: light: `on`", "an integer"]),
         (with("shadow", "shadwo"), &["did you mean `shadow`"]),
         (format!("size 9 9\n{l}"), &["a.tri:2: L", "only after a line `shadow"]),
         (format!("size 9 9\n{T}\n{l}\n{SHADOW}"), &["a.tri:3: L", "only after a line `shadow"]),
-        (format!("{}\n{} 1", with("", ""), l), &["a.tri:3: L: `10 given`", "9 values"]),
+        (format!("{sized}\n{l} 1 1"), &["a.tri:3: L: `11 given`", "9 values"]),
         (format!("{}\n{}", with("", ""), l.replace("0.5", "1.5")), &["L vertex 3 z: `1.5`", "0 to 1"]),
         (format!("{}\n{}", with("", ""), l.replace("L 1", "L -1e7")), &["L vertex 1 x: `-1e7`", "1000000"]),
     ];
@@ -262,28 +272,28 @@ fn triangle_by_triangle_a_late_shadow_is_refused() {
 #[test]
 fn rules_change_between_triangles() {
     let text = format!(
-        "size 9 9\nblend 1\n{T}\ndepth equal\ndepth_write 0\n{T}\n{T}\nclear_depth\nblend add\ncolour_write 0\ndepth off\n{T}\n"
+        "size 9 9\nblend 1\n{SHADOW}\n{T}\ndepth equal\ndepth_write 0\nlight 2\n{T}\n{T}\nclear_depth\nblend add\ncolour_write 0\nlight 0\ndepth off\n{T}\n{SHADOW}"
     );
     let frame = triangle_file::parse("a.tri", text.as_bytes()).unwrap();
     let passes: Vec<_> = frame
         .passes()
         .into_iter()
         .map(|pass| {
-            let State { depth, depth_write, blend, color_write } = pass.state;
-            (pass.primitives, depth, depth_write, blend, color_write, pass.clear_depth)
+            let State { depth, depth_write, blend, color_write, light } = pass.state;
+            (pass.primitives, depth, depth_write, blend, (color_write, light), pass.clear_depth)
         })
         .collect();
     let wanted = [
-        (0..1, Some(DepthFunc::Less), true, Blending::Mix, true, false),
-        (1..3, Some(DepthFunc::Equal), false, Blending::Mix, true, false),
-        (3..4, None, false, Blending::Add, false, true),
+        (0..1, Some(DepthFunc::Less), true, Blending::Mix, (true, 1), false),
+        (1..3, Some(DepthFunc::Equal), false, Blending::Mix, (true, 2), false),
+        (3..4, None, false, Blending::Add, (false, 0), true),
     ];
     assert_eq!(passes, wanted);
     // What is drawn while it is read has one list of rules.
     let mut reader = triangle_file::Reader::new("a.tri", text.as_bytes()).unwrap();
     assert!(reader.next().is_some_and(|triangle| triangle.is_ok()));
     let error = reader.next().unwrap().unwrap_err().to_string();
-    assert!(error.contains("a.tri:4:") && error.contains("only triangles from here on"), "{error}");
+    assert!(error.contains("a.tri:5:") && error.contains("only triangles from here on"), "{error}");
 }
 
 #[test]
@@ -340,8 +350,11 @@ prop_compose! {
         matrix in prop::array::uniform4(prop::array::uniform4(-1e9..=1e9f64)),
         triangles in prop::collection::vec(
             prop::array::uniform3([-MAX_COORDINATE..=MAX_COORDINATE, -9.0..=9.0, 0.0..=1.0]), 0..9),
+        kts in prop::collection::vec(prop_oneof![1e-300..=1.0f64, Just(1.0)], 0..9),
     ) -> Shadow {
-        Shadow { size, bias, slopes: Vec::new(), ambient, matrix, triangles }
+        let panes = kts.into_iter().zip(triangles.iter().rev()).map(|(kt, corners)| Pane { corners: *corners, kt });
+        let panes = panes.collect();
+        Shadow { size, bias, slopes: Vec::new(), ambient, matrix, triangles, panes }
     }
 }
 
@@ -351,9 +364,15 @@ prop_compose! {
         write in any::<bool>(),
         blend in prop::sample::select(Blending::ALL.to_vec()),
         color_write in any::<bool>(),
+        light in 0..=MAX_LIGHTS,
     ) -> State {
-        State { depth, depth_write: write && depth.is_some(), blend, color_write }
+        State { depth, depth_write: write && depth.is_some(), blend, color_write, light }
     }
+}
+
+/// A light that the frame has, or none; the usual one where it has none.
+fn light_of(frame: &Frame, light: usize) -> usize {
+    if frame.shadows.is_empty() { 1 } else { light % (frame.shadows.len() + 1) }
 }
 
 /// Those between primitives that change something, one at a place.
@@ -364,6 +383,7 @@ fn changes_of(frame: &Frame, rules: Vec<(prop::sample::Index, State, bool)>) -> 
     rules.sort_by_key(|(after, ..)| *after);
     let mut changes: Vec<Change> = Vec::new();
     for (after, state, clear_depth) in rules {
+        let state = State { light: light_of(frame, state.light), ..state };
         let last = changes.last().map_or((0, frame.state()), |change| (change.after, change.state));
         if after > last.0 && after < count && (state != last.1 || clear_depth) {
             changes.push(Change { after, state, clear_depth });
@@ -383,7 +403,8 @@ prop_compose! {
         color_write in any::<bool>(),
         rules in prop::collection::vec((any::<prop::sample::Index>(), state(), any::<bool>()), 0..6),
         clear in prop::array::uniform3(0.0..=1.0f64),
-        shadow in prop::option::of(shadow()),
+        shadows in prop::collection::vec(shadow(), 0..4),
+        light in 0..=MAX_LIGHTS,
         extra in 0..=MAX_EXTRA,
         mut triangles in prop::collection::vec(prop::array::uniform3(vertex()).prop_map(Triangle), 0..20),
         values in prop::collection::vec(own_value(), 20 * 3 * MAX_EXTRA),
@@ -404,10 +425,11 @@ prop_compose! {
         let depth_write = write && depth.is_some();
         let changes = Vec::new();
         let mut frame = Frame {
-            width, height, mode, depth, depth_write, blend, color_write, clear, extra, shadow, triangles, changes, polygons,
+            width, height, mode, depth, depth_write, blend, color_write, clear, extra, shadows, light, triangles, changes, polygons,
             shading: None,
             host: Host::default(),
         };
+        frame.light = light_of(&frame, light);
         frame.changes = changes_of(&frame, rules);
         frame
     }

@@ -8,8 +8,8 @@
 //! [`LightView::slope`]. The whole slope leaves as much again for the next polygon of a curved surface. And
 //! [`BIAS`] of the size of the mesh covers rounding and the sub-pixels of the map.
 //!
-//! As A says, transparency is ignored: r_l is 0 or 1, and what transmits light hides nothing. [`crate::Rays`] is the
-//! reference that does neither.
+//! A map has a second plane, the product of k_t of what transmits light before that texel: r_l of a point that is not hidden. It counts
+//! what lies behind a point that transmits light itself, and that point's own face. [`crate::Rays`] is the reference that does neither.
 
 use super::depth_map::DepthMap;
 use crate::fill::Fill;
@@ -35,23 +35,22 @@ impl ShadowMaps {
     pub fn draw(scene: &Scene, size: u32) -> Self {
         let [low, high] = scene.mesh.bounds();
         let draw = |view: LightView| {
-            let triangles = view.triangles(&scene.mesh).into_iter();
-            (view, DepthMap::draw(size, FILL, triangles))
+            let [opaque, panes] = view.triangles(&scene.mesh).map(Vec::into_iter);
+            (view, DepthMap::draw(size, FILL, opaque, panes))
         };
         let maps =
             scene.lights.iter().map(|light| light.views([low, high], size).into_iter().map(draw).collect());
         Self { lights: maps.collect(), bias: BIAS * (high - low).length() }
     }
 
-    /// r_l of a light, by its place in the scene, at a point of a polygon with this unit normal: whether it is lit, or
-    /// outside the light's maps.
-    pub fn lit(&self, light: usize, point: DVec3, normal: DVec3) -> bool {
+    /// r_l of a light, by its place in the scene, at a point of a polygon with this unit normal: 1 outside the light's maps, 0 behind what hides
+    /// the light, else what its texel says is left.
+    pub fn transmitted(&self, light: usize, point: DVec3, normal: DVec3) -> f64 {
         let found = self.lights[light].iter().find_map(|(view, map)| Some((view, map, view.place(point)?)));
-        let Some((view, map, place)) = found else { return true };
-        let stored = map.at(place.texel.x, place.texel.y);
-        stored.is_none_or(|depth| {
-            place.distance <= view.distance(depth) + self.bias + view.slope(point, normal)
-        })
+        let Some((view, map, place)) = found else { return 1.0 };
+        let Some(texel) = map.at(place.texel.x, place.texel.y) else { return 1.0 };
+        let far = view.distance(texel.depth) + self.bias + view.slope(point, normal);
+        if place.distance <= far { texel.left } else { 0.0 }
     }
 
     /// The view of a light that holds a point, and the bias there, units of length.

@@ -3,7 +3,7 @@
 use super::table::Table;
 use crate::error::{InputError, nearest};
 use crate::mesh::Material;
-use crate::texture::Texture;
+use crate::texture::{MAX_TEXTURE_SIDE, Texture};
 use glam::DVec3;
 use std::path::Path;
 
@@ -88,20 +88,25 @@ impl Materials {
             let nearest = texels == Some(NEAREST);
             return Ok(Some(self.add(if nearest { picture.nearest() } else { picture })));
         }
-        if texels.is_some() {
-            return Err(table.fault(
-                "texels",
-                "given",
-                "permitted only beside `texture`, a picture of texels",
-            ));
-        }
         let Some(squares) = table.number("checker", 1.0..=65536.0)? else {
-            return Ok(None);
+            return match texels {
+                None => Ok(None),
+                Some(_) => {
+                    let permitted = "permitted only beside `texture` or `checker`, a picture of texels";
+                    Err(table.fault("texels", "given", permitted))
+                }
+            };
         };
+        if texels.is_some() && squares > f64::from(MAX_TEXTURE_SIDE) {
+            let permitted =
+                format!("permitted beside `texels`: at most {MAX_TEXTURE_SIDE}, a texel a square");
+            return Err(table.fault("checker", squares, permitted));
+        }
         let colors = table.vectors("colors", 1.0)?.unwrap_or(vec![DVec3::ONE, DVec3::splat(0.25)]);
         match <[DVec3; 2]>::try_from(colors) {
             Ok(colors) if colors.iter().all(|color| color.min_element() >= 0.0) => {
-                Ok(Some(self.add(Texture::Checker { squares: squares as u32, colors })))
+                let checker = Texture::Checker { squares: squares as u32, colors };
+                Ok(Some(self.add(if texels == Some(NEAREST) { checker.nearest() } else { checker })))
             }
             _ => Err(table.fault("colors", "list", "permitted: two of [r, g, b], each from 0 to 1")),
         }

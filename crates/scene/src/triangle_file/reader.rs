@@ -4,18 +4,20 @@ use super::extra;
 use super::rules;
 use super::shading::{self, Header};
 use super::shadow::{occluder, shadow};
-use crate::band::Host;
+use super::texture;
+use super::vertices::{contour, triangle};
 use crate::error::InputError;
-use crate::frame::{DEPTH_ROUNDING, Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_SIDE, Polygon, Triangle, Vertex};
+use crate::frame::{Frame, MAX_LIGHTS, MAX_SIDE, Polygon, Triangle};
 use crate::pass::State;
 use crate::text::{Lines, Place, words};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Every word a line may start with.
-const KEYS: [&str; 20] = [
+const KEYS: [&str; 23] = [
     "size",
     "mode",
     "view",
@@ -29,22 +31,22 @@ const KEYS: [&str; 20] = [
     "depth_write",
     "blend",
     "colour_write",
+    "light",
     "clear_depth",
     "material",
+    "texture",
     "T",
     "X",
     "N",
+    "UV",
     "P",
     "H",
 ];
 const SIZE: usize = 0;
 /// `depth` to `clear_depth`: also permitted between triangles.
-const RULES: Range<usize> = 9..14;
+const RULES: Range<usize> = 9..15;
 /// `T` to `H`: the header has ended.
-const PRIMITIVE: usize = 15;
-
-/// The numbers of a vertex, in the order of the file.
-const ATTRIBUTES: [&str; 7] = ["x", "y", "z", "r", "g", "b", "kt"];
+const PRIMITIVE: usize = 17;
 
 /// Reads the file at `path`.
 ///
@@ -85,7 +87,16 @@ impl<R: BufRead> Reader<R> {
     pub fn new(file: &str, input: R) -> Result<Self, InputError> {
         let frame = Frame::new(0, 0);
         let (rules, header) = (frame.state(), Header::default());
-        let parser = Parser { rules, frame, header, seen: [false; KEYS.len()], open: None, bare: None };
+        let parser = Parser {
+            rules,
+            frame,
+            header,
+            seen: [false; KEYS.len()],
+            open: None,
+            bare: None,
+            unplaced: None,
+            light: None,
+        };
         let mut reader = Self { lines: Lines::new(file, input), parser };
         while !reader.parser.seen[PRIMITIVE] && reader.line()? {}
         reader.parser.require_size(reader.lines.end(), b"end of file")?;
@@ -130,14 +141,14 @@ impl<R: BufRead> Iterator for Reader<R> {
             {
                 return Some(Ok(triangle));
             }
-            let shadows = self.parser.frame.shadow.is_some();
+            let shadows = self.parser.frame.shadows.len();
             match self.line() {
-                Ok(true) if !shadows && self.parser.frame.shadow.is_some() => {
+                Ok(true) if self.parser.frame.shadows.len() > shadows => {
                     return Some(Err(self.needs_whole("shadow")));
                 }
                 Ok(true) if !self.parser.frame.changes.is_empty() => {
                     return Some(Err(
-                        self.needs_whole("depth, depth_write, blend, colour_write or clear_depth")
+                        self.needs_whole("depth, depth_write, blend, colour_write, light or clear_depth")
                     ));
                 }
                 Ok(true) => {}
@@ -160,6 +171,10 @@ struct Parser {
     open: Option<usize>,
     /// The same of its normals.
     bare: Option<usize>,
+    /// The same of its texture coordinates.
+    unplaced: Option<usize>,
+    /// The largest number behind `light`, and its line.
+    light: Option<(usize, usize)>,
 }
 
 impl Parser {
@@ -168,16 +183,15 @@ impl Parser {
         let Some(word) = words.next() else { return Ok(()) };
         let key = place.choice("line starts with", word, &KEYS)?;
         let name = KEYS[key];
-        if !["X", "N"].contains(&name) {
+        if !["X", "N", "UV"].contains(&name) {
             self.require_values(place, word)?;
         }
         if name == "L" {
-            let Some(shadow) = &mut self.frame.shadow else {
+            let Some(shadow) = self.frame.shadows.last_mut() else {
                 let why = "permitted only after a line `shadow SIZE BIAS AMBIENT m00 .. m33`";
                 return Err(place.fault(name, word, why).into());
             };
-            shadow.triangles.push(occluder(place, words)?);
-            return Ok(());
+            return occluder(place, words, shadow);
         }
         if key >= PRIMITIVE {
             self.require_size(place, word)?;
@@ -187,17 +201,25 @@ impl Parser {
             return self.primitive(place, name, words);
         }
         if RULES.contains(&key) && self.seen[PRIMITIVE] {
-            return rules::change(place, name, words, &mut self.rules, &mut self.frame);
+            rules::change(place, name, words, &mut self.rules, &mut self.frame)?;
+            self.names_light(place, name);
+            return Ok(());
         }
-        if name == "material" {
-            let behind = self.seen[PRIMITIVE].then_some(&self.frame);
-            return self.header.material(place, words, behind);
+        let behind = self.seen[PRIMITIVE].then_some(&self.frame);
+        match name {
+            "material" => return self.header.material(place, words, behind),
+            "texture" => {
+                let slot = self.header.texture(place, behind)?;
+                *slot = Some(Arc::new(texture::texels(place, words)?));
+                return Ok(());
+            }
+            _ => {}
         }
         if self.seen[PRIMITIVE] && name != "shadow" {
             let why = "permitted only before the first triangle or polygon";
             return Err(place.fault(name, word, why).into());
         }
-        if std::mem::replace(&mut self.seen[key], true) && name != "sun" {
+        if std::mem::replace(&mut self.seen[key], true) && !["sun", "shadow"].contains(&name) {
             return Err(place.fault(name, word, "permitted once; it was set before").into());
         }
         match name {
@@ -211,9 +233,14 @@ impl Parser {
             _ if RULES.contains(&key) => {
                 rules::read(place, name, words, &mut self.rules)?;
                 rules::begin(self.rules, &mut self.frame);
+                self.names_light(place, name);
             }
             "extra" => self.frame.extra = extra::count(place, words)?,
-            "shadow" => self.frame.shadow = Some(shadow(place, words)?),
+            "shadow" if self.frame.shadows.len() == MAX_LIGHTS => {
+                let why = format!("permitted at most {MAX_LIGHTS} times");
+                return Err(place.fault(name, word, why).into());
+            }
+            "shadow" => self.frame.shadows.push(shadow(place, words)?),
             _ => {
                 let clear: [&[u8]; 3] = place.values(name, words)?;
                 for (channel, word) in clear.into_iter().enumerate() {
@@ -240,13 +267,17 @@ impl Parser {
                 self.frame.triangles.push(triangle);
                 self.open = (self.frame.extra > 0).then_some(place.line);
                 if let Some(shading) = &mut self.frame.shading {
-                    self.header.triangle(place, shading)?;
-                    self.bare = Some(place.line);
+                    let textured = self.header.triangle(place, shading)?;
+                    (self.bare, self.unplaced) = (Some(place.line), textured.then_some(place.line));
                 }
             }
             "N" => {
                 let open = self.bare.take().is_some();
                 shading::normals(place, words, open, self.frame.shading.as_mut())?;
+            }
+            "UV" => {
+                let open = self.unplaced.take().is_some();
+                texture::coordinates(place, words, open, self.frame.shading.as_mut())?;
             }
             "X" => {
                 let open = self.open.take().and_then(|_| self.frame.triangles.last_mut());
@@ -271,19 +302,32 @@ impl Parser {
         Ok(())
     }
 
+    /// A line `light` has set the rules: whether there is such a light is known at the end of the file.
+    fn names_light(&mut self, place: Place, name: &str) {
+        if name == "light" && self.light.is_none_or(|(most, _)| self.rules.light > most) {
+            self.light = Some((self.rules.light, place.line));
+        }
+    }
+
     /// The file ends; its header too, if nothing is drawn.
     fn end(&mut self, place: Place) -> Result<(), InputError> {
         let before = b"end of file";
         self.require_values(place, before)?;
+        let lights = self.frame.shadows.len();
+        if let Some((light, line)) = self.light.filter(|(light, _)| *light > lights) {
+            let why = format!("permitted: 0 to {lights}, as many lights as the file has lines `shadow`");
+            return Err(Place { line, ..place }.fault("light", light.to_string().as_bytes(), why).into());
+        }
         if self.seen[PRIMITIVE] { Ok(()) } else { self.header.end(place, before, &mut self.frame) }
     }
 
     /// A triangle has its values and its normals before anything else comes.
     fn require_values(&self, place: Place, before: &[u8]) -> Result<(), InputError> {
-        match (self.open, self.bare) {
-            (Some(line), _) => Err(extra::missing(place, before, self.frame.extra, line)),
-            (None, Some(line)) => Err(shading::missing(place, before, line)),
-            (None, None) => Ok(()),
+        match (self.open, self.bare, self.unplaced) {
+            (Some(line), _, _) => Err(extra::missing(place, before, self.frame.extra, line)),
+            (None, Some(line), _) => Err(shading::missing(place, before, line)),
+            (None, None, Some(line)) => Err(texture::missing(place, before, line)),
+            (None, None, None) => Ok(()),
         }
     }
 
@@ -294,63 +338,4 @@ impl Parser {
         let why = format!("`size W H` is missing; it must come first, W and H from 1 to {MAX_SIDE}");
         Err(place.fault("size", before, why).into())
     }
-}
-
-fn triangle<'a>(
-    place: Place,
-    words: impl Iterator<Item = &'a [u8]>,
-    host: &mut Host,
-) -> Result<Triangle, InputError> {
-    let words: [&[u8]; 3 * ATTRIBUTES.len()] = place.values("T", words)?;
-    let mut triangle = Triangle::default();
-    for (index, (slot, words)) in triangle.0.iter_mut().zip(words.chunks_exact(ATTRIBUTES.len())).enumerate()
-    {
-        *slot = vertex(place, "T", index, words, host)?;
-    }
-    Ok(triangle)
-}
-
-/// The number of vertices and as many vertices.
-fn contour<'a>(
-    place: Place,
-    key: &str,
-    mut words: impl Iterator<Item = &'a [u8]>,
-    host: &mut Host,
-) -> Result<Vec<Vertex>, InputError> {
-    let count = words.next().unwrap_or_default();
-    let count = place.number(format_args!("{key} n"), count, "an integer", 3..=MAX_CONTOUR)?;
-    let words: Vec<&[u8]> = words.collect();
-    if words.len() != count * ATTRIBUTES.len() {
-        let found = format!("{} given", words.len());
-        let permitted = format!(
-            "permitted: {} values after n, x y z r g b kt of {count} vertices",
-            count * ATTRIBUTES.len()
-        );
-        return Err(place.fault(key, found.as_bytes(), permitted).into());
-    }
-    let vertices = words.chunks_exact(ATTRIBUTES.len()).enumerate();
-    vertices.map(|(i, words)| vertex(place, key, i, words, host)).collect()
-}
-
-fn vertex(
-    place: Place,
-    key: &str,
-    index: usize,
-    words: &[&[u8]],
-    host: &mut Host,
-) -> Result<Vertex, InputError> {
-    let mut numbers = [0.0; ATTRIBUTES.len()];
-    for (a, (number, word)) in numbers.iter_mut().zip(words).enumerate() {
-        let range = match a {
-            0 | 1 => -MAX_COORDINATE..=MAX_COORDINATE,
-            2 => -DEPTH_ROUNDING..=1.0 + DEPTH_ROUNDING,
-            _ => 0.0..=1.0,
-        };
-        let key = format_args!("{key} vertex {} {}", index + 1, ATTRIBUTES[a]);
-        *number = place.number(key, word, "a number", range)?;
-    }
-    let [x, y, depth, r, g, b, kt] = numbers;
-    let z = depth.clamp(0.0, 1.0);
-    host.clamped_depths += u64::from(z != depth);
-    Ok(Vertex { x, y, z, r, g, b, kt, ..Vertex::default() })
 }

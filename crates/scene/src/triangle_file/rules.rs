@@ -1,7 +1,7 @@
-//! The lines `depth`, `depth_write`, `blend`, `colour_write` and `clear_depth`: the rules of the primitives behind them.
+//! The lines `depth`, `depth_write`, `blend`, `colour_write`, `light` and `clear_depth`: the rules of the primitives behind them.
 
 use crate::error::InputError;
-use crate::frame::{DepthFunc, Frame};
+use crate::frame::{DepthFunc, Frame, MAX_LIGHTS};
 use crate::pass::{Blending, Change, State};
 use crate::text::Place;
 
@@ -31,6 +31,7 @@ pub(super) fn read<'a>(
     match name {
         "depth" => rules.depth = DepthFunc::ALL.get(place.choice(name, word, &DEPTH_NAMES)?).copied(),
         "depth_write" => rules.depth_write = place.choice(name, word, &["0", "1"])? == 1,
+        "light" => rules.light = place.number(name, word, "an integer", 0..=MAX_LIGHTS)?,
         "blend" => rules.blend = Blending::ALL[place.choice(name, word, &Blending::NAMES)?],
         _ => rules.color_write = place.choice(name, word, &["0", "1"])? == 1,
     }
@@ -39,9 +40,9 @@ pub(super) fn read<'a>(
 
 /// The rules before the first primitive.
 pub(super) fn begin(rules: State, frame: &mut Frame) {
-    let State { depth, blend, color_write, .. } = rules;
+    let State { depth, blend, color_write, light, .. } = rules;
     (frame.depth, frame.depth_write) = (depth, rules.stores_depth());
-    (frame.blend, frame.color_write) = (blend, color_write);
+    (frame.blend, frame.color_write, frame.light) = (blend, color_write, light);
 }
 
 /// Reads a line behind a primitive.

@@ -1,4 +1,5 @@
-//! The lines `mode phong`, `mode fast-phong`, `view`, `sun`, `specular`, `material` and `N`: shading at each pixel.
+//! The lines `mode phong`, `mode fast-phong`, `view`, `sun`, `specular`, `material` and `N`: shading at each pixel. Of a material's
+//! `texture` what it is a part of.
 
 use crate::error::InputError;
 use crate::frame::{Frame, ShadeMode};
@@ -7,7 +8,9 @@ use crate::mesh::Material;
 use crate::pixel_shading::{PixelMethod, PixelShading, PixelTriangle, Viewer, unit};
 use crate::shading::Specular;
 use crate::text::Place;
-use glam::DVec3;
+use crate::texture::Image;
+use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// Brightest sun.
 const MAX_INTENSITY: f64 = 100.0;
@@ -23,7 +26,8 @@ const MODES: [&str; 4] =
     [ShadeMode::NAMES[0], ShadeMode::NAMES[1], PixelMethod::NAMES[0], PixelMethod::NAMES[1]];
 
 /// What to write for shading at each pixel to be on.
-const NEEDS_MODE: &str = "permitted only with `mode phong` or `mode fast-phong` before the first triangle";
+pub(super) const NEEDS_MODE: &str =
+    "permitted only with `mode phong` or `mode fast-phong` before the first triangle";
 
 /// What the header has said so far of shading at each pixel.
 #[derive(Default)]
@@ -36,6 +40,8 @@ pub(super) struct Header {
     specular: Option<Specular>,
     /// Of the triangles to come, none of which has come.
     material: Option<Material>,
+    /// Its texture.
+    texture: Option<Arc<Image>>,
 }
 
 impl Header {
@@ -102,7 +108,25 @@ impl Header {
         let [ka, kd, ks, exponent] = numbers;
         let [ambient, specular] = [ka, ks].map(DVec3::splat);
         self.material = Some(Material { ambient, specular, exponent, ..Material::matte(DVec3::splat(kd)) });
+        self.texture = None;
         Ok(())
+    }
+
+    /// Where the picture of a line `texture` goes: it is that of the material before it.
+    pub fn texture(
+        &mut self,
+        place: Place,
+        behind: Option<&Frame>,
+    ) -> Result<&mut Option<Arc<Image>>, InputError> {
+        self.used.get_or_insert(("texture", place.line));
+        if behind.is_some_and(|frame| frame.shading.is_none()) {
+            return Err(place.fault("line starts with", b"texture", NEEDS_MODE).into());
+        }
+        if self.material.is_none() || self.texture.is_some() {
+            let why = "permitted once behind a line `material ka kd ks n`, before its first triangle";
+            return Err(place.fault("line starts with", b"texture", why).into());
+        }
+        Ok(&mut self.texture)
     }
 
     /// The header ends before the word `before`.
@@ -127,14 +151,20 @@ impl Header {
             lights: std::mem::take(&mut self.suns),
             specular: self.specular.unwrap_or(Specular::Halfway),
             materials: Vec::new(),
+            textures: Vec::new(),
             triangles: Vec::new(),
         });
         Ok(())
     }
 
-    /// A triangle has come; its normals are still to come.
-    pub fn triangle(&mut self, place: Place, shading: &mut PixelShading) -> Result<(), InputError> {
-        shading.materials.extend(self.material.take());
+    /// A triangle has come; its normals are still to come, and where it lies in its texture if this is true.
+    pub fn triangle(&mut self, place: Place, shading: &mut PixelShading) -> Result<bool, InputError> {
+        if let Some(material) = self.material.take() {
+            // A file has fewer lines than 2^32: each takes 32 bytes in memory.
+            let texture = self.texture.is_some().then_some(shading.textures.len() as u32);
+            shading.textures.extend(self.texture.take());
+            shading.materials.push(Material { texture, ..material });
+        }
         let Some(material) = shading.materials.len().checked_sub(1) else {
             let why = "`material ka kd ks n` is missing; it must come before the first triangle";
             return Err(place.fault("material", b"T", why).into());
@@ -142,9 +172,10 @@ impl Header {
         shading.triangles.push(PixelTriangle {
             normals: [DVec3::ZERO; 3],
             positions: [DVec3::ZERO; 3],
-            material: material as u32, // a file has fewer lines than 2^32: each takes 32 bytes in memory
+            texture: [DVec2::ZERO; 3],
+            material: material as u32, // likewise
         });
-        Ok(())
+        Ok(shading.materials[material].texture.is_some())
     }
 }
 

@@ -1,7 +1,7 @@
-//! The lines `shadow` and `L`: a light's depth map and what stands in it.
+//! The lines `shadow` and `L`: a light's map and what stands in it.
 
 use crate::error::InputError;
-use crate::frame::{MAX_COORDINATE, MAX_SIDE, Shadow};
+use crate::frame::{MAX_COORDINATE, MAX_SIDE, Pane, Shadow};
 use crate::text::Place;
 
 /// The values behind `shadow`.
@@ -19,20 +19,34 @@ pub(super) fn shadow<'a>(place: Place, words: impl Iterator<Item = &'a [u8]>) ->
         ambient: place.number("shadow AMBIENT", ambient, "a number", 0.0..=1.0)?,
         matrix,
         triangles: Vec::new(),
+        panes: Vec::new(),
     })
 }
 
-/// The values behind `L`.
+/// The values behind `L`, into the light: nine, and k_t behind them if there is one.
 pub(super) fn occluder<'a>(
     place: Place,
     words: impl Iterator<Item = &'a [u8]>,
-) -> Result<[[f64; 3]; 3], InputError> {
-    let words: [&[u8]; 9] = place.values("L", words)?;
+    shadow: &mut Shadow,
+) -> Result<(), InputError> {
+    let all: Vec<&[u8]> = words.take(11).collect();
+    let given = all.iter().copied();
+    let (words, kt): ([&[u8]; 9], f64) = match all.len() {
+        10 => {
+            let [words @ .., kt]: [&[u8]; 10] = place.values("L", given)?;
+            (words, place.number("L kt", kt, "a number", 0.0..=1.0)?)
+        }
+        _ => (place.values("L", given)?, 0.0),
+    };
     let mut triangle = [[0.0; 3]; 3];
     for (index, (slot, word)) in triangle.as_flattened_mut().iter_mut().zip(words).enumerate() {
         let range = if index % 3 < 2 { -MAX_COORDINATE..=MAX_COORDINATE } else { 0.0..=1.0 };
         let key = format_args!("L vertex {} {}", index / 3 + 1, ["x", "y", "z"][index % 3]);
         *slot = place.number(key, word, "a number", range)?;
     }
-    Ok(triangle)
+    match kt > 0.0 {
+        true => shadow.panes.push(Pane { corners: triangle, kt }),
+        false => shadow.triangles.push(triangle),
+    }
+    Ok(())
 }

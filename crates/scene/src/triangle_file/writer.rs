@@ -1,10 +1,11 @@
 //! Writes a triangle file; every number comes back bit for bit.
 
+use super::texture;
 use crate::frame::{Frame, Shadow, Triangle, Vertex};
 use crate::light::Light;
 use crate::mesh::Material;
 use crate::pass::State;
-use crate::pixel_shading::{PixelShading, Viewer};
+use crate::pixel_shading::{PixelShading, PixelTriangle, Viewer};
 use crate::polygon::Primitive;
 use std::io::{self, Write};
 use std::iter;
@@ -25,7 +26,7 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
     if frame.extra > 0 {
         writeln!(out, "extra {}", frame.extra)?;
     }
-    if let Some(shadow) = &frame.shadow {
+    for shadow in &frame.shadows {
         write_shadow(shadow, &mut out)?;
     }
     let mut material = None;
@@ -48,18 +49,17 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
                     let Material { ambient, diffuse, specular, exponent, .. } =
                         shading.materials[own.material as usize];
                     writeln!(out, "material {} {} {} {exponent}", ambient.x, diffuse.x, specular.x)?;
+                    if let Some(image) = shading.texture(&own) {
+                        texture::write(image, &mut out)?;
+                    }
                 }
                 write!(out, "T")?;
                 vertices(&triangle.0, &mut out)?;
                 if frame.extra > 0 {
                     extra(triangle, frame.extra, &mut out)?;
                 }
-                if let Some((_, own)) = shaded {
-                    write!(out, "N")?;
-                    for normal in own.normals {
-                        write!(out, "  {} {} {}", normal.x, normal.y, normal.z)?;
-                    }
-                    writeln!(out)?;
+                if let Some((shading, own)) = shaded {
+                    normals(shading, &own, &mut out)?;
                 }
             }
             Primitive::Polygon(polygon) => {
@@ -107,6 +107,10 @@ fn rules(before: Option<State>, now: State, out: &mut impl Write) -> io::Result<
     if !usual && differs(|a, b| a.color_write == b.color_write) {
         writeln!(out, "colour_write {}", u8::from(now.color_write))?;
     }
+    let usual = before.is_none() && now.light == 1;
+    if !usual && differs(|a, b| a.light == b.light) {
+        writeln!(out, "light {}", now.light)?;
+    }
     Ok(())
 }
 
@@ -130,16 +134,37 @@ fn extra(triangle: &Triangle, count: usize, out: &mut impl Write) -> io::Result<
     writeln!(out)
 }
 
+/// The `N` line of a triangle, and with a texture the `UV` line.
+fn normals(shading: &PixelShading, own: &PixelTriangle, out: &mut impl Write) -> io::Result<()> {
+    write!(out, "N")?;
+    for normal in own.normals {
+        write!(out, "  {} {} {}", normal.x, normal.y, normal.z)?;
+    }
+    writeln!(out)?;
+    if shading.texture(own).is_some() {
+        write!(out, "UV")?;
+        for place in own.texture {
+            write!(out, "  {} {}", place.x, place.y)?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
 fn write_shadow(shadow: &Shadow, out: &mut impl Write) -> io::Result<()> {
     write!(out, "shadow {} {} {}", shadow.size, shadow.bias, shadow.ambient)?;
     for [m0, m1, m2, m3] in shadow.matrix {
         write!(out, "  {m0} {m1} {m2} {m3}")?;
     }
     writeln!(out)?;
-    for [a, b, c] in &shadow.triangles {
+    let panes = shadow.panes.iter().map(|pane| (&pane.corners, Some(pane.kt)));
+    for (corners, kt) in shadow.triangles.iter().map(|corners| (corners, None)).chain(panes) {
         write!(out, "L")?;
-        for [x, y, z] in [a, b, c] {
+        for [x, y, z] in corners {
             write!(out, "  {x} {y} {z}")?;
+        }
+        if let Some(kt) = kt {
+            write!(out, "  {kt}")?;
         }
         writeln!(out)?;
     }
