@@ -2,15 +2,16 @@
 
 use crate::channel::{Channel, MAX_CHANNELS};
 use crate::keys::KEYS;
-use crate::machine::{EdgeKind, Fill, Machine};
+use crate::machine::{Fill, Machine};
 use crate::shade::ShadeColour;
 use crate::shadow::LIGHT_SPACE;
 use crate::text::MachineError;
 
-/// Longest word a setup lane may need.
-pub const LANE_BITS: u32 = 120;
 /// Longest interpolated word.
 pub const WORD_BITS: u32 = 56;
+
+/// Longest word of a light's map.
+pub const MAP_BITS: u32 = 32;
 
 /// Accepts the machine with these channels, or names the key that stands in the way, the reason, and a value that would
 /// do: the first rule that is broken.
@@ -30,6 +31,18 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
     }
     if machine.shadow.projects() {
         project(machine)?;
+    }
+    let map_word = machine.shadow.depth_bits + machine.color.bits;
+    if machine.shadow.transmits() && map_word > MAP_BITS {
+        return Err(MachineError::rule(
+            machine,
+            "shadow.depth_bits",
+            format!(
+                "with a share of {} bits, those of a colour, a word of the map would have {map_word}, {MAP_BITS} is the most",
+                machine.color.bits
+            ),
+            (MAP_BITS - machine.color.bits).to_string(),
+        ));
     }
     if channels.len() > MAX_CHANNELS {
         if machine.extra == 0 {
@@ -62,7 +75,7 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
             channels.len().to_string(),
         ));
     }
-    setup(machine, channels)
+    Ok(())
 }
 
 /// Every value lies in its key's domain, and the screen in the guard band.
@@ -147,25 +160,4 @@ fn project(machine: &Machine) -> Result<(), MachineError> {
         format!("{what} {bits} bits, and a value that is divided may not have fewer"),
         bits.to_string(),
     ))
-}
-
-/// A lane can hold what it divides. The channel with the longest word stands in the way, if any does.
-fn setup(machine: &Machine, channels: &[Channel]) -> Result<(), MachineError> {
-    let w = machine.widths();
-    let Some(longest) = channels.iter().max_by_key(|c| c.word()) else { return Ok(()) };
-    let values = (2 * w.difference + longest.word())
-        .max(w.difference + longest.word() + machine.guard_bits + 2 + w.center_fraction);
-    let slope = if machine.edge_kind == EdgeKind::Slope { machine.edge_fraction } else { 0 };
-    let edges = 2 * w.difference + slope;
-    let reason = |bits| format!("setup would divide numbers of {bits} bits, {LANE_BITS} is the most");
-    if edges > LANE_BITS {
-        let most = machine.edge_fraction.saturating_sub(edges - LANE_BITS).to_string();
-        return Err(MachineError::rule(machine, "edge.fraction_bits", reason(edges), most));
-    }
-    if values > LANE_BITS {
-        let most = longest.fraction.saturating_sub(values - LANE_BITS).to_string();
-        let key = format!("{}_fraction", keys_of(longest));
-        return Err(MachineError::rule(machine, &key, reason(values), most));
-    }
-    Ok(())
 }

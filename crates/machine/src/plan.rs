@@ -77,6 +77,13 @@ impl Plan {
         self.channels.iter().enumerate().filter(|(_, channel)| !LIGHT_SPACE.contains(&channel.name))
     }
 
+    /// Bits of a word of the light's map: bz, and b below them with `shadow.transmits`.
+    #[must_use]
+    pub fn map_word_bits(&self) -> u32 {
+        let share = if self.shadow.transmits() { self.color.bits } else { 0 };
+        self.shadow.depth_bits + share
+    }
+
     /// The terms that TERM walks and PIXEL steps, in the order of their words.
     #[must_use]
     pub fn terms(&self) -> &[Term] {

@@ -98,6 +98,12 @@ pub(crate) fn terms(machine: &Machine) -> Vec<Term> {
 }
 
 impl Plan {
+    /// How many of the terms make cosines: those before the texture's.
+    #[must_use]
+    pub fn cosine_terms(&self) -> usize {
+        self.terms().len() - if self.shade.textures() { 2 } else { 0 }
+    }
+
     /// WR: words of a record.
     #[must_use]
     pub fn record_length(&self) -> u32 {

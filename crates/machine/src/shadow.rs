@@ -34,6 +34,15 @@ pub enum Gate {
     Scale,
 }
 
+/// Whether the map also says what light is left of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Transmits {
+    /// A word is a depth; what transmits light hides nothing, or all.
+    No,
+    /// Below the depth stands k, the share of the light that what transmits before it lets through.
+    Yes,
+}
+
 /// SHADOW, and the map behind it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Shadow {
@@ -55,6 +64,8 @@ pub struct Shadow {
     pub vertex_fraction: u32,
     /// What shadow does.
     pub gate: Gate,
+    /// What a word of the map says beside the depth.
+    pub transmits: Transmits,
     /// Depth of its queue, fragments.
     pub queue: u32,
     /// Latency of the map, clocks.
@@ -78,6 +89,12 @@ impl Shadow {
     #[must_use]
     pub fn projects(&self) -> bool {
         self.light == ShadowLight::Perspective
+    }
+
+    /// A word of the map has a share below its depth.
+    #[must_use]
+    pub fn transmits(&self) -> bool {
+        self.is_there() && self.transmits == Transmits::Yes
     }
 
     /// What SHADOW takes of a texel's column or line, bits with the sign.
@@ -137,6 +154,7 @@ impl Default for Shadow {
             fraction: 14,
             vertex_fraction: 4,
             gate: Gate::And,
+            transmits: Transmits::No,
             queue: 4,
             latency: 2,
         }
@@ -210,6 +228,16 @@ pub const KEYS: &[Key] = &[
         shadow.gate,
         if there
     ),
+    Key {
+        absent: Some(Transmits::No as u32),
+        ..word!(
+            "shadow.transmits",
+            Transmits { "no" => No, "yes" => Yes },
+            "a word of the map: a depth (no), or also what is left of light behind what transmits (yes)",
+            shadow.transmits,
+            if there
+        )
+    },
     number!("fifo.shadow", Range(1, 16), "fragments in SHADOW's queue", shadow.queue, if there),
     number!(
         "memory.map_latency",

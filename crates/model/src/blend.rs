@@ -38,6 +38,17 @@ pub struct BlendInputs {
     pub cwr_ready: bool,
 }
 
+/// The unit's ports to its memory in a cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BlendOutputs<const C: usize> {
+    /// Address of a colour read.
+    pub crd: Option<u32>,
+    /// The colour is taken, if it is there.
+    pub cdata_ready: bool,
+    /// A colour.
+    pub cwr: Option<ColorWrite<C>>,
+}
+
 /// What travels beside the colour of the pixel.
 #[derive(Clone, Copy, Debug)]
 struct Side<const C: usize> {

@@ -160,6 +160,8 @@ events! {
     texel_shadow,
     /// Fragments exactly as far as their texel: lit.
     texel_tie,
+    /// Fragments that their texel finds lit through what transmits: not all of the light is left.
+    texel_glass,
     /// Cycles in which a fragment could go on but for its texel.
     texel_wait,
     /// Cycles in which a fragment waits for SHADOW's queue.

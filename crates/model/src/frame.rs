@@ -171,7 +171,7 @@ fn draw<const C: usize>(
             rig.memory.clear_depth(plan);
         }
         if let (Some(memory), Some(map)) = (&mut rig.map, pass.map.and_then(|map| maps.get(map))) {
-            memory.depths_mut().iter_mut().zip(map).for_each(|(word, depth)| *word = *depth);
+            memory.words_mut().iter_mut().zip(map).for_each(|(word, depth)| *word = *depth);
         }
         let mut left = pass.triangles;
         loop {

@@ -16,7 +16,7 @@ pub mod shading;
 mod view;
 
 use crate::blend::Blend;
-pub use crate::blend::BlendInputs;
+pub use crate::blend::{BlendInputs, BlendOutputs};
 use crate::counters::Counters;
 use crate::depth::{Block, Depth, DepthInputs};
 use crate::edge::Edge;
@@ -35,7 +35,7 @@ pub use crate::term::TermInputs;
 use crate::term::{Term, Walked};
 use crate::texel::Texel;
 pub use crate::texel::TexelInputs;
-use crate::tokens::{ColorWrite, FEW, Fragment, Write};
+use crate::tokens::{FEW, Fragment, Write};
 use edgewalk_machine::{Activity, Plan, PortVertex};
 use shading::parts;
 
@@ -72,7 +72,7 @@ pub struct Inputs<'a> {
 }
 
 /// Output ports of the same cycle. A link fires if it is valid here and ready there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Outputs<const C: usize> {
     /// A triangle is taken, if there is one.
     pub tri_ready: bool,
@@ -108,48 +108,6 @@ pub struct Outputs<const C: usize> {
     pub activity: Activity,
     /// Nothing to do: `activity` is 0.
     pub idle: bool,
-}
-
-/// Ports of BLEND.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BlendOutputs<const C: usize> {
-    /// Address of a colour read.
-    pub crd: Option<u32>,
-    /// The colour is taken, if it is there.
-    pub cdata_ready: bool,
-    /// A colour.
-    pub cwr: Option<ColorWrite<C>>,
-}
-
-impl<const C: usize> Default for BlendOutputs<C> {
-    fn default() -> Self {
-        BlendOutputs { crd: None, cdata_ready: false, cwr: None }
-    }
-}
-
-/// Nothing happens.
-impl<const C: usize> Default for Outputs<C> {
-    fn default() -> Self {
-        Outputs {
-            tri_ready: false,
-            rd: None,
-            data_ready: false,
-            wr: None,
-            trd: None,
-            tdata_ready: false,
-            xrd: None,
-            xdata_ready: false,
-            rrd: None,
-            rdata_ready: false,
-            srd: None,
-            sdata_ready: false,
-            mrd: None,
-            mdata_ready: false,
-            blend: BlendOutputs::default(),
-            activity: Activity::Idle,
-            idle: false,
-        }
-    }
 }
 
 /// State of the whole machine, `C` words a token; [`for_channels`](crate::for_channels!) finds the number that serves a

@@ -1,9 +1,9 @@
-//! MAP MEMORY: a light's depth map behind SHADOW's ports.
+//! MAP MEMORY: a light's map behind SHADOW's ports.
 //!
 //! ```text
-//!  mrd ─> depth[addr] ─> L cycles, in order ─> mdata
+//!  mrd ─> word[addr] ─> L cycles, in order ─> mdata
 //! ```
-//! Formats: addresses ty·2^SB + tx; depths of bz bits. Timing: as the depth memory's. Rules: `docs/machine.md`, section 10.
+//! Formats: addresses ty·2^SB + tx; words of bz bits, with `shadow.transmits` of bz + b. Timing: as the depth memory's. Rules: `docs/machine.md`, section 10.
 //! Not modelled: who fills it; refresh, banks.
 
 use crate::fifo::Fifo;
@@ -17,11 +17,11 @@ pub struct MapMemory {
     pacer: Pacer,
     now: u64,
     reads: Fifo<(u64, u32), 16>,
-    depths: Vec<u32>,
+    words: Vec<u32>,
 }
 
 impl MapMemory {
-    /// A map that hides nothing: every texel is as far as it can be. It stalls as often as the depth memory, but in other
+    /// A map that hides nothing: every texel is as far as it can be, all of the light left. It stalls as often as the depth memory, but in other
     /// cycles.
     #[must_use]
     pub fn new(plan: &Plan, waits: impl Into<Waits>) -> Self {
@@ -31,13 +31,13 @@ impl MapMemory {
             pacer: Pacer::new(waits.into().of_another(2)),
             now: 0,
             reads: Fifo::default(),
-            depths: vec![u32::MAX >> (32 - shadow.depth_bits); 1 << (2 * shadow.side_bits())],
+            words: vec![u32::MAX >> (32 - plan.map_word_bits()); 1 << (2 * shadow.side_bits())],
         }
     }
 
     /// Every texel, by address.
-    pub fn depths_mut(&mut self) -> &mut [u32] {
-        &mut self.depths
+    pub fn words_mut(&mut self) -> &mut [u32] {
+        &mut self.words
     }
 
     /// A read can be taken in this cycle.
@@ -46,11 +46,11 @@ impl MapMemory {
         self.pacer.rd_ready
     }
 
-    /// The depth of the oldest read, once it is there.
+    /// The word of the oldest read, once it is there.
     #[must_use]
     pub fn mdata(&self) -> Option<u64> {
-        let (due, depth) = *self.reads.head();
-        (!self.reads.is_empty() && due <= self.now).then_some(depth.into())
+        let (due, word) = *self.reads.head();
+        (!self.reads.is_empty() && due <= self.now).then_some(word.into())
     }
 
     /// Clock edge: the read that fired, whether the word was taken.
@@ -61,7 +61,7 @@ impl MapMemory {
         let late = self.pacer.step(self.now, read, None);
         if let Some(addr) = read {
             let due = self.now.wrapping_add(self.latency).wrapping_add(late);
-            self.reads.push((due, self.depths[addr as usize]));
+            self.reads.push((due, self.words[addr as usize]));
         }
         self.now = self.now.wrapping_add(1);
     }

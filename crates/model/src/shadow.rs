@@ -4,7 +4,8 @@
 //!  frag ─┬─> mrd (texel)                   mdata ──┐
 //!        └─> queue ─> head ─ d, known, value ──────┴─> lit ─> gate ─> shaded
 //! ```
-//! Formats: lx and ly the texel, lz the depth from the light in 2^-bz of the map, two's complement; the map's word bz bits.
+//! Formats: lx and ly the texel, lz the depth from the light in 2^-bz of the map, two's complement; the map's word bz bits, and with
+//! `shadow.transmits` b bits below them: what is left of the light.
 //!
 //! Timing: a fragment taken in cycle n is offered to DEPTH from n + 1 on, or as soon as its texel is there. One a clock.
 //!
@@ -26,7 +27,7 @@ pub struct ShadowInputs {
     pub ambient: u32,
     /// The map takes a read.
     pub mrd_ready: bool,
-    /// The oldest read's depth.
+    /// The oldest read's word.
     pub mdata: Option<u64>,
 }
 
@@ -59,6 +60,14 @@ enum Place {
     Texel(u32),
 }
 
+/// A word of the map.
+struct Texel {
+    /// Depth of what is nearest to the light.
+    depth: i64,
+    /// Share of the light that is left before it, b bits.
+    left: u32,
+}
+
 /// State of SHADOW.
 #[derive(Clone, Debug)]
 pub struct Shadow<const C: usize> {
@@ -71,7 +80,10 @@ pub struct Shadow<const C: usize> {
     at: [usize; 3],
     bits: [u32; 3],
     gate: Gate,
+    /// b.
     color_bits: u32,
+    /// A word has a share below its depth.
+    transmits: bool,
     places: usize,
     queue: Fifo<Entry<C>, 16>,
 }
@@ -91,6 +103,7 @@ impl<const C: usize> Shadow<C> {
             bits: [shadow.texel_bits(), shadow.texel_bits(), shadow.distance_bits()],
             gate: shadow.gate,
             color_bits: plan.color.bits,
+            transmits: shadow.transmits(),
             places: shadow.queue as usize,
             queue: Fifo::default(),
         }
@@ -133,18 +146,44 @@ impl<const C: usize> Shadow<C> {
     #[must_use]
     pub fn shaded(&self, inputs: &ShadowInputs) -> Option<Fragment<C>> {
         let head = (!self.queue.is_empty()).then(|| *self.queue.head())?;
-        let lit = if head.known { head.value } else { head.d <= inputs.mdata? as i64 }; // bz <= 24 bits
+        let (lit, left) = match head.known {
+            true => (head.value, self.all()),
+            false => {
+                let texel = self.texel(inputs.mdata?);
+                (head.d <= texel.depth, texel.left)
+            }
+        };
         let mut fragment = head.fragment;
         fragment.lit = lit;
-        if !lit {
+        if !lit || self.transmits {
+            let share = match (lit, self.gate) {
+                (true, _) => left,
+                (false, Gate::And) => 0,
+                (false, Gate::Scale) => inputs.ambient,
+            };
             for channel in 1..=3 {
-                fragment.values[channel] = self.gated(fragment.values[channel], inputs.ambient);
+                fragment.values[channel] = self.gated(fragment.values[channel], share);
             }
         }
         Some(fragment)
     }
 
-    /// The depth of a texel can be taken.
+    /// The share that leaves a colour as it is.
+    fn all(&self) -> u32 {
+        u32::MAX >> (32 - self.color_bits)
+    }
+
+    fn texel(&self, word: u64) -> Texel {
+        match self.transmits {
+            true => Texel {
+                depth: (word >> self.color_bits) as i64, // bz <= 24 bits
+                left: word as u32 & self.all(),
+            },
+            false => Texel { depth: word as i64, left: self.all() },
+        }
+    }
+
+    /// The word of a texel can be taken.
     #[must_use]
     pub fn mdata_ready(&self, shaded_ready: bool) -> bool {
         !self.queue.is_empty() && !self.queue.head().known && shaded_ready
@@ -198,15 +237,10 @@ impl<const C: usize> Shadow<C> {
         }
     }
 
-    /// A colour in shadow.
-    fn gated(&self, color: u32, ambient: u32) -> u32 {
-        match self.gate {
-            Gate::And => 0,
-            Gate::Scale => {
-                let product = u64::from(color) * u64::from(ambient) + (1 << (self.color_bits - 1));
-                ((product + (product >> self.color_bits)) >> self.color_bits) as u32
-            }
-        }
+    /// So large a share of a colour, b bits, all ones for all of it: to nearest.
+    fn gated(&self, color: u32, share: u32) -> u32 {
+        let product = u64::from(color) * u64::from(share) + (1 << (self.color_bits - 1));
+        ((product + (product >> self.color_bits)) >> self.color_bits) as u32
     }
 
     fn count(
@@ -236,11 +270,12 @@ impl<const C: usize> Shadow<C> {
         let head = self.queue.head();
         match inputs.mdata {
             None => events.texel_wait += 1,
-            Some(depth) if taken => {
-                let depth = depth as i64;
+            Some(word) if taken => {
+                let Texel { depth, left } = self.texel(word);
                 events.texel_lit += u64::from(head.d <= depth);
                 events.texel_shadow += u64::from(head.d > depth);
                 events.texel_tie += u64::from(head.d == depth);
+                events.texel_glass += u64::from(head.d <= depth && left < self.all());
             }
             Some(_) => {}
         }

@@ -18,6 +18,7 @@ mod shade;
 mod shadow;
 mod slope;
 mod term;
+mod texels;
 mod textbook;
 mod timing;
 mod view;

@@ -34,7 +34,7 @@ fn fragments(plan: &Plan, triangles: &[common::Triangle], map: Option<&[u32]>) -
     let state = DrawState { shadow_on: map.is_some(), ..common::ALWAYS };
     let mut rig = Rig::<C>::new(plan, state, Stalls::NONE);
     if let (Some(memory), Some(map)) = (&mut rig.map, map) {
-        memory.depths_mut().copy_from_slice(map);
+        memory.words_mut().copy_from_slice(map);
     }
     let mut seen = Vec::new();
     let all = triangles.iter().map(|triangle| Ok::<_, ()>(*triangle));

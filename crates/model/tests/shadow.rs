@@ -2,7 +2,7 @@
 
 use crate::common;
 use crate::common::{machine, random_machine, random_triangle};
-use edgewalk_machine::{Gate, Plan};
+use edgewalk_machine::{Gate, Plan, Transmits};
 use edgewalk_model::shadow::Shadow;
 use edgewalk_model::tokens::{Fragment, MAX_CHANNELS};
 use edgewalk_model::{DrawState, Events, MapMemory, Rig, ShadowInputs, Stalls};
@@ -38,25 +38,30 @@ fn fragment(plan: &Plan, [r, g, b]: [u32; 3], place: [i64; 3]) -> Fragment<C> {
     Fragment { values, ..Fragment::default() }
 }
 
-/// Lit, by the rule.
-fn lit(plan: &Plan, map: &[u32], on: bool, [x, y, d]: [i64; 3]) -> bool {
-    let size = i64::from(plan.shadow.size);
+/// What is left of a colour where the light comes, by the rule; none in shadow.
+fn left(plan: &Plan, map: &[u32], on: bool, [x, y, d]: [i64; 3]) -> Option<u32> {
+    let (size, all) = (i64::from(plan.shadow.size), plan.color.max() as u32);
     if !on || x < 0 || y < 0 || x >= size || y >= size || d < 0 {
-        return true;
+        return Some(all);
     }
     if d >= 1 << plan.shadow.depth_bits {
-        return false;
+        return None;
     }
-    d <= i64::from(map[(y << plan.shadow.side_bits() | x) as usize])
+    let word = map[(y << plan.shadow.side_bits() | x) as usize];
+    let transmits = plan.shadow.transmits == Transmits::Yes;
+    let (depth, left) = if transmits { (word / (all + 1), word % (all + 1)) } else { (word, all) };
+    (d <= i64::from(depth)).then_some(left)
 }
 
-/// A colour in shadow: the nearest to c·ambient/(2^b - 1), half up.
-fn darkened(plan: &Plan, color: u32, ambient: u32) -> u32 {
+/// The nearest to c·share/(2^b - 1), half up.
+fn scaled(plan: &Plan, color: u32, share: u32) -> u32 {
     let max = plan.color.max();
-    match plan.shadow.gate {
-        Gate::And => 0,
-        Gate::Scale => ((2 * u64::from(color) * u64::from(ambient) + max) / (2 * max)) as u32,
-    }
+    ((2 * u64::from(color) * u64::from(share) + max) / (2 * max)) as u32
+}
+
+/// What is left in shadow.
+fn dark(plan: &Plan, ambient: u32) -> u32 {
+    if plan.shadow.gate == Gate::And { 0 } else { ambient }
 }
 
 /// Feeds SHADOW and the map with a fragment a clock, DEPTH taking as `willing` says; gives what it was given, events, cycles.
@@ -92,14 +97,16 @@ fn feed(
 #[test]
 fn every_decision_is_the_rules() {
     let mut rng = StdRng::seed_from_u64(1);
-    let (mut all, mut checked, mut dark) = (Events::default(), 0, 0);
+    let (mut all, mut checked, mut shadow, mut dim) = (Events::default(), 0, 0, 0);
     for run in 0..3000 {
         let pick = |rng: &mut StdRng, list: &[u32]| list[rng.random_range(0..list.len())].to_string();
+        let transmits = run % 4 < 2;
         let plan = with(&[
             ("shadow.size", pick(&mut rng, &[1, 2, 3, 5, 8, 13])),
             ("shadow.guard_bits", pick(&mut rng, &[0, 1, 3])),
-            ("shadow.depth_bits", pick(&mut rng, &[4, 8, 24])),
+            ("shadow.depth_bits", pick(&mut rng, if transmits { &[4, 8, 16] } else { &[4, 8, 24] })),
             ("shadow.gate", ["and", "scale"][run % 2].to_owned()),
+            ("shadow.transmits", if transmits { "yes" } else { "no" }.to_owned()),
             ("formats.color_bits", pick(&mut rng, &[2, 5, 8, 12, 16])),
             ("fifo.shadow", pick(&mut rng, &[1, 2, 3, 4, 16])),
             ("memory.map_latency", pick(&mut rng, &[1, 2, 3, 8])),
@@ -107,14 +114,14 @@ fn every_decision_is_the_rules() {
         let (on, ambient) = (rng.random_bool(0.9), rng.random_range(0..=plan.color.max() as u32));
         let mut memory = MapMemory::new(&plan, STALLS[run % 3]);
         let depths = 1u32 << plan.shadow.depth_bits;
-        memory.depths_mut().iter_mut().for_each(|depth| {
-            *depth = match rng.random_range(0..4) {
-                0 => 0,
-                1 => depths - 1,
-                _ => rng.random_range(0..depths),
-            }
-        });
-        let map = memory.depths_mut().to_vec();
+        let mut some = |range: u32| match rng.random_range(0..4) {
+            0 => 0,
+            1 => range - 1,
+            _ => rng.random_range(0..range),
+        };
+        let shares = if transmits { plan.color.max() as u32 + 1 } else { 1 };
+        memory.words_mut().iter_mut().for_each(|word| *word = some(depths) * shares + some(shares));
+        let map = memory.words_mut().to_vec();
         let (size, texel, depth) =
             (i64::from(plan.shadow.size), plan.channels()[4].bits, plan.channels()[6].bits);
         let places: Vec<[i64; 3]> = (0..60)
@@ -129,7 +136,8 @@ fn every_decision_is_the_rules() {
                 };
                 let [x, y] = [at(), at()];
                 let inside = (0..size).contains(&x) && (0..size).contains(&y);
-                let stored = if inside { map[(y << plan.shadow.side_bits() | x) as usize] } else { 0 };
+                let word = if inside { map[(y << plan.shadow.side_bits() | x) as usize] } else { 0 };
+                let stored = word / shares;
                 let d = match rng.random_range(0..9) {
                     0 => -1,
                     1 => i64::from(depths),
@@ -155,18 +163,19 @@ fn every_decision_is_the_rules() {
             feed(&plan, &fragments, (on, ambient), &mut memory, || draw.random_bool(patience));
         assert_eq!(given.len(), fragments.len());
         for ((given, asked), place) in given.iter().zip(&fragments).zip(places) {
-            let lit = lit(&plan, &map, on, place);
-            let color =
-                |i: usize| if lit { asked.values[i] } else { darkened(&plan, asked.values[i], ambient) };
-            let wanted = [1, 2, 3].map(color);
-            assert_eq!((given.lit, &given.values[1..4]), (lit, &wanted[..]), "{place:?}, on {on}: {plan:?}");
+            let left = left(&plan, &map, on, place);
+            let share = left.unwrap_or_else(|| dark(&plan, ambient));
+            let wanted = [1, 2, 3].map(|i| scaled(&plan, asked.values[i], share));
+            let found = (given.lit, &given.values[1..4]);
+            assert_eq!(found, (left.is_some(), &wanted[..]), "{place:?}, on {on}: {plan:?}");
             checked += 1;
-            dark += i32::from(!lit);
+            dim += i32::from(left.is_some_and(|left| left < plan.color.max() as u32));
+            shadow += i32::from(left.is_none());
         }
         all.merge(&events);
     }
-    println!("{checked} decisions, {dark} in shadow, {:?}", all.counts());
-    assert!(checked == 180_000 && dark > 30_000);
+    println!("{checked} decisions, {shadow} in shadow, {dim} lit through glass, {:?}", all.counts());
+    assert!(checked == 180_000 && shadow > 30_000 && dim > 8_000);
     let met = all.counts();
     for event in edgewalk_machine::units::shadow::SPEC.events {
         let count = met.iter().find(|(name, _)| *name == event.name).map(|(_, count)| *count);
@@ -186,7 +195,7 @@ fn every_share_of_8_bits_is_the_nearest() {
         let (given, ..) = feed(&plan, &fragments, (true, ambient), &mut memory, || true);
         for (given, asked) in given.iter().zip(&fragments) {
             for i in 1..4 {
-                assert_eq!(given.values[i], darkened(&plan, asked.values[i], ambient));
+                assert_eq!(given.values[i], scaled(&plan, asked.values[i], ambient));
                 checked += 1;
             }
         }
@@ -212,7 +221,7 @@ fn a_fragment_a_clock_where_the_queue_is_longer_than_the_latency() {
 #[test]
 fn the_map_changes_colours_and_nothing_else() {
     let mut rng = StdRng::seed_from_u64(2);
-    let (mut machines, mut checked, mut dark) = (0, 0, 0);
+    let (mut machines, mut checked, mut shadow) = (0, 0, 0);
     while machines < 120 {
         let fixed = [
             ("screen.width", "24"),
@@ -231,9 +240,9 @@ fn the_map_changes_colours_and_nothing_else() {
             let mut rig = Rig::<C>::new(&plan, state, stalls);
             let memory = rig.map.as_mut().expect("it has SHADOW");
             if map.is_empty() {
-                map = memory.depths_mut().iter().map(|most| rng.random_range(0..=*most)).collect();
+                map = memory.words_mut().iter().map(|most| rng.random_range(0..=*most)).collect();
             }
-            memory.depths_mut().copy_from_slice(&map);
+            memory.words_mut().copy_from_slice(&map);
             let mut seen = Vec::new();
             let all = triangles.iter().map(|triangle| Ok::<_, ()>(*triangle));
             rig.draw(all, |_, model, cycle| seen.extend(cycle.read.map(|_| model.last_read())))
@@ -247,19 +256,18 @@ fn the_map_changes_colours_and_nothing_else() {
             .map(|name| plan.channels().iter().position(|c| c.name == name).expect("there"));
         for (off, on) in off.iter().zip(on.iter()) {
             let place = at.map(|i| edgewalk_model::tokens::output(&plan.channels()[i], off.values[i]));
-            let lit = lit(&plan, &map, true, place);
-            let color =
-                |i: usize| if lit { off.values[i] } else { darkened(&plan, off.values[i], ambient as u32) };
-            let mut wanted = Fragment { lit, ..*off };
-            (1..4).for_each(|i| wanted.values[i] = color(i));
+            let left = left(&plan, &map, true, place);
+            let share = left.unwrap_or_else(|| dark(&plan, ambient as u32));
+            let mut wanted = Fragment { lit: left.is_some(), ..*off };
+            (1..4).for_each(|i| wanted.values[i] = scaled(&plan, off.values[i], share));
             assert!(off.lit);
             assert_eq!(*on, wanted, "{place:?}: {plan:?}");
             checked += 1;
-            dark += i32::from(!lit);
+            shadow += i32::from(left.is_none());
         }
     }
-    println!("{machines} machines, {checked} fragments, {dark} in shadow");
-    assert!(checked > 50_000 && dark > 500);
+    println!("{machines} machines, {checked} fragments, {shadow} in shadow");
+    assert!(checked > 50_000 && shadow > 500);
 }
 
 /// A fragment a read fired for, in order, and the map that lay there.
@@ -267,7 +275,7 @@ fn fragments(plan: &Plan, triangles: &[common::Triangle], map: Option<&[u32]>) -
     let state = DrawState { shadow_on: map.is_some(), ..common::ALWAYS };
     let mut rig = Rig::<C>::new(plan, state, Stalls::NONE);
     if let (Some(memory), Some(map)) = (&mut rig.map, map) {
-        memory.depths_mut().copy_from_slice(map);
+        memory.words_mut().copy_from_slice(map);
     }
     let mut seen = Vec::new();
     let all = triangles.iter().map(|triangle| Ok::<_, ()>(*triangle));

@@ -227,7 +227,7 @@ impl<'a, const C: usize> Run<'a, C> {
         if let (Some(memory), Some(map)) =
             (&mut self.rig.map, pass.map.and_then(|map| self.rules.maps.get(map)))
         {
-            memory.depths_mut().iter_mut().zip(map).for_each(|(word, depth)| *word = *depth);
+            memory.words_mut().iter_mut().zip(map).for_each(|(word, depth)| *word = *depth);
         }
         pass.clear_depth
     }

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use edgewalk_machine::units::{shadow::SPEC, tokens};
+use edgewalk_machine::units::shadow::SPEC;
 use edgewalk_machine::{Gate, Plan};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
 use crate::fifo::fifo;
 use crate::ports::Interface;
 use crate::share::share;
-use crate::wires::{Part, Token, parts};
+use crate::wires::{Part, Token};
 
 const DOC: &str = "SHADOW looks up a light's depth map for every fragment, and darkens what lies behind it.
 
@@ -23,6 +23,12 @@ Timing: a texel is read in the cycle its fragment comes; the fragment goes on in
 Rules: what lies outside the map or before it is lit, what lies behind it is in shadow; neither is read for. Words come in the
 order of the reads. shadow_on stays as it is while the machine is busy.";
 
+/// Behind that, where a word says more than a depth.
+const TRANSMITS: &str = "
+
+A word is a depth and, below it, what is left of a light's colour behind all that transmits it: the share of each colour that
+goes on where the texel finds it lit.";
+
 /// Light-space values, which end here.
 const LIGHT: [&str; 3] = ["lx", "ly", "lz"];
 const COLORS: [&str; 3] = ["r", "g", "b"];
@@ -32,7 +38,8 @@ const COLORS: [&str; 3] = ["r", "g", "b"];
 /// # Errors
 /// None for a machine with SHADOW that [`edgewalk_machine::Machine::plan`] accepts.
 pub fn shadow(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
-    let m = Module::new("edgewalk_shadow", DOC);
+    let doc = if plan.shadow.transmits() { format!("{DOC}{TRANSMITS}") } else { DOC.to_owned() };
+    let m = Module::new("edgewalk_shadow", &doc);
     let ports = Interface::new(&m, (SPEC.ports)(plan));
     let shadow_on = ports.constant("shadow_on");
     let gate = match plan.shadow.gate {
@@ -69,12 +76,22 @@ pub fn shadow(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let shaded_valid = (waiting & decided).named("shaded_valid");
     let mdata_ready = (waiting & !head["known"] & shaded_ready).named("mdata_ready");
     queue.connect("out_ready", shaded_ready & decided);
-    let lit = head["known"].mux(head["value"], head["d"].le(memory.data["depth"])).named("lit");
+    let texel = Texel::of(plan, &memory.data);
+    let lit = head["known"].mux(head["value"], head["d"].le(texel.depth)).named("lit");
 
     m.comment("The gate.");
-    let gated = |c: &str| match gate {
-        None => lit.mux(head[c], 0),
-        Some(ambient) => lit.mux(head[c], share(&m, c, head[c], ambient)),
+    let left = texel.left.map(|left| {
+        let bits = plan.color.bits;
+        let all = m.lit(bits, u128::MAX >> (128 - bits));
+        let dark = gate.unwrap_or_else(|| m.lit(bits, 0));
+        let reached =
+            head["known"].mux(all, left).named_doc("reached", "what is left of light that comes here");
+        lit.mux(reached, dark).named_doc("left", "what is left of the colour")
+    });
+    let gated = |c: &str| match (left, gate) {
+        (Some(left), _) => share(&m, c, head[c], left),
+        (None, None) => lit.mux(head[c], 0),
+        (None, Some(ambient)) => lit.mux(head[c], share(&m, c, head[c], ambient)),
     };
 
     ports.take_ready(frag_ready);
@@ -93,12 +110,30 @@ pub fn shadow(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 fn entry_parts(plan: &Plan, frag: &Token<'_>) -> Vec<Part> {
     let mut entry = frag.parts();
     entry.retain(|part| !LIGHT.contains(&part.name.as_str()));
-    let depth = tokens::map_word(plan);
     let part = |name: &str, width, doc: &str| Part { name: name.to_owned(), width, doc: doc.to_owned() };
     entry.push(part("known", 1, "lit or not without a texel"));
     entry.push(part("value", 1, "lit, if that is known"));
-    entry.push(part("d", parts([&depth])[0].width, "depth from the light, if that has to be compared"));
+    entry.push(part("d", plan.shadow.depth_bits, "depth from the light, if that has to be compared"));
     entry
+}
+
+/// What a word of the map says.
+struct Texel<'m> {
+    /// Depth of what is nearest to the light.
+    depth: Signal<'m>,
+    /// With `shadow.transmits`, what is left of the light before it.
+    left: Option<Signal<'m>>,
+}
+
+impl<'m> Texel<'m> {
+    fn of(plan: &Plan, data: &Token<'m>) -> Self {
+        if !plan.shadow.transmits() {
+            return Texel { depth: data["depth"], left: None };
+        }
+        let (word, bits) = (data["texel"], plan.color.bits);
+        let depth = word.slice(word.width() - 1, bits).named_doc("texel_depth", "of the word");
+        Texel { depth, left: Some(word.trunc(bits)) }
+    }
 }
 
 /// What is said of a fragment without a look at the map.

@@ -117,6 +117,11 @@ fn ports_of_a_machine_with_shadow() {
 }
 
 #[test]
+fn ports_of_a_machine_with_shadow_whose_map_transmits() {
+    check("transmits.txt", include_str!("ports/transmits.txt"));
+}
+
+#[test]
 fn ports_of_a_machine_that_shades() {
     check("shade.txt", include_str!("ports/shade.txt"));
 }

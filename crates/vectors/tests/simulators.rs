@@ -135,11 +135,28 @@ fn machines_with_blend(machines: &[(&str, Plan)], simulators: impl Fn(usize) -> 
     assert!(done.len() >= 4 && done.iter().all(|checked| *checked > 4000), "{done:?}");
 }
 
-/// Machines with SHADOW in Icarus, every third in Verilator too; SHADOW and PROJECT alone.
+/// Four of the machines with SHADOW in Icarus, one in Verilator too; SHADOW and PROJECT alone.
 #[test]
 fn machines_with_shadow_replay_and_are_clean() {
-    let machines = common::lights();
-    let done = common::two_at_a_time(&machines, |i, (name, machine)| {
+    let all = common::lights().into_iter().enumerate();
+    // Both gates, k_t and a map that transmits, PROJECT pipelined and serial.
+    let machines: Vec<_> =
+        all.filter(|(i, _)| [1, 3, 6, 7].contains(i)).map(|(_, machine)| machine).collect();
+    machines_with_shadow(&machines, |i| &Simulator::ALL[..1 + usize::from(i == 3)]);
+}
+
+/// All eight in both; not part of the test run.
+#[test]
+#[ignore = "minutes"]
+fn machines_with_shadow_in_every_tool() {
+    machines_with_shadow(&common::lights(), |_| &Simulator::ALL);
+}
+
+fn machines_with_shadow(
+    machines: &[(&str, Plan)],
+    simulators: impl Fn(usize) -> &'static [Simulator] + Sync,
+) {
+    let done = common::two_at_a_time(machines, |i, (name, machine)| {
         let suites = ["hazards", "light"].map(|name| Suite::named(machine, name, 5, 12).expect("listed"));
         let suite = Suite::joined("replay", "", suites);
         let place = tempfile::tempdir().expect("a directory");
@@ -150,8 +167,7 @@ fn machines_with_shadow_replay_and_are_clean() {
             directory(suite, &trace, &verilog, Tables::LeftOut)
         };
         let whole = of(Unit::MACHINE, &suite, StallKind::ALL[i % 3]);
-        let simulators = Simulator::ALL.into_iter().take(1 + usize::from(i % 3 == 1));
-        let mut checked: u64 = simulators.map(|simulator| passes(simulator, &whole)).sum();
+        let mut checked: u64 = simulators(i).iter().map(|simulator| passes(*simulator, &whole)).sum();
         for unit in
             [common::PROJECT, common::SHADOW].into_iter().filter(|unit| Unit::all(machine).contains(unit))
         {
@@ -162,8 +178,7 @@ fn machines_with_shadow_replay_and_are_clean() {
         println!("{name:34} {checked} checked, lint clean");
         checked
     });
-    assert_eq!(done.len(), 8);
-    assert!(done.iter().all(|checked| *checked > 5000), "{done:?}");
+    assert!(done.len() >= 4 && done.iter().all(|checked| *checked > 5000), "{done:?}");
 }
 
 /// A Phong machine with a texture in Icarus, a fast-phong machine in Verilator too, and their units in Icarus.
@@ -215,15 +230,15 @@ fn machines_with_shade(
     assert!(done.iter().all(|checked| *checked > 5000), "{done:?}");
 }
 
-/// Every unit of three machines in Icarus, and in Verilator, where building takes its time, of one of them in turn.
+/// Every unit of two machines in Icarus, and in Verilator, where building takes its time, of one of them in turn.
 #[test]
 fn every_unit_replays() {
-    let machines: Vec<_> = common::twelve().into_iter().step_by(4).collect();
+    let machines: Vec<_> = common::twelve().into_iter().step_by(6).collect();
     let mut runs = Vec::new();
     for (i, (name, machine)) in machines.iter().enumerate() {
         for (j, unit) in Unit::single(machine).into_iter().enumerate() {
             runs.push((*name, machine, unit, Simulator::Icarus));
-            if j % 3 == i {
+            if j % 2 == i {
                 runs.push((*name, machine, unit, Simulator::Verilator));
             }
         }
@@ -234,7 +249,7 @@ fn every_unit_replays() {
         println!("{name:28} {:8} {:10} {checked} / {checked}", unit.name(), simulator.name());
         checked
     });
-    assert_eq!(checked.len(), 15 + 5);
+    assert_eq!(checked.len(), 10 + 5);
     assert!(checked.iter().all(|checked| *checked > 500), "{checked:?}");
 }
 

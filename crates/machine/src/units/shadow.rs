@@ -23,6 +23,10 @@ fn there(plan: &Plan) -> bool {
     plan.shadow.is_there()
 }
 
+fn transmits(plan: &Plan) -> bool {
+    plan.shadow.transmits()
+}
+
 /// Behind a fragment in the queue there is room for another.
 fn several(plan: &Plan) -> bool {
     plan.shadow.is_there() && plan.shadow.queue > 1
@@ -78,6 +82,11 @@ const EVENTS: &[Event] = &[
     Event { name: "texel_lit", doc: "fragments that their texel finds lit", can_happen: there },
     Event { name: "texel_shadow", doc: "fragments that their texel finds in shadow", can_happen: there },
     Event { name: "texel_tie", doc: "fragments exactly as far as their texel: lit", can_happen: there },
+    Event {
+        name: "texel_glass",
+        doc: "fragments that their texel finds lit through what transmits: not all of the light is left",
+        can_happen: transmits,
+    },
     Event {
         name: "texel_wait",
         doc: "cycles in which a fragment could go on but for its texel",

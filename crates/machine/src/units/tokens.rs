@@ -270,9 +270,13 @@ pub fn texel_address(plan: &Plan) -> Field {
     Field::count("addr", 2 * side, format!("line * 2^{side} + column of the map"))
 }
 
-/// A word of the light's map.
+/// A word of the light's map: a depth, and with `shadow.transmits` a share below it.
 #[must_use]
 pub fn map_word(plan: &Plan) -> Field {
+    if plan.shadow.transmits() {
+        let doc = "depth from the light of what is nearest to it, then what is left of the light before it";
+        return Field::count("texel", plan.map_word_bits(), doc);
+    }
     Field::count("depth", plan.shadow.depth_bits, "depth from the light of what is nearest to it")
 }
 

@@ -41,8 +41,13 @@ impl<const C: usize> Shadow<C> {
         view.cell("column of its texel", || Shape::signed(side), modulo(tx, side));
         view.cell("line of its texel", || Shape::signed(side), modulo(ty, side));
         view.cell("its depth from the light", || Shape::whole(self.depth_bits), modulo(d, self.depth_bits));
-        let stored = inputs.mdata.filter(|_| compares).unwrap_or(0);
-        view.number("stored", "depth that the map has at the head's texel", self.depth_bits, stored);
+        let stored = inputs.mdata.filter(|_| compares).map(|word| self.texel(word));
+        let depth = stored.as_ref().map_or(0, |texel| texel.depth as u64); // not below 0
+        view.number("stored", "depth that the map has at the head's texel", self.depth_bits, depth);
+        if self.transmits {
+            let left = stored.map_or(self.all(), |texel| texel.left);
+            view.number("left", "what is left of the light there", self.color_bits, left);
+        }
         view.flag("lit", "the light reaches the head", seen.as_ref().is_some_and(|frag| frag.lit));
         self.say(place, read.is_some(), inputs, (seen.as_ref(), shaded_ready), view);
 
@@ -98,7 +103,15 @@ impl<const C: usize> Shadow<C> {
         view.says(place.is_some() && !room, "is full: {queued} fragments wait.");
         let (goes, lit) = (seen.is_some() && shaded_ready, seen.is_some_and(|frag| frag.lit));
         let known = !self.queue.is_empty() && self.queue.head().known;
-        view.says(goes && !known && lit, "{head.d} is not beyond {stored}: pixel {head.addr} is lit.");
+        let texel_lit = goes && !known && lit;
+        if self.transmits {
+            view.says(
+                texel_lit,
+                "{head.d} is not beyond {stored}: pixel {head.addr} is lit, by {left} of the light.",
+            );
+        } else {
+            view.says(texel_lit, "{head.d} is not beyond {stored}: pixel {head.addr} is lit.");
+        }
         view.says(goes && !known && !lit, "{head.d} is beyond {stored}: pixel {head.addr} is in shadow.");
         view.says(goes && known, "hands pixel {head.addr} on; lit: {lit}.");
         view.says(seen.is_some() && !shaded_ready, "stands still: DEPTH does not take pixel {head.addr}.");

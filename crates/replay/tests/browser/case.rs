@@ -194,7 +194,7 @@ impl Case {
             let mut rig = Rig::<C>::new(&self.plan, self.passes[0].state, self.stalls);
             rig.write_shading(&self.plan, &self.shading);
             if let (Some(memory), Some(map)) = (&mut rig.map, self.maps.first()) {
-                memory.depths_mut().copy_from_slice(map);
+                memory.words_mut().copy_from_slice(map);
             }
             // As many at once as there is room for their records.
             let at_once = if self.plan.shade.is_there() { 1 << self.plan.shade.record_bits } else { usize::MAX };

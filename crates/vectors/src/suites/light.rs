@@ -5,14 +5,21 @@ use super::pen::{Pen, case};
 use super::{Case, Triangle};
 use edgewalk_machine::Plan;
 
-/// The words of the map, by address: 0 in the first texel, all ones in the last, anything between elsewhere; what lies beyond
-/// a side that is no power of two is 0, so that a look at it shows.
+/// The words of the map, by address: depth 0 in the first texel, all ones in the last, anything between elsewhere; what lies beyond
+/// a side that is no power of two is 0, so that a look at it shows. With `shadow.transmits` nothing is left of the light in the last texel,
+/// all of it in the one before, and anything in the others.
 pub(super) fn map(machine: &Plan) -> Vec<u32> {
     let (size, side) = (machine.shadow.size, machine.shadow.side_bits());
     (0..1u32 << (2 * side))
         .map(|address| {
             let (ty, tx) = (address >> side, address & ((1 << side) - 1));
-            if tx >= size || ty >= size { 0 } else { word(machine, tx, ty) }
+            if tx >= size || ty >= size {
+                0
+            } else if machine.shadow.transmits() {
+                word(machine, tx, ty) << machine.color.bits | left(machine, tx, ty)
+            } else {
+                word(machine, tx, ty)
+            }
         })
         .collect()
 }
@@ -23,6 +30,16 @@ fn word(machine: &Plan, tx: u32, ty: u32) -> u32 {
         (0, 0) => 0,
         _ if tx == size - 1 && ty == size - 1 => most,
         _ => (tx * 0x9e37 + ty * 0x79b9 + 0x7f4a).wrapping_mul(0x85eb_ca6b) >> 7 & most,
+    }
+}
+
+/// What is left of the light, b bits.
+fn left(machine: &Plan, tx: u32, ty: u32) -> u32 {
+    let (last, most) = (machine.shadow.size - 1, machine.color.max() as u32); // b <= 16 bits
+    match (last - tx, last - ty) {
+        (0, 0) => 0,
+        (1, 0) => most,
+        _ => (tx * 0x6d2b + ty * 0x3c6e + 0x51ed).wrapping_mul(0xc2b2_ae35) >> 9 & most,
     }
 }
 
@@ -88,6 +105,13 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
                 _ => dots.dot(corners[0], beyond),
             })
         }),
+        case("what_is_left_along_the_last_line", {
+            // Right before the texel's depth: lit, by as much as comes through.
+            (0..machine.shadow.size.min(24))
+                .map(f64::from)
+                .map(|i| (last - i, last))
+                .flat_map(|c| [0.0, 1.0].map(|off| dots.dot(c, (at(c) - off).max(0.0))))
+        }),
         case("across_the_map", [dots.across(0.25), dots.across(0.75)]),
     ];
     if machine.shadow.projects() {
@@ -149,7 +173,7 @@ struct Dots<'a> {
 }
 
 impl Dots<'_> {
-    /// What the map says of a texel.
+    /// The depth that the map has for a texel.
     fn word(&self, x: f64, y: f64) -> u32 {
         word(self.machine, x as u32, y as u32)
     }

@@ -5,7 +5,7 @@ use edgewalk_lockstep::{Agreement, Interface, LockstepError, NetlistDevice, Port
 use edgewalk_machine::units;
 use edgewalk_machine::{
     Blend, BlendKind, EdgeKind, Fill, Gate, Hazard, Kind, Machine, Plan, Precision, Project, Shade,
-    ShadeColour, ShadeKind, Shadow, ShadowLight, Texture, Walk,
+    ShadeColour, ShadeKind, Shadow, ShadowLight, Texture, Transmits, Walk,
 };
 use edgewalk_netlist::Netlist;
 use edgewalk_vectors::{Files, Trace, Unit};
@@ -193,7 +193,7 @@ pub fn glass() -> Vec<(&'static str, Plan)> {
     list.into_iter().map(|(name, machine)| (name, checked(machine))).collect()
 }
 
-/// Eight machines with SHADOW, two of them with PROJECT: gates, sides that are powers of two and not, queues, latencies, adders; three of them with BLEND, two with
+/// Eight machines with SHADOW, two of them with PROJECT: gates, sides that are powers of two and not, queues, latencies, adders, two whose map transmits; three of them with BLEND, two with
 /// channels of the user's own.
 pub fn lights() -> Vec<(&'static str, Plan)> {
     let small = Machine::clone(&small());
@@ -212,6 +212,10 @@ pub fn lights() -> Vec<(&'static str, Plan)> {
             Shadow { light: ShadowLight::Perspective, light_bits: depth_bits + 4, project, ..machine.shadow };
         Machine { shadow, ..machine }
     };
+    let transmits = |machine: Machine| {
+        let shadow = Shadow { transmits: Transmits::Yes, ..machine.shadow };
+        Machine { shadow, ..machine }
+    };
     let tagged = Machine { tag_bits: 3, adders: 2, ..light([5, 1, 8], Gate::Scale, [3, 1]) };
     let tagged = with_extras(tagged, [(Kind::Signed, 5)]);
     let list = vec![
@@ -219,8 +223,8 @@ pub fn lights() -> Vec<(&'static str, Plan)> {
         ("scale_five_texels_tags_one_extra", tagged),
         ("and_one_place", Machine { adders: 1, ..light([3, 0, 4], Gate::And, [1, 1]) }),
         (
-            "scale_constant_kt",
-            glass(BlendKind::Constant, Hazard::Forward, light([4, 1, 6], Gate::Scale, [2, 2])),
+            "scale_constant_kt_transmits",
+            transmits(glass(BlendKind::Constant, Hazard::Forward, light([4, 1, 6], Gate::Scale, [2, 2]))),
         ),
         (
             "and_interpolated_kt",
@@ -242,8 +246,12 @@ pub fn lights() -> Vec<(&'static str, Plan)> {
             Machine { tag_bits: 3, ..perspective(5, 4, Project::Pipelined, Gate::Scale) },
         ),
         (
-            "perspective_serial_constant_kt",
-            glass(BlendKind::Constant, Hazard::Forward, perspective(8, 6, Project::Serial, Gate::And)),
+            "perspective_serial_constant_kt_transmits",
+            transmits(glass(
+                BlendKind::Constant,
+                Hazard::Forward,
+                perspective(8, 6, Project::Serial, Gate::And),
+            )),
         ),
     ];
     list.into_iter().map(|(name, machine)| (name, checked(machine))).collect()

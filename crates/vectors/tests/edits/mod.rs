@@ -50,7 +50,7 @@ type Place = (Vec<String>, String, Unit);
 /// Writes the directory, with a fault or without, and runs `make icarus` in it: exit code 0, and what was said.
 fn run(place: &Place, edit: Option<&Edit>) -> (bool, String) {
     let (keys, suite, unit) = place;
-    let mut machine = Machine { width: 64, height: 48, ..Machine::default() };
+    let mut machine = Machine { width: 32, height: 24, ..Machine::default() };
     for key in keys {
         let (key, value) = key.split_once('=').expect("key=value");
         machine.set(key, value).expect("a key of the machine");

@@ -11,7 +11,9 @@ mod proof;
 mod shaded;
 
 use crate::common;
-use edgewalk_machine::{Blend, BlendKind, Gate, Hazard, Machine, Plan, Precision, Shadow, ShadowLight};
+use edgewalk_machine::{
+    Blend, BlendKind, Gate, Hazard, Machine, Plan, Precision, Shadow, ShadowLight, Transmits,
+};
 use edgewalk_model::DrawState;
 use edgewalk_netlist::mutate::mutants;
 use edgewalk_vectors::{Interface, StallKind, Suite, Trace, Unit, capture, capture_tokens, design};
@@ -95,13 +97,17 @@ fn machines_with_blend() -> Vec<(Plan, Unit)> {
     kinds.map(each).to_vec()
 }
 
-/// SHADOW with each gate, a side that is a power of two and one that is not.
+/// SHADOW with each gate, a side that is a power of two and one that is not, a map that transmits.
 fn machines_with_shadow() -> Vec<(Plan, Unit)> {
-    let kinds = [([4, 1, 4], Gate::And, 3), ([3, 1, 4], Gate::Scale, 2)];
-    let each = |([size, guard_bits, depth_bits], gate, queue): ([u32; 3], Gate, u32)| {
+    let kinds = [
+        ([4, 1, 4], Gate::And, 3, Transmits::No),
+        ([3, 1, 4], Gate::Scale, 2, Transmits::No),
+        ([3, 1, 4], Gate::Scale, 2, Transmits::Yes),
+    ];
+    let each = |([size, guard_bits, depth_bits], gate, queue, transmits): ([u32; 3], Gate, u32, _)| {
         let mut machine = Machine::clone(&machine_for(common::DEPTH));
         let light = Shadow { light: ShadowLight::Parallel, size, guard_bits, depth_bits, ..machine.shadow };
-        machine.shadow = Shadow { gate, queue, fraction: 8, vertex_fraction: 2, ..light };
+        machine.shadow = Shadow { gate, queue, transmits, fraction: 8, vertex_fraction: 2, ..light };
         (machine.plan().expect("can be built"), common::SHADOW)
     };
     kinds.map(each).to_vec()

@@ -49,7 +49,7 @@ pub struct MapPorts {
     mrd_addr: PortId,
     mdata_valid: PortId,
     mdata_ready: PortId,
-    mdata_depth: PortId,
+    mdata_word: PortId,
     shadow_on: PortId,
     ambient: Option<PortId>,
 }
@@ -57,25 +57,26 @@ pub struct MapPorts {
 impl MapPorts {
     pub fn find(scope: Scope) -> Result<Self, NoPlace> {
         let scales = scope.plan.shadow.gate == edgewalk_machine::Gate::Scale;
+        let word = if scope.plan.shadow.transmits() { "mdata_texel" } else { "mdata_depth" };
         Ok(MapPorts {
             mrd_valid: scope.port("mrd_valid")?,
             mrd_ready: scope.port("mrd_ready")?,
             mrd_addr: scope.port("mrd_addr")?,
             mdata_valid: scope.port("mdata_valid")?,
             mdata_ready: scope.port("mdata_ready")?,
-            mdata_depth: scope.port("mdata_depth")?,
+            mdata_word: scope.port(word)?,
             shadow_on: scope.port("shadow_on")?,
             ambient: scales.then(|| scope.port("ambient")).transpose()?,
         })
     }
 
     pub fn inputs(&self, ports: &PortValues) -> ShadowInputs {
-        let depth = || ports[self.mdata_depth] as u64; // at most 24 bits
+        let word = || ports[self.mdata_word] as u64; // at most 32 bits
         ShadowInputs {
             on: ports.is_high(self.shadow_on),
             ambient: self.ambient.map_or(0, |port| ports[port] as u32), // at most 16 bits
             mrd_ready: ports.is_high(self.mrd_ready),
-            mdata: ports.is_high(self.mdata_valid).then(depth),
+            mdata: ports.is_high(self.mdata_valid).then(word),
         }
     }
 
