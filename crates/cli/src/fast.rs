@@ -43,7 +43,7 @@ pub fn draw_file(
             if !fits(&triangle, limit) {
                 return Err(BeyondBand.into());
             }
-            port_triangle(index, &triangle, header, header.blend, machine).with_context(named)
+            port_triangle(index, &triangle, header, &header.state(), machine).with_context(named)
         }))
     })?;
     bar.finish_and_clear();

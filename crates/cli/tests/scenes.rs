@@ -9,6 +9,7 @@ const DRAWN: &[(&str, &[&str])] = &[
     ("lights.toml", &["--shading", "phong"]),
     ("shadows.toml", &["--shading", "phong", "--shadows", "map"]),
     ("glass.toml", &["--shading", "phong", "--shadows", "ray"]),
+    ("glass-and-shadows.toml", &["--shading", "phong", "--shadows", "map"]),
     ("systems.toml", &["--shading", "wireframe"]),
     ("mach-bands.toml", &["--shading", "gouraud"]),
     ("fast-phong.toml", &["--shading", "fast-phong", "--fit", "six-point"]),

@@ -103,7 +103,11 @@ fn scenes_that_the_machine_cannot_light_are_refused() {
         (&["sphere"], &["--set", "shadow.light=parallel"], &["no PROJECT", "shadow.light=perspective"]),
         (&["sphere"], &lens, &["no BLEND", "blend.kind=constant"]),
         (&["amid.toml"], &both, &["amid.toml", "light 1 (positional)", "six maps", "--engine golden"]),
-        (&["glass.toml"], &both, &["glass.toml", "transparent", "--engine golden"]),
+        (
+            &["glass.toml"],
+            &both,
+            &["glass.toml", "transmits light", "shadow.transmits=yes", "--engine golden"],
+        ),
         (&["sphere", "--shading", "constant"], &both, &["--shading gouraud"]),
         (&["sphere", "--shadows", "ray"], &both, &["--shadows", "maps"]),
         (&["sphere"], &near, &["sphere", "triangle", "farthest", "far plane"]),

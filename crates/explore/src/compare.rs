@@ -26,8 +26,7 @@ use edgewalk_machine::Plan;
 use edgewalk_scene::Frame;
 use layers::Layers;
 pub use layers::{Blended, Errors};
-use lit::Light;
-pub use lit::Lit;
+pub use lit::{Lights, Lit, Seen};
 use order::{Orders, Over};
 use serde::Serialize;
 
@@ -174,11 +173,12 @@ fn compared(
         z_map: Vec::new(),
         color_map: Vec::new(),
     };
-    if let Some(layers) = Layers::of(machine, frame) {
-        blended(&mut c, &mut tally, &layers, frame, golden);
+    let mut light = Lights::drawn(machine, frame, drawn, reach);
+    if let Some(layers) = Layers::of(machine, frame, light.as_mut()) {
+        blended(&mut c, &mut tally, &layers, frame, golden, light.as_mut());
+        c.lit = light.map(Lights::found);
         return finished(c, tally, machine);
     }
-    let mut light = Light::of(machine, frame, drawn, reach);
     let mut differ = Vec::new();
     for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
         c.pixels += 1;
@@ -236,7 +236,14 @@ fn compared(
 }
 
 /// Every pixel where all depth tests are sure: there all layers must be golden's, and the colour within their bound.
-fn blended(c: &mut Comparison, tally: &mut Tally, layers: &Layers, frame: &Frame, golden: &Raster) {
+fn blended(
+    c: &mut Comparison,
+    tally: &mut Tally,
+    layers: &Layers,
+    frame: &Frame,
+    golden: &Raster,
+    mut light: Option<&mut Lights>,
+) {
     let mut found = Blended::default();
     for i in 0..golden.coverage.len().min(tally.drawn.coverage.len()) {
         c.pixels += 1;
@@ -247,8 +254,18 @@ fn blended(c: &mut Comparison, tally: &mut Tally, layers: &Layers, frame: &Frame
         } else if (golden.id[i], golden.writes[i]) != (tally.drawn.id[i], tally.drawn.writes[i]) {
             c.order_wrong += 1;
         } else if golden.id[i] >= 0 {
-            tally.triangle(i, golden.z[i], &Over::golden(golden, i));
-            let error = tally.color.at(i);
+            let alike = light.as_mut().is_none_or(|light| {
+                if layers.loose[i] {
+                    light.loose();
+                }
+                light.decided(i, golden, tally.drawn, Some(layers.last[i])) && !layers.loose[i]
+            });
+            if alike {
+                tally.triangle(i, golden.z[i], &Over::golden(golden, i));
+            } else {
+                tally.depth(i, golden.z[i]); // the colour may be another
+            }
+            let error = tally.color_error(golden.rgb[i], i);
             found.pixels += 1;
             found.layers = found.layers.max(layers.stored[i]);
             found.bound = found.bound.max(layers.bound[i]);
@@ -316,6 +333,7 @@ impl Comparison {
                 (None, None) => beyond(self.color_error, self.color_bound_for_input.or(self.color_bound)),
             }
             + self.lit.map_or(0, |lit| lit.unexplained)
+            + self.shaded.and_then(|shaded| shaded.texels).map_or(0, |texels| texels.unexplained)
             + self.extra.iter().map(|own| beyond(own.error, Some(own.allowed))).sum::<u64>();
         Verdict::of(self.compared, self.covered, wrong).and(Verdict::of(self.pixels, self.screen, wrong))
     }

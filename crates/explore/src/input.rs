@@ -142,7 +142,9 @@ pub fn hash(frame: &Frame) -> String {
     let Frame { width, height, mode, depth, depth_write, blend, clear, extra, .. } = frame;
     digest.update(format!(
         "{width} {height} {mode:?} {depth:?} {depth_write} {blend:?} {clear:?} {extra} {:?} {} {:?}\n",
-        frame.shadow, frame.color_write, frame.changes
+        (&frame.shadows, frame.light),
+        frame.color_write,
+        frame.changes
     ));
     digest.update(format!("{:?}\n", frame.polygons));
     if let Some(shading) = &frame.shading {

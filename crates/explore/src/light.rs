@@ -1,7 +1,8 @@
 //! A light on the machine: where each vertex lies in its map, and the map, drawn by the machine with the map for a screen.
 //!
 //! ```text
-//!  L lines ──> machine of SIZE x SIZE, z of bz bits ──> depths ──> words of the map
+//!  L lines ──> machine of SIZE x SIZE, z of bz bits ──> depths ───────────────────────┬──> words of the map
+//!  those with k_t ──> the same behind those depths, BLEND of AMBIENT over white ──> k ┘
 //!  matrix, BIAS, vertex ──> parallel: lx, ly in texels, lz in 2^-bz ──────────────────> port
 //!                      └──> perspective: (X/2^SB, Y/2^SB, Z - BIAS W, W) times 2^k ──> port
 //! ```
@@ -9,9 +10,10 @@
 
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::snap;
-use edgewalk_machine::{Gate, Machine, Plan, Precision};
-use edgewalk_model::{Counters, DrawState, Waits};
-use edgewalk_scene::{Blending, Frame, Shadow, Vertex};
+use edgewalk_machine::keys::KEYS;
+use edgewalk_machine::{Blend, BlendKind, Gate, Machine, Plan, PortVertex, Precision};
+use edgewalk_model::{Counters, DrawState, Pass, Waits};
+use edgewalk_scene::{Blending, Change, Frame, Shadow, State, Triangle, Vertex};
 
 /// The largest depth of a map, which stands for 1.
 fn farthest(machine: &Plan) -> f64 {
@@ -29,6 +31,15 @@ pub fn check(shadow: &Shadow, machine: &Plan) -> Result<()> {
             shadow.size
         ));
     }
+    let side =
+        KEYS.iter().find(|key| key.name == "shadow.size" && key.parse(&shadow.size.to_string()).is_none());
+    if let Some(key) = side {
+        return Err(anyhow!(
+            "shadow {}: a machine's map has {} texels a side; draw with --engine golden",
+            shadow.size,
+            key.permitted()
+        ));
+    }
     if shadow.size != machine.shadow.size {
         let (given, own) = (shadow.size, machine.shadow.size);
         return Err(anyhow!(
@@ -44,6 +55,12 @@ pub fn check(shadow: &Shadow, machine: &Plan) -> Result<()> {
     if !machine.shadow.projects() && ([q0, q1, q2] != [0.0; 3] || q3 <= 0.0) {
         return Err(anyhow!(
             "shadow: m30 m31 m32 m33 = {q0} {q1} {q2} {q3}: the machine's light is parallel, which has 0 0 0 and more than 0; add --set shadow.light=perspective, or draw with --engine golden"
+        ));
+    }
+    if let Some(pane) = shadow.panes.first().filter(|_| !machine.shadow.transmits()) {
+        return Err(anyhow!(
+            "shadow: L with kt = {}: the machine's map says lit or not; add --set shadow.transmits=yes, or draw with --engine golden",
+            pane.kt
         ));
     }
     if shadow.ambient > 0.0 && machine.shadow.gate == Gate::And {
@@ -119,23 +136,18 @@ fn divided(bias: f64, [x, y, z, q]: [f64; 4], machine: &Plan) -> [f64; 4] {
     [x / side, y / side, depth, q]
 }
 
-/// Whether the frame's picture can be judged beside golden's.
-///
-/// # Errors
-/// Layers under a light's map.
-pub fn judged(frame: &Frame) -> Result<()> {
-    if frame.shadow.is_some() && (frame.passes().len() > 1 || frame.blend != Blending::Off) {
-        return Err(anyhow!(
-            "shadow: layers under a light's map are not compared with golden; draw with `edgewalk raster`"
-        ));
-    }
-    Ok(())
-}
-
 /// AMBIENT as the gate multiplies by it.
 #[must_use]
 pub fn ambient(shadow: &Shadow, machine: &Plan) -> u64 {
     (shadow.ambient * machine.color.max() as f64).round_ties_even() as u64
+}
+
+/// Bound 15: what the share that so many panes leave of a light may be off, LSB of `bits` bits, with k_t of `kt_bits` bits, where the
+/// machine's grey of AMBIENT is off by `grey`.
+#[must_use]
+pub fn left_error(panes: u32, bits: u32, kt_bits: u32, grey: f64) -> f64 {
+    let each = 0.5 + (f64::from(bits).exp2() - 1.0) * (-1.0 - f64::from(kt_bits)).exp2();
+    grey + f64::from(panes) * each
 }
 
 /// A light's map, and what drawing it took.
@@ -146,13 +158,17 @@ pub struct Map {
     pub counters: Counters,
 }
 
-/// The machine that draws the map: the same with the map for a screen, depths of its bits, colours off.
+/// The machine that draws the map: the same with the map for a screen, depths of its bits; with BLEND where it draws shares too.
 ///
 /// # Errors
 /// A map that is no screen.
 pub fn mapper(machine: &Plan) -> Result<Plan> {
     let plain = Machine::default();
     let z = Precision { bits: machine.shadow.depth_bits, ..machine.z };
+    let blend = match machine.shadow.transmits() {
+        true => Blend { kind: BlendKind::Constant, ..machine.blend },
+        false => plain.blend,
+    };
     let own = Machine {
         width: machine.shadow.size,
         height: machine.shadow.size,
@@ -162,29 +178,72 @@ pub fn mapper(machine: &Plan) -> Result<Plan> {
         tag_bits: 0,
         ..(**machine).clone()
     };
-    Ok(Machine { shadow: plain.shadow, blend: plain.blend, ..own }.plan()?)
+    Ok(Machine { shadow: plain.shadow, blend, ..own }.plan()?)
 }
 
-/// The light's own pass: what it sees, on the machine with its map for a screen.
+/// The light's own passes as a frame: what hides the light, then, in a machine whose map has shares, the panes, of which each leaves k_t of
+/// what is there and (1 - k_t) of AMBIENT as the gate has it.
+#[must_use]
+pub fn own_frame(shadow: &Shadow, machine: &Plan) -> Frame {
+    let grey = ambient(shadow, machine) as f64 / machine.color.max() as f64;
+    let triangle = |corners: [[f64; 3]; 3], kt: f64| {
+        Triangle(corners.map(|[x, y, z]| Vertex {
+            x,
+            y,
+            z,
+            r: grey,
+            g: grey,
+            b: grey,
+            kt,
+            ..Vertex::default()
+        }))
+    };
+    let opaque = shadow.triangles.iter().map(|corners| triangle(*corners, 0.0));
+    let panes = shadow.panes.iter().map(|pane| triangle(pane.corners, pane.kt));
+    let plain = Frame::new(shadow.size, shadow.size);
+    if !machine.shadow.transmits() {
+        return Frame { triangles: opaque.collect(), ..plain };
+    }
+    let state = State { depth_write: false, blend: Blending::Mix, ..plain.state() };
+    let changes = vec![Change { after: shadow.triangles.len(), state, clear_depth: false }];
+    Frame { triangles: opaque.chain(panes).collect(), clear: [1.0; 3], color_write: false, changes, ..plain }
+}
+
+/// The light's own passes: what it sees, on the machine with its map for a screen.
 ///
 /// # Errors
 /// A triangle of it that lies outside the guard band.
 pub fn map(shadow: &Shadow, machine: &Plan) -> Result<Map> {
     let plan = mapper(machine)?;
-    let mut triangles = Vec::with_capacity(shadow.triangles.len());
-    for (number, corners) in shadow.triangles.iter().enumerate() {
-        let mut port = [Default::default(); 3];
-        for (slot, [x, y, z]) in port.iter_mut().zip(corners) {
-            let vertex = plan.port_vertex(*x, *y, &[*z, 0.0, 0.0, 0.0]);
+    let frame = own_frame(shadow, machine);
+    let mut triangles = Vec::with_capacity(frame.triangles.len());
+    for (number, Triangle(corners)) in frame.triangles.iter().enumerate() {
+        let mut port = [PortVertex::default(); 3];
+        for (slot, v) in port.iter_mut().zip(corners) {
+            let mut values = vec![v.z, v.r, v.g, v.b];
+            values.extend(plan.has_triangle_kt().then_some(v.kt));
+            let vertex = plan.port_vertex(v.x, v.y, &values);
             *slot = vertex.with_context(|| format!("shadow: triangle {number} of the map"))?;
         }
         triangles.push(port);
     }
-    let drawn = edgewalk_model::render(&plan, triangles, DrawState::default(), Waits::Never)?;
+    let transmits = machine.shadow.transmits();
+    let hides = DrawState {
+        color_write: !transmits,
+        clear: frame.clear.map(|share| (share * plan.color.max() as f64) as u64),
+        ..DrawState::default()
+    };
+    let panes = DrawState { depth_write: false, color_write: true, ..hides };
+    let pass = |triangles, state| Pass { triangles, ..Pass::all(state) };
+    let opaque = shadow.triangles.len();
+    let passes = [pass(opaque, hides), pass(triangles.len() - opaque, panes)];
+    let passes = if transmits { &passes[..] } else { &passes[..1] };
+    let drawn = edgewalk_model::render_passes(&plan, triangles, passes, &[], Waits::Never, |_| {})?;
     let (size, side) = (shadow.size as usize, machine.shadow.side_bits());
     let mut map = vec![0; 1 << (2 * side)];
-    for (place, depth) in drawn.z.iter().enumerate() {
-        map[(place / size) << side | place % size] = *depth as u32; // at most 24 bits
+    for (place, (depth, [left, ..])) in drawn.z.iter().zip(&drawn.rgb).enumerate() {
+        let word = if transmits { depth << machine.color.bits | left } else { *depth };
+        map[(place / size) << side | place % size] = word as u32; // at most 32 bits
     }
     Ok(Map { words: map, counters: drawn.counters })
 }

@@ -7,17 +7,22 @@
 //! ```
 //! Each frame is a picture of its own, for golden and for the machine, and is judged by itself; the picture of all passes must then
 //! be the sum of theirs, bit by bit.
+//!
+//! A surface that transmits light is mixed over what lies behind it, over each light's part by itself: a sum that is mixed is the sum of what is
+//! mixed. In one colour memory it would weaken the parts before it once more with every pass; so each frame then has its own, and the host adds them.
 
 use crate::compare::{Comparison, compare};
 use crate::draw;
 use crate::port::{PortFrame, to_port};
-use crate::raster::{Raster, of_port};
+use crate::raster::{Cycles, Raster, of_port};
 use crate::verdict::Verdict;
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::{Gated, Shading};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::{DrawState, Pass, Waits};
-use edgewalk_scene::{Blending, Frame, Light, LightView, Scene, Shadow, Surface, Triangle, Vertex};
+use edgewalk_scene::{
+    Blending, Frame, Light, LightView, Pane, Scene, Shadow, Surface, SurfaceTriangle, Triangle, Vertex,
+};
 use glam::DVec3;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -42,13 +47,19 @@ pub fn frames(scene: &Scene, surface: &Surface, machine: &Plan) -> Result<Vec<Fr
             "--shadows map: the part of each light is added, and the machine has no BLEND; add --set blend.kind=constant, or draw with --engine golden"
         ));
     }
-    let plain = edgewalk_golden::frame(scene, surface, Shading::Gouraud);
+    let mut plain = edgewalk_golden::frame(scene, surface, Shading::Gouraud);
+    let mut drawn: Vec<&SurfaceTriangle> = surface.triangles.iter().collect();
     if plain.blend != Blending::Off {
-        return Err(anyhow!(
-            "--shadows map: a transparent surface; the machine's passes add lights to opaque ones, draw with --engine golden"
-        ));
+        if !machine.shadow.transmits() {
+            return Err(anyhow!(
+                "--shadows map: a surface transmits light, and the machine's map says lit or not; add --set shadow.transmits=yes, or draw with --engine golden"
+            ));
+        }
+        let (sorted, order) = edgewalk_golden::sorted(plain, machine.subpixel_bits);
+        plain = sorted;
+        drawn = order.order.iter().map(|place| &surface.triangles[*place]).collect();
     }
-    let parts: Vec<Gated> = surface.triangles.iter().map(|triangle| Gated::new(scene, triangle)).collect();
+    let parts: Vec<Gated> = drawn.iter().map(|triangle| Gated::new(scene, triangle)).collect();
     let colored = |part: &dyn Fn(&Gated) -> [DVec3; 3]| {
         let triangles = plain.triangles.iter().zip(&parts).map(|(triangle, gated)| {
             let mut corners = triangle.0;
@@ -68,9 +79,9 @@ pub fn frames(scene: &Scene, surface: &Surface, machine: &Plan) -> Result<Vec<Fr
                 "--shadows map: {name} takes six maps, and a pass looks up one; permitted: directional, flood with a cone up to 60, others that see the whole mesh within 70 degrees of an axis or of its middle; or draw with --engine golden"
             )
         })?;
-        let shadow = shadow(scene, surface, &view, machine).with_context(|| name)?;
-        let (shadow, triangles) = (Some(shadow), colored(&|gated| gated.lights[l]));
-        frames.push(Frame { shadow, triangles, clear: [0.0; 3], ..plain.clone() });
+        let shadow = shadow(scene, (surface, &drawn), &view, machine).with_context(|| name)?;
+        let (shadows, triangles) = (vec![shadow], colored(&|gated| gated.lights[l]));
+        frames.push(Frame { shadows, triangles, clear: [0.0; 3], ..plain.clone() });
     }
     Ok(frames)
 }
@@ -85,30 +96,43 @@ fn named(place: usize, light: &Light) -> String {
     format!("light {} ({kind})", place + 1)
 }
 
-/// The map of a light, and the way into it.
-fn shadow(scene: &Scene, surface: &Surface, view: &LightView, machine: &Plan) -> Result<Shadow> {
+/// The map of a light, and the way into it from each triangle in the order in which they are drawn.
+fn shadow(
+    scene: &Scene,
+    (surface, drawn): (&Surface, &[&SurfaceTriangle]),
+    view: &LightView,
+    machine: &Plan,
+) -> Result<Shadow> {
     let matrix = view
         .from_screen(&scene.camera, surface.width, surface.height)
         .ok_or_else(|| anyhow!("the camera's matrix is singular"))?;
     let points = |triangle: &Triangle| triangle.0.each_ref().map(|vertex| [vertex.x, vertex.y, vertex.z]);
     let [low, high] = scene.mesh.bounds();
-    let slope = |triangle: &edgewalk_scene::SurfaceTriangle| {
+    let slope = |triangle: &&SurfaceTriangle| {
         let face = &scene.mesh.faces()[triangle.face as usize];
         let corners = scene.mesh.corners(face);
         let rate = corners.into_iter().map(|corner| view.depth_rate(corner)).fold(0.0, f64::max);
         (view.depth_slope(corners) + BIAS_OF_BOX * (high - low).length() * rate).min(1.0)
     };
+    let [opaque, panes] = view.triangles(&scene.mesh);
     Ok(Shadow {
         size: view.size(),
         bias: BIAS / f64::from((1u32 << machine.shadow.depth_bits) - 1),
-        slopes: surface.triangles.iter().map(slope).collect(),
+        slopes: drawn.iter().map(slope).collect(),
         ambient: 0.0,
         matrix,
-        triangles: view.triangles(&scene.mesh).iter().map(points).collect(),
+        triangles: opaque.iter().map(points).collect(),
+        panes: panes.iter().map(|pane| Pane { corners: points(pane), kt: pane.0[0].kt }).collect(),
     })
 }
 
-/// The frames as passes of one picture. All triangles of pass l lie as many LSB farther than those of the last as passes are to come, so
+/// The host adds the frames: in one colour memory what transmits would weaken the parts before it once more.
+#[must_use]
+pub fn are_added(frames: &[Frame]) -> bool {
+    frames.iter().any(|frame| frame.passes().iter().any(|pass| pass.state.blend == Blending::Mix))
+}
+
+/// The frames as passes of one picture, of which nothing transmits light. All triangles of pass l lie as many LSB farther than those of the last as passes are to come, so
 /// under `less` a pixel takes in each pass exactly the fragment that the first pass has left there.
 ///
 /// # Errors
@@ -157,11 +181,15 @@ fn moved(vertex: &PortVertex, farther: i64, machine: &Plan) -> Result<PortVertex
     Ok(machine.raw_vertex(vertex.x(), vertex.y(), &values))
 }
 
-/// The sum of pictures, cut to 1, in the place of the first.
+/// The sum of pictures, cut to 1, in the place of the first; their cycles are its passes.
 #[must_use]
 pub fn sum(pictures: &[Raster]) -> Option<Raster> {
     let (first, others) = pictures.split_first()?;
     let mut sum = first.clone();
+    sum.passes = pictures.iter().filter_map(|picture| picture.cycles.clone()).collect();
+    sum.cycles = sum.passes.iter().cloned().reduce(Cycles::and);
+    sum.lights = pictures.iter().flat_map(|picture| picture.lights.iter().cloned()).collect();
+    sum.corners = None;
     for picture in others {
         for (color, part) in sum.rgb.iter_mut().zip(&picture.rgb) {
             *color = std::array::from_fn(|channel| (color[channel] + part[channel]).min(1.0));
@@ -181,10 +209,17 @@ pub fn beside_golden(scene: &Scene, surface: &Surface, machine: &Plan) -> Result
     let drawn = drawn.collect::<Result<Vec<_>>>()?;
     let beside = frames.iter().zip(&golden).zip(&drawn);
     let parts = beside.map(|((frame, golden), drawn)| compare(machine, frame, golden, drawn)).collect();
-    let port = in_passes(&frames, machine)?;
-    let together = of_port(draw::draw_frame(machine, &port, Waits::Never)?.raster(machine), &port);
-    let passes = Passes::of(parts, machine, (&golden, &drawn), &together);
-    let exact = sum(&golden).ok_or_else(|| anyhow!("no frame"))?;
+    let no_frame = || anyhow!("no frame");
+    let together = match are_added(&frames) {
+        true => sum(&drawn).ok_or_else(no_frame)?,
+        false => {
+            let port = in_passes(&frames, machine)?;
+            of_port(draw::draw_frame(machine, &port, Waits::Never)?.raster(machine), &port)
+        }
+    };
+    let passes =
+        Passes { by_host: are_added(&frames), ..Passes::of(parts, machine, (&golden, &drawn), &together) };
+    let exact = sum(&golden).ok_or_else(no_frame)?;
     Ok((together, exact, passes))
 }
 
@@ -201,6 +236,8 @@ pub struct Passes {
     pub color_error: f64,
     /// How many these are.
     pub alike: u64,
+    /// The host has added the parts: see [`are_added`].
+    pub by_host: bool,
 }
 
 impl Passes {
@@ -212,7 +249,7 @@ impl Passes {
         (golden, drawn): (&[Raster], &[Raster]),
         together: &Raster,
     ) -> Passes {
-        let mut found = Passes { parts, added: 0, wrong: 0, color_error: 0.0, alike: 0 };
+        let mut found = Passes { parts, added: 0, wrong: 0, color_error: 0.0, alike: 0, by_host: false };
         let (Some(exact), Some(whole)) = (sum(golden), sum(drawn)) else { return found };
         let max = machine.color.max() as f64;
         let lsb = |color: [f64; 3]| color.map(|channel| (channel * max).round() as u64);
@@ -268,7 +305,22 @@ impl Passes {
                     lit.shadow, lit.pixels, lit.differ, lit.open, lit.unexplained
                 );
             }
+            if let Some(blended) = &part.blended {
+                _ = write!(
+                    t,
+                    "; {} pixels of up to {} layers within their bounds, {:.4} of one reached, {} beyond",
+                    blended.pixels, blended.layers, blended.of_bound, blended.beyond
+                );
+            }
             t.push('\n');
+        }
+        if self.by_host {
+            _ = writeln!(
+                t,
+                "the parts, each with a bound at each pixel, added by the host: {} pixels; largest colour error {:.4} LSB over {} decided alike",
+                self.added, self.color_error, self.alike
+            );
+            return t;
         }
         let bound = self.color_bound().map_or_else(|| "none".to_owned(), |bound| format!("{bound:.4}"));
         _ = writeln!(

@@ -98,7 +98,7 @@ pub fn guard_band(machine: &Plan) -> f64 {
 
 /// Snaps a frame to the port, polygons as triangles, or says what of it the machine cannot take.
 pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
-    if let Some(shadow) = &frame.shadow {
+    for shadow in &frame.shadows {
         light::check(shadow, machine)?;
         if frame.shading.is_some() {
             return Err(anyhow!(
@@ -111,16 +111,16 @@ pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
     for pass in frame.passes() {
         let parts = ids.iter().take_while(|id| (**id as usize) < pass.primitives.end).count();
         for (triangle, id) in triangles[port.len()..parts].iter().zip(&ids[port.len()..parts]) {
-            port.push(port_triangle(*id as usize, triangle, frame, pass.state.blend, machine)?);
+            port.push(port_triangle(*id as usize, triangle, frame, &pass.state, machine)?);
         }
         passes.push(Pass {
             triangles: parts - passes.iter().map(|pass: &Pass| pass.triangles).sum::<usize>(),
             state: draw_state(frame, &pass.state, machine)?,
             clear_depth: pass.clear_depth,
-            map: (passes.is_empty() && frame.shadow.is_some()).then_some(0),
+            map: frame.shadow(pass.state.light).map(|_| pass.state.light - 1),
         });
     }
-    let lights = frame.shadow.iter().map(|shadow| light::map(shadow, machine)).collect::<Result<_>>()?;
+    let lights = frame.shadows.iter().map(|shadow| light::map(shadow, machine)).collect::<Result<_>>()?;
     let port = PortFrame { triangles: port, ids, passes, lights, host, shade: None };
     Ok(PortFrame { shade: feed(frame, &port, machine)?, ..port })
 }
@@ -146,23 +146,23 @@ pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawSt
         depth_write: state.stores_depth(),
         color_write: state.color_write,
         blend_add: state.blend == Blending::Add,
-        shadow_on: frame.shadow.is_some(),
-        ambient: frame.shadow.as_ref().map_or(0, |shadow| light::ambient(shadow, machine)),
+        shadow_on: frame.shadow(state.light).is_some(),
+        ambient: frame.shadow(state.light).map_or(0, |shadow| light::ambient(shadow, machine)),
         clear: frame.clear.map(|v| (v * max).round_ties_even() as u64),
     })
 }
 
-/// Snaps triangle number `index` to the port, or says that the machine cannot take it.
+/// Snaps triangle number `index`, drawn by these rules, to the port, or says that the machine cannot take it.
 pub fn port_triangle(
     index: usize,
     triangle: &Triangle,
     frame: &Frame,
-    blend: Blending,
+    state: &State,
     machine: &Plan,
 ) -> Result<[PortVertex; 3]> {
-    let (mixes, mode) = (blend == Blending::Mix, frame.mode);
+    let (mixes, mode) = (state.blend == Blending::Mix, frame.mode);
     let mut port = [PortVertex::default(); 3];
-    let light = light::values(frame.shadow.as_ref(), index, &triangle.0, machine)
+    let light = light::values(frame.shadow(state.light), index, &triangle.0, machine)
         .with_context(|| format!("triangle {index}"))?;
     for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
         let v = if mode == ShadeMode::Flat { v.colored_as(&triangle.0[0]) } else { *v };

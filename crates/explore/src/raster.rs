@@ -82,6 +82,15 @@ impl Cycles {
         Cycles { total: counters.cycles, path, held: Some(held), spent: counters.activity }
     }
 
+    /// Those of two runs, one after the other.
+    #[must_use]
+    pub fn and(mut self, other: Cycles) -> Self {
+        self.total += other.total;
+        self.spent.iter_mut().zip(other.spent).for_each(|(own, other)| *own += other);
+        self.held = None;
+        self
+    }
+
     /// How many cycles have no cause, or more than one.
     #[must_use]
     pub fn unexplained(&self) -> u64 {

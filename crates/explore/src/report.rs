@@ -357,6 +357,13 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
             "light: {} pixels, {} in shadow, {} decided otherwise than golden; {} of {} open; unexplained by texels within {:.4} and depths within {:.4} LSB: {}",
             l.pixels, l.shadow, l.differ, l.open, l.pixels, l.texel_bound, l.depth_bound, l.unexplained
         );
+        if l.loose > 0 {
+            _ = writeln!(
+                t,
+                "    {} pixels between texels of several shares: their bounds have them all",
+                l.loose
+            );
+        }
     }
     if let Some(s) = &c.shaded {
         _ = writeln!(
@@ -369,6 +376,13 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
             "a light at the horizon in {} of them, on its other side in {}; from Phong shading at most {:.4}, {:.4} in the mean",
             s.at_horizon, s.other_branch, s.from_phong, s.mean_from_phong
         );
+        if let Some(texels) = &s.texels {
+            _ = writeln!(
+                t,
+                "texels: {} pixels, {} other than golden's, unexplained by places within {:.4} texels: {}; {} another for their picture's sides",
+                texels.pixels, texels.differ, texels.bound, texels.unexplained, texels.resampled
+            );
+        }
     }
     for own in &c.extra {
         let (of, label) = (&own.channel, &own.channel.label);

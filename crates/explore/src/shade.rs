@@ -1,9 +1,10 @@
-//! What the host sends to TERM and SHADE for a frame with normals: records of terms, tables of materials, and what is proved
+//! What the host sends to TERM, TEXEL and SHADE for a frame with normals: records of terms, tables and textures of materials, and what is proved
 //! of the colours that come of them.
 //!
 //! ```text
 //!  normals, lights, viewer ─six cosines a light─> exact fit ─RN in the middle of the box─> words ─moved─> Record
 //!  materials, colours, intensities ─────────────────────────> tables of bins ─────────────> words of the tables
+//!  pictures ────────────────────────────────────────────────> 2^τ x 2^τ texels ───────────> words of the textures
 //! ```
 //! Bounds 12 and 13 (`docs/numerics.md`) give the bound of a colour against golden's fast Phong, with bound 14 against its Phong.
 
@@ -12,6 +13,7 @@ mod lights;
 mod place;
 mod records;
 mod roots;
+mod texels;
 mod tables;
 
 mod compare;
@@ -20,9 +22,10 @@ pub use bound::{Proof, Shaded};
 pub(crate) use compare::Allowed;
 pub use place::Place;
 pub use records::IndexErrors;
+pub use texels::Textured;
 
 use crate::port::PortFrame;
-use anyhow::{Result, anyhow};
+use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Fill, Plan, ShadeColour};
 use edgewalk_model::Shading;
 use edgewalk_scene::{Frame, PixelMethod, PixelShading};
@@ -57,19 +60,25 @@ pub fn feed(frame: &Frame, port: &PortFrame, machine: &Plan) -> Result<Option<Fe
     let root_error = if machine.shade.normalises() { roots::relative_error() } else { 0.0 };
     let mut records = Vec::with_capacity(port.triangles.len());
     let mut errors = Vec::with_capacity(port.triangles.len());
+    let mut textured = Vec::with_capacity(port.triangles.len());
     for (index, triangle) in port.triangles.iter().enumerate() {
         let own = &shading.triangles[port.ids[index] as usize];
         let surface = surfaces.of_triangle[port.ids[index] as usize];
         let glosses = surfaces.glosses(surface);
+        let place = Place::of(machine, triangle);
         let (record, error) =
-            records::record(triangle, own, shading, &lamps, (surface, &glosses), root_error, machine);
+            records::record(place.as_ref(), own, shading, &lamps, (surface, &glosses), root_error, machine)
+                .with_context(|| format!("triangle {index}"))?;
+        let texture = surfaces.textures[surface as usize].as_ref();
+        textured.push(place.and_then(|place| Textured::new(&place, own, texture, &record.terms, machine)));
         records.push(record);
         errors.push(error);
     }
     let roots = if machine.shade.normalises() { roots::words(machine) } else { Vec::new() };
-    let proof = Proof::new(machine, &surfaces, errors);
+    let textures = texels::words(&surfaces.textures, machine)?;
+    let proof = Proof::new(machine, &surfaces, errors, textured);
     Ok(Some(Feed {
-        words: Shading { records, tables: surfaces.words(machine), roots, textures: Vec::new() },
+        words: Shading { records, tables: surfaces.words(machine), roots, textures },
         proof,
         surfaces,
     }))
@@ -102,9 +111,9 @@ pub(crate) fn shading_for<'a>(frame: &'a Frame, machine: &Plan) -> Result<Option
             kind.name()
         ));
     }
-    if machine.shade.textures() {
+    if !shading.textures.is_empty() && !machine.shade.textures() {
         return Err(anyhow!(
-            "texture.kind = nearest: no scene or file brings its texels to the machine yet; set texture.kind = none"
+            "texture: the machine has no TEXEL; add --set texture.kind=nearest --set shade.colour=multiply, or draw with --engine golden"
         ));
     }
     if machine.fill == Fill::Textbook {

@@ -14,7 +14,7 @@ use edgewalk_scene::{
     Attenuation, Frame, Light, Material, PixelMethod, PixelShading, PixelTriangle, Specular, Triangle,
     Vertex, Viewer,
 };
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -124,7 +124,8 @@ fn compare(frame: &Frame, machine: &Plan, found: &mut Found) {
                 let far = |(a, b): (u64, &f64)| (a as f64 - b * max).abs();
                 color.into_iter().zip(golden).map(far).fold(0.0, f64::max)
             };
-            let errors: Vec<f64> = brush.branches(fragment, doubt).iter().map(off).collect();
+            let errors: Vec<f64> =
+                brush.branches(fragment, brush.texel(fragment), doubt).iter().map(off).collect();
             let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
             let (x, y) = (fragment.x, fragment.y);
             assert!(least <= bound, "triangle {id}, pixel {x} {y}: {errors:?} over {bound}");
@@ -213,7 +214,13 @@ fn case(random: &mut Pcg64Mcg, number: u32, lights: usize, gloss: f64) -> Frame 
         lights: (0..lights).map(|_| light(random)).collect(),
         specular: if random.random() { Specular::Halfway } else { Specular::Blinn },
         materials: vec![material],
-        triangles: vec![PixelTriangle { normals, positions: [DVec3::ZERO; 3], material: 0 }],
+        textures: Vec::new(),
+        triangles: vec![PixelTriangle {
+            normals,
+            positions: [DVec3::ZERO; 3],
+            texture: [DVec2::ZERO; 3],
+            material: 0,
+        }],
     };
     Frame { triangles: vec![triangle], shading: Some(shading), ..Frame::new(640, 480) }
 }

@@ -1,6 +1,7 @@
 //! Transparency: order, blending, and the shadows of what lets light through (ch. 7.2, 7.4, 7.5).
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
+use crate::shadows::on_the_machine;
 use edgewalk_golden::{Rays, Shading, ShadowMaps, Visibility, render};
 use edgewalk_scene::Scene;
 use glam::DVec3;
@@ -17,32 +18,47 @@ pub(crate) fn glass() -> anyhow::Result<Exhibit> {
     let drawn = |visibility: &Visibility| render(&scene, &surface, Shading::Phong, FILL, visibility);
     let by_maps = drawn(&Visibility::Maps(ShadowMaps::draw(&scene, 512)));
     let rays = Rays::new(&scene.mesh);
-    let lit = PLACES.map(|[x, z]| rays.transmitted(&scene.lights[0], DVec3::new(x, -1.0, z), 0));
+    let transmitted = PLACES.map(|[x, z]| rays.transmitted(&scene.lights[0], DVec3::new(x, -1.0, z), 0));
     let by_rays = drawn(&Visibility::Rays(rays));
     let crossing =
         Scene::parse(Path::new("glass.toml"), &SCENE.replace("[1.4, 0.9, -0.9]", "[1.4, -0.9, -0.9]"))?;
     let crossed =
         render(&crossing, &crossing.surface(WIDTH, HEIGHT, GUARD), Shading::Phong, FILL, &Visibility::Full);
+    let (machine, golden, found) = on_the_machine(&scene, &[("shadow.transmits", "yes")])?;
+    let lit = || found.parts.iter().filter_map(|part| part.lit);
+    let beyond =
+        found.parts.iter().filter_map(|part| part.blended).map(|blended| blended.beyond).sum::<u64>();
     Ok(Exhibit {
         name: "glass",
         title: "Transparency and its shadows (S3, S4)",
-        cause: "What transmits light is drawn last, from back to front, each time (1 - k_t) I + k_t of what is there. A depth map \
-                knows hidden or not, so glass either blocks a light or, as here, lets all of it pass; a ray multiplies the k_t \
-                on its way. Triangles that cut each other have no order: the picture is wrong there, and a warning says so.",
+        cause: "What transmits light is drawn last, from back to front, each time (1 - k_t) I + k_t of what is there. Triangles that \
+                cut each other have no order: the picture is wrong there, and a warning says so. A depth map knows hidden or not; its \
+                second plane holds the product of the k_t before what hides the light, as a ray finds it on its way, in any order. For \
+                the panes themselves it counts too much, their own k_t and what lies behind them: they are too dark.",
         figures: vec![
-            figure("r_l beside the panes, by ray", lit[0], 2),
-            figure("under the red one, k_t 0.6", lit[1], 2),
-            figure("under the blue one, k_t 0.5", lit[2], 2),
-            figure("under both", lit[3], 2),
+            figure("r_l beside the panes, by ray", transmitted[0], 2),
+            figure("under the red one, k_t 0.6", transmitted[1], 2),
+            figure("under the blue one, k_t 0.5", transmitted[2], 2),
+            figure("under both", transmitted[3], 2),
             figure(
                 "panes bent into each other: pairs of triangles without an order",
                 crossed.order.intersections.len() as f64,
                 0,
             ),
+            figure("machine: decisions under its light", lit().map(|lit| lit.pixels).sum::<u64>() as f64, 0),
+            figure(
+                "machine: not explained by the errors of texel and depth",
+                lit().map(|lit| lit.unexplained).sum::<u64>() as f64,
+                0,
+            ),
+            figure("machine: colours beyond the bound of their layers and shares", beyond as f64, 0),
+            figure("machine: largest colour error, LSB", found.color_error, 2),
         ],
         views: vec![
             View::colors("maps", "Shadows by maps", by_maps.shaded.picture.rgb),
             View::colors("rays", "Shadows by rays", by_rays.shaded.picture.rgb),
+            View::colors("machine", "The machine: map and shares, Gouraud shaded", machine.rgb),
+            View::colors("machine-golden", "Golden beside it: the same in f64", golden.rgb),
         ],
     })
 }

@@ -1,4 +1,4 @@
-//! What a machine with TERM and SHADE makes of an exhibit's scene, beside golden's fast Phong of the same triangles.
+//! What a machine with TERM and SHADE, and of textures TEXEL, makes of an exhibit's scene, beside golden's fast Phong of the same triangles.
 
 use crate::exhibit::{GUARD, HEIGHT, View, WIDTH, figure};
 use anyhow::{Result, anyhow};
@@ -22,23 +22,29 @@ pub(crate) struct Beside {
 }
 
 impl Beside {
-    /// Draws the scene with tables of 1024 entries.
+    /// Draws the scene with tables of 1024 entries; with TEXEL where it has nearest texels.
     ///
     /// # Errors
     /// What of the scene such a machine cannot take.
     pub(crate) fn of(scene: &Scene) -> Result<Beside> {
         let mut keys = Machine { width: WIDTH, height: HEIGHT, ..Machine::default() };
         let lights = scene.lights.len().to_string();
+        let frame = scene.pixel_frame(&scene.surface(WIDTH, HEIGHT, GUARD), PixelMethod::FastPhong);
+        let textured = frame.shading.as_ref().is_some_and(|shading| !shading.textures.is_empty());
+        let texture: &[(&str, &str)] =
+            if textured { &[("shade.colour", "multiply"), ("texture.kind", "nearest")] } else { &[] };
         for (key, value) in [
             ("shade.kind", "fast-phong"),
             ("shade.table_bits", "10"),
             ("shade.gloss_bits", "8"),
             ("shade.lights", &lights),
-        ] {
+        ]
+        .iter()
+        .chain(texture)
+        {
             keys.set(key, value).map_err(|e| anyhow!("{e}"))?;
         }
         let plan = keys.plan().map_err(|e| anyhow!("{e}"))?;
-        let frame = scene.pixel_frame(&scene.surface(WIDTH, HEIGHT, GUARD), PixelMethod::FastPhong);
         let port = to_port(&frame, &plan)?;
         let golden = golden(&frame, &plan);
         let drawn = draw_frame(&plan, &port, Waits::Never)?.raster(&plan);
@@ -50,13 +56,21 @@ impl Beside {
 
     /// The figures of the exhibit's own.
     pub(crate) fn figures(&self) -> Vec<(String, String)> {
-        let Shaded { error, bound, from_phong, mean_from_phong, .. } = self.shaded;
-        vec![
+        let Shaded { error, bound, from_phong, mean_from_phong, texels, .. } = self.shaded;
+        let mut figures = vec![
             figure("machine: largest error against fast Phong in f64, LSB", error, 2),
             figure("machine: proved bound of that, LSB", bound, 2),
             figure("machine: largest difference from Phong, LSB", from_phong, 2),
             figure("machine: mean difference from Phong, LSB", mean_from_phong, 3),
-        ]
+        ];
+        if let Some(texels) = texels {
+            figures.extend([
+                figure("machine: pixels that look up a texel", texels.pixels as f64, 0),
+                figure("machine: of them another texel than golden's", texels.differ as f64, 0),
+                figure("machine: not explained by the error of u and v", texels.unexplained as f64, 0),
+            ]);
+        }
+        figures
     }
 
     /// Its pictures.

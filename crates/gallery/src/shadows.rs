@@ -11,9 +11,12 @@ use std::path::Path;
 const SCENE: &str = include_str!("../../../docs/scenes/shadows.toml");
 
 /// The scene drawn by a machine with PROJECT, golden's picture of the same passes, and what was found.
-fn on_the_machine(scene: &Scene) -> anyhow::Result<(Raster, Raster, Passes)> {
+pub(crate) fn on_the_machine(
+    scene: &Scene,
+    also: &[(&str, &str)],
+) -> anyhow::Result<(Raster, Raster, Passes)> {
     let mut keys = Machine { width: WIDTH, height: HEIGHT, ..Machine::default() };
-    for (key, value) in [("shadow.light", "perspective"), ("blend.kind", "constant")] {
+    for (key, value) in [("shadow.light", "perspective"), ("blend.kind", "constant")].iter().chain(also) {
         keys.set(key, value)?;
     }
     let plan = keys.plan()?;
@@ -30,7 +33,7 @@ pub(crate) fn shadows() -> anyhow::Result<Exhibit> {
         let difference = Shaded { picture: picture.clone(), truth: rays.rgb.clone() }.error();
         difference.map.iter().filter(|error| **error > 0.5).count() as f64
     };
-    let (machine, golden, found) = on_the_machine(&scene)?;
+    let (machine, golden, found) = on_the_machine(&scene, &[])?;
     let lit = || found.parts.iter().filter_map(|part| part.lit);
     let cycles =
         |cycles: &[u64]| cycles.iter().map(|cycles| cycles.to_string()).collect::<Vec<_>>().join(" + ");

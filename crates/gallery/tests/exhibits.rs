@@ -148,3 +148,18 @@ fn light_adds() {
     let lights = exhibit("lights");
     assert!(figure(&lights, "pixels where") > 1000.0 && figure(&lights, "largest difference") < 1e-9);
 }
+
+#[test]
+fn the_machine_shows_the_texels_that_golden_shows() {
+    let texture = exhibit("texture");
+    let [pixels, differ, unexplained] =
+        ["pixels that look up", "of them another texel", "not explained by the error of u"]
+            .map(|of| figure(&texture, &format!("machine: {of}")));
+    assert!(
+        pixels > 10_000.0 && differ < pixels / 100.0 && unexplained == 0.0,
+        "{pixels} {differ} {unexplained}"
+    );
+    let [error, bound] =
+        ["largest error against fast", "proved bound"].map(|of| figure(&texture, &format!("machine: {of}")));
+    assert!(error > 0.5 && error <= bound, "{error} {bound}");
+}

@@ -11,7 +11,6 @@ use crate::{Talk, picture};
 use anyhow::{Context, Result, anyhow};
 use edgewalk_explore::compare::compare_shaded;
 use edgewalk_explore::draw;
-use edgewalk_explore::light::judged;
 use edgewalk_explore::raster::Raster;
 use edgewalk_explore::reach::reach;
 use edgewalk_explore::report::Report;
@@ -101,7 +100,6 @@ fn drawn(args: &Args, plan: &Plan) -> Result<(Report, Raster)> {
     let port = to_port(&frame, plan)?;
     let golden = draw::golden(&frame, plan);
     let raster = draw::fast(&frame, plan, args.stalls)?;
-    judged(&frame)?;
     let proof = port.shade.as_ref().map(|feed| &feed.proof);
     let comparison = compare_shaded(plan, &frame, &golden, &raster, reach(plan, &port)?.as_ref(), proof);
     let setup = SetupReport::new(plan, &port.triangles);

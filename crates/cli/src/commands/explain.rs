@@ -4,6 +4,7 @@ mod additions;
 mod layers;
 mod shaded;
 mod shadowed;
+mod texel;
 mod terms;
 mod page;
 
@@ -118,6 +119,13 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         }
         _ => (Vec::new(), None),
     };
+    let walked = match seen {
+        Some(triangle) if machine.fill == Fill::Exact && machine.edge_kind == EdgeKind::Exact => {
+            let state = state_of(&frame, id as usize);
+            walk(&machine, &port_triangle(id as usize, triangle, &frame, &state, &machine)?, x, y)
+        }
+        _ => None,
+    };
     let explanation = Explanation {
         x,
         y,
@@ -137,19 +145,13 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         shaded: match (usize::try_from(id), &port) {
             (Ok(id), Some(PortFrame { triangles, shade: Some(feed), .. })) => {
                 let leftward = leftward(&machine, &triangles[id]);
-                shaded(&machine, &frame, feed, id, (x, y), leftward)
+                shaded(&machine, &frame, feed, id, (x, y), (leftward, walked.as_ref()))
             }
             _ => None,
         },
         shadows,
         no_shadows,
-        machine: match seen {
-            Some(triangle) if machine.fill == Fill::Exact && machine.edge_kind == EdgeKind::Exact => {
-                let blend = state_of(&frame, id as usize).blend;
-                walk(&machine, &port_triangle(id as usize, triangle, &frame, blend, &machine)?, x, y)
-            }
-            _ => None,
-        },
+        machine: walked,
     };
     talk.say(|| Ok(serde_json::to_string(&explanation)?), || page::text(&explanation, machine.color.bits))?;
     // A pixel may be empty, but not the whole picture.

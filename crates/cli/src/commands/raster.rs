@@ -34,6 +34,7 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
   mode gouraud|flat|phong|fast-phong
   view x y z   sun x y z i   specular halfway|blinn       of phong and fast-phong: to the viewer, to a light
   material ka kd ks n                                     of the triangles behind it
+  texture W H  rrggbb ..                                  texels of the material before it, lines from the top; texture.kind=nearest
   depth less|lequal|always|off|...
   depth_write 0|1
   blend 0|1|add                                           1: (1-kt) I + kt I_back; add: I + I_back; needs blend.kind
@@ -46,6 +47,7 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
   T x y z r g b kt  x y z r g b kt  x y z r g b kt        a triangle, pixels
   X e0 .. e0 .. e0 ..                                     N values of vertex 1, of 2, of 3: unorm [0,1], else LSB
   N nx ny nz  nx ny nz  nx ny nz                          normals of a triangle in mode phong or fast-phong
+  UV u v  u v  u v                                        its texture coordinates, v up, where its material has a texture
   P n  x y z r g b kt ..                                  a polygon of n vertices; the machine draws it as triangles
   H n  x y z r g b kt ..                                  one more contour of the polygon on the line before")]
 pub struct Args {
@@ -84,7 +86,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     extra::fitting(header.extra, &machine).with_context(|| file.name().to_owned())?;
     let report = match args.engine {
         // Of a light all triangles are needed before the first pixel.
-        Engine::Fast if header.shadow.is_none() => while_it_is_read(&file, &header, &machine, &out, talk)?,
+        Engine::Fast if header.shadows.is_empty() => while_it_is_read(&file, &header, &machine, &out, talk)?,
         engine => whole(&file, engine, &machine, &out, talk)?,
     };
     out.write("report.json", report.json()?)?;

@@ -15,9 +15,8 @@ use crate::shadows::Shadows;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
-use anyhow::{Context as _, Result, anyhow};
+use anyhow::{Result, anyhow};
 use edgewalk_explore::compare::compare_shaded;
-use edgewalk_explore::light::judged;
 use edgewalk_explore::reach::reach;
 use edgewalk_golden::{HiddenLines, wireframe};
 use edgewalk_machine::Plan;
@@ -197,7 +196,6 @@ pub fn pictures(
     out: &Staging,
     quiet: bool,
 ) -> Result<Pictures> {
-    judged(frame).with_context(|| name.to_owned())?;
     let golden = draw(Engine::Golden, frame, machine, quiet)?;
     let drawn = draw_waiting(engine, frame, machine, waits, quiet)?;
     let port = to_port(frame, machine)?;

@@ -131,8 +131,9 @@ pub fn of_input(input: &str, machine: &Plan, port: &PortFrame, triangles: Option
 /// What the memories hold for every so manieth triangle of an input.
 fn words_of_input(machine: &Plan, port: &PortFrame, every: usize) -> Result<Words> {
     let mut words = Words::new();
-    if let Some(map) = port.maps().pop() {
-        words.insert("map", map.into_iter().map(u128::from).collect());
+    let map = port.passes.first().and_then(|pass| port.lights.get(pass.map?));
+    if let Some(map) = map {
+        words.insert("map", map.words.iter().copied().map(u128::from).collect());
     }
     let shading = port.words();
     let taken = shading.records.len().div_ceil(every);

@@ -76,6 +76,12 @@ impl<'a> Tally<'a> {
         self.wrapped += u64::from(wrapped);
     }
 
+    /// How far the colour of pixel `i` is from this one, LSB.
+    pub fn color_error(&self, exact: [f64; 3], i: usize) -> f64 {
+        let off = exact.into_iter().zip(self.drawn.rgb[i]).map(|(exact, drawn)| (exact - drawn).abs());
+        off.fold(0.0, worse) * self.color.unit
+    }
+
     /// Of pixel `i` only the depth counts.
     pub fn depth(&mut self, i: usize, z: f64) {
         self.wrapped += u64::from(self.z.add(i, z, self.drawn.z[i]));
@@ -111,11 +117,6 @@ impl Errors {
         self.map[i] = worse(self.map[i], error);
         // An output that stayed in its range is nearer to the exact value than half the range, one that wrapped is not.
         error > 0.5 * (self.channel.max() + 1) as f64
-    }
-
-    /// The largest error found at a pixel.
-    pub fn at(&self, i: usize) -> f64 {
-        self.map[i]
     }
 
     /// Proved largest error of the output: vertex rounding, all additions, output rounding (bounds 2, 4).

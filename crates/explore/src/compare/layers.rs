@@ -3,6 +3,7 @@
 //! A colour of a blended picture hangs on every fragment under it. So where a single depth test at a pixel is open
 //! (bound 7), any of two colours may come of it, and the pixel counts as undecided.
 
+use super::lit::{Lights, Seen};
 use super::order::apart;
 use crate::raster::golden_fill;
 use edgewalk_golden::{Drawing, Step};
@@ -19,6 +20,10 @@ pub struct Layers {
     pub open: Vec<bool>,
     /// Colours stored there.
     pub stored: Vec<u32>,
+    /// What the machine may have decided of the last of them.
+    pub last: Vec<Seen>,
+    /// One of them may have several shares of its colour, an LSB or more apart.
+    pub loose: Vec<bool>,
 }
 
 /// What was found of such a picture.
@@ -37,10 +42,11 @@ pub struct Blended {
 }
 
 impl Layers {
-    /// `None` where every pixel shows one fragment as it is.
-    pub fn of(machine: &Plan, frame: &Frame) -> Option<Layers> {
+    /// `None` where every pixel shows one fragment as it is, or as a light leaves it or takes it away. `lights`: of the frame, if any counts.
+    pub fn of(machine: &Plan, frame: &Frame, mut lights: Option<&mut Lights>) -> Option<Layers> {
         let passes = frame.passes();
-        if passes.len() == 1 && passes[0].state.blend == Blending::Off {
+        let shares = lights.is_some() && machine.shadow.transmits();
+        if passes.len() == 1 && passes[0].state.blend == Blending::Off && !shares {
             return None;
         }
         let pixels = frame.width as usize * frame.height as usize;
@@ -48,16 +54,25 @@ impl Layers {
             bound: vec![0.5; pixels], // the cleared colour is rounded
             open: vec![false; pixels],
             stored: vec![0; pixels],
+            last: vec![Seen::LIT; pixels],
+            loose: vec![false; pixels],
         };
+        let width = frame.width as usize;
         let (apart, errors) = (apart(machine, None), Errors::of(machine));
         Drawing::new(frame, golden_fill(machine)).watched(0..frame.height, |step| match step {
             Step::Tested { at, id, stored, gap } => {
                 let sure = apart.map(|apart| if stored < 0 { apart.cleared } else { apart.triangles });
                 layers.open[at] |= sure.is_none_or(|sure| gap < sure) && !same_depth(frame, id, stored);
             }
-            Step::Stored { at, front, kt, back, blend, .. } => {
+            Step::Stored { at, id, z, own, light, share, kt, back, blend, .. } => {
                 layers.stored[at] += 1;
-                layers.bound[at] = errors.behind(layers.bound[at], front, kt, back, blend);
+                let point = [(at % width) as f64 + 0.5, (at / width) as f64 + 0.5, z];
+                let seen = lights.as_mut().map_or(Seen::LIT, |lights| lights.seen(point, id, light));
+                let front = own.map(|channel| channel * share);
+                let error = errors.front(own, share, &seen);
+                layers.last[at] = seen;
+                layers.loose[at] |= (seen.shares[1] - seen.shares[0]) * errors.max > 1.0;
+                layers.bound[at] = errors.behind(layers.bound[at], error, front, kt, back, blend);
             }
         });
         Some(layers)
@@ -96,14 +111,27 @@ impl Errors {
         Errors { max: machine.color.max() as f64, front: error(1), kt: kt.map_or(0.5, error) / one }
     }
 
-    /// The error of a pixel behind one more layer, LSB; colours in 0 to 1.
-    pub fn behind(&self, before: f64, front: [f64; 3], kt: f64, back: [f64; 3], blend: Blending) -> f64 {
+    /// That of a fragment of this colour, 0 to 1, of which golden shows this share, LSB.
+    pub fn front(&self, own: [f64; 3], share: f64, seen: &Seen) -> f64 {
+        seen.front(self.front, own.into_iter().fold(0.0, f64::max), share, self.max)
+    }
+
+    /// The error of a pixel behind one more layer, LSB, whose own is `error`; colours in 0 to 1.
+    pub fn behind(
+        &self,
+        before: f64,
+        error: f64,
+        front: [f64; 3],
+        kt: f64,
+        back: [f64; 3],
+        blend: Blending,
+    ) -> f64 {
         match blend {
-            Blending::Off => self.front,
-            Blending::Add => before + self.front,
+            Blending::Off => error,
+            Blending::Add => before + error,
             Blending::Mix => {
                 let far = (0..3).map(|i| (front[i] - back[i]).abs() * self.max).fold(0.0, f64::max);
-                blend_error_of_golden(before, self.front, far, kt, self.kt)
+                blend_error_of_golden(before, error, far, kt, self.kt)
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use super::records::IndexErrors;
 use super::tables::{LightTables, Surfaces};
+use super::texels::Textured;
 use edgewalk_machine::{Plan, ShadeColour};
 use serde::Serialize;
 
@@ -14,25 +15,41 @@ pub struct Proof {
     pub doubts: Vec<f64>,
     /// How far the indices may be from those of golden's cosines.
     pub errors: Vec<IndexErrors>,
+    /// Its texels, where it has a texture.
+    pub textured: Vec<Option<Textured>>,
 }
 
 impl Proof {
     /// Of triangles that the surfaces name, with these errors of their indices.
-    pub fn new(machine: &Plan, surfaces: &Surfaces, errors: Vec<IndexErrors>) -> Proof {
+    pub fn new(
+        machine: &Plan,
+        surfaces: &Surfaces,
+        errors: Vec<IndexErrors>,
+        textured: Vec<Option<Textured>>,
+    ) -> Proof {
         let color = machine.proved_budget(&machine.channels()[1]);
         // Where none is proved an LSB is allowed, as elsewhere.
         let surface_error = color.map_or(1.0, |budget| budget.after_rounding().to_f64());
         let bound = |(triangle, error): (usize, &IndexErrors)| {
             let lights = &surfaces.tables[surfaces.of_triangle[triangle] as usize];
-            color_bound(machine, lights, error, (surfaces.brightest[triangle], surface_error))
+            let plain = (surfaces.brightest[triangle], surface_error);
+            let surface = textured[triangle].as_ref().map_or(plain, |own| with_texel(machine, own, plain));
+            color_bound(machine, lights, error, surface)
         };
         let one = f64::from(1u32 << machine.shade.table_bits);
         Proof {
             bounds: errors.iter().enumerate().map(bound).collect(),
             doubts: errors.iter().map(|error| error.diffuse / one).collect(),
             errors,
+            textured,
         }
     }
+}
+
+/// The brightest colour behind TEXEL, and its error.
+fn with_texel(machine: &Plan, of: &Textured, (brightest, error): (f64, f64)) -> (f64, f64) {
+    let most = brightest * machine.color.max() as f64;
+    (brightest * of.texture.brightest, of.product_error(most, error))
 }
 
 /// The bound of a colour, LSB, of a triangle with fragments of at most this colour, 0 to 1, and error, LSB.
@@ -78,4 +95,22 @@ pub struct Shaded {
     pub from_phong: f64,
     /// Its mean.
     pub mean_from_phong: f64,
+    /// Where a texture is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub texels: Option<Looked>,
+}
+
+/// What was found of the texels of a picture: each is the one that the triangle's words name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Looked {
+    /// Pixels that show a texture.
+    pub pixels: u64,
+    /// Largest error of a word, texels.
+    pub bound: f64,
+    /// Pixels with another texel than the one that their place lies in.
+    pub differ: u64,
+    /// Those of them that lie farther from that texel than the error of the words.
+    pub unexplained: u64,
+    /// Pixels of another colour because the picture's sides do not divide 2^`texture.bits`.
+    pub resampled: u64,
 }

@@ -1,16 +1,19 @@
 //! What golden allows a machine to show at each pixel of a shaded frame.
 
-use super::bound::{Proof, Shaded};
+use super::bound::{Looked, Proof, Shaded};
+use super::texels::Textured;
 use crate::raster::Raster;
 use edgewalk_golden::{PixelBrush, fragments};
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Frame, PixelMethod, PixelShading};
+use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
 /// Golden's colours beside those of its picture.
 pub(crate) struct Allowed<'a> {
     proof: &'a Proof,
-    /// Where a light may be on either side of the horizon, all that the pixel may show.
+    /// What a pixel may show where that is not golden's colour alone: first that of its own side of the horizon, with the texel that
+    /// the words name.
     branches: HashMap<usize, Vec<[f64; 3]>>,
     /// Of Phong shading.
     phong: HashMap<usize, [f64; 3]>,
@@ -27,7 +30,7 @@ impl<'a> Allowed<'a> {
         proof: &'a Proof,
     ) -> Self {
         let exact = PixelShading { method: PixelMethod::Phong, ..shading.clone() };
-        let (mut branches, mut phong) = (HashMap::new(), HashMap::new());
+        let (mut branches, mut phong, mut looked) = (HashMap::new(), HashMap::new(), None);
         for (place, triangle) in frame.triangles.iter().enumerate() {
             let brushes = [shading, &exact].map(|shading| PixelBrush::new(shading, place));
             let [Some(fast), Some(exact)] = brushes else { continue };
@@ -35,15 +38,23 @@ impl<'a> Allowed<'a> {
             fragments(triangle, frame.mode, machine.subpixel_bits, screen, |fragment| {
                 let at = fragment.y as usize * frame.width as usize + fragment.x as usize;
                 if golden.id[at] == place as i32 {
-                    let own = fast.branches(fragment, proof.doubts[place]);
-                    if own.len() > 1 {
-                        branches.insert(at, own);
+                    let own = proof.textured[place].as_ref().zip(fast.place(fragment));
+                    let texel = match own {
+                        None => fast.texel(fragment),
+                        Some((own, at)) => {
+                            let looked = looked.get_or_insert_with(Looked::default);
+                            looked.take(own, [fragment.x, fragment.y], at, fast.texel(fragment))
+                        }
+                    };
+                    let list = fast.branches(fragment, texel, proof.doubts[place]);
+                    if list.len() > 1 || own.is_some() {
+                        branches.insert(at, list);
                     }
-                    phong.insert(at, exact.color(fragment));
+                    phong.insert(at, exact.color_by(fragment, texel));
                 }
             });
         }
-        Self { proof, branches, phong, found: Shaded::default() }
+        Self { proof, branches, phong, found: Shaded { texels: looked, ..Shaded::default() } }
     }
 
     /// What pixel `at`, which shows triangle `id`, should be: golden's colour there, or that of the horizon's other side if the
@@ -51,7 +62,9 @@ impl<'a> Allowed<'a> {
     pub fn at(&mut self, at: usize, id: i32, golden: [f64; 3], drawn: [f64; 3], one: f64) -> [f64; 3] {
         let off =
             |exact: &[f64; 3]| exact.iter().zip(drawn).map(|(a, b)| (a - b).abs() * one).fold(0.0, f64::max);
-        let list = self.branches.get(&at).map_or(&[][..], Vec::as_slice);
+        let alone = [golden];
+        let list = self.branches.get(&at).map_or(&alone[..], Vec::as_slice);
+        // It is never empty.
         let nearest = list.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(golden);
         let bound = usize::try_from(id).map_or(0.0, |id| self.proof.bounds[id]);
         let (error, found) = (off(&nearest), &mut self.found);
@@ -59,8 +72,8 @@ impl<'a> Allowed<'a> {
         found.error = found.error.max(error);
         found.bound = found.bound.max(bound);
         found.of_bound = found.of_bound.max(error / bound);
-        found.at_horizon += u64::from(!list.is_empty());
-        found.other_branch += u64::from(off(&golden) > bound && error <= bound);
+        found.at_horizon += u64::from(list.len() > 1);
+        found.other_branch += u64::from(list.len() > 1 && off(&list[0]) > bound && error <= bound);
         found.beyond += u64::from(error.is_nan() || error > bound);
         let from_phong = self.phong.get(&at).map_or(0.0, off);
         found.from_phong = found.from_phong.max(from_phong);
@@ -72,5 +85,20 @@ impl<'a> Allowed<'a> {
     pub fn found(self) -> Shaded {
         let Shaded { pixels, mean_from_phong: sum, .. } = self.found;
         Shaded { mean_from_phong: if pixels == 0 { 0.0 } else { sum / pixels as f64 }, ..self.found }
+    }
+}
+
+impl Looked {
+    /// Takes in a pixel that lies at `place` of its texture, `golden` the picture's texel there; what the picture has at the texel
+    /// that the words name.
+    fn take(&mut self, of: &Textured, pixel: [u32; 2], place: DVec2, golden: DVec3) -> DVec3 {
+        let texel = of.texel(pixel);
+        let (shown, differs) = (of.texture.exact(texel), texel != of.nearest(place));
+        self.pixels += 1;
+        self.bound = self.bound.max(of.error);
+        self.differ += u64::from(differs);
+        self.unexplained += u64::from(!of.explains(texel, place));
+        self.resampled += u64::from(!differs && shown != golden);
+        shown
     }
 }

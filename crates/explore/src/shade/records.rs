@@ -2,7 +2,9 @@
 
 use super::lights::Lamp;
 use super::place::Place;
-use edgewalk_machine::{Plan, PortVertex, Record};
+use super::texels;
+use anyhow::Result;
+use edgewalk_machine::{Plan, Record, Term};
 use edgewalk_numerics::term::{Degree, NODE_BITS, TermWords, node, term_roundings_of_box};
 use edgewalk_scene::{PixelShading, PixelTriangle};
 use glam::DVec3;
@@ -25,22 +27,27 @@ pub struct IndexErrors {
 }
 
 /// The record of a triangle with this surface; `glosses` has the scale m' of each light's table of highlights, `root_error` is
-/// that of NORMAL's table. A triangle that is culled has an empty one, as nobody reads it.
+/// that of NORMAL's table. A triangle that is culled, and so has no place, has an empty one, as nobody reads it.
+///
+/// # Errors
+/// Texture coordinates that no word holds.
 pub fn record(
-    triangle: &[PortVertex; 3],
+    place: Option<&Place>,
     own: &PixelTriangle,
     shading: &PixelShading,
     lamps: &[Lamp],
     (material, glosses): (u32, &[u32]),
     root_error: f64,
     machine: &Plan,
-) -> (Record, IndexErrors) {
-    let Some(place) = Place::of(machine, triangle) else { return Default::default() };
-    let words = if machine.shade.normalises() {
-        normal_terms(&place, own, shading, lamps, machine)
+) -> Result<(Record, IndexErrors)> {
+    let Some(place) = place else { return Ok(Default::default()) };
+    let (of_lights, of_texture) = machine.terms().split_at(machine.cosine_terms());
+    let mut words = if machine.shade.normalises() {
+        normal_terms(place, own, shading, lamps, of_lights)
     } else {
-        cosine_terms(&place, own, shading, lamps, glosses, machine)
+        cosine_terms(place, own, shading, lamps, glosses, (of_lights, machine))
     };
+    words.extend(texels::terms(place, own, shading, of_texture)?);
     let start = place.steps_to(place.start);
     // Of a triangle that is drawn the weights do not sum to 0, and a planned word has at most 64 bits.
     let moved =
@@ -72,7 +79,7 @@ pub fn record(
         gloss: glosses.first().copied().unwrap_or(0),
         terms: words.into_iter().map(moved).collect(),
     };
-    (record, errors)
+    Ok((record, errors))
 }
 
 /// N·L and N·H, quadratics through six cosines: 2^t for 1.0, and index = 2^t - (1 - N·H)·2^(m' + t).
@@ -82,11 +89,11 @@ fn cosine_terms(
     shading: &PixelShading,
     lamps: &[Lamp],
     glosses: &[u32],
-    machine: &Plan,
+    (of_lights, machine): (&[Term], &Plan),
 ) -> Vec<Option<TermWords>> {
     let (shares, entries) = (place.shares(), machine.shade.table_bits);
     let mut terms = Vec::with_capacity(machine.terms().len());
-    for (light, of_light) in machine.terms().chunks_exact(2).enumerate() {
+    for (light, of_light) in of_lights.chunks_exact(2).enumerate() {
         let Some(lamp) = lamps.get(light) else {
             terms.extend([None; 2]); // no light: its tables are black
             continue;
@@ -107,11 +114,11 @@ fn normal_terms(
     own: &PixelTriangle,
     shading: &PixelShading,
     lamps: &[Lamp],
-    machine: &Plan,
+    of_lights: &[Term],
 ) -> Vec<Option<TermWords>> {
     let shares = place.shares();
-    let mut terms = Vec::with_capacity(machine.terms().len());
-    for (place, term) in machine.terms().iter().enumerate() {
+    let mut terms = Vec::with_capacity(of_lights.len() + 2);
+    for (place, term) in of_lights.iter().enumerate() {
         if term.degree == 2 {
             let middle = |k: usize| (own.normals[(k + 1) % 3] + own.normals[(k + 2) % 3]) / 2.0;
             let squares =

@@ -2,6 +2,7 @@
 
 use super::lights::Lamp;
 use super::multiplies;
+use super::texels::Texture;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::{Entry, Plan};
 use edgewalk_numerics::index_table::{Diffuse, Highlight, IndexTable};
@@ -27,6 +28,8 @@ pub struct Surfaces {
     pub brightest: Vec<f64>,
     /// By surface and light.
     pub tables: Vec<Vec<LightTables>>,
+    /// By surface.
+    pub textures: Vec<Option<Texture>>,
 }
 
 impl Surfaces {
@@ -36,7 +39,12 @@ impl Surfaces {
     /// What the machine's tables cannot hold.
     pub fn of(frame: &Frame, shading: &PixelShading, lamps: &[Lamp], machine: &Plan) -> Result<Surfaces> {
         let mut numbers = HashMap::new();
-        let mut surfaces = Surfaces { of_triangle: Vec::new(), brightest: Vec::new(), tables: Vec::new() };
+        let mut surfaces = Surfaces {
+            of_triangle: Vec::new(),
+            brightest: Vec::new(),
+            tables: Vec::new(),
+            textures: Vec::new(),
+        };
         for (index, (triangle, own)) in frame.triangles.iter().zip(&shading.triangles).enumerate() {
             let color =
                 if multiplies(machine) { DVec3::ONE } else { one_color(index, triangle, frame.mode)? };
@@ -46,6 +54,7 @@ impl Surfaces {
             if number == next {
                 let material = shading.material(own, color);
                 surfaces.tables.push(light_tables(&material, shading, lamps, machine)?);
+                surfaces.textures.push(shading.texture(own).map(|image| Texture::new(image, machine)));
             }
             surfaces.of_triangle.push(number);
             surfaces.brightest.push(triangle.0.iter().fold(0.0, |most, v| v.r.max(v.g).max(v.b).max(most)));

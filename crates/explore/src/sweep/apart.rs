@@ -4,7 +4,6 @@
 use super::shared::Geometry;
 use crate::compare::compare_shaded;
 use crate::draw::draw_frame;
-use crate::light;
 use crate::port::to_port;
 use crate::raster::of_port;
 use crate::reach::reach;
@@ -27,7 +26,6 @@ pub fn stands_apart(frame: &Frame, plan: &Plan) -> bool {
 /// What of the frame the machine cannot take.
 pub fn report(geometry: &Geometry, plan: &Plan, waits: Waits) -> Result<Report> {
     let Geometry { name, frame, golden } = geometry;
-    light::judged(frame)?;
     let port = to_port(frame, plan)?;
     let drawn = of_port(draw_frame(plan, &port, waits)?.raster(plan), &port);
     let (reach, proof) = (reach(plan, &port)?, port.shade.as_ref().map(|feed| &feed.proof));

@@ -1,9 +1,9 @@
 //! The layers of a blended pixel: golden's and the machine's, one over the other, with error and bound.
 
 use crate::engine::golden_fill;
-use crate::input::to_port;
+use crate::input::{PortFrame, to_port};
 use anyhow::Result;
-use edgewalk_explore::compare::Errors;
+use edgewalk_explore::compare::{Errors, Lights};
 use edgewalk_golden::{Drawing, Step};
 use edgewalk_machine::Plan;
 use edgewalk_model::{Drawn, Stalls, render_passes};
@@ -37,15 +37,19 @@ pub fn layers(frame: &Frame, machine: &Plan, (x, y): (u32, u32)) -> Result<Vec<L
     if !blended || !machine.blend.is_there() {
         return Ok(Vec::new());
     }
+    let port = to_port(frame, machine)?;
+    let mut lights = Lights::of(machine, frame, port.lights.iter().map(|map| &map.words[..]).collect(), None);
     let (errors, max, mut bound) = (Errors::of(machine), machine.color.max() as f64, 0.5);
     let mut layers = Vec::new();
     let drawing = Drawing::new(frame, golden_fill(machine));
     let picture = |step| {
-        let Step::Stored { at, id, front, kt, back, blend } = step else { return };
+        let Step::Stored { at, id, z, own, light, share, kt, back, blend, .. } = step else { return };
         if at != x as usize {
             return;
         }
-        bound = errors.behind(bound, front, kt, back, blend);
+        let front = own.map(|channel| channel * share);
+        let seen = lights.seen([f64::from(x) + 0.5, f64::from(y) + 0.5, z], id, light);
+        bound = errors.behind(bound, errors.front(own, share, &seen), front, kt, back, blend);
         let golden = std::array::from_fn(|i| match blend {
             Blending::Off => front[i],
             Blending::Mix => (1.0 - kt) * front[i] + kt * back[i],
@@ -65,7 +69,7 @@ pub fn layers(frame: &Frame, machine: &Plan, (x, y): (u32, u32)) -> Result<Vec<L
         });
     };
     drawing.watched(y..y + 1, picture);
-    let stored = machine_colors(frame, machine, (x, y))?;
+    let stored = machine_colors(&port, machine, (x, y))?;
     if stored.len() == layers.len() {
         for (layer, stored) in layers.iter_mut().zip(stored) {
             let errors = layer.golden.iter().zip(stored).map(|(golden, own)| (golden - f64::from(own)).abs());
@@ -77,8 +81,7 @@ pub fn layers(frame: &Frame, machine: &Plan, (x, y): (u32, u32)) -> Result<Vec<L
 }
 
 /// What the machine writes at the pixel, one after the other.
-fn machine_colors(frame: &Frame, machine: &Plan, (x, y): (u32, u32)) -> Result<Vec<[u32; 3]>> {
-    let port = to_port(frame, machine)?;
+fn machine_colors(port: &PortFrame, machine: &Plan, (x, y): (u32, u32)) -> Result<Vec<[u32; 3]>> {
     let addr = y << machine.widths().x | x;
     let mut stored = Vec::new();
     let hook = |drawn: Drawn| {

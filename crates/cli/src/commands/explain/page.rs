@@ -28,7 +28,7 @@ pub(super) fn text(of: &Explanation, color_bits: u32) -> String {
             _ = writeln!(page, "              specular {}", three(part.specular));
             _ = writeln!(
                 page,
-                "              r_l      {} by the map, {:.3} by a ray",
+                "              r_l      {:.3} by the map, {:.3} by a ray",
                 part.r_map, part.r_ray
             );
         }

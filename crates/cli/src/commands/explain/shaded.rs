@@ -1,5 +1,7 @@
 //! A pixel that is shaded: the walk of its terms, what the tables hold there, and how far golden is.
 
+use super::additions::Walk;
+use super::texel::TexelRead;
 use edgewalk_explore::shade::{Feed, IndexErrors, Place};
 use edgewalk_golden::{PixelBrush, fragments};
 use edgewalk_machine::{Plan, PortVertex, Record};
@@ -16,8 +18,11 @@ const SHOWN: usize = 4;
 pub struct ShadedPixel {
     /// The number of the triangle's material.
     material: u32,
-    /// Of each light N·L, then N·H.
+    /// Of each light N·L, then N·H; with NORMAL then N·N; with a texture then u and v.
     terms: Vec<TermWalk>,
+    /// Where the surface has a texture.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    texel: Option<TexelRead>,
     /// Proved bound of the colour against golden's, LSB.
     bound: f64,
 }
@@ -60,22 +65,27 @@ struct TermStep {
     y_step: i64,
 }
 
-/// Of pixel (x, y), which shows triangle `id`; `leftward` says which way its spans run.
+/// Of pixel (x, y), which shows triangle `id`; `leftward` says which way its spans run, `walk` what PIXEL makes of it.
 pub fn shaded(
     machine: &Plan,
     frame: &Frame,
     feed: &Feed,
     id: usize,
     (x, y): (u32, u32),
-    leftward: bool,
+    (leftward, walk): (bool, Option<&Walk>),
 ) -> Option<ShadedPixel> {
     let (record, errors) = (feed.words.records.get(id)?, feed.proof.errors.get(id)?);
     let brush = PixelBrush::new(frame.shading.as_ref()?, id)?;
-    let mut cosines = Vec::new();
+    let (mut cosines, mut texel) = (Vec::new(), None);
+    let colors = walk.and_then(|walk| walk.output.get(1..4)?.try_into().ok());
+    let before = colors.map(|colors: [i64; 3]| colors.map(|color| color as u64)); // not negative
     let screen = (frame.width, frame.height);
     fragments(&frame.triangles[id], frame.mode, machine.subpixel_bits, screen, |fragment| {
         if (fragment.x, fragment.y) == (x, y) {
             cosines = brush.cosines(fragment);
+            if let Some(own) = feed.proof.textured.get(id).and_then(Option::as_ref) {
+                texel = TexelRead::of(machine, &brush, fragment, (own, record, &feed.words.textures), before);
+            }
         }
     });
     let glosses = feed.glosses(id);
@@ -83,10 +93,13 @@ pub fn shaded(
         let (light, highlight) = (place / 2, place % 2 == 1);
         let words = TermWords::new(term.word(), *words)?;
         let steps = steps(record, &words, (i64::from(x), i64::from(y)), leftward);
+        // Those of a texture have no sign.
+        let of_texture = place >= machine.cosine_terms();
         let word = steps.last()?.v;
+        let word = if of_texture { word.rem_euclid(1 << term.word()) } else { word };
         let output = word >> term.fraction;
         // NORMAL stands between terms and tables.
-        let read = if machine.shade.normalises() {
+        let read = if machine.shade.normalises() || of_texture {
             None
         } else {
             let (gloss, bound) = of_term(errors, &glosses, light, highlight);
@@ -114,8 +127,8 @@ pub fn shaded(
         })
     });
     // Lights that the frame has not are left out.
-    let terms: Vec<TermWalk> = terms.map_while(|term| term).collect();
-    Some(ShadedPixel { material: record.material, terms, bound: *feed.proof.bounds.get(id)? })
+    let terms: Vec<TermWalk> = terms.flatten().collect();
+    Some(ShadedPixel { material: record.material, terms, texel, bound: *feed.proof.bounds.get(id)? })
 }
 
 /// m' and the bound of the index; N·L is scaled by the table alone.
@@ -184,7 +197,7 @@ pub fn text(of: &ShadedPixel) -> String {
             }
         }
     }
-    page
+    page + &of.texel.as_ref().map(TexelRead::text).unwrap_or_default()
 }
 
 /// Spans of a triangle run to the left if its major edge is the right one.

@@ -1,12 +1,13 @@
 //! What SHADOW makes of a pixel: where it lies in each light's view, exactly and on the machine, and what its texel says.
 
 use super::additions::walk;
+use super::state_of;
 use crate::input::port_triangle;
 use anyhow::Result;
 use edgewalk_explore::light;
 use edgewalk_machine::{EdgeKind, Fill, LIGHT_SPACE, Plan};
 use edgewalk_model::project::quotients;
-use edgewalk_scene::{Blending, Frame};
+use edgewalk_scene::Frame;
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -23,11 +24,16 @@ pub struct ShadowedPixel {
     pub found: [i64; 3],
     /// The depth that the map has there; none where no texel decides.
     pub word: Option<u32>,
+    /// What is left there of the light, LSB of a colour, where the map says that.
+    pub left: Option<u32>,
     /// Lit.
     pub lit: bool,
+    /// What its colours are multiplied by, LSB of a colour.
+    pub share: u64,
 }
 
-/// Pixel (x, y) of depth z, of triangle `id` of the frame; none without a light, and where the machine's way there is not shown.
+/// Pixel (x, y) of depth z, of triangle `id` of the frame, drawn by these rules; none without a light, and where the machine's way there is not
+/// shown.
 pub fn shadowed(
     frame: &Frame,
     machine: &Plan,
@@ -35,12 +41,15 @@ pub fn shadowed(
     (x, y): (u32, u32),
     z: f64,
 ) -> Result<Option<ShadowedPixel>> {
-    let (Some(shadow), Some(triangle)) = (&frame.shadow, frame.triangles.get(id)) else { return Ok(None) };
+    let state = state_of(frame, id);
+    let (Some(shadow), Some(triangle)) = (frame.shadow(state.light), frame.triangles.get(id)) else {
+        return Ok(None);
+    };
     if !machine.shadow.is_there() || machine.fill != Fill::Exact || machine.edge_kind != EdgeKind::Exact {
         return Ok(None);
     }
     light::check(shadow, machine)?;
-    let port = port_triangle(id, triangle, frame, Blending::Off, machine)?;
+    let port = port_triangle(id, triangle, frame, &state, machine)?;
     let Some(walk) = walk(machine, &port, x, y) else { return Ok(None) };
     let light_space = |(channel, _): &(&edgewalk_machine::Channel, &i64)| LIGHT_SPACE.contains(&channel.name);
     let values = machine.channels().iter().zip(&walk.output).filter(light_space);
@@ -64,19 +73,29 @@ pub fn shadowed(
         }
         false => None,
     };
+    let (bits, all) = (machine.color.bits, machine.color.max());
+    let (word, left) = match machine.shadow.transmits() {
+        true => (word.map(|word| word >> bits), word.map(|word| word & all as u32)), // b <= 16 bits
+        false => (word, None),
+    };
+    let lit = word.map_or(!on_map || d < 0, |word| d <= i64::from(word));
+    let share = if lit { left.map_or(all, u64::from) } else { light::ambient(shadow, machine) };
     Ok(Some(ShadowedPixel {
         exact: [column / q, line / q, (depth / q - shadow.bias_of(id)) * far],
         weight: q,
         values,
         found,
         word,
-        lit: word.map_or(!on_map || d < 0, |word| d <= i64::from(word)),
+        left,
+        lit,
+        share,
     }))
 }
 
 /// The same in words; `place`: the light's number, from 1.
 pub fn text(pixel: &ShadowedPixel, place: usize) -> String {
-    let ShadowedPixel { exact: [x, y, z], weight, values, found: [tx, ty, d], word, lit } = pixel;
+    let ShadowedPixel { exact: [x, y, z], weight, values, found: [tx, ty, d], word, left, lit, share } =
+        pixel;
     let mut t = format!("\nlight {place}'s map: texel ({x:.6}, {y:.6}), depth {z:.6} LSB; q {weight:.6}\n");
     let named = LIGHT_SPACE.iter().zip(values).map(|(name, value)| format!("{name} {value}"));
     _ = writeln!(t, "  the machine: {}", named.collect::<Vec<_>>().join("  "));
@@ -85,6 +104,7 @@ pub fn text(pixel: &ShadowedPixel, place: usize) -> String {
         None => "no texel decides".to_owned(),
     };
     let answer = if *lit { "lit" } else { "in shadow" };
-    _ = writeln!(t, "  texel ({tx}, {ty}), depth {d}; {stored}: {answer}");
+    let left = left.map_or_else(String::new, |left| format!(", and {left} is left of the light there"));
+    _ = writeln!(t, "  texel ({tx}, {ty}), depth {d}; {stored}{left}: {answer}, share {share}");
     t
 }

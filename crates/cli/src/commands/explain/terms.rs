@@ -31,7 +31,7 @@ pub struct LightPart {
     /// I_l k_s cos^n.
     pub specular: [f64; 3],
     /// r_l by the shadow map.
-    pub r_map: u8,
+    pub r_map: f64,
     /// r_l by a ray: the product of k_t on its way.
     pub r_ray: f64,
 }
@@ -59,7 +59,7 @@ pub fn lit_point(
         },
         diffuse: terms.lights[place].diffuse.to_array(),
         specular: terms.lights[place].specular.to_array(),
-        r_map: u8::from(maps.lit(place, position, triangle.own_normal)),
+        r_map: maps.transmitted(place, position, triangle.own_normal),
         r_ray: rays.transmitted(light, position, triangle.face),
     };
     LitPoint {

@@ -9,7 +9,7 @@ use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_explore::compare::compare_for;
-use edgewalk_explore::lights::{Passes, frames, in_passes, sum};
+use edgewalk_explore::lights::{Passes, are_added, frames, in_passes, sum};
 use edgewalk_explore::reach::reach;
 use edgewalk_explore::report::Report;
 use edgewalk_explore::setup_report::SetupReport;
@@ -37,9 +37,15 @@ pub fn run(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
         golden.push(exact);
         drawn.push(part);
     }
-    let port = in_passes(&frames, machine).with_context(|| source.input.clone())?;
-    let together = draw_port(args.engine, &port, machine, args.stalls, talk.quiet)?;
-    let passes = Passes::of(parts, machine, (&golden, &drawn), &together);
+    let (together, triangles) = match sum(&drawn).filter(|_| are_added(&frames)) {
+        Some(added) => (added, to_port(&frames[0], machine)?.triangles),
+        None => {
+            let port = in_passes(&frames, machine).with_context(|| source.input.clone())?;
+            (draw_port(args.engine, &port, machine, args.stalls, talk.quiet)?, port.triangles)
+        }
+    };
+    let by_host = are_added(&frames);
+    let passes = Passes { by_host, ..Passes::of(parts, machine, (&golden, &drawn), &together) };
     let verdict = passes.verdict();
     let out = Staging::new(&args.out)?;
     let (w, h) = (together.width, together.height);
@@ -47,7 +53,7 @@ pub fn run(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
         picture::write_rgb(&out, "golden.png", w, h, &golden.rgb)?;
     }
     picture::write_rgb(&out, "image.png", w, h, &together.rgb)?;
-    let setup = SetupReport::new(machine, &port.triangles);
+    let setup = SetupReport::new(machine, &triangles);
     let triangles = surface.triangles.len() as u64;
     let report = Report::new(&source.input, triangles, machine, &together)
         .with_parts(passes)
