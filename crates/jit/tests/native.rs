@@ -3,6 +3,7 @@
 
 #[path = "../../netlist/tests/suites"]
 mod suites {
+    mod choices;
     mod operators;
     mod state;
 }

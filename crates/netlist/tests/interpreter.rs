@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)] // a test may
 
 mod suites {
+    mod choices;
     mod operators;
     mod state;
 }

@@ -1,6 +1,7 @@
 //! Graph and plan to Cranelift's intermediate form.
 
 mod memory;
+mod alone;
 mod operators;
 mod program;
 mod values;

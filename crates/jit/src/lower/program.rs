@@ -4,6 +4,7 @@ use cranelift_codegen::cursor::{Cursor, FuncCursor};
 use cranelift_codegen::ir::{Block, Function, InstBuilder, Type, Value};
 use edgewalk_netlist::Op;
 
+use super::alone::Alone;
 use super::values::{Values, lane};
 use crate::design::Design;
 use crate::graph::{Graph, Kind, ValueId};
@@ -35,7 +36,8 @@ pub(crate) fn lower(
     let state = function.dfg.append_block_param(head, pointer);
     let mut cursor = FuncCursor::new(function);
     cursor.insert_block(head);
-    let mut lowering = Lowering { design, v: Values::new(&design.graph, layout, cursor, state, head) };
+    let alone = Alone::of(design, steps);
+    let mut lowering = Lowering { design, v: Values::new(&design.graph, &alone, layout, cursor, state, head) };
     match program {
         Program::Clock => {
             lowering.sample();

@@ -5,8 +5,10 @@ use std::collections::HashMap;
 
 use cranelift_codegen::cursor::{Cursor, FuncCursor};
 use cranelift_codegen::ir::{Block, InstBuilder, MemFlagsData, Type, Value, types};
+use edgewalk_netlist::Op;
 use edgewalk_netlist::ops::mask;
 
+use super::alone::Alone;
 use super::operators;
 use crate::graph::{Graph, Kind, ValueId};
 use crate::layout::{Layout, Place};
@@ -48,6 +50,7 @@ pub(super) fn lane(width: u32) -> Type {
 /// Values as far as they are computed where the cursor stands.
 pub(super) struct Values<'a> {
     pub graph: &'a Graph,
+    alone: &'a Alone,
     pub layout: &'a Layout,
     pub cursor: FuncCursor<'a>,
     /// The address of the state.
@@ -83,6 +86,7 @@ impl<'a> Values<'a> {
     /// Nothing is known yet; the cursor stands in the function's first block, `head`.
     pub fn new(
         graph: &'a Graph,
+        alone: &'a Alone,
         layout: &'a Layout,
         cursor: FuncCursor<'a>,
         state: Value,
@@ -90,7 +94,7 @@ impl<'a> Values<'a> {
     ) -> Values<'a> {
         let (known, changed) = (vec![None; graph.len()], vec![None; graph.len()]);
         let (branches, undo, old) = (vec![Branch::at(head)], Vec::new(), HashMap::new());
-        Values { graph, layout, cursor, state, branches, known, undo, changed, old }
+        Values { graph, alone, layout, cursor, state, branches, known, undo, changed, old }
     }
 
     /// What is computed from now on is forgotten at [`Values::leave`].
@@ -217,8 +221,7 @@ impl<'a> Values<'a> {
                 continue;
             }
             let waiting = stack.len();
-            let operands = self.graph.operands(value).iter().rev();
-            stack.extend(operands.filter(|operand| self.known[operand.index()].is_none()));
+            stack.extend(self.needed_first(value).filter(|operand| self.known[operand.index()].is_none()));
             if stack.len() == waiting {
                 let lowered = self.compute(value);
                 self.set(value, lowered);
@@ -226,9 +229,44 @@ impl<'a> Values<'a> {
         }
     }
 
+    /// What has to be there before the value is computed, the last first: its operands, but of an arm that is computed where it
+    /// is taken only what it shares with others.
+    fn needed_first(&self, value: ValueId) -> impl Iterator<Item = ValueId> {
+        let operands = self.graph.operands(value);
+        let mut needed = operands.to_vec();
+        if self.alone.branches(value) {
+            needed.truncate(1);
+            operands[1..].iter().for_each(|arm| self.alone.shared(self.graph, *arm, &mut needed));
+        }
+        needed.into_iter().rev()
+    }
+
+    /// A choice whose arms are computed only where they are taken.
+    fn chosen(&mut self, condition: ValueId, arms: [ValueId; 2], width: u32) -> Lowered {
+        let condition = self.zero(condition);
+        let blocks = arms.map(|_| self.cursor.func.dfg.make_block());
+        let next = self.cursor.func.dfg.make_block();
+        let either = self.cursor.func.dfg.append_block_param(next, lane(width));
+        self.cursor.ins().brif(condition, blocks[0], &[], blocks[1], &[]);
+        let mut bits = 0;
+        for (arm, block) in arms.into_iter().zip(blocks) {
+            let mark = self.enter();
+            self.cursor.insert_block(block);
+            let lowered = self.any(arm);
+            bits = bits.max(lowered.bits);
+            self.cursor.ins().jump(next, &[lowered.any.into()]);
+            self.leave(mark);
+        }
+        self.cursor.insert_block(next);
+        Lowered::below(either, bits)
+    }
+
     fn compute(&mut self, value: ValueId) -> Lowered {
         let width = self.graph.width(value);
         match self.graph.kind(value) {
+            Kind::Op(Op::Mux, operands) if self.alone.branches(value) => {
+                self.chosen(operands[0], [operands[1], operands[2]], width)
+            }
             Kind::Stored => Lowered::below(self.stored(value, width), width),
             Kind::Constant(constant) => {
                 Lowered::below(self.constant(lane(width), *constant), 128 - constant.leading_zeros())
