@@ -37,7 +37,6 @@ struct Tally {
     tried: usize,
     killed: usize,
     equivalent: usize,
-    lines: Vec<String>,
 }
 
 #[test]
@@ -148,9 +147,8 @@ fn every_fault_of_project_is_found() {
 fn share_found(work: &[(Plan, Unit)], step: impl Fn(Unit) -> usize + Sync, least: usize) {
     let tallies = common::two_at_a_time(work, |_, (machine, unit)| {
         let tally = tally(machine, *unit, step(*unit));
-        let (killed, equivalent, lines) = (tally.killed, tally.equivalent, tally.lines.join("\n"));
-        let expected = tally.tried - equivalent;
-        println!("{lines}\n{}: killed {killed} / {expected}, {equivalent} equivalent", unit.name());
+        let Tally { tried, killed, equivalent } = tally;
+        println!("{}: killed {killed} / {}, {equivalent} equivalent", unit.name(), tried - equivalent);
         tally
     });
     let sum = |of: fn(&Tally) -> usize| tallies.iter().map(of).sum::<usize>();
@@ -188,8 +186,14 @@ fn tally(machine: &Plan, unit: Unit, step: usize) -> Tally {
         common::lockstep(trace, &netlist).expect("the netlist without a fault agrees");
     }
     let mut tally = Tally::default();
-    for mutant in mutants(&netlist).iter().step_by(step) {
+    let mutants = mutants(&netlist);
+    let all = mutants.len().div_ceil(step);
+    for mutant in mutants.iter().step_by(step) {
         let faulty = mutant.apply(&netlist);
+        // A run of hours that is ended before its time has said how far it came.
+        if tally.tried > 0 && tally.tried % 100 == 0 {
+            println!("{}: {} / {all} tried, killed {}", unit.name(), tally.tried, tally.killed);
+        }
         tally.tried += 1;
         let device = common::native(&faulty, &interface).expect("the same ports");
         if traces.iter().any(|trace| trace.lockstep_of(&mut device.clone()).is_err()) {
@@ -204,7 +208,7 @@ fn tally(machine: &Plan, unit: Unit, step: usize) -> Tally {
             Proof::Differs => "survives, though there are inputs that show it",
             Proof::Unknown => "survives; neither proved nor refuted",
         };
-        tally.lines.push(format!("  {verdict}: {}: {}", mutant.module, mutant.description));
+        println!("  {}: {verdict}: {}: {}", unit.name(), mutant.module, mutant.description);
     }
     tally
 }
