@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use crate::describe::describe;
-use crate::netlist::{Netlist, Node, NodeId, Source};
+use crate::netlist::{Item, Netlist, Node, NodeId, Output, Source, Update};
 use crate::ops::{Op, mask};
 
 /// A single fault.
@@ -52,22 +52,70 @@ pub fn mutants(netlist: &Arc<Netlist>) -> Vec<Mutant> {
 impl Mutant {
     /// The netlist with this fault; it must be the one the mutant was made for.
     pub fn apply(&self, netlist: &Arc<Netlist>) -> Arc<Netlist> {
-        // Modules come after those they use, so each finds its parts done.
-        let mut done: HashMap<String, Arc<Netlist>> = HashMap::new();
-        for module in netlist.modules() {
-            let mut changed = Netlist::clone(&module);
-            for instance in &mut changed.instances {
-                if let Some(part) = done.get(&instance.module.name) {
-                    instance.module = Arc::clone(part);
-                }
-            }
+        rebuilt(netlist, |module| {
             if module.name == self.module {
-                self.change.apply(&mut changed);
+                self.change.apply(module);
             }
-            done.insert(module.name.clone(), Arc::new(changed));
-        }
-        done.get(&netlist.name).map_or_else(|| Arc::clone(netlist), Arc::clone)
+        })
     }
+
+    /// The netlist without the fault and with one more output, [`DIFFERS`]: 1 in the cycles in which the fault would change
+    /// what it is in, the value of a node or what a register takes. Where that is never 1 the fault changes nothing at all.
+    /// `None` for faults that are nothing of the kind.
+    pub fn watched(&self, netlist: &Arc<Netlist>) -> Option<Arc<Netlist>> {
+        let modules = netlist.modules();
+        let module = modules.iter().find(|module| module.name == self.module)?;
+        self.change.differs(&mut Netlist::clone(module))?;
+        Some(rebuilt(netlist, |module| {
+            let mut places = Vec::new();
+            if module.name == self.module {
+                places.extend(self.change.differs(module));
+            }
+            for instance in 0..module.instances.len() {
+                places.extend(watched_output(module, instance));
+            }
+            let one = |m: &mut Netlist, a, b| pushed(m, 1, Source::Op(Op::Or, vec![a, b]));
+            if let Some(driver) = places.into_iter().reduce(|a, b| one(module, a, b)) {
+                module.outputs.push(Output { name: DIFFERS.to_owned(), doc: String::new(), driver });
+                module.paths.push(Vec::new());
+            }
+        }))
+    }
+}
+
+/// The output of a watched netlist.
+pub const DIFFERS: &str = "fault_differs";
+
+/// The netlist with every module changed, what each is made of first.
+fn rebuilt(netlist: &Arc<Netlist>, change: impl Fn(&mut Netlist)) -> Arc<Netlist> {
+    let mut done: HashMap<String, Arc<Netlist>> = HashMap::new();
+    for module in netlist.modules() {
+        let mut changed = Netlist::clone(&module);
+        for instance in &mut changed.instances {
+            if let Some(part) = done.get(&instance.module.name) {
+                instance.module = Arc::clone(part);
+            }
+        }
+        change(&mut changed);
+        done.insert(module.name.clone(), Arc::new(changed));
+    }
+    done.get(&netlist.name).map_or_else(|| Arc::clone(netlist), Arc::clone)
+}
+
+fn pushed(netlist: &mut Netlist, width: u32, source: Source) -> NodeId {
+    netlist.nodes.push(Node { width, source });
+    NodeId((netlist.nodes.len() - 1) as u32)
+}
+
+/// The node of an instance's output [`DIFFERS`], if its module has one.
+fn watched_output(netlist: &mut Netlist, instance: usize) -> Option<NodeId> {
+    let outputs = &netlist.instances[instance].module.outputs;
+    let output = outputs.iter().position(|output| output.name == DIFFERS)?;
+    let node = pushed(netlist, 1, Source::InstanceOutput { instance, output });
+    netlist.instances[instance].outputs.push(Some(node));
+    let place = netlist.items.iter().position(|item| *item == Item::Instance(instance))?;
+    netlist.items.insert(place, Item::InstanceOutput(node));
+    Some(node)
 }
 
 impl Change {
@@ -85,6 +133,25 @@ impl Change {
             Change::Exchange { instance, inputs: [one, two] } => {
                 netlist.instances[*instance].connections.swap(*one, *two);
             }
+        }
+    }
+
+    /// A node that is 1 where the change would make a difference.
+    fn differs(&self, netlist: &mut Netlist) -> Option<NodeId> {
+        match self {
+            Change::Source(id, source) => {
+                let other = pushed(netlist, netlist.width(*id), source.clone());
+                Some(pushed(netlist, 1, Source::Op(Op::Ne, vec![*id, other])))
+            }
+            // An update before it would be overruled too.
+            Change::AlwaysUpdate { register, update: 0 } => {
+                let register = &netlist.registers[*register];
+                let (q, Update { when, value }) = (register.node, register.updates[0].clone());
+                let stays = pushed(netlist, 1, Source::Op(Op::Not, vec![when?]));
+                let other = pushed(netlist, 1, Source::Op(Op::Ne, vec![value, q]));
+                Some(pushed(netlist, 1, Source::Op(Op::And, vec![stays, other])))
+            }
+            _ => None,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use edgewalk_lockstep::{Direction, Link, Port, status_ports};
 use edgewalk_netlist::Netlist;
+use edgewalk_netlist::mutate::DIFFERS;
 use edgewalk_vectors::Interface;
 use std::fmt::Write as _;
 
@@ -94,5 +95,21 @@ pub fn miter(ports: &Ports, original: &Netlist, faulty: &Netlist) -> String {
         connections(original, ""),
         connections(faulty, "other_"),
         differ.join(" || ")
+    )
+}
+
+/// The module `miter` of a watched design; all its inputs are free.
+pub fn watch(ports: &Ports, watched: &Netlist) -> String {
+    let clock = [(watched.has_clock, "clk"), (watched.has_reset, "rst")];
+    let clock = clock.into_iter().filter(|(has, _)| *has).map(|(_, name)| (name, 1));
+    let inputs = ports.inputs.iter().map(|(port, width)| (port.as_str(), *width));
+    let inputs: Vec<(&str, u32)> = clock.chain(inputs).collect();
+    let header: Vec<String> =
+        inputs.iter().map(|(port, width)| format!("input [{}:0] {port}", width - 1)).collect();
+    let connections: Vec<String> = inputs.iter().map(|(port, _)| format!(".{port}({port})")).collect();
+    format!(
+        "module miter({}, output bad);\noriginal a({}, .{DIFFERS}(bad));\nendmodule\n",
+        header.join(", "),
+        connections.join(", ")
     )
 }

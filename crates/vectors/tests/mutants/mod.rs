@@ -71,6 +71,26 @@ fn every_fault_of_setup_is_found() {
     share_found(&[(machine_for(common::SETUP), common::SETUP)], |_| 1, BLEND_LEAST);
 }
 
+/// The prover is right: of the faults that the suites see it calls none equivalent.
+#[test]
+fn no_fault_that_is_seen_is_proved_equivalent() {
+    let machine = machine_for(common::SPAN);
+    let netlist = design::netlist(&machine, common::SPAN).expect("a checked machine");
+    let interface = Interface::new(&machine, common::SPAN);
+    let traces = traces(&machine, common::SPAN);
+    let mut seen = 0;
+    for mutant in mutants(&netlist).iter().step_by(16) {
+        let device = common::native(&mutant.apply(&netlist), &interface).expect("the same ports");
+        if traces.iter().any(|trace| trace.lockstep_of(&mut device.clone()).is_err()) {
+            seen += 1;
+            let proof = prove(&interface, &netlist, mutant, true);
+            assert_ne!(proof, Proof::Equivalent, "{}: {}", mutant.module, mutant.description);
+        }
+    }
+    println!("{seen} faults are seen and not called equivalent");
+    assert!(seen >= 8);
+}
+
 fn machines() -> Vec<(Plan, Unit)> {
     let units = [common::SETUP, common::EDGE, common::SPAN, common::PIXEL, common::DEPTH];
     units.map(|unit| (machine_for(unit), unit)).to_vec()
@@ -265,7 +285,7 @@ fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
                 any.map(|(stalls, seed)| shaded::any_tokens(machine, &traces[0], stalls, seed)).collect();
             traces.extend(any);
         }
-        "setup" => traces.push(specks(machine)),
+        "setup" => traces.extend([specks(machine), far(machine)]),
         "span" => traces.extend((1..=4).map(|seed| any_lines(machine, &traces[1], seed)).collect::<Vec<_>>()),
         "blend" => {
             let kinds = [(false, StallKind::Mixed), (true, StallKind::Mixed), (false, StallKind::None)];
@@ -293,6 +313,27 @@ fn specks(machine: &Plan) -> Trace {
     };
     let triangles = (0..100).map(|_| std::array::from_fn(|_| vertex(&mut random))).collect();
     let suite = Suite::of_triangles("specks", "areas of few sub-pixels", triangles);
+    capture(machine, common::SETUP, &suite, DrawState::default(), StallKind::None)
+}
+
+/// Triangles with corners at the ends of the guard band, or anywhere in it, and values at their ends: the widest differences,
+/// areas and steps that the words of SETUP have to hold.
+fn far(machine: &Plan) -> Trace {
+    let mut random = Pcg64Mcg::seed_from_u64(2);
+    let limit = f64::from((1u32 << machine.guard_bits) - 1);
+    let vertex = |random: &mut Pcg64Mcg| {
+        let mut at = || match random.random_range(0..4) {
+            0 => -limit,
+            1 => limit,
+            _ => random.random_range(-limit..=limit),
+        };
+        let at = (at(), at());
+        let channels = machine.channels().len();
+        let values: Vec<f64> = (0..channels).map(|_| f64::from(random.random_range(0..=1u8))).collect();
+        machine.port_vertex(at.0, at.1, &values).expect("inside")
+    };
+    let triangles = (0..200).map(|_| std::array::from_fn(|_| vertex(&mut random))).collect();
+    let suite = Suite::of_triangles("far", "as far and as steep as can be", triangles);
     capture(machine, common::SETUP, &suite, DrawState::default(), StallKind::None)
 }
 

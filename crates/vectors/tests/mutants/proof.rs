@@ -6,14 +6,15 @@
 //!           └─> faulty ───┘
 //! ```
 //! First at the ports of the module with the fault, its instances cut out, every output in every cycle. Where these
-//! differ, at the ports of the unit, where outputs count as in lock step: fields while their valid is high, a status port
-//! while it means something.
+//! differ, in the unit at the place of the fault itself: where the value there never is another, in no state that the unit comes
+//! to from its first, nothing is. Then at the ports of the unit, where outputs count as in lock step: fields while their
+//! valid is high, a status port while it means something.
 //!
 //! Inputs are free in every cycle, resets too; only the constants of the interface hold their value from reset to
 //! reset. Both copies begin with every register 0, run on free inputs, and are compared from their first reset on. Yosys
 //! turns the two printed designs into gates; ABC (`scorr`, `pdr`) finds the invariant or the cycles to a difference.
 
-use super::miter::{Ports, miter};
+use super::miter::{Ports, miter, watch};
 use edgewalk_netlist::Netlist;
 use edgewalk_netlist::mutate::Mutant;
 use edgewalk_netlist::netlist::{Input, Item, Output, Source};
@@ -22,8 +23,8 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::Arc;
 
-/// Seconds of processor time that a search may take at the ports of a module, and of a unit.
-const LIMITS: [u32; 2] = [3, 12];
+/// Seconds of processor time that a search may take at the ports of a module, at the fault, and at the ports of a unit.
+const LIMITS: [u32; 3] = [3, 12, 12];
 
 /// What the search found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,10 +41,15 @@ pub enum Proof {
 pub fn prove(interface: &Interface, original: &Arc<Netlist>, mutant: &Mutant, whole: bool) -> Proof {
     let faulty = mutant.apply(original);
     let [one, other] = [original, &faulty].map(|netlist| alone(netlist, &mutant.module));
-    match search(&Ports::of_module(&one), &one, &other, LIMITS[0]) {
-        Proof::Equivalent => Proof::Equivalent,
-        _ if whole => search(&Ports::of_unit(interface), original, &faulty, LIMITS[1]),
-        // A difference at the module's ports need not reach those of the unit.
+    if search(&Ports::of_module(&one), &one, &other, LIMITS[0]) == Proof::Equivalent {
+        return Proof::Equivalent;
+    }
+    let ports = Ports::of_unit(interface);
+    let watched = mutant.watched(original).map(|watched| never(&ports, &watched, LIMITS[1]));
+    match watched {
+        Some(Proof::Equivalent) => Proof::Equivalent,
+        _ if whole => search(&ports, original, &faulty, LIMITS[2]),
+        // A difference at the module's ports, or at the fault, need not reach those of the unit.
         _ => Proof::Unknown,
     }
 }
@@ -73,16 +79,31 @@ fn alone(netlist: &Arc<Netlist>, module: &str) -> Arc<Netlist> {
 }
 
 fn search(ports: &Ports, original: &Arc<Netlist>, faulty: &Arc<Netlist>, limit: u32) -> Proof {
+    let designs = [("original", original), ("faulty", faulty)];
+    reaches(&designs, miter(ports, original, faulty), limit)
+}
+
+/// Whether the output of a watched netlist is never 1, from all registers 0 on.
+fn never(ports: &Ports, watched: &Arc<Netlist>, limit: u32) -> Proof {
+    reaches(&[("original", watched)], watch(ports, watched), limit)
+}
+
+/// Whether the module `miter` of these designs, in this text, ever shows `bad`.
+fn reaches(designs: &[(&str, &Arc<Netlist>)], miter: String, limit: u32) -> Proof {
     let place = tempfile::tempdir().expect("a directory");
     let write = |name: &str, text: String| std::fs::write(place.path().join(name), text).expect("a file");
-    write("original.v", text(original));
-    write("faulty.v", text(faulty));
-    write("miter.v", miter(ports, original, faulty));
-    let top = &original.name;
+    let (mut read, mut copy) = (String::new(), String::new());
+    for (name, netlist) in designs {
+        write(&format!("{name}.v"), text(netlist));
+        let top = &netlist.name;
+        read += &format!(
+            "read_verilog {name}.v; prep -flatten -top {top}; rename {top} {name}; design -stash {name}; "
+        );
+        copy += &format!("design -copy-from {name} {name}; ");
+    }
+    write("miter.v", miter);
     let gates = format!(
-        "read_verilog original.v; prep -flatten -top {top}; rename {top} original; design -stash original; \
-         read_verilog faulty.v; prep -flatten -top {top}; rename {top} faulty; design -stash faulty; \
-         design -copy-from original original; design -copy-from faulty faulty; read_verilog miter.v; \
+        "{read}{copy}read_verilog miter.v; \
          prep -flatten -top miter; setundef -undriven -zero; setundef -init -zero; opt -full; memory; opt -full; techmap; opt -full; \
          dffunmap; aigmap; opt_clean; write_aiger -zinit miter.aig"
     );
