@@ -44,6 +44,9 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
             (MAP_BITS - machine.color.bits).to_string(),
         ));
     }
+    if machine.shadow.draws_map() {
+        own_pass(machine)?;
+    }
     if channels.len() > MAX_CHANNELS {
         if machine.extra == 0 {
             return Err(MachineError::rule(
@@ -87,20 +90,48 @@ fn screen(machine: &Machine) -> Result<(), MachineError> {
         }
     }
     let side = machine.width.max(machine.height);
-    if side > 1 << machine.guard_bits {
-        return Err(MachineError::rule(
-            machine,
-            "screen.guard_bits",
-            format!("the screen is {side} pixels wide or high and must lie in the guard band"),
-            side.next_power_of_two().ilog2().to_string(),
-        ));
-    }
+    in_guard_band(machine, side, "the screen is", "pixels wide or high")?;
     if machine.fill == Fill::Textbook && machine.subpixel_bits != 0 {
         return Err(MachineError::rule(
             machine,
             "screen.subpixel_bits",
             "textbook fill takes integer vertices".to_owned(),
             "0".to_owned(),
+        ));
+    }
+    Ok(())
+}
+
+/// A screen with sides of so many pixels, or a map that the machine draws.
+fn in_guard_band(machine: &Machine, side: u32, what: &str, unit: &str) -> Result<(), MachineError> {
+    if side <= 1 << machine.guard_bits {
+        return Ok(());
+    }
+    Err(MachineError::rule(
+        machine,
+        "screen.guard_bits",
+        format!("{what} {side} {unit} and must lie in the guard band"),
+        side.next_power_of_two().ilog2().to_string(),
+    ))
+}
+
+/// The machine can draw its map: as a screen, with depths of its own, and the plane of k by BLEND.
+fn own_pass(machine: &Machine) -> Result<(), MachineError> {
+    in_guard_band(machine, machine.shadow.size, "shadow.own_pass = yes draws a map of", "texels a side")?;
+    if machine.shadow.depth_bits > machine.z.bits {
+        return Err(MachineError::rule(
+            machine,
+            "shadow.depth_bits",
+            format!("shadow.own_pass = yes draws the map with the depths of pixels, of {} bits", machine.z.bits),
+            machine.z.bits.to_string(),
+        ));
+    }
+    if machine.shadow.transmits() && !machine.blend.is_there() {
+        return Err(MachineError::rule(
+            machine,
+            "blend.kind",
+            "with shadow.own_pass and shadow.transmits = yes BLEND draws what is left of the light".to_owned(),
+            "constant".to_owned(),
         ));
     }
     Ok(())

@@ -43,6 +43,15 @@ pub enum Transmits {
     Yes,
 }
 
+/// Who draws the map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum OwnPass {
+    /// Somebody else.
+    No,
+    /// The machine itself, in a pass before the picture's.
+    Yes,
+}
+
 /// SHADOW, and the map behind it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Shadow {
@@ -66,6 +75,8 @@ pub struct Shadow {
     pub gate: Gate,
     /// What a word of the map says beside the depth.
     pub transmits: Transmits,
+    /// Who draws it.
+    pub own_pass: OwnPass,
     /// Depth of its queue, fragments.
     pub queue: u32,
     /// Latency of the map, clocks.
@@ -95,6 +106,12 @@ impl Shadow {
     #[must_use]
     pub fn transmits(&self) -> bool {
         self.is_there() && self.transmits == Transmits::Yes
+    }
+
+    /// The machine draws its map: it has the input `light_pass`.
+    #[must_use]
+    pub fn draws_map(&self) -> bool {
+        self.is_there() && self.own_pass == OwnPass::Yes
     }
 
     /// What SHADOW takes of a texel's column or line, bits with the sign.
@@ -155,6 +172,7 @@ impl Default for Shadow {
             vertex_fraction: 4,
             gate: Gate::And,
             transmits: Transmits::No,
+            own_pass: OwnPass::No,
             queue: 4,
             latency: 2,
         }
@@ -235,6 +253,16 @@ pub const KEYS: &[Key] = &[
             Transmits { "no" => No, "yes" => Yes },
             "a word of the map: a depth (no), or also what is left of light behind what transmits (yes)",
             shadow.transmits,
+            if there
+        )
+    },
+    Key {
+        absent: Some(OwnPass::No as u32),
+        ..word!(
+            "shadow.own_pass",
+            OwnPass { "no" => No, "yes" => Yes },
+            "the map is drawn by somebody else (no), or by the machine itself, in a pass before the picture's (yes)",
+            shadow.own_pass,
             if there
         )
     },

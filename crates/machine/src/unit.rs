@@ -75,12 +75,19 @@ impl Plan {
     #[must_use]
     pub fn ports(&self) -> Ports {
         let all: Vec<Ports> = self.units().map(|unit| (unit.ports)(self)).collect();
+        let mut constants: Vec<Field> = Vec::new();
+        for field in all.iter().flat_map(|ports| &ports.constants) {
+            // An input that several units have is one of the machine.
+            if !constants.contains(field) {
+                constants.push(field.clone());
+            }
+        }
         Ports {
             takes: all.first().and_then(|ports| ports.takes.clone()),
             gives: all.last().and_then(|ports| ports.gives.clone()),
             writes: all.iter().flat_map(|ports| ports.writes.clone()).collect(),
             memory: all.iter().flat_map(|ports| ports.memory.clone()).collect(),
-            constants: all.iter().flat_map(|ports| ports.constants.clone()).collect(),
+            constants,
             status: units::machine_status(),
             ..Ports::default()
         }

@@ -47,6 +47,12 @@ pub(crate) fn machine_status() -> Vec<Status> {
     vec![Status { field: cause, during: None }, Status::new("idle", "nothing to do")]
 }
 
+/// The input by which a pass is the light's own, of the units that ask for it.
+pub(crate) fn light_pass(plan: &Plan) -> Option<Field> {
+    let doc = "the map is drawn, not the picture";
+    plan.shadow.draws_map().then(|| Field::count("light_pass", 1, doc))
+}
+
 /// For what every machine has, or can meet.
 pub(crate) fn always(_: &Plan) -> bool {
     true

@@ -17,9 +17,9 @@ pub struct Widths {
     pub column: u32,
     /// Column part of an address: xb.
     pub x: u32,
-    /// Line part of an address: yb.
+    /// Line of the screen, or of the map that the machine draws: yb.
     pub y: u32,
-    /// Address of a pixel, y·2^xb + x.
+    /// Address of a pixel, y·2^xb + x, or of a texel that the machine draws, y·2^SB + x.
     pub address: u32,
 }
 
@@ -31,6 +31,7 @@ impl Machine {
         let center = self.guard_bits + center_fraction + 1;
         let index = |count: u32| count.next_power_of_two().ilog2().max(1);
         let (x, y) = (index(self.width), index(self.height));
+        let side = if self.shadow.draws_map() { self.shadow.side_bits() } else { 0 };
         Widths {
             vertex: self.subpixel_bits + self.guard_bits + 1,
             center_fraction,
@@ -38,8 +39,8 @@ impl Machine {
             difference: center + 1,
             column: self.guard_bits + 2,
             x,
-            y,
-            address: x + y,
+            y: y.max(side),
+            address: (x + y).max(2 * side),
         }
     }
 }

@@ -50,7 +50,7 @@ fn setup(machine: &Plan, triangles: &[Triangle]) -> Vec<Prim<FEW>> {
     while next.is_some() || !unit.tri_ready() {
         prims.extend(unit.prim().cloned());
         let taken = unit.tri_ready();
-        unit.step(next.map(|t| (t, 0)), true, &mut Events::default());
+        unit.step(next.map(|t| (t, 0)), true, false, &mut Events::default());
         if taken {
             next = input.next();
         }
@@ -79,11 +79,11 @@ fn span(machine: &Plan, lines: &[Line<FEW>]) -> Vec<tokens::Span<FEW>> {
     let mut spans = Vec::new();
     for line in lines {
         spans.extend(unit.span().cloned());
-        unit.step(Some(line).filter(|_| unit.line_ready()), true, &mut Events::default());
+        unit.step(Some(line).filter(|_| unit.line_ready()), true, false, &mut Events::default());
     }
     // The last line goes from the register into the queue.
     spans.extend(unit.span().cloned());
-    unit.step(None, true, &mut Events::default());
+    unit.step(None, true, false, &mut Events::default());
     spans.extend(unit.span().cloned());
     spans
 }
@@ -96,7 +96,7 @@ fn pixel(machine: &Plan, spans: &[tokens::Span<FEW>]) -> Vec<Fragment<FEW>> {
     while next.is_some() || unit.occupied() {
         fragments.extend(unit.frag().cloned());
         let taken = unit.span_ready(true);
-        unit.step(next, &[1; FEW], 0, Walked::default, true, &mut Events::default());
+        unit.step(next, (&[1; FEW], 0), Walked::default, true, false, &mut Events::default());
         if taken {
             next = input.next();
         }

@@ -27,6 +27,11 @@ pub struct ColorMemory<const C: usize> {
     own: Vec<[u32; MAX_CHANNELS - FEW]>,
 }
 
+/// Three colours of so many bits in one word, red the most significant.
+fn packed(color: [u64; 3], bits: u32) -> u64 {
+    color.into_iter().fold(0, |word, c| word << bits | c)
+}
+
 impl<const C: usize> ColorMemory<C> {
     /// A cleared memory: the colour `clear` (b bits each) everywhere, and 0 in the user's own. It stalls as often as the
     /// depth memory, but in other cycles.
@@ -39,9 +44,14 @@ impl<const C: usize> ColorMemory<C> {
             pacer: Pacer::new(waits.into().of_another(1)),
             now: 0,
             reads: Fifo::default(),
-            rgb: vec![clear.into_iter().fold(0, |word, c| word << bits | c); words],
+            rgb: vec![packed(clear, bits); words],
             own: vec![[0; MAX_CHANNELS - FEW]; words],
         }
+    }
+
+    /// This colour everywhere.
+    pub(crate) fn clear(&mut self, color: [u64; 3]) {
+        self.rgb.fill(packed(color, self.bits));
     }
 
     /// A read can be taken in this cycle.

@@ -148,6 +148,8 @@ events! {
     project_wait,
     /// Fragments that were not looked up, as the map does not count.
     shadow_off,
+    /// Fragments of the light's own pass: none is looked up.
+    own_map,
     /// Fragments outside the map: lit.
     outside_map,
     /// Fragments nearer to the light than the map begins: lit.

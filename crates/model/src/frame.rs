@@ -26,7 +26,9 @@ pub struct Frame {
     pub id: Vec<i32>,
     /// With SHADOW: 0 no colour was written, 1 the last was in shadow, 2 lit. Else empty.
     pub lit: Vec<u8>,
-    /// Performance counters.
+    /// Words of the maps by address: those that came with the passes, with those that the lights' own passes drew.
+    pub maps: Vec<Vec<u32>>,
+    /// Performance counters, of all passes.
     pub counters: Counters,
     /// The same of each pass.
     pub passes: Vec<Counters>,
@@ -95,7 +97,8 @@ pub fn render_with(
     for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), &passes, &[], waits.into(), &Shading::default(), hook))
 }
 
-/// As [`render_with`], pass by pass; `maps`: the words of the lights' maps, by address; before the first of them nothing is hidden.
+/// As [`render_with`], pass by pass; `maps`: the words of the lights' maps, by address; before the first of them nothing is hidden. `hook` sees
+/// nothing of the lights' own passes.
 ///
 /// # Errors
 /// A triangle whose vertices were made for another machine.
@@ -146,7 +149,11 @@ fn draw<const C: usize>(
     rig.write_shading(plan, shading);
     let mut records = shading.records.iter().enumerate();
     let at_once = if plan.shade.is_there() { 1 << plan.shade.record_bits } else { usize::MAX };
-    let mut watch = |_, model: &Model<C>, cycle: &Cycle<C>| {
+    let mut maps = maps.to_vec();
+    let mut watch = |light_pass: bool, model: &Model<C>, cycle: &Cycle<C>| {
+        if light_pass {
+            return;
+        }
         if let Some(addr) = cycle.read {
             tally.read(addr);
             let fragment = model.last_read();
@@ -168,7 +175,7 @@ fn draw<const C: usize>(
         let before = rig.model.counters().clone();
         rig.set_state(pass.state);
         if pass.clear_depth {
-            rig.memory.clear_depth(plan);
+            rig.clear_depth(plan);
         }
         if let (Some(memory), Some(map)) = (&mut rig.map, pass.map.and_then(|map| maps.get(map))) {
             memory.words_mut().iter_mut().zip(map).for_each(|(word, depth)| *word = *depth);
@@ -179,14 +186,20 @@ fn draw<const C: usize>(
             for (triangle, record) in records.by_ref().take(part) {
                 rig.write_record(plan, triangle, record);
             }
-            rig.draw(triangles.by_ref().take(part), &mut watch)?;
+            let light_pass = pass.state.light_pass;
+            rig.draw(triangles.by_ref().take(part), |_, model, cycle| watch(light_pass, model, cycle))?;
             left -= part;
             if left == 0 || triangles.peek().is_none() {
                 break;
             }
         }
         counters.push(rig.model.counters().since(&before));
+        if let Some(map) = pass.map.filter(|_| pass.state.light_pass) {
+            maps.resize(maps.len().max(map + 1), Vec::new());
+            maps[map] = rig.drawn_map(plan);
+        }
     }
+    rig.set_state(DrawState { light_pass: false, ..state });
     let x_bits = plan.widths().x;
     let addresses: Vec<usize> =
         (0..plan.height).flat_map(|y| (0..plan.width).map(move |x| (y << x_bits | x) as usize)).collect();
@@ -205,6 +218,7 @@ fn draw<const C: usize>(
             true => addresses.iter().map(|addr| tally.lit[*addr]).collect(),
             false => Vec::new(),
         },
+        maps,
         counters: rig.model.counters().clone(),
         passes: counters,
         events: rig.model.events().clone(),

@@ -310,7 +310,8 @@ impl<const C: usize> Model<C> {
         self.counters.cycle(activity);
         let prim_ready = self.edge.prim_ready(false);
         self.edge.step(self.setup.prim(), false, false, &mut self.events);
-        self.setup.step(inputs.tri, prim_ready, &mut self.events);
+        let light_pass = C > FEW && inputs.shadow.light_pass;
+        self.setup.step(inputs.tri, prim_ready, light_pass, &mut self.events);
         if inputs.tri.is_some() && tri_ready {
             self.taken();
         }
@@ -356,7 +357,7 @@ impl<const C: usize> Model<C> {
             rdata_ready: self.normal().is_some_and(Normal::rdata_ready),
             srd: self.shade().and_then(Shade::read),
             sdata_ready: self.shade().is_some_and(Shade::sdata_ready),
-            mrd: self.shadow().and_then(|shadow| shadow.read(frag, inputs.shadow.on)),
+            mrd: self.shadow().and_then(|shadow| shadow.read(frag, &inputs.shadow)),
             mdata_ready: self.shadow().is_some_and(|shadow| shadow.mdata_ready(seen_ready)),
             data_ready: self.depth.data_ready(inputs.wr_ready, pass_ready),
             wr: self.depth.write(),
@@ -384,6 +385,7 @@ impl<const C: usize> Model<C> {
         if taken {
             self.events.setup_overlap += u64::from(self.pixel.active());
         }
+        let light_pass = C > FEW && inputs.shadow.light_pass;
         let events = &mut self.events;
         let span_ready = there && self.pixel.span_ready(readies.drawn);
         let depth_inputs = DepthInputs {
@@ -426,7 +428,8 @@ impl<const C: usize> Model<C> {
             one_more(&mut self.counters.spans);
         }
         let reached = span.filter(|_| there);
-        self.pixel.step(reached, self.edge.gradient(), self.edge.kt(), walked, readies.drawn, events);
+        let held = (self.edge.gradient(), self.edge.kt());
+        self.pixel.step(reached, held, walked, readies.drawn, light_pass, events);
         if let Some(term) = self.term.as_mut().filter(|_| C > FEW) {
             term.step(span, &inputs.term, span_ready, events);
         }
@@ -438,12 +441,12 @@ impl<const C: usize> Model<C> {
         if line_ready {
             one_more(&mut self.counters.lines);
         }
-        self.span.step(line, span_ready, events);
+        self.span.step(line, span_ready, light_pass, events);
 
         // EDGE and SETUP.
         let prim_ready = self.edge.prim_ready(fresh_queued);
         self.edge.step(self.setup.prim(), fresh_queued, line_ready, events);
-        self.setup.step(inputs.tri, prim_ready, events);
+        self.setup.step(inputs.tri, prim_ready, light_pass, events);
         if taken {
             self.taken();
         }

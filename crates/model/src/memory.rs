@@ -102,6 +102,11 @@ impl<const C: usize> Memory<C> {
         self.z.fill(plan.z.max() as u32); // b <= 32 bits
     }
 
+    /// The farthest depth of the map everywhere.
+    pub(crate) fn clear_map(&mut self, plan: &Plan) {
+        self.z.fill((1 << plan.shadow.depth_bits) - 1); // bz <= 24 bits
+    }
+
     /// What is stored at an address.
     #[must_use]
     pub fn pixel(&self, addr: u32) -> OutputWords<C> {

@@ -9,9 +9,10 @@ pub struct Pass {
     pub triangles: usize,
     /// The rules; `clear` is that of the first pass.
     pub state: DrawState,
-    /// The depth memory is cleared first.
+    /// The depth memory is cleared first; of the light's own pass the map, with what is left of the light.
     pub clear_depth: bool,
-    /// With SHADOW the map that is looked up, by its place among those that come with the passes; none: that of the pass before.
+    /// With SHADOW the map that is looked up, or drawn, by its place among those that come with the passes or are drawn by them; none: that of the
+    /// pass before.
     pub map: Option<usize>,
 }
 

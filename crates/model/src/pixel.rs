@@ -19,13 +19,24 @@ use crate::Events;
 use crate::shade::Cosines;
 use crate::term::{MAX_TERMS, Walked};
 use crate::tokens::{FEW, Fragment, OutputWords, Source, Span, Words, per_channel};
-use edgewalk_machine::Plan;
+use edgewalk_machine::{Plan, Shadow};
+
+/// What a pass draws.
+#[derive(Clone, Copy, Debug)]
+struct OfPass {
+    /// Columns.
+    width: u32,
+    /// Bits of an address below the line.
+    x_bits: u32,
+    /// Bits of a depth that are kept.
+    z_mask: u32,
+}
 
 /// State of PIXEL.
 #[derive(Clone, Debug)]
 pub struct Pixel<const C: usize> {
-    width: u32,
-    x_bits: u32,
+    /// Of a pass; those of the picture, and with `light_pass` those of the map.
+    passes: [OfPass; 2],
     /// 32 - r: from a word to where it stands.
     align: OutputWords<C>,
     /// 2^b - 1.
@@ -46,7 +57,9 @@ pub struct Pixel<const C: usize> {
     gradient: Words<C>,
     /// k_t of the triangle, where it has one.
     kt: u32,
-    /// y·2^xb.
+    /// Of the span.
+    pass: OfPass,
+    /// y·2^xb, or y·2^SB.
     row: u32,
     fence: bool,
     source: Source,
@@ -66,9 +79,13 @@ impl<const C: usize> Pixel<C> {
     /// A unit at rest.
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
+        let z_mask = |bits: u32| u32::MAX >> (32 - bits);
+        let picture =
+            OfPass { width: plan.width, x_bits: plan.widths().x, z_mask: z_mask(plan.z.bits) };
+        let Shadow { size, depth_bits, .. } = plan.shadow;
+        let map = OfPass { width: size, x_bits: plan.shadow.side_bits(), z_mask: z_mask(depth_bits) };
         Pixel {
-            width: plan.width,
-            x_bits: plan.widths().x,
+            passes: [picture, map],
             align: per_channel(plan, |c| 32 - c.fraction), // r <= 24
             masks: per_channel(plan, |c| u32::MAX >> (32 - c.bits)),
             last_phase: plan.clocks_per_pixel() - 1,
@@ -84,6 +101,7 @@ impl<const C: usize> Pixel<C> {
             values: [0; C],
             gradient: [0; C],
             kt: 0,
+            pass: picture,
             row: 0,
             fence: false,
             source: Source::default(),
@@ -115,7 +133,7 @@ impl<const C: usize> Pixel<C> {
     #[inline]
     #[must_use]
     pub fn on_screen(&self) -> bool {
-        (self.x as u32) < self.width // a negative column is a large unsigned one
+        (self.x as u32) < self.pass.width // a negative column is a large unsigned one
     }
 
     /// An out stage is occupied.
@@ -141,7 +159,7 @@ impl<const C: usize> Pixel<C> {
     /// Column and line of the pixel, while active.
     #[must_use]
     pub fn place(&self) -> (i32, u32) {
-        (self.x, self.row >> self.x_bits)
+        (self.x, self.row >> self.pass.x_bits)
     }
 
     /// Its triangle, while active.
@@ -174,15 +192,15 @@ impl<const C: usize> Pixel<C> {
         self.phase == self.last_phase && self.count == 1
     }
 
-    /// Clock edge. `gradient` and `kt` are what EDGE holds; `walked`, with TERM, what comes with the span.
+    /// Clock edge. `gradient` and `kt` are what EDGE holds; `walked`, with TERM, what comes with the span; `light_pass`: the span is one of the map.
     #[inline(always)]
     pub fn step(
         &mut self,
         span: Option<&Span<C>>,
-        gradient: &Words<C>,
-        kt: u32,
+        (gradient, kt): (&Words<C>, u32),
         walked: impl FnOnce() -> Walked,
         frag_ready: bool,
+        light_pass: bool,
         events: &mut Events,
     ) {
         if !self.advance(frag_ready) {
@@ -205,6 +223,7 @@ impl<const C: usize> Pixel<C> {
         }
         self.active = span.is_some();
         if let Some(span) = span {
+            self.pass = self.passes[usize::from(light_pass)];
             self.load(span, gradient, kt);
             if C > FEW && self.has_terms {
                 self.walked = walked();
@@ -245,9 +264,11 @@ impl<const C: usize> Pixel<C> {
     /// The pixel at `x`, its values cut to b bits.
     #[inline]
     fn fragment(&self) -> Fragment<C> {
+        let mut values = std::array::from_fn(|i| (self.values[i] >> 32) as u32 & self.masks[i]);
+        values[0] &= self.pass.z_mask;
         Fragment {
             addr: self.row | self.x as u32,
-            values: std::array::from_fn(|i| (self.values[i] >> 32) as u32 & self.masks[i]),
+            values,
             kt: self.kt,
             lit: false, // SHADOW says
             fence: self.fence,
@@ -285,7 +306,7 @@ impl<const C: usize> Pixel<C> {
         self.count = span.count;
         self.step_x = if span.leftward { -1 } else { 1 };
         self.values = self.aligned(&span.values);
-        self.row = span.y << self.x_bits;
+        self.row = span.y << self.pass.x_bits;
         self.fence = span.fence;
         self.source = span.source;
         if span.fresh {

@@ -26,6 +26,8 @@ pub struct DrawState {
     pub depth_write: bool,
     /// With SHADOW: the map counts.
     pub shadow_on: bool,
+    /// In a machine that draws its map: it draws it, not the picture.
+    pub light_pass: bool,
     /// With SHADOW's gate `scale`: what a colour in shadow is multiplied by, b bits.
     pub ambient: u64,
     /// Fragments that pass store their colour; without BLEND they always do.
@@ -45,6 +47,7 @@ impl Default for DrawState {
             color_write: true,
             blend_add: false,
             shadow_on: false,
+            light_pass: false,
             ambient: 0,
             clear: [0; 3],
         }
@@ -70,7 +73,16 @@ pub struct Rig<const C: usize> {
     pub map: Option<MapMemory>,
     /// With BLEND that of the colours.
     pub color: Option<ColorMemory<C>>,
+    /// In a machine that draws its map: the memories of the other page, the map's while the picture is drawn.
+    other: Option<Box<Page<C>>>,
     state: DrawState,
+}
+
+/// What the ports of DEPTH and BLEND reach in a pass.
+#[derive(Clone, Debug)]
+struct Page<const C: usize> {
+    memory: Memory<C>,
+    color: Option<ColorMemory<C>>,
 }
 
 /// What happened in a cycle of a [`Rig`].
@@ -109,7 +121,8 @@ impl<const C: usize> Rig<C> {
     #[must_use]
     pub fn new(plan: &Plan, state: DrawState, waits: impl Into<Waits>) -> Self {
         let waits = waits.into();
-        Rig {
+        let color = |clear| plan.blend.is_there().then(|| ColorMemory::new(plan, clear, waits));
+        let mut rig = Rig {
             model: Model::new(plan),
             memory: Memory::new(plan, state.clear, waits),
             terms: plan.shade.is_there().then(|| WordMemory::new(plan.shade.term_latency, waits, 3)),
@@ -117,9 +130,16 @@ impl<const C: usize> Rig<C> {
             roots: plan.shade.normalises().then(|| WordMemory::new(plan.shade.root_latency, waits, 5)),
             tables: plan.shade.is_there().then(|| WordMemory::new(plan.shade.table_latency, waits, 4)),
             map: plan.shadow.is_there().then(|| MapMemory::new(plan, waits)),
-            color: plan.blend.is_there().then(|| ColorMemory::new(plan, state.clear, waits)),
-            state,
-        }
+            color: color(state.clear),
+            other: plan.shadow.draws_map().then(|| {
+                let mut memory = Memory::new(plan, [0; 3], waits);
+                memory.clear_map(plan);
+                Box::new(Page { memory, color: color([plan.color.max(); 3]) })
+            }),
+            state: DrawState { light_pass: false, ..state },
+        };
+        rig.set_state(state);
+        rig
     }
 
     /// Writes tables, roots, textures, and the records of the first triangles, as many as the memory holds; the machine is idle.
@@ -148,7 +168,29 @@ impl<const C: usize> Rig<C> {
         }
     }
 
-    /// What is stored at an address.
+    /// Clears the depths that are drawn now, of the map with what is left of the light; the machine is idle.
+    pub fn clear_depth(&mut self, plan: &Plan) {
+        if !self.state.light_pass {
+            self.memory.clear_depth(plan);
+            return;
+        }
+        self.memory.clear_map(plan);
+        if let Some(color) = &mut self.color {
+            color.clear([plan.color.max(); 3]);
+        }
+    }
+
+    /// The words of the map that is drawn now, by address: depth, and with `shadow.transmits` below it what is left of the light.
+    #[must_use]
+    pub fn drawn_map(&self, plan: &Plan) -> Vec<u32> {
+        let word = |addr| {
+            let [depth, left, ..] = self.pixel(addr)[..] else { return 0 };
+            if plan.shadow.transmits() { depth << plan.color.bits | left } else { depth }
+        };
+        (0..1 << (2 * plan.shadow.side_bits())).map(word).collect()
+    }
+
+    /// What is stored at an address of what is drawn now.
     #[must_use]
     pub fn pixel(&self, addr: u32) -> OutputWords<C> {
         let stored = self.memory.pixel(addr);
@@ -157,6 +199,10 @@ impl<const C: usize> Rig<C> {
 
     /// What the next triangles are drawn with; the machine is idle.
     pub fn set_state(&mut self, state: DrawState) {
+        if let Some(other) = self.other.as_mut().filter(|_| state.light_pass != self.state.light_pass) {
+            std::mem::swap(&mut self.memory, &mut other.memory);
+            std::mem::swap(&mut self.color, &mut other.color);
+        }
         self.state = state;
     }
 
@@ -257,6 +303,7 @@ impl<const C: usize> Rig<C> {
         let Some(map) = self.map.as_ref().filter(|_| C > FEW) else { return ShadowInputs::default() };
         ShadowInputs {
             on: self.state.shadow_on,
+            light_pass: self.state.light_pass,
             ambient: self.state.ambient as u32, // b <= 16 bits
             mrd_ready: map.mrd_ready(),
             mdata: map.mdata(),

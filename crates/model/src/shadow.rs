@@ -9,7 +9,7 @@
 //!
 //! Timing: a fragment taken in cycle n is offered to DEPTH from n + 1 on, or as soon as its texel is there. One a clock.
 //!
-//! Rules: `docs/machine.md`, section 10. Not modelled: who draws the map.
+//! Rules: `docs/machine.md`, section 10. Not modelled: the memory of the map.
 
 mod view;
 
@@ -23,6 +23,8 @@ use edgewalk_machine::{Gate, Plan};
 pub struct ShadowInputs {
     /// The map counts; else all is lit.
     pub on: bool,
+    /// The map is drawn, not the picture: all is lit.
+    pub light_pass: bool,
     /// What the colour of a point in shadow is multiplied by, b bits; of the gate `scale`.
     pub ambient: u32,
     /// The map takes a read.
@@ -52,6 +54,8 @@ impl<const C: usize> Default for Entry<C> {
 /// Where a fragment lies in the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Place {
+    /// Of the light's own pass.
+    Own,
     Off,
     Outside,
     Before,
@@ -128,8 +132,8 @@ impl<const C: usize> Shadow<C> {
 
     /// Address of a texel to be read.
     #[must_use]
-    pub fn read(&self, frag: Option<&Fragment<C>>, on: bool) -> Option<u32> {
-        match self.place(frag?, on) {
+    pub fn read(&self, frag: Option<&Fragment<C>>, inputs: &ShadowInputs) -> Option<u32> {
+        match self.place(frag?, inputs) {
             Place::Texel(addr) if !self.full() => Some(addr),
             _ => None,
         }
@@ -138,7 +142,7 @@ impl<const C: usize> Shadow<C> {
     /// The fragment that is offered can be taken.
     #[must_use]
     pub fn frag_ready(&self, frag: Option<&Fragment<C>>, inputs: &ShadowInputs) -> bool {
-        let reads = frag.is_some_and(|frag| matches!(self.place(frag, inputs.on), Place::Texel(_)));
+        let reads = frag.is_some_and(|frag| matches!(self.place(frag, inputs), Place::Texel(_)));
         !self.full() && (inputs.mrd_ready || !reads)
     }
 
@@ -203,7 +207,7 @@ impl<const C: usize> Shadow<C> {
             self.queue.pop();
         }
         if let Some(fragment) = pushed {
-            let place = self.place(fragment, inputs.on);
+            let place = self.place(fragment, inputs);
             let known = !matches!(place, Place::Texel(_));
             let entry = Entry {
                 fragment: *fragment,
@@ -221,10 +225,12 @@ impl<const C: usize> Shadow<C> {
         (word ^ sign) - sign
     }
 
-    fn place(&self, fragment: &Fragment<C>, on: bool) -> Place {
+    fn place(&self, fragment: &Fragment<C>, inputs: &ShadowInputs) -> Place {
         let [tx, ty, d] = [0, 1, 2].map(|which| self.coordinate(fragment, which));
         let inside = |t: i64| (0..self.size).contains(&t);
-        if !on {
+        if inputs.light_pass {
+            Place::Own
+        } else if !inputs.on {
             Place::Off
         } else if !inside(tx) || !inside(ty) {
             Place::Outside
@@ -252,11 +258,12 @@ impl<const C: usize> Shadow<C> {
         events: &mut Events,
     ) {
         if let Some(frag) = frag {
-            let place = self.place(frag, inputs.on);
+            let place = self.place(frag, inputs);
             let waits = (0..self.queue.len()).any(|i| !self.queue.at(i).known);
             match place {
                 _ if self.full() => events.shadow_queue_full += 1,
                 Place::Texel(_) => events.map_stall += u64::from(!pushed),
+                Place::Own => events.own_map += 1,
                 Place::Off => events.shadow_off += 1,
                 Place::Outside => events.outside_map += 1,
                 Place::Before => events.before_map += 1,

@@ -23,6 +23,9 @@ use edgewalk_machine::{Fill, Plan};
 #[derive(Clone, Debug)]
 pub struct Span<const C: usize> {
     textbook: bool,
+    /// W, and with `light_pass` SIZE.
+    widths: [i32; 2],
+    /// Of the pass of the line held.
     width: i32,
     depth: usize,
     held: Option<Line<C>>,
@@ -39,6 +42,7 @@ impl<const C: usize> Span<C> {
     pub fn new(plan: &Plan) -> Self {
         Span {
             textbook: plan.fill == Fill::Textbook,
+            widths: [plan.width as i32, plan.shadow.size as i32],
             width: plan.width as i32,
             depth: plan.span_fifo as usize,
             held: None,
@@ -99,9 +103,15 @@ impl<const C: usize> Span<C> {
         self.fresh_in_fifo > 0 || self.held.as_ref().is_some_and(|line| line.fresh | self.pend_fresh)
     }
 
-    /// Clock edge; `line`: the one taken, if `line_ready`.
+    /// Clock edge; `line`: the one taken, if `line_ready`; `light_pass`: it is one of the map.
     #[inline(always)]
-    pub fn step(&mut self, line: Option<&Line<C>>, span_ready: bool, events: &mut Events) {
+    pub fn step(
+        &mut self,
+        line: Option<&Line<C>>,
+        span_ready: bool,
+        light_pass: bool,
+        events: &mut Events,
+    ) {
         let (ready, room) = (self.line_ready(), self.has_room());
         if span_ready && !self.fifo.is_empty() {
             self.fresh_in_fifo -= u32::from(self.fifo.head().fresh);
@@ -112,6 +122,7 @@ impl<const C: usize> Span<C> {
         }
         if ready && let Some(line) = line {
             self.held = Some(*line);
+            self.width = self.widths[usize::from(light_pass)];
         }
     }
 

@@ -9,6 +9,7 @@ mod exact;
 mod fast;
 mod golden;
 mod hazards;
+mod own_pass;
 mod pairs;
 mod passage;
 mod perspective;

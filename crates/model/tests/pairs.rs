@@ -377,15 +377,15 @@ impl<'a> Work<'a> {
 /// The model's, with the cycles in which it was not ready.
 fn ticked(setup: &mut Setup<MAX_CHANNELS>, triangle: &Triangle) -> (u32, Option<Prim<MAX_CHANNELS>>) {
     let events = &mut Events::default();
-    setup.step(Some((triangle, 0)), false, events);
+    setup.step(Some((triangle, 0)), false, false, events);
     let mut cycles = 0;
     while setup.prim().is_none() && !setup.tri_ready() {
-        setup.step(None, false, events);
+        setup.step(None, false, false, events);
         cycles += 1;
     }
     let prim = setup.prim().map(|prim| Prim { source: Default::default(), ..*prim });
     if prim.is_some() {
-        setup.step(None, true, events);
+        setup.step(None, true, false, events);
     }
     (cycles, prim)
 }

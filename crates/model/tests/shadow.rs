@@ -76,8 +76,14 @@ fn feed(
     let (mut events, mut given, mut next, mut cycles) = (Events::default(), Vec::new(), 0, 0);
     while next < fragments.len() || unit.occupied() {
         let frag = fragments.get(next);
-        let inputs = ShadowInputs { on, ambient, mrd_ready: memory.mrd_ready(), mdata: memory.mdata() };
-        let read = unit.read(frag, on).filter(|_| inputs.mrd_ready);
+        let inputs = ShadowInputs {
+            on,
+            light_pass: false,
+            ambient,
+            mrd_ready: memory.mrd_ready(),
+            mdata: memory.mdata(),
+        };
+        let read = unit.read(frag, &inputs).filter(|_| inputs.mrd_ready);
         let fires = frag.is_some() && unit.frag_ready(frag, &inputs);
         let ready = willing();
         let shaded = unit.shaded(&inputs).filter(|_| ready);

@@ -1,6 +1,6 @@
 //! PIXEL: from spans to fragments.
 
-use super::{always, tokens};
+use super::{always, light_pass, tokens};
 use crate::link::{Held, Link, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
@@ -22,6 +22,7 @@ fn ports(plan: &Plan) -> Ports {
         takes: Some(Link::new("span", tokens::walked(plan))),
         gives: Some(Link::new("frag", tokens::fragment(plan))),
         held_in: vec![Held { name: "inc", fields: tokens::held(plan), beside: "span" }],
+        constants: light_pass(plan).into_iter().collect(),
         status: vec![
             Status::new("active", "a span is being drawn"),
             Status::new("visible", "its pixel is on the screen").during("active"),

@@ -1,6 +1,6 @@
 //! SETUP: from three vertices to edges and increments.
 
-use super::{always, tokens};
+use super::{always, light_pass, tokens};
 use crate::link::Link;
 use crate::machine::{Fill, Machine};
 use crate::plan::Plan;
@@ -21,6 +21,7 @@ fn ports(plan: &Plan) -> Ports {
     Ports {
         takes: Some(Link::new("tri", tokens::triangle(plan))),
         gives: Some(Link::new("prim", tokens::prim(plan))),
+        constants: light_pass(plan).into_iter().collect(),
         ..Ports::default()
     }
 }

@@ -1,6 +1,6 @@
 //! SHADOW: from fragments to fragments that are lit or not.
 
-use super::tokens;
+use super::{light_pass, tokens};
 use crate::field::Field;
 use crate::link::{Link, MemoryPort, Ready, Status};
 use crate::machine::Machine;
@@ -23,6 +23,10 @@ fn there(plan: &Plan) -> bool {
     plan.shadow.is_there()
 }
 
+fn draws_map(plan: &Plan) -> bool {
+    plan.shadow.draws_map()
+}
+
 fn transmits(plan: &Plan) -> bool {
     plan.shadow.transmits()
 }
@@ -40,6 +44,7 @@ fn ports(plan: &Plan) -> Ports {
         let doc = "what a colour in shadow is multiplied by, all ones for 1";
         constants.push(Field::count("ambient", plan.color.bits, doc));
     }
+    constants.extend(light_pass(plan));
     // Whether a word is taken depends on whether the fragment it lights is.
     Ports {
         takes: Some(frag),
@@ -67,6 +72,11 @@ const EVENTS: &[Event] = &[
         name: "shadow_off",
         doc: "fragments that were not looked up, as the map does not count",
         can_happen: there,
+    },
+    Event {
+        name: "own_map",
+        doc: "fragments of the light's own pass: none is looked up",
+        can_happen: draws_map,
     },
     Event { name: "outside_map", doc: "fragments outside the map: lit", can_happen: there },
     Event {

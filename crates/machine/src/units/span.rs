@@ -1,6 +1,6 @@
 //! SPAN: from lines to the pixels of a line.
 
-use super::{always, tokens};
+use super::{always, light_pass, tokens};
 use crate::link::{Link, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
@@ -21,6 +21,7 @@ fn ports(plan: &Plan) -> Ports {
     Ports {
         takes: Some(Link::new("line", tokens::line(plan))),
         gives: Some(Link::new("span", tokens::span(plan))),
+        constants: light_pass(plan).into_iter().collect(),
         status: vec![
             Status::new(
                 "fresh_queued",

@@ -205,6 +205,7 @@ impl Renderer {
             writes: part(&details.writes),
             id: details.id.get(start..end).unwrap_or_default().to_vec(),
             lit: Vec::new(),
+            maps: Vec::new(),
             counters: self.counters.clone(),
             passes: vec![self.counters.clone()],
             events: Events::default(),

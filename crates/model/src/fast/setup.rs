@@ -6,7 +6,7 @@
 
 use super::divide::{Divisor, Shift};
 use crate::setup::clocks::Timing;
-use crate::setup::edges::Parts;
+use crate::setup::edges::{Parts, Screen};
 use crate::setup::sort::{Corner, Sorted};
 use crate::setup::{self, SetupClocks};
 use crate::tokens::{EdgeWalk, FEW, Prim, Source, per_channel, sign_extend, word_masks};
@@ -92,7 +92,7 @@ impl Setup {
         {
             return done;
         }
-        let (clocks, plain) = setup::prepare(&self.plan, &self.timing, sorted);
+        let (clocks, plain) = setup::prepare(&self.plan, &self.timing, Screen::picture(&self.plan), sorted);
         let is_drawn = plain.is_ok();
         *prim = plain.unwrap_or_default();
         (clocks, is_drawn)

@@ -17,7 +17,7 @@ impl<const C: usize> Pixel<C> {
         view.live(Some(active));
         let x = view.signed("x", "column, may lie off the screen", w.column, self.x.into());
         view.wire(|| "x".to_owned());
-        let y = view.number("y", "line", w.y, self.row >> w.x);
+        let y = view.number("y", "line", w.y, self.place().1);
         view.number("left", "pixels left of the span, this one too", w.column, self.count);
         view.wire(|| "count".to_owned());
         view.number("phase", "clock of the pixel, the adders' turn", 4, self.phase);

@@ -5,6 +5,26 @@ use super::sort::{Corner, Sorted};
 use crate::tokens::{EdgeWalk, sign_extend};
 use edgewalk_machine::{EdgeKind, Fill, Plan};
 
+/// What is drawn of the plane: columns and lines from 0 on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Screen {
+    width: i64,
+    height: i64,
+}
+
+impl Screen {
+    /// W and H of the picture.
+    pub(crate) fn picture(plan: &Plan) -> Self {
+        Screen { width: plan.width.into(), height: plan.height.into() }
+    }
+
+    /// The same, or with `light_pass` SIZE and SIZE of the map.
+    pub(crate) fn of_pass(plan: &Plan, light_pass: bool) -> Self {
+        let size = plan.shadow.size.into();
+        if light_pass { Screen { width: size, height: size } } else { Screen::picture(plan) }
+    }
+}
+
 /// The drawn lines of the upper and the lower part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Parts {
@@ -23,9 +43,9 @@ impl Parts {
 }
 
 /// Lines of both parts (section 2), cut to the screen.
-pub(super) fn parts<const C: usize>(plan: &Plan, sorted: &Sorted<C>) -> Parts {
+pub(super) fn parts<const C: usize>(plan: &Plan, screen: Screen, sorted: &Sorted<C>) -> Parts {
     let t = plan.widths().center_fraction;
-    let height = i64::from(plan.height);
+    let height = screen.height;
     let v = sorted.corners.map(|c| c.v);
     match plan.fill {
         Fill::Exact => {
@@ -48,10 +68,10 @@ pub(super) fn parts<const C: usize>(plan: &Plan, sorted: &Sorted<C>) -> Parts {
 }
 
 /// No column of pixel centres lies between the smallest and the largest u on the screen; only asked in exact fill.
-pub(super) fn no_columns<const C: usize>(plan: &Plan, sorted: &Sorted<C>) -> bool {
+pub(super) fn no_columns<const C: usize>(plan: &Plan, screen: Screen, sorted: &Sorted<C>) -> bool {
     let t = plan.widths().center_fraction;
     let [a, b, c] = sorted.corners.map(|c| -(-c.u >> t)); // rounded up
-    let (k0, k1) = (a.min(b).min(c).max(0), a.max(b).max(c).min(i64::from(plan.width)));
+    let (k0, k1) = (a.min(b).min(c).max(0), a.max(b).max(c).min(screen.width));
     plan.fill == Fill::Exact && k1 <= k0
 }
 

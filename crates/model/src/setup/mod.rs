@@ -25,6 +25,7 @@ pub use clocks::{SetupClocks, longest_setup};
 use crate::Events;
 use crate::tokens::{FEW, Prim, Source};
 use clocks::Timing;
+use edges::Screen;
 use edgewalk_machine::{Plan, PortVertex};
 use sort::{Corner, Sorted};
 
@@ -41,6 +42,8 @@ enum State {
 pub struct Setup<const C: usize> {
     plan: Plan,
     timing: Timing,
+    /// Of the pass of this triangle.
+    screen: Screen,
     /// Of k_t at the port.
     kt_mask: u32,
     record_mask: u32,
@@ -66,6 +69,7 @@ impl<const C: usize> Setup<C> {
         Setup {
             plan: plan.clone(),
             timing: Timing::new(plan),
+            screen: Screen::picture(plan),
             record_mask: (1 << plan.shade.record_bits) - 1, // at most 20
             kt_mask: u32::MAX >> (31 - plan.blend.kt_bits), // at most 12
             state: State::Idle,
@@ -109,7 +113,13 @@ impl<const C: usize> Setup<C> {
 
     /// Clock edge.
     #[inline(always)]
-    pub fn step(&mut self, tri: Option<(&[PortVertex; 3], u32)>, prim_ready: bool, events: &mut Events) {
+    pub fn step(
+        &mut self,
+        tri: Option<(&[PortVertex; 3], u32)>,
+        prim_ready: bool,
+        light_pass: bool,
+        events: &mut Events,
+    ) {
         if self.remaining > 0 {
             self.remaining -= 1;
             return;
@@ -120,6 +130,7 @@ impl<const C: usize> Setup<C> {
         match self.state {
             State::Idle => {
                 if let Some((vertices, tag)) = tri {
+                    self.screen = Screen::of_pass(&self.plan, light_pass);
                     self.take(vertices, tag, events);
                 }
             }
@@ -140,7 +151,7 @@ impl<const C: usize> Setup<C> {
         self.taken = self.taken.wrapping_add(1);
         self.record = self.record.wrapping_add(1);
         let sorted = Sorted::new(&self.plan, vertices);
-        let (clocks, prim) = prepare(&self.plan, &self.timing, &sorted);
+        let (clocks, prim) = prepare(&self.plan, &self.timing, self.screen, &sorted);
         self.enter(State::Phase1, clocks.phase1);
         self.clocks = clocks;
         self.culled = prim.is_err();
@@ -181,45 +192,46 @@ pub enum Culled {
     Area,
 }
 
-/// The clocks of a triangle at the port; S2 is 0 if it is culled.
+/// The clocks of a triangle of the picture at the port; S2 is 0 if it is culled.
 #[must_use]
 pub fn setup_clocks(plan: &Plan, vertices: &[PortVertex; 3]) -> SetupClocks {
     increments::<{ edgewalk_machine::MAX_CHANNELS }>(plan, &Timing::new(plan), vertices).0
 }
 
-/// Why a triangle at the port draws nothing, if SETUP culls it.
+/// Why a triangle of the picture at the port draws nothing, if SETUP culls it.
 #[must_use]
 pub fn cull(plan: &Plan, vertices: &[PortVertex; 3]) -> Option<Culled> {
-    let sorted = Sorted::<FEW>::new(plan, vertices);
-    if edges::parts(plan, &sorted).lines == [0, 0] {
+    let (screen, sorted) = (Screen::picture(plan), Sorted::<FEW>::new(plan, vertices));
+    if edges::parts(plan, screen, &sorted).lines == [0, 0] {
         Some(Culled::Lines)
-    } else if edges::no_columns(plan, &sorted) {
+    } else if edges::no_columns(plan, screen, &sorted) {
         Some(Culled::Columns)
     } else {
         (sorted.area() == 0).then_some(Culled::Area)
     }
 }
 
-/// The clocks and increments of a triangle at the port, without tag and number.
+/// The clocks and increments of a triangle of the picture at the port, without tag and number.
 pub(crate) fn increments<const C: usize>(
     plan: &Plan,
     timing: &Timing,
     vertices: &[PortVertex; 3],
 ) -> (SetupClocks, Result<Prim<C>, Culled>) {
-    prepare(plan, timing, &Sorted::new(plan, vertices))
+    prepare(plan, timing, Screen::picture(plan), &Sorted::new(plan, vertices))
 }
 
-/// The same of a triangle that is sorted.
+/// The same of a triangle that is sorted, on any screen.
 pub(crate) fn prepare<const C: usize>(
     plan: &Plan,
     timing: &Timing,
+    screen: Screen,
     sorted: &Sorted<C>,
 ) -> (SetupClocks, Result<Prim<C>, Culled>) {
-    let parts = edges::parts(plan, sorted);
+    let parts = edges::parts(plan, screen, sorted);
     if parts.lines == [0, 0] {
         return (timing.culled(), Err(Culled::Lines));
     }
-    if edges::no_columns(plan, sorted) {
+    if edges::no_columns(plan, screen, sorted) {
         return (timing.culled(), Err(Culled::Columns));
     }
     let phase1 = timing.phase1(sorted, &parts);

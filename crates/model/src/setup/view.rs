@@ -68,8 +68,8 @@ impl<const C: usize> Setup<C> {
     }
 
     pub(super) fn jobs(&self) -> Schedule {
-        let parts = parts(&self.plan, &self.sorted);
-        let at_once = parts.lines == [0, 0] || no_columns(&self.plan, &self.sorted);
+        let parts = parts(&self.plan, self.screen, &self.sorted);
+        let at_once = parts.lines == [0, 0] || no_columns(&self.plan, self.screen, &self.sorted);
         schedule(&self.plan, &self.sorted, &parts, at_once, &self.prim)
     }
 

@@ -29,8 +29,8 @@ impl<const C: usize> Shadow<C> {
         self.view_queue(plan, view);
         view.lane(queued, self.occupied());
 
-        let place = frag.map(|frag| self.place(frag, inputs.on));
-        let read = self.read(frag, inputs.on);
+        let place = frag.map(|frag| self.place(frag, inputs));
+        let read = self.read(frag, inputs);
         let texel = frag.filter(|_| read.is_some());
         let [tx, ty, d] = [0, 1, 2].map(|axis| texel.map_or(0, |frag| self.coordinate(frag, axis)));
         let side = self.side + 1;
@@ -96,6 +96,7 @@ impl<const C: usize> Shadow<C> {
             "takes a fragment and reads texel ({frag.tx}, {frag.ty}); it lies at {frag.d}.",
         );
         view.says(reads && !inputs.mrd_ready, "waits: the map takes no read.");
+        view.says(room && place == Some(Place::Own), "takes a fragment of the map itself: it is lit.");
         view.says(room && place == Some(Place::Off), "takes a fragment: no map counts, it is lit.");
         view.says(room && place == Some(Place::Outside), "takes a fragment outside the map: it is lit.");
         view.says(room && place == Some(Place::Before), "takes a fragment nearer than the map: it is lit.");

@@ -24,6 +24,7 @@ pub const ALWAYS: DrawState = DrawState {
     color_write: true,
     blend_add: false,
     shadow_on: false,
+    light_pass: false,
     ambient: 0,
     clear: [0; 3],
 };
