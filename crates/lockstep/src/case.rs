@@ -44,6 +44,8 @@ pub struct Case {
     pub blend_add: bool,
     /// SHADOW looks up its map, whose words are random.
     pub shadow_on: bool,
+    /// A machine that draws its map draws it, not the picture.
+    pub light_pass: bool,
     /// What SHADOW leaves of a colour in shadow, with the gate `scale`.
     pub ambient: u64,
     /// Every stored depth at the start, LSB; the largest if `None`.
@@ -108,6 +110,7 @@ impl Case {
             color_write: true,
             blend_add: false,
             shadow_on: false,
+            light_pass: false,
             ambient: 0,
             clear_z: None,
             unwilling: BTreeMap::new(),
@@ -188,9 +191,11 @@ impl Case {
 
     /// What the rig does.
     fn setting(&self, interface: &Interface) -> Result<Setting, LockstepError> {
-        let Case { depth_func, depth_write, color_write, blend_add, shadow_on, ambient, .. } = *self;
-        let clear = [0; 3];
-        let state = DrawState { depth_func, depth_write, color_write, blend_add, shadow_on, ambient, clear };
+        let Case { depth_func, depth_write, color_write, blend_add, .. } = *self;
+        let Case { shadow_on, light_pass, ambient, .. } = *self;
+        let (state, clear) = (DrawState::default(), [0; 3]);
+        let state = DrawState { depth_func, depth_write, color_write, blend_add, clear, ..state };
+        let state = DrawState { shadow_on, light_pass, ambient, ..state };
         let mut setting = Setting::willing(interface, &constants(&state))?;
         setting.tokens.clone_from(&self.tokens);
         let mut random = Pcg64Mcg::seed_from_u64(self.seed);
@@ -217,13 +222,14 @@ impl Case {
 
 /// The values that a picture gives to the machine's constants, by their declared names.
 #[must_use]
-pub fn constants(state: &DrawState) -> [(&'static str, u128); 6] {
+pub fn constants(state: &DrawState) -> [(&'static str, u128); 7] {
     [
         ("depth_func", state.depth_func.into()),
         ("depth_write", state.depth_write.into()),
         ("color_write", state.color_write.into()),
         ("blend_add", state.blend_add.into()),
         ("shadow_on", state.shadow_on.into()),
+        ("light_pass", state.light_pass.into()),
         ("ambient", state.ambient.into()),
     ]
 }

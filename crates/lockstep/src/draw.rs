@@ -124,9 +124,15 @@ fn run(
         foreign.is_none().then(|| port.pack(&triangle, number))
     });
     let first = passes.first().map_or_else(DrawState::default, |pass| pass.state);
-    let mut picture = Picture::new(plan, &interface, &first);
+    let mut picture = Picture::new(plan, &interface, plan.z.max(), first.clear);
+    // In a machine that draws its map what the same ports reach then.
+    let all = plan.color.max();
+    let farthest = u64::MAX >> (64 - plan.shadow.depth_bits);
+    let mut own_map =
+        plan.shadow.draws_map().then(|| Picture::new(plan, &interface, farthest, [all; 3]));
     let mut ports = interface.values();
-    let mut map: Arc<[u128]> = Arc::default();
+    let (mut maps, mut map): (_, Arc<[u128]>) = (maps.to_vec(), Arc::default());
+    let (mut counters, mut of_passes) = (Counters::default(), Vec::new());
     // What the host fills once for the frame; what it leaves out is 0.
     let filled = |name: &str| match name {
         "tables" => Some(&shading.tables),
@@ -136,8 +142,13 @@ fn run(
     };
     let mut begun = 0;
     for pass in passes {
+        let light_pass = pass.state.light_pass;
+        let page = own_map.as_mut().filter(|_| light_pass).unwrap_or(&mut picture);
         if pass.clear_depth {
-            picture.stored[0].fill(plan.z.max() as u32); // b <= 32 bits
+            page.clear_depth();
+            if light_pass {
+                page.stored[1..4].iter_mut().for_each(|color| color.fill(all as u32)); // b <= 16 bits
+            }
         }
         if let Some(words) = pass.map.and_then(|map| maps.get(map)) {
             map = words.iter().map(|word| u128::from(*word)).collect();
@@ -155,20 +166,30 @@ fn run(
             setting.start = match memory.name {
                 "map" => Arc::clone(&map),
                 "terms" => Arc::default(),
-                "color" => picture.colors(plan),
-                _ => picture.stored[0].iter().map(|word| u128::from(*word)).collect(),
+                "color" => page.colors(plan),
+                _ => page.stored[0].iter().map(|word| u128::from(*word)).collect(),
             };
         }
         setting.patterns = patterns(tagged, &interface, stalls, 0);
         let rig = Rig::fed(&interface, setting, tokens.by_ref().take(pass.triangles));
         let records = Records::new(plan, shading, begun);
         begun += pass.triangles;
-        if !draw_pass((rig, records), plan, &mut picture, &mut ports, &mut cycle) {
+        let before = page.counters.clone();
+        let more = draw_pass((rig, records), plan, page, &mut ports, &mut cycle);
+        let spent = page.counters.since(&before);
+        counters = counters.and(&spent);
+        of_passes.push(spent);
+        if let Some(number) = pass.map.filter(|_| light_pass) {
+            maps.resize(maps.len().max(number + 1), Vec::new());
+            maps[number] = page.map(plan);
+        }
+        if !more {
             break;
         }
     }
     drop(tokens);
-    foreign.map_or(Ok(picture.frame(plan)), |foreign| Err(foreign.into()))
+    let frame = Frame { maps, counters, passes: of_passes, ..picture.frame(plan) };
+    foreign.map_or(Ok(frame), |foreign| Err(foreign.into()))
 }
 
 /// Until all its triangles are drawn; false if enough was seen before.
@@ -179,7 +200,6 @@ fn draw_pass(
     ports: &mut PortValues,
     cycle: &mut impl FnMut(&mut PortValues) -> bool,
 ) -> bool {
-    let before = picture.counters.clone();
     records.write_next(plan, &mut rig);
     loop {
         // In the cycle in which it takes the last triangle the machine is still idle.
@@ -190,8 +210,6 @@ fn draw_pass(
         rig.clock(ports);
         let rests = exhausted && picture.is_idle(ports);
         if !more || (rests && rig.finished()) {
-            let counters = picture.counters.since(&before);
-            picture.passes.push(counters);
             return more;
         }
         if rests {
@@ -246,7 +264,8 @@ struct Picture {
     /// 0 never written, 1 in shadow, 2 lit.
     lit: Vec<u8>,
     counters: Counters,
-    passes: Vec<Counters>,
+    /// Where its depth is cleared to.
+    farthest: u32,
 }
 
 /// A link that writes, and what of it is stored where.
@@ -297,16 +316,17 @@ impl Writes {
 }
 
 impl Picture {
-    /// A cleared picture: the farthest depth, the state's colour, and 0 in the user's own channels.
-    fn new(plan: &Plan, interface: &Interface, state: &DrawState) -> Picture {
+    /// A cleared picture: this depth and colour, and 0 in the user's own channels.
+    fn new(plan: &Plan, interface: &Interface, farthest: u64, color: [u64; 3]) -> Picture {
         let find = |name| interface.link(name).cloned();
         let link = |name| find(name).expect("a machine declares it");
         let status = |name| interface.port(name).expect("a machine declares it").id;
         let write = find("cwr").unwrap_or_else(|| link("wr"));
         let words = 1 << plan.widths().address;
+        let farthest = farthest as u32; // b <= 32 bits
         let clear = |i: usize| match i {
-            0 => plan.z.max() as u32,                                       // b <= 32 bits
-            _ => state.clear.get(i - 1).map_or(0, |colour| *colour as u32), // b <= 16 bits
+            0 => farthest,
+            _ => color.get(i - 1).map_or(0, |colour| *colour as u32), // b <= 16 bits
         };
         Picture {
             tri: link("tri"),
@@ -323,8 +343,22 @@ impl Picture {
             id: vec![-1; words],
             lit: vec![0; words],
             counters: Counters::default(),
-            passes: Vec::new(),
+            farthest,
         }
+    }
+
+    fn clear_depth(&mut self) {
+        self.stored[0].fill(self.farthest);
+    }
+
+    /// The words of the map that this is, by address.
+    fn map(&self, plan: &Plan) -> Vec<u32> {
+        let texels = self.stored[0].iter().zip(&self.stored[1]).take(1 << (2 * plan.shadow.side_bits()));
+        let word = |(depth, left): (&u32, &u32)| match plan.shadow.transmits() {
+            true => depth << plan.color.bits | left,
+            false => *depth,
+        };
+        texels.map(word).collect()
     }
 
     /// The words of the colour memory: red is the most significant.
@@ -383,7 +417,8 @@ impl Picture {
                 true => pixels().map(|a| self.lit[a]).collect(),
                 false => Vec::new(),
             },
-            passes: self.passes,
+            maps: Vec::new(),
+            passes: Vec::new(),
             counters: self.counters,
             events: Events::default(),
         }

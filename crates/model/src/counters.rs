@@ -51,6 +51,23 @@ impl Counters {
         self.inflight = self.inflight.wrapping_add(fragments as u64);
     }
 
+    /// These and what comes after them.
+    #[must_use]
+    pub fn and(&self, after: &Counters) -> Counters {
+        Counters {
+            cycles: self.cycles + after.cycles,
+            activity: std::array::from_fn(|i| self.activity[i] + after.activity[i]),
+            triangles: self.triangles + after.triangles,
+            lines: self.lines + after.lines,
+            spans: self.spans + after.spans,
+            fragments: self.fragments + after.fragments,
+            writes: self.writes + after.writes,
+            setup_clocks: std::array::from_fn(|i| self.setup_clocks[i] + after.setup_clocks[i]),
+            queued_spans: self.queued_spans + after.queued_spans,
+            inflight: self.inflight + after.inflight,
+        }
+    }
+
     /// What came after these.
     #[must_use]
     pub fn since(&self, before: &Counters) -> Counters {

@@ -82,7 +82,7 @@ fn random_own(rng: &mut impl Rng) -> Plan {
         ("screen.width", number(rng.random_range(1..=40))),
         ("screen.height", number(rng.random_range(1..=40))),
         ("screen.guard_bits", number(rng.random_range(6..=9))),
-        ("screen.fill", fill.to_owned()),
+        ("edge.fill", fill.to_owned()),
         ("screen.subpixel_bits", number(subpixel)),
         ("formats.z_bits", number(bits)),
         ("formats.z_vertex", number(0)),

@@ -10,6 +10,7 @@
 
 mod wires;
 mod ports;
+mod light_pass;
 
 mod setup;
 

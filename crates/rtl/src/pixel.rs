@@ -10,6 +10,7 @@ use edgewalk_machine::Plan;
 use edgewalk_machine::units::{pixel::SPEC, tokens};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg, Signal};
 
+use crate::light_pass::LightPass;
 use crate::ports::Interface;
 use crate::wires::{Part, Registers, Token, parts};
 use adder::{Step, Words};
@@ -59,8 +60,9 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let finish = (active.q() & last_phase & last.q()).named_doc("finish", "last clock of the span");
     let span_ready = (advance & (!active.q() | finish)).named("span_ready");
     let load = (span_valid & span_ready).named("load");
-    let visible =
-        x.q().lt(plan.width as i32).named_doc("visible", "on the screen; negative columns are large");
+    let light_pass = LightPass::of(plan, &ports);
+    let columns = light_pass.number(&m, x.q().width(), plan.width.into(), plan.shadow.size.into());
+    let visible = x.q().lt(columns).named_doc("visible", "on the screen; negative columns are large");
     let leaves = (advance & active.q() & last_phase).named_doc("leaves", "this pixel is done");
     let next = (leaves & !finish).named_doc("next_pixel", "another one follows");
     let emit = (active.q() & last_phase & visible).named_doc("emit", "a fragment");
@@ -99,7 +101,12 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let terms = Terms::new(&m, plan, &span, load, next);
 
     m.comment("The output: in each stage the bits of one more segment.");
-    let address = m.cat(&[y.q(), x.q().trunc(plan.widths().x)]);
+    let address = |x_bits: u32| {
+        let (address, bits) = (m.cat(&[y.q(), x.q().trunc(x_bits)]), plan.widths().address);
+        if address.width() > bits { address.trunc(bits) } else { address.zext(bits) }
+    };
+    let of_map = || address(plan.shadow.side_bits());
+    let address = light_pass.choose(address(plan.widths().x), of_map);
     let mut valid = emit;
     let mut before: Option<Token> = None;
     let mut occupied = frag_valid.q();
@@ -118,7 +125,8 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
                 (None, None, "kt") => kt.map(Reg::q),
                 (None, None, own) => terms.output(own).or(drawn.get(own).map(Reg::q)),
             };
-            signal.map(|signal| (f, signal))
+            let kept = |signal| if is_last && f.name == "z" { depth(plan, light_pass, signal) } else { signal };
+            signal.map(kept).map(|signal| (f, signal))
         };
         let source: Token = parts(&tokens::fragment(plan)).into_iter().filter_map(source).collect();
         let registers = Registers::new(&m, &name, source.parts());
@@ -139,6 +147,12 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     ports.status("advance", advance);
     ports.status("occupied", occupied);
     m.finish()
+}
+
+/// Of the map's depths the bits that its words have; the others are 0.
+fn depth<'m>(plan: &Plan, light_pass: LightPass<'m>, z: Signal<'m>) -> Signal<'m> {
+    let bits = plan.shadow.depth_bits;
+    light_pass.choose(z, || if bits < z.width() { z.trunc(bits).zext(z.width()) } else { z })
 }
 
 /// Counts the clocks of a pixel, 0 to T - 1.

@@ -30,6 +30,7 @@ use edgewalk_machine::Plan;
 use edgewalk_machine::units::{setup::SPEC, tokens::EDGES};
 use edgewalk_netlist::{BuildErrors, Module, Netlist};
 
+use crate::light_pass::LightPass;
 use crate::ports::Interface;
 use crate::wires::{Registers, parts};
 use area::Area;
@@ -61,6 +62,7 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let ports = Interface::new(&m, (SPEC.ports)(plan));
     let (tri_valid, triangle) = ports.takes();
     let prim_ready = ports.gives_ready();
+    let light_pass = LightPass::of(plan, &ports);
 
     let control = Control::new(&m, plan, tri_valid, prim_ready);
     let vertices = Vertices::new(&m, plan, &control, &triangle);
@@ -81,7 +83,8 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     }
     let area = Area::new(&m, plan, &control, &vertices);
     let scale = Scale::new(&m, plan, &control, &area);
-    let lines = Lines::new(&m, plan, &control, &vertices, &prim, &area);
+    let screen = lines::Screen { m: &m, plan, light_pass };
+    let lines = Lines::new(&screen, &control, &vertices, &prim, &area);
     let sources = factors::Sources {
         m: &m,
         plan,

@@ -7,6 +7,7 @@ use edgewalk_machine::{Gate, Plan};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
 use crate::fifo::fifo;
+use crate::light_pass::LightPass;
 use crate::ports::Interface;
 use crate::share::share;
 use crate::wires::{Part, Token};
@@ -29,6 +30,11 @@ const TRANSMITS: &str = "
 A word is a depth and, below it, what is left of a light's colour behind all that transmits it: the share of each colour that
 goes on where the texel finds it lit.";
 
+/// And where the machine draws its map.
+const OWN_PASS: &str = "
+
+With light_pass the fragments are those of the map itself: none is looked up, each is lit.";
+
 /// Light-space values, which end here.
 const LIGHT: [&str; 3] = ["lx", "ly", "lz"];
 const COLORS: [&str; 3] = ["r", "g", "b"];
@@ -38,10 +44,14 @@ const COLORS: [&str; 3] = ["r", "g", "b"];
 /// # Errors
 /// None for a machine with SHADOW that [`edgewalk_machine::Machine::plan`] accepts.
 pub fn shadow(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
-    let doc = if plan.shadow.transmits() { format!("{DOC}{TRANSMITS}") } else { DOC.to_owned() };
+    let mut doc = DOC.to_owned();
+    for (has, more) in [(plan.shadow.transmits(), TRANSMITS), (plan.shadow.draws_map(), OWN_PASS)] {
+        doc += if has { more } else { "" };
+    }
     let m = Module::new("edgewalk_shadow", &doc);
     let ports = Interface::new(&m, (SPEC.ports)(plan));
     let shadow_on = ports.constant("shadow_on");
+    let light_pass = LightPass::of(plan, &ports);
     let gate = match plan.shadow.gate {
         Gate::And => None,
         Gate::Scale => Some(ports.constant("ambient")),
@@ -51,7 +61,7 @@ pub fn shadow(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let shaded_ready = ports.gives_ready();
 
     let [tx, ty, d] = LIGHT.map(|name| frag[name]);
-    let found = find(plan, shadow_on, tx, ty, d);
+    let found = find(plan, light_pass.in_picture(shadow_on), tx, ty, d);
 
     m.comment("A fragment enters when the queue has room, in the cycle its texel is read; one that is known is not read for.");
     let queue = m

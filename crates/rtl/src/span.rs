@@ -7,6 +7,7 @@ use edgewalk_machine::{Fill, Plan};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
 use crate::fifo::fifo;
+use crate::light_pass::LightPass;
 use crate::ports::Interface;
 use crate::wires::{Registers, Token, parts};
 
@@ -30,9 +31,11 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let (line_valid, line) = ports.takes();
     let span_ready = ports.gives_ready();
 
+    let (bits, size) = (line["cmaj"].width(), plan.shadow.size);
+    let width = LightPass::of(plan, &ports).number(&m, bits, plan.width.into(), size.into());
     let ends = match plan.fill {
-        Fill::Exact => ends_exact(&m, plan, &line),
-        Fill::Textbook => ends_textbook(&m, plan, &line),
+        Fill::Exact => ends_exact(&m, width, &line),
+        Fill::Textbook => ends_textbook(&m, width, &line),
     };
 
     m.comment("The line held, cut where it ends.");
@@ -104,8 +107,8 @@ struct Ends<'m> {
 }
 
 /// Half-open spans from the major edge inwards, to the right or to the left.
-fn ends_exact<'m>(m: &'m Module, plan: &Plan, line: &Token<'m>) -> Ends<'m> {
-    let (cmaj, cmin, width) = (line["cmaj"], line["cmin"], plan.width as i32);
+fn ends_exact<'m>(m: &'m Module, width: Signal<'m>, line: &Token<'m>) -> Ends<'m> {
+    let (cmaj, cmin) = (line["cmaj"], line["cmin"]);
     m.comment("To the right from cmaj to before cmin, at most to the end of the screen; to the left to cmin, at least to column 0.");
     let right_of_screen =
         cmin.sge(width).named_doc("right_of_screen", "no column of the screen lies right of cmin");
@@ -122,9 +125,8 @@ fn ends_exact<'m>(m: &'m Module, plan: &Plan, line: &Token<'m>) -> Ends<'m> {
 }
 
 /// Spans with both ends, always to the right: a column stands one right of `Trunc(X)`.
-fn ends_textbook<'m>(m: &'m Module, plan: &Plan, line: &Token<'m>) -> Ends<'m> {
+fn ends_textbook<'m>(m: &'m Module, width: Signal<'m>, line: &Token<'m>) -> Ends<'m> {
     let (cmaj, cmin, major_right) = (line["cmaj"], line["cmin"], line["major_right"]);
-    let width = plan.width as i32;
     m.comment("From Trunc(X) of the left edge to Trunc(X) of the right edge, both drawn; a column register is Trunc(X) + 1.");
     let xe = major_right.mux(cmaj, cmin).named_doc("xe", "signed, first column after the line");
     let first = (major_right.mux(cmin, cmaj) - 1).named("first");

@@ -87,6 +87,7 @@ impl Case {
                 "color_write" => case.color_write = flag(key, value)?,
                 "blend_add" => case.blend_add = flag(key, value)?,
                 "shadow_on" => case.shadow_on = flag(key, value)?,
+                "light_pass" => case.light_pass = flag(key, value)?,
                 "ambient" => case.ambient = number(key, value)?,
                 "clear_z" => case.clear_z = Some(number(key, value)?),
                 "late" => case.late = number(key, value)?,
@@ -137,6 +138,7 @@ impl Case {
         line("color_write", self.color_write.into(), usual.color_write.into());
         line("blend_add", self.blend_add.into(), usual.blend_add.into());
         line("shadow_on", self.shadow_on.into(), usual.shadow_on.into());
+        line("light_pass", self.light_pass.into(), usual.light_pass.into());
         line("ambient", whole(self.ambient), whole(0));
         if let Some(fault) = &self.fault {
             line("fault", fault.as_str().into(), Value::from(""));

@@ -25,9 +25,14 @@ impl<'m> Joined<'m> {
             first.instance.connect(&port(link, "valid"), valid);
             token.connect(first.instance, link.name, &parts(&link.fields));
         }
+        let mut constants: Vec<(&str, Signal<'_>)> = Vec::new();
         for Unit { outside, instance } in &self.0 {
             for field in &outside.ports.constants {
-                instance.connect(&field.name, outside.constant(&field.name));
+                // What several units ask for is one input of the machine.
+                let made = constants.iter().find(|(name, _)| *name == field.name);
+                let constant = made.map_or_else(|| outside.constant(&field.name), |(_, constant)| *constant);
+                instance.connect(&field.name, constant);
+                constants.push((&field.name, constant));
             }
         }
         for Unit { outside, instance } in &self.0 {

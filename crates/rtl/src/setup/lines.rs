@@ -7,7 +7,43 @@ use super::area::Area;
 use super::control::Control;
 use super::sort::Vertices;
 use super::steps::Op;
+use crate::light_pass::LightPass;
 use crate::wires::Registers;
+
+/// The columns and lines that are drawn.
+pub(super) struct Screen<'a, 'm> {
+    pub m: &'m Module,
+    pub plan: &'a Plan,
+    pub light_pass: LightPass<'m>,
+}
+
+impl<'m> Screen<'_, 'm> {
+    /// W - 1 columns, 2^-t px.
+    fn last_column(&self, bits: u32) -> Signal<'m> {
+        let t = self.plan.widths().center_fraction;
+        self.number(bits, self.plan.width, |side| (side - 1) << t)
+    }
+
+    /// H - 1 lines, 2^-t px.
+    fn last_center(&self, bits: u32) -> Signal<'m> {
+        let t = self.plan.widths().center_fraction;
+        self.number(bits, self.plan.height, |side| (side - 1) << t)
+    }
+
+    /// H - 1.
+    fn last_line(&self, bits: u32) -> Signal<'m> {
+        self.number(bits, self.plan.height, |side| side - 1)
+    }
+
+    /// H.
+    fn height(&self, bits: u32) -> Signal<'m> {
+        self.number(bits, self.plan.height, |side| side)
+    }
+
+    fn number(&self, bits: u32, side: u32, of: impl Fn(u128) -> u128) -> Signal<'m> {
+        self.light_pass.number(self.m, bits, of(side.into()), of(self.plan.shadow.size.into()))
+    }
+}
 
 /// First lines, signed, G + 2 bits, and how far below the upper ends of edges they lie, 1/P line.
 pub(super) struct Lines<'m> {
@@ -26,17 +62,17 @@ pub(super) struct Lines<'m> {
 impl<'m> Lines<'m> {
     /// j0 and j1 are taken in the clock after the triangle, the counts n1 and n2 of the prim in the clock after that at the latest.
     pub fn new(
-        m: &'m Module,
-        plan: &Plan,
+        screen: &Screen<'_, 'm>,
         control: &Control<'m>,
         vertices: &Vertices<'m>,
         prim: &Registers<'m>,
         area: &Area<'m>,
     ) -> Lines<'m> {
+        let Screen { m, plan, .. } = *screen;
         let counts = ["n1", "n2"].map(|name| prim[name]);
         let (j0, j1) = match plan.fill {
-            Fill::Exact => exact(m, plan, control, vertices, counts),
-            Fill::Textbook => textbook(m, plan, control, vertices, counts),
+            Fill::Exact => exact(screen, control, vertices, counts),
+            Fill::Textbook => textbook(screen, control, vertices, counts),
         };
         let upper = prim["n1"].q().any().named("upper");
         let jm = upper.mux(j0, j1).named_doc("jm", "first line of the triangle");
@@ -57,11 +93,12 @@ impl<'m> Lines<'m> {
 /// No column of pixel centres of the screen lies between the leftmost and the rightmost vertex: k1 ≤ k0. As k0 is the least of
 /// the three ceil(u/P) or 0, and k1 the largest or W, that is so where all three are equal, none is above 0, or none below W; so
 /// neither vertex needs to be found.
-fn no_column<'m>(m: &'m Module, plan: &Plan, vertices: &Vertices<'m>) -> Signal<'m> {
+fn no_column<'m>(screen: &Screen<'_, 'm>, vertices: &Vertices<'m>) -> Signal<'m> {
+    let Screen { m, plan, .. } = *screen;
     m.comment("Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.");
     let (bits, t) = (plan.widths().column, plan.widths().center_fraction);
     let u = [0, 1, 2].map(|place| vertices.u(place));
-    let last = m.lit(u[0].width(), (u128::from(plan.width) - 1) << t);
+    let last = screen.last_column(u[0].width());
     let columns = u.map(|u| u.slice(u.width() - 1, t).sext(bits) + u.trunc(t).any().zext(bits));
     let column = |place: usize| columns[place].named_doc(&format!("column{place}"), "ceil(u/P)");
     let [a, b, c] = [column(0), column(1), column(2)];
@@ -83,21 +120,21 @@ fn at_most<'m>(a: Signal<'m>, b: Signal<'m>) -> Signal<'m> {
 /// Centres from vertex to vertex, the upper end included, the lower not. As v is sorted, each end may be cut to the screen by
 /// itself; a triangle wholly above or below has all of them at the same side.
 fn exact<'m>(
-    m: &'m Module,
-    plan: &Plan,
+    screen: &Screen<'_, 'm>,
     control: &Control<'m>,
     vertices: &Vertices<'m>,
     counts: [Reg<'m>; 2],
 ) -> (Signal<'m>, Signal<'m>) {
+    let Screen { m, plan, .. } = *screen;
     m.comment("Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.");
     let (bits, t) = (plan.widths().column, plan.widths().center_fraction);
     let line = |place: usize, name: &str| {
         let v = vertices.v(place);
-        let last = m.lit(v.width(), (u128::from(plan.height) - 1) << t);
+        let last = screen.last_center(v.width());
         let up = v.trunc(t).any().zext(bits);
         let ceil =
             (v.slice(v.width() - 1, t).sext(bits) + up).named_doc(&format!("line{place}"), "ceil(v/P)");
-        let on_screen = v.sle(last).mux(ceil, m.lit(bits, plan.height.into()));
+        let on_screen = v.sle(last).mux(ceil, screen.height(bits));
         let j = m.reg(name, bits).doc("line of the screen").when(control.begin, v.msb().mux(0, on_screen));
         j.q()
     };
@@ -108,7 +145,7 @@ fn exact<'m>(
     };
     count(n1, j1 - j0);
     count(n2, end - j1);
-    let outside = no_column(m, plan, vertices);
+    let outside = no_column(screen, vertices);
     let outside = m.reg("no_column", 1).doc("no column of the screen").when(control.begin, outside).q();
     control.nothing.drive(j0.eq(end) | outside);
     (j0, j1)
@@ -116,12 +153,12 @@ fn exact<'m>(
 
 /// Lines from vertex to vertex, both included; a part without height has none.
 fn textbook<'m>(
-    m: &'m Module,
-    plan: &Plan,
+    screen: &Screen<'_, 'm>,
     control: &Control<'m>,
     vertices: &Vertices<'m>,
     counts: [Reg<'m>; 2],
 ) -> (Signal<'m>, Signal<'m>) {
+    let Screen { m, plan, .. } = *screen;
     m.comment("Lines of each part: from Y of the upper to Y of the lower end, both drawn, on the screen.");
     let (bits, t) = (plan.widths().column, plan.widths().center_fraction);
     let y = |place: usize| vertices.v(place).slice(plan.widths().center - 1, t).sext(bits);
@@ -129,7 +166,7 @@ fn textbook<'m>(
     let lines = [0, 1].map(|part| {
         let first = first(part);
         let last =
-            at_most(y(part + 1), m.lit(bits, u128::from(plan.height) - 1)).named(&format!("last{part}"));
+            at_most(y(part + 1), screen.last_line(bits)).named(&format!("last{part}"));
         let some = (y(part).slt(y(part + 1)) & first.sle(last)).named(&format!("some{part}"));
         let n = counts[part];
         n.when(control.begin, some.mux(last - first + 1, 0).trunc(n.q().width()));

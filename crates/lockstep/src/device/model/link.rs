@@ -16,6 +16,15 @@ pub struct Scope<'a> {
     pub owner: &'static str,
 }
 
+/// Whether the map is drawn, not the picture.
+pub struct LightPass(Option<PortId>);
+
+impl LightPass {
+    pub fn is_high(&self, ports: &PortValues) -> bool {
+        self.0.is_some_and(|port| ports.is_high(port))
+    }
+}
+
 impl<'a> Scope<'a> {
     /// The unit of the interface itself.
     pub fn alone(plan: &'a Plan, interface: &'a Interface) -> Scope<'a> {
@@ -26,6 +35,12 @@ impl<'a> Scope<'a> {
     pub fn port(&self, name: &str) -> Result<PortId, NoPlace> {
         let found = self.interface.port(&format!("{}.{name}", self.owner));
         found.map(|port| port.id).ok_or_else(|| self.missing(name))
+    }
+
+    /// The input `light_pass`, where the machine draws its map.
+    pub fn light_pass(&self) -> Result<LightPass, NoPlace> {
+        let there = self.plan.shadow.draws_map();
+        Ok(LightPass(there.then(|| self.port("light_pass")).transpose()?))
     }
 
     fn link(&self, name: &str) -> Result<(usize, &'a Link), NoPlace> {

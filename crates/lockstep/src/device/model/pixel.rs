@@ -1,6 +1,6 @@
 //! PIXEL.
 
-use super::link::{Giver, HeldWords, Scope, Taker};
+use super::link::{Giver, HeldWords, LightPass, Scope, Taker};
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
 use crate::device::terms::{TermFragment, TermSpan};
@@ -51,6 +51,7 @@ pub struct PixelDevice<const C: usize> {
     events: Events,
     span: Taker<TermSpan<C>>,
     inc: HeldWords,
+    light_pass: LightPass,
     shown: PixelPorts<C>,
 }
 
@@ -62,6 +63,7 @@ impl<const C: usize> PixelDevice<C> {
             events: Events::default(),
             span: scope.taker("span")?,
             inc: scope.held("span")?,
+            light_pass: scope.light_pass()?,
             shown: PixelPorts::find(scope)?,
         })
     }
@@ -74,7 +76,8 @@ impl<const C: usize> Device for PixelDevice<C> {
         let (span, (gradient, kt)) = (self.span.token(ports), self.inc.read(ports));
         let walked = || span.as_ref().map_or_else(Walked::default, |span| span.walked);
         let plain = span.as_ref().map(|span| &span.span);
-        self.unit.step(plain, &gradient, kt, walked, ready, &mut self.events);
+        let light_pass = self.light_pass.is_high(ports);
+        self.unit.step(plain, (&gradient, kt), walked, ready, light_pass, &mut self.events);
         if ports.rst {
             self.unit.reset();
         }

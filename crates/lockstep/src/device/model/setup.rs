@@ -1,6 +1,6 @@
 //! SETUP.
 
-use super::link::{Giver, Scope};
+use super::link::{Giver, LightPass, Scope};
 use super::{ModelDevice, NoPlace};
 use crate::device::{Device, Triangles};
 use crate::interface::{Interface, Link};
@@ -56,16 +56,19 @@ pub struct SetupDevice<const C: usize> {
     unit: Setup<C>,
     events: Events,
     tri: TriangleTaker,
+    light_pass: LightPass,
     shown: SetupPorts<C>,
 }
 
 impl<const C: usize> SetupDevice<C> {
     pub fn new(plan: &Plan, interface: &Interface) -> Result<Self, NoPlace> {
+        let scope = Scope::alone(plan, interface);
         Ok(SetupDevice {
             unit: Setup::new(plan),
             events: Events::default(),
             tri: TriangleTaker::find(plan, interface)?,
-            shown: SetupPorts::find(Scope::alone(plan, interface))?,
+            light_pass: scope.light_pass()?,
+            shown: SetupPorts::find(scope)?,
         })
     }
 }
@@ -76,7 +79,8 @@ impl<const C: usize> Device for SetupDevice<C> {
         self.shown.show(&self.unit, ports);
         let triangle = self.tri.token(ports);
         let triangle = triangle.as_ref().map(|(vertices, tag)| (vertices, *tag));
-        self.unit.step(triangle, ports.is_high(self.shown.prim.ready), &mut self.events);
+        let (ready, light_pass) = (ports.is_high(self.shown.prim.ready), self.light_pass.is_high(ports));
+        self.unit.step(triangle, ready, light_pass, &mut self.events);
         if ports.rst {
             self.unit.reset();
         }

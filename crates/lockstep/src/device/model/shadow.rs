@@ -1,6 +1,6 @@
 //! SHADOW.
 
-use super::link::{Giver, Scope, Taker};
+use super::link::{Giver, LightPass, Scope, Taker};
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
 use crate::interface::Interface;
@@ -51,6 +51,7 @@ pub struct MapPorts {
     mdata_ready: PortId,
     mdata_word: PortId,
     shadow_on: PortId,
+    light_pass: LightPass,
     ambient: Option<PortId>,
 }
 
@@ -66,6 +67,7 @@ impl MapPorts {
             mdata_ready: scope.port("mdata_ready")?,
             mdata_word: scope.port(word)?,
             shadow_on: scope.port("shadow_on")?,
+            light_pass: scope.light_pass()?,
             ambient: scales.then(|| scope.port("ambient")).transpose()?,
         })
     }
@@ -74,6 +76,7 @@ impl MapPorts {
         let word = || ports[self.mdata_word] as u64; // at most 32 bits
         ShadowInputs {
             on: ports.is_high(self.shadow_on),
+            light_pass: self.light_pass.is_high(ports),
             ambient: self.ambient.map_or(0, |port| ports[port] as u32), // at most 16 bits
             mrd_ready: ports.is_high(self.mrd_ready),
             mdata: ports.is_high(self.mdata_valid).then(word),
@@ -115,7 +118,7 @@ impl<const C: usize> Device for ShadowDevice<C> {
     fn cycle(&mut self, ports: &mut PortValues) {
         let (frag, inputs) = (self.frag.token(ports), self.map.inputs(ports));
         let ready = ports.is_high(self.shaded_ready);
-        self.map.show(self.unit.read(frag.as_ref(), inputs.on), self.unit.mdata_ready(ready), ports);
+        self.map.show(self.unit.read(frag.as_ref(), &inputs), self.unit.mdata_ready(ready), ports);
         self.shown.show(&self.unit, frag.as_ref(), &inputs, ports);
         let taken = ready && self.unit.shaded(&inputs).is_some();
         self.unit.step(frag.as_ref(), &inputs, taken, &mut self.events);

@@ -1,6 +1,6 @@
 //! SPAN.
 
-use super::link::{Giver, Scope, Taker};
+use super::link::{Giver, LightPass, Scope, Taker};
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
 use crate::interface::Interface;
@@ -41,6 +41,7 @@ pub struct SpanDevice<const C: usize> {
     unit: Span<C>,
     events: Events,
     line: Taker<Line<C>>,
+    light_pass: LightPass,
     shown: SpanPorts<C>,
 }
 
@@ -51,6 +52,7 @@ impl<const C: usize> SpanDevice<C> {
             unit: Span::new(plan),
             events: Events::default(),
             line: scope.taker("line")?,
+            light_pass: scope.light_pass()?,
             shown: SpanPorts::find(scope)?,
         })
     }
@@ -60,7 +62,8 @@ impl<const C: usize> Device for SpanDevice<C> {
     fn cycle(&mut self, ports: &mut PortValues) {
         let line = self.line.token(ports);
         self.shown.show(&self.unit, ports);
-        self.unit.step(line.as_ref(), ports.is_high(self.shown.span.ready), &mut self.events);
+        let (ready, light_pass) = (ports.is_high(self.shown.span.ready), self.light_pass.is_high(ports));
+        self.unit.step(line.as_ref(), ready, light_pass, &mut self.events);
         if ports.rst {
             self.unit.reset();
         }
