@@ -47,6 +47,7 @@ fn alone(unit: Unit, seed: u64) {
         case.color_write = rng.random_bool(0.9);
         case.blend_add = rng.random_bool(0.3);
         case.shadow_on = rng.random_bool(0.9);
+        case.light_pass = plan.shadow.draws_map() && rng.random();
         case.ambient = rng.random_range(0..=plan.color.max());
         case.clear_z = Some(rng.random_range(0..=few(&plan)));
         case.late = rng.random_range(0..3);

@@ -51,6 +51,7 @@ fn random_case(plan: &Plan, rng: &mut Pcg64Mcg) -> Case {
     case.color_write = rng.random_bool(0.9);
     case.blend_add = rng.random_bool(0.3);
     case.shadow_on = rng.random_bool(0.9);
+    case.light_pass = plan.shadow.draws_map() && rng.random();
     case.ambient = rng.random_range(0..=plan.color.max());
     case.clear_z = rng.random_bool(0.3).then(|| plan.z.max().div_ceil(2));
     case.late = if rng.random_bool(0.3) { rng.random_range(1..8) } else { 0 };
@@ -113,9 +114,10 @@ fn whole_machines(count: usize) {
     machines.iter().for_each(|plan| extra[plan.extra as usize] += 1);
     let channels = machines.iter().flat_map(|plan| plan.channels());
     let signed = channels.filter(|channel| channel.kind != Kind::Unorm).count();
-    println!("{count} machines, {extra:?} with 0 to 4 extra channels, {signed} of them signed");
+    let maps = machines.iter().filter(|plan| plan.shadow.draws_map()).count();
+    println!("{count} machines, {extra:?} with 0 to 4 extra channels, {signed} of them signed; {maps} draw their map");
     report(&all);
-    assert!(extra.iter().all(|machines| machines * 20 >= count) && signed > count);
+    assert!(extra.iter().all(|machines| machines * 20 >= count) && signed > count && maps * 20 > count);
     // A triangle that a reset took from the machine is not offered again, one in the cycle of the reset is.
     let given: u64 = shares.iter().sum();
     assert!(all.tokens >= given * 9 / 10 && all.compared > 10 * all.cycles);

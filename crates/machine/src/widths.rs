@@ -40,7 +40,7 @@ impl Machine {
             column: self.guard_bits + 2,
             x,
             y: y.max(side),
-            address: (x + y).max(2 * side),
+            address: x.max(side) + y.max(side),
         }
     }
 }

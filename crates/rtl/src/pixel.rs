@@ -103,10 +103,9 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     m.comment("The output: in each stage the bits of one more segment.");
     let address = |x_bits: u32| {
         let (address, bits) = (m.cat(&[y.q(), x.q().trunc(x_bits)]), plan.widths().address);
-        if address.width() > bits { address.trunc(bits) } else { address.zext(bits) }
+        if address.width() < bits { address.zext(bits) } else { address }
     };
-    let of_map = || address(plan.shadow.side_bits());
-    let address = light_pass.choose(address(plan.widths().x), of_map);
+    let address = light_pass.choose(address(plan.widths().x), || address(plan.shadow.side_bits()));
     let mut valid = emit;
     let mut before: Option<Token> = None;
     let mut occupied = frag_valid.q();

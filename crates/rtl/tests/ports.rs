@@ -122,6 +122,11 @@ fn ports_of_a_machine_with_shadow_whose_map_transmits() {
 }
 
 #[test]
+fn ports_of_a_machine_that_draws_its_map() {
+    check("own_pass.txt", include_str!("ports/own_pass.txt"));
+}
+
+#[test]
 fn ports_of_a_machine_that_shades() {
     check("shade.txt", include_str!("ports/shade.txt"));
 }

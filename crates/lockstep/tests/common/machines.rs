@@ -3,7 +3,7 @@
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{
-    BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeColour, ShadowLight, Texture,
+    BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeColour, ShadowLight, Texture, Transmits,
 };
 use rand::Rng;
 use rand::seq::IndexedRandom;
@@ -64,6 +64,13 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     light.vertex_fraction = light.vertex_fraction.min(light.fraction);
     if machine.extra > 2 && rng.random() {
         light.light = ShadowLight::None; // it leaves no room for so many channels of the user's own
+    }
+    if light.draws_map() {
+        light.size = light.size.min(1 << machine.guard_bits);
+        light.depth_bits = light.depth_bits.min(machine.z.bits);
+        if light.transmits() && kt.kind == BlendKind::None {
+            light.transmits = Transmits::No; // BLEND would draw that plane
+        }
     }
     if light.projects() && kt.kind == BlendKind::Interpolated {
         kt.kind = BlendKind::Constant; // there are eight channels at most

@@ -1,8 +1,10 @@
 //! Tokens for a unit alone: such as the rest of the machine would rarely give it.
 
-use super::triangles::random_triangle;
+use super::triangles::{random_triangle, sides};
 use edgewalk_lockstep::{Direction, Interface, Port, Rig, Setting, Token, Triangles, Unit, model};
+use edgewalk_lockstep::case::constants;
 use edgewalk_machine::{Fill, Plan};
+use edgewalk_model::DrawState;
 use rand::seq::IndexedRandom;
 use rand::{Rng, RngCore};
 use rand_pcg::Pcg64Mcg;
@@ -40,7 +42,8 @@ fn prims(plan: &Plan, count: usize, rng: &mut Pcg64Mcg) -> Vec<Token> {
     let setup = Interface::new(plan, Unit::named("setup").expect("declared"));
     // A triangle in so many is not culled, in nearly any machine.
     let tokens = triangles(plan, 20 * count, rng);
-    let setting = Setting { tokens, ..Setting::willing(&setup, &[]).expect("SETUP has no constants") };
+    let picture = constants(&DrawState::default());
+    let setting = Setting { tokens, ..Setting::willing(&setup, &picture).expect("those of a picture") };
     let (mut rig, mut ports) = (Rig::new(&setup, setting), setup.values());
     let mut device = model(plan, &setup).expect("the model has SETUP");
     let out = setup.links_of(Direction::Out).next().expect("SETUP gives prims");
@@ -79,7 +82,7 @@ fn cosine(plan: &Plan, bits: u32, rng: &mut Pcg64Mcg) -> i128 {
 
 /// Random bits, but columns and lines around the screen, short spans, few addresses and few depths, so that they meet.
 fn token(plan: &Plan, fields: &[Port], rng: &mut Pcg64Mcg) -> Token {
-    let (width, height) = (i128::from(plan.width), i128::from(plan.height));
+    let [width, height] = sides(plan, rng).map(i128::from);
     let fresh = rng.random_bool(0.3);
     // kt: 0, 1, more than 1, or anything.
     let one = 1i128 << plan.blend.kt_bits;

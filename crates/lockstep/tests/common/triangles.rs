@@ -12,7 +12,7 @@ type Vertex = (i32, i32, Vec<i64>);
 pub fn random_triangle(plan: &Plan, rng: &mut Pcg64Mcg) -> [PortVertex; 3] {
     let unit = 1 << plan.subpixel_bits;
     let limit = ((1 << plan.guard_bits) - 1) * unit;
-    let (width, height) = (plan.width as i32 * unit, plan.height as i32 * unit);
+    let [width, height] = sides(plan, rng).map(|side| side as i32 * unit);
     // How far the vertices lie from a point, and where that may be.
     let reach = match rng.random_range(0..8) {
         0..4 => 3 * unit,
@@ -30,6 +30,12 @@ pub fn random_triangle(plan: &Plan, rng: &mut Pcg64Mcg) -> [PortVertex; 3] {
     });
     corner(plan, rng, &mut triangle);
     triangle.map(|(x, y, values)| plan.raw_vertex(x, y, &values))
+}
+
+/// Columns and lines of the screen, or of the map if the machine draws it.
+pub fn sides(plan: &Plan, rng: &mut Pcg64Mcg) -> [u32; 2] {
+    let of_map = plan.shadow.draws_map() && rng.random();
+    if of_map { [plan.shadow.size; 2] } else { [plan.width, plan.height] }
 }
 
 /// A triangle that covers the pixel (x, y) and little else, if it fits in the guard band.
