@@ -9,6 +9,7 @@ mod interface;
 mod kept;
 mod lights;
 mod memory;
+mod own_pass;
 mod tables;
 mod units;
 mod whole;

@@ -38,9 +38,10 @@ fn possible(trace: &Trace, name: &str) -> bool {
         name if name.starts_with("color_") => blends,
         "interlock_stall" => state.depth_write,
         "forward_write" | "forward_used" | "forward_compare" => state.depth_write && state.depth_func != 0,
-        "shadow_off" => !state.shadow_on,
+        "own_map" => state.light_pass,
+        "shadow_off" => !state.shadow_on && !state.light_pass,
         "outside_map" | "before_map" | "behind_map" | "texel_lit" | "texel_shadow" | "texel_tie"
-        | "texel_wait" | "map_stall" | "known_behind_read" => state.shadow_on,
+        | "texel_wait" | "map_stall" | "known_behind_read" => state.shadow_on && !state.light_pass,
         "depth_fail" => state.depth_func != 7,
         _ => true,
     }

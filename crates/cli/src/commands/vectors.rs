@@ -32,7 +32,7 @@ pub struct Args {
     #[arg(long, requires = "input", value_parser = clap::value_parser!(u64).range(1..))]
     triangles: Option<u64>,
     /// Suites: hazards, corners, random, sphere, depth_never to depth_always, depth_unwritten, with BLEND blend_add and
-    /// color_unwritten, with SHADOW light and light_off, with SHADE shade; without an input all of them if left out
+    /// color_unwritten, with SHADOW light and light_off, own_map and own_picture where it draws its map, with SHADE shade; without an input all of them if left out
     #[arg(long, value_name = "NAME")]
     suite: Vec<String>,
     /// Units: machine, setup, edge, span, term, pixel, texel, normal, shade, project, shadow, depth, blend; all that a suite is for if left out
@@ -118,6 +118,7 @@ pub fn of_input(input: &str, machine: &Plan, port: &PortFrame, triangles: Option
     let state = port.one_state()?;
     Ok(Suite {
         shadow_on: state.shadow_on,
+        light_pass: state.light_pass,
         ambient: state.ambient,
         words: words_of_input(machine, port, every)?,
         depth_func: state.depth_func,

@@ -8,6 +8,7 @@
 //!  depth_never ..   a suite for each depth function, and one without depth writes
 //!  blend_add ..     machines with BLEND: colours that are added, and colours that are not written
 //!  light ..         machines with SHADOW: the corners of its map, and no map
+//!  own_map ..       machines that draw their map: the ends of map and screen, in either pass
 //!  shade            machines with SHADE: words at the ends of its tables, materials in turn
 //! ```
 //! A suite knows the formats of the machine, nothing of what it draws.
@@ -16,6 +17,7 @@ mod corners;
 mod functions;
 mod hazards;
 mod light;
+mod own_map;
 mod pen;
 mod random;
 mod shade;
@@ -64,6 +66,8 @@ pub struct Suite {
     pub blend_add: bool,
     /// SHADOW looks up its map; of no meaning without it.
     pub shadow_on: bool,
+    /// The map is drawn, not the picture; of no meaning where somebody else draws it.
+    pub light_pass: bool,
     /// What SHADOW leaves of a colour in shadow, where its gate scales, LSB.
     pub ambient: u64,
     /// What the memories hold that nobody writes.
@@ -95,6 +99,8 @@ enum Kind {
     Colors { color_write: bool, blend_add: bool },
     /// For SHADOW: its map at work or not.
     Light { shadow_on: bool },
+    /// For machines that draw their map: in the light's pass or in the picture's.
+    OwnMap { light_pass: bool },
     /// For TERM, TEXEL, NORMAL and SHADE: words of its own.
     Shade,
 }
@@ -119,6 +125,7 @@ impl Entry {
         match self.kind {
             Kind::Colors { .. } => machine.blend.is_there(),
             Kind::Light { .. } => machine.shadow.is_there(),
+            Kind::OwnMap { .. } => machine.shadow.draws_map(),
             Kind::Shade => machine.shade.is_there(),
             Kind::Shapes(..) | Kind::Function(..) => true,
         }
@@ -126,7 +133,7 @@ impl Entry {
 }
 
 /// The suites that come with the program.
-pub const SUITES: [Entry; 18] = [
+pub const SUITES: [Entry; 20] = [
     shapes(
         "hazards",
         "pixels met again while they are in flight: one-pixel triangles on one address, knee lines drawn twice",
@@ -176,6 +183,16 @@ pub const SUITES: [Entry; 18] = [
         name: "light_off",
         about: "shadow_on = 0: all is lit, in machines with SHADOW",
         kind: Kind::Light { shadow_on: false },
+    },
+    Entry {
+        name: "own_map",
+        about: "light_pass = 1: what lies around the ends of the map and of the screen, in machines that draw their map",
+        kind: Kind::OwnMap { light_pass: true },
+    },
+    Entry {
+        name: "own_picture",
+        about: "the same with light_pass = 0",
+        kind: Kind::OwnMap { light_pass: false },
     },
     Entry {
         name: "shade",
@@ -248,6 +265,22 @@ impl Suite {
                 cases: light::cases(machine),
                 ..plain
             },
+            Kind::OwnMap { light_pass } => Suite {
+                light_pass,
+                clear_z: light_pass.then_some((1 << machine.shadow.depth_bits) - 1),
+                stalls: StallKind::Late,
+                units: const {
+                    &[
+                        Unit::MACHINE,
+                        Unit::of(&units::setup::SPEC),
+                        Unit::of(&units::span::SPEC),
+                        Unit::of(&units::pixel::SPEC),
+                        Unit::of(&units::shadow::SPEC),
+                    ]
+                },
+                cases: own_map::cases(machine),
+                ..plain
+            },
             Kind::Shade => {
                 let (cases, records) = shade::cases(machine);
                 let words = words::with_records(machine, seed, &records);
@@ -272,6 +305,7 @@ impl Suite {
             color_write: less.color_write,
             blend_add: less.blend_add,
             shadow_on: less.shadow_on,
+            light_pass: less.light_pass,
             ambient: less.ambient,
             words: Words::new(),
             stalls: StallKind::Mixed,
@@ -289,9 +323,10 @@ impl Suite {
     /// The state that the suite is drawn with.
     #[must_use]
     pub fn state(&self) -> DrawState {
-        let Suite { depth_func, depth_write, color_write, blend_add, shadow_on, ambient, .. } = *self;
+        let Suite { depth_func, depth_write, color_write, blend_add, .. } = *self;
+        let Suite { shadow_on, light_pass, ambient, .. } = *self;
         let clear = [0; 3];
-        DrawState { depth_func, depth_write, color_write, blend_add, shadow_on, ambient, clear }
+        DrawState { depth_func, depth_write, color_write, blend_add, shadow_on, light_pass, ambient, clear }
     }
 
     /// One suite after the other, as one.
@@ -301,7 +336,8 @@ impl Suite {
         for suite in suites {
             joined.seed = joined.seed.max(suite.seed);
             // The light is the machine's, and so are tables; a record is a triangle's.
-            (joined.shadow_on, joined.ambient) = (suite.shadow_on, suite.ambient);
+            (joined.shadow_on, joined.light_pass, joined.ambient) =
+                (suite.shadow_on, suite.light_pass, suite.ambient);
             for (memory, words) in suite.words {
                 match joined.words.get_mut(memory) {
                     Some(before) if memory == words::RECORDS => {
