@@ -12,9 +12,9 @@ use edgewalk_numerics::Steps;
 pub fn prim<const C: usize>(machine: &Plan, triangle: &[PortVertex; 3]) -> Option<Prim<C>> {
     let events = &mut Events::default();
     let mut setup = Setup::new(machine);
-    setup.step(Some((triangle, 0)), false, events);
+    setup.step(Some((triangle, 0)), false, false, events);
     while setup.prim().is_none() && !setup.tri_ready() {
-        setup.step(None, false, events);
+        setup.step(None, false, false, events);
     }
     setup.prim().copied()
 }
@@ -58,8 +58,8 @@ fn each_fragment<const C: usize>(
     let mut lines = 0;
     while let Some(line) = edge.line().copied() {
         let mut spans = Span::new(machine);
-        spans.step(Some(&line), false, events);
-        spans.step(None, false, events); // from its register into the queue
+        spans.step(Some(&line), false, false, events);
+        spans.step(None, false, false, events); // from its register into the queue
         if let Some(span) = spans.span() {
             let direction = if span.leftward { -1 } else { 1 };
             let mut values = span.values;

@@ -12,7 +12,7 @@ use edgewalk_explore::raster::{from_machine, from_model, of_port};
 use edgewalk_golden::Drawing;
 use edgewalk_lockstep::StallKind;
 use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::{Frame as Drawn, Waits, render_shaded};
+use edgewalk_model::{Frame as Drawn, Pass, Shading, Waits, render_shaded};
 use edgewalk_scene::Frame;
 use std::ops::Range;
 
@@ -69,29 +69,35 @@ pub fn draw_port(
     if matches!(engine, Engine::Fast | Engine::Golden) {
         return Ok(of_port(draw::draw_frame(machine, port, waits)?.raster(machine), port));
     }
-    let bar = bar(port.triangles.len() as u64, "triangles", quiet || waits != Waits::Never);
-    let triangles = bar.wrap_iter(port.triangles.iter().copied());
-    let raster = match engine {
-        Engine::Jit => from_machine(machine, native(machine, triangles, port)?),
-        Engine::Rtl => from_machine(machine, interpreted(machine, triangles, port)?),
-        _ => {
-            let (passes, maps, words) = (&port.passes, &port.maps(), port.words());
-            from_model(machine, render_shaded(machine, triangles, passes, maps, waits, words, |_| {})?)
-        }
+    let (triangles, passes, maps) = port.sent();
+    let bar = bar(triangles.len() as u64, "triangles", quiet || waits != Waits::Never);
+    let triangles = bar.wrap_iter(triangles.iter().copied());
+    let sent = (&*passes, &*maps, port.words());
+    let drawn = match engine {
+        Engine::Jit => native(machine, triangles, sent)?,
+        Engine::Rtl => interpreted(machine, triangles, sent)?,
+        _ => render_shaded(machine, triangles, &passes, &maps, waits, port.words(), |_| {})?,
     };
     bar.finish_and_clear();
-    Ok(of_port(raster, port))
+    let (drawn, lights) = port.apart(drawn);
+    let raster = match engine {
+        Engine::Jit | Engine::Rtl => from_machine(machine, drawn),
+        _ => from_model(machine, drawn),
+    };
+    Ok(of_port(Raster { lights, ..raster }, port))
 }
+
+/// Passes, maps that are there, and what the memories behind TERM and SHADE hold.
+type Sent<'a> = (&'a [Pass], &'a [Vec<u32>], &'a Shading);
 
 /// The netlist's frame, by the interpreter.
 fn interpreted(
     machine: &Plan,
     triangles: impl Iterator<Item = [PortVertex; 3]>,
-    port: &PortFrame,
+    (passes, maps, words): Sent,
 ) -> Result<Drawn> {
-    let (passes, maps) = (&port.passes, &port.maps());
     let drawn =
-        edgewalk_lockstep::render_rtl_passes(machine, triangles, passes, maps, StallKind::None, port.words());
+        edgewalk_lockstep::render_rtl_passes(machine, triangles, passes, maps, StallKind::None, words);
     drawn.map_err(|e| anyhow!("{e}"))
 }
 
@@ -100,10 +106,9 @@ fn interpreted(
 fn native(
     machine: &Plan,
     triangles: impl Iterator<Item = [PortVertex; 3]>,
-    port: &PortFrame,
+    (passes, maps, words): Sent,
 ) -> Result<Drawn> {
     let mut device = native::Native::new(&machine.tagged())?;
-    let (passes, maps) = (&port.passes, &port.maps());
     let drawn = edgewalk_lockstep::render_on(
         &mut device,
         machine,
@@ -111,13 +116,13 @@ fn native(
         passes,
         maps,
         StallKind::None,
-        port.words(),
+        words,
     );
     drawn.map_err(|e| anyhow!("{e}"))
 }
 
 #[cfg(not(feature = "jit"))]
-fn native(_: &Plan, _: impl Iterator<Item = [PortVertex; 3]>, _: &PortFrame) -> Result<Drawn> {
+fn native(_: &Plan, _: impl Iterator<Item = [PortVertex; 3]>, _: Sent) -> Result<Drawn> {
     Err(anyhow!(
         "--engine jit: this edgewalk was built without the feature jit; \
          build one that has it with `cargo build --release --features jit`, or draw with --engine rtl"

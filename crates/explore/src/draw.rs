@@ -1,7 +1,7 @@
 //! A frame through golden, or through a machine.
 
 use crate::port::{PortFrame, to_port};
-use crate::raster::{Raster, from_fast, from_golden, golden_fill, of_port};
+use crate::raster::{LightPass, Raster, from_fast, from_golden, golden_fill, of_port};
 use anyhow::Result;
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::fast::{Path, Reason, Refusal, Renderer};
@@ -31,17 +31,19 @@ pub fn draw_frame(machine: &Plan, port: &PortFrame, waits: Waits) -> Result<Draw
     if port.shade.is_some() {
         let triangles = port.triangles.iter().copied();
         let frame = render_shaded(machine, triangles, &port.passes, &[], waits, port.words(), |_| {})?;
-        return Ok(Drawn::Ticked(frame, Reason::Shade));
+        return Ok(Drawn::Ticked(frame, Reason::Shade, Vec::new()));
     }
     match &port.passes[..] {
         [pass] if port.lights.is_empty() => {
             draw(machine, pass.state, waits, || Ok(port.triangles.iter().copied().map(Ok)))
         }
-        passes => {
-            let triangles = port.triangles.iter().copied();
+        _ => {
             let why = if port.lights.is_empty() { Reason::Passes } else { Reason::Shadow };
-            let drawn = render_passes(machine, triangles, passes, &port.maps(), waits, |_| {})?;
-            Ok(Drawn::Ticked(drawn, why))
+            let (triangles, passes, maps) = port.sent();
+            let triangles = triangles.iter().copied();
+            let (drawn, lights) =
+                port.apart(render_passes(machine, triangles, &passes, &maps, waits, |_| {})?);
+            Ok(Drawn::Ticked(drawn, why, lights))
         }
     }
 }
@@ -50,8 +52,8 @@ pub fn draw_frame(machine: &Plan, port: &PortFrame, waits: Waits) -> Result<Draw
 pub enum Drawn {
     /// Without ticking; its pixels are still as the machine stores them.
     Fast(Renderer),
-    /// Cycle by cycle, for this reason.
-    Ticked(Frame, Reason),
+    /// Cycle by cycle, for this reason; with the maps that the machine drew before.
+    Ticked(Frame, Reason, Vec<LightPass>),
 }
 
 impl Drawn {
@@ -60,7 +62,7 @@ impl Drawn {
     pub fn triangles(&self) -> u64 {
         match self {
             Drawn::Fast(renderer) => renderer.counters().triangles,
-            Drawn::Ticked(frame, _) => frame.counters.triangles,
+            Drawn::Ticked(frame, ..) => frame.counters.triangles,
         }
     }
 
@@ -69,7 +71,9 @@ impl Drawn {
     pub fn raster(self, machine: &Plan) -> Raster {
         match self {
             Drawn::Fast(renderer) => from_fast(machine, renderer.frame(), Path::Fast),
-            Drawn::Ticked(frame, reason) => from_fast(machine, frame, Path::Ticked(reason)),
+            Drawn::Ticked(frame, reason, lights) => {
+                Raster { lights, ..from_fast(machine, frame, Path::Ticked(reason)) }
+            }
         }
     }
 
@@ -109,7 +113,7 @@ where
 {
     let ticked = |open: &mut dyn FnMut() -> Result<I>, reason| {
         let frame = until_error(open()?, |triangles| render(machine, triangles, state, waits))??;
-        Ok(Drawn::Ticked(frame, reason))
+        Ok(Drawn::Ticked(frame, reason, Vec::new()))
     };
     if waits != Waits::Never {
         return ticked(&mut open, Reason::Memory);

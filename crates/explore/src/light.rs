@@ -1,4 +1,5 @@
-//! A light on the machine: where each vertex lies in its map, and the map, drawn by the machine with the map for a screen.
+//! A light on the machine: where each vertex lies in its map, and the map, drawn by a machine with the map for a screen, or by the machine itself
+//! in the light's own pass.
 //!
 //! ```text
 //!  L lines ──> machine of SIZE x SIZE, z of bz bits ──> depths ───────────────────────┬──> words of the map
@@ -156,6 +157,16 @@ pub struct Map {
     pub words: Vec<u32>,
     /// Of the light's own pass.
     pub counters: Counters,
+    /// Where the machine draws the map itself, what it is sent.
+    pub own: Option<Sent>,
+}
+
+/// What is sent for a map to be drawn: what hides the light, and in a map with shares what transmits it.
+pub struct Sent {
+    /// The triangles at the port.
+    pub triangles: Vec<[PortVertex; 3]>,
+    /// One after the other; the map is cleared before the first.
+    pub passes: Vec<Pass>,
 }
 
 /// The machine that draws the map: the same with the map for a screen, depths of its bits; with BLEND where it draws shares too.
@@ -169,12 +180,15 @@ pub fn mapper(machine: &Plan) -> Result<Plan> {
         true => Blend { kind: BlendKind::Constant, ..machine.blend },
         false => plain.blend,
     };
+    // What the machine draws itself needs the formats only.
+    let segments = if machine.shadow.draws_map() { 1 } else { machine.segments };
     let own = Machine {
         width: machine.shadow.size,
         height: machine.shadow.size,
         z,
         extra: 0,
         adders: 1,
+        segments,
         tag_bits: 0,
         ..(**machine).clone()
     };
@@ -209,41 +223,69 @@ pub fn own_frame(shadow: &Shadow, machine: &Plan) -> Frame {
     Frame { triangles: opaque.chain(panes).collect(), clear: [1.0; 3], color_write: false, changes, ..plain }
 }
 
-/// The light's own passes: what it sees, on the machine with its map for a screen.
+/// The light's own passes: what it sees, on the machine with its map for a screen, or on the machine itself.
 ///
 /// # Errors
 /// A triangle of it that lies outside the guard band.
 pub fn map(shadow: &Shadow, machine: &Plan) -> Result<Map> {
     let plan = mapper(machine)?;
+    let sent = sent(shadow, machine, &plan)?;
+    let (triangles, passes) = (sent.triangles.iter().copied(), &sent.passes);
+    if machine.shadow.draws_map() {
+        let mut drawn = edgewalk_model::render_passes(machine, triangles, passes, &[], Waits::Never, |_| {})?;
+        let words = drawn.maps.pop().context("the light's own pass draws a map")?;
+        return Ok(Map { words, counters: drawn.counters, own: Some(sent) });
+    }
+    let drawn = edgewalk_model::render_passes(&plan, triangles, passes, &[], Waits::Never, |_| {})?;
+    let (size, side) = (shadow.size as usize, machine.shadow.side_bits());
+    let mut map = vec![0; 1 << (2 * side)];
+    for (place, (depth, [left, ..])) in drawn.z.iter().zip(&drawn.rgb).enumerate() {
+        let transmits = machine.shadow.transmits();
+        let word = if transmits { depth << machine.color.bits | left } else { *depth };
+        map[(place / size) << side | place % size] = word as u32; // at most 32 bits
+    }
+    Ok(Map { words: map, counters: drawn.counters, own: None })
+}
+
+/// Triangles and passes for the second machine, or for the machine that draws its map.
+fn sent(shadow: &Shadow, machine: &Plan, second: &Plan) -> Result<Sent> {
     let frame = own_frame(shadow, machine);
+    let own = machine.shadow.draws_map();
     let mut triangles = Vec::with_capacity(frame.triangles.len());
     for (number, Triangle(corners)) in frame.triangles.iter().enumerate() {
         let mut port = [PortVertex::default(); 3];
         for (slot, v) in port.iter_mut().zip(corners) {
             let mut values = vec![v.z, v.r, v.g, v.b];
-            values.extend(plan.has_triangle_kt().then_some(v.kt));
-            let vertex = plan.port_vertex(v.x, v.y, &values);
-            *slot = vertex.with_context(|| format!("shadow: triangle {number} of the map"))?;
+            values.extend(second.has_triangle_kt().then_some(v.kt));
+            let vertex = second.port_vertex(v.x, v.y, &values);
+            let vertex = vertex.with_context(|| format!("shadow: triangle {number} of the map"))?;
+            *slot = if own { own_vertex(&vertex, machine) } else { vertex };
         }
         triangles.push(port);
     }
-    let transmits = machine.shadow.transmits();
+    let (transmits, opaque) = (machine.shadow.transmits(), shadow.triangles.len());
     let hides = DrawState {
-        color_write: !transmits,
-        clear: frame.clear.map(|share| (share * plan.color.max() as f64) as u64),
+        light_pass: own,
+        // A map that the machine draws has a page of colours only as the plane of k.
+        color_write: !transmits && !own,
+        clear: frame.clear.map(|share| (share * machine.color.max() as f64) as u64),
         ..DrawState::default()
     };
     let panes = DrawState { depth_write: false, color_write: true, ..hides };
-    let pass = |triangles, state| Pass { triangles, ..Pass::all(state) };
-    let opaque = shadow.triangles.len();
-    let passes = [pass(opaque, hides), pass(triangles.len() - opaque, panes)];
-    let passes = if transmits { &passes[..] } else { &passes[..1] };
-    let drawn = edgewalk_model::render_passes(&plan, triangles, passes, &[], Waits::Never, |_| {})?;
-    let (size, side) = (shadow.size as usize, machine.shadow.side_bits());
-    let mut map = vec![0; 1 << (2 * side)];
-    for (place, (depth, [left, ..])) in drawn.z.iter().zip(&drawn.rgb).enumerate() {
-        let word = if transmits { depth << machine.color.bits | left } else { *depth };
-        map[(place / size) << side | place % size] = word as u32; // at most 32 bits
+    let pass = |triangles, state| Pass { triangles, map: own.then_some(0), ..Pass::all(state) };
+    let mut passes = vec![Pass { clear_depth: own, ..pass(opaque, hides) }];
+    passes.extend(transmits.then(|| pass(triangles.len() - opaque, panes)));
+    Ok(Sent { triangles, passes })
+}
+
+/// A vertex of the second machine at the port of the machine that draws its map: its depth has more bits, and there are more channels,
+/// all 0, and k_t.
+fn own_vertex(vertex: &PortVertex, machine: &Plan) -> PortVertex {
+    let mut values = vec![0; machine.channels().len() + usize::from(machine.has_triangle_kt())];
+    values[..4].copy_from_slice(&vertex.values()[..4]);
+    if let Some(kt) = values.last_mut().filter(|_| machine.blend.is_there()) {
+        let fraction = if machine.has_triangle_kt() { 0 } else { machine.blend.kt_vertex };
+        *kt = i64::from(vertex.kt()) << fraction;
     }
-    Ok(Map { words: map, counters: drawn.counters })
+    machine.raw_vertex(vertex.x(), vertex.y(), &values)
 }

@@ -1,6 +1,7 @@
 //! A frame's way to the machine's port.
 
 use crate::light::{self, Map};
+use crate::raster::{Cycles, LightPass};
 use crate::shade::{Feed, feed, shading_for};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Plan, PortVertex};
@@ -35,6 +36,42 @@ impl PortFrame {
     #[must_use]
     pub fn words(&self) -> &Shading {
         self.shade.as_ref().map_or(UNSHADED, |feed| &feed.words)
+    }
+
+    /// What a machine is sent for all of the frame: where it draws its maps, these before the picture; and the maps that it finds.
+    #[must_use]
+    pub fn sent(&self) -> (Cow<'_, [[PortVertex; 3]]>, Cow<'_, [Pass]>, Vec<Vec<u32>>) {
+        if self.lights.iter().all(|light| light.own.is_none()) {
+            return (Cow::Borrowed(&self.triangles), Cow::Borrowed(&self.passes), self.maps());
+        }
+        let (mut triangles, mut passes) = (Vec::new(), Vec::new());
+        for (number, own) in self.lights.iter().map(|light| &light.own).enumerate() {
+            let Some(own) = own else { continue };
+            triangles.extend_from_slice(&own.triangles);
+            passes.extend(own.passes.iter().map(|pass| Pass { map: Some(number), ..*pass }));
+        }
+        triangles.extend_from_slice(&self.triangles);
+        passes.extend_from_slice(&self.passes);
+        (Cow::Owned(triangles), Cow::Owned(passes), Vec::new())
+    }
+
+    /// The picture of a frame that was drawn as it was [sent](PortFrame::sent), apart from the maps that were drawn before it.
+    #[must_use]
+    pub fn apart(&self, mut drawn: edgewalk_model::Frame) -> (edgewalk_model::Frame, Vec<LightPass>) {
+        let mut lights = Vec::new();
+        for (own, words) in self.lights.iter().filter_map(|light| light.own.as_ref()).zip(&drawn.maps) {
+            let of_light = drawn.passes.drain(..own.passes.len().min(drawn.passes.len()));
+            let spent = of_light.reduce(|spent, pass| spent.and(&pass)).unwrap_or_default();
+            lights.push(LightPass { cycles: Cycles::of(&spent, None), words: words.clone() });
+            for id in drawn.id.iter_mut().filter(|id| **id >= 0) {
+                *id -= own.triangles.len() as i32; // a frame has fewer triangles
+            }
+        }
+        if !lights.is_empty() {
+            drawn.counters =
+                drawn.passes.iter().cloned().reduce(|all, pass| all.and(&pass)).unwrap_or_default();
+        }
+        (drawn, lights)
     }
 
     /// The words of the lights' maps.
@@ -147,6 +184,7 @@ pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawSt
         color_write: state.color_write,
         blend_add: state.blend == Blending::Add,
         shadow_on: frame.shadow(state.light).is_some(),
+        light_pass: false,
         ambient: frame.shadow(state.light).map_or(0, |shadow| light::ambient(shadow, machine)),
         clear: frame.clear.map(|v| (v * max).round_ties_even() as u64),
     })

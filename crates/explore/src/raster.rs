@@ -113,7 +113,9 @@ pub fn of_port(mut raster: Raster, port: &PortFrame) -> Raster {
     }
     let pass =
         |light: &Map| LightPass { cycles: Cycles::of(&light.counters, None), words: light.words.clone() };
-    let lights = port.lights.iter().map(pass).collect();
+    // Those that the machine drew itself are there already.
+    let lights =
+        if raster.lights.is_empty() { port.lights.iter().map(pass).collect() } else { raster.lights };
     Raster { lights, host: port.host, ..raster }
 }
 

@@ -84,13 +84,13 @@ impl SetupReport {
         for triangle in triangles {
             let mut met = Events::default();
             let mut clocks = 0;
-            setup.step(Some((triangle, 0)), false, &mut met);
+            setup.step(Some((triangle, 0)), false, false, &mut met);
             while setup.prim().is_none() && !setup.tri_ready() {
-                setup.step(None, false, &mut met);
+                setup.step(None, false, false, &mut met);
                 clocks += 1;
             }
             let pixels = setup.prim().map(|prim| pixels(machine, prim));
-            setup.step(None, true, &mut met); // EDGE takes it
+            setup.step(None, true, false, &mut met); // EDGE takes it
             let fate = match pixels {
                 None if met.culled_lines > 0 => 0,
                 None if met.culled_columns > 0 => 1,
@@ -157,13 +157,13 @@ fn pixels<const C: usize>(machine: &Plan, prim: &Prim<C>) -> u64 {
     edge.step(Some(prim), false, true, events);
     let mut pixels = 0;
     while let Some(line) = edge.line().copied() {
-        spans.step(Some(&line), false, events);
-        spans.step(None, false, events); // from its register into the queue
+        spans.step(Some(&line), false, false, events);
+        spans.step(None, false, false, events); // from its register into the queue
         if let Some(span) = spans.span() {
             let (x, count) = (i64::from(span.x), i64::from(span.count));
             let (first, end) = if span.leftward { (x - count + 1, x + 1) } else { (x, x + count) };
             pixels += (end.min(i64::from(machine.width)) - first.max(0)).max(0) as u64;
-            spans.step(None, true, events);
+            spans.step(None, true, false, events);
         }
         edge.step(None, false, true, events);
     }

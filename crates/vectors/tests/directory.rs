@@ -100,10 +100,10 @@ fn directed_suites_reach_every_hazard_and_corner() {
     let mut reached = edgewalk_model::Events::default();
     for (_, machine) in all() {
         let light = machine.shadow.is_there().then_some(["light", "light_off"]);
+        let own = machine.shadow.draws_map().then_some(["own_map", "own_picture"]);
         let shade = machine.shade.is_there().then_some("shade");
-        for name in
-            ["hazards", "corners", "sphere"].into_iter().chain(light.into_iter().flatten()).chain(shade)
-        {
+        let of_light = light.into_iter().chain(own).flatten();
+        for name in ["hazards", "corners", "sphere"].into_iter().chain(of_light).chain(shade) {
             for stalls in [StallKind::None, StallKind::Mixed, StallKind::Late] {
                 let suite = suite(&machine, name);
                 reached.merge(&capture(&machine, Unit::MACHINE, &suite, suite.state(), stalls).events);

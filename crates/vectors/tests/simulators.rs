@@ -165,7 +165,34 @@ fn machines_with_shadow_replay_and_are_clean() {
     machines_with_shadow(&machines, |i| &Simulator::ALL[..1 + usize::from(i == 3)]);
 }
 
-/// All eight in both; not part of the test run.
+/// Both that draw their map, in both simulators: the machine and each unit that has the input, in the light's pass and in the picture's.
+#[test]
+fn machines_that_draw_their_map_replay_and_are_clean() {
+    let machines: Vec<_> = common::lights().into_iter().filter(|(_, plan)| plan.shadow.draws_map()).collect();
+    let done = common::two_at_a_time(&machines, |i, (name, machine)| {
+        let mut checked = 0;
+        for (j, name) in ["own_map", "own_picture", "light"].into_iter().enumerate() {
+            let suite = Suite::named(machine, name, 5, 12).expect("listed");
+            for unit in Unit::all(machine).into_iter().filter(|unit| suite.is_for(*unit)) {
+                let trace = capture(machine, unit, &suite, suite.state(), StallKind::ALL[(i + j) % 3]);
+                let verilog = design::verilog(machine, unit).expect("a checked machine");
+                let files = directory(&suite, &trace, &verilog, Tables::LeftOut);
+                let simulators = &Simulator::ALL[..1 + usize::from(unit == Unit::MACHINE)];
+                checked += simulators.iter().map(|simulator| passes(*simulator, &files)).sum::<u64>();
+                if unit == Unit::MACHINE {
+                    let place = tempfile::tempdir().expect("a directory");
+                    write(&files, &place.path().join("vectors"));
+                    lint(&place.path().join("vectors"), LIMIT).unwrap_or_else(|error| panic!("{name}: {error}"));
+                }
+            }
+        }
+        println!("{name:50} {checked} checked, lint clean");
+        checked
+    });
+    assert!(done.len() == 2 && done.iter().all(|checked| *checked > 3000), "{done:?}");
+}
+
+/// All ten in both; not part of the test run.
 #[test]
 #[ignore = "minutes"]
 fn machines_with_shadow_in_every_tool() {

@@ -247,7 +247,7 @@ fn end_section(interface: &Interface) -> String {
     for name in out.iter().chain([&"status"]) {
         let (upper, condition) =
             (name.to_uppercase(), if *name == "status" { "CHECK_CYCLES != 0 && " } else { "" });
-        let _ = writeln!(missing, "        if ({condition}{name}_checked < {upper}_COUNT) {name}_missing;");
+        let _ = writeln!(missing, "        if ({condition}{name}_checked != {upper}_COUNT) {name}_missing;");
     }
     END.replace("{checked}", &sum("checked"))
         .replace("{wrong}", &sum("wrong"))

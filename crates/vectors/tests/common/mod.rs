@@ -5,7 +5,7 @@ use edgewalk_lockstep::{Agreement, Interface, LockstepError, NetlistDevice, Port
 use edgewalk_machine::units;
 use edgewalk_machine::{
     Blend, BlendKind, EdgeKind, Fill, Gate, Hazard, Kind, Machine, Plan, Precision, Project, Shade,
-    ShadeColour, ShadeKind, Shadow, ShadowLight, Texture, Transmits, Walk,
+    OwnPass, ShadeColour, ShadeKind, Shadow, ShadowLight, Texture, Transmits, Walk,
 };
 use edgewalk_netlist::Netlist;
 use edgewalk_vectors::{Files, Trace, Unit};
@@ -193,8 +193,8 @@ pub fn glass() -> Vec<(&'static str, Plan)> {
     list.into_iter().map(|(name, machine)| (name, checked(machine))).collect()
 }
 
-/// Eight machines with SHADOW, two of them with PROJECT: gates, sides that are powers of two and not, queues, latencies, adders, two whose map transmits; three of them with BLEND, two with
-/// channels of the user's own.
+/// Ten machines with SHADOW, three of them with PROJECT: gates, sides that are powers of two and not, queues, latencies, adders, three whose map transmits; four of them with BLEND, two with
+/// channels of the user's own; the last two draw their map, larger than the screen and smaller.
 pub fn lights() -> Vec<(&'static str, Plan)> {
     let small = Machine::clone(&small());
     let light = |[size, guard_bits, depth_bits]: [u32; 3], gate, [queue, latency]: [u32; 2]| {
@@ -214,6 +214,10 @@ pub fn lights() -> Vec<(&'static str, Plan)> {
     };
     let transmits = |machine: Machine| {
         let shadow = Shadow { transmits: Transmits::Yes, ..machine.shadow };
+        Machine { shadow, ..machine }
+    };
+    let own = |machine: Machine| {
+        let shadow = Shadow { own_pass: OwnPass::Yes, ..machine.shadow };
         Machine { shadow, ..machine }
     };
     let tagged = Machine { tag_bits: 3, adders: 2, ..light([5, 1, 8], Gate::Scale, [3, 1]) };
@@ -252,6 +256,15 @@ pub fn lights() -> Vec<(&'static str, Plan)> {
                 Hazard::Forward,
                 perspective(8, 6, Project::Serial, Gate::And),
             )),
+        ),
+        ("own_map_larger_than_the_screen", own(light([30, 0, 6], Gate::Scale, [4, 2]))),
+        (
+            "own_map_smaller_perspective_constant_kt_transmits",
+            own(transmits(glass(
+                BlendKind::Constant,
+                Hazard::Interlock,
+                perspective(9, 6, Project::Pipelined, Gate::Scale),
+            ))),
         ),
     ];
     list.into_iter().map(|(name, machine)| (name, checked(machine))).collect()

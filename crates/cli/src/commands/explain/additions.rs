@@ -69,8 +69,8 @@ fn walk_words<const C: usize>(machine: &Plan, triangle: &[PortVertex; 3], x: u32
     }
     let line = *edge.line()?;
     let mut spans = Span::new(machine);
-    spans.step(Some(&line), false, events);
-    spans.step(None, false, events); // from its register into the queue
+    spans.step(Some(&line), false, false, events);
+    spans.step(None, false, false, events); // from its register into the queue
     let span = spans.span()?;
     let direction = if span.leftward { -1 } else { 1 };
     let columns = (i64::from(x) - i64::from(span.x)) * direction;
