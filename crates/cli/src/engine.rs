@@ -109,15 +109,8 @@ fn native(
     (passes, maps, words): Sent,
 ) -> Result<Drawn> {
     let mut device = native::Native::new(&machine.tagged())?;
-    let drawn = edgewalk_lockstep::render_on(
-        &mut device,
-        machine,
-        triangles,
-        passes,
-        maps,
-        StallKind::None,
-        words,
-    );
+    let drawn =
+        edgewalk_lockstep::render_on(&mut device, machine, triangles, passes, maps, StallKind::None, words);
     drawn.map_err(|e| anyhow!("{e}"))
 }
 

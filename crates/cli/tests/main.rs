@@ -22,6 +22,7 @@ mod meshes;
 mod mix;
 mod normals;
 mod output;
+mod own_pass;
 mod panes;
 mod pictures;
 mod precision;

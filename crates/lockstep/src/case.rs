@@ -194,8 +194,16 @@ impl Case {
         let Case { depth_func, depth_write, color_write, blend_add, .. } = *self;
         let Case { shadow_on, light_pass, ambient, .. } = *self;
         let clear = [0; 3];
-        let state =
-            DrawState { depth_func, depth_write, color_write, blend_add, shadow_on, light_pass, ambient, clear };
+        let state = DrawState {
+            depth_func,
+            depth_write,
+            color_write,
+            blend_add,
+            shadow_on,
+            light_pass,
+            ambient,
+            clear,
+        };
         let mut setting = Setting::willing(interface, &constants(&state))?;
         setting.tokens.clone_from(&self.tokens);
         let mut random = Pcg64Mcg::seed_from_u64(self.seed);

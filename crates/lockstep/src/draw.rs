@@ -9,7 +9,7 @@ use crate::values::{PortId, PortValues};
 use crate::{UnknownConstant, case};
 use edgewalk_machine::{Activity, ForeignVertex, Plan, PortVertex, Record};
 use edgewalk_model::tokens::output;
-use edgewalk_model::{Counters, DrawState, Events, Frame, Pass, Shading};
+use edgewalk_model::{Counters, DrawState, Events, Frame, Pass, Shading, first_of_picture};
 use edgewalk_netlist::{BuildErrors, Simulator};
 use std::sync::Arc;
 
@@ -123,13 +123,11 @@ fn run(
         foreign = plan.accept(&triangle, number.into()).err();
         foreign.is_none().then(|| port.pack(&triangle, number))
     });
-    let first = passes.first().map_or_else(DrawState::default, |pass| pass.state);
-    let mut picture = Picture::new(plan, &interface, plan.z.max(), first.clear);
+    let mut picture = Picture::new(plan, &interface, plan.z.max(), first_of_picture(passes).clear);
     // In a machine that draws its map what the same ports reach then.
     let all = plan.color.max();
     let farthest = u64::MAX >> (64 - plan.shadow.depth_bits);
-    let mut own_map =
-        plan.shadow.draws_map().then(|| Picture::new(plan, &interface, farthest, [all; 3]));
+    let mut own_map = plan.shadow.draws_map().then(|| Picture::new(plan, &interface, farthest, [all; 3]));
     let mut ports = interface.values();
     let (mut maps, mut map): (_, Arc<[u128]>) = (maps.to_vec(), Arc::default());
     let (mut counters, mut of_passes) = (Counters::default(), Vec::new());

@@ -115,7 +115,9 @@ fn whole_machines(count: usize) {
     let channels = machines.iter().flat_map(|plan| plan.channels());
     let signed = channels.filter(|channel| channel.kind != Kind::Unorm).count();
     let maps = machines.iter().filter(|plan| plan.shadow.draws_map()).count();
-    println!("{count} machines, {extra:?} with 0 to 4 extra channels, {signed} of them signed; {maps} draw their map");
+    println!(
+        "{count} machines, {extra:?} with 0 to 4 extra channels, {signed} of them signed; {maps} draw their map"
+    );
     report(&all);
     assert!(extra.iter().all(|machines| machines * 20 >= count) && signed > count && maps * 20 > count);
     // A triangle that a reset took from the machine is not offered again, one in the cycle of the reset is.

@@ -122,7 +122,10 @@ fn own_pass(machine: &Machine) -> Result<(), MachineError> {
         return Err(MachineError::rule(
             machine,
             "shadow.depth_bits",
-            format!("shadow.own_pass = yes draws the map with the depths of pixels, of {} bits", machine.z.bits),
+            format!(
+                "shadow.own_pass = yes draws the map with the depths of pixels, of {} bits",
+                machine.z.bits
+            ),
             machine.z.bits.to_string(),
         ));
     }
@@ -130,7 +133,8 @@ fn own_pass(machine: &Machine) -> Result<(), MachineError> {
         return Err(MachineError::rule(
             machine,
             "blend.kind",
-            "with shadow.own_pass and shadow.transmits = yes BLEND draws what is left of the light".to_owned(),
+            "with shadow.own_pass and shadow.transmits = yes BLEND draws what is left of the light"
+                .to_owned(),
             "constant".to_owned(),
         ));
     }

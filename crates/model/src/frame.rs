@@ -3,7 +3,7 @@
 use crate::counters::Counters;
 use crate::events::Events;
 use crate::machine::Model;
-use crate::passes::Pass;
+use crate::passes::{Pass, first_of_picture};
 use crate::run::{Cycle, DrawState, Rig};
 use crate::tokens::{Source, for_channels, output};
 use crate::waits::Waits;
@@ -139,7 +139,7 @@ fn draw<const C: usize>(
     shading: &Shading,
     mut hook: impl FnMut(Drawn),
 ) -> Result<Frame, ForeignVertex> {
-    let state = passes.first().map_or_else(DrawState::default, |pass| pass.state);
+    let state = first_of_picture(passes);
     let mut rig = Rig::<C>::new(plan, state, waits);
     let mut counters: Vec<Counters> = Vec::new();
     let mut tally = Tally::new(plan);
@@ -199,7 +199,7 @@ fn draw<const C: usize>(
             maps[map] = rig.drawn_map(plan);
         }
     }
-    rig.set_state(DrawState { light_pass: false, ..state });
+    rig.set_state(state);
     let x_bits = plan.widths().x;
     let addresses: Vec<usize> =
         (0..plan.height).flat_map(|y| (0..plan.width).map(move |x| (y << x_bits | x) as usize)).collect();

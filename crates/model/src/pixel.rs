@@ -80,8 +80,7 @@ impl<const C: usize> Pixel<C> {
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
         let z_mask = |bits: u32| u32::MAX >> (32 - bits);
-        let picture =
-            OfPass { width: plan.width, x_bits: plan.widths().x, z_mask: z_mask(plan.z.bits) };
+        let picture = OfPass { width: plan.width, x_bits: plan.widths().x, z_mask: z_mask(plan.z.bits) };
         let Shadow { size, depth_bits, .. } = plan.shadow;
         let map = OfPass { width: size, x_bits: plan.shadow.side_bits(), z_mask: z_mask(depth_bits) };
         Pixel {

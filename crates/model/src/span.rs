@@ -105,13 +105,7 @@ impl<const C: usize> Span<C> {
 
     /// Clock edge; `line`: the one taken, if `line_ready`; `light_pass`: it is one of the map.
     #[inline(always)]
-    pub fn step(
-        &mut self,
-        line: Option<&Line<C>>,
-        span_ready: bool,
-        light_pass: bool,
-        events: &mut Events,
-    ) {
+    pub fn step(&mut self, line: Option<&Line<C>>, span_ready: bool, light_pass: bool, events: &mut Events) {
         let (ready, room) = (self.line_ready(), self.has_room());
         if span_ready && !self.fifo.is_empty() {
             self.fresh_in_fifo -= u32::from(self.fifo.head().fresh);

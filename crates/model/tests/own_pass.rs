@@ -101,7 +101,8 @@ fn random_own(rng: &mut impl Rng) -> Plan {
 #[test]
 fn the_map_is_that_of_a_second_machine_bit_by_bit() {
     let mut rng = Pcg64Mcg::seed_from_u64(61);
-    let (mut machines, mut texels, mut drawn_texels, mut beyond, mut panes, mut textbook) = (0, 0, 0, 0, 0, 0);
+    let (mut machines, mut texels, mut drawn_texels, mut beyond, mut panes, mut textbook) =
+        (0, 0, 0, 0, 0, 0);
     let (mut lit, mut shadow, mut interpolated) = (0, 0, 0);
     for _ in 0..150 {
         let plan = random_own(&mut rng);
@@ -112,13 +113,17 @@ fn the_map_is_that_of_a_second_machine_bit_by_bit() {
             .map(|_| random_triangle(&second, 60.0, &mut rng))
             .collect();
         let waits = Stalls { seed: rng.random(), rd: 40, data: 40, wr: 40 };
-        let reference = render_passes(&second, light.clone(), &passes, &[], Stalls::NONE, |_| {}).expect("its own");
+        let reference =
+            render_passes(&second, light.clone(), &passes, &[], Stalls::NONE, |_| {}).expect("its own");
         let expected = words(&second, &plan, &reference);
 
         // The picture before, the map, and the picture again, now under the map.
         let picture: Vec<Triangle> = (0..6).map(|_| random_triangle(&plan, 40.0, &mut rng)).collect();
-        let state = DrawState { shadow_on: true, ambient: plan.color.max() / 3, ..DrawState::default() };
+        let clear = [1, 0, plan.color.max()];
+        let state =
+            DrawState { shadow_on: true, ambient: plan.color.max() / 3, clear, ..DrawState::default() };
         let of_picture = Pass { triangles: 3, ..Pass::all(state) };
+        let picture_again = picture.clone();
         let own: Vec<Triangle> = light.iter().map(|t| for_own_pass(&plan, &second, t)).collect();
         let mut all = picture[..3].to_vec();
         all.extend(&own);
@@ -137,8 +142,21 @@ fn the_map_is_that_of_a_second_machine_bit_by_bit() {
         let without = without.plan().expect("less");
         let stalled = render_passes(&plan, all, &list, &[], waits, |_| {}).expect("its own");
         assert_eq!(stalled.maps[0], expected, "under stalls: {:?}", *plan);
-        let ready = render_passes(&without, picture, &[of_picture, looks], &[expected.clone()], Stalls::NONE, |_| {});
+        let ready =
+            render_passes(&without, picture, &[of_picture, looks], &[expected.clone()], Stalls::NONE, |_| {});
         let ready = ready.expect("the same port");
+        let map_first = [&list[1..], &list[..1]].concat();
+        let order = [&own[..], &picture_again[3..], &picture_again[..3]].concat();
+        let first = render_passes(&plan, order, &map_first, &[], Stalls::NONE, |_| {}).expect("its own");
+        let turned = [&picture_again[3..], &picture_again[..3]].concat();
+        let as_ready =
+            render_passes(&without, turned, &[looks, of_picture], &[expected.clone()], Stalls::NONE, |_| {});
+        let as_ready = as_ready.expect("the same port");
+        assert_eq!(
+            (&first.z, &first.rgb, &first.lit),
+            (&as_ready.z, &as_ready.rgb, &as_ready.lit),
+            "the map first"
+        );
         for drawn in [&drawn, &stalled] {
             assert_eq!((&drawn.z, &drawn.rgb, &drawn.lit), (&ready.z, &ready.rgb, &ready.lit));
             assert_eq!((&drawn.coverage, &drawn.writes), (&ready.coverage, &ready.writes));
@@ -197,8 +215,11 @@ fn each_pass_has_its_own_scissor_and_addresses() {
     let mut met = 0;
     for (screen, size) in [("8", "20"), ("20", "8"), ("8", "9"), ("5", "3")] {
         let plan = sides(screen, size);
-        let [small, large] = [plan.width.min(plan.shadow.size), plan.width.max(plan.shadow.size)].map(|n| n as i32);
-        for [x, y] in [[small, 0], [0, small], [small, small], [0, 0], [large - 1, 0], [0, large - 1], [large, 0]] {
+        let [small, large] =
+            [plan.width.min(plan.shadow.size), plan.width.max(plan.shadow.size)].map(|n| n as i32);
+        for [x, y] in
+            [[small, 0], [0, small], [small, small], [0, 0], [large - 1, 0], [0, large - 1], [large, 0]]
+        {
             for light_pass in [false, true] {
                 let (state, side) =
                     if light_pass { (light, plan.shadow.size) } else { (DrawState::default(), plan.width) };
@@ -222,7 +243,11 @@ fn each_pass_has_its_own_scissor_and_addresses() {
                     let inside = px >= x && py >= y && (px - x) + (py - y) < 1;
                     let on_screen = px < side as i32 && py < side as i32;
                     if on_screen {
-                        assert_eq!(*z == 5, inside, "{screen} {size} {light_pass}: ({px}, {py}) of ({x}, {y})");
+                        assert_eq!(
+                            *z == 5,
+                            inside,
+                            "{screen} {size} {light_pass}: ({px}, {py}) of ({x}, {y})"
+                        );
                         met += u32::from(inside);
                     } else {
                         assert_ne!(*z, 5, "{screen} {size} {light_pass}: ({px}, {py}) lies outside");
@@ -232,7 +257,9 @@ fn each_pass_has_its_own_scissor_and_addresses() {
                 assert_eq!(culled > 0, x >= side as i32 || y >= side as i32);
                 // What one page takes the other does not see.
                 if light_pass {
-                    assert!(drawn.z.iter().all(|z| *z == plan.z.max()) && drawn.writes.iter().all(|n| *n == 0));
+                    assert!(
+                        drawn.z.iter().all(|z| *z == plan.z.max()) && drawn.writes.iter().all(|n| *n == 0)
+                    );
                 }
             }
         }

@@ -124,7 +124,8 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
                 (None, None, "kt") => kt.map(Reg::q),
                 (None, None, own) => terms.output(own).or(drawn.get(own).map(Reg::q)),
             };
-            let kept = |signal| if is_last && f.name == "z" { depth(plan, light_pass, signal) } else { signal };
+            let kept =
+                |signal| if is_last && f.name == "z" { depth(plan, light_pass, signal) } else { signal };
             signal.map(kept).map(|signal| (f, signal))
         };
         let source: Token = parts(&tokens::fragment(plan)).into_iter().filter_map(source).collect();

@@ -72,8 +72,9 @@ fn every_suite_of_shadow() {
         let own = machine.shadow.draws_map().then_some(["own_map", "own_picture"]);
         for (j, suite) in suites.into_iter().chain(own.into_iter().flatten()).enumerate() {
             let suite = Suite::named(machine, suite, 3, 30).expect("listed");
-            let in_turn =
-                |unit: &Unit| suite.is_for(*unit) && (*unit != Unit::MACHINE || j == 0 || j > 3 || i % 3 + 1 == j);
+            let in_turn = |unit: &Unit| {
+                suite.is_for(*unit) && (*unit != Unit::MACHINE || j == 0 || j > 3 || i % 3 + 1 == j)
+            };
             for unit in Unit::all(machine).into_iter().filter(in_turn) {
                 let netlist = design::netlist(machine, unit).expect("a checked machine");
                 let trace = capture(machine, unit, &suite, suite.state(), StallKind::ALL[(i + j) % 3]);

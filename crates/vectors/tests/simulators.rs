@@ -182,7 +182,8 @@ fn machines_that_draw_their_map_replay_and_are_clean() {
                 if unit == Unit::MACHINE {
                     let place = tempfile::tempdir().expect("a directory");
                     write(&files, &place.path().join("vectors"));
-                    lint(&place.path().join("vectors"), LIMIT).unwrap_or_else(|error| panic!("{name}: {error}"));
+                    lint(&place.path().join("vectors"), LIMIT)
+                        .unwrap_or_else(|error| panic!("{name}: {error}"));
                 }
             }
         }

@@ -1,8 +1,8 @@
 //! Tokens for a unit alone: such as the rest of the machine would rarely give it.
 
 use super::triangles::{random_triangle, sides};
-use edgewalk_lockstep::{Direction, Interface, Port, Rig, Setting, Token, Triangles, Unit, model};
 use edgewalk_lockstep::case::constants;
+use edgewalk_lockstep::{Direction, Interface, Port, Rig, Setting, Token, Triangles, Unit, model};
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::DrawState;
 use rand::seq::IndexedRandom;

@@ -165,8 +165,7 @@ fn textbook<'m>(
     let first = |place: usize| at_least(y(place), m.lit(bits, 0)).named(&format!("j{place}_next"));
     let lines = [0, 1].map(|part| {
         let first = first(part);
-        let last =
-            at_most(y(part + 1), screen.last_line(bits)).named(&format!("last{part}"));
+        let last = at_most(y(part + 1), screen.last_line(bits)).named(&format!("last{part}"));
         let some = (y(part).slt(y(part + 1)) & first.sle(last)).named(&format!("some{part}"));
         let n = counts[part];
         n.when(control.begin, some.mux(last - first + 1, 0).trunc(n.q().width()));

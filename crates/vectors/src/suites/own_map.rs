@@ -16,15 +16,20 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
     vec![
         case("the_last_pixel_of_screen_and_map", ends.map(|(x, y)| dot(x - 1.0, y - 1.0))),
         case("beside_each_end", {
-            ends.into_iter().flat_map(|(x, y)| [dot(x, 0.0), dot(0.0, y), dot(x, y), dot(x - 1.0, 0.0), dot(0.0, y - 1.0)])
+            ends.into_iter().flat_map(|(x, y)| {
+                [dot(x, 0.0), dot(0.0, y), dot(x, y), dot(x - 1.0, 0.0), dot(0.0, y - 1.0)]
+            })
         }),
         case("across_each_end", {
-            ends.into_iter().flat_map(|(x, y)| [row(x - 3.0, 0.0), column(0.0, y - 3.0), row(x - 3.0, y - 1.0)])
+            ends.into_iter()
+                .flat_map(|(x, y)| [row(x - 3.0, 0.0), column(0.0, y - 3.0), row(x - 3.0, y - 1.0)])
         }),
         case("across_the_first_column_and_line", [row(-3.0, 0.0), column(0.0, -3.0)]),
         // Spans to the left begin beyond the end, and are stepped over.
         case("leftward_from_beyond_each_end", {
-            ends.map(|(x, y)| pen.shaded([(x + 3.0, y - 2.0), (x - 4.0, y - 0.5), (x + 3.0, y)], [0.2, 0.5, 0.9]))
+            ends.map(|(x, y)| {
+                pen.shaded([(x + 3.0, y - 2.0), (x - 4.0, y - 0.5), (x + 3.0, y)], [0.2, 0.5, 0.9])
+            })
         }),
         case("one_pixel_after_the_other", [0.9, 0.5, 0.5, 0.1].map(|z| pen.dot(size - 1.0, size - 1.0, z))),
     ]

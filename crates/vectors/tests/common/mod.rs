@@ -4,8 +4,8 @@
 use edgewalk_lockstep::{Agreement, Interface, LockstepError, NetlistDevice, PortError};
 use edgewalk_machine::units;
 use edgewalk_machine::{
-    Blend, BlendKind, EdgeKind, Fill, Gate, Hazard, Kind, Machine, Plan, Precision, Project, Shade,
-    OwnPass, ShadeColour, ShadeKind, Shadow, ShadowLight, Texture, Transmits, Walk,
+    Blend, BlendKind, EdgeKind, Fill, Gate, Hazard, Kind, Machine, OwnPass, Plan, Precision, Project, Shade,
+    ShadeColour, ShadeKind, Shadow, ShadowLight, Texture, Transmits, Walk,
 };
 use edgewalk_netlist::Netlist;
 use edgewalk_vectors::{Files, Trace, Unit};

@@ -1,0 +1,168 @@
+//! The light's own pass through the program: with `shadow.own_pass = yes` every engine draws map and picture on one machine, and the picture is the
+//! one of the machine whose map a second one draws.
+#![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
+
+use crate::support::{edgewalk, run};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use std::fmt::Write as _;
+use std::path::Path;
+
+const OWN: &str = "shadow.own_pass=yes";
+
+/// Triangles anyhow over the screen, each also in the maps of two lights, one in three of these as a pane where `glass`; the second half of
+/// them looks up the second map.
+fn two_lights(random: &mut Pcg64Mcg, [width, height, size]: [u32; 3], matrix: &str, glass: bool) -> String {
+    let mut lights = [(); 2].map(|()| format!("shadow {size} 0.004 0.3   {matrix}\n"));
+    let mut drawn = [String::new(), String::new()];
+    for place in 0..16 {
+        let [x, y, z] = [f64::from(width), f64::from(height), 1.0].map(|most| random.random_range(0.0..most));
+        let mut near = |middle: f64, reach: f64| middle + reach * random.random_range(-1.0..1.0);
+        let corners: [[f64; 3]; 3] =
+            std::array::from_fn(|_| [near(x, 20.0), near(y, 20.0), near(z, 0.05).clamp(0.0, 1.0)]);
+        let text = &mut drawn[place / 8];
+        *text += "T";
+        corners.iter().for_each(|[x, y, z]| _ = write!(text, "  {x} {y} {z} 0.9 0.5 1 0"));
+        *text += "\n";
+        let light = &mut lights[place % 2];
+        *light += "L";
+        for [x, y, z] in corners {
+            let _ = write!(light, "  {} {} {}", 0.7 * x + 12.0 * z, 0.6 * y + 5.0 * z, 0.2 + 0.5 * z);
+        }
+        let _ = if glass && place % 3 == 0 { writeln!(light, "  0.5") } else { writeln!(light) };
+    }
+    let [first, second] = drawn;
+    format!("size {width} {height}\n{}{}light 1\n{first}light 2\n{second}", lights[0], lights[1])
+}
+
+/// Draws into a folder of that name, and returns its report's cycles.
+fn raster(folder: &Path, out: &str, engine: &str, settings: &[&str]) -> serde_json::Value {
+    let mut command = edgewalk(folder, &["raster", "a.tri", "--engine", engine, "--out", out]);
+    settings.iter().for_each(|setting| _ = command.args(["--set", setting]));
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{out}: {}", String::from_utf8_lossy(&output.stderr));
+    let report = std::fs::read(folder.join(out).join("report.json")).unwrap();
+    serde_json::from_slice::<serde_json::Value>(&report).unwrap()["cycles"].clone()
+}
+
+/// All planes, the same bytes.
+fn same_planes(folder: &Path, a: &str, b: &str) -> usize {
+    let planes = ["z.npy", "rgb.npy", "lit.npy", "id.npy", "coverage.npy", "writes.npy"];
+    for plane in planes {
+        let read = |of: &str| std::fs::read(folder.join(of).join(plane)).unwrap();
+        assert!(read(a) == read(b), "{plane} of {a} and {b}");
+    }
+    planes.len()
+}
+
+#[test]
+fn every_engine_draws_map_and_picture_on_one_machine() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut random = Pcg64Mcg::seed_from_u64(9);
+    let parallel = "0.7 0 12 1   0 0.6 5 2   0 0 0.5 0.2   0 0 0 1";
+    let tilted = "0.7 0 12 1   0 0.6 5 2   0 0 0.5 0.2   0.001 0.0005 0.1 1";
+    let (mut compared, mut dark) = (0, 0);
+    // A map larger than the screen and one smaller; with panes, BLEND draws what is left of the light.
+    for (sides, light, matrix, glass) in [
+        ([40, 30, 64], "parallel", parallel, false),
+        ([60, 50, 24], "perspective", tilted, true),
+        ([40, 30, 64], "parallel", parallel, true),
+    ] {
+        std::fs::write(folder.path().join("a.tri"), two_lights(&mut random, sides, matrix, glass)).unwrap();
+        let (light, size) = (format!("shadow.light={light}"), format!("shadow.size={}", sides[2]));
+        let mut settings = vec![light.as_str(), &size, "shadow.gate=scale", "screen.guard_bits=8"];
+        if glass {
+            settings.extend(["shadow.transmits=yes", "blend.kind=constant"]);
+        }
+        let without = raster(folder.path(), "without", "model", &settings);
+        settings.push(OWN);
+        let mut cycles = Vec::new();
+        for engine in ["fast", "model", "rtl"] {
+            let own = raster(folder.path(), engine, engine, &settings);
+            compared += same_planes(folder.path(), "without", engine);
+            assert_eq!(own["total"], without["total"], "the picture takes its time, whoever draws the map");
+            assert_eq!(own["passes"], without["passes"]);
+            let maps = own["maps"].as_array().unwrap();
+            assert!(maps.len() == 2 && maps.iter().all(|cycles| cycles.as_u64() > Some(100)), "{own}");
+            cycles.push(own["maps"].clone());
+        }
+        assert!(cycles.windows(2).all(|pair| pair[0] == pair[1]), "{cycles:?}");
+        let (_, _, lit) = crate::support::npy(&folder.path().join("rtl/lit.npy"));
+        dark += lit.iter().filter(|lit| **lit == 1).count();
+    }
+    println!("{compared} of 54 planes the same, {dark} pixels in shadow");
+    assert!(compared == 54 && dark > 100);
+}
+
+/// A scene in all passes: its report, and the pixels of its picture (what stands before them names the machine).
+fn render(folder: &Path, out: &str, engine: &str, settings: &[&str]) -> (serde_json::Value, Vec<u8>) {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scenes/glass-and-shadows.toml");
+    let mut command =
+        edgewalk(folder, &["render", scene, "--shadows", "map", "--engine", engine, "--out", out, "--json"]);
+    let usual = [
+        "screen.width=60",
+        "screen.height=45",
+        "shadow.light=perspective",
+        "shadow.size=96",
+        "shadow.depth_bits=20",
+        "shadow.light_bits=24",
+        "shadow.transmits=yes",
+        "blend.kind=constant",
+    ];
+    usual.iter().chain(settings).for_each(|setting| _ = command.args(["--set", setting]));
+    let output = command.output().unwrap();
+    let report = serde_json::from_slice(&output.stdout);
+    let report: serde_json::Value =
+        report.unwrap_or_else(|_| panic!("{}", String::from_utf8_lossy(&output.stderr)));
+    assert!(output.status.success(), "{}", report["comparison"]);
+    let image = std::fs::read(folder.join(out).join("image.png")).unwrap();
+    let pixels = image.windows(4).position(|four| four == b"IDAT").unwrap();
+    (report, image[pixels..].to_vec())
+}
+
+#[test]
+fn a_scene_has_the_same_shadows() {
+    let folder = tempfile::tempdir().unwrap();
+    let (found, without) = render(folder.path(), "without", "fast", &[]);
+    for engine in ["fast", "rtl"] {
+        let (report, own) = render(folder.path(), engine, engine, &[OWN]);
+        assert!(own == without, "image.png of {engine}");
+        assert_eq!(report["parts"]["parts"].as_array().map(Vec::len), Some(3));
+        assert_eq!(report["parts"], found["parts"], "every decision, error and bound");
+        let maps = report["cycles"]["maps"].as_array().unwrap();
+        assert!(!maps.is_empty() && maps.iter().all(|cycles| cycles.as_u64() > Some(100)), "{maps:?}");
+    }
+}
+
+#[test]
+fn what_one_machine_cannot_do_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let light = "shadow.light=parallel";
+    let cases: [(&[&str], &[&str]); 5] = [
+        (&[light, "shadow.own_pass=maybe"], &["shadow.own_pass = maybe", "no, yes", "nearest"]),
+        (
+            &[light, OWN, "shadow.depth_bits=24", "formats.z_bits=16"],
+            &["shadow.depth_bits = 24", "shadow.own_pass = yes", "16 bits", "try shadow.depth_bits = 16"],
+        ),
+        (
+            &[light, OWN, "screen.guard_bits=8", "screen.width=64", "screen.height=48"],
+            &["screen.guard_bits = 8", "shadow.own_pass = yes", "512 texels", "try screen.guard_bits = 9"],
+        ),
+        (
+            &[light, OWN, "shadow.transmits=yes"],
+            &["blend.kind = none", "shadow.own_pass", "BLEND", "try blend.kind = constant"],
+        ),
+        (&[OWN, "shadow.owm_pass=yes"], &["shadow.owm_pass", "nearest: shadow.own_pass"]),
+    ];
+    for (settings, words) in cases {
+        let mut arguments = vec!["emit", "--out", "out"];
+        settings.iter().for_each(|setting| arguments.extend(["--set", setting]));
+        let (code, error) = run(folder.path(), &arguments);
+        assert_eq!(code, Some(2), "{settings:?}: {error}");
+        for word in words {
+            assert!(error.contains(word), "{settings:?}: {error} lacks {word}");
+        }
+    }
+    println!("checked {0} / {0} machines", cases.len());
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
