@@ -165,7 +165,7 @@ fn machines_with_shadow_replay_and_are_clean() {
     machines_with_shadow(&machines, |i| &Simulator::ALL[..1 + usize::from(i == 3)]);
 }
 
-/// Both that draw their map, in both simulators: the machine and each unit that has the input, in the light's pass and in the picture's.
+/// Both that draw their map in Icarus, their map in Verilator too: the machine and each unit that has the input, in the light's pass and in the picture's.
 #[test]
 fn machines_that_draw_their_map_replay_and_are_clean() {
     let machines: Vec<_> = common::lights().into_iter().filter(|(_, plan)| plan.shadow.draws_map()).collect();
@@ -177,7 +177,7 @@ fn machines_that_draw_their_map_replay_and_are_clean() {
                 let trace = capture(machine, unit, &suite, suite.state(), StallKind::ALL[(i + j) % 3]);
                 let verilog = design::verilog(machine, unit).expect("a checked machine");
                 let files = directory(&suite, &trace, &verilog, Tables::LeftOut);
-                let simulators = &Simulator::ALL[..1 + usize::from(unit == Unit::MACHINE)];
+                let simulators = &Simulator::ALL[..1 + usize::from(unit == Unit::MACHINE && j == 0)];
                 checked += simulators.iter().map(|simulator| passes(*simulator, &files)).sum::<u64>();
                 if unit == Unit::MACHINE {
                     let place = tempfile::tempdir().expect("a directory");
