@@ -11,6 +11,7 @@ use edgewalk_machine::{Activity, ForeignVertex, Plan, PortVertex, Record};
 use edgewalk_model::tokens::output;
 use edgewalk_model::{Counters, DrawState, Events, Frame, Pass, Shading, first_of_picture};
 use edgewalk_netlist::{BuildErrors, Simulator};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Why a netlist cannot draw.
@@ -129,7 +130,8 @@ fn run(
     let farthest = u64::MAX >> (64 - plan.shadow.depth_bits);
     let mut own_map = plan.shadow.draws_map().then(|| Picture::new(plan, &interface, farthest, [all; 3]));
     let mut ports = interface.values();
-    let (mut maps, mut map): (_, Arc<[u128]>) = (maps.to_vec(), Arc::default());
+    let mut maps: Vec<Cow<[u32]>> = maps.iter().map(Cow::from).collect();
+    let mut map: Arc<[u128]> = Arc::default();
     let (mut counters, mut of_passes) = (Counters::default(), Vec::new());
     // What the host fills once for the frame; what it leaves out is 0.
     let filled = |name: &str| match name {
@@ -178,14 +180,16 @@ fn run(
         counters = counters.and(&spent);
         of_passes.push(spent);
         if let Some(number) = pass.map.filter(|_| light_pass) {
-            maps.resize(maps.len().max(number + 1), Vec::new());
-            maps[number] = page.map(plan);
+            maps.resize(maps.len().max(number + 1), Cow::default());
+            maps[number] = page.map(plan).into();
         }
         if !more {
             break;
         }
     }
     drop(tokens);
+    let draws_maps = passes.iter().any(|pass| pass.state.light_pass);
+    let maps = if draws_maps { maps.into_iter().map(Cow::into_owned).collect() } else { Vec::new() };
     let frame = Frame { maps, counters, passes: of_passes, ..picture.frame(plan) };
     foreign.map_or(Ok(frame), |foreign| Err(foreign.into()))
 }

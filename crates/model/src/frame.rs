@@ -8,6 +8,7 @@ use crate::run::{Cycle, DrawState, Rig};
 use crate::tokens::{Source, for_channels, output};
 use crate::waits::Waits;
 use edgewalk_machine::{ForeignVertex, Plan, PortVertex, Record};
+use std::borrow::Cow;
 
 /// A picture, row by row from the top, W×H pixels, and what it took.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,7 +27,7 @@ pub struct Frame {
     pub id: Vec<i32>,
     /// With SHADOW: 0 no colour was written, 1 the last was in shadow, 2 lit. Else empty.
     pub lit: Vec<u8>,
-    /// Words of the maps by address: those that came with the passes, with those that the lights' own passes drew.
+    /// Where the lights' own passes drew maps: the words of all maps, by address.
     pub maps: Vec<Vec<u32>>,
     /// Performance counters, of all passes.
     pub counters: Counters,
@@ -149,7 +150,8 @@ fn draw<const C: usize>(
     rig.write_shading(plan, shading);
     let mut records = shading.records.iter().enumerate();
     let at_once = if plan.shade.is_there() { 1 << plan.shade.record_bits } else { usize::MAX };
-    let mut maps = maps.to_vec();
+    let mut maps: Vec<Cow<[u32]>> = maps.iter().map(Cow::from).collect();
+    let draws_maps = passes.iter().any(|pass| pass.state.light_pass);
     let mut watch = |light_pass: bool, model: &Model<C>, cycle: &Cycle<C>| {
         if light_pass {
             return;
@@ -178,7 +180,7 @@ fn draw<const C: usize>(
             rig.clear_depth(plan);
         }
         if let (Some(memory), Some(map)) = (&mut rig.map, pass.map.and_then(|map| maps.get(map))) {
-            memory.words_mut().iter_mut().zip(map).for_each(|(word, depth)| *word = *depth);
+            memory.words_mut().iter_mut().zip(&**map).for_each(|(word, depth)| *word = *depth);
         }
         let mut left = pass.triangles;
         loop {
@@ -195,8 +197,8 @@ fn draw<const C: usize>(
         }
         counters.push(rig.model.counters().since(&before));
         if let Some(map) = pass.map.filter(|_| pass.state.light_pass) {
-            maps.resize(maps.len().max(map + 1), Vec::new());
-            maps[map] = rig.drawn_map(plan);
+            maps.resize(maps.len().max(map + 1), Cow::default());
+            maps[map] = rig.drawn_map(plan).into();
         }
     }
     rig.set_state(state);
@@ -218,7 +220,7 @@ fn draw<const C: usize>(
             true => addresses.iter().map(|addr| tally.lit[*addr]).collect(),
             false => Vec::new(),
         },
-        maps,
+        maps: if draws_maps { maps.into_iter().map(Cow::into_owned).collect() } else { Vec::new() },
         counters: rig.model.counters().clone(),
         passes: counters,
         events: rig.model.events().clone(),
