@@ -64,11 +64,16 @@ fn dark(plan: &Plan, ambient: u32) -> u32 {
     if plan.shadow.gate == Gate::And { 0 } else { ambient }
 }
 
-/// Feeds SHADOW and the map with a fragment a clock, DEPTH taking as `willing` says; gives what it was given, events, cycles.
+/// A map that counts or not, and what is left in shadow.
+fn lit_by(on: bool, ambient: u32) -> ShadowInputs {
+    ShadowInputs { on, ambient, ..ShadowInputs::default() }
+}
+
+/// Feeds SHADOW and the map with a fragment a clock, DEPTH taking as `willing` says, under the inputs asked for; gives what it was given, events, cycles.
 fn feed(
     plan: &Plan,
     fragments: &[Fragment<C>],
-    (on, ambient): (bool, u32),
+    asked: ShadowInputs,
     memory: &mut MapMemory,
     mut willing: impl FnMut() -> bool,
 ) -> (Vec<Fragment<C>>, Events, u64) {
@@ -76,13 +81,7 @@ fn feed(
     let (mut events, mut given, mut next, mut cycles) = (Events::default(), Vec::new(), 0, 0);
     while next < fragments.len() || unit.occupied() {
         let frag = fragments.get(next);
-        let inputs = ShadowInputs {
-            on,
-            light_pass: false,
-            ambient,
-            mrd_ready: memory.mrd_ready(),
-            mdata: memory.mdata(),
-        };
+        let inputs = ShadowInputs { mrd_ready: memory.mrd_ready(), mdata: memory.mdata(), ..asked };
         let read = unit.read(frag, &inputs).filter(|_| inputs.mrd_ready);
         let fires = frag.is_some() && unit.frag_ready(frag, &inputs);
         let ready = willing();
@@ -107,12 +106,15 @@ fn every_decision_is_the_rules() {
     for run in 0..3000 {
         let pick = |rng: &mut StdRng, list: &[u32]| list[rng.random_range(0..list.len())].to_string();
         let transmits = run % 4 < 2;
+        // The light's own pass: nothing is looked up, whatever the place and shadow_on.
+        let light_pass = run % 8 == 6;
         let plan = with(&[
             ("shadow.size", pick(&mut rng, &[1, 2, 3, 5, 8, 13])),
             ("shadow.guard_bits", pick(&mut rng, &[0, 1, 3])),
             ("shadow.depth_bits", pick(&mut rng, if transmits { &[4, 8, 16] } else { &[4, 8, 24] })),
             ("shadow.gate", ["and", "scale"][run % 2].to_owned()),
             ("shadow.transmits", if transmits { "yes" } else { "no" }.to_owned()),
+            ("shadow.own_pass", if light_pass { "yes" } else { "no" }.to_owned()),
             ("formats.color_bits", pick(&mut rng, &[2, 5, 8, 12, 16])),
             ("fifo.shadow", pick(&mut rng, &[1, 2, 3, 4, 16])),
             ("memory.map_latency", pick(&mut rng, &[1, 2, 3, 8])),
@@ -163,13 +165,14 @@ fn every_decision_is_the_rules() {
                 fragment(&plan, [0; 3].map(|_| rng.random_range(0..=plan.color.max() as u32)), *place)
             })
             .collect();
+        let asked_for = ShadowInputs { light_pass, ..lit_by(on, ambient) };
         let patience = rng.random_range(0.1..=1.0);
         let mut draw = StdRng::seed_from_u64(run as u64);
         let (given, events, _) =
-            feed(&plan, &fragments, (on, ambient), &mut memory, || draw.random_bool(patience));
+            feed(&plan, &fragments, asked_for, &mut memory, || draw.random_bool(patience));
         assert_eq!(given.len(), fragments.len());
         for ((given, asked), place) in given.iter().zip(&fragments).zip(places) {
-            let left = left(&plan, &map, on, place);
+            let left = left(&plan, &map, on && !light_pass, place);
             let share = left.unwrap_or_else(|| dark(&plan, ambient));
             let wanted = [1, 2, 3].map(|i| scaled(&plan, asked.values[i], share));
             let found = (given.lit, &given.values[1..4]);
@@ -198,7 +201,7 @@ fn every_share_of_8_bits_is_the_nearest() {
     for ambient in 0..256 {
         let fragments: Vec<_> =
             (0..256).map(|c| fragment(&plan, [c, 255 - c, c / 2], [0, 0, 1 << 16])).collect();
-        let (given, ..) = feed(&plan, &fragments, (true, ambient), &mut memory, || true);
+        let (given, ..) = feed(&plan, &fragments, lit_by(true, ambient), &mut memory, || true);
         for (given, asked) in given.iter().zip(&fragments) {
             for i in 1..4 {
                 assert_eq!(given.values[i], scaled(&plan, asked.values[i], ambient));
@@ -217,7 +220,7 @@ fn a_fragment_a_clock_where_the_queue_is_longer_than_the_latency() {
         let plan = with(&[("memory.map_latency", latency.to_string()), ("fifo.shadow", places.to_string())]);
         let mut memory = MapMemory::new(&plan, Stalls::NONE);
         let fragments: Vec<_> = (0..6000).map(|i| fragment(&plan, [9; 3], [i % 512, i / 512, 7])).collect();
-        let (.., cycles) = feed(&plan, &fragments, (true, 0), &mut memory, || true);
+        let (.., cycles) = feed(&plan, &fragments, lit_by(true, 0), &mut memory, || true);
         let clocks = cycles as f64 / 6000.0;
         assert!((clocks - wanted).abs() < 0.01, "latency {latency}, {places} places: {clocks} for {wanted}");
     }
