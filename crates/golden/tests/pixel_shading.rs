@@ -1,7 +1,7 @@
 //! Frames with normals: Phong and fast Phong against numbers by hand and against the equation written once more.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use edgewalk_golden::{Fill, Picture, PixelBrush, draw, fragments};
+use edgewalk_golden::{Fill, Picture, PixelBrush, Texel, draw, fragments};
 use edgewalk_scene::{
     Attenuation, Light, Material, PixelMethod, PixelShading, PixelTriangle, ShadeMode, Specular, Triangle,
     Vertex, Viewer, triangle_file,
@@ -194,7 +194,13 @@ fn a_light_at_a_point_is_sampled_by_the_six_points() {
                 specular: Specular::Halfway,
                 materials: vec![Material::matte(DVec3::ONE)],
                 textures: Vec::new(),
-                triangles: vec![PixelTriangle { normals, positions, texture: [DVec2::ZERO; 3], material: 0 }],
+                triangles: vec![PixelTriangle {
+                    normals,
+                    positions,
+                    texture: [DVec2::ZERO; 3],
+                    turns: [DVec3::ZERO; 2],
+                    material: 0,
+                }],
             };
             let exact = PixelShading { method: PixelMethod::Phong, ..shading.clone() };
             let brushes = [&shading, &exact].map(|shading| PixelBrush::new(shading, 0).unwrap());
@@ -222,7 +228,7 @@ fn lights_within_doubt_of_the_horizon_may_stand_on_either_side() {
     let brush = PixelBrush::new(frame.shading.as_ref().unwrap(), 0).unwrap();
     let mut checked = 0;
     fragments(&frame.triangles[0], ShadeMode::Gouraud, 8, (4, 4), |fragment| {
-        let of = |doubt: f64| brush.branches(fragment, DVec3::ONE, doubt);
+        let of = |doubt: f64| brush.branches(fragment, &Texel::BLANK, doubt);
         let own = brush.color(fragment);
         // As it is: both lights shine, a little.
         let lit = 0.125 + 0.5 * (0.5 * 0.001 + 0.25 * 0.002);

@@ -157,7 +157,11 @@ fn terms(machine: &Machine) -> Result<(), MachineError> {
             return Err(MachineError::rule(
                 machine,
                 key,
-                format!("the word of {} would have {} bits, {TERM_BITS} is the most", longest.name, longest.word()),
+                format!(
+                    "the word of {} would have {} bits, {TERM_BITS} is the most",
+                    longest.name,
+                    longest.word()
+                ),
                 (TERM_BITS - longest.bits).to_string(),
             ));
         }

@@ -100,16 +100,16 @@ pub(crate) fn terms(machine: &Machine) -> Vec<Term> {
     };
     let (mut terms, turns): (Vec<Term>, _) = match shade.kind {
         ShadeKind::None => (Vec::new(), COSINE_TURNS),
-        ShadeKind::FastPhong => {
-            (COSINES.into_iter().take(lights).flat_map(of_light).collect(), COSINE_TURNS)
-        }
+        ShadeKind::FastPhong => (COSINES.into_iter().take(lights).flat_map(of_light).collect(), COSINE_TURNS),
         ShadeKind::Phong => {
             let products = PRODUCTS.into_iter().take(lights).flatten().map(|name| linear(name, UNIT_BITS));
             (products.chain([quadratic("nn", UNIT_BITS)]).collect(), PRODUCT_TURNS)
         }
     };
     if shade.bumps() {
-        for (turns, bits) in turns.into_iter().take(lights).flat_map(|of_light| of_light.into_iter().zip(bits)) {
+        for (turns, bits) in
+            turns.into_iter().take(lights).flat_map(|of_light| of_light.into_iter().zip(bits))
+        {
             terms.extend(turns.map(|name| linear(name, bits)));
         }
         if shade.normalises() {
@@ -181,7 +181,8 @@ impl Plan {
     /// more bits is cut.
     #[must_use]
     pub fn texel_word(&self, colours: [u32; 3], slopes: [i32; 2]) -> u128 {
-        let put = |word: u128, value: u32, bits: u32| word << bits | u128::from(value & (u32::MAX >> (32 - bits)));
+        let put =
+            |word: u128, value: u32, bits: u32| word << bits | u128::from(value & (u32::MAX >> (32 - bits)));
         let colour = colours.into_iter().fold(0, |word, colour| put(word, colour, self.color.bits));
         if !self.shade.bumps() {
             return colour;

@@ -80,9 +80,11 @@ pub fn bump(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
             })
         })
         .collect();
-    let pairs = [("uu", 0, 0), ("uv", 0, 1), ("vv", 1, 1)].map(|(name, i, j)| (name, slopes[i].1, slopes[j].1));
+    let pairs =
+        [("uu", 0, 0), ("uv", 0, 1), ("vv", 1, 1)].map(|(name, i, j)| (name, slopes[i].1, slopes[j].1));
     let of_slopes = normalises.then(|| {
-        pairs.map(|(name, a, b)| moved(&m, advance, &format!("k1_{name}"), "product of two slopes", a.smul(b)))
+        pairs
+            .map(|(name, a, b)| moved(&m, advance, &format!("k1_{name}"), "product of two slopes", a.smul(b)))
     });
 
     m.comment("K2: the cosines of the turned normal.");
@@ -107,7 +109,9 @@ pub fn bump(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         let growths: Vec<Signal<'_>> = SQUARES
             .into_iter()
             .zip(of_slopes)
-            .map(|(name, slopes)| moved(&m, advance, &format!("k2_{name}"), "growth of nn", k1[name].smul(slopes)))
+            .map(|(name, slopes)| {
+                moved(&m, advance, &format!("k2_{name}"), "growth of nn", k1[name].smul(slopes))
+            })
             .collect();
 
         m.comment("K3: N.N of the turned normal.");
