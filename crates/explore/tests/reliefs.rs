@@ -118,11 +118,11 @@ fn every_colour_of_a_relief_is_within_its_bound() {
         (&[("shade.lights", "2")], (8, 0.5), 2, false),
         (&[("texture.slope_bits", "6"), ("term.walk", "memory")], (16, 0.5), 1, false),
         (&[("texture.slope_bits", "16"), ("term.linear_fraction", "4")], (16, 0.1), 1, false),
-        (&[("shade.gloss_bits", "0"), ("texture.slope_bits", "4")], (5, 3.0), 1, true),
+        (&[("shade.gloss_bits", "0"), ("texture.slope_bits", "4")], (5, 12.0), 1, true),
         (&[phong], (16, 0.3), 1, false),
         (&[phong, ("shade.lights", "2"), ("shade.table_bits", "10")], (8, 0.4), 2, false),
         (&[phong, ("texture.slope_bits", "5"), ("term.walk", "memory")], (16, 0.2), 1, false),
-        (&[phong, ("texture.slope_bits", "16")], (7, 1.5), 1, true),
+        (&[phong, ("texture.slope_bits", "16")], (7, 6.0), 1, true),
     ];
     let (mut pixels, mut turned) = (0, 0.0);
     for (settings, pictures, lights, steep) in cases {

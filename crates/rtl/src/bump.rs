@@ -62,12 +62,14 @@ pub fn bump(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         .collect();
     let last = stages[stages.len() - 1].0.q();
     let advance = (!last | bumped_ready).named_doc("advance", "all stages move on");
-    let (mut valid, mut before, mut occupied) = (frag_valid, frag.clone(), last);
+    let (mut valid, mut before) = (frag_valid, frag.clone());
     for (filled, kept) in &stages {
         filled.when(advance, valid);
         kept.load(advance, |f| before[f]);
-        (valid, before, occupied) = (filled.q(), kept.token(), occupied | filled.q());
+        (valid, before) = (filled.q(), kept.token());
     }
+
+    let occupied = stages.iter().map(|(valid, _)| valid.q()).reduce(|any, one| any | one).unwrap_or(last);
 
     m.comment("K1: products with the slopes.");
     let slopes = [("u", frag["bu"]), ("v", frag["bv"])];
@@ -98,8 +100,10 @@ pub fn bump(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         let half = if normalises { 1 << (slope_bits - 2) } else { 0 };
         let scaled = m.cat(&[cosine.sext(width - one), m.lit(one, half)]);
         let sum = scaled + along_u.sext(width) + along_v.sext(width);
-        let sum = sum.named_doc(&format!("sum_{}", part.name), "exact, with the half that rounds it");
+        let doc = if normalises { "exact, with the half that rounds it" } else { "exact" };
+        let sum = sum.named_doc(&format!("sum_{}", part.name), doc);
         let turned = sum.slice(width - 1, one + plan.shade.cosine_fraction());
+        let turned = turned.named(&format!("turned_{}", part.name));
         let turned = cut(&m, &part.name, turned, part.width);
         sums.push(moved(&m, advance, &format!("k2_{}", part.name), &part.doc, turned));
     }
@@ -123,7 +127,7 @@ pub fn bump(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         let width = nn.width() + 2 * slope_bits + 1;
         let scaled = m.cat(&[nn.sext(width - 2 * one), m.lit(2 * one, 0)]);
         let sum = growths.into_iter().fold(scaled, |sum, growth| sum + growth.sext(width));
-        let turned = sum.named_doc("sum_nn", "exact").slice(width - 1, 2 * one);
+        let turned = sum.named_doc("sum_nn", "exact").slice(width - 1, 2 * one).named("turned_nn");
         square = Some(moved(&m, advance, "k3_nn", "2^16 for 1.0", cut(&m, SQUARE, turned, nn.width())));
     }
 

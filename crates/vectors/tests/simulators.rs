@@ -145,6 +145,15 @@ fn machines_with_shadow_replay_and_are_clean() {
     machines_with_shadow(&machines, |i| &Simulator::ALL[..1 + usize::from(i == 3)]);
 }
 
+/// The two with a relief in both; not part of the test run.
+#[test]
+#[ignore = "minutes"]
+fn machines_with_a_relief_in_every_tool() {
+    let mut machines = common::shades();
+    let machines = [machines.remove(6), machines.remove(3)];
+    machines_with_shade(&machines, |_| &Simulator::ALL, &["hazards", "corners", "random", "shade"]);
+}
+
 /// All eight in both; not part of the test run.
 #[test]
 #[ignore = "minutes"]
@@ -215,7 +224,7 @@ fn machines_with_shade(
         };
         let whole = of(Unit::MACHINE, StallKind::ALL[(i + 1) % 3]);
         let mut checked: u64 = simulators(i).iter().map(|simulator| passes(*simulator, &whole)).sum();
-        let own = [common::TERM, common::PIXEL, common::TEXEL, common::NORMAL, common::SHADE];
+        let own = [common::TERM, common::PIXEL, common::TEXEL, common::BUMP, common::NORMAL, common::SHADE];
         for (j, unit) in own.into_iter().filter(|unit| Unit::all(machine).contains(unit)).enumerate() {
             checked += passes(Simulator::Icarus, &of(unit, StallKind::ALL[(i + j) % 3]));
         }

@@ -47,21 +47,24 @@ pub struct Relief {
     whole: f64,
     /// How far a stored slope may be from the relief's, of `one`.
     pub error: f64,
+    /// The root of the largest B_u² + B_v² as stored, of `one`.
+    pub farthest: f64,
 }
 
 impl Relief {
     /// Of these heights at the middles of the machine's texels; `None` of a flat one.
     fn new(image: &Arc<Image>, machine: &Plan) -> Option<Relief> {
         let whole = 2f64.powi(machine.shade.slope_bits as i32 - 1);
-        let mut relief = Relief { image: Arc::clone(image), one: 0.0, whole, error: 0.0 };
+        let mut relief = Relief { image: Arc::clone(image), one: 0.0, whole, error: 0.0, farthest: 0.0 };
         let side = 1u32 << machine.shade.texture_bits;
         let all = (0..side).flat_map(|v| (0..side).map(move |u| [u, v]));
-        let of = |texel| image.slope(middle(texel, f64::from(side))).to_array();
-        let slopes: Vec<f64> = all.flat_map(of).collect();
-        let steepest = slopes.iter().fold(0f64, |most, slope| most.max(slope.abs()));
+        let slopes: Vec<DVec2> = all.map(|texel| image.slope(middle(texel, f64::from(side)))).collect();
+        let steepest = slopes.iter().fold(0f64, |most, slope| most.max(slope.abs().max_element()));
         relief.one = steepest * whole / (whole - 1.0);
         for slope in slopes {
-            relief.error = relief.error.max((relief.stored(slope) / whole - slope / relief.one).abs());
+            let stored = DVec2::new(relief.stored(slope.x), relief.stored(slope.y)) / whole;
+            relief.error = relief.error.max((stored - slope / relief.one).abs().max_element());
+            relief.farthest = relief.farthest.max(stored.length());
         }
         (steepest > 0.0).then_some(relief)
     }

@@ -13,8 +13,9 @@ use glam::DVec3;
 /// Growth that a word holds.
 const MOST_GROWTH: f64 = 1.99;
 
-/// Turn of a normal of length 1 that is let stand in Phong: the turned one is 1.42 long, and made shorter before.
-const MOST_TURN: f64 = 1.0;
+/// Turn of a normal of length 1 that is let stand in Phong: the turned one is 1.8 long, and made shorter before, so that the one that is
+/// not turned stays longer than half.
+const MOST_TURN: f64 = 1.5;
 
 /// What is left below 1 for N·N, where NORMAL's table ends.
 const BELOW_ONE: f64 = 1.0 / (1 << 14) as f64;
@@ -32,8 +33,9 @@ pub struct Turns {
     pub longest: f64,
     /// How far the planes through the squares may lie above the true ones, all three together.
     pub gap: f64,
-    /// How far a stored slope may be from the relief's, of the largest.
+    /// How far a stored slope may be from the relief's, of the largest, and the turn from its own for that.
     pub slope_error: f64,
+    pub turn_error: f64,
     /// The relief is steeper than the words can say, and lower on the machine.
     pub flattened: bool,
 }
@@ -56,9 +58,11 @@ impl Turns {
         };
         let most =
             |growths: &[[[f64; 3]; 2]]| growths.iter().flatten().flatten().fold(0f64, |m, g| m.max(g.abs()));
+        // |a N x T_u + b N x T_v|² <= (a² + b²) (|N x T_u|² + |N x T_v|²), and the lengths are largest at a vertex.
         let longest = |along: &[[DVec3; 3]; 2]| {
             let [u, v] = along;
-            (0..3).map(|k| u[k].length() + v[k].length()).fold(0.0, f64::max)
+            let length = |k: usize| (u[k].length_squared() + v[k].length_squared()).sqrt();
+            relief.farthest * (0..3).map(length).fold(0.0, f64::max)
         };
         let full = along(steep);
         let too_steep = most(&growths(&full)) / MOST_GROWTH;
@@ -74,9 +78,10 @@ impl Turns {
         let at = |square: fn(DVec3, DVec3) -> f64| [0, 1, 2].map(|k: usize| square(u[k], v[k]));
         // A square is a form of N: over the triangle it lies below its plane by sums of the forms of differences of normals.
         let form = |k: usize| {
-            let difference = |turned: &[DVec3; 3]| (turned[(k + 1) % 3] - turned[k]).length();
-            (difference(u) + difference(v)).powi(2)
+            let difference = |turned: &[DVec3; 3]| (turned[(k + 1) % 3] - turned[k]).length_squared();
+            relief.farthest * relief.farthest * (difference(u) + difference(v))
         };
+        let lengths = |k: usize| u[k].length() + v[k].length();
         Turns {
             growths: growths(&along),
             squares: [
@@ -88,6 +93,7 @@ impl Turns {
             longest: longest * scale,
             gap: (0..3).map(form).fold(0.0, f64::max) / 3.0,
             slope_error: relief.error,
+            turn_error: relief.error * (0..3).map(lengths).fold(0.0, f64::max),
             flattened,
         }
     }
@@ -100,8 +106,6 @@ impl Turns {
 
     /// The same of N·N.
     pub fn square_error(&self) -> f64 {
-        // Each slope's share of the turn is at most as long as the longest.
-        let turn = self.longest * self.slope_error;
-        self.gap + (2.0 * self.longest + turn) * turn
+        self.gap + (2.0 * self.longest + self.turn_error) * self.turn_error
     }
 }

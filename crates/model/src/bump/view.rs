@@ -18,6 +18,10 @@ impl<const C: usize> Bump<C> {
         view.kind("fragment", "fragments", || fragments::fields(plan));
         let oldest = self.stages.iter().rev().flatten().next().map(|(fragment, _)| fragment).or(frag);
         view.triangle(oldest.map(|fragment| fragment.source.id));
+        view.flag("first", "a fragment is in K1", self.stages[0].is_some());
+        view.wire(|| "k1_valid".to_owned());
+        view.flag("second", "a fragment is in K2", self.stages[1].is_some());
+        view.wire(|| "k2_valid".to_owned());
         let held = self.stages.iter().flatten().count() as u64;
         let held = view.number("held", "fragments in the stages", 2, held);
         view.table("stages", &["fragment"], false);

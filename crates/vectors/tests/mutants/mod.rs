@@ -124,7 +124,7 @@ fn every_fault_of_shadow_is_found() {
     share_found(&machines_with_shadow(), |_| 1, SHADOW_LEAST);
 }
 
-/// Of TERM, PIXEL's terms, TEXEL, NORMAL and SHADE; of PROJECT.
+/// Of TERM, PIXEL's terms, TEXEL, BUMP, NORMAL and SHADE; of PROJECT.
 const SHADE_LEAST: usize = 98;
 
 #[test]
@@ -248,7 +248,7 @@ fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
                 any.map(|(stalls, seed)| any_fragments(machine, &traces[1], stalls, seed)).collect();
             traces.extend(any);
         }
-        "term" | "texel" | "normal" | "shade" | "project" => {
+        "term" | "texel" | "bump" | "normal" | "shade" | "project" => {
             let own = if unit == common::PROJECT { "light" } else { "shade" };
             let suite = Suite::named(machine, own, 1, 24).expect("listed");
             // The directed words once, the rest at random: whole suites under every stall take long.
