@@ -39,6 +39,7 @@ mod study;
 mod sweep;
 mod synth;
 mod texels;
+mod reliefs;
 mod threads;
 mod trace;
 mod vectors;
