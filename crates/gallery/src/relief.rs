@@ -10,7 +10,7 @@ const SCENE: &str = include_str!("../../../docs/scenes/relief.toml");
 pub(crate) fn relief() -> anyhow::Result<Exhibit> {
     let scene = |text: &str| Scene::parse(Path::new("relief.toml"), text);
     let full = scene(SCENE)?;
-    let smooth = scene(&SCENE.replace("bump_height = 0.03", "bump_height = 0"))?;
+    let smooth = scene(&SCENE.replace("bump_height = 0.05", "bump_height = 0"))?;
     let [phong, flat] = [&full, &smooth].map(|scene| Beside::of(scene, PixelMethod::Phong));
     let (phong, fast) = (phong?, Beside::of(&full, PixelMethod::FastPhong)?);
     let (changed, most) = phong.change(&flat?);

@@ -132,8 +132,23 @@ fn single_faults_of_project_are_found() {
     share_found(&shaded::machines_with_project(), |_| SAMPLE, LEAST);
 }
 
+fn machines_with_bump() -> Vec<(Plan, Unit)> {
+    shaded::machines().into_iter().filter(|(_, unit)| *unit == common::BUMP).collect()
+}
+
 #[test]
-#[ignore = "an hour: each fault of TERM, PIXEL's terms, TEXEL, NORMAL and SHADE"]
+fn single_faults_of_bump_are_found() {
+    share_found(&machines_with_bump(), |_| SAMPLE, LEAST);
+}
+
+#[test]
+#[ignore = "minutes: each fault of BUMP"]
+fn every_fault_of_bump_is_found() {
+    share_found(&machines_with_bump(), |_| 1, SHADE_LEAST);
+}
+
+#[test]
+#[ignore = "an hour: each fault of TERM, PIXEL's terms, TEXEL, BUMP, NORMAL and SHADE"]
 fn every_fault_of_shade_is_found() {
     share_found(&shaded::machines(), |_| 1, SHADE_LEAST);
 }
