@@ -1,7 +1,7 @@
 //! Reliefs through the program: scenes with pictures of heights and with waves in every engine, what `explain` shows, and faults.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use crate::support::{edgewalk, npy, run};
+use crate::support::{edgewalk, run};
 use std::path::Path;
 
 /// A square of two triangles whose normals differ, with a picture of 8 x 8 heights, or waves.
@@ -51,10 +51,6 @@ const BUMP: [&str; 8] = [
     "--set",
     "shade.material_bits=0",
 ];
-
-fn written(folder: &Path) -> Vec<u8> {
-    npy(&folder.join("r").join("rgb.npy")).2
-}
 
 #[test]
 fn render_holds_the_relief_of_a_scene_in_every_engine() {

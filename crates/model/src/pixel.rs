@@ -31,8 +31,7 @@ pub struct Pixel<const C: usize> {
     /// 2^b - 1.
     masks: OutputWords<C>,
     last_phase: u32,
-    /// How many terms there are.
-    terms: usize,
+    has_terms: bool,
     /// r and b of the terms; behind the last of 1 bit.
     term_formats: [(u32, u32); MAX_TERMS],
 
@@ -73,7 +72,7 @@ impl<const C: usize> Pixel<C> {
             align: per_channel(plan, |c| 32 - c.fraction), // r <= 24
             masks: per_channel(plan, |c| u32::MAX >> (32 - c.bits)),
             last_phase: plan.clocks_per_pixel() - 1,
-            terms: plan.terms().len(),
+            has_terms: !plan.terms().is_empty(),
             term_formats: std::array::from_fn(|i| {
                 plan.terms().get(i).map_or((0, 1), |term| (term.fraction, term.bits))
             }),
@@ -207,7 +206,7 @@ impl<const C: usize> Pixel<C> {
         self.active = span.is_some();
         if let Some(span) = span {
             self.load(span, gradient, kt);
-            if C > FEW && self.terms > 0 {
+            if C > FEW && self.has_terms {
                 self.walked = walked();
             }
         }
@@ -217,7 +216,7 @@ impl<const C: usize> Pixel<C> {
     #[inline]
     fn shift(&mut self, entering: Option<Fragment<C>>) {
         let cosines =
-            if C > FEW && self.terms > 0 && entering.is_some() { self.outputs() } else { Cosines::default() };
+            if C > FEW && self.has_terms && entering.is_some() { self.outputs() } else { Cosines::default() };
         if self.before == 0 {
             self.out = entering;
             self.out_cosines = cosines;
@@ -258,14 +257,12 @@ impl<const C: usize> Pixel<C> {
 
     /// The outputs of the terms at this pixel: b bits above the r of the fraction.
     fn outputs(&self) -> Cosines {
-        let Walked { material, gloss, .. } = self.walked;
-        let mut outputs = Cosines { material, gloss, ..Cosines::default() };
-        for i in 0..self.terms {
+        let output = |i: usize| {
             let (fraction, bits) = self.term_formats[i];
-            outputs.terms[i] =
-                (((self.walked.terms[i].v >> fraction) << (64 - bits)) as i64 >> (64 - bits)) as i32; // b <= 32
-        }
-        outputs
+            (((self.walked.terms[i].v >> fraction) << (64 - bits)) as i64 >> (64 - bits)) as i32 // b <= 32
+        };
+        let Walked { material, gloss, .. } = self.walked;
+        Cosines { terms: std::array::from_fn(output), material, gloss, slopes: [0; 2] }
     }
 
     #[inline]
@@ -274,8 +271,8 @@ impl<const C: usize> Pixel<C> {
         self.count -= 1;
         self.x = self.x.wrapping_add(self.step_x);
         self.values = std::array::from_fn(|i| self.values[i].wrapping_add(self.gradient[i]));
-        if C > FEW && self.terms > 0 {
-            for term in &mut self.walked.terms[..self.terms] {
+        if C > FEW && self.has_terms {
+            for term in &mut self.walked.terms {
                 term.v = term.v.wrapping_add(term.g);
                 term.g = term.g.wrapping_add(term.gg);
             }

@@ -75,8 +75,6 @@ pub struct Term {
     gloss_mask: u32,
     /// wb.
     place_bits: u32,
-    /// Terms that there are.
-    count: usize,
     /// Words of the terms in a record, in order: which term, which of its words.
     layout: Vec<(usize, usize)>,
     /// S: operations of a step with the words in a memory.
@@ -109,7 +107,6 @@ impl Term {
             material_bits: plan.shade.material_bits,
             gloss_mask: if plan.shade.normalises() { (1 << GLOSS_BITS) - 1 } else { 0 },
             place_bits: plan.record_place_bits(),
-            count: terms.len(),
             layout: terms.iter().enumerate().flat_map(words).collect(),
             operations: (terms.len() + 2 * quadratics) as u32, // at most 3 a term
             fetch: Fetch::of(plan.record_length()),
@@ -169,11 +166,8 @@ impl Term {
     /// What goes on with the span that is there.
     #[must_use]
     pub fn walked(&self) -> Walked {
-        let mut walked = Walked { material: self.material, gloss: self.gloss, ..Walked::default() };
-        for (steps, [v, g, _, gg, ..]) in walked.terms.iter_mut().zip(&self.terms).take(self.count) {
-            *steps = Steps { v: *v, g: *g, gg: *gg };
-        }
-        walked
+        let terms = self.terms.map(|[v, g, _, gg, ..]| Steps { v, g, gg });
+        Walked { terms, material: self.material, gloss: self.gloss }
     }
 
     /// Clock edge. `taken`: PIXEL takes the span that is there.
@@ -251,7 +245,7 @@ impl Term {
                 events.walk_back += 1;
             }
         }
-        for [v, x, y, xx, xy, yy] in &mut self.terms[..self.count] {
+        for [v, x, y, xx, xy, yy] in &mut self.terms {
             match way {
                 Way::Down => {
                     *v = v.wrapping_add(*y);
