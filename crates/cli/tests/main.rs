@@ -40,6 +40,7 @@ mod study;
 mod sweep;
 mod synth;
 mod texels;
+mod reliefs;
 mod threads;
 mod trace;
 mod vectors;

@@ -382,6 +382,13 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
                 "texels: {} pixels, {} other than golden's, unexplained by places within {:.4} texels: {}; {} another for their picture's sides",
                 texels.pixels, texels.differ, texels.bound, texels.unexplained, texels.resampled
             );
+            if texels.flattened > 0 {
+                _ = writeln!(
+                    t,
+                    "relief: steeper than the machine's words can say in {} pixels, lower there and without a bound",
+                    texels.flattened
+                );
+            }
         }
     }
     for own in &c.extra {

@@ -15,6 +15,7 @@ mod records;
 mod roots;
 mod texels;
 mod tables;
+mod turns;
 
 mod compare;
 
@@ -31,6 +32,7 @@ use edgewalk_model::Shading;
 use edgewalk_scene::{Frame, PixelMethod, PixelShading};
 use lights::Lamp;
 use tables::Surfaces;
+use turns::Turns;
 
 /// What the memories behind the machine hold, and what follows from it.
 #[derive(Clone, Debug)]
@@ -66,11 +68,16 @@ pub fn feed(frame: &Frame, port: &PortFrame, machine: &Plan) -> Result<Option<Fe
         let surface = surfaces.of_triangle[port.ids[index] as usize];
         let glosses = surfaces.glosses(surface);
         let place = Place::of(machine, triangle);
-        let (record, error) =
-            records::record(place.as_ref(), own, shading, &lamps, (surface, &glosses), root_error, machine)
-                .with_context(|| format!("triangle {index}"))?;
         let texture = surfaces.textures[surface as usize].as_ref();
-        textured.push(place.and_then(|place| Textured::new(&place, own, texture, &record.terms, machine)));
+        let relief = texture.and_then(|texture| texture.relief.as_ref());
+        let turns = relief.map(|relief| Turns::of(own, relief, shading, &lamps));
+        let errors_of = (root_error, turns.as_ref());
+        let (record, error) =
+            records::record(place.as_ref(), own, shading, &lamps, (surface, &glosses), errors_of, machine)
+                .with_context(|| format!("triangle {index}"))?;
+        let flattened = turns.is_some_and(|turns| turns.flattened);
+        let of = |place: Place| Textured::new(&place, own, (texture, flattened), &record.terms, machine);
+        textured.push(place.and_then(of));
         records.push(record);
         errors.push(error);
     }
@@ -114,6 +121,11 @@ pub(crate) fn shading_for<'a>(frame: &'a Frame, machine: &Plan) -> Result<Option
     if !shading.textures.is_empty() && !machine.shade.textures() {
         return Err(anyhow!(
             "texture: the machine has no TEXEL; add --set texture.kind=nearest --set shade.colour=multiply, or draw with --engine golden"
+        ));
+    }
+    if shading.materials.iter().any(|material| material.bump.is_some()) && !machine.shade.bumps() {
+        return Err(anyhow!(
+            "relief: the machine has no BUMP; add --set texture.bump=yes, or draw with bump_height = 0, or with --engine golden"
         ));
     }
     if machine.fill == Fill::Textbook {

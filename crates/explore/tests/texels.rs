@@ -76,6 +76,7 @@ fn frame(random: &mut Pcg64Mcg, count: u32, sides: &[[u32; 2]], far: f64, method
             normals,
             positions: [DVec3::ZERO; 3],
             texture,
+            turns: [DVec3::ZERO; 2],
             material: number % 5,
         });
     }

@@ -3,7 +3,7 @@
 use crate::exhibit::{Exhibit, GUARD, HEIGHT, View, WIDTH, figure};
 use crate::machine::Beside;
 use edgewalk_golden::fast_phong::{Directional, Fit, Settings, shade};
-use edgewalk_scene::Scene;
+use edgewalk_scene::{PixelMethod, Scene};
 use std::path::Path;
 
 const SCENE: &str = include_str!("../../../docs/scenes/fast-phong.toml");
@@ -36,7 +36,7 @@ pub(crate) fn fast_phong() -> anyhow::Result<Exhibit> {
         phong = drawn.phong;
     }
     views.push(View::colors("phong", "Phong", phong));
-    let machine = Beside::of(&scene)?;
+    let machine = Beside::of(&scene, PixelMethod::FastPhong)?;
     figures.extend(machine.figures());
     views.extend(machine.views());
     Ok(Exhibit {

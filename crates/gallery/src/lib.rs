@@ -14,6 +14,7 @@ mod lights;
 mod systems;
 mod fast_phong;
 mod texture;
+mod relief;
 mod shadows;
 mod glass;
 mod mach_bands;
@@ -30,13 +31,14 @@ pub use exhibit::{Exhibit, Image, View};
 pub type Maker = fn() -> anyhow::Result<Exhibit>;
 
 /// All of them, in the order in which they are shown, by the names of their files.
-pub const EXHIBITS: [(&str, Maker); 15] = [
+pub const EXHIBITS: [(&str, Maker); 16] = [
     ("worked-example", || Ok(worked_example::worked_example())),
     ("polygons", polygons::polygons),
     ("lights", lights::lights),
     ("systems", systems::systems),
     ("fast-phong", fast_phong::fast_phong),
     ("texture", texture::texture),
+    ("relief", relief::relief),
     ("shadows", shadows::shadows),
     ("glass", glass::glass),
     ("mach-bands", mach_bands::mach_bands),

@@ -3,7 +3,7 @@
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, LSB, View, WIDTH, figure};
 use crate::machine::Beside;
 use edgewalk_golden::{Shading, shade};
-use edgewalk_scene::Scene;
+use edgewalk_scene::{PixelMethod, Scene};
 use std::path::Path;
 
 const SCENE: &str = include_str!("../../../docs/scenes/missed-highlight.toml");
@@ -25,7 +25,7 @@ pub(crate) fn missed_highlight() -> anyhow::Result<Exhibit> {
         });
         (x - u).hypot(y - v)
     };
-    let machine = Beside::of(&scene)?;
+    let machine = Beside::of(&scene, PixelMethod::FastPhong)?;
     let mut exhibit = Exhibit {
         name: "missed-highlight",
         title: "The missed highlight (S16)",

@@ -3,7 +3,7 @@
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use crate::machine::Beside;
 use edgewalk_golden::{Shading, shade};
-use edgewalk_scene::Scene;
+use edgewalk_scene::{PixelMethod, Scene};
 use std::path::Path;
 
 const SCENE: &str = include_str!("../../../docs/scenes/systems.toml");
@@ -45,7 +45,7 @@ pub(crate) fn systems() -> anyhow::Result<Exhibit> {
         truth = shaded.truth;
     }
     views.push(View::colors("truth", "Truth", truth));
-    let machine = Beside::of(&scene)?;
+    let machine = Beside::of(&scene, PixelMethod::FastPhong)?;
     figures.extend(machine.figures());
     views.extend(machine.views());
     Ok(Exhibit {

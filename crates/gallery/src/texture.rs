@@ -3,7 +3,7 @@
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use crate::machine::Beside;
 use edgewalk_golden::{Shaded, Shading, shade};
-use edgewalk_scene::Scene;
+use edgewalk_scene::{PixelMethod, Scene};
 use std::path::Path;
 
 const SCENE: &str = include_str!("../../../docs/scenes/texture-and-relief.toml");
@@ -19,7 +19,7 @@ pub(crate) fn texture() -> anyhow::Result<Exhibit> {
     let relief = flat.error();
     // The machine's squares are texels, and it knows no relief.
     let texels = smooth.replace("checker = 16", "checker = 16\ntexels = \"nearest\"");
-    let machine = Beside::of(&scene(&texels)?)?;
+    let machine = Beside::of(&scene(&texels)?, PixelMethod::FastPhong)?;
     let turned = relief.map.iter().filter(|error| **error > 0.5).count();
     let mut figures = vec![
         figure("pixels that the relief changes by more than 1/2 LSB", turned as f64, 0),

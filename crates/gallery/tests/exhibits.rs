@@ -163,3 +163,18 @@ fn the_machine_shows_the_texels_that_golden_shows() {
         ["largest error against fast", "proved bound"].map(|of| figure(&texture, &format!("machine: {of}")));
     assert!(error > 0.5 && error <= bound, "{error} {bound}");
 }
+
+#[test]
+fn the_machine_turns_normals_as_golden_does() {
+    let relief = exhibit("relief");
+    assert!(
+        figure(&relief, "pixels that the relief changes") > 5000.0
+            && figure(&relief, "largest change") > 20.0
+    );
+    for who in ["machine, Phong", "machine"] {
+        let of = |quantity: &str| figure(&relief, &format!("{who}: {quantity}"));
+        let (error, bound) = (of("largest error against"), of("proved bound"));
+        assert!(error > 0.5 && error <= bound && bound < 12.0, "{who}: {error} {bound}");
+        assert!(of("pixels that look up") > 10_000.0 && of("not explained") == 0.0);
+    }
+}

@@ -33,7 +33,7 @@ pub use fill::Fill;
 pub use fragment::{Fragment, Weight};
 pub use incremental::Incremental;
 pub use picture::{Drawing, Lit, NO_TRIANGLE, Picture, Step, draw};
-pub use pixel_shading::PixelBrush;
+pub use pixel_shading::{PixelBrush, Texel};
 pub use ray::Rays;
 pub use render::{Rendered, render, shade};
 pub use shading::{Shaded, Shading, ShadingError, frame};

@@ -8,11 +8,26 @@ use edgewalk_scene::{Image, Light, PixelMethod, PixelShading, PixelTriangle};
 use glam::{DVec2, DVec3};
 use std::ops::{Add, Mul};
 
+/// What its pictures say of a pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Texel {
+    /// Of the texture; white without one.
+    pub color: DVec3,
+    /// B_u and B_v of the relief, per unit of u and of v; 0 without one.
+    pub slopes: DVec2,
+}
+
+impl Texel {
+    /// Where there is no picture.
+    pub const BLANK: Self = Self { color: DVec3::ONE, slopes: DVec2::ZERO };
+}
+
 /// A triangle about to be shaded.
 pub struct PixelBrush<'a> {
     shading: &'a PixelShading,
     triangle: &'a PixelTriangle,
     texture: Option<&'a Image>,
+    relief: Option<&'a Image>,
     /// Of the lights in their order; none for Phong.
     cosines: Vec<Cosines>,
 }
@@ -23,6 +38,8 @@ struct Cosines {
     intensity: DVec3,
     diffuse: [[f64; 3]; 2],
     halfway: [[f64; 3]; 2],
+    /// What they grow by at the vertices, for slopes of 1 along u and along v: of N·L, and of N·H.
+    turns: [[[f64; 3]; 2]; 2],
 }
 
 /// A light at a pixel: its intensity, N·L and N·H.
@@ -40,17 +57,25 @@ impl<'a> PixelBrush<'a> {
             PixelMethod::Phong => Vec::new(),
             PixelMethod::FastPhong => Self::of_lights(shading, triangle),
         };
-        Some(Self { shading, triangle, texture: shading.texture(triangle).map(|image| &**image), cosines })
+        let [texture, relief] = [shading.texture(triangle), shading.relief(triangle)]
+            .map(|picture| picture.map(|image| &**image));
+        Some(Self { shading, triangle, texture, relief, cosines })
     }
 
     fn of_lights(shading: &PixelShading, triangle: &PixelTriangle) -> Vec<Cosines> {
-        let PixelTriangle { normals, positions, .. } = *triangle;
+        let PixelTriangle { normals, positions, turns, .. } = *triangle;
         let middle = (positions[0] + positions[1] + positions[2]) / 3.0;
         let of = |light: &Light| {
             let toward = |position| light.incident(position).toward;
             let halfway = |position| (toward(position) + shading.viewer_at(position)).normalize_or_zero();
+            let turned = |turn: DVec3, direction: DVec3, normal: DVec3| {
+                normal.normalize_or_zero().cross(turn).dot(direction)
+            };
+            let of_light = |turn: DVec3| [0, 1, 2].map(|k| turned(turn, toward(positions[k]), normals[k]));
+            let of_halfway = |turn: DVec3| [0, 1, 2].map(|k| turned(turn, halfway(positions[k]), normals[k]));
             Cosines {
                 intensity: light.incident(middle).intensity,
+                turns: [turns.map(of_light), turns.map(of_halfway)],
                 diffuse: nodes(normals, positions, |n, p| n.dot(toward(p))),
                 halfway: nodes(normals, positions, |n, p| n.dot(halfway(p))),
             }
@@ -60,37 +85,49 @@ impl<'a> PixelBrush<'a> {
 
     /// The colour at a pixel of the triangle, each in [0, 1].
     pub fn color<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>) -> [f64; 3] {
-        self.color_by(fragment, self.texel(fragment))
+        self.color_by(fragment, &self.texel(fragment))
     }
 
-    /// The same with this texel for its own; it is white where there is no texture.
-    pub fn color_by<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>, texel: DVec3) -> [f64; 3] {
-        let (shares, surface) = (fragment.shares(), DVec3::from(fragment.rgb()) * texel);
+    /// The same with this texel for its own.
+    pub fn color_by<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>, texel: &Texel) -> [f64; 3] {
+        let (shares, surface) = (fragment.shares(), DVec3::from(fragment.rgb()) * texel.color);
         let color = match self.shading.method {
             PixelMethod::Phong => {
-                let PixelTriangle { normals, positions, .. } = *self.triangle;
-                let (position, normal) = (mean(positions, &shares), mean(normals, &shares));
-                self.shading.color(self.triangle, position, normal, surface)
+                let position = mean(self.triangle.positions, &shares);
+                self.shading.color(self.triangle, position, self.normal(&shares, texel), surface)
             }
-            PixelMethod::FastPhong => self.sum(&self.lit(&shares), surface, 0),
+            PixelMethod::FastPhong => self.sum(&self.lit(&shares, texel), surface, 0),
         };
         color.to_array()
     }
 
-    /// Where a pixel lies in the texture, u to the right and v up; `None` without one.
+    /// Where a pixel lies in texture and relief, u to the right and v up; `None` without both.
     pub fn place<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>) -> Option<DVec2> {
-        self.texture.map(|_| mean(self.triangle.texture, &fragment.shares()))
+        self.texture.or(self.relief).map(|_| mean(self.triangle.texture, &fragment.shares()))
     }
 
     /// The texel at a pixel.
-    pub fn texel<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>) -> DVec3 {
-        let place = self.place(fragment);
-        self.texture.zip(place).map_or(DVec3::ONE, |(image, place)| image.nearest(place))
+    pub fn texel<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>) -> Texel {
+        let Some(place) = self.place(fragment) else { return Texel::BLANK };
+        Texel {
+            color: self.texture.map_or(DVec3::ONE, |image| image.nearest(place)),
+            slopes: self.relief.map_or(DVec2::ZERO, |image| image.slope(place)),
+        }
     }
 
-    /// N·L and N·H of each light at a pixel; those of fast Phong are not cut.
-    pub fn cosines<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>) -> Vec<[f64; 2]> {
-        self.lit(&fragment.shares())
+    /// N, of no certain length, turned by the relief: N + N x (B_u T_u + B_v T_v).
+    fn normal(&self, shares: &[f64], texel: &Texel) -> DVec3 {
+        let (normal, [along_u, along_v]) = (mean(self.triangle.normals, shares), self.triangle.turns);
+        normal + normal.cross(texel.slopes.x * along_u + texel.slopes.y * along_v)
+    }
+
+    /// N·L and N·H of each light at a pixel with this texel; those of fast Phong are not cut.
+    pub fn cosines<const N: usize, W: Weight>(
+        &self,
+        fragment: &Fragment<N, W>,
+        texel: &Texel,
+    ) -> Vec<[f64; 2]> {
+        self.lit(&fragment.shares(), texel)
             .into_iter()
             .map(|Lit { diffuse, halfway, .. }| [diffuse, halfway])
             .collect()
@@ -101,11 +138,11 @@ impl<'a> PixelBrush<'a> {
     pub fn branches<const N: usize, W: Weight>(
         &self,
         fragment: &Fragment<N, W>,
-        texel: DVec3,
+        texel: &Texel,
         doubt: f64,
     ) -> Vec<[f64; 3]> {
-        let lights = self.lit(&fragment.shares());
-        let surface = DVec3::from(fragment.rgb()) * texel;
+        let lights = self.lit(&fragment.shares(), texel);
+        let surface = DVec3::from(fragment.rgb()) * texel.color;
         let mut turned = vec![0];
         for (light, lit) in lights.iter().enumerate().take(MOST_TURNED) {
             if lit.diffuse.abs() <= doubt {
@@ -117,18 +154,22 @@ impl<'a> PixelBrush<'a> {
         [self.color_by(fragment, texel)].into_iter().chain(others).collect()
     }
 
-    /// The cosines of each light where the vertices weigh `shares`.
-    fn lit(&self, shares: &[f64]) -> Vec<Lit> {
+    /// The cosines of each light where the vertices weigh `shares`. In fast Phong a relief counts to first order, linear between
+    /// the vertices.
+    fn lit(&self, shares: &[f64], texel: &Texel) -> Vec<Lit> {
+        let turned = |[along_u, along_v]: [[f64; 3]; 2]| {
+            texel.slopes.x * mean(along_u, shares) + texel.slopes.y * mean(along_v, shares)
+        };
         let of_nodes = |light: &Cosines| Lit {
             intensity: light.intensity,
-            diffuse: six_point_at(shares, &light.diffuse),
-            halfway: six_point_at(shares, &light.halfway),
+            diffuse: six_point_at(shares, &light.diffuse) + turned(light.turns[0]),
+            halfway: six_point_at(shares, &light.halfway) + turned(light.turns[1]),
         };
         if self.shading.method == PixelMethod::FastPhong {
             return self.cosines.iter().map(of_nodes).collect();
         }
-        let PixelTriangle { normals, positions, .. } = *self.triangle;
-        let (normal, position) = (mean(normals, shares).normalize_or_zero(), mean(positions, shares));
+        let normal = self.normal(shares, texel).normalize_or_zero();
+        let position = mean(self.triangle.positions, shares);
         let viewer = self.shading.viewer_at(position);
         let of_normal = |light: &Light| {
             let incident = light.incident(position);

@@ -1,7 +1,7 @@
 //! Frames with normals: Phong and fast Phong against numbers by hand and against the equation written once more.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use edgewalk_golden::{Fill, Picture, PixelBrush, draw, fragments};
+use edgewalk_golden::{Fill, Picture, PixelBrush, Texel, draw, fragments};
 use edgewalk_scene::{
     Attenuation, Light, Material, PixelMethod, PixelShading, PixelTriangle, ShadeMode, Specular, Triangle,
     Vertex, Viewer, triangle_file,
@@ -194,7 +194,13 @@ fn a_light_at_a_point_is_sampled_by_the_six_points() {
                 specular: Specular::Halfway,
                 materials: vec![Material::matte(DVec3::ONE)],
                 textures: Vec::new(),
-                triangles: vec![PixelTriangle { normals, positions, texture: [DVec2::ZERO; 3], material: 0 }],
+                triangles: vec![PixelTriangle {
+                    normals,
+                    positions,
+                    texture: [DVec2::ZERO; 3],
+                    turns: [DVec3::ZERO; 2],
+                    material: 0,
+                }],
             };
             let exact = PixelShading { method: PixelMethod::Phong, ..shading.clone() };
             let brushes = [&shading, &exact].map(|shading| PixelBrush::new(shading, 0).unwrap());
@@ -222,7 +228,7 @@ fn lights_within_doubt_of_the_horizon_may_stand_on_either_side() {
     let brush = PixelBrush::new(frame.shading.as_ref().unwrap(), 0).unwrap();
     let mut checked = 0;
     fragments(&frame.triangles[0], ShadeMode::Gouraud, 8, (4, 4), |fragment| {
-        let of = |doubt: f64| brush.branches(fragment, DVec3::ONE, doubt);
+        let of = |doubt: f64| brush.branches(fragment, &Texel::BLANK, doubt);
         let own = brush.color(fragment);
         // As it is: both lights shine, a little.
         let lit = 0.125 + 0.5 * (0.5 * 0.001 + 0.25 * 0.002);
@@ -237,4 +243,55 @@ fn lights_within_doubt_of_the_horizon_may_stand_on_either_side() {
         checked += 1;
     });
     assert_eq!(checked, 16);
+}
+
+/// Phong of a frame with a relief is the equation by the normal that the mesh turns; fast Phong is that to first order: halving the
+/// height divides the difference of the cosines by four.
+#[test]
+fn a_relief_turns_the_normal_of_a_frame_as_that_of_the_mesh() {
+    let text = |height: f64, kind: &str| {
+        format!(
+            "ambient = 0.2\n[camera]\neye = [0, 0, 900]\ntarget = [0, 0, 0]\nangle = 0.2\n[[material]]\nname = \"m\"\ndiffuse = 0.8\nspecular = {kind}\n\
+             exponent = 3\nwaves = 2\ntexels = \"nearest\"\nbump_height = {height}\n[[object]]\npositions = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]\n\
+             faces = [[0, 1, 2, 3]]\nuv = [[0, 0], [1, 0], [1, 1], [0, 1]]\nmaterial = \"m\"\n[[light]]\nkind = \"directional\"\ntoward = [0.3, 0.4, 1]\n"
+        )
+    };
+    let mut differences = Vec::new();
+    let mut checked = 0;
+    for (height, kind) in [(0.04, "0"), (0.02, "0"), (0.04, "0.4")] {
+        let scene = Scene::parse(std::path::Path::new("r.toml"), &text(height, kind)).unwrap();
+        let surface = scene.surface(64, 64, 8191.0);
+        let [phong, fast] =
+            [PixelMethod::Phong, PixelMethod::FastPhong].map(|method| scene.pixel_frame(&surface, method));
+        let mut apart = 0f64;
+        for (place, triangle) in phong.triangles.iter().enumerate() {
+            let [exact, first] =
+                [&phong, &fast].map(|frame| PixelBrush::new(frame.shading.as_ref().unwrap(), place).unwrap());
+            let own = &phong.shading.as_ref().unwrap().triangles[place];
+            fragments(triangle, phong.mode, 8, (64, 64), |fragment| {
+                let texel = exact.texel(fragment);
+                let normal = scene.mesh.bumped_normal(
+                    surface.triangles[place].face,
+                    exact.place(fragment).unwrap(),
+                    DVec3::Z,
+                );
+                let shading = phong.shading.as_ref().unwrap();
+                let color = DVec3::from(fragment.rgb());
+                let wanted = shading.color(own, DVec3::ZERO, normal, color).to_array();
+                let drawn = exact.color(fragment);
+                assert!((0..3).all(|k| (drawn[k] - wanted[k]).abs() < 1e-9), "{drawn:?} {wanted:?}");
+                assert!(texel.slopes.length() < 7.0 && texel.color == DVec3::ONE);
+                let cosines = [&exact, &first].map(|brush| brush.cosines(fragment, &texel)[0][0]);
+                let turned = normal.z.recip();
+                // The first order leaves the length out, and nothing else: N is the same everywhere.
+                assert!((cosines[1] - cosines[0] * turned).abs() < 1e-5, "{cosines:?} {turned}");
+                apart = apart.max((cosines[1] - cosines[0]).abs());
+                checked += 1;
+            });
+        }
+        differences.push(apart);
+    }
+    println!("{checked} pixels; first order off by {differences:?}");
+    assert!(checked > 5000 && differences[0] > 0.005);
+    assert!((differences[0] / differences[1] / 4.0 - 1.0).abs() < 0.1, "{differences:?}");
 }

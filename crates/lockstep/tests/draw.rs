@@ -37,7 +37,7 @@ fn random_shading(plan: &Plan, triangles: usize, rng: &mut Pcg64Mcg) -> Shading 
         records,
         tables: words(entries, bits),
         roots: words(256, 27),
-        textures: words(texels, 3 * plan.color.bits),
+        textures: words(texels, plan.texel_word_bits()),
     }
 }
 

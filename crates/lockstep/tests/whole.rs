@@ -5,22 +5,23 @@ use crate::common::fail::checked;
 use crate::common::machines::random_machine;
 use crate::common::triangles::{after_it, one_pixel, random_triangle};
 use edgewalk_lockstep::{Case, Checked, Interface, Triangles, Unit};
-use edgewalk_machine::{Blend, BlendKind, Fill, Hazard, Kind, Machine, Plan};
+use edgewalk_machine::{Blend, BlendKind, Fill, Hazard, Kind, Machine, Plan, units};
 use edgewalk_model::longest_setup;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// How many machines are drawn, and about how many triangles on each.
+/// How many machines are drawn, how many more with BUMP, and about how many triangles on each.
 const MACHINES: [usize; 2] = [120, 400];
+const RELIEFS: [usize; 2] = [24, 300];
 const TRIANGLES: u64 = 100;
 
 /// What random triangles may not meet, and [`colours_on_one_pixel`] does.
 const DIRECTED: [&str; 5] =
     ["opaque_behind", "behind_opaque", "color_head_wait", "color_forward_queue", "color_forward_used"];
 
-/// What only BLEND, SHADE, PROJECT and SHADOW alone meet for certain (`tests/units.rs`): triangles of one pixel, and of two materials, come too far
+/// What only BLEND, BUMP, SHADE, PROJECT and SHADOW alone meet for certain (`tests/units.rs`): triangles of one pixel, and of two materials, come too far
 /// apart, and few of their depths are a texel's, or quotients on an edge.
-const ALONE: [&str; 7] = [
+const ALONE: [&str; 8] = [
     "color_forward_entry",
     "color_forward_write",
     "material_change",
@@ -28,6 +29,7 @@ const ALONE: [&str; 7] = [
     "texel_tie",
     "map_edge",
     "depth_to_end",
+    "slope_lowest",
 ];
 
 /// Machines with SHADE read tables of hundreds of words, so three of sixteen may have it.
@@ -87,11 +89,49 @@ fn shares(machines: &[Plan]) -> Vec<u64> {
     machines.iter().map(|plan| 12 + (triangles as f64 * weight(plan) / all).ceil() as u64).collect()
 }
 
-/// So many machines, on two threads.
+/// So many machines.
 fn whole_machines(count: usize) {
     let mut rng = Pcg64Mcg::seed_from_u64(2);
     let machines: Vec<Plan> = (0..count).map(|number| drawn_machine(number, &mut rng)).collect();
-    let shares = shares(&machines);
+    let all = compared(&machines);
+    let mut extra = [0; 5];
+    machines.iter().for_each(|plan| extra[plan.extra as usize] += 1);
+    let channels = machines.iter().flat_map(|plan| plan.channels());
+    let signed = channels.filter(|channel| channel.kind != Kind::Unorm).count();
+    let maps = machines.iter().filter(|plan| plan.shadow.draws_map()).count();
+    println!(
+        "{count} machines, {extra:?} with 0 to 4 extra channels, {signed} of them signed; {maps} draw their map"
+    );
+    report(&all);
+    assert!(extra.iter().all(|machines| machines * 20 >= count) && signed > count && maps * 20 > count);
+    let missing: Vec<_> = all
+        .events
+        .missing()
+        .into_iter()
+        .filter(|event| !DIRECTED.contains(event) && !ALONE.contains(event))
+        .collect();
+    assert_eq!(missing, [""; 0], "not met");
+}
+
+/// So many machines with BUMP.
+fn whole_reliefs(count: usize) {
+    let mut rng = Pcg64Mcg::seed_from_u64(16);
+    let drawn = std::iter::repeat_with(|| random_machine(&mut rng));
+    let machines: Vec<Plan> = drawn.filter(|plan| plan.shade.bumps()).take(count).collect();
+    let all = compared(&machines);
+    let phong = machines.iter().filter(|plan| plan.shade.normalises()).count();
+    println!("{count} machines with BUMP, {phong} of them with NORMAL");
+    report(&all);
+    assert!(phong * 4 > count && phong * 4 < 3 * count, "{phong}");
+    let possible = machines.iter().flat_map(|plan| Unit::of(&units::bump::SPEC).events(plan));
+    let missing = all.events.missing();
+    let unmet: Vec<_> = possible.map(|event| event.name).filter(|event| missing.contains(event)).collect();
+    assert_eq!(unmet, [""; 0], "not met");
+}
+
+/// The machines, on two threads.
+fn compared(machines: &[Plan]) -> Checked {
+    let shares = shares(machines);
     let half = |half: usize| {
         let mut all = Checked::default();
         for (i, (plan, share)) in machines.iter().zip(&shares).enumerate().skip(half).step_by(2) {
@@ -110,26 +150,10 @@ fn whole_machines(count: usize) {
         all.merge(&other.join().expect("the other half agrees"));
         all
     });
-    let mut extra = [0; 5];
-    machines.iter().for_each(|plan| extra[plan.extra as usize] += 1);
-    let channels = machines.iter().flat_map(|plan| plan.channels());
-    let signed = channels.filter(|channel| channel.kind != Kind::Unorm).count();
-    let maps = machines.iter().filter(|plan| plan.shadow.draws_map()).count();
-    println!(
-        "{count} machines, {extra:?} with 0 to 4 extra channels, {signed} of them signed; {maps} draw their map"
-    );
-    report(&all);
-    assert!(extra.iter().all(|machines| machines * 20 >= count) && signed > count && maps * 20 > count);
     // A triangle that a reset took from the machine is not offered again, one in the cycle of the reset is.
     let given: u64 = shares.iter().sum();
     assert!(all.tokens >= given * 9 / 10 && all.compared > 10 * all.cycles);
-    let missing: Vec<_> = all
-        .events
-        .missing()
-        .into_iter()
-        .filter(|event| !DIRECTED.contains(event) && !ALONE.contains(event))
-        .collect();
-    assert_eq!(missing, [""; 0], "not met");
+    all
 }
 
 #[test]
@@ -137,11 +161,23 @@ fn machines_drawn_at_random() {
     whole_machines(MACHINES[0]);
 }
 
+#[test]
+fn machines_with_a_relief() {
+    whole_reliefs(RELIEFS[0]);
+}
+
 /// A campaign: `cargo test --release -p edgewalk-lockstep whole:: -- --ignored --nocapture`.
 #[test]
 #[ignore = "minutes"]
 fn many_machines_drawn_at_random() {
     whole_machines(MACHINES[1]);
+}
+
+/// Another: `cargo test --release -p edgewalk-lockstep whole::many_machines_with_a_relief -- --ignored --nocapture`.
+#[test]
+#[ignore = "minutes"]
+fn many_machines_with_a_relief() {
+    whole_reliefs(RELIEFS[1]);
 }
 
 /// Triangles of one pixel on one address, right behind others that end there: what the in-flight queue must get right.

@@ -3,6 +3,7 @@
 use crate::channel::{Channel, MAX_CHANNELS};
 use crate::keys::KEYS;
 use crate::machine::{Fill, Machine};
+use crate::record::{self, WORD_BITS as TERM_BITS};
 use crate::shade::ShadeColour;
 use crate::shadow::LIGHT_SPACE;
 use crate::text::MachineError;
@@ -29,6 +30,7 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
             "none".to_owned(),
         ));
     }
+    terms(machine)?;
     if machine.shadow.projects() {
         project(machine)?;
     }
@@ -177,6 +179,27 @@ fn formats(machine: &Machine, channel: &Channel) -> Result<(), MachineError> {
             format!("a word of {} bits has no {} segments of two bits", channel.word(), machine.segments),
             "1".to_owned(),
         ));
+    }
+    Ok(())
+}
+
+/// No word of a term is longer than a word of the model.
+fn terms(machine: &Machine) -> Result<(), MachineError> {
+    for (degree, key) in [(2, "term.fraction"), (1, "term.linear_fraction")] {
+        let terms = record::terms(machine).into_iter().filter(|term| term.degree == degree);
+        let Some(longest) = terms.max_by_key(|term| term.word()) else { continue };
+        if longest.word() > TERM_BITS {
+            return Err(MachineError::rule(
+                machine,
+                key,
+                format!(
+                    "the word of {} would have {} bits, {TERM_BITS} is the most",
+                    longest.name,
+                    longest.word()
+                ),
+                (TERM_BITS - longest.bits).to_string(),
+            ));
+        }
     }
     Ok(())
 }

@@ -1,5 +1,5 @@
 //! What the memories behind TERM, TEXEL, NORMAL and SHADE hold, and where in them
-//! (`docs/machine.md`, sections 11 to 14).
+//! (`docs/machine.md`, sections 11 to 14 and 16).
 //!
 //! ```text
 //!  Record ──Plan::record_words──> memory `terms`       Entry ──Plan::table_word──> memory `tables`
@@ -24,7 +24,7 @@ pub struct Term {
 }
 
 impl Term {
-    /// Bits of the word, w = b + r, at most 64.
+    /// Bits of the word, w = b + r, at most [`WORD_BITS`].
     #[must_use]
     pub fn word(&self) -> u32 {
         self.bits + self.fraction
@@ -61,6 +61,9 @@ pub enum Entry {
     Light(u32, u32),
 }
 
+/// Longest word of a term.
+pub const WORD_BITS: u32 = 64;
+
 /// Bits of gloss, which goes with the material to NORMAL.
 pub const GLOSS_BITS: u32 = 4;
 
@@ -73,24 +76,46 @@ pub(crate) const COSINES: [[&str; 2]; 2] = [["nl0", "nh0"], ["nl1", "nh1"]];
 /// The same of a normal of any length.
 const PRODUCTS: [[&str; 2]; 2] = [["pl0", "ph0"], ["pl1", "ph1"]];
 
+/// What a cosine and a product grow by with a slope along u, and along v: by light and cosine.
+const COSINE_TURNS: [[[&str; 2]; 2]; 2] =
+    [[["nl0u", "nl0v"], ["nh0u", "nh0v"]], [["nl1u", "nl1v"], ["nh1u", "nh1v"]]];
+const PRODUCT_TURNS: [[[&str; 2]; 2]; 2] =
+    [[["pl0u", "pl0v"], ["ph0u", "ph0v"]], [["pl1u", "pl1v"], ["ph1u", "ph1v"]]];
+
+/// What N·N grows by with the square of a slope along u, the product of both slopes, the square of that along v.
+const SQUARES: [&str; 3] = ["tuu", "tuv", "tvv"];
+
 /// The terms of a machine, in the order of their words.
 pub(crate) fn terms(machine: &Machine) -> Vec<Term> {
     let shade = &machine.shade;
     let lights = shade.lights as usize;
     let quadratic = |name, bits| Term { name, degree: 2, bits, fraction: shade.fraction };
     let linear = |name, bits| Term { name, degree: 1, bits, fraction: shade.linear_fraction };
+    let bits = match shade.kind {
+        ShadeKind::Phong => [UNIT_BITS; 2],
+        _ => [shade.diffuse_index_bits(), shade.highlight_index_bits()].map(|b| b + shade.cosine_fraction()),
+    };
     let of_light = |[diffuse, highlight]: [&'static str; 2]| {
-        let bits = [shade.diffuse_index_bits(), shade.highlight_index_bits()];
         [quadratic(diffuse, bits[0]), quadratic(highlight, bits[1])]
     };
-    let mut terms: Vec<Term> = match shade.kind {
-        ShadeKind::None => Vec::new(),
-        ShadeKind::FastPhong => COSINES.into_iter().take(lights).flat_map(of_light).collect(),
+    let (mut terms, turns): (Vec<Term>, _) = match shade.kind {
+        ShadeKind::None => (Vec::new(), COSINE_TURNS),
+        ShadeKind::FastPhong => (COSINES.into_iter().take(lights).flat_map(of_light).collect(), COSINE_TURNS),
         ShadeKind::Phong => {
             let products = PRODUCTS.into_iter().take(lights).flatten().map(|name| linear(name, UNIT_BITS));
-            products.chain([quadratic("nn", UNIT_BITS)]).collect()
+            (products.chain([quadratic("nn", UNIT_BITS)]).collect(), PRODUCT_TURNS)
         }
     };
+    if shade.bumps() {
+        for (turns, bits) in
+            turns.into_iter().take(lights).flat_map(|of_light| of_light.into_iter().zip(bits))
+        {
+            terms.extend(turns.map(|name| linear(name, bits)));
+        }
+        if shade.normalises() {
+            terms.extend(SQUARES.map(|name| linear(name, UNIT_BITS)));
+        }
+    }
     if shade.textures() {
         terms.extend(["u", "v"].map(|name| linear(name, shade.texture_bits)));
     }
@@ -98,9 +123,16 @@ pub(crate) fn terms(machine: &Machine) -> Vec<Term> {
 }
 
 impl Plan {
-    /// How many of the terms make cosines: those before the texture's.
+    /// How many of the terms make cosines without a relief: those before BUMP's.
     #[must_use]
     pub fn cosine_terms(&self) -> usize {
+        let all = 2 * self.shade.lights as usize + usize::from(self.shade.normalises());
+        all.min(self.terms().len()) // none without TERM
+    }
+
+    /// How many of the terms make cosines with it: those before the texture's.
+    #[must_use]
+    pub fn bumped_terms(&self) -> usize {
         self.terms().len() - if self.shade.textures() { 2 } else { 0 }
     }
 
@@ -145,11 +177,23 @@ impl Plan {
         u128::from(v & 0x1_ffff) << 10 | u128::from(slope & 0x3ff)
     }
 
-    /// The word of a texel, LSB of the colour; what has more bits is cut.
+    /// The word of a texel: the colour, LSB, and with BUMP the slopes along u and v, 2^(ξ-1) for the relief's largest; what has
+    /// more bits is cut.
     #[must_use]
-    pub fn texel_word(&self, colours: [u32; 3]) -> u128 {
-        let mask = (1 << self.color.bits) - 1;
-        colours.into_iter().fold(0, |word, colour| word << self.color.bits | u128::from(colour & mask))
+    pub fn texel_word(&self, colours: [u32; 3], slopes: [i32; 2]) -> u128 {
+        let put =
+            |word: u128, value: u32, bits: u32| word << bits | u128::from(value & (u32::MAX >> (32 - bits)));
+        let colour = colours.into_iter().fold(0, |word, colour| put(word, colour, self.color.bits));
+        if !self.shade.bumps() {
+            return colour;
+        }
+        slopes.into_iter().fold(colour, |word, slope| put(word, slope as u32, self.shade.slope_bits))
+    }
+
+    /// Bits of such a word.
+    #[must_use]
+    pub fn texel_word_bits(&self) -> u32 {
+        3 * self.color.bits + if self.shade.bumps() { 2 * self.shade.slope_bits } else { 0 }
     }
 
     /// The place of a material's texel in the memory of the textures.

@@ -1,4 +1,4 @@
-//! TERM, TEXEL, NORMAL and SHADE: their keys.
+//! TERM, TEXEL, BUMP, NORMAL and SHADE: their keys.
 
 use crate::key::Domain::Range;
 use crate::key::{Domain, Key, number, word};
@@ -42,7 +42,16 @@ pub enum Texture {
     Nearest,
 }
 
-/// TERM, TEXEL, NORMAL, SHADE and the memories behind them.
+/// Whether a relief turns the normal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Bump {
+    /// A word of the textures is a colour: the machine has no BUMP.
+    No,
+    /// Beside the colour stand the slopes of a relief.
+    Yes,
+}
+
+/// TERM, TEXEL, BUMP, NORMAL, SHADE and the memories behind them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Shade {
     /// What is shaded.
@@ -71,6 +80,10 @@ pub struct Shade {
     pub texture: Texture,
     /// A texture has 2^texture_bits columns and lines.
     pub texture_bits: u32,
+    /// A relief that turns the normal.
+    pub bump: Bump,
+    /// ξ: bits of a slope of the relief.
+    pub slope_bits: u32,
     /// Depth of TEXEL's queue, fragments.
     pub texel_queue: u32,
     /// Latency of the memory of the textures, clocks.
@@ -98,6 +111,18 @@ impl Shade {
     #[must_use]
     pub fn textures(&self) -> bool {
         self.is_there() && self.texture != Texture::None
+    }
+
+    /// BUMP is there.
+    #[must_use]
+    pub fn bumps(&self) -> bool {
+        self.textures() && self.bump == Bump::Yes
+    }
+
+    /// φ: bits that BUMP takes of a cosine below what SHADE takes.
+    #[must_use]
+    pub fn cosine_fraction(&self) -> u32 {
+        if self.bumps() && !self.normalises() { 4 } else { 0 }
     }
 
     /// A term of degree 1 is there.
@@ -157,6 +182,8 @@ impl Default for Shade {
             root_latency: 2,
             texture: Texture::None,
             texture_bits: 8,
+            bump: Bump::No,
+            slope_bits: 12,
             texel_queue: 4,
             texel_latency: 2,
             record_bits: 12,
@@ -173,7 +200,11 @@ fn textures(machine: &Machine) -> bool {
     machine.shade.textures()
 }
 
-/// The keys of TERM, TEXEL, NORMAL and SHADE.
+fn bumps(machine: &Machine) -> bool {
+    machine.shade.bumps()
+}
+
+/// The keys of TERM, TEXEL, BUMP, NORMAL and SHADE.
 pub const KEYS: &[Key] = &[
     Key {
         absent: Some(ShadeKind::None as u32),
@@ -213,6 +244,17 @@ pub const KEYS: &[Key] = &[
         )
     },
     number!("texture.bits", Range(1, 11), "a texture has 2^bits columns and lines", shade.texture_bits, if textures),
+    Key {
+        absent: Some(Bump::No as u32),
+        ..word!(
+            "texture.bump",
+            Bump { "no" => No, "yes" => Yes },
+            "a relief beside the texture turns the normal: no, or by the slopes in a texel's word",
+            shade.bump,
+            if textures
+        )
+    },
+    number!("texture.slope_bits", Range(4, 16), "bits of a slope of the relief", shade.slope_bits, if bumps),
     number!("fifo.texel", Range(1, 16), "fragments in TEXEL's queue", shade.texel_queue, if textures),
     number!(
         "memory.texel_latency",

@@ -7,6 +7,7 @@ pub mod span;
 pub mod term;
 pub mod pixel;
 pub mod texel;
+pub mod bump;
 pub mod normal;
 pub mod shade;
 pub mod project;
@@ -29,6 +30,7 @@ pub const UNITS: &[&UnitSpec] = &[
     &term::SPEC,
     &pixel::SPEC,
     &texel::SPEC,
+    &bump::SPEC,
     &normal::SPEC,
     &shade::SPEC,
     &project::SPEC,

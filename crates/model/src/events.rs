@@ -100,6 +100,18 @@ events! {
     texel_queue_full,
     /// Cycles in which the oldest fragment waits for its texel.
     texel_data_wait,
+    /// Cosines that the relief makes larger.
+    slope_up,
+    /// Cosines that the relief makes smaller.
+    slope_down,
+    /// Slopes of the lowest number that there is.
+    slope_lowest,
+    /// Cosines cut at the end of their bits.
+    bump_cut,
+    /// N·N cut at the end of its bits.
+    square_cut,
+    /// Cycles in which all stages of BUMP stand still.
+    bump_stall,
     /// Times that NORMAL's roots were fetched.
     roots_read,
     /// Cycles in which a read waits for the roots.

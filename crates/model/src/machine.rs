@@ -4,19 +4,20 @@
 //!  tri ─> SETUP ─prim─> EDGE ─line─> SPAN ─span─> PIXEL ─frag─> DEPTH ─> wr
 //!                         └────────── gradients ───┘              ├─> rd, <─ data
 //!     with SHADOW, before DEPTH: ─> [PROJECT] ─> SHADOW ─shaded─> DEPTH
-//!     with TERM and SHADE: SPAN ─span─> TERM ─walked─> PIXEL ─frag─> [TEXEL] ─> [NORMAL] ─> SHADE ─tinted─> DEPTH
+//!     with TERM and SHADE: SPAN ─span─> TERM ─walked─> PIXEL ─frag─> [TEXEL] ─> [BUMP] ─> [NORMAL] ─> SHADE ─tinted─> DEPTH
 //!                                with BLEND, for wr: ─> zwr, ─pass─> BLEND ─> crd, <─ cdata, ─> cwr
 //! ```
 //! Data runs to the right, readies to the left within the cycle. [`Model::cycle`] therefore works out the readies from
 //! DEPTH back to SETUP, and then clocks the units in the same order, so that each still sees its source as it was.
 //!
-//! Rules: `docs/machine.md`, sections 8 to 16.
+//! Rules: `docs/machine.md`, sections 8 to 17.
 
 pub mod shading;
 mod view;
 
 use crate::blend::Blend;
 pub use crate::blend::{BlendInputs, BlendOutputs};
+use crate::bump::Bump;
 use crate::counters::Counters;
 use crate::depth::{Block, Depth, DepthInputs};
 use crate::edge::Edge;
@@ -120,6 +121,7 @@ pub struct Model<const C: usize> {
     term: Option<Term>,
     pixel: Pixel<C>,
     texel: Option<Texel<C>>,
+    bump: Option<Bump<C>>,
     normal: Option<Normal<C>>,
     shade: Option<Shade<C>>,
     project: Option<Project<C>>,
@@ -162,6 +164,8 @@ pub struct Units<'a, const C: usize> {
     pub pixel: &'a Pixel<C>,
     /// Fragments to fragments of the colour of a texel, if the machine has it.
     pub texel: Option<&'a Texel<C>>,
+    /// Cosines to those of a normal that a relief has turned, if the machine has it.
+    pub bump: Option<&'a Bump<C>>,
     /// Products to cosines, if the machine has it.
     pub normal: Option<&'a Normal<C>>,
     /// Fragments to fragments with a colour, if the machine has it.
@@ -187,6 +191,7 @@ impl<const C: usize> Model<C> {
             term: plan.shade.is_there().then(|| Term::new(plan)),
             pixel: Pixel::new(plan),
             texel: plan.shade.textures().then(|| Texel::new(plan)),
+            bump: plan.shade.bumps().then(|| Bump::new(plan)),
             normal: plan.shade.normalises().then(|| Normal::new(plan)),
             shade: plan.shade.is_there().then(|| Shade::new(plan)),
             project: plan.shadow.projects().then(|| Project::new(plan)),
@@ -215,9 +220,10 @@ impl<const C: usize> Model<C> {
     #[must_use]
     pub fn units(&self) -> Units<'_, C> {
         let Model { setup, edge, span, pixel, depth, .. } = self;
-        let (term, texel, normal, shade) = (self.term(), self.texel(), self.normal(), self.shade());
+        let (term, texel, bump) = (self.term(), self.texel(), self.bump());
+        let (normal, shade) = (self.normal(), self.shade());
         let (project, shadow, blend) = (self.project(), self.shadow(), self.blend());
-        Units { setup, edge, span, term, pixel, texel, normal, shade, project, shadow, depth, blend }
+        Units { setup, edge, span, term, pixel, texel, bump, normal, shade, project, shadow, depth, blend }
     }
 
     /// TERM, as BLEND below.
@@ -230,6 +236,12 @@ impl<const C: usize> Model<C> {
     #[inline(always)]
     fn texel(&self) -> Option<&Texel<C>> {
         self.texel.as_ref().filter(|_| C > FEW)
+    }
+
+    /// BUMP, as BLEND below.
+    #[inline(always)]
+    fn bump(&self) -> Option<&Bump<C>> {
+        self.bump.as_ref().filter(|_| C > FEW)
     }
 
     /// NORMAL, as BLEND below.
@@ -294,6 +306,7 @@ impl<const C: usize> Model<C> {
     fn in_flight(&self) -> bool {
         self.depth.occupied()
             || self.texel().is_some_and(Texel::occupied)
+            || self.bump().is_some_and(Bump::occupied)
             || self.normal().is_some_and(Normal::occupied)
             || self.shade().is_some_and(Shade::occupied)
             || self.project().is_some_and(Project::occupied)
@@ -412,8 +425,12 @@ impl<const C: usize> Model<C> {
             shade.step(frag, &cosines, &inputs.shade, colored_ready, events);
         }
         if let Some(normal) = self.normal.as_mut().filter(|_| C > FEW) {
-            let (frag, terms) = parts(&offered.textured);
+            let (frag, terms) = parts(&offered.bumped);
             normal.step(frag, &terms, &inputs.normal, readies.normed, events);
+        }
+        if let Some(bump) = self.bump.as_mut().filter(|_| C > FEW) {
+            let (frag, terms) = parts(&offered.textured);
+            bump.step(frag, &terms, readies.bumped, events);
         }
         if let Some(texel) = self.texel.as_mut().filter(|_| C > FEW) {
             let (frag, terms) = parts(&offered.drawn);
@@ -470,6 +487,9 @@ impl<const C: usize> Model<C> {
         }
         if let Some(texel) = &mut self.texel {
             texel.reset();
+        }
+        if let Some(bump) = &mut self.bump {
+            bump.reset();
         }
         if let Some(normal) = &mut self.normal {
             normal.reset();

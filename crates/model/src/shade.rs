@@ -23,8 +23,8 @@ use edgewalk_machine::{Plan, ShadeColour};
 /// Most lights at once.
 const LIGHTS: usize = 2;
 
-/// What PIXEL adds to a fragment: the outputs of the terms, signed, and the material. What NORMAL gives has cosines in place
-/// of the terms.
+/// What PIXEL adds to a fragment: the outputs of the terms, signed, and the material. What BUMP and NORMAL give has cosines in
+/// place of the terms.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cosines {
     /// A value a term, LSB of its output; behind the last 0.
@@ -33,6 +33,8 @@ pub struct Cosines {
     pub material: u32,
     /// Of the material's highlights, for NORMAL.
     pub gloss: u32,
+    /// From TEXEL to BUMP: of the relief along u and v, 2^(ξ-1) for its largest.
+    pub slopes: [i32; 2],
 }
 
 /// The unit's inputs of a cycle, but for the fragment and whether its own is taken.

@@ -21,7 +21,7 @@ use edgewalk_machine::record::GLOSS_BITS;
 use edgewalk_machine::{Plan, Walk};
 
 /// Most terms of a machine.
-pub const MAX_TERMS: usize = 8;
+pub const MAX_TERMS: usize = 18;
 
 /// V, X, Y, XX, XY, YY of a term; of degree 1 the last three are 0.
 type Words = [u64; 6];
@@ -108,7 +108,7 @@ impl Term {
             gloss_mask: if plan.shade.normalises() { (1 << GLOSS_BITS) - 1 } else { 0 },
             place_bits: plan.record_place_bits(),
             layout: terms.iter().enumerate().flat_map(words).collect(),
-            operations: (terms.len() + 2 * quadratics) as u32, // at most 24
+            operations: (terms.len() + 2 * quadratics) as u32, // at most 3 a term
             fetch: Fetch::of(plan.record_length()),
             begun: false,
             x: 0,

@@ -4,18 +4,19 @@
 //!  frag ─┬─> xrd (material, v, u)           xdata ──┐
 //!        └─> queue ─> head ─ r g b ─────────────────┴─> product ─> textured
 //! ```
-//! Formats: u and v the texel, the low τ bits of their outputs; the word three colours of b bits.
+//! Formats: u and v the texel, the low τ bits of their outputs; the word three colours of b bits, with BUMP two slopes of ξ
+//! bits below them.
 //!
 //! Timing: a fragment taken in cycle n is offered when its texel is there, from n + latency on. One a clock.
 //!
-//! Rules: `docs/machine.md`, section 14. Not modelled: bilinear filtering; bump.
+//! Rules: `docs/machine.md`, section 14. Not modelled: bilinear filtering.
 
 mod view;
 
 use crate::Events;
 use crate::fifo::Fifo;
 use crate::shade::Cosines;
-use crate::tokens::Fragment;
+use crate::tokens::{Fragment, sign_extend};
 use edgewalk_machine::Plan;
 
 /// The unit's inputs of a cycle, but for the fragment and whether its own is taken.
@@ -44,6 +45,8 @@ impl<const C: usize> Default for Entry<C> {
 #[derive(Clone, Debug)]
 pub struct Texel<const C: usize> {
     color_bits: u32,
+    /// ξ; 0 without BUMP.
+    slope_bits: u32,
     /// τ.
     side_bits: u32,
     /// Place of u among the terms; v is behind it, and they are the last.
@@ -58,6 +61,7 @@ impl<const C: usize> Texel<C> {
     pub fn new(plan: &Plan) -> Self {
         Texel {
             color_bits: plan.color.bits,
+            slope_bits: if plan.shade.bumps() { plan.shade.slope_bits } else { 0 },
             side_bits: plan.shade.texture_bits,
             place: plan.terms().len().saturating_sub(2),
             places: plan.shade.texel_queue as usize,
@@ -97,19 +101,24 @@ impl<const C: usize> Texel<C> {
         !self.full() && inputs.xrd_ready
     }
 
-    /// The fragment offered on, with the outputs of the terms before u and v.
+    /// The fragment offered on, with the outputs of the terms before u and v, and with BUMP the slopes.
     #[must_use]
     pub fn textured(&self, inputs: &TexelInputs) -> Option<(Fragment<C>, Cosines)> {
         let head = (!self.queue.is_empty()).then(|| *self.queue.head())?;
         let (word, b) = (inputs.xdata?, self.color_bits);
         let Entry { mut fragment, mut terms } = head;
+        let colours = word >> (2 * self.slope_bits);
         for (color, place) in fragment.values[1..=3].iter_mut().zip([2, 1, 0]) {
-            let part = (word >> (place * b)) as u64 & ((1 << b) - 1);
+            let part = (colours >> (place * b)) as u64 & ((1 << b) - 1);
             let product = u64::from(*color) * part + (1 << (b - 1));
             *color = ((product + (product >> b)) >> b) as u32; // at most b bits
         }
         terms.terms[self.place] = 0;
         terms.terms[self.place + 1] = 0;
+        if self.slope_bits > 0 {
+            let slope = |low: u32| sign_extend((word >> low) as i32, self.slope_bits);
+            terms.slopes = [slope(self.slope_bits), slope(0)];
+        }
         Some((fragment, terms))
     }
 

@@ -44,7 +44,7 @@ fn compare(plan: &Plan, triangles: &[Triangle], shading: &Shading, stalls: Stall
         let words = words(plan, record, left, place(plan, *addr));
         let outputs: Vec<i64> =
             plan.terms().iter().zip(words).map(|(term, word)| output(term, word)).collect();
-        let cosines = cosines(plan, &shading.roots, record, &outputs);
+        let cosines = cosines(plan, shading, record, &outputs);
         let own = [before.2[1], before.2[2], before.2[3]];
         let own = textured(plan, &shading.textures, record.material, &outputs, own);
         let wanted = colour(plan, &shading.tables, record.material, &cosines, own);
@@ -69,6 +69,7 @@ fn three_hundred_machines_draw_what_their_words_and_tables_ask_for() {
             ("screen.guard_bits", "8"),
             ("texture.kind", if number % 5 < 2 { "nearest" } else { "none" }),
             ("texture.bits", ["1", "2", "5", "7"][number as usize % 4]),
+            ("texture.bump", if number % 5 == 0 { "yes" } else { "no" }),
             ("term.record_bits", if number % 10 == 0 { "2" } else { "5" }),
         ];
         let plan = random_machine(&fixed, &mut rng);
@@ -94,8 +95,8 @@ fn three_hundred_machines_draw_what_their_words_and_tables_ask_for() {
     println!("300 machines, {checked} fragments equal; clocks lost to TERM, SHADE and TEXEL {spent:?}");
     assert!(checked > 100_000 && spent.iter().all(|clocks| *clocks > 0));
     for (name, count) in events.counts() {
-        use edgewalk_machine::units::{normal, shade, term, texel};
-        let units = [&term::SPEC, &texel::SPEC, &normal::SPEC, &shade::SPEC];
+        use edgewalk_machine::units::{bump, normal, shade, term, texel};
+        let units = [&term::SPEC, &texel::SPEC, &bump::SPEC, &normal::SPEC, &shade::SPEC];
         let own = units.iter().flat_map(|unit| unit.events).any(|event| event.name == name);
         assert!(!own || count > 0, "{name} was not met");
     }

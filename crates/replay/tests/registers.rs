@@ -148,7 +148,7 @@ fn random_triangle(plan: &Plan, rng: &mut impl Rng) -> [PortVertex; 3] {
 
 #[test]
 fn registers_of_the_model_are_those_of_the_netlist() {
-    let settings: [&[(&str, &str)]; 13] = [
+    let settings: [&[(&str, &str)]; 14] = [
         &[],
         &[("interpolator.adders", "1"), ("interpolator.segments", "2")],
         &[("memory.hazard", "drain"), ("memory.latency", "8"), ("fifo.inflight", "8")],
@@ -172,6 +172,13 @@ fn registers_of_the_model_are_those_of_the_netlist() {
         ],
         &[("shadow.light", "parallel"), ("blend.kind", "interpolated"), ("memory.hazard", "interlock")],
         &[("shade.kind", "fast-phong"), ("term.record_bits", "4")],
+        &[
+            ("shade.kind", "phong"),
+            ("shade.colour", "multiply"),
+            ("texture.kind", "nearest"),
+            ("texture.bump", "yes"),
+            ("term.record_bits", "4"),
+        ],
     ];
     let mut compared = BTreeMap::<String, u64>::new();
     for (number, settings) in settings.iter().enumerate() {

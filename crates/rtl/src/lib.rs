@@ -1,8 +1,8 @@
 //! The machine as netlists, a unit a file, written from `docs/machine.md`.
 //!
 //! ```text
-//!  tri ─> setup ─> edge ─> span ─> [term] ─> pixel ─> [texel] ─> [normal] ─> [shade] ─> [project] ─> [shadow] ─> depth ─> memory
-//!                                                                                                                └──> blend ─> memory
+//!  tri ─> setup ─> edge ─> span ─> [term] ─> pixel ─> [texel] ─> [bump] ─> [normal] ─> [shade] ─> [project] ─> [shadow] ─> depth ─> memory
+//!                                                                                                                          └──> blend ─> memory
 //! ```
 //! A function a unit takes a [`Plan`](edgewalk_machine::Plan), the checked machine, and builds the unit's netlist with the ports
 //! that [`edgewalk_machine::UNITS`] declares; [`BUILDERS`] lists the functions, [`machine`] joins what they build.
@@ -26,6 +26,10 @@ mod share;
 
 mod texel;
 
+mod cut;
+
+mod bump;
+
 mod normal;
 
 mod shade;
@@ -47,6 +51,7 @@ pub mod units;
 mod machine;
 
 pub use blend::blend;
+pub use bump::bump;
 pub use depth::depth;
 pub use edge::edge;
 pub use machine::{assemble, engine, machine};
@@ -69,6 +74,7 @@ pub const BUILDERS: &[(&str, units::Build)] = &[
     ("term", term),
     ("pixel", pixel),
     ("texel", texel),
+    ("bump", bump),
     ("normal", normal),
     ("shade", shade),
     ("project", project),

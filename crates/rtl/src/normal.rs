@@ -11,7 +11,7 @@ use edgewalk_machine::units::{normal::SPEC, tokens};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg, Signal};
 
 use crate::ports::Interface;
-use crate::wires::{Part, Registers, parts};
+use crate::wires::{Part, Registers, moved, parts};
 use cosine::cosine;
 use roots::Roots;
 
@@ -107,11 +107,6 @@ pub fn normal(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     ports.status("table_wait", frag_valid & !roots.have);
     ports.status("occupied", occupied);
     m.finish()
-}
-
-/// A register of a stage.
-fn moved<'m>(m: &'m Module, advance: Signal<'m>, name: &str, doc: &str, value: Signal<'m>) -> Signal<'m> {
-    m.reg(name, value.width()).doc(doc).when(advance, value).q()
 }
 
 /// A fragment on its way.

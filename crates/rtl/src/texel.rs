@@ -18,7 +18,7 @@ const DOC: &str = "TEXEL multiplies the colour of a fragment by that of the near
   texture memory ─ xdata ┘
 
 Formats: u, v the texel's column and line, unsigned, of a texture that repeats; xdata {red, green, blue}. A colour c and its
-part x of the texel become c * x / (2^b - 1), to nearest.
+part x of the texel become c * x / (2^b - 1), to nearest. With BUMP xdata has two slopes below the colours, which go on beside them.
 Timing: a texel is read in the cycle its fragment comes; the fragment goes on in the cycle the word comes.
 Rules: words come in the order of the reads.";
 
@@ -37,7 +37,9 @@ pub fn texel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let textured_ready = ports.gives_ready();
 
     m.comment("A fragment enters when the queue has room, in the cycle its texel is read.");
-    let kept = parts(&tokens::textured(plan));
+    let comes = |name: &str| ["bu", "bv"].contains(&name);
+    let mut kept = parts(&tokens::textured(plan));
+    kept.retain(|part| !comes(&part.name));
     let queue = m.instance("queue", &fifo("edgewalk_texel_fifo", plan.shade.texel_queue, &kept, &[])?);
     let room = queue.output("in_ready");
     let address: Vec<_> = frag.get("material").into_iter().chain([frag["v"], frag["u"]]).collect();
@@ -50,9 +52,11 @@ pub fn texel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     queue.connect("out_ready", textured_ready & memory.data_valid);
 
     m.comment("Its colour times the texel's.");
-    let (word, b) = (memory.data["rgb"], plan.color.bits);
+    let (name, b) = (tokens::texture_word(plan).name, plan.color.bits);
+    let (word, slope_bits) = (memory.data[name.as_str()], plan.shade.slope_bits);
+    let below = plan.texel_word_bits() - 3 * b;
     let colour = |i: usize| {
-        let low = (2 - i as u32) * b;
+        let low = below + (2 - i as u32) * b;
         share(&m, COLOURS[i], head[COLOURS[i]], word.slice(low + b - 1, low))
     };
     let colours = [0, 1, 2].map(colour);
@@ -61,6 +65,8 @@ pub fn texel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     ports.read("textures", frag_valid & room, m.cat(&address), waiting & textured_ready);
     ports.give(textured_valid, |f| match COLOURS.iter().position(|colour| *colour == f) {
         Some(i) => colours[i],
+        None if f == "bu" => word.slice(2 * slope_bits - 1, slope_bits),
+        None if f == "bv" => word.slice(slope_bits - 1, 0),
         None => head[f],
     });
     ports.status("texel_full", !room);

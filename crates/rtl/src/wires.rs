@@ -107,6 +107,17 @@ impl<'m> Index<&str> for Token<'m> {
     }
 }
 
+/// A register of a stage.
+pub(crate) fn moved<'m>(
+    m: &'m Module,
+    advance: Signal<'m>,
+    name: &str,
+    doc: &str,
+    value: Signal<'m>,
+) -> Signal<'m> {
+    m.reg(name, value.width()).doc(doc).when(advance, value).q()
+}
+
 /// One register a part, `<prefix>_<part>`.
 #[derive(Clone, Debug)]
 pub(crate) struct Registers<'m>(Vec<(Part, Reg<'m>)>);

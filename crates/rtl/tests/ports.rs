@@ -130,3 +130,8 @@ fn ports_of_a_machine_that_draws_its_map() {
 fn ports_of_a_machine_that_shades() {
     check("shade.txt", include_str!("ports/shade.txt"));
 }
+
+#[test]
+fn ports_of_a_machine_with_a_relief() {
+    check("relief.txt", include_str!("ports/relief.txt"));
+}

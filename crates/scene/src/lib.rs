@@ -41,4 +41,4 @@ pub use polygon::{CrossingEdges, Primitive, Triangulated};
 pub use scene::Scene;
 pub use shading::{LightTerms, Lighting, Point, Specular, Terms};
 pub use surface::{Surface, SurfaceTriangle, SurfaceVertex};
-pub use texture::{Image, MAX_TEXTURE_SIDE, Texture};
+pub use texture::{Image, MAX_TEXTURE_SIDE, Texture, WAVE_TEXELS};

@@ -3,7 +3,8 @@
 //! ```text
 //!   normals, positions at the vertices ──linear over the screen──> N, to length 1 ──> the equation ──> colour
 //!   r g b at the vertices ──────────────linear over the screen──> c, which k_a and k_d are multiplied with
-//!   u v at the vertices ────────────────linear over the screen──> the nearest texel, which c is multiplied with
+//!   u v at the vertices ────────────────linear over the screen──> the nearest texel, which c is multiplied with, and the slopes
+//!                                                                 of the relief there, which turn N
 //! ```
 //! Triangle files have viewer and lights infinitely far away; a scene's frame has its own.
 
@@ -58,6 +59,8 @@ pub struct PixelTriangle {
     pub positions: [DVec3; 3],
     /// Texture coordinates at the vertices, u to the right and v up; 0 where there are none.
     pub texture: [DVec2; 3],
+    /// T_u and T_v: where its relief has the slopes B_u and B_v a normal grows by N x (B_u T_u + B_v T_v); 0 without one.
+    pub turns: [DVec3; 2],
     /// Place among the materials.
     pub material: u32,
 }
@@ -75,9 +78,9 @@ pub struct PixelShading {
     pub lights: Vec<Light>,
     /// `Halfway` or `Blinn`: what N·H alone gives.
     pub specular: Specular,
-    /// Without reliefs; what a texture is, is said here.
+    /// What their textures and reliefs are, is said here.
     pub materials: Vec<Material>,
-    /// What the materials name by its place.
+    /// What the materials name by its place: colours, or a relief's heights.
     pub textures: Vec<Arc<Image>>,
     /// As many as the frame has triangles, in their order.
     pub triangles: Vec<PixelTriangle>,
@@ -117,6 +120,11 @@ impl PixelShading {
         self.materials[triangle.material as usize].texture.and_then(|place| self.textures.get(place as usize))
     }
 
+    /// The relief that turns a triangle's normals.
+    pub fn relief(&self, triangle: &PixelTriangle) -> Option<&Arc<Image>> {
+        self.materials[triangle.material as usize].bump.and_then(|place| self.textures.get(place as usize))
+    }
+
     /// Only the triangles at these places, in this order.
     #[must_use]
     pub fn picked(self, places: impl IntoIterator<Item = usize>) -> Self {
@@ -128,7 +136,8 @@ impl PixelShading {
 impl Scene {
     /// The frame of a surface of this scene with the equation at each pixel. Highlights are of the form that N·H gives: for the
     /// mirror form that of ch. 7.12. In Phong the viewer is far away, as hardware with linear products has it. A texture of nearest
-    /// texels is looked up at each pixel, another colours the vertices; a relief is not seen.
+    /// texels is looked up at each pixel, another colours the vertices; a relief of nearest texels turns the normal, another is not
+    /// seen.
     pub fn pixel_frame(&self, surface: &Surface, method: PixelMethod) -> Frame {
         let Camera { eye, target, .. } = self.camera;
         let viewer = match method {
@@ -148,16 +157,16 @@ impl Scene {
                 _ => None,
             })
             .collect();
-        let texels = |material: &Material| {
-            material.texture.and_then(|place| places.get(place as usize).copied().flatten())
-        };
+        let texels =
+            |place: Option<u32>| place.and_then(|place| places.get(place as usize).copied().flatten());
         let plain: Vec<(DVec3, Material)> = self
             .mesh
             .materials()
             .iter()
             .map(|material| {
                 let (color, grey) = in_grey(material);
-                (color, Material { texture: texels(material), ..grey })
+                let bump = texels(material.bump).filter(|_| material.bump_height != 0.0);
+                (color, Material { texture: texels(material.texture), bump, ..grey })
             })
             .collect();
         let corner = |face: u32, vertex: &SurfaceVertex| {
@@ -173,11 +182,17 @@ impl Scene {
                 (plain[place].0 * DVec3::select(texture.is_finite_mask(), texture, DVec3::ONE)).to_array();
             Vertex { r, g, b, ..vertex.screen }
         };
+        let turns = |face: u32| {
+            let place = self.mesh.faces()[face as usize].material as usize;
+            let height = self.mesh.materials()[place].bump_height;
+            if plain[place].1.bump.is_some() { self.mesh.turns(face, height) } else { [DVec3::ZERO; 2] }
+        };
         let triangles = surface.triangles.iter();
         let own = triangles.clone().map(|triangle| PixelTriangle {
             normals: triangle.vertices.map(|vertex| vertex.normal),
             positions: triangle.vertices.map(|vertex| vertex.position),
             texture: triangle.vertices.map(|vertex| vertex.texture),
+            turns: turns(triangle.face),
             material: self.mesh.faces()[triangle.face as usize].material,
         });
         let shading = PixelShading {

@@ -72,7 +72,8 @@ impl Texture {
         Image::new(&picture).map(|image| Self::Image(Arc::new(image))).ok_or_else(|| fault("empty".into()))
     }
 
-    /// The same with one colour in each texel, as hardware without a filter reads it; of a checker a square is a texel.
+    /// The same with one colour in each texel, as hardware without a filter reads it; of a checker a square is a texel, of waves
+    /// there are [`WAVE_TEXELS`] a wave.
     #[must_use]
     pub fn nearest(self) -> Self {
         match self {
@@ -84,6 +85,16 @@ impl Texture {
                 let texels = (0..squares * squares).map(square).collect();
                 Image::of(squares, squares, texels)
                     .map_or(Self::Checker { squares, colors }, |image| Self::Texels(Arc::new(image)))
+            }
+            Self::Waves { count } if count <= MAX_TEXTURE_SIDE / WAVE_TEXELS => {
+                let side = count * WAVE_TEXELS;
+                let height = |k: u32| {
+                    // Lines run from the top.
+                    let middle = DVec2::new(f64::from(k % side) + 0.5, f64::from(side - 1 - k / side) + 0.5);
+                    [(self.at(middle / f64::from(side)).x * ONE).round() as u16; 3]
+                };
+                let texels = (0..side * side).map(height).collect();
+                Image::of(side, side, texels).map_or(self, |image| Self::Texels(Arc::new(image)))
             }
             other => other,
         }
@@ -114,7 +125,8 @@ impl Texture {
             Self::Checker { squares: count, .. } | Self::Waves { count } => {
                 DVec2::splat(1.0 / (FINE * f64::from((*count).max(1))))
             }
-            Self::Image(image) | Self::Texels(image) => 1.0 / image.size(),
+            Self::Image(image) => 1.0 / image.size(),
+            Self::Texels(image) => return image.slope(place),
             Self::Absent(_) => return DVec2::ZERO,
         };
         let height = |place: DVec2| self.at(place).element_sum() / 3.0;
@@ -122,6 +134,9 @@ impl Texture {
         DVec2::new(rise(texel.with_y(0.0)), rise(texel.with_x(0.0)))
     }
 }
+
+/// Texels of a wave in a picture of nearest texels.
+pub const WAVE_TEXELS: u32 = 32;
 
 /// What counts as texels in a square or a wave of what is built in.
 const FINE: f64 = 64.0;
@@ -169,6 +184,15 @@ impl Image {
     pub fn nearest(&self, place: DVec2) -> DVec3 {
         let texel = (DVec2::new(place.x, 1.0 - place.y) * self.size()).floor();
         self.texel(texel.x, texel.y)
+    }
+
+    /// How steeply the mean of the colours rises along u and v at the texel that a place lies in, per unit of each: half the
+    /// difference of its neighbours.
+    pub fn slope(&self, place: DVec2) -> DVec2 {
+        let texel = (DVec2::new(place.x, 1.0 - place.y) * self.size()).floor();
+        let height = |x: f64, y: f64| self.texel(texel.x + x, texel.y + y).element_sum() / 3.0;
+        let rise = DVec2::new(height(1.0, 0.0) - height(-1.0, 0.0), height(0.0, -1.0) - height(0.0, 1.0));
+        rise * self.size() / 2.0
     }
 
     /// One texel of the endless repetition.

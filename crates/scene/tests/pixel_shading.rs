@@ -197,7 +197,7 @@ prop_compose! {
                 // Any numbers that a file can say.
                 let place = |k: usize| DVec2::new(normals[k].x * 1e3, normals[k].y / 3.0);
                 let texture = if textured(material) { [0, 1, 2].map(place) } else { [DVec2::ZERO; 3] };
-                PixelTriangle { normals: *normals, positions: [DVec3::ZERO; 3], texture, material }
+                PixelTriangle { normals: *normals, positions: [DVec3::ZERO; 3], texture, turns: [DVec3::ZERO; 2], material }
             };
             normals.iter().map(own).collect::<Vec<_>>()
         });

@@ -1,7 +1,7 @@
 //! Textures, built in and from files, and the relief they make.
 #![allow(clippy::unwrap_used)] // files written here
 
-use edgewalk_scene::{Face, FaceData, Material, Mesh, Texture};
+use edgewalk_scene::{Face, FaceData, Material, Mesh, Texture, WAVE_TEXELS};
 use glam::{DVec2, DVec3};
 use image::{Rgb, RgbImage};
 
@@ -130,4 +130,32 @@ fn a_relief_turns_the_normal_as_its_slopes_do() {
     assert!(steepest > 0.25);
     let flat = square(Material { bump: None, ..material }, vec![Texture::Waves { count: 1 }]);
     assert_eq!(flat.bumped_normal(0, DVec2::splat(0.3), DVec3::Z), DVec3::Z);
+}
+
+/// Heights at the middles of the texels, and slopes that are those of the waves, nearly, and one in each texel.
+#[test]
+fn waves_may_be_texels() {
+    let waves = Texture::Waves { count: 3 };
+    let texels = waves.clone().nearest();
+    let Texture::Texels(image) = &texels else { panic!("texels") };
+    assert_eq!(image.sides(), [3 * WAVE_TEXELS; 2]);
+    let wave = std::f64::consts::TAU * 3.0;
+    let mut checked = 0;
+    for k in 0..96 * 96 {
+        let middle = DVec2::new(f64::from(k % 96) + 0.5, f64::from(k / 96) + 0.5) / 96.0;
+        assert!((texels.at(middle) - waves.at(middle)).abs().max_element() < 1e-5);
+        let exact = DVec2::new(
+            (wave * middle.x).cos() * (wave * middle.y).sin(),
+            (wave * middle.x).sin() * (wave * middle.y).cos(),
+        ) * wave
+            / 2.0;
+        let slope = image.slope(middle);
+        // Differences over a sixteenth of a wave.
+        assert!(slope.distance(exact) < 0.01 * wave, "{middle}: {slope}, not {exact}");
+        assert_eq!(image.slope(middle + DVec2::splat(0.4 / 96.0)), slope);
+        checked += 1;
+    }
+    assert_eq!(checked, 96 * 96);
+    let many = Texture::Waves { count: 129 };
+    assert_eq!(many.clone().nearest(), many, "more than a picture has");
 }

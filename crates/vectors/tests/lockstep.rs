@@ -90,7 +90,7 @@ fn every_suite_of_shadow() {
     assert!(compared.iter().all(|compared| *compared > 100_000), "{compared:?}");
 }
 
-/// TERM, TEXEL, NORMAL and SHADE, their directed suite and those of hazards; the whole machine, whose lock-step takes the longest, once each.
+/// TERM, TEXEL, BUMP, NORMAL and SHADE, their directed suite and those of hazards; the whole machine, whose lock-step takes the longest, once each.
 #[test]
 fn every_suite_of_shade() {
     let machines = common::shades();
@@ -102,7 +102,8 @@ fn every_suite_of_shade() {
             let in_turn = |unit: &Unit| match *unit == Unit::MACHINE {
                 true => j == 0 || i % 3 + 1 == j,
                 false => {
-                    [common::TERM, common::PIXEL, common::TEXEL, common::NORMAL, common::SHADE].contains(unit)
+                    let own = [common::TERM, common::PIXEL, common::TEXEL, common::BUMP, common::NORMAL];
+                    own.contains(unit) || *unit == common::SHADE
                 }
             };
             for unit in Unit::all(machine).into_iter().filter(in_turn) {

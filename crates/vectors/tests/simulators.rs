@@ -193,6 +193,15 @@ fn machines_that_draw_their_map_replay_and_are_clean() {
     assert!(done.len() == 2 && done.iter().all(|checked| *checked > 3000), "{done:?}");
 }
 
+/// The two with a relief in both; not part of the test run.
+#[test]
+#[ignore = "minutes"]
+fn machines_with_a_relief_in_every_tool() {
+    let mut machines = common::shades();
+    let machines = [machines.remove(6), machines.remove(3)];
+    machines_with_shade(&machines, |_| &Simulator::ALL, &["hazards", "corners", "random", "shade"]);
+}
+
 /// All ten in both; not part of the test run.
 #[test]
 #[ignore = "minutes"]
@@ -261,7 +270,7 @@ fn machines_with_shade(
         };
         let whole = of(Unit::MACHINE, StallKind::ALL[(i + 1) % 3]);
         let mut checked: u64 = simulators(i).iter().map(|simulator| passes(*simulator, &whole)).sum();
-        let own = [common::TERM, common::PIXEL, common::TEXEL, common::NORMAL, common::SHADE];
+        let own = [common::TERM, common::PIXEL, common::TEXEL, common::BUMP, common::NORMAL, common::SHADE];
         for (j, unit) in own.into_iter().filter(|unit| Unit::all(machine).contains(unit)).enumerate() {
             checked += passes(Simulator::Icarus, &of(unit, StallKind::ALL[(i + j) % 3]));
         }

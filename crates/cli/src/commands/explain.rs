@@ -5,6 +5,7 @@ mod layers;
 mod shaded;
 mod shadowed;
 mod texel;
+mod turned;
 mod terms;
 mod page;
 

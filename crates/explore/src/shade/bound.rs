@@ -113,4 +113,6 @@ pub struct Looked {
     pub unexplained: u64,
     /// Pixels of another colour because the picture's sides do not divide 2^`texture.bits`.
     pub resampled: u64,
+    /// Pixels of triangles whose relief is steeper than the machine's words can say, and lower there: no bound holds them.
+    pub flattened: u64,
 }

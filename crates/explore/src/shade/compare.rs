@@ -3,10 +3,10 @@
 use super::bound::{Looked, Proof, Shaded};
 use super::texels::Textured;
 use crate::raster::Raster;
-use edgewalk_golden::{PixelBrush, fragments};
+use edgewalk_golden::{PixelBrush, Texel, fragments};
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Frame, PixelMethod, PixelShading};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use std::collections::HashMap;
 
 /// Golden's colours beside those of its picture.
@@ -46,11 +46,11 @@ impl<'a> Allowed<'a> {
                             looked.take(own, [fragment.x, fragment.y], at, fast.texel(fragment))
                         }
                     };
-                    let list = fast.branches(fragment, texel, proof.doubts[place]);
+                    let list = fast.branches(fragment, &texel, proof.doubts[place]);
                     if list.len() > 1 || own.is_some() {
                         branches.insert(at, list);
                     }
-                    phong.insert(at, exact.color_by(fragment, texel));
+                    phong.insert(at, exact.color_by(fragment, &texel));
                 }
             });
         }
@@ -89,15 +89,16 @@ impl<'a> Allowed<'a> {
 }
 
 impl Looked {
-    /// Takes in a pixel that lies at `place` of its texture, `golden` the picture's texel there; what the picture has at the texel
+    /// Takes in a pixel that lies at `place` of its texture, `golden` the pictures' texel there; what the pictures have at the texel
     /// that the words name.
-    fn take(&mut self, of: &Textured, pixel: [u32; 2], place: DVec2, golden: DVec3) -> DVec3 {
+    fn take(&mut self, of: &Textured, pixel: [u32; 2], place: DVec2, golden: Texel) -> Texel {
         let texel = of.texel(pixel);
         let (shown, differs) = (of.texture.exact(texel), texel != of.nearest(place));
         self.pixels += 1;
         self.bound = self.bound.max(of.error);
         self.differ += u64::from(differs);
         self.unexplained += u64::from(!of.explains(texel, place));
+        self.flattened += u64::from(of.flattened);
         self.resampled += u64::from(!differs && shown != golden);
         shown
     }

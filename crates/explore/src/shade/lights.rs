@@ -57,10 +57,10 @@ impl Lamp {
         shading.lights.iter().enumerate().map(lamp).collect()
     }
 
-    /// L and H where both are the same everywhere: of a directional light and a viewer far away.
-    pub fn directions(&self, shading: &PixelShading) -> [DVec3; 2] {
-        let toward = self.light.incident(DVec3::ZERO).toward;
-        [toward, (toward + shading.viewer_at(DVec3::ZERO)).normalize_or_zero()]
+    /// L and H at a point; of a directional light and a viewer far away both are the same everywhere.
+    pub fn directions(&self, position: DVec3, shading: &PixelShading) -> [DVec3; 2] {
+        let toward = self.light.incident(position).toward;
+        [toward, (toward + shading.viewer_at(position)).normalize_or_zero()]
     }
 
     /// N·L and N·H of a triangle.
@@ -68,9 +68,7 @@ impl Lamp {
         let PixelTriangle { normals, positions, .. } = triangle;
         let at = |normal: DVec3, position: DVec3| {
             let normal = normal.normalize_or_zero();
-            let toward = self.light.incident(position).toward;
-            let halfway = (toward + shading.viewer_at(position)).normalize_or_zero();
-            [normal.dot(toward), normal.dot(halfway)]
+            self.directions(position, shading).map(|direction| normal.dot(direction))
         };
         let mut nodes = [[[0.0; 3]; 2]; 2];
         for k in 0..3 {

@@ -3,6 +3,7 @@
 use super::lights::Lamp;
 use super::place::Place;
 use super::texels;
+use super::turns::Turns;
 use anyhow::Result;
 use edgewalk_machine::{Plan, Record, Term};
 use edgewalk_numerics::term::{Degree, NODE_BITS, TermWords, node, term_roundings_of_box};
@@ -37,16 +38,18 @@ pub fn record(
     shading: &PixelShading,
     lamps: &[Lamp],
     (material, glosses): (u32, &[u32]),
-    root_error: f64,
+    (root_error, turns): (f64, Option<&Turns>),
     machine: &Plan,
 ) -> Result<(Record, IndexErrors)> {
     let Some(place) = place else { return Ok(Default::default()) };
-    let (of_lights, of_texture) = machine.terms().split_at(machine.cosine_terms());
+    let (of_lights, others) = machine.terms().split_at(machine.cosine_terms());
+    let (of_relief, of_texture) = others.split_at(machine.bumped_terms() - of_lights.len());
     let mut words = if machine.shade.normalises() {
-        normal_terms(place, own, shading, lamps, of_lights)
+        normal_terms(place, own, shading, lamps, turns, of_lights)
     } else {
         cosine_terms(place, own, shading, lamps, glosses, (of_lights, machine))
     };
+    words.extend(turn_terms(place, turns, glosses, (of_relief, machine)));
     words.extend(texels::terms(place, own, shading, of_texture)?);
     let start = place.steps_to(place.start);
     // Of a triangle that is drawn the weights do not sum to 0, and a planned word has at most 64 bits.
@@ -58,18 +61,31 @@ pub fn record(
     };
     let quadratic = error_of(Degree::Quadratic, machine.shade.fraction);
     let entries = machine.shade.table_bits;
-    let index_error = |gloss: u32| {
+    let linear = error_of(Degree::Linear, machine.shade.linear_fraction);
+    // By light and cosine; a light that is not there has none.
+    let index_error = |cosine: usize, gloss: u32| {
         let one = 2f64.powi((entries + gloss) as i32);
+        let turns = turns.filter(|turns| cosine < turns.growths.len());
+        if turns.is_some_and(|turns| turns.flattened) {
+            return 2.0 * one;
+        }
         if machine.shade.normalises() {
-            let linear = error_of(Degree::Linear, machine.shade.linear_fraction);
-            normal_error(own, linear, quadratic, root_error) * one / UNIT
+            let growth = turns.map_or(0.0, |turns| turns.growth_error(cosine) * UNIT);
+            normal_error(own, (linear, growth), quadratic, (root_error, turns), machine) * one / UNIT
+        } else if machine.shade.bumps() {
+            let below = 2f64.powi(machine.shade.cosine_fraction() as i32);
+            let turned = turns.map_or(0.0, |turns| {
+                2.0 * (linear + 0.5) / below + (turns.growth_error(cosine) + 2.0 * COSINE_ERROR) * one
+            });
+            (quadratic + 0.5) / below + COSINE_ERROR * one + turned
         } else {
             quadratic + COSINE_ERROR * one
         }
     };
+    let highlight = glosses.iter().enumerate().map(|(light, gloss)| index_error(2 * light + 1, *gloss));
     let errors = IndexErrors {
-        diffuse: index_error(0),
-        highlight: glosses.iter().map(|gloss| index_error(*gloss)).collect(),
+        diffuse: (0..glosses.len()).map(|light| index_error(2 * light, 0)).fold(0.0, f64::max),
+        highlight: highlight.collect(),
     };
     let [x, y] = place.start;
     let record = Record {
@@ -82,7 +98,8 @@ pub fn record(
     Ok((record, errors))
 }
 
-/// N·L and N·H, quadratics through six cosines: 2^t for 1.0, and index = 2^t - (1 - N·H)·2^(m' + t).
+/// N·L and N·H, quadratics through six cosines: 2^t for 1.0, and index = 2^t - (1 - N·H)·2^(m' + t); for BUMP with bits below, rounded
+/// to nearest.
 fn cosine_terms(
     place: &Place,
     own: &PixelTriangle,
@@ -101,11 +118,47 @@ fn cosine_terms(
         let cosines = lamp.cosines(own, shading).map(|nodes| nodes.map(|list| list.map(node)));
         let lowest = (1i64 << entries) - (1i64 << (entries + glosses[light]));
         let scales = [(entries, 0), (entries + glosses[light], lowest)];
+        let below = machine.shade.cosine_fraction();
         for ((term, nodes), (bits, offset)) in of_light.iter().zip(cosines).zip(scales) {
-            terms.push(shares.six_point(nodes, bits + term.fraction, offset << term.fraction, term.word()));
+            let fraction = below + term.fraction;
+            let offset = (offset << fraction) + if below > 0 { half(term) } else { 0 };
+            terms.push(shares.six_point(nodes, bits + fraction, offset, term.word()));
         }
     }
     terms
+}
+
+/// Half of an output's last bit: with it a term is rounded to nearest.
+fn half(term: &Term) -> i64 {
+    if term.fraction > 0 { 1 << (term.fraction - 1) } else { 0 }
+}
+
+/// What the cosines grow by with the slopes of a relief, in the unit of each, and with NORMAL what N·N does; without a relief 0.
+fn turn_terms(
+    place: &Place,
+    turns: Option<&Turns>,
+    glosses: &[u32],
+    (of_relief, machine): (&[Term], &Plan),
+) -> Vec<Option<TermWords>> {
+    let Some(turns) = turns else { return vec![None; of_relief.len()] };
+    let shares = place.shares();
+    let plane = |term: &Term, values: [f64; 3], bits: u32| {
+        shares.plane(values.map(node), bits + term.fraction, half(term), term.word())
+    };
+    let normalises = machine.shade.normalises();
+    let (of_cosines, of_square) = of_relief.split_at(4 * glosses.len());
+    let cosines = of_cosines.chunks_exact(2).enumerate().flat_map(|(cosine, terms)| {
+        let unit = machine.shade.table_bits + machine.shade.cosine_fraction();
+        let bits = match (normalises, cosine % 2) {
+            (true, _) => UNIT_BITS,
+            (false, 0) => unit,
+            (false, _) => unit + glosses[cosine / 2],
+        };
+        let growths = turns.growths.get(cosine);
+        [0, 1].map(|way| growths.and_then(|growths| plane(&terms[way], growths[way], bits)))
+    });
+    let squares = of_square.iter().zip(turns.squares).map(|(term, values)| plane(term, values, UNIT_BITS));
+    cosines.chain(squares).collect()
 }
 
 /// Products with a normal of any length, planes rounded to nearest by half an output's last bit, and N·N: 2^16 for 1.0.
@@ -114,39 +167,56 @@ fn normal_terms(
     own: &PixelTriangle,
     shading: &PixelShading,
     lamps: &[Lamp],
+    turns: Option<&Turns>,
     of_lights: &[Term],
 ) -> Vec<Option<TermWords>> {
     let shares = place.shares();
+    let normals = own.normals.map(|normal| normal * turns.map_or(1.0, |turns| turns.scale));
     let mut terms = Vec::with_capacity(of_lights.len() + 2);
     for (place, term) in of_lights.iter().enumerate() {
         if term.degree == 2 {
-            let middle = |k: usize| (own.normals[(k + 1) % 3] + own.normals[(k + 2) % 3]) / 2.0;
-            let squares =
-                [own.normals, [0, 1, 2].map(middle)].map(|list| list.map(|n| node(n.length_squared())));
+            let middle = |k: usize| (normals[(k + 1) % 3] + normals[(k + 2) % 3]) / 2.0;
+            let squares = [normals, [0, 1, 2].map(middle)].map(|list| list.map(|n| node(n.length_squared())));
             terms.push(shares.six_point(squares, UNIT_BITS + term.fraction, 0, term.word()));
             continue;
         }
         terms.push(lamps.get(place / 2).and_then(|lamp| {
-            let direction = lamp.directions(shading)[place % 2];
-            let products = own.normals.map(|normal| node(normal.dot(direction)));
-            let half = if term.fraction > 0 { 1 << (term.fraction - 1) } else { 0 };
-            shares.plane(products, UNIT_BITS + term.fraction, half, term.word())
+            let direction = lamp.directions(DVec3::ZERO, shading)[place % 2];
+            let products = normals.map(|normal| node(normal.dot(direction)));
+            shares.plane(products, UNIT_BITS + term.fraction, half(term), term.word())
         }));
     }
     terms
 }
 
-/// Bound 14: how far a cosine by NORMAL is from that of a normal of length 1, 2^-16; `linear` and `quadratic` bound the words
-/// of the terms. A normal that may be shorter than half has none but the whole range.
-fn normal_error(own: &PixelTriangle, linear: f64, quadratic: f64, root_error: f64) -> f64 {
-    let shortest = shortest(own.normals);
-    let least = shortest * shortest * UNIT - quadratic - 1.0;
+/// Bounds 14 and 16: how far a cosine by NORMAL is from that of a normal of length 1, 2^-16; `linear` and `quadratic` bound the
+/// words of the terms, `growth` what the stored slopes of a relief spoil. A normal that may be shorter than half has none but the
+/// whole range.
+fn normal_error(
+    own: &PixelTriangle,
+    (linear, growth): (f64, f64),
+    quadratic: f64,
+    (root_error, turns): (f64, Option<&Turns>),
+    machine: &Plan,
+) -> f64 {
+    let shortest = shortest(own.normals) * turns.map_or(1.0, |turns| turns.scale);
+    let (mut product, mut square) = (linear + 0.5 + COSINE_ERROR * UNIT, quadratic + COSINE_ERROR * UNIT);
+    if machine.shade.bumps() {
+        // BUMP rounds its sum, and takes a square whose word was cut.
+        (product, square) = (product + 0.5, square + 1.0);
+    }
+    if let Some(turns) = turns {
+        let plane = linear + 0.5 + COSINE_ERROR * UNIT;
+        (product, square) =
+            (product + 2.0 * plane + growth, square + 3.0 * plane + turns.square_error() * UNIT);
+    }
+    let least = shortest * shortest * UNIT - square - 1.0;
     if least < UNIT / 4.0 {
         return 2.0 * UNIT;
     }
-    let relative = root_error + 1.01 * (quadratic + COSINE_ERROR * UNIT) / (2.0 * least);
+    let relative = root_error + 1.01 * square / (2.0 * least);
     let root = (UNIT / least).sqrt() * (1.0 + relative);
-    (linear + 0.5 + COSINE_ERROR * UNIT) * root + UNIT * relative + 0.5
+    product * root + UNIT * relative + 0.5
 }
 
 /// The length of the shortest normal over a triangle: how far 0 is from the triangle that its normals span.

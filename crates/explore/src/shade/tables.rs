@@ -54,7 +54,8 @@ impl Surfaces {
             if number == next {
                 let material = shading.material(own, color);
                 surfaces.tables.push(light_tables(&material, shading, lamps, machine)?);
-                surfaces.textures.push(shading.texture(own).map(|image| Texture::new(image, machine)));
+                let pictures = [shading.texture(own), shading.relief(own)];
+                surfaces.textures.push(Texture::new(pictures, machine));
             }
             surfaces.of_triangle.push(number);
             surfaces.brightest.push(triangle.0.iter().fold(0.0, |most, v| v.r.max(v.g).max(v.b).max(most)));

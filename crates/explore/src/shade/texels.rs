@@ -1,13 +1,15 @@
-//! Textures as the memory behind TEXEL holds them, and which texel a triangle's words name at a pixel.
+//! Textures and reliefs as the memory behind TEXEL holds them, and which texel a triangle's words name at a pixel.
 //!
 //! ```text
 //!  picture of a material ──taken at the middles of 2^τ x 2^τ texels──> words of the memory
+//!  slopes of its relief ───the same, 2^(ξ-1) - 1 for the largest─────┘
 //!  u, v of the vertices ──planes, in texels, lines from the top──────> terms u, v ──floor──> texel of a pixel
 //! ```
 //! A picture whose sides divide 2^τ is held as it is.
 
 use super::place::Place;
 use anyhow::{Result, anyhow};
+use edgewalk_golden::Texel;
 use edgewalk_machine::{Plan, Term};
 use edgewalk_numerics::term::{Degree, NODE_BITS, TermWords, node, term_roundings_of_box};
 use edgewalk_scene::{Image, PixelShading, PixelTriangle};
@@ -20,10 +22,11 @@ const MOST: usize = 1 << 24;
 /// Largest u or v, either way.
 const MAX_PLACE: f64 = 1e6;
 
-/// The texture of a surface on the machine.
+/// The texture and the relief of a surface on the machine.
 #[derive(Clone, Debug)]
 pub struct Texture {
-    image: Arc<Image>,
+    image: Option<Arc<Image>>,
+    pub relief: Option<Relief>,
     /// τ.
     bits: u32,
     /// LSB of the colour in 1.
@@ -34,22 +37,68 @@ pub struct Texture {
     pub brightest: f64,
 }
 
+/// A relief on the machine.
+#[derive(Clone, Debug)]
+pub struct Relief {
+    image: Arc<Image>,
+    /// What a stored slope of 2^(ξ-1) would be, per unit of u or v.
+    pub one: f64,
+    /// 2^(ξ-1).
+    whole: f64,
+    /// How far a stored slope may be from the relief's, of `one`.
+    pub error: f64,
+    /// The root of the largest B_u² + B_v² as stored, of `one`.
+    pub farthest: f64,
+}
+
+impl Relief {
+    /// Of these heights at the middles of the machine's texels; `None` of a flat one.
+    fn new(image: &Arc<Image>, machine: &Plan) -> Option<Relief> {
+        let whole = 2f64.powi(machine.shade.slope_bits as i32 - 1);
+        let mut relief = Relief { image: Arc::clone(image), one: 0.0, whole, error: 0.0, farthest: 0.0 };
+        let side = 1u32 << machine.shade.texture_bits;
+        let all = (0..side).flat_map(|v| (0..side).map(move |u| [u, v]));
+        let slopes: Vec<DVec2> = all.map(|texel| image.slope(middle(texel, f64::from(side)))).collect();
+        let steepest = slopes.iter().fold(0f64, |most, slope| most.max(slope.abs().max_element()));
+        relief.one = steepest * whole / (whole - 1.0);
+        for slope in slopes {
+            let stored = DVec2::new(relief.stored(slope.x), relief.stored(slope.y)) / whole;
+            relief.error = relief.error.max((stored - slope / relief.one).abs().max_element());
+            relief.farthest = relief.farthest.max(stored.length());
+        }
+        (steepest > 0.0).then_some(relief)
+    }
+
+    fn stored(&self, slope: f64) -> f64 {
+        (slope / self.one * self.whole).round_ties_even()
+    }
+}
+
+/// The place of the middle of a texel, `side` of which make a line, u to the right and v up.
+fn middle([column, line]: [u32; 2], side: f64) -> DVec2 {
+    let place = (DVec2::new(f64::from(column), f64::from(line)) + 0.5) / side;
+    DVec2::new(place.x, 1.0 - place.y)
+}
+
 impl Texture {
-    /// Of a picture.
-    pub fn new(image: &Arc<Image>, machine: &Plan) -> Texture {
+    /// Of a picture and a relief, at least one of which there is; white without a picture.
+    pub fn new([image, relief]: [Option<&Arc<Image>>; 2], machine: &Plan) -> Option<Texture> {
+        image.or(relief)?;
         let mut texture = Texture {
-            image: Arc::clone(image),
+            image: image.map(Arc::clone),
+            relief: relief.and_then(|relief| Relief::new(relief, machine)),
             bits: machine.shade.texture_bits,
             max: machine.color.max() as f64,
             error: 0.0,
             brightest: 0.0,
         };
-        for part in image.texels().iter().flatten() {
+        let white = [[u16::MAX; 3]];
+        for part in image.map_or(&white[..], |image| image.texels()).iter().flatten() {
             let exact = f64::from(*part) / f64::from(u16::MAX);
             texture.error = texture.error.max((texture.stored(exact) / texture.max - exact).abs());
             texture.brightest = texture.brightest.max(exact);
         }
-        texture
+        Some(texture)
     }
 
     /// LSB of the colour.
@@ -57,16 +106,22 @@ impl Texture {
         (exact * self.max).round_ties_even()
     }
 
-    /// What the picture has in the middle of a texel of the machine's.
-    pub fn exact(&self, [column, line]: [u32; 2]) -> DVec3 {
-        let middle = DVec2::new(f64::from(column), f64::from(line)) + 0.5;
-        let place = middle / self.side();
-        self.image.nearest(DVec2::new(place.x, 1.0 - place.y))
+    /// What the pictures have in the middle of a texel of the machine's.
+    pub fn exact(&self, texel: [u32; 2]) -> Texel {
+        let place = middle(texel, self.side());
+        Texel {
+            color: self.image.as_ref().map_or(DVec3::ONE, |image| image.nearest(place)),
+            slopes: self.relief.as_ref().map_or(DVec2::ZERO, |relief| relief.image.slope(place)),
+        }
     }
 
-    /// The same as it is stored, LSB of the colour.
-    pub fn texel(&self, texel: [u32; 2]) -> [u32; 3] {
-        self.exact(texel).to_array().map(|part| self.stored(part) as u32)
+    /// The word that stands for it.
+    fn word(&self, texel: [u32; 2], machine: &Plan) -> u128 {
+        let Texel { color, slopes } = self.exact(texel);
+        let slopes = self.relief.as_ref().map_or([0; 2], |relief| {
+            slopes.to_array().map(|slope| relief.stored(slope) as i32) // at most 15 bits and a sign
+        });
+        machine.texel_word(color.to_array().map(|part| self.stored(part) as u32), slopes)
     }
 
     /// 2^τ.
@@ -97,12 +152,12 @@ pub fn words(textures: &[Option<Texture>], machine: &Plan) -> Result<Vec<u128>> 
             textures.len()
         ));
     }
-    let white = machine.texel_word([machine.color.max() as u32; 3]);
+    let white = machine.texel_word([machine.color.max() as u32; 3], [0; 2]);
     let mut words = vec![white; count];
     for (surface, texture) in (0..).zip(textures) {
         let Some(texture) = texture else { continue };
         for (v, u) in (0..side).flat_map(|v| (0..side).map(move |u| (v, u))) {
-            words[machine.texel_place(surface, u, v)] = machine.texel_word(texture.texel([u, v]));
+            words[machine.texel_place(surface, u, v)] = texture.word([u, v], machine);
         }
     }
     Ok(words)
@@ -120,6 +175,8 @@ pub struct Textured {
     leftward: bool,
     /// How far a word may be from the place, texels.
     pub error: f64,
+    /// The relief is lower on the machine than it is.
+    pub flattened: bool,
 }
 
 /// The words of u and v in the middle of a triangle's box; of one without a texture 0.
@@ -132,7 +189,7 @@ pub fn terms(
     shading: &PixelShading,
     terms: &[Term],
 ) -> Result<Vec<Option<TermWords>>> {
-    if shading.texture(own).is_none() {
+    if shading.texture(own).or(shading.relief(own)).is_none() {
         return Ok(vec![None; terms.len()]);
     }
     let far =
@@ -155,7 +212,7 @@ impl Textured {
     pub fn new(
         place: &Place,
         own: &PixelTriangle,
-        texture: Option<&Texture>,
+        (texture, flattened): (Option<&Texture>, bool),
         words: &[[u64; 6]],
         machine: &Plan,
     ) -> Option<Textured> {
@@ -170,6 +227,7 @@ impl Textured {
             error: roundings / 2f64.powi(fraction as i32 + 1) + off * texture.side(),
             words: [TermWords::new(width, u)?, TermWords::new(width, v)?],
             fraction,
+            flattened,
             start: place.start,
             leftward: place.leftward,
             texture,

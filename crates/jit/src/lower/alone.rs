@@ -66,7 +66,8 @@ impl Alone {
         let outputs = design.outputs.iter().map(|(_, value)| *value);
         let updates = design.registers.iter().flat_map(|register| &register.updates);
         let updates = updates.flat_map(|(when, value)| when.iter().copied().chain([*value]));
-        let reads = design.memories.iter().flat_map(|memory| &memory.reads).flat_map(|read| [read.en, read.addr]);
+        let reads =
+            design.memories.iter().flat_map(|memory| &memory.reads).flat_map(|read| [read.en, read.addr]);
         let writes = design.memories.iter().flat_map(|memory| &memory.writes);
         let writes = writes.flat_map(|write| [write.en, write.addr, write.data]);
         let mut open: Vec<ValueId> = outputs.chain(updates).chain(reads).chain(writes).collect();
@@ -91,7 +92,8 @@ impl Alone {
         let own = |operand: &ValueId| Some(self.0[operand.index()]).filter(|tree| tree.readers == 1);
         let widest = operands.iter().chain([&id]).map(|value| graph.width(*value)).max();
         let cost = if widest > Some(64) { 3 } else { 1 };
-        let cost = operands.iter().filter_map(own).fold(cost, |cost: u32, tree| cost.saturating_add(tree.cost));
+        let cost =
+            operands.iter().filter_map(own).fold(cost, |cost: u32, tree| cost.saturating_add(tree.cost));
         let depth = operands.iter().filter_map(own).map(|tree| tree.depth).max().unwrap_or(0);
         let is_dear = |arm: &ValueId| own(arm).is_some_and(|tree| tree.cost >= LEAST);
         let branches = *op == Op::Mux && depth < DEEPEST && operands[1..].iter().any(is_dear);

@@ -37,7 +37,8 @@ pub(crate) fn lower(
     let mut cursor = FuncCursor::new(function);
     cursor.insert_block(head);
     let alone = Alone::of(design, steps);
-    let mut lowering = Lowering { design, v: Values::new(&design.graph, &alone, layout, cursor, state, head) };
+    let mut lowering =
+        Lowering { design, v: Values::new(&design.graph, &alone, layout, cursor, state, head) };
     match program {
         Program::Clock => {
             lowering.sample();

@@ -13,6 +13,7 @@ mod span;
 mod term;
 mod pixel;
 mod texel;
+mod bump;
 mod normal;
 mod shade;
 mod project;
@@ -78,6 +79,7 @@ fn of<const C: usize>(plan: &Plan, interface: &Interface) -> Result<Box<dyn Mode
         "pixel" => Box::new(pixel::PixelDevice::<C>::new(plan, interface)?),
         "term" => Box::new(term::TermDevice::<C>::new(plan, interface)?),
         "texel" => Box::new(texel::TexelDevice::<C>::new(plan, interface)?),
+        "bump" => Box::new(bump::BumpDevice::<C>::new(plan, interface)?),
         "normal" => Box::new(normal::NormalDevice::<C>::new(plan, interface)?),
         "shade" => Box::new(shade::ShadeDevice::<C>::new(plan, interface)?),
         "project" => Box::new(project::ProjectDevice::<C>::new(plan, interface)?),

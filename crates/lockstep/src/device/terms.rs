@@ -16,7 +16,7 @@ pub struct TermSpan<const C: usize> {
 /// What NORMAL finds, in the order of the terms.
 const COSINES: [&str; 4] = ["nl0", "nh0", "nl1", "nh1"];
 
-/// What PIXEL gives, and what SHADE takes.
+/// What PIXEL gives, what TEXEL and BUMP make of it, and what SHADE takes.
 #[derive(Clone, Copy, Debug)]
 pub struct TermFragment<const C: usize> {
     pub fragment: Fragment<C>,
@@ -79,6 +79,9 @@ impl<const C: usize> Named for TermFragment<C> {
         }
         if name == "gloss" {
             return Some((|t, _| Slot::U32(&mut t.cosines.gloss), 0));
+        }
+        if let Some(place) = ["bu", "bv"].iter().position(|slope| *slope == name) {
+            return Some((|t, i| Slot::I32(&mut t.cosines.slopes[i]), place));
         }
         if let Some(place) = term(plan, name).or_else(|| COSINES.iter().position(|cosine| *cosine == name)) {
             return Some((|t, i| Slot::I32(&mut t.cosines.terms[i]), place));

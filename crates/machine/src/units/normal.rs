@@ -24,7 +24,7 @@ fn there(plan: &Plan) -> bool {
 
 fn ports(plan: &Plan) -> Ports {
     Ports {
-        takes: Some(Link { ready: Ready::Always, ..Link::new("frag", tokens::textured(plan)) }),
+        takes: Some(Link { ready: Ready::Always, ..Link::new("frag", tokens::bumped(plan)) }),
         gives: Some(Link::new("normed", tokens::cosines(plan))),
         memory: vec![MemoryPort {
             name: "roots",

@@ -23,7 +23,6 @@ fn there(plan: &Plan) -> bool {
 }
 
 fn ports(plan: &Plan) -> Ports {
-    let data = Field::count("rgb", 3 * plan.color.bits, "red, green, blue, red the most significant");
     let bits = plan.shade.material_bits + 2 * plan.shade.texture_bits;
     let doc = format!("(material * 2^{0} + line) * 2^{0} + column", plan.shade.texture_bits);
     // Whether a fragment is taken depends on whether its read is, and whether a word is taken on who takes the fragment it colours.
@@ -34,7 +33,7 @@ fn ports(plan: &Plan) -> Ports {
         memory: vec![MemoryPort {
             name: "textures",
             read: Link::new("xrd", vec![Field::count("addr", bits, doc)]),
-            data: Link { ready: Ready::WhileValid, ..Link::new("xdata", vec![data]) },
+            data: Link { ready: Ready::WhileValid, ..Link::new("xdata", vec![tokens::texture_word(plan)]) },
             write: "",
             word: "",
             enable: None,

@@ -283,19 +283,47 @@ pub fn map_word(plan: &Plan) -> Field {
 /// What PIXEL gives: a fragment, with the outputs of the terms.
 #[must_use]
 pub fn fragment(plan: &Plan) -> Vec<Field> {
-    let output = |term: &Term| Field::signed(term.name, term.bits, "floor of the term");
-    let terms = plan.terms().iter().map(output).chain(material(plan)).chain(gloss(plan));
-    fragment_with(plan, terms.collect())
+    fragment_with(plan, terms(plan, plan.terms().len()))
 }
 
-/// What TEXEL gives: the same without u and v, its colours new; without TEXEL what PIXEL gives.
+/// The outputs of so many terms, and what goes with them.
+fn terms(plan: &Plan, count: usize) -> Vec<Field> {
+    let output = |term: &Term| Field::signed(term.name, term.bits, "floor of the term");
+    plan.terms().iter().take(count).map(output).chain(material(plan)).chain(gloss(plan)).collect()
+}
+
+/// A word of the memory of the textures.
+#[must_use]
+pub fn texture_word(plan: &Plan) -> Field {
+    if plan.shade.bumps() {
+        let doc = "red, green, blue, red the most significant, then the slopes along u and v";
+        return Field::count("texel", plan.texel_word_bits(), doc);
+    }
+    Field::count("rgb", plan.texel_word_bits(), "red, green, blue, red the most significant")
+}
+
+/// What TEXEL gives: the same without u and v, its colours new, with BUMP slopes; without TEXEL what PIXEL gives.
 #[must_use]
 pub fn textured(plan: &Plan) -> Vec<Field> {
-    let mut fields = fragment(plan);
-    if plan.shade.textures() {
-        fields.retain(|field| !["u", "v"].contains(&field.name.as_str()));
+    let mut fields = fragment_with(plan, terms(plan, plan.bumped_terms()));
+    if plan.shade.bumps() {
+        let slope = |name| Field::signed(name, plan.shade.slope_bits, "slope of the relief, of its largest");
+        let fence = fields.iter().position(|field| field.name == "fence").unwrap_or(fields.len());
+        fields.splice(fence..fence, ["bu", "bv"].map(slope));
     }
     fields
+}
+
+/// What BUMP gives: what NORMAL takes, or SHADE; without BUMP what TEXEL gives.
+#[must_use]
+pub fn bumped(plan: &Plan) -> Vec<Field> {
+    if !plan.shade.bumps() {
+        textured(plan)
+    } else if plan.shade.normalises() {
+        fragment_with(plan, terms(plan, plan.cosine_terms()))
+    } else {
+        cosines(plan)
+    }
 }
 
 /// What SHADE takes: a fragment with two cosines a light.

@@ -1,7 +1,7 @@
 //! The fragments between PIXEL and SHADE in a cycle, and who can take them.
 //!
 //! ```text
-//!  PIXEL ─drawn─> [TEXEL] ─textured─> [NORMAL] ─normed─> SHADE ─> tinted
+//!  PIXEL ─drawn─> [TEXEL] ─textured─> [BUMP] ─bumped─> [NORMAL] ─normed─> SHADE ─> tinted
 //! ```
 //! Of a unit that the machine has not, what it would give is what it would take.
 
@@ -17,8 +17,10 @@ type Beside<const C: usize> = (Fragment<C>, Cosines);
 pub struct Offered<const C: usize> {
     /// By PIXEL.
     pub drawn: Option<Beside<C>>,
-    /// To NORMAL.
+    /// To BUMP.
     pub textured: Option<Beside<C>>,
+    /// To NORMAL.
+    pub bumped: Option<Beside<C>>,
     /// To SHADE.
     pub normed: Option<Beside<C>>,
 }
@@ -28,8 +30,10 @@ pub struct Offered<const C: usize> {
 pub struct Readies {
     /// Of PIXEL's.
     pub drawn: bool,
-    /// Of NORMAL's.
+    /// Of BUMP's.
     pub textured: bool,
+    /// Of NORMAL's.
+    pub bumped: bool,
     /// Of SHADE's.
     pub normed: bool,
 }
@@ -46,12 +50,13 @@ impl<const C: usize> Units<'_, C> {
     #[must_use]
     pub fn offered(&self, texel: &TexelInputs) -> Offered<C> {
         if self.shade.is_none() {
-            return Offered { drawn: None, textured: None, normed: None };
+            return Offered { drawn: None, textured: None, bumped: None, normed: None };
         }
         let drawn = self.pixel.frag().map(|fragment| (*fragment, *self.pixel.cosines()));
         let textured = self.texel.map_or(drawn, |unit| unit.textured(texel));
-        let normed = self.normal.map_or(textured, |unit| unit.normed().copied());
-        Offered { drawn, textured, normed }
+        let bumped = self.bump.map_or(textured, |unit| unit.bumped().copied());
+        let normed = self.normal.map_or(bumped, |unit| unit.normed().copied());
+        Offered { drawn, textured, bumped, normed }
     }
 
     /// What can be taken, if what SHADE gives is taken or not; in a machine without SHADE: what PIXEL gives.
@@ -60,9 +65,10 @@ impl<const C: usize> Units<'_, C> {
     pub fn readies(&self, offered: &Offered<C>, texel: &TexelInputs, tinted_ready: bool) -> Readies {
         let cosines = parts(&offered.normed).1;
         let normed = self.shade.map_or(tinted_ready, |unit| unit.frag_ready(&cosines, tinted_ready));
-        let textured = self.normal.map_or(normed, |unit| unit.frag_ready(normed));
+        let bumped = self.normal.map_or(normed, |unit| unit.frag_ready(normed));
+        let textured = self.bump.map_or(bumped, |unit| unit.frag_ready(bumped));
         let drawn = self.texel.map_or(textured, |unit| unit.frag_ready(texel));
-        Readies { drawn, textured, normed }
+        Readies { drawn, textured, bumped, normed }
     }
 
     /// A fragment waits for tables, or for roots.
@@ -70,7 +76,7 @@ impl<const C: usize> Units<'_, C> {
     pub(super) fn tables_wait(&self, offered: &Offered<C>) -> bool {
         let (frag, cosines) = parts(&offered.normed);
         self.shade.is_some_and(|unit| unit.waits(frag, &cosines))
-            || self.normal.is_some_and(|unit| unit.waits(parts(&offered.textured).0))
+            || self.normal.is_some_and(|unit| unit.waits(parts(&offered.bumped).0))
     }
 
     /// TEXEL waits for its memory.

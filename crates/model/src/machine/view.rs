@@ -49,13 +49,17 @@ impl<const C: usize> Model<C> {
             term.view(plan, span.span(), &inputs.term, pixel_ready, view);
         }
         pixel.view(plan, span.span().filter(|_| there), readies.drawn, view);
+        let behind = if self.normal().is_some() { "normal" } else { "shade" };
         if let Some(texel) = self.texel() {
-            let next = if self.normal().is_some() { "normal" } else { "shade" };
+            let next = if self.bump().is_some() { "bump" } else { behind };
             let (frag, terms) = parts(&offered.drawn);
             texel.view(plan, (frag, &terms), &inputs.texel, (next, readies.textured), view);
         }
+        if let Some(bump) = self.bump() {
+            bump.view(plan, parts(&offered.textured).0, (behind, readies.bumped), view);
+        }
         if let Some(normal) = self.normal() {
-            normal.view(plan, parts(&offered.textured).0, &inputs.normal, readies.normed, view);
+            normal.view(plan, parts(&offered.bumped).0, &inputs.normal, readies.normed, view);
         }
         if let Some(shade) = self.shade() {
             let (frag, cosines) = parts(&offered.normed);

@@ -36,11 +36,13 @@ pub fn output(term: &Term, word: u64) -> i64 {
     if value >> (term.bits - 1) > 0 { value - (1 << term.bits) } else { value }
 }
 
-/// The cosines that SHADE sees, of the outputs of the terms: these, or with NORMAL by its table, in plain numbers.
-pub fn cosines(plan: &Plan, roots: &[u128], record: &Record, outputs: &[i64]) -> Vec<i64> {
-    let outputs = &outputs[..outputs.len() - if plan.shade.textures() { 2 } else { 0 }];
+/// The cosines that SHADE sees, of the outputs of the terms: these, or with BUMP those of a turned normal, or with NORMAL by its
+/// table, in plain numbers.
+pub fn cosines(plan: &Plan, words: &Shading, record: &Record, outputs: &[i64]) -> Vec<i64> {
+    let roots = &words.roots;
+    let outputs = &turned(plan, &words.textures, record.material, outputs);
     let Some((square, products)) = outputs.split_last().filter(|_| plan.shade.normalises()) else {
-        return outputs.to_vec();
+        return outputs.clone();
     };
     let s = (*square).clamp(16384, 65535);
     let entry = roots[(s / 256) as usize];
@@ -57,14 +59,61 @@ pub fn cosines(plan: &Plan, roots: &[u128], record: &Record, outputs: &[i64]) ->
     products.iter().enumerate().map(index).collect()
 }
 
+/// The cosines, and with NORMAL N·N, that are left of the outputs of the terms once the slopes of the texel have turned the normal.
+fn turned(plan: &Plan, textures: &[u128], material: u32, outputs: &[i64]) -> Vec<i64> {
+    let lights = 2 * plan.shade.lights as usize;
+    let first = lights + usize::from(plan.shade.normalises());
+    if !plan.shade.bumps() {
+        return outputs[..first].to_vec();
+    }
+    let slopes = {
+        let modulus = 1i128 << plan.shade.slope_bits;
+        let word = texel(plan, textures, material, outputs) as i128;
+        let signed = |part: i128| if part >= modulus / 2 { part - modulus } else { part };
+        [signed(word / modulus % modulus), signed(word % modulus)]
+    };
+    let one = 1i128 << (plan.shade.slope_bits - 1);
+    let of = |place: usize| i128::from(outputs[place]);
+    let within = |sum: i128, divisor: i128, bits: u32| {
+        let end = 1i128 << (bits - 1);
+        sum.div_euclid(divisor).max(-end).min(end - 1) as i64
+    };
+    let cosine = |place: usize| {
+        let sum = of(place) * one + slopes[0] * of(first + 2 * place) + slopes[1] * of(first + 2 * place + 1);
+        if plan.shade.normalises() {
+            return within(2 * sum + one, 2 * one, 18); // to nearest
+        }
+        let bits = if place % 2 == 0 {
+            plan.shade.table_bits
+        } else {
+            plan.shade.table_bits + plan.shade.gloss_bits
+        };
+        within(sum, 16 * one, bits + 2)
+    };
+    let mut turned: Vec<i64> = (0..lights).map(cosine).collect();
+    if plan.shade.normalises() {
+        let [u, v] = slopes;
+        let growth = |k: usize| of(first + 2 * lights + k);
+        let sum = of(lights) * one * one + u * u * growth(0) + u * v * growth(1) + v * v * growth(2);
+        turned.push(within(sum, one * one, 18));
+    }
+    turned
+}
+
+/// The word of the texel that the last two outputs name.
+fn texel(plan: &Plan, textures: &[u128], material: u32, outputs: &[i64]) -> u128 {
+    let side = 1i64 << plan.shade.texture_bits;
+    let [u, v] = [outputs.len() - 2, outputs.len() - 1].map(|i| outputs[i].rem_euclid(side) as u32);
+    textures[plan.texel_place(material, u, v)]
+}
+
 /// The colour of a fragment behind TEXEL: c·x/(2^b - 1) rounded to nearest, x the texel's, which repeats.
 pub fn textured(plan: &Plan, textures: &[u128], material: u32, outputs: &[i64], own: [u32; 3]) -> [u32; 3] {
     if !plan.shade.textures() {
         return own;
     }
-    let side = 1i64 << plan.shade.texture_bits;
-    let [u, v] = [outputs.len() - 2, outputs.len() - 1].map(|i| outputs[i].rem_euclid(side) as u32);
-    let word = textures[plan.texel_place(material, u, v)];
+    let below = if plan.shade.bumps() { 2 * plan.shade.slope_bits } else { 0 };
+    let word = texel(plan, textures, material, outputs) >> below;
     let (b, max) = (plan.color.bits, plan.color.max());
     std::array::from_fn(|i| {
         let part = (word >> (b * (2 - i as u32))) as u64 & max;
@@ -131,7 +180,8 @@ pub fn random_shading(plan: &Plan, triangles: &[Triangle], rng: &mut impl Rng) -
     let roots = (0..256).map(|_| plan.root_word(rng.random(), rng.random())).collect();
     let texels = if plan.shade.textures() { plan.texel_place(materials, 0, 0) } else { 0 };
     let colour = |rng: &mut _| [(); 3].map(|()| Rng::random(rng));
-    let textures = (0..texels).map(|_| plan.texel_word(colour(rng))).collect();
+    let textures =
+        (0..texels).map(|_| plan.texel_word(colour(rng), [(); 2].map(|()| rng.random()))).collect();
     let records = triangles.iter().map(|triangle| random_record(plan, triangle, materials, rng)).collect();
     Shading { records, tables, roots, textures }
 }

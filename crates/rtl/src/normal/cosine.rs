@@ -3,6 +3,7 @@
 use edgewalk_machine::Plan;
 use edgewalk_netlist::{Module, Signal};
 
+use crate::cut::cut;
 use crate::wires::Part;
 
 /// 1.0 in products and cosines is 2^16.
@@ -38,11 +39,5 @@ pub(super) fn cosine<'m>(
     };
     let index = placed.slice(placed.width() - 1, ONE - plan.shade.table_bits);
     let index = index.named_doc(&format!("index_{name}"), "in entries");
-    if index.width() <= part.width {
-        return index.sext(part.width);
-    }
-    let above = index.slice(index.width() - 1, part.width - 1);
-    let fits = (above.all() | !above.any()).named(&format!("{name}_fits"));
-    let end = m.cat(&[index.msb(), (!index.msb()).sext(part.width - 1)]);
-    fits.mux(index.trunc(part.width), end)
+    cut(m, name, index, part.width)
 }

@@ -30,6 +30,17 @@ impl Mesh {
         let turned = slope.x * normal.cross(along_v) - slope.y * normal.cross(along_u);
         turned / along_u.cross(along_v).length()
     }
+
+    /// T_u and T_v of a face: for each unit that the relief of its material, of this height, rises by a unit of u a normal grows
+    /// by N x T_u, of v by N x T_v; 0 where it has no direction to turn in.
+    pub(crate) fn turns(&self, face: u32, height: f64) -> [DVec3; 2] {
+        let places = self.face_data[face as usize].texture;
+        let spanned = places.and_then(|places| tangents(self.corners(&self.faces[face as usize]), places));
+        spanned.map_or([DVec3::ZERO; 2], |[along_u, along_v]| {
+            let scale = height / along_u.cross(along_v).length();
+            [along_v * scale, -along_u * scale]
+        })
+    }
 }
 
 /// P_u and P_v; `None` where they span no area.

@@ -3,7 +3,7 @@
 use super::table::Table;
 use crate::error::{InputError, nearest};
 use crate::mesh::Material;
-use crate::texture::{MAX_TEXTURE_SIDE, Texture};
+use crate::texture::{MAX_TEXTURE_SIDE, Texture, WAVE_TEXELS};
 use glam::DVec3;
 use std::path::Path;
 
@@ -30,6 +30,9 @@ const PLAIN: usize = 1;
 
 /// Place of `nearest` among the values of `texels`.
 const NEAREST: usize = 1;
+
+/// Keys of pictures.
+const PICTURES: [&str; 4] = ["texture", "checker", "bump", "waves"];
 
 /// Largest exponent of a highlight.
 const MAX_EXPONENT: f64 = 1e5;
@@ -59,6 +62,11 @@ impl Materials {
     }
 
     fn material(&mut self, table: &Table, path: &Path) -> Result<Material, InputError> {
+        if texels(table)?.is_some() && !PICTURES.iter().any(|key| table.has(key)) {
+            let permitted =
+                "permitted only beside `texture`, `checker`, `bump` or `waves`, a picture of texels";
+            return Err(table.fault("texels", "given", permitted));
+        }
         let diffuse = table.color("diffuse", 1.0)?.unwrap_or(Material::DEFAULT.diffuse);
         let material = Material {
             emission: table.color("emission", 1e6)?.unwrap_or(DVec3::ZERO),
@@ -82,21 +90,11 @@ impl Materials {
 
     /// A picture, or the built-in chequer.
     fn texture(&mut self, table: &Table, path: &Path) -> Result<Option<u32>, InputError> {
-        let texels = table.choice("texels", &["bilinear", "nearest"])?;
         if let Some(file) = one_of(table, ["texture", "checker"])? {
-            let picture = Texture::read(&path.with_file_name(file))?;
-            let nearest = texels == Some(NEAREST);
-            return Ok(Some(self.add(if nearest { picture.nearest() } else { picture })));
+            return Ok(Some(self.picture(table, path, file)?));
         }
-        let Some(squares) = table.number("checker", 1.0..=65536.0)? else {
-            return match texels {
-                None => Ok(None),
-                Some(_) => {
-                    let permitted = "permitted only beside `texture` or `checker`, a picture of texels";
-                    Err(table.fault("texels", "given", permitted))
-                }
-            };
-        };
+        let Some(squares) = table.number("checker", 1.0..=65536.0)? else { return Ok(None) };
+        let texels = texels(table)?;
         if texels.is_some() && squares > f64::from(MAX_TEXTURE_SIDE) {
             let permitted =
                 format!("permitted beside `texels`: at most {MAX_TEXTURE_SIDE}, a texel a square");
@@ -115,10 +113,22 @@ impl Materials {
     /// A picture of heights, or the built-in waves.
     fn relief(&mut self, table: &Table, path: &Path) -> Result<Option<u32>, InputError> {
         if let Some(file) = one_of(table, ["bump", "waves"])? {
-            return Ok(Some(self.add(Texture::read(&path.with_file_name(file))?)));
+            return Ok(Some(self.picture(table, path, file)?));
         }
-        let count = table.number("waves", 1.0..=65536.0)?;
-        Ok(count.map(|count| self.add(Texture::Waves { count: count as u32 })))
+        let Some(count) = table.number("waves", 1.0..=65536.0)? else { return Ok(None) };
+        let (texels, most) = (texels(table)?, f64::from(MAX_TEXTURE_SIDE / WAVE_TEXELS));
+        if texels.is_some() && count > most {
+            let permitted = format!("permitted beside `texels`: at most {most}, {WAVE_TEXELS} texels a wave");
+            return Err(table.fault("waves", count, permitted));
+        }
+        let waves = Texture::Waves { count: count as u32 };
+        Ok(Some(self.add(if texels == Some(NEAREST) { waves.nearest() } else { waves })))
+    }
+
+    /// A file's, read as `texels` says.
+    fn picture(&mut self, table: &Table, path: &Path, file: &str) -> Result<u32, InputError> {
+        let picture = Texture::read(&path.with_file_name(file))?;
+        Ok(self.add(if texels(table)? == Some(NEAREST) { picture.nearest() } else { picture }))
     }
 
     fn add(&mut self, texture: Texture) -> u32 {
@@ -139,6 +149,11 @@ impl Materials {
             }
         }
     }
+}
+
+/// How the pictures of a material are read.
+fn texels(table: &Table) -> Result<Option<usize>, InputError> {
+    table.choice("texels", &["bilinear", "nearest"])
 }
 
 /// The file of the first key; the second, which is built in, must not stand beside it.

@@ -173,6 +173,7 @@ impl Header {
             normals: [DVec3::ZERO; 3],
             positions: [DVec3::ZERO; 3],
             texture: [DVec2::ZERO; 3],
+            turns: [DVec3::ZERO; 2],
             material: material as u32, // likewise
         });
         Ok(shading.materials[material].texture.is_some())

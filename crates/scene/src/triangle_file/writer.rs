@@ -48,6 +48,9 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
                 {
                     let Material { ambient, diffuse, specular, exponent, .. } =
                         shading.materials[own.material as usize];
+                    if shading.relief(&own).is_some() {
+                        return Err(unsaid("a relief"));
+                    }
                     writeln!(out, "material {} {} {} {exponent}", ambient.x, diffuse.x, specular.x)?;
                     if let Some(image) = shading.texture(&own) {
                         texture::write(image, &mut out)?;
@@ -76,8 +79,6 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
 /// Mode, viewer and lights. Only what a file can say: that of another frame is none of a file.
 fn header(shading: &PixelShading, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "mode {}", shading.method.name())?;
-    let unsaid =
-        |what: &str| io::Error::new(io::ErrorKind::Unsupported, format!("{what} in a triangle file"));
     let Viewer::Toward(view) = shading.viewer else { return Err(unsaid("a viewer at a point")) };
     writeln!(out, "view {} {} {}", view.x, view.y, view.z)?;
     for light in &shading.lights {
@@ -89,6 +90,10 @@ fn header(shading: &PixelShading, out: &mut impl Write) -> io::Result<()> {
     let form = PixelShading::FORMS.iter().position(|form| *form == shading.specular);
     let form = form.ok_or_else(|| unsaid("the mirror form"))?;
     writeln!(out, "specular {}", PixelShading::FORM_NAMES[form])
+}
+
+fn unsaid(what: &str) -> io::Error {
+    io::Error::new(io::ErrorKind::Unsupported, format!("{what} in a triangle file"))
 }
 
 /// The rules that differ from those before; all that are not as usual if there are none before.

@@ -44,14 +44,28 @@ pub(super) fn with_records(machine: &Plan, seed: u64, records: &[Record]) -> Wor
             "roots" => 256,
             _ => continue,
         };
-        let all = words_at_start(machine, &memory, &mut random);
-        words.insert(memory.name, all[..most].into());
+        let mut all = words_at_start(machine, &memory, &mut random)[..most].to_vec();
+        if memory.name == "textures" && machine.shade.bumps() {
+            steepest(machine, &mut all);
+        }
+        words.insert(memory.name, all.into());
     }
     if machine.shade.is_there() {
         let records = records.iter().flat_map(|record| machine.record_words(record));
         words.insert(RECORDS, records.map(u128::from).collect());
     }
     words
+}
+
+/// Every other texel has slopes at the ends of their bits, or none: each of both with each in turn.
+fn steepest(machine: &Plan, texels: &mut [u128]) {
+    let bits = machine.shade.slope_bits;
+    let lowest = 1u128 << (bits - 1);
+    let ends = [lowest, lowest - 1, 0];
+    for (k, texel) in texels.iter_mut().step_by(2).enumerate() {
+        let slopes = ends[k % 3] << bits | ends[k / 3 % 3];
+        *texel = *texel >> (2 * bits) << (2 * bits) | slopes;
+    }
 }
 
 /// That of triangle number k: reference pixel on the screen or beside it, most of them of the first material.
@@ -92,8 +106,12 @@ fn around(machine: &Plan, term: &Term, any: bool, random: &mut Pcg64Mcg) -> [u64
 
 /// Outputs of a term at which something changes behind it, the lowest first.
 pub(super) fn ends(machine: &Plan, term: &Term) -> Vec<i128> {
-    let one = 1i128 << machine.shade.table_bits;
+    let one = 1i128 << (machine.shade.table_bits + machine.shade.cosine_fraction());
+    let largest = (1i128 << (term.bits - 1)) - 1;
     match &term.name[..1] {
+        // What a cosine grows by with the slopes.
+        "n" | "p" if term.name.len() > 3 => vec![-largest - 1, 0, largest],
+        "t" => vec![0, 0x1_0000, largest],
         "n" if term.name == "nn" => vec![0x4000, 0x1_0000],
         "n" => vec![0, one],
         "p" => vec![0, 0x1_0000],

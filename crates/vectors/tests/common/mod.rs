@@ -4,8 +4,8 @@
 use edgewalk_lockstep::{Agreement, Interface, LockstepError, NetlistDevice, PortError};
 use edgewalk_machine::units;
 use edgewalk_machine::{
-    Blend, BlendKind, EdgeKind, Fill, Gate, Hazard, Kind, Machine, OwnPass, Plan, Precision, Project, Shade,
-    ShadeColour, ShadeKind, Shadow, ShadowLight, Texture, Transmits, Walk,
+    Blend, BlendKind, Bump, EdgeKind, Fill, Gate, Hazard, Kind, Machine, OwnPass, Plan, Precision, Project,
+    Shade, ShadeColour, ShadeKind, Shadow, ShadowLight, Texture, Transmits, Walk,
 };
 use edgewalk_netlist::Netlist;
 use edgewalk_vectors::{Files, Trace, Unit};
@@ -72,6 +72,7 @@ pub const SPAN: Unit = Unit::of(&units::span::SPEC);
 pub const TERM: Unit = Unit::of(&units::term::SPEC);
 pub const PIXEL: Unit = Unit::of(&units::pixel::SPEC);
 pub const TEXEL: Unit = Unit::of(&units::texel::SPEC);
+pub const BUMP: Unit = Unit::of(&units::bump::SPEC);
 pub const NORMAL: Unit = Unit::of(&units::normal::SPEC);
 pub const SHADE: Unit = Unit::of(&units::shade::SPEC);
 pub const DEPTH: Unit = Unit::of(&units::depth::SPEC);
@@ -271,7 +272,7 @@ pub fn lights() -> Vec<(&'static str, Plan)> {
 }
 
 /// Eight machines with TERM and SHADE: fast Phong and Phong, both walks, colours from tables and multiplied, one light and two, materials,
-/// textures, latencies; with BLEND, SHADOW, channels of the user's own, segments, textbook fill.
+/// textures, reliefs, latencies; with BLEND, SHADOW, channels of the user's own, segments, textbook fill.
 pub fn shades() -> Vec<(&'static str, Plan)> {
     use ShadeColour::{Multiply, Tables};
     use ShadeKind::{FastPhong, Phong};
@@ -291,10 +292,14 @@ pub fn shades() -> Vec<(&'static str, Plan)> {
             Shade { texture: Texture::Nearest, texture_bits: bits, texel_queue: queue, ..machine.shade };
         Machine { shade, ..machine }
     };
+    let relief = |slope_bits, machine: Machine| {
+        let shade = Shade { bump: Bump::Yes, slope_bits, ..machine.shade };
+        Machine { shade, ..machine }
+    };
     let light = Shadow { light: ShadowLight::Parallel, fraction: 8, vertex_fraction: 2, ..small.shadow };
     let light = Shadow { size: 4, guard_bits: 1, depth_bits: 6, gate: Gate::Scale, ..light };
     let glass = |kind| Blend { kind, hazard: Hazard::Forward, kt_fraction: 8, kt_vertex: 2, ..small.blend };
-    let all = textured(2, 3, shade(Phong, Memory, Multiply, [1, 1, 3, 3]));
+    let all = relief(6, textured(2, 3, shade(Phong, Memory, Multiply, [1, 1, 3, 3])));
     let list = vec![
         ("fast_phong_registers_tables", shade(FastPhong, Register, Tables, [1, 2, 4, 2])),
         ("fast_phong_memory_tables_two_lights", shade(FastPhong, Memory, Tables, [2, 1, 2, 1])),
@@ -302,7 +307,10 @@ pub fn shades() -> Vec<(&'static str, Plan)> {
             "fast_phong_memory_multiply_tags_segments",
             Machine { tag_bits: 3, segments: 2, ..shade(FastPhong, Memory, Multiply, [1, 0, 0, 3]) },
         ),
-        ("fast_phong_registers_texture", textured(3, 4, shade(FastPhong, Register, Multiply, [1, 1, 4, 2]))),
+        (
+            "fast_phong_registers_relief",
+            relief(4, textured(3, 4, shade(FastPhong, Register, Multiply, [1, 1, 4, 2]))),
+        ),
         ("phong_registers_tables", shade(Phong, Register, Tables, [1, 1, 4, 2])),
         (
             "phong_memory_multiply_two_lights_one_extra",
@@ -312,7 +320,7 @@ pub fn shades() -> Vec<(&'static str, Plan)> {
             ),
         ),
         (
-            "phong_memory_texture_shadow_interpolated_kt",
+            "phong_memory_relief_shadow_interpolated_kt",
             Machine { shadow: light, blend: glass(BlendKind::Interpolated), ..all },
         ),
         (

@@ -143,7 +143,7 @@ fn every_fault_of_shadow_is_found() {
     share_found(&machines_with_shadow(), |_| 1, SHADOW_LEAST);
 }
 
-/// Of TERM, PIXEL's terms, TEXEL, NORMAL and SHADE; of PROJECT.
+/// Of TERM, PIXEL's terms, TEXEL, BUMP, NORMAL and SHADE; of PROJECT.
 const SHADE_LEAST: usize = 98;
 
 #[test]
@@ -151,8 +151,23 @@ fn single_faults_of_project_are_found() {
     share_found(&shaded::machines_with_project(), |_| SAMPLE, LEAST);
 }
 
+fn machines_with_bump() -> Vec<(Plan, Unit)> {
+    shaded::machines().into_iter().filter(|(_, unit)| *unit == common::BUMP).collect()
+}
+
 #[test]
-#[ignore = "an hour: each fault of TERM, PIXEL's terms, TEXEL, NORMAL and SHADE"]
+fn single_faults_of_bump_are_found() {
+    share_found(&machines_with_bump(), |_| SAMPLE, LEAST);
+}
+
+#[test]
+#[ignore = "minutes: each fault of BUMP"]
+fn every_fault_of_bump_is_found() {
+    share_found(&machines_with_bump(), |_| 1, SHADE_LEAST);
+}
+
+#[test]
+#[ignore = "an hour: each fault of TERM, PIXEL's terms, TEXEL, BUMP, NORMAL and SHADE"]
 fn every_fault_of_shade_is_found() {
     share_found(&shaded::machines(), |_| 1, SHADE_LEAST);
 }
@@ -272,7 +287,7 @@ fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
                 any.map(|(stalls, seed)| any_fragments(machine, &traces[1], stalls, seed)).collect();
             traces.extend(any);
         }
-        "term" | "texel" | "normal" | "shade" | "project" => {
+        "term" | "texel" | "bump" | "normal" | "shade" | "project" => {
             let own = if unit == common::PROJECT { "light" } else { "shade" };
             let suite = Suite::named(machine, own, 1, 24).expect("listed");
             // The directed words once, the rest at random: whole suites under every stall take long.

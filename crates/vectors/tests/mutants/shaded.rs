@@ -1,7 +1,9 @@
-//! What the mutants of TERM, TEXEL, NORMAL, SHADE and PROJECT are tried with beside the suites: tokens as no other unit gives them.
+//! What the mutants of TERM, TEXEL, BUMP, NORMAL, SHADE and PROJECT are tried with beside the suites: tokens as no other unit gives them.
 
 use crate::common;
-use edgewalk_machine::{Machine, Plan, Project, Shade, ShadeColour, ShadeKind, ShadowLight, Texture, Walk};
+use edgewalk_machine::{
+    Bump, Machine, Plan, Project, Shade, ShadeColour, ShadeKind, ShadowLight, Texture, Walk,
+};
 use edgewalk_model::DrawState;
 use edgewalk_vectors::{StallKind, Trace, Unit, capture_tokens};
 use rand::seq::IndexedRandom;
@@ -23,6 +25,11 @@ pub fn machines() -> Vec<(Plan, Unit)> {
         machine.shade.texture = Texture::Nearest;
         machine
     };
+    let relief = |mut machine: Machine| {
+        (machine.shade.bump, machine.shade.slope_bits) = (Bump::Yes, 4);
+        machine.shade.texture = Texture::Nearest;
+        machine
+    };
     use ShadeColour::{Multiply, Tables};
     use ShadeKind::{FastPhong, Phong};
     let fast = shade(FastPhong, Walk::Register, Tables, 1);
@@ -32,6 +39,8 @@ pub fn machines() -> Vec<(Plan, Unit)> {
         (textured(shade(Phong, Walk::Memory, Multiply, 1)), common::TERM),
         (fast.clone(), common::PIXEL),
         (textured(shade(FastPhong, Walk::Register, Multiply, 1)), common::TEXEL),
+        (relief(shade(FastPhong, Walk::Register, Multiply, 1)), common::BUMP),
+        (relief(shade(Phong, Walk::Register, Multiply, 1)), common::BUMP),
         (shade(Phong, Walk::Register, Tables, 1), common::NORMAL),
         (fast, common::SHADE),
         (shade(FastPhong, Walk::Register, Multiply, 2), common::SHADE),
@@ -75,6 +84,7 @@ pub fn any_tokens(machine: &Plan, of: &Trace, stalls: StallKind, seed: u64) -> T
                 "material" => i128::from(random.random_bool(0.05)),
                 "gloss" => random.random_range(0..=i128::from(machine.shade.gloss_bits)),
                 "nn" => beside(&[0x4000, 0x1_0000], &mut random),
+                "nl0" | "nh0" if machine.shade.bumps() => any,
                 "nl0" | "nh0" | "nl1" | "nh1" => match random.random() {
                     true => beside(&[0, 256, 1 << (bits - 1)], &mut random),
                     false => random.random_range(0..256),

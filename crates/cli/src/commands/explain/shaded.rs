@@ -2,8 +2,9 @@
 
 use super::additions::Walk;
 use super::texel::TexelRead;
+use super::turned::Turned;
 use edgewalk_explore::shade::{Feed, IndexErrors, Place};
-use edgewalk_golden::{PixelBrush, fragments};
+use edgewalk_golden::{PixelBrush, Texel, fragments};
 use edgewalk_machine::{Plan, PortVertex, Record};
 use edgewalk_numerics::term::TermWords;
 use edgewalk_scene::Frame;
@@ -18,11 +19,14 @@ const SHOWN: usize = 4;
 pub struct ShadedPixel {
     /// The number of the triangle's material.
     material: u32,
-    /// Of each light N·L, then N·H; with NORMAL then N·N; with a texture then u and v.
+    /// Of each light N·L, then N·H; with NORMAL then N·N; with BUMP then what they grow by; with a texture then u and v.
     terms: Vec<TermWalk>,
     /// Where the surface has a texture.
     #[serde(skip_serializing_if = "Option::is_none")]
     texel: Option<TexelRead>,
+    /// Where a relief turns the normal: each cosine behind BUMP.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    turned: Vec<Turned>,
     /// Proved bound of the colour against golden's, LSB.
     bound: f64,
 }
@@ -45,13 +49,13 @@ struct TermWalk {
 
 /// A table read at an index.
 #[derive(Debug, Serialize)]
-struct TableRead {
+pub(super) struct TableRead {
     /// Golden's index, and how far the machine's may be from it.
-    golden: f64,
-    bound: f64,
+    pub golden: f64,
+    pub bound: f64,
     /// The entry, and what stands there.
-    entry: u32,
-    table: String,
+    pub entry: u32,
+    pub table: String,
 }
 
 /// Words of a term, signed, in units of their last bit.
@@ -82,39 +86,37 @@ pub fn shaded(
     let screen = (frame.width, frame.height);
     fragments(&frame.triangles[id], frame.mode, machine.subpixel_bits, screen, |fragment| {
         if (fragment.x, fragment.y) == (x, y) {
-            cosines = brush.cosines(fragment);
-            if let Some(own) = feed.proof.textured.get(id).and_then(Option::as_ref) {
+            let own = feed.proof.textured.get(id).and_then(Option::as_ref);
+            let named = own.map(|own| own.texture.exact(own.texel([x, y])));
+            cosines = brush.cosines(fragment, &named.unwrap_or(Texel::BLANK));
+            if let Some(own) = own {
                 texel = TexelRead::of(machine, &brush, fragment, (own, record, &feed.words.textures), before);
             }
         }
     });
     let glosses = feed.glosses(id);
-    let terms = machine.terms().iter().zip(&record.terms).enumerate().map(|(place, (term, words))| {
+    // What the index of a cosine reads.
+    let read = |place: usize, output: i64| {
         let (light, highlight) = (place / 2, place % 2 == 1);
+        let (gloss, bound) = of_term(errors, &glosses, light, highlight);
+        let (entries, cosine) = (2f64.powi(machine.shade.table_bits as i32), cosines.get(light)?[place % 2]);
+        let entry = output.clamp(0, entries as i64 - 1) as u32;
+        let at = machine.table_place(record.material, light as u32, entry);
+        let golden = entries - (1.0 - cosine) * entries * 2f64.powi(gloss as i32);
+        let table = table(machine, *feed.words.tables.get(at)?, highlight);
+        Some(TableRead { golden, bound, entry, table })
+    };
+    let terms = machine.terms().iter().zip(&record.terms).enumerate().map(|(place, (term, words))| {
         let words = TermWords::new(term.word(), *words)?;
         let steps = steps(record, &words, (i64::from(x), i64::from(y)), leftward);
         // Those of a texture have no sign.
-        let of_texture = place >= machine.cosine_terms();
+        let of_texture = place >= machine.bumped_terms();
         let word = steps.last()?.v;
         let word = if of_texture { word.rem_euclid(1 << term.word()) } else { word };
         let output = word >> term.fraction;
-        // NORMAL stands between terms and tables.
-        let read = if machine.shade.normalises() || of_texture {
-            None
-        } else {
-            let (gloss, bound) = of_term(errors, &glosses, light, highlight);
-            let (entries, cosine) =
-                (2f64.powi(machine.shade.table_bits as i32), cosines.get(light)?[place % 2]);
-            let entry = output.clamp(0, entries as i64 - 1) as u32;
-            let at = machine.table_place(record.material, light as u32, entry);
-            let golden = entries - (1.0 - cosine) * entries * 2f64.powi(gloss as i32);
-            Some(TableRead {
-                golden,
-                bound,
-                entry,
-                table: table(machine, *feed.words.tables.get(at)?, highlight),
-            })
-        };
+        // NORMAL or BUMP may stand between terms and tables.
+        let between = machine.shade.normalises() || machine.shade.bumps();
+        let read = if between || of_texture { None } else { Some(read(place, output)?) };
         let value = word as f64 / 2f64.powi(term.fraction as i32);
         Some(TermWalk {
             name: term.name,
@@ -128,7 +130,10 @@ pub fn shaded(
     });
     // Lights that the frame has not are left out.
     let terms: Vec<TermWalk> = terms.flatten().collect();
-    Some(ShadedPixel { material: record.material, terms, texel, bound: *feed.proof.bounds.get(id)? })
+    let output = |name: &str| terms.iter().find(|term| term.name == name).map(|term| term.output);
+    let slopes = texel.as_ref().and_then(|texel: &TexelRead| texel.slopes);
+    let turned = slopes.map_or_else(Vec::new, |slopes| super::turned::all(machine, slopes, output, read));
+    Some(ShadedPixel { material: record.material, terms, texel, turned, bound: *feed.proof.bounds.get(id)? })
 }
 
 /// m' and the bound of the index; N·L is scaled by the table alone.
@@ -197,7 +202,9 @@ pub fn text(of: &ShadedPixel) -> String {
             }
         }
     }
-    page + &of.texel.as_ref().map(TexelRead::text).unwrap_or_default()
+    page += &of.texel.as_ref().map(TexelRead::text).unwrap_or_default();
+    of.turned.iter().for_each(|turned| page += &turned.text());
+    page
 }
 
 /// Spans of a triangle run to the left if its major edge is the right one.

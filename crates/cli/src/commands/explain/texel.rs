@@ -19,6 +19,12 @@ pub struct TexelRead {
     address: usize,
     /// What stands there, LSB.
     word: [u64; 3],
+    /// The slopes beside it along u and v, with BUMP, of 2^(bits - 1) for the relief's largest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slopes: Option<[i64; 2]>,
+    /// The relief's own, in the same unit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    exact_slopes: Option<[f64; 2]>,
     /// The colour before, as PIXEL hands it on, LSB.
     #[serde(skip_serializing_if = "Option::is_none")]
     before: Option<[u64; 3]>,
@@ -44,9 +50,16 @@ impl TexelRead {
         let texel = of.texel([fragment.x, fragment.y]);
         let address = machine.texel_place(record.material, texel[0], texel[1]);
         let word = *words.get(address)?;
+        let bits = machine.shade.slope_bits;
+        let signed = |word: u128| ((word as i64) << (64 - bits)) >> (64 - bits);
+        let slopes = machine.shade.bumps().then(|| [signed(word >> bits), signed(word)]);
+        let word = word >> (machine.texel_word_bits() - 3 * b);
         // At most 16 bits.
         let word = [2, 1, 0].map(|place| (word >> (place * b)) as u64 & machine.color.max());
-        let own = of.texture.exact(texel).to_array();
+        let exact = of.texture.exact(texel);
+        let own = exact.color.to_array();
+        let whole = 2f64.powi(bits as i32 - 1);
+        let relief = of.texture.relief.as_ref();
         let colors = fragment.rgb();
         let product = |before: [u64; 3]| {
             [0, 1, 2].map(|k| {
@@ -62,6 +75,8 @@ impl TexelRead {
             texel,
             address,
             word,
+            slopes,
+            exact_slopes: relief.map(|relief| (exact.slopes / relief.one * whole).to_array()),
             before,
             product: before.map(product),
             exact: [0, 1, 2].map(|k| colors[k] * own[k] * max),
@@ -85,6 +100,9 @@ impl TexelRead {
                     before[k], word[k], product[k], exact[k], self.product_bound
                 );
             }
+        }
+        if let (Some([u, v]), Some([exact_u, exact_v])) = (self.slopes, self.exact_slopes) {
+            _ = writeln!(page, "  relief: B_u {u}, exact {exact_u:.4}; B_v {v}, exact {exact_v:.4}");
         }
         page
     }

@@ -1,6 +1,7 @@
 //! The whole machine, and what its units show inside.
 
 use super::blend::{BlendStatus, ColorPorts};
+use super::bump::BumpPorts;
 use super::depth::{DepthStatus, MemoryPorts};
 use super::edge::EdgePorts;
 use super::link::{Giver, Scope};
@@ -50,6 +51,7 @@ struct Inside<const C: usize> {
     term: Option<TermPorts<C>>,
     pixel: PixelPorts<C>,
     texel: Option<TexelPorts<C>>,
+    bump: Option<BumpPorts<C>>,
     normal: Option<NormalPorts<C>>,
     shade: Option<ShadePorts<C>>,
     project: Option<ProjectPorts<C>>,
@@ -94,6 +96,7 @@ impl<const C: usize> Inside<C> {
             term: plan.shade.is_there().then(|| TermPorts::find(of("term"))).transpose()?,
             pixel: PixelPorts::find(of("pixel"))?,
             texel: plan.shade.textures().then(|| TexelPorts::find(of("texel"))).transpose()?,
+            bump: plan.shade.bumps().then(|| BumpPorts::find(of("bump"))).transpose()?,
             normal: plan.shade.normalises().then(|| NormalPorts::find(of("normal"))).transpose()?,
             shade: plan.shade.is_there().then(|| ShadePorts::find(of("shade"))).transpose()?,
             project: plan.shadow.projects().then(|| ProjectPorts::find(of("project"))).transpose()?,
@@ -126,8 +129,11 @@ impl<const C: usize> Inside<C> {
         if let (Some(shown), Some(unit)) = (&self.texel, units.texel) {
             shown.show(unit, &inputs.texel, ports);
         }
+        if let (Some(shown), Some(unit)) = (&self.bump, units.bump) {
+            shown.show(unit, readies.bumped, ports);
+        }
         if let (Some(shown), Some(unit)) = (&self.normal, units.normal) {
-            shown.show(unit, parts(&offered.textured).0, readies.normed, ports);
+            shown.show(unit, parts(&offered.bumped).0, readies.normed, ports);
         }
         if let (Some(shown), Some(unit)) = (&self.shade, units.shade) {
             let (frag, cosines) = parts(&offered.normed);

@@ -8,6 +8,7 @@ use crate::device::terms::TermFragment;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
+use edgewalk_machine::units::tokens;
 use edgewalk_model::shade::Cosines;
 use edgewalk_model::texel::Texel;
 use edgewalk_model::{Events, TexelInputs};
@@ -41,7 +42,7 @@ impl<const C: usize> TexelPorts<C> {
 
 /// The links to the textures.
 pub fn find(scope: Scope) -> Result<WordPorts, NoPlace> {
-    WordPorts::of(scope, "xrd", "xdata", "rgb")
+    WordPorts::of(scope, "xrd", "xdata", &tokens::texture_word(scope.plan).name)
 }
 
 /// The memory's ports as TEXEL sees them.
