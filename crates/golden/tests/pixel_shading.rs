@@ -3,8 +3,8 @@
 
 use edgewalk_golden::{Fill, Picture, PixelBrush, Texel, draw, fragments};
 use edgewalk_scene::{
-    Attenuation, Light, Material, PixelMethod, PixelShading, PixelTriangle, ShadeMode, Specular, Triangle,
-    Vertex, Viewer, triangle_file,
+    Attenuation, Light, Material, PixelMethod, PixelShading, PixelTriangle, Scene, ShadeMode, Specular,
+    Triangle, Vertex, Viewer, triangle_file,
 };
 use glam::{DVec2, DVec3};
 use rand::{Rng, SeedableRng};
@@ -292,6 +292,6 @@ fn a_relief_turns_the_normal_of_a_frame_as_that_of_the_mesh() {
         differences.push(apart);
     }
     println!("{checked} pixels; first order off by {differences:?}");
-    assert!(checked > 5000 && differences[0] > 0.005);
+    assert!(checked > 4000 && differences[0] > 0.005);
     assert!((differences[0] / differences[1] / 4.0 - 1.0).abs() < 0.1, "{differences:?}");
 }

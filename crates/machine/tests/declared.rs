@@ -99,3 +99,46 @@ fn k_t_of_a_vertex_is_a_share() {
         assert!(vertex(kt).expect_err("no share").to_string().contains("kt"));
     }
 }
+
+#[test]
+fn slopes_stand_below_the_colour_of_a_texel() {
+    let keys = |kind, bits| {
+        [
+            ("shade.kind", kind),
+            ("shade.colour", "multiply"),
+            ("texture.kind", "nearest"),
+            ("texture.bump", "yes"),
+            ("texture.slope_bits", bits),
+        ]
+    };
+    for (kind, bits, record, given) in [("fast-phong", "5", 33, 11), ("phong", "16", 42, 18)] {
+        let plan = plan(&keys(kind, bits));
+        let slope: u32 = bits.parse().expect("a number");
+        let texel = (unit("texel").ports)(&plan);
+        assert_eq!(texel.memory[0].data.fields[0].width(), 24 + 2 * slope);
+        assert_eq!((plan.texel_word_bits(), plan.record_length()), (24 + 2 * slope, record));
+        assert_eq!(
+            plan.texel_word([1, 2, 3], [-1, 4]),
+            ((0x01_0203 << slope) + (1 << slope) - 1) << slope | 4
+        );
+        let bumped = (unit("bump").ports)(&plan).gives.expect("a link").fields;
+        let cosine = bumped.iter().find(|field| ["nl0", "pl0"].contains(&field.name.as_str()));
+        assert_eq!(cosine.expect("a cosine").width(), given);
+        assert!(bumped.iter().all(|field| !["bu", "bv", "nl0u", "tuu"].contains(&field.name.as_str())));
+        assert_eq!(can_happen("bump", "square_cut", &plan), kind == "phong");
+    }
+    // Without the key all is as it was.
+    let plain =
+        plan(&keys("phong", "16").map(|(key, value)| (key, if value == "yes" { "no" } else { value })));
+    assert_eq!((plain.texel_word_bits(), plain.record_length()), (24, 21));
+    assert!(!(unit("bump").present)(&plain) && plain.texel_word([1, 2, 3], [-1, 4]) == 0x01_0203);
+    let long = machine(&keys("fast-phong", "4"));
+    for (key, most) in [("term.fraction", "40"), ("term.linear_fraction", "40")] {
+        let mut long = long.clone();
+        for (key, value) in [("shade.table_bits", "10"), ("shade.gloss_bits", "8"), (key, "41")] {
+            long.set(key, value).expect("a key");
+        }
+        let error = long.plan().expect_err("65 bits").to_string();
+        assert!(error.contains(key) && error.contains("65 bits") && error.contains(most), "{error}");
+    }
+}

@@ -53,7 +53,7 @@ pub struct Relief {
 
 impl Relief {
     /// Of these heights at the middles of the machine's texels; `None` of a flat one.
-    fn new(image: &Arc<Image>, machine: &Plan) -> Option<Relief> {
+    pub(super) fn new(image: &Arc<Image>, machine: &Plan) -> Option<Relief> {
         let whole = 2f64.powi(machine.shade.slope_bits as i32 - 1);
         let mut relief = Relief { image: Arc::clone(image), one: 0.0, whole, error: 0.0, farthest: 0.0 };
         let side = 1u32 << machine.shade.texture_bits;

@@ -109,3 +109,95 @@ impl Turns {
         self.gap + (2.0 * self.longest + self.turn_error) * self.turn_error
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use edgewalk_machine::{Bump, Machine, Plan, Shade, ShadeColour, ShadeKind, Texture};
+    use edgewalk_scene::{Image, Light, Specular, Viewer};
+    use glam::DVec2;
+    use rand::{Rng, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+
+    fn machine() -> Plan {
+        let shade = Shade {
+            kind: ShadeKind::Phong,
+            colour: ShadeColour::Multiply,
+            texture: Texture::Nearest,
+            texture_bits: 3,
+            bump: Bump::Yes,
+            slope_bits: 6,
+            ..Shade::default()
+        };
+        Machine { shade, ..Machine::default() }.plan().expect("can be built")
+    }
+
+    /// Bound 16: planes through the squares lie above the squares by at most the gap, and what a stored slope spoils is within its
+    /// error; N·N stays below 1.
+    #[test]
+    fn the_squares_are_within_their_gap() {
+        let mut random = Pcg64Mcg::seed_from_u64(16);
+        let heights = (0..64).map(|_| [0; 3].map(|_| random.random())).collect();
+        let relief = Image::of(8, 8, heights).expect("64 of them").into();
+        let relief = Relief::new(&relief, &machine()).expect("not flat");
+        let shading = PixelShading {
+            method: PixelMethod::Phong,
+            viewer: Viewer::Toward(DVec3::Z),
+            ambient: DVec3::ZERO,
+            lights: vec![Light::Directional { toward: DVec3::Z, intensity: DVec3::ONE }],
+            specular: Specular::Blinn,
+            materials: Vec::new(),
+            textures: Vec::new(),
+            triangles: Vec::new(),
+        };
+        let lamps = Lamp::all(&shading, &machine()).expect("a directional light");
+        let (mut checked, mut of_gap, mut longest) = (0, 0f64, 0f64);
+        for _ in 0..400 {
+            let cone = random.random::<f64>();
+            let mut around = |most: f64| DVec3::from_array([0; 3].map(|_| random.random_range(-most..=most)));
+            let normals = [0; 3].map(|_| (DVec3::Z + around(cone)).normalize());
+            let turns = [0; 2].map(|_| around(1.0) / relief.one);
+            let own = PixelTriangle {
+                normals,
+                positions: [DVec3::ZERO; 3],
+                texture: [DVec2::ZERO; 3],
+                turns,
+                material: 0,
+            };
+            let found = Turns::of(&own, &relief, &shading, &lamps);
+            if found.flattened {
+                continue;
+            }
+            for _ in 0..200 {
+                let mut weights = [0; 3].map(|_| random.random::<f64>());
+                let all: f64 = weights.iter().sum();
+                weights = weights.map(|weight| weight / all);
+                let angle: f64 = random.random_range(0.0..std::f64::consts::TAU);
+                let slope = DVec2::from_angle(angle) * relief.farthest;
+                if slope.abs().max_element() > 1.0 {
+                    continue;
+                }
+                let normal: DVec3 = (0..3).map(|k| normals[k] * weights[k]).sum::<DVec3>() * found.scale;
+                let turned = normal.cross(turns[0] * slope.x + turns[1] * slope.y) * relief.one;
+                let plane = |k: usize| (0..3).map(|i| found.squares[k][i] * weights[i]).sum::<f64>();
+                let sum = slope.x * slope.x * plane(0)
+                    + slope.x * slope.y * plane(1)
+                    + slope.y * slope.y * plane(2);
+                let above = sum - turned.length_squared();
+                assert!(above > -1e-12 && above <= found.gap + 1e-12, "{above} {}", found.gap);
+                assert!(turned.length() <= found.longest + 1e-12);
+                assert!((normal + turned).length_squared() < 1.0);
+                let off = DVec2::from_angle(3.0 * angle) * relief.error;
+                let spoilt =
+                    normal.cross(turns[0] * (slope.x + off.x) + turns[1] * (slope.y + off.y)) * relief.one;
+                let error = (spoilt.length_squared() - turned.length_squared()).abs();
+                assert!(error <= found.square_error() - found.gap + 1e-12, "{error}");
+                (of_gap, longest) =
+                    (of_gap.max(above / found.gap), longest.max(turned.length() / found.longest));
+                checked += 1;
+            }
+        }
+        println!("{checked} turns: {of_gap:.3} of a gap, {longest:.3} of the longest turn");
+        assert!(checked > 10_000 && of_gap > 0.4 && longest > 0.9, "{checked} {of_gap} {longest}");
+    }
+}
