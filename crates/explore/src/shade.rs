@@ -6,9 +6,10 @@
 //!  materials, colours, intensities ─────────────────────────> tables of bins ─────────────> words of the tables
 //!  pictures ────────────────────────────────────────────────> 2^τ x 2^τ texels ───────────> words of the textures
 //! ```
-//! Bounds 12 and 13 (`docs/numerics.md`) give the bound of a colour against golden's fast Phong, with bound 14 against its Phong.
+//! Bounds 12 and 13 (`docs/numerics.md`) give the bound of a colour against golden's fast Phong, with bound 14 or 17 against its Phong.
 
 mod bound;
+mod lamp;
 mod lights;
 mod place;
 mod records;
@@ -81,7 +82,11 @@ pub fn feed(frame: &Frame, port: &PortFrame, machine: &Plan) -> Result<Option<Fe
         records.push(record);
         errors.push(error);
     }
-    let roots = if machine.shade.normalises() { roots::words(machine) } else { Vec::new() };
+    let roots = match lamps.first().and_then(|lamp| lamp.point.as_ref()) {
+        Some(point) => point.words(machine),
+        None if machine.shade.has_normal() => roots::words(machine),
+        None => Vec::new(),
+    };
     let textures = texels::words(&surfaces.textures, machine)?;
     let proof = Proof::new(machine, &surfaces, errors, textured);
     Ok(Some(Feed {

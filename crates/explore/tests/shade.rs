@@ -125,7 +125,7 @@ fn compare(frame: &Frame, machine: &Plan, found: &mut Found) {
                 color.into_iter().zip(golden).map(far).fold(0.0, f64::max)
             };
             let errors: Vec<f64> =
-                brush.branches(fragment, &brush.texel(fragment), doubt).iter().map(off).collect();
+                brush.branches(fragment, &brush.texel(fragment), doubt, 0.0).iter().map(off).collect();
             let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
             let (x, y) = (fragment.x, fragment.y);
             assert!(least <= bound, "triangle {id}, pixel {x} {y}: {errors:?} over {bound}");

@@ -134,15 +134,26 @@ impl<'a> PixelBrush<'a> {
     }
 
     /// The colours that the pixel may have for one who knows the cosines N·L to within `doubt`: for each light whose N·L is
-    /// no farther from 0, as if it stood above the horizon and as if below. The first is that of [`Self::color_by`].
+    /// no farther from 0, as if it stood above the horizon and as if below; and the cosine to a light's axis to within `axis_doubt`: next
+    /// to the edge of a cone inside and outside. The first is that of [`Self::color_by`].
     pub fn branches<const N: usize, W: Weight>(
         &self,
         fragment: &Fragment<N, W>,
         texel: &Texel,
         doubt: f64,
+        axis_doubt: f64,
     ) -> Vec<[f64; 3]> {
-        let lights = self.lit(&fragment.shares(), texel);
+        let shares = fragment.shares();
+        let lights = self.lit(&shares, texel);
         let surface = DVec3::from(fragment.rgb()) * texel.color;
+        let mut sides = vec![lights];
+        for by in [axis_doubt, -axis_doubt] {
+            let other = self.lit_by(&shares, texel, |light| light.opened(by));
+            if other.iter().zip(&sides[0]).any(|(other, own)| other.intensity != own.intensity) {
+                sides.push(other);
+            }
+        }
+        let lights = &sides[0];
         let mut turned = vec![0];
         for (light, lit) in lights.iter().enumerate().take(MOST_TURNED) {
             if lit.diffuse.abs() <= doubt {
@@ -150,13 +161,19 @@ impl<'a> PixelBrush<'a> {
                 turned.extend(others);
             }
         }
-        let others = turned[1..].iter().map(|set| self.sum(&lights, surface, *set).to_array());
+        let all = sides.iter().flat_map(|lights| turned.iter().map(move |set| (lights, *set)));
+        let others = all.skip(1).map(|(lights, set)| self.sum(lights, surface, set).to_array());
         [self.color_by(fragment, texel)].into_iter().chain(others).collect()
     }
 
     /// The cosines of each light where the vertices weigh `shares`. In fast Phong a relief counts to first order, linear between
     /// the vertices.
     fn lit(&self, shares: &[f64], texel: &Texel) -> Vec<Lit> {
+        self.lit_by(shares, texel, |light| light)
+    }
+
+    /// The same by lights that are changed, in Phong.
+    fn lit_by(&self, shares: &[f64], texel: &Texel, changed: impl Fn(Light) -> Light) -> Vec<Lit> {
         let turned = |[along_u, along_v]: [[f64; 3]; 2]| {
             texel.slopes.x * mean(along_u, shares) + texel.slopes.y * mean(along_v, shares)
         };
@@ -172,7 +189,7 @@ impl<'a> PixelBrush<'a> {
         let position = mean(self.triangle.positions, shares);
         let viewer = self.shading.viewer_at(position);
         let of_normal = |light: &Light| {
-            let incident = light.incident(position);
+            let incident = changed(*light).incident(position);
             let halfway = (incident.toward + viewer).normalize_or_zero();
             let [diffuse, halfway] = [incident.toward, halfway].map(|direction| normal.dot(direction));
             Lit { intensity: incident.intensity, diffuse, halfway }

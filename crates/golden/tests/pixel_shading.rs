@@ -228,7 +228,7 @@ fn lights_within_doubt_of_the_horizon_may_stand_on_either_side() {
     let brush = PixelBrush::new(frame.shading.as_ref().unwrap(), 0).unwrap();
     let mut checked = 0;
     fragments(&frame.triangles[0], ShadeMode::Gouraud, 8, (4, 4), |fragment| {
-        let of = |doubt: f64| brush.branches(fragment, &Texel::BLANK, doubt);
+        let of = |doubt: f64| brush.branches(fragment, &Texel::BLANK, doubt, 0.0);
         let own = brush.color(fragment);
         // As it is: both lights shine, a little.
         let lit = 0.125 + 0.5 * (0.5 * 0.001 + 0.25 * 0.002);

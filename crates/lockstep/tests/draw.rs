@@ -36,7 +36,7 @@ fn random_shading(plan: &Plan, triangles: usize, rng: &mut Pcg64Mcg) -> Shading 
     Shading {
         records,
         tables: words(entries, bits),
-        roots: words(256, 27),
+        roots: words(plan.root_words() as usize, plan.root_word_bits()),
         textures: words(texels, plan.texel_word_bits()),
     }
 }

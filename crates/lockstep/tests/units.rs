@@ -18,7 +18,7 @@ fn alone(unit: Unit, seed: u64) {
     let cycles = match name {
         "setup" => 3000,
         // Tables of up to 2048 entries.
-        "shade" => 6000,
+        "shade" | "lamp" => 6000,
         _ => 2000,
     };
     let (mut all, mut machines, mut without) = (Checked::default(), 0, 0);
@@ -39,7 +39,7 @@ fn alone(unit: Unit, seed: u64) {
         }
         let interface = Interface::new(&plan, unit);
         // Tables come in hundreds of words: they are not kept waiting for long.
-        let most = |wait: &str| if ["srd", "sdata"].contains(&wait) { 60 } else { 200 };
+        let most = |wait: &str| if ["srd", "sdata", "rrd", "rdata"].contains(&wait) { 60 } else { 200 };
         case.unwilling =
             interface.waits().map(|wait| (wait.to_owned(), rng.random_range(0..most(wait)))).collect();
         case.depth_func = rng.random_range(0..8);

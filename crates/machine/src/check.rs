@@ -30,6 +30,9 @@ pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), Machi
             "none".to_owned(),
         ));
     }
+    if machine.shade.is_positional() {
+        positional(machine)?;
+    }
     terms(machine)?;
     if machine.shadow.projects() {
         project(machine)?;
@@ -179,6 +182,19 @@ fn formats(machine: &Machine, channel: &Channel) -> Result<(), MachineError> {
             format!("a word of {} bits has no {} segments of two bits", channel.word(), machine.segments),
             "1".to_owned(),
         ));
+    }
+    Ok(())
+}
+
+/// LAMP has one light, and no relief before it.
+fn positional(machine: &Machine) -> Result<(), MachineError> {
+    if machine.shade.lights > 1 {
+        let reason = "with shade.light = positional there is one light at a time".to_owned();
+        return Err(MachineError::rule(machine, "shade.lights", reason, "1".to_owned()));
+    }
+    if machine.shade.bumps() {
+        let reason = "a relief wants shade.light = directional".to_owned();
+        return Err(MachineError::rule(machine, "texture.bump", reason, "no".to_owned()));
     }
     Ok(())
 }

@@ -51,7 +51,7 @@ pub use link::{Held, Link, MemoryPort, Ready, Status};
 pub use machine::{EdgeKind, Fill, Hazard, Machine};
 pub use plan::Plan;
 pub use record::{Entry, Record, Term};
-pub use shade::{Bump, Shade, ShadeColour, ShadeKind, Texture, Walk};
+pub use shade::{Bump, Shade, ShadeColour, ShadeKind, ShadeLight, Texture, Walk};
 pub use shadow::{Gate, LIGHT_SPACE, OwnPass, Project, Shadow, ShadowLight, Transmits};
 pub use text::MachineError;
 pub use unit::{Event, Ports, UnitSpec};

@@ -1,5 +1,5 @@
-//! What the memories behind TERM, TEXEL, NORMAL and SHADE hold, and where in them
-//! (`docs/machine.md`, sections 11 to 14 and 16).
+//! What the memories behind TERM, TEXEL, NORMAL, LAMP and SHADE hold, and where in them
+//! (`docs/machine.md`, sections 11 to 14, 16 and 17).
 //!
 //! ```text
 //!  Record ──Plan::record_words──> memory `terms`       Entry ──Plan::table_word──> memory `tables`
@@ -64,17 +64,30 @@ pub enum Entry {
 /// Longest word of a term.
 pub const WORD_BITS: u32 = 64;
 
-/// Bits of gloss, which goes with the material to NORMAL.
+/// Bits of gloss, which goes with the material to NORMAL or LAMP.
 pub const GLOSS_BITS: u32 = 4;
 
 /// Bits of the unnormalised cosines and of N·N, 2^16 for 1.0.
 const UNIT_BITS: u32 = 18;
+
+/// Bits of l·l, 2^30 for 1.0, and of the products with l and V, 2^23 for 1.0.
+const DISTANCE_BITS: u32 = 32;
+const REACH_BITS: u32 = 25;
 
 /// What SHADE takes, light by light: N·L and N·H in entries of a table.
 pub(crate) const COSINES: [[&str; 2]; 2] = [["nl0", "nh0"], ["nl1", "nh1"]];
 
 /// The same of a normal of any length.
 const PRODUCTS: [[&str; 2]; 2] = [["pl0", "ph0"], ["pl1", "ph1"]];
+
+/// What LAMP takes: l·l, N·l, l·V, the light's axis times -l, N·V.
+const OF_LAMP: [(&str, u32, u32); 5] = [
+    ("dd", 2, DISTANCE_BITS),
+    ("pl", 2, REACH_BITS),
+    ("dv", 1, REACH_BITS),
+    ("da", 1, REACH_BITS),
+    ("pv", 1, REACH_BITS),
+];
 
 /// What a cosine and a product grow by with a slope along u, and along v: by light and cosine.
 const COSINE_TURNS: [[[&str; 2]; 2]; 2] =
@@ -101,6 +114,13 @@ pub(crate) fn terms(machine: &Machine) -> Vec<Term> {
     let (mut terms, turns): (Vec<Term>, _) = match shade.kind {
         ShadeKind::None => (Vec::new(), COSINE_TURNS),
         ShadeKind::FastPhong => (COSINES.into_iter().take(lights).flat_map(of_light).collect(), COSINE_TURNS),
+        ShadeKind::Phong if shade.is_positional() => {
+            let of_lamp = OF_LAMP.map(|(name, degree, bits)| match degree {
+                2 => quadratic(name, bits),
+                _ => linear(name, bits),
+            });
+            (of_lamp.into_iter().chain([quadratic("nn", UNIT_BITS)]).collect(), PRODUCT_TURNS)
+        }
         ShadeKind::Phong => {
             let products = PRODUCTS.into_iter().take(lights).flatten().map(|name| linear(name, UNIT_BITS));
             (products.chain([quadratic("nn", UNIT_BITS)]).collect(), PRODUCT_TURNS)
@@ -126,7 +146,9 @@ impl Plan {
     /// How many of the terms make cosines without a relief: those before BUMP's.
     #[must_use]
     pub fn cosine_terms(&self) -> usize {
-        let all = 2 * self.shade.lights as usize + usize::from(self.shade.normalises());
+        let products =
+            if self.shade.is_positional() { OF_LAMP.len() } else { 2 * self.shade.lights as usize };
+        let all = products + usize::from(self.shade.normalises());
         all.min(self.terms().len()) // none without TERM
     }
 
@@ -171,10 +193,28 @@ impl Plan {
         words.into_iter().map(|word| word & mask).collect()
     }
 
-    /// The word of an entry of NORMAL's table R: v of 17 bits, slope of 10; what has more bits is cut.
+    /// The word of an entry of NORMAL's table R, v of 17 bits, slope of 10, or of LAMP's tables, slope of 16; what has more bits
+    /// is cut.
     #[must_use]
     pub fn root_word(&self, v: u32, slope: u32) -> u128 {
-        u128::from(v & 0x1_ffff) << 10 | u128::from(slope & 0x3ff)
+        let bits = self.slope_bits();
+        u128::from(v & 0x1_ffff) << bits | u128::from(slope & ((1 << bits) - 1))
+    }
+
+    fn slope_bits(&self) -> u32 {
+        if self.shade.is_positional() { 16 } else { 10 }
+    }
+
+    /// Bits of such a word.
+    #[must_use]
+    pub fn root_word_bits(&self) -> u32 {
+        17 + self.slope_bits()
+    }
+
+    /// Words of the memory of the roots: of NORMAL, or of LAMP.
+    #[must_use]
+    pub fn root_words(&self) -> u32 {
+        if self.shade.is_positional() { 1024 } else { 256 }
     }
 
     /// The word of a texel: the colour, LSB, and with BUMP the slopes along u and v, 2^(ξ-1) for the relief's largest; what has

@@ -1,4 +1,4 @@
-//! TERM, TEXEL, BUMP, NORMAL and SHADE: their keys.
+//! TERM, TEXEL, BUMP, NORMAL, LAMP and SHADE: their keys.
 
 use crate::key::Domain::Range;
 use crate::key::{Domain, Key, number, word};
@@ -11,8 +11,17 @@ pub enum ShadeKind {
     None,
     /// Both cosines are quadratics over the triangle.
     FastPhong,
-    /// The normal is linear over the triangle, and made a unit normal at each pixel: the machine has NORMAL too.
+    /// The normal is linear over the triangle, and made a unit normal at each pixel: the machine has NORMAL too, or LAMP.
     Phong,
+}
+
+/// Where the light of a machine that shades by unit normals stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ShadeLight {
+    /// Far away: one direction for all pixels.
+    Directional,
+    /// At a point: the machine has LAMP in the place of NORMAL.
+    Positional,
 }
 
 /// Where a colour comes from.
@@ -51,11 +60,13 @@ pub enum Bump {
     Yes,
 }
 
-/// TERM, TEXEL, BUMP, NORMAL, SHADE and the memories behind them.
+/// TERM, TEXEL, BUMP, NORMAL, LAMP, SHADE and the memories behind them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Shade {
     /// What is shaded.
     pub kind: ShadeKind,
+    /// Where the light stands.
+    pub light: ShadeLight,
     /// Where a colour comes from.
     pub colour: ShadeColour,
     /// t: a table has 2^t entries.
@@ -101,10 +112,22 @@ impl Shade {
         self.kind != ShadeKind::None
     }
 
-    /// NORMAL is there.
+    /// Normals are made unit normals: NORMAL is there, or LAMP.
     #[must_use]
     pub fn normalises(&self) -> bool {
         self.kind == ShadeKind::Phong
+    }
+
+    /// The light stands at a point: LAMP is there.
+    #[must_use]
+    pub fn is_positional(&self) -> bool {
+        self.normalises() && self.light == ShadeLight::Positional
+    }
+
+    /// NORMAL is there.
+    #[must_use]
+    pub fn has_normal(&self) -> bool {
+        self.normalises() && !self.is_positional()
     }
 
     /// TEXEL is there.
@@ -170,6 +193,7 @@ impl Default for Shade {
     fn default() -> Self {
         Shade {
             kind: ShadeKind::None,
+            light: ShadeLight::Directional,
             colour: ShadeColour::Tables,
             table_bits: 9,
             gloss_bits: 4,
@@ -196,6 +220,10 @@ fn there(machine: &Machine) -> bool {
     machine.shade.is_there()
 }
 
+fn normalises(machine: &Machine) -> bool {
+    machine.shade.normalises()
+}
+
 fn textures(machine: &Machine) -> bool {
     machine.shade.textures()
 }
@@ -204,7 +232,7 @@ fn bumps(machine: &Machine) -> bool {
     machine.shade.bumps()
 }
 
-/// The keys of TERM, TEXEL, BUMP, NORMAL and SHADE.
+/// The keys of TERM, TEXEL, BUMP, NORMAL, LAMP and SHADE.
 pub const KEYS: &[Key] = &[
     Key {
         absent: Some(ShadeKind::None as u32),
@@ -213,6 +241,16 @@ pub const KEYS: &[Key] = &[
             ShadeKind { "none" => None, "fast-phong" => FastPhong, "phong" => Phong },
             "what is shaded at each pixel: nothing, by fast-phong (both cosines quadratics), or by phong (unit normals)",
             shade.kind
+        )
+    },
+    Key {
+        absent: Some(ShadeLight::Directional as u32),
+        ..word!(
+            "shade.light",
+            ShadeLight { "directional" => Directional, "positional" => Positional },
+            "where the light of phong stands: far away, or at a point, one light at a time",
+            shade.light,
+            if normalises
         )
     },
     word!(
@@ -283,7 +321,7 @@ pub const KEYS: &[Key] = &[
         Range(1, 8),
         "clocks from a read of a root to its data, at the least",
         shade.root_latency,
-        if |m| m.shade.normalises()
+        if normalises
     ),
     number!(
         "term.record_bits",

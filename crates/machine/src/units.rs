@@ -9,6 +9,7 @@ pub mod pixel;
 pub mod texel;
 pub mod bump;
 pub mod normal;
+pub mod lamp;
 pub mod shade;
 pub mod project;
 pub mod shadow;
@@ -32,6 +33,7 @@ pub const UNITS: &[&UnitSpec] = &[
     &texel::SPEC,
     &bump::SPEC,
     &normal::SPEC,
+    &lamp::SPEC,
     &shade::SPEC,
     &project::SPEC,
     &shadow::SPEC,

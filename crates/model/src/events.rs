@@ -124,6 +124,22 @@ events! {
     cosine_cut,
     /// Cycles in which all stages of NORMAL stand still.
     normal_stall,
+    /// Times that LAMP fetched its tables.
+    lamp_read,
+    /// Cycles in which a read of LAMP waits for them.
+    lamp_read_stall,
+    /// Fragments less than half as far from the light as the unit of the ways.
+    lamp_near,
+    /// Fragments outside the light's cone.
+    lamp_beside,
+    /// Roots of less than the tables of LAMP reach down to.
+    lamp_short,
+    /// Numbers of LAMP cut at the end of their bits.
+    lamp_cut,
+    /// Cycles in which a fragment waits until another is done in LAMP.
+    lamp_wait,
+    /// Cycles in which a fragment that is done waits in LAMP.
+    lamp_stall,
     /// Materials whose tables were fetched.
     tables_read,
     /// Materials that another one took the place of.

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  tri ─> setup ─> edge ─> span ─> pixel ─> depth ─> memory
-//!                 term before pixel; texel, bump, normal, shade, project and shadow before depth, blend behind it, if the machine has them
+//!                 term before pixel; texel, bump, normal or lamp, shade, project and shadow before depth, blend behind it, if the machine has them
 //!                                              └─> blend ─> colour memory, if the machine has it
 //! ```
 //! Written from `docs/machine.md` alone. A unit is a plain state struct: methods give its outputs from the state and
@@ -17,6 +17,7 @@ mod fetch;
 pub mod texel;
 pub mod bump;
 pub mod normal;
+pub mod lamp;
 pub mod shade;
 pub mod project;
 pub mod shadow;

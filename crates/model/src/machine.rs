@@ -4,7 +4,7 @@
 //!  tri ─> SETUP ─prim─> EDGE ─line─> SPAN ─span─> PIXEL ─frag─> DEPTH ─> wr
 //!                         └────────── gradients ───┘              ├─> rd, <─ data
 //!     with SHADOW, before DEPTH: ─> [PROJECT] ─> SHADOW ─shaded─> DEPTH
-//!     with TERM and SHADE: SPAN ─span─> TERM ─walked─> PIXEL ─frag─> [TEXEL] ─> [BUMP] ─> [NORMAL] ─> SHADE ─tinted─> DEPTH
+//!     with TERM and SHADE: SPAN ─span─> TERM ─walked─> PIXEL ─frag─> [TEXEL] ─> [BUMP] ─> [NORMAL or LAMP] ─> SHADE ─tinted─> DEPTH
 //!                                with BLEND, for wr: ─> zwr, ─pass─> BLEND ─> crd, <─ cdata, ─> cwr
 //! ```
 //! Data runs to the right, readies to the left within the cycle. [`Model::cycle`] therefore works out the readies from
@@ -22,6 +22,7 @@ use crate::counters::Counters;
 use crate::depth::{Block, Depth, DepthInputs};
 use crate::edge::Edge;
 use crate::events::{Events, one_more};
+use crate::lamp::Lamp;
 use crate::normal::Normal;
 pub use crate::normal::NormalInputs;
 use crate::pixel::Pixel;
@@ -62,7 +63,7 @@ pub struct Inputs<'a> {
     pub term: TermInputs,
     /// What only machines with TEXEL have.
     pub texel: TexelInputs,
-    /// What only machines with NORMAL have.
+    /// What only machines with NORMAL or LAMP have.
     pub normal: NormalInputs,
     /// What only machines with SHADE have.
     pub shade: ShadeInputs,
@@ -91,9 +92,9 @@ pub struct Outputs<const C: usize> {
     pub xrd: Option<u32>,
     /// With TEXEL: a texel is taken, if it is there.
     pub xdata_ready: bool,
-    /// With NORMAL: address of a root.
+    /// With NORMAL or LAMP: address of a root.
     pub rrd: Option<u32>,
-    /// With NORMAL: a root is taken, if it is there.
+    /// With NORMAL or LAMP: a root is taken, if it is there.
     pub rdata_ready: bool,
     /// With SHADE: address of an entry of the tables.
     pub srd: Option<u32>,
@@ -123,6 +124,7 @@ pub struct Model<const C: usize> {
     texel: Option<Texel<C>>,
     bump: Option<Bump<C>>,
     normal: Option<Normal<C>>,
+    lamp: Option<Lamp<C>>,
     shade: Option<Shade<C>>,
     project: Option<Project<C>>,
     shadow: Option<Shadow<C>>,
@@ -145,7 +147,7 @@ struct Waits {
     texel: bool,
     /// PROJECT divides, and takes no fragment.
     dividing: bool,
-    /// SHADE has not the tables of the fragment that is offered to it, or NORMAL not the roots.
+    /// SHADE has not the tables of the fragment that is offered to it, or NORMAL or LAMP not the roots, or LAMP works.
     tables: bool,
 }
 
@@ -168,6 +170,8 @@ pub struct Units<'a, const C: usize> {
     pub bump: Option<&'a Bump<C>>,
     /// Products to cosines, if the machine has it.
     pub normal: Option<&'a Normal<C>>,
+    /// Products with the way to a light to cosines, if the machine has it.
+    pub lamp: Option<&'a Lamp<C>>,
     /// Fragments to fragments with a colour, if the machine has it.
     pub shade: Option<&'a Shade<C>>,
     /// Fragments to fragments with their place in the light's map, if the machine has it.
@@ -192,7 +196,8 @@ impl<const C: usize> Model<C> {
             pixel: Pixel::new(plan),
             texel: plan.shade.textures().then(|| Texel::new(plan)),
             bump: plan.shade.bumps().then(|| Bump::new(plan)),
-            normal: plan.shade.normalises().then(|| Normal::new(plan)),
+            normal: plan.shade.has_normal().then(|| Normal::new(plan)),
+            lamp: plan.shade.is_positional().then(|| Lamp::new(plan)),
             shade: plan.shade.is_there().then(|| Shade::new(plan)),
             project: plan.shadow.projects().then(|| Project::new(plan)),
             shadow: plan.shadow.is_there().then(|| Shadow::new(plan)),
@@ -221,9 +226,24 @@ impl<const C: usize> Model<C> {
     pub fn units(&self) -> Units<'_, C> {
         let Model { setup, edge, span, pixel, depth, .. } = self;
         let (term, texel, bump) = (self.term(), self.texel(), self.bump());
-        let (normal, shade) = (self.normal(), self.shade());
+        let (normal, lamp, shade) = (self.normal(), self.lamp(), self.shade());
         let (project, shadow, blend) = (self.project(), self.shadow(), self.blend());
-        Units { setup, edge, span, term, pixel, texel, bump, normal, shade, project, shadow, depth, blend }
+        Units {
+            setup,
+            edge,
+            span,
+            term,
+            pixel,
+            texel,
+            bump,
+            normal,
+            lamp,
+            shade,
+            project,
+            shadow,
+            depth,
+            blend,
+        }
     }
 
     /// TERM, as BLEND below.
@@ -248,6 +268,12 @@ impl<const C: usize> Model<C> {
     #[inline(always)]
     fn normal(&self) -> Option<&Normal<C>> {
         self.normal.as_ref().filter(|_| C > FEW)
+    }
+
+    /// LAMP, as BLEND below.
+    #[inline(always)]
+    fn lamp(&self) -> Option<&Lamp<C>> {
+        self.lamp.as_ref().filter(|_| C > FEW)
     }
 
     /// SHADE, as BLEND below.
@@ -308,6 +334,7 @@ impl<const C: usize> Model<C> {
             || self.texel().is_some_and(Texel::occupied)
             || self.bump().is_some_and(Bump::occupied)
             || self.normal().is_some_and(Normal::occupied)
+            || self.lamp().is_some_and(Lamp::occupied)
             || self.shade().is_some_and(Shade::occupied)
             || self.project().is_some_and(Project::occupied)
             || self.shadow().is_some_and(Shadow::occupied)
@@ -366,8 +393,9 @@ impl<const C: usize> Model<C> {
             tdata_ready: self.term().is_some_and(Term::tdata_ready),
             xrd: self.texel().and_then(|texel| texel.read(self.pixel.frag(), self.pixel.cosines())),
             xdata_ready: self.texel().is_some_and(|texel| texel.xdata_ready(readies.textured)),
-            rrd: self.normal().and_then(Normal::read),
-            rdata_ready: self.normal().is_some_and(Normal::rdata_ready),
+            rrd: self.normal().and_then(Normal::read).or_else(|| self.lamp().and_then(Lamp::read)),
+            rdata_ready: self.normal().is_some_and(Normal::rdata_ready)
+                || self.lamp().is_some_and(Lamp::rdata_ready),
             srd: self.shade().and_then(Shade::read),
             sdata_ready: self.shade().is_some_and(Shade::sdata_ready),
             mrd: self.shadow().and_then(|shadow| shadow.read(frag, &inputs.shadow)),
@@ -427,6 +455,10 @@ impl<const C: usize> Model<C> {
         if let Some(normal) = self.normal.as_mut().filter(|_| C > FEW) {
             let (frag, terms) = parts(&offered.bumped);
             normal.step(frag, &terms, &inputs.normal, readies.normed, events);
+        }
+        if let Some(lamp) = self.lamp.as_mut().filter(|_| C > FEW) {
+            let (frag, terms) = parts(&offered.bumped);
+            lamp.step(frag, &terms, &inputs.normal, readies.normed, events);
         }
         if let Some(bump) = self.bump.as_mut().filter(|_| C > FEW) {
             let (frag, terms) = parts(&offered.textured);
@@ -493,6 +525,9 @@ impl<const C: usize> Model<C> {
         }
         if let Some(normal) = &mut self.normal {
             normal.reset();
+        }
+        if let Some(lamp) = &mut self.lamp {
+            lamp.reset();
         }
         if let Some(shade) = &mut self.shade {
             shade.reset();

@@ -155,9 +155,9 @@ impl<const C: usize> Normal<C> {
                 false => (cosine, t + 2),
                 true => (((cosine - (1 << 16)) << gloss) + (1 << 16), t + self.gloss_bits + 2),
             };
-            let (index, end) = (scaled >> (16 - t), 1i64 << (bits - 1));
-            events.cosine_cut += u64::from(!(-end..end).contains(&index));
-            cosines.terms[place] = index.clamp(-end, end - 1) as i32; // at most 16 bits
+            let (index, cut) = index(scaled, 16 - t, bits);
+            events.cosine_cut += u64::from(cut);
+            cosines.terms[place] = index;
         }
         cosines
     }
@@ -170,6 +170,13 @@ impl<const C: usize> Normal<C> {
         let (v, slope) = self.roots[(s >> 8) as usize];
         (v - ((slope * (s & 0xff) + (1 << 7)) >> 8)) & 0x1_ffff
     }
+}
+
+/// The place in a table of a number with so many bits below an entry, cut to so many bits, and whether it was.
+pub(crate) fn index(number: i64, below: u32, bits: u32) -> (i32, bool) {
+    let (index, end) = (number >> below, 1i64 << (bits - 1));
+    let within = index.clamp(-end, end - 1);
+    (within as i32, within != index) // at most 20 bits
 }
 
 const _: () = assert!(MAX_TERMS >= 5, "two lights and N·N");

@@ -282,7 +282,7 @@ impl<const C: usize> Pixel<C> {
             (((self.walked.terms[i].v >> fraction) << (64 - bits)) as i64 >> (64 - bits)) as i32 // b <= 32
         };
         let Walked { material, gloss, .. } = self.walked;
-        Cosines { terms: std::array::from_fn(output), material, gloss, slopes: [0; 2] }
+        Cosines { terms: std::array::from_fn(output), material, gloss, ..Cosines::default() }
     }
 
     #[inline]

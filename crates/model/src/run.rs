@@ -65,7 +65,7 @@ pub struct Rig<const C: usize> {
     pub terms: Option<WordMemory>,
     /// With TEXEL the materials' textures.
     pub textures: Option<WordMemory>,
-    /// With NORMAL its roots.
+    /// With NORMAL or LAMP its roots.
     pub roots: Option<WordMemory>,
     /// With SHADE the materials' tables.
     pub tables: Option<WordMemory>,

@@ -1,16 +1,16 @@
 //! SHADE: the colour of a fragment, by tables that hold the material.
 //!
 //! ```text
-//!  frag ─> [A] d, h, lit ─> [B] T[d], S[h] ─> [M] light · colour ─> [C] sum, cut ─> tinted
+//!  frag ─> [A] d, h, lit ─> [B] T[d], S[h] ─> [G] highlight · beam ─> [M] light · colour ─> [C] sum, cut ─> tinted
 //!    └─another material─> srd, sdata ─> T, S
 //! ```
 //! Formats: N·L and N·H of t + 2 and t + m + 2 bits, two's complement, entries of a table; colours of b bits; light of b + 3,
-//! 2^(b+2) for 1.
+//! 2^(b+2) for 1; the beam of 17 bits, 2^16 for 1.
 //!
-//! Timing: a fragment taken in cycle n is offered in n + 3, with `multiply` (stage M) in n + 4; one a clock. All stages move
+//! Timing: a fragment taken in cycle n is offered in n + 3, with `multiply` (stage M) and behind LAMP (stage G) one later each; one a clock. All stages move
 //! together. A material's tables are fetched one entry a clock when no stage holds a fragment.
 //!
-//! Rules: `docs/machine.md`, section 12. Not modelled: nothing.
+//! Rules: `docs/machine.md`, sections 12 and, of stage G, 17. Not modelled: nothing.
 
 mod view;
 
@@ -33,6 +33,8 @@ pub struct Cosines {
     pub material: u32,
     /// Of the material's highlights, for NORMAL.
     pub gloss: u32,
+    /// From LAMP: how much of the light comes, 2^16 for all of it.
+    pub beam: u32,
     /// From TEXEL to BUMP: of the relief along u and v, 2^(ξ-1) for its largest.
     pub slopes: [i32; 2],
 }
@@ -52,6 +54,7 @@ struct Indices {
     diffuse: usize,
     highlight: usize,
     lit: bool,
+    beam: u32,
 }
 
 /// The same in stage B: an entry of T, and s.
@@ -59,6 +62,7 @@ struct Indices {
 struct Found {
     diffuse: u64,
     highlight: u32,
+    beam: u32,
 }
 
 /// A fragment in a stage, and what is known of its light.
@@ -68,6 +72,7 @@ type Stage<T, const C: usize> = Option<(Fragment<C>, T)>;
 #[derive(Clone, Debug)]
 pub struct Shade<const C: usize> {
     multiplies: bool,
+    weakens: bool,
     color_bits: u32,
     table_bits: u32,
     entry_bits: u32,
@@ -81,6 +86,7 @@ pub struct Shade<const C: usize> {
     tables: Vec<(u64, u32)>,
     a: Stage<[Indices; LIGHTS], C>,
     b: Stage<[Found; LIGHTS], C>,
+    g: Stage<[Found; LIGHTS], C>,
     /// With the sum of the highlights.
     m: Stage<u32, C>,
     c: Option<Fragment<C>>,
@@ -93,6 +99,7 @@ impl<const C: usize> Shade<C> {
         let shade = &plan.shade;
         Shade {
             multiplies: shade.colour == ShadeColour::Multiply,
+            weakens: shade.is_positional(),
             color_bits: plan.color.bits,
             table_bits: shade.table_bits,
             entry_bits: shade.entry_bits(),
@@ -103,6 +110,7 @@ impl<const C: usize> Shade<C> {
             tables: vec![(0, 0); shade.entries() as usize],
             a: None,
             b: None,
+            g: None,
             m: None,
             c: None,
         }
@@ -112,13 +120,13 @@ impl<const C: usize> Shade<C> {
     pub fn reset(&mut self) {
         self.have = false;
         self.fetch.reset();
-        (self.a, self.b, self.m, self.c) = (None, None, None, None);
+        (self.a, self.b, self.g, self.m, self.c) = (None, None, None, None, None);
     }
 
     /// A fragment is in a stage.
     #[must_use]
     pub fn occupied(&self) -> bool {
-        self.a.is_some() || self.b.is_some() || self.m.is_some() || self.c.is_some()
+        self.a.is_some() || self.b.is_some() || self.g.is_some() || self.m.is_some() || self.c.is_some()
     }
 
     /// The fragment offered on.
@@ -184,7 +192,7 @@ impl<const C: usize> Shade<C> {
             events.shade_stall += 1;
             return;
         }
-        let found = self.b;
+        let found = if self.weakens { self.g } else { self.b };
         self.c = if self.multiplies {
             let product = self.m.map(|(fragment, highlight)| self.sum(fragment, highlight, events));
             self.m = found.map(|(fragment, lights)| self.product(fragment, &lights));
@@ -192,6 +200,9 @@ impl<const C: usize> Shade<C> {
         } else {
             found.map(|(fragment, lights)| self.colours(fragment, &lights, events))
         };
+        if self.weakens {
+            self.g = self.b.map(|(fragment, lights)| (fragment, lights.map(|light| self.weakened(light))));
+        }
         self.b = self.a.map(|(fragment, indices)| (fragment, self.look_up(&indices)));
         let taken = frag.filter(|_| !waits);
         self.a = taken.map(|fragment| (*fragment, self.indices(cosines, events)));
@@ -226,7 +237,7 @@ impl<const C: usize> Shade<C> {
             events.highlight_below += u64::from(h < 0);
             events.highlight_above += u64::from(h >= end);
             events.highlight_unlit += u64::from(d < 0 && h > 0);
-            Indices { diffuse: index(d), highlight: index(h), lit: d >= 0 }
+            Indices { diffuse: index(d), highlight: index(h), lit: d >= 0, beam: cosines.beam }
         })
     }
 
@@ -237,9 +248,16 @@ impl<const C: usize> Shade<C> {
                 return Found::default();
             }
             let of_light = &self.tables[light << self.table_bits..];
-            let Indices { diffuse, highlight, lit } = indices[light];
-            Found { diffuse: of_light[diffuse].0, highlight: if lit { of_light[highlight].1 } else { 0 } }
+            let Indices { diffuse, highlight, lit, beam } = indices[light];
+            let highlight = if lit { of_light[highlight].1 } else { 0 };
+            Found { diffuse: of_light[diffuse].0, highlight, beam }
         })
+    }
+
+    /// Stage G: the highlight as far as the light comes.
+    fn weakened(&self, light: Found) -> Found {
+        let highlight = (u64::from(light.highlight) * u64::from(light.beam) + (1 << 15)) >> 16;
+        Found { highlight: (highlight as u32).min(self.largest()), ..light } // below 2^18
     }
 
     /// Stage M: the fragment's colours times the light, and the sum of the highlights.

@@ -1,7 +1,7 @@
 //! The machine as netlists, a unit a file, written from `docs/machine.md`.
 //!
 //! ```text
-//!  tri ─> setup ─> edge ─> span ─> [term] ─> pixel ─> [texel] ─> [bump] ─> [normal] ─> [shade] ─> [project] ─> [shadow] ─> depth ─> memory
+//!  tri ─> setup ─> edge ─> span ─> [term] ─> pixel ─> [texel] ─> [bump] ─> [normal or lamp] ─> [shade] ─> [project] ─> [shadow] ─> depth ─> memory
 //!                                                                                                                          └──> blend ─> memory
 //! ```
 //! A function a unit takes a [`Plan`](edgewalk_machine::Plan), the checked machine, and builds the unit's netlist with the ports
@@ -30,7 +30,11 @@ mod cut;
 
 mod bump;
 
+mod roots;
+mod place;
 mod normal;
+
+mod lamp;
 
 mod shade;
 
@@ -54,6 +58,7 @@ pub use blend::blend;
 pub use bump::bump;
 pub use depth::depth;
 pub use edge::edge;
+pub use lamp::lamp;
 pub use machine::{assemble, engine, machine};
 pub use memory::memory;
 pub use normal::normal;
@@ -76,6 +81,7 @@ pub const BUILDERS: &[(&str, units::Build)] = &[
     ("texel", texel),
     ("bump", bump),
     ("normal", normal),
+    ("lamp", lamp),
     ("shade", shade),
     ("project", project),
     ("shadow", shadow),

@@ -1,7 +1,5 @@
 //! NORMAL: divides the products of a fragment's normal by the normal's length.
 
-mod roots;
-
 mod cosine;
 
 use std::sync::Arc;
@@ -11,9 +9,9 @@ use edgewalk_machine::units::{normal::SPEC, tokens};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Reg, Signal};
 
 use crate::ports::Interface;
+use crate::roots::Roots;
 use crate::wires::{Part, Registers, moved, parts};
 use cosine::cosine;
-use roots::Roots;
 
 const DOC: &str = "NORMAL divides the products of a fragment's normal by the normal's length.
 
@@ -56,7 +54,7 @@ pub fn normal(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let occupied = stages.iter().map(|stage| stage.valid.q()).reduce(|any, one| any | one);
     let occupied = occupied.expect("there are five stages");
 
-    let roots = Roots::new(&m, frag_valid, &memory);
+    let roots = Roots::new(&m, plan, "table R", frag_valid, &memory);
     let frag_ready = (advance & roots.have).named("frag_ready");
     let take = (frag_valid & frag_ready).named("take");
     let (mut valid, mut before) = (take, frag.clone());

@@ -4,6 +4,8 @@ mod tables;
 
 mod index;
 
+mod weaken;
+
 mod colour;
 
 use std::sync::Arc;
@@ -17,6 +19,7 @@ use crate::wires::{Registers, parts};
 use colour::{COLOURS, Shone};
 use index::Index;
 use tables::Tables;
+use weaken::{BEAM, weakened};
 
 const DOC: &str = "SHADE makes the colour of a fragment of its cosines, by tables that hold the material.
 
@@ -28,6 +31,8 @@ the highlight, LSB of the colour; where nl is below 0 there is no highlight. Sum
 Timing: a fragment a clock, offered three clocks after it was taken (four if it is multiplied). All stages move together.
 Rules: the tables of one material are inside. A fragment of another waits until the stages are empty and its tables have been read,
 a word a clock.";
+
+const WEAKEN_DOC: &str = "Behind LAMP: beside the cosines comes beam, 2^16 for all of the light. Behind B a stage [G] takes the highlight times beam.";
 
 const MULTIPLY_DOC: &str = "Multiplied: T holds the light, 2^(b+2) for 1.0. Between B and C a stage [M] takes the fragment's colour times the light.";
 
@@ -41,21 +46,32 @@ pub fn shade(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     if multiplies {
         m.doc(MULTIPLY_DOC);
     }
+    let weakens = plan.shade.is_positional();
+    if weakens {
+        m.doc(WEAKEN_DOC);
+    }
     let ports = Interface::new(&m, (SPEC.ports)(plan));
     let (frag_valid, frag) = ports.takes();
     let memory = ports.memory("tables");
     let tinted_ready = ports.gives_ready();
 
     m.comment("The stages, and what goes through them as it is.");
-    let names: &[&str] = if multiplies { &["a", "b", "m", "c"] } else { &["a", "b", "c"] };
+    let names: &[&str] = match (weakens, multiplies) {
+        (false, false) => &["a", "b", "c"],
+        (false, true) => &["a", "b", "m", "c"],
+        (true, false) => &["a", "b", "g", "c"],
+        (true, true) => &["a", "b", "g", "m", "c"],
+    };
     let tinted = parts(&tokens::tinted(plan));
+    let beam: Vec<_> = frag.parts().into_iter().filter(|part| part.name == BEAM).collect();
     let stages: Vec<Stage> = names
         .iter()
         .map(|name| {
-            // The triangle's colour goes as far as it is multiplied.
-            let colour = multiplies && ["a", "b"].contains(name);
+            // The triangle's colour goes as far as it is multiplied, and so does the beam.
+            let colour = multiplies && ["a", "b", "g"].contains(name);
+            let of_beam = beam.iter().filter(|_| ["a", "b"].contains(name));
             let is_kept = |part: &str| colour || !COLOURS.contains(&part);
-            let kept = tinted.iter().filter(|part| is_kept(&part.name)).cloned().collect();
+            let kept = tinted.iter().filter(|part| is_kept(&part.name)).chain(of_beam).cloned().collect();
             let valid = m.reg(&format!("{name}_valid"), 1).doc("a fragment is in this stage").reset(0);
             Stage { valid, kept: Registers::new(&m, name, kept) }
         })
@@ -80,8 +96,10 @@ pub fn shade(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let indices: Vec<Index> =
         (0..plan.shade.lights).map(|light| Index::new(&m, plan, light, &frag, advance)).collect();
     let lights = tables.look_up(&m, advance, &indices);
+    let lights = if weakens { weakened(&m, plan, advance, stages[1].kept[BEAM].q(), lights) } else { lights };
     let shone = Shone { m: &m, plan, advance, lights };
-    let colours = if multiplies { shone.multiplied(&stages[1].kept) } else { shone.told() };
+    let before_light = &stages[if weakens { 2 } else { 1 }].kept;
+    let colours = if multiplies { shone.multiplied(before_light) } else { shone.told() };
 
     ports.take_ready(frag_ready);
     ports.read("tables", tables.read_valid, tables.read_place, tables.loading);

@@ -76,6 +76,27 @@ pub struct Incident {
 }
 
 impl Light {
+    /// I_l where nothing weakens it.
+    pub fn intensity(&self) -> DVec3 {
+        match *self {
+            Self::Directional { intensity, .. }
+            | Self::Positional { intensity, .. }
+            | Self::Flood { intensity, .. } => intensity,
+        }
+    }
+
+    /// The same light with a cone wider by so much of the cosine of half its angle, or narrower; another than a flood as it is.
+    #[must_use]
+    pub fn opened(self, by: f64) -> Self {
+        match self {
+            Self::Flood { position, axis, cone, exponent, intensity, attenuation } => {
+                let cone = (cone.cos() - by).clamp(-1.0, 1.0).acos();
+                Self::Flood { position, axis, cone, exponent, intensity, attenuation }
+            }
+            other => other,
+        }
+    }
+
     /// What arrives at a point in world space.
     pub fn incident(&self, point: DVec3) -> Incident {
         match *self {

@@ -1,4 +1,4 @@
-//! What is proved of a shaded colour: bounds 12 and 13 together, and the pixels where a light stands at the horizon.
+//! What is proved of a shaded colour: bounds 12 and 13 together, and 14, 16 or 17, and the pixels where a light stands at the horizon.
 
 use super::records::IndexErrors;
 use super::tables::{LightTables, Surfaces};
@@ -60,7 +60,10 @@ fn color_bound(
     (brightest, surface_error): (f64, f64),
 ) -> f64 {
     let highlights = lights.iter().zip(&error.highlight).map(|(light, e)| light.highlight.error(*e));
-    let highlights: f64 = highlights.sum();
+    // LAMP weakens a highlight behind its table, and rounds it.
+    let weakened = |light: &LightTables| light.highlight.function().top * error.beam + 0.5;
+    let weakened = if machine.shade.is_positional() { lights.iter().map(weakened).sum() } else { 0.0 };
+    let highlights: f64 = highlights.sum::<f64>() + weakened;
     let diffuse = |k: usize| lights.iter().map(|light| light.diffuse[k].error(error.diffuse)).sum::<f64>();
     match machine.shade.colour {
         // Sums of entries are exact, and a cut moves no two values apart.

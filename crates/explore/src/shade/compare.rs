@@ -46,7 +46,7 @@ impl<'a> Allowed<'a> {
                             looked.take(own, [fragment.x, fragment.y], at, fast.texel(fragment))
                         }
                     };
-                    let list = fast.branches(fragment, &texel, proof.doubts[place]);
+                    let list = fast.branches(fragment, &texel, proof.doubts[place], proof.errors[place].axis);
                     if list.len() > 1 || own.is_some() {
                         branches.insert(at, list);
                     }

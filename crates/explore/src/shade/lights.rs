@@ -1,17 +1,20 @@
 //! The lights of a frame as the machine takes them, and a triangle's six cosines of each.
 
+use super::lamp::Point;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Attenuation, Light, PixelShading, PixelTriangle, Viewer};
 use glam::DVec3;
 
-/// A light whose intensity is the same everywhere.
-#[derive(Clone, Copy, Debug)]
+/// A light whose intensity is the same everywhere, or one at a point for LAMP.
+#[derive(Clone, Debug)]
 pub struct Lamp {
     /// Where it is.
     light: Light,
-    /// I_l.
+    /// I_l; of one for LAMP where it is brightest.
     pub intensity: DVec3,
+    /// With LAMP.
+    pub point: Option<Point>,
 }
 
 /// A cosine at the vertices, and in the middles of the edges opposite them.
@@ -25,8 +28,13 @@ impl Lamp {
     pub fn all(shading: &PixelShading, machine: &Plan) -> Result<Vec<Lamp>> {
         let (given, most) = (shading.lights.len(), machine.shade.lights as usize);
         if given > most {
-            let remedy =
-                if given <= 2 { format!("add --set shade.lights={given}") } else { "take 2".to_owned() };
+            let remedy = if machine.shade.is_positional() {
+                "take 1, and add the pictures of the others".to_owned()
+            } else if given <= 2 {
+                format!("add --set shade.lights={given}")
+            } else {
+                "take 2".to_owned()
+            };
             return Err(anyhow!(
                 "{given} lights: the machine has terms for {most}; {remedy}, or draw with --engine golden"
             ));
@@ -37,14 +45,19 @@ impl Lamp {
             ));
         }
         let lamp = |(place, light): (usize, &Light)| match *light {
-            Light::Directional { intensity, .. } => Ok(Lamp { light: *light, intensity }),
+            _ if machine.shade.is_positional() => {
+                let point = Point::of(light, shading)?;
+                let intensity = light.intensity() * point.full;
+                Ok(Lamp { light: *light, intensity, point: Some(point) })
+            }
+            Light::Directional { intensity, .. } => Ok(Lamp { light: *light, intensity, point: None }),
             Light::Positional { intensity, attenuation: Attenuation::NONE, .. }
                 if !machine.shade.normalises() =>
             {
-                Ok(Lamp { light: *light, intensity })
+                Ok(Lamp { light: *light, intensity, point: None })
             }
             _ if machine.shade.normalises() => Err(anyhow!(
-                "light {}: with shade.kind = phong N·L is linear, so every light is directional; take shade.kind = fast-phong, or \
+                "light {}: with shade.kind = phong N·L is linear, so every light is directional; add --set shade.light=positional, or \
                  draw with --engine golden",
                 place + 1
             )),

@@ -1,5 +1,6 @@
 //! The record of a triangle: its terms fitted exactly, rounded in the middle of its box, moved to where its walk begins.
 
+use super::lamp::{LampErrors, WordErrors, shortest};
 use super::lights::Lamp;
 use super::place::Place;
 use super::texels;
@@ -18,6 +19,10 @@ const COSINE_ERROR: f64 = 1.0 / (1u64 << NODE_BITS) as f64;
 const UNIT_BITS: u32 = 16;
 const UNIT: f64 = (1u32 << UNIT_BITS) as f64;
 
+/// 1.0 in LAMP's l·l, and in its products.
+const DISTANCE_BITS: u32 = 30;
+const REACH_BITS: u32 = 23;
+
 /// How far the indices of a triangle may be from those of golden's quadratics.
 #[derive(Clone, Debug, Default)]
 pub struct IndexErrors {
@@ -25,6 +30,10 @@ pub struct IndexErrors {
     pub diffuse: f64,
     /// Of N·H, entries, by light.
     pub highlight: Vec<f64>,
+    /// Of what is left of a light at a point, of all of it; with LAMP alone.
+    pub beam: f64,
+    /// Of the cosine to the light's axis.
+    pub axis: f64,
 }
 
 /// The record of a triangle with this surface; `glosses` has the scale m' of each light's table of highlights, `root_error` is
@@ -44,7 +53,9 @@ pub fn record(
     let Some(place) = place else { return Ok(Default::default()) };
     let (of_lights, others) = machine.terms().split_at(machine.cosine_terms());
     let (of_relief, of_texture) = others.split_at(machine.bumped_terms() - of_lights.len());
-    let mut words = if machine.shade.normalises() {
+    let mut words = if machine.shade.is_positional() {
+        lamp_terms(place, own, shading, lamps, of_lights)
+    } else if machine.shade.normalises() {
         normal_terms(place, own, shading, lamps, turns, of_lights)
     } else {
         cosine_terms(place, own, shading, lamps, glosses, (of_lights, machine))
@@ -62,6 +73,11 @@ pub fn record(
     let quadratic = error_of(Degree::Quadratic, machine.shade.fraction);
     let entries = machine.shade.table_bits;
     let linear = error_of(Degree::Linear, machine.shade.linear_fraction);
+    let words_of_lamp = WordErrors { linear, quadratic, node: COSINE_ERROR };
+    let point = lamps.first().and_then(|lamp| lamp.point.as_ref());
+    let of_lamp = point.map_or_else(LampErrors::default, |point| {
+        point.errors(own, shading.viewer_at(DVec3::ZERO), words_of_lamp)
+    });
     // By light and cosine; a light that is not there has none.
     let index_error = |cosine: usize, gloss: u32| {
         let one = 2f64.powi((entries + gloss) as i32);
@@ -69,7 +85,11 @@ pub fn record(
         if turns.is_some_and(|turns| turns.flattened) {
             return 2.0 * one;
         }
-        if machine.shade.normalises() {
+        if machine.shade.is_positional() {
+            // N·L is weakened before it is the index.
+            let error = if cosine == 0 { of_lamp.diffuse.map(|e| e + of_lamp.beam) } else { of_lamp.halfway };
+            if point.is_some() { error.map_or(2.0 * one, |error| error * one / UNIT) } else { 0.0 }
+        } else if machine.shade.normalises() {
             let growth = turns.map_or(0.0, |turns| turns.growth_error(cosine) * UNIT);
             normal_error(own, (linear, growth), quadratic, (root_error, turns), machine) * one / UNIT
         } else if machine.shade.bumps() {
@@ -86,6 +106,8 @@ pub fn record(
     let errors = IndexErrors {
         diffuse: (0..glosses.len()).map(|light| index_error(2 * light, 0)).fold(0.0, f64::max),
         highlight: highlight.collect(),
+        beam: of_lamp.beam / UNIT,
+        axis: of_lamp.axis / UNIT,
     };
     let [x, y] = place.start;
     let record = Record {
@@ -189,6 +211,46 @@ fn normal_terms(
     terms
 }
 
+/// Products with the way to a light at a point, planes and quadratics rounded to nearest by half an output's last bit, and the squares
+/// of way and normal, which are cut; black without a light.
+fn lamp_terms(
+    place: &Place,
+    own: &PixelTriangle,
+    shading: &PixelShading,
+    lamps: &[Lamp],
+    of_lights: &[Term],
+) -> Vec<Option<TermWords>> {
+    let Some(point) = lamps.first().and_then(|lamp| lamp.point.as_ref()) else {
+        return vec![None; of_lights.len()];
+    };
+    let (shares, ways) = (place.shares(), point.ways(own));
+    let middle = |k: usize| (own.normals[(k + 1) % 3] + own.normals[(k + 2) % 3]) / 2.0;
+    let normals = [own.normals, [0, 1, 2].map(middle)];
+    let viewer = shading.viewer_at(DVec3::ZERO);
+    let products = |a: [[DVec3; 3]; 2], b: [[DVec3; 3]; 2]| {
+        [0, 1].map(|i| [0, 1, 2].map(|k: usize| node(a[i][k].dot(b[i][k]))))
+    };
+    let square =
+        |nodes, term: &Term, bits: u32| shares.six_point(nodes, bits + term.fraction, 0, term.word());
+    let reach = |term: &Term| (REACH_BITS + term.fraction, half(term), term.word());
+    let plane = |values: [f64; 3], term: &Term| {
+        let (bits, offset, width) = reach(term);
+        shares.plane(values.map(node), bits, offset, width)
+    };
+    let word = |term: &Term| match term.name {
+        "dd" => square(products(ways, ways), term, DISTANCE_BITS),
+        "nn" => square(products(normals, normals), term, UNIT_BITS),
+        "pl" => {
+            let (bits, offset, width) = reach(term);
+            shares.six_point(products(normals, ways), bits, offset, width)
+        }
+        "dv" => plane(ways[0].map(|way| way.dot(viewer)), term),
+        "da" => plane(point.along(own), term),
+        _ => plane(own.normals.map(|normal| normal.dot(viewer)), term),
+    };
+    of_lights.iter().map(word).collect()
+}
+
 /// Bounds 14 and 16: how far a cosine by NORMAL is from that of a normal of length 1, 2^-16; `linear` and `quadratic` bound the
 /// words of the terms, `growth` what the stored slopes of a relief spoil. A normal that may be shorter than half has none but the
 /// whole range.
@@ -217,42 +279,4 @@ fn normal_error(
     let relative = root_error + 1.01 * square / (2.0 * least);
     let root = (UNIT / least).sqrt() * (1.0 + relative);
     product * root + UNIT * relative + 0.5
-}
-
-/// The length of the shortest normal over a triangle: how far 0 is from the triangle that its normals span.
-fn shortest(normals: [DVec3; 3]) -> f64 {
-    let sides = [0, 1, 2].map(|k| [normals[k], normals[(k + 1) % 3]]);
-    let to_side = |[a, b]: [DVec3; 2]| {
-        let along = b - a;
-        let part = (-a.dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        (a + part * along).length()
-    };
-    let least = sides.into_iter().map(to_side).fold(f64::INFINITY, f64::min);
-    let across = (normals[1] - normals[0]).cross(normals[2] - normals[0]);
-    let Some(direction) = across.try_normalize() else { return least };
-    let height = direction.dot(normals[0]);
-    let inside = sides.into_iter().all(|[a, b]| (b - a).cross(height * direction - a).dot(direction) >= 0.0);
-    if inside { height.abs() } else { least }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_shortest_normal_lies_in_the_middle_on_an_edge_or_at_a_corner() {
-        let tilted = |x: f64, y: f64| DVec3::new(x, y, 1.0).normalize();
-        let around = [tilted(1.0, 0.0), tilted(-0.5, 0.75f64.sqrt()), tilted(-0.5, -(0.75f64.sqrt()))];
-        assert!((shortest(around) - 0.5f64.sqrt()).abs() < 1e-12);
-        assert!((shortest([DVec3::X, DVec3::Y, DVec3::X]) - 0.5f64.sqrt()).abs() < 1e-12);
-        assert!((shortest([DVec3::X; 3]) - 1.0).abs() < 1e-12);
-        assert!(shortest([DVec3::X, -DVec3::X, DVec3::Y]) < 1e-12);
-        let mut least = f64::INFINITY;
-        let list = [tilted(0.9, 0.3), tilted(-0.2, 0.8), tilted(0.1, -0.7)];
-        for (i, j) in (0..=400).flat_map(|i| (0..=400 - i).map(move |j| (i, j))) {
-            let [a, b] = [i, j].map(|k: i32| f64::from(k) / 400.0);
-            least = least.min((list[0] * a + list[1] * b + list[2] * (1.0 - a - b)).length());
-        }
-        assert!(shortest(list) <= least && least - shortest(list) < 1e-4, "{least}");
-    }
 }

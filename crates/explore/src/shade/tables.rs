@@ -149,6 +149,13 @@ fn light_tables(
             )
         };
         let top = grey(material.specular * intensity, "highlight", ", or draw with --engine golden")? * max;
+        if machine.shade.is_positional() && top > max * (1.0 + 1e-12) {
+            return Err(anyhow!(
+                "a highlight of {} where the light is brightest: with shade.light = positional it is at most 1, for it is weakened behind its \
+                 table; take a weaker light, or a material that shines less",
+                top / max
+            ));
+        }
         let highlight = Highlight {
             bits,
             gloss: 0,

@@ -15,6 +15,7 @@ mod pixel;
 mod texel;
 mod bump;
 mod normal;
+mod lamp;
 mod shade;
 mod project;
 mod shadow;
@@ -81,6 +82,7 @@ fn of<const C: usize>(plan: &Plan, interface: &Interface) -> Result<Box<dyn Mode
         "texel" => Box::new(texel::TexelDevice::<C>::new(plan, interface)?),
         "bump" => Box::new(bump::BumpDevice::<C>::new(plan, interface)?),
         "normal" => Box::new(normal::NormalDevice::<C>::new(plan, interface)?),
+        "lamp" => Box::new(lamp::LampDevice::<C>::new(plan, interface)?),
         "shade" => Box::new(shade::ShadeDevice::<C>::new(plan, interface)?),
         "project" => Box::new(project::ProjectDevice::<C>::new(plan, interface)?),
         "shadow" => Box::new(shadow::ShadowDevice::<C>::new(plan, interface)?),

@@ -13,7 +13,7 @@ pub struct TermSpan<const C: usize> {
     pub walked: Walked,
 }
 
-/// What NORMAL finds, in the order of the terms.
+/// What NORMAL and LAMP find, in the order of the terms.
 const COSINES: [&str; 4] = ["nl0", "nh0", "nl1", "nh1"];
 
 /// What PIXEL gives, what TEXEL and BUMP make of it, and what SHADE takes.
@@ -79,6 +79,9 @@ impl<const C: usize> Named for TermFragment<C> {
         }
         if name == "gloss" {
             return Some((|t, _| Slot::U32(&mut t.cosines.gloss), 0));
+        }
+        if name == "beam" {
+            return Some((|t, _| Slot::U32(&mut t.cosines.beam), 0));
         }
         if let Some(place) = ["bu", "bv"].iter().position(|slope| *slope == name) {
             return Some((|t, i| Slot::I32(&mut t.cosines.slopes[i]), place));

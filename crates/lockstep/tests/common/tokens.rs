@@ -108,6 +108,9 @@ fn token(plan: &Plan, fields: &[Port], rng: &mut Pcg64Mcg) -> Token {
             "frag_material" if rng.random_bool(0.99) => 0,
             "frag_nl0" | "frag_nh0" | "frag_nl1" | "frag_nh1" => cosine(plan, port.width(), rng),
             "frag_gloss" => rng.random_range(0..=plan.shade.gloss_bits).into(),
+            // Roots of small numbers, and numbers that are not all beyond the ends.
+            "frag_dd" => (random >> rng.random_range(96..128)) as i128,
+            "frag_pl" | "frag_dv" | "frag_da" | "frag_pv" => random as i128 >> rng.random_range(103..124),
             // N.N is cut below 2^14 and from 2^16 on.
             "frag_nn" if rng.random_bool(0.7) => rng.random_range((1 << 14) - 2..(1 << 16) + 2),
             "frag_lw" => weight.unwrap_or(0),

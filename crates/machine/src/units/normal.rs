@@ -19,7 +19,7 @@ pub const SPEC: UnitSpec = UnitSpec {
 };
 
 fn there(plan: &Plan) -> bool {
-    plan.shade.normalises()
+    plan.shade.has_normal()
 }
 
 fn ports(plan: &Plan) -> Ports {

@@ -192,7 +192,7 @@ fn material(plan: &Plan) -> Option<Field> {
     (plan.shade.is_there() && bits > 0).then(|| Field::count("material", bits, "whose tables count"))
 }
 
-/// Of the material's highlights, on the way to NORMAL.
+/// Of the material's highlights, on the way to NORMAL or LAMP.
 fn gloss(plan: &Plan) -> Option<Field> {
     let doc = "highlights reach down to 2^gloss tables below 0";
     plan.shade.normalises().then(|| Field::count("gloss", record::GLOSS_BITS, doc))
@@ -314,7 +314,7 @@ pub fn textured(plan: &Plan) -> Vec<Field> {
     fields
 }
 
-/// What BUMP gives: what NORMAL takes, or SHADE; without BUMP what TEXEL gives.
+/// What BUMP gives: what NORMAL or LAMP takes, or SHADE; without BUMP what TEXEL gives.
 #[must_use]
 pub fn bumped(plan: &Plan) -> Vec<Field> {
     if !plan.shade.bumps() {
@@ -326,14 +326,16 @@ pub fn bumped(plan: &Plan) -> Vec<Field> {
     }
 }
 
-/// What SHADE takes: a fragment with two cosines a light.
+/// What SHADE takes: a fragment with two cosines a light, and of LAMP what is left of the light.
 #[must_use]
 pub fn cosines(plan: &Plan) -> Vec<Field> {
     let bits = [plan.shade.diffuse_index_bits(), plan.shade.highlight_index_bits()];
     let index = |(name, bits)| Field::signed(name, bits, "in entries of a table");
     let lights = record::COSINES.into_iter().take(plan.shade.lights as usize);
     let cosines = lights.flat_map(|names| names.into_iter().zip(bits)).map(index);
-    fragment_with(plan, cosines.chain(material(plan)).collect())
+    let beam =
+        plan.shade.is_positional().then(|| Field::count("beam", 17, "of the light, 2^16 for all of it"));
+    fragment_with(plan, cosines.chain(beam).chain(material(plan)).collect())
 }
 
 /// What SHADE gives: a fragment without terms and material, its colours new; without SHADE what PIXEL gives.

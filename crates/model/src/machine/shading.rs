@@ -1,7 +1,7 @@
 //! The fragments between PIXEL and SHADE in a cycle, and who can take them.
 //!
 //! ```text
-//!  PIXEL ─drawn─> [TEXEL] ─textured─> [BUMP] ─bumped─> [NORMAL] ─normed─> SHADE ─> tinted
+//!  PIXEL ─drawn─> [TEXEL] ─textured─> [BUMP] ─bumped─> [NORMAL or LAMP] ─normed─> SHADE ─> tinted
 //! ```
 //! Of a unit that the machine has not, what it would give is what it would take.
 
@@ -19,7 +19,7 @@ pub struct Offered<const C: usize> {
     pub drawn: Option<Beside<C>>,
     /// To BUMP.
     pub textured: Option<Beside<C>>,
-    /// To NORMAL.
+    /// To NORMAL or LAMP.
     pub bumped: Option<Beside<C>>,
     /// To SHADE.
     pub normed: Option<Beside<C>>,
@@ -56,6 +56,7 @@ impl<const C: usize> Units<'_, C> {
         let textured = self.texel.map_or(drawn, |unit| unit.textured(texel));
         let bumped = self.bump.map_or(textured, |unit| unit.bumped().copied());
         let normed = self.normal.map_or(bumped, |unit| unit.normed().copied());
+        let normed = self.lamp.map_or(normed, |unit| unit.normed().copied());
         Offered { drawn, textured, bumped, normed }
     }
 
@@ -66,17 +67,19 @@ impl<const C: usize> Units<'_, C> {
         let cosines = parts(&offered.normed).1;
         let normed = self.shade.map_or(tinted_ready, |unit| unit.frag_ready(&cosines, tinted_ready));
         let bumped = self.normal.map_or(normed, |unit| unit.frag_ready(normed));
+        let bumped = self.lamp.map_or(bumped, |unit| unit.frag_ready(normed));
         let textured = self.bump.map_or(bumped, |unit| unit.frag_ready(bumped));
         let drawn = self.texel.map_or(textured, |unit| unit.frag_ready(texel));
         Readies { drawn, textured, bumped, normed }
     }
 
-    /// A fragment waits for tables, or for roots.
+    /// A fragment waits for tables, or for roots, or for LAMP.
     #[inline(always)]
     pub(super) fn tables_wait(&self, offered: &Offered<C>) -> bool {
         let (frag, cosines) = parts(&offered.normed);
         self.shade.is_some_and(|unit| unit.waits(frag, &cosines))
             || self.normal.is_some_and(|unit| unit.waits(parts(&offered.bumped).0))
+            || self.lamp.is_some_and(|unit| unit.waits(parts(&offered.bumped).0) || unit.working())
     }
 
     /// TEXEL waits for its memory.

@@ -49,7 +49,11 @@ impl<const C: usize> Model<C> {
             term.view(plan, span.span(), &inputs.term, pixel_ready, view);
         }
         pixel.view(plan, span.span().filter(|_| there), readies.drawn, view);
-        let behind = if self.normal().is_some() { "normal" } else { "shade" };
+        let behind = match (self.normal(), self.lamp()) {
+            (Some(_), _) => "normal",
+            (None, Some(_)) => "lamp",
+            (None, None) => "shade",
+        };
         if let Some(texel) = self.texel() {
             let next = if self.bump().is_some() { "bump" } else { behind };
             let (frag, terms) = parts(&offered.drawn);
@@ -60,6 +64,9 @@ impl<const C: usize> Model<C> {
         }
         if let Some(normal) = self.normal() {
             normal.view(plan, parts(&offered.bumped).0, &inputs.normal, readies.normed, view);
+        }
+        if let Some(lamp) = self.lamp() {
+            lamp.view(plan, parts(&offered.bumped).0, &inputs.normal, readies.normed, view);
         }
         if let Some(shade) = self.shade() {
             let (frag, cosines) = parts(&offered.normed);

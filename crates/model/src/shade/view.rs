@@ -20,6 +20,7 @@ impl<const C: usize> Shade<C> {
         let stages = [
             ("A", self.a.map(|(fragment, _)| fragment)),
             ("B", self.b.map(|(fragment, _)| fragment)),
+            ("G", self.g.map(|(fragment, _)| fragment)),
             ("M", self.m.map(|(fragment, _)| fragment)),
             ("C", self.c),
         ];
@@ -33,7 +34,7 @@ impl<const C: usize> Shade<C> {
         view.wire(|| "loading".to_owned());
         view.table("stages", &["fragment"], false);
         for (name, stage) in &stages {
-            if *name == "M" && !self.multiplies {
+            if (*name == "M" && !self.multiplies) || (*name == "G" && !self.weakens) {
                 continue;
             }
             let values =

@@ -3,7 +3,7 @@
 use edgewalk_machine::Plan;
 use edgewalk_netlist::{Module, Signal};
 
-use crate::cut::cut;
+use crate::place::place;
 use crate::wires::Part;
 
 /// 1.0 in products and cosines is 2^16.
@@ -24,20 +24,5 @@ pub(super) fn cosine<'m>(
     // Below 2^34 in magnitude, so a half more overflows nothing.
     let rounded = exact + m.lit(exact.width(), 1 << (ONE - 1));
     let c = rounded.slice(rounded.width() - 1, ONE).named_doc(&format!("c_{name}"), "the cosine, 2^-16");
-    let placed = match gloss {
-        None => c,
-        Some(gloss) => {
-            let most = plan.shade.gloss_bits;
-            let width = c.width() + 1 + most;
-            let one = m.lit(width, 1 << ONE);
-            let below_one = c.sext(width) - one;
-            // A material's gloss is at most the machine's.
-            let bits = (most + 1).next_power_of_two().ilog2();
-            let scaled = if most == 0 { below_one } else { below_one.shl_by(gloss.trunc(bits)) };
-            (scaled + one).named_doc(&format!("scaled_{name}"), "2^gloss times as far from 1.0, 2^-16")
-        }
-    };
-    let index = placed.slice(placed.width() - 1, ONE - plan.shade.table_bits);
-    let index = index.named_doc(&format!("index_{name}"), "in entries");
-    cut(m, name, index, part.width)
+    place(m, plan, part, c, gloss)
 }

@@ -4,6 +4,7 @@ use super::blend::{BlendStatus, ColorPorts};
 use super::bump::BumpPorts;
 use super::depth::{DepthStatus, MemoryPorts};
 use super::edge::EdgePorts;
+use super::lamp::LampPorts;
 use super::link::{Giver, Scope};
 use super::normal::{self, NormalPorts};
 use super::pixel::PixelPorts;
@@ -53,6 +54,7 @@ struct Inside<const C: usize> {
     texel: Option<TexelPorts<C>>,
     bump: Option<BumpPorts<C>>,
     normal: Option<NormalPorts<C>>,
+    lamp: Option<LampPorts<C>>,
     shade: Option<ShadePorts<C>>,
     project: Option<ProjectPorts<C>>,
     shadow: Option<ShadowPorts<C>>,
@@ -97,7 +99,8 @@ impl<const C: usize> Inside<C> {
             pixel: PixelPorts::find(of("pixel"))?,
             texel: plan.shade.textures().then(|| TexelPorts::find(of("texel"))).transpose()?,
             bump: plan.shade.bumps().then(|| BumpPorts::find(of("bump"))).transpose()?,
-            normal: plan.shade.normalises().then(|| NormalPorts::find(of("normal"))).transpose()?,
+            normal: plan.shade.has_normal().then(|| NormalPorts::find(of("normal"))).transpose()?,
+            lamp: plan.shade.is_positional().then(|| LampPorts::find(of("lamp"))).transpose()?,
             shade: plan.shade.is_there().then(|| ShadePorts::find(of("shade"))).transpose()?,
             project: plan.shadow.projects().then(|| ProjectPorts::find(of("project"))).transpose()?,
             shadow: plan.shadow.is_there().then(|| ShadowPorts::find(of("shadow"))).transpose()?,
@@ -133,6 +136,9 @@ impl<const C: usize> Inside<C> {
             shown.show(unit, readies.bumped, ports);
         }
         if let (Some(shown), Some(unit)) = (&self.normal, units.normal) {
+            shown.show(unit, parts(&offered.bumped).0, readies.normed, ports);
+        }
+        if let (Some(shown), Some(unit)) = (&self.lamp, units.lamp) {
             shown.show(unit, parts(&offered.bumped).0, readies.normed, ports);
         }
         if let (Some(shown), Some(unit)) = (&self.shade, units.shade) {

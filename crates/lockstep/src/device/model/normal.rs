@@ -48,7 +48,7 @@ impl<const C: usize> NormalPorts<C> {
     }
 }
 
-/// The memory's ports as NORMAL sees them.
+/// The memory's ports as NORMAL sees them, and LAMP.
 pub fn inputs(memory: &WordPorts, ports: &PortValues) -> NormalInputs {
     let (rrd_ready, rdata) = memory.inputs(ports);
     NormalInputs { rrd_ready, rdata }

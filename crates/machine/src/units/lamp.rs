@@ -1,0 +1,67 @@
+//! LAMP: from products with the way to a light at a point to cosines, and what is left of the light.
+
+use super::tokens;
+use crate::field::Field;
+use crate::link::{Link, MemoryPort, Status};
+use crate::machine::Machine;
+use crate::plan::Plan;
+use crate::unit::{Event, Ports, UnitSpec};
+
+/// What LAMP declares.
+pub const SPEC: UnitSpec = UnitSpec {
+    name: "lamp",
+    purpose: "finds the cosines of a light at a point, and how much of it comes",
+    section: 17,
+    present: there,
+    wants: |_: &Machine| Vec::new(),
+    ports,
+    events: EVENTS,
+};
+
+fn there(plan: &Plan) -> bool {
+    plan.shade.is_positional()
+}
+
+fn ports(plan: &Plan) -> Ports {
+    Ports {
+        takes: Some(Link::new("frag", tokens::bumped(plan))),
+        gives: Some(Link::new("normed", tokens::cosines(plan))),
+        memory: vec![MemoryPort {
+            name: "roots",
+            read: Link::new("rrd", vec![Field::count("addr", 10, "R, then C from 256, A from 512 on")]),
+            data: Link::new(
+                "rdata",
+                vec![Field::count("word", plan.root_word_bits(), "v of 17 bits, slope of 16")],
+            ),
+            write: "",
+            word: "",
+            enable: None,
+            latency: plan.shade.root_latency,
+        }],
+        status: vec![
+            Status::new("table_wait", "a fragment waits for the tables"),
+            Status::new("working", "a fragment is inside that is not done"),
+            Status::new("occupied", "a fragment is inside"),
+        ],
+        ..Ports::default()
+    }
+}
+
+const EVENTS: &[Event] = &[
+    Event { name: "lamp_read", doc: "times that the tables of the light were fetched", can_happen: there },
+    Event { name: "lamp_read_stall", doc: "cycles in which a read waits for them", can_happen: there },
+    Event {
+        name: "lamp_near",
+        doc: "fragments less than half as far as the unit of the ways",
+        can_happen: there,
+    },
+    Event { name: "lamp_beside", doc: "fragments outside the light's cone", can_happen: there },
+    Event { name: "lamp_short", doc: "roots of less than the tables reach down to", can_happen: there },
+    Event { name: "lamp_cut", doc: "numbers cut at the end of their bits", can_happen: there },
+    Event {
+        name: "lamp_wait",
+        doc: "cycles in which a fragment waits until another is done",
+        can_happen: there,
+    },
+    Event { name: "lamp_stall", doc: "cycles in which a fragment that is done waits", can_happen: there },
+];

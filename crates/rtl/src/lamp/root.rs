@@ -1,0 +1,35 @@
+//! The number that a root is taken of: its exponent, and what is left of it.
+
+use edgewalk_netlist::{Module, Signal};
+
+/// x = m·4^-k, 2^-16.
+pub(super) struct Root<'m> {
+    /// Of the root that was begun last.
+    pub k: Signal<'m>,
+    pub m: Signal<'m>,
+    /// The entry of table R of the root that is begun.
+    pub entry: Signal<'m>,
+}
+
+impl<'m> Root<'m> {
+    /// `rooting`: the root of `x`, 32 bits, signed, 2^-30, is begun.
+    pub fn new(m: &'m Module, rooting: Signal<'m>, x: Signal<'m>) -> Root<'m> {
+        m.comment("The exponent: by how many pairs of zeros x begins, at most seven.");
+        let ones = m.lit(30, (1 << 30) - 1);
+        let within = x.msb().mux(0, x.slice(30, 30).mux(ones, x.trunc(30)));
+        let mut rest = within.named_doc("below_one", "x from 0 to below 1");
+        let mut digits = Vec::new();
+        for shift in [8, 4, 2] {
+            let small = (!rest.slice(29, 30 - shift).any()).named(&format!("small_{shift}"));
+            let moved = m.cat(&[rest.trunc(30 - shift), m.lit(shift, 0)]);
+            rest = small.mux(moved, rest).named(&format!("moved_{shift}"));
+            digits.push(small);
+        }
+        let left = rest.slice(29, 14);
+        let left = left.slice(15, 14).any().mux(left, m.lit(16, 1 << 14));
+        let left = left.named_doc("left", "1/4 to below 1, 2^-16");
+        let k = m.reg("k", 3).doc("of the root").when(rooting, m.cat(&digits)).q();
+        let of_root = m.reg("m", 16).doc("of the root, 2^-16").when(rooting, left).q();
+        Root { k, m: of_root, entry: left.slice(15, 8) }
+    }
+}
