@@ -41,6 +41,7 @@ mod sweep;
 mod synth;
 mod texels;
 mod reliefs;
+mod lamps;
 mod threads;
 mod trace;
 mod vectors;

@@ -15,6 +15,7 @@ const DRAWN: &[(&str, &[&str])] = &[
     ("fast-phong.toml", &["--shading", "fast-phong", "--fit", "six-point"]),
     ("texture-and-relief.toml", &["--shading", "phong"]),
     ("relief.toml", &["--shading", "phong"]),
+    ("lamp.toml", &["--shading", "phong"]),
     ("averaged-normals.toml", &["--shading", "gouraud"]),
     ("silhouette.toml", &["--shading", "constant-averaged"]),
     ("missed-highlight.toml", &["--shading", "constant"]),

@@ -15,6 +15,7 @@ mod systems;
 mod fast_phong;
 mod texture;
 mod relief;
+mod lamp;
 mod shadows;
 mod glass;
 mod mach_bands;
@@ -31,7 +32,7 @@ pub use exhibit::{Exhibit, Image, View};
 pub type Maker = fn() -> anyhow::Result<Exhibit>;
 
 /// All of them, in the order in which they are shown, by the names of their files.
-pub const EXHIBITS: [(&str, Maker); 16] = [
+pub const EXHIBITS: [(&str, Maker); 17] = [
     ("worked-example", || Ok(worked_example::worked_example())),
     ("polygons", polygons::polygons),
     ("lights", lights::lights),
@@ -39,6 +40,7 @@ pub const EXHIBITS: [(&str, Maker); 16] = [
     ("fast-phong", fast_phong::fast_phong),
     ("texture", texture::texture),
     ("relief", relief::relief),
+    ("lamp", lamp::lamp),
     ("shadows", shadows::shadows),
     ("glass", glass::glass),
     ("mach-bands", mach_bands::mach_bands),

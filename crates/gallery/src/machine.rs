@@ -1,4 +1,4 @@
-//! What a machine with TERM and SHADE, of textures TEXEL, of reliefs BUMP, makes of an exhibit's scene, beside golden's fast Phong, or
+//! What a machine with TERM and SHADE, of textures TEXEL, of reliefs BUMP, of a light at a point LAMP, makes of an exhibit's scene, beside golden's fast Phong, or
 //! Phong, of the same triangles.
 
 use crate::exhibit::{GUARD, HEIGHT, View, WIDTH, figure};
@@ -9,7 +9,7 @@ use edgewalk_explore::port::to_port;
 use edgewalk_explore::shade::Shaded;
 use edgewalk_machine::Machine;
 use edgewalk_model::Waits;
-use edgewalk_scene::{PixelMethod, Scene};
+use edgewalk_scene::{Light, PixelMethod, Scene};
 
 /// Error shown as white, LSB.
 const WHITE: f64 = 4.0;
@@ -24,7 +24,8 @@ pub(crate) struct Beside {
 }
 
 impl Beside {
-    /// Draws the scene with tables of 1024 entries; with TEXEL where it has nearest texels, with BUMP where one is a relief.
+    /// Draws the scene with tables of 1024 entries; with TEXEL where it has nearest texels, with BUMP where one is a relief, with
+    /// LAMP where Phong has a light at a point.
     ///
     /// # Errors
     /// What of the scene such a machine cannot take.
@@ -38,6 +39,9 @@ impl Beside {
         let bumped =
             frame.shading.as_ref().is_some_and(|of| of.materials.iter().any(|one| one.bump.is_some()));
         let relief: &[(&str, &str)] = if bumped { &[("texture.bump", "yes")] } else { &[] };
+        let at_a_point = |light: &Light| !matches!(light, Light::Directional { .. });
+        let positional = method == PixelMethod::Phong && scene.lights.iter().any(at_a_point);
+        let light: &[(&str, &str)] = if positional { &[("shade.light", "positional")] } else { &[] };
         for (key, value) in [
             ("shade.kind", method.name()),
             ("shade.table_bits", "10"),
@@ -47,6 +51,7 @@ impl Beside {
         .iter()
         .chain(texture)
         .chain(relief)
+        .chain(light)
         {
             keys.set(key, value).map_err(|e| anyhow!("{e}"))?;
         }

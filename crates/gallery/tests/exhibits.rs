@@ -178,3 +178,11 @@ fn the_machine_turns_normals_as_golden_does() {
         assert!(of("pixels that look up") > 10_000.0 && of("not explained") == 0.0);
     }
 }
+
+#[test]
+fn the_machine_shades_under_a_light_at_a_point_as_golden_does() {
+    let lamp = exhibit("lamp");
+    let of = |quantity: &str| figure(&lamp, &format!("machine, Phong: {quantity}"));
+    let (error, bound) = (of("largest error against"), of("proved bound"));
+    assert!(error > 0.5 && error <= bound && bound < 16.0, "{error} {bound}");
+}

@@ -10,9 +10,10 @@ use edgewalk_model::longest_setup;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// How many machines are drawn, how many more with BUMP, and about how many triangles on each.
+/// How many machines are drawn, how many more with BUMP and with LAMP, and about how many triangles on each.
 const MACHINES: [usize; 2] = [120, 400];
 const RELIEFS: [usize; 2] = [24, 300];
+const LAMPS: [usize; 2] = [24, 300];
 const TRIANGLES: u64 = 100;
 
 /// What random triangles may not meet, and [`colours_on_one_pixel`] does.
@@ -44,7 +45,10 @@ fn random_case(plan: &Plan, rng: &mut Pcg64Mcg) -> Case {
     let interface = Interface::new(plan, Unit::MACHINE);
     case.unwilling = interface.waits().map(|link| (link.to_owned(), share(rng))).collect();
     // Tables come in hundreds of words: they are not kept waiting for long.
-    for (_, share) in case.unwilling.iter_mut().filter(|(link, _)| ["srd", "sdata"].contains(&link.as_str()))
+    for (_, share) in case
+        .unwilling
+        .iter_mut()
+        .filter(|(link, _)| ["srd", "sdata", "rrd", "rdata"].contains(&link.as_str()))
     {
         *share %= 60;
     }
@@ -129,6 +133,22 @@ fn whole_reliefs(count: usize) {
     assert_eq!(unmet, [""; 0], "not met");
 }
 
+/// So many machines with LAMP.
+fn whole_lamps(count: usize) {
+    let mut rng = Pcg64Mcg::seed_from_u64(17);
+    let drawn = std::iter::repeat_with(|| random_machine(&mut rng));
+    let machines: Vec<Plan> = drawn.filter(|plan| plan.shade.is_positional()).take(count).collect();
+    let all = compared(&machines);
+    let textured = machines.iter().filter(|plan| plan.shade.textures()).count();
+    println!("{count} machines with LAMP, {textured} of them with TEXEL");
+    report(&all);
+    assert!(textured * 4 > count && textured * 4 < 3 * count, "{textured}");
+    let possible = machines.iter().flat_map(|plan| Unit::of(&units::lamp::SPEC).events(plan));
+    let missing = all.events.missing();
+    let unmet: Vec<_> = possible.map(|event| event.name).filter(|event| missing.contains(event)).collect();
+    assert_eq!(unmet, [""; 0], "not met");
+}
+
 /// The machines, on two threads.
 fn compared(machines: &[Plan]) -> Checked {
     let shares = shares(machines);
@@ -166,6 +186,11 @@ fn machines_with_a_relief() {
     whole_reliefs(RELIEFS[0]);
 }
 
+#[test]
+fn machines_with_a_light_at_a_point() {
+    whole_lamps(LAMPS[0]);
+}
+
 /// A campaign: `cargo test --release -p edgewalk-lockstep whole:: -- --ignored --nocapture`.
 #[test]
 #[ignore = "minutes"]
@@ -178,6 +203,13 @@ fn many_machines_drawn_at_random() {
 #[ignore = "minutes"]
 fn many_machines_with_a_relief() {
     whole_reliefs(RELIEFS[1]);
+}
+
+/// Another: `cargo test --release -p edgewalk-lockstep whole::many_machines_with_a_light -- --ignored --nocapture`.
+#[test]
+#[ignore = "minutes"]
+fn many_machines_with_a_light_at_a_point() {
+    whole_lamps(LAMPS[1]);
 }
 
 /// Triangles of one pixel on one address, right behind others that end there: what the in-flight queue must get right.

@@ -179,6 +179,7 @@ fn registers_of_the_model_are_those_of_the_netlist() {
             ("texture.bump", "yes"),
             ("term.record_bits", "4"),
         ],
+        &[("shade.kind", "phong"), ("shade.light", "positional"), ("term.record_bits", "4")],
     ];
     let mut compared = BTreeMap::<String, u64>::new();
     for (number, settings) in settings.iter().enumerate() {

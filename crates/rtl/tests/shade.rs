@@ -67,7 +67,11 @@ fn colours(plan: &Plan, tables: &[u128], fragment: &Fields) -> [u128; 3] {
             }
             ShadeColour::Multiply => diffuse[0] += told,
         }
-        highlights += if below >= 0 { tables[base + entry(above)] & most } else { 0 };
+        let own = if below >= 0 { tables[base + entry(above)] & most } else { 0 };
+        highlights += match plan.shade.is_positional() {
+            true => ((own * field(fragment, "beam") + (1 << 15)) >> 16).min(most),
+            false => own,
+        };
     }
     let triangle = ["r", "g", "b"].map(|name| field(fragment, name));
     [0, 1, 2].map(|i| {
@@ -119,7 +123,8 @@ fn colours_are_those_of_the_definition_in_the_clocks_that_are_said() {
         let mut reads: VecDeque<(u64, u128)> = VecDeque::new();
         let mut inside: VecDeque<(u64, Fields)> = VecDeque::new();
         let (mut current, mut material, mut cycle, mut sent) = (None, 0, 0, 0);
-        let stages = if plan.shade.colour == ShadeColour::Multiply { 4 } else { 3 };
+        let stages =
+            3 + u64::from(plan.shade.colour == ShadeColour::Multiply) + u64::from(plan.shade.is_positional());
         let mut offered = fragment(&plan, material, &mut rng);
         // Since when the fragment is offered, and the stages are empty.
         let (mut since, mut empty) = (0, 0);

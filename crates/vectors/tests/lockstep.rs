@@ -90,7 +90,7 @@ fn every_suite_of_shadow() {
     assert!(compared.iter().all(|compared| *compared > 100_000), "{compared:?}");
 }
 
-/// TERM, TEXEL, BUMP, NORMAL and SHADE, their directed suite and those of hazards; the whole machine, whose lock-step takes the longest, once each.
+/// TERM, TEXEL, BUMP, NORMAL, LAMP and SHADE, their directed suite and those of hazards; the whole machine, whose lock-step takes the longest, once each.
 #[test]
 fn every_suite_of_shade() {
     let machines = common::shades();
@@ -103,7 +103,7 @@ fn every_suite_of_shade() {
                 true => j == 0 || i % 3 + 1 == j,
                 false => {
                     let own = [common::TERM, common::PIXEL, common::TEXEL, common::BUMP, common::NORMAL];
-                    own.contains(unit) || *unit == common::SHADE
+                    own.contains(unit) || [common::LAMP, common::SHADE].contains(unit)
                 }
             };
             for unit in Unit::all(machine).into_iter().filter(in_turn) {

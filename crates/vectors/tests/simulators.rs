@@ -270,7 +270,15 @@ fn machines_with_shade(
         };
         let whole = of(Unit::MACHINE, StallKind::ALL[(i + 1) % 3]);
         let mut checked: u64 = simulators(i).iter().map(|simulator| passes(*simulator, &whole)).sum();
-        let own = [common::TERM, common::PIXEL, common::TEXEL, common::BUMP, common::NORMAL, common::SHADE];
+        let own = [
+            common::TERM,
+            common::PIXEL,
+            common::TEXEL,
+            common::BUMP,
+            common::NORMAL,
+            common::LAMP,
+            common::SHADE,
+        ];
         for (j, unit) in own.into_iter().filter(|unit| Unit::all(machine).contains(unit)).enumerate() {
             checked += passes(Simulator::Icarus, &of(unit, StallKind::ALL[(i + j) % 3]));
         }

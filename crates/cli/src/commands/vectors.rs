@@ -35,7 +35,7 @@ pub struct Args {
     /// color_unwritten, with SHADOW light and light_off, own_map and own_picture where it draws its map, with SHADE shade; without an input all of them if left out
     #[arg(long, value_name = "NAME")]
     suite: Vec<String>,
-    /// Units: machine, setup, edge, span, term, pixel, texel, bump, normal, shade, project, shadow, depth, blend; all that a suite is for if left out
+    /// Units: machine, setup, edge, span, term, pixel, texel, bump, normal, lamp, shade, project, shadow, depth, blend; all that a suite is for if left out
     #[arg(long, value_name = "NAME", value_parser = unit)]
     unit: Vec<Unit>,
     /// How the bench makes the design wait: none, mixed, late; what suits each suite if left out

@@ -3,8 +3,8 @@
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{
-    BlendKind, Bump, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeColour, ShadeLight, ShadowLight,
-    Texture, Transmits,
+    BlendKind, Fill, MAX_CHANNELS, Machine, Plan, Precision, ShadeColour, ShadeLight, ShadowLight, Texture,
+    Transmits,
 };
 use rand::Rng;
 use rand::seq::IndexedRandom;
@@ -48,8 +48,11 @@ fn draw(rng: &mut Pcg64Mcg) -> Machine {
     if machine.shade.texture != Texture::None {
         machine.shade.colour = ShadeColour::Multiply; // tables have no colour to multiply
     }
-    if machine.shade.light == ShadeLight::Positional {
-        (machine.shade.lights, machine.shade.bump) = (1, Bump::No); // LAMP has one light, and no relief
+    if machine.shade.bumps() {
+        machine.shade.light = ShadeLight::Directional; // LAMP takes no relief
+    }
+    if machine.shade.is_positional() {
+        machine.shade.lights = 1;
         machine.shade.fraction = machine.shade.fraction.min(32);
         machine.shade.linear_fraction = machine.shade.linear_fraction.min(39);
     }

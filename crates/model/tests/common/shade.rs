@@ -37,9 +37,12 @@ pub fn output(term: &Term, word: u64) -> i64 {
 }
 
 /// The cosines that SHADE sees, of the outputs of the terms: these, or with BUMP those of a turned normal, or with NORMAL by its
-/// table, in plain numbers.
+/// table, or with LAMP by its tables, and then what is left of the light; in plain numbers.
 pub fn cosines(plan: &Plan, words: &Shading, record: &Record, outputs: &[i64]) -> Vec<i64> {
     let roots = &words.roots;
+    if plan.shade.is_positional() {
+        return lamp(plan, roots, record, outputs);
+    }
     let outputs = &turned(plan, &words.textures, record.material, outputs);
     let Some((square, products)) = outputs.split_last().filter(|_| plan.shade.normalises()) else {
         return outputs.clone();
@@ -57,6 +60,45 @@ pub fn cosines(plan: &Plan, words: &Shading, record: &Record, outputs: &[i64]) -
         scaled.div_euclid(1 << (16 - t)).max(-half).min(half - 1)
     };
     products.iter().enumerate().map(index).collect()
+}
+
+/// Section 17.
+fn lamp(plan: &Plan, words: &[u128], record: &Record, outputs: &[i64]) -> Vec<i64> {
+    let cut = |x: i64| x.max(-131_072).min(131_071);
+    let look = |place: i64, low: i64| {
+        let word = words[place as usize];
+        let (v, slope) = ((word / 65536 % 131_072) as i64, (word % 65536) as i64);
+        (v - (slope * low + 512).div_euclid(1024)).rem_euclid(131_072)
+    };
+    let times = |a: i64, b: i64| cut((a * b + 32768).div_euclid(65536));
+    let near = |p: i64, k: u32| cut((p * 2i64.pow(k) + 64).div_euclid(128));
+    let root = |x: i64| {
+        let x = x.max(0).min((1 << 30) - 1);
+        let k = (0..=7).filter(|k| x * 4i64.pow(*k) < 1 << 30).max().unwrap_or(0);
+        let m = (x * 4i64.pow(k)).div_euclid(1 << 14).max(1 << 14);
+        (k, m, look(m / 256, 4 * (m % 256)))
+    };
+    let [dd, pl, dv, da, pv, nn] = [0, 1, 2, 3, 4, 5].map(|place| outputs[place]);
+    let (k, m, y) = root(dd);
+    let a = look(512 + 64 * i64::from(k) + m / 1024, m % 1024);
+    let [toward, w, c] = [pl, dv, da].map(|p| times(near(p, k), y));
+    let (k, _, y) = root(nn * 16384);
+    let (d, e) = (times(near(toward * 128, k), y), times(near(pv, k), y));
+    let z = 65536 - c;
+    let within = z.max(0).min(65535);
+    let edge = (words[0] / 65536 % 131_072) as i64;
+    let f = if z > edge { 0 } else { look(256 + within / 256, 4 * (within % 256)) };
+    let beam = times(a, f);
+    let (k, _, y) = root((65536 + w) * 8192);
+    let h = times(near((d + e) * 64, k), y);
+    let t = plan.shade.table_bits;
+    let end = |number: i64, bits: u32| number.max(-(1 << (bits - 1))).min((1 << (bits - 1)) - 1);
+    let highlight = ((h - 65536) * 2i64.pow(record.gloss) + 65536).div_euclid(1 << (16 - t));
+    vec![
+        end((d * beam).div_euclid(1 << (32 - t)), t + 2),
+        end(highlight, t + plan.shade.gloss_bits + 2),
+        beam,
+    ]
 }
 
 /// The cosines, and with NORMAL N·N, that are left of the outputs of the terms once the slopes of the texel have turned the normal.
@@ -143,7 +185,8 @@ pub fn colour(plan: &Plan, tables: &[u128], material: u32, cosines: &[i64], own:
     let max = (1u128 << b) - 1;
     let index = |cosine: i64| cosine.max(0).min(end - 1) as u32;
     let (mut light, mut highlight) = ([0u128; 3], 0);
-    for (l, pair) in (0..).zip(cosines.chunks(2)) {
+    let (of_lights, beam) = cosines.split_at(2 * plan.shade.lights as usize);
+    for (l, pair) in (0..).zip(of_lights.chunks(2)) {
         let at = |cosine| tables[plan.table_place(material, l, index(cosine))];
         let diffuse = at(pair[0]) >> b;
         for (place, light) in (0..3u32).rev().zip(&mut light) {
@@ -152,7 +195,9 @@ pub fn colour(plan: &Plan, tables: &[u128], material: u32, cosines: &[i64], own:
                 ShadeColour::Multiply => diffuse,
             };
         }
-        highlight += if pair[0] < 0 { 0 } else { at(pair[1]) & max };
+        let own = if pair[0] < 0 { 0 } else { at(pair[1]) & max };
+        // To nearest, half up; of LAMP's light.
+        highlight += beam.first().map_or(own, |beam| ((2 * own * *beam as u128 + 65536) / 131_072).min(max));
     }
     let one = 4u128 << b;
     std::array::from_fn(|i| {
@@ -177,7 +222,7 @@ pub fn random_shading(plan: &Plan, triangles: &[Triangle], rng: &mut impl Rng) -
             }
         }
     }
-    let roots = (0..256).map(|_| plan.root_word(rng.random(), rng.random())).collect();
+    let roots = (0..plan.root_words()).map(|_| plan.root_word(rng.random(), rng.random())).collect();
     let texels = if plan.shade.textures() { plan.texel_place(materials, 0, 0) } else { 0 };
     let colour = |rng: &mut _| [(); 3].map(|()| Rng::random(rng));
     let textures =

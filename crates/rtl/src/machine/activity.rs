@@ -23,7 +23,11 @@ pub(super) fn activity<'m>(m: &'m Module, units: &Joined<'m>) -> Signal<'m> {
     let light = own_doing("shadow_full", "shaded");
     let waits = light.map_or(waits, |light| light.mux(cause(Activity::Light), waits));
     let waits = units.find("dividing").map_or(waits, |no| no.mux(cause(Activity::Project), waits));
-    let waits = units.find("table_wait").map_or(waits, |no| no.mux(cause(Activity::Shade), waits));
+    let shading = ["table_wait", "working"]
+        .into_iter()
+        .filter_map(|told| units.find(told))
+        .reduce(|any, one| any | one);
+    let waits = shading.map_or(waits, |no| no.mux(cause(Activity::Shade), waits));
     let texel = own_doing("texel_full", "textured");
     let waits = texel.map_or(waits, |texel| texel.mux(cause(Activity::Texel), waits));
     let lower = in_flight.mux(flush, idle);

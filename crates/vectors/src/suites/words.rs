@@ -1,4 +1,4 @@
-//! What the memories hold that nobody writes: a light's map, and the records, tables, roots and texels behind TERM, SHADE, NORMAL and
+//! What the memories hold that nobody writes: a light's map, and the records, tables, roots and texels behind TERM, SHADE, NORMAL or LAMP and
 //! TEXEL. Records start around the ends of the tables; tables, roots and texels are random, so that no error of the arithmetic is
 //! small by chance.
 
@@ -41,7 +41,7 @@ pub(super) fn with_records(machine: &Plan, seed: u64, records: &[Record]) -> Wor
         let most = match memory.name {
             "tables" => of_materials(1 << machine.shade.entry_bits()),
             "textures" => of_materials(1 << (2 * machine.shade.texture_bits)),
-            "roots" => 256,
+            "roots" => machine.root_words() as usize,
             _ => continue,
         };
         let mut all = words_at_start(machine, &memory, &mut random)[..most].to_vec();
@@ -114,7 +114,11 @@ pub(super) fn ends(machine: &Plan, term: &Term) -> Vec<i128> {
         "t" => vec![0, 0x1_0000, largest],
         "n" if term.name == "nn" => vec![0x4000, 0x1_0000],
         "n" => vec![0, one],
+        "p" if term.bits == 25 => vec![-(1 << 23), 0, 1 << 23],
         "p" => vec![0, 0x1_0000],
+        // LAMP: each exponent of the way, products around 0, the axis.
+        "d" if term.name == "dd" => vec![0, 1 << 16, 1 << 20, 1 << 24, 1 << 28, 1 << 30],
+        "d" => vec![-(1 << 23), 0, 1 << 23],
         // A texture begins anew.
         _ => vec![0, (1 << term.bits) - 1],
     }

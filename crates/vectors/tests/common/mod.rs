@@ -5,7 +5,7 @@ use edgewalk_lockstep::{Agreement, Interface, LockstepError, NetlistDevice, Port
 use edgewalk_machine::units;
 use edgewalk_machine::{
     Blend, BlendKind, Bump, EdgeKind, Fill, Gate, Hazard, Kind, Machine, OwnPass, Plan, Precision, Project,
-    Shade, ShadeColour, ShadeKind, Shadow, ShadowLight, Texture, Transmits, Walk,
+    Shade, ShadeColour, ShadeKind, ShadeLight, Shadow, ShadowLight, Texture, Transmits, Walk,
 };
 use edgewalk_netlist::Netlist;
 use edgewalk_vectors::{Files, Trace, Unit};
@@ -74,6 +74,7 @@ pub const PIXEL: Unit = Unit::of(&units::pixel::SPEC);
 pub const TEXEL: Unit = Unit::of(&units::texel::SPEC);
 pub const BUMP: Unit = Unit::of(&units::bump::SPEC);
 pub const NORMAL: Unit = Unit::of(&units::normal::SPEC);
+pub const LAMP: Unit = Unit::of(&units::lamp::SPEC);
 pub const SHADE: Unit = Unit::of(&units::shade::SPEC);
 pub const DEPTH: Unit = Unit::of(&units::depth::SPEC);
 pub const PROJECT: Unit = Unit::of(&units::project::SPEC);
@@ -199,6 +200,10 @@ pub fn glass() -> Vec<(&'static str, Plan)> {
 pub fn lights() -> Vec<(&'static str, Plan)> {
     let small = Machine::clone(&small());
     let light = |[size, guard_bits, depth_bits]: [u32; 3], gate, [queue, latency]: [u32; 2]| {
+        let lamp = |machine: Machine| {
+            let shade = Shade { light: ShadeLight::Positional, ..machine.shade };
+            Machine { shade, ..machine }
+        };
         let light = Shadow { light: ShadowLight::Parallel, fraction: 8, vertex_fraction: 2, ..small.shadow };
         let shadow = Shadow { size, guard_bits, depth_bits, gate, queue, latency, ..light };
         Machine { shadow, ..small.clone() }
@@ -271,8 +276,8 @@ pub fn lights() -> Vec<(&'static str, Plan)> {
     list.into_iter().map(|(name, machine)| (name, checked(machine))).collect()
 }
 
-/// Eight machines with TERM and SHADE: fast Phong and Phong, both walks, colours from tables and multiplied, one light and two, materials,
-/// textures, reliefs, latencies; with BLEND, SHADOW, channels of the user's own, segments, textbook fill.
+/// Nine machines with TERM and SHADE: fast Phong and Phong, both walks, colours from tables and multiplied, one light and two, materials,
+/// textures, reliefs, a light at a point, latencies; with BLEND, SHADOW, channels of the user's own, segments, textbook fill.
 pub fn shades() -> Vec<(&'static str, Plan)> {
     use ShadeColour::{Multiply, Tables};
     use ShadeKind::{FastPhong, Phong};
@@ -332,6 +337,7 @@ pub fn shades() -> Vec<(&'static str, Plan)> {
                 ..textured(1, 1, shade(FastPhong, Register, Multiply, [2, 1, 2, 4]))
             },
         ),
+        ("phong_lamp_multiply_texture", lamp(textured(2, 2, shade(Phong, Register, Multiply, [1, 1, 3, 2])))),
     ];
     list.into_iter().map(|(name, machine)| (name, checked(machine))).collect()
 }

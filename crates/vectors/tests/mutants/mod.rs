@@ -287,7 +287,7 @@ fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
                 any.map(|(stalls, seed)| any_fragments(machine, &traces[1], stalls, seed)).collect();
             traces.extend(any);
         }
-        "term" | "texel" | "bump" | "normal" | "shade" | "project" => {
+        "term" | "texel" | "bump" | "normal" | "lamp" | "shade" | "project" => {
             let own = if unit == common::PROJECT { "light" } else { "shade" };
             let suite = Suite::named(machine, own, 1, 24).expect("listed");
             // The directed words once, the rest at random: whole suites under every stall take long.

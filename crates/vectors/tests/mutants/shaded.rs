@@ -1,8 +1,8 @@
-//! What the mutants of TERM, TEXEL, BUMP, NORMAL, SHADE and PROJECT are tried with beside the suites: tokens as no other unit gives them.
+//! What the mutants of TERM, TEXEL, BUMP, NORMAL, LAMP, SHADE and PROJECT are tried with beside the suites: tokens as no other unit gives them.
 
 use crate::common;
 use edgewalk_machine::{
-    Bump, Machine, Plan, Project, Shade, ShadeColour, ShadeKind, ShadowLight, Texture, Walk,
+    Bump, Machine, Plan, Project, Shade, ShadeColour, ShadeKind, ShadeLight, ShadowLight, Texture, Walk,
 };
 use edgewalk_model::DrawState;
 use edgewalk_vectors::{StallKind, Trace, Unit, capture_tokens};
@@ -30,6 +30,10 @@ pub fn machines() -> Vec<(Plan, Unit)> {
         machine.shade.texture = Texture::Nearest;
         machine
     };
+    let lamp = |mut machine: Machine| {
+        machine.shade.light = ShadeLight::Positional;
+        machine
+    };
     use ShadeColour::{Multiply, Tables};
     use ShadeKind::{FastPhong, Phong};
     let fast = shade(FastPhong, Walk::Register, Tables, 1);
@@ -42,6 +46,7 @@ pub fn machines() -> Vec<(Plan, Unit)> {
         (relief(shade(FastPhong, Walk::Register, Multiply, 1)), common::BUMP),
         (relief(shade(Phong, Walk::Register, Multiply, 1)), common::BUMP),
         (shade(Phong, Walk::Register, Tables, 1), common::NORMAL),
+        (lamp(shade(Phong, Walk::Register, Tables, 1)), common::LAMP),
         (fast, common::SHADE),
         (shade(FastPhong, Walk::Register, Multiply, 2), common::SHADE),
     ];
@@ -84,6 +89,8 @@ pub fn any_tokens(machine: &Plan, of: &Trace, stalls: StallKind, seed: u64) -> T
                 "material" => i128::from(random.random_bool(0.05)),
                 "gloss" => random.random_range(0..=i128::from(machine.shade.gloss_bits)),
                 "nn" => beside(&[0x4000, 0x1_0000], &mut random),
+                "dd" => any >> random.random_range(34..64),
+                "pl" | "dv" | "da" | "pv" if random.random_bool(0.9) => any >> random.random_range(40..60),
                 "nl0" | "nh0" if machine.shade.bumps() => any,
                 "nl0" | "nh0" | "nl1" | "nh1" => match random.random() {
                     true => beside(&[0, 256, 1 << (bits - 1)], &mut random),
