@@ -148,7 +148,7 @@ fn random_triangle(plan: &Plan, rng: &mut impl Rng) -> [PortVertex; 3] {
 
 #[test]
 fn registers_of_the_model_are_those_of_the_netlist() {
-    let settings: [&[(&str, &str)]; 14] = [
+    let settings: [&[(&str, &str)]; 15] = [
         &[],
         &[("interpolator.adders", "1"), ("interpolator.segments", "2")],
         &[("memory.hazard", "drain"), ("memory.latency", "8"), ("fifo.inflight", "8")],
