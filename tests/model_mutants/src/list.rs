@@ -50,8 +50,8 @@ pub const MUTANTS: &[Mutant] = &[
     (
         "a column right of the screen is drawn",
         "pixel.rs",
-        "(self.x as u32) < self.width",
-        "(self.x as u32) <= self.width",
+        "(self.x as u32) < self.pass.width",
+        "(self.x as u32) <= self.pass.width",
     ),
     (
         "the gradient's sign on the wrong side",
