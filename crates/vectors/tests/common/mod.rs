@@ -200,10 +200,6 @@ pub fn glass() -> Vec<(&'static str, Plan)> {
 pub fn lights() -> Vec<(&'static str, Plan)> {
     let small = Machine::clone(&small());
     let light = |[size, guard_bits, depth_bits]: [u32; 3], gate, [queue, latency]: [u32; 2]| {
-        let lamp = |machine: Machine| {
-            let shade = Shade { light: ShadeLight::Positional, ..machine.shade };
-            Machine { shade, ..machine }
-        };
         let light = Shadow { light: ShadowLight::Parallel, fraction: 8, vertex_fraction: 2, ..small.shadow };
         let shadow = Shadow { size, guard_bits, depth_bits, gate, queue, latency, ..light };
         Machine { shadow, ..small.clone() }
@@ -299,6 +295,10 @@ pub fn shades() -> Vec<(&'static str, Plan)> {
     };
     let relief = |slope_bits, machine: Machine| {
         let shade = Shade { bump: Bump::Yes, slope_bits, ..machine.shade };
+        Machine { shade, ..machine }
+    };
+    let lamp = |machine: Machine| {
+        let shade = Shade { light: ShadeLight::Positional, ..machine.shade };
         Machine { shade, ..machine }
     };
     let light = Shadow { light: ShadowLight::Parallel, fraction: 8, vertex_fraction: 2, ..small.shadow };
