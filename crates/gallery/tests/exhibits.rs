@@ -174,7 +174,7 @@ fn the_machine_turns_normals_as_golden_does() {
     for who in ["machine, Phong", "machine"] {
         let of = |quantity: &str| figure(&relief, &format!("{who}: {quantity}"));
         let (error, bound) = (of("largest error against"), of("proved bound"));
-        assert!(error > 0.5 && error <= bound && bound < 12.0, "{who}: {error} {bound}");
+        assert!(error > 0.5 && error <= bound && bound < 16.0, "{who}: {error} {bound}");
         assert!(of("pixels that look up") > 10_000.0 && of("not explained") == 0.0);
     }
 }
