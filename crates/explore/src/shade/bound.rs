@@ -88,7 +88,7 @@ pub struct Shaded {
     pub bound: f64,
     /// The largest error over the bound of its triangle.
     pub of_bound: f64,
-    /// Pixels where a light is so near to the horizon that it may be above or below.
+    /// Pixels where a light is so near to the horizon that it may be above or below, or which lie next to the edge of its cone.
     pub at_horizon: u64,
     /// Of them those that show the other of the two.
     pub other_branch: u64,
