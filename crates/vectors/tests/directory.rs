@@ -116,7 +116,8 @@ fn directed_suites_reach_every_hazard_and_corner() {
 
 /// Every machine there is here, but of those with SHADE, whose tables take long to come, one with each kind of it.
 fn all() -> impl Iterator<Item = (&'static str, Plan)> {
-    let shades = common::shades().into_iter().skip(3).step_by(2).take(2).collect();
+    let shades = common::shades().into_iter().enumerate();
+    let shades = shades.filter(|(i, _)| [3, 5, 6, 8].contains(i)).map(|(_, machine)| machine).collect();
     let units = [common::glass(), common::lights(), shades];
     common::twelve().into_iter().chain(units.into_iter().flatten())
 }
