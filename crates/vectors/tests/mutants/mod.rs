@@ -54,7 +54,7 @@ fn single_faults_of_blend_are_found() {
 }
 
 #[test]
-#[ignore = "half an hour: each fault, every fortieth of SETUP"]
+#[ignore = "minutes: each fault, every fortieth of SETUP"]
 fn every_fault_is_found() {
     share_found(&machines(), |unit| if unit == common::SETUP { 40 } else { 1 }, LEAST);
 }
