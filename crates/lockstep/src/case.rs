@@ -17,6 +17,7 @@ use crate::stalls::{LENGTHS, Pattern};
 use crate::unit::Unit;
 use edgewalk_machine::Plan;
 use edgewalk_model::{DrawState, Events};
+use edgewalk_netlist::{Netlist, Simulate, Simulator};
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use std::collections::BTreeMap;
@@ -131,14 +132,25 @@ impl Case {
         }
     }
 
-    /// Runs model and netlist side by side.
+    /// Runs model and netlist side by side, the netlist in the interpreter.
     ///
     /// # Errors
     /// The first difference, or a machine that does not come to rest.
     pub fn run(&self) -> Result<Checked, LockstepError> {
+        self.run_by(Simulator::new)
+    }
+
+    /// The same, the netlist in another simulator.
+    ///
+    /// # Errors
+    /// The first difference, or a machine that does not come to rest.
+    pub fn run_by<S: Simulate>(
+        &self,
+        simulator: impl FnOnce(&Netlist) -> S,
+    ) -> Result<Checked, LockstepError> {
         let interface = self.interface();
         let netlist = netlist(&self.plan, self.unit)?;
-        let mut device = NetlistDevice::new(&netlist, &interface)?;
+        let mut device = NetlistDevice::run_by(simulator(&netlist), &netlist, &interface)?;
         device.disturb(self.disturbed);
         device.reset();
         let mut reference = model(&self.plan, &interface)?;

@@ -1,7 +1,7 @@
 //! Whole machines: the model against the netlist, every port of the machine and of every unit in it, every cycle, on
 //! machines and triangles drawn at random.
 
-use crate::common::fail::checked;
+use crate::common::fail::checked_compiled;
 use crate::common::machines::random_machine;
 use crate::common::triangles::{after_it, one_pixel, random_triangle};
 use edgewalk_lockstep::{Case, Checked, Interface, Triangles, Unit};
@@ -160,7 +160,7 @@ fn compared(machines: &[Plan]) -> Checked {
             let mut case = random_case(plan, &mut rng);
             case.tokens =
                 (0..*share).map(|k| port.pack(&random_triangle(plan, &mut rng), k as u32)).collect();
-            all.merge(&checked(&case));
+            all.merge(&checked_compiled(&case));
         }
         all
     };
@@ -237,7 +237,7 @@ fn hazards_on_one_pixel() {
         let case = Case { depth_write: true, resets: Vec::new(), ..random_case(&plan, &mut rng) };
         let mut case = Case { tokens, ..case };
         case.unwilling.remove("tri");
-        all.merge(&checked(&case));
+        all.merge(&checked_compiled(&case));
     }
     report(&all);
     let met = &all.events;
@@ -274,7 +274,7 @@ fn colours_on_one_pixel() {
                 case.unwilling.remove("tri");
                 // Writes that wait longer than SETUP takes keep colours in flight.
                 case.unwilling.insert("cwr".to_owned(), [0, 150, 240, 253][machines % 4]);
-                all.merge(&checked(&case));
+                all.merge(&checked_compiled(&case));
                 machines += 1;
             }
         }

@@ -4,15 +4,22 @@ use edgewalk_lockstep::{Case, Checked, LockstepError};
 
 /// What was checked, or the test's failure: the difference, and a file that shows it again.
 pub fn checked(case: &Case) -> Checked {
-    case.run().unwrap_or_else(|error| {
-        let small = shrunk(case.clone());
-        let told = small.run().err().map_or_else(String::new, |error| error.to_string());
-        panic!("{error}\nKeep this in crates/lockstep/cases, it shows: {told}\n{}", small.to_toml())
+    checked_by(case, Case::run)
+}
+
+/// The same for long runs: compiled, the netlist is many times as fast as in the interpreter, which tests of `jit` hold it against.
+pub fn checked_compiled(case: &Case) -> Checked {
+    checked_by(case, |case| {
+        case.run_by(|netlist| edgewalk_jit::Simulator::new(netlist).expect("a code generator for this host"))
     })
 }
 
-fn shrunk(case: Case) -> Case {
-    shrunk_with(case, |case| matches!(case.run(), Err(LockstepError::Differs { .. })))
+fn checked_by(case: &Case, run: impl Fn(&Case) -> Result<Checked, LockstepError>) -> Checked {
+    run(case).unwrap_or_else(|error| {
+        let small = shrunk_with(case.clone(), |case| matches!(run(case), Err(LockstepError::Differs { .. })));
+        let told = run(&small).err().map_or_else(String::new, |error| error.to_string());
+        panic!("{error}\nKeep this in crates/lockstep/cases, it shows: {told}\n{}", small.to_toml())
+    })
 }
 
 /// Without the tokens that it fails without, but for the first, which brings increments.
