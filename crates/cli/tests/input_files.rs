@@ -89,7 +89,7 @@ fn every_command_reads_its_file_once() {
         ("p.tri", TRIANGLE, &["render", "p.tri", "--engine", "golden"]),
         ("p.tri", TRIANGLE, &["explain", "p.tri", "10", "10"]),
         ("p.tri", TRIANGLE, &["trace", "p.tri", "--out", "t.vcd", "--cycles", "9"]),
-        ("p.tri", TRIANGLE, &["verify", "p.tri", "--no-simulators", "--triangles", "1"]),
+        ("p.tri", TRIANGLE, &["verify", "p.tri", "--no-simulators", "--triangles", "1", "--stalls", "none"]),
         ("p.tri", TRIANGLE, &["bench", "p.tri", "--engine", "fast", "--repeat", "1"]),
         ("p.obj", MESH, &["render", "p.obj"]),
         ("p.obj", MESH, &["render", "p.obj", "--engine", "golden", "--shading", "phong"]),

@@ -56,7 +56,10 @@ fn vectors_are_the_same_files_in_the_same_order() {
 
 #[test]
 fn verify_says_the_same() {
-    let arguments = ["verify", "sphere", "--triangles", "5", "--no-simulators", "--json"];
+    let run = "verify sphere --triangles 5 --no-simulators --json";
+    // A small machine, so that it takes seconds.
+    let machine = "--set screen.width=24 --set screen.height=20 --set screen.guard_bits=6";
+    let arguments: Vec<&str> = run.split(' ').chain(machine.split(' ')).collect();
     let text = edgewalk("1", &arguments);
     assert!(text.matches("\"checked\"").count() > 10, "{text}");
     assert_eq!(text, edgewalk("3", &arguments));
