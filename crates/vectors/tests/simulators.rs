@@ -94,14 +94,15 @@ fn twelve_machines(tools: impl Fn(usize) -> Tools + Sync) {
     });
     println!("{} machines, {} checked, {:.1?}", done.len(), done.iter().sum::<u64>(), start.elapsed());
     assert_eq!(done.len(), 12);
-    assert!(done.iter().all(|checked| *checked > 4000), "{done:?}");
+    let simulated = |i: &usize| !tools(*i).simulators.is_empty();
+    assert!((0..12).filter(simulated).all(|i| done[i] > 4000), "{done:?}");
 }
 
-/// Icarus and lint for all, Verilator, where building takes its time, for every sixth, synthesis for one.
+/// Lint for all, Icarus for every other, Verilator, where building takes its time, for every sixth, synthesis for one.
 #[test]
 fn twelve_machines_replay_and_are_clean() {
     twelve_machines(|i| Tools {
-        simulators: &Simulator::ALL[..1 + usize::from(i % 6 == 0)],
+        simulators: &Simulator::ALL[..usize::from(i % 2 == 0) + usize::from(i % 6 == 0)],
         synthesis: i == 0,
     });
 }
@@ -114,11 +115,12 @@ fn twelve_machines_in_every_tool() {
     twelve_machines(|_| Tools { simulators: &Simulator::ALL, synthesis: true });
 }
 
-/// Four of the machines with BLEND in Icarus, one in Verilator too; BLEND and DEPTH alone, mixing and adding.
+/// Two of the machines with BLEND in Icarus, one in Verilator too; BLEND and DEPTH alone, mixing and adding.
 #[test]
 fn machines_with_blend_replay_and_are_clean() {
-    let machines: Vec<_> = common::glass().into_iter().step_by(2).collect();
-    machines_with_blend(&machines, |i| &Simulator::ALL[..1 + usize::from(i == 1)]);
+    let machines: Vec<_> = common::glass().into_iter().skip(2).step_by(3).collect();
+    assert_eq!(machines.len(), 2);
+    machines_with_blend(&machines, |i| &Simulator::ALL[..1 + i]);
 }
 
 /// All of them, in both; not part of the test run.
@@ -152,17 +154,18 @@ fn machines_with_blend(machines: &[(&str, Plan)], simulators: impl Fn(usize) -> 
         println!("{name:54} {checked} checked, lint clean");
         checked
     });
-    assert!(done.len() >= 4 && done.iter().all(|checked| *checked > 4000), "{done:?}");
+    assert_eq!(done.len(), machines.len());
+    assert!(done.iter().all(|checked| *checked > 4000), "{done:?}");
 }
 
-/// Four of the machines with SHADOW in Icarus, one in Verilator too; SHADOW and PROJECT alone.
+/// Two of the machines with SHADOW in Icarus, one in Verilator too; SHADOW and PROJECT alone.
 #[test]
 fn machines_with_shadow_replay_and_are_clean() {
     let all = common::lights().into_iter().enumerate();
-    // Both gates, k_t and a map that transmits, PROJECT pipelined and serial.
-    let machines: Vec<_> =
-        all.filter(|(i, _)| [1, 3, 6, 7].contains(i)).map(|(_, machine)| machine).collect();
-    machines_with_shadow(&machines, |i| &Simulator::ALL[..1 + usize::from(i == 3)]);
+    // Both gates, k_t and a map that transmits, PROJECT pipelined and serial; parallel lights draw their map, below.
+    let machines: Vec<_> = all.filter(|(i, _)| [6, 7].contains(i)).map(|(_, machine)| machine).collect();
+    assert_eq!(machines.len(), 2);
+    machines_with_shadow(&machines, |i| &Simulator::ALL[..1 + i]);
 }
 
 /// Both that draw their map in Icarus, their map in Verilator too: the machine and each unit that has the input, in the light's pass and in the picture's.
@@ -234,7 +237,8 @@ fn machines_with_shadow(
         println!("{name:34} {checked} checked, lint clean");
         checked
     });
-    assert!(done.len() >= 4 && done.iter().all(|checked| *checked > 5000), "{done:?}");
+    assert_eq!(done.len(), machines.len());
+    assert!(done.iter().all(|checked| *checked > 5000), "{done:?}");
 }
 
 /// A Phong machine with a texture in Icarus, a fast-phong machine in Verilator too, and their units in Icarus.
@@ -293,7 +297,7 @@ fn machines_with_shade(
     assert!(done.iter().all(|checked| *checked > 5000), "{done:?}");
 }
 
-/// Every unit of two machines in Icarus, and in Verilator, where building takes its time, of one of them in turn.
+/// Every unit of two machines in Icarus, and, where building takes its time, the first of one and the last of the other in Verilator.
 #[test]
 fn every_unit_replays() {
     let machines: Vec<_> = common::twelve().into_iter().step_by(6).collect();
@@ -301,7 +305,7 @@ fn every_unit_replays() {
     for (i, (name, machine)) in machines.iter().enumerate() {
         for (j, unit) in Unit::single(machine).into_iter().enumerate() {
             runs.push((*name, machine, unit, Simulator::Icarus));
-            if j % 2 == i {
+            if j == 4 * i {
                 runs.push((*name, machine, unit, Simulator::Verilator));
             }
         }
@@ -312,7 +316,7 @@ fn every_unit_replays() {
         println!("{name:28} {:8} {:10} {checked} / {checked}", unit.name(), simulator.name());
         checked
     });
-    assert_eq!(checked.len(), 10 + 5);
+    assert_eq!(checked.len(), 10 + 2);
     assert!(checked.iter().all(|checked| *checked > 500), "{checked:?}");
 }
 
