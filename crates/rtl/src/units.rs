@@ -15,15 +15,3 @@ pub type Build = fn(&Plan) -> Result<Arc<Netlist>, BuildErrors>;
 pub fn builder(name: &str) -> Option<Build> {
     BUILDERS.iter().find(|(unit, _)| *unit == name).map(|(_, build)| *build)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_declared_unit_has_a_builder() {
-        let declared: Vec<&str> = edgewalk_machine::UNITS.iter().map(|unit| unit.name).collect();
-        let built: Vec<&str> = BUILDERS.iter().map(|(name, _)| *name).collect();
-        assert_eq!(built, declared);
-    }
-}

@@ -135,3 +135,10 @@ fn ports_of_a_machine_that_shades() {
 fn ports_of_a_machine_with_a_relief() {
     check("relief.txt", include_str!("ports/relief.txt"));
 }
+
+#[test]
+fn every_declared_unit_has_a_builder() {
+    let declared: Vec<&str> = edgewalk_machine::UNITS.iter().map(|unit| unit.name).collect();
+    let built: Vec<&str> = edgewalk_rtl::BUILDERS.iter().map(|(name, _)| *name).collect();
+    assert_eq!(built, declared);
+}
