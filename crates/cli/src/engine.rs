@@ -12,7 +12,7 @@ use edgewalk_explore::raster::{from_machine, from_model, of_port};
 use edgewalk_golden::Drawing;
 use edgewalk_lockstep::StallKind;
 use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::{Frame as Drawn, Pass, Shading, Waits, render_shaded};
+use edgewalk_model::{Frame as Drawn, Pass, Shading, Waits, render_passes};
 use edgewalk_scene::Frame;
 use std::ops::Range;
 
@@ -76,7 +76,7 @@ pub fn draw_port(
     let drawn = match engine {
         Engine::Jit => native(machine, triangles, sent)?,
         Engine::Rtl => interpreted(machine, triangles, sent)?,
-        _ => render_shaded(machine, triangles, &passes, &maps, waits, port.words(), |_| {})?,
+        _ => render_passes(machine, triangles, &passes, &maps, waits, port.words())?,
     };
     bar.finish_and_clear();
     let (drawn, lights) = port.apart(drawn);

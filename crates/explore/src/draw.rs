@@ -5,7 +5,7 @@ use crate::raster::{LightPass, Raster, from_fast, from_golden, golden_fill, of_p
 use anyhow::Result;
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::fast::{Path, Reason, Refusal, Renderer};
-use edgewalk_model::{DrawState, Frame, Waits, render, render_passes, render_shaded};
+use edgewalk_model::{DrawState, Frame, Shading, Waits, render, render_passes};
 use std::ops::Range;
 
 /// The golden picture on the machine's screen.
@@ -30,7 +30,7 @@ pub fn fast(frame: &edgewalk_scene::Frame, machine: &Plan, waits: Waits) -> Resu
 pub fn draw_frame(machine: &Plan, port: &PortFrame, waits: Waits) -> Result<Drawn> {
     if port.shade.is_some() {
         let triangles = port.triangles.iter().copied();
-        let frame = render_shaded(machine, triangles, &port.passes, &[], waits, port.words(), |_| {})?;
+        let frame = render_passes(machine, triangles, &port.passes, &[], waits, port.words())?;
         return Ok(Drawn::Ticked(frame, Reason::Shade, Vec::new()));
     }
     match &port.passes[..] {
@@ -42,7 +42,7 @@ pub fn draw_frame(machine: &Plan, port: &PortFrame, waits: Waits) -> Result<Draw
             let (triangles, passes, maps) = port.sent();
             let triangles = triangles.iter().copied();
             let (drawn, lights) =
-                port.apart(render_passes(machine, triangles, &passes, &maps, waits, |_| {})?);
+                port.apart(render_passes(machine, triangles, &passes, &maps, waits, &Shading::default())?);
             Ok(Drawn::Ticked(drawn, why, lights))
         }
     }

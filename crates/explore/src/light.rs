@@ -232,11 +232,25 @@ pub fn map(shadow: &Shadow, machine: &Plan) -> Result<Map> {
     let sent = sent(shadow, machine, &plan)?;
     let (triangles, passes) = (sent.triangles.iter().copied(), &sent.passes);
     if machine.shadow.draws_map() {
-        let mut drawn = edgewalk_model::render_passes(machine, triangles, passes, &[], Waits::Never, |_| {})?;
+        let mut drawn = edgewalk_model::render_passes(
+            machine,
+            triangles,
+            passes,
+            &[],
+            Waits::Never,
+            &edgewalk_model::Shading::default(),
+        )?;
         let words = drawn.maps.pop().context("the light's own pass draws a map")?;
         return Ok(Map { words, counters: drawn.counters, own: Some(sent) });
     }
-    let drawn = edgewalk_model::render_passes(&plan, triangles, passes, &[], Waits::Never, |_| {})?;
+    let drawn = edgewalk_model::render_passes(
+        &plan,
+        triangles,
+        passes,
+        &[],
+        Waits::Never,
+        &edgewalk_model::Shading::default(),
+    )?;
     let (size, side) = (shadow.size as usize, machine.shadow.side_bits());
     let mut map = vec![0; 1 << (2 * side)];
     for (place, (depth, [left, ..])) in drawn.z.iter().zip(&drawn.rgb).enumerate() {

@@ -9,7 +9,7 @@ use edgewalk_explore::port::to_port;
 use edgewalk_explore::raster::from_machine;
 use edgewalk_golden::{PixelBrush, fragments};
 use edgewalk_machine::{Machine, Plan, Record};
-use edgewalk_model::{Shading, Waits, render_shaded};
+use edgewalk_model::{Shading, Waits, render_passes};
 use edgewalk_scene::{
     Attenuation, Frame, Light, Material, PixelMethod, PixelShading, PixelTriangle, Specular, Triangle,
     Vertex, Viewer,
@@ -444,15 +444,7 @@ fn the_model_draws_what_the_words_say_and_the_comparison_passes() {
             *word = word.wrapping_add(4 << 8);
         }
         let passes = &port.passes;
-        let off = render_shaded(
-            &machine,
-            port.triangles.iter().copied(),
-            passes,
-            &[],
-            Waits::Never,
-            &wrong,
-            |_| {},
-        );
+        let off = render_passes(&machine, port.triangles.iter().copied(), passes, &[], Waits::Never, &wrong);
         let off = from_machine(&machine, off.unwrap());
         let found = compare_shaded(&machine, &frame, &golden, &off, None, Some(&feed.proof));
         assert!(found.verdict() != Verdict::Pass || lights == 2, "four LSB more");

@@ -47,7 +47,7 @@ pub fn render_rtl(
     render_rtl_passes(plan, triangles, &[Pass::all(state)], &[], stalls, &Shading::default())
 }
 
-/// As [`render_rtl`], pass by pass, as [`edgewalk_model::render_shaded`] does; `maps`: the words of the lights' maps. With TERM and SHADE,
+/// As [`render_rtl`], pass by pass, as [`edgewalk_model::render_passes`] does; `maps`: the words of the lights' maps. With TERM and SHADE,
 /// after as many triangles as there are records in the memory, the machine is idle for a while, and the next records are written.
 ///
 /// # Errors

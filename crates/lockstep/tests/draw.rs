@@ -4,7 +4,7 @@ use crate::common::machines::random_machine;
 use crate::common::triangles::random_triangle;
 use edgewalk_lockstep::{DrawError, StallKind, render_rtl, render_rtl_passes, render_rtl_with};
 use edgewalk_machine::{Machine, Plan, Record};
-use edgewalk_model::{DrawState, Pass, Shading, Stalls, longest_setup, render_shaded};
+use edgewalk_model::{DrawState, Pass, Shading, Stalls, longest_setup, render_passes};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -60,9 +60,8 @@ fn the_picture_of_the_netlist_is_that_of_the_model() {
         let stalls = StallKind::ALL[i % 3];
         let shading = random_shading(&plan, triangles.len(), &mut rng);
         let passes = [Pass::all(state)];
-        let model =
-            render_shaded(&plan, triangles.iter().copied(), &passes, &[], Stalls::NONE, &shading, |_| {})
-                .expect("its own triangles");
+        let model = render_passes(&plan, triangles.iter().copied(), &passes, &[], Stalls::NONE, &shading)
+            .expect("its own triangles");
         let rtl = render_rtl_passes(&plan, triangles.iter().copied(), &passes, &[], stalls, &shading)
             .expect("its own triangles");
         assert_eq!((&rtl.z, &rtl.rgb, &rtl.extra), (&model.z, &model.rgb, &model.extra), "{plan:?}");

@@ -104,14 +104,16 @@ fn each_light_is_added_once() {
         let plan = &policies[i % 3];
         let (triangles, passes, maps) = frame(plan, &depths);
         let list = || triangles.iter().copied();
-        let drawn = render_passes(plan, list(), &passes, &maps, stalls, |_| {}).expect("its own");
+        let drawn =
+            render_passes(plan, list(), &passes, &maps, stalls, &Shading::default()).expect("its own");
         assert_eq!(pixel(&drawn), [expected(&depths); 3], "{depths:?}");
         assert_eq!(drawn.passes.len(), 3);
         // Plain `equal` at the same depth takes every one that ties.
         let mut equal = passes.clone();
         equal[1..].iter_mut().for_each(|pass| pass.state.depth_func = 2);
         let level: Vec<_> = (0..3).flat_map(|_| frame(plan, &depths).0[..depths.len()].to_vec()).collect();
-        let naive = render_passes(plan, level, &equal, &maps, Stalls::NONE, |_| {}).expect("its own");
+        let naive =
+            render_passes(plan, level, &equal, &maps, Stalls::NONE, &Shading::default()).expect("its own");
         let ties = depths.iter().filter(|z| Some(*z) == depths.iter().min()).count();
         assert_eq!(naive.writes[4 + 1] as usize, passed_at_first(&depths) + 2 * ties, "{depths:?}");
         twice += u32::from(ties > 1);
@@ -133,7 +135,8 @@ fn the_netlist_does_so_too() {
             render_rtl_passes(plan, triangles.iter().copied(), &passes, &maps, kind, &Shading::default())
                 .expect("its own");
         assert_eq!(pixel(&rtl), [expected(&depths); 3], "{depths:?}");
-        let model = render_passes(plan, triangles, &passes, &maps, Stalls::NONE, |_| {}).expect("its own");
+        let model = render_passes(plan, triangles, &passes, &maps, Stalls::NONE, &Shading::default())
+            .expect("its own");
         assert_eq!((&rtl.z, &rtl.rgb, &rtl.lit, &rtl.id), (&model.z, &model.rgb, &model.lit, &model.id));
         if kind == StallKind::None {
             let cycles = |frame: &Frame| frame.passes.iter().map(|pass| pass.cycles).collect::<Vec<_>>();

@@ -70,8 +70,8 @@ fn map_and_picture_of_the_netlist_are_those_of_the_model() {
         let list = passes(&plan, 5, &mut rng);
         let triangles: Vec<_> = (0..30).map(|_| random_triangle(&plan, &mut rng)).collect();
         let stalls = StallKind::ALL[i % 3];
-        let model =
-            render_passes(&plan, triangles.clone(), &list, &[], Stalls::NONE, |_| {}).expect("its own");
+        let model = render_passes(&plan, triangles.clone(), &list, &[], Stalls::NONE, &Shading::default())
+            .expect("its own");
         let rtl =
             render_rtl_passes(&plan, triangles, &list, &[], stalls, &Shading::default()).expect("its own");
         assert_eq!(same(&rtl, &model), Ok(()), "{plan:?}");

@@ -80,7 +80,7 @@ pub fn render(
     state: DrawState,
     waits: impl Into<Waits>,
 ) -> Result<Frame, ForeignVertex> {
-    render_with(plan, triangles, state, waits, |_| {})
+    render_passes(plan, triangles, &[Pass::all(state)], &[], waits, &Shading::default())
 }
 
 /// As [`render`], and calls `hook` for every fragment and write.
@@ -94,12 +94,11 @@ pub fn render_with(
     waits: impl Into<Waits>,
     hook: impl FnMut(Drawn),
 ) -> Result<Frame, ForeignVertex> {
-    let passes = [Pass::all(state)];
-    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), &passes, &[], waits.into(), &Shading::default(), hook))
+    render_passes_with(plan, triangles, &[Pass::all(state)], &[], waits, &Shading::default(), hook)
 }
 
-/// As [`render_with`], pass by pass; `maps`: the words of the lights' maps, by address; before the first of them nothing is hidden. `hook` sees
-/// nothing of the lights' own passes.
+/// As [`render`], pass by pass; `maps`: the words of the lights' maps, by address; before the first of them nothing is hidden. On a machine with TERM and SHADE
+/// it is idle for a while after as many triangles as there are records in the memory, and the next records are written.
 ///
 /// # Errors
 /// A triangle whose vertices were made for another machine.
@@ -109,31 +108,57 @@ pub fn render_passes(
     passes: &[Pass],
     maps: &[Vec<u32>],
     waits: impl Into<Waits>,
-    hook: impl FnMut(Drawn),
+    shading: &Shading,
 ) -> Result<Frame, ForeignVertex> {
-    render_shaded(plan, triangles, passes, maps, waits, &Shading::default(), hook)
+    draw_unseen(plan, &mut triangles.into_iter(), passes, maps, waits.into(), shading)
 }
 
-/// As [`render_passes`], on a machine with TERM and SHADE. After as many triangles as there are records in the memory the
-/// machine is idle for a while, and the next records are written.
+/// As [`render_passes`], and calls `hook` as [`render_with`] does; it sees nothing of the lights' own passes.
 ///
 /// # Errors
 /// A triangle whose vertices were made for another machine.
-pub fn render_shaded(
+pub fn render_passes_with(
     plan: &Plan,
     triangles: impl IntoIterator<Item = [PortVertex; 3]>,
     passes: &[Pass],
     maps: &[Vec<u32>],
     waits: impl Into<Waits>,
     shading: &Shading,
-    hook: impl FnMut(Drawn),
+    mut hook: impl FnMut(Drawn),
 ) -> Result<Frame, ForeignVertex> {
-    for_channels!(plan, C => draw::<C>(plan, triangles.into_iter(), passes, maps, waits.into(), shading, hook))
+    draw_seen(plan, &mut triangles.into_iter(), passes, maps, waits.into(), shading, &mut hook)
+}
+
+/// Triangles from anywhere, so that the machine is compiled here and not with every iterator and hook there is; twice, as a
+/// hook that may be anything costs a fifth of the speed.
+type Triangles<'a> = &'a mut dyn Iterator<Item = [PortVertex; 3]>;
+
+fn draw_unseen(
+    plan: &Plan,
+    triangles: Triangles,
+    passes: &[Pass],
+    maps: &[Vec<u32>],
+    waits: Waits,
+    shading: &Shading,
+) -> Result<Frame, ForeignVertex> {
+    for_channels!(plan, C => draw::<C>(plan, triangles, passes, maps, waits, shading, |_| {}))
+}
+
+fn draw_seen(
+    plan: &Plan,
+    triangles: Triangles,
+    passes: &[Pass],
+    maps: &[Vec<u32>],
+    waits: Waits,
+    shading: &Shading,
+    hook: &mut dyn FnMut(Drawn),
+) -> Result<Frame, ForeignVertex> {
+    for_channels!(plan, C => draw::<C>(plan, triangles, passes, maps, waits, shading, hook))
 }
 
 fn draw<const C: usize>(
     plan: &Plan,
-    triangles: impl Iterator<Item = [PortVertex; 3]>,
+    triangles: Triangles,
     passes: &[Pass],
     maps: &[Vec<u32>],
     waits: Waits,

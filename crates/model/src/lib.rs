@@ -47,7 +47,7 @@ pub use color_memory::ColorMemory;
 pub use counters::Counters;
 pub use edgewalk_machine::Activity;
 pub use events::Events;
-pub use frame::{Drawn, Frame, Sample, Shading, render, render_passes, render_shaded, render_with};
+pub use frame::{Drawn, Frame, Sample, Shading, render, render_passes, render_passes_with, render_with};
 pub use machine::{
     BlendInputs, Inputs, Model, NormalInputs, Outputs, ShadeInputs, ShadowInputs, TermInputs, TexelInputs,
 };

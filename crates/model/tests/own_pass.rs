@@ -4,7 +4,7 @@
 use crate::common::{self, Triangle, machine, random_machine, random_triangle};
 use edgewalk_machine::{Blend, BlendKind, Fill, Machine, Plan, PortVertex, Precision, Shadow};
 use edgewalk_model::fast::Reason;
-use edgewalk_model::{Counters, DrawState, Frame, Pass, Stalls, render_passes};
+use edgewalk_model::{Counters, DrawState, Frame, Pass, Shading, Stalls, render_passes};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -114,7 +114,8 @@ fn the_map_is_that_of_a_second_machine_bit_by_bit() {
             .collect();
         let waits = Stalls { seed: rng.random(), rd: 40, data: 40, wr: 40 };
         let reference =
-            render_passes(&second, light.clone(), &passes, &[], Stalls::NONE, |_| {}).expect("its own");
+            render_passes(&second, light.clone(), &passes, &[], Stalls::NONE, &Shading::default())
+                .expect("its own");
         let expected = words(&second, &plan, &reference);
 
         // The picture before, the map, and the picture again, now under the map.
@@ -132,7 +133,8 @@ fn the_map_is_that_of_a_second_machine_bit_by_bit() {
         let mut list = vec![of_picture];
         list.extend(light_passes(&plan, counts, true));
         list.push(looks);
-        let drawn = render_passes(&plan, all.clone(), &list, &[], Stalls::NONE, |_| {}).expect("its own");
+        let drawn = render_passes(&plan, all.clone(), &list, &[], Stalls::NONE, &Shading::default())
+            .expect("its own");
         assert_eq!(drawn.maps.len(), 1);
         assert_eq!(drawn.maps[0], expected, "{:?}", *plan);
 
@@ -140,17 +142,30 @@ fn the_map_is_that_of_a_second_machine_bit_by_bit() {
         let mut without = (*plan).clone();
         without.set("shadow.own_pass", "no").expect("a word");
         let without = without.plan().expect("less");
-        let stalled = render_passes(&plan, all, &list, &[], waits, |_| {}).expect("its own");
+        let stalled = render_passes(&plan, all, &list, &[], waits, &Shading::default()).expect("its own");
         assert_eq!(stalled.maps[0], expected, "under stalls: {:?}", *plan);
-        let ready =
-            render_passes(&without, picture, &[of_picture, looks], &[expected.clone()], Stalls::NONE, |_| {});
+        let ready = render_passes(
+            &without,
+            picture,
+            &[of_picture, looks],
+            &[expected.clone()],
+            Stalls::NONE,
+            &Shading::default(),
+        );
         let ready = ready.expect("the same port");
         let map_first = [&list[1..], &list[..1]].concat();
         let order = [&own[..], &picture_again[3..], &picture_again[..3]].concat();
-        let first = render_passes(&plan, order, &map_first, &[], Stalls::NONE, |_| {}).expect("its own");
+        let first =
+            render_passes(&plan, order, &map_first, &[], Stalls::NONE, &Shading::default()).expect("its own");
         let turned = [&picture_again[3..], &picture_again[..3]].concat();
-        let as_ready =
-            render_passes(&without, turned, &[looks, of_picture], &[expected.clone()], Stalls::NONE, |_| {});
+        let as_ready = render_passes(
+            &without,
+            turned,
+            &[looks, of_picture],
+            &[expected.clone()],
+            Stalls::NONE,
+            &Shading::default(),
+        );
         let as_ready = as_ready.expect("the same port");
         assert_eq!(
             (&first.z, &first.rgb, &first.lit),
@@ -224,7 +239,14 @@ fn each_pass_has_its_own_scissor_and_addresses() {
                 let (state, side) =
                     if light_pass { (light, plan.shadow.size) } else { (DrawState::default(), plan.width) };
                 let pass = Pass { map: light_pass.then_some(0), ..Pass::all(state) };
-                let drawn = render_passes(&plan, [square(&plan, [x, y])], &[pass], &[], Stalls::NONE, |_| {});
+                let drawn = render_passes(
+                    &plan,
+                    [square(&plan, [x, y])],
+                    &[pass],
+                    &[],
+                    Stalls::NONE,
+                    &Shading::default(),
+                );
                 let drawn = drawn.expect("its own");
                 let bits = side.next_power_of_two().ilog2();
                 let stored: Vec<u64> = match light_pass {

@@ -4,7 +4,7 @@ use crate::common::shade::{colour, cosines, leftward, output, random_shading, te
 use crate::common::{ALWAYS, Triangle, machine, place, random_machine, random_triangle};
 use edgewalk_machine::{Activity, Entry, Plan, Record};
 use edgewalk_model::shade::{Cosines, Shade};
-use edgewalk_model::{Drawn, Events, Frame, Pass, ShadeInputs, Shading, Stalls, render_shaded};
+use edgewalk_model::{Drawn, Events, Frame, Pass, ShadeInputs, Shading, Stalls, render_passes_with};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 const C: usize = edgewalk_model::tokens::MAX_CHANNELS;
@@ -25,7 +25,7 @@ fn fragments(
         }
     };
     let passes = [Pass::all(ALWAYS)];
-    let frame = render_shaded(plan, triangles.iter().copied(), &passes, &[], stalls, shading, hook)
+    let frame = render_passes_with(plan, triangles.iter().copied(), &passes, &[], stalls, shading, hook)
         .expect("this machine's vertices");
     (all, frame)
 }

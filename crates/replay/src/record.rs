@@ -88,7 +88,7 @@ pub fn record(
     record_passes(plan, triangles, &rules, waits, window)
 }
 
-/// As [`record`], pass by pass, as [`edgewalk_model::render_shaded`] draws.
+/// As [`record`], pass by pass, as [`edgewalk_model::render_passes`] draws.
 ///
 /// # Errors
 /// As those, and a number of records that is not that of the triangles.

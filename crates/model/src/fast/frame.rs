@@ -20,7 +20,7 @@ use std::array::from_fn;
 #[inline(always)]
 pub(super) fn draw<P: Pixel, const DETAILS: bool>(
     plan: &Plan,
-    triangles: impl Iterator<Item = [PortVertex; 3]>,
+    triangles: &mut dyn Iterator<Item = [PortVertex; 3]>,
     state: &DrawState,
     picture: &mut Picture<P>,
     passage: Option<&mut Passage>,
@@ -35,13 +35,12 @@ pub(super) fn draw<P: Pixel, const DETAILS: bool>(
     };
     let setup = Setup::new(plan);
     let walker = Walker::new(plan);
-    let mut triangles = triangles;
     let mut sorted: [Sorted<FEW>; BATCH] = from_fn(|_| Sorted::default());
     let mut prims: [Prim<FEW>; BATCH] = [Prim::default(); BATCH];
     let mut done = [(SetupClocks::default(), false); BATCH];
     loop {
         let (first, mut count) = (frame.counters.triangles, 0);
-        triangles.by_ref().take(BATCH).try_for_each(|vertices| {
+        (&mut *triangles).take(BATCH).try_for_each(|vertices| {
             plan.accept(&vertices, first + count as u64)?;
             sorted[count] = setup.sort(&vertices);
             count += 1;

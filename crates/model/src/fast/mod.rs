@@ -140,7 +140,7 @@ impl Renderer {
         triangles: impl IntoIterator<Item = [PortVertex; 3]>,
         state: DrawState,
     ) -> Result<(), Refusal> {
-        self.pass(triangles, state, None)
+        self.pass(&mut triangles.into_iter(), state, None)
     }
 
     /// The same, and keeps how the frame went through the units: it can be clocked again with other timing keys.
@@ -153,14 +153,15 @@ impl Renderer {
         state: DrawState,
     ) -> Result<Passage, Refusal> {
         let mut passage = Passage::new(&self.plan, state.depth_write);
-        self.pass(triangles, state, Some(&mut passage))?;
+        self.pass(&mut triangles.into_iter(), state, Some(&mut passage))?;
         passage.drawn(&self.counters);
         Ok(passage)
     }
 
+    /// Compiled here, once for each kind of processor, and not for each iterator.
     fn pass(
         &mut self,
-        triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+        triangles: &mut dyn Iterator<Item = [PortVertex; 3]>,
         state: DrawState,
         passage: Option<&mut Passage>,
     ) -> Result<(), Refusal> {
@@ -168,7 +169,6 @@ impl Renderer {
         if let Some(reason) = refused(plan) {
             return Err(reason.into());
         }
-        let triangles = triangles.into_iter();
         *counters = match memory {
             Memory::Narrow(picture) => vector::draw(plan, triangles, &state, *details, picture, passage),
             Memory::Wide(picture) => vector::draw(plan, triangles, &state, *details, picture, passage),

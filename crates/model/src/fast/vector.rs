@@ -15,7 +15,7 @@ macro_rules! compiled_for {
         #[target_feature(enable = $features)]
         fn $name<P: Pixel, const DETAILS: bool>(
             plan: &Plan,
-            triangles: impl Iterator<Item = [PortVertex; 3]>,
+            triangles: &mut dyn Iterator<Item = [PortVertex; 3]>,
             state: &DrawState,
             picture: &mut Picture<P>,
             passage: Option<&mut Passage>,
@@ -31,7 +31,7 @@ compiled_for!(avx2, "avx2,bmi1,bmi2");
 /// Clears the picture and draws, with the widest vectors there are.
 pub(super) fn draw<P: Pixel>(
     plan: &Plan,
-    triangles: impl Iterator<Item = [PortVertex; 3]>,
+    triangles: &mut dyn Iterator<Item = [PortVertex; 3]>,
     state: &DrawState,
     details: bool,
     picture: &mut Picture<P>,
@@ -47,7 +47,7 @@ pub(super) fn draw<P: Pixel>(
 
 fn widest<P: Pixel, const DETAILS: bool>(
     plan: &Plan,
-    triangles: impl Iterator<Item = [PortVertex; 3]>,
+    triangles: &mut dyn Iterator<Item = [PortVertex; 3]>,
     state: &DrawState,
     picture: &mut Picture<P>,
     passage: Option<&mut Passage>,

@@ -1,7 +1,7 @@
 //! What is shown: an icosahedron on four machines, its page in a file, and the model run anew beside it.
 
 use edgewalk_machine::{Machine, Plan, PortVertex, Record};
-use edgewalk_model::{DrawState, Frame, Pass, Rig, Shading, Stalls, View, for_channels, render_shaded};
+use edgewalk_model::{DrawState, Frame, Pass, Rig, Shading, Stalls, View, for_channels, render_passes};
 use edgewalk_replay::{Recording, Replay, Rules, Window, page, record_passes};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -184,7 +184,7 @@ impl Case {
     /// The picture as the model draws it.
     pub fn frame(&self) -> Frame {
         let triangles = self.triangles.iter().copied();
-        render_shaded(&self.plan, triangles, &self.passes, &self.maps, self.stalls, &self.shading, |_| {})
+        render_passes(&self.plan, triangles, &self.passes, &self.maps, self.stalls, &self.shading)
             .expect("its own vertices")
     }
 

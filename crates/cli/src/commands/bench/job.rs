@@ -6,7 +6,7 @@ use edgewalk_lockstep::case::constants;
 use edgewalk_lockstep::{Interface, Setting, Unit};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::fast::Renderer;
-use edgewalk_model::{Counters, DrawState, Pass, Shading, Waits, render_shaded};
+use edgewalk_model::{Counters, DrawState, Pass, Shading, Waits, render_passes};
 
 /// What the machine does for a frame, whoever says so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,7 +84,7 @@ impl<'a> Job<'a> {
             renderer.counters().clone()
         } else {
             let passes = [Pass::all(state)];
-            render_shaded(machine, triangles.iter().copied(), &passes, &[], waits, shading, |_| {})?.counters
+            render_passes(machine, triangles.iter().copied(), &passes, &[], waits, shading)?.counters
         };
         let (fragments, work) = (counters.fragments, Work::of(&counters));
         Ok(Job { machine, triangles, shading, state, waits, repeat, fragments, work })

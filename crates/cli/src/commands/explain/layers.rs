@@ -6,7 +6,7 @@ use anyhow::Result;
 use edgewalk_explore::compare::{Errors, Lights};
 use edgewalk_golden::{Drawing, Step};
 use edgewalk_machine::Plan;
-use edgewalk_model::{Drawn, Stalls, render_passes};
+use edgewalk_model::{Drawn, Stalls, render_passes_with};
 use edgewalk_scene::{Blending, Frame};
 use serde::Serialize;
 
@@ -92,7 +92,7 @@ fn machine_colors(port: &PortFrame, machine: &Plan, (x, y): (u32, u32)) -> Resul
         }
     };
     let triangles = port.triangles.iter().copied();
-    render_passes(machine, triangles, &port.passes, &port.maps(), Stalls::NONE, hook)?;
+    render_passes_with(machine, triangles, &port.passes, &port.maps(), Stalls::NONE, port.words(), hook)?;
     Ok(stored)
 }
 
