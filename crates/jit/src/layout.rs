@@ -80,8 +80,9 @@ impl Layout {
             layout.memories.push(Area { offset, word, words, width });
         }
         layout.counters = layout.take(wakes.clocks.len())?;
-        for gates in &wakes.gates {
-            let gates = gates.iter().map(|gate| layout.place(graph, *gate)).collect::<Result<_, _>>()?;
+        for unit in 0..wakes.clocks.len() {
+            let gates =
+                wakes.gates(unit).iter().map(|gate| layout.place(graph, *gate)).collect::<Result<_, _>>()?;
             layout.gates.push(gates);
         }
         layout.tables = layout.take(tables.bytes.len())?;

@@ -30,8 +30,7 @@ pub(crate) struct Wakes {
     stored: HashMap<ValueId, u64>,
     /// Of each unit, the clocks that it works on after a change; 0 for one that never stands still.
     pub clocks: Vec<u8>,
-    /// Of each unit, the bits that follow from other units alone: they are watched in place of what they follow from.
-    pub gates: Vec<Vec<ValueId>>,
+    gates: Vec<Vec<ValueId>>,
 }
 
 impl Wakes {
@@ -43,6 +42,11 @@ impl Wakes {
     /// Whether the unit can stand still.
     pub fn rests(&self, unit: usize) -> bool {
         self.clocks.get(unit).is_some_and(|clocks| *clocks > 0)
+    }
+
+    /// The bits that follow from other units alone: they are watched in place of what they follow from.
+    pub fn gates(&self, unit: usize) -> &[ValueId] {
+        self.gates.get(unit).map_or(&[], Vec::as_slice)
     }
 
     /// The units of a set, with their clocks.

@@ -26,7 +26,9 @@ pub(crate) fn schedule(design: &mut Design, groups: &[Group]) -> Vec<Step> {
         then.extend(
             design.memories.iter().enumerate().filter(written).map(|(memory, _)| Step::Write(memory)),
         );
-        steps.push(Step::Unit { unit, then });
+        if !then.is_empty() {
+            steps.push(Step::Unit { unit, then });
+        }
     }
     steps
 }

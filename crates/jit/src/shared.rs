@@ -45,7 +45,7 @@ impl Walk<'_> {
                     }
                 }
                 Step::Unit { unit, then } => {
-                    self.wakes.gates[*unit].iter().for_each(|gate| self.need(*gate));
+                    self.wakes.gates(*unit).iter().for_each(|gate| self.need(*gate));
                     self.aside(|walk| walk.steps(then));
                 }
                 Step::If { bit, then } => {

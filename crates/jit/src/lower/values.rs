@@ -291,7 +291,7 @@ impl<'a> Values<'a> {
     /// For how many clocks a unit is to work, this one too: for all of them if a bit from another unit is not what it was.
     pub fn clocks_now(&mut self, unit: usize) -> Value {
         let mut changed = None;
-        for (gate, place) in self.wakes.gates[unit].iter().zip(&self.layout.gates[unit]) {
+        for (gate, place) in self.wakes.gates(unit).iter().zip(&self.layout.gates[unit]) {
             let (now, state) = (self.zero(*gate), self.state);
             let before = self.cursor.ins().load(types::I8, flags(1), state, place.offset);
             self.cursor.ins().store(flags(1), now, state, place.offset);
