@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)] // a test may
 
 mod common {
+    pub mod carry;
     pub mod enables;
     pub mod pair;
     pub mod ram;
@@ -103,4 +104,14 @@ fn units_that_stand_still() {
     }
     println!("{} values compared", pair.compared);
     assert!(pair.compared > 300_000);
+}
+
+#[test]
+fn sums_with_a_carry() {
+    let mut random = Pcg64Mcg::new(6);
+    let widths = [1, 2, 7, 31, 32, 46, 63, 64, 65, 127];
+    let compared: u64 =
+        widths.iter().map(|width| compare(&common::carry::module(*width), &mut random, 300)).sum();
+    println!("{compared} values compared");
+    assert!(compared > 30_000);
 }

@@ -69,13 +69,15 @@ fn hold() -> Arc<Netlist> {
     m.finish().unwrap()
 }
 
-/// Words that are read all the time, where one is written now and then.
+/// Words that are read all the time, where one is written now and then; from the word that comes to the one that goes it is
+/// a long way, half of it before the memory.
 fn words() -> Arc<Netlist> {
     let m = Module::new("words", "");
     let (en, addr) = (m.input("en", 1), m.input("addr", 2));
     let words = m.memory("words", 2, 4, W, 3);
-    words.write(en, addr, m.input("word", W));
-    m.output("q", words.read(m.lit(1, 1), m.lit(2, 2)));
+    let later = |name: &str, word| (0..6).fold(word, |word, i| m.reg(&format!("{name}{i}"), W).set(word).q());
+    words.write(en, addr, later("before", m.input("word", W)));
+    m.output("q", later("after", words.read(m.lit(1, 1), m.lit(2, 2))));
     m.finish().unwrap()
 }
 
