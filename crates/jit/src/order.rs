@@ -7,6 +7,9 @@ use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
 use crate::step::Step;
 
+/// Registers of a step that change in every clock; more at once would not find room in the processor.
+const MOST_JOINED: usize = 16;
+
 /// Which registers and inputs each value depends on.
 pub(crate) struct Readers<'d> {
     design: &'d Design,
@@ -101,7 +104,26 @@ impl<'d> Readers<'d> {
             all.unite(&effect);
             open.push((step, effect));
         }
-        (sorted(open), all)
+        (self.joined(sorted(open)), all)
+    }
+
+    /// Neighbours that change in every clock are one step: what they share stays in registers of the processor.
+    fn joined(&self, steps: Vec<Step>) -> Vec<Step> {
+        let always = |group: &Group| {
+            group.conditions.len() == 1 && self.design.graph.as_constant(group.conditions[0]) == Some(1)
+        };
+        let mut joined: Vec<Step> = Vec::new();
+        for step in steps {
+            match (joined.last_mut(), step) {
+                (Some(Step::Change(before)), Step::Change(group))
+                    if always(before) && always(&group) && before.members.len() < MOST_JOINED =>
+                {
+                    before.members.extend(group.members);
+                }
+                (_, step) => joined.push(step),
+            }
+        }
+        joined
     }
 
     /// The group with its members in a good order.
