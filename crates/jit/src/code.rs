@@ -8,11 +8,8 @@ use cranelift_codegen::settings::{self, Configurable};
 use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{Module, ModuleError, default_libcall_names};
 
-use crate::design::Design;
 use crate::error::JitError;
-use crate::layout::Layout;
-use crate::lower::{Program, lower};
-use crate::step::Step;
+use crate::lower::{Plan, Program, lower};
 
 /// A program; it takes the state's address.
 type Entry = unsafe extern "C" fn(*mut u64);
@@ -33,11 +30,11 @@ impl Code {
     ///
     /// # Errors
     /// If there is no code generator for this machine.
-    pub fn new(design: &Design, steps: &[Step], layout: &Layout) -> Result<Code, JitError> {
+    pub fn new(plan: &Plan) -> Result<Code, JitError> {
         let mut module = JITModule::new(JITBuilder::with_isa(isa()?, default_libcall_names()));
         let programs = [Program::Clock, Program::Outputs, Program::Signals];
-        let [clock, outputs, signals] = entries(&mut module, programs, design, steps, layout)?;
-        Ok(Code { clock, outputs, signals, size: layout.size, module: Some(Mutex::new(module)) })
+        let [clock, outputs, signals] = entries(&mut module, programs, plan)?;
+        Ok(Code { clock, outputs, signals, size: plan.layout.size, module: Some(Mutex::new(module)) })
     }
 
     /// Runs a program.
@@ -95,9 +92,7 @@ fn isa() -> Result<OwnedTargetIsa, JitError> {
 fn entries<const N: usize>(
     module: &mut JITModule,
     programs: [Program; N],
-    design: &Design,
-    steps: &[Step],
-    layout: &Layout,
+    plan: &Plan,
 ) -> Result<[Entry; N], JitError> {
     let refused = |error: ModuleError| JitError::Cranelift(error.to_string());
     let pointer = module.target_config().pointer_type();
@@ -106,7 +101,7 @@ fn entries<const N: usize>(
     for program in programs {
         context.func.signature = module.make_signature();
         context.func.signature.params.push(AbiParam::new(pointer));
-        lower(program, design, steps, layout, pointer, &mut context.func);
+        lower(program, plan, pointer, &mut context.func);
         let function = module.declare_anonymous_function(&context.func.signature).map_err(refused)?;
         module.define_function(function, &mut context).map_err(refused)?;
         module.clear_context(&mut context);

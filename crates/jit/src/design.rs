@@ -23,6 +23,8 @@ pub(crate) struct Design {
 /// A register: `reset`, else the last update whose condition holds, else as it was.
 #[derive(Clone, Debug)]
 pub(crate) struct Register {
+    /// The unit that has it: 0 is the top module, each of its instances is one, with all within.
+    pub unit: usize,
     pub q: ValueId,
     pub reset: Option<u128>,
     /// Condition and value.
@@ -32,6 +34,8 @@ pub(crate) struct Register {
 /// A memory; its reads see the words from before the writes, a later write overrules an earlier one.
 #[derive(Clone, Debug)]
 pub(crate) struct Memory {
+    /// As of a register.
+    pub unit: usize,
     pub path: String,
     pub words: usize,
     pub width: u32,

@@ -138,7 +138,19 @@ impl<'n> Elaboration<'n> {
         Some(self.design.graph.op(*op, netlist.width(node), &values?))
     }
 
+    /// The instance of the top module in which a scope lies, from 1; 0 for the top module.
+    fn unit(&self, mut scope: usize) -> usize {
+        while let Some((parent, _)) = self.scopes[scope].parent {
+            if parent == 0 {
+                return self.scopes[0].children.iter().position(|child| *child == scope).map_or(0, |i| i + 1);
+            }
+            scope = parent;
+        }
+        0
+    }
+
     fn state(&mut self, scope: usize) {
+        let unit = self.unit(scope);
         let netlist = self.scopes[scope].netlist;
         for register in &netlist.registers {
             let updates = register.updates.iter().map(|update| {
@@ -146,7 +158,7 @@ impl<'n> Elaboration<'n> {
             });
             let updates = updates.collect();
             let q = self.value(scope, register.node);
-            self.design.registers.push(Register { q, reset: register.reset, updates });
+            self.design.registers.push(Register { unit, q, reset: register.reset, updates });
         }
         for memory in &netlist.memories {
             let writes = memory.writes.iter().map(|port| Write {
@@ -162,6 +174,7 @@ impl<'n> Elaboration<'n> {
             });
             let reads = reads.collect();
             self.design.memories.push(Memory {
+                unit,
                 path: format!("{}{}", self.scopes[scope].prefix, memory.name),
                 words: memory.words,
                 width: memory.width,

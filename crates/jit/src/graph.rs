@@ -107,6 +107,16 @@ impl Graph {
                 let inner = self.op(op, width, &operands);
                 self.op(Op::Not, width, &[inner])
             }
+            Some(Simpler::Sum(a, b, carry)) => {
+                let [a, b, carry] = [
+                    (a, Op::Slice { hi: width - 1, lo: 0 }),
+                    (b, Op::Slice { hi: width - 1, lo: 0 }),
+                    (carry, Op::ZeroExtend(width)),
+                ]
+                .map(|(part, op)| self.op(op, width, &[part]));
+                let sum = self.op(Op::Add, width, &[a, b]);
+                self.op(Op::Add, width, &[sum, carry])
+            }
             None => self.shared(Kind::Op(op, operands.into()), width),
         }
     }

@@ -9,6 +9,8 @@ use crate::graph::{Graph, ValueId};
 /// Conditions and what changes under them.
 #[derive(Clone, Debug)]
 pub(crate) struct Group {
+    /// All members are of this unit.
+    pub unit: usize,
     /// One bit each, the strongest last; the last one that holds decides, and if none does nothing changes.
     pub conditions: Vec<ValueId>,
     pub members: Vec<Member>,
@@ -23,13 +25,16 @@ pub(crate) enum Member {
     Read { memory: usize, port: usize },
 }
 
-/// The groups of all registers and read ports, those of equal conditions together.
+/// The groups of all registers and read ports, those of a unit and of equal conditions together.
 pub(crate) fn groups(design: &mut Design) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
-    let mut known: HashMap<Vec<ValueId>, usize> = HashMap::new();
-    let mut add = |conditions: Vec<ValueId>, member| {
-        let group = *known.entry(conditions.clone()).or_insert_with(|| {
-            groups.push(Group { conditions, members: Vec::new() });
+    let mut known: HashMap<(usize, Vec<ValueId>), usize> = HashMap::new();
+    let mut add = |graph: &Graph, unit, conditions: Vec<ValueId>, member| {
+        if graph.as_constant(conditions[0]) == Some(1) && conditions.len() == 1 {
+            return groups.push(Group { unit, conditions, members: vec![member] });
+        }
+        let group = *known.entry((unit, conditions.clone())).or_insert_with(|| {
+            groups.push(Group { unit, conditions, members: Vec::new() });
             groups.len() - 1
         });
         groups[group].members.push(member);
@@ -38,13 +43,13 @@ pub(crate) fn groups(design: &mut Design) -> Vec<Group> {
     for register in registers.iter() {
         let (conditions, values) = updates(graph, register);
         if !conditions.is_empty() {
-            add(conditions, Member::Register { q: register.q, values });
+            add(graph, register.unit, conditions, Member::Register { q: register.q, values });
         }
     }
     for (memory, ports) in memories.iter().enumerate() {
         for (port, read) in ports.reads.iter().enumerate() {
             if graph.as_constant(read.en) != Some(0) {
-                add(vec![read.en], Member::Read { memory, port });
+                add(graph, ports.unit, vec![read.en], Member::Read { memory, port });
             }
         }
     }

@@ -7,6 +7,8 @@ use std::collections::HashMap;
 use crate::design::Design;
 use crate::error::JitError;
 use crate::graph::{Graph, Kind, ValueId};
+use crate::quiet::Wakes;
+use crate::tables::Tables;
 
 /// Offsets are in bytes from the start of the state, and end within it.
 #[derive(Clone, Debug, Default)]
@@ -16,6 +18,12 @@ pub(crate) struct Layout {
     pub sampled: Vec<Place>,
     /// Of each memory.
     pub memories: Vec<Area>,
+    /// Byte at which the counters of the units begin, a byte each: the clocks for which a unit is to work on.
+    pub counters: i32,
+    /// Of each unit, where its bits from other units are, as they were in the clock before.
+    pub gates: Vec<Vec<Place>>,
+    /// Byte at which the tables begin.
+    pub tables: i32,
     /// 64-bit words of the state.
     pub size: usize,
 }
@@ -45,11 +53,16 @@ impl Layout {
     ///
     /// # Errors
     /// If all of it is larger than 2 GiB.
-    pub fn new(design: &Design) -> Result<Layout, JitError> {
+    pub fn new(
+        design: &Design,
+        tables: &Tables,
+        wakes: &Wakes,
+        shared: &[ValueId],
+    ) -> Result<Layout, JitError> {
         let mut layout = Layout::default();
         let graph = &design.graph;
         let stored = graph.ids().filter(|id| *graph.kind(*id) == Kind::Stored);
-        for value in stored.chain(design.signals.values().copied()) {
+        for value in stored.chain(design.signals.values().chain(shared).copied()) {
             if !layout.places.contains_key(&value) {
                 let place = layout.place(graph, value)?;
                 layout.places.insert(value, place);
@@ -66,6 +79,13 @@ impl Layout {
             let (words, width) = (memory.words, memory.width);
             layout.memories.push(Area { offset, word, words, width });
         }
+        layout.counters = layout.take(wakes.clocks.len())?;
+        for unit in 0..wakes.clocks.len() {
+            let gates =
+                wakes.gates(unit).iter().map(|gate| layout.place(graph, *gate)).collect::<Result<_, _>>()?;
+            layout.gates.push(gates);
+        }
+        layout.tables = layout.take(tables.bytes.len())?;
         Ok(layout)
     }
 

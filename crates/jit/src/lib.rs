@@ -22,6 +22,9 @@ mod step;
 mod order;
 mod schedule;
 
+mod tables;
+mod shared;
+mod quiet;
 mod layout;
 mod lower;
 

@@ -7,6 +7,9 @@ use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
 use crate::step::Step;
 
+/// Registers of a step that change in every clock; more at once would not find room in the processor.
+const MOST_JOINED: usize = 16;
+
 /// Which registers and inputs each value depends on.
 pub(crate) struct Readers<'d> {
     design: &'d Design,
@@ -16,12 +19,29 @@ pub(crate) struct Readers<'d> {
 }
 
 /// A set of registers and inputs, a bit each.
-type Set = Vec<u64>;
+pub(crate) type Set = Vec<u64>;
 
 /// What a step does, with all within it.
 struct Effect {
     reads: Set,
     writes: Set,
+    /// Memories of which it reads words, a bit each.
+    looks: Set,
+    /// The memory of which it writes words.
+    fills: Option<usize>,
+}
+
+impl Effect {
+    fn unite(&mut self, other: &Effect) {
+        unite(&mut self.reads, &other.reads);
+        unite(&mut self.writes, &other.writes);
+        unite(&mut self.looks, &other.looks);
+    }
+
+    /// The other one has to be first: it reads words as they are before this one.
+    fn waits_for(&self, other: &Effect) -> bool {
+        self.fills.is_some_and(|memory| other.looks[memory / 64] >> (memory % 64) & 1 == 1)
+    }
 }
 
 impl<'d> Readers<'d> {
@@ -45,8 +65,18 @@ impl<'d> Readers<'d> {
         self.with_effect(steps).0
     }
 
+    /// The registers and inputs that a value depends on.
+    pub fn cone(&self, value: ValueId) -> &Set {
+        &self.cones[value.index()]
+    }
+
+    /// The number of a register or input in a set.
+    pub fn number(&self, stored: ValueId) -> Option<usize> {
+        self.numbers.get(&stored).copied()
+    }
+
     fn with_effect(&self, steps: Vec<Step>) -> (Vec<Step>, Effect) {
-        let mut all = Effect { reads: self.none(), writes: self.none() };
+        let mut all = self.nothing();
         let mut open = Vec::new();
         for step in steps {
             let (step, effect) = match step {
@@ -55,39 +85,84 @@ impl<'d> Readers<'d> {
                     unite(&mut effect.reads, &self.cones[bit.index()]);
                     (Step::If { bit, then }, effect)
                 }
+                Step::Unit { unit, then } => {
+                    let (then, effect) = self.with_effect(then);
+                    (Step::Unit { unit, then }, effect)
+                }
+                Step::Write(memory) => {
+                    let mut effect = Effect { fills: Some(memory), ..self.nothing() };
+                    let ports = self.design.memories[memory].writes.iter();
+                    let values = ports.flat_map(|port| [port.en, port.addr, port.data]);
+                    values.for_each(|value| unite(&mut effect.reads, &self.cones[value.index()]));
+                    (Step::Write(memory), effect)
+                }
                 Step::Change(group) => {
-                    let effect = self.effect(&group);
+                    let (group, effect) = self.of_group(group);
                     (Step::Change(group), effect)
                 }
             };
-            unite(&mut all.reads, &effect.reads);
-            unite(&mut all.writes, &effect.writes);
+            all.unite(&effect);
             open.push((step, effect));
         }
-        (sorted(open), all)
+        (self.joined(sorted(open)), all)
     }
 
-    fn effect(&self, group: &Group) -> Effect {
-        let mut effect = Effect { reads: self.none(), writes: self.none() };
+    /// Neighbours that change in every clock are one step: what they share stays in registers of the processor.
+    fn joined(&self, steps: Vec<Step>) -> Vec<Step> {
+        let always = |group: &Group| {
+            group.conditions.len() == 1 && self.design.graph.as_constant(group.conditions[0]) == Some(1)
+        };
+        let mut joined: Vec<Step> = Vec::new();
+        for step in steps {
+            match (joined.last_mut(), step) {
+                (Some(Step::Change(before)), Step::Change(group))
+                    if always(before) && always(&group) && before.members.len() < MOST_JOINED =>
+                {
+                    before.members.extend(group.members);
+                }
+                (_, step) => joined.push(step),
+            }
+        }
+        joined
+    }
+
+    /// The group with its members in a good order.
+    fn of_group(&self, Group { unit, conditions, members }: Group) -> (Group, Effect) {
+        let mut all = self.nothing();
+        conditions.iter().for_each(|condition| unite(&mut all.reads, &self.cones[condition.index()]));
+        let mut open = Vec::new();
+        for member in members {
+            let effect = self.of_member(&member);
+            all.unite(&effect);
+            open.push((member, effect));
+        }
+        (Group { unit, conditions, members: sorted(open) }, all)
+    }
+
+    fn of_member(&self, member: &Member) -> Effect {
+        let mut effect = self.nothing();
         let mut read = |value: ValueId| unite(&mut effect.reads, &self.cones[value.index()]);
-        group.conditions.iter().copied().for_each(&mut read);
-        for member in &group.members {
-            match member {
-                Member::Register { q, values } => {
-                    values.iter().copied().for_each(&mut read);
-                    self.insert(&mut effect.writes, *q);
-                }
-                Member::Read { memory, port } => {
-                    let port = self.design.memories[*memory].reads[*port];
-                    read(port.addr);
-                    self.insert(&mut effect.writes, port.q);
-                }
+        match member {
+            Member::Register { q, values } => {
+                values.iter().copied().for_each(&mut read);
+                self.insert(&mut effect.writes, *q);
+            }
+            Member::Read { memory, port } => {
+                let port = self.design.memories[*memory].reads[*port];
+                read(port.addr);
+                self.insert(&mut effect.writes, port.q);
+                effect.looks[memory / 64] |= 1 << (memory % 64);
             }
         }
         effect
     }
 
-    fn none(&self) -> Set {
+    fn nothing(&self) -> Effect {
+        let looks = vec![0; self.design.memories.len().div_ceil(64)];
+        Effect { reads: self.none(), writes: self.none(), looks, fills: None }
+    }
+
+    pub fn none(&self) -> Set {
         vec![0; self.numbers.len().div_ceil(64)]
     }
 
@@ -98,26 +173,28 @@ impl<'d> Readers<'d> {
     }
 }
 
-/// Takes, again and again, the step that changes the fewest registers which others still have to read.
-fn sorted(mut open: Vec<(Step, Effect)>) -> Vec<Step> {
+/// Takes, again and again, the one that changes the fewest registers which others still have to read.
+fn sorted<T>(mut open: Vec<(T, Effect)>) -> Vec<T> {
     let harm_of = |writer: &Effect| open.iter().map(|(_, other)| common(&writer.writes, &other.reads)).sum();
     let mut harm: Vec<u32> = open.iter().map(|(_, effect)| harm_of(effect)).collect();
     for (harm, (_, effect)) in harm.iter_mut().zip(&open) {
         *harm -= common(&effect.writes, &effect.reads); // no harm to itself
     }
     let mut order = Vec::new();
-    while let Some((next, _)) = harm.iter().enumerate().min_by_key(|(_, harm)| **harm) {
-        let (step, gone) = open.remove(next);
+    while !open.is_empty() {
+        let waits = |i: usize| open.iter().any(|(_, other)| open[i].1.waits_for(other));
+        let next = (0..open.len()).filter(|i| !waits(*i)).min_by_key(|i| harm[*i]).unwrap_or(0);
+        let (first, gone) = open.remove(next);
         harm.remove(next);
         for (harm, (_, effect)) in harm.iter_mut().zip(&open) {
             *harm -= common(&effect.writes, &gone.reads);
         }
-        order.push(step);
+        order.push(first);
     }
     order
 }
 
-fn unite(set: &mut Set, other: &Set) {
+pub(crate) fn unite(set: &mut Set, other: &Set) {
     set.iter_mut().zip(other).for_each(|(a, b)| *a |= b);
 }
 

@@ -5,20 +5,32 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use edgewalk_netlist::Op;
 
-use crate::design::Design;
+use crate::design::{Design, Memory};
 use crate::graph::{Graph, ValueId};
-use crate::groups::{Group, groups};
+use crate::groups::Group;
 use crate::guard::{Literal, Needs};
-use crate::order::Readers;
 use crate::step::Step;
 
 /// What a clock does to registers and read ports. It adds values to the graph: the conditions of branches.
-pub(crate) fn schedule(design: &mut Design) -> Vec<Step> {
-    let groups = groups(design);
-    let mut nesting = Nesting { graph: &mut design.graph, needs: Needs::default(), asked: Vec::new() };
-    let open = groups.into_iter().map(|group| nesting.open(group)).collect();
-    let steps = nesting.by_choice(open);
-    Readers::of(design).ordered(steps)
+pub(crate) fn schedule(design: &mut Design, groups: &[Group]) -> Vec<Step> {
+    let always = Literal { bit: design.graph.constant(1, 1), high: true };
+    let mut nesting = Nesting { graph: &mut design.graph, needs: Needs::default(), asked: vec![always] };
+    let units =
+        groups.iter().map(|group| group.unit).chain(design.memories.iter().map(|memory| memory.unit)).max();
+    let mut steps = Vec::new();
+    for unit in 0..=units.unwrap_or(0) {
+        let of_unit = groups.iter().filter(|group| group.unit == unit);
+        let open = of_unit.map(|group| nesting.open(group.clone())).collect();
+        let mut then = nesting.by_choice(open);
+        let written = |(_, memory): &(usize, &Memory)| memory.unit == unit && !memory.writes.is_empty();
+        then.extend(
+            design.memories.iter().enumerate().filter(written).map(|(memory, _)| Step::Write(memory)),
+        );
+        if !then.is_empty() {
+            steps.push(Step::Unit { unit, then });
+        }
+    }
+    steps
 }
 
 /// A group, and what each of its conditions needs.

@@ -16,6 +16,8 @@ pub(crate) enum Simpler {
     Op(Op, Vec<ValueId>),
     /// The opposite of another operator.
     NotOf(Op, Vec<ValueId>),
+    /// The low bits of two values and a carry, added.
+    Sum(ValueId, ValueId, ValueId),
 }
 
 /// A simpler way to say it, if there is one.
@@ -40,6 +42,8 @@ pub(crate) fn simpler(graph: &Graph, op: Op, width: u32, operands: &[ValueId]) -
         (Op::ZeroExtend(_) | Op::SignExtend(_), &[a]) if graph.width(a) == width => Same(a),
         (Op::Concat, &[a]) => Same(a),
         (Op::Shl(0) | Op::Shr(0) | Op::Sar(0), &[a]) => Same(a),
+        (Op::Add, &[a, b]) if graph.as_constant(a) == Some(0) => Same(b),
+        (Op::Add | Op::Sub, &[a, b]) if graph.as_constant(b) == Some(0) => Same(a),
         (Op::Shl(n) | Op::Shr(n), &[_]) if n >= width => Simpler::Constant(0),
         _ => return None,
     })
@@ -123,6 +127,16 @@ fn slice(graph: &Graph, hi: u32, lo: u32, a: ValueId) -> Option<Simpler> {
             }
             None
         }
+        (Op::Add, &[a, b]) if lo == 1 => carried(graph, a, b).or_else(|| carried(graph, b, a)),
         _ => None,
     }
+}
+
+/// The bits above the lowest of a sum of which the lowest is there for its carry: `{a, 1} + {b, carry}`.
+fn carried(graph: &Graph, a: ValueId, b: ValueId) -> Option<Simpler> {
+    let (Some(&[a, one]), Some(&[b, carry])) = (graph.as_op(a, Op::Concat), graph.as_op(b, Op::Concat))
+    else {
+        return None;
+    };
+    (graph.as_constant(one) == Some(1) && graph.width(carry) == 1).then_some(Simpler::Sum(a, b, carry))
 }

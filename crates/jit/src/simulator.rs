@@ -10,10 +10,15 @@ use crate::code::Code;
 use crate::design::Design;
 use crate::elaborate::elaborate;
 use crate::error::JitError;
+use crate::groups::groups;
 use crate::layout::{Layout, Place};
-use crate::lower::{Program, is_computed};
+use crate::lower::{Plan, Program, is_computed};
+use crate::order::Readers;
+use crate::quiet::{Wakes, wakes};
 use crate::schedule::schedule;
+use crate::shared::shared;
 use crate::state::State;
+use crate::tables::Tables;
 
 /// A running netlist. Inputs are 0 until set; registers without reset, and memory outputs before the first read, are 0
 /// at the start. A clone shares the code and has its own state.
@@ -30,13 +35,18 @@ pub struct Simulator {
 /// All that does not change.
 struct Compiled {
     design: Design,
+    wakes: Wakes,
     layout: Layout,
     code: Code,
 }
 
 /// An input of the top module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct InputId(Place);
+pub struct InputId {
+    place: Place,
+    /// The units that have to know of a change.
+    wakes: u64,
+}
 
 /// An output of the top module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,11 +74,24 @@ impl Simulator {
     /// If there is no code generator for this machine, or the netlist is larger than it can be.
     pub fn new(netlist: &Netlist) -> Result<Simulator, JitError> {
         let mut design = elaborate(netlist);
-        let layout = Layout::new(&design)?;
-        let steps = schedule(&mut design);
-        let code = Code::new(&design, &steps, &layout)?;
-        let state = State::new(&design, &layout);
-        let compiled = Arc::new(Compiled { design, layout, code });
+        let groups = groups(&mut design);
+        let steps = schedule(&mut design, &groups);
+        let readers = Readers::of(&design);
+        let steps = readers.ordered(steps);
+        let (wakes, tables) = (wakes(&design, &readers, &groups), Tables::of(&design.graph));
+        let shared = shared(&design, &tables, &wakes, &steps);
+        let layout = Layout::new(&design, &tables, &wakes, &shared)?;
+        let plan = Plan {
+            design: &design,
+            steps: &steps,
+            tables: &tables,
+            wakes: &wakes,
+            shared: &shared,
+            layout: &layout,
+        };
+        let code = Code::new(&plan)?;
+        let state = State::new(&design, &tables, &wakes, &layout);
+        let compiled = Arc::new(Compiled { design, wakes, layout, code });
         Ok(Simulator { compiled, state, outputs_stale: true, signals_stale: true })
     }
 
@@ -77,9 +100,11 @@ impl Simulator {
     /// # Errors
     /// If there is none of that name.
     pub fn input(&self, name: &str) -> Result<InputId, SimError> {
-        let value = self.compiled.design.inputs.get(name);
-        let place = value.and_then(|value| self.compiled.layout.of(*value));
-        place.map(InputId).ok_or_else(|| SimError::NoInput(name.to_owned()))
+        let Compiled { design, wakes, layout, .. } = &*self.compiled;
+        let value = design.inputs.get(name);
+        let found =
+            value.and_then(|value| Some(InputId { place: layout.of(*value)?, wakes: wakes.of(*value) }));
+        found.ok_or_else(|| SimError::NoInput(name.to_owned()))
     }
 
     /// The output `name` of the top module.
@@ -125,7 +150,13 @@ impl Simulator {
     /// Sets an input; bits beyond its width are dropped, as by a wire.
     #[inline]
     pub fn set(&mut self, input: InputId, value: u128) {
-        self.state.set(input.0, value);
+        let InputId { place, wakes } = input;
+        let before = self.state.get(place);
+        self.state.set(place, value);
+        if self.state.get(place) != before {
+            let Compiled { layout, wakes: all, .. } = &*self.compiled;
+            self.state.wake(layout, all, wakes);
+        }
         self.change();
     }
 
@@ -135,7 +166,7 @@ impl Simulator {
     /// If there is none of that name, or the value does not fit.
     pub fn set_input(&mut self, name: &str, value: u128) -> Result<(), SimError> {
         let input = self.input(name)?;
-        let width = input.0.width;
+        let width = input.place.width;
         if value > mask(width) {
             return Err(SimError::TooWide { name: name.to_owned(), width, value });
         }

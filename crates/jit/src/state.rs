@@ -5,6 +5,8 @@ use edgewalk_netlist::ops::mask;
 use crate::design::Design;
 use crate::graph::ValueId;
 use crate::layout::{Area, Layout, Place};
+use crate::quiet::Wakes;
+use crate::tables::Tables;
 
 /// One buffer with all signals, registers and memories.
 #[derive(Clone, Debug)]
@@ -12,7 +14,7 @@ pub(crate) struct State(Vec<u64>);
 
 impl State {
     /// All 0 but constants and the words of memories.
-    pub fn new(design: &Design, layout: &Layout) -> State {
+    pub fn new(design: &Design, tables: &Tables, wakes: &Wakes, layout: &Layout) -> State {
         let mut state = State(vec![0; layout.size]);
         let constants = design.signals.values().filter_map(|value| constant(design, layout, *value));
         constants.for_each(|(place, value)| state.set(place, value));
@@ -21,7 +23,20 @@ impl State {
                 (0..area.words).for_each(|index| state.set_word(*area, index, memory.init));
             }
         }
+        state.wake(layout, wakes, u64::MAX);
+        let bytes = tables.bytes.iter().enumerate();
+        bytes.for_each(|(at, byte)| state.set_byte(layout.tables as usize + at, *byte));
         state
+    }
+
+    /// These units work on.
+    pub fn wake(&mut self, layout: &Layout, wakes: &Wakes, units: u64) {
+        wakes.units(units).for_each(|(unit, clocks)| self.set_byte(layout.counters as usize + unit, clocks));
+    }
+
+    fn set_byte(&mut self, at: usize, byte: u8) {
+        let shift = at % 8 * 8;
+        self.0[at / 8] = self.0[at / 8] & !(0xff << shift) | u64::from(byte) << shift;
     }
 
     /// For the native code.

@@ -2,9 +2,11 @@
 #![allow(clippy::unwrap_used)] // a test may
 
 mod common {
+    pub mod carry;
     pub mod enables;
     pub mod pair;
     pub mod ram;
+    pub mod units;
 }
 #[path = "../../verilog/tests/random_module"]
 mod random {
@@ -80,4 +82,36 @@ fn memory_collisions() {
         widths.iter().map(|width| compare(&common::ram::module(*width), &mut random, 500)).sum();
     println!("{compared} values compared");
     assert!(compared > 50_000);
+}
+
+/// Inputs that stay for a while, till all has come to rest; then one of them changes, or there is a reset.
+#[test]
+fn units_that_stand_still() {
+    let mut random = Pcg64Mcg::new(5);
+    let netlist = common::units::module();
+    let mut pair = Pair::new(&netlist);
+    let mut cycle = 0;
+    for _ in 0..600 {
+        let input = &netlist.inputs[random.random_range(0..netlist.inputs.len())];
+        pair.set(&input.name, corner_or_any(&mut random, netlist.width(input.node)));
+        pair.set("rst", u128::from(random.random_bool(0.05)));
+        for _ in 0..random.random_range(1..=60) {
+            pair.compare(cycle);
+            pair.tick(cycle);
+            pair.set("rst", 0);
+            cycle += 1;
+        }
+    }
+    println!("{} values compared", pair.compared);
+    assert!(pair.compared > 300_000);
+}
+
+#[test]
+fn sums_with_a_carry() {
+    let mut random = Pcg64Mcg::new(6);
+    let widths = [1, 2, 7, 31, 32, 46, 63, 64, 65, 127];
+    let compared: u64 =
+        widths.iter().map(|width| compare(&common::carry::module(*width), &mut random, 300)).sum();
+    println!("{compared} values compared");
+    assert!(compared > 30_000);
 }

@@ -6,6 +6,7 @@ use edgewalk_netlist::Op;
 use crate::design::Design;
 use crate::graph::{Graph, Kind, ValueId};
 use crate::step::Step;
+use crate::tables::Tables;
 
 /// An arm of so many instructions or more gets a branch: about what a branch costs that is guessed wrong now and then.
 const LEAST: u32 = 8;
@@ -30,12 +31,12 @@ struct Tree {
 pub(super) struct Alone(Vec<Tree>);
 
 impl Alone {
-    pub fn of(design: &Design, steps: &[Step]) -> Alone {
+    pub fn of(design: &Design, steps: &[Step], tables: &Tables) -> Alone {
         let graph = &design.graph;
         let mut alone = Alone(vec![Tree::default(); graph.len()]);
-        alone.count_readers(design, steps);
+        alone.count_readers(design, steps, tables);
         for id in graph.ids() {
-            let tree = alone.tree(graph, id);
+            let tree = alone.tree(graph, tables, id);
             alone.0[id.index()] = tree;
         }
         alone
@@ -47,7 +48,7 @@ impl Alone {
     }
 
     /// What an arm shares with others, and so has to be there before the branch.
-    pub fn shared(&self, graph: &Graph, arm: ValueId, shared: &mut Vec<ValueId>) {
+    pub fn shared(&self, graph: &Graph, tables: &Tables, arm: ValueId, shared: &mut Vec<ValueId>) {
         let mut open = vec![arm];
         while let Some(value) = open.pop() {
             if !matches!(graph.kind(value), Kind::Op(..)) {
@@ -56,13 +57,13 @@ impl Alone {
             if self.0[value.index()].readers > 1 {
                 shared.push(value);
             } else {
-                open.extend(graph.operands(value));
+                open.extend(tables.operands(graph, value));
             }
         }
     }
 
     /// Readers of all that is ever computed in a clock.
-    fn count_readers(&mut self, design: &Design, steps: &[Step]) {
+    fn count_readers(&mut self, design: &Design, steps: &[Step], tables: &Tables) {
         let outputs = design.outputs.iter().map(|(_, value)| *value);
         let updates = design.registers.iter().flat_map(|register| &register.updates);
         let updates = updates.flat_map(|(when, value)| when.iter().copied().chain([*value]));
@@ -76,7 +77,7 @@ impl Alone {
             let readers = &mut self.0[value.index()].readers;
             *readers += 1;
             if *readers == 1 {
-                let operands = design.graph.operands(value);
+                let operands = tables.operands(&design.graph, value);
                 let first = |i: &usize| !operands[..*i].contains(&operands[*i]);
                 open.extend((0..operands.len()).filter(first).map(|i| operands[i]));
             }
@@ -84,11 +85,12 @@ impl Alone {
     }
 
     /// From the trees of its operands.
-    fn tree(&self, graph: &Graph, id: ValueId) -> Tree {
+    fn tree(&self, graph: &Graph, tables: &Tables, id: ValueId) -> Tree {
         let Tree { readers, .. } = self.0[id.index()];
-        let Kind::Op(op, operands) = graph.kind(id) else {
+        let Kind::Op(op, _) = graph.kind(id) else {
             return Tree { readers, ..Tree::default() };
         };
+        let operands = tables.operands(graph, id);
         let own = |operand: &ValueId| Some(self.0[operand.index()]).filter(|tree| tree.readers == 1);
         let widest = operands.iter().chain([&id]).map(|value| graph.width(*value)).max();
         let cost = if widest > Some(64) { 3 } else { 1 };
@@ -96,7 +98,8 @@ impl Alone {
             operands.iter().filter_map(own).fold(cost, |cost: u32, tree| cost.saturating_add(tree.cost));
         let depth = operands.iter().filter_map(own).map(|tree| tree.depth).max().unwrap_or(0);
         let is_dear = |arm: &ValueId| own(arm).is_some_and(|tree| tree.cost >= LEAST);
-        let branches = *op == Op::Mux && depth < DEEPEST && operands[1..].iter().any(is_dear);
+        let chooses = *op == Op::Mux && tables.get(id).is_none();
+        let branches = chooses && depth < DEEPEST && operands[1..].iter().any(is_dear);
         Tree { readers, cost, depth: depth + u32::from(branches), branches }
     }
 }
@@ -105,7 +108,7 @@ impl Alone {
 fn conditions(steps: &[Step], all: &mut Vec<ValueId>) {
     for step in steps {
         all.extend(step.conditions());
-        if let Step::If { then, .. } = step {
+        if let Step::If { then, .. } | Step::Unit { then, .. } = step {
             conditions(then, all);
         }
     }

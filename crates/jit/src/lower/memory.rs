@@ -28,7 +28,7 @@ impl Lowering<'_> {
     }
 
     /// The word at the address, if there is one, becomes the data if the port is enabled.
-    pub(super) fn write(&mut self, port: Write, area: Area) {
+    pub(super) fn write(&mut self, port: Write, area: Area, wakes: u64) {
         self.only_if(port.en, |lowering| {
             let (index, is_there) = lowering.index(port.addr, area);
             let next = lowering.v.cursor.func.dfg.make_block();
@@ -41,6 +41,7 @@ impl Lowering<'_> {
             let data = resized(&mut lowering.v, data, stored_as(area));
             let address = lowering.address(index, area);
             lowering.v.cursor.ins().store(memory_flags(), data, address, area.offset);
+            lowering.v.wake(wakes);
             lowering.v.cursor.ins().jump(next, &[]);
             lowering.v.cursor.insert_block(next);
         });

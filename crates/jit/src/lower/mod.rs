@@ -6,4 +6,4 @@ mod operators;
 mod program;
 mod values;
 
-pub(crate) use program::{Program, is_computed, lower};
+pub(crate) use program::{Plan, Program, is_computed, lower};

@@ -1,7 +1,7 @@
 //! The functions: what is computed in which order, and where branches go.
 
 use cranelift_codegen::cursor::{Cursor, FuncCursor};
-use cranelift_codegen::ir::{Block, Function, InstBuilder, Type, Value};
+use cranelift_codegen::ir::{Block, Function, Inst, InstBuilder, Type};
 use edgewalk_netlist::Op;
 
 use super::alone::Alone;
@@ -10,7 +10,9 @@ use crate::design::Design;
 use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
 use crate::layout::Layout;
+use crate::quiet::{MOST, Wakes};
 use crate::step::Step;
+use crate::tables::Tables;
 
 /// A function of the state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,24 +25,30 @@ pub(crate) enum Program {
     Signals,
 }
 
+/// All that programs are made from.
+#[derive(Clone, Copy)]
+pub(crate) struct Plan<'a> {
+    pub design: &'a Design,
+    pub steps: &'a [Step],
+    pub tables: &'a Tables,
+    pub wakes: &'a Wakes,
+    /// Kept in the state from step to step.
+    pub shared: &'a [ValueId],
+    pub layout: &'a Layout,
+}
+
 /// Fills the function, which has its signature already.
-pub(crate) fn lower(
-    program: Program,
-    design: &Design,
-    steps: &[Step],
-    layout: &Layout,
-    pointer: Type,
-    function: &mut Function,
-) {
+pub(crate) fn lower(program: Program, plan: &Plan, pointer: Type, function: &mut Function) {
+    let Plan { design, steps, .. } = *plan;
     let head = function.dfg.make_block();
     let state = function.dfg.append_block_param(head, pointer);
     let mut cursor = FuncCursor::new(function);
     cursor.insert_block(head);
-    let alone = Alone::of(design, steps);
-    let mut lowering =
-        Lowering { design, v: Values::new(&design.graph, &alone, layout, cursor, state, head) };
+    let alone = Alone::of(design, steps, plan.tables);
+    let mut lowering = Lowering { design, v: Values::new(plan, &alone, cursor, state) };
     match program {
         Program::Clock => {
+            lowering.v.keep(plan.shared);
             lowering.sample();
             lowering.clock(steps);
         }
@@ -76,110 +84,129 @@ impl Lowering<'_> {
         }
     }
 
-    /// Registers and read ports, then the words of the memories, as the reads see those from before the writes.
+    /// The steps; then what is reset, whatever it became in them.
     fn clock(&mut self, steps: &[Step]) {
         self.steps(steps);
-        for (memory, area) in self.design.memories.iter().zip(&self.v.layout.memories) {
-            for port in &memory.writes {
-                self.write(*port, *area);
-            }
-        }
+        self.v.wake_changed();
         let resets = self.design.registers.iter().filter_map(|register| Some((register.q, register.reset?)));
         let resets: Vec<(ValueId, u128)> = resets.collect();
         if !resets.is_empty() {
             self.only_if(self.design.reset, |lowering| {
                 for (q, value) in resets {
                     let value = lowering.v.constant(lane(lowering.v.graph.width(q)), value);
-                    lowering.v.store_register(q, value);
+                    lowering.v.store_reset(q, value);
                 }
+                lowering.v.wake(u64::MAX);
             });
         }
     }
 
-    /// The conditions come before the branches, so that all steps share what they have in common.
     fn steps(&mut self, steps: &[Step]) {
-        for condition in steps.iter().flat_map(Step::conditions) {
-            self.v.zero(*condition);
-        }
         for step in steps {
+            self.v.forget();
             match step {
-                Step::Change(group) => self.change(group),
+                Step::Change(group) => self.change(group, group.conditions.len()),
+                Step::Write(memory) => {
+                    let area = self.v.layout.memories[*memory];
+                    let wakes = 1 << self.design.memories[*memory].unit.min(MOST - 1);
+                    self.design.memories[*memory]
+                        .writes
+                        .iter()
+                        .for_each(|port| self.write(*port, area, wakes));
+                }
+                Step::Unit { unit, then } if self.v.wakes.rests(*unit) => self.unit(*unit, then),
+                Step::Unit { then, .. } => self.steps(then),
                 Step::If { bit, then } => self.only_if(*bit, |lowering| lowering.steps(then)),
             }
         }
     }
 
-    /// The strongest condition is asked first.
-    fn change(&mut self, group: &Group) {
-        let next = self.v.cursor.func.dfg.make_block();
-        let mark = self.v.enter();
-        for (rank, condition) in group.conditions.iter().enumerate().rev() {
-            if self.v.graph.as_constant(*condition) == Some(1) {
-                self.take(group, rank);
-                break;
-            }
-            let [yes, no] = [(); 2].map(|()| self.v.cursor.func.dfg.make_block());
-            self.branch(*condition, yes, no);
-            self.v.cursor.insert_block(yes);
-            let inner = self.v.enter();
-            self.take(group, rank);
-            self.v.cursor.ins().jump(next, &[]);
-            self.v.leave(inner);
-            self.v.cursor.insert_block(no);
-        }
-        self.v.cursor.ins().jump(next, &[]);
-        self.v.leave(mark);
+    /// The steps of a unit, which are left out when its counter is 0.
+    fn unit(&mut self, unit: usize, then: &[Step]) {
+        let clocks = self.v.clocks_now(unit);
+        let [block, next] = [(); 2].map(|()| self.v.cursor.func.dfg.make_block());
+        let way = self.v.cursor.ins().brif(clocks, block, &[], next, &[]);
+        let changed = self.inside(block, next, |lowering| {
+            lowering.v.count(unit, clocks);
+            lowering.steps(then);
+        });
         self.v.cursor.insert_block(next);
-        for member in &group.members {
-            self.v.change(match member {
-                Member::Register { q, .. } => *q,
-                Member::Read { memory, port } => self.design.memories[*memory].reads[*port].q,
-            });
-        }
+        changed.into_iter().for_each(|register| self.v.change(register, way));
     }
 
-    /// All members take their value of this rank. They change together: all values are there before one is stored.
+    /// The strongest condition is asked first, of those below `rank`.
+    fn change(&mut self, group: &Group, rank: usize) {
+        let Some(rank) = rank.checked_sub(1) else { return };
+        let condition = group.conditions[rank];
+        if self.v.graph.as_constant(condition) == Some(1) {
+            return self.take(group, rank);
+        }
+        self.either(
+            condition,
+            |lowering| lowering.take(group, rank),
+            |lowering| lowering.change(group, rank),
+        );
+    }
+
+    /// All members take their value of this rank, in an order in which most are read before they change. Where that is in every
+    /// clock they are compared with what they were; else they count as changed.
     fn take(&mut self, group: &Group, rank: usize) {
-        let value = |lowering: &mut Self, member: &Member| match member {
-            Member::Register { q, values } => (*q, lowering.v.zero(values[rank])),
-            Member::Read { memory, port } => lowering.read(*memory, *port),
-        };
-        let values: Vec<(ValueId, Value)> = group.members.iter().map(|member| value(self, member)).collect();
-        for (q, value) in values {
+        let always = self.v.graph.as_constant(group.conditions[0]) == Some(1);
+        let mut changed = 0;
+        for member in &group.members {
+            let (q, value) = match member {
+                Member::Register { q, values } => (*q, self.v.zero(values[rank])),
+                Member::Read { memory, port } => self.read(*memory, *port),
+            };
+            let wakes = self.v.wakes.of(q);
+            if always {
+                self.v.compare(q, value, wakes);
+            } else {
+                changed |= wakes;
+            }
             self.v.store_register(q, value);
         }
-    }
-
-    /// Where the bit decides; its opposite need not be computed.
-    fn branch(&mut self, bit: ValueId, yes: Block, no: Block) {
-        match self.v.graph.as_op(bit, Op::Not) {
-            Some(&[opposite]) => {
-                let condition = self.v.zero(opposite);
-                self.v.cursor.ins().brif(condition, no, &[], yes, &[]);
-            }
-            _ => {
-                let condition = self.v.zero(bit);
-                self.v.cursor.ins().brif(condition, yes, &[], no, &[]);
-            }
-        }
+        self.v.wake(changed);
     }
 
     /// What is filled in happens if the bit is 1; what is computed in it stays in it.
     pub fn only_if(&mut self, bit: ValueId, fill: impl FnOnce(&mut Self)) {
-        let [block, next] = [(); 2].map(|()| self.v.cursor.func.dfg.make_block());
-        self.branch(bit, block, next);
-        self.inside(block, next, fill);
+        self.either(bit, fill, |_| {});
     }
 
-    /// A block from which the way leads on to `next`.
-    fn inside(&mut self, block: Block, next: Block, fill: impl FnOnce(&mut Self)) {
+    /// The one happens if the bit is 1, the other if it is 0; what is computed in them stays in them.
+    fn either(&mut self, bit: ValueId, one: impl FnOnce(&mut Self), zero: impl FnOnce(&mut Self)) {
+        let [yes, no, next] = [(); 3].map(|()| self.v.cursor.func.dfg.make_block());
+        let way = self.branch(bit, yes, no);
+        let mut changed = self.inside(yes, next, one);
+        changed.extend(self.inside(no, next, zero));
+        self.v.cursor.insert_block(next);
+        changed.into_iter().for_each(|register| self.v.change(register, way));
+    }
+
+    /// Where the bit decides; its opposite need not be computed.
+    fn branch(&mut self, bit: ValueId, yes: Block, no: Block) -> Inst {
+        match self.v.graph.as_op(bit, Op::Not) {
+            Some(&[opposite]) => {
+                let condition = self.v.zero(opposite);
+                self.v.cursor.ins().brif(condition, no, &[], yes, &[])
+            }
+            _ => {
+                let condition = self.v.zero(bit);
+                self.v.cursor.ins().brif(condition, yes, &[], no, &[])
+            }
+        }
+    }
+
+    /// A block from which the way leads on to `next`; returns the registers that change in it.
+    fn inside(&mut self, block: Block, next: Block, fill: impl FnOnce(&mut Self)) -> Vec<ValueId> {
         let mark = self.v.enter();
         self.v.cursor.insert_block(block);
-        self.v.enter_branch(block);
+        self.v.enter_branch();
         fill(self);
+        self.v.wake_changed();
         self.v.cursor.ins().jump(next, &[]);
-        self.v.leave_branch();
         self.v.leave(mark);
-        self.v.cursor.insert_block(next);
+        self.v.leave_branch()
     }
 }

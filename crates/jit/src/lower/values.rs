@@ -4,14 +4,17 @@
 use std::collections::HashMap;
 
 use cranelift_codegen::cursor::{Cursor, FuncCursor};
-use cranelift_codegen::ir::{Block, InstBuilder, MemFlagsData, Type, Value, types};
+use cranelift_codegen::ir::{Inst, InstBuilder, MemFlagsData, Type, Value, types};
 use edgewalk_netlist::Op;
 use edgewalk_netlist::ops::mask;
 
 use super::alone::Alone;
 use super::operators;
+use super::program::Plan;
 use crate::graph::{Graph, Kind, ValueId};
 use crate::layout::{Layout, Place};
+use crate::quiet::Wakes;
+use crate::tables::{Table, Tables};
 
 /// A value in its forms; all have the type [`lane`] of its width.
 #[derive(Clone, Copy)]
@@ -24,17 +27,19 @@ pub(super) struct Lowered {
     pub zero: Option<Value>,
     /// With copies of the sign above.
     pub sign: Option<Value>,
+    /// It is in its place in the state, as `any`, and has to be read there.
+    is_kept: bool,
 }
 
 impl Lowered {
     /// Anything above the value's bits, but `any` is below 2^bits.
     pub fn below(any: Value, bits: u32) -> Lowered {
-        Lowered { any, bits, zero: None, sign: None }
+        Lowered { any, bits, zero: None, sign: None, is_kept: false }
     }
 
     /// Copies of the sign above the value's bits.
     pub fn signed(any: Value) -> Lowered {
-        Lowered { any, bits: u32::MAX, zero: None, sign: Some(any) }
+        Lowered { any, bits: u32::MAX, zero: None, sign: Some(any), is_kept: false }
     }
 }
 
@@ -50,6 +55,8 @@ pub(super) fn lane(width: u32) -> Type {
 /// Values as far as they are computed where the cursor stands.
 pub(super) struct Values<'a> {
     pub graph: &'a Graph,
+    tables: &'a Tables,
+    pub wakes: &'a Wakes,
     alone: &'a Alone,
     pub layout: &'a Layout,
     pub cursor: FuncCursor<'a>,
@@ -58,43 +65,58 @@ pub(super) struct Values<'a> {
     /// The function and the branches within each other in which the cursor stands.
     branches: Vec<Branch>,
     known: Vec<Option<Lowered>>,
+    is_shared: Vec<bool>,
     /// What was known before, since the outermost branch began.
     undo: Vec<(ValueId, Option<Lowered>)>,
-    /// Of each register of which the state may have the new value by now, the number of the branch that knows it.
-    changed: Vec<Option<usize>>,
-    /// The old values of those, read where their branch begins.
+    /// Of each register of which the state may have the new value by now, where it changed.
+    changed: Vec<Option<Change>>,
+    /// The old values of those, read just before they change.
     old: HashMap<ValueId, Value>,
 }
 
+/// Where a register changes.
+#[derive(Clone, Copy)]
+struct Change {
+    /// The number of the branch that knows it.
+    branch: usize,
+    /// The store, or what leads into the branch that has it; before it the state has the old value.
+    at: Inst,
+}
+
 /// Code that is skipped as a whole, or the function.
+#[derive(Default)]
 struct Branch {
-    /// Where it begins: before any change in it.
-    head: Block,
     /// Registers that change in it.
     changed: Vec<ValueId>,
     /// Those of which it has read the old value.
     old: Vec<ValueId>,
-}
-
-impl Branch {
-    fn at(head: Block) -> Branch {
-        Branch { head, changed: Vec::new(), old: Vec::new() }
-    }
+    /// What is not 0 if something has changed that these units have to know.
+    differences: Vec<(u64, Value)>,
 }
 
 impl<'a> Values<'a> {
-    /// Nothing is known yet; the cursor stands in the function's first block, `head`.
-    pub fn new(
-        graph: &'a Graph,
-        alone: &'a Alone,
-        layout: &'a Layout,
-        cursor: FuncCursor<'a>,
-        state: Value,
-        head: Block,
-    ) -> Values<'a> {
+    /// Nothing is known yet; the cursor stands in the function's first block.
+    pub fn new(plan: &Plan<'a>, alone: &'a Alone, cursor: FuncCursor<'a>, state: Value) -> Values<'a> {
+        let Plan { tables, wakes, layout, .. } = *plan;
+        let graph = &plan.design.graph;
         let (known, changed) = (vec![None; graph.len()], vec![None; graph.len()]);
-        let (branches, undo, old) = (vec![Branch::at(head)], Vec::new(), HashMap::new());
-        Values { graph, alone, layout, cursor, state, branches, known, undo, changed, old }
+        let is_shared = vec![false; graph.len()];
+        let (branches, undo, old) = (vec![Branch::default()], Vec::new(), HashMap::new());
+        Values {
+            graph,
+            tables,
+            wakes,
+            alone,
+            layout,
+            cursor,
+            state,
+            branches,
+            known,
+            is_shared,
+            undo,
+            changed,
+            old,
+        }
     }
 
     /// What is computed from now on is forgotten at [`Values::leave`].
@@ -109,20 +131,37 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// A branch that begins with this block.
-    pub fn enter_branch(&mut self, head: Block) {
-        self.branches.push(Branch::at(head));
+    /// These values are to be kept in the state when they are computed.
+    pub fn keep(&mut self, shared: &[ValueId]) {
+        shared.iter().for_each(|value| self.is_shared[value.index()] = true);
     }
 
-    /// The end of the branch that was entered last; what changed in it has changed in the one around it.
-    pub fn leave_branch(&mut self) {
-        let Some(Branch { changed, old, .. }) = self.branches.pop() else { return };
+    /// Between two steps: what they share is in the state, and registers of the processor are free.
+    pub fn forget(&mut self) {
+        for value in self.graph.ids() {
+            if let Some(lowered) = self.known[value.index()].filter(|lowered| !lowered.is_kept) {
+                let kept = self.is_shared[value.index()].then_some(Lowered { is_kept: true, ..lowered });
+                self.undo.push((value, Some(lowered)));
+                self.known[value.index()] = kept;
+            }
+        }
+    }
+
+    /// Code begins that may be skipped.
+    pub fn enter_branch(&mut self) {
+        self.branches.push(Branch::default());
+    }
+
+    /// The end of the branch that was entered last: of what changed in it nothing has changed on other ways. Returns that.
+    pub fn leave_branch(&mut self) -> Vec<ValueId> {
+        let Branch { changed, old, .. } = self.branches.pop().unwrap_or_default();
         for register in old {
             self.old.remove(&register);
         }
-        for register in changed {
-            self.change(register);
+        for register in &changed {
+            self.changed[register.index()] = None;
         }
+        changed
     }
 
     /// The value with zeros above its bits.
@@ -186,20 +225,108 @@ impl<'a> Values<'a> {
         self.cursor.ins().store(flags(place.width), zero, state, place.offset);
     }
 
-    /// Stores the next value of a register; [`Values::change`] is to follow.
+    /// Stores the next value of a register.
     pub fn store_register(&mut self, register: ValueId, value: Value) {
+        if let Some(place) = self.layout.of(register) {
+            let state = self.state;
+            let store = self.cursor.ins().store(flags(place.width), value, state, place.offset);
+            self.change(register, store);
+        }
+    }
+
+    /// Stores what a register is after a reset, when nobody reads it any more.
+    pub fn store_reset(&mut self, register: ValueId, value: Value) {
         if let Some(place) = self.layout.of(register) {
             let state = self.state;
             self.cursor.ins().store(flags(place.width), value, state, place.offset);
         }
     }
 
-    /// The state may have the new value of this register from here on.
-    pub fn change(&mut self, register: ValueId) {
-        self.changed[register.index()] = self.branches.len().checked_sub(1);
-        if let Some(branch) = self.branches.last_mut() {
-            branch.changed.push(register);
+    /// The units have to know if the register, which is to be stored, changes.
+    pub fn compare(&mut self, register: ValueId, value: Value, units: u64) {
+        let Some(place) = self.layout.of(register).filter(|_| self.wakes.units(units).next().is_some())
+        else {
+            return;
+        };
+        let state = self.state;
+        let ty = self.cursor.func.dfg.value_type(value);
+        let old = self.cursor.ins().load(ty, flags(place.width), state, place.offset);
+        let mut difference = self.cursor.ins().bxor(old, value);
+        if ty == types::I128 {
+            let (low, high) = self.cursor.ins().isplit(difference);
+            difference = self.cursor.ins().bor(low, high);
         }
+        let difference = operators::resized(self, difference, types::I64);
+        let branch = self.branches.len() - 1;
+        let same = self.branches[branch].differences.iter().position(|(others, _)| *others == units);
+        match same {
+            Some(at) => {
+                let other = self.branches[branch].differences[at].1;
+                self.branches[branch].differences[at].1 = self.cursor.ins().bor(other, difference);
+            }
+            None => self.branches[branch].differences.push((units, difference)),
+        }
+    }
+
+    /// At the end of a branch: the units work on that have to know what has changed in it.
+    pub fn wake_changed(&mut self) {
+        let branch = self.branches.len() - 1;
+        for (units, difference) in std::mem::take(&mut self.branches[branch].differences) {
+            for (unit, clocks) in self.wakes.units(units) {
+                let (before, all) = (self.clocks(unit), self.constant(types::I8, clocks.into()));
+                let clocks = self.cursor.ins().select(difference, all, before);
+                self.set_clocks(unit, clocks);
+            }
+        }
+    }
+
+    /// These units work on.
+    pub fn wake(&mut self, units: u64) {
+        for (unit, clocks) in self.wakes.units(units) {
+            let clocks = self.constant(types::I8, clocks.into());
+            self.set_clocks(unit, clocks);
+        }
+    }
+
+    /// For how many clocks a unit is to work, this one too: for all of them if a bit from another unit is not what it was.
+    pub fn clocks_now(&mut self, unit: usize) -> Value {
+        let mut changed = None;
+        for (gate, place) in self.wakes.gates(unit).iter().zip(&self.layout.gates[unit]) {
+            let (now, state) = (self.zero(*gate), self.state);
+            let before = self.cursor.ins().load(types::I8, flags(1), state, place.offset);
+            self.cursor.ins().store(flags(1), now, state, place.offset);
+            let differs = self.cursor.ins().bxor(now, before);
+            changed = Some(changed.map_or(differs, |changed| self.cursor.ins().bor(changed, differs)));
+        }
+        let clocks = self.clocks(unit);
+        let Some(changed) = changed else { return clocks };
+        let all = self.constant(types::I8, self.wakes.clocks[unit].into());
+        self.cursor.ins().select(changed, all, clocks)
+    }
+
+    /// For how many clocks a unit is to work on.
+    pub fn clocks(&mut self, unit: usize) -> Value {
+        let (state, offset) = (self.state, self.layout.counters + unit as i32);
+        self.cursor.ins().load(types::I8, MemFlagsData::trusted(), state, offset)
+    }
+
+    /// One clock less than so many.
+    pub fn count(&mut self, unit: usize, clocks: Value) {
+        let one = self.constant(types::I8, 1);
+        let clocks = self.cursor.ins().isub(clocks, one);
+        self.set_clocks(unit, clocks);
+    }
+
+    fn set_clocks(&mut self, unit: usize, clocks: Value) {
+        let (state, offset) = (self.state, self.layout.counters + unit as i32);
+        self.cursor.ins().store(MemFlagsData::trusted(), clocks, state, offset);
+    }
+
+    /// The state may have the new value of this register from `at` on.
+    pub fn change(&mut self, register: ValueId, at: Inst) {
+        let branch = self.branches.len() - 1;
+        self.changed[register.index()] = Some(Change { branch, at });
+        self.branches[branch].changed.push(register);
     }
 
     fn set(&mut self, value: ValueId, lowered: Lowered) {
@@ -213,7 +340,11 @@ impl<'a> Values<'a> {
         loop {
             // The stack has an entry until the value that was asked for is known.
             let value = stack[stack.len() - 1];
-            if let Some(lowered) = self.known[value.index()] {
+            if let Some(mut lowered) = self.known[value.index()] {
+                if lowered.is_kept {
+                    lowered = self.read_again(value, lowered.bits);
+                    self.set(value, lowered);
+                }
                 stack.pop();
                 if stack.is_empty() {
                     return lowered;
@@ -225,18 +356,39 @@ impl<'a> Values<'a> {
             if stack.len() == waiting {
                 let lowered = self.compute(value);
                 self.set(value, lowered);
+                if self.is_shared[value.index()] {
+                    self.store_shared(value, lowered.any);
+                }
             }
         }
+    }
+
+    fn store_shared(&mut self, value: ValueId, any: Value) {
+        if let Some(place) = self.layout.of(value) {
+            let state = self.state;
+            self.cursor.ins().store(flags(place.width), any, state, place.offset);
+        }
+    }
+
+    /// A value that is kept.
+    fn read_again(&mut self, value: ValueId, bits: u32) -> Lowered {
+        let Some(Place { offset, width }) = self.layout.of(value) else {
+            return Lowered::below(self.constant(lane(self.graph.width(value)), 0), 0); // never: it has a place
+        };
+        let state = self.state;
+        Lowered::below(self.cursor.ins().load(lane(width), flags(width), state, offset), bits)
     }
 
     /// What has to be there before the value is computed, the last first: its operands, but of an arm that is computed where it
     /// is taken only what it shares with others.
     fn needed_first(&self, value: ValueId) -> impl Iterator<Item = ValueId> {
-        let operands = self.graph.operands(value);
+        let operands = self.tables.operands(self.graph, value);
         let mut needed = operands.to_vec();
         if self.alone.branches(value) {
             needed.truncate(1);
-            operands[1..].iter().for_each(|arm| self.alone.shared(self.graph, *arm, &mut needed));
+            operands[1..]
+                .iter()
+                .for_each(|arm| self.alone.shared(self.graph, self.tables, *arm, &mut needed));
         }
         needed.into_iter().rev()
     }
@@ -263,6 +415,9 @@ impl<'a> Values<'a> {
 
     fn compute(&mut self, value: ValueId) -> Lowered {
         let width = self.graph.width(value);
+        if let Some(table) = self.tables.get(value) {
+            return self.looked_up(table, width);
+        }
         match self.graph.kind(value) {
             Kind::Op(Op::Mux, operands) if self.alone.branches(value) => {
                 self.chosen(operands[0], [operands[1], operands[2]], width)
@@ -281,20 +436,34 @@ impl<'a> Values<'a> {
         }
     }
 
+    /// An entry of a table.
+    fn looked_up(&mut self, table: Table, width: u32) -> Lowered {
+        let index = self.zero(table.index);
+        let (flags, state, offset) =
+            (MemFlagsData::trusted(), self.state, self.layout.tables + table.first as i32);
+        let address = self.cursor.ins().iadd(state, index);
+        let ins = self.cursor.ins();
+        let entry = match width {
+            1 => ins.load(types::I8, flags, address, offset),
+            _ => ins.uload8(types::I64, flags, address, offset),
+        };
+        Lowered::below(entry, width)
+    }
+
     /// An input or the old value of a register.
     fn stored(&mut self, value: ValueId, width: u32) -> Value {
         let Some(Place { offset, .. }) = self.layout.of(value) else {
             return self.constant(lane(width), 0); // never: the layout has all that is stored
         };
         let state = self.state;
-        let Some(branch) = self.changed[value.index()] else {
+        let Some(Change { branch, at }) = self.changed[value.index()] else {
             return self.cursor.ins().load(lane(width), flags(width), state, offset);
         };
         if let Some(old) = self.old.get(&value) {
             return *old;
         }
         let here = self.cursor.position();
-        self.cursor.goto_first_insertion_point(self.branches[branch].head);
+        self.cursor.goto_inst(at);
         let old = self.cursor.ins().load(lane(width), flags(width), state, offset);
         self.cursor.set_position(here);
         self.old.insert(value, old);
