@@ -27,7 +27,8 @@ impl<'m> Place<'m> {
         let (to, bits) = (span["x"], span["x"].width() - 1);
         let ahead = (to - x.q()).named_doc("ahead", "columns to the right, signed");
         // Whether it stands there does not wait for how far it is.
-        let (low, high) = (x.q().trunc(bits).ne(to.trunc(bits)).named("columns_differ"), x.q().msb() ^ to.msb());
+        let (low, high) =
+            (x.q().trunc(bits).ne(to.trunc(bits)).named("columns_differ"), x.q().msb() ^ to.msb());
         let leftward = span["leftward"];
         // The least number has no opposite: it is negative either way, and differs from 0 in its highest bit alone.
         let left = ahead.msb();
