@@ -1,11 +1,12 @@
 //! Lights at a point through the program: a scene in every engine, what `explain` shows, and faults.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use crate::support::{edgewalk, run};
+use crate::support::{colors, edgewalk, find, rendered_by_every_engine, run};
 use std::path::Path;
 
 /// A floor of two triangles and one that leans, close under a light.
 const SCENE: &str = "ambient = 0.1
+background = [0.2, 0.1, 0]
 [camera]
 eye = [0, 0, 3]
 target = [0, 0, 0]
@@ -55,40 +56,164 @@ fn render_holds_a_light_at_a_point_in_every_engine() {
     let mut checked = 0;
     for (light, more) in [(BULB, &[][..]), (FLOOD, multiply), (FLOOD, fine)] {
         scene(folder.path(), light);
-        let mut pictures = Vec::new();
-        for engine in ["fast", "model", "rtl"] {
-            let render =
-                ["render", "s.toml", "--shading", "phong", "--engine", engine, "--json", "--out", "r"];
-            let all = [&render[..], &SMALL, &LAMP, more].concat();
-            let output = edgewalk(folder.path(), &all).output().unwrap();
-            assert!(output.status.success(), "{all:?}: {}", String::from_utf8_lossy(&output.stderr));
-            let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let all = [&["s.toml", "--shading", "phong"], &SMALL[..], &LAMP, more].concat();
+        for report in rendered_by_every_engine(folder.path(), &all) {
             let shaded = &report["comparison"]["shaded"];
             let number = |key: &str| shaded[key].as_f64().unwrap();
-            println!("{engine} {more:?}: {shaded}");
+            println!("{more:?}: {shaded}");
             assert!(
                 number("pixels") > 1000.0 && number("beyond") == 0.0 && number("error") <= number("bound")
             );
             assert!(number("error") > 0.2 && number("bound") < 12.0, "{shaded}");
-            pictures.push(std::fs::read(folder.path().join("r/image.png")).unwrap());
             checked += 1;
         }
-        assert!(pictures.iter().all(|picture| *picture == pictures[0]), "the same machine");
     }
     assert_eq!(checked, 9);
 }
 
+/// Three lights: a picture for each, the sum of which is that of all of them together.
 #[test]
-fn explain_shows_the_terms_of_the_light() {
+fn several_lights_are_drawn_one_after_the_other_and_added() {
     let folder = tempfile::tempdir().unwrap();
-    scene(folder.path(), FLOOD);
-    let explain = ["explain", "s.toml", "40", "30", "--shading", "phong"];
-    let output = edgewalk(folder.path(), &[&explain[..], &SMALL, &LAMP].concat()).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let text = String::from_utf8(output.stdout).unwrap();
-    for word in ["dd, Q32.17", "pl, Q25.17", "dv, Q25.10", "da, Q25.10", "pv, Q25.10", "nn, Q18.17"] {
-        assert!(text.contains(word), "{word:?} is not in {text}");
+    let red = BULB.replace("0.3, 0.2, 0.8", "-0.5, 0.1, 0.7").replace("= 0.7", "= [0.9, 0.9, 0.9]");
+    let lights = [BULB, FLOOD, &red];
+    let render = [&["s.toml", "--shading", "phong"], &SMALL[..], &LAMP].concat();
+    let mut alone = Vec::new();
+    for (place, light) in lights.into_iter().enumerate() {
+        scene(folder.path(), light);
+        if place > 0 {
+            let dark = SCENE.replace("ambient = 0.1", "ambient = 0").replace("[0.2, 0.1, 0]", "[0, 0, 0]");
+            let dark = dark.replace("LIGHT", light);
+            std::fs::write(folder.path().join("s.toml"), dark).unwrap();
+        }
+        rendered_by_every_engine(folder.path(), &render);
+        alone.push(colors(&folder.path().join("r/image.png")));
     }
+    scene(folder.path(), &lights.concat());
+    for report in rendered_by_every_engine(folder.path(), &render) {
+        let parts = report["lights"].as_array().unwrap();
+        let shaded = |of: &serde_json::Value| of["shaded"].clone();
+        println!("all: {}", shaded(&report["comparison"]));
+        assert_eq!((parts.len(), report["cycles"]["passes"].as_array().unwrap().len()), (3, 3));
+        for part in parts.iter().chain([&report["comparison"]]) {
+            let shaded = shaded(part);
+            assert!(shaded["pixels"].as_u64().unwrap() > 1000 && shaded["beyond"] == 0, "{shaded}");
+            assert!(shaded["error"].as_f64().unwrap() > 0.2, "{shaded}");
+        }
+        let bound = |of: &serde_json::Value| shaded(of)["bound"].as_f64().unwrap();
+        // Every triangle's own bounds are added.
+        let sum: f64 = parts.iter().map(bound).sum();
+        let all = bound(&report["comparison"]);
+        assert!(all <= sum + 1e-9 && all > 0.7 * sum, "{all} of {sum}");
+    }
+    let (mut checked, mut cut) = (0, 0);
+    for (at, color) in colors(&folder.path().join("r/image.png")).into_iter().enumerate() {
+        for channel in 0..3 {
+            let sum: u32 = alone.iter().map(|picture| u32::from(picture[at][channel])).sum();
+            assert_eq!(u32::from(color[channel]), sum.min(255), "pixel {at}");
+            (checked, cut) = (checked + 1, cut + u32::from(sum > 255));
+        }
+    }
+    println!("{checked} colours, {cut} of them cut");
+    assert!(checked == 96 * 72 * 3 && cut > 50);
+    // `explain` has each of them.
+    let explain = [&["explain", "s.toml", "40", "30", "--shading", "phong", "--json"], &SMALL[..], &LAMP];
+    let output = edgewalk(folder.path(), &explain.concat()).output().unwrap();
+    let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(told["shaded"].as_array().unwrap().len(), 3);
+}
+
+/// Every step by the numbers of the one before, in f64, and at the end the very colour of the picture.
+#[test]
+fn explain_walks_the_steps_of_the_light() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut checked, mut dark) = (0, 0);
+    for (light, [x, y]) in [(BULB, [40, 30]), (FLOOD, [46, 33]), (FLOOD, [58, 28]), (FLOOD, [20, 60])] {
+        scene(folder.path(), light);
+        let render = [&["render", "s.toml", "--shading", "phong", "--out", "r"], &SMALL[..], &LAMP].concat();
+        assert_eq!(run(folder.path(), &render).0, Some(0));
+        let drawn = colors(&folder.path().join("r/image.png"))[y * 96 + x];
+        let [x, y] = [x, y].map(|number: usize| number.to_string());
+        let explain = [&["explain", "s.toml", &x, &y, "--shading", "phong"], &SMALL[..], &LAMP].concat();
+        let output = edgewalk(folder.path(), &[&explain[..], &["--json"]].concat()).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let terms = find(&told, "terms").unwrap().as_array().unwrap();
+        let term =
+            |name: &str| terms.iter().find(|term| term["name"] == name).unwrap()["output"].as_f64().unwrap();
+        let lamp = find(&told, "lamp").unwrap();
+        let roots = lamp["roots"].as_array().unwrap();
+        let products = lamp["products"].as_array().unwrap();
+        let value = |place: usize| products[place]["value"].as_f64().unwrap() / 65536.0;
+        let near = |name: &str, found: f64, wanted: f64, within: f64| {
+            assert!((found - wanted).abs() <= within, "{name} at {x} {y}: {found}, not {wanted}: {lamp}");
+        };
+        let (l, n) = ((term("dd") / 2f64.powi(30)).sqrt(), (term("nn") / 65536.0).sqrt());
+        let unit = |name: &str| term(name) / 2f64.powi(23);
+        let numbers = [
+            unit("pl") / l,
+            unit("dv") / l,
+            unit("da") / l,
+            unit("pl") / l / n,
+            unit("pv") / n,
+            (value(3) + value(4)) / 2.0 / ((1.0 + value(1)) / 2.0).sqrt(),
+        ];
+        for (place, wanted) in numbers.into_iter().enumerate() {
+            near(products[place]["name"].as_str().unwrap(), value(place), wanted, 2e-4);
+        }
+        for root in roots {
+            let [x, m, y] = ["x", "m", "y"].map(|key| root[key].as_f64().unwrap());
+            let k = root["k"].as_i64().unwrap() as i32;
+            near("m", m, x * 4f64.powi(k) / 16384.0, 1.0);
+            near("1/root", y / 65536.0, (65536.0 / m).sqrt(), 1e-4);
+        }
+        let [beam, golden, bound] =
+            ["beam", "golden_beam", "beam_bound"].map(|key| lamp[key].as_f64().unwrap());
+        near("beam", beam / 65536.0, golden, bound);
+        let through = lamp.get("cone").map_or(0.0, |cone| cone["value"].as_f64().unwrap() / 65536.0);
+        near(
+            "beam",
+            beam / 65536.0,
+            lamp["attenuation"]["value"].as_f64().unwrap() / 65536.0 * through,
+            2e-5,
+        );
+        dark += u32::from(lamp.get("cone").is_none());
+        let reads: Vec<_> = lamp["indices"].as_array().unwrap().iter().map(|index| &index["read"]).collect();
+        for (index, read) in lamp["indices"].as_array().unwrap().iter().zip(&reads) {
+            let [index, golden, bound] =
+                [&index["index"], &read["golden"], &read["bound"]].map(|number| number.as_f64().unwrap());
+            assert!(index - bound <= golden && golden <= index + 1.0 + bound, "{lamp}");
+        }
+        // The entries make the colour.
+        let words: Vec<u32> =
+            reads[0]["table"].as_str().unwrap().split(' ').filter_map(|word| word.parse().ok()).collect();
+        let lit = lamp["indices"][0]["index"].as_i64().unwrap() >= 0;
+        let highlight = if lit { lamp["highlight"].as_u64().unwrap() as u32 } else { 0 };
+        for channel in 0..3 {
+            assert_eq!((words[channel] + highlight).min(255), u32::from(drawn[channel]), "{lamp}");
+            checked += 1;
+        }
+        let text = edgewalk(folder.path(), &explain).output().unwrap();
+        let text = String::from_utf8(text.stdout).unwrap();
+        for word in [
+            "dd, Q32.17",
+            "pl, Q25.17",
+            "dv, Q25.10",
+            "da, Q25.10",
+            "pv, Q25.10",
+            "nn, Q18.17",
+            "root of l.l",
+            "N.H: ",
+            "attenuation: entry",
+            "cone: ",
+            "beam: ",
+            "nl0: index",
+            "highlight, weakened",
+        ] {
+            assert!(text.contains(word), "{word:?} is not in {text}");
+        }
+    }
+    assert_eq!((checked, dark), (12, 1));
 }
 
 #[test]
@@ -106,11 +231,13 @@ fn faults_end_with_a_remedy() {
     let word = [&render[..], &["--set", "shade.light=positionl"]].concat();
     let bright = BULB.replace("intensity = 0.7", "intensity = 9");
     let soft = FLOOD.replace("exponent = 6", "exponent = 0.5");
-    let both = format!("{BULB}{FLOOD}");
-    let cases: [(&str, &[&str], &[&str]); 9] = [
+    let (both, sunny) = (format!("{BULB}{FLOOD}"), format!("{BULB}{SUN}"));
+    let verify = [&["trace"], &lamp[1..]].concat();
+    let cases: [(&str, &[&str], &[&str]); 10] = [
         (BULB, &render, &["light 1", "shade.light=positional", "--engine golden"]),
-        (SUN, &lamp, &["light 1 is directional", "shade.light=directional"]),
-        (&both, &lamp, &["2 lights", "take 1", "--engine golden"]),
+        (SUN, &lamp, &["a directional light", "shade.light=directional"]),
+        (&sunny, &lamp, &["light 2", "a directional light", "shade.light=directional"]),
+        (&both, &verify, &["2 lights", "take 1", "render", "--engine golden"]),
         (&bright, &lamp, &["highlight of", "shade.light = positional", "at most 1", "weaker light"]),
         (&soft, &lamp, &["exponent 0.5", "take 1"]),
         (BULB, &two, &["shade.lights", "one light at a time", "1"]),
@@ -128,6 +255,6 @@ fn faults_end_with_a_remedy() {
         }
         checked += 1;
     }
-    assert_eq!(checked, 9);
+    assert_eq!(checked, 10);
     assert!(!folder.path().join("o").exists());
 }

@@ -236,3 +236,32 @@ fn explain_walks_the_terms_of_a_pixel() {
     }
     assert_eq!(checked, 2, "{text}");
 }
+
+/// With NORMAL between terms and tables: the root of N·N by f64, and both indices within their bounds of golden's.
+#[test]
+fn explain_walks_the_root_of_a_normal() {
+    let folder = tempfile::tempdir().unwrap();
+    let more = ["--set", "screen.width=160", "--set", "screen.height=120", "--set", "shade.table_bits=10"];
+    let mut checked = 0;
+    for [x, y] in [["80", "60"], ["70", "50"], ["90", "66"], ["60", "61"], ["100", "62"], ["77", "40"]] {
+        let explain =
+            ["explain", "sphere", x, y, "--shading", "phong", "--set", "shade.kind=phong", "--json"];
+        let output = edgewalk(folder.path(), &[&explain[..], &more].concat()).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let normal = &told["shaded"][0]["normal"];
+        let [square, y] = ["square", "y"].map(|key| normal[key].as_f64().unwrap());
+        assert!((y / 65536.0 - (65536.0 / square).sqrt()).abs() < 1e-4, "{normal}");
+        for (place, index) in normal["indices"].as_array().unwrap().iter().enumerate() {
+            let product = told["shaded"][0]["terms"][place]["output"].as_f64().unwrap();
+            let cosine = normal["cosines"][place].as_f64().unwrap();
+            assert!((cosine - product * y / 65536.0).abs() <= 0.5, "{normal}");
+            let read = &index["read"];
+            let [index, golden, bound] =
+                [&index["index"], &read["golden"], &read["bound"]].map(|number| number.as_f64().unwrap());
+            assert!(index - bound <= golden && golden <= index + 1.0 + bound, "{normal}");
+            checked += 1;
+        }
+    }
+    assert_eq!(checked, 12);
+}

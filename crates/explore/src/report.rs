@@ -30,6 +30,8 @@ pub struct Report {
     corners: Option<Events>,
     comparison: Option<Comparison>,
     parts: Option<Passes>,
+    /// Of each light that was drawn by itself and added.
+    added: Vec<Comparison>,
     setup: Option<SetupReport>,
     waits: Waits,
     host: Host,
@@ -53,6 +55,7 @@ impl Report {
             corners: drawn.corners.clone(),
             comparison: None,
             parts: None,
+            added: Vec::new(),
             setup: None,
             waits: Waits::Never,
             host: drawn.host,
@@ -92,6 +95,13 @@ impl Report {
     #[must_use]
     pub fn with_parts(mut self, parts: Passes) -> Self {
         self.parts = Some(parts);
+        self
+    }
+
+    /// The same of a picture that is the sum of one for each light, each compared by itself.
+    #[must_use]
+    pub fn with_lights(mut self, lights: Vec<Comparison>) -> Self {
+        self.added = lights;
         self
     }
 
@@ -139,6 +149,7 @@ impl Report {
             lights: Vec::new(),
             order: self.order.clone(),
             parts: None,
+            added: Vec::new(),
             ..*self
         }
     }
@@ -191,6 +202,9 @@ impl Report {
         }
         if let Some(c) = &self.comparison {
             report["comparison"] = serde_json::to_value(c)?;
+        }
+        if !self.added.is_empty() {
+            report["lights"] = serde_json::to_value(&self.added)?;
         }
         if let Some(parts) = &self.parts {
             report["parts"] = serde_json::to_value(parts)?;
@@ -270,6 +284,17 @@ impl Report {
             // Golden does not round.
             None if self.cycles.is_none() => {}
             None => extra::channels(m).iter().for_each(|c| t += &OwnChannel::of(c, m).line()),
+        }
+        for (place, shaded) in self.added.iter().filter_map(|light| light.shaded).enumerate() {
+            _ = writeln!(
+                t,
+                "light {} by itself: {} pixels, largest error {:.4} LSB, bounds up to {:.4}, {} beyond",
+                place + 1,
+                shaded.pixels,
+                shaded.error,
+                shaded.bound,
+                shaded.beyond
+            );
         }
         if let Some(setup) = &self.setup {
             t += &setup.text();

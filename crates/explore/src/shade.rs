@@ -8,6 +8,7 @@
 //! ```
 //! Bounds 12 and 13 (`docs/numerics.md`) give the bound of a colour against golden's fast Phong, with bound 14 or 17 against its Phong.
 
+mod apart;
 mod bound;
 mod lamp;
 mod lights;
@@ -20,6 +21,7 @@ mod turns;
 
 mod compare;
 
+pub use apart::apart;
 pub use bound::{Proof, Shaded};
 pub(crate) use compare::Allowed;
 pub use place::Place;
@@ -31,6 +33,7 @@ use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Fill, Plan, ShadeColour};
 use edgewalk_model::Shading;
 use edgewalk_scene::{Frame, PixelMethod, PixelShading};
+use glam::DVec3;
 use lights::Lamp;
 use tables::Surfaces;
 use turns::Turns;
@@ -42,6 +45,8 @@ pub struct Feed {
     pub words: Shading,
     /// What is proved of the colours.
     pub proof: Proof,
+    /// I_l of each light; of one for LAMP where it is brightest.
+    pub intensities: Vec<DVec3>,
     surfaces: Surfaces,
 }
 
@@ -92,6 +97,7 @@ pub fn feed(frame: &Frame, port: &PortFrame, machine: &Plan) -> Result<Option<Fe
     Ok(Some(Feed {
         words: Shading { records, tables: surfaces.words(machine), roots, textures },
         proof,
+        intensities: lamps.iter().map(|lamp| lamp.intensity).collect(),
         surfaces,
     }))
 }

@@ -43,6 +43,7 @@ struct Cosines {
 }
 
 /// A light at a pixel: its intensity, N·L and N·H.
+#[derive(Clone, Copy)]
 struct Lit {
     intensity: DVec3,
     diffuse: f64,
@@ -133,9 +134,14 @@ impl<'a> PixelBrush<'a> {
             .collect()
     }
 
+    /// I_l of each light at a pixel, in Phong; in fast Phong in the middle of the triangle.
+    pub fn intensities<const N: usize, W: Weight>(&self, fragment: &Fragment<N, W>) -> Vec<DVec3> {
+        self.lit(&fragment.shares(), &Texel::BLANK).into_iter().map(|lit| lit.intensity).collect()
+    }
+
     /// The colours that the pixel may have for one who knows the cosines N·L to within `doubt`: for each light whose N·L is
-    /// no farther from 0, as if it stood above the horizon and as if below; and the cosine to a light's axis to within `axis_doubt`: next
-    /// to the edge of a cone inside and outside. The first is that of [`Self::color_by`].
+    /// no farther from 0, as if it stood above the horizon and as if below; and the cosine to a light's axis to within `axis_doubt`: for
+    /// each light next to the edge of whose cone the pixel lies inside and outside. The first is that of [`Self::color_by`].
     pub fn branches<const N: usize, W: Weight>(
         &self,
         fragment: &Fragment<N, W>,
@@ -146,11 +152,17 @@ impl<'a> PixelBrush<'a> {
         let shares = fragment.shares();
         let lights = self.lit(&shares, texel);
         let surface = DVec3::from(fragment.rgb()) * texel.color;
-        let mut sides = vec![lights];
-        for by in [axis_doubt, -axis_doubt] {
-            let other = self.lit_by(&shares, texel, |light| light.opened(by));
-            if other.iter().zip(&sides[0]).any(|(other, own)| other.intensity != own.intensity) {
-                sides.push(other);
+        let mut sides: Vec<Vec<Lit>> = vec![lights];
+        // Beside the edge of a cone, each light by itself.
+        let opened =
+            [axis_doubt, -axis_doubt].map(|by| self.lit_by(&shares, texel, |light| light.opened(by)));
+        for light in 0..sides[0].len().min(MOST_TURNED) {
+            for other in opened.iter().map(|lights| lights[light]) {
+                if other.intensity != sides[0][light].intensity {
+                    let mut others = sides.clone();
+                    others.iter_mut().for_each(|lights| lights[light] = other);
+                    sides.extend(others);
+                }
             }
         }
         let lights = &sides[0];

@@ -245,6 +245,40 @@ fn lights_within_doubt_of_the_horizon_may_stand_on_either_side() {
     assert_eq!(checked, 16);
 }
 
+/// Two floods, one just inside the edge of its cone and one just outside: each may be on either side by itself.
+#[test]
+fn lights_within_doubt_of_their_cones_may_be_inside_or_outside() {
+    let text = "size 4 4\nmode phong\nview 0 0 1\nmaterial 0.125 0.5 0 1\n\
+                T 0 0 0 1 1 1 0  9 0 0 1 1 1 0  0 9 0 1 1 1 0\nN 0 0 1  0 0 1  0 0 1";
+    let mut frame = triangle_file::parse("a.tri", text.as_bytes()).unwrap();
+    let flood = |intensity: f64, beside: f64| Light::Flood {
+        position: DVec3::Z,
+        axis: DVec3::new(0.6, 0.0, -0.8),
+        cone: (0.8 + beside).acos(),
+        exponent: 0.0,
+        intensity: DVec3::splat(intensity),
+        attenuation: Attenuation::NONE,
+    };
+    frame.shading.as_mut().unwrap().lights = vec![flood(0.5, -1e-4), flood(0.25, 1e-4)];
+    let brush = PixelBrush::new(frame.shading.as_ref().unwrap(), 0).unwrap();
+    let mut checked = 0;
+    fragments(&frame.triangles[0], ShadeMode::Gouraud, 8, (4, 4), |fragment| {
+        let of = |doubt: f64| {
+            let list = brush.branches(fragment, &Texel::BLANK, 0.0, doubt);
+            let mut list: Vec<i64> = list.iter().map(|color| (color[0] * 1e6).round() as i64).collect();
+            list[1..].sort_unstable();
+            list
+        };
+        // 0.125 + 0.5 of the lights that shine; at first the one.
+        assert_eq!(of(0.0), [375_000]);
+        assert_eq!(of(1e-5), [375_000]);
+        assert_eq!(of(1e-3), [375_000, 125_000, 250_000, 500_000]);
+        assert_eq!(brush.intensities(fragment), [DVec3::splat(0.5), DVec3::ZERO]);
+        checked += 1;
+    });
+    assert_eq!(checked, 16);
+}
+
 /// Phong of a frame with a relief is the equation by the normal that the mesh turns; fast Phong is that to first order: halving the
 /// height divides the difference of the cosines by four.
 #[test]

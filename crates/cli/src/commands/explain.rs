@@ -1,7 +1,9 @@
 //! `edgewalk explain`: why a pixel looks as it does.
 
 mod additions;
+mod lamp;
 mod layers;
+mod normal;
 mod shaded;
 mod shadowed;
 mod texel;
@@ -17,6 +19,7 @@ use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use additions::{Walk, walk};
 use anyhow::{Result, anyhow};
+use edgewalk_explore::shade::apart;
 use edgewalk_golden::{ShadowMaps, draw, fragments};
 use edgewalk_machine::{EdgeKind, Fill, Plan};
 use edgewalk_scene::{Frame, Scene, State, Surface};
@@ -66,9 +69,9 @@ struct Explanation {
     /// Of a blended frame the colours stored here, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     layers: Vec<Layer>,
-    /// Where the frame is shaded at each pixel, and the machine does so.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    shaded: Option<ShadedPixel>,
+    /// Where the frame is shaded at each pixel, and the machine does so: of each picture that the host adds, mostly one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    shaded: Vec<ShadedPixel>,
     /// Under lights whose maps the machine looks up.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     shadows: Vec<ShadowedPixel>,
@@ -104,7 +107,11 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         None => (args.source.frame(&machine)?, None),
     };
     let picture = draw(&frame, golden_fill(&machine));
-    let port = frame.shading.is_some().then(|| to_port(&frame, &machine)).transpose()?;
+    let parts = match &frame.shading {
+        Some(_) => apart(&frame, &machine)?.unwrap_or_else(|| vec![frame.clone()]),
+        None => Vec::new(),
+    };
+    let ports: Vec<PortFrame> = parts.iter().map(|part| to_port(part, &machine)).collect::<Result<_>>()?;
     let at = (y * machine.width + x) as usize;
     let id = picture.id[at];
     let seen = usize::try_from(id).ok().and_then(|id| frame.triangles.get(id));
@@ -143,12 +150,16 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
             _ => None,
         },
         layers: layers(&frame, &machine, (x, y))?,
-        shaded: match (usize::try_from(id), &port) {
-            (Ok(id), Some(PortFrame { triangles, shade: Some(feed), .. })) => {
-                let leftward = leftward(&machine, &triangles[id]);
-                shaded(&machine, &frame, feed, id, (x, y), (leftward, walked.as_ref()))
-            }
-            _ => None,
+        shaded: match usize::try_from(id) {
+            Ok(id) => parts
+                .iter()
+                .zip(&ports)
+                .filter_map(|(part, port)| {
+                    let walk = (leftward(&machine, &port.triangles[id]), walked.as_ref());
+                    shaded(&machine, part, port.shade.as_ref()?, id, (x, y), walk)
+                })
+                .collect(),
+            Err(_) => Vec::new(),
         },
         shadows,
         no_shadows,

@@ -1,6 +1,7 @@
 //! `edgewalk render`: a scene or a mesh through the machine, beside the golden picture; or through a shading system of
 //! the golden picture, beside the truth.
 
+mod lamps;
 mod lights;
 
 use crate::engine::{Engine, draw, draw_waiting, from_golden, golden_fill};
@@ -15,13 +16,15 @@ use crate::shadows::Shadows;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
-use anyhow::{Result, anyhow};
-use edgewalk_explore::compare::compare_shaded;
+use anyhow::{Context as _, Result, anyhow};
+use edgewalk_explore::compare::{Comparison, compare_shaded};
 use edgewalk_explore::reach::reach;
+use edgewalk_explore::shade::apart;
 use edgewalk_golden::{HiddenLines, wireframe};
 use edgewalk_machine::Plan;
 use edgewalk_model::Waits;
 use edgewalk_scene::Frame;
+use lamps::Added;
 use std::path::PathBuf;
 
 /// Renders a scene or mesh through the machine and compares it with the golden picture.
@@ -197,20 +200,27 @@ pub fn pictures(
     quiet: bool,
 ) -> Result<Pictures> {
     let golden = draw(Engine::Golden, frame, machine, quiet)?;
-    let drawn = draw_waiting(engine, frame, machine, waits, quiet)?;
-    let port = to_port(frame, machine)?;
+    let Added { drawn, port, proof, lights } = match apart(frame, machine).with_context(|| name.to_owned())? {
+        Some(parts) => lamps::added(&parts, machine, (engine, waits), quiet)?,
+        None => {
+            let drawn = draw_waiting(engine, frame, machine, waits, quiet)?;
+            let port = to_port(frame, machine)?;
+            let proof = port.shade.as_ref().map(|feed| feed.proof.clone());
+            Added { drawn, port, proof, lights: Vec::new() }
+        }
+    };
     let reach = reach(machine, &port)?;
-    let proof = port.shade.as_ref().map(|feed| &feed.proof);
-    let comparison = compare_shaded(machine, frame, &golden, &drawn, reach.as_ref(), proof);
+    let comparison = compare_shaded(machine, frame, &golden, &drawn, reach.as_ref(), proof.as_ref());
     let (w, h) = (drawn.width, drawn.height);
     picture::write_rgb(out, "golden.png", w, h, &golden.rgb)?;
     picture::write_rgb(out, "image.png", w, h, &drawn.rgb)?;
     picture::write_heat(out, "z_error.png", (w, h), &comparison.z_map, 1.0)?;
     picture::write_heat(out, "color_error.png", (w, h), &comparison.color_map, 1.0)?;
-    let verdict = comparison.verdict();
+    let verdict = lights.iter().map(Comparison::verdict).fold(comparison.verdict(), Verdict::and);
     let setup = SetupReport::new(machine, &port.triangles);
     let report = Report::new(name, frame.triangles.len() as u64, machine, &drawn)
         .with(comparison)
+        .with_lights(lights)
         .with_setup(setup)
         .with_stalls(waits);
     Ok(Pictures { report, verdict, ids: drawn.id })

@@ -29,6 +29,39 @@ pub fn ended(output: &Output) -> (Option<i32>, String) {
     (output.status.code(), error)
 }
 
+/// Renders in every engine, which must draw the same picture: the report of each.
+pub fn rendered_by_every_engine(folder: &Path, arguments: &[&str]) -> Vec<serde_json::Value> {
+    let (mut reports, mut pictures) = (Vec::new(), Vec::new());
+    for engine in ["fast", "model", "rtl"] {
+        let all = [&["render"], arguments, &["--engine", engine, "--json", "--out", "r"]].concat();
+        let output = edgewalk(folder, &all).output().unwrap();
+        assert!(output.status.success(), "{all:?}: {}", String::from_utf8_lossy(&output.stderr));
+        reports.push(serde_json::from_slice(&output.stdout).unwrap());
+        pictures.push(std::fs::read(folder.join("r/image.png")).unwrap());
+    }
+    assert!(pictures.iter().all(|picture| *picture == pictures[0]), "the same machine");
+    reports
+}
+
+/// The colours of a picture, line by line.
+pub fn colors(path: &Path) -> Vec<[u8; 3]> {
+    let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(path).unwrap()));
+    let mut reader = decoder.read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut bytes).unwrap();
+    bytes.chunks_exact(3).map(|color| [color[0], color[1], color[2]]).collect()
+}
+
+/// The first value of this key, however deep.
+pub fn find<'a>(of: &'a serde_json::Value, key: &str) -> Option<&'a serde_json::Value> {
+    let own = of.get(key);
+    own.or_else(|| match of {
+        serde_json::Value::Object(map) => map.values().find_map(|value| find(value, key)),
+        serde_json::Value::Array(list) => list.iter().find_map(|value| find(value, key)),
+        _ => None,
+    })
+}
+
 /// What stands in a folder, by name, hidden files too.
 pub fn names(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).unwrap();

@@ -90,14 +90,14 @@ impl Point {
         let (position, attenuation, beam) = match *light {
             Light::Directional { .. } => {
                 return Err(anyhow!(
-                    "light 1 is directional: with shade.light = positional it stands at a point; add --set shade.light=directional"
+                    "a directional light: with shade.light = positional lights stand at a point; add --set shade.light=directional, or draw with --engine golden"
                 ));
             }
             Light::Positional { position, attenuation, .. } => (position, attenuation, None),
             Light::Flood { position, axis, cone, exponent, attenuation, .. } => {
                 if exponent > 0.0 && exponent < 1.0 {
                     return Err(anyhow!(
-                        "light 1: exponent {exponent}: the machine's table of the beam wants 0, or 1 and more; take 1"
+                        "exponent {exponent} of a flood: the machine's table of the beam wants 0, or 1 and more; take 1"
                     ));
                 }
                 (position, attenuation, Some(Beam { axis, edge: cone.cos(), exponent }))

@@ -29,7 +29,7 @@ impl Lamp {
         let (given, most) = (shading.lights.len(), machine.shade.lights as usize);
         if given > most {
             let remedy = if machine.shade.is_positional() {
-                "take 1, and add the pictures of the others".to_owned()
+                "take 1; render and explain draw one after the other".to_owned()
             } else if given <= 2 {
                 format!("add --set shade.lights={given}")
             } else {

@@ -83,7 +83,10 @@ pub(super) fn words<'m>(
         let v = register("v", "modular");
         let x = register("x", "modular, to the next pixel");
         for (register, place) in [(v, at + V), (x, at + X)] {
-            register.when(write & write_at.eq(place as i32), lowest(written.q(), term.word()));
+            // Not from `written`: the choice goes into the cell of the register.
+            let of_step = under_way & result_at.eq(place as i32);
+            register.when(of_step, lowest(result, term.word()));
+            record.load(register, place);
         }
         shown.extend([(format!("{}_v", term.name), v.q()), (format!("{}_g", term.name), x.q())]);
         if term.degree == 2 {

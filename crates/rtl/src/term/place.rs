@@ -24,21 +24,26 @@ impl<'m> Place<'m> {
         let x = m.reg("x", span["x"].width()).doc("column, signed");
         let y = m.reg("y", span["y"].width()).doc("line");
         let down = y.q().ne(span["y"]).named_doc("down", "to the next line");
-        let ahead = (span["x"] - x.q()).named_doc("ahead", "columns to the right, signed");
+        let (to, bits) = (span["x"], span["x"].width() - 1);
+        let ahead = (to - x.q()).named_doc("ahead", "columns to the right, signed");
+        // Whether it stands there does not wait for how far it is.
+        let (low, high) =
+            (x.q().trunc(bits).ne(to.trunc(bits)).named("columns_differ"), x.q().msb() ^ to.msb());
         let leftward = span["leftward"];
-        // The least number has no opposite: it is negative either way.
-        let (left, more) = (ahead.msb(), ahead.trunc(ahead.width() - 1).any());
-        let forward = leftward.mux(left & more, !left);
+        // The least number has no opposite: it is negative either way, and differs from 0 in its highest bit alone.
+        let left = ahead.msb();
+        let forward = leftward.mux(left & low, !left);
         let forward = (!down & forward).named_doc("forward", "to the next pixel of the span");
-        let reached = (!down & !ahead.any()).named("reached");
+        let reached = (!down & !low & !high).named("reached");
         Place { x, y, leftward, reached, down, forward }
     }
 
     /// It goes on when a step is done, and to the reference pixel of a record.
     pub fn step(&self, stepped: Signal<'m>, record: &Record<'m>) {
         let right = (self.forward ^ self.leftward).named_doc("rightward", "the step, if not down");
-        let one = self.x.q().module().lit(self.x.q().width(), 1);
-        self.x.when(stepped & !self.down, self.x.q() + right.mux(one, -1));
+        // Both are there before the way is known.
+        let (one_right, one_left) = (self.x.q() + 1, self.x.q() - 1);
+        self.x.when(stepped & !self.down, right.mux(one_right, one_left));
         self.y.when(stepped & self.down, self.y.q() + 1);
         record.load(self.x, REF_X);
         record.load(self.y, REF_Y);

@@ -34,7 +34,10 @@ pub(super) fn text(of: &Explanation, color_bits: u32) -> String {
         }
         _ = writeln!(page, "  sum, none hidden    {}", three(light.total));
     }
-    if let Some(pixel) = &of.shaded {
+    for (place, pixel) in of.shaded.iter().enumerate() {
+        if of.shaded.len() > 1 {
+            _ = write!(page, "\nlight {}:", place + 1);
+        }
         page += &super::shaded::text(pixel);
     }
     for (place, pixel) in of.shadows.iter().enumerate() {

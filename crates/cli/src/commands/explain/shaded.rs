@@ -1,6 +1,8 @@
 //! A pixel that is shaded: the walk of its terms, what the tables hold there, and how far golden is.
 
 use super::additions::Walk;
+use super::lamp::Lamp;
+use super::normal::Normal;
 use super::texel::TexelRead;
 use super::turned::Turned;
 use edgewalk_explore::shade::{Feed, IndexErrors, Place};
@@ -19,7 +21,7 @@ const SHOWN: usize = 4;
 pub struct ShadedPixel {
     /// The number of the triangle's material.
     material: u32,
-    /// Of each light N·L, then N·H; with NORMAL then N·N; with BUMP then what they grow by; with a texture then u and v.
+    /// Of each light N·L, then N·H; with NORMAL then N·N; with BUMP then what they grow by; with LAMP what it takes; with a texture then u and v.
     terms: Vec<TermWalk>,
     /// Where the surface has a texture.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -27,6 +29,12 @@ pub struct ShadedPixel {
     /// Where a relief turns the normal: each cosine behind BUMP.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     turned: Vec<Turned>,
+    /// What NORMAL makes of these.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    normal: Option<Normal>,
+    /// What LAMP does in its place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lamp: Option<Lamp>,
     /// Proved bound of the colour against golden's, LSB.
     bound: f64,
 }
@@ -56,6 +64,21 @@ pub(super) struct TableRead {
     /// The entry, and what stands there.
     pub entry: u32,
     pub table: String,
+    /// The highlight there, LSB.
+    #[serde(skip)]
+    pub highlight: i64,
+}
+
+impl TableRead {
+    /// The same as words behind an index.
+    pub fn text(&self, index: i64) -> String {
+        let TableRead { golden, bound, entry, table, .. } = self;
+        // A floor lies up to 1 below.
+        let error = (index as f64 - golden).max((golden - index as f64 - 1.0).max(0.0));
+        format!(
+            "; golden's {golden:.4}, outside of it by {error:.4}, bound {bound:.4}; entry {entry}: {table}"
+        )
+    }
 }
 
 /// Words of a term, signed, in units of their last bit.
@@ -80,7 +103,7 @@ pub fn shaded(
 ) -> Option<ShadedPixel> {
     let (record, errors) = (feed.words.records.get(id)?, feed.proof.errors.get(id)?);
     let brush = PixelBrush::new(frame.shading.as_ref()?, id)?;
-    let (mut cosines, mut texel) = (Vec::new(), None);
+    let (mut cosines, mut beam, mut texel) = (Vec::new(), 1.0, None);
     let colors = walk.and_then(|walk| walk.output.get(1..4)?.try_into().ok());
     let before = colors.map(|colors: [i64; 3]| colors.map(|color| color as u64)); // not negative
     let screen = (frame.width, frame.height);
@@ -89,6 +112,11 @@ pub fn shaded(
             let own = feed.proof.textured.get(id).and_then(Option::as_ref);
             let named = own.map(|own| own.texture.exact(own.texel([x, y])));
             cosines = brush.cosines(fragment, &named.unwrap_or(Texel::BLANK));
+            if machine.shade.is_positional() {
+                let there = brush.intensities(fragment).first().map_or(0.0, |i| i.max_element());
+                let full = feed.intensities.first().map_or(0.0, |i| i.max_element());
+                beam = if full > 0.0 { there / full } else { 0.0 };
+            }
             if let Some(own) = own {
                 texel = TexelRead::of(machine, &brush, fragment, (own, record, &feed.words.textures), before);
             }
@@ -99,12 +127,16 @@ pub fn shaded(
     let read = |place: usize, output: i64| {
         let (light, highlight) = (place / 2, place % 2 == 1);
         let (gloss, bound) = of_term(errors, &glosses, light, highlight);
-        let (entries, cosine) = (2f64.powi(machine.shade.table_bits as i32), cosines.get(light)?[place % 2]);
+        let entries = 2f64.powi(machine.shade.table_bits as i32);
+        // N·L comes weakened.
+        let cosine = cosines.get(light)?[place % 2] * if highlight { 1.0 } else { beam };
         let entry = output.clamp(0, entries as i64 - 1) as u32;
         let at = machine.table_place(record.material, light as u32, entry);
         let golden = entries - (1.0 - cosine) * entries * 2f64.powi(gloss as i32);
-        let table = table(machine, *feed.words.tables.get(at)?, highlight);
-        Some(TableRead { golden, bound, entry, table })
+        let word = *feed.words.tables.get(at)?;
+        let table = table(machine, word, highlight);
+        let highlight = (word & u128::from(machine.color.max())) as i64;
+        Some(TableRead { golden, bound, entry, table, highlight })
     };
     let terms = machine.terms().iter().zip(&record.terms).enumerate().map(|(place, (term, words))| {
         let words = TermWords::new(term.word(), *words)?;
@@ -133,7 +165,21 @@ pub fn shaded(
     let output = |name: &str| terms.iter().find(|term| term.name == name).map(|term| term.output);
     let slopes = texel.as_ref().and_then(|texel: &TexelRead| texel.slopes);
     let turned = slopes.map_or_else(Vec::new, |slopes| super::turned::all(machine, slopes, output, read));
-    Some(ShadedPixel { material: record.material, terms, texel, turned, bound: *feed.proof.bounds.get(id)? })
+    let roots = &feed.words.roots;
+    let bumped = |name: &str| {
+        let of_turned = turned.iter().find(|turned| turned.name == name).map(|turned| turned.after);
+        of_turned.or_else(|| output(name))
+    };
+    let normal = match machine.shade.has_normal() {
+        true => Normal::of(machine, roots, record.gloss, bumped, read),
+        false => None,
+    };
+    let lamp = match machine.shade.is_positional() {
+        true => Lamp::of(machine, roots, record.gloss, output, (beam, errors.beam), read),
+        false => None,
+    };
+    let (material, bound) = (record.material, *feed.proof.bounds.get(id)?);
+    Some(ShadedPixel { material, terms, texel, turned, normal, lamp, bound })
 }
 
 /// m' and the bound of the index; N·L is scaled by the table alone.
@@ -184,7 +230,7 @@ pub fn text(of: &ShadedPixel) -> String {
     for term in &of.terms {
         let TermWalk { name, bits, fraction, steps, output, value, read } = term;
         _ = write!(page, "{name}, Q{bits}.{fraction}: {value:.4}, output {output}");
-        if let Some(TableRead { golden, bound, entry, table }) = read {
+        if let Some(TableRead { golden, bound, entry, table, .. }) = read {
             let error = value - golden;
             _ = write!(
                 page,
@@ -204,6 +250,8 @@ pub fn text(of: &ShadedPixel) -> String {
     }
     page += &of.texel.as_ref().map(TexelRead::text).unwrap_or_default();
     of.turned.iter().for_each(|turned| page += &turned.text());
+    page += &of.normal.as_ref().map(Normal::text).unwrap_or_default();
+    page += &of.lamp.as_ref().map(Lamp::text).unwrap_or_default();
     page
 }
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 /// A cosine, or N·N, whose normal a relief has turned.
 #[derive(Debug, Serialize)]
 pub struct Turned {
-    name: &'static str,
+    pub name: &'static str,
     /// The term's output.
     before: i64,
     /// What is added to 2^shift times that: factors of slopes, and the outputs of the terms that they are multiplied with.
@@ -15,7 +15,7 @@ pub struct Turned {
     /// Bits that the sum loses.
     shift: u32,
     /// What NORMAL or SHADE takes.
-    after: i64,
+    pub after: i64,
     /// Where it is the index of a table.
     #[serde(skip_serializing_if = "Option::is_none")]
     read: Option<TableRead>,
@@ -62,12 +62,7 @@ impl Turned {
         let Turned { name, before, products, shift, after, read } = self;
         let products: String =
             products.iter().map(|[factor, turn]| format!(" + {factor} x {turn}")).collect();
-        let read = read.as_ref().map_or_else(String::new, |read| {
-            let TableRead { golden, bound, entry, table } = read;
-            // A floor lies up to 1 below.
-            let error = (*after as f64 - golden).max((golden - *after as f64 - 1.0).max(0.0));
-            format!("; golden's {golden:.4}, outside of it by {error:.4}, bound {bound:.4}; entry {entry}: {table}")
-        });
+        let read = read.as_ref().map_or_else(String::new, |read| read.text(*after));
         format!("{name} turned: ({before} scaled{products}) / 2^{shift} = {after}{read}\n")
     }
 }
