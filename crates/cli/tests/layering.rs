@@ -35,7 +35,8 @@ const TESTS: &[(&str, &[&str])] = &[
     ("golden", &["numerics"]),                             // its proved bounds
     ("model", &["numerics", "scene", "golden"]),           // proved bounds, and what ought to be drawn
     ("jit", &["machine", "model", "lockstep", "vectors"]), // whole machines, and what drives them
-    ("vectors", &["jit"]),                                 // what runs netlists quickly
+    ("lockstep", &["jit"]),                                // what runs netlists quickly
+    ("vectors", &["jit"]),                                 // the same
     ("replay", &["netlist", "lockstep"]),                  // the machine's registers in the netlist
 ];
 
