@@ -450,24 +450,24 @@ impl<const C: usize> Model<C> {
         }
         if let Some(shade) = self.shade.as_mut().filter(|_| C > FEW) {
             let (frag, cosines) = parts(&offered.normed);
-            shade.step(frag, &cosines, &inputs.shade, colored_ready, events);
+            shade.step(frag, cosines, &inputs.shade, colored_ready, events);
         }
         if let Some(normal) = self.normal.as_mut().filter(|_| C > FEW) {
             let (frag, terms) = parts(&offered.bumped);
-            normal.step(frag, &terms, &inputs.normal, readies.normed, events);
+            normal.step(frag, terms, &inputs.normal, readies.normed, events);
         }
         if let Some(lamp) = self.lamp.as_mut().filter(|_| C > FEW) {
             let (frag, terms) = parts(&offered.bumped);
-            lamp.step(frag, &terms, &inputs.normal, readies.normed, events);
+            lamp.step(frag, terms, &inputs.normal, readies.normed, events);
         }
         if let Some(bump) = self.bump.as_mut().filter(|_| C > FEW) {
             let (frag, terms) = parts(&offered.textured);
-            bump.step(frag, &terms, readies.bumped, events);
+            bump.step(frag, terms, readies.bumped, events);
         }
         if let Some(texel) = self.texel.as_mut().filter(|_| C > FEW) {
             let (frag, terms) = parts(&offered.drawn);
             let taken = readies.textured && offered.textured.is_some();
-            texel.step(frag, &terms, &inputs.texel, taken, events);
+            texel.step(frag, terms, &inputs.texel, taken, events);
         }
 
         // PIXEL and TERM.

@@ -42,8 +42,9 @@ pub struct Pixel<const C: usize> {
     /// 2^b - 1.
     masks: OutputWords<C>,
     last_phase: u32,
-    has_terms: bool,
-    /// r and b of the terms; behind the last of 1 bit.
+    /// How many there are.
+    terms: usize,
+    /// r and b of each; behind the last of 1 bit.
     term_formats: [(u32, u32); MAX_TERMS],
 
     active: bool,
@@ -88,7 +89,7 @@ impl<const C: usize> Pixel<C> {
             align: per_channel(plan, |c| 32 - c.fraction), // r <= 24
             masks: per_channel(plan, |c| u32::MAX >> (32 - c.bits)),
             last_phase: plan.clocks_per_pixel() - 1,
-            has_terms: !plan.terms().is_empty(),
+            terms: plan.terms().len().min(MAX_TERMS), // no machine has more; said so that no slice is checked for each pixel
             term_formats: std::array::from_fn(|i| {
                 plan.terms().get(i).map_or((0, 1), |term| (term.fraction, term.bits))
             }),
@@ -224,7 +225,7 @@ impl<const C: usize> Pixel<C> {
         if let Some(span) = span {
             self.pass = self.passes[usize::from(light_pass)];
             self.load(span, gradient, kt);
-            if C > FEW && self.has_terms {
+            if C > FEW && self.terms > 0 {
                 self.walked = walked();
             }
         }
@@ -234,7 +235,7 @@ impl<const C: usize> Pixel<C> {
     #[inline]
     fn shift(&mut self, entering: Option<Fragment<C>>) {
         let cosines =
-            if C > FEW && self.has_terms && entering.is_some() { self.outputs() } else { Cosines::default() };
+            if C > FEW && self.terms > 0 && entering.is_some() { self.outputs() } else { Cosines::default() };
         if self.before == 0 {
             self.out = entering;
             self.out_cosines = cosines;
@@ -277,12 +278,13 @@ impl<const C: usize> Pixel<C> {
 
     /// The outputs of the terms at this pixel: b bits above the r of the fraction.
     fn outputs(&self) -> Cosines {
-        let output = |i: usize| {
-            let (fraction, bits) = self.term_formats[i];
-            (((self.walked.terms[i].v >> fraction) << (64 - bits)) as i64 >> (64 - bits)) as i32 // b <= 32
-        };
         let Walked { material, gloss, .. } = self.walked;
-        Cosines { terms: std::array::from_fn(output), material, gloss, ..Cosines::default() }
+        let mut cosines = Cosines { material, gloss, ..Cosines::default() };
+        let terms = self.walked.terms.iter().zip(&self.term_formats);
+        for (output, (term, (fraction, bits))) in cosines.terms[..self.terms].iter_mut().zip(terms) {
+            *output = (((term.v >> fraction) << (64 - bits)) as i64 >> (64 - bits)) as i32; // b <= 32
+        }
+        cosines
     }
 
     #[inline]
@@ -291,8 +293,8 @@ impl<const C: usize> Pixel<C> {
         self.count -= 1;
         self.x = self.x.wrapping_add(self.step_x);
         self.values = std::array::from_fn(|i| self.values[i].wrapping_add(self.gradient[i]));
-        if C > FEW && self.has_terms {
-            for term in &mut self.walked.terms {
+        if C > FEW && self.terms > 0 {
+            for term in &mut self.walked.terms[..self.terms] {
                 term.v = term.v.wrapping_add(term.g);
                 term.g = term.g.wrapping_add(term.gg);
             }

@@ -39,6 +39,12 @@ pub struct Cosines {
     pub slopes: [i32; 2],
 }
 
+impl Cosines {
+    /// Beside no fragment.
+    pub const NONE: Cosines =
+        Cosines { terms: [0; MAX_TERMS], material: 0, gloss: 0, beam: 0, slopes: [0; 2] };
+}
+
 /// The unit's inputs of a cycle, but for the fragment and whether its own is taken.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ShadeInputs {

@@ -40,8 +40,8 @@ pub struct Readies {
 
 /// A fragment and what is beside it.
 #[inline(always)]
-pub fn parts<const C: usize>(offered: &Option<Beside<C>>) -> (Option<&Fragment<C>>, Cosines) {
-    offered.as_ref().map_or((None, Cosines::default()), |(fragment, cosines)| (Some(fragment), *cosines))
+pub fn parts<const C: usize>(offered: &Option<Beside<C>>) -> (Option<&Fragment<C>>, &Cosines) {
+    offered.as_ref().map_or((None, &Cosines::NONE), |(fragment, cosines)| (Some(fragment), cosines))
 }
 
 impl<const C: usize> Units<'_, C> {
@@ -65,7 +65,7 @@ impl<const C: usize> Units<'_, C> {
     #[must_use]
     pub fn readies(&self, offered: &Offered<C>, texel: &TexelInputs, tinted_ready: bool) -> Readies {
         let cosines = parts(&offered.normed).1;
-        let normed = self.shade.map_or(tinted_ready, |unit| unit.frag_ready(&cosines, tinted_ready));
+        let normed = self.shade.map_or(tinted_ready, |unit| unit.frag_ready(cosines, tinted_ready));
         let bumped = self.normal.map_or(normed, |unit| unit.frag_ready(normed));
         let bumped = self.lamp.map_or(bumped, |unit| unit.frag_ready(normed));
         let textured = self.bump.map_or(bumped, |unit| unit.frag_ready(bumped));
@@ -77,7 +77,7 @@ impl<const C: usize> Units<'_, C> {
     #[inline(always)]
     pub(super) fn tables_wait(&self, offered: &Offered<C>) -> bool {
         let (frag, cosines) = parts(&offered.normed);
-        self.shade.is_some_and(|unit| unit.waits(frag, &cosines))
+        self.shade.is_some_and(|unit| unit.waits(frag, cosines))
             || self.normal.is_some_and(|unit| unit.waits(parts(&offered.bumped).0))
             || self.lamp.is_some_and(|unit| unit.waits(parts(&offered.bumped).0) || unit.working())
     }

@@ -57,7 +57,7 @@ impl<const C: usize> Model<C> {
         if let Some(texel) = self.texel() {
             let next = if self.bump().is_some() { "bump" } else { behind };
             let (frag, terms) = parts(&offered.drawn);
-            texel.view(plan, (frag, &terms), &inputs.texel, (next, readies.textured), view);
+            texel.view(plan, (frag, terms), &inputs.texel, (next, readies.textured), view);
         }
         if let Some(bump) = self.bump() {
             bump.view(plan, parts(&offered.textured).0, (behind, readies.bumped), view);
@@ -75,7 +75,7 @@ impl<const C: usize> Model<C> {
                 (None, Some(_)) => "shadow",
                 (None, None) => "depth",
             };
-            shade.view(plan, (frag, &cosines), &inputs.shade, (next, colored_ready), view);
+            shade.view(plan, (frag, cosines), &inputs.shade, (next, colored_ready), view);
         }
         if let Some(project) = self.project() {
             project.view(plan, colored, frag_ready, view);
