@@ -1,12 +1,15 @@
 //! A netlist compiled to native code by Cranelift: the same values as [`edgewalk_netlist::Simulator`], faster.
 //!
 //! ```text
-//!  netlist ─> elaborate ─> design: a graph of values ─> groups ─> schedule: branches ─> lower ─> code
-//!                              └─> layout of the state ────────────────────────────────┘
+//!  netlist ─> elaborate ─> design: a graph of values ─> groups ─> schedule: branches ─> order ─> lower ─> code
+//!                                                         └─> quiet: who wakes whom ─────────────┤
+//!                                tables, shared: what is looked up, what is kept ─> layout ──────┘
 //! ```
 //! Every value is computed once in a clock, and only if something needs it: registers and read ports that change under
 //! the same conditions form a group with one branch, groups that need the same condition share another around them. What
 //! only a group needs is computed in its branch. Registers change in place, in an order in which most are read before.
+//! A unit in which nothing can change is left out as a whole. What follows from a narrow value alone is looked up, and what
+//! several steps need is kept in the state between them: the processor has few registers.
 //!
 //! Widths are those of the netlist, 1 to 128 bits: a bit is 8 bits of the processor, up to 64 are one word, more are two.
 

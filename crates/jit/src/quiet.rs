@@ -7,7 +7,9 @@
 //! and after as many clocks as the longest way has registers all of them.
 //!
 //! The state has a counter for each unit, the clocks for which it is to work on. Whoever changes something that is watched sets
-//! the counter; to the same value or not, where it changes under conditions.
+//! the counter: registers that change in every clock are compared with what they were, others count as changed where their
+//! condition holds. A bit that follows from other units alone, as a `ready` does, is a **gate**: it is worked out in every clock
+//! and watched in place of the registers behind it, which change more often.
 
 use std::collections::HashMap;
 
@@ -30,6 +32,7 @@ pub(crate) struct Wakes {
     stored: HashMap<ValueId, u64>,
     /// Of each unit, the clocks that it works on after a change; 0 for one that never stands still.
     pub clocks: Vec<u8>,
+    /// Of each unit.
     gates: Vec<Vec<ValueId>>,
 }
 
@@ -44,7 +47,7 @@ impl Wakes {
         self.clocks.get(unit).is_some_and(|clocks| *clocks > 0)
     }
 
-    /// The bits that follow from other units alone: they are watched in place of what they follow from.
+    /// The gates of a unit.
     pub fn gates(&self, unit: usize) -> &[ValueId] {
         self.gates.get(unit).map_or(&[], Vec::as_slice)
     }
@@ -142,7 +145,7 @@ fn followers(readers: &Readers, own: &[&Node]) -> (Set, usize) {
     }
     let mut depths: HashMap<usize, usize> = HashMap::new();
     for node in own {
-        depth(&by_number, &set, node, &mut depths);
+        depth(&by_number, &set, node, 0, &mut depths);
     }
     (set, depths.values().copied().max().unwrap_or(0))
 }
@@ -166,22 +169,27 @@ fn feeds_itself(by_number: &HashMap<usize, &Node>, set: &Set, node: &Node, mut s
     false
 }
 
-/// Registers of the set on the longest way to this one, itself too.
+/// Registers of the set on the longest way to this one, itself too; more than `LONGEST` where it is longer than that. The one
+/// that was asked for is so many registers ahead.
 fn depth(
     by_number: &HashMap<usize, &Node>,
     set: &Set,
     node: &Node,
+    ahead: usize,
     known: &mut HashMap<usize, usize>,
 ) -> usize {
     if !contains(set, node.number) {
         return 0;
+    }
+    if ahead > LONGEST {
+        return ahead; // it calls itself no deeper
     }
     if let Some(depth) = known.get(&node.number) {
         return *depth;
     }
     let before: Vec<&Node> =
         members(&node.reads, set).filter_map(|number| by_number.get(&number).copied()).collect();
-    let longest = before.into_iter().map(|before| depth(by_number, set, before, known)).max();
+    let longest = before.into_iter().map(|before| depth(by_number, set, before, ahead + 1, known)).max();
     let depth = longest.unwrap_or(0) + 1;
     known.insert(node.number, depth);
     depth

@@ -115,3 +115,20 @@ fn sums_with_a_carry() {
     println!("{compared} values compared");
     assert!(compared > 30_000);
 }
+
+/// A unit of a longer way than it could wait for works on all the time.
+#[test]
+fn a_way_of_a_thousand_registers() {
+    let m = edgewalk_netlist::Module::new("way", "");
+    let first = m.input("first", 9);
+    let last = (0..1000).fold(first, |last, i| m.reg(&format!("r{i}"), 9).set(last + 1).q());
+    m.output("last", last);
+    let netlist = m.finish().unwrap();
+    let mut pair = Pair::new(&netlist);
+    for (cycle, value) in [3, 300, 300].into_iter().flat_map(|value| [value; 700]).enumerate() {
+        pair.set("first", value);
+        pair.tick(cycle as u64);
+    }
+    println!("{} values compared", pair.compared);
+    assert_eq!(pair.compared, 2100);
+}
