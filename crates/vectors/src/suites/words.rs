@@ -21,6 +21,9 @@ pub(super) const RECORDS: &str = "terms";
 /// Materials with words of their own; the last of all is made of ones.
 const MATERIALS: usize = 2;
 
+/// EDGE of a cone that ends at a right angle to its axis: what lies there, with 0 for `da`, is the last that is lit.
+const RIGHT_ANGLE: u32 = 1 << 16;
+
 /// The words for a drawing of so many triangles.
 #[must_use]
 pub fn words(machine: &Plan, seed: u64, triangles: usize) -> Words {
@@ -47,6 +50,9 @@ pub(super) fn with_records(machine: &Plan, seed: u64, records: &[Record]) -> Wor
         let mut all = words_at_start(machine, &memory, &mut random)[..most].to_vec();
         if memory.name == "textures" && machine.shade.bumps() {
             steepest(machine, &mut all);
+        }
+        if memory.name == "roots" && machine.shade.is_positional() {
+            all[0] = machine.root_word(RIGHT_ANGLE, 0);
         }
         words.insert(memory.name, all.into());
     }

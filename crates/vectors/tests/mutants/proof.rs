@@ -5,7 +5,7 @@
 //!  inputs ──┤             ├─ differ? ─> bad      bad is never 1, from reset on: property-directed reachability
 //!           └─> faulty ───┘
 //! ```
-//! First at the ports of the module with the fault, its instances cut out, every output in every cycle. Where these
+//! First at the ports of the module with the fault, its instances and memories cut out, every output in every cycle. Where these
 //! differ, in the unit at the place of the fault itself: where the value there never is another, in no state that the unit comes
 //! to from its first, nothing is. Then at the ports of the unit, where outputs count as in lock step: fields while their
 //! valid is high, a status port while it means something.
@@ -23,8 +23,12 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::Arc;
 
-/// Seconds of processor time that a search may take at the ports of a module, at the fault, and at the ports of a unit.
+/// Seconds of processor time that a search may take at the ports of a module, at the fault (and at those of a module without memories), and at
+/// the ports of a unit.
 const LIMITS: [u32; 3] = [3, 12, 12];
+
+/// Bits of memories that Yosys makes registers of in a time.
+const MOST_BITS: usize = 1 << 12;
 
 /// What the search found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,11 +45,28 @@ pub enum Proof {
 pub fn prove(interface: &Interface, original: &Arc<Netlist>, mutant: &Mutant, whole: bool) -> Proof {
     let faulty = mutant.apply(original);
     let [one, other] = [original, &faulty].map(|netlist| alone(netlist, &mutant.module));
+    let starts = |netlist: &Netlist| netlist.memories.iter().map(|memory| memory.init).collect::<Vec<_>>();
+    let (own, cut) =
+        (starts(&one) == starts(&other), [&one, &other].map(|netlist| without_memories(netlist)));
+    // What is written and asked for alike comes back alike, whatever it is.
+    if own && search(&Ports::of_module(&cut[0]), &cut[0], &cut[1], LIMITS[1]) == Proof::Equivalent {
+        return Proof::Equivalent;
+    }
+    let watched = mutant.watched(original);
+    if let Some(watched) = watched.as_ref().filter(|_| own).map(without_memories)
+        && never(&Ports::of_module(&watched), &watched, LIMITS[1]) == Proof::Equivalent
+    {
+        return Proof::Equivalent;
+    }
+    let bits = one.memories.iter().map(|memory| memory.words * memory.width as usize).sum::<usize>();
+    if bits > MOST_BITS {
+        return Proof::Unknown;
+    }
     if search(&Ports::of_module(&one), &one, &other, LIMITS[0]) == Proof::Equivalent {
         return Proof::Equivalent;
     }
     let ports = Ports::of_unit(interface);
-    let watched = mutant.watched(original).map(|watched| never(&ports, &watched, LIMITS[1]));
+    let watched = watched.map(|watched| never(&ports, &watched, LIMITS[1]));
     match watched {
         Some(Proof::Equivalent) => Proof::Equivalent,
         _ if whole => search(&ports, original, &faulty, LIMITS[2]),
@@ -75,6 +96,35 @@ fn alone(netlist: &Arc<Netlist>, module: &str) -> Arc<Netlist> {
     alone.items.retain(|item| !matches!(item, Item::Instance(_) | Item::InstanceOutput(_)));
     alone.has_clock = !alone.registers.is_empty();
     alone.has_reset = alone.registers.iter().any(|register| register.reset.is_some());
+    Arc::new(alone)
+}
+
+/// A module without its memories: what they give are inputs, and what they take outputs.
+fn without_memories(netlist: &Arc<Netlist>) -> Arc<Netlist> {
+    let mut alone = Netlist::clone(netlist);
+    for memory in std::mem::take(&mut alone.memories) {
+        let mut output =
+            |name: String, driver| alone.outputs.push(Output { name, doc: String::new(), driver });
+        for (port, write) in memory.writes.iter().enumerate() {
+            for (what, node) in [("en", write.en), ("addr", write.addr), ("data", write.data)] {
+                output(format!("{}_write{port}_{what}", memory.name), node);
+            }
+        }
+        for (port, read) in memory.reads.iter().enumerate() {
+            for (what, node) in [("en", read.en), ("addr", read.addr)] {
+                output(format!("{}_read{port}_{what}", memory.name), node);
+            }
+        }
+        for read in memory.reads {
+            alone.nodes[read.node.index()].source = Source::Input(alone.inputs.len());
+            let name = format!("{}_given", read.name);
+            alone.inputs.push(Input { name, doc: String::new(), node: read.node });
+        }
+    }
+    let of_memory =
+        |item: &Item| matches!(item, Item::Memory(_) | Item::MemoryWrite { .. } | Item::MemoryRead { .. });
+    alone.items.retain(|item| !of_memory(item));
+    alone.has_clock = !alone.registers.is_empty();
     Arc::new(alone)
 }
 

@@ -49,6 +49,7 @@ pub fn machines() -> Vec<(Plan, Unit)> {
         (lamp(shade(Phong, Walk::Register, Tables, 1)), common::LAMP),
         (fast, common::SHADE),
         (shade(FastPhong, Walk::Register, Multiply, 2), common::SHADE),
+        (lamp(shade(Phong, Walk::Register, Tables, 1)), common::SHADE),
     ];
     list.into_iter().map(|(machine, unit)| (machine.plan().expect("can be built"), unit)).collect()
 }
@@ -68,11 +69,18 @@ pub fn machines_with_project() -> Vec<(Plan, Unit)> {
     kinds.map(each).to_vec()
 }
 
-/// As many tokens with fields at and beside the ends of what they mean to the unit.
-pub fn any_tokens(machine: &Plan, of: &Trace, stalls: StallKind, seed: u64) -> Trace {
+/// Tokens of one material.
+const FEW: usize = 400;
+
+/// As many tokens with fields at and beside the ends of what they mean to the unit, so many of another material than the first; or a few
+/// of the first alone.
+pub fn any_tokens(machine: &Plan, of: &Trace, others: f64, stalls: StallKind, seed: u64) -> Trace {
     let taken = &of.interface.links[0];
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     let mut tokens = of.setting.tokens.clone();
+    if others == 0.0 {
+        tokens.truncate(FEW);
+    }
     let (mut y, mut first) = (0, true);
     for token in &mut tokens {
         y = (y + random.random_range(0..3)) % i128::from(machine.height);
@@ -86,9 +94,21 @@ pub fn any_tokens(machine: &Plan, of: &Trace, stalls: StallKind, seed: u64) -> T
                 "x" => random.random_range(-3..i128::from(machine.width) + 3),
                 "y" => y,
                 "count" => random.random_range(1..6),
-                "material" => i128::from(random.random_bool(0.05)),
+                "material" => i128::from(random.random_bool(others)),
                 "gloss" => random.random_range(0..=i128::from(machine.shade.gloss_bits)),
+                // For LAMP of every exponent.
+                "nn" if taken.place("dd").is_some() && random.random() => {
+                    i128::from(random.random_range(0..4u32)) << random.random_range(0..16)
+                }
                 "nn" => beside(&[0x4000, 0x1_0000], &mut random),
+                "beam" if random.random() => beside(&[0, 0x8000, 0x1_0000], &mut random),
+                // At a right angle to its axis.
+                "da" if random.random_bool(0.1) => 0,
+                // Seen from where the light stands, and against it.
+                "dd" if random.random_bool(0.3) => (1 << 30) - 1,
+                "dv" if random.random_bool(0.3) => {
+                    random.random_range(-1..1) << 23 | random.random_range(0..4096)
+                }
                 "dd" => any >> random.random_range(34..64),
                 "pl" | "dv" | "da" | "pv" if random.random_bool(0.9) => any >> random.random_range(40..60),
                 "nl0" | "nh0" if machine.shade.bumps() => any,
