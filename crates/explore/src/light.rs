@@ -13,7 +13,7 @@ use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::snap;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Blend, BlendKind, Gate, Machine, Plan, PortVertex, Precision};
-use edgewalk_model::{Counters, DrawState, Pass, Waits};
+use edgewalk_model::{Counters, DrawState, Pass, Shading, Waits, render_passes};
 use edgewalk_scene::{Blending, Change, Frame, Shadow, State, Triangle, Vertex};
 
 /// The largest depth of a map, which stands for 1.
@@ -230,27 +230,16 @@ pub fn own_frame(shadow: &Shadow, machine: &Plan) -> Frame {
 pub fn map(shadow: &Shadow, machine: &Plan) -> Result<Map> {
     let plan = mapper(machine)?;
     let sent = sent(shadow, machine, &plan)?;
-    let (triangles, passes) = (sent.triangles.iter().copied(), &sent.passes);
+    let drawn = |plan| {
+        let triangles = sent.triangles.iter().copied();
+        render_passes(plan, triangles, &sent.passes, &[], Waits::Never, &Shading::default())
+    };
     if machine.shadow.draws_map() {
-        let mut drawn = edgewalk_model::render_passes(
-            machine,
-            triangles,
-            passes,
-            &[],
-            Waits::Never,
-            &edgewalk_model::Shading::default(),
-        )?;
+        let mut drawn = drawn(machine)?;
         let words = drawn.maps.pop().context("the light's own pass draws a map")?;
         return Ok(Map { words, counters: drawn.counters, own: Some(sent) });
     }
-    let drawn = edgewalk_model::render_passes(
-        &plan,
-        triangles,
-        passes,
-        &[],
-        Waits::Never,
-        &edgewalk_model::Shading::default(),
-    )?;
+    let drawn = drawn(&plan)?;
     let (size, side) = (shadow.size as usize, machine.shadow.side_bits());
     let mut map = vec![0; 1 << (2 * side)];
     for (place, (depth, [left, ..])) in drawn.z.iter().zip(&drawn.rgb).enumerate() {
