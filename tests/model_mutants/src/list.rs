@@ -6,7 +6,7 @@ pub const MUTANTS: &[Mutant] = &[
     ("no fault", "rmw.rs", "", ""),
     // The z bypass.
     ("z bypass from the write removed", "rmw.rs", "self.forwards && self.w_stores(addr)", "false"),
-    ("z bypass from the compare removed", "rmw.rs", "if self.forwards && valid &&", "if false &&"),
+    ("z bypass from the compare removed", "rmw.rs", "if self.forwards && self.w_valid &&", "if false &&"),
     ("the bypassed depth is not used", "rmw.rs", "if forwarded { self.forward[slot] } else { data }", "data"),
     // Hazards and handshakes.
     ("drain does not wait for the write", "rmw.rs", "self.len > 0 || self.w_valid", "self.len > 0"),
@@ -31,7 +31,7 @@ pub const MUTANTS: &[Mutant] = &[
         "self.count <= 2",
     ),
     ("a prim does not wait for the gradients", "edge.rs", "!self.running && !fresh_queued", "!self.running"),
-    ("flags of dropped lines are lost", "span.rs", "line.fresh | self.pend_fresh", "line.fresh"),
+    ("flags of dropped lines are lost", "span.rs", "let fresh = line.fresh | self.pend_fresh", "let fresh = line.fresh"),
     ("no fence at the knee", "edge.rs", "self.line.fence = knee && self.textbook", "self.line.fence = false"),
     // Rounding.
     ("quotients are cut, not rounded", "setup/mod.rs", "(n + d / 2).div_euclid(d)", "n.div_euclid(d)"),
