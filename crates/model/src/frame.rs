@@ -110,7 +110,7 @@ pub fn render_passes(
     waits: impl Into<Waits>,
     shading: &Shading,
 ) -> Result<Frame, ForeignVertex> {
-    draw_unseen(plan, &mut triangles.into_iter(), passes, maps, waits.into(), shading)
+    draw_any(plan, &mut triangles.into_iter(), passes, maps, waits.into(), shading, None)
 }
 
 /// As [`render_passes`], and calls `hook` as [`render_with`] does; it sees nothing of the lights' own passes.
@@ -126,34 +126,26 @@ pub fn render_passes_with(
     shading: &Shading,
     mut hook: impl FnMut(Drawn),
 ) -> Result<Frame, ForeignVertex> {
-    draw_seen(plan, &mut triangles.into_iter(), passes, maps, waits.into(), shading, &mut hook)
+    draw_any(plan, &mut triangles.into_iter(), passes, maps, waits.into(), shading, Some(&mut hook))
 }
 
-/// Triangles from anywhere, so that the machine is compiled here and not with every iterator and hook there is; twice, as a
-/// hook that may be anything costs a fifth of the speed.
+/// Triangles from anywhere, so that the machine is compiled here and not with every iterator and hook there is.
 type Triangles<'a> = &'a mut dyn Iterator<Item = [PortVertex; 3]>;
 
-fn draw_unseen(
+/// Without a hook by a machine of its own: one that may be anything costs a fifth of the speed.
+fn draw_any(
     plan: &Plan,
     triangles: Triangles,
     passes: &[Pass],
     maps: &[Vec<u32>],
     waits: Waits,
     shading: &Shading,
+    hook: Option<&mut dyn FnMut(Drawn)>,
 ) -> Result<Frame, ForeignVertex> {
-    for_channels!(plan, C => draw::<C>(plan, triangles, passes, maps, waits, shading, |_| {}))
-}
-
-fn draw_seen(
-    plan: &Plan,
-    triangles: Triangles,
-    passes: &[Pass],
-    maps: &[Vec<u32>],
-    waits: Waits,
-    shading: &Shading,
-    hook: &mut dyn FnMut(Drawn),
-) -> Result<Frame, ForeignVertex> {
-    for_channels!(plan, C => draw::<C>(plan, triangles, passes, maps, waits, shading, hook))
+    for_channels!(plan, C => match hook {
+        None => draw::<C>(plan, triangles, passes, maps, waits, shading, |_| {}),
+        Some(hook) => draw::<C>(plan, triangles, passes, maps, waits, shading, hook),
+    })
 }
 
 fn draw<const C: usize>(
