@@ -156,6 +156,54 @@ impl Clock {
     /// Spans of a triangle, from one fence to the next; `fresh`: its first ones.
     #[inline(always)]
     pub(super) fn spans<W>(&mut self, spans: &[Span<W>], fresh: bool, to_left: bool) {
+        if self.drain || self.inflight.is_some() {
+            self.watched(spans, fresh, to_left);
+        } else {
+            self.flowing(spans, fresh);
+        }
+    }
+
+    /// Spans of a machine in which no fragment waits for another.
+    ///
+    /// Behind a line, EDGE offers the next not before that has moved on: of a triangle's lines only the first asks for
+    /// [`Clock::offer`]. And each span ends where the next may begin, so the cycles without a pixel to step over are what all of
+    /// them take together, less the pixels.
+    #[inline(always)]
+    fn flowing<W>(&mut self, spans: &[Span<W>], fresh: bool) {
+        let Some(last) = spans.last() else { return };
+        let (mut moved, mut pixel_free, mut place) = (self.next_line(), self.pixel_free, self.spans);
+        let (mut before, mut queued, mut drawn, mut skipped) = (moved, 0, 0, 0);
+        let mut fresh = fresh;
+        for span in spans {
+            before = moved;
+            moved = moved.max(self.room_before(place)) + u64::from(span.empty) + 1;
+            let pop = pixel_free.max(moved);
+            self.room[place as usize & 63] = pop + 1;
+            if fresh {
+                self.edge_free = pop + 1;
+                fresh = false;
+            }
+            queued += pop + 1 - moved;
+            drawn += u64::from(span.count);
+            skipped += u64::from(span.skip);
+            pixel_free = pop + (u64::from(span.skip) + u64::from(span.count)) * self.pixel;
+            place += 1;
+        }
+        self.fresh = false;
+        self.moved = moved;
+        self.offer = if last.empty > 0 { moved - 1 } else { before };
+        self.spans = place;
+        self.queued += queued;
+        self.drawn += drawn;
+        self.skipped += skipped;
+        self.edge += pixel_free + 1 - (drawn + skipped) * self.pixel - self.counted;
+        self.pixel_free = pixel_free;
+        self.counted = pixel_free + 1;
+        self.last = Some(LastRead { cycle: pixel_free + self.segments, passed: false });
+    }
+
+    /// Spans of a machine in which fragments wait for fences, or must not meet their addresses.
+    fn watched<W>(&mut self, spans: &[Span<W>], fresh: bool, to_left: bool) {
         let mut first = true;
         for span in spans {
             let place = self.spans as usize;
@@ -193,15 +241,26 @@ impl Clock {
         }
     }
 
+    /// The cycle in which the next line moves on from SPAN's register, if there is room.
+    #[inline(always)]
+    fn next_line(&self) -> u64 {
+        self.offer.max(self.moved.saturating_sub(1)) + 1
+    }
+
+    /// There is room for a span not before.
+    #[inline(always)]
+    fn room_before(&self, span: u64) -> u64 {
+        self.room[(span as usize).wrapping_sub(self.span_fifo) & 63]
+    }
+
     /// So many lines leave EDGE and move on from SPAN's register, all but the last without a pixel: one waits for room, and those
     /// behind it find the same room.
     #[inline(always)]
     fn lines(&mut self, lines: u64) {
-        let room = self.room[(self.spans as usize).wrapping_sub(self.span_fifo) & 63];
-        let left = self.offer.max(self.moved.saturating_sub(1));
-        self.moved = (left + 1).max(room) + lines;
+        let next = self.next_line();
+        self.moved = next.max(self.room_before(self.spans)) + lines;
         // A line leaves EDGE in the cycle in which the one before it moves on.
-        self.offer = if lines > 1 { self.moved - 1 } else { left + 1 };
+        self.offer = if lines > 1 { self.moved - 1 } else { next };
     }
 
     /// Whether the last fragment of the last span passed the depth test.
