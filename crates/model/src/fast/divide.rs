@@ -62,7 +62,7 @@ impl Divisor {
 
 /// Rounds to an integer, |x| <= 2^50.
 #[inline(always)]
-fn integer(x: f64) -> i64 {
+pub(super) fn integer(x: f64) -> i64 {
     (x + ROUND).to_bits().wrapping_sub(ROUND.to_bits()) as i64
 }
 

@@ -13,6 +13,7 @@
 mod divide;
 mod setup;
 mod prefetch;
+mod edge;
 mod walk;
 mod inflight;
 mod clock;

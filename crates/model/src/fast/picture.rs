@@ -1,8 +1,10 @@
 //! The frame memory of the fast path and, on request, what happened at every pixel.
 
+use super::edge::LINES;
 use super::pixel::{Pixel, pixel};
 use crate::run::DrawState;
 use edgewalk_machine::Plan;
+use std::array::from_fn;
 use std::ops::Range;
 
 /// Pixels of a chunk, which are drawn side by side.
@@ -34,8 +36,8 @@ impl Details {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Picture<P> {
     pub pixels: Vec<P>,
-    /// Of every row the columns outside of which it is clear, from the first to that behind the last.
-    pub drawn: Vec<[i32; 2]>,
+    /// Of every row the columns outside of which it is clear, the first and that behind the last; and room for some more rows.
+    drawn: [Vec<i32>; 2],
     /// What a clear pixel is.
     clear: P,
     pub details: Details,
@@ -47,8 +49,10 @@ impl<P: Pixel> Picture<P> {
         let (width, height) = (plan.width as usize, plan.height as usize);
         let pixels = width * height + LANES;
         let clear = pixel(plan, plan.z.max(), state.clear);
-        if (self.pixels.len(), self.drawn.len(), self.clear) == (pixels, height, clear) {
-            for (row, [from, to]) in self.pixels.chunks_exact_mut(width).zip(&self.drawn) {
+        let rows = height + LINES;
+        let [from, to] = &mut self.drawn;
+        if (self.pixels.len(), from.len(), self.clear) == (pixels, rows, clear) {
+            for ((row, from), to) in self.pixels.chunks_exact_mut(width).zip(&*from).zip(&*to) {
                 if let Some(drawn) = row.get_mut((*from).max(0) as usize..(*to).max(0) as usize) {
                     drawn.fill(clear);
                 }
@@ -56,12 +60,26 @@ impl<P: Pixel> Picture<P> {
         } else {
             refill(&mut self.pixels, pixels, clear);
         }
-        refill(&mut self.drawn, height, [i32::MAX, 0]);
+        refill(from, rows, i32::MAX);
+        refill(to, rows, 0);
         self.clear = clear;
         if details {
             refill(&mut self.details.coverage, pixels, 0);
             refill(&mut self.details.writes, pixels, 0);
             refill(&mut self.details.id, pixels, -1);
+        }
+    }
+
+    /// Marks columns, from the first to that behind the last, of rows from this on; not of those outside.
+    #[inline(always)]
+    pub(super) fn mark(&mut self, row: usize, first: [i32; LINES], end: [i32; LINES], inside: [bool; LINES]) {
+        let [from, to] = self
+            .drawn
+            .each_mut()
+            .map(|rows| rows.get_mut(row..).and_then(|rows| rows.first_chunk_mut::<LINES>()));
+        if let (Some(from), Some(to)) = (from, to) {
+            *from = from_fn(|i| from[i].min(if inside[i] { first[i] } else { i32::MAX }));
+            *to = from_fn(|i| to[i].max(if inside[i] { end[i] } else { 0 }));
         }
     }
 

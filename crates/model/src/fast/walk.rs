@@ -3,12 +3,14 @@
 //! ```text
 //!  prim ─> left edge l, right edge r ─ a line at a time ─> [max(l, 0), min(r, W)) ─> spans, fetched ahead
 //! ```
-//! Formats: columns of COLW bits and words of b + r bits stand at the left end of 32 and 64 bits, so that they wrap by
-//! themselves. Rules: `docs/machine.md`, sections 3 and 4; its cuts come to the same interval whichever way a span runs.
+//! Formats: words of b + r bits stand at the left end of 64 bits, so that they wrap by themselves. Rules: `docs/machine.md`,
+//! sections 3 and 4; its cuts come to the same interval whichever way a span runs.
 
+use super::edge::{Edge, LINES};
 use super::picture::Picture;
+use super::pixel::Pixel;
 use super::prefetch::prefetch;
-use crate::tokens::{EdgeWalk, FEW, Prim, per_channel};
+use crate::tokens::{FEW, Prim, per_channel};
 use edgewalk_machine::{Fill, Plan};
 use std::array::from_fn;
 
@@ -64,34 +66,8 @@ pub(super) struct Walker {
     free: u32,
     /// Bits that a word leaves free in 64, by channel.
     align: [u32; FEW],
-}
-
-/// An edge on its way down.
-#[derive(Clone, Copy, Debug)]
-struct Edge {
-    /// C and q, at the left end.
-    c: i32,
-    q: i32,
-    r: i32,
-    f: i32,
-    m: i32,
-}
-
-impl Edge {
-    #[inline(always)]
-    fn new(walk: &EdgeWalk, free: u32) -> Self {
-        Edge { c: walk.c.wrapping_shl(free), q: walk.q.wrapping_shl(free), r: walk.r, f: walk.f, m: walk.m }
-    }
-
-    /// Goes down a line; all ones if R carries.
-    #[inline(always)]
-    fn step(&mut self, free: u32) -> i32 {
-        let r = self.r.wrapping_sub(self.f);
-        let carry = r >> 31;
-        self.r = r.wrapping_add(self.m & carry);
-        self.c = self.c.wrapping_add(self.q).wrapping_sub(carry.wrapping_shl(free));
-        carry
-    }
+    /// 0 to LINES - 1. From memory: known numbers tempt the compiler to treat every line in its own way.
+    place: [i32; LINES],
 }
 
 /// A triangle on its way down.
@@ -102,6 +78,12 @@ pub(super) struct Walk {
     major_right: bool,
     y: u32,
     major: Edge,
+    /// C of the major edge on the first line, and q.
+    first: i32,
+    q: i32,
+    /// Lines that the major edge has gone down.
+    gone: u32,
+    /// At the first pixel of the line, but for the carries of the major edge so far.
     words: Words,
     delta: [Words; 2],
     /// Increment of a pixel to the right.
@@ -115,6 +97,7 @@ impl Walker {
             width: plan.width as i32,
             free: 32 - plan.widths().column,
             align: per_channel(plan, |c| 64 - c.word()),
+            place: std::hint::black_box(from_fn(|i| i as i32)),
         }
     }
 
@@ -132,7 +115,10 @@ impl Walker {
             to_left,
             major_right: prim.major_right,
             y: prim.line,
-            major: Edge::new(&prim.major, self.free),
+            major: Edge::new(&prim.major),
+            first: prim.major.c,
+            q: prim.major.q,
+            gone: 0,
             words: self.aligned(&prim.start[0]),
             delta: [self.aligned(&prim.delta[0]), self.aligned(&prim.delta[1])],
             gradient: if to_left { gradient.map(u64::wrapping_neg) } else { gradient },
@@ -142,7 +128,7 @@ impl Walker {
     /// Walks down a part, 0 or 1, and appends its spans. `empty`: lines without a pixel since the last span, before and
     /// after. Pixels are fetched from the picture, and their lines marked.
     #[inline(always)]
-    pub(super) fn part<P>(
+    pub(super) fn part<P: Pixel>(
         &self,
         prim: &Prim<FEW>,
         part: usize,
@@ -151,69 +137,74 @@ impl Walker {
         mut empty: u32,
         picture: &mut Picture<P>,
     ) -> u32 {
-        let free = self.free;
-        let minor = Edge::new(&prim.minor[part], free);
-        let (mut left, mut right) = if walk.major_right { (minor, walk.major) } else { (walk.major, minor) };
-        let mut words = walk.words;
-        let mut delta = walk.delta;
+        let lines = prim.lines[part];
+        let minor = Edge::new(&prim.minor[part]);
+        let (mut words, mut delta) = (walk.words, walk.delta);
         if self.textbook {
             delta = [delta[part]; 2];
-            if part == 1 && (prim.major_right || prim.lines[0] == 0) {
+            if part == 1 && (walk.major_right || prim.lines[0] == 0) {
                 words = self.aligned(&prim.start[1]);
             }
         }
+        let more: Words = from_fn(|i| delta[1][i].wrapping_sub(delta[0][i]));
         // In textbook fill the left end is `Trunc`, one less than C, and the knee line is drawn again.
         let inward = i32::from(self.textbook);
-        let lines = prim.lines[part];
-        let stays = self.textbook && part == 0 && lines > 0;
-        let more: Words = from_fn(|i| delta[1][i].wrapping_sub(delta[0][i]));
-        let mut row = walk.y * self.width as u32;
+        let stays = u32::from(self.textbook && part == 0 && lines > 0);
         // From the first pixel of a line to its leftmost.
         let to_leftmost = if walk.to_left { walk.gradient.map(u64::wrapping_neg) } else { walk.gradient };
-        let memory = &picture.pixels;
-        // All lines are on the screen.
-        let rows = picture.drawn.get_mut(walk.y as usize..(walk.y + lines) as usize).unwrap_or_default();
+        let cut = |column: i32| column << self.free >> self.free;
         let mut count = spans.count;
-        for (drawn, below) in rows.iter_mut().zip((0..lines).rev()) {
-            let (l, r) = ((left.c >> free).wrapping_sub(inward), right.c >> free);
-            let (low, high) = (l.max(0), r.min(self.width));
+        for line in (0..lines).step_by(LINES) {
+            let [of_major, of_minor] =
+                [line + walk.gone, line].map(|first| self.place.map(|i| i.wrapping_add(first as i32)));
+            let major = walk.major.columns(&of_major.map(f64::from));
+            let minor = minor.columns(&of_minor.map(f64::from));
+            let carries: [i32; LINES] =
+                from_fn(|i| major[i].wrapping_sub(walk.first).wrapping_sub(walk.q.wrapping_mul(of_major[i])));
+            let [major, minor] = [major.map(cut), minor.map(cut)];
+            let (l, r) = if walk.major_right { (minor, major) } else { (major, minor) };
+            let l = l.map(|l| l.wrapping_sub(inward));
+            let (low, high) = (l.map(|l| l.max(0)), r.map(|r| r.min(self.width)));
+            let pixels: [i32; LINES] = from_fn(|i| high[i].wrapping_sub(low[i]));
             // No difference of columns is longer than 32 bits.
-            let from_left = low.wrapping_sub(l);
-            let [skip, columns] = if walk.to_left {
-                [r.wrapping_sub(high), r.wrapping_sub(1).wrapping_sub(low)]
+            let [skip, columns]: [[i32; LINES]; 2] = if walk.to_left {
+                [
+                    from_fn(|i| r[i].wrapping_sub(high[i])),
+                    from_fn(|i| r[i].wrapping_sub(1).wrapping_sub(low[i])),
+                ]
             } else {
-                [from_left; 2]
+                [from_fn(|i| low[i].wrapping_sub(l[i])); 2]
             };
-            let pixels = high.wrapping_sub(low);
-            let Some(span) = spans.room.get_mut(count) else { break }; // there is room: see `Spans`
-            *span = Span {
-                words: from_fn(|i| {
-                    words[i].wrapping_add(to_leftmost[i].wrapping_mul(u64::from(columns as u32)))
-                }),
-                pixel: row.wrapping_add(low as u32),
-                count: pixels as u32,
-                skip: skip as u32,
-                empty,
-            };
-            prefetch(memory, span.pixel as usize, pixels);
-            *drawn = [drawn[0].min(low), drawn[1].max(high)];
-            let is_empty = u32::from(pixels <= 0);
-            count += 1 - is_empty as usize;
-            empty = (empty + 1) * is_empty;
-            if stays && below == 0 {
-                break;
+            let row = (walk.y + line) as i32;
+            let pixel: [i32; LINES] =
+                from_fn(|i| low[i].wrapping_add(self.width.wrapping_mul(self.place[i].wrapping_add(row))));
+            let remaining = lines - line;
+            picture.mark(row as usize, low, high, self.place.map(|i| i < remaining as i32));
+            for i in 0..LINES.min(remaining as usize) {
+                let Some(span) = spans.room.get_mut(count) else { break }; // there is room: see `Spans`
+                let (carries, columns) = (u64::from(carries[i] as u32), u64::from(columns[i] as u32));
+                *span = Span {
+                    words: from_fn(|c| {
+                        words[c]
+                            .wrapping_add(more[c].wrapping_mul(carries))
+                            .wrapping_add(to_leftmost[c].wrapping_mul(columns))
+                    }),
+                    pixel: pixel[i] as u32,
+                    count: pixels[i] as u32,
+                    skip: skip[i] as u32,
+                    empty,
+                };
+                prefetch(&picture.pixels, span.pixel as usize, pixels[i]);
+                let is_empty = u32::from(pixels[i] <= 0);
+                count += 1 - is_empty as usize;
+                empty = (empty + 1) * is_empty;
+                words = from_fn(|c| words[c].wrapping_add(delta[0][c]));
             }
-            row = row.wrapping_add(self.width as u32);
-            let carry_left = left.step(free);
-            let carry_right = right.step(free);
-            let carry = if walk.major_right { carry_right } else { carry_left };
-            let carry = i64::from(carry) as u64; // all ones or zero
-            words = from_fn(|i| words[i].wrapping_add(delta[0][i]).wrapping_add(more[i] & carry));
         }
         spans.count = count;
-        walk.y += lines - u32::from(stays);
-        walk.words = words;
-        walk.major = if walk.major_right { right } else { left };
+        walk.y += lines - stays;
+        walk.gone += lines - stays;
+        walk.words = if stays > 0 { from_fn(|c| words[c].wrapping_sub(delta[0][c])) } else { words };
         empty
     }
 }
