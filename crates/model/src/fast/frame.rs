@@ -4,7 +4,7 @@ use super::clock::Clock;
 use super::passage::Passage;
 use super::picture::Picture;
 use super::pixel::Pixel;
-use super::setup::{BATCH, Setup};
+use super::setup::Setup;
 use super::span::{DepthTest, Ramp};
 use super::walk::{Spans, Walker};
 use super::{Reason, Refusal};
@@ -16,11 +16,20 @@ use crate::tokens::{FEW, Prim};
 use edgewalk_machine::{Plan, PortVertex};
 use std::array::from_fn;
 
+/// Triangles brought in and set up before the first of them is drawn: their vertices come from far memory side by side.
+const BATCH: usize = 8;
+
+/// As many triangles; the last batch of a frame is not full.
+pub(super) type Batch = [[PortVertex; 3]; BATCH];
+
+/// Fills a batch from the front, and says with how many triangles.
+pub(super) type Bring<'a> = dyn FnMut(&mut Batch) -> usize + 'a;
+
 /// Draws the triangles into a cleared picture.
 #[inline(always)]
 pub(super) fn draw<P: Pixel, const DETAILS: bool>(
     plan: &Plan,
-    triangles: &mut dyn Iterator<Item = [PortVertex; 3]>,
+    bring: &mut Bring,
     state: &DrawState,
     picture: &mut Picture<P>,
     passage: Option<&mut Passage>,
@@ -35,17 +44,16 @@ pub(super) fn draw<P: Pixel, const DETAILS: bool>(
     };
     let setup = Setup::new(plan);
     let walker = Walker::new(plan);
+    let mut batch: Batch = Default::default();
     let mut sorted: [Sorted<FEW>; BATCH] = from_fn(|_| Sorted::default());
     let mut prims: [Prim<FEW>; BATCH] = [Prim::default(); BATCH];
     let mut done = [(SetupClocks::default(), false); BATCH];
     loop {
-        let (first, mut count) = (frame.counters.triangles, 0);
-        (&mut *triangles).take(BATCH).try_for_each(|vertices| {
-            plan.accept(&vertices, first + count as u64)?;
-            sorted[count] = setup.sort(&vertices);
-            count += 1;
-            Ok::<_, Refusal>(())
-        })?;
+        let (first, count) = (frame.counters.triangles, bring(&mut batch));
+        for ((number, vertices), sorted) in (first..).zip(&batch[..count]).zip(&mut sorted) {
+            plan.accept(vertices, number)?;
+            *sorted = setup.sort(vertices);
+        }
         frame.counters.triangles += count as u64;
         for ((done, prim), sorted) in done.iter_mut().zip(&mut prims).zip(&sorted[..count]) {
             *done = setup.increments(sorted, prim);

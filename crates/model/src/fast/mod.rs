@@ -31,6 +31,7 @@ use crate::memory::Stalls;
 use crate::run::DrawState;
 use crate::tokens::FEW;
 use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
+use frame::{Batch, Bring};
 pub use passage::{Fate, Passage};
 use picture::Picture;
 use std::fmt;
@@ -141,7 +142,7 @@ impl Renderer {
         triangles: impl IntoIterator<Item = [PortVertex; 3]>,
         state: DrawState,
     ) -> Result<(), Refusal> {
-        self.pass(&mut triangles.into_iter(), state, None)
+        self.pass(&mut by_batches(triangles), state, None)
     }
 
     /// The same, and keeps how the frame went through the units: it can be clocked again with other timing keys.
@@ -154,7 +155,7 @@ impl Renderer {
         state: DrawState,
     ) -> Result<Passage, Refusal> {
         let mut passage = Passage::new(&self.plan, state.depth_write);
-        self.pass(&mut triangles.into_iter(), state, Some(&mut passage))?;
+        self.pass(&mut by_batches(triangles), state, Some(&mut passage))?;
         passage.drawn(&self.counters);
         Ok(passage)
     }
@@ -162,7 +163,7 @@ impl Renderer {
     /// Compiled here, once for each kind of processor, and not for each iterator.
     fn pass(
         &mut self,
-        triangles: &mut dyn Iterator<Item = [PortVertex; 3]>,
+        triangles: &mut Bring,
         state: DrawState,
         passage: Option<&mut Passage>,
     ) -> Result<(), Refusal> {
@@ -211,6 +212,20 @@ impl Renderer {
             passes: vec![self.counters.clone()],
             events: Events::default(),
         }
+    }
+}
+
+/// Brings triangles into a batch, and says how many: fewer than it holds if no more come.
+fn by_batches(triangles: impl IntoIterator<Item = [PortVertex; 3]>) -> impl FnMut(&mut Batch) -> usize {
+    let mut triangles = triangles.into_iter();
+    move |batch| {
+        for (place, vertices) in batch.iter_mut().enumerate() {
+            match triangles.next() {
+                Some(triangle) => *vertices = triangle,
+                None => return place,
+            }
+        }
+        batch.len()
     }
 }
 

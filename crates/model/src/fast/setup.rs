@@ -1,6 +1,6 @@
 //! SETUP's results and clocks with divisions that take a few clocks each, in 64 bits.
 //!
-//! A triangle is sorted when it is brought in, some triangles before the one that is drawn ([`BATCH`]).
+//! A triangle is sorted when it is brought in, some triangles before the one that is drawn.
 //! Only for exact fill and exact edges, formats whose differences over the screen fit in 62 bits, and triangles whose
 //! numerators do; all else is left to the plain setup, with its 128 bits. Rules: `docs/machine.md`, section 2.
 
@@ -14,9 +14,6 @@ use edgewalk_machine::{EdgeKind, Fill, Plan, PortVertex};
 use std::array::from_fn;
 
 type Words = crate::tokens::Words<FEW>;
-
-/// Triangles brought in and set up before the first of them is drawn: their vertices come from far memory side by side.
-pub(super) const BATCH: usize = 8;
 
 /// What the setup needs to know of a plan.
 #[derive(Clone, Debug)]
@@ -177,7 +174,7 @@ impl Setup {
     #[inline(always)]
     fn sorted(&self, vertices: &[PortVertex; 3]) -> Sorted<FEW> {
         let centre = |x: i32| ((x << self.unused >> self.unused) << self.double) - self.offset;
-        let [v0, v1, v2] = [0, 1, 2].map(|i| centre(vertices[i].y()));
+        let [v0, v1, v2] = [&vertices[0], &vertices[1], &vertices[2]].map(|vertex| centre(vertex.y()));
         let mut order = [0usize; 3];
         order[usize::from(v1 < v0) + usize::from(v2 < v0)] = 0;
         order[usize::from(v0 <= v1) + usize::from(v2 < v1)] = 1;

@@ -1,13 +1,13 @@
 //! The same code for the vector instructions that this processor has.
 
 use super::Refusal;
-use super::frame;
+use super::frame::{self, Bring};
 use super::passage::Passage;
 use super::picture::Picture;
 use super::pixel::Pixel;
 use crate::counters::Counters;
 use crate::run::DrawState;
-use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_machine::Plan;
 
 macro_rules! compiled_for {
     ($name:ident, $features:literal) => {
@@ -15,7 +15,7 @@ macro_rules! compiled_for {
         #[target_feature(enable = $features)]
         fn $name<P: Pixel, const DETAILS: bool>(
             plan: &Plan,
-            triangles: &mut dyn Iterator<Item = [PortVertex; 3]>,
+            triangles: &mut Bring,
             state: &DrawState,
             picture: &mut Picture<P>,
             passage: Option<&mut Passage>,
@@ -31,7 +31,7 @@ compiled_for!(avx2, "avx2,bmi1,bmi2");
 /// Clears the picture and draws, with the widest vectors there are.
 pub(super) fn draw<P: Pixel>(
     plan: &Plan,
-    triangles: &mut dyn Iterator<Item = [PortVertex; 3]>,
+    triangles: &mut Bring,
     state: &DrawState,
     details: bool,
     picture: &mut Picture<P>,
@@ -47,7 +47,7 @@ pub(super) fn draw<P: Pixel>(
 
 fn widest<P: Pixel, const DETAILS: bool>(
     plan: &Plan,
-    triangles: &mut dyn Iterator<Item = [PortVertex; 3]>,
+    triangles: &mut Bring,
     state: &DrawState,
     picture: &mut Picture<P>,
     passage: Option<&mut Passage>,

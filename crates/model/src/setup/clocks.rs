@@ -139,7 +139,7 @@ impl Timing {
             }
             clocks += self.edges + if all_fit { FITS } else { self.long } + unsigned(factors);
         }
-        let scale = self.rounds.first().map_or(0, |round| round.scale(sorted, sorted.area()));
+        let scale = self.first_scale(sorted, sorted.area());
         clocks.max(unsigned(c.v - a.v) + AREA + scale)
     }
 
@@ -159,7 +159,7 @@ impl Timing {
         };
         let parts = self.textbook.then(|| [0, 1].map(|part| self.part(sorted, parts, part)));
         let mut clocks = BEHIND;
-        let mut scale = self.rounds.first().map_or(0, |round| round.scale(sorted, area));
+        let mut scale = self.first_scale(sorted, area);
         for (i, round) in self.rounds.iter().enumerate() {
             let mut steps = round.clocks + sums + scaled * scale;
             for part in parts.iter().flatten() {
@@ -172,6 +172,15 @@ impl Timing {
             clocks += steps;
         }
         clocks
+    }
+
+    /// i of the first round. No closure: that would be compiled for any processor, and called.
+    #[inline(always)]
+    fn first_scale<const C: usize>(&self, sorted: &Sorted<C>, area: i64) -> u32 {
+        match self.rounds.first() {
+            Some(round) => round.scale(sorted, area),
+            None => 0, // never: there is a channel
+        }
     }
 
     /// What a part's left edge asks for in textbook fill.
