@@ -4,7 +4,7 @@
 //! Only for exact fill and exact edges, formats whose differences over the screen fit in 62 bits, and triangles whose
 //! numerators do; all else is left to the plain setup, with its 128 bits. Rules: `docs/machine.md`, section 2.
 
-use super::divide::{Divisor, Shift};
+use super::divide::{Divisor, Shifts};
 use crate::setup::clocks::Timing;
 use crate::setup::edges::{Parts, Screen};
 use crate::setup::sort::{Corner, Sorted};
@@ -36,8 +36,8 @@ pub(super) struct Setup {
     vertex_masks: [i64; FEW],
     word_masks: Words,
     /// r - e, and t + r - e.
-    value_shift: [Shift; 4],
-    slope_shift: [Shift; 4],
+    value_shift: Shifts,
+    slope_shift: Shifts,
     value_bits: [u32; 4],
     /// 2^(r-1), 0 if r = 0.
     half: Words,
@@ -68,8 +68,8 @@ impl Setup {
             difference_bits,
             vertex_masks: per_channel(plan, |c| (1 << c.vertex_bits()) - 1),
             word_masks: word_masks(plan),
-            value_shift: value_bits.map(Shift::new),
-            slope_shift: value_bits.map(|bits| Shift::new(bits + w.center_fraction)),
+            value_shift: Shifts::new(value_bits),
+            slope_shift: Shifts::new(value_bits.map(|bits| bits + w.center_fraction)),
             value_bits,
             half: per_channel(plan, |c| (1 << c.fraction) >> 1),
         }
@@ -130,19 +130,21 @@ impl Setup {
         if self.difference_bits + extent + length(&[q.abs() + 2, du.abs() + dv.abs()]) > 62 {
             return Err(TooLong);
         }
-        let sign = if major_right { -1 } else { 1 };
-        let dc1: [i64; 4] = from_fn(|i| (b.values[i] - a.values[i]).wrapping_mul(sign));
-        let dc2: [i64; 4] = from_fn(|i| (c.values[i] - a.values[i]).wrapping_mul(sign));
+        // Values are shorter than 62 bits: nothing wraps here, and what might be checked one by one goes side by side.
+        let flip = -i64::from(major_right);
+        let turned = |value: i64| (value ^ flip).wrapping_sub(flip);
+        let dc1: [i64; 4] = from_fn(|i| turned(b.values[i].wrapping_sub(a.values[i])));
+        let dc2: [i64; 4] = from_fn(|i| turned(c.values[i].wrapping_sub(a.values[i])));
         let nx: [i64; 4] = from_fn(|i| dc1[i].wrapping_mul(dv2).wrapping_sub(dc2[i].wrapping_mul(dv1)));
         let ny: [i64; 4] = from_fn(|i| dc2[i].wrapping_mul(du1).wrapping_sub(dc1[i].wrapping_mul(du2)));
         let n0: [i64; 4] = from_fn(|i| ny[i].wrapping_add(nx[i].wrapping_mul(q)));
         let n1: [i64; 4] = from_fn(|i| n0[i].wrapping_add(nx[i]));
         let moved: [i64; 4] = from_fn(|i| nx[i].wrapping_mul(du).wrapping_add(ny[i].wrapping_mul(dv)));
         let divisor = Divisor::new(area.abs());
-        let (gx, exact_x) = divide(divisor, nx, &self.slope_shift);
-        let (d0, exact_0) = divide(divisor, n0, &self.slope_shift);
-        let (d1, exact_1) = divide(divisor, n1, &self.slope_shift);
-        let (start, exact_start) = divide(divisor, moved, &self.value_shift);
+        let (gx, exact_x) = divisor.round(nx, &self.slope_shift);
+        let (d0, exact_0) = divisor.round(n0, &self.slope_shift);
+        let (d1, exact_1) = divisor.round(n1, &self.slope_shift);
+        let (start, exact_start) = divisor.round(moved, &self.value_shift);
         if !(exact_x & exact_0 & exact_1 & exact_start) {
             return Err(TooLong);
         }
@@ -161,7 +163,7 @@ impl Setup {
                 [0; 4],
             ],
             delta: [word(d0), word(d1)],
-            gradient: word(gx.map(|g| g.wrapping_mul(sign))),
+            gradient: word(gx.map(turned)),
             kt: 0,     // no BLEND here
             record: 0, // no TERM here
             source: Source::default(),
@@ -215,16 +217,4 @@ impl Setup {
             m: dy as i32,
         }
     }
-}
-
-/// RN of four quotients, and whether all are exact.
-#[inline(always)]
-fn divide(divisor: Divisor, numerators: [i64; 4], shifts: &[Shift; 4]) -> ([i64; 4], bool) {
-    let (mut quotients, mut exact) = ([0; 4], true);
-    for i in 0..4 {
-        let (quotient, reliable) = divisor.round(numerators[i], shifts[i]);
-        quotients[i] = quotient;
-        exact &= reliable;
-    }
-    (quotients, exact)
 }
