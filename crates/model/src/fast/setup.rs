@@ -109,8 +109,9 @@ impl Setup {
             return Ok((self.timing.culled(), false));
         }
         let parts = Parts { first: [j0, j1], lines: [(j1 - j0) as u32, (end - j1) as u32] };
-        let phase1 = self.timing.phase1(sorted, &parts);
         let area = du1 * dv2 - du2 * dv1;
+        let scale = self.timing.scale(sorted, area);
+        let phase1 = self.timing.phase1(sorted, &parts, scale);
         if area == 0 {
             return Ok((SetupClocks { phase1, phase2: 0 }, false));
         }
@@ -168,7 +169,7 @@ impl Setup {
             record: 0, // no TERM here
             source: Source::default(),
         };
-        let phase2 = self.timing.phase2(sorted, &parts, prim);
+        let phase2 = self.timing.phase2(sorted, &parts, prim, (area, scale));
         Ok((SetupClocks { phase1, phase2 }, true))
     }
 

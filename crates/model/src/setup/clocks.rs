@@ -4,8 +4,9 @@
 
 use super::edges::Parts;
 use super::sort::{Corner, Sorted};
-use crate::tokens::Prim;
+use crate::tokens::{MAX_CHANNELS, Prim};
 use edgewalk_machine::{EdgeKind, Fill, Plan};
+use std::array::from_fn;
 
 /// Clocks of a triangle in SETUP.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -40,6 +41,8 @@ const NEXT_SCALE: u32 = 8;
 struct Round {
     /// A bit a channel.
     channels: u32,
+    /// All ones of each of them.
+    counts: [i64; MAX_CHANNELS],
     /// Clocks for taking in numbers that do not all fit.
     long: u32,
     /// Bits of the longest vertex value.
@@ -101,7 +104,8 @@ impl Timing {
                     gy + d0 + d1 + start
                 };
             let channels = ((1 << round.len()) - 1) << (i * lanes);
-            rounds.push(Round { channels, long: long(bits), bits, clocks });
+            let counts = from_fn(|i| -i64::from(channels >> i & 1));
+            rounds.push(Round { channels, counts, long: long(bits), bits, clocks });
         }
         Timing {
             lanes,
@@ -120,34 +124,56 @@ impl Timing {
         SetupClocks { phase1: SEEN_AT_ONCE, phase2: 0 }
     }
 
+    /// i of the first round of a triangle with this area.
+    #[inline(always)]
+    pub(crate) fn scale<const C: usize>(&self, sorted: &Sorted<C>, area: i64) -> u32 {
+        // No closure: that would be compiled for any processor, and called.
+        match self.rounds.first() {
+            Some(round) => round.scale(sorted, area),
+            None => 0, // never: there is a channel
+        }
+    }
+
     /// S1 of any other.
     #[inline(always)]
-    pub(crate) fn phase1<const C: usize>(&self, sorted: &Sorted<C>, parts: &Parts) -> u32 {
+    pub(crate) fn phase1<const C: usize>(&self, sorted: &Sorted<C>, parts: &Parts, scale: u32) -> u32 {
         let [a, b, c] = &sorted.corners;
         let (first, walked) = (parts.first, parts.lines.map(|lines| lines > 0));
-        let edges = [(a, c, parts.drawn(), true), (a, b, first[0], walked[0]), (b, c, first[1], walked[1])];
-        let offset = i64::from(self.textbook);
-        let mut clocks = 0;
-        for round in edges.chunks(self.lanes) {
-            let (mut all_fit, mut factors) = (true, 0);
-            for (from, to, j, walked) in round {
-                if *walked {
-                    all_fit &= fits(to.u - from.u, (to.v - from.v) << self.t);
-                    factors |= (from.u + offset) & ((1 << self.t) - 1);
-                    factors |= (j << self.t) - from.v;
-                }
-            }
-            clocks += self.edges + if all_fit { FITS } else { self.long } + unsigned(factors);
-        }
-        let scale = self.first_scale(sorted, sorted.area());
+        let asked = [
+            self.asked(a, c, parts.drawn(), true),
+            self.asked(a, b, first[0], walked[0]),
+            self.asked(b, c, first[1], walked[1]),
+        ];
+        let round = |edges: &[(bool, i64)]| {
+            let (long, factors) = edges.iter().fold((false, 0), |all, edge| (all.0 | edge.0, all.1 | edge.1));
+            self.edges + if long { self.long } else { FITS } + unsigned(factors)
+        };
+        let clocks =
+            if self.lanes >= asked.len() { round(&asked) } else { asked.chunks(self.lanes).map(round).sum() };
         clocks.max(unsigned(c.v - a.v) + AREA + scale)
+    }
+
+    /// Whether an edge's DX does not fit, and all factors of its sum.
+    #[inline(always)]
+    fn asked<const C: usize>(&self, from: &Corner<C>, to: &Corner<C>, j: i64, walked: bool) -> (bool, i64) {
+        if !walked {
+            return (false, 0);
+        }
+        let column = from.u + i64::from(self.textbook);
+        let factors = column & ((1 << self.t) - 1) | ((j << self.t) - from.v);
+        (!fits(to.u - from.u, (to.v - from.v) << self.t), factors)
     }
 
     /// S2 of a triangle whose edges are known.
     #[inline(always)]
-    pub(crate) fn phase2<const C: usize>(&self, sorted: &Sorted<C>, parts: &Parts, prim: &Prim<C>) -> u32 {
+    pub(crate) fn phase2<const C: usize>(
+        &self,
+        sorted: &Sorted<C>,
+        parts: &Parts,
+        prim: &Prim<C>,
+        (area, mut scale): (i64, u32),
+    ) -> u32 {
         let [a, b, c] = &sorted.corners;
-        let area = sorted.area();
         let (du1, dv1, du2, dv2) = (b.u - a.u, b.v - a.v, c.u - a.u, c.v - a.v);
         let (sums, scaled) = if self.textbook {
             (unsigned(dv1 | dv2), 1)
@@ -159,7 +185,6 @@ impl Timing {
         };
         let parts = self.textbook.then(|| [0, 1].map(|part| self.part(sorted, parts, part)));
         let mut clocks = BEHIND;
-        let mut scale = self.first_scale(sorted, area);
         for (i, round) in self.rounds.iter().enumerate() {
             let mut steps = round.clocks + sums + scaled * scale;
             for part in parts.iter().flatten() {
@@ -172,15 +197,6 @@ impl Timing {
             clocks += steps;
         }
         clocks
-    }
-
-    /// i of the first round. No closure: that would be compiled for any processor, and called.
-    #[inline(always)]
-    fn first_scale<const C: usize>(&self, sorted: &Sorted<C>, area: i64) -> u32 {
-        match self.rounds.first() {
-            Some(round) => round.scale(sorted, area),
-            None => 0, // never: there is a channel
-        }
     }
 
     /// What a part's left edge asks for in textbook fill.
@@ -218,12 +234,13 @@ impl Round {
     #[inline(always)]
     fn scale<const C: usize>(&self, sorted: &Sorted<C>, area: i64) -> u32 {
         let [a, b, c] = &sorted.corners;
-        let mut all = 0;
-        for i in 0..C {
-            let differences = [b.values[i] - a.values[i], a.values[i] - c.values[i]];
-            let counts = -i64::from(self.channels >> i & 1);
-            all |= differences.iter().fold(0, |all, d| all | (d ^ (d >> 63))) & counts;
-        }
+        // Values are shorter than 62 bits: nothing wraps, and unchecked they go side by side.
+        let length = |d: i64| d ^ (d >> 63);
+        let lengths: [i64; C] = from_fn(|i| {
+            let [ab, ca] = [b.values[i].wrapping_sub(a.values[i]), a.values[i].wrapping_sub(c.values[i])];
+            (length(ab) | length(ca)) & self.counts[i]
+        });
+        let all = lengths.iter().fold(0, |all, length| all | length);
         let (least, area) = ((all + i64::from(area < 0)) as u64, area.unsigned_abs());
         if least < area || area == 0 {
             return 0;
@@ -243,7 +260,7 @@ pub fn longest_setup(plan: &Plan) -> SetupClocks {
 /// D/M is in [-1, 1): the pair is had by testing.
 #[inline(always)]
 fn fits(d: i64, m: i64) -> bool {
-    -m <= d && d < m
+    (-m <= d) & (d < m)
 }
 
 /// u: bits of the longest of some numbers >= 0, at least 1; `all` is their or.

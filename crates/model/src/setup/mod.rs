@@ -234,8 +234,9 @@ pub(crate) fn prepare<const C: usize>(
     if edges::no_columns(plan, screen, sorted) {
         return (timing.culled(), Err(Culled::Columns));
     }
-    let phase1 = timing.phase1(sorted, &parts);
     let area = sorted.area();
+    let scale = timing.scale(sorted, area);
+    let phase1 = timing.phase1(sorted, &parts, scale);
     if area == 0 {
         return (SetupClocks { phase1, phase2: 0 }, Err(Culled::Area));
     }
@@ -250,7 +251,7 @@ pub(crate) fn prepare<const C: usize>(
         ..Prim::default()
     };
     channels::prepare(plan, sorted, &parts, &mut prim);
-    let phase2 = timing.phase2(sorted, &parts, &prim);
+    let phase2 = timing.phase2(sorted, &parts, &prim, (area, scale));
     (SetupClocks { phase1, phase2 }, Ok(prim))
 }
 
