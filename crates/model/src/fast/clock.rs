@@ -57,7 +57,7 @@ struct Fence {
 pub(super) struct Clock {
     span_fifo: usize,
     /// T: clocks a pixel.
-    pixel: u64,
+    pixel: u32,
     /// D: clocks from PIXEL to DEPTH.
     segments: u64,
     /// L: clocks from read to compare.
@@ -99,7 +99,7 @@ impl Clock {
     pub(super) fn new(plan: &Plan, depth_write: bool) -> Self {
         Clock {
             span_fifo: plan.span_fifo as usize,
-            pixel: u64::from(plan.clocks_per_pixel()),
+            pixel: plan.clocks_per_pixel(),
             segments: u64::from(plan.segments),
             latency: u64::from(plan.latency),
             drain: plan.hazard == Hazard::Drain,
@@ -132,6 +132,7 @@ impl Clock {
     }
 
     /// A triangle that EDGE takes; its lines follow.
+    #[inline(always)]
     pub(super) fn triangle(&mut self, setup: SetupClocks) {
         self.enter_setup();
         self.setup[0] += u64::from(setup.phase1);
@@ -145,6 +146,7 @@ impl Clock {
     }
 
     /// SETUP works until it takes the next triangle, and is IDLE in that cycle.
+    #[inline(always)]
     fn enter_setup(&mut self) {
         self.spend(self.take, Activity::Setup);
         if self.counted == self.take {
@@ -170,24 +172,26 @@ impl Clock {
     /// them take together, less the pixels.
     #[inline(always)]
     fn flowing<W>(&mut self, spans: &[Span<W>], fresh: bool) {
-        let Some(last) = spans.last() else { return };
+        let (Some(first), Some(last)) = (spans.first(), spans.last()) else { return };
         let (mut moved, mut pixel_free, mut place) = (self.next_line(), self.pixel_free, self.spans);
-        let (mut before, mut queued, mut drawn, mut skipped) = (moved, 0, 0, 0);
-        let mut fresh = fresh;
+        let (mut before, mut queued, mut drawn, mut all) = (moved, 0u64, 0u64, 0u64);
+        if fresh {
+            let first = moved.max(self.room_before(place)) + u64::from(first.empty) + 1;
+            self.edge_free = pixel_free.max(first) + 1;
+        }
+        // No frame lasts 2^64 clocks: nothing wraps, and unchecked all this stays in registers.
+        let clocks_per_pixel = u64::from(self.pixel);
         for span in spans {
             before = moved;
-            moved = moved.max(self.room_before(place)) + u64::from(span.empty) + 1;
+            moved = moved.max(self.room_before(place)).wrapping_add(u64::from(span.empty)).wrapping_add(1);
             let pop = pixel_free.max(moved);
-            self.room[place as usize & 63] = pop + 1;
-            if fresh {
-                self.edge_free = pop + 1;
-                fresh = false;
-            }
-            queued += pop + 1 - moved;
-            drawn += u64::from(span.count);
-            skipped += u64::from(span.skip);
-            pixel_free = pop + (u64::from(span.skip) + u64::from(span.count)) * self.pixel;
-            place += 1;
+            self.room[place as usize & 63] = pop.wrapping_add(1);
+            queued = pop.wrapping_add(1).wrapping_sub(moved).wrapping_add(queued);
+            drawn = u64::from(span.count).wrapping_add(drawn);
+            let pixels = u64::from(span.skip).wrapping_add(u64::from(span.count));
+            all = pixels.wrapping_add(all);
+            pixel_free = pixels.wrapping_mul(clocks_per_pixel).wrapping_add(pop);
+            place = place.wrapping_add(1);
         }
         self.fresh = false;
         self.moved = moved;
@@ -195,8 +199,8 @@ impl Clock {
         self.spans = place;
         self.queued += queued;
         self.drawn += drawn;
-        self.skipped += skipped;
-        self.edge += pixel_free + 1 - (drawn + skipped) * self.pixel - self.counted;
+        self.skipped += all - drawn;
+        self.edge += pixel_free + 1 - all * u64::from(self.pixel) - self.counted;
         self.pixel_free = pixel_free;
         self.counted = pixel_free + 1;
         self.last = Some(LastRead { cycle: pixel_free + self.segments, passed: false });
@@ -204,7 +208,7 @@ impl Clock {
 
     /// Spans of a machine in which fragments wait for fences, or must not meet their addresses.
     fn watched<W>(&mut self, spans: &[Span<W>], fresh: bool, to_left: bool) {
-        let mut first = true;
+        let (mut first, pixel) = (true, u64::from(self.pixel));
         for span in spans {
             let place = self.spans as usize;
             self.lines(u64::from(span.empty) + 1);
@@ -217,14 +221,14 @@ impl Clock {
             self.room[place & 63] = pop + 1;
             self.queued += pop - push;
             self.spans += 1;
-            let drawn = pop + u64::from(span.skip) * self.pixel;
+            let drawn = pop + u64::from(span.skip) * pixel;
             if first {
                 if fresh {
                     self.edge_free = pop + 1;
                     self.fresh = false;
                 }
                 if self.drain {
-                    let arrival = drawn + self.pixel + self.segments;
+                    let arrival = drawn + pixel + self.segments;
                     self.fences.push(Fence { arrival, before: self.last });
                 }
             }
@@ -234,7 +238,7 @@ impl Clock {
             self.edge += pop + 1 - self.counted;
             self.skipped += u64::from(span.skip);
             self.drawn += u64::from(span.count);
-            self.pixel_free = drawn + u64::from(span.count) * self.pixel;
+            self.pixel_free = drawn + u64::from(span.count) * pixel;
             self.counted = self.pixel_free + 1;
             self.last = Some(LastRead { cycle: self.pixel_free + self.segments, passed: false });
             first = false;
@@ -278,6 +282,7 @@ impl Clock {
     }
 
     /// The last line of the triangle has left EDGE, `empty` of them since the last span.
+    #[inline(always)]
     pub(super) fn end_triangle(&mut self, empty: u32) {
         if empty > 0 {
             self.lines(u64::from(empty));
@@ -288,6 +293,7 @@ impl Clock {
     }
 
     /// Counts the cycles before `until` in which PIXEL has nothing to do.
+    #[inline(always)]
     fn spend(&mut self, until: u64, cause: Activity) {
         if until <= self.counted {
             return;
@@ -301,6 +307,7 @@ impl Clock {
 
     /// Lets the oldest fence through; PIXEL stands still while it waits. `cause`: of the cycles before, if PIXEL has
     /// nothing to do.
+    #[cold]
     fn pass_fence(&mut self, cause: Activity) {
         let Fence { arrival, before } = *self.fences.head();
         self.fences.pop();
@@ -339,8 +346,8 @@ impl Clock {
         }
         self.spend(self.counted + 1, Activity::Idle);
         self.activity[Activity::Edge as usize] += self.edge;
-        self.activity[Activity::Draw as usize] = self.drawn * self.pixel;
-        self.activity[Activity::Offscreen as usize] = self.skipped * self.pixel;
+        self.activity[Activity::Draw as usize] = self.drawn * u64::from(self.pixel);
+        self.activity[Activity::Offscreen as usize] = self.skipped * u64::from(self.pixel);
         counters.cycles = self.counted;
         counters.activity = self.activity;
         counters.spans = self.spans;
