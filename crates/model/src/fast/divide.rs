@@ -50,7 +50,9 @@ impl Divisor {
         let guess: [f64; FEW] = from_fn(|i| float(n[i]) * (self.reciprocal * shifts.scale[i]));
         let quotient = guess.map(integer);
         let twice: [i64; FEW] = from_fn(|i| {
-            n[i].wrapping_shl(shifts.bits[i]).wrapping_sub(quotient[i].wrapping_mul(self.value)).wrapping_mul(2)
+            n[i].wrapping_shl(shifts.bits[i])
+                .wrapping_sub(quotient[i].wrapping_mul(self.value))
+                .wrapping_mul(2)
         });
         let up: [i64; FEW] = from_fn(|i| i64::from(twice[i] >= self.value));
         let down: [i64; FEW] = from_fn(|i| i64::from(twice[i] < -self.value));
@@ -114,7 +116,10 @@ mod tests {
                 assert_eq!(quotients, expected.map(|n| n as i64), "{n:?} * 2^{bits} / {d}");
                 exact += 1;
             } else {
-                assert!(expected.iter().any(|n| n.abs() > 1 << 49), "{n:?} * 2^{bits} / {d} could be divided");
+                assert!(
+                    expected.iter().any(|n| n.abs() > 1 << 49),
+                    "{n:?} * 2^{bits} / {d} could be divided"
+                );
                 large += 1;
             }
             for n in n {

@@ -106,21 +106,23 @@ impl<P: Pixel> Frame<'_, P> {
         let ramp = Ramp::new(walk.gradient);
         let to_left = prim.major_right && !walker.textbook;
         let (mut empty, mut fresh) = (0, true);
-        for part in 0..2 {
+        self.counters.lines += prim.lines.iter().map(|lines| u64::from(*lines)).sum::<u64>();
+        let parts = if walker.textbook { 2 } else { 1 };
+        for part in 0..parts {
             empty = walker.part(prim, part, &mut walk, &mut self.spans, empty, self.picture);
-            self.counters.lines += u64::from(prim.lines[part]);
-            if (walker.textbook || part == 1) && !self.spans.walked().is_empty() {
-                let spans = self.spans.walked();
-                self.clock.spans(spans, fresh, to_left);
-                fresh = false;
-                let [leftmost, rightmost] = self.test.draw::<P, DETAILS>(self.picture, spans, &ramp, id);
-                let passed = if to_left { leftmost } else { rightmost };
-                self.clock.last_passed(passed);
-                if let Some(passage) = &mut self.passage {
-                    passage.part(spans, to_left, passed);
-                }
-                self.spans.clear();
+            let spans = self.spans.walked();
+            if spans.is_empty() {
+                continue;
             }
+            self.clock.spans(spans, fresh, to_left);
+            fresh = false;
+            let [leftmost, rightmost] = self.test.draw::<P, DETAILS>(self.picture, spans, &ramp, id);
+            let passed = if to_left { leftmost } else { rightmost };
+            self.clock.last_passed(passed);
+            if let Some(passage) = &mut self.passage {
+                passage.part(spans, to_left, passed);
+            }
+            self.spans.clear();
         }
         self.clock.end_triangle(empty);
         if let Some(passage) = &mut self.passage {

@@ -36,7 +36,8 @@ impl Details {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Picture<P> {
     pub pixels: Vec<P>,
-    /// Of every row the columns outside of which it is clear, the first and that behind the last; and room for some more rows.
+    /// Of every row so many columns, counted from the right end, and from the left: outside of what lies in both it is clear. And
+    /// room for some more rows.
     drawn: [Vec<i32>; 2],
     /// What a clear pixel is.
     clear: P,
@@ -50,18 +51,18 @@ impl<P: Pixel> Picture<P> {
         let pixels = width * height + LANES;
         let clear = pixel(plan, plan.z.max(), state.clear);
         let rows = height + LINES;
-        let [from, to] = &mut self.drawn;
-        if (self.pixels.len(), from.len(), self.clear) == (pixels, rows, clear) {
-            for ((row, from), to) in self.pixels.chunks_exact_mut(width).zip(&*from).zip(&*to) {
-                if let Some(drawn) = row.get_mut((*from).max(0) as usize..(*to).max(0) as usize) {
+        let [right, left] = &mut self.drawn;
+        if (self.pixels.len(), right.len(), self.clear) == (pixels, rows, clear) {
+            for ((row, right), left) in self.pixels.chunks_exact_mut(width).zip(&*right).zip(&*left) {
+                if let Some(drawn) = row.get_mut(width.saturating_sub(*right as usize)..*left as usize) {
                     drawn.fill(clear);
                 }
             }
         } else {
             refill(&mut self.pixels, pixels, clear);
         }
-        refill(from, rows, i32::MAX);
-        refill(to, rows, 0);
+        refill(right, rows, 0);
+        refill(left, rows, 0);
         self.clear = clear;
         if details {
             refill(&mut self.details.coverage, pixels, 0);
@@ -70,16 +71,21 @@ impl<P: Pixel> Picture<P> {
         }
     }
 
-    /// Marks columns, from the first to that behind the last, of rows from this on; not of those outside.
+    /// Marks rows from this on, as [`Picture::drawn`] has it; of LINES of them those for which `rows` is all ones.
     #[inline(always)]
-    pub(super) fn mark(&mut self, row: usize, first: [i32; LINES], end: [i32; LINES], inside: [bool; LINES]) {
-        let [from, to] = self
-            .drawn
-            .each_mut()
-            .map(|rows| rows.get_mut(row..).and_then(|rows| rows.first_chunk_mut::<LINES>()));
-        if let (Some(from), Some(to)) = (from, to) {
-            *from = from_fn(|i| from[i].min(if inside[i] { first[i] } else { i32::MAX }));
-            *to = from_fn(|i| to[i].max(if inside[i] { end[i] } else { 0 }));
+    pub(super) fn mark(
+        &mut self,
+        row: usize,
+        rows: [i32; LINES],
+        to_right: [i32; LINES],
+        to_left: [i32; LINES],
+    ) {
+        let [right, left] = &mut self.drawn;
+        for (drawn, marked) in [(right, to_right), (left, to_left)] {
+            let Some(drawn) = drawn.get_mut(row..).and_then(|rows| rows.first_chunk_mut::<LINES>()) else {
+                return;
+            };
+            *drawn = from_fn(|i| drawn[i].max(marked[i] & rows[i]));
         }
     }
 

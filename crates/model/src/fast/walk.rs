@@ -1,7 +1,7 @@
 //! EDGE and SPAN without their clock: a triangle's lines, and the pixels of each.
 //!
 //! ```text
-//!  prim ─> left edge l, right edge r ─ a line at a time ─> [max(l, 0), min(r, W)) ─> spans, fetched ahead
+//!  prim ─> left edge l, right edge r ─ LINES at a time ─> [max(l, 0), min(r, W)) ─> spans, fetched ahead
 //! ```
 //! Formats: words of b + r bits stand at the left end of 64 bits, so that they wrap by themselves. Rules: `docs/machine.md`,
 //! sections 3 and 4; its cuts come to the same interval whichever way a span runs.
@@ -125,8 +125,8 @@ impl Walker {
         }
     }
 
-    /// Walks down a part, 0 or 1, and appends its spans. `empty`: lines without a pixel since the last span, before and
-    /// after. Pixels are fetched from the picture, and their lines marked.
+    /// Walks down all lines of a triangle or, in textbook fill, a part, 0 or 1; appends their spans. `empty`: lines without a
+    /// pixel since the last span, before and after. Pixels are fetched from the picture, and their lines marked.
     #[inline(always)]
     pub(super) fn part<P: Pixel>(
         &self,
@@ -137,15 +137,18 @@ impl Walker {
         mut empty: u32,
         picture: &mut Picture<P>,
     ) -> u32 {
-        let lines = prim.lines[part];
-        let minor = Edge::new(&prim.minor[part]);
         let (mut words, mut delta) = (walk.words, walk.delta);
-        if self.textbook {
+        let (lines, knee) = if self.textbook {
             delta = [delta[part]; 2];
             if part == 1 && (walk.major_right || prim.lines[0] == 0) {
                 words = self.aligned(&prim.start[1]);
             }
-        }
+            (prim.lines[part], if part == 0 { prim.lines[0] } else { 0 })
+        } else {
+            (prim.lines[0] + prim.lines[1], prim.lines[0])
+        };
+        let [upper, lower] = prim.minor.each_ref().map(Edge::new);
+        let minor = [upper, lower.from_line(knee)];
         let more: Words = from_fn(|i| delta[1][i].wrapping_sub(delta[0][i]));
         // In textbook fill the left end is `Trunc`, one less than C, and the knee line is drawn again.
         let inward = i32::from(self.textbook);
@@ -155,10 +158,10 @@ impl Walker {
         let cut = |column: i32| column << self.free >> self.free;
         let mut count = spans.count;
         for line in (0..lines).step_by(LINES) {
-            let [of_major, of_minor] =
-                [line + walk.gone, line].map(|first| self.place.map(|i| i.wrapping_add(first as i32)));
-            let major = walk.major.columns(&of_major.map(f64::from));
-            let minor = minor.columns(&of_minor.map(f64::from));
+            let of_minor = self.place.map(|i| i.wrapping_add(line as i32));
+            let of_major = of_minor.map(|i| i.wrapping_add(walk.gone as i32));
+            let major = walk.major.columns(&of_major);
+            let minor = Edge::columns_of_two(&minor, knee as i32, &of_minor);
             let carries: [i32; LINES] =
                 from_fn(|i| major[i].wrapping_sub(walk.first).wrapping_sub(walk.q.wrapping_mul(of_major[i])));
             let [major, minor] = [major.map(cut), minor.map(cut)];
@@ -179,7 +182,13 @@ impl Walker {
             let pixel: [i32; LINES] =
                 from_fn(|i| low[i].wrapping_add(self.width.wrapping_mul(self.place[i].wrapping_add(row))));
             let remaining = lines - line;
-            picture.mark(row as usize, low, high, self.place.map(|i| i < remaining as i32));
+            picture.mark(
+                row as usize,
+                self.place.map(|i| -i32::from(i < remaining as i32)),
+                low.map(|low| self.width.wrapping_sub(low)),
+                high,
+            );
+            let memory = picture.pixels.as_slice();
             for i in 0..LINES.min(remaining as usize) {
                 let Some(span) = spans.room.get_mut(count) else { break }; // there is room: see `Spans`
                 let (carries, columns) = (u64::from(carries[i] as u32), u64::from(columns[i] as u32));
@@ -194,10 +203,11 @@ impl Walker {
                     skip: skip[i] as u32,
                     empty,
                 };
-                prefetch(&picture.pixels, span.pixel as usize, pixels[i]);
-                let is_empty = u32::from(pixels[i] <= 0);
-                count += 1 - is_empty as usize;
-                empty = (empty + 1) * is_empty;
+                prefetch(memory, span.pixel as usize, pixels[i]);
+                // Neither is more than the lines.
+                let is_empty = pixels[i] <= 0;
+                count = count.wrapping_add(usize::from(!is_empty));
+                empty = if is_empty { empty.wrapping_add(1) } else { 0 };
                 words = from_fn(|c| words[c].wrapping_add(delta[0][c]));
             }
         }
