@@ -17,7 +17,7 @@ use edgewalk_machine::{Plan, PortVertex};
 use std::array::from_fn;
 
 /// Triangles brought in and set up before the first of them is drawn: their vertices come from far memory side by side.
-const BATCH: usize = 8;
+const BATCH: usize = 16;
 
 /// As many triangles; the last batch of a frame is not full.
 pub(super) type Batch = [[PortVertex; 3]; BATCH];
