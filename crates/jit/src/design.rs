@@ -39,7 +39,7 @@ pub(crate) struct Memory {
     pub path: String,
     pub words: usize,
     pub width: u32,
-    pub init: u128,
+    pub init: Option<u128>,
     pub writes: Vec<Write>,
     pub reads: Vec<Read>,
 }

@@ -1,5 +1,6 @@
 //! The state of a running netlist, laid out as `Layout` says.
 
+use edgewalk_netlist::netlist::start_word;
 use edgewalk_netlist::ops::mask;
 
 use crate::design::Design;
@@ -19,8 +20,9 @@ impl State {
         let constants = design.signals.values().filter_map(|value| constant(design, layout, *value));
         constants.for_each(|(place, value)| state.set(place, value));
         for (memory, area) in design.memories.iter().zip(&layout.memories) {
-            if memory.init != 0 {
-                (0..area.words).for_each(|index| state.set_word(*area, index, memory.init));
+            if memory.init != Some(0) {
+                let word = |index| start_word(memory.init, memory.width, index);
+                (0..area.words).for_each(|index| state.set_word(*area, index, word(index)));
             }
         }
         state.wake(layout, wakes, u64::MAX);

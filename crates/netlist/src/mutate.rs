@@ -129,7 +129,7 @@ impl Change {
                 netlist.registers[*register].updates.remove(*update);
             }
             Change::Reset(register, value) => netlist.registers[*register].reset = *value,
-            Change::Init(memory, value) => netlist.memories[*memory].init = *value,
+            Change::Init(memory, value) => netlist.memories[*memory].init = Some(*value),
             Change::Exchange { instance, inputs: [one, two] } => {
                 netlist.instances[*instance].connections.swap(*one, *two);
             }
@@ -272,9 +272,9 @@ fn registers(netlist: &Netlist) -> Vec<(String, Change)> {
 fn structure(netlist: &Netlist) -> Vec<(String, Change)> {
     let mut found = Vec::new();
     for (index, memory) in netlist.memories.iter().enumerate() {
-        let other = memory.init ^ 1;
-        let text = format!("`{}` starts with {other} instead of {}", memory.name, memory.init);
-        found.push((text, Change::Init(index, other)));
+        let Some(init) = memory.init else { continue };
+        let text = format!("`{}` starts with {} instead of {init}", memory.name, init ^ 1);
+        found.push((text, Change::Init(index, init ^ 1)));
     }
     for (index, instance) in netlist.instances.iter().enumerate() {
         let module = &instance.module;
@@ -296,7 +296,7 @@ fn structure(netlist: &Netlist) -> Vec<(String, Change)> {
 }
 
 /// The nodes that an output, a register, a memory or an instance depends on, in ascending order.
-fn live(netlist: &Netlist) -> Vec<NodeId> {
+pub fn live(netlist: &Netlist) -> Vec<NodeId> {
     let mut todo: Vec<NodeId> = netlist.outputs.iter().map(|output| output.driver).collect();
     for update in netlist.registers.iter().flat_map(|register| &register.updates) {
         todo.extend(update.when);

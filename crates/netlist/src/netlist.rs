@@ -152,7 +152,7 @@ pub struct Update {
     pub value: NodeId,
 }
 
-/// A memory of `words` words, each `init` at the start. Addresses at or beyond `words` must not be used: here such a
+/// A memory of `words` words. Addresses at or beyond `words` must not be used: here such a
 /// write is lost and such a read is 0, in Verilog it is unknown.
 #[derive(Clone, Debug)]
 pub struct Memory {
@@ -166,12 +166,20 @@ pub struct Memory {
     pub words: usize,
     /// Bits of a word.
     pub width: u32,
-    /// Every word at the start.
-    pub init: u128,
+    /// Every word at the start; `None`: unknown, nobody reads a word before it is written. See [`start_word`].
+    pub init: Option<u128>,
     /// Write ports; of two writes to one address the later port wins.
     pub writes: Vec<MemoryWrite>,
     /// Read ports.
     pub reads: Vec<MemoryRead>,
+}
+
+/// Word `index` of a memory with words of so many bits, at the start. Of one that nobody is to read yet each is another number
+/// here, so that a netlist which does read it is seen to; in Verilog it is unknown.
+pub fn start_word(init: Option<u128>, width: u32, index: usize) -> u128 {
+    /// 2^128 over the golden ratio: multiples of it are spread evenly.
+    const SPREAD: u128 = 0x9e37_79b9_7f4a_7c15_f39c_c060_5ced_c835;
+    init.unwrap_or_else(|| (index as u128 + 1).wrapping_mul(SPREAD) >> (128 - width))
 }
 
 /// At the clock, if `en`: word `addr` := `data`.

@@ -164,10 +164,10 @@ fn two_modules_of_one_name() {
 #[test]
 fn memories_that_can_not_be() {
     let found = messages(|m| {
-        m.memory("none", 4, 0, 8, 0);
-        m.memory("far", 4, 17, 8, 0);
-        m.memory("near", 4, 8, 8, 0);
-        m.memory("full", 4, 16, 8, 256);
+        m.memory("none", 4, 0, 8);
+        m.memory("far", 4, 17, 8);
+        m.memory("near", 4, 8, 8);
+        m.memory("full", 4, 16, 8).starts(256);
     });
     assert_eq!(
         found,

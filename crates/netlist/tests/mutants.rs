@@ -22,7 +22,7 @@ fn machine() -> Arc<Netlist> {
     let (load, a, b) = (m.input("load", 1), m.input("a", 6), m.input("b", 6));
     let unit = m.instance("u_dda", &dda).connect("load", load).connect("init", a).connect("slope", b);
     let q = unit.output("q").named("q_now");
-    let ram = m.memory("ram", 2, 4, 6, 3).write(load, q.trunc(2), q);
+    let ram = m.memory("ram", 2, 4, 6).starts(3).write(load, q.trunc(2), q);
     let old = ram.read(!load, b.slice(4, 3));
     m.output("below", q.slt(old));
     m.output("shown", load.mux(q, old.sar(1)) + 1);

@@ -57,7 +57,8 @@ pub fn memory(plan: &Plan, clear_z: u64) -> Result<Arc<Netlist>, BuildErrors> {
     m.comment("The way of a depth: each stage moves on when the next is free or moves on itself.");
     let way = Way::new(&m, plan.latency, read.data_ready, "", "depth");
     let (address, words) = (plan.widths().address, 1 << plan.widths().address);
-    let depths = m.memory("depths", address, words, plan.z.bits, clear_z.into()).doc("depth of each pixel");
+    let depths =
+        m.memory("depths", address, words, plan.z.bits).doc("depth of each pixel").starts(clear_z.into());
     let depths = match &depth_write {
         None => depths.write((wr_valid & wr["z_en"]).named("write_z"), wr["addr"], wr["z"]),
         Some((valid, zwr)) => depths.write(*valid, zwr["addr"], zwr["z"]),
@@ -68,7 +69,8 @@ pub fn memory(plan: &Plan, clear_z: u64) -> Result<Arc<Netlist>, BuildErrors> {
     m.comment("The picture.");
     let always = m.lit(1, 1);
     let color = if blends { wr["rgb"] } else { m.cat(&[wr["r"], wr["g"], wr["b"]]) };
-    let frame = m.memory("frame", address, words, color.width(), 0).doc("red, green and blue of each pixel");
+    let frame =
+        m.memory("frame", address, words, color.width()).doc("red, green and blue of each pixel").starts(0);
     let frame = frame.write(wr_valid, wr["addr"], color);
     let shown = frame.read(always, scan_addr);
     let color_way = color_read.map(|read| {
@@ -78,7 +80,7 @@ pub fn memory(plan: &Plan, clear_z: u64) -> Result<Arc<Netlist>, BuildErrors> {
         (way, old)
     });
     let extras = plan.own_channels().map(|(_, channel)| {
-        let words = m.memory(&format!("frame_{}", channel.name), address, words, channel.bits, 0);
+        let words = m.memory(&format!("frame_{}", channel.name), address, words, channel.bits).starts(0);
         let words = words.doc(&format!("{} of each pixel", channel.name));
         (channel.name, words.write(wr_valid, wr["addr"], wr[channel.name]).read(always, scan_addr))
     });

@@ -43,7 +43,7 @@ impl<'m> Roots<'m> {
         loading.when(last, 0).when(begins, 1);
         asked.when(read_valid & memory.read_ready, asked.q() + 1).when(begins, 0);
         taken.when(comes, taken.q() + 1).when(begins, 0);
-        let table = m.memory("roots", bits, words as usize, plan.root_word_bits(), 0);
+        let table = m.memory("roots", bits, words as usize, plan.root_word_bits());
         let table = table.doc(&format!("{what}: v and slope")).write(comes, taken.q(), memory.data["word"]);
         let read_place = asked.q().trunc(bits);
         let (have, loading, taken) = (have.q(), loading.q(), taken.q());

@@ -7,13 +7,14 @@ use crate::expression::Writer;
 use crate::literal;
 use crate::paragraph::Body;
 
-/// The array and its first contents.
+/// The array, and its first contents if it has any.
 pub(crate) fn declare(writer: &mut Writer, body: &mut Body, memory: &Memory) {
     let Memory { name, doc, words, width, init, .. } = memory;
     body.line(format!("reg {}{name} [0:{}];", literal::range(*width), words - 1), doc);
+    let Some(init) = *init else { return };
     let block = writer.names.fresh(&format!("{name}_init"));
     let index = writer.names.fresh(&format!("{name}_index"));
-    let init = literal::unsigned(Bits { value: *init, width: *width });
+    let init = literal::unsigned(Bits { value: init, width: *width });
     body.block(&[
         format!("initial begin : {block}"),
         format!("  integer {index};"),

@@ -40,7 +40,7 @@ fn pair() -> Arc<Netlist> {
     let busy = m.constant("BUSY", 2, 1);
     let state = m.reg("state", 2).reset(0);
     m.comment("Slopes");
-    let slopes = m.memory("slopes", 3, 8, 22, 0).doc("Q8.14 LSB/px").write(write, addr, init);
+    let slopes = m.memory("slopes", 3, 8, 22).starts(0).doc("Q8.14 LSB/px").write(write, addr, init);
     let slope = slopes.read(!write, addr);
     m.comment("The two");
     let stop = m.wire("stop", 1).doc("the left one has passed the right");
@@ -74,6 +74,20 @@ fn text(netlist: &Arc<Netlist>) -> String {
 fn a_small_module_reads_well() {
     expect_file!["snapshots/dda.v"].assert_eq(&text(&dda()));
     expect_file!["snapshots/pair.v"].assert_eq(&text(&pair()));
+}
+
+#[test]
+fn a_memory_that_is_unknown_at_the_start_has_no_initial_block() {
+    let of = |known: bool| {
+        let m = Module::new("ram", "");
+        let (write, addr) = (m.input("write", 1), m.input("addr", 3));
+        let words = m.memory("words", 3, 8, 4).write(write, addr, m.input("data", 4));
+        let words = if known { words.starts(9) } else { words };
+        m.output("word", words.read(!write, addr));
+        text(&m.finish().unwrap())
+    };
+    assert!(of(true).contains("words[words_index] = 4'd9;"), "{}", of(true));
+    assert!(!of(false).contains("initial") && of(false).contains("reg [3:0] words [0:7];"), "{}", of(false));
 }
 
 #[test]

@@ -32,7 +32,7 @@ pub fn module(random: &mut Pcg64Mcg) -> Arc<Netlist> {
         .collect();
     let mut values: Vec<Signal> = registers.iter().map(|register| register.q()).collect();
     values.push(m.input("data", width));
-    let ram = m.memory("ram", 3, random.random_range(5..=8), width, 1);
+    let ram = m.memory("ram", 3, random.random_range(5..=8), width).starts(1);
     let addr = m.input("addr", 3);
     values.push(ram.read(pick(random, &conditions), addr));
     for _ in 0..30 {

@@ -74,7 +74,7 @@ fn hold() -> Arc<Netlist> {
 fn words() -> Arc<Netlist> {
     let m = Module::new("words", "");
     let (en, addr) = (m.input("en", 1), m.input("addr", 2));
-    let words = m.memory("words", 2, 4, W, 3);
+    let words = m.memory("words", 2, 4, W).starts(3);
     let later = |name: &str, word| (0..6).fold(word, |word, i| m.reg(&format!("{name}{i}"), W).set(word).q());
     words.write(en, addr, later("before", m.input("word", W)));
     m.output("q", later("after", words.read(m.lit(1, 1), m.lit(2, 2))));

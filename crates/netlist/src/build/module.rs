@@ -157,9 +157,9 @@ impl Module {
         self.op(Op::Concat, parts, 1)
     }
 
-    /// A memory of `words` words (at least 2), each `init` at the start; see [`Memory`]. `addr_bits` is ceil(log2 words).
+    /// A memory of `words` words (at least 2), unknown until they are written; see [`Memory`]. `addr_bits` is ceil(log2 words).
     #[track_caller]
-    pub fn memory(&self, name: &str, addr_bits: u32, words: usize, width: u32, init: u128) -> Memory<'_> {
+    pub fn memory(&self, name: &str, addr_bits: u32, words: usize, width: u32) -> Memory<'_> {
         Memory::new(
             self,
             name,
@@ -169,7 +169,7 @@ impl Module {
                 addr_bits,
                 words,
                 width,
-                init,
+                init: None,
                 writes: Vec::new(),
                 reads: Vec::new(),
             },

@@ -88,7 +88,6 @@ impl<'m> Memory<'m> {
     pub(super) fn new(module: &'m Module, name: &str, mut memory: netlist::Memory) -> Self {
         memory.addr_bits = module.checked_width(name, memory.addr_bits);
         memory.width = module.checked_width(name, memory.width);
-        memory.init = module.checked_value(memory.width, memory.init);
         let enough = memory.words.saturating_sub(1).checked_ilog2().map_or(0, |top| top + 1);
         if enough != memory.addr_bits {
             let (words, addr_bits) = (memory.words, memory.addr_bits);
@@ -104,6 +103,15 @@ impl<'m> Memory<'m> {
     /// What a word is.
     pub fn doc(self, doc: &str) -> Self {
         self.module.draft().netlist.memories[self.index].doc = doc.to_string();
+        self
+    }
+
+    /// Every word at the start.
+    #[track_caller]
+    pub fn starts(self, word: u128) -> Self {
+        let width = self.module.draft().netlist.memories[self.index].width;
+        let word = self.module.checked_value(width, word);
+        self.module.draft().netlist.memories[self.index].init = Some(word);
         self
     }
 

@@ -75,7 +75,7 @@ fn memory_reads_the_old_word_and_holds() {
     let m = Module::new("ram", "");
     let (we, re) = (m.input("we", 1), m.input("re", 1));
     let (wa, ra, data) = (m.input("wa", 3), m.input("ra", 3), m.input("data", 8));
-    let ram = m.memory("words", 3, 6, 8, 0xaa).write(we, wa, data);
+    let ram = m.memory("words", 3, 6, 8).starts(0xaa).write(we, wa, data);
     m.output("q", ram.read(re, ra));
     let mut sim = simulator(&finish(m));
     let mut next = |we, wa, data, re, ra| {
@@ -91,11 +91,29 @@ fn memory_reads_the_old_word_and_holds() {
 }
 
 #[test]
+fn words_nobody_may_read_yet_are_another_each() {
+    let m = Module::new("ram", "");
+    let ram = m.memory("words", 2, 4, 5).write(m.input("we", 1), m.input("wa", 2), m.input("data", 5));
+    m.output("q", ram.read(m.lit(1, 1), m.input("ra", 2)));
+    let mut sim = simulator(&finish(m));
+    let words = sim.memory("words").unwrap().to_vec();
+    assert!((1..4).all(|place| !words[..place].contains(&words[place])), "{words:?}");
+    for (place, word) in words.into_iter().enumerate() {
+        assert_eq!(step(&mut sim, &[("ra", place as u128)], "q"), word, "read all the same");
+    }
+    assert_eq!(
+        step(&mut sim, &[("we", 1), ("wa", 2), ("data", 9), ("ra", 0)], "q"),
+        sim.memory("words").unwrap()[0]
+    );
+    assert_eq!(step(&mut sim, &[("we", 0), ("ra", 2)], "q"), 9);
+}
+
+#[test]
 fn of_two_write_ports_the_later_wins() {
     let m = Module::new("ram", "");
     let (first, second) = (m.input("first", 1), m.input("second", 1));
     let addr = m.lit(1, 1);
-    let ram = m.memory("words", 1, 2, 4, 0).write(first, addr, 1).write(second, addr, 2);
+    let ram = m.memory("words", 1, 2, 4).starts(0).write(first, addr, 1).write(second, addr, 2);
     m.output("q", ram.read(m.lit(1, 1), addr));
     let mut sim = simulator(&finish(m));
     step(&mut sim, &[("first", 1), ("second", 1)], "q");

@@ -18,7 +18,7 @@ pub(super) fn beside<'m>(m: &'m Module, stages: u32, advance: Signal<'m>, token:
     for (number, group) in groups(token.parts()).into_iter().enumerate() {
         let word: Vec<Signal<'m>> = group.iter().map(|part| token[part.name.as_str()]).collect();
         let width = group.iter().map(|part| part.width).sum();
-        let ring = m.memory(&format!("ring{number}"), bits, stages as usize, width, 0);
+        let ring = m.memory(&format!("ring{number}"), bits, stages as usize, width);
         let names: Vec<&str> = group.iter().map(|part| part.name.as_str()).collect();
         let ring = ring.doc(&names.join(", ")).write(advance, place.q(), m.cat(&word));
         let oldest = ring.read(advance, next).named(&format!("oldest{number}"));

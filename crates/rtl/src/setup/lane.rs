@@ -79,7 +79,8 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     m.comment("The rests of the slots. Slot 0 is never written: it holds 0.");
     let rest = m.reg("rest", shape.rest).doc("1/M, signed while a number is taken in");
     let rest_next = m.wire("rest_next", shape.rest);
-    let rests = m.memory("rests", 3, 8, slot, 0).doc("1/M").write(write, write_at, rest_next.q().trunc(slot));
+    let rests =
+        m.memory("rests", 3, 8, slot).starts(0).doc("1/M").write(write, write_at, rest_next.q().trunc(slot));
     let stored = rests.read(advance, read_at);
 
     m.comment("The addend of the step that follows.");
@@ -146,7 +147,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let whole_next = m.wire("whole_next", shape.whole);
     let (write_then, write_then_at) =
         (m.reg("write_then", 1).set(write), m.reg("write_then_at", 3).set(write_at));
-    let wholes = m.memory("wholes", 3, 8, shape.whole, 0).doc("modular");
+    let wholes = m.memory("wholes", 3, 8, shape.whole).starts(0).doc("modular");
     let wholes = wholes.write(write_then.q(), write_then_at.q(), whole_next.q());
     let stored = wholes.read(m.lit(1, 1), read_whole_at.q());
     let negated = m.reg("negated", 1).set(negate).q();

@@ -73,8 +73,7 @@ impl<'m> Tables<'m> {
             let write = is_light.map_or(comes, |is| comes & is).named(&format!("write{light}"));
             let parts = [("diffuse", "T", word.width() - 1, b), ("highlight", "S", b - 1, 0)];
             parts.map(|(name, table, high, low)| {
-                let memory =
-                    m.memory(&format!("{name}{light}"), table_bits, 1 << table_bits, high - low + 1, 0);
+                let memory = m.memory(&format!("{name}{light}"), table_bits, 1 << table_bits, high - low + 1);
                 memory.doc(&format!("table {table} of light {light}")).write(
                     write,
                     entry,

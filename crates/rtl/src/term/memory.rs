@@ -70,7 +70,7 @@ pub(super) fn words<'m>(
     let write = (under_way | record.comes).named("write");
     let write_at = under_way.mux(result_at, record.place).named("write_at");
     let written = m.wire("written", record.word.width()).doc("a result, or a word of the record");
-    let words = m.memory("words", place_bits, 1 << place_bits, record.word.width(), 0);
+    let words = m.memory("words", place_bits, 1 << place_bits, record.word.width());
     let words = words.doc("as in the record").write(write, write_at, written);
     let (target, source) = (words.read(works, target), words.read(works, source.named("source")));
     let result = sum(target, source, subtract, "added").named("result");

@@ -126,7 +126,7 @@ fn module(random: &mut Pcg64Mcg, name: &str, below: &[Arc<Netlist>], operators: 
     m.comment("Memory");
     let (addr_bits, word) = (random.random_range(1..=4), width(random));
     let words = 1 << addr_bits;
-    let ram = m.memory("ram", addr_bits, words, word, u128::from(random.random::<bool>()));
+    let ram = m.memory("ram", addr_bits, words, word).starts(u128::from(random.random::<bool>()));
     for _ in 0..random.random_range(1..=2) {
         ram.write(go & pool.any(random, 1), pool.any(random, addr_bits), pool.any(random, word));
     }
