@@ -87,8 +87,9 @@ pub fn lamp(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 
     m.comment("Beside the axis.");
     let beside = (one - axis.q().sext(19)).named_doc("beside", "1 - cosine to the axis, 2^-16");
-    let beyond = beside.slice(17, 16).any();
-    let place_beside = beside.msb().mux(0, beyond.mux(m.lit(16, 0xffff), beside.trunc(16)));
+    // Below 0; or 2.0 and more, where it is dark anyway.
+    let other = beside.bit(17);
+    let place_beside = other.mux(0, beside.bit(16).mux(m.lit(16, 0xffff), beside.trunc(16)));
     let place_beside = place_beside.named_doc("place_beside", "of it, in table C");
     let edge = m.reg("cone_edge", 17).doc("EDGE: light falls where beside is no more");
     edge.when(roots.comes & !roots.taken.any(), memory.data["word"].slice(32, 16));
@@ -135,7 +136,8 @@ pub fn lamp(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     diffuse.when(at(10), times);
     viewed.when(at(11), times);
     beam.when(at(13), times.trunc(17));
-    halfway.when(at(14), times);
+    // Looked up in the step that follows, and no more.
+    halfway.set(times);
 
     m.comment("Step 15: where they stand in SHADE's tables.");
     let cosines = parts(&tokens::cosines(plan));

@@ -16,17 +16,17 @@ impl<'m> Root<'m> {
     pub fn new(m: &'m Module, rooting: Signal<'m>, x: Signal<'m>) -> Root<'m> {
         m.comment("The exponent: by how many pairs of zeros x begins, at most seven.");
         let ones = m.lit(30, (1 << 30) - 1);
-        let within = x.msb().mux(0, x.slice(30, 30).mux(ones, x.trunc(30)));
+        let within = x.slice(30, 30).mux(ones, x.trunc(30)) & (!x.msb()).sext(30);
         let mut rest = within.named_doc("below_one", "x from 0 to below 1");
         let mut digits = Vec::new();
         for shift in [8, 4, 2] {
-            let small = (!rest.slice(29, 30 - shift).any()).named(&format!("small_{shift}"));
-            let moved = m.cat(&[rest.trunc(30 - shift), m.lit(shift, 0)]);
-            rest = small.mux(moved, rest).named(&format!("moved_{shift}"));
+            // What lies below the 16 bits that are left, however far they move, goes no further.
+            let (top, width) = (rest.width() - 1, rest.width() - shift);
+            let small = (!rest.slice(top, width).any()).named(&format!("small_{shift}"));
+            rest = small.mux(rest.trunc(width), rest.slice(top, shift)).named(&format!("moved_{shift}"));
             digits.push(small);
         }
-        let left = rest.slice(29, 14);
-        let left = left.slice(15, 14).any().mux(left, m.lit(16, 1 << 14));
+        let left = rest.slice(15, 14).any().mux(rest, m.lit(16, 1 << 14));
         let left = left.named_doc("left", "1/4 to below 1, 2^-16");
         let k = m.reg("k", 3).doc("of the root").when(rooting, m.cat(&digits)).q();
         let of_root = m.reg("m", 16).doc("of the root, 2^-16").when(rooting, left).q();

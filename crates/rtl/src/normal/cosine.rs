@@ -20,8 +20,8 @@ pub(super) fn cosine<'m>(
     gloss: Option<Signal<'m>>,
 ) -> Signal<'m> {
     let name = &part.name;
-    let exact = product.smul(y.zext(y.width() + 1));
-    // Below 2^34 in magnitude, so a half more overflows nothing.
+    // As many bits as both have hold their product, and with the half too.
+    let exact = product.smul(y.zext(y.width() + 1)).trunc(product.width() + y.width());
     let rounded = exact + m.lit(exact.width(), 1 << (ONE - 1));
     let c = rounded.slice(rounded.width() - 1, ONE).named_doc(&format!("c_{name}"), "the cosine, 2^-16");
     place(m, plan, part, c, gloss)

@@ -51,8 +51,8 @@ pub(super) fn with_records(machine: &Plan, seed: u64, records: &[Record]) -> Wor
         if memory.name == "textures" && machine.shade.bumps() {
             steepest(machine, &mut all);
         }
-        if memory.name == "roots" && machine.shade.is_positional() {
-            all[0] = machine.root_word(RIGHT_ANGLE, 0);
+        if memory.name == "roots" {
+            below_halves(machine, &mut all);
         }
         words.insert(memory.name, all.into());
     }
@@ -61,6 +61,17 @@ pub(super) fn with_records(machine: &Plan, seed: u64, records: &[Record]) -> Wor
         words.insert(RECORDS, records.map(u128::from).collect());
     }
     words
+}
+
+/// Entries that leave a product 1 below a half, where what is cut off decides: of NORMAL's R one with the least root and slope; of LAMP's
+/// A the one for the farthest light, 1 there, and of its C the last, at a right angle to the axis. LAMP's root for that light is 1.
+fn below_halves(machine: &Plan, roots: &mut [u128]) {
+    if machine.shade.is_positional() {
+        let entries = [(0, RIGHT_ANGLE, 0), (255, 1 << 16, 0), (511, 0x7fff, 0), (575, 512, 511)];
+        entries.iter().for_each(|(place, v, slope)| roots[*place] = machine.root_word(*v, *slope));
+    } else {
+        roots[128] = machine.root_word(1, 1);
+    }
 }
 
 /// Every other texel has slopes at the ends of their bits, or none: each of both with each in turn.

@@ -100,12 +100,18 @@ pub fn any_tokens(machine: &Plan, of: &Trace, others: f64, stalls: StallKind, se
                 "nn" if taken.place("dd").is_some() && random.random() => {
                     i128::from(random.random_range(0..4u32)) << random.random_range(0..16)
                 }
-                "nn" => beside(&[0x4000, 0x1_0000], &mut random),
+                // Where the root's slope leaves 1 less than a half.
+                "nn" => beside(&[0x4000, 0x807f, 0x1_0000], &mut random),
                 "beam" if random.random() => beside(&[0, 0x8000, 0x1_0000], &mut random),
                 // At a right angle to its axis.
-                "da" if random.random_bool(0.1) => 0,
+                "da" if random.random_bool(0.2) => 0,
+                // 1 less than a half of what is cut off, below 0.
+                "pl" | "dv" | "da" | "pv" if random.random_bool(0.1) => -65,
+                "pl0" | "ph0" if random.random_bool(0.1) => -0x8001,
                 // Seen from where the light stands, and against it.
                 "dd" if random.random_bool(0.3) => (1 << 30) - 1,
+                // Where the slope of table A leaves 1 less than a half.
+                "dd" if random.random_bool(0.1) => 0xfc01 << 14,
                 "dv" if random.random_bool(0.3) => {
                     random.random_range(-1..1) << 23 | random.random_range(0..4096)
                 }
