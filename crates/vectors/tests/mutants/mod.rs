@@ -3,9 +3,10 @@
 //! A fault that survives is handed to a prover: where no input whatever makes a difference at the ports of the unit, there is
 //! nothing to find. Such a fault is named as equivalent and not counted; nothing else is taken out of the count.
 //!
-//! The test run takes every eighth fault. All of them:
+//! The test run takes every sixteenth fault. All of them:
 //! `cargo test --release -p edgewalk-vectors mutants:: -- --ignored --nocapture`
 
+mod cut;
 mod miter;
 mod proof;
 mod shaded;
@@ -22,8 +23,8 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 /// Of so many faults the test run tries one; of SETUP, which is slow to run, of so many.
-const SAMPLE: usize = 8;
-const SAMPLE_OF_SETUP: usize = 160;
+const SAMPLE: usize = 16;
+const SAMPLE_OF_SETUP: usize = 320;
 
 /// Least share killed of those that are not proved equivalent, in percent; what is measured is printed.
 const LEAST: usize = 95;
@@ -79,7 +80,7 @@ fn no_fault_that_is_seen_is_proved_equivalent() {
     let interface = Interface::new(&machine, common::SPAN);
     let traces = traces(&machine, common::SPAN);
     let mut seen = 0;
-    for mutant in mutants(&netlist).iter().step_by(16) {
+    for mutant in mutants(&netlist).iter().step_by(32) {
         let device = common::native(&mutant.apply(&netlist), &interface).expect("the same ports");
         if traces.iter().any(|trace| trace.lockstep_of(&mut device.clone()).is_err()) {
             seen += 1;
@@ -88,7 +89,7 @@ fn no_fault_that_is_seen_is_proved_equivalent() {
         }
     }
     println!("{seen} faults are seen and not called equivalent");
-    assert!(seen >= 8);
+    assert!(seen >= 4);
 }
 
 fn machines() -> Vec<(Plan, Unit)> {
@@ -210,7 +211,7 @@ fn share_found(work: &[(Plan, Unit)], step: impl Fn(Unit) -> usize + Sync, least
     let expected = sum(|t| t.tried) - equivalent;
     let percent = 100.0 * killed as f64 / expected as f64;
     println!("killed {killed} / {expected}, {percent:.1} %; {equivalent} more are proved equivalent");
-    assert!(expected >= 20);
+    assert!(expected >= 8);
     assert!(100 * killed >= least * expected, "only {killed} of {expected} killed");
 }
 

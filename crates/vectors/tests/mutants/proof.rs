@@ -5,19 +5,19 @@
 //!  inputs ──┤             ├─ differ? ─> bad      bad is never 1, from reset on: property-directed reachability
 //!           └─> faulty ───┘
 //! ```
-//! First at the ports of the module with the fault, its instances and memories cut out, every output in every cycle. Where these
-//! differ, in the unit at the place of the fault itself: where the value there never is another, in no state that the unit comes
-//! to from its first, nothing is. Then at the ports of the unit, where outputs count as in lock step: fields while their
-//! valid is high, a status port while it means something.
+//! First at the place of the fault itself, with all registers free: where the value there never is another, nothing is. Then at the
+//! ports of the module with the fault, its instances and memories cut out, every output in every cycle. Where these differ, once
+//! more at the place of the fault, now in the states that the unit comes to from its first. Then at the ports of the unit, where
+//! outputs count as in lock step: fields while their valid is high, a status port while it means something.
 //!
 //! Inputs are free in every cycle, resets too; only the constants of the interface hold their value from reset to
 //! reset. Both copies begin with every register 0, run on free inputs, and are compared from their first reset on. Yosys
 //! turns the two printed designs into gates; ABC (`scorr`, `pdr`) finds the invariant or the cycles to a difference.
 
+use super::cut::{alone, in_one_cycle, without_memories};
 use super::miter::{Ports, miter, watch};
 use edgewalk_netlist::Netlist;
-use edgewalk_netlist::mutate::Mutant;
-use edgewalk_netlist::netlist::{Input, Item, Output, Source};
+use edgewalk_netlist::mutate::{DIFFERS, Mutant};
 use edgewalk_vectors::Interface;
 use std::path::Path;
 use std::process::Command;
@@ -43,6 +43,13 @@ pub enum Proof {
 
 /// Compares a netlist with the same netlist with a fault; `whole` also at the ports of the unit, if it must be.
 pub fn prove(interface: &Interface, original: &Arc<Netlist>, mutant: &Mutant, whole: bool) -> Proof {
+    let watched = mutant.watched(original);
+    if let Some(watched) = &watched {
+        let place = in_one_cycle(&without_memories(&alone(watched, &mutant.module)), DIFFERS);
+        if never(&Ports::of_module(&place), &place, LIMITS[0]) == Proof::Equivalent {
+            return Proof::Equivalent;
+        }
+    }
     let faulty = mutant.apply(original);
     let [one, other] = [original, &faulty].map(|netlist| alone(netlist, &mutant.module));
     let starts = |netlist: &Netlist| netlist.memories.iter().map(|memory| memory.init).collect::<Vec<_>>();
@@ -52,7 +59,6 @@ pub fn prove(interface: &Interface, original: &Arc<Netlist>, mutant: &Mutant, wh
     if own && search(&Ports::of_module(&cut[0]), &cut[0], &cut[1], LIMITS[1]) == Proof::Equivalent {
         return Proof::Equivalent;
     }
-    let watched = mutant.watched(original);
     if let Some(watched) = watched.as_ref().filter(|_| own).map(without_memories)
         && never(&Ports::of_module(&watched), &watched, LIMITS[1]) == Proof::Equivalent
     {
@@ -73,59 +79,6 @@ pub fn prove(interface: &Interface, original: &Arc<Netlist>, mutant: &Mutant, wh
         // A difference at the module's ports, or at the fault, need not reach those of the unit.
         _ => Proof::Unknown,
     }
-}
-
-/// The module of this name without what it is made of: outputs of its instances are inputs, and the other way round.
-fn alone(netlist: &Arc<Netlist>, module: &str) -> Arc<Netlist> {
-    let modules = netlist.modules();
-    let found = modules.iter().find(|found| found.name == module).expect("the fault is in one of them");
-    let mut alone = Netlist::clone(found);
-    for instance in std::mem::take(&mut alone.instances) {
-        for (output, node) in instance.module.outputs.iter().zip(&instance.outputs) {
-            if let Some(node) = *node {
-                let name = format!("{}_{}", instance.name, output.name);
-                alone.nodes[node.index()].source = Source::Input(alone.inputs.len());
-                alone.inputs.push(Input { name, doc: String::new(), node });
-            }
-        }
-        for (input, driver) in instance.module.inputs.iter().zip(instance.connections) {
-            let name = format!("{}_in_{}", instance.name, input.name);
-            alone.outputs.push(Output { name, doc: String::new(), driver });
-        }
-    }
-    alone.items.retain(|item| !matches!(item, Item::Instance(_) | Item::InstanceOutput(_)));
-    alone.has_clock = !alone.registers.is_empty();
-    alone.has_reset = alone.registers.iter().any(|register| register.reset.is_some());
-    Arc::new(alone)
-}
-
-/// A module without its memories: what they give are inputs, and what they take outputs.
-fn without_memories(netlist: &Arc<Netlist>) -> Arc<Netlist> {
-    let mut alone = Netlist::clone(netlist);
-    for memory in std::mem::take(&mut alone.memories) {
-        let mut output =
-            |name: String, driver| alone.outputs.push(Output { name, doc: String::new(), driver });
-        for (port, write) in memory.writes.iter().enumerate() {
-            for (what, node) in [("en", write.en), ("addr", write.addr), ("data", write.data)] {
-                output(format!("{}_write{port}_{what}", memory.name), node);
-            }
-        }
-        for (port, read) in memory.reads.iter().enumerate() {
-            for (what, node) in [("en", read.en), ("addr", read.addr)] {
-                output(format!("{}_read{port}_{what}", memory.name), node);
-            }
-        }
-        for read in memory.reads {
-            alone.nodes[read.node.index()].source = Source::Input(alone.inputs.len());
-            let name = format!("{}_given", read.name);
-            alone.inputs.push(Input { name, doc: String::new(), node: read.node });
-        }
-    }
-    let of_memory =
-        |item: &Item| matches!(item, Item::Memory(_) | Item::MemoryWrite { .. } | Item::MemoryRead { .. });
-    alone.items.retain(|item| !of_memory(item));
-    alone.has_clock = !alone.registers.is_empty();
-    Arc::new(alone)
 }
 
 fn search(ports: &Ports, original: &Arc<Netlist>, faulty: &Arc<Netlist>, limit: u32) -> Proof {

@@ -1,0 +1,78 @@
+//! Parts of a netlist cut out for the prover: what they give is an input then, and what they take an output.
+
+use edgewalk_netlist::Netlist;
+use edgewalk_netlist::mutate::live;
+use edgewalk_netlist::netlist::{Input, Item, Output, Source};
+use std::sync::Arc;
+
+/// The module of this name without what it is made of: outputs of its instances are inputs, and the other way round.
+pub fn alone(netlist: &Arc<Netlist>, module: &str) -> Arc<Netlist> {
+    let modules = netlist.modules();
+    let found = modules.iter().find(|found| found.name == module).expect("the fault is in one of them");
+    let mut alone = Netlist::clone(found);
+    for instance in std::mem::take(&mut alone.instances) {
+        for (output, node) in instance.module.outputs.iter().zip(&instance.outputs) {
+            if let Some(node) = *node {
+                let name = format!("{}_{}", instance.name, output.name);
+                alone.nodes[node.index()].source = Source::Input(alone.inputs.len());
+                alone.inputs.push(Input { name, doc: String::new(), node });
+            }
+        }
+        for (input, driver) in instance.module.inputs.iter().zip(instance.connections) {
+            let name = format!("{}_in_{}", instance.name, input.name);
+            alone.outputs.push(Output { name, doc: String::new(), driver });
+        }
+    }
+    alone.items.retain(|item| !matches!(item, Item::Instance(_) | Item::InstanceOutput(_)));
+    alone.has_clock = !alone.registers.is_empty();
+    alone.has_reset = alone.registers.iter().any(|register| register.reset.is_some());
+    Arc::new(alone)
+}
+
+/// A module without its memories: what they give are inputs, and what they take outputs.
+pub fn without_memories(netlist: &Arc<Netlist>) -> Arc<Netlist> {
+    let mut alone = Netlist::clone(netlist);
+    for memory in std::mem::take(&mut alone.memories) {
+        let mut output =
+            |name: String, driver| alone.outputs.push(Output { name, doc: String::new(), driver });
+        for (port, write) in memory.writes.iter().enumerate() {
+            for (what, node) in [("en", write.en), ("addr", write.addr), ("data", write.data)] {
+                output(format!("{}_write{port}_{what}", memory.name), node);
+            }
+        }
+        for (port, read) in memory.reads.iter().enumerate() {
+            for (what, node) in [("en", read.en), ("addr", read.addr)] {
+                output(format!("{}_read{port}_{what}", memory.name), node);
+            }
+        }
+        for read in memory.reads {
+            alone.nodes[read.node.index()].source = Source::Input(alone.inputs.len());
+            let name = format!("{}_given", read.name);
+            alone.inputs.push(Input { name, doc: String::new(), node: read.node });
+        }
+    }
+    let of_memory =
+        |item: &Item| matches!(item, Item::Memory(_) | Item::MemoryWrite { .. } | Item::MemoryRead { .. });
+    alone.items.retain(|item| !of_memory(item));
+    alone.has_clock = !alone.registers.is_empty();
+    Arc::new(alone)
+}
+
+/// What one output of a module without instances and memories is made of in one cycle: registers are inputs.
+pub fn in_one_cycle(netlist: &Arc<Netlist>, output: &str) -> Arc<Netlist> {
+    let mut alone = Netlist::clone(netlist);
+    alone.outputs.retain(|one| one.name == output);
+    for register in std::mem::take(&mut alone.registers) {
+        alone.nodes[register.node.index()].source = Source::Input(alone.inputs.len());
+        alone.inputs.push(Input { name: register.name, doc: String::new(), node: register.node });
+    }
+    let counts = live(&alone);
+    let wires = &alone.wires;
+    alone.items.retain(|item| match item {
+        Item::Wire(wire) | Item::Drive(wire) => counts.contains(&wires[*wire].node),
+        Item::Constant(node) => counts.contains(node),
+        _ => false,
+    });
+    (alone.has_clock, alone.has_reset) = (false, false);
+    Arc::new(alone)
+}
