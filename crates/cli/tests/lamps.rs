@@ -86,7 +86,8 @@ fn several_lights_are_drawn_one_after_the_other_and_added() {
             let dark = dark.replace("LIGHT", light);
             std::fs::write(folder.path().join("s.toml"), dark).unwrap();
         }
-        rendered_by_every_engine(folder.path(), &render);
+        let (status, said) = run(folder.path(), &[&["render"], &render[..], &["--out", "r"]].concat());
+        assert_eq!(status, Some(0), "{said}");
         alone.push(colors(&folder.path().join("r/image.png")));
     }
     scene(folder.path(), &lights.concat());

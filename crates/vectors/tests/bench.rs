@@ -103,13 +103,8 @@ fn hdl_names_what_is_compiled_and_nothing_else_is_icarus() {
 }
 
 #[test]
-fn hdl_names_what_is_compiled_and_nothing_else_is_verilator_depth() {
+fn hdl_names_what_is_compiled_and_nothing_else_is_verilator() {
     foreign_designs(common::DEPTH, "verilator", "rd_addr = frag_addr", "rd_addr = ~frag_addr");
-}
-
-#[test]
-fn hdl_names_what_is_compiled_and_nothing_else_is_verilator_machine() {
-    foreign_designs(Unit::MACHINE, "verilator", "assign wr_r = u_depth_wr_r", "assign wr_r = ~u_depth_wr_r");
 }
 
 /// PIXEL with a register more at its output, and without the ports that tell of its state.
