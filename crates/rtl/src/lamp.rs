@@ -125,7 +125,7 @@ pub fn lamp(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let a = looks.mux(slope.zext(18), others);
     let others = of_beam.mux(cone.q(), of_light.mux(beam.q(), y.q()));
     let b = looks.mux(low.zext(17), others);
-    let Multiplier { exact, looked, times } = Multiplier::new(&m, working, a, b, v);
+    let Multiplier { exact, looked, times } = Multiplier::new(&m, a, b, v);
 
     y.when(at(2) | at(7) | at(12), looked);
     attenuation.when(at(3), looked);

@@ -16,16 +16,9 @@ pub(super) struct Multiplier<'m> {
 
 impl<'m> Multiplier<'m> {
     /// `a` of 18 bits, signed, `b` of 17, unsigned, `v` of the entry whose slope `a` may be.
-    pub fn new(
-        m: &'m Module,
-        working: Signal<'m>,
-        a: Signal<'m>,
-        b: Signal<'m>,
-        v: Signal<'m>,
-    ) -> Multiplier<'m> {
-        let operand = |name: &str, doc: &str, value: Signal<'m>| {
-            m.reg(name, value.width()).doc(doc).when(working, value).q()
-        };
+    pub fn new(m: &'m Module, a: Signal<'m>, b: Signal<'m>, v: Signal<'m>) -> Multiplier<'m> {
+        let operand =
+            |name: &str, doc: &str, value: Signal<'m>| m.reg(name, value.width()).doc(doc).set(value).q();
         let (a, b) = (operand("a", "operand, signed", a), operand("b", "operand", b));
         let v = operand("v", "of the entry, 2^-16", v);
         let exact = a.smul(b.zext(18)).named_doc("exact", "a * b");
