@@ -7,7 +7,7 @@
 
 mod common;
 
-use common::triangles;
+use common::{torus, triangles};
 use cpu_time::ThreadTime;
 use edgewalk_machine::{Machine, Plan, PortVertex};
 use edgewalk_model::fast::Renderer;
@@ -55,6 +55,11 @@ fn main() {
     for area in argument(2).map_or_else(|| vec![10, 100, 1000, 10_000], |area| vec![area]) {
         let scene = triangles(&plan, 5000, area as f64);
         measure(&format!("5000 triangles of {area} pixels"), &plan, &scene, frames);
+        if area < 200 {
+            // Wholly inside the guard band.
+            let scene = torus(&plan, area as f64);
+            measure(&format!("a torus of {} triangles of {area} pixels", scene.len()), &plan, &scene, frames);
+        }
     }
     measure("no triangle: the clear", &plan, &[], frames);
 }

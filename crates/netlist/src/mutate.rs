@@ -296,7 +296,7 @@ fn structure(netlist: &Netlist) -> Vec<(String, Change)> {
 }
 
 /// The nodes that an output, a register, a memory or an instance depends on, in ascending order.
-pub fn live(netlist: &Netlist) -> Vec<NodeId> {
+fn live(netlist: &Netlist) -> Vec<NodeId> {
     let mut todo: Vec<NodeId> = netlist.outputs.iter().map(|output| output.driver).collect();
     for update in netlist.registers.iter().flat_map(|register| &register.updates) {
         todo.extend(update.when);

@@ -90,7 +90,7 @@ pub fn miter(ports: &Ports, original: &Netlist, faulty: &Netlist) -> String {
     });
     let differ: Vec<String> = differ.collect();
     format!(
-        "module miter({header}, output bad);\n{body}original a({});\nfaulty b({});\n\
+        "module miter({header}, output bad);\n{body}original the_original({});\nfaulty the_faulty({});\n\
          assign bad = started && !rst && ({});\nendmodule\n",
         connections(original, ""),
         connections(faulty, "other_"),
@@ -108,7 +108,7 @@ pub fn watch(ports: &Ports, watched: &Netlist) -> String {
         inputs.iter().map(|(port, width)| format!("input [{}:0] {port}", width - 1)).collect();
     let connections: Vec<String> = inputs.iter().map(|(port, _)| format!(".{port}({port})")).collect();
     format!(
-        "module miter({}, output bad);\noriginal a({}, .{DIFFERS}(bad));\nendmodule\n",
+        "module miter({}, output bad);\noriginal the_original({}, .{DIFFERS}(bad));\nendmodule\n",
         header.join(", "),
         connections.join(", ")
     )
