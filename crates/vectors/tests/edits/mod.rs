@@ -5,7 +5,7 @@
 
 use crate::common;
 use crate::common::{made, write};
-use edgewalk_machine::Machine;
+use edgewalk_machine::{Machine, Plan};
 use edgewalk_vectors::{Suite, Tables, Unit, capture, design, directory};
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -47,15 +47,20 @@ fn edits() -> Vec<Edit> {
 /// A directory of vectors: keys of the machine, suite, unit.
 type Place = (Vec<String>, String, Unit);
 
-/// Writes the directory, with a fault or without, and runs `make icarus` in it: exit code 0, and what was said.
-fn run(place: &Place, edit: Option<&Edit>) -> (bool, String) {
-    let (keys, suite, unit) = place;
+/// The machine with these keys.
+fn machine(keys: &[String]) -> Plan {
     let mut machine = Machine { width: 32, height: 24, ..Machine::default() };
     for key in keys {
         let (key, value) = key.split_once('=').expect("key=value");
         machine.set(key, value).expect("a key of the machine");
     }
-    let machine = machine.plan().expect("can be built");
+    machine.plan().expect("can be built")
+}
+
+/// Writes the directory, with a fault or without, and runs `make icarus` in it: exit code 0, and what was said.
+fn run(place: &Place, edit: Option<&Edit>) -> (bool, String) {
+    let (keys, suite, unit) = place;
+    let machine = machine(keys);
     let suite = Suite::named(&machine, suite, 1, 100).expect("listed");
     let trace = capture(&machine, *unit, &suite, suite.state(), suite.stalls);
     let verilog = design::verilog(&machine, *unit).expect("a checked machine");
@@ -90,6 +95,19 @@ fn survivors(runs: &[(Place, Edit)]) -> Vec<String> {
     });
     println!("{} of {} edits fail", results.iter().filter(|name| name.is_none()).count(), runs.len());
     results.into_iter().flatten().collect()
+}
+
+/// The Verilog of today has what each edit changes.
+#[test]
+fn every_edit_fits_what_is_emitted() {
+    let edits = edits();
+    let unfit = edits.iter().filter(|edit| {
+        let files = design::verilog(&machine(&edit.machine), Unit::MACHINE).expect("a checked machine");
+        !files.iter().any(|(name, text)| *name == edit.file && text.contains(&edit.text))
+    });
+    assert_eq!(unfit.map(|edit| &edit.name).collect::<Vec<_>>(), Vec::<&String>::new());
+    println!("{0} of {0} edits fit", edits.len());
+    assert!(edits.len() >= 40);
 }
 
 #[test]
