@@ -87,7 +87,7 @@ pub fn lamp(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 
     m.comment("Beside the axis.");
     let beside = (one - axis.q().sext(19)).named_doc("beside", "1 - cosine to the axis, 2^-16");
-    // Below 0; or 2.0 and more, where it is dark anyway.
+    // Set below 0, and from 2.0 on, which no EDGE lights: there any place will do.
     let other = beside.bit(17);
     let place_beside = other.mux(0, beside.bit(16).mux(m.lit(16, 0xffff), beside.trunc(16)));
     let place_beside = place_beside.named_doc("place_beside", "of it, in table C");
