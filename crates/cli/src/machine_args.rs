@@ -14,12 +14,16 @@ const MAX_LENGTH: u64 = 1 << 20;
 /// Which machine.
 #[derive(clap::Args, Clone, Debug)]
 pub struct MachineArgs {
-    /// A machine file (TOML) or the name of a preset: default, textbook
-    #[arg(long, value_name = "FILE|PRESET", default_value = "default", global = true)]
+    #[arg(long, value_name = "FILE|PRESET", default_value = "default", global = true, help = machine_help())]
     machine: String,
-    /// Overrides one key, e.g. --set interpolator.adders=2 (repeatable; `edgewalk config` lists the keys)
+    /// Overrides one key, e.g. --set interpolator.adders=2 (repeatable; `edgewalk config print` lists the keys)
     #[arg(long, value_name = "KEY=VALUE", global = true)]
     set: Vec<String>,
+}
+
+fn machine_help() -> String {
+    let names: Vec<&str> = PRESETS.iter().map(|preset| preset.0).collect();
+    format!("A machine file (TOML) or the name of a preset: {}", names.join(", "))
 }
 
 impl MachineArgs {

@@ -93,7 +93,7 @@ const FAULTS: &[Kept] = &[
         name: "setup_culled_goes_on",
         unit: "setup",
         machine: |_| {},
-        words: &["becomes `Mux(no_area, CHANNELS, IDLE)`"],
+        words: &["`state` is never updated when `And(gives_up, advance)`"],
     },
 ];
 

@@ -108,9 +108,9 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         prim: &prim,
         values: &values,
     };
-    let numbers: Vec<_> = lanes.iter().map(|lane| sources.connect(lane)).collect();
-    scale.gather(plan, &control, &numbers);
-    let unfit = lanes.iter().map(|lane| lane.instance.output("unfit") & sources.needed(lane));
+    let differences: Vec<_> = lanes.iter().map(|lane| sources.connect(lane)).collect();
+    scale.gather(plan, &control, &differences);
+    let unfit = lanes.iter().filter_map(|lane| sources.unfit(lane));
     control.unfit.drive(unfit.reduce(|any, one| any | one).unwrap_or(m.lit(1, 0)));
     Results { m: &m, plan, control: &control, vertices: &vertices, area: &area, prim: &prim }.take(&lanes);
 

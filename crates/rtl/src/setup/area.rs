@@ -9,7 +9,7 @@ use super::top::top;
 
 /// The triangle's area.
 pub(super) struct Area<'m> {
-    /// du1·dv2 - du2·dv1, 1/P² px², signed, 2·DW bits.
+    /// du1·dv2 - du2·dv1, 1/P² px², signed.
     pub signed: Signal<'m>,
     /// It is below 0: the major edge lies right.
     pub negative: Signal<'m>,
@@ -23,10 +23,10 @@ impl<'m> Area<'m> {
     /// The sum over the bits of dv2 and dv1, the highest first.
     pub fn new(m: &'m Module, plan: &Plan, control: &Control<'m>, vertices: &Vertices<'m>) -> Area<'m> {
         m.comment("Twice the area: du1 dv2 - du2 dv1, over the bits of dv2 and dv1.");
-        let bits = 2 * plan.widths().difference;
+        let bits = area_bits(plan);
         let [tall, upper] = [vertices.heights[0], vertices.heights[1]];
         let digit = m.reg("area_digit", tall.width().ilog2() + 1).doc("place of the digits added");
-        let adds = m.reg("area_adds", 1).doc("digits are added").reset(0);
+        let adds = m.reg("area_adds", 1).doc("digits are added");
         let last = digit.q().eq(0);
         digit.when(adds.q(), digit.q() - 1).when(control.begin, top(vertices.tall).zext(digit.q().width()));
         adds.when(adds.q() & last, 0).when(control.begin, 1);
@@ -39,4 +39,10 @@ impl<'m> Area<'m> {
         control.no_area.drive(!area.q().any());
         Area { signed: area.q(), negative: area.q().msb(), adds: adds.q(), ends: adds.q() & last }
     }
+}
+
+/// Bits of twice the area, signed: at most the square of the longest difference of coordinates, which has a bit less than with
+/// its sign.
+pub(super) fn area_bits(plan: &Plan) -> u32 {
+    2 * (plan.widths().difference - 1) + 1
 }

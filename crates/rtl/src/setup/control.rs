@@ -26,10 +26,14 @@ impl<'m> Stage<'m> {
         codes.reduce(|any, one| any | one).unwrap_or(self.at.module().lit(1, 0))
     }
 
+    /// It is this operation, in this round.
+    pub fn is_in(&self, op: Op, round: usize) -> Signal<'m> {
+        self.in_round(round).map_or(self.is(op), |is| self.is(op) & is)
+    }
+
     /// It ends, in this round.
     pub fn ends_in(&self, op: Op, round: usize) -> Signal<'m> {
-        let ends = self.ends & self.is(op);
-        self.in_round(round).map_or(ends, |is| ends & is)
+        self.ends & self.is_in(op, round)
     }
 
     /// It is this round; `None` where there is no other.
@@ -94,9 +98,9 @@ impl<'m> Control<'m> {
     /// The registers and their updates.
     pub fn new(m: &'m Module, plan: &Plan, tri_valid: Signal<'m>, prim_ready: Signal<'m>) -> Control<'m> {
         m.comment("Control: the operations one after the other, a clock each or more; in rounds where there are more jobs than lanes.");
-        let state_of = |name, value| m.constant(name, 3, value);
-        let (idle, edges) = (state_of("IDLE", 0), state_of("EDGES", 1));
-        let (channels, store, done) = (state_of("CHANNELS", 2), state_of("STORE", 3), state_of("DONE", 4));
+        let state_of = |name, value| m.constant(name, 2, value);
+        let (idle, at_work) = (state_of("IDLE", 0), state_of("WORK", 1));
+        let (store, done) = (state_of("STORE", 2), state_of("DONE", 3));
         let ops: Vec<Op> = Op::of_edges(plan).iter().chain(Op::of_channels(plan)).copied().collect();
         let bits = (ops.len() as u32).next_power_of_two().ilog2();
         let constant = |(i, op): (usize, &Op)| (*op, m.constant(&name_of(*op), bits, i as u128));
@@ -115,7 +119,7 @@ impl<'m> Control<'m> {
         let left_bits = longest.max(digits).ilog2() + 1;
         let top_digit = m.wire("top_digit", left_bits).doc("place of the first digit of a sum");
 
-        let state = m.reg("state", 3).reset(0);
+        let state = m.reg("state", 2).reset(0);
         let at = m.reg("at", bits).doc("operation");
         let left = m.reg("left", left_bits).doc("its clocks after this one");
         let first = m.reg("first", 1).doc("its first clock");
@@ -130,26 +134,23 @@ impl<'m> Control<'m> {
         m.comment("Numbers that do not fit hold up what follows: three clocks, and one for two digits.");
         let of_parts = (0..most).filter(|_| plan.fill == Fill::Textbook).map(|round| pairs(plan, round));
         let most_pairs = of_parts.chain([edge_pairs(plan)]).max().unwrap_or(1);
-        let pause = m.reg("pause", (most_pairs + 3).ilog2() + 1).doc("clocks left of it").reset(0);
+        let pause = m.reg("pause", (most_pairs + 3).ilog2() + 1).doc("clocks left of it");
         let paused = m.reg("paused", 1).doc("it is not over").reset(0);
         let advance = (!paused.q()).named("advance");
 
         let is_idle = state.q().eq(idle).named("tri_ready");
         let take = (tri_valid & is_idle).named("take");
-        let in_edges = state.q().eq(edges).named("in_edges");
-        let works = (in_edges | state.q().eq(channels)).named("works");
+        let works = state.q().eq(at_work).named("works");
         let is_done = state.q().eq(done).named("prim_valid");
         let is_at = |place: usize| at.q().eq(codes[place].1);
-        let begin =
-            with(in_edges & is_at(0), is_round(0)).named_doc("begins", "the first clock of a triangle");
-        let gives_up = with(in_edges & is_at(1), is_round(0)) & nothing.q();
+        let begin = with(works & is_at(0), is_round(0)).named_doc("begins", "the first clock of a triangle");
+        let gives_up = with(works & is_at(1), is_round(0)) & nothing.q();
         let gives_up = gives_up.named_doc("gives_up", "the triangle has no line or no column");
         let last = (left.q().eq(0)).named_doc("last", "last clock of the operation");
-        let edges_end =
-            with(in_edges & last & is_at(last_edge), is_round(edge_rounds - 1)).named("edges_end");
+        let edges_end = with(last & is_at(last_edge), is_round(edge_rounds - 1)).named("edges_end");
         let mut begins_channels = edges_end;
         if channel_rounds > 1 {
-            let turn = state.q().eq(channels) & last & is_at(last_channel);
+            let turn = last & is_at(last_channel);
             let turn = is_round(channel_rounds - 1).map_or(turn, |is_last| turn & !is_last);
             begins_channels = edges_end | turn.named("round_ends");
         }
@@ -159,9 +160,9 @@ impl<'m> Control<'m> {
         let channels_end = with(is_at(last_channel), is_round(channel_rounds - 1)).named("channels_end");
 
         state
-            .when(take, edges)
+            .when(take, at_work)
             .when(gives_up & advance, idle)
-            .when(edges_end & leaves, no_area.q().mux(idle, channels))
+            .when(edges_end & leaves & no_area.q(), idle)
             .when(leaves & channels_end, store)
             .when(state.q().eq(store) & last, done)
             .when(is_done & prim_ready, idle);
@@ -181,14 +182,13 @@ impl<'m> Control<'m> {
         }
 
         m.comment("How long the next operation takes.");
-        let doubled = |op: Op, round: usize| {
-            let (Length::Doublings(doublings) | Length::Scaled(doublings)) = op.doing().length else {
-                return m.lit(left_bits, 0);
-            };
-            m.lit(left_bits, u128::from(round_clocks(plan, doublings, op.is_of_edge(plan), round).max(1)) - 1)
-        };
+        let doubled =
+            |op: Op, round: usize| m.lit(left_bits, u128::from(doubling_clocks(plan, op, round).max(1)) - 1);
         let of_channels = |op: Op| {
-            (1..channel_rounds).fold(doubled(op, 0), |chosen, number| {
+            let clocks = |round: usize| doubling_clocks(plan, op, round);
+            let last = channel_rounds - 1;
+            let others = (0..last).filter(|round| clocks(*round) != clocks(last));
+            others.fold(doubled(op, last), |chosen, number| {
                 is_round(number).map_or(chosen, |is| is.mux(doubled(op, number), chosen))
             })
         };
@@ -258,7 +258,7 @@ impl<'m> Control<'m> {
         if plan.fill == Fill::Textbook {
             clocks = stepped.is(Op::FixDx).mux(clocks, stepped.of_round(channel_rounds, needed));
         }
-        pause.when(!advance, pause.q() - 1).when(advance & unfit.q(), clocks);
+        pause.set(advance.mux(clocks, pause.q() - 1));
         paused.when(resumes, 0).when(advance & unfit.q(), 1);
 
         Control {
@@ -293,6 +293,16 @@ fn clocks(plan: &Plan, op: Op) -> u32 {
         Length::Digits => 1,
         Length::Doublings(number) => most_clocks(plan, number),
         Length::Scaled(number) => most_clocks(plan, number) + most_scale(plan),
+    }
+}
+
+/// Clocks in which an operation doubles in a round; 0 of one that does not.
+fn doubling_clocks(plan: &Plan, op: Op, round: usize) -> u32 {
+    match op.doing().length {
+        Length::Doublings(doublings) | Length::Scaled(doublings) => {
+            round_clocks(plan, doublings, op.is_of_edge(plan), round)
+        }
+        Length::Clocks(_) | Length::Digits => 0,
     }
 }
 

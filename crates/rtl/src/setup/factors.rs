@@ -40,15 +40,15 @@ impl<'m> Sources<'_, 'm> {
     pub fn factors(&self) -> Factors<'m> {
         let (m, plan, control, lines) = (self.m, self.plan, self.control, self.lines);
         m.comment("Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.");
-        let bits = plan.widths().difference + 1;
+        let bits = plan.widths().difference;
         let whole = |value: Signal<'m>| value.sext(bits);
         let natural = |value: Signal<'m>| value.zext(bits);
         let none = m.lit(bits, 0);
         let low = |place: usize| natural(self.low_column(place));
         let edge = |edge: usize| match edge {
             0 => [low(0), natural(lines.h0)],
-            1 => [low(0), natural(lines.h0)].map(|factor| self.walked("n1").mux(factor, 0)),
-            _ => [low(1), natural(lines.h1)].map(|factor| self.walked("n2").mux(factor, 0)),
+            1 => [low(0), natural(lines.h0)].map(|factor| factor & self.walked("n1").sext(bits)),
+            _ => [low(1), natural(lines.h1)].map(|factor| factor & self.walked("n2").sext(bits)),
         };
         let of_edges = |side: usize| {
             let choice = |round: usize| edge_of(plan, 0, round).map_or(none, |number| edge(number)[side]);
@@ -87,7 +87,7 @@ impl<'m> Sources<'_, 'm> {
             reg.q()
         };
         let [f, g] = [of_side(0, "f"), of_side(1, "g")];
-        let differs = |of: Signal<'m>| (of ^ of.sar(1)).trunc(bits - 1);
+        let differs = |of: Signal<'m>| of.trunc(bits - 1) ^ of.slice(bits - 1, 1);
         let mut digits = differs(f) | differs(g);
         let second = [self.low_column(1), lines.h1];
         if plan.lanes == 4 {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use edgewalk_machine::{Channel, EdgeKind, Plan};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
+use super::area::area_bits;
 use super::operands::fit;
 use super::steps::{Step, longest_value};
 
@@ -39,7 +40,7 @@ impl Shape {
 
 /// Bits of the modulus, negated: P·DY, the area, or up to four times the longest difference of values.
 pub(super) fn modulus_bits(plan: &Plan) -> u32 {
-    (2 * plan.widths().difference).max(longest_value(plan) + 4)
+    area_bits(plan).max(longest_value(plan) + 4)
 }
 
 const DOC: &str = "A lane of setup holds a pair: the number whole + rest / M, with 0 <= rest < M.
@@ -56,7 +57,7 @@ for one clock. A negated pair is its complement: M is added to its rest, and 1 t
 pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new(name, DOC);
     let below_two_m = shape.modulus; // M has a bit less; room for a sign
-    let (sums, slot) = ((below_two_m + 2).max(shape.rest + 1), below_two_m - 1);
+    let (sums, slot) = ((below_two_m + 1).max(shape.rest + 1), below_two_m - 1);
 
     let advance = m.input_doc("advance", 1, "the steps go on; 0: what was read stays");
     let read_at = m.input_doc("read_at", 3, "slot of the addend, two clocks before its step");
@@ -86,7 +87,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     m.comment("The addend of the step that follows.");
     let n0 = m.reg("n0", shape.rest).doc("a, or a number to take in");
     let n1 = m.reg("n1", below_two_m + 1).doc("a - M, signed");
-    let n2 = m.reg("n2", below_two_m + 2).doc("a - 2 M, signed");
+    let n2 = m.reg("n2", below_two_m + 1).doc("a - 2 M, modular");
     let below = m.reg("below", 1).doc("the number taken in is below 0");
     // The step before a fix is a load, and its n0 the number.
     let below_0 = (step.bit(0) & below.q()) | (!step.bit(0) & n0.q().msb());
@@ -106,7 +107,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     n0.set(is(step, Step::Load).mux(number.sext(shape.rest), fit(addend, shape.rest)));
     n1.set(less_m);
     let twice = m.cat(&[modulus, short]).named_doc("less_2m", "-2 M, or -2 M - 1");
-    n2.set(plus("a_less_2m", a.sext(below_two_m + 2), twice.sext(below_two_m + 2), short));
+    n2.set(plus("a_less_2m", a.sext(below_two_m + 1), twice, short));
     let carry0 = m.reg("carry0", 1).doc("1 to add to the sum of n0");
     carry0.set(with_sign | (add_modulus & !short) | (take_modulus_off & short));
     let carry = m.reg("carry", 1).doc("1 to add to the other sums").set(take_modulus_off & short);
@@ -117,7 +118,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let twofold = flag(&m, "twofold", one_of(step, &[Step::Double1, Step::Next]));
     let from_zero = one_of(step, &[Step::Load, Step::First, Step::Sign, Step::Begin]);
     let from_zero = flag(&m, "from_zero", from_zero);
-    let compared = [Step::Double1, Step::Double2, Step::Digits, Step::First, Step::Next, Step::Add];
+    let compared = [Step::Double1, Step::Double2, Step::Digits, Step::Next, Step::Add];
     let compared = m.reg("compared", 1).doc("M is taken off if it goes").set(one_of(step, &compared)).q();
     let digits = m.reg("digits_now", 2).set(is(step, Step::Digits).mux(digits, 0)).q();
     let old = rest.q().sext(sums);
@@ -126,14 +127,13 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let s0 = plus("x_and_n0", x, n0.q().sext(sums), carry0.q()).named("s0");
     let s1 = plus("x_and_n1", x, n1.q().sext(sums), carry.q()).named("s1");
     let s2 = plus("x_and_n2", x, n2.q().sext(sums), carry.q()).named("s2");
-    // A fourfold rest may have M taken off three times, and n0 is the first of them; else n0 takes none off.
-    let (f0, f1, f2) = (!s0.msb(), !s1.msb() & compared, !s2.msb() & compared);
-    let (f0, f1, f2) = (f0.named("fits0"), f1.named("fits1"), f2.named("fits2"));
+    // A fourfold rest may have M taken off three times, and n0 is the first of them; else n0 takes none off. Between -2 M and 2 M
+    // a sum has its sign; s2 may lie below, but then s1 is below 0, and s0 may lie above, but then s1 is not.
+    let (f0, f1) = ((!s0.msb()).named("fits0"), (!s1.msb() & compared).named("fits1"));
+    let f2 = (f1 & !s2.msb()).named("fits2");
     let stays = (fourfold & !f0).named("stays");
-    let chosen = f2.mux(s2, f1.mux(s1, stays.mux(x, s0)));
-    rest_next.drive(chosen.trunc(shape.rest));
-    let rests_only = one_of(now, &[Step::Rest, Step::Whole]).named("rest_stays");
-    rest.when(!rests_only, rest_next);
+    rest_next.drive(f2.mux(s2, f1.mux(s1, stays.mux(x, s0))).trunc(shape.rest));
+    rest.when(!is(now, Step::Whole), rest_next);
     below.when(is(now, Step::Load) & advance, n0.q().msb());
     m.output_doc(
         "unfit",
@@ -142,7 +142,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     );
 
     m.comment("The whole part, a clock behind.");
-    let read_whole_at = m.reg("read_whole_at", 3).when(advance, read_at);
+    let read_whole_at = m.reg("read_whole_at", 3).set(read_at);
     let whole = m.reg("whole", shape.whole).doc("modular");
     let whole_next = m.wire("whole_next", shape.whole);
     let (write_then, write_then_at) =
@@ -170,14 +170,13 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let x = fourfold.mux(four, twofold.mux(two, from_zero.mux(0, old))).named("whole_x");
     let one = (!fourfold & taken.any()).named("one");
     whole_next.drive(plus("x_and_b", x, b.q(), one));
-    let stays = one_of(then, &[Step::Rest, Step::Less1]).named("whole_stays");
-    whole.when(!stays, whole_next);
+    whole.when(!is(then, Step::Less1), whole_next);
 
     m.comment("What is done is given out rounded: to nearest, halves up, or up.");
     m.output_doc("rest_out", rest.q().trunc(slot), "1/M, from the clock after a step");
     m.output_doc("whole_out", whole, "modular, a clock later");
-    let twice = m.cat(&[rest.q().trunc(slot), m.lit(1, 0)]).zext(below_two_m + 1);
-    let past_half = plus("past_half", twice, modulus.sext(below_two_m + 1), short);
+    let twice = m.cat(&[rest.q().trunc(slot), m.lit(1, 0)]);
+    let past_half = plus("past_half", twice, modulus, short);
     let up = m.reg("up", 1).set(upwards.mux(rest.q().trunc(slot).any(), !past_half.msb())).q();
     m.output_doc("value", whole.q() + up.zext(shape.whole), "modular, with whole");
     m.finish()

@@ -100,7 +100,7 @@ impl<'a, 'm> Common<'a, 'm> {
         }
         let first = control.first.mux(code(Step::First), code(Step::Next));
         step = control.named.one_of(&steps(Step::First)).mux(first, step);
-        let step = control.waits.mux(code(Step::Rest), step).named("step");
+        let step = step.named("step");
 
         let began = m
             .reg("began", 1)
@@ -178,46 +178,47 @@ impl<'a, 'm> Common<'a, 'm> {
 
     /// A lane with fewer doublings than the longest does its last ones with it; of an odd number the last is single.
     fn step_of(&self, number: usize) -> Signal<'m> {
-        let control = self.control;
-        let ops = Op::of_edges(self.plan).iter().chain(Op::of_channels(self.plan)).copied();
+        let (m, control, rounds) = (self.m, self.control, rounds(self.plan)[1]);
+        let code = |step: Step| m.lit(Step::BITS, step as u128);
         let mut step = self.step;
-        for op in ops {
+        for op in Op::of_edges(self.plan).iter().chain(Op::of_channels(self.plan)).copied() {
             let (doublings, scaled) = match op.doing().length {
                 Length::Doublings(doublings) => (doublings, false),
                 Length::Scaled(doublings) => (doublings, true),
                 _ => continue,
             };
             let of_edge = op.is_of_edge(self.plan);
-            let of_channel = |channel: Channel, round: usize| {
-                let (clocks, odd) =
-                    (doublings(self.plan, &channel).div_ceil(2), doublings(self.plan, &channel) % 2);
-                let code = |step: Step| self.m.lit(Step::BITS, step as u128);
+            let in_round = |round: usize| {
+                let channel = channel_of(self.plan, number, round).filter(|_| !of_edge);
+                let own = doublings(self.plan, &channel.unwrap_or(self.plan.channels()[0]));
+                (own, round_clocks(self.plan, doublings, of_edge, round))
+            };
+            let all_double_twice = |round: usize| {
+                let (own, longest) = in_round(round);
+                own == 2 * longest
+            };
+            if (0..if of_edge { 1 } else { rounds }).all(all_double_twice) {
+                continue;
+            }
+            let of_round = |round: usize| {
+                let (own, longest) = in_round(round);
                 let mut chosen = code(Step::Double2);
-                if odd == 1 {
+                if own % 2 == 1 {
                     chosen = control.left.eq(0).mux(code(Step::Double1), chosen);
                 }
-                if clocks == round_clocks(self.plan, doublings, of_edge, round) {
+                if own.div_ceil(2) == longest {
                     return chosen;
                 }
-                let mut own = self.m.lit(control.left.width(), clocks.into());
+                let mut clocks = m.lit(control.left.width(), own.div_ceil(2).into());
                 if scaled {
-                    own = own + control.scale.q().zext(control.left.width());
+                    clocks = clocks + control.scale.q().zext(control.left.width());
                 }
-                control.left.lt(own).mux(chosen, code(Step::Rest))
+                control.left.lt(clocks).mux(chosen, code(Step::Rest))
             };
-            let chosen = if of_edge {
-                of_channel(self.plan.channels()[0], 0)
-            } else {
-                let rounds = rounds(self.plan)[1];
-                let of = |round: usize| {
-                    let channel = channel_of(self.plan, number, round);
-                    of_channel(channel.unwrap_or(self.plan.channels()[0]), round)
-                };
-                control.named.of_round(rounds, of)
-            };
-            step = (control.named.is(op) & !control.waits).mux(chosen, step);
+            let chosen = if of_edge { of_round(0) } else { control.named.of_round(rounds, of_round) };
+            step = control.named.is(op).mux(chosen, step);
         }
-        step
+        control.waits.mux(code(Step::Rest), step)
     }
 
     fn read_at(&self, number: usize) -> Signal<'m> {

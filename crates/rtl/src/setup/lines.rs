@@ -6,7 +6,6 @@ use edgewalk_netlist::{Module, Reg, Signal};
 use super::area::Area;
 use super::control::Control;
 use super::sort::Vertices;
-use super::steps::Op;
 use crate::light_pass::LightPass;
 use crate::wires::Registers;
 
@@ -76,15 +75,20 @@ impl<'m> Lines<'m> {
         };
         let upper = prim["n1"].q().any().named("upper");
         let jm = upper.mux(j0, j1).named_doc("jm", "first line of the triangle");
-        let down = |name: &str, from: usize, to: Signal<'m>| {
-            let line = m.cat(&[to, m.lit(plan.widths().center_fraction, 0)]);
-            let v = vertices.v(from).sext(line.width());
-            (line - v).trunc(plan.widths().difference).named_doc(name, "1/P line")
+        let bits = plan.widths().difference;
+        let down = |name: &str, from: usize, to: Signal<'m>, bits: u32| {
+            let line = m.cat(&[to, m.lit(plan.widths().center_fraction, 0)]).trunc(bits);
+            let v = vertices.v(from);
+            let v = if bits > v.width() { v.sext(bits) } else { v.trunc(bits) };
+            (line - v).named_doc(name, "1/P line")
         };
-        let (h0, h1) = (down("h0", 0, jm), down("h1", 1, j1));
+        // The first line is the vertex's own but for one above the screen, and none is farther above than half a difference.
+        let (h0, h1) = (down("h0", 0, jm, bits - 2), down("h1", 1, j1, bits - 2));
         let (left_a, left_b) = match plan.fill {
             Fill::Exact => (h0, h1),
-            Fill::Textbook => (down("left_a", 0, j0), area.negative.mux(h1, down("left_b", 0, j1))),
+            Fill::Textbook => {
+                (down("left_a", 0, j0, bits), area.negative.mux(h1.zext(bits), down("left_b", 0, j1, bits)))
+            }
         };
         Lines { jm, h0, h1, left_a, left_b }
     }
@@ -96,10 +100,10 @@ impl<'m> Lines<'m> {
 fn no_column<'m>(screen: &Screen<'_, 'm>, vertices: &Vertices<'m>) -> Signal<'m> {
     let Screen { m, plan, .. } = *screen;
     m.comment("Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.");
-    let (bits, t) = (plan.widths().column, plan.widths().center_fraction);
+    let t = plan.widths().center_fraction;
     let u = [0, 1, 2].map(|place| vertices.u(place));
-    let last = screen.last_column(u[0].width());
-    let columns = u.map(|u| u.slice(u.width() - 1, t).sext(bits) + u.trunc(t).any().zext(bits));
+    let (bits, last) = (u[0].width() - t, screen.last_column(u[0].width()));
+    let columns = u.map(|u| u.slice(u.width() - 1, t) + u.trunc(t).any().zext(bits));
     let column = |place: usize| columns[place].named_doc(&format!("column{place}"), "ceil(u/P)");
     let [a, b, c] = [column(0), column(1), column(2)];
     let none_between = (a.eq(b) & b.eq(c)).named("none_between");
@@ -130,23 +134,20 @@ fn exact<'m>(
     let (bits, t) = (plan.widths().column, plan.widths().center_fraction);
     let line = |place: usize, name: &str| {
         let v = vertices.v(place);
-        let last = screen.last_center(v.width());
+        // What is above the screen has line 0 whatever else it is: v without its sign.
+        let down = v.trunc(v.width() - 1);
         let up = v.trunc(t).any().zext(bits);
-        let ceil =
-            (v.slice(v.width() - 1, t).sext(bits) + up).named_doc(&format!("line{place}"), "ceil(v/P)");
-        let on_screen = v.sle(last).mux(ceil, screen.height(bits));
-        let j = m.reg(name, bits).doc("line of the screen").when(control.begin, v.msb().mux(0, on_screen));
-        j.q()
+        let ceil = (down.slice(down.width() - 1, t).zext(bits) + up)
+            .named_doc(&format!("line{place}"), "ceil(v/P) of one that is not above the screen");
+        let on_screen = down.le(screen.last_center(down.width())).mux(ceil, screen.height(bits));
+        m.reg(name, bits).doc("line of the screen").set(v.msb().mux(0, on_screen)).q()
     };
     let (j0, j1, end) = (line(0, "j0"), line(1, "j1"), line(2, "end_line"));
     let [n1, n2] = counts;
-    let count = |n: Reg<'m>, lines: Signal<'m>| {
-        n.when(control.named.is(Op::FixDx), lines.trunc(n.q().width()));
-    };
-    count(n1, j1 - j0);
-    count(n2, end - j1);
+    n1.set((j1 - j0).trunc(n1.q().width()));
+    n2.set((end - j1).trunc(n2.q().width()));
     let outside = no_column(screen, vertices);
-    let outside = m.reg("no_column", 1).doc("no column of the screen").when(control.begin, outside).q();
+    let outside = m.reg("no_column", 1).doc("no column of the screen").set(outside).q();
     control.nothing.drive(j0.eq(end) | outside);
     (j0, j1)
 }

@@ -56,14 +56,16 @@ impl<'m> Values<'m> {
             let reg = m.reg(name, value.width());
             reg.when(control.advance, value).when(control.take, m.lit(value.width(), at_first)).q()
         };
+        let of_edge = |name: &str, is: Signal<'m>| m.reg(name, 1).when(control.advance, is).q();
         let second = named.one_of(&[Op::FixDx, Op::Load2, Op::Fix2]);
         let turned = right & named.one_of(&[Op::Load1, Op::Load2]);
         // dc1 = c1 - c0, -dc2 = c0 - c2, the other way round where the area is below 0.
         let mut from = second.mux(turned.mux(place(0), place(2)), turned.mux(place(1), place(0)));
         let mut to = second.mux(turned.mux(place(2), place(0)), turned.mux(place(0), place(1)));
         let single = named.one_of(&[Op::AddStart, Op::AddA, Op::AddB]);
-        to = single.mux((named.is(Op::AddB) & right).mux(place(1), place(0)), to);
+        to = single.mux(place(0), to);
         if plan.fill == Fill::Textbook {
+            to = (named.is(Op::AddB) & right).mux(place(1), to);
             // The left edge is the major one, or that of the part.
             let (a, b) = (named.one_of(&[Op::LoadA, Op::FixA]), named.one_of(&[Op::LoadB, Op::FixB]));
             from = (a | b).mux((b & right).mux(place(1), place(0)), from);
@@ -76,25 +78,29 @@ impl<'m> Values<'m> {
             Some(reg(&format!("values_of_round{round}"), shown.mux(before, own) & !of_first, 0))
         };
         let vertex = |place: Signal<'m>| {
-            place.bit(1).mux(vertices.order[2], place.bit(0).mux(vertices.order[1], vertices.order[0]))
+            place.eq(2).mux(vertices.order[2], place.eq(1).mux(vertices.order[1], vertices.order[0]))
         };
         Values {
             from: vertex(reg("from_place", from, 0)).named("from_vertex"),
             to: vertex(reg("to_place", to, 1)).named("to_vertex"),
             single: reg("single_value", single, 0),
             rounds: (1..rounds(plan)[1]).filter_map(round).collect(),
-            of_edge: reg("number_of_edge", named.one_of(&[Op::LoadDx, Op::LoadDy]), 0),
-            height: reg("number_is_height", named.is(Op::LoadDy), 0),
+            of_edge: of_edge("number_of_edge", named.one_of(&[Op::LoadDx, Op::LoadDy])),
+            height: of_edge("number_is_height", named.is(Op::LoadDy)),
         }
     }
 }
 
 impl<'m> Sources<'_, 'm> {
-    /// Connects what a lane takes in, and gives the numbers it is shown.
+    /// Connects what a lane takes in, and gives the differences of values that it is shown.
     pub fn connect(&self, lane: &Lane<'m>) -> Signal<'m> {
         let (m, control) = (self.m, self.control);
         m.comment(&format!("Lane {}: what it takes in.", lane.number));
-        let number = self.number(lane).named_doc(&format!("number{}", lane.number), "signed");
+        let difference = self.difference(lane, lane.shape.number);
+        let has_edge = self.has_edge(lane);
+        let number =
+            if has_edge { self.values.of_edge.mux(self.of_edge(lane), difference) } else { difference };
+        let number = number.named_doc(&format!("number{}", lane.number), "signed");
         let kept = [Op::LoadDx, Op::LoadA, Op::LoadB, Op::AddStart, Op::AddA, Op::AddB];
         let kept = m
             .reg(&format!("kept{}", lane.number), number.width())
@@ -102,8 +108,12 @@ impl<'m> Sources<'_, 'm> {
             .when(control.next.one_of(&kept), number)
             .q();
         // When three clocks or more are left the digits are not read; when two, the lowest.
-        let pair = m.cat(&[control.pause - 2, m.lit(1, 0)]);
-        let digits = kept.sext(kept.width() + 1).sar_by(pair).trunc(2);
+        let digits = if has_edge || self.plan.fill == Fill::Textbook {
+            let pair = m.cat(&[control.pause - 2, m.lit(1, 0)]);
+            kept.sext(kept.width() + 1).sar_by(pair).trunc(2)
+        } else {
+            m.lit(2, 0)
+        };
         let (modulus, short) = self.modulus(lane);
         lane.instance
             .connect("number", number)
@@ -111,26 +121,47 @@ impl<'m> Sources<'_, 'm> {
             .connect("whole_in", self.whole(lane, kept))
             .connect("modulus_in", modulus)
             .connect("modulus_short", short);
-        number
+        difference
     }
 
-    /// A number that was taken in is needed, by this lane, and may be too long: those of the area's modulus never are.
-    pub fn needed(&self, lane: &Lane<'m>) -> Signal<'m> {
-        let (m, stepped) = (self.m, &self.control.stepped);
-        let yes_or_no = |yes: bool| m.lit(1, yes.into());
-        let [edge_rounds, channel_rounds] = rounds(self.plan);
-        let dx = stepped.is(Op::FixDx);
-        let edge = stepped.of_round(edge_rounds, |round| match edge_of(self.plan, lane.number, round) {
-            Some(0) => yes_or_no(true),
-            Some(1) => self.lines("n1"),
-            Some(_) => self.lines("n2"),
-            None => yes_or_no(false),
+    /// The lane does edges.
+    fn has_edge(&self, lane: &Lane<'m>) -> bool {
+        edge_of(self.plan, lane.number, 0).is_some()
+    }
+
+    /// A number that was taken in is needed, by this lane, and does not fit: those of the area's modulus always do.
+    pub fn unfit(&self, lane: &Lane<'m>) -> Option<Signal<'m>> {
+        let unfit = lane.instance.output("unfit");
+        match self.plan.fill {
+            Fill::Exact if !self.has_edge(lane) => None,
+            Fill::Exact if rounds(self.plan)[0] == 1 && lane.number == 0 => Some(unfit),
+            Fill::Exact => Some(unfit & self.edge_needed(lane)),
+            Fill::Textbook => Some(unfit & self.needed(lane)),
+        }
+    }
+
+    /// The edge of the round has lines.
+    fn edge_needed(&self, lane: &Lane<'m>) -> Signal<'m> {
+        let yes_or_no = |yes: bool| self.m.lit(1, yes.into());
+        self.control.stepped.of_round(rounds(self.plan)[0], |round| {
+            match edge_of(self.plan, lane.number, round) {
+                Some(0) => yes_or_no(true),
+                Some(1) => self.lines("n1"),
+                Some(_) => self.lines("n2"),
+                None => yes_or_no(false),
+            }
+        })
+    }
+
+    /// Textbook fill, where values of the left edges may be too long as well.
+    fn needed(&self, lane: &Lane<'m>) -> Signal<'m> {
+        let stepped = &self.control.stepped;
+        let channel = stepped.of_round(rounds(self.plan)[1], |round| {
+            self.m.lit(1, channel_of(self.plan, lane.number, round).is_some().into())
         });
-        let channel = stepped
-            .of_round(channel_rounds, |round| yes_or_no(channel_of(self.plan, lane.number, round).is_some()));
         let part = |fix: Op, lines: &str| stepped.is(fix) & self.lines(lines);
         let parts = part(Op::FixA, "n1") | part(Op::FixB, "n2");
-        (dx & edge) | (parts & channel)
+        (stepped.is(Op::FixDx) & self.edge_needed(lane)) | (parts & channel)
     }
 
     fn lines(&self, part: &str) -> Signal<'m> {
@@ -142,7 +173,8 @@ impl<'m> Sources<'_, 'm> {
         self.area.negative
     }
 
-    fn number(&self, lane: &Lane<'m>) -> Signal<'m> {
+    /// DX or DY of the lane's edge.
+    fn of_edge(&self, lane: &Lane<'m>) -> Signal<'m> {
         let (next, bits) = (&self.control.next, lane.shape.number);
         let edge_rounds = rounds(self.plan)[0];
         let dw = self.plan.widths().difference;
@@ -152,8 +184,7 @@ impl<'m> Sources<'_, 'm> {
             })
         };
         let height = of_edge(&|edge| self.vertices.heights[edge].zext(dw));
-        let edge = self.values.height.mux(height, of_edge(&|edge| self.vertices.across[edge]));
-        self.values.of_edge.mux(edge, self.difference(lane, bits))
+        self.values.height.mux(height, of_edge(&|edge| self.vertices.across[edge]))
     }
 
     /// The difference of a channel's values at two vertices; of a single one its rounding is taken off.
@@ -188,12 +219,15 @@ impl<'m> Sources<'_, 'm> {
             let u = self.vertices.u(place);
             fit(u.slice(u.width() - 1, t), bits)
         };
-        let edge = stepped.of_round(edge_rounds, |round| {
-            column(ENDS[edge_of(self.plan, lane.number, round).unwrap_or(0)].0)
-        });
         let channel = stepped.of_round(channel_rounds, |round| {
             let channel = channel_of(self.plan, lane.number, round);
             channel.map_or(self.m.lit(bits, 0), |channel| self.first_value(&channel, kept, bits))
+        });
+        if !self.has_edge(lane) {
+            return channel;
+        }
+        let edge = stepped.of_round(edge_rounds, |round| {
+            column(ENDS[edge_of(self.plan, lane.number, round).unwrap_or(0)].0)
         });
         stepped.is(Op::Columns).mux(edge, channel)
     }
@@ -224,6 +258,9 @@ impl<'m> Sources<'_, 'm> {
             height(edge_of(self.plan, lane.number, round).unwrap_or(0))
         });
         let right = self.right();
+        if self.plan.fill == Fill::Exact && !self.has_edge(lane) {
+            return (self.scale.modulus, !right);
+        }
         let mut modulus = next.is(Op::Load1).mux(self.scale.modulus, edge);
         if self.plan.fill == Fill::Textbook {
             modulus = next.is(Op::LoadA).mux(right.mux(height(1), height(0)), modulus);

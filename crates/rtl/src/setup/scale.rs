@@ -26,8 +26,8 @@ impl<'m> Scale<'m> {
         let differences =
             m.reg("differences", longest_value(plan)).doc("their bits, or those of complements");
         let scaled = m.reg("scaled", bits).doc("-M or -M - 1, signed");
-        let taken = m.reg("scale_taken", 1).doc("the area is taken").reset(0);
-        let scaling = m.reg("scaling", 1).doc("it is compared").reset(0);
+        let taken = m.reg("scale_taken", 1).doc("the area is taken");
+        let scaling = m.reg("scaling", 1).doc("it is compared");
         let i = m.reg("scale_next", control.scale.q().width()).doc("times that it is fourfold");
         let mut takes = area.ends;
         if let Some(last) = control.next.in_round(rounds - 1) {
@@ -39,12 +39,12 @@ impl<'m> Scale<'m> {
         let less = plus("less_m", differences.q().zext(bits), scaled.q(), m.lit(1, 1));
         let fits = (less.msb() | !area.signed.any()).named("fits");
         let grows = (scaling.q() & !fits).named("grows");
-        scaling.when(fits, 0).when(taken.q(), 1).when(control.begin, 0);
+        scaling.when(fits, 0).when(taken.q(), 1);
         scaled
             .when(grows, m.cat(&[scaled.q().trunc(bits - 2), short, short]))
             .when(taken.q(), short.mux(!of_area, of_area));
         i.when(grows, i.q() + 1).when(taken.q(), 0);
-        control.area_known.drive(!area.adds & !control.begin & !taken.q() & !scaling.q());
+        control.area_known.drive(!area.adds & !taken.q() & !scaling.q());
         control.scale.drive(if rounds > 1 {
             m.reg("scale_now", i.q().width()).doc("of the round").when(control.next.is(Op::Load1), i).q()
         } else {

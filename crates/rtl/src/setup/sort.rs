@@ -71,16 +71,15 @@ impl<'m> Vertices<'m> {
 
         m.comment("Differences of the sorted vertices, from upper to lower ends of edges.");
         let bits = plan.widths().difference;
-        let less =
-            |f: &str, from: usize, to: usize| places[to][f].q().sext(bits) - places[from][f].q().sext(bits);
         let kept = |name: &str, (from, to): (usize, usize), doc: &str, value: Signal<'m>| {
-            m.reg(&format!("{name}{from}{to}"), value.width()).doc(doc).when(control.begin, value).q()
+            m.reg(&format!("{name}{from}{to}"), value.width()).doc(doc).set(value).q()
         };
-        let tall = less("v", 0, 2).trunc(bits - 1).named("tall");
-        let height =
-            |ends: (usize, usize)| kept("dv", ends, "1/P line", less("v", ends.0, ends.1).trunc(bits - 1));
-        let heights = ENDS.map(height);
-        let across = ENDS.map(|ends| kept("du", ends, "1/P column, signed", less("u", ends.0, ends.1)));
+        let below = |(from, to): (usize, usize)| places[to]["v"].q() - places[from]["v"].q();
+        let beside =
+            |(from, to): (usize, usize)| places[to]["u"].q().sext(bits) - places[from]["u"].q().sext(bits);
+        let tall = below(ENDS[0]).named("tall");
+        let heights = ENDS.map(|ends| kept("dv", ends, "1/P line", below(ends)));
+        let across = ENDS.map(|ends| kept("du", ends, "1/P column, signed", beside(ends)));
         Vertices { places, values, order, tall, heights, across }
     }
 

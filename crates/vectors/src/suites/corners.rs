@@ -109,6 +109,27 @@ fn neighbours(pen: &Pen) -> Vec<Case> {
 }
 
 fn thin(pen: &Pen) -> Vec<Case> {
+    let mut cases = slivers(pen);
+    // With more pixels a line than a pixel has sub-pixels an edge does not fit its modulus: SETUP waits for its digits.
+    let long = 1.25 * pen.subpixels();
+    if long + 6.0 < pen.limit() {
+        cases.extend(too_flat(pen, long));
+    }
+    cases
+}
+
+/// Of a triangle one edge alone runs so many pixels in a line.
+fn too_flat(pen: &Pen, long: f64) -> Vec<Case> {
+    let at = |points| pen.shaded(points, RAMP);
+    let both = |points: [(f64, f64); 3]| [at(points), at(points.map(|(x, y)| (6.0 - x, y)))];
+    vec![
+        case("major_edge_alone_too_flat", both([(6.0 - long, 3.25), (-3.0, 3.45), (7.0, 4.25)])),
+        case("first_minor_edge_alone_too_flat", both([(3.0, 1.0), (3.0 + long, 2.0), (3.0, 9.0)])),
+        case("second_minor_edge_alone_too_flat", both([(3.0, 1.0), (3.0 + long, 9.0), (3.0, 10.0)])),
+    ]
+}
+
+fn slivers(pen: &Pen) -> Vec<Case> {
     let at = |points| pen.shaded(points, RAMP);
     let (limit, (width, height)) = (pen.limit(), pen.size());
     vec![
@@ -161,6 +182,20 @@ fn at_the_screen_sides(pen: &Pen) -> Vec<Case> {
             ],
         ),
         case("last_column_and_last_line", [at([(w - 1.0, h - 1.0), (w, h - 1.0), (w - 1.0, h)])]),
+        case(
+            "ends_on_the_last_line_of_centres",
+            [
+                at([(1.0, h - 0.5), (8.0, h - 0.5), (4.0, h + 2.0)]),
+                at([(4.0, h - 3.0), (1.0, h - 0.5), (8.0, h - 0.5)]),
+            ],
+        ),
+        case("ends_on_the_last_column_of_centres", {
+            let behind = w - 0.5 + 1.0 / pen.subpixels();
+            let places =
+                |x: f64| (0..3).map(move |i| std::array::from_fn(|j| if i == j { x } else { w + 2.0 }));
+            let columns = places(w - 0.5).chain(places(behind));
+            columns.map(|x: [f64; 3]| at([(x[0], 1.0), (x[1], 3.0), (x[2], 6.0)])).collect::<Vec<_>>()
+        }),
         case("over_a_screen_strip", [at([(-far, 2.0), (w + far, 2.0), (w / 2.0, 8.0)])]),
     ]
 }

@@ -41,6 +41,7 @@ pub(super) fn cases(machine: &Plan) -> Vec<Case> {
         }),
         case("last_place_of_the_queue", last_place(&pen, machine.inflight)),
         case("two_writes_meet_a_third", two_writes(&pen, machine.inflight)),
+        case("between_what_two_wrote", (0..5).flat_map(|n| between(&pen, 14 - 3 * n)).collect::<Vec<_>>()),
         case("one_pixel_again_around_half_depth", {
             [0.5, 0.4, 0.5, 0.6, 0.4, 1.0, 0.5, 0.0, 1.0].map(|z| pen.dot(5.0, 1.0, z))
         }),
@@ -121,6 +122,11 @@ fn last_place(pen: &Pen, places: u32) -> Vec<Triangle> {
     let visits = &visits[..if pixels <= 4 { visits.len() } else { 4 }];
     let dot = |pixel: u32, z: u32| pen.dot(f64::from(pixel % 6), f64::from(pixel / 6), fifteenths(z));
     visits.iter().flat_map(|z| (0..pixels).map(move |pixel| dot(pixel, *z))).collect()
+}
+
+/// Two that pass, and one that fails by what the second wrote, though it would pass by what the first did.
+fn between(pen: &Pen, first: u32) -> [Triangle; 3] {
+    [first, first - 2, first - 1].map(|z| pen.dot(1.0, 4.0, fifteenths(z)))
 }
 
 /// Two that pass, as many that fail as fill the queue, and one that enters when the first is written and the second passes: it

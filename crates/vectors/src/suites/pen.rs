@@ -21,6 +21,11 @@ impl<'a> Pen<'a> {
         f64::from((1u32 << self.machine.guard_bits) - 1)
     }
 
+    /// Sub-pixels of a pixel, centres between them.
+    pub fn subpixels(&self) -> f64 {
+        f64::from(1u32 << self.machine.widths().center_fraction)
+    }
+
     /// Columns and lines of the screen.
     pub fn size(&self) -> (f64, f64) {
         (f64::from(self.machine.width), f64::from(self.machine.height))

@@ -1,7 +1,7 @@
 //! Parts of a netlist cut out for the prover: what they give is an input then, and what they take an output.
 
-use edgewalk_netlist::Netlist;
-use edgewalk_netlist::netlist::{Input, Item, Output, Source};
+use edgewalk_netlist::netlist::{Input, Item, Node, NodeId, Output, Source};
+use edgewalk_netlist::{Netlist, Op};
 use std::sync::Arc;
 
 /// The module of this name without what it is made of: outputs of its instances are inputs, and the other way round.
@@ -57,15 +57,45 @@ pub fn without_memories(netlist: &Arc<Netlist>) -> Arc<Netlist> {
     Arc::new(alone)
 }
 
-/// What one output of a module without instances and memories is made of in one cycle: registers are inputs.
-pub fn in_one_cycle(netlist: &Arc<Netlist>, output: &str) -> Arc<Netlist> {
+/// A module without instances and memories in one clock: what registers hold are inputs, and what they will hold are outputs.
+pub fn one_clock(netlist: &Arc<Netlist>) -> Arc<Netlist> {
     let mut alone = Netlist::clone(netlist);
-    alone.outputs.retain(|one| one.name == output);
+    let input = |alone: &mut Netlist, name: String, node: NodeId| {
+        alone.nodes[node.index()].source = Source::Input(alone.inputs.len());
+        alone.inputs.push(Input { name, doc: String::new(), node });
+    };
+    let reset = alone.has_reset.then(|| {
+        let reset = pushed(&mut alone, 1, Source::Input(0));
+        input(&mut alone, "reset_now".to_owned(), reset);
+        reset
+    });
     for register in std::mem::take(&mut alone.registers) {
-        alone.nodes[register.node.index()].source = Source::Input(alone.inputs.len());
-        alone.inputs.push(Input { name: register.name, doc: String::new(), node: register.node });
+        let (q, width) = (register.node, alone.width(register.node));
+        input(&mut alone, register.name.clone(), q);
+        let mut next = q;
+        for update in register.updates {
+            next = update.when.map_or(update.value, |when| mux(&mut alone, when, update.value, next));
+        }
+        if let (Some(value), Some(reset)) = (register.reset, reset) {
+            let value = pushed(&mut alone, width, Source::Constant { value, name: None });
+            next = mux(&mut alone, reset, value, next);
+        }
+        alone.outputs.push(Output {
+            name: format!("{}_next", register.name),
+            doc: String::new(),
+            driver: next,
+        });
     }
     alone.items.retain(|item| matches!(item, Item::Wire(_) | Item::Drive(_) | Item::Constant(_)));
     (alone.has_clock, alone.has_reset) = (false, false);
     Arc::new(alone)
+}
+
+fn mux(netlist: &mut Netlist, condition: NodeId, then: NodeId, otherwise: NodeId) -> NodeId {
+    pushed(netlist, netlist.width(then), Source::Op(Op::Mux, vec![condition, then, otherwise]))
+}
+
+fn pushed(netlist: &mut Netlist, width: u32, source: Source) -> NodeId {
+    netlist.nodes.push(Node { width, source });
+    netlist.ids().last().expect("it was just added")
 }

@@ -13,7 +13,7 @@ mod shaded;
 
 use crate::common;
 use edgewalk_machine::{
-    Blend, BlendKind, Gate, Hazard, Machine, Plan, Precision, Shadow, ShadowLight, Transmits,
+    Blend, BlendKind, Channel, Gate, Hazard, Machine, Plan, Precision, Shadow, ShadowLight, Transmits,
 };
 use edgewalk_model::DrawState;
 use edgewalk_netlist::mutate::mutants;
@@ -223,9 +223,17 @@ fn judge(tallies: &[Tally], least: usize) {
     assert!(100 * killed >= least * expected, "only {killed} of {expected} killed");
 }
 
-/// What DEPTH carries is short: the prover then sees through four fragments in flight.
+/// SETUP has four lanes, so that the area may be the last to be known; edges often do not fit, as there are few sub-pixels, and
+/// a colour is doubled an odd number of times. What DEPTH carries is short: the prover then sees
+/// through four fragments in flight.
 fn machine_for(unit: Unit) -> Plan {
     let small = common::small();
+    if unit == common::SETUP {
+        let color = Precision { fraction: small.color.fraction - 1, ..small.color };
+        return Machine { color, lanes: 4, subpixel_bits: 2, ..Machine::clone(&small) }
+            .plan()
+            .expect("can be built");
+    }
     if unit != common::DEPTH {
         return small;
     }
@@ -332,7 +340,7 @@ fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
             // First, as they are few, tokens of one material, so that a reset finds fragments inside.
             traces.insert(0, shaded::any_tokens(machine, &traces[0], 0.0, StallKind::None, 7));
         }
-        "setup" => traces.extend([specks(machine), far(machine)]),
+        "setup" => traces.extend([specks(machine), far(machine), halves(machine)]),
         "span" => traces.extend((1..=4).map(|seed| any_lines(machine, &traces[1], seed)).collect::<Vec<_>>()),
         "blend" => {
             let kinds = [(false, StallKind::Mixed), (true, StallKind::Mixed), (false, StallKind::None)];
@@ -348,39 +356,76 @@ fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
     traces
 }
 
-/// Triangles of a few sub-pixels around a pixel's centre: their areas are the small divisors that meet halves.
+/// Triangles of a few sub-pixels around a pixel's centre: their areas are the small divisors that meet halves. Values of half of
+/// them differ by as little, so that the area itself is the modulus, even or odd.
 fn specks(machine: &Plan) -> Trace {
     let mut random = Pcg64Mcg::seed_from_u64(1);
     let scale = f64::from(1 << machine.subpixel_bits);
-    let vertex = |random: &mut Pcg64Mcg| {
+    let vertex = |random: &mut Pcg64Mcg, near: bool| {
         let mut at = || 2.5 + f64::from(random.random_range(-3..=3)) / scale;
         let at = (at(), at());
-        let values: Vec<f64> = (0..machine.channels().len()).map(|_| random.random()).collect();
+        let value = |channel: &Channel| {
+            let few = f64::from(random.random_range(0..=3)) / f64::from(1 << channel.vertex_fraction);
+            if near { few / channel.host_unit() } else { channel.host_range().1 * random.random::<f64>() }
+        };
+        let values: Vec<f64> = machine.channels().iter().map(value).collect();
         machine.port_vertex(at.0, at.1, &values).expect("inside")
     };
-    let triangles = (0..100).map(|_| std::array::from_fn(|_| vertex(&mut random))).collect();
+    let triangle = |n| std::array::from_fn(|_| vertex(&mut random, n % 2 == 0));
+    let triangles = (0..200).map(triangle).collect();
     let suite = Suite::of_triangles("specks", "areas of few sub-pixels", triangles);
     capture(machine, common::SETUP, &suite, DrawState::default(), StallKind::None)
 }
 
-/// Triangles with corners at the ends of the guard band, or anywhere in it, and values at their ends: the widest differences,
+/// Triangles with corners at the ends of the guard band, half of them only there, and values at their ends or anywhere: the widest differences,
 /// areas and steps that the words of SETUP have to hold.
 fn far(machine: &Plan) -> Trace {
     let mut random = Pcg64Mcg::seed_from_u64(2);
     let limit = f64::from((1u32 << machine.guard_bits) - 1);
-    let vertex = |random: &mut Pcg64Mcg| {
-        let mut at = || match random.random_range(0..4) {
+    let vertex = |random: &mut Pcg64Mcg, kinds: u32, ends: bool| {
+        let mut at = || match random.random_range(0..kinds) {
             0 => -limit,
             1 => limit,
             _ => random.random_range(-limit..=limit),
         };
         let at = (at(), at());
         let channels = machine.channels().len();
-        let values: Vec<f64> = (0..channels).map(|_| f64::from(random.random_range(0..=1u8))).collect();
+        let values: Vec<f64> = if ends {
+            (0..channels).map(|_| f64::from(random.random_range(0..=1u8))).collect()
+        } else {
+            (0..channels).map(|_| random.random()).collect()
+        };
         machine.port_vertex(at.0, at.1, &values).expect("inside")
     };
-    let triangles = (0..200).map(|_| std::array::from_fn(|_| vertex(&mut random))).collect();
+    let triangle =
+        |n| std::array::from_fn(|_| vertex(&mut random, if n % 2 == 0 { 2 } else { 4 }, n / 2 % 2 == 0));
+    let triangles = (0..400).map(triangle).collect();
     let suite = Suite::of_triangles("far", "as far and as steep as can be", triangles);
+    capture(machine, common::SETUP, &suite, DrawState::default(), StallKind::None)
+}
+
+/// Triangles whose area is a power of two: their quotients are ties as often as can be.
+fn halves(machine: &Plan) -> Trace {
+    let mut random = Pcg64Mcg::seed_from_u64(3);
+    let scale = 1 << machine.subpixel_bits;
+    let triangle = |_| {
+        let at = loop {
+            let at: [[i64; 2]; 3] =
+                std::array::from_fn(|_| [0; 2].map(|_| random.random_range(0..16 * scale)));
+            let [u, v] = [1, 2].map(|i| [0, 1].map(|axis| at[i][axis] - at[0][axis]));
+            let area = (u[0] * v[1] - u[1] * v[0]).unsigned_abs();
+            if area.is_power_of_two() && area >= 1 << (machine.z.fraction - 2) {
+                break at;
+            }
+        };
+        at.map(|at| {
+            let [x, y] = at.map(|at| at as f64 / scale as f64);
+            let values: Vec<f64> = machine.channels().iter().map(|_| random.random()).collect();
+            machine.port_vertex(x, y, &values).expect("inside")
+        })
+    };
+    let triangles = (0..100).map(triangle).collect();
+    let suite = Suite::of_triangles("halves", "areas that are powers of two", triangles);
     capture(machine, common::SETUP, &suite, DrawState::default(), StallKind::None)
 }
 
