@@ -5,5 +5,6 @@ mod alone;
 mod operators;
 mod program;
 mod values;
+mod waking;
 
 pub(crate) use program::{Plan, Program, is_computed, lower};

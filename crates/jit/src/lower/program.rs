@@ -26,29 +26,28 @@ pub(crate) enum Program {
 }
 
 /// All that programs are made from.
-#[derive(Clone, Copy)]
-pub(crate) struct Plan<'a> {
-    pub design: &'a Design,
-    pub steps: &'a [Step],
-    pub tables: &'a Tables,
-    pub wakes: &'a Wakes,
+pub(crate) struct Plan {
+    pub design: Design,
+    pub steps: Vec<Step>,
+    pub tables: Tables,
+    pub wakes: Wakes,
     /// Kept in the state from step to step.
-    pub shared: &'a [ValueId],
-    pub layout: &'a Layout,
+    pub shared: Vec<ValueId>,
+    pub layout: Layout,
 }
 
 /// Fills the function, which has its signature already.
 pub(crate) fn lower(program: Program, plan: &Plan, pointer: Type, function: &mut Function) {
-    let Plan { design, steps, .. } = *plan;
+    let Plan { design, steps, tables, .. } = plan;
     let head = function.dfg.make_block();
     let state = function.dfg.append_block_param(head, pointer);
     let mut cursor = FuncCursor::new(function);
     cursor.insert_block(head);
-    let alone = Alone::of(design, steps, plan.tables);
+    let alone = Alone::of(design, steps, tables);
     let mut lowering = Lowering { design, v: Values::new(plan, &alone, cursor, state) };
     match program {
         Program::Clock => {
-            lowering.v.keep(plan.shared);
+            lowering.v.keep(&plan.shared);
             lowering.sample();
             lowering.clock(steps);
         }
@@ -127,6 +126,7 @@ impl Lowering<'_> {
         let [block, next] = [(); 2].map(|()| self.v.cursor.func.dfg.make_block());
         let way = self.v.cursor.ins().brif(clocks, block, &[], next, &[]);
         let changed = self.inside(block, next, |lowering| {
+            let clocks = lowering.v.asked(unit, clocks);
             lowering.v.count(unit, clocks);
             lowering.steps(then);
         });
@@ -149,9 +149,9 @@ impl Lowering<'_> {
     }
 
     /// All members take their value of this rank, in an order in which most are read before they change. Where that is in every
-    /// clock they are compared with what they were; else they count as changed.
+    /// clock other units have them compared with what they were; else they count as changed.
     fn take(&mut self, group: &Group, rank: usize) {
-        let always = self.v.graph.as_constant(group.conditions[0]) == Some(1);
+        let always = group.is_unconditional(self.v.graph);
         let mut changed = 0;
         for member in &group.members {
             let (q, value) = match member {
@@ -160,7 +160,7 @@ impl Lowering<'_> {
             };
             let wakes = self.v.wakes.of(q);
             if always {
-                self.v.compare(q, value, wakes);
+                self.v.compare(q, value, wakes & !self.v.wakes.own(group.unit));
             } else {
                 changed |= wakes;
             }

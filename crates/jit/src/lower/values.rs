@@ -63,7 +63,7 @@ pub(super) struct Values<'a> {
     /// The address of the state.
     pub state: Value,
     /// The function and the branches within each other in which the cursor stands.
-    branches: Vec<Branch>,
+    pub(super) branches: Vec<Branch>,
     known: Vec<Option<Lowered>>,
     is_shared: Vec<bool>,
     /// What was known before, since the outermost branch began.
@@ -85,19 +85,19 @@ struct Change {
 
 /// Code that is skipped as a whole, or the function.
 #[derive(Default)]
-struct Branch {
+pub(super) struct Branch {
     /// Registers that change in it.
     changed: Vec<ValueId>,
     /// Those of which it has read the old value.
     old: Vec<ValueId>,
     /// What is not 0 if something has changed that these units have to know.
-    differences: Vec<(u64, Value)>,
+    pub differences: Vec<(u64, Value)>,
 }
 
 impl<'a> Values<'a> {
     /// Nothing is known yet; the cursor stands in the function's first block.
-    pub fn new(plan: &Plan<'a>, alone: &'a Alone, cursor: FuncCursor<'a>, state: Value) -> Values<'a> {
-        let Plan { tables, wakes, layout, .. } = *plan;
+    pub fn new(plan: &'a Plan, alone: &'a Alone, cursor: FuncCursor<'a>, state: Value) -> Values<'a> {
+        let Plan { tables, wakes, layout, .. } = plan;
         let graph = &plan.design.graph;
         let (known, changed) = (vec![None; graph.len()], vec![None; graph.len()]);
         let is_shared = vec![false; graph.len()];
@@ -240,86 +240,6 @@ impl<'a> Values<'a> {
             let state = self.state;
             self.cursor.ins().store(flags(place.width), value, state, place.offset);
         }
-    }
-
-    /// The units have to know if the register, which is to be stored, changes.
-    pub fn compare(&mut self, register: ValueId, value: Value, units: u64) {
-        let Some(place) = self.layout.of(register).filter(|_| self.wakes.units(units).next().is_some())
-        else {
-            return;
-        };
-        let state = self.state;
-        let ty = self.cursor.func.dfg.value_type(value);
-        let old = self.cursor.ins().load(ty, flags(place.width), state, place.offset);
-        let mut difference = self.cursor.ins().bxor(old, value);
-        if ty == types::I128 {
-            let (low, high) = self.cursor.ins().isplit(difference);
-            difference = self.cursor.ins().bor(low, high);
-        }
-        let difference = operators::resized(self, difference, types::I64);
-        let branch = self.branches.len() - 1;
-        let same = self.branches[branch].differences.iter().position(|(others, _)| *others == units);
-        match same {
-            Some(at) => {
-                let other = self.branches[branch].differences[at].1;
-                self.branches[branch].differences[at].1 = self.cursor.ins().bor(other, difference);
-            }
-            None => self.branches[branch].differences.push((units, difference)),
-        }
-    }
-
-    /// At the end of a branch: the units work on that have to know what has changed in it.
-    pub fn wake_changed(&mut self) {
-        let branch = self.branches.len() - 1;
-        for (units, difference) in std::mem::take(&mut self.branches[branch].differences) {
-            for (unit, clocks) in self.wakes.units(units) {
-                let (before, all) = (self.clocks(unit), self.constant(types::I8, clocks.into()));
-                let clocks = self.cursor.ins().select(difference, all, before);
-                self.set_clocks(unit, clocks);
-            }
-        }
-    }
-
-    /// These units work on.
-    pub fn wake(&mut self, units: u64) {
-        for (unit, clocks) in self.wakes.units(units) {
-            let clocks = self.constant(types::I8, clocks.into());
-            self.set_clocks(unit, clocks);
-        }
-    }
-
-    /// For how many clocks a unit is to work, this one too: for all of them if a bit from another unit is not what it was.
-    pub fn clocks_now(&mut self, unit: usize) -> Value {
-        let mut changed = None;
-        for (gate, place) in self.wakes.gates(unit).iter().zip(&self.layout.gates[unit]) {
-            let (now, state) = (self.zero(*gate), self.state);
-            let before = self.cursor.ins().load(types::I8, flags(1), state, place.offset);
-            self.cursor.ins().store(flags(1), now, state, place.offset);
-            let differs = self.cursor.ins().bxor(now, before);
-            changed = Some(changed.map_or(differs, |changed| self.cursor.ins().bor(changed, differs)));
-        }
-        let clocks = self.clocks(unit);
-        let Some(changed) = changed else { return clocks };
-        let all = self.constant(types::I8, self.wakes.clocks[unit].into());
-        self.cursor.ins().select(changed, all, clocks)
-    }
-
-    /// For how many clocks a unit is to work on.
-    pub fn clocks(&mut self, unit: usize) -> Value {
-        let (state, offset) = (self.state, self.layout.counters + unit as i32);
-        self.cursor.ins().load(types::I8, MemFlagsData::trusted(), state, offset)
-    }
-
-    /// One clock less than so many.
-    pub fn count(&mut self, unit: usize, clocks: Value) {
-        let one = self.constant(types::I8, 1);
-        let clocks = self.cursor.ins().isub(clocks, one);
-        self.set_clocks(unit, clocks);
-    }
-
-    fn set_clocks(&mut self, unit: usize, clocks: Value) {
-        let (state, offset) = (self.state, self.layout.counters + unit as i32);
-        self.cursor.ins().store(MemFlagsData::trusted(), clocks, state, offset);
     }
 
     /// The state may have the new value of this register from `at` on.
@@ -473,6 +393,6 @@ impl<'a> Values<'a> {
 }
 
 /// No access traps: all places lie within the state. They are aligned to 8 bytes.
-fn flags(width: u32) -> MemFlagsData {
+pub(super) fn flags(width: u32) -> MemFlagsData {
     if width <= 64 { MemFlagsData::trusted() } else { MemFlagsData::new().with_notrap() }
 }
