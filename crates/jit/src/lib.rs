@@ -26,6 +26,7 @@ mod order;
 mod schedule;
 
 mod tables;
+mod signs;
 mod shared;
 mod quiet;
 mod layout;

@@ -16,6 +16,7 @@ use crate::order::Readers;
 use crate::quiet::wakes;
 use crate::schedule::schedule;
 use crate::shared::shared;
+use crate::signs::Signs;
 use crate::state::State;
 use crate::tables::Tables;
 
@@ -96,7 +97,8 @@ impl Simulator {
         let shared = shared(&design, &tables, &wakes, &steps);
         let layout = Layout::new(&design, &tables, &wakes, &shared)?;
         let state = State::new(&design, &tables, &wakes, &layout);
-        let plan = Plan { design, steps, tables, wakes, shared, layout };
+        let signs = Signs::of(&design);
+        let plan = Plan { design, steps, tables, signs, wakes, shared, layout };
         let clock = Code::new(Program::Clock, &plan)?;
         let compiled = Compiled { plan, clock, outputs: OnceLock::new(), signals: OnceLock::new() };
         Ok(Simulator { compiled: Arc::new(compiled), state, outputs_stale: true, signals_stale: true })
@@ -193,7 +195,8 @@ impl Simulator {
                 }
             }
         }
-        self.state.get(signal.place)
+        // A register may have copies of its sign above its bits.
+        self.state.get(signal.place) & mask(signal.place.width)
     }
 
     /// The value of a signal in this cycle, by path.

@@ -4,6 +4,7 @@ mod memory;
 mod alone;
 mod operators;
 mod program;
+mod range;
 mod values;
 mod waking;
 

@@ -5,12 +5,13 @@ use cranelift_codegen::ir::{Block, Function, Inst, InstBuilder, Type};
 use edgewalk_netlist::Op;
 
 use super::alone::Alone;
-use super::values::{Values, lane};
+use super::values::Values;
 use crate::design::Design;
 use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
 use crate::layout::Layout;
 use crate::quiet::{MOST, Wakes};
+use crate::signs::Signs;
 use crate::step::Step;
 use crate::tables::Tables;
 
@@ -30,6 +31,7 @@ pub(crate) struct Plan {
     pub design: Design,
     pub steps: Vec<Step>,
     pub tables: Tables,
+    pub signs: Signs,
     pub wakes: Wakes,
     /// Kept in the state from step to step.
     pub shared: Vec<ValueId>,
@@ -92,7 +94,6 @@ impl Lowering<'_> {
         if !resets.is_empty() {
             self.only_if(self.design.reset, |lowering| {
                 for (q, value) in resets {
-                    let value = lowering.v.constant(lane(lowering.v.graph.width(q)), value);
                     lowering.v.store_reset(q, value);
                 }
                 lowering.v.wake(u64::MAX);
@@ -155,7 +156,7 @@ impl Lowering<'_> {
         let mut changed = 0;
         for member in &group.members {
             let (q, value) = match member {
-                Member::Register { q, values } => (*q, self.v.zero(values[rank])),
+                Member::Register { q, values } => (*q, self.v.as_kept(*q, values[rank])),
                 Member::Read { memory, port } => self.read(*memory, *port),
             };
             let wakes = self.v.wakes.of(q);

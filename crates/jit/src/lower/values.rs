@@ -11,9 +11,11 @@ use edgewalk_netlist::ops::mask;
 use super::alone::Alone;
 use super::operators;
 use super::program::Plan;
+use super::range::Range;
 use crate::graph::{Graph, Kind, ValueId};
 use crate::layout::{Layout, Place};
 use crate::quiet::Wakes;
+use crate::signs::Signs;
 use crate::tables::{Table, Tables};
 
 /// A value in its forms; all have the type [`lane`] of its width.
@@ -23,6 +25,8 @@ pub(super) struct Lowered {
     pub any: Value,
     /// `any` is below 2^bits.
     pub bits: u32,
+    /// Where `any` lies, read with its sign, if something is known of it.
+    pub range: Option<Range>,
     /// With zeros above.
     pub zero: Option<Value>,
     /// With copies of the sign above.
@@ -34,12 +38,24 @@ pub(super) struct Lowered {
 impl Lowered {
     /// Anything above the value's bits, but `any` is below 2^bits.
     pub fn below(any: Value, bits: u32) -> Lowered {
-        Lowered { any, bits, zero: None, sign: None, is_kept: false }
+        Lowered { any, bits, range: Range::unsigned(bits), zero: None, sign: None, is_kept: false }
     }
 
-    /// Copies of the sign above the value's bits.
-    pub fn signed(any: Value) -> Lowered {
-        Lowered { any, bits: u32::MAX, zero: None, sign: Some(any), is_kept: false }
+    /// Anything above the value's bits, but `any` is below 2^bits, and in the range if there is one.
+    pub fn within(any: Value, bits: u32, range: Option<Range>) -> Lowered {
+        let bits = range.and_then(Range::bits).map_or(bits, |of_range| of_range.min(bits));
+        Lowered { range: range.or(Range::unsigned(bits)), ..Lowered::below(any, bits) }
+    }
+
+    /// Copies of the sign above so many bits.
+    pub fn signed(any: Value, width: u32) -> Lowered {
+        let range = (width <= 64).then(|| Range::signed(width));
+        Lowered { range, sign: Some(any), ..Lowered::below(any, u32::MAX) }
+    }
+
+    /// Where both are known to lie.
+    pub fn ranges(self, other: Lowered) -> Option<(Range, Range)> {
+        self.range.zip(other.range)
     }
 }
 
@@ -56,6 +72,7 @@ pub(super) fn lane(width: u32) -> Type {
 pub(super) struct Values<'a> {
     pub graph: &'a Graph,
     tables: &'a Tables,
+    pub signs: &'a Signs,
     pub wakes: &'a Wakes,
     alone: &'a Alone,
     pub layout: &'a Layout,
@@ -97,7 +114,7 @@ pub(super) struct Branch {
 impl<'a> Values<'a> {
     /// Nothing is known yet; the cursor stands in the function's first block.
     pub fn new(plan: &'a Plan, alone: &'a Alone, cursor: FuncCursor<'a>, state: Value) -> Values<'a> {
-        let Plan { tables, wakes, layout, .. } = plan;
+        let Plan { tables, signs, wakes, layout, .. } = plan;
         let graph = &plan.design.graph;
         let (known, changed) = (vec![None; graph.len()], vec![None; graph.len()]);
         let is_shared = vec![false; graph.len()];
@@ -105,6 +122,7 @@ impl<'a> Values<'a> {
         Values {
             graph,
             tables,
+            signs,
             wakes,
             alone,
             layout,
@@ -183,7 +201,10 @@ impl<'a> Values<'a> {
             return sign;
         }
         let width = self.graph.width(value);
-        let sign = operators::sign_extended(self, lowered.any, width);
+        let sign = match lowered.range {
+            Some(range) if range.is_signed(width.min(64)) => lowered.any,
+            _ => operators::sign_extended(self, lowered.any, width),
+        };
         self.set(value, Lowered { sign: Some(sign), ..lowered });
         sign
     }
@@ -234,10 +255,17 @@ impl<'a> Values<'a> {
         }
     }
 
+    /// The value as the register keeps it.
+    pub fn as_kept(&mut self, register: ValueId, value: ValueId) -> Value {
+        if self.signs.has(register) { self.sign(value) } else { self.zero(value) }
+    }
+
     /// Stores what a register is after a reset, when nobody reads it any more.
-    pub fn store_reset(&mut self, register: ValueId, value: Value) {
+    pub fn store_reset(&mut self, register: ValueId, value: u128) {
         if let Some(place) = self.layout.of(register) {
-            let state = self.state;
+            let sign = 1 << (place.width - 1);
+            let value = if self.signs.has(register) { (value ^ sign).wrapping_sub(sign) } else { value };
+            let (state, value) = (self.state, self.constant(lane(place.width), value));
             self.cursor.ins().store(flags(place.width), value, state, place.offset);
         }
     }
@@ -262,7 +290,7 @@ impl<'a> Values<'a> {
             let value = stack[stack.len() - 1];
             if let Some(mut lowered) = self.known[value.index()] {
                 if lowered.is_kept {
-                    lowered = self.read_again(value, lowered.bits);
+                    lowered = self.read_again(value, lowered);
                     self.set(value, lowered);
                 }
                 stack.pop();
@@ -291,12 +319,14 @@ impl<'a> Values<'a> {
     }
 
     /// A value that is kept.
-    fn read_again(&mut self, value: ValueId, bits: u32) -> Lowered {
-        let Some(Place { offset, width }) = self.layout.of(value) else {
-            return Lowered::below(self.constant(lane(self.graph.width(value)), 0), 0); // never: it has a place
+    fn read_again(&mut self, value: ValueId, lowered: Lowered) -> Lowered {
+        let any = match self.layout.of(value) {
+            Some(Place { offset, width }) => {
+                self.cursor.ins().load(lane(width), flags(width), self.state, offset)
+            }
+            None => self.constant(lane(self.graph.width(value)), 0), // never: it has a place
         };
-        let state = self.state;
-        Lowered::below(self.cursor.ins().load(lane(width), flags(width), state, offset), bits)
+        Lowered { any, zero: None, sign: None, is_kept: false, ..lowered }
     }
 
     /// What has to be there before the value is computed, the last first: its operands, but of an arm that is computed where it
@@ -320,17 +350,17 @@ impl<'a> Values<'a> {
         let next = self.cursor.func.dfg.make_block();
         let either = self.cursor.func.dfg.append_block_param(next, lane(width));
         self.cursor.ins().brif(condition, blocks[0], &[], blocks[1], &[]);
-        let mut bits = 0;
+        let mut of_arms = Vec::new();
         for (arm, block) in arms.into_iter().zip(blocks) {
             let mark = self.enter();
             self.cursor.insert_block(block);
             let lowered = self.any(arm);
-            bits = bits.max(lowered.bits);
+            of_arms.push(lowered);
             self.cursor.ins().jump(next, &[lowered.any.into()]);
             self.leave(mark);
         }
         self.cursor.insert_block(next);
-        Lowered::below(either, bits)
+        operators::either(either, of_arms[0], of_arms[1])
     }
 
     fn compute(&mut self, value: ValueId) -> Lowered {
@@ -342,6 +372,7 @@ impl<'a> Values<'a> {
             Kind::Op(Op::Mux, operands) if self.alone.branches(value) => {
                 self.chosen(operands[0], [operands[1], operands[2]], width)
             }
+            Kind::Stored if self.signs.has(value) => Lowered::signed(self.stored(value, width), width),
             Kind::Stored => Lowered::below(self.stored(value, width), width),
             Kind::Constant(constant) => {
                 Lowered::below(self.constant(lane(width), *constant), 128 - constant.leading_zeros())
