@@ -27,6 +27,7 @@ mod schedule;
 
 mod tables;
 mod signs;
+mod alone;
 mod shared;
 mod quiet;
 mod layout;

@@ -1,7 +1,9 @@
 //! A step of a clock: a change, or steps behind a condition.
 
+use crate::design::Design;
 use crate::graph::ValueId;
-use crate::groups::Group;
+use crate::groups::{Group, Member};
+use crate::quiet::Wakes;
 
 /// A step of a clock.
 #[derive(Clone, Debug)]
@@ -17,12 +19,27 @@ pub(crate) enum Step {
 }
 
 impl Step {
-    /// The bits that the step asks first.
-    pub fn conditions(&self) -> &[ValueId] {
+    /// All values that the step asks for, without those of steps in it.
+    pub fn asked(&self, design: &Design, wakes: &Wakes) -> Vec<ValueId> {
         match self {
-            Step::Change(group) => &group.conditions,
-            Step::Write(_) | Step::Unit { .. } => &[],
-            Step::If { bit, .. } => std::slice::from_ref(bit),
+            Step::Change(group) => {
+                let mut asked = group.conditions.clone();
+                for member in &group.members {
+                    match member {
+                        Member::Register { values, .. } => asked.extend(values),
+                        Member::Read { memory, port } => {
+                            asked.push(design.memories[*memory].reads[*port].addr)
+                        }
+                    }
+                }
+                asked
+            }
+            Step::Write(memory) => {
+                let writes = design.memories[*memory].writes.iter();
+                writes.flat_map(|write| [write.en, write.addr, write.data]).collect()
+            }
+            Step::Unit { unit, .. } => wakes.gates(*unit).to_vec(),
+            Step::If { bit, .. } => vec![*bit],
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Graph and plan to Cranelift's intermediate form.
 
 mod memory;
-mod alone;
 mod operators;
 mod program;
 mod range;

@@ -4,7 +4,6 @@ use cranelift_codegen::cursor::{Cursor, FuncCursor};
 use cranelift_codegen::ir::{Block, Function, Inst, InstBuilder, Type};
 use edgewalk_netlist::Op;
 
-use super::alone::Alone;
 use super::values::Values;
 use crate::design::Design;
 use crate::graph::{Graph, Kind, ValueId};
@@ -14,6 +13,9 @@ use crate::quiet::{MOST, Wakes};
 use crate::signs::Signs;
 use crate::step::Step;
 use crate::tables::Tables;
+
+/// Members that choose by the same bit share a branch if they are so many or more.
+const LEAST_CHOOSING: usize = 3;
 
 /// A function of the state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,13 +42,12 @@ pub(crate) struct Plan {
 
 /// Fills the function, which has its signature already.
 pub(crate) fn lower(program: Program, plan: &Plan, pointer: Type, function: &mut Function) {
-    let Plan { design, steps, tables, .. } = plan;
+    let Plan { design, steps, .. } = plan;
     let head = function.dfg.make_block();
     let state = function.dfg.append_block_param(head, pointer);
     let mut cursor = FuncCursor::new(function);
     cursor.insert_block(head);
-    let alone = Alone::of(design, steps, tables);
-    let mut lowering = Lowering { design, v: Values::new(plan, &alone, cursor, state) };
+    let mut lowering = Lowering { design, v: Values::new(plan, cursor, state) };
     match program {
         Program::Clock => {
             lowering.v.keep(&plan.shared);
@@ -71,7 +72,8 @@ pub(super) struct Lowering<'a> {
 }
 
 impl Lowering<'_> {
-    fn compute(&mut self, values: impl Iterator<Item = ValueId>) {
+    fn compute(&mut self, values: impl Iterator<Item = ValueId> + Clone) {
+        self.v.look(values.clone().collect());
         for value in values.filter(|value| is_computed(self.v.graph, *value)) {
             if let Some(place) = self.v.layout.of(value) {
                 self.v.store(value, place);
@@ -80,6 +82,7 @@ impl Lowering<'_> {
     }
 
     fn sample(&mut self) {
+        self.v.look(self.design.outputs.iter().map(|(_, value)| *value).collect());
         for ((_, value), place) in self.design.outputs.iter().zip(&self.v.layout.sampled) {
             self.v.store(*value, *place);
         }
@@ -104,6 +107,7 @@ impl Lowering<'_> {
     fn steps(&mut self, steps: &[Step]) {
         for step in steps {
             self.v.forget();
+            self.v.look(step.asked(self.design, self.v.wakes));
             match step {
                 Step::Change(group) => self.change(group, group.conditions.len()),
                 Step::Write(memory) => {
@@ -152,6 +156,14 @@ impl Lowering<'_> {
     /// All members take their value of this rank, in an order in which most are read before they change. Where that is in every
     /// clock other units have them compared with what they were; else they count as changed.
     fn take(&mut self, group: &Group, rank: usize) {
+        if let Some(bit) = self.common_choice(group, rank) {
+            let [one, zero] = [1, 2].map(|arm| self.with_arms(group, rank, arm));
+            return self.either(
+                bit,
+                |lowering| lowering.take(&one, rank),
+                |lowering| lowering.take(&zero, rank),
+            );
+        }
         let always = group.is_unconditional(self.v.graph);
         let mut changed = 0;
         for member in &group.members {
@@ -168,6 +180,32 @@ impl Lowering<'_> {
             self.v.store_register(q, value);
         }
         self.v.wake(changed);
+    }
+
+    /// The bit by which all members choose, if they are several.
+    fn common_choice(&self, group: &Group, rank: usize) -> Option<ValueId> {
+        let choice = |member: &Member| match member {
+            Member::Register { values, .. } if self.v.is_worked_out(values[rank]) => {
+                Some(self.v.graph.as_op(values[rank], Op::Mux)?[0])
+            }
+            _ => None,
+        };
+        let bit = choice(group.members.first()?)?;
+        let all = group.members.iter().all(|member| choice(member) == Some(bit));
+        (all && group.members.len() >= LEAST_CHOOSING).then_some(bit)
+    }
+
+    /// The group with what its members take if they choose this operand of their choices.
+    fn with_arms(&self, group: &Group, rank: usize, operand: usize) -> Group {
+        let mut group = group.clone();
+        for member in &mut group.members {
+            if let Member::Register { values, .. } = member
+                && let Some(operands) = self.v.graph.as_op(values[rank], Op::Mux)
+            {
+                values[rank] = operands[operand];
+            }
+        }
+        group
     }
 
     /// What is filled in happens if the bit is 1; what is computed in it stays in it.

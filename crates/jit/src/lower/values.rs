@@ -8,10 +8,10 @@ use cranelift_codegen::ir::{Inst, InstBuilder, MemFlagsData, Type, Value, types}
 use edgewalk_netlist::Op;
 use edgewalk_netlist::ops::mask;
 
-use super::alone::Alone;
 use super::operators;
 use super::program::Plan;
 use super::range::Range;
+use crate::alone::Alone;
 use crate::graph::{Graph, Kind, ValueId};
 use crate::layout::{Layout, Place};
 use crate::quiet::Wakes;
@@ -74,7 +74,7 @@ pub(super) struct Values<'a> {
     tables: &'a Tables,
     pub signs: &'a Signs,
     pub wakes: &'a Wakes,
-    alone: &'a Alone,
+    alone: Alone,
     pub layout: &'a Layout,
     pub cursor: FuncCursor<'a>,
     /// The address of the state.
@@ -113,7 +113,7 @@ pub(super) struct Branch {
 
 impl<'a> Values<'a> {
     /// Nothing is known yet; the cursor stands in the function's first block.
-    pub fn new(plan: &'a Plan, alone: &'a Alone, cursor: FuncCursor<'a>, state: Value) -> Values<'a> {
+    pub fn new(plan: &'a Plan, cursor: FuncCursor<'a>, state: Value) -> Values<'a> {
         let Plan { tables, signs, wakes, layout, .. } = plan;
         let graph = &plan.design.graph;
         let (known, changed) = (vec![None; graph.len()], vec![None; graph.len()]);
@@ -124,7 +124,7 @@ impl<'a> Values<'a> {
             tables,
             signs,
             wakes,
-            alone,
+            alone: Alone::new(graph),
             layout,
             cursor,
             state,
@@ -154,6 +154,12 @@ impl<'a> Values<'a> {
         shared.iter().for_each(|value| self.is_shared[value.index()] = true);
     }
 
+    /// A step begins that asks for these values.
+    pub fn look(&mut self, asked: Vec<ValueId>) {
+        let Values { graph, tables, known, alone, .. } = self;
+        alone.look(graph, tables, asked, |value| known[value.index()].is_some());
+    }
+
     /// Between two steps: what they share is in the state, and registers of the processor are free.
     pub fn forget(&mut self) {
         for value in self.graph.ids() {
@@ -180,6 +186,13 @@ impl<'a> Values<'a> {
             self.changed[register.index()] = None;
         }
         changed
+    }
+
+    /// The value has to be worked out in this step, not looked up or read again.
+    pub fn is_worked_out(&self, value: ValueId) -> bool {
+        self.known[value.index()].is_none()
+            && self.tables.get(value).is_none()
+            && !self.is_shared[value.index()]
     }
 
     /// The value with zeros above its bits.
@@ -300,7 +313,8 @@ impl<'a> Values<'a> {
                 continue;
             }
             let waiting = stack.len();
-            stack.extend(self.needed_first(value).filter(|operand| self.known[operand.index()].is_none()));
+            let before = self.alone.before(self.graph, self.tables, value);
+            stack.extend(before.into_iter().rev().filter(|operand| self.known[operand.index()].is_none()));
             if stack.len() == waiting {
                 let lowered = self.compute(value);
                 self.set(value, lowered);
@@ -327,20 +341,6 @@ impl<'a> Values<'a> {
             None => self.constant(lane(self.graph.width(value)), 0), // never: it has a place
         };
         Lowered { any, zero: None, sign: None, is_kept: false, ..lowered }
-    }
-
-    /// What has to be there before the value is computed, the last first: its operands, but of an arm that is computed where it
-    /// is taken only what it shares with others.
-    fn needed_first(&self, value: ValueId) -> impl Iterator<Item = ValueId> {
-        let operands = self.tables.operands(self.graph, value);
-        let mut needed = operands.to_vec();
-        if self.alone.branches(value) {
-            needed.truncate(1);
-            operands[1..]
-                .iter()
-                .for_each(|arm| self.alone.shared(self.graph, self.tables, *arm, &mut needed));
-        }
-        needed.into_iter().rev()
     }
 
     /// A choice whose arms are computed only where they are taken.
