@@ -23,6 +23,7 @@ mod groups;
 mod guard;
 mod step;
 mod order;
+mod sorted;
 mod schedule;
 
 mod tables;

@@ -81,7 +81,7 @@ impl Wakes {
                         qs.filter(|q| self.of(*q) & self.own(group.unit) != 0).collect();
                     self.compared[group.unit].extend(seeds);
                 }
-                Step::Change(_) | Step::Write(_) => {}
+                Step::Change(_) | Step::Write(_) | Step::Early(_) => {}
                 Step::Unit { then, .. } | Step::If { then, .. } => self.compare(design, then),
             }
         }

@@ -52,6 +52,7 @@ impl Walk<'_> {
                         });
                     }
                 }
+                Step::Early(bits) => bits.iter().for_each(|bit| self.need(*bit)),
                 Step::Unit { unit, then } => {
                     self.wakes.gates(*unit).iter().for_each(|gate| self.need(*gate));
                     self.aside(|walk| walk.steps(then));

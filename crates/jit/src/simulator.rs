@@ -91,7 +91,7 @@ impl Simulator {
         let mut design = elaborate(netlist);
         let groups = groups(&mut design);
         let steps = schedule(&mut design, &groups);
-        let readers = Readers::of(&design);
+        let readers = Readers::of(&design, &steps);
         let steps = readers.ordered(steps);
         let (wakes, tables) = (wakes(&design, &readers, &groups, &steps), Tables::of(&design.graph));
         let shared = shared(&design, &tables, &wakes, &steps);

@@ -12,6 +12,8 @@ pub(crate) enum Step {
     Change(Group),
     /// The writes to a memory.
     Write(usize),
+    /// Bits are worked out and kept, before what they follow from changes.
+    Early(Vec<ValueId>),
     /// All steps of a unit, which are left out while it stands still.
     Unit { unit: usize, then: Vec<Step> },
     /// Steps for when this bit is 1.
@@ -38,6 +40,7 @@ impl Step {
                 let writes = design.memories[*memory].writes.iter();
                 writes.flat_map(|write| [write.en, write.addr, write.data]).collect()
             }
+            Step::Early(bits) => bits.clone(),
             Step::Unit { unit, .. } => wakes.gates(*unit).to_vec(),
             Step::If { bit, .. } => vec![*bit],
         }

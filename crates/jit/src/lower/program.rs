@@ -118,6 +118,7 @@ impl Lowering<'_> {
                         .iter()
                         .for_each(|port| self.write(*port, area, wakes));
                 }
+                Step::Early(bits) => bits.iter().for_each(|bit| self.v.work_out(*bit)),
                 Step::Unit { unit, then } if self.v.wakes.rests(*unit) => self.unit(*unit, then),
                 Step::Unit { then, .. } => self.steps(then),
                 Step::If { bit, then } => self.only_if(*bit, |lowering| lowering.steps(then)),

@@ -222,6 +222,11 @@ impl<'a> Values<'a> {
         sign
     }
 
+    /// The value is there for the steps that follow, if they share it.
+    pub fn work_out(&mut self, value: ValueId) {
+        self.demand(value);
+    }
+
     /// The value with anything above its bits.
     pub fn any(&mut self, value: ValueId) -> Lowered {
         self.demand(value)
