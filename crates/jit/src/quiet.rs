@@ -38,6 +38,8 @@ pub(crate) struct Wakes {
     stored: HashMap<ValueId, u64>,
     /// Of each unit, the clocks that it works on after a change; 0 for one that never stands still.
     pub clocks: Vec<u8>,
+    /// The units that can.
+    resting: u64,
     /// Of each unit.
     gates: Vec<Vec<ValueId>>,
     /// Of each unit, its own seeds that are compared.
@@ -89,13 +91,19 @@ impl Wakes {
 
     /// The set of a unit alone; none if it never stands still.
     pub fn own(&self, unit: usize) -> u64 {
-        if unit < MOST && self.rests(unit) { 1 << unit } else { 0 }
+        self.resting & 1u64.checked_shl(unit as u32).unwrap_or(0)
     }
 
-    /// The units of a set, with their clocks.
+    /// The units of a set that can stand still, with their clocks.
     pub fn units(&self, set: u64) -> impl Iterator<Item = (usize, u8)> {
-        let clocks = self.clocks.iter().copied().enumerate();
-        clocks.filter(move |(unit, clocks)| *unit < MOST && set >> unit & 1 == 1 && *clocks > 0)
+        let mut left = set & self.resting;
+        std::iter::from_fn(move || {
+            let unit = left.trailing_zeros() as usize;
+            (left != 0).then(|| {
+                left &= left - 1;
+                (unit, self.clocks[unit])
+            })
+        })
     }
 }
 
@@ -116,8 +124,8 @@ pub(crate) fn wakes(design: &Design, readers: &Readers, groups: &[Group], steps:
     let nodes = nodes(design, readers, groups);
     let units = nodes.iter().map(|node| node.unit + 1).max().unwrap_or(0);
     let none = vec![Vec::new(); units];
-    let mut wakes =
-        Wakes { stored: HashMap::new(), clocks: vec![0; units], gates: none.clone(), compared: none };
+    let (stored, clocks) = (HashMap::new(), vec![0; units]);
+    let mut wakes = Wakes { stored, clocks, resting: 0, gates: none.clone(), compared: none };
     let mut watched: Vec<(Set, usize)> = Vec::new();
     for unit in 0..units.min(MOST) {
         let own: Vec<&Node> = nodes.iter().filter(|node| node.unit == unit).collect();
@@ -126,6 +134,7 @@ pub(crate) fn wakes(design: &Design, readers: &Readers, groups: &[Group], steps:
         if depth <= LONGEST && !own.is_empty() {
             // One clock for seeds that follow from the others, one for a change earlier in the same clock, one to be safe.
             wakes.clocks[unit] = depth as u8 + 3 + UNASKED;
+            wakes.resting |= 1 << unit;
             wakes.gates[unit] = gates;
             reads.iter_mut().zip(&others).for_each(|(reads, other)| *reads &= !other);
             watched.push((reads, unit));
