@@ -1,9 +1,11 @@
 //! Graph and plan to Cranelift's intermediate form.
 
+mod lowered;
 mod memory;
 mod operators;
 mod program;
 mod range;
+mod registers;
 mod values;
 mod waking;
 

@@ -5,8 +5,9 @@ use cranelift_codegen::ir::{InstBuilder, Type, Value, types};
 use edgewalk_netlist::Op;
 use edgewalk_netlist::ops::mask;
 
+use super::lowered::{Lowered, lane};
 use super::range::Range;
-use super::values::{Lowered, Values, lane};
+use super::values::Values;
 use crate::graph::{Kind, ValueId};
 
 /// The result of `width` bits.

@@ -1,72 +1,22 @@
-//! Values of the graph as values of Cranelift: a bit is an `I8` that is 0 or 1, up to 64 bits are an `I64`, more are an
-//! `I128`. The bits above the width are left to chance until someone needs them to be zeros or copies of the sign.
+//! Values as far as they are computed: each when it is asked for, with all it needs, and known from then on where the cursor stands.
 
 use std::collections::HashMap;
 
 use cranelift_codegen::cursor::{Cursor, FuncCursor};
-use cranelift_codegen::ir::{Inst, InstBuilder, MemFlagsData, Type, Value, types};
+use cranelift_codegen::ir::{InstBuilder, MemFlagsData, Type, Value, types};
 use edgewalk_netlist::Op;
 use edgewalk_netlist::ops::mask;
 
+use super::lowered::{Lowered, lane};
 use super::operators;
 use super::program::Plan;
-use super::range::Range;
+use super::registers::{Branch, Change};
 use crate::alone::Alone;
 use crate::graph::{Graph, Kind, ValueId};
 use crate::layout::{Layout, Place};
 use crate::quiet::Wakes;
 use crate::signs::Signs;
 use crate::tables::{Table, Tables};
-
-/// A value in its forms; all have the type [`lane`] of its width.
-#[derive(Clone, Copy)]
-pub(super) struct Lowered {
-    /// Its bits; above them anything.
-    pub any: Value,
-    /// `any` is below 2^bits.
-    pub bits: u32,
-    /// Where `any` lies, read with its sign, if something is known of it.
-    pub range: Option<Range>,
-    /// With zeros above.
-    pub zero: Option<Value>,
-    /// With copies of the sign above.
-    pub sign: Option<Value>,
-    /// It is in its place in the state, as `any`, and has to be read there.
-    is_kept: bool,
-}
-
-impl Lowered {
-    /// Anything above the value's bits, but `any` is below 2^bits.
-    pub fn below(any: Value, bits: u32) -> Lowered {
-        Lowered { any, bits, range: Range::unsigned(bits), zero: None, sign: None, is_kept: false }
-    }
-
-    /// Anything above the value's bits, but `any` is below 2^bits, and in the range if there is one.
-    pub fn within(any: Value, bits: u32, range: Option<Range>) -> Lowered {
-        let bits = range.and_then(Range::bits).map_or(bits, |of_range| of_range.min(bits));
-        Lowered { range: range.or(Range::unsigned(bits)), ..Lowered::below(any, bits) }
-    }
-
-    /// Copies of the sign above so many bits.
-    pub fn signed(any: Value, width: u32) -> Lowered {
-        let range = (width <= 64).then(|| Range::signed(width));
-        Lowered { range, sign: Some(any), ..Lowered::below(any, u32::MAX) }
-    }
-
-    /// Where both are known to lie.
-    pub fn ranges(self, other: Lowered) -> Option<(Range, Range)> {
-        self.range.zip(other.range)
-    }
-}
-
-/// The type for values of so many bits.
-pub(super) fn lane(width: u32) -> Type {
-    match width {
-        1 => types::I8,
-        2..=64 => types::I64,
-        _ => types::I128,
-    }
-}
 
 /// Values as far as they are computed where the cursor stands.
 pub(super) struct Values<'a> {
@@ -86,29 +36,9 @@ pub(super) struct Values<'a> {
     /// What was known before, since the outermost branch began.
     undo: Vec<(ValueId, Option<Lowered>)>,
     /// Of each register of which the state may have the new value by now, where it changed.
-    changed: Vec<Option<Change>>,
+    pub(super) changed: Vec<Option<Change>>,
     /// The old values of those, read just before they change.
-    old: HashMap<ValueId, Value>,
-}
-
-/// Where a register changes.
-#[derive(Clone, Copy)]
-struct Change {
-    /// The number of the branch that knows it.
-    branch: usize,
-    /// The store, or what leads into the branch that has it; before it the state has the old value.
-    at: Inst,
-}
-
-/// Code that is skipped as a whole, or the function.
-#[derive(Default)]
-pub(super) struct Branch {
-    /// Registers that change in it.
-    changed: Vec<ValueId>,
-    /// Those of which it has read the old value.
-    old: Vec<ValueId>,
-    /// What is not 0 if something has changed that these units have to know.
-    pub differences: Vec<(u64, Value)>,
+    pub(super) old: HashMap<ValueId, Value>,
 }
 
 impl<'a> Values<'a> {
@@ -169,23 +99,6 @@ impl<'a> Values<'a> {
                 self.known[value.index()] = kept;
             }
         }
-    }
-
-    /// Code begins that may be skipped.
-    pub fn enter_branch(&mut self) {
-        self.branches.push(Branch::default());
-    }
-
-    /// The end of the branch that was entered last: of what changed in it nothing has changed on other ways. Returns that.
-    pub fn leave_branch(&mut self) -> Vec<ValueId> {
-        let Branch { changed, old, .. } = self.branches.pop().unwrap_or_default();
-        for register in old {
-            self.old.remove(&register);
-        }
-        for register in &changed {
-            self.changed[register.index()] = None;
-        }
-        changed
     }
 
     /// The value has to be worked out in this step, not looked up or read again.
@@ -262,37 +175,6 @@ impl<'a> Values<'a> {
         let zero = self.zero(value);
         let state = self.state;
         self.cursor.ins().store(flags(place.width), zero, state, place.offset);
-    }
-
-    /// Stores the next value of a register.
-    pub fn store_register(&mut self, register: ValueId, value: Value) {
-        if let Some(place) = self.layout.of(register) {
-            let state = self.state;
-            let store = self.cursor.ins().store(flags(place.width), value, state, place.offset);
-            self.change(register, store);
-        }
-    }
-
-    /// The value as the register keeps it.
-    pub fn as_kept(&mut self, register: ValueId, value: ValueId) -> Value {
-        if self.signs.has(register) { self.sign(value) } else { self.zero(value) }
-    }
-
-    /// Stores what a register is after a reset, when nobody reads it any more.
-    pub fn store_reset(&mut self, register: ValueId, value: u128) {
-        if let Some(place) = self.layout.of(register) {
-            let sign = 1 << (place.width - 1);
-            let value = if self.signs.has(register) { (value ^ sign).wrapping_sub(sign) } else { value };
-            let (state, value) = (self.state, self.constant(lane(place.width), value));
-            self.cursor.ins().store(flags(place.width), value, state, place.offset);
-        }
-    }
-
-    /// The state may have the new value of this register from `at` on.
-    pub fn change(&mut self, register: ValueId, at: Inst) {
-        let branch = self.branches.len() - 1;
-        self.changed[register.index()] = Some(Change { branch, at });
-        self.branches[branch].changed.push(register);
     }
 
     fn set(&mut self, value: ValueId, lowered: Lowered) {
@@ -404,27 +286,6 @@ impl<'a> Values<'a> {
             _ => ins.uload8(types::I64, flags, address, offset),
         };
         Lowered::below(entry, width)
-    }
-
-    /// An input or the old value of a register.
-    fn stored(&mut self, value: ValueId, width: u32) -> Value {
-        let Some(Place { offset, .. }) = self.layout.of(value) else {
-            return self.constant(lane(width), 0); // never: the layout has all that is stored
-        };
-        let state = self.state;
-        let Some(Change { branch, at }) = self.changed[value.index()] else {
-            return self.cursor.ins().load(lane(width), flags(width), state, offset);
-        };
-        if let Some(old) = self.old.get(&value) {
-            return *old;
-        }
-        let here = self.cursor.position();
-        self.cursor.goto_inst(at);
-        let old = self.cursor.ins().load(lane(width), flags(width), state, offset);
-        self.cursor.set_position(here);
-        self.old.insert(value, old);
-        self.branches[branch].old.push(value);
-        old
     }
 }
 
