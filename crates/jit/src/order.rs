@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::design::Design;
+use crate::effect::{Effect, Set, unite};
 use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
 use crate::sorted::sorted;
@@ -25,32 +26,6 @@ pub(crate) struct Readers<'d> {
     left: Vec<Set>,
     /// What is early in a unit.
     early: BTreeMap<usize, Vec<ValueId>>,
-}
-
-/// A set of registers and inputs, a bit each.
-pub(crate) type Set = Vec<u64>;
-
-/// What a step does, with all within it.
-pub(crate) struct Effect {
-    pub reads: Set,
-    pub writes: Set,
-    /// Memories of which it reads words, a bit each.
-    looks: Set,
-    /// The memory of which it writes words.
-    fills: Option<usize>,
-}
-
-impl Effect {
-    fn unite(&mut self, other: &Effect) {
-        unite(&mut self.reads, &other.reads);
-        unite(&mut self.writes, &other.writes);
-        unite(&mut self.looks, &other.looks);
-    }
-
-    /// The other one has to be first: it reads words as they are before this one.
-    pub fn waits_for(&self, other: &Effect) -> bool {
-        self.fills.is_some_and(|memory| other.looks[memory / 64] >> (memory % 64) & 1 == 1)
-    }
 }
 
 impl<'d> Readers<'d> {
@@ -216,8 +191,4 @@ impl<'d> Readers<'d> {
             set[number / 64] |= 1 << (number % 64);
         }
     }
-}
-
-pub(crate) fn unite(set: &mut Set, other: &Set) {
-    set.iter_mut().zip(other).for_each(|(a, b)| *a |= b);
 }

@@ -16,10 +16,11 @@
 use std::collections::HashMap;
 
 use crate::design::Design;
+use crate::effect::{Set, unite};
 use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
 use crate::guard::{Literal, Needs};
-use crate::order::{Readers, Set, unite};
+use crate::order::Readers;
 use crate::step::Step;
 
 /// Units with a counter, a bit each in a set of units; those beyond them never stand still.

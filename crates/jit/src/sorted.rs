@@ -1,6 +1,6 @@
 //! Sorts what reads and changes registers: a register that changes before all who read it have done so costs a copy.
 
-use crate::order::{Effect, Set};
+use crate::effect::{Effect, Set};
 
 /// Times that every item is looked at, at most: most find their place the first time.
 const ROUNDS: usize = 4;
@@ -28,6 +28,7 @@ pub(crate) fn sorted<T>(mut open: Vec<(T, Effect)>) -> Vec<T> {
     order.into_iter().map(|(item, _)| item).collect()
 }
 
+/// Moves each item to its best place, till none moves.
 fn move_each<T>(order: &mut Vec<(T, Effect)>) {
     let Some(words) = order.first().map(|(_, effect)| effect.writes.len()) else { return };
     for _ in 0..ROUNDS {
@@ -52,13 +53,13 @@ fn move_each<T>(order: &mut Vec<(T, Effect)>) {
 fn best_place<T>(others: &[(T, Effect)], item: &Effect, now: usize, words: usize) -> usize {
     // Before each of the others, and behind all: what comes to be or ceases to be a copy there.
     let mut steps = vec![0i32; others.len() + 2];
-    let (mut read_later, mut written) = (vec![0u64; words], vec![0u64; words]);
+    let (mut read_later, mut placed) = (vec![0u64; words], vec![0u64; words]);
     for (at, (_, other)) in others.iter().enumerate().rev() {
         for word in 0..words {
             // It has to stand behind the last one that reads what it writes.
-            let last = item.writes[word] & other.reads[word] & !written[word];
+            let last = item.writes[word] & other.reads[word] & !placed[word];
             steps[at + 1] -= last.count_ones() as i32;
-            written[word] |= last;
+            placed[word] |= last;
             // It has to stand before the one that writes what it reads, unless there is a copy for others anyway.
             let alone = item.reads[word] & other.writes[word] & !read_later[word];
             steps[at + 1] += alone.count_ones() as i32;
