@@ -1,4 +1,4 @@
-//! Native code: functions that Cranelift made, in memory that lives as long as they can be called.
+//! Native code: a function that Cranelift made, in memory that lives as long as it can be called.
 
 use std::sync::Mutex;
 
@@ -14,48 +14,41 @@ use crate::lower::{Plan, Program, lower};
 /// A program; it takes the state's address.
 type Entry = unsafe extern "C" fn(*mut u64);
 
-/// The programs for one layout.
+/// A program for one layout.
 pub(crate) struct Code {
-    clock: Entry,
-    outputs: Entry,
-    signals: Entry,
-    /// 64-bit words that the programs may access from the address on.
+    entry: Entry,
+    /// 64-bit words that the program may access from the address on.
     size: usize,
-    /// Owns the memory that the entries point into. `None` only while it is dropped.
+    /// Owns the memory that the entry points into. `None` only while it is dropped.
     module: Option<Mutex<JITModule>>,
 }
 
 impl Code {
-    /// Compiles all programs.
+    /// Compiles a program.
     ///
     /// # Errors
     /// If there is no code generator for this machine.
-    pub fn new(plan: &Plan) -> Result<Code, JitError> {
+    pub fn new(program: Program, plan: &Plan) -> Result<Code, JitError> {
         let mut module = JITModule::new(JITBuilder::with_isa(isa()?, default_libcall_names()));
-        let programs = [Program::Clock, Program::Outputs, Program::Signals];
-        let [clock, outputs, signals] = entries(&mut module, programs, plan)?;
-        Ok(Code { clock, outputs, signals, size: plan.layout.size, module: Some(Mutex::new(module)) })
+        let entry = entry(&mut module, program, plan)?;
+        Ok(Code { entry, size: plan.layout.size, module: Some(Mutex::new(module)) })
     }
 
-    /// Runs a program.
+    /// Runs the program.
     ///
     /// # Panics
     /// If the state is smaller than the layout: a defect of this crate.
-    pub fn run(&self, program: Program, state: &mut [u64]) {
+    pub fn run(&self, state: &mut [u64]) {
         assert!(state.len() >= self.size, "the state is made from the same layout");
-        let entry = match program {
-            Program::Clock => self.clock,
-            Program::Outputs => self.outputs,
-            Program::Signals => self.signals,
-        };
         // SAFETY: the program reads and writes only places and areas of its layout, and these end within `size` words
         // (`Layout::take` hands them out one after the other and `size` is where the last ends); a word of an area is
         // accessed only at an index that was found to be less than the number of words, or 0, or that has too few bits
         // to be more (`index`, `read` and `write` in `lower/memory.rs`); an entry of a table at an index of as many bits as
-        // it has entries for, zeros above them (`looked_up` in `lower/values.rs`). The slice is ours alone while the call lasts,
+        // it has entries for, zeros above them (`looked_up` in `lower/values.rs`); seeds and their copies word by word, to the end of
+        // the places that the layout has for them (`asked` in `lower/waking.rs`). The slice is ours alone while the call lasts,
         // aligned to 8 bytes as the accesses say, and any bits are a valid u64. The code calls nothing and cannot
         // unwind.
-        unsafe { entry(state.as_mut_ptr()) }
+        unsafe { (self.entry)(state.as_mut_ptr()) }
     }
 }
 
@@ -63,8 +56,8 @@ impl Drop for Code {
     fn drop(&mut self) {
         if let Some(module) = self.module.take() {
             let module = module.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-            // SAFETY: the only pointers into this memory are the entries; they are never handed out, nobody can be in
-            // one while `self` is borrowed exclusively, and nobody can call one afterwards.
+            // SAFETY: the only pointer into this memory is the entry; it is never handed out, nobody can be in it while
+            // `self` is borrowed exclusively, and nobody can call it afterwards.
             unsafe { module.free_memory() }
         }
     }
@@ -90,30 +83,19 @@ fn isa() -> Result<OwnedTargetIsa, JitError> {
     Ok(isa)
 }
 
-fn entries<const N: usize>(
-    module: &mut JITModule,
-    programs: [Program; N],
-    plan: &Plan,
-) -> Result<[Entry; N], JitError> {
+fn entry(module: &mut JITModule, program: Program, plan: &Plan) -> Result<Entry, JitError> {
     let refused = |error: ModuleError| JitError::Cranelift(error.to_string());
     let pointer = module.target_config().pointer_type();
     let mut context = module.make_context();
-    let mut functions = Vec::new();
-    for program in programs {
-        context.func.signature = module.make_signature();
-        context.func.signature.params.push(AbiParam::new(pointer));
-        lower(program, plan, pointer, &mut context.func);
-        let function = module.declare_anonymous_function(&context.func.signature).map_err(refused)?;
-        module.define_function(function, &mut context).map_err(refused)?;
-        module.clear_context(&mut context);
-        functions.push(function);
-    }
+    context.func.signature = module.make_signature();
+    context.func.signature.params.push(AbiParam::new(pointer));
+    lower(program, plan, pointer, &mut context.func);
+    let function = module.declare_anonymous_function(&context.func.signature).map_err(refused)?;
+    module.define_function(function, &mut context).map_err(refused)?;
     module.finalize_definitions().map_err(refused)?;
-    Ok(std::array::from_fn(|i| {
-        let address = module.get_finalized_function(functions[i]);
-        // SAFETY: the address is that of a finalized function with the signature given above, (pointer) -> () in
-        // the platform's C convention, which is what `Entry` says. It is executable as long as `module` lives: `Code`
-        // keeps both together, and calls an entry only through `&self`.
-        unsafe { std::mem::transmute::<*const u8, Entry>(address) }
-    }))
+    let address = module.get_finalized_function(function);
+    // SAFETY: the address is that of a finalized function with the signature given above, (pointer) -> () in the platform's
+    // C convention, which is what `Entry` says. It is executable as long as `module` lives: `Code` keeps both together, and
+    // calls the entry only through `&self`.
+    Ok(unsafe { std::mem::transmute::<*const u8, Entry>(address) })
 }

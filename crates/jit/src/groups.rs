@@ -16,6 +16,13 @@ pub(crate) struct Group {
     pub members: Vec<Member>,
 }
 
+impl Group {
+    /// All members change whenever it is reached.
+    pub fn is_unconditional(&self, graph: &Graph) -> bool {
+        graph.as_constant(self.conditions[0]) == Some(1)
+    }
+}
+
 /// What changes.
 #[derive(Clone, Debug)]
 pub(crate) enum Member {
@@ -23,6 +30,16 @@ pub(crate) enum Member {
     Register { q: ValueId, values: Vec<ValueId> },
     /// A memory's read port, which has one condition, takes a word.
     Read { memory: usize, port: usize },
+}
+
+impl Member {
+    /// The register, or the output of the read port.
+    pub fn q(&self, design: &Design) -> ValueId {
+        match self {
+            Member::Register { q, .. } => *q,
+            Member::Read { memory, port } => design.memories[*memory].reads[*port].q,
+        }
+    }
 }
 
 /// The groups of all registers and read ports, those of a unit and of equal conditions together.

@@ -1,6 +1,6 @@
 //! Where everything lies in the state: one buffer of 64-bit words. Each signal has its own place of 8 bytes, 16 if wider
-//! than 64 bits, low half first; then the outputs as they were before the last clock; then the words of the memories,
-//! each in the smallest of 1, 2, 4, 8 or 16 bytes.
+//! than 64 bits, low half first, and those that are compared with what they were stand together; then the outputs as they were
+//! before the last clock; then the words of the memories, each in the smallest of 1, 2, 4, 8 or 16 bytes.
 
 use std::collections::HashMap;
 
@@ -22,6 +22,8 @@ pub(crate) struct Layout {
     pub counters: i32,
     /// Of each unit, where its bits from other units are, as they were in the clock before.
     pub gates: Vec<Vec<Place>>,
+    /// Of each unit, the seeds that are compared with what they were.
+    pub compared: Vec<Compared>,
     /// Byte at which the tables begin.
     pub tables: i32,
     /// 64-bit words of the state.
@@ -48,6 +50,17 @@ pub(crate) struct Area {
     pub width: u32,
 }
 
+/// Places one after the other, and as many for what was in them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Compared {
+    /// A multiple of 8.
+    pub offset: i32,
+    /// As many bytes from there.
+    pub copy: i32,
+    /// A multiple of 8.
+    pub bytes: i32,
+}
+
 impl Layout {
     /// The layout for all values of the state and all signals with a name.
     ///
@@ -61,6 +74,10 @@ impl Layout {
     ) -> Result<Layout, JitError> {
         let mut layout = Layout::default();
         let graph = &design.graph;
+        for unit in 0..wakes.clocks.len() {
+            let compared = layout.compared(graph, wakes.compared(unit))?;
+            layout.compared.push(compared);
+        }
         let stored = graph.ids().filter(|id| *graph.kind(*id) == Kind::Stored);
         for value in stored.chain(design.signals.values().chain(shared).copied()) {
             if !layout.places.contains_key(&value) {
@@ -92,6 +109,19 @@ impl Layout {
     /// The place of a value that is stored or has a name.
     pub fn of(&self, value: ValueId) -> Option<Place> {
         self.places.get(&value).copied()
+    }
+
+    /// Places for these values, which have none yet, and for a copy of them.
+    fn compared(&mut self, graph: &Graph, values: &[ValueId]) -> Result<Compared, JitError> {
+        let offset = self.take(0)?;
+        for value in values {
+            let place = self.place(graph, *value)?;
+            self.places.insert(*value, place);
+        }
+        let copy = self.take(0)?;
+        let bytes = copy - offset;
+        self.take(bytes as usize)?;
+        Ok(Compared { offset, copy, bytes })
     }
 
     fn place(&mut self, graph: &Graph, value: ValueId) -> Result<Place, JitError> {

@@ -5,7 +5,7 @@
 //!                                                         └─> quiet: who wakes whom ─────────────┤
 //!                                tables, shared: what is looked up, what is kept ─> layout ──────┘
 //! ```
-//! Every value is computed once in a clock, and only if something needs it: registers and read ports that change under
+//! A value is computed where something needs it, most often once in a clock: registers and read ports that change under
 //! the same conditions form a group with one branch, groups that need the same condition share another around them. What
 //! only a group needs is computed in its branch. Registers change in place, in an order in which most are read before.
 //! A unit in which nothing can change is left out as a whole. What follows from a narrow value alone is looked up, and what
@@ -22,10 +22,14 @@ mod elaborate;
 mod groups;
 mod guard;
 mod step;
+mod effect;
 mod order;
+mod sorted;
 mod schedule;
 
 mod tables;
+mod signs;
+mod alone;
 mod shared;
 mod quiet;
 mod layout;

@@ -1,14 +1,20 @@
 //! The order of steps. A register is best read before it changes: else its old value must be kept for the readers.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::design::Design;
+use crate::effect::{Effect, Set, unite};
 use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
+use crate::sorted::sorted;
 use crate::step::Step;
 
 /// Registers of a step that change in every clock; more at once would not find room in the processor.
 const MOST_JOINED: usize = 16;
+
+/// A condition that a unit asks in every clock is worked out early if it follows from so many registers or more: they need
+/// not stay for it then.
+const MANY: u32 = 8;
 
 /// Which registers and inputs each value depends on.
 pub(crate) struct Readers<'d> {
@@ -16,48 +22,56 @@ pub(crate) struct Readers<'d> {
     /// The number of each stored value in a [`Set`].
     numbers: HashMap<ValueId, usize>,
     cones: Vec<Set>,
-}
-
-/// A set of registers and inputs, a bit each.
-pub(crate) type Set = Vec<u64>;
-
-/// What a step does, with all within it.
-struct Effect {
-    reads: Set,
-    writes: Set,
-    /// Memories of which it reads words, a bit each.
-    looks: Set,
-    /// The memory of which it writes words.
-    fills: Option<usize>,
-}
-
-impl Effect {
-    fn unite(&mut self, other: &Effect) {
-        unite(&mut self.reads, &other.reads);
-        unite(&mut self.writes, &other.writes);
-        unite(&mut self.looks, &other.looks);
-    }
-
-    /// The other one has to be first: it reads words as they are before this one.
-    fn waits_for(&self, other: &Effect) -> bool {
-        self.fills.is_some_and(|memory| other.looks[memory / 64] >> (memory % 64) & 1 == 1)
-    }
+    /// The same once what is early has been worked out.
+    left: Vec<Set>,
+    /// What is early in a unit.
+    early: BTreeMap<usize, Vec<ValueId>>,
 }
 
 impl<'d> Readers<'d> {
     /// From the operands on.
-    pub fn of(design: &'d Design) -> Readers<'d> {
+    pub fn of(design: &'d Design, steps: &[Step]) -> Readers<'d> {
         let graph: &Graph = &design.graph;
         let stored = graph.ids().filter(|id| *graph.kind(*id) == Kind::Stored);
         let numbers = stored.enumerate().map(|(number, id)| (id, number)).collect();
-        let mut readers = Readers { design, numbers, cones: Vec::with_capacity(graph.len()) };
-        for id in graph.ids() {
-            let mut set = readers.none();
-            readers.insert(&mut set, id);
-            graph.operands(id).iter().for_each(|operand| unite(&mut set, &readers.cones[operand.index()]));
-            readers.cones.push(set);
+        let mut readers =
+            Readers { design, numbers, cones: Vec::new(), left: Vec::new(), early: BTreeMap::new() };
+        readers.cones = readers.cones_but(&BTreeSet::new());
+        for step in steps {
+            if let Step::Unit { unit, then } = step {
+                readers.early.insert(*unit, readers.early_of(then));
+            }
         }
+        readers.left = readers.cones_but(&readers.early.values().flatten().copied().collect());
         readers
+    }
+
+    /// What each value depends on, but for what it depends on through these.
+    fn cones_but(&self, known: &BTreeSet<ValueId>) -> Vec<Set> {
+        let graph = &self.design.graph;
+        let mut cones: Vec<Set> = Vec::with_capacity(graph.len());
+        for id in graph.ids() {
+            let mut set = self.none();
+            self.insert(&mut set, id);
+            if !known.contains(&id) {
+                graph.operands(id).iter().for_each(|operand| unite(&mut set, &cones[operand.index()]));
+            }
+            cones.push(set);
+        }
+        cones
+    }
+
+    /// Conditions that these steps ask whenever they are reached, and that follow from many registers.
+    fn early_of(&self, steps: &[Step]) -> Vec<ValueId> {
+        let asked = steps.iter().flat_map(|step| match step {
+            Step::Change(group) => group.conditions.as_slice(),
+            Step::If { bit, .. } => std::slice::from_ref(bit),
+            _ => &[],
+        });
+        let many =
+            |bit: &&ValueId| self.cone(**bit).iter().map(|word| word.count_ones()).sum::<u32>() >= MANY;
+        let early: BTreeSet<ValueId> = asked.filter(many).copied().collect();
+        early.into_iter().collect()
     }
 
     /// The steps of a block, and of all blocks in it, in a good order.
@@ -82,18 +96,24 @@ impl<'d> Readers<'d> {
             let (step, effect) = match step {
                 Step::If { bit, then } => {
                     let (then, mut effect) = self.with_effect(then);
-                    unite(&mut effect.reads, &self.cones[bit.index()]);
+                    unite(&mut effect.reads, &self.left[bit.index()]);
                     (Step::If { bit, then }, effect)
                 }
+                Step::Early(bits) => (Step::Early(bits), self.nothing()),
                 Step::Unit { unit, then } => {
-                    let (then, effect) = self.with_effect(then);
+                    let (mut then, mut effect) = self.with_effect(then);
+                    let early = self.early.get(&unit).cloned().unwrap_or_default();
+                    if !early.is_empty() {
+                        early.iter().for_each(|bit| unite(&mut effect.reads, self.cone(*bit)));
+                        then.insert(0, Step::Early(early));
+                    }
                     (Step::Unit { unit, then }, effect)
                 }
                 Step::Write(memory) => {
                     let mut effect = Effect { fills: Some(memory), ..self.nothing() };
                     let ports = self.design.memories[memory].writes.iter();
                     let values = ports.flat_map(|port| [port.en, port.addr, port.data]);
-                    values.for_each(|value| unite(&mut effect.reads, &self.cones[value.index()]));
+                    values.for_each(|value| unite(&mut effect.reads, &self.left[value.index()]));
                     (Step::Write(memory), effect)
                 }
                 Step::Change(group) => {
@@ -129,7 +149,7 @@ impl<'d> Readers<'d> {
     /// The group with its members in a good order.
     fn of_group(&self, Group { unit, conditions, members }: Group) -> (Group, Effect) {
         let mut all = self.nothing();
-        conditions.iter().for_each(|condition| unite(&mut all.reads, &self.cones[condition.index()]));
+        conditions.iter().for_each(|condition| unite(&mut all.reads, &self.left[condition.index()]));
         let mut open = Vec::new();
         for member in members {
             let effect = self.of_member(&member);
@@ -141,7 +161,7 @@ impl<'d> Readers<'d> {
 
     fn of_member(&self, member: &Member) -> Effect {
         let mut effect = self.nothing();
-        let mut read = |value: ValueId| unite(&mut effect.reads, &self.cones[value.index()]);
+        let mut read = |value: ValueId| unite(&mut effect.reads, &self.left[value.index()]);
         match member {
             Member::Register { q, values } => {
                 values.iter().copied().for_each(&mut read);
@@ -171,34 +191,4 @@ impl<'d> Readers<'d> {
             set[number / 64] |= 1 << (number % 64);
         }
     }
-}
-
-/// Takes, again and again, the one that changes the fewest registers which others still have to read.
-fn sorted<T>(mut open: Vec<(T, Effect)>) -> Vec<T> {
-    let harm_of = |writer: &Effect| open.iter().map(|(_, other)| common(&writer.writes, &other.reads)).sum();
-    let mut harm: Vec<u32> = open.iter().map(|(_, effect)| harm_of(effect)).collect();
-    for (harm, (_, effect)) in harm.iter_mut().zip(&open) {
-        *harm -= common(&effect.writes, &effect.reads); // no harm to itself
-    }
-    let mut order = Vec::new();
-    while !open.is_empty() {
-        let waits = |i: usize| open.iter().any(|(_, other)| open[i].1.waits_for(other));
-        let next = (0..open.len()).filter(|i| !waits(*i)).min_by_key(|i| harm[*i]).unwrap_or(0);
-        let (first, gone) = open.remove(next);
-        harm.remove(next);
-        for (harm, (_, effect)) in harm.iter_mut().zip(&open) {
-            *harm -= common(&effect.writes, &gone.reads);
-        }
-        order.push(first);
-    }
-    order
-}
-
-pub(crate) fn unite(set: &mut Set, other: &Set) {
-    set.iter_mut().zip(other).for_each(|(a, b)| *a |= b);
-}
-
-/// How many are in both.
-fn common(a: &Set, b: &Set) -> u32 {
-    a.iter().zip(b).map(|(a, b)| (a & b).count_ones()).sum()
 }

@@ -7,23 +7,30 @@
 //! and after as many clocks as the longest way has registers all of them.
 //!
 //! The state has a counter for each unit, the clocks for which it is to work on. Whoever changes something that is watched sets
-//! the counter: registers that change in every clock are compared with what they were, others count as changed where their
-//! condition holds. A bit that follows from other units alone, as a `ready` does, is a **gate**: it is worked out in every clock
-//! and watched in place of the registers behind it, which change more often.
+//! the counter: registers under a condition count as changed where it holds. Seeds that are stored in every clock are
+//! **compared**: with a copy of what they were, all of the unit at once, and only when no other change has set the counter for
+//! some clocks, which is seldom while the unit has work; those of other units where they are stored. A bit that follows from
+//! other units alone, as a `ready` does, is a **gate**: it is worked out in every clock and watched in place of the registers
+//! behind it, which change more often.
 
 use std::collections::HashMap;
 
 use crate::design::Design;
+use crate::effect::{Set, unite};
 use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
 use crate::guard::{Literal, Needs};
-use crate::order::{Readers, Set, unite};
+use crate::order::Readers;
+use crate::step::Step;
 
 /// Units with a counter, a bit each in a set of units; those beyond them never stand still.
 pub(crate) const MOST: usize = 64;
 
 /// Clocks on the way to a seed at most; a unit of longer ways never stands still.
 const LONGEST: usize = 100;
+
+/// Clocks after a change for which a unit's own seeds are not compared: most often the next change comes within them.
+const UNASKED: u8 = 4;
 
 /// Who has to know of a change, and for how long.
 #[derive(Clone, Debug, Default)]
@@ -32,8 +39,12 @@ pub(crate) struct Wakes {
     stored: HashMap<ValueId, u64>,
     /// Of each unit, the clocks that it works on after a change; 0 for one that never stands still.
     pub clocks: Vec<u8>,
+    /// The units that can.
+    resting: u64,
     /// Of each unit.
     gates: Vec<Vec<ValueId>>,
+    /// Of each unit, its own seeds that are compared.
+    compared: Vec<Vec<ValueId>>,
 }
 
 impl Wakes {
@@ -52,10 +63,48 @@ impl Wakes {
         self.gates.get(unit).map_or(&[], Vec::as_slice)
     }
 
-    /// The units of a set, with their clocks.
+    /// The seeds of a unit that are compared with what they were.
+    pub fn compared(&self, unit: usize) -> &[ValueId] {
+        self.compared.get(unit).map_or(&[], Vec::as_slice)
+    }
+
+    /// The largest counter with which they are: all that follow are clocks without any other change. In the first of them there
+    /// is no clock before to compare with.
+    pub fn asked_from(&self, unit: usize) -> u8 {
+        self.clocks[unit] - UNASKED
+    }
+
+    /// The registers of these steps that are stored whenever their step is done have to be compared.
+    fn compare(&mut self, design: &Design, steps: &[Step]) {
+        for step in steps {
+            match step {
+                Step::Change(group) if group.is_unconditional(&design.graph) => {
+                    let qs = group.members.iter().map(|member| member.q(design));
+                    let seeds: Vec<ValueId> =
+                        qs.filter(|q| self.of(*q) & self.own(group.unit) != 0).collect();
+                    self.compared[group.unit].extend(seeds);
+                }
+                Step::Change(_) | Step::Write(_) | Step::Early(_) => {}
+                Step::Unit { then, .. } | Step::If { then, .. } => self.compare(design, then),
+            }
+        }
+    }
+
+    /// The set of a unit alone; none if it never stands still.
+    pub fn own(&self, unit: usize) -> u64 {
+        self.resting & 1u64.checked_shl(unit as u32).unwrap_or(0)
+    }
+
+    /// The units of a set that can stand still, with their clocks.
     pub fn units(&self, set: u64) -> impl Iterator<Item = (usize, u8)> {
-        let clocks = self.clocks.iter().copied().enumerate();
-        clocks.filter(move |(unit, clocks)| *unit < MOST && set >> unit & 1 == 1 && *clocks > 0)
+        let mut left = set & self.resting;
+        std::iter::from_fn(move || {
+            let unit = left.trailing_zeros() as usize;
+            (left != 0).then(|| {
+                left &= left - 1;
+                (unit, self.clocks[unit])
+            })
+        })
     }
 }
 
@@ -72,10 +121,12 @@ struct Node {
 }
 
 /// Who has to know of which change.
-pub(crate) fn wakes(design: &Design, readers: &Readers, groups: &[Group]) -> Wakes {
+pub(crate) fn wakes(design: &Design, readers: &Readers, groups: &[Group], steps: &[Step]) -> Wakes {
     let nodes = nodes(design, readers, groups);
     let units = nodes.iter().map(|node| node.unit + 1).max().unwrap_or(0);
-    let mut wakes = Wakes { stored: HashMap::new(), clocks: vec![0; units], gates: vec![Vec::new(); units] };
+    let none = vec![Vec::new(); units];
+    let (stored, clocks) = (HashMap::new(), vec![0; units]);
+    let mut wakes = Wakes { stored, clocks, resting: 0, gates: none.clone(), compared: none };
     let mut watched: Vec<(Set, usize)> = Vec::new();
     for unit in 0..units.min(MOST) {
         let own: Vec<&Node> = nodes.iter().filter(|node| node.unit == unit).collect();
@@ -83,7 +134,8 @@ pub(crate) fn wakes(design: &Design, readers: &Readers, groups: &[Group]) -> Wak
         let (mut reads, gates) = reads_of_unit(design, readers, groups, &own, unit);
         if depth <= LONGEST && !own.is_empty() {
             // One clock for seeds that follow from the others, one for a change earlier in the same clock, one to be safe.
-            wakes.clocks[unit] = depth as u8 + 3;
+            wakes.clocks[unit] = depth as u8 + 3 + UNASKED;
+            wakes.resting |= 1 << unit;
             wakes.gates[unit] = gates;
             reads.iter_mut().zip(&others).for_each(|(reads, other)| *reads &= !other);
             watched.push((reads, unit));
@@ -95,6 +147,7 @@ pub(crate) fn wakes(design: &Design, readers: &Readers, groups: &[Group]) -> Wak
         let units = watched.iter().filter(|(reads, _)| contains(reads, number));
         wakes.stored.insert(id, units.fold(0, |all, (_, unit)| all | 1 << unit));
     }
+    wakes.compare(design, steps);
     wakes
 }
 

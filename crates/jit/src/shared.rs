@@ -1,6 +1,7 @@
 //! Values that several steps of a clock need: they are kept in the state from the first that needs them on. In a register of
 //! the processor they would not stay till then.
 
+use crate::alone::Alone;
 use crate::design::Design;
 use crate::graph::{Kind, ValueId};
 use crate::groups::{Group, Member};
@@ -10,9 +11,12 @@ use crate::tables::Tables;
 
 /// The values that are needed again after the step that works them out.
 pub(crate) fn shared(design: &Design, tables: &Tables, wakes: &Wakes, steps: &[Step]) -> Vec<ValueId> {
-    let mut walk =
-        Walk { design, tables, wakes, known: vec![0; design.graph.len()], step: 1, shared: Vec::new() };
-    design.outputs.iter().for_each(|(_, value)| walk.need(*value));
+    let known = vec![0; design.graph.len()];
+    let (alone, undo, shared) = (Alone::new(&design.graph), Vec::new(), Vec::new());
+    let mut walk = Walk { design, tables, wakes, alone, known, undo, step: 1, shared };
+    let outputs: Vec<ValueId> = design.outputs.iter().map(|(_, value)| *value).collect();
+    walk.look(outputs.clone());
+    outputs.into_iter().for_each(|value| walk.need(value));
     walk.steps(steps);
     walk.shared.sort_unstable();
     walk.shared.dedup();
@@ -24,8 +28,11 @@ struct Walk<'d> {
     design: &'d Design,
     tables: &'d Tables,
     wakes: &'d Wakes,
+    alone: Alone,
     /// The step in which each value was worked out; 0 if it is not known here.
     known: Vec<u32>,
+    /// What was known before, since the outermost branch began.
+    undo: Vec<(ValueId, u32)>,
     step: u32,
     shared: Vec<ValueId>,
 }
@@ -34,6 +41,7 @@ impl Walk<'_> {
     fn steps(&mut self, steps: &[Step]) {
         for step in steps {
             self.step += 1;
+            self.look(step.asked(self.design, self.wakes));
             match step {
                 Step::Change(group) => self.change(group, group.conditions.len()),
                 Step::Write(memory) => {
@@ -44,6 +52,7 @@ impl Walk<'_> {
                         });
                     }
                 }
+                Step::Early(bits) => bits.iter().for_each(|bit| self.need(*bit)),
                 Step::Unit { unit, then } => {
                     self.wakes.gates(*unit).iter().for_each(|gate| self.need(*gate));
                     self.aside(|walk| walk.steps(then));
@@ -77,28 +86,46 @@ impl Walk<'_> {
 
     /// What is worked out in a branch is known in it only.
     fn aside(&mut self, branch: impl FnOnce(&mut Self)) {
-        let known = self.known.clone();
+        let mark = self.undo.len();
         branch(self);
-        self.known = known;
+        for (value, before) in self.undo.drain(mark..).rev() {
+            self.known[value.index()] = before;
+        }
     }
 
+    fn look(&mut self, asked: Vec<ValueId>) {
+        let Walk { design, tables, alone, known, .. } = self;
+        alone.look(&design.graph, tables, asked, |value| known[value.index()] != 0);
+    }
+
+    /// Depth first with its own stack, as for what is lowered: an entry is a value, or a choice of which the arms are left.
     fn need(&mut self, value: ValueId) {
-        let mut open = vec![value];
-        while let Some(value) = open.pop() {
+        let mut open = vec![(value, false)];
+        while let Some((value, arms_are_left)) = open.pop() {
             if !matches!(self.design.graph.kind(value), Kind::Op(..)) {
                 continue;
             }
-            let known = &mut self.known[value.index()];
-            if *known != 0 {
-                if *known != self.step {
+            let operands = self.tables.operands(&self.design.graph, value);
+            if arms_are_left {
+                operands[1..].iter().for_each(|arm| self.aside(|walk| walk.need(*arm)));
+                continue;
+            }
+            let known = self.known[value.index()];
+            if known != 0 {
+                if known != self.step {
                     self.shared.push(value);
                 }
                 continue;
             }
             if self.tables.get(value).is_none() {
-                *known = self.step;
+                self.known[value.index()] = self.step;
+                self.undo.push((value, 0));
             }
-            open.extend(self.tables.operands(&self.design.graph, value));
+            if self.alone.branches(value) {
+                open.push((value, true));
+            }
+            let before = self.alone.before(&self.design.graph, self.tables, value);
+            open.extend(before.into_iter().map(|value| (value, false)));
         }
     }
 }

@@ -1,22 +1,22 @@
 //! Runs a netlist as native code: the same face as `edgewalk_netlist::Simulator`.
 
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use edgewalk_netlist::ops::mask;
 use edgewalk_netlist::{Netlist, SimError};
 
 use crate::code::Code;
-use crate::design::Design;
 use crate::elaborate::elaborate;
 use crate::error::JitError;
 use crate::groups::groups;
 use crate::layout::{Layout, Place};
 use crate::lower::{Plan, Program, is_computed};
 use crate::order::Readers;
-use crate::quiet::{Wakes, wakes};
+use crate::quiet::wakes;
 use crate::schedule::schedule;
 use crate::shared::shared;
+use crate::signs::Signs;
 use crate::state::State;
 use crate::tables::Tables;
 
@@ -32,12 +32,27 @@ pub struct Simulator {
     signals_stale: bool,
 }
 
-/// All that does not change.
+/// All that does not change. Only a clock is compiled before someone asks for more.
 struct Compiled {
-    design: Design,
-    wakes: Wakes,
-    layout: Layout,
-    code: Code,
+    plan: Plan,
+    clock: Code,
+    outputs: OnceLock<Code>,
+    signals: OnceLock<Code>,
+}
+
+impl Compiled {
+    /// The program for the state.
+    ///
+    /// # Panics
+    /// If one that is compiled now does not compile where the clock did, which was larger: a defect of this crate.
+    fn code(&self, program: Program) -> &Code {
+        let compile = || Code::new(program, &self.plan).expect("the host compiled the clock");
+        match program {
+            Program::Clock => &self.clock,
+            Program::Outputs => self.outputs.get_or_init(compile),
+            Program::Signals => self.signals.get_or_init(compile),
+        }
+    }
 }
 
 /// An input of the top module.
@@ -76,23 +91,17 @@ impl Simulator {
         let mut design = elaborate(netlist);
         let groups = groups(&mut design);
         let steps = schedule(&mut design, &groups);
-        let readers = Readers::of(&design);
+        let readers = Readers::of(&design, &steps);
         let steps = readers.ordered(steps);
-        let (wakes, tables) = (wakes(&design, &readers, &groups), Tables::of(&design.graph));
+        let (wakes, tables) = (wakes(&design, &readers, &groups, &steps), Tables::of(&design.graph));
         let shared = shared(&design, &tables, &wakes, &steps);
         let layout = Layout::new(&design, &tables, &wakes, &shared)?;
-        let plan = Plan {
-            design: &design,
-            steps: &steps,
-            tables: &tables,
-            wakes: &wakes,
-            shared: &shared,
-            layout: &layout,
-        };
-        let code = Code::new(&plan)?;
         let state = State::new(&design, &tables, &wakes, &layout);
-        let compiled = Arc::new(Compiled { design, wakes, layout, code });
-        Ok(Simulator { compiled, state, outputs_stale: true, signals_stale: true })
+        let signs = Signs::of(&design);
+        let plan = Plan { design, steps, tables, signs, wakes, shared, layout };
+        let clock = Code::new(Program::Clock, &plan)?;
+        let compiled = Compiled { plan, clock, outputs: OnceLock::new(), signals: OnceLock::new() };
+        Ok(Simulator { compiled: Arc::new(compiled), state, outputs_stale: true, signals_stale: true })
     }
 
     /// The input `name` of the top module; `rst` is one of them if there is a register with reset.
@@ -100,7 +109,7 @@ impl Simulator {
     /// # Errors
     /// If there is none of that name.
     pub fn input(&self, name: &str) -> Result<InputId, SimError> {
-        let Compiled { design, wakes, layout, .. } = &*self.compiled;
+        let Plan { design, wakes, layout, .. } = &self.compiled.plan;
         let value = design.inputs.get(name);
         let found =
             value.and_then(|value| Some(InputId { place: layout.of(*value)?, wakes: wakes.of(*value) }));
@@ -112,7 +121,8 @@ impl Simulator {
     /// # Errors
     /// If there is none of that name.
     pub fn output(&self, name: &str) -> Result<OutputId, SimError> {
-        let mut outputs = self.compiled.design.outputs.iter().zip(&self.compiled.layout.sampled);
+        let Plan { design, layout, .. } = &self.compiled.plan;
+        let mut outputs = design.outputs.iter().zip(&layout.sampled);
         let found = outputs.find(|((output, _), _)| output == name);
         found.map(|(_, place)| OutputId(*place)).ok_or_else(|| SimError::NoSignal(name.to_owned()))
     }
@@ -123,7 +133,7 @@ impl Simulator {
     /// # Errors
     /// If there is none of that path.
     pub fn signal(&self, path: &str) -> Result<SignalId, SimError> {
-        let Compiled { design, layout, .. } = &*self.compiled;
+        let Plan { design, layout, .. } = &self.compiled.plan;
         let none = || SimError::NoSignal(path.to_owned());
         let value = *design.signals.get(path).ok_or_else(none)?;
         let place = layout.of(value).ok_or_else(none)?;
@@ -139,7 +149,7 @@ impl Simulator {
 
     /// The paths of all signals, in alphabetical order.
     pub fn paths(&self) -> impl Iterator<Item = &str> {
-        self.compiled.design.signals.keys().map(String::as_str)
+        self.compiled.plan.design.signals.keys().map(String::as_str)
     }
 
     /// Bits of a signal.
@@ -154,7 +164,7 @@ impl Simulator {
         let before = self.state.get(place);
         self.state.set(place, value);
         if self.state.get(place) != before {
-            let Compiled { layout, wakes: all, .. } = &*self.compiled;
+            let Plan { layout, wakes: all, .. } = &self.compiled.plan;
             self.state.wake(layout, all, wakes);
         }
         self.change();
@@ -185,7 +195,8 @@ impl Simulator {
                 }
             }
         }
-        self.state.get(signal.place)
+        // A register may have copies of its sign above its bits.
+        self.state.get(signal.place) & mask(signal.place.width)
     }
 
     /// The value of a signal in this cycle, by path.
@@ -202,7 +213,7 @@ impl Simulator {
     /// # Errors
     /// If there is none of that path.
     pub fn memory(&self, path: &str) -> Result<Vec<u128>, SimError> {
-        let Compiled { design, layout, .. } = &*self.compiled;
+        let Plan { design, layout, .. } = &self.compiled.plan;
         let mut memories = design.memories.iter().zip(&layout.memories);
         let found = memories.find(|(memory, _)| memory.path == path);
         let (_, area) = found.ok_or_else(|| SimError::NoMemory(path.to_owned()))?;
@@ -235,13 +246,13 @@ impl Simulator {
     }
 
     fn execute(&mut self, program: Program) {
-        self.compiled.code.run(program, self.state.words_mut());
+        self.compiled.code(program).run(self.state.words_mut());
     }
 }
 
 impl fmt::Debug for Simulator {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Simulator").field("words", &self.compiled.layout.size).finish_non_exhaustive()
+        f.debug_struct("Simulator").field("words", &self.compiled.plan.layout.size).finish_non_exhaustive()
     }
 }
 

@@ -1,7 +1,9 @@
 //! A step of a clock: a change, or steps behind a condition.
 
+use crate::design::Design;
 use crate::graph::ValueId;
-use crate::groups::Group;
+use crate::groups::{Group, Member};
+use crate::quiet::Wakes;
 
 /// A step of a clock.
 #[derive(Clone, Debug)]
@@ -10,6 +12,8 @@ pub(crate) enum Step {
     Change(Group),
     /// The writes to a memory.
     Write(usize),
+    /// Bits are worked out and kept, before what they follow from changes.
+    Early(Vec<ValueId>),
     /// All steps of a unit, which are left out while it stands still.
     Unit { unit: usize, then: Vec<Step> },
     /// Steps for when this bit is 1.
@@ -17,12 +21,28 @@ pub(crate) enum Step {
 }
 
 impl Step {
-    /// The bits that the step asks first.
-    pub fn conditions(&self) -> &[ValueId] {
+    /// All values that the step asks for, without those of steps in it.
+    pub fn asked(&self, design: &Design, wakes: &Wakes) -> Vec<ValueId> {
         match self {
-            Step::Change(group) => &group.conditions,
-            Step::Write(_) | Step::Unit { .. } => &[],
-            Step::If { bit, .. } => std::slice::from_ref(bit),
+            Step::Change(group) => {
+                let mut asked = group.conditions.clone();
+                for member in &group.members {
+                    match member {
+                        Member::Register { values, .. } => asked.extend(values),
+                        Member::Read { memory, port } => {
+                            asked.push(design.memories[*memory].reads[*port].addr)
+                        }
+                    }
+                }
+                asked
+            }
+            Step::Write(memory) => {
+                let writes = design.memories[*memory].writes.iter();
+                writes.flat_map(|write| [write.en, write.addr, write.data]).collect()
+            }
+            Step::Early(bits) => bits.clone(),
+            Step::Unit { unit, .. } => wakes.gates(*unit).to_vec(),
+            Step::If { bit, .. } => vec![*bit],
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Values that follow from one narrow value alone, such as what the number of an operation says: they are looked up in a
 //! table instead of worked out.
 
+use edgewalk_netlist::Op;
 use edgewalk_netlist::ops::Bits;
 
 use crate::graph::{Graph, Kind, ValueId};
@@ -46,7 +47,7 @@ impl Tables {
         for id in graph.ids() {
             let source = source(graph, &sources, id);
             if let Source::Index(index, depth, entries) = &source
-                && *depth > 1
+                && (*depth > 1 || is_bit(graph, id))
                 && graph.width(id) <= ENTRY_BITS
             {
                 let first = tables.place(entries);
@@ -80,6 +81,11 @@ impl Tables {
             first
         })
     }
+}
+
+/// To look up a bit of a word is shorter than to move the word, to shift it and to mask it.
+fn is_bit(graph: &Graph, id: ValueId) -> bool {
+    matches!(graph.kind(id), Kind::Op(Op::Slice { .. }, _)) && graph.width(id) == 1
 }
 
 fn source(graph: &Graph, sources: &[Source], id: ValueId) -> Source {

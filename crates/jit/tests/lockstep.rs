@@ -6,6 +6,7 @@ mod common {
     pub mod enables;
     pub mod pair;
     pub mod ram;
+    pub mod signed;
     pub mod units;
 }
 #[path = "../../verilog/tests/random_module"]
@@ -118,6 +119,15 @@ fn sums_with_a_carry() {
         widths.iter().map(|width| compare(&common::carry::module(*width), &mut random, 300)).sum();
     println!("{compared} values compared");
     assert!(compared > 30_000);
+}
+
+#[test]
+fn sums_of_signed_registers() {
+    let mut random = Pcg64Mcg::new(7);
+    let compared: u64 =
+        (0..60).map(|_| compare(&common::signed::module(&mut random), &mut random, 200)).sum();
+    println!("{compared} values compared");
+    assert!(compared > 500_000);
 }
 
 /// A unit of a longer way than it could wait for works on all the time.

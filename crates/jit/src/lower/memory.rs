@@ -4,9 +4,9 @@ use cranelift_codegen::cursor::Cursor;
 use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{InstBuilder, MemFlagsData, Type, Value, types};
 
+use super::lowered::lane;
 use super::operators::resized;
 use super::program::Lowering;
-use super::values::lane;
 use crate::design::Write;
 use crate::graph::ValueId;
 use crate::layout::Area;

@@ -1,9 +1,12 @@
 //! Graph and plan to Cranelift's intermediate form.
 
+mod lowered;
 mod memory;
-mod alone;
 mod operators;
 mod program;
+mod range;
+mod registers;
 mod values;
+mod waking;
 
 pub(crate) use program::{Plan, Program, is_computed, lower};

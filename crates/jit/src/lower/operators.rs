@@ -5,7 +5,9 @@ use cranelift_codegen::ir::{InstBuilder, Type, Value, types};
 use edgewalk_netlist::Op;
 use edgewalk_netlist::ops::mask;
 
-use super::values::{Lowered, Values, lane};
+use super::lowered::{Lowered, lane};
+use super::range::Range;
+use super::values::Values;
 use crate::graph::{Kind, ValueId};
 
 /// The result of `width` bits.
@@ -19,38 +21,45 @@ pub(super) fn lower(v: &mut Values, op: Op, width: u32, operands: &[ValueId]) ->
     match (op, operands) {
         (Op::Add, &[a, b]) => {
             let (a, b) = (v.any(a), v.any(b));
-            Lowered::below(v.cursor.ins().iadd(a.any, b.any), a.bits.max(b.bits).saturating_add(1))
+            let range = a.ranges(b).and_then(|(a, b)| a.plus(b));
+            let bits = a.bits.max(b.bits).saturating_add(1);
+            Lowered::within(v.cursor.ins().iadd(a.any, b.any), bits, range)
         }
         (Op::Sub, &[a, b]) => {
             let (a, b) = (v.any(a), v.any(b));
-            Lowered::below(v.cursor.ins().isub(a.any, b.any), u32::MAX)
+            let range = a.ranges(b).and_then(|(a, b)| a.minus(b));
+            Lowered::within(v.cursor.ins().isub(a.any, b.any), u32::MAX, range)
         }
         (Op::Neg, &[a]) => {
             let a = v.any(a);
-            Lowered::below(v.cursor.ins().ineg(a.any), u32::MAX)
+            let range = a.range.and_then(|range| Range::of(0).minus(range));
+            Lowered::within(v.cursor.ins().ineg(a.any), u32::MAX, range)
         }
         (Op::Mul, &[a, b]) => product(v, width, a, b),
         (Op::MulSigned, &[a, b]) => signed_product(v, width, a, b),
         (Op::And, &[a, b]) => {
             let (a, b) = (v.any(a), v.any(b));
-            Lowered::below(v.cursor.ins().band(a.any, b.any), a.bits.min(b.bits))
+            // A range that is unsigned only by one of them is in its bits.
+            let range = of_bits(a, b).filter(|_| a.bits.min(b.bits) == u32::MAX);
+            Lowered::within(v.cursor.ins().band(a.any, b.any), a.bits.min(b.bits), range)
         }
         (Op::Or, &[a, b]) => {
             let (a, b) = (v.any(a), v.any(b));
-            Lowered::below(v.cursor.ins().bor(a.any, b.any), a.bits.max(b.bits))
+            Lowered::within(v.cursor.ins().bor(a.any, b.any), a.bits.max(b.bits), of_bits(a, b))
         }
         (Op::Xor, &[a, b]) => {
             let (a, b) = (v.any(a), v.any(b));
-            Lowered::below(v.cursor.ins().bxor(a.any, b.any), a.bits.max(b.bits))
+            Lowered::within(v.cursor.ins().bxor(a.any, b.any), a.bits.max(b.bits), of_bits(a, b))
         }
         (Op::Not, &[a]) => not(v, width, a),
         (Op::Mux, &[c, a, b]) => {
             let (c, a, b) = (v.zero(c), v.any(a), v.any(b));
-            Lowered::below(v.cursor.ins().select(c, a.any, b.any), a.bits.max(b.bits))
+            either(v.cursor.ins().select(c, a.any, b.any), a, b)
         }
         (Op::Shl(n), &[a]) if n < width => {
             let a = v.any(a);
-            Lowered::below(shifted_left(v, a.any, n), a.bits.saturating_add(n))
+            let range = a.range.and_then(|range| range.times_power(n));
+            Lowered::within(shifted_left(v, a.any, n), a.bits.saturating_add(n), range)
         }
         (Op::Shr(n), &[a]) if n < width => {
             let a = v.zero(a);
@@ -59,10 +68,13 @@ pub(super) fn lower(v: &mut Values, op: Op, width: u32, operands: &[ValueId]) ->
         (Op::Sar(n), &[a]) => {
             let a = v.sign(a);
             let n = v.constant(types::I64, n.min(width - 1).into());
-            Lowered::signed(v.cursor.ins().sshr(a, n))
+            Lowered::signed(v.cursor.ins().sshr(a, n), width)
         }
         (Op::ShlBy | Op::ShrBy | Op::SarBy, &[a, n]) => shifted_by(v, op, width, a, n),
         (Op::Slice { hi, lo }, &[a]) => {
+            if let Some((word, zero)) = sign_asked(v, hi, lo, a) {
+                return Lowered::below(v.cursor.ins().icmp(IntCC::SignedLessThan, word, zero), 1);
+            }
             let bits = v.any(a).bits.min(lane(v.graph.width(a)).bits());
             Lowered::below(slice(v, hi, lo, a), bits.saturating_sub(lo))
         }
@@ -71,8 +83,14 @@ pub(super) fn lower(v: &mut Values, op: Op, width: u32, operands: &[ValueId]) ->
             Lowered::below(widened(v, zero, ty), v.graph.width(a))
         }
         (Op::SignExtend(_), &[a]) => {
+            let bits = v.graph.width(a);
+            if bits == 1 && ty == types::I64 {
+                let zero = v.zero(a);
+                let zero = widened(v, zero, ty);
+                return Lowered::signed(v.cursor.ins().ineg(zero), 1);
+            }
             let sign = v.sign(a);
-            Lowered::signed(sign_widened(v, sign, ty))
+            Lowered::signed(sign_widened(v, sign, ty), bits)
         }
         (Op::Concat, _) => concat(v, width, operands),
         (Op::Any, &[a]) => {
@@ -127,12 +145,39 @@ fn not(v: &mut Values, width: u32, a: ValueId) -> Lowered {
         let zero = zero_like(v, word);
         return Lowered::below(v.cursor.ins().icmp(IntCC::Equal, word, zero), 1);
     }
-    let a = v.any(a).any;
+    if let &Kind::Op(Op::Slice { hi, lo }, ref operands) = v.graph.kind(a)
+        && let Some((word, zero)) = sign_asked(v, hi, lo, operands[0])
+    {
+        return Lowered::below(v.cursor.ins().icmp(IntCC::SignedGreaterThanOrEqual, word, zero), 1);
+    }
+    let a = v.any(a);
     if width == 1 {
         let one = v.constant(types::I8, 1);
-        return Lowered::below(v.cursor.ins().bxor(a, one), 1);
+        return Lowered::below(v.cursor.ins().bxor(a.any, one), 1);
     }
-    Lowered::below(v.cursor.ins().bnot(a), u32::MAX)
+    let range = a.range.and_then(|range| Range::of(-1).minus(range));
+    Lowered::within(v.cursor.ins().bnot(a.any), u32::MAX, range)
+}
+
+/// A word that has copies of its sign above its bits, and 0, if these bits of it are the sign.
+fn sign_asked(v: &mut Values, hi: u32, lo: u32, word: ValueId) -> Option<(Value, Value)> {
+    let width = v.graph.width(word);
+    if hi != lo || hi + 1 != width || lane(width) != types::I64 {
+        return None;
+    }
+    let word = v.any(word);
+    word.range.filter(|range| range.is_signed(width))?;
+    Some((word.any, zero_like(v, word.any)))
+}
+
+/// One of two.
+pub(super) fn either(any: Value, a: Lowered, b: Lowered) -> Lowered {
+    Lowered::within(any, a.bits.max(b.bits), a.ranges(b).map(|(a, b)| a.or(b)))
+}
+
+/// Of bits of two words.
+fn of_bits(a: Lowered, b: Lowered) -> Option<Range> {
+    a.ranges(b).map(|(a, b)| a.of_bits(b))
 }
 
 fn product(v: &mut Values, width: u32, a: ValueId, b: ValueId) -> Lowered {
@@ -155,10 +200,10 @@ fn signed_product(v: &mut Values, width: u32, a: ValueId, b: ValueId) -> Lowered
     let (a, b) = (sign_widened(v, a, factor), sign_widened(v, b, factor));
     let low = v.cursor.ins().imul(a, b);
     if !narrow || width <= 64 {
-        return Lowered::signed(low);
+        return Lowered::signed(low, width);
     }
     let high = v.cursor.ins().smulhi(a, b);
-    Lowered::signed(v.cursor.ins().iconcat(low, high))
+    Lowered::signed(v.cursor.ins().iconcat(low, high), width)
 }
 
 /// A shift by a signal: what is shifted out of the lane must be gone, however large the count.
@@ -176,7 +221,7 @@ fn shifted_by(v: &mut Values, op: Op, width: u32, a: ValueId, n: ValueId) -> Low
             let a = v.sign(a);
             let most = v.constant(types::I64, (lane_bits - 1).into());
             let count = in_lane.map_or(count, |in_lane| v.cursor.ins().select(in_lane, count, most));
-            Lowered::signed(v.cursor.ins().sshr(a, count))
+            Lowered::signed(v.cursor.ins().sshr(a, count), width)
         }
         _ => {
             let (shifted, bits) = if op == Op::ShlBy {
@@ -213,12 +258,18 @@ fn concat(v: &mut Values, width: u32, parts: &[ValueId]) -> Lowered {
         all = Some(match all {
             None => {
                 let part = v.any(*part);
-                Lowered::below(widened(v, part.any, ty), part.bits)
+                let any = widened(v, part.any, ty);
+                // In a longer word the sign does not reach to the top.
+                let is_same = any == part.any;
+                let range = part.range.filter(|range| is_same || range.bits().is_some());
+                Lowered::within(any, part.bits, range)
             }
             Some(high) => {
                 let part = v.zero(*part);
                 let (part, above) = (widened(v, part, ty), shifted_left(v, high.any, bits));
-                Lowered::below(v.cursor.ins().bor(above, part), high.bits.saturating_add(bits))
+                let range = high.range.and_then(|high| high.times_power(bits));
+                let range = range.zip(Range::unsigned(bits)).and_then(|(high, low)| high.plus(low));
+                Lowered::within(v.cursor.ins().bor(above, part), high.bits.saturating_add(bits), range)
             }
         });
     }

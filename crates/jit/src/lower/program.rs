@@ -4,15 +4,18 @@ use cranelift_codegen::cursor::{Cursor, FuncCursor};
 use cranelift_codegen::ir::{Block, Function, Inst, InstBuilder, Type};
 use edgewalk_netlist::Op;
 
-use super::alone::Alone;
-use super::values::{Values, lane};
+use super::values::Values;
 use crate::design::Design;
 use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
 use crate::layout::Layout;
 use crate::quiet::{MOST, Wakes};
+use crate::signs::Signs;
 use crate::step::Step;
 use crate::tables::Tables;
+
+/// Members that choose by the same bit share a branch if they are so many or more.
+const LEAST_CHOOSING: usize = 3;
 
 /// A function of the state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,29 +29,28 @@ pub(crate) enum Program {
 }
 
 /// All that programs are made from.
-#[derive(Clone, Copy)]
-pub(crate) struct Plan<'a> {
-    pub design: &'a Design,
-    pub steps: &'a [Step],
-    pub tables: &'a Tables,
-    pub wakes: &'a Wakes,
+pub(crate) struct Plan {
+    pub design: Design,
+    pub steps: Vec<Step>,
+    pub tables: Tables,
+    pub signs: Signs,
+    pub wakes: Wakes,
     /// Kept in the state from step to step.
-    pub shared: &'a [ValueId],
-    pub layout: &'a Layout,
+    pub shared: Vec<ValueId>,
+    pub layout: Layout,
 }
 
 /// Fills the function, which has its signature already.
 pub(crate) fn lower(program: Program, plan: &Plan, pointer: Type, function: &mut Function) {
-    let Plan { design, steps, .. } = *plan;
+    let Plan { design, steps, .. } = plan;
     let head = function.dfg.make_block();
     let state = function.dfg.append_block_param(head, pointer);
     let mut cursor = FuncCursor::new(function);
     cursor.insert_block(head);
-    let alone = Alone::of(design, steps, plan.tables);
-    let mut lowering = Lowering { design, v: Values::new(plan, &alone, cursor, state) };
+    let mut lowering = Lowering { design, v: Values::new(plan, cursor, state) };
     match program {
         Program::Clock => {
-            lowering.v.keep(plan.shared);
+            lowering.v.keep(&plan.shared);
             lowering.sample();
             lowering.clock(steps);
         }
@@ -70,7 +72,8 @@ pub(super) struct Lowering<'a> {
 }
 
 impl Lowering<'_> {
-    fn compute(&mut self, values: impl Iterator<Item = ValueId>) {
+    fn compute(&mut self, values: impl Iterator<Item = ValueId> + Clone) {
+        self.v.look(values.clone().collect());
         for value in values.filter(|value| is_computed(self.v.graph, *value)) {
             if let Some(place) = self.v.layout.of(value) {
                 self.v.store(value, place);
@@ -79,6 +82,7 @@ impl Lowering<'_> {
     }
 
     fn sample(&mut self) {
+        self.v.look(self.design.outputs.iter().map(|(_, value)| *value).collect());
         for ((_, value), place) in self.design.outputs.iter().zip(&self.v.layout.sampled) {
             self.v.store(*value, *place);
         }
@@ -93,7 +97,6 @@ impl Lowering<'_> {
         if !resets.is_empty() {
             self.only_if(self.design.reset, |lowering| {
                 for (q, value) in resets {
-                    let value = lowering.v.constant(lane(lowering.v.graph.width(q)), value);
                     lowering.v.store_reset(q, value);
                 }
                 lowering.v.wake(u64::MAX);
@@ -104,6 +107,7 @@ impl Lowering<'_> {
     fn steps(&mut self, steps: &[Step]) {
         for step in steps {
             self.v.forget();
+            self.v.look(step.asked(self.design, self.v.wakes));
             match step {
                 Step::Change(group) => self.change(group, group.conditions.len()),
                 Step::Write(memory) => {
@@ -114,6 +118,7 @@ impl Lowering<'_> {
                         .iter()
                         .for_each(|port| self.write(*port, area, wakes));
                 }
+                Step::Early(bits) => bits.iter().for_each(|bit| self.v.work_out(*bit)),
                 Step::Unit { unit, then } if self.v.wakes.rests(*unit) => self.unit(*unit, then),
                 Step::Unit { then, .. } => self.steps(then),
                 Step::If { bit, then } => self.only_if(*bit, |lowering| lowering.steps(then)),
@@ -127,6 +132,7 @@ impl Lowering<'_> {
         let [block, next] = [(); 2].map(|()| self.v.cursor.func.dfg.make_block());
         let way = self.v.cursor.ins().brif(clocks, block, &[], next, &[]);
         let changed = self.inside(block, next, |lowering| {
+            let clocks = lowering.v.asked(unit, clocks);
             lowering.v.count(unit, clocks);
             lowering.steps(then);
         });
@@ -149,24 +155,58 @@ impl Lowering<'_> {
     }
 
     /// All members take their value of this rank, in an order in which most are read before they change. Where that is in every
-    /// clock they are compared with what they were; else they count as changed.
+    /// clock other units have them compared with what they were; else they count as changed.
     fn take(&mut self, group: &Group, rank: usize) {
-        let always = self.v.graph.as_constant(group.conditions[0]) == Some(1);
+        if let Some(bit) = self.common_choice(group, rank) {
+            let [one, zero] = [1, 2].map(|arm| self.with_arms(group, rank, arm));
+            return self.either(
+                bit,
+                |lowering| lowering.take(&one, rank),
+                |lowering| lowering.take(&zero, rank),
+            );
+        }
+        let always = group.is_unconditional(self.v.graph);
         let mut changed = 0;
         for member in &group.members {
             let (q, value) = match member {
-                Member::Register { q, values } => (*q, self.v.zero(values[rank])),
+                Member::Register { q, values } => (*q, self.v.as_kept(*q, values[rank])),
                 Member::Read { memory, port } => self.read(*memory, *port),
             };
             let wakes = self.v.wakes.of(q);
             if always {
-                self.v.compare(q, value, wakes);
+                self.v.compare(q, value, wakes & !self.v.wakes.own(group.unit));
             } else {
                 changed |= wakes;
             }
             self.v.store_register(q, value);
         }
         self.v.wake(changed);
+    }
+
+    /// The bit by which all members choose, if they are several.
+    fn common_choice(&self, group: &Group, rank: usize) -> Option<ValueId> {
+        let choice = |member: &Member| match member {
+            Member::Register { values, .. } if self.v.is_worked_out(values[rank]) => {
+                Some(self.v.graph.as_op(values[rank], Op::Mux)?[0])
+            }
+            _ => None,
+        };
+        let bit = choice(group.members.first()?)?;
+        let all = group.members.iter().all(|member| choice(member) == Some(bit));
+        (all && group.members.len() >= LEAST_CHOOSING).then_some(bit)
+    }
+
+    /// The group with what its members take if they choose this operand of their choices.
+    fn with_arms(&self, group: &Group, rank: usize, operand: usize) -> Group {
+        let mut group = group.clone();
+        for member in &mut group.members {
+            if let Member::Register { values, .. } = member
+                && let Some(operands) = self.v.graph.as_op(values[rank], Op::Mux)
+            {
+                values[rank] = operands[operand];
+            }
+        }
+        group
     }
 
     /// What is filled in happens if the bit is 1; what is computed in it stays in it.

@@ -1,103 +1,50 @@
-//! Values of the graph as values of Cranelift: a bit is an `I8` that is 0 or 1, up to 64 bits are an `I64`, more are an
-//! `I128`. The bits above the width are left to chance until someone needs them to be zeros or copies of the sign.
+//! Values as far as they are computed: each when it is asked for, with all it needs, and known from then on where the cursor stands.
 
 use std::collections::HashMap;
 
 use cranelift_codegen::cursor::{Cursor, FuncCursor};
-use cranelift_codegen::ir::{Inst, InstBuilder, MemFlagsData, Type, Value, types};
+use cranelift_codegen::ir::{InstBuilder, MemFlagsData, Type, Value, types};
 use edgewalk_netlist::Op;
 use edgewalk_netlist::ops::mask;
 
-use super::alone::Alone;
+use super::lowered::{Lowered, lane};
 use super::operators;
 use super::program::Plan;
+use super::registers::{Branch, Change};
+use crate::alone::Alone;
 use crate::graph::{Graph, Kind, ValueId};
 use crate::layout::{Layout, Place};
 use crate::quiet::Wakes;
+use crate::signs::Signs;
 use crate::tables::{Table, Tables};
-
-/// A value in its forms; all have the type [`lane`] of its width.
-#[derive(Clone, Copy)]
-pub(super) struct Lowered {
-    /// Its bits; above them anything.
-    pub any: Value,
-    /// `any` is below 2^bits.
-    pub bits: u32,
-    /// With zeros above.
-    pub zero: Option<Value>,
-    /// With copies of the sign above.
-    pub sign: Option<Value>,
-    /// It is in its place in the state, as `any`, and has to be read there.
-    is_kept: bool,
-}
-
-impl Lowered {
-    /// Anything above the value's bits, but `any` is below 2^bits.
-    pub fn below(any: Value, bits: u32) -> Lowered {
-        Lowered { any, bits, zero: None, sign: None, is_kept: false }
-    }
-
-    /// Copies of the sign above the value's bits.
-    pub fn signed(any: Value) -> Lowered {
-        Lowered { any, bits: u32::MAX, zero: None, sign: Some(any), is_kept: false }
-    }
-}
-
-/// The type for values of so many bits.
-pub(super) fn lane(width: u32) -> Type {
-    match width {
-        1 => types::I8,
-        2..=64 => types::I64,
-        _ => types::I128,
-    }
-}
 
 /// Values as far as they are computed where the cursor stands.
 pub(super) struct Values<'a> {
     pub graph: &'a Graph,
     tables: &'a Tables,
+    pub signs: &'a Signs,
     pub wakes: &'a Wakes,
-    alone: &'a Alone,
+    alone: Alone,
     pub layout: &'a Layout,
     pub cursor: FuncCursor<'a>,
     /// The address of the state.
     pub state: Value,
     /// The function and the branches within each other in which the cursor stands.
-    branches: Vec<Branch>,
+    pub(super) branches: Vec<Branch>,
     known: Vec<Option<Lowered>>,
     is_shared: Vec<bool>,
     /// What was known before, since the outermost branch began.
     undo: Vec<(ValueId, Option<Lowered>)>,
     /// Of each register of which the state may have the new value by now, where it changed.
-    changed: Vec<Option<Change>>,
+    pub(super) changed: Vec<Option<Change>>,
     /// The old values of those, read just before they change.
-    old: HashMap<ValueId, Value>,
-}
-
-/// Where a register changes.
-#[derive(Clone, Copy)]
-struct Change {
-    /// The number of the branch that knows it.
-    branch: usize,
-    /// The store, or what leads into the branch that has it; before it the state has the old value.
-    at: Inst,
-}
-
-/// Code that is skipped as a whole, or the function.
-#[derive(Default)]
-struct Branch {
-    /// Registers that change in it.
-    changed: Vec<ValueId>,
-    /// Those of which it has read the old value.
-    old: Vec<ValueId>,
-    /// What is not 0 if something has changed that these units have to know.
-    differences: Vec<(u64, Value)>,
+    pub(super) old: HashMap<ValueId, Value>,
 }
 
 impl<'a> Values<'a> {
     /// Nothing is known yet; the cursor stands in the function's first block.
-    pub fn new(plan: &Plan<'a>, alone: &'a Alone, cursor: FuncCursor<'a>, state: Value) -> Values<'a> {
-        let Plan { tables, wakes, layout, .. } = *plan;
+    pub fn new(plan: &'a Plan, cursor: FuncCursor<'a>, state: Value) -> Values<'a> {
+        let Plan { tables, signs, wakes, layout, .. } = plan;
         let graph = &plan.design.graph;
         let (known, changed) = (vec![None; graph.len()], vec![None; graph.len()]);
         let is_shared = vec![false; graph.len()];
@@ -105,8 +52,9 @@ impl<'a> Values<'a> {
         Values {
             graph,
             tables,
+            signs,
             wakes,
-            alone,
+            alone: Alone::new(graph),
             layout,
             cursor,
             state,
@@ -136,6 +84,12 @@ impl<'a> Values<'a> {
         shared.iter().for_each(|value| self.is_shared[value.index()] = true);
     }
 
+    /// A step begins that asks for these values.
+    pub fn look(&mut self, asked: Vec<ValueId>) {
+        let Values { graph, tables, known, alone, .. } = self;
+        alone.look(graph, tables, asked, |value| known[value.index()].is_some());
+    }
+
     /// Between two steps: what they share is in the state, and registers of the processor are free.
     pub fn forget(&mut self) {
         for value in self.graph.ids() {
@@ -147,21 +101,11 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Code begins that may be skipped.
-    pub fn enter_branch(&mut self) {
-        self.branches.push(Branch::default());
-    }
-
-    /// The end of the branch that was entered last: of what changed in it nothing has changed on other ways. Returns that.
-    pub fn leave_branch(&mut self) -> Vec<ValueId> {
-        let Branch { changed, old, .. } = self.branches.pop().unwrap_or_default();
-        for register in old {
-            self.old.remove(&register);
-        }
-        for register in &changed {
-            self.changed[register.index()] = None;
-        }
-        changed
+    /// The value has to be worked out in this step, not looked up or read again.
+    pub fn is_worked_out(&self, value: ValueId) -> bool {
+        self.known[value.index()].is_none()
+            && self.tables.get(value).is_none()
+            && !self.is_shared[value.index()]
     }
 
     /// The value with zeros above its bits.
@@ -183,9 +127,17 @@ impl<'a> Values<'a> {
             return sign;
         }
         let width = self.graph.width(value);
-        let sign = operators::sign_extended(self, lowered.any, width);
+        let sign = match lowered.range {
+            Some(range) if range.is_signed(width.min(64)) => lowered.any,
+            _ => operators::sign_extended(self, lowered.any, width),
+        };
         self.set(value, Lowered { sign: Some(sign), ..lowered });
         sign
+    }
+
+    /// The value is there for the steps that follow, if they share it.
+    pub fn work_out(&mut self, value: ValueId) {
+        self.demand(value);
     }
 
     /// The value with anything above its bits.
@@ -225,110 +177,6 @@ impl<'a> Values<'a> {
         self.cursor.ins().store(flags(place.width), zero, state, place.offset);
     }
 
-    /// Stores the next value of a register.
-    pub fn store_register(&mut self, register: ValueId, value: Value) {
-        if let Some(place) = self.layout.of(register) {
-            let state = self.state;
-            let store = self.cursor.ins().store(flags(place.width), value, state, place.offset);
-            self.change(register, store);
-        }
-    }
-
-    /// Stores what a register is after a reset, when nobody reads it any more.
-    pub fn store_reset(&mut self, register: ValueId, value: Value) {
-        if let Some(place) = self.layout.of(register) {
-            let state = self.state;
-            self.cursor.ins().store(flags(place.width), value, state, place.offset);
-        }
-    }
-
-    /// The units have to know if the register, which is to be stored, changes.
-    pub fn compare(&mut self, register: ValueId, value: Value, units: u64) {
-        let Some(place) = self.layout.of(register).filter(|_| self.wakes.units(units).next().is_some())
-        else {
-            return;
-        };
-        let state = self.state;
-        let ty = self.cursor.func.dfg.value_type(value);
-        let old = self.cursor.ins().load(ty, flags(place.width), state, place.offset);
-        let mut difference = self.cursor.ins().bxor(old, value);
-        if ty == types::I128 {
-            let (low, high) = self.cursor.ins().isplit(difference);
-            difference = self.cursor.ins().bor(low, high);
-        }
-        let difference = operators::resized(self, difference, types::I64);
-        let branch = self.branches.len() - 1;
-        let same = self.branches[branch].differences.iter().position(|(others, _)| *others == units);
-        match same {
-            Some(at) => {
-                let other = self.branches[branch].differences[at].1;
-                self.branches[branch].differences[at].1 = self.cursor.ins().bor(other, difference);
-            }
-            None => self.branches[branch].differences.push((units, difference)),
-        }
-    }
-
-    /// At the end of a branch: the units work on that have to know what has changed in it.
-    pub fn wake_changed(&mut self) {
-        let branch = self.branches.len() - 1;
-        for (units, difference) in std::mem::take(&mut self.branches[branch].differences) {
-            for (unit, clocks) in self.wakes.units(units) {
-                let (before, all) = (self.clocks(unit), self.constant(types::I8, clocks.into()));
-                let clocks = self.cursor.ins().select(difference, all, before);
-                self.set_clocks(unit, clocks);
-            }
-        }
-    }
-
-    /// These units work on.
-    pub fn wake(&mut self, units: u64) {
-        for (unit, clocks) in self.wakes.units(units) {
-            let clocks = self.constant(types::I8, clocks.into());
-            self.set_clocks(unit, clocks);
-        }
-    }
-
-    /// For how many clocks a unit is to work, this one too: for all of them if a bit from another unit is not what it was.
-    pub fn clocks_now(&mut self, unit: usize) -> Value {
-        let mut changed = None;
-        for (gate, place) in self.wakes.gates(unit).iter().zip(&self.layout.gates[unit]) {
-            let (now, state) = (self.zero(*gate), self.state);
-            let before = self.cursor.ins().load(types::I8, flags(1), state, place.offset);
-            self.cursor.ins().store(flags(1), now, state, place.offset);
-            let differs = self.cursor.ins().bxor(now, before);
-            changed = Some(changed.map_or(differs, |changed| self.cursor.ins().bor(changed, differs)));
-        }
-        let clocks = self.clocks(unit);
-        let Some(changed) = changed else { return clocks };
-        let all = self.constant(types::I8, self.wakes.clocks[unit].into());
-        self.cursor.ins().select(changed, all, clocks)
-    }
-
-    /// For how many clocks a unit is to work on.
-    pub fn clocks(&mut self, unit: usize) -> Value {
-        let (state, offset) = (self.state, self.layout.counters + unit as i32);
-        self.cursor.ins().load(types::I8, MemFlagsData::trusted(), state, offset)
-    }
-
-    /// One clock less than so many.
-    pub fn count(&mut self, unit: usize, clocks: Value) {
-        let one = self.constant(types::I8, 1);
-        let clocks = self.cursor.ins().isub(clocks, one);
-        self.set_clocks(unit, clocks);
-    }
-
-    fn set_clocks(&mut self, unit: usize, clocks: Value) {
-        let (state, offset) = (self.state, self.layout.counters + unit as i32);
-        self.cursor.ins().store(MemFlagsData::trusted(), clocks, state, offset);
-    }
-
-    /// The state may have the new value of this register from `at` on.
-    pub fn change(&mut self, register: ValueId, at: Inst) {
-        let branch = self.branches.len() - 1;
-        self.changed[register.index()] = Some(Change { branch, at });
-        self.branches[branch].changed.push(register);
-    }
-
     fn set(&mut self, value: ValueId, lowered: Lowered) {
         let before = self.known[value.index()].replace(lowered);
         self.undo.push((value, before));
@@ -342,7 +190,7 @@ impl<'a> Values<'a> {
             let value = stack[stack.len() - 1];
             if let Some(mut lowered) = self.known[value.index()] {
                 if lowered.is_kept {
-                    lowered = self.read_again(value, lowered.bits);
+                    lowered = self.read_again(value, lowered);
                     self.set(value, lowered);
                 }
                 stack.pop();
@@ -352,7 +200,8 @@ impl<'a> Values<'a> {
                 continue;
             }
             let waiting = stack.len();
-            stack.extend(self.needed_first(value).filter(|operand| self.known[operand.index()].is_none()));
+            let before = self.alone.before(self.graph, self.tables, value);
+            stack.extend(before.into_iter().rev().filter(|operand| self.known[operand.index()].is_none()));
             if stack.len() == waiting {
                 let lowered = self.compute(value);
                 self.set(value, lowered);
@@ -371,26 +220,14 @@ impl<'a> Values<'a> {
     }
 
     /// A value that is kept.
-    fn read_again(&mut self, value: ValueId, bits: u32) -> Lowered {
-        let Some(Place { offset, width }) = self.layout.of(value) else {
-            return Lowered::below(self.constant(lane(self.graph.width(value)), 0), 0); // never: it has a place
+    fn read_again(&mut self, value: ValueId, lowered: Lowered) -> Lowered {
+        let any = match self.layout.of(value) {
+            Some(Place { offset, width }) => {
+                self.cursor.ins().load(lane(width), flags(width), self.state, offset)
+            }
+            None => self.constant(lane(self.graph.width(value)), 0), // never: it has a place
         };
-        let state = self.state;
-        Lowered::below(self.cursor.ins().load(lane(width), flags(width), state, offset), bits)
-    }
-
-    /// What has to be there before the value is computed, the last first: its operands, but of an arm that is computed where it
-    /// is taken only what it shares with others.
-    fn needed_first(&self, value: ValueId) -> impl Iterator<Item = ValueId> {
-        let operands = self.tables.operands(self.graph, value);
-        let mut needed = operands.to_vec();
-        if self.alone.branches(value) {
-            needed.truncate(1);
-            operands[1..]
-                .iter()
-                .for_each(|arm| self.alone.shared(self.graph, self.tables, *arm, &mut needed));
-        }
-        needed.into_iter().rev()
+        Lowered { any, zero: None, sign: None, is_kept: false, ..lowered }
     }
 
     /// A choice whose arms are computed only where they are taken.
@@ -400,17 +237,17 @@ impl<'a> Values<'a> {
         let next = self.cursor.func.dfg.make_block();
         let either = self.cursor.func.dfg.append_block_param(next, lane(width));
         self.cursor.ins().brif(condition, blocks[0], &[], blocks[1], &[]);
-        let mut bits = 0;
+        let mut of_arms = Vec::new();
         for (arm, block) in arms.into_iter().zip(blocks) {
             let mark = self.enter();
             self.cursor.insert_block(block);
             let lowered = self.any(arm);
-            bits = bits.max(lowered.bits);
+            of_arms.push(lowered);
             self.cursor.ins().jump(next, &[lowered.any.into()]);
             self.leave(mark);
         }
         self.cursor.insert_block(next);
-        Lowered::below(either, bits)
+        operators::either(either, of_arms[0], of_arms[1])
     }
 
     fn compute(&mut self, value: ValueId) -> Lowered {
@@ -422,6 +259,7 @@ impl<'a> Values<'a> {
             Kind::Op(Op::Mux, operands) if self.alone.branches(value) => {
                 self.chosen(operands[0], [operands[1], operands[2]], width)
             }
+            Kind::Stored if self.signs.has(value) => Lowered::signed(self.stored(value, width), width),
             Kind::Stored => Lowered::below(self.stored(value, width), width),
             Kind::Constant(constant) => {
                 Lowered::below(self.constant(lane(width), *constant), 128 - constant.leading_zeros())
@@ -449,30 +287,9 @@ impl<'a> Values<'a> {
         };
         Lowered::below(entry, width)
     }
-
-    /// An input or the old value of a register.
-    fn stored(&mut self, value: ValueId, width: u32) -> Value {
-        let Some(Place { offset, .. }) = self.layout.of(value) else {
-            return self.constant(lane(width), 0); // never: the layout has all that is stored
-        };
-        let state = self.state;
-        let Some(Change { branch, at }) = self.changed[value.index()] else {
-            return self.cursor.ins().load(lane(width), flags(width), state, offset);
-        };
-        if let Some(old) = self.old.get(&value) {
-            return *old;
-        }
-        let here = self.cursor.position();
-        self.cursor.goto_inst(at);
-        let old = self.cursor.ins().load(lane(width), flags(width), state, offset);
-        self.cursor.set_position(here);
-        self.old.insert(value, old);
-        self.branches[branch].old.push(value);
-        old
-    }
 }
 
 /// No access traps: all places lie within the state. They are aligned to 8 bytes.
-fn flags(width: u32) -> MemFlagsData {
+pub(super) fn flags(width: u32) -> MemFlagsData {
     if width <= 64 { MemFlagsData::trusted() } else { MemFlagsData::new().with_notrap() }
 }

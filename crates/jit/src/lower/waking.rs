@@ -1,0 +1,130 @@
+//! The counters of units: who sets them, and what is asked before one of them comes to 0.
+
+use cranelift_codegen::cursor::Cursor;
+use cranelift_codegen::ir::condcodes::IntCC;
+use cranelift_codegen::ir::{InstBuilder, MemFlagsData, Value, types};
+
+use super::operators;
+use super::values::{Values, flags};
+use crate::graph::ValueId;
+use crate::layout::Compared;
+
+impl Values<'_> {
+    /// The units have to know if the register, which is to be stored, changes.
+    pub fn compare(&mut self, register: ValueId, value: Value, units: u64) {
+        let Some(place) = self.layout.of(register).filter(|_| self.wakes.units(units).next().is_some())
+        else {
+            return;
+        };
+        let state = self.state;
+        let ty = self.cursor.func.dfg.value_type(value);
+        let old = self.cursor.ins().load(ty, flags(place.width), state, place.offset);
+        let mut difference = self.cursor.ins().bxor(old, value);
+        if ty == types::I128 {
+            let (low, high) = self.cursor.ins().isplit(difference);
+            difference = self.cursor.ins().bor(low, high);
+        }
+        let difference = operators::resized(self, difference, types::I64);
+        let branch = self.branches.len() - 1;
+        let same = self.branches[branch].differences.iter().position(|(others, _)| *others == units);
+        match same {
+            Some(at) => {
+                let other = self.branches[branch].differences[at].1;
+                self.branches[branch].differences[at].1 = self.cursor.ins().bor(other, difference);
+            }
+            None => self.branches[branch].differences.push((units, difference)),
+        }
+    }
+
+    /// At the end of a branch: the units work on that have to know what has changed in it.
+    pub fn wake_changed(&mut self) {
+        let branch = self.branches.len() - 1;
+        for (units, difference) in std::mem::take(&mut self.branches[branch].differences) {
+            for (unit, clocks) in self.wakes.units(units) {
+                let (before, all) = (self.clocks(unit), self.constant(types::I8, clocks.into()));
+                let clocks = self.cursor.ins().select(difference, all, before);
+                self.set_clocks(unit, clocks);
+            }
+        }
+    }
+
+    /// These units work on.
+    pub fn wake(&mut self, units: u64) {
+        for (unit, clocks) in self.wakes.units(units) {
+            let clocks = self.constant(types::I8, clocks.into());
+            self.set_clocks(unit, clocks);
+        }
+    }
+
+    /// For how many clocks a unit is to work, this one too: for all of them if a bit from another unit is not what it was.
+    pub fn clocks_now(&mut self, unit: usize) -> Value {
+        let mut changed = None;
+        for (gate, place) in self.wakes.gates(unit).iter().zip(&self.layout.gates[unit]) {
+            let (now, state) = (self.zero(*gate), self.state);
+            let before = self.cursor.ins().load(types::I8, flags(1), state, place.offset);
+            self.cursor.ins().store(flags(1), now, state, place.offset);
+            let differs = self.cursor.ins().bxor(now, before);
+            changed = Some(changed.map_or(differs, |changed| self.cursor.ins().bor(changed, differs)));
+        }
+        let clocks = self.clocks(unit);
+        let Some(changed) = changed else { return clocks };
+        let all = self.constant(types::I8, self.wakes.clocks[unit].into());
+        self.cursor.ins().select(changed, all, clocks)
+    }
+
+    /// For how many clocks a unit is to work on.
+    pub fn clocks(&mut self, unit: usize) -> Value {
+        let (state, offset) = (self.state, self.layout.counters + unit as i32);
+        self.cursor.ins().load(types::I8, MemFlagsData::trusted(), state, offset)
+    }
+
+    /// One clock less than so many.
+    pub fn count(&mut self, unit: usize, clocks: Value) {
+        let one = self.constant(types::I8, 1);
+        let clocks = self.cursor.ins().isub(clocks, one);
+        self.set_clocks(unit, clocks);
+    }
+
+    fn set_clocks(&mut self, unit: usize, clocks: Value) {
+        let (state, offset) = (self.state, self.layout.counters + unit as i32);
+        self.cursor.ins().store(MemFlagsData::trusted(), clocks, state, offset);
+    }
+
+    /// Before a unit works: for how many clocks it is to. When no change has set its counter for a while its own seeds are
+    /// compared with what they were in the clock before; all of them if one has changed.
+    pub fn asked(&mut self, unit: usize, clocks: Value) -> Value {
+        let Compared { offset, copy, bytes } = self.layout.compared[unit];
+        if bytes == 0 {
+            return clocks;
+        }
+        let [word, last, next] = [(); 3].map(|()| self.cursor.func.dfg.make_block());
+        let [at, others] = [(); 2].map(|()| self.cursor.func.dfg.append_block_param(word, types::I64));
+        let either = self.cursor.func.dfg.append_block_param(next, types::I8);
+        let first = self.constant(types::I8, self.wakes.asked_from(unit).into());
+        let zero = self.constant(types::I64, 0);
+        let is_asked = self.cursor.ins().icmp(IntCC::UnsignedLessThanOrEqual, clocks, first);
+        self.cursor.ins().brif(is_asked, word, &[zero.into(), zero.into()], next, &[clocks.into()]);
+
+        // A word a time: it is seldom done, and short code is compiled sooner.
+        self.cursor.insert_block(word);
+        let address = self.cursor.ins().iadd(self.state, at);
+        let now = self.cursor.ins().load(types::I64, flags(64), address, offset);
+        let before = self.cursor.ins().load(types::I64, flags(64), address, copy);
+        self.cursor.ins().store(flags(64), now, address, copy);
+        let differs = self.cursor.ins().bxor(now, before);
+        let differs = self.cursor.ins().bor(differs, others);
+        let (eight, end) = (self.constant(types::I64, 8), self.constant(types::I64, bytes as u128));
+        let at = self.cursor.ins().iadd(at, eight);
+        let goes_on = self.cursor.ins().icmp(IntCC::UnsignedLessThan, at, end);
+        self.cursor.ins().brif(goes_on, word, &[at.into(), differs.into()], last, &[]);
+
+        self.cursor.insert_block(last);
+        let all = self.constant(types::I8, self.wakes.clocks[unit].into());
+        let changed = self.cursor.ins().select(differs, all, clocks);
+        let is_first = self.cursor.ins().icmp(IntCC::Equal, clocks, first);
+        let changed = self.cursor.ins().select(is_first, clocks, changed);
+        self.cursor.ins().jump(next, &[changed.into()]);
+        self.cursor.insert_block(next);
+        either
+    }
+}
