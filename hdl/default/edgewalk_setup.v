@@ -79,11 +79,10 @@ module edgewalk_setup (
 );
 
   // Control: the operations one after the other, a clock each or more; in rounds where there are more jobs than lanes.
-  localparam [2:0] IDLE = 3'd0;
-  localparam [2:0] EDGES = 3'd1;
-  localparam [2:0] CHANNELS = 3'd2;
-  localparam [2:0] STORE = 3'd3;
-  localparam [2:0] DONE = 3'd4;
+  localparam [1:0] IDLE = 2'd0;
+  localparam [1:0] WORK = 2'd1;
+  localparam [1:0] STORE = 2'd2;
+  localparam [1:0] DONE = 2'd3;
   localparam [4:0] LOAD_DX = 5'd0;
   localparam [4:0] FIX_DX = 5'd1;
   localparam [4:0] DOUBLE_DX = 5'd2;
@@ -117,7 +116,7 @@ module edgewalk_setup (
   wire [3:0] scale;      // the modulus is the area 4^scale times
   wire unfit;            // a number was taken in that is not between -M and M
   wire [4:0] top_digit;  // place of the first digit of a sum
-  reg [2:0] state;
+  reg [1:0] state;
   reg [4:0] at;          // operation
   reg [4:0] left;        // its clocks after this one
   reg first;             // its first clock
@@ -128,13 +127,12 @@ module edgewalk_setup (
   wire advance = !paused;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
-  wire in_edges = state == EDGES;
-  wire works = in_edges || (state == CHANNELS);
+  wire works = state == WORK;
   assign prim_valid = state == DONE;
-  wire begins = in_edges && (at == LOAD_DX);         // the first clock of a triangle
-  wire gives_up = in_edges && (at == FIX_DX) && nothing;  // the triangle has no line or no column
+  wire begins = works && (at == LOAD_DX);            // the first clock of a triangle
+  wire gives_up = works && (at == FIX_DX) && nothing;  // the triangle has no line or no column
   wire last = left == 5'd0;                          // last clock of the operation
-  wire edges_end = in_edges && last && (at == COLUMNS);
+  wire edges_end = last && (at == COLUMNS);
   wire waits = edges_end && !area_known;             // for the area or its scale
   wire ends = works && last && !waits && !gives_up;  // the operation ends
   wire leaves = ends && advance;
@@ -144,9 +142,9 @@ module edgewalk_setup (
     if (rst) begin
       state <= IDLE;
     end else begin
-      if (take) state <= EDGES;
+      if (take) state <= WORK;
       if (gives_up && advance) state <= IDLE;
-      if (edges_end && leaves) state <= no_area ? IDLE : CHANNELS;
+      if (edges_end && leaves && no_area) state <= IDLE;
       if (leaves && channels_end) state <= STORE;
       if ((state == STORE) && last) state <= DONE;
       if (prim_valid && prim_ready) state <= IDLE;
@@ -220,15 +218,7 @@ module edgewalk_setup (
     ends_rest <= ends_stepped;
     at_whole <= at_rest;
     ends_whole <= ends_rest;
-  end
-
-  always @(posedge clk) begin
-    if (rst) begin
-      pause <= 4'd0;
-    end else begin
-      if (!advance) pause <= pause - 4'd1;
-      if (advance && unfit) pause <= 4'd14;
-    end
+    pause <= advance ? 4'd14 : pause - 4'd1;
   end
 
   always @(posedge clk) begin
@@ -306,27 +296,21 @@ module edgewalk_setup (
   end
 
   // Differences of the sorted vertices, from upper to lower ends of edges.
-  wire [22:0] difference = {p2_v[21], p2_v} - {p0_v[21], p0_v};
-  wire [21:0] tall = difference[21:0];
+  wire [21:0] tall = p2_v - p0_v;
   reg [21:0] dv02;  // 1/P line
   reg [21:0] dv01;  // 1/P line
   reg [21:0] dv12;  // 1/P line
   reg [22:0] du02;  // 1/P column, signed
   reg [22:0] du01;  // 1/P column, signed
   reg [22:0] du12;  // 1/P column, signed
-  wire [22:0] difference_2 = {p2_v[21], p2_v} - {p0_v[21], p0_v};
-  wire [22:0] difference_3 = {p1_v[21], p1_v} - {p0_v[21], p0_v};
-  wire [22:0] difference_4 = {p2_v[21], p2_v} - {p1_v[21], p1_v};
 
   always @(posedge clk) begin
-    if (begins) begin
-      dv02 <= difference_2[21:0];
-      dv01 <= difference_3[21:0];
-      dv12 <= difference_4[21:0];
-      du02 <= {p2_u[21], p2_u} - {p0_u[21], p0_u};
-      du01 <= {p1_u[21], p1_u} - {p0_u[21], p0_u};
-      du12 <= {p2_u[21], p2_u} - {p1_u[21], p1_u};
-    end
+    dv02 <= p2_v - p0_v;
+    dv01 <= p1_v - p0_v;
+    dv12 <= p2_v - p1_v;
+    du02 <= {p2_u[21], p2_u} - {p0_u[21], p0_u};
+    du01 <= {p1_u[21], p1_u} - {p0_u[21], p0_u};
+    du12 <= {p2_u[21], p2_u} - {p1_u[21], p1_u};
   end
 
   // Twice the area: du1 dv2 - du2 dv1, over the bits of dv2 and dv1.
@@ -336,7 +320,7 @@ module edgewalk_setup (
   wire [21:0] shifted_2 = dv01 >> area_digit;
   wire [23:0] area_part = (shifted[0] ? {du01[22], du01} : 24'd0)
                         - (shifted_2[0] ? {du02[22], du02} : 24'd0);
-  reg [45:0] area;       // 1/P^2 px^2, signed
+  reg [44:0] area;       // 1/P^2 px^2, signed
   assign no_area = !(|area);
   wire any = |tall[21:16];
   wire [5:0] part_2 = tall[21:16];
@@ -378,62 +362,49 @@ module edgewalk_setup (
   always @(posedge clk) begin
     if (area_adds) begin
       area_digit <= area_digit - 5'd1;
-      area <= (area << 1) + {{22{area_part[23]}}, area_part};
+      area <= (area << 1) + {{21{area_part[23]}}, area_part};
     end
     if (begins) begin
       area_digit <= {any, choice_5};
-      area <= 46'd0;
+      area <= 45'd0;
     end
   end
 
   wire equal = area_digit == 5'd0;
 
   always @(posedge clk) begin
-    if (rst) begin
-      area_adds <= 1'b0;
-    end else begin
-      if (area_adds && equal) area_adds <= 1'b0;
-      if (begins) area_adds <= 1'b1;
-    end
+    if (area_adds && equal) area_adds <= 1'b0;
+    if (begins) area_adds <= 1'b1;
   end
 
   // The area as modulus: fourfold, i times, until the differences of the next round's values fit.
   reg [27:0] differences;  // their bits, or those of complements
-  reg [45:0] scaled;       // -M or -M - 1, signed
+  reg [44:0] scaled;       // -M or -M - 1, signed
   reg scale_taken;         // the area is taken
   reg scaling;             // it is compared
   reg [3:0] scale_next;    // times that it is fourfold
-  wire [46:0] less_m = {{18'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
-  wire [45:0] part_21 = less_m[46:1];
-  wire fits = part_21[45] || !(|area);
+  wire [45:0] less_m = {{17'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
+  wire [44:0] part_21 = less_m[45:1];
+  wire fits = part_21[44] || !(|area);
   wire grows = scaling && !fits;
-  assign area_known = !area_adds && !begins && !scale_taken && !scaling;
+  assign area_known = !area_adds && !scale_taken && !scaling;
   assign scale = scale_next;
 
   always @(posedge clk) begin
-    if (rst) begin
-      scale_taken <= 1'b0;
-    end else begin
-      scale_taken <= area_adds && equal && !begins;
-    end
+    scale_taken <= area_adds && equal && !begins;
   end
 
   always @(posedge clk) begin
-    if (rst) begin
-      scaling <= 1'b0;
-    end else begin
-      if (fits) scaling <= 1'b0;
-      if (scale_taken) scaling <= 1'b1;
-      if (begins) scaling <= 1'b0;
-    end
+    if (fits) scaling <= 1'b0;
+    if (scale_taken) scaling <= 1'b1;
   end
 
-  wire inverse = !area[45];
-  wire [45:0] extended = area;
+  wire inverse = !area[44];
+  wire [44:0] extended = area;
 
   always @(posedge clk) begin
     if (grows) begin
-      scaled <= {scaled[43:0], inverse, inverse};
+      scaled <= {scaled[42:0], inverse, inverse};
       scale_next <= scale_next + 4'd1;
     end
     if (scale_taken) begin
@@ -443,132 +414,119 @@ module edgewalk_setup (
   end
 
   // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
-  wire [13:0] part_22 = p0_v[21:8];
-  wire [14:0] line0 = {part_22[13], part_22} + {14'd0, |p0_v[7:0]};  // ceil(v/P)
+  wire [20:0] part_22 = p0_v[20:0];
+  wire [14:0] line0 = {2'd0, part_22[20:8]} + {14'd0, |p0_v[7:0]};  // ceil(v/P) of one that is not above the screen
   reg [14:0] j0;        // line of the screen
-  wire [13:0] part_23 = p1_v[21:8];
-  wire [14:0] line1 = {part_23[13], part_23} + {14'd0, |p1_v[7:0]};  // ceil(v/P)
+  wire [20:0] part_23 = p1_v[20:0];
+  wire [14:0] line1 = {2'd0, part_23[20:8]} + {14'd0, |p1_v[7:0]};  // ceil(v/P) of one that is not above the screen
   reg [14:0] j1;        // line of the screen
-  wire [13:0] part_24 = p2_v[21:8];
-  wire [14:0] line2 = {part_24[13], part_24} + {14'd0, |p2_v[7:0]};  // ceil(v/P)
+  wire [20:0] part_24 = p2_v[20:0];
+  wire [14:0] line2 = {2'd0, part_24[20:8]} + {14'd0, |p2_v[7:0]};  // ceil(v/P) of one that is not above the screen
   reg [14:0] end_line;  // line of the screen
+  wire [14:0] difference = j1 - j0;
+  wire [14:0] difference_2 = end_line - j1;
 
   always @(posedge clk) begin
-    if (begins) begin
-      j0 <= p0_v[21] ? 15'd0 : ($signed(p0_v) <= 22'sh1df00) ? line0 : 15'd480;
-      j1 <= p1_v[21] ? 15'd0 : ($signed(p1_v) <= 22'sh1df00) ? line1 : 15'd480;
-      end_line <= p2_v[21] ? 15'd0 : ($signed(p2_v) <= 22'sh1df00) ? line2 : 15'd480;
-    end
-  end
-
-  wire [14:0] difference_5 = j1 - j0;
-  wire [14:0] difference_6 = end_line - j1;
-
-  always @(posedge clk) begin
-    if (at == FIX_DX) begin
-      prim_n1 <= difference_5[9:0];
-      prim_n2 <= difference_6[9:0];
-    end
+    j0 <= p0_v[21] ? 15'd0 : (part_22 <= 21'h1df00) ? line0 : 15'd480;
+    j1 <= p1_v[21] ? 15'd0 : (part_23 <= 21'h1df00) ? line1 : 15'd480;
+    end_line <= p2_v[21] ? 15'd0 : (part_24 <= 21'h1df00) ? line2 : 15'd480;
+    prim_n1 <= difference[9:0];
+    prim_n2 <= difference_2[9:0];
   end
 
   // Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.
-  wire [13:0] part_25 = p0_u[21:8];
-  wire [14:0] column0 = {part_25[13], part_25} + {14'd0, |p0_u[7:0]};  // ceil(u/P)
-  wire [13:0] part_26 = p1_u[21:8];
-  wire [14:0] column1 = {part_26[13], part_26} + {14'd0, |p1_u[7:0]};  // ceil(u/P)
-  wire [13:0] part_27 = p2_u[21:8];
-  wire [14:0] column2 = {part_27[13], part_27} + {14'd0, |p2_u[7:0]};  // ceil(u/P)
+  wire [13:0] column0 = p0_u[21:8] + {13'd0, |p0_u[7:0]};  // ceil(u/P)
+  wire [13:0] column1 = p1_u[21:8] + {13'd0, |p1_u[7:0]};  // ceil(u/P)
+  wire [13:0] column2 = p2_u[21:8] + {13'd0, |p2_u[7:0]};  // ceil(u/P)
   wire none_between = (column0 == column1) && (column1 == column2);
   wire before_screen = (p0_u[21] || !(|p0_u)) && (p1_u[21] || !(|p1_u)) && (p2_u[21] || !(|p2_u));  // ceil(u/P) is 0 or less
   wire behind_screen = !($signed(p0_u) <= 22'sh27f00)  // ceil(u/P) is W or more
                     && !($signed(p1_u) <= 22'sh27f00)
                     && !($signed(p2_u) <= 22'sh27f00);
-  reg no_column;                                   // no column of the screen
+  reg no_column;                                 // no column of the screen
   assign nothing = (j0 == end_line) || no_column;
   wire upper = |prim_n1;
-  wire [14:0] jm = upper ? j0 : j1;                // first line of the triangle
-  wire [22:0] h0 = {jm, 8'd0} - {p0_v[21], p0_v};  // 1/P line
-  wire [22:0] h1 = {j1, 8'd0} - {p1_v[21], p1_v};  // 1/P line
+  wire [14:0] jm = upper ? j0 : j1;              // first line of the triangle
+  wire [22:0] joined_2 = {jm, 8'd0};
+  wire [20:0] h0 = joined_2[20:0] - p0_v[20:0];  // 1/P line
+  wire [22:0] joined_3 = {j1, 8'd0};
+  wire [20:0] h1 = joined_3[20:0] - p1_v[20:0];  // 1/P line
 
   always @(posedge clk) begin
-    if (begins) no_column <= none_between || before_screen || behind_screen;
+    no_column <= none_between || before_screen || behind_screen;
   end
 
   // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
-  reg [23:0] f;  // factor, signed
-  reg [23:0] g;  // factor, signed
+  reg [22:0] f;                             // factor, signed
+  reg [22:0] g;                             // factor, signed
   wire second_counts = (at == WAIT_DX) && (|prim_n2);
-  wire [23:0] differing = f ^ $unsigned($signed(f) >>> 1);
-  wire [23:0] differing_2 = g ^ $unsigned($signed(g) >>> 1);
-  wire [23:0] either = {16'd0, p1_u[7:0]} | {1'b0, h1};
-  wire [22:0] digits = differing[22:0] | differing_2[22:0] | (second_counts ? either[22:0] : 23'd0);  // digits of the factors that differ from their signs
-  wire any_11 = |digits[22:16];
-  wire [6:0] part_29 = digits[22:16];
-  wire [2:0] part_28 = part_29[6:4];
-  wire any_12 = |part_28;
-  wire any_13 = part_28[2];
-  wire [1:0] part_30 = part_28[1:0];
-  wire [3:0] part_32 = part_29[3:0];
-  wire [1:0] part_31 = part_32[3:2];
-  wire any_14 = |part_31;
-  wire [1:0] part_33 = part_32[1:0];
-  wire [1:0] choice_6 = any_12 ? {any_13, any_13 ? 1'b0 : part_30[1]}
-                      : {any_14, any_14 ? part_31[1] : part_33[1]};
-  wire [15:0] part_35 = digits[15:0];
-  wire [7:0] part_34 = part_35[15:8];
-  wire any_15 = |part_34;
-  wire [3:0] part_36 = part_34[7:4];
-  wire any_16 = |part_36;
-  wire [1:0] part_37 = part_36[3:2];
-  wire any_17 = |part_37;
-  wire [1:0] part_38 = part_36[1:0];
-  wire [3:0] part_40 = part_34[3:0];
-  wire [1:0] part_39 = part_40[3:2];
-  wire any_18 = |part_39;
-  wire [1:0] part_41 = part_40[1:0];
-  wire [1:0] choice_7 = any_16 ? {any_17, any_17 ? part_37[1] : part_38[1]}
-                      : {any_18, any_18 ? part_39[1] : part_41[1]};
-  wire [7:0] part_43 = part_35[7:0];
-  wire [3:0] part_42 = part_43[7:4];
-  wire any_19 = |part_42;
-  wire [1:0] part_44 = part_42[3:2];
-  wire any_20 = |part_44;
-  wire [1:0] part_45 = part_42[1:0];
-  wire [3:0] part_47 = part_43[3:0];
-  wire [1:0] part_46 = part_47[3:2];
-  wire any_21 = |part_46;
-  wire [1:0] part_48 = part_47[1:0];
-  wire [1:0] choice_8 = any_19 ? {any_20, any_20 ? part_44[1] : part_45[1]}
-                      : {any_21, any_21 ? part_46[1] : part_48[1]};
+  wire [22:0] either = {15'd0, p1_u[7:0]} | {2'd0, h1};
+  wire [21:0] digits = (f[21:0] ^ f[22:1])  // digits of the factors that differ from their signs
+                     | (g[21:0] ^ g[22:1])
+                     | (second_counts ? either[21:0] : 22'd0);
+  wire any_11 = |digits[21:16];
+  wire [5:0] part_26 = digits[21:16];
+  wire [1:0] part_25 = part_26[5:4];
+  wire any_12 = |part_25;
+  wire [3:0] part_28 = part_26[3:0];
+  wire [1:0] part_27 = part_28[3:2];
+  wire any_13 = |part_27;
+  wire [1:0] part_29 = part_28[1:0];
+  wire [1:0] choice_6 = any_12 ? {1'b0, part_25[1]} : {any_13, any_13 ? part_27[1] : part_29[1]};
+  wire [15:0] part_31 = digits[15:0];
+  wire [7:0] part_30 = part_31[15:8];
+  wire any_14 = |part_30;
+  wire [3:0] part_32 = part_30[7:4];
+  wire any_15 = |part_32;
+  wire [1:0] part_33 = part_32[3:2];
+  wire any_16 = |part_33;
+  wire [1:0] part_34 = part_32[1:0];
+  wire [3:0] part_36 = part_30[3:0];
+  wire [1:0] part_35 = part_36[3:2];
+  wire any_17 = |part_35;
+  wire [1:0] part_37 = part_36[1:0];
+  wire [1:0] choice_7 = any_15 ? {any_16, any_16 ? part_33[1] : part_34[1]}
+                      : {any_17, any_17 ? part_35[1] : part_37[1]};
+  wire [7:0] part_39 = part_31[7:0];
+  wire [3:0] part_38 = part_39[7:4];
+  wire any_18 = |part_38;
+  wire [1:0] part_40 = part_38[3:2];
+  wire any_19 = |part_40;
+  wire [1:0] part_41 = part_38[1:0];
+  wire [3:0] part_43 = part_39[3:0];
+  wire [1:0] part_42 = part_43[3:2];
+  wire any_20 = |part_42;
+  wire [1:0] part_44 = part_43[1:0];
+  wire [1:0] choice_8 = any_18 ? {any_19, any_19 ? part_40[1] : part_41[1]}
+                      : {any_20, any_20 ? part_42[1] : part_44[1]};
   wire [3:0] choice_9 = any_11 ? {1'b0, {any_12, choice_6}}
-                      : {any_15, any_15 ? {any_16, choice_7} : {any_19, choice_8}};
+                      : {any_14, any_14 ? {any_15, choice_7} : {any_18, choice_8}};
   assign top_digit = {any_11, choice_9};
-  wire [23:0] shifted_3 = f >> left;
+  wire [22:0] shifted_3 = f >> left;
   wire digit_f = shifted_3[0];
-  wire [23:0] shifted_4 = g >> left;
+  wire [22:0] shifted_4 = g >> left;
   wire digit_g = shifted_4[0];
-  wire [22:0] joined_2 = {prim_major_c - {14'd0, area[45]}, 8'd0};
 
   always @(posedge clk) begin
     if (at == WAIT_DX) begin
-      f <= {16'd0, p0_u[7:0]};
-      g <= {1'b0, h0};
+      f <= {15'd0, p0_u[7:0]};
+      g <= {2'd0, h0};
     end
     if (at == WAIT) begin
-      f <= {2'd0, dv02};
-      g <= {2'd0, dv01};
+      f <= {1'b0, dv02};
+      g <= {1'b0, dv01};
     end
     if (at == DOUBLE_X) begin
-      f <= -{du02[22], du02};
-      g <= -{du01[22], du01};
+      f <= -du02;
+      g <= -du01;
     end
     if (at == ADD_X) begin
-      f <= {{9{prim_major_q[14]}}, prim_major_q};
-      g <= 24'd0;
+      f <= {{8{prim_major_q[14]}}, prim_major_q};
+      g <= 23'd0;
     end
     if (at == ADD_LINE) begin
-      f <= {joined_2[22], joined_2} - {{2{p0_u[21]}}, p0_u};
-      g <= {1'b0, h0};
+      f <= {prim_major_c - {14'd0, area[44]}, 8'd0} - {p0_u[21], p0_u};
+      g <= {2'd0, h0};
     end
   end
 
@@ -579,8 +537,7 @@ module edgewalk_setup (
                || (at == ADD_Y)
                || (at == ADD_LINE);
   wire either_3 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
-  wire [4:0] step = rests ? 5'd0
-                  : ((at == SUM) || (at == SUM_X)) ? (first ? 5'd17 : 5'd18)
+  wire [4:0] step = ((at == SUM) || (at == SUM_X)) ? (first ? 5'd17 : 5'd18)
                   : ((at == COLUMNS) || (at == ADD_START)) ? 5'd20
                   : either_2 ? 5'd16
                   : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 5'd19
@@ -629,10 +586,7 @@ module edgewalk_setup (
   end
 
   // Lane 0: its steps.
-  wire [4:0] step0 = ((at == DOUBLE_Y) && !rests) ? 5'd8
-                   : ((at == DOUBLE_X) && !rests) ? 5'd8
-                   : ((at == DOUBLE_DX) && !rests) ? 5'd8
-                   : step;
+  wire [4:0] step0 = rests ? 5'd0 : step;
   reg [4:0] step_next0;
   reg [4:0] step_again0;
   reg [4:0] step_of_pause0;
@@ -657,10 +611,7 @@ module edgewalk_setup (
   end
 
   // Lane 1: its steps.
-  wire [4:0] step1 = ((at == DOUBLE_Y) && !rests) ? 5'd8
-                   : ((at == DOUBLE_X) && !rests) ? 5'd8
-                   : ((at == DOUBLE_DX) && !rests) ? 5'd8
-                   : step;
+  wire [4:0] step1 = rests ? 5'd0 : step;
   reg [4:0] step_next1;
   reg [4:0] step_again1;
   reg [4:0] step_of_pause1;
@@ -683,10 +634,7 @@ module edgewalk_setup (
   end
 
   // Lane 2: its steps.
-  wire [4:0] step2 = ((at == DOUBLE_Y) && !rests) ? 5'd8
-                   : ((at == DOUBLE_X) && !rests) ? 5'd8
-                   : ((at == DOUBLE_DX) && !rests) ? 5'd8
-                   : step;
+  wire [4:0] step2 = rests ? 5'd0 : step;
   reg [4:0] step_next2;
   reg [4:0] step_again2;
   reg [4:0] step_of_pause2;
@@ -709,14 +657,8 @@ module edgewalk_setup (
   end
 
   // Lane 3: its steps.
-  wire [4:0] step3 = ((at == DOUBLE_Y) && !rests) ? 5'd8
-                   : ((at == DOUBLE_X) && !rests) ? 5'd8
-                   : ((at == DOUBLE_DX) && !rests) ? 5'd8
-                   : step;
+  wire [4:0] step3 = rests ? 5'd0 : step;
   reg [4:0] step_next3;
-  reg [4:0] step_again3;
-  reg [4:0] step_of_pause3;
-  wire [4:0] step_formed3 = advance ? step_next3 : step_of_pause3;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -726,43 +668,37 @@ module edgewalk_setup (
     end
   end
 
-  always @(posedge clk) begin
-    step_of_pause3 <= (pause == 4'd2) ? step_again3 : choice_10;
-  end
-
-  always @(posedge clk) begin
-    if (advance) step_again3 <= step_formed3;
-  end
-
   // What the lanes are shown in the next clock; in the first of a triangle dc1 of the first round.
   reg [1:0] from_place;
-  wire [1:0] from_vertex = from_place[1] ? p2_vertex : from_place[0] ? p1_vertex : p0_vertex;
+  wire [1:0] from_vertex = (from_place == 2'd2) ? p2_vertex
+                         : (from_place == 2'd1) ? p1_vertex
+                         : p0_vertex;
   reg [1:0] to_place;
-  wire [1:0] to_vertex = to_place[1] ? p2_vertex : to_place[0] ? p1_vertex : p0_vertex;
+  wire [1:0] to_vertex = (to_place == 2'd2) ? p2_vertex : (to_place == 2'd1) ? p1_vertex : p0_vertex;
   reg single_value;
   reg number_of_edge;
   reg number_is_height;
   wire either_5 = (at == FIX_DX) || (at == LOAD2) || (at == FIX2);
-  wire both_5 = area[45] && ((at == LOAD1) || (at == LOAD2));
+  wire both_5 = area[44] && ((at == LOAD1) || (at == LOAD2));
   wire equal_2 = at == ADD_START;
 
   always @(posedge clk) begin
     if (advance) begin
       from_place <= either_5 ? (both_5 ? 2'd0 : 2'd2) : both_5 ? 2'd1 : 2'd0;
-      to_place <= equal_2 ? (1'b0 ? 2'd1 : 2'd0)
-                : either_5 ? (both_5 ? 2'd2 : 2'd0)
-                : both_5 ? 2'd0
-                : 2'd1;
+      to_place <= equal_2 ? 2'd0 : either_5 ? (both_5 ? 2'd2 : 2'd0) : both_5 ? 2'd0 : 2'd1;
       single_value <= equal_2;
-      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
-      number_is_height <= at == LOAD_DY;
     end
     if (take) begin
       from_place <= 2'd0;
       to_place <= 2'd1;
       single_value <= 1'b0;
-      number_of_edge <= 1'b0;
-      number_is_height <= 1'b0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (advance) begin
+      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
+      number_is_height <= at == LOAD_DY;
     end
   end
 
@@ -777,7 +713,8 @@ module edgewalk_setup (
                         : from_vertex[1] ? {1'b0, vertex2_z}
                         : from_vertex[0] ? {1'b0, vertex1_z}
                         : {1'b0, vertex0_z};
-  wire [28:0] number0 = number_of_edge ? choice_11 : choice_12 - choice_13;  // signed
+  wire [28:0] difference_3 = choice_12 - choice_13;
+  wire [28:0] number0 = number_of_edge ? choice_11 : difference_3;  // signed
   reg [28:0] kept0;  // a number that may not fit, or a first value; signed
 
   always @(posedge clk) begin
@@ -792,8 +729,8 @@ module edgewalk_setup (
                         : from_vertex[1] ? {11'd0, vertex2_r}
                         : from_vertex[0] ? {11'd0, vertex1_r}
                         : {11'd0, vertex0_r};
-  wire [22:0] number1 = number_of_edge ? (number_is_height ? {1'b0, dv01} : du01)  // signed
-                      : choice_14 - choice_15;
+  wire [22:0] difference_4 = choice_14 - choice_15;
+  wire [22:0] number1 = number_of_edge ? (number_is_height ? {1'b0, dv01} : du01) : difference_4;  // signed
   reg [22:0] kept1;  // a number that may not fit, or a first value; signed
 
   always @(posedge clk) begin
@@ -808,8 +745,8 @@ module edgewalk_setup (
                         : from_vertex[1] ? {11'd0, vertex2_g}
                         : from_vertex[0] ? {11'd0, vertex1_g}
                         : {11'd0, vertex0_g};
-  wire [22:0] number2 = number_of_edge ? (number_is_height ? {1'b0, dv12} : du12)  // signed
-                      : choice_16 - choice_17;
+  wire [22:0] difference_5 = choice_16 - choice_17;
+  wire [22:0] number2 = number_of_edge ? (number_is_height ? {1'b0, dv12} : du12) : difference_5;  // signed
   reg [22:0] kept2;  // a number that may not fit, or a first value; signed
 
   always @(posedge clk) begin
@@ -824,23 +761,17 @@ module edgewalk_setup (
                         : from_vertex[1] ? {11'd0, vertex2_b}
                         : from_vertex[0] ? {11'd0, vertex1_b}
                         : {11'd0, vertex0_b};
-  wire [22:0] number3 = number_of_edge ? (number_is_height ? {1'b0, dv02} : du02)  // signed
-                      : choice_18 - choice_19;
-  reg [22:0] kept3;  // a number that may not fit, or a first value; signed
-  wire [27:0] shown = (number0[27:0] ^ {28{number0[28]}})
-                    | {5'd0, number1 ^ {23{number1[22]}}}
-                    | {5'd0, number2 ^ {23{number2[22]}}}
+  wire [22:0] number3 = choice_18 - choice_19;  // signed
+  reg [22:0] kept3;                             // a number that may not fit, or a first value; signed
+  wire [27:0] shown = (difference_3[27:0] ^ {28{difference_3[28]}})
+                    | {5'd0, difference_4 ^ {23{difference_4[22]}}}
+                    | {5'd0, difference_5 ^ {23{difference_5[22]}}}
                     | {5'd0, number3 ^ {23{number3[22]}}};
   wire lane0_unfit;
   wire lane1_unfit;
   wire lane2_unfit;
   wire lane3_unfit;
-  wire both_6 = lane1_unfit && (((at_stepped == FIX_DX) && (|prim_n1)) || 1'b0 || 1'b0);
-  wire both_7 = lane2_unfit && (((at_stepped == FIX_DX) && (|prim_n2)) || 1'b0 || 1'b0);
-  assign unfit = (lane0_unfit && ((at_stepped == FIX_DX) || 1'b0 || 1'b0))
-              || both_6
-              || both_7
-              || (lane3_unfit && (1'b0 || 1'b0 || 1'b0));
+  assign unfit = lane0_unfit || (lane1_unfit && (|prim_n1)) || (lane2_unfit && (|prim_n2));
 
   always @(posedge clk) begin
     if ((at_next == LOAD_DX) || (at_next == ADD_START)) kept3 <= number3;
@@ -852,14 +783,14 @@ module edgewalk_setup (
   end
 
   // Edge: major.
-  wire [44:0] lane0_rest_out;
+  wire [43:0] lane0_rest_out;
   wire [45:0] lane0_whole_out;
   wire [45:0] lane0_value;
-  wire choice_20 = is_sign ? f[23] : digit_f;
-  wire choice_21 = is_sign ? g[23] : digit_g;
-  wire [29:0] shifted_5 = $signed({kept0[28], kept0}) >>> {pause - 4'd2, 1'b0};
-  wire [13:0] part_49 = p0_u[21:8];
-  wire [46:0] joined_3 = {{kept0, 10'd0}, 8'd128};
+  wire choice_20 = is_sign ? f[22] : digit_f;
+  wire choice_21 = is_sign ? g[22] : digit_g;
+  wire [28:0] shifted_5 = $signed(kept0) >>> {pause - 4'd2, 1'b0};
+  wire [13:0] part_45 = p0_u[21:8];
+  wire [46:0] joined_4 = {{kept0, 10'd0}, 8'd128};
   wire equal_3 = at_rest == COLUMNS;
 
   edgewalk_setup_lane0 lane0 (
@@ -873,10 +804,10 @@ module edgewalk_setup (
     .digits        (shifted_5[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? {{32{part_49[13]}}, part_49} : joined_3[45:0]),
+    .whole_in      ((at_stepped == COLUMNS) ? {{32{part_45[13]}}, part_45} : joined_4[45:0]),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_next == LOAD1) ? scaled : ~{16'd0, {dv02, 8'd0}}),
-    .modulus_short (!((at_next == LOAD1) && area[45])),
+    .modulus_in    ((at_next == LOAD1) ? scaled : ~{15'd0, {dv02, 8'd0}}),
+    .modulus_short (!((at_next == LOAD1) && area[44])),
     .upwards       (equal_3),
     .unfit         (lane0_unfit),
     .rest_out      (lane0_rest_out),
@@ -884,22 +815,22 @@ module edgewalk_setup (
     .value         (lane0_value)
   );
 
-  wire any_22 = |dv02[21:8];
-  wire [36:0] part_50 = lane0_rest_out[44:8];
+  wire any_21 = |dv02[21:8];
+  wire [35:0] part_46 = lane0_rest_out[43:8];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == DOUBLE_DX)) prim_major_f <= any_22 ? part_50[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_major_f <= any_21 ? part_46[21:0] : 22'd0;
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_DX)) prim_major_q <= any_22 ? lane0_whole_out[14:0] : 15'd0;
+    if (ends_whole && (at_whole == DOUBLE_DX)) prim_major_q <= any_21 ? lane0_whole_out[14:0] : 15'd0;
   end
 
-  wire [29:0] difference_7 = {dv02, 8'd0} - lane0_rest_out[29:0];
+  wire [29:0] difference_6 = {dv02, 8'd0} - lane0_rest_out[29:0];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == COLUMNS)) begin
-      prim_major_r <= (|lane0_rest_out) ? difference_7[29:8] : 22'd0;
+      prim_major_r <= (|lane0_rest_out) ? difference_6[29:8] : 22'd0;
     end
   end
 
@@ -908,14 +839,14 @@ module edgewalk_setup (
   end
 
   // Edge: minor1.
-  wire [44:0] lane1_rest_out;
+  wire [43:0] lane1_rest_out;
   wire [29:0] lane1_whole_out;
   wire [29:0] lane1_value;
-  wire choice_22 = is_sign ? f[23] : digit_f;
-  wire choice_23 = is_sign ? g[23] : digit_g;
-  wire [23:0] shifted_6 = $signed({kept1[22], kept1}) >>> {pause - 4'd2, 1'b0};
-  wire [13:0] part_51 = p0_u[21:8];
-  wire [40:0] joined_4 = {{kept1, 10'd0}, 8'd128};
+  wire choice_22 = is_sign ? f[22] : digit_f;
+  wire choice_23 = is_sign ? g[22] : digit_g;
+  wire [22:0] shifted_6 = $signed(kept1) >>> {pause - 4'd2, 1'b0};
+  wire [13:0] part_47 = p0_u[21:8];
+  wire [40:0] joined_5 = {{kept1, 10'd0}, 8'd128};
 
   edgewalk_setup_lane1 lane1 (
     .clk           (clk),
@@ -928,10 +859,10 @@ module edgewalk_setup (
     .digits        (shifted_6[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_51[13]}}, part_51} : joined_4[29:0]),
+    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_47[13]}}, part_47} : joined_5[29:0]),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_next == LOAD1) ? scaled : ~{16'd0, {dv01, 8'd0}}),
-    .modulus_short (!((at_next == LOAD1) && area[45])),
+    .modulus_in    ((at_next == LOAD1) ? scaled : ~{15'd0, {dv01, 8'd0}}),
+    .modulus_short (!((at_next == LOAD1) && area[44])),
     .upwards       (equal_3),
     .unfit         (lane1_unfit),
     .rest_out      (lane1_rest_out),
@@ -939,24 +870,24 @@ module edgewalk_setup (
     .value         (lane1_value)
   );
 
-  wire both_8 = (|prim_n1) && (|dv01[21:8]);
-  wire [36:0] part_52 = lane1_rest_out[44:8];
+  wire both_6 = (|prim_n1) && (|dv01[21:8]);
+  wire [35:0] part_48 = lane1_rest_out[43:8];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor1_f <= both_8 ? part_52[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor1_f <= both_6 ? part_48[21:0] : 22'd0;
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX)) begin
-      prim_minor1_q <= both_8 ? lane1_whole_out[14:0] : 15'd0;
+      prim_minor1_q <= both_6 ? lane1_whole_out[14:0] : 15'd0;
     end
   end
 
-  wire [29:0] difference_8 = {dv01, 8'd0} - lane1_rest_out[29:0];
+  wire [29:0] difference_7 = {dv01, 8'd0} - lane1_rest_out[29:0];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == COLUMNS)) begin
-      prim_minor1_r <= (|prim_n1) ? ((|lane1_rest_out) ? difference_8[29:8] : 22'd0) : 22'd0;
+      prim_minor1_r <= (|prim_n1) ? ((|lane1_rest_out) ? difference_7[29:8] : 22'd0) : 22'd0;
     end
   end
 
@@ -965,17 +896,17 @@ module edgewalk_setup (
   end
 
   // Edge: minor2.
-  wire [44:0] lane2_rest_out;
+  wire [43:0] lane2_rest_out;
   wire [29:0] lane2_whole_out;
   wire [29:0] lane2_value;
   wire equal_4 = at == SUM;
   wire [7:0] shifted_7 = p1_u[7:0] >> left;
-  wire choice_24 = is_sign ? f[23] : equal_4 ? shifted_7[0] : digit_f;
-  wire [22:0] shifted_8 = h1 >> left;
-  wire choice_25 = is_sign ? g[23] : equal_4 ? shifted_8[0] : digit_g;
-  wire [23:0] shifted_9 = $signed({kept2[22], kept2}) >>> {pause - 4'd2, 1'b0};
-  wire [13:0] part_53 = p1_u[21:8];
-  wire [40:0] joined_5 = {{kept2, 10'd0}, 8'd128};
+  wire choice_24 = is_sign ? f[22] : equal_4 ? shifted_7[0] : digit_f;
+  wire [20:0] shifted_8 = h1 >> left;
+  wire choice_25 = is_sign ? g[22] : equal_4 ? shifted_8[0] : digit_g;
+  wire [22:0] shifted_9 = $signed(kept2) >>> {pause - 4'd2, 1'b0};
+  wire [13:0] part_49 = p1_u[21:8];
+  wire [40:0] joined_6 = {{kept2, 10'd0}, 8'd128};
 
   edgewalk_setup_lane1 lane2 (
     .clk           (clk),
@@ -988,10 +919,10 @@ module edgewalk_setup (
     .digits        (shifted_9[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_53[13]}}, part_53} : joined_5[29:0]),
+    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_49[13]}}, part_49} : joined_6[29:0]),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_next == LOAD1) ? scaled : ~{16'd0, {dv12, 8'd0}}),
-    .modulus_short (!((at_next == LOAD1) && area[45])),
+    .modulus_in    ((at_next == LOAD1) ? scaled : ~{15'd0, {dv12, 8'd0}}),
+    .modulus_short (!((at_next == LOAD1) && area[44])),
     .upwards       (equal_3),
     .unfit         (lane2_unfit),
     .rest_out      (lane2_rest_out),
@@ -999,24 +930,24 @@ module edgewalk_setup (
     .value         (lane2_value)
   );
 
-  wire both_9 = (|prim_n2) && (|dv12[21:8]);
-  wire [36:0] part_54 = lane2_rest_out[44:8];
+  wire both_7 = (|prim_n2) && (|dv12[21:8]);
+  wire [35:0] part_50 = lane2_rest_out[43:8];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor2_f <= both_9 ? part_54[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor2_f <= both_7 ? part_50[21:0] : 22'd0;
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX)) begin
-      prim_minor2_q <= both_9 ? lane2_whole_out[14:0] : 15'd0;
+      prim_minor2_q <= both_7 ? lane2_whole_out[14:0] : 15'd0;
     end
   end
 
-  wire [29:0] difference_9 = {dv12, 8'd0} - lane2_rest_out[29:0];
+  wire [29:0] difference_8 = {dv12, 8'd0} - lane2_rest_out[29:0];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == COLUMNS)) begin
-      prim_minor2_r <= (|prim_n2) ? ((|lane2_rest_out) ? difference_9[29:8] : 22'd0) : 22'd0;
+      prim_minor2_r <= (|prim_n2) ? ((|lane2_rest_out) ? difference_8[29:8] : 22'd0) : 22'd0;
     end
   end
 
@@ -1027,7 +958,7 @@ module edgewalk_setup (
   // Channel: z.
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_X)) begin
-      prim_z_g <= area[45] ? -lane0_value[37:0] : lane0_value[37:0];
+      prim_z_g <= area[44] ? -lane0_value[37:0] : lane0_value[37:0];
     end
   end
 
@@ -1040,13 +971,13 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_START)) prim_z_start <= lane0_whole_out[45:8];
+    if (at_whole == ADD_START) prim_z_start <= lane0_whole_out[45:8];
   end
 
   // Channel: r.
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_X)) begin
-      prim_r_g <= area[45] ? -lane1_value[21:0] : lane1_value[21:0];
+      prim_r_g <= area[44] ? -lane1_value[21:0] : lane1_value[21:0];
     end
   end
 
@@ -1059,13 +990,13 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_START)) prim_r_start <= lane1_whole_out[29:8];
+    if (at_whole == ADD_START) prim_r_start <= lane1_whole_out[29:8];
   end
 
   // Channel: g.
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_X)) begin
-      prim_g_g <= area[45] ? -lane2_value[21:0] : lane2_value[21:0];
+      prim_g_g <= area[44] ? -lane2_value[21:0] : lane2_value[21:0];
     end
   end
 
@@ -1078,18 +1009,16 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_START)) prim_g_start <= lane2_whole_out[29:8];
+    if (at_whole == ADD_START) prim_g_start <= lane2_whole_out[29:8];
   end
 
   // Channel: b.
   wire [29:0] lane3_value;
   wire [29:0] lane3_whole_out;
-  wire choice_26 = is_sign ? f[23] : digit_f;
-  wire choice_27 = is_sign ? g[23] : digit_g;
-  wire [23:0] shifted_10 = $signed({kept3[22], kept3}) >>> {pause - 4'd2, 1'b0};
-  wire [13:0] part_55 = p0_u[21:8];
-  wire [40:0] joined_6 = {{kept3, 10'd0}, 8'd128};
-  wire [44:0] lane3_rest_out_unused;
+  wire choice_26 = is_sign ? f[22] : digit_f;
+  wire choice_27 = is_sign ? g[22] : digit_g;
+  wire [40:0] joined_7 = {{kept3, 10'd0}, 8'd128};
+  wire [43:0] lane3_rest_out_unused;
 
   edgewalk_setup_lane1 lane3 (
     .clk           (clk),
@@ -1097,15 +1026,15 @@ module edgewalk_setup (
     .advance       (advance),
     .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_26 || choice_27), choice_27, choice_26}
 : read_single_at),
-    .step          (step_formed3),
+    .step          (step_next3),
     .number        (number3),
-    .digits        (shifted_10[1:0]),
+    .digits        (2'd0),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_55[13]}}, part_55} : joined_6[29:0]),
+    .whole_in      (joined_7[29:0]),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_next == LOAD1) ? scaled : ~{16'd0, {dv02, 8'd0}}),
-    .modulus_short (!((at_next == LOAD1) && area[45])),
+    .modulus_in    (scaled),
+    .modulus_short (!area[44]),
     .upwards       (equal_3),
     .unfit         (lane3_unfit),
     .rest_out      (lane3_rest_out_unused),
@@ -1115,7 +1044,7 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_X)) begin
-      prim_b_g <= area[45] ? -lane3_value[21:0] : lane3_value[21:0];
+      prim_b_g <= area[44] ? -lane3_value[21:0] : lane3_value[21:0];
     end
   end
 
@@ -1128,26 +1057,25 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_START)) prim_b_start <= lane3_whole_out[29:8];
+    if (at_whole == ADD_START) prim_b_start <= lane3_whole_out[29:8];
   end
 
   assign prim_jm = jm[8:0];
-  assign prim_major_right = area[45];
+  assign prim_major_right = area[44];
   assign prim_major_m = dv02;
   assign prim_minor1_m = dv01;
   assign prim_minor2_m = dv12;
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, ends_fixed, less_m[0], lane0_value[45:38], lane1_value[29:22], lane2_value[29:22],
-    lane3_value[29:22], lane3_whole_out[7:0], difference[22], difference_2[22], difference_3[22],
-    difference_4[22], part_5[0], part_10[0], part_13[0], part_17[0], part_20[0], shifted[21:1],
-    shifted_2[21:1], part_21[44:0], difference_5[14:10], difference_6[14:10], differing[23],
-    differing_2[23], either[23], part_30[0], part_33[0], part_38[0], part_41[0], part_45[0], part_48[0],
-    shifted_3[23:1], shifted_4[23:1], shifted_7[7:1], shifted_8[22:1], shifted_5[29:2], joined_3[46],
-    shifted_6[23:2], joined_4[40:30], shifted_9[23:2], joined_5[40:30], shifted_10[23:2],
-    joined_6[40:30], part_50[36:22], difference_7[7:0], part_52[36:22], difference_8[7:0],
-    part_54[36:22], difference_9[7:0]
+    1'b0, ends_fixed, less_m[0], lane3_unfit, lane0_value[45:38], lane1_value[29:22],
+    lane2_value[29:22], lane3_value[29:22], lane3_whole_out[7:0], part_5[0], part_10[0], part_13[0],
+    part_17[0], part_20[0], shifted[21:1], shifted_2[21:1], part_21[43:0], difference[14:10],
+    difference_2[14:10], joined_2[22:21], joined_3[22:21], either[22], part_29[0], part_34[0],
+    part_37[0], part_41[0], part_44[0], shifted_3[22:1], shifted_4[22:1], shifted_7[7:1],
+    shifted_8[20:1], shifted_5[28:2], joined_4[46], shifted_6[22:2], joined_5[40:30], shifted_9[22:2],
+    joined_6[40:30], joined_7[40:30], part_46[35:22], difference_6[7:0], part_48[35:22],
+    difference_7[7:0], part_50[35:22], difference_8[7:0]
   };
 
 endmodule

@@ -24,18 +24,18 @@ module edgewalk_setup_lane0 (
   input  wire  [2:0] write_at,
   input  wire [45:0] whole_in,       // whole number to add, with the step done
   input  wire        take_modulus,
-  input  wire [45:0] modulus_in,     // -M, or -M - 1 if modulus_short; signed
+  input  wire [44:0] modulus_in,     // -M, or -M - 1 if modulus_short; signed
   input  wire        modulus_short,
   input  wire        upwards,        // value rounds up whatever is not whole, not to nearest
 
   output wire        unfit,          // the number that was taken in is not between -M and M
-  output wire [44:0] rest_out,       // 1/M, from the clock after a step
+  output wire [43:0] rest_out,       // 1/M, from the clock after a step
   output wire [45:0] whole_out,      // modular, a clock later
   output wire [45:0] value           // modular, with whole
 );
 
   // The modulus: -M, or its complement -M - 1, with the 1 that is then missing.
-  reg [45:0] modulus;  // -M or -M - 1, signed
+  reg [44:0] modulus;  // -M or -M - 1, signed
   reg short;           // 1 is missing in modulus
 
   always @(posedge clk) begin
@@ -46,49 +46,49 @@ module edgewalk_setup_lane0 (
   end
 
   // The rests of the slots. Slot 0 is never written: it holds 0.
-  reg [45:0] rest;         // 1/M, signed while a number is taken in
-  wire [45:0] rest_next;
-  reg [44:0] rests [0:7];  // 1/M
+  reg [44:0] rest;         // 1/M, signed while a number is taken in
+  wire [44:0] rest_next;
+  reg [43:0] rests [0:7];  // 1/M
 
   initial begin : rests_init
     integer rests_index;
-    for (rests_index = 0; rests_index < 8; rests_index = rests_index + 1) rests[rests_index] = 45'd0;
+    for (rests_index = 0; rests_index < 8; rests_index = rests_index + 1) rests[rests_index] = 44'd0;
   end
 
   always @(posedge clk) begin
-    if (write) rests[write_at] <= rest_next[44:0];
+    if (write) rests[write_at] <= rest_next[43:0];
   end
 
-  reg [44:0] rests_q;
+  reg [43:0] rests_q;
 
   always @(posedge clk) begin
     if (advance) rests_q <= rests[read_at];
   end
 
   // The addend of the step that follows.
-  reg [45:0] n0;                           // a, or a number to take in
-  reg [46:0] n1;                           // a - M, signed
-  reg [47:0] n2;                           // a - 2 M, signed
+  reg [44:0] n0;                           // a, or a number to take in
+  reg [45:0] n1;                           // a - M, signed
+  reg [44:0] n2;                           // a - 2 M, modular
   reg below;                               // the number taken in is below 0
-  wire add_modulus = step[2] && ((step[0] && below) || (!step[0] && n0[45]));
+  wire add_modulus = step[2] && ((step[0] && below) || (!step[0] && n0[44]));
   wire take_modulus_off = step[3];
   wire of_slot = step[4];
   wire with_sign = of_slot && step[1] && step[0];
   wire negate = add_modulus || with_sign || ((step == 5'd2) && below);
   wire of_modulus = add_modulus || take_modulus_off;
-  wire [45:0] a = of_modulus ? modulus : of_slot ? {1'b0, rests_q} : 46'd0;  // addend, 1/M, or -M
-  wire [47:0] a_less_m = {{a[45], a}, 1'b1} + {{modulus[45], modulus}, short};  // and a carry out of the lowest bit
-  wire [46:0] to_negate = with_sign ? a_less_m[47:1] : {a[45], a};  // -a is -1 + (M - a)/M
-  wire [46:0] less_2m = {modulus, short};  // -2 M, or -2 M - 1
-  wire [48:0] a_less_2m = {{{2{a[45]}}, a}, 1'b1} + {{less_2m[46], less_2m}, short};  // and a carry out of the lowest bit
+  wire [44:0] a = of_modulus ? modulus : of_slot ? {1'b0, rests_q} : 45'd0;  // addend, 1/M, or -M
+  wire [46:0] a_less_m = {{a[44], a}, 1'b1} + {{modulus[44], modulus}, short};  // and a carry out of the lowest bit
+  wire [45:0] to_negate = with_sign ? a_less_m[46:1] : {a[44], a};  // -a is -1 + (M - a)/M
+  wire [45:0] less_2m = {modulus, short};  // -2 M, or -2 M - 1
+  wire [45:0] a_less_2m = {a, 1'b1} + {less_2m[44:0], short};  // and a carry out of the lowest bit
   reg carry0;                              // 1 to add to the sum of n0
   reg carry;                               // 1 to add to the other sums
-  wire [46:0] differing = to_negate ^ {47{negate}};
+  wire [45:0] differing = to_negate ^ {46{negate}};
 
   always @(posedge clk) begin
-    n0 <= (step == 5'd1) ? {{17{number[28]}}, number} : differing[45:0];
-    n1 <= a_less_m[47:1];
-    n2 <= a_less_2m[48:1];
+    n0 <= (step == 5'd1) ? {{16{number[28]}}, number} : differing[44:0];
+    n1 <= a_less_m[46:1];
+    n2 <= a_less_2m[45:1];
     carry0 <= with_sign || (add_modulus && !short) || (take_modulus_off && short);
     carry <= take_modulus_off && short;
   end
@@ -100,24 +100,23 @@ module edgewalk_setup_lane0 (
   reg from_zero;
   reg compared;                                    // M is taken off if it goes
   reg [1:0] digits_now;
-  wire [47:0] extended = {{2{rest[45]}}, rest};
-  wire [47:0] x = fourfold ? {extended[45:0], digits_now}
+  wire [45:0] extended = {rest[44], rest};
+  wire [45:0] x = fourfold ? {extended[43:0], digits_now}
                 : twofold ? extended << 1
-                : from_zero ? 48'd0
+                : from_zero ? 46'd0
                 : extended;
-  wire [48:0] x_and_n0 = {x, 1'b1} + {{{2{n0[45]}}, n0}, carry0};  // and a carry out of the lowest bit
-  wire [47:0] s0 = x_and_n0[48:1];
-  wire [48:0] x_and_n1 = {x, 1'b1} + {{n1[46], n1}, carry};  // and a carry out of the lowest bit
-  wire [47:0] s1 = x_and_n1[48:1];
-  wire [48:0] x_and_n2 = {x, 1'b1} + {n2, carry};  // and a carry out of the lowest bit
-  wire [47:0] s2 = x_and_n2[48:1];
-  wire fits0 = !s0[47];
-  wire fits1 = !s1[47] && compared;
-  wire fits2 = !s2[47] && compared;
+  wire [45:0] x_and_n0 = {x[44:0], 1'b1} + {n0, carry0};  // and a carry out of the lowest bit
+  wire [44:0] s0 = x_and_n0[45:1];
+  wire [46:0] x_and_n1 = {x, 1'b1} + {n1, carry};  // and a carry out of the lowest bit
+  wire [45:0] s1 = x_and_n1[46:1];
+  wire [45:0] x_and_n2 = {x[44:0], 1'b1} + {n2, carry};  // and a carry out of the lowest bit
+  wire [44:0] s2 = x_and_n2[45:1];
+  wire fits0 = !s0[44];
+  wire s1_fits = !s1[45];
+  wire fits1 = s1_fits && compared;
+  wire fits2 = fits1 && !s2[44];
   wire stays = fourfold && !fits0;
-  wire [47:0] choice = fits2 ? s2 : fits1 ? s1 : stays ? x : s0;
-  assign rest_next = choice[45:0];
-  wire rest_stays = (now == 5'd0) || (now == 5'd20);
+  assign rest_next = fits2 ? s2 : fits1 ? s1[44:0] : stays ? x[44:0] : s0;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -134,18 +133,17 @@ module edgewalk_setup_lane0 (
     compared <= (step == 5'd3)
              || (step == 5'd8)
              || (step == 5'd9)
-             || (step == 5'd17)
              || (step == 5'd18)
              || (step == 5'd16);
     digits_now <= (step == 5'd9) ? digits : 2'd0;
   end
 
   always @(posedge clk) begin
-    if (!rest_stays) rest <= rest_next;
+    if (!(now == 5'd20)) rest <= rest_next;
   end
 
   always @(posedge clk) begin
-    if ((now == 5'd1) && advance) below <= n0[45];
+    if ((now == 5'd1) && advance) below <= n0[44];
   end
 
   // The whole part, a clock behind.
@@ -188,15 +186,10 @@ module edgewalk_setup_lane0 (
   wire one = !was_fourfold && (|taken);
   wire [46:0] x_and_b = {whole_x, 1'b1} + {b, one};  // and a carry out of the lowest bit
   assign whole_next = x_and_b[46:1];
-  wire whole_stays = (then == 5'd0) || (then == 5'd2);
-
-  always @(posedge clk) begin
-    if (advance) read_whole_at <= read_at;
-  end
-
   wire [45:0] extended_2 = {46{negated}};
 
   always @(posedge clk) begin
+    read_whole_at <= read_at;
     write_then <= write;
     write_then_at <= write_at;
     negated <= negate;
@@ -210,27 +203,27 @@ module edgewalk_setup_lane0 (
   end
 
   always @(posedge clk) begin
-    if (!whole_stays) whole <= whole_next;
+    if (!(then == 5'd2)) whole <= whole_next;
   end
 
   // What is done is given out rounded: to nearest, halves up, or up.
-  wire [47:0] past_half = {{1'b0, {rest[44:0], 1'b0}}, 1'b1} + {{modulus[45], modulus}, short};  // and a carry out of the lowest bit
+  wire [45:0] past_half = {{rest[43:0], 1'b0}, 1'b1} + {modulus, short};  // and a carry out of the lowest bit
   reg up;
-  wire [46:0] part = past_half[47:1];
+  wire [44:0] part = past_half[45:1];
 
   always @(posedge clk) begin
-    up <= upwards ? |rest[44:0] : !part[46];
+    up <= upwards ? |rest[43:0] : !part[44];
   end
 
-  assign unfit = (now == 5'd4) && (below ? s0[47] : !s1[47]);
-  assign rest_out = rest[44:0];
+  assign unfit = (now == 5'd4) && (below ? !fits0 : s1_fits);
+  assign rest_out = rest[43:0];
   assign whole_out = whole;
   assign value = whole + {45'd0, up};
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, a_less_m[0], a_less_2m[0], x_and_n0[0], x_and_n1[0], x_and_n2[0], x_and_b[0], past_half[0],
-    differing[46], choice[47:46], part[45:0]
+    1'b0, a_less_m[0], less_2m[45], a_less_2m[0], x_and_n0[0], x_and_n1[0], x_and_n2[0], x_and_b[0],
+    past_half[0], differing[45], part[43:0]
   };
 
 endmodule

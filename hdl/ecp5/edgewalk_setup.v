@@ -79,11 +79,10 @@ module edgewalk_setup (
 );
 
   // Control: the operations one after the other, a clock each or more; in rounds where there are more jobs than lanes.
-  localparam [2:0] IDLE = 3'd0;
-  localparam [2:0] EDGES = 3'd1;
-  localparam [2:0] CHANNELS = 3'd2;
-  localparam [2:0] STORE = 3'd3;
-  localparam [2:0] DONE = 3'd4;
+  localparam [1:0] IDLE = 2'd0;
+  localparam [1:0] WORK = 2'd1;
+  localparam [1:0] STORE = 2'd2;
+  localparam [1:0] DONE = 2'd3;
   localparam [4:0] LOAD_DX = 5'd0;
   localparam [4:0] FIX_DX = 5'd1;
   localparam [4:0] DOUBLE_DX = 5'd2;
@@ -117,7 +116,7 @@ module edgewalk_setup (
   wire [3:0] scale;      // the modulus is the area 4^scale times
   wire unfit;            // a number was taken in that is not between -M and M
   wire [4:0] top_digit;  // place of the first digit of a sum
-  reg [2:0] state;
+  reg [1:0] state;
   reg [4:0] at;          // operation
   reg [4:0] left;        // its clocks after this one
   reg first;             // its first clock
@@ -129,14 +128,13 @@ module edgewalk_setup (
   wire advance = !paused;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
-  wire in_edges = state == EDGES;
-  wire works = in_edges || (state == CHANNELS);
+  wire works = state == WORK;
   assign prim_valid = state == DONE;
-  wire begins = in_edges && (at == LOAD_DX) && (round == 2'd0);  // the first clock of a triangle
-  wire gives_up = in_edges && (at == FIX_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
+  wire begins = works && (at == LOAD_DX) && (round == 2'd0);  // the first clock of a triangle
+  wire gives_up = works && (at == FIX_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
   wire last = left == 5'd0;                          // last clock of the operation
-  wire edges_end = in_edges && last && (at == COLUMNS) && (round == 2'd2);
-  wire round_ends = (state == CHANNELS) && last && (at == ADD_START) && !(round == 2'd3);
+  wire edges_end = last && (at == COLUMNS) && (round == 2'd2);
+  wire round_ends = last && (at == ADD_START) && !(round == 2'd3);
   wire waits = (edges_end || round_ends) && !area_known;  // for the area or its scale
   wire ends = works && last && !waits && !gives_up;  // the operation ends
   wire leaves = ends && advance;
@@ -146,9 +144,9 @@ module edgewalk_setup (
     if (rst) begin
       state <= IDLE;
     end else begin
-      if (take) state <= EDGES;
+      if (take) state <= WORK;
       if (gives_up && advance) state <= IDLE;
-      if (edges_end && leaves) state <= no_area ? IDLE : CHANNELS;
+      if (edges_end && leaves && no_area) state <= IDLE;
       if (leaves && channels_end) state <= STORE;
       if ((state == STORE) && last) state <= DONE;
       if (prim_valid && prim_ready) state <= IDLE;
@@ -175,20 +173,14 @@ module edgewalk_setup (
   end
 
   // How long the next operation takes.
-  wire [4:0] choice = (round == 2'd3) ? 5'd7 : (round == 2'd2) ? 5'd7 : (round == 2'd1) ? 5'd7 : 5'd7;
-  wire [4:0] choice_2 = (round == 2'd3) ? 5'd7
-                      : (round == 2'd2) ? 5'd7
-                      : (round == 2'd1) ? 5'd7
-                      : 5'd7;
-
   always @(posedge clk) begin
     if (advance && works) left <= left - 5'd1;
     if (leaves) begin
       left <= (at == SIGN_START) ? top_digit
             : (at == SIGN_LINE) ? top_digit
-            : (at == SUM_Y) ? choice + {1'b0, scale}
+            : (at == SUM_Y) ? 5'd7 + {1'b0, scale}
             : (at == SIGN_Y) ? top_digit
-            : (at == SUM_X) ? choice_2 + {1'b0, scale}
+            : (at == SUM_X) ? 5'd7 + {1'b0, scale}
             : (at == WAIT) ? top_digit
             : (at == ADD12) ? 5'd1
             : (at == WAIT_DX) ? top_digit
@@ -250,15 +242,7 @@ module edgewalk_setup (
     at_whole <= at_rest;
     round_whole <= round_rest;
     ends_whole <= ends_rest;
-  end
-
-  always @(posedge clk) begin
-    if (rst) begin
-      pause <= 4'd0;
-    end else begin
-      if (!advance) pause <= pause - 4'd1;
-      if (advance && unfit) pause <= 4'd11;
-    end
+    pause <= advance ? 4'd11 : pause - 4'd1;
   end
 
   always @(posedge clk) begin
@@ -287,15 +271,15 @@ module edgewalk_setup (
   wire both_2 = y2_above_y0 && y2_above_y1;
   wire both_3 = !y1_above_y0 && y2_above_y1;
   wire both_4 = !y2_above_y0 && !y2_above_y1;
-  wire [14:0] choice_3 = (!both && !both_3) ? tri_x1 : (!both_2 && !both_4) ? tri_x2 : tri_x0;
-  wire [14:0] choice_4 = (!both && !both_3) ? tri_y1 : (!both_2 && !both_4) ? tri_y2 : tri_y0;
+  wire [14:0] choice = (!both && !both_3) ? tri_x1 : (!both_2 && !both_4) ? tri_x2 : tri_x0;
+  wire [14:0] choice_2 = (!both && !both_3) ? tri_y1 : (!both_2 && !both_4) ? tri_y2 : tri_y0;
 
   always @(posedge clk) begin
     if (take) begin
       p0_u <= (both ? tri_x1 : both_2 ? tri_x2 : tri_x0) - 15'd8;
       p0_v <= (both ? tri_y1 : both_2 ? tri_y2 : tri_y0) - 15'd8;
-      p1_u <= choice_3 - 15'd8;
-      p1_v <= choice_4 - 15'd8;
+      p1_u <= choice - 15'd8;
+      p1_v <= choice_2 - 15'd8;
       p2_u <= (both_3 ? tri_x1 : both_4 ? tri_x2 : tri_x0) - 15'd8;
       p2_v <= (both_3 ? tri_y1 : both_4 ? tri_y2 : tri_y0) - 15'd8;
       p0_vertex <= {both_2, both};
@@ -336,27 +320,21 @@ module edgewalk_setup (
   end
 
   // Differences of the sorted vertices, from upper to lower ends of edges.
-  wire [15:0] difference = {p2_v[14], p2_v} - {p0_v[14], p0_v};
-  wire [14:0] tall = difference[14:0];
+  wire [14:0] tall = p2_v - p0_v;
   reg [14:0] dv02;  // 1/P line
   reg [14:0] dv01;  // 1/P line
   reg [14:0] dv12;  // 1/P line
   reg [15:0] du02;  // 1/P column, signed
   reg [15:0] du01;  // 1/P column, signed
   reg [15:0] du12;  // 1/P column, signed
-  wire [15:0] difference_2 = {p2_v[14], p2_v} - {p0_v[14], p0_v};
-  wire [15:0] difference_3 = {p1_v[14], p1_v} - {p0_v[14], p0_v};
-  wire [15:0] difference_4 = {p2_v[14], p2_v} - {p1_v[14], p1_v};
 
   always @(posedge clk) begin
-    if (begins) begin
-      dv02 <= difference_2[14:0];
-      dv01 <= difference_3[14:0];
-      dv12 <= difference_4[14:0];
-      du02 <= {p2_u[14], p2_u} - {p0_u[14], p0_u};
-      du01 <= {p1_u[14], p1_u} - {p0_u[14], p0_u};
-      du12 <= {p2_u[14], p2_u} - {p1_u[14], p1_u};
-    end
+    dv02 <= p2_v - p0_v;
+    dv01 <= p1_v - p0_v;
+    dv12 <= p2_v - p1_v;
+    du02 <= {p2_u[14], p2_u} - {p0_u[14], p0_u};
+    du01 <= {p1_u[14], p1_u} - {p0_u[14], p0_u};
+    du12 <= {p2_u[14], p2_u} - {p1_u[14], p1_u};
   end
 
   // Twice the area: du1 dv2 - du2 dv1, over the bits of dv2 and dv1.
@@ -366,7 +344,7 @@ module edgewalk_setup (
   wire [14:0] shifted_2 = dv01 >> area_digit;
   wire [16:0] area_part = (shifted[0] ? {du01[15], du01} : 17'd0)
                         - (shifted_2[0] ? {du02[15], du02} : 17'd0);
-  reg [31:0] area;       // 1/P^2 px^2, signed
+  reg [30:0] area;       // 1/P^2 px^2, signed
   assign no_area = !(|area);
   wire any = |tall[14:8];
   wire [6:0] part_2 = tall[14:8];
@@ -378,7 +356,7 @@ module edgewalk_setup (
   wire [1:0] part_4 = part_5[3:2];
   wire any_4 = |part_4;
   wire [1:0] part_6 = part_5[1:0];
-  wire [1:0] choice_5 = any_2 ? {any_3, any_3 ? 1'b0 : part_3[1]}
+  wire [1:0] choice_3 = any_2 ? {any_3, any_3 ? 1'b0 : part_3[1]}
                       : {any_4, any_4 ? part_4[1] : part_6[1]};
   wire [7:0] part_8 = tall[7:0];
   wire [3:0] part_7 = part_8[7:4];
@@ -390,70 +368,57 @@ module edgewalk_setup (
   wire [1:0] part_11 = part_12[3:2];
   wire any_7 = |part_11;
   wire [1:0] part_13 = part_12[1:0];
-  wire [1:0] choice_6 = any_5 ? {any_6, any_6 ? part_9[1] : part_10[1]}
+  wire [1:0] choice_4 = any_5 ? {any_6, any_6 ? part_9[1] : part_10[1]}
                       : {any_7, any_7 ? part_11[1] : part_13[1]};
 
   always @(posedge clk) begin
     if (area_adds) begin
       area_digit <= area_digit - 4'd1;
-      area <= (area << 1) + {{15{area_part[16]}}, area_part};
+      area <= (area << 1) + {{14{area_part[16]}}, area_part};
     end
     if (begins) begin
-      area_digit <= {any, any ? {any_2, choice_5} : {any_5, choice_6}};
-      area <= 32'd0;
+      area_digit <= {any, any ? {any_2, choice_3} : {any_5, choice_4}};
+      area <= 31'd0;
     end
   end
 
   wire equal = area_digit == 4'd0;
 
   always @(posedge clk) begin
-    if (rst) begin
-      area_adds <= 1'b0;
-    end else begin
-      if (area_adds && equal) area_adds <= 1'b0;
-      if (begins) area_adds <= 1'b1;
-    end
+    if (area_adds && equal) area_adds <= 1'b0;
+    if (begins) area_adds <= 1'b1;
   end
 
   // The area as modulus: fourfold, i times, until the differences of the next round's values fit.
   reg [15:0] differences;  // their bits, or those of complements
-  reg [31:0] scaled;       // -M or -M - 1, signed
+  reg [30:0] scaled;       // -M or -M - 1, signed
   reg scale_taken;         // the area is taken
   reg scaling;             // it is compared
   reg [3:0] scale_next;    // times that it is fourfold
-  wire [32:0] less_m = {{16'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
-  wire [31:0] part_14 = less_m[32:1];
-  wire fits = part_14[31] || !(|area);
+  wire [31:0] less_m = {{15'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
+  wire [30:0] part_14 = less_m[31:1];
+  wire fits = part_14[30] || !(|area);
   wire grows = scaling && !fits;
-  assign area_known = !area_adds && !begins && !scale_taken && !scaling;
+  assign area_known = !area_adds && !scale_taken && !scaling;
   reg [3:0] scale_now;     // of the round
   assign scale = scale_now;
   wire either = (area_adds && equal) || ((at_next == FIX2) && !(round_next == 2'd3));
 
   always @(posedge clk) begin
-    if (rst) begin
-      scale_taken <= 1'b0;
-    end else begin
-      scale_taken <= either && !begins;
-    end
+    scale_taken <= either && !begins;
   end
 
   always @(posedge clk) begin
-    if (rst) begin
-      scaling <= 1'b0;
-    end else begin
-      if (fits) scaling <= 1'b0;
-      if (scale_taken) scaling <= 1'b1;
-      if (begins) scaling <= 1'b0;
-    end
+    if (fits) scaling <= 1'b0;
+    if (scale_taken) scaling <= 1'b1;
   end
 
-  wire inverse = !area[31];
-  wire [31:0] extended = area;
+  wire inverse = !area[30];
+  wire [30:0] extended = area;
 
   always @(posedge clk) begin
     if (grows) begin
-      scaled <= {scaled[29:0], inverse, inverse};
+      scaled <= {scaled[28:0], inverse, inverse};
       scale_next <= scale_next + 4'd1;
     end
     if (scale_taken) begin
@@ -467,119 +432,106 @@ module edgewalk_setup (
   end
 
   // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
-  wire [10:0] part_15 = p0_v[14:4];
-  wire [11:0] line0 = {part_15[10], part_15} + {11'd0, |p0_v[3:0]};  // ceil(v/P)
+  wire [13:0] part_15 = p0_v[13:0];
+  wire [11:0] line0 = {2'd0, part_15[13:4]} + {11'd0, |p0_v[3:0]};  // ceil(v/P) of one that is not above the screen
   reg [11:0] j0;        // line of the screen
-  wire [10:0] part_16 = p1_v[14:4];
-  wire [11:0] line1 = {part_16[10], part_16} + {11'd0, |p1_v[3:0]};  // ceil(v/P)
+  wire [13:0] part_16 = p1_v[13:0];
+  wire [11:0] line1 = {2'd0, part_16[13:4]} + {11'd0, |p1_v[3:0]};  // ceil(v/P) of one that is not above the screen
   reg [11:0] j1;        // line of the screen
-  wire [10:0] part_17 = p2_v[14:4];
-  wire [11:0] line2 = {part_17[10], part_17} + {11'd0, |p2_v[3:0]};  // ceil(v/P)
+  wire [13:0] part_17 = p2_v[13:0];
+  wire [11:0] line2 = {2'd0, part_17[13:4]} + {11'd0, |p2_v[3:0]};  // ceil(v/P) of one that is not above the screen
   reg [11:0] end_line;  // line of the screen
+  wire [11:0] difference = j1 - j0;
+  wire [11:0] difference_2 = end_line - j1;
 
   always @(posedge clk) begin
-    if (begins) begin
-      j0 <= p0_v[14] ? 12'd0 : ($signed(p0_v) <= 15'sd7664) ? line0 : 12'd480;
-      j1 <= p1_v[14] ? 12'd0 : ($signed(p1_v) <= 15'sd7664) ? line1 : 12'd480;
-      end_line <= p2_v[14] ? 12'd0 : ($signed(p2_v) <= 15'sd7664) ? line2 : 12'd480;
-    end
-  end
-
-  wire [11:0] difference_5 = j1 - j0;
-  wire [11:0] difference_6 = end_line - j1;
-
-  always @(posedge clk) begin
-    if (at == FIX_DX) begin
-      prim_n1 <= difference_5[9:0];
-      prim_n2 <= difference_6[9:0];
-    end
+    j0 <= p0_v[14] ? 12'd0 : (part_15 <= 14'd7664) ? line0 : 12'd480;
+    j1 <= p1_v[14] ? 12'd0 : (part_16 <= 14'd7664) ? line1 : 12'd480;
+    end_line <= p2_v[14] ? 12'd0 : (part_17 <= 14'd7664) ? line2 : 12'd480;
+    prim_n1 <= difference[9:0];
+    prim_n2 <= difference_2[9:0];
   end
 
   // Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.
-  wire [10:0] part_18 = p0_u[14:4];
-  wire [11:0] column0 = {part_18[10], part_18} + {11'd0, |p0_u[3:0]};  // ceil(u/P)
-  wire [10:0] part_19 = p1_u[14:4];
-  wire [11:0] column1 = {part_19[10], part_19} + {11'd0, |p1_u[3:0]};  // ceil(u/P)
-  wire [10:0] part_20 = p2_u[14:4];
-  wire [11:0] column2 = {part_20[10], part_20} + {11'd0, |p2_u[3:0]};  // ceil(u/P)
+  wire [10:0] column0 = p0_u[14:4] + {10'd0, |p0_u[3:0]};  // ceil(u/P)
+  wire [10:0] column1 = p1_u[14:4] + {10'd0, |p1_u[3:0]};  // ceil(u/P)
+  wire [10:0] column2 = p2_u[14:4] + {10'd0, |p2_u[3:0]};  // ceil(u/P)
   wire none_between = (column0 == column1) && (column1 == column2);
   wire before_screen = (p0_u[14] || !(|p0_u)) && (p1_u[14] || !(|p1_u)) && (p2_u[14] || !(|p2_u));  // ceil(u/P) is 0 or less
   wire behind_screen = !($signed(p0_u) <= 15'sh27f0)  // ceil(u/P) is W or more
                     && !($signed(p1_u) <= 15'sh27f0)
                     && !($signed(p2_u) <= 15'sh27f0);
-  reg no_column;                                   // no column of the screen
+  reg no_column;                                 // no column of the screen
   assign nothing = (j0 == end_line) || no_column;
   wire upper = |prim_n1;
-  wire [11:0] jm = upper ? j0 : j1;                // first line of the triangle
-  wire [15:0] h0 = {jm, 4'd0} - {p0_v[14], p0_v};  // 1/P line
-  wire [15:0] h1 = {j1, 4'd0} - {p1_v[14], p1_v};  // 1/P line
+  wire [11:0] jm = upper ? j0 : j1;              // first line of the triangle
+  wire [15:0] joined = {jm, 4'd0};
+  wire [13:0] h0 = joined[13:0] - p0_v[13:0];    // 1/P line
+  wire [15:0] joined_2 = {j1, 4'd0};
+  wire [13:0] h1 = joined_2[13:0] - p1_v[13:0];  // 1/P line
 
   always @(posedge clk) begin
-    if (begins) no_column <= none_between || before_screen || behind_screen;
+    no_column <= none_between || before_screen || behind_screen;
   end
 
   // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
-  reg [16:0] f;  // factor, signed
-  reg [16:0] g;  // factor, signed
-  wire [16:0] differing = f ^ $unsigned($signed(f) >>> 1);
-  wire [16:0] differing_2 = g ^ $unsigned($signed(g) >>> 1);
-  wire [15:0] digits = differing[15:0] | differing_2[15:0];  // digits of the factors that differ from their signs
-  wire any_8 = |digits[15:8];
-  wire [7:0] part_22 = digits[15:8];
-  wire [3:0] part_21 = part_22[7:4];
-  wire any_9 = |part_21;
-  wire [1:0] part_23 = part_21[3:2];
-  wire any_10 = |part_23;
-  wire [1:0] part_24 = part_21[1:0];
-  wire [3:0] part_26 = part_22[3:0];
-  wire [1:0] part_25 = part_26[3:2];
-  wire any_11 = |part_25;
-  wire [1:0] part_27 = part_26[1:0];
-  wire [1:0] choice_7 = any_9 ? {any_10, any_10 ? part_23[1] : part_24[1]}
-                      : {any_11, any_11 ? part_25[1] : part_27[1]};
-  wire [7:0] part_29 = digits[7:0];
-  wire [3:0] part_28 = part_29[7:4];
-  wire any_12 = |part_28;
-  wire [1:0] part_30 = part_28[3:2];
-  wire any_13 = |part_30;
-  wire [1:0] part_31 = part_28[1:0];
-  wire [3:0] part_33 = part_29[3:0];
-  wire [1:0] part_32 = part_33[3:2];
-  wire any_14 = |part_32;
-  wire [1:0] part_34 = part_33[1:0];
-  wire [1:0] choice_8 = any_12 ? {any_13, any_13 ? part_30[1] : part_31[1]}
-                      : {any_14, any_14 ? part_32[1] : part_34[1]};
-  assign top_digit = {1'b0, {any_8, any_8 ? {any_9, choice_7} : {any_12, choice_8}}};
-  wire [16:0] shifted_3 = f >> left;
+  reg [15:0] f;  // factor, signed
+  reg [15:0] g;  // factor, signed
+  wire [14:0] digits = (f[14:0] ^ f[15:1]) | (g[14:0] ^ g[15:1]);  // digits of the factors that differ from their signs
+  wire any_8 = |digits[14:8];
+  wire [6:0] part_19 = digits[14:8];
+  wire [2:0] part_18 = part_19[6:4];
+  wire any_9 = |part_18;
+  wire any_10 = part_18[2];
+  wire [1:0] part_20 = part_18[1:0];
+  wire [3:0] part_22 = part_19[3:0];
+  wire [1:0] part_21 = part_22[3:2];
+  wire any_11 = |part_21;
+  wire [1:0] part_23 = part_22[1:0];
+  wire [1:0] choice_5 = any_9 ? {any_10, any_10 ? 1'b0 : part_20[1]}
+                      : {any_11, any_11 ? part_21[1] : part_23[1]};
+  wire [7:0] part_25 = digits[7:0];
+  wire [3:0] part_24 = part_25[7:4];
+  wire any_12 = |part_24;
+  wire [1:0] part_26 = part_24[3:2];
+  wire any_13 = |part_26;
+  wire [1:0] part_27 = part_24[1:0];
+  wire [3:0] part_29 = part_25[3:0];
+  wire [1:0] part_28 = part_29[3:2];
+  wire any_14 = |part_28;
+  wire [1:0] part_30 = part_29[1:0];
+  wire [1:0] choice_6 = any_12 ? {any_13, any_13 ? part_26[1] : part_27[1]}
+                      : {any_14, any_14 ? part_28[1] : part_30[1]};
+  assign top_digit = {1'b0, {any_8, any_8 ? {any_9, choice_5} : {any_12, choice_6}}};
+  wire [15:0] shifted_3 = f >> left;
   wire digit_f = shifted_3[0];
-  wire [16:0] shifted_4 = g >> left;
+  wire [15:0] shifted_4 = g >> left;
   wire digit_g = shifted_4[0];
-  wire [15:0] joined = {prim_major_c - {11'd0, area[31]}, 4'd0};
 
   always @(posedge clk) begin
     if (at == WAIT_DX) begin
-      f <= (round == 2'd2) ? ((|prim_n2) ? {13'd0, p1_u[3:0]} : 17'd0)
-         : (round == 2'd1) ? ((|prim_n1) ? {13'd0, p0_u[3:0]} : 17'd0)
-         : {13'd0, p0_u[3:0]};
-      g <= (round == 2'd2) ? ((|prim_n2) ? {1'b0, h1} : 17'd0)
-         : (round == 2'd1) ? ((|prim_n1) ? {1'b0, h0} : 17'd0)
-         : {1'b0, h0};
+      f <= (round == 2'd2) ? {12'd0, p1_u[3:0]} & {16{|prim_n2}}
+         : (round == 2'd1) ? {12'd0, p0_u[3:0]} & {16{|prim_n1}}
+         : {12'd0, p0_u[3:0]};
+      g <= (round == 2'd2) ? {2'd0, h1} & {16{|prim_n2}}
+         : (round == 2'd1) ? {2'd0, h0} & {16{|prim_n1}}
+         : {2'd0, h0};
     end
     if (at == WAIT) begin
-      f <= {2'd0, dv02};
-      g <= {2'd0, dv01};
+      f <= {1'b0, dv02};
+      g <= {1'b0, dv01};
     end
     if (at == DOUBLE_X) begin
-      f <= -{du02[15], du02};
-      g <= -{du01[15], du01};
+      f <= -du02;
+      g <= -du01;
     end
     if (at == ADD_X) begin
-      f <= {{5{prim_major_q[11]}}, prim_major_q};
-      g <= 17'd0;
+      f <= {{4{prim_major_q[11]}}, prim_major_q};
+      g <= 16'd0;
     end
     if (at == ADD_LINE) begin
-      f <= {joined[15], joined} - {{2{p0_u[14]}}, p0_u};
-      g <= {1'b0, h0};
+      f <= {prim_major_c - {11'd0, area[30]}, 4'd0} - {p0_u[14], p0_u};
+      g <= {2'd0, h0};
     end
   end
 
@@ -590,8 +542,7 @@ module edgewalk_setup (
                || (at == ADD_Y)
                || (at == ADD_LINE);
   wire either_3 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
-  wire [4:0] step = rests ? 5'd0
-                  : ((at == SUM) || (at == SUM_X)) ? (first ? 5'd17 : 5'd18)
+  wire [4:0] step = ((at == SUM) || (at == SUM_X)) ? (first ? 5'd17 : 5'd18)
                   : ((at == COLUMNS) || (at == ADD_START)) ? 5'd20
                   : either_2 ? 5'd16
                   : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 5'd19
@@ -640,18 +591,7 @@ module edgewalk_setup (
   end
 
   // Lane 0: its steps.
-  wire [4:0] choice_9 = (round == 2'd3) ? 5'd8
-                      : (round == 2'd2) ? 5'd8
-                      : (round == 2'd1) ? 5'd8
-                      : 5'd8;
-  wire [4:0] choice_10 = (round == 2'd3) ? 5'd8
-                       : (round == 2'd2) ? 5'd8
-                       : (round == 2'd1) ? 5'd8
-                       : 5'd8;
-  wire [4:0] step0 = ((at == DOUBLE_Y) && !rests) ? choice_9
-                   : ((at == DOUBLE_X) && !rests) ? choice_10
-                   : ((at == DOUBLE_DX) && !rests) ? 5'd8
-                   : step;
+  wire [4:0] step0 = rests ? 5'd0 : step;
   reg [4:0] step_next0;
   reg [4:0] step_again0;
   reg [4:0] step_of_pause0;
@@ -675,9 +615,11 @@ module edgewalk_setup (
 
   // What the lanes are shown in the next clock; in the first of a triangle dc1 of the first round.
   reg [1:0] from_place;
-  wire [1:0] from_vertex = from_place[1] ? p2_vertex : from_place[0] ? p1_vertex : p0_vertex;
+  wire [1:0] from_vertex = (from_place == 2'd2) ? p2_vertex
+                         : (from_place == 2'd1) ? p1_vertex
+                         : p0_vertex;
   reg [1:0] to_place;
-  wire [1:0] to_vertex = to_place[1] ? p2_vertex : to_place[0] ? p1_vertex : p0_vertex;
+  wire [1:0] to_vertex = (to_place == 2'd2) ? p2_vertex : (to_place == 2'd1) ? p1_vertex : p0_vertex;
   reg single_value;
   reg values_of_round1;
   reg values_of_round2;
@@ -685,7 +627,7 @@ module edgewalk_setup (
   reg number_of_edge;
   reg number_is_height;
   wire either_5 = (at == FIX_DX) || (at == LOAD2) || (at == FIX2);
-  wire both_5 = area[31] && ((at == LOAD1) || (at == LOAD2));
+  wire both_5 = area[30] && ((at == LOAD1) || (at == LOAD2));
   wire equal_2 = at == ADD_START;
   wire either_6 = (at == FIX1) || (at == FIX2);
   wire equal_3 = at == FIX_DX;
@@ -693,16 +635,11 @@ module edgewalk_setup (
   always @(posedge clk) begin
     if (advance) begin
       from_place <= either_5 ? (both_5 ? 2'd0 : 2'd2) : both_5 ? 2'd1 : 2'd0;
-      to_place <= equal_2 ? (1'b0 ? 2'd1 : 2'd0)
-                : either_5 ? (both_5 ? 2'd2 : 2'd0)
-                : both_5 ? 2'd0
-                : 2'd1;
+      to_place <= equal_2 ? 2'd0 : either_5 ? (both_5 ? 2'd2 : 2'd0) : both_5 ? 2'd0 : 2'd1;
       single_value <= equal_2;
       values_of_round1 <= (either_6 ? round == 2'd0 : round == 2'd1) && !equal_3;
       values_of_round2 <= (either_6 ? round == 2'd1 : round == 2'd2) && !equal_3;
       values_of_round3 <= (either_6 ? round == 2'd2 : round == 2'd3) && !equal_3;
-      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
-      number_is_height <= at == LOAD_DY;
     end
     if (take) begin
       from_place <= 2'd0;
@@ -711,8 +648,13 @@ module edgewalk_setup (
       values_of_round1 <= 1'b0;
       values_of_round2 <= 1'b0;
       values_of_round3 <= 1'b0;
-      number_of_edge <= 1'b0;
-      number_is_height <= 1'b0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (advance) begin
+      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
+      number_is_height <= at == LOAD_DY;
     end
   end
 
@@ -720,46 +662,41 @@ module edgewalk_setup (
   wire [15:0] extended_2 = {1'b0, dv12};
   wire [15:0] extended_3 = {1'b0, dv01};
   wire [15:0] extended_4 = {1'b0, dv02};
-  wire [16:0] choice_11 = (round_next == 2'd2) ? {extended_2[15], extended_2}
-                        : (round_next == 2'd1) ? {extended_3[15], extended_3}
-                        : {extended_4[15], extended_4};
-  wire [16:0] choice_12 = number_is_height ? choice_11
-                        : (round_next == 2'd2) ? {du12[15], du12}
-                        : (round_next == 2'd1) ? {du01[15], du01}
-                        : {du02[15], du02};
-  wire [16:0] choice_13 = values_of_round3 ? {9'd0, vertex2_b}
-                        : values_of_round2 ? {9'd0, vertex2_g}
-                        : values_of_round1 ? {9'd0, vertex2_r}
-                        : {1'b0, vertex2_z};
-  wire [16:0] choice_14 = values_of_round3 ? {9'd0, vertex1_b}
+  wire [16:0] choice_7 = (round_next == 2'd2) ? {extended_2[15], extended_2}
+                       : (round_next == 2'd1) ? {extended_3[15], extended_3}
+                       : {extended_4[15], extended_4};
+  wire [16:0] choice_8 = number_is_height ? choice_7
+                       : (round_next == 2'd2) ? {du12[15], du12}
+                       : (round_next == 2'd1) ? {du01[15], du01}
+                       : {du02[15], du02};
+  wire [16:0] choice_9 = values_of_round3 ? {9'd0, vertex2_b}
+                       : values_of_round2 ? {9'd0, vertex2_g}
+                       : values_of_round1 ? {9'd0, vertex2_r}
+                       : {1'b0, vertex2_z};
+  wire [16:0] choice_10 = values_of_round3 ? {9'd0, vertex1_b}
                         : values_of_round2 ? {9'd0, vertex1_g}
                         : values_of_round1 ? {9'd0, vertex1_r}
                         : {1'b0, vertex1_z};
-  wire [16:0] choice_15 = values_of_round3 ? {9'd0, vertex0_b}
+  wire [16:0] choice_11 = values_of_round3 ? {9'd0, vertex0_b}
                         : values_of_round2 ? {9'd0, vertex0_g}
                         : values_of_round1 ? {9'd0, vertex0_r}
                         : {1'b0, vertex0_z};
-  wire [16:0] choice_16 = values_of_round3 ? 17'd0
+  wire [16:0] choice_12 = values_of_round3 ? 17'd0
                         : values_of_round2 ? 17'd0
                         : values_of_round1 ? 17'd0
                         : 17'd0;
-  wire [16:0] choice_17 = single_value ? choice_16
-                        : from_vertex[1] ? choice_13
-                        : from_vertex[0] ? choice_14
-                        : choice_15;
-  wire [16:0] difference_7 = (to_vertex[1] ? choice_13 : to_vertex[0] ? choice_14 : choice_15)
-                           - choice_17;
-  wire [16:0] number0 = number_of_edge ? choice_12 : difference_7;  // signed
+  wire [16:0] choice_13 = single_value ? choice_12
+                        : from_vertex[1] ? choice_9
+                        : from_vertex[0] ? choice_10
+                        : choice_11;
+  wire [16:0] difference_3 = (to_vertex[1] ? choice_9 : to_vertex[0] ? choice_10 : choice_11)
+                           - choice_13;
+  wire [16:0] number0 = number_of_edge ? choice_8 : difference_3;  // signed
   reg [16:0] kept0;  // a number that may not fit, or a first value; signed
-  wire [15:0] shown = number0[15:0] ^ {16{number0[16]}};
+  wire [15:0] shown = difference_3[15:0] ^ {16{difference_3[16]}};
   wire lane0_unfit;
-  wire choice_18 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
-  wire choice_19 = (round_stepped == 2'd3) ? 1'b1
-                 : (round_stepped == 2'd2) ? 1'b1
-                 : (round_stepped == 2'd1) ? 1'b1
-                 : 1'b1;
-  wire either_7 = ((at_stepped == FIX_DX) && choice_18) || ((1'b0 || 1'b0) && choice_19);
-  assign unfit = lane0_unfit && either_7;
+  wire choice_14 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
+  assign unfit = lane0_unfit && choice_14;
 
   always @(posedge clk) begin
     if ((at_next == LOAD_DX) || (at_next == ADD_START)) kept0 <= number0;
@@ -771,45 +708,45 @@ module edgewalk_setup (
   end
 
   // Edge: major.
-  wire [30:0] lane0_rest_out;
+  wire [29:0] lane0_rest_out;
   wire [31:0] lane0_whole_out;
   wire [31:0] lane0_value;
-  wire choice_20 = is_sign ? f[16] : digit_f;
-  wire choice_21 = is_sign ? g[16] : digit_g;
-  wire [17:0] shifted_5 = $signed({kept0[16], kept0}) >>> {pause - 4'd2, 1'b0};
-  wire [10:0] part_35 = p1_u[14:4];
-  wire [10:0] part_36 = p0_u[14:4];
-  wire [10:0] part_37 = p0_u[14:4];
-  wire [31:0] choice_22 = (round_stepped == 2'd2) ? {{21{part_35[10]}}, part_35}
-                        : (round_stepped == 2'd1) ? {{21{part_36[10]}}, part_36}
-                        : {{21{part_37[10]}}, part_37};
-  wire [32:0] joined_2 = {{{kept0, 1'b1}, 11'd0}, 4'd8};
+  wire choice_15 = is_sign ? f[15] : digit_f;
+  wire choice_16 = is_sign ? g[15] : digit_g;
+  wire [16:0] shifted_5 = $signed(kept0) >>> {pause - 4'd2, 1'b0};
+  wire [10:0] part_31 = p1_u[14:4];
+  wire [10:0] part_32 = p0_u[14:4];
+  wire [10:0] part_33 = p0_u[14:4];
+  wire [31:0] choice_17 = (round_stepped == 2'd2) ? {{21{part_31[10]}}, part_31}
+                        : (round_stepped == 2'd1) ? {{21{part_32[10]}}, part_32}
+                        : {{21{part_33[10]}}, part_33};
   wire [32:0] joined_3 = {{{kept0, 1'b1}, 11'd0}, 4'd8};
   wire [32:0] joined_4 = {{{kept0, 1'b1}, 11'd0}, 4'd8};
   wire [32:0] joined_5 = {{{kept0, 1'b1}, 11'd0}, 4'd8};
+  wire [32:0] joined_6 = {{{kept0, 1'b1}, 11'd0}, 4'd8};
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_20 || choice_21), choice_21, choice_20}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_15 || choice_16), choice_16, choice_15}
 : read_single_at),
     .step          (step_formed0),
     .number        (number0),
     .digits        (shifted_5[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? choice_22
-: (round_stepped == 2'd3) ? joined_2[31:0]
-: (round_stepped == 2'd2) ? joined_3[31:0]
-: (round_stepped == 2'd1) ? joined_4[31:0]
-: joined_5[31:0]),
+    .whole_in      ((at_stepped == COLUMNS) ? choice_17
+: (round_stepped == 2'd3) ? joined_3[31:0]
+: (round_stepped == 2'd2) ? joined_4[31:0]
+: (round_stepped == 2'd1) ? joined_5[31:0]
+: joined_6[31:0]),
     .take_modulus  (take_modulus),
     .modulus_in    ((at_next == LOAD1) ? scaled
-: (round_next == 2'd2) ? ~{13'd0, {dv12, 4'd0}}
-: (round_next == 2'd1) ? ~{13'd0, {dv01, 4'd0}}
-: ~{13'd0, {dv02, 4'd0}}),
-    .modulus_short (!((at_next == LOAD1) && area[31])),
+: (round_next == 2'd2) ? ~{12'd0, {dv12, 4'd0}}
+: (round_next == 2'd1) ? ~{12'd0, {dv01, 4'd0}}
+: ~{12'd0, {dv02, 4'd0}}),
+    .modulus_short (!((at_next == LOAD1) && area[30])),
     .upwards       (at_rest == COLUMNS),
     .unfit         (lane0_unfit),
     .rest_out      (lane0_rest_out),
@@ -818,11 +755,11 @@ module edgewalk_setup (
   );
 
   wire any_15 = |dv02[14:4];
-  wire [26:0] part_38 = lane0_rest_out[30:4];
+  wire [25:0] part_34 = lane0_rest_out[29:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd0)) begin
-      prim_major_f <= any_15 ? part_38[14:0] : 15'd0;
+      prim_major_f <= any_15 ? part_34[14:0] : 15'd0;
     end
   end
 
@@ -832,11 +769,11 @@ module edgewalk_setup (
     end
   end
 
-  wire [18:0] difference_8 = {dv02, 4'd0} - lane0_rest_out[18:0];
+  wire [18:0] difference_4 = {dv02, 4'd0} - lane0_rest_out[18:0];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd0)) begin
-      prim_major_r <= (|lane0_rest_out) ? difference_8[18:4] : 15'd0;
+      prim_major_r <= (|lane0_rest_out) ? difference_4[18:4] : 15'd0;
     end
   end
 
@@ -848,11 +785,11 @@ module edgewalk_setup (
 
   // Edge: minor1.
   wire both_6 = (|prim_n1) && (|dv01[14:4]);
-  wire [26:0] part_39 = lane0_rest_out[30:4];
+  wire [25:0] part_35 = lane0_rest_out[29:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd1)) begin
-      prim_minor1_f <= both_6 ? part_39[14:0] : 15'd0;
+      prim_minor1_f <= both_6 ? part_35[14:0] : 15'd0;
     end
   end
 
@@ -862,11 +799,11 @@ module edgewalk_setup (
     end
   end
 
-  wire [18:0] difference_9 = {dv01, 4'd0} - lane0_rest_out[18:0];
+  wire [18:0] difference_5 = {dv01, 4'd0} - lane0_rest_out[18:0];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd1)) begin
-      prim_minor1_r <= (|prim_n1) ? ((|lane0_rest_out) ? difference_9[18:4] : 15'd0) : 15'd0;
+      prim_minor1_r <= (|prim_n1) ? ((|lane0_rest_out) ? difference_5[18:4] : 15'd0) : 15'd0;
     end
   end
 
@@ -878,11 +815,11 @@ module edgewalk_setup (
 
   // Edge: minor2.
   wire both_7 = (|prim_n2) && (|dv12[14:4]);
-  wire [26:0] part_40 = lane0_rest_out[30:4];
+  wire [25:0] part_36 = lane0_rest_out[29:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd2)) begin
-      prim_minor2_f <= both_7 ? part_40[14:0] : 15'd0;
+      prim_minor2_f <= both_7 ? part_36[14:0] : 15'd0;
     end
   end
 
@@ -892,11 +829,11 @@ module edgewalk_setup (
     end
   end
 
-  wire [18:0] difference_10 = {dv12, 4'd0} - lane0_rest_out[18:0];
+  wire [18:0] difference_6 = {dv12, 4'd0} - lane0_rest_out[18:0];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd2)) begin
-      prim_minor2_r <= (|prim_n2) ? ((|lane0_rest_out) ? difference_10[18:4] : 15'd0) : 15'd0;
+      prim_minor2_r <= (|prim_n2) ? ((|lane0_rest_out) ? difference_6[18:4] : 15'd0) : 15'd0;
     end
   end
 
@@ -909,7 +846,7 @@ module edgewalk_setup (
   // Channel: z.
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd0)) begin
-      prim_z_g <= area[31] ? -lane0_value[27:0] : lane0_value[27:0];
+      prim_z_g <= area[30] ? -lane0_value[27:0] : lane0_value[27:0];
     end
   end
 
@@ -922,15 +859,13 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd0)) begin
-      prim_z_start <= lane0_whole_out[31:4];
-    end
+    if ((at_whole == ADD_START) && (round_whole == 2'd0)) prim_z_start <= lane0_whole_out[31:4];
   end
 
   // Channel: r.
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd1)) begin
-      prim_r_g <= area[31] ? -lane0_value[19:0] : lane0_value[19:0];
+      prim_r_g <= area[30] ? -lane0_value[19:0] : lane0_value[19:0];
     end
   end
 
@@ -943,15 +878,13 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd1)) begin
-      prim_r_start <= lane0_whole_out[23:4];
-    end
+    if ((at_whole == ADD_START) && (round_whole == 2'd1)) prim_r_start <= lane0_whole_out[23:4];
   end
 
   // Channel: g.
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd2)) begin
-      prim_g_g <= area[31] ? -lane0_value[19:0] : lane0_value[19:0];
+      prim_g_g <= area[30] ? -lane0_value[19:0] : lane0_value[19:0];
     end
   end
 
@@ -964,15 +897,13 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd2)) begin
-      prim_g_start <= lane0_whole_out[23:4];
-    end
+    if ((at_whole == ADD_START) && (round_whole == 2'd2)) prim_g_start <= lane0_whole_out[23:4];
   end
 
   // Channel: b.
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd3)) begin
-      prim_b_g <= area[31] ? -lane0_value[19:0] : lane0_value[19:0];
+      prim_b_g <= area[30] ? -lane0_value[19:0] : lane0_value[19:0];
     end
   end
 
@@ -985,25 +916,23 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd3)) begin
-      prim_b_start <= lane0_whole_out[23:4];
-    end
+    if ((at_whole == ADD_START) && (round_whole == 2'd3)) prim_b_start <= lane0_whole_out[23:4];
   end
 
   assign prim_jm = jm[8:0];
-  assign prim_major_right = area[31];
+  assign prim_major_right = area[30];
   assign prim_major_m = dv02;
   assign prim_minor1_m = dv01;
   assign prim_minor2_m = dv12;
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, ends_fixed, less_m[0], lane0_value[31:28], difference[15], difference_2[15], difference_3[15],
-    difference_4[15], part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1], shifted_2[14:1],
-    part_14[30:0], difference_5[11:10], difference_6[11:10], differing[16], differing_2[16], part_24[0],
-    part_27[0], part_31[0], part_34[0], shifted_3[16:1], shifted_4[16:1], shifted_5[17:2], joined_5[32],
-    joined_4[32], joined_3[32], joined_2[32], part_38[26:15], difference_8[3:0], part_39[26:15],
-    difference_9[3:0], part_40[26:15], difference_10[3:0]
+    1'b0, ends_fixed, less_m[0], lane0_value[31:28], part_3[0], part_6[0], part_10[0], part_13[0],
+    shifted[14:1], shifted_2[14:1], part_14[29:0], difference[11:10], difference_2[11:10],
+    joined[15:14], joined_2[15:14], part_20[0], part_23[0], part_27[0], part_30[0], shifted_3[15:1],
+    shifted_4[15:1], shifted_5[16:2], joined_6[32], joined_5[32], joined_4[32], joined_3[32],
+    part_34[25:15], difference_4[3:0], part_35[25:15], difference_5[3:0], part_36[25:15],
+    difference_6[3:0]
   };
 
 endmodule

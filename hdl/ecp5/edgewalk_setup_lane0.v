@@ -24,18 +24,18 @@ module edgewalk_setup_lane0 (
   input  wire  [2:0] write_at,
   input  wire [31:0] whole_in,       // whole number to add, with the step done
   input  wire        take_modulus,
-  input  wire [31:0] modulus_in,     // -M, or -M - 1 if modulus_short; signed
+  input  wire [30:0] modulus_in,     // -M, or -M - 1 if modulus_short; signed
   input  wire        modulus_short,
   input  wire        upwards,        // value rounds up whatever is not whole, not to nearest
 
   output wire        unfit,          // the number that was taken in is not between -M and M
-  output wire [30:0] rest_out,       // 1/M, from the clock after a step
+  output wire [29:0] rest_out,       // 1/M, from the clock after a step
   output wire [31:0] whole_out,      // modular, a clock later
   output wire [31:0] value           // modular, with whole
 );
 
   // The modulus: -M, or its complement -M - 1, with the 1 that is then missing.
-  reg [31:0] modulus;  // -M or -M - 1, signed
+  reg [30:0] modulus;  // -M or -M - 1, signed
   reg short;           // 1 is missing in modulus
 
   always @(posedge clk) begin
@@ -46,49 +46,49 @@ module edgewalk_setup_lane0 (
   end
 
   // The rests of the slots. Slot 0 is never written: it holds 0.
-  reg [31:0] rest;         // 1/M, signed while a number is taken in
-  wire [31:0] rest_next;
-  reg [30:0] rests [0:7];  // 1/M
+  reg [30:0] rest;         // 1/M, signed while a number is taken in
+  wire [30:0] rest_next;
+  reg [29:0] rests [0:7];  // 1/M
 
   initial begin : rests_init
     integer rests_index;
-    for (rests_index = 0; rests_index < 8; rests_index = rests_index + 1) rests[rests_index] = 31'd0;
+    for (rests_index = 0; rests_index < 8; rests_index = rests_index + 1) rests[rests_index] = 30'd0;
   end
 
   always @(posedge clk) begin
-    if (write) rests[write_at] <= rest_next[30:0];
+    if (write) rests[write_at] <= rest_next[29:0];
   end
 
-  reg [30:0] rests_q;
+  reg [29:0] rests_q;
 
   always @(posedge clk) begin
     if (advance) rests_q <= rests[read_at];
   end
 
   // The addend of the step that follows.
-  reg [31:0] n0;                           // a, or a number to take in
-  reg [32:0] n1;                           // a - M, signed
-  reg [33:0] n2;                           // a - 2 M, signed
+  reg [30:0] n0;                           // a, or a number to take in
+  reg [31:0] n1;                           // a - M, signed
+  reg [30:0] n2;                           // a - 2 M, modular
   reg below;                               // the number taken in is below 0
-  wire add_modulus = step[2] && ((step[0] && below) || (!step[0] && n0[31]));
+  wire add_modulus = step[2] && ((step[0] && below) || (!step[0] && n0[30]));
   wire take_modulus_off = step[3];
   wire of_slot = step[4];
   wire with_sign = of_slot && step[1] && step[0];
   wire negate = add_modulus || with_sign || ((step == 5'd2) && below);
   wire of_modulus = add_modulus || take_modulus_off;
-  wire [31:0] a = of_modulus ? modulus : of_slot ? {1'b0, rests_q} : 32'd0;  // addend, 1/M, or -M
-  wire [33:0] a_less_m = {{a[31], a}, 1'b1} + {{modulus[31], modulus}, short};  // and a carry out of the lowest bit
-  wire [32:0] to_negate = with_sign ? a_less_m[33:1] : {a[31], a};  // -a is -1 + (M - a)/M
-  wire [32:0] less_2m = {modulus, short};  // -2 M, or -2 M - 1
-  wire [34:0] a_less_2m = {{{2{a[31]}}, a}, 1'b1} + {{less_2m[32], less_2m}, short};  // and a carry out of the lowest bit
+  wire [30:0] a = of_modulus ? modulus : of_slot ? {1'b0, rests_q} : 31'd0;  // addend, 1/M, or -M
+  wire [32:0] a_less_m = {{a[30], a}, 1'b1} + {{modulus[30], modulus}, short};  // and a carry out of the lowest bit
+  wire [31:0] to_negate = with_sign ? a_less_m[32:1] : {a[30], a};  // -a is -1 + (M - a)/M
+  wire [31:0] less_2m = {modulus, short};  // -2 M, or -2 M - 1
+  wire [31:0] a_less_2m = {a, 1'b1} + {less_2m[30:0], short};  // and a carry out of the lowest bit
   reg carry0;                              // 1 to add to the sum of n0
   reg carry;                               // 1 to add to the other sums
-  wire [32:0] differing = to_negate ^ {33{negate}};
+  wire [31:0] differing = to_negate ^ {32{negate}};
 
   always @(posedge clk) begin
-    n0 <= (step == 5'd1) ? {{15{number[16]}}, number} : differing[31:0];
-    n1 <= a_less_m[33:1];
-    n2 <= a_less_2m[34:1];
+    n0 <= (step == 5'd1) ? {{14{number[16]}}, number} : differing[30:0];
+    n1 <= a_less_m[32:1];
+    n2 <= a_less_2m[31:1];
     carry0 <= with_sign || (add_modulus && !short) || (take_modulus_off && short);
     carry <= take_modulus_off && short;
   end
@@ -100,24 +100,23 @@ module edgewalk_setup_lane0 (
   reg from_zero;
   reg compared;                                    // M is taken off if it goes
   reg [1:0] digits_now;
-  wire [33:0] extended = {{2{rest[31]}}, rest};
-  wire [33:0] x = fourfold ? {extended[31:0], digits_now}
+  wire [31:0] extended = {rest[30], rest};
+  wire [31:0] x = fourfold ? {extended[29:0], digits_now}
                 : twofold ? extended << 1
-                : from_zero ? 34'd0
+                : from_zero ? 32'd0
                 : extended;
-  wire [34:0] x_and_n0 = {x, 1'b1} + {{{2{n0[31]}}, n0}, carry0};  // and a carry out of the lowest bit
-  wire [33:0] s0 = x_and_n0[34:1];
-  wire [34:0] x_and_n1 = {x, 1'b1} + {{n1[32], n1}, carry};  // and a carry out of the lowest bit
-  wire [33:0] s1 = x_and_n1[34:1];
-  wire [34:0] x_and_n2 = {x, 1'b1} + {n2, carry};  // and a carry out of the lowest bit
-  wire [33:0] s2 = x_and_n2[34:1];
-  wire fits0 = !s0[33];
-  wire fits1 = !s1[33] && compared;
-  wire fits2 = !s2[33] && compared;
+  wire [31:0] x_and_n0 = {x[30:0], 1'b1} + {n0, carry0};  // and a carry out of the lowest bit
+  wire [30:0] s0 = x_and_n0[31:1];
+  wire [32:0] x_and_n1 = {x, 1'b1} + {n1, carry};  // and a carry out of the lowest bit
+  wire [31:0] s1 = x_and_n1[32:1];
+  wire [31:0] x_and_n2 = {x[30:0], 1'b1} + {n2, carry};  // and a carry out of the lowest bit
+  wire [30:0] s2 = x_and_n2[31:1];
+  wire fits0 = !s0[30];
+  wire s1_fits = !s1[31];
+  wire fits1 = s1_fits && compared;
+  wire fits2 = fits1 && !s2[30];
   wire stays = fourfold && !fits0;
-  wire [33:0] choice = fits2 ? s2 : fits1 ? s1 : stays ? x : s0;
-  assign rest_next = choice[31:0];
-  wire rest_stays = (now == 5'd0) || (now == 5'd20);
+  assign rest_next = fits2 ? s2 : fits1 ? s1[30:0] : stays ? x[30:0] : s0;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -134,18 +133,17 @@ module edgewalk_setup_lane0 (
     compared <= (step == 5'd3)
              || (step == 5'd8)
              || (step == 5'd9)
-             || (step == 5'd17)
              || (step == 5'd18)
              || (step == 5'd16);
     digits_now <= (step == 5'd9) ? digits : 2'd0;
   end
 
   always @(posedge clk) begin
-    if (!rest_stays) rest <= rest_next;
+    if (!(now == 5'd20)) rest <= rest_next;
   end
 
   always @(posedge clk) begin
-    if ((now == 5'd1) && advance) below <= n0[31];
+    if ((now == 5'd1) && advance) below <= n0[30];
   end
 
   // The whole part, a clock behind.
@@ -188,15 +186,10 @@ module edgewalk_setup_lane0 (
   wire one = !was_fourfold && (|taken);
   wire [32:0] x_and_b = {whole_x, 1'b1} + {b, one};  // and a carry out of the lowest bit
   assign whole_next = x_and_b[32:1];
-  wire whole_stays = (then == 5'd0) || (then == 5'd2);
-
-  always @(posedge clk) begin
-    if (advance) read_whole_at <= read_at;
-  end
-
   wire [31:0] extended_2 = {32{negated}};
 
   always @(posedge clk) begin
+    read_whole_at <= read_at;
     write_then <= write;
     write_then_at <= write_at;
     negated <= negate;
@@ -210,27 +203,27 @@ module edgewalk_setup_lane0 (
   end
 
   always @(posedge clk) begin
-    if (!whole_stays) whole <= whole_next;
+    if (!(then == 5'd2)) whole <= whole_next;
   end
 
   // What is done is given out rounded: to nearest, halves up, or up.
-  wire [33:0] past_half = {{1'b0, {rest[30:0], 1'b0}}, 1'b1} + {{modulus[31], modulus}, short};  // and a carry out of the lowest bit
+  wire [31:0] past_half = {{rest[29:0], 1'b0}, 1'b1} + {modulus, short};  // and a carry out of the lowest bit
   reg up;
-  wire [32:0] part = past_half[33:1];
+  wire [30:0] part = past_half[31:1];
 
   always @(posedge clk) begin
-    up <= upwards ? |rest[30:0] : !part[32];
+    up <= upwards ? |rest[29:0] : !part[30];
   end
 
-  assign unfit = (now == 5'd4) && (below ? s0[33] : !s1[33]);
-  assign rest_out = rest[30:0];
+  assign unfit = (now == 5'd4) && (below ? !fits0 : s1_fits);
+  assign rest_out = rest[29:0];
   assign whole_out = whole;
   assign value = whole + {31'd0, up};
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, a_less_m[0], a_less_2m[0], x_and_n0[0], x_and_n1[0], x_and_n2[0], x_and_b[0], past_half[0],
-    differing[32], choice[33:32], part[31:0]
+    1'b0, a_less_m[0], less_2m[31], a_less_2m[0], x_and_n0[0], x_and_n1[0], x_and_n2[0], x_and_b[0],
+    past_half[0], differing[31], part[29:0]
   };
 
 endmodule

@@ -16,20 +16,20 @@ module edgewalk (
   input  wire        rst,
 
   input  wire        tri_valid,
-  input  wire [12:0] tri_x0,       // Q9.4 px
-  input  wire [12:0] tri_y0,       // Q9.4 px
+  input  wire [11:0] tri_x0,       // Q9.3 px
+  input  wire [11:0] tri_y0,       // Q9.3 px
   input  wire [15:0] tri_z0,       // UQ16.0 LSB
   input  wire  [4:0] tri_r0,       // UQ5.0 LSB
   input  wire  [4:0] tri_g0,       // UQ5.0 LSB
   input  wire  [4:0] tri_b0,       // UQ5.0 LSB
-  input  wire [12:0] tri_x1,       // Q9.4 px
-  input  wire [12:0] tri_y1,       // Q9.4 px
+  input  wire [11:0] tri_x1,       // Q9.3 px
+  input  wire [11:0] tri_y1,       // Q9.3 px
   input  wire [15:0] tri_z1,       // UQ16.0 LSB
   input  wire  [4:0] tri_r1,       // UQ5.0 LSB
   input  wire  [4:0] tri_g1,       // UQ5.0 LSB
   input  wire  [4:0] tri_b1,       // UQ5.0 LSB
-  input  wire [12:0] tri_x2,       // Q9.4 px
-  input  wire [12:0] tri_y2,       // Q9.4 px
+  input  wire [11:0] tri_x2,       // Q9.3 px
+  input  wire [11:0] tri_y2,       // Q9.3 px
   input  wire [15:0] tri_z2,       // UQ16.0 LSB
   input  wire  [4:0] tri_r2,       // UQ5.0 LSB
   input  wire  [4:0] tri_g2,       // UQ5.0 LSB
@@ -63,20 +63,20 @@ module edgewalk (
   wire [8:0] u_setup_prim_n2;
   wire u_setup_prim_major_right;
   wire [9:0] u_setup_prim_major_c;
-  wire [12:0] u_setup_prim_major_r;
+  wire [11:0] u_setup_prim_major_r;
   wire [9:0] u_setup_prim_major_q;
-  wire [12:0] u_setup_prim_major_f;
-  wire [12:0] u_setup_prim_major_m;
+  wire [11:0] u_setup_prim_major_f;
+  wire [11:0] u_setup_prim_major_m;
   wire [9:0] u_setup_prim_minor1_c;
-  wire [12:0] u_setup_prim_minor1_r;
+  wire [11:0] u_setup_prim_minor1_r;
   wire [9:0] u_setup_prim_minor1_q;
-  wire [12:0] u_setup_prim_minor1_f;
-  wire [12:0] u_setup_prim_minor1_m;
+  wire [11:0] u_setup_prim_minor1_f;
+  wire [11:0] u_setup_prim_minor1_m;
   wire [9:0] u_setup_prim_minor2_c;
-  wire [12:0] u_setup_prim_minor2_r;
+  wire [11:0] u_setup_prim_minor2_r;
   wire [9:0] u_setup_prim_minor2_q;
-  wire [12:0] u_setup_prim_minor2_f;
-  wire [12:0] u_setup_prim_minor2_m;
+  wire [11:0] u_setup_prim_minor2_f;
+  wire [11:0] u_setup_prim_minor2_m;
   wire [25:0] u_setup_prim_z_start;
   wire [25:0] u_setup_prim_z_d0;
   wire [25:0] u_setup_prim_z_d1;

@@ -22,20 +22,20 @@ module edgewalk_edge (
   input  wire  [8:0] prim_n2,           // lines of the lower part
   input  wire        prim_major_right,  // the major edge is the right one
   input  wire  [9:0] prim_major_c,      // signed, first column right of the edge
-  input  wire [12:0] prim_major_r,      // distance from the edge to that column, 1/M column
+  input  wire [11:0] prim_major_r,      // distance from the edge to that column, 1/M column
   input  wire  [9:0] prim_major_q,      // signed, whole columns a line
-  input  wire [12:0] prim_major_f,      // 1/M column a line
-  input  wire [12:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
+  input  wire [11:0] prim_major_f,      // 1/M column a line
+  input  wire [11:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
   input  wire  [9:0] prim_minor1_c,     // signed, first column right of the edge
-  input  wire [12:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
+  input  wire [11:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
   input  wire  [9:0] prim_minor1_q,     // signed, whole columns a line
-  input  wire [12:0] prim_minor1_f,     // 1/M column a line
-  input  wire [12:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
+  input  wire [11:0] prim_minor1_f,     // 1/M column a line
+  input  wire [11:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
   input  wire  [9:0] prim_minor2_c,     // signed, first column right of the edge
-  input  wire [12:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
+  input  wire [11:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
   input  wire  [9:0] prim_minor2_q,     // signed, whole columns a line
-  input  wire [12:0] prim_minor2_f,     // 1/M column a line
-  input  wire [12:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
+  input  wire [11:0] prim_minor2_f,     // 1/M column a line
+  input  wire [11:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
   input  wire [25:0] prim_z_start,      // UQ16.10 LSB, modular, at the first pixel of the first line
   input  wire [25:0] prim_z_d0,         // UQ16.10 LSB, modular, to the next line, edge without carry
   input  wire [25:0] prim_z_d1,         // UQ16.10 LSB, modular, to the next line, edge with carry
@@ -142,14 +142,14 @@ module edgewalk_edge (
 
   // The major edge.
   reg [9:0] major_c;   // signed, first column right of the edge
-  reg [12:0] major_r;  // distance from the edge to that column, 1/M column
+  reg [11:0] major_r;  // distance from the edge to that column, 1/M column
   reg [9:0] major_q;   // signed, whole columns a line
-  reg [12:0] major_f;  // 1/M column a line
-  reg [12:0] major_m;  // modulus of r and f: the edge's height, 1/P line
-  wire [13:0] first_less = {1'b0, prim_major_r} - {1'b0, prim_major_f};
-  wire first_carry = first_less[13];
-  wire [13:0] major_less = {1'b0, major_r} - {1'b0, major_f};
-  wire major_carry = major_less[13];
+  reg [11:0] major_f;  // 1/M column a line
+  reg [11:0] major_m;  // modulus of r and f: the edge's height, 1/P line
+  wire [12:0] first_less = {1'b0, prim_major_r} - {1'b0, prim_major_f};
+  wire first_carry = first_less[12];
+  wire [12:0] major_less = {1'b0, major_r} - {1'b0, major_f};
+  wire major_carry = major_less[12];
   reg carry;           // the major edge carries in its next step; 0 between triangles
 
   always @(posedge clk) begin
@@ -165,11 +165,11 @@ module edgewalk_edge (
   always @(posedge clk) begin
     if (step) begin
       major_c <= major_c + major_q + {9'd0, carry};
-      major_r <= major_carry ? major_less[12:0] + major_m : major_less[12:0];
+      major_r <= major_carry ? major_less[11:0] + major_m : major_less[11:0];
     end
     if (load) begin
       major_c <= prim_major_c;
-      major_r <= first_carry ? first_less[12:0] + prim_major_m : first_less[12:0];
+      major_r <= first_carry ? first_less[11:0] + prim_major_m : first_less[11:0];
     end
   end
 
@@ -183,17 +183,17 @@ module edgewalk_edge (
 
   // The minor edge, and the one that takes its place at the knee.
   reg [9:0] second_c;   // signed, first column right of the edge
-  reg [12:0] second_r;  // distance from the edge to that column, 1/M column
+  reg [11:0] second_r;  // distance from the edge to that column, 1/M column
   reg [9:0] second_q;   // signed, whole columns a line
-  reg [12:0] second_f;  // 1/M column a line
-  reg [12:0] second_m;  // modulus of r and f: the edge's height, 1/P line
+  reg [11:0] second_f;  // 1/M column a line
+  reg [11:0] second_m;  // modulus of r and f: the edge's height, 1/P line
   reg [9:0] minor_c;    // signed, first column right of the edge
-  reg [12:0] minor_r;   // distance from the edge to that column, 1/M column
+  reg [11:0] minor_r;   // distance from the edge to that column, 1/M column
   reg [9:0] minor_q;    // signed, whole columns a line
-  reg [12:0] minor_f;   // 1/M column a line
-  reg [12:0] minor_m;   // modulus of r and f: the edge's height, 1/P line
-  wire [13:0] minor_less = {1'b0, minor_r} - {1'b0, minor_f};
-  wire minor_carry = minor_less[13];
+  reg [11:0] minor_f;   // 1/M column a line
+  reg [11:0] minor_m;   // modulus of r and f: the edge's height, 1/P line
+  wire [12:0] minor_less = {1'b0, minor_r} - {1'b0, minor_f};
+  wire minor_carry = minor_less[12];
   wire has_upper = |prim_n1;
 
   always @(posedge clk) begin
@@ -209,7 +209,7 @@ module edgewalk_edge (
   always @(posedge clk) begin
     if (along) begin
       minor_c <= minor_c + minor_q + {9'd0, minor_carry};
-      minor_r <= minor_carry ? minor_less[12:0] + minor_m : minor_less[12:0];
+      minor_r <= minor_carry ? minor_less[11:0] + minor_m : minor_less[11:0];
     end
     if (at_knee) begin
       minor_c <= second_c;

@@ -19,20 +19,20 @@ module edgewalk_setup (
   input  wire        rst,
 
   input  wire        tri_valid,
-  input  wire [12:0] tri_x0,            // Q9.4 px
-  input  wire [12:0] tri_y0,            // Q9.4 px
+  input  wire [11:0] tri_x0,            // Q9.3 px
+  input  wire [11:0] tri_y0,            // Q9.3 px
   input  wire [15:0] tri_z0,            // UQ16.0 LSB
   input  wire  [4:0] tri_r0,            // UQ5.0 LSB
   input  wire  [4:0] tri_g0,            // UQ5.0 LSB
   input  wire  [4:0] tri_b0,            // UQ5.0 LSB
-  input  wire [12:0] tri_x1,            // Q9.4 px
-  input  wire [12:0] tri_y1,            // Q9.4 px
+  input  wire [11:0] tri_x1,            // Q9.3 px
+  input  wire [11:0] tri_y1,            // Q9.3 px
   input  wire [15:0] tri_z1,            // UQ16.0 LSB
   input  wire  [4:0] tri_r1,            // UQ5.0 LSB
   input  wire  [4:0] tri_g1,            // UQ5.0 LSB
   input  wire  [4:0] tri_b1,            // UQ5.0 LSB
-  input  wire [12:0] tri_x2,            // Q9.4 px
-  input  wire [12:0] tri_y2,            // Q9.4 px
+  input  wire [11:0] tri_x2,            // Q9.3 px
+  input  wire [11:0] tri_y2,            // Q9.3 px
   input  wire [15:0] tri_z2,            // UQ16.0 LSB
   input  wire  [4:0] tri_r2,            // UQ5.0 LSB
   input  wire  [4:0] tri_g2,            // UQ5.0 LSB
@@ -46,20 +46,20 @@ module edgewalk_setup (
   output reg   [8:0] prim_n2,           // lines of the lower part
   output wire        prim_major_right,  // the major edge is the right one
   output reg   [9:0] prim_major_c,      // signed, first column right of the edge
-  output reg  [12:0] prim_major_r,      // distance from the edge to that column, 1/M column
+  output reg  [11:0] prim_major_r,      // distance from the edge to that column, 1/M column
   output reg   [9:0] prim_major_q,      // signed, whole columns a line
-  output reg  [12:0] prim_major_f,      // 1/M column a line
-  output wire [12:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
+  output reg  [11:0] prim_major_f,      // 1/M column a line
+  output wire [11:0] prim_major_m,      // modulus of r and f: the edge's height, 1/P line
   output reg   [9:0] prim_minor1_c,     // signed, first column right of the edge
-  output reg  [12:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
+  output reg  [11:0] prim_minor1_r,     // distance from the edge to that column, 1/M column
   output reg   [9:0] prim_minor1_q,     // signed, whole columns a line
-  output reg  [12:0] prim_minor1_f,     // 1/M column a line
-  output wire [12:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
+  output reg  [11:0] prim_minor1_f,     // 1/M column a line
+  output wire [11:0] prim_minor1_m,     // modulus of r and f: the edge's height, 1/P line
   output reg   [9:0] prim_minor2_c,     // signed, first column right of the edge
-  output reg  [12:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
+  output reg  [11:0] prim_minor2_r,     // distance from the edge to that column, 1/M column
   output reg   [9:0] prim_minor2_q,     // signed, whole columns a line
-  output reg  [12:0] prim_minor2_f,     // 1/M column a line
-  output wire [12:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
+  output reg  [11:0] prim_minor2_f,     // 1/M column a line
+  output wire [11:0] prim_minor2_m,     // modulus of r and f: the edge's height, 1/P line
   output reg  [25:0] prim_z_start,      // UQ16.10 LSB, modular, at the first pixel of the first line
   output reg  [25:0] prim_z_d0,         // UQ16.10 LSB, modular, to the next line, edge without carry
   output reg  [25:0] prim_z_d1,         // UQ16.10 LSB, modular, to the next line, edge with carry
@@ -79,11 +79,10 @@ module edgewalk_setup (
 );
 
   // Control: the operations one after the other, a clock each or more; in rounds where there are more jobs than lanes.
-  localparam [2:0] IDLE = 3'd0;
-  localparam [2:0] EDGES = 3'd1;
-  localparam [2:0] CHANNELS = 3'd2;
-  localparam [2:0] STORE = 3'd3;
-  localparam [2:0] DONE = 3'd4;
+  localparam [1:0] IDLE = 2'd0;
+  localparam [1:0] WORK = 2'd1;
+  localparam [1:0] STORE = 2'd2;
+  localparam [1:0] DONE = 2'd3;
   localparam [4:0] LOAD_DX = 5'd0;
   localparam [4:0] FIX_DX = 5'd1;
   localparam [4:0] DOUBLE_DX = 5'd2;
@@ -117,7 +116,7 @@ module edgewalk_setup (
   wire [3:0] scale;      // the modulus is the area 4^scale times
   wire unfit;            // a number was taken in that is not between -M and M
   wire [4:0] top_digit;  // place of the first digit of a sum
-  reg [2:0] state;
+  reg [1:0] state;
   reg [4:0] at;          // operation
   reg [4:0] left;        // its clocks after this one
   reg first;             // its first clock
@@ -129,14 +128,13 @@ module edgewalk_setup (
   wire advance = !paused;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
-  wire in_edges = state == EDGES;
-  wire works = in_edges || (state == CHANNELS);
+  wire works = state == WORK;
   assign prim_valid = state == DONE;
-  wire begins = in_edges && (at == LOAD_DX) && (round == 2'd0);  // the first clock of a triangle
-  wire gives_up = in_edges && (at == FIX_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
+  wire begins = works && (at == LOAD_DX) && (round == 2'd0);  // the first clock of a triangle
+  wire gives_up = works && (at == FIX_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
   wire last = left == 5'd0;                          // last clock of the operation
-  wire edges_end = in_edges && last && (at == COLUMNS) && (round == 2'd2);
-  wire round_ends = (state == CHANNELS) && last && (at == ADD_START) && !(round == 2'd3);
+  wire edges_end = last && (at == COLUMNS) && (round == 2'd2);
+  wire round_ends = last && (at == ADD_START) && !(round == 2'd3);
   wire waits = (edges_end || round_ends) && !area_known;  // for the area or its scale
   wire ends = works && last && !waits && !gives_up;  // the operation ends
   wire leaves = ends && advance;
@@ -146,9 +144,9 @@ module edgewalk_setup (
     if (rst) begin
       state <= IDLE;
     end else begin
-      if (take) state <= EDGES;
+      if (take) state <= WORK;
       if (gives_up && advance) state <= IDLE;
-      if (edges_end && leaves) state <= no_area ? IDLE : CHANNELS;
+      if (edges_end && leaves && no_area) state <= IDLE;
       if (leaves && channels_end) state <= STORE;
       if ((state == STORE) && last) state <= DONE;
       if (prim_valid && prim_ready) state <= IDLE;
@@ -175,20 +173,14 @@ module edgewalk_setup (
   end
 
   // How long the next operation takes.
-  wire [4:0] choice = (round == 2'd3) ? 5'd6 : (round == 2'd2) ? 5'd6 : (round == 2'd1) ? 5'd6 : 5'd6;
-  wire [4:0] choice_2 = (round == 2'd3) ? 5'd6
-                      : (round == 2'd2) ? 5'd6
-                      : (round == 2'd1) ? 5'd6
-                      : 5'd6;
-
   always @(posedge clk) begin
     if (advance && works) left <= left - 5'd1;
     if (leaves) begin
       left <= (at == SIGN_START) ? top_digit
             : (at == SIGN_LINE) ? top_digit
-            : (at == SUM_Y) ? choice + {1'b0, scale}
+            : (at == SUM_Y) ? 5'd6 + {1'b0, scale}
             : (at == SIGN_Y) ? top_digit
-            : (at == SUM_X) ? choice_2 + {1'b0, scale}
+            : (at == SUM_X) ? 5'd6 + {1'b0, scale}
             : (at == WAIT) ? top_digit
             : (at == ADD12) ? 5'd1
             : (at == WAIT_DX) ? top_digit
@@ -250,15 +242,7 @@ module edgewalk_setup (
     at_whole <= at_rest;
     round_whole <= round_rest;
     ends_whole <= ends_rest;
-  end
-
-  always @(posedge clk) begin
-    if (rst) begin
-      pause <= 4'd0;
-    end else begin
-      if (!advance) pause <= pause - 4'd1;
-      if (advance && unfit) pause <= 4'd10;
-    end
+    pause <= advance ? 4'd9 : pause - 4'd1;
   end
 
   always @(posedge clk) begin
@@ -274,12 +258,12 @@ module edgewalk_setup (
   wire y1_above_y0 = $signed(tri_y1) < $signed(tri_y0);
   wire y2_above_y0 = $signed(tri_y2) < $signed(tri_y0);
   wire y2_above_y1 = $signed(tri_y2) < $signed(tri_y1);
-  reg [12:0] p0_u;      // Q9.4, signed
-  reg [12:0] p0_v;      // Q9.4, signed
-  reg [12:0] p1_u;      // Q9.4, signed
-  reg [12:0] p1_v;      // Q9.4, signed
-  reg [12:0] p2_u;      // Q9.4, signed
-  reg [12:0] p2_v;      // Q9.4, signed
+  reg [11:0] p0_u;      // Q9.3, signed
+  reg [11:0] p0_v;      // Q9.3, signed
+  reg [11:0] p1_u;      // Q9.3, signed
+  reg [11:0] p1_v;      // Q9.3, signed
+  reg [11:0] p2_u;      // Q9.3, signed
+  reg [11:0] p2_v;      // Q9.3, signed
   reg [1:0] p0_vertex;  // whose values are those at this place
   reg [1:0] p1_vertex;  // whose values are those at this place
   reg [1:0] p2_vertex;  // whose values are those at this place
@@ -287,17 +271,17 @@ module edgewalk_setup (
   wire both_2 = y2_above_y0 && y2_above_y1;
   wire both_3 = !y1_above_y0 && y2_above_y1;
   wire both_4 = !y2_above_y0 && !y2_above_y1;
-  wire [12:0] choice_3 = (!both && !both_3) ? tri_x1 : (!both_2 && !both_4) ? tri_x2 : tri_x0;
-  wire [12:0] choice_4 = (!both && !both_3) ? tri_y1 : (!both_2 && !both_4) ? tri_y2 : tri_y0;
+  wire [11:0] choice = (!both && !both_3) ? tri_x1 : (!both_2 && !both_4) ? tri_x2 : tri_x0;
+  wire [11:0] choice_2 = (!both && !both_3) ? tri_y1 : (!both_2 && !both_4) ? tri_y2 : tri_y0;
 
   always @(posedge clk) begin
     if (take) begin
-      p0_u <= (both ? tri_x1 : both_2 ? tri_x2 : tri_x0) - 13'd8;
-      p0_v <= (both ? tri_y1 : both_2 ? tri_y2 : tri_y0) - 13'd8;
-      p1_u <= choice_3 - 13'd8;
-      p1_v <= choice_4 - 13'd8;
-      p2_u <= (both_3 ? tri_x1 : both_4 ? tri_x2 : tri_x0) - 13'd8;
-      p2_v <= (both_3 ? tri_y1 : both_4 ? tri_y2 : tri_y0) - 13'd8;
+      p0_u <= (both ? tri_x1 : both_2 ? tri_x2 : tri_x0) - 12'd4;
+      p0_v <= (both ? tri_y1 : both_2 ? tri_y2 : tri_y0) - 12'd4;
+      p1_u <= choice - 12'd4;
+      p1_v <= choice_2 - 12'd4;
+      p2_u <= (both_3 ? tri_x1 : both_4 ? tri_x2 : tri_x0) - 12'd4;
+      p2_v <= (both_3 ? tri_y1 : both_4 ? tri_y2 : tri_y0) - 12'd4;
       p0_vertex <= {both_2, both};
       p1_vertex <= {!both_2 && !both_4, !both && !both_3};
       p2_vertex <= {both_4, both_3};
@@ -336,121 +320,99 @@ module edgewalk_setup (
   end
 
   // Differences of the sorted vertices, from upper to lower ends of edges.
-  wire [13:0] difference = {p2_v[12], p2_v} - {p0_v[12], p0_v};
-  wire [12:0] tall = difference[12:0];
-  reg [12:0] dv02;  // 1/P line
-  reg [12:0] dv01;  // 1/P line
-  reg [12:0] dv12;  // 1/P line
-  reg [13:0] du02;  // 1/P column, signed
-  reg [13:0] du01;  // 1/P column, signed
-  reg [13:0] du12;  // 1/P column, signed
-  wire [13:0] difference_2 = {p2_v[12], p2_v} - {p0_v[12], p0_v};
-  wire [13:0] difference_3 = {p1_v[12], p1_v} - {p0_v[12], p0_v};
-  wire [13:0] difference_4 = {p2_v[12], p2_v} - {p1_v[12], p1_v};
+  wire [11:0] tall = p2_v - p0_v;
+  reg [11:0] dv02;  // 1/P line
+  reg [11:0] dv01;  // 1/P line
+  reg [11:0] dv12;  // 1/P line
+  reg [12:0] du02;  // 1/P column, signed
+  reg [12:0] du01;  // 1/P column, signed
+  reg [12:0] du12;  // 1/P column, signed
 
   always @(posedge clk) begin
-    if (begins) begin
-      dv02 <= difference_2[12:0];
-      dv01 <= difference_3[12:0];
-      dv12 <= difference_4[12:0];
-      du02 <= {p2_u[12], p2_u} - {p0_u[12], p0_u};
-      du01 <= {p1_u[12], p1_u} - {p0_u[12], p0_u};
-      du12 <= {p2_u[12], p2_u} - {p1_u[12], p1_u};
-    end
+    dv02 <= p2_v - p0_v;
+    dv01 <= p1_v - p0_v;
+    dv12 <= p2_v - p1_v;
+    du02 <= {p2_u[11], p2_u} - {p0_u[11], p0_u};
+    du01 <= {p1_u[11], p1_u} - {p0_u[11], p0_u};
+    du12 <= {p2_u[11], p2_u} - {p1_u[11], p1_u};
   end
 
   // Twice the area: du1 dv2 - du2 dv1, over the bits of dv2 and dv1.
   reg [3:0] area_digit;  // place of the digits added
   reg area_adds;         // digits are added
-  wire [12:0] shifted = dv02 >> area_digit;
-  wire [12:0] shifted_2 = dv01 >> area_digit;
-  wire [14:0] area_part = (shifted[0] ? {du01[13], du01} : 15'd0)
-                        - (shifted_2[0] ? {du02[13], du02} : 15'd0);
-  reg [27:0] area;       // 1/P^2 px^2, signed
+  wire [11:0] shifted = dv02 >> area_digit;
+  wire [11:0] shifted_2 = dv01 >> area_digit;
+  wire [13:0] area_part = (shifted[0] ? {du01[12], du01} : 14'd0)
+                        - (shifted_2[0] ? {du02[12], du02} : 14'd0);
+  reg [24:0] area;       // 1/P^2 px^2, signed
   assign no_area = !(|area);
-  wire any = |tall[12:8];
-  wire [4:0] part = tall[12:8];
-  wire any_2 = part[4];
-  wire [3:0] part_3 = part[3:0];
-  wire [1:0] part_2 = part_3[3:2];
-  wire any_3 = |part_2;
-  wire [1:0] part_4 = part_3[1:0];
-  wire [7:0] part_6 = tall[7:0];
-  wire [3:0] part_5 = part_6[7:4];
-  wire any_4 = |part_5;
-  wire [1:0] part_7 = part_5[3:2];
-  wire any_5 = |part_7;
-  wire [1:0] part_8 = part_5[1:0];
-  wire [3:0] part_10 = part_6[3:0];
-  wire [1:0] part_9 = part_10[3:2];
-  wire any_6 = |part_9;
-  wire [1:0] part_11 = part_10[1:0];
-  wire [1:0] choice_5 = any_4 ? {any_5, any_5 ? part_7[1] : part_8[1]}
-                      : {any_6, any_6 ? part_9[1] : part_11[1]};
-  wire [2:0] choice_6 = any ? {any_2, any_2 ? 2'd0 : {any_3, any_3 ? part_2[1] : part_4[1]}}
-                      : {any_4, choice_5};
+  wire any = |tall[11:8];
+  wire [3:0] part_2 = tall[11:8];
+  wire [1:0] part = part_2[3:2];
+  wire any_2 = |part;
+  wire [1:0] part_3 = part_2[1:0];
+  wire [7:0] part_5 = tall[7:0];
+  wire [3:0] part_4 = part_5[7:4];
+  wire any_3 = |part_4;
+  wire [1:0] part_6 = part_4[3:2];
+  wire any_4 = |part_6;
+  wire [1:0] part_7 = part_4[1:0];
+  wire [3:0] part_9 = part_5[3:0];
+  wire [1:0] part_8 = part_9[3:2];
+  wire any_5 = |part_8;
+  wire [1:0] part_10 = part_9[1:0];
+  wire [1:0] choice_3 = any_3 ? {any_4, any_4 ? part_6[1] : part_7[1]}
+                      : {any_5, any_5 ? part_8[1] : part_10[1]};
+  wire [2:0] choice_4 = any ? {1'b0, {any_2, any_2 ? part[1] : part_3[1]}} : {any_3, choice_3};
 
   always @(posedge clk) begin
     if (area_adds) begin
       area_digit <= area_digit - 4'd1;
-      area <= (area << 1) + {{13{area_part[14]}}, area_part};
+      area <= (area << 1) + {{11{area_part[13]}}, area_part};
     end
     if (begins) begin
-      area_digit <= {any, choice_6};
-      area <= 28'd0;
+      area_digit <= {any, choice_4};
+      area <= 25'd0;
     end
   end
 
   wire equal = area_digit == 4'd0;
 
   always @(posedge clk) begin
-    if (rst) begin
-      area_adds <= 1'b0;
-    end else begin
-      if (area_adds && equal) area_adds <= 1'b0;
-      if (begins) area_adds <= 1'b1;
-    end
+    if (area_adds && equal) area_adds <= 1'b0;
+    if (begins) area_adds <= 1'b1;
   end
 
   // The area as modulus: fourfold, i times, until the differences of the next round's values fit.
   reg [15:0] differences;  // their bits, or those of complements
-  reg [27:0] scaled;       // -M or -M - 1, signed
+  reg [24:0] scaled;       // -M or -M - 1, signed
   reg scale_taken;         // the area is taken
   reg scaling;             // it is compared
   reg [3:0] scale_next;    // times that it is fourfold
-  wire [28:0] less_m = {{12'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
-  wire [27:0] part_12 = less_m[28:1];
-  wire fits = part_12[27] || !(|area);
+  wire [25:0] less_m = {{9'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
+  wire [24:0] part_11 = less_m[25:1];
+  wire fits = part_11[24] || !(|area);
   wire grows = scaling && !fits;
-  assign area_known = !area_adds && !begins && !scale_taken && !scaling;
+  assign area_known = !area_adds && !scale_taken && !scaling;
   reg [3:0] scale_now;     // of the round
   assign scale = scale_now;
   wire either = (area_adds && equal) || ((at_next == FIX2) && !(round_next == 2'd3));
 
   always @(posedge clk) begin
-    if (rst) begin
-      scale_taken <= 1'b0;
-    end else begin
-      scale_taken <= either && !begins;
-    end
+    scale_taken <= either && !begins;
   end
 
   always @(posedge clk) begin
-    if (rst) begin
-      scaling <= 1'b0;
-    end else begin
-      if (fits) scaling <= 1'b0;
-      if (scale_taken) scaling <= 1'b1;
-      if (begins) scaling <= 1'b0;
-    end
+    if (fits) scaling <= 1'b0;
+    if (scale_taken) scaling <= 1'b1;
   end
 
-  wire inverse = !area[27];
-  wire [27:0] extended = area;
+  wire inverse = !area[24];
+  wire [24:0] extended = area;
 
   always @(posedge clk) begin
     if (grows) begin
-      scaled <= {scaled[25:0], inverse, inverse};
+      scaled <= {scaled[22:0], inverse, inverse};
       scale_next <= scale_next + 4'd1;
     end
     if (scale_taken) begin
@@ -464,115 +426,100 @@ module edgewalk_setup (
   end
 
   // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
-  wire [8:0] part_13 = p0_v[12:4];
-  wire [9:0] line0 = {part_13[8], part_13} + {9'd0, |p0_v[3:0]};  // ceil(v/P)
+  wire [10:0] part_12 = p0_v[10:0];
+  wire [9:0] line0 = {2'd0, part_12[10:3]} + {9'd0, |p0_v[2:0]};  // ceil(v/P) of one that is not above the screen
   reg [9:0] j0;        // line of the screen
-  wire [8:0] part_14 = p1_v[12:4];
-  wire [9:0] line1 = {part_14[8], part_14} + {9'd0, |p1_v[3:0]};  // ceil(v/P)
+  wire [10:0] part_13 = p1_v[10:0];
+  wire [9:0] line1 = {2'd0, part_13[10:3]} + {9'd0, |p1_v[2:0]};  // ceil(v/P) of one that is not above the screen
   reg [9:0] j1;        // line of the screen
-  wire [8:0] part_15 = p2_v[12:4];
-  wire [9:0] line2 = {part_15[8], part_15} + {9'd0, |p2_v[3:0]};  // ceil(v/P)
+  wire [10:0] part_14 = p2_v[10:0];
+  wire [9:0] line2 = {2'd0, part_14[10:3]} + {9'd0, |p2_v[2:0]};  // ceil(v/P) of one that is not above the screen
   reg [9:0] end_line;  // line of the screen
+  wire [9:0] difference = j1 - j0;
+  wire [9:0] difference_2 = end_line - j1;
 
   always @(posedge clk) begin
-    if (begins) begin
-      j0 <= p0_v[12] ? 10'd0 : ($signed(p0_v) <= 13'sd2544) ? line0 : 10'd160;
-      j1 <= p1_v[12] ? 10'd0 : ($signed(p1_v) <= 13'sd2544) ? line1 : 10'd160;
-      end_line <= p2_v[12] ? 10'd0 : ($signed(p2_v) <= 13'sd2544) ? line2 : 10'd160;
-    end
-  end
-
-  wire [9:0] difference_5 = j1 - j0;
-  wire [9:0] difference_6 = end_line - j1;
-
-  always @(posedge clk) begin
-    if (at == FIX_DX) begin
-      prim_n1 <= difference_5[8:0];
-      prim_n2 <= difference_6[8:0];
-    end
+    j0 <= p0_v[11] ? 10'd0 : (part_12 <= 11'd1272) ? line0 : 10'd160;
+    j1 <= p1_v[11] ? 10'd0 : (part_13 <= 11'd1272) ? line1 : 10'd160;
+    end_line <= p2_v[11] ? 10'd0 : (part_14 <= 11'd1272) ? line2 : 10'd160;
+    prim_n1 <= difference[8:0];
+    prim_n2 <= difference_2[8:0];
   end
 
   // Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.
-  wire [8:0] part_16 = p0_u[12:4];
-  wire [9:0] column0 = {part_16[8], part_16} + {9'd0, |p0_u[3:0]};  // ceil(u/P)
-  wire [8:0] part_17 = p1_u[12:4];
-  wire [9:0] column1 = {part_17[8], part_17} + {9'd0, |p1_u[3:0]};  // ceil(u/P)
-  wire [8:0] part_18 = p2_u[12:4];
-  wire [9:0] column2 = {part_18[8], part_18} + {9'd0, |p2_u[3:0]};  // ceil(u/P)
+  wire [8:0] column0 = p0_u[11:3] + {8'd0, |p0_u[2:0]};  // ceil(u/P)
+  wire [8:0] column1 = p1_u[11:3] + {8'd0, |p1_u[2:0]};  // ceil(u/P)
+  wire [8:0] column2 = p2_u[11:3] + {8'd0, |p2_u[2:0]};  // ceil(u/P)
   wire none_between = (column0 == column1) && (column1 == column2);
-  wire before_screen = (p0_u[12] || !(|p0_u)) && (p1_u[12] || !(|p1_u)) && (p2_u[12] || !(|p2_u));  // ceil(u/P) is 0 or less
-  wire behind_screen = !($signed(p0_u) <= 13'sd3824)  // ceil(u/P) is W or more
-                    && !($signed(p1_u) <= 13'sd3824)
-                    && !($signed(p2_u) <= 13'sd3824);
-  reg no_column;                                   // no column of the screen
+  wire before_screen = (p0_u[11] || !(|p0_u)) && (p1_u[11] || !(|p1_u)) && (p2_u[11] || !(|p2_u));  // ceil(u/P) is 0 or less
+  wire behind_screen = !($signed(p0_u) <= 12'sd1912)  // ceil(u/P) is W or more
+                    && !($signed(p1_u) <= 12'sd1912)
+                    && !($signed(p2_u) <= 12'sd1912);
+  reg no_column;                                 // no column of the screen
   assign nothing = (j0 == end_line) || no_column;
   wire upper = |prim_n1;
-  wire [9:0] jm = upper ? j0 : j1;                 // first line of the triangle
-  wire [13:0] h0 = {jm, 4'd0} - {p0_v[12], p0_v};  // 1/P line
-  wire [13:0] h1 = {j1, 4'd0} - {p1_v[12], p1_v};  // 1/P line
+  wire [9:0] jm = upper ? j0 : j1;               // first line of the triangle
+  wire [12:0] joined = {jm, 3'd0};
+  wire [10:0] h0 = joined[10:0] - p0_v[10:0];    // 1/P line
+  wire [12:0] joined_2 = {j1, 3'd0};
+  wire [10:0] h1 = joined_2[10:0] - p1_v[10:0];  // 1/P line
 
   always @(posedge clk) begin
-    if (begins) no_column <= none_between || before_screen || behind_screen;
+    no_column <= none_between || before_screen || behind_screen;
   end
 
   // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
-  reg [14:0] f;  // factor, signed
-  reg [14:0] g;  // factor, signed
-  wire [14:0] differing = f ^ $unsigned($signed(f) >>> 1);
-  wire [14:0] differing_2 = g ^ $unsigned($signed(g) >>> 1);
-  wire [13:0] digits = differing[13:0] | differing_2[13:0];  // digits of the factors that differ from their signs
-  wire any_7 = |digits[13:8];
-  wire [5:0] part_20 = digits[13:8];
-  wire [1:0] part_19 = part_20[5:4];
-  wire any_8 = |part_19;
-  wire [3:0] part_22 = part_20[3:0];
-  wire [1:0] part_21 = part_22[3:2];
-  wire any_9 = |part_21;
-  wire [1:0] part_23 = part_22[1:0];
-  wire [1:0] choice_7 = any_8 ? {1'b0, part_19[1]} : {any_9, any_9 ? part_21[1] : part_23[1]};
-  wire [7:0] part_25 = digits[7:0];
-  wire [3:0] part_24 = part_25[7:4];
-  wire any_10 = |part_24;
-  wire [1:0] part_26 = part_24[3:2];
-  wire any_11 = |part_26;
-  wire [1:0] part_27 = part_24[1:0];
-  wire [3:0] part_29 = part_25[3:0];
-  wire [1:0] part_28 = part_29[3:2];
-  wire any_12 = |part_28;
-  wire [1:0] part_30 = part_29[1:0];
-  wire [1:0] choice_8 = any_10 ? {any_11, any_11 ? part_26[1] : part_27[1]}
-                      : {any_12, any_12 ? part_28[1] : part_30[1]};
-  assign top_digit = {1'b0, {any_7, any_7 ? {any_8, choice_7} : {any_10, choice_8}}};
-  wire [14:0] shifted_3 = f >> left;
+  reg [12:0] f;  // factor, signed
+  reg [12:0] g;  // factor, signed
+  wire [11:0] digits = (f[11:0] ^ f[12:1]) | (g[11:0] ^ g[12:1]);  // digits of the factors that differ from their signs
+  wire any_6 = |digits[11:8];
+  wire [3:0] part_16 = digits[11:8];
+  wire [1:0] part_15 = part_16[3:2];
+  wire any_7 = |part_15;
+  wire [1:0] part_17 = part_16[1:0];
+  wire [7:0] part_19 = digits[7:0];
+  wire [3:0] part_18 = part_19[7:4];
+  wire any_8 = |part_18;
+  wire [1:0] part_20 = part_18[3:2];
+  wire any_9 = |part_20;
+  wire [1:0] part_21 = part_18[1:0];
+  wire [3:0] part_23 = part_19[3:0];
+  wire [1:0] part_22 = part_23[3:2];
+  wire any_10 = |part_22;
+  wire [1:0] part_24 = part_23[1:0];
+  wire [1:0] choice_5 = any_8 ? {any_9, any_9 ? part_20[1] : part_21[1]}
+                      : {any_10, any_10 ? part_22[1] : part_24[1]};
+  wire [2:0] choice_6 = any_6 ? {1'b0, {any_7, any_7 ? part_15[1] : part_17[1]}} : {any_8, choice_5};
+  assign top_digit = {1'b0, {any_6, choice_6}};
+  wire [12:0] shifted_3 = f >> left;
   wire digit_f = shifted_3[0];
-  wire [14:0] shifted_4 = g >> left;
+  wire [12:0] shifted_4 = g >> left;
   wire digit_g = shifted_4[0];
-  wire [13:0] joined = {prim_major_c - {9'd0, area[27]}, 4'd0};
 
   always @(posedge clk) begin
     if (at == WAIT_DX) begin
-      f <= (round == 2'd2) ? ((|prim_n2) ? {11'd0, p1_u[3:0]} : 15'd0)
-         : (round == 2'd1) ? ((|prim_n1) ? {11'd0, p0_u[3:0]} : 15'd0)
-         : {11'd0, p0_u[3:0]};
-      g <= (round == 2'd2) ? ((|prim_n2) ? {1'b0, h1} : 15'd0)
-         : (round == 2'd1) ? ((|prim_n1) ? {1'b0, h0} : 15'd0)
-         : {1'b0, h0};
+      f <= (round == 2'd2) ? {10'd0, p1_u[2:0]} & {13{|prim_n2}}
+         : (round == 2'd1) ? {10'd0, p0_u[2:0]} & {13{|prim_n1}}
+         : {10'd0, p0_u[2:0]};
+      g <= (round == 2'd2) ? {2'd0, h1} & {13{|prim_n2}}
+         : (round == 2'd1) ? {2'd0, h0} & {13{|prim_n1}}
+         : {2'd0, h0};
     end
     if (at == WAIT) begin
-      f <= {2'd0, dv02};
-      g <= {2'd0, dv01};
+      f <= {1'b0, dv02};
+      g <= {1'b0, dv01};
     end
     if (at == DOUBLE_X) begin
-      f <= -{du02[13], du02};
-      g <= -{du01[13], du01};
+      f <= -du02;
+      g <= -du01;
     end
     if (at == ADD_X) begin
-      f <= {{5{prim_major_q[9]}}, prim_major_q};
-      g <= 15'd0;
+      f <= {{3{prim_major_q[9]}}, prim_major_q};
+      g <= 13'd0;
     end
     if (at == ADD_LINE) begin
-      f <= {joined[13], joined} - {{2{p0_u[12]}}, p0_u};
-      g <= {1'b0, h0};
+      f <= {prim_major_c - {9'd0, area[24]}, 3'd0} - {p0_u[11], p0_u};
+      g <= {2'd0, h0};
     end
   end
 
@@ -583,8 +530,7 @@ module edgewalk_setup (
                || (at == ADD_Y)
                || (at == ADD_LINE);
   wire either_3 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
-  wire [4:0] step = rests ? 5'd0
-                  : ((at == SUM) || (at == SUM_X)) ? (first ? 5'd17 : 5'd18)
+  wire [4:0] step = ((at == SUM) || (at == SUM_X)) ? (first ? 5'd17 : 5'd18)
                   : ((at == COLUMNS) || (at == ADD_START)) ? 5'd20
                   : either_2 ? 5'd16
                   : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 5'd19
@@ -633,17 +579,20 @@ module edgewalk_setup (
   end
 
   // Lane 0: its steps.
-  wire [4:0] choice_9 = (round == 2'd3) ? 5'd8
-                      : (round == 2'd2) ? 5'd8
-                      : (round == 2'd1) ? 5'd8
+  wire [4:0] choice_7 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                      : (round == 2'd2) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                      : (round == 2'd1) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                      : (left == 5'd0) ? 5'd3
                       : 5'd8;
-  wire [4:0] choice_10 = (round == 2'd3) ? 5'd8
-                       : (round == 2'd2) ? 5'd8
-                       : (round == 2'd1) ? 5'd8
-                       : 5'd8;
-  wire [4:0] step0 = ((at == DOUBLE_Y) && !rests) ? choice_9
-                   : ((at == DOUBLE_X) && !rests) ? choice_10
-                   : ((at == DOUBLE_DX) && !rests) ? 5'd8
+  wire [4:0] choice_8 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                      : (round == 2'd2) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                      : (round == 2'd1) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                      : (left == 5'd0) ? 5'd3
+                      : 5'd8;
+  wire [4:0] step0 = rests ? 5'd0
+                   : (at == DOUBLE_Y) ? choice_7
+                   : (at == DOUBLE_X) ? choice_8
+                   : (at == DOUBLE_DX) ? ((left == 5'd0) ? 5'd3 : 5'd8)
                    : step;
   reg [4:0] step_next0;
   reg [4:0] step_again0;
@@ -668,9 +617,11 @@ module edgewalk_setup (
 
   // What the lanes are shown in the next clock; in the first of a triangle dc1 of the first round.
   reg [1:0] from_place;
-  wire [1:0] from_vertex = from_place[1] ? p2_vertex : from_place[0] ? p1_vertex : p0_vertex;
+  wire [1:0] from_vertex = (from_place == 2'd2) ? p2_vertex
+                         : (from_place == 2'd1) ? p1_vertex
+                         : p0_vertex;
   reg [1:0] to_place;
-  wire [1:0] to_vertex = to_place[1] ? p2_vertex : to_place[0] ? p1_vertex : p0_vertex;
+  wire [1:0] to_vertex = (to_place == 2'd2) ? p2_vertex : (to_place == 2'd1) ? p1_vertex : p0_vertex;
   reg single_value;
   reg values_of_round1;
   reg values_of_round2;
@@ -678,7 +629,7 @@ module edgewalk_setup (
   reg number_of_edge;
   reg number_is_height;
   wire either_5 = (at == FIX_DX) || (at == LOAD2) || (at == FIX2);
-  wire both_5 = area[27] && ((at == LOAD1) || (at == LOAD2));
+  wire both_5 = area[24] && ((at == LOAD1) || (at == LOAD2));
   wire equal_2 = at == ADD_START;
   wire either_6 = (at == FIX1) || (at == FIX2);
   wire equal_3 = at == FIX_DX;
@@ -686,16 +637,11 @@ module edgewalk_setup (
   always @(posedge clk) begin
     if (advance) begin
       from_place <= either_5 ? (both_5 ? 2'd0 : 2'd2) : both_5 ? 2'd1 : 2'd0;
-      to_place <= equal_2 ? (1'b0 ? 2'd1 : 2'd0)
-                : either_5 ? (both_5 ? 2'd2 : 2'd0)
-                : both_5 ? 2'd0
-                : 2'd1;
+      to_place <= equal_2 ? 2'd0 : either_5 ? (both_5 ? 2'd2 : 2'd0) : both_5 ? 2'd0 : 2'd1;
       single_value <= equal_2;
       values_of_round1 <= (either_6 ? round == 2'd0 : round == 2'd1) && !equal_3;
       values_of_round2 <= (either_6 ? round == 2'd1 : round == 2'd2) && !equal_3;
       values_of_round3 <= (either_6 ? round == 2'd2 : round == 2'd3) && !equal_3;
-      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
-      number_is_height <= at == LOAD_DY;
     end
     if (take) begin
       from_place <= 2'd0;
@@ -704,55 +650,55 @@ module edgewalk_setup (
       values_of_round1 <= 1'b0;
       values_of_round2 <= 1'b0;
       values_of_round3 <= 1'b0;
-      number_of_edge <= 1'b0;
-      number_is_height <= 1'b0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (advance) begin
+      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
+      number_is_height <= at == LOAD_DY;
     end
   end
 
   // Lane 0: what it takes in.
-  wire [13:0] extended_2 = {1'b0, dv12};
-  wire [13:0] extended_3 = {1'b0, dv01};
-  wire [13:0] extended_4 = {1'b0, dv02};
-  wire [16:0] choice_11 = (round_next == 2'd2) ? {{3{extended_2[13]}}, extended_2}
-                        : (round_next == 2'd1) ? {{3{extended_3[13]}}, extended_3}
-                        : {{3{extended_4[13]}}, extended_4};
-  wire [16:0] choice_12 = number_is_height ? choice_11
-                        : (round_next == 2'd2) ? {{3{du12[13]}}, du12}
-                        : (round_next == 2'd1) ? {{3{du01[13]}}, du01}
-                        : {{3{du02[13]}}, du02};
-  wire [16:0] choice_13 = values_of_round3 ? {12'd0, vertex2_b}
+  wire [12:0] extended_2 = {1'b0, dv12};
+  wire [12:0] extended_3 = {1'b0, dv01};
+  wire [12:0] extended_4 = {1'b0, dv02};
+  wire [16:0] choice_9 = (round_next == 2'd2) ? {{4{extended_2[12]}}, extended_2}
+                       : (round_next == 2'd1) ? {{4{extended_3[12]}}, extended_3}
+                       : {{4{extended_4[12]}}, extended_4};
+  wire [16:0] choice_10 = number_is_height ? choice_9
+                        : (round_next == 2'd2) ? {{4{du12[12]}}, du12}
+                        : (round_next == 2'd1) ? {{4{du01[12]}}, du01}
+                        : {{4{du02[12]}}, du02};
+  wire [16:0] choice_11 = values_of_round3 ? {12'd0, vertex2_b}
                         : values_of_round2 ? {12'd0, vertex2_g}
                         : values_of_round1 ? {12'd0, vertex2_r}
                         : {1'b0, vertex2_z};
-  wire [16:0] choice_14 = values_of_round3 ? {12'd0, vertex1_b}
+  wire [16:0] choice_12 = values_of_round3 ? {12'd0, vertex1_b}
                         : values_of_round2 ? {12'd0, vertex1_g}
                         : values_of_round1 ? {12'd0, vertex1_r}
                         : {1'b0, vertex1_z};
-  wire [16:0] choice_15 = values_of_round3 ? {12'd0, vertex0_b}
+  wire [16:0] choice_13 = values_of_round3 ? {12'd0, vertex0_b}
                         : values_of_round2 ? {12'd0, vertex0_g}
                         : values_of_round1 ? {12'd0, vertex0_r}
                         : {1'b0, vertex0_z};
-  wire [16:0] choice_16 = values_of_round3 ? 17'd0
+  wire [16:0] choice_14 = values_of_round3 ? 17'd0
                         : values_of_round2 ? 17'd0
                         : values_of_round1 ? 17'd0
                         : 17'd0;
-  wire [16:0] choice_17 = single_value ? choice_16
-                        : from_vertex[1] ? choice_13
-                        : from_vertex[0] ? choice_14
-                        : choice_15;
-  wire [16:0] difference_7 = (to_vertex[1] ? choice_13 : to_vertex[0] ? choice_14 : choice_15)
-                           - choice_17;
-  wire [16:0] number0 = number_of_edge ? choice_12 : difference_7;  // signed
+  wire [16:0] choice_15 = single_value ? choice_14
+                        : from_vertex[1] ? choice_11
+                        : from_vertex[0] ? choice_12
+                        : choice_13;
+  wire [16:0] difference_3 = (to_vertex[1] ? choice_11 : to_vertex[0] ? choice_12 : choice_13)
+                           - choice_15;
+  wire [16:0] number0 = number_of_edge ? choice_10 : difference_3;  // signed
   reg [16:0] kept0;  // a number that may not fit, or a first value; signed
-  wire [15:0] shown = number0[15:0] ^ {16{number0[16]}};
+  wire [15:0] shown = difference_3[15:0] ^ {16{difference_3[16]}};
   wire lane0_unfit;
-  wire choice_18 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
-  wire choice_19 = (round_stepped == 2'd3) ? 1'b1
-                 : (round_stepped == 2'd2) ? 1'b1
-                 : (round_stepped == 2'd1) ? 1'b1
-                 : 1'b1;
-  wire either_7 = ((at_stepped == FIX_DX) && choice_18) || ((1'b0 || 1'b0) && choice_19);
-  assign unfit = lane0_unfit && either_7;
+  wire choice_16 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
+  assign unfit = lane0_unfit && choice_16;
 
   always @(posedge clk) begin
     if ((at_next == LOAD_DX) || (at_next == ADD_START)) kept0 <= number0;
@@ -764,45 +710,45 @@ module edgewalk_setup (
   end
 
   // Edge: major.
-  wire [26:0] lane0_rest_out;
-  wire [29:0] lane0_whole_out;
-  wire [29:0] lane0_value;
-  wire choice_20 = is_sign ? f[14] : digit_f;
-  wire choice_21 = is_sign ? g[14] : digit_g;
-  wire [17:0] shifted_5 = $signed({kept0[16], kept0}) >>> {pause - 4'd2, 1'b0};
-  wire [8:0] part_31 = p1_u[12:4];
-  wire [8:0] part_32 = p0_u[12:4];
-  wire [8:0] part_33 = p0_u[12:4];
-  wire [29:0] choice_22 = (round_stepped == 2'd2) ? {{21{part_31[8]}}, part_31}
-                        : (round_stepped == 2'd1) ? {{21{part_32[8]}}, part_32}
-                        : {{21{part_33[8]}}, part_33};
-  wire [30:0] joined_2 = {{{kept0, 1'b1}, 9'd0}, 4'd8};
-  wire [30:0] joined_3 = {{{kept0, 1'b1}, 9'd0}, 4'd8};
-  wire [30:0] joined_4 = {{{kept0, 1'b1}, 9'd0}, 4'd8};
-  wire [30:0] joined_5 = {{{kept0, 1'b1}, 9'd0}, 4'd8};
+  wire [23:0] lane0_rest_out;
+  wire [28:0] lane0_whole_out;
+  wire [28:0] lane0_value;
+  wire choice_17 = is_sign ? f[12] : digit_f;
+  wire choice_18 = is_sign ? g[12] : digit_g;
+  wire [16:0] shifted_5 = $signed(kept0) >>> {pause - 4'd2, 1'b0};
+  wire [8:0] part_25 = p1_u[11:3];
+  wire [8:0] part_26 = p0_u[11:3];
+  wire [8:0] part_27 = p0_u[11:3];
+  wire [28:0] choice_19 = (round_stepped == 2'd2) ? {{20{part_25[8]}}, part_25}
+                        : (round_stepped == 2'd1) ? {{20{part_26[8]}}, part_26}
+                        : {{20{part_27[8]}}, part_27};
+  wire [29:0] joined_3 = {{{kept0, 1'b1}, 9'd0}, 3'd4};
+  wire [29:0] joined_4 = {{{kept0, 1'b1}, 9'd0}, 3'd4};
+  wire [29:0] joined_5 = {{{kept0, 1'b1}, 9'd0}, 3'd4};
+  wire [29:0] joined_6 = {{{kept0, 1'b1}, 9'd0}, 3'd4};
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_20 || choice_21), choice_21, choice_20}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_17 || choice_18), choice_18, choice_17}
 : read_single_at),
     .step          (step_formed0),
     .number        (number0),
     .digits        (shifted_5[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? choice_22
-: (round_stepped == 2'd3) ? joined_2[29:0]
-: (round_stepped == 2'd2) ? joined_3[29:0]
-: (round_stepped == 2'd1) ? joined_4[29:0]
-: joined_5[29:0]),
+    .whole_in      ((at_stepped == COLUMNS) ? choice_19
+: (round_stepped == 2'd3) ? joined_3[28:0]
+: (round_stepped == 2'd2) ? joined_4[28:0]
+: (round_stepped == 2'd1) ? joined_5[28:0]
+: joined_6[28:0]),
     .take_modulus  (take_modulus),
     .modulus_in    ((at_next == LOAD1) ? scaled
-: (round_next == 2'd2) ? ~{11'd0, {dv12, 4'd0}}
-: (round_next == 2'd1) ? ~{11'd0, {dv01, 4'd0}}
-: ~{11'd0, {dv02, 4'd0}}),
-    .modulus_short (!((at_next == LOAD1) && area[27])),
+: (round_next == 2'd2) ? ~{10'd0, {dv12, 3'd0}}
+: (round_next == 2'd1) ? ~{10'd0, {dv01, 3'd0}}
+: ~{10'd0, {dv02, 3'd0}}),
+    .modulus_short (!((at_next == LOAD1) && area[24])),
     .upwards       (at_rest == COLUMNS),
     .unfit         (lane0_unfit),
     .rest_out      (lane0_rest_out),
@@ -810,26 +756,26 @@ module edgewalk_setup (
     .value         (lane0_value)
   );
 
-  wire any_13 = |dv02[12:4];
-  wire [22:0] part_34 = lane0_rest_out[26:4];
+  wire any_11 = |dv02[11:3];
+  wire [20:0] part_28 = lane0_rest_out[23:3];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd0)) begin
-      prim_major_f <= any_13 ? part_34[12:0] : 13'd0;
+      prim_major_f <= any_11 ? part_28[11:0] : 12'd0;
     end
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd0)) begin
-      prim_major_q <= any_13 ? lane0_whole_out[9:0] : 10'd0;
+      prim_major_q <= any_11 ? lane0_whole_out[9:0] : 10'd0;
     end
   end
 
-  wire [16:0] difference_8 = {dv02, 4'd0} - lane0_rest_out[16:0];
+  wire [14:0] difference_4 = {dv02, 3'd0} - lane0_rest_out[14:0];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd0)) begin
-      prim_major_r <= (|lane0_rest_out) ? difference_8[16:4] : 13'd0;
+      prim_major_r <= (|lane0_rest_out) ? difference_4[14:3] : 12'd0;
     end
   end
 
@@ -840,12 +786,12 @@ module edgewalk_setup (
   end
 
   // Edge: minor1.
-  wire both_6 = (|prim_n1) && (|dv01[12:4]);
-  wire [22:0] part_35 = lane0_rest_out[26:4];
+  wire both_6 = (|prim_n1) && (|dv01[11:3]);
+  wire [20:0] part_29 = lane0_rest_out[23:3];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd1)) begin
-      prim_minor1_f <= both_6 ? part_35[12:0] : 13'd0;
+      prim_minor1_f <= both_6 ? part_29[11:0] : 12'd0;
     end
   end
 
@@ -855,11 +801,11 @@ module edgewalk_setup (
     end
   end
 
-  wire [16:0] difference_9 = {dv01, 4'd0} - lane0_rest_out[16:0];
+  wire [14:0] difference_5 = {dv01, 3'd0} - lane0_rest_out[14:0];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd1)) begin
-      prim_minor1_r <= (|prim_n1) ? ((|lane0_rest_out) ? difference_9[16:4] : 13'd0) : 13'd0;
+      prim_minor1_r <= (|prim_n1) ? ((|lane0_rest_out) ? difference_5[14:3] : 12'd0) : 12'd0;
     end
   end
 
@@ -870,12 +816,12 @@ module edgewalk_setup (
   end
 
   // Edge: minor2.
-  wire both_7 = (|prim_n2) && (|dv12[12:4]);
-  wire [22:0] part_36 = lane0_rest_out[26:4];
+  wire both_7 = (|prim_n2) && (|dv12[11:3]);
+  wire [20:0] part_30 = lane0_rest_out[23:3];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd2)) begin
-      prim_minor2_f <= both_7 ? part_36[12:0] : 13'd0;
+      prim_minor2_f <= both_7 ? part_30[11:0] : 12'd0;
     end
   end
 
@@ -885,11 +831,11 @@ module edgewalk_setup (
     end
   end
 
-  wire [16:0] difference_10 = {dv12, 4'd0} - lane0_rest_out[16:0];
+  wire [14:0] difference_6 = {dv12, 3'd0} - lane0_rest_out[14:0];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd2)) begin
-      prim_minor2_r <= (|prim_n2) ? ((|lane0_rest_out) ? difference_10[16:4] : 13'd0) : 13'd0;
+      prim_minor2_r <= (|prim_n2) ? ((|lane0_rest_out) ? difference_6[14:3] : 12'd0) : 12'd0;
     end
   end
 
@@ -902,7 +848,7 @@ module edgewalk_setup (
   // Channel: z.
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd0)) begin
-      prim_z_g <= area[27] ? -lane0_value[25:0] : lane0_value[25:0];
+      prim_z_g <= area[24] ? -lane0_value[25:0] : lane0_value[25:0];
     end
   end
 
@@ -915,15 +861,13 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd0)) begin
-      prim_z_start <= lane0_whole_out[29:4];
-    end
+    if ((at_whole == ADD_START) && (round_whole == 2'd0)) prim_z_start <= lane0_whole_out[28:3];
   end
 
   // Channel: r.
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd1)) begin
-      prim_r_g <= area[27] ? -lane0_value[14:0] : lane0_value[14:0];
+      prim_r_g <= area[24] ? -lane0_value[14:0] : lane0_value[14:0];
     end
   end
 
@@ -936,15 +880,13 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd1)) begin
-      prim_r_start <= lane0_whole_out[18:4];
-    end
+    if ((at_whole == ADD_START) && (round_whole == 2'd1)) prim_r_start <= lane0_whole_out[17:3];
   end
 
   // Channel: g.
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd2)) begin
-      prim_g_g <= area[27] ? -lane0_value[14:0] : lane0_value[14:0];
+      prim_g_g <= area[24] ? -lane0_value[14:0] : lane0_value[14:0];
     end
   end
 
@@ -957,15 +899,13 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd2)) begin
-      prim_g_start <= lane0_whole_out[18:4];
-    end
+    if ((at_whole == ADD_START) && (round_whole == 2'd2)) prim_g_start <= lane0_whole_out[17:3];
   end
 
   // Channel: b.
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd3)) begin
-      prim_b_g <= area[27] ? -lane0_value[14:0] : lane0_value[14:0];
+      prim_b_g <= area[24] ? -lane0_value[14:0] : lane0_value[14:0];
     end
   end
 
@@ -978,25 +918,22 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_START) && (round_whole == 2'd3)) begin
-      prim_b_start <= lane0_whole_out[18:4];
-    end
+    if ((at_whole == ADD_START) && (round_whole == 2'd3)) prim_b_start <= lane0_whole_out[17:3];
   end
 
   assign prim_jm = jm[7:0];
-  assign prim_major_right = area[27];
+  assign prim_major_right = area[24];
   assign prim_major_m = dv02;
   assign prim_minor1_m = dv01;
   assign prim_minor2_m = dv12;
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, ends_fixed, less_m[0], lane0_value[29:26], difference[13], difference_2[13], difference_3[13],
-    difference_4[13], part_4[0], part_8[0], part_11[0], shifted[12:1], shifted_2[12:1], part_12[26:0],
-    difference_5[9], difference_6[9], differing[14], differing_2[14], part_23[0], part_27[0],
-    part_30[0], shifted_3[14:1], shifted_4[14:1], shifted_5[17:2], joined_5[30], joined_4[30],
-    joined_3[30], joined_2[30], part_34[22:13], difference_8[3:0], part_35[22:13], difference_9[3:0],
-    part_36[22:13], difference_10[3:0]
+    1'b0, ends_fixed, less_m[0], lane0_value[28:26], part_3[0], part_7[0], part_10[0], shifted[11:1],
+    shifted_2[11:1], part_11[23:0], difference[9], difference_2[9], joined[12:11], joined_2[12:11],
+    part_17[0], part_21[0], part_24[0], shifted_3[12:1], shifted_4[12:1], shifted_5[16:2], joined_6[29],
+    joined_5[29], joined_4[29], joined_3[29], part_28[20:12], difference_4[2:0], part_29[20:12],
+    difference_5[2:0], part_30[20:12], difference_6[2:0]
   };
 
 endmodule

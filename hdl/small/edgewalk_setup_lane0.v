@@ -22,20 +22,20 @@ module edgewalk_setup_lane0 (
   input  wire  [1:0] digits,         // of the number, with their step
   input  wire        write,          // the result of the step goes to a slot
   input  wire  [2:0] write_at,
-  input  wire [29:0] whole_in,       // whole number to add, with the step done
+  input  wire [28:0] whole_in,       // whole number to add, with the step done
   input  wire        take_modulus,
-  input  wire [27:0] modulus_in,     // -M, or -M - 1 if modulus_short; signed
+  input  wire [24:0] modulus_in,     // -M, or -M - 1 if modulus_short; signed
   input  wire        modulus_short,
   input  wire        upwards,        // value rounds up whatever is not whole, not to nearest
 
   output wire        unfit,          // the number that was taken in is not between -M and M
-  output wire [26:0] rest_out,       // 1/M, from the clock after a step
-  output wire [29:0] whole_out,      // modular, a clock later
-  output wire [29:0] value           // modular, with whole
+  output wire [23:0] rest_out,       // 1/M, from the clock after a step
+  output wire [28:0] whole_out,      // modular, a clock later
+  output wire [28:0] value           // modular, with whole
 );
 
   // The modulus: -M, or its complement -M - 1, with the 1 that is then missing.
-  reg [27:0] modulus;  // -M or -M - 1, signed
+  reg [24:0] modulus;  // -M or -M - 1, signed
   reg short;           // 1 is missing in modulus
 
   always @(posedge clk) begin
@@ -46,49 +46,49 @@ module edgewalk_setup_lane0 (
   end
 
   // The rests of the slots. Slot 0 is never written: it holds 0.
-  reg [27:0] rest;         // 1/M, signed while a number is taken in
-  wire [27:0] rest_next;
-  reg [26:0] rests [0:7];  // 1/M
+  reg [24:0] rest;         // 1/M, signed while a number is taken in
+  wire [24:0] rest_next;
+  reg [23:0] rests [0:7];  // 1/M
 
   initial begin : rests_init
     integer rests_index;
-    for (rests_index = 0; rests_index < 8; rests_index = rests_index + 1) rests[rests_index] = 27'd0;
+    for (rests_index = 0; rests_index < 8; rests_index = rests_index + 1) rests[rests_index] = 24'd0;
   end
 
   always @(posedge clk) begin
-    if (write) rests[write_at] <= rest_next[26:0];
+    if (write) rests[write_at] <= rest_next[23:0];
   end
 
-  reg [26:0] rests_q;
+  reg [23:0] rests_q;
 
   always @(posedge clk) begin
     if (advance) rests_q <= rests[read_at];
   end
 
   // The addend of the step that follows.
-  reg [27:0] n0;                           // a, or a number to take in
-  reg [28:0] n1;                           // a - M, signed
-  reg [29:0] n2;                           // a - 2 M, signed
+  reg [24:0] n0;                           // a, or a number to take in
+  reg [25:0] n1;                           // a - M, signed
+  reg [24:0] n2;                           // a - 2 M, modular
   reg below;                               // the number taken in is below 0
-  wire add_modulus = step[2] && ((step[0] && below) || (!step[0] && n0[27]));
+  wire add_modulus = step[2] && ((step[0] && below) || (!step[0] && n0[24]));
   wire take_modulus_off = step[3];
   wire of_slot = step[4];
   wire with_sign = of_slot && step[1] && step[0];
   wire negate = add_modulus || with_sign || ((step == 5'd2) && below);
   wire of_modulus = add_modulus || take_modulus_off;
-  wire [27:0] a = of_modulus ? modulus : of_slot ? {1'b0, rests_q} : 28'd0;  // addend, 1/M, or -M
-  wire [29:0] a_less_m = {{a[27], a}, 1'b1} + {{modulus[27], modulus}, short};  // and a carry out of the lowest bit
-  wire [28:0] to_negate = with_sign ? a_less_m[29:1] : {a[27], a};  // -a is -1 + (M - a)/M
-  wire [28:0] less_2m = {modulus, short};  // -2 M, or -2 M - 1
-  wire [30:0] a_less_2m = {{{2{a[27]}}, a}, 1'b1} + {{less_2m[28], less_2m}, short};  // and a carry out of the lowest bit
+  wire [24:0] a = of_modulus ? modulus : of_slot ? {1'b0, rests_q} : 25'd0;  // addend, 1/M, or -M
+  wire [26:0] a_less_m = {{a[24], a}, 1'b1} + {{modulus[24], modulus}, short};  // and a carry out of the lowest bit
+  wire [25:0] to_negate = with_sign ? a_less_m[26:1] : {a[24], a};  // -a is -1 + (M - a)/M
+  wire [25:0] less_2m = {modulus, short};  // -2 M, or -2 M - 1
+  wire [25:0] a_less_2m = {a, 1'b1} + {less_2m[24:0], short};  // and a carry out of the lowest bit
   reg carry0;                              // 1 to add to the sum of n0
   reg carry;                               // 1 to add to the other sums
-  wire [28:0] differing = to_negate ^ {29{negate}};
+  wire [25:0] differing = to_negate ^ {26{negate}};
 
   always @(posedge clk) begin
-    n0 <= (step == 5'd1) ? {{11{number[16]}}, number} : differing[27:0];
-    n1 <= a_less_m[29:1];
-    n2 <= a_less_2m[30:1];
+    n0 <= (step == 5'd1) ? {{8{number[16]}}, number} : differing[24:0];
+    n1 <= a_less_m[26:1];
+    n2 <= a_less_2m[25:1];
     carry0 <= with_sign || (add_modulus && !short) || (take_modulus_off && short);
     carry <= take_modulus_off && short;
   end
@@ -100,24 +100,23 @@ module edgewalk_setup_lane0 (
   reg from_zero;
   reg compared;                                    // M is taken off if it goes
   reg [1:0] digits_now;
-  wire [29:0] extended = {{2{rest[27]}}, rest};
-  wire [29:0] x = fourfold ? {extended[27:0], digits_now}
+  wire [25:0] extended = {rest[24], rest};
+  wire [25:0] x = fourfold ? {extended[23:0], digits_now}
                 : twofold ? extended << 1
-                : from_zero ? 30'd0
+                : from_zero ? 26'd0
                 : extended;
-  wire [30:0] x_and_n0 = {x, 1'b1} + {{{2{n0[27]}}, n0}, carry0};  // and a carry out of the lowest bit
-  wire [29:0] s0 = x_and_n0[30:1];
-  wire [30:0] x_and_n1 = {x, 1'b1} + {{n1[28], n1}, carry};  // and a carry out of the lowest bit
-  wire [29:0] s1 = x_and_n1[30:1];
-  wire [30:0] x_and_n2 = {x, 1'b1} + {n2, carry};  // and a carry out of the lowest bit
-  wire [29:0] s2 = x_and_n2[30:1];
-  wire fits0 = !s0[29];
-  wire fits1 = !s1[29] && compared;
-  wire fits2 = !s2[29] && compared;
+  wire [25:0] x_and_n0 = {x[24:0], 1'b1} + {n0, carry0};  // and a carry out of the lowest bit
+  wire [24:0] s0 = x_and_n0[25:1];
+  wire [26:0] x_and_n1 = {x, 1'b1} + {n1, carry};  // and a carry out of the lowest bit
+  wire [25:0] s1 = x_and_n1[26:1];
+  wire [25:0] x_and_n2 = {x[24:0], 1'b1} + {n2, carry};  // and a carry out of the lowest bit
+  wire [24:0] s2 = x_and_n2[25:1];
+  wire fits0 = !s0[24];
+  wire s1_fits = !s1[25];
+  wire fits1 = s1_fits && compared;
+  wire fits2 = fits1 && !s2[24];
   wire stays = fourfold && !fits0;
-  wire [29:0] choice = fits2 ? s2 : fits1 ? s1 : stays ? x : s0;
-  assign rest_next = choice[27:0];
-  wire rest_stays = (now == 5'd0) || (now == 5'd20);
+  assign rest_next = fits2 ? s2 : fits1 ? s1[24:0] : stays ? x[24:0] : s0;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -134,38 +133,37 @@ module edgewalk_setup_lane0 (
     compared <= (step == 5'd3)
              || (step == 5'd8)
              || (step == 5'd9)
-             || (step == 5'd17)
              || (step == 5'd18)
              || (step == 5'd16);
     digits_now <= (step == 5'd9) ? digits : 2'd0;
   end
 
   always @(posedge clk) begin
-    if (!rest_stays) rest <= rest_next;
+    if (!(now == 5'd20)) rest <= rest_next;
   end
 
   always @(posedge clk) begin
-    if ((now == 5'd1) && advance) below <= n0[27];
+    if ((now == 5'd1) && advance) below <= n0[24];
   end
 
   // The whole part, a clock behind.
   reg [2:0] read_whole_at;
-  reg [29:0] whole;         // modular
-  wire [29:0] whole_next;
+  reg [28:0] whole;         // modular
+  wire [28:0] whole_next;
   reg write_then;
   reg [2:0] write_then_at;
-  reg [29:0] wholes [0:7];  // modular
+  reg [28:0] wholes [0:7];  // modular
 
   initial begin : wholes_init
     integer wholes_index;
-    for (wholes_index = 0; wholes_index < 8; wholes_index = wholes_index + 1) wholes[wholes_index] = 30'd0;
+    for (wholes_index = 0; wholes_index < 8; wholes_index = wholes_index + 1) wholes[wholes_index] = 29'd0;
   end
 
   always @(posedge clk) begin
     if (write_then) wholes[write_then_at] <= whole_next;
   end
 
-  reg [29:0] wholes_q;
+  reg [28:0] wholes_q;
 
   always @(posedge clk) begin
     if (1'b1) wholes_q <= wholes[read_whole_at];
@@ -173,7 +171,7 @@ module edgewalk_setup_lane0 (
 
   reg negated;
   reg slot_now;
-  reg [29:0] b;                                      // addend
+  reg [28:0] b;                                      // addend
   wire twice_or_more = fourfold ? fits1 : fits2;
   wire once_or_thrice = fourfold ? (fits0 && !fits1) || fits2 : fits1 && !fits2;
   reg [1:0] taken;                                   // how often M was taken off
@@ -181,22 +179,17 @@ module edgewalk_setup_lane0 (
   reg was_fourfold;
   reg was_twofold;
   reg was_from_zero;
-  wire [29:0] whole_x = was_fourfold ? {whole[27:0], taken}
-                      : was_twofold ? {whole[28:0], taken[1]}
-                      : was_from_zero ? 30'd0
+  wire [28:0] whole_x = was_fourfold ? {whole[26:0], taken}
+                      : was_twofold ? {whole[27:0], taken[1]}
+                      : was_from_zero ? 29'd0
                       : whole;
   wire one = !was_fourfold && (|taken);
-  wire [30:0] x_and_b = {whole_x, 1'b1} + {b, one};  // and a carry out of the lowest bit
-  assign whole_next = x_and_b[30:1];
-  wire whole_stays = (then == 5'd0) || (then == 5'd2);
+  wire [29:0] x_and_b = {whole_x, 1'b1} + {b, one};  // and a carry out of the lowest bit
+  assign whole_next = x_and_b[29:1];
+  wire [28:0] extended_2 = {29{negated}};
 
   always @(posedge clk) begin
-    if (advance) read_whole_at <= read_at;
-  end
-
-  wire [29:0] extended_2 = {30{negated}};
-
-  always @(posedge clk) begin
+    read_whole_at <= read_at;
     write_then <= write;
     write_then_at <= write_at;
     negated <= negate;
@@ -210,27 +203,27 @@ module edgewalk_setup_lane0 (
   end
 
   always @(posedge clk) begin
-    if (!whole_stays) whole <= whole_next;
+    if (!(then == 5'd2)) whole <= whole_next;
   end
 
   // What is done is given out rounded: to nearest, halves up, or up.
-  wire [29:0] past_half = {{1'b0, {rest[26:0], 1'b0}}, 1'b1} + {{modulus[27], modulus}, short};  // and a carry out of the lowest bit
+  wire [25:0] past_half = {{rest[23:0], 1'b0}, 1'b1} + {modulus, short};  // and a carry out of the lowest bit
   reg up;
-  wire [28:0] part = past_half[29:1];
+  wire [24:0] part = past_half[25:1];
 
   always @(posedge clk) begin
-    up <= upwards ? |rest[26:0] : !part[28];
+    up <= upwards ? |rest[23:0] : !part[24];
   end
 
-  assign unfit = (now == 5'd4) && (below ? s0[29] : !s1[29]);
-  assign rest_out = rest[26:0];
+  assign unfit = (now == 5'd4) && (below ? !fits0 : s1_fits);
+  assign rest_out = rest[23:0];
   assign whole_out = whole;
-  assign value = whole + {29'd0, up};
+  assign value = whole + {28'd0, up};
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, a_less_m[0], a_less_2m[0], x_and_n0[0], x_and_n1[0], x_and_n2[0], x_and_b[0], past_half[0],
-    differing[28], choice[29:28], part[27:0]
+    1'b0, a_less_m[0], less_2m[25], a_less_2m[0], x_and_n0[0], x_and_n1[0], x_and_n2[0], x_and_b[0],
+    past_half[0], differing[25], part[23:0]
   };
 
 endmodule

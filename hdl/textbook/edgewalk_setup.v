@@ -80,11 +80,10 @@ module edgewalk_setup (
 );
 
   // Control: the operations one after the other, a clock each or more; in rounds where there are more jobs than lanes.
-  localparam [2:0] IDLE = 3'd0;
-  localparam [2:0] EDGES = 3'd1;
-  localparam [2:0] CHANNELS = 3'd2;
-  localparam [2:0] STORE = 3'd3;
-  localparam [2:0] DONE = 3'd4;
+  localparam [1:0] IDLE = 2'd0;
+  localparam [1:0] WORK = 2'd1;
+  localparam [1:0] STORE = 2'd2;
+  localparam [1:0] DONE = 2'd3;
   localparam [5:0] LOAD_DX = 6'd0;
   localparam [5:0] FIX_DX = 6'd1;
   localparam [5:0] DOUBLE_DX = 6'd2;
@@ -127,7 +126,7 @@ module edgewalk_setup (
   wire [3:0] scale;      // the modulus is the area 4^scale times
   wire unfit;            // a number was taken in that is not between -M and M
   wire [4:0] top_digit;  // place of the first digit of a sum
-  reg [2:0] state;
+  reg [1:0] state;
   reg [5:0] at;          // operation
   reg [4:0] left;        // its clocks after this one
   reg first;             // its first clock
@@ -139,14 +138,13 @@ module edgewalk_setup (
   wire advance = !paused;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
-  wire in_edges = state == EDGES;
-  wire works = in_edges || (state == CHANNELS);
+  wire works = state == WORK;
   assign prim_valid = state == DONE;
-  wire begins = in_edges && (at == LOAD_DX) && (round == 2'd0);  // the first clock of a triangle
-  wire gives_up = in_edges && (at == FIX_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
+  wire begins = works && (at == LOAD_DX) && (round == 2'd0);  // the first clock of a triangle
+  wire gives_up = works && (at == FIX_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
   wire last = left == 5'd0;                          // last clock of the operation
-  wire edges_end = in_edges && last && (at == ROUND_COLUMNS) && (round == 2'd2);
-  wire round_ends = (state == CHANNELS) && last && (at == ROUND_B) && !(round == 2'd3);
+  wire edges_end = last && (at == ROUND_COLUMNS) && (round == 2'd2);
+  wire round_ends = last && (at == ROUND_B) && !(round == 2'd3);
   wire waits = (edges_end || round_ends) && !area_known;  // for the area or its scale
   wire ends = works && last && !waits && !gives_up;  // the operation ends
   wire leaves = ends && advance;
@@ -156,9 +154,9 @@ module edgewalk_setup (
     if (rst) begin
       state <= IDLE;
     end else begin
-      if (take) state <= EDGES;
+      if (take) state <= WORK;
       if (gives_up && advance) state <= IDLE;
-      if (edges_end && leaves) state <= no_area ? IDLE : CHANNELS;
+      if (edges_end && leaves && no_area) state <= IDLE;
       if (leaves && channels_end) state <= STORE;
       if ((state == STORE) && last) state <= DONE;
       if (prim_valid && prim_ready) state <= IDLE;
@@ -185,34 +183,16 @@ module edgewalk_setup (
   end
 
   // How long the next operation takes.
-  wire [4:0] choice = (round == 2'd3) ? 5'd7 : (round == 2'd2) ? 5'd7 : (round == 2'd1) ? 5'd7 : 5'd7;
-  wire [4:0] choice_2 = (round == 2'd3) ? 5'd7
-                      : (round == 2'd2) ? 5'd7
-                      : (round == 2'd1) ? 5'd7
-                      : 5'd7;
-  wire [4:0] choice_3 = (round == 2'd3) ? 5'd7
-                      : (round == 2'd2) ? 5'd7
-                      : (round == 2'd1) ? 5'd7
-                      : 5'd7;
-  wire [4:0] choice_4 = (round == 2'd3) ? 5'd7
-                      : (round == 2'd2) ? 5'd7
-                      : (round == 2'd1) ? 5'd7
-                      : 5'd7;
-  wire [4:0] choice_5 = (round == 2'd3) ? 5'd7
-                      : (round == 2'd2) ? 5'd7
-                      : (round == 2'd1) ? 5'd7
-                      : 5'd7;
-
   always @(posedge clk) begin
     if (advance && works) left <= left - 5'd1;
     if (leaves) begin
-      left <= (at == SUM_B) ? choice
+      left <= (at == SUM_B) ? 5'd7
             : (at == WAIT_B) ? top_digit
-            : (at == FIX_B) ? choice_2
-            : (at == SUM_A) ? choice_3
+            : (at == FIX_B) ? 5'd7
+            : (at == SUM_A) ? 5'd7
             : (at == WAIT_A) ? top_digit
-            : (at == FIX_A) ? choice_4
-            : (at == SUM_X) ? choice_5 + {1'b0, scale}
+            : (at == FIX_A) ? 5'd7
+            : (at == SUM_X) ? 5'd7 + {1'b0, scale}
             : (at == WAIT) ? top_digit
             : (at == ADD12) ? 5'd1
             : (at == COLUMNS) ? 5'd7
@@ -265,6 +245,12 @@ module edgewalk_setup (
     end
   end
 
+  wire [3:0] choice = (at_stepped == FIX_DX) ? 4'd11
+                    : (round_stepped == 2'd3) ? 4'd7
+                    : (round_stepped == 2'd2) ? 4'd7
+                    : (round_stepped == 2'd1) ? 4'd7
+                    : 4'd11;
+
   always @(posedge clk) begin
     at_stepped <= at_formed;
     round_stepped <= round_formed;
@@ -275,21 +261,7 @@ module edgewalk_setup (
     at_whole <= at_rest;
     round_whole <= round_rest;
     ends_whole <= ends_rest;
-  end
-
-  always @(posedge clk) begin
-    if (rst) begin
-      pause <= 4'd0;
-    end else begin
-      if (!advance) pause <= pause - 4'd1;
-      if (advance && unfit) begin
-        pause <= (at_stepped == FIX_DX) ? 4'd11
-               : (round_stepped == 2'd3) ? 4'd7
-               : (round_stepped == 2'd2) ? 4'd7
-               : (round_stepped == 2'd1) ? 4'd7
-               : 4'd11;
-      end
-    end
+    pause <= advance ? choice : pause - 4'd1;
   end
 
   always @(posedge clk) begin
@@ -318,15 +290,15 @@ module edgewalk_setup (
   wire both_2 = y2_above_y0 && y2_above_y1;
   wire both_3 = !y1_above_y0 && y2_above_y1;
   wire both_4 = !y2_above_y0 && !y2_above_y1;
-  wire [13:0] choice_6 = (!both && !both_3) ? tri_x1 : (!both_2 && !both_4) ? tri_x2 : tri_x0;
-  wire [13:0] choice_7 = (!both && !both_3) ? tri_y1 : (!both_2 && !both_4) ? tri_y2 : tri_y0;
+  wire [13:0] choice_2 = (!both && !both_3) ? tri_x1 : (!both_2 && !both_4) ? tri_x2 : tri_x0;
+  wire [13:0] choice_3 = (!both && !both_3) ? tri_y1 : (!both_2 && !both_4) ? tri_y2 : tri_y0;
 
   always @(posedge clk) begin
     if (take) begin
       p0_u <= {both ? tri_x1 : both_2 ? tri_x2 : tri_x0, 1'b0};
       p0_v <= {both ? tri_y1 : both_2 ? tri_y2 : tri_y0, 1'b0};
-      p1_u <= {choice_6, 1'b0};
-      p1_v <= {choice_7, 1'b0};
+      p1_u <= {choice_2, 1'b0};
+      p1_v <= {choice_3, 1'b0};
       p2_u <= {both_3 ? tri_x1 : both_4 ? tri_x2 : tri_x0, 1'b0};
       p2_v <= {both_3 ? tri_y1 : both_4 ? tri_y2 : tri_y0, 1'b0};
       p0_vertex <= {both_2, both};
@@ -367,27 +339,21 @@ module edgewalk_setup (
   end
 
   // Differences of the sorted vertices, from upper to lower ends of edges.
-  wire [15:0] difference = {p2_v[14], p2_v} - {p0_v[14], p0_v};
-  wire [14:0] tall = difference[14:0];
+  wire [14:0] tall = p2_v - p0_v;
   reg [14:0] dv02;  // 1/P line
   reg [14:0] dv01;  // 1/P line
   reg [14:0] dv12;  // 1/P line
   reg [15:0] du02;  // 1/P column, signed
   reg [15:0] du01;  // 1/P column, signed
   reg [15:0] du12;  // 1/P column, signed
-  wire [15:0] difference_2 = {p2_v[14], p2_v} - {p0_v[14], p0_v};
-  wire [15:0] difference_3 = {p1_v[14], p1_v} - {p0_v[14], p0_v};
-  wire [15:0] difference_4 = {p2_v[14], p2_v} - {p1_v[14], p1_v};
 
   always @(posedge clk) begin
-    if (begins) begin
-      dv02 <= difference_2[14:0];
-      dv01 <= difference_3[14:0];
-      dv12 <= difference_4[14:0];
-      du02 <= {p2_u[14], p2_u} - {p0_u[14], p0_u};
-      du01 <= {p1_u[14], p1_u} - {p0_u[14], p0_u};
-      du12 <= {p2_u[14], p2_u} - {p1_u[14], p1_u};
-    end
+    dv02 <= p2_v - p0_v;
+    dv01 <= p1_v - p0_v;
+    dv12 <= p2_v - p1_v;
+    du02 <= {p2_u[14], p2_u} - {p0_u[14], p0_u};
+    du01 <= {p1_u[14], p1_u} - {p0_u[14], p0_u};
+    du12 <= {p2_u[14], p2_u} - {p1_u[14], p1_u};
   end
 
   // Twice the area: du1 dv2 - du2 dv1, over the bits of dv2 and dv1.
@@ -397,7 +363,7 @@ module edgewalk_setup (
   wire [14:0] shifted_2 = dv01 >> area_digit;
   wire [16:0] area_part = (shifted[0] ? {du01[15], du01} : 17'd0)
                         - (shifted_2[0] ? {du02[15], du02} : 17'd0);
-  reg [31:0] area;       // 1/P^2 px^2, signed
+  reg [30:0] area;       // 1/P^2 px^2, signed
   assign no_area = !(|area);
   wire any = |tall[14:8];
   wire [6:0] part_2 = tall[14:8];
@@ -409,7 +375,7 @@ module edgewalk_setup (
   wire [1:0] part_4 = part_5[3:2];
   wire any_4 = |part_4;
   wire [1:0] part_6 = part_5[1:0];
-  wire [1:0] choice_8 = any_2 ? {any_3, any_3 ? 1'b0 : part_3[1]}
+  wire [1:0] choice_4 = any_2 ? {any_3, any_3 ? 1'b0 : part_3[1]}
                       : {any_4, any_4 ? part_4[1] : part_6[1]};
   wire [7:0] part_8 = tall[7:0];
   wire [3:0] part_7 = part_8[7:4];
@@ -421,70 +387,57 @@ module edgewalk_setup (
   wire [1:0] part_11 = part_12[3:2];
   wire any_7 = |part_11;
   wire [1:0] part_13 = part_12[1:0];
-  wire [1:0] choice_9 = any_5 ? {any_6, any_6 ? part_9[1] : part_10[1]}
+  wire [1:0] choice_5 = any_5 ? {any_6, any_6 ? part_9[1] : part_10[1]}
                       : {any_7, any_7 ? part_11[1] : part_13[1]};
 
   always @(posedge clk) begin
     if (area_adds) begin
       area_digit <= area_digit - 4'd1;
-      area <= (area << 1) + {{15{area_part[16]}}, area_part};
+      area <= (area << 1) + {{14{area_part[16]}}, area_part};
     end
     if (begins) begin
-      area_digit <= {any, any ? {any_2, choice_8} : {any_5, choice_9}};
-      area <= 32'd0;
+      area_digit <= {any, any ? {any_2, choice_4} : {any_5, choice_5}};
+      area <= 31'd0;
     end
   end
 
   wire equal = area_digit == 4'd0;
 
   always @(posedge clk) begin
-    if (rst) begin
-      area_adds <= 1'b0;
-    end else begin
-      if (area_adds && equal) area_adds <= 1'b0;
-      if (begins) area_adds <= 1'b1;
-    end
+    if (area_adds && equal) area_adds <= 1'b0;
+    if (begins) area_adds <= 1'b1;
   end
 
   // The area as modulus: fourfold, i times, until the differences of the next round's values fit.
   reg [15:0] differences;  // their bits, or those of complements
-  reg [31:0] scaled;       // -M or -M - 1, signed
+  reg [30:0] scaled;       // -M or -M - 1, signed
   reg scale_taken;         // the area is taken
   reg scaling;             // it is compared
   reg [3:0] scale_next;    // times that it is fourfold
-  wire [32:0] less_m = {{16'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
-  wire [31:0] part_14 = less_m[32:1];
-  wire fits = part_14[31] || !(|area);
+  wire [31:0] less_m = {{15'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
+  wire [30:0] part_14 = less_m[31:1];
+  wire fits = part_14[30] || !(|area);
   wire grows = scaling && !fits;
-  assign area_known = !area_adds && !begins && !scale_taken && !scaling;
+  assign area_known = !area_adds && !scale_taken && !scaling;
   reg [3:0] scale_now;     // of the round
   assign scale = scale_now;
   wire either = (area_adds && equal) || ((at_next == FIX2) && !(round_next == 2'd3));
 
   always @(posedge clk) begin
-    if (rst) begin
-      scale_taken <= 1'b0;
-    end else begin
-      scale_taken <= either && !begins;
-    end
+    scale_taken <= either && !begins;
   end
 
   always @(posedge clk) begin
-    if (rst) begin
-      scaling <= 1'b0;
-    end else begin
-      if (fits) scaling <= 1'b0;
-      if (scale_taken) scaling <= 1'b1;
-      if (begins) scaling <= 1'b0;
-    end
+    if (fits) scaling <= 1'b0;
+    if (scale_taken) scaling <= 1'b1;
   end
 
-  wire inverse = !area[31];
-  wire [31:0] extended = area;
+  wire inverse = !area[30];
+  wire [30:0] extended = area;
 
   always @(posedge clk) begin
     if (grows) begin
-      scaled <= {scaled[29:0], inverse, inverse};
+      scaled <= {scaled[28:0], inverse, inverse};
       scale_next <= scale_next + 4'd1;
     end
     if (scale_taken) begin
@@ -508,7 +461,7 @@ module edgewalk_setup (
   wire [13:0] part_18 = p1_v[14:1];
   wire less = $signed({part_17[13], part_17}) < $signed({part_18[13], part_18});
   wire some0 = less && ($signed(j0_next) <= $signed(last0));
-  reg [14:0] j0;                                   // line, signed
+  reg [14:0] j0;                                 // line, signed
   wire [13:0] part_19 = p1_v[14:1];
   wire [14:0] extended_4 = {part_19[13], part_19};
   wire [14:0] j1_next = ($signed(extended_4) < 15'sd0) ? 15'd0 : extended_4;
@@ -519,83 +472,82 @@ module edgewalk_setup (
   wire [13:0] part_22 = p2_v[14:1];
   wire less_2 = $signed({part_21[13], part_21}) < $signed({part_22[13], part_22});
   wire some1 = less_2 && ($signed(j1_next) <= $signed(last1));
-  reg [14:0] j1;                                   // line, signed
+  reg [14:0] j1;                                 // line, signed
   assign nothing = !(|prim_n1) && !(|prim_n2);
   wire upper = |prim_n1;
-  wire [14:0] jm = upper ? j0 : j1;                // first line of the triangle
-  wire [15:0] h0 = {jm, 1'b0} - {p0_v[14], p0_v};  // 1/P line
-  wire [15:0] h1 = {j1, 1'b0} - {p1_v[14], p1_v};  // 1/P line
+  wire [14:0] jm = upper ? j0 : j1;              // first line of the triangle
+  wire [15:0] joined = {jm, 1'b0};
+  wire [13:0] h0 = joined[13:0] - p0_v[13:0];    // 1/P line
+  wire [15:0] joined_2 = {j1, 1'b0};
+  wire [13:0] h1 = joined_2[13:0] - p1_v[13:0];  // 1/P line
   wire [15:0] left_a = {j0, 1'b0} - {p0_v[14], p0_v};  // 1/P line
   wire [15:0] left_b = {j1, 1'b0} - {p0_v[14], p0_v};  // 1/P line
-  wire [14:0] choice_10 = some0 ? last0 - j0_next + 15'd1 : 15'd0;
-  wire [14:0] choice_11 = some1 ? last1 - j1_next + 15'd1 : 15'd0;
+  wire [14:0] choice_6 = some0 ? last0 - j0_next + 15'd1 : 15'd0;
+  wire [14:0] choice_7 = some1 ? last1 - j1_next + 15'd1 : 15'd0;
 
   always @(posedge clk) begin
     if (begins) begin
-      prim_n1 <= choice_10[9:0];
+      prim_n1 <= choice_6[9:0];
       j0 <= j0_next;
-      prim_n2 <= choice_11[9:0];
+      prim_n2 <= choice_7[9:0];
       j1 <= j1_next;
     end
   end
 
   // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
-  reg [16:0] f;  // factor, signed
-  reg [16:0] g;  // factor, signed
-  wire [16:0] differing = f ^ $unsigned($signed(f) >>> 1);
-  wire [16:0] differing_2 = g ^ $unsigned($signed(g) >>> 1);
-  wire [15:0] digits = differing[15:0] | differing_2[15:0];  // digits of the factors that differ from their signs
-  wire any_8 = |digits[15:8];
-  wire [7:0] part_24 = digits[15:8];
-  wire [3:0] part_23 = part_24[7:4];
+  reg [15:0] f;  // factor, signed
+  reg [15:0] g;  // factor, signed
+  wire [14:0] digits = (f[14:0] ^ f[15:1]) | (g[14:0] ^ g[15:1]);  // digits of the factors that differ from their signs
+  wire any_8 = |digits[14:8];
+  wire [6:0] part_24 = digits[14:8];
+  wire [2:0] part_23 = part_24[6:4];
   wire any_9 = |part_23;
-  wire [1:0] part_25 = part_23[3:2];
-  wire any_10 = |part_25;
-  wire [1:0] part_26 = part_23[1:0];
-  wire [3:0] part_28 = part_24[3:0];
-  wire [1:0] part_27 = part_28[3:2];
-  wire any_11 = |part_27;
-  wire [1:0] part_29 = part_28[1:0];
-  wire [1:0] choice_12 = any_9 ? {any_10, any_10 ? part_25[1] : part_26[1]}
-                       : {any_11, any_11 ? part_27[1] : part_29[1]};
-  wire [7:0] part_31 = digits[7:0];
-  wire [3:0] part_30 = part_31[7:4];
-  wire any_12 = |part_30;
-  wire [1:0] part_32 = part_30[3:2];
-  wire any_13 = |part_32;
-  wire [1:0] part_33 = part_30[1:0];
-  wire [3:0] part_35 = part_31[3:0];
-  wire [1:0] part_34 = part_35[3:2];
-  wire any_14 = |part_34;
-  wire [1:0] part_36 = part_35[1:0];
-  wire [1:0] choice_13 = any_12 ? {any_13, any_13 ? part_32[1] : part_33[1]}
-                       : {any_14, any_14 ? part_34[1] : part_36[1]};
-  assign top_digit = {1'b0, {any_8, any_8 ? {any_9, choice_12} : {any_12, choice_13}}};
-  wire [16:0] shifted_3 = f >> left;
+  wire any_10 = part_23[2];
+  wire [1:0] part_25 = part_23[1:0];
+  wire [3:0] part_27 = part_24[3:0];
+  wire [1:0] part_26 = part_27[3:2];
+  wire any_11 = |part_26;
+  wire [1:0] part_28 = part_27[1:0];
+  wire [1:0] choice_8 = any_9 ? {any_10, any_10 ? 1'b0 : part_25[1]}
+                      : {any_11, any_11 ? part_26[1] : part_28[1]};
+  wire [7:0] part_30 = digits[7:0];
+  wire [3:0] part_29 = part_30[7:4];
+  wire any_12 = |part_29;
+  wire [1:0] part_31 = part_29[3:2];
+  wire any_13 = |part_31;
+  wire [1:0] part_32 = part_29[1:0];
+  wire [3:0] part_34 = part_30[3:0];
+  wire [1:0] part_33 = part_34[3:2];
+  wire any_14 = |part_33;
+  wire [1:0] part_35 = part_34[1:0];
+  wire [1:0] choice_9 = any_12 ? {any_13, any_13 ? part_31[1] : part_32[1]}
+                      : {any_14, any_14 ? part_33[1] : part_35[1]};
+  assign top_digit = {1'b0, {any_8, any_8 ? {any_9, choice_8} : {any_12, choice_9}}};
+  wire [15:0] shifted_3 = f >> left;
   wire digit_f = shifted_3[0];
-  wire [16:0] shifted_4 = g >> left;
+  wire [15:0] shifted_4 = g >> left;
   wire digit_g = shifted_4[0];
 
   always @(posedge clk) begin
     if (at == WAIT_DX) begin
-      f <= (round == 2'd2) ? ((|prim_n2) ? {16'd0, 1'b1} : 17'd0)
-         : (round == 2'd1) ? ((|prim_n1) ? {16'd0, 1'b1} : 17'd0)
-         : {16'd0, 1'b1};
-      g <= (round == 2'd2) ? ((|prim_n2) ? {1'b0, h1} : 17'd0)
-         : (round == 2'd1) ? ((|prim_n1) ? {1'b0, h0} : 17'd0)
-         : {1'b0, h0};
+      f <= (round == 2'd2) ? {15'd0, 1'b1} & {16{|prim_n2}}
+         : (round == 2'd1) ? {15'd0, 1'b1} & {16{|prim_n1}}
+         : {15'd0, 1'b1};
+      g <= (round == 2'd2) ? {2'd0, h1} & {16{|prim_n2}}
+         : (round == 2'd1) ? {2'd0, h0} & {16{|prim_n1}}
+         : {2'd0, h0};
     end
     if (at == WAIT) begin
-      f <= {2'd0, dv02};
-      g <= {2'd0, dv01};
+      f <= {1'b0, dv02};
+      g <= {1'b0, dv01};
     end
     if ((at == DOUBLE_A) || (at == WAIT_A)) begin
-      f <= (|prim_n1) ? {1'b0, left_a} : 17'd0;
-      g <= 17'd0;
+      f <= (|prim_n1) ? left_a : 16'd0;
+      g <= 16'd0;
     end
     if ((at == DOUBLE_B) || (at == WAIT_B)) begin
-      f <= (|prim_n2) ? {1'b0, area[31] ? h1 : left_b} : 17'd0;
-      g <= 17'd0;
+      f <= (|prim_n2) ? (area[30] ? {2'd0, h1} : left_b) : 16'd0;
+      g <= 16'd0;
     end
   end
 
@@ -614,7 +566,7 @@ module edgewalk_setup (
                || (at == LOAD2)
                || (at == LOAD_A)
                || (at == LOAD_B);
-  wire [4:0] step = rests ? 5'd0 : ((at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B)) ? (first ? 5'd17 : 5'd18) : ((at == COLUMNS) || (at == ADD_A) || (at == ADD_B)) ? 5'd20 : ((at == ADD_DX) || (at == ADD12)) ? 5'd16 : either_2 ? 5'd8 : either_3 ? 5'd4 : either_4 ? 5'd1 : 5'd0;
+  wire [4:0] step = ((at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B)) ? (first ? 5'd17 : 5'd18) : ((at == COLUMNS) || (at == ADD_A) || (at == ADD_B)) ? 5'd20 : ((at == ADD_DX) || (at == ADD12)) ? 5'd16 : either_2 ? 5'd8 : either_3 ? 5'd4 : either_4 ? 5'd1 : 5'd0;
   reg began;  // numbers were found not to fit in the clock before
   wire is_sum = (at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B);
   wire is_sign = 1'b0;
@@ -649,36 +601,26 @@ module edgewalk_setup (
   end
 
   // Lane 0: its steps.
-  wire [4:0] choice_14 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+  wire [4:0] choice_10 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
                        : (round == 2'd2) ? ((left == 5'd0) ? 5'd3 : 5'd8)
                        : (round == 2'd1) ? ((left == 5'd0) ? 5'd3 : 5'd8)
                        : (left == 5'd0) ? 5'd3
                        : 5'd8;
-  wire [4:0] choice_15 = (round == 2'd3) ? 5'd8
-                       : (round == 2'd2) ? 5'd8
-                       : (round == 2'd1) ? 5'd8
-                       : 5'd8;
-  wire [4:0] choice_16 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+  wire [4:0] choice_11 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
                        : (round == 2'd2) ? ((left == 5'd0) ? 5'd3 : 5'd8)
                        : (round == 2'd1) ? ((left == 5'd0) ? 5'd3 : 5'd8)
                        : (left == 5'd0) ? 5'd3
                        : 5'd8;
-  wire [4:0] choice_17 = (round == 2'd3) ? 5'd8
-                       : (round == 2'd2) ? 5'd8
-                       : (round == 2'd1) ? 5'd8
-                       : 5'd8;
-  wire [4:0] choice_18 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+  wire [4:0] choice_12 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
                        : (round == 2'd2) ? ((left == 5'd0) ? 5'd3 : 5'd8)
                        : (round == 2'd1) ? ((left == 5'd0) ? 5'd3 : 5'd8)
                        : (left == 5'd0) ? 5'd3
                        : 5'd8;
-  wire [4:0] step0 = ((at == DOUBLE_START_B) && !rests) ? choice_14
-                   : ((at == DOUBLE_B) && !rests) ? choice_15
-                   : ((at == DOUBLE_START_A) && !rests) ? choice_16
-                   : ((at == DOUBLE_A) && !rests) ? choice_17
-                   : ((at == DOUBLE_X) && !rests) ? choice_18
-                   : ((at == DOUBLE_COLUMNS) && !rests) ? 5'd8
-                   : ((at == DOUBLE_DX) && !rests) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+  wire [4:0] step0 = rests ? 5'd0
+                   : (at == DOUBLE_START_B) ? choice_10
+                   : (at == DOUBLE_START_A) ? choice_11
+                   : (at == DOUBLE_X) ? choice_12
+                   : (at == DOUBLE_DX) ? ((left == 5'd0) ? 5'd3 : 5'd8)
                    : step;
   reg [4:0] step_next0;
   reg [4:0] step_again0;
@@ -703,9 +645,11 @@ module edgewalk_setup (
 
   // What the lanes are shown in the next clock; in the first of a triangle dc1 of the first round.
   reg [1:0] from_place;
-  wire [1:0] from_vertex = from_place[1] ? p2_vertex : from_place[0] ? p1_vertex : p0_vertex;
+  wire [1:0] from_vertex = (from_place == 2'd2) ? p2_vertex
+                         : (from_place == 2'd1) ? p1_vertex
+                         : p0_vertex;
   reg [1:0] to_place;
-  wire [1:0] to_vertex = to_place[1] ? p2_vertex : to_place[0] ? p1_vertex : p0_vertex;
+  wire [1:0] to_vertex = (to_place == 2'd2) ? p2_vertex : (to_place == 2'd1) ? p1_vertex : p0_vertex;
   reg single_value;
   reg values_of_round1;
   reg values_of_round2;
@@ -715,19 +659,20 @@ module edgewalk_setup (
   wire either_7 = (at == LOAD_A) || (at == FIX_A);
   wire either_8 = (at == LOAD_B) || (at == FIX_B);
   wire either_9 = (at == FIX_DX) || (at == LOAD2) || (at == FIX2);
-  wire both_5 = area[31] && ((at == LOAD1) || (at == LOAD2));
+  wire both_5 = area[30] && ((at == LOAD1) || (at == LOAD2));
   wire either_10 = (at == ADD_A) || (at == ADD_B);
   wire either_11 = (at == FIX1) || (at == FIX2);
   wire equal_2 = at == FIX_DX;
 
   always @(posedge clk) begin
     if (advance) begin
-      from_place <= (either_7 || either_8) ? ((either_8 && area[31]) ? 2'd1 : 2'd0)
+      from_place <= (either_7 || either_8) ? ((either_8 && area[30]) ? 2'd1 : 2'd0)
                   : either_9 ? (both_5 ? 2'd0 : 2'd2)
                   : both_5 ? 2'd1
                   : 2'd0;
-      to_place <= (either_7 || either_8) ? ((either_7 && area[31]) ? 2'd1 : 2'd2)
-                : either_10 ? (((at == ADD_B) && area[31]) ? 2'd1 : 2'd0)
+      to_place <= (either_7 || either_8) ? ((either_7 && area[30]) ? 2'd1 : 2'd2)
+                : ((at == ADD_B) && area[30]) ? 2'd1
+                : either_10 ? 2'd0
                 : either_9 ? (both_5 ? 2'd2 : 2'd0)
                 : both_5 ? 2'd0
                 : 2'd1;
@@ -735,8 +680,6 @@ module edgewalk_setup (
       values_of_round1 <= (either_11 ? round == 2'd0 : round == 2'd1) && !equal_2;
       values_of_round2 <= (either_11 ? round == 2'd1 : round == 2'd2) && !equal_2;
       values_of_round3 <= (either_11 ? round == 2'd2 : round == 2'd3) && !equal_2;
-      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
-      number_is_height <= at == LOAD_DY;
     end
     if (take) begin
       from_place <= 2'd0;
@@ -745,8 +688,13 @@ module edgewalk_setup (
       values_of_round1 <= 1'b0;
       values_of_round2 <= 1'b0;
       values_of_round3 <= 1'b0;
-      number_of_edge <= 1'b0;
-      number_is_height <= 1'b0;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (advance) begin
+      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
+      number_is_height <= at == LOAD_DY;
     end
   end
 
@@ -754,46 +702,46 @@ module edgewalk_setup (
   wire [15:0] extended_6 = {1'b0, dv12};
   wire [15:0] extended_7 = {1'b0, dv01};
   wire [15:0] extended_8 = {1'b0, dv02};
-  wire [16:0] choice_19 = (round_next == 2'd2) ? {extended_6[15], extended_6}
+  wire [16:0] choice_13 = (round_next == 2'd2) ? {extended_6[15], extended_6}
                         : (round_next == 2'd1) ? {extended_7[15], extended_7}
                         : {extended_8[15], extended_8};
-  wire [16:0] choice_20 = number_is_height ? choice_19
+  wire [16:0] choice_14 = number_is_height ? choice_13
                         : (round_next == 2'd2) ? {du12[15], du12}
                         : (round_next == 2'd1) ? {du01[15], du01}
                         : {du02[15], du02};
-  wire [16:0] choice_21 = values_of_round3 ? {9'd0, vertex2_b}
+  wire [16:0] choice_15 = values_of_round3 ? {9'd0, vertex2_b}
                         : values_of_round2 ? {9'd0, vertex2_g}
                         : values_of_round1 ? {9'd0, vertex2_r}
                         : {1'b0, vertex2_z};
-  wire [16:0] choice_22 = values_of_round3 ? {9'd0, vertex1_b}
+  wire [16:0] choice_16 = values_of_round3 ? {9'd0, vertex1_b}
                         : values_of_round2 ? {9'd0, vertex1_g}
                         : values_of_round1 ? {9'd0, vertex1_r}
                         : {1'b0, vertex1_z};
-  wire [16:0] choice_23 = values_of_round3 ? {9'd0, vertex0_b}
+  wire [16:0] choice_17 = values_of_round3 ? {9'd0, vertex0_b}
                         : values_of_round2 ? {9'd0, vertex0_g}
                         : values_of_round1 ? {9'd0, vertex0_r}
                         : {1'b0, vertex0_z};
-  wire [16:0] choice_24 = values_of_round3 ? 17'd0
+  wire [16:0] choice_18 = values_of_round3 ? 17'd0
                         : values_of_round2 ? 17'd0
                         : values_of_round1 ? 17'd0
                         : 17'd0;
-  wire [16:0] choice_25 = single_value ? choice_24
-                        : from_vertex[1] ? choice_21
-                        : from_vertex[0] ? choice_22
-                        : choice_23;
-  wire [16:0] difference_5 = (to_vertex[1] ? choice_21 : to_vertex[0] ? choice_22 : choice_23)
-                           - choice_25;
-  wire [16:0] number0 = number_of_edge ? choice_20 : difference_5;  // signed
+  wire [16:0] choice_19 = single_value ? choice_18
+                        : from_vertex[1] ? choice_15
+                        : from_vertex[0] ? choice_16
+                        : choice_17;
+  wire [16:0] difference = (to_vertex[1] ? choice_15 : to_vertex[0] ? choice_16 : choice_17)
+                         - choice_19;
+  wire [16:0] number0 = number_of_edge ? choice_14 : difference;  // signed
   reg [16:0] kept0;  // a number that may not fit, or a first value; signed
-  wire [15:0] shown = number0[15:0] ^ {16{number0[16]}};
+  wire [15:0] shown = difference[15:0] ^ {16{difference[16]}};
   wire lane0_unfit;
-  wire choice_26 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
+  wire choice_20 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
   wire either_12 = ((at_stepped == FIX_A) && (|prim_n1)) || ((at_stepped == FIX_B) && (|prim_n2));
-  wire choice_27 = (round_stepped == 2'd3) ? 1'b1
+  wire choice_21 = (round_stepped == 2'd3) ? 1'b1
                  : (round_stepped == 2'd2) ? 1'b1
                  : (round_stepped == 2'd1) ? 1'b1
                  : 1'b1;
-  wire either_13 = ((at_stepped == FIX_DX) && choice_26) || (either_12 && choice_27);
+  wire either_13 = ((at_stepped == FIX_DX) && choice_20) || (either_12 && choice_21);
   assign unfit = lane0_unfit && either_13;
 
   always @(posedge clk) begin
@@ -813,42 +761,42 @@ module edgewalk_setup (
 
   // Edge: major.
   wire [30:0] lane0_value;
-  wire choice_28 = is_sign ? f[16] : digit_f;
-  wire choice_29 = is_sign ? g[16] : digit_g;
-  wire [17:0] shifted_5 = $signed({kept0[16], kept0}) >>> {pause - 4'd2, 1'b0};
-  wire [13:0] part_37 = p1_u[14:1];
+  wire choice_22 = is_sign ? f[15] : digit_f;
+  wire choice_23 = is_sign ? g[15] : digit_g;
+  wire [16:0] shifted_5 = $signed(kept0) >>> {pause - 4'd2, 1'b0};
+  wire [13:0] part_36 = p1_u[14:1];
+  wire [13:0] part_37 = p0_u[14:1];
   wire [13:0] part_38 = p0_u[14:1];
-  wire [13:0] part_39 = p0_u[14:1];
-  wire [30:0] choice_30 = (round_stepped == 2'd2) ? {{17{part_37[13]}}, part_37}
-                        : (round_stepped == 2'd1) ? {{17{part_38[13]}}, part_38}
-                        : {{17{part_39[13]}}, part_39};
-  wire [30:0] lane0_rest_out_unused;
+  wire [30:0] choice_24 = (round_stepped == 2'd2) ? {{17{part_36[13]}}, part_36}
+                        : (round_stepped == 2'd1) ? {{17{part_37[13]}}, part_37}
+                        : {{17{part_38[13]}}, part_38};
+  wire [29:0] lane0_rest_out_unused;
   wire [30:0] lane0_whole_out_unused;
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
     .rst           (rst),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_28 || choice_29), choice_29, choice_28}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_22 || choice_23), choice_23, choice_22}
 : read_single_at),
     .step          (step_formed0),
     .number        (number0),
     .digits        (shifted_5[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? choice_30
+    .whole_in      ((at_stepped == COLUMNS) ? choice_24
 : (round_stepped == 2'd3) ? {{kept0, 1'b1}, 13'd0}
 : (round_stepped == 2'd2) ? {{kept0, 1'b1}, 13'd0}
 : (round_stepped == 2'd1) ? {{kept0, 1'b1}, 13'd0}
 : {{kept0, 1'b1}, 13'd0}),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_next == LOAD_B) ? (area[31] ? ~{16'd0, {dv12, 1'b0}} : ~{16'd0, {dv02, 1'b0}})
-: (at_next == LOAD_A) ? (area[31] ? ~{16'd0, {dv01, 1'b0}} : ~{16'd0, {dv02, 1'b0}})
+    .modulus_in    ((at_next == LOAD_B) ? (area[30] ? ~{15'd0, {dv12, 1'b0}} : ~{15'd0, {dv02, 1'b0}})
+: (at_next == LOAD_A) ? (area[30] ? ~{15'd0, {dv01, 1'b0}} : ~{15'd0, {dv02, 1'b0}})
 : (at_next == LOAD1) ? scaled
-: (round_next == 2'd2) ? ~{16'd0, {dv12, 1'b0}}
-: (round_next == 2'd1) ? ~{16'd0, {dv01, 1'b0}}
-: ~{16'd0, {dv02, 1'b0}}),
-    .modulus_short (!((at_next == LOAD1) && area[31])),
+: (round_next == 2'd2) ? ~{15'd0, {dv12, 1'b0}}
+: (round_next == 2'd1) ? ~{15'd0, {dv01, 1'b0}}
+: ~{15'd0, {dv02, 1'b0}}),
+    .modulus_short (!((at_next == LOAD1) && area[30])),
     .upwards       (1'b0),
     .unfit         (lane0_unfit),
     .rest_out      (lane0_rest_out_unused),
@@ -857,16 +805,16 @@ module edgewalk_setup (
   );
 
   wire any_15 = |dv02[14:1];
-  wire [30:0] part_40 = lane0_value;
+  wire [30:0] part_39 = lane0_value;
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd0)) begin
-      prim_major_q <= any_15 ? part_40[30:16] : 15'd0;
-      prim_major_f <= any_15 ? part_40[15:0] : 16'd0;
+      prim_major_q <= any_15 ? part_39[30:16] : 15'd0;
+      prim_major_f <= any_15 ? part_39[15:0] : 16'd0;
     end
   end
 
-  wire [30:0] inverse_2 = ~part_40;
+  wire [30:0] inverse_2 = ~part_39;
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd0)) begin
@@ -877,16 +825,16 @@ module edgewalk_setup (
 
   // Edge: minor1.
   wire both_6 = (|prim_n1) && (|dv01[14:1]);
-  wire [30:0] part_41 = lane0_value;
+  wire [30:0] part_40 = lane0_value;
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd1)) begin
-      prim_minor1_q <= both_6 ? part_41[30:16] : 15'd0;
-      prim_minor1_f <= both_6 ? part_41[15:0] : 16'd0;
+      prim_minor1_q <= both_6 ? part_40[30:16] : 15'd0;
+      prim_minor1_f <= both_6 ? part_40[15:0] : 16'd0;
     end
   end
 
-  wire [30:0] inverse_3 = ~part_41;
+  wire [30:0] inverse_3 = ~part_40;
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd1)) begin
@@ -897,16 +845,16 @@ module edgewalk_setup (
 
   // Edge: minor2.
   wire both_7 = (|prim_n2) && (|dv12[14:1]);
-  wire [30:0] part_42 = lane0_value;
+  wire [30:0] part_41 = lane0_value;
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd2)) begin
-      prim_minor2_q <= both_7 ? part_42[30:16] : 15'd0;
-      prim_minor2_f <= both_7 ? part_42[15:0] : 16'd0;
+      prim_minor2_q <= both_7 ? part_41[30:16] : 15'd0;
+      prim_minor2_f <= both_7 ? part_41[15:0] : 16'd0;
     end
   end
 
-  wire [30:0] inverse_4 = ~part_42;
+  wire [30:0] inverse_4 = ~part_41;
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd2)) begin
@@ -1032,14 +980,14 @@ module edgewalk_setup (
   end
 
   assign prim_jm = jm[8:0];
-  assign prim_major_right = area[31];
+  assign prim_major_right = area[30];
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, SET_A, ROUND_A, SET_B, ends_fixed, less_m[0], difference[15], difference_2[15],
-    difference_3[15], difference_4[15], part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1],
-    shifted_2[14:1], part_14[30:0], choice_10[14:10], choice_11[14:10], differing[16], differing_2[16],
-    part_26[0], part_29[0], part_33[0], part_36[0], shifted_3[16:1], shifted_4[16:1], shifted_5[17:2]
+    1'b0, SET_A, ROUND_A, SET_B, ends_fixed, less_m[0], part_3[0], part_6[0], part_10[0], part_13[0],
+    shifted[14:1], shifted_2[14:1], part_14[29:0], choice_6[14:10], choice_7[14:10], joined[15:14],
+    joined_2[15:14], part_25[0], part_28[0], part_32[0], part_35[0], shifted_3[15:1], shifted_4[15:1],
+    shifted_5[16:2]
   };
 
 endmodule

@@ -2,6 +2,7 @@
 //!
 //! `EDGEWALK_BLESS=1 cargo test -p edgewalk-cli presets::` rewrites it after a deliberate change.
 
+use edgewalk_machine::presets::PRESETS;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -23,7 +24,7 @@ fn files(folder: &Path) -> BTreeMap<String, String> {
 fn hdl_is_what_is_printed_today() {
     let hdl = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../hdl");
     let mut checked = 0;
-    for preset in ["default", "textbook", "small", "ecp5"] {
+    for (preset, _) in PRESETS {
         let out = tempfile::tempdir().expect("a folder");
         let printed = out.path().join(preset);
         let status = Command::new(env!("CARGO_BIN_EXE_edgewalk"))
@@ -50,4 +51,16 @@ fn hdl_is_what_is_printed_today() {
     }
     println!("checked {checked} files");
     assert!(checked >= 10 || std::env::var_os("EDGEWALK_BLESS").is_some());
+}
+
+/// The help of every command that takes a machine names all of them.
+#[test]
+fn help_names_the_presets() {
+    for command in ["raster", "emit", "verify", "vectors", "synth", "sweep", "bench", "config"] {
+        let output = Command::new(env!("CARGO_BIN_EXE_edgewalk")).args([command, "--help"]).output();
+        let text = String::from_utf8(output.expect("the program runs").stdout).expect("text");
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let names: Vec<&str> = PRESETS.iter().map(|preset| preset.0).collect();
+        assert!(text.contains(&format!("the name of a preset: {}", names.join(", "))), "{command}: {text}");
+    }
 }

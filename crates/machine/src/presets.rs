@@ -34,6 +34,7 @@ impl Machine {
                 width: 240,
                 height: 160,
                 guard_bits: 8,
+                subpixel_bits: 3,
                 z: Precision { bits: 16, fraction: 10, vertex_fraction: 0 },
                 color: Precision { bits: 5, fraction: 10, vertex_fraction: 0 },
                 span_fifo: 1,

@@ -87,7 +87,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     m.comment("The addend of the step that follows.");
     let n0 = m.reg("n0", shape.rest).doc("a, or a number to take in");
     let n1 = m.reg("n1", below_two_m + 1).doc("a - M, signed");
-    let n2 = m.reg("n2", below_two_m + 1).doc("a - 2 M, modular");
+    let n2 = m.reg("n2", below_two_m).doc("a - 2 M, modular");
     let below = m.reg("below", 1).doc("the number taken in is below 0");
     // The step before a fix is a load, and its n0 the number.
     let below_0 = (step.bit(0) & below.q()) | (!step.bit(0) & n0.q().msb());
@@ -107,7 +107,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     n0.set(is(step, Step::Load).mux(number.sext(shape.rest), fit(addend, shape.rest)));
     n1.set(less_m);
     let twice = m.cat(&[modulus, short]).named_doc("less_2m", "-2 M, or -2 M - 1");
-    n2.set(plus("a_less_2m", a.sext(below_two_m + 1), twice, short));
+    n2.set(plus("a_less_2m", a, twice.trunc(below_two_m), short));
     let carry0 = m.reg("carry0", 1).doc("1 to add to the sum of n0");
     carry0.set(with_sign | (add_modulus & !short) | (take_modulus_off & short));
     let carry = m.reg("carry", 1).doc("1 to add to the other sums").set(take_modulus_off & short);
@@ -124,20 +124,22 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let old = rest.q().sext(sums);
     let four = m.cat(&[old.trunc(sums - 2), digits]);
     let x = fourfold.mux(four, twofold.mux(old.shl(1), from_zero.mux(0, old))).named("x");
-    let s0 = plus("x_and_n0", x, n0.q().sext(sums), carry0.q()).named("s0");
+    let low = x.trunc(shape.rest);
+    let s0 = plus("x_and_n0", low, n0.q(), carry0.q()).named("s0");
     let s1 = plus("x_and_n1", x, n1.q().sext(sums), carry.q()).named("s1");
-    let s2 = plus("x_and_n2", x, n2.q().sext(sums), carry.q()).named("s2");
-    // A fourfold rest may have M taken off three times, and n0 is the first of them; else n0 takes none off. Between -2 M and 2 M
-    // a sum has its sign; s2 may lie below, but then s1 is below 0, and s0 may lie above, but then s1 is not.
-    let (f0, f1) = ((!s0.msb()).named("fits0"), (!s1.msb() & compared).named("fits1"));
+    let s2 = plus("x_and_n2", low, n2.q().sext(shape.rest), carry.q()).named("s2");
+    // A fourfold rest may have M taken off three times, and n0 is the first of them; else n0 takes none off. s1 lies between -2 M
+    // and 2 M. If it fits, s2 lies between -M and M; if not, s0 does: they need a bit less.
+    let (f0, s1_fits) = ((!s0.msb()).named("fits0"), (!s1.msb()).named("s1_fits"));
+    let f1 = (s1_fits & compared).named("fits1");
     let f2 = (f1 & !s2.msb()).named("fits2");
     let stays = (fourfold & !f0).named("stays");
-    rest_next.drive(f2.mux(s2, f1.mux(s1, stays.mux(x, s0))).trunc(shape.rest));
+    rest_next.drive(f2.mux(s2, f1.mux(s1.trunc(shape.rest), stays.mux(low, s0))));
     rest.when(!is(now, Step::Whole), rest_next);
     below.when(is(now, Step::Load) & advance, n0.q().msb());
     m.output_doc(
         "unfit",
-        is(now, Step::Fix) & below.q().mux(s0.msb(), !s1.msb()),
+        is(now, Step::Fix) & below.q().mux(!f0, s1_fits),
         "the number that was taken in is not between -M and M",
     );
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use edgewalk_machine::{Channel, EdgeKind, Plan};
+use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
 use edgewalk_netlist::{BuildErrors, Instance, Module, Netlist, Signal};
 
 use super::control::Control;
@@ -161,11 +161,17 @@ impl<'a, 'm> Common<'a, 'm> {
         let named = |name: &str| format!("{name}{number}");
         let step = self.step_of(number).named(&named("step"));
         let next = m.reg(&named("step_next"), Step::BITS).reset(0).when(control.advance, step).q();
-        let again = m.reg(&named("step_again"), Step::BITS);
-        let of_pause = control.pause.eq(2).mux(again.q(), self.of_pause);
-        let of_pause = m.reg(&named("step_of_pause"), Step::BITS).set(of_pause).q();
-        let formed = control.advance.mux(next, of_pause).named(&named("step_formed"));
-        again.when(control.advance, formed);
+        let waits_for_none = self.plan.fill == Fill::Exact && edge_of(self.plan, number, 0).is_none();
+        let formed = if waits_for_none {
+            next
+        } else {
+            let again = m.reg(&named("step_again"), Step::BITS);
+            let of_pause = control.pause.eq(2).mux(again.q(), self.of_pause);
+            let of_pause = m.reg(&named("step_of_pause"), Step::BITS).set(of_pause).q();
+            let formed = control.advance.mux(next, of_pause).named(&named("step_formed"));
+            again.when(control.advance, formed);
+            formed
+        };
         instance
             .connect("advance", control.advance)
             .connect("read_at", self.read_at(number))

@@ -110,7 +110,7 @@ impl<'m> Sources<'_, 'm> {
         // When three clocks or more are left the digits are not read; when two, the lowest.
         let digits = if has_edge || self.plan.fill == Fill::Textbook {
             let pair = m.cat(&[control.pause - 2, m.lit(1, 0)]);
-            kept.sext(kept.width() + 1).sar_by(pair).trunc(2)
+            kept.sar_by(pair).trunc(2)
         } else {
             m.lit(2, 0)
         };

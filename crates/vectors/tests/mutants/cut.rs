@@ -81,7 +81,7 @@ pub fn one_clock(netlist: &Arc<Netlist>) -> Arc<Netlist> {
             next = mux(&mut alone, reset, value, next);
         }
         alone.outputs.push(Output {
-            name: format!("{}_next", register.name),
+            name: format!("clocked_{}", register.name),
             doc: String::new(),
             driver: next,
         });

@@ -224,13 +224,13 @@ fn judge(tallies: &[Tally], least: usize) {
 }
 
 /// SETUP has four lanes, so that the area may be the last to be known; edges often do not fit, as there are few sub-pixels, and
-/// a colour is doubled an odd number of times. What DEPTH carries is short: the prover then sees
+/// channels are doubled an odd number of times, z more often. What DEPTH carries is short: the prover then sees
 /// through four fragments in flight.
 fn machine_for(unit: Unit) -> Plan {
     let small = common::small();
     if unit == common::SETUP {
-        let color = Precision { fraction: small.color.fraction - 1, ..small.color };
-        return Machine { color, lanes: 4, subpixel_bits: 2, ..Machine::clone(&small) }
+        let z = Precision { fraction: small.z.fraction + 2, ..small.z };
+        return Machine { z, lanes: 4, subpixel_bits: 1, ..Machine::clone(&small) }
             .plan()
             .expect("can be built");
     }
@@ -414,7 +414,7 @@ fn halves(machine: &Plan) -> Trace {
                 std::array::from_fn(|_| [0; 2].map(|_| random.random_range(0..16 * scale)));
             let [u, v] = [1, 2].map(|i| [0, 1].map(|axis| at[i][axis] - at[0][axis]));
             let area = (u[0] * v[1] - u[1] * v[0]).unsigned_abs();
-            if area.is_power_of_two() && area >= 1 << (machine.z.fraction - 2) {
+            if area.is_power_of_two() && area >= 1 << (machine.color.fraction - 1) {
                 break at;
             }
         };

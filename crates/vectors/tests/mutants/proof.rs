@@ -41,7 +41,8 @@ pub enum Proof {
     Unknown,
 }
 
-/// Compares a netlist with the same netlist with a fault; `whole` also at the ports of the unit, if it must be.
+/// Compares a netlist with the same netlist with a fault; `whole` in all of these ways, else in the first and once more at
+/// the place of the fault, or at the ports of its module.
 pub fn prove(interface: &Interface, original: &Arc<Netlist>, mutant: &Mutant, whole: bool) -> Proof {
     let watched = mutant.watched(original);
     if let Some(watched) = &watched {
@@ -58,6 +59,21 @@ pub fn prove(interface: &Interface, original: &Arc<Netlist>, mutant: &Mutant, wh
     let [now, then] = [&cut[0], &cut[1]].map(one_clock);
     if own && search(&Ports::of_module(&now), &now, &then, LIMITS[1]) == Proof::Equivalent {
         return Proof::Equivalent;
+    }
+    if !whole {
+        // Fewer searches: there are many faults, and of most that are left none comes to an end.
+        let modules = |netlist: &Arc<Netlist>| [alone(netlist, &mutant.module), Arc::clone(netlist)];
+        let proved = match watched.as_ref().filter(|_| own) {
+            Some(watched) => modules(watched)
+                .iter()
+                .map(without_memories)
+                .any(|place| never(&Ports::of_module(&place), &place, LIMITS[1]) == Proof::Equivalent),
+            None => {
+                own && search(&Ports::of_module(&cut[0]), &cut[0], &cut[1], LIMITS[1]) == Proof::Equivalent
+            }
+        };
+        // A difference there need not reach the ports of the unit.
+        return if proved { Proof::Equivalent } else { Proof::Unknown };
     }
     // What is written and asked for alike comes back alike, whatever it is.
     if own && search(&Ports::of_module(&cut[0]), &cut[0], &cut[1], LIMITS[1]) == Proof::Equivalent {
@@ -79,9 +95,7 @@ pub fn prove(interface: &Interface, original: &Arc<Netlist>, mutant: &Mutant, wh
     let watched = watched.map(|watched| never(&ports, &watched, LIMITS[1]));
     match watched {
         Some(Proof::Equivalent) => Proof::Equivalent,
-        _ if whole => search(&ports, original, &faulty, LIMITS[2]),
-        // A difference at the module's ports, or at the fault, need not reach those of the unit.
-        _ => Proof::Unknown,
+        _ => search(&ports, original, &faulty, LIMITS[2]),
     }
 }
 
@@ -117,7 +131,9 @@ fn reaches(designs: &[(&str, &Arc<Netlist>)], miter: String, limit: u32) -> Proo
     let (code, printed) = run(place.path(), "yosys", &["-Q", "-T", "-p", &gates]);
     assert_eq!(code, Some(0), "yosys:\n{printed}");
     // Whatever it is at when its time is over: it has found nothing then.
-    let find = format!("ulimit -t {limit}; exec yosys-abc -c 'read_aiger miter.aig; scorr -F 2; pdr'");
+    let find = format!(
+        "ulimit -t {limit}; exec yosys-abc -c 'read_aiger miter.aig; ifraig -C 10000; scorr -F 2; pdr'"
+    );
     let (code, printed) = run(place.path(), "sh", &["-c", &find]);
     assert_ne!(code, Some(127), "yosys-abc, of the package yosys, is needed");
     if printed.contains("Property proved") {
