@@ -122,19 +122,20 @@ module edgewalk_setup (
   reg first;             // its first clock
 
   // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
-  reg [3:0] pause;                                   // clocks left of it
-  reg paused;                                        // it is not over
+  reg [3:0] pause;                           // clocks left of it
+  reg paused;                                // it is not over
   wire advance = !paused;
   assign tri_ready = state == IDLE;
   wire take = tri_valid && tri_ready;
   wire works = state == WORK;
   assign prim_valid = state == DONE;
-  wire begins = works && (at == LOAD_DX);            // the first clock of a triangle
+  wire begins = works && (at == LOAD_DX);    // the first clock of a triangle
   wire gives_up = works && (at == FIX_DX) && nothing;  // the triangle has no line or no column
-  wire last = left == 5'd0;                          // last clock of the operation
+  wire last = left == 5'd0;                  // last clock of the operation
   wire edges_end = last && (at == COLUMNS);
-  wire waits = edges_end && !area_known;             // for the area or its scale
-  wire ends = works && last && !waits && !gives_up;  // the operation ends
+  wire waits = edges_end && !area_known;     // for the area or its scale
+  wire goes = works && !waits && !gives_up;  // the operation is done
+  wire ends = goes && last;                  // it ends
   wire leaves = ends && advance;
   wire channels_end = at == ADD_START;
 
@@ -179,7 +180,8 @@ module edgewalk_setup (
     end
     if (leaves && channels_end) left <= 5'd3;
     if (state == STORE) left <= left - 5'd1;
-    if (waits || take) left <= 5'd0;
+    if (waits) left <= 5'd0;
+    if (take) left <= 5'd0;
   end
 
   // The way of an operation: named, its addends formed, its step done, the rest and then the whole of the result.
@@ -198,7 +200,7 @@ module edgewalk_setup (
   reg ends_rest;
   reg [4:0] at_whole;
   reg ends_whole;
-  wire rests = waits || gives_up || !works;
+  wire rests = !goes;
 
   always @(posedge clk) begin
     if (advance) begin

@@ -136,10 +136,7 @@ module edgewalk_setup_lane0 (
              || (step == 5'd18)
              || (step == 5'd16);
     digits_now <= (step == 5'd9) ? digits : 2'd0;
-  end
-
-  always @(posedge clk) begin
-    if (!(now == 5'd20)) rest <= rest_next;
+    rest <= rest_next;
   end
 
   always @(posedge clk) begin
@@ -175,7 +172,6 @@ module edgewalk_setup_lane0 (
   wire twice_or_more = fourfold ? fits1 : fits2;
   wire once_or_thrice = fourfold ? (fits0 && !fits1) || fits2 : fits1 && !fits2;
   reg [1:0] taken;                                   // how often M was taken off
-  reg [4:0] then;                                    // the step before
   reg was_fourfold;
   reg was_twofold;
   reg was_from_zero;
@@ -196,14 +192,10 @@ module edgewalk_setup_lane0 (
     slot_now <= of_slot;
     b <= (now == 5'd20) ? whole_in : slot_now ? wholes_q ^ extended_2 : extended_2;
     taken <= {twice_or_more, once_or_thrice};
-    then <= now;
     was_fourfold <= fourfold;
     was_twofold <= twofold;
     was_from_zero <= from_zero;
-  end
-
-  always @(posedge clk) begin
-    if (!(then == 5'd2)) whole <= whole_next;
+    whole <= whole_next;
   end
 
   // What is done is given out rounded: to nearest, halves up, or up.

@@ -175,7 +175,6 @@ module edgewalk_setup_lane0 (
   wire twice_or_more = fourfold ? fits1 : fits2;
   wire once_or_thrice = fourfold ? (fits0 && !fits1) || fits2 : fits1 && !fits2;
   reg [1:0] taken;                                   // how often M was taken off
-  reg [4:0] then;                                    // the step before
   reg was_fourfold;
   reg was_twofold;
   reg was_from_zero;
@@ -186,6 +185,7 @@ module edgewalk_setup_lane0 (
   wire one = !was_fourfold && (|taken);
   wire [31:0] x_and_b = {whole_x, 1'b1} + {b, one};  // and a carry out of the lowest bit
   assign whole_next = x_and_b[31:1];
+  reg [4:0] then;                                    // the step before
   wire [30:0] extended_2 = {31{negated}};
 
   always @(posedge clk) begin
@@ -196,10 +196,10 @@ module edgewalk_setup_lane0 (
     slot_now <= of_slot;
     b <= (now == 5'd20) ? whole_in : slot_now ? wholes_q ^ extended_2 : extended_2;
     taken <= {twice_or_more, once_or_thrice};
-    then <= now;
     was_fourfold <= fourfold;
     was_twofold <= twofold;
     was_from_zero <= from_zero;
+    then <= now;
   end
 
   always @(posedge clk) begin

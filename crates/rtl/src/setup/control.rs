@@ -155,7 +155,8 @@ impl<'m> Control<'m> {
             begins_channels = edges_end | turn.named("round_ends");
         }
         let waits = (begins_channels & !area_known.q()).named_doc("waits", "for the area or its scale");
-        let ends = (works & last & !waits & !gives_up).named_doc("ends", "the operation ends");
+        let goes = (works & !waits & !gives_up).named_doc("goes", "the operation is done");
+        let ends = (goes & last).named_doc("ends", "it ends");
         let leaves = (ends & advance).named("leaves");
         let channels_end = with(is_at(last_channel), is_round(channel_rounds - 1)).named("channels_end");
 
@@ -208,7 +209,8 @@ impl<'m> Control<'m> {
             .when(leaves, length)
             .when(leaves & channels_end, 3)
             .when(state.q().eq(store), left.q() - 1)
-            .when(waits | take, 0);
+            .when(waits, 0)
+            .when(take, 0);
 
         m.comment("The way of an operation: named, its addends formed, its step done, the rest and then the whole of the result.");
         let stage = |at, round: Option<Signal<'m>>, ends| Stage { at, round, ends, codes: codes.clone() };
@@ -269,7 +271,7 @@ impl<'m> Control<'m> {
             named,
             first: first.q(),
             left: left.q(),
-            waits: (waits | gives_up | !works).named("rests"),
+            waits: (!goes).named("rests"),
             next,
             stepped,
             rest,

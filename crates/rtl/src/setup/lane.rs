@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use edgewalk_machine::{Channel, EdgeKind, Plan};
+use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
 use super::area::area_bits;
@@ -20,6 +20,8 @@ pub(super) struct Shape {
     pub whole: u32,
     /// The modulus, negated.
     pub modulus: u32,
+    /// Textbook fill: a value of a left edge may not fit either, and the whole number to add may follow a doubling.
+    pub textbook: bool,
 }
 
 impl Shape {
@@ -34,7 +36,8 @@ impl Shape {
         let words = channels.iter().map(|c| c.word() + w.center_fraction).max().unwrap_or(1);
         let number = w.difference.max(values);
         let modulus = modulus_bits(plan);
-        Shape { number, rest: modulus.max(number), whole: of_edge.max(words), modulus }
+        let textbook = plan.fill == Fill::Textbook;
+        Shape { number, rest: modulus.max(number), whole: of_edge.max(words), modulus, textbook }
     }
 }
 
@@ -135,7 +138,11 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let f2 = (f1 & !s2.msb()).named("fits2");
     let stays = (fourfold & !f0).named("stays");
     rest_next.drive(f2.mux(s2, f1.mux(s1.trunc(shape.rest), stays.mux(low, s0))));
-    rest.when(!is(now, Step::Whole), rest_next);
+    if shape.textbook {
+        rest.when(!is(now, Step::Whole), rest_next);
+    } else {
+        rest.set(rest_next);
+    }
     below.when(is(now, Step::Load) & advance, n0.q().msb());
     m.output_doc(
         "unfit",
@@ -161,7 +168,6 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let many = (fourfold.mux(f1, f2)).named("twice_or_more");
     let odd = fourfold.mux((f0 & !f1) | f2, f1 & !f2).named("once_or_thrice");
     let taken = m.reg("taken", 2).doc("how often M was taken off").set(m.cat(&[many, odd])).q();
-    let then = m.reg("then", Step::BITS).doc("the step before").set(now).q();
     let fourfold = flag(&m, "was_fourfold", fourfold);
     let twofold = flag(&m, "was_twofold", twofold);
     let from_zero = flag(&m, "was_from_zero", from_zero);
@@ -172,7 +178,13 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let x = fourfold.mux(four, twofold.mux(two, from_zero.mux(0, old))).named("whole_x");
     let one = (!fourfold & taken.any()).named("one");
     whole_next.drive(plus("x_and_b", x, b.q(), one));
-    whole.when(!is(then, Step::Less1), whole_next);
+    if shape.textbook {
+        // Of a number that does not fit: 0 or -1, as the step before gave it. Elsewhere all of it is shifted out.
+        let then = m.reg("then", Step::BITS).doc("the step before").set(now).q();
+        whole.when(!is(then, Step::Less1), whole_next);
+    } else {
+        whole.set(whole_next);
+    }
 
     m.comment("What is done is given out rounded: to nearest, halves up, or up.");
     m.output_doc("rest_out", rest.q().trunc(slot), "1/M, from the clock after a step");

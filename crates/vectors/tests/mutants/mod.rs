@@ -411,10 +411,10 @@ fn halves(machine: &Plan) -> Trace {
     let triangle = |_| {
         let at = loop {
             let at: [[i64; 2]; 3] =
-                std::array::from_fn(|_| [0; 2].map(|_| random.random_range(0..16 * scale)));
+                std::array::from_fn(|_| [0; 2].map(|_| random.random_range(0..32 * scale)));
             let [u, v] = [1, 2].map(|i| [0, 1].map(|axis| at[i][axis] - at[0][axis]));
             let area = (u[0] * v[1] - u[1] * v[0]).unsigned_abs();
-            if area.is_power_of_two() && area >= 1 << (machine.color.fraction - 1) {
+            if area.is_power_of_two() && area >= 1 << (machine.z.fraction - 2) {
                 break at;
             }
         };
