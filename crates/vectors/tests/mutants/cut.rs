@@ -64,11 +64,9 @@ pub fn one_clock(netlist: &Arc<Netlist>) -> Arc<Netlist> {
         alone.nodes[node.index()].source = Source::Input(alone.inputs.len());
         alone.inputs.push(Input { name, doc: String::new(), node });
     };
-    let reset = alone.has_reset.then(|| {
-        let reset = pushed(&mut alone, 1, Source::Input(0));
-        input(&mut alone, "reset_now".to_owned(), reset);
-        reset
-    });
+    // There even without a register that has one: a fault may take the only one away.
+    let reset = pushed(&mut alone, 1, Source::Input(0));
+    input(&mut alone, "reset_now".to_owned(), reset);
     for register in std::mem::take(&mut alone.registers) {
         let (q, width) = (register.node, alone.width(register.node));
         input(&mut alone, register.name.clone(), q);
@@ -76,7 +74,7 @@ pub fn one_clock(netlist: &Arc<Netlist>) -> Arc<Netlist> {
         for update in register.updates {
             next = update.when.map_or(update.value, |when| mux(&mut alone, when, update.value, next));
         }
-        if let (Some(value), Some(reset)) = (register.reset, reset) {
+        if let Some(value) = register.reset {
             let value = pushed(&mut alone, width, Source::Constant { value, name: None });
             next = mux(&mut alone, reset, value, next);
         }
