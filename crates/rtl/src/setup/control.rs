@@ -65,10 +65,10 @@ pub(super) struct Control<'m> {
     pub first: Signal<'m>,
     /// Its clocks after this one.
     pub left: Signal<'m>,
-    /// It waits for the area.
+    /// Nothing is done: it waits for the area, gives up, or is not at work.
     pub waits: Signal<'m>,
-    /// A clock later: what is loaded is chosen by it. Held while numbers do not fit, when nothing is loaded: no load follows a
-    /// test of such numbers within two clocks.
+    /// A clock later: what is loaded is chosen by it. Held while numbers do not fit: with few doublings DY is the next to be
+    /// loaded.
     pub next: Stage<'m>,
     /// Two clocks later: its step is done.
     pub stepped: Stage<'m>,
