@@ -122,7 +122,7 @@ impl<'m> Control<'m> {
         let state = m.reg("state", 2).reset(0);
         let at = m.reg("at", bits).doc("operation");
         let left = m.reg("left", left_bits).doc("its clocks after this one");
-        let first = m.reg("first", 1).doc("its first clock");
+        let first = m.reg("first", 1).doc("its first clock, but for that of a triangle");
         let [edge_rounds, channel_rounds] = rounds(plan);
         let most = edge_rounds.max(channel_rounds);
         let round = (most > 1).then(|| {
@@ -175,7 +175,11 @@ impl<'m> Control<'m> {
             next = (is_at(last_channel) & !channels_end).mux(codes[first_channel].1, next);
         }
         at.when(leaves, next).when(take, codes[0].1);
-        first.when(advance, leaves).when(take, 1);
+        match plan.fill {
+            Fill::Exact => first.set(leaves),
+            // A sum may be named while numbers do not fit.
+            Fill::Textbook => first.when(advance, leaves),
+        };
         if let Some(round) = round {
             round
                 .when(leaves & (is_at(last_edge) | is_at(last_channel)), round.q() + 1)
@@ -199,6 +203,7 @@ impl<'m> Control<'m> {
                 Length::Clocks(1) => continue,
                 Length::Clocks(clocks) => m.lit(left_bits, u128::from(clocks) - 1),
                 Length::Digits => top_digit.q(),
+                Length::Doublings(_) if op.is_of_edge(plan) && doubling_clocks(plan, *op, 0) < 2 => continue,
                 Length::Doublings(_) if op.is_of_edge(plan) => doubled(*op, 0),
                 Length::Doublings(_) => of_channels(*op),
                 Length::Scaled(_) => of_channels(*op) + scale.q().zext(left_bits),
@@ -261,7 +266,9 @@ impl<'m> Control<'m> {
             clocks = stepped.is(Op::FixDx).mux(clocks, stepped.of_round(channel_rounds, needed));
         }
         pause.set(advance.mux(clocks, pause.q() - 1));
-        paused.when(resumes, 0).when(advance & unfit.q(), 1);
+        // What the lanes do right after a reset is of no triangle.
+        let worked = m.reg("worked", 1).doc("works, a clock ago").reset(0).set(works).q();
+        paused.when(resumes, 0).when(worked & unfit.q(), 1);
 
         Control {
             idle: is_idle,

@@ -104,10 +104,10 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
         .mux(modulus, of_slot.mux(stored.zext(below_two_m), 0))
         .named_doc("a", "addend, 1/M, or -M");
     let less_m = plus("a_less_m", a.sext(below_two_m + 1), modulus.sext(below_two_m + 1), short);
-    let negated =
-        with_sign.mux(less_m, a.sext(below_two_m + 1)).named_doc("to_negate", "-a is -1 + (M - a)/M");
-    let addend = negated ^ repeat(negate, below_two_m + 1);
-    n0.set(is(step, Step::Load).mux(number.sext(shape.rest), fit(addend, shape.rest)));
+    let negated = with_sign.mux(fit(less_m, shape.rest), fit(a, shape.rest));
+    let negated = negated.named_doc("to_negate", "-a is -1 + (M - a)/M");
+    let addend = negated ^ repeat(negate, shape.rest);
+    n0.set(is(step, Step::Load).mux(number.sext(shape.rest), addend));
     n1.set(less_m);
     let twice = m.cat(&[modulus, short]).named_doc("less_2m", "-2 M, or -2 M - 1");
     n2.set(plus("a_less_2m", a, twice.trunc(below_two_m), short));
@@ -116,7 +116,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let carry = m.reg("carry", 1).doc("1 to add to the other sums").set(take_modulus_off & short);
 
     m.comment("The step: x and the addend, less M as often as it goes.");
-    let now = m.reg("now", Step::BITS).doc("the step done").reset(0).set(step).q();
+    let now = m.reg("now", Step::BITS).doc("the step done").set(step).q();
     let fourfold = flag(&m, "fourfold", one_of(step, &[Step::Double2, Step::Digits]));
     let twofold = flag(&m, "twofold", one_of(step, &[Step::Double1, Step::Next]));
     let from_zero = one_of(step, &[Step::Load, Step::First, Step::Sign, Step::Begin]);
@@ -124,7 +124,8 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let compared = [Step::Double1, Step::Double2, Step::Digits, Step::Next, Step::Add];
     let compared = m.reg("compared", 1).doc("M is taken off if it goes").set(one_of(step, &compared)).q();
     let digits = m.reg("digits_now", 2).set(is(step, Step::Digits).mux(digits, 0)).q();
-    let old = rest.q().sext(sums);
+    // A rest is below 0 only while a number is tested, and then s0 tells or there is no sign.
+    let old = m.cat(&[m.lit(sums - shape.rest, 0), rest.q()]);
     let four = m.cat(&[old.trunc(sums - 2), digits]);
     let x = fourfold.mux(four, twofold.mux(old.shl(1), from_zero.mux(0, old))).named("x");
     let low = x.trunc(shape.rest);
@@ -143,7 +144,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     } else {
         rest.set(rest_next);
     }
-    below.when(is(now, Step::Load) & advance, n0.q().msb());
+    below.when(is(now, Step::Load) & advance, n0.q().bit(shape.number - 1));
     m.output_doc(
         "unfit",
         is(now, Step::Fix) & below.q().mux(!f0, s1_fits),

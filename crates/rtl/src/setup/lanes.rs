@@ -132,7 +132,7 @@ impl<'a, 'm> Common<'a, 'm> {
         let writers = these(&|op| op.doing().result.is_some());
         // What did not fit is written again when it does.
         let write = (control.stepped.ends & control.stepped.one_of(&writers)).named("write");
-        let write_at = (1..8).fold(m.lit(3, 0), |chosen, slot| {
+        let write_at = (2..8).fold(m.lit(3, 1), |chosen, slot| {
             let ops = these(&|op| op.doing().result == Some(slot));
             if ops.is_empty() { chosen } else { control.stepped.one_of(&ops).mux(slot as i32, chosen) }
         });
@@ -160,11 +160,12 @@ impl<'a, 'm> Common<'a, 'm> {
         let (m, control) = (self.m, self.control);
         let named = |name: &str| format!("{name}{number}");
         let step = self.step_of(number).named(&named("step"));
-        let next = m.reg(&named("step_next"), Step::BITS).reset(0).when(control.advance, step).q();
+        let next = m.reg(&named("step_next"), Step::BITS);
         let waits_for_none = self.plan.fill == Fill::Exact && edge_of(self.plan, number, 0).is_none();
         let formed = if waits_for_none {
-            next
+            next.set(step).q()
         } else {
+            let next = next.when(control.advance, step).q();
             let again = m.reg(&named("step_again"), Step::BITS);
             let of_pause = control.pause.eq(2).mux(again.q(), self.of_pause);
             let of_pause = m.reg(&named("step_of_pause"), Step::BITS).set(of_pause).q();
@@ -208,10 +209,12 @@ impl<'a, 'm> Common<'a, 'm> {
             }
             let of_round = |round: usize| {
                 let (own, longest) = in_round(round);
-                let mut chosen = code(Step::Double2);
-                if own % 2 == 1 {
-                    chosen = control.left.eq(0).mux(code(Step::Double1), chosen);
-                }
+                let one_clock = longest == 1 && !scaled;
+                let chosen = match own % 2 {
+                    0 => code(Step::Double2),
+                    _ if one_clock => code(Step::Double1),
+                    _ => control.left.eq(0).mux(code(Step::Double1), code(Step::Double2)),
+                };
                 if own.div_ceil(2) == longest {
                     return chosen;
                 }

@@ -47,14 +47,16 @@ impl<'m> Values<'m> {
         vertices: &Vertices<'m>,
         area: &Area<'m>,
     ) -> Values<'m> {
-        m.comment(
-            "What the lanes are shown in the next clock; in the first of a triangle dc1 of the first round.",
-        );
+        m.comment("What the lanes are shown in the next clock.");
         let (named, right) = (&control.named, area.negative);
         let place = |number: u128| m.lit(2, number);
-        let reg = |name: &str, value: Signal<'m>, at_first: u128| {
+        // Values of an edge are tested while nothing else is to be shown; of textbook fill those of channels are too.
+        let reg = |name: &str, value: Signal<'m>| {
             let reg = m.reg(name, value.width());
-            reg.when(control.advance, value).when(control.take, m.lit(value.width(), at_first)).q()
+            match plan.fill {
+                Fill::Exact => reg.set(value).q(),
+                Fill::Textbook => reg.when(control.advance, value).q(),
+            }
         };
         let of_edge = |name: &str, is: Signal<'m>| m.reg(name, 1).when(control.advance, is).q();
         let second = named.one_of(&[Op::FixDx, Op::Load2, Op::Fix2]);
@@ -72,18 +74,19 @@ impl<'m> Values<'m> {
             to = (a | b).mux((a & right).mux(place(1), place(2)), to);
         }
         // While a number is tested the lanes are shown those of the next round, to scale its modulus.
-        let (shown, of_first) = (named.one_of(&[Op::Fix1, Op::Fix2]), named.is(Op::FixDx));
+        let shown = named.one_of(&[Op::Fix1, Op::Fix2]);
+        let of_first = named.one_of(&[Op::LoadDx, Op::FixDx]);
         let round = |round: usize| {
             let (own, before) = (named.in_round(round)?, named.in_round(round - 1)?);
-            Some(reg(&format!("values_of_round{round}"), shown.mux(before, own) & !of_first, 0))
+            Some(reg(&format!("values_of_round{round}"), shown.mux(before, own) & !of_first))
         };
         let vertex = |place: Signal<'m>| {
             place.eq(2).mux(vertices.order[2], place.eq(1).mux(vertices.order[1], vertices.order[0]))
         };
         Values {
-            from: vertex(reg("from_place", from, 0)).named("from_vertex"),
-            to: vertex(reg("to_place", to, 1)).named("to_vertex"),
-            single: reg("single_value", single, 0),
+            from: vertex(reg("from_place", from)).named("from_vertex"),
+            to: vertex(reg("to_place", to)).named("to_vertex"),
+            single: reg("single_value", single),
             rounds: (1..rounds(plan)[1]).filter_map(round).collect(),
             of_edge: of_edge("number_of_edge", named.one_of(&[Op::LoadDx, Op::LoadDy])),
             height: of_edge("number_is_height", named.is(Op::LoadDy)),
@@ -101,18 +104,16 @@ impl<'m> Sources<'_, 'm> {
         let number =
             if has_edge { self.values.of_edge.mux(self.of_edge(lane), difference) } else { difference };
         let number = number.named_doc(&format!("number{}", lane.number), "signed");
-        let kept = [Op::LoadDx, Op::LoadA, Op::LoadB, Op::AddStart, Op::AddA, Op::AddB];
-        let kept = m
-            .reg(&format!("kept{}", lane.number), number.width())
-            .doc("a number that may not fit, or a first value; signed")
-            .when(control.next.one_of(&kept), number)
-            .q();
-        // When three clocks or more are left the digits are not read; when two, the lowest.
-        let digits = if has_edge || self.plan.fill == Fill::Textbook {
+        let kept = m.reg(&format!("kept{}", lane.number), number.width());
+        let kept = kept.doc("a number that may not fit, or a first value; signed");
+        let (kept, digits) = if has_edge || self.plan.fill == Fill::Textbook {
+            let ops = [Op::LoadDx, Op::LoadA, Op::LoadB, Op::AddStart, Op::AddA, Op::AddB];
+            let kept = kept.when(control.next.one_of(&ops), number).q();
+            // When three clocks or more are left the digits are not read; when two, the lowest.
             let pair = m.cat(&[control.pause - 2, m.lit(1, 0)]);
-            kept.sar_by(pair).trunc(2)
+            (kept, kept.sar_by(pair).trunc(2))
         } else {
-            m.lit(2, 0)
+            (kept.set(number).q(), m.lit(2, 0))
         };
         let (modulus, short) = self.modulus(lane);
         lane.instance

@@ -115,8 +115,12 @@ impl<'m> Results<'_, 'm> {
         self.register(name, "g").when(after(Op::DoubleX), right.mux(-rounded, rounded));
         self.register(name, "d0").when(after(Op::AddY), rounded);
         self.register(name, "d1").when(after(Op::AddLine), rounded);
-        // It waits for the next round in its place: what is taken before it is done is taken again.
-        self.register(name, "start").when(self.control.whole.is_in(Op::AddStart, round), start);
+        let result = self.register(name, "start");
+        match self.control.whole.in_round(round) {
+            // What is taken before it is done is taken again.
+            Some(_) => result.when(self.control.whole.is_in(Op::AddStart, round), start),
+            None => result.set(start),
+        };
     }
 
     fn channel_textbook(&self, channel: &Channel, round: usize, lane: &Lane<'m>) {

@@ -37,7 +37,7 @@ impl<'m> Scale<'m> {
         let short = !area.negative;
         let of_area = area.signed.sext(bits);
         let less = plus("less_m", differences.q().zext(bits), scaled.q(), m.lit(1, 1));
-        let fits = (less.msb() | !area.signed.any()).named("fits");
+        let fits = area.signed.any().mux(less.msb(), 1).named("fits");
         let grows = (scaling.q() & !fits).named("grows");
         scaling.when(fits, 0).when(taken.q(), 1);
         scaled
@@ -62,10 +62,13 @@ impl<'m> Scale<'m> {
         };
         let any = numbers.iter().map(magnitude).reduce(|any, one| any | one);
         let Some(any) = any.map(|any| any.named("shown")) else { return };
-        let several = rounds(plan)[1] > 1;
-        let seconds: &[Op] = if several { &[Op::FixDx, Op::Fix2] } else { &[Op::FixDx] };
-        self.differences.when(control.next.one_of(seconds), self.differences.q() | any);
-        let first = if several { control.begin | control.next.is(Op::Fix1) } else { control.begin };
-        self.differences.when(first, any);
+        let more = self.differences.q() | any;
+        if rounds(plan)[1] > 1 {
+            let shown = control.next.one_of(&[Op::LoadDx, Op::FixDx, Op::Fix1, Op::Fix2]);
+            self.differences.when(shown, more).when(control.begin | control.next.is(Op::Load1), 0);
+        } else {
+            // Until the channels begin nothing else is shown.
+            self.differences.set(more).when(control.begin, 0);
+        }
     }
 }

@@ -69,7 +69,8 @@ pub fn one_clock(netlist: &Arc<Netlist>) -> Arc<Netlist> {
     input(&mut alone, "reset_now".to_owned(), reset);
     for register in std::mem::take(&mut alone.registers) {
         let (q, width) = (register.node, alone.width(register.node));
-        input(&mut alone, register.name.clone(), q);
+        // By another name: that of a register may be an output's too.
+        input(&mut alone, format!("held_{}", register.name), q);
         let mut next = q;
         for update in register.updates {
             next = update.when.map_or(update.value, |when| mux(&mut alone, when, update.value, next));

@@ -223,14 +223,14 @@ fn judge(tallies: &[Tally], least: usize) {
     assert!(100 * killed >= least * expected, "only {killed} of {expected} killed");
 }
 
-/// SETUP has four lanes, so that the area may be the last to be known; edges often do not fit, as there are few sub-pixels, and
-/// channels are doubled an odd number of times, z more often. What DEPTH carries is short: the prover then sees
+/// SETUP has four lanes, so that the area may be the last to be known; edges often do not fit, as there are few sub-pixels, and are
+/// doubled in one clock; z is doubled an odd number of times, and more often than the others. What DEPTH carries is short: the prover then sees
 /// through four fragments in flight.
 fn machine_for(unit: Unit) -> Plan {
     let small = common::small();
     if unit == common::SETUP {
-        let z = Precision { fraction: small.z.fraction + 2, ..small.z };
-        return Machine { z, lanes: 4, subpixel_bits: 1, ..Machine::clone(&small) }
+        let z = Precision { fraction: small.z.fraction + 3, ..small.z };
+        return Machine { z, lanes: 4, subpixel_bits: 2, ..Machine::clone(&small) }
             .plan()
             .expect("can be built");
     }
@@ -340,7 +340,11 @@ fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
             // First, as they are few, tokens of one material, so that a reset finds fragments inside.
             traces.insert(0, shaded::any_tokens(machine, &traces[0], 0.0, StallKind::None, 7));
         }
-        "setup" => traces.extend([specks(machine), far(machine), halves(machine)]),
+        "setup" => {
+            let far = far(machine);
+            let cut = [8, 60].map(|each| cut_often(&far, each));
+            traces.extend([specks(machine), far, halves(machine)].into_iter().chain(cut));
+        }
         "span" => traces.extend((1..=4).map(|seed| any_lines(machine, &traces[1], seed)).collect::<Vec<_>>()),
         "blend" => {
             let kinds = [(false, StallKind::Mixed), (true, StallKind::Mixed), (false, StallKind::None)];
@@ -357,22 +361,27 @@ fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
 }
 
 /// Triangles of a few sub-pixels around a pixel's centre: their areas are the small divisors that meet halves. Values of half of
-/// them differ by as little, so that the area itself is the modulus, even or odd.
+/// them differ by as little or not at all, so that the area itself is the modulus, even or odd.
 fn specks(machine: &Plan) -> Trace {
     let mut random = Pcg64Mcg::seed_from_u64(1);
     let scale = f64::from(1 << machine.subpixel_bits);
-    let vertex = |random: &mut Pcg64Mcg, near: bool| {
+    let vertex = |random: &mut Pcg64Mcg, n: usize| {
         let mut at = || 2.5 + f64::from(random.random_range(-3..=3)) / scale;
         let at = (at(), at());
         let value = |channel: &Channel| {
-            let few = f64::from(random.random_range(0..=3)) / f64::from(1 << channel.vertex_fraction);
-            if near { few / channel.host_unit() } else { channel.host_range().1 * random.random::<f64>() }
+            let few =
+                |bits: u32| f64::from(bits) / f64::from(1 << channel.vertex_fraction) / channel.host_unit();
+            match n % 4 {
+                0 => few(random.random_range(0..=3)),
+                2 => few(1),
+                _ => channel.host_range().1 * random.random::<f64>(),
+            }
         };
         let values: Vec<f64> = machine.channels().iter().map(value).collect();
         machine.port_vertex(at.0, at.1, &values).expect("inside")
     };
-    let triangle = |n| std::array::from_fn(|_| vertex(&mut random, n % 2 == 0));
-    let triangles = (0..200).map(triangle).collect();
+    let triangle = |n| std::array::from_fn(|_| vertex(&mut random, n));
+    let triangles = (0..300).map(triangle).collect();
     let suite = Suite::of_triangles("specks", "areas of few sub-pixels", triangles);
     capture(machine, common::SETUP, &suite, DrawState::default(), StallKind::None)
 }
@@ -402,6 +411,14 @@ fn far(machine: &Plan) -> Trace {
     let triangles = (0..400).map(triangle).collect();
     let suite = Suite::of_triangles("far", "as far and as steep as can be", triangles);
     capture(machine, common::SETUP, &suite, DrawState::default(), StallKind::None)
+}
+
+/// The same, with a reset in so many cycles or so: one comes in every state of the work.
+fn cut_often(of: &Trace, each: u64) -> Trace {
+    let mut random = Pcg64Mcg::seed_from_u64(4);
+    let mut trace = of.clone();
+    trace.setting.resets = (0..of.cycles).filter(|_| random.random_range(0..each) == 0).collect();
+    trace
 }
 
 /// Triangles whose area is a power of two: their quotients are ties as often as can be.
