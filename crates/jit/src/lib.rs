@@ -5,7 +5,7 @@
 //!                                                         └─> quiet: who wakes whom ─────────────┤
 //!                                tables, shared: what is looked up, what is kept ─> layout ──────┘
 //! ```
-//! A value is computed where something needs it, most often once in a clock: registers and read ports that change under
+//! Registers that are equal in every clock are one. A value is computed where something needs it, most often once in a clock: registers and read ports that change under
 //! the same conditions form a group with one branch, groups that need the same condition share another around them. What
 //! only a group needs is computed in its branch. Registers change in place, in an order in which most are read before.
 //! A unit in which nothing can change is left out as a whole. What follows from a narrow value alone is looked up, and what
@@ -18,6 +18,7 @@ mod simplify;
 
 mod design;
 mod elaborate;
+mod equal;
 
 mod groups;
 mod guard;

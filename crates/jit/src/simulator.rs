@@ -8,6 +8,7 @@ use edgewalk_netlist::{Netlist, SimError};
 
 use crate::code::Code;
 use crate::elaborate::elaborate;
+use crate::equal::without_equals;
 use crate::error::JitError;
 use crate::groups::groups;
 use crate::layout::{Layout, Place};
@@ -88,7 +89,7 @@ impl Simulator {
     /// # Errors
     /// If there is no code generator for this machine, or the netlist is larger than it can be.
     pub fn new(netlist: &Netlist) -> Result<Simulator, JitError> {
-        let mut design = elaborate(netlist);
+        let mut design = without_equals(elaborate(netlist));
         let groups = groups(&mut design);
         let steps = schedule(&mut design, &groups);
         let readers = Readers::of(&design, &steps);
