@@ -162,13 +162,11 @@ impl Simulator {
     #[inline]
     pub fn set(&mut self, input: InputId, value: u128) {
         let InputId { place, wakes } = input;
-        let before = self.state.get(place);
-        self.state.set(place, value);
-        if self.state.get(place) != before {
+        if self.state.set(place, value) {
             let Plan { layout, wakes: all, .. } = &self.compiled.plan;
             self.state.wake(layout, all, wakes);
+            self.change();
         }
-        self.change();
     }
 
     /// Sets an input by name.
@@ -231,7 +229,7 @@ impl Simulator {
     /// One rising edge of `clk`.
     #[inline]
     pub fn tick(&mut self) {
-        self.execute(Program::Clock);
+        self.compiled.clock.run(self.state.words_mut());
         self.change();
     }
 
@@ -241,6 +239,7 @@ impl Simulator {
         self.state.get(output.0)
     }
 
+    #[inline]
     fn change(&mut self) {
         self.outputs_stale = true;
         self.signals_stale = true;
