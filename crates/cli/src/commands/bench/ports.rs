@@ -3,6 +3,7 @@
 use edgewalk_lockstep::{Direction, Interface, Link, MemoryWrite, Unit};
 use edgewalk_machine::Plan;
 use std::fmt::Write as _;
+use std::iter;
 
 /// The functions that the harness calls, a line a port.
 pub fn header(plan: &Plan) -> String {
@@ -76,6 +77,8 @@ fn store(interface: &Interface) -> Vec<String> {
         .iter()
         .enumerate()
         .map(|(i, place)| format!("uint64_t(m.{}) << {}", link.fields[*place].name, 16 * i % 64));
+    // With BLEND its memory is the picture, and nothing is beside it.
+    let words = iter::once("0".to_owned()).chain(words);
     vec![
         format!("if (!m.{}_valid) return false;", link.name),
         format!("frame[m.{}] = {};", link.fields[address].name, words.collect::<Vec<_>>().join(" ^ ")),
