@@ -21,7 +21,7 @@ pub(crate) struct Design {
 }
 
 /// A register: `reset`, else the last update whose condition holds, else as it was.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Register {
     /// The unit that has it: 0 is the top module, each of its instances is one, with all within.
     pub unit: usize,

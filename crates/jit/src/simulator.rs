@@ -8,6 +8,7 @@ use edgewalk_netlist::{Netlist, SimError};
 
 use crate::code::Code;
 use crate::elaborate::elaborate;
+use crate::equal::without_equals;
 use crate::error::JitError;
 use crate::groups::groups;
 use crate::layout::{Layout, Place};
@@ -88,7 +89,7 @@ impl Simulator {
     /// # Errors
     /// If there is no code generator for this machine, or the netlist is larger than it can be.
     pub fn new(netlist: &Netlist) -> Result<Simulator, JitError> {
-        let mut design = elaborate(netlist);
+        let mut design = without_equals(elaborate(netlist));
         let groups = groups(&mut design);
         let steps = schedule(&mut design, &groups);
         let readers = Readers::of(&design, &steps);
@@ -161,13 +162,11 @@ impl Simulator {
     #[inline]
     pub fn set(&mut self, input: InputId, value: u128) {
         let InputId { place, wakes } = input;
-        let before = self.state.get(place);
-        self.state.set(place, value);
-        if self.state.get(place) != before {
+        if self.state.set(place, value) {
             let Plan { layout, wakes: all, .. } = &self.compiled.plan;
             self.state.wake(layout, all, wakes);
+            self.change();
         }
-        self.change();
     }
 
     /// Sets an input by name.
@@ -230,7 +229,7 @@ impl Simulator {
     /// One rising edge of `clk`.
     #[inline]
     pub fn tick(&mut self) {
-        self.execute(Program::Clock);
+        self.compiled.clock.run(self.state.words_mut());
         self.change();
     }
 
@@ -240,6 +239,7 @@ impl Simulator {
         self.state.get(output.0)
     }
 
+    #[inline]
     fn change(&mut self) {
         self.outputs_stale = true;
         self.signals_stale = true;

@@ -18,7 +18,7 @@ impl State {
     pub fn new(design: &Design, tables: &Tables, wakes: &Wakes, layout: &Layout) -> State {
         let mut state = State(vec![0; layout.size]);
         let constants = design.signals.values().filter_map(|value| constant(design, layout, *value));
-        constants.for_each(|(place, value)| state.set(place, value));
+        constants.for_each(|(place, value)| _ = state.set(place, value));
         for (memory, area) in design.memories.iter().zip(&layout.memories) {
             if memory.init != Some(0) {
                 let word = |index| start_word(memory.init, memory.width, index);
@@ -54,15 +54,18 @@ impl State {
         u128::from(high) << 64 | u128::from(self.0[low])
     }
 
-    /// Sets a place; bits beyond its width are dropped.
+    /// Sets a place; bits beyond its width are dropped. Returns whether it had another value.
     #[inline]
-    pub fn set(&mut self, place: Place, value: u128) {
+    pub fn set(&mut self, place: Place, value: u128) -> bool {
         let low = place.offset as usize / 8;
-        let value = value & mask(place.width);
-        self.0[low] = value as u64;
-        if place.width > 64 {
-            self.0[low + 1] = (value >> 64) as u64;
+        let mut put = |at: usize, word: u64, width: u32| {
+            let word = word & u64::MAX >> (64 - width);
+            std::mem::replace(&mut self.0[at], word) != word
+        };
+        if place.width <= 64 {
+            return put(low, value as u64, place.width);
         }
+        put(low, value as u64, 64) | put(low + 1, (value >> 64) as u64, place.width - 64)
     }
 
     /// A word of a memory.

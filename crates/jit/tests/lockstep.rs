@@ -7,6 +7,7 @@ mod common {
     pub mod pair;
     pub mod ram;
     pub mod signed;
+    pub mod twins;
     pub mod units;
 }
 #[path = "../../verilog/tests/random_module"]
@@ -145,4 +146,21 @@ fn a_way_of_a_thousand_registers() {
     }
     println!("{} values compared", pair.compared);
     assert_eq!(pair.compared, 2100);
+}
+
+/// Equal registers are at one place in the state, others are not, and all are as in the interpreter.
+#[test]
+fn equal_registers() {
+    let mut random = Pcg64Mcg::new(8);
+    let netlist = common::twins::module();
+    let compared = compare(&netlist, &mut random, 2000);
+    println!("{compared} values compared");
+    assert!(compared > 30_000);
+    let simulator = edgewalk_jit::Simulator::new(&netlist).unwrap();
+    let is_one = |name: &&str| {
+        simulator.signal(&format!("{name}0")).unwrap() == simulator.signal(&format!("{name}1")).unwrap()
+    };
+    let (equal, other) = (common::twins::EQUAL, common::twins::OTHER);
+    assert_eq!(equal.iter().filter(|name| is_one(name)).count(), equal.len());
+    assert_eq!(other.iter().filter(|name| is_one(name)).count(), 0);
 }

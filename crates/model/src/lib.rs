@@ -54,6 +54,7 @@ pub use machine::{
 pub use map_memory::MapMemory;
 pub use memory::{Memory, Stalls};
 pub use passes::{Pass, first_of_picture};
+pub use prefetch::prefetch;
 pub use run::{Cycle, DrawState, Rig};
 pub use setup::{Culled, SetupClocks, cull, longest_setup, setup_clocks};
 pub use tokens::Write;

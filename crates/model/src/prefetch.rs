@@ -3,7 +3,7 @@
 /// Brings the cache line of `memory[place]` near, where the processor knows how; a place behind the end asks for nothing
 /// of use.
 #[inline(always)]
-pub(crate) fn prefetch<T>(memory: &[T], place: usize) {
+pub fn prefetch<T>(memory: &[T], place: usize) {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};

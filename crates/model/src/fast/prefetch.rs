@@ -1,6 +1,6 @@
 //! Asks for pixels before they are drawn.
 
-use crate::prefetch;
+use crate::prefetch::prefetch as one;
 
 /// A cache line, bytes.
 const LINE: usize = 64;
@@ -10,13 +10,13 @@ const LINE: usize = 64;
 pub(super) fn prefetch<T>(memory: &[T], place: usize, count: i32) {
     // First and last always: how many lines lie between them is not worth a guess of the processor where there are none.
     let last = place.wrapping_add_signed(count as isize - 1);
-    prefetch::prefetch(memory, place);
-    prefetch::prefetch(memory, last);
+    one(memory, place);
+    one(memory, last);
     let step = LINE / size_of::<T>();
     if count > step as i32 {
         let mut at = place + step;
         while at < last {
-            prefetch::prefetch(memory, at);
+            one(memory, at);
             at += step;
         }
     }

@@ -26,6 +26,11 @@ struct Memory {
         queue[tail % 64] = {when, address < words.size() ? words[address] : 0};
         ++tail;
     }
+    // Asks for the words of a pixel before they are needed. Triangles go down: the pixel below is likely to be next, as the model's memory says.
+    void near(size_t address, const std::vector<uint64_t> &frame) const {
+        __builtin_prefetch(words.data() + address);
+        __builtin_prefetch(frame.data() + address);
+    }
 };
 
 #include "ports.h"
@@ -76,7 +81,7 @@ int main(int argc, char **argv) {
             offer_words(m, memory, cycle);
             m.eval();
             const bool taken = offered && takes(m);
-            serve(m, memory, cycle);
+            serve(m, memory, picture, cycle);
             writes += store(m, picture);
             ++cycle;
             const bool done = !offered && m.idle;

@@ -7,6 +7,7 @@ use anyhow::{Result, anyhow};
 use edgewalk_jit::{InputId, OutputId, Simulator};
 use edgewalk_lockstep::{Direction, Interface, Link, Memory, MemorySetting, Triangles, Unit};
 use edgewalk_machine::Plan;
+use edgewalk_model::prefetch;
 use edgewalk_netlist::SimError;
 use std::collections::VecDeque;
 
@@ -37,6 +38,8 @@ struct Served {
     setting: MemorySetting,
     /// By address; no word of the machine has more than 64 bits, and beyond them it is 0.
     words: Vec<u64>,
+    /// Words from a pixel to the one below.
+    pitch: usize,
     /// Words read, with the cycle from which on they are offered.
     reads: VecDeque<(u64, u64)>,
     data_valid: InputId,
@@ -67,10 +70,8 @@ impl Native {
         let fields = |places: Vec<usize>| -> Result<Vec<OutputId>, SimError> {
             places.into_iter().map(|place| output(&wr.fields[place].name)).collect()
         };
-        let memories = interface
-            .memories
-            .iter()
-            .map(|memory| Served::new(memory, job.words(memory.name), &interface, &simulator));
+        let memories =
+            interface.memories.iter().map(|memory| Served::new(memory, job, &interface, &simulator));
         Ok(Native {
             rst: simulator.input("rst")?,
             idle: output("idle")?,
@@ -102,7 +103,7 @@ impl Native {
             }
             self.simulator.tick();
             for memory in &mut self.memories {
-                memory.serve(&self.simulator, work.cycles);
+                memory.serve(&self.simulator, &self.picture, work.cycles);
             }
             if self.is_high(self.write.0) {
                 let word = |port: &OutputId| self.simulator.sampled(*port) as u64;
@@ -140,14 +141,14 @@ impl Native {
 
     /// An output as it was before the clock.
     fn is_high(&self, output: OutputId) -> bool {
-        self.simulator.sampled(output) == 1
+        self.simulator.sampled(output) as u64 == 1
     }
 }
 
 impl Served {
     fn new(
         memory: &Memory,
-        words: Vec<u64>,
+        job: &Job,
         interface: &Interface,
         simulator: &Simulator,
     ) -> Result<Served, SimError> {
@@ -164,7 +165,8 @@ impl Served {
         });
         Ok(Served {
             setting: MemorySetting::of(memory),
-            words,
+            words: job.words(memory.name),
+            pitch: 1 << job.machine.widths().x,
             reads: VecDeque::new(),
             data_valid: simulator.input(&valid(data))?,
             data: simulator.input(&data.fields[0].name)?,
@@ -190,15 +192,21 @@ impl Served {
     }
 
     /// What moved in the cycle; a read sees the word before a write of its own cycle.
-    fn serve(&mut self, simulator: &Simulator, cycle: u64) {
+    fn serve(&mut self, simulator: &Simulator, picture: &[u64], cycle: u64) {
         let word = |port: OutputId| simulator.sampled(port) as u64; // no port here has more bits
         let offered = self.reads.front().is_some_and(|(due, _)| *due <= cycle);
         if offered && word(self.data_ready) == 1 {
             self.reads.pop_front();
         }
         if word(self.read_valid) == 1 {
-            let read = self.words.get(word(self.address) as usize).copied().unwrap_or(0);
+            let address = word(self.address) as usize;
+            let read = self.words.get(address).copied().unwrap_or(0);
             self.reads.push_back((cycle + self.setting.latency, read));
+            if self.write.is_some() {
+                // Triangles go down, as the model's memory says.
+                prefetch(&self.words, address + self.pitch);
+                prefetch(picture, address + self.pitch);
+            }
         }
         if let Some([valid, enable, address, data]) = self.write
             && word(valid) == 1

@@ -3,6 +3,7 @@
 use edgewalk_lockstep::{Direction, Interface, Link, MemoryWrite, Unit};
 use edgewalk_machine::Plan;
 use std::fmt::Write as _;
+use std::iter;
 
 /// The functions that the harness calls, a line a port.
 pub fn header(plan: &Plan) -> String {
@@ -41,6 +42,7 @@ pub fn header(plan: &Plan) -> String {
     function("void offer(Vmachine &m, const uint64_t *w)", offer);
     function("bool takes(Vmachine &m)", vec![format!("return m.{source}_ready;")]);
     let (mut words, mut served) = (Vec::new(), Vec::new());
+    let pitch = 1u64 << plan.widths().x; // to the pixel below
     for (i, memory) in memories.iter().enumerate() {
         let (read, data) = (&interface.links[memory.read], &interface.links[memory.data]);
         let (valid, word) = (format!("m.{}_valid", data.name), &data.fields[0].name);
@@ -51,6 +53,7 @@ pub fn header(plan: &Plan) -> String {
         served
             .push(format!("if (m.{read}_valid) memory[{i}].read(m.{address}, cycle + {});", memory.latency));
         if let Some(write) = memory.write {
+            served.push(format!("if (m.{read}_valid) memory[{i}].near(m.{address} + {pitch}, frame);"));
             let link = &interface.links[write.link];
             let port = |place: usize| &link.fields[place].name;
             let (address, word) = (port(write.address), port(write.word));
@@ -60,7 +63,8 @@ pub fn header(plan: &Plan) -> String {
         }
     }
     function("void offer_words(Vmachine &m, Memory *memory, uint64_t cycle)", words);
-    function("void serve(Vmachine &m, Memory *memory, uint64_t cycle)", served);
+    let serve = "void serve(Vmachine &m, Memory *memory, const std::vector<uint64_t> &frame, uint64_t cycle)";
+    function(serve, served);
     function("bool store(Vmachine &m, std::vector<uint64_t> &frame)", store(&interface));
     text
 }
@@ -73,6 +77,8 @@ fn store(interface: &Interface) -> Vec<String> {
         .iter()
         .enumerate()
         .map(|(i, place)| format!("uint64_t(m.{}) << {}", link.fields[*place].name, 16 * i % 64));
+    // With BLEND its memory is the picture, and nothing is beside it.
+    let words = iter::once("0".to_owned()).chain(words);
     vec![
         format!("if (!m.{}_valid) return false;", link.name),
         format!("frame[m.{}] = {};", link.fields[address].name, words.collect::<Vec<_>>().join(" ^ ")),
