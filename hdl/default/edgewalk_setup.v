@@ -119,7 +119,7 @@ module edgewalk_setup (
   reg [1:0] state;
   reg [4:0] at;          // operation
   reg [4:0] left;        // its clocks after this one
-  reg first;             // its first clock
+  reg first;             // its first clock, but for that of a triangle
 
   // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
   reg [3:0] pause;                           // clocks left of it
@@ -158,8 +158,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (advance) first <= leaves;
-    if (take) first <= 1'b1;
+    first <= leaves;
   end
 
   // How long the next operation takes.
@@ -200,6 +199,7 @@ module edgewalk_setup (
   reg ends_rest;
   reg [4:0] at_whole;
   reg ends_whole;
+  reg worked;                    // works, a clock ago
   wire rests = !goes;
 
   always @(posedge clk) begin
@@ -225,10 +225,18 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (rst) begin
+      worked <= 1'b0;
+    end else begin
+      worked <= works;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
       paused <= 1'b0;
     end else begin
       if (resumes) paused <= 1'b0;
-      if (advance && unfit) paused <= 1'b1;
+      if (worked && unfit) paused <= 1'b1;
     end
   end
 
@@ -362,21 +370,20 @@ module edgewalk_setup (
   wire [3:0] choice_5 = any ? {1'b0, joined} : {any_4, any_4 ? {any_5, choice_3} : {any_8, choice_4}};
 
   always @(posedge clk) begin
-    if (area_adds) begin
-      area_digit <= area_digit - 5'd1;
-      area <= (area << 1) + {{21{area_part[23]}}, area_part};
-    end
-    if (begins) begin
-      area_digit <= {any, choice_5};
-      area <= 45'd0;
-    end
+    area_digit <= area_digit - 5'd1;
+    if (begins) area_digit <= {any, choice_5};
   end
 
   wire equal = area_digit == 5'd0;
 
   always @(posedge clk) begin
-    if (area_adds && equal) area_adds <= 1'b0;
+    if (equal) area_adds <= 1'b0;
     if (begins) area_adds <= 1'b1;
+  end
+
+  always @(posedge clk) begin
+    if (area_adds) area <= (area << 1) + {{21{area_part[23]}}, area_part};
+    if (begins) area <= 45'd0;
   end
 
   // The area as modulus: fourfold, i times, until the differences of the next round's values fit.
@@ -387,7 +394,7 @@ module edgewalk_setup (
   reg [3:0] scale_next;    // times that it is fourfold
   wire [45:0] less_m = {{17'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
   wire [44:0] part_21 = less_m[45:1];
-  wire fits = part_21[44] || !(|area);
+  wire fits = (|area) ? part_21[44] : 1'b1;
   wire grows = scaling && !fits;
   assign area_known = !area_adds && !scale_taken && !scaling;
   assign scale = scale_next;
@@ -579,8 +586,7 @@ module edgewalk_setup (
                       : (at_stepped == DOUBLE_X) ? 3'd5
                       : ((at_stepped == ADD_DX) || (at_stepped == ADD12)) ? 3'd3
                       : ((at_stepped == FIX_DX) || (at_stepped == FIX2)) ? 3'd2
-                      : ((at_stepped == LOAD_DY) || (at_stepped == FIX1)) ? 3'd1
-                      : 3'd0;
+                      : 3'd1;
   wire take_modulus = (at_next == LOAD_DX) || (at_next == LOAD1);
 
   always @(posedge clk) begin
@@ -595,10 +601,9 @@ module edgewalk_setup (
   wire [4:0] step_formed0 = advance ? step_next0 : step_of_pause0;
 
   always @(posedge clk) begin
-    if (rst) begin
-      step_next0 <= 5'd0;
-    end else if (advance) begin
+    if (advance) begin
       step_next0 <= step0;
+      step_again0 <= step_formed0;
     end
   end
 
@@ -606,10 +611,6 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     step_of_pause0 <= (pause == 4'd2) ? step_again0 : choice_10;
-  end
-
-  always @(posedge clk) begin
-    if (advance) step_again0 <= step_formed0;
   end
 
   // Lane 1: its steps.
@@ -620,19 +621,14 @@ module edgewalk_setup (
   wire [4:0] step_formed1 = advance ? step_next1 : step_of_pause1;
 
   always @(posedge clk) begin
-    if (rst) begin
-      step_next1 <= 5'd0;
-    end else if (advance) begin
+    if (advance) begin
       step_next1 <= step1;
+      step_again1 <= step_formed1;
     end
   end
 
   always @(posedge clk) begin
     step_of_pause1 <= (pause == 4'd2) ? step_again1 : choice_10;
-  end
-
-  always @(posedge clk) begin
-    if (advance) step_again1 <= step_formed1;
   end
 
   // Lane 2: its steps.
@@ -643,10 +639,9 @@ module edgewalk_setup (
   wire [4:0] step_formed2 = advance ? step_next2 : step_of_pause2;
 
   always @(posedge clk) begin
-    if (rst) begin
-      step_next2 <= 5'd0;
-    end else if (advance) begin
+    if (advance) begin
       step_next2 <= step2;
+      step_again2 <= step_formed2;
     end
   end
 
@@ -654,23 +649,15 @@ module edgewalk_setup (
     step_of_pause2 <= (pause == 4'd2) ? step_again2 : choice_10;
   end
 
-  always @(posedge clk) begin
-    if (advance) step_again2 <= step_formed2;
-  end
-
   // Lane 3: its steps.
   wire [4:0] step3 = rests ? 5'd0 : step;
   reg [4:0] step_next3;
 
   always @(posedge clk) begin
-    if (rst) begin
-      step_next3 <= 5'd0;
-    end else if (advance) begin
-      step_next3 <= step3;
-    end
+    step_next3 <= step3;
   end
 
-  // What the lanes are shown in the next clock; in the first of a triangle dc1 of the first round.
+  // What the lanes are shown in the next clock.
   reg [1:0] from_place;
   wire [1:0] from_vertex = (from_place == 2'd2) ? p2_vertex
                          : (from_place == 2'd1) ? p1_vertex
@@ -685,16 +672,9 @@ module edgewalk_setup (
   wire equal_2 = at == ADD_START;
 
   always @(posedge clk) begin
-    if (advance) begin
-      from_place <= either_5 ? (both_5 ? 2'd0 : 2'd2) : both_5 ? 2'd1 : 2'd0;
-      to_place <= equal_2 ? 2'd0 : either_5 ? (both_5 ? 2'd2 : 2'd0) : both_5 ? 2'd0 : 2'd1;
-      single_value <= equal_2;
-    end
-    if (take) begin
-      from_place <= 2'd0;
-      to_place <= 2'd1;
-      single_value <= 1'b0;
-    end
+    from_place <= either_5 ? (both_5 ? 2'd0 : 2'd2) : both_5 ? 2'd1 : 2'd0;
+    to_place <= equal_2 ? 2'd0 : either_5 ? (both_5 ? 2'd2 : 2'd0) : both_5 ? 2'd0 : 2'd1;
+    single_value <= equal_2;
   end
 
   always @(posedge clk) begin
@@ -776,12 +756,12 @@ module edgewalk_setup (
   assign unfit = lane0_unfit || (lane1_unfit && (|prim_n1)) || (lane2_unfit && (|prim_n2));
 
   always @(posedge clk) begin
-    if ((at_next == LOAD_DX) || (at_next == ADD_START)) kept3 <= number3;
+    kept3 <= number3;
   end
 
   always @(posedge clk) begin
-    if (at_next == FIX_DX) differences <= differences | shown;
-    if (begins) differences <= shown;
+    differences <= differences | shown;
+    if (begins) differences <= 28'd0;
   end
 
   // Edge: major.
@@ -797,7 +777,6 @@ module edgewalk_setup (
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
-    .rst           (rst),
     .advance       (advance),
     .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_20 || choice_21), choice_21, choice_20}
 : read_single_at),
@@ -852,7 +831,6 @@ module edgewalk_setup (
 
   edgewalk_setup_lane1 lane1 (
     .clk           (clk),
-    .rst           (rst),
     .advance       (advance),
     .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_22 || choice_23), choice_23, choice_22}
 : read_single_at),
@@ -912,7 +890,6 @@ module edgewalk_setup (
 
   edgewalk_setup_lane1 lane2 (
     .clk           (clk),
-    .rst           (rst),
     .advance       (advance),
     .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_24 || choice_25), choice_25, choice_24}
 : read_single_at),
@@ -973,7 +950,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (at_whole == ADD_START) prim_z_start <= lane0_whole_out[45:8];
+    prim_z_start <= lane0_whole_out[45:8];
   end
 
   // Channel: r.
@@ -992,7 +969,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (at_whole == ADD_START) prim_r_start <= lane1_whole_out[29:8];
+    prim_r_start <= lane1_whole_out[29:8];
   end
 
   // Channel: g.
@@ -1011,7 +988,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (at_whole == ADD_START) prim_g_start <= lane2_whole_out[29:8];
+    prim_g_start <= lane2_whole_out[29:8];
   end
 
   // Channel: b.
@@ -1024,7 +1001,6 @@ module edgewalk_setup (
 
   edgewalk_setup_lane1 lane3 (
     .clk           (clk),
-    .rst           (rst),
     .advance       (advance),
     .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_26 || choice_27), choice_27, choice_26}
 : read_single_at),
@@ -1059,7 +1035,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (at_whole == ADD_START) prim_b_start <= lane3_whole_out[29:8];
+    prim_b_start <= lane3_whole_out[29:8];
   end
 
   assign prim_jm = jm[8:0];

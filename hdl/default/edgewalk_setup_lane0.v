@@ -13,7 +13,6 @@
 
 module edgewalk_setup_lane0 (
   input  wire        clk,
-  input  wire        rst,
 
   input  wire        advance,        // the steps go on; 0: what was read stays
   input  wire  [2:0] read_at,        // slot of the addend, two clocks before its step
@@ -78,16 +77,16 @@ module edgewalk_setup_lane0 (
   wire of_modulus = add_modulus || take_modulus_off;
   wire [44:0] a = of_modulus ? modulus : of_slot ? {1'b0, rests_q} : 45'd0;  // addend, 1/M, or -M
   wire [46:0] a_less_m = {{a[44], a}, 1'b1} + {{modulus[44], modulus}, short};  // and a carry out of the lowest bit
-  wire [45:0] to_negate = with_sign ? a_less_m[46:1] : {a[44], a};  // -a is -1 + (M - a)/M
+  wire [45:0] part = a_less_m[46:1];
+  wire [44:0] to_negate = with_sign ? part[44:0] : a;  // -a is -1 + (M - a)/M
   wire [45:0] less_2m = {modulus, short};  // -2 M, or -2 M - 1
   wire [45:0] a_less_2m = {a, 1'b1} + {less_2m[44:0], short};  // and a carry out of the lowest bit
   reg carry0;                              // 1 to add to the sum of n0
   reg carry;                               // 1 to add to the other sums
-  wire [45:0] differing = to_negate ^ {46{negate}};
 
   always @(posedge clk) begin
-    n0 <= (step == 5'd1) ? {{16{number[28]}}, number} : differing[44:0];
-    n1 <= a_less_m[46:1];
+    n0 <= (step == 5'd1) ? {{16{number[28]}}, number} : to_negate ^ {45{negate}};
+    n1 <= part;
     n2 <= a_less_2m[45:1];
     carry0 <= with_sign || (add_modulus && !short) || (take_modulus_off && short);
     carry <= take_modulus_off && short;
@@ -100,11 +99,11 @@ module edgewalk_setup_lane0 (
   reg from_zero;
   reg compared;                                    // M is taken off if it goes
   reg [1:0] digits_now;
-  wire [45:0] extended = {rest[44], rest};
-  wire [45:0] x = fourfold ? {extended[43:0], digits_now}
-                : twofold ? extended << 1
+  wire [45:0] joined = {1'b0, rest};
+  wire [45:0] x = fourfold ? {joined[43:0], digits_now}
+                : twofold ? joined << 1
                 : from_zero ? 46'd0
-                : extended;
+                : joined;
   wire [45:0] x_and_n0 = {x[44:0], 1'b1} + {n0, carry0};  // and a carry out of the lowest bit
   wire [44:0] s0 = x_and_n0[45:1];
   wire [46:0] x_and_n1 = {x, 1'b1} + {n1, carry};  // and a carry out of the lowest bit
@@ -119,14 +118,7 @@ module edgewalk_setup_lane0 (
   assign rest_next = fits2 ? s2 : fits1 ? s1[44:0] : stays ? x[44:0] : s0;
 
   always @(posedge clk) begin
-    if (rst) begin
-      now <= 5'd0;
-    end else begin
-      now <= step;
-    end
-  end
-
-  always @(posedge clk) begin
+    now <= step;
     fourfold <= (step == 5'd8) || (step == 5'd9);
     twofold <= (step == 5'd3) || (step == 5'd18);
     from_zero <= (step == 5'd1) || (step == 5'd17) || (step == 5'd19) || (step == 5'd5);
@@ -140,7 +132,7 @@ module edgewalk_setup_lane0 (
   end
 
   always @(posedge clk) begin
-    if ((now == 5'd1) && advance) below <= n0[44];
+    if ((now == 5'd1) && advance) below <= n0[28];
   end
 
   // The whole part, a clock behind.
@@ -182,7 +174,7 @@ module edgewalk_setup_lane0 (
   wire one = !was_fourfold && (|taken);
   wire [46:0] x_and_b = {whole_x, 1'b1} + {b, one};  // and a carry out of the lowest bit
   assign whole_next = x_and_b[46:1];
-  wire [45:0] extended_2 = {46{negated}};
+  wire [45:0] extended = {46{negated}};
 
   always @(posedge clk) begin
     read_whole_at <= read_at;
@@ -190,7 +182,7 @@ module edgewalk_setup_lane0 (
     write_then_at <= write_at;
     negated <= negate;
     slot_now <= of_slot;
-    b <= (now == 5'd20) ? whole_in : slot_now ? wholes_q ^ extended_2 : extended_2;
+    b <= (now == 5'd20) ? whole_in : slot_now ? wholes_q ^ extended : extended;
     taken <= {twice_or_more, once_or_thrice};
     was_fourfold <= fourfold;
     was_twofold <= twofold;
@@ -201,10 +193,10 @@ module edgewalk_setup_lane0 (
   // What is done is given out rounded: to nearest, halves up, or up.
   wire [45:0] past_half = {{rest[43:0], 1'b0}, 1'b1} + {modulus, short};  // and a carry out of the lowest bit
   reg up;
-  wire [44:0] part = past_half[45:1];
+  wire [44:0] part_2 = past_half[45:1];
 
   always @(posedge clk) begin
-    up <= upwards ? |rest[43:0] : !part[44];
+    up <= upwards ? |rest[43:0] : !part_2[44];
   end
 
   assign unfit = (now == 5'd4) && (below ? !fits0 : s1_fits);
@@ -215,7 +207,7 @@ module edgewalk_setup_lane0 (
   // Not needed, on purpose.
   wire unused = &{
     1'b0, a_less_m[0], less_2m[45], a_less_2m[0], x_and_n0[0], x_and_n1[0], x_and_n2[0], x_and_b[0],
-    past_half[0], differing[45], part[43:0]
+    past_half[0], part_2[43:0]
   };
 
 endmodule

@@ -119,7 +119,7 @@ module edgewalk_setup (
   reg [1:0] state;
   reg [4:0] at;          // operation
   reg [4:0] left;        // its clocks after this one
-  reg first;             // its first clock
+  reg first;             // its first clock, but for that of a triangle
   reg [1:0] round;       // of the jobs the lanes do in turn
 
   // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
@@ -164,8 +164,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (advance) first <= leaves;
-    if (take) first <= 1'b1;
+    first <= leaves;
   end
 
   always @(posedge clk) begin
@@ -218,6 +217,7 @@ module edgewalk_setup (
   reg [4:0] at_whole;
   reg [1:0] round_whole;
   reg ends_whole;
+  reg worked;                    // works, a clock ago
   wire rests = !goes;
 
   always @(posedge clk) begin
@@ -249,10 +249,18 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (rst) begin
+      worked <= 1'b0;
+    end else begin
+      worked <= works;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (rst) begin
       paused <= 1'b0;
     end else begin
       if (resumes) paused <= 1'b0;
-      if (advance && unfit) paused <= 1'b1;
+      if (worked && unfit) paused <= 1'b1;
     end
   end
 
@@ -374,21 +382,20 @@ module edgewalk_setup (
                       : {any_7, any_7 ? part_11[1] : part_13[1]};
 
   always @(posedge clk) begin
-    if (area_adds) begin
-      area_digit <= area_digit - 4'd1;
-      area <= (area << 1) + {{14{area_part[16]}}, area_part};
-    end
-    if (begins) begin
-      area_digit <= {any, any ? {any_2, choice_3} : {any_5, choice_4}};
-      area <= 31'd0;
-    end
+    area_digit <= area_digit - 4'd1;
+    if (begins) area_digit <= {any, any ? {any_2, choice_3} : {any_5, choice_4}};
   end
 
   wire equal = area_digit == 4'd0;
 
   always @(posedge clk) begin
-    if (area_adds && equal) area_adds <= 1'b0;
+    if (equal) area_adds <= 1'b0;
     if (begins) area_adds <= 1'b1;
+  end
+
+  always @(posedge clk) begin
+    if (area_adds) area <= (area << 1) + {{14{area_part[16]}}, area_part};
+    if (begins) area <= 31'd0;
   end
 
   // The area as modulus: fourfold, i times, until the differences of the next round's values fit.
@@ -399,7 +406,7 @@ module edgewalk_setup (
   reg [3:0] scale_next;    // times that it is fourfold
   wire [31:0] less_m = {{15'd0, differences}, 1'b1} + {scaled, 1'b1};  // and a carry out of the lowest bit
   wire [30:0] part_14 = less_m[31:1];
-  wire fits = part_14[30] || !(|area);
+  wire fits = (|area) ? part_14[30] : 1'b1;
   wire grows = scaling && !fits;
   assign area_known = !area_adds && !scale_taken && !scaling;
   reg [3:0] scale_now;     // of the round
@@ -584,8 +591,7 @@ module edgewalk_setup (
                       : (at_stepped == DOUBLE_X) ? 3'd5
                       : ((at_stepped == ADD_DX) || (at_stepped == ADD12)) ? 3'd3
                       : ((at_stepped == FIX_DX) || (at_stepped == FIX2)) ? 3'd2
-                      : ((at_stepped == LOAD_DY) || (at_stepped == FIX1)) ? 3'd1
-                      : 3'd0;
+                      : 3'd1;
   wire take_modulus = (at_next == LOAD_DX) || (at_next == LOAD1);
 
   always @(posedge clk) begin
@@ -600,10 +606,9 @@ module edgewalk_setup (
   wire [4:0] step_formed0 = advance ? step_next0 : step_of_pause0;
 
   always @(posedge clk) begin
-    if (rst) begin
-      step_next0 <= 5'd0;
-    end else if (advance) begin
+    if (advance) begin
       step_next0 <= step0;
+      step_again0 <= step_formed0;
     end
   end
 
@@ -611,11 +616,7 @@ module edgewalk_setup (
     step_of_pause0 <= (pause == 4'd2) ? step_again0 : advance ? 5'd5 : began ? 5'd2 : 5'd9;
   end
 
-  always @(posedge clk) begin
-    if (advance) step_again0 <= step_formed0;
-  end
-
-  // What the lanes are shown in the next clock; in the first of a triangle dc1 of the first round.
+  // What the lanes are shown in the next clock.
   reg [1:0] from_place;
   wire [1:0] from_vertex = (from_place == 2'd2) ? p2_vertex
                          : (from_place == 2'd1) ? p1_vertex
@@ -632,25 +633,15 @@ module edgewalk_setup (
   wire both_5 = area[30] && ((at == LOAD1) || (at == LOAD2));
   wire equal_2 = at == ADD_START;
   wire either_6 = (at == FIX1) || (at == FIX2);
-  wire equal_3 = at == FIX_DX;
+  wire either_7 = (at == LOAD_DX) || (at == FIX_DX);
 
   always @(posedge clk) begin
-    if (advance) begin
-      from_place <= either_5 ? (both_5 ? 2'd0 : 2'd2) : both_5 ? 2'd1 : 2'd0;
-      to_place <= equal_2 ? 2'd0 : either_5 ? (both_5 ? 2'd2 : 2'd0) : both_5 ? 2'd0 : 2'd1;
-      single_value <= equal_2;
-      values_of_round1 <= (either_6 ? round == 2'd0 : round == 2'd1) && !equal_3;
-      values_of_round2 <= (either_6 ? round == 2'd1 : round == 2'd2) && !equal_3;
-      values_of_round3 <= (either_6 ? round == 2'd2 : round == 2'd3) && !equal_3;
-    end
-    if (take) begin
-      from_place <= 2'd0;
-      to_place <= 2'd1;
-      single_value <= 1'b0;
-      values_of_round1 <= 1'b0;
-      values_of_round2 <= 1'b0;
-      values_of_round3 <= 1'b0;
-    end
+    from_place <= either_5 ? (both_5 ? 2'd0 : 2'd2) : both_5 ? 2'd1 : 2'd0;
+    to_place <= equal_2 ? 2'd0 : either_5 ? (both_5 ? 2'd2 : 2'd0) : both_5 ? 2'd0 : 2'd1;
+    single_value <= equal_2;
+    values_of_round1 <= (either_6 ? round == 2'd0 : round == 2'd1) && !either_7;
+    values_of_round2 <= (either_6 ? round == 2'd1 : round == 2'd2) && !either_7;
+    values_of_round3 <= (either_6 ? round == 2'd2 : round == 2'd3) && !either_7;
   end
 
   always @(posedge clk) begin
@@ -705,8 +696,10 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if ((at_next == FIX_DX) || (at_next == FIX2)) differences <= differences | shown;
-    if (begins || (at_next == FIX1)) differences <= shown;
+    if ((at_next == LOAD_DX) || (at_next == FIX_DX) || (at_next == FIX1) || (at_next == FIX2)) begin
+      differences <= differences | shown;
+    end
+    if (begins || (at_next == LOAD1)) differences <= 16'd0;
   end
 
   // Edge: major.
@@ -729,7 +722,6 @@ module edgewalk_setup (
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
-    .rst           (rst),
     .advance       (advance),
     .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_15 || choice_16), choice_16, choice_15}
 : read_single_at),

@@ -13,7 +13,6 @@
 
 module edgewalk_setup_lane0 (
   input  wire        clk,
-  input  wire        rst,
 
   input  wire        advance,        // the steps go on; 0: what was read stays
   input  wire  [2:0] read_at,        // slot of the addend, two clocks before its step
@@ -78,16 +77,16 @@ module edgewalk_setup_lane0 (
   wire of_modulus = add_modulus || take_modulus_off;
   wire [30:0] a = of_modulus ? modulus : of_slot ? {1'b0, rests_q} : 31'd0;  // addend, 1/M, or -M
   wire [32:0] a_less_m = {{a[30], a}, 1'b1} + {{modulus[30], modulus}, short};  // and a carry out of the lowest bit
-  wire [31:0] to_negate = with_sign ? a_less_m[32:1] : {a[30], a};  // -a is -1 + (M - a)/M
+  wire [31:0] part = a_less_m[32:1];
+  wire [30:0] to_negate = with_sign ? part[30:0] : a;  // -a is -1 + (M - a)/M
   wire [31:0] less_2m = {modulus, short};  // -2 M, or -2 M - 1
   wire [31:0] a_less_2m = {a, 1'b1} + {less_2m[30:0], short};  // and a carry out of the lowest bit
   reg carry0;                              // 1 to add to the sum of n0
   reg carry;                               // 1 to add to the other sums
-  wire [31:0] differing = to_negate ^ {32{negate}};
 
   always @(posedge clk) begin
-    n0 <= (step == 5'd1) ? {{14{number[16]}}, number} : differing[30:0];
-    n1 <= a_less_m[32:1];
+    n0 <= (step == 5'd1) ? {{14{number[16]}}, number} : to_negate ^ {31{negate}};
+    n1 <= part;
     n2 <= a_less_2m[31:1];
     carry0 <= with_sign || (add_modulus && !short) || (take_modulus_off && short);
     carry <= take_modulus_off && short;
@@ -100,11 +99,11 @@ module edgewalk_setup_lane0 (
   reg from_zero;
   reg compared;                                    // M is taken off if it goes
   reg [1:0] digits_now;
-  wire [31:0] extended = {rest[30], rest};
-  wire [31:0] x = fourfold ? {extended[29:0], digits_now}
-                : twofold ? extended << 1
+  wire [31:0] joined = {1'b0, rest};
+  wire [31:0] x = fourfold ? {joined[29:0], digits_now}
+                : twofold ? joined << 1
                 : from_zero ? 32'd0
-                : extended;
+                : joined;
   wire [31:0] x_and_n0 = {x[30:0], 1'b1} + {n0, carry0};  // and a carry out of the lowest bit
   wire [30:0] s0 = x_and_n0[31:1];
   wire [32:0] x_and_n1 = {x, 1'b1} + {n1, carry};  // and a carry out of the lowest bit
@@ -119,14 +118,7 @@ module edgewalk_setup_lane0 (
   assign rest_next = fits2 ? s2 : fits1 ? s1[30:0] : stays ? x[30:0] : s0;
 
   always @(posedge clk) begin
-    if (rst) begin
-      now <= 5'd0;
-    end else begin
-      now <= step;
-    end
-  end
-
-  always @(posedge clk) begin
+    now <= step;
     fourfold <= (step == 5'd8) || (step == 5'd9);
     twofold <= (step == 5'd3) || (step == 5'd18);
     from_zero <= (step == 5'd1) || (step == 5'd17) || (step == 5'd19) || (step == 5'd5);
@@ -143,7 +135,7 @@ module edgewalk_setup_lane0 (
   end
 
   always @(posedge clk) begin
-    if ((now == 5'd1) && advance) below <= n0[30];
+    if ((now == 5'd1) && advance) below <= n0[16];
   end
 
   // The whole part, a clock behind.
@@ -186,7 +178,7 @@ module edgewalk_setup_lane0 (
   wire [31:0] x_and_b = {whole_x, 1'b1} + {b, one};  // and a carry out of the lowest bit
   assign whole_next = x_and_b[31:1];
   reg [4:0] then;                                    // the step before
-  wire [30:0] extended_2 = {31{negated}};
+  wire [30:0] extended = {31{negated}};
 
   always @(posedge clk) begin
     read_whole_at <= read_at;
@@ -194,7 +186,7 @@ module edgewalk_setup_lane0 (
     write_then_at <= write_at;
     negated <= negate;
     slot_now <= of_slot;
-    b <= (now == 5'd20) ? whole_in : slot_now ? wholes_q ^ extended_2 : extended_2;
+    b <= (now == 5'd20) ? whole_in : slot_now ? wholes_q ^ extended : extended;
     taken <= {twice_or_more, once_or_thrice};
     was_fourfold <= fourfold;
     was_twofold <= twofold;
@@ -209,10 +201,10 @@ module edgewalk_setup_lane0 (
   // What is done is given out rounded: to nearest, halves up, or up.
   wire [31:0] past_half = {{rest[29:0], 1'b0}, 1'b1} + {modulus, short};  // and a carry out of the lowest bit
   reg up;
-  wire [30:0] part = past_half[31:1];
+  wire [30:0] part_2 = past_half[31:1];
 
   always @(posedge clk) begin
-    up <= upwards ? |rest[29:0] : !part[30];
+    up <= upwards ? |rest[29:0] : !part_2[30];
   end
 
   assign unfit = (now == 5'd4) && (below ? !fits0 : s1_fits);
@@ -223,7 +215,7 @@ module edgewalk_setup_lane0 (
   // Not needed, on purpose.
   wire unused = &{
     1'b0, a_less_m[0], less_2m[31], a_less_2m[0], x_and_n0[0], x_and_n1[0], x_and_n2[0], x_and_b[0],
-    past_half[0], differing[31], part[29:0]
+    past_half[0], part_2[29:0]
   };
 
 endmodule

@@ -54,6 +54,27 @@ fn a_map_is_addressed_by_the_bits_of_its_side() {
 }
 
 #[test]
+fn the_longest_word_of_a_channel_is_permitted() {
+    let longest = plan(&[("formats.z_bits", "32"), ("formats.z_fraction", "24")]);
+    assert_eq!(longest.channels()[0].word(), 56);
+}
+
+#[test]
+fn a_machine_that_draws_its_map_needs_no_more_than_its_depths() {
+    let light = [("shadow.light", "parallel"), ("shadow.own_pass", "yes"), ("formats.z_bits", "16")];
+    for (bits, fits) in [("15", true), ("16", true), ("17", false)] {
+        let keys = [&light[..], &[("shadow.depth_bits", bits)]].concat();
+        let error = machine(&keys).plan().err().map(|error| error.to_string());
+        assert_eq!(error.is_none(), fits, "{bits}: {error:?}");
+    }
+    for own_pass in ["no", "yes"] {
+        let plan =
+            plan(&[("shadow.light", "parallel"), ("shadow.own_pass", own_pass), ("shadow.depth_bits", "16")]);
+        assert_eq!(can_happen("shadow", "own_map", &plan), own_pass == "yes");
+    }
+}
+
+#[test]
 fn materials_change_only_where_there_are_several() {
     for (bits, several) in [("0", false), ("1", true)] {
         let plan = plan(&[("shade.kind", "fast-phong"), ("shade.material_bits", bits)]);

@@ -63,13 +63,12 @@ impl Mutant {
     /// what it is in, the value of a node or what a register takes. Where that is never 1 the fault changes nothing at all.
     /// `None` for faults that are nothing of the kind.
     pub fn watched(&self, netlist: &Arc<Netlist>) -> Option<Arc<Netlist>> {
-        let modules = netlist.modules();
-        let module = modules.iter().find(|module| module.name == self.module)?;
-        self.change.differs(&mut Netlist::clone(module))?;
-        Some(rebuilt(netlist, |module| {
+        let mut seen = false;
+        let watched = rebuilt(netlist, |module| {
             let mut places = Vec::new();
             if module.name == self.module {
                 places.extend(self.change.differs(module));
+                seen = !places.is_empty();
             }
             for instance in 0..module.instances.len() {
                 places.extend(watched_output(module, instance));
@@ -79,7 +78,8 @@ impl Mutant {
                 module.outputs.push(Output { name: DIFFERS.to_owned(), doc: String::new(), driver });
                 module.paths.push(Vec::new());
             }
-        }))
+        });
+        seen.then_some(watched)
     }
 }
 
@@ -87,7 +87,7 @@ impl Mutant {
 pub const DIFFERS: &str = "fault_differs";
 
 /// The netlist with every module changed, what each is made of first.
-fn rebuilt(netlist: &Arc<Netlist>, change: impl Fn(&mut Netlist)) -> Arc<Netlist> {
+fn rebuilt(netlist: &Arc<Netlist>, mut change: impl FnMut(&mut Netlist)) -> Arc<Netlist> {
     let mut done: HashMap<String, Arc<Netlist>> = HashMap::new();
     for module in netlist.modules() {
         let mut changed = Netlist::clone(&module);

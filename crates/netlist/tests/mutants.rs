@@ -76,6 +76,8 @@ fn descriptions_are_words() {
     ] {
         assert!(all.iter().any(|description| description == wanted), "{wanted} in {all:#?}");
     }
+    let constant = "`1` becomes `2` in `Add(";
+    assert!(all.iter().any(|description| description.starts_with(constant)), "{constant} in {all:#?}");
 }
 
 #[test]

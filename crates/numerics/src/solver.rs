@@ -5,7 +5,6 @@ use crate::dyadic::Dyadic;
 use crate::rounding::Rounding;
 use crate::steps::{Screen, Steps};
 use crate::witness::{ChannelBits, Target, Witness};
-use std::fmt;
 
 /// Most fraction bits the solver goes to.
 pub const MAX_FRACTION_BITS: u32 = 40;
@@ -15,8 +14,6 @@ pub const MAX_SIDE: u32 = 1 << 15;
 /// The least fraction bits and why it is these.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Solution {
-    /// Where the steps come from.
-    pub screen: Screen,
     /// r.
     pub fraction_bits: u32,
     /// Proved magnitude of the error before the output rounding with r bits, LSB (bound 2).
@@ -99,20 +96,8 @@ pub fn solve(
     let fraction_bits = least_fraction_bits(steps, rounding, target)?;
     let fewer = fraction_bits.checked_sub(1);
     Ok(Solution {
-        screen,
         fraction_bits,
         error: triangle_error(rounding, fraction_bits, steps).magnitude(),
         one_bit_fewer: fewer.and_then(|bits| Witness::search(screen, channel, rounding, bits, target)),
     })
-}
-
-impl fmt::Display for Solution {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{}", self.screen)?;
-        write!(f, "{} fraction bits: error at most {} LSB", self.fraction_bits, self.error)?;
-        match &self.one_bit_fewer {
-            Some(witness) => write!(f, "\n{witness}"),
-            None => Ok(()),
-        }
-    }
 }

@@ -175,8 +175,8 @@ mod tests {
     /// A corner of a box: one side is one face there, one is two, and the third, cut unevenly, is two as well.
     fn uneven_corner(groups: [u32; 5]) -> Mesh {
         let positions = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (0, 1, 4)]
-            .map(|(x, y, z)| DVec3::new(x.into(), y.into(), z.into()));
-        // z = 0 by two faces, y = 0 by one, x = 0 by two of which the second reaches far.
+            .map(|(x, y, z)| DVec3::new(x.into(), y.into(), z.into()) + DVec3::new(7.0, -3.0, 2.0));
+        // Two faces across z, one across y, two across x of which the second reaches far.
         let corners = [[0, 4, 1], [0, 2, 4], [0, 1, 3], [0, 3, 5], [0, 5, 2]];
         let faces = corners.map(|corners| Face { corners, material: 0 }).to_vec();
         let data = groups.map(|group| FaceData { group, ..FaceData::default() });

@@ -84,7 +84,7 @@ fn malformed_shadows_name_place_and_remedy() {
     let with = |from: &str, to: &str| format!("size 9 9\n{}", SHADOW.replacen(from, to, 1));
     let l = "L 1 2 0 4 5 1 7 8 0.5";
     let sized = with("", "");
-    let cases: [(String, &[&str]); 27] = [
+    let cases: [(String, &[&str]); 28] = [
         (with("8", "0"), &["a.tri:2: shadow SIZE: `0`", "an integer from 1 to 16384"]),
         (with("8", "16385"), &["shadow SIZE: `16385`"]),
         (with("8", "8.5"), &["shadow SIZE: `8.5`", "an integer"]),
@@ -103,6 +103,7 @@ fn malformed_shadows_name_place_and_remedy() {
         (format!("{sized}\n{l} glass"), &["a.tri:3: L kt: `glass`"]),
         (format!("{sized}\nlight 2\n{T}"), &["a.tri:3: light: `2`", "0 to 1, as many lights"]),
         (format!("{sized}\nlight 1\n{T}\nlight 3\n{T}"), &["a.tri:5: light: `3`", "0 to 1"]),
+        (format!("{sized}\nlight 2\n{T}\nlight 2\n{T}"), &["a.tri:3: light: `2`", "0 to 1"]),
         (format!("size 9 9\nlight 1\n{T}"), &["a.tri:2: light: `1`", "0 to 0"]),
         (format!("{sized}\nlight 17"), &["a.tri:3: light: `17`", "an integer from 0 to 16"]),
         (format!("{sized}\nlight on"), &["a.tri:3: light: `on`", "an integer"]),

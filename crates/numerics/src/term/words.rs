@@ -37,13 +37,6 @@ impl TermWords {
         self.moved(i, n).words[0]
     }
 
-    /// That as a number.
-    #[must_use]
-    pub fn signed_at(&self, i: i64, n: i64) -> i64 {
-        let unused = MAX_TERM_BITS - self.width;
-        ((self.at(i, n) << unused) as i64) >> unused
-    }
-
     /// The six words there: each value of (1) is the same from both, as (1) holds in any ring.
     #[must_use]
     pub fn moved(&self, i: i64, n: i64) -> Self {

@@ -26,7 +26,7 @@ fn formula(words: [u64; 6], (i, n): (i64, i64), width: u32) -> u64 {
 #[test]
 fn words_follow_the_formula_wherever_they_are_moved() {
     let mut random = Pcg64Mcg::seed_from_u64(12);
-    let (mut checked, mut wrapped) = (0, 0);
+    let mut checked = 0;
     for _ in 0..4000 {
         let width = random.random_range(1..=64);
         let words = TermWords::new(width, random.random()).unwrap();
@@ -36,13 +36,10 @@ fn words_follow_the_formula_wherever_they_are_moved() {
         assert_eq!(words.at(b.0, b.1), formula(words.words(), b, width), "{words:?} {b:?}");
         assert_eq!(there.at(b.0 - a.0, b.1 - a.1), words.at(b.0, b.1), "{words:?} by way of {a:?} to {b:?}");
         assert_eq!(there.moved(-a.0, -a.1), words);
-        let signed = words.signed_at(b.0, b.1);
-        assert!(width == 64 || (-(1i64 << (width - 1))..1 << (width - 1)).contains(&signed));
-        wrapped += u32::from(signed < 0);
         checked += 1;
     }
-    println!("{checked} words of 1 to 64 bits, {wrapped} with the sign bit");
-    assert!(checked == 4000 && wrapped > 1000);
+    println!("{checked} words of 1 to 64 bits");
+    assert_eq!(checked, 4000);
     assert!(TermWords::new(0, [0; 6]).is_none() && TermWords::new(65, [0; 6]).is_none());
 }
 
