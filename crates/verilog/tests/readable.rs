@@ -91,6 +91,22 @@ fn a_memory_that_is_unknown_at_the_start_has_no_initial_block() {
 }
 
 #[test]
+fn a_port_has_the_words_of_the_register_that_it_is_and_of_no_other() {
+    let m = Module::new("two", "");
+    let a = m.input("a", 1);
+    m.output("own", m.reg("own", 1).doc("seen outside").set(a));
+    m.output("other", m.reg("held", 1).doc("seen inside").set(a));
+    let text = text(&m.finish().unwrap());
+    let comments = |name: &str| {
+        let lines = text.lines().filter(|line| line.contains(&format!(" {name}")) && line.contains("//"));
+        lines.collect::<Vec<_>>()
+    };
+    let [own, other, held] = ["own", "other", "held"].map(comments);
+    assert!(own.len() == 1 && own[0].contains("output") && own[0].ends_with("// seen outside"), "{text}");
+    assert!(other.is_empty() && held.len() == 1 && held[0].ends_with("// seen inside"), "{text}");
+}
+
+#[test]
 fn printing_is_deterministic() {
     assert_eq!(edgewalk_verilog::print(&pair()), edgewalk_verilog::print(&pair()));
 }
