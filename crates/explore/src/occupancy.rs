@@ -1,7 +1,6 @@
 //! How full the queues and lanes of a machine are over a frame.
 
 use crate::raster::Held;
-use crate::report::ratio;
 use edgewalk_machine::Plan;
 use serde_json::{Value, json};
 
@@ -50,4 +49,8 @@ impl Occupancy {
         let [spans, fragments, lanes] = [self.spans, self.fragments, self.lanes].map(part);
         format!("mean occupancy: span FIFO {spans}, fragments in flight {fragments}, setup lanes {lanes}\n")
     }
+}
+
+pub(crate) fn ratio(part: u64, whole: u64) -> f64 {
+    if whole == 0 { 0.0 } else { part as f64 / whole as f64 }
 }

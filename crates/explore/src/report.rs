@@ -3,7 +3,7 @@
 use crate::compare::Comparison;
 use crate::extra::{self, OwnChannel};
 use crate::lights::Passes;
-use crate::occupancy::Occupancy;
+use crate::occupancy::{Occupancy, ratio};
 use crate::raster::{Cycles, Raster};
 use crate::setup_report::SetupReport;
 use anyhow::Result;
@@ -434,8 +434,4 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
         "triangle or writes differ: {} within the bound of depth order, {} wrong; background wrong {}",
         c.order_undecided, c.order_wrong, c.background_wrong
     );
-}
-
-pub(crate) fn ratio(part: u64, whole: u64) -> f64 {
-    if whole == 0 { 0.0 } else { part as f64 / whole as f64 }
 }

@@ -1,13 +1,14 @@
 //! `edgewalk explain`: why a pixel looks as it does.
 
 mod additions;
-mod lamp;
 mod layers;
+mod table_read;
+mod turned;
 mod normal;
+mod lamp;
 mod shaded;
 mod shadowed;
 mod texel;
-mod turned;
 mod terms;
 mod page;
 

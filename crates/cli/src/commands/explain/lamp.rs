@@ -1,7 +1,7 @@
 //! What LAMP makes of a pixel's terms: three roots, what is divided by them, and what is left of the light (`docs/machine.md`, section 17).
 
 use super::normal::Index;
-use super::shaded::TableRead;
+use super::table_read::TableRead;
 use edgewalk_machine::Plan;
 use serde::Serialize;
 use std::fmt::Write as _;

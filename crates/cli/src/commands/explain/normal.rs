@@ -1,7 +1,7 @@
 //! What NORMAL makes of a pixel's products: the root of N·N, the cosines, and where they stand in SHADE's tables (`docs/machine.md`,
 //! section 13).
 
-use super::shaded::TableRead;
+use super::table_read::TableRead;
 use edgewalk_machine::Plan;
 use serde::Serialize;
 use std::fmt::Write as _;

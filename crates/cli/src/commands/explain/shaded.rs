@@ -3,6 +3,7 @@
 use super::additions::Walk;
 use super::lamp::Lamp;
 use super::normal::Normal;
+use super::table_read::TableRead;
 use super::texel::TexelRead;
 use super::turned::Turned;
 use edgewalk_explore::shade::{Feed, IndexErrors, Place};
@@ -53,32 +54,6 @@ struct TermWalk {
     /// Where it is the index of a table.
     #[serde(skip_serializing_if = "Option::is_none")]
     read: Option<TableRead>,
-}
-
-/// A table read at an index.
-#[derive(Debug, Serialize)]
-pub(super) struct TableRead {
-    /// Golden's index, and how far the machine's may be from it.
-    pub golden: f64,
-    pub bound: f64,
-    /// The entry, and what stands there.
-    pub entry: u32,
-    pub table: String,
-    /// The highlight there, LSB.
-    #[serde(skip)]
-    pub highlight: i64,
-}
-
-impl TableRead {
-    /// The same as words behind an index.
-    pub fn text(&self, index: i64) -> String {
-        let TableRead { golden, bound, entry, table, .. } = self;
-        // A floor lies up to 1 below.
-        let error = (index as f64 - golden).max((golden - index as f64 - 1.0).max(0.0));
-        format!(
-            "; golden's {golden:.4}, outside of it by {error:.4}, bound {bound:.4}; entry {entry}: {table}"
-        )
-    }
 }
 
 /// Words of a term, signed, in units of their last bit.

@@ -1,6 +1,6 @@
 //! What BUMP makes of a pixel's cosines: the products of its slopes, and their sum.
 
-use super::shaded::TableRead;
+use super::table_read::TableRead;
 use edgewalk_machine::Plan;
 use serde::Serialize;
 
