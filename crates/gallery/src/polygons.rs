@@ -60,7 +60,6 @@ fn polygon(contours: Vec<Vec<[f64; 2]>>) -> Polygon {
     let vertex = |[x, y]: [f64; 2]| Vertex {
         x,
         y,
-        z: 0.5,
         r: x / f64::from(WIDTH),
         g: 1.0 - y / f64::from(HEIGHT),
         b: 0.6,

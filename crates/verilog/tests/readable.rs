@@ -107,6 +107,21 @@ fn a_port_has_the_words_of_the_register_that_it_is_and_of_no_other() {
 }
 
 #[test]
+fn a_word_that_is_shifted_out_is_0() {
+    let m = Module::new("shifted", "");
+    let a = m.input("a", 8);
+    m.output("kept", a.shl(7));
+    m.output("gone", a.shl(8));
+    m.output("gone_too", a.shr(9));
+    let text = text(&m.finish().unwrap());
+    let assigned =
+        |name: &str| text.lines().find_map(|line| line.trim().strip_prefix(&format!("assign {name} = ")));
+    let gone = Some("8'd0;");
+    assert_eq!((assigned("gone"), assigned("gone_too")), (gone, gone), "{text}");
+    assert_ne!(assigned("kept"), gone, "{text}");
+}
+
+#[test]
 fn printing_is_deterministic() {
     assert_eq!(edgewalk_verilog::print(&pair()), edgewalk_verilog::print(&pair()));
 }
