@@ -2,7 +2,7 @@
 
 use std::sync::Mutex;
 
-use cranelift_codegen::ir::{AbiParam, Endianness};
+use cranelift_codegen::ir::{AbiParam, Endianness, Function};
 use cranelift_codegen::isa::OwnedTargetIsa;
 use cranelift_codegen::settings::{self, Configurable};
 use cranelift_jit::{JITBuilder, JITModule};
@@ -14,11 +14,42 @@ use crate::lower::{Plan, Program, lower};
 /// A program; it takes the state's address.
 type Entry = unsafe extern "C" fn(*mut u64);
 
+/// What a program is lowered to, before the code generator sees the host: the same on each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cost {
+    /// Instructions of the intermediate form, loads and stores among them.
+    pub instructions: usize,
+    /// Reads of the state and of tables.
+    pub loads: usize,
+    /// Writes of the state.
+    pub stores: usize,
+    /// Stretches of code between branches.
+    pub blocks: usize,
+}
+
+impl Cost {
+    fn of(function: &Function) -> Cost {
+        let mut cost = Cost { instructions: 0, loads: 0, stores: 0, blocks: 0 };
+        for block in function.layout.blocks() {
+            cost.blocks += 1;
+            for instruction in function.layout.block_insts(block) {
+                let opcode = function.dfg.insts[instruction].opcode();
+                cost.instructions += 1;
+                cost.loads += usize::from(opcode.can_load());
+                cost.stores += usize::from(opcode.can_store());
+            }
+        }
+        cost
+    }
+}
+
 /// A program for one layout.
 pub(crate) struct Code {
     entry: Entry,
     /// 64-bit words that the program may access from the address on.
     size: usize,
+    /// What it was lowered to.
+    pub cost: Cost,
     /// Owns the memory that the entry points into. `None` only while it is dropped.
     module: Option<Mutex<JITModule>>,
 }
@@ -30,8 +61,8 @@ impl Code {
     /// If there is no code generator for this machine.
     pub fn new(program: Program, plan: &Plan) -> Result<Code, JitError> {
         let mut module = JITModule::new(JITBuilder::with_isa(isa()?, default_libcall_names()));
-        let entry = entry(&mut module, program, plan)?;
-        Ok(Code { entry, size: plan.layout.size, module: Some(Mutex::new(module)) })
+        let (entry, cost) = entry(&mut module, program, plan)?;
+        Ok(Code { entry, size: plan.layout.size, cost, module: Some(Mutex::new(module)) })
     }
 
     /// Runs the program.
@@ -83,13 +114,14 @@ fn isa() -> Result<OwnedTargetIsa, JitError> {
     Ok(isa)
 }
 
-fn entry(module: &mut JITModule, program: Program, plan: &Plan) -> Result<Entry, JitError> {
+fn entry(module: &mut JITModule, program: Program, plan: &Plan) -> Result<(Entry, Cost), JitError> {
     let refused = |error: ModuleError| JitError::Cranelift(error.to_string());
     let pointer = module.target_config().pointer_type();
     let mut context = module.make_context();
     context.func.signature = module.make_signature();
     context.func.signature.params.push(AbiParam::new(pointer));
     lower(program, plan, pointer, &mut context.func);
+    let cost = Cost::of(&context.func);
     let function = module.declare_anonymous_function(&context.func.signature).map_err(refused)?;
     module.define_function(function, &mut context).map_err(refused)?;
     module.finalize_definitions().map_err(refused)?;
@@ -97,5 +129,6 @@ fn entry(module: &mut JITModule, program: Program, plan: &Plan) -> Result<Entry,
     // SAFETY: the address is that of a finalized function with the signature given above, (pointer) -> () in the platform's
     // C convention, which is what `Entry` says. It is executable as long as `module` lives: `Code` keeps both together, and
     // calls the entry only through `&self`.
-    Ok(unsafe { std::mem::transmute::<*const u8, Entry>(address) })
+    let entry = unsafe { std::mem::transmute::<*const u8, Entry>(address) };
+    Ok((entry, cost))
 }

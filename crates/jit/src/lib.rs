@@ -43,5 +43,6 @@ mod state;
 mod error;
 mod simulator;
 
+pub use code::Cost;
 pub use error::JitError;
 pub use simulator::{InputId, OutputId, SignalId, Simulator};

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use edgewalk_netlist::ops::mask;
 use edgewalk_netlist::{Netlist, SimError};
 
-use crate::code::Code;
+use crate::code::{Code, Cost};
 use crate::elaborate::elaborate;
 use crate::equal::without_equals;
 use crate::error::JitError;
@@ -224,6 +224,11 @@ impl Simulator {
         if std::mem::replace(&mut self.outputs_stale, false) {
             self.execute(Program::Outputs);
         }
+    }
+
+    /// What a clock costs before the code generator sees the host.
+    pub fn cost(&self) -> Cost {
+        self.compiled.clock.cost
     }
 
     /// One rising edge of `clk`.
