@@ -1,8 +1,9 @@
 //! Which tests meet which faults, and how long each takes.
 
 use std::collections::{BTreeSet, HashSet};
-use std::fs::OpenOptions;
+use std::fs::{OpenOptions, Permissions};
 use std::io::Write;
+use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -80,7 +81,9 @@ pub fn reached(programs: &[Program], tree: &Path, results: &Path, key: &str) -> 
         let test = &tests[place];
         let log = results.join(format!("reach-{worker}"));
         let numbers = results.join(format!("reach-{worker}.numbers"));
-        std::fs::remove_file(&numbers).ok();
+        std::fs::write(&numbers, "")?;
+        // A test may start the program as another user.
+        std::fs::set_permissions(&numbers, Permissions::from_mode(0o666))?;
         let variable = numbers.to_str().context("the target's name is text")?;
         let (ended, took) = test.run(tree, &[("EDGEWALK_FAULTS_REACHED", variable)], LONGEST, &log)?;
         let output = std::fs::read_to_string(&log).unwrap_or_default();
