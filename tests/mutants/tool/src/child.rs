@@ -30,12 +30,13 @@ pub fn run(
     limit: Duration,
     log: &Path,
 ) -> Result<(Ended, Duration)> {
+    let limit = Duration::from_secs(limit.as_secs() + 1); // as the command that keeps it counts
     let scratch = log.with_extension("tmp");
     std::fs::create_dir_all(&scratch)?;
     let written = File::create(log).with_context(|| log.display().to_string())?;
     let script = format!("ulimit -d {MEMORY} || exit 125; exec timeout -s KILL \"$@\"");
     let mut shell = Command::new("sh");
-    shell.args(["-c", &script, "sh", &limit.as_secs().max(1).to_string()]).args(command);
+    shell.args(["-c", &script, "sh", &limit.as_secs().to_string()]).args(command);
     shell.current_dir(folder).env("TMPDIR", &scratch).env_remove("UPDATE_EXPECT");
     shell.envs(variables.iter().copied()).process_group(0);
     shell.stdin(Stdio::null()).stdout(written.try_clone()?).stderr(written);
@@ -47,7 +48,7 @@ pub fn run(
     let signal = status.signal().or(status.code().filter(|code| *code > 128).map(|code| code - 128));
     let ended = match (status.code(), signal) {
         (Some(0), _) => Ended::Passed,
-        (_, Some(9)) if took + Duration::from_millis(100) >= limit => Ended::TimedOut,
+        (_, Some(9)) if took >= limit => Ended::TimedOut,
         (_, Some(1 | 2 | 9 | 15)) => Ended::Cut,
         (Some(125..=127), _) => Ended::Cut, // no such command, or no limit can be set
         _ => Ended::Failed,
@@ -61,4 +62,24 @@ pub fn run(
     }
     std::fs::remove_dir_all(&scratch).ok();
     Ok((ended, took))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn how_it_ended() {
+        let log = std::env::temp_dir().join(format!("edgewalk-mutants-child-{}", std::process::id()));
+        let ended = |script: &str, millis| {
+            let limit = Duration::from_millis(millis);
+            run(&["sh", "-c", script], Path::new("/"), &[("A", "3")], limit, &log).expect("it runs").0
+        };
+        assert_eq!(ended("exit 0", 9000), Ended::Passed);
+        assert_eq!(ended("exit $A", 9000), Ended::Failed);
+        assert_eq!(ended("kill -ABRT $$", 9000), Ended::Failed);
+        assert_eq!(ended("kill -KILL $$", 9000), Ended::Cut);
+        assert_eq!(ended("sleep 60 & wait", 1600), Ended::TimedOut);
+        std::fs::remove_file(&log).expect("removed");
+    }
 }

@@ -23,7 +23,8 @@ mod verdicts;
 mod work;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::File;
+use std::fs::{File, OpenOptions};
+use std::io::Write;
 use std::path::Path;
 use std::process::{Command, ExitCode};
 use std::sync::Mutex;
@@ -90,15 +91,20 @@ fn campaign(root: &Path, options: &Options) -> Result<()> {
         let verdicts = kept.holding(owner)?.into_iter();
         settled.extend(verdicts.filter(|verdict| kept.settled(verdict)).map(|verdict| verdict.fault));
     }
+    // Judged faults are compiled in too: when a cut run goes on, all is as it was, and a survivor is not tried twice.
+    let names: Vec<&str> = faults.iter().map(|fault| fault.name.as_str()).collect();
+    let key = tree::key(&files, &names);
+    let tried = results.join("tried");
+    match std::fs::read_to_string(&tried).unwrap_or_default().strip_prefix(&format!("{key}\n")) {
+        Some(lines) => settled.extend(lines.lines().map(str::to_owned)),
+        None => std::fs::write(&tried, format!("{key}\n"))?,
+    }
     let left: Vec<&Fault> = faults.iter().filter(|fault| !settled.contains(&fault.name)).collect();
     println!("{} faults, {} to be tried", faults.len(), left.len());
     if left.is_empty() {
         return Ok(());
     }
 
-    // Judged faults are compiled in too: when a cut run goes on, all is as it was.
-    let names: Vec<&str> = faults.iter().map(|fault| fault.name.as_str()).collect();
-    let key = tree::key(&files, &names);
     let build = Build {
         tree: root.join("target/mutants/tree"),
         target: root.join("target/mutants/build"),
@@ -127,7 +133,9 @@ fn campaign(root: &Path, options: &Options) -> Result<()> {
         return Ok(());
     }
 
-    let keep = Keeping { kept, seed: options.seed, tree: &plain, counts: Mutex::default() };
+    let tried = OpenOptions::new().append(true).open(tried)?;
+    let state = Mutex::new((tried, BTreeMap::new()));
+    let keep = Keeping { kept, seed: options.seed, tree: &plain, state };
     let judging = Instant::now();
     work::both(&switched, |worker, done, fault| {
         let verdict = judge::judged(fault, &tests, &build.tree, &results.join(format!("judge-{worker}")))?;
@@ -194,7 +202,8 @@ struct Keeping<'a> {
     kept: Kept,
     seed: u64,
     tree: &'a Path,
-    counts: Mutex<BTreeMap<&'static str, usize>>,
+    /// Those tried, for a cut run, and how many there are of each verdict. Also the lock of the files of verdicts.
+    state: Mutex<(File, BTreeMap<&'static str, usize>)>,
 }
 
 impl Keeping<'_> {
@@ -202,9 +211,10 @@ impl Keeping<'_> {
         let date = Command::new("date").arg("+%F").output().context("date")?;
         let date = String::from_utf8_lossy(&date.stdout).trim().to_owned();
         let line = Verdict { verdict: verdict.to_owned(), seed: self.seed, date, fault: fault.name.clone() };
-        // Also the lock of the files of verdicts.
-        let mut counts = work::locked(&self.counts);
+        let mut state = work::locked(&self.state);
+        let (tried, counts) = &mut *state;
         self.kept.keep(&fault.owner, self.tree, &line)?;
+        writeln!(tried, "{}", fault.name)?;
         *counts.entry(verdict).or_default() += 1;
         let counted: Vec<String> =
             counts.iter().map(|(verdict, count)| format!("{count} {verdict}")).collect();
