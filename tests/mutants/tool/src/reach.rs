@@ -16,7 +16,7 @@ use crate::child::{self, Ended};
 use crate::work;
 
 /// A test never takes this long without a fault.
-const LONGEST: Duration = Duration::from_secs(3600);
+pub const LONGEST: Duration = Duration::from_secs(3600);
 
 /// A test, in a process of its own.
 pub struct Test {
