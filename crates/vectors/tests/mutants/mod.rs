@@ -67,7 +67,7 @@ fn every_fault_of_blend_is_found() {
 }
 
 #[test]
-#[ignore = "hours: each fault of SETUP"]
+#[ignore = "20 minutes: each fault of SETUP"]
 fn every_fault_of_setup_is_found() {
     let machine = machine_for(common::SETUP);
     // Each half of the faults by itself, side by side.
@@ -262,7 +262,7 @@ fn tally(machine: &Plan, unit: Unit, first: usize, step: usize) -> Tally {
     let all = mutants.len().saturating_sub(first).div_ceil(step);
     for mutant in mutants.iter().skip(first).step_by(step) {
         let faulty = mutant.apply(&netlist);
-        // A run of hours that is ended before its time has said how far it came.
+        // A long run that is ended before its time has said how far it came.
         if tally.tried > 0 && tally.tried % 50 == 0 {
             println!("{}: {} / {all} tried, killed {}", unit.name(), tally.tried, tally.killed);
         }
