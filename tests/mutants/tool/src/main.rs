@@ -153,11 +153,19 @@ fn campaign(root: &Path, options: &Options) -> Result<()> {
         target: root.join("target/mutants/plain-build"),
         log: results.join("plain"),
     };
+    let mut viable = Vec::new();
+    for fault in alone {
+        if slow.viable(fault)? {
+            viable.push(fault);
+        } else {
+            keep.keep(fault, "unviable", "does not build")?;
+        }
+    }
     let judging = Instant::now();
-    for (place, fault) in alone.iter().enumerate() {
+    for (place, fault) in viable.iter().enumerate() {
         let verdict = slow.judged(fault, seconds)?;
         let done =
-            format!("{} of {}, {}", place + 1, alone.len(), work::left(judging, place + 1, alone.len()));
+            format!("{} of {}, {}", place + 1, viable.len(), work::left(judging, place + 1, viable.len()));
         keep.keep(fault, verdict, &done)?;
     }
     phase("done");
