@@ -4,7 +4,8 @@
 
 use std::fmt::Write as _;
 
-use edgewalk_vectors::{SUITES, Suite};
+use edgewalk_machine::units;
+use edgewalk_vectors::{SUITES, StallKind, Suite, Unit, capture, capture_tokens};
 use expect_test::expect_file;
 use sha2::{Digest, Sha256};
 
@@ -42,4 +43,20 @@ fn every_suite_feeds_what_it_fed() {
         }
     }
     expect_file!["snapshots/stimuli.txt"].assert_eq(&fed);
+}
+
+#[test]
+fn tokens_of_ones_own_meet_the_stalls_and_the_words_of_their_seed() {
+    let machines = common::shades();
+    let (_, plan) = machines.iter().find(|(name, _)| *name == "fast_phong_registers_relief").expect("named");
+    let suite = Suite::named(plan, "random", 1, 6).expect("listed");
+    let unit = const { Unit::of(&units::texel::SPEC) };
+    let tokens = capture(plan, unit, &suite, suite.state(), StallKind::None).setting.tokens;
+    assert!(tokens.len() > 50, "{} tokens", tokens.len());
+    let run = |stalls, seed| capture_tokens(plan, unit, tokens.clone(), suite.state(), stalls, seed).links;
+    let cycles = |seed| run(StallKind::Mixed, seed).into_iter().map(|link| link.cycles).collect::<Vec<_>>();
+    let values = |seed| run(StallKind::None, seed).into_iter().map(|link| link.tokens).collect::<Vec<_>>();
+    assert_eq!((cycles(1), values(1)), (cycles(1), values(1)));
+    assert_ne!(cycles(1), cycles(2), "stalls");
+    assert_ne!(values(1), values(2), "words");
 }
