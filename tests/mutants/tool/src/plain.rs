@@ -71,11 +71,8 @@ impl Plain {
         }
         let target = self.target.to_str().context("the target's name is text")?;
         // A fault may be what a lint forbids.
-        let variables = [
-            ("CARGO_TARGET_DIR", target),
-            ("CARGO_INCREMENTAL", "1"),
-            ("RUSTFLAGS", "--cap-lints=allow"),
-        ];
+        let variables =
+            [("CARGO_TARGET_DIR", target), ("CARGO_INCREMENTAL", "1"), ("RUSTFLAGS", "--cap-lints=allow")];
         match child::run(&command, &self.tree, &variables, limit, &self.log)?.0 {
             Ended::Cut => bail!("no verdict, cargo was ended from outside; run it again: {}", fault.name),
             ended => Ok(ended),
