@@ -134,6 +134,15 @@ fn why_names_the_input_that_changed() {
     assert_eq!(rows(&at.join("s")).len(), 4, "another file is another row");
     let (_, text) = why(&key);
     assert!(text.contains("the same machine") && text.contains("differs in [\"input_hash\"]"), "{text}");
+    // It alone: not the row itself, and no other machine's.
+    let (of, others): (Vec<Value>, Vec<Value>) =
+        rows(&at.join("s")).into_iter().partition(|row| row["key"] == key.as_str());
+    let same: Vec<Value> = others.into_iter().filter(|row| row["machine"] == of[0]["machine"]).collect();
+    let json = edgewalk(at, &["sweep", "why", &key, "--json", "--out", "s"]).output().unwrap();
+    let told: Value = serde_json::from_slice(&json.stdout).unwrap();
+    let others: Vec<&Value> =
+        told["same_machine"].as_array().unwrap().iter().map(|other| &other["key"]).collect();
+    assert!(same.len() == 1 && others == [&same[0]["key"]], "{told}");
     let (code, text) = why("nothing");
     assert!(code == Some(2) && text.contains("no row has this key; nearest: "), "{text}");
 }
