@@ -221,7 +221,7 @@ fn explain_walks_the_steps_of_the_light() {
             assert!(text.contains(word), "{word:?} is not in {text}");
         }
     }
-    assert_eq!((checked, dark), (12, 1));
+    assert!((checked, dark) == (12, 1) && cut > 4, "{checked} {dark} {cut}");
 }
 
 #[test]

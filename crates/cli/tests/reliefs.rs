@@ -145,7 +145,8 @@ fn explain_ends_a_sum_where_its_word_ends() {
     let folder = tempfile::tempdir().unwrap();
     let steep = SCENE.replace("= 0.02", "= 1").replace("[0.2, 0.3, 1]", "[1, 1, 1]");
     std::fs::write(folder.path().join("s.toml"), steep.replace("RELIEF", WAVES)).unwrap();
-    let explain = ["explain", "s.toml", "26", "22", "--shading", "fast-phong", "--json"];
+    let fast = ["--shading", "fast-phong", "--set", "shade.kind=fast-phong"];
+    let explain = [&["explain", "s.toml", "26", "22", "--json"], &fast[..]].concat();
     let output = edgewalk(folder.path(), &[&explain[..], &SMALL, &BUMP].concat()).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
