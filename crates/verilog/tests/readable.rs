@@ -144,10 +144,10 @@ fn an_operator_that_says_nothing_is_not_written() {
         wanted.push((name, text));
     };
     same.for_each(|signal| port(signal, Some("a".into())));
-    bits.map(|signal| port(signal, Some("b".into())));
-    constants.map(|(signal, value)| port(signal, Some(format!("8'd{value}"))));
+    bits.into_iter().for_each(|signal| port(signal, Some("b".into())));
+    constants.into_iter().for_each(|(signal, value)| port(signal, Some(format!("8'd{value}"))));
     certain.into_iter().chain(ends).for_each(|(signal, value)| port(signal, Some(format!("1'b{value}"))));
-    open.map(|signal| port(signal, None));
+    open.into_iter().for_each(|signal| port(signal, None));
     let text = text(&m.finish().unwrap());
     for (name, wanted) in wanted {
         let assign = format!("assign {name} = ");
