@@ -27,6 +27,7 @@ mod panes;
 mod pictures;
 mod precision;
 mod presets;
+mod progress;
 mod raster;
 mod replay;
 mod scenes;

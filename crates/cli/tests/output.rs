@@ -71,8 +71,11 @@ fn a_file_that_cannot_be_finished_is_named_by_its_place() {
     // No file may grow beyond a few kilobytes, as on a disk that is full; the signal that says so is not the program's end.
     let script = "trap '' XFSZ; ulimit -f 20; exec \"$@\"";
     let trace = [&["trace", "d.tri", "-q", "--out", "a/t.vcd"], &SCREEN[..]].concat();
-    let commands: [(&[&str], &str); 3] = [
+    // Small enough to be written at the very end.
+    std::fs::write(folder.path().join("small.tri"), TRIANGLE.replace("size 64 48", "size 40 30")).unwrap();
+    let commands: [(&[&str], &str); 4] = [
         (&["raster", "d.tri", "-q", "--out", "a/r"], "a/r/rgb.npy"),
+        (&["raster", "small.tri", "-q", "--out", "a/s"], "a/s/rgb.npy"),
         (&["emit", "-q", "--out", "a/e"], "a/e/edgewalk_setup.v"),
         (&trace, "a/t.vcd"),
     ];
@@ -82,7 +85,7 @@ fn a_file_that_cannot_be_finished_is_named_by_its_place() {
         let (code, error) = ended(&shell.current_dir(folder.path()).output().unwrap());
         assert_eq!(code, Some(2), "{command:?}: {error}");
         assert_eq!(error, format!("edgewalk: {file}: File too large (os error 27)\n"), "{command:?}");
-        assert_eq!(names(folder.path()), ["d.tri"], "{command:?}");
+        assert_eq!(names(folder.path()), ["d.tri", "small.tri"], "{command:?}");
     }
     println!("checked {0} / {0} commands", commands.len());
 }

@@ -139,6 +139,26 @@ fn explain_shows_slopes_products_and_sums() {
     assert_eq!(checked, 2 + 3);
 }
 
+/// A cosine that slopes have made larger than its word is the word's end.
+#[test]
+fn explain_ends_a_sum_where_its_word_ends() {
+    let folder = tempfile::tempdir().unwrap();
+    let steep = SCENE.replace("= 0.02", "= 1").replace("[0.2, 0.3, 1]", "[1, 1, 1]");
+    std::fs::write(folder.path().join("s.toml"), steep.replace("RELIEF", WAVES)).unwrap();
+    let fast = ["--shading", "fast-phong", "--set", "shade.kind=fast-phong"];
+    let explain = [&["explain", "s.toml", "26", "22", "--json"], &fast[..]].concat();
+    let output = edgewalk(folder.path(), &[&explain[..], &SMALL, &BUMP].concat()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let cosine = &find(&told, "turned").unwrap()[0];
+    let products = cosine["products"].as_array().unwrap().iter().map(numbers);
+    let added: i64 = products.map(|product| product[0] * product[1]).sum();
+    let shift = cosine["shift"].as_u64().unwrap();
+    let sum = (cosine["before"].as_i64().unwrap() << 11) + added;
+    assert!(sum >> shift > 1023, "{cosine}");
+    assert_eq!((cosine["name"].as_str(), cosine["after"].as_i64()), (Some("nl0"), Some(1023)), "{cosine}");
+}
+
 fn numbers(list: &serde_json::Value) -> Vec<i64> {
     list.as_array().unwrap().iter().map(|value| value.as_i64().unwrap()).collect()
 }

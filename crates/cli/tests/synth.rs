@@ -41,12 +41,17 @@ fn counted(hdl: &Path, top: &str) -> impl Fn(&str) -> u64 + use<> {
 fn a_unit_is_counted_timed_and_kept() {
     let folder = tempfile::tempdir().unwrap();
     let arguments = ["--unit", "span", "--target", "ice40-hx8k", "--seeds", "1", "--out", "out"];
+    // Files of an earlier run go, others stay.
+    std::fs::create_dir_all(folder.path().join("out/hdl")).unwrap();
+    for name in ["edgewalk_engine.v", "mine.v"] {
+        std::fs::write(folder.path().join("out/hdl").join(name), "").unwrap();
+    }
     let first = report(folder.path(), &arguments);
     assert_eq!(first["unit"], "span");
     assert_eq!((kept(&first), names(folder.path())), ((0, 3), vec!["cache".to_owned(), "out".to_owned()]));
     assert_eq!(
         names(&folder.path().join("out/hdl")),
-        ["edgewalk_span.v", "edgewalk_span_fifo.v", "harness.v"]
+        ["edgewalk_span.v", "edgewalk_span_fifo.v", "harness.v", "mine.v"]
     );
     let of = &first["targets"][0];
     assert_eq!(of["reasons"].as_array().unwrap().len(), 0, "{of}");

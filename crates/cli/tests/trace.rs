@@ -36,6 +36,20 @@ fn a_waveform_holds_causes_by_name_and_no_constants_and_no_tags() {
     }
 }
 
+#[test]
+fn a_waveform_ends_after_as_many_cycles_as_asked_for() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_edgewalk"));
+    command.current_dir(folder.path());
+    let output =
+        command.args(["trace", "sphere", "--cycles", "70", "--out", "t.vcd"]).output().expect("runs");
+    assert_eq!(String::from_utf8_lossy(&output.stdout), "70 cycles -> t.vcd\n");
+    let text = std::fs::read_to_string(folder.path().join("t.vcd")).expect("written");
+    let times = text.lines().filter_map(|line| line.strip_prefix('#')?.parse::<u64>().ok());
+    let times: Vec<u64> = times.collect();
+    assert!(times.len() >= 70 && times.len() <= 2 * 70 + 1, "{} times", times.len());
+}
+
 /// As every command that has nothing to do; and no file is left.
 #[test]
 fn nothing_to_trace_is_exit_code_2_with_its_reason() {

@@ -18,7 +18,7 @@ impl Signs {
             let Kind::Op(op, operands) = graph.kind(id) else { continue };
             for (place, operand) in operands.iter().enumerate() {
                 wanted[operand.index()] += match op {
-                    Op::Mux if place > 0 => wanted[id.index()].signum(),
+                    Op::Mux => wanted[id.index()].signum(),
                     _ => wish(graph, *op, place, id, *operand),
                 };
             }

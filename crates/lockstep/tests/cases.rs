@@ -29,3 +29,16 @@ fn what_is_no_case_is_refused_with_the_key() {
         assert_eq!(Case::from_toml(text).expect_err(text).to_string(), message);
     }
 }
+
+/// A reset that comes when all is drawn is run too, and a cycle behind it.
+#[test]
+fn a_case_ends_behind_its_last_reset() {
+    let of = |resets: &str| {
+        let tokens = "0".repeat(81);
+        let text = format!("unit = \"machine\"\nresets = [{resets}]\ntokens = [\"{tokens}\"]\n");
+        Case::from_toml(&text).expect("a case").run().expect("no difference").cycles
+    };
+    let alone = of("");
+    assert!(alone < 400, "{alone}");
+    assert_eq!((of("500"), of("500, 3")), (502, 502));
+}

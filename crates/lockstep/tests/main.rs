@@ -10,6 +10,7 @@ mod kept;
 mod lights;
 mod memory;
 mod own_pass;
+mod stalls;
 mod tables;
 mod units;
 mod whole;

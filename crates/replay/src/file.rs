@@ -129,7 +129,9 @@ impl Replay<'_> {
         let of_kind = self.truth.iter().filter(|truth| truth.kind == kind);
         let told = of_kind.map(|truth| {
             let (bound, why) = (truth.bound.as_ref().ok(), truth.bound.as_ref().err());
-            json!({ "field": truth.field, "fraction": 10, "bound": bound, "why": why })
+            let largest = truth.errors.iter().flatten().map(|error| f64::from(error.unsigned_abs()) / 1024.0);
+            let largest = largest.reduce(f64::max);
+            json!({ "field": truth.field, "fraction": 10, "bound": bound, "why": why, "largest": largest })
         });
         told.collect()
     }

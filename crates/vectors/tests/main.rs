@@ -9,3 +9,4 @@ mod lockstep;
 mod mutants;
 mod replay;
 mod simulators;
+mod stimuli;

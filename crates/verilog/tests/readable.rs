@@ -5,7 +5,7 @@ mod tools;
 
 use std::sync::Arc;
 
-use edgewalk_netlist::{Module, Netlist};
+use edgewalk_netlist::{Module, Netlist, Signal};
 use expect_test::expect_file;
 
 /// An edge register pair: every kind of item in a small module.
@@ -119,6 +119,48 @@ fn a_word_that_is_shifted_out_is_0() {
     let gone = Some("8'd0;");
     assert_eq!((assigned("gone"), assigned("gone_too")), (gone, gone), "{text}");
     assert_ne!(assigned("kept"), gone, "{text}");
+}
+
+#[test]
+fn an_operator_that_says_nothing_is_not_written() {
+    let m = Module::new("plain", "");
+    let (a, bit, by) = (m.input("a", 8), m.input("b", 1), m.lit(3, 0));
+    let (none, ones) = (m.lit(8, 0), m.lit(8, 255));
+    let same = [a & ones, ones & a, a | none, none | a, a ^ none, none ^ a, a + none, none + a, a - none];
+    let same =
+        same.into_iter().chain([a.shl_by(by), a.shr_by(by), a.sar_by(by), a.shl(0), a.shr(0), a.sar(0)]);
+    let same = same.chain([m.cat(&[a]), a.zext(8), a.sext(8), a.slice(7, 0), bit.mux(a, a)]);
+    let same = same.chain([m.lit(1, 1).mux(a, none), m.lit(1, 0).mux(none, a)]);
+    let bits = [bit.any(), bit.all(), bit.parity()];
+    let constants = [(a & none, 0), (none & a, 0), (a | ones, 255), (ones + ones, 254), (a.shl(8), 0)];
+    let certain = [(a.lt(none), 0), (a.ge(none), 1), (a.le(ones), 1), (a.gt(ones), 0), (none.gt(a), 0)];
+    let ends = [(a.slt(0x80), 0), (a.sge(0x80), 1), (a.sle(0x7f), 1), (a.sgt(0x7f), 0)];
+    // One beside the end is not certain.
+    let open = [a.lt(1), a.gt(0xfe), a.slt(0x81), a.sgt(0x7e), a & 0xfe, a | 1];
+    let mut wanted = Vec::new();
+    let mut port = |signal: Signal<'_>, text: Option<String>| {
+        let name = format!("y{}", wanted.len());
+        m.output(&name, signal);
+        wanted.push((name, text));
+    };
+    same.for_each(|signal| port(signal, Some("a".into())));
+    bits.into_iter().for_each(|signal| port(signal, Some("b".into())));
+    constants.into_iter().for_each(|(signal, value)| port(signal, Some(format!("8'd{value}"))));
+    certain.into_iter().chain(ends).for_each(|(signal, value)| port(signal, Some(format!("1'b{value}"))));
+    open.into_iter().for_each(|signal| port(signal, None));
+    let text = text(&m.finish().unwrap());
+    for (name, wanted) in wanted {
+        let assign = format!("assign {name} = ");
+        let found = text.lines().find_map(|line| line.trim().strip_prefix(&assign)?.split_once(';'));
+        let found = found.map(|(expression, _)| expression.to_owned());
+        match wanted {
+            Some(_) => assert_eq!(found, wanted, "{name}\n{text}"),
+            None => assert!(
+                found.is_some_and(|found| found.contains("a ") || found.contains("(a)")),
+                "{name}\n{text}"
+            ),
+        }
+    }
 }
 
 #[test]

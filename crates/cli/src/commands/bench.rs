@@ -58,9 +58,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let whole = Job::new(&machine, &port.triangles, port.words(), (port.state()?, args.stalls), args.repeat)?;
     let size = (machine.width, machine.height);
     Verdict::drew(whole.fragments).or_nothing(&args.source.input, whole.triangles.len() as u64, size)?;
-    let bar = progress::bar(Engine::ALL.len() as u64, "engines", talk.quiet);
+    let asked = Engine::ALL.iter().filter(|e| args.engine.is_empty() || args.engine.contains(e));
+    let bar = progress::bar(asked.clone().count() as u64, "engines", talk.quiet);
     let mut rows = Vec::new();
-    for engine in Engine::ALL.iter().filter(|e| args.engine.is_empty() || args.engine.contains(e)) {
+    for engine in asked {
         let job = whole.part(engine.budget())?;
         let row = match engine.time(&job)? {
             Ok(times) if times.work == job.work => Row::new(engine.name(), &job, &times),

@@ -3,6 +3,7 @@
 use super::{keys, rows};
 use crate::support::{edgewalk, names, run};
 use serde_json::Value;
+use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
 
 const VARY: [&str; 5] =
@@ -61,11 +62,47 @@ fn parts_in_any_order_and_twice_merge_to_the_same_rows() {
     assert!(String::from_utf8_lossy(&output.stderr).contains("which part?"));
     let (code, error) = run(at, &["sweep", "run", "--out", "whole", "--chunk", "0"]);
     assert!(code == Some(2) && error.contains("no parts"), "{error}");
-    // The job scripts are shell that a shell can read.
-    for script in ["slurm.sh", "hq.sh"] {
-        let checked =
-            Command::new("sh").args(["-n", &format!("s/{script}")]).current_dir(at).output().unwrap();
-        assert!(checked.status.success(), "{script}: {}", String::from_utf8_lossy(&checked.stderr));
+}
+
+/// What HyperQueue's program does with a job array, all of it here and at once.
+const HQ: &str = r#"#!/bin/sh
+while [ "$1" != -- ]; do
+    [ "$1" = --array ] && last=${2#0-}
+    shift
+done
+shift
+for task in $(seq 0 "$last"); do
+    HQ_TASK_ID=$task "$@" || exit
+done
+"#;
+
+#[test]
+fn the_job_scripts_run_every_part() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("hq"), HQ).unwrap();
+    std::fs::set_permissions(at.join("hq"), std::fs::Permissions::from_mode(0o755)).unwrap();
+    std::fs::write(at.join("a.tri"), "size 64 48\nT 0 0 0 1 0 0 0  60 0 0 0 1 0 0  0 40 1 0 0 1 0\n")
+        .unwrap();
+    let path = format!("{}:{}", at.display(), std::env::var("PATH").unwrap());
+    // A shell has to see folders with spaces and quotes as they are.
+    let jobs = [("it's Slurm", "slurm.sh", &["0", "1", "2"][..]), ("it's HQ", "hq.sh", &["none"])];
+    for (out, script, tasks) in jobs {
+        let plan =
+            ["sweep", "plan", "a.tri", "--vary", "interpolator.adders=1..4", "--chunks", "3", "--quiet"];
+        assert_eq!(run(at, &[&plan[..], &["--out", out]].concat()), (Some(0), String::new()));
+        for task in tasks {
+            let mut job = Command::new("sh");
+            job.arg(format!("{out}/{script}")).current_dir(at).env("PATH", &path);
+            job.env_remove("SLURM_ARRAY_TASK_ID").env_remove("HQ_TASK_ID");
+            if script == "slurm.sh" {
+                job.env("SLURM_ARRAY_TASK_ID", task);
+            }
+            let done = job.output().unwrap();
+            assert!(done.status.success(), "{script}: {}", String::from_utf8_lossy(&done.stderr));
+        }
+        assert_eq!(run(at, &["sweep", "merge", "--quiet", "--out", out]), (Some(0), String::new()));
+        assert_eq!(keys(&at.join(out)).len(), 4, "{script}");
     }
 }
 
@@ -97,6 +134,15 @@ fn why_names_the_input_that_changed() {
     assert_eq!(rows(&at.join("s")).len(), 4, "another file is another row");
     let (_, text) = why(&key);
     assert!(text.contains("the same machine") && text.contains("differs in [\"input_hash\"]"), "{text}");
+    // It alone: not the row itself, and no other machine's.
+    let (of, others): (Vec<Value>, Vec<Value>) =
+        rows(&at.join("s")).into_iter().partition(|row| row["key"] == key.as_str());
+    let same: Vec<Value> = others.into_iter().filter(|row| row["machine"] == of[0]["machine"]).collect();
+    let json = edgewalk(at, &["sweep", "why", &key, "--json", "--out", "s"]).output().unwrap();
+    let told: Value = serde_json::from_slice(&json.stdout).unwrap();
+    let others: Vec<&Value> =
+        told["same_machine"].as_array().unwrap().iter().map(|other| &other["key"]).collect();
+    assert!(same.len() == 1 && others == [&same[0]["key"]], "{told}");
     let (code, text) = why("nothing");
     assert!(code == Some(2) && text.contains("no row has this key; nearest: "), "{text}");
 }

@@ -13,6 +13,8 @@ use crate::cksum::cksum;
 pub struct Fault {
     /// Its switch, from 1.
     pub number: u32,
+    /// The sample that it is of.
+    pub seed: u64,
     /// The crate, without `edgewalk-`.
     pub owner: String,
     /// From the top of the tree.
@@ -35,8 +37,9 @@ impl Fault {
     }
 }
 
-/// The first `sample` faults of a crate in the order of a checksum of seed and name; numbers them from `first`.
-pub fn sampled(tree: &Path, owner: &str, seed: u64, sample: usize, first: u32) -> Result<Vec<Fault>> {
+/// For each seed the first `sample` faults of a crate in the order of a checksum of seed and name, those of several samples once;
+/// numbers them from `first`.
+pub fn sampled(tree: &Path, owner: &str, seeds: &[u64], sample: usize, first: u32) -> Result<Vec<Fault>> {
     let mut command = Command::new("cargo");
     command
         .args(["mutants", "--list", "--json", "--package", &format!("edgewalk-{owner}")])
@@ -44,17 +47,24 @@ pub fn sampled(tree: &Path, owner: &str, seed: u64, sample: usize, first: u32) -
     let output = command.output().context("cargo mutants --list")?;
     ensure!(output.status.success(), "cargo mutants --list: {}", String::from_utf8_lossy(&output.stderr));
     let list: Vec<Value> = serde_json::from_slice(&output.stdout).context("cargo mutants --list")?;
-    let mut named = Vec::new();
-    for entry in list {
-        let name = text(&entry, "/name")?;
-        named.push((cksum(format!("{seed} {name}").as_bytes()), name, entry));
+    let names = list.iter().map(|entry| text(entry, "/name")).collect::<Result<Vec<String>>>()?;
+    let mut chosen: Vec<(u64, usize)> = Vec::new();
+    for seed in seeds {
+        let mut order: Vec<usize> = (0..list.len()).collect();
+        // By name too, where checksums meet.
+        order.sort_by_cached_key(|place| {
+            (cksum(format!("{seed} {}", names[*place]).as_bytes()), &names[*place])
+        });
+        for place in order.into_iter().take(sample) {
+            if chosen.iter().all(|(_, other)| *other != place) {
+                chosen.push((*seed, place));
+            }
+        }
     }
-    // By name too, where checksums meet.
-    named.sort_by(|one, two| (one.0, &one.1).cmp(&(two.0, &two.1)));
-    named.truncate(sample);
     let mut faults = Vec::new();
-    for (number, (_, name, entry)) in (first..).zip(named) {
-        let file = text(&entry, "/file")?;
+    for (number, (seed, place)) in (first..).zip(chosen) {
+        let (entry, name) = (&list[place], names[place].clone());
+        let file = text(entry, "/file")?;
         let source = std::fs::read_to_string(tree.join(&file)).with_context(|| file.clone())?;
         let place = |end: &str| -> Result<usize> {
             let at = |what: &str| {
@@ -63,9 +73,9 @@ pub fn sampled(tree: &Path, owner: &str, seed: u64, sample: usize, first: u32) -
             };
             byte_of(&source, at("line")?, at("column")?).with_context(|| format!("{name}: not in the file"))
         };
-        let (span, genre) = (place("start")?..place("end")?, text(&entry, "/genre")?);
-        let replacement = text(&entry, "/replacement")?;
-        faults.push(Fault { number, owner: owner.to_owned(), file, name, genre, span, replacement });
+        let (span, genre) = (place("start")?..place("end")?, text(entry, "/genre")?);
+        let replacement = text(entry, "/replacement")?;
+        faults.push(Fault { number, seed, owner: owner.to_owned(), file, name, genre, span, replacement });
     }
     Ok(faults)
 }

@@ -83,7 +83,7 @@ fn campaign(root: &Path, options: &Options) -> Result<()> {
     let mut faults: Vec<Fault> = Vec::new();
     for owner in &options.crates {
         let first = faults.len() as u32 + 1;
-        faults.extend(fault::sampled(&plain, owner, options.seed, options.sample, first)?);
+        faults.extend(fault::sampled(&plain, owner, &options.seeds, options.sample, first)?);
     }
     let kept = Kept::of(&root)?;
     let mut settled = BTreeSet::new();
@@ -135,7 +135,7 @@ fn campaign(root: &Path, options: &Options) -> Result<()> {
 
     let tried = OpenOptions::new().append(true).open(tried)?;
     let state = Mutex::new((tried, BTreeMap::new()));
-    let keep = Keeping { kept, seed: options.seed, tree: &plain, state };
+    let keep = Keeping { kept, tree: &plain, state };
     let judging = Instant::now();
     work::both(&switched, |worker, done, fault| {
         let verdict = judge::judged(fault, &tests, &build.tree, &results.join(format!("judge-{worker}")))?;
@@ -153,11 +153,19 @@ fn campaign(root: &Path, options: &Options) -> Result<()> {
         target: root.join("target/mutants/plain-build"),
         log: results.join("plain"),
     };
+    let mut viable = Vec::new();
+    for fault in alone {
+        if slow.viable(fault)? {
+            viable.push(fault);
+        } else {
+            keep.keep(fault, "unviable", "does not build")?;
+        }
+    }
     let judging = Instant::now();
-    for (place, fault) in alone.iter().enumerate() {
+    for (place, fault) in viable.iter().enumerate() {
         let verdict = slow.judged(fault, seconds)?;
         let done =
-            format!("{} of {}, {}", place + 1, alone.len(), work::left(judging, place + 1, alone.len()));
+            format!("{} of {}, {}", place + 1, viable.len(), work::left(judging, place + 1, viable.len()));
         keep.keep(fault, verdict, &done)?;
     }
     phase("done");
@@ -200,7 +208,6 @@ fn aside(
 /// Keeps verdicts as they come.
 struct Keeping<'a> {
     kept: Kept,
-    seed: u64,
     tree: &'a Path,
     /// Those tried, for a cut run, and how many there are of each verdict. Also the lock of the files of verdicts.
     state: Mutex<(File, BTreeMap<&'static str, usize>)>,
@@ -210,7 +217,7 @@ impl Keeping<'_> {
     fn keep(&self, fault: &Fault, verdict: &'static str, progress: &str) -> Result<()> {
         let date = Command::new("date").arg("+%F").output().context("date")?;
         let date = String::from_utf8_lossy(&date.stdout).trim().to_owned();
-        let line = Verdict { verdict: verdict.to_owned(), seed: self.seed, date, fault: fault.name.clone() };
+        let line = Verdict { verdict: verdict.to_owned(), seed: fault.seed, date, fault: fault.name.clone() };
         let mut state = work::locked(&self.state);
         let (tried, counts) = &mut *state;
         self.kept.keep(&fault.owner, self.tree, &line)?;

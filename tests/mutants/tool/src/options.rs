@@ -3,7 +3,8 @@
 /// What is asked for.
 pub struct Options {
     pub sample: usize,
-    pub seed: u64,
+    /// A sample by each.
+    pub seeds: Vec<u64>,
     /// Says how long it will be at most, and tries nothing.
     pub estimate: bool,
     pub crates: Vec<String>,
@@ -11,7 +12,7 @@ pub struct Options {
 
 /// Reads the arguments; `known`: the crates that there are, taken where none is named. An error is a message.
 pub fn options(arguments: impl Iterator<Item = String>, known: &[String]) -> Result<Options, String> {
-    let mut read = Options { sample: 60, seed: 1, estimate: false, crates: Vec::new() };
+    let mut read = Options { sample: 60, seeds: Vec::new(), estimate: false, crates: Vec::new() };
     let mut arguments = arguments;
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
@@ -21,13 +22,13 @@ pub fn options(arguments: impl Iterator<Item = String>, known: &[String]) -> Res
                 if argument == "--sample" {
                     read.sample = value.parse().map_err(|_| wrong())?;
                 } else {
-                    read.seed = value.parse().map_err(|_| wrong())?;
+                    read.seeds.push(value.parse().map_err(|_| wrong())?);
                 }
             }
             "--all" => read.sample = usize::MAX,
             "--estimate" => read.estimate = true,
             option if option.starts_with('-') => {
-                let permitted = "--sample N, --all, --seed N, --estimate, names of crates";
+                let permitted = "--sample N, --all, --seed N (more than once), --estimate, names of crates";
                 return Err(format!("no option '{option}'; permitted: {permitted}"));
             }
             name if !known.iter().any(|known| known == name) => {
@@ -35,6 +36,9 @@ pub fn options(arguments: impl Iterator<Item = String>, known: &[String]) -> Res
             }
             name => read.crates.push(name.to_owned()),
         }
+    }
+    if read.seeds.is_empty() {
+        read.seeds.push(1);
     }
     if read.crates.is_empty() {
         read.crates = known.to_vec();

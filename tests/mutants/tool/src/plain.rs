@@ -19,20 +19,27 @@ pub struct Plain {
 const BUILD: Duration = Duration::from_secs(1800);
 
 impl Plain {
-    /// The verdict, `unviable` where it does not build. `seconds`: of all tests of a crate, one after the other.
+    /// Whether its crate builds with it; few of them do, and this takes seconds.
+    pub fn viable(&self, fault: &Fault) -> Result<bool> {
+        self.with(fault, || self.cargo(fault, &fault.owner, &["check"], BUILD))
+    }
+
+    /// The verdict on one that builds. `seconds`: of all tests of a crate, one after the other.
     pub fn judged(&self, fault: &Fault, seconds: impl Fn(&str) -> f64) -> Result<&'static str> {
+        self.with(fault, || self.tested(fault, seconds))
+    }
+
+    /// Does something while the fault is in the copy.
+    fn with<T>(&self, fault: &Fault, what: impl FnOnce() -> Result<T>) -> Result<T> {
         let path = self.tree.join(&fault.file);
         let text = std::fs::read_to_string(&path).with_context(|| fault.file.clone())?;
         std::fs::write(&path, fault.changed(&text, 0..text.len()))?;
-        let verdict = self.with_fault(fault, seconds);
+        let found = what();
         std::fs::write(&path, text)?;
-        verdict
+        found
     }
 
-    fn with_fault(&self, fault: &Fault, seconds: impl Fn(&str) -> f64) -> Result<&'static str> {
-        if !self.cargo(fault, &fault.owner, &["check"], BUILD)? {
-            return Ok("unviable");
-        }
+    fn tested(&self, fault: &Fault, seconds: impl Fn(&str) -> f64) -> Result<&'static str> {
         for owner in [fault.owner.as_str(), PROGRAM] {
             if !self.cargo(fault, owner, &["test", "--tests", "--no-run"], BUILD)? {
                 return Ok("unviable");
@@ -63,7 +70,9 @@ impl Plain {
             command.extend(["--features", "jit"]);
         }
         let target = self.target.to_str().context("the target's name is text")?;
-        let variables = [("CARGO_TARGET_DIR", target), ("CARGO_INCREMENTAL", "1")];
+        // A fault may be what a lint forbids.
+        let variables =
+            [("CARGO_TARGET_DIR", target), ("CARGO_INCREMENTAL", "1"), ("RUSTFLAGS", "--cap-lints=allow")];
         match child::run(&command, &self.tree, &variables, limit, &self.log)?.0 {
             Ended::Cut => bail!("no verdict, cargo was ended from outside; run it again: {}", fault.name),
             ended => Ok(ended),

@@ -18,6 +18,7 @@ fn fault(
     let start = text.find(at).expect("the text has it") + skipped;
     Fault {
         number,
+        seed: 1,
         owner: String::new(),
         file: String::new(),
         name: String::new(),

@@ -1,0 +1,208 @@
+//! Small circuits and what a clock of each costs: a line for each saving that the presets ([cost](cost.rs)) do not show by themselves.
+//! None changes a value, so nothing else would see one undone.
+//! After a change that is meant: `UPDATE_EXPECT=1 cargo test --release -p edgewalk-jit --test savings`.
+#![allow(clippy::unwrap_used)] // a test may
+
+use edgewalk_jit::{Cost, Simulator};
+use edgewalk_netlist::{Module, Signal};
+use expect_test::expect_file;
+
+type Relation = for<'m> fn(Signal<'m>, Signal<'m>) -> [Signal<'m>; 2];
+type Way = for<'m> fn(&'m Module, Signal<'m>, Signal<'m>, Signal<'m>);
+
+/// What a clock of a circuit costs, as a line.
+fn line(name: &str, circuit: impl Fn(&Module)) -> String {
+    let m = Module::new("circuit", "");
+    circuit(&m);
+    let Cost { instructions, loads, stores, blocks } = Simulator::new(&m.finish().unwrap()).unwrap().cost();
+    format!("{name}: {instructions} instructions, {loads} loads, {stores} stores, {blocks} blocks\n")
+}
+
+fn inputs<'m, const N: usize>(m: &'m Module, width: u32, names: [&str; N]) -> [Signal<'m>; N] {
+    names.map(|name| m.input(name, width))
+}
+
+/// A condition and its opposite are worked out once.
+#[test]
+fn opposites() {
+    let relations: [(&str, Relation); 6] = [
+        ("ge, lt", |a, b| [a.ge(b), a.lt(b)]),
+        ("le, gt", |a, b| [a.le(b), a.gt(b)]),
+        ("ne, eq", |a, b| [a.ne(b), a.eq(b)]),
+        ("gt, lt turned", |a, b| [a.gt(b), b.lt(a)]),
+        ("ge, lt signed", |a, b| [a.sge(b), a.slt(b)]),
+        ("le, gt signed", |a, b| [a.sle(b), a.sgt(b)]),
+    ];
+    let mut costs = String::new();
+    for (name, relation) in relations {
+        costs += &line(name, |m| {
+            let [a, b, p, q] = inputs(m, 20, ["a", "b", "p", "q"]);
+            let [one, other] = relation(a, b);
+            m.output("one", one.mux(p, q));
+            m.output("other", other.mux(p, q));
+        });
+    }
+    expect_file!["snapshots/opposites.txt"].assert_eq(&costs);
+}
+
+/// Operators that come to less: a constant, an operand, a cheaper one.
+#[test]
+fn simpler_ways_to_say_it() {
+    let ways: [(&str, Way); 18] = [
+        ("c ? 1 : bit", |m, c, a, _| m.output("y", c.mux(m.lit(1, 1), a.msb()))),
+        ("c ? bit : 0", |m, c, a, _| m.output("y", c.mux(a.msb(), m.lit(1, 0)))),
+        ("c ? 0 : 1", |m, c, _, _| m.output("y", c.mux(m.lit(1, 0), m.lit(1, 1)))),
+        ("c ? 1 : 0", |m, c, _, _| m.output("y", c.mux(m.lit(1, 1), m.lit(1, 0)))),
+        ("c ? a : a", |m, c, a, _| m.output("y", c.mux(a, a))),
+        ("!c ? a : b", |m, c, a, b| m.output("y", (!c).mux(a, b))),
+        ("c ? a : c ? b : a + b", |m, c, a, b| m.output("y", c.mux(a, c.mux(b, a + b)))),
+        ("1 ? a : b", |m, _, a, b| m.output("y", m.lit(1, 1).mux(a, b))),
+        ("0 ? a : b", |m, _, a, b| m.output("y", m.lit(1, 0).mux(a, b))),
+        ("a == 0", |m, _, a, _| m.output("y", a.eq(0))),
+        ("c == 0, c == 1", |m, c, _, _| m.output("y", m.cat(&[c.eq(0), c.eq(1)]))),
+        ("!!a", |m, _, a, _| m.output("y", !!a)),
+        ("a & 0, a & ones, a | 0, a | ones", |m, _, a, _| {
+            m.output("y", m.cat(&[a & 0, a & 0xfffff, a | 0, a | 0xfffff]));
+        }),
+        ("a & a, a | a", |m, _, a, _| m.output("y", m.cat(&[a & a, a | a]))),
+        ("a + 0, 0 + a, a - 0", |m, _, a, _| {
+            m.output("y", m.cat(&[a + m.lit(20, 0), m.lit(20, 0) + a, a - m.lit(20, 0)]));
+        }),
+        ("bits of bits", |m, _, a, _| m.output("y", a.slice(17, 2).slice(9, 3))),
+        ("bits of extensions", |m, _, a, b| {
+            m.output("y", m.cat(&[a.sext(40).slice(9, 3), b.zext(40).slice(9, 3), b.zext(40).slice(39, 20)]));
+        }),
+        ("bits of parts", |m, _, a, b| m.output("y", m.cat(&[a, b]).slice(33, 22))),
+    ];
+    let mut costs = String::new();
+    for (name, way) in ways {
+        costs += &line(name, |m| {
+            let c = m.input("c", 1);
+            let [a, b] = inputs(m, 20, ["a", "b"]);
+            way(m, c, a, b);
+        });
+    }
+    expect_file!["snapshots/simpler.txt"].assert_eq(&costs);
+}
+
+/// An arm of a choice gets a branch from so many instructions on; those of more than 64 bits count for more.
+#[test]
+fn arms_with_branches() {
+    let mut costs = String::new();
+    for (width, sums) in [(20, 6), (20, 7), (20, 8), (20, 9), (63, 3), (64, 3), (65, 2), (65, 3)] {
+        costs += &line(&format!("an arm of {sums} sums of {width} bits"), |m| {
+            let c = m.input("c", 1);
+            let values: Vec<Signal> = (0..=sums).map(|i| m.input(&format!("a{i}"), width)).collect();
+            let sum = values[1..].iter().fold(values[0], |sum, value| sum + *value);
+            m.output("y", c.mux(sum, values[0]));
+        });
+    }
+    costs += &line("an arm that is read elsewhere", |m| {
+        let c = m.input("c", 1);
+        let values: Vec<Signal> = (0..=9).map(|i| m.input(&format!("a{i}"), 20)).collect();
+        let sum = values[1..].iter().fold(values[0], |sum, value| sum + *value);
+        m.output("y", c.mux(sum, values[0]));
+        m.output("sum", sum);
+    });
+    expect_file!["snapshots/arms.txt"].assert_eq(&costs);
+}
+
+/// Registers kept with their sign above their bits, or with zeros: as they are read more often.
+#[test]
+fn registers_with_signs() {
+    let readers: [(&str, fn(Signal<'_>) -> Signal<'_>); 8] = [
+        ("extended with its sign", |q| q.sext(30)),
+        ("shifted with its sign", |q| q.sar(3).zext(30)),
+        ("its sign", |q| q.msb().zext(30)),
+        ("its upper bits", |q| q.slice(19, 8).zext(30)),
+        ("extended with zeros", |q| q.zext(30)),
+        ("less than, signed", |q| q.slt(100).zext(30)),
+        ("its sum, with its sign", |q| (q + 5).sext(30)),
+        ("its lower bits", |q| q.slice(8, 2).zext(30)),
+    ];
+    let mut costs = String::new();
+    for (name, reader) in readers {
+        costs += &line(name, |m| {
+            let c = m.input("c", 1);
+            let [a, b] = inputs(m, 20, ["a", "b"]);
+            let register = m.reg("register", 20);
+            register.set(c.mux(register.q() + a, b));
+            m.output("y", reader(register.q()));
+        });
+    }
+    costs += &line("of parts, the first with its sign", |m| {
+        let [a, b] = inputs(m, 20, ["a", "b"]);
+        m.output("y", m.cat(&[a.sext(25), b]).sext(50));
+        m.output("z", m.cat(&[a.sext(25), b]).sext(70));
+    });
+    expect_file!["snapshots/signs.txt"].assert_eq(&costs);
+}
+
+/// Registers that change together share a branch; one that changes before it is read costs a copy.
+#[test]
+fn registers_that_change() {
+    let mut costs = String::new();
+    costs += &line("by the same bit", |m| {
+        let c = m.input("c", 1);
+        for i in 0..4 {
+            let [a, b] = [format!("a{i}"), format!("b{i}")].map(|name| m.input(&name, 20));
+            m.reg(&format!("r{i}"), 20).set(c.mux(a + b, b));
+        }
+    });
+    costs += &line("by the same bit, to values that are known", |m| {
+        let c = m.input("c", 1);
+        for i in 0..4 {
+            let [a, b] = [format!("a{i}"), format!("b{i}")].map(|name| m.input(&name, 20));
+            let value = c.mux(a, b);
+            m.reg(&format!("r{i}"), 20).set(value);
+            m.output(&format!("y{i}"), value);
+        }
+    });
+    costs += &line("one after the other", |m| {
+        let mut value = m.input("a", 20);
+        for i in 0..6 {
+            let register = m.reg(&format!("r{i}"), 20);
+            register.set(value);
+            value = register.q();
+        }
+        m.output("y", value);
+    });
+    costs += &line("one after the other, each by its own bit", |m| {
+        let mut value = m.input("a", 20);
+        for i in 0..6 {
+            let register = m.reg(&format!("r{i}"), 20);
+            register.when(m.input(&format!("c{i}"), 1), value);
+            value = register.q();
+        }
+        m.output("y", value);
+    });
+    costs += &line("around", |m| {
+        let bits = inputs(m, 1, ["c0", "c1"]);
+        let registers = [0, 1, 2, 3].map(|i| m.reg(&format!("r{i}"), 20));
+        for i in 0..4 {
+            registers[i].when(bits[i % 2], registers[(i + 1) % 4].q() + 1);
+        }
+        m.output("y", registers[0].q());
+    });
+    costs += &line("the same in every clock", |m| {
+        let a = m.input("a", 20);
+        for i in 0..3 {
+            let register = m.reg(&format!("r{i}"), 20).reset(0);
+            register.set(register.q() + a);
+            m.output(&format!("y{i}"), register.q());
+        }
+    });
+    costs += &line("read back from a memory", |m| {
+        let [write, read] = inputs(m, 1, ["write", "read"]);
+        let [to, from] = inputs(m, 3, ["to", "from"]);
+        let memory = m.memory("memory", 3, 8, 20).write(write, to, m.input("a", 20));
+        m.output("y", memory.read(read, from) + 1);
+        m.output("z", memory.read(read, to));
+    });
+    costs += &line("looked up", |m| {
+        let code = m.input("code", 4);
+        m.output("y", code.eq(3) | code.eq(5) | code.ge(12));
+        m.output("z", (code.zext(8) + 3) ^ 0x55);
+    });
+    expect_file!["snapshots/changes.txt"].assert_eq(&costs);
+}
