@@ -20,6 +20,7 @@ mod simplify;
 mod design;
 mod elaborate;
 mod equal;
+mod apart;
 
 mod groups;
 mod guard;

@@ -206,3 +206,34 @@ fn registers_that_change() {
     });
     expect_file!["snapshots/changes.txt"].assert_eq(&costs);
 }
+
+/// Registers in a unit of their own: a counter that its unit does not see, and what follows from registers that stay for a while.
+#[test]
+fn registers_apart() {
+    let mut costs = String::new();
+    for (name, hides) in [("a counter that a bit hides", true), ("a counter that is seen", false)] {
+        costs += &line(name, |m| {
+            let [go, load] = inputs(m, 1, ["go", "load"]);
+            let (count, adds) = (m.reg("count", 5), m.reg("adds", 1));
+            count.set(count.q() - 1).when(go, m.input("from", 5));
+            adds.when(count.q().eq(0), 0).when(go, 1);
+            let sum = m.reg("sum", 20);
+            sum.when(if hides { adds.q() } else { load }, sum.q() + count.q().zext(20));
+            m.output("y", sum.q());
+        });
+    }
+    for calm in [5, 6] {
+        costs += &line(&format!("{calm} differences of corners"), |m| {
+            let load = m.input("load", 1);
+            let corners =
+                [0, 1, 2, 3].map(|i| m.reg(&format!("r{i}"), 20).when(load, m.input(&format!("a{i}"), 20)));
+            for i in 0..calm {
+                let [a, b] = [corners[i % 4].q(), corners[(i + 1 + i / 4) % 4].q()];
+                let larger = a.lt(b).mux(b, a);
+                m.output(&format!("y{i}"), m.reg(&format!("d{i}"), 20).set(larger - b).q());
+            }
+            m.output("y", load);
+        });
+    }
+    expect_file!["snapshots/apart.txt"].assert_eq(&costs);
+}
