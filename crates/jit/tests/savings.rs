@@ -97,6 +97,20 @@ fn arms_with_branches() {
             m.output("y", c.mux(sum, values[0]));
         });
     }
+    for sums in [10, 11] {
+        costs += &line(&format!("a bit and one of {sums} sums"), |m| {
+            let c = m.input("c", 1);
+            let values: Vec<Signal> = (0..=sums).map(|i| m.input(&format!("a{i}"), 20)).collect();
+            let sum = values[1..].iter().fold(values[0], |sum, value| sum + *value);
+            m.output("y", c & sum.lt(values[0]));
+        });
+    }
+    costs += &line("an arm that reads a sum of 6 twice", |m| {
+        let c = m.input("c", 1);
+        let values: Vec<Signal> = (0..=6).map(|i| m.input(&format!("a{i}"), 20)).collect();
+        let sum = values[1..].iter().fold(values[0], |sum, value| sum + *value);
+        m.output("y", c.mux(sum ^ sum.shl(1), values[0]));
+    });
     costs += &line("an arm that is read elsewhere", |m| {
         let c = m.input("c", 1);
         let values: Vec<Signal> = (0..=9).map(|i| m.input(&format!("a{i}"), 20)).collect();
@@ -191,6 +205,14 @@ fn registers_that_change() {
             register.set(register.q() + a);
             m.output(&format!("y{i}"), register.q());
         }
+    });
+    costs += &line("in every clock, and one to another value by a bit", |m| {
+        let [c, a] = [m.input("c", 1), m.input("a", 20)];
+        let registers = [0, 1, 2].map(|i| m.reg(&format!("r{i}"), 20));
+        registers[0].set(registers[1].q()).when(c, a);
+        registers[1].set(registers[2].q() + 1);
+        registers[2].when(a.bit(0), registers[0].q() ^ registers[1].q());
+        m.output("y", registers[0].q());
     });
     costs += &line("read back from a memory", |m| {
         let [write, read] = inputs(m, 1, ["write", "read"]);
