@@ -124,12 +124,14 @@ fn registers_apart_from_their_unit() {
         for _ in 0..25 {
             let [go, load] = [0.4, 0.3].map(|often| random.random_bool(often));
             pair.set("data", random.random_range(0..512));
-            (pair.set("go", go.into()), pair.set("load", load.into()));
+            pair.set("go", go.into());
+            pair.set("load", load.into());
             for _ in 0..random.random_range(1..=120) {
                 pair.compare(cycle);
                 pair.tick(cycle);
                 if random.random_bool(0.8) {
-                    (pair.set("go", 0), pair.set("load", 0));
+                    pair.set("go", 0);
+                    pair.set("load", 0);
                 }
                 cycle += 1;
             }

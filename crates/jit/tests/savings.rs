@@ -2,12 +2,14 @@
 //! None changes a value, so nothing else would see one undone.
 //! After a change that is meant: `UPDATE_EXPECT=1 cargo test --release -p edgewalk-jit --test savings`.
 #![allow(clippy::unwrap_used)] // a test may
+#![allow(clippy::erasing_op)] // that it comes to 0 is what is looked at
 
 use edgewalk_jit::{Cost, Simulator};
 use edgewalk_netlist::{Module, Signal};
 use expect_test::expect_file;
 
 type Relation = for<'m> fn(Signal<'m>, Signal<'m>) -> [Signal<'m>; 2];
+type Reader = for<'m> fn(Signal<'m>) -> Signal<'m>;
 type Way = for<'m> fn(&'m Module, Signal<'m>, Signal<'m>, Signal<'m>);
 
 /// What a clock of a circuit costs, as a line.
@@ -124,7 +126,7 @@ fn arms_with_branches() {
 /// Registers kept with their sign above their bits, or with zeros: as they are read more often.
 #[test]
 fn registers_with_signs() {
-    let readers: [(&str, fn(Signal<'_>) -> Signal<'_>); 8] = [
+    let readers: [(&str, Reader); 8] = [
         ("extended with its sign", |q| q.sext(30)),
         ("shifted with its sign", |q| q.sar(3).zext(30)),
         ("its sign", |q| q.msb().zext(30)),
