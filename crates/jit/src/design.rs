@@ -25,7 +25,8 @@ pub(crate) struct Design {
 /// A register: `reset`, else the last update whose condition holds, else as it was.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Register {
-    /// The unit that has it: 0 is the top module, each of its instances is one, with all within.
+    /// The unit that has it: 0 is the top module, each of its instances is one, with all within; those beyond hold what was
+    /// taken apart.
     pub unit: usize,
     pub q: ValueId,
     pub reset: Option<u128>,
