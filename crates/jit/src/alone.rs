@@ -1,5 +1,8 @@
-//! What a value alone needs within a step: the tree above it that nothing else there reads. An arm of a choice with a large one is
-//! computed only where the choice takes it. What other steps need of it too they work out for themselves.
+//! What a value alone needs within a step: all that nothing else there reads. An arm of a choice that needs much is computed only
+//! where the choice takes it, and so is an operand of an `And` if the other one is 1. What other steps need of it too they work
+//! out for themselves.
+
+use std::collections::BTreeMap;
 
 use edgewalk_netlist::Op;
 
@@ -9,6 +12,9 @@ use crate::tables::Tables;
 /// An arm of so many instructions or more gets a branch: about what a branch costs that is guessed wrong now and then.
 const LEAST: u32 = 8;
 
+/// The same for what is asked only if another bit is 1: one that is 1 half of the time is guessed wrong more often.
+const LEAST_ASKED: u32 = 12;
+
 /// Choices in arms of choices have branches to this depth, as lowering calls itself for each.
 const DEEPEST: u32 = 64;
 
@@ -17,12 +23,26 @@ const DEEPEST: u32 = 64;
 struct Tree {
     /// How often the step reads it: 0 if it has not to be worked out for it.
     readers: u32,
-    /// Instructions, roughly, for it and for what it alone needs.
-    cost: u32,
-    /// Choices with branches, one in the other's arm, in what it alone needs.
+    /// Choices with branches, one in the other's arm, at most, in what it needs.
     depth: u32,
-    /// It is a choice with branches.
-    branches: bool,
+    /// An arm that costs much: the value is a choice with branches, or an `And` of which this operand is asked only if the other
+    /// is 1.
+    dear: Option<ValueId>,
+}
+
+/// What is computed only where a bit says so.
+pub(crate) struct Choice {
+    pub bit: ValueId,
+    /// If it is 1.
+    pub one: ValueId,
+    /// If it is 0; else the value is 0 then.
+    pub zero: Option<ValueId>,
+}
+
+impl Choice {
+    pub fn arms(&self) -> impl Iterator<Item = ValueId> + use<> {
+        [self.one].into_iter().chain(self.zero)
+    }
 }
 
 /// What each value alone needs in the step that was looked at last.
@@ -57,9 +77,7 @@ impl Alone {
             *readers += 1;
             if *readers == 1 {
                 self.needed.push(value);
-                let operands = tables.operands(graph, value);
-                let first = |i: &usize| !operands[..*i].contains(&operands[*i]);
-                open.extend((0..operands.len()).filter(first).map(|i| operands[i]));
+                open.extend(once_each(tables.operands(graph, value)));
             }
         }
         self.needed.sort_unstable(); // operands first
@@ -68,43 +86,92 @@ impl Alone {
         }
     }
 
-    /// Whether an arm of this choice is to be computed only where it is taken.
-    pub fn branches(&self, choice: ValueId) -> bool {
-        self.trees[choice.index()].branches
+    /// The choice that this value is, if an arm is to be computed only where it is taken.
+    pub fn choice(&self, graph: &Graph, value: ValueId) -> Option<Choice> {
+        let dear = self.trees[value.index()].dear?;
+        match (graph.kind(value), graph.operands(value)) {
+            (Kind::Op(Op::Mux, _), &[bit, one, zero]) => Some(Choice { bit, one, zero: Some(zero) }),
+            (_, &[a, b]) if dear == a => Some(Choice { bit: b, one: a, zero: None }),
+            (_, &[a, b]) => Some(Choice { bit: a, one: b, zero: None }),
+            _ => None,
+        }
     }
 
     /// What has to be there before an operator: its operands; of a choice with branches the condition, and what an arm shares
     /// with others.
     pub fn before(&self, graph: &Graph, tables: &Tables, id: ValueId) -> Vec<ValueId> {
-        let operands = tables.operands(graph, id);
-        if !self.branches(id) {
-            return operands.to_vec();
-        }
-        let mut before = vec![operands[0]];
-        let mut open = operands[1..].to_vec();
-        while let Some(value) = open.pop() {
-            match self.trees[value.index()].readers {
-                0 => {}
-                1 => open.extend(tables.operands(graph, value)),
-                _ => before.push(value),
-            }
+        let Some(choice) = self.choice(graph, id) else { return tables.operands(graph, id).to_vec() };
+        let mut before = vec![choice.bit];
+        for arm in choice.arms() {
+            self.walk(graph, tables, arm, |value, is_own| {
+                if !is_own {
+                    before.push(value);
+                }
+                true
+            });
         }
         before
     }
 
+    /// From an arm down, readers first: each value that has to be worked out, and whether only the arm needs it, as far as all
+    /// that read it are such. Until `next` says no.
+    fn walk(
+        &self,
+        graph: &Graph,
+        tables: &Tables,
+        arm: ValueId,
+        mut next: impl FnMut(ValueId, bool) -> bool,
+    ) {
+        let mut open = BTreeMap::from([(arm, 1)]);
+        while let Some((value, readers)) = open.pop_last() {
+            let all = self.trees[value.index()].readers;
+            if all == 0 {
+                continue;
+            }
+            if !next(value, readers == all) {
+                return;
+            }
+            if readers == all {
+                once_each(tables.operands(graph, value))
+                    .for_each(|operand| *open.entry(operand).or_insert(0) += 1);
+            }
+        }
+    }
+
+    /// Whether what only this arm needs costs so much, in instructions, roughly.
+    fn is_dear(&self, graph: &Graph, tables: &Tables, arm: ValueId, least: u32) -> bool {
+        let mut cost = 0;
+        self.walk(graph, tables, arm, |value, is_own| {
+            let widest = graph.operands(value).iter().chain([&value]).map(|value| graph.width(*value)).max();
+            cost += if !is_own {
+                0
+            } else if widest > Some(64) {
+                3
+            } else {
+                1
+            };
+            cost < least
+        });
+        cost >= least
+    }
+
     /// From the trees of its operands.
     fn tree(&self, graph: &Graph, tables: &Tables, id: ValueId) -> Tree {
-        let Tree { readers, .. } = self.trees[id.index()];
         let operands = tables.operands(graph, id);
-        let own = |operand: &ValueId| Some(self.trees[operand.index()]).filter(|tree| tree.readers == 1);
-        let widest = operands.iter().chain([&id]).map(|value| graph.width(*value)).max();
-        let cost = if widest > Some(64) { 3 } else { 1 };
-        let cost =
-            operands.iter().filter_map(own).fold(cost, |cost: u32, tree| cost.saturating_add(tree.cost));
-        let depth = operands.iter().filter_map(own).map(|tree| tree.depth).max().unwrap_or(0);
-        let is_dear = |arm: &ValueId| own(arm).is_some_and(|tree| tree.cost >= LEAST);
-        let chooses = matches!(graph.kind(id), Kind::Op(Op::Mux, _)) && tables.get(id).is_none();
-        let branches = chooses && depth < DEEPEST && operands[1..].iter().any(is_dear);
-        Tree { readers, cost, depth: depth + u32::from(branches), branches }
+        let depth = operands.iter().map(|operand| self.trees[operand.index()].depth).max().unwrap_or(0);
+        let (arms, least) = match graph.kind(id) {
+            _ if depth >= DEEPEST || tables.get(id).is_some() => (&[][..], 0),
+            Kind::Op(Op::Mux, _) => (&operands[1..], LEAST),
+            Kind::Op(Op::And, _) if graph.width(id) == 1 => (operands, LEAST_ASKED),
+            _ => (&[][..], 0),
+        };
+        let dear = arms.iter().copied().find(|arm| self.is_dear(graph, tables, *arm, least));
+        Tree { dear, depth: depth + u32::from(dear.is_some()), ..self.trees[id.index()] }
     }
+}
+
+/// The operands, none of them twice.
+fn once_each(operands: &[ValueId]) -> impl Iterator<Item = ValueId> {
+    let first = |at: &usize| !operands[..*at].contains(&operands[*at]);
+    (0..operands.len()).filter(first).map(|at| operands[at])
 }

@@ -16,6 +16,8 @@ pub(crate) struct Design {
     pub outputs: Vec<(String, ValueId)>,
     pub registers: Vec<Register>,
     pub memories: Vec<Memory>,
+    /// Those that are in a unit of their own.
+    pub runners: Vec<Runner>,
     /// Every named signal by its path.
     pub signals: BTreeMap<String, ValueId>,
 }
@@ -23,12 +25,23 @@ pub(crate) struct Design {
 /// A register: `reset`, else the last update whose condition holds, else as it was.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Register {
-    /// The unit that has it: 0 is the top module, each of its instances is one, with all within.
+    /// The unit that has it: 0 is the top module, each of its instances is one, with all within; those beyond hold what was
+    /// taken apart.
     pub unit: usize,
     pub q: ValueId,
     pub reset: Option<u128>,
     /// Condition and value.
     pub updates: Vec<(Option<ValueId>, ValueId)>,
+}
+
+/// A register that changes in every clock, but of which its unit sees nothing most of the time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Runner {
+    pub q: ValueId,
+    /// The unit that it is from.
+    pub sees: usize,
+    /// A register of one bit: while it is 0, nothing in that unit follows from the runner.
+    pub mask: ValueId,
 }
 
 /// A memory; its reads see the words from before the writes, a later write overrules an earlier one.

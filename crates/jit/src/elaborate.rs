@@ -20,6 +20,7 @@ pub(crate) fn elaborate(netlist: &Netlist) -> Design {
         outputs: Vec::new(),
         registers: Vec::new(),
         memories: Vec::new(),
+        runners: Vec::new(),
         signals: BTreeMap::new(),
     };
     let mut elaboration = Elaboration { design, scopes: Vec::new() };

@@ -138,6 +138,7 @@ fn without(design: &Design, equals: &HashMap<ValueId, ValueId>) -> Option<Design
         outputs: design.outputs.iter().map(|(name, value)| (name.clone(), renewed(*value))).collect(),
         registers,
         memories: memories.collect(),
+        runners: Vec::new(),
         signals: design.signals.iter().map(named).collect(),
         graph,
     })

@@ -11,11 +11,11 @@
 //! **compared**: with a copy of what they were, all of the unit at once, and only when no other change has set the counter for
 //! some clocks, which is seldom while the unit has work; those of other units where they are stored. A bit that follows from
 //! other units alone, as a `ready` does, is a **gate**: it is worked out in every clock and watched in place of the registers
-//! behind it, which change more often.
+//! behind it, which change more often. A runner (`apart`) is watched only while its mask is 1.
 
 use std::collections::HashMap;
 
-use crate::design::Design;
+use crate::design::{Design, Runner};
 use crate::effect::{Set, unite};
 use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
@@ -37,6 +37,8 @@ const UNASKED: u8 = 4;
 pub(crate) struct Wakes {
     /// The units that have to know that a register or an input has changed.
     stored: HashMap<ValueId, u64>,
+    /// Of each runner its mask, and the unit that has to know of it while the mask is 1.
+    masks: HashMap<ValueId, (ValueId, u64)>,
     /// Of each unit, the clocks that it works on after a change; 0 for one that never stands still.
     pub clocks: Vec<u8>,
     /// The units that can.
@@ -51,6 +53,11 @@ impl Wakes {
     /// The units that have to know that this register or input has changed.
     pub fn of(&self, stored: ValueId) -> u64 {
         self.stored.get(&stored).copied().unwrap_or(0)
+    }
+
+    /// The mask of a runner, and the unit that works on while it is 1.
+    pub fn mask(&self, runner: ValueId) -> Option<(ValueId, u64)> {
+        self.masks.get(&runner).copied()
     }
 
     /// Whether the unit can stand still.
@@ -126,18 +133,24 @@ pub(crate) fn wakes(design: &Design, readers: &Readers, groups: &[Group], steps:
     let units = nodes.iter().map(|node| node.unit + 1).max().unwrap_or(0);
     let none = vec![Vec::new(); units];
     let (stored, clocks) = (HashMap::new(), vec![0; units]);
-    let mut wakes = Wakes { stored, clocks, resting: 0, gates: none.clone(), compared: none };
+    let masks = HashMap::new();
+    let mut wakes = Wakes { stored, masks, clocks, resting: 0, gates: none.clone(), compared: none };
     let mut watched: Vec<(Set, usize)> = Vec::new();
     for unit in 0..units.min(MOST) {
         let own: Vec<&Node> = nodes.iter().filter(|node| node.unit == unit).collect();
         let (others, depth) = followers(readers, &own);
         let (mut reads, gates) = reads_of_unit(design, readers, groups, &own, unit);
-        if depth <= LONGEST && !own.is_empty() {
+        let runs = design.runners.iter().any(|runner| own.iter().any(|node| node.q == runner.q));
+        if depth <= LONGEST && !own.is_empty() && !runs {
             // One clock for seeds that follow from the others, one for a change earlier in the same clock, one to be safe.
             wakes.clocks[unit] = depth as u8 + 3 + UNASKED;
             wakes.resting |= 1 << unit;
             wakes.gates[unit] = gates;
             reads.iter_mut().zip(&others).for_each(|(reads, other)| *reads &= !other);
+            for Runner { q, mask, .. } in design.runners.iter().filter(|runner| runner.sees == unit) {
+                readers.number(*q).into_iter().for_each(|number| reads[number / 64] &= !(1 << (number % 64)));
+                wakes.masks.insert(*q, (*mask, 1 << unit));
+            }
             watched.push((reads, unit));
         }
     }
@@ -148,6 +161,10 @@ pub(crate) fn wakes(design: &Design, readers: &Readers, groups: &[Group], steps:
         wakes.stored.insert(id, units.fold(0, |all, (_, unit)| all | 1 << unit));
     }
     wakes.compare(design, steps);
+    let Wakes { clocks, compared, .. } = &mut wakes;
+    let none_asked =
+        clocks.iter_mut().zip(compared).filter(|(clocks, seeds)| **clocks > 0 && seeds.is_empty());
+    none_asked.for_each(|(clocks, _)| *clocks -= UNASKED);
     wakes
 }
 

@@ -105,9 +105,11 @@ impl Nesting<'_> {
     }
 }
 
-/// Of the conditions of the groups that have several, those within which most groups change.
+/// Of the conditions of the groups that have several, those within which most groups change. One that always holds is no choice:
+/// all that changes in every clock would be within it, apart from the rest.
 fn widest_choice(graph: &Graph, open: &[Open]) -> Option<BTreeSet<Literal>> {
-    let several = open.iter().filter(|o| o.needs.len() > 1 && shared(o).is_empty());
+    let several =
+        open.iter().filter(|o| o.needs.len() > 1 && shared(o).is_empty() && !o.group.is_unconditional(graph));
     let choices = several.map(|o| o.group.conditions.iter().map(|c| Literal::of(graph, *c)).collect());
     let within = |choice: &BTreeSet<Literal>| open.iter().filter(|o| o.is_within(choice)).count();
     let widest = choices.map(|choice| (within(&choice), choice)).max_by_key(|(count, _)| *count);

@@ -1,7 +1,7 @@
 //! Values that several steps of a clock need: they are kept in the state from the first that needs them on. In a register of
 //! the processor they would not stay till then.
 
-use crate::alone::Alone;
+use crate::alone::{Alone, Choice};
 use crate::design::Design;
 use crate::graph::{Kind, ValueId};
 use crate::groups::{Group, Member};
@@ -105,9 +105,10 @@ impl Walk<'_> {
             if !matches!(self.design.graph.kind(value), Kind::Op(..)) {
                 continue;
             }
-            let operands = self.tables.operands(&self.design.graph, value);
+            let choice = self.alone.choice(&self.design.graph, value);
             if arms_are_left {
-                operands[1..].iter().for_each(|arm| self.aside(|walk| walk.need(*arm)));
+                let arms = choice.iter().flat_map(Choice::arms);
+                arms.for_each(|arm| self.aside(|walk| walk.need(arm)));
                 continue;
             }
             let known = self.known[value.index()];
@@ -121,7 +122,7 @@ impl Walk<'_> {
                 self.known[value.index()] = self.step;
                 self.undo.push((value, 0));
             }
-            if self.alone.branches(value) {
+            if choice.is_some() {
                 open.push((value, true));
             }
             let before = self.alone.before(&self.design.graph, self.tables, value);

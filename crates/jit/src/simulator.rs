@@ -6,6 +6,7 @@ use std::sync::{Arc, OnceLock};
 use edgewalk_netlist::ops::mask;
 use edgewalk_netlist::{Netlist, SimError};
 
+use crate::apart::apart;
 use crate::code::{Code, Cost};
 use crate::elaborate::elaborate;
 use crate::equal::without_equals;
@@ -89,7 +90,7 @@ impl Simulator {
     /// # Errors
     /// If there is no code generator for this machine, or the netlist is larger than it can be.
     pub fn new(netlist: &Netlist) -> Result<Simulator, JitError> {
-        let mut design = without_equals(elaborate(netlist));
+        let mut design = apart(without_equals(elaborate(netlist)));
         let groups = groups(&mut design);
         let steps = schedule(&mut design, &groups);
         let readers = Readers::of(&design, &steps);

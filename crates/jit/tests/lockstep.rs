@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)] // a test may
 
 mod common {
+    pub mod apart;
     pub mod carry;
     pub mod enables;
     pub mod pair;
@@ -110,6 +111,35 @@ fn units_that_stand_still() {
     }
     println!("{} values compared", pair.compared);
     assert!(pair.compared > 300_000);
+}
+
+/// Counters that run on while their unit stands still, and registers that stand still while it works.
+#[test]
+fn registers_apart_from_their_unit() {
+    let mut random = Pcg64Mcg::new(9);
+    let mut compared = 0;
+    for _ in 0..60 {
+        let mut pair = Pair::new(&common::apart::module(&mut random));
+        let mut cycle = 0;
+        for _ in 0..25 {
+            let [go, load] = [0.4, 0.3].map(|often| random.random_bool(often));
+            pair.set("data", random.random_range(0..512));
+            pair.set("go", go.into());
+            pair.set("load", load.into());
+            for _ in 0..random.random_range(1..=120) {
+                pair.compare(cycle);
+                pair.tick(cycle);
+                if random.random_bool(0.8) {
+                    pair.set("go", 0);
+                    pair.set("load", 0);
+                }
+                cycle += 1;
+            }
+        }
+        compared += pair.compared;
+    }
+    println!("{compared} values compared");
+    assert!(compared > 1_000_000);
 }
 
 #[test]

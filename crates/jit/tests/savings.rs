@@ -2,12 +2,14 @@
 //! None changes a value, so nothing else would see one undone.
 //! After a change that is meant: `UPDATE_EXPECT=1 cargo test --release -p edgewalk-jit --test savings`.
 #![allow(clippy::unwrap_used)] // a test may
+#![allow(clippy::erasing_op)] // that it comes to 0 is what is looked at
 
 use edgewalk_jit::{Cost, Simulator};
 use edgewalk_netlist::{Module, Signal};
 use expect_test::expect_file;
 
 type Relation = for<'m> fn(Signal<'m>, Signal<'m>) -> [Signal<'m>; 2];
+type Reader = for<'m> fn(Signal<'m>) -> Signal<'m>;
 type Way = for<'m> fn(&'m Module, Signal<'m>, Signal<'m>, Signal<'m>);
 
 /// What a clock of a circuit costs, as a line.
@@ -97,6 +99,20 @@ fn arms_with_branches() {
             m.output("y", c.mux(sum, values[0]));
         });
     }
+    for sums in [10, 11] {
+        costs += &line(&format!("a bit and one of {sums} sums"), |m| {
+            let c = m.input("c", 1);
+            let values: Vec<Signal> = (0..=sums).map(|i| m.input(&format!("a{i}"), 20)).collect();
+            let sum = values[1..].iter().fold(values[0], |sum, value| sum + *value);
+            m.output("y", c & sum.lt(values[0]));
+        });
+    }
+    costs += &line("an arm that reads a sum of 6 twice", |m| {
+        let c = m.input("c", 1);
+        let values: Vec<Signal> = (0..=6).map(|i| m.input(&format!("a{i}"), 20)).collect();
+        let sum = values[1..].iter().fold(values[0], |sum, value| sum + *value);
+        m.output("y", c.mux(sum ^ sum.shl(1), values[0]));
+    });
     costs += &line("an arm that is read elsewhere", |m| {
         let c = m.input("c", 1);
         let values: Vec<Signal> = (0..=9).map(|i| m.input(&format!("a{i}"), 20)).collect();
@@ -110,7 +126,7 @@ fn arms_with_branches() {
 /// Registers kept with their sign above their bits, or with zeros: as they are read more often.
 #[test]
 fn registers_with_signs() {
-    let readers: [(&str, fn(Signal<'_>) -> Signal<'_>); 8] = [
+    let readers: [(&str, Reader); 8] = [
         ("extended with its sign", |q| q.sext(30)),
         ("shifted with its sign", |q| q.sar(3).zext(30)),
         ("its sign", |q| q.msb().zext(30)),
@@ -192,6 +208,14 @@ fn registers_that_change() {
             m.output(&format!("y{i}"), register.q());
         }
     });
+    costs += &line("in every clock, and one to another value by a bit", |m| {
+        let [c, a] = [m.input("c", 1), m.input("a", 20)];
+        let registers = [0, 1, 2].map(|i| m.reg(&format!("r{i}"), 20));
+        registers[0].set(registers[1].q()).when(c, a);
+        registers[1].set(registers[2].q() + 1);
+        registers[2].when(a.bit(0), registers[0].q() ^ registers[1].q());
+        m.output("y", registers[0].q());
+    });
     costs += &line("read back from a memory", |m| {
         let [write, read] = inputs(m, 1, ["write", "read"]);
         let [to, from] = inputs(m, 3, ["to", "from"]);
@@ -205,4 +229,35 @@ fn registers_that_change() {
         m.output("z", (code.zext(8) + 3) ^ 0x55);
     });
     expect_file!["snapshots/changes.txt"].assert_eq(&costs);
+}
+
+/// Registers in a unit of their own: a counter that its unit does not see, and what follows from registers that stay for a while.
+#[test]
+fn registers_apart() {
+    let mut costs = String::new();
+    for (name, hides) in [("a counter that a bit hides", true), ("a counter that is seen", false)] {
+        costs += &line(name, |m| {
+            let [go, load] = inputs(m, 1, ["go", "load"]);
+            let (count, adds) = (m.reg("count", 5), m.reg("adds", 1));
+            count.set(count.q() - 1).when(go, m.input("from", 5));
+            adds.when(count.q().eq(0), 0).when(go, 1);
+            let sum = m.reg("sum", 20);
+            sum.when(if hides { adds.q() } else { load }, sum.q() + count.q().zext(20));
+            m.output("y", sum.q());
+        });
+    }
+    for calm in [5, 6] {
+        costs += &line(&format!("{calm} differences of corners"), |m| {
+            let load = m.input("load", 1);
+            let corners =
+                [0, 1, 2, 3].map(|i| m.reg(&format!("r{i}"), 20).when(load, m.input(&format!("a{i}"), 20)));
+            for i in 0..calm {
+                let [a, b] = [corners[i % 4].q(), corners[(i + 1 + i / 4) % 4].q()];
+                let larger = a.lt(b).mux(b, a);
+                m.output(&format!("y{i}"), m.reg(&format!("d{i}"), 20).set(larger - b).q());
+            }
+            m.output("y", load);
+        });
+    }
+    expect_file!["snapshots/apart.txt"].assert_eq(&costs);
 }

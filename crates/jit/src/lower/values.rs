@@ -4,14 +4,13 @@ use std::collections::HashMap;
 
 use cranelift_codegen::cursor::{Cursor, FuncCursor};
 use cranelift_codegen::ir::{InstBuilder, MemFlagsData, Type, Value, types};
-use edgewalk_netlist::Op;
 use edgewalk_netlist::ops::mask;
 
 use super::lowered::{Lowered, lane};
 use super::operators;
 use super::program::Plan;
 use super::registers::{Branch, Change};
-use crate::alone::Alone;
+use crate::alone::{Alone, Choice};
 use crate::graph::{Graph, Kind, ValueId};
 use crate::layout::{Layout, Place};
 use crate::quiet::Wakes;
@@ -231,8 +230,9 @@ impl<'a> Values<'a> {
     }
 
     /// A choice whose arms are computed only where they are taken.
-    fn chosen(&mut self, condition: ValueId, arms: [ValueId; 2], width: u32) -> Lowered {
-        let condition = self.zero(condition);
+    fn chosen(&mut self, Choice { bit, one, zero }: Choice, width: u32) -> Lowered {
+        let condition = self.zero(bit);
+        let arms = [Some(one), zero];
         let blocks = arms.map(|_| self.cursor.func.dfg.make_block());
         let next = self.cursor.func.dfg.make_block();
         let either = self.cursor.func.dfg.append_block_param(next, lane(width));
@@ -241,7 +241,10 @@ impl<'a> Values<'a> {
         for (arm, block) in arms.into_iter().zip(blocks) {
             let mark = self.enter();
             self.cursor.insert_block(block);
-            let lowered = self.any(arm);
+            let lowered = match arm {
+                Some(arm) => self.any(arm),
+                None => Lowered::below(self.constant(lane(width), 0), 0),
+            };
             of_arms.push(lowered);
             self.cursor.ins().jump(next, &[lowered.any.into()]);
             self.leave(mark);
@@ -255,10 +258,10 @@ impl<'a> Values<'a> {
         if let Some(table) = self.tables.get(value) {
             return self.looked_up(table, width);
         }
+        if let Some(choice) = self.alone.choice(self.graph, value) {
+            return self.chosen(choice, width);
+        }
         match self.graph.kind(value) {
-            Kind::Op(Op::Mux, operands) if self.alone.branches(value) => {
-                self.chosen(operands[0], [operands[1], operands[2]], width)
-            }
             Kind::Stored if self.signs.has(value) => Lowered::signed(self.stored(value, width), width),
             Kind::Stored => Lowered::below(self.stored(value, width), width),
             Kind::Constant(constant) => {

@@ -10,8 +10,13 @@ use crate::graph::ValueId;
 use crate::layout::Compared;
 
 impl Values<'_> {
-    /// The units have to know if the register, which is to be stored, changes.
+    /// The units have to know if the register, which is to be stored, changes; the one of a runner while it is not masked.
     pub fn compare(&mut self, register: ValueId, value: Value, units: u64) {
+        if let Some((mask, unit)) = self.wakes.mask(register) {
+            let mask = self.zero(mask);
+            let mask = operators::resized(self, mask, types::I64);
+            self.differ(mask, unit);
+        }
         let Some(place) = self.layout.of(register).filter(|_| self.wakes.units(units).next().is_some())
         else {
             return;
@@ -25,6 +30,11 @@ impl Values<'_> {
             difference = self.cursor.ins().bor(low, high);
         }
         let difference = operators::resized(self, difference, types::I64);
+        self.differ(difference, units);
+    }
+
+    /// The units have to know if this is not 0.
+    fn differ(&mut self, difference: Value, units: u64) {
         let branch = self.branches.len() - 1;
         let same = self.branches[branch].differences.iter().position(|(others, _)| *others == units);
         match same {
