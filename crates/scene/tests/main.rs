@@ -5,6 +5,7 @@ mod common;
 mod builtin;
 mod clipping;
 mod gltf_files;
+mod light_views;
 mod materials;
 mod obj_files;
 mod pixel_shading;
