@@ -72,6 +72,24 @@ fn every_engine_says_how_fast_it_is() {
     }
 }
 
+/// What is said of an engine that draws a part only: how large it is; of the others nothing.
+#[test]
+fn an_engine_that_draws_a_part_says_which() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = String::from("size 640 480\n");
+    (0..9)
+        .for_each(|i| writeln!(text, "T 0 {i} 0.5 1 0 0 0  639 9 0.5 0 1 0 0  30 479 0.5 0 0 1 0").unwrap());
+    std::fs::write(folder.path().join("large.tri"), text).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_edgewalk"));
+    command.current_dir(folder.path());
+    command.args(["bench", "large.tri", "--repeat", "1", "--engine", "fast,tick,interpreter"]);
+    let output = command.output().unwrap();
+    let told = String::from_utf8(output.stdout).unwrap();
+    let line = |engine: &str| told.lines().find(|line| line.starts_with(engine)).unwrap();
+    assert!(line("interpreter").contains("  first 1 triangles, "), "{told}");
+    assert!(["fast", "tick"].iter().all(|engine| !line(engine).contains("first")), "{told}");
+}
+
 /// Terms, tables, roots and texels from the host: every engine takes the same cycles and makes the same writes.
 #[test]
 fn machines_that_shade_take_part() {

@@ -77,16 +77,16 @@ fn the_lesson_needs_no_scene() {
 #[test]
 fn each_channel_is_within_its_bound_of_the_truth() {
     let folder = tempfile::tempdir().expect("a folder");
-    let own = TRIANGLE.replace("T 0", "extra 1\nT 0") + "X -30 0 200.5\n";
+    let own = TRIANGLE.replace("T 0", "extra 2\nT 0") + "X -30 0.25 0 1 200.5 0.5\n";
     std::fs::write(folder.path().join("t.tri"), own).expect("written");
-    let signed =
-        ["--set", "channels.extra=1", "--set", "channels.e0_kind=signed", "--set", "channels.e0_bits=9"];
-    let page = replay(folder.path(), &[&["replay", "t.tri", "--out", "t.json", "-q"], &signed[..]].concat());
+    let own = "channels.extra=2 channels.e0_kind=signed channels.e0_bits=9 channels.e1_kind=unorm channels.e1_bits=10";
+    let own: Vec<&str> = own.split(' ').flat_map(|setting| ["--set", setting]).collect();
+    let page = replay(folder.path(), &[&["replay", "t.tri", "--out", "t.json", "-q"], &own[..]].concat());
     let kinds = page["tokens"].as_array().expect("kinds of tokens");
     let fragment = kinds.iter().find(|kind| kind["name"] == "fragment").expect("fragments");
     let truth = fragment["truth"].as_array().expect("channels");
     let named: Vec<&str> = truth.iter().filter_map(|channel| channel["field"].as_str()).collect();
-    assert_eq!(named, ["z", "r", "g", "b", "e0"]);
+    assert_eq!(named, ["z", "r", "g", "b", "e0", "e1"]);
     for channel in truth {
         let [largest, bound] = ["largest", "bound"].map(|key| channel[key].as_f64().expect("a number"));
         assert!(largest > 0.2 && largest <= bound + 1.0 / 1024.0, "{channel}");

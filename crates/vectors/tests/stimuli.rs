@@ -12,13 +12,14 @@ use sha2::{Digest, Sha256};
 use crate::common;
 
 /// Machines with everything that a suite looks at.
-const MACHINES: [&str; 12] = [
+const MACHINES: [&str; 13] = [
     "small",
     "textbook",
     "tiny",
     "wide_words",
     "interpolated_interlock_bit_by_bit",
     "and",
+    "scale_five_texels_tags_one_extra",
     "perspective_pipelined_scale_tags",
     "own_map_larger_than_the_screen",
     "own_map_smaller_perspective_constant_kt_transmits",
