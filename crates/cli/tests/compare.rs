@@ -1,7 +1,7 @@
 //! `edgewalk compare` as a user runs it.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use crate::support::{edgewalk, names, run};
+use crate::support::{colors, edgewalk, names, run};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -47,6 +47,12 @@ fn what_differs_is_told_and_nothing_else() {
         "{}",
         bits["pixels"]
     );
+    // Pictures are of 8 bits, so their files have the very difference.
+    let [a, b] =
+        ["a.png", "b.png"].map(|name| colors(&folder.path().join("out/compare").join(name)).concat());
+    let apart = a.iter().zip(&b).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
+    let largest = bits["pixels"]["largest_color_difference"].as_f64().unwrap();
+    assert!(apart > 0 && (largest * 255.0 - f64::from(apart)).abs() < 1e-9, "{apart}: {largest}");
     let same = compare(folder.path(), &["default", "default", "sphere", "--stalls", "dram"]);
     assert_eq!((&same["keys"], &same["figures"]), (&json!({}), &json!({})));
     assert!(

@@ -128,14 +128,27 @@ fn several_lights_are_drawn_one_after_the_other_and_added() {
 #[test]
 fn explain_walks_the_steps_of_the_light() {
     let folder = tempfile::tempdir().unwrap();
-    let (mut checked, mut dark, mut cut) = (0, 0, 0);
-    for (light, [x, y]) in [(BULB, [40, 30]), (FLOOD, [46, 33]), (FLOOD, [58, 28]), (FLOOD, [20, 60])] {
+    let (mut checked, mut dark, mut edge, mut cut) = (0, 0, 0, 0);
+    // So narrow that in the machine's numbers its edge lies on its axis: what is on the edge is lit.
+    let narrow = FLOOD.replace("cone = 30", "cone = 0.1").replace("-0.2, 0, -1", "0, 0, -1");
+    let narrow = narrow.replace("0.2, 0.9]", "0.2, 60]").replace("0, 0.4]", "0, 0]");
+    let gloss: &[&str] = &["--set", "shade.gloss_bits=2"];
+    let cases = [
+        (BULB, [40, 30], &[][..]),
+        (FLOOD, [46, 33], &[]),
+        (FLOOD, [58, 28], &[]),
+        (FLOOD, [20, 60], &[]),
+        (&narrow, [55, 31], &[]),
+        (BULB, [55, 31], gloss),
+    ];
+    for (light, [x, y], more) in cases {
         scene(folder.path(), light);
-        let render = [&["render", "s.toml", "--shading", "phong", "--out", "r"], &SMALL[..], &LAMP].concat();
+        let machine = [&SMALL[..], &LAMP, more].concat();
+        let render = [&["render", "s.toml", "--shading", "phong", "--out", "r"], &machine[..]].concat();
         assert_eq!(run(folder.path(), &render).0, Some(0));
         let drawn = colors(&folder.path().join("r/image.png"))[y * 96 + x];
         let [x, y] = [x, y].map(|number: usize| number.to_string());
-        let explain = [&["explain", "s.toml", &x, &y, "--shading", "phong"], &SMALL[..], &LAMP].concat();
+        let explain = [&["explain", "s.toml", &x, &y, "--shading", "phong"], &machine[..]].concat();
         let output = edgewalk(folder.path(), &[&explain[..], &["--json"]].concat()).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -176,6 +189,7 @@ fn explain_walks_the_steps_of_the_light() {
         let left = lamp["attenuation"]["value"].as_i64().unwrap() * through;
         assert_eq!(lamp["beam"].as_i64().unwrap(), (left + (1 << 15)) >> 16, "{lamp}");
         dark += u32::from(lamp.get("cone").is_none());
+        edge += u32::from(lamp["beside"] == lamp["edge"] && lamp["beam"].as_u64() > Some(60_000));
         let reads: Vec<_> = lamp["indices"].as_array().unwrap().iter().map(|index| &index["read"]).collect();
         for (index, read) in lamp["indices"].as_array().unwrap().iter().zip(&reads) {
             let [index, golden, bound] =
@@ -221,7 +235,7 @@ fn explain_walks_the_steps_of_the_light() {
             assert!(text.contains(word), "{word:?} is not in {text}");
         }
     }
-    assert!((checked, dark) == (12, 1) && cut > 4, "{checked} {dark} {cut}");
+    assert!((checked, dark, edge) == (18, 1, 1) && cut > 4, "{checked} {dark} {edge} {cut}");
 }
 
 #[test]

@@ -68,20 +68,23 @@ fn a_run_that_cannot_place_a_file_changes_nothing() {
 #[test]
 fn a_file_that_cannot_be_finished_is_named_by_its_place() {
     let folder = folder();
-    // No file may grow beyond a few kilobytes, as on a disk that is full; the signal that says so is not the program's end.
-    let script = "trap '' XFSZ; ulimit -f 20; exec \"$@\"";
+    // No file may grow beyond so many blocks, as on a disk that is full; the signal that says so is not the program's end.
+    let script = "trap '' XFSZ; ulimit -f $0; exec \"$@\"";
     let trace = [&["trace", "d.tri", "-q", "--out", "a/t.vcd"], &SCREEN[..]].concat();
     // Small enough to be written at the very end.
     std::fs::write(folder.path().join("small.tri"), TRIANGLE.replace("size 64 48", "size 40 30")).unwrap();
-    let commands: [(&[&str], &str); 4] = [
-        (&["raster", "d.tri", "-q", "--out", "a/r"], "a/r/rgb.npy"),
-        (&["raster", "small.tri", "-q", "--out", "a/s"], "a/s/rgb.npy"),
-        (&["emit", "-q", "--out", "a/e"], "a/e/edgewalk_setup.v"),
-        (&trace, "a/t.vcd"),
+    let picture = [&["render", "d.tri", "-q", "--out", "a/p"], &SCREEN[..]].concat();
+    let commands: [(&[&str], &str, &str); 5] = [
+        (&["raster", "d.tri", "-q", "--out", "a/r"], "20", "a/r/rgb.npy"),
+        (&["raster", "small.tri", "-q", "--out", "a/s"], "20", "a/s/rgb.npy"),
+        (&["emit", "-q", "--out", "a/e"], "20", "a/e/edgewalk_setup.v"),
+        (&trace, "20", "a/t.vcd"),
+        // The picture's last bytes are its first too.
+        (&picture, "1", "a/p/golden.png"),
     ];
-    for (command, file) in commands {
+    for (command, blocks, file) in commands {
         let mut shell = Command::new("sh");
-        shell.args(["-c", script, "sh", env!("CARGO_BIN_EXE_edgewalk")]).args(command);
+        shell.args(["-c", script, blocks, env!("CARGO_BIN_EXE_edgewalk")]).args(command);
         let (code, error) = ended(&shell.current_dir(folder.path()).output().unwrap());
         assert_eq!(code, Some(2), "{command:?}: {error}");
         assert_eq!(error, format!("edgewalk: {file}: File too large (os error 27)\n"), "{command:?}");

@@ -133,6 +133,38 @@ fn every_decision_and_colour_under_panes_is_explained() {
     assert!(pixels > 15_000 && dark > 1_000 && loose * 10 < pixels && open * 100 < pixels && reached > 0.7);
 }
 
+/// One pixel under three layers, near a pane's end in the map, where the bound follows from the texels that the place allows: `explain`'s is
+/// that by which `render` judges.
+#[test]
+fn explain_has_the_bound_of_the_layers() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text =
+        "size 80 60\nshadow 64 0.004 0.3   0.7 0 12 1   0 0.6 5 2   0 0 0.5 0.2   0.001 0.0005 0.1 1\n\
+                    L 0 31 0.2  64 31 0.2  0 95 0.2  0.5\n"
+            .to_owned();
+    for (z, kt) in [(0.5, 0.0), (0.4, 0.0), (0.3, 0.5)] {
+        let rules = if kt > 0.0 { "blend 1\ndepth_write 0\n" } else { "" };
+        let corner = |x, y| format!("  {x} {y} {z} 0.9 0.5 {z} {kt}");
+        writeln!(text, "{rules}T{}{}{}", corner(40.0, 50.0), corner(41.2, 50.0), corner(40.0, 51.2)).unwrap();
+    }
+    std::fs::write(folder.path().join("a.tri"), text).unwrap();
+    let run = |command: &[&str]| -> serde_json::Value {
+        let mut command = edgewalk(folder.path(), command);
+        let sizes = ["shadow.size=64", "shadow.light_fraction=16", "screen.width=80", "screen.height=60"];
+        let kinds = ["shadow.light=perspective", "shadow.gate=scale", "shadow.transmits=yes"];
+        let settings = sizes.iter().chain(&kinds).chain(&["blend.kind=constant"]);
+        settings.for_each(|setting| _ = command.args(["--set", setting]));
+        let output = command.output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let judged = &run(&["render", "a.tri", "--json"])["comparison"]["blended"];
+    assert_eq!((&judged["pixels"], &judged["layers"]), (&1.into(), &3.into()));
+    let told = run(&["explain", "a.tri", "40", "50", "--json"]);
+    let layers = told["layers"].as_array().unwrap();
+    assert_eq!((layers.len(), &layers[2]["bound"]), (3, &judged["bound"]), "{told}");
+}
+
 /// lit.npy and rgb.npy under a light that looks in perspective: the same in every engine, golden's but for a few.
 #[test]
 fn a_perspective_light_is_the_same_in_every_engine() {

@@ -319,6 +319,23 @@ fn every_point_has_one_row_and_the_best_can_be_rendered() {
     );
 }
 
+/// A bit more of the fraction costs a bit of every word and makes the bound less: all machines are on the front.
+#[test]
+fn a_long_front_is_cut_and_says_where_the_rest_is() {
+    let folder = tempfile::tempdir().unwrap();
+    for (values, more) in [("4..23", None), ("4..24", Some("    and 1 more, in OUT/runs.csv"))] {
+        let vary = format!("formats.z_fraction={values}");
+        let objectives = ["--objective", "z_bound", "--objective", "word_bits", "--out", values];
+        let screen = ["--set", "screen.width=64", "--set", "screen.height=48"];
+        let sweep = [&["sweep", "sphere", "--vary", &vary][..], &objectives, &screen].concat();
+        let told = String::from_utf8(edgewalk(folder.path(), &sweep).output().unwrap().stdout).unwrap();
+        let (_, front) = told.split_once("front of z_bound, word_bits: ").unwrap();
+        let shown = front.lines().filter(|line| line.contains("  formats.z_fraction=")).count();
+        let cut = front.lines().find(|line| line.contains(" more"));
+        assert_eq!((shown, cut), (20, more.map(|more| more.replace("OUT", values)).as_deref()), "{told}");
+    }
+}
+
 #[test]
 fn points_without_the_bound_are_not_simulated() {
     let folder = tempfile::tempdir().unwrap();

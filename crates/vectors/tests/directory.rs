@@ -175,6 +175,17 @@ fn what_is_written_reads_back() {
         let vectors = read_files(&files).expect("just written");
         assert!(vectors.manifest.expected > 0);
         assert_eq!(vectors.manifest.expected, trace.expected());
+        // A difference is told by its case, so each says which triangles are its own.
+        let mut first = 0;
+        for (told, case) in vectors.manifest.suite.cases.iter().zip(&suite.cases) {
+            let count = case.triangles.len() as u64;
+            assert_eq!((&told.name, told.first, told.count), (&case.name, first, count));
+            first += count;
+        }
+        assert_eq!(
+            (vectors.manifest.suite.cases.len(), vectors.manifest.suite.triangles),
+            (suite.cases.len(), first)
+        );
         for (read, moved) in vectors.channels.iter().zip(&trace.links) {
             let written: Vec<_> = moved.tokens.iter().cloned().zip(moved.cycles.iter().copied()).collect();
             assert_eq!(read, &written);

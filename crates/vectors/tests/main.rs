@@ -7,6 +7,7 @@ mod directory;
 mod edits;
 mod lockstep;
 mod mutants;
+mod reach;
 mod replay;
 mod simulators;
 mod stimuli;

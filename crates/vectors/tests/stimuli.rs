@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 use crate::common;
 
 /// Machines with everything that a suite looks at.
-const MACHINES: [&str; 13] = [
+const MACHINES: [&str; 14] = [
     "small",
     "textbook",
     "tiny",
@@ -26,6 +26,7 @@ const MACHINES: [&str; 13] = [
     "fast_phong_registers_tables",
     "fast_phong_registers_relief",
     "phong_memory_multiply_two_lights_one_extra",
+    "phong_lamp_multiply_texture",
 ];
 
 #[test]

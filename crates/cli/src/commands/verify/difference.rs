@@ -72,7 +72,7 @@ fn cleared(trace: &Trace) -> Vec<Vec<u32>> {
 #[cfg(test)]
 #[allow(clippy::print_stdout, reason = "a test says what it checked")]
 mod tests {
-    use edgewalk_lockstep::{LockstepError, StallKind, Unit, netlist};
+    use edgewalk_lockstep::{Difference, LockstepError, StallKind, Unit, netlist};
     use edgewalk_machine::{Machine, Plan};
     use edgewalk_model::DrawState;
     use edgewalk_netlist::mutate::mutants;
@@ -89,6 +89,12 @@ mod tests {
         let triangle = [corner(1.0, 1.0), corner(12.0, 3.0), corner(4.0, 10.0)];
         let case = edgewalk_vectors::Case { name: "one".to_owned(), triangles: vec![triangle] };
         (plan, Suite { cases: vec![case], clear_z: None, ..suite })
+    }
+
+    /// What a page holds.
+    fn replay(page: &str) -> serde_json::Value {
+        let data = page.split_once("id=\"replay\">").and_then(|(_, rest)| rest.split_once("</script>"));
+        serde_json::from_str(data.expect("a replay in the page").0).expect("JSON")
     }
 
     /// A fault in the netlist is told by a page that opens where it shows first.
@@ -109,10 +115,7 @@ mod tests {
                 };
                 let page =
                     super::page(&suite, &trace, &difference).expect("a replay").expect("of the machine");
-                let data =
-                    page.split_once("id=\"replay\">").and_then(|(_, rest)| rest.split_once("</script>"));
-                let replay: serde_json::Value =
-                    serde_json::from_str(data.expect("a replay in the page").0).expect("JSON");
+                let replay = replay(&page);
                 assert_eq!(replay["difference"]["cycle"], difference.cycle);
                 assert_ne!(replay["difference"]["expected"], replay["difference"]["found"]);
                 assert!(replay["cycles"].as_u64() > Some(difference.cycle));
@@ -121,6 +124,28 @@ mod tests {
             }
             println!("{module}: checked {} pages", pages - before);
             assert!(pages > before + 1, "{module}");
+        }
+    }
+
+    /// Beyond what a replay can hold from the begin the last cycles are shown, and it opens at the difference.
+    #[test]
+    fn a_late_difference_is_shown_with_what_came_before() {
+        let (plan, suite) = one(&[]);
+        let trace = capture(&plan, Unit::MACHINE, &suite, DrawState::default(), StallKind::None);
+        let port = trace.interface.status[0].port.clone();
+        let found = |cycle| Difference {
+            port: port.clone(),
+            cycle,
+            expected: 0,
+            found: 1,
+            triangle: None,
+            pixel: None,
+        };
+        for (cycle, first) in [(199_959, 0), (199_960, 199_660)] {
+            let page = super::page(&suite, &trace, &found(cycle)).expect("a replay").expect("of the machine");
+            let replay = replay(&page);
+            assert_eq!(replay["difference"]["cycle"], cycle - first, "{cycle}");
+            assert_eq!(replay["cycles"], cycle + 41 - first, "{cycle}");
         }
     }
 
