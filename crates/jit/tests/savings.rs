@@ -154,6 +154,19 @@ fn registers_with_signs() {
     expect_file!["snapshots/signs.txt"].assert_eq(&costs);
 }
 
+/// Signs of words that the processor has, of others, and of more than one word.
+#[test]
+fn signed_words() {
+    let mut costs = String::new();
+    for width in [8, 16, 31, 32, 64, 80] {
+        costs += &line(&format!("less than, {width} bits"), |m| {
+            let [a, b] = inputs(m, width, ["a", "b"]);
+            m.output("y", (a + b).slt(b));
+        });
+    }
+    expect_file!["snapshots/signed.txt"].assert_eq(&costs);
+}
+
 /// Registers that change together share a branch; one that changes before it is read costs a copy.
 #[test]
 fn registers_that_change() {

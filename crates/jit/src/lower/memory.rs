@@ -51,8 +51,8 @@ impl Lowering<'_> {
     fn index(&mut self, addr: ValueId, area: Area) -> (Value, Option<Value>) {
         let bits = self.v.graph.width(addr);
         let addr = self.v.zero(addr);
-        let all = bits < usize::BITS && area.words == 1 << bits;
-        let is_there = (!all).then(|| {
+        // An address has no more bits than the words need.
+        let is_there = (area.words != 1 << bits).then(|| {
             let limit = self.v.constant(lane(bits), area.words as u128);
             self.v.cursor.ins().icmp(IntCC::UnsignedLessThan, addr, limit)
         });
