@@ -85,3 +85,35 @@ fn cut_up(scene: &str) -> String {
     });
     replaced.collect::<Vec<_>>().join("\n")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn a_square_cut_up_is_as_large_and_lies_as_before() {
+        let scene = |text: &str| Scene::parse(Path::new("a.toml"), text).expect("a scene");
+        let (whole, cut) = (scene(SCENE), scene(&cut_up(SCENE)));
+        assert_eq!((whole.mesh.faces().len(), cut.mesh.faces().len()), (2, 512));
+        let mut squares = BTreeMap::new();
+        for face in cut.mesh.faces() {
+            let [a, b, c] = cut.mesh.corners(face);
+            // Half of a square with sides of 1/8, facing up.
+            assert_eq!((b - a).cross(c - a), DVec3::Y / 64.0, "{a} {b} {c}");
+            let [x, z] = [a.x + b.x + c.x, a.z + b.z + c.z].map(|sum| (8.0 * sum / 3.0).floor() as i32);
+            *squares.entry([x, z]).or_insert(0) += 1;
+        }
+        // From -1 to 1 each way.
+        assert!(
+            squares.len() == 256
+                && squares
+                    .iter()
+                    .all(|([x, z], halves)| { (-8..8).contains(x) && (-8..8).contains(z) && *halves == 2 }),
+            "{squares:?}"
+        );
+        assert_eq!(cut.mesh.materials(), whole.mesh.materials());
+        assert_eq!((cut.lights, cut.ambient, cut.camera), (whole.lights, whole.ambient, whole.camera));
+    }
+}

@@ -77,3 +77,63 @@ fn short(value: f64) -> String {
     let decimals = if value.abs() >= 100.0 || value == 0.0 { 0 } else { 2 };
     format!("{value:.decimals$}")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What stands between two marks, wherever they are.
+    fn all<'a>(svg: &'a str, before: &str, after: &str) -> Vec<&'a str> {
+        svg.split(before).skip(1).filter_map(|rest| rest.split(after).next()).collect()
+    }
+
+    /// 2 to 10 on 450 pixels from 60 to the right, -100 to 300 on 208 from 220 upwards.
+    #[test]
+    fn lines_and_labels_stand_where_the_axes_say() {
+        let svg = plot(
+            "across",
+            "up",
+            &[
+                Series { label: "one", points: vec![(2.0, -100.0), (4.0, 0.0), (10.0, 300.0)] },
+                Series { label: "two", points: vec![(6.0, 200.0), (9.0, 50.0)] },
+            ],
+        );
+        assert_eq!(
+            all(&svg, "<polyline points=\"", "\" fill"),
+            ["60.0,220.0 172.5,168.0 510.0,12.0", "285.0,64.0 453.8,142.0"]
+        );
+        assert_eq!(
+            all(&svg, "<line ", " stroke"),
+            ["220.0", "168.0", "116.0", "64.0", "12.0"]
+                .map(|y| format!("x1=\"60\" x2=\"510\" y1=\"{y}\" y2=\"{y}\""))
+        );
+        assert_eq!(
+            all(&svg, "<text ", "</text>"),
+            [
+                "x=\"54.0\" y=\"224.0\" text-anchor=\"end\">-100",
+                "x=\"60.0\" y=\"236.0\" text-anchor=\"middle\">2.00",
+                "x=\"54.0\" y=\"172.0\" text-anchor=\"end\">0",
+                "x=\"172.5\" y=\"236.0\" text-anchor=\"middle\">4.00",
+                "x=\"54.0\" y=\"120.0\" text-anchor=\"end\">100",
+                "x=\"285.0\" y=\"236.0\" text-anchor=\"middle\">6.00",
+                "x=\"54.0\" y=\"68.0\" text-anchor=\"end\">200",
+                "x=\"397.5\" y=\"236.0\" text-anchor=\"middle\">8.00",
+                "x=\"54.0\" y=\"16.0\" text-anchor=\"end\">300",
+                "x=\"510.0\" y=\"236.0\" text-anchor=\"middle\">10.00",
+                "x=\"285\" y=\"254\" text-anchor=\"middle\">across",
+                "x=\"12\" y=\"116\" text-anchor=\"middle\" transform=\"rotate(-90 12 116)\">up",
+                "x=\"520\" y=\"24\" fill=\"#0072b2\">one",
+                "x=\"520\" y=\"42\" fill=\"#d55e00\">two",
+            ]
+        );
+        assert!(svg.contains("viewBox=\"0 0 640 260\""));
+    }
+
+    /// One above and one below are shown.
+    #[test]
+    fn what_never_changes_runs_through_the_middle() {
+        let svg = plot("x", "y", &[Series { label: "flat", points: vec![(0.0, 5.0), (3.0, 5.0)] }]);
+        assert_eq!(all(&svg, "<polyline points=\"", "\" fill"), ["60.0,116.0 510.0,116.0"]);
+        assert_eq!(all(&svg, "text-anchor=\"end\">", "<"), ["4.00", "4.50", "5.00", "5.50", "6.00"]);
+    }
+}

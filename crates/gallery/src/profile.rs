@@ -65,3 +65,52 @@ impl Profile {
             .filter(|x| self.id[*x] >= 0 && self.id[*x - 1] >= 0 && self.id[*x] != self.id[*x - 1])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exhibit::FILL;
+    use edgewalk_golden::draw;
+    use edgewalk_scene::Frame;
+
+    /// Of the greys below.
+    const STEP: f64 = LSB / 16.0;
+
+    /// Two triangles of four pixels and one of one, in the middle line; in the lines beside it another one.
+    fn profile() -> Profile {
+        let mut picture = draw(&Frame::new(WIDTH, HEIGHT), FILL);
+        let place = |line: u32| (line * WIDTH) as usize..((line + 1) * WIDTH) as usize;
+        for line in [HEIGHT / 2 - 1, HEIGHT / 2 + 1] {
+            picture.rgb[place(line)].fill([1.0; 3]);
+            picture.id[place(line)].fill(5);
+        }
+        let first = place(HEIGHT / 2).start + 100;
+        let line = [(7, 2), (7, 3), (7, 4), (7, 5), (9, 8), (9, 7), (9, 5), (9, 0), (3, 1)];
+        for (k, (id, grey)) in line.into_iter().enumerate() {
+            // Colours that have this mean, and are exact.
+            picture.rgb[first + k] = [0, 1, -1].map(|off| f64::from(grey + off) / 16.0);
+            picture.id[first + k] = id;
+        }
+        Profile::of(&picture)
+    }
+
+    #[test]
+    fn a_line_of_a_plot_is_the_mean_of_the_colours_where_something_is_seen() {
+        let shown = |first: u32, values: &[f64]| -> Vec<(f64, f64)> {
+            (first..).zip(values).map(|(x, value)| (f64::from(x), value * STEP)).collect()
+        };
+        let (profile, greys) = (profile(), [2.0, 3.0, 4.0, 5.0, 8.0, 7.0, 5.0, 0.0, 1.0]);
+        assert_eq!(profile.series("grey").points, shown(100, &greys));
+        let slopes = [1.0, 1.0, 1.0, 3.0, -1.0, -2.0, -5.0, 1.0];
+        assert_eq!(profile.slope_series("slope").points, shown(101, &slopes));
+    }
+
+    #[test]
+    fn steps_lie_between_triangles_and_bends_inside_one() {
+        let profile = profile();
+        assert_eq!(profile.largest_step(), 3.0 * STEP);
+        // From 1 to -1; one pixel alone has no slope.
+        assert_eq!(profile.slope_jumps(), [2.0 * STEP]);
+        assert_eq!(profile.largest_bend(), 3.0 * STEP, "from -2 to -5");
+    }
+}

@@ -15,6 +15,15 @@ fn figure(exhibit: &Exhibit, quantity: &str) -> f64 {
     found[0].1.parse().unwrap()
 }
 
+/// The pixels of a picture.
+fn picture<'a>(exhibit: &'a Exhibit, name: &str) -> &'a [[f64; 3]] {
+    let view = exhibit.views.iter().find(|view| view.name == name).unwrap();
+    match &view.image {
+        Image::Colors { rgb, .. } => rgb,
+        Image::Drawing(_) => panic!("{name} is a drawing"),
+    }
+}
+
 #[test]
 fn every_exhibit_has_a_picture_and_a_figure() {
     let mut checked = 0;
@@ -53,6 +62,46 @@ fn gouraud_misses_the_highlight_and_phong_does_not() {
     let [gouraud, phong, truth] =
         ["Gouraud", "Phong", "truth"].map(|of| figure(&missed, &format!("brightest green, {of}")));
     assert!(truth - gouraud > 100.0 && (truth - phong).abs() < 30.0, "{gouraud} {phong} {truth}");
+    let brightest = |name: &str| {
+        let (mut place, mut green) = ([0.0; 2], 0.0);
+        for (at, rgb) in (0u32..).zip(picture(&missed, name)) {
+            if rgb[1] > green {
+                (place, green) = ([at % 320, at / 320].map(f64::from), rgb[1]);
+            }
+        }
+        place
+    };
+    let ([x, y], [u, v]) = (brightest("phong"), brightest("truth"));
+    // Mirrored by the floor the light is at (0, -0.7, -0.6), and one at (0, 2.2, 2.2) sees it at z = 0.076:
+    // 5.8 pixels below the middle of 240 lines, by an opening of 40 degrees.
+    assert!((159.0..=160.0).contains(&u) && v == 125.0, "{u} {v}");
+    let beside = (x - u).hypot(y - v);
+    assert_eq!(figure(&missed, "Phong: highlight beside its place"), (10.0 * beside).round() / 10.0);
+    assert!(figure(&missed, "Phong, 16 x 16: highlight") < beside / 10.0);
+}
+
+/// Of the pictures beside them: the worst colour of each pixel, white where it is off by as much as is said.
+#[test]
+fn maps_of_errors_are_differences_of_the_pictures_shown() {
+    for (name, shown, right, white) in [
+        ("fast-phong", ["taylor", "six-point"], "phong", 16.0),
+        ("systems", ["gouraud", "phong"], "truth", 32.0),
+    ] {
+        let exhibit = exhibit(name);
+        let right = picture(&exhibit, right);
+        for shown in shown {
+            let map = format!("{shown}-error");
+            let view = exhibit.views.iter().find(|view| view.name == map).unwrap();
+            assert!(view.caption.ends_with(&format!("white at {white} LSB")), "{}", view.caption);
+            for ((error, one), other) in
+                picture(&exhibit, &map).iter().zip(picture(&exhibit, shown)).zip(right)
+            {
+                let worst = (0..3).map(|k| (one[k] - other[k]).abs()).fold(0.0, f64::max);
+                let wanted = (255.0 * worst / white).min(1.0);
+                assert!(error.iter().all(|part| (part - wanted).abs() < 1e-12), "{map}: {error:?}, {wanted}");
+            }
+        }
+    }
 }
 
 /// Along the line through the middle lie two edges' middles at 0 degrees, and two white corners at 45.
@@ -88,6 +137,8 @@ fn folds_vanish_under_averages_and_return_with_a_crease() {
     let range = |of: &str| figure(&folds, of);
     assert!(range("range of intensity") > 50.0 && range("Gouraud, normals averaged by angle") < 2.0);
     assert!((range("Gouraud, crease") - range("range of intensity")).abs() < 2.0);
+    // Folds rise by 0.4 over 0.5, lit from (1, 0, 1.5): k_d 0.8 times (1.5 +- 0.8) / sqrt(1.64 * 3.25).
+    assert_eq!((range("angle between two folds"), range("range of intensity")), (77.3, 141.4));
 }
 
 #[test]
@@ -147,6 +198,10 @@ fn shadows_of_glass_are_products_and_finer_maps_are_nearer_to_rays() {
 fn light_adds() {
     let lights = exhibit("lights");
     assert!(figure(&lights, "pixels where") > 1000.0 && figure(&lights, "largest difference") < 1e-9);
+    let all = picture(&lights, "all");
+    // The first pixel is the sky.
+    let seen = all.iter().filter(|rgb| **rgb != all[0] && rgb.iter().all(|channel| *channel < 1.0));
+    assert_eq!(figure(&lights, "pixels where"), seen.count() as f64);
 }
 
 #[test]

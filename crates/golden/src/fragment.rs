@@ -105,11 +105,11 @@ impl<const N: usize, W: Weight> Fragment<'_, N, W> {
     }
 }
 
-/// Least and greatest; adding 0 makes a -0 a 0.
+/// Least and greatest; adding 0 makes a least -0 a 0.
 fn range<const N: usize>(values: [f64; N]) -> (f64, f64) {
     let low = values.into_iter().fold(f64::INFINITY, f64::min);
     let high = values.into_iter().fold(f64::NEG_INFINITY, f64::max);
-    (low + 0.0, high + 0.0)
+    (low + 0.0, high)
 }
 
 /// No f64 decodes with an exponent below -1075.

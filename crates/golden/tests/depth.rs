@@ -71,6 +71,18 @@ fn the_same_plane_from_other_vertices_ties_exactly() {
 }
 
 #[test]
+fn a_zero_with_a_sign_is_as_near_as_one_without() {
+    let triangles = vec![over_all([0.0; 3], 0.1), over_all([-0.0; 3], 0.9)];
+    for (func, last) in [
+        (DepthFunc::Less, (2, 1, 0, 0.0, 0.1)),
+        (DepthFunc::Notequal, (2, 1, 0, 0.0, 0.1)),
+        (DepthFunc::Lequal, (2, 2, 1, 0.0, 0.9)),
+    ] {
+        assert_eq!(centre(&draw(&frame(Some(func), triangles.clone()), EXACT)), last, "{}", func.name());
+    }
+}
+
+#[test]
 fn a_difference_below_the_last_bit_of_f64_decides() {
     // Two planes that differ by 2^-60 at most: f64 sees none of it at a depth near 1/2.
     let tiny = f64::from_bits(1);

@@ -1,6 +1,6 @@
 //! Sorted blending against an exact composition from back to front, pixel by pixel.
 
-use edgewalk_golden::{Fill, back_to_front, draw, fragments};
+use edgewalk_golden::{Fill, MAX_PAIRS, back_to_front, draw, fragments};
 use edgewalk_scene::{Blending, Frame, ShadeMode, Triangle, Vertex};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -164,4 +164,29 @@ fn opaque_ones_come_first_and_are_not_compared() {
         ..Frame::new(SIDE, SIDE)
     };
     assert_eq!(sorted(frame).1, None);
+}
+
+#[test]
+fn where_nothing_overlaps_the_farthest_vertex_decides() {
+    // Side by side; the second is nearest with one vertex and farthest with another.
+    let at = |place: f64, z: [f64; 3]| {
+        triangle([[place, 0.0, z[0]], [place + 8.0, 0.0, z[1]], [place, 9.0, z[2]]], [0.5; 3], 0.5)
+    };
+    let triangles = [at(0.0, [0.4; 3]), at(10.0, [0.1, 0.9, 0.2]), at(20.0, [0.6; 3]), at(30.0, [0.4; 3])];
+    assert_eq!(back_to_front(&triangles, SUBPIXEL_BITS).order, [1, 2, 0, 3], "equal ones stay as they are");
+}
+
+#[test]
+fn too_many_to_compare_are_sorted_by_their_farthest_vertices_and_say_so() {
+    // One upon the other, and more pairs than are looked at.
+    let count = 6326u64;
+    assert!(count * (count - 1) / 2 > MAX_PAIRS);
+    let depth = |k: u64| (k * 5 % count) as f64 / count as f64;
+    let triangles: Vec<_> = (0..count)
+        .map(|k| triangle([[0.0, 0.0, 0.0], [8.0, 0.0, depth(k)], [0.0, 8.0, 0.0]], [0.5; 3], 0.5))
+        .collect();
+    let order = back_to_front(&triangles, SUBPIXEL_BITS);
+    assert!(order.unchecked && order.warning().is_some_and(|text| text.contains("farthest vertices only")));
+    let depths: Vec<_> = order.order.iter().map(|place| triangles[*place].0[1].z).collect();
+    assert!(depths.len() == triangles.len() && depths.is_sorted_by(|a, b| a > b));
 }

@@ -175,4 +175,24 @@ mod tests {
         let sum: f64 = pieces.iter().map(area).sum();
         assert!((sum - 2.0 * (2.0 * LIMIT).powi(2)).abs() < 1e-6, "{sum}");
     }
+
+    #[test]
+    fn pieces_of_a_flat_triangle_have_the_colour_of_its_first_vertex_and_values_of_their_own() {
+        let vertex = |x: f64, y: f64, part: f64| {
+            let [r, g, b, kt] = [0.1, 0.2, 0.3, 0.4].map(|own| own + part);
+            Vertex { x, y, z: part, r, g, b, kt, extra: [10.0 * part, 20.0 * part, 0.0, 0.0] }
+        };
+        // The first one is cut off.
+        let whole = Triangle([vertex(-900.0, 0.0, 0.5), vertex(60.0, 0.0, 0.0), vertex(0.0, 40.0, 0.25)]);
+        let flat = Frame { mode: ShadeMode::Flat, ..Frame::new(64, 48) };
+        let pieces = Host::default().in_band(&whole, &flat, LIMIT).into_owned();
+        assert_eq!(pieces.len(), 2);
+        let mut depths = Vec::new();
+        for v in pieces.iter().flat_map(|piece| piece.0) {
+            assert_eq!([v.r, v.g, v.b, v.kt], [0.6, 0.7, 0.8, 0.9]);
+            assert!(v.extra == [10.0 * v.z, 20.0 * v.z, 0.0, 0.0], "{v:?}");
+            depths.push(v.z);
+        }
+        assert!(depths.contains(&0.0) && depths.contains(&0.25) && !depths.contains(&0.5), "{depths:?}");
+    }
 }

@@ -258,4 +258,20 @@ mod tests {
         }
         assert_eq!((checked, unit(DVec3::ZERO)), (1000, None));
     }
+
+    /// What is not mixed is not sorted either, and a pane would hide what is behind it.
+    #[test]
+    fn a_frame_is_mixed_where_something_of_it_transmits_light() {
+        let frame = |transmission: f64| {
+            let text = format!(
+                "[[material]]\nname = \"m\"\ndiffuse = 0.5\ntransmission = {transmission}\n\
+                 [[object]]\nbuiltin = \"sphere\"\n\
+                 [[object]]\npositions = [[0, 0, 2], [1, 0, 2], [1, 1, 2]]\nfaces = [[0, 1, 2]]\n\
+                 material = \"m\"\n"
+            );
+            let scene = Scene::parse(std::path::Path::new("a.toml"), &text).expect("a scene");
+            PixelMethod::ALL.map(|method| scene.pixel_frame(&scene.surface(64, 64, 8191.0), method).blend)
+        };
+        assert_eq!([frame(0.5), frame(0.0)], [[Blending::Mix; 2], [Blending::Off; 2]]);
+    }
 }

@@ -150,6 +150,7 @@ fn spread_is_at_most_the_tangent_of_the_angle_to_the_mean() {
     println!("rho <= tan phi: {checked} cones, {most:.4} of the tangent reached");
     assert!(checked > 40_000 && most > 0.99);
     assert_eq!(normal_spread(&[[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0; 3]]), f64::INFINITY);
+    assert_eq!(normal_spread(&[[0.0; 3]; 3]), f64::INFINITY, "no direction at all");
     assert_eq!(taylor_error(1.0), f64::INFINITY);
     assert_eq!(taylor_error(f64::NAN), f64::INFINITY);
     assert_eq!(taylor_error(0.0), 0.0);

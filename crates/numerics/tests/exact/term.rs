@@ -130,6 +130,24 @@ fn rounded_once_and_never_farther_than_the_bound() {
     assert!(checked > 40_000 && slivers > 50 && reached.iter().all(|share| *share > 0.9));
 }
 
+/// RN is floor(x + 1/2), of negative words too, and whichever way the triangle runs round.
+#[test]
+fn halves_are_rounded_up() {
+    for weight in [1, -1] {
+        let shares =
+            Shares { here: [weight, 0, 0], column: [-weight, weight, 0], line: [-weight, 0, weight] };
+        // A column on is the second vertex, a line down the third.
+        for (v, x, y, rounded) in [
+            (-1.5, -2.5, 2.5, [-1, -2, 3]),
+            (-0.5, -7.5, 0.5, [0, -7, 1]),
+            (-2.75, -2.25, -3.0, [-3, -2, -3]),
+        ] {
+            let words = shares.plane([v, v + x, v + y].map(node), 0, 0, 64).unwrap().words();
+            assert_eq!(words[..3], rounded.map(|word: i64| word as u64), "{v} {x} {y}, weight {weight}");
+        }
+    }
+}
+
 #[test]
 fn bits_are_the_first_that_hold_and_six_points_stay_within_five_thirds() {
     for (width, height) in [(1, 1), (3, 2), (32, 32), (33, 32), (100, 7), (640, 480), (8192, 8192)] {

@@ -76,4 +76,13 @@ mod tests {
         let bow_tie = [[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 3.0]].map(|[x, y]| DVec3::new(x, y, 0.0));
         assert_eq!(triangles(&bow_tie), [[0, 1, 2], [0, 2, 3]]);
     }
+
+    /// Every edge of it lies on another, so an odd number of them lies nowhere on the way out.
+    #[test]
+    fn a_concave_face_that_goes_round_twice_is_a_fan_and_not_nothing() {
+        let twice = [ARROW, ARROW].concat();
+        let corners: Vec<_> = twice.iter().map(|[x, y]| DVec3::new(*x, *y, 0.0)).collect();
+        let fan: Vec<_> = (1..7).map(|k| [0, k, k + 1]).collect();
+        assert_eq!(triangles(&corners), fan);
+    }
 }
