@@ -74,7 +74,7 @@ pub struct Checked {
     pub tokens: u64,
     /// Values of ports.
     pub compared: u64,
-    /// Tokens that came out, by link.
+    /// Tokens that moved, in or out, by link.
     pub moved: BTreeMap<&'static str, u64>,
     /// Events met.
     pub events: Events,

@@ -1,7 +1,7 @@
 //! The netlist draws what the model draws, in the same cycles where nothing makes it wait.
 
 use crate::common::machines::random_machine;
-use crate::common::triangles::random_triangle;
+use crate::common::triangles::{half_square, one_pixel, random_triangle};
 use edgewalk_lockstep::{DrawError, StallKind, render_rtl, render_rtl_passes, render_rtl_with};
 use edgewalk_machine::{Machine, Plan, Record};
 use edgewalk_model::{DrawState, Pass, Shading, Stalls, longest_setup, render_passes};
@@ -91,6 +91,44 @@ fn the_picture_of_the_netlist_is_that_of_the_model() {
          {waited} of 24 waited"
     );
     assert!(fragments > 1000 && blend > 10 && shadow > 5 && shade > 10 && waited > 12, "{fragments}");
+}
+
+/// Six pixels, and the same behind them.
+#[test]
+fn what_is_drawn_is_counted() {
+    let plan = Machine { width: 5, height: 4, guard_bits: 4, ..Machine::default() };
+    let plan = plan.plan().expect("can be built");
+    let triangles = [7, 8].map(|z| half_square(&plan, z));
+    for stalls in StallKind::ALL {
+        let frame = render_rtl(&plan, triangles, DrawState::default(), stalls).expect("its own triangles");
+        let seen = frame.counters;
+        assert_eq!((seen.triangles, seen.fragments, seen.writes), (2, 12, 6));
+        assert_eq!(seen.activity.iter().sum::<u64>(), seen.cycles, "every cycle has one cause");
+        let covered = [[1, 1, 1, 0, 0], [1, 1, 0, 0, 0], [1, 0, 0, 0, 0], [0; 5]].concat();
+        assert_eq!(frame.writes, covered);
+        assert_eq!(frame.coverage, covered.iter().map(|pixel| 2 * pixel).collect::<Vec<_>>());
+        assert_eq!(frame.id, covered.iter().map(|pixel| *pixel as i32 - 1).collect::<Vec<_>>());
+    }
+}
+
+/// Of two records at a time; each triangle has a pixel of its own, whose colour says by which record it was shaded.
+#[test]
+fn triangles_wait_until_their_records_are_written() {
+    let mut machine = Machine { width: 5, height: 3, guard_bits: 4, ..Machine::default() };
+    for (key, value) in [("shade.kind", "fast-phong"), ("term.record_bits", "1")] {
+        machine.set(key, value).expect("a key");
+    }
+    let plan = machine.plan().expect("can be built");
+    let mut rng = Pcg64Mcg::seed_from_u64(7);
+    let triangles: Vec<_> = (0..5).map(|x| one_pixel(&plan, &mut rng, x, x % 3)).collect();
+    let shading = random_shading(&plan, 5, &mut rng);
+    let passes = [Pass::all(DrawState { depth_func: 7, ..DrawState::default() })];
+    let model = render_passes(&plan, triangles.iter().copied(), &passes, &[], Stalls::NONE, &shading)
+        .expect("its own triangles");
+    let rtl = render_rtl_passes(&plan, triangles, &passes, &[], StallKind::None, &shading)
+        .expect("its own triangles");
+    assert_eq!((&rtl.rgb, &rtl.id), (&model.rgb, &model.id));
+    assert_eq!((rtl.counters.writes, rtl.counters.cycles), (5, model.counters.cycles));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What the comparison must not overlook: a device that differs in any one port, a rig that never makes it wait, a reset
 //! that forgets.
 
-use crate::common::triangles::random_triangle;
+use crate::common::triangles::{one_pixel, random_triangle};
 use edgewalk_lockstep::{
     Case, Device, Interface, LockstepError, ModelDevice, PortId, PortValues, Triangles, Unit, model,
 };
@@ -107,6 +107,22 @@ fn a_difference_is_told_in_full() {
         ", pixel (",
     ];
     assert!(told.iter().all(|word| error.contains(word)), "{error}");
+}
+
+/// Behind a triangle without area one of a single pixel.
+#[test]
+fn the_pixel_of_a_difference_is_the_one_that_is_drawn() {
+    let plan = small();
+    let mut case = case(&plan);
+    let (port, mut rng) = (Triangles::new(&plan), Pcg64Mcg::seed_from_u64(9));
+    let interface = case.interface();
+    let fault = interface.port("wr_r").expect("declared").id;
+    for (x, y) in [(5, 3), (0, 7), (7, 0)] {
+        let dot = one_pixel(&plan, &mut rng, x, y);
+        case.tokens = vec![port.pack(&[dot[0]; 3], 0), port.pack(&dot, 0)];
+        let error = run(&case, &interface, Fault::Port(fault, 0)).expect_err("a fault").to_string();
+        assert!(error.ends_with(&format!(", triangle 1, pixel ({x}, {y})")), "{error}");
+    }
 }
 
 #[test]

@@ -4,6 +4,7 @@ use crate::common::fail::checked;
 use crate::common::machines::random_machine;
 use crate::common::tokens::{few, random_tokens};
 use edgewalk_lockstep::{Case, Checked, Interface, Unit};
+use edgewalk_machine::{Machine, Plan};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::collections::BTreeSet;
@@ -87,4 +88,55 @@ fn every_unit_alone() {
             scope.spawn(move || alone(unit, seed));
         }
     });
+}
+
+/// A small screen, and these keys.
+fn small(keys: &[(&str, &str)]) -> Plan {
+    let mut machine = Machine { width: 6, height: 6, guard_bits: 4, ..Machine::default() };
+    for (key, value) in keys {
+        machine.set(key, value).expect("a key of the machine");
+    }
+    machine.plan().expect("can be built")
+}
+
+/// Something does, and nothing that the unit does not declare.
+#[test]
+fn what_happens_to_a_unit_alone_is_counted() {
+    let phong = [("shade.kind", "phong"), ("shade.colour", "multiply"), ("term.record_bits", "2")];
+    let relief = [("texture.kind", "nearest"), ("texture.bits", "2"), ("texture.bump", "yes")];
+    let light = [("shadow.light", "perspective"), ("blend.kind", "constant")];
+    let machines = [
+        small(&[&phong[..], &relief, &light].concat()),
+        small(&[&phong[..], &[("shade.light", "positional")]].concat()),
+    ];
+    let mut rng = Pcg64Mcg::seed_from_u64(9);
+    let mut known: BTreeSet<&str> = Unit::known().skip(1).map(Unit::name).collect();
+    for plan in &machines {
+        for unit in Unit::single(plan) {
+            let mut case = Case { shadow_on: true, seed: 3, cycles: 2500, ..Case::new(plan, unit) };
+            case.tokens = random_tokens(plan, unit, 40, &mut rng);
+            let counts = case.run().expect("no difference").events.counts();
+            let met: Vec<_> = counts.into_iter().filter(|(_, count)| *count > 0).collect();
+            println!("{unit:?}: {met:?}");
+            let declared: Vec<&str> = unit.events(plan).iter().map(|event| event.name).collect();
+            assert!(!met.is_empty(), "{unit:?}");
+            assert!(met.iter().all(|(event, _)| declared.contains(event)), "{unit:?}: {met:?}");
+            known.remove(unit.name());
+        }
+    }
+    assert!(known.is_empty(), "not run: {known:?}");
+}
+
+/// The modulus of such an edge is 2^F: a constant, and no port.
+#[test]
+fn edges_of_a_slope_are_walked_alike() {
+    let edge = Unit::named("edge").expect("declared");
+    let mut rng = Pcg64Mcg::seed_from_u64(10);
+    for fraction in ["1", "8", "30"] {
+        let plan = small(&[("edge.kind", "slope"), ("edge.fraction_bits", fraction)]);
+        let mut case = Case { cycles: 400, ..Case::new(&plan, edge) };
+        case.tokens = random_tokens(&plan, edge, 20, &mut rng);
+        let checked = case.run().unwrap_or_else(|error| panic!("2^{fraction}: {error}"));
+        assert!(checked.moved["prim"] == 20 && checked.moved["line"] > 40, "{:?}", checked.moved);
+    }
 }

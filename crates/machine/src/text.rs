@@ -177,7 +177,7 @@ impl Machine {
 mod tests {
     use super::*;
     use crate::blend::{Blend, BlendKind};
-    use crate::shade::{Shade, ShadeKind, Texture};
+    use crate::shade::{Bump, Shade, ShadeColour, ShadeKind, Texture};
     use crate::shadow::{Shadow, ShadowLight};
 
     const TEXTBOOK: &str = "0ee73237105a";
@@ -190,42 +190,57 @@ mod tests {
         }
     }
 
+    /// In one of these every key means something and can be set.
+    fn machines() -> [Machine; 3] {
+        let plain = Shade { kind: ShadeKind::Phong, colour: ShadeColour::Multiply, ..Shade::default() };
+        let relief = Shade { texture: Texture::Nearest, bump: Bump::Yes, ..plain };
+        let with = |extra, shade, light, kind| Machine {
+            extra,
+            shade,
+            shadow: Shadow { light, ..Shadow::default() },
+            blend: Blend { kind, ..Blend::default() },
+            subpixel_bits: 0, // for textbook fill
+            ..Machine::default()
+        };
+        [
+            with(0, plain, ShadowLight::Parallel, BlendKind::Interpolated),
+            with(0, plain, ShadowLight::Perspective, BlendKind::Constant),
+            with(4, relief, ShadowLight::None, BlendKind::Constant),
+        ]
+    }
+
+    /// Machines with another value of the key that can be built.
+    fn others(machine: Machine, key: &Key) -> impl Iterator<Item = Machine> {
+        let values = match key.domain {
+            Domain::Range(low, high) => {
+                let value = (key.get)(&machine);
+                vec![low, high, value.max(low + 1) - 1, value.min(high - 1) + 1]
+            }
+            Domain::OneOf(list) => list.to_vec(),
+            // The first is often that a unit is not there, and its keys with it.
+            Domain::Word(words) => (0..words.len() as u32).rev().collect(),
+        };
+        let set = move |value| {
+            let mut other = machine.clone();
+            (key.set)(&mut other, value);
+            assert_eq!((key.get)(&other), value, "{}", key.name);
+            (other != machine && other.plan().is_ok()).then_some(other)
+        };
+        values.into_iter().filter_map(set)
+    }
+
     #[test]
     fn every_setting_survives_the_file_and_changes_the_hash() {
-        let mut seen = std::collections::HashSet::new();
+        let mut seen: std::collections::HashSet<String> = machines().iter().map(Machine::hash).collect();
+        assert_eq!(seen.len(), 3);
         for key in KEYS {
-            // With all extra channels, a light and a k_t for every pixel every key means something.
-            let blend = Blend { kind: BlendKind::Interpolated, ..Machine::default().blend };
-            let parallel = Shadow { light: ShadowLight::Parallel, ..Machine::default().shadow };
-            let used = (key.used)(&Machine { shadow: parallel, ..Machine::default() });
-            let light = if key.name.starts_with("shadow.") && !used {
-                ShadowLight::Perspective
-            } else {
-                ShadowLight::Parallel
-            };
-            let shadow = Shadow { light, ..parallel };
-            let (kind, texture) = (ShadeKind::Phong, Texture::Nearest);
-            let shade = Shade { kind, texture, ..Machine::default().shade };
-            let mut machine = Machine { extra: 4, blend, shadow, shade, ..Machine::default() };
-            let other = match key.domain {
-                Domain::Range(low, high) => {
-                    if (key.get)(&machine) == low {
-                        high
-                    } else {
-                        low
-                    }
-                }
-                Domain::OneOf(list) => *list.iter().find(|v| **v != (key.get)(&machine)).expect("two"),
-                Domain::Word(_) => ((key.get)(&machine) + 1) % 2,
-            };
-            (key.set)(&mut machine, other);
-            assert_eq!((key.get)(&machine), other, "{}", key.name);
-            assert!(seen.insert(machine.hash()), "{} does not reach the hash", key.name);
-            if machine.plan().is_ok() {
-                assert_eq!(Machine::from_toml(&machine.to_toml()), Ok(machine), "{}", key.name);
-            }
+            let used = machines().into_iter().filter(|machine| (key.used)(machine));
+            let other = used.flat_map(|machine| others(machine, key)).next();
+            let other = other.unwrap_or_else(|| panic!("{} means nothing anywhere", key.name));
+            assert!(seen.insert(other.hash()), "{} does not reach the hash", key.name);
+            assert_eq!(Machine::from_toml(&other.to_toml()), Ok(other), "{}", key.name);
         }
-        assert_eq!(seen.len(), KEYS.len());
+        assert_eq!(seen.len(), 3 + KEYS.len());
     }
 
     /// Keys of units that a machine has not stay out: so pictures and files of earlier days keep its name.

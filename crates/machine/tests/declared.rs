@@ -1,6 +1,6 @@
 //! What machines of several kinds declare, by hand: widths that follow from two keys, what is there for some machines only.
 
-use edgewalk_machine::{Machine, Plan, UNITS, UnitSpec};
+use edgewalk_machine::{Machine, Plan, Ready, UNITS, UnitSpec};
 
 /// The default machine but for these keys.
 fn machine(keys: &[(&str, &str)]) -> Machine {
@@ -41,7 +41,14 @@ fn a_texel_is_addressed_by_material_line_and_column() {
             ("texture.bits", side.to_string()),
         ];
         let keys: Vec<_> = keys.iter().map(|(key, value)| (*key, value.as_str())).collect();
-        assert_eq!(address_bits("texel", &plan(&keys)), materials + 2 * side);
+        let plan = plan(&keys);
+        assert_eq!(address_bits("texel", &plan), materials + 2 * side);
+        // The last texel of the last material has the last address.
+        let (material, last) = ((1 << materials) - 1, (1 << side) - 1);
+        assert_eq!(plan.texel_place(material, last, last), (1 << (materials + 2 * side)) - 1);
+        if side == 8 {
+            assert_eq!(plan.texel_place(9, 5, 3), 0x9_03_05, "material, line v, column u");
+        }
     }
 }
 
@@ -57,6 +64,23 @@ fn a_map_is_addressed_by_the_bits_of_its_side() {
 fn the_longest_word_of_a_channel_is_permitted() {
     let longest = plan(&[("formats.z_bits", "32"), ("formats.z_fraction", "24")]);
     assert_eq!(longest.channels()[0].word(), 56);
+}
+
+#[test]
+fn a_segment_has_two_bits_at_least() {
+    for (segments, bits, fraction, fits) in
+        [("4", "4", "4", true), ("4", "4", "3", false), ("2", "2", "2", true), ("2", "2", "1", false)]
+    {
+        let machine = machine(&[
+            ("interpolator.segments", segments),
+            ("formats.color_bits", bits),
+            ("formats.color_fraction", fraction),
+            ("formats.color_vertex", "1"),
+        ]);
+        let error = machine.plan().err().map(|error| error.to_string());
+        assert_eq!(error.is_none(), fits, "{segments} segments, {bits} + {fraction} bits: {error:?}");
+        assert!(error.is_none_or(|error| error.contains("segments of two bits")));
+    }
 }
 
 #[test]
@@ -90,6 +114,94 @@ fn a_light_is_divided_only_in_perspective() {
         let plan = plan(&[("shadow.light", light)]);
         assert_eq!((unit("project").present)(&plan), divided, "{light}");
         assert_eq!((unit("shadow").present)(&plan), light != "none");
+    }
+}
+
+#[test]
+fn what_needs_no_texel_comes_behind_one_that_does_only_where_there_is_room() {
+    for (queue, room) in [("1", false), ("2", true), ("16", true)] {
+        let plan = plan(&[("shadow.light", "parallel"), ("fifo.shadow", queue)]);
+        assert_eq!(can_happen("shadow", "known_behind_read", &plan), room, "{queue}");
+    }
+    assert!(!can_happen("shadow", "known_behind_read", &Plan::default()));
+}
+
+#[test]
+fn what_colours_in_flight_can_meet_follows_from_the_policy() {
+    // With drain, with interlock, with forward.
+    let events = [
+        ("opaque", [true; 3]),
+        ("opaque_behind", [false, true, true]),
+        ("color_drain_stall", [true, false, false]),
+        ("color_interlock_stall", [false, true, false]),
+        ("behind_opaque", [false, false, true]),
+        ("color_head_wait", [false, false, true]),
+        ("color_forward_queue", [false, false, true]),
+        ("color_forward_entry", [false, false, true]),
+        ("color_forward_write", [false, false, true]),
+        ("color_forward_used", [false, false, true]),
+    ];
+    for (place, hazard) in ["drain", "interlock", "forward"].into_iter().enumerate() {
+        let policy = ("memory.color_hazard", hazard);
+        let (blend, none) = (plan(&[("blend.kind", "constant"), policy]), plan(&[policy]));
+        for (event, can) in events {
+            assert_eq!(can_happen("blend", event, &blend), can[place], "{event}, {hazard}");
+            assert!(!can_happen("blend", event, &none), "{event} without BLEND");
+        }
+    }
+}
+
+/// Where it depends on the token whether it is taken: nothing else may be asked of such a ready.
+#[test]
+fn a_ready_is_for_a_token_where_it_depends_on_what_is_offered() {
+    let plan = plan(&[
+        ("shade.kind", "phong"),
+        ("shade.colour", "multiply"),
+        ("texture.kind", "nearest"),
+        ("texture.bump", "yes"),
+        ("shadow.light", "perspective"),
+        ("blend.kind", "constant"),
+    ]);
+    let mut found = Vec::new();
+    for unit in plan.units() {
+        let ports = (unit.ports)(&plan);
+        let memories = ports.memory.iter().flat_map(|memory| [&memory.read, &memory.data]);
+        let links = ports.takes.iter().chain(&ports.gives).chain(&ports.writes).chain(memories);
+        let for_tokens = links.filter(|link| link.ready == Ready::WhileValid);
+        found.extend(for_tokens.map(|link| format!("{} {}", unit.name, link.name)));
+    }
+    let by_hand = [
+        "term span",
+        "texel frag",
+        "texel xdata",
+        "shade frag",
+        "shadow frag",
+        "shadow mdata",
+        "depth frag",
+        "depth pass",
+        "blend pass",
+    ];
+    assert_eq!(found, by_hand);
+}
+
+/// Keys of a light of the other kind mean nothing: they stay out of the file and of the machine's name.
+#[test]
+fn a_light_has_the_keys_of_its_kind() {
+    for (light, keys) in [
+        ("none", [false, false, false, false]),
+        ("parallel", [true, true, false, false]),
+        ("perspective", [true, false, true, true]),
+    ] {
+        let plain = machine(&[("shadow.light", light)]);
+        let file = plain.to_toml();
+        let settings =
+            [("depth_bits", "12"), ("guard_bits", "5"), ("light_bits", "22"), ("project", "serial")];
+        for ((key, value), means) in settings.into_iter().zip(keys) {
+            let section = file.split("[shadow]").nth(1).unwrap_or_default();
+            assert_eq!(section.contains(&format!("\n{key} = ")), means, "{light}, {key}");
+            let other = machine(&[("shadow.light", light), (&format!("shadow.{key}"), value)]);
+            assert_eq!(other.hash() != plain.hash(), means, "{light}, {key}");
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use edgewalk_netlist::mutate::mutants;
+use edgewalk_netlist::mutate::{DIFFERS, Mutant, mutants};
 use edgewalk_netlist::{Module, Netlist, Simulator};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -88,4 +88,115 @@ fn a_mutant_still_is_a_netlist_of_shared_modules() {
             mutant.apply(&original).modules().iter().map(|module| module.name.clone()).collect();
         assert_eq!(names, ["dda", "top"], "{}", mutant.description);
     }
+}
+
+/// The fault of that description.
+fn fault(netlist: &Arc<Netlist>, description: &str) -> Mutant {
+    let all = mutants(netlist);
+    let found = all.into_iter().find(|mutant| mutant.description == description);
+    found.unwrap_or_else(|| panic!("no fault {description}"))
+}
+
+/// A comparison and what it is told to hold, twice side by side.
+fn twice() -> Arc<Netlist> {
+    let m = Module::new("part", "");
+    let (load, a, b) = (m.input("load", 1), m.input("a", 3), m.input("b", 3));
+    m.output("less", a.lt(b));
+    m.output("held", m.reg("held", 3).reset(0).when(load, a));
+    let part = m.finish().unwrap();
+
+    let m = Module::new("top", "");
+    let (load, a, b, c) = (m.input("load", 1), m.input("a", 3), m.input("b", 3), m.input("c", 3));
+    for (name, [a, b]) in [("one", [a, b]), ("two", [b, c])] {
+        let unit = m.instance(&format!("u_{name}"), &part);
+        unit.connect("load", load).connect("a", a).connect("b", b);
+        m.output(&format!("less_{name}"), unit.output("less"));
+        m.output(&format!("held_{name}"), unit.output("held"));
+    }
+    m.finish().unwrap()
+}
+
+/// Whether a fault counts with this load, a, b and held.
+type Counts<'f> = &'f dyn Fn([u128; 4]) -> bool;
+
+/// By hand: a node's value is another, or what a register takes, in either of the two modules.
+#[test]
+fn a_watched_fault_says_in_which_cycles_it_counts() {
+    let original = twice();
+    let signed = |x: u128| if x < 4 { x as i32 } else { x as i32 - 8 };
+    let le = |[_, a, b, _]: [u128; 4]| a == b;
+    let signs = |[_, a, b, _]: [u128; 4]| (a < b) != (signed(a) < signed(b));
+    let always = |[load, a, _, held]: [u128; 4]| load == 0 && a != held;
+    let faults: [(&str, Counts); 3] = [
+        ("`Lt(a, b)` becomes `Le(a, b)`", &le),
+        ("`Lt(a, b)` becomes `LtSigned(a, b)`", &signs),
+        ("`held` is updated always instead of when `load`", &always),
+    ];
+    for (description, differs) in faults {
+        let watched = fault(&original, description).watched(&original).expect(description);
+        let (mut plain, mut sim) = (Simulator::new(&original), Simulator::new(&watched));
+        let mut random = Pcg64Mcg::seed_from_u64(4);
+        let (mut in_one, mut in_two) = (0, 0);
+        for _ in 0..2000 {
+            let inputs = [("load", 2), ("a", 8), ("b", 8), ("c", 8)].map(|(name, values)| {
+                let value = random.random_range(0..values);
+                plain.set_input(name, value).unwrap();
+                sim.set_input(name, value).unwrap();
+                value
+            });
+            for output in ["less_one", "held_one", "less_two", "held_two"] {
+                assert_eq!(sim.get(output), plain.get(output), "{output} without the fault: {description}");
+            }
+            let [load, a, b, c] = inputs;
+            let held = ["held_one", "held_two"].map(|name| plain.get(name).unwrap());
+            let (one, two) = (differs([load, a, b, held[0]]), differs([load, b, c, held[1]]));
+            assert_eq!(sim.get(DIFFERS), Ok(u128::from(one || two)), "{description}: {inputs:?}");
+            in_one += u32::from(one && !two);
+            in_two += u32::from(two && !one);
+            plain.tick();
+            sim.tick();
+        }
+        assert!(in_one > 50 && in_two > 50, "{description}: {in_one}, {in_two}");
+    }
+    // What is neither a node nor an update that comes too often is not watched.
+    assert!(fault(&original, "`held` is not reset").watched(&original).is_none());
+}
+
+/// Till a fault shows the original, watched, has told it.
+#[test]
+fn no_fault_shows_before_it_is_told() {
+    let original = machine();
+    let (mut watched, mut told) = (0, 0);
+    for mutant in mutants(&original) {
+        let Some(netlist) = mutant.watched(&original) else { continue };
+        watched += 1;
+        let faulty = mutant.apply(&original);
+        let mut random = Pcg64Mcg::seed_from_u64(5);
+        let mut shown = 0;
+        for _ in 0..200 {
+            let mut sims = [Simulator::new(&original), Simulator::new(&netlist), Simulator::new(&faulty)];
+            let mut differs = false;
+            for _ in 0..20 {
+                for (name, values) in [("rst", 2), ("load", 2), ("a", 64), ("b", 64)] {
+                    let value = random.random_range(0..values);
+                    sims.iter_mut().for_each(|sim| sim.set_input(name, value).unwrap());
+                }
+                differs |= sims[1].get(DIFFERS) == Ok(1);
+                let [plain, same, other] = &mut sims;
+                let outputs = |sim: &mut Simulator| ["below", "shown"].map(|name| sim.get(name).unwrap());
+                let expected = outputs(plain);
+                assert_eq!(outputs(same), expected, "watched: {}", mutant.description);
+                if outputs(other) != expected {
+                    assert!(differs, "not told: {}: {}", mutant.module, mutant.description);
+                    shown += 1;
+                    break;
+                }
+                sims.iter_mut().for_each(Simulator::tick);
+            }
+        }
+        assert!(shown > 0, "{}: {}", mutant.module, mutant.description);
+        told += shown;
+    }
+    // Not four of resets, two of an update behind another, a memory's start, exchanged inputs.
+    assert!(watched == 20 - 8 && told > 1000, "{told} times of {watched} faults");
 }

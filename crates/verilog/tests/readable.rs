@@ -91,11 +91,13 @@ fn a_memory_that_is_unknown_at_the_start_has_no_initial_block() {
 }
 
 #[test]
-fn a_port_has_the_words_of_the_register_that_it_is_and_of_no_other() {
+fn a_port_has_the_words_of_what_it_is_and_of_no_other() {
     let m = Module::new("two", "");
     let a = m.input("a", 1);
     m.output("own", m.reg("own", 1).doc("seen outside").set(a));
     m.output("other", m.reg("held", 1).doc("seen inside").set(a));
+    m.output("sum", (!a).named_doc("sum", "a wire outside"));
+    m.output("rest", (a ^ 1).named_doc("kept", "a wire inside"));
     let text = text(&m.finish().unwrap());
     let comments = |name: &str| {
         let lines = text.lines().filter(|line| line.contains(&format!(" {name}")) && line.contains("//"));
@@ -104,6 +106,56 @@ fn a_port_has_the_words_of_the_register_that_it_is_and_of_no_other() {
     let [own, other, held] = ["own", "other", "held"].map(comments);
     assert!(own.len() == 1 && own[0].contains("output") && own[0].ends_with("// seen outside"), "{text}");
     assert!(other.is_empty() && held.len() == 1 && held[0].ends_with("// seen inside"), "{text}");
+    let [sum, rest, kept] = ["sum", "rest", "kept"].map(comments);
+    assert!(sum.len() == 1 && sum[0].contains("output") && sum[0].ends_with("// a wire outside"), "{text}");
+    assert!(rest.is_empty() && kept.len() == 1 && kept[0].ends_with("// a wire inside"), "{text}");
+}
+
+/// How many `always` blocks two registers have whose conditions were built one by one.
+fn blocks(condition: impl for<'m> Fn(Signal<'m>, u32) -> Signal<'m>) -> usize {
+    let m = Module::new("two", "");
+    let a = m.input("a", 8);
+    let conditions = [0, 1].map(|register| condition(a, register));
+    for (name, condition) in ["one", "two"].into_iter().zip(conditions) {
+        m.output(name, m.reg(name, 8).when(condition, a));
+    }
+    text(&m.finish().unwrap()).matches("always @").count()
+}
+
+#[test]
+fn registers_with_the_same_condition_stand_in_one_block() {
+    assert_eq!((blocks(|a, _| a.eq(5)), blocks(|a, register| a.eq(5 + u128::from(register)))), (1, 2));
+    assert_eq!((blocks(|a, _| a.bit(1)), blocks(|a, register| a.bit(register))), (1, 2));
+    // The same number in more bits is another constant.
+    let number =
+        |more| blocks(move |a, register| a.module().cat(&[a.module().lit(2 + more * register, 1), a]).all());
+    assert_eq!([0, 1].map(number), [1, 2]);
+    // Of more than five operators behind one another nobody sees that they are the same.
+    let deep = |operators| blocks(|a, _| (1..operators).fold(a.any(), |bit, _| !bit));
+    assert_eq!([4, 5, 6, 7].map(deep), [1, 1, 2, 2]);
+}
+
+#[test]
+fn long_expressions_go_on_below_their_beginning_but_not_behind_the_middle_of_a_line() {
+    let m = Module::new("choices", "");
+    let bit = |name: &str| m.input(name, 1);
+    let choose = |prefix: &str| {
+        let conditions = [0, 1, 2].map(|i| bit(&format!("{prefix}_is_chosen_by_its_place_{i}")));
+        conditions
+            .into_iter()
+            .fold(bit(&format!("{prefix}_otherwise")), |rest, condition| condition.mux(!condition, rest))
+    };
+    let long = "a_name_that_takes_more_than_half_of_what_a_line_holds_for_itself";
+    m.output("short", choose("short"));
+    m.output(long, choose("long"));
+    let text = text(&m.finish().unwrap());
+    let columns = |name: &str| {
+        let mut lines = text.lines().skip_while(|line| !line.contains(&format!("assign {name} = ")));
+        let first = lines.next().and_then(|line| line.find('='));
+        (first, lines.map_while(|line| line.find(": ")).take(3).collect::<Vec<_>>())
+    };
+    assert_eq!(columns("short"), (Some(15), vec![15; 3]), "{text}");
+    assert_eq!(columns(long), (Some(74), vec![50; 3]), "{text}");
 }
 
 #[test]

@@ -48,6 +48,15 @@ pub fn one_pixel(plan: &Plan, rng: &mut Pcg64Mcg, x: i32, y: i32) -> [PortVertex
     })
 }
 
+/// A right triangle of four pixels a side: six centres lie in it, those of the first lines and columns; four on its right
+/// edge do not count. z in LSB.
+pub fn half_square(plan: &Plan, z: i64) -> [PortVertex; 3] {
+    let side = 4 << plan.subpixel_bits;
+    let mut values: Vec<i64> = vec![0; plan.channels().len()];
+    values[0] = z << plan.channels()[0].vertex_fraction;
+    [(0, 0), (side, 0), (0, side)].map(|(x, y)| plan.raw_vertex(x, y, &values))
+}
+
 /// A triangle of one pixel at the lowest corner of another, where that one ends.
 pub fn after_it(plan: &Plan, rng: &mut Pcg64Mcg, triangle: &[PortVertex; 3]) -> [PortVertex; 3] {
     let unit = 1 << plan.subpixel_bits;
