@@ -115,7 +115,7 @@ impl<const C: usize> Edge<C> {
             if line_ready {
                 self.next_line(events);
             } else {
-                one_more(&mut events.span_fifo_full);
+                self.wait(events);
             }
         } else if let Some(prim) = prim {
             if fresh_queued {
@@ -124,6 +124,12 @@ impl<const C: usize> Edge<C> {
                 self.load(prim);
             }
         }
+    }
+
+    /// Clock edge while a triangle runs and its line is not taken.
+    #[inline]
+    pub(crate) fn wait(&self, events: &mut Events) {
+        one_more(&mut events.span_fifo_full);
     }
 
     fn load(&mut self, prim: &Prim<C>) {

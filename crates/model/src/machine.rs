@@ -483,7 +483,16 @@ impl<const C: usize> Model<C> {
             term.step(span, &inputs.term, span_ready, events);
         }
 
-        // SPAN.
+        // SPAN, EDGE and SETUP.
+        if !span_ready && self.edge.running() && self.span.stands_still() {
+            // So most cycles of a long span go by.
+            self.edge.wait(events);
+            self.setup.step(inputs.tri, false, light_pass, events);
+            if taken {
+                self.taken();
+            }
+            return outputs;
+        }
         let fresh_queued = self.span.fresh_queued();
         let line = self.edge.line().filter(|_| self.span.line_ready());
         let line_ready = line.is_some();
@@ -491,8 +500,6 @@ impl<const C: usize> Model<C> {
             one_more(&mut self.counters.lines);
         }
         self.span.step(line, span_ready, light_pass, events);
-
-        // EDGE and SETUP.
         let prim_ready = self.edge.prim_ready(fresh_queued);
         self.edge.step(self.setup.prim(), fresh_queued, line_ready, events);
         self.setup.step(inputs.tri, prim_ready, light_pass, events);

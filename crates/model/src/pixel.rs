@@ -234,15 +234,18 @@ impl<const C: usize> Pixel<C> {
     /// Moves the out stages, `entering` into the first.
     #[inline]
     fn shift(&mut self, entering: Option<Fragment<C>>) {
-        let cosines =
-            if C > FEW && self.terms > 0 && entering.is_some() { self.outputs() } else { Cosines::default() };
+        if C > FEW && self.terms > 0 {
+            let cosines = if entering.is_some() { self.outputs() } else { Cosines::default() };
+            self.out_cosines = match self.before {
+                0 => cosines,
+                _ => std::mem::replace(&mut self.cosines[self.oldest], cosines),
+            };
+        }
         if self.before == 0 {
             self.out = entering;
-            self.out_cosines = cosines;
             return;
         }
         self.out = std::mem::replace(&mut self.stages[self.oldest], entering);
-        self.out_cosines = std::mem::replace(&mut self.cosines[self.oldest], cosines);
         self.oldest = (self.oldest + 1) % self.before;
     }
 

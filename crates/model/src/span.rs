@@ -69,6 +69,12 @@ impl<const C: usize> Span<C> {
         self.held.is_none() || self.has_room()
     }
 
+    /// No line is taken and none moves on, before PIXEL takes a span.
+    #[inline]
+    pub(crate) fn stands_still(&self) -> bool {
+        self.held.is_some() && !self.has_room()
+    }
+
     /// The FIFO takes a token.
     #[inline]
     fn has_room(&self) -> bool {
