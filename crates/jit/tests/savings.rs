@@ -231,6 +231,29 @@ fn registers_that_change() {
     expect_file!["snapshots/changes.txt"].assert_eq(&costs);
 }
 
+/// A bit that is read or worked out as a word stays one, with anything above it.
+#[test]
+fn bits_as_words() {
+    let readers: [(&str, Way); 7] = [
+        ("a bit of a sum", |m, _, a, b| m.output("y", (a + b).bit(7))),
+        ("a bit of a sum, and another", |m, c, a, b| m.output("y", (a + b).bit(7) & c)),
+        ("the opposite of a bit of a sum, and another", |m, c, a, b| m.output("y", !(a + b).bit(7) & c)),
+        ("the opposite of a relation, and another", |m, c, a, b| m.output("y", !a.lt(b) & c)),
+        ("copies of a bit of a sum", |m, _, a, b| m.output("y", (a + b).bit(7).sext(20))),
+        ("a bit below a word", |m, c, a, _| m.output("y", m.cat(&[a, c]))),
+        ("a bit of a sum below a word", |m, _, a, b| m.output("y", m.cat(&[a, (a + b).bit(7)]))),
+    ];
+    let mut costs = String::new();
+    for (name, reader) in readers {
+        costs += &line(name, |m| {
+            let c = m.input("c", 1);
+            let [a, b] = inputs(m, 20, ["a", "b"]);
+            reader(m, c, a, b);
+        });
+    }
+    expect_file!["snapshots/bits.txt"].assert_eq(&costs);
+}
+
 /// Registers in a unit of their own: a counter that its unit does not see, and what follows from registers that stay for a while.
 #[test]
 fn registers_apart() {

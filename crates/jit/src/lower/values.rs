@@ -119,6 +119,36 @@ impl<'a> Values<'a> {
         zero
     }
 
+    /// The value with zeros above its bits, a bit too as a word.
+    pub fn word(&mut self, value: ValueId) -> Value {
+        if self.graph.width(value) > 1 {
+            return self.zero(value);
+        }
+        match self.demand(value) {
+            Lowered { word: Some(word), bits: 0..=1, .. } => word,
+            Lowered { word: Some(word), .. } => self.masked(word, 1),
+            _ => {
+                let zero = self.zero(value);
+                self.cursor.ins().uextend(types::I64, zero)
+            }
+        }
+    }
+
+    /// A bit as a word with anything above, if it is known as one.
+    pub fn known_word(&self, bit: ValueId) -> Option<Value> {
+        self.known[bit.index()].filter(|bit| !bit.is_kept)?.word
+    }
+
+    /// Neither looked up nor kept.
+    pub fn is_worked_out_here(&self, value: ValueId) -> bool {
+        self.tables.get(value).is_none() && !self.is_shared[value.index()]
+    }
+
+    /// A bit that is there as a word below 2^bits.
+    pub fn bit(&mut self, word: Value, bits: u32) -> Lowered {
+        Lowered::bit(self.cursor.ins().ireduce(types::I8, word), word, bits)
+    }
+
     /// The value with copies of its sign above its bits.
     pub fn sign(&mut self, value: ValueId) -> Value {
         let lowered = self.demand(value);
@@ -211,6 +241,15 @@ impl<'a> Values<'a> {
         }
     }
 
+    /// What is in a place; a bit as a word.
+    pub fn load(&mut self, Place { offset, width }: Place) -> Value {
+        let state = self.state;
+        match width {
+            1 => self.cursor.ins().uload8(types::I64, flags(1), state, offset),
+            _ => self.cursor.ins().load(lane(width), flags(width), state, offset),
+        }
+    }
+
     fn store_shared(&mut self, value: ValueId, any: Value) {
         if let Some(place) = self.layout.of(value) {
             let state = self.state;
@@ -221,12 +260,16 @@ impl<'a> Values<'a> {
     /// A value that is kept.
     fn read_again(&mut self, value: ValueId, lowered: Lowered) -> Lowered {
         let any = match self.layout.of(value) {
+            Some(place) if place.width == 1 && lowered.bits <= 1 => {
+                let word = self.load(place);
+                return self.bit(word, 1);
+            }
             Some(Place { offset, width }) => {
                 self.cursor.ins().load(lane(width), flags(width), self.state, offset)
             }
             None => self.constant(lane(self.graph.width(value)), 0), // never: it has a place
         };
-        Lowered { any, zero: None, sign: None, is_kept: false, ..lowered }
+        Lowered { any, zero: None, sign: None, word: None, is_kept: false, ..lowered }
     }
 
     /// A choice whose arms are computed only where they are taken.
@@ -263,17 +306,15 @@ impl<'a> Values<'a> {
         }
         match self.graph.kind(value) {
             Kind::Stored if self.signs.has(value) => Lowered::signed(self.stored(value, width), width),
+            Kind::Stored if width == 1 => {
+                let word = self.stored(value, width);
+                self.bit(word, 1)
+            }
             Kind::Stored => Lowered::below(self.stored(value, width), width),
             Kind::Constant(constant) => {
                 Lowered::below(self.constant(lane(width), *constant), 128 - constant.leading_zeros())
             }
-            Kind::Op(op, operands) => {
-                let lowered = operators::lower(self, *op, width, operands);
-                if width == 1 && lowered.bits > 1 {
-                    return Lowered::below(self.masked(lowered.any, 1), 1);
-                }
-                lowered
-            }
+            Kind::Op(op, operands) => operators::lower(self, *op, width, operands),
         }
     }
 
@@ -283,12 +324,8 @@ impl<'a> Values<'a> {
         let (flags, state, offset) =
             (MemFlagsData::trusted(), self.state, self.layout.tables + table.first as i32);
         let address = self.cursor.ins().iadd(state, index);
-        let ins = self.cursor.ins();
-        let entry = match width {
-            1 => ins.load(types::I8, flags, address, offset),
-            _ => ins.uload8(types::I64, flags, address, offset),
-        };
-        Lowered::below(entry, width)
+        let entry = self.cursor.ins().uload8(types::I64, flags, address, offset);
+        if width == 1 { self.bit(entry, 1) } else { Lowered::below(entry, width) }
     }
 }
 
