@@ -282,5 +282,19 @@ fn registers_apart() {
             m.output("y", load);
         });
     }
+    for registers in [1, 2, 4] {
+        costs += &line(&format!("{registers} registers that another unit follows from"), |m| {
+            let other = Module::new("other", "");
+            let sees: Vec<Signal> = (0..registers).map(|i| other.input(&format!("sees{i}"), 20)).collect();
+            let sum = sees[1..].iter().fold(sees[0], |sum, value| sum + *value);
+            other.output("sum", other.reg("sum", 20).set(sum).q());
+            let other = m.instance("u_other", &other.finish().unwrap());
+            for i in 0..registers {
+                let register = m.reg(&format!("r{i}"), 20).set(m.input(&format!("a{i}"), 20) + 1);
+                other.connect(&format!("sees{i}"), register.q());
+            }
+            m.output("sum", other.output("sum"));
+        });
+    }
     expect_file!["snapshots/apart.txt"].assert_eq(&costs);
 }

@@ -24,8 +24,16 @@ pub(super) struct Branch {
     pub changed: Vec<ValueId>,
     /// Those of which it has read the old value.
     pub old: Vec<ValueId>,
-    /// What is not 0 if something has changed that these units have to know.
-    pub differences: Vec<(u64, Value)>,
+    /// By the units that have to know.
+    pub differences: Vec<Difference>,
+}
+
+/// What is not 0 if something has changed that these units have to know.
+pub(super) struct Difference {
+    pub units: u64,
+    pub any: Value,
+    /// Of so many registers.
+    pub count: usize,
 }
 
 impl Values<'_> {
