@@ -254,6 +254,36 @@ fn bits_as_words() {
     expect_file!["snapshots/bits.txt"].assert_eq(&costs);
 }
 
+/// Two registers that take what two neighbours are, one load and one store; not in other forms, or if one is not a neighbour.
+#[test]
+fn stages_of_queues() {
+    let stage = |m: &Module, turned: bool, signed: bool, compared: bool| {
+        let words = inputs(m, 20, ["in0", "in1"]);
+        let first = [0, 1].map(|i| m.reg(&format!("a{i}"), 20).set(words[i] + 1).q());
+        let c = m.input("c", 1);
+        for i in 0..2 {
+            let register = m.reg(&format!("b{i}"), 20);
+            let value = first[if turned { 1 - i } else { i }];
+            let last = if compared { register.set(value).q() } else { register.when(c, value).q() };
+            m.output(&format!("y{i}"), if signed && i == 1 { last.sext(30) } else { last });
+            if compared {
+                let other = Module::new(&format!("other{i}"), "");
+                let sees = other.input("sees", 20);
+                other.output("sum", other.reg("sum", 20).when(other.input("c", 1), sees + 1).q());
+                let other = m.instance(&format!("u_{i}"), &other.finish().unwrap());
+                other.connect("sees", last).connect("c", c);
+                m.output(&format!("z{i}"), other.output("sum"));
+            }
+        }
+    };
+    let mut costs = String::new();
+    costs += &line("two words", |m| stage(m, false, false, false));
+    costs += &line("two words, turned round", |m| stage(m, true, false, false));
+    costs += &line("two words, one kept with its sign", |m| stage(m, false, true, false));
+    costs += &line("two words that other units follow from", |m| stage(m, false, false, true));
+    expect_file!["snapshots/queues.txt"].assert_eq(&costs);
+}
+
 /// Registers in a unit of their own: a counter that its unit does not see, and what follows from registers that stay for a while.
 #[test]
 fn registers_apart() {

@@ -28,6 +28,8 @@ pub(super) struct Values<'a> {
     pub cursor: FuncCursor<'a>,
     /// The address of the state.
     pub state: Value,
+    /// Whether the host has words of 128 bits.
+    pub has_vectors: bool,
     /// The function and the branches within each other in which the cursor stands.
     pub(super) branches: Vec<Branch>,
     known: Vec<Option<Lowered>>,
@@ -42,7 +44,7 @@ pub(super) struct Values<'a> {
 
 impl<'a> Values<'a> {
     /// Nothing is known yet; the cursor stands in the function's first block.
-    pub fn new(plan: &'a Plan, cursor: FuncCursor<'a>, state: Value) -> Values<'a> {
+    pub fn new(plan: &'a Plan, cursor: FuncCursor<'a>, state: Value, has_vectors: bool) -> Values<'a> {
         let Plan { tables, signs, wakes, layout, .. } = plan;
         let graph = &plan.design.graph;
         let (known, changed) = (vec![None; graph.len()], vec![None; graph.len()]);
@@ -57,6 +59,7 @@ impl<'a> Values<'a> {
             layout,
             cursor,
             state,
+            has_vectors,
             branches,
             known,
             is_shared,
