@@ -20,6 +20,7 @@ use crate::schedule::schedule;
 use crate::shared::shared;
 use crate::signs::Signs;
 use crate::state::State;
+use crate::step::Step;
 use crate::tables::Tables;
 
 /// A running netlist. Inputs are 0 until set; registers without reset, and memory outputs before the first read, are 0
@@ -94,8 +95,10 @@ impl Simulator {
         let groups = groups(&mut design);
         let steps = schedule(&mut design, &groups);
         let readers = Readers::of(&design, &steps);
-        let steps = readers.ordered(steps);
+        let mut steps = readers.ordered(steps);
         let (wakes, tables) = (wakes(&design, &readers, &groups, &steps), Tables::of(&design.graph));
+        // Before any of what they follow from changes.
+        steps.insert(0, Step::Early(wakes.all_gates()));
         let shared = shared(&design, &tables, &wakes, &steps);
         let layout = Layout::new(&design, &tables, &wakes, &shared)?;
         let state = State::new(&design, &tables, &wakes, &layout);

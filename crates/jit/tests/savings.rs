@@ -284,6 +284,43 @@ fn stages_of_queues() {
     expect_file!["snapshots/queues.txt"].assert_eq(&costs);
 }
 
+/// What several steps need is not kept a second time where it is there anyway.
+#[test]
+fn kept_once() {
+    let ways: [(&str, Way); 5] = [
+        ("a sum that a register takes", |m, _, a, b| {
+            m.output("p", m.reg("x", 20).set(a + b).q());
+            m.output("q", m.reg("y", 20).when(a.bit(0), (a + b) ^ a).q());
+        }),
+        ("a sum that a register takes with its sign", |m, _, a, b| {
+            m.output("p", m.reg("x", 20).set(a + b).q().sext(30));
+            m.output("q", m.reg("y", 20).when(a.bit(0), (a + b) ^ a).q());
+        }),
+        ("a sum that a register takes if a bit says so", |m, c, a, b| {
+            m.output("p", m.reg("x", 20).when(c, a + b).q());
+            m.output("q", m.reg("y", 20).when(a.bit(0), (a + b) ^ a).q());
+        }),
+        ("a register with zeros above, and a bit's opposite", |m, c, a, _| {
+            m.output("p", m.reg("x", 30).when(c, a.zext(30) + 1).q());
+            m.output("q", m.reg("y", 30).when(a.bit(0), a.zext(30) + 2).q());
+            m.output("r", m.reg("z", 1).when(a.bit(1), !c).q() ^ !c);
+        }),
+        ("a register's upper bits", |m, c, a, _| {
+            m.output("p", m.reg("x", 10).when(c, a.slice(19, 10) + 1).q());
+            m.output("q", m.reg("y", 10).when(a.bit(0), a.slice(19, 10) + 2).q());
+        }),
+    ];
+    let mut costs = String::new();
+    for (name, way) in ways {
+        costs += &line(name, |m| {
+            let c = m.input("c", 1);
+            let [a, b] = inputs(m, 20, ["a", "b"]);
+            way(m, c, a, b);
+        });
+    }
+    expect_file!["snapshots/kept.txt"].assert_eq(&costs);
+}
+
 /// Registers in a unit of their own: a counter that its unit does not see, and what follows from registers that stay for a while.
 #[test]
 fn registers_apart() {

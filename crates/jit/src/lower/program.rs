@@ -206,7 +206,7 @@ impl Lowering<'_> {
                 continue;
             }
             let (q, value) = match member {
-                Member::Register { q, values } => (*q, self.v.as_kept(*q, values[rank])),
+                Member::Register { q, values } => (*q, self.v.taken(*q, values[rank])),
                 Member::Read { memory, port } => self.read(*memory, *port),
             };
             let wakes = self.v.wakes.of(q);

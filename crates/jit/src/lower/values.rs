@@ -34,6 +34,10 @@ pub(super) struct Values<'a> {
     pub(super) branches: Vec<Branch>,
     known: Vec<Option<Lowered>>,
     is_shared: Vec<bool>,
+    /// What a register takes next: it is kept there, if it is kept.
+    taken: Option<ValueId>,
+    /// The registers that have taken values which are kept.
+    takers: HashMap<ValueId, ValueId>,
     /// What was known before, since the outermost branch began.
     undo: Vec<(ValueId, Option<Lowered>)>,
     /// Of each register of which the state may have the new value by now, where it changed.
@@ -63,6 +67,8 @@ impl<'a> Values<'a> {
             branches,
             known,
             is_shared,
+            taken: None,
+            takers: HashMap::new(),
             undo,
             changed,
             old,
@@ -237,7 +243,8 @@ impl<'a> Values<'a> {
             if stack.len() == waiting {
                 let lowered = self.compute(value);
                 self.set(value, lowered);
-                if self.is_shared[value.index()] {
+                if self.is_shared[value.index()] && self.taken != Some(value) {
+                    self.takers.remove(&value);
                     self.store_shared(value, lowered.any);
                 }
             }
@@ -253,6 +260,24 @@ impl<'a> Values<'a> {
         }
     }
 
+    /// What a register takes next, in the form in which it keeps it. If other steps need it too they find it there.
+    pub fn taken(&mut self, register: ValueId, value: ValueId) -> Value {
+        let is_new = self.known[value.index()].is_none() && self.is_shared[value.index()];
+        self.taken = Some(value).filter(|_| is_new);
+        let kept = self.as_kept(register, value);
+        if self.taken.take().is_some() {
+            let width = self.graph.width(value);
+            let lowered = if self.signs.has(register) {
+                Lowered::signed(kept, width)
+            } else {
+                Lowered::below(kept, width)
+            };
+            self.set(value, lowered);
+            self.takers.insert(value, register);
+        }
+        kept
+    }
+
     fn store_shared(&mut self, value: ValueId, any: Value) {
         if let Some(place) = self.layout.of(value) {
             let state = self.state;
@@ -262,7 +287,8 @@ impl<'a> Values<'a> {
 
     /// A value that is kept.
     fn read_again(&mut self, value: ValueId, lowered: Lowered) -> Lowered {
-        let any = match self.layout.of(value) {
+        let place = self.takers.get(&value).copied().unwrap_or(value);
+        let any = match self.layout.of(place) {
             Some(place) if place.width == 1 && lowered.bits <= 1 => {
                 let word = self.load(place);
                 return self.bit(word, 1);
