@@ -105,7 +105,7 @@ impl Layout {
             layout.gates.push(gates);
         }
         layout.unread = layout.take(8)?;
-        layout.tables = layout.take(tables.bytes.len())?;
+        layout.tables = layout.take(tables.room())?;
         Ok(layout)
     }
 

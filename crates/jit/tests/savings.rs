@@ -321,6 +321,45 @@ fn kept_once() {
     expect_file!["snapshots/kept.txt"].assert_eq(&costs);
 }
 
+/// A choice among registers by a number is read at an address, if all of them are as they were and are kept alike.
+#[test]
+fn choices_among_registers() {
+    fn choice(m: &Module, widths: [u32; 4], signed: bool) -> Signal<'_> {
+        let [c, number] = [m.input("c", 1), m.input("number", 2)];
+        let registers: Vec<Signal> = (0..4)
+            .map(|i| m.reg(&format!("r{i}"), widths[i]).when(c, m.input(&format!("in{i}"), widths[i])).q())
+            .collect();
+        if signed {
+            m.output("sign", registers[2].sext(60));
+        }
+        let [p, q, r, s] = [0, 1, 2, 3].map(|i| registers[i].zext(20));
+        number.eq(3).mux(p, number.eq(1).mux(q, number.bit(1).mux(r, s)))
+    }
+    let mut costs = String::new();
+    costs += &line("one of four", |m| m.output("y", choice(m, [20; 4], false)));
+    costs += &line("one of four, of other widths", |m| m.output("y", choice(m, [20, 7, 12, 20], false)));
+    costs += &line("one of four, one kept with its sign", |m| m.output("y", choice(m, [20; 4], true)));
+    let readers: [(&str, Way); 5] = [
+        ("one of two", |m, c, a, b| m.output("y", c.mux(a, b))),
+        ("one of two, by a bit that is worked out", |m, c, a, b| m.output("y", (c ^ a.lt(b)).mux(a, b))),
+        ("one of two, or a number", |m, c, a, _| m.output("y", c.mux(a, m.lit(20, 7)))),
+        ("one of two bits", |m, c, a, b| m.output("y", c.mux(a.bit(3), b.bit(3)))),
+        ("one of two, of which one has changed", |m, c, a, b| {
+            let register = m.reg("register", 20);
+            register.when(c, a ^ b);
+            m.output("y", m.reg("after", 20).when(register.q().bit(0), c.mux(register.q(), a)).q());
+        }),
+    ];
+    for (name, reader) in readers {
+        costs += &line(name, |m| {
+            let c = m.input("c", 1);
+            let [a, b] = inputs(m, 20, ["a", "b"]);
+            reader(m, c, a, b);
+        });
+    }
+    expect_file!["snapshots/arrays.txt"].assert_eq(&costs);
+}
+
 /// Registers in a unit of their own: a counter that its unit does not see, and what follows from registers that stay for a while.
 #[test]
 fn registers_apart() {

@@ -330,6 +330,9 @@ impl<'a> Values<'a> {
         if let Some(table) = self.tables.get(value) {
             return self.looked_up(table, width);
         }
+        if let Some(read) = self.read_from_array(value, width) {
+            return read;
+        }
         if let Some(choice) = self.alone.choice(self.graph, value) {
             return self.chosen(choice, width);
         }
@@ -345,6 +348,39 @@ impl<'a> Values<'a> {
             }
             Kind::Op(op, operands) => operators::lower(self, *op, width, operands),
         }
+    }
+
+    /// The register that a number names, if all that it could name are as they were.
+    fn read_from_array(&mut self, value: ValueId, width: u32) -> Option<Lowered> {
+        let array = self.tables.array(value)?;
+        if array.registers.iter().any(|register| self.changed[register.index()].is_some()) {
+            return None;
+        }
+        let (lowest, words) = array.places(self.layout)?;
+        let (state, is_signed) = (self.state, self.signs.has(array.registers[0]));
+        let (at, offset) = match (array.table, &words[..]) {
+            (Some(table), _) => {
+                let index = self.zero(array.index);
+                let address = self.cursor.ins().iadd(state, index);
+                let offset = self.layout.tables + table as i32;
+                let words = self.cursor.ins().uload8(types::I64, MemFlagsData::trusted(), address, offset);
+                let three = self.constant(types::I64, 3);
+                (self.cursor.ins().ishl(words, three), lowest)
+            }
+            // To a bit that has to be made a word a choice is as short.
+            (None, &[zero, one]) => {
+                let bit = self.demand(array.index);
+                let bit = bit.word.filter(|_| bit.bits <= 1)?;
+                let bytes = (i64::from(one) - i64::from(zero)) * 8;
+                (self.cursor.ins().imul_imm_s(bit, bytes), lowest + i32::from(zero) * 8)
+            }
+            _ => return None,
+        };
+        let address = self.cursor.ins().iadd(state, at);
+        let any = self.cursor.ins().load(lane(width), flags(width), address, offset);
+        let widest =
+            array.registers.iter().map(|register| self.graph.width(*register)).max().unwrap_or(width);
+        Some(if is_signed { Lowered::signed(any, widest) } else { Lowered::below(any, widest) })
     }
 
     /// An entry of a table.
