@@ -45,7 +45,30 @@ pub fn module(random: &mut Pcg64Mcg) -> Arc<Netlist> {
     }
     stages(random, &m, data, [go, on]);
     bits(random, &m, data, [go, on]);
+    kept(random, &m, data, [go, on, number.bit(0)]);
+    // Registers that are read more often with their sign, but named without it.
+    let signed = [0, 1].map(|i| m.reg(&format!("signed{i}"), 12).when(go, data.slice(11 + i, i)).q());
+    for i in 0..8 {
+        m.output(&format!("signed_sum{i}"), signed[i % 2].sext(20 + i as u32) + 1);
+    }
+    m.output("unsigned_one", on.mux(signed[0].zext(20), signed[1].zext(20)));
     m.finish().unwrap()
+}
+
+/// What a register takes behind one bit, and what is worked out behind another, both needed again behind them.
+fn kept(random: &mut Pcg64Mcg, m: &Module, data: Signal, [go, on, third]: [Signal; 3]) {
+    let [a, b] = [0, 1].map(|i| m.reg(&format!("k{i}"), 20).set(data.slice(39 + i, 20 + i)).q());
+    let sum = (a + b) ^ a.shl(3);
+    for (i, when) in [go, on, !on, go & on].into_iter().enumerate() {
+        let takes = random.random();
+        let first = m.reg(&format!("first{i}"), 20).when(when, if takes { sum } else { sum + 5 });
+        let then = m.reg(&format!("then{i}"), 20).when(when & third, sum ^ b);
+        m.output(
+            &format!("first{i}_out"),
+            if random.random() { first.q().sext(30) } else { first.q().zext(30) },
+        );
+        m.output(&format!("then{i}_out"), then.q());
+    }
 }
 
 /// Three stages of a queue of five words; some of what is in them is read with its sign, or changed on the way.
