@@ -75,7 +75,9 @@ impl Code {
         // (`Layout::take` hands them out one after the other and `size` is where the last ends); a word of an area is
         // accessed only at an index that was found to be less than the number of words, or 0, or that has too few bits
         // to be more (`index`, `read` and `write` in `lower/memory.rs`); an entry of a table at an index of as many bits as
-        // it has entries for, zeros above them (`looked_up` in `lower/values.rs`); seeds and their copies word by word, to the end of
+        // it has entries for, zeros above them (`looked_up` in `lower/values.rs`); a register at the place that such an entry or a
+        // bit, 0 or 1, says (`read_from_array`), each of which is one of the layout; two words that stand side by side in
+        // it (`lower/copies.rs`); seeds and their copies word by word, to the end of
         // the places that the layout has for them (`asked` in `lower/waking.rs`). The slice is ours alone while the call lasts,
         // aligned to 8 bytes as the accesses say, and any bits are a valid u64. The code calls nothing and cannot
         // unwind.
@@ -120,7 +122,8 @@ fn entry(module: &mut JITModule, program: Program, plan: &Plan) -> Result<(Entry
     let mut context = module.make_context();
     context.func.signature = module.make_signature();
     context.func.signature.params.push(AbiParam::new(pointer));
-    lower(program, plan, pointer, &mut context.func);
+    let has_vectors = matches!(module.isa().name(), "x64" | "aarch64");
+    lower(program, plan, pointer, has_vectors, &mut context.func);
     let cost = Cost::of(&context.func);
     let function = module.declare_anonymous_function(&context.func.signature).map_err(refused)?;
     module.define_function(function, &mut context).map_err(refused)?;

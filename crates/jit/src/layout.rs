@@ -24,6 +24,8 @@ pub(crate) struct Layout {
     pub gates: Vec<Vec<Place>>,
     /// Of each unit, the seeds that are compared with what they were.
     pub compared: Vec<Compared>,
+    /// 8 bytes that are written only.
+    pub unread: i32,
     /// Byte at which the tables begin.
     pub tables: i32,
     /// 64-bit words of the state.
@@ -102,7 +104,8 @@ impl Layout {
                 wakes.gates(unit).iter().map(|gate| layout.place(graph, *gate)).collect::<Result<_, _>>()?;
             layout.gates.push(gates);
         }
-        layout.tables = layout.take(tables.bytes.len())?;
+        layout.unread = layout.take(8)?;
+        layout.tables = layout.take(tables.room())?;
         Ok(layout)
     }
 

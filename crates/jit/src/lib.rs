@@ -9,8 +9,9 @@
 //! the same conditions form a group with one branch, groups that need the same condition share another around them. What
 //! only a group needs is computed in its branch. Registers change in place, in an order in which most are read before;
 //! those that are equal in every clock are one.
-//! A unit in which nothing can change is left out as a whole; what would keep it awake for nothing, or rests while it works, is a unit too. What follows from a narrow value alone is looked up, and what
-//! several steps need is kept in the state between them: the processor has few registers.
+//! A unit in which nothing can change is left out as a whole; what would keep it awake for nothing, or rests while it works, is a unit too. What follows from a narrow value alone is looked up, a register
+//! that such a value names is read where it lies, and what several steps need is kept in the state between them: the processor
+//! has few registers.
 //!
 //! Widths are those of the netlist, 1 to 128 bits: a bit is 8 bits of the processor, up to 64 are one word, more are two.
 
@@ -30,8 +31,9 @@ mod order;
 mod sorted;
 mod schedule;
 
-mod tables;
 mod signs;
+mod arrays;
+mod tables;
 mod alone;
 mod shared;
 mod quiet;

@@ -70,6 +70,11 @@ impl Wakes {
         self.gates.get(unit).map_or(&[], Vec::as_slice)
     }
 
+    /// The gates of all units.
+    pub fn all_gates(&self) -> Vec<ValueId> {
+        self.gates.concat()
+    }
+
     /// The seeds of a unit that are compared with what they were.
     pub fn compared(&self, unit: usize) -> &[ValueId] {
         self.compared.get(unit).map_or(&[], Vec::as_slice)

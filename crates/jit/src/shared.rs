@@ -3,7 +3,9 @@
 
 use crate::alone::{Alone, Choice};
 use crate::design::Design;
-use crate::graph::{Kind, ValueId};
+use edgewalk_netlist::Op;
+
+use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
 use crate::quiet::Wakes;
 use crate::step::Step;
@@ -105,6 +107,12 @@ impl Walk<'_> {
             if !matches!(self.design.graph.kind(value), Kind::Op(..)) {
                 continue;
             }
+            if let Some(same) =
+                same_bits(&self.design.graph, value).filter(|_| self.tables.get(value).is_none())
+            {
+                open.push((same, false));
+                continue;
+            }
             let choice = self.alone.choice(&self.design.graph, value);
             if arms_are_left {
                 let arms = choice.iter().flat_map(Choice::arms);
@@ -129,4 +137,17 @@ impl Walk<'_> {
             open.extend(before.into_iter().map(|value| (value, false)));
         }
     }
+}
+
+/// The value of which it has the bits, with zeros above them or without the upper ones: it costs nothing to have it again.
+fn same_bits(graph: &Graph, value: ValueId) -> Option<ValueId> {
+    let Kind::Op(op, operands) = graph.kind(value) else { return None };
+    let is_word = |value: ValueId| (2..=64).contains(&graph.width(value));
+    let is_same = match op {
+        Op::ZeroExtend(_) => is_word(value),
+        Op::Slice { lo: 0, .. } => is_word(value) && is_word(operands[0]),
+        Op::Not => graph.width(value) == 1 && *graph.kind(operands[0]) == Kind::Stored,
+        _ => false,
+    };
+    is_same.then(|| operands[0])
 }

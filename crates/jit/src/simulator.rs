@@ -20,6 +20,7 @@ use crate::schedule::schedule;
 use crate::shared::shared;
 use crate::signs::Signs;
 use crate::state::State;
+use crate::step::Step;
 use crate::tables::Tables;
 
 /// A running netlist. Inputs are 0 until set; registers without reset, and memory outputs before the first read, are 0
@@ -94,12 +95,15 @@ impl Simulator {
         let groups = groups(&mut design);
         let steps = schedule(&mut design, &groups);
         let readers = Readers::of(&design, &steps);
-        let steps = readers.ordered(steps);
-        let (wakes, tables) = (wakes(&design, &readers, &groups, &steps), Tables::of(&design.graph));
+        let mut steps = readers.ordered(steps);
+        let (wakes, signs) = (wakes(&design, &readers, &groups, &steps), Signs::of(&design));
+        // Before any of what they follow from changes.
+        steps.insert(0, Step::Early(wakes.all_gates()));
+        let mut tables = Tables::of(&design.graph, &signs);
         let shared = shared(&design, &tables, &wakes, &steps);
         let layout = Layout::new(&design, &tables, &wakes, &shared)?;
+        tables.place_arrays(&layout);
         let state = State::new(&design, &tables, &wakes, &layout);
-        let signs = Signs::of(&design);
         let plan = Plan { design, steps, tables, signs, wakes, shared, layout };
         let clock = Code::new(Program::Clock, &plan)?;
         let compiled = Compiled { plan, clock, outputs: OnceLock::new(), signals: OnceLock::new() };

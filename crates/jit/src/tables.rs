@@ -4,7 +4,10 @@
 use edgewalk_netlist::Op;
 use edgewalk_netlist::ops::Bits;
 
+use crate::arrays::Array;
 use crate::graph::{Graph, Kind, ValueId};
+use crate::layout::Layout;
+use crate::signs::Signs;
 
 /// A value of so many bits or fewer can be an index: a table is a line of a cache at most.
 const INDEX_BITS: u32 = 6;
@@ -16,6 +19,8 @@ const ENTRY_BITS: u32 = 8;
 pub(crate) struct Tables {
     /// Of each value.
     of: Vec<Option<Table>>,
+    /// Of each value that is a choice among registers by a number.
+    arrays: Vec<Option<Array>>,
     /// Entries of all tables, one after the other.
     pub bytes: Vec<u8>,
 }
@@ -41,9 +46,10 @@ enum Source {
 }
 
 impl Tables {
-    pub fn of(graph: &Graph) -> Tables {
+    pub fn of(graph: &Graph, signs: &Signs) -> Tables {
         let mut sources: Vec<Source> = Vec::with_capacity(graph.len());
-        let mut tables = Tables { of: vec![None; graph.len()], bytes: Vec::new() };
+        let mut tables =
+            Tables { of: vec![None; graph.len()], arrays: vec![None; graph.len()], bytes: Vec::new() };
         for id in graph.ids() {
             let source = source(graph, &sources, id);
             if let Source::Index(index, depth, entries) = &source
@@ -53,6 +59,16 @@ impl Tables {
                 let first = tables.place(entries);
                 tables.of[id.index()] = Some(Table { index: *index, first });
             }
+            let bits = match graph.as_op(id, Op::Mux).map(|operands| &sources[operands[0].index()]) {
+                Some(Source::Index(index, _, bits)) => Some((*index, bits.as_slice())),
+                _ => None,
+            };
+            tables.arrays[id.index()] = match bits {
+                Some(bits) => {
+                    Array::of_choice(graph, signs, id, bits, |arm| tables.arrays[arm.index()].clone())
+                }
+                None => Array::of_two(graph, signs, id),
+            };
             sources.push(source);
         }
         tables
@@ -63,11 +79,35 @@ impl Tables {
         self.of[id.index()]
     }
 
+    /// The array that this value is read from, if it is.
+    pub fn array(&self, id: ValueId) -> Option<&Array> {
+        self.arrays[id.index()].as_ref()
+    }
+
+    /// Bytes that all tables have room in, those of arrays too.
+    pub fn room(&self) -> usize {
+        let arrays = self.arrays.iter().flatten().filter(|array| array.registers.len() > 2);
+        self.bytes.len() + arrays.map(|array| array.registers.len()).sum::<usize>()
+    }
+
+    /// Makes the tables of the arrays, when it is known where registers lie.
+    pub fn place_arrays(&mut self, layout: &Layout) {
+        for id in 0..self.arrays.len() {
+            let array = self.arrays[id].as_ref().filter(|array| array.registers.len() > 2);
+            if let Some((_, words)) = array.and_then(|array| array.places(layout)) {
+                let entries: Vec<u128> = words.into_iter().map(u128::from).collect();
+                let table = Some(self.place(&entries));
+                self.arrays[id].iter_mut().for_each(|array| array.table = table);
+            }
+        }
+    }
+
     /// What must be there to compute the value: its index if it is looked up, else its operands.
     pub fn operands<'a>(&'a self, graph: &'a Graph, id: ValueId) -> &'a [ValueId] {
-        match &self.of[id.index()] {
-            Some(table) => std::slice::from_ref(&table.index),
-            None => graph.operands(id),
+        match (&self.of[id.index()], &self.arrays[id.index()]) {
+            (Some(table), _) => std::slice::from_ref(&table.index),
+            (_, Some(array)) => std::slice::from_ref(&array.index),
+            _ => graph.operands(id),
         }
     }
 

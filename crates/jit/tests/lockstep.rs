@@ -5,6 +5,7 @@ mod common {
     pub mod apart;
     pub mod carry;
     pub mod enables;
+    pub mod named;
     pub mod pair;
     pub mod ram;
     pub mod signed;
@@ -159,6 +160,16 @@ fn sums_of_signed_registers() {
         (0..60).map(|_| compare(&common::signed::module(&mut random), &mut random, 200)).sum();
     println!("{compared} values compared");
     assert!(compared > 500_000);
+}
+
+/// Choices among registers, queues, and logic of bits.
+#[test]
+fn registers_that_a_number_names() {
+    let mut random = Pcg64Mcg::new(10);
+    let compared: u64 =
+        (0..100).map(|_| compare(&common::named::module(&mut random), &mut random, 200)).sum();
+    println!("{compared} values compared");
+    assert!(compared > 1_000_000);
 }
 
 /// A unit of a longer way than it could wait for works on all the time.

@@ -244,6 +244,135 @@ fn registers_that_change() {
     expect_file!["snapshots/changes.txt"].assert_eq(&costs);
 }
 
+/// A bit that is read or worked out as a word stays one, with anything above it.
+#[test]
+fn bits_as_words() {
+    let readers: [(&str, Way); 7] = [
+        ("a bit of a sum", |m, _, a, b| m.output("y", (a + b).bit(7))),
+        ("a bit of a sum, and another", |m, c, a, b| m.output("y", (a + b).bit(7) & c)),
+        ("the opposite of a bit of a sum, and another", |m, c, a, b| m.output("y", !(a + b).bit(7) & c)),
+        ("the opposite of a relation, and another", |m, c, a, b| m.output("y", !a.lt(b) & c)),
+        ("copies of a bit of a sum", |m, _, a, b| m.output("y", (a + b).bit(7).sext(20))),
+        ("a bit below a word", |m, c, a, _| m.output("y", m.cat(&[a, c]))),
+        ("a bit of a sum below a word", |m, _, a, b| m.output("y", m.cat(&[a, (a + b).bit(7)]))),
+    ];
+    let mut costs = String::new();
+    for (name, reader) in readers {
+        costs += &line(name, |m| {
+            let c = m.input("c", 1);
+            let [a, b] = inputs(m, 20, ["a", "b"]);
+            reader(m, c, a, b);
+        });
+    }
+    expect_file!["snapshots/bits.txt"].assert_eq(&costs);
+}
+
+/// Two registers that take what two neighbours are, one load and one store; not in other forms, or if one is not a neighbour.
+#[test]
+fn stages_of_queues() {
+    let stage = |m: &Module, turned: bool, signed: bool, compared: bool| {
+        let words = inputs(m, 20, ["in0", "in1"]);
+        let first = [0, 1].map(|i| m.reg(&format!("a{i}"), 20).set(words[i] + 1).q());
+        let c = m.input("c", 1);
+        for i in 0..2 {
+            let register = m.reg(&format!("b{i}"), 20);
+            let value = first[if turned { 1 - i } else { i }];
+            let last = if compared { register.set(value).q() } else { register.when(c, value).q() };
+            m.output(&format!("y{i}"), if signed && i == 1 { last.sext(30) } else { last });
+            if compared {
+                let other = Module::new(&format!("other{i}"), "");
+                let sees = other.input("sees", 20);
+                other.output("sum", other.reg("sum", 20).when(other.input("c", 1), sees + 1).q());
+                let other = m.instance(&format!("u_{i}"), &other.finish().unwrap());
+                other.connect("sees", last).connect("c", c);
+                m.output(&format!("z{i}"), other.output("sum"));
+            }
+        }
+    };
+    let mut costs = String::new();
+    costs += &line("two words", |m| stage(m, false, false, false));
+    costs += &line("two words, turned round", |m| stage(m, true, false, false));
+    costs += &line("two words, one kept with its sign", |m| stage(m, false, true, false));
+    costs += &line("two words that other units follow from", |m| stage(m, false, false, true));
+    expect_file!["snapshots/queues.txt"].assert_eq(&costs);
+}
+
+/// What several steps need is not kept a second time where it is there anyway.
+#[test]
+fn kept_once() {
+    let ways: [(&str, Way); 5] = [
+        ("a sum that a register takes", |m, _, a, b| {
+            m.output("p", m.reg("x", 20).set(a + b).q());
+            m.output("q", m.reg("y", 20).when(a.bit(0), (a + b) ^ a).q());
+        }),
+        ("a sum that a register takes with its sign", |m, _, a, b| {
+            m.output("p", m.reg("x", 20).set(a + b).q().sext(30));
+            m.output("q", m.reg("y", 20).when(a.bit(0), (a + b) ^ a).q());
+        }),
+        ("a sum that a register takes if a bit says so", |m, c, a, b| {
+            m.output("p", m.reg("x", 20).when(c, a + b).q());
+            m.output("q", m.reg("y", 20).when(a.bit(0), (a + b) ^ a).q());
+        }),
+        ("a register with zeros above, and a bit's opposite", |m, c, a, _| {
+            m.output("p", m.reg("x", 30).when(c, a.zext(30) + 1).q());
+            m.output("q", m.reg("y", 30).when(a.bit(0), a.zext(30) + 2).q());
+            m.output("r", m.reg("z", 1).when(a.bit(1), !c).q() ^ !c);
+        }),
+        ("a register's upper bits", |m, c, a, _| {
+            m.output("p", m.reg("x", 10).when(c, a.slice(19, 10) + 1).q());
+            m.output("q", m.reg("y", 10).when(a.bit(0), a.slice(19, 10) + 2).q());
+        }),
+    ];
+    let mut costs = String::new();
+    for (name, way) in ways {
+        costs += &line(name, |m| {
+            let c = m.input("c", 1);
+            let [a, b] = inputs(m, 20, ["a", "b"]);
+            way(m, c, a, b);
+        });
+    }
+    expect_file!["snapshots/kept.txt"].assert_eq(&costs);
+}
+
+/// A choice among registers by a number is read at an address, if all of them are as they were and are kept alike.
+#[test]
+fn choices_among_registers() {
+    fn choice(m: &Module, widths: [u32; 4], signed: bool) -> Signal<'_> {
+        let [c, number] = [m.input("c", 1), m.input("number", 2)];
+        let registers: Vec<Signal> = (0..4)
+            .map(|i| m.reg(&format!("r{i}"), widths[i]).when(c, m.input(&format!("in{i}"), widths[i])).q())
+            .collect();
+        if signed {
+            m.output("sign", registers[2].sext(60));
+        }
+        let [p, q, r, s] = [0, 1, 2, 3].map(|i| registers[i].zext(20));
+        number.eq(3).mux(p, number.eq(1).mux(q, number.bit(1).mux(r, s)))
+    }
+    let mut costs = String::new();
+    costs += &line("one of four", |m| m.output("y", choice(m, [20; 4], false)));
+    costs += &line("one of four, of other widths", |m| m.output("y", choice(m, [20, 7, 12, 20], false)));
+    costs += &line("one of four, one kept with its sign", |m| m.output("y", choice(m, [20; 4], true)));
+    let readers: [(&str, Way); 5] = [
+        ("one of two", |m, c, a, b| m.output("y", c.mux(a, b))),
+        ("one of two, by a bit that is worked out", |m, c, a, b| m.output("y", (c ^ a.lt(b)).mux(a, b))),
+        ("one of two, or a number", |m, c, a, _| m.output("y", c.mux(a, m.lit(20, 7)))),
+        ("one of two bits", |m, c, a, b| m.output("y", c.mux(a.bit(3), b.bit(3)))),
+        ("one of two, of which one has changed", |m, c, a, b| {
+            let register = m.reg("register", 20);
+            register.when(c, a ^ b);
+            m.output("y", m.reg("after", 20).when(register.q().bit(0), c.mux(register.q(), a)).q());
+        }),
+    ];
+    for (name, reader) in readers {
+        costs += &line(name, |m| {
+            let c = m.input("c", 1);
+            let [a, b] = inputs(m, 20, ["a", "b"]);
+            reader(m, c, a, b);
+        });
+    }
+    expect_file!["snapshots/arrays.txt"].assert_eq(&costs);
+}
+
 /// Registers in a unit of their own: a counter that its unit does not see, and what follows from registers that stay for a while.
 #[test]
 fn registers_apart() {
@@ -270,6 +399,20 @@ fn registers_apart() {
                 m.output(&format!("y{i}"), m.reg(&format!("d{i}"), 20).set(larger - b).q());
             }
             m.output("y", load);
+        });
+    }
+    for registers in [1, 2, 4] {
+        costs += &line(&format!("{registers} registers that another unit follows from"), |m| {
+            let other = Module::new("other", "");
+            let sees: Vec<Signal> = (0..registers).map(|i| other.input(&format!("sees{i}"), 20)).collect();
+            let sum = sees[1..].iter().fold(sees[0], |sum, value| sum + *value);
+            other.output("sum", other.reg("sum", 20).set(sum).q());
+            let other = m.instance("u_other", &other.finish().unwrap());
+            for i in 0..registers {
+                let register = m.reg(&format!("r{i}"), 20).set(m.input(&format!("a{i}"), 20) + 1);
+                other.connect(&format!("sees{i}"), register.q());
+            }
+            m.output("sum", other.output("sum"));
         });
     }
     expect_file!["snapshots/apart.txt"].assert_eq(&costs);

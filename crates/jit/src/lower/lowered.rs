@@ -18,6 +18,8 @@ pub(super) struct Lowered {
     pub zero: Option<Value>,
     /// With copies of the sign above.
     pub sign: Option<Value>,
+    /// Of a bit, `any` as a word, below 2^bits too: as which it was read or worked out.
+    pub word: Option<Value>,
     /// It is in its place in the state, as `any`, and has to be read there.
     pub is_kept: bool,
 }
@@ -25,13 +27,26 @@ pub(super) struct Lowered {
 impl Lowered {
     /// Anything above the value's bits, but `any` is below 2^bits.
     pub fn below(any: Value, bits: u32) -> Lowered {
-        Lowered { any, bits, range: Range::unsigned(bits), zero: None, sign: None, is_kept: false }
+        Lowered {
+            any,
+            bits,
+            range: Range::unsigned(bits),
+            zero: None,
+            sign: None,
+            word: None,
+            is_kept: false,
+        }
     }
 
     /// Anything above the value's bits, but `any` is below 2^bits, and in the range if there is one.
     pub fn within(any: Value, bits: u32, range: Option<Range>) -> Lowered {
         let bits = range.and_then(Range::bits).map_or(bits, |of_range| of_range.min(bits));
         Lowered { range: range.or(Range::unsigned(bits)), ..Lowered::below(any, bits) }
+    }
+
+    /// A bit that is there as this word, below 2^bits.
+    pub fn bit(any: Value, word: Value, bits: u32) -> Lowered {
+        Lowered { word: Some(word), ..Lowered::below(any, bits) }
     }
 
     /// Copies of the sign above so many bits.

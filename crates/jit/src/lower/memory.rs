@@ -20,8 +20,13 @@ impl Lowering<'_> {
         let zero = self.v.constant(types::I64, 0);
         let index = is_there.map_or(index, |is_there| self.v.cursor.ins().select(is_there, index, zero));
         let address = self.address(index, area);
-        let word = self.v.cursor.ins().load(stored_as(area), memory_flags(), address, area.offset);
-        let word = resized(&mut self.v, word, ty);
+        let (flags, offset, ins) = (memory_flags(), area.offset, self.v.cursor.ins());
+        let word = match (ty, area.word) {
+            (types::I64, 1) => ins.uload8(ty, flags, address, offset),
+            (types::I64, 2) => ins.uload16(ty, flags, address, offset),
+            (types::I64, 4) => ins.uload32(flags, address, offset),
+            _ => ins.load(ty, flags, address, offset),
+        };
         let zero = self.v.constant(ty, 0);
         let word = is_there.map_or(word, |is_there| self.v.cursor.ins().select(is_there, word, zero));
         (read.q, word)

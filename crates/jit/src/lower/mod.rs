@@ -1,5 +1,6 @@
 //! Graph and plan to Cranelift's intermediate form.
 
+mod copies;
 mod lowered;
 mod memory;
 mod operators;

@@ -18,6 +18,12 @@ pub(super) fn lower(v: &mut Values, op: Op, width: u32, operands: &[ValueId]) ->
     {
         return Lowered::below(compare(v, condition, signed, a, b), 1);
     }
+    if width == 1
+        && let &[a, b] = operands
+        && let Some(bit) = of_words(v, op, a, b)
+    {
+        return bit;
+    }
     match (op, operands) {
         (Op::Add, &[a, b]) => {
             let (a, b) = (v.any(a), v.any(b));
@@ -76,17 +82,25 @@ pub(super) fn lower(v: &mut Values, op: Op, width: u32, operands: &[ValueId]) ->
                 return Lowered::below(v.cursor.ins().icmp(IntCC::SignedLessThan, word, zero), 1);
             }
             let bits = v.any(a).bits.min(lane(v.graph.width(a)).bits());
-            Lowered::below(slice(v, hi, lo, a), bits.saturating_sub(lo))
+            let bits = bits.saturating_sub(lo);
+            if width == 1 && lane(v.graph.width(a)) == types::I64 {
+                let word = v.any(a).any;
+                let word = shifted_right(v, word, lo);
+                return v.bit(word, bits);
+            }
+            Lowered::below(slice(v, hi, lo, a), bits)
         }
         (Op::ZeroExtend(_), &[a]) => {
-            let zero = v.zero(a);
+            let zero = v.word(a);
             Lowered::below(widened(v, zero, ty), v.graph.width(a))
         }
         (Op::SignExtend(_), &[a]) => {
             let bits = v.graph.width(a);
+            if let Some(word) = sign_of_bit(v, a).filter(|_| ty == types::I64) {
+                return Lowered::signed(word, 1);
+            }
             if bits == 1 && ty == types::I64 {
-                let zero = v.zero(a);
-                let zero = widened(v, zero, ty);
+                let zero = v.word(a);
                 return Lowered::signed(v.cursor.ins().ineg(zero), 1);
             }
             let sign = v.sign(a);
@@ -151,9 +165,14 @@ fn not(v: &mut Values, width: u32, a: ValueId) -> Lowered {
         return Lowered::below(v.cursor.ins().icmp(IntCC::SignedGreaterThanOrEqual, word, zero), 1);
     }
     let a = v.any(a);
+    if let Some(word) = a.word {
+        let one = v.constant(types::I64, 1);
+        let word = v.cursor.ins().bxor(word, one);
+        return v.bit(word, a.bits.max(1));
+    }
     if width == 1 {
         let one = v.constant(types::I8, 1);
-        return Lowered::below(v.cursor.ins().bxor(a.any, one), 1);
+        return Lowered::below(v.cursor.ins().bxor(a.any, one), a.bits.max(1));
     }
     let range = a.range.and_then(|range| Range::of(-1).minus(range));
     Lowered::within(v.cursor.ins().bnot(a.any), u32::MAX, range)
@@ -170,6 +189,19 @@ fn sign_asked(v: &mut Values, hi: u32, lo: u32, word: ValueId) -> Option<(Value,
     Some((word.any, zero_like(v, word.any)))
 }
 
+/// A word of copies of a bit of a word, moved to where its sign is.
+fn sign_of_bit(v: &mut Values, bit: ValueId) -> Option<Value> {
+    let &Kind::Op(Op::Slice { hi, lo }, ref operands) = v.graph.kind(bit) else { return None };
+    let word = operands[0];
+    if hi != lo || lane(v.graph.width(word)) != types::I64 || !v.is_worked_out_here(bit) {
+        return None;
+    }
+    let word = v.any(word).any;
+    let (up, down) = (v.constant(types::I64, (63 - lo).into()), v.constant(types::I64, 63));
+    let top = v.cursor.ins().ishl(word, up);
+    Some(v.cursor.ins().sshr(top, down))
+}
+
 /// One of two.
 pub(super) fn either(any: Value, a: Lowered, b: Lowered) -> Lowered {
     Lowered::within(any, a.bits.max(b.bits), a.ranges(b).map(|(a, b)| a.or(b)))
@@ -178,6 +210,30 @@ pub(super) fn either(any: Value, a: Lowered, b: Lowered) -> Lowered {
 /// Of bits of two words.
 fn of_bits(a: Lowered, b: Lowered) -> Option<Range> {
     a.ranges(b).map(|(a, b)| a.of_bits(b))
+}
+
+/// `And`, `Or` and `Xor` of two bits that are there as words, as a word: an `And` of a bit and the opposite of another is one
+/// instruction then.
+fn of_words(v: &mut Values, op: Op, a: ValueId, b: ValueId) -> Option<Lowered> {
+    let (first, second) = (v.any(a), v.any(b));
+    if op == Op::And {
+        for (other, bit) in [(b, first), (a, second)] {
+            if let Some(&[not]) = v.graph.as_op(other, Op::Not)
+                && let Some((word, not)) = bit.word.zip(v.known_word(not))
+            {
+                let word = v.cursor.ins().band_not(word, not);
+                return Some(v.bit(word, bit.bits));
+            }
+        }
+    }
+    let words = first.word.zip(second.word);
+    let (word, bits) = match (op, words) {
+        (Op::And, Some((a, b))) => (v.cursor.ins().band(a, b), first.bits.min(second.bits)),
+        (Op::Or, Some((a, b))) => (v.cursor.ins().bor(a, b), first.bits.max(second.bits)),
+        (Op::Xor, Some((a, b))) => (v.cursor.ins().bxor(a, b), first.bits.max(second.bits)),
+        _ => return None,
+    };
+    Some(v.bit(word, bits))
 }
 
 fn product(v: &mut Values, width: u32, a: ValueId, b: ValueId) -> Lowered {
@@ -257,7 +313,10 @@ fn concat(v: &mut Values, width: u32, parts: &[ValueId]) -> Lowered {
         let bits = v.graph.width(*part);
         all = Some(match all {
             None => {
-                let part = v.any(*part);
+                let part = match v.any(*part) {
+                    Lowered { word: Some(word), bits, .. } if ty != types::I8 => Lowered::below(word, bits),
+                    part => part,
+                };
                 let any = widened(v, part.any, ty);
                 // In a longer word the sign does not reach to the top.
                 let is_same = any == part.any;
@@ -265,17 +324,26 @@ fn concat(v: &mut Values, width: u32, parts: &[ValueId]) -> Lowered {
                 Lowered::within(any, part.bits, range)
             }
             Some(high) => {
-                let part = v.zero(*part);
+                let part = v.word(*part);
                 let (part, above) = (widened(v, part, ty), shifted_left(v, high.any, bits));
                 let range = high.range.and_then(|high| high.times_power(bits));
                 let range = range.zip(Range::unsigned(bits)).and_then(|(high, low)| high.plus(low));
-                Lowered::within(v.cursor.ins().bor(above, part), high.bits.saturating_add(bits), range)
+                Lowered::within(side_by_side(v, above, part, bits), high.bits.saturating_add(bits), range)
             }
         });
     }
     match all {
         Some(all) => all,
         None => Lowered::below(v.constant(ty, 0), 0),
+    }
+}
+
+/// Bits above others; by a sum where that is one instruction with the shift.
+fn side_by_side(v: &mut Values, above: Value, below: Value, bits: u32) -> Value {
+    if bits <= 3 && v.cursor.func.dfg.value_type(above) == types::I64 {
+        v.cursor.ins().iadd(below, above)
+    } else {
+        v.cursor.ins().bor(above, below)
     }
 }
 

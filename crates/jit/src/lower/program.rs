@@ -8,7 +8,7 @@ use super::values::Values;
 use crate::design::Design;
 use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
-use crate::layout::Layout;
+use crate::layout::{Layout, Place};
 use crate::quiet::{MOST, Wakes};
 use crate::signs::Signs;
 use crate::step::Step;
@@ -41,13 +41,19 @@ pub(crate) struct Plan {
 }
 
 /// Fills the function, which has its signature already.
-pub(crate) fn lower(program: Program, plan: &Plan, pointer: Type, function: &mut Function) {
+pub(crate) fn lower(
+    program: Program,
+    plan: &Plan,
+    pointer: Type,
+    has_vectors: bool,
+    function: &mut Function,
+) {
     let Plan { design, steps, .. } = plan;
     let head = function.dfg.make_block();
     let state = function.dfg.append_block_param(head, pointer);
     let mut cursor = FuncCursor::new(function);
     cursor.insert_block(head);
-    let mut lowering = Lowering { design, v: Values::new(plan, cursor, state) };
+    let mut lowering = Lowering { design, v: Values::new(plan, cursor, state, has_vectors) };
     match program {
         Program::Clock => {
             lowering.v.keep(&plan.shared);
@@ -83,8 +89,25 @@ impl Lowering<'_> {
 
     fn sample(&mut self) {
         self.v.look(self.design.outputs.iter().map(|(_, value)| *value).collect());
-        for ((_, value), place) in self.design.outputs.iter().zip(&self.v.layout.sampled) {
-            self.v.store(*value, *place);
+        let outputs: Vec<(ValueId, Place)> = self
+            .design
+            .outputs
+            .iter()
+            .map(|(_, value)| *value)
+            .zip(self.v.layout.sampled.iter().copied())
+            .collect();
+        let mut left = &outputs[..];
+        while let [(value, place), others @ ..] = left {
+            left = others;
+            if let [(next, next_place), others @ ..] = left
+                && let Some(first) = self.output_copied(*value, *place)
+                && let Some(second) = self.output_copied(*next, *next_place)
+                && self.copy_both([first, second], &[])
+            {
+                left = others;
+            } else {
+                self.v.store(*value, *place);
+            }
         }
     }
 
@@ -167,9 +190,23 @@ impl Lowering<'_> {
         }
         let always = group.is_unconditional(self.v.graph);
         let mut changed = 0;
-        for member in &group.members {
+        let mut left = &group.members[..];
+        while let [member, others @ ..] = left {
+            left = others;
+            if let [next, others @ ..] = left
+                && let Some(first) = self.member_copied(group, member, rank)
+                && let Some(second) = self.member_copied(group, next, rank)
+                && let both = [member, next].map(|member| member.q(self.design))
+                && self.copy_both([first, second], &both)
+            {
+                if !always {
+                    changed |= both.iter().fold(0, |units, q| units | self.v.wakes.of(*q));
+                }
+                left = others;
+                continue;
+            }
             let (q, value) = match member {
-                Member::Register { q, values } => (*q, self.v.as_kept(*q, values[rank])),
+                Member::Register { q, values } => (*q, self.v.taken(*q, values[rank])),
                 Member::Read { memory, port } => self.read(*memory, *port),
             };
             let wakes = self.v.wakes.of(q);

@@ -7,7 +7,6 @@ use cranelift_codegen::ir::{Inst, InstBuilder, Value};
 use super::lowered::lane;
 use super::values::{Values, flags};
 use crate::graph::ValueId;
-use crate::layout::Place;
 
 /// Where a register changes.
 #[derive(Clone, Copy)]
@@ -25,8 +24,16 @@ pub(super) struct Branch {
     pub changed: Vec<ValueId>,
     /// Those of which it has read the old value.
     pub old: Vec<ValueId>,
-    /// What is not 0 if something has changed that these units have to know.
-    pub differences: Vec<(u64, Value)>,
+    /// By the units that have to know.
+    pub differences: Vec<Difference>,
+}
+
+/// What is not 0 if something has changed that these units have to know.
+pub(super) struct Difference {
+    pub units: u64,
+    pub any: Value,
+    /// Of so many registers.
+    pub count: usize,
 }
 
 impl Values<'_> {
@@ -78,21 +85,20 @@ impl Values<'_> {
         self.branches[branch].changed.push(register);
     }
 
-    /// An input or the old value of a register.
+    /// An input or the old value of a register; a bit as a word.
     pub fn stored(&mut self, value: ValueId, width: u32) -> Value {
-        let Some(Place { offset, .. }) = self.layout.of(value) else {
-            return self.constant(lane(width), 0); // never: the layout has all that is stored
+        let Some(place) = self.layout.of(value) else {
+            return self.constant(lane(width.max(2)), 0); // never: the layout has all that is stored
         };
-        let state = self.state;
         let Some(Change { branch, at }) = self.changed[value.index()] else {
-            return self.cursor.ins().load(lane(width), flags(width), state, offset);
+            return self.load(place);
         };
         if let Some(old) = self.old.get(&value) {
             return *old;
         }
         let here = self.cursor.position();
         self.cursor.goto_inst(at);
-        let old = self.cursor.ins().load(lane(width), flags(width), state, offset);
+        let old = self.load(place);
         self.cursor.set_position(here);
         self.old.insert(value, old);
         self.branches[branch].old.push(value);

@@ -28,10 +28,16 @@ pub(super) struct Values<'a> {
     pub cursor: FuncCursor<'a>,
     /// The address of the state.
     pub state: Value,
+    /// Whether the host has words of 128 bits.
+    pub has_vectors: bool,
     /// The function and the branches within each other in which the cursor stands.
     pub(super) branches: Vec<Branch>,
     known: Vec<Option<Lowered>>,
     is_shared: Vec<bool>,
+    /// What a register takes next: it is kept there, if it is kept.
+    taken: Option<ValueId>,
+    /// The registers that have taken values which are kept.
+    takers: HashMap<ValueId, ValueId>,
     /// What was known before, since the outermost branch began.
     undo: Vec<(ValueId, Option<Lowered>)>,
     /// Of each register of which the state may have the new value by now, where it changed.
@@ -42,7 +48,7 @@ pub(super) struct Values<'a> {
 
 impl<'a> Values<'a> {
     /// Nothing is known yet; the cursor stands in the function's first block.
-    pub fn new(plan: &'a Plan, cursor: FuncCursor<'a>, state: Value) -> Values<'a> {
+    pub fn new(plan: &'a Plan, cursor: FuncCursor<'a>, state: Value, has_vectors: bool) -> Values<'a> {
         let Plan { tables, signs, wakes, layout, .. } = plan;
         let graph = &plan.design.graph;
         let (known, changed) = (vec![None; graph.len()], vec![None; graph.len()]);
@@ -57,9 +63,12 @@ impl<'a> Values<'a> {
             layout,
             cursor,
             state,
+            has_vectors,
             branches,
             known,
             is_shared,
+            taken: None,
+            takers: HashMap::new(),
             undo,
             changed,
             old,
@@ -117,6 +126,36 @@ impl<'a> Values<'a> {
         let zero = if lowered.bits <= width { lowered.any } else { self.masked(lowered.any, width) };
         self.set(value, Lowered { zero: Some(zero), ..lowered });
         zero
+    }
+
+    /// The value with zeros above its bits, a bit too as a word.
+    pub fn word(&mut self, value: ValueId) -> Value {
+        if self.graph.width(value) > 1 {
+            return self.zero(value);
+        }
+        match self.demand(value) {
+            Lowered { word: Some(word), bits: 0..=1, .. } => word,
+            Lowered { word: Some(word), .. } => self.masked(word, 1),
+            _ => {
+                let zero = self.zero(value);
+                self.cursor.ins().uextend(types::I64, zero)
+            }
+        }
+    }
+
+    /// A bit as a word with anything above, if it is known as one.
+    pub fn known_word(&self, bit: ValueId) -> Option<Value> {
+        self.known[bit.index()].filter(|bit| !bit.is_kept)?.word
+    }
+
+    /// Neither looked up nor kept.
+    pub fn is_worked_out_here(&self, value: ValueId) -> bool {
+        self.tables.get(value).is_none() && !self.is_shared[value.index()]
+    }
+
+    /// A bit that is there as a word below 2^bits.
+    pub fn bit(&mut self, word: Value, bits: u32) -> Lowered {
+        Lowered::bit(self.cursor.ins().ireduce(types::I8, word), word, bits)
     }
 
     /// The value with copies of its sign above its bits.
@@ -204,11 +243,39 @@ impl<'a> Values<'a> {
             if stack.len() == waiting {
                 let lowered = self.compute(value);
                 self.set(value, lowered);
-                if self.is_shared[value.index()] {
+                if self.is_shared[value.index()] && self.taken != Some(value) {
+                    self.takers.remove(&value);
                     self.store_shared(value, lowered.any);
                 }
             }
         }
+    }
+
+    /// What is in a place; a bit as a word.
+    pub fn load(&mut self, Place { offset, width }: Place) -> Value {
+        let state = self.state;
+        match width {
+            1 => self.cursor.ins().uload8(types::I64, flags(1), state, offset),
+            _ => self.cursor.ins().load(lane(width), flags(width), state, offset),
+        }
+    }
+
+    /// What a register takes next, in the form in which it keeps it. If other steps need it too they find it there.
+    pub fn taken(&mut self, register: ValueId, value: ValueId) -> Value {
+        let is_new = self.known[value.index()].is_none() && self.is_shared[value.index()];
+        self.taken = Some(value).filter(|_| is_new);
+        let kept = self.as_kept(register, value);
+        if self.taken.take().is_some() {
+            let width = self.graph.width(value);
+            let lowered = if self.signs.has(register) {
+                Lowered::signed(kept, width)
+            } else {
+                Lowered::below(kept, width)
+            };
+            self.set(value, lowered);
+            self.takers.insert(value, register);
+        }
+        kept
     }
 
     fn store_shared(&mut self, value: ValueId, any: Value) {
@@ -220,13 +287,18 @@ impl<'a> Values<'a> {
 
     /// A value that is kept.
     fn read_again(&mut self, value: ValueId, lowered: Lowered) -> Lowered {
-        let any = match self.layout.of(value) {
+        let place = self.takers.get(&value).copied().unwrap_or(value);
+        let any = match self.layout.of(place) {
+            Some(place) if place.width == 1 && lowered.bits <= 1 => {
+                let word = self.load(place);
+                return self.bit(word, 1);
+            }
             Some(Place { offset, width }) => {
                 self.cursor.ins().load(lane(width), flags(width), self.state, offset)
             }
             None => self.constant(lane(self.graph.width(value)), 0), // never: it has a place
         };
-        Lowered { any, zero: None, sign: None, is_kept: false, ..lowered }
+        Lowered { any, zero: None, sign: None, word: None, is_kept: false, ..lowered }
     }
 
     /// A choice whose arms are computed only where they are taken.
@@ -258,23 +330,57 @@ impl<'a> Values<'a> {
         if let Some(table) = self.tables.get(value) {
             return self.looked_up(table, width);
         }
+        if let Some(read) = self.read_from_array(value, width) {
+            return read;
+        }
         if let Some(choice) = self.alone.choice(self.graph, value) {
             return self.chosen(choice, width);
         }
         match self.graph.kind(value) {
             Kind::Stored if self.signs.has(value) => Lowered::signed(self.stored(value, width), width),
+            Kind::Stored if width == 1 => {
+                let word = self.stored(value, width);
+                self.bit(word, 1)
+            }
             Kind::Stored => Lowered::below(self.stored(value, width), width),
             Kind::Constant(constant) => {
                 Lowered::below(self.constant(lane(width), *constant), 128 - constant.leading_zeros())
             }
-            Kind::Op(op, operands) => {
-                let lowered = operators::lower(self, *op, width, operands);
-                if width == 1 && lowered.bits > 1 {
-                    return Lowered::below(self.masked(lowered.any, 1), 1);
-                }
-                lowered
-            }
+            Kind::Op(op, operands) => operators::lower(self, *op, width, operands),
         }
+    }
+
+    /// The register that a number names, if all that it could name are as they were.
+    fn read_from_array(&mut self, value: ValueId, width: u32) -> Option<Lowered> {
+        let array = self.tables.array(value)?;
+        if array.registers.iter().any(|register| self.changed[register.index()].is_some()) {
+            return None;
+        }
+        let (lowest, words) = array.places(self.layout)?;
+        let (state, is_signed) = (self.state, self.signs.has(array.registers[0]));
+        let (at, offset) = match (array.table, &words[..]) {
+            (Some(table), _) => {
+                let index = self.zero(array.index);
+                let address = self.cursor.ins().iadd(state, index);
+                let offset = self.layout.tables + table as i32;
+                let words = self.cursor.ins().uload8(types::I64, MemFlagsData::trusted(), address, offset);
+                let three = self.constant(types::I64, 3);
+                (self.cursor.ins().ishl(words, three), lowest)
+            }
+            // To a bit that has to be made a word a choice is as short.
+            (None, &[zero, one]) => {
+                let bit = self.demand(array.index);
+                let bit = bit.word.filter(|_| bit.bits <= 1)?;
+                let bytes = (i64::from(one) - i64::from(zero)) * 8;
+                (self.cursor.ins().imul_imm_s(bit, bytes), lowest + i32::from(zero) * 8)
+            }
+            _ => return None,
+        };
+        let address = self.cursor.ins().iadd(state, at);
+        let any = self.cursor.ins().load(lane(width), flags(width), address, offset);
+        let widest =
+            array.registers.iter().map(|register| self.graph.width(*register)).max().unwrap_or(width);
+        Some(if is_signed { Lowered::signed(any, widest) } else { Lowered::below(any, widest) })
     }
 
     /// An entry of a table.
@@ -283,12 +389,8 @@ impl<'a> Values<'a> {
         let (flags, state, offset) =
             (MemFlagsData::trusted(), self.state, self.layout.tables + table.first as i32);
         let address = self.cursor.ins().iadd(state, index);
-        let ins = self.cursor.ins();
-        let entry = match width {
-            1 => ins.load(types::I8, flags, address, offset),
-            _ => ins.uload8(types::I64, flags, address, offset),
-        };
-        Lowered::below(entry, width)
+        let entry = self.cursor.ins().uload8(types::I64, flags, address, offset);
+        if width == 1 { self.bit(entry, 1) } else { Lowered::below(entry, width) }
     }
 }
 

@@ -5,6 +5,7 @@ use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{InstBuilder, MemFlagsData, Value, types};
 
 use super::operators;
+use super::registers::Difference;
 use super::values::{Values, flags};
 use crate::graph::ValueId;
 use crate::layout::Compared;
@@ -36,20 +37,25 @@ impl Values<'_> {
     /// The units have to know if this is not 0.
     fn differ(&mut self, difference: Value, units: u64) {
         let branch = self.branches.len() - 1;
-        let same = self.branches[branch].differences.iter().position(|(others, _)| *others == units);
-        match same {
-            Some(at) => {
-                let other = self.branches[branch].differences[at].1;
-                self.branches[branch].differences[at].1 = self.cursor.ins().bor(other, difference);
-            }
-            None => self.branches[branch].differences.push((units, difference)),
+        let all = &mut self.branches[branch].differences;
+        let Some(same) = all.iter_mut().find(|same| same.units == units) else {
+            return all.push(Difference { units, any: difference, count: 1 });
+        };
+        let any = self.cursor.ins().bor(same.any, difference);
+        (same.any, same.count) = (any, same.count + 1);
+        if same.count % 2 == 0 {
+            // Nobody reads it there, but for a store it has to be worked out here: else the code generator keeps what all of the
+            // registers were and what they are till the branch ends.
+            self.cursor.ins().store(flags(64), any, self.state, self.layout.unread);
         }
     }
 
     /// At the end of a branch: the units work on that have to know what has changed in it.
     pub fn wake_changed(&mut self) {
         let branch = self.branches.len() - 1;
-        for (units, difference) in std::mem::take(&mut self.branches[branch].differences) {
+        for Difference { units, any: difference, .. } in
+            std::mem::take(&mut self.branches[branch].differences)
+        {
             for (unit, clocks) in self.wakes.units(units) {
                 let (before, all) = (self.clocks(unit), self.constant(types::I8, clocks.into()));
                 let clocks = self.cursor.ins().select(difference, all, before);
@@ -107,13 +113,17 @@ impl Values<'_> {
         if bytes == 0 {
             return clocks;
         }
-        let [word, last, next] = [(); 3].map(|()| self.cursor.func.dfg.make_block());
+        let [seldom, word, last, next] = [(); 4].map(|()| self.cursor.func.dfg.make_block());
+        [seldom, word, last].into_iter().for_each(|block| self.cursor.func.layout.set_cold(block));
         let [at, others] = [(); 2].map(|()| self.cursor.func.dfg.append_block_param(word, types::I64));
         let either = self.cursor.func.dfg.append_block_param(next, types::I8);
         let first = self.constant(types::I8, self.wakes.asked_from(unit).into());
-        let zero = self.constant(types::I64, 0);
         let is_asked = self.cursor.ins().icmp(IntCC::UnsignedLessThanOrEqual, clocks, first);
-        self.cursor.ins().brif(is_asked, word, &[zero.into(), zero.into()], next, &[clocks.into()]);
+        self.cursor.ins().brif(is_asked, seldom, &[], next, &[clocks.into()]);
+
+        self.cursor.insert_block(seldom);
+        let zero = self.constant(types::I64, 0);
+        self.cursor.ins().jump(word, &[zero.into(), zero.into()]);
 
         // A word a time: it is seldom done, and short code is compiled sooner.
         self.cursor.insert_block(word);

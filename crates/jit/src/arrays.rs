@@ -1,0 +1,77 @@
+//! Choices among registers by a number: the one that the number names is read where it lies, instead of each of them and then
+//! chosen.
+
+use edgewalk_netlist::Op;
+
+use crate::graph::{Graph, Kind, ValueId};
+use crate::layout::Layout;
+use crate::signs::Signs;
+
+/// Registers of the same form, of which a number names one.
+#[derive(Clone, Debug)]
+pub(crate) struct Array {
+    /// The number.
+    pub index: ValueId,
+    /// The register that each number names.
+    pub registers: Vec<ValueId>,
+    /// Of a number of several bits: where the table of their places is among the tables, a byte for each.
+    pub table: Option<usize>,
+}
+
+impl Array {
+    /// By a bit.
+    pub fn of_two(graph: &Graph, signs: &Signs, id: ValueId) -> Option<Array> {
+        let &[index, one, zero] = graph.as_op(id, Op::Mux)? else { return None };
+        let [one, zero] = [one, zero].map(|arm| leaf(graph, signs, arm));
+        Array { index, registers: vec![zero?, one?], table: None }.if_alike(graph, signs)
+    }
+
+    /// By a number: of a choice by a bit that is this for each number, between registers or arrays of that number.
+    pub fn of_choice(
+        graph: &Graph,
+        signs: &Signs,
+        id: ValueId,
+        (index, bits): (ValueId, &[u128]),
+        array: impl Fn(ValueId) -> Option<Array>,
+    ) -> Option<Array> {
+        let &[_, one, zero] = graph.as_op(id, Op::Mux)? else { return None };
+        let [one, zero] = [one, zero].map(|arm| match leaf(graph, signs, arm) {
+            Some(register) => Some(vec![register; bits.len()]),
+            None => array(arm).filter(|array| array.index == index).map(|array| array.registers),
+        });
+        let arms = one?.into_iter().zip(zero?);
+        let registers = bits.iter().zip(arms).map(|(bit, (one, zero))| if *bit == 1 { one } else { zero });
+        Array { index, registers: registers.collect(), table: None }.if_alike(graph, signs)
+    }
+
+    /// The array, if all are kept in the same form.
+    fn if_alike(self, graph: &Graph, signs: &Signs) -> Option<Array> {
+        let first = self.registers[0];
+        let is_alike = |register: &ValueId| {
+            signs.has(*register) == signs.has(first)
+                && (!signs.has(first) || graph.width(*register) == graph.width(first))
+        };
+        self.registers.iter().all(is_alike).then_some(self)
+    }
+
+    /// The lowest of their places, and how many words each is above it, if a byte has room for that.
+    pub fn places(&self, layout: &Layout) -> Option<(i32, Vec<u8>)> {
+        let offsets: Option<Vec<i32>> =
+            self.registers.iter().map(|register| Some(layout.of(*register)?.offset)).collect();
+        let offsets = offsets?;
+        let lowest = *offsets.iter().min()?;
+        let words: Option<Vec<u8>> =
+            offsets.iter().map(|offset| u8::try_from((offset - lowest) / 8).ok()).collect();
+        Some((lowest, words?))
+    }
+}
+
+/// A register or an input, of a word or less: as it is, or with zeros above that the state has there anyway.
+fn leaf(graph: &Graph, signs: &Signs, value: ValueId) -> Option<ValueId> {
+    let register = match graph.kind(value) {
+        Kind::Op(Op::ZeroExtend(_), operands) if !signs.has(operands[0]) => operands[0],
+        _ => value,
+    };
+    let are_words = [value, register].iter().all(|value| (2..=64).contains(&graph.width(*value)));
+    (are_words && *graph.kind(register) == Kind::Stored).then_some(register)
+}
