@@ -73,14 +73,15 @@ fn a_file_that_cannot_be_finished_is_named_by_its_place() {
     let trace = [&["trace", "d.tri", "-q", "--out", "a/t.vcd"], &SCREEN[..]].concat();
     // Small enough to be written at the very end.
     std::fs::write(folder.path().join("small.tri"), TRIANGLE.replace("size 64 48", "size 40 30")).unwrap();
-    let picture = [&["render", "d.tri", "-q", "--out", "a/p"], &SCREEN[..]].concat();
+    let screen = ["--set", "screen.width=120", "--set", "screen.height=90"];
+    let picture = [&["render", "sphere", "-q", "--out", "a/p"], &screen[..]].concat();
     let commands: [(&[&str], &str, &str); 5] = [
         (&["raster", "d.tri", "-q", "--out", "a/r"], "20", "a/r/rgb.npy"),
         (&["raster", "small.tri", "-q", "--out", "a/s"], "20", "a/s/rgb.npy"),
         (&["emit", "-q", "--out", "a/e"], "20", "a/e/edgewalk_setup.v"),
         (&trace, "20", "a/t.vcd"),
-        // The picture's last bytes are its first too.
-        (&picture, "1", "a/p/golden.png"),
+        // A picture of which all bytes are written at the very end.
+        (&picture, "10", "a/p/golden.png"),
     ];
     for (command, blocks, file) in commands {
         let mut shell = Command::new("sh");
