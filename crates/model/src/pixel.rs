@@ -39,7 +39,7 @@ pub struct Pixel<const C: usize> {
     passes: [OfPass; 2],
     /// 32 - r: from a word to where it stands.
     align: OutputWords<C>,
-    /// 2^b - 1.
+    /// 2^b - 1; of the depth, what the pass keeps.
     masks: OutputWords<C>,
     last_phase: u32,
     /// How many there are.
@@ -209,17 +209,17 @@ impl<const C: usize> Pixel<C> {
         if self.active {
             if self.phase < self.last_phase {
                 self.phase += 1;
-                self.shift(None);
+                self.shift(false);
                 return;
             }
-            let sums = self.sums(events);
-            self.shift(sums);
+            self.shift(self.on_screen());
+            self.entered(events);
             if self.count > 1 {
                 self.next_pixel();
                 return;
             }
         } else {
-            self.shift(None);
+            self.shift(false);
         }
         self.active = span.is_some();
         if let Some(span) = span {
@@ -231,47 +231,42 @@ impl<const C: usize> Pixel<C> {
         }
     }
 
-    /// Moves the out stages, `entering` into the first.
+    /// Moves the out stages, the pixel whose sums are ready into the first if it is `entering`.
     #[inline]
-    fn shift(&mut self, entering: Option<Fragment<C>>) {
+    fn shift(&mut self, entering: bool) {
         if C > FEW && self.terms > 0 {
-            let cosines = if entering.is_some() { self.outputs() } else { Cosines::default() };
+            let cosines = if entering { self.outputs() } else { Cosines::default() };
             self.out_cosines = match self.before {
                 0 => cosines,
                 _ => std::mem::replace(&mut self.cosines[self.oldest], cosines),
             };
         }
         if self.before == 0 {
-            self.out = entering;
+            self.out = entering.then(|| self.fragment());
             return;
         }
-        self.out = std::mem::replace(&mut self.stages[self.oldest], entering);
+        let fragment = entering.then(|| self.fragment());
+        self.out = std::mem::replace(&mut self.stages[self.oldest], fragment);
         self.oldest = (self.oldest + 1) % self.before;
     }
 
-    /// The pixel whose sums are ready, if it lies on the screen.
+    /// The pixel has entered the out stages, or lies beside the screen.
     #[inline]
-    fn sums(&mut self, events: &mut Events) -> Option<Fragment<C>> {
+    fn entered(&mut self, events: &mut Events) {
         if !self.on_screen() {
             events.off_screen += 1;
-            return None;
-        }
-        let fragment = self.fragment();
-        if self.fence {
+        } else if self.fence {
             self.fence = false;
             events.fence += 1;
         }
-        Some(fragment)
     }
 
     /// The pixel at `x`, its values cut to b bits.
     #[inline]
     fn fragment(&self) -> Fragment<C> {
-        let mut values = std::array::from_fn(|i| (self.values[i] >> 32) as u32 & self.masks[i]);
-        values[0] &= self.pass.z_mask;
         Fragment {
             addr: self.row | self.x as u32,
-            values,
+            values: std::array::from_fn(|i| (self.values[i] >> 32) as u32 & self.masks[i]),
             kt: self.kt,
             lit: false, // SHADOW says
             fence: self.fence,
@@ -306,6 +301,7 @@ impl<const C: usize> Pixel<C> {
 
     fn load(&mut self, span: &Span<C>, gradient: &Words<C>, kt: u32) {
         self.phase = 0;
+        self.masks[0] = self.pass.z_mask;
         self.x = span.x;
         self.count = span.count;
         self.step_x = if span.leftward { -1 } else { 1 };

@@ -19,9 +19,6 @@ use edgewalk_machine::Hazard;
 /// Places; a machine's queues are at most as deep.
 const PLACES: usize = 16;
 
-/// The address of a free place: none on any screen (addresses have at most 28 bits).
-const NOWHERE: u32 = u32::MAX;
-
 /// Why no access can enter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Block {
@@ -66,7 +63,6 @@ pub(crate) struct Rmw<T, S> {
     depth: usize,
     head: usize,
     len: usize,
-    /// Of an access, or NOWHERE: so all places can be asked at once.
     addr: [u32; PLACES],
     side: [S; PLACES],
     /// The old word comes from an older access: `fwd_valid` and `fwd_z`.
@@ -85,7 +81,7 @@ impl<T: Copy + Default, S: Copy + Default> Rmw<T, S> {
             depth: depth as usize,
             head: 0,
             len: 0,
-            addr: [NOWHERE; PLACES],
+            addr: [0; PLACES],
             side: [S::default(); PLACES],
             forwarded: [false; PLACES],
             forward: [T::default(); PLACES],
@@ -97,7 +93,6 @@ impl<T: Copy + Default, S: Copy + Default> Rmw<T, S> {
     /// Synchronous reset.
     pub(crate) fn reset(&mut self) {
         self.len = 0;
-        self.addr = [NOWHERE; PLACES];
         self.w_valid = false;
     }
 
@@ -141,7 +136,7 @@ impl<T: Copy + Default, S: Copy + Default> Rmw<T, S> {
     /// An access of this address is queued.
     #[inline]
     fn holds(&self, addr: u32) -> bool {
-        self.addr.iter().fold(false, |held, other| held | (*other == addr))
+        self.slots().any(|slot| self.addr[slot] == addr)
     }
 
     /// w is about to store a word there.
@@ -159,7 +154,7 @@ impl<T: Copy + Default, S: Copy + Default> Rmw<T, S> {
 
     /// All accesses that are queued, the oldest first.
     pub(crate) fn queued(&self) -> impl Iterator<Item = (u32, &S)> {
-        (0..self.len).map(|place| (self.addr[self.slot(place)], &self.side[self.slot(place)]))
+        self.slots().map(|slot| (self.addr[slot], &self.side[slot]))
     }
 
     /// The old word can be taken.
@@ -172,6 +167,14 @@ impl<T: Copy + Default, S: Copy + Default> Rmw<T, S> {
     #[inline]
     pub(crate) fn write(&self) -> Option<&Outcome<T, S>> {
         self.w_valid.then_some(&self.w)
+    }
+
+    /// Those of the queue, the oldest first. One after the other: places asked all at once would be read as one word of the host,
+    /// which waits until the word of the cycle before is written.
+    #[inline]
+    fn slots(&self) -> impl Iterator<Item = usize> + use<T, S> {
+        let head = self.head;
+        (0..self.len).map(move |place| head.wrapping_add(place) & (PLACES - 1))
     }
 
     #[inline]
@@ -205,7 +208,6 @@ impl<T: Copy + Default, S: Copy + Default> Rmw<T, S> {
         let forwarded = self.forwarded[slot];
         let old = if forwarded { self.forward[slot] } else { data };
         let retired = Retired { addr: self.addr[slot], slot, old, forwarded };
-        self.addr[slot] = NOWHERE;
         self.head = self.slot(1);
         self.len = self.len.wrapping_sub(1);
         retired
@@ -253,7 +255,7 @@ impl<T: Copy + Default, S: Copy + Default> Rmw<T, S> {
 
     fn forward_to_queue(&mut self, addr: u32, word: T) -> u64 {
         let mut taken = 0;
-        for slot in 0..PLACES {
+        for slot in self.slots() {
             if self.addr[slot] == addr {
                 self.forwarded[slot] = true;
                 self.forward[slot] = word;
