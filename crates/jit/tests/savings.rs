@@ -50,7 +50,7 @@ fn opposites() {
 /// Operators that come to less: a constant, an operand, a cheaper one.
 #[test]
 fn simpler_ways_to_say_it() {
-    let ways: [(&str, Way); 18] = [
+    let ways: [(&str, Way); 19] = [
         ("c ? 1 : bit", |m, c, a, _| m.output("y", c.mux(m.lit(1, 1), a.msb()))),
         ("c ? bit : 0", |m, c, a, _| m.output("y", c.mux(a.msb(), m.lit(1, 0)))),
         ("c ? 0 : 1", |m, c, _, _| m.output("y", c.mux(m.lit(1, 0), m.lit(1, 1)))),
@@ -75,6 +75,10 @@ fn simpler_ways_to_say_it() {
             m.output("y", m.cat(&[a.sext(40).slice(9, 3), b.zext(40).slice(9, 3), b.zext(40).slice(39, 20)]));
         }),
         ("bits of parts", |m, _, a, b| m.output("y", m.cat(&[a, b]).slice(33, 22))),
+        ("bits of one of two words", |m, _, a, b| {
+            let sum = a.sext(90) + b.zext(90);
+            m.output("y", m.cat(&[sum.slice(40, 20), sum.slice(80, 70), sum.slice(70, 60)]));
+        }),
     ];
     let mut costs = String::new();
     for (name, way) in ways {
@@ -97,6 +101,17 @@ fn arms_with_branches() {
             let values: Vec<Signal> = (0..=sums).map(|i| m.input(&format!("a{i}"), width)).collect();
             let sum = values[1..].iter().fold(values[0], |sum, value| sum + *value);
             m.output("y", c.mux(sum, values[0]));
+        });
+    }
+    for deep in [63, 64, 65, 80] {
+        costs += &line(&format!("arms in arms, {deep} deep"), |m| {
+            let values: Vec<Signal> = (0..=deep).map(|i| m.input(&format!("a{i}"), 20)).collect();
+            let mut arm = values[deep];
+            for i in 0..deep {
+                arm = (0..9).fold(arm, |sum, k| (sum ^ values[(i + k) % deep]) + values[i]);
+                arm = m.input(&format!("c{i}"), 1).mux(arm, values[i]);
+            }
+            m.output("y", arm);
         });
     }
     for sums in [10, 11] {
@@ -300,7 +315,17 @@ fn stages_of_queues() {
 /// What several steps need is not kept a second time where it is there anyway.
 #[test]
 fn kept_once() {
-    let ways: [(&str, Way); 5] = [
+    let ways: [(&str, Way); 6] = [
+        ("a bit of a sum", |m, c, a, b| {
+            let bit = ((a + b) ^ (a - b)).bit(7);
+            for i in 0..6 {
+                let register = m.reg(&format!("x{i}"), 20);
+                register
+                    .when(if i % 2 == 0 { c } else { a.bit(i) }, m.cat(&[b.slice(18, 0), bit ^ b.bit(i)]));
+                m.output(&format!("y{i}"), register.q());
+            }
+            m.output("q", m.reg("y", 1).when(bit, !c).q());
+        }),
         ("a sum that a register takes", |m, _, a, b| {
             m.output("p", m.reg("x", 20).set(a + b).q());
             m.output("q", m.reg("y", 20).when(a.bit(0), (a + b) ^ a).q());
@@ -385,6 +410,21 @@ fn registers_apart() {
             adds.when(count.q().eq(0), 0).when(go, 1);
             let sum = m.reg("sum", 20);
             sum.when(if hides { adds.q() } else { load }, sum.q() + count.q().zext(20));
+            m.output("y", sum.q());
+        });
+    }
+    // The same by a choice: of what is added, and of what is not.
+    for (name, hidden_is_one) in
+        [("by a choice, where the bit is 0", false), ("by a choice, where it is 1", true)]
+    {
+        costs += &line(name, |m| {
+            let go = m.input("go", 1);
+            let (count, adds) = (m.reg("count", 5), m.reg("adds", 1));
+            count.set(count.q() - 1).when(go, m.input("from", 5));
+            adds.when(count.q().eq(0), 0).when(go, 1);
+            let sum = m.reg("sum", 20);
+            let (seen, unseen) = (sum.q() + count.q().zext(20), sum.q() + 1);
+            sum.set(if hidden_is_one { (!adds.q()).mux(unseen, seen) } else { adds.q().mux(seen, unseen) });
             m.output("y", sum.q());
         });
     }

@@ -124,19 +124,12 @@ pub(super) fn lower(v: &mut Values, op: Op, width: u32, operands: &[ValueId]) ->
     }
 }
 
-/// The relation of integers that an operator asks for, and whether they are signed.
+/// The relation of integers that an operator asks for, and whether they are signed. All others are said by these three (`simplify`).
 fn relation(op: Op) -> Option<(IntCC, bool)> {
     Some(match op {
         Op::Eq => (IntCC::Equal, false),
-        Op::Ne => (IntCC::NotEqual, false),
         Op::Lt => (IntCC::UnsignedLessThan, false),
-        Op::Le => (IntCC::UnsignedLessThanOrEqual, false),
-        Op::Gt => (IntCC::UnsignedGreaterThan, false),
-        Op::Ge => (IntCC::UnsignedGreaterThanOrEqual, false),
         Op::LtSigned => (IntCC::SignedLessThan, true),
-        Op::LeSigned => (IntCC::SignedLessThanOrEqual, true),
-        Op::GtSigned => (IntCC::SignedGreaterThan, true),
-        Op::GeSigned => (IntCC::SignedGreaterThanOrEqual, true),
         _ => return None,
     })
 }

@@ -36,7 +36,8 @@ impl Pair {
 
     pub fn set(&mut self, input: &str, value: u128) {
         self.wanted.set_input(input, value).unwrap();
-        self.found.set_input(input, value).unwrap();
+        let input = self.found.input(input).unwrap();
+        Simulate::set(&mut self.found, input, value);
     }
 
     /// An output in this cycle, as the interpreter has it.
