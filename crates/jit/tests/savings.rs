@@ -20,6 +20,18 @@ fn line(name: &str, circuit: impl Fn(&Module)) -> String {
     format!("{name}: {instructions} instructions, {loads} loads, {stores} stores, {blocks} blocks\n")
 }
 
+/// A line for each way with a bit and two words.
+fn lines(ways: &[(&str, Way)]) -> String {
+    let line = |(name, way): &(&str, Way)| {
+        line(name, |m| {
+            let c = m.input("c", 1);
+            let [a, b] = inputs(m, 20, ["a", "b"]);
+            way(m, c, a, b);
+        })
+    };
+    ways.iter().map(line).collect()
+}
+
 fn inputs<'m, const N: usize>(m: &'m Module, width: u32, names: [&str; N]) -> [Signal<'m>; N] {
     names.map(|name| m.input(name, width))
 }
@@ -80,15 +92,7 @@ fn simpler_ways_to_say_it() {
             m.output("y", m.cat(&[sum.slice(40, 20), sum.slice(80, 70), sum.slice(70, 60)]));
         }),
     ];
-    let mut costs = String::new();
-    for (name, way) in ways {
-        costs += &line(name, |m| {
-            let c = m.input("c", 1);
-            let [a, b] = inputs(m, 20, ["a", "b"]);
-            way(m, c, a, b);
-        });
-    }
-    expect_file!["snapshots/simpler.txt"].assert_eq(&costs);
+    expect_file!["snapshots/simpler.txt"].assert_eq(&lines(&ways));
 }
 
 /// An arm of a choice gets a branch from so many instructions on; those of more than 64 bits count for more.
@@ -348,15 +352,7 @@ fn kept_once() {
             m.output("q", m.reg("y", 10).when(a.bit(0), a.slice(19, 10) + 2).q());
         }),
     ];
-    let mut costs = String::new();
-    for (name, way) in ways {
-        costs += &line(name, |m| {
-            let c = m.input("c", 1);
-            let [a, b] = inputs(m, 20, ["a", "b"]);
-            way(m, c, a, b);
-        });
-    }
-    expect_file!["snapshots/kept.txt"].assert_eq(&costs);
+    expect_file!["snapshots/kept.txt"].assert_eq(&lines(&ways));
 }
 
 /// A choice among registers by a number is read at an address, if all of them are as they were and are kept alike.
