@@ -28,7 +28,8 @@ impl<'m> Area<'m> {
         let digit = m.reg("area_digit", tall.width().ilog2() + 1).doc("place of the digits added");
         let adds = m.reg("area_adds", 1).doc("digits are added");
         let last = digit.q().eq(0);
-        digit.set(digit.q() - 1).when(control.begin, top(vertices.tall).zext(digit.q().width()));
+        // Two digits at least: until then not all differences are there that the area is scaled for.
+        digit.set(digit.q() - 1).when(control.begin, top(vertices.tall | 2).zext(digit.q().width()));
         adds.when(last, 0).when(control.begin, 1);
         let part = |of: Signal<'m>, value: Signal<'m>| {
             of.shr_by(digit.q()).bit(0).mux(value.sext(value.width() + 1), 0)

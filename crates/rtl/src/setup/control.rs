@@ -131,10 +131,10 @@ impl<'m> Control<'m> {
         let is_round = |number: usize| round.map(|round| round.q().eq(number as i32));
         let with = |a: Signal<'m>, b: Option<Signal<'m>>| b.map_or(a, |b| a & b);
 
-        m.comment("Numbers that do not fit hold up what follows: three clocks, and one for two digits.");
+        m.comment("Numbers that do not fit hold up what follows: two clocks, and one for two digits.");
         let of_parts = (0..most).filter(|_| plan.fill == Fill::Textbook).map(|round| pairs(plan, round));
         let most_pairs = of_parts.chain([edge_pairs(plan)]).max().unwrap_or(1);
-        let pause = m.reg("pause", (most_pairs + 3).ilog2() + 1).doc("clocks left of it");
+        let pause = m.reg("pause", (most_pairs + 2).ilog2() + 1).doc("clocks left of it");
         let paused = m.reg("paused", 1).doc("it is not over").reset(0);
         let advance = (!paused.q()).named("advance");
 
@@ -143,7 +143,7 @@ impl<'m> Control<'m> {
         let works = state.q().eq(at_work).named("works");
         let is_done = state.q().eq(done).named("prim_valid");
         let is_at = |place: usize| at.q().eq(codes[place].1);
-        let begin = with(works & is_at(0), is_round(0)).named_doc("begins", "the first clock of a triangle");
+        let begin = (works & is_at(0)).named_doc("begins", "the first clock of a triangle");
         let gives_up = with(works & is_at(1), is_round(0)) & nothing.q();
         let gives_up = gives_up.named_doc("gives_up", "the triangle has no line or no column");
         let last = (left.q().eq(0)).named_doc("last", "last clock of the operation");
@@ -169,7 +169,7 @@ impl<'m> Control<'m> {
             .when(is_done & prim_ready, idle);
         let mut next = at.q() + 1;
         if edge_rounds > 1 {
-            next = (is_at(last_edge) & !edges_end).mux(codes[0].1, next);
+            next = (is_at(last_edge) & !edges_end).mux(codes[1].1, next); // the vertices are subtracted already
         }
         if channel_rounds > 1 {
             next = (is_at(last_channel) & !channels_end).mux(codes[first_channel].1, next);
@@ -260,10 +260,10 @@ impl<'m> Control<'m> {
         moved(&fixed, Some(advance), &stepped);
         let rest = moved(&held("rest"), None, &stepped);
         let whole = moved(&held("whole"), None, &rest);
-        let needed = |round: usize| m.lit(pause.q().width(), u128::from(pairs(plan, round)) + 3);
-        let mut clocks = m.lit(pause.q().width(), u128::from(edge_pairs(plan)) + 3);
+        let needed = |round: usize| m.lit(pause.q().width(), u128::from(pairs(plan, round)) + 2);
+        let mut clocks = m.lit(pause.q().width(), u128::from(edge_pairs(plan)) + 2);
         if plan.fill == Fill::Textbook {
-            clocks = stepped.is(Op::FixDx).mux(clocks, stepped.of_round(channel_rounds, needed));
+            clocks = stepped.is(Op::TakeDx).mux(clocks, stepped.of_round(channel_rounds, needed));
         }
         pause.set(advance.mux(clocks, pause.q() - 1));
         // What the lanes do right after a reset is of no triangle.

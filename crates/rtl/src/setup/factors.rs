@@ -40,10 +40,12 @@ impl<'m> Sources<'_, 'm> {
     pub fn factors(&self) -> Factors<'m> {
         let (m, plan, control, lines) = (self.m, self.plan, self.control, self.lines);
         m.comment("Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.");
-        let bits = plan.widths().difference;
+        let bits = plan.widths().difference + 1; // what is sheared may be twice as long
         let whole = |value: Signal<'m>| value.sext(bits);
         let natural = |value: Signal<'m>| value.zext(bits);
         let none = m.lit(bits, 0);
+        let product = |name: &str| m.reg(name, bits).doc("q of the major edge, times the factor's digits so far");
+        let products = (plan.fill == Fill::Exact).then(|| ["q_times_f", "q_times_g"].map(product));
         let low = |place: usize| natural(self.low_column(place));
         let edge = |edge: usize| match edge {
             0 => [low(0), natural(lines.h0)],
@@ -57,23 +59,24 @@ impl<'m> Sources<'_, 'm> {
         let heights = &self.vertices.heights;
         let mut choices: Vec<(Vec<Op>, [Signal<'m>; 2])> = vec![
             (vec![Op::WaitDx], [of_edges(0), of_edges(1)]),
-            (vec![Op::Wait], [natural(heights[0]), natural(heights[1])]),
+            (vec![Op::Take2], [natural(heights[0]), natural(heights[1])]),
         ];
-        match plan.fill {
-            Fill::Exact => {
-                let back = |of: Signal<'m>| -whole(of);
-                choices.push((
-                    vec![Op::DoubleX],
-                    [back(self.vertices.across[0]), back(self.vertices.across[1])],
-                ));
-                choices.push((vec![Op::AddX], [whole(self.prim["major_q"].q()), none]));
+        match products {
+            Some(products) => {
+                let across = &self.vertices.across;
+                let along = [0, 1].map(|side| products[side].q() - whole(across[side]));
+                choices.push((vec![Op::DoubleX], along));
                 let column = self.prim["major_c"].q();
                 let px = column - self.area.negative.zext(column.width());
-                let across = m.cat(&[px, m.lit(plan.widths().center_fraction, 0)]);
-                let across = whole(across) - whole(self.vertices.u(0));
-                choices.push((vec![Op::AddLine], [across, natural(lines.h0)]));
+                let first = m.cat(&[px, m.lit(plan.widths().center_fraction, 0)]);
+                let sheared = whole(first) - whole(self.vertices.u(0)) - products[1].q();
+                let sheared = m
+                    .reg("first_sheared", bits)
+                    .doc("from vertex 0 to the first pixel, less q columns a line; 1/P column, signed")
+                    .when(control.next.is_in(Op::Wait, 0), sheared);
+                choices.push((vec![Op::AddX], [sheared.q(), natural(lines.h0)]));
             }
-            Fill::Textbook => {
+            None => {
                 let of_part = |n: &str, h: Signal<'m>| [self.walked(n).mux(natural(h), 0), none];
                 choices.push((vec![Op::DoubleA, Op::WaitA], of_part("n1", lines.left_a)));
                 choices.push((vec![Op::DoubleB, Op::WaitB], of_part("n2", lines.left_b)));
@@ -98,8 +101,14 @@ impl<'m> Sources<'_, 'm> {
         let digits = digits.named_doc("digits", "digits of the factors that differ from their signs");
         control.top_digit.drive(top(digits).zext(control.left.width()));
         let at = |of: Signal<'m>| of.shr_by(control.left).bit(0);
+        let digits = [at(f).named("digit_f"), at(g).named("digit_g")];
+        for (product, digit) in products.into_iter().flatten().zip(digits) {
+            let sums = control.named.is(Op::SumX) | control.named.is_in(Op::Sum, 0);
+            let doubled = control.first.mux(0, product.q().shl(1));
+            product.when(sums, doubled + digit.mux(whole(self.prim["major_q"].q()), 0));
+        }
         Factors {
-            digits: [at(f).named("digit_f"), at(g).named("digit_g")],
+            digits,
             of_second: second.map(at),
             signs: [f.msb(), g.msb()],
         }

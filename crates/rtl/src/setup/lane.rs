@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
+use edgewalk_machine::{Channel, EdgeKind, Plan};
 use edgewalk_netlist::{BuildErrors, Module, Netlist, Signal};
 
 use super::area::area_bits;
-use super::operands::fit;
 use super::steps::{Step, longest_value};
 
 /// Word lengths of a lane, bits.
@@ -14,14 +13,10 @@ use super::steps::{Step, longest_value};
 pub(super) struct Shape {
     /// What it takes in, signed.
     pub number: u32,
-    /// The remainder part, signed while a number is taken in.
-    pub rest: u32,
     /// The whole part, modular.
     pub whole: u32,
-    /// The modulus, negated.
+    /// The modulus, negated. It is longer than what is taken in; the remainder part has no sign.
     pub modulus: u32,
-    /// Textbook fill: a value of a left edge may not fit either, and the whole number to add may follow a doubling.
-    pub textbook: bool,
 }
 
 impl Shape {
@@ -34,10 +29,7 @@ impl Shape {
         };
         let values = channels.iter().map(|c| c.vertex_bits() + 1).max().unwrap_or(1);
         let words = channels.iter().map(|c| c.word() + w.center_fraction).max().unwrap_or(1);
-        let number = w.difference.max(values);
-        let modulus = modulus_bits(plan);
-        let textbook = plan.fill == Fill::Textbook;
-        Shape { number, rest: modulus.max(number), whole: of_edge.max(words), modulus, textbook }
+        Shape { number: w.difference.max(values), whole: of_edge.max(words), modulus: modulus_bits(plan) }
     }
 }
 
@@ -53,24 +45,24 @@ const DOC: &str = "A lane of setup holds a pair: the number whole + rest / M, wi
                                                           how often M was taken off ─> [whole], a clock later
 
 Timing: a step is named two clocks before it is done: in the first its addend is read, in the second n0 n1 n2 are formed.
-Rules: a doubling step adds a = -M three times instead, so that up to 3 M can be taken off. What is taken in may lie below 0
-for one clock. A negated pair is its complement: M is added to its rest, and 1 taken off its whole part.";
+Rules: a doubling step adds a = -M three times instead, so that up to 3 M can be taken off. To a number below 0 that is taken in
+M is added, and -1 is its whole part. So it is with a pair that is subtracted: M - a is added, and the complement of its whole part.";
 
 /// The netlist of a lane.
 pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors> {
     let m = Module::new(name, DOC);
     let below_two_m = shape.modulus; // M has a bit less; room for a sign
-    let (sums, slot) = ((below_two_m + 1).max(shape.rest + 1), below_two_m - 1);
+    let (sums, slot) = (below_two_m + 1, below_two_m - 1);
 
     let advance = m.input_doc("advance", 1, "the steps go on; 0: what was read stays");
     let read_at = m.input_doc("read_at", 3, "slot of the addend, two clocks before its step");
     let step = m.input_doc("step", Step::BITS, "a clock before it is done");
     let number = m.input_doc("number", shape.number, "to take in, signed; with its step");
-    let digits = m.input_doc("digits", 2, "of the number, with their step");
+    let digits = m.input_doc("digits", 2, "of a number that does not fit, or its sign twice; with their step");
     let write = m.input_doc("write", 1, "the result of the step goes to a slot");
     let write_at = m.input("write_at", 3);
     let whole_in = m.input_doc("whole_in", shape.whole, "whole number to add, with the step done");
-    let take_modulus = m.input_doc("take_modulus", 1, "");
+    let take_modulus = m.input_doc("take_modulus", 1, "two clocks before the first step with it");
     let modulus_in = m.input_doc("modulus_in", below_two_m, "-M, or -M - 1 if modulus_short; signed");
     let modulus_short = m.input("modulus_short", 1);
     let upwards = m.input_doc("upwards", 1, "value rounds up whatever is not whole, not to nearest");
@@ -81,73 +73,62 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let short = m.reg("short", 1).doc("1 is missing in modulus").when(take_modulus, modulus_short).q();
 
     m.comment("The rests of the slots. Slot 0 is never written: it holds 0.");
-    let rest = m.reg("rest", shape.rest).doc("1/M, signed while a number is taken in");
-    let rest_next = m.wire("rest_next", shape.rest);
-    let rests =
-        m.memory("rests", 3, 8, slot).starts(0).doc("1/M").write(write, write_at, rest_next.q().trunc(slot));
+    let rest = m.reg("rest", slot).doc("1/M");
+    let rest_next = m.wire("rest_next", slot);
+    let rests = m.memory("rests", 3, 8, slot).starts(0).doc("1/M").write(write, write_at, rest_next.q());
     let stored = rests.read(advance, read_at);
 
     m.comment("The addend of the step that follows.");
-    let n0 = m.reg("n0", shape.rest).doc("a, or a number to take in");
+    let n0 = m.reg("n0", below_two_m).doc("a, or M - a");
     let n1 = m.reg("n1", below_two_m + 1).doc("a - M, signed");
     let n2 = m.reg("n2", below_two_m).doc("a - 2 M, modular");
-    let below = m.reg("below", 1).doc("the number taken in is below 0");
-    // The step before a fix is a load, and its n0 the number.
-    let below_0 = (step.bit(0) & below.q()) | (!step.bit(0) & n0.q().msb());
-    let add_modulus = (step.bit(2) & below_0).named("add_modulus");
-    let take_modulus_off = step.bit(3).named("take_modulus_off");
     let of_slot = step.bit(4).named("of_slot");
-    let with_sign = (of_slot & step.bit(1) & step.bit(0)).named("with_sign");
-    let negate = (add_modulus | with_sign | (is(step, Step::Less1) & below.q())).named("negate");
-    let of_modulus = (add_modulus | take_modulus_off).named("of_modulus");
-    let a = of_modulus
+    let take_modulus_off = step.bit(3).named("take_modulus_off");
+    let subtracts = (step.bit(1) & step.bit(0)).named("subtracts");
+    let a = take_modulus_off
         .mux(modulus, of_slot.mux(stored.zext(below_two_m), 0))
         .named_doc("a", "addend, 1/M, or -M");
-    let less_m = plus("a_less_m", a.sext(below_two_m + 1), modulus.sext(below_two_m + 1), short);
-    let negated = with_sign.mux(fit(less_m, shape.rest), fit(a, shape.rest));
-    let negated = negated.named_doc("to_negate", "-a is -1 + (M - a)/M");
-    let addend = negated ^ repeat(negate, shape.rest);
-    n0.set(is(step, Step::Load).mux(number.sext(shape.rest), addend));
+    let less_m = plus("a_less_m", a.sext(sums), modulus.sext(sums), short);
+    n0.set(subtracts.mux(!less_m.trunc(below_two_m), a));
     n1.set(less_m);
     let twice = m.cat(&[modulus, short]).named_doc("less_2m", "-2 M, or -2 M - 1");
     n2.set(plus("a_less_2m", a, twice.trunc(below_two_m), short));
     let carry0 = m.reg("carry0", 1).doc("1 to add to the sum of n0");
-    carry0.set(with_sign | (add_modulus & !short) | (take_modulus_off & short));
+    // Of a number that does not fit the sign stands for -1: M - 1.
+    carry0.set((subtracts & !is(step, Step::Begin)) | (take_modulus_off & short));
     let carry = m.reg("carry", 1).doc("1 to add to the other sums").set(take_modulus_off & short);
 
     m.comment("The step: x and the addend, less M as often as it goes.");
     let now = m.reg("now", Step::BITS).doc("the step done").set(step).q();
     let fourfold = flag(&m, "fourfold", one_of(step, &[Step::Double2, Step::Digits]));
     let twofold = flag(&m, "twofold", one_of(step, &[Step::Double1, Step::Next]));
-    let from_zero = one_of(step, &[Step::Load, Step::First, Step::Sign, Step::Begin]);
-    let from_zero = flag(&m, "from_zero", from_zero);
+    let keeps = flag(&m, "keeps", one_of(step, &[Step::Rest, Step::Add, Step::Whole]));
+    let takes = flag(&m, "takes", one_of(step, &[Step::Take, Step::Begin]));
     let compared = [Step::Double1, Step::Double2, Step::Digits, Step::Next, Step::Add];
     let compared = m.reg("compared", 1).doc("M is taken off if it goes").set(one_of(step, &compared)).q();
-    let digits = m.reg("digits_now", 2).set(is(step, Step::Digits).mux(digits, 0)).q();
-    // A rest is below 0 only while a number is tested, and then s0 tells or there is no sign.
-    let old = m.cat(&[m.lit(sums - shape.rest, 0), rest.q()]);
-    let four = m.cat(&[old.trunc(sums - 2), digits]);
-    let x = fourfold.mux(four, twofold.mux(old.shl(1), from_zero.mux(0, old))).named("x");
-    let low = x.trunc(shape.rest);
-    let s0 = plus("x_and_n0", low, n0.q(), carry0.q()).named("s0");
-    let s1 = plus("x_and_n1", x, n1.q().sext(sums), carry.q()).named("s1");
-    let s2 = plus("x_and_n2", low, n2.q().sext(shape.rest), carry.q()).named("s2");
+    let added = m.reg("added", shape.number).doc("number or digits taken in, 0 where there are none");
+    let of_digits = is(step, Step::Digits).mux(digits.zext(shape.number), 0);
+    added.set(is(step, Step::Take).mux(number, of_digits));
+    let sign = (is(step, Step::Take) & number.msb()) | (is(step, Step::Begin) & digits.msb());
+    let below = m.reg("below", 1).doc("what is taken in is below 0").set(sign).q();
+    let old = rest.q().zext(sums);
+    let times = fourfold.mux(old.shl(2), twofold.mux(old.shl(1), 0));
+    let x = (times | (old & repeat(keeps, sums)) | added.q().sext(sums)).named("x");
+    let s0 = plus("x_and_n0", x.trunc(below_two_m), n0.q(), carry0.q()).named("s0");
+    let s1 = plus("x_and_n1", x, n1.q(), carry.q()).named("s1");
+    let s2 = plus("x_and_n2", x.trunc(below_two_m), n2.q(), carry.q()).named("s2");
     // A fourfold rest may have M taken off three times, and n0 is the first of them; else n0 takes none off. s1 lies between -2 M
     // and 2 M. If it fits, s2 lies between -M and M; if not, s0 does: they need a bit less.
     let (f0, s1_fits) = ((!s0.msb()).named("fits0"), (!s1.msb()).named("s1_fits"));
     let f1 = (s1_fits & compared).named("fits1");
     let f2 = (f1 & !s2.msb()).named("fits2");
-    let stays = (fourfold & !f0).named("stays");
-    rest_next.drive(f2.mux(s2, f1.mux(s1.trunc(shape.rest), stays.mux(low, s0))));
-    if shape.textbook {
-        rest.when(!is(now, Step::Whole), rest_next);
-    } else {
-        rest.set(rest_next);
-    }
-    below.when(is(now, Step::Load) & advance, n0.q().bit(shape.number - 1));
+    let stays = ((fourfold & !f0) | (takes & !below)).named("stays");
+    let next = f2.mux(s2.trunc(slot), f1.mux(s1.trunc(slot), stays.mux(x.trunc(slot), s0.trunc(slot))));
+    rest_next.drive(next);
+    rest.set(rest_next);
     m.output_doc(
         "unfit",
-        is(now, Step::Fix) & below.q().mux(!f0, s1_fits),
+        is(now, Step::Take) & below.mux(!f0, s1_fits),
         "the number that was taken in is not between -M and M",
     );
 
@@ -160,10 +141,10 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let wholes = m.memory("wholes", 3, 8, shape.whole).starts(0).doc("modular");
     let wholes = wholes.write(write_then.q(), write_then_at.q(), whole_next.q());
     let stored = wholes.read(m.lit(1, 1), read_whole_at.q());
-    let negated = m.reg("negated", 1).set(negate).q();
+    let subtracted = m.reg("subtracted", 1).set(is(step, Step::Sign)).q();
     let slot_now = m.reg("slot_now", 1).set(of_slot).q();
     let b = m.reg("b", shape.whole).doc("addend");
-    let same = repeat(negated, shape.whole);
+    let same = repeat(subtracted | below, shape.whole);
     b.set(is(now, Step::Whole).mux(whole_in, slot_now.mux(stored ^ same, same)));
     // Of a fourfold rest: 0 to 3 times; of others 0 to 2.
     let many = (fourfold.mux(f1, f2)).named("twice_or_more");
@@ -171,28 +152,22 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let taken = m.reg("taken", 2).doc("how often M was taken off").set(m.cat(&[many, odd])).q();
     let fourfold = flag(&m, "was_fourfold", fourfold);
     let twofold = flag(&m, "was_twofold", twofold);
-    let from_zero = flag(&m, "was_from_zero", from_zero);
+    let keeps = flag(&m, "was_kept", keeps);
     let old = whole.q();
     let four = m.cat(&[old.trunc(shape.whole - 2), taken]);
     // 2 times: the doubled lowest bit is free for one of them.
     let two = m.cat(&[old.trunc(shape.whole - 1), taken.bit(1)]);
-    let x = fourfold.mux(four, twofold.mux(two, from_zero.mux(0, old))).named("whole_x");
+    let x = fourfold.mux(four, twofold.mux(two, keeps.mux(old, 0))).named("whole_x");
     let one = (!fourfold & taken.any()).named("one");
     whole_next.drive(plus("x_and_b", x, b.q(), one));
-    if shape.textbook {
-        // Of a number that does not fit: 0 or -1, as the step before gave it. Elsewhere all of it is shifted out.
-        let then = m.reg("then", Step::BITS).doc("the step before").set(now).q();
-        whole.when(!is(then, Step::Less1), whole_next);
-    } else {
-        whole.set(whole_next);
-    }
+    whole.set(whole_next);
 
     m.comment("What is done is given out rounded: to nearest, halves up, or up.");
-    m.output_doc("rest_out", rest.q().trunc(slot), "1/M, from the clock after a step");
+    m.output_doc("rest_out", rest, "1/M, from the clock after a step");
     m.output_doc("whole_out", whole, "modular, a clock later");
-    let twice = m.cat(&[rest.q().trunc(slot), m.lit(1, 0)]);
+    let twice = m.cat(&[rest.q(), m.lit(1, 0)]);
     let past_half = plus("past_half", twice, modulus, short);
-    let up = m.reg("up", 1).set(upwards.mux(rest.q().trunc(slot).any(), !past_half.msb())).q();
+    let up = m.reg("up", 1).set(upwards.mux(rest.q().any(), !past_half.msb())).q();
     m.output_doc("value", whole.q() + up.zext(shape.whole), "modular, with whole");
     m.finish()
 }

@@ -64,7 +64,7 @@ struct Common<'a, 'm> {
     factors: &'a Factors<'m>,
     /// The step that is named.
     step: Signal<'m>,
-    /// In the next clock, in place of what is formed, while numbers do not fit: sign, sign, digits.
+    /// In the next clock, in place of what is formed, while numbers do not fit: the sign, then digits.
     of_pause: Signal<'m>,
     read_at: ReadAt<'m>,
     write: Signal<'m>,
@@ -95,20 +95,14 @@ impl<'a, 'm> Common<'a, 'm> {
             |which: &dyn Fn(Op) -> bool| ops.iter().copied().filter(|op| which(*op)).collect::<Vec<_>>();
         let steps = |step: Step| these(&|op| op.doing().step == step);
         let mut step = code(Step::Rest);
-        for of in [Step::Load, Step::Fix, Step::Double2, Step::Next, Step::Sign, Step::Add, Step::Whole] {
+        for of in [Step::Take, Step::Double2, Step::Next, Step::Sign, Step::Add, Step::Whole] {
             step = control.named.one_of(&steps(of)).mux(code(of), step);
         }
         let first = control.first.mux(code(Step::First), code(Step::Next));
         step = control.named.one_of(&steps(Step::First)).mux(first, step);
         let step = step.named("step");
 
-        let began = m
-            .reg("began", 1)
-            .doc("numbers were found not to fit in the clock before")
-            .set(control.advance)
-            .q();
-        let of_pause =
-            control.advance.mux(code(Step::Begin), began.mux(code(Step::Less1), code(Step::Digits)));
+        let of_pause = control.advance.mux(code(Step::Begin), code(Step::Digits));
 
         let slots = |slot: u32, sum: bool| {
             these(&|op| {
@@ -136,7 +130,7 @@ impl<'a, 'm> Common<'a, 'm> {
             let ops = these(&|op| op.doing().result == Some(slot));
             if ops.is_empty() { chosen } else { control.stepped.one_of(&ops).mux(slot as i32, chosen) }
         });
-        let loads = [Op::LoadDx, Op::Load1, Op::LoadA, Op::LoadB];
+        let with_another = [Op::TakeDx, Op::Take12, Op::TakeA, Op::TakeB];
         let upwards = match plan.edge_kind {
             EdgeKind::Exact => control.rest.is(Op::Columns),
             EdgeKind::Slope => m.lit(1, 0),
@@ -151,7 +145,7 @@ impl<'a, 'm> Common<'a, 'm> {
             read_at,
             write,
             write_at: write_at.named("write_at"),
-            take_modulus: control.next.one_of(&loads).named("take_modulus"),
+            take_modulus: control.named.one_of(&with_another).named("take_modulus"),
             upwards,
         }
     }

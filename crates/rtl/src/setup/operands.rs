@@ -7,7 +7,7 @@ use super::area::Area;
 use super::control::Control;
 use super::lane::modulus_bits;
 use super::lanes::Lane;
-use super::scale::Scale;
+use super::scale::{SHOWN_FIRST, SHOWN_NEXT, Scale};
 use super::sort::{ENDS, Vertices};
 use super::steps::{Op, channel_of, edge_of, rounds};
 use crate::wires::Registers;
@@ -39,7 +39,7 @@ pub(super) struct Values<'m> {
 }
 
 impl<'m> Values<'m> {
-    /// dc1 and -dc2, both as the area has its sign, but not when only shown; textbook fill: of the ends of the left edges too.
+    /// dc1 - dc2, dc1 and -dc2, as the area has its sign, but not when only shown; textbook fill: of the ends of the left edges too.
     pub fn new(
         m: &'m Module,
         plan: &Plan,
@@ -59,23 +59,27 @@ impl<'m> Values<'m> {
             }
         };
         let of_edge = |name: &str, is: Signal<'m>| m.reg(name, 1).when(control.advance, is).q();
-        let second = named.one_of(&[Op::FixDx, Op::Load2, Op::Fix2]);
-        let turned = right & named.one_of(&[Op::Load1, Op::Load2]);
-        // dc1 = c1 - c0, -dc2 = c0 - c2, the other way round where the area is below 0.
-        let mut from = second.mux(turned.mux(place(0), place(2)), turned.mux(place(1), place(0)));
-        let mut to = second.mux(turned.mux(place(2), place(0)), turned.mux(place(0), place(1)));
+        let of = |which: usize, taken: Op| named.one_of(&[taken, SHOWN_FIRST[which], SHOWN_NEXT[which]]);
+        let (third, second) = (of(0, Op::Take12), of(2, Op::Take2));
+        let turned = right & named.one_of(&[Op::Take12, Op::Take1, Op::Take2]);
+        // dc1 - dc2 = c1 - c2, dc1 = c1 - c0, -dc2 = c0 - c2, the other way round where the area is below 0.
+        let pair = |from: u128, to: u128| (place(from), place(to));
+        let choose = |is: Signal<'m>, a: (Signal<'m>, Signal<'m>), b: (Signal<'m>, Signal<'m>)| {
+            (is.mux(a.0, b.0), is.mux(a.1, b.1))
+        };
+        let chosen = choose(third, pair(2, 1), choose(second, pair(2, 0), pair(0, 1)));
+        let (mut from, mut to) = choose(turned, (chosen.1, chosen.0), chosen);
         let single = named.one_of(&[Op::AddStart, Op::AddA, Op::AddB]);
         to = single.mux(place(0), to);
         if plan.fill == Fill::Textbook {
             to = (named.is(Op::AddB) & right).mux(place(1), to);
             // The left edge is the major one, or that of the part.
-            let (a, b) = (named.one_of(&[Op::LoadA, Op::FixA]), named.one_of(&[Op::LoadB, Op::FixB]));
+            let (a, b) = (named.is(Op::TakeA), named.is(Op::TakeB));
             from = (a | b).mux((b & right).mux(place(1), place(0)), from);
             to = (a | b).mux((a & right).mux(place(1), place(2)), to);
         }
-        // While a number is tested the lanes are shown those of the next round, to scale its modulus.
-        let shown = named.one_of(&[Op::Fix1, Op::Fix2]);
-        let of_first = named.one_of(&[Op::LoadDx, Op::FixDx]);
+        let shown = named.one_of(&SHOWN_NEXT);
+        let of_first = named.one_of(&SHOWN_FIRST);
         let round = |round: usize| {
             let (own, before) = (named.in_round(round)?, named.in_round(round - 1)?);
             Some(reg(&format!("values_of_round{round}"), shown.mux(before, own) & !of_first))
@@ -88,8 +92,8 @@ impl<'m> Values<'m> {
             to: vertex(reg("to_place", to)).named("to_vertex"),
             single: reg("single_value", single),
             rounds: (1..rounds(plan)[1]).filter_map(round).collect(),
-            of_edge: of_edge("number_of_edge", named.one_of(&[Op::LoadDx, Op::LoadDy])),
-            height: of_edge("number_is_height", named.is(Op::LoadDy)),
+            of_edge: of_edge("number_of_edge", named.one_of(&[Op::TakeDx, Op::TakeDy])),
+            height: of_edge("number_is_height", named.is(Op::TakeDy)),
         }
     }
 }
@@ -107,9 +111,9 @@ impl<'m> Sources<'_, 'm> {
         let kept = m.reg(&format!("kept{}", lane.number), number.width());
         let kept = kept.doc("a number that may not fit, or a first value; signed");
         let (kept, digits) = if has_edge || self.plan.fill == Fill::Textbook {
-            let ops = [Op::LoadDx, Op::LoadA, Op::LoadB, Op::AddStart, Op::AddA, Op::AddB];
+            let ops = [Op::TakeDx, Op::TakeA, Op::TakeB, Op::AddStart, Op::AddA, Op::AddB];
             let kept = kept.when(control.next.one_of(&ops), number).q();
-            // When three clocks or more are left the digits are not read; when two, the lowest.
+            // In the first clock of a pause these are the sign; when two are left, the lowest.
             let pair = m.cat(&[control.pause - 2, m.lit(1, 0)]);
             (kept, kept.sar_by(pair).trunc(2))
         } else {
@@ -160,9 +164,9 @@ impl<'m> Sources<'_, 'm> {
         let channel = stepped.of_round(rounds(self.plan)[1], |round| {
             self.m.lit(1, channel_of(self.plan, lane.number, round).is_some().into())
         });
-        let part = |fix: Op, lines: &str| stepped.is(fix) & self.lines(lines);
-        let parts = part(Op::FixA, "n1") | part(Op::FixB, "n2");
-        (stepped.is(Op::FixDx) & self.edge_needed(lane)) | (parts & channel)
+        let part = |take: Op, lines: &str| stepped.is(take) & self.lines(lines);
+        let parts = part(Op::TakeA, "n1") | part(Op::TakeB, "n2");
+        (stepped.is(Op::TakeDx) & self.edge_needed(lane)) | (parts & channel)
     }
 
     fn lines(&self, part: &str) -> Signal<'m> {
@@ -252,22 +256,23 @@ impl<'m> Sources<'_, 'm> {
 
     /// -M - 1 of an edge, P·DY; of the channels the scaled area's.
     fn modulus(&self, lane: &Lane<'m>) -> (Signal<'m>, Signal<'m>) {
-        let (m, next) = (self.m, &self.control.next);
+        let (m, named) = (self.m, &self.control.named);
         let (t, bits) = (self.plan.widths().center_fraction, modulus_bits(self.plan));
         let height = |edge: usize| !m.cat(&[self.vertices.heights[edge], m.lit(t, 0)]).zext(bits);
-        let edge = next.of_round(rounds(self.plan)[0], |round| {
+        let edge = named.of_round(rounds(self.plan)[0], |round| {
             height(edge_of(self.plan, lane.number, round).unwrap_or(0))
         });
         let right = self.right();
         if self.plan.fill == Fill::Exact && !self.has_edge(lane) {
             return (self.scale.modulus, !right);
         }
-        let mut modulus = next.is(Op::Load1).mux(self.scale.modulus, edge);
+        let of_area = named.is(Op::Take12);
+        let mut modulus = of_area.mux(self.scale.modulus, edge);
         if self.plan.fill == Fill::Textbook {
-            modulus = next.is(Op::LoadA).mux(right.mux(height(1), height(0)), modulus);
-            modulus = next.is(Op::LoadB).mux(right.mux(height(2), height(0)), modulus);
+            modulus = named.is(Op::TakeA).mux(right.mux(height(1), height(0)), modulus);
+            modulus = named.is(Op::TakeB).mux(right.mux(height(2), height(0)), modulus);
         }
-        (modulus, !(next.is(Op::Load1) & right))
+        (modulus, !(of_area & right))
     }
 }
 

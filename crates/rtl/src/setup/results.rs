@@ -113,8 +113,8 @@ impl<'m> Results<'_, 'm> {
         let after = |op: Op| self.control.whole.ends_in(op, round);
         let right = self.area.negative;
         self.register(name, "g").when(after(Op::DoubleX), right.mux(-rounded, rounded));
-        self.register(name, "d0").when(after(Op::AddY), rounded);
-        self.register(name, "d1").when(after(Op::AddLine), rounded);
+        self.register(name, "d0").when(after(Op::DoubleLine), rounded);
+        self.register(name, "d1").when(after(Op::AddX), rounded);
         let result = self.register(name, "start");
         match self.control.whole.in_round(round) {
             // What is taken before it is done is taken again.

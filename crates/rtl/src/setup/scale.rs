@@ -8,6 +8,12 @@ use super::control::Control;
 use super::lane::{modulus_bits, plus};
 use super::steps::{Op, longest_value, rounds};
 
+/// While these are named the lanes are shown the differences of the first round of channels: c1 - c2, c1 - c0, c0 - c2.
+pub(super) const SHOWN_FIRST: [Op; 3] = [Op::Subtract, Op::TakeDx, Op::DoubleDx];
+
+/// While these are, those of the round after: the lanes take in none.
+pub(super) const SHOWN_NEXT: [Op; 3] = [Op::Wait, Op::SumX, Op::DoubleX];
+
 /// The area scaled for a round of channels, and how the differences come to be known.
 pub(super) struct Scale<'m> {
     /// -M, or its complement -M - 1 where the area is above 0.
@@ -30,8 +36,9 @@ impl<'m> Scale<'m> {
         let scaling = m.reg("scaling", 1).doc("it is compared");
         let i = m.reg("scale_next", control.scale.q().width()).doc("times that it is fourfold");
         let mut takes = area.ends;
-        if let Some(last) = control.next.in_round(rounds - 1) {
-            takes = takes | (control.next.is(Op::Fix2) & !last);
+        if let Some(last) = control.named.in_round(rounds - 1) {
+            let behind_gradient = control.named.one_of(&[Op::SignLine, Op::RoundX]) & control.first;
+            takes = takes | (behind_gradient & !last);
         }
         taken.set(takes & !control.begin);
         let short = !area.negative;
@@ -46,14 +53,14 @@ impl<'m> Scale<'m> {
         i.when(grows, i.q() + 1).when(taken.q(), 0);
         control.area_known.drive(!area.adds & !taken.q() & !scaling.q());
         control.scale.drive(if rounds > 1 {
-            m.reg("scale_now", i.q().width()).doc("of the round").when(control.next.is(Op::Load1), i).q()
+            m.reg("scale_now", i.q().width()).doc("of the round").when(control.next.is(Op::Take12), i).q()
         } else {
             i.q()
         });
         Scale { modulus: scaled.q(), differences }
     }
 
-    /// Takes the differences that the lanes are shown: the first of a round, then the second.
+    /// Takes the differences that the lanes are shown: all three of a round.
     pub fn gather(&self, plan: &Plan, control: &Control<'m>, numbers: &[Signal<'m>]) {
         let bits = self.differences.q().width();
         let magnitude = |number: &Signal<'m>| {
@@ -64,8 +71,8 @@ impl<'m> Scale<'m> {
         let Some(any) = any.map(|any| any.named("shown")) else { return };
         let more = self.differences.q() | any;
         if rounds(plan)[1] > 1 {
-            let shown = control.next.one_of(&[Op::LoadDx, Op::FixDx, Op::Fix1, Op::Fix2]);
-            self.differences.when(shown, more).when(control.begin | control.next.is(Op::Load1), 0);
+            let shown = control.next.one_of(&[SHOWN_FIRST, SHOWN_NEXT].concat());
+            self.differences.when(shown, more).when(control.begin | control.next.is(Op::Take12), 0);
         } else {
             // Until the channels begin nothing else is shown.
             self.differences.set(more).when(control.begin, 0);

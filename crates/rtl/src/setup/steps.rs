@@ -2,22 +2,20 @@
 
 use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
 
-/// A step of a lane (`docs/machine.md`, section 2). Bit 4 of its number says that the addend is a stored pair, bit 3 that M is taken
-/// off, bit 2 that M is added if a sign says so, which one bit 0: the lane reads them off where time is short.
+/// A step of a lane (`docs/machine.md`, section 2). Of its number bit 4 says that the addend is a stored pair, bit 3 that M is taken
+/// off, bits 1 and 0 together that M less the addend is formed: the lane reads them off where time is short.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Step {
     /// Nothing.
     Rest = 0,
-    /// A number is taken in.
-    Load = 0b1,
-    /// A number that does not fit, its sign: M - 1 or 0 of the rest.
-    Less1 = 0b10,
     /// Doubled.
-    Double1 = 0b11,
-    /// M is added to a number that was taken in, if it is below 0; does it fit?
-    Fix = 0b100,
-    /// A number that does not fit, its sign first: M or 0 of the rest.
-    Begin = 0b101,
+    Double1 = 0b1,
+    /// A number is taken in, and M added if it is below 0; does it fit?
+    Take = 0b11,
+    /// A whole number is added; the rest stays, as its addend is 0.
+    Whole = 0b100,
+    /// The sign of a number that does not fit is taken in.
+    Begin = 0b111,
     /// Doubled twice.
     Double2 = 0b1000,
     /// The next two digits of a number that does not fit.
@@ -30,8 +28,6 @@ pub(super) enum Step {
     Next = 0b1_0010,
     /// The sign digits of a sum, which subtract: its first.
     Sign = 0b1_0011,
-    /// A whole number is added; the rest stays, whatever its addend.
-    Whole = 0b1_0100,
 }
 
 impl Step {
@@ -42,13 +38,14 @@ impl Step {
 /// An operation of all lanes: one step, or as many as its numbers have digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Op {
+    /// The differences of the vertices are formed.
+    Subtract,
     /// DX of an edge.
-    LoadDx,
-    FixDx,
+    TakeDx,
     /// q and f.
     DoubleDx,
     /// DY.
-    LoadDy,
+    TakeDy,
     AddDx,
     WaitDx,
     /// N of an edge, without whole columns.
@@ -58,38 +55,31 @@ pub(super) enum Op {
     /// C and R of a slope edge.
     DoubleColumns,
     RoundColumns,
-    /// dc1 of a channel.
-    Load1,
-    Fix1,
+    /// dc1 - dc2 of a channel.
+    Take12,
+    /// dc1.
+    Take1,
     /// -dc2.
-    Load2,
-    Fix2,
-    /// p1 + p2.
-    Add12,
+    Take2,
     Wait,
     /// gx.
     SumX,
     DoubleX,
-    /// gy.
-    SignY,
-    SumY,
-    DoubleY,
-    /// gx + gy.
-    AddX,
-    /// q gx, and gy: d0.
+    /// d0: the gradient along the major edge.
     SignLine,
     SumLine,
-    AddY,
+    DoubleLine,
     /// d1.
-    AddLine,
+    AddX,
+    WaitLine,
     /// start.
     SignStart,
     SumStart,
     AddStart,
-    /// Part 1 of textbook fill: another modulus, then DC.
-    SetA,
-    LoadA,
-    FixA,
+    /// Textbook fill: g is rounded before the modulus changes.
+    RoundX,
+    /// DC of part 1.
+    TakeA,
     /// dA.
     DoubleA,
     WaitA,
@@ -99,9 +89,7 @@ pub(super) enum Op {
     AddA,
     RoundA,
     /// Part 2.
-    SetB,
-    LoadB,
-    FixB,
+    TakeB,
     /// dB.
     DoubleB,
     WaitB,
@@ -136,13 +124,13 @@ pub(super) struct Doing {
 }
 
 impl Op {
-    /// The operations on each edge, in their order.
+    /// The operations on each edge, in their order; the first only before the first round.
     pub fn of_edges(plan: &Plan) -> &'static [Op] {
         use Op::*;
         match plan.edge_kind {
-            EdgeKind::Exact => &[LoadDx, FixDx, DoubleDx, LoadDy, AddDx, WaitDx, Sum, Columns],
+            EdgeKind::Exact => &[Subtract, TakeDx, DoubleDx, TakeDy, AddDx, WaitDx, Sum, Columns],
             EdgeKind::Slope => {
-                &[LoadDx, FixDx, DoubleDx, LoadDy, AddDx, WaitDx, Sum, Columns, DoubleColumns, RoundColumns]
+                &[Subtract, TakeDx, DoubleDx, TakeDy, AddDx, WaitDx, Sum, Columns, DoubleColumns, RoundColumns]
             }
         }
     }
@@ -152,30 +140,25 @@ impl Op {
         use Op::*;
         match plan.fill {
             Fill::Exact => &[
-                Load1, Fix1, Load2, Fix2, Add12, Wait, SumX, DoubleX, SignY, SumY, DoubleY, AddX, SignLine,
-                SumLine, AddY, AddLine, SignStart, SumStart, AddStart,
+                Take12, Take1, Take2, Wait, SumX, DoubleX, SignLine, SumLine, DoubleLine, AddX, WaitLine,
+                SignStart, SumStart, AddStart,
             ],
             Fill::Textbook => &[
-                Load1,
-                Fix1,
-                Load2,
-                Fix2,
-                Add12,
+                Take12,
+                Take1,
+                Take2,
                 Wait,
                 SumX,
                 DoubleX,
-                SetA,
-                LoadA,
-                FixA,
+                RoundX,
+                TakeA,
                 DoubleA,
                 WaitA,
                 SumA,
                 DoubleStartA,
                 AddA,
                 RoundA,
-                SetB,
-                LoadB,
-                FixB,
+                TakeB,
                 DoubleB,
                 WaitB,
                 SumB,
@@ -190,31 +173,25 @@ impl Op {
     pub fn doing(self) -> Doing {
         use Op::*;
         let (step, length, slot, result) = match self {
-            LoadDx | Load1 | Load2 | LoadA | LoadB => (Step::Load, Length::Clocks(1), 0, None),
-            LoadDy => (Step::Load, Length::Clocks(1), 0, Some(1)),
-            FixDx | Fix2 => (Step::Fix, Length::Clocks(1), 0, Some(2)),
-            Fix1 | FixA | FixB => (Step::Fix, Length::Clocks(1), 0, Some(1)),
+            TakeDx | Take2 => (Step::Take, Length::Clocks(1), 0, Some(2)),
+            TakeDy | Take1 | TakeA | TakeB => (Step::Take, Length::Clocks(1), 0, Some(1)),
+            Take12 => (Step::Take, Length::Clocks(1), 0, Some(3)),
             DoubleDx => (Step::Double2, Length::Doublings(of_slope), 0, None),
             DoubleColumns => (Step::Double2, Length::Doublings(of_columns), 0, None),
             AddDx => (Step::Add, Length::Clocks(1), 2, Some(3)),
-            Add12 => (Step::Add, Length::Clocks(1), 1, Some(3)),
-            WaitDx | Wait => (Step::Rest, Length::Clocks(2), 0, None),
-            RoundColumns | SetA | WaitA | RoundA | SetB | WaitB | RoundB => {
-                (Step::Rest, Length::Clocks(1), 0, None)
-            }
+            Subtract | Wait | WaitLine | WaitA | WaitB => (Step::Rest, Length::Clocks(1), 0, None),
+            WaitDx | RoundColumns | RoundX | RoundA | RoundB => (Step::Rest, Length::Clocks(2), 0, None),
             Sum | SumX | SumA | SumB => (Step::First, Length::Digits, 0, None),
             Columns | AddStart | AddA | AddB => (Step::Whole, Length::Clocks(1), 0, None),
             DoubleX => (Step::Double2, Length::Scaled(of_gradient), 0, Some(5)),
-            DoubleY => (Step::Double2, Length::Scaled(of_gradient), 0, Some(6)),
+            DoubleLine => (Step::Double2, Length::Scaled(of_gradient), 0, Some(6)),
             DoubleStartA | DoubleStartB => (Step::Double2, Length::Doublings(of_gradient), 0, None),
             DoubleA | DoubleB => (Step::Double2, Length::Doublings(of_left_edge), 0, None),
-            SignY => (Step::Sign, Length::Clocks(1), 0, None),
-            SignLine | SignStart => (Step::Sign, Length::Clocks(1), 4, None),
-            SumY => (Step::Next, Length::Digits, 0, None),
-            SumLine | SumStart => (Step::Next, Length::Digits, 4, None),
+            SignLine => (Step::Sign, Length::Clocks(1), 0, None),
+            SignStart => (Step::Sign, Length::Clocks(1), 4, None),
+            SumLine => (Step::Next, Length::Digits, 0, None),
+            SumStart => (Step::Next, Length::Digits, 4, None),
             AddX => (Step::Add, Length::Clocks(1), 5, Some(7)),
-            AddY => (Step::Add, Length::Clocks(1), 6, None),
-            AddLine => (Step::Add, Length::Clocks(1), 5, None),
         };
         Doing { step, length, slot, result }
     }
