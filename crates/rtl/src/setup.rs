@@ -96,7 +96,7 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     };
     let factors = sources.factors();
 
-    let lanes = lanes::lanes(&m, plan, &control, &factors)?;
+    let lanes = lanes::lanes(&m, plan, &control, &factors, area.negative)?;
     let values = operands::Values::new(&m, plan, &control, &vertices, &area);
     let sources = operands::Sources {
         m: &m,
@@ -112,7 +112,7 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     scale.gather(plan, &control, &differences);
     let unfit = lanes.iter().filter_map(|lane| sources.unfit(lane));
     control.unfit.drive(unfit.reduce(|any, one| any | one).unwrap_or(m.lit(1, 0)));
-    Results { m: &m, plan, control: &control, vertices: &vertices, area: &area, prim: &prim }.take(&lanes);
+    Results { m: &m, plan, control: &control, vertices: &vertices, prim: &prim }.take(&lanes);
 
     ports.take_ready(control.idle);
     let heights = EDGES.iter().zip(&vertices.heights);

@@ -43,8 +43,8 @@ fn with_lanes(lanes: u32) -> Plan {
 /// numbers fit.
 #[test]
 fn a_triangle_takes_the_clocks_of_its_bits() {
-    let edges = 1 + 4 + 2 + 2 + 8 + 1;
-    let channels = 3 + 1 + (14 + 9) + (14 + 9) + 1 + 1 + 9 + 1;
+    let edges = 1 + 4 + 2 + 2 + 8;
+    let channels = 3 + 1 + (14 + 9) + (14 + 9) + 1 + 1 + 9;
     for (lanes, edge_rounds, channel_rounds) in [(4, 1, 1), (2, 2, 2), (1, 3, 4)] {
         let clocks = 1 + edge_rounds * edges + channel_rounds * channels + 4;
         let found = cycles_until(&with_lanes(lanes), [[10, 10], [40, 20], [20, 60]], "prim_valid");
@@ -63,7 +63,7 @@ fn a_number_that_does_not_fit_takes_its_digits() {
 
 #[test]
 fn culls() {
-    for (lanes, edges) in [(4, 19), (2, 37), (1, 55)] {
+    for (lanes, edges) in [(4, 18), (2, 35), (1, 52)] {
         let ready = |triangle| cycles_until(&with_lanes(lanes), triangle, "tri_ready");
         assert_eq!(ready([[10, 10], [40, 10], [20, 10]]), 3, "no line");
         assert_eq!(ready([[-50, 10], [-40, 30], [-20, 20]]), 3, "no column: before the screen");

@@ -176,9 +176,10 @@ impl<'m> Control<'m> {
         }
         at.when(leaves, next).when(take, codes[0].1);
         match plan.fill {
-            Fill::Exact => first.set(leaves),
+            // A sum of one digit may wait for the area.
+            Fill::Exact => first.set(leaves | (first.q() & waits)),
             // A sum may be named while numbers do not fit.
-            Fill::Textbook => first.when(advance, leaves),
+            Fill::Textbook => first.when(advance, leaves | (first.q() & waits)),
         };
         if let Some(round) = round {
             round

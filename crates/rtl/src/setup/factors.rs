@@ -105,7 +105,7 @@ impl<'m> Sources<'_, 'm> {
         for (product, digit) in products.into_iter().flatten().zip(digits) {
             let sums = control.named.is(Op::SumX) | control.named.is_in(Op::Sum, 0);
             let doubled = control.first.mux(0, product.q().shl(1));
-            product.when(sums, doubled + digit.mux(whole(self.prim["major_q"].q()), 0));
+            product.when(sums & !control.waits, doubled + digit.mux(whole(self.prim["major_q"].q()), 0));
         }
         Factors {
             digits,

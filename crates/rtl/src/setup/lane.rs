@@ -61,11 +61,13 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let digits = m.input_doc("digits", 2, "of a number that does not fit, or its sign twice; with their step");
     let write = m.input_doc("write", 1, "the result of the step goes to a slot");
     let write_at = m.input("write_at", 3);
-    let whole_in = m.input_doc("whole_in", shape.whole, "whole number to add, with the step done");
+    let whole_in = m.input_doc("whole_in", shape.whole, "whole number to add to a result, a clock before value");
     let take_modulus = m.input_doc("take_modulus", 1, "two clocks before the first step with it");
     let modulus_in = m.input_doc("modulus_in", below_two_m, "-M, or -M - 1 if modulus_short; signed");
     let modulus_short = m.input("modulus_short", 1);
-    let upwards = m.input_doc("upwards", 1, "value rounds up whatever is not whole, not to nearest");
+    let nearest = m.input_doc("nearest", 1, "value is rounded to nearest, halves up; a clock before it, with rest_out");
+    let upwards = m.input_doc("upwards", 1, "else: up; if not, it is cut");
+    let negate = m.input_doc("negate", 1, "value is negated, once it is rounded");
 
     m.comment("The modulus: -M, or its complement -M - 1, with the 1 that is then missing.");
     let modulus =
@@ -76,7 +78,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let rest = m.reg("rest", slot).doc("1/M");
     let rest_next = m.wire("rest_next", slot);
     let rests = m.memory("rests", 3, 8, slot).starts(0).doc("1/M").write(write, write_at, rest_next.q());
-    let stored = rests.read(advance, read_at);
+    let stored = rests.read(advance & apart(write, write_at, read_at), read_at);
 
     m.comment("The addend of the step that follows.");
     let n0 = m.reg("n0", below_two_m).doc("a, or M - a");
@@ -102,7 +104,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let now = m.reg("now", Step::BITS).doc("the step done").set(step).q();
     let fourfold = flag(&m, "fourfold", one_of(step, &[Step::Double2, Step::Digits]));
     let twofold = flag(&m, "twofold", one_of(step, &[Step::Double1, Step::Next]));
-    let keeps = flag(&m, "keeps", one_of(step, &[Step::Rest, Step::Add, Step::Whole]));
+    let keeps = flag(&m, "keeps", one_of(step, &[Step::Rest, Step::Add]));
     let takes = flag(&m, "takes", one_of(step, &[Step::Take, Step::Begin]));
     let compared = [Step::Double1, Step::Double2, Step::Digits, Step::Next, Step::Add];
     let compared = m.reg("compared", 1).doc("M is taken off if it goes").set(one_of(step, &compared)).q();
@@ -123,8 +125,10 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let f1 = (s1_fits & compared).named("fits1");
     let f2 = (f1 & !s2.msb()).named("fits2");
     let stays = ((fourfold & !f0) | (takes & !below)).named("stays");
-    let next = f2.mux(s2.trunc(slot), f1.mux(s1.trunc(slot), stays.mux(x.trunc(slot), s0.trunc(slot))));
-    rest_next.drive(next);
+    // Said so that two look-up tables of four inputs do for a bit.
+    let lower = f1.mux(f2, stays).named("lower");
+    let chosen = f1.mux(repeat(lower, slot), lower.mux(x.trunc(slot), s0.trunc(slot))).named("chosen");
+    rest_next.drive(f1.mux((chosen & s2.trunc(slot)) | (!chosen & s1.trunc(slot)), chosen));
     rest.set(rest_next);
     m.output_doc(
         "unfit",
@@ -140,12 +144,13 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
         (m.reg("write_then", 1).set(write), m.reg("write_then_at", 3).set(write_at));
     let wholes = m.memory("wholes", 3, 8, shape.whole).starts(0).doc("modular");
     let wholes = wholes.write(write_then.q(), write_then_at.q(), whole_next.q());
-    let stored = wholes.read(m.lit(1, 1), read_whole_at.q());
+    let apart = apart(write_then.q(), write_then_at.q(), read_whole_at.q());
+    let stored = wholes.read(apart, read_whole_at.q());
     let subtracted = m.reg("subtracted", 1).set(is(step, Step::Sign)).q();
     let slot_now = m.reg("slot_now", 1).set(of_slot).q();
     let b = m.reg("b", shape.whole).doc("addend");
     let same = repeat(subtracted | below, shape.whole);
-    b.set(is(now, Step::Whole).mux(whole_in, slot_now.mux(stored ^ same, same)));
+    b.set(slot_now.mux(stored ^ same, same));
     // Of a fourfold rest: 0 to 3 times; of others 0 to 2.
     let many = (fourfold.mux(f1, f2)).named("twice_or_more");
     let odd = fourfold.mux((f0 & !f1) | f2, f1 & !f2).named("once_or_thrice");
@@ -162,13 +167,16 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     whole_next.drive(plus("x_and_b", x, b.q(), one));
     whole.set(whole_next);
 
-    m.comment("What is done is given out rounded: to nearest, halves up, or up.");
+    m.comment("What is done is given out rounded, with a whole number added, or negated: -w - 1 is the complement of w.");
     m.output_doc("rest_out", rest, "1/M, from the clock after a step");
-    m.output_doc("whole_out", whole, "modular, a clock later");
     let twice = m.cat(&[rest.q(), m.lit(1, 0)]);
     let past_half = plus("past_half", twice, modulus, short);
-    let up = m.reg("up", 1).set(upwards.mux(rest.q().any(), !past_half.msb())).q();
-    m.output_doc("value", whole.q() + up.zext(shape.whole), "modular, with whole");
+    let up = nearest.mux(!past_half.msb(), upwards & rest.q().any());
+    let carry = m.reg("value_carry", 1).doc("1 to add, rounded up or negated").set(up ^ negate).q();
+    let negated = m.reg("value_negated", 1).set(negate).q();
+    let added = m.reg("value_added", shape.whole).doc("whole number, modular").set(whole_in).q();
+    let value = plus("value_sum", whole.q() ^ repeat(negated, shape.whole), added, carry);
+    m.output_doc("value", value, "modular, two clocks after a step");
     m.finish()
 }
 
@@ -178,6 +186,11 @@ pub(super) fn plus<'m>(name: &str, a: Signal<'m>, b: Signal<'m>, carry: Signal<'
     let sum =
         (m.cat(&[a, m.lit(1, 1)]) + m.cat(&[b, carry])).named_doc(name, "and a carry out of the lowest bit");
     sum.slice(a.width(), 1)
+}
+
+/// What is read is not written in this clock. No pair that is needed ever is: said, it spares what would keep the old word.
+fn apart<'m>(write: Signal<'m>, write_at: Signal<'m>, read_at: Signal<'m>) -> Signal<'m> {
+    !(write & write_at.eq(read_at))
 }
 
 /// Whether it was so a clock before.

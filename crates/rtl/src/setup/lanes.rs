@@ -24,11 +24,12 @@ pub(super) fn lanes<'m>(
     plan: &Plan,
     control: &Control<'m>,
     factors: &Factors<'m>,
+    right: Signal<'m>,
 ) -> Result<Vec<Lane<'m>>, BuildErrors> {
     let shapes: Vec<Shape> =
         (0..plan.lanes as usize).map(|number| Shape::new(plan, &channels(plan, number))).collect();
     let netlists = netlists(&shapes)?;
-    let common = Common::new(m, plan, control, factors);
+    let common = Common::new(m, plan, control, factors, right);
     let in_place = |(number, (shape, netlist)): (usize, (Shape, Arc<Netlist>))| {
         m.comment(&format!("Lane {number}: its steps."));
         let instance = m.instance(&format!("lane{number}"), &netlist);
@@ -70,7 +71,9 @@ struct Common<'a, 'm> {
     write: Signal<'m>,
     write_at: Signal<'m>,
     take_modulus: Signal<'m>,
+    nearest: Signal<'m>,
     upwards: Signal<'m>,
+    negated: Signal<'m>,
 }
 
 /// The slot of the addend.
@@ -87,6 +90,7 @@ impl<'a, 'm> Common<'a, 'm> {
         plan: &'a Plan,
         control: &'a Control<'m>,
         factors: &'a Factors<'m>,
+        right: Signal<'m>,
     ) -> Common<'a, 'm> {
         m.comment("What all lanes do.");
         let ops: Vec<Op> = Op::of_edges(plan).iter().chain(Op::of_channels(plan)).copied().collect();
@@ -95,7 +99,7 @@ impl<'a, 'm> Common<'a, 'm> {
             |which: &dyn Fn(Op) -> bool| ops.iter().copied().filter(|op| which(*op)).collect::<Vec<_>>();
         let steps = |step: Step| these(&|op| op.doing().step == step);
         let mut step = code(Step::Rest);
-        for of in [Step::Take, Step::Double2, Step::Next, Step::Sign, Step::Add, Step::Whole] {
+        for of in [Step::Take, Step::Double2, Step::Next, Step::Sign, Step::Add] {
             step = control.named.one_of(&steps(of)).mux(code(of), step);
         }
         let first = control.first.mux(code(Step::First), code(Step::Next));
@@ -131,10 +135,13 @@ impl<'a, 'm> Common<'a, 'm> {
             if ops.is_empty() { chosen } else { control.stepped.one_of(&ops).mux(slot as i32, chosen) }
         });
         let with_another = [Op::TakeDx, Op::Take12, Op::TakeA, Op::TakeB];
-        let upwards = match plan.edge_kind {
-            EdgeKind::Exact => control.rest.is(Op::Columns),
-            EdgeKind::Slope => m.lit(1, 0),
-        };
+        let exact = plan.edge_kind == EdgeKind::Exact;
+        let only = |in_these: bool, is: Signal<'m>| if in_these { is } else { m.lit(1, 0) };
+        let [is_cut, upwards, negated] = [
+            control.rest.is(Op::SumStart) | only(exact, control.rest.one_of(&[Op::DoubleDx, Op::Sum])),
+            only(exact && plan.fill == Fill::Exact, control.rest.is(Op::Sum)),
+            only(plan.fill == Fill::Exact, control.rest.is(Op::DoubleX) & right),
+        ];
         Common {
             m,
             plan,
@@ -146,7 +153,9 @@ impl<'a, 'm> Common<'a, 'm> {
             write,
             write_at: write_at.named("write_at"),
             take_modulus: control.named.one_of(&with_another).named("take_modulus"),
-            upwards,
+            nearest: (!is_cut).named("nearest"),
+            upwards: upwards.named("upwards"),
+            negated: negated.named("negated"),
         }
     }
 
@@ -174,7 +183,9 @@ impl<'a, 'm> Common<'a, 'm> {
             .connect("write", self.write)
             .connect("write_at", self.write_at)
             .connect("take_modulus", self.take_modulus)
-            .connect("upwards", self.upwards);
+            .connect("nearest", self.nearest)
+            .connect("upwards", self.upwards)
+            .connect("negate", self.negated);
     }
 
     /// A lane with fewer doublings than the longest does its last ones with it; of an odd number the last is single.

@@ -1,6 +1,6 @@
 //! What the lanes take in: differences of the vertices, whole numbers to add, and the moduli.
 
-use edgewalk_machine::{Channel, Fill, Plan};
+use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
 use edgewalk_netlist::{Module, Signal};
 
 use super::area::Area;
@@ -69,10 +69,10 @@ impl<'m> Values<'m> {
         };
         let chosen = choose(third, pair(2, 1), choose(second, pair(2, 0), pair(0, 1)));
         let (mut from, mut to) = choose(turned, (chosen.1, chosen.0), chosen);
-        let single = named.one_of(&[Op::AddStart, Op::AddA, Op::AddB]);
+        let single = named.one_of(&[Op::SignStart, Op::DoubleStartA, Op::DoubleStartB]);
         to = single.mux(place(0), to);
         if plan.fill == Fill::Textbook {
-            to = (named.is(Op::AddB) & right).mux(place(1), to);
+            to = (named.is(Op::DoubleStartB) & right).mux(place(1), to);
             // The left edge is the major one, or that of the part.
             let (a, b) = (named.is(Op::TakeA), named.is(Op::TakeB));
             from = (a | b).mux((b & right).mux(place(1), place(0)), from);
@@ -110,14 +110,19 @@ impl<'m> Sources<'_, 'm> {
         let number = number.named_doc(&format!("number{}", lane.number), "signed");
         let kept = m.reg(&format!("kept{}", lane.number), number.width());
         let kept = kept.doc("a number that may not fit, or a first value; signed");
-        let (kept, digits) = if has_edge || self.plan.fill == Fill::Textbook {
-            let ops = [Op::TakeDx, Op::TakeA, Op::TakeB, Op::AddStart, Op::AddA, Op::AddB];
-            let kept = kept.when(control.next.one_of(&ops), number).q();
+        let may_not_fit = if has_edge || self.plan.fill == Fill::Textbook {
+            vec![Op::TakeDx, Op::TakeA, Op::TakeB]
+        } else {
+            Vec::new()
+        };
+        let first_values = [Op::SignStart, Op::DoubleStartA, Op::DoubleStartB];
+        let kept = kept.when(control.next.one_of(&[&may_not_fit, &first_values[..]].concat()), number).q();
+        let digits = if may_not_fit.is_empty() {
+            m.lit(2, 0)
+        } else {
             // In the first clock of a pause these are the sign; when two are left, the lowest.
             let pair = m.cat(&[control.pause - 2, m.lit(1, 0)]);
-            (kept, kept.sar_by(pair).trunc(2))
-        } else {
-            (kept.set(number).q(), m.lit(2, 0))
+            kept.sar_by(pair).trunc(2)
         };
         let (modulus, short) = self.modulus(lane);
         lane.instance
@@ -216,25 +221,32 @@ impl<'m> Sources<'_, 'm> {
         pick(values.to) - values.single.mux(rounding, pick(values.from))
     }
 
+    /// The whole number that is added to a result: to a column those of the upper end, to a first value that at its vertex.
     fn whole(&self, lane: &Lane<'m>, kept: Signal<'m>) -> Signal<'m> {
-        let (stepped, bits) = (&self.control.stepped, lane.shape.whole);
+        let (m, rest, bits) = (self.m, &self.control.rest, lane.shape.whole);
         let [edge_rounds, channel_rounds] = rounds(self.plan);
         let t = self.plan.widths().center_fraction;
         let column = |place: usize| {
             let u = self.vertices.u(place);
-            fit(u.slice(u.width() - 1, t), bits)
+            let column = u.slice(u.width() - 1, t);
+            match self.plan.edge_kind {
+                EdgeKind::Exact => fit(column, bits),
+                EdgeKind::Slope => fit(m.cat(&[column, m.lit(self.plan.edge_fraction, 0)]), bits),
+            }
         };
-        let channel = stepped.of_round(channel_rounds, |round| {
+        let channel = rest.of_round(channel_rounds, |round| {
             let channel = channel_of(self.plan, lane.number, round);
-            channel.map_or(self.m.lit(bits, 0), |channel| self.first_value(&channel, kept, bits))
+            channel.map_or(m.lit(bits, 0), |channel| self.first_value(&channel, kept, bits))
         });
+        let starts = rest.one_of(&[Op::SumStart, Op::DoubleStartA, Op::DoubleStartB]);
+        let of_channel = starts.mux(channel, 0);
         if !self.has_edge(lane) {
-            return channel;
+            return of_channel;
         }
-        let edge = stepped.of_round(edge_rounds, |round| {
+        let edge = rest.of_round(edge_rounds, |round| {
             column(ENDS[edge_of(self.plan, lane.number, round).unwrap_or(0)].0)
         });
-        stepped.is(Op::Columns).mux(edge, channel)
+        rest.is(Op::of_column(self.plan)).mux(edge, of_channel)
     }
 
     /// The value the first one is counted from, as a word, with the halves that make cutting a rounding.

@@ -4,7 +4,6 @@ use edgewalk_machine::units::tokens::EDGES;
 use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
 use edgewalk_netlist::{Module, Reg, Signal};
 
-use super::area::Area;
 use super::control::Control;
 use super::lanes::Lane;
 use super::sort::Vertices;
@@ -17,7 +16,6 @@ pub(super) struct Results<'a, 'm> {
     pub plan: &'a Plan,
     pub control: &'a Control<'m>,
     pub vertices: &'a Vertices<'m>,
-    pub area: &'a Area<'m>,
     pub prim: &'a Registers<'m>,
 }
 
@@ -60,25 +58,25 @@ impl<'m> Results<'_, 'm> {
         let (m, name) = (self.m, EDGES[edge]);
         m.comment(&format!("Edge: {name}."));
         let t = self.plan.widths().center_fraction;
-        let (rest, whole) = (lane.instance.output("rest_out"), lane.instance.output("whole_out"));
+        let (rest, value) = (lane.instance.output("rest_out"), lane.instance.output("value"));
         let (steps, height) = (self.steps(edge), self.vertices.heights[edge]);
         let (f, q) = (self.register(name, "f"), self.register(name, "q"));
         let after = |op: Op| (self.control.rest.ends_in(op, round), self.control.whole.ends_in(op, round));
         let (rest_now, whole_now) = after(Op::DoubleDx);
         f.when(rest_now, steps.mux(rest.slice(rest.width() - 1, t).trunc(f.q().width()), 0));
-        q.when(whole_now, steps.mux(whole.trunc(q.q().width()), 0));
+        q.when(whole_now, steps.mux(value.trunc(q.q().width()), 0));
         let (r, c) = (self.register(name, "r"), self.register(name, "c"));
-        let (rest_now, whole_now) = after(Op::Columns);
+        let (rest_now, whole_now) = after(Op::Sum);
         let walked = |value: Signal<'m>| self.walked(edge).map_or(value, |walked| walked.mux(value, 0));
         let (onward, column) = match self.plan.fill {
             // From the edge on to the next whole column: M less the rest, where there is one.
             Fill::Exact => {
                 let onward = m.cat(&[height, m.lit(t, 0)]) - rest.trunc(height.width() + t);
                 let onward = rest.any().mux(onward.slice(onward.width() - 1, t), 0);
-                (onward, lane.instance.output("value"))
+                (onward, value)
             }
             // And one further where it is whole.
-            Fill::Textbook => (height + !rest.slice(height.width() + t - 1, t), whole + 1),
+            Fill::Textbook => (height + !rest.slice(height.width() + t - 1, t), value + 1),
         };
         r.when(rest_now, walked(onward.trunc(r.q().width())));
         c.when(whole_now, walked(column.trunc(c.q().width())));
@@ -107,20 +105,19 @@ impl<'m> Results<'_, 'm> {
     fn channel_exact(&self, channel: &Channel, round: usize, lane: &Lane<'m>) {
         let name = channel.name;
         self.m.comment(&format!("Channel: {name}."));
-        let rounded = lane.instance.output("value").trunc(channel.word());
+        let value = lane.instance.output("value");
+        let rounded = value.trunc(channel.word());
         let t = self.plan.widths().center_fraction;
-        let start = lane.instance.output("whole_out").slice(channel.word() + t - 1, t);
-        let after = |op: Op| self.control.whole.ends_in(op, round);
-        let right = self.area.negative;
-        self.register(name, "g").when(after(Op::DoubleX), right.mux(-rounded, rounded));
-        self.register(name, "d0").when(after(Op::DoubleLine), rounded);
-        self.register(name, "d1").when(after(Op::AddX), rounded);
-        let result = self.register(name, "start");
-        match self.control.whole.in_round(round) {
-            // What is taken before it is done is taken again.
-            Some(_) => result.when(self.control.whole.is_in(Op::AddStart, round), start),
-            None => result.set(start),
-        };
+        let start = value.slice(channel.word() + t - 1, t);
+        let results = [
+            ("g", Op::DoubleX, rounded), // negated where the major edge lies right
+            ("d0", Op::DoubleLine, rounded),
+            ("d1", Op::AddX, rounded),
+            ("start", Op::SumStart, start),
+        ];
+        for (result, op, value) in results {
+            self.register(name, result).when(self.control.whole.ends_in(op, round), value);
+        }
     }
 
     fn channel_textbook(&self, channel: &Channel, round: usize, lane: &Lane<'m>) {
@@ -131,9 +128,9 @@ impl<'m> Results<'_, 'm> {
         self.register(name, "g").when(after(Op::DoubleX), rounded);
         let results = [
             ("d_a", Op::DoubleA, "n1"),
-            ("start_a", Op::AddA, "n1"),
+            ("start_a", Op::DoubleStartA, "n1"),
             ("d_b", Op::DoubleB, "n2"),
-            ("start_b", Op::AddB, "n2"),
+            ("start_b", Op::DoubleStartB, "n2"),
         ];
         for (result, op, lines) in results {
             let used = self.prim[lines].q().any();

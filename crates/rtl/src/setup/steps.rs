@@ -12,8 +12,6 @@ pub(super) enum Step {
     Double1 = 0b1,
     /// A number is taken in, and M added if it is below 0; does it fit?
     Take = 0b11,
-    /// A whole number is added; the rest stays, as its addend is 0.
-    Whole = 0b100,
     /// The sign of a number that does not fit is taken in.
     Begin = 0b111,
     /// Doubled twice.
@@ -48,10 +46,8 @@ pub(super) enum Op {
     TakeDy,
     AddDx,
     WaitDx,
-    /// N of an edge, without whole columns.
+    /// N of an edge, without whole columns: C and R of an exact edge.
     Sum,
-    /// Whole columns of the upper end: C and R of an exact edge.
-    Columns,
     /// C and R of a slope edge.
     DoubleColumns,
     RoundColumns,
@@ -75,7 +71,6 @@ pub(super) enum Op {
     /// start.
     SignStart,
     SumStart,
-    AddStart,
     /// Textbook fill: g is rounded before the modulus changes.
     RoundX,
     /// DC of part 1.
@@ -86,7 +81,6 @@ pub(super) enum Op {
     /// startA.
     SumA,
     DoubleStartA,
-    AddA,
     RoundA,
     /// Part 2.
     TakeB,
@@ -96,7 +90,6 @@ pub(super) enum Op {
     /// startB.
     SumB,
     DoubleStartB,
-    AddB,
     RoundB,
 }
 
@@ -128,9 +121,9 @@ impl Op {
     pub fn of_edges(plan: &Plan) -> &'static [Op] {
         use Op::*;
         match plan.edge_kind {
-            EdgeKind::Exact => &[Subtract, TakeDx, DoubleDx, TakeDy, AddDx, WaitDx, Sum, Columns],
+            EdgeKind::Exact => &[Subtract, TakeDx, DoubleDx, TakeDy, AddDx, WaitDx, Sum],
             EdgeKind::Slope => {
-                &[Subtract, TakeDx, DoubleDx, TakeDy, AddDx, WaitDx, Sum, Columns, DoubleColumns, RoundColumns]
+                &[Subtract, TakeDx, DoubleDx, TakeDy, AddDx, WaitDx, Sum, DoubleColumns, RoundColumns]
             }
         }
     }
@@ -141,7 +134,7 @@ impl Op {
         match plan.fill {
             Fill::Exact => &[
                 Take12, Take1, Take2, Wait, SumX, DoubleX, SignLine, SumLine, DoubleLine, AddX, WaitLine,
-                SignStart, SumStart, AddStart,
+                SignStart, SumStart,
             ],
             Fill::Textbook => &[
                 Take12,
@@ -156,14 +149,12 @@ impl Op {
                 WaitA,
                 SumA,
                 DoubleStartA,
-                AddA,
                 RoundA,
                 TakeB,
                 DoubleB,
                 WaitB,
                 SumB,
                 DoubleStartB,
-                AddB,
                 RoundB,
             ],
         }
@@ -182,7 +173,6 @@ impl Op {
             Subtract | Wait | WaitLine | WaitA | WaitB => (Step::Rest, Length::Clocks(1), 0, None),
             WaitDx | RoundColumns | RoundX | RoundA | RoundB => (Step::Rest, Length::Clocks(2), 0, None),
             Sum | SumX | SumA | SumB => (Step::First, Length::Digits, 0, None),
-            Columns | AddStart | AddA | AddB => (Step::Whole, Length::Clocks(1), 0, None),
             DoubleX => (Step::Double2, Length::Scaled(of_gradient), 0, Some(5)),
             DoubleLine => (Step::Double2, Length::Scaled(of_gradient), 0, Some(6)),
             DoubleStartA | DoubleStartB => (Step::Double2, Length::Doublings(of_gradient), 0, None),
@@ -194,6 +184,14 @@ impl Op {
             AddX => (Step::Add, Length::Clocks(1), 5, Some(7)),
         };
         Doing { step, length, slot, result }
+    }
+
+    /// The one whose result is the column of an edge's first line.
+    pub fn of_column(plan: &Plan) -> Op {
+        match plan.edge_kind {
+            EdgeKind::Exact => Op::Sum,
+            EdgeKind::Slope => Op::DoubleColumns,
+        }
     }
 
     /// It is one of those on edges.
