@@ -334,6 +334,10 @@ mod tests {
         assert_eq!(knee_at(1), s2(11, 9));
         // Major left: s(-768, 512 - 2560) = s(-2048) = 12, but s(512 - 2816) = 13; px = 3, s(384 - 2·128, 128) = 9.
         assert_eq!([12, 13].map(knee_at), [s2(12, 9), s2(13, 9)]);
+        // One column back over the whole guard band, q = -1: su of p1 is 2·16381 px, s = 24 = DW + 1. u(16382 px) = 22; line 0 is
+        // 8191.5 px below p0, half a px left of it C = -8191: s(8191 px) = 22.
+        let whole = clocks(&Machine::default(), [[-8190, -8191], [8191, 8190], [-8191, 8191]], [0; 3])[1];
+        assert_eq!(whole, 3 + 1 + (22 + 9) + (24 + 9) + 1 + 1 + 22 + 1 + 4);
     }
 
     #[test]
