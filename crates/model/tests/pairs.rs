@@ -1,110 +1,22 @@
 //! SETUP by pairs, step by step as `docs/machine.md` describes its lanes, against what the model gives by closed
 //! formulae: every field of every prim, and the clocks that the steps took.
 
+mod lane;
+
 use crate::common::{Triangle, moved, random_machine, random_triangle};
 use edgewalk_machine::{Channel, EdgeKind, Fill, MAX_CHANNELS, Machine, Plan};
 use edgewalk_model::setup::Setup;
 use edgewalk_model::tokens::{EdgeWalk, Prim, sign_extend};
 use edgewalk_model::{Culled, Events, SetupClocks, longest_setup, setup_clocks};
+use lane::{Lane, Pair, over_bits, s, u};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 use std::array::from_fn;
 
-/// The number w + rest/M; w modular.
-#[derive(Clone, Copy, Debug, Default)]
-struct Pair {
-    w: i128,
-    rest: i128,
-}
-
-/// What a lane divides by, and the bits of its w.
-#[derive(Clone, Copy, Debug)]
-struct Lane {
-    m: i128,
-    bits: u32,
-}
-
-impl Lane {
-    /// w + rest/M of a rest below 3M.
-    fn pair(self, w: i128, rest: i128) -> Pair {
-        let over = i128::from(rest >= self.m) + i128::from(rest >= 2 * self.m);
-        let rest = rest - over * self.m;
-        assert!((0..self.m).contains(&rest), "{rest} of {self:?}");
-        Pair { w: (w + over) & ((1 << self.bits) - 1), rest }
-    }
-
-    fn fits(self, d: i128) -> bool {
-        -self.m <= d && d < self.m
-    }
-
-    /// D/M: had by a test, or from its sign and `bits` more, one by one.
-    fn take_in(self, d: i128, tested: bool, bits: u32) -> Pair {
-        if tested {
-            return if d < 0 { self.pair(-1, d + self.m) } else { self.pair(0, d) };
-        }
-        let mut pair = if d < 0 { self.pair(-1, self.m - 1) } else { Pair::default() };
-        for i in (0..bits).rev() {
-            pair = self.pair(2 * pair.w, 2 * pair.rest + (d >> i & 1));
-        }
-        pair
-    }
-
-    fn add(self, a: Pair, b: Pair) -> Pair {
-        self.pair(a.w + b.w, a.rest + b.rest)
-    }
-
-    fn add_whole(self, a: Pair, n: i128) -> Pair {
-        self.pair(a.w + n, a.rest)
-    }
-
-    fn double(self, a: Pair, times: u32) -> Pair {
-        (0..times).fold(a, |a, _| self.pair(2 * a.w, 2 * a.rest))
-    }
-
-    /// f·a + g·b, the most significant of `bits` first; of numbers with a sign that bit subtracts.
-    fn sum(self, [f, g]: [i128; 2], [a, b]: [Pair; 2], bits: u32, signed: bool) -> Pair {
-        let both = self.add(a, b);
-        let mut sum = Pair::default();
-        for i in (0..bits).rev() {
-            let chosen = match (f >> i & 1, g >> i & 1) {
-                (0, 0) => Pair::default(),
-                (_, 0) => a,
-                (0, _) => b,
-                _ => both,
-            };
-            let taken_off = signed && i == bits - 1; // from 0
-            sum = if taken_off && chosen.rest > 0 {
-                self.pair(-chosen.w - 1, self.m - chosen.rest)
-            } else if taken_off {
-                self.pair(-chosen.w, 0)
-            } else {
-                self.pair(2 * sum.w + chosen.w, 2 * sum.rest + chosen.rest)
-            };
-        }
-        sum
-    }
-
-    /// RN.
-    fn round(self, a: Pair) -> i128 {
-        a.w + i128::from(2 * a.rest >= self.m)
-    }
-}
-
-/// Bits of the longest of some numbers that are not negative.
-fn u(numbers: &[i128]) -> u32 {
-    let bits = |n: &i128| (0..).find(|bits| n >> bits == 0).expect("not negative");
-    numbers.iter().map(bits).max().unwrap_or(0).max(1)
-}
-
-/// The same in two's complement.
-fn s(numbers: &[i128]) -> u32 {
-    let bits =
-        |n: &i128| (1..).find(|bits| (-1..=0).contains(&(n >> (bits - 1)))).expect("no number is longer");
-    numbers.iter().map(bits).max().unwrap_or(0).max(2)
-}
-
-/// The clocks of taking in numbers on all lanes.
-fn takes(all_fit: bool, bits: u32) -> u32 {
-    if all_fit { 2 } else { 5 + bits.div_ceil(2) }
+/// What all lanes of a round took, as they do the same steps.
+fn all_equal<T: PartialEq + std::fmt::Debug>(mut taken: impl Iterator<Item = T>) -> T {
+    let first = taken.next().expect("a lane");
+    taken.for_each(|other| assert_eq!(other, first, "lanes of a round"));
+    first
 }
 
 /// A vertex in centre coordinates with its values.
@@ -188,8 +100,8 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Major, first and second minor.
-    fn edges(&self) -> ([EdgeWalk; 3], u32) {
+    /// Major, first and second minor; q·h of the major edge; S1.
+    fn edges(&self) -> ([EdgeWalk; 3], i128, u32) {
         let [p0, p1, p2] = self.corners;
         let [walked0, walked1] = self.lines.map(|lines| lines > 0);
         let tasks = [
@@ -197,65 +109,80 @@ impl<'a> Work<'a> {
             Task { a: p0, b: p1, j: self.first[0], walked: walked0 },
             Task { a: p1, b: p2, j: self.first[1], walked: walked1 },
         ];
-        let (mut edges, mut clocks) = (Vec::new(), 0);
+        // In the first clock the vertices are subtracted.
+        let (mut edges, mut sheared, mut clocks) = (Vec::new(), Vec::new(), 1);
         for round in tasks.chunks(self.plan.lanes as usize) {
-            clocks += self.edge_round(round, &mut edges);
+            clocks += self.edge_round(round, &mut edges, &mut sheared);
         }
-        let dv2 = p2.v - p0.v;
-        (edges.try_into().expect("three edges"), clocks.max(u(&[dv2]) + 4 + self.scale(0)))
+        let (du1, dv1, du2, dv2) = (p1.u - p0.u, p1.v - p0.v, p2.u - p0.u, p2.v - p0.v);
+        let area = over_bits(u(&[dv2]), |i| du1 * (dv2 >> i & 1) - du2 * (dv1 >> i & 1));
+        assert_eq!(area, self.area, "summed up over the bits of dv2 and dv1");
+        let area = u(&[dv2]).max(2) + 4 + self.scale(0);
+        (edges.try_into().expect("three edges"), sheared[0], clocks.max(area))
     }
 
-    fn edge_round(&self, round: &[Task], edges: &mut Vec<EdgeWalk>) -> u32 {
+    fn edge_round(&self, round: &[Task], edges: &mut Vec<EdgeWalk>, sheared: &mut Vec<i128>) -> u32 {
         let (w, t, p) = (self.plan.widths(), self.t, 1i128 << self.t);
         let exact = self.plan.edge_kind == EdgeKind::Exact;
         let f = if exact { 0 } else { self.plan.edge_fraction };
-        let lane = |task: &Task| Lane { m: p * (task.b.v - task.a.v), bits: w.column + f };
-        let at_work = || round.iter().filter(|task| task.walked);
-        let all_fit = at_work().all(|task| lane(task).fits(task.b.u - task.a.u));
-        let factors = |task: &Task| [(task.a.u + self.o) & (p - 1), task.j * p - task.a.v];
-        let bits = u(&at_work().flat_map(factors).collect::<Vec<_>>());
-        for task in round {
-            let (dx, dy) = (task.b.u - task.a.u, task.b.v - task.a.v);
-            let modulus = if exact { dy } else { 1 << f };
-            if !task.walked {
-                edges.push(EdgeWalk { m: modulus as i32, ..EdgeWalk::default() });
-                continue;
-            }
-            let lane = lane(task);
+        // DX, DY, ua + o, and h; one that is not walked has what asks for nothing.
+        let numbers = |task: &Task| match task {
+            Task { walked: false, .. } => [0, 1, 0, 0],
+            Task { a, b, j, .. } => [b.u - a.u, b.v - a.v, a.u + self.o, j * p - a.v],
+        };
+        let all_fit = round.iter().map(numbers).all(|[dx, dy, ..]| Lane::fits(p * dy, dx));
+        let factors = |[_, _, column, h]: [i128; 4]| [column & (p - 1), h];
+        let bits = u(&round.iter().map(numbers).flat_map(factors).collect::<Vec<_>>());
+        let taken = round.iter().map(|task| {
+            let numbers = numbers(task);
+            let [dx, dy, column, h] = numbers;
+            let mut lane = Lane::new(p * dy, w.column + f);
             let slope = lane.take_in(dx, all_fit, w.difference - 1);
-            let step = lane.double(slope, t + f);
+            let step = lane.double(slope, t + f, (t + f).div_ceil(2));
+            let sl = lane.round(step);
             let one = lane.take_in(dy, true, 0);
-            let whole = (task.a.u + self.o) >> t;
-            let column = lane.sum([factors(task)[0], factors(task)[1]], [one, slope], bits, false);
-            let column = lane.add_whole(column, whole);
+            let both = lane.add(one, slope);
+            lane.wait(2);
             let low = |n: i128| sign_extend(n as i32, w.column);
-            let (q, fraction, c, r);
+            let (mut q, mut fraction) =
+                if exact { (step.w, step.rest >> t) } else { (sl >> f, sl & ((1 << f) - 1)) };
+            if dy < p {
+                (q, fraction) = (0, 0);
+            }
+            lane.knows(step); // q, beside this sum it is summed up
+            sheared.push(over_bits(bits, |i| i128::from(low(q)) * (h >> i & 1)));
+            let at = lane.sum(factors(numbers), [one, slope, both], bits, false);
+            let at = lane.add_whole(at, column >> t);
+            let (c, r);
             if exact {
-                (q, fraction) = if dy < p { (0, 0) } else { (step.w, step.rest >> t) };
                 // m = -w·DY - over, where 0 <= over <= DY
-                let over = -(-(column.rest + self.o) >> t);
-                c = column.w + i128::from(over > 0);
+                let over = -(-(at.rest + self.o) >> t);
+                c = at.w + i128::from(over > 0);
                 r = if over > 0 { dy - over } else { 0 };
             } else {
-                let sl = if dy < p { 0 } else { lane.round(step) };
-                (q, fraction) = (sl >> f, sl & ((1 << f) - 1));
-                let m = -lane.round(lane.double(column, f)) - self.o;
+                let at = lane.double(at, f, f.div_ceil(2));
+                let m = -lane.round(at) - self.o;
+                lane.wait(2);
                 (c, r) = (-(m >> f), m & ((1 << f) - 1));
             }
-            edges.push(EdgeWalk { c: low(c), r: r as i32, q: low(q), f: fraction as i32, m: modulus as i32 });
-        }
-        let rounding = if exact { 0 } else { f.div_ceil(2) + 1 };
-        takes(all_fit, w.difference - 1) + (t + f).div_ceil(2) + 2 + 2 + bits + 1 + rounding
+            let edge =
+                EdgeWalk { c: low(c), r: r as i32, q: low(q), f: fraction as i32, ..EdgeWalk::default() };
+            let m = if exact { task.b.v - task.a.v } else { 1 << f } as i32;
+            edges.push(EdgeWalk { m, ..if task.walked { edge } else { EdgeWalk::default() } });
+            lane.end()
+        });
+        all_equal(taken)
     }
 
     /// Fills in the words of all channels; S2.
-    fn channels(&self, prim: &mut Prim<MAX_CHANNELS>) -> u32 {
+    fn channels(&self, prim: &mut Prim<MAX_CHANNELS>, sheared: i128) -> u32 {
         let channels: Vec<_> = self.plan.channels().iter().enumerate().collect();
         let mut clocks = 4;
         for (number, round) in channels.chunks(self.plan.lanes as usize).enumerate() {
             let last = channels.len() <= (number + 1) * self.plan.lanes as usize;
-            let least = if last { 0 } else { 8 + self.scale(number + 1) };
-            clocks += self.channel_round(round, self.scale(number), prim).max(least);
+            let least = if last { 0 } else { 4 + self.scale(number + 1) };
+            let (gx, all) = self.channel_round(round, self.scale(number), prim, sheared);
+            clocks += all.max(gx + least);
         }
         clocks
     }
@@ -263,9 +190,10 @@ impl<'a> Work<'a> {
     /// i of a round: the modulus |area|·4^i takes in all its differences, of either sign.
     fn scale(&self, round: usize) -> u32 {
         let lanes = self.plan.lanes as usize;
-        let [p0, p1, p2] = self.corners;
+        let values = self.corners.map(|corner| corner.values);
         let channels = (0..self.plan.channels().len()).skip(round * lanes).take(lanes);
-        let differences = channels.flat_map(|i| [p1.values[i] - p0.values[i], p0.values[i] - p2.values[i]]);
+        let between = |i: usize, [a, b]: [usize; 2]| values[a][i] - values[b][i];
+        let differences = channels.flat_map(|i| [[1, 0], [0, 2], [1, 2]].map(|ends| between(i, ends)));
         let all = differences.map(|d| if d < 0 { -d - 1 } else { d }).fold(0, |all, d| all | d);
         let mut i = 0;
         while self.area != 0 && all + i128::from(self.area < 0) >= self.area.abs() << (2 * i) {
@@ -274,75 +202,93 @@ impl<'a> Work<'a> {
         i
     }
 
-    fn channel_round(&self, round: &[(usize, &Channel)], scale: u32, prim: &mut Prim<MAX_CHANNELS>) -> u32 {
+    /// Clocks until gx is known, and of all steps.
+    fn channel_round(
+        &self,
+        round: &[(usize, &Channel)],
+        scale: u32,
+        prim: &mut Prim<MAX_CHANNELS>,
+        sheared: i128,
+    ) -> (u32, u32) {
         let [p0, p1, p2] = self.corners;
         let (t, p) = (self.t, 1i128 << self.t);
-        let (dv1, dv2) = (p1.v - p0.v, p2.v - p0.v);
+        let (du1, dv1, du2, dv2) = (p1.u - p0.u, p1.v - p0.v, p2.u - p0.u, p2.v - p0.v);
         let sigma = self.area.signum();
         let bits = round.iter().map(|(_, c)| c.vertex_bits()).max().expect("a channel");
         let up = |channel: &Channel| channel.fraction - channel.vertex_fraction;
         let doublings =
             |more: u32| round.iter().map(|(_, c)| (more + up(c)).div_ceil(2)).max().expect("a channel");
-        let lane = |channel: &Channel, m: i128| Lane { m, bits: channel.word() + t };
-        let modulus = self.area.abs() << (2 * scale);
-        let dc1 = |i: usize| sigma * (p1.values[i] - p0.values[i]);
-        let dc2 = |i: usize| -sigma * (p2.values[i] - p0.values[i]);
-        let tested =
-            |m: i128, number: &dyn Fn(usize) -> i128| round.iter().all(|(i, c)| lane(c, m).fits(number(*i)));
-        assert!(tested(modulus, &dc1) && tested(modulus, &dc2), "scaled so that all fit");
         let along = u(&[dv2, dv1]);
-        let mut clocks = 2 + 2 + 1 + 2 + along + scale + doublings(t);
         let q = i128::from(prim.major.q);
+        // Beside gx, over the bits of dv2 and dv1.
+        let down = [(du2, dv2), (du1, dv1)].map(|(x, y)| over_bits(along, |i| q * (y >> i & 1)) - x);
+        if self.plan.edge_kind == EdgeKind::Exact && dv2 >= p {
+            assert_eq!(-down[0], i128::from(prim.major.f), "f");
+        }
         let px = i128::from(prim.major.c) - i128::from(prim.major_right);
-        let (down, across) = ([p0.u - p2.u, p0.u - p1.u], [px * p - p0.u, i128::from(prim.line) * p - p0.v]);
-        for (i, channel) in round {
-            let (i, lane) = (*i, lane(channel, modulus));
-            let word = |value: i128| (value & ((1 << channel.word()) - 1)) as u64;
-            let first = lane.take_in(dc1(i), true, bits);
-            let second = lane.take_in(dc2(i), true, bits);
-            let both = [first, second];
-            let gx = lane.double(lane.sum([dv2, dv1], both, along, false), 2 * scale + t + up(channel));
-            let sign = if prim.major_right && self.plan.fill == Fill::Exact { -1 } else { 1 };
-            prim.gradient[i] = word(sign * lane.round(gx));
-            if self.plan.fill == Fill::Exact {
-                let gy = lane.double(lane.sum(down, both, s(&down), true), 2 * scale + t + up(channel));
-                let d0 = lane.add(lane.sum([q, 0], [gx, gy], s(&[q]), true), gy);
-                let d1 = lane.add(d0, gx);
-                prim.delta[0][i] = word(lane.round(d0));
-                prim.delta[1][i] = word(lane.round(d1));
-                let start = lane.sum(across, [gx, gy], s(&across), true);
-                let start = lane.add_whole(start, p / 2 + self.value(i, channel, &p0) * p);
-                prim.start[0][i] = word(start.w >> t);
-            }
-        }
-        if self.plan.fill == Fill::Exact {
-            let gy = s(&down) + scale + doublings(t) + 1;
-            return clocks + gy + s(&[q]) + 1 + 1 + s(&across) + 1;
-        }
-        for part in 0..2 {
+        let h = i128::from(prim.line) * p - p0.v;
+        let across = [px * p - p0.u - sheared, h];
+        let parts = [0, 1].map(|part| {
             let (a, b) = match (self.area < 0, part) {
                 (false, _) => (p0, p2),
                 (true, 0) => (p0, p1),
                 (true, _) => (p1, p2),
             };
-            let walked = self.lines[part] > 0;
-            let m = p * (b.v - a.v);
-            let dc = |i: usize| b.values[i] - a.values[i];
-            let fit = !walked || tested(m, &dc);
-            let h = if walked { self.first[part] * p - a.v } else { 0 };
-            for (i, channel) in round.iter().filter(|_| walked) {
-                let (i, lane) = (*i, lane(channel, m));
-                let word = |value: i128| (value & ((1 << channel.word()) - 1)) as u64;
-                let pair = lane.take_in(dc(i), fit, bits);
-                prim.delta[part][i] = word(lane.round(lane.double(pair, 2 * t + up(channel))));
-                let start = lane.sum([h, 0], [pair, Pair::default()], u(&[h]), false);
-                let start = lane.double(start, t + up(channel));
-                let start = lane.add_whole(start, self.value(i, channel, &a));
-                prim.start[part][i] = word(lane.round(start));
+            Task { a, b, j: self.first[part], walked: self.lines[part] > 0 }
+        });
+        let fit = parts.each_ref().map(|Task { a, b, walked, .. }| {
+            let fits = |i: usize| Lane::fits(p * (b.v - a.v), b.values[i] - a.values[i]);
+            !walked || round.iter().all(|(i, _)| fits(*i))
+        });
+        all_equal(round.iter().map(|(i, channel)| {
+            let i = *i;
+            let (up, word) = (up(channel), |value: i128| (value & ((1 << channel.word()) - 1)) as u64);
+            let mut lane = Lane::new(self.area.abs() << (2 * scale), channel.word() + t);
+            let (dc1, dc2) = (sigma * (p1.values[i] - p0.values[i]), sigma * (p2.values[i] - p0.values[i]));
+            let both = lane.take_in(dc1 - dc2, true, bits);
+            let first = lane.take_in(dc1, true, bits);
+            let second = lane.take_in(-dc2, true, bits);
+            lane.wait(1);
+            let pairs = [first, second, both];
+            let gx = lane.sum([dv2, dv1], pairs, along, false);
+            let gx = lane.double(gx, 2 * scale + t + up, scale + doublings(t));
+            let gx_known = lane.clock;
+            let gradient = lane.round(gx);
+            if self.plan.fill == Fill::Exact {
+                prim.gradient[i] = word(if prim.major_right { -gradient } else { gradient });
+                let d0 = lane.sum(down, pairs, s(&down), true);
+                let d0 = lane.double(d0, 2 * scale + t + up, scale + doublings(t));
+                let d1 = lane.add(d0, gx);
+                prim.delta[0][i] = word(lane.round(d0));
+                prim.delta[1][i] = word(lane.round(d1));
+                lane.wait(1);
+                let start = lane.sum(across, [gx, d0, d1], s(&across), true);
+                let start = lane.add_whole(start, p / 2 + self.value(i, channel, &p0) * p);
+                prim.start[0][i] = word(start.w >> t);
+                return (gx_known, lane.end());
             }
-            clocks += 1 + takes(fit, bits) + doublings(2 * t) + 1 + u(&[h]) + doublings(t) + 2;
-        }
-        clocks
+            prim.gradient[i] = word(gradient);
+            lane.wait(2);
+            for (part, (Task { a, b, j, walked }, fit)) in parts.iter().zip(fit).enumerate() {
+                // One without lines has what asks for nothing.
+                let (dc, dy, h) =
+                    if *walked { (b.values[i] - a.values[i], b.v - a.v, j * p - a.v) } else { (0, 1, 0) };
+                lane.change_m(p * dy);
+                let pair = lane.take_in(dc, fit, bits);
+                let step = lane.double(pair, 2 * t + up, doublings(2 * t));
+                let delta = lane.round(step);
+                lane.wait(1);
+                let start = lane.sum([h, 0], [pair, Pair::default(), pair], u(&[h]), false);
+                let start = lane.double(start, t + up, doublings(t));
+                let start = lane.add_whole(start, self.value(i, channel, a));
+                let start = lane.round(start);
+                lane.wait(2);
+                if *walked {
+                    (prim.delta[part][i], prim.start[part][i]) = (word(delta), word(start));
+                }
+            }
+            (gx_known, lane.end())
+        }))
     }
 
     /// A vertex's value and half, 2^-r LSB.
@@ -357,7 +303,7 @@ impl<'a> Work<'a> {
         if matches!(culled, Some(Culled::Lines | Culled::Columns)) {
             return (SetupClocks { phase1: 2, phase2: 0 }, None);
         }
-        let (edges, phase1) = self.edges();
+        let (edges, sheared, phase1) = self.edges();
         if culled.is_some() {
             return (SetupClocks { phase1, phase2: 0 }, None);
         }
@@ -369,7 +315,7 @@ impl<'a> Work<'a> {
             minor: [edges[1], edges[2]],
             ..Prim::default()
         };
-        let phase2 = self.channels(&mut prim);
+        let phase2 = self.channels(&mut prim, sheared);
         (SetupClocks { phase1, phase2 }, Some(prim))
     }
 }

@@ -27,14 +27,16 @@ impl SetupClocks {
 
 /// S1 of a triangle that is culled by lines or columns.
 const SEEN_AT_ONCE: u32 = 2;
-/// Taking in a number that fits: one clock loads it, one tests it.
-const FITS: u32 = 2;
+/// The vertices are subtracted in the first clock of a triangle.
+const SUBTRACT: u32 = 1;
+/// Taking in a number that fits.
+const FITS: u32 = 1;
 /// So far are lanes and results behind the steps of the channels.
 const BEHIND: u32 = 4;
 /// From the first clock of a triangle until the area is known and scaled, less the bits of dv2 and the scale.
 const AREA: u32 = 4;
-/// The same from the first clock of a round, for the next.
-const NEXT_SCALE: u32 = 8;
+/// The same behind gx of a round, for the next.
+const NEXT_SCALE: u32 = 4;
 
 /// The channels that the lanes do side by side.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +49,8 @@ struct Round {
     long: u32,
     /// Bits of the longest vertex value.
     bits: u32,
+    /// Up to gx, less scaling and the bits of the sum.
+    gx: u32,
     /// Of all its steps, less those of numbers that do not fit, scaling and the bits of sums.
     clocks: u32,
 }
@@ -68,8 +72,6 @@ pub(crate) struct Timing {
     t: u32,
     /// Bits of a difference of coordinates: DW.
     difference: u32,
-    /// Bits of a column: COLW.
-    column: u32,
     /// Clocks of a round of edges, less those of DX and of the sum.
     edges: u32,
     /// Clocks for taking in DX, if not all of them fit.
@@ -83,10 +85,10 @@ impl Timing {
         let t = w.center_fraction;
         let textbook = plan.fill == Fill::Textbook;
         let lanes = plan.lanes as usize;
-        let long = |bits: u32| 5 + bits.div_ceil(2);
+        let long = |bits: u32| 3 + bits.div_ceil(2);
         let (fraction, rounding) = match plan.edge_kind {
             EdgeKind::Exact => (0, 0),
-            EdgeKind::Slope => (plan.edge_fraction, plan.edge_fraction.div_ceil(2) + 1),
+            EdgeKind::Slope => (plan.edge_fraction, plan.edge_fraction.div_ceil(2) + 2),
         };
         let mut rounds = Vec::new();
         for (i, round) in plan.channels().chunks(lanes).enumerate() {
@@ -95,24 +97,23 @@ impl Timing {
             };
             let (dbl, dbl2) = (most(&|up| (t + up).div_ceil(2)), most(&|up| (2 * t + up).div_ceil(2)));
             let bits = round.iter().map(|c| c.vertex_bits()).max().unwrap_or(0);
-            let gx = FITS + FITS + 1 + 2 + dbl;
+            let gx = 3 * FITS + 1 + dbl;
             let clocks = gx
                 + if textbook {
-                    2 * (1 + dbl2 + 1 + dbl + 2)
+                    2 + 2 * (dbl2 + 1 + dbl + 3)
                 } else {
-                    let (gy, d0, d1, start) = (dbl + 1, 1, 1, 1);
-                    gy + d0 + d1 + start
+                    let (d0, d1, start) = (dbl, 1, 1 + 1);
+                    d0 + d1 + start
                 };
             let channels = ((1 << round.len()) - 1) << (i * lanes);
             let counts = from_fn(|i| -i64::from(channels >> i & 1));
-            rounds.push(Round { channels, counts, long: long(bits), bits, clocks });
+            rounds.push(Round { channels, counts, long: long(bits), bits, gx, clocks });
         }
         Timing {
             lanes,
             textbook,
             t,
             difference: w.difference,
-            column: w.column,
             edges: (t + fraction).div_ceil(2) + 2 + 2 + 1 + rounding,
             long: long(w.difference - 1),
             rounds,
@@ -150,7 +151,7 @@ impl Timing {
         };
         let clocks =
             if self.lanes >= asked.len() { round(&asked) } else { asked.chunks(self.lanes).map(round).sum() };
-        clocks.max(unsigned(c.v - a.v) + AREA + scale)
+        (SUBTRACT + clocks).max(unsigned(c.v - a.v).max(2) + AREA + scale)
     }
 
     /// Whether an edge's DX does not fit, and all factors of its sum.
@@ -175,13 +176,15 @@ impl Timing {
     ) -> u32 {
         let [a, b, c] = &sorted.corners;
         let (du1, dv1, du2, dv2) = (b.u - a.u, b.v - a.v, c.u - a.u, c.v - a.v);
+        let along = unsigned(dv1 | dv2);
         let (sums, scaled) = if self.textbook {
-            (unsigned(dv1 | dv2), 1)
+            (along, 1)
         } else {
-            let x = i64::from(prim.major.c) - i64::from(prim.major_right);
-            let first = [(x << self.t) - a.u, (i64::from(prim.line) << self.t) - a.v];
             let q = i64::from(prim.major.q);
-            (unsigned(dv1 | dv2) + signed([-du2, -du1]) + signed([q]) + signed(first), 2)
+            let x = i64::from(prim.major.c) - i64::from(prim.major_right);
+            let h = (i64::from(prim.line) << self.t) - a.v;
+            let down = [q * dv2 - du2, q * dv1 - du1];
+            (along + signed(down) + signed([(x << self.t) - a.u - q * h, h]), 2)
         };
         let parts = self.textbook.then(|| [0, 1].map(|part| self.part(sorted, parts, part)));
         let mut clocks = BEHIND;
@@ -191,8 +194,9 @@ impl Timing {
                 steps += part.sum + if part.long & round.channels == 0 { FITS } else { round.long };
             }
             if let Some(next) = self.rounds.get(i + 1) {
+                let gx = round.gx + along + scale;
                 scale = next.scale(sorted, area);
-                steps = steps.max(NEXT_SCALE + scale);
+                steps = steps.max(gx + NEXT_SCALE + scale);
             }
             clocks += steps;
         }
@@ -216,14 +220,16 @@ impl Timing {
         let unsigned = self.difference - 1;
         let scale = |round: &Round| round.bits / 2 + 1;
         let most = self.rounds.iter().map(scale).max().unwrap_or(0); // never empty
-        let sums =
-            if self.textbook { 3 * unsigned } else { 2 * unsigned + self.column + self.difference + 1 };
+        // Sheared, p1 may be further off than any difference: q·dv1 is up to dv1 less than what the edge moves by.
+        let sums = if self.textbook { 3 * unsigned } else { unsigned + 2 * self.difference + 1 };
         let round = |round: &Round| {
             let (scaled, taken) = if self.textbook { (1, 2 * round.long) } else { (2, 0) };
-            (round.clocks + sums + scaled * scale(round) + taken).max(NEXT_SCALE + most)
+            let gx = round.gx + unsigned + scale(round);
+            (round.clocks + sums + scaled * scale(round) + taken).max(gx + NEXT_SCALE + most)
         };
+        let edges = edge_rounds * (self.edges + self.long + unsigned);
         SetupClocks {
-            phase1: (edge_rounds * (self.edges + self.long + unsigned)).max(unsigned + AREA + most),
+            phase1: (SUBTRACT + edges).max(unsigned + AREA + most),
             phase2: BEHIND + self.rounds.iter().map(round).sum::<u32>(),
         }
     }
@@ -237,8 +243,9 @@ impl Round {
         // Values are shorter than 62 bits: nothing wraps, and unchecked they go side by side.
         let length = |d: i64| d ^ (d >> 63);
         let lengths: [i64; C] = from_fn(|i| {
-            let [ab, ca] = [b.values[i].wrapping_sub(a.values[i]), a.values[i].wrapping_sub(c.values[i])];
-            (length(ab) | length(ca)) & self.counts[i]
+            let [a, b, c] = [a.values[i], b.values[i], c.values[i]];
+            (length(b.wrapping_sub(a)) | length(a.wrapping_sub(c)) | length(b.wrapping_sub(c)))
+                & self.counts[i]
         });
         let all = lengths.iter().fold(0, |all, length| all | length);
         let (least, area) = ((all + i64::from(area < 0)) as u64, area.unsigned_abs());
@@ -280,6 +287,7 @@ mod tests {
     use super::*;
     use crate::setup_clocks;
     use edgewalk_machine::Machine;
+    use edgewalk_machine::channel::Precision;
 
     /// S1 and S2 of a triangle, corners in pixels, all values 100 but depths that are `z` higher.
     fn clocks(machine: &Machine, corners: [[i32; 2]; 3], z: [i64; 3]) -> [u32; 2] {
@@ -297,22 +305,58 @@ mod tests {
 
     #[test]
     fn exact_by_hand() {
-        // Two edges: DX, 16 doublings, DY, wait, u(128) = 8, whole part; the one that is not walked asks for u = 1.
-        let (edge, idle) = (2 + 4 + 2 + 2 + 8 + 1, 2 + 4 + 2 + 2 + 1 + 1);
-        // dc1, dc2, p1 + p2, wait; gx, u(512) = 10 and 18 doublings; gy, s(-512) = 10; gx + gy; s(0) = 2, gy; d1; s(128) = 9;
-        // the value.
-        let round = 2 + 2 + 1 + 2 + (10 + 9) + (10 + 9) + 1 + (2 + 1) + 1 + 9 + 1;
-        for (lanes, phase1, rounds) in [(4, edge, 1), (2, edge + edge, 2), (1, edge + idle + edge, 4)] {
+        // Two edges: DX, 8 doublings, DY, wait, u(128) = 8, whole part; the one that is not walked asks for u = 1.
+        let (edge, idle) = (1 + 4 + 2 + 2 + 8 + 1, 1 + 4 + 2 + 2 + 1 + 1);
+        // p1 + p2, p1, p2, wait; gx, u(512) = 10 and 18 doublings; d0, s(-512) = 10 and 18 doublings; d1, wait; s(128) = 9; the
+        // value.
+        let round = 3 + 1 + (10 + 9) + (10 + 9) + 1 + 1 + 9 + 1;
+        for (lanes, edges, rounds) in [(4, edge, 1), (2, edge + edge, 2), (1, edge + idle + edge, 4)] {
             let machine = Machine { lanes, ..Machine::default() };
-            assert_eq!(clocks(&machine, HALF, [0; 3]), [phase1, rounds * round + 4], "{lanes} lanes");
+            assert_eq!(clocks(&machine, HALF, [0; 3]), [1 + edges, rounds * round + 4], "{lanes} lanes");
         }
         // Five channels on four lanes.
         let five = Machine { extra: 1, ..Machine::default() }.plan().expect("can be built");
         let vertices = HALF.map(|[x, y]| five.raw_vertex(x << 8, y << 8, &[100; 5]));
         assert_eq!(setup_clocks(&five, &vertices).phase2, 2 * round + 4);
-        // A slope of 16 fraction bits: 8 clocks of doubling more, 8 after the sum, and rounding.
+        // A slope of 16 fraction bits: 8 clocks of doubling more, 8 after the sum, and two of rounding.
         let slope = Machine { edge_kind: EdgeKind::Slope, ..Machine::default() };
-        assert_eq!(clocks(&slope, HALF, [0; 3]), [edge + 8 + 8 + 1, round + 4]);
+        assert_eq!(clocks(&slope, HALF, [0; 3]), [1 + edge + 8 + 8 + 2, round + 4]);
+    }
+
+    #[test]
+    fn sheared_by_hand() {
+        // The major edge from 384, 384 goes 2816 right and 1024 down: q = 2, and 768 = 2816 - 2·1024. p1 stands 256 below its top.
+        // On line 2, 128 below, it is at 384 + 128·2816/1024 = 736, 2.875 px: C = 3.
+        let knee_at = |x| clocks(&Machine::default(), [[2, 2], [x, 3], [13, 6]], [0; 3])[1];
+        let along = 11 + 9; // u(1024), doublings
+        let s2 = |down: u32, start: u32| 3 + 1 + along + (down + 9) + 1 + 1 + start + 1 + 4;
+        // Major right: du1 - q·dv1 = -256 - 2·256, s(-768, 768) = 11; px = 2, s(2·256 - 384 - 2·128, 128) = s(-128, 128) = 9.
+        assert_eq!(knee_at(1), s2(11, 9));
+        // Major left: s(-768, 512 - 2560) = s(-2048) = 12, but s(512 - 2816) = 13; px = 3, s(384 - 2·128, 128) = 9.
+        assert_eq!([12, 13].map(knee_at), [s2(12, 9), s2(13, 9)]);
+        // One column back over the whole guard band, q = -1: su of p1 is 2·16381 px, s = 24 = DW + 1. u(16382 px) = 22; line 0 is
+        // 8191.5 px below p0, half a px left of it C = -8191: s(8191 px) = 22.
+        let whole = clocks(&Machine::default(), [[-8190, -8191], [8191, 8190], [-8191, 8191]], [0; 3])[1];
+        assert_eq!(whole, 3 + 1 + (22 + 9) + (24 + 9) + 1 + 1 + 22 + 1 + 4);
+    }
+
+    #[test]
+    fn the_next_scale_may_take_longest() {
+        // P = 2, A = 4, h = 1; z needs no doubling but that of P.
+        let z = Precision { bits: 24, fraction: 4, vertex_fraction: 4 };
+        let plan =
+            Machine { lanes: 1, subpixel_bits: 0, z, ..Machine::default() }.plan().expect("can be built");
+        let s2 = |red| {
+            let vertex = |x, y, red| plan.raw_vertex(x, y, &[100, red, 0, 0]);
+            setup_clocks(&plan, &[vertex(2, 2, 0), vertex(3, 2, red), vertex(2, 3, 0)]).phase2
+        };
+        // p1 + p2, p1, p2, wait, gx: u(2) = 2; behind it d0, d1, wait, start: s(-2) = s(1) = 2, the value.
+        let (gx, behind) =
+            (|i: u32, dbl: u32| 3 + 1 + (2 + i + dbl), |i: u32, dbl: u32| (2 + i + dbl) + 1 + 1 + 2 + 1);
+        let color = |i| gx(i, 6) + behind(i, 6);
+        // Red has 4^4 or 4^5 times the area. Behind gx of z are 8 clocks, but the fifth scale asks for 4 + 5.
+        assert_eq!(s2(1023), gx(0, 1) + 8 + color(4) + 2 * color(0) + 4);
+        assert_eq!(s2(1024), gx(0, 1) + 9 + color(5) + 2 * color(0) + 4);
     }
 
     #[test]
@@ -326,9 +370,13 @@ mod tests {
             ([0, 16 * area - 1, 0], 2),
             ([0, 16 * area, 0], 3),
             ([area, 2 * area - 1, 0], 1), // c0 - c2 = A
+            ([area / 2, area - 1, 0], 0),
+            ([area / 2, area, 0], 1), // c1 - c2 = A
+            ([area / 2, 0, area], 0),
+            ([area / 2, 0, area + 1], 1), // c1 - c2 = -A - 1
         ] {
             // On four lanes all wait for z, on one lane only it.
-            for (lanes, all) in [(4, 64), (1, 4 * 60 + 4)] {
+            for (lanes, all) in [(4, 54 + 4), (1, 4 * 54 + 4)] {
                 let machine = Machine { lanes, ..Machine::default() };
                 assert_eq!(clocks(&machine, HALF, z)[1], all + 2 * i, "{z:?}, {lanes} lanes");
             }
@@ -341,9 +389,9 @@ mod tests {
             [0, 2, 2]
         );
         // Edges: DX = 512 px over DY of one line or two, P·DY = 256 or 512 px; DW - 1 = 22 bits.
-        for (height, long) in [(1, 5 + 11), (2, 5 + 11), (3, 2)] {
+        for (height, long) in [(1, 3 + 11), (2, 3 + 11), (3, 1)] {
             let s1 = clocks(&Machine::default(), [[2, 2], [2, 2 + height], [514, 2 + height]], [0; 3])[0];
-            assert_eq!(s1, 19 - 2 + long, "{height} lines");
+            assert_eq!(s1, 19 - 1 + long, "{height} lines");
         }
     }
 
@@ -351,13 +399,13 @@ mod tests {
     fn textbook_by_hand() {
         let machine = Machine::preset("textbook").expect("a preset");
         // t = 1: DX, 17 doublings, DY, wait, u(1) = 1, whole part; 16 doublings and rounding. Three turns of one lane.
-        let edge = 2 + 9 + 2 + 2 + 1 + 1 + 8 + 1;
-        // gx: u(16) = 5 and 15 doublings; of each part DC, 16 doublings, u(0) = 1, 15 doublings.
-        let part = 1 + 2 + 8 + 1 + 1 + 8 + 2;
-        let round = 2 + 2 + 1 + 2 + (5 + 8) + 2 * part;
-        assert_eq!(clocks(&machine, [[2, 2], [6, 2], [2, 10]], [0; 3]), [3 * edge, 4 * round + 4]);
+        let edge = 1 + 9 + 2 + 2 + 1 + 1 + 8 + 2;
+        // gx: u(16) = 5 and 15 doublings, rounding; of each part DC, 16 doublings, wait, u(0) = 1, 15 doublings, value and rounding.
+        let part = 1 + 8 + 1 + 1 + 8 + 3;
+        let round = 3 + 1 + (5 + 8) + 2 + 2 * part;
+        assert_eq!(clocks(&machine, [[2, 2], [6, 2], [2, 10]], [0; 3]), [1 + 3 * edge, 4 * round + 4]);
         // z = 64: dc2 = 64 < A = 128, but DC = 64 > P·DY = 32, in the part that has lines; 16 bits.
-        let long = 5 + 8 - 2;
+        let long = 3 + 8 - 1;
         assert_eq!(clocks(&machine, [[2, 2], [6, 2], [2, 10]], [0, 0, 64])[1], 4 * round + 4 + long);
     }
 
@@ -377,7 +425,7 @@ mod tests {
 
     #[test]
     fn the_area_may_take_longest() {
-        // No sub-pixel bits: P = 2, u(1) = 1 for every edge, 2 + 1 + 2 + 2 + 1 + 1 = 9 in all; dv2 = 960 has 10 bits.
+        // No sub-pixel bits: P = 2, u(1) = 1 for every edge, 1 + 1 + 2 + 2 + 1 + 1 = 8 in all; dv2 = 960 has 10 bits.
         let whole = Machine { subpixel_bits: 0, ..Machine::default() };
         let s1 = |z| clocks(&whole, [[2, 0], [4, 0], [2, 480]], [0, z, 0])[0];
         assert_eq!(s1(0), 10 + 4);
@@ -388,9 +436,9 @@ mod tests {
     #[test]
     fn longest_by_hand() {
         let longest = longest_setup(&Plan::default());
-        // DW = 23, COLW = 15, z of 28 bits at most 4^15 times as large as an area.
-        let edges = 16 + 4 + 2 + 2 + 22 + 1; // the area and its scale: 22 + 4 + 15
-        let channels = 2 + 2 + 1 + 2 + (22 + 15 + 9) + (23 + 15 + 9) + 1 + (15 + 1) + 1 + 23 + 1;
+        // DW = 23, z of 28 bits at most 4^15 times as large as an area.
+        let edges = 1 + 14 + 4 + 2 + 2 + 22 + 1; // the area and its scale: 22 + 4 + 15
+        let channels = 3 + 1 + (22 + 15 + 9) + (24 + 15 + 9) + 1 + 1 + 23 + 1;
         assert_eq!(longest, SetupClocks { phase1: edges, phase2: channels + 4 });
     }
 }

@@ -13,6 +13,7 @@ use edgewalk_machine::{EdgeKind, Fill, Plan};
 pub(crate) enum Job {
     Rest,
     Look,
+    Subtract,
     TakeDx,
     Slope,
     TakeDy,
@@ -21,18 +22,17 @@ pub(crate) enum Job {
     Whole,
     RoundX,
     Area,
-    TakeDc1,
-    TakeDc2,
-    AddPairs,
+    TakeBoth,
+    TakeP1,
+    TakeP2,
     WaitPairs,
     Gx,
-    Gy,
-    AddGx,
+    RoundGx,
     D0,
     D1,
+    WaitSteps,
     Start,
     Value,
-    ChangeM,
     TakeDc,
     D,
     WaitD,
@@ -45,15 +45,42 @@ pub(crate) enum Job {
 impl Job {
     /// Their names, in their order.
     pub const NAMES: [&'static str; 29] = [
-        "-", "look", "take DX", "slope", "take DY", "wait", "sum E", "whole", "round X", "area", "take dc1",
-        "take dc2", "p1+p2", "wait", "gx", "gy", "gx+gy", "d0", "d1", "start", "value", "change M",
-        "take DC", "d", "wait", "sum h", "double", "round", "behind",
+        "-",
+        "look",
+        "subtract",
+        "take DX",
+        "slope",
+        "take DY",
+        "wait",
+        "sum E",
+        "whole",
+        "round X",
+        "area",
+        "take p1+p2",
+        "take p1",
+        "take p2",
+        "wait",
+        "gx",
+        "round gx",
+        "d0",
+        "d1",
+        "wait",
+        "start",
+        "value",
+        "take DC",
+        "d",
+        "wait",
+        "sum h",
+        "double",
+        "round",
+        "behind",
     ];
 
     /// What each does, in a sentence.
     pub const SAYS: [&'static str; 29] = [
         "",
         "looks whether any line and column of the screen lies in the triangle",
+        "subtracts the vertices: the lanes get DX and DY of the edges",
         "every lane takes in DX of its edge as whole + rest / M, M = P DY",
         "doubles DX / M until it is DX / DY: whole part q, rest f",
         "takes in DY and adds DX: the sum that follows needs both and their sum",
@@ -62,19 +89,18 @@ impl Job {
         "adds the whole part: the column C, and R from the rest",
         "doubles and rounds: the column with its fraction bits",
         "waits for the area, and for its scale: fourfold until the differences of values fit",
-        "every lane takes in dc1 of its channel as whole + rest / M, M the area, scaled",
-        "takes in -dc2",
-        "adds the two pairs",
+        "every lane takes in dc1 - dc2 of its channel as whole + rest / M, M the area, scaled: p1 + p2",
+        "takes in dc1: p1",
+        "takes in -dc2: p2",
         "waits until the pairs stand",
         "sums up gx = dv2 p1 + dv1 p2, a bit of both factors a clock, and doubles it: the step to the right",
-        "sums up gy, the step down, the same way",
-        "adds gx: the step down and right",
-        "sums up q gx and adds gy: d0, the step along the major edge without a carry",
+        "rounds gx, while M still is the area",
+        "sums up d0, the step along the major edge without a carry, the same way: the factors are columns, less q a line",
         "adds gx: d1, the step with a carry",
-        "sums up start: from the top vertex to the first pixel",
+        "waits until the steps stand",
+        "sums up start: from the top vertex the lines down by d0, and what is left of the way to the first pixel by gx",
         "adds the top vertex' value and the half that rounds",
-        "changes the modulus to the height of the part's left edge",
-        "takes in the difference of the left edge's values",
+        "takes in the difference of the left edge's values; M is now P times the height of that edge",
         "doubles it: d, the step of a line",
         "waits until the pair stands",
         "sums up h DC / M: from the left edge's upper end to its first line",
@@ -142,21 +168,21 @@ impl<const C: usize> Work<'_, C> {
             EdgeKind::Exact => (0, false),
             EdgeKind::Slope => (plan.edge_fraction, true),
         };
-        let mut jobs = Vec::new();
+        let mut jobs = vec![(Job::Subtract, 1)];
         for round in edges.chunks(plan.lanes as usize) {
             let walked = || round.iter().filter(|(.., walked)| *walked);
             let fits = walked().all(|(from, to, ..)| is_within(to.u - from.u, (to.v - from.v) << self.t));
             let factors = walked()
                 .flat_map(|(from, _, j, _)| [(from.u + o).rem_euclid(1 << self.t), (j << self.t) - from.v]);
-            let take = if fits { 2 } else { 5 + (plan.widths().difference - 1).div_ceil(2) };
+            let take = if fits { 1 } else { 3 + (plan.widths().difference - 1).div_ceil(2) };
             jobs.extend([(Job::TakeDx, take), (Job::Slope, (self.t + f).div_ceil(2))]);
             jobs.extend([(Job::TakeDy, 2), (Job::WaitDy, 2), (Job::SumE, bits(factors)), (Job::Whole, 1)]);
             if slope {
-                jobs.push((Job::RoundX, f.div_ceil(2) + 1));
+                jobs.push((Job::RoundX, f.div_ceil(2) + 2));
             }
         }
         let so_far: u32 = jobs.iter().map(|(_, clocks)| clocks).sum();
-        let area = bits([c.v - a.v]) + 4 + self.scale(0);
+        let area = bits([c.v - a.v]).max(2) + 4 + self.scale(0);
         jobs.extend((area > so_far).then(|| (Job::Area, area - so_far)));
         jobs
     }
@@ -169,55 +195,57 @@ impl<const C: usize> Work<'_, C> {
         for (round, channels) in plan.channels().chunks(plan.lanes as usize).enumerate() {
             let places = || (0..channels.len()).map(|lane| round * plan.lanes as usize + lane);
             let widest = channels.iter().map(|channel| channel.bits + channel.vertex_fraction).max();
-            let long = 5 + widest.unwrap_or(0).div_ceil(2);
+            let long = 3 + widest.unwrap_or(0).div_ceil(2);
             let take = |mut all: Box<dyn Iterator<Item = (i64, i64)>>| {
-                if all.all(|(d, m)| is_within(d, m)) { 2 } else { long }
+                if all.all(|(d, m)| is_within(d, m)) { 1 } else { long }
             };
             let dbl = |whole: u32| {
                 let each =
                     channels.iter().map(|c| (whole * self.t + c.fraction - c.vertex_fraction).div_ceil(2));
                 each.max().unwrap_or(0)
             };
-            let (begins, scale) = (jobs.len(), self.scale(round));
-            jobs.extend([(Job::TakeDc1, 2), (Job::TakeDc2, 2), (Job::AddPairs, 1), (Job::WaitPairs, 2)]);
+            let scale = self.scale(round);
+            jobs.extend([(Job::TakeBoth, 1), (Job::TakeP1, 1), (Job::TakeP2, 1), (Job::WaitPairs, 1)]);
             jobs.push((Job::Gx, bits([dv2, dv1]) + scale + dbl(1)));
+            let behind_gx = jobs.len();
             match plan.fill {
                 Fill::Exact => {
-                    let x = i64::from(self.prim.major.c) - i64::from(self.prim.major_right);
-                    let first = [(x << self.t) - a.u, (i64::from(self.prim.line) << self.t) - a.v];
+                    let sheared = |x: i64, y: i64| x - i64::from(self.prim.major.q) * y;
+                    let down = [-sheared(c.u - a.u, dv2), -sheared(b.u - a.u, dv1)];
+                    let px = i64::from(self.prim.major.c) - i64::from(self.prim.major_right);
+                    let h = (i64::from(self.prim.line) << self.t) - a.v;
                     jobs.extend([
-                        (Job::Gy, signed_bits([a.u - c.u, a.u - b.u]) + scale + dbl(1)),
-                        (Job::AddGx, 1),
-                        (Job::D0, signed_bits([i64::from(self.prim.major.q)]) + 1),
+                        (Job::D0, signed_bits(down) + scale + dbl(1)),
                         (Job::D1, 1),
-                        (Job::Start, signed_bits(first)),
+                        (Job::WaitSteps, 1),
+                        (Job::Start, signed_bits([sheared((px << self.t) - a.u, h), h])),
                         (Job::Value, 1),
                     ]);
                 }
                 Fill::Textbook => {
+                    jobs.push((Job::RoundGx, 2));
                     for part in 0..2 {
                         let (from, to) = self.sorted.left_edge(part);
                         let drawn = self.parts.lines[part] > 0;
                         let m = (to.v - from.v) << self.t;
                         let numbers: Vec<(i64, i64)> =
                             places().map(|i| (to.values[i] - from.values[i], m)).collect();
-                        let taken = if drawn { take(Box::new(numbers.into_iter())) } else { 2 };
+                        let taken = if drawn { take(Box::new(numbers.into_iter())) } else { 1 };
                         let h = if drawn { (self.parts.first[part] << self.t) - from.v } else { 0 };
                         jobs.extend([
-                            (Job::ChangeM, 1),
                             (Job::TakeDc, taken),
                             (Job::D, dbl(2)),
                             (Job::WaitD, 1),
                             (Job::SumH, bits([h])),
                             (Job::DoubleH, dbl(1)),
-                            (Job::RoundStart, 2),
+                            (Job::RoundStart, 3),
                         ]);
                     }
                 }
             }
             if (round + 1) * (plan.lanes as usize) < plan.channels().len() {
-                let taken: u32 = jobs[begins..].iter().map(|(_, clocks)| clocks).sum();
-                let scaled = 8 + self.scale(round + 1);
+                let taken: u32 = jobs[behind_gx..].iter().map(|(_, clocks)| clocks).sum();
+                let scaled = 4 + self.scale(round + 1);
                 jobs.extend((scaled > taken).then(|| (Job::Area, scaled - taken)));
             }
         }
@@ -230,7 +258,8 @@ impl<const C: usize> Work<'_, C> {
         let lanes = self.plan.lanes as usize;
         let [a, b, c] = &self.sorted.corners;
         let places = (round * lanes..self.plan.channels().len()).take(lanes);
-        let differences = places.flat_map(|i| [b.values[i] - a.values[i], a.values[i] - c.values[i]]);
+        let ends = [(b, a), (a, c), (b, c)];
+        let differences = places.flat_map(|i| ends.map(|(to, from)| to.values[i] - from.values[i]));
         let longest = differences.fold(0, |all, d| all | if d < 0 { -d - 1 } else { d });
         let (area, right) = (self.sorted.area().abs(), i64::from(self.sorted.area() < 0));
         if area == 0 { 0 } else { (0..).find(|i| longest + right < area << (2 * i)).unwrap_or(0) }
