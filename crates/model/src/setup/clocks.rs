@@ -100,9 +100,9 @@ impl Timing {
             let gx = 3 * FITS + 1 + dbl;
             let clocks = gx
                 + if textbook {
-                    2 + 2 * (dbl2 + 1 + dbl + 3)
+                    2 + 2 * (dbl2 + 1 + dbl + 2)
                 } else {
-                    let (d0, d1, start) = (dbl, 1, 1 + 1);
+                    let (d0, d1, start) = (dbl, 1, 1);
                     d0 + d1 + start
                 };
             let channels = ((1 << round.len()) - 1) << (i * lanes);
@@ -114,7 +114,7 @@ impl Timing {
             textbook,
             t,
             difference: w.difference,
-            edges: (t + fraction).div_ceil(2) + 2 + 2 + 1 + rounding,
+            edges: (t + fraction).div_ceil(2) + 2 + 2 + rounding,
             long: long(w.difference - 1),
             rounds,
         }
@@ -305,11 +305,10 @@ mod tests {
 
     #[test]
     fn exact_by_hand() {
-        // Two edges: DX, 8 doublings, DY, wait, u(128) = 8, whole part; the one that is not walked asks for u = 1.
-        let (edge, idle) = (1 + 4 + 2 + 2 + 8 + 1, 1 + 4 + 2 + 2 + 1 + 1);
-        // p1 + p2, p1, p2, wait; gx, u(512) = 10 and 18 doublings; d0, s(-512) = 10 and 18 doublings; d1, wait; s(128) = 9; the
-        // value.
-        let round = 3 + 1 + (10 + 9) + (10 + 9) + 1 + 1 + 9 + 1;
+        // Two edges: DX, 8 doublings, DY, wait, u(128) = 8; the one that is not walked asks for u = 1.
+        let (edge, idle) = (1 + 4 + 2 + 2 + 8, 1 + 4 + 2 + 2 + 1);
+        // p1 + p2, p1, p2, wait; gx, u(512) = 10 and 18 doublings; d0, s(-512) = 10 and 18 doublings; d1, wait; s(128) = 9.
+        let round = 3 + 1 + (10 + 9) + (10 + 9) + 1 + 1 + 9;
         for (lanes, edges, rounds) in [(4, edge, 1), (2, edge + edge, 2), (1, edge + idle + edge, 4)] {
             let machine = Machine { lanes, ..Machine::default() };
             assert_eq!(clocks(&machine, HALF, [0; 3]), [1 + edges, rounds * round + 4], "{lanes} lanes");
@@ -329,7 +328,7 @@ mod tests {
         // On line 2, 128 below, it is at 384 + 128·2816/1024 = 736, 2.875 px: C = 3.
         let knee_at = |x| clocks(&Machine::default(), [[2, 2], [x, 3], [13, 6]], [0; 3])[1];
         let along = 11 + 9; // u(1024), doublings
-        let s2 = |down: u32, start: u32| 3 + 1 + along + (down + 9) + 1 + 1 + start + 1 + 4;
+        let s2 = |down: u32, start: u32| 3 + 1 + along + (down + 9) + 1 + 1 + start + 4;
         // Major right: du1 - q·dv1 = -256 - 2·256, s(-768, 768) = 11; px = 2, s(2·256 - 384 - 2·128, 128) = s(-128, 128) = 9.
         assert_eq!(knee_at(1), s2(11, 9));
         // Major left: s(-768, 512 - 2560) = s(-2048) = 12, but s(512 - 2816) = 13; px = 3, s(384 - 2·128, 128) = 9.
@@ -337,7 +336,7 @@ mod tests {
         // One column back over the whole guard band, q = -1: su of p1 is 2·16381 px, s = 24 = DW + 1. u(16382 px) = 22; line 0 is
         // 8191.5 px below p0, half a px left of it C = -8191: s(8191 px) = 22.
         let whole = clocks(&Machine::default(), [[-8190, -8191], [8191, 8190], [-8191, 8191]], [0; 3])[1];
-        assert_eq!(whole, 3 + 1 + (22 + 9) + (24 + 9) + 1 + 1 + 22 + 1 + 4);
+        assert_eq!(whole, 3 + 1 + (22 + 9) + (24 + 9) + 1 + 1 + 22 + 4);
     }
 
     #[test]
@@ -350,12 +349,13 @@ mod tests {
             let vertex = |x, y, red| plan.raw_vertex(x, y, &[100, red, 0, 0]);
             setup_clocks(&plan, &[vertex(2, 2, 0), vertex(3, 2, red), vertex(2, 3, 0)]).phase2
         };
-        // p1 + p2, p1, p2, wait, gx: u(2) = 2; behind it d0, d1, wait, start: s(-2) = s(1) = 2, the value.
+        // p1 + p2, p1, p2, wait, gx: u(2) = 2; behind it d0, d1, wait, start: s(-2) = s(1) = 2.
         let (gx, behind) =
-            (|i: u32, dbl: u32| 3 + 1 + (2 + i + dbl), |i: u32, dbl: u32| (2 + i + dbl) + 1 + 1 + 2 + 1);
+            (|i: u32, dbl: u32| 3 + 1 + (2 + i + dbl), |i: u32, dbl: u32| (2 + i + dbl) + 1 + 1 + 2);
         let color = |i| gx(i, 6) + behind(i, 6);
-        // Red has 4^4 or 4^5 times the area. Behind gx of z are 8 clocks, but the fifth scale asks for 4 + 5.
-        assert_eq!(s2(1023), gx(0, 1) + 8 + color(4) + 2 * color(0) + 4);
+        // Red has 4^3, 4^4 or 4^5 times the area. Behind gx of z are 7 clocks, but the scales ask for 4 and their number.
+        assert_eq!(s2(255), gx(0, 1) + 7 + color(3) + 2 * color(0) + 4);
+        assert_eq!(s2(256), gx(0, 1) + 8 + color(4) + 2 * color(0) + 4);
         assert_eq!(s2(1024), gx(0, 1) + 9 + color(5) + 2 * color(0) + 4);
     }
 
@@ -376,7 +376,7 @@ mod tests {
             ([area / 2, 0, area + 1], 1), // c1 - c2 = -A - 1
         ] {
             // On four lanes all wait for z, on one lane only it.
-            for (lanes, all) in [(4, 54 + 4), (1, 4 * 54 + 4)] {
+            for (lanes, all) in [(4, 53 + 4), (1, 4 * 53 + 4)] {
                 let machine = Machine { lanes, ..Machine::default() };
                 assert_eq!(clocks(&machine, HALF, z)[1], all + 2 * i, "{z:?}, {lanes} lanes");
             }
@@ -391,17 +391,17 @@ mod tests {
         // Edges: DX = 512 px over DY of one line or two, P·DY = 256 or 512 px; DW - 1 = 22 bits.
         for (height, long) in [(1, 3 + 11), (2, 3 + 11), (3, 1)] {
             let s1 = clocks(&Machine::default(), [[2, 2], [2, 2 + height], [514, 2 + height]], [0; 3])[0];
-            assert_eq!(s1, 19 - 1 + long, "{height} lines");
+            assert_eq!(s1, 18 - 1 + long, "{height} lines");
         }
     }
 
     #[test]
     fn textbook_by_hand() {
         let machine = Machine::preset("textbook").expect("a preset");
-        // t = 1: DX, 17 doublings, DY, wait, u(1) = 1, whole part; 16 doublings and rounding. Three turns of one lane.
-        let edge = 1 + 9 + 2 + 2 + 1 + 1 + 8 + 2;
-        // gx: u(16) = 5 and 15 doublings, rounding; of each part DC, 16 doublings, wait, u(0) = 1, 15 doublings, value and rounding.
-        let part = 1 + 8 + 1 + 1 + 8 + 3;
+        // t = 1: DX, 17 doublings, DY, wait, u(1) = 1; 16 doublings and rounding. Three turns of one lane.
+        let edge = 1 + 9 + 2 + 2 + 1 + 8 + 2;
+        // gx: u(16) = 5 and 15 doublings, rounding; of each part DC, 16 doublings, wait, u(0) = 1, 15 doublings and rounding.
+        let part = 1 + 8 + 1 + 1 + 8 + 2;
         let round = 3 + 1 + (5 + 8) + 2 + 2 * part;
         assert_eq!(clocks(&machine, [[2, 2], [6, 2], [2, 10]], [0; 3]), [1 + 3 * edge, 4 * round + 4]);
         // z = 64: dc2 = 64 < A = 128, but DC = 64 > P·DY = 32, in the part that has lines; 16 bits.
@@ -416,7 +416,7 @@ mod tests {
         for corners in [above, left, both] {
             assert_eq!(clocks(&machine, corners, [0; 3]), [2, 0], "{corners:?}");
         }
-        assert_eq!(clocks(&machine, [[2, 2], [4, 4], [6, 6]], [0; 3]), [19, 0]);
+        assert_eq!(clocks(&machine, [[2, 2], [4, 4], [6, 6]], [0; 3]), [18, 0]);
         // Textbook fill has no cull by columns.
         let book = Machine::preset("textbook").expect("a preset");
         let [s1, s2] = clocks(&book, [[-9, 2], [-2, 2], [-9, 4]], [0; 3]);
@@ -425,7 +425,7 @@ mod tests {
 
     #[test]
     fn the_area_may_take_longest() {
-        // No sub-pixel bits: P = 2, u(1) = 1 for every edge, 1 + 1 + 2 + 2 + 1 + 1 = 8 in all; dv2 = 960 has 10 bits.
+        // No sub-pixel bits: P = 2, u(1) = 1 for every edge, 1 + 1 + 2 + 2 + 1 = 7 in all; dv2 = 960 has 10 bits.
         let whole = Machine { subpixel_bits: 0, ..Machine::default() };
         let s1 = |z| clocks(&whole, [[2, 0], [4, 0], [2, 480]], [0, z, 0])[0];
         assert_eq!(s1(0), 10 + 4);
@@ -437,8 +437,8 @@ mod tests {
     fn longest_by_hand() {
         let longest = longest_setup(&Plan::default());
         // DW = 23, z of 28 bits at most 4^15 times as large as an area.
-        let edges = 1 + 14 + 4 + 2 + 2 + 22 + 1; // the area and its scale: 22 + 4 + 15
-        let channels = 3 + 1 + (22 + 15 + 9) + (24 + 15 + 9) + 1 + 1 + 23 + 1;
+        let edges = 1 + 14 + 4 + 2 + 2 + 22; // the area and its scale: 22 + 4 + 15
+        let channels = 3 + 1 + (22 + 15 + 9) + (24 + 15 + 9) + 1 + 1 + 23;
         assert_eq!(longest, SetupClocks { phase1: edges, phase2: channels + 4 });
     }
 }

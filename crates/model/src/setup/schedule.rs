@@ -19,7 +19,6 @@ pub(crate) enum Job {
     TakeDy,
     WaitDy,
     SumE,
-    Whole,
     RoundX,
     Area,
     TakeBoth,
@@ -32,7 +31,6 @@ pub(crate) enum Job {
     D1,
     WaitSteps,
     Start,
-    Value,
     TakeDc,
     D,
     WaitD,
@@ -44,7 +42,7 @@ pub(crate) enum Job {
 
 impl Job {
     /// Their names, in their order.
-    pub const NAMES: [&'static str; 29] = [
+    pub const NAMES: [&'static str; 27] = [
         "-",
         "look",
         "subtract",
@@ -53,7 +51,6 @@ impl Job {
         "take DY",
         "wait",
         "sum E",
-        "whole",
         "round X",
         "area",
         "take p1+p2",
@@ -66,7 +63,6 @@ impl Job {
         "d1",
         "wait",
         "start",
-        "value",
         "take DC",
         "d",
         "wait",
@@ -77,7 +73,7 @@ impl Job {
     ];
 
     /// What each does, in a sentence.
-    pub const SAYS: [&'static str; 29] = [
+    pub const SAYS: [&'static str; 27] = [
         "",
         "looks whether any line and column of the screen lies in the triangle",
         "subtracts the vertices: the lanes get DX and DY of the edges",
@@ -85,8 +81,7 @@ impl Job {
         "doubles DX / M until it is DX / DY: whole part q, rest f",
         "takes in DY and adds DX: the sum that follows needs both and their sum",
         "waits until the pairs stand",
-        "sums up E, the edge at its first line: a bit of both factors a clock",
-        "adds the whole part: the column C, and R from the rest",
+        "sums up E, the edge at its first line, a bit of both factors a clock; given out with its whole part: the column C, and R from the rest",
         "doubles and rounds: the column with its fraction bits",
         "waits for the area, and for its scale: fourfold until the differences of values fit",
         "every lane takes in dc1 - dc2 of its channel as whole + rest / M, M the area, scaled: p1 + p2",
@@ -98,14 +93,13 @@ impl Job {
         "sums up d0, the step along the major edge without a carry, the same way: the factors are columns, less q a line",
         "adds gx: d1, the step with a carry",
         "waits until the steps stand",
-        "sums up start: from the top vertex the lines down by d0, and what is left of the way to the first pixel by gx",
-        "adds the top vertex' value and the half that rounds",
+        "sums up start: from the top vertex the lines down by d0, and what is left of the way to the first pixel by gx; given out with the top vertex' value and the half that rounds",
         "takes in the difference of the left edge's values; M is now P times the height of that edge",
         "doubles it: d, the step of a line",
         "waits until the pair stands",
         "sums up h DC / M: from the left edge's upper end to its first line",
         "doubles it",
-        "adds the upper end's value and rounds: start",
+        "rounds, with the upper end's value: start",
         "the last results come out of the lanes",
     ];
 }
@@ -176,7 +170,7 @@ impl<const C: usize> Work<'_, C> {
                 .flat_map(|(from, _, j, _)| [(from.u + o).rem_euclid(1 << self.t), (j << self.t) - from.v]);
             let take = if fits { 1 } else { 3 + (plan.widths().difference - 1).div_ceil(2) };
             jobs.extend([(Job::TakeDx, take), (Job::Slope, (self.t + f).div_ceil(2))]);
-            jobs.extend([(Job::TakeDy, 2), (Job::WaitDy, 2), (Job::SumE, bits(factors)), (Job::Whole, 1)]);
+            jobs.extend([(Job::TakeDy, 2), (Job::WaitDy, 2), (Job::SumE, bits(factors))]);
             if slope {
                 jobs.push((Job::RoundX, f.div_ceil(2) + 2));
             }
@@ -219,7 +213,6 @@ impl<const C: usize> Work<'_, C> {
                         (Job::D1, 1),
                         (Job::WaitSteps, 1),
                         (Job::Start, signed_bits([sheared((px << self.t) - a.u, h), h])),
-                        (Job::Value, 1),
                     ]);
                 }
                 Fill::Textbook => {
@@ -238,7 +231,7 @@ impl<const C: usize> Work<'_, C> {
                             (Job::WaitD, 1),
                             (Job::SumH, bits([h])),
                             (Job::DoubleH, dbl(1)),
-                            (Job::RoundStart, 3),
+                            (Job::RoundStart, 2),
                         ]);
                     }
                 }

@@ -44,7 +44,8 @@ impl<'m> Sources<'_, 'm> {
         let whole = |value: Signal<'m>| value.sext(bits);
         let natural = |value: Signal<'m>| value.zext(bits);
         let none = m.lit(bits, 0);
-        let product = |name: &str| m.reg(name, bits).doc("q of the major edge, times the factor's digits so far");
+        let product =
+            |name: &str| m.reg(name, bits).doc("q of the major edge, times the factor's digits so far");
         let products = (plan.fill == Fill::Exact).then(|| ["q_times_f", "q_times_g"].map(product));
         let low = |place: usize| natural(self.low_column(place));
         let edge = |edge: usize| match edge {
@@ -107,11 +108,7 @@ impl<'m> Sources<'_, 'm> {
             let doubled = control.first.mux(0, product.q().shl(1));
             product.when(sums & !control.waits, doubled + digit.mux(whole(self.prim["major_q"].q()), 0));
         }
-        Factors {
-            digits,
-            of_second: second.map(at),
-            signs: [f.msb(), g.msb()],
-        }
+        Factors { digits, of_second: second.map(at), signs: [f.msb(), g.msb()] }
     }
 
     /// The part of an upper end's column below a whole one; textbook fill adds 1/2, which is 1/P there.

@@ -58,14 +58,17 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let read_at = m.input_doc("read_at", 3, "slot of the addend, two clocks before its step");
     let step = m.input_doc("step", Step::BITS, "a clock before it is done");
     let number = m.input_doc("number", shape.number, "to take in, signed; with its step");
-    let digits = m.input_doc("digits", 2, "of a number that does not fit, or its sign twice; with their step");
+    let digits =
+        m.input_doc("digits", 2, "of a number that does not fit, or its sign twice; with their step");
     let write = m.input_doc("write", 1, "the result of the step goes to a slot");
     let write_at = m.input("write_at", 3);
-    let whole_in = m.input_doc("whole_in", shape.whole, "whole number to add to a result, a clock before value");
+    let whole_in =
+        m.input_doc("whole_in", shape.whole, "whole number to add to a result, a clock before value");
     let take_modulus = m.input_doc("take_modulus", 1, "two clocks before the first step with it");
     let modulus_in = m.input_doc("modulus_in", below_two_m, "-M, or -M - 1 if modulus_short; signed");
     let modulus_short = m.input("modulus_short", 1);
-    let nearest = m.input_doc("nearest", 1, "value is rounded to nearest, halves up; a clock before it, with rest_out");
+    let nearest =
+        m.input_doc("nearest", 1, "value is rounded to nearest, halves up; a clock before it, with rest_out");
     let upwards = m.input_doc("upwards", 1, "else: up; if not, it is cut");
     let negate = m.input_doc("negate", 1, "value is negated, once it is rounded");
 
