@@ -83,33 +83,26 @@ module edgewalk_setup (
   localparam [1:0] WORK = 2'd1;
   localparam [1:0] STORE = 2'd2;
   localparam [1:0] DONE = 2'd3;
-  localparam [4:0] LOAD_DX = 5'd0;
-  localparam [4:0] FIX_DX = 5'd1;
+  localparam [4:0] SUBTRACT = 5'd0;
+  localparam [4:0] TAKE_DX = 5'd1;
   localparam [4:0] DOUBLE_DX = 5'd2;
-  localparam [4:0] LOAD_DY = 5'd3;
+  localparam [4:0] TAKE_DY = 5'd3;
   localparam [4:0] ADD_DX = 5'd4;
   localparam [4:0] WAIT_DX = 5'd5;
   localparam [4:0] SUM = 5'd6;
-  localparam [4:0] COLUMNS = 5'd7;
-  localparam [4:0] LOAD1 = 5'd8;
-  localparam [4:0] FIX1 = 5'd9;
-  localparam [4:0] LOAD2 = 5'd10;
-  localparam [4:0] FIX2 = 5'd11;
-  localparam [4:0] ADD12 = 5'd12;
-  localparam [4:0] WAIT = 5'd13;
-  localparam [4:0] SUM_X = 5'd14;
-  localparam [4:0] DOUBLE_X = 5'd15;
-  localparam [4:0] SIGN_Y = 5'd16;
-  localparam [4:0] SUM_Y = 5'd17;
-  localparam [4:0] DOUBLE_Y = 5'd18;
-  localparam [4:0] ADD_X = 5'd19;
-  localparam [4:0] SIGN_LINE = 5'd20;
-  localparam [4:0] SUM_LINE = 5'd21;
-  localparam [4:0] ADD_Y = 5'd22;
-  localparam [4:0] ADD_LINE = 5'd23;
-  localparam [4:0] SIGN_START = 5'd24;
-  localparam [4:0] SUM_START = 5'd25;
-  localparam [4:0] ADD_START = 5'd26;
+  localparam [4:0] TAKE12 = 5'd7;
+  localparam [4:0] TAKE1 = 5'd8;
+  localparam [4:0] TAKE2 = 5'd9;
+  localparam [4:0] WAIT = 5'd10;
+  localparam [4:0] SUM_X = 5'd11;
+  localparam [4:0] DOUBLE_X = 5'd12;
+  localparam [4:0] SIGN_LINE = 5'd13;
+  localparam [4:0] SUM_LINE = 5'd14;
+  localparam [4:0] DOUBLE_LINE = 5'd15;
+  localparam [4:0] ADD_X = 5'd16;
+  localparam [4:0] WAIT_LINE = 5'd17;
+  localparam [4:0] SIGN_START = 5'd18;
+  localparam [4:0] SUM_START = 5'd19;
   wire nothing;          // no line, or no column, of the screen
   wire area_known;       // and scaled for the next round of channels
   wire no_area;
@@ -121,7 +114,7 @@ module edgewalk_setup (
   reg [4:0] left;        // its clocks after this one
   reg first;             // its first clock, but for that of a triangle
 
-  // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
+  // Numbers that do not fit hold up what follows: two clocks, and one for two digits.
   reg [3:0] pause;                           // clocks left of it
   reg paused;                                // it is not over
   wire advance = !paused;
@@ -129,15 +122,15 @@ module edgewalk_setup (
   wire take = tri_valid && tri_ready;
   wire works = state == WORK;
   assign prim_valid = state == DONE;
-  wire begins = works && (at == LOAD_DX);    // the first clock of a triangle
-  wire gives_up = works && (at == FIX_DX) && nothing;  // the triangle has no line or no column
+  wire begins = works && (at == SUBTRACT);   // the first clock of a triangle
+  wire gives_up = works && (at == TAKE_DX) && nothing;  // the triangle has no line or no column
   wire last = left == 5'd0;                  // last clock of the operation
-  wire edges_end = last && (at == COLUMNS);
+  wire edges_end = last && (at == SUM);
   wire waits = edges_end && !area_known;     // for the area or its scale
   wire goes = works && !waits && !gives_up;  // the operation is done
   wire ends = goes && last;                  // it ends
   wire leaves = ends && advance;
-  wire channels_end = at == ADD_START;
+  wire channels_end = at == SUM_START;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -154,11 +147,11 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (leaves) at <= at + 5'd1;
-    if (take) at <= LOAD_DX;
+    if (take) at <= SUBTRACT;
   end
 
   always @(posedge clk) begin
-    first <= leaves;
+    first <= leaves || (first && waits);
   end
 
   // How long the next operation takes.
@@ -166,15 +159,13 @@ module edgewalk_setup (
     if (advance && works) left <= left - 5'd1;
     if (leaves) begin
       left <= (at == SIGN_START) ? top_digit
+            : (at == SUM_LINE) ? 5'd8 + {1'b0, scale}
             : (at == SIGN_LINE) ? top_digit
-            : (at == SUM_Y) ? 5'd8 + {1'b0, scale}
-            : (at == SIGN_Y) ? top_digit
             : (at == SUM_X) ? 5'd8 + {1'b0, scale}
             : (at == WAIT) ? top_digit
-            : (at == ADD12) ? 5'd1
             : (at == WAIT_DX) ? top_digit
             : (at == ADD_DX) ? 5'd1
-            : (at == FIX_DX) ? 5'd3
+            : (at == TAKE_DX) ? 5'd3
             : 5'd0;
     end
     if (leaves && channels_end) left <= 5'd3;
@@ -220,7 +211,7 @@ module edgewalk_setup (
     ends_rest <= ends_stepped;
     at_whole <= at_rest;
     ends_whole <= ends_rest;
-    pause <= advance ? 4'd14 : pause - 4'd1;
+    pause <= advance ? 4'd13 : pause - 4'd1;
   end
 
   always @(posedge clk) begin
@@ -332,16 +323,17 @@ module edgewalk_setup (
                         - (shifted_2[0] ? {du02[22], du02} : 24'd0);
   reg [44:0] area;       // 1/P^2 px^2, signed
   assign no_area = !(|area);
-  wire any = |tall[21:16];
-  wire [5:0] part_2 = tall[21:16];
-  wire [1:0] part = part_2[5:4];
-  wire any_2 = |part;
-  wire [3:0] part_4 = part_2[3:0];
+  wire [21:0] either = tall | 22'd2;
+  wire [5:0] part = either[21:16];
+  wire any = |part;
+  wire [1:0] part_2 = part[5:4];
+  wire any_2 = |part_2;
+  wire [3:0] part_4 = part[3:0];
   wire [1:0] part_3 = part_4[3:2];
   wire any_3 = |part_3;
   wire [1:0] part_5 = part_4[1:0];
-  wire [2:0] joined = {any_2, any_2 ? {1'b0, part[1]} : {any_3, any_3 ? part_3[1] : part_5[1]}};
-  wire [15:0] part_7 = tall[15:0];
+  wire [1:0] choice_3 = any_2 ? {1'b0, part_2[1]} : {any_3, any_3 ? part_3[1] : part_5[1]};
+  wire [15:0] part_7 = either[15:0];
   wire [7:0] part_6 = part_7[15:8];
   wire any_4 = |part_6;
   wire [3:0] part_8 = part_6[7:4];
@@ -353,7 +345,7 @@ module edgewalk_setup (
   wire [1:0] part_11 = part_12[3:2];
   wire any_7 = |part_11;
   wire [1:0] part_13 = part_12[1:0];
-  wire [1:0] choice_3 = any_5 ? {any_6, any_6 ? part_9[1] : part_10[1]}
+  wire [1:0] choice_4 = any_5 ? {any_6, any_6 ? part_9[1] : part_10[1]}
                       : {any_7, any_7 ? part_11[1] : part_13[1]};
   wire [7:0] part_15 = part_7[7:0];
   wire [3:0] part_14 = part_15[7:4];
@@ -365,13 +357,14 @@ module edgewalk_setup (
   wire [1:0] part_18 = part_19[3:2];
   wire any_10 = |part_18;
   wire [1:0] part_20 = part_19[1:0];
-  wire [1:0] choice_4 = any_8 ? {any_9, any_9 ? part_16[1] : part_17[1]}
+  wire [1:0] choice_5 = any_8 ? {any_9, any_9 ? part_16[1] : part_17[1]}
                       : {any_10, any_10 ? part_18[1] : part_20[1]};
-  wire [3:0] choice_5 = any ? {1'b0, joined} : {any_4, any_4 ? {any_5, choice_3} : {any_8, choice_4}};
+  wire [3:0] choice_6 = any ? {1'b0, {any_2, choice_3}}
+                      : {any_4, any_4 ? {any_5, choice_4} : {any_8, choice_5}};
 
   always @(posedge clk) begin
     area_digit <= area_digit - 5'd1;
-    if (begins) area_digit <= {any, choice_5};
+    if (begins) area_digit <= {any, choice_6};
   end
 
   wire equal = area_digit == 5'd0;
@@ -456,142 +449,145 @@ module edgewalk_setup (
   assign nothing = (j0 == end_line) || no_column;
   wire upper = |prim_n1;
   wire [14:0] jm = upper ? j0 : j1;              // first line of the triangle
-  wire [22:0] joined_2 = {jm, 8'd0};
-  wire [20:0] h0 = joined_2[20:0] - p0_v[20:0];  // 1/P line
-  wire [22:0] joined_3 = {j1, 8'd0};
-  wire [20:0] h1 = joined_3[20:0] - p1_v[20:0];  // 1/P line
+  wire [22:0] joined = {jm, 8'd0};
+  wire [20:0] h0 = joined[20:0] - p0_v[20:0];    // 1/P line
+  wire [22:0] joined_2 = {j1, 8'd0};
+  wire [20:0] h1 = joined_2[20:0] - p1_v[20:0];  // 1/P line
 
   always @(posedge clk) begin
     no_column <= none_between || before_screen || behind_screen;
   end
 
   // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
-  reg [22:0] f;                             // factor, signed
-  reg [22:0] g;                             // factor, signed
+  reg [23:0] q_times_f;                     // q of the major edge, times the factor's digits so far
+  reg [23:0] q_times_g;                     // q of the major edge, times the factor's digits so far
+  reg [23:0] first_sheared;                 // from vertex 0 to the first pixel, less q columns a line; 1/P column, signed
+  reg [23:0] f;                             // factor, signed
+  reg [23:0] g;                             // factor, signed
   wire second_counts = (at == WAIT_DX) && (|prim_n2);
-  wire [22:0] either = {15'd0, p1_u[7:0]} | {2'd0, h1};
-  wire [21:0] digits = (f[21:0] ^ f[22:1])  // digits of the factors that differ from their signs
-                     | (g[21:0] ^ g[22:1])
-                     | (second_counts ? either[21:0] : 22'd0);
-  wire any_11 = |digits[21:16];
-  wire [5:0] part_26 = digits[21:16];
-  wire [1:0] part_25 = part_26[5:4];
+  wire [23:0] either_2 = {16'd0, p1_u[7:0]} | {3'd0, h1};
+  wire [22:0] digits = (f[22:0] ^ f[23:1])  // digits of the factors that differ from their signs
+                     | (g[22:0] ^ g[23:1])
+                     | (second_counts ? either_2[22:0] : 23'd0);
+  wire any_11 = |digits[22:16];
+  wire [6:0] part_26 = digits[22:16];
+  wire [2:0] part_25 = part_26[6:4];
   wire any_12 = |part_25;
-  wire [3:0] part_28 = part_26[3:0];
-  wire [1:0] part_27 = part_28[3:2];
-  wire any_13 = |part_27;
-  wire [1:0] part_29 = part_28[1:0];
-  wire [1:0] choice_6 = any_12 ? {1'b0, part_25[1]} : {any_13, any_13 ? part_27[1] : part_29[1]};
-  wire [15:0] part_31 = digits[15:0];
-  wire [7:0] part_30 = part_31[15:8];
-  wire any_14 = |part_30;
-  wire [3:0] part_32 = part_30[7:4];
-  wire any_15 = |part_32;
-  wire [1:0] part_33 = part_32[3:2];
+  wire any_13 = part_25[2];
+  wire [1:0] part_27 = part_25[1:0];
+  wire [3:0] part_29 = part_26[3:0];
+  wire [1:0] part_28 = part_29[3:2];
+  wire any_14 = |part_28;
+  wire [1:0] part_30 = part_29[1:0];
+  wire [1:0] choice_7 = any_12 ? {any_13, any_13 ? 1'b0 : part_27[1]}
+                      : {any_14, any_14 ? part_28[1] : part_30[1]};
+  wire [15:0] part_32 = digits[15:0];
+  wire [7:0] part_31 = part_32[15:8];
+  wire any_15 = |part_31;
+  wire [3:0] part_33 = part_31[7:4];
   wire any_16 = |part_33;
-  wire [1:0] part_34 = part_32[1:0];
-  wire [3:0] part_36 = part_30[3:0];
-  wire [1:0] part_35 = part_36[3:2];
-  wire any_17 = |part_35;
-  wire [1:0] part_37 = part_36[1:0];
-  wire [1:0] choice_7 = any_15 ? {any_16, any_16 ? part_33[1] : part_34[1]}
-                      : {any_17, any_17 ? part_35[1] : part_37[1]};
-  wire [7:0] part_39 = part_31[7:0];
-  wire [3:0] part_38 = part_39[7:4];
-  wire any_18 = |part_38;
-  wire [1:0] part_40 = part_38[3:2];
-  wire any_19 = |part_40;
-  wire [1:0] part_41 = part_38[1:0];
-  wire [3:0] part_43 = part_39[3:0];
-  wire [1:0] part_42 = part_43[3:2];
-  wire any_20 = |part_42;
-  wire [1:0] part_44 = part_43[1:0];
-  wire [1:0] choice_8 = any_18 ? {any_19, any_19 ? part_40[1] : part_41[1]}
-                      : {any_20, any_20 ? part_42[1] : part_44[1]};
-  wire [3:0] choice_9 = any_11 ? {1'b0, {any_12, choice_6}}
-                      : {any_14, any_14 ? {any_15, choice_7} : {any_18, choice_8}};
-  assign top_digit = {any_11, choice_9};
-  wire [22:0] shifted_3 = f >> left;
+  wire [1:0] part_34 = part_33[3:2];
+  wire any_17 = |part_34;
+  wire [1:0] part_35 = part_33[1:0];
+  wire [3:0] part_37 = part_31[3:0];
+  wire [1:0] part_36 = part_37[3:2];
+  wire any_18 = |part_36;
+  wire [1:0] part_38 = part_37[1:0];
+  wire [1:0] choice_8 = any_16 ? {any_17, any_17 ? part_34[1] : part_35[1]}
+                      : {any_18, any_18 ? part_36[1] : part_38[1]};
+  wire [7:0] part_40 = part_32[7:0];
+  wire [3:0] part_39 = part_40[7:4];
+  wire any_19 = |part_39;
+  wire [1:0] part_41 = part_39[3:2];
+  wire any_20 = |part_41;
+  wire [1:0] part_42 = part_39[1:0];
+  wire [3:0] part_44 = part_40[3:0];
+  wire [1:0] part_43 = part_44[3:2];
+  wire any_21 = |part_43;
+  wire [1:0] part_45 = part_44[1:0];
+  wire [1:0] choice_9 = any_19 ? {any_20, any_20 ? part_41[1] : part_42[1]}
+                      : {any_21, any_21 ? part_43[1] : part_45[1]};
+  wire [3:0] choice_10 = any_11 ? {1'b0, {any_12, choice_7}}
+                       : {any_15, any_15 ? {any_16, choice_8} : {any_19, choice_9}};
+  assign top_digit = {any_11, choice_10};
+  wire [23:0] shifted_3 = f >> left;
   wire digit_f = shifted_3[0];
-  wire [22:0] shifted_4 = g >> left;
+  wire [23:0] shifted_4 = g >> left;
   wire digit_g = shifted_4[0];
+  wire [22:0] joined_3 = {prim_major_c - {14'd0, area[44]}, 8'd0};
+
+  always @(posedge clk) begin
+    if (at_next == WAIT) begin
+      first_sheared <= {joined_3[22], joined_3} - {{2{p0_u[21]}}, p0_u} - q_times_g;
+    end
+  end
 
   always @(posedge clk) begin
     if (at == WAIT_DX) begin
-      f <= {15'd0, p0_u[7:0]};
-      g <= {2'd0, h0};
+      f <= {16'd0, p0_u[7:0]};
+      g <= {3'd0, h0};
     end
-    if (at == WAIT) begin
-      f <= {1'b0, dv02};
-      g <= {1'b0, dv01};
+    if (at == TAKE2) begin
+      f <= {2'd0, dv02};
+      g <= {2'd0, dv01};
     end
     if (at == DOUBLE_X) begin
-      f <= -du02;
-      g <= -du01;
+      f <= q_times_f - {du02[22], du02};
+      g <= q_times_g - {du01[22], du01};
     end
     if (at == ADD_X) begin
-      f <= {{8{prim_major_q[14]}}, prim_major_q};
-      g <= 23'd0;
+      f <= first_sheared;
+      g <= {3'd0, h0};
     end
-    if (at == ADD_LINE) begin
-      f <= {prim_major_c - {14'd0, area[44]}, 8'd0} - {p0_u[21], p0_u};
-      g <= {2'd0, h0};
+  end
+
+  always @(posedge clk) begin
+    if (((at == SUM_X) || (at == SUM)) && !rests) begin
+      q_times_f <= (first ? 24'd0 : q_times_f << 1)
+                 + (digit_f ? {{9{prim_major_q[14]}}, prim_major_q} : 24'd0);
+      q_times_g <= (first ? 24'd0 : q_times_g << 1)
+                 + (digit_g ? {{9{prim_major_q[14]}}, prim_major_q} : 24'd0);
     end
   end
 
   // What all lanes do.
-  wire either_2 = (at == ADD_DX)
-               || (at == ADD12)
-               || (at == ADD_X)
-               || (at == ADD_Y)
-               || (at == ADD_LINE);
-  wire either_3 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
+  wire either_3 = (at == TAKE_DX)
+               || (at == TAKE_DY)
+               || (at == TAKE12)
+               || (at == TAKE1)
+               || (at == TAKE2);
   wire [4:0] step = ((at == SUM) || (at == SUM_X)) ? (first ? 5'd17 : 5'd18)
-                  : ((at == COLUMNS) || (at == ADD_START)) ? 5'd20
-                  : either_2 ? 5'd16
-                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 5'd19
-                  : ((at == SUM_Y) || (at == SUM_LINE) || (at == SUM_START)) ? 5'd18
-                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_Y)) ? 5'd8
-                  : ((at == FIX_DX) || (at == FIX1) || (at == FIX2)) ? 5'd4
-                  : either_3 ? 5'd1
+                  : ((at == ADD_DX) || (at == ADD_X)) ? 5'd16
+                  : ((at == SIGN_LINE) || (at == SIGN_START)) ? 5'd19
+                  : ((at == SUM_LINE) || (at == SUM_START)) ? 5'd18
+                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_LINE)) ? 5'd8
+                  : either_3 ? 5'd3
                   : 5'd0;
-  reg began;  // numbers were found not to fit in the clock before
-  wire is_sum = (at == SUM)
-             || (at == SUM_X)
-             || (at == SUM_Y)
-             || (at == SUM_LINE)
-             || (at == SUM_START);
-  wire is_sign = (at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START);
-  wire of_gradients = (at == SIGN_LINE)
-                   || (at == SUM_LINE)
-                   || (at == SIGN_START)
-                   || (at == SUM_START);
-  wire [2:0] read_single_at = (at == ADD_Y) ? 3'd6
-                            : ((at == ADD_X) || (at == ADD_LINE)) ? 3'd5
-                            : (at == ADD_DX) ? 3'd2
-                            : (at == ADD12) ? 3'd1
-                            : 3'd0;
-  wire either_4 = (at_stepped == FIX_DX)
-               || (at_stepped == LOAD_DY)
+  wire is_sum = (at == SUM) || (at == SUM_X) || (at == SUM_LINE) || (at == SUM_START);
+  wire is_sign = (at == SIGN_LINE) || (at == SIGN_START);
+  wire of_gradients = (at == SIGN_START) || (at == SUM_START);
+  wire [2:0] read_single_at = (at == ADD_X) ? 3'd5 : (at == ADD_DX) ? 3'd2 : 3'd0;
+  wire either_4 = (at_stepped == TAKE_DX)
+               || (at_stepped == TAKE_DY)
                || (at_stepped == ADD_DX)
-               || (at_stepped == FIX1)
-               || (at_stepped == FIX2)
-               || (at_stepped == ADD12)
+               || (at_stepped == TAKE12)
+               || (at_stepped == TAKE1)
+               || (at_stepped == TAKE2)
                || (at_stepped == DOUBLE_X)
-               || (at_stepped == DOUBLE_Y)
+               || (at_stepped == DOUBLE_LINE)
                || (at_stepped == ADD_X);
   wire write = ends_stepped && either_4;
   wire [2:0] write_at = (at_stepped == ADD_X) ? 3'd7
-                      : (at_stepped == DOUBLE_Y) ? 3'd6
+                      : (at_stepped == DOUBLE_LINE) ? 3'd6
                       : (at_stepped == DOUBLE_X) ? 3'd5
-                      : ((at_stepped == ADD_DX) || (at_stepped == ADD12)) ? 3'd3
-                      : ((at_stepped == FIX_DX) || (at_stepped == FIX2)) ? 3'd2
+                      : ((at_stepped == ADD_DX) || (at_stepped == TAKE12)) ? 3'd3
+                      : ((at_stepped == TAKE_DX) || (at_stepped == TAKE2)) ? 3'd2
                       : 3'd1;
-  wire take_modulus = (at_next == LOAD_DX) || (at_next == LOAD1);
-
-  always @(posedge clk) begin
-    began <= advance;
-  end
+  wire take_modulus = (at == TAKE_DX) || (at == TAKE12);
+  wire either_5 = (at_rest == SUM_START) || (at_rest == DOUBLE_DX) || (at_rest == SUM);
+  wire nearest = !either_5;
+  wire upwards = at_rest == SUM;
+  wire negated = (at_rest == DOUBLE_X) && area[44];
 
   // Lane 0: its steps.
   wire [4:0] step0 = rests ? 5'd0 : step;
@@ -607,10 +603,10 @@ module edgewalk_setup (
     end
   end
 
-  wire [4:0] choice_10 = advance ? 5'd5 : began ? 5'd2 : 5'd9;
+  wire [4:0] choice_11 = advance ? 5'd7 : 5'd9;
 
   always @(posedge clk) begin
-    step_of_pause0 <= (pause == 4'd2) ? step_again0 : choice_10;
+    step_of_pause0 <= (pause == 4'd2) ? step_again0 : choice_11;
   end
 
   // Lane 1: its steps.
@@ -628,7 +624,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    step_of_pause1 <= (pause == 4'd2) ? step_again1 : choice_10;
+    step_of_pause1 <= (pause == 4'd2) ? step_again1 : choice_11;
   end
 
   // Lane 2: its steps.
@@ -646,7 +642,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    step_of_pause2 <= (pause == 4'd2) ? step_again2 : choice_10;
+    step_of_pause2 <= (pause == 4'd2) ? step_again2 : choice_11;
   end
 
   // Lane 3: its steps.
@@ -667,83 +663,86 @@ module edgewalk_setup (
   reg single_value;
   reg number_of_edge;
   reg number_is_height;
-  wire either_5 = (at == FIX_DX) || (at == LOAD2) || (at == FIX2);
-  wire both_5 = area[44] && ((at == LOAD1) || (at == LOAD2));
-  wire equal_2 = at == ADD_START;
+  wire both_5 = area[44] && ((at == TAKE12) || (at == TAKE1) || (at == TAKE2));
+  wire either_6 = (at == SUBTRACT) || (at == TAKE12) || (at == WAIT);
+  wire either_7 = (at == DOUBLE_DX) || (at == TAKE2) || (at == DOUBLE_X);
+  wire [1:0] choice_12 = either_6 ? 2'd1 : either_7 ? 2'd0 : 2'd1;
+  wire [1:0] choice_13 = either_6 ? 2'd2 : either_7 ? 2'd2 : 2'd0;
+  wire equal_2 = at == SIGN_START;
 
   always @(posedge clk) begin
-    from_place <= either_5 ? (both_5 ? 2'd0 : 2'd2) : both_5 ? 2'd1 : 2'd0;
-    to_place <= equal_2 ? 2'd0 : either_5 ? (both_5 ? 2'd2 : 2'd0) : both_5 ? 2'd0 : 2'd1;
+    from_place <= both_5 ? choice_12 : choice_13;
+    to_place <= equal_2 ? 2'd0 : both_5 ? choice_13 : choice_12;
     single_value <= equal_2;
   end
 
   always @(posedge clk) begin
     if (advance) begin
-      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
-      number_is_height <= at == LOAD_DY;
+      number_of_edge <= (at == TAKE_DX) || (at == TAKE_DY);
+      number_is_height <= at == TAKE_DY;
     end
   end
 
   // Lane 0: what it takes in.
   wire [22:0] extended_2 = {1'b0, dv02};
-  wire [28:0] choice_11 = number_is_height ? {{6{extended_2[22]}}, extended_2}
+  wire [28:0] choice_14 = number_is_height ? {{6{extended_2[22]}}, extended_2}
                         : {{6{du02[22]}}, du02};
-  wire [28:0] choice_12 = to_vertex[1] ? {1'b0, vertex2_z}
+  wire [28:0] choice_15 = to_vertex[1] ? {1'b0, vertex2_z}
                         : to_vertex[0] ? {1'b0, vertex1_z}
                         : {1'b0, vertex0_z};
-  wire [28:0] choice_13 = single_value ? 29'h1ffffff8
+  wire [28:0] choice_16 = single_value ? 29'h1ffffff8
                         : from_vertex[1] ? {1'b0, vertex2_z}
                         : from_vertex[0] ? {1'b0, vertex1_z}
                         : {1'b0, vertex0_z};
-  wire [28:0] difference_3 = choice_12 - choice_13;
-  wire [28:0] number0 = number_of_edge ? choice_11 : difference_3;  // signed
+  wire [28:0] difference_3 = choice_15 - choice_16;
+  wire [28:0] number0 = number_of_edge ? choice_14 : difference_3;  // signed
   reg [28:0] kept0;  // a number that may not fit, or a first value; signed
 
   always @(posedge clk) begin
-    if ((at_next == LOAD_DX) || (at_next == ADD_START)) kept0 <= number0;
+    if ((at_next == TAKE_DX) || (at_next == SIGN_START)) kept0 <= number0;
   end
 
   // Lane 1: what it takes in.
-  wire [22:0] choice_14 = to_vertex[1] ? {11'd0, vertex2_r}
+  wire [22:0] choice_17 = to_vertex[1] ? {11'd0, vertex2_r}
                         : to_vertex[0] ? {11'd0, vertex1_r}
                         : {11'd0, vertex0_r};
-  wire [22:0] choice_15 = single_value ? 23'h7ffff8
+  wire [22:0] choice_18 = single_value ? 23'h7ffff8
                         : from_vertex[1] ? {11'd0, vertex2_r}
                         : from_vertex[0] ? {11'd0, vertex1_r}
                         : {11'd0, vertex0_r};
-  wire [22:0] difference_4 = choice_14 - choice_15;
+  wire [22:0] difference_4 = choice_17 - choice_18;
   wire [22:0] number1 = number_of_edge ? (number_is_height ? {1'b0, dv01} : du01) : difference_4;  // signed
   reg [22:0] kept1;  // a number that may not fit, or a first value; signed
 
   always @(posedge clk) begin
-    if ((at_next == LOAD_DX) || (at_next == ADD_START)) kept1 <= number1;
+    if ((at_next == TAKE_DX) || (at_next == SIGN_START)) kept1 <= number1;
   end
 
   // Lane 2: what it takes in.
-  wire [22:0] choice_16 = to_vertex[1] ? {11'd0, vertex2_g}
+  wire [22:0] choice_19 = to_vertex[1] ? {11'd0, vertex2_g}
                         : to_vertex[0] ? {11'd0, vertex1_g}
                         : {11'd0, vertex0_g};
-  wire [22:0] choice_17 = single_value ? 23'h7ffff8
+  wire [22:0] choice_20 = single_value ? 23'h7ffff8
                         : from_vertex[1] ? {11'd0, vertex2_g}
                         : from_vertex[0] ? {11'd0, vertex1_g}
                         : {11'd0, vertex0_g};
-  wire [22:0] difference_5 = choice_16 - choice_17;
+  wire [22:0] difference_5 = choice_19 - choice_20;
   wire [22:0] number2 = number_of_edge ? (number_is_height ? {1'b0, dv12} : du12) : difference_5;  // signed
   reg [22:0] kept2;  // a number that may not fit, or a first value; signed
 
   always @(posedge clk) begin
-    if ((at_next == LOAD_DX) || (at_next == ADD_START)) kept2 <= number2;
+    if ((at_next == TAKE_DX) || (at_next == SIGN_START)) kept2 <= number2;
   end
 
   // Lane 3: what it takes in.
-  wire [22:0] choice_18 = to_vertex[1] ? {11'd0, vertex2_b}
+  wire [22:0] choice_21 = to_vertex[1] ? {11'd0, vertex2_b}
                         : to_vertex[0] ? {11'd0, vertex1_b}
                         : {11'd0, vertex0_b};
-  wire [22:0] choice_19 = single_value ? 23'h7ffff8
+  wire [22:0] choice_22 = single_value ? 23'h7ffff8
                         : from_vertex[1] ? {11'd0, vertex2_b}
                         : from_vertex[0] ? {11'd0, vertex1_b}
                         : {11'd0, vertex0_b};
-  wire [22:0] number3 = choice_18 - choice_19;  // signed
+  wire [22:0] number3 = choice_21 - choice_22;  // signed
   reg [22:0] kept3;                             // a number that may not fit, or a first value; signed
   wire [27:0] shown = (difference_3[27:0] ^ {28{difference_3[28]}})
                     | {5'd0, difference_4 ^ {23{difference_4[22]}}}
@@ -756,7 +755,7 @@ module edgewalk_setup (
   assign unfit = lane0_unfit || (lane1_unfit && (|prim_n1)) || (lane2_unfit && (|prim_n2));
 
   always @(posedge clk) begin
-    kept3 <= number3;
+    if (at_next == SIGN_START) kept3 <= number3;
   end
 
   always @(posedge clk) begin
@@ -766,276 +765,264 @@ module edgewalk_setup (
 
   // Edge: major.
   wire [43:0] lane0_rest_out;
-  wire [45:0] lane0_whole_out;
   wire [45:0] lane0_value;
-  wire choice_20 = is_sign ? f[22] : digit_f;
-  wire choice_21 = is_sign ? g[22] : digit_g;
+  wire choice_23 = is_sign ? f[23] : digit_f;
+  wire choice_24 = is_sign ? g[23] : digit_g;
   wire [28:0] shifted_5 = $signed(kept0) >>> {pause - 4'd2, 1'b0};
-  wire [13:0] part_45 = p0_u[21:8];
+  wire [13:0] part_46 = p0_u[21:8];
   wire [46:0] joined_4 = {{kept0, 10'd0}, 8'd128};
-  wire equal_3 = at_rest == COLUMNS;
+  wire equal_3 = at == TAKE12;
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_20 || choice_21), choice_21, choice_20}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_23 || choice_24), choice_24, choice_23}
 : read_single_at),
     .step          (step_formed0),
     .number        (number0),
     .digits        (shifted_5[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? {{32{part_45[13]}}, part_45} : joined_4[45:0]),
+    .whole_in      ((at_rest == SUM) ? {{32{part_46[13]}}, part_46} : (at_rest == SUM_START) ? joined_4[45:0] : 46'd0),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_next == LOAD1) ? scaled : ~{15'd0, {dv02, 8'd0}}),
-    .modulus_short (!((at_next == LOAD1) && area[44])),
-    .upwards       (equal_3),
+    .modulus_in    (equal_3 ? scaled : ~{15'd0, {dv02, 8'd0}}),
+    .modulus_short (!(equal_3 && area[44])),
+    .nearest       (nearest),
+    .upwards       (upwards),
+    .negate        (negated),
     .unfit         (lane0_unfit),
     .rest_out      (lane0_rest_out),
-    .whole_out     (lane0_whole_out),
     .value         (lane0_value)
   );
 
-  wire any_21 = |dv02[21:8];
-  wire [35:0] part_46 = lane0_rest_out[43:8];
+  wire any_22 = |dv02[21:8];
+  wire [35:0] part_47 = lane0_rest_out[43:8];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == DOUBLE_DX)) prim_major_f <= any_21 ? part_46[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_major_f <= any_22 ? part_47[21:0] : 22'd0;
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_DX)) prim_major_q <= any_21 ? lane0_whole_out[14:0] : 15'd0;
+    if (ends_whole && (at_whole == DOUBLE_DX)) prim_major_q <= any_22 ? lane0_value[14:0] : 15'd0;
   end
 
   wire [29:0] difference_6 = {dv02, 8'd0} - lane0_rest_out[29:0];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == COLUMNS)) begin
-      prim_major_r <= (|lane0_rest_out) ? difference_6[29:8] : 22'd0;
-    end
+    if (ends_rest && (at_rest == SUM)) prim_major_r <= (|lane0_rest_out) ? difference_6[29:8] : 22'd0;
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == COLUMNS)) prim_major_c <= lane0_value[14:0];
+    if (ends_whole && (at_whole == SUM)) prim_major_c <= lane0_value[14:0];
   end
 
   // Edge: minor1.
   wire [43:0] lane1_rest_out;
-  wire [29:0] lane1_whole_out;
   wire [29:0] lane1_value;
-  wire choice_22 = is_sign ? f[22] : digit_f;
-  wire choice_23 = is_sign ? g[22] : digit_g;
+  wire choice_25 = is_sign ? f[23] : digit_f;
+  wire choice_26 = is_sign ? g[23] : digit_g;
   wire [22:0] shifted_6 = $signed(kept1) >>> {pause - 4'd2, 1'b0};
-  wire [13:0] part_47 = p0_u[21:8];
+  wire [13:0] part_48 = p0_u[21:8];
   wire [40:0] joined_5 = {{kept1, 10'd0}, 8'd128};
+  wire equal_4 = at == TAKE12;
 
   edgewalk_setup_lane1 lane1 (
     .clk           (clk),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_22 || choice_23), choice_23, choice_22}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_25 || choice_26), choice_26, choice_25}
 : read_single_at),
     .step          (step_formed1),
     .number        (number1),
     .digits        (shifted_6[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_47[13]}}, part_47} : joined_5[29:0]),
+    .whole_in      ((at_rest == SUM) ? {{16{part_48[13]}}, part_48} : (at_rest == SUM_START) ? joined_5[29:0] : 30'd0),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_next == LOAD1) ? scaled : ~{15'd0, {dv01, 8'd0}}),
-    .modulus_short (!((at_next == LOAD1) && area[44])),
-    .upwards       (equal_3),
+    .modulus_in    (equal_4 ? scaled : ~{15'd0, {dv01, 8'd0}}),
+    .modulus_short (!(equal_4 && area[44])),
+    .nearest       (nearest),
+    .upwards       (upwards),
+    .negate        (negated),
     .unfit         (lane1_unfit),
     .rest_out      (lane1_rest_out),
-    .whole_out     (lane1_whole_out),
     .value         (lane1_value)
   );
 
   wire both_6 = (|prim_n1) && (|dv01[21:8]);
-  wire [35:0] part_48 = lane1_rest_out[43:8];
+  wire [35:0] part_49 = lane1_rest_out[43:8];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor1_f <= both_6 ? part_48[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor1_f <= both_6 ? part_49[21:0] : 22'd0;
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_DX)) begin
-      prim_minor1_q <= both_6 ? lane1_whole_out[14:0] : 15'd0;
-    end
+    if (ends_whole && (at_whole == DOUBLE_DX)) prim_minor1_q <= both_6 ? lane1_value[14:0] : 15'd0;
   end
 
   wire [29:0] difference_7 = {dv01, 8'd0} - lane1_rest_out[29:0];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == COLUMNS)) begin
+    if (ends_rest && (at_rest == SUM)) begin
       prim_minor1_r <= (|prim_n1) ? ((|lane1_rest_out) ? difference_7[29:8] : 22'd0) : 22'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == COLUMNS)) prim_minor1_c <= (|prim_n1) ? lane1_value[14:0] : 15'd0;
+    if (ends_whole && (at_whole == SUM)) prim_minor1_c <= (|prim_n1) ? lane1_value[14:0] : 15'd0;
   end
 
   // Edge: minor2.
   wire [43:0] lane2_rest_out;
-  wire [29:0] lane2_whole_out;
   wire [29:0] lane2_value;
-  wire equal_4 = at == SUM;
+  wire equal_5 = at == SUM;
   wire [7:0] shifted_7 = p1_u[7:0] >> left;
-  wire choice_24 = is_sign ? f[22] : equal_4 ? shifted_7[0] : digit_f;
+  wire choice_27 = is_sign ? f[23] : equal_5 ? shifted_7[0] : digit_f;
   wire [20:0] shifted_8 = h1 >> left;
-  wire choice_25 = is_sign ? g[22] : equal_4 ? shifted_8[0] : digit_g;
+  wire choice_28 = is_sign ? g[23] : equal_5 ? shifted_8[0] : digit_g;
   wire [22:0] shifted_9 = $signed(kept2) >>> {pause - 4'd2, 1'b0};
-  wire [13:0] part_49 = p1_u[21:8];
+  wire [13:0] part_50 = p1_u[21:8];
   wire [40:0] joined_6 = {{kept2, 10'd0}, 8'd128};
+  wire equal_6 = at == TAKE12;
 
   edgewalk_setup_lane1 lane2 (
     .clk           (clk),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_24 || choice_25), choice_25, choice_24}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_27 || choice_28), choice_28, choice_27}
 : read_single_at),
     .step          (step_formed2),
     .number        (number2),
     .digits        (shifted_9[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? {{16{part_49[13]}}, part_49} : joined_6[29:0]),
+    .whole_in      ((at_rest == SUM) ? {{16{part_50[13]}}, part_50} : (at_rest == SUM_START) ? joined_6[29:0] : 30'd0),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_next == LOAD1) ? scaled : ~{15'd0, {dv12, 8'd0}}),
-    .modulus_short (!((at_next == LOAD1) && area[44])),
-    .upwards       (equal_3),
+    .modulus_in    (equal_6 ? scaled : ~{15'd0, {dv12, 8'd0}}),
+    .modulus_short (!(equal_6 && area[44])),
+    .nearest       (nearest),
+    .upwards       (upwards),
+    .negate        (negated),
     .unfit         (lane2_unfit),
     .rest_out      (lane2_rest_out),
-    .whole_out     (lane2_whole_out),
     .value         (lane2_value)
   );
 
   wire both_7 = (|prim_n2) && (|dv12[21:8]);
-  wire [35:0] part_50 = lane2_rest_out[43:8];
+  wire [35:0] part_51 = lane2_rest_out[43:8];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor2_f <= both_7 ? part_50[21:0] : 22'd0;
+    if (ends_rest && (at_rest == DOUBLE_DX)) prim_minor2_f <= both_7 ? part_51[21:0] : 22'd0;
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_DX)) begin
-      prim_minor2_q <= both_7 ? lane2_whole_out[14:0] : 15'd0;
-    end
+    if (ends_whole && (at_whole == DOUBLE_DX)) prim_minor2_q <= both_7 ? lane2_value[14:0] : 15'd0;
   end
 
   wire [29:0] difference_8 = {dv12, 8'd0} - lane2_rest_out[29:0];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == COLUMNS)) begin
+    if (ends_rest && (at_rest == SUM)) begin
       prim_minor2_r <= (|prim_n2) ? ((|lane2_rest_out) ? difference_8[29:8] : 22'd0) : 22'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == COLUMNS)) prim_minor2_c <= (|prim_n2) ? lane2_value[14:0] : 15'd0;
+    if (ends_whole && (at_whole == SUM)) prim_minor2_c <= (|prim_n2) ? lane2_value[14:0] : 15'd0;
   end
 
   // Channel: z.
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_X)) begin
-      prim_z_g <= area[44] ? -lane0_value[37:0] : lane0_value[37:0];
-    end
+    if (ends_whole && (at_whole == DOUBLE_X)) prim_z_g <= lane0_value[37:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_Y)) prim_z_d0 <= lane0_value[37:0];
+    if (ends_whole && (at_whole == DOUBLE_LINE)) prim_z_d0 <= lane0_value[37:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_LINE)) prim_z_d1 <= lane0_value[37:0];
+    if (ends_whole && (at_whole == ADD_X)) prim_z_d1 <= lane0_value[37:0];
   end
 
   always @(posedge clk) begin
-    prim_z_start <= lane0_whole_out[45:8];
+    if (ends_whole && (at_whole == SUM_START)) prim_z_start <= lane0_value[45:8];
   end
 
   // Channel: r.
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_X)) begin
-      prim_r_g <= area[44] ? -lane1_value[21:0] : lane1_value[21:0];
-    end
+    if (ends_whole && (at_whole == DOUBLE_X)) prim_r_g <= lane1_value[21:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_Y)) prim_r_d0 <= lane1_value[21:0];
+    if (ends_whole && (at_whole == DOUBLE_LINE)) prim_r_d0 <= lane1_value[21:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_LINE)) prim_r_d1 <= lane1_value[21:0];
+    if (ends_whole && (at_whole == ADD_X)) prim_r_d1 <= lane1_value[21:0];
   end
 
   always @(posedge clk) begin
-    prim_r_start <= lane1_whole_out[29:8];
+    if (ends_whole && (at_whole == SUM_START)) prim_r_start <= lane1_value[29:8];
   end
 
   // Channel: g.
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_X)) begin
-      prim_g_g <= area[44] ? -lane2_value[21:0] : lane2_value[21:0];
-    end
+    if (ends_whole && (at_whole == DOUBLE_X)) prim_g_g <= lane2_value[21:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_Y)) prim_g_d0 <= lane2_value[21:0];
+    if (ends_whole && (at_whole == DOUBLE_LINE)) prim_g_d0 <= lane2_value[21:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_LINE)) prim_g_d1 <= lane2_value[21:0];
+    if (ends_whole && (at_whole == ADD_X)) prim_g_d1 <= lane2_value[21:0];
   end
 
   always @(posedge clk) begin
-    prim_g_start <= lane2_whole_out[29:8];
+    if (ends_whole && (at_whole == SUM_START)) prim_g_start <= lane2_value[29:8];
   end
 
   // Channel: b.
   wire [29:0] lane3_value;
-  wire [29:0] lane3_whole_out;
-  wire choice_26 = is_sign ? f[22] : digit_f;
-  wire choice_27 = is_sign ? g[22] : digit_g;
+  wire choice_29 = is_sign ? f[23] : digit_f;
+  wire choice_30 = is_sign ? g[23] : digit_g;
   wire [40:0] joined_7 = {{kept3, 10'd0}, 8'd128};
   wire [43:0] lane3_rest_out_unused;
 
   edgewalk_setup_lane1 lane3 (
     .clk           (clk),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_26 || choice_27), choice_27, choice_26}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_29 || choice_30), choice_30, choice_29}
 : read_single_at),
     .step          (step_next3),
     .number        (number3),
     .digits        (2'd0),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      (joined_7[29:0]),
+    .whole_in      ((at_rest == SUM_START) ? joined_7[29:0] : 30'd0),
     .take_modulus  (take_modulus),
     .modulus_in    (scaled),
     .modulus_short (!area[44]),
-    .upwards       (equal_3),
+    .nearest       (nearest),
+    .upwards       (upwards),
+    .negate        (negated),
     .unfit         (lane3_unfit),
     .rest_out      (lane3_rest_out_unused),
-    .whole_out     (lane3_whole_out),
     .value         (lane3_value)
   );
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_X)) begin
-      prim_b_g <= area[44] ? -lane3_value[21:0] : lane3_value[21:0];
-    end
+    if (ends_whole && (at_whole == DOUBLE_X)) prim_b_g <= lane3_value[21:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_Y)) prim_b_d0 <= lane3_value[21:0];
+    if (ends_whole && (at_whole == DOUBLE_LINE)) prim_b_d0 <= lane3_value[21:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_LINE)) prim_b_d1 <= lane3_value[21:0];
+    if (ends_whole && (at_whole == ADD_X)) prim_b_d1 <= lane3_value[21:0];
   end
 
   always @(posedge clk) begin
-    prim_b_start <= lane3_whole_out[29:8];
+    if (ends_whole && (at_whole == SUM_START)) prim_b_start <= lane3_value[29:8];
   end
 
   assign prim_jm = jm[8:0];
@@ -1046,14 +1033,13 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, ends_fixed, less_m[0], lane3_unfit, lane0_value[45:38], lane1_value[29:22],
-    lane2_value[29:22], lane3_value[29:22], lane3_whole_out[7:0], part_5[0], part_10[0], part_13[0],
-    part_17[0], part_20[0], shifted[21:1], shifted_2[21:1], part_21[43:0], difference[14:10],
-    difference_2[14:10], joined_2[22:21], joined_3[22:21], either[22], part_29[0], part_34[0],
-    part_37[0], part_41[0], part_44[0], shifted_3[22:1], shifted_4[22:1], shifted_7[7:1],
-    shifted_8[20:1], shifted_5[28:2], joined_4[46], shifted_6[22:2], joined_5[40:30], shifted_9[22:2],
-    joined_6[40:30], joined_7[40:30], part_46[35:22], difference_6[7:0], part_48[35:22],
-    difference_7[7:0], part_50[35:22], difference_8[7:0]
+    1'b0, WAIT_LINE, ends_fixed, less_m[0], lane3_unfit, part_5[0], part_10[0], part_13[0], part_17[0],
+    part_20[0], shifted[21:1], shifted_2[21:1], part_21[43:0], difference[14:10], difference_2[14:10],
+    joined[22:21], joined_2[22:21], either_2[23], part_27[0], part_30[0], part_35[0], part_38[0],
+    part_42[0], part_45[0], shifted_3[23:1], shifted_4[23:1], shifted_7[7:1], shifted_8[20:1],
+    shifted_5[28:2], joined_4[46], shifted_6[22:2], joined_5[40:30], shifted_9[22:2], joined_6[40:30],
+    joined_7[40:30], part_47[35:22], difference_6[7:0], part_49[35:22], difference_7[7:0],
+    part_51[35:22], difference_8[7:0]
   };
 
 endmodule

@@ -83,33 +83,26 @@ module edgewalk_setup (
   localparam [1:0] WORK = 2'd1;
   localparam [1:0] STORE = 2'd2;
   localparam [1:0] DONE = 2'd3;
-  localparam [4:0] LOAD_DX = 5'd0;
-  localparam [4:0] FIX_DX = 5'd1;
+  localparam [4:0] SUBTRACT = 5'd0;
+  localparam [4:0] TAKE_DX = 5'd1;
   localparam [4:0] DOUBLE_DX = 5'd2;
-  localparam [4:0] LOAD_DY = 5'd3;
+  localparam [4:0] TAKE_DY = 5'd3;
   localparam [4:0] ADD_DX = 5'd4;
   localparam [4:0] WAIT_DX = 5'd5;
   localparam [4:0] SUM = 5'd6;
-  localparam [4:0] COLUMNS = 5'd7;
-  localparam [4:0] LOAD1 = 5'd8;
-  localparam [4:0] FIX1 = 5'd9;
-  localparam [4:0] LOAD2 = 5'd10;
-  localparam [4:0] FIX2 = 5'd11;
-  localparam [4:0] ADD12 = 5'd12;
-  localparam [4:0] WAIT = 5'd13;
-  localparam [4:0] SUM_X = 5'd14;
-  localparam [4:0] DOUBLE_X = 5'd15;
-  localparam [4:0] SIGN_Y = 5'd16;
-  localparam [4:0] SUM_Y = 5'd17;
-  localparam [4:0] DOUBLE_Y = 5'd18;
-  localparam [4:0] ADD_X = 5'd19;
-  localparam [4:0] SIGN_LINE = 5'd20;
-  localparam [4:0] SUM_LINE = 5'd21;
-  localparam [4:0] ADD_Y = 5'd22;
-  localparam [4:0] ADD_LINE = 5'd23;
-  localparam [4:0] SIGN_START = 5'd24;
-  localparam [4:0] SUM_START = 5'd25;
-  localparam [4:0] ADD_START = 5'd26;
+  localparam [4:0] TAKE12 = 5'd7;
+  localparam [4:0] TAKE1 = 5'd8;
+  localparam [4:0] TAKE2 = 5'd9;
+  localparam [4:0] WAIT = 5'd10;
+  localparam [4:0] SUM_X = 5'd11;
+  localparam [4:0] DOUBLE_X = 5'd12;
+  localparam [4:0] SIGN_LINE = 5'd13;
+  localparam [4:0] SUM_LINE = 5'd14;
+  localparam [4:0] DOUBLE_LINE = 5'd15;
+  localparam [4:0] ADD_X = 5'd16;
+  localparam [4:0] WAIT_LINE = 5'd17;
+  localparam [4:0] SIGN_START = 5'd18;
+  localparam [4:0] SUM_START = 5'd19;
   wire nothing;          // no line, or no column, of the screen
   wire area_known;       // and scaled for the next round of channels
   wire no_area;
@@ -122,7 +115,7 @@ module edgewalk_setup (
   reg first;             // its first clock, but for that of a triangle
   reg [1:0] round;       // of the jobs the lanes do in turn
 
-  // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
+  // Numbers that do not fit hold up what follows: two clocks, and one for two digits.
   reg [3:0] pause;                           // clocks left of it
   reg paused;                                // it is not over
   wire advance = !paused;
@@ -130,16 +123,16 @@ module edgewalk_setup (
   wire take = tri_valid && tri_ready;
   wire works = state == WORK;
   assign prim_valid = state == DONE;
-  wire begins = works && (at == LOAD_DX) && (round == 2'd0);  // the first clock of a triangle
-  wire gives_up = works && (at == FIX_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
+  wire begins = works && (at == SUBTRACT);   // the first clock of a triangle
+  wire gives_up = works && (at == TAKE_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
   wire last = left == 5'd0;                  // last clock of the operation
-  wire edges_end = last && (at == COLUMNS) && (round == 2'd2);
-  wire round_ends = last && (at == ADD_START) && !(round == 2'd3);
+  wire edges_end = last && (at == SUM) && (round == 2'd2);
+  wire round_ends = last && (at == SUM_START) && !(round == 2'd3);
   wire waits = (edges_end || round_ends) && !area_known;  // for the area or its scale
   wire goes = works && !waits && !gives_up;  // the operation is done
   wire ends = goes && last;                  // it ends
   wire leaves = ends && advance;
-  wire channels_end = (at == ADD_START) && (round == 2'd3);
+  wire channels_end = (at == SUM_START) && (round == 2'd3);
 
   always @(posedge clk) begin
     if (rst) begin
@@ -156,19 +149,19 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (leaves) begin
-      at <= ((at == ADD_START) && !channels_end) ? LOAD1
-          : ((at == COLUMNS) && !edges_end) ? LOAD_DX
+      at <= ((at == SUM_START) && !channels_end) ? TAKE12
+          : ((at == SUM) && !edges_end) ? TAKE_DX
           : at + 5'd1;
     end
-    if (take) at <= LOAD_DX;
+    if (take) at <= SUBTRACT;
   end
 
   always @(posedge clk) begin
-    first <= leaves;
+    first <= leaves || (first && waits);
   end
 
   always @(posedge clk) begin
-    if (leaves && ((at == COLUMNS) || (at == ADD_START))) round <= round + 2'd1;
+    if (leaves && ((at == SUM) || (at == SUM_START))) round <= round + 2'd1;
     if ((leaves && edges_end) || take) round <= 2'd0;
   end
 
@@ -177,15 +170,13 @@ module edgewalk_setup (
     if (advance && works) left <= left - 5'd1;
     if (leaves) begin
       left <= (at == SIGN_START) ? top_digit
+            : (at == SUM_LINE) ? 5'd7 + {1'b0, scale}
             : (at == SIGN_LINE) ? top_digit
-            : (at == SUM_Y) ? 5'd7 + {1'b0, scale}
-            : (at == SIGN_Y) ? top_digit
             : (at == SUM_X) ? 5'd7 + {1'b0, scale}
             : (at == WAIT) ? top_digit
-            : (at == ADD12) ? 5'd1
             : (at == WAIT_DX) ? top_digit
             : (at == ADD_DX) ? 5'd1
-            : (at == FIX_DX) ? 5'd1
+            : (at == TAKE_DX) ? 5'd1
             : 5'd0;
     end
     if (leaves && channels_end) left <= 5'd3;
@@ -244,7 +235,7 @@ module edgewalk_setup (
     at_whole <= at_rest;
     round_whole <= round_rest;
     ends_whole <= ends_rest;
-    pause <= advance ? 4'd11 : pause - 4'd1;
+    pause <= advance ? 4'd10 : pause - 4'd1;
   end
 
   always @(posedge clk) begin
@@ -356,19 +347,20 @@ module edgewalk_setup (
                         - (shifted_2[0] ? {du02[15], du02} : 17'd0);
   reg [30:0] area;       // 1/P^2 px^2, signed
   assign no_area = !(|area);
-  wire any = |tall[14:8];
-  wire [6:0] part_2 = tall[14:8];
-  wire [2:0] part = part_2[6:4];
-  wire any_2 = |part;
-  wire any_3 = part[2];
-  wire [1:0] part_3 = part[1:0];
-  wire [3:0] part_5 = part_2[3:0];
+  wire [14:0] either = tall | 15'd2;
+  wire [6:0] part = either[14:8];
+  wire any = |part;
+  wire [2:0] part_2 = part[6:4];
+  wire any_2 = |part_2;
+  wire any_3 = part_2[2];
+  wire [1:0] part_3 = part_2[1:0];
+  wire [3:0] part_5 = part[3:0];
   wire [1:0] part_4 = part_5[3:2];
   wire any_4 = |part_4;
   wire [1:0] part_6 = part_5[1:0];
   wire [1:0] choice_3 = any_2 ? {any_3, any_3 ? 1'b0 : part_3[1]}
                       : {any_4, any_4 ? part_4[1] : part_6[1]};
-  wire [7:0] part_8 = tall[7:0];
+  wire [7:0] part_8 = either[7:0];
   wire [3:0] part_7 = part_8[7:4];
   wire any_5 = |part_7;
   wire [1:0] part_9 = part_7[3:2];
@@ -411,10 +403,10 @@ module edgewalk_setup (
   assign area_known = !area_adds && !scale_taken && !scaling;
   reg [3:0] scale_now;     // of the round
   assign scale = scale_now;
-  wire either = (area_adds && equal) || ((at_next == FIX2) && !(round_next == 2'd3));
+  wire either_2 = (area_adds && equal) || ((at == SIGN_LINE) && first && !(round == 2'd3));
 
   always @(posedge clk) begin
-    scale_taken <= either && !begins;
+    scale_taken <= either_2 && !begins;
   end
 
   always @(posedge clk) begin
@@ -437,7 +429,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (at_next == LOAD1) scale_now <= scale_next;
+    if (at_next == TAKE12) scale_now <= scale_next;
   end
 
   // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
@@ -484,119 +476,120 @@ module edgewalk_setup (
   end
 
   // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
-  reg [15:0] f;  // factor, signed
-  reg [15:0] g;  // factor, signed
-  wire [14:0] digits = (f[14:0] ^ f[15:1]) | (g[14:0] ^ g[15:1]);  // digits of the factors that differ from their signs
-  wire any_8 = |digits[14:8];
-  wire [6:0] part_19 = digits[14:8];
-  wire [2:0] part_18 = part_19[6:4];
+  reg [16:0] q_times_f;      // q of the major edge, times the factor's digits so far
+  reg [16:0] q_times_g;      // q of the major edge, times the factor's digits so far
+  reg [16:0] first_sheared;  // from vertex 0 to the first pixel, less q columns a line; 1/P column, signed
+  reg [16:0] f;              // factor, signed
+  reg [16:0] g;              // factor, signed
+  wire [15:0] digits = (f[15:0] ^ f[16:1]) | (g[15:0] ^ g[16:1]);  // digits of the factors that differ from their signs
+  wire any_8 = |digits[15:8];
+  wire [7:0] part_19 = digits[15:8];
+  wire [3:0] part_18 = part_19[7:4];
   wire any_9 = |part_18;
-  wire any_10 = part_18[2];
-  wire [1:0] part_20 = part_18[1:0];
-  wire [3:0] part_22 = part_19[3:0];
-  wire [1:0] part_21 = part_22[3:2];
-  wire any_11 = |part_21;
-  wire [1:0] part_23 = part_22[1:0];
-  wire [1:0] choice_5 = any_9 ? {any_10, any_10 ? 1'b0 : part_20[1]}
-                      : {any_11, any_11 ? part_21[1] : part_23[1]};
-  wire [7:0] part_25 = digits[7:0];
-  wire [3:0] part_24 = part_25[7:4];
-  wire any_12 = |part_24;
-  wire [1:0] part_26 = part_24[3:2];
-  wire any_13 = |part_26;
-  wire [1:0] part_27 = part_24[1:0];
-  wire [3:0] part_29 = part_25[3:0];
-  wire [1:0] part_28 = part_29[3:2];
-  wire any_14 = |part_28;
-  wire [1:0] part_30 = part_29[1:0];
-  wire [1:0] choice_6 = any_12 ? {any_13, any_13 ? part_26[1] : part_27[1]}
-                      : {any_14, any_14 ? part_28[1] : part_30[1]};
+  wire [1:0] part_20 = part_18[3:2];
+  wire any_10 = |part_20;
+  wire [1:0] part_21 = part_18[1:0];
+  wire [3:0] part_23 = part_19[3:0];
+  wire [1:0] part_22 = part_23[3:2];
+  wire any_11 = |part_22;
+  wire [1:0] part_24 = part_23[1:0];
+  wire [1:0] choice_5 = any_9 ? {any_10, any_10 ? part_20[1] : part_21[1]}
+                      : {any_11, any_11 ? part_22[1] : part_24[1]};
+  wire [7:0] part_26 = digits[7:0];
+  wire [3:0] part_25 = part_26[7:4];
+  wire any_12 = |part_25;
+  wire [1:0] part_27 = part_25[3:2];
+  wire any_13 = |part_27;
+  wire [1:0] part_28 = part_25[1:0];
+  wire [3:0] part_30 = part_26[3:0];
+  wire [1:0] part_29 = part_30[3:2];
+  wire any_14 = |part_29;
+  wire [1:0] part_31 = part_30[1:0];
+  wire [1:0] choice_6 = any_12 ? {any_13, any_13 ? part_27[1] : part_28[1]}
+                      : {any_14, any_14 ? part_29[1] : part_31[1]};
   assign top_digit = {1'b0, {any_8, any_8 ? {any_9, choice_5} : {any_12, choice_6}}};
-  wire [15:0] shifted_3 = f >> left;
+  wire [16:0] shifted_3 = f >> left;
   wire digit_f = shifted_3[0];
-  wire [15:0] shifted_4 = g >> left;
+  wire [16:0] shifted_4 = g >> left;
   wire digit_g = shifted_4[0];
+  wire [15:0] joined_3 = {prim_major_c - {11'd0, area[30]}, 4'd0};
+
+  always @(posedge clk) begin
+    if ((at_next == WAIT) && (round_next == 2'd0)) begin
+      first_sheared <= {joined_3[15], joined_3} - {{2{p0_u[14]}}, p0_u} - q_times_g;
+    end
+  end
 
   always @(posedge clk) begin
     if (at == WAIT_DX) begin
-      f <= (round == 2'd2) ? {12'd0, p1_u[3:0]} & {16{|prim_n2}}
-         : (round == 2'd1) ? {12'd0, p0_u[3:0]} & {16{|prim_n1}}
-         : {12'd0, p0_u[3:0]};
-      g <= (round == 2'd2) ? {2'd0, h1} & {16{|prim_n2}}
-         : (round == 2'd1) ? {2'd0, h0} & {16{|prim_n1}}
-         : {2'd0, h0};
+      f <= (round == 2'd2) ? {13'd0, p1_u[3:0]} & {17{|prim_n2}}
+         : (round == 2'd1) ? {13'd0, p0_u[3:0]} & {17{|prim_n1}}
+         : {13'd0, p0_u[3:0]};
+      g <= (round == 2'd2) ? {3'd0, h1} & {17{|prim_n2}}
+         : (round == 2'd1) ? {3'd0, h0} & {17{|prim_n1}}
+         : {3'd0, h0};
     end
-    if (at == WAIT) begin
-      f <= {1'b0, dv02};
-      g <= {1'b0, dv01};
+    if (at == TAKE2) begin
+      f <= {2'd0, dv02};
+      g <= {2'd0, dv01};
     end
     if (at == DOUBLE_X) begin
-      f <= -du02;
-      g <= -du01;
+      f <= q_times_f - {du02[15], du02};
+      g <= q_times_g - {du01[15], du01};
     end
     if (at == ADD_X) begin
-      f <= {{4{prim_major_q[11]}}, prim_major_q};
-      g <= 16'd0;
+      f <= first_sheared;
+      g <= {3'd0, h0};
     end
-    if (at == ADD_LINE) begin
-      f <= {prim_major_c - {11'd0, area[30]}, 4'd0} - {p0_u[14], p0_u};
-      g <= {2'd0, h0};
+  end
+
+  always @(posedge clk) begin
+    if (((at == SUM_X) || ((at == SUM) && (round == 2'd0))) && !rests) begin
+      q_times_f <= (first ? 17'd0 : q_times_f << 1)
+                 + (digit_f ? {{5{prim_major_q[11]}}, prim_major_q} : 17'd0);
+      q_times_g <= (first ? 17'd0 : q_times_g << 1)
+                 + (digit_g ? {{5{prim_major_q[11]}}, prim_major_q} : 17'd0);
     end
   end
 
   // What all lanes do.
-  wire either_2 = (at == ADD_DX)
-               || (at == ADD12)
-               || (at == ADD_X)
-               || (at == ADD_Y)
-               || (at == ADD_LINE);
-  wire either_3 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
+  wire either_3 = (at == TAKE_DX)
+               || (at == TAKE_DY)
+               || (at == TAKE12)
+               || (at == TAKE1)
+               || (at == TAKE2);
   wire [4:0] step = ((at == SUM) || (at == SUM_X)) ? (first ? 5'd17 : 5'd18)
-                  : ((at == COLUMNS) || (at == ADD_START)) ? 5'd20
-                  : either_2 ? 5'd16
-                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 5'd19
-                  : ((at == SUM_Y) || (at == SUM_LINE) || (at == SUM_START)) ? 5'd18
-                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_Y)) ? 5'd8
-                  : ((at == FIX_DX) || (at == FIX1) || (at == FIX2)) ? 5'd4
-                  : either_3 ? 5'd1
+                  : ((at == ADD_DX) || (at == ADD_X)) ? 5'd16
+                  : ((at == SIGN_LINE) || (at == SIGN_START)) ? 5'd19
+                  : ((at == SUM_LINE) || (at == SUM_START)) ? 5'd18
+                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_LINE)) ? 5'd8
+                  : either_3 ? 5'd3
                   : 5'd0;
-  reg began;  // numbers were found not to fit in the clock before
-  wire is_sum = (at == SUM)
-             || (at == SUM_X)
-             || (at == SUM_Y)
-             || (at == SUM_LINE)
-             || (at == SUM_START);
-  wire is_sign = (at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START);
-  wire of_gradients = (at == SIGN_LINE)
-                   || (at == SUM_LINE)
-                   || (at == SIGN_START)
-                   || (at == SUM_START);
-  wire [2:0] read_single_at = (at == ADD_Y) ? 3'd6
-                            : ((at == ADD_X) || (at == ADD_LINE)) ? 3'd5
-                            : (at == ADD_DX) ? 3'd2
-                            : (at == ADD12) ? 3'd1
-                            : 3'd0;
-  wire either_4 = (at_stepped == FIX_DX)
-               || (at_stepped == LOAD_DY)
+  wire is_sum = (at == SUM) || (at == SUM_X) || (at == SUM_LINE) || (at == SUM_START);
+  wire is_sign = (at == SIGN_LINE) || (at == SIGN_START);
+  wire of_gradients = (at == SIGN_START) || (at == SUM_START);
+  wire [2:0] read_single_at = (at == ADD_X) ? 3'd5 : (at == ADD_DX) ? 3'd2 : 3'd0;
+  wire either_4 = (at_stepped == TAKE_DX)
+               || (at_stepped == TAKE_DY)
                || (at_stepped == ADD_DX)
-               || (at_stepped == FIX1)
-               || (at_stepped == FIX2)
-               || (at_stepped == ADD12)
+               || (at_stepped == TAKE12)
+               || (at_stepped == TAKE1)
+               || (at_stepped == TAKE2)
                || (at_stepped == DOUBLE_X)
-               || (at_stepped == DOUBLE_Y)
+               || (at_stepped == DOUBLE_LINE)
                || (at_stepped == ADD_X);
   wire write = ends_stepped && either_4;
   wire [2:0] write_at = (at_stepped == ADD_X) ? 3'd7
-                      : (at_stepped == DOUBLE_Y) ? 3'd6
+                      : (at_stepped == DOUBLE_LINE) ? 3'd6
                       : (at_stepped == DOUBLE_X) ? 3'd5
-                      : ((at_stepped == ADD_DX) || (at_stepped == ADD12)) ? 3'd3
-                      : ((at_stepped == FIX_DX) || (at_stepped == FIX2)) ? 3'd2
+                      : ((at_stepped == ADD_DX) || (at_stepped == TAKE12)) ? 3'd3
+                      : ((at_stepped == TAKE_DX) || (at_stepped == TAKE2)) ? 3'd2
                       : 3'd1;
-  wire take_modulus = (at_next == LOAD_DX) || (at_next == LOAD1);
-
-  always @(posedge clk) begin
-    began <= advance;
-  end
+  wire take_modulus = (at == TAKE_DX) || (at == TAKE12);
+  wire either_5 = (at_rest == SUM_START) || (at_rest == DOUBLE_DX) || (at_rest == SUM);
+  wire nearest = !either_5;
+  wire upwards = at_rest == SUM;
+  wire negated = (at_rest == DOUBLE_X) && area[30];
 
   // Lane 0: its steps.
   wire [4:0] step0 = rests ? 5'd0 : step;
@@ -613,7 +606,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    step_of_pause0 <= (pause == 4'd2) ? step_again0 : advance ? 5'd5 : began ? 5'd2 : 5'd9;
+    step_of_pause0 <= (pause == 4'd2) ? step_again0 : advance ? 5'd7 : 5'd9;
   end
 
   // What the lanes are shown in the next clock.
@@ -629,25 +622,28 @@ module edgewalk_setup (
   reg values_of_round3;
   reg number_of_edge;
   reg number_is_height;
-  wire either_5 = (at == FIX_DX) || (at == LOAD2) || (at == FIX2);
-  wire both_5 = area[30] && ((at == LOAD1) || (at == LOAD2));
-  wire equal_2 = at == ADD_START;
-  wire either_6 = (at == FIX1) || (at == FIX2);
-  wire either_7 = (at == LOAD_DX) || (at == FIX_DX);
+  wire both_5 = area[30] && ((at == TAKE12) || (at == TAKE1) || (at == TAKE2));
+  wire either_6 = (at == SUBTRACT) || (at == TAKE12) || (at == WAIT);
+  wire either_7 = (at == DOUBLE_DX) || (at == TAKE2) || (at == DOUBLE_X);
+  wire [1:0] choice_7 = either_6 ? 2'd1 : either_7 ? 2'd0 : 2'd1;
+  wire [1:0] choice_8 = either_6 ? 2'd2 : either_7 ? 2'd2 : 2'd0;
+  wire equal_2 = at == SIGN_START;
+  wire either_8 = (at == WAIT) || (at == SUM_X) || (at == DOUBLE_X);
+  wire either_9 = (at == SUBTRACT) || (at == TAKE_DX) || (at == DOUBLE_DX);
 
   always @(posedge clk) begin
-    from_place <= either_5 ? (both_5 ? 2'd0 : 2'd2) : both_5 ? 2'd1 : 2'd0;
-    to_place <= equal_2 ? 2'd0 : either_5 ? (both_5 ? 2'd2 : 2'd0) : both_5 ? 2'd0 : 2'd1;
+    from_place <= both_5 ? choice_7 : choice_8;
+    to_place <= equal_2 ? 2'd0 : both_5 ? choice_8 : choice_7;
     single_value <= equal_2;
-    values_of_round1 <= (either_6 ? round == 2'd0 : round == 2'd1) && !either_7;
-    values_of_round2 <= (either_6 ? round == 2'd1 : round == 2'd2) && !either_7;
-    values_of_round3 <= (either_6 ? round == 2'd2 : round == 2'd3) && !either_7;
+    values_of_round1 <= (either_8 ? round == 2'd0 : round == 2'd1) && !either_9;
+    values_of_round2 <= (either_8 ? round == 2'd1 : round == 2'd2) && !either_9;
+    values_of_round3 <= (either_8 ? round == 2'd2 : round == 2'd3) && !either_9;
   end
 
   always @(posedge clk) begin
     if (advance) begin
-      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
-      number_is_height <= at == LOAD_DY;
+      number_of_edge <= (at == TAKE_DX) || (at == TAKE_DY);
+      number_is_height <= at == TAKE_DY;
     end
   end
 
@@ -655,262 +651,274 @@ module edgewalk_setup (
   wire [15:0] extended_2 = {1'b0, dv12};
   wire [15:0] extended_3 = {1'b0, dv01};
   wire [15:0] extended_4 = {1'b0, dv02};
-  wire [16:0] choice_7 = (round_next == 2'd2) ? {extended_2[15], extended_2}
+  wire [16:0] choice_9 = (round_next == 2'd2) ? {extended_2[15], extended_2}
                        : (round_next == 2'd1) ? {extended_3[15], extended_3}
                        : {extended_4[15], extended_4};
-  wire [16:0] choice_8 = number_is_height ? choice_7
-                       : (round_next == 2'd2) ? {du12[15], du12}
-                       : (round_next == 2'd1) ? {du01[15], du01}
-                       : {du02[15], du02};
-  wire [16:0] choice_9 = values_of_round3 ? {9'd0, vertex2_b}
-                       : values_of_round2 ? {9'd0, vertex2_g}
-                       : values_of_round1 ? {9'd0, vertex2_r}
-                       : {1'b0, vertex2_z};
-  wire [16:0] choice_10 = values_of_round3 ? {9'd0, vertex1_b}
+  wire [16:0] choice_10 = number_is_height ? choice_9
+                        : (round_next == 2'd2) ? {du12[15], du12}
+                        : (round_next == 2'd1) ? {du01[15], du01}
+                        : {du02[15], du02};
+  wire [16:0] choice_11 = values_of_round3 ? {9'd0, vertex2_b}
+                        : values_of_round2 ? {9'd0, vertex2_g}
+                        : values_of_round1 ? {9'd0, vertex2_r}
+                        : {1'b0, vertex2_z};
+  wire [16:0] choice_12 = values_of_round3 ? {9'd0, vertex1_b}
                         : values_of_round2 ? {9'd0, vertex1_g}
                         : values_of_round1 ? {9'd0, vertex1_r}
                         : {1'b0, vertex1_z};
-  wire [16:0] choice_11 = values_of_round3 ? {9'd0, vertex0_b}
+  wire [16:0] choice_13 = values_of_round3 ? {9'd0, vertex0_b}
                         : values_of_round2 ? {9'd0, vertex0_g}
                         : values_of_round1 ? {9'd0, vertex0_r}
                         : {1'b0, vertex0_z};
-  wire [16:0] choice_12 = values_of_round3 ? 17'd0
+  wire [16:0] choice_14 = values_of_round3 ? 17'd0
                         : values_of_round2 ? 17'd0
                         : values_of_round1 ? 17'd0
                         : 17'd0;
-  wire [16:0] choice_13 = single_value ? choice_12
-                        : from_vertex[1] ? choice_9
-                        : from_vertex[0] ? choice_10
-                        : choice_11;
-  wire [16:0] difference_3 = (to_vertex[1] ? choice_9 : to_vertex[0] ? choice_10 : choice_11)
-                           - choice_13;
-  wire [16:0] number0 = number_of_edge ? choice_8 : difference_3;  // signed
+  wire [16:0] choice_15 = single_value ? choice_14
+                        : from_vertex[1] ? choice_11
+                        : from_vertex[0] ? choice_12
+                        : choice_13;
+  wire [16:0] difference_3 = (to_vertex[1] ? choice_11 : to_vertex[0] ? choice_12 : choice_13)
+                           - choice_15;
+  wire [16:0] number0 = number_of_edge ? choice_10 : difference_3;  // signed
   reg [16:0] kept0;  // a number that may not fit, or a first value; signed
   wire [15:0] shown = difference_3[15:0] ^ {16{difference_3[16]}};
   wire lane0_unfit;
-  wire choice_14 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
-  assign unfit = lane0_unfit && choice_14;
+  wire choice_16 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
+  assign unfit = lane0_unfit && choice_16;
 
   always @(posedge clk) begin
-    if ((at_next == LOAD_DX) || (at_next == ADD_START)) kept0 <= number0;
+    if ((at_next == TAKE_DX) || (at_next == SIGN_START)) kept0 <= number0;
   end
 
   always @(posedge clk) begin
-    if ((at_next == LOAD_DX) || (at_next == FIX_DX) || (at_next == FIX1) || (at_next == FIX2)) begin
+    if ((at_next == SUBTRACT)
+     || (at_next == TAKE_DX)
+     || (at_next == DOUBLE_DX)
+     || (at_next == WAIT)
+     || (at_next == SUM_X)
+     || (at_next == DOUBLE_X)) begin
       differences <= differences | shown;
     end
-    if (begins || (at_next == LOAD1)) differences <= 16'd0;
+    if (begins || (at_next == TAKE12)) differences <= 16'd0;
   end
 
   // Edge: major.
   wire [29:0] lane0_rest_out;
-  wire [31:0] lane0_whole_out;
   wire [31:0] lane0_value;
-  wire choice_15 = is_sign ? f[15] : digit_f;
-  wire choice_16 = is_sign ? g[15] : digit_g;
+  wire choice_17 = is_sign ? f[16] : digit_f;
+  wire choice_18 = is_sign ? g[16] : digit_g;
   wire [16:0] shifted_5 = $signed(kept0) >>> {pause - 4'd2, 1'b0};
-  wire [10:0] part_31 = p1_u[14:4];
-  wire [10:0] part_32 = p0_u[14:4];
+  wire [10:0] part_32 = p1_u[14:4];
   wire [10:0] part_33 = p0_u[14:4];
-  wire [31:0] choice_17 = (round_stepped == 2'd2) ? {{21{part_31[10]}}, part_31}
-                        : (round_stepped == 2'd1) ? {{21{part_32[10]}}, part_32}
-                        : {{21{part_33[10]}}, part_33};
-  wire [32:0] joined_3 = {{{kept0, 1'b1}, 11'd0}, 4'd8};
+  wire [10:0] part_34 = p0_u[14:4];
+  wire [31:0] choice_19 = (round_rest == 2'd2) ? {{21{part_32[10]}}, part_32}
+                        : (round_rest == 2'd1) ? {{21{part_33[10]}}, part_33}
+                        : {{21{part_34[10]}}, part_34};
   wire [32:0] joined_4 = {{{kept0, 1'b1}, 11'd0}, 4'd8};
   wire [32:0] joined_5 = {{{kept0, 1'b1}, 11'd0}, 4'd8};
   wire [32:0] joined_6 = {{{kept0, 1'b1}, 11'd0}, 4'd8};
+  wire [32:0] joined_7 = {{{kept0, 1'b1}, 11'd0}, 4'd8};
+  wire [31:0] choice_20 = (round_rest == 2'd3) ? joined_4[31:0]
+                        : (round_rest == 2'd2) ? joined_5[31:0]
+                        : (round_rest == 2'd1) ? joined_6[31:0]
+                        : joined_7[31:0];
+  wire equal_3 = at == TAKE12;
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_15 || choice_16), choice_16, choice_15}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_17 || choice_18), choice_18, choice_17}
 : read_single_at),
     .step          (step_formed0),
     .number        (number0),
     .digits        (shifted_5[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? choice_17
-: (round_stepped == 2'd3) ? joined_3[31:0]
-: (round_stepped == 2'd2) ? joined_4[31:0]
-: (round_stepped == 2'd1) ? joined_5[31:0]
-: joined_6[31:0]),
+    .whole_in      ((at_rest == SUM) ? choice_19 : (at_rest == SUM_START) ? choice_20 : 32'd0),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_next == LOAD1) ? scaled
-: (round_next == 2'd2) ? ~{12'd0, {dv12, 4'd0}}
-: (round_next == 2'd1) ? ~{12'd0, {dv01, 4'd0}}
+    .modulus_in    (equal_3 ? scaled
+: (round == 2'd2) ? ~{12'd0, {dv12, 4'd0}}
+: (round == 2'd1) ? ~{12'd0, {dv01, 4'd0}}
 : ~{12'd0, {dv02, 4'd0}}),
-    .modulus_short (!((at_next == LOAD1) && area[30])),
-    .upwards       (at_rest == COLUMNS),
+    .modulus_short (!(equal_3 && area[30])),
+    .nearest       (nearest),
+    .upwards       (upwards),
+    .negate        (negated),
     .unfit         (lane0_unfit),
     .rest_out      (lane0_rest_out),
-    .whole_out     (lane0_whole_out),
     .value         (lane0_value)
   );
 
   wire any_15 = |dv02[14:4];
-  wire [25:0] part_34 = lane0_rest_out[29:4];
+  wire [25:0] part_35 = lane0_rest_out[29:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd0)) begin
-      prim_major_f <= any_15 ? part_34[14:0] : 15'd0;
+      prim_major_f <= any_15 ? part_35[14:0] : 15'd0;
     end
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd0)) begin
-      prim_major_q <= any_15 ? lane0_whole_out[11:0] : 12'd0;
+      prim_major_q <= any_15 ? lane0_value[11:0] : 12'd0;
     end
   end
 
   wire [18:0] difference_4 = {dv02, 4'd0} - lane0_rest_out[18:0];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd0)) begin
+    if (ends_rest && (at_rest == SUM) && (round_rest == 2'd0)) begin
       prim_major_r <= (|lane0_rest_out) ? difference_4[18:4] : 15'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == COLUMNS) && (round_whole == 2'd0)) begin
-      prim_major_c <= lane0_value[11:0];
-    end
+    if (ends_whole && (at_whole == SUM) && (round_whole == 2'd0)) prim_major_c <= lane0_value[11:0];
   end
 
   // Edge: minor1.
   wire both_6 = (|prim_n1) && (|dv01[14:4]);
-  wire [25:0] part_35 = lane0_rest_out[29:4];
+  wire [25:0] part_36 = lane0_rest_out[29:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd1)) begin
-      prim_minor1_f <= both_6 ? part_35[14:0] : 15'd0;
+      prim_minor1_f <= both_6 ? part_36[14:0] : 15'd0;
     end
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd1)) begin
-      prim_minor1_q <= both_6 ? lane0_whole_out[11:0] : 12'd0;
+      prim_minor1_q <= both_6 ? lane0_value[11:0] : 12'd0;
     end
   end
 
   wire [18:0] difference_5 = {dv01, 4'd0} - lane0_rest_out[18:0];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd1)) begin
+    if (ends_rest && (at_rest == SUM) && (round_rest == 2'd1)) begin
       prim_minor1_r <= (|prim_n1) ? ((|lane0_rest_out) ? difference_5[18:4] : 15'd0) : 15'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == COLUMNS) && (round_whole == 2'd1)) begin
+    if (ends_whole && (at_whole == SUM) && (round_whole == 2'd1)) begin
       prim_minor1_c <= (|prim_n1) ? lane0_value[11:0] : 12'd0;
     end
   end
 
   // Edge: minor2.
   wire both_7 = (|prim_n2) && (|dv12[14:4]);
-  wire [25:0] part_36 = lane0_rest_out[29:4];
+  wire [25:0] part_37 = lane0_rest_out[29:4];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd2)) begin
-      prim_minor2_f <= both_7 ? part_36[14:0] : 15'd0;
+      prim_minor2_f <= both_7 ? part_37[14:0] : 15'd0;
     end
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd2)) begin
-      prim_minor2_q <= both_7 ? lane0_whole_out[11:0] : 12'd0;
+      prim_minor2_q <= both_7 ? lane0_value[11:0] : 12'd0;
     end
   end
 
   wire [18:0] difference_6 = {dv12, 4'd0} - lane0_rest_out[18:0];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd2)) begin
+    if (ends_rest && (at_rest == SUM) && (round_rest == 2'd2)) begin
       prim_minor2_r <= (|prim_n2) ? ((|lane0_rest_out) ? difference_6[18:4] : 15'd0) : 15'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == COLUMNS) && (round_whole == 2'd2)) begin
+    if (ends_whole && (at_whole == SUM) && (round_whole == 2'd2)) begin
       prim_minor2_c <= (|prim_n2) ? lane0_value[11:0] : 12'd0;
     end
   end
 
   // Channel: z.
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd0)) begin
-      prim_z_g <= area[30] ? -lane0_value[27:0] : lane0_value[27:0];
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd0)) prim_z_g <= lane0_value[27:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_LINE) && (round_whole == 2'd0)) begin
+      prim_z_d0 <= lane0_value[27:0];
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_Y) && (round_whole == 2'd0)) prim_z_d0 <= lane0_value[27:0];
+    if (ends_whole && (at_whole == ADD_X) && (round_whole == 2'd0)) prim_z_d1 <= lane0_value[27:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd0)) prim_z_d1 <= lane0_value[27:0];
-  end
-
-  always @(posedge clk) begin
-    if ((at_whole == ADD_START) && (round_whole == 2'd0)) prim_z_start <= lane0_whole_out[31:4];
+    if (ends_whole && (at_whole == SUM_START) && (round_whole == 2'd0)) begin
+      prim_z_start <= lane0_value[31:4];
+    end
   end
 
   // Channel: r.
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd1)) begin
-      prim_r_g <= area[30] ? -lane0_value[19:0] : lane0_value[19:0];
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd1)) prim_r_g <= lane0_value[19:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_LINE) && (round_whole == 2'd1)) begin
+      prim_r_d0 <= lane0_value[19:0];
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_Y) && (round_whole == 2'd1)) prim_r_d0 <= lane0_value[19:0];
+    if (ends_whole && (at_whole == ADD_X) && (round_whole == 2'd1)) prim_r_d1 <= lane0_value[19:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd1)) prim_r_d1 <= lane0_value[19:0];
-  end
-
-  always @(posedge clk) begin
-    if ((at_whole == ADD_START) && (round_whole == 2'd1)) prim_r_start <= lane0_whole_out[23:4];
+    if (ends_whole && (at_whole == SUM_START) && (round_whole == 2'd1)) begin
+      prim_r_start <= lane0_value[23:4];
+    end
   end
 
   // Channel: g.
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd2)) begin
-      prim_g_g <= area[30] ? -lane0_value[19:0] : lane0_value[19:0];
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd2)) prim_g_g <= lane0_value[19:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_LINE) && (round_whole == 2'd2)) begin
+      prim_g_d0 <= lane0_value[19:0];
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_Y) && (round_whole == 2'd2)) prim_g_d0 <= lane0_value[19:0];
+    if (ends_whole && (at_whole == ADD_X) && (round_whole == 2'd2)) prim_g_d1 <= lane0_value[19:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd2)) prim_g_d1 <= lane0_value[19:0];
-  end
-
-  always @(posedge clk) begin
-    if ((at_whole == ADD_START) && (round_whole == 2'd2)) prim_g_start <= lane0_whole_out[23:4];
+    if (ends_whole && (at_whole == SUM_START) && (round_whole == 2'd2)) begin
+      prim_g_start <= lane0_value[23:4];
+    end
   end
 
   // Channel: b.
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd3)) begin
-      prim_b_g <= area[30] ? -lane0_value[19:0] : lane0_value[19:0];
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd3)) prim_b_g <= lane0_value[19:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_LINE) && (round_whole == 2'd3)) begin
+      prim_b_d0 <= lane0_value[19:0];
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_Y) && (round_whole == 2'd3)) prim_b_d0 <= lane0_value[19:0];
+    if (ends_whole && (at_whole == ADD_X) && (round_whole == 2'd3)) prim_b_d1 <= lane0_value[19:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd3)) prim_b_d1 <= lane0_value[19:0];
-  end
-
-  always @(posedge clk) begin
-    if ((at_whole == ADD_START) && (round_whole == 2'd3)) prim_b_start <= lane0_whole_out[23:4];
+    if (ends_whole && (at_whole == SUM_START) && (round_whole == 2'd3)) begin
+      prim_b_start <= lane0_value[23:4];
+    end
   end
 
   assign prim_jm = jm[8:0];
@@ -921,12 +929,11 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, ends_fixed, less_m[0], lane0_value[31:28], part_3[0], part_6[0], part_10[0], part_13[0],
-    shifted[14:1], shifted_2[14:1], part_14[29:0], difference[11:10], difference_2[11:10],
-    joined[15:14], joined_2[15:14], part_20[0], part_23[0], part_27[0], part_30[0], shifted_3[15:1],
-    shifted_4[15:1], shifted_5[16:2], joined_6[32], joined_5[32], joined_4[32], joined_3[32],
-    part_34[25:15], difference_4[3:0], part_35[25:15], difference_5[3:0], part_36[25:15],
-    difference_6[3:0]
+    1'b0, WAIT_LINE, ends_fixed, less_m[0], part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1],
+    shifted_2[14:1], part_14[29:0], difference[11:10], difference_2[11:10], joined[15:14],
+    joined_2[15:14], part_21[0], part_24[0], part_28[0], part_31[0], shifted_3[16:1], shifted_4[16:1],
+    shifted_5[16:2], joined_7[32], joined_6[32], joined_5[32], joined_4[32], part_35[25:15],
+    difference_4[3:0], part_36[25:15], difference_5[3:0], part_37[25:15], difference_6[3:0]
   };
 
 endmodule

@@ -83,33 +83,26 @@ module edgewalk_setup (
   localparam [1:0] WORK = 2'd1;
   localparam [1:0] STORE = 2'd2;
   localparam [1:0] DONE = 2'd3;
-  localparam [4:0] LOAD_DX = 5'd0;
-  localparam [4:0] FIX_DX = 5'd1;
+  localparam [4:0] SUBTRACT = 5'd0;
+  localparam [4:0] TAKE_DX = 5'd1;
   localparam [4:0] DOUBLE_DX = 5'd2;
-  localparam [4:0] LOAD_DY = 5'd3;
+  localparam [4:0] TAKE_DY = 5'd3;
   localparam [4:0] ADD_DX = 5'd4;
   localparam [4:0] WAIT_DX = 5'd5;
   localparam [4:0] SUM = 5'd6;
-  localparam [4:0] COLUMNS = 5'd7;
-  localparam [4:0] LOAD1 = 5'd8;
-  localparam [4:0] FIX1 = 5'd9;
-  localparam [4:0] LOAD2 = 5'd10;
-  localparam [4:0] FIX2 = 5'd11;
-  localparam [4:0] ADD12 = 5'd12;
-  localparam [4:0] WAIT = 5'd13;
-  localparam [4:0] SUM_X = 5'd14;
-  localparam [4:0] DOUBLE_X = 5'd15;
-  localparam [4:0] SIGN_Y = 5'd16;
-  localparam [4:0] SUM_Y = 5'd17;
-  localparam [4:0] DOUBLE_Y = 5'd18;
-  localparam [4:0] ADD_X = 5'd19;
-  localparam [4:0] SIGN_LINE = 5'd20;
-  localparam [4:0] SUM_LINE = 5'd21;
-  localparam [4:0] ADD_Y = 5'd22;
-  localparam [4:0] ADD_LINE = 5'd23;
-  localparam [4:0] SIGN_START = 5'd24;
-  localparam [4:0] SUM_START = 5'd25;
-  localparam [4:0] ADD_START = 5'd26;
+  localparam [4:0] TAKE12 = 5'd7;
+  localparam [4:0] TAKE1 = 5'd8;
+  localparam [4:0] TAKE2 = 5'd9;
+  localparam [4:0] WAIT = 5'd10;
+  localparam [4:0] SUM_X = 5'd11;
+  localparam [4:0] DOUBLE_X = 5'd12;
+  localparam [4:0] SIGN_LINE = 5'd13;
+  localparam [4:0] SUM_LINE = 5'd14;
+  localparam [4:0] DOUBLE_LINE = 5'd15;
+  localparam [4:0] ADD_X = 5'd16;
+  localparam [4:0] WAIT_LINE = 5'd17;
+  localparam [4:0] SIGN_START = 5'd18;
+  localparam [4:0] SUM_START = 5'd19;
   wire nothing;          // no line, or no column, of the screen
   wire area_known;       // and scaled for the next round of channels
   wire no_area;
@@ -122,7 +115,7 @@ module edgewalk_setup (
   reg first;             // its first clock, but for that of a triangle
   reg [1:0] round;       // of the jobs the lanes do in turn
 
-  // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
+  // Numbers that do not fit hold up what follows: two clocks, and one for two digits.
   reg [3:0] pause;                           // clocks left of it
   reg paused;                                // it is not over
   wire advance = !paused;
@@ -130,16 +123,16 @@ module edgewalk_setup (
   wire take = tri_valid && tri_ready;
   wire works = state == WORK;
   assign prim_valid = state == DONE;
-  wire begins = works && (at == LOAD_DX) && (round == 2'd0);  // the first clock of a triangle
-  wire gives_up = works && (at == FIX_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
+  wire begins = works && (at == SUBTRACT);   // the first clock of a triangle
+  wire gives_up = works && (at == TAKE_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
   wire last = left == 5'd0;                  // last clock of the operation
-  wire edges_end = last && (at == COLUMNS) && (round == 2'd2);
-  wire round_ends = last && (at == ADD_START) && !(round == 2'd3);
+  wire edges_end = last && (at == SUM) && (round == 2'd2);
+  wire round_ends = last && (at == SUM_START) && !(round == 2'd3);
   wire waits = (edges_end || round_ends) && !area_known;  // for the area or its scale
   wire goes = works && !waits && !gives_up;  // the operation is done
   wire ends = goes && last;                  // it ends
   wire leaves = ends && advance;
-  wire channels_end = (at == ADD_START) && (round == 2'd3);
+  wire channels_end = (at == SUM_START) && (round == 2'd3);
 
   always @(posedge clk) begin
     if (rst) begin
@@ -156,19 +149,19 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (leaves) begin
-      at <= ((at == ADD_START) && !channels_end) ? LOAD1
-          : ((at == COLUMNS) && !edges_end) ? LOAD_DX
+      at <= ((at == SUM_START) && !channels_end) ? TAKE12
+          : ((at == SUM) && !edges_end) ? TAKE_DX
           : at + 5'd1;
     end
-    if (take) at <= LOAD_DX;
+    if (take) at <= SUBTRACT;
   end
 
   always @(posedge clk) begin
-    first <= leaves;
+    first <= leaves || (first && waits);
   end
 
   always @(posedge clk) begin
-    if (leaves && ((at == COLUMNS) || (at == ADD_START))) round <= round + 2'd1;
+    if (leaves && ((at == SUM) || (at == SUM_START))) round <= round + 2'd1;
     if ((leaves && edges_end) || take) round <= 2'd0;
   end
 
@@ -177,15 +170,13 @@ module edgewalk_setup (
     if (advance && works) left <= left - 5'd1;
     if (leaves) begin
       left <= (at == SIGN_START) ? top_digit
+            : (at == SUM_LINE) ? 5'd6 + {1'b0, scale}
             : (at == SIGN_LINE) ? top_digit
-            : (at == SUM_Y) ? 5'd6 + {1'b0, scale}
-            : (at == SIGN_Y) ? top_digit
             : (at == SUM_X) ? 5'd6 + {1'b0, scale}
             : (at == WAIT) ? top_digit
-            : (at == ADD12) ? 5'd1
             : (at == WAIT_DX) ? top_digit
             : (at == ADD_DX) ? 5'd1
-            : (at == FIX_DX) ? 5'd1
+            : (at == TAKE_DX) ? 5'd1
             : 5'd0;
     end
     if (leaves && channels_end) left <= 5'd3;
@@ -244,7 +235,7 @@ module edgewalk_setup (
     at_whole <= at_rest;
     round_whole <= round_rest;
     ends_whole <= ends_rest;
-    pause <= advance ? 4'd9 : pause - 4'd1;
+    pause <= advance ? 4'd8 : pause - 4'd1;
   end
 
   always @(posedge clk) begin
@@ -356,12 +347,13 @@ module edgewalk_setup (
                         - (shifted_2[0] ? {du02[12], du02} : 14'd0);
   reg [24:0] area;       // 1/P^2 px^2, signed
   assign no_area = !(|area);
-  wire any = |tall[11:8];
-  wire [3:0] part_2 = tall[11:8];
-  wire [1:0] part = part_2[3:2];
-  wire any_2 = |part;
-  wire [1:0] part_3 = part_2[1:0];
-  wire [7:0] part_5 = tall[7:0];
+  wire [11:0] either = tall | 12'd2;
+  wire [3:0] part = either[11:8];
+  wire any = |part;
+  wire [1:0] part_2 = part[3:2];
+  wire any_2 = |part_2;
+  wire [1:0] part_3 = part[1:0];
+  wire [7:0] part_5 = either[7:0];
   wire [3:0] part_4 = part_5[7:4];
   wire any_3 = |part_4;
   wire [1:0] part_6 = part_4[3:2];
@@ -373,7 +365,7 @@ module edgewalk_setup (
   wire [1:0] part_10 = part_9[1:0];
   wire [1:0] choice_3 = any_3 ? {any_4, any_4 ? part_6[1] : part_7[1]}
                       : {any_5, any_5 ? part_8[1] : part_10[1]};
-  wire [2:0] choice_4 = any ? {1'b0, {any_2, any_2 ? part[1] : part_3[1]}} : {any_3, choice_3};
+  wire [2:0] choice_4 = any ? {1'b0, {any_2, any_2 ? part_2[1] : part_3[1]}} : {any_3, choice_3};
 
   always @(posedge clk) begin
     area_digit <= area_digit - 4'd1;
@@ -405,10 +397,10 @@ module edgewalk_setup (
   assign area_known = !area_adds && !scale_taken && !scaling;
   reg [3:0] scale_now;     // of the round
   assign scale = scale_now;
-  wire either = (area_adds && equal) || ((at_next == FIX2) && !(round_next == 2'd3));
+  wire either_2 = (area_adds && equal) || ((at == SIGN_LINE) && first && !(round == 2'd3));
 
   always @(posedge clk) begin
-    scale_taken <= either && !begins;
+    scale_taken <= either_2 && !begins;
   end
 
   always @(posedge clk) begin
@@ -431,7 +423,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (at_next == LOAD1) scale_now <= scale_next;
+    if (at_next == TAKE12) scale_now <= scale_next;
   end
 
   // Lines: from ceil(v/P) of the upper to before ceil(v/P) of the lower end, on the screen.
@@ -478,129 +470,132 @@ module edgewalk_setup (
   end
 
   // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
-  reg [12:0] f;  // factor, signed
-  reg [12:0] g;  // factor, signed
-  wire [11:0] digits = (f[11:0] ^ f[12:1]) | (g[11:0] ^ g[12:1]);  // digits of the factors that differ from their signs
-  wire any_6 = |digits[11:8];
-  wire [3:0] part_16 = digits[11:8];
-  wire [1:0] part_15 = part_16[3:2];
-  wire any_7 = |part_15;
-  wire [1:0] part_17 = part_16[1:0];
-  wire [7:0] part_19 = digits[7:0];
-  wire [3:0] part_18 = part_19[7:4];
-  wire any_8 = |part_18;
-  wire [1:0] part_20 = part_18[3:2];
-  wire any_9 = |part_20;
-  wire [1:0] part_21 = part_18[1:0];
-  wire [3:0] part_23 = part_19[3:0];
-  wire [1:0] part_22 = part_23[3:2];
-  wire any_10 = |part_22;
-  wire [1:0] part_24 = part_23[1:0];
-  wire [1:0] choice_5 = any_8 ? {any_9, any_9 ? part_20[1] : part_21[1]}
-                      : {any_10, any_10 ? part_22[1] : part_24[1]};
-  wire [2:0] choice_6 = any_6 ? {1'b0, {any_7, any_7 ? part_15[1] : part_17[1]}} : {any_8, choice_5};
+  reg [13:0] q_times_f;      // q of the major edge, times the factor's digits so far
+  reg [13:0] q_times_g;      // q of the major edge, times the factor's digits so far
+  reg [13:0] first_sheared;  // from vertex 0 to the first pixel, less q columns a line; 1/P column, signed
+  reg [13:0] f;              // factor, signed
+  reg [13:0] g;              // factor, signed
+  wire [12:0] digits = (f[12:0] ^ f[13:1]) | (g[12:0] ^ g[13:1]);  // digits of the factors that differ from their signs
+  wire any_6 = |digits[12:8];
+  wire [4:0] part_15 = digits[12:8];
+  wire any_7 = part_15[4];
+  wire [3:0] part_17 = part_15[3:0];
+  wire [1:0] part_16 = part_17[3:2];
+  wire any_8 = |part_16;
+  wire [1:0] part_18 = part_17[1:0];
+  wire [7:0] part_20 = digits[7:0];
+  wire [3:0] part_19 = part_20[7:4];
+  wire any_9 = |part_19;
+  wire [1:0] part_21 = part_19[3:2];
+  wire any_10 = |part_21;
+  wire [1:0] part_22 = part_19[1:0];
+  wire [3:0] part_24 = part_20[3:0];
+  wire [1:0] part_23 = part_24[3:2];
+  wire any_11 = |part_23;
+  wire [1:0] part_25 = part_24[1:0];
+  wire [1:0] choice_5 = any_9 ? {any_10, any_10 ? part_21[1] : part_22[1]}
+                      : {any_11, any_11 ? part_23[1] : part_25[1]};
+  wire [2:0] choice_6 = any_6 ? {any_7, any_7 ? 2'd0 : {any_8, any_8 ? part_16[1] : part_18[1]}}
+                      : {any_9, choice_5};
   assign top_digit = {1'b0, {any_6, choice_6}};
-  wire [12:0] shifted_3 = f >> left;
+  wire [13:0] shifted_3 = f >> left;
   wire digit_f = shifted_3[0];
-  wire [12:0] shifted_4 = g >> left;
+  wire [13:0] shifted_4 = g >> left;
   wire digit_g = shifted_4[0];
+  wire [12:0] joined_3 = {prim_major_c - {9'd0, area[24]}, 3'd0};
+
+  always @(posedge clk) begin
+    if ((at_next == WAIT) && (round_next == 2'd0)) begin
+      first_sheared <= {joined_3[12], joined_3} - {{2{p0_u[11]}}, p0_u} - q_times_g;
+    end
+  end
 
   always @(posedge clk) begin
     if (at == WAIT_DX) begin
-      f <= (round == 2'd2) ? {10'd0, p1_u[2:0]} & {13{|prim_n2}}
-         : (round == 2'd1) ? {10'd0, p0_u[2:0]} & {13{|prim_n1}}
-         : {10'd0, p0_u[2:0]};
-      g <= (round == 2'd2) ? {2'd0, h1} & {13{|prim_n2}}
-         : (round == 2'd1) ? {2'd0, h0} & {13{|prim_n1}}
-         : {2'd0, h0};
+      f <= (round == 2'd2) ? {11'd0, p1_u[2:0]} & {14{|prim_n2}}
+         : (round == 2'd1) ? {11'd0, p0_u[2:0]} & {14{|prim_n1}}
+         : {11'd0, p0_u[2:0]};
+      g <= (round == 2'd2) ? {3'd0, h1} & {14{|prim_n2}}
+         : (round == 2'd1) ? {3'd0, h0} & {14{|prim_n1}}
+         : {3'd0, h0};
     end
-    if (at == WAIT) begin
-      f <= {1'b0, dv02};
-      g <= {1'b0, dv01};
+    if (at == TAKE2) begin
+      f <= {2'd0, dv02};
+      g <= {2'd0, dv01};
     end
     if (at == DOUBLE_X) begin
-      f <= -du02;
-      g <= -du01;
+      f <= q_times_f - {du02[12], du02};
+      g <= q_times_g - {du01[12], du01};
     end
     if (at == ADD_X) begin
-      f <= {{3{prim_major_q[9]}}, prim_major_q};
-      g <= 13'd0;
+      f <= first_sheared;
+      g <= {3'd0, h0};
     end
-    if (at == ADD_LINE) begin
-      f <= {prim_major_c - {9'd0, area[24]}, 3'd0} - {p0_u[11], p0_u};
-      g <= {2'd0, h0};
+  end
+
+  always @(posedge clk) begin
+    if (((at == SUM_X) || ((at == SUM) && (round == 2'd0))) && !rests) begin
+      q_times_f <= (first ? 14'd0 : q_times_f << 1)
+                 + (digit_f ? {{4{prim_major_q[9]}}, prim_major_q} : 14'd0);
+      q_times_g <= (first ? 14'd0 : q_times_g << 1)
+                 + (digit_g ? {{4{prim_major_q[9]}}, prim_major_q} : 14'd0);
     end
   end
 
   // What all lanes do.
-  wire either_2 = (at == ADD_DX)
-               || (at == ADD12)
-               || (at == ADD_X)
-               || (at == ADD_Y)
-               || (at == ADD_LINE);
-  wire either_3 = (at == LOAD_DX) || (at == LOAD_DY) || (at == LOAD1) || (at == LOAD2);
+  wire either_3 = (at == TAKE_DX)
+               || (at == TAKE_DY)
+               || (at == TAKE12)
+               || (at == TAKE1)
+               || (at == TAKE2);
   wire [4:0] step = ((at == SUM) || (at == SUM_X)) ? (first ? 5'd17 : 5'd18)
-                  : ((at == COLUMNS) || (at == ADD_START)) ? 5'd20
-                  : either_2 ? 5'd16
-                  : ((at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START)) ? 5'd19
-                  : ((at == SUM_Y) || (at == SUM_LINE) || (at == SUM_START)) ? 5'd18
-                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_Y)) ? 5'd8
-                  : ((at == FIX_DX) || (at == FIX1) || (at == FIX2)) ? 5'd4
-                  : either_3 ? 5'd1
+                  : ((at == ADD_DX) || (at == ADD_X)) ? 5'd16
+                  : ((at == SIGN_LINE) || (at == SIGN_START)) ? 5'd19
+                  : ((at == SUM_LINE) || (at == SUM_START)) ? 5'd18
+                  : ((at == DOUBLE_DX) || (at == DOUBLE_X) || (at == DOUBLE_LINE)) ? 5'd8
+                  : either_3 ? 5'd3
                   : 5'd0;
-  reg began;  // numbers were found not to fit in the clock before
-  wire is_sum = (at == SUM)
-             || (at == SUM_X)
-             || (at == SUM_Y)
-             || (at == SUM_LINE)
-             || (at == SUM_START);
-  wire is_sign = (at == SIGN_Y) || (at == SIGN_LINE) || (at == SIGN_START);
-  wire of_gradients = (at == SIGN_LINE)
-                   || (at == SUM_LINE)
-                   || (at == SIGN_START)
-                   || (at == SUM_START);
-  wire [2:0] read_single_at = (at == ADD_Y) ? 3'd6
-                            : ((at == ADD_X) || (at == ADD_LINE)) ? 3'd5
-                            : (at == ADD_DX) ? 3'd2
-                            : (at == ADD12) ? 3'd1
-                            : 3'd0;
-  wire either_4 = (at_stepped == FIX_DX)
-               || (at_stepped == LOAD_DY)
+  wire is_sum = (at == SUM) || (at == SUM_X) || (at == SUM_LINE) || (at == SUM_START);
+  wire is_sign = (at == SIGN_LINE) || (at == SIGN_START);
+  wire of_gradients = (at == SIGN_START) || (at == SUM_START);
+  wire [2:0] read_single_at = (at == ADD_X) ? 3'd5 : (at == ADD_DX) ? 3'd2 : 3'd0;
+  wire either_4 = (at_stepped == TAKE_DX)
+               || (at_stepped == TAKE_DY)
                || (at_stepped == ADD_DX)
-               || (at_stepped == FIX1)
-               || (at_stepped == FIX2)
-               || (at_stepped == ADD12)
+               || (at_stepped == TAKE12)
+               || (at_stepped == TAKE1)
+               || (at_stepped == TAKE2)
                || (at_stepped == DOUBLE_X)
-               || (at_stepped == DOUBLE_Y)
+               || (at_stepped == DOUBLE_LINE)
                || (at_stepped == ADD_X);
   wire write = ends_stepped && either_4;
   wire [2:0] write_at = (at_stepped == ADD_X) ? 3'd7
-                      : (at_stepped == DOUBLE_Y) ? 3'd6
+                      : (at_stepped == DOUBLE_LINE) ? 3'd6
                       : (at_stepped == DOUBLE_X) ? 3'd5
-                      : ((at_stepped == ADD_DX) || (at_stepped == ADD12)) ? 3'd3
-                      : ((at_stepped == FIX_DX) || (at_stepped == FIX2)) ? 3'd2
+                      : ((at_stepped == ADD_DX) || (at_stepped == TAKE12)) ? 3'd3
+                      : ((at_stepped == TAKE_DX) || (at_stepped == TAKE2)) ? 3'd2
                       : 3'd1;
-  wire take_modulus = (at_next == LOAD_DX) || (at_next == LOAD1);
-
-  always @(posedge clk) begin
-    began <= advance;
-  end
+  wire take_modulus = (at == TAKE_DX) || (at == TAKE12);
+  wire either_5 = (at_rest == SUM_START) || (at_rest == DOUBLE_DX) || (at_rest == SUM);
+  wire nearest = !either_5;
+  wire upwards = at_rest == SUM;
+  wire negated = (at_rest == DOUBLE_X) && area[24];
 
   // Lane 0: its steps.
-  wire [4:0] choice_7 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
-                      : (round == 2'd2) ? ((left == 5'd0) ? 5'd3 : 5'd8)
-                      : (round == 2'd1) ? ((left == 5'd0) ? 5'd3 : 5'd8)
-                      : (left == 5'd0) ? 5'd3
+  wire [4:0] choice_7 = (round == 2'd3) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                      : (round == 2'd2) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                      : (round == 2'd1) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                      : (left == 5'd0) ? 5'd1
                       : 5'd8;
-  wire [4:0] choice_8 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
-                      : (round == 2'd2) ? ((left == 5'd0) ? 5'd3 : 5'd8)
-                      : (round == 2'd1) ? ((left == 5'd0) ? 5'd3 : 5'd8)
-                      : (left == 5'd0) ? 5'd3
+  wire [4:0] choice_8 = (round == 2'd3) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                      : (round == 2'd2) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                      : (round == 2'd1) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                      : (left == 5'd0) ? 5'd1
                       : 5'd8;
   wire [4:0] step0 = rests ? 5'd0
-                   : (at == DOUBLE_Y) ? choice_7
+                   : (at == DOUBLE_LINE) ? choice_7
                    : (at == DOUBLE_X) ? choice_8
-                   : (at == DOUBLE_DX) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                   : (at == DOUBLE_DX) ? ((left == 5'd0) ? 5'd1 : 5'd8)
                    : step;
   reg [4:0] step_next0;
   reg [4:0] step_again0;
@@ -615,7 +610,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    step_of_pause0 <= (pause == 4'd2) ? step_again0 : advance ? 5'd5 : began ? 5'd2 : 5'd9;
+    step_of_pause0 <= (pause == 4'd2) ? step_again0 : advance ? 5'd7 : 5'd9;
   end
 
   // What the lanes are shown in the next clock.
@@ -631,25 +626,28 @@ module edgewalk_setup (
   reg values_of_round3;
   reg number_of_edge;
   reg number_is_height;
-  wire either_5 = (at == FIX_DX) || (at == LOAD2) || (at == FIX2);
-  wire both_5 = area[24] && ((at == LOAD1) || (at == LOAD2));
-  wire equal_2 = at == ADD_START;
-  wire either_6 = (at == FIX1) || (at == FIX2);
-  wire either_7 = (at == LOAD_DX) || (at == FIX_DX);
+  wire both_5 = area[24] && ((at == TAKE12) || (at == TAKE1) || (at == TAKE2));
+  wire either_6 = (at == SUBTRACT) || (at == TAKE12) || (at == WAIT);
+  wire either_7 = (at == DOUBLE_DX) || (at == TAKE2) || (at == DOUBLE_X);
+  wire [1:0] choice_9 = either_6 ? 2'd1 : either_7 ? 2'd0 : 2'd1;
+  wire [1:0] choice_10 = either_6 ? 2'd2 : either_7 ? 2'd2 : 2'd0;
+  wire equal_2 = at == SIGN_START;
+  wire either_8 = (at == WAIT) || (at == SUM_X) || (at == DOUBLE_X);
+  wire either_9 = (at == SUBTRACT) || (at == TAKE_DX) || (at == DOUBLE_DX);
 
   always @(posedge clk) begin
-    from_place <= either_5 ? (both_5 ? 2'd0 : 2'd2) : both_5 ? 2'd1 : 2'd0;
-    to_place <= equal_2 ? 2'd0 : either_5 ? (both_5 ? 2'd2 : 2'd0) : both_5 ? 2'd0 : 2'd1;
+    from_place <= both_5 ? choice_9 : choice_10;
+    to_place <= equal_2 ? 2'd0 : both_5 ? choice_10 : choice_9;
     single_value <= equal_2;
-    values_of_round1 <= (either_6 ? round == 2'd0 : round == 2'd1) && !either_7;
-    values_of_round2 <= (either_6 ? round == 2'd1 : round == 2'd2) && !either_7;
-    values_of_round3 <= (either_6 ? round == 2'd2 : round == 2'd3) && !either_7;
+    values_of_round1 <= (either_8 ? round == 2'd0 : round == 2'd1) && !either_9;
+    values_of_round2 <= (either_8 ? round == 2'd1 : round == 2'd2) && !either_9;
+    values_of_round3 <= (either_8 ? round == 2'd2 : round == 2'd3) && !either_9;
   end
 
   always @(posedge clk) begin
     if (advance) begin
-      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
-      number_is_height <= at == LOAD_DY;
+      number_of_edge <= (at == TAKE_DX) || (at == TAKE_DY);
+      number_is_height <= at == TAKE_DY;
     end
   end
 
@@ -657,262 +655,274 @@ module edgewalk_setup (
   wire [12:0] extended_2 = {1'b0, dv12};
   wire [12:0] extended_3 = {1'b0, dv01};
   wire [12:0] extended_4 = {1'b0, dv02};
-  wire [16:0] choice_9 = (round_next == 2'd2) ? {{4{extended_2[12]}}, extended_2}
-                       : (round_next == 2'd1) ? {{4{extended_3[12]}}, extended_3}
-                       : {{4{extended_4[12]}}, extended_4};
-  wire [16:0] choice_10 = number_is_height ? choice_9
+  wire [16:0] choice_11 = (round_next == 2'd2) ? {{4{extended_2[12]}}, extended_2}
+                        : (round_next == 2'd1) ? {{4{extended_3[12]}}, extended_3}
+                        : {{4{extended_4[12]}}, extended_4};
+  wire [16:0] choice_12 = number_is_height ? choice_11
                         : (round_next == 2'd2) ? {{4{du12[12]}}, du12}
                         : (round_next == 2'd1) ? {{4{du01[12]}}, du01}
                         : {{4{du02[12]}}, du02};
-  wire [16:0] choice_11 = values_of_round3 ? {12'd0, vertex2_b}
+  wire [16:0] choice_13 = values_of_round3 ? {12'd0, vertex2_b}
                         : values_of_round2 ? {12'd0, vertex2_g}
                         : values_of_round1 ? {12'd0, vertex2_r}
                         : {1'b0, vertex2_z};
-  wire [16:0] choice_12 = values_of_round3 ? {12'd0, vertex1_b}
+  wire [16:0] choice_14 = values_of_round3 ? {12'd0, vertex1_b}
                         : values_of_round2 ? {12'd0, vertex1_g}
                         : values_of_round1 ? {12'd0, vertex1_r}
                         : {1'b0, vertex1_z};
-  wire [16:0] choice_13 = values_of_round3 ? {12'd0, vertex0_b}
+  wire [16:0] choice_15 = values_of_round3 ? {12'd0, vertex0_b}
                         : values_of_round2 ? {12'd0, vertex0_g}
                         : values_of_round1 ? {12'd0, vertex0_r}
                         : {1'b0, vertex0_z};
-  wire [16:0] choice_14 = values_of_round3 ? 17'd0
+  wire [16:0] choice_16 = values_of_round3 ? 17'd0
                         : values_of_round2 ? 17'd0
                         : values_of_round1 ? 17'd0
                         : 17'd0;
-  wire [16:0] choice_15 = single_value ? choice_14
-                        : from_vertex[1] ? choice_11
-                        : from_vertex[0] ? choice_12
-                        : choice_13;
-  wire [16:0] difference_3 = (to_vertex[1] ? choice_11 : to_vertex[0] ? choice_12 : choice_13)
-                           - choice_15;
-  wire [16:0] number0 = number_of_edge ? choice_10 : difference_3;  // signed
+  wire [16:0] choice_17 = single_value ? choice_16
+                        : from_vertex[1] ? choice_13
+                        : from_vertex[0] ? choice_14
+                        : choice_15;
+  wire [16:0] difference_3 = (to_vertex[1] ? choice_13 : to_vertex[0] ? choice_14 : choice_15)
+                           - choice_17;
+  wire [16:0] number0 = number_of_edge ? choice_12 : difference_3;  // signed
   reg [16:0] kept0;  // a number that may not fit, or a first value; signed
   wire [15:0] shown = difference_3[15:0] ^ {16{difference_3[16]}};
   wire lane0_unfit;
-  wire choice_16 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
-  assign unfit = lane0_unfit && choice_16;
+  wire choice_18 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
+  assign unfit = lane0_unfit && choice_18;
 
   always @(posedge clk) begin
-    if ((at_next == LOAD_DX) || (at_next == ADD_START)) kept0 <= number0;
+    if ((at_next == TAKE_DX) || (at_next == SIGN_START)) kept0 <= number0;
   end
 
   always @(posedge clk) begin
-    if ((at_next == LOAD_DX) || (at_next == FIX_DX) || (at_next == FIX1) || (at_next == FIX2)) begin
+    if ((at_next == SUBTRACT)
+     || (at_next == TAKE_DX)
+     || (at_next == DOUBLE_DX)
+     || (at_next == WAIT)
+     || (at_next == SUM_X)
+     || (at_next == DOUBLE_X)) begin
       differences <= differences | shown;
     end
-    if (begins || (at_next == LOAD1)) differences <= 16'd0;
+    if (begins || (at_next == TAKE12)) differences <= 16'd0;
   end
 
   // Edge: major.
   wire [23:0] lane0_rest_out;
-  wire [28:0] lane0_whole_out;
   wire [28:0] lane0_value;
-  wire choice_17 = is_sign ? f[12] : digit_f;
-  wire choice_18 = is_sign ? g[12] : digit_g;
+  wire choice_19 = is_sign ? f[13] : digit_f;
+  wire choice_20 = is_sign ? g[13] : digit_g;
   wire [16:0] shifted_5 = $signed(kept0) >>> {pause - 4'd2, 1'b0};
-  wire [8:0] part_25 = p1_u[11:3];
-  wire [8:0] part_26 = p0_u[11:3];
+  wire [8:0] part_26 = p1_u[11:3];
   wire [8:0] part_27 = p0_u[11:3];
-  wire [28:0] choice_19 = (round_stepped == 2'd2) ? {{20{part_25[8]}}, part_25}
-                        : (round_stepped == 2'd1) ? {{20{part_26[8]}}, part_26}
-                        : {{20{part_27[8]}}, part_27};
-  wire [29:0] joined_3 = {{{kept0, 1'b1}, 9'd0}, 3'd4};
+  wire [8:0] part_28 = p0_u[11:3];
+  wire [28:0] choice_21 = (round_rest == 2'd2) ? {{20{part_26[8]}}, part_26}
+                        : (round_rest == 2'd1) ? {{20{part_27[8]}}, part_27}
+                        : {{20{part_28[8]}}, part_28};
   wire [29:0] joined_4 = {{{kept0, 1'b1}, 9'd0}, 3'd4};
   wire [29:0] joined_5 = {{{kept0, 1'b1}, 9'd0}, 3'd4};
   wire [29:0] joined_6 = {{{kept0, 1'b1}, 9'd0}, 3'd4};
+  wire [29:0] joined_7 = {{{kept0, 1'b1}, 9'd0}, 3'd4};
+  wire [28:0] choice_22 = (round_rest == 2'd3) ? joined_4[28:0]
+                        : (round_rest == 2'd2) ? joined_5[28:0]
+                        : (round_rest == 2'd1) ? joined_6[28:0]
+                        : joined_7[28:0];
+  wire equal_3 = at == TAKE12;
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_17 || choice_18), choice_18, choice_17}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_19 || choice_20), choice_20, choice_19}
 : read_single_at),
     .step          (step_formed0),
     .number        (number0),
     .digits        (shifted_5[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? choice_19
-: (round_stepped == 2'd3) ? joined_3[28:0]
-: (round_stepped == 2'd2) ? joined_4[28:0]
-: (round_stepped == 2'd1) ? joined_5[28:0]
-: joined_6[28:0]),
+    .whole_in      ((at_rest == SUM) ? choice_21 : (at_rest == SUM_START) ? choice_22 : 29'd0),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_next == LOAD1) ? scaled
-: (round_next == 2'd2) ? ~{10'd0, {dv12, 3'd0}}
-: (round_next == 2'd1) ? ~{10'd0, {dv01, 3'd0}}
+    .modulus_in    (equal_3 ? scaled
+: (round == 2'd2) ? ~{10'd0, {dv12, 3'd0}}
+: (round == 2'd1) ? ~{10'd0, {dv01, 3'd0}}
 : ~{10'd0, {dv02, 3'd0}}),
-    .modulus_short (!((at_next == LOAD1) && area[24])),
-    .upwards       (at_rest == COLUMNS),
+    .modulus_short (!(equal_3 && area[24])),
+    .nearest       (nearest),
+    .upwards       (upwards),
+    .negate        (negated),
     .unfit         (lane0_unfit),
     .rest_out      (lane0_rest_out),
-    .whole_out     (lane0_whole_out),
     .value         (lane0_value)
   );
 
-  wire any_11 = |dv02[11:3];
-  wire [20:0] part_28 = lane0_rest_out[23:3];
+  wire any_12 = |dv02[11:3];
+  wire [20:0] part_29 = lane0_rest_out[23:3];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd0)) begin
-      prim_major_f <= any_11 ? part_28[11:0] : 12'd0;
+      prim_major_f <= any_12 ? part_29[11:0] : 12'd0;
     end
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd0)) begin
-      prim_major_q <= any_11 ? lane0_whole_out[9:0] : 10'd0;
+      prim_major_q <= any_12 ? lane0_value[9:0] : 10'd0;
     end
   end
 
   wire [14:0] difference_4 = {dv02, 3'd0} - lane0_rest_out[14:0];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd0)) begin
+    if (ends_rest && (at_rest == SUM) && (round_rest == 2'd0)) begin
       prim_major_r <= (|lane0_rest_out) ? difference_4[14:3] : 12'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == COLUMNS) && (round_whole == 2'd0)) begin
-      prim_major_c <= lane0_value[9:0];
-    end
+    if (ends_whole && (at_whole == SUM) && (round_whole == 2'd0)) prim_major_c <= lane0_value[9:0];
   end
 
   // Edge: minor1.
   wire both_6 = (|prim_n1) && (|dv01[11:3]);
-  wire [20:0] part_29 = lane0_rest_out[23:3];
+  wire [20:0] part_30 = lane0_rest_out[23:3];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd1)) begin
-      prim_minor1_f <= both_6 ? part_29[11:0] : 12'd0;
+      prim_minor1_f <= both_6 ? part_30[11:0] : 12'd0;
     end
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd1)) begin
-      prim_minor1_q <= both_6 ? lane0_whole_out[9:0] : 10'd0;
+      prim_minor1_q <= both_6 ? lane0_value[9:0] : 10'd0;
     end
   end
 
   wire [14:0] difference_5 = {dv01, 3'd0} - lane0_rest_out[14:0];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd1)) begin
+    if (ends_rest && (at_rest == SUM) && (round_rest == 2'd1)) begin
       prim_minor1_r <= (|prim_n1) ? ((|lane0_rest_out) ? difference_5[14:3] : 12'd0) : 12'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == COLUMNS) && (round_whole == 2'd1)) begin
+    if (ends_whole && (at_whole == SUM) && (round_whole == 2'd1)) begin
       prim_minor1_c <= (|prim_n1) ? lane0_value[9:0] : 10'd0;
     end
   end
 
   // Edge: minor2.
   wire both_7 = (|prim_n2) && (|dv12[11:3]);
-  wire [20:0] part_30 = lane0_rest_out[23:3];
+  wire [20:0] part_31 = lane0_rest_out[23:3];
 
   always @(posedge clk) begin
     if (ends_rest && (at_rest == DOUBLE_DX) && (round_rest == 2'd2)) begin
-      prim_minor2_f <= both_7 ? part_30[11:0] : 12'd0;
+      prim_minor2_f <= both_7 ? part_31[11:0] : 12'd0;
     end
   end
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd2)) begin
-      prim_minor2_q <= both_7 ? lane0_whole_out[9:0] : 10'd0;
+      prim_minor2_q <= both_7 ? lane0_value[9:0] : 10'd0;
     end
   end
 
   wire [14:0] difference_6 = {dv12, 3'd0} - lane0_rest_out[14:0];
 
   always @(posedge clk) begin
-    if (ends_rest && (at_rest == COLUMNS) && (round_rest == 2'd2)) begin
+    if (ends_rest && (at_rest == SUM) && (round_rest == 2'd2)) begin
       prim_minor2_r <= (|prim_n2) ? ((|lane0_rest_out) ? difference_6[14:3] : 12'd0) : 12'd0;
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == COLUMNS) && (round_whole == 2'd2)) begin
+    if (ends_whole && (at_whole == SUM) && (round_whole == 2'd2)) begin
       prim_minor2_c <= (|prim_n2) ? lane0_value[9:0] : 10'd0;
     end
   end
 
   // Channel: z.
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd0)) begin
-      prim_z_g <= area[24] ? -lane0_value[25:0] : lane0_value[25:0];
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd0)) prim_z_g <= lane0_value[25:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_LINE) && (round_whole == 2'd0)) begin
+      prim_z_d0 <= lane0_value[25:0];
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_Y) && (round_whole == 2'd0)) prim_z_d0 <= lane0_value[25:0];
+    if (ends_whole && (at_whole == ADD_X) && (round_whole == 2'd0)) prim_z_d1 <= lane0_value[25:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd0)) prim_z_d1 <= lane0_value[25:0];
-  end
-
-  always @(posedge clk) begin
-    if ((at_whole == ADD_START) && (round_whole == 2'd0)) prim_z_start <= lane0_whole_out[28:3];
+    if (ends_whole && (at_whole == SUM_START) && (round_whole == 2'd0)) begin
+      prim_z_start <= lane0_value[28:3];
+    end
   end
 
   // Channel: r.
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd1)) begin
-      prim_r_g <= area[24] ? -lane0_value[14:0] : lane0_value[14:0];
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd1)) prim_r_g <= lane0_value[14:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_LINE) && (round_whole == 2'd1)) begin
+      prim_r_d0 <= lane0_value[14:0];
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_Y) && (round_whole == 2'd1)) prim_r_d0 <= lane0_value[14:0];
+    if (ends_whole && (at_whole == ADD_X) && (round_whole == 2'd1)) prim_r_d1 <= lane0_value[14:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd1)) prim_r_d1 <= lane0_value[14:0];
-  end
-
-  always @(posedge clk) begin
-    if ((at_whole == ADD_START) && (round_whole == 2'd1)) prim_r_start <= lane0_whole_out[17:3];
+    if (ends_whole && (at_whole == SUM_START) && (round_whole == 2'd1)) begin
+      prim_r_start <= lane0_value[17:3];
+    end
   end
 
   // Channel: g.
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd2)) begin
-      prim_g_g <= area[24] ? -lane0_value[14:0] : lane0_value[14:0];
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd2)) prim_g_g <= lane0_value[14:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_LINE) && (round_whole == 2'd2)) begin
+      prim_g_d0 <= lane0_value[14:0];
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_Y) && (round_whole == 2'd2)) prim_g_d0 <= lane0_value[14:0];
+    if (ends_whole && (at_whole == ADD_X) && (round_whole == 2'd2)) prim_g_d1 <= lane0_value[14:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd2)) prim_g_d1 <= lane0_value[14:0];
-  end
-
-  always @(posedge clk) begin
-    if ((at_whole == ADD_START) && (round_whole == 2'd2)) prim_g_start <= lane0_whole_out[17:3];
+    if (ends_whole && (at_whole == SUM_START) && (round_whole == 2'd2)) begin
+      prim_g_start <= lane0_value[17:3];
+    end
   end
 
   // Channel: b.
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd3)) begin
-      prim_b_g <= area[24] ? -lane0_value[14:0] : lane0_value[14:0];
+    if (ends_whole && (at_whole == DOUBLE_X) && (round_whole == 2'd3)) prim_b_g <= lane0_value[14:0];
+  end
+
+  always @(posedge clk) begin
+    if (ends_whole && (at_whole == DOUBLE_LINE) && (round_whole == 2'd3)) begin
+      prim_b_d0 <= lane0_value[14:0];
     end
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_Y) && (round_whole == 2'd3)) prim_b_d0 <= lane0_value[14:0];
+    if (ends_whole && (at_whole == ADD_X) && (round_whole == 2'd3)) prim_b_d1 <= lane0_value[14:0];
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_LINE) && (round_whole == 2'd3)) prim_b_d1 <= lane0_value[14:0];
-  end
-
-  always @(posedge clk) begin
-    if ((at_whole == ADD_START) && (round_whole == 2'd3)) prim_b_start <= lane0_whole_out[17:3];
+    if (ends_whole && (at_whole == SUM_START) && (round_whole == 2'd3)) begin
+      prim_b_start <= lane0_value[17:3];
+    end
   end
 
   assign prim_jm = jm[7:0];
@@ -923,11 +933,11 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, ends_fixed, less_m[0], lane0_value[28:26], part_3[0], part_7[0], part_10[0], shifted[11:1],
+    1'b0, WAIT_LINE, ends_fixed, less_m[0], part_3[0], part_7[0], part_10[0], shifted[11:1],
     shifted_2[11:1], part_11[23:0], difference[9], difference_2[9], joined[12:11], joined_2[12:11],
-    part_17[0], part_21[0], part_24[0], shifted_3[12:1], shifted_4[12:1], shifted_5[16:2], joined_6[29],
-    joined_5[29], joined_4[29], joined_3[29], part_28[20:12], difference_4[2:0], part_29[20:12],
-    difference_5[2:0], part_30[20:12], difference_6[2:0]
+    part_18[0], part_22[0], part_25[0], shifted_3[13:1], shifted_4[13:1], shifted_5[16:2], joined_7[29],
+    joined_6[29], joined_5[29], joined_4[29], part_29[20:12], difference_4[2:0], part_30[20:12],
+    difference_5[2:0], part_31[20:12], difference_6[2:0]
   };
 
 endmodule

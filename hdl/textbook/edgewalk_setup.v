@@ -84,42 +84,34 @@ module edgewalk_setup (
   localparam [1:0] WORK = 2'd1;
   localparam [1:0] STORE = 2'd2;
   localparam [1:0] DONE = 2'd3;
-  localparam [5:0] LOAD_DX = 6'd0;
-  localparam [5:0] FIX_DX = 6'd1;
-  localparam [5:0] DOUBLE_DX = 6'd2;
-  localparam [5:0] LOAD_DY = 6'd3;
-  localparam [5:0] ADD_DX = 6'd4;
-  localparam [5:0] WAIT_DX = 6'd5;
-  localparam [5:0] SUM = 6'd6;
-  localparam [5:0] COLUMNS = 6'd7;
-  localparam [5:0] DOUBLE_COLUMNS = 6'd8;
-  localparam [5:0] ROUND_COLUMNS = 6'd9;
-  localparam [5:0] LOAD1 = 6'd10;
-  localparam [5:0] FIX1 = 6'd11;
-  localparam [5:0] LOAD2 = 6'd12;
-  localparam [5:0] FIX2 = 6'd13;
-  localparam [5:0] ADD12 = 6'd14;
-  localparam [5:0] WAIT = 6'd15;
-  localparam [5:0] SUM_X = 6'd16;
-  localparam [5:0] DOUBLE_X = 6'd17;
-  localparam [5:0] SET_A = 6'd18;
-  localparam [5:0] LOAD_A = 6'd19;
-  localparam [5:0] FIX_A = 6'd20;
-  localparam [5:0] DOUBLE_A = 6'd21;
-  localparam [5:0] WAIT_A = 6'd22;
-  localparam [5:0] SUM_A = 6'd23;
-  localparam [5:0] DOUBLE_START_A = 6'd24;
-  localparam [5:0] ADD_A = 6'd25;
-  localparam [5:0] ROUND_A = 6'd26;
-  localparam [5:0] SET_B = 6'd27;
-  localparam [5:0] LOAD_B = 6'd28;
-  localparam [5:0] FIX_B = 6'd29;
-  localparam [5:0] DOUBLE_B = 6'd30;
-  localparam [5:0] WAIT_B = 6'd31;
-  localparam [5:0] SUM_B = 6'd32;
-  localparam [5:0] DOUBLE_START_B = 6'd33;
-  localparam [5:0] ADD_B = 6'd34;
-  localparam [5:0] ROUND_B = 6'd35;
+  localparam [4:0] SUBTRACT = 5'd0;
+  localparam [4:0] TAKE_DX = 5'd1;
+  localparam [4:0] DOUBLE_DX = 5'd2;
+  localparam [4:0] TAKE_DY = 5'd3;
+  localparam [4:0] ADD_DX = 5'd4;
+  localparam [4:0] WAIT_DX = 5'd5;
+  localparam [4:0] SUM = 5'd6;
+  localparam [4:0] DOUBLE_COLUMNS = 5'd7;
+  localparam [4:0] ROUND_COLUMNS = 5'd8;
+  localparam [4:0] TAKE12 = 5'd9;
+  localparam [4:0] TAKE1 = 5'd10;
+  localparam [4:0] TAKE2 = 5'd11;
+  localparam [4:0] WAIT = 5'd12;
+  localparam [4:0] SUM_X = 5'd13;
+  localparam [4:0] DOUBLE_X = 5'd14;
+  localparam [4:0] ROUND_X = 5'd15;
+  localparam [4:0] TAKE_A = 5'd16;
+  localparam [4:0] DOUBLE_A = 5'd17;
+  localparam [4:0] WAIT_A = 5'd18;
+  localparam [4:0] SUM_A = 5'd19;
+  localparam [4:0] DOUBLE_START_A = 5'd20;
+  localparam [4:0] ROUND_A = 5'd21;
+  localparam [4:0] TAKE_B = 5'd22;
+  localparam [4:0] DOUBLE_B = 5'd23;
+  localparam [4:0] WAIT_B = 5'd24;
+  localparam [4:0] SUM_B = 5'd25;
+  localparam [4:0] DOUBLE_START_B = 5'd26;
+  localparam [4:0] ROUND_B = 5'd27;
   wire nothing;          // no line, or no column, of the screen
   wire area_known;       // and scaled for the next round of channels
   wire no_area;
@@ -127,12 +119,12 @@ module edgewalk_setup (
   wire unfit;            // a number was taken in that is not between -M and M
   wire [4:0] top_digit;  // place of the first digit of a sum
   reg [1:0] state;
-  reg [5:0] at;          // operation
+  reg [4:0] at;          // operation
   reg [4:0] left;        // its clocks after this one
   reg first;             // its first clock, but for that of a triangle
   reg [1:0] round;       // of the jobs the lanes do in turn
 
-  // Numbers that do not fit hold up what follows: three clocks, and one for two digits.
+  // Numbers that do not fit hold up what follows: two clocks, and one for two digits.
   reg [3:0] pause;                           // clocks left of it
   reg paused;                                // it is not over
   wire advance = !paused;
@@ -140,8 +132,8 @@ module edgewalk_setup (
   wire take = tri_valid && tri_ready;
   wire works = state == WORK;
   assign prim_valid = state == DONE;
-  wire begins = works && (at == LOAD_DX) && (round == 2'd0);  // the first clock of a triangle
-  wire gives_up = works && (at == FIX_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
+  wire begins = works && (at == SUBTRACT);   // the first clock of a triangle
+  wire gives_up = works && (at == TAKE_DX) && (round == 2'd0) && nothing;  // the triangle has no line or no column
   wire last = left == 5'd0;                  // last clock of the operation
   wire edges_end = last && (at == ROUND_COLUMNS) && (round == 2'd2);
   wire round_ends = last && (at == ROUND_B) && !(round == 2'd3);
@@ -166,15 +158,15 @@ module edgewalk_setup (
 
   always @(posedge clk) begin
     if (leaves) begin
-      at <= ((at == ROUND_B) && !channels_end) ? LOAD1
-          : ((at == ROUND_COLUMNS) && !edges_end) ? LOAD_DX
-          : at + 6'd1;
+      at <= ((at == ROUND_B) && !channels_end) ? TAKE12
+          : ((at == ROUND_COLUMNS) && !edges_end) ? TAKE_DX
+          : at + 5'd1;
     end
-    if (take) at <= LOAD_DX;
+    if (take) at <= SUBTRACT;
   end
 
   always @(posedge clk) begin
-    if (advance) first <= leaves;
+    if (advance) first <= leaves || (first && waits);
   end
 
   always @(posedge clk) begin
@@ -186,19 +178,22 @@ module edgewalk_setup (
   always @(posedge clk) begin
     if (advance && works) left <= left - 5'd1;
     if (leaves) begin
-      left <= (at == SUM_B) ? 5'd7
+      left <= (at == DOUBLE_START_B) ? 5'd1
+            : (at == SUM_B) ? 5'd7
             : (at == WAIT_B) ? top_digit
-            : (at == FIX_B) ? 5'd7
+            : (at == TAKE_B) ? 5'd7
+            : (at == DOUBLE_START_A) ? 5'd1
             : (at == SUM_A) ? 5'd7
             : (at == WAIT_A) ? top_digit
-            : (at == FIX_A) ? 5'd7
+            : (at == TAKE_A) ? 5'd7
+            : (at == DOUBLE_X) ? 5'd1
             : (at == SUM_X) ? 5'd7 + {1'b0, scale}
             : (at == WAIT) ? top_digit
-            : (at == ADD12) ? 5'd1
-            : (at == COLUMNS) ? 5'd7
+            : (at == DOUBLE_COLUMNS) ? 5'd1
+            : (at == SUM) ? 5'd7
             : (at == WAIT_DX) ? top_digit
             : (at == ADD_DX) ? 5'd1
-            : (at == FIX_DX) ? 5'd8
+            : (at == TAKE_DX) ? 5'd8
             : 5'd0;
     end
     if (leaves && channels_end) left <= 5'd3;
@@ -208,26 +203,26 @@ module edgewalk_setup (
   end
 
   // The way of an operation: named, its addends formed, its step done, the rest and then the whole of the result.
-  reg [5:0] at_next;
+  reg [4:0] at_next;
   reg [1:0] round_next;
   reg ends_next;
-  reg [5:0] at_again;
+  reg [4:0] at_again;
   reg [1:0] round_again;
   reg ends_again;
-  reg [5:0] at_fixed;
+  reg [4:0] at_fixed;
   reg [1:0] round_fixed;
   reg ends_fixed;
   wire resumes = pause == 4'd1;  // the step after the numbers is formed again
-  wire [5:0] at_formed = advance ? at_next : resumes ? at_again : at_fixed;
+  wire [4:0] at_formed = advance ? at_next : resumes ? at_again : at_fixed;
   wire [1:0] round_formed = advance ? round_next : resumes ? round_again : round_fixed;
   wire ends_formed = advance ? ends_next : resumes ? ends_again : pause == 4'd2;
-  reg [5:0] at_stepped;
+  reg [4:0] at_stepped;
   reg [1:0] round_stepped;
   reg ends_stepped;
-  reg [5:0] at_rest;
+  reg [4:0] at_rest;
   reg [1:0] round_rest;
   reg ends_rest;
-  reg [5:0] at_whole;
+  reg [4:0] at_whole;
   reg [1:0] round_whole;
   reg ends_whole;
   reg worked;                    // works, a clock ago
@@ -247,11 +242,11 @@ module edgewalk_setup (
     end
   end
 
-  wire [3:0] choice = (at_stepped == FIX_DX) ? 4'd11
-                    : (round_stepped == 2'd3) ? 4'd7
-                    : (round_stepped == 2'd2) ? 4'd7
-                    : (round_stepped == 2'd1) ? 4'd7
-                    : 4'd11;
+  wire [3:0] choice = (at_stepped == TAKE_DX) ? 4'd10
+                    : (round_stepped == 2'd3) ? 4'd6
+                    : (round_stepped == 2'd2) ? 4'd6
+                    : (round_stepped == 2'd1) ? 4'd6
+                    : 4'd10;
 
   always @(posedge clk) begin
     at_stepped <= at_formed;
@@ -375,19 +370,20 @@ module edgewalk_setup (
                         - (shifted_2[0] ? {du02[15], du02} : 17'd0);
   reg [30:0] area;       // 1/P^2 px^2, signed
   assign no_area = !(|area);
-  wire any = |tall[14:8];
-  wire [6:0] part_2 = tall[14:8];
-  wire [2:0] part = part_2[6:4];
-  wire any_2 = |part;
-  wire any_3 = part[2];
-  wire [1:0] part_3 = part[1:0];
-  wire [3:0] part_5 = part_2[3:0];
+  wire [14:0] either = tall | 15'd2;
+  wire [6:0] part = either[14:8];
+  wire any = |part;
+  wire [2:0] part_2 = part[6:4];
+  wire any_2 = |part_2;
+  wire any_3 = part_2[2];
+  wire [1:0] part_3 = part_2[1:0];
+  wire [3:0] part_5 = part[3:0];
   wire [1:0] part_4 = part_5[3:2];
   wire any_4 = |part_4;
   wire [1:0] part_6 = part_5[1:0];
   wire [1:0] choice_4 = any_2 ? {any_3, any_3 ? 1'b0 : part_3[1]}
                       : {any_4, any_4 ? part_4[1] : part_6[1]};
-  wire [7:0] part_8 = tall[7:0];
+  wire [7:0] part_8 = either[7:0];
   wire [3:0] part_7 = part_8[7:4];
   wire any_5 = |part_7;
   wire [1:0] part_9 = part_7[3:2];
@@ -430,10 +426,10 @@ module edgewalk_setup (
   assign area_known = !area_adds && !scale_taken && !scaling;
   reg [3:0] scale_now;     // of the round
   assign scale = scale_now;
-  wire either = (area_adds && equal) || ((at_next == FIX2) && !(round_next == 2'd3));
+  wire either_2 = (area_adds && equal) || ((at == ROUND_X) && first && !(round == 2'd3));
 
   always @(posedge clk) begin
-    scale_taken <= either && !begins;
+    scale_taken <= either_2 && !begins;
   end
 
   always @(posedge clk) begin
@@ -456,7 +452,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (at_next == LOAD1) scale_now <= scale_next;
+    if (at_next == TAKE12) scale_now <= scale_next;
   end
 
   // Lines of each part: from Y of the upper to Y of the lower end, both drawn, on the screen.
@@ -504,127 +500,123 @@ module edgewalk_setup (
   end
 
   // Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.
-  reg [15:0] f;  // factor, signed
-  reg [15:0] g;  // factor, signed
-  wire [14:0] digits = (f[14:0] ^ f[15:1]) | (g[14:0] ^ g[15:1]);  // digits of the factors that differ from their signs
-  wire any_8 = |digits[14:8];
-  wire [6:0] part_24 = digits[14:8];
-  wire [2:0] part_23 = part_24[6:4];
+  reg [16:0] f;  // factor, signed
+  reg [16:0] g;  // factor, signed
+  wire [15:0] digits = (f[15:0] ^ f[16:1]) | (g[15:0] ^ g[16:1]);  // digits of the factors that differ from their signs
+  wire any_8 = |digits[15:8];
+  wire [7:0] part_24 = digits[15:8];
+  wire [3:0] part_23 = part_24[7:4];
   wire any_9 = |part_23;
-  wire any_10 = part_23[2];
-  wire [1:0] part_25 = part_23[1:0];
-  wire [3:0] part_27 = part_24[3:0];
-  wire [1:0] part_26 = part_27[3:2];
-  wire any_11 = |part_26;
-  wire [1:0] part_28 = part_27[1:0];
-  wire [1:0] choice_8 = any_9 ? {any_10, any_10 ? 1'b0 : part_25[1]}
-                      : {any_11, any_11 ? part_26[1] : part_28[1]};
-  wire [7:0] part_30 = digits[7:0];
-  wire [3:0] part_29 = part_30[7:4];
-  wire any_12 = |part_29;
-  wire [1:0] part_31 = part_29[3:2];
-  wire any_13 = |part_31;
-  wire [1:0] part_32 = part_29[1:0];
-  wire [3:0] part_34 = part_30[3:0];
-  wire [1:0] part_33 = part_34[3:2];
-  wire any_14 = |part_33;
-  wire [1:0] part_35 = part_34[1:0];
-  wire [1:0] choice_9 = any_12 ? {any_13, any_13 ? part_31[1] : part_32[1]}
-                      : {any_14, any_14 ? part_33[1] : part_35[1]};
+  wire [1:0] part_25 = part_23[3:2];
+  wire any_10 = |part_25;
+  wire [1:0] part_26 = part_23[1:0];
+  wire [3:0] part_28 = part_24[3:0];
+  wire [1:0] part_27 = part_28[3:2];
+  wire any_11 = |part_27;
+  wire [1:0] part_29 = part_28[1:0];
+  wire [1:0] choice_8 = any_9 ? {any_10, any_10 ? part_25[1] : part_26[1]}
+                      : {any_11, any_11 ? part_27[1] : part_29[1]};
+  wire [7:0] part_31 = digits[7:0];
+  wire [3:0] part_30 = part_31[7:4];
+  wire any_12 = |part_30;
+  wire [1:0] part_32 = part_30[3:2];
+  wire any_13 = |part_32;
+  wire [1:0] part_33 = part_30[1:0];
+  wire [3:0] part_35 = part_31[3:0];
+  wire [1:0] part_34 = part_35[3:2];
+  wire any_14 = |part_34;
+  wire [1:0] part_36 = part_35[1:0];
+  wire [1:0] choice_9 = any_12 ? {any_13, any_13 ? part_32[1] : part_33[1]}
+                      : {any_14, any_14 ? part_34[1] : part_36[1]};
   assign top_digit = {1'b0, {any_8, any_8 ? {any_9, choice_8} : {any_12, choice_9}}};
-  wire [15:0] shifted_3 = f >> left;
+  wire [16:0] shifted_3 = f >> left;
   wire digit_f = shifted_3[0];
-  wire [15:0] shifted_4 = g >> left;
+  wire [16:0] shifted_4 = g >> left;
   wire digit_g = shifted_4[0];
 
   always @(posedge clk) begin
     if (at == WAIT_DX) begin
-      f <= (round == 2'd2) ? {15'd0, 1'b1} & {16{|prim_n2}}
-         : (round == 2'd1) ? {15'd0, 1'b1} & {16{|prim_n1}}
-         : {15'd0, 1'b1};
-      g <= (round == 2'd2) ? {2'd0, h1} & {16{|prim_n2}}
-         : (round == 2'd1) ? {2'd0, h0} & {16{|prim_n1}}
-         : {2'd0, h0};
+      f <= (round == 2'd2) ? {16'd0, 1'b1} & {17{|prim_n2}}
+         : (round == 2'd1) ? {16'd0, 1'b1} & {17{|prim_n1}}
+         : {16'd0, 1'b1};
+      g <= (round == 2'd2) ? {3'd0, h1} & {17{|prim_n2}}
+         : (round == 2'd1) ? {3'd0, h0} & {17{|prim_n1}}
+         : {3'd0, h0};
     end
-    if (at == WAIT) begin
-      f <= {1'b0, dv02};
-      g <= {1'b0, dv01};
+    if (at == TAKE2) begin
+      f <= {2'd0, dv02};
+      g <= {2'd0, dv01};
     end
     if ((at == DOUBLE_A) || (at == WAIT_A)) begin
-      f <= (|prim_n1) ? left_a : 16'd0;
-      g <= 16'd0;
+      f <= (|prim_n1) ? {1'b0, left_a} : 17'd0;
+      g <= 17'd0;
     end
     if ((at == DOUBLE_B) || (at == WAIT_B)) begin
-      f <= (|prim_n2) ? (area[30] ? {2'd0, h1} : left_b) : 16'd0;
-      g <= 16'd0;
+      f <= (|prim_n2) ? {1'b0, area[30] ? {2'd0, h1} : left_b} : 17'd0;
+      g <= 17'd0;
     end
   end
 
   // What all lanes do.
-  wire either_2 = (at == DOUBLE_DX)
+  wire either_3 = (at == DOUBLE_DX)
                || (at == DOUBLE_COLUMNS)
                || (at == DOUBLE_X)
                || (at == DOUBLE_A)
                || (at == DOUBLE_START_A)
                || (at == DOUBLE_B)
                || (at == DOUBLE_START_B);
-  wire either_3 = (at == FIX_DX) || (at == FIX1) || (at == FIX2) || (at == FIX_A) || (at == FIX_B);
-  wire either_4 = (at == LOAD_DX)
-               || (at == LOAD_DY)
-               || (at == LOAD1)
-               || (at == LOAD2)
-               || (at == LOAD_A)
-               || (at == LOAD_B);
-  wire [4:0] step = ((at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B)) ? (first ? 5'd17 : 5'd18) : ((at == COLUMNS) || (at == ADD_A) || (at == ADD_B)) ? 5'd20 : ((at == ADD_DX) || (at == ADD12)) ? 5'd16 : either_2 ? 5'd8 : either_3 ? 5'd4 : either_4 ? 5'd1 : 5'd0;
-  reg began;  // numbers were found not to fit in the clock before
+  wire either_4 = (at == TAKE_DX)
+               || (at == TAKE_DY)
+               || (at == TAKE12)
+               || (at == TAKE1)
+               || (at == TAKE2)
+               || (at == TAKE_A)
+               || (at == TAKE_B);
+  wire [4:0] step = ((at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B)) ? (first ? 5'd17 : 5'd18) : (at == ADD_DX) ? 5'd16 : either_3 ? 5'd8 : either_4 ? 5'd3 : 5'd0;
   wire is_sum = (at == SUM) || (at == SUM_X) || (at == SUM_A) || (at == SUM_B);
   wire is_sign = 1'b0;
   wire of_gradients = 1'b0;
-  wire [2:0] read_single_at = (at == ADD_DX) ? 3'd2 : (at == ADD12) ? 3'd1 : 3'd0;
-  wire either_5 = (at_stepped == FIX_DX)
-               || (at_stepped == LOAD_DY)
+  wire [2:0] read_single_at = (at == ADD_DX) ? 3'd2 : 3'd0;
+  wire either_5 = (at_stepped == TAKE_DX)
+               || (at_stepped == TAKE_DY)
                || (at_stepped == ADD_DX)
-               || (at_stepped == FIX1)
-               || (at_stepped == FIX2)
-               || (at_stepped == ADD12)
+               || (at_stepped == TAKE12)
+               || (at_stepped == TAKE1)
+               || (at_stepped == TAKE2)
                || (at_stepped == DOUBLE_X)
-               || (at_stepped == FIX_A)
-               || (at_stepped == FIX_B);
+               || (at_stepped == TAKE_A)
+               || (at_stepped == TAKE_B);
   wire write = ends_stepped && either_5;
   wire [2:0] write_at = (at_stepped == DOUBLE_X) ? 3'd5
-                      : ((at_stepped == ADD_DX) || (at_stepped == ADD12)) ? 3'd3
-                      : ((at_stepped == FIX_DX) || (at_stepped == FIX2)) ? 3'd2
+                      : ((at_stepped == ADD_DX) || (at_stepped == TAKE12)) ? 3'd3
+                      : ((at_stepped == TAKE_DX) || (at_stepped == TAKE2)) ? 3'd2
                       : 3'd1;
-  wire take_modulus = (at_next == LOAD_DX)
-                   || (at_next == LOAD1)
-                   || (at_next == LOAD_A)
-                   || (at_next == LOAD_B);
-
-  always @(posedge clk) begin
-    began <= advance;
-  end
+  wire take_modulus = (at == TAKE_DX) || (at == TAKE12) || (at == TAKE_A) || (at == TAKE_B);
+  wire nearest = !1'b0;
+  wire upwards = 1'b0;
+  wire negated = 1'b0;
 
   // Lane 0: its steps.
-  wire [4:0] choice_10 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
-                       : (round == 2'd2) ? ((left == 5'd0) ? 5'd3 : 5'd8)
-                       : (round == 2'd1) ? ((left == 5'd0) ? 5'd3 : 5'd8)
-                       : (left == 5'd0) ? 5'd3
+  wire [4:0] choice_10 = (round == 2'd3) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                       : (round == 2'd2) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                       : (round == 2'd1) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                       : (left == 5'd0) ? 5'd1
                        : 5'd8;
-  wire [4:0] choice_11 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
-                       : (round == 2'd2) ? ((left == 5'd0) ? 5'd3 : 5'd8)
-                       : (round == 2'd1) ? ((left == 5'd0) ? 5'd3 : 5'd8)
-                       : (left == 5'd0) ? 5'd3
+  wire [4:0] choice_11 = (round == 2'd3) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                       : (round == 2'd2) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                       : (round == 2'd1) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                       : (left == 5'd0) ? 5'd1
                        : 5'd8;
-  wire [4:0] choice_12 = (round == 2'd3) ? ((left == 5'd0) ? 5'd3 : 5'd8)
-                       : (round == 2'd2) ? ((left == 5'd0) ? 5'd3 : 5'd8)
-                       : (round == 2'd1) ? ((left == 5'd0) ? 5'd3 : 5'd8)
-                       : (left == 5'd0) ? 5'd3
+  wire [4:0] choice_12 = (round == 2'd3) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                       : (round == 2'd2) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                       : (round == 2'd1) ? ((left == 5'd0) ? 5'd1 : 5'd8)
+                       : (left == 5'd0) ? 5'd1
                        : 5'd8;
   wire [4:0] step0 = rests ? 5'd0
                    : (at == DOUBLE_START_B) ? choice_10
                    : (at == DOUBLE_START_A) ? choice_11
                    : (at == DOUBLE_X) ? choice_12
-                   : (at == DOUBLE_DX) ? ((left == 5'd0) ? 5'd3 : 5'd8)
+                   : (at == DOUBLE_DX) ? ((left == 5'd0) ? 5'd1 : 5'd8)
                    : step;
   reg [4:0] step_next0;
   reg [4:0] step_again0;
@@ -639,7 +631,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    step_of_pause0 <= (pause == 4'd2) ? step_again0 : advance ? 5'd5 : began ? 5'd2 : 5'd9;
+    step_of_pause0 <= (pause == 4'd2) ? step_again0 : advance ? 5'd7 : 5'd9;
   end
 
   // What the lanes are shown in the next clock.
@@ -655,32 +647,33 @@ module edgewalk_setup (
   reg values_of_round3;
   reg number_of_edge;
   reg number_is_height;
-  wire either_6 = (at == LOAD_A) || (at == FIX_A);
-  wire either_7 = (at == LOAD_B) || (at == FIX_B);
-  wire either_8 = (at == FIX_DX) || (at == LOAD2) || (at == FIX2);
-  wire both_5 = area[30] && ((at == LOAD1) || (at == LOAD2));
-  wire either_9 = (at == ADD_A) || (at == ADD_B);
-  wire either_10 = (at == FIX1) || (at == FIX2);
-  wire either_11 = (at == LOAD_DX) || (at == FIX_DX);
+  wire equal_2 = at == TAKE_A;
+  wire equal_3 = at == TAKE_B;
+  wire both_5 = area[30] && ((at == TAKE12) || (at == TAKE1) || (at == TAKE2));
+  wire either_6 = (at == SUBTRACT) || (at == TAKE12) || (at == WAIT);
+  wire either_7 = (at == DOUBLE_DX) || (at == TAKE2) || (at == DOUBLE_X);
+  wire [1:0] choice_13 = either_6 ? 2'd1 : either_7 ? 2'd0 : 2'd1;
+  wire [1:0] choice_14 = either_6 ? 2'd2 : either_7 ? 2'd2 : 2'd0;
+  wire either_8 = (at == DOUBLE_START_A) || (at == DOUBLE_START_B);
+  wire either_9 = (at == WAIT) || (at == SUM_X) || (at == DOUBLE_X);
+  wire either_10 = (at == SUBTRACT) || (at == TAKE_DX) || (at == DOUBLE_DX);
 
   always @(posedge clk) begin
     if (advance) begin
-      from_place <= (either_6 || either_7) ? ((either_7 && area[30]) ? 2'd1 : 2'd0)
-                  : either_8 ? (both_5 ? 2'd0 : 2'd2)
-                  : both_5 ? 2'd1
-                  : 2'd0;
-      to_place <= (either_6 || either_7) ? ((either_6 && area[30]) ? 2'd1 : 2'd2)
-                : ((at == ADD_B) && area[30]) ? 2'd1
-                : either_9 ? 2'd0
-                : either_8 ? (both_5 ? 2'd2 : 2'd0)
-                : both_5 ? 2'd0
-                : 2'd1;
-      single_value <= either_9;
-      values_of_round1 <= (either_10 ? round == 2'd0 : round == 2'd1) && !either_11;
-      values_of_round2 <= (either_10 ? round == 2'd1 : round == 2'd2) && !either_11;
-      values_of_round3 <= (either_10 ? round == 2'd2 : round == 2'd3) && !either_11;
-      number_of_edge <= (at == LOAD_DX) || (at == LOAD_DY);
-      number_is_height <= at == LOAD_DY;
+      from_place <= (equal_2 || equal_3) ? ((equal_3 && area[30]) ? 2'd1 : 2'd0)
+                  : both_5 ? choice_13
+                  : choice_14;
+      to_place <= (equal_2 || equal_3) ? ((equal_2 && area[30]) ? 2'd1 : 2'd2)
+                : ((at == DOUBLE_START_B) && area[30]) ? 2'd1
+                : either_8 ? 2'd0
+                : both_5 ? choice_14
+                : choice_13;
+      single_value <= either_8;
+      values_of_round1 <= (either_9 ? round == 2'd0 : round == 2'd1) && !either_10;
+      values_of_round2 <= (either_9 ? round == 2'd1 : round == 2'd2) && !either_10;
+      values_of_round3 <= (either_9 ? round == 2'd2 : round == 2'd3) && !either_10;
+      number_of_edge <= (at == TAKE_DX) || (at == TAKE_DY);
+      number_is_height <= at == TAKE_DY;
     end
   end
 
@@ -688,120 +681,128 @@ module edgewalk_setup (
   wire [15:0] extended_6 = {1'b0, dv12};
   wire [15:0] extended_7 = {1'b0, dv01};
   wire [15:0] extended_8 = {1'b0, dv02};
-  wire [16:0] choice_13 = (round_next == 2'd2) ? {extended_6[15], extended_6}
+  wire [16:0] choice_15 = (round_next == 2'd2) ? {extended_6[15], extended_6}
                         : (round_next == 2'd1) ? {extended_7[15], extended_7}
                         : {extended_8[15], extended_8};
-  wire [16:0] choice_14 = number_is_height ? choice_13
+  wire [16:0] choice_16 = number_is_height ? choice_15
                         : (round_next == 2'd2) ? {du12[15], du12}
                         : (round_next == 2'd1) ? {du01[15], du01}
                         : {du02[15], du02};
-  wire [16:0] choice_15 = values_of_round3 ? {9'd0, vertex2_b}
+  wire [16:0] choice_17 = values_of_round3 ? {9'd0, vertex2_b}
                         : values_of_round2 ? {9'd0, vertex2_g}
                         : values_of_round1 ? {9'd0, vertex2_r}
                         : {1'b0, vertex2_z};
-  wire [16:0] choice_16 = values_of_round3 ? {9'd0, vertex1_b}
+  wire [16:0] choice_18 = values_of_round3 ? {9'd0, vertex1_b}
                         : values_of_round2 ? {9'd0, vertex1_g}
                         : values_of_round1 ? {9'd0, vertex1_r}
                         : {1'b0, vertex1_z};
-  wire [16:0] choice_17 = values_of_round3 ? {9'd0, vertex0_b}
+  wire [16:0] choice_19 = values_of_round3 ? {9'd0, vertex0_b}
                         : values_of_round2 ? {9'd0, vertex0_g}
                         : values_of_round1 ? {9'd0, vertex0_r}
                         : {1'b0, vertex0_z};
-  wire [16:0] choice_18 = values_of_round3 ? 17'd0
+  wire [16:0] choice_20 = values_of_round3 ? 17'd0
                         : values_of_round2 ? 17'd0
                         : values_of_round1 ? 17'd0
                         : 17'd0;
-  wire [16:0] choice_19 = single_value ? choice_18
-                        : from_vertex[1] ? choice_15
-                        : from_vertex[0] ? choice_16
-                        : choice_17;
-  wire [16:0] difference = (to_vertex[1] ? choice_15 : to_vertex[0] ? choice_16 : choice_17)
-                         - choice_19;
-  wire [16:0] number0 = number_of_edge ? choice_14 : difference;  // signed
+  wire [16:0] choice_21 = single_value ? choice_20
+                        : from_vertex[1] ? choice_17
+                        : from_vertex[0] ? choice_18
+                        : choice_19;
+  wire [16:0] difference = (to_vertex[1] ? choice_17 : to_vertex[0] ? choice_18 : choice_19)
+                         - choice_21;
+  wire [16:0] number0 = number_of_edge ? choice_16 : difference;  // signed
   reg [16:0] kept0;  // a number that may not fit, or a first value; signed
   wire [15:0] shown = difference[15:0] ^ {16{difference[16]}};
   wire lane0_unfit;
-  wire choice_20 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
-  wire either_12 = ((at_stepped == FIX_A) && (|prim_n1)) || ((at_stepped == FIX_B) && (|prim_n2));
-  wire choice_21 = (round_stepped == 2'd3) ? 1'b1
+  wire choice_22 = (round_stepped == 2'd2) ? |prim_n2 : (round_stepped == 2'd1) ? |prim_n1 : 1'b1;
+  wire either_11 = ((at_stepped == TAKE_A) && (|prim_n1)) || ((at_stepped == TAKE_B) && (|prim_n2));
+  wire choice_23 = (round_stepped == 2'd3) ? 1'b1
                  : (round_stepped == 2'd2) ? 1'b1
                  : (round_stepped == 2'd1) ? 1'b1
                  : 1'b1;
-  wire either_13 = ((at_stepped == FIX_DX) && choice_20) || (either_12 && choice_21);
-  assign unfit = lane0_unfit && either_13;
+  wire either_12 = ((at_stepped == TAKE_DX) && choice_22) || (either_11 && choice_23);
+  assign unfit = lane0_unfit && either_12;
 
   always @(posedge clk) begin
-    if ((at_next == LOAD_DX)
-     || (at_next == LOAD_A)
-     || (at_next == ADD_A)
-     || (at_next == LOAD_B)
-     || (at_next == ADD_B)) begin
+    if ((at_next == TAKE_DX)
+     || (at_next == TAKE_A)
+     || (at_next == DOUBLE_START_A)
+     || (at_next == TAKE_B)
+     || (at_next == DOUBLE_START_B)) begin
       kept0 <= number0;
     end
   end
 
   always @(posedge clk) begin
-    if ((at_next == LOAD_DX) || (at_next == FIX_DX) || (at_next == FIX1) || (at_next == FIX2)) begin
+    if ((at_next == SUBTRACT)
+     || (at_next == TAKE_DX)
+     || (at_next == DOUBLE_DX)
+     || (at_next == WAIT)
+     || (at_next == SUM_X)
+     || (at_next == DOUBLE_X)) begin
       differences <= differences | shown;
     end
-    if (begins || (at_next == LOAD1)) differences <= 16'd0;
+    if (begins || (at_next == TAKE12)) differences <= 16'd0;
   end
 
   // Edge: major.
   wire [30:0] lane0_value;
-  wire choice_22 = is_sign ? f[15] : digit_f;
-  wire choice_23 = is_sign ? g[15] : digit_g;
+  wire choice_24 = is_sign ? f[16] : digit_f;
+  wire choice_25 = is_sign ? g[16] : digit_g;
   wire [16:0] shifted_5 = $signed(kept0) >>> {pause - 4'd2, 1'b0};
-  wire [13:0] part_36 = p1_u[14:1];
-  wire [13:0] part_37 = p0_u[14:1];
-  wire [13:0] part_38 = p0_u[14:1];
-  wire [30:0] choice_24 = (round_stepped == 2'd2) ? {{17{part_36[13]}}, part_36}
-                        : (round_stepped == 2'd1) ? {{17{part_37[13]}}, part_37}
-                        : {{17{part_38[13]}}, part_38};
+  wire [29:0] joined_3 = {p1_u[14:1], 16'd0};
+  wire [29:0] joined_4 = {p0_u[14:1], 16'd0};
+  wire [29:0] joined_5 = {p0_u[14:1], 16'd0};
+  wire [30:0] choice_26 = (round_rest == 2'd2) ? {joined_3[29], joined_3}
+                        : (round_rest == 2'd1) ? {joined_4[29], joined_4}
+                        : {joined_5[29], joined_5};
+  wire [30:0] choice_27 = (round_rest == 2'd3) ? {{kept0, 1'b1}, 13'd0}
+                        : (round_rest == 2'd2) ? {{kept0, 1'b1}, 13'd0}
+                        : (round_rest == 2'd1) ? {{kept0, 1'b1}, 13'd0}
+                        : {{kept0, 1'b1}, 13'd0};
+  wire equal_4 = at == TAKE12;
   wire [29:0] lane0_rest_out_unused;
-  wire [30:0] lane0_whole_out_unused;
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
     .advance       (advance),
-    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_22 || choice_23), choice_23, choice_22}
+    .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_24 || choice_25), choice_25, choice_24}
 : read_single_at),
     .step          (step_formed0),
     .number        (number0),
     .digits        (shifted_5[1:0]),
     .write         (write),
     .write_at      (write_at),
-    .whole_in      ((at_stepped == COLUMNS) ? choice_24
-: (round_stepped == 2'd3) ? {{kept0, 1'b1}, 13'd0}
-: (round_stepped == 2'd2) ? {{kept0, 1'b1}, 13'd0}
-: (round_stepped == 2'd1) ? {{kept0, 1'b1}, 13'd0}
-: {{kept0, 1'b1}, 13'd0}),
+    .whole_in      ((at_rest == DOUBLE_COLUMNS) ? choice_26
+: ((at_rest == DOUBLE_START_A) || (at_rest == DOUBLE_START_B)) ? choice_27
+: 31'd0),
     .take_modulus  (take_modulus),
-    .modulus_in    ((at_next == LOAD_B) ? (area[30] ? ~{15'd0, {dv12, 1'b0}} : ~{15'd0, {dv02, 1'b0}})
-: (at_next == LOAD_A) ? (area[30] ? ~{15'd0, {dv01, 1'b0}} : ~{15'd0, {dv02, 1'b0}})
-: (at_next == LOAD1) ? scaled
-: (round_next == 2'd2) ? ~{15'd0, {dv12, 1'b0}}
-: (round_next == 2'd1) ? ~{15'd0, {dv01, 1'b0}}
+    .modulus_in    ((at == TAKE_B) ? (area[30] ? ~{15'd0, {dv12, 1'b0}} : ~{15'd0, {dv02, 1'b0}})
+: (at == TAKE_A) ? (area[30] ? ~{15'd0, {dv01, 1'b0}} : ~{15'd0, {dv02, 1'b0}})
+: equal_4 ? scaled
+: (round == 2'd2) ? ~{15'd0, {dv12, 1'b0}}
+: (round == 2'd1) ? ~{15'd0, {dv01, 1'b0}}
 : ~{15'd0, {dv02, 1'b0}}),
-    .modulus_short (!((at_next == LOAD1) && area[30])),
-    .upwards       (1'b0),
+    .modulus_short (!(equal_4 && area[30])),
+    .nearest       (nearest),
+    .upwards       (upwards),
+    .negate        (negated),
     .unfit         (lane0_unfit),
     .rest_out      (lane0_rest_out_unused),
-    .whole_out     (lane0_whole_out_unused),
     .value         (lane0_value)
   );
 
   wire any_15 = |dv02[14:1];
-  wire [30:0] part_39 = lane0_value;
+  wire [30:0] part_37 = lane0_value;
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd0)) begin
-      prim_major_q <= any_15 ? part_39[30:16] : 15'd0;
-      prim_major_f <= any_15 ? part_39[15:0] : 16'd0;
+      prim_major_q <= any_15 ? part_37[30:16] : 15'd0;
+      prim_major_f <= any_15 ? part_37[15:0] : 16'd0;
     end
   end
 
-  wire [30:0] inverse_2 = ~part_39;
+  wire [30:0] inverse_2 = ~part_37;
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd0)) begin
@@ -812,16 +813,16 @@ module edgewalk_setup (
 
   // Edge: minor1.
   wire both_6 = (|prim_n1) && (|dv01[14:1]);
-  wire [30:0] part_40 = lane0_value;
+  wire [30:0] part_38 = lane0_value;
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd1)) begin
-      prim_minor1_q <= both_6 ? part_40[30:16] : 15'd0;
-      prim_minor1_f <= both_6 ? part_40[15:0] : 16'd0;
+      prim_minor1_q <= both_6 ? part_38[30:16] : 15'd0;
+      prim_minor1_f <= both_6 ? part_38[15:0] : 16'd0;
     end
   end
 
-  wire [30:0] inverse_3 = ~part_40;
+  wire [30:0] inverse_3 = ~part_38;
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd1)) begin
@@ -832,16 +833,16 @@ module edgewalk_setup (
 
   // Edge: minor2.
   wire both_7 = (|prim_n2) && (|dv12[14:1]);
-  wire [30:0] part_41 = lane0_value;
+  wire [30:0] part_39 = lane0_value;
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_DX) && (round_whole == 2'd2)) begin
-      prim_minor2_q <= both_7 ? part_41[30:16] : 15'd0;
-      prim_minor2_f <= both_7 ? part_41[15:0] : 16'd0;
+      prim_minor2_q <= both_7 ? part_39[30:16] : 15'd0;
+      prim_minor2_f <= both_7 ? part_39[15:0] : 16'd0;
     end
   end
 
-  wire [30:0] inverse_4 = ~part_41;
+  wire [30:0] inverse_4 = ~part_39;
 
   always @(posedge clk) begin
     if (ends_whole && (at_whole == DOUBLE_COLUMNS) && (round_whole == 2'd2)) begin
@@ -862,7 +863,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_A) && (round_whole == 2'd0)) begin
+    if (ends_whole && (at_whole == DOUBLE_START_A) && (round_whole == 2'd0)) begin
       prim_z_start_a <= (|prim_n1) ? lane0_value[29:0] : 30'd0;
     end
   end
@@ -874,7 +875,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_B) && (round_whole == 2'd0)) begin
+    if (ends_whole && (at_whole == DOUBLE_START_B) && (round_whole == 2'd0)) begin
       prim_z_start_b <= (|prim_n2) ? lane0_value[29:0] : 30'd0;
     end
   end
@@ -891,7 +892,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_A) && (round_whole == 2'd1)) begin
+    if (ends_whole && (at_whole == DOUBLE_START_A) && (round_whole == 2'd1)) begin
       prim_r_start_a <= (|prim_n1) ? lane0_value[21:0] : 22'd0;
     end
   end
@@ -903,7 +904,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_B) && (round_whole == 2'd1)) begin
+    if (ends_whole && (at_whole == DOUBLE_START_B) && (round_whole == 2'd1)) begin
       prim_r_start_b <= (|prim_n2) ? lane0_value[21:0] : 22'd0;
     end
   end
@@ -920,7 +921,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_A) && (round_whole == 2'd2)) begin
+    if (ends_whole && (at_whole == DOUBLE_START_A) && (round_whole == 2'd2)) begin
       prim_g_start_a <= (|prim_n1) ? lane0_value[21:0] : 22'd0;
     end
   end
@@ -932,7 +933,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_B) && (round_whole == 2'd2)) begin
+    if (ends_whole && (at_whole == DOUBLE_START_B) && (round_whole == 2'd2)) begin
       prim_g_start_b <= (|prim_n2) ? lane0_value[21:0] : 22'd0;
     end
   end
@@ -949,7 +950,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_A) && (round_whole == 2'd3)) begin
+    if (ends_whole && (at_whole == DOUBLE_START_A) && (round_whole == 2'd3)) begin
       prim_b_start_a <= (|prim_n1) ? lane0_value[21:0] : 22'd0;
     end
   end
@@ -961,7 +962,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == ADD_B) && (round_whole == 2'd3)) begin
+    if (ends_whole && (at_whole == DOUBLE_START_B) && (round_whole == 2'd3)) begin
       prim_b_start_b <= (|prim_n2) ? lane0_value[21:0] : 22'd0;
     end
   end
@@ -971,10 +972,9 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, SET_A, ROUND_A, SET_B, ends_fixed, less_m[0], part_3[0], part_6[0], part_10[0], part_13[0],
-    shifted[14:1], shifted_2[14:1], part_14[29:0], choice_6[14:10], choice_7[14:10], joined[15:14],
-    joined_2[15:14], part_25[0], part_28[0], part_32[0], part_35[0], shifted_3[15:1], shifted_4[15:1],
-    shifted_5[16:2]
+    1'b0, ROUND_A, ends_fixed, less_m[0], part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1],
+    shifted_2[14:1], part_14[29:0], choice_6[14:10], choice_7[14:10], joined[15:14], joined_2[15:14],
+    part_26[0], part_29[0], part_33[0], part_36[0], shifted_3[16:1], shifted_4[16:1], shifted_5[16:2]
   };
 
 endmodule

@@ -5,8 +5,8 @@
 //                                                           how often M was taken off ─> [whole], a clock later
 //
 // Timing: a step is named two clocks before it is done: in the first its addend is read, in the second n0 n1 n2 are formed.
-// Rules: a doubling step adds a = -M three times instead, so that up to 3 M can be taken off. What is taken in may lie below 0
-// for one clock. A negated pair is its complement: M is added to its rest, and 1 taken off its whole part.
+// Rules: a doubling step adds a = -M three times instead, so that up to 3 M can be taken off. To a number below 0 that is taken in
+// M is added, and -1 is its whole part. So it is with a pair that is subtracted: M - a is added, and the complement of its whole part.
 
 `timescale 1ns / 1ps
 `default_nettype none
@@ -18,19 +18,20 @@ module edgewalk_setup_lane0 (
   input  wire  [2:0] read_at,        // slot of the addend, two clocks before its step
   input  wire  [4:0] step,           // a clock before it is done
   input  wire [16:0] number,         // to take in, signed; with its step
-  input  wire  [1:0] digits,         // of the number, with their step
+  input  wire  [1:0] digits,         // of a number that does not fit, or its sign twice; with their step
   input  wire        write,          // the result of the step goes to a slot
   input  wire  [2:0] write_at,
-  input  wire [30:0] whole_in,       // whole number to add, with the step done
-  input  wire        take_modulus,
+  input  wire [30:0] whole_in,       // whole number to add to a result, a clock before value
+  input  wire        take_modulus,   // two clocks before the first step with it
   input  wire [30:0] modulus_in,     // -M, or -M - 1 if modulus_short; signed
   input  wire        modulus_short,
-  input  wire        upwards,        // value rounds up whatever is not whole, not to nearest
+  input  wire        nearest,        // value is rounded to nearest, halves up; a clock before it, with rest_out
+  input  wire        upwards,        // else: up; if not, it is cut
+  input  wire        negate,         // value is negated, once it is rounded
 
   output wire        unfit,          // the number that was taken in is not between -M and M
   output wire [29:0] rest_out,       // 1/M, from the clock after a step
-  output wire [30:0] whole_out,      // modular, a clock later
-  output wire [30:0] value           // modular, with whole
+  output wire [30:0] value           // modular, two clocks after a step
 );
 
   // The modulus: -M, or its complement -M - 1, with the 1 that is then missing.
@@ -45,8 +46,8 @@ module edgewalk_setup_lane0 (
   end
 
   // The rests of the slots. Slot 0 is never written: it holds 0.
-  reg [30:0] rest;         // 1/M, signed while a number is taken in
-  wire [30:0] rest_next;
+  reg [29:0] rest;         // 1/M
+  wire [29:0] rest_next;
   reg [29:0] rests [0:7];  // 1/M
 
   initial begin : rests_init
@@ -55,40 +56,35 @@ module edgewalk_setup_lane0 (
   end
 
   always @(posedge clk) begin
-    if (write) rests[write_at] <= rest_next[29:0];
+    if (write) rests[write_at] <= rest_next;
   end
 
   reg [29:0] rests_q;
 
   always @(posedge clk) begin
-    if (advance) rests_q <= rests[read_at];
+    if (advance && !(write && (write_at == read_at))) rests_q <= rests[read_at];
   end
 
   // The addend of the step that follows.
-  reg [30:0] n0;                           // a, or a number to take in
+  reg [30:0] n0;                           // a, or M - a
   reg [31:0] n1;                           // a - M, signed
   reg [30:0] n2;                           // a - 2 M, modular
-  reg below;                               // the number taken in is below 0
-  wire add_modulus = step[2] && ((step[0] && below) || (!step[0] && n0[30]));
-  wire take_modulus_off = step[3];
   wire of_slot = step[4];
-  wire with_sign = of_slot && step[1] && step[0];
-  wire negate = add_modulus || with_sign || ((step == 5'd2) && below);
-  wire of_modulus = add_modulus || take_modulus_off;
-  wire [30:0] a = of_modulus ? modulus : of_slot ? {1'b0, rests_q} : 31'd0;  // addend, 1/M, or -M
+  wire take_modulus_off = step[3];
+  wire subtracts = step[1] && step[0];
+  wire [30:0] a = take_modulus_off ? modulus : of_slot ? {1'b0, rests_q} : 31'd0;  // addend, 1/M, or -M
   wire [32:0] a_less_m = {{a[30], a}, 1'b1} + {{modulus[30], modulus}, short};  // and a carry out of the lowest bit
-  wire [31:0] part = a_less_m[32:1];
-  wire [30:0] to_negate = with_sign ? part[30:0] : a;  // -a is -1 + (M - a)/M
   wire [31:0] less_2m = {modulus, short};  // -2 M, or -2 M - 1
   wire [31:0] a_less_2m = {a, 1'b1} + {less_2m[30:0], short};  // and a carry out of the lowest bit
   reg carry0;                              // 1 to add to the sum of n0
   reg carry;                               // 1 to add to the other sums
+  wire [31:0] part = a_less_m[32:1];
 
   always @(posedge clk) begin
-    n0 <= (step == 5'd1) ? {{14{number[16]}}, number} : to_negate ^ {31{negate}};
+    n0 <= subtracts ? ~part[30:0] : a;
     n1 <= part;
     n2 <= a_less_2m[31:1];
-    carry0 <= with_sign || (add_modulus && !short) || (take_modulus_off && short);
+    carry0 <= (subtracts && !(step == 5'd7)) || (take_modulus_off && short);
     carry <= take_modulus_off && short;
   end
 
@@ -96,14 +92,12 @@ module edgewalk_setup_lane0 (
   reg [4:0] now;                                   // the step done
   reg fourfold;
   reg twofold;
-  reg from_zero;
-  reg compared;                                    // M is taken off if it goes
-  reg [1:0] digits_now;
-  wire [31:0] joined = {1'b0, rest};
-  wire [31:0] x = fourfold ? {joined[29:0], digits_now}
-                : twofold ? joined << 1
-                : from_zero ? 32'd0
-                : joined;
+  reg keeps;
+  reg takes;
+  reg [16:0] added;                                // number or digits taken in, 0 where there are none
+  reg below;                                       // what is taken in is below 0
+  wire [31:0] choice = fourfold ? {2'd0, rest} << 2 : twofold ? {2'd0, rest} << 1 : 32'd0;
+  wire [31:0] x = choice | ({2'd0, rest} & {32{keeps}}) | {{15{added[16]}}, added};
   wire [31:0] x_and_n0 = {x[30:0], 1'b1} + {n0, carry0};  // and a carry out of the lowest bit
   wire [30:0] s0 = x_and_n0[31:1];
   wire [32:0] x_and_n1 = {x, 1'b1} + {n1, carry};  // and a carry out of the lowest bit
@@ -111,31 +105,22 @@ module edgewalk_setup_lane0 (
   wire [31:0] x_and_n2 = {x[30:0], 1'b1} + {n2, carry};  // and a carry out of the lowest bit
   wire [30:0] s2 = x_and_n2[31:1];
   wire fits0 = !s0[30];
-  wire s1_fits = !s1[31];
-  wire fits1 = s1_fits && compared;
+  wire fits1 = !s1[31];
   wire fits2 = fits1 && !s2[30];
-  wire stays = fourfold && !fits0;
-  assign rest_next = fits2 ? s2 : fits1 ? s1[30:0] : stays ? x[30:0] : s0;
+  wire stays = (fourfold && !fits0) || (takes && !below);
+  wire lower = fits1 ? fits2 : stays;
+  wire [29:0] chosen = fits1 ? {30{lower}} : lower ? x[29:0] : s0[29:0];
+  assign rest_next = fits1 ? (chosen & s2[29:0]) | (~chosen & s1[29:0]) : chosen;
 
   always @(posedge clk) begin
     now <= step;
     fourfold <= (step == 5'd8) || (step == 5'd9);
-    twofold <= (step == 5'd3) || (step == 5'd18);
-    from_zero <= (step == 5'd1) || (step == 5'd17) || (step == 5'd19) || (step == 5'd5);
-    compared <= (step == 5'd3)
-             || (step == 5'd8)
-             || (step == 5'd9)
-             || (step == 5'd18)
-             || (step == 5'd16);
-    digits_now <= (step == 5'd9) ? digits : 2'd0;
-  end
-
-  always @(posedge clk) begin
-    if (!(now == 5'd20)) rest <= rest_next;
-  end
-
-  always @(posedge clk) begin
-    if ((now == 5'd1) && advance) below <= n0[16];
+    twofold <= (step == 5'd1) || (step == 5'd18);
+    keeps <= (step == 5'd0) || (step == 5'd16);
+    takes <= (step == 5'd3) || (step == 5'd7);
+    added <= (step == 5'd3) ? number : (step == 5'd9) ? {15'd0, digits} : 17'd0;
+    below <= ((step == 5'd3) && number[16]) || ((step == 5'd7) && digits[1]);
+    rest <= rest_next;
   end
 
   // The whole part, a clock behind.
@@ -158,10 +143,10 @@ module edgewalk_setup_lane0 (
   reg [30:0] wholes_q;
 
   always @(posedge clk) begin
-    if (1'b1) wholes_q <= wholes[read_whole_at];
+    if (!(write_then && (write_then_at == read_whole_at))) wholes_q <= wholes[read_whole_at];
   end
 
-  reg negated;
+  reg subtracted;
   reg slot_now;
   reg [30:0] b;                                      // addend
   wire twice_or_more = fourfold ? fits1 : fits2;
@@ -169,53 +154,52 @@ module edgewalk_setup_lane0 (
   reg [1:0] taken;                                   // how often M was taken off
   reg was_fourfold;
   reg was_twofold;
-  reg was_from_zero;
+  reg was_kept;
   wire [30:0] whole_x = was_fourfold ? {whole[28:0], taken}
                       : was_twofold ? {whole[29:0], taken[1]}
-                      : was_from_zero ? 31'd0
-                      : whole;
+                      : was_kept ? whole
+                      : 31'd0;
   wire one = !was_fourfold && (|taken);
   wire [31:0] x_and_b = {whole_x, 1'b1} + {b, one};  // and a carry out of the lowest bit
   assign whole_next = x_and_b[31:1];
-  reg [4:0] then;                                    // the step before
-  wire [30:0] extended = {31{negated}};
+  wire [30:0] extended = {31{subtracted || below}};
 
   always @(posedge clk) begin
     read_whole_at <= read_at;
     write_then <= write;
     write_then_at <= write_at;
-    negated <= negate;
+    subtracted <= step == 5'd19;
     slot_now <= of_slot;
-    b <= (now == 5'd20) ? whole_in : slot_now ? wholes_q ^ extended : extended;
+    b <= slot_now ? wholes_q ^ extended : extended;
     taken <= {twice_or_more, once_or_thrice};
     was_fourfold <= fourfold;
     was_twofold <= twofold;
-    was_from_zero <= from_zero;
-    then <= now;
+    was_kept <= keeps;
+    whole <= whole_next;
   end
 
-  always @(posedge clk) begin
-    if (!(then == 5'd2)) whole <= whole_next;
-  end
-
-  // What is done is given out rounded: to nearest, halves up, or up.
-  wire [31:0] past_half = {{rest[29:0], 1'b0}, 1'b1} + {modulus, short};  // and a carry out of the lowest bit
-  reg up;
+  // What is done is given out rounded, with a whole number added, or negated: -w - 1 is the complement of w.
+  wire [31:0] past_half = {{rest, 1'b0}, 1'b1} + {modulus, short};  // and a carry out of the lowest bit
+  reg value_carry;         // 1 to add, rounded up or negated
+  reg value_negated;
+  reg [30:0] value_added;  // whole number, modular
+  wire [31:0] value_sum = {whole ^ {31{value_negated}}, 1'b1} + {value_added, value_carry};  // and a carry out of the lowest bit
   wire [30:0] part_2 = past_half[31:1];
 
   always @(posedge clk) begin
-    up <= upwards ? |rest[29:0] : !part_2[30];
+    value_carry <= (nearest ? !part_2[30] : upwards && (|rest)) ^ negate;
+    value_negated <= negate;
+    value_added <= whole_in;
   end
 
-  assign unfit = (now == 5'd4) && (below ? !fits0 : s1_fits);
-  assign rest_out = rest[29:0];
-  assign whole_out = whole;
-  assign value = whole + {30'd0, up};
+  assign unfit = (now == 5'd3) && (below ? !fits0 : fits1);
+  assign rest_out = rest;
+  assign value = value_sum[31:1];
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, a_less_m[0], less_2m[31], a_less_2m[0], x_and_n0[0], x_and_n1[0], x_and_n2[0], x_and_b[0],
-    past_half[0], part_2[29:0]
+    1'b0, a_less_m[0], less_2m[31], a_less_2m[0], x_and_n0[0], x_and_n1[0], s1[30], x_and_n2[0],
+    x_and_b[0], past_half[0], value_sum[0], part_2[29:0]
   };
 
 endmodule

@@ -109,8 +109,6 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let twofold = flag(&m, "twofold", one_of(step, &[Step::Double1, Step::Next]));
     let keeps = flag(&m, "keeps", one_of(step, &[Step::Rest, Step::Add]));
     let takes = flag(&m, "takes", one_of(step, &[Step::Take, Step::Begin]));
-    let compared = [Step::Double1, Step::Double2, Step::Digits, Step::Next, Step::Add];
-    let compared = m.reg("compared", 1).doc("M is taken off if it goes").set(one_of(step, &compared)).q();
     let added = m.reg("added", shape.number).doc("number or digits taken in, 0 where there are none");
     let of_digits = is(step, Step::Digits).mux(digits.zext(shape.number), 0);
     added.set(is(step, Step::Take).mux(number, of_digits));
@@ -123,9 +121,9 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let s1 = plus("x_and_n1", x, n1.q(), carry.q()).named("s1");
     let s2 = plus("x_and_n2", x.trunc(below_two_m), n2.q(), carry.q()).named("s2");
     // A fourfold rest may have M taken off three times, and n0 is the first of them; else n0 takes none off. s1 lies between -2 M
-    // and 2 M. If it fits, s2 lies between -M and M; if not, s0 does: they need a bit less.
-    let (f0, s1_fits) = ((!s0.msb()).named("fits0"), (!s1.msb()).named("s1_fits"));
-    let f1 = (s1_fits & compared).named("fits1");
+    // and 2 M. If it fits, s2 lies between -M and M; if not, s0 does: they need a bit less. From what lies below M, as a rest that
+    // is kept or a number that is taken in, nothing goes.
+    let (f0, f1) = ((!s0.msb()).named("fits0"), (!s1.msb()).named("fits1"));
     let f2 = (f1 & !s2.msb()).named("fits2");
     let stays = ((fourfold & !f0) | (takes & !below)).named("stays");
     // Said so that two look-up tables of four inputs do for a bit.
@@ -135,7 +133,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     rest.set(rest_next);
     m.output_doc(
         "unfit",
-        is(now, Step::Take) & below.mux(!f0, s1_fits),
+        is(now, Step::Take) & below.mux(!f0, f1),
         "the number that was taken in is not between -M and M",
     );
 
