@@ -152,16 +152,16 @@ impl<'a> Work<'a> {
             lane.knows(step); // q, beside this sum it is summed up
             sheared.push(over_bits(bits, |i| i128::from(low(q)) * (h >> i & 1)));
             let at = lane.sum(factors(numbers), [one, slope, both], bits, false);
-            let at = lane.add_whole(at, column >> t);
+            let columns = column >> t; // added where the result is given out
             let (c, r);
             if exact {
                 // m = -w·DY - over, where 0 <= over <= DY
                 let over = -(-(at.rest + self.o) >> t);
-                c = at.w + i128::from(over > 0);
+                c = at.w + columns + i128::from(over > 0);
                 r = if over > 0 { dy - over } else { 0 };
             } else {
                 let at = lane.double(at, f, f.div_ceil(2));
-                let m = -lane.round(at) - self.o;
+                let m = -(lane.round(at) + (columns << f)) - self.o;
                 lane.wait(2);
                 (c, r) = (-(m >> f), m & ((1 << f) - 1));
             }
@@ -263,8 +263,7 @@ impl<'a> Work<'a> {
                 prim.delta[1][i] = word(lane.round(d1));
                 lane.wait(1);
                 let start = lane.sum(across, [gx, d0, d1], s(&across), true);
-                let start = lane.add_whole(start, p / 2 + self.value(i, channel, &p0) * p);
-                prim.start[0][i] = word(start.w >> t);
+                prim.start[0][i] = word((start.w + p / 2 + self.value(i, channel, &p0) * p) >> t);
                 return (gx_known, lane.end());
             }
             prim.gradient[i] = word(gradient);
@@ -280,8 +279,7 @@ impl<'a> Work<'a> {
                 lane.wait(1);
                 let start = lane.sum([h, 0], [pair, Pair::default(), pair], u(&[h]), false);
                 let start = lane.double(start, t + up, doublings(t));
-                let start = lane.add_whole(start, self.value(i, channel, a));
-                let start = lane.round(start);
+                let start = lane.round(start) + self.value(i, channel, a);
                 lane.wait(2);
                 if *walked {
                     (prim.delta[part][i], prim.start[part][i]) = (word(delta), word(start));

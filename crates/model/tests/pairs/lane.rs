@@ -90,12 +90,6 @@ impl Lane {
         self.pair(a.w + b.w, a.rest + b.rest)
     }
 
-    pub fn add_whole(&mut self, a: Pair, n: i128) -> Pair {
-        let a = self.held(a);
-        self.clock += 1;
-        self.pair(a.w + n, a.rest)
-    }
-
     /// In as many clocks as the lane with most doublings asks for.
     pub fn double(&mut self, a: Pair, times: u32, clocks: u32) -> Pair {
         assert!(times <= 2 * clocks, "{times} doublings in {clocks} clocks");
