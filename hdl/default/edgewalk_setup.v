@@ -177,13 +177,9 @@ module edgewalk_setup (
   // The way of an operation: named, its addends formed, its step done, the rest and then the whole of the result.
   reg [4:0] at_next;
   reg ends_next;
-  reg [4:0] at_again;
-  reg ends_again;
-  reg [4:0] at_fixed;
-  reg ends_fixed;
   wire resumes = pause == 4'd1;  // the step after the numbers is formed again
-  wire [4:0] at_formed = advance ? at_next : resumes ? at_again : at_fixed;
-  wire ends_formed = advance ? ends_next : resumes ? ends_again : pause == 4'd2;
+  wire [4:0] at_formed = advance ? at_next : resumes ? DOUBLE_DX : TAKE_DX;
+  wire ends_formed = advance ? ends_next : resumes ? 1'b0 : pause == 4'd2;
   reg [4:0] at_stepped;
   reg ends_stepped;
   reg [4:0] at_rest;
@@ -197,10 +193,6 @@ module edgewalk_setup (
     if (advance) begin
       at_next <= at;
       ends_next <= ends;
-      at_again <= at_formed;
-      ends_again <= ends_formed;
-      at_fixed <= at_stepped;
-      ends_fixed <= ends_stepped;
     end
   end
 
@@ -592,57 +584,45 @@ module edgewalk_setup (
   // Lane 0: its steps.
   wire [4:0] step0 = rests ? 5'd0 : step;
   reg [4:0] step_next0;
-  reg [4:0] step_again0;
   reg [4:0] step_of_pause0;
   wire [4:0] step_formed0 = advance ? step_next0 : step_of_pause0;
 
   always @(posedge clk) begin
-    if (advance) begin
-      step_next0 <= step0;
-      step_again0 <= step_formed0;
-    end
+    if (advance) step_next0 <= step0;
   end
 
   wire [4:0] choice_11 = advance ? 5'd7 : 5'd9;
 
   always @(posedge clk) begin
-    step_of_pause0 <= (pause == 4'd2) ? step_again0 : choice_11;
+    step_of_pause0 <= (pause == 4'd2) ? 5'd8 : choice_11;
   end
 
   // Lane 1: its steps.
   wire [4:0] step1 = rests ? 5'd0 : step;
   reg [4:0] step_next1;
-  reg [4:0] step_again1;
   reg [4:0] step_of_pause1;
   wire [4:0] step_formed1 = advance ? step_next1 : step_of_pause1;
 
   always @(posedge clk) begin
-    if (advance) begin
-      step_next1 <= step1;
-      step_again1 <= step_formed1;
-    end
+    if (advance) step_next1 <= step1;
   end
 
   always @(posedge clk) begin
-    step_of_pause1 <= (pause == 4'd2) ? step_again1 : choice_11;
+    step_of_pause1 <= (pause == 4'd2) ? 5'd8 : choice_11;
   end
 
   // Lane 2: its steps.
   wire [4:0] step2 = rests ? 5'd0 : step;
   reg [4:0] step_next2;
-  reg [4:0] step_again2;
   reg [4:0] step_of_pause2;
   wire [4:0] step_formed2 = advance ? step_next2 : step_of_pause2;
 
   always @(posedge clk) begin
-    if (advance) begin
-      step_next2 <= step2;
-      step_again2 <= step_formed2;
-    end
+    if (advance) step_next2 <= step2;
   end
 
   always @(posedge clk) begin
-    step_of_pause2 <= (pause == 4'd2) ? step_again2 : choice_11;
+    step_of_pause2 <= (pause == 4'd2) ? 5'd8 : choice_11;
   end
 
   // Lane 3: its steps.
@@ -775,7 +755,6 @@ module edgewalk_setup (
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
-    .advance       (advance),
     .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_23 || choice_24), choice_24, choice_23}
 : read_single_at),
     .step          (step_formed0),
@@ -828,7 +807,6 @@ module edgewalk_setup (
 
   edgewalk_setup_lane1 lane1 (
     .clk           (clk),
-    .advance       (advance),
     .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_25 || choice_26), choice_26, choice_25}
 : read_single_at),
     .step          (step_formed1),
@@ -886,7 +864,6 @@ module edgewalk_setup (
 
   edgewalk_setup_lane1 lane2 (
     .clk           (clk),
-    .advance       (advance),
     .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_27 || choice_28), choice_28, choice_27}
 : read_single_at),
     .step          (step_formed2),
@@ -943,7 +920,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_START)) prim_z_start <= lane0_value[45:8];
+    if (at_whole == SUM_START) prim_z_start <= lane0_value[45:8];
   end
 
   // Channel: r.
@@ -960,7 +937,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_START)) prim_r_start <= lane1_value[29:8];
+    if (at_whole == SUM_START) prim_r_start <= lane1_value[29:8];
   end
 
   // Channel: g.
@@ -977,7 +954,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_START)) prim_g_start <= lane2_value[29:8];
+    if (at_whole == SUM_START) prim_g_start <= lane2_value[29:8];
   end
 
   // Channel: b.
@@ -989,7 +966,6 @@ module edgewalk_setup (
 
   edgewalk_setup_lane1 lane3 (
     .clk           (clk),
-    .advance       (advance),
     .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_29 || choice_30), choice_30, choice_29}
 : read_single_at),
     .step          (step_next3),
@@ -1022,7 +998,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_START)) prim_b_start <= lane3_value[29:8];
+    if (at_whole == SUM_START) prim_b_start <= lane3_value[29:8];
   end
 
   assign prim_jm = jm[8:0];
@@ -1033,8 +1009,8 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, WAIT_LINE, ends_fixed, less_m[0], lane3_unfit, part_5[0], part_10[0], part_13[0], part_17[0],
-    part_20[0], shifted[21:1], shifted_2[21:1], part_21[43:0], difference[14:10], difference_2[14:10],
+    1'b0, WAIT_LINE, less_m[0], lane3_unfit, part_5[0], part_10[0], part_13[0], part_17[0], part_20[0],
+    shifted[21:1], shifted_2[21:1], part_21[43:0], difference[14:10], difference_2[14:10],
     joined[22:21], joined_2[22:21], either_2[23], part_27[0], part_30[0], part_35[0], part_38[0],
     part_42[0], part_45[0], shifted_3[23:1], shifted_4[23:1], shifted_7[7:1], shifted_8[20:1],
     shifted_5[28:2], joined_4[46], shifted_6[22:2], joined_5[40:30], shifted_9[22:2], joined_6[40:30],

@@ -14,7 +14,6 @@
 module edgewalk_setup_lane0 (
   input  wire        clk,
 
-  input  wire        advance,        // the steps go on; 0: what was read stays
   input  wire  [2:0] read_at,        // slot of the addend, two clocks before its step
   input  wire  [4:0] step,           // a clock before it is done
   input  wire [28:0] number,         // to take in, signed; with its step
@@ -62,7 +61,7 @@ module edgewalk_setup_lane0 (
   reg [43:0] rests_q;
 
   always @(posedge clk) begin
-    if (advance && !(write && (write_at == read_at))) rests_q <= rests[read_at];
+    if (!(write && (write_at == read_at))) rests_q <= rests[read_at];
   end
 
   // The addend of the step that follows.

@@ -189,16 +189,10 @@ module edgewalk_setup (
   reg [4:0] at_next;
   reg [1:0] round_next;
   reg ends_next;
-  reg [4:0] at_again;
-  reg [1:0] round_again;
-  reg ends_again;
-  reg [4:0] at_fixed;
-  reg [1:0] round_fixed;
-  reg ends_fixed;
   wire resumes = pause == 4'd1;  // the step after the numbers is formed again
-  wire [4:0] at_formed = advance ? at_next : resumes ? at_again : at_fixed;
-  wire [1:0] round_formed = advance ? round_next : resumes ? round_again : round_fixed;
-  wire ends_formed = advance ? ends_next : resumes ? ends_again : pause == 4'd2;
+  wire [4:0] at_formed = advance ? at_next : resumes ? DOUBLE_DX : TAKE_DX;
+  wire [1:0] round_formed = round_next;
+  wire ends_formed = advance ? ends_next : resumes ? 1'b0 : pause == 4'd2;
   reg [4:0] at_stepped;
   reg [1:0] round_stepped;
   reg ends_stepped;
@@ -216,12 +210,6 @@ module edgewalk_setup (
       at_next <= at;
       round_next <= round;
       ends_next <= ends;
-      at_again <= at_formed;
-      round_again <= round_formed;
-      ends_again <= ends_formed;
-      at_fixed <= at_stepped;
-      round_fixed <= round_stepped;
-      ends_fixed <= ends_stepped;
     end
   end
 
@@ -598,19 +586,15 @@ module edgewalk_setup (
                    : (at == DOUBLE_DX) ? ((left == 5'd0) ? 5'd1 : 5'd8)
                    : step;
   reg [4:0] step_next0;
-  reg [4:0] step_again0;
   reg [4:0] step_of_pause0;
   wire [4:0] step_formed0 = advance ? step_next0 : step_of_pause0;
 
   always @(posedge clk) begin
-    if (advance) begin
-      step_next0 <= step0;
-      step_again0 <= step_formed0;
-    end
+    if (advance) step_next0 <= step0;
   end
 
   always @(posedge clk) begin
-    step_of_pause0 <= (pause == 4'd2) ? step_again0 : advance ? 5'd7 : 5'd9;
+    step_of_pause0 <= (pause == 4'd2) ? 5'd8 : advance ? 5'd7 : 5'd9;
   end
 
   // What the lanes are shown in the next clock.
@@ -731,7 +715,6 @@ module edgewalk_setup (
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
-    .advance       (advance),
     .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_19 || choice_20), choice_20, choice_19}
 : read_single_at),
     .step          (step_formed0),
@@ -857,9 +840,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_START) && (round_whole == 2'd0)) begin
-      prim_z_start <= lane0_value[28:3];
-    end
+    if ((at_whole == SUM_START) && (round_whole == 2'd0)) prim_z_start <= lane0_value[28:3];
   end
 
   // Channel: r.
@@ -878,9 +859,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_START) && (round_whole == 2'd1)) begin
-      prim_r_start <= lane0_value[17:3];
-    end
+    if ((at_whole == SUM_START) && (round_whole == 2'd1)) prim_r_start <= lane0_value[17:3];
   end
 
   // Channel: g.
@@ -899,9 +878,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_START) && (round_whole == 2'd2)) begin
-      prim_g_start <= lane0_value[17:3];
-    end
+    if ((at_whole == SUM_START) && (round_whole == 2'd2)) prim_g_start <= lane0_value[17:3];
   end
 
   // Channel: b.
@@ -920,9 +897,7 @@ module edgewalk_setup (
   end
 
   always @(posedge clk) begin
-    if (ends_whole && (at_whole == SUM_START) && (round_whole == 2'd3)) begin
-      prim_b_start <= lane0_value[17:3];
-    end
+    if ((at_whole == SUM_START) && (round_whole == 2'd3)) prim_b_start <= lane0_value[17:3];
   end
 
   assign prim_jm = jm[7:0];
@@ -933,9 +908,9 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, WAIT_LINE, ends_fixed, less_m[0], part_3[0], part_7[0], part_10[0], shifted[11:1],
-    shifted_2[11:1], part_11[23:0], difference[9], difference_2[9], joined[12:11], joined_2[12:11],
-    part_18[0], part_22[0], part_25[0], shifted_3[13:1], shifted_4[13:1], shifted_5[16:2], joined_7[29],
+    1'b0, WAIT_LINE, less_m[0], part_3[0], part_7[0], part_10[0], shifted[11:1], shifted_2[11:1],
+    part_11[23:0], difference[9], difference_2[9], joined[12:11], joined_2[12:11], part_18[0],
+    part_22[0], part_25[0], shifted_3[13:1], shifted_4[13:1], shifted_5[16:2], joined_7[29],
     joined_6[29], joined_5[29], joined_4[29], part_29[20:12], difference_4[2:0], part_30[20:12],
     difference_5[2:0], part_31[20:12], difference_6[2:0]
   };

@@ -206,15 +206,13 @@ module edgewalk_setup (
   reg [4:0] at_next;
   reg [1:0] round_next;
   reg ends_next;
+  wire resumes = pause == 4'd1;  // the step after the numbers is formed again
   reg [4:0] at_again;
   reg [1:0] round_again;
   reg ends_again;
-  reg [4:0] at_fixed;
-  reg [1:0] round_fixed;
-  reg ends_fixed;
-  wire resumes = pause == 4'd1;  // the step after the numbers is formed again
-  wire [4:0] at_formed = advance ? at_next : resumes ? at_again : at_fixed;
-  wire [1:0] round_formed = advance ? round_next : resumes ? round_again : round_fixed;
+  reg [4:0] at_taken;
+  wire [4:0] at_formed = advance ? at_next : resumes ? at_again : at_taken;
+  wire [1:0] round_formed = advance ? round_next : round_again;
   wire ends_formed = advance ? ends_next : resumes ? ends_again : pause == 4'd2;
   reg [4:0] at_stepped;
   reg [1:0] round_stepped;
@@ -236,9 +234,7 @@ module edgewalk_setup (
       at_again <= at_formed;
       round_again <= round_formed;
       ends_again <= ends_formed;
-      at_fixed <= at_stepped;
-      round_fixed <= round_stepped;
-      ends_fixed <= ends_stepped;
+      at_taken <= at_stepped;
     end
   end
 
@@ -765,7 +761,6 @@ module edgewalk_setup (
 
   edgewalk_setup_lane0 lane0 (
     .clk           (clk),
-    .advance       (advance),
     .read_at       ((is_sum || is_sign) ? {of_gradients && (choice_24 || choice_25), choice_25, choice_24}
 : read_single_at),
     .step          (step_formed0),
@@ -972,7 +967,7 @@ module edgewalk_setup (
 
   // Not needed, on purpose.
   wire unused = &{
-    1'b0, ROUND_A, ends_fixed, less_m[0], part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1],
+    1'b0, ROUND_A, less_m[0], part_3[0], part_6[0], part_10[0], part_13[0], shifted[14:1],
     shifted_2[14:1], part_14[29:0], choice_6[14:10], choice_7[14:10], joined[15:14], joined_2[15:14],
     part_26[0], part_29[0], part_33[0], part_36[0], shifted_3[16:1], shifted_4[16:1], shifted_5[16:2]
   };

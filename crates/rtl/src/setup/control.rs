@@ -241,24 +241,31 @@ impl<'m> Control<'m> {
             stage(to.0.q(), to.1.map(Reg::q), to.2.q())
         };
         let next = moved(&held("next"), Some(advance), &named);
-        let (again, fixed) = (held("again"), held("fixed"));
         let resumes = pause.q().eq(1).named_doc("resumes", "the step after the numbers is formed again");
-        let choose = |resumed: Signal<'m>, fixed: Signal<'m>, next: Signal<'m>| {
-            advance.mux(next, resumes.mux(resumed, fixed))
+        // What took in numbers that do not fit, and the step after it: in exact fill only DX may not fit, and is doubled.
+        let registers = (plan.fill == Fill::Textbook).then(|| (held("again"), m.reg("at_taken", bits)));
+        let (again, taken) = match registers {
+            Some((again, taken)) => (stage(again.0.q(), again.1.map(Reg::q), again.2.q()), taken.q()),
+            None => {
+                let at_once = m.lit(1, (doubling_clocks(plan, Op::DoubleDx, 0) < 2).into());
+                (stage(code_of(&codes, Op::DoubleDx), next.round, at_once), code_of(&codes, Op::TakeDx))
+            }
+        };
+        let choose = |resumed: Signal<'m>, taken: Signal<'m>, next: Signal<'m>| {
+            advance.mux(next, resumes.mux(resumed, taken))
         };
         let formed = stage(
-            choose(again.0.q(), fixed.0.q(), next.at).named("at_formed"),
-            again
-                .1
-                .zip(fixed.1)
-                .zip(next.round)
-                .map(|((again, fixed), next)| choose(again.q(), fixed.q(), next).named("round_formed")),
+            choose(again.at, taken, next.at).named("at_formed"),
+            // It is of the same round.
+            again.round.zip(next.round).map(|(again, next)| advance.mux(next, again).named("round_formed")),
             // The last two digits are formed when two clocks are left.
-            choose(again.2.q(), pause.q().eq(2), next.ends).named("ends_formed"),
+            choose(again.ends, pause.q().eq(2), next.ends).named("ends_formed"),
         );
-        moved(&again, Some(advance), &formed);
         let stepped = moved(&held("stepped"), None, &formed);
-        moved(&fixed, Some(advance), &stepped);
+        if let Some((again, taken)) = registers {
+            moved(&again, Some(advance), &formed);
+            taken.when(advance, stepped.at);
+        }
         let rest = moved(&held("rest"), None, &stepped);
         let whole = moved(&held("whole"), None, &rest);
         let needed = |round: usize| m.lit(pause.q().width(), u128::from(pairs(plan, round)) + 2);
@@ -294,6 +301,11 @@ impl<'m> Control<'m> {
             top_digit,
         }
     }
+}
+
+/// The number of an operation that the machine has.
+fn code_of<'m>(codes: &[(Op, Signal<'m>)], op: Op) -> Signal<'m> {
+    codes[codes.iter().position(|(other, _)| *other == op).unwrap_or(0)].1
 }
 
 /// Clocks of an operation that does not depend on the triangle; of one that doubles the most.

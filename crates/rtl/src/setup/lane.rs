@@ -54,7 +54,6 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let below_two_m = shape.modulus; // M has a bit less; room for a sign
     let (sums, slot) = (below_two_m + 1, below_two_m - 1);
 
-    let advance = m.input_doc("advance", 1, "the steps go on; 0: what was read stays");
     let read_at = m.input_doc("read_at", 3, "slot of the addend, two clocks before its step");
     let step = m.input_doc("step", Step::BITS, "a clock before it is done");
     let number = m.input_doc("number", shape.number, "to take in, signed; with its step");
@@ -81,7 +80,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let rest = m.reg("rest", slot).doc("1/M");
     let rest_next = m.wire("rest_next", slot);
     let rests = m.memory("rests", 3, 8, slot).starts(0).doc("1/M").write(write, write_at, rest_next.q());
-    let stored = rests.read(advance & apart(write, write_at, read_at), read_at);
+    let stored = rests.read(apart(write, write_at, read_at), read_at);
 
     m.comment("The addend of the step that follows.");
     let n0 = m.reg("n0", below_two_m).doc("a, or M - a");

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
-use edgewalk_netlist::{BuildErrors, Instance, Module, Netlist, Signal};
+use edgewalk_netlist::{BuildErrors, Instance, Module, Netlist, Reg, Signal};
 
 use super::control::Control;
 use super::factors::Factors;
@@ -169,15 +169,18 @@ impl<'a, 'm> Common<'a, 'm> {
             next.set(step).q()
         } else {
             let next = next.when(control.advance, step).q();
-            let again = m.reg(&named("step_again"), Step::BITS);
-            let of_pause = control.pause.eq(2).mux(again.q(), self.of_pause);
+            // The step after the numbers: in exact fill the doubling of DX.
+            let kept = (self.plan.fill == Fill::Textbook).then(|| m.reg(&named("step_again"), Step::BITS));
+            let again = kept.map_or(m.lit(Step::BITS, self.first_doubling() as u128), Reg::q);
+            let of_pause = control.pause.eq(2).mux(again, self.of_pause);
             let of_pause = m.reg(&named("step_of_pause"), Step::BITS).set(of_pause).q();
             let formed = control.advance.mux(next, of_pause).named(&named("step_formed"));
-            again.when(control.advance, formed);
+            if let Some(kept) = kept {
+                kept.when(control.advance, formed);
+            }
             formed
         };
         instance
-            .connect("advance", control.advance)
             .connect("read_at", self.read_at(number))
             .connect("step", formed)
             .connect("write", self.write)
@@ -186,6 +189,14 @@ impl<'a, 'm> Common<'a, 'm> {
             .connect("nearest", self.nearest)
             .connect("upwards", self.upwards)
             .connect("negate", self.negated);
+    }
+
+    /// The first step in which DX is doubled.
+    fn first_doubling(&self) -> Step {
+        match Op::DoubleDx.doing().length {
+            Length::Doublings(number) if number(self.plan, &self.plan.channels()[0]) == 1 => Step::Double1,
+            _ => Step::Double2,
+        }
     }
 
     /// A lane with fewer doublings than the longest does its last ones with it; of an odd number the last is single.

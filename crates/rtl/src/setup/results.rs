@@ -109,15 +109,12 @@ impl<'m> Results<'_, 'm> {
         let rounded = value.trunc(channel.word());
         let t = self.plan.widths().center_fraction;
         let start = value.slice(channel.word() + t - 1, t);
-        let results = [
-            ("g", Op::DoubleX, rounded), // negated where the major edge lies right
-            ("d0", Op::DoubleLine, rounded),
-            ("d1", Op::AddX, rounded),
-            ("start", Op::SumStart, start),
-        ];
-        for (result, op, value) in results {
-            self.register(name, result).when(self.control.whole.ends_in(op, round), value);
-        }
+        let (whole, register) = (&self.control.whole, |result| self.register(name, result));
+        register("g").when(whole.ends_in(Op::DoubleX, round), rounded); // negated where the major edge lies right
+        register("d0").when(whole.ends_in(Op::DoubleLine, round), rounded);
+        register("d1").when(whole.ends_in(Op::AddX, round), rounded);
+        // What is taken before it is done is taken again.
+        register("start").when(whole.is_in(Op::SumStart, round), start);
     }
 
     fn channel_textbook(&self, channel: &Channel, round: usize, lane: &Lane<'m>) {

@@ -59,6 +59,28 @@ pub fn far(machine: &Plan) -> Trace {
     capture(machine, common::SETUP, &suite, DrawState::default(), StallKind::None)
 }
 
+/// Edges that fall less than a line from one side of the guard band to the other, whose DX does not fit, and triangles whose knee lies
+/// twice as far off the sheared major edge as any difference is long.
+pub fn steep(machine: &Plan) -> Trace {
+    let mut random = Pcg64Mcg::seed_from_u64(5);
+    let limit = f64::from((1u32 << machine.guard_bits) - 1);
+    let step = 1.0 / f64::from(1 << machine.subpixel_bits);
+    let triangle = |n| {
+        let x = if n % 4 < 2 { -limit } else { limit };
+        let corners = match n % 2 {
+            0 => [(x, 0.5), (-x, 2.5 - step * f64::from(random.random_range(0..6))), (x, 4.5)],
+            _ => [(x + step * x.signum() * -1.0, -limit), (-x, limit - step), (x, limit)],
+        };
+        corners.map(|(x, y)| {
+            let values: Vec<f64> = machine.channels().iter().map(|_| random.random()).collect();
+            machine.port_vertex(x, y, &values).expect("inside")
+        })
+    };
+    let triangles = (0..120).map(triangle).collect();
+    let suite = Suite::of_triangles("steep", "numbers that do not fit, the widest shears", triangles);
+    capture(machine, common::SETUP, &suite, DrawState::default(), StallKind::None)
+}
+
 /// The same, with a reset in so many cycles or so: one comes in every state of the work.
 pub fn cut_often(of: &Trace, each: u64) -> Trace {
     let mut random = Pcg64Mcg::seed_from_u64(4);

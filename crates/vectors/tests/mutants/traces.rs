@@ -64,8 +64,10 @@ pub fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
         }
         "setup" => {
             let far = setup::far(machine);
-            let cut = [8, 60].map(|each| setup::cut_often(&far, each));
-            traces.extend([setup::specks(machine), far, setup::halves(machine)].into_iter().chain(cut));
+            let steep = setup::steep(machine);
+            let cut = [(&far, 8), (&far, 60), (&steep, 5)].map(|(of, each)| setup::cut_often(of, each));
+            traces
+                .extend([setup::specks(machine), far, setup::halves(machine), steep].into_iter().chain(cut));
         }
         "span" => traces.extend((1..=4).map(|seed| any_lines(machine, &traces[1], seed)).collect::<Vec<_>>()),
         "blend" => {
