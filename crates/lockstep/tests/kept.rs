@@ -39,7 +39,7 @@ const FAULTS: &[Kept] = &[
         name: "depth_write_not_seen_by_the_next",
         unit: "depth",
         machine: |_| {},
-        words: &["becomes `Mux(head_after_w, old_z_in_queue, wr_z)`"],
+        words: &["`Mux(place0_after_w, passes_w, "],
     },
     Kept {
         name: "depth_write_not_passed_to_those_queued",
@@ -75,13 +75,13 @@ const FAULTS: &[Kept] = &[
         name: "edge_knee_line_drawn_twice",
         unit: "edge",
         machine: |machine| (machine.fill, machine.subpixel_bits) = (Fill::Textbook, 0),
-        words: &["becomes `Or(at_knee, line_major_right)`"],
+        words: &["becomes `Or(And(step, exchanges), line_major_right)`"],
     },
     Kept {
         name: "pixel_increment_of_another_triangle",
         unit: "pixel",
         machine: |_| {},
-        words: &["becomes `Or(load, span_fresh)`"],
+        words: &["becomes `Or(span_valid, span_fresh)`"],
     },
     Kept {
         name: "setup_equal_heights_sorted",

@@ -79,8 +79,9 @@ pub fn blend(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 
     m.comment("Write what is mixed.");
     let leaves = Leaves { ready: cwr_ready, wanted: m.lit(1, 1) };
-    flight.write(flow.leaves, &[leaves], |f| if f == "rgb" { rgb } else { stages.leaving(f) });
-    flight.move_up(&enter, take.fires, |f| if f == "need" { need } else { pass[f] });
+    let leaving = |f: &str| if f == "rgb" { rgb } else { stages.leaving(f) };
+    flight.write(w_free, flow.leaves, &[leaves], leaving);
+    flight.move_up(&enter, &take, |f| if f == "need" { need } else { pass[f] });
 
     ports.take_ready(enter.frag_ready);
     ports.read("color", enter.read_valid, pass["addr"], take.data_ready);

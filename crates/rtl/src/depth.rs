@@ -61,12 +61,30 @@ pub fn depth(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let compare = flight.turn(memory.data_valid, w_free, "compare");
     let new = flight.head("z");
     let old = flight.old("z", &memory.data).named_doc("old", "depth to compare with");
-    let less = new.lt(old).named("less");
     let equal = new.eq(old).named("equal");
     // The three bits of depth_func are the three outcomes that pass: greater, equal, less.
-    let pass =
-        ((depth_func.bit(0) & less) | (depth_func.bit(1) & equal) | (depth_func.bit(2) & !less & !equal))
-            .named("pass");
+    let [greater_passes, equal_passes, less_passes] = [2, 1, 0].map(|bit| depth_func.bit(bit));
+    let unless_less = equal.mux(equal_passes, greater_passes);
+    let (if_less, if_not) = match flight.behind_w("z", &frag) {
+        None => (less_passes, unless_less),
+        Some((after_w, next)) => {
+            m.comment("What w has just been filled with met the head a clock ahead: only the outcome is left to choose.");
+            let next_less = next.lt(new).named("next_less");
+            let next_equal = next.eq(new).named("next_equal");
+            let outcome = next_less.mux(less_passes, next_equal.mux(equal_passes, greater_passes));
+            let passes_w = m.reg("passes_w", 1).doc("the head against what w holds").set(outcome).q();
+            (after_w.mux(passes_w, less_passes), after_w.mux(passes_w, unless_less))
+        }
+    };
+    let if_less = if_less.named_doc("if_less", "it passes if it is less");
+    let if_not = if_not.named_doc("if_not", "and if it is not");
+    m.comment(
+        "pass = less ? if_less : if_not, as the top bits of the difference: nothing stands behind its carry.",
+    );
+    let (may, must) = (if_less | if_not, if_less & if_not);
+    let inverts = !if_less | if_not;
+    let pass = m.cat(&[inverts, may, new]) - m.cat(&[m.lit(1, 0), !must, old]);
+    let pass = pass.named("outcome").msb().named("pass");
 
     m.comment("Write what passes.");
     let wanted = match color_write {
@@ -76,7 +94,7 @@ pub fn depth(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let ways: Vec<Leaves> =
         ready.iter().zip(&wanted).map(|(ready, wanted)| Leaves { ready: *ready, wanted: *wanted }).collect();
     let fence = pend_fence.map(|pend| (pend, (flight.head("fence") | pend).named("fence")));
-    flight.write(compare.fires, &ways, |f| match (f, fence) {
+    flight.write(w_free, compare.fires, &ways, |f| match (f, fence) {
         ("z_en", _) => depth_write,
         ("fence", Some((_, fence))) => fence,
         _ => flight.head(f),
@@ -84,7 +102,7 @@ pub fn depth(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     if let (Some((pend, fence)), Some(to_blend)) = (fence, wanted.get(1)) {
         pend.when(compare.fires, fence & !*to_blend);
     }
-    flight.move_up(&enter, compare.fires, |f| frag[f]);
+    flight.move_up(&enter, &compare, |f| frag[f]);
 
     ports.take_ready(enter.frag_ready);
     ports.read("depth", enter.read_valid, frag["addr"], compare.data_ready);

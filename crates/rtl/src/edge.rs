@@ -11,13 +11,14 @@ use crate::wires::{Part, Registers, parts};
 
 const DOC: &str = "EDGE walks the major and the minor edge of a triangle, a line a step.
 
-  prim ─> [major C R q f M] ── cmaj ───────┐
-          [minor C R q f M] ── cmin ───────┼─> line
+  prim ─> [major C R-f q f M] ── cmaj ─────┐
+          [minor C R-f q f M] ── cmin ─────┼─> line
           [a value a channel] ─ by carry ──┘
           [g of each channel] ───────────────> inc, held for PIXEL
 
 Timing: the first line is valid in the cycle after the triangle was taken, then one line a clock while line_ready.
 Rules: a step takes f from R; where R is too small M is added back and the column goes one further (carry).
+R - f is what is kept, so that its sign says whether the step carries, and no step waits for a subtraction to know it.
 The columns are not cut to the screen here: SPAN does that.";
 
 /// The netlist of EDGE.
@@ -33,24 +34,35 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 
     m.comment("A triangle is taken when the one before is walked and PIXEL has its increments.");
     let running = m.reg("running", 1).reset(0);
+    let last = m.reg("last", 1).doc("last line of all");
     let prim_ready = (!running.q() & !fresh_queued).named("prim_ready");
     let load = (prim_valid & prim_ready).named("load");
     let step = (running.q() & line_ready).named("step");
+    m.comment("Between triangles everything takes what there is of the next one, whether it comes or not: no enable waits for that.");
+    let idle = m.reg("idle", 1).doc("not running: for what is loaded, as running is for the values").reset(1);
+    let at_end = (step & last.q()).named("at_end");
+    running.when(at_end, 0).when(load, 1);
+    idle.when(at_end, 1).when(load, 0);
+    let idle = idle.q();
+    let moves = (idle | line_ready).named("moves");
+    let frees = (idle & !fresh_queued).named_doc("frees", "PIXEL has the increments");
 
     m.comment("Where in the triangle: the upper part, then the lower.");
     let n1 = m.reg("n1", prim["n1"].width()).doc("lines left of the upper part");
     let n2 = m.reg("n2", prim["n2"].width()).doc("lines left of the lower part");
-    let place = Place::new(&m, [n1, n2], [prim["n1"], prim["n2"]], load, step);
-    let Place { upper, knee, last } = place;
-    n1.when(load, prim["n1"]).when(step & upper, n1.q() - 1);
-    n2.when(load, prim["n2"]).when(step & !upper, n2.q() - 1);
-    running.when(step & last, 0).when(load, 1);
+    let exchanges =
+        m.reg("exchanges", 1).doc("idle, or at the knee: another minor edge comes, and no step").reset(1);
+    let Place { upper, first_knee, next_knee } =
+        Place::new(&m, last, [n1, n2], [prim["n1"], prim["n2"]], idle, moves);
+    exchanges.when(moves, idle.mux(!load | first_knee, last.q() | next_knee));
+    let exchanges = exchanges.q();
+    n1.when(idle, prim["n1"]).when(step & upper, n1.q() - 1);
+    n2.when(idle, prim["n2"]).when(step & !upper, n2.q() - 1);
 
-    let (at_knee, along) = ((step & knee).named("at_knee"), (step & !knee).named("along"));
+    // The knee line of textbook fill is drawn twice: as the last of the upper and as the first of the lower part.
     let line_done = match plan.fill {
-        Fill::Exact => step,
-        // The knee line is drawn twice: as the last of the upper and as the first of the lower part.
-        Fill::Textbook => along,
+        Fill::Exact => moves,
+        Fill::Textbook => (idle | (line_ready & !exchanges)).named("line_done"),
     };
     let elsewhere = match plan.fill {
         Fill::Exact => ["cmaj", "cmin", "fence"].as_slice(),
@@ -59,49 +71,51 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let mut own = parts(&tokens::line(plan));
     own.retain(|f| !elsewhere.contains(&f.name.as_str()));
     let line = Registers::new(&m, "line", own);
-    line["y"].when(load, prim["jm"]).when(line_done, line["y"].q() + 1);
-    line["major_right"].when(load, prim["major_right"]);
-    line["fresh"].when(load, 1).when(step, 0);
+    line["y"].when(line_done, idle.mux(prim["jm"], line["y"].q() + 1));
+    line["major_right"].when(idle, prim["major_right"]);
+    line["fresh"].when(moves, idle);
     if let Some(fence) = line.get("fence") {
-        fence.when(load, 1).when(step, knee);
+        fence.when(moves, exchanges);
     }
     if let (Some(register), Some(tag)) = (line.get("tag"), prim.get("tag")) {
-        register.when(load, tag);
+        register.when(idle, tag);
     }
 
     m.comment("The major edge.");
-    let edge = parts_of_edge(&prim.parts());
-    let major = Registers::new(&m, "major", edge.clone());
-    let of_prim = |f: &str| prim[format!("major_{f}").as_str()];
-    // The values step by whether the edge carries. So its R is one line ahead, and the carry stands in a register.
-    let (first_carry, first_r) = less(of_prim("r"), of_prim("f"), prim.get("major_m"), "first");
-    let (next_carry, next_r) = less(major["r"].q(), major["f"].q(), major.get("m").map(Reg::q), "major");
-    let carry =
-        m.reg("carry", 1).doc("the major edge carries in its next step; 0 between triangles").reset(0);
-    carry.when(line_done, next_carry).when(step & last, 0).when(load, first_carry);
-    major["r"].when(line_done, next_r);
-    take_columns(&major, line_done, carry.q());
-    major.load(load, |f| if f == "r" { first_r } else { of_prim(f) });
-    let carry = carry.q();
+    let edges = parts_of_edge(&prim.parts());
+    let first = |edge: &str, f: &str| prim[format!("{edge}_{f}").as_str()];
+    let major = Edge::new(&m, "major", &edges);
+    let (rest, column) = major.next(&m);
+    let rest = idle.mux(major.first_rest(|f| first("major", f)), rest).named("major_next");
+    major.rest.when(line_done, rest);
+    // Beside the sign of R - f, as it chooses in all values; the reset is what tells the two apart.
+    let carry = m.reg("carry", 1).doc("the major edge carries in its next step").reset(0);
+    carry.when(line_done, rest.msb());
+    major.own["c"].when(line_done, idle.mux(first("major", "c"), column));
+    major.keep(idle, |f| first("major", f));
 
     m.comment("The minor edge, and the one that takes its place at the knee.");
-    let second = Registers::new(&m, "second", edge.clone());
-    second.load(load, |f| prim[format!("minor2_{f}").as_str()]);
-    let minor = Registers::new(&m, "minor", edge);
-    let (minor_carry, minor_r) = less(minor["r"].q(), minor["f"].q(), minor.get("m").map(Reg::q), "minor");
-    minor["r"].when(along, minor_r);
-    take_columns(&minor, along, minor_carry);
-    minor.load(at_knee, |f| second[f].q());
+    let second = Edge::new(&m, "second", &edges);
+    let second_rest = second.first_rest(|f| first("minor2", f)).named("minor2_rest");
+    second.rest.when(idle, second_rest);
+    second.own["c"].when(idle, first("minor2", "c"));
+    second.keep(idle, |f| first("minor2", f));
+    let minor = Edge::new(&m, "minor", &edges);
+    let (rest, column) = minor.next(&m);
     let has_upper = prim["n1"].any().named("has_upper");
-    minor.load(load, |f| {
-        has_upper.mux(prim[format!("minor1_{f}").as_str()], prim[format!("minor2_{f}").as_str()])
-    });
+    let minor1_rest = minor.first_rest(|f| first("minor1", f)).named("minor1_rest");
+    let enters = |f: &str| has_upper.mux(first("minor1", f), first("minor2", f));
+    let first_rest = has_upper.mux(minor1_rest, second_rest);
+    minor.rest.when(moves, exchanges.mux(idle.mux(first_rest, second.rest.q()), rest));
+    minor.own["c"].when(moves, exchanges.mux(idle.mux(enters("c"), second.own["c"].q()), column));
+    let exchanged = (exchanges & moves).named("exchanged");
+    minor.keep(exchanged, |f| idle.mux(enters(f), second.own[f].q()));
 
     m.comment("The channels at the start of the span, their steps, and the increments for PIXEL.");
     let increments = Registers::new(&m, "inc", parts(&tokens::held_by_edge(plan)));
     for name in ["kt", "record"] {
         if let (Some(register), Some(value)) = (increments.get(name), prim.get(name)) {
-            register.when(load, value);
+            register.when(frees, value);
         }
     }
     if plan.fill == Fill::Exact {
@@ -111,32 +125,33 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         let of_prim = |result: &str| prim[format!("{channel}_{result}").as_str()];
         let held = |result: &str| {
             let register = m.reg(&format!("{channel}_{result}"), of_prim(result).width());
-            register.doc("as in the triangle").when(load, of_prim(result)).q()
+            register.doc("as in the triangle").when(idle, of_prim(result)).q()
         };
         let value = line[channel];
-        increments[channel].when(load, of_prim("g"));
+        increments[channel].when(frees, of_prim("g"));
         match plan.fill {
             Fill::Exact => {
                 let (d0, d1) = (held("d0"), held("d1"));
-                let added =
-                    carry.mux(d1, running.q().mux(d0, of_prim("start"))).named(&format!("{channel}_added"));
-                value.when(step | load, running.q().mux(value.q() + added, added));
+                let added = idle.mux(of_prim("start"), carry.q().mux(d1, d0));
+                let added = added.named(&format!("{channel}_added"));
+                value.when(moves, running.q().mux(value.q() + added, added));
             }
             Fill::Textbook => {
                 let (d_a, start_b, d_b) = (held("d_a"), held("start_b"), held("d_b"));
+                let at_knee = step & exchanges;
                 value
-                    .when(along, value.q() + upper.mux(d_a, d_b))
+                    .when(line_done, value.q() + upper.mux(d_a, d_b))
                     // Where the left edge is the major one, the knee line begins where it did.
                     .when(at_knee & line["major_right"].q(), start_b)
-                    .when(load, has_upper.mux(of_prim("start_a"), of_prim("start_b")));
+                    .when(idle, has_upper.mux(of_prim("start_a"), of_prim("start_b")));
             }
         }
     }
 
     ports.take_ready(prim_ready);
     ports.give(running, |f| match f {
-        "cmaj" => major["c"].q(),
-        "cmin" => minor["c"].q(),
+        "cmaj" => major.own["c"].q(),
+        "cmin" => minor.own["c"].q(),
         // In exact fill only another triangle can hold the same pixel.
         "fence" => line.get("fence").unwrap_or(line["fresh"]).q(),
         own => line[own].q(),
@@ -153,56 +168,88 @@ fn parts_of_edge(prim: &[Part]) -> Vec<Part> {
     prim.iter().filter_map(of_edge).collect()
 }
 
-/// R of an edge a line further, and whether the step carries.
-fn less<'m>(
-    r: Signal<'m>,
-    f: Signal<'m>,
-    modulus: Option<Signal<'m>>,
-    name: &str,
-) -> (Signal<'m>, Signal<'m>) {
-    let bits = r.width();
-    let less = (r.zext(bits + 1) - f.zext(bits + 1)).named(&format!("{name}_less"));
-    let carry = less.msb().named(&format!("{name}_carry"));
-    let less = less.trunc(bits);
-    // Without a register for it the modulus is 2^F, and R wraps by itself.
-    (carry, modulus.map_or(less, |modulus| carry.mux(less + modulus, less)))
+/// An edge as it is walked.
+struct Edge<'m> {
+    name: &'m str,
+    /// R - f; below 0 the step carries.
+    rest: Reg<'m>,
+    carry: Signal<'m>,
+    /// All but R.
+    own: Registers<'m>,
 }
 
-/// The column of an edge a line further.
-fn take_columns<'m>(edge: &Registers<'m>, when: Signal<'m>, carry: Signal<'m>) {
-    let (c, q) = (edge["c"].q(), edge["q"].q());
-    edge["c"].when(when, c + q + carry.zext(c.width()));
+impl<'m> Edge<'m> {
+    fn new(m: &'m Module, name: &'m str, edge: &[Part]) -> Edge<'m> {
+        let own = edge.iter().filter(|part| part.name != "r").cloned().collect();
+        let own = Registers::new(m, name, own);
+        let bits = own["f"].q().width() + 1;
+        let rest = m.reg(&format!("{name}_rest"), bits).doc("R - f, signed: below 0 the step carries");
+        Edge { name, rest, carry: rest.q().msb(), own }
+    }
+
+    /// R - f and the column of an edge a line further.
+    fn next(&self, m: &'m Module) -> (Signal<'m>, Signal<'m>) {
+        let Edge { name, rest, carry, own } = self;
+        let bits = rest.q().width();
+        let f = own["f"].q().zext(bits);
+        let rest = match own.get("m") {
+            // f first: that sum waits for nothing, and M only for the carry.
+            Some(modulus) => {
+                let less = (rest.q() - f).named(&format!("{name}_less"));
+                let back = carry.mux(modulus.q().zext(bits), m.lit(bits, 0)).named(&format!("{name}_back"));
+                less + back
+            }
+            // The modulus is 2^F, and R wraps by itself.
+            None => rest.q().trunc(bits - 1).zext(bits) - f,
+        };
+        let (c, q) = (own["c"].q(), own["q"].q());
+        (rest, c + q + carry.zext(c.width()))
+    }
+
+    /// R - f of an edge with these parts at its first line.
+    fn first_rest(&self, of_prim: impl Fn(&str) -> Signal<'m>) -> Signal<'m> {
+        let bits = self.rest.q().width();
+        of_prim("r").zext(bits) - of_prim("f").zext(bits)
+    }
+
+    /// What does not step.
+    fn keep(&self, when: Signal<'m>, value: impl Fn(&str) -> Signal<'m>) {
+        for part in self.own.token().parts().iter().filter(|part| part.name != "c") {
+            self.own[part.name.as_str()].when(when, value(&part.name));
+        }
+    }
 }
 
 /// Where in the triangle the line is, in registers: what follows looks at them in every step.
 struct Place<'m> {
     upper: Signal<'m>,
-    knee: Signal<'m>,
-    last: Signal<'m>,
+    /// The line is the last of the upper part and the lower follows: of a triangle's first, and of the next one.
+    first_knee: Signal<'m>,
+    next_knee: Signal<'m>,
 }
 
 impl<'m> Place<'m> {
     fn new(
         m: &'m Module,
+        last: Reg<'m>,
         left: [Reg<'m>; 2],
         of_prim: [Signal<'m>; 2],
-        load: Signal<'m>,
-        step: Signal<'m>,
+        idle: Signal<'m>,
+        moves: Signal<'m>,
     ) -> Place<'m> {
-        let [n1, n2] = left.map(Reg::q);
         let upper = m.reg("upper", 1).doc("in the upper part");
-        let knee = m.reg("knee", 1).doc("last line of the upper part, the lower follows");
-        let last = m.reg("last", 1).doc("last line of all");
+        let [n1, n2] = left.map(Reg::q);
         let some_lower = n2.any().named("some_lower");
         let (two, one) = (n1.eq(2).named("two_upper"), n1.eq(1).named("one_upper"));
-        upper.when(step, upper.q() & !one);
-        knee.when(step, two & some_lower);
-        last.when(step, upper.q().mux((two & !some_lower) | (one & n2.eq(1)), n2.eq(2)));
+        let next_last = upper.q().mux((two & !some_lower) | (one & n2.eq(1)), n2.eq(2)).named("next_last");
         let [n1, n2] = of_prim;
-        let (some_lower, one) = (n2.any().named("lower_follows"), n1.eq(1).named("one_upper_only"));
-        upper.when(load, n1.any());
-        knee.when(load, one & some_lower);
-        last.when(load, n1.any().mux(one & !some_lower, n2.eq(1)));
-        Place { upper: upper.q(), knee: knee.q(), last: last.q() }
+        let (first_some_lower, first_one) =
+            (n2.any().named("lower_follows"), n1.eq(1).named("one_upper_only"));
+        let first_last = n1.any().mux(first_one & !first_some_lower, n2.eq(1)).named("first_last");
+        upper.when(moves, idle.mux(n1.any(), upper.q() & !one));
+        let first_knee = (first_one & first_some_lower).named("first_knee");
+        let next_knee = (two & some_lower).named("next_knee");
+        last.when(moves, idle.mux(first_last, next_last));
+        Place { upper: upper.q(), first_knee, next_knee }
     }
 }

@@ -53,10 +53,12 @@ Rules: in_ready does not look at out_ready: a full queue takes nothing in, even 
         }
     }
     for flag in flags {
-        let mut any = m.lit(1, 0);
-        for (i, place) in places.iter().enumerate() {
-            any = any | (count.q().gt(i as i32) & place[*flag].q());
-        }
+        // Kept beside the queue: who asks has it from a register.
+        let any = m.reg(&format!("any_{flag}_queued"), 1).doc("of a token in the queue").reset(0);
+        let behind = places.iter().enumerate().skip(1);
+        let behind =
+            behind.fold(m.lit(1, 0), |any, (i, place)| any | (count.q().gt(i as i32) & place[*flag].q()));
+        any.set(pop.mux(behind, any.q()) | (push & token[*flag]));
         m.output_doc(&format!("any_{flag}"), any, "of a token in the queue");
     }
 

@@ -57,29 +57,33 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let phase = Phase::new(&m, plan.clocks_per_pixel());
     let last_phase = phase.as_ref().map_or(m.lit(1, 1), |phase| phase.last);
     let last = m.reg("last", 1).doc("count is 1");
+    m.comment("Registers alone say whether the span goes on. Where it does not, one may enter; what is loaded while none comes means nothing.");
     let finish = (active.q() & last_phase & last.q()).named_doc("finish", "last clock of the span");
-    let span_ready = (advance & (!active.q() | finish)).named("span_ready");
+    let goes_on = (active.q() & !finish).named_doc("goes_on", "the next clock is this span's too");
+    let span_ready = (advance & !goes_on).named("span_ready");
     let load = (span_valid & span_ready).named("load");
     let light_pass = LightPass::of(plan, &ports);
     let columns = light_pass.number(&m, x.q().width(), plan.width.into(), plan.shadow.size.into());
     let visible = x.q().lt(columns).named_doc("visible", "on the screen; negative columns are large");
-    let leaves = (advance & active.q() & last_phase).named_doc("leaves", "this pixel is done");
-    let next = (leaves & !finish).named_doc("next_pixel", "another one follows");
     let emit = (active.q() & last_phase & visible).named_doc("emit", "a fragment");
+    let moves = match &phase {
+        None => advance,
+        Some(_) => (advance & (last_phase | !active.q())).named_doc("moves", "another pixel, or none"),
+    };
 
-    active.when(leaves & finish, 0).when(load, 1);
+    active.when(advance, goes_on | span_valid);
     if let Some(phase) = &phase {
-        phase.counter.when(advance & active, phase.next()).when(load, 0);
+        phase.counter.when(advance, goes_on.mux(phase.next(), 0));
     }
-    x.when(next, leftward.q().mux(x.q() - 1, x.q() + 1)).when(load, span["x"]);
-    count.when(next, count.q() - 1).when(load, span["count"]);
-    last.when(next, count.q().eq(2)).when(load, span["count"].eq(1));
-    y.when(load, span["y"]);
-    leftward.when(load, span["leftward"]);
-    fence.when(advance & emit, 0).when(load, span["fence"]);
+    x.when(moves, goes_on.mux(leftward.q().mux(x.q() - 1, x.q() + 1), span["x"]));
+    count.when(moves, goes_on.mux(count.q() - 1, span["count"]));
+    last.when(moves, goes_on.mux(count.q().eq(2), span["count"].eq(1)));
+    y.when(span_ready, span["y"]);
+    leftward.when(span_ready, span["leftward"]);
+    fence.when(advance, goes_on.mux(fence.q() & !emit, span["fence"]));
     let as_they_are = |part: &Part| ["material", "gloss", "tag"].contains(&part.name.as_str());
     let drawn = Registers::new(&m, "drawn", span.parts().into_iter().filter(as_they_are).collect());
-    drawn.load(load, |f| span[f]);
+    drawn.load(span_ready, |f| span[f]);
     let kt = plan.has_triangle_kt().then(|| {
         let kt = increments["kt"];
         m.reg("kt", kt.width()).doc("of the triangle").when(load & span["fresh"], kt)
@@ -87,18 +91,19 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 
     m.comment("The additions.");
     let add = match &phase {
-        None => next,
+        None => goes_on,
         Some(_) => {
             // Set by a pixel that has a next one: its channels after the first are added in the next one's phases.
             let adding = m.reg("adding", 1).doc("this pixel is not the first of its span");
-            adding.when(next, 1).when(load, 0);
-            (next | (advance & active.q() & !last_phase & adding.q())).named("add")
+            adding.when(moves, goes_on);
+            (goes_on & (last_phase | adding.q())).named("add")
         }
     };
     let slot = phase.map(|phase| phase.next().named_doc("slot", "channel of each adder in this clock"));
-    let first = Step { load, fresh: span["fresh"], add, slot };
+    let first =
+        Step { stays: goes_on, fresh: (span_valid & span["fresh"]).named("new_increments"), add, slot };
     let words = Words::new(&m, plan, advance, first, &span, &increments);
-    let terms = Terms::new(&m, plan, &span, load, next);
+    let terms = Terms::new(&m, plan, &span, [moves, span_ready], goes_on);
 
     m.comment("The output: in each stage the bits of one more segment.");
     let address = |x_bits: u32| {

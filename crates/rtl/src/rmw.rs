@@ -72,9 +72,6 @@ pub(crate) struct Rmw<'m> {
     count: Reg<'m>,
     stages: Vec<InFlight<'m>>,
     w: Write<'m>,
-    /// The head is of the pixel that left the queue in the cycle before; only in machines that forward to a head that does not
-    /// wait.
-    head_follows: Option<Reg<'m>>,
 }
 
 /// Of the links, for the handshakes.
@@ -94,6 +91,25 @@ struct Place<'m> {
 struct Forwarded<'m> {
     valid: Reg<'m>,
     word: Registers<'m>,
+    /// Only where w is filled from the queue itself. Nobody stands in the last place then: the head has just left.
+    follows: Option<Follows<'m>>,
+}
+
+/// What w holds since this cycle may be an entry's old word.
+#[derive(Clone, Copy)]
+struct Follows<'m> {
+    /// Of the pixel that left the queue at the last clock.
+    flag: Reg<'m>,
+    /// And that one is written.
+    after_w: Signal<'m>,
+}
+
+/// What a place of the queue does in a cycle.
+struct Move<'m> {
+    /// It takes the entry behind it, or what enters.
+    moves: Signal<'m>,
+    /// There is one behind it; no place is behind the last.
+    has_next: Option<Signal<'m>>,
 }
 
 /// How a fragment enters.
@@ -111,6 +127,8 @@ pub(crate) struct Turn<'m> {
     pub data_ready: Signal<'m>,
     /// It leaves in this cycle.
     pub fires: Signal<'m>,
+    /// It does if there is one.
+    goes: Signal<'m>,
 }
 
 impl<'m> Rmw<'m> {
@@ -122,20 +140,23 @@ impl<'m> Rmw<'m> {
         let count = m.reg("count", bits).doc("fragments in flight").reset(0);
         let mut word = parts(&memory.data.fields);
         word.iter_mut().for_each(|part| part.doc = format!("the {} it wrote", memory.name));
+        let w = Write::new(m, ways, write, memory.enable);
         let place = |i| Place {
             entry: Registers::new(m, &format!("place{i}"), entry.clone()),
             forwarded: (hazard == Hazard::Forward).then(|| Forwarded {
                 valid: m.reg(&format!("place{i}_fwd_valid"), 1).doc("an older fragment wrote this pixel"),
                 word: Registers::new(m, &format!("place{i}_fwd"), word.clone()),
+                follows: (stages.is_empty() && i + 1 < places).then(|| {
+                    let flag = m.reg(&format!("place{i}_follows"), 1);
+                    let flag = flag.doc("of the pixel that left in the cycle before");
+                    let after_w = (flag.q() & w.changes()).named(&format!("place{i}_after_w"));
+                    Follows { flag, after_w }
+                }),
             }),
         };
         let places = (0..places).map(place).collect();
-        let w = Write::new(m, ways, write, memory.enable);
-        let head_follows = (hazard == Hazard::Forward && stages.is_empty())
-            .then(|| m.reg("head_follows", 1).doc("the head is of the pixel that left in the cycle before"));
         let names = Names { frag: frag.name, read: memory.read.name, data: memory.data.name };
-        let latency = memory.latency;
-        Rmw { m, hazard, names, writes, latency, places, count, stages, w, head_follows }
+        Rmw { m, hazard, names, writes, latency: memory.latency, places, count, stages, w }
     }
 
     /// A fragment enters when the queue has room and no hazard holds it, in the cycle its word is read. `needs` it the word, and
@@ -147,7 +168,10 @@ impl<'m> Rmw<'m> {
         needs: Option<Signal<'m>>,
         read_ready: Signal<'m>,
     ) -> Enter<'m> {
-        let full = self.count.q().eq(self.places.len() as i32).named("full");
+        let (count, places) = (self.count.q(), self.places.len());
+        // frag_ready goes on to the unit before, and to that before it: a bit where it can be one.
+        let full = if places.is_power_of_two() { count.msb() } else { count.eq(places as i32) };
+        let full = full.named("full");
         let hazard = self.must_wait(frag, needs).named("hazard");
         let clear = (!full & !hazard).named("clear_to_read");
         let enters = frag_valid & clear;
@@ -164,19 +188,18 @@ impl<'m> Rmw<'m> {
 
     /// The head leaves when its old word comes, if it needs one, and there is `room` for it; `name` says what happens to it then.
     pub fn turn(&self, data_valid: Signal<'m>, room: Signal<'m>, name: &str) -> Turn<'m> {
-        let may = self.count.q().any() & room;
-        let may = self.head_waits().map_or(may, |waits| may & !waits);
+        let any = self.count.q().any().named("has_head");
+        let may = self.head_waits().map_or(room, |waits| room & !waits);
         let named = |ready: Signal<'m>| ready.named(&format!("{}_ready", self.names.data));
-        match self.places[0].entry.get("need").map(Reg::q) {
-            None => {
-                let data_ready = named(may);
-                Turn { data_ready, fires: (data_valid & data_ready).named(name) }
-            }
+        let (data_ready, goes) = match self.places[0].entry.get("need").map(Reg::q) {
+            None => (any & may, data_valid & may),
             Some(need) => {
                 let may = may.named_doc("head_may_leave", "but for its word");
-                Turn { data_ready: named(may & need), fires: (may & (data_valid | !need)).named(name) }
+                (any & may & need, may & (data_valid | !need))
             }
-        }
+        };
+        let goes = goes.named_doc("goes", "a head leaves, if there is one");
+        Turn { data_ready: named(data_ready), fires: (any & goes).named(name), goes }
     }
 
     /// The head's word is being made in a stage.
@@ -192,17 +215,27 @@ impl<'m> Rmw<'m> {
         self.places[0].entry[field].q()
     }
 
-    /// A field of the head's old word: what an older fragment wrote, or else what memory says. What is in w since this cycle is
-    /// nowhere else yet.
+    /// A field of the head's old word: what an older fragment wrote, or else what memory says. What w holds since this cycle is
+    /// nowhere else yet: where w is filled from the queue itself that is asked of [`Rmw::behind_w`].
     pub fn old(&self, field: &str, data: &Token<'m>) -> Signal<'m> {
         let Some(own) = &self.places[0].forwarded else { return data[field] };
-        let in_queue =
-            own.valid.q().mux(own.word[field], data[field]).named(&format!("old_{field}_in_queue"));
-        let from_w = match self.head_follows {
-            Some(follows) => follows.q() & self.w.changes(),
-            None => self.w.of(self.head("addr")),
-        };
-        from_w.named("head_after_w").mux(self.w[field], in_queue)
+        let in_queue = own.valid.q().mux(own.word[field], data[field]);
+        if self.stages.is_empty() {
+            return in_queue;
+        }
+        let in_queue = in_queue.named(&format!("old_{field}_in_queue"));
+        self.w.of(self.head("addr")).named("head_after_w").mux(self.w[field], in_queue)
+    }
+
+    /// Whether the old word of the head is what w holds since this cycle; `None`: never. And a field of the one that will be
+    /// the head in the next cycle if this one leaves, `frag` being what enters: so the two can meet a clock ahead.
+    pub fn behind_w(&self, field: &str, frag: &Token<'m>) -> Option<(Signal<'m>, Signal<'m>)> {
+        let after_w = self.places[0].forwarded.as_ref()?.follows?.after_w;
+        let behind = self.places[1].entry[field].q();
+        // A fragment that enters is a head in the next cycle that can leave only if its word comes at once.
+        let enters = (self.latency == 1).then(|| frag[field]);
+        let next = enters.map_or(behind, |enters| self.count.q().gt(1).mux(behind, enters));
+        Some((after_w, next))
     }
 
     /// Nothing is in w, or all of it leaves in this cycle; a ready a way.
@@ -210,32 +243,38 @@ impl<'m> Rmw<'m> {
         self.w.free(ready).named("w_free")
     }
 
-    /// What is in w leaves by each way by itself; a fragment takes its place, `when` it comes.
-    pub fn write(&self, when: Signal<'m>, ways: &[Leaves<'m>], value: impl Fn(&str) -> Signal<'m>) {
-        self.w.load(when, ways, value);
+    /// What is in w leaves by each way by itself; a fragment takes its place, `when` it comes to a `free` w.
+    pub fn write(
+        &self,
+        free: Signal<'m>,
+        when: Signal<'m>,
+        ways: &[Leaves<'m>],
+        value: impl Fn(&str) -> Signal<'m>,
+    ) {
+        self.w.load(free, when, ways, value);
     }
 
-    /// The queue moves up when its head leaves, in a cycle of `pop`; an entry enters with these values of its fields.
-    pub fn move_up(&self, enter: &Enter<'m>, pop: Signal<'m>, value: impl Fn(&str) -> Signal<'m>) {
+    /// The queue moves up when its head leaves; an entry enters with these values of its fields.
+    pub fn move_up(&self, enter: &Enter<'m>, turn: &Turn<'m>, value: impl Fn(&str) -> Signal<'m>) {
         self.m.comment("The queue moves up when its head leaves; what enters goes behind the last.");
-        let (push, count) = (enter.push, self.count);
+        let (push, pop, count) = (enter.push, turn.fires, self.count);
         count.when(push & !pop, count.q() + 1).when(pop & !push, count.q() - 1);
         // A free place takes what may enter in every cycle: neither push nor pop, which may come late, leads into an entry.
-        for (i, place) in self.places.iter().enumerate() {
-            let moves = (pop | count.q().le(i as i32)).named(&format!("place{i}_moves"));
-            match self.places.get(i + 1) {
-                Some(behind) => {
-                    let follows = count.q().gt(i as i32 + 1).named(&format!("place{i}_has_next"));
-                    place.entry.load(moves, |f| follows.mux(behind.entry[f], value(f)));
-                }
-                None => place.entry.load(moves, &value),
-            }
+        let steps = (0..self.places.len()).map(|i| Move {
+            moves: (turn.goes | count.q().le(i as i32)).named(&format!("place{i}_moves")),
+            has_next: (i + 1 < self.places.len())
+                .then(|| count.q().gt(i as i32 + 1).named(&format!("place{i}_has_next"))),
+        });
+        let steps: Vec<Move> = steps.collect();
+        for (i, (place, step)) in self.places.iter().zip(&steps).enumerate() {
+            place.entry.load(step.moves, |f| match step.has_next {
+                Some(has_next) => has_next.mux(self.places[i + 1].entry[f], value(f)),
+                None => value(f),
+            });
         }
         if self.hazard == Hazard::Forward {
-            let end = pop.mux(count.q() - 1, count).named("end_place");
-            let enters = |i| (push & end.eq(i as i32)).named(&format!("enters{i}"));
-            let enters: Vec<Signal> = (0..self.places.len()).map(enters).collect();
-            self.forward(value("addr"), pop, &enters);
+            self.forward(value("addr"), &steps);
+            self.follow(value("addr"), &steps, turn.goes);
         }
     }
 
@@ -281,49 +320,52 @@ impl<'m> Rmw<'m> {
     }
 
     /// Fragments in the queue take the word being written, if it is of their pixel; so does one that enters.
-    fn forward(&self, enters_addr: Signal<'m>, pop: Signal<'m>, enters: &[Signal<'m>]) {
+    fn forward(&self, enters_addr: Signal<'m>, steps: &[Move<'m>]) {
         self.m.comment("Forward: a word being written goes to every fragment of its pixel in the queue.");
-        let after_w = |(i, place): (usize, &Place<'m>)| {
-            self.w.of(place.entry["addr"].q()).named(&format!("place{i}_after_w"))
+        let after_w = |(i, place): (usize, &Place<'m>)| match &place.forwarded {
+            Some(own) if self.stages.is_empty() => own.follows.map(|follows| follows.after_w),
+            // w is filled from a stage: who is of its pixel is seen only there.
+            _ => Some(self.w.of(place.entry["addr"].q()).named(&format!("place{i}_after_w"))),
         };
-        // Where w takes the head itself, nobody stands in the last place in the cycle in which w is new: the head has just left.
-        let matched = self.places.len() - usize::from(self.stages.is_empty());
-        let after_w: Vec<Signal> = self.places.iter().enumerate().take(matched).map(after_w).collect();
+        let after_w: Vec<Option<Signal>> = self.places.iter().enumerate().map(after_w).collect();
         let enters_after_w = self.w.of(enters_addr).named("enters_after_w");
-        for (i, place) in self.places.iter().enumerate() {
+        for (i, (place, step)) in self.places.iter().zip(steps).enumerate() {
             let Some(own) = &place.forwarded else { continue };
-            if let Some(stays) = after_w.get(i).copied() {
+            if let Some(stays) = after_w[i] {
                 own.valid.when(stays, 1);
                 own.word.load(stays, |f| self.w[f].q());
             }
-            if let Some(Place { forwarded: Some(from), .. }) = self.places.get(i + 1) {
-                match after_w.get(i + 1).copied() {
-                    Some(same) => {
-                        own.valid.when(pop, from.valid.q() | same);
-                        own.word.load(pop, |f| same.mux(self.w[f], from.word[f]));
-                    }
-                    None => {
-                        own.valid.when(pop, from.valid.q());
-                        own.word.load(pop, |f| from.word[f].q());
-                    }
-                }
-            }
-            own.valid.when(enters[i], enters_after_w);
-            own.word.load(enters[i], |f| self.w[f].q());
+            let from = self.places.get(i + 1).and_then(|from| from.forwarded.as_ref());
+            let Some((from, has_next)) = from.zip(step.has_next) else {
+                own.valid.when(step.moves, enters_after_w);
+                own.word.load(step.moves, |f| self.w[f].q());
+                continue;
+            };
+            let (valid, keeps) = match after_w[i + 1] {
+                Some(after_w) => (from.valid.q() | after_w, has_next & !after_w),
+                None => (from.valid.q(), has_next),
+            };
+            own.valid.when(step.moves, has_next.mux(valid, enters_after_w));
+            own.word.load(step.moves, |f| keeps.mux(from.word[f], self.w[f]));
         }
+    }
 
-        let Some(follows) = self.head_follows else { return };
-        self.m.comment("What the head writes is in w a cycle later, when the next may be compared already.");
-        let addr = self.head("addr");
-        let behind =
-            self.places.get(1).map(|place| place.entry["addr"].q().eq(addr).named("place1_after_head"));
-        // A fragment that enters is compared in the next cycle only if its word comes at once.
-        let enters = (self.latency == 1).then(|| enters_addr.eq(addr).named("enters_after_head"));
-        let next = match (behind, enters) {
-            (Some(behind), Some(enters)) => self.count.q().gt(1).mux(behind, enters),
-            (Some(one), None) | (None, Some(one)) => one,
-            (None, None) => self.m.lit(1, 0),
-        };
-        follows.set(pop & next);
+    /// What the head writes is in w a cycle later: who is of its pixel is found while it goes there.
+    fn follow(&self, enters_addr: Signal<'m>, steps: &[Move<'m>], goes: Signal<'m>) {
+        let flags: Vec<_> = self.places.iter().map_while(|place| place.forwarded.as_ref()?.follows).collect();
+        if flags.is_empty() {
+            return;
+        }
+        self.m.comment(
+            "What the head writes is in w a cycle later: who is of its pixel is found while it goes there.",
+        );
+        let head = self.head("addr");
+        let enters = enters_addr.eq(head).named("enters_after_head");
+        for (i, (Follows { flag, .. }, step)) in flags.into_iter().zip(steps).enumerate() {
+            let behind = self.places[i + 1].entry["addr"].q().eq(head);
+            let behind = behind.named(&format!("place{}_after_head", i + 1));
+            let same = step.has_next.map_or(enters, |has_next| has_next.mux(behind, enters));
+            flag.set(goes & same);
+        }
     }
 }

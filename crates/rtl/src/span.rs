@@ -38,7 +38,7 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         Fill::Textbook => ends_textbook(&m, width, &line),
     };
 
-    m.comment("The line held, cut where it ends.");
+    m.comment("The line held; at its right side it is cut only here. What is loaded while no line comes means nothing.");
     let fields = parts(&tokens::span(plan));
     let queue = fifo("edgewalk_span_fifo", plan.span_fifo, &fields, &["fresh"])?;
     let queue = m.instance("queue", &queue);
@@ -51,15 +51,27 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let as_it_is: Vec<_> =
         fields.iter().filter(|f| !matches!(f.name.as_str(), "x" | "count" | "leftward")).cloned().collect();
     let held = Registers::new(&m, "held", as_it_is);
-    held.load(take, |f| line[f]);
+    held.load(line_ready, |f| line[f]);
     let [first, end] = ["first", "end"].map(|name| m.reg(&format!("held_{name}"), ends.first.width()));
-    let first = first.doc("signed, first column").when(take, ends.first).q();
-    let end = end.doc("signed, the column behind the last").when(take, ends.end).q();
-    let empty = m.reg("held_empty", 1).doc("no column of it is on the screen").when(take, ends.empty).q();
+    let first = first.doc("signed, first column").when(line_ready, ends.first).q();
+    let end = end
+        .doc("signed, the column behind the last, or one beyond the screen")
+        .when(line_ready, ends.end)
+        .q();
+    let beyond = m.reg("held_beyond", 1).doc("it ends with the screen").when(line_ready, ends.beyond).q();
+    let end = beyond.mux(width, end).named("end_cut");
+    let [crossed, outside] = [
+        ("crossed", "no column lies between its edges", ends.crossed),
+        ("outside", "they end beside the screen", ends.outside),
+    ]
+    .map(|(name, doc, end)| m.reg(&format!("held_{name}"), 1).doc(doc).when(line_ready, end).q());
+    let empty = (crossed | outside).named_doc("empty", "no column of it is on the screen");
     let leftward = match plan.fill {
-        Fill::Exact => {
-            m.reg("held_leftward", 1).doc("drawn from its last column").when(take, line["major_right"]).q()
-        }
+        Fill::Exact => m
+            .reg("held_leftward", 1)
+            .doc("drawn from its last column")
+            .when(line_ready, line["major_right"])
+            .q(),
         Fill::Textbook => m.lit(1, 0),
     };
 
@@ -100,10 +112,14 @@ pub fn span(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
 struct Ends<'m> {
     /// First column.
     first: Signal<'m>,
-    /// The column behind the last.
+    /// The column behind the last, but for the cut at the screen's right side.
     end: Signal<'m>,
-    /// No column lies between them, or none on the screen.
-    empty: Signal<'m>,
+    /// That cut is made.
+    beyond: Signal<'m>,
+    /// No column lies between them.
+    crossed: Signal<'m>,
+    /// None of those there are is on the screen.
+    outside: Signal<'m>,
 }
 
 /// Half-open spans from the major edge inwards, to the right or to the left.
@@ -111,17 +127,33 @@ fn ends_exact<'m>(m: &'m Module, width: Signal<'m>, line: &Token<'m>) -> Ends<'m
     let (cmaj, cmin) = (line["cmaj"], line["cmin"]);
     m.comment("To the right from cmaj to before cmin, at most to the end of the screen; to the left to cmin, at least to column 0.");
     let right_of_screen =
-        cmin.sge(width).named_doc("right_of_screen", "no column of the screen lies right of cmin");
-    let left_of_screen = cmin.sle(0).named_doc("left_of_screen", "no column of the screen lies left of cmin");
+        beyond(cmin, width).named_doc("right_of_screen", "no column of the screen lies right of cmin");
+    let left_of_screen =
+        before(cmin).named_doc("left_of_screen", "no column of the screen lies left of cmin");
     m.comment("Whether a column is left is asked of the edges themselves: no comparison waits for the cut.");
-    let none_right = (cmin.sle(cmaj) | cmaj.sge(width) | left_of_screen).named("none_right");
-    let none_left = (cmaj.sle(cmin) | cmaj.sle(0) | right_of_screen).named("none_left");
+    // The sign of a difference with room for it: nothing stands behind the carry.
+    let wide = cmaj.width() + 1;
+    let ordered = (cmaj.sext(wide) - cmin.sext(wide)).msb().named("ordered");
+    let outside_right = (beyond(cmaj, width) | left_of_screen).named("outside_right");
+    let outside_left = (before(cmaj) | right_of_screen).named("outside_left");
     let leftward = line["major_right"];
     Ends {
         first: leftward.mux(left_of_screen.mux(0, cmin), cmaj).named("first"),
-        end: leftward.mux(cmaj, right_of_screen.mux(width, cmin)).named("end_cut"),
-        empty: leftward.mux(none_left, none_right).named("empty"),
+        end: leftward.mux(cmaj, cmin),
+        beyond: (!leftward & right_of_screen).named("beyond"),
+        crossed: leftward.mux(ordered | cmaj.eq(cmin), !ordered).named("crossed"),
+        outside: leftward.mux(outside_left, outside_right).named("outside"),
     }
+}
+
+/// The column is the screen's width or more. Without its sign the comparison is one carry.
+fn beyond<'m>(column: Signal<'m>, width: Signal<'m>) -> Signal<'m> {
+    !column.msb() & column.ge(width)
+}
+
+/// The column is 0 or less.
+fn before(column: Signal<'_>) -> Signal<'_> {
+    column.msb() | column.eq(0)
 }
 
 /// Spans with both ends, always to the right: a column stands one right of `Trunc(X)`.
@@ -130,6 +162,7 @@ fn ends_textbook<'m>(m: &'m Module, width: Signal<'m>, line: &Token<'m>) -> Ends
     m.comment("From Trunc(X) of the left edge to Trunc(X) of the right edge, both drawn; a column register is Trunc(X) + 1.");
     let xe = major_right.mux(cmaj, cmin).named_doc("xe", "signed, first column after the line");
     let first = (major_right.mux(cmin, cmaj) - 1).named("first");
-    let end = xe.slt(width).mux(xe, width).named_doc("end_cut", "signed, first column after the span");
-    Ends { first, end, empty: (end.sle(first) | xe.sle(0)).named("empty") }
+    let on_screen = xe.slt(width).named_doc("on_screen", "the span ends on the screen");
+    let crossed = on_screen.mux(xe, width).sle(first).named("crossed");
+    Ends { first, end: xe, beyond: !on_screen, crossed, outside: xe.sle(0).named("outside") }
 }

@@ -132,7 +132,6 @@ impl<const C: usize> Depth<C> {
         let z = plan.channels()[0].bits;
         view.number("new", "depth of the head", z, new);
         let stored = view.number("stored", "old depth", z, old);
-        view.wire(|| "old".to_owned());
         let pass = view.flag("passes", "the new one wins", passes);
         view.wire(|| "pass".to_owned());
         view.live(None);

@@ -35,19 +35,22 @@ impl<const C: usize> Edge<C> {
         view.wire(|| "line_major_right".to_owned());
         view.table("edges", &EdgeWalk::COLUMNS, false);
         view.row("major");
-        self.major.view(plan, Some(("major", false)), view);
+        self.major.view(plan, Some("major"), view);
         view.row("minor");
-        self.minor.view(plan, Some(("minor", true)), view);
+        self.minor.view(plan, Some("minor"), view);
         view.row("second");
-        self.held.minor[1].view(plan, Some(("second", true)), view);
+        self.held.minor[1].view(plan, Some("second"), view);
         let carry = self.major.r < self.major.f;
         view.flag("carry", "R < f of the major edge: the column goes one further", carry);
         view.wire(|| "carry".to_owned());
-        let mut next = self.major;
-        next.step(w.column);
-        let bits = remainder_bits(plan);
-        view.number("ahead", "R of the next line: the hardware's register is that far", bits, next.r as u64);
-        view.wire(|| "major_r".to_owned());
+        let bits = remainder_bits(plan) + 1;
+        for (edge, name) in
+            [(&self.major, "major_rest"), (&self.minor, "minor_rest"), (&self.held.minor[1], "second_rest")]
+        {
+            let rest = i64::from(edge.r) - i64::from(edge.f);
+            view.signed(name, "R − f of the edge: what the hardware's register holds", bits, rest);
+            view.wire(|| name.to_owned());
+        }
         self.view_channels(plan, view);
         view.live(None);
         view.lane(y, self.running);

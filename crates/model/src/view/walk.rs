@@ -9,12 +9,12 @@ impl EdgeWalk {
     /// What stands above the cells.
     pub(crate) const COLUMNS: [&'static str; 5] = ["C", "R", "q", "f", "M"];
 
-    /// The cells; `wires` is what the netlist's registers of the edge begin with, and whether its R is that of this line.
-    pub(crate) fn view(&self, plan: &Plan, wires: Option<(&str, bool)>, view: &mut View) {
+    /// The cells; `wires` is what the netlist's registers of the edge begin with. R is none of them: they keep R - f.
+    pub(crate) fn view(&self, plan: &Plan, wires: Option<&str>, view: &mut View) {
         let (column, remainder) = (plan.widths().column, remainder_bits(plan));
         let mut cell = |part: &str, doc: &str, shape: Shape, value: i32| {
             view.cell(doc, || shape, modulo(value.into(), shape.bits()));
-            if let Some((wires, _)) = wires.filter(|(_, here)| *here || part != "r") {
+            if let Some(wires) = wires.filter(|_| part != "r") {
                 view.wire(|| format!("{wires}_{part}"));
             }
         };

@@ -12,14 +12,14 @@ pub(super) const SKEW_DOC: &str = "Segments: the words are cut into segments, an
   seg 1      a  b  c        fragment meet again in the output stages.
   seg 2         a  b";
 
-/// What a segment of all words does in a clock.
+/// What a segment of all words does in a clock in which PIXEL advances.
 #[derive(Clone, Copy)]
 pub(super) struct Step<'m> {
-    /// A span enters.
-    pub load: Signal<'m>,
-    /// Its increments are new.
+    /// The span in it goes on; else one may enter.
+    pub stays: Signal<'m>,
+    /// One that enters has new increments.
     pub fresh: Signal<'m>,
-    /// Each adder adds the increment of one channel.
+    /// Each adder adds the increment of one channel; only in a span that goes on.
     pub add: Signal<'m>,
     /// Which one: the place among the channels of the adder. `None` if each has only one.
     pub slot: Option<Signal<'m>>,
@@ -36,13 +36,11 @@ fn steps<'m>(m: &'m Module, plan: &Plan, advance: Signal<'m>, first: Step<'m>) -
         let late = |name: &str, signal: Signal<'m>| {
             m.reg(&format!("{name}{segment}"), signal.width()).reset(0).when(advance, signal).q()
         };
-        // A step is done where the machine advances; `below` says so only for segment 0.
-        let now = |name: &str, signal: Signal<'m>| {
-            (late(name, signal) & advance).named(&format!("{name}{segment}_now"))
-        };
-        let (load, fresh) = (now("load", below.load), late("fresh", below.fresh));
-        let (add, slot) = (now("add", below.add), below.slot.map(|slot| late("slot", slot)));
-        steps.push(Step { load, fresh, add, slot });
+        let (stays, fresh) = (late("stays", below.stays), late("fresh", below.fresh));
+        // With one channel an adder it adds wherever it stays.
+        let add = if below.slot.is_some() { late("add", below.add) } else { stays };
+        let slot = below.slot.map(|slot| late("slot", slot));
+        steps.push(Step { stays, fresh, add, slot });
     }
     steps
 }
@@ -53,6 +51,8 @@ pub(super) struct Segment<'m> {
     low: u32,
     value: Reg<'m>,
     inc: Reg<'m>,
+    /// The value of a span that enters.
+    first: Signal<'m>,
 }
 
 /// The words of all channels.
@@ -149,9 +149,8 @@ fn registers<'m>(
             m.reg(&format!("{name}_{what}{part}"), high - low).doc(&doc)
         };
         let (value, inc) = (register("value"), register("inc"));
-        value.when(step.load, lowest(value_in, high - low));
-        inc.when(step.load & step.fresh, lowest(inc_in, high - low));
-        segments.push(Some(Segment { low, value, inc }));
+        inc.when(advance & !step.stays & step.fresh, lowest(inc_in, high - low));
+        segments.push(Some(Segment { low, value, inc, first: lowest(value_in, high - low) }));
     }
     segments
 }
@@ -191,8 +190,14 @@ fn add<'m>(
         let sum = carry.map_or(value + inc, |carry| value + inc + carry.zext(sum_bits));
         let sum = sum.named(&format!("{name}_sum{part}"));
         for (slot, part) in &here {
-            let takes = turn(*slot).map_or(step.add, |turn| step.add & turn);
-            part.value.when(takes, lowest(sum, part.value.q().width()));
+            let sum = lowest(sum, part.value.q().width());
+            match turn(*slot) {
+                // One or the other in every clock: the enable is `advance` alone.
+                None => part.value.when(advance, step.stays.mux(sum, part.first)),
+                Some(turn) => {
+                    part.value.when(advance & !step.stays, part.first).when(advance & step.add & turn, sum)
+                }
+            };
         }
         carry = (!is_last)
             .then(|| m.reg(&format!("{name}_carry{}", segment + 1), 1).when(advance, sum.msb()).q());

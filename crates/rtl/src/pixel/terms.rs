@@ -14,13 +14,13 @@ each with adders of its own, in one clock. They are not cut into segments, and w
 pub(super) struct Terms<'m>(Vec<(Term, Reg<'m>)>);
 
 impl<'m> Terms<'m> {
-    /// They are loaded with a span, and step where another pixel follows.
+    /// They are loaded with a span, and step where it goes on; the enables are of both, and of loading alone.
     pub fn new(
         m: &'m Module,
         plan: &Plan,
         span: &Token<'m>,
-        load: Signal<'m>,
-        next: Signal<'m>,
+        [moves, enters]: [Signal<'m>; 2],
+        goes_on: Signal<'m>,
     ) -> Terms<'m> {
         if !plan.terms().is_empty() {
             m.comment("The terms.");
@@ -33,13 +33,14 @@ impl<'m> Terms<'m> {
         let words = plan.terms().iter().map(|term| {
             let (v, first) = copy(term, "v", "modular, at this pixel");
             let (g, step) = copy(term, "g", "modular, to the next pixel");
-            v.when(next, v.q() + g.q()).when(load, first);
+            v.when(moves, goes_on.mux(v.q() + g.q(), first));
             if term.degree == 2 {
-                let (gg, step) = copy(term, "gg", "modular, from a step to the next");
-                gg.when(load, step);
-                g.when(next, g.q() + gg.q());
+                let (gg, last_step) = copy(term, "gg", "modular, from a step to the next");
+                gg.when(enters, last_step);
+                g.when(moves, goes_on.mux(g.q() + gg.q(), step));
+            } else {
+                g.when(enters, step);
             }
-            g.when(load, step);
             (*term, v)
         });
         Terms(words.collect())

@@ -45,13 +45,19 @@ impl<'m> Write<'m> {
         free.reduce(|all, one| all & one).expect("w leads to a memory at least")
     }
 
-    /// Leaves by each way by itself; a fragment takes its place.
-    pub fn load(&self, when: Signal<'m>, ways: &[Leaves<'m>], value: impl Fn(&str) -> Signal<'m>) {
+    /// Leaves by each way by itself; a fragment takes its place, `when` it comes to a `free` w.
+    pub fn load(
+        &self,
+        free: Signal<'m>,
+        when: Signal<'m>,
+        ways: &[Leaves<'m>],
+        value: impl Fn(&str) -> Signal<'m>,
+    ) {
         for (valid, way) in self.ways.iter().zip(ways) {
             valid.when(way.ready, 0).when(when, way.wanted);
         }
-        // What leaves by no way is loaded as well and means nothing: so what decides leads to these flags only.
-        self.fields.load(when, value);
+        // What leaves by no way means nothing, and a free w takes what there is: so what decides leads to these flags only.
+        self.fields.load(free, value);
     }
 
     /// It has still to leave by this way.
