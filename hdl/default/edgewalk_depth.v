@@ -56,6 +56,8 @@ module edgewalk_depth (
   reg [7:0] place0_b;       // unorm8
   reg place0_fwd_valid;     // an older fragment wrote this pixel
   reg [23:0] place0_fwd_z;  // the depth it wrote
+  reg place0_follows;       // of the pixel that left in the cycle before
+  wire place0_after_w = place0_follows && wr_valid && wr_z_en;
   reg [18:0] place1_addr;   // line * 2^10 + column
   reg [23:0] place1_z;      // unorm24
   reg [7:0] place1_r;       // unorm8
@@ -63,6 +65,8 @@ module edgewalk_depth (
   reg [7:0] place1_b;       // unorm8
   reg place1_fwd_valid;     // an older fragment wrote this pixel
   reg [23:0] place1_fwd_z;  // the depth it wrote
+  reg place1_follows;       // of the pixel that left in the cycle before
+  wire place1_after_w = place1_follows && wr_valid && wr_z_en;
   reg [18:0] place2_addr;   // line * 2^10 + column
   reg [23:0] place2_z;      // unorm24
   reg [7:0] place2_r;       // unorm8
@@ -70,6 +74,8 @@ module edgewalk_depth (
   reg [7:0] place2_b;       // unorm8
   reg place2_fwd_valid;     // an older fragment wrote this pixel
   reg [23:0] place2_fwd_z;  // the depth it wrote
+  reg place2_follows;       // of the pixel that left in the cycle before
+  wire place2_after_w = place2_follows && wr_valid && wr_z_en;
   reg [18:0] place3_addr;   // line * 2^10 + column
   reg [23:0] place3_z;      // unorm24
   reg [7:0] place3_r;       // unorm8
@@ -77,10 +83,9 @@ module edgewalk_depth (
   reg [7:0] place3_b;       // unorm8
   reg place3_fwd_valid;     // an older fragment wrote this pixel
   reg [23:0] place3_fwd_z;  // the depth it wrote
-  reg head_follows;         // the head is of the pixel that left in the cycle before
 
   // A fragment enters when the queue has room and nothing in flight may change its depth.
-  assign full = count == 3'd4;
+  assign full = count[2];
   assign hazard = 1'b0;
   wire clear_to_read = !full && !hazard;
   assign rd_valid = frag_valid && clear_to_read;
@@ -89,16 +94,28 @@ module edgewalk_depth (
 
   // Compare the head with its old depth when that comes and w is free.
   wire w_free = !wr_valid || wr_ready;
-  assign data_ready = (|count) && w_free;
-  wire compare = data_valid && data_ready;
-  wire [23:0] old_z_in_queue = place0_fwd_valid ? place0_fwd_z : data_z;
-  wire head_after_w = head_follows && wr_valid && wr_z_en;
-  wire [23:0] old = head_after_w ? wr_z : old_z_in_queue;  // depth to compare with
-  wire less = place0_z < old;
+  wire has_head = |count;
+  wire goes = data_valid && w_free;  // a head leaves, if there is one
+  assign data_ready = has_head && w_free;
+  wire compare = has_head && goes;
+  wire [23:0] old = place0_fwd_valid ? place0_fwd_z : data_z;  // depth to compare with
   wire equal = place0_z == old;
-  wire pass = (depth_func[0] && less)
-           || (depth_func[1] && equal)
-           || (depth_func[2] && !less && !equal);
+
+  // What w has just been filled with met the head a clock ahead: only the outcome is left to choose.
+  wire next_less = place1_z < place0_z;
+  wire next_equal = place1_z == place0_z;
+  reg passes_w;  // the head against what w holds
+  wire if_less = place0_after_w ? passes_w : depth_func[0];  // it passes if it is less
+  wire if_not = place0_after_w ? passes_w : equal ? depth_func[1] : depth_func[2];  // and if it is not
+
+  always @(posedge clk) begin
+    passes_w <= next_less ? depth_func[0] : next_equal ? depth_func[1] : depth_func[2];
+  end
+
+  // pass = less ? if_less : if_not, as the top bits of the difference: nothing stands behind its carry.
+  wire [25:0] outcome = {!if_less || if_not, if_less || if_not, place0_z}
+                      - {1'b0, !(if_less && if_not), old};
+  wire pass = outcome[25];
 
   // Write what passes.
   always @(posedge clk) begin
@@ -111,7 +128,7 @@ module edgewalk_depth (
   end
 
   always @(posedge clk) begin
-    if (compare) begin
+    if (w_free) begin
       wr_addr <= place0_addr;
       wr_z <= place0_z;
       wr_z_en <= depth_write;
@@ -122,18 +139,13 @@ module edgewalk_depth (
   end
 
   // The queue moves up when its head leaves; what enters goes behind the last.
-  wire place0_moves = compare || (count <= 3'd0);
+  wire place0_moves = goes || (count <= 3'd0);
   wire place0_has_next = count > 3'd1;
-  wire place1_moves = compare || (count <= 3'd1);
+  wire place1_moves = goes || (count <= 3'd1);
   wire place1_has_next = count > 3'd2;
-  wire place2_moves = compare || (count <= 3'd2);
+  wire place2_moves = goes || (count <= 3'd2);
   wire place2_has_next = count > 3'd3;
-  wire place3_moves = compare || (count <= 3'd3);
-  wire [2:0] end_place = compare ? count - 3'd1 : count;
-  wire enters0 = push && (end_place == 3'd0);
-  wire enters1 = push && (end_place == 3'd1);
-  wire enters2 = push && (end_place == 3'd2);
-  wire enters3 = push && (end_place == 3'd3);
+  wire place3_moves = goes || (count <= 3'd3);
 
   always @(posedge clk) begin
     if (rst) begin
@@ -185,9 +197,6 @@ module edgewalk_depth (
   end
 
   // Forward: a word being written goes to every fragment of its pixel in the queue.
-  wire place0_after_w = wr_valid && wr_z_en && (wr_addr == place0_addr);
-  wire place1_after_w = wr_valid && wr_z_en && (wr_addr == place1_addr);
-  wire place2_after_w = wr_valid && wr_z_en && (wr_addr == place2_addr);
   wire enters_after_w = wr_valid && wr_z_en && (wr_addr == frag_addr);
 
   always @(posedge clk) begin
@@ -195,13 +204,9 @@ module edgewalk_depth (
       place0_fwd_valid <= 1'b1;
       place0_fwd_z <= wr_z;
     end
-    if (compare) begin
-      place0_fwd_valid <= place1_fwd_valid || place1_after_w;
-      place0_fwd_z <= place1_after_w ? wr_z : place1_fwd_z;
-    end
-    if (enters0) begin
-      place0_fwd_valid <= enters_after_w;
-      place0_fwd_z <= wr_z;
+    if (place0_moves) begin
+      place0_fwd_valid <= place0_has_next ? place1_fwd_valid || place1_after_w : enters_after_w;
+      place0_fwd_z <= (place0_has_next && !place1_after_w) ? place1_fwd_z : wr_z;
     end
   end
 
@@ -210,13 +215,9 @@ module edgewalk_depth (
       place1_fwd_valid <= 1'b1;
       place1_fwd_z <= wr_z;
     end
-    if (compare) begin
-      place1_fwd_valid <= place2_fwd_valid || place2_after_w;
-      place1_fwd_z <= place2_after_w ? wr_z : place2_fwd_z;
-    end
-    if (enters1) begin
-      place1_fwd_valid <= enters_after_w;
-      place1_fwd_z <= wr_z;
+    if (place1_moves) begin
+      place1_fwd_valid <= place1_has_next ? place2_fwd_valid || place2_after_w : enters_after_w;
+      place1_fwd_z <= (place1_has_next && !place2_after_w) ? place2_fwd_z : wr_z;
     end
   end
 
@@ -225,35 +226,36 @@ module edgewalk_depth (
       place2_fwd_valid <= 1'b1;
       place2_fwd_z <= wr_z;
     end
-    if (compare) begin
-      place2_fwd_valid <= place3_fwd_valid;
-      place2_fwd_z <= place3_fwd_z;
-    end
-    if (enters2) begin
-      place2_fwd_valid <= enters_after_w;
-      place2_fwd_z <= wr_z;
+    if (place2_moves) begin
+      place2_fwd_valid <= place2_has_next ? place3_fwd_valid : enters_after_w;
+      place2_fwd_z <= place2_has_next ? place3_fwd_z : wr_z;
     end
   end
 
   always @(posedge clk) begin
-    if (enters3) begin
+    if (place3_moves) begin
       place3_fwd_valid <= enters_after_w;
       place3_fwd_z <= wr_z;
     end
   end
 
-  // What the head writes is in w a cycle later, when the next may be compared already.
+  // What the head writes is in w a cycle later: who is of its pixel is found while it goes there.
+  wire enters_after_head = frag_addr == place0_addr;
   wire place1_after_head = place1_addr == place0_addr;
+  wire place2_after_head = place2_addr == place0_addr;
+  wire place3_after_head = place3_addr == place0_addr;
 
   always @(posedge clk) begin
-    head_follows <= compare && place1_after_head;
+    place0_follows <= goes && (place0_has_next ? place1_after_head : enters_after_head);
+    place1_follows <= goes && (place1_has_next ? place2_after_head : enters_after_head);
+    place2_follows <= goes && (place2_has_next ? place3_after_head : enters_after_head);
   end
 
   assign rd_addr = frag_addr;
   assign occupied = (|count) || wr_valid;
 
   // Not needed, on purpose.
-  wire unused = &{1'b0, frag_fence};
+  wire unused = &{1'b0, frag_fence, outcome[24:0]};
 
 endmodule
 

@@ -50,68 +50,61 @@ module edgewalk_pixel (
 
   // The span being drawn.
   assign advance = !frag_valid || frag_ready;
-  reg [14:0] x;                         // column, signed
-  reg [8:0] y;                          // line
-  reg leftward;                         // towards smaller columns
-  reg [14:0] count;                     // pixels left of the span, this one too
-  reg fence;                            // for the next fragment
-  reg last;                             // count is 1
-  wire finish = active && last;         // last clock of the span
-  assign span_ready = advance && (!active || finish);
+  reg [14:0] x;      // column, signed
+  reg [8:0] y;       // line
+  reg leftward;      // towards smaller columns
+  reg [14:0] count;  // pixels left of the span, this one too
+  reg fence;         // for the next fragment
+  reg last;          // count is 1
+
+  // Registers alone say whether the span goes on. Where it does not, one may enter; what is loaded while none comes means nothing.
+  wire finish = active && last;      // last clock of the span
+  wire goes_on = active && !finish;  // the next clock is this span's too
+  assign span_ready = advance && !goes_on;
   wire load = span_valid && span_ready;
   assign visible = x < 15'd640;
-  wire leaves = advance && active;      // this pixel is done
-  wire next_pixel = leaves && !finish;  // another one follows
-  wire emit = active && visible;        // a fragment
+  wire emit = active && visible;     // a fragment
 
   always @(posedge clk) begin
     if (rst) begin
       active <= 1'b0;
-    end else begin
-      if (leaves && finish) active <= 1'b0;
-      if (load) active <= 1'b1;
+    end else if (advance) begin
+      active <= goes_on || span_valid;
     end
   end
 
   always @(posedge clk) begin
-    if (next_pixel) begin
-      x <= leftward ? x - 15'd1 : x + 15'd1;
-      count <= count - 15'd1;
-      last <= count == 15'd2;
-    end
-    if (load) begin
-      x <= span_x;
-      count <= span_count;
-      last <= span_count == 15'd1;
+    if (advance) begin
+      x <= goes_on ? (leftward ? x - 15'd1 : x + 15'd1) : span_x;
+      count <= goes_on ? count - 15'd1 : span_count;
+      last <= goes_on ? count == 15'd2 : span_count == 15'd1;
+      fence <= goes_on ? fence && !emit : span_fence;
     end
   end
 
   always @(posedge clk) begin
-    if (load) begin
+    if (span_ready) begin
       y <= span_y;
       leftward <= span_leftward;
     end
   end
 
-  always @(posedge clk) begin
-    if (advance && emit) fence <= 1'b0;
-    if (load) fence <= span_fence;
-  end
+  // The additions.
+  wire new_increments = span_valid && span_fresh;
 
   // The words of z.
   reg [37:0] z_value;  // UQ24.14 LSB, modular
   reg [37:0] z_inc;    // UQ24.14 LSB, modular
 
   always @(posedge clk) begin
-    if (load && span_fresh) z_inc <= inc_z;
+    if (advance && !goes_on && new_increments) z_inc <= inc_z;
   end
 
   // Its adder.
   wire [37:0] z_sum = z_value + z_inc;
 
   always @(posedge clk) begin
-    if (load) z_value <= span_z;
-    if (next_pixel) z_value <= z_sum;
+    if (advance) z_value <= goes_on ? z_sum : span_z;
   end
 
   // The words of r.
@@ -119,15 +112,14 @@ module edgewalk_pixel (
   reg [21:0] r_inc;    // UQ8.14 LSB, modular
 
   always @(posedge clk) begin
-    if (load && span_fresh) r_inc <= inc_r;
+    if (advance && !goes_on && new_increments) r_inc <= inc_r;
   end
 
   // Its adder.
   wire [21:0] r_sum = r_value + r_inc;
 
   always @(posedge clk) begin
-    if (load) r_value <= span_r;
-    if (next_pixel) r_value <= r_sum;
+    if (advance) r_value <= goes_on ? r_sum : span_r;
   end
 
   // The words of g.
@@ -135,15 +127,14 @@ module edgewalk_pixel (
   reg [21:0] g_inc;    // UQ8.14 LSB, modular
 
   always @(posedge clk) begin
-    if (load && span_fresh) g_inc <= inc_g;
+    if (advance && !goes_on && new_increments) g_inc <= inc_g;
   end
 
   // Its adder.
   wire [21:0] g_sum = g_value + g_inc;
 
   always @(posedge clk) begin
-    if (load) g_value <= span_g;
-    if (next_pixel) g_value <= g_sum;
+    if (advance) g_value <= goes_on ? g_sum : span_g;
   end
 
   // The words of b.
@@ -151,15 +142,14 @@ module edgewalk_pixel (
   reg [21:0] b_inc;    // UQ8.14 LSB, modular
 
   always @(posedge clk) begin
-    if (load && span_fresh) b_inc <= inc_b;
+    if (advance && !goes_on && new_increments) b_inc <= inc_b;
   end
 
   // Its adder.
   wire [21:0] b_sum = b_value + b_inc;
 
   always @(posedge clk) begin
-    if (load) b_value <= span_b;
-    if (next_pixel) b_value <= b_sum;
+    if (advance) b_value <= goes_on ? b_sum : span_b;
   end
 
   // The output: in each stage the bits of one more segment.
@@ -183,6 +173,9 @@ module edgewalk_pixel (
   end
 
   assign occupied = frag_valid;
+
+  // Not needed, on purpose.
+  wire unused = &{1'b0, load};
 
 endmodule
 

@@ -80,6 +80,7 @@ module edgewalk_span_fifo (
   wire place0_moves = pop || (count <= 2'd0);
   wire place0_has_next = count > 2'd1;
   wire place1_moves = pop || (count <= 2'd1);
+  reg any_fresh_queued;     // of a token in the queue
 
   always @(posedge clk) begin
     if (place0_moves) begin
@@ -111,7 +112,16 @@ module edgewalk_span_fifo (
     end
   end
 
-  assign any_fresh = ((count > 2'd0) && place0_fresh) || ((count > 2'd1) && place1_fresh);
+  always @(posedge clk) begin
+    if (rst) begin
+      any_fresh_queued <= 1'b0;
+    end else begin
+      any_fresh_queued <= (pop ? (count > 2'd1) && place1_fresh : any_fresh_queued)
+                       || (push && in_fresh);
+    end
+  end
+
+  assign any_fresh = any_fresh_queued;
   assign out_x = place0_x;
   assign out_y = place0_y;
   assign out_count = place0_count;

@@ -1,12 +1,13 @@
 // edgewalk_edge: EDGE walks the major and the minor edge of a triangle, a line a step.
 //
-//   prim ─> [major C R q f M] ── cmaj ───────┐
-//           [minor C R q f M] ── cmin ───────┼─> line
+//   prim ─> [major C R-f q f M] ── cmaj ─────┐
+//           [minor C R-f q f M] ── cmin ─────┼─> line
 //           [a value a channel] ─ by carry ──┘
 //           [g of each channel] ───────────────> inc, held for PIXEL
 //
 // Timing: the first line is valid in the cycle after the triangle was taken, then one line a clock while line_ready.
 // Rules: a step takes f from R; where R is too small M is added back and the column goes one further (carry).
+// R - f is what is kept, so that its sign says whether the step carries, and no step waits for a subtraction to know it.
 // The columns are not cut to the screen here: SPAN does that.
 
 `timescale 1ns / 1ps
@@ -75,106 +76,108 @@ module edgewalk_edge (
 
   // A triangle is taken when the one before is walked and PIXEL has its increments.
   reg running;
+  reg last;  // last line of all
   assign prim_ready = !running && !fresh_queued;
   wire load = prim_valid && prim_ready;
   wire step = running && line_ready;
 
-  // Where in the triangle: the upper part, then the lower.
-  reg [8:0] n1;  // lines left of the upper part
-  reg [8:0] n2;  // lines left of the lower part
-  reg upper;     // in the upper part
-  reg knee;      // last line of the upper part, the lower follows
-  reg last;      // last line of all
-  wire some_lower = |n2;
-  wire two_upper = n1 == 9'd2;
-  wire one_upper = n1 == 9'd1;
-  wire lower_follows = |prim_n2;
-  wire one_upper_only = prim_n1 == 9'd1;
-  wire at_knee = step && knee;
-  wire along = step && !knee;
-
-  always @(posedge clk) begin
-    if (step) begin
-      upper <= upper && !one_upper;
-      knee <= two_upper && some_lower;
-      last <= upper ? (two_upper && !some_lower) || (one_upper && (n2 == 9'd1)) : n2 == 9'd2;
-    end
-    if (load) begin
-      upper <= |prim_n1;
-      knee <= one_upper_only && lower_follows;
-      last <= (|prim_n1) ? one_upper_only && !lower_follows : prim_n2 == 9'd1;
-    end
-  end
-
-  always @(posedge clk) begin
-    if (load) n1 <= prim_n1;
-    if (step && upper) n1 <= n1 - 9'd1;
-  end
-
-  always @(posedge clk) begin
-    if (load) n2 <= prim_n2;
-    if (step && !upper) n2 <= n2 - 9'd1;
-  end
+  // Between triangles everything takes what there is of the next one, whether it comes or not: no enable waits for that.
+  reg idle;                            // not running: for what is loaded, as running is for the values
+  wire at_end = step && last;
+  wire moves = idle || line_ready;
+  wire frees = idle && !fresh_queued;  // PIXEL has the increments
 
   always @(posedge clk) begin
     if (rst) begin
       running <= 1'b0;
+      idle <= 1'b1;
     end else begin
-      if (step && last) running <= 1'b0;
-      if (load) running <= 1'b1;
+      if (at_end) begin
+        running <= 1'b0;
+        idle <= 1'b1;
+      end
+      if (load) begin
+        running <= 1'b1;
+        idle <= 1'b0;
+      end
+    end
+  end
+
+  // Where in the triangle: the upper part, then the lower.
+  reg [8:0] n1;   // lines left of the upper part
+  reg [8:0] n2;   // lines left of the lower part
+  reg exchanges;  // idle, or at the knee: another minor edge comes, and no step
+  reg upper;      // in the upper part
+  wire some_lower = |n2;
+  wire two_upper = n1 == 9'd2;
+  wire one_upper = n1 == 9'd1;
+  wire next_last = upper ? (two_upper && !some_lower) || (one_upper && (n2 == 9'd1)) : n2 == 9'd2;
+  wire lower_follows = |prim_n2;
+  wire one_upper_only = prim_n1 == 9'd1;
+  wire first_last = (|prim_n1) ? one_upper_only && !lower_follows : prim_n2 == 9'd1;
+  wire first_knee = one_upper_only && lower_follows;
+  wire next_knee = two_upper && some_lower;
+
+  always @(posedge clk) begin
+    if (moves) begin
+      upper <= idle ? |prim_n1 : upper && !one_upper;
+      last <= idle ? first_last : next_last;
+      line_y <= idle ? prim_jm : line_y + 8'd1;
+      line_fresh <= idle;
     end
   end
 
   always @(posedge clk) begin
-    if (load) begin
-      line_y <= prim_jm;
-      line_fresh <= 1'b1;
-    end
-    if (step) begin
-      line_y <= line_y + 8'd1;
-      line_fresh <= 1'b0;
+    if (rst) begin
+      exchanges <= 1'b1;
+    end else if (moves) begin
+      exchanges <= idle ? !load || first_knee : last || next_knee;
     end
   end
 
   always @(posedge clk) begin
-    if (load) line_major_right <= prim_major_right;
+    if (idle) n1 <= prim_n1;
+    if (step && upper) n1 <= n1 - 9'd1;
+  end
+
+  always @(posedge clk) begin
+    if (idle) n2 <= prim_n2;
+    if (step && !upper) n2 <= n2 - 9'd1;
+  end
+
+  always @(posedge clk) begin
+    if (idle) line_major_right <= prim_major_right;
   end
 
   // The major edge.
-  reg [9:0] major_c;   // signed, first column right of the edge
-  reg [11:0] major_r;  // distance from the edge to that column, 1/M column
-  reg [9:0] major_q;   // signed, whole columns a line
-  reg [11:0] major_f;  // 1/M column a line
-  reg [11:0] major_m;  // modulus of r and f: the edge's height, 1/P line
-  wire [12:0] first_less = {1'b0, prim_major_r} - {1'b0, prim_major_f};
-  wire first_carry = first_less[12];
-  wire [12:0] major_less = {1'b0, major_r} - {1'b0, major_f};
-  wire major_carry = major_less[12];
-  reg carry;           // the major edge carries in its next step; 0 between triangles
+  reg [9:0] major_c;      // signed, first column right of the edge
+  reg [9:0] major_q;      // signed, whole columns a line
+  reg [11:0] major_f;     // 1/M column a line
+  reg [11:0] major_m;     // modulus of r and f: the edge's height, 1/P line
+  reg [12:0] major_rest;  // R - f, signed: below 0 the step carries
+  wire [12:0] major_less = major_rest - {1'b0, major_f};
+  wire [12:0] major_back = major_rest[12] ? {1'b0, major_m} : 13'd0;
+  wire [12:0] major_next = idle ? {1'b0, prim_major_r} - {1'b0, prim_major_f}
+                         : major_less + major_back;
+  reg carry;              // the major edge carries in its next step
+
+  always @(posedge clk) begin
+    if (moves) begin
+      major_rest <= major_next;
+      major_c <= idle ? prim_major_c : major_c + major_q + {9'd0, major_rest[12]};
+    end
+  end
 
   always @(posedge clk) begin
     if (rst) begin
       carry <= 1'b0;
-    end else begin
-      if (step) carry <= major_carry;
-      if (step && last) carry <= 1'b0;
-      if (load) carry <= first_carry;
+    end else if (moves) begin
+      carry <= major_next[12];
     end
   end
 
   always @(posedge clk) begin
-    if (step) begin
-      major_c <= major_c + major_q + {9'd0, carry};
-      major_r <= major_carry ? major_less[11:0] + major_m : major_less[11:0];
-    end
-    if (load) begin
-      major_c <= prim_major_c;
-      major_r <= first_carry ? first_less[11:0] + prim_major_m : first_less[11:0];
-    end
-  end
-
-  always @(posedge clk) begin
-    if (load) begin
+    if (idle) begin
       major_q <= prim_major_q;
       major_f <= prim_major_f;
       major_m <= prim_major_m;
@@ -182,24 +185,27 @@ module edgewalk_edge (
   end
 
   // The minor edge, and the one that takes its place at the knee.
-  reg [9:0] second_c;   // signed, first column right of the edge
-  reg [11:0] second_r;  // distance from the edge to that column, 1/M column
-  reg [9:0] second_q;   // signed, whole columns a line
-  reg [11:0] second_f;  // 1/M column a line
-  reg [11:0] second_m;  // modulus of r and f: the edge's height, 1/P line
-  reg [9:0] minor_c;    // signed, first column right of the edge
-  reg [11:0] minor_r;   // distance from the edge to that column, 1/M column
-  reg [9:0] minor_q;    // signed, whole columns a line
-  reg [11:0] minor_f;   // 1/M column a line
-  reg [11:0] minor_m;   // modulus of r and f: the edge's height, 1/P line
-  wire [12:0] minor_less = {1'b0, minor_r} - {1'b0, minor_f};
-  wire minor_carry = minor_less[12];
+  reg [9:0] second_c;      // signed, first column right of the edge
+  reg [9:0] second_q;      // signed, whole columns a line
+  reg [11:0] second_f;     // 1/M column a line
+  reg [11:0] second_m;     // modulus of r and f: the edge's height, 1/P line
+  reg [12:0] second_rest;  // R - f, signed: below 0 the step carries
+  wire [12:0] minor2_rest = {1'b0, prim_minor2_r} - {1'b0, prim_minor2_f};
+  reg [9:0] minor_c;       // signed, first column right of the edge
+  reg [9:0] minor_q;       // signed, whole columns a line
+  reg [11:0] minor_f;      // 1/M column a line
+  reg [11:0] minor_m;      // modulus of r and f: the edge's height, 1/P line
+  reg [12:0] minor_rest;   // R - f, signed: below 0 the step carries
+  wire [12:0] minor_less = minor_rest - {1'b0, minor_f};
+  wire [12:0] minor_back = minor_rest[12] ? {1'b0, minor_m} : 13'd0;
   wire has_upper = |prim_n1;
+  wire [12:0] minor1_rest = {1'b0, prim_minor1_r} - {1'b0, prim_minor1_f};
+  wire exchanged = exchanges && moves;
 
   always @(posedge clk) begin
-    if (load) begin
+    if (idle) begin
+      second_rest <= minor2_rest;
       second_c <= prim_minor2_c;
-      second_r <= prim_minor2_r;
       second_q <= prim_minor2_q;
       second_f <= prim_minor2_f;
       second_m <= prim_minor2_m;
@@ -207,66 +213,60 @@ module edgewalk_edge (
   end
 
   always @(posedge clk) begin
-    if (along) begin
-      minor_c <= minor_c + minor_q + {9'd0, minor_carry};
-      minor_r <= minor_carry ? minor_less[11:0] + minor_m : minor_less[11:0];
-    end
-    if (at_knee) begin
-      minor_c <= second_c;
-      minor_r <= second_r;
-    end
-    if (load) begin
-      minor_c <= has_upper ? prim_minor1_c : prim_minor2_c;
-      minor_r <= has_upper ? prim_minor1_r : prim_minor2_r;
+    if (moves) begin
+      minor_rest <= exchanges ? (idle ? (has_upper ? minor1_rest : minor2_rest) : second_rest)
+                  : minor_less + minor_back;
+      minor_c <= exchanges ? (idle ? (has_upper ? prim_minor1_c : prim_minor2_c) : second_c)
+               : minor_c + minor_q + {9'd0, minor_rest[12]};
     end
   end
 
   always @(posedge clk) begin
-    if (at_knee) begin
-      minor_q <= second_q;
-      minor_f <= second_f;
-      minor_m <= second_m;
-    end
-    if (load) begin
-      minor_q <= has_upper ? prim_minor1_q : prim_minor2_q;
-      minor_f <= has_upper ? prim_minor1_f : prim_minor2_f;
-      minor_m <= has_upper ? prim_minor1_m : prim_minor2_m;
+    if (exchanged) begin
+      minor_q <= idle ? (has_upper ? prim_minor1_q : prim_minor2_q) : second_q;
+      minor_f <= idle ? (has_upper ? prim_minor1_f : prim_minor2_f) : second_f;
+      minor_m <= idle ? (has_upper ? prim_minor1_m : prim_minor2_m) : second_m;
     end
   end
 
   // Between triangles what is added is the start: it needs no choice behind the adder.
   reg [25:0] z_d0;  // as in the triangle
   reg [25:0] z_d1;  // as in the triangle
-  wire [25:0] z_added = carry ? z_d1 : running ? z_d0 : prim_z_start;
+  wire [25:0] z_added = idle ? prim_z_start : carry ? z_d1 : z_d0;
   reg [14:0] r_d0;  // as in the triangle
   reg [14:0] r_d1;  // as in the triangle
-  wire [14:0] r_added = carry ? r_d1 : running ? r_d0 : prim_r_start;
+  wire [14:0] r_added = idle ? prim_r_start : carry ? r_d1 : r_d0;
   reg [14:0] g_d0;  // as in the triangle
   reg [14:0] g_d1;  // as in the triangle
-  wire [14:0] g_added = carry ? g_d1 : running ? g_d0 : prim_g_start;
+  wire [14:0] g_added = idle ? prim_g_start : carry ? g_d1 : g_d0;
   reg [14:0] b_d0;  // as in the triangle
   reg [14:0] b_d1;  // as in the triangle
-  wire [14:0] b_added = carry ? b_d1 : running ? b_d0 : prim_b_start;
+  wire [14:0] b_added = idle ? prim_b_start : carry ? b_d1 : b_d0;
 
   always @(posedge clk) begin
-    if (load) begin
+    if (frees) begin
       inc_z <= prim_z_g;
+      inc_r <= prim_r_g;
+      inc_g <= prim_g_g;
+      inc_b <= prim_b_g;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (idle) begin
       z_d0 <= prim_z_d0;
       z_d1 <= prim_z_d1;
-      inc_r <= prim_r_g;
       r_d0 <= prim_r_d0;
       r_d1 <= prim_r_d1;
-      inc_g <= prim_g_g;
       g_d0 <= prim_g_d0;
       g_d1 <= prim_g_d1;
-      inc_b <= prim_b_g;
       b_d0 <= prim_b_d0;
       b_d1 <= prim_b_d1;
     end
   end
 
   always @(posedge clk) begin
-    if (step || load) begin
+    if (moves) begin
       line_z <= running ? line_z + z_added : z_added;
       line_r <= running ? line_r + r_added : r_added;
       line_g <= running ? line_g + g_added : g_added;

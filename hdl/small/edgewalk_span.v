@@ -45,36 +45,39 @@ module edgewalk_span (
 );
 
   // To the right from cmaj to before cmin, at most to the end of the screen; to the left to cmin, at least to column 0.
-  wire right_of_screen = $signed(line_cmin) >= 10'sd240;  // no column of the screen lies right of cmin
-  wire left_of_screen = $signed(line_cmin) <= 10'sd0;  // no column of the screen lies left of cmin
+  wire right_of_screen = !line_cmin[9] && (line_cmin >= 10'd240);  // no column of the screen lies right of cmin
+  wire left_of_screen = line_cmin[9] || (line_cmin == 10'd0);  // no column of the screen lies left of cmin
 
   // Whether a column is left is asked of the edges themselves: no comparison waits for the cut.
-  wire none_right = ($signed(line_cmin) <= $signed(line_cmaj))
-                 || ($signed(line_cmaj) >= 10'sd240)
-                 || left_of_screen;
-  wire none_left = ($signed(line_cmaj) <= $signed(line_cmin))
-                || ($signed(line_cmaj) <= 10'sd0)
-                || right_of_screen;
+  wire [10:0] difference = {line_cmaj[9], line_cmaj} - {line_cmin[9], line_cmin};
+  wire ordered = difference[10];
+  wire outside_right = (!line_cmaj[9] && (line_cmaj >= 10'd240)) || left_of_screen;
+  wire outside_left = line_cmaj[9] || (line_cmaj == 10'd0) || right_of_screen;
   wire [9:0] first = line_major_right ? (left_of_screen ? 10'd0 : line_cmin) : line_cmaj;
-  wire [9:0] end_cut = line_major_right ? line_cmaj : right_of_screen ? 10'd240 : line_cmin;
-  wire empty = line_major_right ? none_left : none_right;
+  wire beyond = !line_major_right && right_of_screen;
+  wire crossed = line_major_right ? ordered || (line_cmaj == line_cmin) : !ordered;
+  wire outside = line_major_right ? outside_left : outside_right;
 
-  // The line held, cut where it ends.
+  // The line held; at its right side it is cut only here. What is loaded while no line comes means nothing.
   wire queue_in_ready;
   assign line_ready = !line_held || queue_in_ready;
   wire take = line_valid && line_ready;
-  wire moves = line_held && queue_in_ready;  // the line held is queued or dropped
-  reg [7:0] held_y;                          // line
-  reg [25:0] held_z;                         // UQ16.10 LSB, modular
-  reg [14:0] held_r;                         // UQ5.10 LSB, modular
-  reg [14:0] held_g;                         // UQ5.10 LSB, modular
-  reg [14:0] held_b;                         // UQ5.10 LSB, modular
-  reg held_fresh;                            // first span of the triangle: its increments are new
-  reg held_fence;                            // what is in flight may be of the same pixels
-  reg [9:0] held_first;                      // signed, first column
-  reg [9:0] held_end;                        // signed, the column behind the last
-  reg held_empty;                            // no column of it is on the screen
-  reg held_leftward;                         // drawn from its last column
+  wire moves = line_held && queue_in_ready;   // the line held is queued or dropped
+  reg [7:0] held_y;                           // line
+  reg [25:0] held_z;                          // UQ16.10 LSB, modular
+  reg [14:0] held_r;                          // UQ5.10 LSB, modular
+  reg [14:0] held_g;                          // UQ5.10 LSB, modular
+  reg [14:0] held_b;                          // UQ5.10 LSB, modular
+  reg held_fresh;                             // first span of the triangle: its increments are new
+  reg held_fence;                             // what is in flight may be of the same pixels
+  reg [9:0] held_first;                       // signed, first column
+  reg [9:0] held_end;                         // signed, the column behind the last, or one beyond the screen
+  reg held_beyond;                            // it ends with the screen
+  wire [9:0] end_cut = held_beyond ? 10'd240 : held_end;
+  reg held_crossed;                           // no column lies between its edges
+  reg held_outside;                           // they end beside the screen
+  wire empty = held_crossed || held_outside;  // no column of it is on the screen
+  reg held_leftward;                          // drawn from its last column
 
   always @(posedge clk) begin
     if (rst) begin
@@ -86,7 +89,7 @@ module edgewalk_span (
   end
 
   always @(posedge clk) begin
-    if (take) begin
+    if (line_ready) begin
       held_y <= line_y;
       held_z <= line_z;
       held_r <= line_r;
@@ -95,8 +98,10 @@ module edgewalk_span (
       held_fresh <= line_fresh;
       held_fence <= line_fence;
       held_first <= first;
-      held_end <= end_cut;
-      held_empty <= empty;
+      held_end <= line_major_right ? line_cmaj : line_cmin;
+      held_beyond <= beyond;
+      held_crossed <= crossed;
+      held_outside <= outside;
       held_leftward <= line_major_right;
     end
   end
@@ -112,13 +117,13 @@ module edgewalk_span (
       pend_fresh <= 1'b0;
       pend_fence <= 1'b0;
     end else if (moves) begin
-      pend_fresh <= held_empty && fresh;
-      pend_fence <= held_empty && fence;
+      pend_fresh <= empty && fresh;
+      pend_fence <= empty && fence;
     end
   end
 
   // The queue.
-  wire push = moves && !held_empty;
+  wire push = moves && !empty;
   wire [9:0] queue_out_x;
   wire [7:0] queue_out_y;
   wire [9:0] queue_out_count;
@@ -138,9 +143,9 @@ module edgewalk_span (
     .clk          (clk),
     .rst          (rst),
     .in_valid     (push),
-    .in_x         (held_leftward ? held_end - 10'd1 : held_first),
+    .in_x         (held_leftward ? end_cut - 10'd1 : held_first),
     .in_y         (held_y),
-    .in_count     (held_end - held_first),
+    .in_count     (end_cut - held_first),
     .in_leftward  (held_leftward),
     .in_z         (held_z),
     .in_r         (held_r),
@@ -177,6 +182,9 @@ module edgewalk_span (
   assign span_fresh = queue_out_fresh;
   assign span_fence = queue_out_fence;
   assign fresh_queued = fresh_in_queue || (line_held && fresh);
+
+  // Not needed, on purpose.
+  wire unused = &{1'b0, difference[9:0]};
 
 endmodule
 

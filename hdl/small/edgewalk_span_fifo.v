@@ -68,6 +68,7 @@ module edgewalk_span_fifo (
   reg place0_fresh;        // first span of the triangle: its increments are new
   reg place0_fence;        // what is in flight may be of the same pixels
   wire place0_moves = pop || (count <= 1'b0);
+  reg any_fresh_queued;    // of a token in the queue
 
   always @(posedge clk) begin
     if (place0_moves) begin
@@ -84,7 +85,15 @@ module edgewalk_span_fifo (
     end
   end
 
-  assign any_fresh = (count > 1'b0) && place0_fresh;
+  always @(posedge clk) begin
+    if (rst) begin
+      any_fresh_queued <= 1'b0;
+    end else begin
+      any_fresh_queued <= (pop ? 1'b0 : any_fresh_queued) || (push && in_fresh);
+    end
+  end
+
+  assign any_fresh = any_fresh_queued;
   assign out_x = place0_x;
   assign out_y = place0_y;
   assign out_count = place0_count;

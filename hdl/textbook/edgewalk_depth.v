@@ -71,7 +71,7 @@ module edgewalk_depth (
   reg [7:0] place3_b;      // unorm8
 
   // A fragment enters when the queue has room and nothing in flight may change its depth.
-  assign full = count == 3'd4;
+  assign full = count[2];
   assign hazard = frag_fence && ((|count) || wr_valid);
   wire clear_to_read = !full && !hazard;
   assign rd_valid = frag_valid && clear_to_read;
@@ -80,14 +80,19 @@ module edgewalk_depth (
 
   // Compare the head with its old depth when that comes and w is free.
   wire w_free = !wr_valid || wr_ready;
-  assign data_ready = (|count) && w_free;
-  wire compare = data_valid && data_ready;
-  wire [15:0] old = data_z;  // depth to compare with
-  wire less = place0_z < old;
+  wire has_head = |count;
+  wire goes = data_valid && w_free;  // a head leaves, if there is one
+  assign data_ready = has_head && w_free;
+  wire compare = has_head && goes;
+  wire [15:0] old = data_z;          // depth to compare with
   wire equal = place0_z == old;
-  wire pass = (depth_func[0] && less)
-           || (depth_func[1] && equal)
-           || (depth_func[2] && !less && !equal);
+  wire if_less = depth_func[0];      // it passes if it is less
+  wire if_not = equal ? depth_func[1] : depth_func[2];  // and if it is not
+
+  // pass = less ? if_less : if_not, as the top bits of the difference: nothing stands behind its carry.
+  wire [17:0] outcome = {!if_less || if_not, if_less || if_not, place0_z}
+                      - {1'b0, !(if_less && if_not), old};
+  wire pass = outcome[17];
 
   // Write what passes.
   always @(posedge clk) begin
@@ -100,7 +105,7 @@ module edgewalk_depth (
   end
 
   always @(posedge clk) begin
-    if (compare) begin
+    if (w_free) begin
       wr_addr <= place0_addr;
       wr_z <= place0_z;
       wr_z_en <= depth_write;
@@ -111,13 +116,13 @@ module edgewalk_depth (
   end
 
   // The queue moves up when its head leaves; what enters goes behind the last.
-  wire place0_moves = compare || (count <= 3'd0);
+  wire place0_moves = goes || (count <= 3'd0);
   wire place0_has_next = count > 3'd1;
-  wire place1_moves = compare || (count <= 3'd1);
+  wire place1_moves = goes || (count <= 3'd1);
   wire place1_has_next = count > 3'd2;
-  wire place2_moves = compare || (count <= 3'd2);
+  wire place2_moves = goes || (count <= 3'd2);
   wire place2_has_next = count > 3'd3;
-  wire place3_moves = compare || (count <= 3'd3);
+  wire place3_moves = goes || (count <= 3'd3);
 
   always @(posedge clk) begin
     if (rst) begin
@@ -170,6 +175,9 @@ module edgewalk_depth (
 
   assign rd_addr = frag_addr;
   assign occupied = (|count) || wr_valid;
+
+  // Not needed, on purpose.
+  wire unused = &{1'b0, outcome[16:0]};
 
 endmodule
 

@@ -55,117 +55,104 @@ module edgewalk_pixel (
 
   // The span being drawn.
   assign advance = !frag_valid || frag_ready;
-  reg [14:0] x;                                   // column, signed
-  reg [8:0] y;                                    // line
-  reg leftward;                                   // towards smaller columns
-  reg [14:0] count;                               // pixels left of the span, this one too
-  reg fence;                                      // for the next fragment
-  reg [1:0] phase;                                // clock of the pixel
+  reg [14:0] x;      // column, signed
+  reg [8:0] y;       // line
+  reg leftward;      // towards smaller columns
+  reg [14:0] count;  // pixels left of the span, this one too
+  reg fence;         // for the next fragment
+  reg [1:0] phase;   // clock of the pixel
   wire last_phase = &phase;
-  reg last;                                       // count is 1
-  wire finish = active && last_phase && last;     // last clock of the span
-  assign span_ready = advance && (!active || finish);
+  reg last;          // count is 1
+
+  // Registers alone say whether the span goes on. Where it does not, one may enter; what is loaded while none comes means nothing.
+  wire finish = active && last_phase && last;       // last clock of the span
+  wire goes_on = active && !finish;                 // the next clock is this span's too
+  assign span_ready = advance && !goes_on;
   wire load = span_valid && span_ready;
   assign visible = x < 15'd640;
-  wire leaves = advance && active && last_phase;  // this pixel is done
-  wire next_pixel = leaves && !finish;            // another one follows
-  wire emit = active && last_phase && visible;    // a fragment
+  wire emit = active && last_phase && visible;      // a fragment
+  wire moves = advance && (last_phase || !active);  // another pixel, or none
 
   always @(posedge clk) begin
     if (rst) begin
       active <= 1'b0;
-    end else begin
-      if (leaves && finish) active <= 1'b0;
-      if (load) active <= 1'b1;
+    end else if (advance) begin
+      active <= goes_on || span_valid;
     end
   end
 
   always @(posedge clk) begin
-    if (advance && active) phase <= phase + 2'd1;
-    if (load) phase <= 2'd0;
-  end
-
-  always @(posedge clk) begin
-    if (next_pixel) begin
-      x <= leftward ? x - 15'd1 : x + 15'd1;
-      count <= count - 15'd1;
-      last <= count == 15'd2;
-    end
-    if (load) begin
-      x <= span_x;
-      count <= span_count;
-      last <= span_count == 15'd1;
+    if (advance) begin
+      phase <= goes_on ? phase + 2'd1 : 2'd0;
+      fence <= goes_on ? fence && !emit : span_fence;
     end
   end
 
   always @(posedge clk) begin
-    if (load) begin
+    if (moves) begin
+      x <= goes_on ? (leftward ? x - 15'd1 : x + 15'd1) : span_x;
+      count <= goes_on ? count - 15'd1 : span_count;
+      last <= goes_on ? count == 15'd2 : span_count == 15'd1;
+    end
+  end
+
+  always @(posedge clk) begin
+    if (span_ready) begin
       y <= span_y;
       leftward <= span_leftward;
     end
   end
 
-  always @(posedge clk) begin
-    if (advance && emit) fence <= 1'b0;
-    if (load) fence <= span_fence;
-  end
-
   // The additions.
   reg adding;                      // this pixel is not the first of its span
-  wire add = next_pixel || (advance && active && !last_phase && adding);
+  wire add = goes_on && (last_phase || adding);
   wire [1:0] slot = phase + 2'd1;  // channel of each adder in this clock
+  wire new_increments = span_valid && span_fresh;
 
   always @(posedge clk) begin
-    if (next_pixel) adding <= 1'b1;
-    if (load) adding <= 1'b0;
+    if (moves) adding <= goes_on;
   end
 
   // What the segments do: what the one below did at the last advance.
-  reg load1;
-  wire load1_now = load1 && advance;
+  reg stays1;
   reg fresh1;
   reg add1;
-  wire add1_now = add1 && advance;
   reg [1:0] slot1;
-  reg load2;
-  wire load2_now = load2 && advance;
+  reg stays2;
   reg fresh2;
   reg add2;
-  wire add2_now = add2 && advance;
   reg [1:0] slot2;
-  reg load3;
-  wire load3_now = load3 && advance;
+  reg stays3;
   reg fresh3;
   reg add3;
-  wire add3_now = add3 && advance;
   reg [1:0] slot3;
 
   always @(posedge clk) begin
     if (rst) begin
-      load1 <= 1'b0;
+      stays1 <= 1'b0;
       fresh1 <= 1'b0;
       add1 <= 1'b0;
       slot1 <= 2'd0;
-      load2 <= 1'b0;
+      stays2 <= 1'b0;
       fresh2 <= 1'b0;
       add2 <= 1'b0;
       slot2 <= 2'd0;
-      load3 <= 1'b0;
+      stays3 <= 1'b0;
       fresh3 <= 1'b0;
       add3 <= 1'b0;
       slot3 <= 2'd0;
     end else if (advance) begin
-      load1 <= load;
-      fresh1 <= span_fresh;
+      stays1 <= goes_on;
+      fresh1 <= new_increments;
       add1 <= add;
       slot1 <= slot;
-      load2 <= load1_now;
+      stays2 <= stays1;
       fresh2 <= fresh1;
-      add2 <= add1_now;
+      add2 <= add1;
       slot2 <= slot1;
-      load3 <= load2_now;
+      stays3 <= stays2;
       fresh3 <= fresh2;
-      add3 <= add2_now;
+      add3 <= add2;
       slot3 <= slot2;
     end
   end
@@ -187,7 +174,7 @@ module edgewalk_pixel (
   reg [7:0] z_inc3;          // bits 29 to 22 of UQ16.14 LSB, modular
 
   always @(posedge clk) begin
-    if (load && span_fresh) z_inc0 <= inc_z[6:0];
+    if (advance && !goes_on && new_increments) z_inc0 <= inc_z[6:0];
   end
 
   always @(posedge clk) begin
@@ -202,15 +189,15 @@ module edgewalk_pixel (
   end
 
   always @(posedge clk) begin
-    if (load1_now && fresh1) z_inc1 <= z_inc_late1[7:0];
+    if (advance && !stays1 && fresh1) z_inc1 <= z_inc_late1[7:0];
   end
 
   always @(posedge clk) begin
-    if (load2_now && fresh2) z_inc2 <= z_inc_late2[6:0];
+    if (advance && !stays2 && fresh2) z_inc2 <= z_inc_late2[6:0];
   end
 
   always @(posedge clk) begin
-    if (load3_now && fresh3) z_inc3 <= z_inc_late3;
+    if (advance && !stays3 && fresh3) z_inc3 <= z_inc_late3;
   end
 
   // The words of r.
@@ -226,7 +213,7 @@ module edgewalk_pixel (
   reg [6:0] r_inc2;          // bits 21 to 15 of UQ8.14 LSB, modular
 
   always @(posedge clk) begin
-    if (load && span_fresh) r_inc0 <= inc_r[6:0];
+    if (advance && !goes_on && new_increments) r_inc0 <= inc_r[6:0];
   end
 
   always @(posedge clk) begin
@@ -239,11 +226,11 @@ module edgewalk_pixel (
   end
 
   always @(posedge clk) begin
-    if (load1_now && fresh1) r_inc1 <= r_inc_late1[7:0];
+    if (advance && !stays1 && fresh1) r_inc1 <= r_inc_late1[7:0];
   end
 
   always @(posedge clk) begin
-    if (load2_now && fresh2) r_inc2 <= r_inc_late2;
+    if (advance && !stays2 && fresh2) r_inc2 <= r_inc_late2;
   end
 
   // The words of g.
@@ -259,7 +246,7 @@ module edgewalk_pixel (
   reg [6:0] g_inc2;          // bits 21 to 15 of UQ8.14 LSB, modular
 
   always @(posedge clk) begin
-    if (load && span_fresh) g_inc0 <= inc_g[6:0];
+    if (advance && !goes_on && new_increments) g_inc0 <= inc_g[6:0];
   end
 
   always @(posedge clk) begin
@@ -272,11 +259,11 @@ module edgewalk_pixel (
   end
 
   always @(posedge clk) begin
-    if (load1_now && fresh1) g_inc1 <= g_inc_late1[7:0];
+    if (advance && !stays1 && fresh1) g_inc1 <= g_inc_late1[7:0];
   end
 
   always @(posedge clk) begin
-    if (load2_now && fresh2) g_inc2 <= g_inc_late2;
+    if (advance && !stays2 && fresh2) g_inc2 <= g_inc_late2;
   end
 
   // The words of b.
@@ -292,7 +279,7 @@ module edgewalk_pixel (
   reg [6:0] b_inc2;          // bits 21 to 15 of UQ8.14 LSB, modular
 
   always @(posedge clk) begin
-    if (load && span_fresh) b_inc0 <= inc_b[6:0];
+    if (advance && !goes_on && new_increments) b_inc0 <= inc_b[6:0];
   end
 
   always @(posedge clk) begin
@@ -305,11 +292,11 @@ module edgewalk_pixel (
   end
 
   always @(posedge clk) begin
-    if (load1_now && fresh1) b_inc1 <= b_inc_late1[7:0];
+    if (advance && !stays1 && fresh1) b_inc1 <= b_inc_late1[7:0];
   end
 
   always @(posedge clk) begin
-    if (load2_now && fresh2) b_inc2 <= b_inc_late2;
+    if (advance && !stays2 && fresh2) b_inc2 <= b_inc_late2;
   end
 
   // The adder of z, r, g, b.
@@ -346,23 +333,23 @@ module edgewalk_pixel (
   wire [7:0] adder0_sum3 = z_value3 + z_inc3 + {7'd0, adder0_carry3};
 
   always @(posedge clk) begin
-    if (load) z_value0 <= span_z[6:0];
-    if (add && (slot == 2'd0)) z_value0 <= adder0_sum0[6:0];
+    if (advance && !goes_on) z_value0 <= span_z[6:0];
+    if (advance && add && (slot == 2'd0)) z_value0 <= adder0_sum0[6:0];
   end
 
   always @(posedge clk) begin
-    if (load) r_value0 <= span_r[6:0];
-    if (add && (slot == 2'd1)) r_value0 <= adder0_sum0[6:0];
+    if (advance && !goes_on) r_value0 <= span_r[6:0];
+    if (advance && add && (slot == 2'd1)) r_value0 <= adder0_sum0[6:0];
   end
 
   always @(posedge clk) begin
-    if (load) g_value0 <= span_g[6:0];
-    if (add && (slot == 2'd2)) g_value0 <= adder0_sum0[6:0];
+    if (advance && !goes_on) g_value0 <= span_g[6:0];
+    if (advance && add && (slot == 2'd2)) g_value0 <= adder0_sum0[6:0];
   end
 
   always @(posedge clk) begin
-    if (load) b_value0 <= span_b[6:0];
-    if (add && (slot == 2'd3)) b_value0 <= adder0_sum0[6:0];
+    if (advance && !goes_on) b_value0 <= span_b[6:0];
+    if (advance && add && (slot == 2'd3)) b_value0 <= adder0_sum0[6:0];
   end
 
   always @(posedge clk) begin
@@ -374,48 +361,48 @@ module edgewalk_pixel (
   end
 
   always @(posedge clk) begin
-    if (load1_now) z_value1 <= z_value_late1[7:0];
-    if (add1_now && (slot1 == 2'd0)) z_value1 <= adder0_sum1[7:0];
+    if (advance && !stays1) z_value1 <= z_value_late1[7:0];
+    if (advance && add1 && (slot1 == 2'd0)) z_value1 <= adder0_sum1[7:0];
   end
 
   always @(posedge clk) begin
-    if (load1_now) r_value1 <= r_value_late1[7:0];
-    if (add1_now && (slot1 == 2'd1)) r_value1 <= adder0_sum1[7:0];
+    if (advance && !stays1) r_value1 <= r_value_late1[7:0];
+    if (advance && add1 && (slot1 == 2'd1)) r_value1 <= adder0_sum1[7:0];
   end
 
   always @(posedge clk) begin
-    if (load1_now) g_value1 <= g_value_late1[7:0];
-    if (add1_now && (slot1 == 2'd2)) g_value1 <= adder0_sum1[7:0];
+    if (advance && !stays1) g_value1 <= g_value_late1[7:0];
+    if (advance && add1 && (slot1 == 2'd2)) g_value1 <= adder0_sum1[7:0];
   end
 
   always @(posedge clk) begin
-    if (load1_now) b_value1 <= b_value_late1[7:0];
-    if (add1_now && (slot1 == 2'd3)) b_value1 <= adder0_sum1[7:0];
+    if (advance && !stays1) b_value1 <= b_value_late1[7:0];
+    if (advance && add1 && (slot1 == 2'd3)) b_value1 <= adder0_sum1[7:0];
   end
 
   always @(posedge clk) begin
-    if (load2_now) z_value2 <= z_value_late2[6:0];
-    if (add2_now && (slot2 == 2'd0)) z_value2 <= adder0_sum2[6:0];
+    if (advance && !stays2) z_value2 <= z_value_late2[6:0];
+    if (advance && add2 && (slot2 == 2'd0)) z_value2 <= adder0_sum2[6:0];
   end
 
   always @(posedge clk) begin
-    if (load2_now) r_value2 <= r_value_late2;
-    if (add2_now && (slot2 == 2'd1)) r_value2 <= adder0_sum2[6:0];
+    if (advance && !stays2) r_value2 <= r_value_late2;
+    if (advance && add2 && (slot2 == 2'd1)) r_value2 <= adder0_sum2[6:0];
   end
 
   always @(posedge clk) begin
-    if (load2_now) g_value2 <= g_value_late2;
-    if (add2_now && (slot2 == 2'd2)) g_value2 <= adder0_sum2[6:0];
+    if (advance && !stays2) g_value2 <= g_value_late2;
+    if (advance && add2 && (slot2 == 2'd2)) g_value2 <= adder0_sum2[6:0];
   end
 
   always @(posedge clk) begin
-    if (load2_now) b_value2 <= b_value_late2;
-    if (add2_now && (slot2 == 2'd3)) b_value2 <= adder0_sum2[6:0];
+    if (advance && !stays2) b_value2 <= b_value_late2;
+    if (advance && add2 && (slot2 == 2'd3)) b_value2 <= adder0_sum2[6:0];
   end
 
   always @(posedge clk) begin
-    if (load3_now) z_value3 <= z_value_late3;
-    if (add3_now && (slot3 == 2'd0)) z_value3 <= adder0_sum3;
+    if (advance && !stays3) z_value3 <= z_value_late3;
+    if (advance && add3 && (slot3 == 2'd0)) z_value3 <= adder0_sum3;
   end
 
   // The output: in each stage the bits of one more segment.
@@ -477,6 +464,9 @@ module edgewalk_pixel (
   end
 
   assign occupied = frag_valid || out0_valid || out1_valid || out2_valid;
+
+  // Not needed, on purpose.
+  wire unused = &{1'b0, load};
 
 endmodule
 

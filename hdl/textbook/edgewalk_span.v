@@ -47,24 +47,29 @@ module edgewalk_span (
   // From Trunc(X) of the left edge to Trunc(X) of the right edge, both drawn; a column register is Trunc(X) + 1.
   wire [14:0] xe = line_major_right ? line_cmaj : line_cmin;  // signed, first column after the line
   wire [14:0] first = (line_major_right ? line_cmin : line_cmaj) - 15'd1;
-  wire [14:0] end_cut = ($signed(xe) < 15'sd640) ? xe : 15'd640;  // signed, first column after the span
-  wire empty = ($signed(end_cut) <= $signed(first)) || ($signed(xe) <= 15'sd0);
+  wire on_screen = $signed(xe) < 15'sd640;  // the span ends on the screen
+  wire crossed = $signed(on_screen ? xe : 15'd640) <= $signed(first);
+  wire outside = $signed(xe) <= 15'sd0;
 
-  // The line held, cut where it ends.
+  // The line held; at its right side it is cut only here. What is loaded while no line comes means nothing.
   wire queue_in_ready;
   assign line_ready = !line_held || queue_in_ready;
   wire take = line_valid && line_ready;
-  wire moves = line_held && queue_in_ready;  // the line held is queued or dropped
-  reg [8:0] held_y;                          // line
-  reg [29:0] held_z;                         // UQ16.14 LSB, modular
-  reg [21:0] held_r;                         // UQ8.14 LSB, modular
-  reg [21:0] held_g;                         // UQ8.14 LSB, modular
-  reg [21:0] held_b;                         // UQ8.14 LSB, modular
-  reg held_fresh;                            // first span of the triangle: its increments are new
-  reg held_fence;                            // what is in flight may be of the same pixels
-  reg [14:0] held_first;                     // signed, first column
-  reg [14:0] held_end;                       // signed, the column behind the last
-  reg held_empty;                            // no column of it is on the screen
+  wire moves = line_held && queue_in_ready;   // the line held is queued or dropped
+  reg [8:0] held_y;                           // line
+  reg [29:0] held_z;                          // UQ16.14 LSB, modular
+  reg [21:0] held_r;                          // UQ8.14 LSB, modular
+  reg [21:0] held_g;                          // UQ8.14 LSB, modular
+  reg [21:0] held_b;                          // UQ8.14 LSB, modular
+  reg held_fresh;                             // first span of the triangle: its increments are new
+  reg held_fence;                             // what is in flight may be of the same pixels
+  reg [14:0] held_first;                      // signed, first column
+  reg [14:0] held_end;                        // signed, the column behind the last, or one beyond the screen
+  reg held_beyond;                            // it ends with the screen
+  wire [14:0] end_cut = held_beyond ? 15'd640 : held_end;
+  reg held_crossed;                           // no column lies between its edges
+  reg held_outside;                           // they end beside the screen
+  wire empty = held_crossed || held_outside;  // no column of it is on the screen
 
   always @(posedge clk) begin
     if (rst) begin
@@ -76,7 +81,7 @@ module edgewalk_span (
   end
 
   always @(posedge clk) begin
-    if (take) begin
+    if (line_ready) begin
       held_y <= line_y;
       held_z <= line_z;
       held_r <= line_r;
@@ -85,8 +90,10 @@ module edgewalk_span (
       held_fresh <= line_fresh;
       held_fence <= line_fence;
       held_first <= first;
-      held_end <= end_cut;
-      held_empty <= empty;
+      held_end <= xe;
+      held_beyond <= !on_screen;
+      held_crossed <= crossed;
+      held_outside <= outside;
     end
   end
 
@@ -101,13 +108,13 @@ module edgewalk_span (
       pend_fresh <= 1'b0;
       pend_fence <= 1'b0;
     end else if (moves) begin
-      pend_fresh <= held_empty && fresh;
-      pend_fence <= held_empty && fence;
+      pend_fresh <= empty && fresh;
+      pend_fence <= empty && fence;
     end
   end
 
   // The queue.
-  wire push = moves && !held_empty;
+  wire push = moves && !empty;
   wire [14:0] queue_out_x;
   wire [8:0] queue_out_y;
   wire [14:0] queue_out_count;
@@ -129,7 +136,7 @@ module edgewalk_span (
     .in_valid     (push),
     .in_x         (held_first),
     .in_y         (held_y),
-    .in_count     (held_end - held_first),
+    .in_count     (end_cut - held_first),
     .in_leftward  (1'b0),
     .in_z         (held_z),
     .in_r         (held_r),
