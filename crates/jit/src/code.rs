@@ -77,7 +77,7 @@ impl Code {
         // to be more (`index`, `read` and `write` in `lower/memory.rs`); an entry of a table at an index of as many bits as
         // it has entries for, zeros above them (`looked_up` in `lower/values.rs`); a register at the place that such an entry or a
         // bit, 0 or 1, says (`read_from_array`), each of which is one of the layout; two words that stand side by side in
-        // it (`lower/copies.rs`); seeds and their copies word by word, to the end of
+        // it (`lower/copies.rs`); seeds word by word and their copies two words at a time, to the end of
         // the places that the layout has for them (`asked` in `lower/waking.rs`). The slice is ours alone while the call lasts,
         // aligned to 8 bytes as the accesses say, and any bits are a valid u64. The code calls nothing and cannot
         // unwind.

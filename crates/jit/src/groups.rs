@@ -26,7 +26,7 @@ impl Group {
 /// What changes.
 #[derive(Clone, Debug)]
 pub(crate) enum Member {
-    /// A register takes the value of the condition that decides.
+    /// A register takes the value of the condition that decides; it stays where that is itself.
     Register { q: ValueId, values: Vec<ValueId> },
     /// A memory's read port, which has one condition, takes a word.
     Read { memory: usize, port: usize },
@@ -38,6 +38,23 @@ impl Member {
         match self {
             Member::Register { q, .. } => *q,
             Member::Read { memory, port } => design.memories[*memory].reads[*port].q,
+        }
+    }
+}
+
+impl Member {
+    /// Whether it stays under the condition of this rank.
+    pub fn stays(&self, rank: usize) -> bool {
+        matches!(self, Member::Register { q, values } if values[rank] == *q)
+    }
+
+    /// The same, staying under so many conditions more, which are weaker; a read port has only one.
+    pub fn kept(self, weaker: usize) -> Member {
+        match self {
+            Member::Register { q, values } => {
+                Member::Register { q, values: std::iter::repeat_n(q, weaker).chain(values).collect() }
+            }
+            read => read,
         }
     }
 }

@@ -10,6 +10,9 @@ use crate::graph::{Graph, Kind, ValueId};
 use crate::quiet::Wakes;
 use crate::tables::Tables;
 
+/// Bytes of two words, which are copied at once.
+pub(crate) const PAIR: i32 = 16;
+
 /// Offsets are in bytes from the start of the state, and end within it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Layout {
@@ -59,7 +62,7 @@ pub(crate) struct Compared {
     pub offset: i32,
     /// As many bytes from there.
     pub copy: i32,
-    /// A multiple of 8.
+    /// A multiple of [`PAIR`]; what is behind the places is 0.
     pub bytes: i32,
 }
 
@@ -121,9 +124,10 @@ impl Layout {
             let place = self.place(graph, *value)?;
             self.places.insert(*value, place);
         }
-        let copy = self.take(0)?;
-        let bytes = copy - offset;
-        self.take(bytes as usize)?;
+        let end = self.take(0)?;
+        let bytes = (end - offset + PAIR - 1) / PAIR * PAIR;
+        self.take((offset + bytes - end) as usize)?;
+        let copy = self.take(bytes as usize)?;
         Ok(Compared { offset, copy, bytes })
     }
 

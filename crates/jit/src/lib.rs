@@ -36,6 +36,7 @@ mod arrays;
 mod tables;
 mod alone;
 mod shared;
+mod idle;
 mod quiet;
 mod layout;
 mod lower;

@@ -7,9 +7,9 @@
 //! and after as many clocks as the longest way has registers all of them.
 //!
 //! The state has a counter for each unit, the clocks for which it is to work on. Whoever changes something that is watched sets
-//! the counter: registers under a condition count as changed where it holds. Seeds that are stored in every clock are
-//! **compared**: with a copy of what they were, all of the unit at once, and only when no other change has set the counter for
-//! some clocks, which is seldom while the unit has work; those of other units where they are stored. A bit that follows from
+//! the counter: registers under a condition count as changed where it holds. Seeds that are stored in every clock, or while nothing
+//! is to be done (`idle`), are **compared**: with a copy of what they were, all of the unit at once, and only when no other change
+//! has set the counter for some clocks, which is seldom while the unit has work; those of other units where they are stored. A bit that follows from
 //! other units alone, as a `ready` does, is a **gate**: it is worked out in every clock and watched in place of the registers
 //! behind it, which change more often. A runner (`apart`) is watched only while its mask is 1.
 
@@ -20,6 +20,7 @@ use crate::effect::{Set, unite};
 use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
 use crate::guard::{Literal, Needs};
+use crate::idle::Idle;
 use crate::order::Readers;
 use crate::step::Step;
 
@@ -47,6 +48,7 @@ pub(crate) struct Wakes {
     gates: Vec<Vec<ValueId>>,
     /// Of each unit, its own seeds that are compared.
     compared: Vec<Vec<ValueId>>,
+    idle: Idle,
 }
 
 impl Wakes {
@@ -86,17 +88,24 @@ impl Wakes {
         self.clocks[unit] - UNASKED
     }
 
-    /// The registers of these steps that are stored whenever their step is done have to be compared.
+    /// Whether the condition holds while nothing is to be done. What changes under it, and within no other one, is compared with
+    /// what it was; else it counts as changed.
+    pub fn is_idle(&self, condition: ValueId) -> bool {
+        self.idle.holds(condition)
+    }
+
+    /// The registers of these steps that change while nothing is to be done have to be compared.
     fn compare(&mut self, design: &Design, steps: &[Step]) {
         for step in steps {
             match step {
-                Step::Change(group) if group.is_unconditional(&design.graph) => {
+                Step::Change(group) if group.conditions.iter().any(|when| self.is_idle(*when)) => {
                     let qs = group.members.iter().map(|member| member.q(design));
                     let seeds: Vec<ValueId> =
                         qs.filter(|q| self.of(*q) & self.own(group.unit) != 0).collect();
                     self.compared[group.unit].extend(seeds);
                 }
                 Step::Change(_) | Step::Write(_) | Step::Early(_) => {}
+                Step::If { bit, .. } if !self.is_idle(*bit) => {}
                 Step::Unit { then, .. } | Step::If { then, .. } => self.compare(design, then),
             }
         }
@@ -139,7 +148,8 @@ pub(crate) fn wakes(design: &Design, readers: &Readers, groups: &[Group], steps:
     let none = vec![Vec::new(); units];
     let (stored, clocks) = (HashMap::new(), vec![0; units]);
     let masks = HashMap::new();
-    let mut wakes = Wakes { stored, masks, clocks, resting: 0, gates: none.clone(), compared: none };
+    let idle = Idle::of(design);
+    let mut wakes = Wakes { stored, masks, clocks, resting: 0, gates: none.clone(), compared: none, idle };
     let mut watched: Vec<(Set, usize)> = Vec::new();
     for unit in 0..units.min(MOST) {
         let own: Vec<&Node> = nodes.iter().filter(|node| node.unit == unit).collect();

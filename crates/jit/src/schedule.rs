@@ -7,7 +7,7 @@ use edgewalk_netlist::Op;
 
 use crate::design::{Design, Memory};
 use crate::graph::{Graph, ValueId};
-use crate::groups::Group;
+use crate::groups::{Group, Member};
 use crate::guard::{Literal, Needs};
 use crate::step::Step;
 
@@ -90,7 +90,8 @@ impl Nesting<'_> {
             self.asked.truncate(before);
             steps.push(Step::If { bit: literal.value(self.graph), then });
         }
-        steps.extend(open.into_iter().map(|o| Step::Change(self.simplified(o.group))));
+        let groups = open.into_iter().map(|o| self.simplified(o.group)).collect();
+        steps.extend(joined(groups).into_iter().map(Step::Change));
         steps
     }
 
@@ -105,15 +106,35 @@ impl Nesting<'_> {
     }
 }
 
+/// What changes under one condition joins a group in which that is the strongest, so that it is asked once.
+fn joined(groups: Vec<Group>) -> Vec<Group> {
+    let (mut several, single): (Vec<Group>, Vec<Group>) =
+        groups.into_iter().partition(|group| group.conditions.len() > 1);
+    let mut left = Vec::new();
+    for group in single {
+        let has_reads = group.members.iter().any(|member| matches!(member, Member::Read { .. }));
+        let joins = |other: &&mut Group| !has_reads && other.conditions.last() == group.conditions.last();
+        match several.iter_mut().find(joins) {
+            Some(other) => {
+                let weaker = other.conditions.len() - 1;
+                other.members.extend(group.members.into_iter().map(|member| member.kept(weaker)));
+            }
+            None => left.push(group),
+        }
+    }
+    several.extend(left);
+    several
+}
+
 /// Of the conditions of the groups that have several, those within which most groups change. One that always holds is no choice:
-/// all that changes in every clock would be within it, apart from the rest.
+/// all that changes in every clock would be within it, apart from the rest. Two groups are too few to ask for once more.
 fn widest_choice(graph: &Graph, open: &[Open]) -> Option<BTreeSet<Literal>> {
     let several =
         open.iter().filter(|o| o.needs.len() > 1 && shared(o).is_empty() && !o.group.is_unconditional(graph));
     let choices = several.map(|o| o.group.conditions.iter().map(|c| Literal::of(graph, *c)).collect());
     let within = |choice: &BTreeSet<Literal>| open.iter().filter(|o| o.is_within(choice)).count();
     let widest = choices.map(|choice| (within(&choice), choice)).max_by_key(|(count, _)| *count);
-    widest.filter(|(count, _)| *count > 1).map(|(_, choice)| choice)
+    widest.filter(|(count, _)| *count > 2).map(|(_, choice)| choice)
 }
 
 /// The literal that most groups need and that is not asked yet, if more than one does.

@@ -44,7 +44,7 @@ impl Lowering<'_> {
     /// know whether it is another value.
     pub(super) fn member_copied(&self, group: &Group, member: &Member, rank: usize) -> Option<Copied> {
         let Member::Register { q, values } = member else { return None };
-        let is_compared = group.is_unconditional(self.v.graph)
+        let is_compared = self.is_compared(group, rank)
             && (self.v.wakes.mask(*q).is_some() || self.v.wakes.of(*q) & !self.v.wakes.own(group.unit) != 0);
         let is_same = self.v.signs.has(*q) == self.v.signs.has(values[rank]);
         let copied = Copied { from: self.in_place(values[rank])?, to: self.v.layout.of(*q)? };

@@ -1,5 +1,7 @@
 //! The functions: what is computed in which order, and where branches go.
 
+use std::collections::BTreeMap;
+
 use cranelift_codegen::cursor::{Cursor, FuncCursor};
 use cranelift_codegen::ir::{Block, Function, Inst, InstBuilder, Type};
 use edgewalk_netlist::Op;
@@ -53,7 +55,7 @@ pub(crate) fn lower(
     let state = function.dfg.append_block_param(head, pointer);
     let mut cursor = FuncCursor::new(function);
     cursor.insert_block(head);
-    let mut lowering = Lowering { design, v: Values::new(plan, cursor, state, has_vectors) };
+    let mut lowering = Lowering { design, v: Values::new(plan, cursor, state, has_vectors), idle: true };
     match program {
         Program::Clock => {
             lowering.v.keep(&plan.shared);
@@ -75,6 +77,8 @@ pub(crate) fn is_computed(graph: &Graph, value: ValueId) -> bool {
 pub(super) struct Lowering<'a> {
     pub design: &'a Design,
     pub v: Values<'a>,
+    /// Whether the conditions around hold while nothing is to be done.
+    idle: bool,
 }
 
 impl Lowering<'_> {
@@ -144,7 +148,12 @@ impl Lowering<'_> {
                 Step::Early(bits) => bits.iter().for_each(|bit| self.v.work_out(*bit)),
                 Step::Unit { unit, then } if self.v.wakes.rests(*unit) => self.unit(*unit, then),
                 Step::Unit { then, .. } => self.steps(then),
-                Step::If { bit, then } => self.only_if(*bit, |lowering| lowering.steps(then)),
+                Step::If { bit, then } => {
+                    let idle = self.idle && self.v.wakes.is_idle(*bit);
+                    let around = std::mem::replace(&mut self.idle, idle);
+                    self.only_if(*bit, |lowering| lowering.steps(then));
+                    self.idle = around;
+                }
             }
         }
     }
@@ -177,29 +186,33 @@ impl Lowering<'_> {
         );
     }
 
-    /// All members take their value of this rank, in an order in which most are read before they change. Where that is in every
-    /// clock other units have them compared with what they were; else they count as changed.
+    /// All members take their value of this rank, in an order in which most are read before they change. Where that is while
+    /// nothing is to be done, other units have them compared with what they were; else they count as changed.
     fn take(&mut self, group: &Group, rank: usize) {
         if let Some(bit) = self.common_choice(group, rank) {
-            let [one, zero] = [1, 2].map(|arm| self.with_arms(group, rank, arm));
-            return self.either(
-                bit,
-                |lowering| lowering.take(&one, rank),
-                |lowering| lowering.take(&zero, rank),
-            );
+            let chooses = |member: &&Member| self.choice(member, rank) == Some(bit);
+            let (choosing, others) = group.members.iter().cloned().partition(|member| chooses(&member));
+            let with = |members: Vec<Member>| Group { members, ..group.clone() };
+            let (choosing, others) = (with(choosing), with(others));
+            let [one, zero] = [1, 2].map(|arm| self.with_arms(&choosing, rank, arm));
+            self.either(bit, |lowering| lowering.take(&one, rank), |lowering| lowering.take(&zero, rank));
+            return self.take(&others, rank);
         }
-        let always = group.is_unconditional(self.v.graph);
+        let is_compared = self.is_compared(group, rank);
         let mut changed = 0;
         let mut left = &group.members[..];
         while let [member, others @ ..] = left {
             left = others;
+            if member.stays(rank) {
+                continue;
+            }
             if let [next, others @ ..] = left
                 && let Some(first) = self.member_copied(group, member, rank)
                 && let Some(second) = self.member_copied(group, next, rank)
                 && let both = [member, next].map(|member| member.q(self.design))
                 && self.copy_both([first, second], &both)
             {
-                if !always {
+                if !is_compared {
                     changed |= both.iter().fold(0, |units, q| units | self.v.wakes.of(*q));
                 }
                 left = others;
@@ -210,7 +223,7 @@ impl Lowering<'_> {
                 Member::Read { memory, port } => self.read(*memory, *port),
             };
             let wakes = self.v.wakes.of(q);
-            if always {
+            if is_compared {
                 self.v.compare(q, value, wakes & !self.v.wakes.own(group.unit));
             } else {
                 changed |= wakes;
@@ -220,17 +233,29 @@ impl Lowering<'_> {
         self.v.wake(changed);
     }
 
-    /// The bit by which all members choose, if they are several.
+    /// Whether other units have what changes at this rank compared with what it was.
+    pub fn is_compared(&self, group: &Group, rank: usize) -> bool {
+        self.idle && self.v.wakes.is_idle(group.conditions[rank])
+    }
+
+    /// The bit by which most members choose, if they are several.
     fn common_choice(&self, group: &Group, rank: usize) -> Option<ValueId> {
-        let choice = |member: &Member| match member {
+        let mut bits: BTreeMap<ValueId, usize> = BTreeMap::new();
+        for bit in group.members.iter().filter_map(|member| self.choice(member, rank)) {
+            *bits.entry(bit).or_default() += 1;
+        }
+        let (bit, members) = bits.into_iter().max_by_key(|(_, members)| *members)?;
+        (members >= LEAST_CHOOSING).then_some(bit)
+    }
+
+    /// The bit by which a member chooses what it takes.
+    fn choice(&self, member: &Member, rank: usize) -> Option<ValueId> {
+        match member {
             Member::Register { values, .. } if self.v.is_worked_out(values[rank]) => {
                 Some(self.v.graph.as_op(values[rank], Op::Mux)?[0])
             }
             _ => None,
-        };
-        let bit = choice(group.members.first()?)?;
-        let all = group.members.iter().all(|member| choice(member) == Some(bit));
-        (all && group.members.len() >= LEAST_CHOOSING).then_some(bit)
+        }
     }
 
     /// The group with what its members take if they choose this operand of their choices.
