@@ -38,14 +38,14 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let prim_ready = (!running.q() & !fresh_queued).named("prim_ready");
     let load = (prim_valid & prim_ready).named("load");
     let step = (running.q() & line_ready).named("step");
-    m.comment("Between triangles everything takes what there is of the next one, whether it comes or not: no enable waits for that.");
+    m.comment("Between triangles everything takes the next one as soon as it is there, and again till PIXEL has the increments: no enable waits for that.");
     let idle = m.reg("idle", 1).doc("not running: for what is loaded, as running is for the values").reset(1);
     let at_end = (step & last.q()).named("at_end");
     running.when(at_end, 0).when(load, 1);
     idle.when(at_end, 1).when(load, 0);
     let idle = idle.q();
-    let moves = (idle | line_ready).named("moves");
-    let frees = (idle & !fresh_queued).named_doc("frees", "PIXEL has the increments");
+    let offered = (idle & prim_valid).named_doc("offered", "the next triangle is there");
+    let moves = idle.mux(prim_valid, line_ready).named("moves");
 
     m.comment("Where in the triangle: the upper part, then the lower.");
     let n1 = m.reg("n1", prim["n1"].width()).doc("lines left of the upper part");
@@ -56,13 +56,13 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         Place::new(&m, last, [n1, n2], [prim["n1"], prim["n2"]], idle, moves);
     exchanges.when(moves, idle.mux(!load | first_knee, last.q() | next_knee));
     let exchanges = exchanges.q();
-    n1.when(idle, prim["n1"]).when(step & upper, n1.q() - 1);
-    n2.when(idle, prim["n2"]).when(step & !upper, n2.q() - 1);
+    n1.when(offered, prim["n1"]).when(step & upper, n1.q() - 1);
+    n2.when(offered, prim["n2"]).when(step & !upper, n2.q() - 1);
 
     // The knee line of textbook fill is drawn twice: as the last of the upper and as the first of the lower part.
     let line_done = match plan.fill {
         Fill::Exact => moves,
-        Fill::Textbook => (idle | (line_ready & !exchanges)).named("line_done"),
+        Fill::Textbook => idle.mux(prim_valid, line_ready & !exchanges).named("line_done"),
     };
     let elsewhere = match plan.fill {
         Fill::Exact => ["cmaj", "cmin", "fence"].as_slice(),
@@ -72,13 +72,13 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     own.retain(|f| !elsewhere.contains(&f.name.as_str()));
     let line = Registers::new(&m, "line", own);
     line["y"].when(line_done, idle.mux(prim["jm"], line["y"].q() + 1));
-    line["major_right"].when(idle, prim["major_right"]);
+    line["major_right"].when(offered, prim["major_right"]);
     line["fresh"].when(moves, idle);
     if let Some(fence) = line.get("fence") {
         fence.when(moves, exchanges);
     }
     if let (Some(register), Some(tag)) = (line.get("tag"), prim.get("tag")) {
-        register.when(idle, tag);
+        register.when(offered, tag);
     }
 
     m.comment("The major edge.");
@@ -92,14 +92,14 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let carry = m.reg("carry", 1).doc("the major edge carries in its next step").reset(0);
     carry.when(line_done, rest.msb());
     major.own["c"].when(line_done, idle.mux(first("major", "c"), column));
-    major.keep(idle, |f| first("major", f));
+    major.keep(offered, |f| first("major", f));
 
     m.comment("The minor edge, and the one that takes its place at the knee.");
     let second = Edge::new(&m, "second", &edges);
     let second_rest = second.first_rest(|f| first("minor2", f)).named("minor2_rest");
-    second.rest.when(idle, second_rest);
-    second.own["c"].when(idle, first("minor2", "c"));
-    second.keep(idle, |f| first("minor2", f));
+    second.rest.when(offered, second_rest);
+    second.own["c"].when(offered, first("minor2", "c"));
+    second.keep(offered, |f| first("minor2", f));
     let minor = Edge::new(&m, "minor", &edges);
     let (rest, column) = minor.next(&m);
     let has_upper = prim["n1"].any().named("has_upper");
@@ -115,7 +115,7 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let increments = Registers::new(&m, "inc", parts(&tokens::held_by_edge(plan)));
     for name in ["kt", "record"] {
         if let (Some(register), Some(value)) = (increments.get(name), prim.get(name)) {
-            register.when(frees, value);
+            register.when(load, value);
         }
     }
     if plan.fill == Fill::Exact {
@@ -125,10 +125,10 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         let of_prim = |result: &str| prim[format!("{channel}_{result}").as_str()];
         let held = |result: &str| {
             let register = m.reg(&format!("{channel}_{result}"), of_prim(result).width());
-            register.doc("as in the triangle").when(idle, of_prim(result)).q()
+            register.doc("as in the triangle").when(offered, of_prim(result)).q()
         };
         let value = line[channel];
-        increments[channel].when(frees, of_prim("g"));
+        increments[channel].when(load, of_prim("g"));
         match plan.fill {
             Fill::Exact => {
                 let (d0, d1) = (held("d0"), held("d1"));
@@ -143,7 +143,7 @@ pub fn edge(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
                     .when(line_done, value.q() + upper.mux(d_a, d_b))
                     // Where the left edge is the major one, the knee line begins where it did.
                     .when(at_knee & line["major_right"].q(), start_b)
-                    .when(idle, has_upper.mux(of_prim("start_a"), of_prim("start_b")));
+                    .when(offered, has_upper.mux(of_prim("start_a"), of_prim("start_b")));
             }
         }
     }

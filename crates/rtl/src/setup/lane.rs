@@ -66,6 +66,7 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let take_modulus = m.input_doc("take_modulus", 1, "two clocks before the first step with it");
     let modulus_in = m.input_doc("modulus_in", below_two_m, "-M, or -M - 1 if modulus_short; signed");
     let modulus_short = m.input("modulus_short", 1);
+    let give = m.input_doc("give", 1, "an operation has ended: value is its result, a clock later");
     let nearest =
         m.input_doc("nearest", 1, "value is rounded to nearest, halves up; a clock before it, with rest_out");
     let upwards = m.input_doc("upwards", 1, "else: up; if not, it is cut");
@@ -172,9 +173,9 @@ pub(super) fn lane(name: &str, shape: Shape) -> Result<Arc<Netlist>, BuildErrors
     let twice = m.cat(&[rest.q(), m.lit(1, 0)]);
     let past_half = plus("past_half", twice, modulus, short);
     let up = nearest.mux(!past_half.msb(), upwards & rest.q().any());
-    let carry = m.reg("value_carry", 1).doc("1 to add, rounded up or negated").set(up ^ negate).q();
-    let negated = m.reg("value_negated", 1).set(negate).q();
-    let added = m.reg("value_added", shape.whole).doc("whole number, modular").set(whole_in).q();
+    let carry = m.reg("value_carry", 1).doc("1 to add, rounded up or negated").when(give, up ^ negate).q();
+    let negated = m.reg("value_negated", 1).when(give, negate).q();
+    let added = m.reg("value_added", shape.whole).doc("whole number, modular").when(give, whole_in).q();
     let value = plus("value_sum", whole.q() ^ repeat(negated, shape.whole), added, carry);
     m.output_doc("value", value, "modular, two clocks after a step");
     m.finish()

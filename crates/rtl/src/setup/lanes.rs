@@ -186,6 +186,7 @@ impl<'a, 'm> Common<'a, 'm> {
             .connect("write", self.write)
             .connect("write_at", self.write_at)
             .connect("take_modulus", self.take_modulus)
+            .connect("give", control.rest.ends)
             .connect("nearest", self.nearest)
             .connect("upwards", self.upwards)
             .connect("negate", self.negated);
