@@ -725,6 +725,7 @@ module edgewalk_setup (
 : (round == 2'd1) ? ~{12'd0, {dv01, 4'd0}}
 : ~{12'd0, {dv02, 4'd0}}),
     .modulus_short (!(equal_3 && area[30])),
+    .give          (ends_rest),
     .nearest       (nearest),
     .upwards       (upwards),
     .negate        (negated),

@@ -24,6 +24,7 @@ module edgewalk_setup_lane0 (
   input  wire        take_modulus,   // two clocks before the first step with it
   input  wire [30:0] modulus_in,     // -M, or -M - 1 if modulus_short; signed
   input  wire        modulus_short,
+  input  wire        give,           // an operation has ended: value is its result, a clock later
   input  wire        nearest,        // value is rounded to nearest, halves up; a clock before it, with rest_out
   input  wire        upwards,        // else: up; if not, it is cut
   input  wire        negate,         // value is negated, once it is rounded
@@ -186,9 +187,11 @@ module edgewalk_setup_lane0 (
   wire [30:0] part_2 = past_half[31:1];
 
   always @(posedge clk) begin
-    value_carry <= (nearest ? !part_2[30] : upwards && (|rest)) ^ negate;
-    value_negated <= negate;
-    value_added <= whole_in;
+    if (give) begin
+      value_carry <= (nearest ? !part_2[30] : upwards && (|rest)) ^ negate;
+      value_negated <= negate;
+      value_added <= whole_in;
+    end
   end
 
   assign unfit = (now == 5'd3) && (below ? !fits0 : fits1);

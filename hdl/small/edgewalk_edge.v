@@ -81,11 +81,11 @@ module edgewalk_edge (
   wire load = prim_valid && prim_ready;
   wire step = running && line_ready;
 
-  // Between triangles everything takes what there is of the next one, whether it comes or not: no enable waits for that.
-  reg idle;                            // not running: for what is loaded, as running is for the values
+  // Between triangles everything takes the next one as soon as it is there, and again till PIXEL has the increments: no enable waits for that.
+  reg idle;                           // not running: for what is loaded, as running is for the values
   wire at_end = step && last;
-  wire moves = idle || line_ready;
-  wire frees = idle && !fresh_queued;  // PIXEL has the increments
+  wire offered = idle && prim_valid;  // the next triangle is there
+  wire moves = idle ? prim_valid : line_ready;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -136,17 +136,17 @@ module edgewalk_edge (
   end
 
   always @(posedge clk) begin
-    if (idle) n1 <= prim_n1;
+    if (offered) n1 <= prim_n1;
     if (step && upper) n1 <= n1 - 9'd1;
   end
 
   always @(posedge clk) begin
-    if (idle) n2 <= prim_n2;
+    if (offered) n2 <= prim_n2;
     if (step && !upper) n2 <= n2 - 9'd1;
   end
 
   always @(posedge clk) begin
-    if (idle) line_major_right <= prim_major_right;
+    if (offered) line_major_right <= prim_major_right;
   end
 
   // The major edge.
@@ -177,7 +177,7 @@ module edgewalk_edge (
   end
 
   always @(posedge clk) begin
-    if (idle) begin
+    if (offered) begin
       major_q <= prim_major_q;
       major_f <= prim_major_f;
       major_m <= prim_major_m;
@@ -203,7 +203,7 @@ module edgewalk_edge (
   wire exchanged = exchanges && moves;
 
   always @(posedge clk) begin
-    if (idle) begin
+    if (offered) begin
       second_rest <= minor2_rest;
       second_c <= prim_minor2_c;
       second_q <= prim_minor2_q;
@@ -244,7 +244,7 @@ module edgewalk_edge (
   wire [14:0] b_added = idle ? prim_b_start : carry ? b_d1 : b_d0;
 
   always @(posedge clk) begin
-    if (frees) begin
+    if (load) begin
       inc_z <= prim_z_g;
       inc_r <= prim_r_g;
       inc_g <= prim_g_g;
@@ -253,7 +253,7 @@ module edgewalk_edge (
   end
 
   always @(posedge clk) begin
-    if (idle) begin
+    if (offered) begin
       z_d0 <= prim_z_d0;
       z_d1 <= prim_z_d1;
       r_d0 <= prim_r_d0;

@@ -729,6 +729,7 @@ module edgewalk_setup (
 : (round == 2'd1) ? ~{10'd0, {dv01, 3'd0}}
 : ~{10'd0, {dv02, 3'd0}}),
     .modulus_short (!(equal_3 && area[24])),
+    .give          (ends_rest),
     .nearest       (nearest),
     .upwards       (upwards),
     .negate        (negated),

@@ -82,11 +82,11 @@ module edgewalk_edge (
   wire load = prim_valid && prim_ready;
   wire step = running && line_ready;
 
-  // Between triangles everything takes what there is of the next one, whether it comes or not: no enable waits for that.
-  reg idle;                            // not running: for what is loaded, as running is for the values
+  // Between triangles everything takes the next one as soon as it is there, and again till PIXEL has the increments: no enable waits for that.
+  reg idle;                           // not running: for what is loaded, as running is for the values
   wire at_end = step && last;
-  wire moves = idle || line_ready;
-  wire frees = idle && !fresh_queued;  // PIXEL has the increments
+  wire offered = idle && prim_valid;  // the next triangle is there
+  wire moves = idle ? prim_valid : line_ready;
 
   always @(posedge clk) begin
     if (rst) begin
@@ -118,7 +118,7 @@ module edgewalk_edge (
   wire first_last = (|prim_n1) ? one_upper_only && !lower_follows : prim_n2 == 10'd1;
   wire first_knee = one_upper_only && lower_follows;
   wire next_knee = two_upper && some_lower;
-  wire line_done = idle || (line_ready && !exchanges);
+  wire line_done = idle ? prim_valid : line_ready && !exchanges;
 
   always @(posedge clk) begin
     if (moves) begin
@@ -138,12 +138,12 @@ module edgewalk_edge (
   end
 
   always @(posedge clk) begin
-    if (idle) n1 <= prim_n1;
+    if (offered) n1 <= prim_n1;
     if (step && upper) n1 <= n1 - 10'd1;
   end
 
   always @(posedge clk) begin
-    if (idle) n2 <= prim_n2;
+    if (offered) n2 <= prim_n2;
     if (step && !upper) n2 <= n2 - 10'd1;
   end
 
@@ -152,7 +152,7 @@ module edgewalk_edge (
   end
 
   always @(posedge clk) begin
-    if (idle) line_major_right <= prim_major_right;
+    if (offered) line_major_right <= prim_major_right;
   end
 
   // The major edge.
@@ -180,7 +180,7 @@ module edgewalk_edge (
   end
 
   always @(posedge clk) begin
-    if (idle) begin
+    if (offered) begin
       major_q <= prim_major_q;
       major_f <= prim_major_f;
     end
@@ -201,7 +201,7 @@ module edgewalk_edge (
   wire exchanged = exchanges && moves;
 
   always @(posedge clk) begin
-    if (idle) begin
+    if (offered) begin
       second_rest <= minor2_rest;
       second_c <= prim_minor2_c;
       second_q <= prim_minor2_q;
@@ -240,7 +240,7 @@ module edgewalk_edge (
   reg [21:0] b_d_b;      // as in the triangle
 
   always @(posedge clk) begin
-    if (frees) begin
+    if (load) begin
       inc_z <= prim_z_g;
       inc_r <= prim_r_g;
       inc_g <= prim_g_g;
@@ -249,7 +249,7 @@ module edgewalk_edge (
   end
 
   always @(posedge clk) begin
-    if (idle) begin
+    if (offered) begin
       z_d_a <= prim_z_d_a;
       z_start_b <= prim_z_start_b;
       z_d_b <= prim_z_d_b;
@@ -278,7 +278,7 @@ module edgewalk_edge (
       line_g <= g_start_b;
       line_b <= b_start_b;
     end
-    if (idle) begin
+    if (offered) begin
       line_z <= has_upper ? prim_z_start_a : prim_z_start_b;
       line_r <= has_upper ? prim_r_start_a : prim_r_start_b;
       line_g <= has_upper ? prim_g_start_a : prim_g_start_b;

@@ -779,6 +779,7 @@ module edgewalk_setup (
 : (round == 2'd1) ? ~{15'd0, {dv01, 1'b0}}
 : ~{15'd0, {dv02, 1'b0}}),
     .modulus_short (!(equal_4 && area[30])),
+    .give          (ends_rest),
     .nearest       (nearest),
     .upwards       (upwards),
     .negate        (negated),
