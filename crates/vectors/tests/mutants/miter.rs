@@ -6,6 +6,10 @@ use edgewalk_netlist::mutate::DIFFERS;
 use edgewalk_vectors::Interface;
 use std::fmt::Write as _;
 
+/// The input of a lane of SETUP that says that a result is given out, and its register in the miter.
+const GIVE: &str = "give";
+const GIVEN: &str = "given";
+
 /// The ports of both designs but clock and reset.
 pub struct Ports {
     inputs: Vec<(String, u32)>,
@@ -29,6 +33,17 @@ impl Ports {
         }
     }
 
+    /// Those of a module that goes on from clock to clock: every output counts, but for the value that a lane of SETUP gives out. It
+    /// counts a clock after `give`, as that is when SETUP takes it; what it takes of a first value before, it takes again then.
+    pub fn of_running_module(module: &Netlist) -> Ports {
+        let mut ports = Ports::of_module(module);
+        if gives_out(module) {
+            let values = ports.compared.iter_mut().filter(|(output, _)| output == "value");
+            values.for_each(|(_, during)| *during = Some(GIVEN.to_owned()));
+        }
+        ports
+    }
+
     /// Those of a unit: outputs count as in lock step.
     pub fn of_unit(interface: &Interface) -> Ports {
         let status = status_ports(interface).into_iter();
@@ -48,6 +63,11 @@ impl Ports {
             compared: status.chain(interface.links.iter().flat_map(of_link)).collect(),
         }
     }
+}
+
+/// The module is a lane of SETUP.
+pub fn gives_out(module: &Netlist) -> bool {
+    module.inputs.iter().any(|input| input.name == GIVE)
 }
 
 fn widths(ports: &[Port]) -> Vec<(String, u32)> {
@@ -72,6 +92,9 @@ pub fn miter(ports: &Ports, original: &Netlist, faulty: &Netlist) -> String {
             let _ = write!(header, ", input {range} {port}");
         }
         shared.push(port.clone());
+    }
+    if ports.compared.iter().any(|(_, during)| during.as_deref() == Some(GIVEN)) {
+        let _ = writeln!(body, "reg {GIVEN};\nalways @(posedge clk) {GIVEN} <= {GIVE};");
     }
     for (port, width) in &ports.outputs {
         let _ = writeln!(body, "wire {} {port}, other_{port};", range(*width));

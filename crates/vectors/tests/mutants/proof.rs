@@ -6,7 +6,7 @@
 //!           └─> faulty ───┘
 //! ```
 //! First in one clock of the module with the fault, its instances and memories cut out, whatever its registers hold: where nothing
-//! differs at the place of the fault, or in what they hold next and what comes out, nothing does ever. Then at its ports, every output in every cycle, and at the place
+//! differs at the place of the fault, or in what they hold next and what comes out, nothing does ever. Then at its ports, every output in every cycle (a lane's value when it is given out), and at the place
 //! of the fault, in the states that the module comes to from its first. Then at the ports of the unit, where
 //! outputs count as in lock step: fields while their valid is high, a status port while it means something.
 //!
@@ -15,7 +15,7 @@
 //! turns the two printed designs into gates; ABC (`scorr`, `pdr`) finds the invariant or the cycles to a difference.
 
 use super::cut::{alone, one_clock, without_memories};
-use super::miter::{Ports, miter, watch};
+use super::miter::{Ports, gives_out, miter, watch};
 use edgewalk_netlist::Netlist;
 use edgewalk_netlist::mutate::Mutant;
 use edgewalk_vectors::Interface;
@@ -63,20 +63,21 @@ pub fn prove(interface: &Interface, original: &Arc<Netlist>, mutant: &Mutant, wh
     if !whole {
         // Fewer searches: there are many faults, and of most that are left none comes to an end.
         let modules = |netlist: &Arc<Netlist>| [alone(netlist, &mutant.module), Arc::clone(netlist)];
-        let proved = match watched.as_ref().filter(|_| own) {
-            Some(watched) => modules(watched)
-                .iter()
-                .map(without_memories)
-                .any(|place| never(&Ports::of_module(&place), &place, LIMITS[1]) == Proof::Equivalent),
-            None => {
-                own && search(&Ports::of_module(&cut[0]), &cut[0], &cut[1], LIMITS[1]) == Proof::Equivalent
-            }
-        };
+        let places = watched.as_ref().filter(|_| own).map(modules);
+        let mut proved = places
+            .iter()
+            .flatten()
+            .map(without_memories)
+            .any(|place| never(&Ports::of_module(&place), &place, LIMITS[1]) == Proof::Equivalent);
+        if own && !proved && (watched.is_none() || gives_out(&cut[0])) {
+            let ports = Ports::of_running_module(&cut[0]);
+            proved = search(&ports, &cut[0], &cut[1], LIMITS[1]) == Proof::Equivalent;
+        }
         // A difference there need not reach the ports of the unit.
         return if proved { Proof::Equivalent } else { Proof::Unknown };
     }
     // What is written and asked for alike comes back alike, whatever it is.
-    if own && search(&Ports::of_module(&cut[0]), &cut[0], &cut[1], LIMITS[1]) == Proof::Equivalent {
+    if own && search(&Ports::of_running_module(&cut[0]), &cut[0], &cut[1], LIMITS[1]) == Proof::Equivalent {
         return Proof::Equivalent;
     }
     if let Some(watched) = watched.as_ref().filter(|_| own).map(without_memories)
@@ -88,7 +89,7 @@ pub fn prove(interface: &Interface, original: &Arc<Netlist>, mutant: &Mutant, wh
     if bits > MOST_BITS {
         return Proof::Unknown;
     }
-    if search(&Ports::of_module(&one), &one, &other, LIMITS[0]) == Proof::Equivalent {
+    if search(&Ports::of_running_module(&one), &one, &other, LIMITS[0]) == Proof::Equivalent {
         return Proof::Equivalent;
     }
     let ports = Ports::of_unit(interface);
