@@ -40,9 +40,7 @@ impl Member {
             Member::Read { memory, port } => design.memories[*memory].reads[*port].q,
         }
     }
-}
 
-impl Member {
     /// Whether it stays under the condition of this rank.
     pub fn stays(&self, rank: usize) -> bool {
         matches!(self, Member::Register { q, values } if values[rank] == *q)

@@ -9,9 +9,9 @@
 //! The state has a counter for each unit, the clocks for which it is to work on. Whoever changes something that is watched sets
 //! the counter: registers under a condition count as changed where it holds. Seeds that are stored in every clock, or while nothing
 //! is to be done (`idle`), are **compared**: with a copy of what they were, all of the unit at once, and only when no other change
-//! has set the counter for some clocks, which is seldom while the unit has work; those of other units where they are stored. A bit that follows from
-//! other units alone, as a `ready` does, is a **gate**: it is worked out in every clock and watched in place of the registers
-//! behind it, which change more often. A runner (`apart`) is watched only while its mask is 1.
+//! has set the counter for some clocks, which is seldom while the unit has work; those of other units where they are stored. A bit
+//! that follows from other units alone, as a `ready` does, is a **gate**: it is worked out in every clock and watched in place of
+//! the registers behind it, which change more often. A runner (`apart`) is watched only while its mask is 1.
 
 use std::collections::HashMap;
 
