@@ -231,6 +231,13 @@ impl Simulator {
         }
     }
 
+    /// Of the units that can stand still, how many work in the next clock, if no input changes: the others are left out of it. A bit
+    /// from another unit may still wake them.
+    pub fn working(&self) -> usize {
+        let Plan { wakes, layout, .. } = &self.compiled.plan;
+        wakes.units(u64::MAX).filter(|(unit, _)| self.state.clocks(layout, *unit) > 0).count()
+    }
+
     /// What a clock costs before the code generator sees the host.
     pub fn cost(&self) -> Cost {
         self.compiled.clock.cost

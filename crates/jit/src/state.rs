@@ -36,6 +36,12 @@ impl State {
         wakes.units(units).for_each(|(unit, clocks)| self.set_byte(layout.counters as usize + unit, clocks));
     }
 
+    /// For how many clocks a unit is to work on.
+    pub fn clocks(&self, layout: &Layout, unit: usize) -> u8 {
+        let at = layout.counters as usize + unit;
+        (self.0[at / 8] >> (at % 8 * 8)) as u8
+    }
+
     fn set_byte(&mut self, at: usize, byte: u8) {
         let shift = at % 8 * 8;
         self.0[at / 8] = self.0[at / 8] & !(0xff << shift) | u64::from(byte) << shift;
