@@ -162,7 +162,7 @@ fn triangles_of_another_machine_are_refused() {
     assert_eq!(renderer.draw([own, own], state), Ok(()));
 }
 
-/// A frame is cleared only where the one before was drawn, also where that was given up half way.
+/// Also where the frame before was given up half way.
 #[test]
 fn nothing_is_left_of_the_frame_before() {
     let mut rng = StdRng::seed_from_u64(7);
@@ -195,4 +195,31 @@ fn nothing_is_left_of_the_frame_before() {
     }
     println!("{frames} frames after others, {fragments} fragments");
     assert!(frames == 120 && fragments > 20_000, "{fragments} fragments");
+}
+
+/// Frames are told apart by a number that is soon used up. In the first there is one triangle and in the others another, so that
+/// what the first left would be seen when its number comes again.
+#[test]
+fn nothing_is_left_of_a_frame_long_before() {
+    let machine = Machine { width: 16, height: 16, ..Machine::default() }.plan().expect("can be built");
+    let corner = |x: i32, y: i32| machine.raw_vertex(x << 8, y << 8, &[1 << 20, 4080, 0, 4080]);
+    let [left, right] = [0, 8].map(|x| [corner(x, 0), corner(x + 7, 0), corner(x, 15)]);
+    let mut renderer = fast::Renderer::new(&machine, false);
+    let mut draw = |triangle, clear| {
+        assert_eq!(renderer.draw([triangle], DrawState { clear, ..DrawState::default() }), Ok(()));
+        renderer.frame()
+    };
+    draw(left, [0; 3]);
+    let mut frames = 0;
+    for number in 0..600u64 {
+        let clear = [number % 256, 7, number % 3];
+        let found = draw(right, clear);
+        let mut fresh = fast::Renderer::new(&machine, false);
+        assert_eq!(fresh.draw([right], DrawState { clear, ..DrawState::default() }), Ok(()));
+        let wanted = fresh.frame();
+        assert!(found.z == wanted.z && found.rgb == wanted.rgb, "frame {number}");
+        assert_eq!(found.rgb[0], clear, "frame {number}");
+        frames += usize::from(found.counters.fragments > 0);
+    }
+    assert_eq!(frames, 600, "frames in which something is drawn");
 }

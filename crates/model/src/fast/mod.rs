@@ -194,9 +194,9 @@ impl Renderer {
     #[must_use]
     pub fn lines(&self, lines: Range<u32>) -> Frame {
         let [start, end] = [lines.start, lines.end].map(|line| line as usize * self.plan.width as usize);
-        let (z, rgb, details) = match &self.memory {
-            Memory::Narrow(picture) => picture.outputs(start..end),
-            Memory::Wide(picture) => picture.outputs(start..end),
+        let ((z, rgb), details) = match &self.memory {
+            Memory::Narrow(picture) => (picture.outputs(start..end), &picture.details),
+            Memory::Wide(picture) => (picture.outputs(start..end), &picture.details),
         };
         let part = |counts: &[u32]| counts.get(start..end).unwrap_or_default().to_vec();
         Frame {

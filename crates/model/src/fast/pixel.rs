@@ -1,16 +1,22 @@
-//! A pixel of the frame memory in one word, depth below and packed colour above: a span is one stretch of memory.
+//! A pixel of the frame memory in one word, depth below, packed colour above, and at the top the frame that stored it: a span is
+//! one stretch of memory.
 
 use edgewalk_machine::Plan;
 
-/// A stored pixel: depth in the low 32 bits, colour above.
+/// A stored pixel: depth in the low 32 bits, colour above, the number of its frame in the high 8. Numbers
+/// only grow, so that pixels of earlier frames are less than any of this one.
 pub(super) trait Pixel: Copy + Default + Eq {
     /// Lane of an interpolated colour; the word stands at its left end.
     type Color: Copy + Default;
     /// Width of that lane.
     const COLOR_BITS: u32;
 
-    /// Depth, and three colour words without their lowest `drop` bits.
-    fn pack(z: u32, rgb: [Self::Color; 3], drop: u32) -> Self;
+    /// A frame's number where it stands.
+    fn stamp(frame: u8) -> Self;
+    /// Depth, three colour words without their lowest `drop` bits, and a stamp.
+    fn pack(z: u32, rgb: [Self::Color; 3], drop: u32, stamp: Self) -> Self;
+    /// `clear` instead of a pixel of an earlier frame; `stamp` is that of this frame.
+    fn or_clear(self, clear: Self, stamp: Self) -> Self;
     /// Depth.
     fn depth(self) -> u32;
     /// Red, green, blue.
@@ -29,10 +35,17 @@ macro_rules! pixel {
             type Color = $color;
             const COLOR_BITS: u32 = <$color>::BITS;
 
+            fn stamp(frame: u8) -> Self {
+                <$pixel>::from(frame) << (<$pixel>::BITS - 8)
+            }
             #[inline(always)]
-            fn pack(z: u32, [r, g, b]: [$color; 3], drop: u32) -> Self {
+            fn pack(z: u32, [r, g, b]: [$color; 3], drop: u32, stamp: Self) -> Self {
                 let (r, g, b) = (r.wrapping_shr(drop), g.wrapping_shr(drop), b.wrapping_shr(drop));
-                <$pixel>::from(r | g << $field | b << (2 * $field)) << 32 | <$pixel>::from(z)
+                <$pixel>::from(r | g << $field | b << (2 * $field)) << 32 | <$pixel>::from(z) | stamp
+            }
+            #[inline(always)]
+            fn or_clear(self, clear: Self, stamp: Self) -> Self {
+                if self < stamp { clear } else { self }
             }
             #[inline(always)]
             fn depth(self) -> u32 {
@@ -63,8 +76,8 @@ pixel!(u64, u32, 8);
 // Channels of at most 16 bits, their words at most 16 + 24.
 pixel!(u128, u64, 16);
 
-/// A pixel of these outputs, b bits each.
-pub(super) fn pixel<P: Pixel>(plan: &Plan, z: u64, rgb: [u64; 3]) -> P {
+/// A pixel of these outputs, b bits each, and a stamp.
+pub(super) fn pixel<P: Pixel>(plan: &Plan, z: u64, rgb: [u64; 3], stamp: P) -> P {
     let bits = plan.color.bits;
-    P::pack(z as u32, rgb.map(|c| P::color(c << (64 - bits))), P::COLOR_BITS - bits)
+    P::pack(z as u32, rgb.map(|c| P::color(c << (64 - bits))), P::COLOR_BITS - bits, stamp)
 }

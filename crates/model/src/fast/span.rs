@@ -93,6 +93,7 @@ impl DepthTest {
         // In registers: what is stored below might be these, for all the compiler knows.
         let DepthTest { less, equal, greater, write, z_drop, rgb_drop, place, .. } = *self;
         let (not_less, equal) = (less ^ greater, greater ^ equal);
+        let (clear, stamp) = (picture.clear, picture.stamp());
         let mut lanes = [0u32; LANES]; // a triangle has fewer pixels
         let (mut leftmost, mut pass) = (0, [0; LANES]);
         for span in spans {
@@ -103,7 +104,7 @@ impl DepthTest {
             });
             let (mut at, mut remaining) = (span.pixel as usize, span.count as i32);
             while let Some(stored) = picture.pixels.get_mut(at..).and_then(|p| p.first_chunk_mut::<LANES>()) {
-                let old = *stored;
+                let old = stored.map(|pixel| pixel.or_clear(clear, stamp));
                 let old_z = old.map(P::depth);
                 let new_z: [u32; LANES] = from_fn(|i| z[i].wrapping_shr(z_drop) as u32);
                 let inside: [u32; LANES] = from_fn(|i| mask(place[i] < remaining));
@@ -114,7 +115,7 @@ impl DepthTest {
                     (less ^ at_least ^ same) & inside[i]
                 });
                 let new: [P; LANES] =
-                    from_fn(|i| P::pack(new_z[i], [rgb[0][i], rgb[1][i], rgb[2][i]], rgb_drop));
+                    from_fn(|i| P::pack(new_z[i], [rgb[0][i], rgb[1][i], rgb[2][i]], rgb_drop, stamp));
                 *stored = from_fn(|i| new[i].select(old[i], pass[i], write));
                 lanes = from_fn(|i| lanes[i].wrapping_sub(pass[i])); // all ones is -1
                 if at == span.pixel as usize {

@@ -126,7 +126,7 @@ impl Walker {
     }
 
     /// Walks down all lines of a triangle or, in textbook fill, a part, 0 or 1; appends their spans. `empty`: lines without a
-    /// pixel since the last span, before and after. Pixels are fetched from the picture, and their lines marked.
+    /// pixel since the last span, before and after. Pixels are fetched from the picture.
     #[inline(always)]
     pub(super) fn part<P: Pixel>(
         &self,
@@ -182,12 +182,6 @@ impl Walker {
             let pixel: [i32; LINES] =
                 from_fn(|i| low[i].wrapping_add(self.width.wrapping_mul(self.place[i].wrapping_add(row))));
             let remaining = lines - line;
-            picture.mark(
-                row as usize,
-                self.place.map(|i| -i32::from(i < remaining as i32)),
-                low.map(|low| self.width.wrapping_sub(low)),
-                high,
-            );
             let memory = picture.pixels.as_slice();
             for i in 0..LINES.min(remaining as usize) {
                 let Some(span) = spans.room.get_mut(count) else { break }; // there is room: see `Spans`
