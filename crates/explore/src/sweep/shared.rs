@@ -97,15 +97,14 @@ impl Pixels {
         let port = to_port(frame, plan)?;
         let fast = untimed(plan)?;
         let mut renderer = Renderer::new(&fast, true);
-        let (drawn, passage, plain) =
-            match renderer.draw_passage(port.triangles.iter().copied(), port.state()?) {
-                Ok(passage) => (from_fast(plan, renderer.frame(), Path::Fast), passage, true),
-                Err(Refusal::Tick(_)) => {
-                    let drawn = render(&fast, port.triangles.iter().copied(), port.state()?, Waits::Never)?;
-                    (from_model(plan, drawn), reach::geometry(plan, &port)?, false)
-                }
-                Err(Refusal::Foreign(foreign)) => return Err(foreign.into()),
-            };
+        let (drawn, passage, plain) = match renderer.draw_passage(&port.triangles, port.state()?) {
+            Ok(passage) => (from_fast(plan, renderer.frame(), Path::Fast), passage, true),
+            Err(Refusal::Tick(_)) => {
+                let drawn = render(&fast, port.triangles.iter().copied(), port.state()?, Waits::Never)?;
+                (from_model(plan, drawn), reach::geometry(plan, &port)?, false)
+            }
+            Err(Refusal::Foreign(foreign)) => return Err(foreign.into()),
+        };
         let drawn = of_port(drawn, &port);
         let reach = Reach::of(plan, &port.ids, &passage).ok_or_else(|| {
             anyhow!("none of the {} triangles covers a pixel of the screen", port.triangles.len())

@@ -13,17 +13,17 @@ use crate::run::DrawState;
 use crate::setup::SetupClocks;
 use crate::setup::sort::Sorted;
 use crate::tokens::{FEW, Prim};
-use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_machine::{ForeignVertex, Plan};
 use std::array::from_fn;
 
 /// Triangles brought in and set up before the first of them is drawn: their vertices come from far memory side by side.
 const BATCH: usize = 16;
 
-/// As many triangles; the last batch of a frame is not full.
-pub(super) type Batch = [[PortVertex; 3]; BATCH];
+/// As many triangles, sorted; the last batch of a frame is not full.
+pub(super) type Batch = [Sorted<FEW>; BATCH];
 
 /// Fills a batch from the front, and says with how many triangles.
-pub(super) type Bring<'a> = dyn FnMut(&mut Batch) -> usize + 'a;
+pub(super) type Bring<'a> = dyn FnMut(&Plan, &Setup, &mut Batch) -> Result<usize, ForeignVertex> + 'a;
 
 /// Draws the triangles into a cleared picture.
 #[inline(always)]
@@ -44,18 +44,13 @@ pub(super) fn draw<P: Pixel, const DETAILS: bool>(
     };
     let setup = Setup::new(plan);
     let walker = Walker::new(plan);
-    let mut batch: Batch = Default::default();
-    let mut sorted: [Sorted<FEW>; BATCH] = from_fn(|_| Sorted::default());
+    let mut batch: Batch = from_fn(|_| Sorted::default());
     let mut prims: [Prim<FEW>; BATCH] = [Prim::default(); BATCH];
     let mut done = [(SetupClocks::default(), false); BATCH];
     loop {
-        let (first, count) = (frame.counters.triangles, bring(&mut batch));
-        for ((number, vertices), sorted) in (first..).zip(&batch[..count]).zip(&mut sorted) {
-            plan.accept(vertices, number)?;
-            *sorted = setup.sort(vertices);
-        }
+        let (first, count) = (frame.counters.triangles, bring(plan, &setup, &mut batch)?);
         frame.counters.triangles += count as u64;
-        for ((done, prim), sorted) in done.iter_mut().zip(&mut prims).zip(&sorted[..count]) {
+        for ((done, prim), sorted) in done.iter_mut().zip(&mut prims).zip(&batch[..count]) {
             *done = setup.increments(sorted, prim);
         }
         for (id, ((clocks, is_drawn), prim)) in (first..).zip(done.iter().zip(&prims)).take(count) {

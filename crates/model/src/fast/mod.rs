@@ -34,6 +34,8 @@ use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
 use frame::{Batch, Bring};
 pub use passage::{Fate, Passage};
 use picture::Picture;
+use setup::Setup;
+use std::borrow::Borrow;
 use std::fmt;
 use std::ops::Range;
 
@@ -139,7 +141,7 @@ impl Renderer {
     /// use.
     pub fn draw(
         &mut self,
-        triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+        triangles: impl IntoIterator<Item: Borrow<[PortVertex; 3]>>,
         state: DrawState,
     ) -> Result<(), Refusal> {
         self.pass(&mut by_batches(triangles), state, None)
@@ -151,7 +153,7 @@ impl Renderer {
     /// As [`Renderer::draw`].
     pub fn draw_passage(
         &mut self,
-        triangles: impl IntoIterator<Item = [PortVertex; 3]>,
+        triangles: impl IntoIterator<Item: Borrow<[PortVertex; 3]>>,
         state: DrawState,
     ) -> Result<Passage, Refusal> {
         let mut passage = Passage::new(&self.plan, state.depth_write);
@@ -215,17 +217,19 @@ impl Renderer {
     }
 }
 
-/// Brings triangles into a batch, and says how many: fewer than it holds if no more come.
-fn by_batches(triangles: impl IntoIterator<Item = [PortVertex; 3]>) -> impl FnMut(&mut Batch) -> usize {
-    let mut triangles = triangles.into_iter();
-    move |batch| {
-        for (place, vertices) in batch.iter_mut().enumerate() {
-            match triangles.next() {
-                Some(triangle) => *vertices = triangle,
-                None => return place,
-            }
+/// Brings triangles into a batch, sorted, and says how many: fewer than it holds if no more come. Each is read where it lies.
+fn by_batches<I>(triangles: I) -> impl FnMut(&Plan, &Setup, &mut Batch) -> Result<usize, ForeignVertex>
+where
+    I: IntoIterator<Item: Borrow<[PortVertex; 3]>>,
+{
+    let mut triangles = (0..).zip(triangles);
+    move |plan, setup, batch| {
+        for (place, sorted) in batch.iter_mut().enumerate() {
+            let Some((number, triangle)) = triangles.next() else { return Ok(place) };
+            plan.accept(triangle.borrow(), number)?;
+            *sorted = setup.sort(triangle.borrow());
         }
-        batch.len()
+        Ok(batch.len())
     }
 }
 

@@ -7,14 +7,14 @@ use edgewalk_model::fast::{Path, Refusal, Renderer};
 
 /// Times it, or says why this frame has to be ticked.
 pub fn time(job: &Job) -> Result<Result<Times, String>> {
-    match Renderer::new(job.machine, false).draw(job.triangles.iter().copied(), job.state) {
+    match Renderer::new(job.machine, false).draw(job.triangles.iter(), job.state) {
         Ok(()) => {}
         Err(Refusal::Tick(reason)) => return Ok(Err(Path::Ticked(reason).to_string())),
         Err(Refusal::Foreign(foreign)) => return Err(foreign.into()),
     }
     let start = Stopwatch::start();
     let mut renderer = Renderer::new(job.machine, false);
-    let frame = || match renderer.draw(job.triangles.iter().copied(), job.state) {
+    let frame = || match renderer.draw(job.triangles.iter(), job.state) {
         Ok(()) => Ok(Work::of(renderer.counters())),
         Err(refusal) => Err(anyhow!("the fast engine drew this frame before: {refusal:?}")),
     };
