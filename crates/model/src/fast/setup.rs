@@ -89,10 +89,9 @@ impl Setup {
         {
             return done;
         }
-        let (clocks, plain) = setup::prepare(&self.plan, &self.timing, Screen::picture(&self.plan), sorted);
-        let is_drawn = plain.is_ok();
-        *prim = plain.unwrap_or_default();
-        (clocks, is_drawn)
+        let screen = Screen::picture(&self.plan);
+        let (clocks, culled) = setup::prepare(&self.plan, &self.timing, screen, sorted, prim);
+        (clocks, culled.is_none())
     }
 
     /// The same in 64 bits.

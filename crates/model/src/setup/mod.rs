@@ -151,20 +151,20 @@ impl<const C: usize> Setup<C> {
         self.taken = self.taken.wrapping_add(1);
         self.record = self.record.wrapping_add(1);
         let sorted = Sorted::new(&self.plan, vertices);
-        let (clocks, prim) = prepare(&self.plan, &self.timing, self.screen, &sorted);
+        let (clocks, culled) = prepare(&self.plan, &self.timing, self.screen, &sorted, &mut self.prim);
         self.enter(State::Phase1, clocks.phase1);
         self.clocks = clocks;
-        self.culled = prim.is_err();
-        match prim {
-            Ok(prim) => {
-                let kt = vertices[0].kt() & self.kt_mask;
-                let record = self.record & self.record_mask;
-                self.prim = Prim { kt, record, source: Source { tag, id }, ..prim };
+        self.culled = culled.is_some();
+        match culled {
+            None => {
+                self.prim.kt = vertices[0].kt() & self.kt_mask;
+                self.prim.record = self.record & self.record_mask;
+                self.prim.source = Source { tag, id };
                 self.count(&sorted, events);
             }
-            Err(Culled::Lines) => events.culled_lines += 1,
-            Err(Culled::Columns) => events.culled_columns += 1,
-            Err(Culled::Area) => events.culled_area += 1,
+            Some(Culled::Lines) => events.culled_lines += 1,
+            Some(Culled::Columns) => events.culled_columns += 1,
+            Some(Culled::Area) => events.culled_area += 1,
         }
         *self.sorted = sorted;
     }
@@ -195,7 +195,8 @@ pub enum Culled {
 /// The clocks of a triangle of the picture at the port; S2 is 0 if it is culled.
 #[must_use]
 pub fn setup_clocks(plan: &Plan, vertices: &[PortVertex; 3]) -> SetupClocks {
-    increments::<{ edgewalk_machine::MAX_CHANNELS }>(plan, &Timing::new(plan), vertices).0
+    let sorted = Sorted::<{ edgewalk_machine::MAX_CHANNELS }>::new(plan, vertices);
+    prepare(plan, &Timing::new(plan), Screen::picture(plan), &sorted, &mut Prim::default()).0
 }
 
 /// Why a triangle of the picture at the port draws nothing, if SETUP culls it.
@@ -211,38 +212,31 @@ pub fn cull(plan: &Plan, vertices: &[PortVertex; 3]) -> Option<Culled> {
     }
 }
 
-/// The clocks and increments of a triangle of the picture at the port, without tag and number.
-pub(crate) fn increments<const C: usize>(
-    plan: &Plan,
-    timing: &Timing,
-    vertices: &[PortVertex; 3],
-) -> (SetupClocks, Result<Prim<C>, Culled>) {
-    prepare(plan, timing, Screen::picture(plan), &Sorted::new(plan, vertices))
-}
-
-/// The same of a triangle that is sorted, on any screen.
+/// The clocks of a triangle on any screen, and why it draws nothing; if it does draw, `prim` gets its increments, without tag
+/// and number.
 pub(crate) fn prepare<const C: usize>(
     plan: &Plan,
     timing: &Timing,
     screen: Screen,
     sorted: &Sorted<C>,
-) -> (SetupClocks, Result<Prim<C>, Culled>) {
+    prim: &mut Prim<C>,
+) -> (SetupClocks, Option<Culled>) {
     let parts = edges::parts(plan, screen, sorted);
     if parts.lines == [0, 0] {
-        return (timing.culled(), Err(Culled::Lines));
+        return (timing.culled(), Some(Culled::Lines));
     }
     if edges::no_columns(plan, screen, sorted) {
-        return (timing.culled(), Err(Culled::Columns));
+        return (timing.culled(), Some(Culled::Columns));
     }
     let area = sorted.area();
     let scale = timing.scale(sorted, area);
     let phase1 = timing.phase1(sorted, &parts, scale);
     if area == 0 {
-        return (SetupClocks { phase1, phase2: 0 }, Err(Culled::Area));
+        return (SetupClocks { phase1, phase2: 0 }, Some(Culled::Area));
     }
     let [a, b, c] = &sorted.corners;
     let ([j0, j1], [n1, n2]) = (parts.first, parts.lines);
-    let mut prim = Prim {
+    *prim = Prim {
         line: parts.drawn() as u32, // first drawn line, 0 <= jm < H
         lines: parts.lines,
         major_right: area < 0,
@@ -250,12 +244,16 @@ pub(crate) fn prepare<const C: usize>(
         minor: [edges::walk(plan, a, b, j0, n1), edges::walk(plan, b, c, j1, n2)],
         ..Prim::default()
     };
-    channels::prepare(plan, sorted, &parts, &mut prim);
-    let phase2 = timing.phase2(sorted, &parts, &prim, (area, scale));
-    (SetupClocks { phase1, phase2 }, Ok(prim))
+    channels::prepare(plan, sorted, &parts, prim);
+    let phase2 = timing.phase2(sorted, &parts, prim, (area, scale));
+    (SetupClocks { phase1, phase2 }, None)
 }
 
-/// floor(n/d + 1/2), d > 0: RN.
+/// floor(n/d + 1/2), d > 0: RN. Most numbers fit in 64 bits, whose division takes the host a fraction of the time.
 fn round_div(n: i128, d: i128) -> i128 {
-    (n + d / 2).div_euclid(d)
+    let n = n + d / 2;
+    match (i64::try_from(n), i64::try_from(d)) {
+        (Ok(n), Ok(d)) => n.div_euclid(d).into(),
+        _ => n.div_euclid(d),
+    }
 }
