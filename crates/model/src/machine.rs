@@ -37,7 +37,7 @@ pub use crate::term::TermInputs;
 use crate::term::{Term, Walked};
 use crate::texel::Texel;
 pub use crate::texel::TexelInputs;
-use crate::tokens::{FEW, Fragment, Write};
+use crate::tokens::{FEW, Fragment, Line, Write};
 use edgewalk_machine::{Activity, Plan, PortVertex};
 use shading::parts;
 
@@ -309,7 +309,14 @@ impl<const C: usize> Model<C> {
     /// One clock cycle: the outputs of this cycle, then the clock edge.
     #[inline(always)]
     pub fn cycle(&mut self, inputs: &Inputs) -> Outputs<C> {
-        let outputs = if self.at_rest() { self.cycle_at_rest(inputs) } else { self.cycle_of_all(inputs) };
+        self.cycle_and_tell(inputs, |_| {})
+    }
+
+    /// The same; who wants to be near the pixels in time is told the line that SPAN takes.
+    #[inline(always)]
+    pub(crate) fn cycle_and_tell(&mut self, inputs: &Inputs, tell: impl FnOnce(&Line<C>)) -> Outputs<C> {
+        let outputs =
+            if self.at_rest() { self.cycle_at_rest(inputs) } else { self.cycle_of_all(inputs, tell) };
         if inputs.rst {
             self.reset();
         }
@@ -359,7 +366,7 @@ impl<const C: usize> Model<C> {
     }
 
     #[inline(always)]
-    fn cycle_of_all(&mut self, inputs: &Inputs) -> Outputs<C> {
+    fn cycle_of_all(&mut self, inputs: &Inputs, tell: impl FnOnce(&Line<C>)) -> Outputs<C> {
         // BLEND, DEPTH, and the memories behind them.
         let pass = self.depth.pass().copied();
         let pass_ready = self.blend().is_some_and(|blend| blend.pass_ready(pass.as_ref(), &inputs.blend));
@@ -496,8 +503,9 @@ impl<const C: usize> Model<C> {
         let fresh_queued = self.span.fresh_queued();
         let line = self.edge.line().filter(|_| self.span.line_ready());
         let line_ready = line.is_some();
-        if line_ready {
+        if let Some(line) = line {
             one_more(&mut self.counters.lines);
+            tell(line);
         }
         self.span.step(line, span_ready, light_pass, events);
         let prim_ready = self.edge.prim_ready(fresh_queued);

@@ -45,17 +45,23 @@ pub struct Memory<const C: usize> {
     reads: Fifo<(u64, u32), 16>,
     /// Words from a line to the next.
     pitch: usize,
-    /// Depth memory by address; a read waits for this one only.
-    z: Vec<u32>,
-    /// Frame memory by address: a colour, 16 bits a channel, in one word, and beside it what the user's own channels hold.
-    rgb: Vec<u64>,
+    /// Depth and frame memory by address, side by side, as the host's own memory is slow: depth, and the low LOW bits of red,
+    /// green and blue.
+    pixels: Vec<[u32; 2]>,
+    /// Bits of colours beyond, if there are any.
+    high: Vec<u32>,
+    /// What the user's own channels hold.
     own: Vec<[u32; MAX_CHANNELS - FEW]>,
 }
 
-/// Red, green and blue of at most 16 bits each in one word.
+/// So many bits of each colour stand beside the depth.
+const LOW: u32 = 10;
+
+/// The low LOW bits of red, green and blue.
 #[inline]
-fn pack([r, g, b]: [u32; 3]) -> u64 {
-    u64::from(r) | u64::from(g) << 16 | u64::from(b) << 32
+fn pack([r, g, b]: [u32; 3]) -> u32 {
+    let low = (1 << LOW) - 1;
+    r & low | (g & low) << LOW | (b & low) << (2 * LOW)
 }
 
 impl<const C: usize> Memory<C> {
@@ -63,14 +69,16 @@ impl<const C: usize> Memory<C> {
     #[must_use]
     pub fn new(plan: &Plan, clear: [u64; 3], waits: impl Into<Waits>) -> Self {
         let words = 1 << plan.widths().address;
+        let clear = clear.map(|c| c as u32); // b <= 16 bits
+        let high = if plan.color.bits > LOW { words } else { 0 };
         Memory {
             latency: u64::from(plan.latency),
             pacer: Pacer::new(waits.into()),
             now: 0,
             reads: Fifo::default(),
             pitch: 1 << plan.widths().x,
-            z: vec![plan.z.max() as u32; words],             // b <= 32 bits
-            rgb: vec![pack(clear.map(|c| c as u32)); words], // b <= 16 bits
+            pixels: vec![[plan.z.max() as u32, pack(clear)]; words], // b <= 32 bits
+            high: vec![pack(clear.map(|c| c >> LOW)); high],
             own: vec![[0; MAX_CHANNELS - FEW]; if C > FEW { words } else { 0 }],
         }
     }
@@ -97,23 +105,39 @@ impl<const C: usize> Memory<C> {
         (!self.reads.is_empty() && due <= self.now).then_some(u64::from(z))
     }
 
+    /// These two columns of a line are likely to be asked for. Not hardware.
+    #[inline(always)]
+    pub fn expect(&self, line: u32, columns: [i32; 2]) {
+        let start = (line as usize).wrapping_mul(self.pitch);
+        for column in columns {
+            prefetch(&self.pixels, start.wrapping_add_signed(column as isize));
+        }
+    }
+
     /// The farthest depth everywhere.
     pub fn clear_depth(&mut self, plan: &Plan) {
-        self.z.fill(plan.z.max() as u32); // b <= 32 bits
+        self.fill_depth(plan.z.max() as u32); // b <= 32 bits
     }
 
     /// The farthest depth of the map everywhere.
     pub(crate) fn clear_map(&mut self, plan: &Plan) {
-        self.z.fill((1 << plan.shadow.depth_bits) - 1); // bz <= 24 bits
+        self.fill_depth((1 << plan.shadow.depth_bits) - 1); // bz <= 24 bits
+    }
+
+    fn fill_depth(&mut self, depth: u32) {
+        self.pixels.iter_mut().for_each(|[z, _]| *z = depth);
     }
 
     /// What is stored at an address.
     #[must_use]
     pub fn pixel(&self, addr: u32) -> OutputWords<C> {
         let at = addr as usize;
+        let (z, low, high) =
+            (self.pixels[at][0], self.pixels[at][1], self.high.get(at).copied().unwrap_or(0));
+        let color = |word: u32, i: usize| word >> (LOW * (i as u32 - 1)) & ((1 << LOW) - 1);
         std::array::from_fn(|i| match i {
-            0 => self.z[at],
-            1..FEW => u32::from((self.rgb[at] >> (16 * (i - 1))) as u16),
+            0 => z,
+            1..FEW => color(high, i) << LOW | color(low, i),
             _ => self.own[at][i - FEW],
         })
     }
@@ -124,12 +148,16 @@ impl<const C: usize> Memory<C> {
         self.clock(read, data_taken, write.map(|write| write.addr));
         if let Some(write) = write {
             let (at, values) = (write.addr as usize, &write.values);
-            self.rgb[at] = pack([values[1], values[2], values[3]]);
+            let color = [values[1], values[2], values[3]];
+            self.pixels[at][1] = pack(color);
+            if let Some(high) = self.high.get_mut(at) {
+                *high = pack(color.map(|c| c >> LOW));
+            }
             if C > FEW {
                 self.own[at] = std::array::from_fn(|i| values[FEW + i]);
             }
             if write.z_en {
-                self.z[at] = values[0];
+                self.pixels[at][0] = values[0];
             }
         }
     }
@@ -139,7 +167,7 @@ impl<const C: usize> Memory<C> {
     pub fn step_depth(&mut self, read: Option<u32>, data_taken: bool, write: Option<&Write<C>>) {
         self.clock(read, data_taken, write.map(|write| write.addr));
         if let Some(write) = write {
-            self.z[write.addr as usize] = write.values[0];
+            self.pixels[write.addr as usize][0] = write.values[0];
         }
     }
 
@@ -152,11 +180,7 @@ impl<const C: usize> Memory<C> {
         let late = self.pacer.step(self.now, read, written);
         if let Some(addr) = read {
             let due = self.now.wrapping_add(self.latency).wrapping_add(late);
-            self.reads.push((due, self.z[addr as usize]));
-            // Triangles go down: the word below is likely to be next, and the host's own memory is slow.
-            let below = (addr as usize).wrapping_add(self.pitch);
-            prefetch(&self.z, below);
-            prefetch(&self.rgb, below);
+            self.reads.push((due, self.pixels[addr as usize][0]));
         }
         self.now = self.now.wrapping_add(1);
     }

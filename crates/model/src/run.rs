@@ -231,7 +231,9 @@ impl<const C: usize> Rig<C> {
     #[inline(always)]
     pub fn cycle(&mut self, tri: Option<(&[PortVertex; 3], u32)>, writes_open: bool) -> Cycle<C> {
         let inputs = self.inputs(tri, writes_open);
-        let outputs = self.model.cycle(&inputs);
+        let memory = &self.memory;
+        let outputs =
+            self.model.cycle_and_tell(&inputs, |line| memory.expect(line.y, [line.major, line.minor]));
         let cycle = Cycle {
             outputs,
             triangle: outputs.tri_ready && tri.is_some(),
