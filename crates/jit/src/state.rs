@@ -56,7 +56,8 @@ impl State {
     #[inline]
     pub fn get(&self, place: Place) -> u128 {
         let low = place.offset as usize / 8;
-        let high = if place.width > 64 { self.0[low + 1] } else { 0 };
+        // Not by index: who takes only the low word does not ask whether there is another.
+        let high = if place.width > 64 { self.0.get(low + 1).copied().unwrap_or(0) } else { 0 };
         u128::from(high) << 64 | u128::from(self.0[low])
     }
 

@@ -7,9 +7,9 @@ use anyhow::{Result, anyhow};
 use edgewalk_jit::{InputId, OutputId, Simulator};
 use edgewalk_lockstep::{Direction, Interface, Link, Memory, MemorySetting, Triangles, Unit};
 use edgewalk_machine::Plan;
+use edgewalk_model::fifo::Fifo;
 use edgewalk_model::prefetch;
 use edgewalk_netlist::SimError;
-use std::collections::VecDeque;
 
 /// Times it.
 pub fn time(job: &Job) -> Result<Times> {
@@ -27,6 +27,8 @@ struct Native {
     tri: (InputId, Vec<InputId>, OutputId),
     port: Triangles,
     memories: Vec<Served>,
+    /// Valid of what asks for something: reads and writes.
+    calls: Vec<OutputId>,
     /// The write: valid, address, and what the picture keeps of it.
     write: (OutputId, OutputId, Vec<OutputId>),
     /// It has its room from the first frame on, as that of the harness.
@@ -40,8 +42,10 @@ struct Served {
     words: Vec<u64>,
     /// Words from a pixel to the one below.
     pitch: usize,
-    /// Words read, with the cycle from which on they are offered.
-    reads: VecDeque<(u64, u64)>,
+    /// Words read, with the cycle from which on they are offered; as many as in the harness.
+    reads: Fifo<(u64, u64), 64>,
+    /// A word is offered.
+    offers: bool,
     data_valid: InputId,
     data: InputId,
     data_ready: OutputId,
@@ -72,6 +76,10 @@ impl Native {
         };
         let memories =
             interface.memories.iter().map(|memory| Served::new(memory, job, &interface, &simulator));
+        let memories = memories.collect::<Result<Vec<_>, _>>()?;
+        let written = memories.iter().filter_map(|memory| memory.write.map(|[valid, ..]| valid));
+        let calls =
+            memories.iter().map(|memory| memory.read_valid).chain(written).chain([output(&valid(wr))?]);
         Ok(Native {
             rst: simulator.input("rst")?,
             idle: output("idle")?,
@@ -82,7 +90,8 @@ impl Native {
             ),
             port: Triangles::new(job.machine),
             write: (output(&valid(wr))?, output(&wr.fields[address].name)?, fields(kept)?),
-            memories: memories.collect::<Result<_, _>>()?,
+            calls: calls.collect(),
+            memories,
             picture: vec![0; words(job.machine)],
             simulator,
         })
@@ -98,10 +107,22 @@ impl Native {
         let mut next = triangles.next().map(|triangle| self.port.pack(triangle, 0));
         self.offer(next.as_deref());
         loop {
-            for memory in &self.memories {
-                memory.offer(&mut self.simulator, work.cycles);
+            let mut due = u64::MAX;
+            for memory in &mut self.memories {
+                due = due.min(memory.offer(&mut self.simulator, work.cycles));
             }
-            self.simulator.tick();
+            // Until the next word is due, or a port moves, there is nothing to be done.
+            let end = if next.is_some() { self.tri.2 } else { self.idle };
+            loop {
+                self.simulator.tick();
+                if work.cycles + 1 >= due
+                    || self.is_high(end)
+                    || self.calls.iter().any(|call| self.is_high(*call))
+                {
+                    break;
+                }
+                work.cycles += 1;
+            }
             for memory in &mut self.memories {
                 memory.serve(&self.simulator, &self.picture, work.cycles);
             }
@@ -123,7 +144,7 @@ impl Native {
 
     fn reset(&mut self) {
         self.offer(None);
-        for memory in &self.memories {
+        for memory in &mut self.memories {
             memory.offer(&mut self.simulator, 0);
         }
         self.simulator.set(self.rst, 1);
@@ -167,7 +188,8 @@ impl Served {
             setting: MemorySetting::of(memory),
             words: job.words(memory.name),
             pitch: 1 << job.machine.widths().x,
-            reads: VecDeque::new(),
+            reads: Fifo::default(),
+            offers: false,
             data_valid: simulator.input(&valid(data))?,
             data: simulator.input(&data.fields[0].name)?,
             data_ready: simulator.output(&ready(data))?,
@@ -185,23 +207,32 @@ impl Served {
         self.reads.clear();
     }
 
-    fn offer(&self, simulator: &mut Simulator, cycle: u64) {
-        let word = self.reads.front().filter(|(due, _)| *due <= cycle);
-        simulator.set(self.data_valid, word.is_some().into());
-        simulator.set(self.data, word.map_or(0, |(_, word)| *word).into());
+    /// Offers the oldest word if it is there. Returns when it is due, if there is one.
+    #[inline]
+    fn offer(&mut self, simulator: &mut Simulator, cycle: u64) -> u64 {
+        let (due, word) = if self.reads.is_empty() { (u64::MAX, 0) } else { *self.reads.head() };
+        let offers = due <= cycle;
+        if offers != self.offers {
+            simulator.set(self.data_valid, offers.into());
+            self.offers = offers;
+        }
+        if offers {
+            simulator.set(self.data, word.into());
+        }
+        due
     }
 
     /// What moved in the cycle; a read sees the word before a write of its own cycle.
+    #[inline]
     fn serve(&mut self, simulator: &Simulator, picture: &[u64], cycle: u64) {
         let word = |port: OutputId| simulator.sampled(port) as u64; // no port here has more bits
-        let offered = self.reads.front().is_some_and(|(due, _)| *due <= cycle);
-        if offered && word(self.data_ready) == 1 {
-            self.reads.pop_front();
+        if self.offers && word(self.data_ready) == 1 {
+            self.reads.pop();
         }
         if word(self.read_valid) == 1 {
             let address = word(self.address) as usize;
             let read = self.words.get(address).copied().unwrap_or(0);
-            self.reads.push_back((cycle + self.setting.latency, read));
+            self.reads.push((cycle + self.setting.latency, read));
             if self.write.is_some() {
                 // Triangles go down, as the model's memory says.
                 prefetch(&self.words, address + self.pitch);
