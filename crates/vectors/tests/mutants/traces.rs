@@ -69,6 +69,10 @@ pub fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
             traces
                 .extend([setup::specks(machine), far, setup::halves(machine), steep].into_iter().chain(cut));
         }
+        "pixel" => {
+            traces
+                .extend((1..=2).map(|seed| others_increments(machine, &traces[1], seed)).collect::<Vec<_>>());
+        }
         "span" => traces.extend((1..=4).map(|seed| any_lines(machine, &traces[1], seed)).collect::<Vec<_>>()),
         "blend" => {
             let kinds = [(false, StallKind::Mixed), (true, StallKind::Mixed), (false, StallKind::None)];
@@ -83,6 +87,22 @@ pub fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
     }
     traces
 }
+/// As many spans, half of them fresh, and with each the increments of another: EDGE may have the next triangle while spans of the
+/// one before are queued.
+fn others_increments(machine: &Plan, of: &Trace, seed: u64) -> Trace {
+    let span = &of.interface.links[0];
+    let fresh = span.place("fresh").expect("a span has it");
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let mut tokens = of.setting.tokens.clone();
+    for token in &mut tokens {
+        token[fresh] = u128::from(random.random::<bool>());
+        for place in span.own..span.fields.len() {
+            token[place] = random.random::<u128>() & (u128::MAX >> (128 - span.fields[place].width()));
+        }
+    }
+    capture_tokens(machine, of.interface.unit, tokens, DrawState::default(), StallKind::Mixed, seed)
+}
+
 /// As many lines, with flags that no EDGE gives, half of them somewhere around the screen: many are empty.
 fn any_lines(machine: &Plan, of: &Trace, seed: u64) -> Trace {
     let line = &of.interface.links[0];
