@@ -11,3 +11,4 @@ mod values;
 mod waking;
 
 pub(crate) use program::{Plan, Program, is_computed, lower};
+pub(crate) use values::ODD;

@@ -59,7 +59,8 @@ pub(super) fn lower(v: &mut Values, op: Op, width: u32, operands: &[ValueId]) ->
         }
         (Op::Not, &[a]) => not(v, width, a),
         (Op::Mux, &[c, a, b]) => {
-            let (c, a, b) = (v.zero(c), v.any(a), v.any(b));
+            let (a, b) = (v.any(a), v.any(b));
+            let c = v.condition(c);
             either(v.cursor.ins().select(c, a.any, b.any), a, b)
         }
         (Op::Shl(n), &[a]) if n < width => {

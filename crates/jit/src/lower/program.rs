@@ -52,10 +52,10 @@ pub(crate) fn lower(
 ) {
     let Plan { design, steps, .. } = plan;
     let head = function.dfg.make_block();
-    let state = function.dfg.append_block_param(head, pointer);
+    let address = function.dfg.append_block_param(head, pointer);
     let mut cursor = FuncCursor::new(function);
     cursor.insert_block(head);
-    let mut lowering = Lowering { design, v: Values::new(plan, cursor, state, has_vectors), idle: true };
+    let mut lowering = Lowering { design, v: Values::new(plan, cursor, address, has_vectors), idle: true };
     match program {
         Program::Clock => {
             lowering.v.keep(&plan.shared);
@@ -290,11 +290,11 @@ impl Lowering<'_> {
     fn branch(&mut self, bit: ValueId, yes: Block, no: Block) -> Inst {
         match self.v.graph.as_op(bit, Op::Not) {
             Some(&[opposite]) => {
-                let condition = self.v.zero(opposite);
+                let condition = self.v.condition(opposite);
                 self.v.cursor.ins().brif(condition, no, &[], yes, &[])
             }
             _ => {
-                let condition = self.v.zero(bit);
+                let condition = self.v.condition(bit);
                 self.v.cursor.ins().brif(condition, yes, &[], no, &[])
             }
         }

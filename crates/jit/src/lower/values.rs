@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use cranelift_codegen::cursor::{Cursor, FuncCursor};
 use cranelift_codegen::ir::{InstBuilder, MemFlagsData, Type, Value, types};
+use edgewalk_netlist::Op;
 use edgewalk_netlist::ops::mask;
 
 use super::lowered::{Lowered, lane};
@@ -17,6 +18,10 @@ use crate::quiet::Wakes;
 use crate::signs::Signs;
 use crate::tables::{Table, Tables};
 
+/// A program takes the state's address and so many bytes more, so that the lowest bit of what it is given is 1: see
+/// [`Values::condition`]. Where the host has no instruction that tests memory, none.
+pub(crate) const ODD: i64 = if cfg!(target_arch = "x86_64") { 1 } else { 0 };
+
 /// Values as far as they are computed where the cursor stands.
 pub(super) struct Values<'a> {
     pub graph: &'a Graph,
@@ -28,6 +33,8 @@ pub(super) struct Values<'a> {
     pub cursor: FuncCursor<'a>,
     /// The address of the state.
     pub state: Value,
+    /// The low 32 bits of that and [`ODD`].
+    odd: Value,
     /// Whether the host has words of 128 bits.
     pub has_vectors: bool,
     /// The function and the branches within each other in which the cursor stands.
@@ -48,11 +55,14 @@ pub(super) struct Values<'a> {
 
 impl<'a> Values<'a> {
     /// Nothing is known yet; the cursor stands in the function's first block.
-    pub fn new(plan: &'a Plan, cursor: FuncCursor<'a>, state: Value, has_vectors: bool) -> Values<'a> {
+    pub fn new(plan: &'a Plan, mut cursor: FuncCursor<'a>, address: Value, has_vectors: bool) -> Values<'a> {
         let Plan { tables, signs, wakes, layout, .. } = plan;
         let graph = &plan.design.graph;
         let (known, changed) = (vec![None; graph.len()], vec![None; graph.len()]);
         let is_shared = vec![false; graph.len()];
+        // Cranelift takes it into each access.
+        let state = cursor.ins().iadd_imm_s(address, -ODD);
+        let odd = cursor.ins().ireduce(types::I32, address);
         let (branches, undo, old) = (vec![Branch::default()], Vec::new(), HashMap::new());
         Values {
             graph,
@@ -63,6 +73,7 @@ impl<'a> Values<'a> {
             layout,
             cursor,
             state,
+            odd,
             has_vectors,
             branches,
             known,
@@ -153,6 +164,24 @@ impl<'a> Values<'a> {
         self.tables.get(value).is_none() && !self.is_shared[value.index()]
     }
 
+    /// A bit that decides something: not 0 if it is 1. One that lies in the state is tested there, each time anew. With the odd address,
+    /// as the place has nothing but zeros above the bit: `test [place], address` is one instruction of the host and takes no register; with
+    /// a constant instead Cranelift would load the bit first.
+    pub fn condition(&mut self, bit: ValueId) -> Value {
+        let Some(Place { offset, .. }) = self.tested_in_place(bit) else { return self.zero(bit) };
+        // Cranelift tests 32 bits of memory or more.
+        let place = self.cursor.ins().load(types::I32, flags(1), self.state, offset);
+        self.cursor.ins().band(self.odd, place)
+    }
+
+    /// Where a bit lies in the state, if it is not in a register of the host already.
+    fn tested_in_place(&self, bit: ValueId) -> Option<Place> {
+        let lies = self.known[bit.index()].is_none_or(|known| known.is_kept)
+            && matches!(self.graph.kind(bit), Kind::Stored)
+            && self.changed[bit.index()].is_none();
+        self.layout.of(bit).filter(|place| lies && place.width == 1 && ODD == 1)
+    }
+
     /// A bit that is there as a word below 2^bits.
     pub fn bit(&mut self, word: Value, bits: u32) -> Lowered {
         Lowered::bit(self.cursor.ins().ireduce(types::I8, word), word, bits)
@@ -239,7 +268,12 @@ impl<'a> Values<'a> {
             }
             let waiting = stack.len();
             let before = self.alone.before(self.graph, self.tables, value);
-            stack.extend(before.into_iter().rev().filter(|operand| self.known[operand.index()].is_none()));
+            let decides = self.graph.as_op(value, Op::Mux).and_then(|operands| operands.first().copied());
+            let waits = |operand: &ValueId| {
+                let is_tested = decides == Some(*operand) && self.tested_in_place(*operand).is_some();
+                self.known[operand.index()].is_none() && !is_tested
+            };
+            stack.extend(before.into_iter().rev().filter(waits));
             if stack.len() == waiting {
                 let lowered = self.compute(value);
                 self.set(value, lowered);
@@ -303,7 +337,7 @@ impl<'a> Values<'a> {
 
     /// A choice whose arms are computed only where they are taken.
     fn chosen(&mut self, Choice { bit, one, zero }: Choice, width: u32) -> Lowered {
-        let condition = self.zero(bit);
+        let condition = self.condition(bit);
         let arms = [Some(one), zero];
         let blocks = arms.map(|_| self.cursor.func.dfg.make_block());
         let next = self.cursor.func.dfg.make_block();
