@@ -46,8 +46,9 @@ pub struct Memory<const C: usize> {
     /// Words from a line to the next.
     pitch: usize,
     /// Depth and frame memory by address, side by side, as the host's own memory is slow: depth, and the low LOW bits of red,
-    /// green and blue.
+    /// green and blue. By exclusive or with those of a cleared pixel: zeros are what the host gives a new memory without filling it.
     pixels: Vec<[u32; 2]>,
+    clear: [u32; 2],
     /// Bits of colours beyond, if there are any.
     high: Vec<u32>,
     /// What the user's own channels hold.
@@ -77,7 +78,8 @@ impl<const C: usize> Memory<C> {
             now: 0,
             reads: Fifo::default(),
             pitch: 1 << plan.widths().x,
-            pixels: vec![[plan.z.max() as u32, pack(clear)]; words], // b <= 32 bits
+            pixels: vec![[0; 2]; words],
+            clear: [plan.z.max() as u32, pack(clear)], // b <= 32 bits
             high: vec![pack(clear.map(|c| c >> LOW)); high],
             own: vec![[0; MAX_CHANNELS - FEW]; if C > FEW { words } else { 0 }],
         }
@@ -125,15 +127,16 @@ impl<const C: usize> Memory<C> {
     }
 
     fn fill_depth(&mut self, depth: u32) {
-        self.pixels.iter_mut().for_each(|[z, _]| *z = depth);
+        let stored = depth ^ self.clear[0];
+        self.pixels.iter_mut().for_each(|[z, _]| *z = stored);
     }
 
     /// What is stored at an address.
     #[must_use]
     pub fn pixel(&self, addr: u32) -> OutputWords<C> {
         let at = addr as usize;
-        let (z, low, high) =
-            (self.pixels[at][0], self.pixels[at][1], self.high.get(at).copied().unwrap_or(0));
+        let [z, low]: [u32; 2] = std::array::from_fn(|i| self.pixels[at][i] ^ self.clear[i]);
+        let high = self.high.get(at).copied().unwrap_or(0);
         let color = |word: u32, i: usize| word >> (LOW * (i as u32 - 1)) & ((1 << LOW) - 1);
         std::array::from_fn(|i| match i {
             0 => z,
@@ -149,7 +152,7 @@ impl<const C: usize> Memory<C> {
         if let Some(write) = write {
             let (at, values) = (write.addr as usize, &write.values);
             let color = [values[1], values[2], values[3]];
-            self.pixels[at][1] = pack(color);
+            self.pixels[at][1] = pack(color) ^ self.clear[1];
             if let Some(high) = self.high.get_mut(at) {
                 *high = pack(color.map(|c| c >> LOW));
             }
@@ -157,7 +160,7 @@ impl<const C: usize> Memory<C> {
                 self.own[at] = std::array::from_fn(|i| values[FEW + i]);
             }
             if write.z_en {
-                self.pixels[at][0] = values[0];
+                self.pixels[at][0] = values[0] ^ self.clear[0];
             }
         }
     }
@@ -167,7 +170,7 @@ impl<const C: usize> Memory<C> {
     pub fn step_depth(&mut self, read: Option<u32>, data_taken: bool, write: Option<&Write<C>>) {
         self.clock(read, data_taken, write.map(|write| write.addr));
         if let Some(write) = write {
-            self.pixels[write.addr as usize][0] = write.values[0];
+            self.pixels[write.addr as usize][0] = write.values[0] ^ self.clear[0];
         }
     }
 
@@ -180,7 +183,7 @@ impl<const C: usize> Memory<C> {
         let late = self.pacer.step(self.now, read, written);
         if let Some(addr) = read {
             let due = self.now.wrapping_add(self.latency).wrapping_add(late);
-            self.reads.push((due, self.pixels[addr as usize][0]));
+            self.reads.push((due, self.pixels[addr as usize][0] ^ self.clear[0]));
         }
         self.now = self.now.wrapping_add(1);
     }
