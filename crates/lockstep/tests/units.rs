@@ -119,7 +119,7 @@ fn what_happens_to_a_unit_alone_is_counted() {
             let met: Vec<_> = counts.into_iter().filter(|(_, count)| *count > 0).collect();
             println!("{unit:?}: {met:?}");
             let declared: Vec<&str> = unit.events(plan).iter().map(|event| event.name).collect();
-            assert!(!met.is_empty(), "{unit:?}");
+            assert!(!met.is_empty() || declared.is_empty(), "{unit:?}");
             assert!(met.iter().all(|(event, _)| declared.contains(event)), "{unit:?}: {met:?}");
             known.remove(unit.name());
         }
