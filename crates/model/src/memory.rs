@@ -107,7 +107,8 @@ impl<const C: usize> Memory<C> {
         (!self.reads.is_empty() && due <= self.now).then_some(u64::from(z))
     }
 
-    /// These two columns of a line are likely to be asked for. Not hardware.
+    /// These two columns of a line, px on the screen or beside it, are likely to be asked for. Not hardware: it changes nothing but
+    /// the host's time.
     #[inline(always)]
     pub fn expect(&self, line: u32, columns: [i32; 2]) {
         let start = (line as usize).wrapping_mul(self.pitch);
