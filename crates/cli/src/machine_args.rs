@@ -1,9 +1,8 @@
 //! `--machine FILE|PRESET` and `--set key=value`, the same for every command.
 
 use anyhow::{Context, Result, anyhow};
-use edgewalk_machine::nearest::nearest;
 use edgewalk_machine::presets::PRESETS;
-use edgewalk_machine::{Machine, Plan};
+use edgewalk_machine::{Machine, Plan, Unknown};
 use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
@@ -64,11 +63,8 @@ impl MachineArgs {
         }
         let path = Path::new(&self.machine);
         if !path.exists() && path.extension().is_none() {
-            let close = nearest(&self.machine, PRESETS.iter().map(|p| p.0));
-            return Err(anyhow!(
-                "--machine {}: neither a file nor a preset; nearest preset: {close}",
-                self.machine
-            ));
+            let unknown = Unknown::new("preset", &self.machine, PRESETS.iter().map(|p| p.0));
+            return Err(anyhow!("--machine {}: no file; {unknown}", self.machine));
         }
         let named = || format!("--machine {}", self.machine);
         let mut text = String::new();

@@ -5,9 +5,10 @@ use std::path::PathBuf;
 
 /// Every crate, in the order of the data, with all it may depend on outside its tests.
 const LAYERS: &[(&str, &[&str])] = &[
+    ("nearest", &[]),
     ("numerics", &[]),
-    ("machine", &["numerics"]),
-    ("scene", &[]),
+    ("machine", &["nearest", "numerics"]),
+    ("scene", &["nearest"]),
     ("golden", &["scene"]),
     ("gallery", &["machine", "scene", "golden", "model", "explore"]),
     ("model", &["machine"]),
@@ -45,7 +46,7 @@ const STRANGERS: [&str; 2] = ["model", "rtl"];
 
 /// Crates that read and write no files: they may not even name the standard library's file or process modules.
 const NO_FILES: &[&str] = &[
-    "numerics", "machine", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl", "lockstep",
+    "nearest", "numerics", "machine", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl", "lockstep",
     "replay",
 ];
 

@@ -20,6 +20,7 @@ mod light;
 mod limits;
 mod meshes;
 mod mix;
+mod names;
 mod normals;
 mod output;
 mod own_pass;

@@ -26,5 +26,5 @@ pub use flow::Flow;
 pub use packed::Packed;
 pub use part::{Part, UnknownPart};
 pub use report::{Mhz, Outcome, Seed, UnitCells};
-pub use target::{TARGETS, Target, UnknownTarget};
+pub use target::{TARGETS, Target};
 pub use timing::{CriticalPath, Point};

@@ -1,6 +1,6 @@
 //! The devices, and how each is synthesised for: programs, commands, and which cell counts as what.
 
-use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::Unknown;
 
 /// A device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,16 +49,6 @@ pub const TARGETS: &[Target] = &[
     },
 ];
 
-/// No device of that name.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("unknown target {name}; nearest: {nearest}")]
-pub struct UnknownTarget {
-    /// What was asked for.
-    pub name: String,
-    /// The most similar name there is.
-    pub nearest: &'static str,
-}
-
 impl Target {
     /// The programs that it takes.
     #[must_use]
@@ -70,12 +60,8 @@ impl Target {
     ///
     /// # Errors
     /// An unknown name.
-    pub fn named(name: &str) -> Result<Target, UnknownTarget> {
-        let names = TARGETS.iter().map(|target| target.name);
-        TARGETS
-            .iter()
-            .find(|target| target.name == name)
-            .copied()
-            .ok_or_else(|| UnknownTarget { name: name.to_owned(), nearest: nearest(name, names) })
+    pub fn named(name: &str) -> Result<Target, Unknown> {
+        let target = TARGETS.iter().find(|target| target.name == name).copied();
+        target.ok_or_else(|| Unknown::new("target", name, TARGETS.iter().map(|target| target.name)))
     }
 }

@@ -6,9 +6,9 @@ use crate::extra::{self, OwnChannel};
 use crate::machine_args::MachineArgs;
 use crate::talk;
 use crate::verdict::Verdict;
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 use edgewalk_machine::keys::KEYS;
-use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::key::Key;
 use edgewalk_machine::presets::PRESETS;
 use edgewalk_machine::{Channel, Plan};
 use precision::Precision;
@@ -54,11 +54,10 @@ pub fn run(args: &Args, machine: &MachineArgs, json: bool) -> Result<Verdict> {
 }
 
 fn explain(machine: &Plan, key: Option<&str>, json: bool) -> Result<String> {
-    let chosen: Vec<_> = KEYS.iter().filter(|k| key.is_none_or(|name| k.name == name)).collect();
-    if chosen.is_empty() {
-        let name = key.unwrap_or_default();
-        return Err(anyhow!("unknown key {name}; nearest: {}", nearest(name, KEYS.iter().map(|k| k.name))));
-    }
+    let chosen: Vec<&Key> = match key {
+        Some(name) => vec![Key::named(name)?],
+        None => KEYS.iter().collect(),
+    };
     if json {
         let list: Vec<_> = chosen
             .iter()

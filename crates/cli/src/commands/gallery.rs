@@ -6,7 +6,7 @@ use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Result, anyhow};
 use edgewalk_gallery::{EXHIBITS, Exhibit, Image, Maker, View};
-use edgewalk_scene::nearest;
+use edgewalk_machine::Unknown;
 use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ pub struct Args {
     /// Names of exhibits; all of them if none is given
     names: Vec<String>,
     /// Output directory
-    #[arg(long, value_name = "DIR", default_value = "docs/gallery")]
+    #[arg(long, value_name = "DIR", default_value = "out/gallery")]
     out: PathBuf,
 }
 
@@ -65,12 +65,7 @@ fn chosen(names: &[String]) -> Result<Vec<Maker>> {
     }
     let find = |name: &String| match EXHIBITS.iter().find(|(known, _)| known == name) {
         Some((_, make)) => Ok(*make),
-        None => {
-            let known = EXHIBITS.map(|(name, _)| name);
-            let near =
-                nearest(name, &known).map_or(String::new(), |near| format!("; did you mean `{near}`?"));
-            Err(anyhow!("gallery: `{name}`: permitted: {}{near}", known.join(" ")))
-        }
+        None => Err(anyhow!("gallery: {}", Unknown::new("exhibit", name, EXHIBITS.map(|(name, _)| name)))),
     };
     names.iter().map(find).collect()
 }

@@ -13,8 +13,8 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, progress};
 use anyhow::{Context, Result, anyhow};
-use edgewalk_machine::Plan;
-use edgewalk_synth::{Cache, Design, Flow, Part, Target, UnknownTarget};
+use edgewalk_machine::{Plan, Unknown};
+use edgewalk_synth::{Cache, Design, Flow, Part, Target};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -58,7 +58,7 @@ pub struct Args {
     out: Option<PathBuf>,
 }
 
-fn target(name: &str) -> Result<Target, UnknownTarget> {
+fn target(name: &str) -> Result<Target, Unknown> {
     Target::named(name)
 }
 

@@ -1,7 +1,7 @@
 //! What is best: a figure of a row, and which way it should go.
 
 use anyhow::{Result, anyhow};
-use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::Unknown;
 use serde_json::Value;
 
 /// A figure that is to be small or large.
@@ -74,7 +74,7 @@ impl Objective {
         for name in names {
             let all = OBJECTIVES.iter().map(|objective| objective.name);
             let found = OBJECTIVES.iter().find(|objective| objective.name == name).ok_or_else(|| {
-                anyhow!("--objective {name}: no such figure; nearest: {}", nearest(name, all))
+                anyhow!("--objective {name}: {}", Unknown::new("figure", name, all))
             })?;
             if list.contains(found) {
                 return Err(anyhow!("--objective {name}: comes twice"));

@@ -7,7 +7,7 @@ use anyhow::{Result, anyhow};
 use edgewalk_explore::input::Input;
 use edgewalk_explore::sweep::point::shading;
 use edgewalk_explore::sweep::store;
-use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::nearest;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -24,7 +24,10 @@ pub fn run(key: &str, out: &Path, talk: Talk) -> Result<Verdict> {
     let row = match found[..] {
         [row] => row,
         [] if rows.is_empty() => return Err(anyhow!("{}: no rows", out.join(ROWS).display())),
-        [] => return Err(anyhow!("{key}: no row has this key; nearest: {}", nearest(key, keys()))),
+        [] => {
+            let near = nearest(key, keys()).map_or_else(String::new, |near| format!("; nearest: {near}"));
+            return Err(anyhow!("{key}: no row has this key{near}"));
+        }
         _ => return Err(anyhow!("{key}: {} rows begin so; give more digits", found.len())),
     };
     let changed = changed(row, out)?;
