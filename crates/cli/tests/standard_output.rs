@@ -100,10 +100,13 @@ fn a_full_output_is_an_error_with_its_reason() {
         let output = edgewalk(folder.path(), arguments).stdout(full()).output().unwrap();
         let (code, error) = ended(&output);
         assert_eq!(code, Some(2), "{arguments:?}: {error}");
-        assert_eq!(
-            error, "edgewalk: standard output: No space left on device (os error 28)\n",
-            "{arguments:?}"
-        );
+        let why = "standard output: No space left on device (os error 28)";
+        let said = if arguments.contains(&"--json") {
+            format!("{{\"format\":\"edgewalk-error\",\"version\":[1,0],\"error\":\"{why}\",\"exit_code\":2}}\n")
+        } else {
+            format!("error: {why}\n")
+        };
+        assert_eq!(error, said, "{arguments:?}");
     }
     // Where the reason cannot be written either, the exit code is left.
     for arguments in [&["raster", "none.tri", "--out", "o"][..], &["no-such-command"]] {
@@ -135,7 +138,7 @@ fn a_quiet_command_says_why_it_failed() {
         command.extend(SCREEN);
         let (code, error) = run(folder.path(), command);
         assert_eq!(code, Some(2), "{command:?}: {error}");
-        assert!(error.starts_with("edgewalk: ") && error.len() > 30, "{command:?}: `{error}`");
+        assert!(error.starts_with("error: ") && error.len() > 30, "{command:?}: `{error}`");
     }
     println!("checked {0} / {0} commands", commands.len());
 }

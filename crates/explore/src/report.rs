@@ -249,11 +249,6 @@ impl Report {
         Ok(report)
     }
 
-    /// As a JSON file.
-    pub fn json(&self) -> Result<String> {
-        Ok(serde_json::to_string_pretty(&self.value()?)? + "\n")
-    }
-
     /// As a page of text.
     pub fn text(&self) -> String {
         let mut t = String::new();

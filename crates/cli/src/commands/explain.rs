@@ -12,6 +12,7 @@ mod texel;
 mod terms;
 mod page;
 
+use crate::document::document;
 use crate::Talk;
 use crate::engine::golden_fill;
 use crate::extra;
@@ -166,7 +167,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         no_shadows,
         machine: walked,
     };
-    talk.say(|| Ok(serde_json::to_string(&explanation)?), || page::text(&explanation, machine.color.bits))?;
+    talk.say(|| document("explain", &explanation), || page::text(&explanation, machine.color.bits))?;
     // A pixel may be empty, but not the whole picture.
     let covered = picture.coverage.iter().map(|count| u64::from(*count)).sum();
     Verdict::drew(covered).or_nothing(

@@ -1,5 +1,6 @@
 //! `edgewalk gallery`: a page of exhibits, each a system or a fault with pictures, cause and figures.
 
+use crate::document::document;
 use crate::progress::bar;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
@@ -8,6 +9,7 @@ use anyhow::{Result, anyhow};
 use edgewalk_gallery::{EXHIBITS, Exhibit, Image, Maker, View};
 use edgewalk_machine::Unknown;
 use rayon::prelude::*;
+use serde_json::json;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -119,9 +121,9 @@ fn report(exhibits: &[Exhibit], talk: Talk) -> Result<()> {
             let figures =
                 exhibit.figures.iter().map(|(quantity, value)| (quantity.clone(), value.clone().into()));
             let figures: serde_json::Map<String, serde_json::Value> = figures.collect();
-            serde_json::json!({ "name": exhibit.name, "title": exhibit.title, "figures": figures })
+            json!({ "name": exhibit.name, "title": exhibit.title, "figures": figures })
         };
-        Ok(serde_json::to_string(&exhibits.iter().map(one).collect::<Vec<_>>())?)
+        document("gallery", json!({ "exhibits": exhibits.iter().map(one).collect::<Vec<_>>() }))
     };
     let text = || {
         let mut text = String::new();

@@ -2,6 +2,7 @@
 
 mod truth;
 
+use crate::document::document;
 use crate::Talk;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
@@ -12,6 +13,7 @@ use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::{DrawState, Stalls, Waits};
 use edgewalk_replay::lesson::{SCREEN, triangle};
 use edgewalk_replay::{Lesson, Recording, Replay, Rules, Truth, Window, lesson, page, record, record_passes};
+use serde_json::json;
 use std::path::PathBuf;
 
 /// Records the machine cycle by cycle and writes one HTML file that shows it at work: open it in a browser, no network needed.
@@ -93,10 +95,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (cycles, bytes) = (recording.cycles, text.len());
     talk.say(
         || {
-            let report = serde_json::json!({
+            let report = json!({
                 "file": args.out, "cycles": cycles, "triangles": triangles.len(), "bytes": bytes, "hash": machine.hash(),
             });
-            Ok(report.to_string())
+            document("replay-report", report)
         },
         || {
             let drawn = triangles.len();

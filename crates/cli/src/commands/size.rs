@@ -1,5 +1,6 @@
 //! `edgewalk size`: the word lengths that a frame asks for.
 
+use crate::document::document;
 use crate::Talk;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
@@ -67,7 +68,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         }
     }
     let of = Page { args, machine: &machine, triangles: frame.triangles.len(), found: &found };
-    let json = serde_json::to_string_pretty(&of.value()?)? + "\n";
+    let json = document("size", of.value()?)?;
     out.write(REPORT, &json)?;
     own.push(REPORT.to_owned());
     out.publish(&own)?;

@@ -7,6 +7,7 @@
 mod table;
 
 use super::emit;
+use crate::document::document;
 use crate::machine_args::MachineArgs;
 use crate::scratch::Scratch;
 use crate::staging::Staging;
@@ -93,10 +94,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         for (name, text) in &design.files {
             out.write(&format!("hdl/{name}"), text)?;
         }
-        out.write("synthesis.json", report.json()?)?;
+        out.write("synthesis.json", document("synthesis", &report)?)?;
         out.publish(&own(&machine)?)?;
     }
-    talk.say(|| report.json(), || report.text())?;
+    talk.say(|| document("synthesis", &report), || report.text())?;
     Ok(Verdict::Pass)
 }
 

@@ -1,6 +1,7 @@
 //! The figures, as a table and as one line of JSON.
 
 use super::job::{Job, Times};
+use crate::document::document;
 use crate::Talk;
 use anyhow::Result;
 use serde::Serialize;
@@ -86,7 +87,7 @@ impl<'a> Table<'a> {
 
     /// To standard output, as asked.
     pub fn print(&self, talk: Talk) -> Result<()> {
-        talk.say(|| Ok(self.json().to_string()), || self.text())
+        talk.say(|| document("bench", self.json()), || self.text())
     }
 
     /// The first engine that took part, the fastest, stands for all.

@@ -1,6 +1,7 @@
 //! What a row depends on, and which of it has changed since.
 
 use super::{ROWS, kept};
+use crate::document::document;
 use crate::Talk;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
@@ -34,8 +35,7 @@ pub fn run(key: &str, out: &Path, talk: Talk) -> Result<Verdict> {
     let others = others(row, &rows);
     talk.say(
         || {
-            let value = json!({ "row": row, "changed": changed, "same_machine": others });
-            Ok(serde_json::to_string_pretty(&value)?)
+            document("sweep-why", json!({ "row": row, "changed": changed, "same_machine": others }))
         },
         || text(row, &changed, &others),
     )?;

@@ -1,6 +1,5 @@
 //! The report of `synth`, for machines and for people.
 
-use anyhow::Result;
 use edgewalk_machine::Plan;
 use edgewalk_synth::{Cache, Cells, CriticalPath, Design, Outcome};
 use serde::Serialize;
@@ -26,11 +25,6 @@ impl Report {
         let (cached, run) = cache.counts();
         let (unit, verilog) = (design.part.name(), design.hash.clone());
         Report { machine: machine.hash(), unit, verilog, cached, run, targets }
-    }
-
-    /// As one JSON value.
-    pub fn json(&self) -> Result<String> {
-        Ok(serde_json::to_string_pretty(self)?)
     }
 
     /// As a table a target. Writing to a string cannot fail.
