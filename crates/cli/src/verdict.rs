@@ -1,13 +1,9 @@
 //! How a command ends: the exit codes every subcommand shares.
 
-pub use edgewalk_explore::Verdict;
+use edgewalk_bench::ToolError;
+pub use edgewalk_judge::Verdict;
 use edgewalk_tool::Stop;
 use edgewalk_vectors::SimulateError;
-
-/// A simulator or synthesis tool that is absent or broken.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct ToolError(pub String);
 
 /// 0 pass, 1 mismatch, 2 nothing compared.
 pub fn exit_code(verdict: Verdict) -> u8 {

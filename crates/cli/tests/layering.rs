@@ -10,8 +10,11 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("machine", &["nearest", "numerics"]),
     ("scene", &["nearest"]),
     ("golden", &["scene"]),
-    ("gallery", &["machine", "scene", "golden", "model", "explore"]),
     ("model", &["machine"]),
+    ("host", &["numerics", "machine", "scene", "golden", "model"]),
+    ("judge", &["numerics", "machine", "scene", "golden", "model", "host"]),
+    ("gallery", &["machine", "scene", "golden", "model", "host", "judge"]),
+    ("explain", &["numerics", "machine", "scene", "golden", "model", "host", "judge"]),
     ("netlist", &[]),
     ("verilog", &["netlist"]),
     ("jit", &["netlist"]),
@@ -21,12 +24,14 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("vectors", &["machine", "model", "netlist", "verilog", "rtl", "lockstep", "tool"]),
     ("replay", &["machine", "model"]),
     ("synth", &["machine", "netlist", "verilog", "rtl", "tool"]),
-    ("explore", &["numerics", "machine", "scene", "golden", "model"]),
+    ("bench", &["machine", "model", "netlist", "verilog", "jit", "rtl", "lockstep"]),
+    ("explore", &["numerics", "machine", "scene", "golden", "model", "host", "judge"]),
     (
         "cli",
         &[
-            "numerics", "machine", "scene", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl",
-            "lockstep", "tool", "vectors", "replay", "synth", "explore",
+            "numerics", "machine", "scene", "golden", "model", "host", "judge", "gallery", "explain",
+            "netlist", "verilog", "jit", "rtl", "lockstep", "tool", "vectors", "replay", "synth", "bench",
+            "explore",
         ],
     ),
 ];
@@ -46,8 +51,8 @@ const STRANGERS: [&str; 2] = ["model", "rtl"];
 
 /// Crates that read and write no files: they may not even name the standard library's file or process modules.
 const NO_FILES: &[&str] = &[
-    "nearest", "numerics", "machine", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl", "lockstep",
-    "replay",
+    "nearest", "numerics", "machine", "golden", "model", "judge", "gallery", "explain", "netlist", "verilog",
+    "jit", "rtl", "lockstep", "replay",
 ];
 
 fn crates() -> PathBuf {

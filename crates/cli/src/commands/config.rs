@@ -2,12 +2,12 @@
 
 mod precision;
 
-use crate::extra::{self, OwnChannel};
 use crate::machine_args::MachineArgs;
 use crate::Talk;
 use crate::document::document;
 use crate::verdict::Verdict;
 use anyhow::Result;
+use edgewalk_host::extra::{self, OwnChannel};
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::key::{Domain, Key};
 use edgewalk_machine::presets::PRESETS;
