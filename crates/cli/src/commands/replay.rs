@@ -29,8 +29,8 @@ use std::path::PathBuf;
 pub struct Args {
     #[command(flatten)]
     source: Source,
-    /// Draws this many triangles of the input
-    #[arg(long, default_value_t = 20)]
+    /// Draws the first N triangles of the input
+    #[arg(long, value_name = "N", default_value_t = 20)]
     triangles: usize,
     /// First cycle that is shown
     #[arg(long, value_name = "C", default_value_t = 0)]
@@ -74,7 +74,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     let name = args.out.file_name().and_then(|n| n.to_str()).context("--out: no file name")?;
     let shown = if args.lesson { taught(machine)? } else { drawn(args, machine)? };
-    let Shown { machine, scene, triangles, of, recording, truth, lesson } = &shown;
+    let Shown { machine, scene, triangles, of, recording, truth, command, lesson } = &shown;
     let replay = Replay {
         plan: machine,
         scene,
@@ -82,7 +82,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         of: *of,
         recording,
         truth,
-        command: lesson.is_none().then(|| format!("edgewalk explain {scene} {{x}} {{y}}")),
+        command: command.clone(),
         difference: None,
         lesson: lesson.as_ref(),
     };
@@ -120,27 +120,48 @@ struct Shown {
     of: usize,
     recording: Recording,
     truth: Vec<Truth>,
+    /// What explains a pixel of it.
+    command: Option<String>,
     lesson: Option<Lesson>,
 }
 
 /// The input on the machine.
-fn drawn(args: &Args, machine: &MachineArgs) -> Result<Shown> {
-    let (machine, frame) = args.source.on_its_screen(machine)?;
-    let mut port = to_port(&frame, &machine)?;
-    let of = port.triangles.len();
-    port.triangles.truncate(args.triangles);
+fn drawn(args: &Args, asked_for: &MachineArgs) -> Result<Shown> {
+    let (machine, frame) = args.source.on_its_screen(asked_for)?;
+    let of = frame.triangles.len();
+    let frame = frame.first(args.triangles);
+    let port = to_port(&frame, &machine)?;
     let (count, size) = (port.triangles.len() as u64, (machine.width, machine.height));
     Verdict::drew(count).or_nothing(&args.source.input, 0, size)?;
     let to = args.cycles.map(|cycles| args.from.saturating_add(cycles - 1)).or(args.to);
     let window = Window { from: args.from, to };
-    let mut shading = port.words().clone();
-    shading.records.truncate(port.triangles.len());
-    let rules = Rules { passes: &port.passes, maps: &port.maps(), shading: &shading };
+    let rules = Rules { passes: &port.passes, maps: &port.maps(), shading: port.words() };
     let recording = record_passes(&machine, &port.triangles, &rules, args.stalls, window)
         .with_context(|| args.source.input.clone())?;
     let truth = truth::truth(&machine, &frame, &port.ids, recording.view.tokens());
     let (scene, triangles) = (args.source.input.clone(), port.triangles);
-    Ok(Shown { machine, scene, triangles, of, recording, truth, lesson: None })
+    let command = Some(explaining(args, asked_for, of));
+    Ok(Shown { machine, scene, triangles, of, recording, truth, command, lesson: None })
+}
+
+/// The command that explains a pixel of what is drawn, of an input with `of` triangles. It ends with `{x} {y}`.
+fn explaining(args: &Args, machine: &MachineArgs, of: usize) -> String {
+    let mut words: Vec<String> = ["edgewalk", "explain"].map(str::to_owned).to_vec();
+    words.extend(machine.words().into_iter().map(str::to_owned));
+    if args.triangles < of {
+        words.extend(["--triangles".to_owned(), args.triangles.to_string()]);
+    }
+    words.extend(args.source.words());
+    words.iter().map(|word| quoted(word)).chain(["{x} {y}".to_owned()]).collect::<Vec<_>>().join(" ")
+}
+
+/// A word as a shell takes it: in quotes unless all of its characters are plain.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,@%+".contains(c);
+    match !word.is_empty() && word.chars().all(plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', r"'\''")),
+    }
 }
 
 /// The triangle of the lesson, on its screen.
@@ -158,6 +179,7 @@ fn taught(machine: &MachineArgs) -> Result<Shown> {
         of: 1,
         recording,
         truth: Vec::new(),
+        command: None,
         lesson: Some(lesson),
     })
 }
