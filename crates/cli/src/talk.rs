@@ -31,7 +31,8 @@ impl Talk {
     /// either, the exit code is all there is.
     pub fn fail(self, why: &str, exit_code: u8) {
         let text = || format!("error: {why}");
-        let json = || line("error", json!({ "error": why, "exit_code": exit_code })).unwrap_or_else(|_| text());
+        let json =
+            || line("error", json!({ "error": why, "exit_code": exit_code })).unwrap_or_else(|_| text());
         _ = writeln!(io::stderr(), "{}", if self.json { json() } else { text() });
     }
 

@@ -102,7 +102,9 @@ fn a_full_output_is_an_error_with_its_reason() {
         assert_eq!(code, Some(2), "{arguments:?}: {error}");
         let why = "standard output: No space left on device (os error 28)";
         let said = if arguments.contains(&"--json") {
-            format!("{{\"format\":\"edgewalk-error\",\"version\":[1,0],\"error\":\"{why}\",\"exit_code\":2}}\n")
+            format!(
+                "{{\"format\":\"edgewalk-error\",\"version\":[1,0],\"error\":\"{why}\",\"exit_code\":2}}\n"
+            )
         } else {
             format!("error: {why}\n")
         };

@@ -1,7 +1,7 @@
 //! The page of text.
 
-use super::{Explanation, Stored};
 use super::additions::{Addition, Walk};
+use super::{Explanation, Stored};
 use edgewalk_host::extra::{BEFORE, Label};
 use std::fmt::Write as _;
 

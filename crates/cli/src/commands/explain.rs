@@ -1,7 +1,7 @@
 //! `edgewalk explain`: why a pixel looks as it does.
 
-use crate::document::document;
 use crate::Talk;
+use crate::document::document;
 use crate::input::Source;
 use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;

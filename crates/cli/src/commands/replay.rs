@@ -2,8 +2,8 @@
 
 mod truth;
 
-use crate::document::document;
 use crate::Talk;
+use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;

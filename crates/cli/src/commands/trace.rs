@@ -1,7 +1,7 @@
 //! `edgewalk trace`: waveforms of the machine's netlist.
 
-use crate::document::document;
 use crate::Talk;
+use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;

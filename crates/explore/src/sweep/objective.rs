@@ -73,9 +73,10 @@ impl Objective {
         let mut list: Vec<Objective> = Vec::new();
         for name in names {
             let all = OBJECTIVES.iter().map(|objective| objective.name);
-            let found = OBJECTIVES.iter().find(|objective| objective.name == name).ok_or_else(|| {
-                anyhow!("--objective {name}: {}", Unknown::new("figure", name, all))
-            })?;
+            let found = OBJECTIVES
+                .iter()
+                .find(|objective| objective.name == name)
+                .ok_or_else(|| anyhow!("--objective {name}: {}", Unknown::new("figure", name, all)))?;
             if list.contains(found) {
                 return Err(anyhow!("--objective {name}: comes twice"));
             }

@@ -144,7 +144,8 @@ impl Materials {
             Some((_, material)) => Ok(Some(*material)),
             None => {
                 let names: Vec<&str> = self.named.iter().map(|(name, _)| name.as_str()).collect();
-                let near = nearest(name, names.iter().copied()).map(|near| format!("; did you mean `{near}`?"));
+                let near =
+                    nearest(name, names.iter().copied()).map(|near| format!("; did you mean `{near}`?"));
                 let permitted = format!("permitted: {}{}", names.join(" "), near.unwrap_or_default());
                 Err(table.fault(key, name, permitted))
             }

@@ -6,8 +6,8 @@
 //! No engine of its own: a job array of Slurm or HyperQueue says which part.
 
 use super::{DEFINITION, ROWS, Ran, RunArgs, finished, kept, points};
-use crate::document::document;
 use crate::Talk;
+use crate::document::document;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};

@@ -1,8 +1,8 @@
 //! What a row depends on, and which of it has changed since.
 
 use super::{ROWS, kept};
-use crate::document::document;
 use crate::Talk;
+use crate::document::document;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
 use edgewalk_explore::sweep::point::shading;
@@ -34,9 +34,7 @@ pub fn run(key: &str, out: &Path, talk: Talk) -> Result<Verdict> {
     let changed = changed(row, out)?;
     let others = others(row, &rows);
     talk.say(
-        || {
-            document("sweep-why", json!({ "row": row, "changed": changed, "same_machine": others }))
-        },
+        || document("sweep-why", json!({ "row": row, "changed": changed, "same_machine": others })),
         || text(row, &changed, &others),
     )?;
     Ok(Verdict::Pass)
