@@ -139,7 +139,7 @@ fn exit_code(result: Result<Verdict>, talk: Talk) -> u8 {
     let code = result.as_ref().map_or_else(verdict::of_error, |verdict| verdict::exit_code(*verdict));
     match &result {
         Err(error) => talk.fail(&format!("{error:#}"), code),
-        Ok(Verdict::Vacuous) => talk.fail("nothing was compared", code),
+        Ok(Verdict::Vacuous) => talk.fail("nothing was compared, so nothing is shown to agree", code),
         Ok(Verdict::Mismatch) if talk.quiet => {
             talk.fail("mismatch: what was compared differs; without --quiet the report says where", code);
         }

@@ -5,7 +5,7 @@ use crate::support::run;
 #[test]
 fn every_command_suggests_near_names_alone() {
     let folder = tempfile::tempdir().expect("a folder");
-    let sweep = ["sweep", "sphere", "--vary"];
+    let sweep = ["sweep", "sphere", "--out", "s", "--vary"];
     let vectors = ["vectors", "--out", "v", "--suite"];
     for (arguments, suggested) in [
         (&["config", "explain", "hazard"][..], Some("memory.hazard")),
@@ -17,10 +17,16 @@ fn every_command_suggests_near_names_alone() {
         (&["config", "check", "--set", "edge.fill=foo"], None),
         (&["config", "check", "--machine", "smal"], Some("small")),
         (&["config", "check", "--machine", "foo"], None),
-        (&[sweep[0], sweep[1], sweep[2], "foo=1,2"], None),
-        (&[sweep[0], sweep[1], sweep[2], "interpolator.ader=1,2"], Some("interpolator.adders")),
-        (&[sweep[0], sweep[1], sweep[2], "setup.lanes=1", "--objective", "cylces"], Some("cycles")),
-        (&[sweep[0], sweep[1], sweep[2], "setup.lanes=1", "--objective", "foo"], None),
+        (&[sweep[0], sweep[1], sweep[2], sweep[3], sweep[4], "foo=1,2"], None),
+        (
+            &[sweep[0], sweep[1], sweep[2], sweep[3], sweep[4], "interpolator.ader=1,2"],
+            Some("interpolator.adders"),
+        ),
+        (
+            &[sweep[0], sweep[1], sweep[2], sweep[3], sweep[4], "setup.lanes=1", "--objective", "cylces"],
+            Some("cycles"),
+        ),
+        (&[sweep[0], sweep[1], sweep[2], sweep[3], sweep[4], "setup.lanes=1", "--objective", "foo"], None),
         (&["synth", "--target", "up5k"], Some("ice40-up5k")),
         (&["synth", "--target", "foo"], None),
         (&["synth", "--unit", "spam"], Some("span")),

@@ -72,7 +72,7 @@ fn the_command_of_the_page_shows_its_pixel() {
             arguments.iter().copied().skip_while(|word| !["--machine", "--set"].contains(word)).collect();
         let machine: Vec<&str> =
             machine.into_iter().filter(|word| !["--shading", "constant"].contains(word)).collect();
-        let precision = edgewalk(at, &[&["config", "explain", "--json"], &machine[..]].concat());
+        let precision = edgewalk(at, &[&["config", "explain", "--json"], &machine[..], &screen].concat());
         let precision: Value = serde_json::from_slice(&{ precision }.output().unwrap().stdout).unwrap();
         for seen in used(&at.join("page.html"), TEN).as_array().unwrap() {
             let command = seen["command"].as_str().unwrap();

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Stdio;
 
 /// A quick run of each command, as text; those with a report also come with --json.
-const COMMANDS: [&[&str]; 19] = [
+pub const COMMANDS: [&[&str]; 19] = [
     &["demo", "d.tri", "--out", "demo"],
     &["render", "d.tri", "--out", "render"],
     &["render", "sphere", "--engine", "golden", "--out", "shaded"],
@@ -32,7 +32,7 @@ const COMMANDS: [&[&str]; 19] = [
 ];
 
 /// On the screen of the file; `raster`, `bench` and `gallery` take no word of the screen or have their own.
-fn arguments<'a>(command: &[&'a str], json: bool) -> Vec<&'a str> {
+pub fn arguments<'a>(command: &[&'a str], json: bool) -> Vec<&'a str> {
     let mut arguments = command.to_vec();
     arguments.extend(SCREEN);
     if json {
@@ -41,7 +41,7 @@ fn arguments<'a>(command: &[&'a str], json: bool) -> Vec<&'a str> {
     arguments
 }
 
-fn folder() -> tempfile::TempDir {
+pub fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("d.tri"), TRIANGLE).unwrap();
     folder

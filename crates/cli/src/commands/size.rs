@@ -133,16 +133,19 @@ impl Page<'_> {
                 match (&answer.one_bit_fewer, &answer.no_breaker) {
                     (Some(breaker), _) => {
                         let at = self.args.out.join(file(channel.name, name));
+                        let ((x, y), bits) = (breaker.pixel, breaker.fraction_bits);
+                        let how = match breaker.wraps {
+                            true => format!(
+                                "wraps at {x},{y}, as N + 1 < 2^r does not hold for N = {} and r = {bits}",
+                                answer.additions
+                            ),
+                            false => format!("errs by {:.4} LSB at {x},{y}", breaker.error),
+                        };
                         _ = writeln!(
                             t,
-                            "    with {} bits {} errs by {:.4} LSB at {},{}: --set {}={}",
-                            breaker.fraction_bits,
+                            "    with {bits} bits {} {how}: --set {}={bits}",
                             at.display(),
-                            breaker.error,
-                            breaker.pixel.0,
-                            breaker.pixel.1,
-                            channel.key,
-                            breaker.fraction_bits
+                            channel.key
                         );
                     }
                     (None, Some(why)) => {
