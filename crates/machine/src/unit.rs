@@ -5,7 +5,7 @@ use crate::field::Field;
 use crate::link::{Held, Link, MemoryPort, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::units::{self, UNITS};
+use crate::units::{UNITS, machine};
 
 /// A corner or hazard that a unit can meet, and that a suite has to.
 #[derive(Clone, Copy)]
@@ -17,6 +17,31 @@ pub struct Event {
     /// It can happen in this machine.
     pub can_happen: fn(&Plan) -> bool,
 }
+
+/// Declares the events of a unit, each with what it counts and the machines in which it can happen, and the struct that
+/// counts them.
+macro_rules! events {
+    ($($name:ident = $doc:literal if $can_happen:expr;)*) => {
+        pub(crate) const EVENTS: &[crate::unit::Event] =
+            &[$(crate::unit::Event { name: stringify!($name), doc: $doc, can_happen: $can_happen }),*];
+
+        /// How often each event of the unit was met.
+        #[derive(Clone, Debug, Default, PartialEq, Eq)]
+        pub struct Events { $(#[doc = $doc] pub $name: u64,)* }
+
+        impl Events {
+            pub(super) fn counts(&self) -> Vec<(&'static str, u64)> {
+                vec![$((stringify!($name), self.$name)),*]
+            }
+
+            pub(super) fn merge(&mut self, other: &Events) {
+                $(self.$name += other.$name;)*
+                let _ = other; // a unit may have no event
+            }
+        }
+    };
+}
+pub(crate) use events;
 
 /// All ports of a unit but `clk` and `rst`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -67,7 +92,7 @@ impl Plan {
 
     /// What can happen in this machine: to its units in their order, then between them.
     pub fn events(&self) -> impl Iterator<Item = &'static Event> {
-        let all = self.units().flat_map(|unit| unit.events).chain(units::EVENTS);
+        let all = self.units().flat_map(|unit| unit.events).chain(machine::EVENTS);
         all.filter(|event| (event.can_happen)(self))
     }
 
@@ -88,7 +113,7 @@ impl Plan {
             writes: all.iter().flat_map(|ports| ports.writes.clone()).collect(),
             memory: all.iter().flat_map(|ports| ports.memory.clone()).collect(),
             constants,
-            status: units::machine_status(),
+            status: machine::status(),
             ..Ports::default()
         }
     }
