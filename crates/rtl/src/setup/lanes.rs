@@ -137,7 +137,8 @@ impl<'a, 'm> Common<'a, 'm> {
         let exact = plan.edge_kind == EdgeKind::Exact;
         let only = |in_these: bool, is: Signal<'m>| if in_these { is } else { m.lit(1, 0) };
         let [is_cut, upwards, negated] = [
-            control.way.rest.is(Op::SumStart) | only(exact, control.way.rest.one_of(&[Op::DoubleDx, Op::Sum])),
+            control.way.rest.is(Op::SumStart)
+                | only(exact, control.way.rest.one_of(&[Op::DoubleDx, Op::Sum])),
             only(exact && plan.fill == Fill::Exact, control.way.rest.is(Op::Sum)),
             only(plan.fill == Fill::Exact, control.way.rest.is(Op::DoubleX) & right),
         ];

@@ -116,7 +116,8 @@ impl<'m> Sources<'_, 'm> {
             Vec::new()
         };
         let first_values = [Op::SignStart, Op::DoubleStartA, Op::DoubleStartB];
-        let kept = kept.when(control.way.next.one_of(&[&may_not_fit, &first_values[..]].concat()), number).q();
+        let kept =
+            kept.when(control.way.next.one_of(&[&may_not_fit, &first_values[..]].concat()), number).q();
         let digits = if may_not_fit.is_empty() {
             m.lit(2, 0)
         } else {

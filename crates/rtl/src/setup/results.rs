@@ -61,7 +61,8 @@ impl<'m> Results<'_, 'm> {
         let (rest, value) = (lane.instance.output("rest_out"), lane.instance.output("value"));
         let (steps, height) = (self.steps(edge), self.vertices.heights[edge]);
         let (f, q) = (self.register(name, "f"), self.register(name, "q"));
-        let after = |op: Op| (self.control.way.rest.ends_in(op, round), self.control.way.whole.ends_in(op, round));
+        let after =
+            |op: Op| (self.control.way.rest.ends_in(op, round), self.control.way.whole.ends_in(op, round));
         let (rest_now, whole_now) = after(Op::DoubleDx);
         f.when(rest_now, steps.mux(rest.slice(rest.width() - 1, t).trunc(f.q().width()), 0));
         q.when(whole_now, steps.mux(value.trunc(q.q().width()), 0));

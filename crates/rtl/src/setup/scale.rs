@@ -37,7 +37,8 @@ impl<'m> Scale<'m> {
         let i = m.reg("scale_next", control.feedback.scale.q().width()).doc("times that it is fourfold");
         let mut takes = area.ends;
         if let Some(last) = control.way.named.in_round(rounds - 1) {
-            let behind_gradient = control.way.named.one_of(&[Op::SignLine, Op::RoundX]) & control.sequence.first;
+            let behind_gradient =
+                control.way.named.one_of(&[Op::SignLine, Op::RoundX]) & control.sequence.first;
             takes = takes | (behind_gradient & !last);
         }
         taken.set(takes & !control.sequence.begin);
@@ -72,7 +73,9 @@ impl<'m> Scale<'m> {
         let more = self.differences.q() | any;
         if rounds(plan)[1] > 1 {
             let shown = control.way.next.one_of(&[SHOWN_FIRST, SHOWN_NEXT].concat());
-            self.differences.when(shown, more).when(control.sequence.begin | control.way.next.is(Op::Take12), 0);
+            self.differences
+                .when(shown, more)
+                .when(control.sequence.begin | control.way.next.is(Op::Take12), 0);
         } else {
             // Until the channels begin nothing else is shown.
             self.differences.set(more).when(control.sequence.begin, 0);

@@ -21,7 +21,12 @@ impl<'m> States<'m> {
     /// A constant each.
     pub fn new(m: &'m Module) -> States<'m> {
         let state = |name, number| m.constant(name, 2, number);
-        States { idle: state("IDLE", 0), work: state("WORK", 1), store: state("STORE", 2), done: state("DONE", 3) }
+        States {
+            idle: state("IDLE", 0),
+            work: state("WORK", 1),
+            store: state("STORE", 2),
+            done: state("DONE", 3),
+        }
     }
 }
 

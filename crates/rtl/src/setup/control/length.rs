@@ -42,5 +42,7 @@ fn of_channels<'m>(base: &Base<'_, 'm>, op: Op, number: impl Fn(u32) -> Signal<'
     let doubled = |round: usize| number(clocks(round).max(1));
     let last = rounds.of_channels - 1;
     let others = (0..last).filter(|round| clocks(*round) != clocks(last));
-    others.fold(doubled(last), |chosen, round| rounds.is(round).map_or(chosen, |is| is.mux(doubled(round), chosen)))
+    others.fold(doubled(last), |chosen, round| {
+        rounds.is(round).map_or(chosen, |is| is.mux(doubled(round), chosen))
+    })
 }

@@ -43,11 +43,7 @@ impl<'m> Inputs<'m> {
                 "whole number to add to a result, a clock before value",
             ),
             take_modulus: m.input_doc("take_modulus", 1, "two clocks before the first step with it"),
-            modulus_in: m.input_doc(
-                "modulus_in",
-                shape.modulus,
-                "-M, or -M - 1 if modulus_short; signed",
-            ),
+            modulus_in: m.input_doc("modulus_in", shape.modulus, "-M, or -M - 1 if modulus_short; signed"),
             modulus_short: m.input("modulus_short", 1),
             give: m.input_doc("give", 1, "an operation has ended: value is its result, a clock later"),
             nearest: m.input_doc(
