@@ -18,8 +18,6 @@ pub mod blend;
 pub mod memory;
 pub mod machine;
 
-use crate::field::Field;
-use crate::plan::Plan;
 use crate::unit::UnitSpec;
 
 /// Lists the units in the order the data flows, and the counts of their events.
@@ -60,15 +58,4 @@ impl Events {
     pub fn missing(&self) -> Vec<&'static str> {
         self.counts().into_iter().filter(|(_, count)| *count == 0).map(|(name, _)| name).collect()
     }
-}
-
-/// The input by which a pass is the light's own, of the units that ask for it.
-pub(crate) fn light_pass(plan: &Plan) -> Option<Field> {
-    let doc = "the map is drawn, not the picture";
-    plan.shadow.draws_map().then(|| Field::count("light_pass", 1, doc))
-}
-
-/// For what every machine has, or can meet.
-pub(crate) fn always(_: &Plan) -> bool {
-    true
 }

@@ -1,10 +1,9 @@
 //! What the whole machine shows beside the ports of its units.
 
-use super::always;
 use crate::activity::Activity;
 use crate::field::Field;
 use crate::link::Status;
-use crate::unit::events;
+use crate::unit::{always, events};
 
 /// Outputs that mean something in every cycle.
 pub(crate) fn status() -> Vec<Status> {

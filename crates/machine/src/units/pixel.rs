@@ -1,10 +1,10 @@
 //! PIXEL: from spans to fragments.
 
-use super::{always, light_pass, tokens};
+use super::tokens;
 use crate::link::{Held, Link, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::unit::{Ports, UnitSpec, events};
+use crate::unit::{Ports, UnitSpec, always, light_pass, events};
 
 /// What PIXEL declares.
 pub const SPEC: UnitSpec = UnitSpec {

@@ -1,10 +1,10 @@
 //! SPAN: from lines to the pixels of a line.
 
-use super::{always, light_pass, tokens};
+use super::tokens;
 use crate::link::{Link, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::unit::{Ports, UnitSpec, events};
+use crate::unit::{Ports, UnitSpec, always, light_pass, events};
 
 /// What SPAN declares.
 pub const SPEC: UnitSpec = UnitSpec {
