@@ -4,7 +4,7 @@ use super::tokens;
 use crate::link::{Held, Link, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::unit::{Ports, UnitSpec, always, light_pass, events};
+use crate::unit::{Ports, UnitSpec, always, events, light_pass};
 
 /// What PIXEL declares.
 pub const SPEC: UnitSpec = UnitSpec {

@@ -4,7 +4,7 @@ use super::tokens;
 use crate::link::Link;
 use crate::machine::{Fill, Machine};
 use crate::plan::Plan;
-use crate::unit::{Ports, UnitSpec, always, light_pass, events};
+use crate::unit::{Ports, UnitSpec, always, events, light_pass};
 
 /// What SETUP declares.
 pub const SPEC: UnitSpec = UnitSpec {

@@ -6,7 +6,7 @@ use crate::link::{Link, MemoryPort, Ready, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::shadow::Gate;
-use crate::unit::{Ports, UnitSpec, light_pass, events};
+use crate::unit::{Ports, UnitSpec, events, light_pass};
 
 /// What SHADOW declares.
 pub const SPEC: UnitSpec = UnitSpec {
