@@ -115,8 +115,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 struct Shown {
     machine: Plan,
     scene: String,
+    /// Of the lights' own passes, then of the picture.
     triangles: Vec<[PortVertex; 3]>,
-    /// How many there would have been.
+    /// How many there would be without `--triangles`.
     of: usize,
     recording: Recording,
     truth: Vec<Truth>,
@@ -135,13 +136,17 @@ fn drawn(args: &Args, asked_for: &MachineArgs) -> Result<Shown> {
     Verdict::drew(count).or_nothing(&args.source.input, 0, size)?;
     let to = args.cycles.map(|cycles| args.from.saturating_add(cycles - 1)).or(args.to);
     let window = Window { from: args.from, to };
-    let rules = Rules { passes: &port.passes, maps: &port.maps(), shading: port.words() };
-    let recording = record_passes(&machine, &port.triangles, &rules, args.stalls, window)
+    // Where the machine draws the lights' maps, their triangles come first.
+    let (triangles, passes, maps) = port.sent();
+    let of_lights = triangles.len() - port.triangles.len();
+    let rules = Rules { passes: &passes, maps: &maps, shading: port.words() };
+    let recording = record_passes(&machine, &triangles, &rules, args.stalls, window)
         .with_context(|| args.source.input.clone())?;
-    let truth = truth::truth(&machine, &frame, &port.ids, recording.view.tokens());
-    let (scene, triangles) = (args.source.input.clone(), port.triangles);
+    let ids = [vec![-1; of_lights], port.ids.clone()].concat();
+    let truth = truth::truth(&machine, &frame, &ids, recording.view.tokens());
+    let (scene, triangles) = (args.source.input.clone(), triangles.into_owned());
     let command = Some(explaining(args, asked_for, of));
-    Ok(Shown { machine, scene, triangles, of, recording, truth, command, lesson: None })
+    Ok(Shown { machine, scene, triangles, of: of + of_lights, recording, truth, command, lesson: None })
 }
 
 /// The command that explains a pixel of what is drawn, of an input with `of` triangles. It ends with `{x} {y}`.
