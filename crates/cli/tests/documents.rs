@@ -64,6 +64,10 @@ fn every_document_has_format_and_version() {
         let document = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
         kinds.insert(format(&document, &path.display().to_string()));
     }
+    let told = include_str!("../../../docs/json.md");
+    for format in printed.iter().chain(&kinds) {
+        assert!(told.contains(&format!("`{format}`")), "docs/json.md does not tell of {format}");
+    }
     println!(
         "checked {} printed documents, {} files of {} formats",
         COMMANDS.len() + 3,

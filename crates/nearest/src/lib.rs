@@ -120,7 +120,6 @@ mod tests {
         for (word, names) in [
             ("foo", &KEYS[..]),
             ("formats.radix", &KEYS),
-            ("bits", &KEYS),
             ("ice40", &TARGETS),
             ("nosuch", &["machine", "engine", "setup", "edge", "span", "pixel", "depth", "bump", "shadow"]),
             ("quadratic", &WORDS),
