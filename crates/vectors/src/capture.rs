@@ -59,9 +59,25 @@ pub struct Trace {
 /// Runs the machine, or one of its units, over a suite.
 #[must_use]
 pub fn capture(plan: &Plan, unit: Unit, suite: &Suite, state: DrawState, stalls: StallKind) -> Trace {
-    let run = Run { plan, suite, state };
-    run.observe(unit, run.stimulus(unit), stalls)
+    capture_watched(plan, unit, suite, state, stalls, &|_, _| {})
 }
+
+/// As [`capture`]; now and then `watch` is told how many tokens of the stimulus have entered, and of how many.
+#[must_use]
+pub fn capture_watched(
+    plan: &Plan,
+    unit: Unit,
+    suite: &Suite,
+    state: DrawState,
+    stalls: StallKind,
+    watch: &dyn Fn(usize, usize),
+) -> Trace {
+    let run = Run { plan, suite, state };
+    run.observe(unit, run.stimulus(unit), stalls, watch)
+}
+
+/// Cycles between two calls of a `watch`.
+const WATCHED: u64 = 1 << 16;
 
 /// Runs a unit over these tokens, whoever made them; `seed` is that of the stalls.
 #[must_use]
@@ -79,7 +95,7 @@ pub fn capture_tokens(
         ..Suite::of_triangles("tokens", "", Vec::new())
     };
     let triangles = (0..tokens.len() as u32).collect();
-    Run { plan, suite: &suite, state }.observe(unit, Stimulus { tokens, triangles }, stalls)
+    Run { plan, suite: &suite, state }.observe(unit, Stimulus { tokens, triangles }, stalls, &|_, _| {})
 }
 
 /// What enters a unit.
@@ -136,7 +152,7 @@ impl Run<'_> {
 
     /// The tokens that leave the unit where nothing makes it wait.
     fn alone(&self, unit: Unit) -> (Link, Stimulus) {
-        let trace = self.observe(unit, self.stimulus(unit), StallKind::None);
+        let trace = self.observe(unit, self.stimulus(unit), StallKind::None, &|_, _| {});
         let last = trace.interface.links.len() - 1;
         let out = trace.links.into_iter().next_back().unwrap_or_default();
         (trace.interface.links[last].clone(), Stimulus { tokens: out.tokens, triangles: out.triangles })
@@ -157,7 +173,13 @@ impl Run<'_> {
         Setting { tokens, ..setting }
     }
 
-    fn observe(&self, unit: Unit, stimulus: Stimulus, stalls: StallKind) -> Trace {
+    fn observe(
+        &self,
+        unit: Unit,
+        stimulus: Stimulus,
+        stalls: StallKind,
+        watch: &dyn Fn(usize, usize),
+    ) -> Trace {
         let interface = Interface::new(self.plan, unit);
         let Stimulus { tokens, triangles } = stimulus;
         let setting = self.setting(&interface, tokens, stalls);
@@ -183,6 +205,9 @@ impl Run<'_> {
         let patience = patience(self.plan, &trace.setting.patterns);
         while !rig.exhausted() || rig.cycle() < trace.cycles + patience {
             let cycle = rig.cycle();
+            if cycle % WATCHED == WATCHED - 1 {
+                watch(trace.links[0].tokens.len(), trace.setting.tokens.len());
+            }
             rig.drive(&mut ports);
             device.cycle(&mut ports);
             for (place, link) in trace.interface.links.iter().enumerate() {

@@ -126,8 +126,11 @@ fn hdl(manifest: &Manifest) -> Vec<&str> {
     names.filter(|name| name.starts_with("hdl/") && name.ends_with(".v")).collect()
 }
 
-/// What the test bench printed; `None` if it did not come to its end.
+/// What the test bench printed; `None` if it did not come to its end, or refused the ports of the design.
 fn verdict(manifest: &Manifest, text: &str) -> Option<Outcome> {
+    if text.lines().any(|line| line.starts_with("FAIL: ports")) {
+        return None;
+    }
     let counts = text.lines().find_map(|line| line.strip_prefix("checked "))?;
     let (checked, expected) = counts.split_once(" / ")?;
     let (checked, expected): (u64, u64) = (checked.trim().parse().ok()?, expected.trim().parse().ok()?);
