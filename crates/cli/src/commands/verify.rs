@@ -12,6 +12,7 @@ use crate::{Talk, jobs, progress};
 use anyhow::{Context, Result, anyhow};
 use edgewalk_lockstep::LockstepError;
 use edgewalk_machine::Plan;
+use edgewalk_netlist::Netlist;
 use edgewalk_vectors::{
     Outcome, Simulator, StallKind, Suite, Tables, Trace, Unit, capture, design, directory, reached, simulate,
 };
@@ -96,7 +97,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let bar = progress::bar(work.len() as u64, "suites and units", talk.quiet);
     let done = jobs::all(&work, &bar, |(suite, unit, simulators)| {
         let trace = capture(&machine, *unit, suite, suite.state(), args.stalls.unwrap_or(suite.stalls));
-        let mut checks = vec![against_netlist(&machine, suite, *unit, &trace, &args.out)?];
+        let netlist =
+            edgewalk_lockstep::netlist(&machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+        let mut checks = vec![against_netlist(&netlist, suite, &trace, &args.out)?];
         if !args.no_simulators {
             let folder = write(&machine, suite, *unit, &trace)?;
             for simulator in *simulators {
@@ -113,12 +116,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     Ok(checks.iter().fold(Verdict::Pass, |all, c| all.and(c.verdict())))
 }
 
-fn against_netlist(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace, out: &Path) -> Result<Check> {
-    let netlist =
-        edgewalk_lockstep::netlist(machine, unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+fn against_netlist(netlist: &Netlist, suite: &Suite, trace: &Trace, out: &Path) -> Result<Check> {
     // How much ought to be compared follows from the model's run alone.
     let expected = trace.port_values();
-    let (checked, difference) = match trace.lockstep(&netlist) {
+    let (checked, difference) = match trace.lockstep(netlist) {
         Ok(agreement) => (agreement.compared, None),
         Err(LockstepError::Vacuous) => (0, None),
         Err(LockstepError::Differs { difference, compared }) => {
@@ -133,8 +134,8 @@ fn against_netlist(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace, out
         }
         Err(error) => return Err(error.into()),
     };
-    let suite = suite.name.clone();
-    Ok(Check { suite, unit: unit.name(), against: "netlist", checked, expected, difference })
+    let (suite, unit) = (suite.name.clone(), trace.interface.unit.name());
+    Ok(Check { suite, unit, against: "netlist", checked, expected, difference })
 }
 
 fn write(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> Result<Scratch> {

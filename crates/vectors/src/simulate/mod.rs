@@ -146,3 +146,43 @@ fn verdict(manifest: &Manifest, text: &str) -> Option<Outcome> {
         }
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{StallKind, Suite, Tables, Unit, capture, directory};
+    use edgewalk_machine::Plan;
+    use edgewalk_model::DrawState;
+
+    /// What a bench may print, and what is made of it: only all of what the manifest expects is a pass.
+    #[test]
+    fn only_all_that_was_expected_passes() {
+        let suite = Suite::of_triangles("none", "", Vec::new());
+        let trace = capture(&Plan::default(), Unit::MACHINE, &suite, DrawState::default(), StallKind::None);
+        let files = directory(&suite, &trace, &[], Tables::LeftOut);
+        let manifest: Manifest = serde_json::from_slice(&files[0].1).expect("a manifest");
+        let manifest = Manifest { expected: 7, ..manifest };
+        let judged = |text: &str| verdict(&manifest, text);
+        assert_eq!(judged("wrong 0\nchecked 7 / 7\nPASS\n"), Some(Outcome::Pass { checked: 7 }));
+        let mismatch = |checked| Some((checked, 7));
+        for (text, wanted) in [
+            ("checked 7 / 7\nFAIL\n", mismatch(7)),
+            ("checked 7 / 7\n", mismatch(7)),
+            ("checked 6 / 7\nPASS\n", mismatch(6)),
+            ("checked 6 / 6\nPASS\n", mismatch(6)),
+            ("checked 8 / 8\nPASS\n", mismatch(8)),
+        ] {
+            let found = match judged(text) {
+                Some(Outcome::Mismatch { checked, expected, .. }) => Some((checked, expected)),
+                _ => None,
+            };
+            assert_eq!(found, wanted, "{text}");
+        }
+        for text in ["checked 0 / 0\nPASS\n", "checked 0 / 7\nPASS\n", "checked 7 / 7\nFAIL: nothing was compared\n"] {
+            assert_eq!(judged(text), Some(Outcome::Vacuous), "{text}");
+        }
+        for text in ["", "PASS\n", "checked all\nPASS\n", "checked 0 / 7\nFAIL: ports of another width\n"] {
+            assert_eq!(judged(text), None, "{text}");
+        }
+    }
+}

@@ -77,6 +77,7 @@ mod tests {
     use edgewalk_model::DrawState;
     use edgewalk_netlist::mutate::mutants;
     use edgewalk_vectors::{Suite, capture};
+    use crate::verdict::Verdict;
 
     /// A triangle on a small machine with these settings.
     fn one(settings: &[(&str, &str)]) -> (Plan, Suite) {
@@ -121,6 +122,14 @@ mod tests {
                 assert!(replay["cycles"].as_u64() > Some(difference.cycle));
                 assert_eq!(replay["difference"]["text"], difference.to_string());
                 pages += 1;
+                // The command says the same, how much it compared before, and of how much.
+                let out = tempfile::tempdir().expect("a folder");
+                let check = super::super::against_netlist(&mutant.apply(&good), &suite, &trace, out.path());
+                let check = check.expect("a comparison");
+                assert_eq!(check.verdict(), Verdict::Mismatch);
+                assert_eq!(check.expected, trace.port_values());
+                assert!(check.checked < check.expected, "{} / {}", check.checked, check.expected);
+                assert!(out.path().join(format!("{}.html", suite.name)).exists());
             }
             println!("{module}: checked {} pages", pages - before);
             assert!(pages > before + 1, "{module}");
