@@ -126,14 +126,23 @@ fn a_simulator_that_takes_too_long_is_ended() {
 fn fake_simulators(script: &str) -> tempfile::TempDir {
     use std::os::unix::fs::PermissionsExt as _;
     let folder = tempfile::tempdir().expect("a folder");
-    let value = |key: &str| format!("$(sed -n 's/^ *\"{key}\": \"\\{{0,1\\}}\\([a-z_0-9]*\\).*/\\1/p' manifest.json | head -1)");
-    let bench = format!("#!/bin/sh\nsuite={} unit={} n={}\n{script}\n", value("name"), value("unit"), value("expected"));
+    let value = |key: &str| {
+        format!("$(sed -n 's/^ *\"{key}\": \"\\{{0,1\\}}\\([a-z_0-9]*\\).*/\\1/p' manifest.json | head -1)")
+    };
+    let bench = format!(
+        "#!/bin/sh\nsuite={} unit={} n={}\n{script}\n",
+        value("name"),
+        value("unit"),
+        value("expected")
+    );
     let binary = folder.path().join("bench");
     let build = format!(
         "#!/bin/sh\nwhile [ \"$1\" != --Mdir ]; do shift; done\nmkdir -p \"$2\" && cp '{}' \"$2/Vtb\"\n",
         binary.display()
     );
-    for (name, text) in [("bench", &bench), ("vvp", &bench), ("iverilog", &"#!/bin/sh\n".to_owned()), ("verilator", &build)] {
+    for (name, text) in
+        [("bench", &bench), ("vvp", &bench), ("iverilog", &"#!/bin/sh\n".to_owned()), ("verilator", &build)]
+    {
         let path = folder.path().join(name);
         std::fs::write(&path, text).expect("written");
         std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).expect("set");
@@ -159,11 +168,13 @@ fn a_simulator_that_is_wrong_does_not_pass() {
     let (code, text) = told(&verify(TRIANGLE, &[], Some(&path)));
     assert_eq!(code, Some(1), "{text}");
     let line = |unit: &str| {
-        let of = |line: &&str| line.contains(&format!("hazards         {unit} ")) && line.contains("= icarus");
+        let of =
+            |line: &&str| line.contains(&format!("hazards         {unit} ")) && line.contains("= icarus");
         text.lines().find(of).unwrap_or_else(|| panic!("{unit}: {text}"))
     };
     let counts = |unit: &str| {
-        let (checked, expected) = line(unit).split_once("checked ").and_then(|(_, n)| n.split_once(" / ")).expect(unit);
+        let (checked, expected) =
+            line(unit).split_once("checked ").and_then(|(_, n)| n.split_once(" / ")).expect(unit);
         (checked.parse::<u64>().expect("a number"), expected.parse::<u64>().expect("a number"))
     };
     for (unit, off) in [("setup", None), ("edge", Some(-1)), ("span", Some(0)), ("pixel", Some(1))] {

@@ -239,10 +239,19 @@ fn a_missing_tool_is_named_with_what_installs_it() {
         String::from_utf8_lossy(&output.stdout).into_owned()
     };
     for (arguments, told) in [
-        (&["icarus"][..], "iverilog is not installed; try: apt-get install -y --no-install-recommends iverilog\n"),
-        (&["verilator"], "verilator is not installed; try: apt-get install -y --no-install-recommends verilator make g++\n"),
+        (
+            &["icarus"][..],
+            "iverilog is not installed; try: apt-get install -y --no-install-recommends iverilog\n",
+        ),
+        (
+            &["verilator"],
+            "verilator is not installed; try: apt-get install -y --no-install-recommends verilator make g++\n",
+        ),
         (&["lint"], "verilator is not installed; try: apt-get install"),
-        (&["icarus", "SHA256SUM=sha256 -x"], "sha256 is not installed; name another program: make SHA256SUM="),
+        (
+            &["icarus", "SHA256SUM=sha256 -x"],
+            "sha256 is not installed; name another program: make SHA256SUM=",
+        ),
     ] {
         let said = said(arguments);
         assert!(said.contains(told), "{arguments:?}: {said}");

@@ -186,7 +186,8 @@ fn what_is_written_reads_back() {
             (vectors.manifest.suite.cases.len(), vectors.manifest.suite.triangles),
             (suite.cases.len(), first)
         );
-        let served: Vec<&str> = trace.interface.memories.iter().map(|m| trace.interface.links[m.data].name).collect();
+        let served: Vec<&str> =
+            trace.interface.memories.iter().map(|m| trace.interface.links[m.data].name).collect();
         for ((read, moved), link) in vectors.channels.iter().zip(&trace.links).zip(&trace.interface.links) {
             let written: Vec<_> = moved.tokens.iter().cloned().zip(moved.cycles.iter().copied()).collect();
             // The words of a memory follow from what is read and written.

@@ -40,7 +40,8 @@ impl Stranger<'_> {
     /// The numbers of a file in steps.
     fn cycles(&self, file: &Value) -> Vec<u64> {
         let radix = number(&self.manifest["radix"]["mem"]) as u32;
-        let steps = self.lines(file).into_iter().map(|line| u64::from_str_radix(&line, radix).expect("a number"));
+        let steps =
+            self.lines(file).into_iter().map(|line| u64::from_str_radix(&line, radix).expect("a number"));
         let mut cycle = 0;
         steps.map(|step| (cycle += step, cycle).1).collect()
     }
@@ -50,7 +51,8 @@ impl Stranger<'_> {
         assert_eq!(number(&self.manifest["radix"]["mem"]), 16);
         let bit = |word: &str, at: u64| {
             // Zeros before the first digit are not written.
-            let digit = word.chars().rev().nth(at as usize / 4).map_or(0, |c| c.to_digit(16).expect("a digit"));
+            let digit =
+                word.chars().rev().nth(at as usize / 4).map_or(0, |c| c.to_digit(16).expect("a digit"));
             u128::from(digit >> (at % 4) & 1)
         };
         let field = |word: &str, field: &Value| {

@@ -8,8 +8,8 @@ use crate::{Talk, jobs, progress, talk};
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_vectors::{
-    Files, Reached, SUITES, StallKind, Suite, Tables, Unit, Words, capture_watched, design, directory, not_covered,
-    reached,
+    Files, Reached, SUITES, StallKind, Suite, Tables, Unit, Words, capture_watched, design, directory,
+    not_covered, reached,
 };
 use std::path::{Component, Path, PathBuf};
 

@@ -97,8 +97,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let bar = progress::bar(work.len() as u64, "suites and units", talk.quiet);
     let done = jobs::all(&work, &bar, |(suite, unit, simulators)| {
         let trace = capture(&machine, *unit, suite, suite.state(), args.stalls.unwrap_or(suite.stalls));
-        let netlist =
-            edgewalk_lockstep::netlist(&machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+        let netlist = edgewalk_lockstep::netlist(&machine, *unit)
+            .map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
         let mut checks = vec![against_netlist(&netlist, suite, &trace, &args.out)?];
         if !args.no_simulators {
             let folder = write(&machine, suite, *unit, &trace)?;

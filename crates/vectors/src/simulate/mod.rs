@@ -178,7 +178,9 @@ mod tests {
             };
             assert_eq!(found, wanted, "{text}");
         }
-        for text in ["checked 0 / 0\nPASS\n", "checked 0 / 7\nPASS\n", "checked 7 / 7\nFAIL: nothing was compared\n"] {
+        for text in
+            ["checked 0 / 0\nPASS\n", "checked 0 / 7\nPASS\n", "checked 7 / 7\nFAIL: nothing was compared\n"]
+        {
             assert_eq!(judged(text), Some(Outcome::Vacuous), "{text}");
         }
         for text in ["", "PASS\n", "checked all\nPASS\n", "checked 0 / 7\nFAIL: ports of another width\n"] {

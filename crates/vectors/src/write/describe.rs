@@ -1,8 +1,8 @@
 //! The manifest of a trace.
 
 use super::{
-    Files, Tables, cycle_file, is_served, known, params, patterns, start_file, status_fields, table_file, token_file,
-    triangle_file, willing_file,
+    Files, Tables, cycle_file, is_served, known, params, patterns, start_file, status_fields, table_file,
+    token_file, triangle_file, willing_file,
 };
 use crate::capture::Trace;
 use crate::manifest::{

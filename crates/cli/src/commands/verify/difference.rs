@@ -72,12 +72,12 @@ fn cleared(trace: &Trace) -> Vec<Vec<u32>> {
 #[cfg(test)]
 #[allow(clippy::print_stdout, reason = "a test says what it checked")]
 mod tests {
+    use crate::verdict::Verdict;
     use edgewalk_lockstep::{Difference, LockstepError, StallKind, Unit, netlist};
     use edgewalk_machine::{Machine, Plan};
     use edgewalk_model::DrawState;
     use edgewalk_netlist::mutate::mutants;
     use edgewalk_vectors::{Suite, capture};
-    use crate::verdict::Verdict;
 
     /// A triangle on a small machine with these settings.
     fn one(settings: &[(&str, &str)]) -> (Plan, Suite) {
