@@ -90,7 +90,10 @@ mod tests {
     #[test]
     fn what_is_not_built_says_how_to_build_it() {
         let told = Engine::Jit.not_built().to_string();
-        assert!(told.starts_with("--engine jit: this edgewalk was built without the feature jit; "), "{told}");
+        assert!(
+            told.starts_with("--engine jit: this edgewalk was built without the feature jit; "),
+            "{told}"
+        );
         assert!(told.contains("`cargo build --release --features jit`"), "{told}");
         assert_eq!(Engine::ALL.contains(&Engine::Jit), cfg!(feature = "jit"));
     }

@@ -175,6 +175,24 @@ fn a_design_with_other_timing_is_judged_by_order_and_value() {
 fn a_port_of_another_width_is_refused() {
     let place = place(common::PIXEL);
     let design = place.text(&place.own);
+    // Each port but clock and reset is asked for its width.
+    let bench = place.text("tb.v");
+    let (mut asked, ports) = (0, design.split_once("\n);").expect("a list of ports").0);
+    let ports =
+        ports.lines().map(|line| line.split("//").next().unwrap_or_default().trim().trim_end_matches(','));
+    for port in ports.filter(|line| ["input ", "output "].iter().any(|way| line.starts_with(way))) {
+        let name = port.rsplit(' ').next().expect("a name");
+        let high = port.split_once('[').and_then(|(_, range)| range.split_once(':'));
+        let width = high.map_or(1, |(high, _)| high.parse::<u32>().expect("a number") + 1);
+        if !["clk", "rst"].contains(&name) {
+            assert!(
+                bench.contains(&format!("port_has(\"{name}\", $bits(dut.{name}), {width});")),
+                "{name}: {bench}"
+            );
+            asked += 1;
+        }
+    }
+    assert!(asked > 20 && bench.matches("port_has(").count() == asked, "{asked} ports");
     // One port is narrower than its values, one wider.
     let declared = |line: &str| match line.split_once("//").map_or(line, |(port, _)| port).trim() {
         port if port.ends_with(" frag_z,") => line.replace("[7:0]", "[5:0]") + "\n",
