@@ -46,7 +46,7 @@ fn every_suite_of_blend() {
         let (mut compared, mut natives) = (0, common::Natives::new(machine));
         for (j, suite) in ["blend_add", "color_unwritten"].into_iter().enumerate() {
             let suite = Suite::named(machine, suite, 3, 30).expect("listed");
-            let runs = Runs::new(machine, &suite, suite.state());
+            let runs = Runs::new(machine, &suite, suite.state);
             let in_turn = |unit: &Unit| suite.is_for(*unit) && (*unit != Unit::MACHINE || i % 2 == j);
             for unit in Unit::all(machine).into_iter().filter(in_turn) {
                 let trace = runs.capture(unit, suite.stalls);
@@ -71,7 +71,7 @@ fn every_suite_of_shadow() {
         let own = machine.shadow.draws_map().then_some(["own_map", "own_picture"]);
         for (j, suite) in suites.into_iter().chain(own.into_iter().flatten()).enumerate() {
             let suite = Suite::named(machine, suite, 3, 30).expect("listed");
-            let runs = Runs::new(machine, &suite, suite.state());
+            let runs = Runs::new(machine, &suite, suite.state);
             let in_turn = |unit: &Unit| {
                 suite.is_for(*unit) && (*unit != Unit::MACHINE || j == 0 || j > 3 || i % 3 + 1 == j)
             };
@@ -97,7 +97,7 @@ fn every_suite_of_shade() {
         let (mut compared, mut natives) = (0, common::Natives::new(machine));
         for (j, suite) in suites.into_iter().enumerate() {
             let suite = Suite::named(machine, suite, 3, 30).expect("listed");
-            let runs = Runs::new(machine, &suite, suite.state());
+            let runs = Runs::new(machine, &suite, suite.state);
             let in_turn = |unit: &Unit| match *unit == Unit::MACHINE {
                 true => j == 0 || i % 3 + 1 == j,
                 false => {

@@ -90,7 +90,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     // A build with Verilator takes seconds: the whole machine under input and directed suites is enough for it.
     let in_both = 1 + directed.len();
     let suites: Vec<(Vec<Unit>, Suite)> = iter::once(whole).chain(directed).chain(functions).collect();
-    let runs: Vec<Runs> = suites.iter().map(|(_, suite)| Runs::new(&machine, suite, suite.state())).collect();
+    let runs: Vec<Runs> = suites.iter().map(|(_, suite)| Runs::new(&machine, suite, suite.state)).collect();
     let work: Vec<(usize, Unit)> = suites
         .iter()
         .enumerate()
