@@ -164,7 +164,7 @@ fn draw<const C: usize>(
     let blends = plan.blend.is_there();
     let channels = plan.channels().len().min(C); // C serves the plan; said so that no slice is checked in every cycle
     let mut triangles = triangles.zip(0..).map(|(t, number)| plan.accept(&t, number).map(|()| t)).peekable();
-    rig.write_shading(plan, shading);
+    rig.memories.write_shading(plan, shading);
     let mut records = shading.records.iter().enumerate();
     let at_once = if plan.shade.is_there() { 1 << plan.shade.record_bits } else { usize::MAX };
     let mut maps: Vec<Cow<[u32]>> = maps.iter().map(Cow::from).collect();
@@ -192,18 +192,18 @@ fn draw<const C: usize>(
     };
     for pass in passes {
         let before = rig.model.counters().clone();
-        rig.set_state(pass.state);
+        rig.memories.set_state(pass.state);
         if pass.clear_depth {
-            rig.clear_depth(plan);
+            rig.memories.clear_depth(plan);
         }
-        if let (Some(memory), Some(map)) = (&mut rig.map, pass.map.and_then(|map| maps.get(map))) {
-            memory.words_mut().iter_mut().zip(&**map).for_each(|(word, depth)| *word = *depth);
+        if let Some(map) = pass.map.and_then(|map| maps.get(map)) {
+            rig.memories.write("map", 0, map.iter().map(|word| u128::from(*word)));
         }
         let mut left = pass.triangles;
         loop {
             let part = left.min(at_once);
             for (triangle, record) in records.by_ref().take(part) {
-                rig.write_record(plan, triangle, record);
+                rig.memories.write_record(plan, triangle, record);
             }
             let light_pass = pass.state.light_pass;
             rig.draw(triangles.by_ref().take(part), |_, model, cycle| watch(light_pass, model, cycle))?;
@@ -215,14 +215,14 @@ fn draw<const C: usize>(
         counters.push(rig.model.counters().since(&before));
         if let Some(map) = pass.map.filter(|_| pass.state.light_pass) {
             maps.resize(maps.len().max(map + 1), Cow::default());
-            maps[map] = rig.drawn_map(plan).into();
+            maps[map] = rig.memories.drawn_map(plan).into();
         }
     }
-    rig.set_state(state);
+    rig.memories.set_state(state);
     let x_bits = plan.widths().x;
     let addresses: Vec<usize> =
         (0..plan.height).flat_map(|y| (0..plan.width).map(move |x| (y << x_bits | x) as usize)).collect();
-    let stored = || addresses.iter().map(|addr| rig.pixel(*addr as u32));
+    let stored = || addresses.iter().map(|addr| rig.memories.pixel(*addr as u32));
     let extra = plan.own_channels();
     Ok(Frame {
         z: stored().map(|values| u64::from(values[0])).collect(),
