@@ -154,7 +154,7 @@ fn run<const C: usize>(
 fn planes<const C: usize>(plan: &Plan, rig: &Rig<C>) -> Vec<Vec<u32>> {
     let x_bits = plan.widths().x;
     let addresses = || (0..plan.height).flat_map(move |y| (0..plan.width).map(move |x| y << x_bits | x));
-    let plane = |place: usize| addresses().map(|addr| rig.pixel(addr)[place]).collect();
+    let plane = |place: usize| addresses().map(|addr| rig.memories.pixel(addr)[place]).collect();
     let lit = plan.shadow.is_there().then(|| addresses().map(|_| 0).collect());
     plan.seen_channels().map(|(place, _)| plane(place)).chain(lit).collect()
 }
@@ -200,7 +200,7 @@ impl<'a, const C: usize> Run<'a, C> {
     fn new(plan: &'a Plan, triangles: &'a [[PortVertex; 3]], rules: &'a Rules, waits: Waits) -> Self {
         let state = rules.passes.first().map_or_else(DrawState::default, |pass| pass.state);
         let mut rig = Rig::new(plan, state, waits);
-        rig.write_shading(plan, rules.shading);
+        rig.memories.write_shading(plan, rules.shading);
         let parts = parts(plan, triangles.len(), rules.passes);
         let mut run = Run { plan, rules, rig, triangles, taken: 0, left: 0, parts, ended: false };
         run.next();
@@ -217,17 +217,15 @@ impl<'a, const C: usize> Run<'a, C> {
         for (number, record) in
             self.rules.shading.records.iter().enumerate().skip(self.taken).take(part.triangles)
         {
-            self.rig.write_record(self.plan, number, record);
+            self.rig.memories.write_record(self.plan, number, record);
         }
         let Some(pass) = part.begins else { return false };
-        self.rig.set_state(pass.state);
+        self.rig.memories.set_state(pass.state);
         if pass.clear_depth {
-            self.rig.memory.clear_depth(self.plan);
+            self.rig.memories.clear_depth(self.plan);
         }
-        if let (Some(memory), Some(map)) =
-            (&mut self.rig.map, pass.map.and_then(|map| self.rules.maps.get(map)))
-        {
-            memory.words_mut().iter_mut().zip(map).for_each(|(word, depth)| *word = *depth);
+        if let Some(map) = pass.map.and_then(|map| self.rules.maps.get(map)) {
+            self.rig.memories.write("map", 0, map.iter().map(|word| u128::from(*word)));
         }
         pass.clear_depth
     }
