@@ -192,9 +192,9 @@ impl Case {
     pub fn watch(&self, mut see: impl FnMut(u32, &View, Option<(u32, u32)>)) {
         for_channels!(self.plan, C => {
             let mut rig = Rig::<C>::new(&self.plan, self.passes[0].state, self.stalls);
-            rig.write_shading(&self.plan, &self.shading);
-            if let (Some(memory), Some(map)) = (&mut rig.map, self.maps.first()) {
-                memory.words_mut().copy_from_slice(map);
+            rig.memories.write_shading(&self.plan, &self.shading);
+            if let Some(map) = self.maps.first() {
+                rig.memories.write("map", 0, map.iter().map(|word| u128::from(*word)));
             }
             // As many at once as there is room for their records.
             let at_once = if self.plan.shade.is_there() { 1 << self.plan.shade.record_bits } else { usize::MAX };
@@ -211,7 +211,7 @@ impl Case {
                 } else if cycle.outputs.idle && part == 0 {
                     let drawn = self.triangles.len() - waiting.len();
                     for (number, record) in self.shading.records.iter().enumerate().skip(drawn).take(at_once) {
-                        rig.write_record(&self.plan, number, record);
+                        rig.memories.write_record(&self.plan, number, record);
                     }
                     part = at_once;
                 }
