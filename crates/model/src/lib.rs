@@ -11,7 +11,6 @@
 //! here fails on a planned machine but vertices of another.
 
 pub mod counters;
-pub mod events;
 mod rmw;
 mod fetch;
 mod stages;
@@ -38,7 +37,6 @@ pub mod color_memory;
 pub mod memories;
 pub mod pixel;
 pub mod run;
-pub mod passes;
 pub mod frame;
 pub mod fast;
 pub mod setup;
@@ -49,15 +47,13 @@ pub mod view;
 
 pub use color_memory::ColorMemory;
 pub use counters::Counters;
-pub use edgewalk_machine::Activity;
-pub use events::Events;
-pub use frame::{Drawn, Frame, Sample, Shading, render, render_passes, render_passes_with, render_with};
+pub use edgewalk_machine::{Activity, DrawState, Events, Pass, Shading, first_of_picture};
+pub use frame::{Drawn, Frame, Sample, render, render_passes, render_passes_with, render_with};
 pub use lit::{Cosines, Given, Lit};
 pub use machine::{BlendInputs, Inputs, Model, Outputs, ShadowInputs};
 pub use memory::{Memory, Stalls};
-pub use passes::{Pass, first_of_picture};
 pub use prefetch::prefetch;
-pub use run::{Cycle, DrawState, Rig};
+pub use run::{Cycle, Rig};
 pub use setup::{Culled, SetupClocks, cull, longest_setup, setup_clocks};
 pub use tokens::Write;
 pub use view::View;

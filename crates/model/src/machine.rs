@@ -15,12 +15,12 @@
 mod view;
 pub mod wires;
 
+use crate::Events;
 use crate::blend::Blend;
 pub use crate::blend::{BlendInputs, BlendOutputs};
-use crate::counters::Counters;
+use crate::counters::{Counters, one_more};
 use crate::depth::Depth;
 use crate::edge::Edge;
-use crate::events::{Events, one_more};
 use crate::pixel::Pixel;
 use crate::setup::Setup;
 pub use crate::shadow::ShadowInputs;
@@ -292,7 +292,7 @@ impl<const C: usize> Model<C> {
         }
         self.counters.hold(self.span.queued(), self.depth.inflight());
         if inputs.tri.is_some() && outputs.tri_ready {
-            self.events.setup_overlap += u64::from(self.pixel.active());
+            self.events.machine.setup_overlap += u64::from(self.pixel.active());
         }
     }
 

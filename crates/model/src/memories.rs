@@ -7,14 +7,13 @@
 //! A machine that draws its own map has depths and colours twice: one page for the picture, one for the map.
 
 use crate::color_memory::ColorMemory;
-use crate::frame::Shading;
 use crate::machine::{BlendInputs, Inputs, ShadowInputs};
 use crate::memory::Memory;
-use crate::run::{Cycle, DrawState};
+use crate::run::Cycle;
 use crate::tokens::{FEW, OutputWords};
 use crate::waits::Waits;
 use crate::word_memory::{WordIn, WordMemory};
-use edgewalk_machine::{Plan, PortVertex, Record};
+use edgewalk_machine::{DrawState, Plan, PortVertex, Record, Shading};
 
 /// The memories, and the state that a pass draws with.
 #[derive(Clone, Debug)]
@@ -88,12 +87,8 @@ impl<const C: usize> Memories<C> {
         self.write("terms", place << plan.record_place_bits(), words);
     }
 
-    /// Clears the depths that are drawn now, of the map with what is left of the light; the machine is idle.
-    pub fn clear_depth(&mut self, plan: &Plan) {
-        if !self.state.light_pass {
-            self.depth.clear_depth(plan);
-            return;
-        }
+    /// Clears the map that is drawn now, with what is left of the light; the machine is idle.
+    pub(crate) fn clear_map(&mut self, plan: &Plan) {
         self.depth.clear_map(plan);
         if let Some(color) = &mut self.color {
             color.clear([plan.color.max(); 3]);

@@ -9,44 +9,7 @@ use crate::machine::{Inputs, Model, Outputs};
 use crate::memories::Memories;
 use crate::tokens::{ColorWrite, FEW, Write};
 use crate::waits::Waits;
-use edgewalk_machine::{Plan, PortVertex};
-
-/// What stays the same over a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct DrawState {
-    /// Compare function, bits 0, 1, 2: less, equal, greater pass; 7 always.
-    pub depth_func: u8,
-    /// Fragments that pass store their depth.
-    pub depth_write: bool,
-    /// With SHADOW: the map counts.
-    pub shadow_on: bool,
-    /// In a machine that draws its map: it draws it, not the picture.
-    pub light_pass: bool,
-    /// With SHADOW's gate `scale`: what a colour in shadow is multiplied by, b bits.
-    pub ambient: u64,
-    /// Fragments that pass store their colour; without BLEND they always do.
-    pub color_write: bool,
-    /// BLEND adds, else it mixes.
-    pub blend_add: bool,
-    /// Colour of the empty screen, b bits each.
-    pub clear: [u64; 3],
-}
-
-impl Default for DrawState {
-    /// The nearest fragment wins, mixed with what is there as its k_t says, on black; no map counts.
-    fn default() -> Self {
-        DrawState {
-            depth_func: 1,
-            depth_write: true,
-            color_write: true,
-            blend_add: false,
-            shadow_on: false,
-            light_pass: false,
-            ambient: 0,
-            clear: [0; 3],
-        }
-    }
-}
+use edgewalk_machine::{DrawState, Plan, PortVertex};
 
 /// A machine with its memories.
 #[derive(Clone, Debug)]

@@ -112,15 +112,15 @@ impl<const C: usize> Texel<C> {
     pub fn step(&mut self, frag: Option<Given<C>>, textures: &WordIn, taken: bool, events: &mut Events) {
         let pushed = frag.filter(|_| self.frag_ready(textures));
         if frag.is_some() {
-            events.texel_queue_full += u64::from(self.full());
-            events.texel_read_stall += u64::from(!self.full() && !textures.ready);
+            events.texel.texel_queue_full += u64::from(self.full());
+            events.texel.texel_read_stall += u64::from(!self.full() && !textures.ready);
         }
-        events.texel_data_wait += u64::from(!self.queue.is_empty() && textures.word.is_none());
+        events.texel.texel_data_wait += u64::from(!self.queue.is_empty() && textures.word.is_none());
         if taken {
             self.queue.pop();
         }
         if let Some(given) = pushed {
-            events.texel_read += 1;
+            events.texel.texel_read += 1;
             self.queue.push(given.lit());
         }
     }

@@ -7,7 +7,7 @@ use edgewalk_machine::Plan;
 impl<const C: usize> Model<C> {
     /// Shows the machine in a cycle with these inputs, before the clock edge.
     pub fn view(&self, plan: &Plan, inputs: &Inputs, view: &mut View) {
-        view.begin();
+        view.begin(inputs.shadow.light_pass);
         let Model { setup, edge, span, pixel, depth, .. } = self;
         let wires = self.wires(inputs);
         let fresh_queued = span.fresh_queued();
@@ -28,6 +28,9 @@ impl<const C: usize> Model<C> {
         depth.view(plan, seen.map(|given| given.frag), &wires.depth_inputs(inputs), view);
         if let Some(blend) = self.blend() {
             blend.view(plan, depth.pass(), &inputs.blend, view);
+        }
+        if plan.shadow.draws_map() {
+            view.pages();
         }
         view.cause(self.activity(&wires));
     }

@@ -1,0 +1,125 @@
+//! What every engine is given, and what it gives back.
+
+use super::stopwatch::{Stopwatch, Time};
+use anyhow::{Result, anyhow};
+use edgewalk_lockstep::{Interface, Setting, Unit};
+use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_model::fast::Renderer;
+use edgewalk_model::{Counters, DrawState, Pass, Shading, Waits, render_passes};
+
+/// What the machine does for a frame, whoever says so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Work {
+    /// Clocks of the machine.
+    pub cycles: u64,
+    /// Writes to the frame memory.
+    pub writes: u64,
+}
+
+impl Work {
+    /// As counted.
+    pub fn of(counters: &Counters) -> Self {
+        Work { cycles: counters.cycles, writes: counters.writes }
+    }
+}
+
+/// Triangles to draw a number of times.
+pub struct Job<'a> {
+    /// On this machine.
+    pub machine: &'a Plan,
+    /// In this order.
+    pub triangles: &'a [[PortVertex; 3]],
+    /// What the memories hold that nobody writes; a record for each triangle.
+    pub shading: &'a Shading,
+    /// In this state.
+    pub state: DrawState,
+    /// How the memory makes the machine wait.
+    pub waits: Waits,
+    /// Frames that are timed.
+    pub repeat: u32,
+    /// Pixels inside the triangles.
+    pub fragments: u64,
+    /// What must come of it.
+    pub work: Work,
+}
+
+/// What an engine needed.
+pub struct Times {
+    /// Milliseconds on the wall from the changed parameter to the end of the first frame: building included.
+    pub first: f64,
+    /// Of each frame that is timed.
+    pub frames: Vec<Time>,
+    /// Of a frame.
+    pub work: Work,
+}
+
+impl<'a> Job<'a> {
+    /// The values of the machine's constants, in the order of its ports.
+    pub fn constants(&self) -> Result<Vec<u128>> {
+        let interface = Interface::new(self.machine, Unit::MACHINE);
+        Ok(Setting::willing(&interface, &self.state.constants())?.constants)
+    }
+
+    /// A job with what must come of it, which is worked out here.
+    pub fn new(
+        machine: &'a Plan,
+        triangles: &'a [[PortVertex; 3]],
+        shading: &'a Shading,
+        (state, waits): (DrawState, Waits),
+        repeat: u32,
+    ) -> Result<Self> {
+        let records = 1usize << machine.shade.record_bits;
+        if machine.shade.is_there() && triangles.len() > records {
+            return Err(anyhow!(
+                "{} triangles with a record each, and the memory of the terms, which is filled once a frame, has {records}; add --set \
+                 term.record_bits={} (at most 20)",
+                triangles.len(),
+                triangles.len().next_power_of_two().ilog2()
+            ));
+        }
+        let mut renderer = Renderer::new(machine, false);
+        let drawn = waits == Waits::Never && renderer.draw(triangles.iter().copied(), state).is_ok();
+        let counters = if drawn {
+            renderer.counters().clone()
+        } else {
+            let passes = [Pass::all(state)];
+            render_passes(machine, triangles.iter().copied(), &passes, &[], waits, shading)?.counters
+        };
+        let (fragments, work) = (counters.fragments, Work::of(&counters));
+        Ok(Job { machine, triangles, shading, state, waits, repeat, fragments, work })
+    }
+
+    /// The first triangles, that take about `cycles`, at least one.
+    pub fn part(&self, cycles: u64) -> Result<Job<'a>> {
+        let share = cycles as f64 / self.work.cycles.max(1) as f64;
+        let count = (self.triangles.len() as f64 * share).ceil() as usize;
+        let part = &self.triangles[..count.min(self.triangles.len())];
+        Job::new(self.machine, part, self.shading, (self.state, self.waits), self.repeat)
+    }
+
+    /// The words of a memory from address 0 on; none of one that the machine writes.
+    pub fn words(&self, memory: &str) -> Vec<u64> {
+        let records = || self.shading.records.iter().take(self.triangles.len());
+        let list = match memory {
+            "terms" => return records().flat_map(|record| self.machine.record_words(record)).collect(),
+            "tables" => &self.shading.tables,
+            "roots" => &self.shading.roots,
+            "textures" => &self.shading.textures,
+            _ => return Vec::new(),
+        };
+        list.iter().map(|word| *word as u64).collect() // four colours of 16 bits at most
+    }
+
+    /// Draws the first frame, with `start` from before the engine was built, and then those that are timed.
+    pub fn time(&self, start: &Stopwatch, mut draw: impl FnMut() -> Result<Work>) -> Result<Times> {
+        let mut work = draw()?;
+        let first = start.read().wall;
+        let mut frames = Vec::new();
+        for _ in 0..self.repeat {
+            let start = Stopwatch::start();
+            work = draw()?;
+            frames.push(start.read());
+        }
+        Ok(Times { first, frames, work })
+    }
+}

@@ -1,0 +1,175 @@
+//! What SETUP does with the triangles of a picture: its clocks, and what becomes of each.
+
+use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_model::edge::Edge;
+use edgewalk_model::setup::Setup;
+use edgewalk_model::span::Span;
+use edgewalk_model::tokens::Prim;
+use edgewalk_model::{Culled, Events, for_channels, longest_setup};
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// What may become of a triangle, in JSON and in text.
+const FATES: [(&str, &str); 5] = [
+    ("culled_lines", "culled by lines"),
+    ("culled_columns", "culled by columns"),
+    ("culled_area", "culled by area"),
+    ("without_pixel", "without a pixel"),
+    ("drawn", "drawn"),
+];
+
+/// Sizes of triangles, and the least pixels of each; culled ones have 0.
+const SIZES: [(&str, u64); 5] = [("0", 0), ("1-3", 1), ("4-15", 4), ("16-63", 16), ("64+", 64)];
+
+/// Counts over triangles.
+#[derive(Clone, Debug)]
+pub struct SetupReport {
+    /// How many took so many clocks, S1 + S2; without those that were culled.
+    clocks: BTreeMap<u32, u64>,
+    /// Clocks of all triangles, culled ones too.
+    all_clocks: u64,
+    fates: [u64; FATES.len()],
+    sizes: [u64; SIZES.len()],
+    longest: u32,
+}
+
+impl SetupReport {
+    /// Of all triangles, in SETUP one after the other.
+    pub fn new(machine: &Plan, triangles: &[[PortVertex; 3]]) -> Self {
+        let mut report = SetupReport::empty(machine);
+        for_channels!(machine, C => report.all::<C>(machine, triangles));
+        report
+    }
+
+    /// The same of what is known already: of each triangle S1 + S2, why it was culled, and its pixels.
+    pub fn of(machine: &Plan, triangles: impl Iterator<Item = (u32, Option<Culled>, u64)>) -> Self {
+        let mut report = SetupReport::empty(machine);
+        for (clocks, culled, pixels) in triangles {
+            let fate = match culled {
+                Some(Culled::Lines) => 0,
+                Some(Culled::Columns) => 1,
+                Some(Culled::Area) => 2,
+                None if pixels == 0 => 3,
+                None => 4,
+            };
+            report.add(clocks, fate, culled.is_none().then_some(pixels));
+        }
+        report
+    }
+
+    fn empty(machine: &Plan) -> Self {
+        SetupReport {
+            clocks: BTreeMap::new(),
+            all_clocks: 0,
+            fates: [0; FATES.len()],
+            sizes: [0; SIZES.len()],
+            longest: longest_setup(machine).all(),
+        }
+    }
+
+    /// A triangle with its clocks, its fate, and its pixels if it was not culled.
+    fn add(&mut self, clocks: u32, fate: usize, pixels: Option<u64>) {
+        self.all_clocks += u64::from(clocks);
+        self.fates[fate] += 1;
+        if pixels.is_some() {
+            *self.clocks.entry(clocks).or_default() += 1;
+        }
+        let reached = SIZES.iter().filter(|(_, least)| pixels.unwrap_or(0) >= *least).count();
+        self.sizes[reached - 1] += 1; // all have 0 at least
+    }
+
+    fn all<const C: usize>(&mut self, machine: &Plan, triangles: &[[PortVertex; 3]]) {
+        let mut setup = Setup::<C>::new(machine);
+        for triangle in triangles {
+            let mut met = Events::default();
+            let mut clocks = 0;
+            setup.step(Some((triangle, 0)), false, false, &mut met);
+            while setup.prim().is_none() && !setup.tri_ready() {
+                setup.step(None, false, false, &mut met);
+                clocks += 1;
+            }
+            let pixels = setup.prim().map(|prim| pixels(machine, prim));
+            setup.step(None, true, false, &mut met); // EDGE takes it
+            let fate = match pixels {
+                None if met.setup.culled_lines > 0 => 0,
+                None if met.setup.culled_columns > 0 => 1,
+                None => 2,
+                Some(0) => 3,
+                Some(_) => 4,
+            };
+            self.add(clocks, fate, pixels);
+        }
+    }
+
+    /// Of the triangles that are not culled: mean, what 95 % do not exceed, most; 0 if there is none.
+    fn spread(&self) -> (f64, u32, u32) {
+        let count: u64 = self.clocks.values().sum();
+        let sum: u64 = self.clocks.iter().map(|(clocks, count)| u64::from(*clocks) * count).sum();
+        let mut seen = 0;
+        let most_do = self.clocks.iter().find(|(_, count)| {
+            seen += **count;
+            100 * seen >= 95 * self.clocks.values().sum::<u64>()
+        });
+        let most = self.clocks.keys().next_back();
+        (ratio(sum, count), most_do.map_or(0, |(clocks, _)| *clocks), most.copied().unwrap_or(0))
+    }
+
+    /// As JSON.
+    pub fn value(&self) -> Value {
+        let named = |names: &mut dyn Iterator<Item = &str>, counts: &[u64]| {
+            names.zip(counts).map(|(name, count)| (name.to_owned(), json!(count))).collect::<Map<_, _>>()
+        };
+        let (mean, most_do, most) = self.spread();
+        json!({
+            "clocks": {
+                "mean": mean,
+                "p95": most_do,
+                "most": most,
+                "bound": self.longest,
+                "mean_with_culled": ratio(self.all_clocks, self.fates.iter().sum()),
+            },
+            "triangles": named(&mut FATES.iter().map(|fate| fate.0), &self.fates),
+            "by_pixels": named(&mut SIZES.iter().map(|size| size.0), &self.sizes),
+        })
+    }
+
+    /// As three lines of text.
+    pub fn text(&self) -> String {
+        let (mean, most_do, most) = self.spread();
+        let mut t = format!(
+            "setup clocks of a triangle that is not culled: mean {mean:.1}, 95 % at most {most_do}, most {most}, bound {}\n",
+            self.longest
+        );
+        let list = |names: &mut dyn Iterator<Item = &str>, counts: &[u64]| {
+            names.zip(counts).map(|(name, count)| format!("{name} {count}")).collect::<Vec<_>>().join(", ")
+        };
+        // Writing to a string cannot fail.
+        _ = writeln!(t, "triangles: {}", list(&mut FATES.iter().map(|fate| fate.1), &self.fates));
+        _ = writeln!(t, "triangles by pixels: {}", list(&mut SIZES.iter().map(|size| size.0), &self.sizes));
+        t
+    }
+}
+
+/// Pixels on the screen of all spans of a triangle.
+fn pixels<const C: usize>(machine: &Plan, prim: &Prim<C>) -> u64 {
+    let (mut edge, mut spans, events) = (Edge::new(machine), Span::new(machine), &mut Events::default());
+    edge.step(Some(prim), false, true, events);
+    let mut pixels = 0;
+    while let Some(line) = edge.line().copied() {
+        spans.step(Some(&line), false, false, events);
+        spans.step(None, false, false, events); // from its register into the queue
+        if let Some(span) = spans.span() {
+            let (x, count) = (i64::from(span.x), i64::from(span.count));
+            let (first, end) = if span.leftward { (x - count + 1, x + 1) } else { (x, x + count) };
+            pixels += (end.min(i64::from(machine.width)) - first.max(0)).max(0) as u64;
+            spans.step(None, true, false, events);
+        }
+        edge.step(None, false, true, events);
+    }
+    pixels
+}
+
+fn ratio(part: u64, whole: u64) -> f64 {
+    if whole == 0 { 0.0 } else { part as f64 / whole as f64 }
+}
