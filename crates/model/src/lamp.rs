@@ -114,13 +114,7 @@ impl<const C: usize> Lamp<C> {
     }
 
     /// Clock edge. Beside the fragment are the outputs of its terms; `tables`: the ports of the memory.
-    pub fn step(
-        &mut self,
-        frag: Option<Given<C>>,
-        tables: &WordIn,
-        normed_ready: bool,
-        events: &mut Events,
-    ) {
+    pub fn step(&mut self, frag: Option<Given<C>>, tables: &WordIn, normed_ready: bool, events: &mut Events) {
         let (waits, ready) = (self.waits(frag), self.frag_ready(normed_ready));
         if self.fetch.loading() {
             self.load(tables, events);

@@ -230,7 +230,9 @@ impl<const C: usize> Model<C> {
         self.count(inputs, &outputs);
         let light_pass = C > FEW && inputs.shadow.light_pass;
         // From the back on, so that each unit sees the one before as it was.
-        if C > FEW && let Some(blend) = &mut self.blend {
+        if C > FEW
+            && let Some(blend) = &mut self.blend
+        {
             blend.step(self.depth.pass(), &inputs.blend, &mut self.events);
         }
         self.step_depth(inputs, &wires);
@@ -317,7 +319,9 @@ impl<const C: usize> Model<C> {
         }
         let held = (edge.gradient(), edge.kt());
         pixel.step(span.filter(|_| wires.there), held, walked, wires.ready(0), light_pass, events);
-        if C > FEW && let Some(term) = term {
+        if C > FEW
+            && let Some(term) = term
+        {
             let records = inputs.words.first().unwrap_or(&WordIn::NONE);
             term.step(span, records, span_ready, events);
         }

@@ -124,12 +124,9 @@ impl<const C: usize> Memories<C> {
     /// The machine's inputs in a cycle, with a triangle and its tag offered or none.
     #[inline(always)]
     #[must_use]
-    pub fn inputs<'a>(
-        &'a self,
-        tri: Option<(&'a [PortVertex; 3], u32)>,
-        writes_open: bool,
-    ) -> Inputs<'a> {
-        let DrawState { depth_func, depth_write, shadow_on, light_pass, ambient, color_write, .. } = self.state;
+    pub fn inputs<'a>(&'a self, tri: Option<(&'a [PortVertex; 3], u32)>, writes_open: bool) -> Inputs<'a> {
+        let DrawState { depth_func, depth_write, shadow_on, light_pass, ambient, color_write, .. } =
+            self.state;
         Inputs {
             rst: false,
             tri,

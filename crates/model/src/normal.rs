@@ -103,13 +103,7 @@ impl<const C: usize> Normal<C> {
     }
 
     /// Clock edge. Beside the fragment are the outputs of its terms; `roots`: the ports of the memory.
-    pub fn step(
-        &mut self,
-        frag: Option<Given<C>>,
-        roots: &WordIn,
-        normed_ready: bool,
-        events: &mut Events,
-    ) {
+    pub fn step(&mut self, frag: Option<Given<C>>, roots: &WordIn, normed_ready: bool, events: &mut Events) {
         let waits = self.waits(frag);
         if self.fetch.loading() {
             self.load(roots, events);
@@ -121,7 +115,8 @@ impl<const C: usize> Normal<C> {
             return;
         }
         let taken = frag.filter(|_| !waits);
-        let normed = |given: Given<C>| Lit { frag: *given.frag, cosines: self.cosines(given.cosines, events) };
+        let normed =
+            |given: Given<C>| Lit { frag: *given.frag, cosines: self.cosines(given.cosines, events) };
         let entering = taken.map(normed);
         self.stages.shift(entering);
     }

@@ -145,13 +145,7 @@ impl<const C: usize> Shade<C> {
     }
 
     /// Clock edge. `tables`: the ports of the memory.
-    pub fn step(
-        &mut self,
-        frag: Option<Given<C>>,
-        tables: &WordIn,
-        tinted_ready: bool,
-        events: &mut Events,
-    ) {
+    pub fn step(&mut self, frag: Option<Given<C>>, tables: &WordIn, tinted_ready: bool, events: &mut Events) {
         let waiting = frag.filter(|given| !self.fits(Some(*given)));
         if self.fetch.loading() {
             self.load(tables, events);

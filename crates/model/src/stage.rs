@@ -214,14 +214,7 @@ impl<const C: usize> Stage<C> {
     }
 
     /// Shows the unit; `behind` is the name of the unit that takes what it offers.
-    pub(crate) fn view(
-        &self,
-        plan: &Plan,
-        links: &Links<C>,
-        behind: &str,
-        inputs: &Inputs,
-        view: &mut View,
-    ) {
+    pub(crate) fn view(&self, plan: &Plan, links: &Links<C>, behind: &str, inputs: &Inputs, view: &mut View) {
         let (port, Links { from, next, .. }) = (self.port(inputs), *links);
         let frag = from.map(|given| given.frag);
         match &self.unit {

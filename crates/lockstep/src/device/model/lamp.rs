@@ -30,13 +30,7 @@ impl<const C: usize> LampPorts<C> {
         })
     }
 
-    pub fn show(
-        &self,
-        lamp: &Lamp<C>,
-        frag: Option<Given<C>>,
-        normed_ready: bool,
-        ports: &mut PortValues,
-    ) {
+    pub fn show(&self, lamp: &Lamp<C>, frag: Option<Given<C>>, normed_ready: bool, ports: &mut PortValues) {
         ports.set(self.frag_ready, lamp.frag_ready(normed_ready));
         self.normed.offer(lamp.normed(), ports);
         ports.set(self.table_wait, lamp.waits(frag));

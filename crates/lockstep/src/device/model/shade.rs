@@ -29,13 +29,7 @@ impl<const C: usize> ShadePorts<C> {
         })
     }
 
-    pub fn show(
-        &self,
-        shade: &Shade<C>,
-        frag: Option<Given<C>>,
-        tinted_ready: bool,
-        ports: &mut PortValues,
-    ) {
+    pub fn show(&self, shade: &Shade<C>, frag: Option<Given<C>>, tinted_ready: bool, ports: &mut PortValues) {
         ports.set(self.frag_ready, shade.frag_ready(frag, tinted_ready));
         self.tinted.offer(shade.tinted(), ports);
         ports.set(self.table_wait, shade.waits(frag));

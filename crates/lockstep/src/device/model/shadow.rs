@@ -98,8 +98,7 @@ impl<const C: usize> ShadowDevice<C> {
 
 impl<const C: usize> Device for ShadowDevice<C> {
     fn cycle(&mut self, ports: &mut PortValues) {
-        let (frag, map, inputs) =
-            (self.frag.token(ports), self.map.inputs(ports), self.rules.inputs(ports));
+        let (frag, map, inputs) = (self.frag.token(ports), self.map.inputs(ports), self.rules.inputs(ports));
         let ready = ports.is_high(self.shaded_ready);
         self.map.show(self.unit.read(frag.as_ref(), &inputs), self.unit.mdata_ready(ready), ports);
         self.shown.show(&self.unit, frag.as_ref(), &inputs, &map, ports);
