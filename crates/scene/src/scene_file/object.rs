@@ -59,7 +59,7 @@ fn built_in(table: &Table, place: usize) -> Result<Mesh, InputError> {
     }
 }
 
-/// First scaled, then turned about x, y and z, then moved.
+/// First scaled, then turned about the fixed z axis, then y, then x, then moved.
 fn placed(table: &Table) -> Result<DAffine3, InputError> {
     let scale = table.color("scale", 1e6)?.unwrap_or(DVec3::ONE);
     if scale.min_element() < 1e-6 {

@@ -10,7 +10,6 @@ use crate::error::InputError;
 use crate::frame::{Frame, MAX_LIGHTS, MAX_SIDE, Polygon, Triangle};
 use crate::pass::State;
 use crate::text::{Lines, Place, words};
-use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::ops::Range;
 use std::path::Path;
@@ -54,7 +53,7 @@ const PRIMITIVE: usize = 17;
 /// The file cannot be read, or an item of it is not permitted.
 pub fn read(path: &Path) -> Result<Frame, InputError> {
     let file = path.display().to_string();
-    match File::open(path) {
+    match std::fs::File::open(path) {
         Ok(opened) => parse(&file, BufReader::with_capacity(1 << 16, opened)),
         Err(source) => Err(InputError::Read { file, source }),
     }
@@ -224,7 +223,7 @@ impl Parser {
         }
         match name {
             "size" => {
-                let [width, height] = place.values(name, words)?;
+                let [width, height] = place.values(name, "W H", words)?;
                 self.frame.width = place.number("size W", width, "an integer", 1..=MAX_SIDE)?;
                 self.frame.height = place.number("size H", height, "an integer", 1..=MAX_SIDE)?;
             }
@@ -242,10 +241,10 @@ impl Parser {
             }
             "shadow" => self.frame.shadows.push(shadow(place, words)?),
             _ => {
-                let clear: [&[u8]; 3] = place.values(name, words)?;
+                let clear: [&[u8]; 3] = place.values(name, "r g b", words)?;
                 for (channel, word) in clear.into_iter().enumerate() {
                     let key = format_args!("clear {}", ["r", "g", "b"][channel]);
-                    self.frame.clear[channel] = place.number(key, word, "a number", 0.0..=1.0)?;
+                    self.frame.clear[channel] = place.color(key, word)?;
                 }
             }
         }
@@ -315,7 +314,10 @@ impl Parser {
         self.require_values(place, before)?;
         let lights = self.frame.shadows.len();
         if let Some((light, line)) = self.light.filter(|(light, _)| *light > lights) {
-            let why = format!("permitted: 0 to {lights}, as many lights as the file has lines `shadow`");
+            let why = match lights {
+                0 => "permitted: 0, as the file has no line `shadow`".to_owned(),
+                _ => format!("permitted: 0 to {lights}, as many lights as the file has lines `shadow`"),
+            };
             return Err(Place { line, ..place }.fault("light", light.to_string().as_bytes(), why).into());
         }
         if self.seen[PRIMITIVE] { Ok(()) } else { self.header.end(place, before, &mut self.frame) }
