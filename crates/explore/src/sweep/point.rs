@@ -3,9 +3,9 @@
 use super::axis::Axis;
 use super::definition::{Definition, Sample};
 use super::objective::Objective;
-use crate::input::{Input, Shaded, hex};
 use anyhow::{Context, Result, anyhow};
 use edgewalk_golden::Shading;
+use edgewalk_host::input::{Input, Shaded, hex};
 use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::Waits;
 use edgewalk_scene::PixelMethod;

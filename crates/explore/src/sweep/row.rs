@@ -2,9 +2,9 @@
 
 use super::point::{Point, Sweep};
 use super::shared::plan;
-use crate::Verdict;
-use crate::report::Report;
 use anyhow::Result;
+use edgewalk_judge::Verdict;
+use edgewalk_judge::report::Report;
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Machine, Plan};
