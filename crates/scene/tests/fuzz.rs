@@ -17,9 +17,9 @@ const GLTF: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0
 "textures":[{"source":0}],"images":[{"uri":"away.png"},{"bufferView":0,"mimeType":"image/png"}],
 "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
 {"bufferView":0,"componentType":5126,"count":3,"type":"VEC2","byteOffset":0},
-{"bufferView":0,"componentType":5121,"count":3,"type":"SCALAR","byteOffset":0}],
-"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36}],
-"buffers":[{"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA","byteLength":36}]}"#;
+{"bufferView":1,"componentType":5121,"count":3,"type":"SCALAR","byteOffset":0}],
+"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":3}],
+"buffers":[{"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAEC","byteLength":39}]}"#;
 const TRI: &str = "size 9 8\nmode fast-phong\nview 0 0 1\nsun 0 1 1 0.5\nspecular blinn\nextra 1\nclear 0 0.5 1\nlight 1\n\
     shadow 8 0.01 0.25  1 2 3 4  5 6 7 8  9 10 11 12  13 14 15 16\nL 1 2 0 4 5 1 7 8 0.5 0.5\nmaterial 0.1 0.2 0.3 4\n\
     texture 2 1 123456 789abc\nT 0 0 0 1 1 1 0  9 0 0.5 1 1 1 0  0 9 1 1 1 1 0\nN 0 0 1 0 0 1 0 0 1\nUV 0 0 1 0 0 1\nX 1 2 3\n\

@@ -13,7 +13,7 @@ use std::path::Path;
 
 /// Asserts that two vectors are equal but for rounding.
 fn near(found: DVec3, expected: DVec3) {
-    assert!(found.distance(expected) < 1e-6, "{found}, not {expected}");
+    assert!(found.distance(expected) < 1e-5, "{found}, not {expected}");
 }
 
 /// A picture of one colour.

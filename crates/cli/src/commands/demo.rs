@@ -38,7 +38,7 @@ const ACCUMULATOR: &str = "z_accumulator.png";
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = machine.machine(None)?;
+    let machine = args.source.machine(machine)?;
     let frame = args.source.frame(&machine)?;
     let out = Staging::new(&args.out)?;
     let Pictures { report, verdict, ids } = render::pictures(

@@ -84,7 +84,7 @@ pub const FILES: [&str; 10] = [
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = machine.machine(None)?;
+    let machine = args.source.machine(machine)?;
     if args.source.shading != Shading::FastPhong {
         args.fast_phong.unused()?;
     }

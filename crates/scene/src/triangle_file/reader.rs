@@ -8,8 +8,10 @@ use super::texture;
 use super::vertices::{contour, triangle};
 use crate::error::InputError;
 use crate::frame::{Frame, MAX_LIGHTS, MAX_SIDE, Polygon, Triangle};
+use crate::kind::InputKind;
 use crate::pass::State;
 use crate::text::{Lines, Place, words};
+use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::ops::Range;
 use std::path::Path;
@@ -47,16 +49,22 @@ const RULES: Range<usize> = 9..15;
 /// `T` to `H`: the header has ended.
 const PRIMITIVE: usize = 17;
 
-/// Reads the file at `path`.
+/// Opens the file at `path`, which may be a pipe; `-` is the standard input.
+///
+/// # Errors
+/// The file cannot be opened.
+pub fn open(path: &Path) -> Result<File, InputError> {
+    let standard_input = path == Path::new(InputKind::STANDARD_INPUT);
+    let opened = File::open(if standard_input { Path::new("/dev/stdin") } else { path });
+    opened.map_err(|source| InputError::Read { file: path.display().to_string(), source })
+}
+
+/// Reads the file at `path`, which may be a pipe; `-` is the standard input.
 ///
 /// # Errors
 /// The file cannot be read, or an item of it is not permitted.
 pub fn read(path: &Path) -> Result<Frame, InputError> {
-    let file = path.display().to_string();
-    match std::fs::File::open(path) {
-        Ok(opened) => parse(&file, BufReader::with_capacity(1 << 16, opened)),
-        Err(source) => Err(InputError::Read { file, source }),
-    }
+    parse(&path.display().to_string(), BufReader::with_capacity(1 << 16, open(path)?))
 }
 
 /// Reads the text of a file that messages call `file`.
