@@ -20,11 +20,11 @@ use crate::verdict::Verdict;
 use channel::Tally;
 pub use channel::{ExtraError, Spread};
 use edgewalk_host::extra;
-use edgewalk_host::raster::Raster;
+use edgewalk_host::raster::{Cycles, Raster};
 use edgewalk_host::reach::Reach;
 use edgewalk_host::shade::Proof;
 use edgewalk_machine::Plan;
-use edgewalk_scene::Frame;
+use edgewalk_scene::{Blending, Frame};
 use layers::Layers;
 pub use layers::{Blended, Errors};
 pub use lit::{Lights, Lit, Seen};
@@ -142,98 +142,131 @@ fn compared(
     golden: &Raster,
     drawn: &Raster,
     reach: Option<&Reach>,
-    mut allowed: Option<Allowed>,
+    allowed: Option<Allowed>,
 ) -> Comparison {
-    let mut tally = Tally::new(machine, golden, drawn);
-    let mut c = Comparison {
-        pixels: 0,
-        screen: u64::from(machine.width) * u64::from(machine.height),
-        coverage_mismatches: 0,
-        covered: golden.coverage.iter().map(|count| u64::from(*count > 0)).sum(),
-        compared: 0,
-        order_undecided: 0,
-        order_wrong: 0,
-        background_wrong: 0,
-        wrapped: 0,
-        cycles_unexplained: drawn.cycles.as_ref().map_or(0, |cycles| cycles.unexplained()),
-        z_error: 0.0,
-        color_error: 0.0,
-        z_spread: Spread::default(),
-        color_spread: Spread::default(),
-        additions: None,
-        z_bound_for_input: None,
-        color_bound_for_input: None,
-        z_bound: tally.z.bound(),
-        color_bound: tally.color.bound(),
-        z_no_bound: tally.z.no_bound(),
-        color_no_bound: tally.color.no_bound(),
-        blended: None,
-        lit: None,
-        shaded: None,
-        extra: Vec::new(),
-        z_map: Vec::new(),
-        color_map: Vec::new(),
-    };
     let mut light = Lights::drawn(machine, frame, drawn, reach);
     if let Some(layers) = Layers::of(machine, frame, light.as_mut()) {
-        blended(&mut c, &mut tally, &layers, frame, golden, light.as_mut());
+        let mut tally = Tally::new(machine);
+        let mut c = Comparison::begun(machine, drawn.cycles.as_ref(), &tally);
+        blended(&mut c, &mut tally, &layers, frame, (golden, drawn), light.as_mut());
         c.lit = light.map(Lights::found);
+        (c.z_map, c.color_map) = (tally.z.map(), tally.color.map());
         return finished(c, tally, machine);
     }
-    let mut differ = Vec::new();
-    for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
-        c.pixels += 1;
-        c.coverage_mismatches += u64::from(golden.coverage[i] != drawn.coverage[i]);
-        if (golden.id[i], golden.writes[i]) != (drawn.id[i], drawn.writes[i]) {
-            differ.push(i);
-            continue;
-        }
-        if golden.id[i] >= 0 {
-            let agrees = light.as_mut().is_none_or(|light| light.agrees(i, golden, drawn));
-            let mut over = Over::golden(golden, i);
-            if let Some(allowed) = &mut allowed {
-                let one = machine.color.max() as f64;
-                over.rgb = allowed.at(i, golden.id[i], golden.rgb[i], drawn.rgb[i], one);
-            }
-            if agrees {
-                tally.triangle(i, golden.z[i], &over);
-            } else {
-                tally.depth(i, golden.z[i]); // the colour is another
-            }
-        } else {
-            c.background_wrong += u64::from(!tally.is_background(i, frame.clear));
-        }
-        c.compared += u64::from(golden.coverage[i] > 0);
+    let mut bands = Bands { light, allowed, ..Bands::new(machine, frame, drawn.cycles.as_ref(), reach) };
+    let [z_map, color_map] = bands.add(golden, drawn);
+    Comparison { z_map, color_map, ..bands.ended() }
+}
+
+/// Two pictures compared from the top, a band of lines at a time: neither need be in memory as a whole.
+pub struct Bands<'a> {
+    machine: &'a Plan,
+    frame: &'a Frame,
+    reach: Option<&'a Reach>,
+    c: Comparison,
+    tally: Tally,
+    /// Of a picture that is one band.
+    light: Option<Lights<'a>>,
+    /// Likewise.
+    allowed: Option<Allowed<'a>>,
+}
+
+impl<'a> Bands<'a> {
+    /// Whether the comparison of a frame can go by bands: where it is blended, lit or shaded at each pixel it needs the whole picture.
+    #[must_use]
+    pub fn suit(frame: &Frame) -> bool {
+        let plain = frame.shadows.is_empty() && frame.shading.is_none();
+        plain && matches!(&frame.passes()[..], [pass] if pass.state.blend == Blending::Off)
     }
-    let orders = Orders::new(machine, frame, &differ, reach);
-    for i in differ {
-        match orders.explain(i, drawn.id[i], drawn.writes[i]) {
-            Some(shown) => {
-                c.order_undecided += 1;
-                match shown {
-                    // Its colour hangs on the light, or is not that of a plane; which pixels these are hangs on depths alone.
-                    Some(shown) if light.is_some() || allowed.is_some() => {
-                        tally.depth(i, if frame.depth_write { shown.z } else { 1.0 })
-                    }
-                    Some(shown) => tally.triangle(i, if frame.depth_write { shown.z } else { 1.0 }, &shown),
-                    None => c.background_wrong += u64::from(!tally.is_background(i, frame.clear)),
+
+    /// Nothing compared yet of a frame that [suits](Bands::suit) and its picture, which took the machine so many cycles.
+    #[must_use]
+    pub fn new(machine: &'a Plan, frame: &'a Frame, cycles: Option<&Cycles>, reach: Option<&'a Reach>) -> Self {
+        let tally = Tally::new(machine);
+        let c = Comparison::begun(machine, cycles, &tally);
+        Bands { machine, frame, reach, c, tally, light: None, allowed: None }
+    }
+
+    /// Compares the next lines; gives the errors of depth and of colour of each of their pixels, LSB.
+    pub fn add(&mut self, golden: &Raster, drawn: &Raster) -> [Vec<f64>; 2] {
+        let Bands { machine, frame, reach, c, tally, light, allowed } = self;
+        let first = c.pixels as usize;
+        tally.begin(golden.coverage.len());
+        c.covered += golden.coverage.iter().map(|count| u64::from(*count > 0)).sum::<u64>();
+        let mut differ = Vec::new();
+        for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
+            c.pixels += 1;
+            c.coverage_mismatches += u64::from(golden.coverage[i] != drawn.coverage[i]);
+            if (golden.id[i], golden.writes[i]) != (drawn.id[i], drawn.writes[i]) {
+                differ.push(first + i);
+                continue;
+            }
+            if golden.id[i] >= 0 {
+                let agrees = light.as_mut().is_none_or(|light| light.agrees(i, golden, drawn));
+                let mut over = Over::golden(golden, i);
+                if let Some(allowed) = allowed {
+                    let one = machine.color.max() as f64;
+                    over.rgb = allowed.at(i, golden.id[i], golden.rgb[i], drawn.rgb[i], one);
                 }
+                if agrees {
+                    tally.triangle(i, golden.z[i], &over, drawn);
+                } else {
+                    tally.depth(i, golden.z[i], drawn); // the colour is another
+                }
+            } else {
+                c.background_wrong += u64::from(!tally.is_background(i, frame.clear, drawn));
             }
-            None => c.order_wrong += 1,
+            c.compared += u64::from(golden.coverage[i] > 0);
         }
-        c.compared += u64::from(golden.coverage[i] > 0);
+        let orders = Orders::new(machine, frame, &differ, *reach);
+        for pixel in differ {
+            let i = pixel - first;
+            match orders.explain(pixel, drawn.id[i], drawn.writes[i]) {
+                Some(shown) => {
+                    c.order_undecided += 1;
+                    match shown {
+                        // Its colour hangs on the light, or is not that of a plane; which pixels these are hangs on depths alone.
+                        Some(shown) if light.is_some() || allowed.is_some() => {
+                            tally.depth(i, if frame.depth_write { shown.z } else { 1.0 }, drawn)
+                        }
+                        Some(shown) => {
+                            tally.triangle(i, if frame.depth_write { shown.z } else { 1.0 }, &shown, drawn)
+                        }
+                        None => c.background_wrong += u64::from(!tally.is_background(i, frame.clear, drawn)),
+                    }
+                }
+                None => c.order_wrong += 1,
+            }
+            c.compared += u64::from(golden.coverage[i] > 0);
+        }
+        [tally.z.map(), tally.color.map()]
     }
-    if let Some(allowed) = allowed {
-        c.shaded = Some(allowed.found());
-        c.color_bound = None;
-        c.color_no_bound = Some("each triangle has that of its terms and tables".to_owned());
+
+    /// What all lines together come to, without the errors of every pixel.
+    #[must_use]
+    pub fn found(self) -> Comparison {
+        let (machine, reach) = (self.machine, self.reach);
+        let c = self.ended();
+        match reach {
+            Some(reach) => c.reaching(machine, reach),
+            None => c,
+        }
     }
-    c = finished(c, tally, machine);
-    if let Some(light) = light {
-        c.color_bound = c.color_bound.map(|bound| light.color_bound(bound));
-        c.lit = Some(light.found());
+
+    fn ended(self) -> Comparison {
+        let Bands { machine, mut c, tally, light, allowed, .. } = self;
+        if let Some(allowed) = allowed {
+            c.shaded = Some(allowed.found());
+            c.color_bound = None;
+            c.color_no_bound = Some("each triangle has that of its terms and tables".to_owned());
+        }
+        c = finished(c, tally, machine);
+        if let Some(light) = light {
+            c.color_bound = c.color_bound.map(|bound| light.color_bound(bound));
+            c.lit = Some(light.found());
+        }
+        c
     }
-    c
 }
 
 /// Every pixel where all depth tests are sure: there all layers must be golden's, and the colour within their bound.
@@ -242,40 +275,42 @@ fn blended(
     tally: &mut Tally,
     layers: &Layers,
     frame: &Frame,
-    golden: &Raster,
+    (golden, drawn): (&Raster, &Raster),
     mut light: Option<&mut Lights>,
 ) {
     let mut found = Blended::default();
-    for i in 0..golden.coverage.len().min(tally.drawn.coverage.len()) {
+    tally.begin(golden.coverage.len());
+    c.covered = golden.coverage.iter().map(|count| u64::from(*count > 0)).sum();
+    for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
         c.pixels += 1;
-        c.coverage_mismatches += u64::from(golden.coverage[i] != tally.drawn.coverage[i]);
+        c.coverage_mismatches += u64::from(golden.coverage[i] != drawn.coverage[i]);
         c.compared += u64::from(golden.coverage[i] > 0);
         if layers.open[i] {
             c.order_undecided += 1;
-        } else if (golden.id[i], golden.writes[i]) != (tally.drawn.id[i], tally.drawn.writes[i]) {
+        } else if (golden.id[i], golden.writes[i]) != (drawn.id[i], drawn.writes[i]) {
             c.order_wrong += 1;
         } else if golden.id[i] >= 0 {
             let alike = light.as_mut().is_none_or(|light| {
                 if layers.loose[i] {
                     light.loose();
                 }
-                light.decided(i, golden, tally.drawn, Some(layers.last[i])) && !layers.loose[i]
+                light.decided(i, golden, drawn, Some(layers.last[i])) && !layers.loose[i]
             });
             if alike {
-                tally.triangle(i, golden.z[i], &Over::golden(golden, i));
+                tally.triangle(i, golden.z[i], &Over::golden(golden, i), drawn);
             } else {
-                tally.depth(i, golden.z[i]); // the colour may be another
+                tally.depth(i, golden.z[i], drawn); // the colour may be another
             }
-            let error = tally.color_error(golden.rgb[i], i);
+            let error = tally.color_error(golden.rgb[i], i, drawn);
             found.pixels += 1;
             found.layers = found.layers.max(layers.stored[i]);
             found.bound = found.bound.max(layers.bound[i]);
             found.of_bound = found.of_bound.max(error / layers.bound[i]);
             found.beyond += u64::from(error.is_nan() || error > layers.bound[i] + 1e-9);
         } else if golden.z[i] == 1.0 {
-            c.background_wrong += u64::from(!tally.is_background(i, frame.clear));
+            c.background_wrong += u64::from(!tally.is_background(i, frame.clear, drawn));
         } else {
-            c.background_wrong += u64::from(!tally.depth_only(i, golden.z[i], frame.clear));
+            c.background_wrong += u64::from(!tally.depth_only(i, golden.z[i], frame.clear, drawn));
         }
     }
     c.blended = Some(found);
@@ -287,12 +322,45 @@ fn blended(
 fn finished(mut c: Comparison, tally: Tally, machine: &Plan) -> Comparison {
     c.wrapped = tally.wrapped;
     c.extra = tally.extra.into_iter().map(|errors| ExtraError::of(errors, machine)).collect();
-    (c.z_error, c.z_spread, c.z_map) = tally.z.found();
-    (c.color_error, c.color_spread, c.color_map) = tally.color.found();
+    (c.z_error, c.z_spread) = tally.z.found();
+    (c.color_error, c.color_spread) = tally.color.found();
     c
 }
 
 impl Comparison {
+    /// Nothing compared yet of a picture that took the machine so many cycles.
+    fn begun(machine: &Plan, cycles: Option<&Cycles>, tally: &Tally) -> Self {
+        Comparison {
+            pixels: 0,
+            screen: u64::from(machine.width) * u64::from(machine.height),
+            coverage_mismatches: 0,
+            covered: 0,
+            compared: 0,
+            order_undecided: 0,
+            order_wrong: 0,
+            background_wrong: 0,
+            wrapped: 0,
+            cycles_unexplained: cycles.map_or(0, |cycles| cycles.unexplained()),
+            z_error: 0.0,
+            color_error: 0.0,
+            z_spread: Spread::default(),
+            color_spread: Spread::default(),
+            additions: None,
+            z_bound_for_input: None,
+            color_bound_for_input: None,
+            z_bound: tally.z.bound(),
+            color_bound: tally.color.bound(),
+            z_no_bound: tally.z.no_bound(),
+            color_no_bound: tally.color.no_bound(),
+            blended: None,
+            lit: None,
+            shaded: None,
+            extra: Vec::new(),
+            z_map: Vec::new(),
+            color_map: Vec::new(),
+        }
+    }
+
     /// With what is proved for these triangles: there are no more additions behind any of their pixels.
     fn reaching(mut self, machine: &Plan, reach: &Reach) -> Self {
         let channels = machine.channels();
