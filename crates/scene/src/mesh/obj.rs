@@ -15,7 +15,7 @@ use std::path::Path;
 
 pub(super) fn read(path: &Path) -> Result<Mesh, InputError> {
     let name = path.display().to_string();
-    let opened = file::open(path)?;
+    let opened = file::open_input(path)?;
     let mut obj = Obj { materials: vec![Material::DEFAULT], ..Obj::default() };
     each_line(&name, BufReader::new(opened), |place, line| obj.line(path, place, line))?;
     let mesh = Mesh::new(&name, obj.positions, obj.faces, obj.materials)?;
