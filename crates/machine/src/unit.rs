@@ -5,7 +5,6 @@ use crate::field::Field;
 use crate::link::{Held, Link, MemoryPort, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::units::{self, UNITS};
 
 /// A corner or hazard that a unit can meet, and that a suite has to.
 #[derive(Clone, Copy)]
@@ -17,6 +16,31 @@ pub struct Event {
     /// It can happen in this machine.
     pub can_happen: fn(&Plan) -> bool,
 }
+
+/// Declares the events of a unit, each with what it counts and the machines in which it can happen, and the struct that
+/// counts them.
+macro_rules! events {
+    ($($name:ident = $doc:literal if $can_happen:expr;)*) => {
+        pub(crate) const EVENTS: &[crate::unit::Event] =
+            &[$(crate::unit::Event { name: stringify!($name), doc: $doc, can_happen: $can_happen }),*];
+
+        /// How often each event of the unit was met.
+        #[derive(Clone, Debug, Default, PartialEq, Eq)]
+        pub struct Events { $(#[doc = $doc] pub $name: u64,)* }
+
+        impl Events {
+            pub(super) fn counts(&self) -> Vec<(&'static str, u64)> {
+                vec![$((stringify!($name), self.$name)),*]
+            }
+
+            pub(super) fn merge(&mut self, other: &Events) {
+                $(self.$name += other.$name;)*
+                let _ = other; // a unit may have no event
+            }
+        }
+    };
+}
+pub(crate) use events;
 
 /// All ports of a unit but `clk` and `rst`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -59,37 +83,13 @@ pub struct UnitSpec {
     pub events: &'static [Event],
 }
 
-impl Plan {
-    /// The units of this machine, in the order the data flows.
-    pub fn units(&self) -> impl Iterator<Item = &'static UnitSpec> {
-        UNITS.iter().copied().filter(|unit| (unit.present)(self))
-    }
+/// The input by which a pass is the light's own, of the units that ask for it.
+pub(crate) fn light_pass(plan: &Plan) -> Option<Field> {
+    let doc = "the map is drawn, not the picture";
+    plan.shadow.draws_map().then(|| Field::count("light_pass", 1, doc))
+}
 
-    /// What can happen in this machine: to its units in their order, then between them.
-    pub fn events(&self) -> impl Iterator<Item = &'static Event> {
-        let all = self.units().flat_map(|unit| unit.events).chain(units::EVENTS);
-        all.filter(|event| (event.can_happen)(self))
-    }
-
-    /// The ports of the whole machine: what its units have and do not join among themselves.
-    #[must_use]
-    pub fn ports(&self) -> Ports {
-        let all: Vec<Ports> = self.units().map(|unit| (unit.ports)(self)).collect();
-        let mut constants: Vec<Field> = Vec::new();
-        for field in all.iter().flat_map(|ports| &ports.constants) {
-            // An input that several units have is one of the machine.
-            if !constants.contains(field) {
-                constants.push(field.clone());
-            }
-        }
-        Ports {
-            takes: all.first().and_then(|ports| ports.takes.clone()),
-            gives: all.last().and_then(|ports| ports.gives.clone()),
-            writes: all.iter().flat_map(|ports| ports.writes.clone()).collect(),
-            memory: all.iter().flat_map(|ports| ports.memory.clone()).collect(),
-            constants,
-            status: units::machine_status(),
-            ..Ports::default()
-        }
-    }
+/// For what every machine has, or can meet.
+pub(crate) fn always(_: &Plan) -> bool {
+    true
 }

@@ -14,7 +14,7 @@
 mod view;
 
 use crate::Events;
-use crate::tokens::Fragment;
+use crate::tokens::{Fragment, sign_extend};
 use edgewalk_machine::{LIGHT_SPACE, Plan, Project as Kind};
 
 /// What holds fragments while they are divided.
@@ -55,7 +55,7 @@ impl<const C: usize> Project<C> {
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
         let shadow = &plan.shadow;
-        let place = |name: &str| plan.channels().iter().position(|channel| channel.name == name).unwrap_or(0);
+        let place = |name: &str| plan.channel_place(name).unwrap_or(0);
         let rows = match shadow.project {
             Kind::Pipelined => Rows::Pipelined { stages: vec![None; shadow.rows() as usize + 1], oldest: 0 },
             Kind::Serial => Rows::Serial { fragment: None, row: 0 },
@@ -118,13 +118,13 @@ impl<const C: usize> Project<C> {
         let ready = self.frag_ready(projected_ready);
         let taken = frag.filter(|_| ready).map(|fragment| self.divided(fragment, events));
         match &mut self.rows {
-            Rows::Pipelined { .. } if !ready => events.project_stall += 1,
+            Rows::Pipelined { .. } if !ready => events.project.project_stall += 1,
             Rows::Pipelined { stages, oldest } => {
                 stages[*oldest] = taken;
                 *oldest = (*oldest + 1) % stages.len();
             }
             Rows::Serial { .. } if !ready => {
-                events.project_wait += u64::from(frag.is_some());
+                events.project.project_wait += u64::from(frag.is_some());
                 self.row();
             }
             Rows::Serial { fragment, row } => (*fragment, *row) = (taken, 0),
@@ -142,13 +142,11 @@ impl<const C: usize> Project<C> {
 
     /// The fragment with its texel and its depth in the place of what they are quotients of.
     fn divided(&self, fragment: &Fragment<C>, events: &mut Events) -> Fragment<C> {
-        let [x, y, z, w] = self.at.map(|place| {
-            let (word, sign) = (i64::from(fragment.values[place]), 1 << (self.bits - 1));
-            (word ^ sign) - sign
-        });
+        let signed = |place: usize| i64::from(sign_extend(fragment.values[place] as i32, self.bits));
+        let [x, y, z, w] = self.at.map(signed);
         let texels = [x, y].map(|x| self.texel(x, w, events));
         let depth = self.depth(z, w, events);
-        events.behind_light += u64::from(w <= 0);
+        events.project.behind_light += u64::from(w <= 0);
         let mut divided = *fragment;
         let cut = |value: i64, bits: u32| value as u32 & (u32::MAX >> (32 - bits)); // at most 26 bits
         divided.values[self.at[0]] = cut(texels[0], self.side + 1);
@@ -161,10 +159,10 @@ impl<const C: usize> Project<C> {
     /// floor(2^SB·x/w), -1 outside the map. x has at most 28 bits, SB 12.
     fn texel(&self, x: i64, w: i64, events: &mut Events) -> i64 {
         if w <= 0 || x < 0 || x >= w {
-            events.map_edge += u64::from(w > 0 && x == w);
+            events.project.map_edge += u64::from(w > 0 && x == w);
             return -1;
         }
-        events.texel_edge += u64::from((x << self.side) % w == 0);
+        events.project.texel_edge += u64::from((x << self.side) % w == 0);
         (x << self.side) / w
     }
 
@@ -177,7 +175,7 @@ impl<const C: usize> Project<C> {
             end
         } else {
             let depth = ((z << (self.depth_bits + 1)) + w) / (2 * w);
-            events.depth_to_end += u64::from(depth == end);
+            events.project.depth_to_end += u64::from(depth == end);
             depth
         }
     }

@@ -107,7 +107,7 @@ impl Errors {
             budget.map_or(1.0, |budget| budget.after_rounding().to_f64())
         };
         let one = f64::from(1u32 << machine.blend.kt_bits);
-        let kt = machine.channels().iter().position(|channel| channel.name == "kt");
+        let kt = machine.channel_place("kt");
         Errors { max: machine.color.max() as f64, front: error(1), kt: kt.map_or(0.5, error) / one }
     }
 
