@@ -11,6 +11,7 @@
 //! here fails on a planned machine but vertices of another.
 
 pub mod counters;
+pub mod named;
 mod rmw;
 mod fetch;
 mod stages;

@@ -1,10 +1,11 @@
 //! The ends of links, and single ports, of a unit of the model.
 
 use super::NoPlace;
-use crate::device::tokens::{Named, Table};
+use crate::device::tokens::Table;
 use crate::interface::{Interface, Link};
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
+use edgewalk_model::named::Sourced;
 use edgewalk_model::tokens::Words;
 use std::ops::Range;
 
@@ -54,13 +55,13 @@ impl<'a> Scope<'a> {
     }
 
     /// The end of a link where tokens come in.
-    pub fn taker<T: Named>(&self, name: &str) -> Result<Taker<T>, NoPlace> {
+    pub fn taker<T: Sourced>(&self, name: &str) -> Result<Taker<T>, NoPlace> {
         let (place, link) = self.link(name)?;
         Ok(Taker { table: Table::of(self.plan, link)?, place, valid: link.valid, fields: link.range() })
     }
 
     /// The end of a link where tokens go out.
-    pub fn giver<T: Named>(&self, name: &str) -> Result<Giver<T>, NoPlace> {
+    pub fn giver<T: Sourced>(&self, name: &str) -> Result<Giver<T>, NoPlace> {
         let (place, link) = self.link(name)?;
         Ok(Giver {
             table: Table::of(self.plan, link)?,
@@ -94,7 +95,7 @@ pub struct Taker<T> {
     fields: Range<usize>,
 }
 
-impl<T: Named> Taker<T> {
+impl<T: Sourced> Taker<T> {
     /// The token that is offered.
     pub fn token(&self, ports: &PortValues) -> Option<T> {
         let triangle = ports.triangle(self.place).unwrap_or(0);
@@ -112,7 +113,7 @@ pub struct Giver<T> {
     fields: Range<usize>,
 }
 
-impl<T: Named> Giver<T> {
+impl<T: Sourced> Giver<T> {
     /// Valid, and the fields of the token if there is one.
     pub fn offer(&self, token: Option<&T>, ports: &mut PortValues) {
         ports.set(self.valid, token.is_some());

@@ -3,12 +3,11 @@
 use super::link::{Giver, HeldWords, LightPass, Scope, Taker};
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
-use crate::device::terms::TermSpan;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
 use edgewalk_model::pixel::Pixel;
-use edgewalk_model::term::Walked;
+use edgewalk_model::term::{Walked, WalkedSpan};
 use edgewalk_model::{Events, Lit};
 
 /// What PIXEL shows of itself.
@@ -47,7 +46,7 @@ impl<const C: usize> PixelPorts<C> {
 pub struct PixelDevice<const C: usize> {
     unit: Pixel<C>,
     events: Events,
-    span: Taker<TermSpan<C>>,
+    span: Taker<WalkedSpan<C>>,
     inc: HeldWords,
     light_pass: LightPass,
     shown: PixelPorts<C>,

@@ -3,18 +3,17 @@
 use super::link::{Giver, Scope, Taker};
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
-use crate::device::terms::TermSpan;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::{MemoryPort, Plan};
-use edgewalk_model::term::Term;
+use edgewalk_model::term::{Term, WalkedSpan};
 use edgewalk_model::tokens::Span;
 use edgewalk_model::{Events, WordIn};
 
 /// What TERM shows of itself, beside the ports of its memory. `pixel_ready`: PIXEL takes a span.
 pub struct TermPorts<const C: usize> {
     span_ready: PortId,
-    walked: Giver<TermSpan<C>>,
+    walked: Giver<WalkedSpan<C>>,
     term_wait: PortId,
 }
 
@@ -30,7 +29,7 @@ impl<const C: usize> TermPorts<C> {
     pub fn show(&self, term: &Term, span: Option<&Span<C>>, pixel_ready: bool, ports: &mut PortValues) {
         let there = term.there(span);
         ports.set(self.span_ready, there && pixel_ready);
-        let walked = span.filter(|_| there).map(|span| TermSpan { span: *span, walked: term.walked() });
+        let walked = span.filter(|_| there).map(|span| WalkedSpan { span: *span, walked: term.walked() });
         self.walked.offer(walked.as_ref(), ports);
         ports.set(self.term_wait, term.waits(span));
     }
