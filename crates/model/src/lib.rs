@@ -12,6 +12,7 @@
 
 pub mod counters;
 pub mod named;
+pub mod ports;
 mod rmw;
 mod fetch;
 mod stages;

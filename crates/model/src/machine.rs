@@ -14,14 +14,15 @@
 
 mod view;
 pub mod wires;
+pub mod ports;
 
+use crate::Events;
 use crate::blend::Blend;
 pub use crate::blend::{BlendInputs, BlendOutputs};
 use crate::counters::Counters;
+use crate::counters::one_more;
 use crate::depth::Depth;
 use crate::edge::Edge;
-use crate::Events;
-use crate::counters::one_more;
 use crate::pixel::Pixel;
 use crate::setup::Setup;
 pub use crate::shadow::ShadowInputs;
@@ -231,7 +232,9 @@ impl<const C: usize> Model<C> {
         self.count(inputs, &outputs);
         let light_pass = C > FEW && inputs.shadow.light_pass;
         // From the back on, so that each unit sees the one before as it was.
-        if C > FEW && let Some(blend) = &mut self.blend {
+        if C > FEW
+            && let Some(blend) = &mut self.blend
+        {
             blend.step(self.depth.pass(), &inputs.blend, &mut self.events);
         }
         self.step_depth(inputs, &wires);
@@ -318,7 +321,9 @@ impl<const C: usize> Model<C> {
         }
         let held = (edge.gradient(), edge.kt());
         pixel.step(span.filter(|_| wires.there), held, walked, wires.ready(0), light_pass, events);
-        if C > FEW && let Some(term) = term {
+        if C > FEW
+            && let Some(term) = term
+        {
             let records = inputs.words.first().unwrap_or(&WordIn::NONE);
             term.step(span, records, span_ready, events);
         }

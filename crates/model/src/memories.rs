@@ -141,12 +141,8 @@ impl<const C: usize> Memories<C> {
     /// The machine's inputs in a cycle, with a triangle and its tag offered or none.
     #[inline(always)]
     #[must_use]
-    pub fn inputs<'a>(
-        &'a self,
-        tri: Option<(&'a [PortVertex; 3], u32)>,
-        writes_open: bool,
-    ) -> Inputs<'a> {
-        let DrawState { depth_func, depth_write, shadow_on, light_pass, ambient, color_write, .. } = self.state;
+    pub fn inputs<'a>(&'a self, tri: Option<(&'a [PortVertex; 3], u32)>, writes_open: bool) -> Inputs<'a> {
+        let DrawState { depth_func, depth_write, color_write, .. } = self.state;
         Inputs {
             rst: false,
             tri,
@@ -156,7 +152,7 @@ impl<const C: usize> Memories<C> {
             data: self.depth.data(),
             wr_ready: self.depth.wr_ready() && writes_open,
             words: &self.ports,
-            shadow: ShadowInputs { on: shadow_on, light_pass, ambient: ambient as u32 }, // b <= 16 bits
+            shadow: ShadowInputs::of(&self.state),
             blend: match &self.color {
                 Some(color) if C > FEW => BlendInputs {
                     color_write,

@@ -17,8 +17,10 @@ mod view;
 use crate::Events;
 use crate::fetch::Fetch;
 use crate::lit::{Cosines, Given, Lit};
+use crate::ports::{Pins, Ported, Shown};
 use crate::stages::Stages;
 use crate::term::MAX_TERMS;
+use crate::word_memory::Ask;
 use crate::word_memory::WordIn;
 use edgewalk_machine::Plan;
 
@@ -103,13 +105,7 @@ impl<const C: usize> Normal<C> {
     }
 
     /// Clock edge. Beside the fragment are the outputs of its terms; `roots`: the ports of the memory.
-    pub fn step(
-        &mut self,
-        frag: Option<Given<C>>,
-        roots: &WordIn,
-        normed_ready: bool,
-        events: &mut Events,
-    ) {
+    pub fn step(&mut self, frag: Option<Given<C>>, roots: &WordIn, normed_ready: bool, events: &mut Events) {
         let waits = self.waits(frag);
         if self.fetch.loading() {
             self.load(roots, events);
@@ -121,7 +117,8 @@ impl<const C: usize> Normal<C> {
             return;
         }
         let taken = frag.filter(|_| !waits);
-        let normed = |given: Given<C>| Lit { frag: *given.frag, cosines: self.cosines(given.cosines, events) };
+        let normed =
+            |given: Given<C>| Lit { frag: *given.frag, cosines: self.cosines(given.cosines, events) };
         let entering = taken.map(normed);
         self.stages.shift(entering);
     }
@@ -172,3 +169,23 @@ pub(crate) fn index(number: i64, below: u32, bits: u32) -> (i32, bool) {
 }
 
 const _: () = assert!(MAX_TERMS >= 5, "two lights and N·N");
+
+impl<const C: usize> Ported<C> for Normal<C> {
+    type Takes = Lit<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.frag_ready(pins.next));
+        out.gives(self.normed());
+        out.asks(Ask { addr: self.read(), take: self.rdata_ready() });
+        out.status("table_wait", self.waits(pins.token.map(Lit::given)));
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        self.step(pins.token.map(Lit::given), &pins.word, pins.next, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
+    }
+}

@@ -14,6 +14,7 @@
 mod view;
 
 use crate::Events;
+use crate::ports::{Pins, Ported, Shown};
 use crate::stages::Stages;
 use crate::tokens::Fragment;
 use edgewalk_machine::{LIGHT_SPACE, Plan, Project as Kind};
@@ -178,5 +179,24 @@ impl<const C: usize> Project<C> {
             events.project.depth_to_end += u64::from(depth == end);
             depth
         }
+    }
+}
+
+impl<const C: usize> Ported<C> for Project<C> {
+    type Takes = Fragment<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.frag_ready(pins.next));
+        out.gives(self.projected());
+        out.status("dividing", self.dividing());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        self.step(pins.token, pins.next, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

@@ -61,11 +61,7 @@ impl<const C: usize> Rig<C> {
     /// The machine's inputs in a cycle, with a triangle and its tag offered or none.
     #[inline(always)]
     #[must_use]
-    pub fn inputs<'a>(
-        &'a self,
-        tri: Option<(&'a [PortVertex; 3], u32)>,
-        writes_open: bool,
-    ) -> Inputs<'a> {
+    pub fn inputs<'a>(&'a self, tri: Option<(&'a [PortVertex; 3], u32)>, writes_open: bool) -> Inputs<'a> {
         self.memories.inputs(tri, writes_open)
     }
 
@@ -74,8 +70,8 @@ impl<const C: usize> Rig<C> {
     pub fn cycle(&mut self, tri: Option<(&[PortVertex; 3], u32)>, writes_open: bool) -> Cycle<C> {
         let Rig { model, memories } = self;
         let inputs = memories.inputs(tri, writes_open);
-        let outputs = model
-            .cycle_and_tell(&inputs, |line| memories.depth.expect(line.y, [line.major, line.minor]));
+        let outputs =
+            model.cycle_and_tell(&inputs, |line| memories.depth.expect(line.y, [line.major, line.minor]));
         let cycle = Cycle {
             outputs,
             triangle: outputs.tri_ready && tri.is_some(),

@@ -15,8 +15,11 @@ mod view;
 
 use crate::Events;
 use crate::fifo::Fifo;
+use crate::ports::{Pins, Ported, Shown};
 use crate::tokens::Fragment;
+use crate::word_memory::Ask;
 use crate::word_memory::WordIn;
+use edgewalk_machine::DrawState;
 use edgewalk_machine::{Gate, Plan};
 
 /// Inputs of the unit that stay the same over a pass.
@@ -285,5 +288,37 @@ impl<const C: usize> Shadow<C> {
             }
             Some(_) => {}
         }
+    }
+}
+
+impl ShadowInputs {
+    /// The constants of SHADOW.
+    #[must_use]
+    pub fn of(state: &DrawState) -> ShadowInputs {
+        // b <= 16 bits
+        ShadowInputs { on: state.shadow_on, light_pass: state.light_pass, ambient: state.ambient as u32 }
+    }
+}
+
+impl<const C: usize> Ported<C> for Shadow<C> {
+    type Takes = Fragment<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        let inputs = ShadowInputs::of(&pins.state);
+        out.takes(self.frag_ready(pins.token, &inputs, &pins.word));
+        out.gives(self.shaded(&inputs, &pins.word).as_ref());
+        out.asks(Ask { addr: self.read(pins.token, &inputs), take: self.mdata_ready(pins.next) });
+        out.status("shadow_full", self.full());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        let inputs = ShadowInputs::of(&pins.state);
+        let taken = pins.next && self.shaded(&inputs, &pins.word).is_some();
+        self.step(pins.token, &inputs, &pins.word, taken, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

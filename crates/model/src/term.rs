@@ -17,7 +17,9 @@ mod view;
 use crate::Events;
 use crate::fetch::Fetch;
 use crate::named::{Named, Number, Place, Sourced, named};
+use crate::ports::{Pins, Ported, Shown};
 use crate::tokens::{Source, Span, sign_extend};
+use crate::word_memory::Ask;
 use crate::word_memory::WordIn;
 use edgewalk_machine::record::GLOSS_BITS;
 use edgewalk_machine::{Plan, Walk};
@@ -310,5 +312,28 @@ impl Term {
         let right = sign_extend(span.x - self.x, self.column_bits);
         let ahead = if span.leftward { sign_extend(-right, self.column_bits) } else { right };
         if ahead > 0 { Way::Forward } else { Way::Back }
+    }
+}
+
+impl<const C: usize> Ported<C> for Term {
+    type Takes = Span<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        let there = self.there(pins.token);
+        out.takes(there && pins.next);
+        let walked =
+            pins.token.filter(|_| there).map(|span| WalkedSpan { span: *span, walked: self.walked() });
+        out.gives(walked.as_ref());
+        out.asks(Ask { addr: self.read(pins.held.record), take: self.tdata_ready() });
+        out.status("term_wait", self.waits(pins.token));
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        let taken = pins.next && self.there(pins.token);
+        self.step(pins.token, &pins.word, taken, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

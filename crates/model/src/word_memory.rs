@@ -72,7 +72,9 @@ impl WordMemory {
     pub fn write(&mut self, first: usize, words: impl IntoIterator<Item = u128>) {
         let clear = self.clear;
         match &mut self.words {
-            Words::Narrow(stored) => write(stored, first, words.into_iter().map(|word| word as u32), clear as u32),
+            Words::Narrow(stored) => {
+                write(stored, first, words.into_iter().map(|word| word as u32), clear as u32)
+            }
             Words::Wide(stored) => write(stored, first, words, clear),
         }
     }

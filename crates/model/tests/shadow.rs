@@ -140,8 +140,7 @@ fn every_decision_is_the_rules() {
             _ => rng.random_range(0..range),
         };
         let shares = if transmits { plan.color.max() as u32 + 1 } else { 1 };
-        let map: Vec<u32> =
-            (0..texels(&plan)).map(|_| some(depths) * shares + some(shares)).collect();
+        let map: Vec<u32> = (0..texels(&plan)).map(|_| some(depths) * shares + some(shares)).collect();
         memory.write(0, map.iter().map(|word| u128::from(*word)));
         let (size, texel, depth) =
             (i64::from(plan.shadow.size), plan.channels()[4].bits, plan.channels()[6].bits);

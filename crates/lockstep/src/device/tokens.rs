@@ -25,14 +25,6 @@ impl<T: Sourced> Table<T> {
         Ok(Table { blank: T::blank(plan), fields: found.collect::<Result<_, Box<Port>>>()? })
     }
 
-    /// The fields of a token.
-    pub fn pack(&self, token: &T, values: &mut [u128]) {
-        let mut token = *token;
-        for ((place, width, _), value) in self.fields.iter().zip(values) {
-            *value = token.at(*place).bits() & (u128::MAX >> (128 - width));
-        }
-    }
-
     /// The token with these fields, of this triangle.
     pub fn unpack(&self, values: &[u128], triangle: u32) -> T {
         let mut token = self.blank;

@@ -45,7 +45,8 @@ impl<const C: usize> Blend<C> {
     fn triangle(&self, pass: Option<&Fragment<C>>) -> Option<u32> {
         let staged = self.stages.iter().rev().flatten().next();
         let done = self.rmw.write().or(staged).map(|result| result.side.frag.source.id);
-        done.or(self.rmw.flight(0).map(|flight| flight.side.frag.source.id)).or(pass.map(|pass| pass.source.id))
+        done.or(self.rmw.flight(0).map(|flight| flight.side.frag.source.id))
+            .or(pass.map(|pass| pass.source.id))
     }
 
     fn view_queue(&self, plan: &Plan, view: &mut View) {
@@ -53,8 +54,9 @@ impl<const C: usize> Blend<C> {
         view.table(&format!("queue of {}", self.rmw.places()), &["fragment", "k", "need", "fwd"], false);
         for place in 0..self.rmw.places() {
             let flight = self.rmw.flight(place);
-            let values =
-                flight.as_ref().map(|f| fragments::seen_values(plan, f.addr, &f.side.frag.values, f.side.frag.lit));
+            let values = flight
+                .as_ref()
+                .map(|f| fragments::seen_values(plan, f.addr, &f.side.frag.values, f.side.frag.lit));
             let shown = flight.as_ref().zip(values.as_ref());
             view.row(&if place == 0 { "head".to_owned() } else { place.to_string() });
             let shown = shown.map(|(flight, values)| (flight.side.frag.source.id, &values[..]));

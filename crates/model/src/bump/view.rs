@@ -17,7 +17,8 @@ impl<const C: usize> Bump<C> {
     ) {
         view.unit(plan, "bump");
         view.kind("fragment", "fragments", || fragments::fields(plan));
-        let stages: Vec<Option<&Fragment<C>>> = self.stages.iter().map(|stage| stage.map(|lit| &lit.frag)).collect();
+        let stages: Vec<Option<&Fragment<C>>> =
+            self.stages.iter().map(|stage| stage.map(|lit| &lit.frag)).collect();
         let oldest = stages.iter().rev().flatten().next().copied().or(frag.map(|given| given.frag));
         view.triangle(oldest.map(|fragment| fragment.source.id));
         view.flag("first", "a fragment is in K1", stages[0].is_some());

@@ -25,7 +25,8 @@ impl<const C: usize> Shade<C> {
             ("M", self.m.map(|(fragment, _)| fragment)),
             ("C", self.c),
         ];
-        let oldest = stages.iter().rev().find_map(|(_, stage)| stage.as_ref()).or(frag.map(|given| given.frag));
+        let oldest =
+            stages.iter().rev().find_map(|(_, stage)| stage.as_ref()).or(frag.map(|given| given.frag));
         view.triangle(oldest.map(|fragment| fragment.source.id));
         view.flag("have", "tables are inside", self.have);
         view.wire(|| "have".to_owned());
