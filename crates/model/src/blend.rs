@@ -94,7 +94,7 @@ impl<const C: usize> Blend<C> {
     pub fn new(plan: &Plan) -> Self {
         let blend = &plan.blend;
         let interpolated = blend.kind == BlendKind::Interpolated;
-        let kt = plan.channels().iter().position(|channel| channel.name == "kt");
+        let kt = plan.channel_place("kt");
         Blend {
             bits: plan.color.bits,
             kt_bits: blend.kt_bits,

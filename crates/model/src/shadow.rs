@@ -17,8 +17,7 @@ use crate::Events;
 use crate::fifo::Fifo;
 use crate::ports::{Pins, Ported, Shown};
 use crate::tokens::Fragment;
-use crate::word_memory::Ask;
-use crate::word_memory::WordIn;
+use crate::word_memory::{Ask, WordIn};
 use edgewalk_machine::DrawState;
 use edgewalk_machine::{Gate, Plan};
 
