@@ -30,7 +30,7 @@ mod band;
 
 pub use band::fits;
 pub use camera::Camera;
-pub use error::{InputError, nearest};
+pub use error::InputError;
 pub use frame::{Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_LIGHTS, MAX_SIDE, Pane, Polygon, Shadow};
 pub use host::Host;
 pub use light::{Attenuation, Incident, Light};

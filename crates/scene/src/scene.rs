@@ -2,7 +2,7 @@
 
 use crate::camera::Camera;
 use crate::clip::{ClipVertex, Viewport, clip};
-use crate::error::{Fault, InputError, nearest};
+use crate::error::{Fault, InputError};
 use crate::frame::Frame;
 use crate::light::Light;
 use crate::mesh::{self, Mesh};
@@ -10,6 +10,7 @@ use crate::normals::{NormalRule, corner_normals, face_normals};
 use crate::rules::ShadeMode;
 use crate::shading::{Lighting, Point, Specular};
 use crate::surface::{Surface, SurfaceTriangle};
+use edgewalk_nearest::nearest;
 use glam::{DVec2, DVec3};
 
 /// What is to be drawn, in world space.
@@ -53,7 +54,7 @@ impl Scene {
             _ => {
                 let permitted = format!("permitted: {}", Self::BUILTIN.join(" "));
                 let mut fault = Fault::new("built-in scenes", None, "name", name, permitted);
-                fault.nearest = nearest(name, &Self::BUILTIN);
+                fault.nearest = nearest(name, Self::BUILTIN);
                 Err(fault.into())
             }
         }
