@@ -11,19 +11,16 @@ mod data;
 mod still;
 
 use crate::sweep::table::Table;
-pub use still::rule;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
+pub use still::rule;
 
 const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
 /// In the order in which one uses the other.
-const SCRIPT: &str = concat!(
-    include_str!("page/marks.js"),
-    include_str!("page/errors.js"),
-    include_str!("page/page.js")
-);
+const SCRIPT: &str =
+    concat!(include_str!("page/marks.js"), include_str!("page/errors.js"), include_str!("page/page.js"));
 
 /// A machine's pictures of an input, PNG files.
 pub struct Pictures {

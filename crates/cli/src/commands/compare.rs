@@ -126,6 +126,9 @@ impl Asked {
             true => Input::open(&args.input, Shaded::Corners(Shading::Gouraud))?.size(),
             false => None,
         };
+        if let (Some(_), Some((shading, _))) = (screen, own) {
+            return Err(anyhow!("{name}: {} says itself how it is shaded; leave :{shading} out", args.input));
+        }
         let plan = machine.named(text, screen)?;
         let (shading, shaded) = match own.or(common) {
             Some(asked) => asked,

@@ -259,6 +259,15 @@ fn kept(out: &Path) -> Result<Sweep> {
     let named = || path.display().to_string();
     let text = std::fs::read_to_string(&path).with_context(named)?;
     let definition: Definition = serde_json::from_str(&text).with_context(named)?;
+    let (format, [major, minor]) = (&definition.format, definition.version);
+    if (format.as_str(), definition.version) != (Definition::FORMAT, Definition::FORMAT_VERSION) {
+        let [own, own_minor] = Definition::FORMAT_VERSION;
+        return Err(anyhow!(
+            "{}: format {format} of version {major}.{minor}: permitted: {} of version {own}.{own_minor}; plan it anew",
+            named(),
+            Definition::FORMAT
+        ));
+    }
     let version = env!("CARGO_PKG_VERSION");
     if definition.program != version {
         return Err(anyhow!(

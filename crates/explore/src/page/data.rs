@@ -1,9 +1,9 @@
 //! What the script of the page works with: columns of figures, a row a point.
 
 use super::Pictures;
+use crate::sweep::Point;
 use crate::sweep::csv::figures;
 use crate::sweep::row::{Status, causes};
-use crate::sweep::Point;
 use crate::sweep::shared::pixel_key;
 use crate::sweep::table::Table;
 use edgewalk_machine::key::Domain;
@@ -57,7 +57,7 @@ pub fn data(table: &Table, pictures: &[Pictures]) -> Value {
         "columns": columns,
         "rows": rows.iter().map(line).collect::<Vec<_>>(),
         "alike": alike,
-        "varied": differ,
+        "varied": differ.iter().filter(|name| table.sweep.axes.iter().any(|axis| axis.key.name == **name)).collect::<Vec<_>>(),
         "keys": KEYS.iter().map(|key| json!([key.name, matches!(key.domain, Domain::Word(_))])).collect::<Vec<_>>(),
         "objectives": objectives.map(|o| json!({ "name": column(o.name), "most": o.most, "doc": o.doc })).collect::<Vec<_>>(),
         "causes": causes().collect::<Vec<_>>(),

@@ -101,18 +101,18 @@ const start = () => {
 
   // Bars of parts that add up, for the front and what is chosen.
   const bars = (id, list, parts, value, unit) => {
-    const height = 22, most = Math.max(...list.map((i) => parts.reduce((sum, p) => sum + (value(rows[i], p) ?? 0), 0)), 1), wide = 380;
+    const height = 22, most = Math.max(...list.map((i) => parts.reduce((sum, p) => sum + (value(rows[i], p) ?? 0), 0)), 1), wide = 340;
     const used = parts.filter((p) => list.some((i) => value(rows[i], p)));
     const body = list.map((i, line) => {
-      let x = 320;
+      let x = 366;
       const all = used.map((part) => {
         const v = value(rows[i], part) ?? 0, w = v / most * wide, k = parts.indexOf(part) % colours.length;
         const bar = v ? `<rect x="${x}" y="${line * height + 3}" width="${w}" height="${height - 6}" fill="url(#${id}${k})" stroke="var(--paper)" stroke-width=".5"><title>${esc(part)}: ${fmt(v)} ${unit}</title></rect>` : "";
         x += w;
         return bar;
       }).join("");
-      const text = label(rows[i]), cut = text.length > 52 ? text.slice(0, 51) + "…" : text;
-      return `<text class="bar-label" x="314" y="${line * height + 15}" text-anchor="end">${i === picked ? "▸ " : ""}${esc(cut)}<title>${esc(told(rows[i]))}</title></text>${all}`;
+      const text = label(rows[i]), cut = text.length > 60 ? text.slice(0, 59) + "…" : text;
+      return `<text class="bar-label" x="360" y="${line * height + 15}" text-anchor="end">${i === picked ? "▸ " : ""}${esc(cut)}<title>${esc(told(rows[i]))}</title></text>${all}`;
     }).join("");
     return `<svg class="chart" viewBox="0 0 ${W} ${list.length * height + 4}" role="img" aria-label="${esc(used.join(", "))} of ${list.length} machines, ${unit}">${defs(id)}${body}</svg>` + legendOf(id, used, parts);
   };

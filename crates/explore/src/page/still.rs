@@ -13,7 +13,10 @@ const SHOWN: usize = 60;
 #[must_use]
 pub fn rule(sweep: &Sweep) -> Option<String> {
     let inputs = (sweep.inputs.len() > 1).then(|| {
-        format!("of {} inputs the cycles are summed, and the worst of every other figure counts", sweep.inputs.len())
+        format!(
+            "of {} inputs the cycles are summed, and the worst of every other figure counts",
+            sweep.inputs.len()
+        )
     });
     let memories = (sweep.memories.len() > 1)
         .then(|| format!("machines are judged {}", sweep.judge.words(&sweep.memories)));

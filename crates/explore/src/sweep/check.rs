@@ -11,10 +11,12 @@ use std::collections::BTreeMap;
 /// # Errors
 /// The first row that this program cannot have written, and why.
 pub fn check(sweep: &Sweep, rows: &BTreeMap<String, Value>) -> Result<(), String> {
-    sweep.points.iter().filter_map(|point| Some((point, rows.get(&point.key)?))).try_for_each(|(point, row)| {
-        of_point(sweep, point, row)
-            .map_err(|why| format!("row {}: {why}; remove its line and run the point again", point.key))
-    })
+    sweep.points.iter().filter_map(|point| Some((point, rows.get(&point.key)?))).try_for_each(
+        |(point, row)| {
+            of_point(sweep, point, row)
+                .map_err(|why| format!("row {}: {why}; remove its line and run the point again", point.key))
+        },
+    )
 }
 
 fn of_point(sweep: &Sweep, point: &Point, row: &Value) -> Result<(), String> {
@@ -29,7 +31,9 @@ fn of_point(sweep: &Sweep, point: &Point, row: &Value) -> Result<(), String> {
     }
     match (status, &point.plan) {
         (Some(Status::Ok), Err(why)) => Err(format!("status ok, but the machine cannot be built: {why}")),
-        (Some(Status::Ok), Ok(_)) if !row["report"].is_object() => Err("status ok without a report".to_owned()),
+        (Some(Status::Ok), Ok(_)) if !row["report"].is_object() => {
+            Err("status ok without a report".to_owned())
+        }
         (_, Ok(plan)) if row["report"].is_object() => {
             figures(point, row)?;
             same(&row["slack"], &slack(&row["report"]), "slack")?;

@@ -32,10 +32,7 @@ impl Equation {
         let (scene, surface) = input.surface(machine)?;
         // Which triangle a pixel shows is the same in all of golden's ways of shading.
         let shaded = edgewalk_golden::shade(scene, &surface, Shading::Gouraud, golden_fill(machine));
-        Some(Equation {
-            shown: shaded.picture.id.iter().map(|id| *id >= 0).collect(),
-            rgb: shaded.truth,
-        })
+        Some(Equation { shown: shaded.picture.id.iter().map(|id| *id >= 0).collect(), rgb: shaded.truth })
     }
 
     /// How far this picture is from it.

@@ -138,9 +138,8 @@ impl<'t> Table<'t> {
     /// How many rows have each status.
     #[must_use]
     pub fn counts(&self) -> [(Status, usize); 5] {
-        Status::ALL.map(|status| {
-            (status, self.rows.iter().filter(|row| Status::of(row) == Some(status)).count())
-        })
+        Status::ALL
+            .map(|status| (status, self.rows.iter().filter(|row| Status::of(row) == Some(status)).count()))
     }
 
     /// How many rows show an error beyond what is proved: each is a fault of the program.

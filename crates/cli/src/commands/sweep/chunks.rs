@@ -63,7 +63,9 @@ pub fn plan(definition: &Definition, out: &Path, talk: Talk) -> Result<Verdict> 
 /// The points of a part: neighbours share their pixels, so those of the same pixels stay together as far as may be.
 fn part(sweep: &Sweep, chunks: u32, chunk: u32) -> Vec<&Point> {
     let mut points: Vec<&Point> = sweep.points.iter().collect();
-    points.sort_by_cached_key(|point| (point.input, point.way, geometry_key(&point.machine), pixel_key(&point.machine)));
+    points.sort_by_cached_key(|point| {
+        (point.input, point.way, geometry_key(&point.machine), pixel_key(&point.machine))
+    });
     let bound = |chunk: u32| points.len() * chunk as usize / chunks as usize;
     points[bound(chunk)..bound(chunk + 1)].to_vec()
 }
@@ -89,17 +91,8 @@ pub fn run(args: &RunArgs, talk: Talk) -> Result<Verdict> {
     let rows = store::by_key(store::read(&path)?);
     let faults = of.iter().filter(|point| rows.get(&point.key).is_some_and(is_beyond)).count();
     talk.say(
-        || {
-            Ok(json!({ "chunk": chunk, "points": of.len(), "made": made, "faults": faults })
-                .to_string())
-        },
-        || {
-            format!(
-                "part {chunk} of {chunks}: {} points, {} of them were there",
-                of.len(),
-                of.len() - made
-            )
-        },
+        || Ok(json!({ "chunk": chunk, "points": of.len(), "made": made, "faults": faults }).to_string()),
+        || format!("part {chunk} of {chunks}: {} points, {} of them were there", of.len(), of.len() - made),
     )?;
     Ok(if faults > 0 { Verdict::Mismatch } else { Verdict::Pass })
 }

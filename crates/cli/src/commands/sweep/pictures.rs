@@ -18,7 +18,8 @@ const MOST: usize = 4;
 pub fn pictures(table: &Table) -> Result<Vec<Pictures>> {
     let sweep = table.sweep;
     let bests = sweep.objectives.iter().filter_map(|objective| table.best(objective));
-    let keys = bests.chain(table.first_front()).flat_map(Candidate::all).filter_map(|row| row["key"].as_str());
+    let keys =
+        bests.chain(table.first_front()).flat_map(Candidate::all).filter_map(|row| row["key"].as_str());
     let points = sweep.by_key();
     let mut seen = BTreeSet::new();
     let mut list = Vec::new();
