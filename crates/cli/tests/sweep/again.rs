@@ -1,7 +1,7 @@
 //! Rows that are there already: tried again, of another bound, of another program, changed by somebody.
 
 use super::{keys, rows};
-use crate::support::{TRIANGLE, edgewalk, run};
+use crate::support::{TRIANGLE, csv, edgewalk, run};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -37,8 +37,7 @@ fn failed(row: &mut Value) {
 }
 
 fn statuses(at: &Path, out: &str) -> Vec<String> {
-    let mut reader = csv::Reader::from_path(at.join(out).join("runs.csv")).unwrap();
-    reader.records().map(|record| record.unwrap()[1].to_owned()).collect()
+    csv(&at.join(out).join("runs.csv")).into_iter().skip(1).map(|record| record[1].clone()).collect()
 }
 
 #[test]
@@ -115,9 +114,9 @@ fn bounds_keep_their_own_rows() {
         assert_eq!(sweep(bound)["made"], 0, "{bound:?}");
         pruned.push(told["status"]["pruned"].as_u64().unwrap());
         // No row of another bound is among those that the table has.
-        let mut reader = csv::Reader::from_path(at.join("s/runs.csv")).unwrap();
-        let place = reader.headers().unwrap().iter().position(|name| name == "z_bound_for_input").unwrap();
-        for record in reader.records().map(Result::unwrap).filter(|record| &record[1] == "ok") {
+        let table = csv(&at.join("s/runs.csv"));
+        let place = table[0].iter().position(|name| name == "z_bound_for_input").unwrap();
+        for record in table[1..].iter().filter(|record| record[1] == "ok") {
             assert!(
                 record[place].parse::<f64>().is_ok_and(|bound| bound <= limit) || limit == f64::MAX,
                 "{record:?}"

@@ -2,7 +2,7 @@
 
 use super::oracle::{Asked, Axis, Judge, Machine, best, data, fronts, is, plain, pointer, table};
 use super::rows;
-use crate::support::edgewalk;
+use crate::support::{csv, edgewalk};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -202,12 +202,11 @@ impl Ran<'_> {
     }
 
     fn csv(&self) -> usize {
-        let mut reader = csv::Reader::from_path(self.at.join("s/runs.csv")).unwrap();
-        let header: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
+        let table = csv(&self.at.join("s/runs.csv"));
         let (mut checked, mut order) = (0, self.in_order());
-        for record in reader.records().map(Result::unwrap) {
+        for record in &table[1..] {
             let (row, front) = order.next().unwrap();
-            for (name, field) in header.iter().zip(&record) {
+            for (name, field) in table[0].iter().zip(record) {
                 let own = match name.as_str() {
                     "front" => front.map_or(Value::Null, Value::from),
                     name => {

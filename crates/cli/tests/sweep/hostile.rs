@@ -2,7 +2,7 @@
 
 use super::browser::seen;
 use super::oracle::data;
-use crate::support::{TRIANGLE, edgewalk, run};
+use crate::support::{TRIANGLE, csv, edgewalk, run};
 use serde_json::Value;
 
 /// Names of files that a page, a table or a shell might take for something else.
@@ -41,10 +41,10 @@ fn names_of_files_are_shown_as_they_are() {
     assert_eq!(run(at, &sweep), (Some(0), String::new()));
 
     // The table, by a reader of CSV: each name is one field, and none of them a formula.
-    let mut reader = csv::Reader::from_path(at.join("s/runs.csv")).unwrap();
-    let place = reader.headers().unwrap().iter().position(|name| name == "input").unwrap();
+    let table = csv(&at.join("s/runs.csv"));
+    let place = table[0].iter().position(|name| name == "input").unwrap();
     let mut read: Vec<String> = Vec::new();
-    for record in reader.records().map(Result::unwrap) {
+    for record in &table[1..] {
         assert!(
             record
                 .iter()
@@ -52,7 +52,7 @@ fn names_of_files_are_shown_as_they_are() {
             "{record:?}"
         );
         if !read.iter().any(|name| *name == record[place]) {
-            read.push(record[place].to_owned());
+            read.push(record[place].clone());
         }
     }
     let own: Vec<String> = files
