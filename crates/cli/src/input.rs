@@ -1,12 +1,12 @@
 //! What is to be drawn: a built-in scene, a mesh, or a file of screen-space triangles; and its way to the port.
 
-use crate::extra;
 use crate::machine_args::MachineArgs;
 use anyhow::{Context as _, Result, anyhow};
-use edgewalk_explore::input::{fitting, in_triangles, is_triangle_file};
-use edgewalk_explore::port::guard_band;
-pub use edgewalk_explore::port::{PortFrame, draw_state, port_triangle, to_port};
 use edgewalk_golden::Order;
+use edgewalk_host::extra;
+use edgewalk_host::input::{fitting, in_triangles, is_triangle_file};
+use edgewalk_host::port::guard_band;
+pub use edgewalk_host::port::{PortFrame, draw_state, port_triangle, to_port};
 use edgewalk_machine::Plan;
 use edgewalk_scene::{Blending, Frame, PixelMethod, Scene, Surface, triangle_file};
 use std::path::Path;

@@ -7,7 +7,6 @@
 
 #![deny(clippy::print_stdout, clippy::print_stderr)] // they panic where they cannot write; see talk.rs
 
-mod accumulators;
 mod arrays;
 mod commands;
 mod cost;
@@ -34,7 +33,6 @@ use commands::{
     bench, compare, config, demo, emit, explain, gallery, raster, render, replay, size, sweep, synth, trace,
     vectors, verify,
 };
-use edgewalk_explore::{extra, report, setup_report};
 use machine_args::MachineArgs;
 use std::io::Write as _;
 use std::process::ExitCode;

@@ -1,15 +1,11 @@
 //! How a command ends: the exit codes every subcommand shares.
 
-pub use edgewalk_explore::Verdict;
+use edgewalk_bench::ToolError;
+pub use edgewalk_judge::Verdict;
 use edgewalk_tool::Stop;
 use edgewalk_vectors::SimulateError;
 use std::io::Write as _;
 use std::process::ExitCode;
-
-/// A simulator or synthesis tool that is absent or broken.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct ToolError(pub String);
 
 /// 0 pass, 1 mismatch, 2 vacuous (and bad input). That nothing was compared is an error, and said even by a quiet program.
 pub fn exit_code(verdict: Verdict) -> ExitCode {

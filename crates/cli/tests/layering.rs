@@ -9,8 +9,11 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("machine", &["numerics"]),
     ("scene", &[]),
     ("golden", &["scene"]),
-    ("gallery", &["machine", "scene", "golden", "model", "explore"]),
     ("model", &["machine"]),
+    ("host", &["numerics", "machine", "scene", "golden", "model"]),
+    ("judge", &["numerics", "machine", "scene", "golden", "model", "host"]),
+    ("gallery", &["machine", "scene", "golden", "model", "host", "judge"]),
+    ("explain", &["numerics", "machine", "scene", "golden", "model", "host", "judge"]),
     ("netlist", &[]),
     ("verilog", &["netlist"]),
     ("jit", &["netlist"]),
@@ -20,12 +23,14 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("vectors", &["machine", "model", "netlist", "verilog", "rtl", "lockstep", "tool"]),
     ("replay", &["machine", "model"]),
     ("synth", &["machine", "netlist", "verilog", "rtl", "tool"]),
-    ("explore", &["numerics", "machine", "scene", "golden", "model"]),
+    ("bench", &["machine", "model", "netlist", "verilog", "jit", "rtl", "lockstep"]),
+    ("explore", &["numerics", "machine", "scene", "golden", "model", "host", "judge"]),
     (
         "cli",
         &[
-            "numerics", "machine", "scene", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl",
-            "lockstep", "tool", "vectors", "replay", "synth", "explore",
+            "numerics", "machine", "scene", "golden", "model", "host", "judge", "gallery", "explain",
+            "netlist", "verilog", "jit", "rtl", "lockstep", "tool", "vectors", "replay", "synth", "bench",
+            "explore",
         ],
     ),
 ];
@@ -45,8 +50,8 @@ const STRANGERS: [&str; 2] = ["model", "rtl"];
 
 /// Crates that read and write no files: they may not even name the standard library's file or process modules.
 const NO_FILES: &[&str] = &[
-    "numerics", "machine", "golden", "gallery", "model", "netlist", "verilog", "jit", "rtl", "lockstep",
-    "replay",
+    "numerics", "machine", "golden", "model", "judge", "gallery", "explain", "netlist", "verilog", "jit",
+    "rtl", "lockstep", "replay",
 ];
 
 fn crates() -> PathBuf {

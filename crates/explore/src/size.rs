@@ -7,10 +7,10 @@
 
 mod breaker;
 
-use crate::port::PortFrame;
-use crate::reach::{Reach, walked as reached};
 use anyhow::{Result, anyhow};
 pub use breaker::Breaker;
+use edgewalk_host::port::PortFrame;
+use edgewalk_host::reach::{Reach, walked as reached};
 use edgewalk_machine::{Channel, Fill, Machine, Plan};
 use edgewalk_numerics::solver::least_fraction_bits;
 use edgewalk_numerics::{Dyadic, Rounding, Screen, Steps, Target};

@@ -3,10 +3,10 @@
 
 use crate::exhibit::{GUARD, HEIGHT, View, WIDTH, figure};
 use anyhow::{Result, anyhow};
-use edgewalk_explore::compare::compare_shaded;
-use edgewalk_explore::draw::{draw_frame, golden};
-use edgewalk_explore::port::to_port;
-use edgewalk_explore::shade::Shaded;
+use edgewalk_host::draw::{draw_frame, golden};
+use edgewalk_host::port::to_port;
+use edgewalk_judge::compare::compare_shaded;
+use edgewalk_judge::shaded::Shaded;
 use edgewalk_machine::Machine;
 use edgewalk_model::Waits;
 use edgewalk_scene::{Light, PixelMethod, Scene};

@@ -1,9 +1,9 @@
 //! Shadow maps, against rays (ch. 7.2, 7.3).
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
-use edgewalk_explore::lights::{Passes, beside_golden};
-use edgewalk_explore::raster::{Cycles, Raster};
 use edgewalk_golden::{Rays, Shaded, Shading, ShadowMaps, Visibility, render};
+use edgewalk_host::raster::{Cycles, Raster};
+use edgewalk_judge::passes::{Passes, beside_golden};
 use edgewalk_machine::Machine;
 use edgewalk_scene::Scene;
 use std::path::Path;

@@ -1,12 +1,12 @@
 //! Which combinations can be built, and the reason where one cannot.
 
 use crate::channel::{Channel, MAX_CHANNELS};
+use crate::error::MachineError;
 use crate::keys::KEYS;
 use crate::machine::{Fill, Machine};
-use crate::record::{self, WORD_BITS as TERM_BITS};
 use crate::shade::ShadeColour;
 use crate::shadow::LIGHT_SPACE;
-use crate::text::MachineError;
+use crate::term::{self, WORD_BITS as TERM_BITS};
 
 /// Longest interpolated word.
 pub const WORD_BITS: u32 = 56;
@@ -202,7 +202,7 @@ fn positional(machine: &Machine) -> Result<(), MachineError> {
 /// No word of a term is longer than a word of the model.
 fn terms(machine: &Machine) -> Result<(), MachineError> {
     for (degree, key) in [(2, "term.fraction"), (1, "term.linear_fraction")] {
-        let terms = record::terms(machine).into_iter().filter(|term| term.degree == degree);
+        let terms = term::terms(machine).into_iter().filter(|term| term.degree == degree);
         let Some(longest) = terms.max_by_key(|term| term.word()) else { continue };
         if longest.word() > TERM_BITS {
             return Err(MachineError::rule(

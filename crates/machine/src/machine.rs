@@ -90,6 +90,21 @@ pub struct Machine {
     pub tag_bits: u32,
 }
 
+impl Machine {
+    /// The same machine with what `change` sets.
+    ///
+    /// ```
+    /// # use edgewalk_machine::Machine;
+    /// assert_eq!(Machine::default().with(|m| m.adders = 1).adders, 1);
+    /// ```
+    #[must_use]
+    pub fn with(&self, change: impl FnOnce(&mut Machine)) -> Machine {
+        let mut machine = self.clone();
+        change(&mut machine);
+        machine
+    }
+}
+
 impl Default for Machine {
     /// The preset `default`. r = 14 because a span may step over up to 2^13 columns of the guard band before the screen (bound 4).
     fn default() -> Self {

@@ -3,45 +3,20 @@
 use crate::blend::BlendKind;
 use crate::channel::Channel;
 use crate::machine::Machine;
-use crate::record::{self, Term};
 use crate::shadow::LIGHT_SPACE;
-use crate::text::MachineError;
-use crate::units::UNITS;
-use crate::vertex::PortStamp;
+use crate::stamp::PortStamp;
+use crate::term::Term;
 use crate::widths::Widths;
 use std::ops::{Deref, Range};
 
 /// A machine that can be built. Only [`Machine::plan`] makes one; the keys can be read through it, not changed.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Plan {
-    machine: Machine,
-    channels: Vec<Channel>,
-    terms: Vec<Term>,
-    widths: Widths,
-    port: PortStamp,
-}
-
-impl Machine {
-    /// The machine with all that follows from its keys.
-    ///
-    /// # Errors
-    /// The first combination of keys that cannot be built, with the reason and a value that would do.
-    pub fn plan(&self) -> Result<Plan, MachineError> {
-        // The depth, what the memory stores beside it, and then what only some machines have.
-        let depth = (crate::units::depth::SPEC.wants)(self).into_iter();
-        let others = UNITS.iter().filter(|unit| unit.name != "depth").flat_map(|unit| (unit.wants)(self));
-        let channels: Vec<Channel> = depth.chain(crate::units::memory::wants(self)).chain(others).collect();
-        crate::check::check(self, &channels)?;
-        let constant = self.blend.kind == BlendKind::Constant;
-        let port = PortStamp::of(
-            self.guard_bits,
-            self.subpixel_bits,
-            &channels,
-            if constant { self.blend.kt_bits } else { 0 },
-        );
-        let terms = record::terms(self);
-        Ok(Plan { machine: self.clone(), channels, terms, widths: self.widths(), port })
-    }
+    pub(crate) machine: Machine,
+    pub(crate) channels: Vec<Channel>,
+    pub(crate) terms: Vec<Term>,
+    pub(crate) widths: Widths,
+    pub(crate) port: PortStamp,
 }
 
 /// The keys.
@@ -53,18 +28,17 @@ impl Deref for Plan {
     }
 }
 
-impl Default for Plan {
-    fn default() -> Self {
-        #[allow(clippy::expect_used)]
-        Machine::default().plan().expect("a test plans every preset")
-    }
-}
-
 impl Plan {
     /// The channels that the units want, in the order of the words: z, r, g, b, the user's own, then kt where it is one.
     #[must_use]
     pub fn channels(&self) -> &[Channel] {
         &self.channels
+    }
+
+    /// The place of the channel of that name among [`Plan::channels`].
+    #[must_use]
+    pub fn channel_place(&self, name: &str) -> Option<usize> {
+        self.channels.iter().position(|channel| channel.name == name)
     }
 
     /// The user's own channels, with their places among all.
@@ -116,11 +90,6 @@ impl Plan {
         (0..adders).map(|adder| adder * channels / adders..(adder + 1) * channels / adders).collect()
     }
 
-    /// What the vertices made for this machine carry.
-    pub(crate) fn port_stamp(&self) -> PortStamp {
-        self.port
-    }
-
     /// The same machine with a tag of 32 bits, which changes nothing but the tag ports: a tool then sees the triangle of
     /// each write.
     #[must_use]
@@ -134,16 +103,6 @@ impl Plan {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::presets::PRESETS;
-
-    #[test]
-    fn every_preset_can_be_planned() {
-        for (name, _) in PRESETS {
-            let machine = Machine::preset(name).expect("listed");
-            assert!(machine.plan().is_ok(), "{name}");
-        }
-        assert_eq!(PRESETS.len(), 4);
-    }
 
     #[test]
     fn every_channel_has_one_slot_and_the_busiest_adder_t() {

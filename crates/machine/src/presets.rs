@@ -2,7 +2,6 @@
 
 use crate::channel::Precision;
 use crate::machine::{EdgeKind, Fill, Hazard, Machine};
-use crate::plan::Plan;
 
 /// Names of the presets, for `--machine` and its hints.
 pub const PRESETS: &[(&str, &str)] = &[
@@ -59,13 +58,5 @@ fn narrow() -> Machine {
         lanes: 1,
         hazard: Hazard::Drain,
         ..Machine::default()
-    }
-}
-
-impl Plan {
-    /// The preset of that name.
-    #[must_use]
-    pub fn preset(name: &str) -> Option<Plan> {
-        Machine::preset(name).and_then(|machine| machine.plan().ok())
     }
 }

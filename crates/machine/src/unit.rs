@@ -5,7 +5,6 @@ use crate::field::Field;
 use crate::link::{Held, Link, MemoryPort, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::units::{self, UNITS};
 
 /// A corner or hazard that a unit can meet, and that a suite has to.
 #[derive(Clone, Copy)]
@@ -59,37 +58,13 @@ pub struct UnitSpec {
     pub events: &'static [Event],
 }
 
-impl Plan {
-    /// The units of this machine, in the order the data flows.
-    pub fn units(&self) -> impl Iterator<Item = &'static UnitSpec> {
-        UNITS.iter().copied().filter(|unit| (unit.present)(self))
-    }
+/// The input by which a pass is the light's own, of the units that ask for it.
+pub(crate) fn light_pass(plan: &Plan) -> Option<Field> {
+    let doc = "the map is drawn, not the picture";
+    plan.shadow.draws_map().then(|| Field::count("light_pass", 1, doc))
+}
 
-    /// What can happen in this machine: to its units in their order, then between them.
-    pub fn events(&self) -> impl Iterator<Item = &'static Event> {
-        let all = self.units().flat_map(|unit| unit.events).chain(units::EVENTS);
-        all.filter(|event| (event.can_happen)(self))
-    }
-
-    /// The ports of the whole machine: what its units have and do not join among themselves.
-    #[must_use]
-    pub fn ports(&self) -> Ports {
-        let all: Vec<Ports> = self.units().map(|unit| (unit.ports)(self)).collect();
-        let mut constants: Vec<Field> = Vec::new();
-        for field in all.iter().flat_map(|ports| &ports.constants) {
-            // An input that several units have is one of the machine.
-            if !constants.contains(field) {
-                constants.push(field.clone());
-            }
-        }
-        Ports {
-            takes: all.first().and_then(|ports| ports.takes.clone()),
-            gives: all.last().and_then(|ports| ports.gives.clone()),
-            writes: all.iter().flat_map(|ports| ports.writes.clone()).collect(),
-            memory: all.iter().flat_map(|ports| ports.memory.clone()).collect(),
-            constants,
-            status: units::machine_status(),
-            ..Ports::default()
-        }
-    }
+/// For what every machine has, or can meet.
+pub(crate) fn always(_: &Plan) -> bool {
+    true
 }

@@ -20,8 +20,7 @@ pub mod memory;
 use crate::activity::Activity;
 use crate::field::Field;
 use crate::link::Status;
-use crate::plan::Plan;
-use crate::unit::{Event, UnitSpec};
+use crate::unit::{Event, UnitSpec, always};
 
 /// Every unit, in the order the data flows.
 pub const UNITS: &[&UnitSpec] = &[
@@ -49,15 +48,4 @@ pub const EVENTS: &[Event] =
 pub(crate) fn machine_status() -> Vec<Status> {
     let cause = Field::count("activity", Activity::BITS, "the cause of the cycle");
     vec![Status { field: cause, during: None }, Status::new("idle", "nothing to do")]
-}
-
-/// The input by which a pass is the light's own, of the units that ask for it.
-pub(crate) fn light_pass(plan: &Plan) -> Option<Field> {
-    let doc = "the map is drawn, not the picture";
-    plan.shadow.draws_map().then(|| Field::count("light_pass", 1, doc))
-}
-
-/// For what every machine has, or can meet.
-pub(crate) fn always(_: &Plan) -> bool {
-    true
 }

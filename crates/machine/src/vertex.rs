@@ -2,20 +2,7 @@
 
 use crate::channel::{Channel, Kind, MAX_CHANNELS};
 use crate::plan::Plan;
-
-/// The formats of a vertex port, as a number: vertices of another machine carry another one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub(crate) struct PortStamp(u32);
-
-impl PortStamp {
-    /// Stands for the numbers of bits that decide how a vertex is read (FNV-1a over them); `kt`: those of a triangle's own
-    /// k_t, 0 if it has none.
-    pub fn of(guard_bits: u32, subpixel_bits: u32, channels: &[Channel], kt: u32) -> PortStamp {
-        let formats = channels.iter().flat_map(|c| [c.kind as u32, c.bits, c.vertex_fraction]);
-        let numbers = [guard_bits, subpixel_bits].into_iter().chain(formats).chain((kt > 0).then_some(kt));
-        PortStamp(numbers.fold(0x811c_9dc5, |hash, number| (hash ^ number).wrapping_mul(0x0100_0193)))
-    }
-}
+use crate::stamp::PortStamp;
 
 /// A vertex at the port of one machine: snapped and quantised. Only a [`Plan`] makes one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -163,7 +150,7 @@ impl Plan {
                 return Err(VertexError::Channel { channel: "kt", value: *value, low: 0.0, high: 1.0 });
             }
         };
-        Ok(PortVertex { x, y, values: port, kt, stamp: self.port_stamp() })
+        Ok(PortVertex { x, y, values: port, kt, stamp: self.port })
     }
 
     /// A vertex of these numbers as the port has them: x and y with `s`, values with `e` fraction bits, behind the last
@@ -177,7 +164,7 @@ impl Plan {
             *port = *value;
         }
         let kt = if self.has_triangle_kt() { values.get(channels).map_or(0, |kt| *kt as u32) } else { 0 };
-        PortVertex { x, y, values: port, kt, stamp: self.port_stamp() }
+        PortVertex { x, y, values: port, kt, stamp: self.port }
     }
 
     /// Takes the triangle with this number if its vertices were made for this machine's port.
@@ -186,7 +173,7 @@ impl Plan {
     /// Vertices of another machine.
     #[inline]
     pub fn accept(&self, triangle: &[PortVertex; 3], number: u64) -> Result<(), ForeignVertex> {
-        if triangle.iter().all(|vertex| vertex.stamp == self.port_stamp()) {
+        if triangle.iter().all(|vertex| vertex.stamp == self.port) {
             return Ok(());
         }
         Err(ForeignVertex { triangle: number })

@@ -83,7 +83,7 @@ impl<const C: usize> Depth<C> {
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
         let interpolated = plan.blend.kind == BlendKind::Interpolated;
-        let kt = plan.channels().iter().position(|channel| channel.name == "kt");
+        let kt = plan.channel_place("kt");
         let fork = Fork {
             is_there: plan.blend.is_there(),
             kt: kt.filter(|_| interpolated),

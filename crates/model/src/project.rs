@@ -14,7 +14,7 @@
 mod view;
 
 use crate::Events;
-use crate::tokens::Fragment;
+use crate::tokens::{Fragment, sign_extend};
 use edgewalk_machine::{LIGHT_SPACE, Plan, Project as Kind};
 
 /// What holds fragments while they are divided.
@@ -55,7 +55,7 @@ impl<const C: usize> Project<C> {
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
         let shadow = &plan.shadow;
-        let place = |name: &str| plan.channels().iter().position(|channel| channel.name == name).unwrap_or(0);
+        let place = |name: &str| plan.channel_place(name).unwrap_or(0);
         let rows = match shadow.project {
             Kind::Pipelined => Rows::Pipelined { stages: vec![None; shadow.rows() as usize + 1], oldest: 0 },
             Kind::Serial => Rows::Serial { fragment: None, row: 0 },
@@ -142,10 +142,8 @@ impl<const C: usize> Project<C> {
 
     /// The fragment with its texel and its depth in the place of what they are quotients of.
     fn divided(&self, fragment: &Fragment<C>, events: &mut Events) -> Fragment<C> {
-        let [x, y, z, w] = self.at.map(|place| {
-            let (word, sign) = (i64::from(fragment.values[place]), 1 << (self.bits - 1));
-            (word ^ sign) - sign
-        });
+        let signed = |place: usize| i64::from(sign_extend(fragment.values[place] as i32, self.bits));
+        let [x, y, z, w] = self.at.map(signed);
         let texels = [x, y].map(|x| self.texel(x, w, events));
         let depth = self.depth(z, w, events);
         events.behind_light += u64::from(w <= 0);

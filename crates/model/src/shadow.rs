@@ -15,7 +15,7 @@ mod view;
 
 use crate::Events;
 use crate::fifo::Fifo;
-use crate::tokens::Fragment;
+use crate::tokens::{Fragment, sign_extend};
 use edgewalk_machine::{Gate, Plan};
 
 /// The unit's inputs of a cycle, but for the fragment and whether DEPTH takes one.
@@ -97,7 +97,7 @@ impl<const C: usize> Shadow<C> {
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
         let shadow = &plan.shadow;
-        let place = |name: &str| plan.channels().iter().position(|channel| channel.name == name).unwrap_or(0);
+        let place = |name: &str| plan.channel_place(name).unwrap_or(0);
         let at = ["lx", "ly", "lz"].map(place);
         Shadow {
             size: shadow.size.into(),
@@ -221,8 +221,7 @@ impl<const C: usize> Shadow<C> {
 
     /// lx, ly or lz, signed.
     fn coordinate(&self, fragment: &Fragment<C>, which: usize) -> i64 {
-        let (word, sign) = (i64::from(fragment.values[self.at[which]]), 1 << (self.bits[which] - 1));
-        (word ^ sign) - sign
+        i64::from(sign_extend(fragment.values[self.at[which]] as i32, self.bits[which]))
     }
 
     fn place(&self, fragment: &Fragment<C>, inputs: &ShadowInputs) -> Place {

@@ -227,8 +227,7 @@ pub(crate) fn per_channel<T: Default, const C: usize>(plan: &Plan, value: impl F
 /// An output as a number, LSB: of a signed channel its b bits are two's complement.
 #[must_use]
 pub fn output(channel: &Channel, word: u32) -> i64 {
-    let (word, sign) = (i64::from(word), 1 << (channel.bits - 1));
-    if channel.kind.is_signed() { (word ^ sign) - sign } else { word }
+    if channel.kind.is_signed() { sign_extend(word as i32, channel.bits).into() } else { word.into() }
 }
 
 /// Adds modulo 2^(b+r), channel by channel.

@@ -128,8 +128,7 @@ impl Highlight {
     }
 
     /// What the power gives for N·H, LSB.
-    #[must_use]
-    pub fn of_cosine(&self, halfway: f64) -> f64 {
+    fn of_cosine(&self, halfway: f64) -> f64 {
         let halfway = halfway.clamp(0.0, 1.0);
         let cosine = if self.doubled { 2.0 * halfway * halfway - 1.0 } else { halfway };
         (self.top * cosine.max(0.0).powf(self.exponent)).min(self.most)

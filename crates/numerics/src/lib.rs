@@ -1,4 +1,4 @@
-//! Formats, words, rounding, proved bounds, and the word-length solver.
+//! Formats, rounding, proved bounds, and the word-length solver.
 //!
 //! No I/O, no machine, no triangles: this crate only says which numbers there are.
 
@@ -6,7 +6,6 @@ pub mod rounding;
 pub mod dyadic;
 pub mod interval;
 pub mod format;
-pub mod word;
 pub mod steps;
 pub mod bounds;
 pub mod normal_cone;
@@ -18,13 +17,11 @@ pub mod index_table;
 pub mod budget;
 
 pub use blend::{blend_error, blend_error_of_golden};
-pub use bounds::Prestep;
 pub use budget::ErrorBudget;
 pub use dyadic::Dyadic;
 pub use format::{Format, FormatError};
 pub use interval::Interval;
-pub use rounding::{Rounding, UnknownRounding};
+pub use rounding::Rounding;
 pub use solver::{Solution, SolverError};
 pub use steps::{Screen, Steps};
 pub use witness::{ChannelBits, Target, Witness};
-pub use word::{Word, WordError};

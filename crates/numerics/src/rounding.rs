@@ -4,7 +4,6 @@
 
 use std::cmp::Ordering;
 use std::fmt;
-use std::str::FromStr;
 
 /// A rule that turns a rational number into one of its two neighbouring integers (integers stay as they are).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -26,7 +25,7 @@ pub enum Rounding {
 }
 
 impl Rounding {
-    /// Every rounding, for tables and tests.
+    /// Every rounding.
     pub const ALL: [Rounding; 7] = [
         Rounding::Floor,
         Rounding::Ceiling,
@@ -37,7 +36,7 @@ impl Rounding {
         Rounding::NearestHalfAway,
     ];
 
-    /// The name in texts and files.
+    /// The name in messages and in `docs/numerics.md`.
     pub const fn name(self) -> &'static str {
         match self {
             Rounding::Floor => "floor",
@@ -51,7 +50,7 @@ impl Rounding {
     }
 
     /// True if the result is never further than 1/2 from the value.
-    pub const fn is_nearest(self) -> bool {
+    pub(crate) const fn is_nearest(self) -> bool {
         matches!(self, Rounding::NearestHalfUp | Rounding::NearestHalfEven | Rounding::NearestHalfAway)
     }
 
@@ -92,29 +91,7 @@ impl fmt::Display for Rounding {
     }
 }
 
-/// A word that names no rounding.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{text:?} names no rounding; the nearest name is {nearest:?}")]
-pub struct UnknownRounding {
-    text: String,
-    nearest: &'static str,
-}
-
-impl FromStr for Rounding {
-    type Err = UnknownRounding;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        if let Some(found) = Rounding::ALL.into_iter().find(|r| r.name() == text) {
-            return Ok(found);
-        }
-        let distance = |r: &Rounding| strsim::damerau_levenshtein(text, r.name());
-        let nearest = Rounding::ALL.into_iter().min_by_key(distance).unwrap_or(Rounding::Floor);
-        Err(UnknownRounding { text: text.to_owned(), nearest: nearest.name() })
-    }
-}
-
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
 
@@ -152,14 +129,5 @@ mod tests {
             assert_eq!(rounding.divide(i128::MIN, -1), None);
             assert_eq!(rounding.divide(i128::MAX, 1), Some(i128::MAX));
         }
-    }
-
-    #[test]
-    fn names_parse_back_and_a_slip_is_hinted_at() {
-        for rounding in Rounding::ALL {
-            assert_eq!(rounding.to_string().parse(), Ok(rounding));
-        }
-        let error = "nearest-half-evn".parse::<Rounding>().unwrap_err().to_string();
-        assert!(error.contains("nearest-half-even"), "{error}");
     }
 }

@@ -12,8 +12,6 @@ mod words;
 pub use fit::{NODE_BITS, Shares, node};
 pub use words::{MAX_TERM_BITS, TermWords};
 
-use crate::dyadic::Dyadic;
-
 /// Highest power of x and y in a term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Degree {
@@ -23,7 +21,8 @@ pub enum Degree {
     Quadratic,
 }
 
-/// Roundings in a word i columns and n lines from where it was rounded, each of at most half a unit:
+/// Roundings in a word i columns and n lines from where it was rounded, each of at most half a unit u, so that it is off by at
+/// most `roundings · u/2` (bound 12):
 /// `1 + |i| + |n|`, and of a quadratic `|i(i-1)/2| + |n(n-1)/2| + |i n|` more.
 #[must_use]
 pub fn term_roundings(degree: Degree, i: i64, n: i64) -> u128 {
@@ -38,12 +37,6 @@ pub fn term_roundings(degree: Degree, i: i64, n: i64) -> u128 {
     (1 + columns.abs() + lines.abs() + second).unsigned_abs()
 }
 
-/// Bound 12: how far such a word is from f, `roundings · u/2` with u = 2^-bits; `None` if that does not fit a [`Dyadic`].
-#[must_use]
-pub fn term_error(fraction_bits: u32, roundings: u128) -> Option<Dyadic> {
-    Dyadic::new(i128::try_from(roundings).ok()?, fraction_bits + 1)
-}
-
 /// The most roundings at a pixel of a box of so many pixels, rounded in its middle.
 #[must_use]
 pub fn term_roundings_of_box(degree: Degree, width: u32, height: u32) -> u128 {
@@ -52,36 +45,28 @@ pub fn term_roundings_of_box(degree: Degree, width: u32, height: u32) -> u128 {
     term_roundings(degree, before(width), before(height))
 }
 
-/// The least fraction bits with which a word stays within half of its whole unit in such a box.
-#[must_use]
-pub fn term_fraction_bits(degree: Degree, width: u32, height: u32) -> u32 {
-    term_roundings_of_box(degree, width, height).next_power_of_two().ilog2()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn roundings_of_boxes_and_bits() {
-        for (width, height, roundings, bits) in [
-            (32, 32, 561, 10),
-            (64, 64, 2145, 12),
-            (128, 128, 8385, 14),
-            (256, 256, 33153, 16),
-            (512, 512, 131_841, 18),
-            (640, 480, 157_641, 18),
-            (1280, 960, 628_881, 20),
-            (1, 1, 1, 0),
+    fn a_box_has_the_roundings_of_its_corner() {
+        for (width, height, roundings) in [
+            (32, 32, 561),
+            (64, 64, 2145),
+            (128, 128, 8385),
+            (256, 256, 33153),
+            (512, 512, 131_841),
+            (640, 480, 157_641),
+            (1280, 960, 628_881),
+            (1, 1, 1),
         ] {
             assert_eq!(term_roundings_of_box(Degree::Quadratic, width, height), roundings);
-            assert_eq!(term_fraction_bits(Degree::Quadratic, width, height), bits);
             let middle = (i64::from(width / 2), i64::from(height / 2));
             let corners = [(0, 0), (i64::from(width) - 1, 0), (0, i64::from(height) - 1)];
             let at = |(x, y): (i64, i64)| term_roundings(Degree::Quadratic, x - middle.0, y - middle.1);
             assert!(corners.into_iter().all(|corner| at(corner) <= roundings));
         }
         assert_eq!(term_roundings_of_box(Degree::Linear, 640, 480), 561);
-        assert_eq!(term_error(1, 3), Dyadic::new(3, 2));
     }
 }

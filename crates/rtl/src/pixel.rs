@@ -119,7 +119,7 @@ pub fn pixel(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
         let name = if is_last { "frag".to_owned() } else { format!("out{stage}") };
         let source = |f: Part| {
             let low = before.as_ref().and_then(|token| token.get(&f.name));
-            let high = plan.channels().iter().position(|channel| channel.name == f.name);
+            let high = plan.channel_place(&f.name);
             let high = high.and_then(|channel| words.output(plan, channel, stage));
             let signal = match (high, low, f.name.as_str()) {
                 (Some(high), Some(low), _) => Some(m.cat(&[high, low])),

@@ -34,7 +34,7 @@ use crate::light_pass::LightPass;
 use crate::ports::Interface;
 use crate::wires::{Registers, parts};
 use area::Area;
-use control::Control;
+use control::{Control, Handshakes};
 use lines::Lines;
 use results::Results;
 use scale::Scale;
@@ -64,7 +64,7 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let prim_ready = ports.gives_ready();
     let light_pass = LightPass::of(plan, &ports);
 
-    let control = Control::new(&m, plan, tri_valid, prim_ready);
+    let control = Control::new(&m, plan, &Handshakes { tri_valid, prim_ready });
     let vertices = Vertices::new(&m, plan, &control, &triangle);
 
     // The first line, the moduli and the side follow from other registers; all else of the prim is a register.
@@ -74,12 +74,12 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let prim = Registers::new(&m, "prim", kept);
     for name in ["kt", "tag"] {
         if let (Some(register), Some(value)) = (prim.get(name), triangle.get(name)) {
-            register.when(control.take, value);
+            register.when(control.sequence.take, value);
         }
     }
     if let Some(record) = prim.get("record") {
         // Culled triangles count: the first after a reset has record 0.
-        record.reset((1 << plan.shade.record_bits) - 1).when(control.take, record.q() + 1);
+        record.reset((1 << plan.shade.record_bits) - 1).when(control.sequence.take, record.q() + 1);
     }
     let area = Area::new(&m, plan, &control, &vertices);
     let scale = Scale::new(&m, plan, &control, &area);
@@ -111,14 +111,14 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let differences: Vec<_> = lanes.iter().map(|lane| sources.connect(lane)).collect();
     scale.gather(plan, &control, &differences);
     let unfit = lanes.iter().filter_map(|lane| sources.unfit(lane));
-    control.unfit.drive(unfit.reduce(|any, one| any | one).unwrap_or(m.lit(1, 0)));
+    control.feedback.unfit.drive(unfit.reduce(|any, one| any | one).unwrap_or(m.lit(1, 0)));
     Results { m: &m, plan, control: &control, vertices: &vertices, prim: &prim }.take(&lanes);
 
-    ports.take_ready(control.idle);
+    ports.take_ready(control.sequence.idle);
     let heights = EDGES.iter().zip(&vertices.heights);
     let moduli: Vec<_> = heights.map(|(edge, height)| (format!("{edge}_m"), *height)).collect();
     let first_line = lines.jm.trunc(plan.widths().y);
-    ports.give(control.done, |name| match moduli.iter().find(|(modulus, _)| modulus == name) {
+    ports.give(control.sequence.done, |name| match moduli.iter().find(|(modulus, _)| modulus == name) {
         Some((_, height)) => *height,
         None if name == "jm" => first_line,
         None if name == "major_right" => area.negative,

@@ -1,30 +1,13 @@
 //! `edgewalk bench`: frames and cycles a second of every engine on the same triangles, in one run.
-//!
-//! ```text
-//!  triangles ─> part for the engine ─> frame by frame (fast, tick, jit, interpreter, verilator) ─> table, JSON
-//! ```
-
-mod stopwatch;
-mod job;
-mod fast;
-mod tick;
-#[cfg(feature = "jit")]
-mod jit;
-mod interpreter;
-mod ports;
-mod verilator;
-mod engine;
-mod table;
 
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::scratch::Scratch;
 use crate::verdict::Verdict;
 use crate::{Talk, progress};
 use anyhow::{Result, anyhow};
+use edgewalk_bench::{Engine, Job, Row, Table};
 use edgewalk_model::Waits;
-use engine::Engine;
-use job::Job;
-use table::{Row, Table};
 
 /// Times every engine on a triangle file, scene or mesh; one frame is clear and draw all, reading the file is outside the clock.
 ///
@@ -59,11 +42,12 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let size = (machine.width, machine.height);
     Verdict::drew(whole.fragments).or_nothing(&args.source.input, whole.triangles.len() as u64, size)?;
     let asked = Engine::ALL.iter().filter(|e| args.engine.is_empty() || args.engine.contains(e));
+    let folder = Scratch::temporary()?;
     let bar = progress::bar(asked.clone().count() as u64, "engines", talk.quiet);
     let mut rows = Vec::new();
     for engine in asked {
         let job = whole.part(engine.budget())?;
-        let row = match engine.time(&job)? {
+        let row = match engine.time(&job, folder.path())? {
             Ok(times) if times.work == job.work => Row::new(engine.name(), &job, &times),
             Ok(times) => {
                 let (name, found, expected) = (engine.name(), times.work, job.work);
@@ -75,6 +59,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    Table::new(&whole, rows).print(talk)?;
+    let table = Table::new(&whole, rows);
+    talk.say(|| Ok(table.json().to_string()), || table.text())?;
     Ok(Verdict::Pass)
 }

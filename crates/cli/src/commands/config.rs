@@ -2,11 +2,11 @@
 
 mod precision;
 
-use crate::extra::{self, OwnChannel};
 use crate::machine_args::MachineArgs;
 use crate::talk;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
+use edgewalk_host::extra::{self, OwnChannel};
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::nearest::nearest;
 use edgewalk_machine::presets::PRESETS;

@@ -2,7 +2,6 @@
 
 use super::render::Pictures;
 use super::{emit, render, vectors};
-use crate::accumulators::depth_error_over_bound;
 use crate::engine::Engine;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
@@ -11,6 +10,7 @@ use crate::staging::Staging;
 use crate::talk::{self, Talk};
 use crate::verdict::Verdict;
 use anyhow::Result;
+use edgewalk_explain::accumulators::depth_error_over_bound;
 use edgewalk_model::Waits;
 use edgewalk_vectors::{Tables, Unit};
 use std::path::PathBuf;

@@ -1,9 +1,9 @@
 //! A triangle that breaks one fraction bit fewer, drawn to see that it does.
 
 use super::with_fraction;
-use crate::compare::compare;
-use crate::draw;
 use anyhow::Result;
+use edgewalk_host::draw;
+use edgewalk_judge::compare::compare;
 use edgewalk_machine::{Kind, Machine, Plan};
 use edgewalk_model::Waits;
 use edgewalk_numerics::solver::solve;

@@ -3,14 +3,13 @@
 
 use super::equation::Distance;
 use super::shared::Geometry;
-use crate::compare::compare_shaded;
-use crate::draw::draw_frame;
-use crate::port::to_port;
-use crate::raster::of_port;
-use crate::reach::reach;
-use crate::report::Report;
-use crate::setup_report::SetupReport;
 use anyhow::Result;
+use edgewalk_host::draw::draw_frame;
+use edgewalk_host::port::{of_port, to_port};
+use edgewalk_host::reach::reach;
+use edgewalk_judge::compare::compare_shaded;
+use edgewalk_judge::report::Report;
+use edgewalk_judge::setup_report::SetupReport;
 use edgewalk_machine::Plan;
 use edgewalk_model::Waits;
 use edgewalk_scene::Frame;

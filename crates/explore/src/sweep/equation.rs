@@ -1,8 +1,8 @@
 //! How far a picture is from the shading equation at each pixel, which is the same for every way of shading.
 
-use crate::input::Input;
-use crate::raster::{Raster, golden_fill};
 use edgewalk_golden::Shading;
+use edgewalk_host::input::Input;
+use edgewalk_host::raster::{Raster, golden_fill};
 use edgewalk_machine::Plan;
 use serde::Serialize;
 

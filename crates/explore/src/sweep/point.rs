@@ -1,6 +1,6 @@
 //! A point of a sweep, and what its row depends on.
 
-use crate::input::hex;
+use edgewalk_host::input::hex;
 use edgewalk_machine::{Machine, Plan};
 use sha2::{Digest, Sha256};
 

@@ -3,9 +3,9 @@
 use super::equation::Distance;
 use super::grid::Sweep;
 use super::point::Point;
-use crate::Verdict;
-use crate::report::Report;
 use anyhow::Result;
+use edgewalk_judge::Verdict;
+use edgewalk_judge::report::Report;
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Machine, Plan};

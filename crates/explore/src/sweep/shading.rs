@@ -1,8 +1,8 @@
 //! Ways of shading by their names on the command line.
 
-use crate::input::Shaded;
 use anyhow::{Result, anyhow};
 use edgewalk_golden::Shading;
+use edgewalk_host::input::Shaded;
 use edgewalk_machine::nearest::nearest;
 use edgewalk_machine::{Machine, ShadeKind};
 use edgewalk_scene::PixelMethod;

@@ -1,15 +1,15 @@
 //! What points share: those of one geometry the frame and golden, those of the same word lengths the pixels.
 
 use super::equation::{Distance, Equation};
-use crate::compare::compare_for;
-use crate::draw;
-use crate::input::Input;
-use crate::port::{PortFrame, to_port};
-use crate::raster::{Cycles, Raster, from_fast, from_model, of_port};
-use crate::reach::{self, Reach, untimed};
-use crate::report::Report;
-use crate::setup_report::SetupReport;
 use anyhow::{Result, anyhow};
+use edgewalk_host::draw;
+use edgewalk_host::input::Input;
+use edgewalk_host::port::{PortFrame, of_port, to_port};
+use edgewalk_host::raster::{Cycles, Raster, from_fast, from_model};
+use edgewalk_host::reach::{self, Reach, untimed};
+use edgewalk_judge::compare::compare_for;
+use edgewalk_judge::report::Report;
+use edgewalk_judge::setup_report::SetupReport;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::fast::{Passage, Path, Reason, Refusal, Renderer};

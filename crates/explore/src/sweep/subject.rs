@@ -1,8 +1,8 @@
 //! An input of a sweep, opened once for each way in which the machines shade it.
 
 use super::shading;
-use crate::input::Input;
 use anyhow::{Context as _, Result};
+use edgewalk_host::input::Input;
 
 /// An input.
 pub struct Subject {

@@ -1,12 +1,12 @@
 //! DEPTH: from fragments to writes.
 
-use super::{always, tokens};
+use super::tokens;
 use crate::channel::{Channel, Kind};
 use crate::field::Field;
 use crate::link::{Link, MemoryPort, Ready, Status};
 use crate::machine::{Hazard, Machine};
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec};
+use crate::unit::{Event, Ports, UnitSpec, always};
 
 /// What DEPTH declares.
 pub const SPEC: UnitSpec = UnitSpec {

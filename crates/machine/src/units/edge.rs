@@ -1,11 +1,11 @@
 //! EDGE: from edges to lines.
 
-use super::{always, tokens};
+use super::tokens;
 use crate::field::Field;
 use crate::link::{Held, Link};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec};
+use crate::unit::{Event, Ports, UnitSpec, always};
 
 /// What EDGE declares.
 pub const SPEC: UnitSpec = UnitSpec {

@@ -1,10 +1,10 @@
 //! PIXEL: from spans to fragments.
 
-use super::{always, light_pass, tokens};
+use super::tokens;
 use crate::link::{Held, Link, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec};
+use crate::unit::{Event, Ports, UnitSpec, always, light_pass};
 
 /// What PIXEL declares.
 pub const SPEC: UnitSpec = UnitSpec {

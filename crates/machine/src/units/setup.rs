@@ -1,10 +1,10 @@
 //! SETUP: from three vertices to edges and increments.
 
-use super::{always, light_pass, tokens};
+use super::tokens;
 use crate::link::Link;
 use crate::machine::{Fill, Machine};
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec};
+use crate::unit::{Event, Ports, UnitSpec, always, light_pass};
 
 /// What SETUP declares.
 pub const SPEC: UnitSpec = UnitSpec {

@@ -1,12 +1,12 @@
 //! SHADOW: from fragments to fragments that are lit or not.
 
-use super::{light_pass, tokens};
+use super::tokens;
 use crate::field::Field;
 use crate::link::{Link, MemoryPort, Ready, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::shadow::Gate;
-use crate::unit::{Event, Ports, UnitSpec};
+use crate::unit::{Event, Ports, UnitSpec, light_pass};
 
 /// What SHADOW declares.
 pub const SPEC: UnitSpec = UnitSpec {

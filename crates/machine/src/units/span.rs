@@ -1,10 +1,10 @@
 //! SPAN: from lines to the pixels of a line.
 
-use super::{always, light_pass, tokens};
+use super::tokens;
 use crate::link::{Link, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec};
+use crate::unit::{Event, Ports, UnitSpec, always, light_pass};
 
 /// What SPAN declares.
 pub const SPEC: UnitSpec = UnitSpec {

@@ -4,7 +4,8 @@ use crate::channel::Channel;
 use crate::field::{Field, Scale};
 use crate::machine::{EdgeKind, Fill};
 use crate::plan::Plan;
-use crate::record::{self, Term};
+use crate::record::GLOSS_BITS;
+use crate::term::{COSINES, Term};
 use edgewalk_numerics::Format;
 
 /// Names of the three edges of a prim: 0–2, 0–1 and 1–2 in the order of the sorted vertices.
@@ -195,7 +196,7 @@ fn material(plan: &Plan) -> Option<Field> {
 /// Of the material's highlights, on the way to NORMAL or LAMP.
 fn gloss(plan: &Plan) -> Option<Field> {
     let doc = "highlights reach down to 2^gloss tables below 0";
-    plan.shade.normalises().then(|| Field::count("gloss", record::GLOSS_BITS, doc))
+    plan.shade.normalises().then(|| Field::count("gloss", GLOSS_BITS, doc))
 }
 
 /// A word of the memory of the terms.
@@ -331,7 +332,7 @@ pub fn bumped(plan: &Plan) -> Vec<Field> {
 pub fn cosines(plan: &Plan) -> Vec<Field> {
     let bits = [plan.shade.diffuse_index_bits(), plan.shade.highlight_index_bits()];
     let index = |(name, bits)| Field::signed(name, bits, "in entries of a table");
-    let lights = record::COSINES.into_iter().take(plan.shade.lights as usize);
+    let lights = COSINES.into_iter().take(plan.shade.lights as usize);
     let cosines = lights.flat_map(|names| names.into_iter().zip(bits)).map(index);
     let beam =
         plan.shade.is_positional().then(|| Field::count("beam", 17, "of the light, 2^16 for all of it"));

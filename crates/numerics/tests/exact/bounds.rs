@@ -2,11 +2,10 @@
 //!
 //! Steps of dA/n with n a power of two are exact and show nothing, so the tables use odd n.
 
-use crate::classical::Place;
+use crate::classical::{Place, Prestep};
 use crate::rational::{exact, power_of_two, ratio, round_to_integer, rounded};
 use edgewalk_numerics::bounds::{
-    Prestep, dda_error, prestepped_error, range_safe_fraction_bits, remainder_dda_error, slope_edge_error,
-    surely_ordered_difference,
+    range_safe_fraction_bits, slope_edge_error, surely_ordered_difference, triangle_error,
 };
 use edgewalk_numerics::{Dyadic, Interval, Rounding, Steps};
 use num_bigint::BigInt;
@@ -40,7 +39,7 @@ fn a1_every_step_of_odd_ddas() {
                 let mut value = rounded(&start, bits, rounding);
                 for step in 0..=n {
                     let error = &value - (&start + &slope * ratio(step, 1));
-                    let bound = dda_error(rounding, bits, step as u32);
+                    let bound = triangle_error(rounding, bits, Steps { lines: step as u32, columns: 0 });
                     assert!(
                         holds(bound, &error),
                         "{rounding} {difference}/{n} step {step}: {error} in {bound}"
@@ -82,15 +81,11 @@ fn a3_machines_with_prestep_and_reciprocal() {
         let machine = Prestep {
             distance_bits: if fine { 40 } else { small(8) },
             edge_bits: if fine { 40 } else { 4 + small(12) },
-            reciprocal_error: eta.abs(),
-            gradient: gradient.abs(),
-            edge_gradient: edge_gradient.abs(),
-            slope: slope.abs(),
         };
         let place = Place { start, edge_start, gradient, edge_gradient, slope, eta };
-        let bound = exact(prestepped_error(bits, steps, &machine).unwrap());
+        let bound = place.bound(bits, steps, &machine);
         let error = place.error(bits, steps, &machine);
-        assert!(error.abs() <= bound, "{machine:?} {steps:?} {bits} bits: {error} over {bound}");
+        assert!(error.abs() <= bound, "{machine:?} {place:?} {steps:?} {bits} bits: {error} over {bound}");
         if !fine && steps.total() >= 8 {
             most = most.max(share(&error, &bound));
         }
@@ -190,7 +185,7 @@ fn a9_quotient_and_remainder_accumulate_nothing() {
                     for step in 0..=3 * n {
                         let truth = ratio(difference * step, n);
                         let error = ratio(accumulator, 1) / power_of_two(bits) - truth;
-                        let bound = remainder_dda_error(rounding, bits);
+                        let bound = triangle_error(rounding, bits, Steps::default());
                         assert!(holds(bound, &error), "{rounding} {difference}/{n} step {step}: {error}");
                         most = most.max(share(&error, &exact(bound.magnitude())));
                         checked += 1;
@@ -212,16 +207,7 @@ fn a9_quotient_and_remainder_accumulate_nothing() {
 #[test]
 fn the_bounds_take_senseless_numbers() {
     let most = Steps { lines: u32::MAX, columns: u32::MAX };
-    assert!(dda_error(NEAREST, u32::MAX, u32::MAX).high() > Dyadic::ZERO);
-    let machine = Prestep {
-        distance_bits: u32::MAX,
-        edge_bits: u32::MAX,
-        reciprocal_error: Dyadic::new(i128::MAX, 0).unwrap(),
-        gradient: Dyadic::ONE,
-        edge_gradient: Dyadic::ONE,
-        slope: Dyadic::ONE,
-    };
-    assert_eq!(prestepped_error(0, most, &machine), None);
+    assert!(triangle_error(NEAREST, u32::MAX, most).high() > Dyadic::ZERO);
     assert!(!BigRational::is_zero(&exact(slope_edge_error(u32::MAX, 0))));
     assert_eq!(BigInt::from(slope_edge_error(0, 3).numerator()), BigInt::from(2));
 }

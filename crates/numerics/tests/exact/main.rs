@@ -6,7 +6,7 @@ mod rational;
 mod triangle;
 mod classical;
 
-mod words;
+mod formats;
 mod intervals;
 mod bounds;
 mod sharp;

@@ -1,8 +1,8 @@
 //! The bounds are no looser than they must be: cases that reach them, one for each term, up to a stated speck.
 
-use crate::classical::Place;
+use crate::classical::{Place, Prestep};
 use crate::rational::{exact, power_of_two, ratio, rounded};
-use edgewalk_numerics::bounds::{Prestep, dda_error, prestepped_error};
+use edgewalk_numerics::bounds::triangle_error;
 use edgewalk_numerics::{Dyadic, Rounding, Steps};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
@@ -20,7 +20,7 @@ fn a1_is_reached_by_a_start_and_an_increment_that_err_alike() {
     for rounding in Rounding::ALL {
         for n in [0u32, 1, 2, 15, 1000, u32::MAX] {
             let count = ratio(n, 1) + ratio(1, 1);
-            let bound = exact(dda_error(rounding, bits, n).magnitude());
+            let bound = exact(triangle_error(rounding, bits, Steps { lines: n, columns: 0 }).magnitude());
             // The fractions, in units of u, at which one rounding errs most.
             let fractions = [speck.clone(), &half - &speck, half.clone(), ratio(1, 1) - &speck];
             let reached = fractions.map(|fraction| {
@@ -42,29 +42,15 @@ fn a1_is_reached_by_a_start_and_an_increment_that_err_alike() {
 /// A machine and a place with no error of any kind.
 fn without_error() -> (Prestep, Place) {
     let (one, none) = (Dyadic::ONE, Dyadic::ZERO);
-    let machine = Prestep {
-        distance_bits: 60,
-        edge_bits: 60,
-        reciprocal_error: none,
-        gradient: one,
-        edge_gradient: one,
-        slope: one,
-    };
+    let machine = Prestep { distance_bits: 60, edge_bits: 60 };
     let place =
         Place { start: none, edge_start: none, gradient: one, edge_gradient: one, slope: one, eta: none };
     (machine, place)
 }
 
-/// What the bound of bound 3 leaves over, in units of what the term in question amounts to.
+/// What bound 3 leaves over, in units of what the term in question amounts to.
 fn left_over(bits: u32, steps: Steps, machine: Prestep, place: Place, term: &BigRational) -> BigRational {
-    let machine = Prestep {
-        reciprocal_error: place.eta.abs(),
-        gradient: place.gradient.abs(),
-        edge_gradient: place.edge_gradient.abs(),
-        slope: place.slope.abs(),
-        ..machine
-    };
-    let bound = exact(prestepped_error(bits, steps, &machine).unwrap());
+    let bound = place.bound(bits, steps, &machine);
     let error = place.error(bits, steps, &machine).abs();
     assert!(!term.is_zero() && error <= bound, "{error} over {bound}");
     (bound - error) / term

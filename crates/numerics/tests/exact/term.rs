@@ -1,9 +1,9 @@
 //! Bound 12: words of terms against formula (1) and the fit in rationals, and how much of the bound is reached.
 
-use crate::rational::{exact, power_of_two, ratio, round_to_integer};
+use crate::rational::{power_of_two, ratio, round_to_integer};
 use edgewalk_numerics::Rounding;
 use edgewalk_numerics::term::{
-    Degree, NODE_BITS, Shares, TermWords, node, term_error, term_fraction_bits, term_roundings,
+    Degree, NODE_BITS, Shares, TermWords, node, term_roundings, term_roundings_of_box,
 };
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -113,7 +113,7 @@ fn rounded_once_and_never_farther_than_the_bound() {
                 BigRational::from_integer(round_to_integer(&(&away / &modulus), Rounding::NearestHalfUp));
             let away = away - turns * &modulus;
             let roundings = term_roundings(degree, i, n);
-            let bound = exact(term_error(fraction, roundings).unwrap()) * power_of_two(fraction);
+            let bound = ratio(roundings, 2); // of u
             let share = (away.abs() / &bound).to_f64().unwrap();
             assert!(away.abs() <= bound, "case {case}, {i} {n}: {share} of the bound");
             let place = usize::from(degree == Degree::Quadratic);
@@ -152,13 +152,20 @@ fn halves_are_rounded_up() {
 fn bits_are_the_first_that_hold_and_six_points_stay_within_five_thirds() {
     for (width, height) in [(1, 1), (3, 2), (32, 32), (33, 32), (100, 7), (640, 480), (8192, 8192)] {
         for degree in [Degree::Linear, Degree::Quadratic] {
-            let bits = term_fraction_bits(degree, width, height);
-            let most = term_roundings(degree, -i64::from(width / 2), -i64::from(height / 2));
+            // The least bits with which a word stays within half of its whole unit.
+            let most = term_roundings_of_box(degree, width, height);
+            let bits = most.next_power_of_two().ilog2();
+            let error = |bits: u32| ratio(most, 2) / power_of_two(bits);
             let half = ratio(1, 2);
-            assert!(exact(term_error(bits, most).unwrap()) <= half);
-            assert!(bits == 0 || exact(term_error(bits - 1, most).unwrap()) > half);
+            assert!(error(bits) <= half && (bits == 0 || error(bits - 1) > half));
         }
     }
+    // The table of docs/numerics.md.
+    let sides = [(32, 32), (64, 64), (128, 128), (256, 256), (512, 512), (640, 480), (1280, 960)];
+    let bits = sides.map(|(width, height)| {
+        term_roundings_of_box(Degree::Quadratic, width, height).next_power_of_two().ilog2()
+    });
+    assert_eq!(bits, [10, 12, 14, 16, 18, 18, 20]);
     // Values of +-1 with the signs of the nodal functions: 5/3 in the middle.
     let one = node(1.0);
     let middle = function(Degree::Quadratic, [[-one; 3], [one; 3]], [1, 1, 1]);

@@ -29,15 +29,15 @@ impl<'m> Area<'m> {
         let adds = m.reg("area_adds", 1).doc("digits are added");
         let last = digit.q().eq(0);
         // Two digits at least: until then not all differences are there that the area is scaled for.
-        digit.set(digit.q() - 1).when(control.begin, top(vertices.tall | 2).zext(digit.q().width()));
-        adds.when(last, 0).when(control.begin, 1);
+        digit.set(digit.q() - 1).when(control.sequence.begin, top(vertices.tall | 2).zext(digit.q().width()));
+        adds.when(last, 0).when(control.sequence.begin, 1);
         let part = |of: Signal<'m>, value: Signal<'m>| {
             of.shr_by(digit.q()).bit(0).mux(value.sext(value.width() + 1), 0)
         };
         let added = (part(tall, vertices.across[1]) - part(upper, vertices.across[0])).named("area_part");
         let area = m.reg("area", bits).doc("1/P^2 px^2, signed");
-        area.when(adds.q(), area.q().shl(1) + added.sext(bits)).when(control.begin, 0);
-        control.no_area.drive(!area.q().any());
+        area.when(adds.q(), area.q().shl(1) + added.sext(bits)).when(control.sequence.begin, 0);
+        control.feedback.no_area.drive(!area.q().any());
         Area { signed: area.q(), negative: area.q().msb(), adds: adds.q(), ends: adds.q() & last }
     }
 }

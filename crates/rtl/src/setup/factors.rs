@@ -55,7 +55,7 @@ impl<'m> Sources<'_, 'm> {
         };
         let of_edges = |side: usize| {
             let choice = |round: usize| edge_of(plan, 0, round).map_or(none, |number| edge(number)[side]);
-            control.named.of_round(rounds(plan)[0], choice)
+            control.way.named.of_round(rounds(plan)[0], choice)
         };
         let heights = &self.vertices.heights;
         let mut choices: Vec<(Vec<Op>, [Signal<'m>; 2])> = vec![
@@ -74,7 +74,7 @@ impl<'m> Sources<'_, 'm> {
                 let sheared = m
                     .reg("first_sheared", bits)
                     .doc("from vertex 0 to the first pixel, less q columns a line; 1/P column, signed")
-                    .when(control.next.is_in(Op::Wait, 0), sheared);
+                    .when(control.way.next.is_in(Op::Wait, 0), sheared);
                 choices.push((vec![Op::AddX], [sheared.q(), natural(lines.h0)]));
             }
             None => {
@@ -86,7 +86,7 @@ impl<'m> Sources<'_, 'm> {
         let of_side = |side: usize, name: &str| {
             let reg = m.reg(name, bits).doc("factor, signed");
             for (ops, values) in &choices {
-                reg.when(control.named.one_of(ops), values[side]);
+                reg.when(control.way.named.one_of(ops), values[side]);
             }
             reg.q()
         };
@@ -95,18 +95,18 @@ impl<'m> Sources<'_, 'm> {
         let mut digits = differs(f) | differs(g);
         let second = [self.low_column(1), lines.h1];
         if plan.lanes == 4 {
-            let counts = (control.named.is(Op::WaitDx) & self.walked("n2")).named("second_counts");
+            let counts = (control.way.named.is(Op::WaitDx) & self.walked("n2")).named("second_counts");
             let both = (natural(second[0]) | natural(second[1])).trunc(bits - 1);
             digits = digits | counts.mux(both, 0);
         }
         let digits = digits.named_doc("digits", "digits of the factors that differ from their signs");
-        control.top_digit.drive(top(digits).zext(control.left.width()));
-        let at = |of: Signal<'m>| of.shr_by(control.left).bit(0);
+        control.feedback.top_digit.drive(top(digits).zext(control.sequence.left.width()));
+        let at = |of: Signal<'m>| of.shr_by(control.sequence.left).bit(0);
         let digits = [at(f).named("digit_f"), at(g).named("digit_g")];
         for (product, digit) in products.into_iter().flatten().zip(digits) {
-            let sums = control.named.is(Op::SumX) | control.named.is_in(Op::Sum, 0);
-            let doubled = control.first.mux(0, product.q().shl(1));
-            product.when(sums & !control.waits, doubled + digit.mux(whole(self.prim["major_q"].q()), 0));
+            let sums = control.way.named.is(Op::SumX) | control.way.named.is_in(Op::Sum, 0);
+            let doubled = control.sequence.first.mux(0, product.q().shl(1));
+            product.when(sums & !control.rests, doubled + digit.mux(whole(self.prim["major_q"].q()), 0));
         }
         Factors { digits, of_second: second.map(at), signs: [f.msb(), g.msb()] }
     }

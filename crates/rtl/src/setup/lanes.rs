@@ -93,20 +93,18 @@ impl<'a, 'm> Common<'a, 'm> {
         right: Signal<'m>,
     ) -> Common<'a, 'm> {
         m.comment("What all lanes do.");
-        let ops: Vec<Op> = Op::of_edges(plan).iter().chain(Op::of_channels(plan)).copied().collect();
         let code = |step: Step| m.lit(Step::BITS, step as u128);
-        let these =
-            |which: &dyn Fn(Op) -> bool| ops.iter().copied().filter(|op| which(*op)).collect::<Vec<_>>();
+        let these = |which: &dyn Fn(Op) -> bool| Op::all(plan).filter(|op| which(*op)).collect::<Vec<_>>();
         let steps = |step: Step| these(&|op| op.doing().step == step);
         let mut step = code(Step::Rest);
         for of in [Step::Take, Step::Double2, Step::Next, Step::Sign, Step::Add] {
-            step = control.named.one_of(&steps(of)).mux(code(of), step);
+            step = control.way.named.one_of(&steps(of)).mux(code(of), step);
         }
-        let first = control.first.mux(code(Step::First), code(Step::Next));
-        step = control.named.one_of(&steps(Step::First)).mux(first, step);
+        let first = control.sequence.first.mux(code(Step::First), code(Step::Next));
+        step = control.way.named.one_of(&steps(Step::First)).mux(first, step);
         let step = step.named("step");
 
-        let of_pause = control.advance.mux(code(Step::Begin), code(Step::Digits));
+        let of_pause = control.pause.advance.mux(code(Step::Begin), code(Step::Digits));
 
         let slots = |slot: u32, sum: bool| {
             these(&|op| {
@@ -116,31 +114,33 @@ impl<'a, 'm> Common<'a, 'm> {
         };
         let single = (1..8).fold(m.lit(3, 0), |chosen, slot| {
             let ops = slots(slot, false);
-            if ops.is_empty() { chosen } else { control.named.one_of(&ops).mux(slot as i32, chosen) }
+            if ops.is_empty() { chosen } else { control.way.named.one_of(&ops).mux(slot as i32, chosen) }
         });
         let read_at = ReadAt {
             sums: control
+                .way
                 .named
                 .one_of(&these(&|op| matches!(op.doing().step, Step::First | Step::Next)))
                 .named("is_sum"),
-            signs: control.named.one_of(&steps(Step::Sign)).named("is_sign"),
-            base: control.named.one_of(&slots(4, true)).named("of_gradients"),
+            signs: control.way.named.one_of(&steps(Step::Sign)).named("is_sign"),
+            base: control.way.named.one_of(&slots(4, true)).named("of_gradients"),
             single: single.named("read_single_at"),
         };
         let writers = these(&|op| op.doing().result.is_some());
         // What did not fit is written again when it does.
-        let write = (control.stepped.ends & control.stepped.one_of(&writers)).named("write");
+        let write = (control.way.stepped.ends & control.way.stepped.one_of(&writers)).named("write");
         let write_at = (2..8).fold(m.lit(3, 1), |chosen, slot| {
             let ops = these(&|op| op.doing().result == Some(slot));
-            if ops.is_empty() { chosen } else { control.stepped.one_of(&ops).mux(slot as i32, chosen) }
+            if ops.is_empty() { chosen } else { control.way.stepped.one_of(&ops).mux(slot as i32, chosen) }
         });
         let with_another = [Op::TakeDx, Op::Take12, Op::TakeA, Op::TakeB];
         let exact = plan.edge_kind == EdgeKind::Exact;
         let only = |in_these: bool, is: Signal<'m>| if in_these { is } else { m.lit(1, 0) };
         let [is_cut, upwards, negated] = [
-            control.rest.is(Op::SumStart) | only(exact, control.rest.one_of(&[Op::DoubleDx, Op::Sum])),
-            only(exact && plan.fill == Fill::Exact, control.rest.is(Op::Sum)),
-            only(plan.fill == Fill::Exact, control.rest.is(Op::DoubleX) & right),
+            control.way.rest.is(Op::SumStart)
+                | only(exact, control.way.rest.one_of(&[Op::DoubleDx, Op::Sum])),
+            only(exact && plan.fill == Fill::Exact, control.way.rest.is(Op::Sum)),
+            only(plan.fill == Fill::Exact, control.way.rest.is(Op::DoubleX) & right),
         ];
         Common {
             m,
@@ -152,7 +152,7 @@ impl<'a, 'm> Common<'a, 'm> {
             read_at,
             write,
             write_at: write_at.named("write_at"),
-            take_modulus: control.named.one_of(&with_another).named("take_modulus"),
+            take_modulus: control.way.named.one_of(&with_another).named("take_modulus"),
             nearest: (!is_cut).named("nearest"),
             upwards: upwards.named("upwards"),
             negated: negated.named("negated"),
@@ -168,15 +168,15 @@ impl<'a, 'm> Common<'a, 'm> {
         let formed = if waits_for_none {
             next.set(step).q()
         } else {
-            let next = next.when(control.advance, step).q();
+            let next = next.when(control.pause.advance, step).q();
             // The step after the numbers: in exact fill the doubling of DX.
             let kept = (self.plan.fill == Fill::Textbook).then(|| m.reg(&named("step_again"), Step::BITS));
             let again = kept.map_or(m.lit(Step::BITS, self.first_doubling() as u128), Reg::q);
-            let of_pause = control.pause.eq(2).mux(again, self.of_pause);
+            let of_pause = control.pause.left.eq(2).mux(again, self.of_pause);
             let of_pause = m.reg(&named("step_of_pause"), Step::BITS).set(of_pause).q();
-            let formed = control.advance.mux(next, of_pause).named(&named("step_formed"));
+            let formed = control.pause.advance.mux(next, of_pause).named(&named("step_formed"));
             if let Some(kept) = kept {
-                kept.when(control.advance, formed);
+                kept.when(control.pause.advance, formed);
             }
             formed
         };
@@ -186,7 +186,7 @@ impl<'a, 'm> Common<'a, 'm> {
             .connect("write", self.write)
             .connect("write_at", self.write_at)
             .connect("take_modulus", self.take_modulus)
-            .connect("give", control.rest.ends)
+            .connect("give", control.way.rest.ends)
             .connect("nearest", self.nearest)
             .connect("upwards", self.upwards)
             .connect("negate", self.negated);
@@ -205,7 +205,7 @@ impl<'a, 'm> Common<'a, 'm> {
         let (m, control, rounds) = (self.m, self.control, rounds(self.plan)[1]);
         let code = |step: Step| m.lit(Step::BITS, step as u128);
         let mut step = self.step;
-        for op in Op::of_edges(self.plan).iter().chain(Op::of_channels(self.plan)).copied() {
+        for op in Op::all(self.plan) {
             let (doublings, scaled) = match op.doing().length {
                 Length::Doublings(doublings) => (doublings, false),
                 Length::Scaled(doublings) => (doublings, true),
@@ -230,21 +230,21 @@ impl<'a, 'm> Common<'a, 'm> {
                 let chosen = match own % 2 {
                     0 => code(Step::Double2),
                     _ if one_clock => code(Step::Double1),
-                    _ => control.left.eq(0).mux(code(Step::Double1), code(Step::Double2)),
+                    _ => control.sequence.left.eq(0).mux(code(Step::Double1), code(Step::Double2)),
                 };
                 if own.div_ceil(2) == longest {
                     return chosen;
                 }
-                let mut clocks = m.lit(control.left.width(), own.div_ceil(2).into());
+                let mut clocks = m.lit(control.sequence.left.width(), own.div_ceil(2).into());
                 if scaled {
-                    clocks = clocks + control.scale.q().zext(control.left.width());
+                    clocks = clocks + control.feedback.scale.q().zext(control.sequence.left.width());
                 }
-                control.left.lt(clocks).mux(chosen, code(Step::Rest))
+                control.sequence.left.lt(clocks).mux(chosen, code(Step::Rest))
             };
-            let chosen = if of_edge { of_round(0) } else { control.named.of_round(rounds, of_round) };
-            step = control.named.is(op).mux(chosen, step);
+            let chosen = if of_edge { of_round(0) } else { control.way.named.of_round(rounds, of_round) };
+            step = control.way.named.is(op).mux(chosen, step);
         }
-        control.waits.mux(code(Step::Rest), step)
+        control.rests.mux(code(Step::Rest), step)
     }
 
     fn read_at(&self, number: usize) -> Signal<'m> {
@@ -252,7 +252,7 @@ impl<'a, 'm> Common<'a, 'm> {
         let mut digits = self.factors.digits;
         let second_beside_others = edge_of(self.plan, number, 0) == Some(2);
         if second_beside_others {
-            let is = self.control.named.is(Op::Sum);
+            let is = self.control.way.named.is(Op::Sum);
             digits = [0, 1].map(|side| is.mux(self.factors.of_second[side], digits[side]));
         }
         let digits = [0, 1].map(|side| at.signs.mux(self.factors.signs[side], digits[side]));

@@ -148,7 +148,7 @@ fn exact<'m>(
     n2.set((end - j1).trunc(n2.q().width()));
     let outside = no_column(screen, vertices);
     let outside = m.reg("no_column", 1).doc("no column of the screen").set(outside).q();
-    control.nothing.drive(j0.eq(end) | outside);
+    control.feedback.nothing.drive(j0.eq(end) | outside);
     (j0, j1)
 }
 
@@ -169,9 +169,9 @@ fn textbook<'m>(
         let last = at_most(y(part + 1), screen.last_line(bits)).named(&format!("last{part}"));
         let some = (y(part).slt(y(part + 1)) & first.sle(last)).named(&format!("some{part}"));
         let n = counts[part];
-        n.when(control.begin, some.mux(last - first + 1, 0).trunc(n.q().width()));
-        m.reg(&format!("j{part}"), bits).doc("line, signed").when(control.begin, first).q()
+        n.when(control.sequence.begin, some.mux(last - first + 1, 0).trunc(n.q().width()));
+        m.reg(&format!("j{part}"), bits).doc("line, signed").when(control.sequence.begin, first).q()
     });
-    control.nothing.drive(!counts[0].q().any() & !counts[1].q().any());
+    control.feedback.nothing.drive(!counts[0].q().any() & !counts[1].q().any());
     (lines[0], lines[1])
 }

@@ -48,17 +48,17 @@ impl<'m> Values<'m> {
         area: &Area<'m>,
     ) -> Values<'m> {
         m.comment("What the lanes are shown in the next clock.");
-        let (named, right) = (&control.named, area.negative);
+        let (named, right) = (&control.way.named, area.negative);
         let place = |number: u128| m.lit(2, number);
         // Values of an edge are tested while nothing else is to be shown; of textbook fill those of channels are too.
         let reg = |name: &str, value: Signal<'m>| {
             let reg = m.reg(name, value.width());
             match plan.fill {
                 Fill::Exact => reg.set(value).q(),
-                Fill::Textbook => reg.when(control.advance, value).q(),
+                Fill::Textbook => reg.when(control.pause.advance, value).q(),
             }
         };
-        let of_edge = |name: &str, is: Signal<'m>| m.reg(name, 1).when(control.advance, is).q();
+        let of_edge = |name: &str, is: Signal<'m>| m.reg(name, 1).when(control.pause.advance, is).q();
         let of = |which: usize, taken: Op| named.one_of(&[taken, SHOWN_FIRST[which], SHOWN_NEXT[which]]);
         let (third, second) = (of(0, Op::Take12), of(2, Op::Take2));
         let turned = right & named.one_of(&[Op::Take12, Op::Take1, Op::Take2]);
@@ -116,12 +116,13 @@ impl<'m> Sources<'_, 'm> {
             Vec::new()
         };
         let first_values = [Op::SignStart, Op::DoubleStartA, Op::DoubleStartB];
-        let kept = kept.when(control.next.one_of(&[&may_not_fit, &first_values[..]].concat()), number).q();
+        let kept =
+            kept.when(control.way.next.one_of(&[&may_not_fit, &first_values[..]].concat()), number).q();
         let digits = if may_not_fit.is_empty() {
             m.lit(2, 0)
         } else {
             // In the first clock of a pause these are the sign; when two are left, the lowest.
-            let pair = m.cat(&[control.pause - 2, m.lit(1, 0)]);
+            let pair = m.cat(&[control.pause.left - 2, m.lit(1, 0)]);
             kept.sar_by(pair).trunc(2)
         };
         let (modulus, short) = self.modulus(lane);
@@ -153,7 +154,7 @@ impl<'m> Sources<'_, 'm> {
     /// The edge of the round has lines.
     fn edge_needed(&self, lane: &Lane<'m>) -> Signal<'m> {
         let yes_or_no = |yes: bool| self.m.lit(1, yes.into());
-        self.control.stepped.of_round(rounds(self.plan)[0], |round| {
+        self.control.way.stepped.of_round(rounds(self.plan)[0], |round| {
             match edge_of(self.plan, lane.number, round) {
                 Some(0) => yes_or_no(true),
                 Some(1) => self.lines("n1"),
@@ -165,7 +166,7 @@ impl<'m> Sources<'_, 'm> {
 
     /// Textbook fill, where values of the left edges may be too long as well.
     fn needed(&self, lane: &Lane<'m>) -> Signal<'m> {
-        let stepped = &self.control.stepped;
+        let stepped = &self.control.way.stepped;
         let channel = stepped.of_round(rounds(self.plan)[1], |round| {
             self.m.lit(1, channel_of(self.plan, lane.number, round).is_some().into())
         });
@@ -185,7 +186,7 @@ impl<'m> Sources<'_, 'm> {
 
     /// DX or DY of the lane's edge.
     fn of_edge(&self, lane: &Lane<'m>) -> Signal<'m> {
-        let (next, bits) = (&self.control.next, lane.shape.number);
+        let (next, bits) = (&self.control.way.next, lane.shape.number);
         let edge_rounds = rounds(self.plan)[0];
         let dw = self.plan.widths().difference;
         let of_edge = |value: &dyn Fn(usize) -> Signal<'m>| {
@@ -223,7 +224,7 @@ impl<'m> Sources<'_, 'm> {
 
     /// The whole number that is added to a result: to a column those of the upper end, to a first value that at its vertex.
     fn whole(&self, lane: &Lane<'m>, kept: Signal<'m>) -> Signal<'m> {
-        let (m, rest, bits) = (self.m, &self.control.rest, lane.shape.whole);
+        let (m, rest, bits) = (self.m, &self.control.way.rest, lane.shape.whole);
         let [edge_rounds, channel_rounds] = rounds(self.plan);
         let t = self.plan.widths().center_fraction;
         let column = |place: usize| {
@@ -268,7 +269,7 @@ impl<'m> Sources<'_, 'm> {
 
     /// -M - 1 of an edge, P·DY; of the channels the scaled area's.
     fn modulus(&self, lane: &Lane<'m>) -> (Signal<'m>, Signal<'m>) {
-        let (m, named) = (self.m, &self.control.named);
+        let (m, named) = (self.m, &self.control.way.named);
         let (t, bits) = (self.plan.widths().center_fraction, modulus_bits(self.plan));
         let height = |edge: usize| !m.cat(&[self.vertices.heights[edge], m.lit(t, 0)]).zext(bits);
         let edge = named.of_round(rounds(self.plan)[0], |round| {

@@ -61,7 +61,8 @@ impl<'m> Results<'_, 'm> {
         let (rest, value) = (lane.instance.output("rest_out"), lane.instance.output("value"));
         let (steps, height) = (self.steps(edge), self.vertices.heights[edge]);
         let (f, q) = (self.register(name, "f"), self.register(name, "q"));
-        let after = |op: Op| (self.control.rest.ends_in(op, round), self.control.whole.ends_in(op, round));
+        let after =
+            |op: Op| (self.control.way.rest.ends_in(op, round), self.control.way.whole.ends_in(op, round));
         let (rest_now, whole_now) = after(Op::DoubleDx);
         f.when(rest_now, steps.mux(rest.slice(rest.width() - 1, t).trunc(f.q().width()), 0));
         q.when(whole_now, steps.mux(value.trunc(q.q().width()), 0));
@@ -88,7 +89,7 @@ impl<'m> Results<'_, 'm> {
         let (columns, bits) = (self.plan.widths().column, self.plan.edge_fraction);
         let rounded = lane.instance.output("value").trunc(columns + bits);
         let steps = self.steps(edge);
-        let slope = self.control.whole.ends_in(Op::DoubleDx, round);
+        let slope = self.control.way.whole.ends_in(Op::DoubleDx, round);
         let whole = |of: Signal<'m>| of.slice(columns + bits - 1, bits);
         self.register(name, "q").when(slope, steps.mux(whole(rounded), 0));
         self.register(name, "f").when(slope, steps.mux(rounded.trunc(bits), 0));
@@ -96,7 +97,7 @@ impl<'m> Results<'_, 'm> {
             Fill::Exact => -rounded,
             Fill::Textbook => !rounded,
         };
-        let start = self.control.whole.ends_in(Op::DoubleColumns, round);
+        let start = self.control.way.whole.ends_in(Op::DoubleColumns, round);
         let walked = |value: Signal<'m>| self.walked(edge).map_or(value, |walked| walked.mux(value, 0));
         self.register(name, "c").when(start, walked(-whole(distance)));
         self.register(name, "r").when(start, walked(distance.trunc(bits)));
@@ -109,7 +110,7 @@ impl<'m> Results<'_, 'm> {
         let rounded = value.trunc(channel.word());
         let t = self.plan.widths().center_fraction;
         let start = value.slice(channel.word() + t - 1, t);
-        let (whole, register) = (&self.control.whole, |result| self.register(name, result));
+        let (whole, register) = (&self.control.way.whole, |result| self.register(name, result));
         register("g").when(whole.ends_in(Op::DoubleX, round), rounded); // negated where the major edge lies right
         register("d0").when(whole.ends_in(Op::DoubleLine, round), rounded);
         register("d1").when(whole.ends_in(Op::AddX, round), rounded);
@@ -121,7 +122,7 @@ impl<'m> Results<'_, 'm> {
         let name = channel.name;
         self.m.comment(&format!("Channel: {name}."));
         let rounded = lane.instance.output("value").trunc(channel.word());
-        let after = |op: Op| self.control.whole.ends_in(op, round);
+        let after = |op: Op| self.control.way.whole.ends_in(op, round);
         self.register(name, "g").when(after(Op::DoubleX), rounded);
         let results = [
             ("d_a", Op::DoubleA, "n1"),

@@ -34,13 +34,14 @@ impl<'m> Scale<'m> {
         let scaled = m.reg("scaled", bits).doc("-M or -M - 1, signed");
         let taken = m.reg("scale_taken", 1).doc("the area is taken");
         let scaling = m.reg("scaling", 1).doc("it is compared");
-        let i = m.reg("scale_next", control.scale.q().width()).doc("times that it is fourfold");
+        let i = m.reg("scale_next", control.feedback.scale.q().width()).doc("times that it is fourfold");
         let mut takes = area.ends;
-        if let Some(last) = control.named.in_round(rounds - 1) {
-            let behind_gradient = control.named.one_of(&[Op::SignLine, Op::RoundX]) & control.first;
+        if let Some(last) = control.way.named.in_round(rounds - 1) {
+            let behind_gradient =
+                control.way.named.one_of(&[Op::SignLine, Op::RoundX]) & control.sequence.first;
             takes = takes | (behind_gradient & !last);
         }
-        taken.set(takes & !control.begin);
+        taken.set(takes & !control.sequence.begin);
         let short = !area.negative;
         let of_area = area.signed.sext(bits);
         let less = plus("less_m", differences.q().zext(bits), scaled.q(), m.lit(1, 1));
@@ -51,9 +52,9 @@ impl<'m> Scale<'m> {
             .when(grows, m.cat(&[scaled.q().trunc(bits - 2), short, short]))
             .when(taken.q(), short.mux(!of_area, of_area));
         i.when(grows, i.q() + 1).when(taken.q(), 0);
-        control.area_known.drive(!area.adds & !taken.q() & !scaling.q());
-        control.scale.drive(if rounds > 1 {
-            m.reg("scale_now", i.q().width()).doc("of the round").when(control.next.is(Op::Take12), i).q()
+        control.feedback.area_known.drive(!area.adds & !taken.q() & !scaling.q());
+        control.feedback.scale.drive(if rounds > 1 {
+            m.reg("scale_now", i.q().width()).doc("of the round").when(control.way.next.is(Op::Take12), i).q()
         } else {
             i.q()
         });
@@ -71,11 +72,13 @@ impl<'m> Scale<'m> {
         let Some(any) = any.map(|any| any.named("shown")) else { return };
         let more = self.differences.q() | any;
         if rounds(plan)[1] > 1 {
-            let shown = control.next.one_of(&[SHOWN_FIRST, SHOWN_NEXT].concat());
-            self.differences.when(shown, more).when(control.begin | control.next.is(Op::Take12), 0);
+            let shown = control.way.next.one_of(&[SHOWN_FIRST, SHOWN_NEXT].concat());
+            self.differences
+                .when(shown, more)
+                .when(control.sequence.begin | control.way.next.is(Op::Take12), 0);
         } else {
             // Until the channels begin nothing else is shown.
-            self.differences.set(more).when(control.begin, 0);
+            self.differences.set(more).when(control.sequence.begin, 0);
         }
     }
 }

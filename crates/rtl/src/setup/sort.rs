@@ -47,14 +47,14 @@ impl<'m> Vertices<'m> {
         let places: Vec<Registers> =
             (0..3).map(|place| Registers::new(m, &format!("p{place}"), corner(plan))).collect();
         for (place, registers) in places.iter().enumerate() {
-            registers.load(control.take, |f| {
+            registers.load(control.sequence.take, |f| {
                 let axis = if f == "u" { "x" } else { "y" };
                 center(plan, sorted(place, [0, 1, 2].map(|v| triangle[format!("{axis}{v}").as_str()])))
             });
         }
         let order = |place: usize| {
             let vertex = m.reg(&format!("p{place}_vertex"), 2).doc("whose values are those at this place");
-            vertex.when(control.take, m.cat(&[is_at(place, 2), is_at(place, 1)])).q()
+            vertex.when(control.sequence.take, m.cat(&[is_at(place, 2), is_at(place, 1)])).q()
         };
         let order = (0..3).map(order).collect();
 
@@ -62,7 +62,7 @@ impl<'m> Vertices<'m> {
         let values: Vec<Registers> =
             (0..3).map(|vertex| Registers::new(m, &format!("vertex{vertex}"), values(plan))).collect();
         for (vertex, registers) in values.iter().enumerate() {
-            registers.load(control.take, |f| {
+            registers.load(control.sequence.take, |f| {
                 let channel = plan.channels().iter().find(|channel| channel.name == f);
                 let port = channel.map(|channel| channel.at_vertex(&vertex.to_string()));
                 triangle[port.unwrap_or_default().as_str()]

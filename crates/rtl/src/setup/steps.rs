@@ -160,6 +160,11 @@ impl Op {
         }
     }
 
+    /// All operations of the machine, in their order.
+    pub fn all(plan: &Plan) -> impl Iterator<Item = Op> {
+        Op::of_edges(plan).iter().chain(Op::of_channels(plan)).copied()
+    }
+
     /// What it does.
     pub fn doing(self) -> Doing {
         use Op::*;

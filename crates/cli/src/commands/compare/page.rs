@@ -2,10 +2,10 @@
 
 use crate::verdict::Verdict;
 use anyhow::Result;
-use edgewalk_explore::raster::Raster;
-use edgewalk_explore::report::Report;
 use edgewalk_explore::sweep::equation::Distance;
 use edgewalk_explore::sweep::row::{Cost, causes, keys};
+use edgewalk_host::raster::Raster;
+use edgewalk_judge::report::Report;
 use edgewalk_machine::Plan;
 use edgewalk_model::Waits;
 use serde_json::{Value, json};

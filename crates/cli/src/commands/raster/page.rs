@@ -2,11 +2,11 @@
 
 use crate::arrays::Array;
 use crate::engine::Raster;
-use crate::extra::{self, Values};
 use crate::picture::Png;
-use crate::report::Report;
 use crate::staging::Staging;
 use anyhow::{Context, Result, bail};
+use edgewalk_host::extra::{self, Values};
+use edgewalk_judge::report::Report;
 use edgewalk_machine::Plan;
 
 /// Files that fill from the top.

@@ -3,11 +3,11 @@
 use crate::engine::{Engine, draw, draw_waiting};
 use crate::input::{PortFrame, to_port};
 use anyhow::{Context as _, Result, anyhow};
-use edgewalk_explore::compare::{Comparison, compare_shaded};
-use edgewalk_explore::lights::sum;
-use edgewalk_explore::raster::Raster;
-use edgewalk_explore::reach::reach;
-use edgewalk_explore::shade::Proof;
+use edgewalk_host::lights::sum;
+use edgewalk_host::raster::Raster;
+use edgewalk_host::reach::reach;
+use edgewalk_host::shade::Proof;
+use edgewalk_judge::compare::{Comparison, compare_shaded};
 use edgewalk_machine::Plan;
 use edgewalk_model::Waits;
 use edgewalk_scene::Frame;

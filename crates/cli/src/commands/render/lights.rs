@@ -8,11 +8,12 @@ use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Context as _, Result, anyhow};
-use edgewalk_explore::compare::compare_for;
-use edgewalk_explore::lights::{Passes, are_added, frames, in_passes, sum};
-use edgewalk_explore::reach::reach;
-use edgewalk_explore::report::Report;
-use edgewalk_explore::setup_report::SetupReport;
+use edgewalk_host::lights::{are_added, frames, in_passes, sum};
+use edgewalk_host::reach::reach;
+use edgewalk_judge::compare::compare_for;
+use edgewalk_judge::passes::Passes;
+use edgewalk_judge::report::Report;
+use edgewalk_judge::setup_report::SetupReport;
 use edgewalk_machine::Plan;
 
 /// Draws, compares part by part, and writes the picture of all passes beside golden's.

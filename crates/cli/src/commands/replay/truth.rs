@@ -1,8 +1,8 @@
 //! The exact value of every fragment that was recorded, as golden has it, beside the machine's.
 
 use crate::engine::golden_fill;
-use crate::extra;
 use edgewalk_golden::{Fill, fragments};
+use edgewalk_host::extra;
 use edgewalk_machine::Plan;
 use edgewalk_model::tokens::output;
 use edgewalk_model::view::Tokens;

@@ -2,12 +2,12 @@
 
 use crate::picture::{bytes, heat, png};
 use anyhow::Result;
-use edgewalk_explore::compare::compare;
-use edgewalk_explore::draw;
 use edgewalk_explore::page::Pictures;
 use edgewalk_explore::sweep::shared::pixel_key;
 use edgewalk_explore::sweep::table::{Candidate, Table};
 use edgewalk_explore::sweep::{Point, Sweep};
+use edgewalk_host::draw;
+use edgewalk_judge::compare::compare;
 use edgewalk_model::Waits;
 use std::collections::BTreeSet;
 

@@ -1,0 +1,218 @@
+//! Why a pixel looks as it does: the triangles over it, its light, and every addition, table and bound of the machine on the way to it.
+
+pub mod accumulators;
+mod additions;
+mod layers;
+mod table_read;
+mod turned;
+mod normal;
+mod lamp;
+mod shaded;
+mod shadowed;
+mod texel;
+mod terms;
+mod page;
+
+use additions::{Walk, walk};
+use anyhow::Result;
+use edgewalk_golden::{Order, ShadowMaps, draw, fragments};
+use edgewalk_host::extra;
+use edgewalk_host::port::{PortFrame, port_triangle, to_port};
+use edgewalk_host::raster::golden_fill;
+use edgewalk_host::shade::apart;
+use edgewalk_machine::{EdgeKind, Fill, Plan};
+use edgewalk_scene::{Frame, Scene, State, Surface};
+use layers::{Layer, layers};
+use serde::Serialize;
+use shaded::{ShadedPixel, leftward, shaded};
+use shadowed::{ShadowedPixel, shadowed};
+use terms::{LitPoint, lit_point};
+
+/// Side of the shadow maps, texels.
+const SHADOW_MAP: u32 = 1024;
+
+/// Everything about the pixel.
+#[derive(Serialize)]
+pub struct Explanation {
+    /// Pixels of the whole picture that a triangle covers.
+    #[serde(skip)]
+    pub covered: u64,
+    x: u32,
+    y: u32,
+    /// In drawing order.
+    fragments: Vec<Over>,
+    /// The last triangle that passed the depth test, -1 for none.
+    id: i32,
+    /// Golden picture there, [0, 1].
+    z: f64,
+    rgb: [f64; 3],
+    /// Channels of the user's own, LSB.
+    extra: Vec<f64>,
+    /// Where the scene has a surface.
+    light: Option<LitPoint>,
+    /// Of a blended frame the colours stored here, in order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    layers: Vec<Layer>,
+    /// Where the frame is shaded at each pixel, and the machine does so: of each picture that the host adds, mostly one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    shaded: Vec<ShadedPixel>,
+    /// Under lights whose maps the machine looks up.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    shadows: Vec<ShadowedPixel>,
+    /// Why there are none of a scene, though the machine could look up maps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_shadows: Option<String>,
+    /// Where the machine has exact fill and exact edges, and draws the triangle.
+    machine: Option<Walk>,
+}
+
+/// A triangle over the pixel.
+#[derive(Serialize)]
+struct Over {
+    id: usize,
+    z: f64,
+    rgb: [f64; 3],
+    /// Channels of the user's own, LSB.
+    extra: Vec<f64>,
+}
+
+/// What is drawn, and the scene it is made of, if it is one.
+pub struct Input<'a> {
+    /// On this machine.
+    pub machine: &'a Plan,
+    /// As the machine draws it.
+    pub frame: &'a Frame,
+    /// The scene, and its surface on the machine's screen.
+    pub scene: Option<(&'a Scene, &'a Surface)>,
+    /// The order in which its triangles are drawn, where that is another.
+    pub order: Option<&'a Order>,
+}
+
+/// Explains pixel (x, y), which lies on the machine's screen.
+///
+/// # Errors
+/// What of the frame the machine cannot take.
+pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
+    let Input { machine, frame, scene, order } = *input;
+    let picture = draw(frame, golden_fill(machine));
+    let parts = match frame.shading {
+        Some(_) => apart(frame, machine)?.unwrap_or_else(|| vec![frame.clone()]),
+        None => Vec::new(),
+    };
+    let ports: Vec<PortFrame> = parts.iter().map(|part| to_port(part, machine)).collect::<Result<_>>()?;
+    let at = (y * machine.width + x) as usize;
+    let id = picture.id[at];
+    let seen = usize::try_from(id).ok().and_then(|id| frame.triangles.get(id));
+    let (shadows, no_shadows) = match (usize::try_from(id), &scene) {
+        (Ok(id), None) => (shadowed(frame, machine, id, (x, y), picture.z[at])?.into_iter().collect(), None),
+        (Ok(id), Some((scene, surface))) if machine.shadow.projects() => {
+            match lights(scene, surface, machine, id, (x, y), picture.z[at]) {
+                Ok(shadows) => (shadows, None),
+                Err(reason) => (Vec::new(), Some(reason.to_string())),
+            }
+        }
+        _ => (Vec::new(), None),
+    };
+    let walked = match seen {
+        Some(triangle) if machine.fill == Fill::Exact && machine.edge_kind == EdgeKind::Exact => {
+            let state = state_of(frame, id as usize);
+            walk(machine, &port_triangle(id as usize, triangle, frame, &state, machine)?, x, y)
+        }
+        _ => None,
+    };
+    Ok(Explanation {
+        covered: picture.coverage.iter().map(|count| u64::from(*count)).sum(),
+        x,
+        y,
+        fragments: over(frame, machine, (x, y)),
+        id,
+        z: picture.z[at],
+        rgb: picture.rgb[at],
+        extra: own(machine, |channel| picture.extra[channel][at]),
+        light: match (seen, &scene) {
+            (Some(_), Some((scene, surface))) => {
+                let place = order.map_or(id as usize, |order| order.order[id as usize]);
+                light(scene, surface, place, machine, (x, y))
+            }
+            _ => None,
+        },
+        layers: layers(frame, machine, (x, y))?,
+        shaded: match usize::try_from(id) {
+            Ok(id) => parts
+                .iter()
+                .zip(&ports)
+                .filter_map(|(part, port)| {
+                    let walk = (leftward(machine, &port.triangles[id]), walked.as_ref());
+                    shaded(machine, part, port.shade.as_ref()?, id, (x, y), walk)
+                })
+                .collect(),
+            Err(_) => Vec::new(),
+        },
+        shadows,
+        no_shadows,
+        machine: walked,
+    })
+}
+
+impl Explanation {
+    /// As a page of text; the machine's colours have so many bits.
+    #[must_use]
+    pub fn text(&self, color_bits: u32) -> String {
+        page::text(self, color_bits)
+    }
+}
+
+/// The rules of a triangle.
+fn state_of(frame: &Frame, id: usize) -> State {
+    let passes = frame.passes();
+    passes.iter().find(|pass| pass.primitives.contains(&id)).map_or(frame.state(), |pass| pass.state)
+}
+
+/// The triangles over a pixel, by the exact rule.
+fn over(frame: &Frame, machine: &Plan, pixel: (u32, u32)) -> Vec<Over> {
+    let mut list = Vec::new();
+    for (id, triangle) in frame.triangles.iter().enumerate() {
+        let screen = (machine.width, machine.height);
+        fragments(triangle, frame.mode, machine.subpixel_bits, screen, |fragment| {
+            if (fragment.x, fragment.y) == pixel {
+                let extra = own(machine, |channel| fragment.extra(channel));
+                list.push(Over { id, z: fragment.z(), rgb: fragment.rgb(), extra });
+            }
+        });
+    }
+    list
+}
+
+/// Golden's values of the user's own channels, LSB, from those in the unit of the file.
+fn own(machine: &Plan, value: impl Fn(usize) -> f64) -> Vec<f64> {
+    let channels = extra::channels(machine).iter().enumerate();
+    channels.map(|(place, channel)| value(place) * channel.host_unit()).collect()
+}
+
+/// The pixel under each light of a scene that is drawn with shadows.
+fn lights(
+    scene: &Scene,
+    surface: &Surface,
+    machine: &Plan,
+    id: usize,
+    pixel: (u32, u32),
+    z: f64,
+) -> Result<Vec<ShadowedPixel>> {
+    let frames = edgewalk_host::lights::frames(scene, surface, machine)?;
+    let each = frames.iter().map(|frame| shadowed(frame, machine, id, pixel, z));
+    Ok(each.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect())
+}
+
+fn light(scene: &Scene, surface: &Surface, id: usize, machine: &Plan, pixel: (u32, u32)) -> Option<LitPoint> {
+    let triangle = surface.triangles.get(id)?;
+    let maps = ShadowMaps::draw(scene, SHADOW_MAP);
+    let mut point = None;
+    let screen = (machine.width, machine.height);
+    let mode = edgewalk_scene::ShadeMode::Gouraud;
+    fragments(&triangle.on_screen(), mode, machine.subpixel_bits, screen, |fragment| {
+        if (fragment.x, fragment.y) == pixel {
+            point = Some(lit_point(scene, triangle, fragment, &maps));
+        }
+    });
+    point
+}

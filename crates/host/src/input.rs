@@ -1,0 +1,178 @@
+//! What is to be drawn on one machine after another: read once, made into a frame for each screen.
+
+use crate::extra;
+use crate::port::{guard_band, sent};
+use anyhow::{Context as _, Result, anyhow};
+use edgewalk_golden::Shading;
+use edgewalk_machine::Plan;
+use edgewalk_scene::{Blending, Change, Frame, PixelMethod, Scene, Surface, Triangulated, triangle_file};
+use sha2::{Digest, Sha256};
+use std::path::Path;
+
+/// A scene, a mesh, or a file of screen-space triangles.
+pub struct Input {
+    name: String,
+    what: What,
+}
+
+/// Where a scene's colours are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shaded {
+    /// At the corners, by this system.
+    Corners(Shading),
+    /// At each pixel, by the machine's SHADE.
+    Pixels(PixelMethod),
+}
+
+enum What {
+    Scene(Box<Scene>, Shaded),
+    Triangles(Box<Frame>),
+}
+
+impl Input {
+    /// The built-in scene of that name, or the file.
+    ///
+    /// # Errors
+    /// No such scene or file, or a fault in it.
+    pub fn open(name: &str, shading: Shaded) -> Result<Input> {
+        let what = if is_triangle_file(name) {
+            What::Triangles(Box::new(triangle_file::read(Path::new(name))?))
+        } else {
+            What::Scene(Box::new(Scene::open(name)?), shading)
+        };
+        Ok(Input { name: name.to_owned(), what })
+    }
+
+    /// As it was asked for.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The screen that it brings, pixels; scenes are drawn on any.
+    #[must_use]
+    pub fn size(&self) -> Option<(u32, u32)> {
+        match &self.what {
+            What::Triangles(frame) => Some((frame.width, frame.height)),
+            What::Scene(..) => None,
+        }
+    }
+
+    /// Twelve hex digits that stand for the input, whichever machine draws it: those of a scene's frame on the default machine.
+    ///
+    /// # Errors
+    /// None but of memory.
+    pub fn hash(&self) -> Result<String> {
+        Ok(match &self.what {
+            What::Triangles(frame) => hash(frame),
+            What::Scene(..) => hash(&self.frame(&Plan::default())?),
+        })
+    }
+
+    /// The scene, and its surface on the machine's screen, clipped to its guard band; none of a triangle file.
+    #[must_use]
+    pub fn surface(&self, machine: &Plan) -> Option<(&Scene, Surface)> {
+        match &self.what {
+            What::Triangles(_) => None,
+            What::Scene(scene, _) => {
+                Some((scene, scene.surface(machine.width, machine.height, guard_band(machine))))
+            }
+        }
+    }
+
+    /// The frame as the machine draws it, polygons as triangles, clipped to its guard band.
+    ///
+    /// # Errors
+    /// A triangle file of another size, channels of the user's own without values for them.
+    pub fn frame(&self, machine: &Plan) -> Result<Frame> {
+        let frame = match &self.what {
+            What::Triangles(frame) => fitting(&self.name, Frame::clone(frame), machine)?,
+            What::Scene(scene, shading) => {
+                extra::fitting(0, machine).with_context(|| self.name.clone())?;
+                let surface = scene.surface(machine.width, machine.height, guard_band(machine));
+                let frame = match *shading {
+                    Shaded::Corners(system) => edgewalk_golden::frame(scene, &surface, system),
+                    Shaded::Pixels(method) => scene.pixel_frame(&surface, method),
+                };
+                if frame.blend == Blending::Off {
+                    frame
+                } else {
+                    return Ok(
+                        edgewalk_golden::sorted(in_triangles(frame, machine)?, machine.subpixel_bits).0
+                    );
+                }
+            }
+        };
+        in_triangles(frame, machine)
+    }
+}
+
+/// Whether a name is that of a file of screen-space triangles.
+#[must_use]
+pub fn is_triangle_file(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|e| e == "tri")
+}
+
+/// The triangle file's frame, if it is as large as the machine's screen and has values for its channels.
+///
+/// # Errors
+/// It is not, or has not.
+pub fn fitting(name: &str, frame: Frame, machine: &Plan) -> Result<Frame> {
+    if (frame.width, frame.height) != (machine.width, machine.height) {
+        return Err(anyhow!(
+            "{name}: size {} {}: the machine's screen is {}x{}; add --set screen.width={} --set screen.height={}",
+            frame.width,
+            frame.height,
+            machine.width,
+            machine.height,
+            frame.width,
+            frame.height
+        ));
+    }
+    extra::fitting(frame.extra, machine).with_context(|| name.to_owned())?;
+    Ok(frame)
+}
+
+/// The frame with its polygons as triangles, all in the machine's guard band.
+///
+/// # Errors
+/// A polygon that cannot be cut into triangles.
+pub fn in_triangles(frame: Frame, machine: &Plan) -> Result<Frame> {
+    let (Triangulated { triangles, ids }, host) = sent(&frame, machine)?;
+    // So many triangles are made of the primitives before each change.
+    let before = |change: &Change| ids.iter().take_while(|id| (**id as usize) < change.after).count();
+    let changes = frame.changes.iter().map(|change| Change { after: before(change), ..*change }).collect();
+    let triangles = triangles.into_owned();
+    Ok(Frame { triangles, changes, polygons: Vec::new(), host, ..frame })
+}
+
+/// Twelve hex digits that stand for a frame of triangles: every bit of its vertices and of its state.
+#[must_use]
+pub fn hash(frame: &Frame) -> String {
+    let mut digest = Sha256::new();
+    let Frame { width, height, mode, depth, depth_write, blend, clear, extra, .. } = frame;
+    digest.update(format!(
+        "{width} {height} {mode:?} {depth:?} {depth_write} {blend:?} {clear:?} {extra} {:?} {} {:?}\n",
+        (&frame.shadows, frame.light),
+        frame.color_write,
+        frame.changes
+    ));
+    digest.update(format!("{:?}\n", frame.polygons));
+    if let Some(shading) = &frame.shading {
+        digest.update(format!("{shading:?}\n"));
+    }
+    for vertex in frame.triangles.iter().flat_map(|triangle| &triangle.0) {
+        let [e0, e1, e2, e3] = vertex.extra;
+        let values = [vertex.x, vertex.y, vertex.z, vertex.r, vertex.g, vertex.b, vertex.kt, e0, e1, e2, e3];
+        for value in values {
+            digest.update(value.to_bits().to_le_bytes());
+        }
+    }
+    hex(&digest.finalize()[..6])
+}
+
+/// As hex digits.
+#[must_use]
+pub fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}

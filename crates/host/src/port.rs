@@ -1,0 +1,242 @@
+//! A frame's way to the machine's port.
+
+use crate::light::{self, Map};
+use crate::raster::{Cycles, LightPass, Raster};
+use crate::shade::{Feed, feed, shading_for};
+use anyhow::{Context as _, Result, anyhow};
+use edgewalk_machine::{Plan, PortVertex};
+use edgewalk_model::{DrawState, Pass, Shading};
+use edgewalk_scene::{
+    Blending, CrossingEdges, DepthFunc, Frame, Host, ShadeMode, State, Triangle, Triangulated, fits,
+};
+use std::borrow::Cow;
+
+/// A frame as the machine's port takes it.
+pub struct PortFrame {
+    /// Triangles in drawing order.
+    pub triangles: Vec<[PortVertex; 3]>,
+    /// For each of them the place of what it is a part of among the frame's triangles and polygons.
+    pub ids: Vec<i32>,
+    /// The rules, and how many triangles are drawn by each, in order; at least one.
+    pub passes: Vec<Pass>,
+    /// What was done to the triangles on the way.
+    pub host: Host,
+    /// The lights' maps.
+    pub lights: Vec<Map>,
+    /// For TERM and SHADE, where the frame is shaded at each pixel.
+    pub shade: Option<Feed>,
+}
+
+/// Of a frame that is not shaded at each pixel.
+const UNSHADED: &Shading =
+    &Shading { records: Vec::new(), tables: Vec::new(), roots: Vec::new(), textures: Vec::new() };
+
+impl PortFrame {
+    /// What the memories behind TERM and SHADE hold.
+    #[must_use]
+    pub fn words(&self) -> &Shading {
+        self.shade.as_ref().map_or(UNSHADED, |feed| &feed.words)
+    }
+
+    /// What a machine is sent for all of the frame: where it draws its maps, these before the picture; and the maps that it finds.
+    #[must_use]
+    pub fn sent(&self) -> (Cow<'_, [[PortVertex; 3]]>, Cow<'_, [Pass]>, Vec<Vec<u32>>) {
+        if self.lights.iter().all(|light| light.own.is_none()) {
+            return (Cow::Borrowed(&self.triangles), Cow::Borrowed(&self.passes), self.maps());
+        }
+        let (mut triangles, mut passes) = (Vec::new(), Vec::new());
+        for (number, own) in self.lights.iter().map(|light| &light.own).enumerate() {
+            let Some(own) = own else { continue };
+            triangles.extend_from_slice(&own.triangles);
+            passes.extend(own.passes.iter().map(|pass| Pass { map: Some(number), ..*pass }));
+        }
+        triangles.extend_from_slice(&self.triangles);
+        passes.extend_from_slice(&self.passes);
+        (Cow::Owned(triangles), Cow::Owned(passes), Vec::new())
+    }
+
+    /// The picture of a frame that was drawn as it was [sent](PortFrame::sent), apart from the maps that were drawn before it.
+    #[must_use]
+    pub fn apart(&self, mut drawn: edgewalk_model::Frame) -> (edgewalk_model::Frame, Vec<LightPass>) {
+        let mut lights = Vec::new();
+        for (own, words) in self.lights.iter().filter_map(|light| light.own.as_ref()).zip(&drawn.maps) {
+            let of_light = drawn.passes.drain(..own.passes.len().min(drawn.passes.len()));
+            let spent = of_light.reduce(|spent, pass| spent.and(&pass)).unwrap_or_default();
+            lights.push(LightPass { cycles: Cycles::of(&spent, None), words: words.clone() });
+            for id in drawn.id.iter_mut().filter(|id| **id >= 0) {
+                *id -= own.triangles.len() as i32; // a frame has fewer triangles
+            }
+        }
+        if !lights.is_empty() {
+            drawn.counters =
+                drawn.passes.iter().cloned().reduce(|all, pass| all.and(&pass)).unwrap_or_default();
+        }
+        (drawn, lights)
+    }
+
+    /// The words of the lights' maps.
+    #[must_use]
+    pub fn maps(&self) -> Vec<Vec<u32>> {
+        self.lights.iter().map(|light| light.words.clone()).collect()
+    }
+
+    /// The rules of a frame in which they do not change, for who has no light's map.
+    ///
+    /// # Errors
+    /// They do, or the frame has a light.
+    pub fn state(&self) -> Result<DrawState> {
+        if !self.lights.is_empty() {
+            return Err(anyhow!(
+                "shadow: a light's map; permitted for raster, render, explain, replay, sweep, compare, size, vectors and verify"
+            ));
+        }
+        self.one_state()
+    }
+
+    /// The rules of a frame in which they do not change.
+    ///
+    /// # Errors
+    /// They do.
+    pub fn one_state(&self) -> Result<DrawState> {
+        match &self.passes[..] {
+            [pass] => Ok(pass.state),
+            passes => Err(anyhow!(
+                "{} passes: the rules change between triangles; permitted for raster, render, explain, replay, sweep, compare and size",
+                passes.len()
+            )),
+        }
+    }
+}
+
+/// The ids of the frame's triangles and polygons for those of the triangles the machine drew, what the lights' maps took, and what the host did.
+#[must_use]
+pub fn of_port(mut raster: Raster, port: &PortFrame) -> Raster {
+    for id in &mut raster.id {
+        // Where nothing was drawn the id is negative.
+        *id = usize::try_from(*id).map_or(*id, |triangle| port.ids[triangle]);
+    }
+    let pass =
+        |light: &Map| LightPass { cycles: Cycles::of(&light.counters, None), words: light.words.clone() };
+    // Those that the machine drew itself are there already.
+    let lights =
+        if raster.lights.is_empty() { port.lights.iter().map(pass).collect() } else { raster.lights };
+    Raster { lights, host: port.host, ..raster }
+}
+
+/// What a frame sends to the machine: its polygons as triangles, and no triangle beyond the guard band.
+///
+/// # Errors
+/// A polygon that cannot be cut into triangles.
+pub fn sent<'a>(frame: &'a Frame, machine: &Plan) -> Result<(Triangulated<'a>, Host), CrossingEdges> {
+    let Triangulated { triangles, ids } = frame.triangulated(machine.subpixel_bits)?;
+    let (limit, mut host) = (guard_band(machine), frame.host);
+    // The terms of a shaded triangle are those of all of it.
+    if frame.shading.is_some() || triangles.iter().all(|triangle| fits(triangle, limit)) {
+        return Ok((Triangulated { triangles, ids }, host));
+    }
+    let (mut pieces, mut of) = (Vec::with_capacity(triangles.len()), Vec::with_capacity(ids.len()));
+    for (triangle, id) in triangles.iter().zip(ids) {
+        pieces.extend_from_slice(&host.in_band(triangle, frame, limit));
+        of.resize(pieces.len(), id);
+    }
+    Ok((Triangulated { triangles: Cow::Owned(pieces), ids: of }, host))
+}
+
+/// Half a side of the machine's guard band, pixels.
+#[must_use]
+pub fn guard_band(machine: &Plan) -> f64 {
+    f64::from((1u32 << machine.guard_bits) - 1)
+}
+
+/// Snaps a frame to the port, polygons as triangles, or says what of it the machine cannot take.
+pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
+    for shadow in &frame.shadows {
+        light::check(shadow, machine)?;
+        if frame.shading.is_some() {
+            return Err(anyhow!(
+                "shadow: a frame that is shaded at each pixel has no light's map in the machine; draw with mode gouraud, or with --engine golden"
+            ));
+        }
+    }
+    let (Triangulated { triangles, ids }, host) = sent(frame, machine)?;
+    let (mut port, mut passes) = (Vec::with_capacity(triangles.len()), Vec::new());
+    for pass in frame.passes() {
+        let parts = ids.iter().take_while(|id| (**id as usize) < pass.primitives.end).count();
+        for (triangle, id) in triangles[port.len()..parts].iter().zip(&ids[port.len()..parts]) {
+            port.push(port_triangle(*id as usize, triangle, frame, &pass.state, machine)?);
+        }
+        passes.push(Pass {
+            triangles: parts - passes.iter().map(|pass: &Pass| pass.triangles).sum::<usize>(),
+            state: draw_state(frame, &pass.state, machine)?,
+            clear_depth: pass.clear_depth,
+            map: frame.shadow(pass.state.light).map(|_| pass.state.light - 1),
+        });
+    }
+    let lights = frame.shadows.iter().map(|shadow| light::map(shadow, machine)).collect::<Result<_>>()?;
+    let shade = feed(frame, (&port, &ids), machine)?;
+    Ok(PortFrame { triangles: port, ids, passes, lights, host, shade })
+}
+
+/// The rules of a pass as the machine has them, or what of them it cannot do.
+pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawState> {
+    let blends = machine.blend.is_there();
+    if state.blend != Blending::Off && !blends {
+        return Err(anyhow!(
+            "blend {} (transparent surfaces): the machine has no BLEND; add --set blend.kind=interpolated, or draw with blend 0 or --engine golden",
+            state.blend.name()
+        ));
+    }
+    if !state.color_write && !blends {
+        return Err(anyhow!(
+            "colour_write 0: a machine without BLEND writes the colour of every fragment that passes; add --set blend.kind=constant"
+        ));
+    }
+    shading_for(frame, machine)?;
+    let max = machine.color.max() as f64;
+    Ok(DrawState {
+        depth_func: state.depth.unwrap_or(DepthFunc::Always) as u8,
+        depth_write: state.stores_depth(),
+        color_write: state.color_write,
+        blend_add: state.blend == Blending::Add,
+        shadow_on: frame.shadow(state.light).is_some(),
+        light_pass: false,
+        ambient: frame.shadow(state.light).map_or(0, |shadow| light::ambient(shadow, machine)),
+        clear: frame.clear.map(|v| (v * max).round_ties_even() as u64),
+    })
+}
+
+/// Snaps triangle number `index`, drawn by these rules, to the port, or says that the machine cannot take it.
+pub fn port_triangle(
+    index: usize,
+    triangle: &Triangle,
+    frame: &Frame,
+    state: &State,
+    machine: &Plan,
+) -> Result<[PortVertex; 3]> {
+    let (mixes, mode) = (state.blend == Blending::Mix, frame.mode);
+    let mut port = [PortVertex::default(); 3];
+    let light = light::values(frame.shadow(state.light), index, &triangle.0, machine)
+        .with_context(|| format!("triangle {index}"))?;
+    for (corner, (slot, v)) in port.iter_mut().zip(&triangle.0).enumerate() {
+        let v = if mode == ShadeMode::Flat { v.colored_as(&triangle.0[0]) } else { *v };
+        let named = || format!("triangle {index}, vertex {corner}");
+        let mut values = vec![v.z, v.r, v.g, v.b];
+        values.extend_from_slice(&v.extra[..machine.extra as usize]);
+        if machine.shadow.is_there() {
+            values.extend_from_slice(&light[corner]);
+        }
+        if machine.blend.is_there() {
+            values.push(if mixes { v.kt } else { 0.0 });
+        }
+        if mixes && machine.has_triangle_kt() && mode == ShadeMode::Gouraud && v.kt != triangle.0[0].kt {
+            return Err(anyhow!(
+                "kt = {} after {}: blend.kind = constant has one for a triangle; add --set blend.kind=interpolated, or draw with mode flat",
+                v.kt,
+                triangle.0[0].kt
+            ))
+            .with_context(named);
+        }
+        *slot = machine.port_vertex(v.x, v.y, &values).with_context(named)?;
+    }
+    Ok(port)
+}

@@ -1,0 +1,186 @@
+//! The errors of each channel, their bounds, and which outputs wrapped.
+
+use super::order::Over;
+use edgewalk_host::extra::{self, OwnChannel};
+use edgewalk_host::raster::Raster;
+use edgewalk_machine::{Channel, ErrorBudget, NoBound, Plan};
+use serde::Serialize;
+
+/// Errors found so far.
+pub struct Tally<'a> {
+    pub drawn: &'a Raster,
+    /// Depth.
+    pub z: Errors,
+    /// Colour, the worst of three.
+    pub color: Errors,
+    /// Channels of the user's own.
+    pub extra: Vec<Errors>,
+    /// Pixels where any wrapped.
+    pub wrapped: u64,
+}
+
+/// Errors of a channel found so far, LSB.
+pub struct Errors {
+    channel: Channel,
+    /// LSB that a 1 of the pictures stands for.
+    unit: f64,
+    budget: Result<ErrorBudget, NoBound>,
+    largest: f64,
+    /// Of every value, drawn less exact.
+    all: Vec<f64>,
+    map: Vec<f64>,
+}
+
+/// How the errors of a channel are spread over all values compared, LSB.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Spread {
+    /// Mean magnitude.
+    pub mean: f64,
+    /// 99 of 100 values err by no more.
+    pub p99: f64,
+    /// Mean of drawn less exact.
+    pub bias: f64,
+}
+
+impl<'a> Tally<'a> {
+    /// Nothing found yet.
+    pub fn new(machine: &Plan, golden: &Raster, drawn: &'a Raster) -> Self {
+        let errors = |channel: Channel, unit: f64| Errors {
+            channel,
+            unit,
+            budget: machine.proved_budget(&channel),
+            largest: 0.0,
+            all: Vec::new(),
+            map: vec![0.0; golden.coverage.len()],
+        };
+        let of_unit =
+            |place: usize| errors(machine.channels()[place], machine.channels()[place].max() as f64);
+        Tally {
+            drawn,
+            z: of_unit(0),
+            color: of_unit(1),
+            extra: extra::channels(machine).iter().map(|channel| errors(*channel, 1.0)).collect(),
+            wrapped: 0,
+        }
+    }
+
+    /// Pixel `i` shows this triangle; the depth stored there should be `z`.
+    pub fn triangle(&mut self, i: usize, z: f64, shown: &Over) {
+        let mut wrapped = self.z.add(i, z, self.drawn.z[i]);
+        for (exact, drawn) in shown.rgb.into_iter().zip(self.drawn.rgb[i]) {
+            wrapped |= self.color.add(i, exact, drawn);
+        }
+        for ((errors, exact), drawn) in self.extra.iter_mut().zip(shown.extra).zip(&self.drawn.extra) {
+            wrapped |= errors.add(i, exact, drawn.at(i));
+        }
+        self.wrapped += u64::from(wrapped);
+    }
+
+    /// How far the colour of pixel `i` is from this one, LSB.
+    pub fn color_error(&self, exact: [f64; 3], i: usize) -> f64 {
+        let off = exact.into_iter().zip(self.drawn.rgb[i]).map(|(exact, drawn)| (exact - drawn).abs());
+        off.fold(0.0, worse) * self.color.unit
+    }
+
+    /// Of pixel `i` only the depth counts.
+    pub fn depth(&mut self, i: usize, z: f64) {
+        self.wrapped += u64::from(self.z.add(i, z, self.drawn.z[i]));
+    }
+
+    /// Whether pixel `i` has the cleared depth, to the nearest LSB the cleared colour, and 0 in the user's own channels.
+    pub fn is_background(&self, i: usize, clear: [f64; 3]) -> bool {
+        self.drawn.z[i] == 1.0 && self.is_clear(i, clear)
+    }
+
+    /// Pixel `i` has a depth, but no colour: whether what else it has is that of the empty screen.
+    pub fn depth_only(&mut self, i: usize, z: f64, clear: [f64; 3]) -> bool {
+        self.depth(i, z);
+        self.is_clear(i, clear)
+    }
+
+    fn is_clear(&self, i: usize, clear: [f64; 3]) -> bool {
+        let half = 0.5 + 1e-9; // the division by 2^b - 1 rounds
+        let near =
+            |(exact, drawn): (f64, f64)| (exact - drawn).abs() * self.color.channel.max() as f64 <= half;
+        let own = self.drawn.extra.iter().all(|values| values.at(i) == 0.0);
+        own && clear.into_iter().zip(self.drawn.rgb[i]).all(near)
+    }
+}
+
+impl Errors {
+    /// Takes in a value that should be `exact`, both as pictures have them; returns whether it wrapped.
+    fn add(&mut self, i: usize, exact: f64, drawn: f64) -> bool {
+        let signed = (drawn - exact) * self.unit;
+        let error = signed.abs();
+        self.all.push(signed);
+        self.largest = worse(self.largest, error);
+        self.map[i] = worse(self.map[i], error);
+        // An output that stayed in its range is nearer to the exact value than half the range, one that wrapped is not.
+        error > 0.5 * (self.channel.max() + 1) as f64
+    }
+
+    /// Proved largest error of the output: vertex rounding, all additions, output rounding (bounds 2, 4).
+    pub fn bound(&self) -> Option<f64> {
+        self.budget.map(|budget| budget.after_rounding().to_f64()).ok()
+    }
+
+    /// Why there is none.
+    pub fn no_bound(&self) -> Option<String> {
+        self.budget.err().map(|why| why.to_string())
+    }
+
+    /// The largest error, how they are spread, and that of every pixel.
+    pub fn found(self) -> (f64, Spread, Vec<f64>) {
+        let Errors { largest, all, map, .. } = self;
+        (largest, Spread::of(all), map)
+    }
+}
+
+impl Spread {
+    fn of(mut errors: Vec<f64>) -> Self {
+        if errors.is_empty() {
+            return Spread::default();
+        }
+        let count = errors.len() as f64;
+        let bias = errors.iter().sum::<f64>() / count;
+        errors.iter_mut().for_each(|error| *error = error.abs());
+        let mean = errors.iter().sum::<f64>() / count;
+        let place = (errors.len() * 99).div_ceil(100) - 1; // not empty
+        let (_, p99, _) = errors.select_nth_unstable_by(place, f64::total_cmp);
+        Spread { mean, p99: *p99, bias }
+    }
+}
+
+/// What was found of a channel of the user's own.
+#[derive(Clone, Debug, Serialize)]
+pub struct ExtraError {
+    /// Which, and what is proved of it.
+    #[serde(flatten)]
+    pub channel: OwnChannel,
+    /// Largest error, LSB.
+    pub error: f64,
+    /// How the errors are spread.
+    #[serde(flatten)]
+    pub spread: Spread,
+    /// Proved bound of the error for these triangles, LSB; none where outputs may wrap.
+    pub bound_for_input: Option<f64>,
+    /// More is wrong, LSB: the bound, and where none is proved the output rounding and half an LSB.
+    #[serde(skip)]
+    pub allowed: f64,
+}
+
+impl ExtraError {
+    /// Of a channel after all pixels.
+    pub fn of(errors: Errors, machine: &Plan) -> Self {
+        let channel = OwnChannel::of(&errors.channel, machine);
+        let rounding = if errors.channel.kind.is_rounded() { 0.5 } else { 1.0 };
+        let allowed = channel.bound.unwrap_or(rounding + 0.5);
+        let (error, spread, _) = errors.found();
+        ExtraError { channel, error, spread, bound_for_input: None, allowed }
+    }
+}
+
+/// The larger of two errors; NaN is the largest.
+fn worse(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b <= a { a } else { b }
+}

@@ -1,0 +1,138 @@
+//! What blending may err by at each pixel: the running bound (bound 11) beside golden's own layers.
+//!
+//! A colour of a blended picture hangs on every fragment under it. So where a single depth test at a pixel is open
+//! (bound 7), any of two colours may come of it, and the pixel counts as undecided.
+
+use super::lit::{Lights, Seen};
+use super::order::apart;
+use edgewalk_golden::{Drawing, Step};
+use edgewalk_host::raster::golden_fill;
+use edgewalk_machine::Plan;
+use edgewalk_numerics::blend_error_of_golden;
+use edgewalk_scene::{Blending, Frame};
+use serde::Serialize;
+
+/// Every pixel of a frame that is blended, or drawn in several passes.
+pub struct Layers {
+    /// Largest error of the colour, LSB.
+    pub bound: Vec<f64>,
+    /// A depth test there is open.
+    pub open: Vec<bool>,
+    /// Colours stored there.
+    pub stored: Vec<u32>,
+    /// What the machine may have decided of the last of them.
+    pub last: Vec<Seen>,
+    /// One of them may have several shares of its colour, an LSB or more apart.
+    pub loose: Vec<bool>,
+}
+
+/// What was found of such a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Blended {
+    /// Pixels whose colour was compared with the bound of its layers.
+    pub pixels: u64,
+    /// Most colours stored at one of them.
+    pub layers: u32,
+    /// The largest bound of one of them, LSB.
+    pub bound: f64,
+    /// The largest error over the bound of its pixel.
+    pub of_bound: f64,
+    /// Pixels beyond.
+    pub beyond: u64,
+}
+
+impl Layers {
+    /// `None` where every pixel shows one fragment as it is, or as a light leaves it or takes it away. `lights`: of the frame, if any counts.
+    pub fn of(machine: &Plan, frame: &Frame, mut lights: Option<&mut Lights>) -> Option<Layers> {
+        let passes = frame.passes();
+        let shares = lights.is_some() && machine.shadow.transmits();
+        if passes.len() == 1 && passes[0].state.blend == Blending::Off && !shares {
+            return None;
+        }
+        let pixels = frame.width as usize * frame.height as usize;
+        let mut layers = Layers {
+            bound: vec![0.5; pixels], // the cleared colour is rounded
+            open: vec![false; pixels],
+            stored: vec![0; pixels],
+            last: vec![Seen::LIT; pixels],
+            loose: vec![false; pixels],
+        };
+        let width = frame.width as usize;
+        let (apart, errors) = (apart(machine, None), Errors::of(machine));
+        Drawing::new(frame, golden_fill(machine)).watched(0..frame.height, |step| match step {
+            Step::Tested { at, id, stored, gap } => {
+                let sure = apart.map(|apart| if stored < 0 { apart.cleared } else { apart.triangles });
+                layers.open[at] |= sure.is_none_or(|sure| gap < sure) && !same_depth(frame, id, stored);
+            }
+            Step::Stored { at, id, z, own, light, share, kt, back, blend, .. } => {
+                layers.stored[at] += 1;
+                let point = [(at % width) as f64 + 0.5, (at / width) as f64 + 0.5, z];
+                let seen = lights.as_mut().map_or(Seen::LIT, |lights| lights.seen(point, id, light));
+                let front = own.map(|channel| channel * share);
+                let error = errors.front(own, share, &seen);
+                layers.last[at] = seen;
+                layers.loose[at] |= (seen.shares[1] - seen.shares[0]) * errors.max > 1.0;
+                layers.bound[at] = errors.behind(layers.bound[at], error, front, kt, back, blend);
+            }
+        });
+        Some(layers)
+    }
+}
+
+/// Triangles between the same points have the same depths in any machine, bit by bit.
+fn same_depth(frame: &Frame, id: i32, stored: i32) -> bool {
+    let points = |id: i32| {
+        let triangle = usize::try_from(id).ok().and_then(|id| frame.triangles.get(id));
+        triangle.map(|triangle| triangle.0.map(|v| [v.x, v.y, v.z]))
+    };
+    points(id).is_some_and(|own| points(stored) == Some(own))
+}
+
+/// What of a machine counts for the bound.
+pub struct Errors {
+    /// LSB of 1.
+    max: f64,
+    /// Of a fragment's colour, LSB.
+    front: f64,
+    /// Of k_t.
+    kt: f64,
+}
+
+impl Errors {
+    /// Of this machine.
+    pub fn of(machine: &Plan) -> Errors {
+        let error = |place: usize| {
+            let budget = machine.proved_budget(&machine.channels()[place]);
+            // Where none is proved an LSB is allowed, as elsewhere.
+            budget.map_or(1.0, |budget| budget.after_rounding().to_f64())
+        };
+        let one = f64::from(1u32 << machine.blend.kt_bits);
+        let kt = machine.channel_place("kt");
+        Errors { max: machine.color.max() as f64, front: error(1), kt: kt.map_or(0.5, error) / one }
+    }
+
+    /// That of a fragment of this colour, 0 to 1, of which golden shows this share, LSB.
+    pub fn front(&self, own: [f64; 3], share: f64, seen: &Seen) -> f64 {
+        seen.front(self.front, own.into_iter().fold(0.0, f64::max), share, self.max)
+    }
+
+    /// The error of a pixel behind one more layer, LSB, whose own is `error`; colours in 0 to 1.
+    pub fn behind(
+        &self,
+        before: f64,
+        error: f64,
+        front: [f64; 3],
+        kt: f64,
+        back: [f64; 3],
+        blend: Blending,
+    ) -> f64 {
+        match blend {
+            Blending::Off => error,
+            Blending::Add => before + error,
+            Blending::Mix => {
+                let far = (0..3).map(|i| (front[i] - back[i]).abs() * self.max).fold(0.0, f64::max);
+                blend_error_of_golden(before, error, far, kt, self.kt)
+            }
+        }
+    }
+}

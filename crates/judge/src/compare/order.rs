@@ -1,0 +1,157 @@
+//! Which triangles a machine may show at a pixel, given how near depths are to each other.
+//!
+//! A depth test whose two depths are at least E1 + E2 + 1 LSB apart comes out as in golden (bound 7; E bounds an error before the
+//! output rounding, 0 for the cleared depth). Nearer ones may come out as less, equal or greater. Playing the depth test at
+//! a pixel through, with every outcome of every test that is open, gives all that the machine may leave there.
+
+use edgewalk_golden::{Fill, Fragment, fragments};
+use edgewalk_host::extra;
+use edgewalk_host::raster::{Raster, golden_fill};
+use edgewalk_host::reach::Reach;
+use edgewalk_machine::Plan;
+use edgewalk_numerics::Dyadic;
+use edgewalk_numerics::bounds::surely_ordered_difference;
+use edgewalk_scene::{DepthFunc, Frame, MAX_EXTRA};
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A triangle over a pixel: its place in the frame, its exact values there, depth and colour in 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Over {
+    /// Place in the frame.
+    pub id: i32,
+    /// Depth.
+    pub z: f64,
+    /// Colour.
+    pub rgb: [f64; 3],
+    /// The user's own channels, LSB; behind the last 0.
+    pub extra: [f64; MAX_EXTRA],
+}
+
+/// The pixels where the pictures show different triangles, or different numbers of writes.
+pub struct Orders<'a> {
+    frame: &'a Frame,
+    apart: Option<Apart>,
+    over: BTreeMap<usize, Vec<Over>>,
+}
+
+/// How far depths must be apart to come out in the right order, in 0 to 1.
+#[derive(Clone, Copy, Debug)]
+pub struct Apart {
+    /// Two triangles.
+    pub triangles: f64,
+    /// A triangle and the cleared depth.
+    pub cleared: f64,
+}
+
+impl Over {
+    /// What golden shows at a pixel.
+    pub fn golden(golden: &Raster, pixel: usize) -> Self {
+        let own = |channel: usize| golden.extra.get(channel).map_or(0.0, |values| values.at(pixel));
+        let (z, rgb) = (golden.z[pixel], golden.rgb[pixel]);
+        Over { id: golden.id[pixel], z, rgb, extra: std::array::from_fn(own) }
+    }
+
+    /// A fragment of the triangle with this id.
+    fn fragment(machine: &Plan, fragment: &Fragment, id: i32) -> Self {
+        let channels = extra::channels(machine);
+        let own =
+            |channel: usize| channels.get(channel).map_or(0.0, |of| fragment.extra(channel) * of.host_unit());
+        Over { id, z: fragment.z(), rgb: fragment.rgb(), extra: std::array::from_fn(own) }
+    }
+}
+
+impl<'a> Orders<'a> {
+    /// Of these pixels.
+    pub fn new(machine: &Plan, frame: &'a Frame, pixels: &[usize], reach: Option<&Reach>) -> Self {
+        let apart = apart(machine, reach);
+        let over = match (apart, golden_fill(machine)) {
+            (Some(_), Fill::Exact { subpixel_bits }) => all_over(machine, frame, subpixel_bits, pixels),
+            _ => BTreeMap::new(),
+        };
+        Orders { frame, apart, over }
+    }
+
+    /// The triangle with this id there, or `None` within for the background, if the bound lets the machine show it after so
+    /// many writes. Without a depth test, or without a bound, it lets nothing but golden's.
+    pub fn explain(&self, pixel: usize, id: i32, writes: u32) -> Option<Option<Over>> {
+        let (func, apart) = (self.frame.depth?, self.apart?);
+        let over = self.over.get(&pixel)?;
+        if !outcomes(func, self.frame.depth_write, over, apart).contains(&(id, writes)) {
+            return None;
+        }
+        Some(over.iter().find(|over| over.id == id).copied())
+    }
+}
+
+/// Bound 7 for any two fragments of the machine, or of triangles that reach so far.
+pub fn apart(machine: &Plan, reach: Option<&Reach>) -> Option<Apart> {
+    let depth = &machine.channels()[0];
+    let budget = reach.and_then(|reach| reach.budget(machine, depth));
+    let error = budget.or_else(|| machine.proved_budget(depth).ok())?.before_rounding();
+    let lsb = |other| Some(surely_ordered_difference(error, other)?.to_f64() / machine.z.max() as f64);
+    Some(Apart { triangles: lsb(error)?, cleared: lsb(Dyadic::ZERO)? })
+}
+
+/// What lies over these pixels, in drawing order.
+fn all_over(
+    machine: &Plan,
+    frame: &Frame,
+    subpixel_bits: u32,
+    pixels: &[usize],
+) -> BTreeMap<usize, Vec<Over>> {
+    let mut over: BTreeMap<usize, Vec<Over>> = pixels.iter().map(|pixel| (*pixel, Vec::new())).collect();
+    if over.is_empty() {
+        return over;
+    }
+    for (triangle, id) in frame.triangles.iter().zip(0..) {
+        let screen = (frame.width, frame.height);
+        fragments(triangle, frame.mode, subpixel_bits, screen, |fragment: &Fragment| {
+            let pixel = fragment.y as usize * frame.width as usize + fragment.x as usize;
+            if let Some(list) = over.get_mut(&pixel) {
+                list.push(Over::fragment(machine, fragment, id));
+            }
+        });
+    }
+    over
+}
+
+/// Every (id, number of writes) that may be left where these lie over a pixel; id -1 is the background.
+fn outcomes(func: DepthFunc, depth_write: bool, over: &[Over], apart: Apart) -> BTreeSet<(i32, u32)> {
+    // Of every way so far: whose depth is stored (`None` the cleared one), who is seen, how many wrote.
+    let mut ways: BTreeSet<(Option<usize>, i32, u32)> = BTreeSet::from([(None, -1, 0)]);
+    for (place, new) in over.iter().enumerate() {
+        let mut next = BTreeSet::new();
+        for (stored, id, writes) in ways {
+            let (old, sure) = match stored {
+                Some(stored) => (over[stored].z, apart.triangles),
+                None => (1.0, apart.cleared),
+            };
+            let open = [Ordering::Less, Ordering::Equal, Ordering::Greater];
+            let order = new.z.total_cmp(&old);
+            let orders = if (new.z - old).abs() < sure { &open[..] } else { std::slice::from_ref(&order) };
+            for order in orders {
+                next.insert(if passes(func, *order) {
+                    (if depth_write { Some(place) } else { None }, new.id, writes + 1)
+                } else {
+                    (stored, id, writes)
+                });
+            }
+        }
+        ways = next;
+    }
+    ways.into_iter().map(|(_, id, writes)| (id, writes)).collect()
+}
+
+fn passes(func: DepthFunc, new_to_old: Ordering) -> bool {
+    match func {
+        DepthFunc::Never => false,
+        DepthFunc::Less => new_to_old.is_lt(),
+        DepthFunc::Equal => new_to_old.is_eq(),
+        DepthFunc::Lequal => new_to_old.is_le(),
+        DepthFunc::Greater => new_to_old.is_gt(),
+        DepthFunc::Notequal => new_to_old.is_ne(),
+        DepthFunc::Gequal => new_to_old.is_ge(),
+        DepthFunc::Always => true,
+    }
+}

@@ -1,0 +1,148 @@
+//! What golden allows a machine to show at each pixel of a shaded frame.
+
+use edgewalk_golden::{PixelBrush, Texel, fragments};
+use edgewalk_host::raster::Raster;
+use edgewalk_host::shade::{Proof, Textured};
+use edgewalk_machine::Plan;
+use edgewalk_scene::{Frame, PixelMethod, PixelShading};
+use glam::DVec2;
+use serde::Serialize;
+use std::collections::HashMap;
+
+/// What was found of a picture shaded at each pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Shaded {
+    /// Pixels whose colour was compared with the bound of its triangle.
+    pub pixels: u64,
+    /// Largest error, LSB.
+    pub error: f64,
+    /// Largest bound of a triangle that is seen, LSB.
+    pub bound: f64,
+    /// The largest error over the bound of its triangle.
+    pub of_bound: f64,
+    /// Pixels where a light is so near to the horizon that it may be above or below, or which lie next to the edge of its cone.
+    pub at_horizon: u64,
+    /// Of them those that show the other of the two.
+    pub other_branch: u64,
+    /// Pixels beyond.
+    pub beyond: u64,
+    /// Largest distance of the machine's colours from Phong shading, LSB: measured, no bound.
+    pub from_phong: f64,
+    /// Its mean.
+    pub mean_from_phong: f64,
+    /// Where a texture is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub texels: Option<Looked>,
+}
+
+/// What was found of the texels of a picture: each is the one that the triangle's words name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Looked {
+    /// Pixels that show a texture.
+    pub pixels: u64,
+    /// Largest error of a word, texels.
+    pub bound: f64,
+    /// Pixels with another texel than the one that their place lies in.
+    pub differ: u64,
+    /// Those of them that lie farther from that texel than the error of the words.
+    pub unexplained: u64,
+    /// Pixels of another colour because the picture's sides do not divide 2^`texture.bits`.
+    pub resampled: u64,
+    /// Pixels of triangles whose relief is steeper than the machine's words can say, and lower there: no bound holds them.
+    pub flattened: u64,
+}
+
+/// Golden's colours beside those of its picture.
+pub(crate) struct Allowed<'a> {
+    proof: &'a Proof,
+    /// What a pixel may show where that is not golden's colour alone: first that of its own side of the horizon, with the texel that
+    /// the words name.
+    branches: HashMap<usize, Vec<[f64; 3]>>,
+    /// Of Phong shading.
+    phong: HashMap<usize, [f64; 3]>,
+    found: Shaded,
+}
+
+impl<'a> Allowed<'a> {
+    /// Of a frame, `golden` its picture.
+    pub fn new(
+        machine: &Plan,
+        frame: &Frame,
+        shading: &PixelShading,
+        golden: &Raster,
+        proof: &'a Proof,
+    ) -> Self {
+        let exact = PixelShading { method: PixelMethod::Phong, ..shading.clone() };
+        let (mut branches, mut phong, mut looked) = (HashMap::new(), HashMap::new(), None);
+        for (place, triangle) in frame.triangles.iter().enumerate() {
+            let brushes = [shading, &exact].map(|shading| PixelBrush::new(shading, place));
+            let [Some(fast), Some(exact)] = brushes else { continue };
+            let screen = (frame.width, frame.height);
+            fragments(triangle, frame.mode, machine.subpixel_bits, screen, |fragment| {
+                let at = fragment.y as usize * frame.width as usize + fragment.x as usize;
+                if golden.id[at] == place as i32 {
+                    let own = proof.textured[place].as_ref().zip(fast.place(fragment));
+                    let texel = match own {
+                        None => fast.texel(fragment),
+                        Some((own, at)) => {
+                            let looked = looked.get_or_insert_with(Looked::default);
+                            looked.take(own, [fragment.x, fragment.y], at, fast.texel(fragment))
+                        }
+                    };
+                    let list = fast.branches(fragment, &texel, proof.doubts[place], proof.errors[place].axis);
+                    if list.len() > 1 || own.is_some() {
+                        branches.insert(at, list);
+                    }
+                    phong.insert(at, exact.color_by(fragment, &texel));
+                }
+            });
+        }
+        Self { proof, branches, phong, found: Shaded { texels: looked, ..Shaded::default() } }
+    }
+
+    /// What pixel `at`, which shows triangle `id`, should be: golden's colour there, or that of the horizon's other side if the
+    /// machine shows that.
+    pub fn at(&mut self, at: usize, id: i32, golden: [f64; 3], drawn: [f64; 3], one: f64) -> [f64; 3] {
+        let off =
+            |exact: &[f64; 3]| exact.iter().zip(drawn).map(|(a, b)| (a - b).abs() * one).fold(0.0, f64::max);
+        let alone = [golden];
+        let list = self.branches.get(&at).map_or(&alone[..], Vec::as_slice);
+        // It is never empty.
+        let nearest = list.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(golden);
+        let bound = usize::try_from(id).map_or(0.0, |id| self.proof.bounds[id]);
+        let (error, found) = (off(&nearest), &mut self.found);
+        found.pixels += 1;
+        found.error = found.error.max(error);
+        found.bound = found.bound.max(bound);
+        found.of_bound = found.of_bound.max(error / bound);
+        found.at_horizon += u64::from(list.len() > 1);
+        found.other_branch += u64::from(list.len() > 1 && off(&list[0]) > bound && error <= bound);
+        found.beyond += u64::from(error.is_nan() || error > bound);
+        let from_phong = self.phong.get(&at).map_or(0.0, off);
+        found.from_phong = found.from_phong.max(from_phong);
+        found.mean_from_phong += from_phong;
+        nearest
+    }
+
+    /// All together.
+    pub fn found(self) -> Shaded {
+        let Shaded { pixels, mean_from_phong: sum, .. } = self.found;
+        Shaded { mean_from_phong: if pixels == 0 { 0.0 } else { sum / pixels as f64 }, ..self.found }
+    }
+}
+
+impl Looked {
+    /// Takes in a pixel that lies at `place` of its texture, `golden` the pictures' texel there; what the pictures have at the texel
+    /// that the words name.
+    fn take(&mut self, of: &Textured, pixel: [u32; 2], place: DVec2, golden: Texel) -> Texel {
+        let texel = of.texel(pixel);
+        let (shown, differs) = (of.texture.exact(texel), texel != of.nearest(place));
+        self.pixels += 1;
+        self.bound = self.bound.max(of.error);
+        self.differ += u64::from(differs);
+        self.unexplained += u64::from(!of.explains(texel, place));
+        self.flattened += u64::from(of.flattened);
+        self.resampled += u64::from(!differs && shown != golden);
+        shown
+    }
+}

@@ -1,0 +1,17 @@
+//! A number by which a vertex shows the machine it was made for.
+
+use crate::channel::Channel;
+
+/// The formats of a vertex port, as a number: vertices of another machine carry another one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct PortStamp(u32);
+
+impl PortStamp {
+    /// Stands for the numbers of bits that decide how a vertex is read (FNV-1a over them); `kt`: those of a triangle's own
+    /// k_t, 0 if it has none.
+    pub fn of(guard_bits: u32, subpixel_bits: u32, channels: &[Channel], kt: u32) -> PortStamp {
+        let formats = channels.iter().flat_map(|c| [c.kind as u32, c.bits, c.vertex_fraction]);
+        let numbers = [guard_bits, subpixel_bits].into_iter().chain(formats).chain((kt > 0).then_some(kt));
+        PortStamp(numbers.fold(0x811c_9dc5, |hash, number| (hash ^ number).wrapping_mul(0x0100_0193)))
+    }
+}
