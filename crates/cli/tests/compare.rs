@@ -147,9 +147,12 @@ fn every_figure_follows_from_arrays_and_reports() {
         "depth": differ(1, 8),
         "coverage": differ(2, 4),
         "triangle": differ(3, 4),
-        "largest_color_difference": largest,
     });
-    assert_eq!(told["pixels"], pixels);
+    let mut counted = told["pixels"].clone();
+    let told_largest = counted.as_object_mut().unwrap().remove("largest_color_difference");
+    assert_eq!(counted, pixels);
+    // The last digit of a number may change when it is written and read.
+    assert!((told_largest.unwrap().as_f64().unwrap() - largest).abs() < 1e-12);
     let counts: Vec<u64> =
         ["all", "color", "depth", "coverage", "triangle"].map(|name| pixels[name].as_u64().unwrap()).into();
     assert!(
@@ -205,7 +208,7 @@ fn every_figure_follows_from_arrays_and_reports() {
 fn machines_that_shade_differently_are_compared() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    std::fs::write(at.join("p.obj"), crate::sweep::shadings::PYRAMID).unwrap();
+    crate::sweep::shadings::pyramid(at);
     let screen = ["--set", "screen.width=96", "--set", "screen.height=72"];
     let of = |a: &str, b: &str| compare(at, &[&[a, b, "p.obj"], &screen[..]].concat());
     let (plain, fast) = ("default", "default,shade.kind=fast-phong");
