@@ -1,7 +1,7 @@
 //! `edgewalk compare` as a user runs it.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use crate::support::{colors, edgewalk, names, npy, run};
+use crate::support::{colors, edgewalk, names, npy, report, run};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -30,7 +30,7 @@ fn what_differs_is_told_and_nothing_else() {
     let rendered = edgewalk(folder.path(), &["render", "sphere", "--json", "--set", "interpolator.adders=1"])
         .output()
         .unwrap();
-    assert_eq!(*b, serde_json::from_slice::<Value>(&rendered.stdout).unwrap());
+    assert_eq!(*b, report(&rendered));
     assert_eq!(
         names(&folder.path().join("out/compare")),
         ["a.png", "b.png", "compare.json", "compare.txt", "difference.png"]
@@ -221,7 +221,7 @@ fn machines_that_shade_differently_are_compared() {
             [&["render", "p.obj", "--json", "--shading", shading, "--set", &kind], &screen[..]].concat();
         let output = edgewalk(at, &render).output().unwrap();
         assert_eq!(told[side]["shading"], shading);
-        assert_eq!(told[side]["report"], serde_json::from_slice::<Value>(&output.stdout).unwrap());
+        assert_eq!(told[side]["report"], report(&output));
     }
     // Both are held against one equation: the same figures as a sweep has of them.
     let vary = ["sweep", "p.obj", "--vary", "shade.kind=none,fast-phong", "--out", "s", "--quiet"];

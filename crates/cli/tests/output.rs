@@ -51,7 +51,7 @@ fn a_run_that_cannot_place_a_file_changes_nothing() {
     let (code, error) = run(folder.path(), &["raster", "d.tri", "--out", "out", "--engine", "golden"]);
     assert_eq!(
         (code, error.as_str()),
-        (Some(2), "edgewalk: out/writes.npy: is a folder, and a file is to be there\n")
+        (Some(2), "error: out/writes.npy: is a folder, and a file is to be there\n")
     );
     assert!(contents(&out) == before, "changed: {:?}", names(&out));
     assert!(!names(&out).iter().any(|name| name.starts_with(".edgewalk")), "{:?}", names(&out));
@@ -62,7 +62,7 @@ fn a_run_that_cannot_place_a_file_changes_nothing() {
     // A file where the folder is to be is an error that says so.
     let (code, error) = run(folder.path(), &["emit", "--out", "d.tri"]);
     assert_eq!(code, Some(2));
-    assert!(error.starts_with("edgewalk: --out d.tri: "), "{error}");
+    assert!(error.starts_with("error: --out d.tri: "), "{error}");
 }
 
 #[test]
@@ -88,7 +88,7 @@ fn a_file_that_cannot_be_finished_is_named_by_its_place() {
         shell.args(["-c", script, blocks, env!("CARGO_BIN_EXE_edgewalk")]).args(command);
         let (code, error) = ended(&shell.current_dir(folder.path()).output().unwrap());
         assert_eq!(code, Some(2), "{command:?}: {error}");
-        assert_eq!(error, format!("edgewalk: {file}: File too large (os error 27)\n"), "{command:?}");
+        assert_eq!(error, format!("error: {file}: File too large (os error 27)\n"), "{command:?}");
         assert_eq!(names(folder.path()), ["d.tri", "small.tri"], "{command:?}");
     }
     println!("checked {0} / {0} commands", commands.len());
@@ -164,7 +164,7 @@ fn files_of_an_earlier_run_do_not_stay_and_others_do() {
 fn a_signal_leaves_nothing_behind() {
     let folder = folder();
     let before = names(folder.path());
-    for signal in ["INT", "TERM"] {
+    for signal in ["HUP", "INT", "TERM"] {
         let arguments = ["vectors", "--out", "a/v", "-q"];
         let mut child = edgewalk(folder.path(), &arguments).spawn().unwrap();
         let target = folder.path().join("a/v");
@@ -182,6 +182,62 @@ fn a_signal_leaves_nothing_behind() {
         let status = child.wait().unwrap();
         assert_eq!(status.code(), None, "SIG{signal} ends it: {status}");
         assert_eq!(names(folder.path()), before, "after SIG{signal}");
+    }
+}
+
+/// A hangup does not end what was started to outlive it, as `nohup` does.
+#[test]
+fn an_ignored_hangup_ends_nothing() {
+    let folder = folder();
+    let vectors =
+        ["vectors", "--suite", "hazards", "--unit", "machine", "--unit", "depth", "--out", "v", "-q"];
+    let mut shell = Command::new("sh");
+    shell.args(["-c", "trap '' HUP; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_edgewalk")]).args(vectors);
+    let mut child = shell.current_dir(folder.path()).spawn().unwrap();
+    let start = Instant::now();
+    while !folder.path().join("v").exists() {
+        assert!(start.elapsed() < Duration::from_secs(60), "no folder of the run");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert_eq!(child.try_wait().unwrap(), None, "it was done before the signal");
+    assert!(Command::new("kill").args(["-HUP", &child.id().to_string()]).status().unwrap().success());
+    assert!(child.wait().unwrap().success());
+    assert_eq!(names(&folder.path().join("v")), ["hazards_depth", "hazards_machine"]);
+}
+
+/// What a simulator writes beside its output goes with it, whatever ends the program.
+#[test]
+fn a_signal_leaves_no_files_of_a_tool() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    for name in ["tools", "tmp"] {
+        std::fs::create_dir(at(name)).unwrap();
+    }
+    // In place of a simulator that is being compiled.
+    let script = "#!/bin/sh\nmkdir \"$TMPDIR/parts\"\necho x >\"$TMPDIR/parts/x\"\necho x >\"$TMP/y\"\ntouch \"$HOLD\"\nsleep 60\n";
+    for tool in ["iverilog", "verilator"] {
+        std::fs::write(at("tools").join(tool), script).unwrap();
+        std::fs::set_permissions(at("tools").join(tool), std::fs::Permissions::from_mode(0o755)).unwrap();
+    }
+    let path = format!("{}:{}", at("tools").display(), std::env::var("PATH").unwrap());
+    for signal in ["TERM", "HUP"] {
+        let arguments = [&["verify", "d.tri", "-q"], &SCREEN[..]].concat();
+        let mut command = edgewalk(folder.path(), &arguments);
+        let mut child =
+            command.env("PATH", &path).env("TMPDIR", at("tmp")).env("HOLD", at("hold")).spawn().unwrap();
+        let start = Instant::now();
+        while !at("hold").exists() {
+            assert!(start.elapsed() < Duration::from_secs(60), "no simulator was started");
+            assert_eq!(child.try_wait().unwrap(), None);
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        assert!(!names(&at("tmp")).is_empty(), "it is at work");
+        let kill = Command::new("kill").args([format!("-{signal}"), child.id().to_string()]).status();
+        assert!(kill.unwrap().success());
+        assert_eq!(child.wait().unwrap().code(), None, "SIG{signal} ends it");
+        assert_eq!(names(&at("tmp")), [""; 0], "after SIG{signal}");
+        std::fs::remove_file(at("hold")).unwrap();
     }
 }
 

@@ -48,6 +48,17 @@ pub fn draw_frame(machine: &Plan, port: &PortFrame, waits: Waits) -> Result<Draw
     }
 }
 
+/// The words of the machine's memories at a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pixel {
+    /// Number at the port of the triangle that wrote the pixel last, -1 for none.
+    pub id: i32,
+    /// Stored depth, LSB.
+    pub z: u64,
+    /// Stored colour, LSB each.
+    pub rgb: [u64; 3],
+}
+
 /// A frame that was drawn.
 pub enum Drawn {
     /// Without ticking; its pixels are still as the machine stores them.
@@ -63,6 +74,19 @@ impl Drawn {
         match self {
             Drawn::Fast(renderer) => renderer.counters().triangles,
             Drawn::Ticked(frame, ..) => frame.counters.triangles,
+        }
+    }
+
+    /// Pixel (x, y) as the machine stores it.
+    #[must_use]
+    pub fn pixel(&self, machine: &Plan, (x, y): (u32, u32)) -> Pixel {
+        let of = |frame: &Frame, y: u32| {
+            let at = (y * machine.width + x) as usize;
+            Pixel { id: frame.id[at], z: frame.z[at], rgb: frame.rgb[at] }
+        };
+        match self {
+            Drawn::Fast(renderer) => of(&renderer.lines(y..y + 1), 0),
+            Drawn::Ticked(frame, ..) => of(frame, y),
         }
     }
 

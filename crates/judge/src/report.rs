@@ -4,6 +4,7 @@ use crate::compare::Comparison;
 use crate::occupancy::{Occupancy, ratio};
 use crate::passes::Passes;
 use crate::setup_report::SetupReport;
+use crate::shaded::Shaded;
 use anyhow::Result;
 use edgewalk_golden::Order;
 use edgewalk_host::extra::{self, OwnChannel};
@@ -249,11 +250,6 @@ impl Report {
         Ok(report)
     }
 
-    /// As a JSON file.
-    pub fn json(&self) -> Result<String> {
-        Ok(serde_json::to_string_pretty(&self.value()?)? + "\n")
-    }
-
     /// As a page of text.
     pub fn text(&self) -> String {
         let mut t = String::new();
@@ -288,11 +284,11 @@ impl Report {
         for (place, shaded) in self.added.iter().filter_map(|light| light.shaded).enumerate() {
             _ = writeln!(
                 t,
-                "light {} by itself: {} pixels, largest error {:.4} LSB, bounds up to {:.4}, {} beyond",
+                "light {} by itself: {} pixels, largest error {:.4} LSB, {}, {} beyond",
                 place + 1,
                 shaded.pixels,
                 shaded.error,
-                shaded.bound,
+                bounds(&shaded),
                 shaded.beyond
             );
         }
@@ -346,6 +342,12 @@ fn host(host: &Host) -> String {
     if done.is_empty() { String::new() } else { format!("host: {}\n", done.join("; ")) }
 }
 
+/// How large the bounds of a shaded picture are, and where.
+fn bounds(shaded: &Shaded) -> String {
+    let ([x, y], above) = (shaded.bound_at, shaded.bound_above_1);
+    format!("bounds up to {:.4} at pixel {x},{y}, {above} above 1", shaded.bound)
+}
+
 /// What the comparison found. Writing to a string cannot fail.
 fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
     _ = writeln!(t, "compared {} / {} covered pixels", c.compared, c.covered);
@@ -393,8 +395,12 @@ fn compared(t: &mut String, machine: &Plan, c: &Comparison) {
     if let Some(s) = &c.shaded {
         _ = writeln!(
             t,
-            "shaded: {} pixels, largest error {:.4} LSB from golden, bounds up to {:.4}, {:.4} of one reached, {} beyond",
-            s.pixels, s.error, s.bound, s.of_bound, s.beyond
+            "shaded: {} pixels, largest error {:.4} LSB from golden, {}, {:.4} of one reached, {} beyond",
+            s.pixels,
+            s.error,
+            bounds(s),
+            s.of_bound,
+            s.beyond
         );
         _ = writeln!(
             t,

@@ -18,6 +18,10 @@ pub struct Shaded {
     pub error: f64,
     /// Largest bound of a triangle that is seen, LSB.
     pub bound: f64,
+    /// The first pixel with that bound: column, line.
+    pub bound_at: [usize; 2],
+    /// Pixels with a bound above 1 LSB.
+    pub bound_above_1: u64,
     /// The largest error over the bound of its triangle.
     pub of_bound: f64,
     /// Pixels where a light is so near to the horizon that it may be above or below, or which lie next to the edge of its cone.
@@ -60,6 +64,8 @@ pub(crate) struct Allowed<'a> {
     branches: HashMap<usize, Vec<[f64; 3]>>,
     /// Of Phong shading.
     phong: HashMap<usize, [f64; 3]>,
+    /// Pixels of a line.
+    width: usize,
     found: Shaded,
 }
 
@@ -97,7 +103,8 @@ impl<'a> Allowed<'a> {
                 }
             });
         }
-        Self { proof, branches, phong, found: Shaded { texels: looked, ..Shaded::default() } }
+        let width = frame.width as usize;
+        Self { proof, branches, phong, width, found: Shaded { texels: looked, ..Shaded::default() } }
     }
 
     /// What pixel `at`, which shows triangle `id`, should be: golden's colour there, or that of the horizon's other side if the
@@ -113,7 +120,10 @@ impl<'a> Allowed<'a> {
         let (error, found) = (off(&nearest), &mut self.found);
         found.pixels += 1;
         found.error = found.error.max(error);
-        found.bound = found.bound.max(bound);
+        if bound > found.bound {
+            (found.bound, found.bound_at) = (bound, [at % self.width, at / self.width]);
+        }
+        found.bound_above_1 += u64::from(bound > 1.0);
         found.of_bound = found.of_bound.max(error / bound);
         found.at_horizon += u64::from(list.len() > 1);
         found.other_branch += u64::from(list.len() > 1 && off(&list[0]) > bound && error <= bound);

@@ -5,6 +5,7 @@ use crate::channel::Channel;
 use crate::check::check;
 use crate::error::MachineError;
 use crate::field::Field;
+use crate::link::MemoryPort;
 use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::stamp::PortStamp;
@@ -51,8 +52,18 @@ impl Plan {
 
     /// What can happen in this machine: to its units in their order, then between them.
     pub fn events(&self) -> impl Iterator<Item = &'static Event> {
-        let all = self.units().flat_map(|unit| unit.events).chain(units::EVENTS);
+        let all = self.units().flat_map(|unit| unit.events).chain(units::machine::EVENTS);
         all.filter(|event| (event.can_happen)(self))
+    }
+
+    /// The memories that the host alone writes: the unit that reads each, and its ports; in the order of the units.
+    #[must_use]
+    pub fn word_memories(&self) -> Vec<(&'static str, MemoryPort)> {
+        let of_unit = |unit: &'static UnitSpec| {
+            let memories = (unit.ports)(self).memory.into_iter();
+            memories.filter(|memory| memory.write.is_empty()).map(|memory| (unit.name, memory))
+        };
+        self.units().flat_map(of_unit).collect()
     }
 
     /// The ports of the whole machine: what its units have and do not join among themselves.
@@ -72,7 +83,7 @@ impl Plan {
             writes: all.iter().flat_map(|ports| ports.writes.clone()).collect(),
             memory: all.iter().flat_map(|ports| ports.memory.clone()).collect(),
             constants,
-            status: units::machine_status(),
+            status: units::machine::status(),
             ..Ports::default()
         }
     }

@@ -175,8 +175,7 @@ impl FromStr for Waits {
     fn from_str(text: &str) -> Result<Self, WaitsError> {
         let (kind, settings) = text.split_once(':').unwrap_or((text, ""));
         let mut waits = Waits::usual(kind).ok_or_else(|| {
-            let nearest = edgewalk_machine::nearest::nearest(kind, KINDS.iter().copied());
-            WaitsError(format!("unknown stalls {kind}; nearest: {nearest}"))
+            WaitsError(edgewalk_machine::Unknown::new("stalls", kind, KINDS.iter().copied()).to_string())
         })?;
         for setting in settings.split(',').filter(|setting| !setting.is_empty()) {
             let (name, value) = setting
@@ -326,6 +325,23 @@ impl Pacer {
 mod tests {
     use super::*;
 
+    /// Memories that stall at random by one seed stall in cycles of their own, and as often.
+    #[test]
+    fn memories_of_one_seed_stall_apart() {
+        let waits: Waits = "random:seed=1,rd=64,wr=64".parse().expect("a kind of waits");
+        let pace = |number| {
+            let mut pacer = Pacer::new(waits.of_another(number));
+            let ready = |now| (pacer.step(now, None, None), pacer.rd_ready, pacer.wr_ready);
+            (0..1000).map(ready).collect::<Vec<_>>()
+        };
+        let paces = [0, 1, 2].map(pace);
+        assert!(paces[0] != paces[1] && paces[1] != paces[2] && paces[0] != paces[2]);
+        for pace in paces {
+            let ready = pace.iter().filter(|(_, rd, _)| *rd).count();
+            assert!((700..800).contains(&ready), "a quarter of the cycles stall: {ready}");
+        }
+    }
+
     #[test]
     fn what_is_written_reads_back() {
         for kind in KINDS {
@@ -335,7 +351,7 @@ mod tests {
         let waits = "dram:miss=9,banks=2".parse::<Waits>().expect("two parameters");
         assert_eq!(waits.to_string(), "dram:banks=2,page=256,miss=9,turn=2,refresh=780,busy=13");
         for (text, wrong) in [
-            ("drm", "unknown stalls drm; nearest: dram"),
+            ("drm", "unknown stalls drm; permitted: none, fixed, random, dram; nearest: dram"),
             ("fixed:rd", "rd: write name=value, as in fixed:rd=2"),
             ("fixed:banks=2", "fixed has no banks; it has: rd, data, wr"),
             ("none:rd=2", "none has no rd; it has: none"),

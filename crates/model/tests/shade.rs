@@ -3,8 +3,10 @@
 use crate::common::shade::{colour, cosines, leftward, output, random_shading, textured, true_roots, words};
 use crate::common::{ALWAYS, Triangle, machine, place, random_machine, random_triangle};
 use edgewalk_machine::{Activity, Entry, Plan, Record};
-use edgewalk_model::shade::{Cosines, Shade};
-use edgewalk_model::{Drawn, Events, Frame, Pass, ShadeInputs, Shading, Stalls, render_passes_with};
+use edgewalk_model::shade::Shade;
+use edgewalk_model::{
+    Cosines, Drawn, Events, Frame, Given, Pass, Shading, Stalls, WordIn, render_passes_with,
+};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 const C: usize = edgewalk_model::tokens::MAX_CHANNELS;
@@ -216,9 +218,14 @@ fn normals_at_the_ends_of_their_lengths() {
     let events = frame.events;
     println!(
         "{checked} fragments; short {}, long {}, cut {}",
-        events.normal_short, events.normal_long, events.cosine_cut
+        events.normal.normal_short, events.normal.normal_long, events.normal.cosine_cut
     );
-    assert!(checked > 450 * 20 && events.normal_short > 0 && events.normal_long > 0 && events.cosine_cut > 0);
+    assert!(
+        checked > 450 * 20
+            && events.normal.normal_short > 0
+            && events.normal.normal_long > 0
+            && events.normal.cosine_cut > 0
+    );
 }
 
 /// Textures of 2 to 2048 texels a side, walked over their ends in both directions.
@@ -258,10 +265,11 @@ fn tables_stay_while_a_stage_needs_them() {
     // A word is there in the cycle after its read.
     let mut due = None;
     let mut cycle = |unit: &mut Shade<C>, material: u32, ready: bool| {
-        let inputs = ShadeInputs { srd_ready: true, sdata: due.take() };
+        let tables = WordIn { ready: true, word: due.take() };
+        let given = Given { frag: &fragment, cosines: &of(material) };
         due = unit.read().map(u128::from);
-        let taken = unit.frag_ready(&of(material), ready);
-        unit.step(Some(&fragment), &of(material), &inputs, ready, &mut events);
+        let taken = unit.frag_ready(Some(given), ready);
+        unit.step(Some(given), &tables, ready, &mut events);
         taken
     };
     let clocks = (0..).find(|_| cycle(&mut unit, 3, false)).expect("the tables come");
@@ -296,8 +304,8 @@ fn culled_triangles_have_records_that_nobody_reads() {
     }
     let shading = random_shading(&plan, &triangles, &mut rng);
     let (checked, frame) = compare(&plan, &triangles, &shading, Stalls::NONE);
-    println!("{checked} fragments, {} records read of {}", frame.events.record_read, triangles.len());
-    assert!(checked > 500 && (1..=6).contains(&frame.events.record_read));
+    println!("{checked} fragments, {} records read of {}", frame.events.term.record_read, triangles.len());
+    assert!(checked > 500 && (1..=6).contains(&frame.events.term.record_read));
 }
 
 /// Roots of the whole range of N·N, every value of it, against f64.

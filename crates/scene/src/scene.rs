@@ -2,13 +2,14 @@
 
 use crate::camera::Camera;
 use crate::clip::{ClipVertex, Viewport, clip};
-use crate::error::{Fault, InputError, nearest};
+use crate::error::{Fault, InputError};
 use crate::frame::{Frame, ShadeMode};
 use crate::light::Light;
 use crate::mesh::{self, Mesh};
 use crate::normals::{NormalRule, corner_normals, face_normals};
 use crate::shading::{Lighting, Point, Specular};
 use crate::surface::{Surface, SurfaceTriangle};
+use edgewalk_nearest::nearest;
 use glam::{DVec2, DVec3};
 
 /// What is to be drawn, in world space.
@@ -52,7 +53,7 @@ impl Scene {
             _ => {
                 let permitted = format!("permitted: {}", Self::BUILTIN.join(" "));
                 let mut fault = Fault::new("built-in scenes", None, "name", name, permitted);
-                fault.nearest = nearest(name, &Self::BUILTIN);
+                fault.nearest = nearest(name, Self::BUILTIN);
                 Err(fault.into())
             }
         }

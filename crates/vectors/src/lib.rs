@@ -15,11 +15,11 @@ pub mod write;
 pub mod read;
 pub mod simulate;
 
-pub use capture::{LinkTrace, Trace, capture, capture_tokens};
+pub use capture::{LinkTrace, Runs, Trace, capture, capture_tokens, capture_watched};
 pub use edgewalk_lockstep::{Difference, Interface, LockstepError, StallKind, Unit};
 pub use manifest::Manifest;
 pub use reach::{Reached, not_covered, reached};
 pub use read::{ReadError, Vectors, read};
 pub use simulate::{Outcome, SimulateError, Simulator, Stop, lint, simulate, synth_ice40};
-pub use suites::{Case, SUITES, Suite, UnknownSuite, Words, words};
+pub use suites::{Case, SUITES, Suite, Words, words};
 pub use write::{Files, Tables, directory};

@@ -2,6 +2,7 @@
 
 mod page;
 
+use crate::document::document;
 use crate::engine::{Engine, Raster, draw_bands, fast_bands};
 use crate::fast::BeyondBand;
 use crate::machine_args::MachineArgs;
@@ -90,9 +91,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         Engine::Fast if header.shadows.is_empty() => while_it_is_read(&file, &header, &machine, &out, talk)?,
         engine => whole(&file, engine, &machine, &out, talk)?,
     };
-    out.write("report.json", report.json()?)?;
+    out.write("report.json", document("report", report.value()?)?)?;
     out.publish(&FILES)?;
-    talk.say(|| report.json(), || report.text())?;
+    talk.say(|| document("report", report.value()?), || report.text())?;
     let size = (machine.width, machine.height);
     Verdict::drew(report.covered()).or_nothing(&args.file.display().to_string(), report.primitives(), size)
 }

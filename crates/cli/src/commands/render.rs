@@ -4,6 +4,7 @@
 mod lamps;
 mod lights;
 
+use crate::document::document;
 use crate::engine::{Engine, draw, draw_waiting, from_golden, golden_fill};
 use crate::fast_phong::{FastPhongArgs, FastPhongReport};
 use crate::input::{Shading, Source, to_port};
@@ -112,10 +113,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let Pictures { report, verdict, .. } =
         pictures(&args.source.input, &frame, &machine, (args.engine, args.stalls), &out, talk.quiet)?;
     let report = report.sorted(order);
-    out.write("report.json", report.json()?)?;
+    out.write("report.json", document("report", report.value()?)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| report.json(), || report.text())?;
+    talk.say(|| document("report", report.value()?), || report.text())?;
     verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
 }
 
@@ -128,10 +129,10 @@ fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     picture::write_rgb(&out, "image.png", drawn.width, drawn.height, &drawn.rgb)?;
     let report = Report::new(&args.source.input, frame.triangles.len() as u64, machine, &drawn)
         .with_polygons(frame.polygons.len() as u64);
-    out.write("report.json", report.json()?)?;
+    out.write("report.json", document("report", report.value()?)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| report.json(), || report.text())?;
+    talk.say(|| document("report", report.value()?), || report.text())?;
     let primitives = (frame.triangles.len() + frame.polygons.len()) as u64;
     Verdict::drew(report.covered()).or_nothing(&args.source.input, primitives, (drawn.width, drawn.height))
 }
@@ -173,10 +174,10 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
         picture::write_shading_error(&out, "phong_error.png", (w, h), &from_phong)?;
         report = report.with(FastPhongReport::new(&args.fast_phong, &scene, &surface, fast, &from_phong));
     }
-    out.write("report.json", report.json()?)?;
+    out.write("report.json", document("shading", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| report.json(), || report.text())?;
+    talk.say(|| document("shading", &report), || report.text())?;
     Verdict::drew(error.pixels).or_nothing(&args.source.input, surface.triangles.len() as u64, (w, h))
 }
 

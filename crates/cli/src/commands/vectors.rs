@@ -1,16 +1,18 @@
 //! `edgewalk vectors`: stimuli, expected results and self-checking test benches.
 
+use crate::document::document;
 use crate::input::{PortFrame, Shading, Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::{Talk, jobs, progress, talk};
+use crate::{Talk, jobs, progress};
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_vectors::{
-    Files, Reached, SUITES, StallKind, Suite, Tables, Unit, Words, capture, design, directory, not_covered,
-    reached,
+    Files, Reached, SUITES, StallKind, Suite, Tables, Unit, Words, capture_watched, design, directory,
+    not_covered, reached,
 };
+use serde_json::json;
 use std::path::{Component, Path, PathBuf};
 
 /// Writes test vectors, a directory a suite and unit, that run as they are in Icarus and Verilator.
@@ -47,7 +49,7 @@ pub struct Args {
     /// Triangles of the random suite
     #[arg(long, default_value_t = 100)]
     count: u64,
-    /// Leaves out the tables for eyes: more than half of the bytes
+    /// Omits the tables for people, *.csv: more than half of the bytes
     #[arg(long)]
     no_csv: bool,
     /// Output directory
@@ -97,10 +99,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         stalls: args.stalls,
         tables: if args.no_csv { Tables::LeftOut } else { Tables::Written },
     };
-    let written = set.write(&machine, &out, "", talk.quiet)?;
+    let written = set.write(&machine, &out, "", talk)?;
     out.publish(&own(&args.out, "", &written))?;
     talk.say(
-        || Ok(serde_json::json!({ "hash": machine.hash(), "directories": written }).to_string()),
+        || document("vector-folders", json!({ "hash": machine.hash(), "directories": written })),
         || format!("machine {} -> {}\n    {}", machine.hash(), args.out.display(), written.join("\n    ")),
     )?;
     Ok(Verdict::Pass)
@@ -115,16 +117,9 @@ pub fn of_input(input: &str, machine: &Plan, port: &PortFrame, triangles: Option
     let wanted = triangles.map_or(usize::MAX, |n| usize::try_from(n).unwrap_or(usize::MAX));
     let every = port.triangles.len().div_ceil(wanted).max(1);
     let triangles: Vec<_> = port.triangles.iter().step_by(every).copied().collect();
-    let state = port.one_state()?;
     Ok(Suite {
-        shadow_on: state.shadow_on,
-        light_pass: state.light_pass,
-        ambient: state.ambient,
+        state: port.one_state()?,
         words: words_of_input(machine, port, every)?,
-        depth_func: state.depth_func,
-        depth_write: state.depth_write,
-        color_write: state.color_write,
-        blend_add: state.blend_add,
         ..Suite::of_triangles(&name, input, triangles)
     })
 }
@@ -171,11 +166,11 @@ fn named(machine: &Plan, wanted: impl Fn(&str) -> bool) -> Result<Vec<Suite>> {
 }
 
 /// Prints what could be met in each unit and was not.
-pub fn warn_of_gaps(runs: &[(Unit, Reached)], quiet: bool) {
-    for unit in Unit::known().filter(|_| !quiet) {
+pub fn warn_of_gaps(runs: &[(Unit, Reached)], talk: Talk) {
+    for unit in Unit::known().filter(|_| !talk.quiet) {
         let missing = not_covered(runs.iter().filter(|(of, _)| *of == unit).map(|(_, reached)| reached));
         if !missing.is_empty() {
-            talk::warn(&format!("{}: not covered: {}", unit.name(), missing.join(", ")));
+            talk.warn(&format!("{}: not covered: {}", unit.name(), missing.join(", ")));
         }
     }
 }
@@ -209,12 +204,15 @@ pub struct Set<'a> {
     pub tables: Tables,
 }
 
+/// What the progress bar counts.
+const WHAT: &str = "vector directories";
+
 /// From so many bytes on a directory is announced before it is written.
 const HUGE: usize = 64 << 20;
 
 impl Set<'_> {
     /// Writes them under `folder` of `out`; returns their names.
-    pub fn write(&self, machine: &Plan, out: &Staging, folder: &str, quiet: bool) -> Result<Vec<String>> {
+    pub fn write(&self, machine: &Plan, out: &Staging, folder: &str, talk: Talk) -> Result<Vec<String>> {
         let mut work: Vec<(&Suite, Unit)> = Vec::new();
         for suite in self.suites {
             let of_it: Vec<Unit> = self.units.iter().copied().filter(|unit| suite.is_for(*unit)).collect();
@@ -224,30 +222,37 @@ impl Set<'_> {
             }
             work.extend(of_it.into_iter().map(|unit| (suite, unit)));
         }
-        let bar = progress::bar(work.len() as u64, "vector directories", quiet);
+        let bar = progress::bar(work.len() as u64, WHAT, talk.quiet);
         let written = jobs::all(&work, &bar, |(suite, unit)| {
-            let trace = capture(machine, *unit, suite, suite.state(), self.stalls.unwrap_or(suite.stalls));
+            let name = format!("{}_{}", suite.name, unit.name());
+            let stalls = self.stalls.unwrap_or(suite.stalls);
+            let trace = capture_watched(machine, *unit, suite, suite.state, stalls, &|entered, of| {
+                bar.set_message(format!("{WHAT}; {name}: {entered} of {of} tokens have entered"));
+            });
             let verilog =
                 design::verilog(machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
-            let name = format!("{}_{}", suite.name, unit.name());
             let files = directory(suite, &trace, &verilog, self.tables);
-            if !quiet {
-                bar.suspend(|| announce(&name, &files));
+            if !talk.quiet {
+                bar.suspend(|| announce(&name, &files, talk));
             }
             for (file, contents) in files {
+                if contents.len() >= HUGE / 16 {
+                    bar.set_message(format!("{WHAT}; {name}/{file}: writing {} MB", contents.len() >> 20));
+                }
                 out.write(&format!("{folder}{name}/{file}"), contents)?;
             }
+            bar.set_message(WHAT);
             Ok((name, (*unit, reached(&trace))))
         })?;
         bar.finish_and_clear();
         let (names, runs): (Vec<String>, Vec<_>) = written.into_iter().unzip();
-        warn_of_gaps(&runs, quiet);
+        warn_of_gaps(&runs, talk);
         Ok(names)
     }
 }
 
 /// Says how much is about to be written where it is very much.
-fn announce(name: &str, files: &Files) {
+fn announce(name: &str, files: &Files, talk: Talk) {
     let size = |of: fn(&str) -> bool| {
         files.iter().filter(|(n, _)| of(n)).map(|(_, bytes)| bytes.len()).sum::<usize>()
     };
@@ -258,6 +263,6 @@ fn announce(name: &str, files: &Files) {
         } else {
             String::new()
         };
-        talk::warn(&format!("{name}: writing {} MB{hint}", all >> 20));
+        talk.warn(&format!("{name}: writing {} MB{hint}", all >> 20));
     }
 }

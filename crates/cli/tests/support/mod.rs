@@ -1,6 +1,9 @@
 //! What the tests of the program's behaviour as a process share.
 #![allow(clippy::unwrap_used, dead_code)] // a test that unwraps nothing reports it; no test uses all of it
 
+pub mod browser;
+pub mod recording;
+
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
@@ -27,6 +30,15 @@ pub fn ended(output: &Output) -> (Option<i32>, String) {
     let error = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(!error.contains("panicked") && !error.contains(".edgewalk-"), "{error}");
     (output.status.code(), error)
+}
+
+/// What `render --json` printed, without the format and version of the document.
+pub fn report(output: &Output) -> serde_json::Value {
+    let mut report: serde_json::Value = serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&output.stderr)));
+    let [format, _] = ["format", "version"].map(|key| report.as_object_mut().unwrap().shift_remove(key));
+    assert_eq!(format, Some("edgewalk-report".into()));
+    report
 }
 
 /// Renders in every engine, which must draw the same picture: the report of each.

@@ -3,8 +3,7 @@
 use anyhow::{Result, anyhow};
 use edgewalk_golden::Shading;
 use edgewalk_host::input::Shaded;
-use edgewalk_machine::nearest::nearest;
-use edgewalk_machine::{Machine, ShadeKind};
+use edgewalk_machine::{Machine, ShadeKind, Unknown};
 use edgewalk_scene::PixelMethod;
 
 /// What a machine can draw.
@@ -21,14 +20,8 @@ pub const SHADINGS: [(&str, Shaded); 5] = [
 /// # Errors
 /// The machine does not draw so.
 pub fn named(name: &str) -> Result<(&'static str, Shaded)> {
-    SHADINGS.into_iter().find(|(known, _)| *known == name).ok_or_else(|| {
-        let names = SHADINGS.map(|(name, _)| name);
-        anyhow!(
-            "shading {name}: a machine draws {}; nearest: {}",
-            names.join(", "),
-            nearest(name, names.into_iter())
-        )
-    })
+    let found = SHADINGS.into_iter().find(|(known, _)| *known == name);
+    found.ok_or_else(|| anyhow!(Unknown::new("shading of a machine", name, SHADINGS.map(|(name, _)| name))))
 }
 
 /// The name of the way in which a machine shades where nothing else is asked for: `gouraud` without SHADE.

@@ -23,6 +23,7 @@ mod view;
 pub use clocks::{SetupClocks, longest_setup};
 
 use crate::Events;
+use crate::ports::{Pins, Ported, Shown};
 use crate::tokens::{FEW, Prim, Source};
 use clocks::Timing;
 use edges::Screen;
@@ -162,9 +163,9 @@ impl<const C: usize> Setup<C> {
                 self.prim.source = Source { tag, id };
                 self.count(&sorted, events);
             }
-            Some(Culled::Lines) => events.culled_lines += 1,
-            Some(Culled::Columns) => events.culled_columns += 1,
-            Some(Culled::Area) => events.culled_area += 1,
+            Some(Culled::Lines) => events.setup.culled_lines += 1,
+            Some(Culled::Columns) => events.setup.culled_columns += 1,
+            Some(Culled::Area) => events.setup.culled_area += 1,
         }
         *self.sorted = sorted;
     }
@@ -173,11 +174,11 @@ impl<const C: usize> Setup<C> {
         let [n1, n2] = self.prim.lines;
         let knee = sorted.corners[1].v;
         let p = 1 << self.plan.widths().center_fraction;
-        events.major_right += u64::from(self.prim.major_right);
-        events.major_left += u64::from(!self.prim.major_right);
-        events.no_upper_part += u64::from(n1 == 0);
-        events.no_lower_part += u64::from(n2 == 0);
-        events.knee_on_line += u64::from(n1 > 0 && n2 > 0 && knee % p == 0);
+        events.setup.major_right += u64::from(self.prim.major_right);
+        events.setup.major_left += u64::from(!self.prim.major_right);
+        events.setup.no_upper_part += u64::from(n1 == 0);
+        events.setup.no_lower_part += u64::from(n2 == 0);
+        events.setup.knee_on_line += u64::from(n1 > 0 && n2 > 0 && knee % p == 0);
     }
 }
 
@@ -255,5 +256,23 @@ fn round_div(n: i128, d: i128) -> i128 {
     match (i64::try_from(n), i64::try_from(d)) {
         (Ok(n), Ok(d)) => n.div_euclid(d).into(),
         _ => n.div_euclid(d),
+    }
+}
+
+impl<const C: usize> Ported<C> for Setup<C> {
+    type Takes = ([PortVertex; 3], u32);
+
+    fn show(&self, _: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.tri_ready());
+        out.gives(self.prim());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        let triangle = pins.token.map(|(vertices, tag)| (vertices, *tag));
+        self.step(triangle, pins.next, pins.state.light_pass, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

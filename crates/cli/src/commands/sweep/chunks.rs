@@ -7,6 +7,7 @@
 
 use super::{DEFINITION, ROWS, RunArgs, finished, kept, points};
 use crate::Talk;
+use crate::document::document;
 use crate::shell::quoted;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
@@ -49,7 +50,7 @@ pub fn plan(definition: &Definition, out: &Path, talk: Talk) -> Result<Verdict> 
     let sizes: Vec<usize> = (0..chunks).map(|chunk| part(&sweep, chunks, chunk).len()).collect();
     let shown = out.display();
     talk.say(
-        || Ok(json!({ "points": sweep.points.len(), "chunks": sizes }).to_string()),
+        || document("sweep-chunks", json!({ "points": sweep.points.len(), "chunks": sizes })),
         || {
             format!(
                 "{} points in {chunks} parts\n    sbatch {shown}/slurm.sh\n    sh {shown}/hq.sh\n    edgewalk sweep merge --out {shown}\n",
@@ -91,7 +92,10 @@ pub fn run(args: &RunArgs, talk: Talk) -> Result<Verdict> {
     let rows = store::by_key(store::read(&path)?);
     let faults = of.iter().filter(|point| rows.get(&point.key).is_some_and(is_beyond)).count();
     talk.say(
-        || Ok(json!({ "chunk": chunk, "points": of.len(), "made": made, "faults": faults }).to_string()),
+        || {
+            let report = json!({ "chunk": chunk, "points": of.len(), "made": made, "faults": faults });
+            document("sweep-chunk", report)
+        },
         || format!("part {chunk} of {chunks}: {} points, {} of them were there", of.len(), of.len() - made),
     )?;
     Ok(if faults > 0 { Verdict::Mismatch } else { Verdict::Pass })

@@ -1,6 +1,7 @@
 //! What a sweep leaves: the table, the best machines, the report; and what it says of itself.
 
 use super::pictures::pictures;
+use crate::document::document;
 use crate::progress::spinner;
 use crate::shell::quoted;
 use crate::staging::Staging;
@@ -150,7 +151,7 @@ impl<'o> Outcome<'o> {
             "best": bests,
             "front": front,
         });
-        Ok(serde_json::to_string_pretty(&value)? + "\n")
+        document("sweep", value)
     }
 
     /// As text. Writing to a string cannot fail.
