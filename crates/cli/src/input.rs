@@ -6,7 +6,7 @@ use clap::ValueEnum as _;
 use edgewalk_golden::Order;
 use edgewalk_host::extra;
 use edgewalk_host::input::{fitting, in_triangles};
-use edgewalk_host::needs::{self, Need};
+use edgewalk_host::needs::needs;
 use edgewalk_host::port::guard_band;
 pub use edgewalk_host::port::{PortFrame, draw_state, port_triangle, to_port};
 use edgewalk_machine::Plan;
@@ -116,28 +116,19 @@ impl Source {
     /// The machine asked for, with the screen of a triangle file, and with --adapt with all keys that the input asks for.
     pub fn machine(&self, args: &MachineArgs) -> Result<Plan> {
         let screen = self.screen()?;
-        self.adapted(args.machine(screen)?, |needs| args.adapted(screen, needs))
-    }
-
-    /// One of several machines, as [`Source::machine`].
-    pub fn named_machine(&self, args: &MachineArgs, text: &str) -> Result<Plan> {
-        let screen = self.screen()?;
-        self.adapted(args.named(text, screen, &[])?, |needs| args.named(text, screen, needs))
-    }
-
-    fn adapted(&self, machine: Plan, with: impl FnOnce(&[Need]) -> Result<Plan>) -> Result<Plan> {
+        let machine = args.machine(screen)?;
         if !self.adapt {
             return Ok(machine);
         }
         let needs = match self.triangles()? {
-            Some(frame) => needs::needs(frame, &machine),
+            Some(frame) => needs(frame, &machine),
             None => {
                 let scene = Scene::open(&self.input)?;
                 let surface = scene.surface(machine.width, machine.height, guard_band(&machine));
-                needs::needs(&self.frame_of(&scene, &surface, &machine)?.0, &machine)
+                needs(&self.frame_of(&scene, &surface, &machine)?.0, &machine)
             }
         };
-        if needs.is_empty() { Ok(machine) } else { with(&needs) }
+        args.adapted(screen, &needs)
     }
 
     /// The scene, and its surface on this machine's screen, clipped to its guard band.

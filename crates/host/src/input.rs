@@ -6,9 +6,12 @@ use crate::port::{guard_band, sent};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::Shading;
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Blending, Change, Frame, InputKind, PixelMethod, Scene, Triangulated, triangle_file};
+use edgewalk_scene::{
+    Blending, Change, Frame, InputKind, PixelMethod, Scene, Surface, Triangulated, triangle_file,
+};
 use sha2::{Digest, Sha256};
 use std::path::Path;
+use std::sync::Arc;
 
 /// A scene, a mesh, or a file of screen-space triangles.
 pub struct Input {
@@ -26,8 +29,8 @@ pub enum Shaded {
 }
 
 enum What {
-    Scene(Box<Scene>, Shaded),
-    Triangles(Box<Frame>),
+    Scene(Arc<Scene>, Shaded),
+    Triangles(Arc<Frame>),
 }
 
 impl Input {
@@ -37,11 +40,32 @@ impl Input {
     /// No such scene or file, or a fault in it.
     pub fn open(name: &str, shading: Shaded) -> Result<Input> {
         let what = if InputKind::is_triangles(name) {
-            What::Triangles(Box::new(triangle_file::read(Path::new(name))?))
+            What::Triangles(Arc::new(triangle_file::read(Path::new(name))?))
         } else {
-            What::Scene(Box::new(Scene::open(name)?), shading)
+            What::Scene(Arc::new(Scene::open(name)?), shading)
         };
         Ok(Input { name: name.to_owned(), what })
+    }
+
+    /// The same input, its scene shaded so; a triangle file says itself how it is shaded.
+    #[must_use]
+    pub fn shaded(&self, shading: Shaded) -> Input {
+        let what = match &self.what {
+            What::Scene(scene, _) => What::Scene(scene.clone(), shading),
+            What::Triangles(frame) => What::Triangles(frame.clone()),
+        };
+        Input { name: self.name.clone(), what }
+    }
+
+    /// The frame that says what the input asks of the machine.
+    ///
+    /// # Errors
+    /// As [`Input::frame`], of a scene.
+    pub fn frame_for(&self, machine: &Plan) -> Result<Frame> {
+        match &self.what {
+            What::Triangles(frame) => Ok(Frame::clone(frame)),
+            What::Scene(..) => self.frame(machine),
+        }
     }
 
     /// As it was asked for.
@@ -68,6 +92,17 @@ impl Input {
             What::Triangles(frame) => hash(frame),
             What::Scene(..) => hash(&self.frame(&Plan::default())?),
         })
+    }
+
+    /// The scene, and its surface on the machine's screen, clipped to its guard band; none of a triangle file.
+    #[must_use]
+    pub fn surface(&self, machine: &Plan) -> Option<(&Scene, Surface)> {
+        match &self.what {
+            What::Triangles(_) => None,
+            What::Scene(scene, _) => {
+                Some((scene, scene.surface(machine.width, machine.height, guard_band(machine))))
+            }
+        }
     }
 
     /// The frame as the machine draws it, polygons as triangles, clipped to its guard band.
