@@ -11,6 +11,8 @@ mod data;
 mod still;
 
 use crate::sweep::table::Table;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
 
 const PAGE: &str = include_str!("page/page.html");
@@ -81,31 +83,12 @@ pub fn number(value: f64) -> String {
 
 /// PNG bytes as an address that needs no network.
 fn embedded(png: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::from("data:image/png;base64,");
-    for bytes in png.chunks(3) {
-        let word =
-            bytes.iter().fold(0u32, |word, byte| word << 8 | u32::from(*byte)) << (8 * (3 - bytes.len()));
-        for place in 0..4 {
-            let digit = DIGITS[(word >> (18 - 6 * place) & 63) as usize];
-            text.push(if place > bytes.len() { '=' } else { digit as char });
-        }
-    }
-    text
+    format!("data:image/png;base64,{}", STANDARD.encode(png))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn bytes_in_base_64() {
-        for (bytes, digits) in
-            [("", ""), ("M", "TQ=="), ("Ma", "TWE="), ("Man", "TWFu"), ("light w", "bGlnaHQgdw==")]
-        {
-            assert_eq!(embedded(bytes.as_bytes()), format!("data:image/png;base64,{digits}"));
-        }
-    }
 
     #[test]
     fn numbers_for_eyes() {

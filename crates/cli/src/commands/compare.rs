@@ -103,6 +103,11 @@ fn drawn(args: &Args, plan: &Plan) -> Result<(Report, Raster)> {
     let proof = port.shade.as_ref().map(|feed| &feed.proof);
     let comparison = compare_shaded(plan, &frame, &golden, &raster, reach(plan, &port)?.as_ref(), proof);
     let setup = SetupReport::new(plan, &port.triangles);
-    let report = Report::new(&args.source.input, frame.triangles.len() as u64, plan, &raster);
-    Ok((report.with(comparison).with_setup(setup), raster))
+    let triangles = frame.triangles.len() as u64;
+    let report = Report {
+        comparison: Some(comparison),
+        setup: Some(setup),
+        ..Report::new(&args.source.input, triangles, plan, &raster, args.stalls)
+    };
+    Ok((report, raster))
 }

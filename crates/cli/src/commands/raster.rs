@@ -13,6 +13,7 @@ use anyhow::{Context, Result};
 use edgewalk_host::extra;
 use edgewalk_judge::report::Report;
 use edgewalk_machine::Plan;
+use edgewalk_model::Waits;
 use edgewalk_scene::{Frame, InputError};
 use page::Page;
 use std::path::PathBuf;
@@ -94,7 +95,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     out.publish(&FILES)?;
     talk.say(|| report.json(), || report.text())?;
     let size = (machine.width, machine.height);
-    Verdict::drew(report.covered()).or_nothing(&args.file.display().to_string(), report.primitives(), size)
+    let drawn = &report.drawn;
+    Verdict::drew(drawn.fragments).or_nothing(&args.file.display().to_string(), drawn.primitives(), size)
 }
 
 fn while_it_is_read(
@@ -114,7 +116,11 @@ fn while_it_is_read(
         drawn => drawn?,
     };
     let triangles = drawn.triangles();
-    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band).with_host(host);
+    let report = |band: &Raster| {
+        let mut report = Report::new(file.name(), triangles, machine, band, Waits::Never);
+        report.drawn.host = host;
+        report
+    };
     let mut page = Page::new(out, machine, report);
     let bands = fast_bands(machine);
     drawn.bands(machine, bands, |band| page.add(&band))?;
@@ -124,7 +130,11 @@ fn while_it_is_read(
 fn whole(file: &TriangleFile, engine: Engine, machine: &Plan, out: &Staging, talk: Talk) -> Result<Report> {
     let frame = file.whole()?;
     let (triangles, polygons) = (frame.triangles.len() as u64, frame.polygons.len() as u64);
-    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band).with_polygons(polygons);
+    let report = |band: &Raster| {
+        let mut report = Report::new(file.name(), triangles, machine, band, Waits::Never);
+        report.drawn.polygons = polygons;
+        report
+    };
     let mut page = Page::new(out, machine, report);
     draw_bands(engine, &frame, machine, talk.quiet, |band| page.add(&band))
         .with_context(|| file.name().to_owned())?;

@@ -109,9 +109,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     let (frame, order) = args.source.sorted(&machine)?;
     let out = Staging::new(&args.out)?;
-    let Pictures { report, verdict, .. } =
+    let Pictures { mut report, verdict, .. } =
         pictures(&args.source.input, &frame, &machine, (args.engine, args.stalls), &out, talk.quiet)?;
-    let report = report.sorted(order);
+    report.order = order;
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
@@ -126,14 +126,15 @@ fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     let drawn = from_golden(wireframe(&frame, golden_fill(machine), hidden), machine);
     let out = Staging::new(&args.out)?;
     picture::write_rgb(&out, "image.png", drawn.width, drawn.height, &drawn.rgb)?;
-    let report = Report::new(&args.source.input, frame.triangles.len() as u64, machine, &drawn)
-        .with_polygons(frame.polygons.len() as u64);
+    let triangles = frame.triangles.len() as u64;
+    let mut report = Report::new(&args.source.input, triangles, machine, &drawn, Waits::Never);
+    report.drawn.polygons = frame.polygons.len() as u64;
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
     talk.say(|| report.json(), || report.text())?;
-    let primitives = (frame.triangles.len() + frame.polygons.len()) as u64;
-    Verdict::drew(report.covered()).or_nothing(&args.source.input, primitives, (drawn.width, drawn.height))
+    let (size, drawn) = ((drawn.width, drawn.height), &report.drawn);
+    Verdict::drew(drawn.fragments).or_nothing(&args.source.input, drawn.primitives(), size)
 }
 
 /// Draws by a shading system and writes it beside the truth.
@@ -214,14 +215,15 @@ pub fn pictures(
     let (w, h) = (drawn.width, drawn.height);
     picture::write_rgb(out, "golden.png", w, h, &golden.rgb)?;
     picture::write_rgb(out, "image.png", w, h, &drawn.rgb)?;
-    picture::write_heat(out, "z_error.png", (w, h), &comparison.z_map, 1.0)?;
-    picture::write_heat(out, "color_error.png", (w, h), &comparison.color_map, 1.0)?;
+    picture::write_heat(out, "z_error.png", (w, h), &comparison.errors.z.map, 1.0)?;
+    picture::write_heat(out, "color_error.png", (w, h), &comparison.errors.color.map, 1.0)?;
     let verdict = lights.iter().map(Comparison::verdict).fold(comparison.verdict(), Verdict::and);
     let setup = SetupReport::new(machine, &port.triangles);
-    let report = Report::new(name, frame.triangles.len() as u64, machine, &drawn)
-        .with(comparison)
-        .with_lights(lights)
-        .with_setup(setup)
-        .with_stalls(waits);
+    let report = Report {
+        comparison: Some(comparison),
+        lights,
+        setup: Some(setup),
+        ..Report::new(name, frame.triangles.len() as u64, machine, &drawn, waits)
+    };
     Ok(Pictures { report, verdict, ids: drawn.id })
 }

@@ -4,7 +4,7 @@ use super::with_fraction;
 use anyhow::Result;
 use edgewalk_host::draw;
 use edgewalk_judge::compare::compare;
-use edgewalk_machine::{Kind, Machine, Plan};
+use edgewalk_machine::{Kind, Plan};
 use edgewalk_model::Waits;
 use edgewalk_numerics::solver::solve;
 use edgewalk_numerics::{ChannelBits, Rounding, Screen, Target, Witness};
@@ -65,7 +65,7 @@ impl Breaker {
         let frame = frame(&fewer, place, &witness);
         let [golden, drawn] = [draw::golden(&frame, &fewer), draw::fast(&frame, &fewer, Waits::Never)?];
         let comparison = compare(&fewer, &frame, &golden, &drawn);
-        let found = [comparison.z_error, comparison.color_error][place];
+        let found = [comparison.errors.z.error, comparison.errors.color.error][place];
         if found <= error {
             return none("none was found that shows in a rounded output");
         }
@@ -76,14 +76,12 @@ impl Breaker {
 
 /// The machine with other fraction bits of depth or colour.
 fn with_bits(machine: &Plan, place: usize, bits: u32) -> Result<Plan> {
-    let mut keys = Machine::clone(machine);
     let precision = with_fraction(machine.channels()[place], bits).precision;
-    if place == 0 {
-        keys.z = precision;
-    } else {
-        keys.color = precision;
-    }
-    keys.plan().map_err(|e| anyhow::anyhow!("{e}"))
+    let machine = machine.with(|keys| match place {
+        0 => keys.z = precision,
+        _ => keys.color = precision,
+    });
+    Ok(machine.plan()?)
 }
 
 /// The witness on the machine's screen, with all values moved alike to where its error shows most in the rounded output.

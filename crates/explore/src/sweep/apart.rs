@@ -29,8 +29,9 @@ pub fn report(geometry: &Geometry, plan: &Plan, waits: Waits) -> Result<Report> 
     let drawn = of_port(draw_frame(plan, &port, waits)?.raster(plan), &port);
     let (reach, proof) = (reach(plan, &port)?, port.shade.as_ref().map(|feed| &feed.proof));
     let comparison = compare_shaded(plan, frame, golden, &drawn, reach.as_ref(), proof).without_maps();
-    Ok(Report::new(name, frame.triangles.len() as u64, plan, &drawn)
-        .with(comparison)
-        .with_setup(SetupReport::new(plan, &port.triangles))
-        .with_stalls(waits))
+    Ok(Report {
+        comparison: Some(comparison),
+        setup: Some(SetupReport::new(plan, &port.triangles)),
+        ..Report::new(name, frame.triangles.len() as u64, plan, &drawn, waits)
+    })
 }

@@ -86,7 +86,7 @@ impl Sweep {
         let whole = axes.iter().map(|axis| axis.values.len() as u64);
         let whole = whole.fold(waits.len() as u64, u64::saturating_mul);
         let machines = chosen(whole, definition.sample, definition.inputs.len() as u64)?;
-        let base = Machine::from_toml(&definition.machine).map_err(|e| anyhow!("{e}"))?;
+        let base = Machine::from_toml(&definition.machine)?;
         let inputs = inputs(&definition.inputs, shading)?;
         let mut sweep = Sweep { definition, axes, inputs, waits, objectives, points: Vec::new() };
         for index in machines {

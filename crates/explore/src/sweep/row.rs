@@ -4,6 +4,7 @@ use super::point::{Point, Sweep};
 use super::shared::plan;
 use anyhow::Result;
 use edgewalk_judge::Verdict;
+use edgewalk_judge::compare::ChannelError;
 use edgewalk_judge::report::Report;
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
@@ -89,23 +90,21 @@ pub fn with_figures(
 ) -> Result<Value> {
     let mut row = identity(sweep, point);
     row["status"] = Status::Ok.name().into();
-    let comparison = report.comparison();
-    let slack = |error: f64, bound: Option<f64>| bound.map(|bound| error / bound);
-    if let Some(c) = comparison {
+    let slack = |channel: &ChannelError| channel.bound_for_input.map(|bound| channel.error / bound);
+    if let Some(c) = &report.comparison {
         row["verdict"] = json!(match c.verdict() {
             Verdict::Pass => "pass",
             Verdict::Mismatch => "mismatch",
             Verdict::Vacuous => "vacuous",
         });
-        let (z, color) =
-            (slack(c.z_error, c.z_bound_for_input), slack(c.color_error, c.color_bound_for_input));
+        let [z, color] = [&c.errors.z, &c.errors.color].map(slack);
         row["slack"] = json!({ "z": z, "color": color });
         if proved && [z, color].into_iter().flatten().any(|slack| slack > 1.0 || slack.is_nan()) {
             row["status"] = Status::Failed.name().into();
             row["reason"] = "an error exceeds what is proved: a fault of edgewalk, not of the machine".into();
         }
     }
-    row["report"] = report.value()?;
+    row["report"] = serde_json::to_value(report)?;
     match cost {
         None => {}
         Some(Ok(synth)) => row["synth"] = synth,
@@ -124,13 +123,13 @@ pub fn with_figures(
 fn derived(plan: &Plan, report: &Report, synth: &Value) -> Value {
     let word_bits: u32 = plan.channels().iter().map(|channel| channel.word()).sum();
     let mut derived = json!({ "word_bits": word_bits });
-    let (Some(cycles), Some(mhz)) = (report.cycles(), synth.pointer("/mhz/median").and_then(Value::as_f64))
+    let (Some(cycles), Some(mhz)) = (&report.cycles, synth.pointer("/mhz/median").and_then(Value::as_f64))
     else {
         return derived;
     };
     let seconds = cycles.total as f64 / (mhz * 1e6);
     let (pixels, triangles) =
-        (report.covered() as f64 / seconds / 1e6, report.primitives() as f64 / seconds / 1e6);
+        (report.drawn.fragments as f64 / seconds / 1e6, report.drawn.primitives() as f64 / seconds / 1e6);
     derived["frames_per_s"] = json!(1.0 / seconds);
     derived["mpixels_per_s"] = json!(pixels);
     derived["mtriangles_per_s"] = json!(triangles);

@@ -56,10 +56,11 @@ pub fn run(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     picture::write_rgb(&out, "image.png", w, h, &together.rgb)?;
     let setup = SetupReport::new(machine, &triangles);
     let triangles = surface.triangles.len() as u64;
-    let report = Report::new(&source.input, triangles, machine, &together)
-        .with_parts(passes)
-        .with_setup(setup)
-        .with_stalls(args.stalls);
+    let report = Report {
+        parts: Some(passes),
+        setup: Some(setup),
+        ..Report::new(&source.input, triangles, machine, &together, args.stalls)
+    };
     out.write("report.json", report.json()?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
