@@ -2,7 +2,6 @@
 
 use super::stopwatch::{Stopwatch, Time};
 use anyhow::{Result, anyhow};
-use edgewalk_lockstep::case::constants;
 use edgewalk_lockstep::{Interface, Setting, Unit};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::fast::Renderer;
@@ -58,7 +57,7 @@ impl<'a> Job<'a> {
     /// The values of the machine's constants, in the order of its ports.
     pub fn constants(&self) -> Result<Vec<u128>> {
         let interface = Interface::new(self.machine, Unit::MACHINE);
-        Ok(Setting::willing(&interface, &constants(&self.state))?.constants)
+        Ok(Setting::willing(&interface, &self.state.constants())?.constants)
     }
 
     /// A job with what must come of it, which is worked out here.

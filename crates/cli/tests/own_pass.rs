@@ -2,7 +2,8 @@
 //! one of the machine whose map a second one draws.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use crate::support::{edgewalk, run};
+use crate::support::recording::Recording;
+use crate::support::{edgewalk, npy, run};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::fmt::Write as _;
@@ -92,6 +93,77 @@ fn every_engine_draws_map_and_picture_on_one_machine() {
     }
     println!("{compared} of 54 planes the same, {dark} pixels in shadow");
     assert!(compared == 54 && dark > 100);
+}
+
+/// Triangles over the map and the screen, one light; its second triangle is a pane where `glass`.
+fn one_light(size: u32, glass: bool) -> String {
+    let pane = if glass { "  0.5" } else { "" };
+    format!(
+        "size 24 18\nshadow {size} 0.004 0.3   0.7 0 2 1   0 0.6 1 2   0 0 0.5 0.2   0 0 0 1\n\
+         L  1 1 0.3   14 2 0.4   3 12 0.5\nL  4 3 0.25   16 9 0.25   2 14 0.6{pane}\n\
+         T  1 1 0.4 0.9 0.5 1 0   22 2 0.5 0.9 0.5 1 0   3 16 0.6 0.9 0.5 1 0\n\
+         T  5 3 0.2 0.1 0.5 0.3 0   23 9 0.2 0.9 0.8 1 0   2 17 0.7 0.2 0.5 1 0\n"
+    )
+}
+
+#[test]
+fn replay_shows_the_pass_of_the_light() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut texels, mut pixels) = (0, 0);
+    for (size, glass) in [(16, false), (40, true)] {
+        std::fs::write(folder.path().join("a.tri"), one_light(size, glass)).unwrap();
+        let size = format!("shadow.size={size}");
+        let mut settings = vec!["shadow.light=parallel", &size, "shadow.gate=scale", OWN];
+        settings.extend(["blend.kind=constant", "shadow.transmits=yes"].iter().filter(|_| glass));
+        let cycles = raster(folder.path(), "r", "model", &settings);
+        let mut command = edgewalk(folder.path(), &["replay", "a.tri", "--out", "a.json", "-q"]);
+        settings.iter().for_each(|setting| _ = command.args(["--set", setting]));
+        let output = command.output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let json = std::fs::read(folder.path().join("a.json")).unwrap();
+        let shown = Recording::read(serde_json::from_slice(&json).unwrap());
+
+        let [of_map, of_picture] = [&cycles["maps"][0], &cycles["total"]].map(|n| n.as_u64().unwrap());
+        assert!(of_map > 100 && of_picture > 100, "{cycles}");
+        assert_eq!(
+            shown.json["cycles"],
+            of_map + of_picture,
+            "the light's pass is recorded before the picture's"
+        );
+        let during = &shown.json["store"]["map"]["during"];
+        let light = (0..of_map + of_picture).filter(|cycle| shown.value(during, *cycle) == 1).count();
+        assert_eq!(light as u64, of_map);
+
+        let (depths, written) = shown.plane("Map of the light", 0);
+        let farthest = *depths.iter().max().unwrap();
+        let nearer = depths.iter().filter(|depth| **depth < farthest).count();
+        assert!(written > 20 && nearer > 20, "{written} texels written, {nearer} nearer than the end");
+        if glass {
+            let (left, _) = shown.plane("Light that is left", 1);
+            assert!(left.iter().any(|left| *left < 255), "a pane takes light away");
+        }
+        texels += depths.len();
+
+        // The planes of raster are numbers from 0 to 1.
+        let array = |name: &str| -> Vec<f64> {
+            let (kind, _, bytes) = npy(&folder.path().join("r").join(name));
+            assert_eq!(kind, "<f8");
+            bytes.chunks_exact(8).map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap())).collect()
+        };
+        let (z, rgb) = (array("z.npy"), array("rgb.npy"));
+        let shown_z: Vec<f64> =
+            shown.plane("Depth memory", 0).0.iter().map(|z| *z as f64 / f64::from((1 << 24) - 1)).collect();
+        assert_eq!(shown_z, z);
+        for channel in 0..3 {
+            let (words, _) = shown.plane("Picture", channel + 1);
+            let words: Vec<f64> = words.iter().map(|word| *word as f64 / 255.0).collect();
+            let drawn: Vec<f64> = rgb.chunks_exact(3).map(|pixel| pixel[channel]).collect();
+            assert_eq!(words, drawn, "channel {channel}");
+            pixels += words.len();
+        }
+    }
+    println!("{texels} texels of two maps, {pixels} colours compared");
+    assert_eq!((texels, pixels), (16 * 16 + 40 * 40, 2 * 3 * 24 * 18));
 }
 
 /// A scene in all passes: its report, and the pixels of its picture (what stands before them names the machine).

@@ -94,8 +94,8 @@ impl SetupReport {
             let pixels = setup.prim().map(|prim| pixels(machine, prim));
             setup.step(None, true, false, &mut met); // EDGE takes it
             let fate = match pixels {
-                None if met.culled_lines > 0 => 0,
-                None if met.culled_columns > 0 => 1,
+                None if met.setup.culled_lines > 0 => 0,
+                None if met.setup.culled_columns > 0 => 1,
                 None => 2,
                 Some(0) => 3,
                 Some(_) => 4,

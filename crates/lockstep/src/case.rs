@@ -15,8 +15,7 @@ use crate::lockstep::{Lockstep, LockstepError};
 use crate::rig::{Setting, bits};
 use crate::stalls::{LENGTHS, Pattern};
 use crate::unit::Unit;
-use edgewalk_machine::Plan;
-use edgewalk_model::{DrawState, Events};
+use edgewalk_machine::{DrawState, Events, Plan};
 use edgewalk_netlist::{Netlist, Simulate, Simulator};
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
@@ -35,20 +34,8 @@ pub struct Case {
     pub unit: Unit,
     /// Tokens of the first link in.
     pub tokens: Vec<Token>,
-    /// Compare function, 0 to 7.
-    pub depth_func: u8,
-    /// Passing fragments write their depth.
-    pub depth_write: bool,
-    /// Colours of passing fragments go on to BLEND, where there is one.
-    pub color_write: bool,
-    /// BLEND adds; else it mixes.
-    pub blend_add: bool,
-    /// SHADOW looks up its map, whose words are random.
-    pub shadow_on: bool,
-    /// A machine that draws its map draws it, not the picture.
-    pub light_pass: bool,
-    /// What SHADOW leaves of a colour in shadow, with the gate `scale`.
-    pub ambient: u64,
+    /// The rules; of `clear` nothing is used, the colours at the start are random.
+    pub state: DrawState,
     /// Every stored depth at the start, LSB; the largest if `None`.
     pub clear_z: Option<u64>,
     /// By link or level: in so many of 256 cycles the rig is not willing.
@@ -106,13 +93,7 @@ impl Case {
             plan: plan.clone(),
             unit,
             tokens: Vec::new(),
-            depth_func: 1,
-            depth_write: true,
-            color_write: true,
-            blend_add: false,
-            shadow_on: false,
-            light_pass: false,
-            ambient: 0,
+            state: DrawState::default(),
             clear_z: None,
             unwilling: BTreeMap::new(),
             late: 0,
@@ -203,20 +184,7 @@ impl Case {
 
     /// What the rig does.
     fn setting(&self, interface: &Interface) -> Result<Setting, LockstepError> {
-        let Case { depth_func, depth_write, color_write, blend_add, .. } = *self;
-        let Case { shadow_on, light_pass, ambient, .. } = *self;
-        let clear = [0; 3];
-        let state = DrawState {
-            depth_func,
-            depth_write,
-            color_write,
-            blend_add,
-            shadow_on,
-            light_pass,
-            ambient,
-            clear,
-        };
-        let mut setting = Setting::willing(interface, &constants(&state))?;
+        let mut setting = Setting::willing(interface, &self.state.constants())?;
         setting.tokens.clone_from(&self.tokens);
         let mut random = Pcg64Mcg::seed_from_u64(self.seed);
         // Lengths that repeat together only after very long; long ones, so that many cases are met.
@@ -238,20 +206,6 @@ impl Case {
         setting.noise = Some(self.seed);
         Ok(setting)
     }
-}
-
-/// The values that a picture gives to the machine's constants, by their declared names.
-#[must_use]
-pub fn constants(state: &DrawState) -> [(&'static str, u128); 7] {
-    [
-        ("depth_func", state.depth_func.into()),
-        ("depth_write", state.depth_write.into()),
-        ("color_write", state.color_write.into()),
-        ("blend_add", state.blend_add.into()),
-        ("shadow_on", state.shadow_on.into()),
-        ("light_pass", state.light_pass.into()),
-        ("ambient", state.ambient.into()),
-    ]
 }
 
 /// The first link in.

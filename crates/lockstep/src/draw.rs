@@ -1,17 +1,19 @@
 //! Draws triangles with the machine's netlist, in the interpreter or whatever else runs it, the rig behind its ports.
 
+use crate::UnknownConstant;
 use crate::device::{Device, NetlistDevice, PortError, Triangles, netlist};
 use crate::interface::{Interface, Link};
 use crate::rig::{Rig, Setting};
 use crate::stalls::{StallKind, patterns};
 use crate::unit::Unit;
 use crate::values::{PortId, PortValues};
-use crate::{UnknownConstant, case};
-use edgewalk_machine::{Activity, ForeignVertex, Plan, PortVertex, Record};
+use edgewalk_machine::{
+    Activity, DrawState, Events, ForeignVertex, Maps, Pass, Plan, PortVertex, Shading, Step,
+    first_of_picture, steps,
+};
 use edgewalk_model::tokens::output;
-use edgewalk_model::{Counters, DrawState, Events, Frame, Pass, Shading, first_of_picture};
+use edgewalk_model::{Counters, Frame};
 use edgewalk_netlist::{BuildErrors, Simulator};
-use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Why a netlist cannot draw.
@@ -126,83 +128,78 @@ fn run(
     });
     let mut picture = Picture::new(plan, &interface, plan.z.max(), first_of_picture(passes).clear);
     // In a machine that draws its map what the same ports reach then.
-    let all = plan.color.max();
     let farthest = u64::MAX >> (64 - plan.shadow.depth_bits);
-    let mut own_map = plan.shadow.draws_map().then(|| Picture::new(plan, &interface, farthest, [all; 3]));
+    let all = [plan.color.max(); 3];
+    let mut own_map = plan.shadow.draws_map().then(|| Picture::new(plan, &interface, farthest, all));
     let mut ports = interface.values();
-    let mut maps: Vec<Cow<[u32]>> = maps.iter().map(Cow::from).collect();
-    let mut map: Arc<[u128]> = Arc::default();
-    let (mut counters, mut of_passes) = (Counters::default(), Vec::new());
-    // What the host fills once for the frame; what it leaves out is 0.
-    let filled = |name: &str| match name {
-        "tables" => Some(&shading.tables),
-        "roots" => Some(&shading.roots),
-        "textures" => Some(&shading.textures),
-        _ => None,
-    };
-    let mut begun = 0;
-    for pass in passes {
-        let light_pass = pass.state.light_pass;
-        let page = own_map.as_mut().filter(|_| light_pass).unwrap_or(&mut picture);
-        if pass.clear_depth {
-            page.clear_depth();
-            if light_pass {
-                page.stored[1..4].iter_mut().for_each(|color| color.fill(all as u32)); // b <= 16 bits
+    let (mut maps, mut map): (_, Arc<[u128]>) = (Maps::of_host(maps), Arc::default());
+    let mut terms: Vec<u128> = Vec::new();
+    let (mut state, mut spent): (_, Vec<Counters>) = (DrawState::default(), Vec::new());
+    for step in steps(plan, passes, shading) {
+        let page = own_map.as_mut().filter(|_| state.light_pass).unwrap_or(&mut picture);
+        match step {
+            Step::State(next) => {
+                state = next;
+                spent.push(Counters::default());
             }
-        }
-        if let Some(words) = pass.map.and_then(|map| maps.get(map)) {
-            map = words.iter().map(|word| u128::from(*word)).collect();
-        }
-        // The memories are as the pass before has left them.
-        let mut setting = Setting::willing(&interface, &case::constants(&pass.state))?;
-        for (memory, setting) in interface.memories.iter().zip(&mut setting.memories) {
-            if let Some(words) = filled(memory.name) {
-                (setting.clear, setting.start) = (0, words.as_slice().into());
-                continue;
+            Step::ClearDepth => page.clear(0),
+            Step::ClearMap => (0..4).for_each(|channel| page.clear(channel)),
+            Step::LoadMap(number) => {
+                if let Some(words) = maps.words(number) {
+                    map = words.iter().map(|word| u128::from(*word)).collect();
+                }
             }
-            if memory.name == "terms" {
-                setting.clear = 0;
+            Step::Record(triangle, record) => {
+                let words = plan.record_words(record);
+                let place = (triangle % (1 << plan.shade.record_bits)) << plan.record_place_bits();
+                terms.resize(terms.len().max(place + words.len()), 0);
+                terms[place..][..words.len()].iter_mut().zip(words).for_each(|(to, word)| *to = word.into());
             }
-            setting.start = match memory.name {
-                "map" => Arc::clone(&map),
-                "terms" => Arc::default(),
-                "color" => page.colors(plan),
-                _ => page.stored[0].iter().map(|word| u128::from(*word)).collect(),
-            };
-        }
-        setting.patterns = patterns(tagged, &interface, stalls, 0);
-        let rig = Rig::fed(&interface, setting, tokens.by_ref().take(pass.triangles));
-        let records = Records::new(plan, shading, begun);
-        begun += pass.triangles;
-        let before = page.counters.clone();
-        let more = draw_pass((rig, records), plan, page, &mut ports, &mut cycle);
-        let spent = page.counters.since(&before);
-        counters = counters.and(&spent);
-        of_passes.push(spent);
-        if let Some(number) = pass.map.filter(|_| light_pass) {
-            maps.resize(maps.len().max(number + 1), Cow::default());
-            maps[number] = page.map(plan).into();
-        }
-        if !more {
-            break;
+            Step::Draw(count) => {
+                // The memories are as the host and the triangles before have left them.
+                let mut setting = Setting::willing(&interface, &state.constants())?;
+                for (memory, setting) in interface.memories.iter().zip(&mut setting.memories) {
+                    let filled_by_host = match memory.name {
+                        "terms" => Some(&terms),
+                        "tables" => Some(&shading.tables),
+                        "roots" => Some(&shading.roots),
+                        "textures" => Some(&shading.textures),
+                        _ => None,
+                    };
+                    setting.clear = filled_by_host.map_or(setting.clear, |_| 0);
+                    setting.start = match (filled_by_host, memory.name) {
+                        (Some(words), _) => words.as_slice().into(),
+                        (None, "map") => Arc::clone(&map),
+                        (None, "color") => page.colors(plan),
+                        (None, _) => page.stored[0].iter().map(|word| u128::from(*word)).collect(),
+                    };
+                }
+                setting.patterns = patterns(tagged, &interface, stalls, 0);
+                let rig = Rig::fed(&interface, setting, tokens.by_ref().take(count));
+                let before = page.counters.clone();
+                let more = draw_part(rig, page, &mut ports, &mut cycle);
+                let part = page.counters.since(&before);
+                spent.last_mut().into_iter().for_each(|pass| *pass = pass.and(&part));
+                if !more {
+                    break;
+                }
+            }
+            Step::StoreMap(number) => maps.keep(number, page.map(plan)),
         }
     }
     drop(tokens);
-    let draws_maps = passes.iter().any(|pass| pass.state.light_pass);
-    let maps = if draws_maps { maps.into_iter().map(Cow::into_owned).collect() } else { Vec::new() };
-    let frame = Frame { maps, counters, passes: of_passes, ..picture.frame(plan) };
+    let counters = spent.iter().fold(Counters::default(), |sum, pass| sum.and(pass));
+    let frame = Frame { maps: maps.drawn_by(passes), counters, passes: spent, ..picture.frame(plan) };
     foreign.map_or(Ok(frame), |foreign| Err(foreign.into()))
 }
 
 /// Until all its triangles are drawn; false if enough was seen before.
-fn draw_pass(
-    (mut rig, mut records): (Rig<'_>, Records<'_>),
-    plan: &Plan,
+fn draw_part(
+    mut rig: Rig<'_>,
     picture: &mut Picture,
     ports: &mut PortValues,
     cycle: &mut impl FnMut(&mut PortValues) -> bool,
 ) -> bool {
-    records.write_next(plan, &mut rig);
     loop {
         // In the cycle in which it takes the last triangle the machine is still idle.
         let exhausted = rig.exhausted();
@@ -210,39 +207,9 @@ fn draw_pass(
         let more = cycle(ports);
         picture.see(ports);
         rig.clock(ports);
-        let rests = exhausted && picture.is_idle(ports);
-        if !more || (rests && rig.finished()) {
+        if !more || (exhausted && picture.is_idle(ports)) {
             return more;
         }
-        if rests {
-            records.write_next(plan, &mut rig);
-        }
-    }
-}
-
-/// The records that are not in the memory yet.
-struct Records<'a> {
-    left: std::iter::Skip<std::iter::Enumerate<std::slice::Iter<'a, Record>>>,
-    /// Triangles whose records fit into the memory.
-    at_once: u32,
-    permitted: u32,
-}
-
-impl Records<'_> {
-    /// From triangle number `begun` on.
-    fn new<'a>(plan: &Plan, shading: &'a Shading, begun: usize) -> Records<'a> {
-        let at_once = if plan.shade.is_there() { 1 << plan.shade.record_bits } else { u32::MAX };
-        Records { left: shading.records.iter().enumerate().skip(begun), at_once, permitted: 0 }
-    }
-
-    /// Writes as many as fit, and permits their triangles.
-    fn write_next(&mut self, plan: &Plan, rig: &mut Rig) {
-        for (triangle, record) in self.left.by_ref().take(self.at_once as usize) {
-            let place = (triangle % self.at_once as usize) << plan.record_place_bits();
-            rig.write("terms", place, plan.record_words(record).into_iter().map(u128::from));
-        }
-        self.permitted = self.permitted.saturating_add(self.at_once);
-        rig.permit(self.permitted);
     }
 }
 
@@ -266,8 +233,8 @@ struct Picture {
     /// 0 never written, 1 in shadow, 2 lit.
     lit: Vec<u8>,
     counters: Counters,
-    /// Where its depth is cleared to.
-    farthest: u32,
+    /// To what each channel is cleared.
+    cleared: Vec<u32>,
 }
 
 /// A link that writes, and what of it is stored where.
@@ -325,11 +292,11 @@ impl Picture {
         let status = |name| interface.port(name).expect("a machine declares it").id;
         let write = find("cwr").unwrap_or_else(|| link("wr"));
         let words = 1 << plan.widths().address;
-        let farthest = farthest as u32; // b <= 32 bits
         let clear = |i: usize| match i {
-            0 => farthest,
+            0 => farthest as u32,                                     // b <= 32 bits
             _ => color.get(i - 1).map_or(0, |colour| *colour as u32), // b <= 16 bits
         };
+        let cleared: Vec<u32> = (0..plan.channels().len()).map(clear).collect();
         Picture {
             tri: link("tri"),
             rd: link("rd"),
@@ -339,18 +306,18 @@ impl Picture {
             depth_write: find("zwr").map(|link| Writes::new(plan, link)),
             activity: status("activity"),
             idle: status("idle"),
-            stored: (0..plan.channels().len()).map(|i| vec![clear(i); words]).collect(),
+            stored: cleared.iter().map(|word| vec![*word; words]).collect(),
             coverage: vec![0; words],
             writes: vec![0; words],
             id: vec![-1; words],
             lit: vec![0; words],
             counters: Counters::default(),
-            farthest,
+            cleared,
         }
     }
 
-    fn clear_depth(&mut self) {
-        self.stored[0].fill(self.farthest);
+    fn clear(&mut self, channel: usize) {
+        self.stored[channel].fill(self.cleared[channel]);
     }
 
     /// The words of the map that this is, by address.

@@ -64,8 +64,6 @@ pub struct Rig<'a> {
     next: Option<Token>,
     /// Tokens taken so far.
     sent: u32,
-    /// It offers no more than so many.
-    permitted: u32,
     /// The triangle of each token; empty where a token is a triangle, or its number will do.
     triangles: Vec<u32>,
     links: Vec<Link>,
@@ -101,7 +99,6 @@ impl<'a> Rig<'a> {
             next: source.next(),
             source: Box::new(source),
             sent: 0,
-            permitted: u32::MAX,
             triangles: Vec::new(),
             links: interface.links.clone(),
             constants: constants.collect(),
@@ -133,37 +130,15 @@ impl<'a> Rig<'a> {
         self.sent
     }
 
-    /// All tokens have been taken that are permitted, and all words that were read.
+    /// All tokens have been taken, and all words that were read.
     #[must_use]
     pub fn exhausted(&self) -> bool {
-        (self.next.is_none() || !self.may_send()) && self.memories.iter().all(Served::is_quiet)
-    }
-
-    /// All tokens have been taken.
-    #[must_use]
-    pub fn finished(&self) -> bool {
-        self.next.is_none()
-    }
-
-    /// It offers so many tokens of all, and no more till that is raised.
-    pub fn permit(&mut self, tokens: u32) {
-        self.permitted = tokens;
-    }
-
-    /// Writes words of a memory, which the device does not read meanwhile.
-    pub fn write(&mut self, memory: &str, place: usize, words: impl IntoIterator<Item = u128>) {
-        if let Some(memory) = self.memories.iter_mut().find(|served| served.name() == memory) {
-            memory.write(place, words);
-        }
-    }
-
-    fn may_send(&self) -> bool {
-        self.sent < self.permitted
+        self.next.is_none() && self.memories.iter().all(Served::is_quiet)
     }
 
     /// Drives the inputs of this cycle.
     pub fn drive(&mut self, ports: &mut PortValues) {
-        let (cycle, may_send) = (self.cycle, self.may_send());
+        let cycle = self.cycle;
         ports.rst = self.resets.contains(&cycle);
         let triangle = self.triangles.get(self.sent as usize).copied().unwrap_or(self.sent);
         for (place, link) in self.links.iter().enumerate() {
@@ -175,7 +150,7 @@ impl<'a> Rig<'a> {
             let served = self.memories.iter().find(|memory| memory.data() == place);
             let token = match served {
                 Some(memory) => memory.offered(cycle),
-                None => self.next.as_deref().filter(|_| may_send),
+                None => self.next.as_deref(),
             };
             let token = token.filter(|_| self.held[place] || willing);
             ports.set(link.valid, token.is_some());

@@ -12,12 +12,15 @@ fn a_case_is_read_back_as_it_was_written() {
                 resets = [7, 9]\ndisturbed = 5\ncycles = 40\nseed = 11\n\
                 tokens = [\"00000000000000000\"]\n[unwilling]\nwr = 100\n[machine.memory]\nlatency = 3\n";
     let case = Case::from_toml(text).expect("a case");
-    assert_eq!((case.depth_func, case.depth_write, case.clear_z, case.late), (3, false, Some(9), 2));
     assert_eq!(
-        (case.color_write, case.blend_add, case.shadow_on, case.light_pass),
+        (case.state.depth_func, case.state.depth_write, case.clear_z, case.late),
+        (3, false, Some(9), 2)
+    );
+    assert_eq!(
+        (case.state.color_write, case.state.blend_add, case.state.shadow_on, case.state.light_pass),
         (false, true, true, true)
     );
-    assert_eq!((case.ambient, case.about.as_str()), (77, "a case"));
+    assert_eq!((case.state.ambient, case.about.as_str()), (77, "a case"));
     assert_eq!((&case.resets[..], case.disturbed, case.cycles, case.seed), (&[7, 9][..], 5, 40, 11));
     assert_eq!((case.unwilling["wr"], case.plan.latency), (100, 3));
     let again = Case::from_toml(&case.to_toml()).expect("what was written");

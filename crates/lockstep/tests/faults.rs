@@ -156,8 +156,8 @@ fn the_rig_makes_every_link_wait() {
     let mut willing = case.clone();
     willing.unwilling.clear();
     let willing = willing.run().expect("the same machine");
-    assert!(waiting.events.memory_stall > 0 && waiting.events.write_stall > 0);
-    assert_eq!((willing.events.memory_stall, willing.events.write_stall), (0, 0));
+    assert!(waiting.events.depth.memory_stall > 0 && waiting.events.depth.write_stall > 0);
+    assert_eq!((willing.events.depth.memory_stall, willing.events.depth.write_stall), (0, 0));
 }
 
 struct Waits<'a> {

@@ -10,7 +10,6 @@ mod kept;
 mod lights;
 mod memory;
 mod own_pass;
-mod rig;
 mod stalls;
 mod tables;
 mod units;

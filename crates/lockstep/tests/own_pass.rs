@@ -169,7 +169,7 @@ fn single_faults_where_the_pass_counts_are_found() {
                     "setup" => (0..800).map(|_| port.pack(&around_the_ends(plan, &mut rng), 0)).collect(),
                     _ => random_tokens(plan, unit, 300, &mut rng),
                 };
-                (case.light_pass, case.shadow_on) = (light_pass, true);
+                (case.state.light_pass, case.state.shadow_on) = (light_pass, true);
                 case.cycles = if name == "setup" { 50_000 } else { 1500 };
                 case
             });

@@ -43,13 +43,13 @@ fn alone(unit: Unit, seed: u64) {
         let most = |wait: &str| if ["srd", "sdata", "rrd", "rdata"].contains(&wait) { 60 } else { 200 };
         case.unwilling =
             interface.waits().map(|wait| (wait.to_owned(), rng.random_range(0..most(wait)))).collect();
-        case.depth_func = rng.random_range(0..8);
-        case.depth_write = rng.random_bool(0.9);
-        case.color_write = rng.random_bool(0.9);
-        case.blend_add = rng.random_bool(0.3);
-        case.shadow_on = rng.random_bool(0.9);
-        case.light_pass = plan.shadow.draws_map() && rng.random();
-        case.ambient = rng.random_range(0..=plan.color.max());
+        case.state.depth_func = rng.random_range(0..8);
+        case.state.depth_write = rng.random_bool(0.9);
+        case.state.color_write = rng.random_bool(0.9);
+        case.state.blend_add = rng.random_bool(0.3);
+        case.state.shadow_on = rng.random_bool(0.9);
+        case.state.light_pass = plan.shadow.draws_map() && rng.random();
+        case.state.ambient = rng.random_range(0..=plan.color.max());
         case.clear_z = Some(rng.random_range(0..=few(&plan)));
         case.late = rng.random_range(0..3);
         case.disturbed = rng.random_range(0..40);
@@ -113,7 +113,8 @@ fn what_happens_to_a_unit_alone_is_counted() {
     let mut known: BTreeSet<&str> = Unit::known().skip(1).map(Unit::name).collect();
     for plan in &machines {
         for unit in Unit::single(plan) {
-            let mut case = Case { shadow_on: true, seed: 3, cycles: 2500, ..Case::new(plan, unit) };
+            let mut case = Case { seed: 3, cycles: 2500, ..Case::new(plan, unit) };
+            case.state.shadow_on = true;
             case.tokens = random_tokens(plan, unit, 40, &mut rng);
             let counts = case.run().expect("no difference").events.counts();
             let met: Vec<_> = counts.into_iter().filter(|(_, count)| *count > 0).collect();

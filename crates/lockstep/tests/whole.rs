@@ -52,13 +52,13 @@ fn random_case(plan: &Plan, rng: &mut Pcg64Mcg) -> Case {
     {
         *share %= 60;
     }
-    case.depth_func = if rng.random_bool(0.6) { 1 } else { rng.random_range(0..8) };
-    case.depth_write = rng.random_bool(0.9);
-    case.color_write = rng.random_bool(0.9);
-    case.blend_add = rng.random_bool(0.3);
-    case.shadow_on = rng.random_bool(0.9);
-    case.light_pass = plan.shadow.draws_map() && rng.random();
-    case.ambient = rng.random_range(0..=plan.color.max());
+    case.state.depth_func = if rng.random_bool(0.6) { 1 } else { rng.random_range(0..8) };
+    case.state.depth_write = rng.random_bool(0.9);
+    case.state.color_write = rng.random_bool(0.9);
+    case.state.blend_add = rng.random_bool(0.3);
+    case.state.shadow_on = rng.random_bool(0.9);
+    case.state.light_pass = plan.shadow.draws_map() && rng.random();
+    case.state.ambient = rng.random_range(0..=plan.color.max());
     case.clear_z = rng.random_bool(0.3).then(|| plan.z.max().div_ceil(2));
     case.late = if rng.random_bool(0.3) { rng.random_range(1..8) } else { 0 };
     case.resets = if rng.random_bool(0.3) { vec![rng.random_range(1..3000)] } else { Vec::new() };
@@ -234,16 +234,16 @@ fn hazards_on_one_pixel() {
             [first, after_it(&plan, &mut rng, &first), one_pixel(&plan, &mut rng, 2, 3)]
         });
         let tokens = triangles.map(|triangle| port.pack(&triangle, 0)).collect();
-        let case = Case { depth_write: true, resets: Vec::new(), ..random_case(&plan, &mut rng) };
-        let mut case = Case { tokens, ..case };
+        let mut case = Case { resets: Vec::new(), ..random_case(&plan, &mut rng) };
+        (case.tokens, case.state.depth_write) = (tokens, true);
         case.unwilling.remove("tri");
         all.merge(&checked_compiled(&case));
     }
     report(&all);
     let met = &all.events;
-    assert!(met.drain_stall > 0 && met.interlock_stall > 0, "hazards that wait were not met");
-    assert!(met.forward_compare > 0, "forwarding was not met");
-    assert!(met.forward_write > 0 && met.forward_used > 0, "forwarding was not met");
+    assert!(met.depth.drain_stall > 0 && met.depth.interlock_stall > 0, "hazards that wait were not met");
+    assert!(met.depth.forward_compare > 0, "forwarding was not met");
+    assert!(met.depth.forward_write > 0 && met.depth.forward_used > 0, "forwarding was not met");
 }
 
 /// The same with BLEND, for colours: every kind, policy, number of multipliers and stages.
@@ -269,8 +269,8 @@ fn colours_on_one_pixel() {
                     [first, after_it(&plan, &mut rng, &first), one_pixel(&plan, &mut rng, 2, 3)]
                 });
                 let tokens = triangles.map(|triangle| port.pack(&triangle, 0)).collect();
-                let case = Case { depth_func: 7, resets: Vec::new(), ..random_case(&plan, &mut rng) };
-                let mut case = Case { tokens, color_write: true, ..case };
+                let mut case = Case { tokens, resets: Vec::new(), ..random_case(&plan, &mut rng) };
+                (case.state.depth_func, case.state.color_write) = (7, true);
                 case.unwilling.remove("tri");
                 // Writes that wait longer than SETUP takes keep colours in flight.
                 case.unwilling.insert("cwr".to_owned(), [0, 150, 240, 253][machines % 4]);

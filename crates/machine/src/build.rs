@@ -51,7 +51,7 @@ impl Plan {
 
     /// What can happen in this machine: to its units in their order, then between them.
     pub fn events(&self) -> impl Iterator<Item = &'static Event> {
-        let all = self.units().flat_map(|unit| unit.events).chain(units::EVENTS);
+        let all = self.units().flat_map(|unit| unit.events).chain(units::machine::EVENTS);
         all.filter(|event| (event.can_happen)(self))
     }
 
@@ -72,7 +72,7 @@ impl Plan {
             writes: all.iter().flat_map(|ports| ports.writes.clone()).collect(),
             memory: all.iter().flat_map(|ports| ports.memory.clone()).collect(),
             constants,
-            status: units::machine_status(),
+            status: units::machine::status(),
             ..Ports::default()
         }
     }

@@ -17,6 +17,31 @@ pub struct Event {
     pub can_happen: fn(&Plan) -> bool,
 }
 
+/// Declares the events of a unit, each with what it counts and the machines in which it can happen, and the struct that
+/// counts them.
+macro_rules! events {
+    ($($name:ident = $doc:literal if $can_happen:expr;)*) => {
+        pub(crate) const EVENTS: &[crate::unit::Event] =
+            &[$(crate::unit::Event { name: stringify!($name), doc: $doc, can_happen: $can_happen }),*];
+
+        /// How often each event of the unit was met.
+        #[derive(Clone, Debug, Default, PartialEq, Eq)]
+        pub struct Events { $(#[doc = $doc] pub $name: u64,)* }
+
+        impl Events {
+            pub(super) fn counts(&self) -> Vec<(&'static str, u64)> {
+                vec![$((stringify!($name), self.$name)),*]
+            }
+
+            pub(super) fn merge(&mut self, other: &Events) {
+                $(self.$name += other.$name;)*
+                let _ = other; // a unit may have no event
+            }
+        }
+    };
+}
+pub(crate) use events;
+
 /// All ports of a unit but `clk` and `rst`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Ports {

@@ -16,36 +16,46 @@ pub mod shadow;
 pub mod depth;
 pub mod blend;
 pub mod memory;
+pub mod machine;
 
-use crate::activity::Activity;
-use crate::field::Field;
-use crate::link::Status;
-use crate::unit::{Event, UnitSpec, always};
+use crate::unit::UnitSpec;
 
-/// Every unit, in the order the data flows.
-pub const UNITS: &[&UnitSpec] = &[
-    &setup::SPEC,
-    &edge::SPEC,
-    &span::SPEC,
-    &term::SPEC,
-    &pixel::SPEC,
-    &texel::SPEC,
-    &bump::SPEC,
-    &normal::SPEC,
-    &lamp::SPEC,
-    &shade::SPEC,
-    &project::SPEC,
-    &shadow::SPEC,
-    &depth::SPEC,
-    &blend::SPEC,
-];
+/// Lists the units in the order the data flows, and the counts of their events.
+macro_rules! units {
+    ($($unit:ident),*) => {
+        /// Every unit, in the order the data flows.
+        pub const UNITS: &[&UnitSpec] = &[$(&$unit::SPEC),*];
 
-/// What can happen between units.
-pub const EVENTS: &[Event] =
-    &[Event { name: "setup_overlap", doc: "triangles taken in while PIXEL draws", can_happen: always }];
+        /// How often each event of the machine was met in a run. A suite that leaves one at zero has not tested it.
+        #[derive(Clone, Debug, Default, PartialEq, Eq)]
+        pub struct Events {
+            $(#[doc = concat!("Events of unit `", stringify!($unit), "`.")] pub $unit: $unit::Events,)*
+            /// Events between units.
+            pub machine: machine::Events,
+        }
 
-/// What the machine tells beside its tokens, in every cycle.
-pub(crate) fn machine_status() -> Vec<Status> {
-    let cause = Field::count("activity", Activity::BITS, "the cause of the cycle");
-    vec![Status { field: cause, during: None }, Status::new("idle", "nothing to do")]
+        impl Events {
+            /// Every event's name with its count.
+            #[must_use]
+            pub fn counts(&self) -> Vec<(&'static str, u64)> {
+                [$(self.$unit.counts(),)* self.machine.counts()].concat()
+            }
+
+            /// Adds the counts of another run.
+            pub fn merge(&mut self, other: &Events) {
+                $(self.$unit.merge(&other.$unit);)*
+                self.machine.merge(&other.machine);
+            }
+        }
+    };
+}
+
+units! { setup, edge, span, term, pixel, texel, bump, normal, lamp, shade, project, shadow, depth, blend }
+
+impl Events {
+    /// Names of the events that were not met.
+    #[must_use]
+    pub fn missing(&self) -> Vec<&'static str> {
+        self.counts().into_iter().filter(|(_, count)| *count == 0).map(|(name, _)| name).collect()
+    }
 }

@@ -187,7 +187,7 @@ impl<const C: usize> Blend<C> {
         }
         if let Some(pass) = pushed {
             let side = self.side(pass, inputs.add);
-            events.color_forward_write += u64::from(self.rmw.enter(pass.addr, side));
+            events.blend.color_forward_write += u64::from(self.rmw.enter(pass.addr, side));
         }
         if taken {
             let result = self.result(inputs, events);
@@ -253,7 +253,7 @@ impl<const C: usize> Blend<C> {
     fn take(&self, inputs: &BlendInputs, events: &mut Events) -> bool {
         let Some((_, side)) = self.rmw.head() else { return false };
         let waits = self.head_waits();
-        events.color_head_wait += u64::from(waits);
+        events.blend.color_head_wait += u64::from(waits);
         self.room(inputs.cwr_ready) && !waits && (!side.need || inputs.cdata.is_some())
     }
 
@@ -263,8 +263,8 @@ impl<const C: usize> Blend<C> {
         let head = self.rmw.retire(old);
         let mut side = *self.rmw.side(&head);
         if side.need && head.forwarded {
-            events.color_forward_used += 1;
-            events.behind_opaque += u64::from(head.old.opaque);
+            events.blend.color_forward_used += 1;
+            events.blend.behind_opaque += u64::from(head.old.opaque);
         }
         let mut rgb = 0;
         for channel in 1..=3 {
@@ -305,12 +305,12 @@ impl<const C: usize> Blend<C> {
             let to_entry = u64::from(pushed.is_some_and(|pass| pass.addr == result.addr));
             let taken = self.rmw.finish_with(result);
             if taken > 0 {
-                events.color_forward_entry += to_entry;
-                events.color_forward_queue += taken - to_entry;
+                events.blend.color_forward_entry += to_entry;
+                events.blend.color_forward_queue += taken - to_entry;
             }
             self.stages[self.last] = None;
         } else {
-            events.color_write_stall += u64::from(self.rmw.write().is_some() && !inputs.cwr_ready);
+            events.blend.color_write_stall += u64::from(self.rmw.write().is_some() && !inputs.cwr_ready);
             self.rmw.no_result(inputs.cwr_ready);
         }
         if moves && self.last > 0 {
@@ -324,18 +324,18 @@ impl<const C: usize> Blend<C> {
     /// What becomes of the fragment that is offered.
     fn count_entry(&self, pass: &Passed<C>, inputs: &BlendInputs, events: &mut Events) {
         match (self.block(Some(pass), inputs.add), self.rmw.policy()) {
-            (Some(Block::Hazard), Hazard::Drain) => events.color_drain_stall += 1,
-            (Some(Block::Hazard), _) => events.color_interlock_stall += 1,
-            (Some(Block::Full), _) => events.color_queue_full += 1,
+            (Some(Block::Hazard), Hazard::Drain) => events.blend.color_drain_stall += 1,
+            (Some(Block::Hazard), _) => events.blend.color_interlock_stall += 1,
+            (Some(Block::Full), _) => events.blend.color_queue_full += 1,
             (None, _) if self.needs(pass, inputs.add) => {
-                events.color_read_stall += u64::from(!inputs.crd_ready);
+                events.blend.color_read_stall += u64::from(!inputs.crd_ready);
             }
             (None, _) => {
-                events.opaque += 1;
+                events.blend.opaque += 1;
                 let stages = self.stages.iter().flatten().map(|stage| (stage.addr, &stage.side));
                 let mut older = self.rmw.queued().chain(stages);
                 let behind = older.any(|(addr, side)| addr == pass.addr && side.need);
-                events.opaque_behind += u64::from(behind);
+                events.blend.opaque_behind += u64::from(behind);
             }
         }
     }

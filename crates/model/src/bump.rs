@@ -97,7 +97,7 @@ impl<const C: usize> Bump<C> {
         events: &mut Events,
     ) {
         if !self.frag_ready(bumped_ready) {
-            events.bump_stall += 1;
+            events.bump.bump_stall += 1;
             return;
         }
         self.stages[..=self.last].rotate_right(1);
@@ -109,23 +109,23 @@ impl<const C: usize> Bump<C> {
         let [bu, bv] = terms.slopes.map(i64::from);
         let term = |place: usize| i64::from(terms.terms[place]);
         let lowest = -1i64 << (self.slope_bits - 1);
-        events.slope_lowest += u64::from(bu == lowest) + u64::from(bv == lowest);
+        events.bump.slope_lowest += u64::from(bu == lowest) + u64::from(bv == lowest);
         let mut turned = Cosines { material: terms.material, gloss: terms.gloss, ..Cosines::default() };
         let half = if self.normalises { 1 << (self.slope_bits - 2) } else { 0 };
         for Sum { term: place, turns, bits } in &self.cosines {
             let turn = bu * term(*turns) + bv * term(turns + 1);
-            events.slope_up += u64::from(turn > 0);
-            events.slope_down += u64::from(turn < 0);
+            events.bump.slope_up += u64::from(turn > 0);
+            events.bump.slope_down += u64::from(turn < 0);
             let sum = (term(*place) << (self.slope_bits - 1)) + turn + half;
             let (cosine, cut) = cut(sum >> (self.slope_bits - 1 + self.fraction), *bits);
-            events.bump_cut += u64::from(cut);
+            events.bump.bump_cut += u64::from(cut);
             turned.terms[*place] = cosine;
         }
         if let Some(Sum { term: place, turns, bits }) = self.square {
             let squares = bu * bu * term(turns) + bu * bv * term(turns + 1) + bv * bv * term(turns + 2);
             let one = 2 * self.slope_bits - 2;
             let (square, cut) = cut(((term(place) << one) + squares) >> one, bits);
-            events.square_cut += u64::from(cut);
+            events.bump.square_cut += u64::from(cut);
             turned.terms[place] = square;
         }
         turned

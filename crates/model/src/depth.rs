@@ -178,7 +178,7 @@ impl<const C: usize> Depth<C> {
                 let Fragment { values, kt, lit, fence, source, .. } = *frag;
                 let side = Side { values, kt, lit, fence, source };
                 if self.rmw.enter(frag.addr, side) {
-                    events.forward_write += 1;
+                    events.depth.forward_write += 1;
                 }
             } else {
                 self.count_wait(block, events);
@@ -192,7 +192,7 @@ impl<const C: usize> Depth<C> {
             self.compare(data as u32, inputs, events); // b <= 32 bits
         } else {
             if !inputs.wr_ready && self.rmw.write().is_some() {
-                events.write_stall += 1;
+                events.depth.write_stall += 1;
             }
             self.rmw.no_result(inputs.wr_ready);
         }
@@ -204,13 +204,13 @@ impl<const C: usize> Depth<C> {
         let head = self.rmw.retire(data);
         let Retired { old, forwarded, .. } = head;
         if forwarded {
-            events.forward_used += 1;
+            events.depth.forward_used += 1;
         }
         let z = self.rmw.side(&head).values[0];
         // Bits 0, 1 and 2 of the function say whether less, equal and greater pass.
         let relation = u8::from(z > old) + u8::from(z >= old);
         let pass = inputs.depth_func >> relation & 1 != 0;
-        events.depth_fail = events.depth_fail.wrapping_add(u64::from(!pass)); // in every cycle: not checked
+        events.depth.depth_fail = events.depth.depth_fail.wrapping_add(u64::from(!pass)); // in every cycle: not checked
         let mut written = pass;
         if self.forks() {
             written &= inputs.depth_write;
@@ -218,7 +218,7 @@ impl<const C: usize> Depth<C> {
         }
         let taken = self.rmw.finish(written, &head, z, inputs.depth_write);
         if taken > 0 {
-            events.forward_compare += taken;
+            events.depth.forward_compare += taken;
         }
     }
 
@@ -229,7 +229,7 @@ impl<const C: usize> Depth<C> {
         let fence = side.fence || *pend_fence;
         *pend_fence = fence && !passes;
         if passes {
-            events.fence_handed_on += u64::from(fence && !side.fence);
+            events.depth.fence_handed_on += u64::from(fence && !side.fence);
             let kt = kt.map_or(side.kt, |place| side.values[place]);
             let Side { values, lit, source, .. } = *side;
             *color = Some(Passed { addr: of.addr, values, kt, lit, fence, source });
@@ -239,18 +239,19 @@ impl<const C: usize> Depth<C> {
     /// Which half of w leaves first.
     fn count_fork(&self, inputs: &DepthInputs, events: &mut Events) {
         let (depth, color) = (self.rmw.write().is_some(), self.fork.color.is_some());
-        events.depth_first += u64::from(depth && inputs.wr_ready && color && !inputs.pass_ready);
-        events.color_first += u64::from(color && inputs.pass_ready && depth && !inputs.wr_ready);
-        events.depth_write_waits += u64::from(depth && !inputs.wr_ready && (!color || inputs.pass_ready));
+        events.depth.depth_first += u64::from(depth && inputs.wr_ready && color && !inputs.pass_ready);
+        events.depth.color_first += u64::from(color && inputs.pass_ready && depth && !inputs.wr_ready);
+        events.depth.depth_write_waits +=
+            u64::from(depth && !inputs.wr_ready && (!color || inputs.pass_ready));
     }
 
     #[inline]
     fn count_wait(&self, block: Option<Block>, events: &mut Events) {
         match (block, self.rmw.policy()) {
-            (Some(Block::Hazard), Hazard::Drain) => events.drain_stall += 1,
-            (Some(Block::Hazard), _) => events.interlock_stall += 1,
-            (Some(Block::Full), _) => events.queue_full += 1,
-            (None, _) => events.memory_stall += 1,
+            (Some(Block::Hazard), Hazard::Drain) => events.depth.drain_stall += 1,
+            (Some(Block::Hazard), _) => events.depth.interlock_stall += 1,
+            (Some(Block::Full), _) => events.depth.queue_full += 1,
+            (None, _) => events.depth.memory_stall += 1,
         }
     }
 }

@@ -14,7 +14,8 @@
 
 mod view;
 
-use crate::events::{Events, one_more};
+use crate::Events;
+use crate::counters::one_more;
 use crate::tokens::{EdgeWalk, Line, Prim, Words, add, per_channel, word_masks};
 use edgewalk_machine::{Fill, Plan};
 
@@ -119,7 +120,7 @@ impl<const C: usize> Edge<C> {
             }
         } else if let Some(prim) = prim {
             if fresh_queued {
-                events.fresh_wait += 1;
+                events.edge.fresh_wait += 1;
             } else {
                 self.load(prim);
             }
@@ -129,7 +130,7 @@ impl<const C: usize> Edge<C> {
     /// Clock edge while a triangle runs and its line is not taken.
     #[inline]
     pub(crate) fn wait(&self, events: &mut Events) {
-        one_more(&mut events.span_fifo_full);
+        one_more(&mut events.edge.span_fifo_full);
     }
 
     fn load(&mut self, prim: &Prim<C>) {
@@ -173,9 +174,9 @@ impl<const C: usize> Edge<C> {
             self.line.y += 1;
             let carry = self.major.step(self.column_bits);
             let delta = self.held.delta[usize::from(if self.textbook { n1 == 0 } else { carry })];
-            events.carry += u64::from(carry);
-            events.no_carry += u64::from(!carry);
-            events.wrap += self.wraps(&delta);
+            events.edge.carry += u64::from(carry);
+            events.edge.no_carry += u64::from(!carry);
+            events.edge.wrap += self.wraps(&delta);
             self.line.values = add(&self.line.values, &delta, &self.masks);
         }
         self.line.major = self.major.c;

@@ -1,14 +1,14 @@
 //! Draws triangles: the machine, its memory, and a picture at the end.
 
+use crate::Events;
 use crate::counters::Counters;
-use crate::events::Events;
 use crate::machine::Model;
-use crate::passes::{Pass, first_of_picture};
-use crate::run::{Cycle, DrawState, Rig};
+use crate::run::{Cycle, Rig};
 use crate::tokens::{Source, for_channels, output};
 use crate::waits::Waits;
-use edgewalk_machine::{ForeignVertex, Plan, PortVertex, Record};
-use std::borrow::Cow;
+use edgewalk_machine::{
+    DrawState, ForeignVertex, Maps, Pass, Plan, PortVertex, Shading, Step, first_of_picture, steps,
+};
 
 /// A picture, row by row from the top, W×H pixels, and what it took.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,19 +46,6 @@ pub struct Sample<'a> {
     pub values: &'a [u32],
     /// The triangle.
     pub source: Source,
-}
-
-/// What the memories behind TERM, TEXEL, NORMAL and SHADE hold.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Shading {
-    /// The record of every triangle, culled or not, in their order; of those behind the last the memory holds nothing.
-    pub records: Vec<Record>,
-    /// Entries of the tables, [`Plan::table_word`] at [`Plan::table_place`]; what is not there is 0.
-    pub tables: Vec<u128>,
-    /// Entries of NORMAL's table, [`Plan::root_word`], 256 of them.
-    pub roots: Vec<u128>,
-    /// Texels, [`Plan::texel_word`] at [`Plan::texel_place`].
-    pub textures: Vec<u128>,
 }
 
 /// What [`render_with`] reports, in order.
@@ -159,16 +146,11 @@ fn draw<const C: usize>(
 ) -> Result<Frame, ForeignVertex> {
     let state = first_of_picture(passes);
     let mut rig = Rig::<C>::new(plan, state, waits);
-    let mut counters: Vec<Counters> = Vec::new();
     let mut tally = Tally::new(plan);
     let blends = plan.blend.is_there();
     let channels = plan.channels().len().min(C); // C serves the plan; said so that no slice is checked in every cycle
-    let mut triangles = triangles.zip(0..).map(|(t, number)| plan.accept(&t, number).map(|()| t)).peekable();
+    let mut triangles = triangles.zip(0..).map(|(t, number)| plan.accept(&t, number).map(|()| t));
     rig.write_shading(plan, shading);
-    let mut records = shading.records.iter().enumerate();
-    let at_once = if plan.shade.is_there() { 1 << plan.shade.record_bits } else { usize::MAX };
-    let mut maps: Vec<Cow<[u32]>> = maps.iter().map(Cow::from).collect();
-    let draws_maps = passes.iter().any(|pass| pass.state.light_pass);
     let mut watch = |light_pass: bool, model: &Model<C>, cycle: &Cycle<C>| {
         if light_pass {
             return;
@@ -190,32 +172,18 @@ fn draw<const C: usize>(
             hook(Drawn::Write(Sample { addr: write.addr, values, source: write.source }));
         }
     };
-    for pass in passes {
-        let before = rig.model.counters().clone();
-        rig.set_state(pass.state);
-        if pass.clear_depth {
-            rig.clear_depth(plan);
+    let (mut maps, mut light_pass) = (Maps::of_host(maps), false);
+    let (mut before, mut spent): (_, Vec<Counters>) = (Counters::default(), Vec::new());
+    for step in steps(plan, passes, shading) {
+        if let Step::State(state) = step {
+            light_pass = state.light_pass;
+            before = rig.model.counters().clone();
+            spent.push(Counters::default());
         }
-        if let (Some(memory), Some(map)) = (&mut rig.map, pass.map.and_then(|map| maps.get(map))) {
-            memory.words_mut().iter_mut().zip(&**map).for_each(|(word, depth)| *word = *depth);
-        }
-        let mut left = pass.triangles;
-        loop {
-            let part = left.min(at_once);
-            for (triangle, record) in records.by_ref().take(part) {
-                rig.write_record(plan, triangle, record);
-            }
-            let light_pass = pass.state.light_pass;
-            rig.draw(triangles.by_ref().take(part), |_, model, cycle| watch(light_pass, model, cycle))?;
-            left -= part;
-            if left == 0 || triangles.peek().is_none() {
-                break;
-            }
-        }
-        counters.push(rig.model.counters().since(&before));
-        if let Some(map) = pass.map.filter(|_| pass.state.light_pass) {
-            maps.resize(maps.len().max(map + 1), Cow::default());
-            maps[map] = rig.drawn_map(plan).into();
+        if let Some(count) = rig.take_step(plan, step, &mut maps) {
+            rig.draw(triangles.by_ref().take(count), |_, model, cycle| watch(light_pass, model, cycle))?;
+            let pass = rig.model.counters().since(&before);
+            spent.last_mut().into_iter().for_each(|last| last.clone_from(&pass));
         }
     }
     rig.set_state(state);
@@ -237,11 +205,31 @@ fn draw<const C: usize>(
             true => addresses.iter().map(|addr| tally.lit[*addr]).collect(),
             false => Vec::new(),
         },
-        maps: if draws_maps { maps.into_iter().map(Cow::into_owned).collect() } else { Vec::new() },
+        maps: maps.drawn_by(passes),
         counters: rig.model.counters().clone(),
-        passes: counters,
+        passes: spent,
         events: rig.model.events().clone(),
     })
+}
+
+impl<const C: usize> Rig<C> {
+    /// Does what the host does in a step, but for [`Step::Draw`]: of that it gives how many triangles are to be drawn.
+    pub fn take_step(&mut self, plan: &Plan, step: Step, maps: &mut Maps) -> Option<usize> {
+        match step {
+            Step::State(state) => self.set_state(state),
+            Step::ClearDepth => self.memory.clear_depth(plan),
+            Step::ClearMap => self.clear_map(plan),
+            Step::LoadMap(number) => {
+                if let (Some(memory), Some(map)) = (&mut self.map, maps.words(number)) {
+                    memory.words_mut().iter_mut().zip(map).for_each(|(word, depth)| *word = *depth);
+                }
+            }
+            Step::Record(triangle, record) => self.write_record(plan, triangle, record),
+            Step::Draw(count) => return Some(count),
+            Step::StoreMap(number) => maps.keep(number, self.drawn_map(plan)),
+        }
+        None
+    }
 }
 
 /// What happened at every address.

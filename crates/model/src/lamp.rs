@@ -129,7 +129,7 @@ impl<const C: usize> Lamp<C> {
         } else if waits {
             self.fetch.begin();
         }
-        events.lamp_wait += u64::from(frag.is_some() && self.working());
+        events.lamp.lamp_wait += u64::from(frag.is_some() && self.working());
         if let Some(fragment) = frag.filter(|_| ready) {
             self.inside = Some((*fragment, self.cosines(terms, events)));
             self.step = 0;
@@ -138,24 +138,24 @@ impl<const C: usize> Lamp<C> {
         } else if normed_ready {
             self.inside = None;
         } else {
-            events.lamp_stall += u64::from(self.occupied());
+            events.lamp.lamp_stall += u64::from(self.occupied());
         }
     }
 
     fn load(&mut self, inputs: &NormalInputs, events: &mut Events) {
-        events.lamp_read_stall += u64::from(self.fetch.send(inputs.rrd_ready));
+        events.lamp.lamp_read_stall += u64::from(self.fetch.send(inputs.rrd_ready));
         let Some(word) = inputs.rdata else { return };
         let (number, last) = self.fetch.take();
         self.words[number as usize] = ((word >> 16) as i64 & 0x1_ffff, word as i64 & 0xffff);
         self.have = last;
-        events.lamp_read += u64::from(last);
+        events.lamp.lamp_read += u64::from(last);
     }
 
     /// What SHADE takes.
     fn cosines(&self, terms: &Cosines, events: &mut Events) -> Cosines {
         let [dd, pl, dv, da, pv, nn, ..] = terms.terms.map(i64::from);
         let far = self.root(dd, events);
-        events.lamp_near += u64::from(far.k > 0);
+        events.lamp.lamp_near += u64::from(far.k > 0);
         let attenuation =
             self.look(ATTENUATION as i64 + 64 * i64::from(far.k) + (far.m >> 10), far.m & 0x3ff);
         let [toward, way, axis] = [pl, dv, da].map(|product| far.divided(product, events));
@@ -167,7 +167,7 @@ impl<const C: usize> Lamp<C> {
         let beside = (1 << 16) - axis;
         let cone = beside.clamp(0, 0xffff);
         let dark = beside > self.words[0].0;
-        events.lamp_beside += u64::from(dark);
+        events.lamp.lamp_beside += u64::from(dark);
         let cone = if dark { 0 } else { self.look(BEAM as i64 + (cone >> 8), (cone & 0xff) << 2) };
         let beam = times(attenuation, cone, events);
 
@@ -179,7 +179,7 @@ impl<const C: usize> Lamp<C> {
         let (nl, nl_cut) = index(diffuse * beam, 32 - t, t + 2);
         let scaled = ((halfway - (1 << 16)) << terms.gloss) + (1 << 16);
         let (nh, nh_cut) = index(scaled, 16 - t, t + m + 2);
-        events.lamp_cut += u64::from(nl_cut) + u64::from(nh_cut);
+        events.lamp.lamp_cut += u64::from(nl_cut) + u64::from(nh_cut);
         (cosines.terms[0], cosines.terms[1]) = (nl, nh);
         cosines
     }
@@ -189,7 +189,7 @@ impl<const C: usize> Lamp<C> {
         let x = x.clamp(0, (1 << 30) - 1);
         let k = (0..7).take_while(|k| x << (2 * k + 2) < 1 << 30).count() as u32;
         let m = x << (2 * k) >> 14;
-        events.lamp_short += u64::from(m < 1 << 14);
+        events.lamp.lamp_short += u64::from(m < 1 << 14);
         let m = m.max(1 << 14);
         Root { k, m, y: self.look(m >> 8, (m & 0xff) << 2) }
     }
@@ -217,6 +217,6 @@ fn times(a: i64, b: i64, events: &mut Events) -> i64 {
 /// Cut to 18 bits.
 fn cut(number: i64, events: &mut Events) -> i64 {
     let within = number.clamp(-(1 << 17), (1 << 17) - 1);
-    events.lamp_cut += u64::from(within != number);
+    events.lamp.lamp_cut += u64::from(within != number);
     within
 }

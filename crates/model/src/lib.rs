@@ -11,7 +11,6 @@
 //! here fails on a planned machine but vertices of another.
 
 pub mod counters;
-pub mod events;
 mod rmw;
 mod fetch;
 pub mod texel;
@@ -33,7 +32,6 @@ pub mod map_memory;
 pub mod color_memory;
 pub mod pixel;
 pub mod run;
-pub mod passes;
 pub mod frame;
 pub mod fast;
 pub mod setup;
@@ -45,17 +43,15 @@ pub mod view;
 
 pub use color_memory::ColorMemory;
 pub use counters::Counters;
-pub use edgewalk_machine::Activity;
-pub use events::Events;
-pub use frame::{Drawn, Frame, Sample, Shading, render, render_passes, render_passes_with, render_with};
+pub use edgewalk_machine::{Activity, DrawState, Events, Pass, Shading, first_of_picture};
+pub use frame::{Drawn, Frame, Sample, render, render_passes, render_passes_with, render_with};
 pub use machine::{
     BlendInputs, Inputs, Model, NormalInputs, Outputs, ShadeInputs, ShadowInputs, TermInputs, TexelInputs,
 };
 pub use map_memory::MapMemory;
 pub use memory::{Memory, Stalls};
-pub use passes::{Pass, first_of_picture};
 pub use prefetch::prefetch;
-pub use run::{Cycle, DrawState, Rig};
+pub use run::{Cycle, Rig};
 pub use setup::{Culled, SetupClocks, cull, longest_setup, setup_clocks};
 pub use tokens::Write;
 pub use view::View;

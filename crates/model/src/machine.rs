@@ -15,13 +15,14 @@
 pub mod shading;
 mod view;
 
+use crate::Events;
 use crate::blend::Blend;
 pub use crate::blend::{BlendInputs, BlendOutputs};
 use crate::bump::Bump;
 use crate::counters::Counters;
+use crate::counters::one_more;
 use crate::depth::{Block, Depth, DepthInputs};
 use crate::edge::Edge;
-use crate::events::{Events, one_more};
 use crate::lamp::Lamp;
 use crate::normal::Normal;
 pub use crate::normal::NormalInputs;
@@ -431,7 +432,7 @@ impl<const C: usize> Model<C> {
         self.counters.hold(self.span.queued(), self.depth.inflight());
         let taken = inputs.tri.is_some() && outputs.tri_ready;
         if taken {
-            self.events.setup_overlap += u64::from(self.pixel.active());
+            self.events.machine.setup_overlap += u64::from(self.pixel.active());
         }
         let light_pass = C > FEW && inputs.shadow.light_pass;
         let events = &mut self.events;

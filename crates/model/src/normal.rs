@@ -126,7 +126,7 @@ impl<const C: usize> Normal<C> {
             self.fetch.begin();
         }
         if !self.advance(normed_ready) {
-            events.normal_stall += 1;
+            events.normal.normal_stall += 1;
             return;
         }
         self.stages.rotate_right(1);
@@ -135,12 +135,12 @@ impl<const C: usize> Normal<C> {
     }
 
     fn load(&mut self, inputs: &NormalInputs, events: &mut Events) {
-        events.root_read_stall += u64::from(self.fetch.send(inputs.rrd_ready));
+        events.normal.root_read_stall += u64::from(self.fetch.send(inputs.rrd_ready));
         let Some(word) = inputs.rdata else { return };
         let (number, last) = self.fetch.take();
         self.roots[number as usize] = ((word >> 10) as i64 & 0x1_ffff, word as i64 & 0x3ff);
         self.have = last;
-        events.roots_read += u64::from(last);
+        events.normal.roots_read += u64::from(last);
     }
 
     /// What SHADE takes.
@@ -156,7 +156,7 @@ impl<const C: usize> Normal<C> {
                 true => (((cosine - (1 << 16)) << gloss) + (1 << 16), t + self.gloss_bits + 2),
             };
             let (index, cut) = index(scaled, 16 - t, bits);
-            events.cosine_cut += u64::from(cut);
+            events.normal.cosine_cut += u64::from(cut);
             cosines.terms[place] = index;
         }
         cosines
@@ -164,8 +164,8 @@ impl<const C: usize> Normal<C> {
 
     /// y: 1/√s in 2^-16.
     fn root(&self, square: i64, events: &mut Events) -> i64 {
-        events.normal_short += u64::from(square < 1 << 14);
-        events.normal_long += u64::from(square >= 1 << 16);
+        events.normal.normal_short += u64::from(square < 1 << 14);
+        events.normal.normal_long += u64::from(square >= 1 << 16);
         let s = square.clamp(1 << 14, (1 << 16) - 1);
         let (v, slope) = self.roots[(s >> 8) as usize];
         (v - ((slope * (s & 0xff) + (1 << 7)) >> 8)) & 0x1_ffff

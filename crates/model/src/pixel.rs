@@ -254,10 +254,10 @@ impl<const C: usize> Pixel<C> {
     #[inline]
     fn entered(&mut self, events: &mut Events) {
         if !self.on_screen() {
-            events.off_screen += 1;
+            events.pixel.off_screen += 1;
         } else if self.fence {
             self.fence = false;
-            events.fence += 1;
+            events.pixel.fence += 1;
         }
     }
 

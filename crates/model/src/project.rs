@@ -118,13 +118,13 @@ impl<const C: usize> Project<C> {
         let ready = self.frag_ready(projected_ready);
         let taken = frag.filter(|_| ready).map(|fragment| self.divided(fragment, events));
         match &mut self.rows {
-            Rows::Pipelined { .. } if !ready => events.project_stall += 1,
+            Rows::Pipelined { .. } if !ready => events.project.project_stall += 1,
             Rows::Pipelined { stages, oldest } => {
                 stages[*oldest] = taken;
                 *oldest = (*oldest + 1) % stages.len();
             }
             Rows::Serial { .. } if !ready => {
-                events.project_wait += u64::from(frag.is_some());
+                events.project.project_wait += u64::from(frag.is_some());
                 self.row();
             }
             Rows::Serial { fragment, row } => (*fragment, *row) = (taken, 0),
@@ -146,7 +146,7 @@ impl<const C: usize> Project<C> {
         let [x, y, z, w] = self.at.map(signed);
         let texels = [x, y].map(|x| self.texel(x, w, events));
         let depth = self.depth(z, w, events);
-        events.behind_light += u64::from(w <= 0);
+        events.project.behind_light += u64::from(w <= 0);
         let mut divided = *fragment;
         let cut = |value: i64, bits: u32| value as u32 & (u32::MAX >> (32 - bits)); // at most 26 bits
         divided.values[self.at[0]] = cut(texels[0], self.side + 1);
@@ -159,10 +159,10 @@ impl<const C: usize> Project<C> {
     /// floor(2^SB·x/w), -1 outside the map. x has at most 28 bits, SB 12.
     fn texel(&self, x: i64, w: i64, events: &mut Events) -> i64 {
         if w <= 0 || x < 0 || x >= w {
-            events.map_edge += u64::from(w > 0 && x == w);
+            events.project.map_edge += u64::from(w > 0 && x == w);
             return -1;
         }
-        events.texel_edge += u64::from((x << self.side) % w == 0);
+        events.project.texel_edge += u64::from((x << self.side) % w == 0);
         (x << self.side) / w
     }
 
@@ -175,7 +175,7 @@ impl<const C: usize> Project<C> {
             end
         } else {
             let depth = ((z << (self.depth_bits + 1)) + w) / (2 * w);
-            events.depth_to_end += u64::from(depth == end);
+            events.project.depth_to_end += u64::from(depth == end);
             depth
         }
     }

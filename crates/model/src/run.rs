@@ -6,7 +6,6 @@
 //! ```
 
 use crate::color_memory::ColorMemory;
-use crate::frame::Shading;
 use crate::machine::{
     BlendInputs, Inputs, Model, NormalInputs, Outputs, ShadeInputs, ShadowInputs, TermInputs, TexelInputs,
 };
@@ -15,44 +14,7 @@ use crate::memory::Memory;
 use crate::tokens::{ColorWrite, FEW, OutputWords, Write};
 use crate::waits::Waits;
 use crate::word_memory::WordMemory;
-use edgewalk_machine::{Plan, PortVertex, Record};
-
-/// What stays the same over a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct DrawState {
-    /// Compare function, bits 0, 1, 2: less, equal, greater pass; 7 always.
-    pub depth_func: u8,
-    /// Fragments that pass store their depth.
-    pub depth_write: bool,
-    /// With SHADOW: the map counts.
-    pub shadow_on: bool,
-    /// In a machine that draws its map: it draws it, not the picture.
-    pub light_pass: bool,
-    /// With SHADOW's gate `scale`: what a colour in shadow is multiplied by, b bits.
-    pub ambient: u64,
-    /// Fragments that pass store their colour; without BLEND they always do.
-    pub color_write: bool,
-    /// BLEND adds, else it mixes.
-    pub blend_add: bool,
-    /// Colour of the empty screen, b bits each.
-    pub clear: [u64; 3],
-}
-
-impl Default for DrawState {
-    /// The nearest fragment wins, mixed with what is there as its k_t says, on black; no map counts.
-    fn default() -> Self {
-        DrawState {
-            depth_func: 1,
-            depth_write: true,
-            color_write: true,
-            blend_add: false,
-            shadow_on: false,
-            light_pass: false,
-            ambient: 0,
-            clear: [0; 3],
-        }
-    }
-}
+use edgewalk_machine::{DrawState, Plan, PortVertex, Record, Shading};
 
 /// A machine with its memory.
 #[derive(Clone, Debug)]
@@ -168,12 +130,8 @@ impl<const C: usize> Rig<C> {
         }
     }
 
-    /// Clears the depths that are drawn now, of the map with what is left of the light; the machine is idle.
-    pub fn clear_depth(&mut self, plan: &Plan) {
-        if !self.state.light_pass {
-            self.memory.clear_depth(plan);
-            return;
-        }
+    /// Clears the map that is drawn now, with what is left of the light; the machine is idle.
+    pub(crate) fn clear_map(&mut self, plan: &Plan) {
         self.memory.clear_map(plan);
         if let Some(color) = &mut self.color {
             color.clear([plan.color.max(); 3]);

@@ -187,15 +187,15 @@ impl<const C: usize> Shade<C> {
         if self.fetch.loading() {
             self.load(inputs, events);
         } else if waits && self.occupied() {
-            events.tables_drain += u64::from(self.have);
+            events.shade.tables_drain += u64::from(self.have);
         } else if waits {
-            events.material_change += u64::from(self.have);
+            events.shade.material_change += u64::from(self.have);
             self.fetch.begin();
             self.have = false;
             self.material = cosines.material;
         }
         if !self.advance(tinted_ready) {
-            events.shade_stall += 1;
+            events.shade.shade_stall += 1;
             return;
         }
         let found = if self.weakens { self.g } else { self.b };
@@ -215,13 +215,13 @@ impl<const C: usize> Shade<C> {
     }
 
     fn load(&mut self, inputs: &ShadeInputs, events: &mut Events) {
-        events.table_read_stall += u64::from(self.fetch.send(inputs.srd_ready));
+        events.shade.table_read_stall += u64::from(self.fetch.send(inputs.srd_ready));
         let Some(word) = inputs.sdata else { return };
         let highlight = word as u32 & self.largest(); // b <= 16 bits
         let (number, last) = self.fetch.take();
         self.tables[number as usize] = ((word >> self.color_bits) as u64, highlight);
         self.have = last;
-        events.tables_read += u64::from(last);
+        events.shade.tables_read += u64::from(last);
     }
 
     /// 2^b - 1.
@@ -238,11 +238,11 @@ impl<const C: usize> Shade<C> {
                 return Indices::default();
             }
             let [d, h] = [cosines.terms[2 * light], cosines.terms[2 * light + 1]];
-            events.diffuse_below += u64::from(d < 0);
-            events.diffuse_above += u64::from(d >= end);
-            events.highlight_below += u64::from(h < 0);
-            events.highlight_above += u64::from(h >= end);
-            events.highlight_unlit += u64::from(d < 0 && h > 0);
+            events.shade.diffuse_below += u64::from(d < 0);
+            events.shade.diffuse_above += u64::from(d >= end);
+            events.shade.highlight_below += u64::from(h < 0);
+            events.shade.highlight_above += u64::from(h >= end);
+            events.shade.highlight_unlit += u64::from(d < 0 && h > 0);
             Indices { diffuse: index(d), highlight: index(h), lit: d >= 0, beam: cosines.beam }
         })
     }
@@ -301,7 +301,7 @@ impl<const C: usize> Shade<C> {
     }
 
     fn cut(&self, color: u32, events: &mut Events) -> u32 {
-        events.color_saturated += u64::from(color > self.largest());
+        events.shade.color_saturated += u64::from(color > self.largest());
         color.min(self.largest())
     }
 }

@@ -260,28 +260,29 @@ impl<const C: usize> Shadow<C> {
             let place = self.place(frag, inputs);
             let waits = (0..self.queue.len()).any(|i| !self.queue.at(i).known);
             match place {
-                _ if self.full() => events.shadow_queue_full += 1,
-                Place::Texel(_) => events.map_stall += u64::from(!pushed),
-                Place::Own => events.own_map += 1,
-                Place::Off => events.shadow_off += 1,
-                Place::Outside => events.outside_map += 1,
-                Place::Before => events.before_map += 1,
-                Place::Behind => events.behind_map += 1,
+                _ if self.full() => events.shadow.shadow_queue_full += 1,
+                Place::Texel(_) => events.shadow.map_stall += u64::from(!pushed),
+                Place::Own => events.shadow.own_map += 1,
+                Place::Off => events.shadow.shadow_off += 1,
+                Place::Outside => events.shadow.outside_map += 1,
+                Place::Before => events.shadow.before_map += 1,
+                Place::Behind => events.shadow.behind_map += 1,
             }
-            events.known_behind_read += u64::from(pushed && waits && !matches!(place, Place::Texel(_)));
+            events.shadow.known_behind_read +=
+                u64::from(pushed && waits && !matches!(place, Place::Texel(_)));
         }
         if self.queue.is_empty() || self.queue.head().known {
             return;
         }
         let head = self.queue.head();
         match inputs.mdata {
-            None => events.texel_wait += 1,
+            None => events.shadow.texel_wait += 1,
             Some(word) if taken => {
                 let Texel { depth, left } = self.texel(word);
-                events.texel_lit += u64::from(head.d <= depth);
-                events.texel_shadow += u64::from(head.d > depth);
-                events.texel_tie += u64::from(head.d == depth);
-                events.texel_glass += u64::from(head.d <= depth && left < self.all());
+                events.shadow.texel_lit += u64::from(head.d <= depth);
+                events.shadow.texel_shadow += u64::from(head.d > depth);
+                events.shadow.texel_tie += u64::from(head.d == depth);
+                events.shadow.texel_glass += u64::from(head.d <= depth && left < self.all());
             }
             Some(_) => {}
         }

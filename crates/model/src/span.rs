@@ -133,8 +133,8 @@ impl<const C: usize> Span<C> {
         if self.is_empty(line) {
             self.pend_fresh = fresh;
             self.pend_fence = fence;
-            events.empty_span += 1;
-            events.dropped_fresh += u64::from(fresh);
+            events.span.empty_span += 1;
+            events.span.dropped_fresh += u64::from(fresh);
             return;
         }
         let leftward = line.major_right && !self.textbook;
@@ -154,7 +154,7 @@ impl<const C: usize> Span<C> {
         self.fresh_in_fifo += u32::from(fresh);
         self.pend_fresh = false;
         self.pend_fence = false;
-        events.scissor_cut += u64::from(if leftward { start < 0 } else { end > self.width });
+        events.span.scissor_cut += u64::from(if leftward { start < 0 } else { end > self.width });
     }
 
     /// The columns of a line from left to right, the last one excluded.

@@ -191,14 +191,14 @@ impl Term {
             self.under_way = self.in_memory;
             self.walk(span, events);
         } else {
-            events.walk_waits += u64::from(!self.under_way);
-            events.walk_result_last += u64::from(self.under_way);
+            events.term.walk_waits += u64::from(!self.under_way);
+            events.term.walk_result_last += u64::from(self.under_way);
             self.under_way = false;
         }
     }
 
     fn load(&mut self, inputs: &TermInputs, events: &mut Events) {
-        events.term_read_stall += u64::from(self.fetch.send(inputs.trd_ready));
+        events.term.term_read_stall += u64::from(self.fetch.send(inputs.trd_ready));
         let Some(word) = inputs.tdata else { return };
         let (number, last) = self.fetch.take();
         match number {
@@ -214,7 +214,7 @@ impl Term {
             }
         }
         self.begun = last;
-        events.record_read += u64::from(last);
+        events.term.record_read += u64::from(last);
     }
 
     /// A clock of the step that leads on to the span.
@@ -234,15 +234,15 @@ impl Term {
         match way {
             Way::Down => {
                 self.y = (self.y + 1) & self.line_mask;
-                events.walk_down += 1;
+                events.term.walk_down += 1;
             }
             Way::Forward => {
                 self.x = sign_extend(self.x + ahead, self.column_bits);
-                events.walk_forward += 1;
+                events.term.walk_forward += 1;
             }
             Way::Back => {
                 self.x = sign_extend(self.x - ahead, self.column_bits);
-                events.walk_back += 1;
+                events.term.walk_back += 1;
             }
         }
         for [v, x, y, xx, xy, yy] in &mut self.terms {

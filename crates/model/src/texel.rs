@@ -139,15 +139,15 @@ impl<const C: usize> Texel<C> {
     ) {
         let pushed = frag.filter(|_| self.frag_ready(inputs));
         if frag.is_some() {
-            events.texel_queue_full += u64::from(self.full());
-            events.texel_read_stall += u64::from(!self.full() && !inputs.xrd_ready);
+            events.texel.texel_queue_full += u64::from(self.full());
+            events.texel.texel_read_stall += u64::from(!self.full() && !inputs.xrd_ready);
         }
-        events.texel_data_wait += u64::from(!self.queue.is_empty() && inputs.xdata.is_none());
+        events.texel.texel_data_wait += u64::from(!self.queue.is_empty() && inputs.xdata.is_none());
         if taken {
             self.queue.pop();
         }
         if let Some(fragment) = pushed {
-            events.texel_read += 1;
+            events.texel.texel_read += 1;
             self.queue.push(Entry { fragment: *fragment, terms: *terms });
         }
     }

@@ -33,6 +33,8 @@ pub struct View {
     values: Vec<u64>,
     tokens: Tokens,
     live: Option<Id>,
+    /// The map is drawn in this cycle, not the picture.
+    of_map: bool,
 }
 
 impl View {
@@ -60,8 +62,9 @@ impl View {
         &self.tokens
     }
 
-    /// A new cycle begins.
-    pub(crate) fn begin(&mut self) {
+    /// A new cycle begins, in which the picture is drawn or, with `of_map`, the map.
+    pub(crate) fn begin(&mut self, of_map: bool) {
+        self.of_map = of_map;
         self.declared = !self.values.is_empty();
         self.values.clear();
         self.live = None;
@@ -146,7 +149,7 @@ impl View {
     /// A token beside the card, for sentences and moments, or none: its triangle and its values, which are kept once in
     /// the table of its kind.
     pub(crate) fn aside(&mut self, name: &str, doc: &str, kind: &str, token: Option<(u32, &[u64])>) -> Id {
-        let (number, place) = (self.tokens.number(kind, token), self.tokens.place(kind));
+        let (number, place) = (self.tokens.number(kind, token, self.of_map), self.tokens.place(kind));
         let id = self.push(number, || Register::new(name, doc, Shape::Token(place)));
         self.of_unit(|unit| unit.aside.push(id));
         id
@@ -197,7 +200,7 @@ impl View {
 
     /// A cell that holds a token.
     pub(crate) fn token_cell(&mut self, doc: &str, kind: &str, token: Option<(u32, &[u64])>) -> Id {
-        let (number, place) = (self.tokens.number(kind, token), self.tokens.place(kind));
+        let (number, place) = (self.tokens.number(kind, token, self.of_map), self.tokens.place(kind));
         self.cell(doc, || Shape::Token(place), number)
     }
 
@@ -294,6 +297,15 @@ impl View {
             unit.moments.push(Moment { title: title.to_owned(), when: id, token, tells });
         });
         id
+    }
+
+    /// Which of the two pages the machine draws: the picture, or the map.
+    pub(crate) fn pages(&mut self) {
+        self.live = None;
+        let flag = |name, doc| move || Register::new(name, doc, Shape::Flag);
+        let picture = self.push((!self.of_map).into(), flag("of_picture", "the picture is drawn"));
+        let map = self.push(self.of_map.into(), flag("of_map", "the map of a light is drawn"));
+        self.structure.pages = Some([picture, map]);
     }
 
     /// The cause of the cycle.

@@ -53,8 +53,8 @@ fn every_channel_of_400_random_machines_lies_within_its_bound() {
         println!("{kind:?}: {checked} outputs, {bounded} of them with a bound, at most {of_bound:.4} of it");
         assert!(*bounded > 50_000 && *of_bound >= 0.9, "{kind:?}: nothing comes near its bound");
     }
-    println!("{} wraps", events.wrap);
-    assert!(events.wrap > 0 && sizes.len() >= 25, "{sizes:?}");
+    println!("{} wraps", events.edge.wrap);
+    assert!(events.edge.wrap > 0 && sizes.len() >= 25, "{sizes:?}");
 }
 
 /// The frame holds of every channel what was written last, and 0 where nothing was.

@@ -45,7 +45,7 @@ fn slivers_down_to_a_256th_of_a_pixel() {
         })
         .collect();
     let (_, events) = check("slivers", &machine, &triangles);
-    assert!(events.wrap > 0 && events.empty_span > 0, "no sliver: {events:?}");
+    assert!(events.edge.wrap > 0 && events.span.empty_span > 0, "no sliver: {events:?}");
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn triangles_that_reach_to_the_guard_band() {
         })
         .collect();
     let (_, events) = check("guard band", &machine, &triangles);
-    assert!(events.off_screen > 0 && events.scissor_cut > 0, "none left the screen: {events:?}");
+    assert!(events.pixel.off_screen > 0 && events.span.scissor_cut > 0, "none left the screen: {events:?}");
 }
 
 /// Every triple of points of a 5x5 grid at half-pixel pitch, degenerate ones too, on and over the screen's border.
@@ -102,13 +102,13 @@ fn every_triangle_on_a_small_grid() {
         events.merge(&check(name, &machine, &triangles).1);
     }
     assert!(
-        events.culled_area > 0
-            && events.culled_lines > 0
-            && events.culled_columns > 0
-            && events.knee_on_line > 0,
+        events.setup.culled_area > 0
+            && events.setup.culled_lines > 0
+            && events.setup.culled_columns > 0
+            && events.setup.knee_on_line > 0,
         "{events:?}"
     );
-    assert!(events.no_upper_part > 0 && events.no_lower_part > 0, "{events:?}");
+    assert!(events.setup.no_upper_part > 0 && events.setup.no_lower_part > 0, "{events:?}");
 }
 
 /// A screen tiled by triangles of either winding: every pixel once, whatever the edges.

@@ -75,15 +75,15 @@ fn one_pixel_triangles_on_one_address_back_to_back() {
     println!("{runs} runs, {checked} writes, {all:?}");
     assert!(checked > 1000);
     for (name, count) in [
-        ("forward from a compare", all.forward_compare),
-        ("forward from w", all.forward_write),
-        ("forward used", all.forward_used),
-        ("interlock", all.interlock_stall),
-        ("drain", all.drain_stall),
-        ("queue full", all.queue_full),
-        ("memory", all.memory_stall),
-        ("write", all.write_stall),
-        ("depth fail", all.depth_fail),
+        ("forward from a compare", all.depth.forward_compare),
+        ("forward from w", all.depth.forward_write),
+        ("forward used", all.depth.forward_used),
+        ("interlock", all.depth.interlock_stall),
+        ("drain", all.depth.drain_stall),
+        ("queue full", all.depth.queue_full),
+        ("memory", all.depth.memory_stall),
+        ("write", all.depth.write_stall),
+        ("depth fail", all.depth.depth_fail),
     ] {
         assert!(count > 0, "never met: {name}");
     }
@@ -147,8 +147,8 @@ fn tiny_triangles_pile_up_in_front_of_a_slow_memory() {
             all.merge(&events);
         }
     }
-    assert!(all.forward_compare > 0 && all.forward_used > 0, "{all:?}");
-    assert!(all.interlock_stall > 0 && all.drain_stall > 0, "{all:?}");
+    assert!(all.depth.forward_compare > 0 && all.depth.forward_used > 0, "{all:?}");
+    assert!(all.depth.interlock_stall > 0 && all.depth.drain_stall > 0, "{all:?}");
 }
 
 /// A large triangle, then a small one on its last pixels: SETUP has the second ready while the first is drawn, and the
@@ -181,8 +181,8 @@ fn a_pixel_is_drawn_again_a_few_clocks_later() {
             all.merge(&events);
         }
     }
-    assert!(all.forward_compare > 0 && all.forward_write > 0, "{all:?}");
-    assert!(all.interlock_stall > 0 && all.drain_stall > 0, "{all:?}");
+    assert!(all.depth.forward_compare > 0 && all.depth.forward_write > 0, "{all:?}");
+    assert!(all.depth.interlock_stall > 0 && all.depth.drain_stall > 0, "{all:?}");
 }
 
 /// Policy, latency and stalls change when a pixel is drawn, never what is drawn.

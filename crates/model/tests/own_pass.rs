@@ -179,7 +179,7 @@ fn the_map_is_that_of_a_second_machine_bit_by_bit() {
         let cycles = |of: &Counters| (of.cycles, of.activity);
         let [first, .., last] = &drawn.passes[..] else { panic!("three passes at least") };
         assert_eq!([first, last].map(cycles), [&ready.passes[0], &ready.passes[1]].map(cycles));
-        assert!(drawn.events.own_map > 0 || reference.coverage.iter().all(|n| *n == 0), "{:?}", *plan);
+        assert!(drawn.events.shadow.own_map > 0 || reference.coverage.iter().all(|n| *n == 0), "{:?}", *plan);
 
         machines += 1;
         textbook += u32::from(plan.fill == Fill::Textbook);
@@ -275,7 +275,7 @@ fn each_pass_has_its_own_scissor_and_addresses() {
                         assert_ne!(*z, 5, "{screen} {size} {light_pass}: ({px}, {py}) lies outside");
                     }
                 }
-                let culled = drawn.events.culled_lines + drawn.events.culled_columns;
+                let culled = drawn.events.setup.culled_lines + drawn.events.setup.culled_columns;
                 assert_eq!(culled > 0, x >= side as i32 || y >= side as i32);
                 // What one page takes the other does not see.
                 if light_pass {

@@ -109,7 +109,7 @@ fn hand_worked_quotients() {
             assert_eq!((given.addr, &given.values[..4], given.values[7]), (7, &[0, 1, 2, 3][..], 0));
         }
         assert_eq!(given.len(), cases.len());
-        let met = [events.behind_light, events.map_edge, events.depth_to_end];
+        let met = [events.project.behind_light, events.project.map_edge, events.project.depth_to_end];
         assert_eq!(met, [3, 3, 2], "w <= 0; x or y = w; 31/32 and 62/63");
     }
 }

@@ -216,9 +216,14 @@ fn normals_at_the_ends_of_their_lengths() {
     let events = frame.events;
     println!(
         "{checked} fragments; short {}, long {}, cut {}",
-        events.normal_short, events.normal_long, events.cosine_cut
+        events.normal.normal_short, events.normal.normal_long, events.normal.cosine_cut
     );
-    assert!(checked > 450 * 20 && events.normal_short > 0 && events.normal_long > 0 && events.cosine_cut > 0);
+    assert!(
+        checked > 450 * 20
+            && events.normal.normal_short > 0
+            && events.normal.normal_long > 0
+            && events.normal.cosine_cut > 0
+    );
 }
 
 /// Textures of 2 to 2048 texels a side, walked over their ends in both directions.
@@ -296,8 +301,8 @@ fn culled_triangles_have_records_that_nobody_reads() {
     }
     let shading = random_shading(&plan, &triangles, &mut rng);
     let (checked, frame) = compare(&plan, &triangles, &shading, Stalls::NONE);
-    println!("{checked} fragments, {} records read of {}", frame.events.record_read, triangles.len());
-    assert!(checked > 500 && (1..=6).contains(&frame.events.record_read));
+    println!("{checked} fragments, {} records read of {}", frame.events.term.record_read, triangles.len());
+    assert!(checked > 500 && (1..=6).contains(&frame.events.term.record_read));
 }
 
 /// Roots of the whole range of N·N, every value of it, against f64.

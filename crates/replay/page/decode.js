@@ -97,6 +97,11 @@ async function decode(text) {
     const channels = doc.tokens[doc.registers[doc.store.planes[0].token].shape.table].fields.length - 1;
     doc.store.before = [];
     for (let i = 0; i < channels; i++) doc.store.before.push(stream.differences(32, pixels));
+    // A plane of the map holds one channel.
+    for (const plane of doc.store.planes) {
+      plane.page = plane.map ? doc.store.map : doc.store;
+      if (plane.map) plane.before = stream.differences(32, plane.page.width * plane.page.height);
+    }
   }
   return doc;
 }

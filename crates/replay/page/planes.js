@@ -15,30 +15,30 @@ class Planes {
     for (const plane of store.planes) this.add(plane);
   }
   // The writes of a plane: cycles, and which token.
-  listOf({ when, token, enable }) {
+  listOf({ when, token, enable, page }) {
     const { doc } = this.app;
     const register = doc.registers[token];
-    const cycles = listOf(cyclesWith(doc, enable === null ? [when] : [when, enable]));
+    const cycles = listOf(cyclesWith(doc, [when, enable, page.during].filter(Number.isInteger)));
     const numbers = cycles.map((cycle) => rawAt(register, cycle));
-    return { kind: doc.tokens[register.shape.table], cycles, numbers, applied: 0 };
+    return { kind: doc.tokens[register.shape.table], cycles, numbers, page, applied: 0 };
   }
-  pixelOf(token) {
-    const raw = this.address.raw[token - 1], pitch = 2 ** this.address.shape.low;
-    return Math.floor(raw / pitch) * this.app.doc.store.width + (raw % pitch);
+  pixelOf(token, page) {
+    const { x, y } = pixelOfPlace(this.address.shape, this.address.raw[token - 1]);
+    return y * page.width + x;
   }
   // For every write the one before it at the same pixel, so that time can run back.
   findOverwritten(list) {
-    const { width, height } = this.app.doc.store;
+    const { width, height } = list.page;
     const last = new Int32Array(width * height).fill(-1);
     list.before = new Int32Array(list.cycles.length);
     list.numbers.forEach((number, i) => {
-      const pixel = this.pixelOf(number);
+      const pixel = this.pixelOf(number, list.page);
       list.before[i] = last[pixel];
       last[pixel] = i;
     });
   }
   add(plane) {
-    const { width, height } = this.app.doc.store;
+    const { width, height } = plane.page;
     const canvas = make("canvas", { width, height });
     const marks = make("canvas", { class: "marks", tabindex: "0", role: "img" });
     const frame = make("div", { class: "frame" }, canvas, marks);
@@ -52,23 +52,28 @@ class Planes {
       top: new Int32Array(width * height) };
     if (plane.scalar !== undefined) this.range(view);
     this.views.push(view);
-    marks.addEventListener("click", (event) => this.click(view, event));
-    marks.addEventListener("keydown", (event) => this.key(event));
+    // A pixel is chosen in the picture; its history is that of the picture.
+    if (!plane.map) {
+      marks.addEventListener("click", (event) => this.click(view, event));
+      marks.addEventListener("keydown", (event) => this.key(event));
+    }
     for (let pixel = 0; pixel < width * height; pixel++) this.paint(view, pixel, -1);
   }
   // Nearest and farthest value of the run, for the scale of colours.
   range(view) {
-    const { before } = this.app.doc.store;
     const { shape, raw } = this.kind.fields[view.plane.scalar + 1];
     const values = Array.from(view.list.numbers, (number) => Number(numberOf(shape, raw[number - 1])));
-    const empty = Number(numberOf(shape, before[view.plane.scalar][0]));
+    const empty = Number(numberOf(shape, this.beforeOf(view, view.plane.scalar)[0]));
     view.empty = empty;
     const list = values.length ? values : [empty];
     view.least = list.reduce((a, b) => Math.min(a, b));
     view.most = list.reduce((a, b) => Math.max(a, b));
   }
+  beforeOf({ plane }, channel) {
+    return plane.map ? plane.before : plane.page.before[channel];
+  }
   valueAt(view, channel, write, pixel) {
-    if (write < 0) return this.app.doc.store.before[channel][pixel];
+    if (write < 0) return this.beforeOf(view, channel)[pixel];
     return this.kind.fields[channel + 1].raw[view.list.numbers[write] - 1];
   }
   paint(view, pixel, write) {
@@ -95,11 +100,11 @@ class Planes {
     for (const view of this.views) {
       const { list } = view;
       const wanted = upTo(list.cycles, this.app.cycle - 1);
-      for (let i = list.applied; i < wanted; i++) this.paint(view, this.pixelOf(list.numbers[i]), i);
-      for (let i = list.applied - 1; i >= wanted; i--) this.paint(view, this.pixelOf(list.numbers[i]), list.before[i]);
+      for (let i = list.applied; i < wanted; i++) this.paint(view, this.pixelOf(list.numbers[i], list.page), i);
+      for (let i = list.applied - 1; i >= wanted; i--) this.paint(view, this.pixelOf(list.numbers[i], list.page), list.before[i]);
       list.applied = wanted;
       view.pen.putImageData(view.image, 0, 0);
-      const size = `${this.app.doc.store.width}\u00d7${this.app.doc.store.height}`;
+      const size = `${list.page.width}\u00d7${list.page.height}`;
       setText(view.note, `${size}, ${wanted} of ${list.cycles.length} writes`);
       this.drawMarks(view);
       this.tell(view);
@@ -109,8 +114,8 @@ class Planes {
   tell(view) {
     const { chosen, doc } = this.app;
     const { plane } = view;
-    if (!chosen) {
-      view.marks.setAttribute("aria-label", `${plane.title}; arrow keys choose a pixel`);
+    if (!chosen || plane.map) {
+      view.marks.setAttribute("aria-label", plane.map ? plane.title : `${plane.title}; arrow keys choose a pixel`);
       const scale = plane.bright ? "most: yellow, least: blue" : "least: yellow, most: blue";
       return setText(view.under, plane.colour ? "Click a pixel: to the cycle that wrote it." : scale);
     }
@@ -127,8 +132,8 @@ class Planes {
   }
   resize() {
     if (!this.kind) return;
-    const { width, height } = this.app.doc.store;
     for (const view of this.views) {
+      const { width, height } = view.plane.page;
       const room = view.frame.parentElement.clientWidth - 22;
       const scale = Math.min(room / width, 300 / height);
       view.scale = scale >= 1 ? Math.floor(scale) : scale;
@@ -144,19 +149,21 @@ class Planes {
   // Outlines of the triangles at work, lines and pixels of the units, the chosen pixel.
   drawMarks(view) {
     const { doc, cycle, chosen } = this.app;
+    const { page } = view.plane;
     const ratio = window.devicePixelRatio || 1, { scale } = view;
     const pen = view.marks.getContext("2d");
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    pen.clearRect(0, 0, doc.store.width * scale, doc.store.height * scale);
+    pen.clearRect(0, 0, page.width * scale, page.height * scale);
     if (scale >= 10) {
       pen.fillStyle = "rgba(255, 255, 255, 0.45)";
-      for (let y = 0; y < doc.store.height; y++) {
-        for (let x = 0; x < doc.store.width; x++) pen.fillRect((x + 0.5) * scale - 1, (y + 0.5) * scale - 1, 2, 2);
+      for (let y = 0; y < page.height; y++) {
+        for (let x = 0; x < page.width; x++) pen.fillRect((x + 0.5) * scale - 1, (y + 0.5) * scale - 1, 2, 2);
       }
     }
     const outlined = new Set();
+    const drawn = !Number.isInteger(page.during) || rawAt(doc.registers[page.during], cycle);
     const value = (id) => Number(numberOf(doc.registers[id].shape, rawAt(doc.registers[id], cycle)));
-    for (const unit of doc.units) {
+    for (const unit of drawn ? doc.units : []) {
       if (unit.triangle === null) continue;
       const number = rawAt(doc.registers[unit.triangle], cycle);
       if (!number) continue;
@@ -166,7 +173,7 @@ class Planes {
       for (const mark of unit.marks) {
         if (mark.x === null) {
           pen.fillStyle = "rgba(255, 255, 255, 0.3)";
-          pen.fillRect(0, value(mark.y) * scale, doc.store.width * scale, Math.max(1, scale));
+          pen.fillRect(0, value(mark.y) * scale, page.width * scale, Math.max(1, scale));
         } else {
           this.box(pen, scale, value(mark.x), value(mark.y), "#56b4e9");
         }
@@ -175,15 +182,15 @@ class Planes {
     const { cycles, numbers } = view.list;
     const now = upTo(cycles, cycle) - 1;
     if (now >= 0 && cycles[now] === cycle) {
-      const pixel = this.pixelOf(numbers[now]);
-      const [x, y] = [pixel % doc.store.width, Math.floor(pixel / doc.store.width)];
+      const pixel = this.pixelOf(numbers[now], page);
+      const [x, y] = [pixel % page.width, Math.floor(pixel / page.width)];
       if (view.plane.colour) {
         pen.fillStyle = this.app.colourOf(this.kind, numbers[now]);
         pen.fillRect(x * scale, y * scale, scale, scale);
       }
       this.box(pen, scale, x, y, "#f0e442");
     }
-    if (chosen) this.box(pen, scale, chosen[0], chosen[1], "#ffffff", 2);
+    if (chosen && !view.plane.map) this.box(pen, scale, chosen[0], chosen[1], "#ffffff", 2);
   }
   outline(pen, scale, corners, dash) {
     if (!corners) return;
@@ -223,7 +230,7 @@ class Planes {
     const pixel = chosen[1] * doc.store.width + chosen[0];
     let to = -1;
     for (let i = 0; i < this.cycles.length; i++) {
-      if (this.pixelOf(this.numbers[i]) !== pixel) continue;
+      if (this.pixelOf(this.numbers[i], doc.store) !== pixel) continue;
       if (this.cycles[i] < cycle || to < 0) to = this.cycles[i];
     }
     if (to >= 0) this.app.go(to);

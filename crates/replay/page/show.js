@@ -37,6 +37,18 @@ function hexadecimal(shape, raw) {
   return raw.toString(16).toUpperCase().padStart(Math.ceil(shape.bits / 4), "0");
 }
 
+// The pixel of an address: of the map where the shape has one and the bit above the address is 1.
+function pixelOfPlace(shape, raw) {
+  const ofMap = Number.isInteger(shape.map) && raw >= 2 ** (shape.bits - 1);
+  const address = ofMap ? raw - 2 ** (shape.bits - 1) : raw, pitch = 2 ** (ofMap ? shape.map : shape.low);
+  return { x: address % pitch, y: Math.floor(address / pitch), ofMap };
+}
+
+function textOfPlace(shape, raw) {
+  const { x, y, ofMap } = pixelOfPlace(shape, raw);
+  return `${ofMap ? "map " : ""}(${x}, ${y})`;
+}
+
 // What stands on the page for the bits of a register or field.
 function textOf(shape, raw, hex) {
   switch (shape.kind) {
@@ -49,7 +61,7 @@ function textOf(shape, raw, hex) {
     case "token":
       return raw ? `#${raw}` : NONE;
     case "place":
-      return hex ? hexadecimal(shape, raw) : `(${raw % 2 ** shape.low}, ${Math.floor(raw / 2 ** shape.low)})`;
+      return hex ? hexadecimal(shape, raw) : textOfPlace(shape, raw);
     default:
       return hex ? hexadecimal(shape, raw) : decimal(shape, numberOf(shape, raw));
   }
@@ -59,19 +71,16 @@ function textOf(shape, raw, hex) {
 function widthOf(shape, list, hex) {
   if (shape.kind === "code") return Math.max(...shape.words.map((word) => word.length));
   if (shape.kind === "flag") return 3;
-  let least = null, most = null, high = 0, low = 0;
+  let least = null, most = null, longest = 0;
   for (const raw of list) {
     const value = shape.kind === "number" ? numberOf(shape, raw) : raw;
     if (least === null || value < least) least = value;
     if (most === null || value > most) most = value;
-    if (shape.kind === "place") {
-      low = Math.max(low, raw % 2 ** shape.low);
-      high = Math.max(high, Math.floor(raw / 2 ** shape.low));
-    }
+    if (shape.kind === "place") longest = Math.max(longest, textOfPlace(shape, raw).length);
   }
   if (least === null) return 1;
   if (hex) return Math.ceil(shape.bits / 4);
-  if (shape.kind === "place") return `(${low}, ${high})`.length;
+  if (shape.kind === "place") return longest;
   if (shape.kind !== "number") return String(most).length + 1;
   return Math.max(decimal(shape, least).length, decimal(shape, most).length);
 }

@@ -2,6 +2,7 @@
 
 use crate::encode::Stream;
 use crate::lesson::{Lesson, Part, Step};
+use crate::record::map_channels;
 use crate::recording::Recording;
 use edgewalk_machine::{Activity, Plan, PortVertex};
 use edgewalk_model::view::{Item, Register, Shape, Store, Structure, Table, UnitView};
@@ -9,7 +10,7 @@ use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 
 /// The format's name, and its version: another major number is another format.
-pub const FORMAT: (&str, [u32; 2]) = ("edgewalk-replay", [1, 0]);
+pub const FORMAT: (&str, [u32; 2]) = ("edgewalk-replay", [1, 1]);
 
 /// All that a page shows.
 pub struct Replay<'a> {
@@ -99,6 +100,10 @@ impl Replay<'_> {
             "tokens": tokens.collect::<Vec<_>>(),
             "store": (!self.recording.before.is_empty()).then(|| json!({
                 "width": plan.width, "height": plan.height, "planes": planes(plan, structure),
+                "during": structure.pages.map(|[picture, _]| picture),
+                "map": structure.pages.map(|[_, map]| json!({
+                    "width": plan.shadow.size, "height": plan.shadow.size, "during": map,
+                })),
             })),
             "triangles": self.seen().into_iter().map(|number| (number.to_string(), self.corners(number))).collect::<Map<_, _>>(),
             "command": self.command,
@@ -209,6 +214,16 @@ fn planes(plan: &Plan, structure: &Structure) -> Vec<Value> {
             json!({ "title": "Lit", "scalar": plan.seen_channels().count(), "bits": 1, "bright": true });
         planes.push(plane(structure.color, lit));
     }
+    if structure.pages.is_some() {
+        // With BLEND what is left of the light goes to the colour memory's page.
+        for (place, title) in map_channels(plan).zip(["Map of the light", "Light that is left"]) {
+            let (store, bits) = match place {
+                0 => (structure.depth, plan.shadow.depth_bits),
+                _ => (structure.color, plan.color.bits),
+            };
+            planes.push(plane(store, json!({ "title": title, "scalar": place, "bits": bits, "map": true })));
+        }
+    }
     planes.into_iter().flatten().collect()
 }
 
@@ -219,7 +234,9 @@ fn shape(shape: Shape) -> Value {
             json!({ "kind": "number", "bits": bits, "fraction": fraction, "signed": signed, "modular": modular })
         }
         Shape::Code(words) => json!({ "kind": "code", "bits": shape.bits(), "words": words }),
-        Shape::Pixel { x_bits, bits } => json!({ "kind": "place", "bits": bits, "low": x_bits }),
+        Shape::Pixel { x_bits, of_map, .. } => {
+            json!({ "kind": "place", "bits": shape.bits(), "low": x_bits, "map": of_map })
+        }
         Shape::Triangle => json!({ "kind": "triangle", "bits": shape.bits() }),
         Shape::Token(table) => json!({ "kind": "token", "bits": shape.bits(), "table": table }),
     }

@@ -1,9 +1,10 @@
 //! Runs the model and takes it down.
 
 use crate::recording::{Recorder, Recording};
-use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
-use edgewalk_model::{Cycle, DrawState, Pass, Rig, Shading, Waits, for_channels};
-use std::collections::VecDeque;
+use edgewalk_machine::{
+    DrawState, ForeignVertex, Maps, Pass, Plan, PortVertex, Shading, Step, first_of_picture, steps,
+};
+use edgewalk_model::{Cycle, Rig, Waits, for_channels};
 
 /// The most cycles that a replay holds: about 200 MB in a browser and two seconds until they can be seen.
 pub const LIMIT: u64 = 200_000;
@@ -22,7 +23,7 @@ pub struct Window {
 pub struct Rules<'a> {
     /// Rules that change between triangles; at least one pass.
     pub passes: &'a [Pass],
-    /// With SHADOW the words of the lights' maps.
+    /// With SHADOW the words of the lights' maps that the host makes.
     pub maps: &'a [Vec<u32>],
     /// With TERM and SHADE records, tables, roots and textures.
     pub shading: &'a Shading,
@@ -42,7 +43,7 @@ pub enum RecordError {
         records: usize,
     },
     /// All depths change at once, which is no write.
-    #[error("the depth memory is cleared before cycle {cycle}, which a page cannot show; end there with --to {} or begin there with --from {cycle}", .cycle - 1)]
+    #[error("the depth memory or the map is cleared before cycle {cycle}, which a page cannot show; end there with --to {} or begin there with --from {cycle}", .cycle - 1)]
     Cleared {
         /// The first cycle behind it.
         cycle: u64,
@@ -76,7 +77,8 @@ pub enum RecordError {
 /// window. The run ends with the cycle in which the machine is at rest again.
 ///
 /// # Errors
-/// A triangle for another machine; a window that is empty, or longer than [`LIMIT`]; a machine with SHADE.
+/// A triangle for another machine; a window that is empty, or longer than [`LIMIT`]; a machine with SHADE, which needs
+/// records.
 pub fn record(
     plan: &Plan,
     triangles: &[[PortVertex; 3]],
@@ -140,7 +142,7 @@ fn run<const C: usize>(
     for _ in 0..window.from {
         _ = run.cycle();
     }
-    let before = planes(plan, &run.rig);
+    let before = memory(plan, run.rig.clone());
     let mut recorder = Recorder::new();
     for _ in 0..asked {
         recorder.cycle(|view| run.rig.model.view(plan, &run.rig.inputs(run.offered(), true), view));
@@ -149,94 +151,75 @@ fn run<const C: usize>(
     Ok(recorder.finish(window.from, before))
 }
 
-/// What memory holds, by field of the tokens that are stored and by pixel, row by row. Of the light's answer, which goes
-/// with a write and into no memory here, nothing is known.
-fn planes<const C: usize>(plan: &Plan, rig: &Rig<C>) -> Vec<Vec<u32>> {
-    let x_bits = plan.widths().x;
-    let addresses = || (0..plan.height).flat_map(move |y| (0..plan.width).map(move |x| y << x_bits | x));
-    let plane = |place: usize| addresses().map(|addr| rig.pixel(addr)[place]).collect();
-    let lit = plan.shadow.is_there().then(|| addresses().map(|_| 0).collect());
-    plan.seen_channels().map(|(place, _)| plane(place)).chain(lit).collect()
-}
-
-/// Triangles that are offered one after the other; the machine is idle before and behind them.
-struct Part {
-    triangles: usize,
-    /// Of a pass that begins with it.
-    begins: Option<Pass>,
-}
-
-/// The passes, each in as many parts as its records need.
-fn parts(plan: &Plan, mut triangles: usize, passes: &[Pass]) -> VecDeque<Part> {
-    let at_once = if plan.shade.is_there() { 1 << plan.shade.record_bits } else { usize::MAX };
-    let mut parts = VecDeque::new();
-    for pass in passes {
-        let (mut left, mut begins) = (pass.triangles.min(triangles), Some(*pass));
-        while left > 0 || begins.is_some() {
-            let part = left.min(at_once);
-            parts.push_back(Part { triangles: part, begins: begins.take() });
-            (left, triangles) = (left - part, triangles - part);
-        }
+/// What memory holds, by field of the tokens that are stored and by pixel, row by row; then, in a machine that draws its
+/// map, the words of the map. Of the light's answer, which goes with a write and into no memory here, nothing is known.
+fn memory<const C: usize>(plan: &Plan, mut rig: Rig<C>) -> Vec<Vec<u32>> {
+    let plane = |rig: &Rig<C>, width: u32, height: u32, x_bits: u32, place: usize| {
+        let addresses = (0..height).flat_map(|y| (0..width).map(move |x| y << x_bits | x));
+        addresses.map(|addr| rig.pixel(addr)[place]).collect::<Vec<u32>>()
+    };
+    rig.set_state(DrawState::default());
+    let of_picture = |place| plane(&rig, plan.width, plan.height, plan.widths().x, place);
+    let mut planes: Vec<_> = plan.seen_channels().map(|(place, _)| of_picture(place)).collect();
+    planes.extend(plan.shadow.is_there().then(|| vec![0; planes[0].len()]));
+    if plan.shadow.draws_map() {
+        rig.set_state(DrawState { light_pass: true, ..DrawState::default() });
+        let (size, x_bits) = (plan.shadow.size, plan.shadow.side_bits());
+        planes.extend(map_channels(plan).map(|place| plane(&rig, size, size, x_bits, place)));
     }
-    parts
+    planes
+}
+
+/// The channels that are kept in the map: depth, and where surfaces transmit, what is left of the light, which is red.
+pub(crate) fn map_channels(plan: &Plan) -> std::ops::Range<usize> {
+    0..if plan.shadow.transmits() { 2 } else { 1 }
 }
 
 /// A machine that draws triangles, one cycle at a time.
 struct Run<'a, const C: usize> {
     plan: &'a Plan,
-    rules: &'a Rules<'a>,
     rig: Rig<C>,
     triangles: &'a [[PortVertex; 3]],
     /// How many were taken.
     taken: usize,
-    /// How many of the part are left.
+    /// How many are left that may be offered now.
     left: usize,
-    /// Behind the part that is drawn.
-    parts: VecDeque<Part>,
+    /// What the host does behind them.
+    steps: Box<dyn Iterator<Item = Step<'a>> + 'a>,
+    maps: Maps<'a>,
     ended: bool,
 }
 
 impl<'a, const C: usize> Run<'a, C> {
-    fn new(plan: &'a Plan, triangles: &'a [[PortVertex; 3]], rules: &'a Rules, waits: Waits) -> Self {
-        let state = rules.passes.first().map_or_else(DrawState::default, |pass| pass.state);
-        let mut rig = Rig::new(plan, state, waits);
+    fn new(plan: &'a Plan, triangles: &'a [[PortVertex; 3]], rules: &Rules<'a>, waits: Waits) -> Self {
+        let mut rig = Rig::new(plan, first_of_picture(rules.passes), waits);
         rig.write_shading(plan, rules.shading);
-        let parts = parts(plan, triangles.len(), rules.passes);
-        let mut run = Run { plan, rules, rig, triangles, taken: 0, left: 0, parts, ended: false };
+        let steps = Box::new(steps(plan, rules.passes, rules.shading));
+        let maps = Maps::of_host(rules.maps);
+        let mut run = Run { plan, rig, triangles, taken: 0, left: 0, steps, maps, ended: false };
         run.next();
         run
     }
 
-    /// The next part, if there is one; whether all depths were cleared.
+    /// Goes to the next triangles, if there are any; whether a memory was cleared before them.
     fn next(&mut self) -> bool {
-        let Some(part) = self.parts.pop_front() else {
-            self.ended = true;
-            return false;
-        };
-        self.left = part.triangles;
-        for (number, record) in
-            self.rules.shading.records.iter().enumerate().skip(self.taken).take(part.triangles)
-        {
-            self.rig.write_record(self.plan, number, record);
+        let mut cleared = false;
+        for step in self.steps.by_ref() {
+            cleared |= matches!(step, Step::ClearDepth | Step::ClearMap);
+            if let Some(count) = self.rig.take_step(self.plan, step, &mut self.maps) {
+                self.left = count.min(self.triangles.len() - self.taken);
+                return cleared;
+            }
         }
-        let Some(pass) = part.begins else { return false };
-        self.rig.set_state(pass.state);
-        if pass.clear_depth {
-            self.rig.memory.clear_depth(self.plan);
-        }
-        if let (Some(memory), Some(map)) =
-            (&mut self.rig.map, pass.map.and_then(|map| self.rules.maps.get(map)))
-        {
-            memory.words_mut().iter_mut().zip(map).for_each(|(word, depth)| *word = *depth);
-        }
-        pass.clear_depth
+        self.ended = true;
+        false
     }
 
     fn offered(&self) -> Option<(&'a [PortVertex; 3], u32)> {
         self.triangles[self.taken..].first().filter(|_| self.left > 0).map(|triangle| (triangle, 0))
     }
 
-    /// Whether all depths were cleared behind it.
+    /// Whether a memory was cleared behind it.
     fn cycle(&mut self) -> bool {
         let cycle: Cycle<C> = self.rig.cycle(self.offered(), true);
         if cycle.triangle {

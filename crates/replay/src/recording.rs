@@ -54,8 +54,8 @@ impl Recorder {
         self.cycles
     }
 
-    /// The recording; `from` is the machine's cycle that was the first, `before` what its memory held then, by channel
-    /// and pixel, row by row.
+    /// The recording; `from` is the machine's cycle that was the first, `before` what its memory held then, plane by
+    /// plane and row by row.
     #[must_use]
     pub fn finish(self, from: u64, before: Vec<Vec<u32>>) -> Recording {
         Recording { view: self.view, columns: self.columns, cycles: self.cycles, from, before }
@@ -73,6 +73,6 @@ pub struct Recording {
     pub cycles: u32,
     /// The machine's cycle that is the first.
     pub from: u64,
-    /// The picture before it: by channel and pixel, row by row.
+    /// What memory held before it: by channel and pixel, row by row; then, where the machine draws it, the map.
     pub before: Vec<Vec<u32>>,
 }

@@ -111,7 +111,7 @@ fn compare(plan: &Plan, triangles: &[[PortVertex; 3]], waits: u8) -> Vec<(String
     case.tokens = triangles.iter().zip(0..).map(|(triangle, k)| port.pack(triangle, k)).collect();
     let interface = Interface::new(plan, Unit::MACHINE);
     case.unwilling = interface.waits().map(|link| (link.to_owned(), waits)).collect();
-    (case.shadow_on, case.ambient, case.seed) = (true, plan.color.max() / 3, 5);
+    (case.state.shadow_on, case.state.ambient, case.seed) = (true, plan.color.max() / 3, 5);
     let built = netlist(plan, Unit::MACHINE).expect("it can be built");
     let view = Rc::new(RefCell::new(View::new()));
     let model = model(plan, &interface).expect("its ports are declared");

@@ -7,7 +7,6 @@
 //! ```
 
 use crate::suites::{self, Suite};
-use edgewalk_lockstep::case::constants;
 use edgewalk_lockstep::{
     Agreement, Direction, Interface, Link, LockstepError, NetlistDevice, Pattern, Rig, Setting, StallKind,
     Token, Triangles, Unit, lockstep, model, patterns, status_ports,
@@ -143,7 +142,7 @@ impl Run<'_> {
     }
 
     fn setting(&self, interface: &Interface, tokens: Vec<Token>, stalls: StallKind) -> Setting {
-        let mut setting = Setting::willing(interface, &constants(&self.state))
+        let mut setting = Setting::willing(interface, &self.state.constants())
             .expect("a test of lockstep runs every unit with these constants");
         setting.patterns = patterns(self.plan, interface, stalls, self.suite.seed);
         for (memory, declared) in setting.memories.iter_mut().zip(&interface.memories) {

@@ -12,7 +12,7 @@ fn files(unit: Unit) -> Files {
     let machine = common::small();
     let mut suite = Suite::named(&machine, "hazards", 1, 0).expect("listed");
     suite.cases.truncate(4);
-    let trace = capture(&machine, unit, &suite, suite.state(), StallKind::Mixed);
+    let trace = capture(&machine, unit, &suite, suite.state, StallKind::Mixed);
     let verilog = design::verilog(&machine, unit).expect("a checked machine");
     directory(&suite, &trace, &verilog, Tables::LeftOut)
 }

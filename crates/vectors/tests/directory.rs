@@ -106,7 +106,7 @@ fn directed_suites_reach_every_hazard_and_corner() {
         for name in ["hazards", "corners", "sphere"].into_iter().chain(of_light).chain(shade) {
             for stalls in [StallKind::Mixed, StallKind::Late] {
                 let suite = suite(&machine, name);
-                reached.merge(&capture(&machine, Unit::MACHINE, &suite, suite.state(), stalls).events);
+                reached.merge(&capture(&machine, Unit::MACHINE, &suite, suite.state, stalls).events);
             }
         }
     }
@@ -134,7 +134,7 @@ fn the_shipped_suites_leave_nothing_uncovered() {
             let suites = suites.map(|entry| suite(&machine, entry.name));
             let suites = suites.filter(|suite| suite.is_for(unit));
             let runs: Vec<_> =
-                suites.map(|s| reached(&capture(&machine, unit, &s, s.state(), s.stalls))).collect();
+                suites.map(|s| reached(&capture(&machine, unit, &s, s.state, s.stalls))).collect();
             assert_eq!(not_covered(&runs), Vec::<&str>::new(), "{name}, {}", unit.name());
             lists += 1;
         }
@@ -143,9 +143,9 @@ fn the_shipped_suites_leave_nothing_uncovered() {
     // Without stalls there is something to miss, and it is named.
     let machine = common::small();
     let hazards = suite(&machine, "hazards");
-    let smooth = reached(&capture(&machine, common::DEPTH, &hazards, hazards.state(), StallKind::None));
+    let smooth = reached(&capture(&machine, common::DEPTH, &hazards, hazards.state, StallKind::None));
     assert_eq!(not_covered([&smooth]), ["memory_stall", "queue_full", "write_stall"]);
-    let pixel = reached(&capture(&machine, common::PIXEL, &hazards, hazards.state(), StallKind::None));
+    let pixel = reached(&capture(&machine, common::PIXEL, &hazards, hazards.state, StallKind::None));
     assert_eq!(pixel.keys().copied().collect::<Vec<_>>(), ["fence", "off_screen"]);
 }
 
@@ -235,7 +235,7 @@ fn the_manifest_keeps_to_its_schema() {
         machines.iter().flat_map(|machine| Unit::all(machine).into_iter().map(move |unit| (machine, unit)));
     for (machine, unit) in units {
         let suite = suite(machine, "hazards");
-        let trace = capture(machine, unit, &suite, suite.state(), StallKind::Late);
+        let trace = capture(machine, unit, &suite, suite.state, StallKind::Late);
         let files = directory(&suite, &trace, &[], Tables::Written);
         let value: Value = serde_json::from_slice(&files[0].1).expect("JSON");
         let mut checked = 0;

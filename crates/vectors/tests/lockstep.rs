@@ -49,7 +49,7 @@ fn every_suite_of_blend() {
             let in_turn = |unit: &Unit| suite.is_for(*unit) && (*unit != Unit::MACHINE || i % 2 == j);
             for unit in Unit::all(machine).into_iter().filter(in_turn) {
                 let netlist = design::netlist(machine, unit).expect("a checked machine");
-                let trace = capture(machine, unit, &suite, suite.state(), suite.stalls);
+                let trace = capture(machine, unit, &suite, suite.state, suite.stalls);
                 let agreement =
                     common::lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
                 assert_eq!(agreement.compared, trace.port_values());
@@ -77,7 +77,7 @@ fn every_suite_of_shadow() {
             };
             for unit in Unit::all(machine).into_iter().filter(in_turn) {
                 let netlist = design::netlist(machine, unit).expect("a checked machine");
-                let trace = capture(machine, unit, &suite, suite.state(), StallKind::ALL[(i + j) % 3]);
+                let trace = capture(machine, unit, &suite, suite.state, StallKind::ALL[(i + j) % 3]);
                 let agreement =
                     common::lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
                 assert_eq!(agreement.compared, trace.port_values());
@@ -108,7 +108,7 @@ fn every_suite_of_shade() {
             };
             for unit in Unit::all(machine).into_iter().filter(in_turn) {
                 let netlist = design::netlist(machine, unit).expect("a checked machine");
-                let trace = capture(machine, unit, &suite, suite.state(), StallKind::ALL[(i + j) % 3]);
+                let trace = capture(machine, unit, &suite, suite.state, StallKind::ALL[(i + j) % 3]);
                 let agreement =
                     common::lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
                 assert_eq!(agreement.compared, trace.port_values());

@@ -278,7 +278,7 @@ fn reset(dut: &mut Simulator) {
 
 fn replayed(machine: &Plan, unit: Unit, change: impl Fn(&mut Value)) -> (u64, u64, Option<String>) {
     let suite = Suite::named(machine, "corners", 1, 0).expect("listed");
-    let trace = capture(machine, unit, &suite, suite.state(), StallKind::Mixed);
+    let trace = capture(machine, unit, &suite, suite.state, StallKind::Mixed);
     let folder = tempfile::tempdir().expect("a folder");
     write(&directory(&suite, &trace, &[], Tables::LeftOut), folder.path());
     let json = std::fs::read(folder.path().join(manifest::FILE)).expect("written");

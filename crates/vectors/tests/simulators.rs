@@ -142,7 +142,7 @@ fn machines_with_blend(machines: &[(&str, Plan)], simulators: impl Fn(usize) -> 
             [("hazards", common::DEPTH), ("hazards", common::BLEND), ("blend_add", common::BLEND)]
         {
             let suite = Suite::named(machine, suite, 5, 12).expect("listed");
-            let trace = capture(machine, unit, &suite, suite.state(), StallKind::Late);
+            let trace = capture(machine, unit, &suite, suite.state, StallKind::Late);
             let verilog = design::verilog(machine, unit).expect("a checked machine");
             checked += passes(Simulator::Icarus, &directory(&suite, &trace, &verilog, Tables::LeftOut));
         }
@@ -177,7 +177,7 @@ fn machines_that_draw_their_map_replay_and_are_clean() {
         for (j, name) in ["own_map", "own_picture", "light"].into_iter().enumerate() {
             let suite = Suite::named(machine, name, 5, 12).expect("listed");
             for unit in Unit::all(machine).into_iter().filter(|unit| suite.is_for(*unit)) {
-                let trace = capture(machine, unit, &suite, suite.state(), StallKind::ALL[(i + j) % 3]);
+                let trace = capture(machine, unit, &suite, suite.state, StallKind::ALL[(i + j) % 3]);
                 let verilog = design::verilog(machine, unit).expect("a checked machine");
                 let files = directory(&suite, &trace, &verilog, Tables::LeftOut);
                 let simulators = &Simulator::ALL[..1 + usize::from(unit == Unit::MACHINE && i + j == 0)];
@@ -221,7 +221,7 @@ fn machines_with_shadow(
         let place = tempfile::tempdir().expect("a directory");
         let vectors = place.path().join("the vectors");
         let of = |unit, suite: &Suite, stalls| {
-            let trace = capture(machine, unit, suite, suite.state(), stalls);
+            let trace = capture(machine, unit, suite, suite.state, stalls);
             let verilog = design::verilog(machine, unit).expect("a checked machine");
             directory(suite, &trace, &verilog, Tables::LeftOut)
         };
@@ -268,7 +268,7 @@ fn machines_with_shade(
     let done = common::two_at_a_time(machines, |i, (name, machine)| {
         let suite = joined(machine, suites);
         let of = |unit, stalls| {
-            let trace = capture(machine, unit, &suite, suite.state(), stalls);
+            let trace = capture(machine, unit, &suite, suite.state, stalls);
             let verilog = design::verilog(machine, unit).expect("a checked machine");
             directory(&suite, &trace, &verilog, Tables::LeftOut)
         };

@@ -53,9 +53,9 @@ fn tokens_of_ones_own_meet_the_stalls_and_the_words_of_their_seed() {
     let (_, plan) = machines.iter().find(|(name, _)| *name == "fast_phong_registers_relief").expect("named");
     let suite = Suite::named(plan, "random", 1, 6).expect("listed");
     let unit = const { Unit::of(&units::texel::SPEC) };
-    let tokens = capture(plan, unit, &suite, suite.state(), StallKind::None).setting.tokens;
+    let tokens = capture(plan, unit, &suite, suite.state, StallKind::None).setting.tokens;
     assert!(tokens.len() > 50, "{} tokens", tokens.len());
-    let run = |stalls, seed| capture_tokens(plan, unit, tokens.clone(), suite.state(), stalls, seed).links;
+    let run = |stalls, seed| capture_tokens(plan, unit, tokens.clone(), suite.state, stalls, seed).links;
     let cycles = |seed| run(StallKind::Mixed, seed).into_iter().map(|link| link.cycles).collect::<Vec<_>>();
     let values = |seed| run(StallKind::None, seed).into_iter().map(|link| link.tokens).collect::<Vec<_>>();
     assert_eq!((cycles(1), values(1)), (cycles(1), values(1)));

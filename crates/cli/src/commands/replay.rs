@@ -113,8 +113,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 struct Shown {
     machine: Plan,
     scene: String,
+    /// Of the lights' own passes, then of the picture.
     triangles: Vec<[PortVertex; 3]>,
-    /// How many there would have been.
+    /// How many there would be without `--triangles`.
     of: usize,
     recording: Recording,
     truth: Vec<Truth>,
@@ -133,12 +134,16 @@ fn drawn(args: &Args, machine: &MachineArgs) -> Result<Shown> {
     let window = Window { from: args.from, to };
     let mut shading = port.words().clone();
     shading.records.truncate(port.triangles.len());
-    let rules = Rules { passes: &port.passes, maps: &port.maps(), shading: &shading };
-    let recording = record_passes(&machine, &port.triangles, &rules, args.stalls, window)
+    // Where the machine draws the lights' maps, their triangles come first.
+    let (triangles, passes, maps) = port.sent();
+    let of_lights = triangles.len() - port.triangles.len();
+    let rules = Rules { passes: &passes, maps: &maps, shading: &shading };
+    let recording = record_passes(&machine, &triangles, &rules, args.stalls, window)
         .with_context(|| args.source.input.clone())?;
-    let truth = truth::truth(&machine, &frame, &port.ids, recording.view.tokens());
-    let (scene, triangles) = (args.source.input.clone(), port.triangles);
-    Ok(Shown { machine, scene, triangles, of, recording, truth, lesson: None })
+    let ids = [vec![-1; of_lights], port.ids.clone()].concat();
+    let truth = truth::truth(&machine, &frame, &ids, recording.view.tokens());
+    let (scene, triangles) = (args.source.input.clone(), triangles.into_owned());
+    Ok(Shown { machine, scene, triangles, of: of + of_lights, recording, truth, lesson: None })
 }
 
 /// The triangle of the lesson, on its screen.

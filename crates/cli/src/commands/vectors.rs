@@ -115,16 +115,9 @@ pub fn of_input(input: &str, machine: &Plan, port: &PortFrame, triangles: Option
     let wanted = triangles.map_or(usize::MAX, |n| usize::try_from(n).unwrap_or(usize::MAX));
     let every = port.triangles.len().div_ceil(wanted).max(1);
     let triangles: Vec<_> = port.triangles.iter().step_by(every).copied().collect();
-    let state = port.one_state()?;
     Ok(Suite {
-        shadow_on: state.shadow_on,
-        light_pass: state.light_pass,
-        ambient: state.ambient,
+        state: port.one_state()?,
         words: words_of_input(machine, port, every)?,
-        depth_func: state.depth_func,
-        depth_write: state.depth_write,
-        color_write: state.color_write,
-        blend_add: state.blend_add,
         ..Suite::of_triangles(&name, input, triangles)
     })
 }
@@ -226,7 +219,7 @@ impl Set<'_> {
         }
         let bar = progress::bar(work.len() as u64, "vector directories", quiet);
         let written = jobs::all(&work, &bar, |(suite, unit)| {
-            let trace = capture(machine, *unit, suite, suite.state(), self.stalls.unwrap_or(suite.stalls));
+            let trace = capture(machine, *unit, suite, suite.state, self.stalls.unwrap_or(suite.stalls));
             let verilog =
                 design::verilog(machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
             let name = format!("{}_{}", suite.name, unit.name());

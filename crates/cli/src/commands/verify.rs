@@ -95,7 +95,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let limit = Duration::from_secs(args.limit);
     let bar = progress::bar(work.len() as u64, "suites and units", talk.quiet);
     let done = jobs::all(&work, &bar, |(suite, unit, simulators)| {
-        let trace = capture(&machine, *unit, suite, suite.state(), args.stalls.unwrap_or(suite.stalls));
+        let trace = capture(&machine, *unit, suite, suite.state, args.stalls.unwrap_or(suite.stalls));
         let mut checks = vec![against_netlist(&machine, suite, *unit, &trace, &args.out)?];
         if !args.no_simulators {
             let folder = write(&machine, suite, *unit, &trace)?;

@@ -82,13 +82,13 @@ impl Case {
                 "machine" | "unit" => {}
                 "about" => case.about = text(key, value)?,
                 "fault" => case.fault = Some(text(key, value)?),
-                "depth_func" => case.depth_func = number(key, value)?,
-                "depth_write" => case.depth_write = flag(key, value)?,
-                "color_write" => case.color_write = flag(key, value)?,
-                "blend_add" => case.blend_add = flag(key, value)?,
-                "shadow_on" => case.shadow_on = flag(key, value)?,
-                "light_pass" => case.light_pass = flag(key, value)?,
-                "ambient" => case.ambient = number(key, value)?,
+                "depth_func" => case.state.depth_func = number(key, value)?,
+                "depth_write" => case.state.depth_write = flag(key, value)?,
+                "color_write" => case.state.color_write = flag(key, value)?,
+                "blend_add" => case.state.blend_add = flag(key, value)?,
+                "shadow_on" => case.state.shadow_on = flag(key, value)?,
+                "light_pass" => case.state.light_pass = flag(key, value)?,
+                "ambient" => case.state.ambient = number(key, value)?,
                 "clear_z" => case.clear_z = Some(number(key, value)?),
                 "late" => case.late = number(key, value)?,
                 "disturbed" => case.disturbed = number(key, value)?,
@@ -133,13 +133,13 @@ impl Case {
             }
         };
         let whole = |number: u64| Value::from(number as i64); // seeds and cycles have at most 63 bits
-        line("depth_func", whole(self.depth_func.into()), whole(usual.depth_func.into()));
-        line("depth_write", self.depth_write.into(), usual.depth_write.into());
-        line("color_write", self.color_write.into(), usual.color_write.into());
-        line("blend_add", self.blend_add.into(), usual.blend_add.into());
-        line("shadow_on", self.shadow_on.into(), usual.shadow_on.into());
-        line("light_pass", self.light_pass.into(), usual.light_pass.into());
-        line("ambient", whole(self.ambient), whole(0));
+        line("depth_func", whole(self.state.depth_func.into()), whole(usual.state.depth_func.into()));
+        line("depth_write", self.state.depth_write.into(), usual.state.depth_write.into());
+        line("color_write", self.state.color_write.into(), usual.state.color_write.into());
+        line("blend_add", self.state.blend_add.into(), usual.state.blend_add.into());
+        line("shadow_on", self.state.shadow_on.into(), usual.state.shadow_on.into());
+        line("light_pass", self.state.light_pass.into(), usual.state.light_pass.into());
+        line("ambient", whole(self.state.ambient), whole(0));
         if let Some(fault) = &self.fault {
             line("fault", fault.as_str().into(), Value::from(""));
         }

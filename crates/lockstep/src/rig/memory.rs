@@ -49,17 +49,6 @@ impl Served {
         Served { memory: memory.clone(), latency: setting.latency, words, queue: VecDeque::new() }
     }
 
-    pub fn name(&self) -> &'static str {
-        self.memory.name
-    }
-
-    /// Writes words from a place on.
-    pub fn write(&mut self, place: usize, words: impl IntoIterator<Item = u128>) {
-        for (stored, word) in self.words.iter_mut().skip(place).zip(words) {
-            *stored = word;
-        }
-    }
-
     /// Number of the link of its words.
     pub fn data(&self) -> usize {
         self.memory.data

@@ -1,7 +1,6 @@
 //! Tokens for a unit alone: such as the rest of the machine would rarely give it.
 
 use super::triangles::{random_triangle, sides};
-use edgewalk_lockstep::case::constants;
 use edgewalk_lockstep::{Direction, Interface, Port, Rig, Setting, Token, Triangles, Unit, model};
 use edgewalk_machine::{Fill, Plan};
 use edgewalk_model::DrawState;
@@ -42,7 +41,7 @@ fn prims(plan: &Plan, count: usize, rng: &mut Pcg64Mcg) -> Vec<Token> {
     let setup = Interface::new(plan, Unit::named("setup").expect("declared"));
     // A triangle in so many is not culled, in nearly any machine.
     let tokens = triangles(plan, 20 * count, rng);
-    let picture = constants(&DrawState::default());
+    let picture = DrawState::default().constants();
     let setting = Setting { tokens, ..Setting::willing(&setup, &picture).expect("those of a picture") };
     let (mut rig, mut ports) = (Rig::new(&setup, setting), setup.values());
     let mut device = model(plan, &setup).expect("the model has SETUP");

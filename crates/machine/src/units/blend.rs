@@ -7,7 +7,7 @@ use crate::field::Field;
 use crate::link::{Link, MemoryPort, Ready, Status};
 use crate::machine::{Hazard, Machine};
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec};
+use crate::unit::{Ports, UnitSpec, events};
 
 /// What BLEND declares.
 pub const SPEC: UnitSpec = UnitSpec {
@@ -67,69 +67,21 @@ fn forwards(plan: &Plan) -> bool {
     there(plan) && plan.blend.hazard == Hazard::Forward
 }
 
-const EVENTS: &[Event] = &[
-    Event {
-        name: "opaque",
-        doc: "fragments that take no colour from their pixel, so that none is read",
-        can_happen: there,
-    },
-    Event {
-        name: "opaque_behind",
-        doc: "such fragments while one that does take one of the same pixel is in flight",
-        can_happen: passes_others,
-    },
-    Event {
-        name: "behind_opaque",
-        doc: "fragments that take a colour from one in flight that took none",
-        can_happen: forwards,
-    },
-    Event { name: "color_drain_stall", doc: "cycles in which BLEND waits at a fence", can_happen: drains },
-    Event {
-        name: "color_interlock_stall",
-        doc: "cycles in which BLEND waits for an address in flight",
-        can_happen: interlocks,
-    },
-    Event {
-        name: "color_queue_full",
-        doc: "cycles in which a fragment waits for BLEND's queue",
-        can_happen: there,
-    },
-    Event {
-        name: "color_read_stall",
-        doc: "cycles in which a read waits for the colour memory",
-        can_happen: there,
-    },
-    Event {
-        name: "color_write_stall",
-        doc: "cycles in which a write waits for the colour memory",
-        can_happen: there,
-    },
-    Event {
-        name: "color_head_wait",
-        doc: "cycles in which the oldest fragment waits for a result of its pixel",
-        can_happen: forwards,
-    },
-    Event {
-        name: "color_forward_queue",
-        doc: "fragments in the queue that took the colour from a result",
-        can_happen: forwards,
-    },
-    Event {
-        name: "color_forward_entry",
-        doc: "fragments entering the queue that took it from a result of the same cycle",
-        can_happen: forwards,
-    },
-    Event {
-        name: "color_forward_write",
-        doc: "fragments entering the queue that took it from the write register",
-        can_happen: forwards,
-    },
-    Event {
-        name: "color_forward_used",
-        doc: "fragments blended with a colour that was forwarded",
-        can_happen: forwards,
-    },
-];
+events! {
+    opaque = "fragments that take no colour from their pixel, so that none is read" if there;
+    opaque_behind = "such fragments while one that does take one of the same pixel is in flight" if passes_others;
+    behind_opaque = "fragments that take a colour from one in flight that took none" if forwards;
+    color_drain_stall = "cycles in which BLEND waits at a fence" if drains;
+    color_interlock_stall = "cycles in which BLEND waits for an address in flight" if interlocks;
+    color_queue_full = "cycles in which a fragment waits for BLEND's queue" if there;
+    color_read_stall = "cycles in which a read waits for the colour memory" if there;
+    color_write_stall = "cycles in which a write waits for the colour memory" if there;
+    color_head_wait = "cycles in which the oldest fragment waits for a result of its pixel" if forwards;
+    color_forward_queue = "fragments in the queue that took the colour from a result" if forwards;
+    color_forward_entry = "fragments entering the queue that took it from a result of the same cycle" if forwards;
+    color_forward_write = "fragments entering the queue that took it from the write register" if forwards;
+    color_forward_used = "fragments blended with a colour that was forwarded" if forwards;
+}
 
 /// With drain a fragment that carries a fence waits, opaque or not; the others of a triangle have pixels of their own.
 fn passes_others(plan: &Plan) -> bool {

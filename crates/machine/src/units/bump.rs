@@ -4,7 +4,7 @@ use super::tokens;
 use crate::link::{Link, Ready, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec};
+use crate::unit::{Ports, UnitSpec, events};
 
 /// What BUMP declares.
 pub const SPEC: UnitSpec = UnitSpec {
@@ -34,11 +34,11 @@ fn ports(plan: &Plan) -> Ports {
     }
 }
 
-const EVENTS: &[Event] = &[
-    Event { name: "slope_up", doc: "cosines that the relief makes larger", can_happen: there },
-    Event { name: "slope_down", doc: "cosines that the relief makes smaller", can_happen: there },
-    Event { name: "slope_lowest", doc: "slopes of the lowest number that there is", can_happen: there },
-    Event { name: "bump_cut", doc: "cosines cut at the end of their bits", can_happen: there },
-    Event { name: "square_cut", doc: "N·N cut at the end of its bits", can_happen: normalises },
-    Event { name: "bump_stall", doc: "cycles in which all stages stand still", can_happen: there },
-];
+events! {
+    slope_up = "cosines that the relief makes larger" if there;
+    slope_down = "cosines that the relief makes smaller" if there;
+    slope_lowest = "slopes of the lowest number that there is" if there;
+    bump_cut = "cosines cut at the end of their bits" if there;
+    square_cut = "N·N cut at the end of its bits" if normalises;
+    bump_stall = "cycles in which all stages stand still" if there;
+}

@@ -6,7 +6,7 @@ use crate::field::Field;
 use crate::link::{Link, MemoryPort, Ready, Status};
 use crate::machine::{Hazard, Machine};
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec, always};
+use crate::unit::{Ports, UnitSpec, always, events};
 
 /// What DEPTH declares.
 pub const SPEC: UnitSpec = UnitSpec {
@@ -84,46 +84,18 @@ fn forwards_in_queue(plan: &Plan) -> bool {
     forwards(plan) && plan.inflight > 1
 }
 
-const EVENTS: &[Event] = &[
-    Event { name: "drain_stall", doc: "cycles in which DEPTH waits at a fence", can_happen: drains },
-    Event {
-        name: "interlock_stall",
-        doc: "cycles in which DEPTH waits for an address in flight",
-        can_happen: interlocks,
-    },
-    Event {
-        name: "queue_full",
-        doc: "cycles in which a fragment waits for the in-flight queue",
-        can_happen: always,
-    },
-    Event { name: "memory_stall", doc: "cycles in which a read waits for the memory", can_happen: always },
-    Event { name: "write_stall", doc: "cycles in which a write waits for the memory", can_happen: always },
-    Event {
-        name: "forward_compare",
-        doc: "fragments in the queue, or entering it, that took their old depth from a compare",
-        can_happen: forwards_in_queue,
-    },
-    Event {
-        name: "forward_write",
-        doc: "fragments entering the queue that took it from the write register",
-        can_happen: forwards,
-    },
-    Event { name: "forward_used", doc: "compares that used a forwarded depth", can_happen: forwards },
-    Event { name: "depth_fail", doc: "fragments that failed the compare", can_happen: always },
-    Event { name: "depth_first", doc: "depths written before BLEND took the colour", can_happen: forks },
-    Event {
-        name: "color_first",
-        doc: "colours that BLEND took before the depth was written",
-        can_happen: forks,
-    },
-    Event {
-        name: "depth_write_waits",
-        doc: "cycles in which a depth alone keeps the write register",
-        can_happen: forks,
-    },
-    Event {
-        name: "fence_handed_on",
-        doc: "fragments that took over the fence of one that failed",
-        can_happen: forks,
-    },
-];
+events! {
+    drain_stall = "cycles in which DEPTH waits at a fence" if drains;
+    interlock_stall = "cycles in which DEPTH waits for an address in flight" if interlocks;
+    queue_full = "cycles in which a fragment waits for the in-flight queue" if always;
+    memory_stall = "cycles in which a read waits for the memory" if always;
+    write_stall = "cycles in which a write waits for the memory" if always;
+    forward_compare = "fragments in the queue, or entering it, that took their old depth from a compare" if forwards_in_queue;
+    forward_write = "fragments entering the queue that took it from the write register" if forwards;
+    forward_used = "compares that used a forwarded depth" if forwards;
+    depth_fail = "fragments that failed the compare" if always;
+    depth_first = "depths written before BLEND took the colour" if forks;
+    color_first = "colours that BLEND took before the depth was written" if forks;
+    depth_write_waits = "cycles in which a depth alone keeps the write register" if forks;
+    fence_handed_on = "fragments that took over the fence of one that failed" if forks;
+}

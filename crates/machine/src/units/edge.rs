@@ -5,7 +5,7 @@ use crate::field::Field;
 use crate::link::{Held, Link};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec, always};
+use crate::unit::{Ports, UnitSpec, always, events};
 
 /// What EDGE declares.
 pub const SPEC: UnitSpec = UnitSpec {
@@ -28,22 +28,10 @@ fn ports(plan: &Plan) -> Ports {
     }
 }
 
-const EVENTS: &[Event] = &[
-    Event { name: "carry", doc: "steps of the major edge with a carry", can_happen: always },
-    Event { name: "no_carry", doc: "steps of the major edge without a carry", can_happen: always },
-    Event {
-        name: "wrap",
-        doc: "steps of an edge value that leave the range of its word",
-        can_happen: always,
-    },
-    Event {
-        name: "fresh_wait",
-        doc: "cycles in which a triangle waits until the first span of the one before is taken",
-        can_happen: always,
-    },
-    Event {
-        name: "span_fifo_full",
-        doc: "cycles in which a line waits for the span FIFO",
-        can_happen: always,
-    },
-];
+events! {
+    carry = "steps of the major edge with a carry" if always;
+    no_carry = "steps of the major edge without a carry" if always;
+    wrap = "steps of an edge value that leave the range of its word" if always;
+    fresh_wait = "cycles in which a triangle waits until the first span of the one before is taken" if always;
+    span_fifo_full = "cycles in which a line waits for the span FIFO" if always;
+}

@@ -5,7 +5,7 @@ use crate::field::Field;
 use crate::link::{Link, MemoryPort, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec};
+use crate::unit::{Ports, UnitSpec, events};
 
 /// What LAMP declares.
 pub const SPEC: UnitSpec = UnitSpec {
@@ -47,21 +47,13 @@ fn ports(plan: &Plan) -> Ports {
     }
 }
 
-const EVENTS: &[Event] = &[
-    Event { name: "lamp_read", doc: "times that the tables of the light were fetched", can_happen: there },
-    Event { name: "lamp_read_stall", doc: "cycles in which a read waits for them", can_happen: there },
-    Event {
-        name: "lamp_near",
-        doc: "fragments less than half as far as the unit of the ways",
-        can_happen: there,
-    },
-    Event { name: "lamp_beside", doc: "fragments outside the light's cone", can_happen: there },
-    Event { name: "lamp_short", doc: "roots of less than the tables reach down to", can_happen: there },
-    Event { name: "lamp_cut", doc: "numbers cut at the end of their bits", can_happen: there },
-    Event {
-        name: "lamp_wait",
-        doc: "cycles in which a fragment waits until another is done",
-        can_happen: there,
-    },
-    Event { name: "lamp_stall", doc: "cycles in which a fragment that is done waits", can_happen: there },
-];
+events! {
+    lamp_read = "times that the tables of the light were fetched" if there;
+    lamp_read_stall = "cycles in which a read waits for them" if there;
+    lamp_near = "fragments less than half as far as the unit of the ways" if there;
+    lamp_beside = "fragments outside the light's cone" if there;
+    lamp_short = "roots of less than the tables reach down to" if there;
+    lamp_cut = "numbers cut at the end of their bits" if there;
+    lamp_wait = "cycles in which a fragment waits until another is done" if there;
+    lamp_stall = "cycles in which a fragment that is done waits" if there;
+}

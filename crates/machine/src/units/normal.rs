@@ -5,7 +5,7 @@ use crate::field::Field;
 use crate::link::{Link, MemoryPort, Ready, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec};
+use crate::unit::{Ports, UnitSpec, events};
 
 /// What NORMAL declares.
 pub const SPEC: UnitSpec = UnitSpec {
@@ -43,11 +43,11 @@ fn ports(plan: &Plan) -> Ports {
     }
 }
 
-const EVENTS: &[Event] = &[
-    Event { name: "roots_read", doc: "times that the roots were fetched", can_happen: there },
-    Event { name: "root_read_stall", doc: "cycles in which a read waits for the roots", can_happen: there },
-    Event { name: "normal_short", doc: "normals shorter than half", can_happen: there },
-    Event { name: "normal_long", doc: "normals of length 1, or longer", can_happen: there },
-    Event { name: "cosine_cut", doc: "cosines beyond what SHADE takes", can_happen: there },
-    Event { name: "normal_stall", doc: "cycles in which all stages stand still", can_happen: there },
-];
+events! {
+    roots_read = "times that the roots were fetched" if there;
+    root_read_stall = "cycles in which a read waits for the roots" if there;
+    normal_short = "normals shorter than half" if there;
+    normal_long = "normals of length 1, or longer" if there;
+    cosine_cut = "cosines beyond what SHADE takes" if there;
+    normal_stall = "cycles in which all stages stand still" if there;
+}

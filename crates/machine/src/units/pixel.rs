@@ -4,7 +4,7 @@ use super::tokens;
 use crate::link::{Held, Link, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec, always, light_pass};
+use crate::unit::{Ports, UnitSpec, always, events, light_pass};
 
 /// What PIXEL declares.
 pub const SPEC: UnitSpec = UnitSpec {
@@ -33,7 +33,7 @@ fn ports(plan: &Plan) -> Ports {
     }
 }
 
-const EVENTS: &[Event] = &[
-    Event { name: "fence", doc: "fragments that carry a fence", can_happen: always },
-    Event { name: "off_screen", doc: "pixels stepped over off the screen", can_happen: always },
-];
+events! {
+    fence = "fragments that carry a fence" if always;
+    off_screen = "pixels stepped over off the screen" if always;
+}

@@ -5,7 +5,7 @@ use crate::link::{Link, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::shadow::Project;
-use crate::unit::{Event, Ports, UnitSpec};
+use crate::unit::{Ports, UnitSpec, events};
 
 /// What PROJECT declares.
 pub const SPEC: UnitSpec = UnitSpec {
@@ -48,31 +48,11 @@ fn ports(plan: &Plan) -> Ports {
     }
 }
 
-const EVENTS: &[Event] = &[
-    Event {
-        name: "behind_light",
-        doc: "fragments behind the light, or beside it: w <= 0",
-        can_happen: there,
-    },
-    Event {
-        name: "map_edge",
-        doc: "columns and lines on the far edge of the map: x or y is w",
-        can_happen: there,
-    },
-    Event { name: "texel_edge", doc: "columns and lines on the edge of a texel", can_happen: there },
-    Event {
-        name: "depth_to_end",
-        doc: "depths before the map's end that are rounded to it",
-        can_happen: rounds_to_end,
-    },
-    Event {
-        name: "project_stall",
-        doc: "cycles in which all stages stand still (pipelined)",
-        can_happen: pipelined,
-    },
-    Event {
-        name: "project_wait",
-        doc: "cycles in which a fragment waits until another is divided (serial)",
-        can_happen: serial,
-    },
-];
+events! {
+    behind_light = "fragments behind the light, or beside it: w <= 0" if there;
+    map_edge = "columns and lines on the far edge of the map: x or y is w" if there;
+    texel_edge = "columns and lines on the edge of a texel" if there;
+    depth_to_end = "depths before the map's end that are rounded to it" if rounds_to_end;
+    project_stall = "cycles in which all stages stand still (pipelined)" if pipelined;
+    project_wait = "cycles in which a fragment waits until another is divided (serial)" if serial;
+}

@@ -4,7 +4,7 @@ use super::tokens;
 use crate::link::Link;
 use crate::machine::{Fill, Machine};
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec, always, light_pass};
+use crate::unit::{Ports, UnitSpec, always, events, light_pass};
 
 /// What SETUP declares.
 pub const SPEC: UnitSpec = UnitSpec {
@@ -26,33 +26,13 @@ fn ports(plan: &Plan) -> Ports {
     }
 }
 
-const EVENTS: &[Event] = &[
-    Event { name: "culled_lines", doc: "triangles without a line on the screen", can_happen: always },
-    Event {
-        name: "culled_columns",
-        doc: "triangles with lines, but without a column on the screen",
-        can_happen: |plan| plan.fill == Fill::Exact,
-    },
-    Event {
-        name: "culled_area",
-        doc: "triangles with lines and columns, but without area",
-        can_happen: always,
-    },
-    Event { name: "major_left", doc: "triangles whose major edge lies left", can_happen: always },
-    Event { name: "major_right", doc: "triangles whose major edge lies right", can_happen: always },
-    Event {
-        name: "no_upper_part",
-        doc: "triangles without an upper part on the screen, n1 = 0",
-        can_happen: always,
-    },
-    Event {
-        name: "no_lower_part",
-        doc: "triangles without a lower part on the screen, n2 = 0",
-        can_happen: always,
-    },
-    Event {
-        name: "knee_on_line",
-        doc: "triangles of two parts whose knee lies on a line of pixel centres",
-        can_happen: always,
-    },
-];
+events! {
+    culled_lines = "triangles without a line on the screen" if always;
+    culled_columns = "triangles with lines, but without a column on the screen" if |plan| plan.fill == Fill::Exact;
+    culled_area = "triangles with lines and columns, but without area" if always;
+    major_left = "triangles whose major edge lies left" if always;
+    major_right = "triangles whose major edge lies right" if always;
+    no_upper_part = "triangles without an upper part on the screen, n1 = 0" if always;
+    no_lower_part = "triangles without a lower part on the screen, n2 = 0" if always;
+    knee_on_line = "triangles of two parts whose knee lies on a line of pixel centres" if always;
+}

@@ -5,7 +5,7 @@ use crate::field::Field;
 use crate::link::{Link, MemoryPort, Ready, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec};
+use crate::unit::{Ports, UnitSpec, events};
 
 /// What SHADE declares.
 pub const SPEC: UnitSpec = UnitSpec {
@@ -50,32 +50,16 @@ fn changes(plan: &Plan) -> bool {
     there(plan) && plan.shade.material_bits > 0
 }
 
-const EVENTS: &[Event] = &[
-    Event { name: "tables_read", doc: "materials whose tables were fetched", can_happen: there },
-    Event {
-        name: "material_change",
-        doc: "materials that another one took the place of",
-        can_happen: changes,
-    },
-    Event {
-        name: "tables_drain",
-        doc: "cycles in which new tables wait for fragments of the old ones",
-        can_happen: changes,
-    },
-    Event {
-        name: "table_read_stall",
-        doc: "cycles in which a read waits for the memory of the tables",
-        can_happen: there,
-    },
-    Event { name: "diffuse_below", doc: "cosines N·L below 0, a light a fragment", can_happen: there },
-    Event { name: "diffuse_above", doc: "cosines N·L beyond the table's end", can_happen: there },
-    Event { name: "highlight_below", doc: "cosines N·H before the table's beginning", can_happen: there },
-    Event { name: "highlight_above", doc: "cosines N·H beyond the table's end", can_happen: there },
-    Event {
-        name: "highlight_unlit",
-        doc: "highlights that are dropped, as the light is below the horizon",
-        can_happen: there,
-    },
-    Event { name: "color_saturated", doc: "colours cut to the largest", can_happen: there },
-    Event { name: "shade_stall", doc: "cycles in which all stages stand still", can_happen: there },
-];
+events! {
+    tables_read = "materials whose tables were fetched" if there;
+    material_change = "materials that another one took the place of" if changes;
+    tables_drain = "cycles in which new tables wait for fragments of the old ones" if changes;
+    table_read_stall = "cycles in which a read waits for the memory of the tables" if there;
+    diffuse_below = "cosines N·L below 0, a light a fragment" if there;
+    diffuse_above = "cosines N·L beyond the table's end" if there;
+    highlight_below = "cosines N·H before the table's beginning" if there;
+    highlight_above = "cosines N·H beyond the table's end" if there;
+    highlight_unlit = "highlights that are dropped, as the light is below the horizon" if there;
+    color_saturated = "colours cut to the largest" if there;
+    shade_stall = "cycles in which all stages stand still" if there;
+}

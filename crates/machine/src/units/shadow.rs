@@ -6,7 +6,7 @@ use crate::link::{Link, MemoryPort, Ready, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::shadow::Gate;
-use crate::unit::{Event, Ports, UnitSpec, light_pass};
+use crate::unit::{Ports, UnitSpec, events, light_pass};
 
 /// What SHADOW declares.
 pub const SPEC: UnitSpec = UnitSpec {
@@ -67,50 +67,18 @@ fn ports(plan: &Plan) -> Ports {
     }
 }
 
-const EVENTS: &[Event] = &[
-    Event {
-        name: "shadow_off",
-        doc: "fragments that were not looked up, as the map does not count",
-        can_happen: there,
-    },
-    Event {
-        name: "own_map",
-        doc: "fragments of the light's own pass: none is looked up",
-        can_happen: draws_map,
-    },
-    Event { name: "outside_map", doc: "fragments outside the map: lit", can_happen: there },
-    Event {
-        name: "before_map",
-        doc: "fragments nearer to the light than the map begins: lit",
-        can_happen: there,
-    },
-    Event {
-        name: "behind_map",
-        doc: "fragments farther from the light than the map ends: in shadow",
-        can_happen: there,
-    },
-    Event { name: "texel_lit", doc: "fragments that their texel finds lit", can_happen: there },
-    Event { name: "texel_shadow", doc: "fragments that their texel finds in shadow", can_happen: there },
-    Event { name: "texel_tie", doc: "fragments exactly as far as their texel: lit", can_happen: there },
-    Event {
-        name: "texel_glass",
-        doc: "fragments that their texel finds lit through what transmits: not all of the light is left",
-        can_happen: transmits,
-    },
-    Event {
-        name: "texel_wait",
-        doc: "cycles in which a fragment could go on but for its texel",
-        can_happen: there,
-    },
-    Event {
-        name: "shadow_queue_full",
-        doc: "cycles in which a fragment waits for SHADOW's queue",
-        can_happen: there,
-    },
-    Event { name: "map_stall", doc: "cycles in which a read waits for the map", can_happen: there },
-    Event {
-        name: "known_behind_read",
-        doc: "fragments that need no texel and come behind one that waits for its own",
-        can_happen: several,
-    },
-];
+events! {
+    shadow_off = "fragments that were not looked up, as the map does not count" if there;
+    own_map = "fragments of the light's own pass: none is looked up" if draws_map;
+    outside_map = "fragments outside the map: lit" if there;
+    before_map = "fragments nearer to the light than the map begins: lit" if there;
+    behind_map = "fragments farther from the light than the map ends: in shadow" if there;
+    texel_lit = "fragments that their texel finds lit" if there;
+    texel_shadow = "fragments that their texel finds in shadow" if there;
+    texel_tie = "fragments exactly as far as their texel: lit" if there;
+    texel_glass = "fragments that their texel finds lit through what transmits: not all of the light is left" if transmits;
+    texel_wait = "cycles in which a fragment could go on but for its texel" if there;
+    shadow_queue_full = "cycles in which a fragment waits for SHADOW's queue" if there;
+    map_stall = "cycles in which a read waits for the map" if there;
+    known_behind_read = "fragments that need no texel and come behind one that waits for its own" if several;
+}

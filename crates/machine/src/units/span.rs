@@ -4,7 +4,7 @@ use super::tokens;
 use crate::link::{Link, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec, always, light_pass};
+use crate::unit::{Ports, UnitSpec, always, events, light_pass};
 
 /// What SPAN declares.
 pub const SPEC: UnitSpec = UnitSpec {
@@ -33,16 +33,8 @@ fn ports(plan: &Plan) -> Ports {
     }
 }
 
-const EVENTS: &[Event] = &[
-    Event { name: "empty_span", doc: "lines without a pixel", can_happen: always },
-    Event {
-        name: "dropped_fresh",
-        doc: "lines without a pixel that passed on the mark of a triangle's first line",
-        can_happen: always,
-    },
-    Event {
-        name: "scissor_cut",
-        doc: "spans cut by the screen at the side where they end",
-        can_happen: always,
-    },
-];
+events! {
+    empty_span = "lines without a pixel" if always;
+    dropped_fresh = "lines without a pixel that passed on the mark of a triangle's first line" if always;
+    scissor_cut = "spans cut by the screen at the side where they end" if always;
+}

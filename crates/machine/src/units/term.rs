@@ -6,7 +6,7 @@ use crate::link::{Held, Link, MemoryPort, Ready, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::shade::Walk;
-use crate::unit::{Event, Ports, UnitSpec};
+use crate::unit::{Ports, UnitSpec, events};
 
 /// What TERM declares.
 pub const SPEC: UnitSpec = UnitSpec {
@@ -53,24 +53,12 @@ fn in_memory(plan: &Plan) -> bool {
     there(plan) && plan.shade.walk == Walk::Memory
 }
 
-const EVENTS: &[Event] = &[
-    Event { name: "record_read", doc: "records that were read", can_happen: there },
-    Event { name: "walk_down", doc: "steps of the walk to the next line", can_happen: there },
-    Event { name: "walk_forward", doc: "steps of the walk towards the end of a span", can_happen: there },
-    Event { name: "walk_back", doc: "steps of the walk away from the end of a span", can_happen: there },
-    Event {
-        name: "walk_waits",
-        doc: "cycles in which the walk stands at a span that PIXEL does not take yet",
-        can_happen: there,
-    },
-    Event {
-        name: "walk_result_last",
-        doc: "cycles in which a span waits for the last result of the walk alone",
-        can_happen: in_memory,
-    },
-    Event {
-        name: "term_read_stall",
-        doc: "cycles in which a read waits for the memory of the terms",
-        can_happen: there,
-    },
-];
+events! {
+    record_read = "records that were read" if there;
+    walk_down = "steps of the walk to the next line" if there;
+    walk_forward = "steps of the walk towards the end of a span" if there;
+    walk_back = "steps of the walk away from the end of a span" if there;
+    walk_waits = "cycles in which the walk stands at a span that PIXEL does not take yet" if there;
+    walk_result_last = "cycles in which a span waits for the last result of the walk alone" if in_memory;
+    term_read_stall = "cycles in which a read waits for the memory of the terms" if there;
+}

@@ -5,7 +5,7 @@ use crate::field::Field;
 use crate::link::{Link, MemoryPort, Ready, Status};
 use crate::machine::Machine;
 use crate::plan::Plan;
-use crate::unit::{Event, Ports, UnitSpec};
+use crate::unit::{Ports, UnitSpec, events};
 
 /// What TEXEL declares.
 pub const SPEC: UnitSpec = UnitSpec {
@@ -47,21 +47,9 @@ fn ports(plan: &Plan) -> Ports {
     }
 }
 
-const EVENTS: &[Event] = &[
-    Event { name: "texel_read", doc: "texels that were read", can_happen: there },
-    Event {
-        name: "texel_read_stall",
-        doc: "cycles in which a read waits for the memory of the textures",
-        can_happen: there,
-    },
-    Event {
-        name: "texel_queue_full",
-        doc: "cycles in which a fragment waits for TEXEL's queue",
-        can_happen: there,
-    },
-    Event {
-        name: "texel_data_wait",
-        doc: "cycles in which the oldest fragment waits for its texel",
-        can_happen: there,
-    },
-];
+events! {
+    texel_read = "texels that were read" if there;
+    texel_read_stall = "cycles in which a read waits for the memory of the textures" if there;
+    texel_queue_full = "cycles in which a fragment waits for TEXEL's queue" if there;
+    texel_data_wait = "cycles in which the oldest fragment waits for its texel" if there;
+}

@@ -24,11 +24,11 @@ mod passage;
 mod frame;
 mod vector;
 
+use crate::DrawState;
+use crate::Events;
 use crate::counters::Counters;
-use crate::events::Events;
 use crate::frame::{Frame, render};
 use crate::memory::Stalls;
-use crate::run::DrawState;
 use crate::tokens::FEW;
 use edgewalk_machine::{ForeignVertex, Plan, PortVertex};
 use frame::{Batch, Bring};

@@ -1,7 +1,7 @@
 //! The frame memory of the fast path and, on request, what happened at every pixel.
 
 use super::pixel::{Pixel, pixel};
-use crate::run::DrawState;
+use crate::DrawState;
 use edgewalk_machine::Plan;
 use std::ops::Range;
 

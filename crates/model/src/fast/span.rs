@@ -9,7 +9,7 @@
 use super::picture::{LANES, Picture};
 use super::pixel::Pixel;
 use super::walk::Span;
-use crate::run::DrawState;
+use crate::DrawState;
 use crate::tokens::{FEW, Words};
 use edgewalk_machine::Plan;
 use std::array::from_fn;

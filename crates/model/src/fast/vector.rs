@@ -5,8 +5,8 @@ use super::frame::{self, Bring};
 use super::passage::Passage;
 use super::picture::Picture;
 use super::pixel::Pixel;
+use crate::DrawState;
 use crate::counters::Counters;
-use crate::run::DrawState;
 use edgewalk_machine::Plan;
 
 macro_rules! compiled_for {

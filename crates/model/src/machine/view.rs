@@ -11,7 +11,7 @@ use edgewalk_machine::Plan;
 impl<const C: usize> Model<C> {
     /// Shows the machine in a cycle with these inputs, before the clock edge.
     pub fn view(&self, plan: &Plan, inputs: &Inputs, view: &mut View) {
-        view.begin();
+        view.begin(inputs.shadow.light_pass);
         let Model { setup, edge, span, pixel, depth, .. } = self;
         let pass = depth.pass();
         let pass_ready = self.blend().is_some_and(|blend| blend.pass_ready(pass, &inputs.blend));
@@ -95,6 +95,9 @@ impl<const C: usize> Model<C> {
             tables: units.tables_wait(&offered),
             dividing: self.project().is_some_and(Project::dividing),
         };
+        if plan.shadow.draws_map() {
+            view.pages();
+        }
         view.cause(self.activity(block, readies.drawn, waits));
     }
 }

@@ -162,9 +162,9 @@ impl<const C: usize> Setup<C> {
                 self.prim.source = Source { tag, id };
                 self.count(&sorted, events);
             }
-            Some(Culled::Lines) => events.culled_lines += 1,
-            Some(Culled::Columns) => events.culled_columns += 1,
-            Some(Culled::Area) => events.culled_area += 1,
+            Some(Culled::Lines) => events.setup.culled_lines += 1,
+            Some(Culled::Columns) => events.setup.culled_columns += 1,
+            Some(Culled::Area) => events.setup.culled_area += 1,
         }
         *self.sorted = sorted;
     }
@@ -173,11 +173,11 @@ impl<const C: usize> Setup<C> {
         let [n1, n2] = self.prim.lines;
         let knee = sorted.corners[1].v;
         let p = 1 << self.plan.widths().center_fraction;
-        events.major_right += u64::from(self.prim.major_right);
-        events.major_left += u64::from(!self.prim.major_right);
-        events.no_upper_part += u64::from(n1 == 0);
-        events.no_lower_part += u64::from(n2 == 0);
-        events.knee_on_line += u64::from(n1 > 0 && n2 > 0 && knee % p == 0);
+        events.setup.major_right += u64::from(self.prim.major_right);
+        events.setup.major_left += u64::from(!self.prim.major_right);
+        events.setup.no_upper_part += u64::from(n1 == 0);
+        events.setup.no_lower_part += u64::from(n2 == 0);
+        events.setup.knee_on_line += u64::from(n1 > 0 && n2 > 0 && knee % p == 0);
     }
 }
 

@@ -71,7 +71,15 @@ pub(crate) fn seen_values<const C: usize>(plan: &Plan, addr: u32, outputs: &[u32
 
 fn pixel(plan: &Plan) -> Field {
     let w = plan.widths();
-    Field { name: "addr", shape: Shape::Pixel { x_bits: w.x, bits: w.address }, brief: true }
+    Field {
+        name: "addr",
+        shape: Shape::Pixel {
+            x_bits: w.x,
+            bits: w.address,
+            of_map: plan.shadow.draws_map().then(|| plan.shadow.side_bits()),
+        },
+        brief: true,
+    }
 }
 
 fn channel((place, channel): (usize, &Channel)) -> Field {

@@ -24,8 +24,11 @@ pub enum Shape {
     Pixel {
         /// Bits of the column.
         x_bits: u32,
-        /// Bits in all.
+        /// Bits of the address.
         bits: u32,
+        /// In a machine that draws its map: bits of the column of a pixel of the map. One bit more is recorded above
+        /// the address; it is 1 for a pixel of the map.
+        of_map: Option<u32>,
     },
     /// Number of a triangle in the order of arrival, and 1 more; 0: none.
     Triangle,
@@ -51,7 +54,8 @@ impl Shape {
     pub const fn bits(self) -> u32 {
         match self {
             Shape::Flag => 1,
-            Shape::Number { bits, .. } | Shape::Pixel { bits, .. } => bits,
+            Shape::Number { bits, .. } => bits,
+            Shape::Pixel { bits, of_map, .. } => bits + of_map.is_some() as u32,
             Shape::Code(words) => usize::BITS - words.len().leading_zeros(),
             Shape::Triangle | Shape::Token(_) => 32,
         }
@@ -264,6 +268,8 @@ pub struct Structure {
     pub color: Option<Store>,
     /// What is written to the depth memory.
     pub depth: Option<Store>,
+    /// In a machine that draws its map the flags that are up while the picture, and while the map is drawn.
+    pub pages: Option<[Id; 2]>,
 }
 
 impl Structure {

@@ -1,6 +1,6 @@
 //! Tokens, each kept once: registers and queues hold their numbers.
 
-use super::Field;
+use super::{Field, Shape};
 use std::collections::HashMap;
 
 /// A kind of token, and every one of it that was met.
@@ -40,12 +40,16 @@ impl Tokens {
         self.0.iter().position(|kind| kind.name == name).expect("units declare the kinds they show")
     }
 
-    /// The number of a token; 0: none.
-    pub(super) fn number(&mut self, kind: &str, token: Option<(u32, &[u64])>) -> u64 {
+    /// The number of a token; 0: none. `of_map`: its pixel is one of the map.
+    pub(super) fn number(&mut self, kind: &str, token: Option<(u32, &[u64])>, of_map: bool) -> u64 {
         let Some((triangle, values)) = token else { return 0 };
         let place = self.place(kind);
         let kind = &mut self.0[place];
-        let token: Vec<u64> = std::iter::once(u64::from(triangle)).chain(values.iter().copied()).collect();
+        let in_map =
+            |shape| if let Shape::Pixel { bits, .. } = shape { u64::from(of_map) << bits } else { 0 };
+        let values_of_page =
+            values.iter().zip(&kind.fields).map(|(value, field)| value | in_map(field.shape));
+        let token: Vec<u64> = std::iter::once(u64::from(triangle)).chain(values_of_page).collect();
         debug_assert_eq!(values.len(), kind.fields.len(), "{}", kind.name);
         let next = kind.met.len() as u64 + 1;
         let number = *kind.numbers.entry(token.clone()).or_insert(next);

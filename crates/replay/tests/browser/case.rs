@@ -1,7 +1,9 @@
 //! What is shown: an icosahedron on four machines, its page in a file, and the model run anew beside it.
 
-use edgewalk_machine::{Machine, Plan, PortVertex, Record};
-use edgewalk_model::{DrawState, Frame, Pass, Rig, Shading, Stalls, View, for_channels, render_passes};
+use edgewalk_machine::{
+    DrawState, Machine, Maps, Pass, Plan, PortVertex, Record, Shading, first_of_picture, steps,
+};
+use edgewalk_model::{Frame, Rig, Stalls, View, for_channels, render_passes};
 use edgewalk_replay::{Recording, Replay, Rules, Window, page, record_passes};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -158,6 +160,20 @@ impl Case {
         }
     }
 
+    /// A machine that draws the map of 16 x 16 texels itself, from the same triangles.
+    pub fn own_map() -> Case {
+        let settings = [("shadow.light", "parallel"), ("shadow.size", "16"), ("shadow.own_pass", "yes")];
+        let case = Case::of("own map", machine(Machine::default(), &settings));
+        let light = DrawState { light_pass: true, ..DrawState::default() };
+        let pass = Pass { triangles: FACES.len(), state: light, clear_depth: true, map: Some(0) };
+        Case {
+            triangles: [&case.triangles[..], &case.triangles].concat(),
+            passes: [&[pass], &case.passes[..]].concat(),
+            maps: Vec::new(),
+            ..case
+        }
+    }
+
     pub fn recording(&self, window: Window) -> Recording {
         let rules = Rules { passes: &self.passes, maps: &self.maps, shading: &self.shading };
         record_passes(&self.plan, &self.triangles, &rules, self.stalls, window).expect("recorded")
@@ -191,29 +207,24 @@ impl Case {
     /// Runs the model anew and sees every cycle, and the write that fires in it: address and triangle.
     pub fn watch(&self, mut see: impl FnMut(u32, &View, Option<(u32, u32)>)) {
         for_channels!(self.plan, C => {
-            let mut rig = Rig::<C>::new(&self.plan, self.passes[0].state, self.stalls);
+            let mut rig = Rig::<C>::new(&self.plan, first_of_picture(&self.passes), self.stalls);
             rig.write_shading(&self.plan, &self.shading);
-            if let (Some(memory), Some(map)) = (&mut rig.map, self.maps.first()) {
-                memory.words_mut().copy_from_slice(map);
-            }
-            // As many at once as there is room for their records.
-            let at_once = if self.plan.shade.is_there() { 1 << self.plan.shade.record_bits } else { usize::MAX };
-            let (mut view, mut waiting, mut part) = (View::new(), &self.triangles[..], at_once);
-            for now in 0.. {
-                let offered = waiting.first().filter(|_| part > 0).map(|triangle| (triangle, 0));
-                rig.model.view(&self.plan, &rig.inputs(offered, true), &mut view);
-                let cycle = rig.cycle(offered, true);
-                see(now, &view, cycle.write().map(|write| (write.addr, write.source.id)));
-                if cycle.triangle {
-                    (waiting, part) = (&waiting[1..], part - 1);
-                } else if cycle.outputs.idle && waiting.is_empty() {
-                    break;
-                } else if cycle.outputs.idle && part == 0 {
-                    let drawn = self.triangles.len() - waiting.len();
-                    for (number, record) in self.shading.records.iter().enumerate().skip(drawn).take(at_once) {
-                        rig.write_record(&self.plan, number, record);
+            let (mut view, mut maps, mut now) = (View::new(), Maps::of_host(&self.maps), 0..);
+            let mut waiting = &self.triangles[..];
+            for step in steps(&self.plan, &self.passes, &self.shading) {
+                let Some(count) = rig.take_step(&self.plan, step, &mut maps) else { continue };
+                let mut left = count.min(waiting.len());
+                loop {
+                    let offered = waiting.first().filter(|_| left > 0).map(|triangle| (triangle, 0));
+                    rig.model.view(&self.plan, &rig.inputs(offered, true), &mut view);
+                    let cycle = rig.cycle(offered, true);
+                    let now = now.next().expect("fewer than 2^32 cycles");
+                    see(now, &view, cycle.write().map(|write| (write.addr, write.source.id)));
+                    if cycle.triangle {
+                        (waiting, left) = (&waiting[1..], left - 1);
+                    } else if cycle.outputs.idle && left == 0 {
+                        break;
                     }
-                    part = at_once;
                 }
             }
         });

@@ -44,6 +44,36 @@ fn the_last_picture_is_the_models_and_time_runs_back() {
     browser.is_quiet();
 }
 
+#[test]
+fn a_map_that_the_machine_draws_is_shown() {
+    let mut browser = Browser::start();
+    let case = Case::own_map();
+    let html = case.html();
+    let (texts, values) = (shown_text(&mut browser, &case, &html), pictures(&mut browser, &case, &html));
+    let texels = map_shown(&mut browser, &case).unwrap_or_else(|why| panic!("{why}"));
+    println!("{texts:?} texts, {values:?} values, {texels} texels");
+    assert!(texts.is_ok_and(|texts| texts > 3000) && values.is_ok_and(|values| values > 12_000));
+    assert_eq!(texels, 16 * 16);
+    browser.is_quiet();
+}
+
+/// The map behind the last cycle, texel by texel.
+fn map_shown(browser: &mut Browser, case: &Case) -> Checked {
+    let shown = browser.eval(
+        "app.go(app.doc.cycles - 1); (() => { const v = app.planes.views.find((v) => v.plane.map);
+          return Array.from(v.top, (write, pixel) => [app.planes.valueAt(v, 0, write, pixel), write]); })()",
+    );
+    let (mut compared, mut written) = (0, 0);
+    for (texel, depth) in case.frame().maps[0].iter().enumerate() {
+        if shown[texel][0].as_u64() != Some(u64::from(*depth)) {
+            return Err(format!("texel {texel} is {}, not {depth}", shown[texel][0]));
+        }
+        written += u64::from(shown[texel][1].as_i64() >= Some(0));
+        compared += 1;
+    }
+    if written < 20 { Err(format!("{written} texels were drawn")) } else { Ok(compared) }
+}
+
 /// Faults of the page: what is replaced, and by what.
 const MUTANTS: [(&str, &str, &str); 4] = [
     (
@@ -58,8 +88,8 @@ const MUTANTS: [(&str, &str, &str); 4] = [
     ),
     (
         "writes are not undone",
-        "this.paint(view, this.pixelOf(list.numbers[i]), list.before[i])",
-        "this.paint(view, this.pixelOf(list.numbers[i]), i)",
+        "this.paint(view, this.pixelOf(list.numbers[i], list.page), list.before[i])",
+        "this.paint(view, this.pixelOf(list.numbers[i], list.page), i)",
     ),
     ("signed read as unsigned", "if (!shape.signed) return raw;", "return raw;"),
 ];
@@ -149,7 +179,7 @@ fn a_replay_of_another_version_is_refused_in_words() {
     let case = &seven()[0];
     let html = case.html();
     for (from, to, word) in [
-        ("\"version\":[1,0]", "\"version\":[2,0]", "version 2.0; this page shows version 1"),
+        ("\"version\":[1,1]", "\"version\":[2,0]", "version 2.0; this page shows version 1"),
         ("\"format\":\"edgewalk-replay\"", "\"format\":\"other\"", "This is no replay: its format is other"),
     ] {
         assert_eq!(html.matches(from).count(), 1);
@@ -158,7 +188,7 @@ fn a_replay_of_another_version_is_refused_in_words() {
         let said = browser.eval("document.getElementById('difference').textContent");
         assert!(said.as_str().is_some_and(|said| said.contains(word)), "{said}");
     }
-    let (_folder, path) = file(&html.replace("\"version\":[1,0]", "\"version\":[1,7],\"later\":{}"));
+    let (_folder, path) = file(&html.replace("\"version\":[1,1]", "\"version\":[1,7],\"later\":{}"));
     browser.open(&path, "");
     assert_eq!(browser.eval("app.cycle"), 0, "a later minor version is shown");
 }

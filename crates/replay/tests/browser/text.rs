@@ -25,12 +25,12 @@ pub fn text(shape: Shape, raw: u64, hex: bool) -> String {
         Shape::Triangle => format!("T{}", raw - 1),
         Shape::Token(_) if raw == 0 => "–".to_owned(),
         Shape::Token(_) => format!("#{raw}"),
-        Shape::Pixel { x_bits, bits } => {
-            if hex {
-                digits(bits)
-            } else {
-                format!("({}, {})", raw & ((1 << x_bits) - 1), raw >> x_bits)
-            }
+        Shape::Pixel { .. } if hex => digits(shape.bits()),
+        Shape::Pixel { x_bits, bits, of_map } => {
+            let (word, low) =
+                if raw >> bits == 0 { ("", x_bits) } else { ("map ", of_map.expect("it has a map")) };
+            let address = raw & ((1 << bits) - 1);
+            format!("{word}({}, {})", address & ((1 << low) - 1), address >> low)
         }
         Shape::Number { bits, .. } if hex => digits(bits),
         Shape::Number { bits, fraction, signed, .. } => decimal(bits, fraction, signed, raw),

@@ -56,20 +56,8 @@ pub struct Suite {
     pub seed: u64,
     /// Every stored depth at the start, LSB; the largest if `None`.
     pub clear_z: Option<u64>,
-    /// Depth function, 0 never to 7 always; see `docs/machine.md`, section 6.
-    pub depth_func: u8,
-    /// Fragments that pass store their depth.
-    pub depth_write: bool,
-    /// Colours of fragments that pass go on to BLEND; of no meaning without it.
-    pub color_write: bool,
-    /// BLEND adds, else it mixes.
-    pub blend_add: bool,
-    /// SHADOW looks up its map; of no meaning without it.
-    pub shadow_on: bool,
-    /// The map is drawn, not the picture; of no meaning where somebody else draws it.
-    pub light_pass: bool,
-    /// What SHADOW leaves of a colour in shadow, where its gate scales, LSB.
-    pub ambient: u64,
+    /// The rules it is drawn by; of `clear` nothing is used.
+    pub state: DrawState,
     /// What the memories hold that nobody writes.
     pub words: Words,
     /// Under which stalls it shows what it is for.
@@ -224,14 +212,13 @@ impl Suite {
         let mut plain = Suite { seed, ..Suite::of_triangles(name, entry.about, Vec::new()) };
         if machine.shadow.is_there() {
             // Every suite is drawn with the map at work, but for the one without.
-            (plain.shadow_on, plain.ambient) = (true, machine.color.max() / 3);
+            (plain.state.shadow_on, plain.state.ambient) = (true, machine.color.max() / 3);
         }
         let suite = match entry.kind {
             Kind::Shapes(stalls, cases) => Suite { stalls, cases: cases(machine, seed, count), ..plain },
             Kind::Function(depth_func, depth_write) => {
                 let suite = Suite {
-                    depth_func,
-                    depth_write,
+                    state: DrawState { depth_func, depth_write, ..plain.state },
                     stalls: StallKind::Late,
                     units: const { &[Unit::MACHINE, Unit::of(&units::depth::SPEC)] },
                     cases: functions::cases(machine),
@@ -240,8 +227,7 @@ impl Suite {
                 suite.on_half_depth(machine)
             }
             Kind::Colors { color_write, blend_add } => Suite {
-                color_write,
-                blend_add,
+                state: DrawState { color_write, blend_add, ..plain.state },
                 stalls: StallKind::Late,
                 // What is not written does not come to BLEND.
                 units: match color_write {
@@ -254,8 +240,7 @@ impl Suite {
                 ..plain
             },
             Kind::Light { shadow_on } => Suite {
-                shadow_on,
-                depth_func: 7,
+                state: DrawState { shadow_on, depth_func: 7, ..plain.state },
                 stalls: StallKind::Late,
                 units: if machine.shadow.projects() {
                     const { &[Unit::MACHINE, Unit::of(&units::project::SPEC), Unit::of(&units::shadow::SPEC)] }
@@ -266,7 +251,7 @@ impl Suite {
                 ..plain
             },
             Kind::OwnMap { light_pass } => Suite {
-                light_pass,
+                state: DrawState { light_pass, ..plain.state },
                 clear_z: light_pass.then_some((1 << machine.shadow.depth_bits) - 1),
                 stalls: StallKind::Late,
                 units: const {
@@ -294,19 +279,12 @@ impl Suite {
     #[must_use]
     pub fn of_triangles(name: &str, about: &str, triangles: Vec<Triangle>) -> Suite {
         let case = Case { name: name.to_owned(), triangles };
-        let less = DrawState::default();
         Suite {
             name: name.to_owned(),
             about: about.to_owned(),
             seed: 0,
             clear_z: None,
-            depth_func: less.depth_func,
-            depth_write: less.depth_write,
-            color_write: less.color_write,
-            blend_add: less.blend_add,
-            shadow_on: less.shadow_on,
-            light_pass: less.light_pass,
-            ambient: less.ambient,
+            state: DrawState::default(),
             words: Words::new(),
             stalls: StallKind::Mixed,
             units: &[],
@@ -320,15 +298,6 @@ impl Suite {
         self.units.is_empty() || self.units.contains(&unit)
     }
 
-    /// The state that the suite is drawn with.
-    #[must_use]
-    pub fn state(&self) -> DrawState {
-        let Suite { depth_func, depth_write, color_write, blend_add, .. } = *self;
-        let Suite { shadow_on, light_pass, ambient, .. } = *self;
-        let clear = [0; 3];
-        DrawState { depth_func, depth_write, color_write, blend_add, shadow_on, light_pass, ambient, clear }
-    }
-
     /// One suite after the other, as one.
     #[must_use]
     pub fn joined(name: &str, about: &str, suites: impl IntoIterator<Item = Suite>) -> Suite {
@@ -336,8 +305,8 @@ impl Suite {
         for suite in suites {
             joined.seed = joined.seed.max(suite.seed);
             // The light is the machine's, and so are tables; a record is a triangle's.
-            (joined.shadow_on, joined.light_pass, joined.ambient) =
-                (suite.shadow_on, suite.light_pass, suite.ambient);
+            let DrawState { shadow_on, light_pass, ambient, .. } = suite.state;
+            joined.state = DrawState { shadow_on, light_pass, ambient, ..joined.state };
             for (memory, words) in suite.words {
                 match joined.words.get_mut(memory) {
                     Some(before) if memory == words::RECORDS => {

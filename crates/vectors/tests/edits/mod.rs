@@ -62,7 +62,7 @@ fn run(place: &Place, edit: Option<&Edit>) -> (bool, String) {
     let (keys, suite, unit) = place;
     let machine = machine(keys);
     let suite = Suite::named(&machine, suite, 1, 100).expect("listed");
-    let trace = capture(&machine, *unit, &suite, suite.state(), suite.stalls);
+    let trace = capture(&machine, *unit, &suite, suite.state, suite.stalls);
     let verilog = design::verilog(&machine, *unit).expect("a checked machine");
     let folder = tempfile::tempdir().expect("a folder");
     write(&directory(&suite, &trace, &verilog, Tables::LeftOut), folder.path());

@@ -24,12 +24,12 @@ pub fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
     let mut traces = Vec::new();
     for depth_func in functions {
         for stalls in StallKind::ALL {
-            let state = DrawState { depth_func, ..suite.state() };
+            let state = DrawState { depth_func, ..suite.state };
             let suite = if depth_func & 4 != 0 { &half } else { &suite };
             traces.push(capture(machine, unit, suite, state, stalls));
         }
     }
-    let masked = DrawState { depth_write: false, ..suite.state() };
+    let masked = DrawState { depth_write: false, ..suite.state };
     traces.push(capture(machine, unit, &suite, masked, StallKind::Mixed));
     if machine.blend.is_there() && unit == common::DEPTH {
         let unwritten = DrawState { color_write: false, ..DrawState::default() };
@@ -39,7 +39,7 @@ pub fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
         "shadow" => {
             for name in ["light", "light_off"] {
                 let suite = Suite::named(machine, name, 1, 24).expect("listed");
-                traces.push(capture(machine, unit, &suite, suite.state(), suite.stalls));
+                traces.push(capture(machine, unit, &suite, suite.state, suite.stalls));
             }
             let any = [StallKind::Mixed, StallKind::None, StallKind::Late].into_iter().zip(1..);
             let any: Vec<_> =
@@ -52,7 +52,7 @@ pub fn traces(machine: &Plan, unit: Unit) -> Vec<Trace> {
             // The directed words once, the rest at random: whole suites under every stall take long.
             traces.truncate(1);
             for stalls in [StallKind::Mixed, StallKind::Late] {
-                traces.push(capture(machine, unit, &suite, suite.state(), stalls));
+                traces.push(capture(machine, unit, &suite, suite.state, stalls));
             }
             let any = StallKind::ALL.into_iter().zip(1..);
             let any: Vec<_> = any

@@ -1,0 +1,16 @@
+//! What the whole machine shows beside the ports of its units.
+
+use crate::activity::Activity;
+use crate::field::Field;
+use crate::link::Status;
+use crate::unit::{always, events};
+
+/// Outputs that mean something in every cycle.
+pub(crate) fn status() -> Vec<Status> {
+    let cause = Field::count("activity", Activity::BITS, "the cause of the cycle");
+    vec![Status { field: cause, during: None }, Status::new("idle", "nothing to do")]
+}
+
+events! {
+    setup_overlap = "triangles taken in while PIXEL draws" if always;
+}
