@@ -1,11 +1,12 @@
 //! What is to be drawn on one machine after another: read once, made into a frame for each screen.
 
 use crate::extra;
+use crate::needs;
 use crate::port::{guard_band, sent};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::Shading;
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Blending, Change, Frame, PixelMethod, Scene, Triangulated, triangle_file};
+use edgewalk_scene::{Blending, Change, Frame, InputKind, PixelMethod, Scene, Triangulated, triangle_file};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
@@ -35,7 +36,7 @@ impl Input {
     /// # Errors
     /// No such scene or file, or a fault in it.
     pub fn open(name: &str, shading: Shaded) -> Result<Input> {
-        let what = if is_triangle_file(name) {
+        let what = if InputKind::is_triangles(name) {
             What::Triangles(Box::new(triangle_file::read(Path::new(name))?))
         } else {
             What::Scene(Box::new(Scene::open(name)?), shading)
@@ -77,7 +78,7 @@ impl Input {
         let frame = match &self.what {
             What::Triangles(frame) => fitting(&self.name, Frame::clone(frame), machine)?,
             What::Scene(scene, shading) => {
-                extra::fitting(0, machine).with_context(|| self.name.clone())?;
+                extra::none(machine).with_context(|| self.name.clone())?;
                 let surface = scene.surface(machine.width, machine.height, guard_band(machine));
                 let frame = match *shading {
                     Shaded::Corners(system) => edgewalk_golden::frame(scene, &surface, system),
@@ -96,12 +97,6 @@ impl Input {
     }
 }
 
-/// Whether a name is that of a file of screen-space triangles.
-#[must_use]
-pub fn is_triangle_file(name: &str) -> bool {
-    Path::new(name).extension().is_some_and(|e| e == "tri")
-}
-
 /// The triangle file's frame, if it is as large as the machine's screen and has values for its channels.
 ///
 /// # Errors
@@ -118,7 +113,9 @@ pub fn fitting(name: &str, frame: Frame, machine: &Plan) -> Result<Frame> {
             frame.height
         ));
     }
-    extra::fitting(frame.extra, machine).with_context(|| name.to_owned())?;
+    if frame.extra != extra::channels(machine).len() {
+        needs::check(&frame, machine).with_context(|| name.to_owned())?;
+    }
     Ok(frame)
 }
 

@@ -22,11 +22,11 @@ use channel::Tally;
 pub use channel::{ChannelError, DepthAndColor, ExtraError, Spread};
 pub use counts::Counts;
 use edgewalk_host::extra;
-use edgewalk_host::raster::Raster;
+use edgewalk_host::raster::{Cycles, Raster};
 use edgewalk_host::reach::Reach;
 use edgewalk_host::shade::Proof;
 use edgewalk_machine::Plan;
-use edgewalk_scene::Frame;
+use edgewalk_scene::{Blending, Frame};
 use layers::Layers;
 pub use layers::{Blended, Errors};
 pub use lit::{Lights, Lit, Seen};
@@ -99,138 +99,199 @@ fn compared(
     golden: &Raster,
     drawn: &Raster,
     reach: Option<&Reach>,
-    mut allowed: Option<Allowed>,
+    allowed: Option<Allowed>,
 ) -> Comparison {
-    let mut tally = Tally::new(machine, golden, drawn);
-    let mut counts = Counts::new(machine, golden, drawn);
     let mut light = Lights::drawn(machine, frame, drawn, reach);
-    let layers = Layers::of(machine, frame, light.as_mut());
-    let blended = match &layers {
-        Some(layers) => Some(each_layered(&mut counts, &mut tally, layers, frame, golden, light.as_mut())),
-        None => {
-            each_pixel(
-                (machine, frame, golden),
-                &mut counts,
-                &mut tally,
-                reach,
-                (light.as_mut(), allowed.as_mut()),
-            );
-            None
-        }
-    };
-    let shaded = allowed.filter(|_| blended.is_none()).map(Allowed::found);
-    counts.wrapped = tally.wrapped;
-    let mut errors = DepthAndColor { additions: None, z: tally.z.found(), color: tally.color.found() };
-    if let Some(light) = &light {
-        errors.color.bound = errors.color.bound.map(|bound| light.color_bound(bound));
+    if let Some(layers) = Layers::of(machine, frame, light.as_mut()) {
+        let mut tally = Tally::new(machine);
+        let mut counts = Counts::new(machine, drawn.cycles.as_ref());
+        let found = blended(&mut counts, &mut tally, &layers, frame, (golden, drawn), light.as_mut());
+        let maps = [tally.z.map(), tally.color.map()];
+        let mut c = Comparison::of(machine, counts, tally);
+        c.errors.color.bounded_elsewhere("each pixel has that of its layers");
+        return Comparison { blended: Some(found), lit: light.map(Lights::found), ..c }.with_maps(maps);
     }
-    if blended.is_some() {
-        errors.color.bounded_elsewhere("each pixel has that of its layers");
-    } else if shaded.is_some() {
-        errors.color.bounded_elsewhere("each triangle has that of its terms and tables");
-    }
-    let extra = tally.extra.into_iter().map(|errors| ExtraError::of(errors, machine)).collect();
-    Comparison { counts, errors, blended, lit: light.map(Lights::found), shaded, extra }
+    let mut bands = Bands { light, allowed, ..Bands::new(machine, frame, drawn.cycles.as_ref(), reach) };
+    let maps = bands.add(golden, drawn);
+    bands.ended().with_maps(maps)
 }
 
-/// Every pixel of a picture without layers: it shows one fragment as it is, or as a light leaves it.
-fn each_pixel(
-    (machine, frame, golden): (&Plan, &Frame, &Raster),
-    c: &mut Counts,
-    tally: &mut Tally,
-    reach: Option<&Reach>,
-    (mut light, mut allowed): (Option<&mut Lights>, Option<&mut Allowed>),
-) {
-    let drawn = tally.drawn;
-    let mut differ = Vec::new();
-    for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
-        c.covers(golden.coverage[i], drawn.coverage[i]);
-        if (golden.id[i], golden.writes[i]) != (drawn.id[i], drawn.writes[i]) {
-            differ.push(i);
-            continue;
-        }
-        if golden.id[i] >= 0 {
-            let agrees = light.as_mut().is_none_or(|light| light.agrees(i, golden, drawn));
-            let mut over = Over::golden(golden, i);
-            if let Some(allowed) = &mut allowed {
-                let one = machine.color.max() as f64;
-                over.rgb = allowed.at(i, golden.id[i], golden.rgb[i], drawn.rgb[i], one);
-            }
-            if agrees {
-                tally.triangle(i, golden.z[i], &over);
-            } else {
-                tally.depth(i, golden.z[i]); // the colour is another
-            }
-        } else {
-            c.background_wrong += u64::from(!tally.is_background(i, frame.clear));
-        }
-        c.compared += u64::from(golden.coverage[i] > 0);
+/// Two pictures compared from the top, a band of lines at a time: neither need be in memory as a whole.
+pub struct Bands<'a> {
+    machine: &'a Plan,
+    frame: &'a Frame,
+    reach: Option<&'a Reach>,
+    counts: Counts,
+    tally: Tally,
+    /// Of a picture that is one band.
+    light: Option<Lights<'a>>,
+    /// Likewise.
+    allowed: Option<Allowed<'a>>,
+}
+
+impl<'a> Bands<'a> {
+    /// Whether the comparison of a frame can go by bands: where it is blended, lit or shaded at each pixel it needs the whole picture.
+    #[must_use]
+    pub fn suit(frame: &Frame) -> bool {
+        let plain = frame.shadows.is_empty() && frame.shading.is_none();
+        plain && matches!(&frame.passes()[..], [pass] if pass.state.blend == Blending::Off)
     }
-    // The colour of these hangs on the light, or is not that of a plane; which pixels these are hangs on depths alone.
-    let depth_alone = light.is_some() || allowed.is_some();
-    let orders = Orders::new(machine, frame, &differ, reach);
-    for i in differ {
-        let stored = |shown: &Over| if frame.depth_write { shown.z } else { 1.0 };
-        match orders.explain(i, drawn.id[i], drawn.writes[i]) {
-            Some(shown) => {
-                c.order_undecided += 1;
-                match shown {
-                    Some(shown) if depth_alone => tally.depth(i, stored(&shown)),
-                    Some(shown) => tally.triangle(i, stored(&shown), &shown),
-                    None => c.background_wrong += u64::from(!tally.is_background(i, frame.clear)),
-                }
+
+    /// Nothing compared yet of a frame that [suits](Bands::suit) and its picture, which took the machine so many cycles.
+    #[must_use]
+    pub fn new(
+        machine: &'a Plan,
+        frame: &'a Frame,
+        cycles: Option<&Cycles>,
+        reach: Option<&'a Reach>,
+    ) -> Self {
+        let (counts, tally) = (Counts::new(machine, cycles), Tally::new(machine));
+        Bands { machine, frame, reach, counts, tally, light: None, allowed: None }
+    }
+
+    /// Compares the next lines; gives the errors of depth and of colour of each of their pixels, LSB.
+    pub fn add(&mut self, golden: &Raster, drawn: &Raster) -> [Vec<f64>; 2] {
+        let Bands { machine, frame, reach, counts: c, tally, light, allowed } = self;
+        let first = c.pixels as usize;
+        tally.begin(golden.coverage.len());
+        c.covered += golden.coverage.iter().map(|count| u64::from(*count > 0)).sum::<u64>();
+        let mut differ = Vec::new();
+        for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
+            c.covers(golden.coverage[i], drawn.coverage[i]);
+            if (golden.id[i], golden.writes[i]) != (drawn.id[i], drawn.writes[i]) {
+                differ.push(first + i);
+                continue;
             }
-            None => c.order_wrong += 1,
+            if golden.id[i] >= 0 {
+                let agrees = light.as_mut().is_none_or(|light| light.agrees(i, golden, drawn));
+                let mut over = Over::golden(golden, i);
+                if let Some(allowed) = allowed {
+                    let one = machine.color.max() as f64;
+                    over.rgb = allowed.at(i, golden.id[i], golden.rgb[i], drawn.rgb[i], one);
+                }
+                if agrees {
+                    tally.triangle(i, golden.z[i], &over, drawn);
+                } else {
+                    tally.depth(i, golden.z[i], drawn); // the colour is another
+                }
+            } else {
+                c.background_wrong += u64::from(!tally.is_background(i, frame.clear, drawn));
+            }
+            c.compared += u64::from(golden.coverage[i] > 0);
         }
-        c.compared += u64::from(golden.coverage[i] > 0);
+        // The colour of these hangs on the light, or is not that of a plane; which pixels these are hangs on depths alone.
+        let depth_alone = light.is_some() || allowed.is_some();
+        let stored = |shown: &Over| if frame.depth_write { shown.z } else { 1.0 };
+        let orders = Orders::new(machine, frame, &differ, *reach);
+        for pixel in differ {
+            let i = pixel - first;
+            match orders.explain(pixel, drawn.id[i], drawn.writes[i]) {
+                Some(shown) => {
+                    c.order_undecided += 1;
+                    match shown {
+                        Some(shown) if depth_alone => tally.depth(i, stored(&shown), drawn),
+                        Some(shown) => tally.triangle(i, stored(&shown), &shown, drawn),
+                        None => c.background_wrong += u64::from(!tally.is_background(i, frame.clear, drawn)),
+                    }
+                }
+                None => c.order_wrong += 1,
+            }
+            c.compared += u64::from(golden.coverage[i] > 0);
+        }
+        [tally.z.map(), tally.color.map()]
+    }
+
+    /// What all lines together come to, without the errors of every pixel.
+    #[must_use]
+    pub fn found(self) -> Comparison {
+        let (machine, reach) = (self.machine, self.reach);
+        let c = self.ended();
+        match reach {
+            Some(reach) => c.reaching(machine, reach),
+            None => c,
+        }
+    }
+
+    fn ended(self) -> Comparison {
+        let Bands { machine, counts, tally, light, allowed, .. } = self;
+        let mut c = Comparison::of(machine, counts, tally);
+        if let Some(allowed) = allowed {
+            c.shaded = Some(allowed.found());
+            c.errors.color.bounded_elsewhere("each triangle has that of its terms and tables");
+        }
+        if let Some(light) = light {
+            c.errors.color.bound = c.errors.color.bound.map(|bound| light.color_bound(bound));
+            c.lit = Some(light.found());
+        }
+        c
     }
 }
 
 /// Every pixel where all depth tests are sure: there all layers must be golden's, and the colour within their bound.
-fn each_layered(
+fn blended(
     c: &mut Counts,
     tally: &mut Tally,
     layers: &Layers,
     frame: &Frame,
-    golden: &Raster,
+    (golden, drawn): (&Raster, &Raster),
     mut light: Option<&mut Lights>,
 ) -> Blended {
     let mut found = Blended::default();
-    for i in 0..golden.coverage.len().min(tally.drawn.coverage.len()) {
-        c.covers(golden.coverage[i], tally.drawn.coverage[i]);
+    tally.begin(golden.coverage.len());
+    c.covered = golden.coverage.iter().map(|count| u64::from(*count > 0)).sum();
+    for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
+        c.covers(golden.coverage[i], drawn.coverage[i]);
         c.compared += u64::from(golden.coverage[i] > 0);
         if layers.open[i] {
             c.order_undecided += 1;
-        } else if (golden.id[i], golden.writes[i]) != (tally.drawn.id[i], tally.drawn.writes[i]) {
+        } else if (golden.id[i], golden.writes[i]) != (drawn.id[i], drawn.writes[i]) {
             c.order_wrong += 1;
         } else if golden.id[i] >= 0 {
             let alike = light.as_mut().is_none_or(|light| {
                 if layers.loose[i] {
                     light.loose();
                 }
-                light.decided(i, golden, tally.drawn, Some(layers.last[i])) && !layers.loose[i]
+                light.decided(i, golden, drawn, Some(layers.last[i])) && !layers.loose[i]
             });
             if alike {
-                tally.triangle(i, golden.z[i], &Over::golden(golden, i));
+                tally.triangle(i, golden.z[i], &Over::golden(golden, i), drawn);
             } else {
-                tally.depth(i, golden.z[i]); // the colour may be another
+                tally.depth(i, golden.z[i], drawn); // the colour may be another
             }
-            let error = tally.color_error(golden.rgb[i], i);
+            let error = tally.color_error(golden.rgb[i], i, drawn);
             found.pixels += 1;
             found.layers = found.layers.max(layers.stored[i]);
             found.bound = found.bound.max(layers.bound[i]);
             found.of_bound = found.of_bound.max(error / layers.bound[i]);
             found.beyond += u64::from(error.is_nan() || error > layers.bound[i] + 1e-9);
         } else if golden.z[i] == 1.0 {
-            c.background_wrong += u64::from(!tally.is_background(i, frame.clear));
+            c.background_wrong += u64::from(!tally.is_background(i, frame.clear, drawn));
         } else {
-            c.background_wrong += u64::from(!tally.depth_only(i, golden.z[i], frame.clear));
+            c.background_wrong += u64::from(!tally.depth_only(i, golden.z[i], frame.clear, drawn));
         }
     }
     found
 }
 
 impl Comparison {
+    /// What all pixels together come to.
+    fn of(machine: &Plan, counts: Counts, tally: Tally) -> Self {
+        Comparison {
+            counts: Counts { wrapped: tally.wrapped, ..counts },
+            errors: DepthAndColor { additions: None, z: tally.z.found(), color: tally.color.found() },
+            blended: None,
+            lit: None,
+            shaded: None,
+            extra: tally.extra.into_iter().map(|errors| ExtraError::of(errors, machine)).collect(),
+        }
+    }
+
+    /// With the errors of depth and colour of every pixel.
+    fn with_maps(mut self, maps: [Vec<f64>; 2]) -> Self {
+        [self.errors.z.map, self.errors.color.map] = maps;
+        self
+    }
+
     /// With what is proved for these triangles: there are no more additions behind any of their pixels.
     fn reaching(mut self, machine: &Plan, reach: &Reach) -> Self {
         let channels = machine.channels();

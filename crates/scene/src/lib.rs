@@ -5,6 +5,8 @@
 
 mod error;
 mod text;
+mod file;
+mod kind;
 
 mod texture;
 mod mesh;
@@ -31,6 +33,7 @@ pub use frame::{
     DepthFunc, Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_LIGHTS, MAX_SIDE, Pane,
     Polygon, ShadeMode, Shadow, Triangle, Vertex,
 };
+pub use kind::InputKind;
 pub use light::{Attenuation, Incident, Light};
 pub use light_view::{InMap, LightView};
 pub use mesh::{Face, FaceData, Material, Mesh};

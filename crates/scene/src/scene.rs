@@ -2,8 +2,9 @@
 
 use crate::camera::Camera;
 use crate::clip::{ClipVertex, Viewport, clip};
-use crate::error::{Fault, InputError, nearest};
+use crate::error::InputError;
 use crate::frame::{Frame, ShadeMode};
+use crate::kind::unknown;
 use crate::light::Light;
 use crate::mesh::{self, Mesh};
 use crate::normals::{NormalRule, corner_normals, face_normals};
@@ -49,12 +50,7 @@ impl Scene {
                 lights: vec![light([0.6, 0.6, 0.5], 0.5), light([-0.6, 0.6, 0.5], 0.5)],
                 ..Self::of_mesh(mesh::room()?)
             }),
-            _ => {
-                let permitted = format!("permitted: {}", Self::BUILTIN.join(" "));
-                let mut fault = Fault::new("built-in scenes", None, "name", name, permitted);
-                fault.nearest = nearest(name, &Self::BUILTIN);
-                Err(fault.into())
-            }
+            _ => Err(unknown(name)),
         }
     }
 

@@ -55,8 +55,7 @@ const FILES: [&str; 5] = ["a.png", "b.png", "difference.png", "compare.json", "c
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let screen = args.source.screen()?;
-    let [a, b] = [machine.named(&args.a, screen)?, machine.named(&args.b, screen)?];
+    let [a, b] = [args.source.named_machine(machine, &args.a)?, args.source.named_machine(machine, &args.b)?];
     if (a.width, a.height) != (b.width, b.height) {
         return Err(anyhow!(
             "the screens differ, {}x{} and {}x{}, so no pixels can be compared; set screen.width and screen.height",

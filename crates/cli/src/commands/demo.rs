@@ -1,6 +1,5 @@
 //! `edgewalk demo`: the main job on a built-in scene, from pictures to Verilog and vectors.
 
-use super::render::Pictures;
 use super::{emit, render, vectors};
 use crate::engine::Engine;
 use crate::input::{Source, to_port};
@@ -38,16 +37,18 @@ const ACCUMULATOR: &str = "z_accumulator.png";
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = machine.machine(None)?;
+    let machine = args.source.machine(machine)?;
     let frame = args.source.frame(&machine)?;
     let out = Staging::new(&args.out)?;
-    let Pictures { report, verdict, ids } = render::pictures(
+    let mut ids = Vec::new();
+    let (report, verdict) = render::pictures(
         &args.source.input,
         &frame,
         &machine,
         (Engine::Model, Waits::Never),
         &out,
         talk.quiet,
+        |band| ids.extend_from_slice(&band.id),
     )?;
     let port = to_port(&frame, &machine)?;
     let dda = depth_error_over_bound(&machine, &port.triangles, &ids);

@@ -27,7 +27,7 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = machine.machine(None)?;
+    let machine = args.source.machine(machine)?;
     let (x, y) = (args.x, args.y);
     if x >= machine.width || y >= machine.height {
         let (w, h) = (machine.width - 1, machine.height - 1);

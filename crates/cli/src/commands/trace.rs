@@ -45,7 +45,7 @@ enum Wave {
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = machine.machine(None)?;
+    let machine = args.source.machine(machine)?;
     let port = to_port(&args.source.frame(&machine)?, &machine)?;
     let traced = port.triangles.len().min(args.triangles);
     let size = (machine.width, machine.height);
