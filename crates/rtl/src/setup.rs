@@ -20,6 +20,8 @@ mod lane;
 
 mod lanes;
 
+mod values;
+
 mod operands;
 
 mod results;
@@ -97,7 +99,7 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let factors = sources.factors();
 
     let lanes = lanes::lanes(&m, plan, &control, &factors, area.negative)?;
-    let values = operands::Values::new(&m, plan, &control, &vertices, &area);
+    let values = values::Values::new(&m, plan, &control, &vertices, &area);
     let sources = operands::Sources {
         m: &m,
         plan,

@@ -29,7 +29,7 @@ pub(crate) fn parts<'a>(fields: impl IntoIterator<Item = &'a Field>) -> Vec<Part
 }
 
 /// The signals of one token, by the names of its parts.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Token<'m>(Vec<(Part, Signal<'m>)>);
 
 impl<'m> Token<'m> {

@@ -2,6 +2,9 @@
 
 use edgewalk_netlist::{Module, Signal};
 
+use super::steps::Steps;
+use super::zeros_behind;
+
 /// x = m·4^-k, 2^-16.
 pub(super) struct Root<'m> {
     /// Of the root that was begun last.
@@ -9,11 +12,27 @@ pub(super) struct Root<'m> {
     pub m: Signal<'m>,
     /// The entry of table R of the root that is begun.
     pub entry: Signal<'m>,
+    /// A root is begun.
+    pub begins: Signal<'m>,
+    /// The constant 1.0 of 19 bits, 2^-16.
+    pub one: Signal<'m>,
 }
 
 impl<'m> Root<'m> {
+    /// The roots of a fragment: of dd in step 0, of nn in step 5, of 1 + L.V in step 10; `way` is L.V, 2^-16.
+    pub fn of_steps(m: &'m Module, steps: &Steps<'m>, way: Signal<'m>) -> Root<'m> {
+        m.comment("The numbers that roots are taken of, 2^-30, signed.");
+        let [first, second, third] = [0, 5, 10].map(|step| steps.at(step));
+        let rooting = (first | second | third).named_doc("rooting", "a root is begun");
+        let one = m.lit(19, 1 << 16);
+        let of_normal = zeros_behind(steps.of("nn"), 14);
+        let of_way = zeros_behind(way.sext(19) + one, 13);
+        let x = first.mux(steps.of("dd"), second.mux(of_normal, of_way)).named_doc("x", "2^-30");
+        Root::new(m, rooting, one, x)
+    }
+
     /// `rooting`: the root of `x`, 32 bits, signed, 2^-30, is begun.
-    pub fn new(m: &'m Module, rooting: Signal<'m>, x: Signal<'m>) -> Root<'m> {
+    fn new(m: &'m Module, rooting: Signal<'m>, one: Signal<'m>, x: Signal<'m>) -> Root<'m> {
         m.comment("The exponent: by how many pairs of zeros x begins, at most seven.");
         let ones = m.lit(30, (1 << 30) - 1);
         let within = x.slice(30, 30).mux(ones, x.trunc(30)) & (!x.msb()).sext(30);
@@ -30,6 +49,6 @@ impl<'m> Root<'m> {
         let left = left.named_doc("left", "1/4 to below 1, 2^-16");
         let k = m.reg("k", 3).doc("of the root").when(rooting, m.cat(&digits)).q();
         let of_root = m.reg("m", 16).doc("of the root, 2^-16").when(rooting, left).q();
-        Root { k, m: of_root, entry: left.slice(15, 8) }
+        Root { k, m: of_root, entry: left.slice(15, 8), begins: rooting, one }
     }
 }

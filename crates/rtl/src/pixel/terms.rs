@@ -3,6 +3,7 @@
 use edgewalk_machine::{Plan, Term};
 use edgewalk_netlist::{Module, Reg, Signal};
 
+use super::drawing::Drawing;
 use crate::wires::Token;
 
 /// For the header of machines with terms.
@@ -14,14 +15,9 @@ each with adders of its own, in one clock. They are not cut into segments, and w
 pub(super) struct Terms<'m>(Vec<(Term, Reg<'m>)>);
 
 impl<'m> Terms<'m> {
-    /// They are loaded with a span, and step where it goes on; the enables are of both, and of loading alone.
-    pub fn new(
-        m: &'m Module,
-        plan: &Plan,
-        span: &Token<'m>,
-        [moves, enters]: [Signal<'m>; 2],
-        goes_on: Signal<'m>,
-    ) -> Terms<'m> {
+    /// The words are loaded with a span, and step where it goes on.
+    pub fn new(m: &'m Module, plan: &Plan, span: &Token<'m>, drawing: &Drawing<'m>) -> Terms<'m> {
+        let Drawing { moves, span_ready: enters, goes_on, .. } = *drawing;
         if !plan.terms().is_empty() {
             m.comment("The terms.");
         }

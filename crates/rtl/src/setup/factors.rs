@@ -1,7 +1,7 @@
 //! The factors of the sums that the lanes form, and which of their digits a sum has come to.
 
 use edgewalk_machine::{Fill, Plan};
-use edgewalk_netlist::{Module, Signal};
+use edgewalk_netlist::{Module, Reg, Signal};
 
 use super::area::Area;
 use super::control::Control;
@@ -38,77 +38,103 @@ pub(super) struct Sources<'a, 'm> {
 impl<'m> Sources<'_, 'm> {
     /// The registers of the factors, and their digits.
     pub fn factors(&self) -> Factors<'m> {
-        let (m, plan, control, lines) = (self.m, self.plan, self.control, self.lines);
+        let (m, plan, control) = (self.m, self.plan, self.control);
         m.comment("Factors of the next sum, signed. Its first digit is the highest in which one of them differs from its sign.");
-        let bits = plan.widths().difference + 1; // what is sheared may be twice as long
-        let whole = |value: Signal<'m>| value.sext(bits);
-        let natural = |value: Signal<'m>| value.zext(bits);
-        let none = m.lit(bits, 0);
-        let product =
-            |name: &str| m.reg(name, bits).doc("q of the major edge, times the factor's digits so far");
+        let none = m.lit(self.bits(), 0);
+        let product = |name: &str| {
+            m.reg(name, self.bits()).doc("q of the major edge, times the factor's digits so far")
+        };
         let products = (plan.fill == Fill::Exact).then(|| ["q_times_f", "q_times_g"].map(product));
-        let low = |place: usize| natural(self.low_column(place));
-        let edge = |edge: usize| match edge {
-            0 => [low(0), natural(lines.h0)],
-            1 => [low(0), natural(lines.h0)].map(|factor| factor & self.walked("n1").sext(bits)),
-            _ => [low(1), natural(lines.h1)].map(|factor| factor & self.walked("n2").sext(bits)),
-        };
-        let of_edges = |side: usize| {
-            let choice = |round: usize| edge_of(plan, 0, round).map_or(none, |number| edge(number)[side]);
-            control.way.named.of_round(rounds(plan)[0], choice)
-        };
-        let heights = &self.vertices.heights;
-        let mut choices: Vec<(Vec<Op>, [Signal<'m>; 2])> = vec![
-            (vec![Op::WaitDx], [of_edges(0), of_edges(1)]),
-            (vec![Op::Take2], [natural(heights[0]), natural(heights[1])]),
-        ];
-        match products {
-            Some(products) => {
-                let across = &self.vertices.across;
-                let along = [0, 1].map(|side| products[side].q() - whole(across[side]));
-                choices.push((vec![Op::DoubleX], along));
-                let column = self.prim["major_c"].q();
-                let px = column - self.area.negative.zext(column.width());
-                let first = m.cat(&[px, m.lit(plan.widths().center_fraction, 0)]);
-                let sheared = whole(first) - whole(self.vertices.u(0)) - products[1].q();
-                let sheared = m
-                    .reg("first_sheared", bits)
-                    .doc("from vertex 0 to the first pixel, less q columns a line; 1/P column, signed")
-                    .when(control.way.next.is_in(Op::Wait, 0), sheared);
-                choices.push((vec![Op::AddX], [sheared.q(), natural(lines.h0)]));
-            }
-            None => {
-                let of_part = |n: &str, h: Signal<'m>| [self.walked(n).mux(natural(h), 0), none];
-                choices.push((vec![Op::DoubleA, Op::WaitA], of_part("n1", lines.left_a)));
-                choices.push((vec![Op::DoubleB, Op::WaitB], of_part("n2", lines.left_b)));
-            }
-        }
+        let choices = self.choices(products, none);
         let of_side = |side: usize, name: &str| {
-            let reg = m.reg(name, bits).doc("factor, signed");
+            let reg = m.reg(name, self.bits()).doc("factor, signed");
             for (ops, values) in &choices {
                 reg.when(control.way.named.one_of(ops), values[side]);
             }
             reg.q()
         };
         let [f, g] = [of_side(0, "f"), of_side(1, "g")];
-        let differs = |of: Signal<'m>| of.trunc(bits - 1) ^ of.slice(bits - 1, 1);
-        let mut digits = differs(f) | differs(g);
-        let second = [self.low_column(1), lines.h1];
-        if plan.lanes == 4 {
-            let counts = (control.way.named.is(Op::WaitDx) & self.walked("n2")).named("second_counts");
-            let both = (natural(second[0]) | natural(second[1])).trunc(bits - 1);
-            digits = digits | counts.mux(both, 0);
-        }
-        let digits = digits.named_doc("digits", "digits of the factors that differ from their signs");
-        control.feedback.top_digit.drive(top(digits).zext(control.sequence.left.width()));
-        let at = |of: Signal<'m>| of.shr_by(control.sequence.left).bit(0);
+        let digits = differs_from_sign(f) | differs_from_sign(g);
+        let second = [self.low_column(1), self.lines.h1];
+        let top_digit = self.top_digit(digits, second);
+        control.feedback.top_digit.drive(top_digit.zext(self.left().width()));
+        let at = |of: Signal<'m>| of.shr_by(self.left()).bit(0);
         let digits = [at(f).named("digit_f"), at(g).named("digit_g")];
         for (product, digit) in products.into_iter().flatten().zip(digits) {
             let sums = control.way.named.is(Op::SumX) | control.way.named.is_in(Op::Sum, 0);
             let doubled = control.sequence.first.mux(0, product.q().shl(1));
-            product.when(sums & !control.rests, doubled + digit.mux(whole(self.prim["major_q"].q()), 0));
+            let goes = sums & !control.rests;
+            product.when(goes, doubled + digit.mux(self.prim["major_q"].q().sext(self.bits()), 0));
         }
         Factors { digits, of_second: second.map(at), signs: [f.msb(), g.msb()] }
+    }
+
+    /// Bits of a factor: what is sheared may be twice as long as a difference.
+    fn bits(&self) -> u32 {
+        self.plan.widths().difference + 1
+    }
+
+    /// Clocks of the sum that are left, which is the place of its digit.
+    fn left(&self) -> Signal<'m> {
+        self.control.sequence.left
+    }
+
+    /// Both factors of the sum that follows an operation; `products` are those with q, of exact fill.
+    fn choices(&self, products: Option<[Reg<'m>; 2]>, none: Signal<'m>) -> Vec<(Vec<Op>, [Signal<'m>; 2])> {
+        let (plan, lines) = (self.plan, self.lines);
+        let natural = |value: Signal<'m>| value.zext(self.bits());
+        let low = |place: usize| natural(self.low_column(place));
+        let used = |lines: &str| self.walked(lines).sext(self.bits());
+        let edge = |edge: usize| match edge {
+            0 => [low(0), natural(lines.h0)],
+            1 => [low(0), natural(lines.h0)].map(|factor| factor & used("n1")),
+            _ => [low(1), natural(lines.h1)].map(|factor| factor & used("n2")),
+        };
+        let of_edges = |side: usize| {
+            let choice = |round: usize| edge_of(plan, 0, round).map_or(none, |number| edge(number)[side]);
+            self.control.way.named.of_round(rounds(plan)[0], choice)
+        };
+        let heights = &self.vertices.heights;
+        let mut choices = vec![
+            (vec![Op::WaitDx], [of_edges(0), of_edges(1)]),
+            (vec![Op::Take2], [natural(heights[0]), natural(heights[1])]),
+        ];
+        match products {
+            Some(products) => choices.extend(self.sheared(products)),
+            None => {
+                let of_part = |n: &str, h: Signal<'m>| [self.walked(n).mux(natural(h), 0), none];
+                choices.push((vec![Op::DoubleA, Op::WaitA], of_part("n1", lines.left_a)));
+                choices.push((vec![Op::DoubleB, Op::WaitB], of_part("n2", lines.left_b)));
+            }
+        }
+        choices
+    }
+
+    /// Exact fill: the factors along the major edge, and from vertex 0 to the first pixel.
+    fn sheared(&self, products: [Reg<'m>; 2]) -> [(Vec<Op>, [Signal<'m>; 2]); 2] {
+        let (m, bits, across) = (self.m, self.bits(), &self.vertices.across);
+        let along = [0, 1].map(|side| products[side].q() - across[side].sext(bits));
+        let column = self.prim["major_c"].q();
+        let px = column - self.area.negative.zext(column.width());
+        let first = m.cat(&[px, m.lit(self.plan.widths().center_fraction, 0)]);
+        let sheared = first.sext(bits) - self.vertices.u(0).sext(bits) - products[1].q();
+        let sheared = m
+            .reg("first_sheared", bits)
+            .doc("from vertex 0 to the first pixel, less q columns a line; 1/P column, signed")
+            .when(self.control.way.next.is_in(Op::Wait, 0), sheared);
+        [(vec![Op::DoubleX], along), (vec![Op::AddX], [sheared.q(), self.lines.h0.zext(bits)])]
+    }
+
+    /// Place of the highest digit of a sum: `digits` are those of the factors that differ from their signs, `second` the factors
+    /// of the second minor edge, which four lanes do beside the others.
+    fn top_digit(&self, mut digits: Signal<'m>, second: [Signal<'m>; 2]) -> Signal<'m> {
+        let bits = self.bits();
+        if self.plan.lanes == 4 {
+            let counts = (self.control.way.named.is(Op::WaitDx) & self.walked("n2")).named("second_counts");
+            let both = (second[0].zext(bits) | second[1].zext(bits)).trunc(bits - 1);
+            digits = digits | counts.mux(both, 0);
+        }
+        top(digits.named_doc("digits", "digits of the factors that differ from their signs"))
     }
 
     /// The part of an upper end's column below a whole one; textbook fill adds 1/2, which is 1/P there.
@@ -121,4 +147,10 @@ impl<'m> Sources<'_, 'm> {
     fn walked(&self, lines: &str) -> Signal<'m> {
         self.prim[lines].q().any()
     }
+}
+
+/// The digits of a signed number that differ from its sign.
+fn differs_from_sign(number: Signal<'_>) -> Signal<'_> {
+    let bits = number.width();
+    number.trunc(bits - 1) ^ number.slice(bits - 1, 1)
 }

@@ -1,0 +1,64 @@
+//! The values of the channels from line to line.
+
+use edgewalk_machine::units::tokens;
+use edgewalk_machine::{Fill, Plan};
+use edgewalk_netlist::{Module, Signal};
+
+use super::walk::Walk;
+use crate::wires::{Registers, Token, parts};
+
+/// What the edges tell the channels.
+pub(super) struct Choices<'m> {
+    /// The major edge carries in its next step.
+    pub carry: Signal<'m>,
+    /// The triangle that is offered has an upper part.
+    pub has_upper: Signal<'m>,
+}
+
+/// The updates of the channels in `line`, and the registers of the increments for PIXEL.
+pub(super) fn values<'m>(
+    m: &'m Module,
+    plan: &Plan,
+    walk: &Walk<'m>,
+    prim: &Token<'m>,
+    line: &Registers<'m>,
+    choices: &Choices<'m>,
+) -> Registers<'m> {
+    m.comment("The channels at the start of the span, their steps, and the increments for PIXEL.");
+    let increments = Registers::new(m, "inc", parts(&tokens::held_by_edge(plan)));
+    for name in ["kt", "record"] {
+        if let (Some(register), Some(value)) = (increments.get(name), prim.get(name)) {
+            register.when(walk.load, value);
+        }
+    }
+    if plan.fill == Fill::Exact {
+        m.comment("Between triangles what is added is the start: it needs no choice behind the adder.");
+    }
+    for channel in plan.channels().iter().map(|channel| channel.name) {
+        let of_prim = |result: &str| prim[format!("{channel}_{result}").as_str()];
+        let held = |result: &str| {
+            let register = m.reg(&format!("{channel}_{result}"), of_prim(result).width());
+            register.doc("as in the triangle").when(walk.offered, of_prim(result)).q()
+        };
+        let value = line[channel];
+        increments[channel].when(walk.load, of_prim("g"));
+        match plan.fill {
+            Fill::Exact => {
+                let (d0, d1) = (held("d0"), held("d1"));
+                let added = walk.idle.mux(of_prim("start"), choices.carry.mux(d1, d0));
+                let added = added.named(&format!("{channel}_added"));
+                value.when(walk.moves, walk.running.mux(value.q() + added, added));
+            }
+            Fill::Textbook => {
+                let (d_a, start_b, d_b) = (held("d_a"), held("start_b"), held("d_b"));
+                let at_knee = walk.step & walk.exchanges;
+                value
+                    .when(walk.line_done, value.q() + walk.upper.mux(d_a, d_b))
+                    // Where the left edge is the major one, the knee line begins where it did.
+                    .when(at_knee & line["major_right"].q(), start_b)
+                    .when(walk.offered, choices.has_upper.mux(of_prim("start_a"), of_prim("start_b")));
+            }
+        }
+    }
+    increments
+}

@@ -1,0 +1,122 @@
+//! Which line of which triangle EDGE walks.
+
+use edgewalk_machine::{Fill, Plan};
+use edgewalk_netlist::{Module, Reg, Signal};
+
+use crate::wires::Token;
+
+/// The handshakes of EDGE, as far as the walk reads them.
+pub(super) struct Links<'m> {
+    /// A triangle is offered.
+    pub prim_valid: Signal<'m>,
+    /// The line is accepted.
+    pub line_ready: Signal<'m>,
+    /// PIXEL has not loaded the increments of the triangle before.
+    pub fresh_queued: Signal<'m>,
+}
+
+/// What the walk does in a clock.
+pub(super) struct Walk<'m> {
+    /// A line is offered.
+    pub running: Signal<'m>,
+    pub prim_ready: Signal<'m>,
+    /// A triangle is accepted.
+    pub load: Signal<'m>,
+    /// A line is accepted.
+    pub step: Signal<'m>,
+    /// No triangle is being walked.
+    pub idle: Signal<'m>,
+    /// No triangle is being walked, and the next one is offered.
+    pub offered: Signal<'m>,
+    /// The registers of the line take a new value: the next line, or the first of a triangle that is offered.
+    pub moves: Signal<'m>,
+    /// The line lies in the upper part of the triangle.
+    pub upper: Signal<'m>,
+    /// The minor edge is replaced, and does not step.
+    pub exchanges: Signal<'m>,
+    /// `moves`, but not from the knee line of textbook fill to its second drawing.
+    pub line_done: Signal<'m>,
+}
+
+impl<'m> Walk<'m> {
+    /// The registers of the walk.
+    pub fn new(m: &'m Module, plan: &Plan, links: &Links<'m>, prim: &Token<'m>) -> Walk<'m> {
+        let Links { prim_valid, line_ready, fresh_queued } = *links;
+        m.comment("A triangle is taken when the one before is walked and PIXEL has its increments.");
+        let running = m.reg("running", 1).reset(0);
+        let last = m.reg("last", 1).doc("last line of all");
+        let prim_ready = (!running.q() & !fresh_queued).named("prim_ready");
+        let load = (prim_valid & prim_ready).named("load");
+        let step = (running.q() & line_ready).named("step");
+        m.comment("Between triangles everything takes the next one as soon as it is there, and again till PIXEL has the increments: no enable waits for that.");
+        let idle =
+            m.reg("idle", 1).doc("not running: for what is loaded, as running is for the values").reset(1);
+        let at_end = (step & last.q()).named("at_end");
+        running.when(at_end, 0).when(load, 1);
+        idle.when(at_end, 1).when(load, 0);
+        let idle = idle.q();
+        let offered = (idle & prim_valid).named_doc("offered", "the next triangle is there");
+        let moves = idle.mux(prim_valid, line_ready).named("moves");
+
+        m.comment("Where in the triangle: the upper part, then the lower.");
+        let n1 = m.reg("n1", prim["n1"].width()).doc("lines left of the upper part");
+        let n2 = m.reg("n2", prim["n2"].width()).doc("lines left of the lower part");
+        let exchanges =
+            m.reg("exchanges", 1).doc("idle, or at the knee: another minor edge comes, and no step").reset(1);
+        let parts = Parts { of_line: [n1, n2].map(Reg::q), of_prim: [prim["n1"], prim["n2"]] };
+        let Place { upper, first_knee, next_knee } = Place::new(m, last, &parts, idle, moves);
+        exchanges.when(moves, idle.mux(!load | first_knee, last.q() | next_knee));
+        let exchanges = exchanges.q();
+        n1.when(offered, prim["n1"]).when(step & upper, n1.q() - 1);
+        n2.when(offered, prim["n2"]).when(step & !upper, n2.q() - 1);
+
+        // The knee line of textbook fill is drawn twice: as the last of the upper and as the first of the lower part.
+        let line_done = match plan.fill {
+            Fill::Exact => moves,
+            Fill::Textbook => idle.mux(prim_valid, line_ready & !exchanges).named("line_done"),
+        };
+        let running = running.q();
+        Walk { running, prim_ready, load, step, idle, offered, moves, upper, exchanges, line_done }
+    }
+}
+
+/// Lines of the upper and of the lower part of a triangle.
+struct Parts<'m> {
+    /// Of the triangle that is walked, from the line on.
+    of_line: [Signal<'m>; 2],
+    /// Of the triangle that is offered.
+    of_prim: [Signal<'m>; 2],
+}
+
+/// Where in the triangle the line is, in registers: what follows looks at them in every step.
+struct Place<'m> {
+    upper: Signal<'m>,
+    /// The line is the last of the upper part and the lower follows: of a triangle's first, and of the next one.
+    first_knee: Signal<'m>,
+    next_knee: Signal<'m>,
+}
+
+impl<'m> Place<'m> {
+    fn new(
+        m: &'m Module,
+        last: Reg<'m>,
+        parts: &Parts<'m>,
+        idle: Signal<'m>,
+        moves: Signal<'m>,
+    ) -> Place<'m> {
+        let upper = m.reg("upper", 1).doc("in the upper part");
+        let [n1, n2] = parts.of_line;
+        let some_lower = n2.any().named("some_lower");
+        let (two, one) = (n1.eq(2).named("two_upper"), n1.eq(1).named("one_upper"));
+        let next_last = upper.q().mux((two & !some_lower) | (one & n2.eq(1)), n2.eq(2)).named("next_last");
+        let [n1, n2] = parts.of_prim;
+        let (first_some_lower, first_one) =
+            (n2.any().named("lower_follows"), n1.eq(1).named("one_upper_only"));
+        let first_last = n1.any().mux(first_one & !first_some_lower, n2.eq(1)).named("first_last");
+        upper.when(moves, idle.mux(n1.any(), upper.q() & !one));
+        let first_knee = (first_one & first_some_lower).named("first_knee");
+        let next_knee = (two & some_lower).named("next_knee");
+        last.when(moves, idle.mux(first_last, next_last));
+        Place { upper: upper.q(), first_knee, next_knee }
+    }
+}
