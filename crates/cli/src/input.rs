@@ -2,6 +2,7 @@
 
 use crate::machine_args::MachineArgs;
 use anyhow::{Context as _, Result, anyhow};
+use clap::ValueEnum as _;
 use edgewalk_golden::Order;
 use edgewalk_host::extra;
 use edgewalk_host::input::{fitting, in_triangles};
@@ -20,9 +21,10 @@ pub struct Source {
     /// standard input
     #[arg(value_name = "SCENE|MESH", default_value = "torus-knot")]
     pub input: String,
-    /// How the colour of a pixel is come by; wireframe needs --engine golden, phong and fast-phong that or a machine with
-    /// that shade.kind
-    #[arg(long, value_enum, default_value_t = Shading::Gouraud)]
+    /// Shading method: constant, constant-averaged, gouraud, phong, fast-phong, wireframe (docs/shading.md).
+    ///
+    /// phong and fast-phong need a machine with that shade.kind, or --engine golden; wireframe needs --engine golden.
+    #[arg(long, value_enum, default_value_t = Shading::Gouraud, hide_possible_values = true)]
     pub shading: Shading,
     /// Sets the keys of the machine that the input asks for, as channels.extra, blend.kind, shadow.size or shade.kind; what
     /// --set says stands
@@ -76,6 +78,15 @@ impl Source {
     /// The input of that name, its colours made at the corners.
     pub fn new(input: &str, adapt: bool) -> Self {
         Self { input: input.to_owned(), shading: Shading::Gouraud, adapt, read: OnceLock::new() }
+    }
+
+    /// The words of a command line that ask for the same input; the input itself comes last.
+    pub fn words(&self) -> Vec<String> {
+        let shading = self.shading.to_possible_value().filter(|_| self.shading != Shading::Gouraud);
+        let shading = shading.map(|shading| ["--shading".to_owned(), shading.get_name().to_owned()]);
+        // A name that begins with a hyphen would be read as an option.
+        let here = if self.input.starts_with('-') { "./" } else { "" };
+        shading.into_iter().flatten().chain([format!("{here}{}", self.input)]).collect()
     }
 
     /// Whether the input is a triangle file, which has no surface to shade.

@@ -2,9 +2,8 @@
 
 use anyhow::{Context, Result, anyhow};
 use edgewalk_host::needs::Need;
-use edgewalk_machine::nearest::nearest;
 use edgewalk_machine::presets::PRESETS;
-use edgewalk_machine::{Machine, Plan};
+use edgewalk_machine::{Machine, Plan, Unknown};
 use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
@@ -12,10 +11,13 @@ use std::path::Path;
 /// Bytes of the longest machine file; all keys with their comments take two thousand.
 const MAX_LENGTH: u64 = 1 << 20;
 
+/// The machine where none is asked for.
+const DEFAULT: &str = "default";
+
 /// Which machine.
 #[derive(clap::Args, Clone, Debug)]
 pub struct MachineArgs {
-    #[arg(long, value_name = "FILE|PRESET", default_value = "default", global = true, help = machine_help())]
+    #[arg(long, value_name = "FILE|PRESET", default_value = DEFAULT, global = true, help = machine_help())]
     machine: String,
     /// Overrides one key, e.g. --set interpolator.adders=2 (repeatable; `edgewalk config print` lists the keys)
     #[arg(long, value_name = "KEY=VALUE", global = true)]
@@ -28,6 +30,13 @@ fn machine_help() -> String {
 }
 
 impl MachineArgs {
+    /// The words of a command line that ask for the same machine.
+    pub fn words(&self) -> Vec<&str> {
+        let machine = Some(["--machine", &self.machine]).filter(|_| self.machine != DEFAULT);
+        let set = self.set.iter().map(|setting| ["--set", setting]);
+        machine.into_iter().chain(set).flatten().collect()
+    }
+
     /// The machine `FILE|PRESET[,key=value...]`, with what --set says on top; screen and needs as in
     /// [`MachineArgs::adapted`].
     pub fn named(&self, text: &str, size: Option<(u32, u32)>, needs: &[Need]) -> Result<Plan> {
@@ -75,11 +84,8 @@ impl MachineArgs {
         }
         let path = Path::new(&self.machine);
         if !path.exists() && path.extension().is_none() {
-            let close = nearest(&self.machine, PRESETS.iter().map(|p| p.0));
-            return Err(anyhow!(
-                "--machine {}: neither a file nor a preset; nearest preset: {close}",
-                self.machine
-            ));
+            let unknown = Unknown::new("preset", &self.machine, PRESETS.iter().map(|p| p.0));
+            return Err(anyhow!("--machine {}: no file; {unknown}", self.machine));
         }
         let named = || format!("--machine {}", self.machine);
         let mut text = String::new();

@@ -42,8 +42,12 @@ fn rendered(folder: &Path, row: &Value) -> Value {
     arguments.extend(["--stalls".to_owned(), row["stalls"].as_str().unwrap().to_owned()]);
     let output =
         edgewalk(folder, &arguments.iter().map(String::as_str).collect::<Vec<_>>()).output().unwrap();
-    serde_json::from_slice(&output.stdout)
-        .unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&output.stderr)))
+    let mut report: Value = serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&output.stderr)));
+    // The document's own keys.
+    let [format, _] = ["format", "version"].map(|key| report.as_object_mut().unwrap().shift_remove(key));
+    assert_eq!(format, Some("edgewalk-report".into()));
+    report
 }
 
 /// Sweeps over keys that change pixels and keys that do not, machines that have to be ticked among them.

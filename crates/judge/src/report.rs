@@ -10,7 +10,6 @@ use crate::compare::Comparison;
 use crate::occupancy::Occupancy;
 use crate::passes::Passes;
 use crate::setup_report::SetupReport;
-use anyhow::Result;
 pub use drawn::Drawn;
 use drawn::counts;
 use edgewalk_golden::Order;
@@ -134,15 +133,6 @@ impl Report {
             occupancy: cycles.held.as_ref().map(|held| Occupancy::of(machine, cycles.total, held)),
             ..self
         }
-    }
-
-    /// As a JSON file, keys in a fixed order.
-    ///
-    /// # Errors
-    /// None but of memory.
-    pub fn json(&self) -> Result<String> {
-        // By way of a value: floats are written as in the rows of a sweep.
-        Ok(serde_json::to_string_pretty(&serde_json::to_value(self)?)? + "\n")
     }
 
     /// As a page of text.

@@ -61,9 +61,9 @@ impl Vertex {
 pub struct Triangle(pub [Vertex; 3]);
 
 /// A polygon on the screen: convex, concave, with holes or crossing itself; inside is what an odd number of edges lies
-/// to the left of (seed B, odd-even rule).
+/// to the left of (the slides, odd-even rule).
 ///
-/// Its values run linearly along the edges, then linearly along a line between two edges (seed B: l_a, l_b, l_p). Only
+/// Its values run linearly along the edges, then linearly along a line between two edges (the slides: l_a, l_b, l_p). Only
 /// in a triangle, or where the vertices' values lie in one plane, is that the plane; elsewhere it depends on how the
 /// polygon is turned.
 #[derive(Debug, Clone, PartialEq)]

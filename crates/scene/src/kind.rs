@@ -1,7 +1,8 @@
 //! What an input is, by its name.
 
-use crate::error::{Fault, InputError, nearest};
+use crate::error::{Fault, InputError};
 use crate::scene::Scene;
+use edgewalk_nearest::nearest;
 use std::path::Path;
 
 /// What a name on the command line stands for.
@@ -58,16 +59,15 @@ pub(crate) fn unknown(name: &str) -> InputError {
     let end = path.extension().map(|end| end.to_string_lossy());
     if end.is_none() && !path.exists() {
         let mut fault = Fault::new("built-in scenes", None, "name", name, format!("permitted: {builtin}"));
-        fault.nearest = nearest(name, &Scene::BUILTIN);
+        fault.nearest = nearest(name, Scene::BUILTIN);
         return fault.into();
     }
-    let ends = ENDS.map(|(end, _)| end);
     let permitted = format!(
         "permitted: the name of a built-in scene ({builtin}), or a file that ends in .tri (screen-space triangles), \
          .toml (a scene), .obj, .gltf or .glb (a mesh); a pipe without such an end gives triangles"
     );
     let mut fault = Fault::new(name, None, "kind of input", end.as_deref().unwrap_or_default(), permitted);
-    fault.nearest = end.and_then(|end| nearest(&end, &ends));
+    fault.nearest = end.and_then(|end| nearest(&end, ENDS.map(|(end, _)| end)));
     fault.into()
 }
 

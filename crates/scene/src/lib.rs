@@ -28,7 +28,7 @@ mod band;
 
 pub use band::{Host, fits};
 pub use camera::Camera;
-pub use error::{InputError, nearest};
+pub use error::InputError;
 pub use frame::{
     DepthFunc, Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_LIGHTS, MAX_SIDE, Pane,
     Polygon, ShadeMode, Shadow, Triangle, Vertex,

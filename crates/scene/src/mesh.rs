@@ -16,8 +16,9 @@ mod pbr;
 mod gltf;
 mod join;
 
-use crate::error::{Fault, InputError, nearest};
+use crate::error::{Fault, InputError};
 use crate::texture::Texture;
+use edgewalk_nearest::nearest;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use std::path::Path;
@@ -131,7 +132,7 @@ impl Mesh {
                 let file = path.display().to_string();
                 let permitted = format!("permitted: {}", Self::EXTENSIONS.join(" "));
                 let mut fault = Fault::new(&file, None, "kind of mesh file", &extension, permitted);
-                fault.nearest = nearest(&extension, &Self::EXTENSIONS);
+                fault.nearest = nearest(&extension, Self::EXTENSIONS);
                 Err(fault.into())
             }
         }

@@ -71,6 +71,16 @@ pub struct Pass {
 }
 
 impl Frame {
+    /// The first triangles alone, at most so many. The frame has no polygons.
+    #[must_use]
+    pub fn first(mut self, triangles: usize) -> Self {
+        self.triangles.truncate(triangles);
+        if let Some(shading) = &mut self.shading {
+            shading.triangles.truncate(triangles);
+        }
+        self
+    }
+
     /// The rules at the beginning.
     pub fn state(&self) -> State {
         State {

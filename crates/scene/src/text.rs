@@ -1,6 +1,7 @@
 //! Text files of one item a line: words and numbers, and the place they stand for messages.
 
-use crate::error::{Fault, InputError, nearest};
+use crate::error::{Fault, InputError};
+use edgewalk_nearest::nearest;
 use std::fmt::Display;
 use std::io::{BufRead, Read as _};
 use std::ops::RangeInclusive;
@@ -36,7 +37,7 @@ impl Place<'_> {
             return Ok(index);
         }
         let mut fault = self.fault(key, word, format!("permitted: {}", valid.join(" ")));
-        fault.nearest = std::str::from_utf8(word).ok().and_then(|word| nearest(word, valid));
+        fault.nearest = std::str::from_utf8(word).ok().and_then(|word| nearest(word, valid.iter().copied()));
         Err(fault.into())
     }
 

@@ -2,6 +2,7 @@
 
 mod page;
 
+use crate::document::document;
 use crate::engine::{Engine, Raster, draw_bands, fast_bands};
 use crate::fast::BeyondBand;
 use crate::machine_args::MachineArgs;
@@ -104,9 +105,9 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         }
         engine => whole(&file, engine, &machine, &out, talk)?,
     };
-    out.write("report.json", report.json()?)?;
+    out.write("report.json", document("report", &report)?)?;
     out.publish(&FILES)?;
-    talk.say(|| report.json(), || report.text())?;
+    talk.say(|| document("report", &report), || report.text())?;
     let size = (machine.width, machine.height);
     Verdict::drew(report.drawn.fragments).or_nothing(&name, report.drawn.primitives(), size)
 }

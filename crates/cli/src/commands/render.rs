@@ -5,6 +5,7 @@ mod lamps;
 mod lights;
 
 use crate::Talk;
+use crate::document::document;
 use crate::engine::{Engine, Raster, draw_port, from_golden, golden_fill};
 use crate::fast_phong::{FastPhongArgs, FastPhongReport};
 use crate::input::{Shading, Source, to_port};
@@ -115,10 +116,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (mut report, verdict) =
         pictures(&args.source.input, &frame, &machine, (args.engine, args.stalls), &out, talk.quiet, |_| ())?;
     report.order = order;
-    out.write("report.json", report.json()?)?;
+    out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| report.json(), || report.text())?;
+    talk.say(|| document("report", &report), || report.text())?;
     verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
 }
 
@@ -132,10 +133,10 @@ fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     let triangles = frame.triangles.len() as u64;
     let mut report = Report::new(&args.source.input, triangles, machine, &drawn, Waits::Never);
     report.drawn.polygons = frame.polygons.len() as u64;
-    out.write("report.json", report.json()?)?;
+    out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| report.json(), || report.text())?;
+    talk.say(|| document("report", &report), || report.text())?;
     let (size, drawn) = ((drawn.width, drawn.height), &report.drawn);
     Verdict::drew(drawn.fragments).or_nothing(&args.source.input, drawn.primitives(), size)
 }
@@ -177,10 +178,10 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
         picture::write_shading_error(&out, "phong_error.png", (w, h), &from_phong)?;
         report = report.with(FastPhongReport::new(&args.fast_phong, &scene, &surface, fast, &from_phong));
     }
-    out.write("report.json", report.json()?)?;
+    out.write("report.json", document("shading", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| report.json(), || report.text())?;
+    talk.say(|| document("shading", &report), || report.text())?;
     Verdict::drew(error.pixels).or_nothing(&args.source.input, surface.triangles.len() as u64, (w, h))
 }
 

@@ -1,6 +1,7 @@
 //! `edgewalk trace`: waveforms of the machine's netlist.
 
 use crate::Talk;
+use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
@@ -9,6 +10,7 @@ use anyhow::{Context, Result, anyhow};
 use edgewalk_lockstep::StallKind;
 use edgewalk_machine::Activity;
 use edgewalk_netlist::{FstTrace, Labels, Simulator, VcdTrace};
+use serde_json::json;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::PathBuf;
@@ -75,7 +77,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     out.publish(&[name])?;
     talk.say(
-        || Ok(serde_json::json!({ "file": args.out, "cycles": cycles, "hash": machine.hash() }).to_string()),
+        || document("trace", json!({ "file": args.out, "cycles": cycles, "hash": machine.hash() })),
         || format!("{cycles} cycles -> {}", args.out.display()),
     )?;
     Ok(Verdict::Pass)

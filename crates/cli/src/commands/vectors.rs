@@ -1,10 +1,11 @@
 //! `edgewalk vectors`: stimuli, expected results and self-checking test benches.
 
+use crate::document::document;
 use crate::input::{PortFrame, Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::{Talk, jobs, progress, talk};
+use crate::{Talk, jobs, progress};
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_scene::InputKind;
@@ -12,6 +13,7 @@ use edgewalk_vectors::{
     Files, Reached, SUITES, StallKind, Suite, Tables, Unit, Words, capture, design, directory, not_covered,
     reached,
 };
+use serde_json::json;
 use std::path::{Component, Path, PathBuf};
 
 /// Writes test vectors, a directory a suite and unit, that run as they are in Icarus and Verilator.
@@ -101,10 +103,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         stalls: args.stalls,
         tables: if args.no_csv { Tables::LeftOut } else { Tables::Written },
     };
-    let written = set.write(&machine, &out, "", talk.quiet)?;
+    let written = set.write(&machine, &out, "", talk)?;
     out.publish(&own(&args.out, "", &written))?;
     talk.say(
-        || Ok(serde_json::json!({ "hash": machine.hash(), "directories": written }).to_string()),
+        || document("vector-folders", json!({ "hash": machine.hash(), "directories": written })),
         || format!("machine {} -> {}\n    {}", machine.hash(), args.out.display(), written.join("\n    ")),
     )?;
     Ok(Verdict::Pass)
@@ -169,11 +171,11 @@ fn named(machine: &Plan, wanted: impl Fn(&str) -> bool) -> Result<Vec<Suite>> {
 }
 
 /// Prints what could be met in each unit and was not.
-pub fn warn_of_gaps(runs: &[(Unit, Reached)], quiet: bool) {
-    for unit in Unit::known().filter(|_| !quiet) {
+pub fn warn_of_gaps(runs: &[(Unit, Reached)], talk: Talk) {
+    for unit in Unit::known().filter(|_| !talk.quiet) {
         let missing = not_covered(runs.iter().filter(|(of, _)| *of == unit).map(|(_, reached)| reached));
         if !missing.is_empty() {
-            talk::warn(&format!("{}: not covered: {}", unit.name(), missing.join(", ")));
+            talk.warn(&format!("{}: not covered: {}", unit.name(), missing.join(", ")));
         }
     }
 }
@@ -212,7 +214,7 @@ const HUGE: usize = 64 << 20;
 
 impl Set<'_> {
     /// Writes them under `folder` of `out`; returns their names.
-    pub fn write(&self, machine: &Plan, out: &Staging, folder: &str, quiet: bool) -> Result<Vec<String>> {
+    pub fn write(&self, machine: &Plan, out: &Staging, folder: &str, talk: Talk) -> Result<Vec<String>> {
         let mut work: Vec<(&Suite, Unit)> = Vec::new();
         for suite in self.suites {
             let of_it: Vec<Unit> = self.units.iter().copied().filter(|unit| suite.is_for(*unit)).collect();
@@ -222,15 +224,15 @@ impl Set<'_> {
             }
             work.extend(of_it.into_iter().map(|unit| (suite, unit)));
         }
-        let bar = progress::bar(work.len() as u64, "vector directories", quiet);
+        let bar = progress::bar(work.len() as u64, "vector directories", talk.quiet);
         let written = jobs::all(&work, &bar, |(suite, unit)| {
             let trace = capture(machine, *unit, suite, suite.state, self.stalls.unwrap_or(suite.stalls));
             let verilog =
                 design::verilog(machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
             let name = format!("{}_{}", suite.name, unit.name());
             let files = directory(suite, &trace, &verilog, self.tables);
-            if !quiet {
-                bar.suspend(|| announce(&name, &files));
+            if !talk.quiet {
+                bar.suspend(|| announce(&name, &files, talk));
             }
             for (file, contents) in files {
                 out.write(&format!("{folder}{name}/{file}"), contents)?;
@@ -239,13 +241,13 @@ impl Set<'_> {
         })?;
         bar.finish_and_clear();
         let (names, runs): (Vec<String>, Vec<_>) = written.into_iter().unzip();
-        warn_of_gaps(&runs, quiet);
+        warn_of_gaps(&runs, talk);
         Ok(names)
     }
 }
 
 /// Says how much is about to be written where it is very much.
-fn announce(name: &str, files: &Files) {
+fn announce(name: &str, files: &Files, talk: Talk) {
     let size = |of: fn(&str) -> bool| {
         files.iter().filter(|(n, _)| of(n)).map(|(_, bytes)| bytes.len()).sum::<usize>()
     };
@@ -256,6 +258,6 @@ fn announce(name: &str, files: &Files) {
         } else {
             String::new()
         };
-        talk::warn(&format!("{name}: writing {} MB{hint}", all >> 20));
+        talk.warn(&format!("{name}: writing {} MB{hint}", all >> 20));
     }
 }

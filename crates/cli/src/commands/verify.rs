@@ -3,6 +3,7 @@
 mod difference;
 
 use super::vectors::{directed, functions, of_input, stalls, warn_of_gaps};
+use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::scratch::Scratch;
@@ -16,6 +17,7 @@ use edgewalk_vectors::{
     Outcome, Simulator, StallKind, Suite, Tables, Trace, Unit, capture, design, directory, reached, simulate,
 };
 use serde::Serialize;
+use serde_json::json;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -108,7 +110,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     bar.finish_and_clear();
     let (checks, runs): (Vec<Vec<Check>>, Vec<_>) = done.into_iter().unzip();
     let checks = checks.concat();
-    warn_of_gaps(&runs, talk.quiet);
+    warn_of_gaps(&runs, talk);
     print(&machine, &checks, talk)?;
     Ok(checks.iter().fold(Verdict::Pass, |all, c| all.and(c.verdict())))
 }
@@ -171,10 +173,7 @@ fn in_simulator(
 }
 
 fn print(machine: &Plan, checks: &[Check], talk: Talk) -> Result<()> {
-    let json = || {
-        let report = serde_json::json!({ "machine": machine.hash(), "checks": checks });
-        Ok(serde_json::to_string_pretty(&report)?)
-    };
+    let json = || document("verify", json!({ "machine": machine.hash(), "checks": checks }));
     let text = || {
         let mut text = format!("machine {}\n", machine.hash());
         for c in checks {

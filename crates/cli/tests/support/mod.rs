@@ -1,6 +1,7 @@
 //! What the tests of the program's behaviour as a process share.
 #![allow(clippy::unwrap_used, dead_code)] // a test that unwraps nothing reports it; no test uses all of it
 
+pub mod browser;
 pub mod recording;
 
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! What is best: a figure of a row, and which way it should go.
 
 use anyhow::{Result, anyhow};
-use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::Unknown;
 use serde_json::Value;
 
 /// A figure that is to be small or large.
@@ -73,9 +73,10 @@ impl Objective {
         let mut list: Vec<Objective> = Vec::new();
         for name in names {
             let all = OBJECTIVES.iter().map(|objective| objective.name);
-            let found = OBJECTIVES.iter().find(|objective| objective.name == name).ok_or_else(|| {
-                anyhow!("--objective {name}: no such figure; nearest: {}", nearest(name, all))
-            })?;
+            let found = OBJECTIVES
+                .iter()
+                .find(|objective| objective.name == name)
+                .ok_or_else(|| anyhow!("--objective {name}: {}", Unknown::new("figure", name, all)))?;
             if list.contains(found) {
                 return Err(anyhow!("--objective {name}: comes twice"));
             }

@@ -1,5 +1,6 @@
 //! What differs between two machines, as text and as JSON.
 
+use crate::document::document;
 use crate::verdict::Verdict;
 use anyhow::Result;
 use edgewalk_explore::sweep::row::{Cost, causes, keys};
@@ -201,7 +202,7 @@ impl Page {
             "a": side(0),
             "b": side(1),
         });
-        Ok(serde_json::to_string_pretty(&value)? + "\n")
+        document("compare", value)
     }
 
     /// As text. Writing to a string cannot fail.

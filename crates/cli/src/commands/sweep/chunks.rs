@@ -7,6 +7,7 @@
 
 use super::{DEFINITION, ROWS, Ran, RunArgs, finished, kept, points};
 use crate::Talk;
+use crate::document::document;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
@@ -53,7 +54,7 @@ pub fn plan(definition: &Definition, out: &Path, talk: Talk) -> Result<Verdict> 
     let sizes: Vec<usize> = (0..chunks).map(|chunk| part(&sweep, chunks, chunk).len()).collect();
     let shown = out.display();
     talk.say(
-        || Ok(json!({ "points": sweep.points.len(), "chunks": sizes }).to_string()),
+        || document("sweep-chunks", json!({ "points": sweep.points.len(), "chunks": sizes })),
         || {
             format!(
                 "{} points in {chunks} parts\n    sbatch {shown}/slurm.sh\n    sh {shown}/hq.sh\n    edgewalk sweep merge --out {shown}\n",
@@ -96,8 +97,9 @@ pub fn run(args: &RunArgs, talk: Talk) -> Result<Verdict> {
     let ran = points(&sweep, &of, (&store, rows), &again, &args.tools, talk)?;
     talk.say(
         || {
-            Ok(json!({ "chunk": chunk, "points": of.len(), "made": ran.made, "faults": ran.faults })
-                .to_string())
+            let report =
+                json!({ "chunk": chunk, "points": of.len(), "made": ran.made, "faults": ran.faults });
+            document("sweep-chunk", report)
         },
         || {
             format!(

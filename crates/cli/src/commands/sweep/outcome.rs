@@ -2,6 +2,7 @@
 
 use super::Ran;
 use super::pictures::pictures;
+use crate::document::document;
 use crate::progress::spinner;
 use crate::staging::Staging;
 use crate::talk::Talk;
@@ -143,7 +144,7 @@ impl<'o> Outcome<'o> {
             "best": bests,
             "front": front,
         });
-        Ok(serde_json::to_string_pretty(&value)? + "\n")
+        document("sweep", value)
     }
 
     /// As text. Writing to a string cannot fail.

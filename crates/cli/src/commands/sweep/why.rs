@@ -2,12 +2,13 @@
 
 use super::{ROWS, kept};
 use crate::Talk;
+use crate::document::document;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
 use edgewalk_explore::sweep::point::shading;
 use edgewalk_explore::sweep::store;
 use edgewalk_host::input::Input;
-use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::nearest;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -24,16 +25,16 @@ pub fn run(key: &str, out: &Path, talk: Talk) -> Result<Verdict> {
     let row = match found[..] {
         [row] => row,
         [] if rows.is_empty() => return Err(anyhow!("{}: no rows", out.join(ROWS).display())),
-        [] => return Err(anyhow!("{key}: no row has this key; nearest: {}", nearest(key, keys()))),
+        [] => {
+            let near = nearest(key, keys()).map_or_else(String::new, |near| format!("; nearest: {near}"));
+            return Err(anyhow!("{key}: no row has this key{near}"));
+        }
         _ => return Err(anyhow!("{key}: {} rows begin so; give more digits", found.len())),
     };
     let changed = changed(row, out)?;
     let others = others(row, &rows);
     talk.say(
-        || {
-            let value = json!({ "row": row, "changed": changed, "same_machine": others });
-            Ok(serde_json::to_string_pretty(&value)?)
-        },
+        || document("sweep-why", json!({ "row": row, "changed": changed, "same_machine": others })),
         || text(row, &changed, &others),
     )?;
     Ok(Verdict::Pass)
