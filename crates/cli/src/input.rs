@@ -117,12 +117,6 @@ impl Source {
         self.adapted(args.machine(screen)?, |needs| args.adapted(screen, needs))
     }
 
-    /// One of several machines, as [`Source::machine`].
-    pub fn named_machine(&self, args: &MachineArgs, text: &str) -> Result<Plan> {
-        let screen = self.screen()?;
-        self.adapted(args.named(text, screen, &[])?, |needs| args.named(text, screen, needs))
-    }
-
     fn adapted(&self, machine: Plan, with: impl FnOnce(&[Need]) -> Result<Plan>) -> Result<Plan> {
         if !self.adapt {
             return Ok(machine);

@@ -3,8 +3,14 @@
 
 mod refusals;
 mod resume;
+mod again;
 mod parts;
+mod oracle;
+mod figures;
+pub mod shadings;
 mod browser;
+mod chart;
+mod hostile;
 mod report;
 #[path = "sweep/synth.rs"]
 mod synth;
@@ -38,6 +44,9 @@ fn rendered(folder: &Path, row: &Value) -> Value {
     for (key, value) in row["keys"].as_object().unwrap() {
         let value = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
         arguments.extend(["--set".to_owned(), format!("{key}={value}")]);
+    }
+    if let Some(shading) = row["shading"].as_str() {
+        arguments.extend(["--shading".to_owned(), shading.to_owned()]);
     }
     arguments.extend(["--stalls".to_owned(), row["stalls"].as_str().unwrap().to_owned()]);
     let output =

@@ -1,16 +1,20 @@
 //! What is to be drawn on one machine after another: read once, made into a frame for each screen.
 
 use crate::extra;
-use crate::needs;
+use crate::needs::{self, Need};
 use crate::port::{guard_band, sent};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::Shading;
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Blending, Change, Frame, InputKind, PixelMethod, Scene, Triangulated, triangle_file};
+use edgewalk_scene::{
+    Blending, Change, Frame, InputKind, PixelMethod, Scene, Surface, Triangulated, triangle_file,
+};
 use sha2::{Digest, Sha256};
 use std::path::Path;
+use std::sync::Arc;
 
 /// A scene, a mesh, or a file of screen-space triangles.
+#[derive(Clone)]
 pub struct Input {
     name: String,
     what: What,
@@ -25,9 +29,10 @@ pub enum Shaded {
     Pixels(PixelMethod),
 }
 
+#[derive(Clone)]
 enum What {
-    Scene(Box<Scene>, Shaded),
-    Triangles(Box<Frame>),
+    Scene(Arc<Scene>, Shaded),
+    Triangles(Arc<Frame>),
 }
 
 impl Input {
@@ -37,11 +42,29 @@ impl Input {
     /// No such scene or file, or a fault in it.
     pub fn open(name: &str, shading: Shaded) -> Result<Input> {
         let what = if InputKind::is_triangles(name) {
-            What::Triangles(Box::new(triangle_file::read(Path::new(name))?))
+            What::Triangles(Arc::new(triangle_file::read(Path::new(name))?))
         } else {
-            What::Scene(Box::new(Scene::open(name)?), shading)
+            What::Scene(Arc::new(Scene::open(name)?), shading)
         };
         Ok(Input { name: name.to_owned(), what })
+    }
+
+    /// The same input with the colours of a scene made so; a triangle file says itself how it is shaded.
+    #[must_use]
+    pub fn shaded(&self, shading: Shaded) -> Input {
+        match &self.what {
+            What::Scene(scene, _) => Input { what: What::Scene(scene.clone(), shading), ..self.clone() },
+            What::Triangles(_) => self.clone(),
+        }
+    }
+
+    /// Every key of the machine that the input asks another value for.
+    #[must_use]
+    pub fn needs(&self, machine: &Plan) -> Vec<Need> {
+        match &self.what {
+            What::Scene(scene, shading) => needs::needs(&on_screen(scene, *shading, machine), machine),
+            What::Triangles(frame) => needs::needs(frame, machine),
+        }
     }
 
     /// As it was asked for.
@@ -70,6 +93,17 @@ impl Input {
         })
     }
 
+    /// The scene, and its surface on the machine's screen, clipped to its guard band; none of a triangle file.
+    #[must_use]
+    pub fn surface(&self, machine: &Plan) -> Option<(&Scene, Surface)> {
+        match &self.what {
+            What::Triangles(_) => None,
+            What::Scene(scene, _) => {
+                Some((scene, scene.surface(machine.width, machine.height, guard_band(machine))))
+            }
+        }
+    }
+
     /// The frame as the machine draws it, polygons as triangles, clipped to its guard band.
     ///
     /// # Errors
@@ -79,11 +113,7 @@ impl Input {
             What::Triangles(frame) => fitting(&self.name, Frame::clone(frame), machine)?,
             What::Scene(scene, shading) => {
                 extra::none(machine).with_context(|| self.name.clone())?;
-                let surface = scene.surface(machine.width, machine.height, guard_band(machine));
-                let frame = match *shading {
-                    Shaded::Corners(system) => edgewalk_golden::frame(scene, &surface, system),
-                    Shaded::Pixels(method) => scene.pixel_frame(&surface, method),
-                };
+                let frame = on_screen(scene, *shading, machine);
                 if frame.blend == Blending::Off {
                     frame
                 } else {
@@ -94,6 +124,15 @@ impl Input {
             }
         };
         in_triangles(frame, machine)
+    }
+}
+
+/// The scene on the machine's screen, clipped to its guard band.
+fn on_screen(scene: &Scene, shading: Shaded, machine: &Plan) -> Frame {
+    let surface = scene.surface(machine.width, machine.height, guard_band(machine));
+    match shading {
+        Shaded::Corners(system) => edgewalk_golden::frame(scene, &surface, system),
+        Shaded::Pixels(method) => scene.pixel_frame(&surface, method),
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::support::{edgewalk, names, run};
 
 /// Arguments behind `sweep`, and what the error must say.
-const REFUSED: [(&[&str], &[&str]); 22] = [
+const REFUSED: [(&[&str], &[&str]); 24] = [
     (
         &["sphere", "--vary", "interpolator.ader=1,2"],
         &["unknown key interpolator.ader", "nearest: interpolator.adders"],
@@ -41,6 +41,11 @@ const REFUSED: [(&[&str], &[&str]); 22] = [
     (&["sphere", "--vary", "setup.lanes=1", "--objective", "cylces"], &["cylces", "nearest: cycles"]),
     (&["sphere", "--vary", "setup.lanes=1", "--objective", "lut4"], &["lut4", "--synth"]),
     (&["sphere", "--vary", "setup.lanes=1", "--sample", "0"], &["--sample 0", "at least 1"]),
+    (
+        &["sphere", "--vary", "setup.lanes=1", "--stalls", "none", "--judge", "dram"],
+        &["--judge dram", "permitted: worst, sum, none", "nearest: "],
+    ),
+    (&["sphere", "--vary", "setup.lanes=1", "--judge", "wost"], &["--judge wost", "nearest: worst"]),
     (&["sphere", "--vary", "setup.lanes=1", "--stalls", "drm"], &["drm", "nearest: dram"]),
     (&["sphere", "--vary", "setup.lanes=1", "--stalls", "fixed:rd=x"], &["rd = x", "0 to 1048576"]),
     (&["sphere", "--vary", "setup.lanes=1", "--bound", "0.4"], &["--bound 0.4", "above 0.5"]),

@@ -5,7 +5,7 @@ use crate::Talk;
 use crate::document::document;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
-use edgewalk_explore::sweep::point::shading;
+use edgewalk_explore::sweep::shading::named;
 use edgewalk_explore::sweep::store;
 use edgewalk_host::input::Input;
 use edgewalk_machine::nearest;
@@ -49,9 +49,9 @@ fn changed(row: &Value, out: &Path) -> Result<Vec<String>> {
     }
     let name = row["input"].as_str().unwrap_or_default();
     let sweep = kept(out);
-    let system =
-        sweep.as_ref().map(|sweep| sweep.definition.shading.clone()).unwrap_or_else(|_| "gouraud".to_owned());
-    match shading(&system).and_then(|shading| Input::open(name, shading)).and_then(|input| input.hash()) {
+    // A triangle file says itself how it is shaded.
+    let shading = named(row["shading"].as_str().unwrap_or("gouraud"));
+    match shading.and_then(|(_, shading)| Input::open(name, shading)).and_then(|input| input.hash()) {
         Ok(hash) if row["input_hash"] == hash => {}
         Ok(hash) => changed.push(format!(
             "input_hash: {name} was {}, now it is {hash}: the file or what it names has changed",
