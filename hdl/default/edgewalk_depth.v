@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// edgewalk 0.1.0, machine 4f0c71f00838
+
 // edgewalk_depth: DEPTH reads the old depth of every fragment, compares, and writes what passes.
 //
 //            ┌──────────────── rd (address) ──> depth memory

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// edgewalk 0.1.0, machine 4f0c71f00838
+
 // edgewalk_setup: SETUP turns three vertices into edges and increments.
 //
 //   tri ─> [sorted by v] ─┬─> lines j0 j1 n1 n2, columns ─> none? culled

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// edgewalk 0.1.0, machine 4cebb8f0e621
+
 // edgewalk_setup_lane0: A lane of setup holds a pair: the number whole + rest / M, with 0 <= rest < M.
 //
 //   slots ─> a ─> [n0 n1 n2 = a, a - M, a - 2M] ─┐

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// edgewalk 0.1.0, machine 4cebb8f0e621
+
 // edgewalk_span: SPAN cuts a line to the screen and queues what is left of it.
 //
 //   line ─> [end cut to the screen] ─> held ─> empty? ─no─> [FIFO] ─> span

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// edgewalk 0.1.0, machine 333c8cc6e2fc
+
 // edgewalk_edge: EDGE walks the major and the minor edge of a triangle, a line a step.
 //
 //   prim ─> [major C R-f q f M] ── cmaj ─────┐

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// edgewalk 0.1.0, machine 333c8cc6e2fc
+
 // edgewalk_setup: SETUP turns three vertices into edges and increments.
 //
 //   tri ─> [sorted by v] ─┬─> lines j0 j1 n1 n2, columns ─> none? culled

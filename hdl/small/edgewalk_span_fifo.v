@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// edgewalk 0.1.0, machine 333c8cc6e2fc
+
 // edgewalk_span_fifo: First in, first out: 1 places in registers; the others move up as the first is taken.
 //
 //   in ─> [place 0] ─> … ─> [place 0] ─> out

@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// edgewalk 0.1.0, machine 0ee73237105a
+
 // edgewalk: EDGEWALK draws triangles, scan line by scan line.
 //
 //  tri ─> SETUP ─prim─> EDGE ─line─> SPAN ─span─> PIXEL ─frag─> DEPTH ─wr─> frame memory

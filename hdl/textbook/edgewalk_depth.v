@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// edgewalk 0.1.0, machine 0ee73237105a
+
 // edgewalk_depth: DEPTH reads the old depth of every fragment, compares, and writes what passes.
 //
 //            ┌──────────────── rd (address) ──> depth memory

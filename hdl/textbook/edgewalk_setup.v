@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// edgewalk 0.1.0, machine 0ee73237105a
+
 // edgewalk_setup: SETUP turns three vertices into edges and increments.
 //
 //   tri ─> [sorted by v] ─┬─> lines j0 j1 n1 n2, columns ─> none? culled

@@ -4,7 +4,7 @@
 use super::jit;
 use super::job::{Job, Times};
 use super::{fast, interpreter, tick, verilator};
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use edgewalk_model::Waits;
 use std::path::Path;
 
@@ -15,8 +15,7 @@ pub enum Engine {
     Fast,
     /// The model, cycle by cycle
     Tick,
-    /// The netlist as native code
-    #[cfg(feature = "jit")]
+    /// The netlist as native code; needs edgewalk built with the feature jit
     Jit,
     /// The netlist in the interpreter
     Interpreter,
@@ -25,7 +24,7 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// In the order of the table, the fastest first.
+    /// Those of this build, in the order of the table, the fastest first.
     pub const ALL: &[Engine] = &[
         Engine::Fast,
         Engine::Tick,
@@ -40,7 +39,6 @@ impl Engine {
         match self {
             Engine::Fast => "fast",
             Engine::Tick => "tick",
-            #[cfg(feature = "jit")]
             Engine::Jit => "jit",
             Engine::Interpreter => "interpreter",
             Engine::Verilator => "verilator",
@@ -52,11 +50,19 @@ impl Engine {
         match self {
             Engine::Fast => u64::MAX,
             Engine::Tick => 20_000_000,
-            #[cfg(feature = "jit")]
             Engine::Jit => 10_000_000,
             Engine::Interpreter => 100_000,
             Engine::Verilator => 2_000_000,
         }
+    }
+
+    /// What is said of an engine that is not in [`Engine::ALL`].
+    pub fn not_built(self) -> anyhow::Error {
+        anyhow!(
+            "--engine {0}: this edgewalk was built without the feature {0}; build one that has it with \
+             `cargo build --release --features {0}`, or time --engine interpreter",
+            self.name()
+        )
     }
 
     /// Times the engine, which may write into `folder`, or says why it cannot take part.
@@ -69,8 +75,26 @@ impl Engine {
             Engine::Tick => tick::time(job).map(Ok),
             #[cfg(feature = "jit")]
             Engine::Jit => jit::time(job).map(Ok),
+            #[cfg(not(feature = "jit"))]
+            Engine::Jit => Err(Engine::Jit.not_built()),
             Engine::Interpreter => interpreter::time(job).map(Ok),
             Engine::Verilator => verilator::time(job, folder),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_built_says_how_to_build_it() {
+        let told = Engine::Jit.not_built().to_string();
+        assert!(
+            told.starts_with("--engine jit: this edgewalk was built without the feature jit; "),
+            "{told}"
+        );
+        assert!(told.contains("`cargo build --release --features jit`"), "{told}");
+        assert_eq!(Engine::ALL.contains(&Engine::Jit), cfg!(feature = "jit"));
     }
 }

@@ -2,7 +2,7 @@
 // Usage: harness STIMULUS FRAMES CONSTANT ...
 // Prints for each frame: cycles, writes, milliseconds on the processor, milliseconds on the wall.
 // STIMULUS: little-endian 64-bit words, the fields of one triangle after the other, as at the port. memory0.bin, memory1.bin ..: the words
-// of the memories that the machine does not write.
+// of the memories that the machine does not write, in 64 bits each, or in 128 where WIDE_WORDS is defined.
 #include "Vmachine.h"
 #include "verilated.h"
 #include <cstdint>
@@ -12,18 +12,25 @@
 #include <string>
 #include <vector>
 
-struct Read { uint64_t due, word; };
+// A word of a memory.
+#ifdef WIDE_WORDS
+typedef unsigned __int128 Word;
+#else
+typedef uint64_t Word;
+#endif
 
-// A memory behind the machine; no word of the machine has more than 64 bits. Beyond its words it is 0.
+struct Read { uint64_t due; Word word; };
+
+// A memory behind the machine. Beyond its words it is 0.
 struct Memory {
-    std::vector<uint64_t> words;
+    std::vector<Word> words;
     Read queue[64];
     uint64_t head = 0, tail = 0;
     bool due(uint64_t cycle) const { return head != tail && queue[head % 64].due <= cycle; }
-    uint64_t front() const { return queue[head % 64].word; }
+    Word front() const { return queue[head % 64].word; }
     void pop() { ++head; }
     void read(size_t address, uint64_t when) {
-        queue[tail % 64] = {when, address < words.size() ? words[address] : 0};
+        queue[tail % 64] = {when, address < words.size() ? words[address] : Word(0)};
         ++tail;
     }
     // Asks for the words of a pixel before they are needed. Triangles go down: the pixel below is likely to be next, as the model's memory says.
@@ -33,13 +40,21 @@ struct Memory {
     }
 };
 
+// Drives a port; Verilator gives those of more than 64 bits as arrays.
+template <class Port> static inline void put(Port &port, Word word) { port = word; }
+#ifdef WIDE_WORDS
+template <size_t N> static inline void put(VlWide<N> &port, Word word) {
+    for (size_t i = 0; i < N; ++i) port[i] = uint32_t(word >> (32 * i));
+}
+#endif
+
 #include "ports.h"
 
-static std::vector<uint64_t> read_all(const char *name) {
-    std::vector<uint64_t> words;
+template <class T> static std::vector<T> read_all(const char *name) {
+    std::vector<T> words;
     FILE *file = std::fopen(name, "rb");
     if (!file) { std::perror(name); std::exit(3); }
-    uint64_t word;
+    T word;
     while (std::fread(&word, sizeof word, 1, file) == 1) words.push_back(word);
     std::fclose(file);
     return words;
@@ -53,12 +68,12 @@ static double milliseconds(clockid_t clock) {
 
 int main(int argc, char **argv) {
     if (argc < 3) { std::fprintf(stderr, "harness: 2 arguments and the constants\n"); return 3; }
-    const auto words = read_all(argv[1]);
+    const auto words = read_all<uint64_t>(argv[1]);
     const int frames = std::atoi(argv[2]);
     static Memory memory[MEMORIES];
     std::vector<uint64_t> picture(PICTURE);
     for (size_t i = 0; i < MEMORIES; ++i)
-        if (!WRITTEN[i]) memory[i].words = read_all(("memory" + std::to_string(i) + ".bin").c_str());
+        if (!WRITTEN[i]) memory[i].words = read_all<Word>(("memory" + std::to_string(i) + ".bin").c_str());
     Vmachine m;
     set_constants(m, argv + 3);
     always_ready(m);

@@ -13,20 +13,42 @@ use edgewalk_netlist::SimError;
 
 /// Times it.
 pub fn time(job: &Job) -> Result<Times> {
+    if job.has_wide_words() { timed::<u128>(job) } else { timed::<u64>(job) }
+}
+
+fn timed<W: Word>(job: &Job) -> Result<Times> {
     let start = Stopwatch::start();
-    let mut native = Native::new(job)?;
+    let mut native = Native::<W>::new(job)?;
     job.time(&start, || Ok(native.frame(job)))
 }
 
+/// A word of a memory: 64 bits where the machine has no wider ones.
+trait Word: Copy + Default + Into<u128> {
+    /// The word, which has room.
+    fn of(word: u128) -> Self;
+}
+
+impl Word for u64 {
+    fn of(word: u128) -> u64 {
+        word as u64
+    }
+}
+
+impl Word for u128 {
+    fn of(word: u128) -> u128 {
+        word
+    }
+}
+
 /// The machine with its ports, found by their declared names, and what stands behind them.
-struct Native {
+struct Native<W> {
     simulator: Simulator,
     rst: InputId,
     idle: OutputId,
     /// Where triangles enter: valid, fields, ready.
     tri: (InputId, Vec<InputId>, OutputId),
     port: Triangles,
-    memories: Vec<Served>,
+    memories: Vec<Served<W>>,
     /// Valid of what asks for something: reads and writes.
     calls: Vec<OutputId>,
     /// The write: valid, address, and what the picture keeps of it.
@@ -36,14 +58,14 @@ struct Native {
 }
 
 /// A memory and its ports.
-struct Served {
+struct Served<W> {
     setting: MemorySetting,
-    /// By address; no word of the machine has more than 64 bits, and beyond them it is 0.
-    words: Vec<u64>,
+    /// By address; beyond them it is 0.
+    words: Vec<W>,
     /// Words from a pixel to the one below.
     pitch: usize,
     /// Words read, with the cycle from which on they are offered; as many as in the harness.
-    reads: Fifo<(u64, u64), 64>,
+    reads: Fifo<(u64, W), 64>,
     /// A word is offered.
     offers: bool,
     data_valid: InputId,
@@ -54,8 +76,8 @@ struct Served {
     write: Option<[OutputId; 4]>,
 }
 
-impl Native {
-    fn new(job: &Job) -> Result<Native> {
+impl<W: Word> Native<W> {
+    fn new(job: &Job) -> Result<Native<W>> {
         let netlist =
             edgewalk_rtl::machine(job.machine).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
         let mut simulator = Simulator::new(&netlist)?;
@@ -166,13 +188,13 @@ impl Native {
     }
 }
 
-impl Served {
+impl<W: Word> Served<W> {
     fn new(
         memory: &Memory,
         job: &Job,
         interface: &Interface,
         simulator: &Simulator,
-    ) -> Result<Served, SimError> {
+    ) -> Result<Served<W>, SimError> {
         let (read, data) = (&interface.links[memory.read], &interface.links[memory.data]);
         let write = memory.write.map(|write| {
             let link = &interface.links[write.link];
@@ -186,7 +208,7 @@ impl Served {
         });
         Ok(Served {
             setting: MemorySetting::of(memory),
-            words: job.words(memory.name),
+            words: job.words(memory.name).into_iter().map(W::of).collect(),
             pitch: 1 << job.machine.widths().x,
             reads: Fifo::default(),
             offers: false,
@@ -202,7 +224,7 @@ impl Served {
     fn clear(&mut self) {
         if self.write.is_some() {
             self.words.clear();
-            self.words.resize(self.setting.words, self.setting.clear as u64);
+            self.words.resize(self.setting.words, W::of(self.setting.clear));
         }
         self.reads.clear();
     }
@@ -210,7 +232,7 @@ impl Served {
     /// Offers the oldest word if it is there. Returns when it is due, if there is one.
     #[inline]
     fn offer(&mut self, simulator: &mut Simulator, cycle: u64) -> u64 {
-        let (due, word) = if self.reads.is_empty() { (u64::MAX, 0) } else { *self.reads.head() };
+        let (due, word) = if self.reads.is_empty() { (u64::MAX, W::default()) } else { *self.reads.head() };
         let offers = due <= cycle;
         if offers != self.offers {
             simulator.set(self.data_valid, offers.into());
@@ -225,13 +247,13 @@ impl Served {
     /// What moved in the cycle; a read sees the word before a write of its own cycle.
     #[inline]
     fn serve(&mut self, simulator: &Simulator, picture: &[u64], cycle: u64) {
-        let word = |port: OutputId| simulator.sampled(port) as u64; // no port here has more bits
+        let word = |port: OutputId| simulator.sampled(port) as u64; // an address, or one bit
         if self.offers && word(self.data_ready) == 1 {
             self.reads.pop();
         }
         if word(self.read_valid) == 1 {
             let address = word(self.address) as usize;
-            let read = self.words.get(address).copied().unwrap_or(0);
+            let read = self.words.get(address).copied().unwrap_or_default();
             self.reads.push((cycle + self.setting.latency, read));
             if self.write.is_some() {
                 // Triangles go down, as the model's memory says.
@@ -243,7 +265,7 @@ impl Served {
             && word(valid) == 1
             && word(enable) == 1
         {
-            self.words[word(address) as usize] = word(data);
+            self.words[word(address) as usize] = W::of(simulator.sampled(data));
         }
     }
 }

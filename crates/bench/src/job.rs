@@ -6,9 +6,10 @@ use edgewalk_lockstep::{Interface, Setting, Unit};
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::fast::Renderer;
 use edgewalk_model::{Counters, DrawState, Pass, Shading, Waits, render_passes};
+use serde::Serialize;
 
 /// What the machine does for a frame, whoever says so.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Work {
     /// Clocks of the machine.
     pub cycles: u64,
@@ -49,7 +50,7 @@ pub struct Times {
     pub first: f64,
     /// Of each frame that is timed.
     pub frames: Vec<Time>,
-    /// Of a frame.
+    /// Of the first frame that differs from the machine's, or of all.
     pub work: Work,
 }
 
@@ -98,16 +99,22 @@ impl<'a> Job<'a> {
     }
 
     /// The words of a memory from address 0 on; none of one that the machine writes.
-    pub fn words(&self, memory: &str) -> Vec<u64> {
+    pub fn words(&self, memory: &str) -> Vec<u128> {
         let records = || self.shading.records.iter().take(self.triangles.len());
-        let list = match memory {
-            "terms" => return records().flat_map(|record| self.machine.record_words(record)).collect(),
-            "tables" => &self.shading.tables,
-            "roots" => &self.shading.roots,
-            "textures" => &self.shading.textures,
-            _ => return Vec::new(),
-        };
-        list.iter().map(|word| *word as u64).collect() // four colours of 16 bits at most
+        match memory {
+            "terms" => {
+                records().flat_map(|record| self.machine.record_words(record)).map(u128::from).collect()
+            }
+            "tables" => self.shading.tables.clone(),
+            "roots" => self.shading.roots.clone(),
+            "textures" => self.shading.textures.clone(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Some memory has words of more than 64 bits. The drivers keep shorter ones in 64, which takes less time.
+    pub fn has_wide_words(&self) -> bool {
+        Interface::new(self.machine, Unit::MACHINE).memories.iter().any(|memory| memory.word_bits > 64)
     }
 
     /// Draws the first frame, with `start` from before the engine was built, and then those that are timed.
@@ -117,8 +124,9 @@ impl<'a> Job<'a> {
         let mut frames = Vec::new();
         for _ in 0..self.repeat {
             let start = Stopwatch::start();
-            work = draw()?;
+            let next = draw()?;
             frames.push(start.read());
+            work = if work == self.work { next } else { work };
         }
         Ok(Times { first, frames, work })
     }

@@ -20,4 +20,3 @@ pub use engine::Engine;
 pub use job::{Job, Times, Work};
 pub use stopwatch::Time;
 pub use table::{Row, Table};
-pub use verilator::ToolError;

@@ -24,7 +24,9 @@ pub fn header(plan: &Plan) -> String {
     let _ = writeln!(text, "static const size_t PICTURE = {picture};");
     let written = list(|memory| memory.write.is_some().into());
     let _ = writeln!(text, "static const bool WRITTEN[] = {{{written}}};");
-    let clear = list(|memory| u64::MAX >> (64 - memory.word_bits)).replace(',', "ULL,");
+    // Of a memory that the machine writes; the others have words of their own, and are not cleared.
+    let clear = list(|memory| memory.write.map_or(0, |_| u64::MAX >> (64 - memory.word_bits)));
+    let clear = clear.replace(',', "ULL,");
     let _ = writeln!(text, "static const uint64_t CLEAR[] = {{{clear}ULL}};");
     let mut function = |head: &str, lines: Vec<String>| {
         let _ = writeln!(text, "static inline {head} {{");
@@ -47,7 +49,7 @@ pub fn header(plan: &Plan) -> String {
         let (read, data) = (&interface.links[memory.read], &interface.links[memory.data]);
         let (valid, word) = (format!("m.{}_valid", data.name), &data.fields[0].name);
         words.push(format!("{valid} = memory[{i}].due(cycle);"));
-        words.push(format!("m.{word} = {valid} ? memory[{i}].front() : 0;"));
+        words.push(format!("put(m.{word}, {valid} ? memory[{i}].front() : 0);"));
         served.push(format!("if ({valid} && m.{}_ready) memory[{i}].pop();", data.name));
         let (read, address) = (read.name, &read.fields[0].name);
         served

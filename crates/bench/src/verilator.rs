@@ -3,47 +3,47 @@
 use super::job::{Job, Times, Work};
 use super::ports::header;
 use super::stopwatch::{Stopwatch, Time};
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Result, anyhow};
 use edgewalk_lockstep::{Interface, Triangles, Unit};
+use edgewalk_tool::{Stop, first_lines, run};
 use std::path::Path;
 use std::process::Command;
+use std::time::Duration;
 
 const HARNESS: &str = include_str!("harness.cpp");
 
-/// Verilator, or the machine that it made, which does not do its work.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct ToolError(pub String);
-
 /// Times it with its files in this folder, or says that it is not installed.
 pub fn time(job: &Job, folder: &Path) -> Result<Result<Times, String>> {
-    if Command::new("verilator").arg("--version").output().is_err() {
-        return Ok(Err("verilator is not installed".to_owned()));
-    }
     let start = Stopwatch::start();
-    build(job, folder)?;
+    match build(job, folder) {
+        Err(error) if matches!(error.downcast_ref(), Some(Stop::Missing { .. })) => {
+            return Ok(Err("verilator is not installed".to_owned()));
+        }
+        built => built?,
+    }
     let built = start.read().wall;
     std::fs::write(folder.join("stimulus.bin"), stimulus(job))?;
     for (i, memory) in Interface::new(job.machine, Unit::MACHINE).memories.iter().enumerate() {
-        let words = job.words(memory.name).into_iter().flat_map(u64::to_le_bytes);
+        let bytes = if job.has_wide_words() { 16 } else { 8 };
+        let words = job.words(memory.name).into_iter();
+        let words = words.flat_map(|word| word.to_le_bytes().into_iter().take(bytes));
         std::fs::write(folder.join(format!("memory{i}.bin")), words.collect::<Vec<u8>>())?;
     }
-    let output = Command::new(folder.join("obj_dir/Vmachine"))
-        .current_dir(folder)
-        .arg("stimulus.bin")
-        .arg((job.repeat + 1).to_string())
-        .args(job.constants()?.iter().map(ToString::to_string))
-        .output()
-        .context("the verilated machine")?;
-    let text = String::from_utf8_lossy(&output.stdout);
+    let mut machine = Command::new(folder.join("obj_dir/Vmachine"));
+    machine.current_dir(folder).arg("stimulus.bin").arg((job.repeat + 1).to_string());
+    machine.args(job.constants()?.iter().map(ToString::to_string));
+    let text = run(&mut machine, Duration::MAX)?;
     let frames: Option<Vec<(Work, Time)>> = text.lines().map(frame).collect();
     match frames.as_deref() {
-        Some([(work, first), rest @ ..]) if rest.len() == job.repeat as usize => Ok(Ok(Times {
+        Some(all @ [(_, first), rest @ ..]) if rest.len() == job.repeat as usize => Ok(Ok(Times {
             first: built + first.wall,
             frames: rest.iter().map(|(_, time)| *time).collect(),
-            work: *work,
+            work: all.iter().map(|(work, _)| *work).find(|work| *work != job.work).unwrap_or(job.work),
         })),
-        _ => Err(ToolError(format!("the verilated machine printed `{}`", text.trim())).into()),
+        _ => {
+            let tool = "the verilated machine".to_owned();
+            Err(Stop::Broken { tool, lines: first_lines(text.lines()) }.into())
+        }
     }
 }
 
@@ -57,19 +57,15 @@ fn build(job: &Job, folder: &Path) -> Result<()> {
     }
     std::fs::write(folder.join("harness.cpp"), HARNESS)?;
     std::fs::write(folder.join("ports.h"), header(job.machine))?;
-    let build = Command::new("verilator")
-        .current_dir(folder)
-        .args(["--cc", "--exe", "--build", "-O3", "--x-assign", "fast", "--prefix", "Vmachine"])
-        .args(["--top-module", &design.name, "-MAKEFLAGS", "OPT_FAST=-O3", "-Wno-fatal", "harness.cpp"])
-        .args(&sources)
-        .output()
-        .context("verilator")?;
-    if build.status.success() {
-        return Ok(());
+    let mut build = Command::new("verilator");
+    build.current_dir(folder);
+    build.args(["--cc", "--exe", "--build", "-O3", "--x-assign", "fast", "--prefix", "Vmachine"]);
+    build.args(["--top-module", &design.name, "-MAKEFLAGS", "OPT_FAST=-O3", "-Wno-fatal", "harness.cpp"]);
+    if job.has_wide_words() {
+        build.args(["-CFLAGS", "-DWIDE_WORDS"]);
     }
-    let text = String::from_utf8_lossy(&build.stderr);
-    let start: Vec<&str> = text.lines().take(5).collect();
-    Err(ToolError(format!("verilator: {}", start.join(" / "))).into())
+    run(build.args(&sources), Duration::MAX)?;
+    Ok(())
 }
 
 /// A line of the harness: cycles, writes, milliseconds on the processor and on the wall.

@@ -1,10 +1,10 @@
-//! Folders that do not outlive the program, even where SIGINT or SIGTERM ends it.
+//! Folders that do not outlive the program, even where SIGHUP, SIGINT or SIGTERM ends it.
 //!
 //! A signal waits for what must not be cut short (a guard of [`undisturbed`], the making of a file or folder), ends the
 //! tools that run, removes every scratch folder and ends the program as it would have without a handler. From then on nothing is made any more.
 
 use anyhow::{Context, Result};
-use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::emulate_default_handler;
 use std::fs::{self, File};
@@ -102,7 +102,9 @@ fn exclusive() -> RwLockWriteGuard<'static, Vec<Leftover>> {
 
 /// Ends the tools that run and removes what is left when a signal ends the program, from now on.
 pub fn watch_signals() -> Result<()> {
-    let mut signals = Signals::new([SIGINT, SIGTERM]).context("signals")?;
+    let ignored = ignored();
+    let watched = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
+    let mut signals = Signals::new(watched).context("signals")?;
     std::thread::spawn(move || {
         for signal in signals.forever() {
             // Held to the end.
@@ -114,6 +116,14 @@ pub fn watch_signals() -> Result<()> {
         }
     });
     Ok(())
+}
+
+/// The signals that the program was started to ignore, as `nohup` starts it: signal n is bit n - 1. Where the system does not
+/// say, SIGHUP counts as ignored.
+fn ignored() -> u64 {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(1 << (SIGHUP - 1))
 }
 
 /// Makes a folder with its parents, and gives those that were not there, the outermost first.

@@ -46,15 +46,27 @@ impl Staging {
     }
 
     /// Moves everything into the target. `own` are the files that this command may write: those that it did not write
-    /// this time are of an earlier run, and removed; nothing else is touched.
+    /// this time are of an earlier run, and removed; nothing else is touched. Links to folders in the target are not
+    /// followed: a new file behind one is an error, an old one stays.
     pub fn publish(self, own: &[impl AsRef<str>]) -> Result<()> {
         let undisturbed = scratch::undisturbed();
         let mut names = BTreeSet::new();
         let new = self.scratch.path().join(NEW);
         list(&new, Path::new(""), &mut names).with_context(|| self.target.display().to_string())?;
+        let behind_a_link = |name: &PathBuf| Some((name.clone(), link_on_the_way(&self.target, name)?));
+        if let Some((name, link)) = names.iter().find_map(behind_a_link) {
+            return Err(anyhow!(
+                "{}: is a link, and below --out files are written into folders only; remove the link, or give --out the \
+                 folder that it names ({} was to be written)",
+                link.display(),
+                name.display()
+            ));
+        }
         let stale = own.iter().map(|name| PathBuf::from(name.as_ref())).filter(|name| {
             let there = fs::symlink_metadata(self.target.join(name));
-            !names.contains(name) && there.is_ok_and(|there| !there.is_dir())
+            !names.contains(name)
+                && there.is_ok_and(|there| !there.is_dir())
+                && link_on_the_way(&self.target, name).is_none()
         });
         let stale: Vec<PathBuf> = stale.collect();
         let mut moves = Moves { old: self.scratch.path().join(OLD), done: Vec::new(), made: Vec::new() };
@@ -74,6 +86,14 @@ impl Staging {
             }
         }
     }
+}
+
+/// The first link among the folders between the target and a file in it.
+fn link_on_the_way(target: &Path, name: &Path) -> Option<PathBuf> {
+    let mut folders: Vec<PathBuf> = name.ancestors().skip(1).map(|folder| target.join(folder)).collect();
+    folders.pop(); // the target itself, which may be a link
+    let is_link = |path: &PathBuf| fs::symlink_metadata(path).is_ok_and(|there| there.is_symlink());
+    folders.into_iter().rev().find(is_link)
 }
 
 /// The files under a folder, without its name.

@@ -1,6 +1,5 @@
 //! How a command ends: the exit codes every subcommand shares.
 
-use edgewalk_bench::ToolError;
 pub use edgewalk_judge::Verdict;
 use edgewalk_tool::Stop;
 use edgewalk_vectors::SimulateError;
@@ -23,7 +22,6 @@ pub fn of_error(error: &anyhow::Error) -> u8 {
     match of_simulator.or_else(|| error.downcast_ref::<Stop>()) {
         Some(Stop::TimeLimit { .. }) => 4,
         Some(_) => 3,
-        None if error.is::<ToolError>() => 3,
         None => 2,
     }
 }

@@ -104,12 +104,16 @@ fn machines_that_shade_take_part() {
     }
     std::fs::write(&file, text).unwrap();
     let run = |more: &[&str]| {
+        // Its texels have 72 bits.
         let shades = [
             "setup.lanes=1",
             "shade.kind=phong",
             "shade.colour=multiply",
             "texture.kind=nearest",
             "texture.bits=3",
+            "texture.bump=yes",
+            "texture.slope_bits=12",
+            "formats.color_bits=16",
         ];
         let mut command = Command::new(env!("CARGO_BIN_EXE_edgewalk"));
         command.arg("bench").arg(&file).args(["--json", "--repeat", "1"]).args(more);
@@ -137,4 +141,89 @@ fn an_engine_that_is_not_exact_takes_no_part() {
     assert_eq!(result["engine"], "tick");
     assert_eq!(result["engines"][0]["absent"], "ticked: the in-flight queue may fill");
     assert_eq!(result["engines"].as_array().unwrap().len(), 2);
+}
+
+#[cfg(not(feature = "jit"))]
+#[test]
+fn without_the_feature_jit_says_how_to_build_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, told) = crate::support::run(folder.path(), &["bench", "sphere", "--engine", "fast,jit"]);
+    assert_eq!(code, Some(2), "{told}");
+    assert!(
+        told.contains("--engine jit") && told.contains("`cargo build --release --features jit`"),
+        "{told}"
+    );
+}
+
+/// Runs a bench of Verilator, in whose place stands a program that prints these lines: exit code, standard output, standard error.
+fn of_lines(lines: &str, more: &[&str]) -> (Option<i32>, String, String) {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
+    };
+    write("machine", &format!("#!/bin/sh\ncat <<'END'\n{lines}END\n"));
+    let machine = folder.path().join("machine");
+    write("verilator", &format!("#!/bin/sh\nmkdir obj_dir && cp '{}' obj_dir/Vmachine\n", machine.display()));
+    let text = "size 40 30\nT 1 1 0 1 0 0 0  39 2 0 0 1 0 0  4 28 0 0 0 1 0\nT 9 1 0 1 0 0 0  30 2 0 0 1 0 0  4 20 0 0 0 1 0\n";
+    write("two.tri", text);
+    let path = format!("{}:{}", folder.path().display(), std::env::var("PATH").unwrap());
+    let mut command = crate::support::edgewalk(folder.path(), &["bench", "two.tri", "--engine", "verilator"]);
+    let output = command.args(more).env("PATH", path).output().unwrap();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
+}
+
+/// An engine that takes a cycle more, makes a write less, or does so in one frame only, ends with 1 and is named; one that
+/// says something else is broken.
+#[test]
+fn an_engine_that_differs_ends_with_1() {
+    let frames =
+        |cycles: u64, writes: u64, count: usize| format!("{cycles} {writes} 1.0 9.0\n").repeat(count);
+    let (code, json, _) = of_lines(&frames(1, 1, 3), &["--repeat", "2", "--json"]);
+    assert_eq!(code, Some(1), "{json}");
+    let expected: Value = serde_json::from_str(&json).unwrap();
+    let expected = &expected["engines"][0]["differs"]["expected"];
+    let number = |key: &str| expected[key].as_u64().unwrap();
+    let (cycles, writes) = (number("cycles"), number("writes"));
+    let right = frames(cycles, writes, 3);
+    assert_eq!(of_lines(&right, &["--repeat", "2"]).0, Some(0));
+    for (wrong, found) in [
+        (frames(cycles + 1, writes, 3), (cycles + 1, writes)),
+        (frames(cycles, writes - 1, 3), (cycles, writes - 1)),
+        (frames(cycles, writes, 2) + &frames(cycles - 1, writes, 1), (cycles - 1, writes)),
+        (frames(cycles, writes + 1, 1) + &frames(cycles, writes, 2), (cycles, writes + 1)),
+    ] {
+        let (code, text, _) = of_lines(&wrong, &["--repeat", "2"]);
+        let told = format!(
+            "verilator     differs from the machine: {} cycles instead of {cycles}, {} writes instead of {writes}\n",
+            found.0, found.1
+        );
+        assert!(code == Some(1) && text.contains(&told), "{told}: {text}");
+        let (code, text, error) = of_lines(&wrong, &["--repeat", "2", "--quiet"]);
+        assert!(code == Some(1) && text.is_empty() && error.starts_with("edgewalk: mismatch: "), "{error}");
+    }
+    for broken in
+        [String::new(), "nonsense\n".to_owned(), frames(cycles, writes, 2), frames(cycles, writes, 4)]
+    {
+        let (code, text, error) = of_lines(&broken, &["--repeat", "2"]);
+        assert!(code == Some(3) && text.is_empty(), "{text}");
+        assert!(error.contains("the verilated machine failed"), "{error}");
+    }
+    // Times by hand: sorted 1 2 3 4 5 7 8 9 100, the quartiles are 3, 5 and 8.
+    let times =
+        [50, 5, 1, 9, 3, 7, 2, 8, 4, 100].map(|cpu| format!("{cycles} {writes} {cpu} {}\n", 1000 + cpu));
+    let (code, json, _) = of_lines(&times.concat(), &["--repeat", "9", "--json"]);
+    assert_eq!(code, Some(0));
+    let row: Value = serde_json::from_str(&json).unwrap();
+    let row = &row["engines"][0];
+    let figure = |key: &str| row[key].as_f64().unwrap();
+    assert_eq!(["cpu_ms_median", "ms_min", "noise", "ratio_to_verilator"].map(figure), [5.0, 1.0, 1.0, 1.0]);
+    assert!(
+        figure("first_ms") >= 1050.0 && figure("first_ms") < 60_000.0,
+        "built and drawn, on the wall: {row}"
+    );
+    assert_eq!(figure("cycles_per_second"), cycles as f64 * 1e3 / 5.0);
 }

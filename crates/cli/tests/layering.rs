@@ -24,7 +24,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("vectors", &["machine", "model", "netlist", "verilog", "rtl", "lockstep", "tool"]),
     ("replay", &["machine", "model"]),
     ("synth", &["machine", "netlist", "verilog", "rtl", "tool"]),
-    ("bench", &["machine", "model", "netlist", "verilog", "jit", "rtl", "lockstep"]),
+    ("bench", &["machine", "model", "netlist", "verilog", "jit", "rtl", "lockstep", "tool"]),
     ("explore", &["numerics", "machine", "scene", "golden", "model", "host", "judge"]),
     (
         "cli",

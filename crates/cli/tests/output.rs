@@ -164,7 +164,7 @@ fn files_of_an_earlier_run_do_not_stay_and_others_do() {
 fn a_signal_leaves_nothing_behind() {
     let folder = folder();
     let before = names(folder.path());
-    for signal in ["INT", "TERM"] {
+    for signal in ["HUP", "INT", "TERM"] {
         let arguments = ["vectors", "--out", "a/v", "-q"];
         let mut child = edgewalk(folder.path(), &arguments).spawn().unwrap();
         let target = folder.path().join("a/v");
@@ -182,6 +182,62 @@ fn a_signal_leaves_nothing_behind() {
         let status = child.wait().unwrap();
         assert_eq!(status.code(), None, "SIG{signal} ends it: {status}");
         assert_eq!(names(folder.path()), before, "after SIG{signal}");
+    }
+}
+
+/// A hangup does not end what was started to outlive it, as `nohup` does.
+#[test]
+fn an_ignored_hangup_ends_nothing() {
+    let folder = folder();
+    let vectors =
+        ["vectors", "--suite", "hazards", "--unit", "machine", "--unit", "depth", "--out", "v", "-q"];
+    let mut shell = Command::new("sh");
+    shell.args(["-c", "trap '' HUP; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_edgewalk")]).args(vectors);
+    let mut child = shell.current_dir(folder.path()).spawn().unwrap();
+    let start = Instant::now();
+    while !folder.path().join("v").exists() {
+        assert!(start.elapsed() < Duration::from_secs(60), "no folder of the run");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert_eq!(child.try_wait().unwrap(), None, "it was done before the signal");
+    assert!(Command::new("kill").args(["-HUP", &child.id().to_string()]).status().unwrap().success());
+    assert!(child.wait().unwrap().success());
+    assert_eq!(names(&folder.path().join("v")), ["hazards_depth", "hazards_machine"]);
+}
+
+/// What a simulator writes beside its output goes with it, whatever ends the program.
+#[test]
+fn a_signal_leaves_no_files_of_a_tool() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    for name in ["tools", "tmp"] {
+        std::fs::create_dir(at(name)).unwrap();
+    }
+    // In place of a simulator that is being compiled.
+    let script = "#!/bin/sh\nmkdir \"$TMPDIR/parts\"\necho x >\"$TMPDIR/parts/x\"\necho x >\"$TMP/y\"\ntouch \"$HOLD\"\nsleep 60\n";
+    for tool in ["iverilog", "verilator"] {
+        std::fs::write(at("tools").join(tool), script).unwrap();
+        std::fs::set_permissions(at("tools").join(tool), std::fs::Permissions::from_mode(0o755)).unwrap();
+    }
+    let path = format!("{}:{}", at("tools").display(), std::env::var("PATH").unwrap());
+    for signal in ["TERM", "HUP"] {
+        let arguments = [&["verify", "d.tri", "-q"], &SCREEN[..]].concat();
+        let mut command = edgewalk(folder.path(), &arguments);
+        let mut child =
+            command.env("PATH", &path).env("TMPDIR", at("tmp")).env("HOLD", at("hold")).spawn().unwrap();
+        let start = Instant::now();
+        while !at("hold").exists() {
+            assert!(start.elapsed() < Duration::from_secs(60), "no simulator was started");
+            assert_eq!(child.try_wait().unwrap(), None);
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        assert!(!names(&at("tmp")).is_empty(), "it is at work");
+        let kill = Command::new("kill").args([format!("-{signal}"), child.id().to_string()]).status();
+        assert!(kill.unwrap().success());
+        assert_eq!(child.wait().unwrap().code(), None, "SIG{signal} ends it");
+        assert_eq!(names(&at("tmp")), [""; 0], "after SIG{signal}");
+        std::fs::remove_file(at("hold")).unwrap();
     }
 }
 

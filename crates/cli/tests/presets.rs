@@ -7,10 +7,12 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// The files of a folder with their texts, without those below it.
 fn files(folder: &Path) -> BTreeMap<String, String> {
     let Ok(entries) = std::fs::read_dir(folder) else { return BTreeMap::new() };
     entries
         .map(|e| e.expect("an entry").path())
+        .filter(|p| p.is_file())
         .map(|p| {
             (
                 p.file_name().expect("a file").to_string_lossy().into_owned(),
@@ -51,6 +53,71 @@ fn hdl_is_what_is_printed_today() {
     }
     println!("checked {checked} files");
     assert!(checked >= 10 || std::env::var_os("EDGEWALK_BLESS").is_some());
+}
+
+/// Every file that is emitted says its licence, what wrote it and of which machine it is; the list names every module, those
+/// that others use first, and a simulator takes it.
+#[test]
+fn emitted_files_say_what_they_are() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_edgewalk"));
+        let output = command.args(arguments).current_dir(&folder).output().expect("the program runs");
+        assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    let four = ["--set", "setup.lanes=4", "--set", "screen.width=24", "--set", "screen.height=20"];
+    let told = run(&[&["emit", "--out", "e"], &four[..]].concat());
+    run(&[&["vectors", "--suite", "hazards", "--unit", "setup", "--no-csv", "--out", "v", "-q"], &four[..]]
+        .concat());
+    let hash = told.split_whitespace().nth(1).expect("the hash");
+    let mut checked = 0;
+    for part in ["e", "v/hazards_setup", "v/hazards_setup/hdl"] {
+        for (name, text) in files(&folder.path().join(part)) {
+            let mark = match name.rsplit_once('.').map_or("", |(_, end)| end) {
+                "v" | "vh" | "f" => "//",
+                "toml" | "" => "#",
+                _ => continue,
+            };
+            if name == "SHA256SUMS" {
+                continue;
+            }
+            let version = env!("CARGO_PKG_VERSION");
+            let head = format!(
+                "{mark} SPDX-License-Identifier: MIT OR Apache-2.0\n{mark} edgewalk {version}, machine {hash}\n"
+            );
+            assert!(text.starts_with(&head), "{part}/{name}: {text:.200}");
+            checked += 1;
+        }
+    }
+    assert!(checked > 20, "{checked}");
+    println!("checked {checked} files");
+
+    let printed = files(&folder.path().join("e"));
+    let listed: Vec<&str> = printed["filelist.f"].lines().filter(|line| !line.starts_with("//")).collect();
+    assert_eq!(listed, told.lines().skip(1).map(str::trim).collect::<Vec<_>>(), "in the order that is said");
+    let mut modules: Vec<&str> =
+        printed.keys().map(String::as_str).filter(|name| name.ends_with(".v")).collect();
+    modules.sort_unstable();
+    let mut sorted = listed.clone();
+    sorted.sort_unstable();
+    assert_eq!(sorted, modules);
+    // A module is named behind those that it has instances of.
+    let mut uses = 0;
+    for (place, user) in listed.iter().enumerate() {
+        for (other, used) in listed.iter().enumerate() {
+            let instance = format!("\n  {} ", used.trim_end_matches(".v"));
+            let instances = printed[*user].matches(&instance).count();
+            assert!(instances == 0 || other < place, "{user} has an instance of {used}");
+            uses += instances;
+        }
+    }
+    assert!(uses >= 6, "{uses} instances");
+    let mut icarus = Command::new("iverilog");
+    icarus
+        .args(["-g2001", "-s", "edgewalk", "-c", "filelist.f", "-o", "all.vvp"])
+        .current_dir(folder.path().join("e"));
+    assert!(icarus.status().expect("iverilog is installed").success());
 }
 
 /// The help of every command that takes a machine names all of them.

@@ -23,16 +23,20 @@ fn a_terminal_sees_how_far_long_work_is_and_with_quiet_nothing() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("d.tri"), TRIANGLE).unwrap();
     let tick = ["raster", "d.tri", "--engine", "model", "--out", "m"];
-    let commands: [(&[&str], &str); 5] = [
+    let commands: [(&[&str], &str); 6] = [
         (&["raster", "d.tri", "--out", "o"], "/59 bytes"),
         (&tick, "1/1 triangles"),
         (&["bench", "d.tri", "--repeat", "1", "--engine", "fast,tick"], "2/2 engines"),
         (&["sweep", "d.tri", "--vary", "interpolator.adders=1,2", "--out", "s"], "2/2 points"),
         (&["vectors", "d.tri", "--unit", "depth", "--out", "v"], "1/1 vector directories"),
+        (
+            &["vectors", "--suite", "random", "--count", "80", "--unit", "machine", "--no-csv", "--out", "w"],
+            "of 80 tokens have entered",
+        ),
     ];
     for (command, bar) in commands {
         let text = seen(folder.path(), command);
-        let of = text.lines().filter(|line| line.contains('█')).collect::<Vec<_>>();
+        let of = text.lines().filter(|line| line.contains(['█', '░'])).collect::<Vec<_>>();
         assert!(of.iter().any(|line| line.contains(bar)), "{command:?}: {of:?}");
         let text = seen(folder.path(), &[command, &["-q"]].concat());
         assert!(!text.contains('█') && !text.contains('░'), "{command:?}: {text}");

@@ -149,3 +149,154 @@ fn shaded_triangles_bring_their_words() {
     assert_eq!(code, Some(2), "{told}");
     assert!(told.contains("add --triangles 2, or --set term.record_bits=2"), "{told}");
 }
+
+/// A machine whose texels have 72 bits: three colours of 16 and two slopes of 12.
+const WIDE: [&str; 14] = [
+    "--set",
+    "formats.color_bits=16",
+    "--set",
+    "shade.kind=fast-phong",
+    "--set",
+    "shade.colour=multiply",
+    "--set",
+    "texture.kind=nearest",
+    "--set",
+    "texture.bump=yes",
+    "--set",
+    "texture.bits=2",
+    "--set",
+    "texture.slope_bits=12",
+];
+
+/// `make icarus` in a directory of vectors, which passes.
+fn replays_in_icarus(folder: &Path, name: &str) {
+    let output =
+        Command::new("make").args(["-C", &format!("v/{name}"), "icarus"]).current_dir(folder).output();
+    let output = output.expect("make is installed");
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && said.lines().any(|line| line == "PASS"), "{name}: {said}");
+}
+
+#[test]
+fn words_over_64_bits_are_whole() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let small = ["--set", "screen.width=16", "--set", "screen.height=16"];
+    let random =
+        ["--suite", "random", "--count", "10", "--unit", "machine", "--unit", "texel", "--no-csv", "--quiet"];
+    let output = vectors(folder.path(), &[&random[..], &small, &WIDE].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let machine = manifest(folder.path(), "random_machine");
+    let memories = machine["memories"].as_array().expect("a list");
+    let textures = memories.iter().find(|memory| memory["name"] == "textures").expect("it has texels");
+    assert_eq!(textures["clear"], "f".repeat(72 / 4));
+    let words =
+        std::fs::read_to_string(folder.path().join("v/random_machine/textures.start.mem")).expect("written");
+    let top = words.lines().filter(|word| word.len() == 72 / 4 && !word.starts_with("00")).count();
+    assert!(2 * top > words.lines().count(), "{words}");
+    replays_in_icarus(folder.path(), "random_machine");
+    replays_in_icarus(folder.path(), "random_texel");
+}
+
+/// Signed fields of a table have their sign; every value is that of the packed token beside it.
+#[test]
+fn a_table_has_the_numbers_of_its_tokens() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let small =
+        ["--set", "screen.width=24", "--set", "screen.height=20", "--suite", "corners", "--unit", "edge"];
+    assert_eq!(vectors(folder.path(), &small).status.code(), Some(0));
+    let edge = manifest(folder.path(), "corners_edge");
+    let (mut checked, mut negative) = (0, 0);
+    for channel in edge["channels"].as_array().expect("a list") {
+        let read = |file: &Value| {
+            let file = file.as_str().expect("a name");
+            std::fs::read_to_string(folder.path().join("v/corners_edge").join(file)).expect("written")
+        };
+        let (table, tokens, steps) =
+            (read(&channel["table"]), read(&channel["tokens"]), read(&channel["moved"]));
+        let head: Vec<&str> = table.lines().next().expect("a head").split(',').collect();
+        let fields = channel["fields"].as_array().expect("a list");
+        let mut cycle = 0;
+        assert_eq!(table.lines().count() - 1, tokens.lines().count());
+        for ((row, token), step) in table.lines().skip(1).zip(tokens.lines()).zip(steps.lines()) {
+            let row: Vec<&str> = row.split(',').collect();
+            let bit = |at: u64| {
+                let digit =
+                    token.chars().rev().nth(at as usize / 4).and_then(|c| c.to_digit(16)).unwrap_or(0);
+                i128::from(digit >> (at % 4) & 1)
+            };
+            cycle += u64::from_str_radix(step, 16).expect("hex");
+            assert_eq!(row[1], cycle.to_string());
+            for field in fields {
+                let (lsb, width) =
+                    (field["lsb"].as_u64().expect("a number"), field["width"].as_u64().expect("a number"));
+                let value: i128 = (0..width).map(|at| bit(lsb + at) << at).sum();
+                let below = field["signed"] == true && bit(lsb + width - 1) == 1;
+                let value = if below { value - (1 << width) } else { value };
+                let place = head.iter().position(|name| field["port"] == *name).expect("a column");
+                assert_eq!(row[place], value.to_string(), "{}", field["port"]);
+                checked += 1;
+                negative += u32::from(below);
+            }
+        }
+    }
+    println!("checked {checked} values, {negative} of them negative");
+    assert!(negative > 100, "{negative}");
+}
+
+/// 5,000 random triangles of the machine take at most 100 MB without tables; a twentieth of them a twentieth of it.
+#[test]
+fn vectors_of_the_machine_are_small() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let random = ["--suite", "random", "--count", "250", "--unit", "machine"];
+    let bytes = |tables: &[&str]| {
+        assert_eq!(vectors(folder.path(), &[&random[..], tables].concat()).status.code(), Some(0));
+        let machine = manifest(folder.path(), "random_machine");
+        let files = machine["files"].as_array().expect("a list");
+        files.iter().map(|file| file["bytes"].as_u64().expect("a number")).sum::<u64>()
+    };
+    let (with, without) = (bytes(&[]), bytes(&["--no-csv"]));
+    println!("{with} bytes with tables, {without} without");
+    assert!(without <= 100_000_000 / 20, "{without} bytes");
+    // As the help says.
+    assert!(without < with / 2, "{with} and {without} bytes");
+}
+
+/// What stands behind a link in an earlier output folder is neither removed nor replaced.
+#[test]
+fn a_link_in_the_folder_leads_to_no_removal() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    let small =
+        ["--set", "screen.width=24", "--set", "screen.height=20", "--suite", "hazards", "--unit", "depth"];
+    let write = |name: &str, text: &str| std::fs::write(at(name), text).expect("written");
+    let kept =
+        |name: &str| assert_eq!(std::fs::read_to_string(at(name)).expect("still there"), "mine", "{name}");
+    std::fs::create_dir_all(at("mine/hdl")).expect("a folder");
+    std::fs::create_dir_all(at("v")).expect("a folder");
+    write("mine/precious.txt", "mine");
+    write("mine/tb.v", "mine");
+    write("mine/manifest.json", r#"{"files": [{"name": "precious.txt"}, {"name": "tb.v"}]}"#);
+    // The directory itself is a link: nothing is written through it.
+    std::os::unix::fs::symlink(at("mine"), at("v/hazards_depth")).expect("a link");
+    let output = vectors(folder.path(), &small);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(
+        told.contains("v/hazards_depth: is a link, and below --out files are written into folders only"),
+        "{told}"
+    );
+    ["mine/precious.txt", "mine/tb.v"].into_iter().for_each(kept);
+    // A folder in it is a link, which only the manifest of an earlier run names.
+    std::fs::remove_file(at("v/hazards_depth")).expect("the link");
+    std::fs::create_dir_all(at("v/hazards_depth")).expect("a folder");
+    std::os::unix::fs::symlink(at("mine"), at("v/hazards_depth/old")).expect("a link");
+    write(
+        "v/hazards_depth/manifest.json",
+        r#"{"files": [{"name": "old/precious.txt"}, {"name": "stale.txt"}]}"#,
+    );
+    write("v/hazards_depth/stale.txt", "stale");
+    let output = vectors(folder.path(), &small);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    kept("mine/precious.txt");
+    assert!(!at("v/hazards_depth/stale.txt").exists(), "what is of an earlier run goes");
+}

@@ -120,3 +120,74 @@ fn a_simulator_that_takes_too_long_is_ended() {
     assert_eq!(code, Some(4), "{text}");
     assert!(text.contains("was ended after 1 s"), "{text}");
 }
+
+/// Tools of our own in place of the simulators: what the bench would print is `script`, run in the directory of vectors with
+/// $suite, $unit and $n, the number that its manifest expects.
+fn fake_simulators(script: &str) -> tempfile::TempDir {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = tempfile::tempdir().expect("a folder");
+    let value = |key: &str| {
+        format!("$(sed -n 's/^ *\"{key}\": \"\\{{0,1\\}}\\([a-z_0-9]*\\).*/\\1/p' manifest.json | head -1)")
+    };
+    let bench = format!(
+        "#!/bin/sh\nsuite={} unit={} n={}\n{script}\n",
+        value("name"),
+        value("unit"),
+        value("expected")
+    );
+    let binary = folder.path().join("bench");
+    let build = format!(
+        "#!/bin/sh\nwhile [ \"$1\" != --Mdir ]; do shift; done\nmkdir -p \"$2\" && cp '{}' \"$2/Vtb\"\n",
+        binary.display()
+    );
+    for (name, text) in
+        [("bench", &bench), ("vvp", &bench), ("iverilog", &"#!/bin/sh\n".to_owned()), ("verilator", &build)]
+    {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("written");
+        std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).expect("set");
+    }
+    folder
+}
+
+/// A simulator that compared nothing, less, more, or another thing than the manifest expects has not passed, and is told
+/// beside what was expected.
+#[test]
+fn a_simulator_that_is_wrong_does_not_pass() {
+    let honest = "printf 'wrong 0\\nchecked %d / %d\\nPASS\\n' $n $n";
+    let script = format!(
+        "case $suite.$unit in\n\
+         hazards.setup) printf 'checked 0 / 0\\nPASS\\n';;\n\
+         hazards.edge) printf 'checked %d / %d\\nPASS\\n' $((n - 1)) $((n - 1));;\n\
+         hazards.span) printf 'frag: token 0: expected 1, found 2\\nchecked %d / %d\\nFAIL\\n' $n $n;;\n\
+         hazards.pixel) printf 'checked %d / %d\\nPASS\\n' $((n + 1)) $((n + 1));;\n\
+         *) {honest};;\nesac"
+    );
+    let tools = fake_simulators(&script);
+    let path = format!("{}:{}", tools.path().display(), std::env::var("PATH").unwrap_or_default());
+    let (code, text) = told(&verify(TRIANGLE, &[], Some(&path)));
+    assert_eq!(code, Some(1), "{text}");
+    let line = |unit: &str| {
+        let of =
+            |line: &&str| line.contains(&format!("hazards         {unit} ")) && line.contains("= icarus");
+        text.lines().find(of).unwrap_or_else(|| panic!("{unit}: {text}"))
+    };
+    let counts = |unit: &str| {
+        let (checked, expected) =
+            line(unit).split_once("checked ").and_then(|(_, n)| n.split_once(" / ")).expect(unit);
+        (checked.parse::<u64>().expect("a number"), expected.parse::<u64>().expect("a number"))
+    };
+    for (unit, off) in [("setup", None), ("edge", Some(-1)), ("span", Some(0)), ("pixel", Some(1))] {
+        assert!(line(unit).starts_with("FAIL"), "{}", line(unit));
+        let (checked, expected) = counts(unit);
+        assert!(expected > 20, "{unit}: {expected}");
+        assert_eq!(checked as i64, off.map_or(0, |off| expected as i64 + off), "{unit}");
+    }
+    assert!(text.contains("      frag: token 0: expected 1, found 2"), "{text}");
+    assert_eq!(text.lines().filter(|line| line.starts_with("FAIL")).count(), 4, "the others pass: {text}");
+    // One that says nothing, or only that it passed, is broken.
+    let tools = fake_simulators("echo PASS");
+    let path = format!("{}:{}", tools.path().display(), std::env::var("PATH").unwrap_or_default());
+    let (code, text) = told(&verify(TRIANGLE, &[], Some(&path)));
+    assert!(code == Some(3) && text.contains("icarus failed:\nPASS"), "{text}");
+}

@@ -98,6 +98,18 @@ impl Machine {
         text
     }
 
+    /// The first lines of every text file that is made from this machine: licence, program with version, hash. Each line begins
+    /// with the mark of a comment.
+    #[must_use]
+    pub fn stamp(&self, comment: &str) -> String {
+        format!(
+            "{comment} SPDX-License-Identifier: {}\n{comment} edgewalk {}, machine {}\n",
+            env!("CARGO_PKG_LICENSE"),
+            env!("CARGO_PKG_VERSION"),
+            self.hash()
+        )
+    }
+
     /// Twelve hex digits that stand for this configuration in every picture, file and report made with it.
     #[must_use]
     pub fn hash(&self) -> String {

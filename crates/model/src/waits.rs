@@ -325,6 +325,23 @@ impl Pacer {
 mod tests {
     use super::*;
 
+    /// Memories that stall at random by one seed stall in cycles of their own, and as often.
+    #[test]
+    fn memories_of_one_seed_stall_apart() {
+        let waits: Waits = "random:seed=1,rd=64,wr=64".parse().expect("a kind of waits");
+        let pace = |number| {
+            let mut pacer = Pacer::new(waits.of_another(number));
+            let ready = |now| (pacer.step(now, None, None), pacer.rd_ready, pacer.wr_ready);
+            (0..1000).map(ready).collect::<Vec<_>>()
+        };
+        let paces = [0, 1, 2].map(pace);
+        assert!(paces[0] != paces[1] && paces[1] != paces[2] && paces[0] != paces[2]);
+        for pace in paces {
+            let ready = pace.iter().filter(|(_, rd, _)| *rd).count();
+            assert!((700..800).contains(&ready), "a quarter of the cycles stall: {ready}");
+        }
+    }
+
     #[test]
     fn what_is_written_reads_back() {
         for kind in KINDS {

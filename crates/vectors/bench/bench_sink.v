@@ -7,7 +7,7 @@ module bench_sink #(
     parameter COUNT = 1,
     parameter CHECK_CYCLES = 1,
     parameter TOKENS = "",
-    parameter CYCLES = ""
+    parameter CYCLES = ""   // in steps: cycles from each token to the next
 ) (
     input  wire             clk,
     input  wire             rst,
@@ -23,9 +23,12 @@ module bench_sink #(
     reg [WIDTH-1:0] tokens [0:(COUNT == 0 ? 0 : COUNT - 1)];
     reg [31:0]      cycles [0:(COUNT == 0 ? 0 : COUNT - 1)];
 
+    integer    i;
+
     initial if (COUNT > 0) begin
         $readmemh(TOKENS, tokens);
         $readmemh(CYCLES, cycles);
+        for (i = 1; i < COUNT; i = i + 1) cycles[i] = cycles[i - 1] + cycles[i];
     end
 
     wire moved = !rst && fire !== 1'b0; // an unknown fire is taken for one

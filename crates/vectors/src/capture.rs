@@ -15,6 +15,7 @@ use edgewalk_machine::{Plan, Walk};
 use edgewalk_model::{DrawState, Events, longest_setup};
 use edgewalk_netlist::{Netlist, Simulate};
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 /// What moved at one link.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -58,9 +59,25 @@ pub struct Trace {
 /// Runs the machine, or one of its units, over a suite.
 #[must_use]
 pub fn capture(plan: &Plan, unit: Unit, suite: &Suite, state: DrawState, stalls: StallKind) -> Trace {
-    let run = Run { plan, suite, state };
-    run.observe(unit, run.stimulus(unit), stalls)
+    capture_watched(plan, unit, suite, state, stalls, &|_, _| {})
 }
+
+/// As [`capture`]; now and then `watch` is told how many tokens of the stimulus have entered, and of how many.
+#[must_use]
+pub fn capture_watched(
+    plan: &Plan,
+    unit: Unit,
+    suite: &Suite,
+    state: DrawState,
+    stalls: StallKind,
+    watch: &dyn Fn(usize, usize),
+) -> Trace {
+    let runs = Runs::new(plan, suite, state);
+    runs.observe(unit, runs.stimulus(unit), stalls, watch)
+}
+
+/// Cycles between two calls of a `watch`.
+const WATCHED: u64 = 1 << 16;
 
 /// Runs a unit over these tokens, whoever made them; `seed` is that of the stalls.
 #[must_use]
@@ -78,30 +95,48 @@ pub fn capture_tokens(
         ..Suite::of_triangles("tokens", "", Vec::new())
     };
     let triangles = (0..tokens.len() as u32).collect();
-    Run { plan, suite: &suite, state }.observe(unit, Stimulus { tokens, triangles }, stalls)
+    Runs::new(plan, &suite, state).observe(unit, Stimulus { tokens, triangles }, stalls, &|_, _| {})
 }
 
 /// What enters a unit.
+#[derive(Clone)]
 struct Stimulus {
     tokens: Vec<Token>,
     /// The triangle that each belongs to.
     triangles: Vec<u32>,
 }
 
-struct Run<'a> {
+/// Runs of the machine and its units over one suite. What enters a unit is worked out once for all of them.
+pub struct Runs<'a> {
     plan: &'a Plan,
     suite: &'a Suite,
     state: DrawState,
+    units: Vec<Unit>,
+    /// For each of the units what leaves it where nothing makes it wait.
+    alone: Vec<OnceLock<(Link, Stimulus)>>,
 }
 
-impl Run<'_> {
+impl<'a> Runs<'a> {
+    /// None yet.
+    #[must_use]
+    pub fn new(plan: &'a Plan, suite: &'a Suite, state: DrawState) -> Self {
+        let units = Unit::single(plan);
+        let alone = units.iter().map(|_| OnceLock::new()).collect();
+        Runs { plan, suite, state, units, alone }
+    }
+
+    /// The machine, or one of its units, over the suite.
+    #[must_use]
+    pub fn capture(&self, unit: Unit, stalls: StallKind) -> Trace {
+        self.observe(unit, self.stimulus(unit), stalls, &|_, _| {})
+    }
+
     /// What enters the unit: what leaves the one before, running alone and without stalls. What another unit holds beside
     /// that link belongs to the same triangle.
     fn stimulus(&self, unit: Unit) -> Stimulus {
-        let units = Unit::single(self.plan);
-        let before = units.iter().position(|other| *other == unit).and_then(|place| place.checked_sub(1));
-        let Some(before) = before else { return self.triangles() };
-        let (link, mut out) = self.alone(units[before]);
+        let place = self.units.iter().position(|other| *other == unit);
+        let Some(before) = place.and_then(|place| place.checked_sub(1)) else { return self.triangles() };
+        let (link, mut out) = self.alone(before).clone();
         let own = link.own;
         out.tokens.iter_mut().for_each(|token| token.truncate(own));
         let taken = Interface::new(self.plan, unit);
@@ -110,8 +145,8 @@ impl Run<'_> {
             return out;
         }
         // Whoever holds values of these names.
-        for holder in &units[..before] {
-            let (link, held) = self.alone(*holder);
+        for holder in 0..before {
+            let (link, held) = self.alone(holder);
             let place = |name: &str| link.fields[link.own..].iter().position(|port| port.name == name);
             let Some(places) = fields.iter().map(|port| place(&port.name)).collect::<Option<Vec<usize>>>()
             else {
@@ -133,9 +168,13 @@ impl Run<'_> {
         Stimulus { triangles: (0..tokens.len() as u32).collect(), tokens }
     }
 
-    /// The tokens that leave the unit where nothing makes it wait.
-    fn alone(&self, unit: Unit) -> (Link, Stimulus) {
-        let trace = self.observe(unit, self.stimulus(unit), StallKind::None);
+    /// The tokens that leave the unit of this place where nothing makes it wait.
+    fn alone(&self, place: usize) -> &(Link, Stimulus) {
+        self.alone[place].get_or_init(|| self.run_alone(self.units[place]))
+    }
+
+    fn run_alone(&self, unit: Unit) -> (Link, Stimulus) {
+        let trace = self.observe(unit, self.stimulus(unit), StallKind::None, &|_, _| {});
         let last = trace.interface.links.len() - 1;
         let out = trace.links.into_iter().next_back().unwrap_or_default();
         (trace.interface.links[last].clone(), Stimulus { tokens: out.tokens, triangles: out.triangles })
@@ -156,7 +195,13 @@ impl Run<'_> {
         Setting { tokens, ..setting }
     }
 
-    fn observe(&self, unit: Unit, stimulus: Stimulus, stalls: StallKind) -> Trace {
+    fn observe(
+        &self,
+        unit: Unit,
+        stimulus: Stimulus,
+        stalls: StallKind,
+        watch: &dyn Fn(usize, usize),
+    ) -> Trace {
         let interface = Interface::new(self.plan, unit);
         let Stimulus { tokens, triangles } = stimulus;
         let setting = self.setting(&interface, tokens, stalls);
@@ -182,6 +227,9 @@ impl Run<'_> {
         let patience = patience(self.plan, &trace.setting.patterns);
         while !rig.exhausted() || rig.cycle() < trace.cycles + patience {
             let cycle = rig.cycle();
+            if cycle % WATCHED == WATCHED - 1 {
+                watch(trace.links[0].tokens.len(), trace.setting.tokens.len());
+            }
             rig.drive(&mut ports);
             device.cycle(&mut ports);
             for (place, link) in trace.interface.links.iter().enumerate() {

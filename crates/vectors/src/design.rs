@@ -15,5 +15,6 @@ pub fn verilog(plan: &Plan, unit: Unit) -> Result<Vec<(String, String)>, BuildEr
     if unit == Unit::MACHINE {
         files.extend(edgewalk_verilog::print(&edgewalk_rtl::memory(plan, plan.z.max())?));
     }
-    Ok(files)
+    let stamp = plan.stamp("//");
+    Ok(files.into_iter().map(|(name, text)| (name, format!("{stamp}\n{text}"))).collect())
 }

@@ -15,7 +15,7 @@ pub mod write;
 pub mod read;
 pub mod simulate;
 
-pub use capture::{LinkTrace, Trace, capture, capture_tokens};
+pub use capture::{LinkTrace, Runs, Trace, capture, capture_tokens, capture_watched};
 pub use edgewalk_lockstep::{Difference, Interface, LockstepError, StallKind, Unit};
 pub use manifest::Manifest;
 pub use reach::{Reached, not_covered, reached};

@@ -12,8 +12,8 @@ pub const SCHEMA_FILE: &str = "manifest.schema.json";
 pub const SCHEMA: &str = include_str!("../manifest.schema.json");
 /// Value of [`Manifest::format`].
 pub const FORMAT: &str = "edgewalk-vectors";
-/// The newest format there is; a reader refuses what is newer.
-pub const VERSION: u32 = 3;
+/// The version of the format that is written, and the only one that is read.
+pub const VERSION: u32 = 4;
 
 /// All of `manifest.json`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -156,7 +156,8 @@ pub struct Limits {
     pub cycles: u64,
 }
 
-/// Bases of numbers.
+/// Bases of numbers, and how they are written: a number a line, in as few digits as it has. A file *in steps* holds the
+/// first number, then by how much each is larger than the one before, modulo 2^32.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Radix {
@@ -182,8 +183,8 @@ pub struct Memory {
     pub latency: u64,
     /// Words.
     pub words: u64,
-    /// Every word at the start, but for those of `start`.
-    pub clear: u64,
+    /// Every word at the start, but for those of `start`: lower-case hex, as in a memory file.
+    pub clear: String,
     /// Memory file of the first words at the start, from address 0 on; none: all are `clear`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start: Option<String>,
@@ -240,11 +241,12 @@ pub struct Channel {
     pub cycles: Option<[u64; 2]>,
     /// Fewest and most cycles from the entry of a triangle to its first token here; null where that is not known.
     pub latency: Option<[u64; 2]>,
-    /// Memory file of the tokens.
-    pub tokens: String,
-    /// Memory file of the cycles in which they move: valid and ready are both high in them.
-    pub moved: String,
-    /// Memory file of the triangles that they belong to; null where that is not known.
+    /// Memory file of the tokens; null where they are the words of one of `memories`.
+    pub tokens: Option<String>,
+    /// Memory file of the cycles in which they move, in steps (see [`Radix`]): valid and ready are both high in them; null
+    /// where there is none of the tokens.
+    pub moved: Option<String>,
+    /// Memory file of the triangles that they belong to, in steps; null where that is not known.
     pub triangles: Option<String>,
     /// Table for eyes; null where none is written.
     pub table: Option<String>,
@@ -280,7 +282,7 @@ pub struct Status {
     pub count: u64,
     /// Memory file of the values.
     pub tokens: String,
-    /// Memory file of the cycles from which on they hold.
+    /// Memory file of the cycles from which on they hold, in steps.
     pub moved: String,
     /// Table for eyes; null where none is written.
     pub table: Option<String>,

@@ -9,7 +9,7 @@ use edgewalk_lockstep::{Token, pack};
 pub struct Vectors {
     /// The manifest.
     pub manifest: Manifest,
-    /// Tokens and cycles of every channel, in the order of the manifest.
+    /// Tokens and cycles of every channel, in the order of the manifest; none of a memory's words, which have no file.
     pub channels: Vec<Vec<(Token, u64)>>,
     /// Changes of the status.
     pub status: Vec<(Token, u64)>,
@@ -38,13 +38,13 @@ pub enum ReadError {
         /// What it says it is.
         found: String,
     },
-    /// A newer program wrote it.
+    /// The program of another version wrote it.
     #[error(
-        "{}: format_version {found} is newer than {}, the newest this program reads",
+        "{}: format_version {found}: this program reads {} only; write the directory again with `edgewalk vectors`",
         manifest::FILE,
         manifest::VERSION
     )]
-    Newer {
+    Version {
         /// Its version.
         found: u64,
     },
@@ -94,8 +94,8 @@ pub fn read(mut load: impl FnMut(&str) -> std::io::Result<Vec<u8>>) -> Result<Ve
     if head.format != manifest::FORMAT {
         return Err(ReadError::Format { found: head.format });
     }
-    if head.format_version > u64::from(manifest::VERSION) {
-        return Err(ReadError::Newer { found: head.format_version });
+    if head.format_version != u64::from(manifest::VERSION) {
+        return Err(ReadError::Version { found: head.format_version });
     }
     let manifest: Manifest =
         serde_json::from_slice(&json).map_err(|source| ReadError::Manifest { source })?;
@@ -118,11 +118,17 @@ pub fn read(mut load: impl FnMut(&str) -> std::io::Result<Vec<u8>>) -> Result<Ve
     let mut tokens = |fields: &[manifest::Field], count: u64, tokens: &str, cycles: &str| {
         let widths: Vec<u32> = fields.iter().map(|field| field.width).collect();
         let values = parse(tokens, &get(tokens)?, &widths, count)?;
-        let cycles = parse(cycles, &get(cycles)?, &[32], count)?;
-        let moved = values.into_iter().zip(cycles);
-        Ok(moved.map(|(token, cycle)| (token, cycle[0] as u64)).collect::<Vec<_>>()) // 32 bits
+        let steps = parse(cycles, &get(cycles)?, &[32], count)?;
+        let cycles = steps.into_iter().scan(0u32, |cycle, step| {
+            *cycle = cycle.wrapping_add(step[0] as u32); // 32 bits
+            Some(u64::from(*cycle))
+        });
+        Ok(values.into_iter().zip(cycles).collect::<Vec<_>>())
     };
-    let channels = manifest.channels.iter().map(|c| tokens(&c.fields, c.count, &c.tokens, &c.moved));
+    let channels = manifest.channels.iter().map(|c| match (&c.tokens, &c.moved) {
+        (Some(values), Some(cycles)) => tokens(&c.fields, c.count, values, cycles),
+        _ => Ok(Vec::new()),
+    });
     let channels = channels.collect::<Result<_, ReadError>>()?;
     let status = &manifest.status;
     let status = tokens(&status.fields, status.count, &status.tokens, &status.moved)?;

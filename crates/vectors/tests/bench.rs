@@ -170,6 +170,112 @@ fn a_design_with_other_timing_is_judged_by_order_and_value() {
     assert!(!made(place.path(), &["icarus", "HDL=later.v"]).0);
 }
 
+/// A port of another width is named with the width found and the width needed, and nothing is compared; in either simulator.
+#[test]
+fn a_port_of_another_width_is_refused() {
+    let place = place(common::PIXEL);
+    let design = place.text(&place.own);
+    // Each port but clock and reset is asked for its width.
+    let bench = place.text("tb.v");
+    let (mut asked, ports) = (0, design.split_once("\n);").expect("a list of ports").0);
+    let ports =
+        ports.lines().map(|line| line.split("//").next().unwrap_or_default().trim().trim_end_matches(','));
+    for port in ports.filter(|line| ["input ", "output "].iter().any(|way| line.starts_with(way))) {
+        let name = port.rsplit(' ').next().expect("a name");
+        let high = port.split_once('[').and_then(|(_, range)| range.split_once(':'));
+        let width = high.map_or(1, |(high, _)| high.parse::<u32>().expect("a number") + 1);
+        if !["clk", "rst"].contains(&name) {
+            assert!(
+                bench.contains(&format!("port_has(\"{name}\", $bits(dut.{name}), {width});")),
+                "{name}: {bench}"
+            );
+            asked += 1;
+        }
+    }
+    assert!(asked > 20 && bench.matches("port_has(").count() == asked, "{asked} ports");
+    // One port is narrower than its values, one wider.
+    let declared = |line: &str| match line.split_once("//").map_or(line, |(port, _)| port).trim() {
+        port if port.ends_with(" frag_z,") => line.replace("[7:0]", "[5:0]") + "\n",
+        port if port.ends_with(" span_y,") => line.replace("[4:0]", "[8:0]") + "\n",
+        _ => format!("{line}\n"),
+    };
+    let unfit: String = design.lines().map(declared).collect();
+    assert!(unfit.contains("[5:0] frag_z,") && unfit.contains("[8:0] span_y,"), "{design}");
+    std::fs::write(place.file("unfit.v"), unfit).expect("written");
+    for simulator in ["icarus", "verilator"] {
+        for cycles in ["CHECK_CYCLES=1", "CHECK_CYCLES=0"] {
+            let (passed, said) = made(place.path(), &[simulator, "HDL=unfit.v", cycles]);
+            assert!(!passed, "{simulator}: {said}");
+            for told in [
+                "port frag_z of edgewalk_pixel: found 6 bits, needed 8\n",
+                "port span_y of edgewalk_pixel: found 9 bits, needed 5\n",
+                "checked 0 / ",
+                "FAIL: ports of another width; nothing was compared\n",
+            ] {
+                assert!(said.contains(told), "{simulator} {cycles}: {told}: {said}");
+            }
+            assert_eq!(said.matches("found ").count(), 2, "{simulator}: {said}");
+            assert!(!said.contains("wrong ") && !said.contains("PASS"), "{simulator}: {said}");
+        }
+    }
+}
+
+/// Whoever reads what a run prints may stop reading: the verdict is that of the run.
+#[test]
+fn a_closed_pipe_does_not_end_a_run() {
+    let place = place(common::DEPTH);
+    let status = |target: &str| {
+        let mut make = std::process::Command::new("make");
+        make.env_remove("MAKEFLAGS").env_remove("MAKELEVEL").arg("-C").arg(place.path()).arg(target);
+        let mut make = make.stdout(std::process::Stdio::piped()).spawn().expect("make is installed");
+        drop(make.stdout.take());
+        make.wait().expect("it ends")
+    };
+    assert!(status("icarus").success());
+    let log = place.text("icarus.log");
+    assert!(log.lines().any(|line| line == "PASS"), "{log}");
+    silent(&place);
+    assert!(!status("icarus").success());
+}
+
+/// A program that is not there is named, with what installs it, before anything is judged.
+#[test]
+fn a_missing_tool_is_named_with_what_installs_it() {
+    let place = place(common::DEPTH);
+    let tools = place.file("tools");
+    std::fs::create_dir(&tools).expect("a folder");
+    for tool in ["sh", "cat", "grep", "sha256sum"] {
+        let found = std::process::Command::new("sh").args(["-c", &format!("command -v {tool}")]).output();
+        let found = String::from_utf8(found.expect("sh").stdout).expect("a path");
+        std::os::unix::fs::symlink(found.trim(), tools.join(tool)).expect("a link");
+    }
+    let said = |arguments: &[&str]| {
+        let mut make = std::process::Command::new("sh");
+        make.args(["-c", "make=$(command -v make); PATH=$0; exec \"$make\" -C \"$@\" 2>&1"]);
+        let output = make.arg(&tools).arg(place.path()).args(arguments).output().expect("make is installed");
+        assert!(!output.status.success());
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    for (arguments, told) in [
+        (
+            &["icarus"][..],
+            "iverilog is not installed; try: apt-get install -y --no-install-recommends iverilog\n",
+        ),
+        (
+            &["verilator"],
+            "verilator is not installed; try: apt-get install -y --no-install-recommends verilator make g++\n",
+        ),
+        (&["lint"], "verilator is not installed; try: apt-get install"),
+        (
+            &["icarus", "SHA256SUM=sha256 -x"],
+            "sha256 is not installed; name another program: make SHA256SUM=",
+        ),
+    ] {
+        let said = said(arguments);
+        assert!(said.contains(told), "{arguments:?}: {said}");
+    }
+}
+
 /// Something wrong that one line of the bench keeps out.
 struct Guard {
     name: &'static str,
@@ -194,7 +300,7 @@ const GUARDS: [Guard; 7] = [
         unit: common::DEPTH,
         arguments: &[],
         wrong: silent,
-        line: ("Makefile", "grep -qx PASS icarus.log", "true"),
+        line: ("Makefile", "; grep -qx PASS $(1)", ""),
     },
     Guard {
         name: "the file of expected tokens ends early",
@@ -265,7 +371,7 @@ const GUARDS: [Guard; 7] = [
         name: "a file of vectors is not the one that was written",
         unit: common::DEPTH,
         arguments: &[],
-        wrong: |place| place.exchange("wr.triangle.mem", "00000001", "00000002"),
+        wrong: |place| place.exchange("wr.triangle.mem", "1\n", "2\n"),
         line: ("Makefile", "icarus: check", "icarus:"),
     },
 ];

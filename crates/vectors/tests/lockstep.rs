@@ -2,7 +2,7 @@
 
 use crate::common;
 use edgewalk_model::DrawState;
-use edgewalk_vectors::{StallKind, Suite, Unit, capture, design};
+use edgewalk_vectors::{Runs, StallKind, Suite, Unit, capture, design};
 
 /// Stalls take turns over machines, suites and units, so that each meets each.
 #[test]
@@ -10,14 +10,14 @@ fn every_unit_and_the_machine() {
     let machines: Vec<_> = common::twelve().into_iter().chain(common::glass()).collect();
     let suites = ["hazards", "corners", "random", "sphere"];
     let totals = common::two_at_a_time(&machines, |i, (name, machine)| {
-        let (mut runs, mut compared) = (0, 0);
+        let (mut runs, mut compared, mut natives) = (0, 0, common::Natives::new(machine));
         for (j, suite) in suites.iter().enumerate() {
             let suite = Suite::named(machine, suite, 3, 30).expect("listed");
+            let of_suite = Runs::new(machine, &suite, DrawState::default());
             for (k, unit) in Unit::all(machine).into_iter().enumerate() {
-                let netlist = design::netlist(machine, unit).expect("a checked machine");
                 let stalls = StallKind::ALL[(i + j + k) % 3];
-                let trace = capture(machine, unit, &suite, DrawState::default(), stalls);
-                match common::lockstep(&trace, &netlist) {
+                let trace = of_suite.capture(unit, stalls);
+                match natives.lockstep(&trace) {
                     Ok(agreement) => {
                         assert_eq!(agreement.compared, trace.port_values());
                         compared += agreement.compared;
@@ -43,15 +43,14 @@ fn every_unit_and_the_machine() {
 fn every_suite_of_blend() {
     let machines = common::glass();
     let compared: Vec<u64> = common::two_at_a_time(&machines, |i, (name, machine)| {
-        let mut compared = 0;
+        let (mut compared, mut natives) = (0, common::Natives::new(machine));
         for (j, suite) in ["blend_add", "color_unwritten"].into_iter().enumerate() {
             let suite = Suite::named(machine, suite, 3, 30).expect("listed");
+            let runs = Runs::new(machine, &suite, suite.state);
             let in_turn = |unit: &Unit| suite.is_for(*unit) && (*unit != Unit::MACHINE || i % 2 == j);
             for unit in Unit::all(machine).into_iter().filter(in_turn) {
-                let netlist = design::netlist(machine, unit).expect("a checked machine");
-                let trace = capture(machine, unit, &suite, suite.state, suite.stalls);
-                let agreement =
-                    common::lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
+                let trace = runs.capture(unit, suite.stalls);
+                let agreement = natives.lockstep(&trace).unwrap_or_else(|error| panic!("{name}: {error}"));
                 assert_eq!(agreement.compared, trace.port_values());
                 compared += agreement.compared;
             }
@@ -68,18 +67,17 @@ fn every_suite_of_shadow() {
     let machines = common::lights();
     let suites = ["light", "light_off", "hazards", "random"];
     let compared: Vec<u64> = common::two_at_a_time(&machines, |i, (name, machine)| {
-        let mut compared = 0;
+        let (mut compared, mut natives) = (0, common::Natives::new(machine));
         let own = machine.shadow.draws_map().then_some(["own_map", "own_picture"]);
         for (j, suite) in suites.into_iter().chain(own.into_iter().flatten()).enumerate() {
             let suite = Suite::named(machine, suite, 3, 30).expect("listed");
+            let runs = Runs::new(machine, &suite, suite.state);
             let in_turn = |unit: &Unit| {
                 suite.is_for(*unit) && (*unit != Unit::MACHINE || j == 0 || j > 3 || i % 3 + 1 == j)
             };
             for unit in Unit::all(machine).into_iter().filter(in_turn) {
-                let netlist = design::netlist(machine, unit).expect("a checked machine");
-                let trace = capture(machine, unit, &suite, suite.state, StallKind::ALL[(i + j) % 3]);
-                let agreement =
-                    common::lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
+                let trace = runs.capture(unit, StallKind::ALL[(i + j) % 3]);
+                let agreement = natives.lockstep(&trace).unwrap_or_else(|error| panic!("{name}: {error}"));
                 assert_eq!(agreement.compared, trace.port_values());
                 compared += agreement.compared;
             }
@@ -96,9 +94,10 @@ fn every_suite_of_shade() {
     let machines = common::shades();
     let suites = ["shade", "hazards", "corners", "random"];
     let compared: Vec<u64> = common::two_at_a_time(&machines, |i, (name, machine)| {
-        let mut compared = 0;
+        let (mut compared, mut natives) = (0, common::Natives::new(machine));
         for (j, suite) in suites.into_iter().enumerate() {
             let suite = Suite::named(machine, suite, 3, 30).expect("listed");
+            let runs = Runs::new(machine, &suite, suite.state);
             let in_turn = |unit: &Unit| match *unit == Unit::MACHINE {
                 true => j == 0 || i % 3 + 1 == j,
                 false => {
@@ -107,10 +106,8 @@ fn every_suite_of_shade() {
                 }
             };
             for unit in Unit::all(machine).into_iter().filter(in_turn) {
-                let netlist = design::netlist(machine, unit).expect("a checked machine");
-                let trace = capture(machine, unit, &suite, suite.state, StallKind::ALL[(i + j) % 3]);
-                let agreement =
-                    common::lockstep(&trace, &netlist).unwrap_or_else(|error| panic!("{name}: {error}"));
+                let trace = runs.capture(unit, StallKind::ALL[(i + j) % 3]);
+                let agreement = natives.lockstep(&trace).unwrap_or_else(|error| panic!("{name}: {error}"));
                 assert_eq!(agreement.compared, trace.port_values());
                 compared += agreement.compared;
             }

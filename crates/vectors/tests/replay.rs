@@ -37,17 +37,22 @@ impl Stranger<'_> {
         text.lines().map(str::to_owned).collect()
     }
 
+    /// The numbers of a file in steps.
     fn cycles(&self, file: &Value) -> Vec<u64> {
         let radix = number(&self.manifest["radix"]["mem"]) as u32;
-        self.lines(file).iter().map(|line| u64::from_str_radix(line, radix).expect("a number")).collect()
+        let steps =
+            self.lines(file).into_iter().map(|line| u64::from_str_radix(&line, radix).expect("a number"));
+        let mut cycle = 0;
+        steps.map(|step| (cycle += step, cycle).1).collect()
     }
 
     /// The words of a file cut into fields: port and value.
     fn tokens(&self, of: &Value) -> Vec<Vec<(String, u128)>> {
         assert_eq!(number(&self.manifest["radix"]["mem"]), 16);
         let bit = |word: &str, at: u64| {
-            let digit = word.len() as u64 - 1 - at / 4;
-            let digit = u32::from_str_radix(&word[digit as usize..=digit as usize], 16).expect("a digit");
+            // Zeros before the first digit are not written.
+            let digit =
+                word.chars().rev().nth(at as usize / 4).map_or(0, |c| c.to_digit(16).expect("a digit"));
             u128::from(digit >> (at % 4) & 1)
         };
         let field = |word: &str, field: &Value| {
@@ -159,8 +164,8 @@ impl Channel {
         Channel {
             out: value["direction"] == "out",
             fields: list(&value["fields"]).iter().map(|field| text(&field["port"]).to_owned()).collect(),
-            tokens: stranger.tokens(value),
-            cycles: stranger.cycles(&value["moved"]),
+            tokens: if value["tokens"].is_null() { Vec::new() } else { stranger.tokens(value) },
+            cycles: if value["moved"].is_null() { Vec::new() } else { stranger.cycles(&value["moved"]) },
             pattern: stranger.pattern(&name),
             moved: 0,
             offered: false,
@@ -219,7 +224,8 @@ struct Memory {
 
 impl Memory {
     fn of(stranger: &Stranger, value: &Value) -> Memory {
-        let mut words = vec![u128::from(number(&value["clear"])); number(&value["words"]) as usize];
+        let clear = u128::from_str_radix(text(&value["clear"]), 16).expect("hex");
+        let mut words = vec![clear; number(&value["words"]) as usize];
         if !value["start"].is_null() {
             let start = stranger.lines(&value["start"]);
             let start = start.iter().map(|line| u128::from_str_radix(line, 16).expect("a number"));

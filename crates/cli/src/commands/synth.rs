@@ -92,7 +92,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let report = Report::new(&machine, &design, &cache, outcomes);
     if let Some(out) = out {
         for (name, text) in &design.files {
-            out.write(&format!("hdl/{name}"), text)?;
+            out.write(&format!("hdl/{name}"), format!("{}\n{text}", machine.stamp("//")))?;
         }
         out.write("synthesis.json", document("synthesis", &report)?)?;
         out.publish(&own(&machine)?)?;

@@ -10,8 +10,8 @@ use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
 use edgewalk_scene::InputKind;
 use edgewalk_vectors::{
-    Files, Reached, SUITES, StallKind, Suite, Tables, Unit, Words, capture, design, directory, not_covered,
-    reached,
+    Files, Reached, SUITES, StallKind, Suite, Tables, Unit, Words, capture_watched, design, directory,
+    not_covered, reached,
 };
 use serde_json::json;
 use std::path::{Component, Path, PathBuf};
@@ -53,7 +53,7 @@ pub struct Args {
     /// Triangles of the random suite
     #[arg(long, default_value_t = 100)]
     count: u64,
-    /// Leaves out the tables for eyes: more than half of the bytes
+    /// Omits the tables for people, *.csv: more than half of the bytes
     #[arg(long)]
     no_csv: bool,
     /// Output directory
@@ -209,6 +209,9 @@ pub struct Set<'a> {
     pub tables: Tables,
 }
 
+/// What the progress bar counts.
+const WHAT: &str = "vector directories";
+
 /// From so many bytes on a directory is announced before it is written.
 const HUGE: usize = 64 << 20;
 
@@ -224,19 +227,26 @@ impl Set<'_> {
             }
             work.extend(of_it.into_iter().map(|unit| (suite, unit)));
         }
-        let bar = progress::bar(work.len() as u64, "vector directories", talk.quiet);
+        let bar = progress::bar(work.len() as u64, WHAT, talk.quiet);
         let written = jobs::all(&work, &bar, |(suite, unit)| {
-            let trace = capture(machine, *unit, suite, suite.state, self.stalls.unwrap_or(suite.stalls));
+            let name = format!("{}_{}", suite.name, unit.name());
+            let stalls = self.stalls.unwrap_or(suite.stalls);
+            let trace = capture_watched(machine, *unit, suite, suite.state, stalls, &|entered, of| {
+                bar.set_message(format!("{WHAT}; {name}: {entered} of {of} tokens have entered"));
+            });
             let verilog =
                 design::verilog(machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
-            let name = format!("{}_{}", suite.name, unit.name());
             let files = directory(suite, &trace, &verilog, self.tables);
             if !talk.quiet {
                 bar.suspend(|| announce(&name, &files, talk));
             }
             for (file, contents) in files {
+                if contents.len() >= HUGE / 16 {
+                    bar.set_message(format!("{WHAT}; {name}/{file}: writing {} MB", contents.len() >> 20));
+                }
                 out.write(&format!("{folder}{name}/{file}"), contents)?;
             }
+            bar.set_message(WHAT);
             Ok((name, (*unit, reached(&trace))))
         })?;
         bar.finish_and_clear();

@@ -13,12 +13,14 @@ use crate::{Talk, jobs, progress};
 use anyhow::{Context, Result, anyhow};
 use edgewalk_lockstep::LockstepError;
 use edgewalk_machine::Plan;
+use edgewalk_netlist::Netlist;
 use edgewalk_vectors::{
-    Outcome, Simulator, StallKind, Suite, Tables, Trace, Unit, capture, design, directory, reached, simulate,
+    Outcome, Runs, Simulator, StallKind, Suite, Tables, Trace, Unit, design, directory, reached, simulate,
 };
 use serde::Serialize;
 use serde_json::json;
 use std::fmt::Write as _;
+use std::iter;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -82,26 +84,33 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         name: "input".to_owned(),
         ..of_input(&args.source.input, &machine, &port, Some(args.triangles))?
     };
-    let mut work: Vec<(Suite, Unit, &[Simulator])> = vec![(input, Unit::MACHINE, &Simulator::ALL)];
-    for suite in directed(&machine)? {
-        // A build with Verilator takes seconds: the whole machine is enough for it.
-        work.extend(Unit::all(&machine).into_iter().map(|unit| {
-            let simulators: &[Simulator] = if unit == Unit::MACHINE { &Simulator::ALL } else { &ICARUS };
-            (suite.clone(), unit, simulators)
-        }));
-    }
-    for suite in functions(&machine)? {
-        let units = Unit::all(&machine).into_iter().filter(|unit| suite.is_for(*unit));
-        work.extend(units.map(|unit| (suite.clone(), unit, &ICARUS[..])).collect::<Vec<_>>());
-    }
+    let whole = (vec![Unit::MACHINE], input);
+    let directed = directed(&machine)?.into_iter().map(|suite| (Unit::all(&machine), suite));
+    let functions = functions(&machine)?
+        .into_iter()
+        .map(|suite| (Unit::all(&machine).into_iter().filter(|unit| suite.is_for(*unit)).collect(), suite));
+    // A build with Verilator takes seconds: the whole machine under input and directed suites is enough for it.
+    let in_both = 1 + directed.len();
+    let suites: Vec<(Vec<Unit>, Suite)> = iter::once(whole).chain(directed).chain(functions).collect();
+    let runs: Vec<Runs> = suites.iter().map(|(_, suite)| Runs::new(&machine, suite, suite.state)).collect();
+    let work: Vec<(usize, Unit)> = suites
+        .iter()
+        .enumerate()
+        .flat_map(|(i, (units, _))| units.iter().map(move |unit| (i, *unit)))
+        .collect();
     let limit = Duration::from_secs(args.limit);
     let bar = progress::bar(work.len() as u64, "suites and units", talk.quiet);
-    let done = jobs::all(&work, &bar, |(suite, unit, simulators)| {
-        let trace = capture(&machine, *unit, suite, suite.state, args.stalls.unwrap_or(suite.stalls));
-        let mut checks = vec![against_netlist(&machine, suite, *unit, &trace, &args.out)?];
+    let done = jobs::all(&work, &bar, |(place, unit)| {
+        let suite = &suites[*place].1;
+        let trace = runs[*place].capture(*unit, args.stalls.unwrap_or(suite.stalls));
+        let simulators =
+            if *unit == Unit::MACHINE && *place < in_both { &Simulator::ALL[..] } else { &ICARUS };
+        let netlist = edgewalk_lockstep::netlist(&machine, *unit)
+            .map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+        let mut checks = vec![against_netlist(&netlist, suite, &trace, &args.out)?];
         if !args.no_simulators {
             let folder = write(&machine, suite, *unit, &trace)?;
-            for simulator in *simulators {
+            for simulator in simulators {
                 checks.push(in_simulator(*simulator, folder.path(), limit, suite, &trace)?);
             }
         }
@@ -115,12 +124,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     Ok(checks.iter().fold(Verdict::Pass, |all, c| all.and(c.verdict())))
 }
 
-fn against_netlist(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace, out: &Path) -> Result<Check> {
-    let netlist =
-        edgewalk_lockstep::netlist(machine, unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+fn against_netlist(netlist: &Netlist, suite: &Suite, trace: &Trace, out: &Path) -> Result<Check> {
     // How much ought to be compared follows from the model's run alone.
     let expected = trace.port_values();
-    let (checked, difference) = match trace.lockstep(&netlist) {
+    let (checked, difference) = match trace.lockstep(netlist) {
         Ok(agreement) => (agreement.compared, None),
         Err(LockstepError::Vacuous) => (0, None),
         Err(LockstepError::Differs { difference, compared }) => {
@@ -135,8 +142,8 @@ fn against_netlist(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace, out
         }
         Err(error) => return Err(error.into()),
     };
-    let suite = suite.name.clone();
-    Ok(Check { suite, unit: unit.name(), against: "netlist", checked, expected, difference })
+    let (suite, unit) = (suite.name.clone(), trace.interface.unit.name());
+    Ok(Check { suite, unit, against: "netlist", checked, expected, difference })
 }
 
 fn write(machine: &Plan, suite: &Suite, unit: Unit, trace: &Trace) -> Result<Scratch> {

@@ -93,7 +93,9 @@ pub fn simulate(
             let objects = work.join("obj_dir");
             let mut compile = Command::new("verilator");
             compile.args(["--binary", "--timing", "-O3", "--top-module", "tb", "-f", "filelist.f", "--Mdir"]);
-            run(compile.arg(&objects).current_dir(directory), limit)?;
+            // The C++ runs for a moment only: to optimise it takes longer.
+            compile.arg(&objects).args(["-MAKEFLAGS", "OPT_FAST=-O0 OPT_SLOW=-O0 OPT_GLOBAL=-O0"]);
+            run(compile.current_dir(directory), limit)?;
             run(Command::new(objects.join("Vtb")).current_dir(directory), limit)?
         }
     };
@@ -126,8 +128,11 @@ fn hdl(manifest: &Manifest) -> Vec<&str> {
     names.filter(|name| name.starts_with("hdl/") && name.ends_with(".v")).collect()
 }
 
-/// What the test bench printed; `None` if it did not come to its end.
+/// What the test bench printed; `None` if it did not come to its end, or refused the ports of the design.
 fn verdict(manifest: &Manifest, text: &str) -> Option<Outcome> {
+    if text.lines().any(|line| line.starts_with("FAIL: ports")) {
+        return None;
+    }
     let counts = text.lines().find_map(|line| line.strip_prefix("checked "))?;
     let (checked, expected) = counts.split_once(" / ")?;
     let (checked, expected): (u64, u64) = (checked.trim().parse().ok()?, expected.trim().parse().ok()?);
@@ -142,4 +147,46 @@ fn verdict(manifest: &Manifest, text: &str) -> Option<Outcome> {
             Outcome::Mismatch { checked, expected: manifest.expected, lines: first_lines(told) }
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{StallKind, Suite, Tables, Unit, capture, directory};
+    use edgewalk_machine::Plan;
+    use edgewalk_model::DrawState;
+
+    /// What a bench may print, and what is made of it: only all of what the manifest expects is a pass.
+    #[test]
+    fn only_all_that_was_expected_passes() {
+        let suite = Suite::of_triangles("none", "", Vec::new());
+        let trace = capture(&Plan::default(), Unit::MACHINE, &suite, DrawState::default(), StallKind::None);
+        let files = directory(&suite, &trace, &[], Tables::LeftOut);
+        let manifest: Manifest = serde_json::from_slice(&files[0].1).expect("a manifest");
+        let manifest = Manifest { expected: 7, ..manifest };
+        let judged = |text: &str| verdict(&manifest, text);
+        assert_eq!(judged("wrong 0\nchecked 7 / 7\nPASS\n"), Some(Outcome::Pass { checked: 7 }));
+        let mismatch = |checked| Some((checked, 7));
+        for (text, wanted) in [
+            ("checked 7 / 7\nFAIL\n", mismatch(7)),
+            ("checked 7 / 7\n", mismatch(7)),
+            ("checked 6 / 7\nPASS\n", mismatch(6)),
+            ("checked 6 / 6\nPASS\n", mismatch(6)),
+            ("checked 8 / 8\nPASS\n", mismatch(8)),
+        ] {
+            let found = match judged(text) {
+                Some(Outcome::Mismatch { checked, expected, .. }) => Some((checked, expected)),
+                _ => None,
+            };
+            assert_eq!(found, wanted, "{text}");
+        }
+        for text in
+            ["checked 0 / 0\nPASS\n", "checked 0 / 7\nPASS\n", "checked 7 / 7\nFAIL: nothing was compared\n"]
+        {
+            assert_eq!(judged(text), Some(Outcome::Vacuous), "{text}");
+        }
+        for text in ["", "PASS\n", "checked all\nPASS\n", "checked 0 / 7\nFAIL: ports of another width\n"] {
+            assert_eq!(judged(text), None, "{text}");
+        }
+    }
 }

@@ -1,8 +1,8 @@
 //! The manifest of a trace.
 
 use super::{
-    Files, Tables, cycle_file, known, params, patterns, start_file, status_fields, table_file, token_file,
-    triangle_file, willing_file,
+    Files, Tables, cycle_file, is_served, known, params, patterns, start_file, status_fields, table_file,
+    token_file, triangle_file, willing_file,
 };
 use crate::capture::Trace;
 use crate::manifest::{
@@ -133,9 +133,8 @@ fn channels(trace: &Trace, table: impl Fn(&str) -> Option<String>) -> Vec<Channe
     let entered: BTreeMap<u32, u64> = trace.links.first().map(first_of_each).unwrap_or_default();
     let interface = trace.interface.links.iter().zip(&trace.links);
     interface
-        .enumerate()
-        .map(|(place, (channel, moved))| {
-            let from_memory = trace.interface.memories.iter().any(|memory| memory.data == place);
+        .map(|(channel, moved)| {
+            let from_memory = is_served(&trace.interface, channel.name);
             let waits = first_of_each(moved).into_iter().filter_map(|(triangle, cycle)| {
                 (channel.direction == Direction::Out).then_some(())?;
                 Some(cycle - entered.get(&triangle)?)
@@ -151,8 +150,8 @@ fn channels(trace: &Trace, table: impl Fn(&str) -> Option<String>) -> Vec<Channe
                 count: moved.tokens.len() as u64,
                 cycles: range(&moved.cycles),
                 latency: range(&waits),
-                tokens: token_file(channel.name, channel.direction),
-                moved: cycle_file(channel.name),
+                tokens: (!from_memory).then(|| token_file(channel.name, channel.direction)),
+                moved: (!from_memory).then(|| cycle_file(channel.name)),
                 triangles: known.contains(&channel.name).then(|| triangle_file(channel.name)),
                 table: table(channel.name),
             }
@@ -176,7 +175,7 @@ fn memories(trace: &Trace) -> Vec<Memory> {
         }),
         latency: setting.latency,
         words: setting.words as u64,
-        clear: setting.clear as u64, // at most 64 bits
+        clear: format!("{:x}", setting.clear),
         start: memory.write.is_none().then(|| start_file(memory.name)),
         read_during_write: "old word".to_owned(),
     });

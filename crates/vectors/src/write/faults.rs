@@ -5,7 +5,7 @@ use edgewalk_lockstep::Port;
 use std::fmt::Write as _;
 
 /// Verilog that tells what a channel's sink found, in full and field by field; `suffix` is that of the wire which holds the
-/// token. Where `known`, `<name>.triangle.mem` says to which triangle a token belongs.
+/// token. Where `known`, `<name>.triangle.mem` says, in steps, to which triangle a token belongs.
 pub fn telling(name: &str, suffix: &str, fields: &[Port], known: bool) -> String {
     let found = if suffix.is_empty() { name.to_owned() } else { format!("{name}_{suffix}") };
     let noun = if suffix.is_empty() { "change" } else { "token" };
@@ -18,7 +18,12 @@ pub fn telling(name: &str, suffix: &str, fields: &[Port], known: bool) -> String
         );
         let _ = writeln!(
             text,
-            "    initial if ({upper}_COUNT > 0) $readmemh(\"{name}.triangle.mem\", {name}_triangles);"
+            "    integer {name}_place;
+    initial if ({upper}_COUNT > 0) begin
+        $readmemh(\"{name}.triangle.mem\", {name}_triangles);
+        for ({name}_place = 1; {name}_place < {upper}_COUNT; {name}_place = {name}_place + 1)
+            {name}_triangles[{name}_place] = {name}_triangles[{name}_place - 1] + {name}_triangles[{name}_place];
+    end"
         );
         let number = format!("{name}_triangles[{name}_checked]");
         (", triangle %0d, case %0s", format!(", {number}, case_name({number})"))

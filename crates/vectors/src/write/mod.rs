@@ -2,9 +2,10 @@
 //!
 //! ```text
 //!  manifest.json  manifest.schema.json      what is what, with hashes
-//!  <channel>.in.mem                         tokens into the design
-//!  <channel>.exp.mem  <channel>.cyc.mem     tokens out of it, and the cycles
-//!  <channel>.triangle.mem                   the triangle that each of them belongs to, where that is known
+//!  <channel>.in.mem                         tokens into the design, but for the words that a memory gives
+//!  <channel>.exp.mem                        tokens out of it
+//!  <channel>.cyc.mem                        cycles from the token before to each of them
+//!  <channel>.triangle.mem                   triangles from that of the token before to its own, where that is known
 //!  status.exp.mem     status.cyc.mem        outputs compared in every cycle, where they change
 //!  <memory>.start.mem                       the words of a memory that nobody writes
 //!  <channel>.willing.mem                    when the bench offers and takes
@@ -50,20 +51,22 @@ pub fn directory(suite: &Suite, trace: &Trace, design: &[(String, String)], tabl
     let with_triangles: Vec<&str> = known(trace).collect();
     for (link, moved) in interface.links.iter().zip(&trace.links) {
         let name = link.name;
-        add(token_file(name, link.direction), mem::tokens(&link.fields, &moved.tokens));
-        add(cycle_file(name), mem::numbers(32, &moved.cycles));
+        if !is_served(interface, name) {
+            add(token_file(name, link.direction), mem::tokens(&link.fields, &moved.tokens));
+            add(cycle_file(name), mem::steps(moved.cycles.iter().map(|cycle| *cycle as u32)));
+        }
         if with_triangles.contains(&name) {
-            let triangles: Vec<u64> = moved.triangles.iter().map(|triangle| u64::from(*triangle)).collect();
-            add(triangle_file(name), mem::numbers(32, &triangles));
+            add(triangle_file(name), mem::steps(moved.triangles.iter().copied()));
         }
         if tables == Tables::Written {
             add(table_file(name), table::link(suite, link, moved));
         }
     }
     let fields = status_fields(interface);
-    let (cycles, values): (Vec<u64>, Vec<_>) = trace.status.iter().cloned().unzip();
+    let (cycles, values): (Vec<u32>, Vec<_>) =
+        trace.status.iter().map(|(cycle, token)| (*cycle as u32, token.clone())).unzip();
     add(token_file("status", Direction::Out), mem::tokens(&fields, &values));
-    add(cycle_file("status"), mem::numbers(32, &cycles));
+    add(cycle_file("status"), mem::steps(cycles.into_iter()));
     if tables == Tables::Written {
         add(table_file("status"), table::status(&fields, trace));
     }
@@ -72,12 +75,12 @@ pub fn directory(suite: &Suite, trace: &Trace, design: &[(String, String)], tabl
     }
     for (memory, setting) in interface.memories.iter().zip(&trace.setting.memories) {
         if memory.write.is_none() {
-            let words: Vec<u64> = setting.start.iter().map(|word| *word as u64).collect(); // at most 64 bits
-            add(start_file(memory.name), mem::numbers(memory.word_bits, &words));
+            add(start_file(memory.name), mem::words(&setting.start));
         }
     }
-    add("params.vh".to_owned(), params::params(trace));
-    add("cases.vh".to_owned(), faults::cases(suite));
+    let stamp = trace.plan.stamp("//");
+    add("params.vh".to_owned(), format!("{stamp}\n{}", params::params(trace)));
+    add("cases.vh".to_owned(), format!("{stamp}\n{}", faults::cases(suite)));
     // All that the bench reads is there.
     let sums = sums(&files);
     let mut add = |name: String, text: String| files.push((name, text));
@@ -88,11 +91,12 @@ pub fn directory(suite: &Suite, trace: &Trace, design: &[(String, String)], tabl
         add(name.clone(), text.clone());
     }
     for (name, text) in testbench::MODULES {
-        add(name.to_owned(), text.to_owned());
+        add(name.to_owned(), format!("{stamp}\n{text}"));
     }
-    add("tb.v".to_owned(), testbench::testbench(interface, &with_triangles));
-    add("filelist.f".to_owned(), makefile::filelist(&hdl));
-    add("Makefile".to_owned(), makefile::makefile(&interface.unit.module(), &hdl));
+    add("tb.v".to_owned(), format!("{stamp}\n{}", testbench::testbench(interface, &with_triangles)));
+    add("filelist.f".to_owned(), stamp + &makefile::filelist(&hdl));
+    let makefile = makefile::makefile(&interface.unit.module(), &hdl);
+    add("Makefile".to_owned(), trace.plan.stamp("#") + &makefile);
     add(manifest::SCHEMA_FILE.to_owned(), manifest::SCHEMA.to_owned());
 
     let mut files: Files = files.into_iter().map(|(name, text)| (name, text.into_bytes())).collect();
@@ -129,6 +133,11 @@ fn start_file(memory: &str) -> String {
 
 fn table_file(channel: &str) -> String {
     format!("{channel}.csv")
+}
+
+/// The tokens of this channel are the words of a memory: they follow from what is read and written, so they have no files.
+fn is_served(interface: &Interface, channel: &str) -> bool {
+    interface.memories.iter().any(|memory| interface.links[memory.data].name == channel)
 }
 
 /// The channels out whose tokens know their triangle.

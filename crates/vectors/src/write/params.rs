@@ -8,11 +8,7 @@ use std::fmt::Write as _;
 /// The text of `params.vh`, included inside the test bench.
 #[must_use]
 pub fn params(trace: &Trace) -> String {
-    let mut text = format!(
-        "// Numbers of this run, for tb.v. Machine {}, stalls {}.\n",
-        trace.plan.hash(),
-        trace.stalls.name()
-    );
+    let mut text = format!("// Numbers of this run, for tb.v. Stalls {}.\n", trace.stalls.name());
     let mut line = |declared: String, meaning: &str| {
         let _ = writeln!(text, "localparam {declared:<32}// {meaning}");
     };

@@ -249,12 +249,57 @@ fn end_section(interface: &Interface) -> String {
             (name.to_uppercase(), if *name == "status" { "CHECK_CYCLES != 0 && " } else { "" });
         let _ = writeln!(missing, "        if ({condition}{name}_checked != {upper}_COUNT) {name}_missing;");
     }
-    END.replace("{checked}", &sum("checked"))
+    END.replace("{ports}", &port_widths(interface))
+        .replace("{checked}", &sum("checked"))
         .replace("{wrong}", &sum("wrong"))
         .replace("{counts}", &counts)
         .replace("{fires}", &fires.join(" || "))
         .replace("{missing}", &missing)
 }
+
+/// The check that every port of the design has the width of its values: a simulator would only cut them, and warn.
+fn port_widths(interface: &Interface) -> String {
+    let handshake = |link: &Link| ["valid", "ready"].map(|end| (format!("{}_{end}", link.name), 1));
+    let of = |port: &Port| (port.name.clone(), port.width());
+    let mut ports: Vec<(String, u32)> = Vec::new();
+    for link in &interface.links {
+        ports.extend(handshake(link));
+        ports.extend(link.fields.iter().map(of));
+    }
+    ports.extend(interface.constants.iter().chain(&interface.levels).map(of));
+    let line = |(name, width): &(String, u32)| {
+        format!("        port_has(\"{name}\", $bits(dut.{name}), {width});\n")
+    };
+    let status: Vec<(String, u32)> = interface.status.iter().map(|status| of(&status.port)).collect();
+    let longest = ports.iter().chain(&status).map(|(name, _)| name.len()).max().unwrap_or(1);
+    let lines = |ports: &[(String, u32)]| ports.iter().map(line).collect::<String>();
+    let status = match lines(&status) {
+        none if none.is_empty() => none,
+        some => format!("`ifndef ORDER_ONLY\n{some}`endif\n"),
+    };
+    PORTS
+        .replace("{module}", &interface.unit.module())
+        .replace("{bits}", &(8 * longest).to_string())
+        .replace("{lines}", &(lines(&ports) + &status))
+}
+
+const PORTS: &str = r#"
+    // A port of another width than its values would be cut or extended: the run ends before the first clock.
+    reg unfit = 1'b0;
+    task port_has; input [{bits}:1] name; input integer found, needed;
+        if (found != needed) begin
+            $display("port %0s of {module}: found %0d bits, needed %0d", name, found, needed);
+            unfit = 1'b1;
+        end
+    endtask
+    initial begin
+{lines}        if (unfit) begin
+            $display("checked 0 / %0d", EXPECTED);
+            $display("FAIL: ports of another width; nothing was compared");
+            $finish;
+        end
+    end
+"#;
 
 const END: &str = r#"
     // The end: nothing happens any more, or too much.
@@ -269,6 +314,7 @@ const END: &str = r#"
         if (quiet == IDLE_LIMIT || cycle == CYCLE_LIMIT) finish_run;
     end
 
+{ports}
     task finish_run; begin
 {missing}        if (cycle == CYCLE_LIMIT) $display("still busy after %0d cycles", cycle);
         $display("cycles %0d", cycle - quiet);

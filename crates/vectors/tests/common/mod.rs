@@ -9,6 +9,7 @@ use edgewalk_machine::{
 };
 use edgewalk_netlist::Netlist;
 use edgewalk_vectors::{Files, Trace, Unit};
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
@@ -33,6 +34,28 @@ pub fn native(
 /// Runs a netlist, compiled, beside the model.
 pub fn lockstep(trace: &Trace, netlist: &Netlist) -> Result<Agreement, LockstepError> {
     trace.lockstep_of(&mut native(netlist, &trace.interface)?)
+}
+
+/// The units of a machine, and the machine, as native code: each is built and compiled once, however often it runs.
+pub struct Natives<'a> {
+    plan: &'a Plan,
+    compiled: BTreeMap<&'static str, NetlistDevice<edgewalk_jit::Simulator>>,
+}
+
+impl<'a> Natives<'a> {
+    pub fn new(plan: &'a Plan) -> Self {
+        Natives { plan, compiled: BTreeMap::new() }
+    }
+
+    /// Runs the unit of the trace beside the model, from the state that it has before the first clock.
+    pub fn lockstep(&mut self, trace: &Trace) -> Result<Agreement, LockstepError> {
+        let unit = trace.interface.unit;
+        let device = self.compiled.entry(unit.name()).or_insert_with(|| {
+            let netlist = edgewalk_vectors::design::netlist(self.plan, unit).expect("a checked machine");
+            native(&netlist, &trace.interface).expect("the ports that are declared")
+        });
+        trace.lockstep_of(&mut device.clone())
+    }
 }
 
 /// `make` in a directory as a user runs it: whether it passes, and all that is said.

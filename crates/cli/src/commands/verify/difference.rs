@@ -72,6 +72,7 @@ fn cleared(trace: &Trace) -> Vec<Vec<u32>> {
 #[cfg(test)]
 #[allow(clippy::print_stdout, reason = "a test says what it checked")]
 mod tests {
+    use crate::verdict::Verdict;
     use edgewalk_lockstep::{Difference, LockstepError, StallKind, Unit, netlist};
     use edgewalk_machine::{Machine, Plan};
     use edgewalk_model::DrawState;
@@ -121,6 +122,14 @@ mod tests {
                 assert!(replay["cycles"].as_u64() > Some(difference.cycle));
                 assert_eq!(replay["difference"]["text"], difference.to_string());
                 pages += 1;
+                // The command says the same, how much it compared before, and of how much.
+                let out = tempfile::tempdir().expect("a folder");
+                let check = super::super::against_netlist(&mutant.apply(&good), &suite, &trace, out.path());
+                let check = check.expect("a comparison");
+                assert_eq!(check.verdict(), Verdict::Mismatch);
+                assert_eq!(check.expected, trace.port_values());
+                assert!(check.checked < check.expected, "{} / {}", check.checked, check.expected);
+                assert!(out.path().join(format!("{}.html", suite.name)).exists());
             }
             println!("{module}: checked {} pages", pages - before);
             assert!(pages > before + 1, "{module}");
