@@ -2,7 +2,7 @@
 
 use super::objective::Objective;
 use anyhow::{Result, anyhow};
-use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::Unknown;
 use edgewalk_model::Waits;
 use serde_json::Value;
 
@@ -66,12 +66,8 @@ impl Judge {
         let found = memories.iter().position(|memory| Some(memory.waits) == asked);
         found.map(Judge::Only).ok_or_else(|| {
             let names = memories.iter().map(|memory| memory.name.as_str());
-            let permitted = || [Judge::WORST, Judge::SUM].into_iter().chain(names.clone());
-            anyhow!(
-                "--judge {text}: permitted: {}; nearest: {}",
-                permitted().collect::<Vec<_>>().join(", "),
-                nearest(text, permitted())
-            )
+            let permitted = [Judge::WORST, Judge::SUM].into_iter().chain(names);
+            anyhow!("--judge {text}: {}", Unknown::new("memory", text, permitted))
         })
     }
 

@@ -3,8 +3,7 @@
 use anyhow::{Result, anyhow};
 use edgewalk_golden::Shading;
 use edgewalk_host::input::Shaded;
-use edgewalk_machine::nearest::nearest;
-use edgewalk_machine::{Machine, ShadeKind};
+use edgewalk_machine::{Machine, ShadeKind, Unknown};
 use edgewalk_scene::PixelMethod;
 
 /// What a machine can draw.
@@ -23,11 +22,7 @@ pub const SHADINGS: [(&str, Shaded); 5] = [
 pub fn named(name: &str) -> Result<(&'static str, Shaded)> {
     SHADINGS.into_iter().find(|(known, _)| *known == name).ok_or_else(|| {
         let names = SHADINGS.map(|(name, _)| name);
-        anyhow!(
-            "shading {name}: a machine draws {}; nearest: {}",
-            names.join(", "),
-            nearest(name, names.into_iter())
-        )
+        anyhow!("{}", Unknown::new("shading of a machine", name, names))
     })
 }
 
