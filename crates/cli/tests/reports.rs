@@ -98,7 +98,7 @@ fn the_text_of_a_picture_says_what_its_json_does() {
     let small = ["--set", "screen.width=96", "--set", "screen.height=72"];
     let (text, report) = rendered(
         at,
-        &[&["sphere", "--set", "formats.z_bits=16", "--set", "formats.z_fraction=12"], &small[..]].concat(),
+        &[&["sphere", "--set", "formats.z_bits=16", "--set", "formats.z_fraction=14"], &small[..]].concat(),
     );
     checked += found(&text, &lines(&report));
     let of = &report["comparison"];

@@ -18,8 +18,8 @@ mod view;
 use crate::Events;
 pub use crate::rmw::Block;
 use crate::rmw::{Retired, Rmw};
-use crate::tokens::{FEW, Fragment, OutputWords, Passed, Source, Write};
-use edgewalk_machine::{BlendKind, Hazard, Plan};
+use crate::tokens::{FEW, Fragment, Write};
+use edgewalk_machine::{Hazard, Plan};
 
 /// The unit's inputs of a cycle, but for the fragment.
 #[derive(Clone, Copy, Debug, Default)]
@@ -40,28 +40,12 @@ pub struct DepthInputs {
     pub pass_ready: bool,
 }
 
-/// What travels beside the depth.
-#[derive(Clone, Copy, Debug)]
-struct Side<const C: usize> {
-    /// All values, the new depth among them.
-    values: OutputWords<C>,
-    kt: u32,
-    lit: bool,
-    fence: bool,
-    source: Source,
-}
-
-impl<const C: usize> Default for Side<C> {
-    fn default() -> Self {
-        Side { values: [0; C], kt: 0, lit: false, fence: false, source: Source::default() }
-    }
-}
-
 /// State of DEPTH.
 #[derive(Clone, Debug)]
 pub struct Depth<const C: usize> {
     /// Its w is the whole write without BLEND, that of the depth with BLEND.
-    rmw: Rmw<u32, Side<C>>,
+    /// Fragments travel beside their depths.
+    rmw: Rmw<u32, Fragment<C>>,
     fork: Fork<C>,
 }
 
@@ -70,10 +54,8 @@ pub struct Depth<const C: usize> {
 struct Fork<const C: usize> {
     /// There is one. Only machines of more than few channels or with BLEND are built so; for the others nothing of it is.
     is_there: bool,
-    /// Place of k_t among the channels, if it is one.
-    kt: Option<usize>,
     /// w_c and what it offers.
-    color: Option<Passed<C>>,
+    color: Option<Fragment<C>>,
     /// Fences of fragments that BLEND did not see.
     pend_fence: bool,
 }
@@ -82,14 +64,7 @@ impl<const C: usize> Depth<C> {
     /// An empty unit.
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
-        let interpolated = plan.blend.kind == BlendKind::Interpolated;
-        let kt = plan.channel_place("kt");
-        let fork = Fork {
-            is_there: plan.blend.is_there(),
-            kt: kt.filter(|_| interpolated),
-            color: None,
-            pend_fence: false,
-        };
+        let fork = Fork { is_there: plan.blend.is_there(), color: None, pend_fence: false };
         Depth { rmw: Rmw::new(plan.hazard, plan.inflight), fork }
     }
 
@@ -138,7 +113,7 @@ impl<const C: usize> Depth<C> {
     /// The fragment offered to BLEND.
     #[inline]
     #[must_use]
-    pub fn pass(&self) -> Option<&Passed<C>> {
+    pub fn pass(&self) -> Option<&Fragment<C>> {
         self.fork.color.as_ref().filter(|_| self.forks())
     }
 
@@ -159,8 +134,7 @@ impl<const C: usize> Depth<C> {
     #[inline]
     #[must_use]
     pub fn last_read(&self) -> Fragment<C> {
-        let (addr, Side { values, kt, lit, source, .. }) = self.rmw.youngest();
-        Fragment { addr, values, kt, lit, fence: false, source }
+        Fragment { fence: false, ..*self.rmw.youngest() }
     }
 
     /// Clock edge.
@@ -175,9 +149,7 @@ impl<const C: usize> Depth<C> {
         let compared = inputs.data.filter(|_| self.data_ready(inputs.wr_ready, inputs.pass_ready));
         if let Some(frag) = frag {
             if block.is_none() && inputs.rd_ready {
-                let Fragment { values, kt, lit, fence, source, .. } = *frag;
-                let side = Side { values, kt, lit, fence, source };
-                if self.rmw.enter(frag.addr, side) {
+                if self.rmw.enter(frag.addr, *frag) {
                     events.depth.forward_write += 1;
                 }
             } else {
@@ -224,15 +196,13 @@ impl<const C: usize> Depth<C> {
 
     /// Offers a fragment to BLEND, or keeps its fence for the next that is.
     fn hand_on(&mut self, of: &Retired<u32>, passes: bool, events: &mut Events) {
-        let Fork { kt, color, pend_fence, .. } = &mut self.fork;
-        let side = self.rmw.side(of);
-        let fence = side.fence || *pend_fence;
+        let Fork { color, pend_fence, .. } = &mut self.fork;
+        let frag = self.rmw.side(of);
+        let fence = frag.fence || *pend_fence;
         *pend_fence = fence && !passes;
         if passes {
-            events.depth.fence_handed_on += u64::from(fence && !side.fence);
-            let kt = kt.map_or(side.kt, |place| side.values[place]);
-            let Side { values, lit, source, .. } = *side;
-            *color = Some(Passed { addr: of.addr, values, kt, lit, fence, source });
+            events.depth.fence_handed_on += u64::from(fence && !frag.fence);
+            *color = Some(Fragment { fence, ..*frag });
         }
     }
 

@@ -16,7 +16,7 @@
 mod view;
 
 use crate::Events;
-use crate::shade::Cosines;
+use crate::lit::{Cosines, Given};
 use crate::term::{MAX_TERMS, Walked};
 use crate::tokens::{FEW, Fragment, OutputWords, Source, Span, Words, per_channel};
 use edgewalk_machine::{Plan, Shadow};
@@ -149,11 +149,11 @@ impl<const C: usize> Pixel<C> {
         self.out.as_ref()
     }
 
-    /// With TERM: the outputs of the terms, and the material, of the fragment offered.
+    /// The fragment offered on; with TERM the outputs of the terms, and the material, are beside it.
     #[inline]
     #[must_use]
-    pub fn cosines(&self) -> &Cosines {
-        &self.out_cosines
+    pub fn given(&self) -> Option<Given<'_, C>> {
+        self.out.as_ref().map(|frag| Given { frag, cosines: &self.out_cosines })
     }
 
     /// Column and line of the pixel, while active.

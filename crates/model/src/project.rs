@@ -14,14 +14,15 @@
 mod view;
 
 use crate::Events;
+use crate::stages::Stages;
 use crate::tokens::{Fragment, sign_extend};
 use edgewalk_machine::{LIGHT_SPACE, Plan, Project as Kind};
 
 /// What holds fragments while they are divided.
 #[derive(Clone, Debug)]
 enum Rows<const C: usize> {
-    /// A ring of R + 1 stages; `oldest` is stage R, the one behind it stage R - 1.
-    Pipelined { stages: Vec<Option<Fragment<C>>>, oldest: usize },
+    /// R + 1 stages.
+    Pipelined(Stages<Fragment<C>>),
     /// The fragment, and how many rows are done.
     Serial { fragment: Option<Fragment<C>>, row: u32 },
 }
@@ -57,7 +58,7 @@ impl<const C: usize> Project<C> {
         let shadow = &plan.shadow;
         let place = |name: &str| plan.channel_place(name).unwrap_or(0);
         let rows = match shadow.project {
-            Kind::Pipelined => Rows::Pipelined { stages: vec![None; shadow.rows() as usize + 1], oldest: 0 },
+            Kind::Pipelined => Rows::Pipelined(Stages::new(shadow.rows() as usize + 1)),
             Kind::Serial => Rows::Serial { fragment: None, row: 0 },
         };
         Project {
@@ -73,7 +74,7 @@ impl<const C: usize> Project<C> {
     /// Synchronous reset.
     pub fn reset(&mut self) {
         match &mut self.rows {
-            Rows::Pipelined { stages, .. } => stages.fill(None),
+            Rows::Pipelined(stages) => stages.clear(),
             Rows::Serial { fragment, .. } => *fragment = None,
         }
     }
@@ -82,7 +83,7 @@ impl<const C: usize> Project<C> {
     #[must_use]
     pub fn occupied(&self) -> bool {
         match &self.rows {
-            Rows::Pipelined { stages, .. } => stages.iter().any(Option::is_some),
+            Rows::Pipelined(stages) => stages.held() > 0,
             Rows::Serial { fragment, .. } => fragment.is_some(),
         }
     }
@@ -97,7 +98,7 @@ impl<const C: usize> Project<C> {
     #[must_use]
     pub fn projected(&self) -> Option<&Fragment<C>> {
         match &self.rows {
-            Rows::Pipelined { stages, oldest } => stages[*oldest].as_ref(),
+            Rows::Pipelined(stages) => stages.last(),
             Rows::Serial { fragment, row } => fragment.as_ref().filter(|_| *row == self.last_row),
         }
     }
@@ -106,7 +107,7 @@ impl<const C: usize> Project<C> {
     #[must_use]
     pub fn frag_ready(&self, projected_ready: bool) -> bool {
         match &self.rows {
-            Rows::Pipelined { .. } => self.projected().is_none() || projected_ready,
+            Rows::Pipelined(_) => self.projected().is_none() || projected_ready,
             Rows::Serial { fragment, row } => {
                 fragment.is_none() || (*row == self.last_row && projected_ready)
             }
@@ -118,11 +119,8 @@ impl<const C: usize> Project<C> {
         let ready = self.frag_ready(projected_ready);
         let taken = frag.filter(|_| ready).map(|fragment| self.divided(fragment, events));
         match &mut self.rows {
-            Rows::Pipelined { .. } if !ready => events.project.project_stall += 1,
-            Rows::Pipelined { stages, oldest } => {
-                stages[*oldest] = taken;
-                *oldest = (*oldest + 1) % stages.len();
-            }
+            Rows::Pipelined(_) if !ready => events.project.project_stall += 1,
+            Rows::Pipelined(stages) => stages.shift(taken),
             Rows::Serial { .. } if !ready => {
                 events.project.project_wait += u64::from(frag.is_some());
                 self.row();

@@ -16,9 +16,10 @@ mod view;
 use crate::Events;
 use crate::fifo::Fifo;
 use crate::tokens::{Fragment, sign_extend};
+use crate::word_memory::WordIn;
 use edgewalk_machine::{Gate, Plan};
 
-/// The unit's inputs of a cycle, but for the fragment and whether DEPTH takes one.
+/// Inputs of the unit that stay the same over a pass.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ShadowInputs {
     /// The map counts; else all is lit.
@@ -27,10 +28,6 @@ pub struct ShadowInputs {
     pub light_pass: bool,
     /// What the colour of a point in shadow is multiplied by, b bits; of the gate `scale`.
     pub ambient: u32,
-    /// The map takes a read.
-    pub mrd_ready: bool,
-    /// The oldest read's word.
-    pub mdata: Option<u64>,
 }
 
 /// A fragment on its way.
@@ -139,21 +136,21 @@ impl<const C: usize> Shadow<C> {
         }
     }
 
-    /// The fragment that is offered can be taken.
+    /// The fragment that is offered can be taken. `map`: the ports of the memory.
     #[must_use]
-    pub fn frag_ready(&self, frag: Option<&Fragment<C>>, inputs: &ShadowInputs) -> bool {
+    pub fn frag_ready(&self, frag: Option<&Fragment<C>>, inputs: &ShadowInputs, map: &WordIn) -> bool {
         let reads = frag.is_some_and(|frag| matches!(self.place(frag, inputs), Place::Texel(_)));
-        !self.full() && (inputs.mrd_ready || !reads)
+        !self.full() && (map.ready || !reads)
     }
 
     /// The fragment offered to DEPTH.
     #[must_use]
-    pub fn shaded(&self, inputs: &ShadowInputs) -> Option<Fragment<C>> {
-        let head = (!self.queue.is_empty()).then(|| *self.queue.head())?;
+    pub fn shaded(&self, inputs: &ShadowInputs, map: &WordIn) -> Option<Fragment<C>> {
+        let head = (!self.queue.is_empty()).then(|| self.queue.head())?;
         let (lit, left) = match head.known {
             true => (head.value, self.all()),
             false => {
-                let texel = self.texel(inputs.mdata?);
+                let texel = self.texel(map.word?);
                 (head.d <= texel.depth, texel.left)
             }
         };
@@ -177,7 +174,7 @@ impl<const C: usize> Shadow<C> {
         u32::MAX >> (32 - self.color_bits)
     }
 
-    fn texel(&self, word: u64) -> Texel {
+    fn texel(&self, word: u128) -> Texel {
         match self.transmits {
             true => Texel {
                 depth: (word >> self.color_bits) as i64, // bz <= 24 bits
@@ -198,11 +195,15 @@ impl<const C: usize> Shadow<C> {
         &mut self,
         frag: Option<&Fragment<C>>,
         inputs: &ShadowInputs,
+        map: &WordIn,
         taken: bool,
         events: &mut Events,
     ) {
-        let pushed = frag.filter(|frag| self.frag_ready(Some(frag), inputs));
-        self.count(frag, pushed.is_some(), inputs, taken, events);
+        let pushed = frag.filter(|frag| self.frag_ready(Some(frag), inputs, map));
+        if let Some(frag) = frag {
+            self.count_offered(frag, pushed.is_some(), inputs, events);
+        }
+        self.count_texel(map, taken, events);
         if taken {
             self.queue.pop();
         }
@@ -248,34 +249,31 @@ impl<const C: usize> Shadow<C> {
         ((product + (product >> self.color_bits)) >> self.color_bits) as u32
     }
 
-    fn count(
-        &self,
-        frag: Option<&Fragment<C>>,
-        pushed: bool,
-        inputs: &ShadowInputs,
-        taken: bool,
-        events: &mut Events,
-    ) {
-        if let Some(frag) = frag {
-            let place = self.place(frag, inputs);
-            let waits = (0..self.queue.len()).any(|i| !self.queue.at(i).known);
-            match place {
-                _ if self.full() => events.shadow.shadow_queue_full += 1,
-                Place::Texel(_) => events.shadow.map_stall += u64::from(!pushed),
-                Place::Own => events.shadow.own_map += 1,
-                Place::Off => events.shadow.shadow_off += 1,
-                Place::Outside => events.shadow.outside_map += 1,
-                Place::Before => events.shadow.before_map += 1,
-                Place::Behind => events.shadow.behind_map += 1,
-            }
-            events.shadow.known_behind_read +=
-                u64::from(pushed && waits && !matches!(place, Place::Texel(_)));
+    /// What becomes of the fragment that is offered.
+    fn count_offered(&self, frag: &Fragment<C>, pushed: bool, inputs: &ShadowInputs, events: &mut Events) {
+        let place = self.place(frag, inputs);
+        match place {
+            _ if self.full() => events.shadow.shadow_queue_full += 1,
+            Place::Texel(_) => events.shadow.map_stall += u64::from(!pushed),
+            Place::Own => events.shadow.own_map += 1,
+            Place::Off => events.shadow.shadow_off += 1,
+            Place::Outside => events.shadow.outside_map += 1,
+            Place::Before => events.shadow.before_map += 1,
+            Place::Behind => events.shadow.behind_map += 1,
         }
+        if pushed && !matches!(place, Place::Texel(_)) {
+            let waits = (0..self.queue.len()).any(|i| !self.queue.at(i).known);
+            events.shadow.known_behind_read += u64::from(waits);
+        }
+    }
+
+    /// What the texel of the oldest fragment says.
+    fn count_texel(&self, map: &WordIn, taken: bool, events: &mut Events) {
         if self.queue.is_empty() || self.queue.head().known {
             return;
         }
         let head = self.queue.head();
-        match inputs.mdata {
+        match map.word {
             None => events.shadow.texel_wait += 1,
             Some(word) if taken => {
                 let Texel { depth, left } = self.texel(word);

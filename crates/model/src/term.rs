@@ -17,6 +17,7 @@ mod view;
 use crate::Events;
 use crate::fetch::Fetch;
 use crate::tokens::{Span, sign_extend};
+use crate::word_memory::WordIn;
 use edgewalk_machine::record::GLOSS_BITS;
 use edgewalk_machine::{Plan, Walk};
 
@@ -46,15 +47,6 @@ pub struct Walked {
     pub material: u32,
     /// Of the material's highlights, for NORMAL.
     pub gloss: u32,
-}
-
-/// The unit's inputs of a cycle, but for the span and whether PIXEL takes one.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct TermInputs {
-    /// The memory of the terms takes a read.
-    pub trd_ready: bool,
-    /// The oldest read's word.
-    pub tdata: Option<u64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -170,16 +162,16 @@ impl Term {
         Walked { terms, material: self.material, gloss: self.gloss }
     }
 
-    /// Clock edge. `taken`: PIXEL takes the span that is there.
+    /// Clock edge. `records`: the ports of the memory; `taken`: PIXEL takes the span that is there.
     pub fn step<const C: usize>(
         &mut self,
         span: Option<&Span<C>>,
-        inputs: &TermInputs,
+        records: &WordIn,
         taken: bool,
         events: &mut Events,
     ) {
         if self.fetch.loading() {
-            self.load(inputs, events);
+            self.load(records, events);
             return;
         }
         let Some(span) = span else { return };
@@ -197,9 +189,9 @@ impl Term {
         }
     }
 
-    fn load(&mut self, inputs: &TermInputs, events: &mut Events) {
-        events.term.term_read_stall += u64::from(self.fetch.send(inputs.trd_ready));
-        let Some(word) = inputs.tdata else { return };
+    fn load(&mut self, records: &WordIn, events: &mut Events) {
+        events.term.term_read_stall += u64::from(self.fetch.send(records.ready));
+        let Some(word) = records.word.map(|word| word as u64) else { return }; // at most 64 bits
         let (number, last) = self.fetch.take();
         match number {
             0 => self.x = sign_extend(word as i32, self.column_bits),

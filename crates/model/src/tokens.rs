@@ -149,7 +149,7 @@ tokens! {
         source: Source = Source::default(),
     }
 
-    /// PIXEL to DEPTH: one pixel of one triangle.
+    /// PIXEL to DEPTH, and with BLEND on to it: one pixel of one triangle.
     Fragment {
         /// y·2^xb + x.
         addr: u32 = 0,
@@ -159,7 +159,7 @@ tokens! {
         kt: u32 = 0,
         /// Behind SHADOW: the light reaches it.
         lit: bool = false,
-        /// First fragment of its triangle or, in textbook fill, of its lower part.
+        /// First fragment of its triangle or, in textbook fill, of its lower part; behind DEPTH of those that passed.
         fence: bool = false,
         /// The triangle.
         source: Source = Source::default(),
@@ -181,22 +181,6 @@ tokens! {
 }
 
 tokens! {
-    /// DEPTH to BLEND: a fragment that passed.
-    Passed {
-        /// y·2^xb + x.
-        addr: u32 = 0,
-        /// Colour, the user's own, and the depth, at their places.
-        values: OutputWords<C> = [0; C],
-        /// k_t, kt_bits + 1 bits.
-        kt: u32 = 0,
-        /// With SHADOW: the light reaches it.
-        lit: bool = false,
-        /// It, or one before it that did not pass, is the first of its triangle or part.
-        fence: bool = false,
-        /// The triangle.
-        source: Source = Source::default(),
-    }
-
     /// BLEND to the colour memory.
     ColorWrite {
         /// y·2^xb + x.

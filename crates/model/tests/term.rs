@@ -3,9 +3,9 @@
 use crate::common::shade::{leftward, random_shading, words};
 use crate::common::{ALWAYS, Triangle, machine, random_machine, random_triangle};
 use edgewalk_machine::{Activity, Plan, Walk};
-use edgewalk_model::term::{Term, TermInputs};
+use edgewalk_model::term::Term;
 use edgewalk_model::tokens::{MAX_CHANNELS, Span};
-use edgewalk_model::{Events, Rig, Shading, Stalls};
+use edgewalk_model::{Events, Rig, Shading, Stalls, WordIn};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 const C: usize = MAX_CHANNELS;
@@ -13,7 +13,7 @@ const C: usize = MAX_CHANNELS;
 /// The machine with these triangles, their records and tables, before its first cycle.
 fn rig(plan: &Plan, shading: &Shading, stalls: Stalls) -> Rig<C> {
     let mut rig = Rig::<C>::new(plan, ALWAYS, stalls);
-    rig.write_shading(plan, shading);
+    rig.memories.write_shading(plan, shading);
     rig
 }
 
@@ -29,7 +29,7 @@ fn words_of_all_pixels(
     let mut before = None;
     let offered = triangles.iter().map(|triangle| Ok::<_, std::convert::Infallible>(*triangle));
     let Ok(()) = rig.draw(offered, |_, model, _| {
-        let pixel = model.units().pixel;
+        let pixel = &model.pixel;
         let id = pixel.source().id as usize;
         let here = pixel.active().then(|| (id, pixel.place()));
         if let Some((id, (x, y))) = here {
@@ -168,14 +168,14 @@ fn span(x: i32, y: u32, leftward: bool, fresh: bool) -> Span<C> {
 fn wait(unit: &mut Term, span: &Span<C>, memory: &mut Vec<(u64, u64)>, events: &mut Events) -> u64 {
     for cycle in 0..100_000 {
         if unit.there(Some(span)) {
-            unit.step(Some(span), &TermInputs::default(), true, events);
+            unit.step(Some(span), &WordIn::NONE, true, events);
             return cycle;
         }
         let due = |(due, _): &&(u64, u64)| *due <= cycle;
-        let tdata = memory.first().filter(due).map(|(_, word)| *word);
+        let word = memory.first().filter(due).map(|(_, word)| u128::from(*word));
         let read = unit.read(0);
-        unit.step(Some(span), &TermInputs { trd_ready: true, tdata }, false, events);
-        if tdata.is_some() {
+        unit.step(Some(span), &WordIn { ready: true, word }, false, events);
+        if word.is_some() {
             memory.remove(0);
         }
         if let Some(addr) = read {

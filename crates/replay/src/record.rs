@@ -156,14 +156,14 @@ fn run<const C: usize>(
 fn memory<const C: usize>(plan: &Plan, mut rig: Rig<C>) -> Vec<Vec<u32>> {
     let plane = |rig: &Rig<C>, width: u32, height: u32, x_bits: u32, place: usize| {
         let addresses = (0..height).flat_map(|y| (0..width).map(move |x| y << x_bits | x));
-        addresses.map(|addr| rig.pixel(addr)[place]).collect::<Vec<u32>>()
+        addresses.map(|addr| rig.memories.pixel(addr)[place]).collect::<Vec<u32>>()
     };
-    rig.set_state(DrawState::default());
+    rig.memories.set_state(DrawState::default());
     let of_picture = |place| plane(&rig, plan.width, plan.height, plan.widths().x, place);
     let mut planes: Vec<_> = plan.seen_channels().map(|(place, _)| of_picture(place)).collect();
     planes.extend(plan.shadow.is_there().then(|| vec![0; planes[0].len()]));
     if plan.shadow.draws_map() {
-        rig.set_state(DrawState { light_pass: true, ..DrawState::default() });
+        rig.memories.set_state(DrawState { light_pass: true, ..DrawState::default() });
         let (size, x_bits) = (plan.shadow.size, plan.shadow.side_bits());
         planes.extend(map_channels(plan).map(|place| plane(&rig, size, size, x_bits, place)));
     }
@@ -193,7 +193,7 @@ struct Run<'a, const C: usize> {
 impl<'a, const C: usize> Run<'a, C> {
     fn new(plan: &'a Plan, triangles: &'a [[PortVertex; 3]], rules: &Rules<'a>, waits: Waits) -> Self {
         let mut rig = Rig::new(plan, first_of_picture(rules.passes), waits);
-        rig.write_shading(plan, rules.shading);
+        rig.memories.write_shading(plan, rules.shading);
         let steps = Box::new(steps(plan, rules.passes, rules.shading));
         let maps = Maps::of_host(rules.maps);
         let mut run = Run { plan, rig, triangles, taken: 0, left: 0, steps, maps, ended: false };

@@ -2,9 +2,9 @@
 
 use super::tokens::{Find, Named, Slot};
 use edgewalk_machine::Plan;
-use edgewalk_model::shade::Cosines;
+use edgewalk_model::Lit;
 use edgewalk_model::term::Walked;
-use edgewalk_model::tokens::{Fragment, Source, Span};
+use edgewalk_model::tokens::{Source, Span};
 
 /// What PIXEL takes.
 #[derive(Clone, Copy, Debug)]
@@ -15,13 +15,6 @@ pub struct TermSpan<const C: usize> {
 
 /// What NORMAL and LAMP find, in the order of the terms.
 const COSINES: [&str; 4] = ["nl0", "nh0", "nl1", "nh1"];
-
-/// What PIXEL gives, what TEXEL and BUMP make of it, and what SHADE takes.
-#[derive(Clone, Copy, Debug)]
-pub struct TermFragment<const C: usize> {
-    pub fragment: Fragment<C>,
-    pub cosines: Cosines,
-}
 
 /// The place of the term of that name.
 fn term(plan: &Plan, name: &str) -> Option<usize> {
@@ -68,9 +61,9 @@ impl<const C: usize> Named for TermSpan<C> {
     }
 }
 
-impl<const C: usize> Named for TermFragment<C> {
-    fn blank(plan: &Plan) -> Self {
-        TermFragment { fragment: Fragment::blank(plan), cosines: Cosines::default() }
+impl<const C: usize> Named for Lit<C> {
+    fn blank(_: &Plan) -> Self {
+        Lit::default()
     }
 
     fn find(plan: &Plan, name: &str) -> Option<Find<Self>> {
@@ -91,15 +84,15 @@ impl<const C: usize> Named for TermFragment<C> {
         }
         let place = plan.channels().iter().position(|channel| channel.name == name);
         Some(match name {
-            "addr" => (|t, _| Slot::U32(&mut t.fragment.addr), 0),
-            "fence" => (|t, _| Slot::Bool(&mut t.fragment.fence), 0),
-            "tag" => (|t, _| Slot::U32(&mut t.fragment.source.tag), 0),
-            "kt" if place.is_none() => (|t, _| Slot::U32(&mut t.fragment.kt), 0),
-            _ => (|t, i| Slot::U32(&mut t.fragment.values[i]), place?),
+            "addr" => (|t, _| Slot::U32(&mut t.frag.addr), 0),
+            "fence" => (|t, _| Slot::Bool(&mut t.frag.fence), 0),
+            "tag" => (|t, _| Slot::U32(&mut t.frag.source.tag), 0),
+            "kt" if place.is_none() => (|t, _| Slot::U32(&mut t.frag.kt), 0),
+            _ => (|t, i| Slot::U32(&mut t.frag.values[i]), place?),
         })
     }
 
     fn source(&mut self) -> &mut Source {
-        &mut self.fragment.source
+        &mut self.frag.source
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::interface::{Link, Port};
 use edgewalk_machine::{EdgeKind, Plan};
-use edgewalk_model::tokens::{ColorWrite, EdgeWalk, Fragment, Line, Passed, Prim, Source, Span, Write};
+use edgewalk_model::tokens::{ColorWrite, EdgeWalk, Fragment, Line, Prim, Source, Span, Write};
 
 /// A number inside a token of the model.
 pub enum Slot<'a> {
@@ -246,27 +246,6 @@ impl<const C: usize> Named for Write<C> {
         Some(match name {
             "addr" => (slot!(U32, _i => addr), 0),
             "z_en" => (slot!(Bool, _i => z_en), 0),
-            "lit" => (slot!(Bool, _i => lit), 0),
-            "tag" => (slot!(U32, _i => source.tag), 0),
-            _ => (slot!(U32, i => values[i]), channel(plan, name)?),
-        })
-    }
-
-    fn source(&mut self) -> &mut Source {
-        &mut self.source
-    }
-}
-
-impl<const C: usize> Named for Passed<C> {
-    fn blank(_: &Plan) -> Self {
-        Passed::default()
-    }
-
-    fn find(plan: &Plan, name: &str) -> Option<Find<Self>> {
-        Some(match name {
-            "addr" => (slot!(U32, _i => addr), 0),
-            "kt" => (slot!(U32, _i => kt), 0),
-            "fence" => (slot!(Bool, _i => fence), 0),
             "lit" => (slot!(Bool, _i => lit), 0),
             "tag" => (slot!(U32, _i => source.tag), 0),
             _ => (slot!(U32, i => values[i]), channel(plan, name)?),

@@ -208,7 +208,7 @@ impl Case {
     pub fn watch(&self, mut see: impl FnMut(u32, &View, Option<(u32, u32)>)) {
         for_channels!(self.plan, C => {
             let mut rig = Rig::<C>::new(&self.plan, first_of_picture(&self.passes), self.stalls);
-            rig.write_shading(&self.plan, &self.shading);
+            rig.memories.write_shading(&self.plan, &self.shading);
             let (mut view, mut maps, mut now) = (View::new(), Maps::of_host(&self.maps), 0..);
             let mut waiting = &self.triangles[..];
             for step in steps(&self.plan, &self.passes, &self.shading) {

@@ -7,7 +7,7 @@ use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
 use edgewalk_model::blend::{Blend, Block};
-use edgewalk_model::tokens::{ColorWrite, Passed};
+use edgewalk_model::tokens::{ColorWrite, Fragment};
 use edgewalk_model::{BlendInputs, Events};
 
 /// What BLEND tells of itself beside its links.
@@ -31,7 +31,7 @@ impl BlendStatus {
     pub fn show<const C: usize>(
         &self,
         blend: &Blend<C>,
-        pass: Option<&Passed<C>>,
+        pass: Option<&Fragment<C>>,
         inputs: &BlendInputs,
         ports: &mut PortValues,
     ) {
@@ -97,7 +97,7 @@ impl<const C: usize> ColorPorts<C> {
 pub struct BlendDevice<const C: usize> {
     unit: Blend<C>,
     events: Events,
-    pass: Taker<Passed<C>>,
+    pass: Taker<Fragment<C>>,
     memory: ColorPorts<C>,
     status: BlendStatus,
 }

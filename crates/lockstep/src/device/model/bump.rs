@@ -3,18 +3,16 @@
 use super::link::{Giver, Scope, Taker};
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
-use crate::device::terms::TermFragment;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
-use edgewalk_model::Events;
 use edgewalk_model::bump::Bump;
-use edgewalk_model::shade::Cosines;
+use edgewalk_model::{Events, Lit};
 
 /// What BUMP shows of itself.
 pub struct BumpPorts<const C: usize> {
     frag_ready: PortId,
-    bumped: Giver<TermFragment<C>>,
+    bumped: Giver<Lit<C>>,
     occupied: PortId,
 }
 
@@ -29,9 +27,7 @@ impl<const C: usize> BumpPorts<C> {
 
     pub fn show(&self, bump: &Bump<C>, bumped_ready: bool, ports: &mut PortValues) {
         ports.set(self.frag_ready, bump.frag_ready(bumped_ready));
-        let bumped =
-            bump.bumped().map(|(fragment, cosines)| TermFragment { fragment: *fragment, cosines: *cosines });
-        self.bumped.offer(bumped.as_ref(), ports);
+        self.bumped.offer(bump.bumped(), ports);
         ports.set(self.occupied, bump.occupied());
     }
 }
@@ -40,7 +36,7 @@ impl<const C: usize> BumpPorts<C> {
 pub struct BumpDevice<const C: usize> {
     unit: Bump<C>,
     events: Events,
-    frag: Taker<TermFragment<C>>,
+    frag: Taker<Lit<C>>,
     shown: BumpPorts<C>,
 }
 
@@ -59,11 +55,10 @@ impl<const C: usize> BumpDevice<C> {
 impl<const C: usize> Device for BumpDevice<C> {
     fn cycle(&mut self, ports: &mut PortValues) {
         let token = self.frag.token(ports);
-        let frag = token.as_ref().map(|token| &token.fragment);
-        let terms = token.as_ref().map_or_else(Cosines::default, |token| token.cosines);
+        let frag = token.as_ref().map(Lit::given);
         let ready = ports.is_high(self.shown.bumped.ready);
         self.shown.show(&self.unit, ready, ports);
-        self.unit.step(frag, &terms, ready, &mut self.events);
+        self.unit.step(frag, ready, &mut self.events);
         if ports.rst {
             self.unit.reset();
         }

@@ -8,7 +8,7 @@ use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
 use edgewalk_model::Events;
 use edgewalk_model::depth::{Block, Depth, DepthInputs};
-use edgewalk_model::tokens::{Fragment, Passed, Write};
+use edgewalk_model::tokens::{Fragment, Write};
 
 /// What DEPTH tells of itself beside its links.
 pub struct DepthStatus {
@@ -110,7 +110,7 @@ pub struct DepthDevice<const C: usize> {
     events: Events,
     frag: Taker<Fragment<C>>,
     memory: MemoryPorts<C>,
-    pass: Option<Giver<Passed<C>>>,
+    pass: Option<Giver<Fragment<C>>>,
     status: DepthStatus,
 }
 

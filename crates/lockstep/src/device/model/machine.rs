@@ -6,26 +6,24 @@ use super::depth::{DepthStatus, MemoryPorts};
 use super::edge::EdgePorts;
 use super::lamp::LampPorts;
 use super::link::{Giver, Scope};
-use super::normal::{self, NormalPorts};
+use super::normal::NormalPorts;
 use super::pixel::PixelPorts;
 use super::project::ProjectPorts;
 use super::setup::{SetupPorts, TriangleTaker};
-use super::shade::{self, ShadePorts};
-use super::shadow::{MapPorts, ShadowPorts};
+use super::shade::ShadePorts;
+use super::shadow::{MapRules, ShadowPorts};
 use super::span::SpanPorts;
 use super::term::{TermPorts, WordPorts};
-use super::texel::{self, TexelPorts};
+use super::texel::TexelPorts;
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::machine::shading::parts;
-use edgewalk_model::tokens::Passed;
-use edgewalk_model::{
-    BlendInputs, Events, Inputs, Model, NormalInputs, ShadeInputs, ShadowInputs, TermInputs, TexelInputs,
-    View,
-};
+use edgewalk_model::stage::{Links, Stage, Unit};
+use edgewalk_model::tokens::Fragment;
+use edgewalk_model::word_memory::MEMORIES;
+use edgewalk_model::{BlendInputs, Events, Inputs, Model, ShadowInputs, View, WordIn};
 
 /// The machine.
 pub struct MachineDevice<const C: usize> {
@@ -33,11 +31,9 @@ pub struct MachineDevice<const C: usize> {
     model: Model<C>,
     tri: TriangleTaker,
     memory: MemoryPorts<C>,
-    /// Of TERM and of SHADE.
-    words: Option<(WordPorts, WordPorts)>,
-    textures: Option<WordPorts>,
-    roots: Option<WordPorts>,
-    map: Option<MapPorts>,
+    /// In the order of [`Plan::word_memories`].
+    words: Vec<WordPorts>,
+    map: Option<MapRules>,
     color: Option<ColorPorts<C>>,
     activity: PortId,
     idle: PortId,
@@ -51,44 +47,79 @@ struct Inside<const C: usize> {
     span: SpanPorts<C>,
     term: Option<TermPorts<C>>,
     pixel: PixelPorts<C>,
-    texel: Option<TexelPorts<C>>,
-    bump: Option<BumpPorts<C>>,
-    normal: Option<NormalPorts<C>>,
-    lamp: Option<LampPorts<C>>,
-    shade: Option<ShadePorts<C>>,
-    project: Option<ProjectPorts<C>>,
-    shadow: Option<ShadowPorts<C>>,
+    /// In the order of [`Model::pipe`].
+    pipe: Vec<StagePorts<C>>,
     depth: DepthStatus,
-    blend: Option<(Giver<Passed<C>>, BlendStatus)>,
+    blend: Option<(Giver<Fragment<C>>, BlendStatus)>,
+}
+
+/// What a unit between PIXEL and DEPTH shows.
+enum StagePorts<const C: usize> {
+    Texel(TexelPorts<C>),
+    Bump(BumpPorts<C>),
+    Normal(NormalPorts<C>),
+    Lamp(LampPorts<C>),
+    Shade(ShadePorts<C>),
+    Project(ProjectPorts<C>),
+    Shadow(ShadowPorts<C>),
 }
 
 impl<const C: usize> MachineDevice<C> {
     pub fn new(plan: &Plan, interface: &Interface) -> Result<Self, NoPlace> {
         let scope = Scope::alone(plan, interface);
-        let words = || {
-            let find = |read, data| WordPorts::find(scope, read, data);
-            Ok::<_, NoPlace>((find("trd", "tdata")?, find("srd", "sdata")?))
-        };
+        let words = plan.word_memories();
         let inside = !interface.inner_outputs().is_empty();
+        let model = Model::new(plan);
         Ok(MachineDevice {
             plan: plan.clone(),
-            model: Model::new(plan),
             tri: TriangleTaker::find(plan, interface)?,
             memory: MemoryPorts::find(scope)?,
-            words: plan.shade.is_there().then(words).transpose()?,
-            textures: plan.shade.textures().then(|| texel::find(scope)).transpose()?,
-            roots: plan.shade.normalises().then(|| WordPorts::find(scope, "rrd", "rdata")).transpose()?,
-            map: plan.shadow.is_there().then(|| MapPorts::find(scope)).transpose()?,
+            words: words
+                .iter()
+                .map(|(_, memory)| WordPorts::find(scope, memory))
+                .collect::<Result<_, _>>()?,
+            map: plan.shadow.is_there().then(|| MapRules::find(scope)).transpose()?,
             color: plan.blend.is_there().then(|| ColorPorts::find(scope)).transpose()?,
             activity: scope.port("activity")?,
             idle: scope.port("idle")?,
-            inside: inside.then(|| Inside::find(plan, interface)).transpose()?,
+            inside: inside.then(|| Inside::find(plan, interface, model.pipe())).transpose()?,
+            model,
         })
     }
 }
 
+impl<const C: usize> StagePorts<C> {
+    fn find(scope: Scope, stage: &Stage<C>) -> Result<Self, NoPlace> {
+        Ok(match &stage.unit {
+            Unit::Texel(_) => StagePorts::Texel(TexelPorts::find(scope)?),
+            Unit::Bump(_) => StagePorts::Bump(BumpPorts::find(scope)?),
+            Unit::Normal(_) => StagePorts::Normal(NormalPorts::find(scope)?),
+            Unit::Lamp(_) => StagePorts::Lamp(LampPorts::find(scope)?),
+            Unit::Shade(_) => StagePorts::Shade(ShadePorts::find(scope)?),
+            Unit::Project(_) => StagePorts::Project(ProjectPorts::find(scope)?),
+            Unit::Shadow(_) => StagePorts::Shadow(ShadowPorts::find(scope)?),
+        })
+    }
+
+    fn show(&self, stage: &Stage<C>, links: &Links<C>, inputs: &Inputs, ports: &mut PortValues) {
+        let (port, Links { from, next, .. }) = (stage.port(inputs), *links);
+        match (self, &stage.unit) {
+            (StagePorts::Texel(shown), Unit::Texel(unit)) => shown.show(unit, port, ports),
+            (StagePorts::Bump(shown), Unit::Bump(unit)) => shown.show(unit, next, ports),
+            (StagePorts::Normal(shown), Unit::Normal(unit)) => shown.show(unit, from, next, ports),
+            (StagePorts::Lamp(shown), Unit::Lamp(unit)) => shown.show(unit, from, next, ports),
+            (StagePorts::Shade(shown), Unit::Shade(unit)) => shown.show(unit, from, next, ports),
+            (StagePorts::Project(shown), Unit::Project(unit)) => shown.show(unit, next, ports),
+            (StagePorts::Shadow(shown), Unit::Shadow(unit)) => {
+                shown.show(unit, from.map(|given| given.frag), &inputs.shadow, port, ports);
+            }
+            _ => unreachable!("ports are found for the stages of this pipe"),
+        }
+    }
+}
+
 impl<const C: usize> Inside<C> {
-    fn find(plan: &Plan, interface: &Interface) -> Result<Self, NoPlace> {
+    fn find(plan: &Plan, interface: &Interface, pipe: &[Stage<C>]) -> Result<Self, NoPlace> {
         let of = |owner| Scope { plan, interface, owner };
         let blend = || Ok::<_, NoPlace>((of("depth").giver("pass")?, BlendStatus::find(of("blend"))?));
         Ok(Inside {
@@ -97,13 +128,10 @@ impl<const C: usize> Inside<C> {
             span: SpanPorts::find(of("span"))?,
             term: plan.shade.is_there().then(|| TermPorts::find(of("term"))).transpose()?,
             pixel: PixelPorts::find(of("pixel"))?,
-            texel: plan.shade.textures().then(|| TexelPorts::find(of("texel"))).transpose()?,
-            bump: plan.shade.bumps().then(|| BumpPorts::find(of("bump"))).transpose()?,
-            normal: plan.shade.has_normal().then(|| NormalPorts::find(of("normal"))).transpose()?,
-            lamp: plan.shade.is_positional().then(|| LampPorts::find(of("lamp"))).transpose()?,
-            shade: plan.shade.is_there().then(|| ShadePorts::find(of("shade"))).transpose()?,
-            project: plan.shadow.projects().then(|| ProjectPorts::find(of("project"))).transpose()?,
-            shadow: plan.shadow.is_there().then(|| ShadowPorts::find(of("shadow"))).transpose()?,
+            pipe: pipe
+                .iter()
+                .map(|stage| StagePorts::find(of(stage.name), stage))
+                .collect::<Result<_, _>>()?,
             depth: DepthStatus::find(of("depth"))?,
             blend: plan.blend.is_there().then(blend).transpose()?,
         })
@@ -111,59 +139,44 @@ impl<const C: usize> Inside<C> {
 
     /// The links between the units in a cycle with these inputs, from the units' states before the clock edge.
     fn show(&self, model: &Model<C>, inputs: &Inputs, ports: &mut PortValues) {
-        let units = model.units();
-        let drawn = units.pixel.frag();
-        let offered = units.offered(&inputs.texel);
-        let colored = units.shade.map_or(drawn, |shade| shade.tinted());
-        let frag = units.project.map_or(colored, |project| project.projected());
-        let shaded = units.shadow.and_then(|shadow| shadow.shaded(&inputs.shadow));
-        let seen = if units.shadow.is_some() { shaded.as_ref() } else { frag };
-        let seen_ready = inputs.rd_ready && units.depth.block(seen, inputs.depth_write).is_none();
-        let frag_ready = units.shadow.map_or(seen_ready, |shadow| shadow.frag_ready(frag, &inputs.shadow));
-        let colored_ready = units.project.map_or(frag_ready, |project| project.frag_ready(frag_ready));
-        self.setup.show(units.setup, ports);
-        self.edge.show(units.edge, units.span.fresh_queued(), ports);
-        self.span.show(units.span, ports);
-        let readies = units.readies(&offered, &inputs.texel, colored_ready);
-        if let (Some(shown), Some(unit)) = (&self.term, units.term) {
-            shown.show(unit, units.span.span(), units.pixel.span_ready(readies.drawn), ports);
+        let (wires, pipe) = (model.wires(inputs), model.pipe());
+        self.setup.show(&model.setup, ports);
+        self.edge.show(&model.edge, model.span.fresh_queued(), ports);
+        self.span.show(&model.span, ports);
+        if let (Some(shown), Some(unit)) = (&self.term, model.term()) {
+            shown.show(unit, model.span.span(), wires.pixel_ready, ports);
         }
-        self.pixel.show(units.pixel, readies.drawn, ports);
-        if let (Some(shown), Some(unit)) = (&self.texel, units.texel) {
-            shown.show(unit, &inputs.texel, ports);
+        self.pixel.show(&model.pixel, wires.ready(0), ports);
+        for ((place, stage), shown) in pipe.iter().enumerate().zip(&self.pipe) {
+            shown.show(stage, &model.links(&wires, place), inputs, ports);
         }
-        if let (Some(shown), Some(unit)) = (&self.bump, units.bump) {
-            shown.show(unit, readies.bumped, ports);
-        }
-        if let (Some(shown), Some(unit)) = (&self.normal, units.normal) {
-            shown.show(unit, parts(&offered.bumped).0, readies.normed, ports);
-        }
-        if let (Some(shown), Some(unit)) = (&self.lamp, units.lamp) {
-            shown.show(unit, parts(&offered.bumped).0, readies.normed, ports);
-        }
-        if let (Some(shown), Some(unit)) = (&self.shade, units.shade) {
-            let (frag, cosines) = parts(&offered.normed);
-            shown.show(unit, (frag, &cosines), colored_ready, ports);
-        }
-        if let (Some(shown), Some(unit)) = (&self.project, units.project) {
-            shown.show(unit, frag_ready, ports);
-        }
-        if let (Some(shown), Some(unit)) = (&self.shadow, units.shadow) {
-            shown.show(unit, frag, &inputs.shadow, ports);
-        }
-        self.depth.show(units.depth, seen, inputs.rd_ready, inputs.depth_write, ports);
-        if let (Some((pass, status)), Some(unit)) = (&self.blend, units.blend) {
-            pass.offer(units.depth.pass(), ports);
-            status.show(unit, units.depth.pass(), &inputs.blend, ports);
+        let seen = model.given(&wires, pipe.len()).map(|given| given.frag);
+        self.depth.show(&model.depth, seen, inputs.rd_ready, inputs.depth_write, ports);
+        if let (Some((pass, status)), Some(unit)) = (&self.blend, model.blend()) {
+            pass.offer(model.depth.pass(), ports);
+            status.show(unit, model.depth.pass(), &inputs.blend, ports);
         }
     }
 }
 
 impl<const C: usize> MachineDevice<C> {
+    /// What the memories that the host alone writes show in a cycle.
+    fn words(&self, ports: &PortValues) -> [WordIn; MEMORIES] {
+        let mut words = [WordIn::NONE; MEMORIES];
+        for (word, memory) in words.iter_mut().zip(&self.words) {
+            *word = memory.inputs(ports);
+        }
+        words
+    }
+
     /// The model's inputs of a cycle.
-    fn inputs<'a>(&self, triangle: Option<&'a ([PortVertex; 3], u32)>, ports: &PortValues) -> Inputs<'a> {
+    fn inputs<'a>(
+        &self,
+        triangle: Option<&'a ([PortVertex; 3], u32)>,
+        words: &'a [WordIn],
+        ports: &PortValues,
+    ) -> Inputs<'a> {
         let depth = self.memory.inputs(ports);
-        let words = self.words.as_ref();
         Inputs {
             rst: ports.rst,
             tri: triangle.map(|(vertices, tag)| (vertices, *tag)),
@@ -172,16 +185,7 @@ impl<const C: usize> MachineDevice<C> {
             rd_ready: depth.rd_ready,
             data: depth.data,
             wr_ready: depth.wr_ready,
-            term: words.map_or_else(TermInputs::default, |(terms, _)| terms.term_inputs(ports)),
-            texel: self
-                .textures
-                .as_ref()
-                .map_or_else(TexelInputs::default, |memory| texel::inputs(memory, ports)),
-            normal: self
-                .roots
-                .as_ref()
-                .map_or_else(NormalInputs::default, |roots| normal::inputs(roots, ports)),
-            shade: words.map_or_else(ShadeInputs::default, |(_, tables)| shade::inputs(tables, ports)),
+            words,
             shadow: self.map.as_ref().map_or_else(ShadowInputs::default, |map| map.inputs(ports)),
             blend: self.color.as_ref().map_or_else(BlendInputs::default, |color| BlendInputs {
                 color_write: depth.color_write,
@@ -193,26 +197,16 @@ impl<const C: usize> MachineDevice<C> {
 
 impl<const C: usize> Device for MachineDevice<C> {
     fn cycle(&mut self, ports: &mut PortValues) {
-        let triangle = self.tri.token(ports);
-        let inputs = self.inputs(triangle.as_ref(), ports);
+        let (triangle, words) = (self.tri.token(ports), self.words(ports));
+        let inputs = self.inputs(triangle.as_ref(), &words, ports);
         if let Some(inside) = &self.inside {
             inside.show(&self.model, &inputs, ports);
         }
         let outputs = self.model.cycle(&inputs);
         ports.set(self.tri.ready(), outputs.tri_ready);
         self.memory.show(outputs.rd, outputs.data_ready, outputs.wr.as_ref(), ports);
-        if let Some((terms, tables)) = &self.words {
-            terms.show(outputs.trd, outputs.tdata_ready, ports);
-            tables.show(outputs.srd, outputs.sdata_ready, ports);
-        }
-        if let Some(textures) = &self.textures {
-            textures.show(outputs.xrd, outputs.xdata_ready, ports);
-        }
-        if let Some(roots) = &self.roots {
-            roots.show(outputs.rrd, outputs.rdata_ready, ports);
-        }
-        if let Some(map) = &self.map {
-            map.show(outputs.mrd, outputs.mdata_ready, ports);
+        for (memory, ask) in self.words.iter().zip(&outputs.words) {
+            memory.show(ask.addr, ask.take, ports);
         }
         if let Some(color) = &self.color {
             let blend = &outputs.blend;
@@ -229,8 +223,8 @@ impl<const C: usize> ModelDevice for MachineDevice<C> {
     }
 
     fn view(&self, ports: &PortValues, view: &mut View) -> bool {
-        let triangle = self.tri.token(ports);
-        self.model.view(&self.plan, &self.inputs(triangle.as_ref(), ports), view);
+        let (triangle, words) = (self.tri.token(ports), self.words(ports));
+        self.model.view(&self.plan, &self.inputs(triangle.as_ref(), &words, ports), view);
         true
     }
 }

@@ -4,19 +4,16 @@ use super::link::{Giver, Scope, Taker};
 use super::term::WordPorts;
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
-use crate::device::terms::TermFragment;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
 use edgewalk_model::normal::Normal;
-use edgewalk_model::shade::Cosines;
-use edgewalk_model::tokens::Fragment;
-use edgewalk_model::{Events, NormalInputs};
+use edgewalk_model::{Events, Given, Lit};
 
 /// What NORMAL shows of itself, beside the ports of its memory.
 pub struct NormalPorts<const C: usize> {
     frag_ready: PortId,
-    normed: Giver<TermFragment<C>>,
+    normed: Giver<Lit<C>>,
     table_wait: PortId,
     occupied: PortId,
 }
@@ -34,31 +31,22 @@ impl<const C: usize> NormalPorts<C> {
     pub fn show(
         &self,
         normal: &Normal<C>,
-        frag: Option<&Fragment<C>>,
+        frag: Option<Given<C>>,
         normed_ready: bool,
         ports: &mut PortValues,
     ) {
         ports.set(self.frag_ready, normal.frag_ready(normed_ready));
-        let normed = normal
-            .normed()
-            .map(|(fragment, cosines)| TermFragment { fragment: *fragment, cosines: *cosines });
-        self.normed.offer(normed.as_ref(), ports);
+        self.normed.offer(normal.normed(), ports);
         ports.set(self.table_wait, normal.waits(frag));
         ports.set(self.occupied, normal.occupied());
     }
-}
-
-/// The memory's ports as NORMAL sees them, and LAMP.
-pub fn inputs(memory: &WordPorts, ports: &PortValues) -> NormalInputs {
-    let (rrd_ready, rdata) = memory.inputs(ports);
-    NormalInputs { rrd_ready, rdata }
 }
 
 /// NORMAL alone.
 pub struct NormalDevice<const C: usize> {
     unit: Normal<C>,
     events: Events,
-    frag: Taker<TermFragment<C>>,
+    frag: Taker<Lit<C>>,
     memory: WordPorts,
     shown: NormalPorts<C>,
 }
@@ -70,7 +58,7 @@ impl<const C: usize> NormalDevice<C> {
             unit: Normal::new(plan),
             events: Events::default(),
             frag: scope.taker("frag")?,
-            memory: WordPorts::find(scope, "rrd", "rdata")?,
+            memory: WordPorts::alone(scope)?,
             shown: NormalPorts::find(scope)?,
         })
     }
@@ -78,13 +66,12 @@ impl<const C: usize> NormalDevice<C> {
 
 impl<const C: usize> Device for NormalDevice<C> {
     fn cycle(&mut self, ports: &mut PortValues) {
-        let (token, inputs) = (self.frag.token(ports), inputs(&self.memory, ports));
-        let frag = token.as_ref().map(|token| &token.fragment);
-        let terms = token.as_ref().map_or_else(Cosines::default, |token| token.cosines);
+        let (token, inputs) = (self.frag.token(ports), self.memory.inputs(ports));
+        let frag = token.as_ref().map(Lit::given);
         let ready = ports.is_high(self.shown.normed.ready);
         self.memory.show(self.unit.read(), self.unit.rdata_ready(), ports);
         self.shown.show(&self.unit, frag, ready, ports);
-        self.unit.step(frag, &terms, &inputs, ready, &mut self.events);
+        self.unit.step(frag, &inputs, ready, &mut self.events);
         if ports.rst {
             self.unit.reset();
         }

@@ -3,18 +3,18 @@
 use super::link::{Giver, HeldWords, LightPass, Scope, Taker};
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
-use crate::device::terms::{TermFragment, TermSpan};
+use crate::device::terms::TermSpan;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
-use edgewalk_model::Events;
 use edgewalk_model::pixel::Pixel;
 use edgewalk_model::term::Walked;
+use edgewalk_model::{Events, Lit};
 
 /// What PIXEL shows of itself.
 pub struct PixelPorts<const C: usize> {
     span_ready: PortId,
-    frag: Giver<TermFragment<C>>,
+    frag: Giver<Lit<C>>,
     active: PortId,
     visible: PortId,
     advance: PortId,
@@ -35,9 +35,7 @@ impl<const C: usize> PixelPorts<C> {
 
     pub fn show(&self, pixel: &Pixel<C>, frag_ready: bool, ports: &mut PortValues) {
         ports.set(self.span_ready, pixel.span_ready(frag_ready));
-        let frag =
-            pixel.frag().map(|fragment| TermFragment { fragment: *fragment, cosines: *pixel.cosines() });
-        self.frag.offer(frag.as_ref(), ports);
+        self.frag.offer(pixel.given().map(|given| given.lit()).as_ref(), ports);
         ports.set(self.active, pixel.active());
         ports.set(self.visible, pixel.on_screen());
         ports.set(self.advance, pixel.advance(frag_ready));

@@ -4,13 +4,12 @@ use super::link::{Giver, Scope, Taker};
 use super::term::WordPorts;
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
-use crate::device::terms::TermFragment;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
-use edgewalk_model::shade::{Cosines, Shade};
+use edgewalk_model::shade::Shade;
 use edgewalk_model::tokens::Fragment;
-use edgewalk_model::{Events, ShadeInputs};
+use edgewalk_model::{Events, Given, Lit};
 
 /// What SHADE shows of itself, beside the ports of its memory.
 pub struct ShadePorts<const C: usize> {
@@ -30,31 +29,19 @@ impl<const C: usize> ShadePorts<C> {
         })
     }
 
-    pub fn show(
-        &self,
-        shade: &Shade<C>,
-        (frag, cosines): (Option<&Fragment<C>>, &Cosines),
-        tinted_ready: bool,
-        ports: &mut PortValues,
-    ) {
-        ports.set(self.frag_ready, shade.frag_ready(cosines, tinted_ready));
+    pub fn show(&self, shade: &Shade<C>, frag: Option<Given<C>>, tinted_ready: bool, ports: &mut PortValues) {
+        ports.set(self.frag_ready, shade.frag_ready(frag, tinted_ready));
         self.tinted.offer(shade.tinted(), ports);
-        ports.set(self.table_wait, shade.waits(frag, cosines));
+        ports.set(self.table_wait, shade.waits(frag));
         ports.set(self.occupied, shade.occupied());
     }
-}
-
-/// The memory's ports as SHADE sees them.
-pub fn inputs(memory: &WordPorts, ports: &PortValues) -> ShadeInputs {
-    let (srd_ready, sdata) = memory.inputs(ports);
-    ShadeInputs { srd_ready, sdata }
 }
 
 /// SHADE alone.
 pub struct ShadeDevice<const C: usize> {
     unit: Shade<C>,
     events: Events,
-    frag: Taker<TermFragment<C>>,
+    frag: Taker<Lit<C>>,
     memory: WordPorts,
     shown: ShadePorts<C>,
 }
@@ -66,7 +53,7 @@ impl<const C: usize> ShadeDevice<C> {
             unit: Shade::new(plan),
             events: Events::default(),
             frag: scope.taker("frag")?,
-            memory: WordPorts::find(scope, "srd", "sdata")?,
+            memory: WordPorts::alone(scope)?,
             shown: ShadePorts::find(scope)?,
         })
     }
@@ -74,13 +61,12 @@ impl<const C: usize> ShadeDevice<C> {
 
 impl<const C: usize> Device for ShadeDevice<C> {
     fn cycle(&mut self, ports: &mut PortValues) {
-        let (token, inputs) = (self.frag.token(ports), inputs(&self.memory, ports));
-        let frag = token.as_ref().map(|token| &token.fragment);
-        let cosines = token.as_ref().map_or_else(Cosines::default, |token| token.cosines);
+        let (token, inputs) = (self.frag.token(ports), self.memory.inputs(ports));
+        let frag = token.as_ref().map(Lit::given);
         let ready = ports.is_high(self.shown.tinted.ready);
         self.memory.show(self.unit.read(), self.unit.sdata_ready(), ports);
-        self.shown.show(&self.unit, (frag, &cosines), ready, ports);
-        self.unit.step(frag, &cosines, &inputs, ready, &mut self.events);
+        self.shown.show(&self.unit, frag, ready, ports);
+        self.unit.step(frag, &inputs, ready, &mut self.events);
         if ports.rst {
             self.unit.reset();
         }

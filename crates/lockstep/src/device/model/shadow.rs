@@ -1,6 +1,7 @@
 //! SHADOW.
 
 use super::link::{Giver, LightPass, Scope, Taker};
+use super::term::WordPorts;
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
 use crate::interface::Interface;
@@ -8,7 +9,7 @@ use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
 use edgewalk_model::shadow::Shadow;
 use edgewalk_model::tokens::Fragment;
-use edgewalk_model::{Events, ShadowInputs};
+use edgewalk_model::{Events, ShadowInputs, WordIn};
 
 /// What SHADOW shows of itself, beside the ports of the map.
 pub struct ShadowPorts<const C: usize> {
@@ -33,39 +34,27 @@ impl<const C: usize> ShadowPorts<C> {
         shadow: &Shadow<C>,
         frag: Option<&Fragment<C>>,
         inputs: &ShadowInputs,
+        map: &WordIn,
         ports: &mut PortValues,
     ) {
-        ports.set(self.frag_ready, shadow.frag_ready(frag, inputs));
-        self.shaded.offer(shadow.shaded(inputs).as_ref(), ports);
+        ports.set(self.frag_ready, shadow.frag_ready(frag, inputs, map));
+        self.shaded.offer(shadow.shaded(inputs, map).as_ref(), ports);
         ports.set(self.shadow_full, shadow.full());
         ports.set(self.occupied, shadow.occupied());
     }
 }
 
-/// The links to the map, and the constants: ports of SHADOW that are those of the machine as well.
-pub struct MapPorts {
-    mrd_valid: PortId,
-    mrd_ready: PortId,
-    mrd_addr: PortId,
-    mdata_valid: PortId,
-    mdata_ready: PortId,
-    mdata_word: PortId,
+/// The constants of SHADOW, which are ports of the machine as well.
+pub struct MapRules {
     shadow_on: PortId,
     light_pass: LightPass,
     ambient: Option<PortId>,
 }
 
-impl MapPorts {
+impl MapRules {
     pub fn find(scope: Scope) -> Result<Self, NoPlace> {
         let scales = scope.plan.shadow.gate == edgewalk_machine::Gate::Scale;
-        let word = if scope.plan.shadow.transmits() { "mdata_texel" } else { "mdata_depth" };
-        Ok(MapPorts {
-            mrd_valid: scope.port("mrd_valid")?,
-            mrd_ready: scope.port("mrd_ready")?,
-            mrd_addr: scope.port("mrd_addr")?,
-            mdata_valid: scope.port("mdata_valid")?,
-            mdata_ready: scope.port("mdata_ready")?,
-            mdata_word: scope.port(word)?,
+        Ok(MapRules {
             shadow_on: scope.port("shadow_on")?,
             light_pass: scope.light_pass()?,
             ambient: scales.then(|| scope.port("ambient")).transpose()?,
@@ -73,20 +62,11 @@ impl MapPorts {
     }
 
     pub fn inputs(&self, ports: &PortValues) -> ShadowInputs {
-        let word = || ports[self.mdata_word] as u64; // at most 32 bits
         ShadowInputs {
             on: ports.is_high(self.shadow_on),
             light_pass: self.light_pass.is_high(ports),
             ambient: self.ambient.map_or(0, |port| ports[port] as u32), // at most 16 bits
-            mrd_ready: ports.is_high(self.mrd_ready),
-            mdata: ports.is_high(self.mdata_valid).then(word),
         }
-    }
-
-    pub fn show(&self, read: Option<u32>, data_ready: bool, ports: &mut PortValues) {
-        ports.set(self.mrd_valid, read.is_some());
-        ports[self.mrd_addr] = read.unwrap_or(0).into();
-        ports.set(self.mdata_ready, data_ready);
     }
 }
 
@@ -96,7 +76,8 @@ pub struct ShadowDevice<const C: usize> {
     events: Events,
     frag: Taker<Fragment<C>>,
     shaded_ready: PortId,
-    map: MapPorts,
+    map: WordPorts,
+    rules: MapRules,
     shown: ShadowPorts<C>,
 }
 
@@ -108,7 +89,8 @@ impl<const C: usize> ShadowDevice<C> {
             events: Events::default(),
             frag: scope.taker("frag")?,
             shaded_ready: scope.port("shaded_ready")?,
-            map: MapPorts::find(scope)?,
+            map: WordPorts::alone(scope)?,
+            rules: MapRules::find(scope)?,
             shown: ShadowPorts::find(scope)?,
         })
     }
@@ -116,12 +98,12 @@ impl<const C: usize> ShadowDevice<C> {
 
 impl<const C: usize> Device for ShadowDevice<C> {
     fn cycle(&mut self, ports: &mut PortValues) {
-        let (frag, inputs) = (self.frag.token(ports), self.map.inputs(ports));
+        let (frag, map, inputs) = (self.frag.token(ports), self.map.inputs(ports), self.rules.inputs(ports));
         let ready = ports.is_high(self.shaded_ready);
         self.map.show(self.unit.read(frag.as_ref(), &inputs), self.unit.mdata_ready(ready), ports);
-        self.shown.show(&self.unit, frag.as_ref(), &inputs, ports);
-        let taken = ready && self.unit.shaded(&inputs).is_some();
-        self.unit.step(frag.as_ref(), &inputs, taken, &mut self.events);
+        self.shown.show(&self.unit, frag.as_ref(), &inputs, &map, ports);
+        let taken = ready && self.unit.shaded(&inputs, &map).is_some();
+        self.unit.step(frag.as_ref(), &inputs, &map, taken, &mut self.events);
         if ports.rst {
             self.unit.reset();
         }

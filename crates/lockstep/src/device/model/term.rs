@@ -6,10 +6,10 @@ use crate::device::Device;
 use crate::device::terms::TermSpan;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
-use edgewalk_machine::Plan;
+use edgewalk_machine::{MemoryPort, Plan};
 use edgewalk_model::term::Term;
 use edgewalk_model::tokens::Span;
-use edgewalk_model::{Events, TermInputs};
+use edgewalk_model::{Events, WordIn};
 
 /// What TERM shows of itself, beside the ports of its memory. `pixel_ready`: PIXEL takes a span.
 pub struct TermPorts<const C: usize> {
@@ -47,33 +47,32 @@ pub struct WordPorts {
 }
 
 impl WordPorts {
-    /// `read` and `data`: the links.
-    pub fn find(scope: Scope, read: &str, data: &str) -> Result<Self, NoPlace> {
-        WordPorts::of(scope, read, data, "word")
-    }
-
-    /// The same of a word that is called otherwise.
-    pub fn of(scope: Scope, read: &str, data: &str, word: &str) -> Result<Self, NoPlace> {
+    /// The ports of a memory that the host alone writes, by its declaration.
+    pub fn find(scope: Scope, memory: &MemoryPort) -> Result<Self, NoPlace> {
         let port = |link: &str, part: &str| scope.port(&format!("{link}_{part}"));
+        let (read, data) = (memory.read.name, memory.data.name);
         Ok(WordPorts {
             read_valid: port(read, "valid")?,
             read_ready: port(read, "ready")?,
             read_addr: port(read, "addr")?,
             data_valid: port(data, "valid")?,
             data_ready: port(data, "ready")?,
-            word: port(data, word)?,
+            word: port(data, &memory.data.fields[0].name)?,
         })
     }
 
-    /// The memory takes a read; the word that it offers.
-    pub fn inputs(&self, ports: &PortValues) -> (bool, Option<u128>) {
-        (ports.is_high(self.read_ready), ports.is_high(self.data_valid).then(|| ports[self.word]))
+    /// The ports of the memory of a unit alone.
+    pub fn alone(scope: Scope) -> Result<Self, NoPlace> {
+        let memories = scope.plan.word_memories();
+        let own = memories.iter().find(|(unit, _)| *unit == scope.owner);
+        let (_, memory) = own.ok_or_else(|| NoPlace::Unit(scope.owner.to_owned()))?;
+        WordPorts::find(scope, memory)
     }
 
-    /// The same as TERM sees it.
-    pub fn term_inputs(&self, ports: &PortValues) -> TermInputs {
-        let (trd_ready, word) = self.inputs(ports);
-        TermInputs { trd_ready, tdata: word.map(|word| word as u64) } // at most 64 bits
+    /// The memory takes a read; the word that it offers.
+    pub fn inputs(&self, ports: &PortValues) -> WordIn {
+        let word = ports.is_high(self.data_valid).then(|| ports[self.word]);
+        WordIn { ready: ports.is_high(self.read_ready), word }
     }
 
     pub fn show(&self, read: Option<u32>, data_ready: bool, ports: &mut PortValues) {
@@ -101,7 +100,7 @@ impl<const C: usize> TermDevice<C> {
             events: Events::default(),
             span: scope.taker("span")?,
             record: scope.port("inc_record")?,
-            memory: WordPorts::find(scope, "trd", "tdata")?,
+            memory: WordPorts::alone(scope)?,
             shown: TermPorts::find(scope)?,
         })
     }
@@ -109,7 +108,7 @@ impl<const C: usize> TermDevice<C> {
 
 impl<const C: usize> Device for TermDevice<C> {
     fn cycle(&mut self, ports: &mut PortValues) {
-        let (span, inputs) = (self.span.token(ports), self.memory.term_inputs(ports));
+        let (span, inputs) = (self.span.token(ports), self.memory.inputs(ports));
         let ready = ports.is_high(self.shown.walked.ready);
         let record = ports[self.record] as u32; // at most 20 bits
         self.memory.show(self.unit.read(record), self.unit.tdata_ready(), ports);

@@ -4,19 +4,16 @@ use super::link::{Giver, Scope, Taker};
 use super::term::WordPorts;
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
-use crate::device::terms::TermFragment;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
 use edgewalk_machine::Plan;
-use edgewalk_machine::units::tokens;
-use edgewalk_model::shade::Cosines;
 use edgewalk_model::texel::Texel;
-use edgewalk_model::{Events, TexelInputs};
+use edgewalk_model::{Events, Lit, WordIn};
 
 /// What TEXEL shows of itself, beside the ports of its memory.
 pub struct TexelPorts<const C: usize> {
     frag_ready: PortId,
-    textured: Giver<TermFragment<C>>,
+    textured: Giver<Lit<C>>,
     texel_full: PortId,
     occupied: PortId,
 }
@@ -31,31 +28,19 @@ impl<const C: usize> TexelPorts<C> {
         })
     }
 
-    pub fn show(&self, texel: &Texel<C>, inputs: &TexelInputs, ports: &mut PortValues) {
-        ports.set(self.frag_ready, texel.frag_ready(inputs));
-        let textured = texel.textured(inputs).map(|(fragment, cosines)| TermFragment { fragment, cosines });
-        self.textured.offer(textured.as_ref(), ports);
+    pub fn show(&self, texel: &Texel<C>, textures: &WordIn, ports: &mut PortValues) {
+        ports.set(self.frag_ready, texel.frag_ready(textures));
+        self.textured.offer(texel.textured(textures).as_ref(), ports);
         ports.set(self.texel_full, texel.full());
         ports.set(self.occupied, texel.occupied());
     }
-}
-
-/// The links to the textures.
-pub fn find(scope: Scope) -> Result<WordPorts, NoPlace> {
-    WordPorts::of(scope, "xrd", "xdata", &tokens::texture_word(scope.plan).name)
-}
-
-/// The memory's ports as TEXEL sees them.
-pub fn inputs(memory: &WordPorts, ports: &PortValues) -> TexelInputs {
-    let (xrd_ready, xdata) = memory.inputs(ports);
-    TexelInputs { xrd_ready, xdata }
 }
 
 /// TEXEL alone.
 pub struct TexelDevice<const C: usize> {
     unit: Texel<C>,
     events: Events,
-    frag: Taker<TermFragment<C>>,
+    frag: Taker<Lit<C>>,
     memory: WordPorts,
     shown: TexelPorts<C>,
 }
@@ -67,7 +52,7 @@ impl<const C: usize> TexelDevice<C> {
             unit: Texel::new(plan),
             events: Events::default(),
             frag: scope.taker("frag")?,
-            memory: find(scope)?,
+            memory: WordPorts::alone(scope)?,
             shown: TexelPorts::find(scope)?,
         })
     }
@@ -75,14 +60,13 @@ impl<const C: usize> TexelDevice<C> {
 
 impl<const C: usize> Device for TexelDevice<C> {
     fn cycle(&mut self, ports: &mut PortValues) {
-        let (token, inputs) = (self.frag.token(ports), inputs(&self.memory, ports));
-        let frag = token.as_ref().map(|token| &token.fragment);
-        let terms = token.as_ref().map_or_else(Cosines::default, |token| token.cosines);
+        let (token, inputs) = (self.frag.token(ports), self.memory.inputs(ports));
+        let frag = token.as_ref().map(Lit::given);
         let ready = ports.is_high(self.shown.textured.ready);
-        self.memory.show(self.unit.read(frag, &terms), self.unit.xdata_ready(ready), ports);
+        self.memory.show(self.unit.read(frag), self.unit.xdata_ready(ready), ports);
         self.shown.show(&self.unit, &inputs, ports);
         let taken = ready && self.unit.textured(&inputs).is_some();
-        self.unit.step(frag, &terms, &inputs, taken, &mut self.events);
+        self.unit.step(frag, &inputs, taken, &mut self.events);
         if ports.rst {
             self.unit.reset();
         }
