@@ -210,6 +210,27 @@ fn only_regular_files_are_read() {
     assert!(mesh.contains("pipe.obj: kind of file: `a pipe`"), "{mesh}");
 }
 
+/// A view lies in the bytes that its buffer declares, however long the file is.
+#[test]
+fn gltf_buffer_ends_where_it_says() {
+    let data = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+    let text = TRIANGLE.replace(data, "long.bin").replace("\"buffer\":0,\"byteLength\":36", "\"buffer\":0,\"byteLength\":48");
+    let (folder, path) = file("a.gltf", text.replace("\"count\":3", "\"count\":4"));
+    fs::write(folder.path().join("long.bin"), [1; 100]).unwrap();
+    let message = Mesh::read(&path).unwrap_err().to_string();
+    assert!(message.contains("POSITION: `accessor 0: 4 of 12 bytes"), "{message}");
+}
+
+/// A comment ends with its line, though a backslash ends it.
+#[test]
+fn obj_backslash_joins_lines_of_statements() {
+    let joined = "# C:\\\nv 0 0 0\nv 1 \\\n0 0\r\nv 1 1 \\\r\n 0\nf 1 \\\n2 \\\n3\n";
+    let (_folder, path) = file("a.obj", joined);
+    let mesh = Mesh::read(&path).unwrap();
+    assert_eq!((mesh.positions().len(), mesh.faces().len()), (3, 1));
+    assert_eq!(mesh.positions()[2], glam::DVec3::new(1.0, 1.0, 0.0));
+}
+
 /// A view without `mimeType`, as many programs write it, is a picture all the same.
 #[test]
 fn gltf_picture_in_a_view_needs_no_type() {

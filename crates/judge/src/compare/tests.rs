@@ -1,7 +1,7 @@
 //! The comparison is fed pictures that are wrong in one thing each.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use super::{Comparison, compare};
+use super::{Bands, Comparison, compare};
 use crate::verdict::Verdict::{self, Mismatch, Pass, Vacuous};
 use edgewalk_host::draw;
 use edgewalk_host::extra::Values;
@@ -190,6 +190,61 @@ fn what_an_open_order_shows_is_compared_all_the_same() {
             said(&c)
         );
     }
+}
+
+/// Some lines of a picture.
+fn lines(of: &Raster, lines: std::ops::Range<usize>) -> Raster {
+    let at = lines.start * 16..lines.end * 16;
+    Raster {
+        height: lines.len() as u32,
+        coverage: of.coverage[at.clone()].to_vec(),
+        writes: of.writes[at.clone()].to_vec(),
+        id: of.id[at.clone()].to_vec(),
+        z: of.z[at.clone()].to_vec(),
+        rgb: of.rgb[at].to_vec(),
+        ..of.clone()
+    }
+}
+
+/// However a picture is cut into bands, as much is found as in the whole, and at the same pixels.
+#[test]
+fn bands_find_what_the_whole_has() {
+    let frame = frame(Some(DepthFunc::Less), &[(0.5, [1.0, 0.0, 0.0]), (0.5 - Z, [0.0, 0.0, 1.0])]);
+    assert!(Bands::suit(&frame));
+    let faults: [fn(&mut Raster, &Frame); 5] = [
+        |_, _| (),
+        |r, f| show(r, f, 0, 1), // undecided, in the second line
+        |r, f| show(r, f, 0, 3), // wrong there
+        |r, _| r.z[5 * 16 + 3] += 3.0 * Z,
+        |r, _| r.rgb[BESIDE][1] = 0.0,
+    ];
+    let mut checked = 0;
+    for fault in faults {
+        let [golden, mut wrong] = drawn(&frame);
+        fault(&mut wrong, &frame);
+        let whole = compare(&machine(), &frame, &golden, &wrong);
+        for height in [1, 5, 12] {
+            let machine = machine();
+            let mut bands = Bands::new(&machine, &frame, wrong.cycles.as_ref(), None);
+            let mut maps = [Vec::new(), Vec::new()];
+            for top in (0..12).step_by(height) {
+                let band = top..12.min(top + height);
+                let found = bands.add(&lines(&golden, band.clone()), &lines(&wrong, band));
+                maps.iter_mut().zip(found).for_each(|(map, found)| map.extend(found));
+            }
+            let mut found = bands.found();
+            assert!(maps == [whole.z_map.clone(), whole.color_map.clone()], "{height}");
+            // The order of a sum may be another.
+            for (a, b) in [(&mut found.z_spread, whole.z_spread), (&mut found.color_spread, whole.color_spread)] {
+                assert!((a.mean - b.mean).abs() < 1e-12 && (a.bias - b.bias).abs() < 1e-12, "{a:?} {b:?}");
+                (a.mean, a.bias) = (b.mean, b.bias);
+            }
+            assert_eq!(said(&found), said(&whole), "bands of {height} lines");
+            checked += 1;
+        }
+    }
+    println!("{checked} / 15 comparisons in bands find what the whole has");
+    assert_eq!(checked, 15);
 }
 
 #[test]
