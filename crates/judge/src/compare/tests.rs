@@ -233,9 +233,9 @@ fn bands_find_what_the_whole_has() {
                 maps.iter_mut().zip(found).for_each(|(map, found)| map.extend(found));
             }
             let mut found = bands.found();
-            assert!(maps == [whole.z_map.clone(), whole.color_map.clone()], "{height}");
+            assert!(maps == [whole.errors.z.map.clone(), whole.errors.color.map.clone()], "{height}");
             // The order of a sum may be another.
-            for (a, b) in [(&mut found.z_spread, whole.z_spread), (&mut found.color_spread, whole.color_spread)] {
+            for (a, b) in [(&mut found.errors.z.spread, whole.errors.z.spread), (&mut found.errors.color.spread, whole.errors.color.spread)] {
                 assert!((a.mean - b.mean).abs() < 1e-12 && (a.bias - b.bias).abs() < 1e-12, "{a:?} {b:?}");
                 (a.mean, a.bias) = (b.mean, b.bias);
             }
