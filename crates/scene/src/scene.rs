@@ -3,11 +3,12 @@
 use crate::camera::Camera;
 use crate::clip::{ClipVertex, Viewport, clip};
 use crate::error::InputError;
-use crate::frame::{Frame, ShadeMode};
+use crate::frame::Frame;
 use crate::kind::unknown;
 use crate::light::Light;
 use crate::mesh::{self, Mesh};
 use crate::normals::{NormalRule, corner_normals, face_normals};
+use crate::rules::ShadeMode;
 use crate::shading::{Lighting, Point, Specular};
 use crate::surface::{Surface, SurfaceTriangle};
 use glam::{DVec2, DVec3};
