@@ -71,8 +71,10 @@ mod tests {
             let plan = machine.plan().expect("a machine");
             assert_eq!(plan.channels().len() as u32, 4 + extra);
             let found = Occupancy::of(&plan, 200, &held);
-            assert_eq!((found.span_fifo, found.inflight),
-                (Mean { mean: 2.5, of: plan.span_fifo }, Mean { mean: 4.5, of: plan.inflight }));
+            assert_eq!(
+                (found.span_fifo, found.inflight),
+                (Mean { mean: 2.5, of: plan.span_fifo }, Mean { mean: 4.5, of: plan.inflight })
+            );
             assert_eq!(found.lanes.of, lanes);
             found.lanes.mean
         };

@@ -214,7 +214,9 @@ fn only_regular_files_are_read() {
 #[test]
 fn gltf_buffer_ends_where_it_says() {
     let data = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
-    let text = TRIANGLE.replace(data, "long.bin").replace("\"buffer\":0,\"byteLength\":36", "\"buffer\":0,\"byteLength\":48");
+    let text = TRIANGLE
+        .replace(data, "long.bin")
+        .replace("\"buffer\":0,\"byteLength\":36", "\"buffer\":0,\"byteLength\":48");
     let (folder, path) = file("a.gltf", text.replace("\"count\":3", "\"count\":4"));
     fs::write(folder.path().join("long.bin"), [1; 100]).unwrap();
     let message = Mesh::read(&path).unwrap_err().to_string();

@@ -235,7 +235,10 @@ fn bands_find_what_the_whole_has() {
             let mut found = bands.found();
             assert!(maps == [whole.errors.z.map.clone(), whole.errors.color.map.clone()], "{height}");
             // The order of a sum may be another.
-            for (a, b) in [(&mut found.errors.z.spread, whole.errors.z.spread), (&mut found.errors.color.spread, whole.errors.color.spread)] {
+            for (a, b) in [
+                (&mut found.errors.z.spread, whole.errors.z.spread),
+                (&mut found.errors.color.spread, whole.errors.color.spread),
+            ] {
                 assert!((a.mean - b.mean).abs() < 1e-12 && (a.bias - b.bias).abs() < 1e-12, "{a:?} {b:?}");
                 (a.mean, a.bias) = (b.mean, b.bias);
             }
