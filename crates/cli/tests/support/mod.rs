@@ -32,6 +32,15 @@ pub fn ended(output: &Output) -> (Option<i32>, String) {
     (output.status.code(), error)
 }
 
+/// What `render --json` printed, without the format and version of the document.
+pub fn report(output: &Output) -> serde_json::Value {
+    let mut report: serde_json::Value = serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&output.stderr)));
+    let [format, _] = ["format", "version"].map(|key| report.as_object_mut().unwrap().shift_remove(key));
+    assert_eq!(format, Some("edgewalk-report".into()));
+    report
+}
+
 /// Renders in every engine, which must draw the same picture: the report of each.
 pub fn rendered_by_every_engine(folder: &Path, arguments: &[&str]) -> Vec<serde_json::Value> {
     let (mut reports, mut pictures) = (Vec::new(), Vec::new());

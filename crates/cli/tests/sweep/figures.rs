@@ -162,7 +162,7 @@ impl Ran<'_> {
             Judge::Only(memory) => &format!("by the memory {}", NAMES[memory]),
         };
         assert!(
-            judged.starts_with("of 3 inputs the cycles are summed") && judged.ends_with(words),
+            judged.starts_with("Of 3 inputs the cycles are summed") && judged.ends_with(words),
             "{judged}"
         );
         let mut checked = 3;

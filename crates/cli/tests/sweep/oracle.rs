@@ -288,7 +288,8 @@ impl Axis {
             label.replace(',', "").parse::<f64>().unwrap_or_else(|_| panic!("{label} on an axis"))
         };
         let ticks: Vec<(f64, f64)> = ticks.map(|(place, label)| (place, number(label))).collect();
-        for (_, value) in &ticks {
+        // Where all values are alike that value stands there.
+        for (_, value) in ticks.iter().filter(|_| ticks.len() > 1) {
             // At most three digits that are not zero: 185525 is no label for people.
             let digits = format!("{value}").replace(['-', '.'], "");
             assert!(digits.trim_matches('0').len() <= 3, "{value} is not round");
@@ -307,6 +308,6 @@ impl Axis {
 
     /// How far apart two places are that a reader cannot tell apart, as a value there.
     pub fn blur(&self, place: f64) -> f64 {
-        (self.value(place + 0.11) - self.value(place - 0.11)).abs() + 1e-9
+        (self.value(place + 0.11) - self.value(place - 0.11)).abs() + 1e-6 * self.value(place).abs()
     }
 }

@@ -97,8 +97,11 @@ fn an_output_that_cannot_be_written_is_said() {
     assert!(code == Some(2) && error.contains("s/runs.jsonl"), "{error}");
     // A line that is none is named.
     std::fs::create_dir_all(folder.path().join("t")).unwrap();
-    std::fs::write(folder.path().join("t/runs.jsonl"), "{\"key\":\"1\"}\nnonsense\n{\"key\":\"2\"}\n")
-        .unwrap();
+    std::fs::write(
+        folder.path().join("t/runs.jsonl"),
+        "{\"key\":\"1\",\"status\":\"ok\"}\nnonsense\n{\"key\":\"2\",\"status\":\"ok\"}\n",
+    )
+    .unwrap();
     let (code, error) = sweep("t");
     assert!(code == Some(2) && error.contains("line 2") && error.contains("t/runs.jsonl"), "{error}");
 }

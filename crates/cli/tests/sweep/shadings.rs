@@ -6,9 +6,19 @@ use crate::support::{colors, edgewalk, run};
 use serde_json::Value;
 use std::path::Path;
 
-/// A pyramid without materials, which every kind of shading takes.
-pub const PYRAMID: &str =
-    "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv 0 1.4 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 4 3 2 1\n";
+/// A pyramid with the normals of something round and a grey highlight, which every kind of shading takes.
+const PYRAMID: &str = "mtllib p.mtl\nusemtl m
+v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv 0 1.4 0
+vn -0.6 0.53 -0.6\nvn 0.6 0.53 -0.6\nvn 0.6 0.53 0.6\nvn -0.6 0.53 0.6\nvn 0 1 0
+f 1//1 5//5 2//2\nf 2//2 5//5 3//3\nf 3//3 5//5 4//4\nf 4//4 5//5 1//1\n";
+const MATERIAL: &str = "newmtl m\nKd 0.5 0.4 0.3\nKs 0.4 0.4 0.4\nNs 20\n";
+
+/// The mesh `p.obj` in a folder.
+pub fn pyramid(at: &Path) {
+    std::fs::write(at.join("p.obj"), PYRAMID).unwrap();
+    std::fs::write(at.join("p.mtl"), MATERIAL).unwrap();
+}
+
 const SCREEN: [&str; 4] = ["--set", "screen.width=96", "--set", "screen.height=72"];
 
 /// The distance of a picture from the equation, from the files that `render` writes, LSB of 8 bits: largest and mean.
@@ -35,7 +45,7 @@ fn distance(at: &Path, shading: &[&str]) -> (f64, f64) {
 fn machines_are_judged_by_what_they_draw() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    std::fs::write(at.join("p.obj"), PYRAMID).unwrap();
+    pyramid(at);
     let vary =
         ["sweep", "p.obj", "--vary", "shade.kind=none,fast-phong,phong", "--vary", "interpolator.adders=1,4"];
     let sweep = [&vary[..], &SCREEN, &["--out", "s", "--json"]].concat();
@@ -79,7 +89,7 @@ fn machines_are_judged_by_what_they_draw() {
 fn rows_without_the_distance_are_made_again() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    std::fs::write(at.join("p.obj"), PYRAMID).unwrap();
+    pyramid(at);
     let made = |objective: &[&str]| -> u64 {
         let vary = ["sweep", "p.obj", "--vary", "setup.lanes=1,2", "--out", "s", "--json"];
         let output = edgewalk(at, &[&vary[..], &SCREEN, objective].concat()).output().unwrap();
@@ -93,7 +103,7 @@ fn rows_without_the_distance_are_made_again() {
 fn a_shading_asked_for_holds_for_all() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    std::fs::write(at.join("p.obj"), PYRAMID).unwrap();
+    pyramid(at);
     let sweep =
         ["sweep", "p.obj", "--vary", "setup.lanes=1,4", "--shading", "constant", "--out", "s", "--quiet"];
     assert_eq!(run(at, &[&sweep[..], &SCREEN].concat()), (Some(0), String::new()));

@@ -14,14 +14,14 @@ const SHOWN: usize = 60;
 pub fn rule(sweep: &Sweep) -> Option<String> {
     let inputs = (sweep.inputs.len() > 1).then(|| {
         format!(
-            "of {} inputs the cycles are summed, and the worst of every other figure counts",
+            "Of {} inputs the cycles are summed, and the worst of every other figure counts",
             sweep.inputs.len()
         )
     });
     let memories = (sweep.memories.len() > 1)
-        .then(|| format!("machines are judged {}", sweep.judge.words(&sweep.memories)));
+        .then(|| format!("Machines are judged {}", sweep.judge.words(&sweep.memories)));
     let rules: Vec<String> = inputs.into_iter().chain(memories).collect();
-    (!rules.is_empty()).then(|| rules.join("; "))
+    (!rules.is_empty()).then(|| rules.join(". "))
 }
 
 /// How many points, and what became of them.

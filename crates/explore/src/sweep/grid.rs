@@ -107,7 +107,8 @@ impl Sweep {
         let way = of.place(self.definition.shading.as_deref().unwrap_or(shading::of_machine(&machine)));
         let identity = Identity {
             machine: machine.hash(),
-            input: of.way(way).hash.clone(),
+            input: of.name.clone(),
+            input_hash: of.way(way).hash.clone(),
             stalls: self.memories[memory].waits.to_string(),
             version: self.definition.program.clone(),
             synth: self.synth_identity(),

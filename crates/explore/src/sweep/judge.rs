@@ -67,7 +67,7 @@ impl Judge {
         found.map(Judge::Only).ok_or_else(|| {
             let names = memories.iter().map(|memory| memory.name.as_str());
             let permitted = [Judge::WORST, Judge::SUM].into_iter().chain(names);
-            anyhow!("--judge {text}: {}", Unknown::new("memory", text, permitted))
+            anyhow!("--judge {text}: {}", Unknown::new("judge", text, permitted))
         })
     }
 

@@ -26,8 +26,10 @@ pub struct Point {
 pub struct Identity {
     /// Hash of the machine's keys.
     pub machine: String,
-    /// Hash of the input.
+    /// Name of the input: the row tells it.
     pub input: String,
+    /// Hash of the input.
+    pub input_hash: String,
     /// The memory's behaviour.
     pub stalls: String,
     /// Of the program.
@@ -41,10 +43,11 @@ pub struct Identity {
 impl Identity {
     /// Each part with its name.
     #[must_use]
-    pub fn parts(&self) -> [(&'static str, &str); 6] {
+    pub fn parts(&self) -> [(&'static str, &str); 7] {
         [
             ("machine", &self.machine),
-            ("input_hash", &self.input),
+            ("input", &self.input),
+            ("input_hash", &self.input_hash),
             ("stalls", &self.stalls),
             ("version", &self.version),
             ("synth", &self.synth),

@@ -20,10 +20,8 @@ pub const SHADINGS: [(&str, Shaded); 5] = [
 /// # Errors
 /// The machine does not draw so.
 pub fn named(name: &str) -> Result<(&'static str, Shaded)> {
-    SHADINGS.into_iter().find(|(known, _)| *known == name).ok_or_else(|| {
-        let names = SHADINGS.map(|(name, _)| name);
-        anyhow!("{}", Unknown::new("shading of a machine", name, names))
-    })
+    let found = SHADINGS.into_iter().find(|(known, _)| *known == name);
+    found.ok_or_else(|| anyhow!(Unknown::new("shading of a machine", name, SHADINGS.map(|(name, _)| name))))
 }
 
 /// The name of the way in which a machine shades where nothing else is asked for: `gouraud` without SHADE.

@@ -14,7 +14,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// What a row's key is made of.
-const PARTS: [&str; 5] = ["machine", "input_hash", "stalls", "version", "synthesis"];
+const PARTS: [&str; 6] = ["machine", "input", "input_hash", "stalls", "version", "synthesis"];
 
 /// Tells it of the row whose key begins so.
 pub fn run(key: &str, out: &Path, talk: Talk) -> Result<Verdict> {
@@ -91,7 +91,6 @@ fn text(row: &Value, changed: &[String], others: &[Value]) -> String {
     for part in PARTS {
         _ = writeln!(t, "    {part:<12} {}", shown(&row[part]));
     }
-    _ = writeln!(t, "    input        {}", shown(&row["input"]));
     for (key, value) in row["keys"].as_object().into_iter().flatten() {
         _ = writeln!(t, "    {key} = {}", shown(value));
     }
