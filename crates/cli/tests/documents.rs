@@ -7,12 +7,13 @@ use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// The format of a document whose first keys are `format` and `version`.
+/// The format of a document whose first keys are `format` and `version`; of a manifest, `format_version`.
 fn format(document: &Value, from: &str) -> String {
     let keys: Vec<&String> =
         document.as_object().unwrap_or_else(|| panic!("{from}: no object")).keys().collect();
-    assert_eq!(keys[..2], ["format", "version"], "{from}");
-    let version = &document["version"];
+    let second = if document["format"] == "edgewalk-vectors" { "format_version" } else { "version" };
+    assert_eq!(keys[..2], ["format", second], "{from}");
+    let version = &document[second];
     assert!(version.is_u64() || version.as_array().is_some_and(|list| list.len() == 2), "{from}: {version}");
     let format = document["format"].as_str().unwrap();
     assert!(format.starts_with("edgewalk-"), "{from}: {format}");
