@@ -79,12 +79,6 @@ impl Source {
         is_triangle_file(&self.input)
     }
 
-    /// The screen that it brings, pixels; scenes are drawn on any.
-    pub fn screen(&self) -> Result<Option<(u32, u32)>> {
-        let read = || triangle_file::read(Path::new(&self.input)).map(|frame| (frame.width, frame.height));
-        Ok(self.is_triangle_file().then(read).transpose()?)
-    }
-
     /// The scene, and its surface on this machine's screen, clipped to its guard band.
     ///
     /// # Errors

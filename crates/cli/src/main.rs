@@ -22,6 +22,7 @@ mod progress;
 mod scratch;
 mod shading_report;
 mod shadows;
+mod shell;
 mod staging;
 mod talk;
 mod triangles;

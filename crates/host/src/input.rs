@@ -5,7 +5,7 @@ use crate::port::{guard_band, sent};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::Shading;
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Blending, Change, Frame, PixelMethod, Scene, Triangulated, triangle_file};
+use edgewalk_scene::{Blending, Change, Frame, PixelMethod, Scene, Surface, Triangulated, triangle_file};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
@@ -67,6 +67,17 @@ impl Input {
             What::Triangles(frame) => hash(frame),
             What::Scene(..) => hash(&self.frame(&Plan::default())?),
         })
+    }
+
+    /// The scene, and its surface on the machine's screen, clipped to its guard band; none of a triangle file.
+    #[must_use]
+    pub fn surface(&self, machine: &Plan) -> Option<(&Scene, Surface)> {
+        match &self.what {
+            What::Triangles(_) => None,
+            What::Scene(scene, _) => {
+                Some((scene, scene.surface(machine.width, machine.height, guard_band(machine))))
+            }
+        }
     }
 
     /// The frame as the machine draws it, polygons as triangles, clipped to its guard band.

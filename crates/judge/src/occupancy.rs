@@ -54,3 +54,35 @@ impl Occupancy {
 pub(crate) fn ratio(part: u64, whole: u64) -> f64 {
     if whole == 0 { 0.0 } else { part as f64 / whole as f64 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use edgewalk_machine::Machine;
+
+    /// Three edges and N channels go over the lanes in rounds: 60 clocks of edges, 90 of channels, in 200 cycles.
+    #[test]
+    fn lanes_at_work_depend_on_the_channels() {
+        let held = Held { setup: [60, 90], spans: 500, fragments: 900 };
+        let of = |lanes: u32, extra: u32| {
+            let mut machine = Machine { lanes, ..Machine::default() };
+            machine.set("channels.extra", &extra.to_string()).expect("a key");
+            let plan = machine.plan().expect("a machine");
+            assert_eq!(plan.channels().len() as u32, 4 + extra);
+            let found = Occupancy::of(&plan, 200, &held);
+            assert_eq!((found.spans, found.fragments), ((2.5, plan.span_fifo), (4.5, plan.inflight)));
+            assert_eq!(found.lanes.1, lanes);
+            found.lanes.0
+        };
+        // One lane has one edge or one channel.
+        assert_eq!([of(1, 0), of(1, 2)], [150.0 / 200.0; 2]);
+        // Two lanes: three edges in two rounds, four channels in two, five in three, six in three.
+        assert_eq!([of(2, 0), of(2, 2)], [(60.0 * 1.5 + 90.0 * 2.0) / 200.0; 2]);
+        assert_eq!(of(2, 1), (60.0 * 1.5 + 90.0 * 5.0 / 3.0) / 200.0);
+        // Four lanes: three edges in one round, four channels in one, six in two.
+        assert_eq!(of(4, 0), (60.0 * 3.0 + 90.0 * 4.0) / 200.0);
+        assert_eq!(of(4, 2), (60.0 * 3.0 + 90.0 * 3.0) / 200.0);
+        let idle = Occupancy::of(&Plan::default(), 0, &held);
+        assert_eq!((idle.spans.0, idle.fragments.0, idle.lanes.0), (0.0, 0.0, 0.0));
+    }
+}

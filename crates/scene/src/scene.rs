@@ -3,10 +3,11 @@
 use crate::camera::Camera;
 use crate::clip::{ClipVertex, Viewport, clip};
 use crate::error::{Fault, InputError};
-use crate::frame::{Frame, ShadeMode};
+use crate::frame::Frame;
 use crate::light::Light;
 use crate::mesh::{self, Mesh};
 use crate::normals::{NormalRule, corner_normals, face_normals};
+use crate::rules::ShadeMode;
 use crate::shading::{Lighting, Point, Specular};
 use crate::surface::{Surface, SurfaceTriangle};
 use edgewalk_nearest::nearest;

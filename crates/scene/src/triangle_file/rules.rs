@@ -1,8 +1,9 @@
 //! The lines `depth`, `depth_write`, `blend`, `colour_write`, `light` and `clear_depth`: the rules of the primitives behind them.
 
 use crate::error::InputError;
-use crate::frame::{DepthFunc, Frame, MAX_LIGHTS};
-use crate::pass::{Blending, Change, State};
+use crate::frame::{Frame, MAX_LIGHTS};
+use crate::rules::DepthFunc;
+use crate::rules::{Blending, Change, State};
 use crate::text::Place;
 
 /// `off` behind the eight functions.

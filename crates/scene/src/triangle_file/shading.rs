@@ -2,10 +2,11 @@
 //! `texture` what it is a part of.
 
 use crate::error::InputError;
-use crate::frame::{Frame, ShadeMode};
+use crate::frame::Frame;
 use crate::light::Light;
 use crate::mesh::Material;
 use crate::pixel_shading::{PixelMethod, PixelShading, PixelTriangle, Viewer, unit};
+use crate::rules::ShadeMode;
 use crate::shading::Specular;
 use crate::text::Place;
 use crate::texture::Image;

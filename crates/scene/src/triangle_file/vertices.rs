@@ -1,9 +1,10 @@
 //! The lines `T`, `P` and `H`: vertices, each of seven numbers.
 
-use crate::band::Host;
 use crate::error::InputError;
-use crate::frame::{DEPTH_ROUNDING, MAX_CONTOUR, MAX_COORDINATE, Triangle, Vertex};
+use crate::frame::{DEPTH_ROUNDING, MAX_CONTOUR, MAX_COORDINATE};
+use crate::host::Host;
 use crate::text::Place;
+use crate::vertex::{Triangle, Vertex};
 
 /// The numbers of a vertex, in the order of the file.
 const ATTRIBUTES: [&str; 7] = ["x", "y", "z", "r", "g", "b", "kt"];

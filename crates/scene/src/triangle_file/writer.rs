@@ -1,12 +1,13 @@
 //! Writes a triangle file; every number comes back bit for bit.
 
 use super::texture;
-use crate::frame::{Frame, Shadow, Triangle, Vertex};
+use crate::frame::{Frame, Shadow};
 use crate::light::Light;
 use crate::mesh::Material;
-use crate::pass::State;
 use crate::pixel_shading::{PixelShading, PixelTriangle, Viewer};
 use crate::polygon::Primitive;
+use crate::rules::State;
+use crate::vertex::{Triangle, Vertex};
 use std::io::{self, Write};
 use std::iter;
 

@@ -1,6 +1,6 @@
-//! Registers that are equal in every clock become one: those of a unit that begin alike and take the same values under the same
-//! conditions, as lanes side by side have them. All that could be equal is taken to be so, and told apart as long as it does
-//! not take the same: so registers that follow from each other are found too.
+//! Merges registers that are equal in every clock: those of a unit that begin alike and take the same values under the same conditions, as
+//! lanes side by side have them. All registers of a unit that begin alike are taken to be equal, and split where they do not take the
+//! same values. So registers that follow from each other are found too.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasher, BuildHasherDefault, DefaultHasher};
@@ -8,8 +8,8 @@ use std::hash::{BuildHasher, BuildHasherDefault, DefaultHasher};
 use crate::design::{Design, Memory, Read, Register, Write};
 use crate::graph::{Graph, Kind, ValueId};
 
-/// The same design with each of them only once.
-pub(crate) fn without_equals(design: Design) -> Design {
+/// The design with each of them only once.
+pub(crate) fn merge_registers(design: Design) -> Design {
     let equals = equals(&design);
     without(&design, &equals).unwrap_or(design)
 }

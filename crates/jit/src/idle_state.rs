@@ -1,25 +1,25 @@
-//! What bits are while nothing is to be done: after a reset, with inputs that all say no, or all yes, as a memory that is ready does. A
-//! condition that holds then, as "the place is free" does, says of what changes under it only that it may be another value; one
-//! that does not, as "a token enters", says that something is going on.
+//! What bits are in an idle machine: after a reset, with all inputs 0 or all inputs 1, since a memory that is ready gives 1. A condition that
+//! holds then, such as "the place is free", does not mean that what changes under it gets a new value. A condition that does not hold
+//! then, such as "a token enters", means that something is going on.
 
 use edgewalk_netlist::ops::{Bits, mask};
 
 use crate::design::Design;
 use crate::graph::{Kind, ValueId};
 
-/// Of each value, whether it is a bit that is 1 then.
+/// Of each value, whether it is a bit that is 1 in an idle machine.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Idle(Vec<bool>);
+pub(crate) struct IdleState(Vec<bool>);
 
-impl Idle {
-    /// Of all values of the design; what is not reset is taken as 0.
-    pub fn of(design: &Design) -> Idle {
+impl IdleState {
+    /// All values of the design; a register without reset counts as 0.
+    pub fn of(design: &Design) -> IdleState {
         let [no, yes] = [0, u128::MAX].map(|inputs| after_reset(design, inputs));
         let holds = |id: ValueId| design.graph.width(id) == 1 && (no[id.index()] | yes[id.index()]) == 1;
-        Idle(design.graph.ids().map(holds).collect())
+        IdleState(design.graph.ids().map(holds).collect())
     }
 
-    /// Whether this condition holds then.
+    /// Whether this condition holds in an idle machine.
     pub fn holds(&self, condition: ValueId) -> bool {
         self.0.get(condition.index()).copied().unwrap_or(false)
     }

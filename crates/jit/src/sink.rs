@@ -1,6 +1,6 @@
-//! What a value alone needs within a step: all that nothing else there reads. An arm of a choice that needs much is computed only
-//! where the choice takes it, and so is an operand of an `And` if the other one is 1. What other steps need of it too they work
-//! out for themselves.
+//! Values sink into the arm of a choice that alone needs them. An arm that needs much is computed only where the choice takes it. So is an
+//! operand of an `And` if the other operand is 1. A step sinks a value if nothing else in that step reads it; other steps that
+//! need the value compute it for themselves.
 
 use std::collections::BTreeMap;
 
@@ -46,15 +46,15 @@ impl Choice {
 }
 
 /// What each value alone needs in the step that was looked at last.
-pub(crate) struct Alone {
+pub(crate) struct Sink {
     trees: Vec<Tree>,
     /// Those that the step needs.
     needed: Vec<ValueId>,
 }
 
-impl Alone {
-    pub fn new(graph: &Graph) -> Alone {
-        Alone { trees: vec![Tree::default(); graph.len()], needed: Vec::new() }
+impl Sink {
+    pub fn new(graph: &Graph) -> Sink {
+        Sink { trees: vec![Tree::default(); graph.len()], needed: Vec::new() }
     }
 
     /// Looks at a step that asks for these values, where some values are there already.

@@ -13,7 +13,7 @@ const W: u32 = 9;
 const C: u32 = 6;
 
 pub fn module(random: &mut Pcg64Mcg) -> Arc<Netlist> {
-    let m = Module::new("apart", "");
+    let m = Module::new("free_running", "");
     let (go, load, data) = (m.input("go", 1), m.input("load", 1), m.input("data", W));
     let mut before = data;
     for i in 0..2 {

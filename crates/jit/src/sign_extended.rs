@@ -1,5 +1,5 @@
-//! Registers that are kept with copies of their sign above their bits, not with zeros: those that are read more often so. A sum
-//! of such registers has its sign where it belongs as it is, and needs no mask to be stored.
+//! Registers that are kept sign-extended, with copies of their sign above their bits instead of zeros: those that are read more often so.
+//! A sum of such registers has its sign where it belongs, and needs no mask to be stored.
 
 use edgewalk_netlist::Op;
 

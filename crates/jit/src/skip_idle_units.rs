@@ -1,133 +1,33 @@
-//! Units that stand still. What is computed of nothing but what is as it was comes out as it was; so the steps of a unit can be
-//! left out when nothing that they read has changed for some clocks.
+//! Units in which nothing can change are left out. What is computed from unchanged values comes out as it was. So the steps of a unit
+//! can be left out when nothing that they read has changed for some clocks.
 //!
-//! Some registers of a unit, its **seeds**, are watched, such that the others do not feed themselves: nothing leads from one of
-//! them to itself but through a seed. When seeds, inputs, memories and what the unit reads of others have not changed for a
-//! clock, then in the next clock those others stay that follow from them alone, a clock later those that follow from these,
-//! and after as many clocks as the longest way has registers all of them.
+//! Some registers of a unit, its **seeds**, are watched. They are chosen such that the others do not feed themselves: no way leads
+//! from one of the others back to itself except through a seed. When seeds, inputs, memories and what the unit reads from other units
+//! have not changed for a clock, the registers that follow from them alone do not change in the next clock. A clock later those stay
+//! that follow from these, and after as many clocks as the longest way has registers all of them stay.
 //!
-//! The state has a counter for each unit, the clocks for which it is to work on. Whoever changes something that is watched sets
-//! the counter: registers under a condition count as changed where it holds. Seeds that are stored in every clock, or while nothing
-//! is to be done (`idle`), are **compared**: with a copy of what they were, all of the unit at once, and only when no other change
-//! has set the counter for some clocks, which is seldom while the unit has work; those of other units where they are stored. A bit
-//! that follows from other units alone, as a `ready` does, is a **gate**: it is worked out in every clock and watched in place of
-//! the registers behind it, which change more often. A runner (`apart`) is watched only while its mask is 1.
+//! The state has a counter for each unit: the clocks for which the unit is to work on. A change of a watched value sets the counter.
+//! Registers under a condition count as changed where the condition holds. Seeds that are stored in every clock, or in an idle machine
+//! (`idle_state`), are **compared** with a copy of their values. Seeds of the unit itself are compared all at once, and only when no
+//! other change has set the counter for some clocks; while the unit has work, that is rare. Seeds of other units are compared where
+//! they are stored. A bit that follows from other units alone, such as a `ready`, is a **gate**: it is computed in every clock and
+//! watched in place of the registers behind it, which change more often. A free-running register (`free_running`) is watched only
+//! while its mask is 1.
 
 use std::collections::HashMap;
 
 use crate::design::{Design, Runner};
-use crate::effect::{Set, unite};
+use crate::effect::{Set, contains, insert, members, unite};
 use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
 use crate::guard::{Literal, Needs};
-use crate::idle::Idle;
+use crate::idle_state::IdleState;
 use crate::order::Readers;
 use crate::step::Step;
-
-/// Units with a counter, a bit each in a set of units; those beyond them never stand still.
-pub(crate) const MOST: usize = 64;
+use crate::wakes::{MOST, UNASKED, Wakes};
 
 /// Clocks on the way to a seed at most; a unit of longer ways never stands still.
 const LONGEST: usize = 100;
-
-/// Clocks after a change for which a unit's own seeds are not compared: most often the next change comes within them.
-const UNASKED: u8 = 4;
-
-/// Who has to know of a change, and for how long.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Wakes {
-    /// The units that have to know that a register or an input has changed.
-    stored: HashMap<ValueId, u64>,
-    /// Of each runner its mask, and the unit that has to know of it while the mask is 1.
-    masks: HashMap<ValueId, (ValueId, u64)>,
-    /// Of each unit, the clocks that it works on after a change; 0 for one that never stands still.
-    pub clocks: Vec<u8>,
-    /// The units that can.
-    resting: u64,
-    /// Of each unit.
-    gates: Vec<Vec<ValueId>>,
-    /// Of each unit, its own seeds that are compared.
-    compared: Vec<Vec<ValueId>>,
-    idle: Idle,
-}
-
-impl Wakes {
-    /// The units that have to know that this register or input has changed.
-    pub fn of(&self, stored: ValueId) -> u64 {
-        self.stored.get(&stored).copied().unwrap_or(0)
-    }
-
-    /// The mask of a runner, and the unit that works on while it is 1.
-    pub fn mask(&self, runner: ValueId) -> Option<(ValueId, u64)> {
-        self.masks.get(&runner).copied()
-    }
-
-    /// Whether the unit can stand still.
-    pub fn rests(&self, unit: usize) -> bool {
-        self.clocks.get(unit).is_some_and(|clocks| *clocks > 0)
-    }
-
-    /// The gates of a unit.
-    pub fn gates(&self, unit: usize) -> &[ValueId] {
-        self.gates.get(unit).map_or(&[], Vec::as_slice)
-    }
-
-    /// The gates of all units.
-    pub fn all_gates(&self) -> Vec<ValueId> {
-        self.gates.concat()
-    }
-
-    /// The seeds of a unit that are compared with what they were.
-    pub fn compared(&self, unit: usize) -> &[ValueId] {
-        self.compared.get(unit).map_or(&[], Vec::as_slice)
-    }
-
-    /// The largest counter with which they are: all that follow are clocks without any other change. In the first of them there
-    /// is no clock before to compare with.
-    pub fn asked_from(&self, unit: usize) -> u8 {
-        self.clocks[unit] - UNASKED
-    }
-
-    /// Whether the condition holds while nothing is to be done. What changes under it, and within no other one, is compared with
-    /// what it was; else it counts as changed.
-    pub fn is_idle(&self, condition: ValueId) -> bool {
-        self.idle.holds(condition)
-    }
-
-    /// The registers of these steps that change while nothing is to be done have to be compared.
-    fn compare(&mut self, design: &Design, steps: &[Step]) {
-        for step in steps {
-            match step {
-                Step::Change(group) if group.conditions.iter().any(|when| self.is_idle(*when)) => {
-                    let qs = group.members.iter().map(|member| member.q(design));
-                    let seeds: Vec<ValueId> =
-                        qs.filter(|q| self.of(*q) & self.own(group.unit) != 0).collect();
-                    self.compared[group.unit].extend(seeds);
-                }
-                Step::Change(_) | Step::Write(_) | Step::Early(_) => {}
-                Step::If { bit, .. } if !self.is_idle(*bit) => {}
-                Step::Unit { then, .. } | Step::If { then, .. } => self.compare(design, then),
-            }
-        }
-    }
-
-    /// The set of a unit alone; none if it never stands still.
-    pub fn own(&self, unit: usize) -> u64 {
-        self.resting & 1u64.checked_shl(unit as u32).unwrap_or(0)
-    }
-
-    /// The units of a set that can stand still, with their clocks.
-    pub fn units(&self, set: u64) -> impl Iterator<Item = (usize, u8)> {
-        let mut left = set & self.resting;
-        std::iter::from_fn(move || {
-            let unit = left.trailing_zeros() as usize;
-            (left != 0).then(|| {
-                left &= left - 1;
-                (unit, self.clocks[unit])
-            })
-        })
-    }
-}
 
 /// A register or a read port.
 struct Node {
@@ -141,14 +41,14 @@ struct Node {
     rarity: usize,
 }
 
-/// Who has to know of which change.
-pub(crate) fn wakes(design: &Design, readers: &Readers, groups: &[Group], steps: &[Step]) -> Wakes {
+/// Which unit is woken by which change. The steps of the units get their gates.
+pub(crate) fn wakes(design: &Design, readers: &Readers, groups: &[Group], steps: &mut [Step]) -> Wakes {
     let nodes = nodes(design, readers, groups);
     let units = nodes.iter().map(|node| node.unit + 1).max().unwrap_or(0);
     let none = vec![Vec::new(); units];
     let (stored, clocks) = (HashMap::new(), vec![0; units]);
     let masks = HashMap::new();
-    let idle = Idle::of(design);
+    let idle = IdleState::of(design);
     let mut wakes = Wakes { stored, masks, clocks, resting: 0, gates: none.clone(), compared: none, idle };
     let mut watched: Vec<(Set, usize)> = Vec::new();
     for unit in 0..units.min(MOST) {
@@ -175,12 +75,33 @@ pub(crate) fn wakes(design: &Design, readers: &Readers, groups: &[Group], steps:
         let units = watched.iter().filter(|(reads, _)| contains(reads, number));
         wakes.stored.insert(id, units.fold(0, |all, (_, unit)| all | 1 << unit));
     }
-    wakes.compare(design, steps);
+    compare(&mut wakes, design, steps);
     let Wakes { clocks, compared, .. } = &mut wakes;
     let none_asked =
         clocks.iter_mut().zip(compared).filter(|(clocks, seeds)| **clocks > 0 && seeds.is_empty());
     none_asked.for_each(|(clocks, _)| *clocks -= UNASKED);
+    for step in steps {
+        if let Step::Unit { unit, gates, .. } = step {
+            *gates = wakes.gates(*unit).to_vec();
+        }
+    }
     wakes
+}
+
+/// The registers of these steps that change in an idle machine have to be compared.
+fn compare(wakes: &mut Wakes, design: &Design, steps: &[Step]) {
+    for step in steps {
+        match step {
+            Step::Change(group) if group.conditions.iter().any(|when| wakes.is_idle(*when)) => {
+                let qs = group.members.iter().map(|member| member.q(design));
+                let seeds: Vec<ValueId> = qs.filter(|q| wakes.of(*q) & wakes.own(group.unit) != 0).collect();
+                wakes.compared[group.unit].extend(seeds);
+            }
+            Step::Change(_) | Step::Write(_) | Step::Early(_) => {}
+            Step::If { bit, .. } if !wakes.is_idle(*bit) => {}
+            Step::Unit { then, .. } | Step::If { then, .. } => compare(wakes, design, then),
+        }
+    }
 }
 
 fn nodes(design: &Design, readers: &Readers, groups: &[Group]) -> Vec<Node> {
@@ -333,19 +254,4 @@ fn reads_of_unit(
         }
     }
     (reads, gates)
-}
-
-fn members<'s>(a: &'s Set, b: &'s Set) -> impl Iterator<Item = usize> + 's {
-    let both = a.iter().zip(b).map(|(a, b)| a & b).enumerate();
-    both.flat_map(|(word, bits)| {
-        (0..64).filter(move |bit| bits >> bit & 1 == 1).map(move |bit| word * 64 + bit)
-    })
-}
-
-fn contains(set: &Set, number: usize) -> bool {
-    set[number / 64] >> (number % 64) & 1 == 1
-}
-
-fn insert(set: &mut Set, number: usize) {
-    set[number / 64] |= 1 << (number % 64);
 }

@@ -1,12 +1,12 @@
 //! Registers that get a unit of their own, so that a unit can stand still without them, or they without it.
 //!
-//! A **runner** is a counter that nothing holds: what it takes when nothing else is asked for follows from itself alone. It would
-//! keep its unit awake for ever, though most of the time nobody sees it: there is a bit, its **mask**, such that nothing else in
-//! the unit follows from the runner while the bit is 0. All runners are one unit, which always works; their own is woken by them
-//! only while the mask is 1.
+//! A **free-running** register, or runner, is a counter that nothing holds: the value that it takes when nothing else is asked for follows
+//! from itself alone. It would keep its unit awake in every clock, though most of the time the unit does not see it. For there is a bit, its
+//! **mask**, such that nothing else in the unit follows from the runner while the mask is 0. All runners are one unit, which always
+//! works. They wake their own unit only while the mask is 1.
 //!
-//! **Calm** registers are stored in every clock too, but follow from nothing except each other and registers of the unit that are
-//! only loaded now and then: such as differences of corners that stay while a triangle is set up.
+//! **Calm** registers are stored in every clock too. But they follow only from each other and from registers of the unit that are loaded now
+//! and then, such as differences of corners that stay while a triangle is set up.
 
 use std::collections::BTreeSet;
 
@@ -20,8 +20,8 @@ use crate::order::Readers;
 /// So many operators must rest with calm registers: a unit has to be woken, counted and asked for.
 const LEAST: usize = 16;
 
-/// The same design with them in units of their own.
-pub(crate) fn apart(mut design: Design) -> Design {
+/// The design with them in units of their own.
+pub(crate) fn free_running(mut design: Design) -> Design {
     let readers = Readers::of(&design, &[]);
     let nodes: Vec<Node> =
         design.registers.iter().map(|register| Node::of(&design, &readers, register)).collect();
