@@ -99,7 +99,7 @@ fn interpreted(
 ) -> Result<Drawn> {
     let drawn =
         edgewalk_lockstep::render_rtl_passes(machine, triangles, passes, maps, StallKind::None, words);
-    drawn.map_err(|e| anyhow!("{e}"))
+    Ok(drawn?)
 }
 
 /// The netlist's frame, by native code.
@@ -112,7 +112,7 @@ fn native(
     let mut device = native::Native::new(&machine.tagged())?;
     let drawn =
         edgewalk_lockstep::render_on(&mut device, machine, triangles, passes, maps, StallKind::None, words);
-    drawn.map_err(|e| anyhow!("{e}"))
+    Ok(drawn?)
 }
 
 #[cfg(not(feature = "jit"))]

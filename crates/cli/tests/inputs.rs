@@ -23,8 +23,12 @@ const SHADED: &str = "size 64 48\nmode phong\nextra 1\nview 0 0 1\nsun 0.3 0.3 1
 
 /// Runs a command with a text on its standard input.
 fn with_input(folder: &Path, arguments: &[&str], text: &str) -> (Option<i32>, String) {
-    let mut child =
-        edgewalk(folder, arguments).stdin(Stdio::piped()).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+    let mut child = edgewalk(folder, arguments)
+        .stdin(Stdio::piped())
+        .stderr(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
     // A command that refuses its arguments reads nothing.
     _ = child.stdin.take().unwrap().write_all(text.as_bytes());
     ended(&child.wait_with_output().unwrap())
@@ -120,7 +124,13 @@ fn needs_of_a_file_are_named_at_once() {
         (
             "shaded.tri",
             SHADED,
-            &["channels.extra=1", "shade.kind=phong", "shade.lights=2", "texture.kind=nearest", "shade.colour=multiply"],
+            &[
+                "channels.extra=1",
+                "shade.kind=phong",
+                "shade.lights=2",
+                "texture.kind=nearest",
+                "shade.colour=multiply",
+            ],
         ),
     ] {
         std::fs::write(folder.join(name), text).unwrap();
@@ -136,7 +146,11 @@ fn needs_of_a_file_are_named_at_once() {
         ];
         for command in commands {
             let (code, error) = run(folder, command);
-            assert_eq!((code, settings(&error)), (Some(2), wanted.iter().map(|w| w.to_string()).collect()), "{command:?}: {error}");
+            assert_eq!(
+                (code, settings(&error)),
+                (Some(2), wanted.iter().map(|w| w.to_string()).collect()),
+                "{command:?}: {error}"
+            );
             assert!(error.contains("or --adapt"), "{error}");
             let set: Vec<&str> = wanted.iter().flat_map(|setting| ["--set", setting]).collect();
             // A picture of a perspective light or of shaded pixels is no subject of `size` and `explain` alone.
@@ -146,13 +160,17 @@ fn needs_of_a_file_are_named_at_once() {
                 checked += 1;
             }
         }
-        let arrays: Vec<_> = [&["--adapt"][..], &[&wanted.iter().flat_map(|w| ["--set", w]).collect::<Vec<_>>()[..]].concat()]
-            .iter()
-            .map(|with| {
-                assert_eq!(run(folder, &[&["raster", name, "-q", "--out", "o"], *with].concat()).0, Some(0));
-                npy(&folder.join("o/rgb.npy"))
-            })
-            .collect();
+        let arrays: Vec<_> =
+            [&["--adapt"][..], &[&wanted.iter().flat_map(|w| ["--set", w]).collect::<Vec<_>>()[..]].concat()]
+                .iter()
+                .map(|with| {
+                    assert_eq!(
+                        run(folder, &[&["raster", name, "-q", "--out", "o"], *with].concat()).0,
+                        Some(0)
+                    );
+                    npy(&folder.join("o/rgb.npy"))
+                })
+                .collect();
         assert_eq!(arrays[0], arrays[1], "{name}");
     }
     println!("{checked} / 48 runs with what was asked for");
@@ -208,9 +226,12 @@ fn triangles_of_a_mesh_draw_its_picture() {
     let folder = folder.path();
     std::fs::write(folder.join("a.obj"), MESH).unwrap();
     std::fs::write(folder.join("a.mtl"), "newmtl a\nKd 0.9 0.5 0.1\nd 0.5\n").unwrap();
-    let machine = ["-q", "--set", "screen.width=61", "--set", "screen.height=47", "--set", "blend.kind=interpolated"];
+    let machine =
+        ["-q", "--set", "screen.width=61", "--set", "screen.height=47", "--set", "blend.kind=interpolated"];
     let mut checked = 0;
-    for (input, shading) in [("a.obj", "gouraud"), ("a.obj", "constant"), ("sphere", "gouraud"), ("room", "gouraud")] {
+    for (input, shading) in
+        [("a.obj", "gouraud"), ("a.obj", "constant"), ("sphere", "gouraud"), ("room", "gouraud")]
+    {
         let of = |command: &[&str]| {
             let all = [command, &machine].concat();
             assert_eq!(run(folder, &all), (Some(0), String::new()), "{all:?}");
@@ -223,7 +244,10 @@ fn triangles_of_a_mesh_draw_its_picture() {
         assert!(picture("mesh") == picture("file"), "{input} {shading}");
         let colors = |out: &str| crate::support::colors(&folder.join(out).join("image.png"));
         assert!(colors("mesh") == colors("raster"), "{input} {shading}");
-        let output = edgewalk(folder, &["triangles", input, "--shading", shading, "--out", "-"]).args(machine).output().unwrap();
+        let output = edgewalk(folder, &["triangles", input, "--shading", shading, "--out", "-"])
+            .args(machine)
+            .output()
+            .unwrap();
         assert!(output.status.success() && output.stdout == std::fs::read(folder.join("to/a.tri")).unwrap());
         checked += 3;
     }
@@ -236,14 +260,23 @@ fn messages_name_values_in_their_order() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     for (text, expected) in [
-        ("size 8 8\nT 1 1 0 255 0 0\n", "a.tri:2: T: `6 given`: permitted: 21 values, x y z r g b kt of vertex 1, then of 2, then of 3"),
+        (
+            "size 8 8\nT 1 1 0 255 0 0\n",
+            "a.tri:2: T: `6 given`: permitted: 21 values, x y z r g b kt of vertex 1, then of 2, then of 3",
+        ),
         (
             "size 8 8\nT 1 1 0 255 0 0 0  7 1 0 0 0 0 0  1 7 0 0 0 0 0\n",
             "a.tri:2: T vertex 1 r: `255`: permitted: a number from 0 to 1; colours are 0 to 1, so divide those of 0 to 255 by 255",
         ),
-        ("size 8 8\nclear 0 128 0\n", "a.tri:2: clear g: `128`: permitted: a number from 0 to 1; colours are 0 to 1"),
+        (
+            "size 8 8\nclear 0 128 0\n",
+            "a.tri:2: clear g: `128`: permitted: a number from 0 to 1; colours are 0 to 1",
+        ),
         ("size 8\n", "a.tri:1: size: `1 given`: permitted: 2 values, W H"),
-        ("size 8 8\nshadow 8\n", "a.tri:2: shadow: `1 given`: permitted: 19 values, SIZE BIAS AMBIENT, then m00 to m33 row by row"),
+        (
+            "size 8 8\nshadow 8\n",
+            "a.tri:2: shadow: `1 given`: permitted: 19 values, SIZE BIAS AMBIENT, then m00 to m33 row by row",
+        ),
     ] {
         std::fs::write(folder.join("a.tri"), text).unwrap();
         let (code, error) = run(folder, &["raster", "a.tri", "--out", "o"]);
@@ -251,10 +284,15 @@ fn messages_name_values_in_their_order() {
     }
     let negative = "size 8 8\nT 1 1 0 -1 0 0 0  7 1 0 0 0 0 0  1 7 0 0 0 0 0\n";
     std::fs::write(folder.join("a.tri"), negative).unwrap();
-    assert!(!run(folder, &["raster", "a.tri", "--out", "o"]).1.contains("divide"), "a negative colour is no byte");
+    assert!(
+        !run(folder, &["raster", "a.tri", "--out", "o"]).1.contains("divide"),
+        "a negative colour is no byte"
+    );
     std::fs::write(folder.join("notes.md"), "notes").unwrap();
     let (code, error) = run(folder, &["render", "notes.md"]);
-    for part in ["notes.md: kind of input: `md`", "built-in scene (sphere", ".tri", ".toml", ".obj", ".gltf", ".glb"] {
+    for part in
+        ["notes.md: kind of input: `md`", "built-in scene (sphere", ".tri", ".toml", ".obj", ".gltf", ".glb"]
+    {
         assert!(code == Some(2) && error.contains(part), "{error} lacks {part}");
     }
 }
@@ -266,14 +304,20 @@ fn unstored_colours_are_not_lit() {
     let folder = folder.path();
     let t = "T 0 0 0.5 1 1 1 0  8 0 0.5 1 1 1 0  0 8 0.5 1 1 1 0\n";
     let half = "T 0 0 0.25 1 1 1 0  4 0 0.25 1 1 1 0  0 4 0.25 1 1 1 0\n";
-    let text = format!("size 4 4\nshadow 4 0 0  1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\ncolour_write 0\n{t}colour_write 1\n{half}");
+    let text = format!(
+        "size 4 4\nshadow 4 0 0  1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\ncolour_write 0\n{t}colour_write 1\n{half}"
+    );
     std::fs::write(folder.join("a.tri"), text).unwrap();
     let mut found = Vec::new();
     for engine in ["golden", "fast", "model", "rtl"] {
-        let (code, error) = run(folder, &["raster", "a.tri", "--engine", engine, "--adapt", "-q", "--out", engine]);
+        let (code, error) =
+            run(folder, &["raster", "a.tri", "--engine", engine, "--adapt", "-q", "--out", engine]);
         assert_eq!((code, error.as_str()), (Some(0), ""), "{engine}");
         let z = npy(&folder.join(engine).join("z.npy")).2;
-        assert!(z.chunks_exact(8).all(|z| f64::from_le_bytes(z.try_into().unwrap()) < 1.0), "every pixel has a depth");
+        assert!(
+            z.chunks_exact(8).all(|z| f64::from_le_bytes(z.try_into().unwrap()) < 1.0),
+            "every pixel has a depth"
+        );
         found.push(npy(&folder.join(engine).join("lit.npy")).2);
     }
     let expected = [2, 2, 2, 0, 2, 2, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0];
@@ -296,7 +340,10 @@ fn shaded_triangles_beyond_the_band_are_refused() {
             let (code, error) = run(folder, &[&["raster", "a.tri", "--engine", engine], &band[..]].concat());
             match engine {
                 "golden" => assert_eq!((code, error.as_str()), (Some(0), ""), "{mode}"),
-                _ => assert!(code == Some(2) && error.contains("triangle 0, vertex 1"), "{mode} {engine}: {error}"),
+                _ => assert!(
+                    code == Some(2) && error.contains("triangle 0, vertex 1"),
+                    "{mode} {engine}: {error}"
+                ),
             }
         }
     }

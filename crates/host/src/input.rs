@@ -1,7 +1,7 @@
 //! What is to be drawn on one machine after another: read once, made into a frame for each screen.
 
 use crate::extra;
-use crate::needs;
+use crate::needs::{self, Need};
 use crate::port::{guard_band, sent};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::Shading;
@@ -14,6 +14,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// A scene, a mesh, or a file of screen-space triangles.
+#[derive(Clone)]
 pub struct Input {
     name: String,
     what: What,
@@ -28,6 +29,7 @@ pub enum Shaded {
     Pixels(PixelMethod),
 }
 
+#[derive(Clone)]
 enum What {
     Scene(Arc<Scene>, Shaded),
     Triangles(Arc<Frame>),
@@ -47,24 +49,21 @@ impl Input {
         Ok(Input { name: name.to_owned(), what })
     }
 
-    /// The same input, its scene shaded so; a triangle file says itself how it is shaded.
+    /// The same input with the colours of a scene made so; a triangle file says itself how it is shaded.
     #[must_use]
     pub fn shaded(&self, shading: Shaded) -> Input {
-        let what = match &self.what {
-            What::Scene(scene, _) => What::Scene(scene.clone(), shading),
-            What::Triangles(frame) => What::Triangles(frame.clone()),
-        };
-        Input { name: self.name.clone(), what }
+        match &self.what {
+            What::Scene(scene, _) => Input { what: What::Scene(scene.clone(), shading), ..self.clone() },
+            What::Triangles(_) => self.clone(),
+        }
     }
 
-    /// The frame that says what the input asks of the machine.
-    ///
-    /// # Errors
-    /// As [`Input::frame`], of a scene.
-    pub fn frame_for(&self, machine: &Plan) -> Result<Frame> {
+    /// Every key of the machine that the input asks another value for.
+    #[must_use]
+    pub fn needs(&self, machine: &Plan) -> Vec<Need> {
         match &self.what {
-            What::Triangles(frame) => Ok(Frame::clone(frame)),
-            What::Scene(..) => self.frame(machine),
+            What::Scene(scene, shading) => needs::needs(&on_screen(scene, *shading, machine), machine),
+            What::Triangles(frame) => needs::needs(frame, machine),
         }
     }
 
@@ -114,11 +113,7 @@ impl Input {
             What::Triangles(frame) => fitting(&self.name, Frame::clone(frame), machine)?,
             What::Scene(scene, shading) => {
                 extra::none(machine).with_context(|| self.name.clone())?;
-                let surface = scene.surface(machine.width, machine.height, guard_band(machine));
-                let frame = match *shading {
-                    Shaded::Corners(system) => edgewalk_golden::frame(scene, &surface, system),
-                    Shaded::Pixels(method) => scene.pixel_frame(&surface, method),
-                };
+                let frame = on_screen(scene, *shading, machine);
                 if frame.blend == Blending::Off {
                     frame
                 } else {
@@ -129,6 +124,15 @@ impl Input {
             }
         };
         in_triangles(frame, machine)
+    }
+}
+
+/// The scene on the machine's screen, clipped to its guard band.
+fn on_screen(scene: &Scene, shading: Shaded, machine: &Plan) -> Frame {
+    let surface = scene.surface(machine.width, machine.height, guard_band(machine));
+    match shading {
+        Shaded::Corners(system) => edgewalk_golden::frame(scene, &surface, system),
+        Shaded::Pixels(method) => scene.pixel_frame(&surface, method),
     }
 }
 

@@ -156,17 +156,12 @@ pub fn mapper(machine: &Plan) -> Result<Plan> {
     };
     // What the machine draws itself needs the formats only.
     let segments = if machine.shadow.draws_map() { 1 } else { machine.segments };
-    let own = Machine {
-        width: machine.shadow.size,
-        height: machine.shadow.size,
-        z,
-        extra: 0,
-        adders: 1,
-        segments,
-        tag_bits: 0,
-        ..(**machine).clone()
-    };
-    Ok(Machine { shadow: plain.shadow, blend, ..own }.plan()?)
+    let mapper = machine.with(|keys| {
+        (keys.width, keys.height) = (machine.shadow.size, machine.shadow.size);
+        (keys.z, keys.blend, keys.shadow) = (z, blend, plain.shadow);
+        (keys.extra, keys.adders, keys.segments, keys.tag_bits) = (0, 1, segments, 0);
+    });
+    Ok(mapper.plan()?)
 }
 
 /// The light's own passes as a frame: what hides the light, then, in a machine whose map has shares, the panes, of which each leaves k_t of

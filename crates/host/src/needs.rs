@@ -56,10 +56,19 @@ pub fn check(frame: &Frame, machine: &Plan) -> Result<()> {
         return Ok(());
     }
     let whys: Vec<&str> = needs.iter().map(|need| need.why.as_str()).filter(|why| !why.is_empty()).collect();
-    let settings: Vec<String> = needs.iter().map(|need| format!("--set {}={}", need.key, need.value)).collect();
+    let settings: Vec<String> =
+        needs.iter().map(|need| format!("--set {}={}", need.key, need.value)).collect();
     // Golden has the channels of the machine, too.
-    let golden = if needs.iter().any(|need| need.key != "channels.extra") { ", or draw with --engine golden" } else { "" };
-    Err(anyhow!("{}; add {}, or --adapt, which sets what is asked for{golden}", whys.join("; "), settings.join(" ")))
+    let golden = if needs.iter().any(|need| need.key != "channels.extra") {
+        ", or draw with --engine golden"
+    } else {
+        ""
+    };
+    Err(anyhow!(
+        "{}; add {}, or --adapt, which sets what is asked for{golden}",
+        whys.join("; "),
+        settings.join(" ")
+    ))
 }
 
 /// BLEND, and one k_t for a triangle or more.
@@ -68,20 +77,29 @@ fn blending(frame: &Frame, machine: &Plan, needs: &mut Vec<Need>) {
     let why = passes.iter().find_map(|pass| match pass.state.blend {
         Blending::Off if pass.state.color_write => None,
         Blending::Off => Some(
-            "colour_write 0: a machine without BLEND writes the colour of every fragment that passes".to_owned(),
+            "colour_write 0: a machine without BLEND writes the colour of every fragment that passes"
+                .to_owned(),
         ),
         blend => Some(format!("blend {} (transparent surfaces): the machine has no BLEND", blend.name())),
     });
     let Some(why) = why else { return };
-    let in_mix = |place: usize| passes.iter().any(|pass| pass.state.blend == Blending::Mix && pass.primitives.contains(&place));
+    let in_mix = |place: usize| {
+        passes.iter().any(|pass| pass.state.blend == Blending::Mix && pass.primitives.contains(&place))
+    };
     let uneven = |Triangle(v): &Triangle| v[1].kt != v[0].kt || v[2].kt != v[0].kt;
     // Beside polygons a triangle's place among the primitives is another one; their triangles have the polygon's k_t.
     let polygons = !frame.polygons.is_empty();
     let uneven = frame.mode == ShadeMode::Gouraud
-        && (frame.triangles.iter().enumerate().any(|(place, triangle)| (polygons || in_mix(place)) && uneven(triangle))
-            || frame.polygons.iter().flat_map(|polygon| polygon.contours.iter().flatten()).any(|v| {
-                v.kt != frame.polygons[0].contours[0][0].kt
-            }));
+        && (frame
+            .triangles
+            .iter()
+            .enumerate()
+            .any(|(place, triangle)| (polygons || in_mix(place)) && uneven(triangle))
+            || frame
+                .polygons
+                .iter()
+                .flat_map(|polygon| polygon.contours.iter().flatten())
+                .any(|v| v.kt != frame.polygons[0].contours[0][0].kt));
     if !machine.blend.is_there() {
         needs.push(need("blend.kind", if uneven { "interpolated" } else { "constant" }, why));
     } else if uneven && machine.has_triangle_kt() {
@@ -97,7 +115,9 @@ fn shadows(first: &Shadow, all: &[Shadow], machine: &Plan, needs: &mut Vec<Need>
     let own = &machine.shadow;
     let light = if perspective.is_some() { "perspective" } else { "parallel" };
     match perspective {
-        _ if !own.is_there() => needs.push(need("shadow.light", light, "shadow: the machine has no SHADOW".to_owned())),
+        _ if !own.is_there() => {
+            needs.push(need("shadow.light", light, "shadow: the machine has no SHADOW".to_owned()))
+        }
         Some(Shadow { matrix: [.., [q0, q1, q2, q3]], .. }) if !own.projects() => {
             let why = format!(
                 "shadow: m30 m31 m32 m33 = {q0} {q1} {q2} {q3}: the machine's light is parallel, which has 0 0 0 and more than 0"
@@ -107,7 +127,9 @@ fn shadows(first: &Shadow, all: &[Shadow], machine: &Plan, needs: &mut Vec<Need>
         _ => {}
     }
     let size = first.size;
-    if size != own.size && KEYS.iter().any(|key| key.name == "shadow.size" && key.parse(&size.to_string()).is_some()) {
+    if size != own.size
+        && KEYS.iter().any(|key| key.name == "shadow.size" && key.parse(&size.to_string()).is_some())
+    {
         let why = format!("shadow {size}: the machine's map has {0} x {0} texels", own.size);
         needs.push(need("shadow.size", size, why));
     }
@@ -138,7 +160,8 @@ fn shaded(frame: &Frame, shading: &PixelShading, machine: &Plan, needs: &mut Vec
         needs.push(need("shade.light", "directional", why.to_owned()));
     }
     let (given, most) = (shading.lights.len(), own.lights as usize);
-    let permitted = KEYS.iter().any(|key| key.name == "shade.lights" && key.parse(&given.to_string()).is_some());
+    let permitted =
+        KEYS.iter().any(|key| key.name == "shade.lights" && key.parse(&given.to_string()).is_some());
     if given > most && permitted && (sun || !own.is_positional()) {
         let why = format!("{given} lights: the machine has terms for {most}");
         needs.push(need("shade.lights", given, why));
@@ -148,14 +171,19 @@ fn shaded(frame: &Frame, shading: &PixelShading, machine: &Plan, needs: &mut Vec
         needs.push(need("texture.kind", "nearest", "texture: the machine has no TEXEL".to_owned()));
     }
     let color = |v: &edgewalk_scene::Vertex| [v.r, v.g, v.b];
-    let uneven = frame.triangles.iter().position(|Triangle(v)| color(&v[1]) != color(&v[0]) || color(&v[2]) != color(&v[0]));
+    let uneven = frame
+        .triangles
+        .iter()
+        .position(|Triangle(v)| color(&v[1]) != color(&v[0]) || color(&v[2]) != color(&v[0]));
     let uneven = uneven.filter(|_| frame.mode == ShadeMode::Gouraud);
     if own.colour == ShadeColour::Tables
         && let Some(why) = match uneven {
             Some(triangle) => Some(format!(
                 "triangle {triangle}: its colour is not the same at all vertices, and the machine's tables hold one"
             )),
-            None if textured => Some("texture: the machine's tables hold the colour that a texel multiplies".to_owned()),
+            None if textured => {
+                Some("texture: the machine's tables hold the colour that a texel multiplies".to_owned())
+            }
             None => None,
         }
     {

@@ -52,7 +52,8 @@ pub fn beside(
         let (golden, mut found) = (draw::golden(frame, machine), None);
         draw(machine.height, &mut |drawn| {
             let c = compare_shaded(machine, frame, &golden, &drawn, proved.reach, proved.shading);
-            see(&Beside { golden: &golden, drawn: &drawn, z_error: &c.z_map, color_error: &c.color_map })?;
+            let [z_error, color_error] = [&c.errors.z.map, &c.errors.color.map];
+            see(&Beside { golden: &golden, drawn: &drawn, z_error, color_error })?;
             found = Some(c.without_maps());
             Ok(())
         })?;

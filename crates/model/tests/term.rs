@@ -126,7 +126,7 @@ fn walk_counts_lines_down_from_its_reference() {
             let mut rig = rig(&plan, &shading, Stalls::NONE);
             let offered = triangles.iter().map(|triangle| Ok::<_, std::convert::Infallible>(*triangle));
             let Ok(()) = rig.draw(offered, |_, model, _| {
-                let pixel = model.units().pixel;
+                let pixel = &model.pixel;
                 if pixel.active() {
                     let (x, y) = pixel.place();
                     let n = (lines - below) % lines + (y - first);
@@ -151,7 +151,7 @@ fn first_line(plan: &Plan, triangles: &[Triangle], shading: &Shading) -> u32 {
     let (mut rig, mut first) = (rig(plan, shading, Stalls::NONE), None);
     let offered = triangles.iter().map(|triangle| Ok::<_, std::convert::Infallible>(*triangle));
     let Ok(()) = rig.draw(offered, |_, model, _| {
-        let pixel = model.units().pixel;
+        let pixel = &model.pixel;
         if pixel.active() {
             first.get_or_insert(pixel.place().1);
         }

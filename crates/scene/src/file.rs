@@ -44,11 +44,7 @@ pub(crate) fn read(path: &Path, most: u64) -> Result<Vec<u8>, InputError> {
     Ok(bytes)
 }
 
-fn checked(
-    path: &Path,
-    may_be: impl FnOnce(FileType) -> bool,
-    permitted: &str,
-) -> Result<File, InputError> {
+fn checked(path: &Path, may_be: impl FnOnce(FileType) -> bool, permitted: &str) -> Result<File, InputError> {
     let file = path.display().to_string();
     let unreadable = |source| InputError::Read { file: file.clone(), source };
     // Opening a pipe would wait for its writer.

@@ -62,13 +62,12 @@ pub(crate) fn unknown(name: &str) -> InputError {
         fault.nearest = nearest(name, Scene::BUILTIN);
         return fault.into();
     }
-    let ends = ENDS.map(|(end, _)| end);
     let permitted = format!(
         "permitted: the name of a built-in scene ({builtin}), or a file that ends in .tri (screen-space triangles), \
          .toml (a scene), .obj, .gltf or .glb (a mesh); a pipe without such an end gives triangles"
     );
     let mut fault = Fault::new(name, None, "kind of input", end.as_deref().unwrap_or_default(), permitted);
-    fault.nearest = end.and_then(|end| nearest(&end, ends));
+    fault.nearest = end.and_then(|end| nearest(&end, ENDS.map(|(end, _)| end)));
     fault.into()
 }
 

@@ -33,7 +33,22 @@ const TOML: &str = "ambient = [0.1, 0.2, 0.3]\nspecular = \"halfway\"\n[camera]\
 
 /// What is put in place of a word.
 const WORDS: [&str; 16] = [
-    "", "0", "-1", "1", "65536", "4294967295", "1e308", "-1e-300", "nan", "inf", "\"", "{}", "[", "/", "é\u{0}", "T",
+    "",
+    "0",
+    "-1",
+    "1",
+    "65536",
+    "4294967295",
+    "1e308",
+    "-1e-300",
+    "nan",
+    "inf",
+    "\"",
+    "{}",
+    "[",
+    "/",
+    "é\u{0}",
+    "T",
 ];
 
 /// Repeatable numbers (xorshift).
@@ -57,8 +72,12 @@ impl Random {
             let at = self.below(text.len());
             let ends = |byte: &u8, within: &[u8]| within.contains(byte);
             let part = |within: &[u8]| {
-                let from = text[..at].iter().rposition(|byte| ends(byte, within)).map_or(0, |place| place + 1);
-                let to = text[at..].iter().position(|byte| ends(byte, within)).map_or(text.len(), |place| at + place);
+                let from =
+                    text[..at].iter().rposition(|byte| ends(byte, within)).map_or(0, |place| place + 1);
+                let to = text[at..]
+                    .iter()
+                    .position(|byte| ends(byte, within))
+                    .map_or(text.len(), |place| at + place);
                 from..to.max(from)
             };
             let (word, line) = (part(b" \n,:[]{}/"), part(b"\n"));

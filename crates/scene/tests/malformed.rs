@@ -36,7 +36,10 @@ fn obj_fault_names_line_and_range() {
         (square("f 1/ 2/ /3"), "a.obj:5: f corner: `/3`"),
         (square("f 1/1 2 3"), "a.obj:5: f corner: `1/1`: permitted: none, as no texture coordinates come"),
         (square("f 1//1 2 3"), "a.obj:5: f corner: `1//1`: permitted: none, as no normals come before"),
-        (square("vn 0 0 1\nf 1//2 2 3"), "a.obj:6: f corner: `1//2`: permitted: 1 to 1 or -1 to -1, the normals"),
+        (
+            square("vn 0 0 1\nf 1//2 2 3"),
+            "a.obj:6: f corner: `1//2`: permitted: 1 to 1 or -1 to -1, the normals",
+        ),
         (square("f 1 2 99999999999999999999"), "a.obj:5: f corner: `99999999999999999999`"),
         ("f 1 2 3\n".into(), "a.obj:1: f corner: `1`: permitted: none, as no positions come before"),
         ("v 0 0\n".into(), "a.obj:1: v z: ``: permitted: a number from -1000000000000 to 1000000000000"),
@@ -145,11 +148,19 @@ fn gltf_fault_names_part_and_range() {
         (r#","byteLength":36}]}"#, r#","byteLength":99999999999}]}"#, "buffer 0: `byteLength 99999999999`"),
         (r#""count":3"#, r#""count":4"#, "POSITION: `accessor 0: 4 of 12 bytes"),
         (r#""count":3"#, r#""count":0"#, "POSITION: `accessor 0: 0 of 12 bytes"),
-        (r#""POSITION":0"#, r#""POSITION":1"#, "attribute of a primitive: `1`: permitted: an accessor from 0 to 0"),
+        (
+            r#""POSITION":0"#,
+            r#""POSITION":1"#,
+            "attribute of a primitive: `1`: permitted: an accessor from 0 to 0",
+        ),
         (r#""mesh":0"#, r#""mesh":0,"children":[0]"#, "node 0: `two parents`: permitted: a tree of nodes"),
         (r#""mesh":0"#, r#""mesh":1"#, "nodes[0].mesh: `Index out of bounds`"),
         (r#""material":0"#, r#""material":-1"#, "JSON: `"),
-        (r#""asset""#, r#""extensionsRequired":["KHR_draco_mesh_compression"],"asset""#, "extensionsRequired[0]"),
+        (
+            r#""asset""#,
+            r#""extensionsRequired":["KHR_draco_mesh_compression"],"asset""#,
+            "extensionsRequired[0]",
+        ),
     ];
     let cases: Vec<(String, &str)> = changes
         .into_iter()
@@ -177,10 +188,18 @@ fn only_regular_files_are_read() {
     let pipe = std::process::Command::new("mkfifo").arg(beside("lib.mtl")).status().unwrap();
     assert!(pipe.success());
     let refusal = |path: &Path| Mesh::read(path).unwrap_err().to_string();
-    assert!(refusal(&path).contains("lib.mtl: kind of file: `a pipe`: permitted: a regular file"), "{}", refusal(&path));
+    assert!(
+        refusal(&path).contains("lib.mtl: kind of file: `a pipe`: permitted: a regular file"),
+        "{}",
+        refusal(&path)
+    );
     for name in ["zero.glb", "zero.gltf", "zero.obj"] {
         link(name);
-        assert!(refusal(&beside(name)).contains(&format!("{name}: kind of file")), "{}", refusal(&beside(name)));
+        assert!(
+            refusal(&beside(name)).contains(&format!("{name}: kind of file")),
+            "{}",
+            refusal(&beside(name))
+        );
     }
     link("zero.toml");
     let scene = Scene::open(beside("zero.toml").to_str().unwrap()).unwrap_err().to_string();
@@ -195,7 +214,9 @@ fn only_regular_files_are_read() {
 #[test]
 fn gltf_buffer_ends_where_it_says() {
     let data = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
-    let text = TRIANGLE.replace(data, "long.bin").replace("\"buffer\":0,\"byteLength\":36", "\"buffer\":0,\"byteLength\":48");
+    let text = TRIANGLE
+        .replace(data, "long.bin")
+        .replace("\"buffer\":0,\"byteLength\":36", "\"buffer\":0,\"byteLength\":48");
     let (folder, path) = file("a.gltf", text.replace("\"count\":3", "\"count\":4"));
     fs::write(folder.path().join("long.bin"), [1; 100]).unwrap();
     let message = Mesh::read(&path).unwrap_err().to_string();
@@ -216,13 +237,18 @@ fn obj_backslash_joins_lines_of_statements() {
 #[test]
 fn gltf_picture_in_a_view_needs_no_type() {
     let mut png = std::io::Cursor::new(Vec::new());
-    image::RgbImage::from_pixel(1, 1, image::Rgb([255, 0, 51])).write_to(&mut png, image::ImageFormat::Png).unwrap();
+    image::RgbImage::from_pixel(1, 1, image::Rgb([255, 0, 51]))
+        .write_to(&mut png, image::ImageFormat::Png)
+        .unwrap();
     let png = png.into_inner();
     let (folder, path) = file(
         "a.gltf",
         TRIANGLE
             .replace(r#"{"uri":"away.png"}"#, r#"{"bufferView":1}"#)
-            .replace("36}],\n\"buffers\":[", &format!("36}},{{\"buffer\":1,\"byteLength\":{}}}],\n\"buffers\":[", png.len()))
+            .replace(
+                "36}],\n\"buffers\":[",
+                &format!("36}},{{\"buffer\":1,\"byteLength\":{}}}],\n\"buffers\":[", png.len()),
+            )
             .replace("36}]}", &format!("36}},{{\"uri\":\"b%20c.png\",\"byteLength\":{}}}]}}", png.len())),
     );
     fs::write(folder.path().join("b c.png"), png).unwrap();

@@ -64,7 +64,10 @@ fn mtl_line_changes_its_own_coefficient() {
         ("Ke 1 2 3", Material { emission: v(1.0, 2.0, 3.0), ..plain }),
         ("Ka 0.1 0.2 0.3", Material { ambient: v(0.1, 0.2, 0.3), ..plain }),
         ("Kd 0.1 0.2 0.3", Material::matte(v(0.1, 0.2, 0.3))),
-        ("Ka 0.5 0.6 0.7\nKd 0.1 0.2 0.3", Material { ambient: v(0.5, 0.6, 0.7), ..Material::matte(v(0.1, 0.2, 0.3)) }),
+        (
+            "Ka 0.5 0.6 0.7\nKd 0.1 0.2 0.3",
+            Material { ambient: v(0.5, 0.6, 0.7), ..Material::matte(v(0.1, 0.2, 0.3)) },
+        ),
         ("Ks 0.1 0.2 0.3", Material { specular: v(0.1, 0.2, 0.3), ..plain }),
         ("Ns 12", Material { exponent: 12.0, ..plain }),
         ("d 0.75", Material { transmission: 0.25, ..plain }),
@@ -89,7 +92,11 @@ fn mtl_map_line_names_its_own_picture() {
     ] {
         let mesh = obj(&format!("newmtl b\n{line}\n"));
         let found = mesh.materials()[mesh.faces()[0].material as usize];
-        assert_eq!((found.texture.is_some(), found.bump.is_some(), found.bump_height), (texture, bump, height), "{line}");
+        assert_eq!(
+            (found.texture.is_some(), found.bump.is_some(), found.bump_height),
+            (texture, bump, height),
+            "{line}"
+        );
         let color = if texture { DVec3::new(1.0, 0.0, 0.2) } else { DVec3::new(0.0, 1.0, 0.4) };
         near(mesh.textures()[0].at(DVec2::splat(0.5)), color);
     }
@@ -104,7 +111,11 @@ fn gltf(material: &str, node: &str) -> Result<Mesh, String> {
         0.5, 0.0625, 0.75, 0.125, 0.25, 0.875, // and of set 1
     ];
     let bytes: Vec<u8> = floats.iter().flat_map(|number| number.to_le_bytes()).collect();
-    let accessor = |view, kind| format!(r#"{{"bufferView":{view},"componentType":5126,"count":3,"type":"{kind}","min":[1,2,3],"max":[4,7,5]}}"#);
+    let accessor = |view, kind| {
+        format!(
+            r#"{{"bufferView":{view},"componentType":5126,"count":3,"type":"{kind}","min":[1,2,3],"max":[4,7,5]}}"#
+        )
+    };
     let json = format!(
         r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,{node}}}],
         "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2,"TEXCOORD_1":3}},"material":1}}]}}],
@@ -161,7 +172,8 @@ fn gltf_material_value_has_its_own_place() {
     // v runs down in the file.
     let places = [(0.5, 0.9375), (0.75, 0.875), (0.25, 0.125)].map(|(u, v)| DVec2::new(u, v));
     assert_eq!(mesh.face_data()[0].texture, Some(places));
-    let opaque = gltf(r#""pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.375]}"#, r#""name":"node""#).unwrap();
+    let opaque =
+        gltf(r#""pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.375]}"#, r#""name":"node""#).unwrap();
     assert_eq!(opaque.materials()[0].transmission, 0.0, "alpha counts where the mode is BLEND");
     assert_eq!(opaque.face_data()[0].texture.unwrap()[0], DVec2::new(0.125, 0.75), "set 0 without a picture");
 }
@@ -175,7 +187,8 @@ fn gltf_pictures_that_would_be_others_are_refused() {
     let absent = with(r#""texCoord":7"#);
     assert!(absent.contains("a.gltf: node 0 primitive 0 texCoord: `7`: permitted: a set"), "{absent}");
     let turned = with(r#""extensions":{"KHR_texture_transform":{"scale":[2,2]}}"#);
-    let expected = "a.gltf: material 1 baseColorTexture: `KHR_texture_transform`: permitted: texture coordinates as";
+    let expected =
+        "a.gltf: material 1 baseColorTexture: `KHR_texture_transform`: permitted: texture coordinates as";
     assert!(turned.contains(expected), "{turned}");
 }
 
@@ -273,7 +286,8 @@ fn triangle_vertex_has_seven_values() {
     let frame: Frame = triangle_file::parse("a.tri", text.as_bytes()).unwrap();
     assert_eq!((frame.width, frame.height, frame.clear), (3, 4, [0.1, 0.2, 0.3]));
     let vertex = |x, y, tenth: f64, e0, e1| {
-        let [z, r, g, b, kt] = [0.01, 0.02, 0.03, 0.04, 0.05].map(|part| ((tenth + part) * 100.0).round() / 100.0);
+        let [z, r, g, b, kt] =
+            [0.01, 0.02, 0.03, 0.04, 0.05].map(|part| ((tenth + part) * 100.0).round() / 100.0);
         Vertex { x, y, z, r, g, b, kt, extra: [e0, e1, 0.0, 0.0] }
     };
     let expected =

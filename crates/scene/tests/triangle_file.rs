@@ -104,7 +104,10 @@ fn malformed_shadows_name_place_and_remedy() {
         (format!("{sized}\nlight 2\n{T}"), &["a.tri:3: light: `2`", "0 to 1, as many lights"]),
         (format!("{sized}\nlight 1\n{T}\nlight 3\n{T}"), &["a.tri:5: light: `3`", "0 to 1"]),
         (format!("{sized}\nlight 2\n{T}\nlight 2\n{T}"), &["a.tri:3: light: `2`", "0 to 1"]),
-        (format!("size 9 9\nlight 1\n{T}"), &["a.tri:2: light: `1`", "permitted: 0, as the file has no line `shadow`"]),
+        (
+            format!("size 9 9\nlight 1\n{T}"),
+            &["a.tri:2: light: `1`", "permitted: 0, as the file has no line `shadow`"],
+        ),
         (format!("{sized}\nlight 17"), &["a.tri:3: light: `17`", "an integer from 0 to 16"]),
         (format!("{sized}\nlight on"), &["a.tri:3: light: `on`", "an integer"]),
         (with("shadow", "shadwo"), &["did you mean `shadow`"]),

@@ -61,12 +61,12 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let set =
         vectors::Set { suites: &suites, units: &Unit::all(&machine), stalls: None, tables: Tables::Written };
     let suites = set.write(&machine, &out, "vectors/", talk)?;
-    out.write("report.json", document("report", report.value()?)?)?;
+    out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     let own = [emit::own("hdl/"), vectors::own(&args.out, "vectors/", &suites)].concat();
     let pictures = render::FILES.map(str::to_owned);
     out.publish(&[&own[..], &pictures, &[ACCUMULATOR.to_owned()]].concat())?;
-    talk.say(|| document("report", report.value()?), || report.text())?;
+    talk.say(|| document("report", &report), || report.text())?;
     if !talk.quiet && !talk.json {
         let at = args.out.display();
         let dda = if dda.is_some() { " z_accumulator.png" } else { "" };

@@ -33,12 +33,11 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = args.source.machine(machine)?;
-    let (scene, (frame, order)) = if args.source.is_triangle_file() {
-        (None, (args.source.frame(&machine)?, None))
-    } else {
-        let (scene, surface) = args.source.surface(&machine)?;
-        let frame = args.source.frame_of(&scene, &surface, &machine)?;
-        (Some((scene, surface)), frame)
+    // A file is opened once: it may be a pipe.
+    let scene = if args.source.is_triangle_file() { None } else { Some(args.source.surface(&machine)?) };
+    let (frame, order) = match &scene {
+        Some((scene, surface)) => args.source.frame_of(scene, surface, &machine)?,
+        None => (args.source.frame(&machine)?, None),
     };
     let frame = frame.first(args.triangles.unwrap_or(usize::MAX));
     let (x, y) = (args.x, args.y);

@@ -11,10 +11,11 @@ use crate::triangles::TriangleFile;
 use crate::verdict::Verdict;
 use crate::{Talk, fast};
 use anyhow::{Context, Result, anyhow};
-use edgewalk_host::needs::{self, needs};
 use edgewalk_host::extra;
+use edgewalk_host::needs::{self, needs};
 use edgewalk_judge::report::Report;
 use edgewalk_machine::Plan;
+use edgewalk_model::Waits;
 use edgewalk_scene::{Frame, InputError, InputKind};
 use page::Page;
 use std::path::{Path, PathBuf};
@@ -93,8 +94,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let header = file.header()?;
     let screen = Some((header.width, header.height));
     let asked = machine.machine(screen)?;
-    let machine =
-        if args.adapt { machine.adapted(screen, &needs(&file.whole()?, &asked))? } else { asked };
+    let machine = if args.adapt { machine.adapted(screen, &needs(&file.whole()?, &asked))? } else { asked };
     if header.extra != extra::channels(&machine).len() {
         needs::check(&file.whole()?, &machine).with_context(|| name.clone())?;
     }
@@ -105,11 +105,11 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         }
         engine => whole(&file, engine, &machine, &out, talk)?,
     };
-    out.write("report.json", document("report", report.value()?)?)?;
+    out.write("report.json", document("report", &report)?)?;
     out.publish(&FILES)?;
-    talk.say(|| document("report", report.value()?), || report.text())?;
+    talk.say(|| document("report", &report), || report.text())?;
     let size = (machine.width, machine.height);
-    Verdict::drew(report.covered()).or_nothing(&name, report.primitives(), size)
+    Verdict::drew(report.drawn.fragments).or_nothing(&name, report.drawn.primitives(), size)
 }
 
 /// Refuses what is no triangle file by its name.
@@ -142,7 +142,11 @@ fn while_it_is_read(
         drawn => drawn?,
     };
     let triangles = drawn.triangles();
-    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band).with_host(host);
+    let report = |band: &Raster| {
+        let mut report = Report::new(file.name(), triangles, machine, band, Waits::Never);
+        report.drawn.host = host;
+        report
+    };
     let mut page = Page::new(out, machine, report);
     let bands = fast_bands(machine);
     drawn.bands(machine, bands, |band| page.add(&band))?;
@@ -152,7 +156,11 @@ fn while_it_is_read(
 fn whole(file: &TriangleFile, engine: Engine, machine: &Plan, out: &Staging, talk: Talk) -> Result<Report> {
     let frame = file.whole()?;
     let (triangles, polygons) = (frame.triangles.len() as u64, frame.polygons.len() as u64);
-    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band).with_polygons(polygons);
+    let report = |band: &Raster| {
+        let mut report = Report::new(file.name(), triangles, machine, band, Waits::Never);
+        report.drawn.polygons = polygons;
+        report
+    };
     let mut page = Page::new(out, machine, report);
     draw_bands(engine, &frame, machine, talk.quiet, |band| page.add(&band))
         .with_context(|| file.name().to_owned())?;

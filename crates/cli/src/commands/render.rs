@@ -4,18 +4,18 @@
 mod lamps;
 mod lights;
 
+use crate::Talk;
 use crate::document::document;
 use crate::engine::{Engine, Raster, draw_port, from_golden, golden_fill};
 use crate::fast_phong::{FastPhongArgs, FastPhongReport};
 use crate::input::{Shading, Source, to_port};
 use crate::machine_args::MachineArgs;
-use crate::Talk;
+use crate::picture::{self, Png};
 use crate::progress::spinner;
 use crate::shading_report::ShadingReport;
 use crate::shadows::Shadows;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::picture::{self, Png};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::{HiddenLines, wireframe};
 use edgewalk_host::draw;
@@ -113,13 +113,13 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     let (frame, order) = args.source.sorted(&machine)?;
     let out = Staging::new(&args.out)?;
-    let (report, verdict) =
+    let (mut report, verdict) =
         pictures(&args.source.input, &frame, &machine, (args.engine, args.stalls), &out, talk.quiet, |_| ())?;
-    let report = report.sorted(order);
-    out.write("report.json", document("report", report.value()?)?)?;
+    report.order = order;
+    out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| document("report", report.value()?), || report.text())?;
+    talk.say(|| document("report", &report), || report.text())?;
     verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
 }
 
@@ -130,14 +130,15 @@ fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     let drawn = from_golden(wireframe(&frame, golden_fill(machine), hidden), machine);
     let out = Staging::new(&args.out)?;
     picture::write_rgb(&out, "image.png", drawn.width, drawn.height, &drawn.rgb)?;
-    let report = Report::new(&args.source.input, frame.triangles.len() as u64, machine, &drawn)
-        .with_polygons(frame.polygons.len() as u64);
-    out.write("report.json", document("report", report.value()?)?)?;
+    let triangles = frame.triangles.len() as u64;
+    let mut report = Report::new(&args.source.input, triangles, machine, &drawn, Waits::Never);
+    report.drawn.polygons = frame.polygons.len() as u64;
+    out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| document("report", report.value()?), || report.text())?;
-    let primitives = (frame.triangles.len() + frame.polygons.len()) as u64;
-    Verdict::drew(report.covered()).or_nothing(&args.source.input, primitives, (drawn.width, drawn.height))
+    talk.say(|| document("report", &report), || report.text())?;
+    let (size, drawn) = ((drawn.width, drawn.height), &report.drawn);
+    Verdict::drew(drawn.fragments).or_nothing(&args.source.input, drawn.primitives(), size)
 }
 
 /// Draws by a shading system and writes it beside the truth.
@@ -208,7 +209,7 @@ pub fn pictures(
         see(beside.drawn);
         match &mut report {
             Some(report) => report.add(beside.drawn),
-            None => report = Some(Report::new(name, triangles, machine, beside.drawn)),
+            None => report = Some(Report::new(name, triangles, machine, beside.drawn, waits)),
         }
         Ok(())
     };
@@ -237,6 +238,6 @@ pub fn pictures(
     let verdict = lights.iter().map(Comparison::verdict).fold(comparison.verdict(), Verdict::and);
     let setup = SetupReport::new(machine, &port.triangles);
     let report = report.context("a picture without lines")?;
-    let report = report.with(comparison).with_lights(lights).with_setup(setup).with_stalls(waits);
+    let report = Report { comparison: Some(comparison), lights, setup: Some(setup), ..report };
     Ok((report, verdict))
 }

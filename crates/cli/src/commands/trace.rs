@@ -68,8 +68,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         failure = sample(&mut wave, &mut file, kind, sim);
         cycles += 1;
         failure.is_ok() && cycles < args.cycles
-    })
-    .map_err(|e| anyhow!("{e}"))?;
+    })?;
     failure.with_context(|| out.name(name))?;
     match wave {
         Some(Wave::Vcd(w)) => w.finish().with_context(|| out.name(name))?,
@@ -96,12 +95,12 @@ fn sample(
         let labels = [Labels { signal: "activity", names: &names }];
         *wave = Some(match kind {
             "vcd" => Wave::Vcd(VcdTrace::new(file, sim, TOP, &labels)?),
-            _ => Wave::Fst(Box::new(FstTrace::new(file, sim, TOP, &labels).map_err(|e| anyhow!("{e}"))?)),
+            _ => Wave::Fst(Box::new(FstTrace::new(file, sim, TOP, &labels)?)),
         });
     }
     match wave {
         Some(Wave::Vcd(w)) => w.sample(sim)?,
-        Some(Wave::Fst(w)) => w.sample(sim).map_err(|e| anyhow!("{e}"))?,
+        Some(Wave::Fst(w)) => w.sample(sim)?,
         None => {}
     }
     Ok(())

@@ -167,7 +167,7 @@ pub fn functions(machine: &Plan) -> Result<Vec<Suite>> {
 fn named(machine: &Plan, wanted: impl Fn(&str) -> bool) -> Result<Vec<Suite>> {
     let listed = SUITES.iter().filter(|suite| suite.is_for(machine));
     let names = listed.map(|suite| suite.name).filter(|name| wanted(name));
-    names.map(|name| Suite::named(machine, name, 1, 0).map_err(|e| anyhow!("{e}"))).collect()
+    names.map(|name| Ok(Suite::named(machine, name, 1, 0)?)).collect()
 }
 
 /// Prints what could be met in each unit and was not.

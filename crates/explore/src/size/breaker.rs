@@ -5,7 +5,7 @@ use anyhow::Result;
 use edgewalk_host::draw;
 use edgewalk_host::port::to_port;
 use edgewalk_judge::beside::{Proved, beside};
-use edgewalk_machine::{Channel, Kind, Machine, Plan};
+use edgewalk_machine::{Channel, Kind, Plan};
 use edgewalk_model::Waits;
 use edgewalk_numerics::solver::solve;
 use edgewalk_numerics::{ChannelBits, Rounding, Screen, Target, Witness};
@@ -70,7 +70,7 @@ impl Breaker {
         let proved = Proved { reach: None, shading: None };
         let drawn = |lines, take: &mut dyn FnMut(_) -> _| draw::in_bands(&fewer, &port, Waits::Never, lines, take);
         let comparison = beside(&fewer, &frame, proved, drawn, |_| Ok(()))?;
-        let found = [comparison.z_error, comparison.color_error][place];
+        let found = [comparison.errors.z.error, comparison.errors.color.error][place];
         if found <= error {
             return none("none was found that shows in a rounded output");
         }
@@ -81,14 +81,12 @@ impl Breaker {
 
 /// The machine with other fraction bits of depth or colour.
 fn with_bits(machine: &Plan, place: usize, bits: u32) -> Result<Plan> {
-    let mut keys = Machine::clone(machine);
     let precision = with_fraction(machine.channels()[place], bits).precision;
-    if place == 0 {
-        keys.z = precision;
-    } else {
-        keys.color = precision;
-    }
-    keys.plan().map_err(|e| anyhow::anyhow!("{e}"))
+    let machine = machine.with(|keys| match place {
+        0 => keys.z = precision,
+        _ => keys.color = precision,
+    });
+    Ok(machine.plan()?)
 }
 
 /// The witness's output leaves the range of the channel.

@@ -46,8 +46,7 @@ impl Surfaces {
             textures: Vec::new(),
         };
         for (triangle, own) in frame.triangles.iter().zip(&shading.triangles) {
-            let color =
-                if multiplies(machine) { DVec3::ONE } else { one_color(triangle) };
+            let color = if multiplies(machine) { DVec3::ONE } else { one_color(triangle) };
             let key = (own.material, color.to_array().map(f64::to_bits));
             let next = numbers.len() as u32;
             let number = *numbers.entry(key).or_insert(next);

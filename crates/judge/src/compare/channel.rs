@@ -1,10 +1,11 @@
 //! The errors of each channel, their bounds, and which outputs wrapped.
 
 use super::order::Over;
-use edgewalk_host::extra::{self, OwnChannel};
+use edgewalk_host::extra::{self, Label, OwnChannel};
 use edgewalk_host::raster::Raster;
 use edgewalk_machine::{Channel, ErrorBudget, NoBound, Plan};
 use serde::Serialize;
+use serde::ser::{SerializeMap as _, Serializer};
 
 /// Errors found so far. Places are those in the band that is compared.
 pub struct Tally {
@@ -138,24 +139,105 @@ impl Errors {
         error > 0.5 * (self.channel.max() + 1) as f64
     }
 
-    /// Proved largest error of the output: vertex rounding, all additions, output rounding (bounds 2, 4).
-    pub fn bound(&self) -> Option<f64> {
-        self.budget.map(|budget| budget.after_rounding().to_f64()).ok()
-    }
-
-    /// Why there is none.
-    pub fn no_bound(&self) -> Option<String> {
-        self.budget.err().map(|why| why.to_string())
-    }
-
     /// Of every pixel of the band.
     pub fn map(&mut self) -> Vec<f64> {
         std::mem::take(&mut self.map)
     }
 
-    /// The largest error, and how they are spread.
-    pub fn found(self) -> (f64, Spread) {
-        (self.largest, self.sums.spread())
+    /// What was found, with the proved largest error of the output: vertex rounding, all additions, output rounding (bounds 2, 4).
+    pub fn found(self) -> ChannelError {
+        ChannelError {
+            bits: self.channel.bits,
+            error: self.largest,
+            spread: self.sums.spread(),
+            bound: self.budget.map(|budget| budget.after_rounding().to_f64()).ok(),
+            no_bound: self.budget.err().map(|why| why.to_string()),
+            bound_for_input: None,
+            map: Vec::new(),
+        }
+    }
+}
+
+/// What was found of a channel.
+#[derive(Clone, Debug)]
+pub struct ChannelError {
+    /// Of the output.
+    bits: u32,
+    /// Largest error, LSB.
+    pub error: f64,
+    /// How the errors are spread.
+    pub spread: Spread,
+    /// Proved bound of the error, LSB; none where outputs may wrap.
+    pub bound: Option<f64>,
+    /// Why there is none.
+    pub no_bound: Option<String>,
+    /// Proved bound of the error for these triangles, LSB.
+    pub bound_for_input: Option<f64>,
+    /// Error of every pixel, LSB; empty where it was not kept.
+    pub map: Vec<f64>,
+}
+
+impl ChannelError {
+    /// The bound is not one for all pixels, but as said here.
+    pub(super) fn bounded_elsewhere(&mut self, why: &str) {
+        (self.bound, self.no_bound) = (None, Some(why.to_owned()));
+    }
+
+    /// 1 where the error exceeds its bound, or where none is proved an LSB.
+    pub(super) fn beyond(&self) -> u64 {
+        beyond(self.error, self.bound_for_input.or(self.bound).unwrap_or(1.0))
+    }
+
+    fn line(&self, name: &str) -> String {
+        let bound = extra::bound(self.bound, &self.no_bound);
+        format!("largest {name:<13} {:.4} LSB of {} bits, {bound}\n", self.error, self.bits)
+    }
+}
+
+fn beyond(error: f64, allowed: f64) -> u64 {
+    u64::from(error.is_nan() || error > allowed)
+}
+
+/// Depth, and colour as the worst of red, green and blue.
+#[derive(Clone, Debug)]
+pub struct DepthAndColor {
+    /// The most additions behind a pixel of these triangles.
+    pub additions: Option<u64>,
+    /// Depth.
+    pub z: ChannelError,
+    /// Colour.
+    pub color: ChannelError,
+}
+
+impl Serialize for DepthAndColor {
+    /// Each figure of both, one after the other.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let DepthAndColor { additions, z, color } = self;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("z_error", &z.error)?;
+        map.serialize_entry("color_error", &color.error)?;
+        map.serialize_entry("z_spread", &z.spread)?;
+        map.serialize_entry("color_spread", &color.spread)?;
+        map.serialize_entry("z_bound", &z.bound)?;
+        map.serialize_entry("color_bound", &color.bound)?;
+        map.serialize_entry("additions", additions)?;
+        map.serialize_entry("z_bound_for_input", &z.bound_for_input)?;
+        map.serialize_entry("color_bound_for_input", &color.bound_for_input)?;
+        for (key, why) in [("z_no_bound", &z.no_bound), ("color_no_bound", &color.no_bound)] {
+            why.as_ref().map_or(Ok(()), |why| map.serialize_entry(key, why))?;
+        }
+        map.end()
+    }
+}
+
+impl DepthAndColor {
+    /// As lines of text.
+    pub(super) fn lines(&self) -> String {
+        let t = self.z.line("z error") + &self.color.line("colour error");
+        let Some(additions) = self.additions else { return t };
+        let of = |bound: Option<f64>| bound.map_or_else(|| "none".to_owned(), |b| format!("{b:.4}"));
+        let [z, color] = [&self.z, &self.color].map(|channel| of(channel.bound_for_input));
+        t + &format!("bounds for these triangles, at most {additions} additions: z {z}, colour {color}\n")
     }
 }
 
@@ -212,8 +294,20 @@ impl ExtraError {
         let channel = OwnChannel::of(&errors.channel, machine);
         let rounding = if errors.channel.kind.is_rounded() { 0.5 } else { 1.0 };
         let allowed = channel.bound.unwrap_or(rounding + 0.5);
-        let (error, spread) = errors.found();
+        let ChannelError { error, spread, .. } = errors.found();
         ExtraError { channel, error, spread, bound_for_input: None, allowed }
+    }
+
+    /// 1 where the error exceeds what is allowed.
+    pub(super) fn beyond(&self) -> u64 {
+        beyond(self.error, self.allowed)
+    }
+
+    /// As a line of text.
+    pub(super) fn line(&self) -> String {
+        let (of, Label { name, bits, kind, .. }) = (&self.channel, &self.channel.label);
+        let bound = extra::bound(of.bound, &of.no_bound);
+        format!("largest {name} error      {:.4} LSB of {bits} bits, {kind}, {bound}\n", self.error)
     }
 }
 

@@ -50,7 +50,8 @@ impl<'a> Materials<'a> {
                 Some(index) => format!("material {index} baseColorTexture"),
                 None => "baseColorTexture".to_owned(),
             };
-            let permitted = "permitted: texture coordinates as the vertices have them; apply the transform to them";
+            let permitted =
+                "permitted: texture coordinates as the vertices have them; apply the transform to them";
             return Err(self.fault(key, "KHR_texture_transform", permitted));
         }
         Ok(info.tex_coord())
@@ -108,7 +109,11 @@ impl<'a> Materials<'a> {
                 Texture::decode(&name, Cursor::new(bytes))?
             }
             (None, None) => {
-                return Err(self.fault(key, "no source", "permitted: `uri` or `bufferView` of a PNG or JPEG"));
+                return Err(self.fault(
+                    key,
+                    "no source",
+                    "permitted: `uri` or `bufferView` of a PNG or JPEG",
+                ));
             }
         };
         self.textures.push(texture);

@@ -66,7 +66,8 @@ impl Uri {
     /// Reads a URI; the error says what is permitted.
     pub fn of(uri: &str) -> Result<Self, &'static str> {
         if let Some(data) = uri.strip_prefix("data:") {
-            let lenient = GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent);
+            let lenient =
+                GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent);
             let bytes = data.split_once(";base64,").map(|(_, text)| text);
             let bytes = bytes.and_then(|text| GeneralPurpose::new(&STANDARD, lenient).decode(text).ok());
             return bytes.map(Self::Data).ok_or("permitted: `data:` TYPE `;base64,` and base64");

@@ -214,9 +214,7 @@ pub(super) fn normals<'a>(
 
 /// The triangle of this line has no normals, and `before` comes.
 pub(super) fn missing(place: Place, before: &[u8], line: usize) -> InputError {
-    let why = format!(
-        "the `N` of the triangle in line {line} is missing; permitted: 9 values, {VALUES}"
-    );
+    let why = format!("the `N` of the triangle in line {line} is missing; permitted: 9 values, {VALUES}");
     place.fault("N", before, why).into()
 }
 

@@ -6,7 +6,8 @@ use crate::text::Place;
 
 /// The values behind `shadow`.
 pub(super) fn shadow<'a>(place: Place, words: impl Iterator<Item = &'a [u8]>) -> Result<Shadow, InputError> {
-    let words: [&[u8]; 19] = place.values("shadow", "SIZE BIAS AMBIENT, then m00 to m33 row by row", words)?;
+    let words: [&[u8]; 19] =
+        place.values("shadow", "SIZE BIAS AMBIENT, then m00 to m33 row by row", words)?;
     let [size, bias, ambient, elements @ ..] = words;
     let mut matrix = [[0.0; 4]; 4];
     for (index, (slot, word)) in matrix.as_flattened_mut().iter_mut().zip(elements).enumerate() {

@@ -15,7 +15,8 @@ pub(super) fn triangle<'a>(
     words: impl Iterator<Item = &'a [u8]>,
     host: &mut Host,
 ) -> Result<Triangle, InputError> {
-    let words: [&[u8]; 3 * ATTRIBUTES.len()] = place.values("T", "x y z r g b kt of vertex 1, then of 2, then of 3", words)?;
+    let words: [&[u8]; 3 * ATTRIBUTES.len()] =
+        place.values("T", "x y z r g b kt of vertex 1, then of 2, then of 3", words)?;
     let mut triangle = Triangle::default();
     for (index, (slot, words)) in triangle.0.iter_mut().zip(words.chunks_exact(ATTRIBUTES.len())).enumerate()
     {
