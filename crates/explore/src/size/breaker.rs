@@ -68,7 +68,8 @@ impl Breaker {
         let frame = frame(&fewer, place, &witness);
         let port = to_port(&frame, &fewer)?;
         let proved = Proved { reach: None, shading: None };
-        let drawn = |lines, take: &mut dyn FnMut(_) -> _| draw::in_bands(&fewer, &port, Waits::Never, lines, take);
+        let drawn =
+            |lines, take: &mut dyn FnMut(_) -> _| draw::in_bands(&fewer, &port, Waits::Never, lines, take);
         let comparison = beside(&fewer, &frame, proved, drawn, |_| Ok(()))?;
         let found = [comparison.errors.z.error, comparison.errors.color.error][place];
         if found <= error {
