@@ -14,7 +14,7 @@ pub fn time(job: &Job) -> Result<Times> {
 /// Clear and draw all, no more than Verilator's harness does.
 fn frame<const C: usize>(job: &Job) -> Work {
     let mut rig = Rig::<C>::new(job.machine, job.state, job.waits);
-    rig.write_shading(job.machine, job.shading);
+    rig.memories.write_shading(job.machine, job.shading);
     let triangles = job.triangles.iter().map(|triangle| Ok::<_, Infallible>(*triangle));
     let Ok(()) = rig.draw(triangles, |_, _, _| {});
     Work::of(rig.model.counters())

@@ -5,6 +5,7 @@ use crate::channel::Channel;
 use crate::check::check;
 use crate::error::MachineError;
 use crate::field::Field;
+use crate::link::MemoryPort;
 use crate::machine::Machine;
 use crate::plan::Plan;
 use crate::stamp::PortStamp;
@@ -53,6 +54,16 @@ impl Plan {
     pub fn events(&self) -> impl Iterator<Item = &'static Event> {
         let all = self.units().flat_map(|unit| unit.events).chain(units::machine::EVENTS);
         all.filter(|event| (event.can_happen)(self))
+    }
+
+    /// The memories that the host alone writes: the unit that reads each, and its ports; in the order of the units.
+    #[must_use]
+    pub fn word_memories(&self) -> Vec<(&'static str, MemoryPort)> {
+        let of_unit = |unit: &'static UnitSpec| {
+            let memories = (unit.ports)(self).memory.into_iter();
+            memories.filter(|memory| memory.write.is_empty()).map(|memory| (unit.name, memory))
+        };
+        self.units().flat_map(of_unit).collect()
     }
 
     /// The ports of the whole machine: what its units have and do not join among themselves.

@@ -18,10 +18,12 @@
 mod view;
 
 use crate::Events;
+use crate::ports::{Pins, Ported, Shown};
 pub use crate::rmw::Block;
 use crate::rmw::{Outcome, Rmw};
-use crate::tokens::{ColorWrite, OutputWords, Passed, Source};
-use edgewalk_machine::{Hazard, Plan};
+use crate::tokens::{ColorWrite, Fragment};
+use crate::word_memory::Ask;
+use edgewalk_machine::{BlendKind, Hazard, Plan};
 
 /// The unit's inputs of a cycle, but for the fragment; `color_write` is DEPTH's.
 #[derive(Clone, Copy, Debug, Default)]
@@ -50,21 +52,13 @@ pub struct BlendOutputs<const C: usize> {
 }
 
 /// What travels beside the colour of the pixel.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Side<const C: usize> {
-    values: OutputWords<C>,
+    frag: Fragment<C>,
     /// k, 0 to 2^kt_bits.
     k: u32,
     /// The pixel's colour counts.
     need: bool,
-    lit: bool,
-    source: Source,
-}
-
-impl<const C: usize> Default for Side<C> {
-    fn default() -> Self {
-        Side { values: [0; C], k: 0, need: false, lit: false, source: Source::default() }
-    }
 }
 
 /// A colour of the pixel.
@@ -81,6 +75,8 @@ pub struct Blend<const C: usize> {
     /// b.
     bits: u32,
     kt_bits: u32,
+    /// Place of k_t among the channels, if it is one.
+    kt: Option<usize>,
     /// Clocks of a product.
     product: u32,
     /// M - 1.
@@ -97,9 +93,12 @@ impl<const C: usize> Blend<C> {
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
         let blend = &plan.blend;
+        let interpolated = blend.kind == BlendKind::Interpolated;
+        let kt = plan.channel_place("kt");
         Blend {
             bits: plan.color.bits,
             kt_bits: blend.kt_bits,
+            kt: kt.filter(|_| interpolated),
             product: match blend.multipliers {
                 0 => blend.kt_bits.div_ceil(2),
                 1 => 3,
@@ -132,7 +131,7 @@ impl<const C: usize> Blend<C> {
 
     /// What keeps a fragment from entering. Without one there is no hazard.
     #[must_use]
-    pub fn block(&self, pass: Option<&Passed<C>>, add: bool) -> Option<Block> {
+    pub fn block(&self, pass: Option<&Fragment<C>>, add: bool) -> Option<Block> {
         let Some(pass) = pass else { return self.rmw.block(None, false) };
         let need = self.needs(pass, add);
         let by_stage = match self.rmw.policy() {
@@ -145,15 +144,15 @@ impl<const C: usize> Blend<C> {
 
     /// The fragment that is offered can be taken.
     #[must_use]
-    pub fn pass_ready(&self, pass: Option<&Passed<C>>, inputs: &BlendInputs) -> bool {
+    pub fn pass_ready(&self, pass: Option<&Fragment<C>>, inputs: &BlendInputs) -> bool {
         let reads = pass.is_some_and(|pass| self.needs(pass, inputs.add));
         self.block(pass, inputs.add).is_none() && (inputs.crd_ready || !reads)
     }
 
     /// Address of a colour read.
     #[must_use]
-    pub fn read(&self, pass: Option<&Passed<C>>, add: bool) -> Option<u32> {
-        let reads = |pass: &&Passed<C>| self.needs(pass, add) && self.block(Some(pass), add).is_none();
+    pub fn read(&self, pass: Option<&Fragment<C>>, add: bool) -> Option<u32> {
+        let reads = |pass: &&Fragment<C>| self.needs(pass, add) && self.block(Some(pass), add).is_none();
         pass.filter(reads).map(|pass| pass.addr)
     }
 
@@ -170,14 +169,14 @@ impl<const C: usize> Blend<C> {
         self.rmw.write().map(|w| ColorWrite {
             addr: w.addr,
             rgb: w.word.rgb,
-            values: w.side.values,
-            lit: w.side.lit,
-            source: w.side.source,
+            values: w.side.frag.values,
+            lit: w.side.frag.lit,
+            source: w.side.frag.source,
         })
     }
 
     /// Clock edge.
-    pub fn step(&mut self, pass: Option<&Passed<C>>, inputs: &BlendInputs, events: &mut Events) {
+    pub fn step(&mut self, pass: Option<&Fragment<C>>, inputs: &BlendInputs, events: &mut Events) {
         let leaves = self.leaves(inputs.cwr_ready);
         let moves = self.moves(leaves);
         let taken = self.take(inputs, events);
@@ -199,18 +198,17 @@ impl<const C: usize> Blend<C> {
         }
     }
 
-    fn needs(&self, pass: &Passed<C>, add: bool) -> bool {
+    fn needs(&self, pass: &Fragment<C>, add: bool) -> bool {
         add || self.k(pass) != 0
     }
 
     /// k of a fragment, 0 to 2^kt_bits.
-    fn k(&self, pass: &Passed<C>) -> u32 {
-        pass.kt.min(1 << self.kt_bits)
+    fn k(&self, pass: &Fragment<C>) -> u32 {
+        self.kt.map_or(pass.kt, |place| pass.values[place]).min(1 << self.kt_bits)
     }
 
-    fn side(&self, pass: &Passed<C>, add: bool) -> Side<C> {
-        let Passed { values, lit, source, .. } = *pass;
-        Side { values, k: self.k(pass), need: self.needs(pass, add), lit, source }
+    fn side(&self, pass: &Fragment<C>, add: bool) -> Side<C> {
+        Side { frag: *pass, k: self.k(pass), need: self.needs(pass, add) }
     }
 
     /// A stage has a fragment of this address.
@@ -269,8 +267,8 @@ impl<const C: usize> Blend<C> {
         let mut rgb = 0;
         for channel in 1..=3 {
             let back = head.old.rgb >> (self.bits * (3 - channel as u32)) & ((1 << self.bits) - 1);
-            let color = self.color(side.values[channel], back as u32, &side, inputs.add);
-            side.values[channel] = color;
+            let color = self.color(side.frag.values[channel], back as u32, &side, inputs.add);
+            side.frag.values[channel] = color;
             rgb = rgb << self.bits | u64::from(color);
         }
         Outcome { addr: head.addr, side, word: Colour { rgb, opaque: !side.need }, stored: true }
@@ -297,7 +295,7 @@ impl<const C: usize> Blend<C> {
         moves: bool,
         entering: Option<Outcome<Colour, Side<C>>>,
         inputs: &BlendInputs,
-        pushed: Option<&Passed<C>>,
+        pushed: Option<&Fragment<C>>,
         events: &mut Events,
     ) {
         let last = self.stages[self.last].filter(|_| leaves);
@@ -322,7 +320,7 @@ impl<const C: usize> Blend<C> {
     }
 
     /// What becomes of the fragment that is offered.
-    fn count_entry(&self, pass: &Passed<C>, inputs: &BlendInputs, events: &mut Events) {
+    fn count_entry(&self, pass: &Fragment<C>, inputs: &BlendInputs, events: &mut Events) {
         match (self.block(Some(pass), inputs.add), self.rmw.policy()) {
             (Some(Block::Hazard), Hazard::Drain) => events.blend.color_drain_stall += 1,
             (Some(Block::Hazard), _) => events.blend.color_interlock_stall += 1,
@@ -338,5 +336,39 @@ impl<const C: usize> Blend<C> {
                 events.blend.opaque_behind += u64::from(behind);
             }
         }
+    }
+}
+
+impl BlendInputs {
+    fn of<T, const C: usize>(pins: &Pins<T, C>) -> BlendInputs {
+        BlendInputs {
+            color_write: pins.state.color_write,
+            add: pins.state.blend_add,
+            crd_ready: pins.word.ready,
+            cdata: pins.word.word.map(|word| word as u64), // at most 48 bits
+            cwr_ready: pins.next,
+        }
+    }
+}
+
+impl<const C: usize> Ported<C> for Blend<C> {
+    type Takes = Fragment<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        let inputs = BlendInputs::of(pins);
+        out.takes(self.pass_ready(pins.token, &inputs));
+        out.gives(self.write().as_ref());
+        out.asks(Ask { addr: self.read(pins.token, inputs.add), take: self.cdata_ready(inputs.cwr_ready) });
+        out.status("color_hazard", self.block(pins.token, inputs.add) == Some(Block::Hazard));
+        out.status("color_full", self.full());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        self.step(pins.token, &BlendInputs::of(pins), events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

@@ -15,8 +15,9 @@
 mod view;
 
 use crate::Events;
-use crate::shade::Cosines;
-use crate::tokens::Fragment;
+use crate::lit::{Cosines, Given, Lit};
+use crate::ports::{Pins, Ported, Shown};
+use crate::stages::Stages;
 use edgewalk_machine::Plan;
 
 /// A sum that BUMP makes.
@@ -39,9 +40,8 @@ pub struct Bump<const C: usize> {
     cosines: Vec<Sum>,
     /// N·N.
     square: Option<Sum>,
-    /// K1 to the last.
-    stages: [Option<(Fragment<C>, Cosines)>; 3],
-    last: usize,
+    /// K1 and K2, and K3 before NORMAL.
+    stages: Stages<Lit<C>>,
 }
 
 impl<const C: usize> Bump<C> {
@@ -60,26 +60,25 @@ impl<const C: usize> Bump<C> {
             normalises: shade.normalises(),
             cosines: (0..count).map(cosine).collect(),
             square: shade.normalises().then_some(square),
-            stages: [None; 3],
-            last: if shade.normalises() { 2 } else { 1 },
+            stages: Stages::new(if shade.normalises() { 3 } else { 2 }),
         }
     }
 
     /// Synchronous reset.
     pub fn reset(&mut self) {
-        self.stages = [None; 3];
+        self.stages.clear();
     }
 
     /// A fragment is in a stage.
     #[must_use]
     pub fn occupied(&self) -> bool {
-        self.stages.iter().any(Option::is_some)
+        self.stages.held() > 0
     }
 
     /// The fragment offered on, with its cosines.
     #[must_use]
-    pub fn bumped(&self) -> Option<&(Fragment<C>, Cosines)> {
-        self.stages[self.last].as_ref()
+    pub fn bumped(&self) -> Option<&Lit<C>> {
+        self.stages.last()
     }
 
     /// A fragment can be taken: all stages move on.
@@ -88,20 +87,15 @@ impl<const C: usize> Bump<C> {
         self.bumped().is_none() || bumped_ready
     }
 
-    /// Clock edge. `terms`: the outputs of the terms of the fragment, and its slopes.
-    pub fn step(
-        &mut self,
-        frag: Option<&Fragment<C>>,
-        terms: &Cosines,
-        bumped_ready: bool,
-        events: &mut Events,
-    ) {
+    /// Clock edge. Beside the fragment are the outputs of its terms, and its slopes.
+    pub fn step(&mut self, frag: Option<Given<C>>, bumped_ready: bool, events: &mut Events) {
         if !self.frag_ready(bumped_ready) {
             events.bump.bump_stall += 1;
             return;
         }
-        self.stages[..=self.last].rotate_right(1);
-        self.stages[0] = frag.map(|fragment| (*fragment, self.turned(terms, events)));
+        let turned = |given: Given<C>| Lit { frag: *given.frag, cosines: self.turned(given.cosines, events) };
+        let entering = frag.map(turned);
+        self.stages.shift(entering);
     }
 
     /// What NORMAL or SHADE takes.
@@ -137,4 +131,22 @@ fn cut(number: i64, bits: u32) -> (i32, bool) {
     let end = 1i64 << (bits - 1);
     let within = number.clamp(-end, end - 1);
     (within as i32, within != number) // at most 20 bits
+}
+
+impl<const C: usize> Ported<C> for Bump<C> {
+    type Takes = Lit<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.frag_ready(pins.next));
+        out.gives(self.bumped());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        self.step(pins.token.map(Lit::given), pins.next, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
+    }
 }

@@ -8,9 +8,9 @@
 //!
 //! Timing: as the depth memory's. Rules: `docs/machine.md`, section 7. Not modelled: that both may be one memory.
 
-use crate::fifo::Fifo;
+use crate::served::Served;
 use crate::tokens::{ColorWrite, FEW, MAX_CHANNELS, OutputWords};
-use crate::waits::{Pacer, Waits};
+use crate::waits::Waits;
 use edgewalk_machine::Plan;
 
 /// State of the memory.
@@ -18,11 +18,7 @@ use edgewalk_machine::Plan;
 pub struct ColorMemory<const C: usize> {
     /// b.
     bits: u32,
-    latency: u64,
-    pacer: Pacer,
-    now: u64,
-    /// Colours read, with the cycle from which on they are offered.
-    reads: Fifo<(u64, u64), 16>,
+    served: Served<u64>,
     rgb: Vec<u64>,
     own: Vec<[u32; MAX_CHANNELS - FEW]>,
 }
@@ -40,10 +36,7 @@ impl<const C: usize> ColorMemory<C> {
         let (words, bits) = (1 << plan.widths().address, plan.color.bits);
         ColorMemory {
             bits,
-            latency: u64::from(plan.blend.latency),
-            pacer: Pacer::new(waits.into().of_another(1)),
-            now: 0,
-            reads: Fifo::default(),
+            served: Served::new(plan.blend.latency, waits.into().of_another(1)),
             rgb: vec![packed(clear, bits); words],
             own: vec![[0; MAX_CHANNELS - FEW]; words],
         }
@@ -57,20 +50,19 @@ impl<const C: usize> ColorMemory<C> {
     /// A read can be taken in this cycle.
     #[must_use]
     pub fn crd_ready(&self) -> bool {
-        self.pacer.rd_ready
+        self.served.read_ready()
     }
 
     /// A write can be taken in this cycle.
     #[must_use]
     pub fn cwr_ready(&self) -> bool {
-        self.pacer.wr_ready
+        self.served.write_ready()
     }
 
     /// The colour of the oldest read, once it is there.
     #[must_use]
     pub fn cdata(&self) -> Option<u64> {
-        let (due, rgb) = *self.reads.head();
-        (!self.reads.is_empty() && due <= self.now).then_some(rgb)
+        self.served.data()
     }
 
     /// What is stored at an address, with the depth that another memory has there.
@@ -87,19 +79,12 @@ impl<const C: usize> ColorMemory<C> {
 
     /// Clock edge: the read that fired, whether the word was taken, the write that fired.
     pub fn step(&mut self, read: Option<u32>, taken: bool, write: Option<&ColorWrite<C>>) {
-        if taken {
-            self.reads.pop();
-        }
-        let late = self.pacer.step(self.now, read, write.map(|write| write.addr));
-        if let Some(addr) = read {
-            let due = self.now.wrapping_add(self.latency).wrapping_add(late);
-            self.reads.push((due, self.rgb[addr as usize]));
-        }
+        let read = read.map(|addr| (addr, self.rgb[addr as usize]));
+        self.served.step(read, taken, write.map(|write| write.addr));
         if let Some(write) = write {
             self.rgb[write.addr as usize] = write.rgb;
             self.own[write.addr as usize] =
                 std::array::from_fn(|i| write.values.get(FEW + i).copied().unwrap_or(0));
         }
-        self.now = self.now.wrapping_add(1);
     }
 }

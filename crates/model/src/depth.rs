@@ -16,10 +16,12 @@
 mod view;
 
 use crate::Events;
+use crate::ports::{Pins, Ported, Shown};
 pub use crate::rmw::Block;
 use crate::rmw::{Retired, Rmw};
-use crate::tokens::{FEW, Fragment, OutputWords, Passed, Source, Write};
-use edgewalk_machine::{BlendKind, Hazard, Plan};
+use crate::tokens::{FEW, Fragment, Write};
+use crate::word_memory::Ask;
+use edgewalk_machine::{Hazard, Plan};
 
 /// The unit's inputs of a cycle, but for the fragment.
 #[derive(Clone, Copy, Debug, Default)]
@@ -40,28 +42,12 @@ pub struct DepthInputs {
     pub pass_ready: bool,
 }
 
-/// What travels beside the depth.
-#[derive(Clone, Copy, Debug)]
-struct Side<const C: usize> {
-    /// All values, the new depth among them.
-    values: OutputWords<C>,
-    kt: u32,
-    lit: bool,
-    fence: bool,
-    source: Source,
-}
-
-impl<const C: usize> Default for Side<C> {
-    fn default() -> Self {
-        Side { values: [0; C], kt: 0, lit: false, fence: false, source: Source::default() }
-    }
-}
-
 /// State of DEPTH.
 #[derive(Clone, Debug)]
 pub struct Depth<const C: usize> {
     /// Its w is the whole write without BLEND, that of the depth with BLEND.
-    rmw: Rmw<u32, Side<C>>,
+    /// Fragments travel beside their depths.
+    rmw: Rmw<u32, Fragment<C>>,
     fork: Fork<C>,
 }
 
@@ -70,10 +56,8 @@ pub struct Depth<const C: usize> {
 struct Fork<const C: usize> {
     /// There is one. Only machines of more than few channels or with BLEND are built so; for the others nothing of it is.
     is_there: bool,
-    /// Place of k_t among the channels, if it is one.
-    kt: Option<usize>,
     /// w_c and what it offers.
-    color: Option<Passed<C>>,
+    color: Option<Fragment<C>>,
     /// Fences of fragments that BLEND did not see.
     pend_fence: bool,
 }
@@ -82,14 +66,7 @@ impl<const C: usize> Depth<C> {
     /// An empty unit.
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
-        let interpolated = plan.blend.kind == BlendKind::Interpolated;
-        let kt = plan.channel_place("kt");
-        let fork = Fork {
-            is_there: plan.blend.is_there(),
-            kt: kt.filter(|_| interpolated),
-            color: None,
-            pend_fence: false,
-        };
+        let fork = Fork { is_there: plan.blend.is_there(), color: None, pend_fence: false };
         Depth { rmw: Rmw::new(plan.hazard, plan.inflight), fork }
     }
 
@@ -138,7 +115,7 @@ impl<const C: usize> Depth<C> {
     /// The fragment offered to BLEND.
     #[inline]
     #[must_use]
-    pub fn pass(&self) -> Option<&Passed<C>> {
+    pub fn pass(&self) -> Option<&Fragment<C>> {
         self.fork.color.as_ref().filter(|_| self.forks())
     }
 
@@ -159,8 +136,7 @@ impl<const C: usize> Depth<C> {
     #[inline]
     #[must_use]
     pub fn last_read(&self) -> Fragment<C> {
-        let (addr, Side { values, kt, lit, source, .. }) = self.rmw.youngest();
-        Fragment { addr, values, kt, lit, fence: false, source }
+        Fragment { fence: false, ..*self.rmw.youngest() }
     }
 
     /// Clock edge.
@@ -175,9 +151,7 @@ impl<const C: usize> Depth<C> {
         let compared = inputs.data.filter(|_| self.data_ready(inputs.wr_ready, inputs.pass_ready));
         if let Some(frag) = frag {
             if block.is_none() && inputs.rd_ready {
-                let Fragment { values, kt, lit, fence, source, .. } = *frag;
-                let side = Side { values, kt, lit, fence, source };
-                if self.rmw.enter(frag.addr, side) {
+                if self.rmw.enter(frag.addr, *frag) {
                     events.depth.forward_write += 1;
                 }
             } else {
@@ -224,15 +198,13 @@ impl<const C: usize> Depth<C> {
 
     /// Offers a fragment to BLEND, or keeps its fence for the next that is.
     fn hand_on(&mut self, of: &Retired<u32>, passes: bool, events: &mut Events) {
-        let Fork { kt, color, pend_fence, .. } = &mut self.fork;
-        let side = self.rmw.side(of);
-        let fence = side.fence || *pend_fence;
+        let Fork { color, pend_fence, .. } = &mut self.fork;
+        let frag = self.rmw.side(of);
+        let fence = frag.fence || *pend_fence;
         *pend_fence = fence && !passes;
         if passes {
-            events.depth.fence_handed_on += u64::from(fence && !side.fence);
-            let kt = kt.map_or(side.kt, |place| side.values[place]);
-            let Side { values, lit, source, .. } = *side;
-            *color = Some(Passed { addr: of.addr, values, kt, lit, fence, source });
+            events.depth.fence_handed_on += u64::from(fence && !frag.fence);
+            *color = Some(Fragment { fence, ..*frag });
         }
     }
 
@@ -253,5 +225,52 @@ impl<const C: usize> Depth<C> {
             (Some(Block::Full), _) => events.depth.queue_full += 1,
             (None, _) => events.depth.memory_stall += 1,
         }
+    }
+}
+
+impl<const C: usize> Depth<C> {
+    /// With BLEND what is given goes on to it, and the write stands beside.
+    fn inputs(&self, pins: &Pins<Fragment<C>, C>) -> DepthInputs {
+        DepthInputs {
+            depth_func: pins.state.depth_func,
+            depth_write: pins.state.depth_write,
+            rd_ready: pins.word.ready,
+            data: pins.word.word.map(|word| word as u64), // at most 32 bits
+            wr_ready: if self.forks() { pins.write } else { pins.next },
+            color_write: pins.state.color_write,
+            pass_ready: self.forks() && pins.next,
+        }
+    }
+}
+
+impl<const C: usize> Ported<C> for Depth<C> {
+    type Takes = Fragment<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        let inputs = self.inputs(pins);
+        let block = self.block(pins.token, inputs.depth_write);
+        out.takes(inputs.rd_ready && block.is_none());
+        if self.forks() {
+            out.gives(self.pass());
+            out.writes(self.write().as_ref());
+        } else {
+            out.gives(self.write().as_ref());
+        }
+        let addr = pins.token.filter(|_| block.is_none()).map(|frag| frag.addr);
+        out.asks(Ask { addr, take: self.data_ready(inputs.wr_ready, inputs.pass_ready) });
+        out.status("hazard", block == Some(Block::Hazard));
+        // Without a fragment only a full queue blocks.
+        out.status("full", self.block(None, inputs.depth_write).is_some());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        let inputs = self.inputs(pins);
+        let block = self.block(pins.token, inputs.depth_write);
+        self.step(pins.token, block, &inputs, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

@@ -150,7 +150,7 @@ fn draw<const C: usize>(
     let blends = plan.blend.is_there();
     let channels = plan.channels().len().min(C); // C serves the plan; said so that no slice is checked in every cycle
     let mut triangles = triangles.zip(0..).map(|(t, number)| plan.accept(&t, number).map(|()| t));
-    rig.write_shading(plan, shading);
+    rig.memories.write_shading(plan, shading);
     let mut watch = |light_pass: bool, model: &Model<C>, cycle: &Cycle<C>| {
         if light_pass {
             return;
@@ -180,17 +180,17 @@ fn draw<const C: usize>(
             before = rig.model.counters().clone();
             spent.push(Counters::default());
         }
-        if let Some(count) = rig.take_step(plan, step, &mut maps) {
+        if let Some(count) = rig.memories.take_step(plan, step, &mut maps) {
             rig.draw(triangles.by_ref().take(count), |_, model, cycle| watch(light_pass, model, cycle))?;
             let pass = rig.model.counters().since(&before);
             spent.last_mut().into_iter().for_each(|last| last.clone_from(&pass));
         }
     }
-    rig.set_state(state);
+    rig.memories.set_state(state);
     let x_bits = plan.widths().x;
     let addresses: Vec<usize> =
         (0..plan.height).flat_map(|y| (0..plan.width).map(move |x| (y << x_bits | x) as usize)).collect();
-    let stored = || addresses.iter().map(|addr| rig.pixel(*addr as u32));
+    let stored = || addresses.iter().map(|addr| rig.memories.pixel(*addr as u32));
     let extra = plan.own_channels();
     Ok(Frame {
         z: stored().map(|values| u64::from(values[0])).collect(),
@@ -210,26 +210,6 @@ fn draw<const C: usize>(
         passes: spent,
         events: rig.model.events().clone(),
     })
-}
-
-impl<const C: usize> Rig<C> {
-    /// Does what the host does in a step, but for [`Step::Draw`]: of that it gives how many triangles are to be drawn.
-    pub fn take_step(&mut self, plan: &Plan, step: Step, maps: &mut Maps) -> Option<usize> {
-        match step {
-            Step::State(state) => self.set_state(state),
-            Step::ClearDepth => self.memory.clear_depth(plan),
-            Step::ClearMap => self.clear_map(plan),
-            Step::LoadMap(number) => {
-                if let (Some(memory), Some(map)) = (&mut self.map, maps.words(number)) {
-                    memory.words_mut().iter_mut().zip(map).for_each(|(word, depth)| *word = *depth);
-                }
-            }
-            Step::Record(triangle, record) => self.write_record(plan, triangle, record),
-            Step::Draw(count) => return Some(count),
-            Step::StoreMap(number) => maps.keep(number, self.drawn_map(plan)),
-        }
-        None
-    }
 }
 
 /// What happened at every address.

@@ -15,10 +15,11 @@ mod view;
 
 use crate::Events;
 use crate::fetch::Fetch;
-use crate::machine::NormalInputs;
+use crate::lit::{Cosines, Given, Lit};
 use crate::normal::index;
-use crate::shade::Cosines;
-use crate::tokens::Fragment;
+use crate::ports::{Pins, Ported, Shown};
+use crate::word_memory::Ask;
+use crate::word_memory::WordIn;
 use edgewalk_machine::Plan;
 
 /// The step in which a fragment is done.
@@ -38,7 +39,7 @@ pub struct Lamp<const C: usize> {
     /// v and slope.
     words: Vec<(i64, i64)>,
     /// The fragment inside, and how many steps are done.
-    inside: Option<(Fragment<C>, Cosines)>,
+    inside: Option<Lit<C>>,
     step: u32,
 }
 
@@ -86,7 +87,7 @@ impl<const C: usize> Lamp<C> {
 
     /// The fragment offered to SHADE, with its cosines.
     #[must_use]
-    pub fn normed(&self) -> Option<&(Fragment<C>, Cosines)> {
+    pub fn normed(&self) -> Option<&Lit<C>> {
         self.inside.as_ref().filter(|_| self.step == LAST)
     }
 
@@ -98,7 +99,7 @@ impl<const C: usize> Lamp<C> {
 
     /// A fragment waits for the tables.
     #[must_use]
-    pub fn waits(&self, frag: Option<&Fragment<C>>) -> bool {
+    pub fn waits(&self, frag: Option<Given<C>>) -> bool {
         frag.is_some() && !self.have
     }
 
@@ -114,24 +115,17 @@ impl<const C: usize> Lamp<C> {
         self.fetch.loading()
     }
 
-    /// Clock edge. `terms`: the outputs of the terms of the fragment.
-    pub fn step(
-        &mut self,
-        frag: Option<&Fragment<C>>,
-        terms: &Cosines,
-        inputs: &NormalInputs,
-        normed_ready: bool,
-        events: &mut Events,
-    ) {
+    /// Clock edge. Beside the fragment are the outputs of its terms; `tables`: the ports of the memory.
+    pub fn step(&mut self, frag: Option<Given<C>>, tables: &WordIn, normed_ready: bool, events: &mut Events) {
         let (waits, ready) = (self.waits(frag), self.frag_ready(normed_ready));
         if self.fetch.loading() {
-            self.load(inputs, events);
+            self.load(tables, events);
         } else if waits {
             self.fetch.begin();
         }
         events.lamp.lamp_wait += u64::from(frag.is_some() && self.working());
-        if let Some(fragment) = frag.filter(|_| ready) {
-            self.inside = Some((*fragment, self.cosines(terms, events)));
+        if let Some(given) = frag.filter(|_| ready) {
+            self.inside = Some(Lit { frag: *given.frag, cosines: self.cosines(given.cosines, events) });
             self.step = 0;
         } else if self.working() {
             self.step += 1;
@@ -142,9 +136,9 @@ impl<const C: usize> Lamp<C> {
         }
     }
 
-    fn load(&mut self, inputs: &NormalInputs, events: &mut Events) {
-        events.lamp.lamp_read_stall += u64::from(self.fetch.send(inputs.rrd_ready));
-        let Some(word) = inputs.rdata else { return };
+    fn load(&mut self, tables: &WordIn, events: &mut Events) {
+        events.lamp.lamp_read_stall += u64::from(self.fetch.send(tables.ready));
+        let Some(word) = tables.word else { return };
         let (number, last) = self.fetch.take();
         self.words[number as usize] = ((word >> 16) as i64 & 0x1_ffff, word as i64 & 0xffff);
         self.have = last;
@@ -219,4 +213,25 @@ fn cut(number: i64, events: &mut Events) -> i64 {
     let within = number.clamp(-(1 << 17), (1 << 17) - 1);
     events.lamp.lamp_cut += u64::from(within != number);
     within
+}
+
+impl<const C: usize> Ported<C> for Lamp<C> {
+    type Takes = Lit<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.frag_ready(pins.next));
+        out.gives(self.normed());
+        out.asks(Ask { addr: self.read(), take: self.rdata_ready() });
+        out.status("table_wait", self.waits(pins.token.map(Lit::given)));
+        out.status("working", self.working());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        self.step(pins.token.map(Lit::given), &pins.word, pins.next, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
+    }
 }

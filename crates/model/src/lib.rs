@@ -11,8 +11,12 @@
 //! here fails on a planned machine but vertices of another.
 
 pub mod counters;
+pub mod named;
+pub mod ports;
 mod rmw;
 mod fetch;
+mod stages;
+pub mod lit;
 pub mod texel;
 pub mod bump;
 pub mod normal;
@@ -24,12 +28,15 @@ pub mod depth;
 pub mod blend;
 pub mod edge;
 pub mod fifo;
+pub mod stage;
 pub mod machine;
 mod prefetch;
 mod waits;
+mod served;
 pub mod memory;
-pub mod map_memory;
+pub mod word_memory;
 pub mod color_memory;
+pub mod memories;
 pub mod pixel;
 pub mod run;
 pub mod frame;
@@ -37,7 +44,6 @@ pub mod fast;
 pub mod setup;
 pub mod span;
 pub mod term;
-pub mod word_memory;
 pub mod tokens;
 pub mod view;
 
@@ -45,10 +51,9 @@ pub use color_memory::ColorMemory;
 pub use counters::Counters;
 pub use edgewalk_machine::{Activity, DrawState, Events, Pass, Shading, first_of_picture};
 pub use frame::{Drawn, Frame, Sample, render, render_passes, render_passes_with, render_with};
-pub use machine::{
-    BlendInputs, Inputs, Model, NormalInputs, Outputs, ShadeInputs, ShadowInputs, TermInputs, TexelInputs,
-};
-pub use map_memory::MapMemory;
+pub use lit::{Cosines, Given, Lit};
+pub use machine::{BlendInputs, Inputs, Model, Outputs, ShadowInputs};
+pub use memories::Memories;
 pub use memory::{Memory, Stalls};
 pub use prefetch::prefetch;
 pub use run::{Cycle, Rig};
@@ -56,4 +61,4 @@ pub use setup::{Culled, SetupClocks, cull, longest_setup, setup_clocks};
 pub use tokens::Write;
 pub use view::View;
 pub use waits::{Dram, Fixed, KINDS as WAITS, Waits, WaitsError};
-pub use word_memory::WordMemory;
+pub use word_memory::{Ask, WordIn, WordMemory};

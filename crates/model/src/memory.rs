@@ -11,10 +11,10 @@
 //!
 //! Rules: `docs/machine.md`, section 7. When data is late and readies are low: [`Waits`].
 
-use crate::fifo::Fifo;
 use crate::prefetch::prefetch;
+use crate::served::Served;
 use crate::tokens::{FEW, MAX_CHANNELS, OutputWords, Write};
-use crate::waits::{Pacer, Waits};
+use crate::waits::Waits;
 use edgewalk_machine::Plan;
 
 /// How often the memory makes the machine wait, in 256ths; all zero: never. The same seed stalls in the same cycles.
@@ -38,11 +38,7 @@ impl Stalls {
 /// State of the memory.
 #[derive(Clone, Debug)]
 pub struct Memory<const C: usize> {
-    latency: u64,
-    pacer: Pacer,
-    now: u64,
-    /// Depths read, with the cycle from which on they are offered.
-    reads: Fifo<(u64, u32), 16>,
+    served: Served<u32>,
     /// Words from a line to the next.
     pitch: usize,
     /// Depth and frame memory by address, side by side, as the host's own memory is slow: depth, and the low LOW bits of red,
@@ -73,10 +69,7 @@ impl<const C: usize> Memory<C> {
         let clear = clear.map(|c| c as u32); // b <= 16 bits
         let high = if plan.color.bits > LOW { words } else { 0 };
         Memory {
-            latency: u64::from(plan.latency),
-            pacer: Pacer::new(waits.into()),
-            now: 0,
-            reads: Fifo::default(),
+            served: Served::new(plan.latency, waits.into()),
             pitch: 1 << plan.widths().x,
             pixels: vec![[0; 2]; words],
             clear: [plan.z.max() as u32, pack(clear)], // b <= 32 bits
@@ -89,22 +82,21 @@ impl<const C: usize> Memory<C> {
     #[inline]
     #[must_use]
     pub fn rd_ready(&self) -> bool {
-        self.pacer.rd_ready
+        self.served.read_ready()
     }
 
     /// A write can be taken in this cycle.
     #[inline]
     #[must_use]
     pub fn wr_ready(&self) -> bool {
-        self.pacer.wr_ready
+        self.served.write_ready()
     }
 
     /// The depth of the oldest read, once it is there.
     #[inline]
     #[must_use]
     pub fn data(&self) -> Option<u64> {
-        let (due, z) = *self.reads.head();
-        (!self.reads.is_empty() && due <= self.now).then_some(u64::from(z))
+        self.served.data().map(u64::from)
     }
 
     /// These two columns of a line, px on the screen or beside it, are likely to be asked for. Not hardware: it changes nothing but
@@ -178,14 +170,7 @@ impl<const C: usize> Memory<C> {
     /// The reads, and the readies of the next cycle; a read in the cycle of a write sees the old word.
     #[inline(always)]
     fn clock(&mut self, read: Option<u32>, data_taken: bool, written: Option<u32>) {
-        if data_taken {
-            self.reads.pop();
-        }
-        let late = self.pacer.step(self.now, read, written);
-        if let Some(addr) = read {
-            let due = self.now.wrapping_add(self.latency).wrapping_add(late);
-            self.reads.push((due, self.pixels[addr as usize][0] ^ self.clear[0]));
-        }
-        self.now = self.now.wrapping_add(1);
+        let read = read.map(|addr| (addr, self.pixels[addr as usize][0] ^ self.clear[0]));
+        self.served.step(read, data_taken, written);
     }
 }

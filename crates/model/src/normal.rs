@@ -16,22 +16,16 @@ mod view;
 
 use crate::Events;
 use crate::fetch::Fetch;
-use crate::shade::Cosines;
+use crate::lit::{Cosines, Given, Lit};
+use crate::ports::{Pins, Ported, Shown};
+use crate::stages::Stages;
 use crate::term::MAX_TERMS;
-use crate::tokens::Fragment;
+use crate::word_memory::Ask;
+use crate::word_memory::WordIn;
 use edgewalk_machine::Plan;
 
 /// Entries of R.
 const ENTRIES: u32 = 256;
-
-/// The unit's inputs of a cycle, but for the fragment and whether its own is taken.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct NormalInputs {
-    /// The memory of the roots takes a read.
-    pub rrd_ready: bool,
-    /// The oldest read's word.
-    pub rdata: Option<u128>,
-}
 
 /// State of NORMAL.
 #[derive(Clone, Debug)]
@@ -45,7 +39,7 @@ pub struct Normal<const C: usize> {
     /// v and slope.
     roots: Vec<(i64, i64)>,
     /// N1 to N5.
-    stages: [Option<(Fragment<C>, Cosines)>; 5],
+    stages: Stages<Lit<C>>,
 }
 
 impl<const C: usize> Normal<C> {
@@ -59,7 +53,7 @@ impl<const C: usize> Normal<C> {
             have: false,
             fetch: Fetch::of(ENTRIES),
             roots: vec![(0, 0); ENTRIES as usize],
-            stages: [None; 5],
+            stages: Stages::new(5),
         }
     }
 
@@ -67,19 +61,19 @@ impl<const C: usize> Normal<C> {
     pub fn reset(&mut self) {
         self.have = false;
         self.fetch.reset();
-        self.stages = [None; 5];
+        self.stages.clear();
     }
 
     /// A fragment is in a stage.
     #[must_use]
     pub fn occupied(&self) -> bool {
-        self.stages.iter().any(Option::is_some)
+        self.stages.held() > 0
     }
 
     /// The fragment offered to SHADE, with its cosines.
     #[must_use]
-    pub fn normed(&self) -> Option<&(Fragment<C>, Cosines)> {
-        self.stages[4].as_ref()
+    pub fn normed(&self) -> Option<&Lit<C>> {
+        self.stages.last()
     }
 
     fn advance(&self, normed_ready: bool) -> bool {
@@ -94,7 +88,7 @@ impl<const C: usize> Normal<C> {
 
     /// A fragment waits for the roots.
     #[must_use]
-    pub fn waits(&self, frag: Option<&Fragment<C>>) -> bool {
+    pub fn waits(&self, frag: Option<Given<C>>) -> bool {
         frag.is_some() && !self.have
     }
 
@@ -110,18 +104,11 @@ impl<const C: usize> Normal<C> {
         self.fetch.loading()
     }
 
-    /// Clock edge. `terms`: the outputs of the terms of the fragment.
-    pub fn step(
-        &mut self,
-        frag: Option<&Fragment<C>>,
-        terms: &Cosines,
-        inputs: &NormalInputs,
-        normed_ready: bool,
-        events: &mut Events,
-    ) {
+    /// Clock edge. Beside the fragment are the outputs of its terms; `roots`: the ports of the memory.
+    pub fn step(&mut self, frag: Option<Given<C>>, roots: &WordIn, normed_ready: bool, events: &mut Events) {
         let waits = self.waits(frag);
         if self.fetch.loading() {
-            self.load(inputs, events);
+            self.load(roots, events);
         } else if waits {
             self.fetch.begin();
         }
@@ -129,14 +116,16 @@ impl<const C: usize> Normal<C> {
             events.normal.normal_stall += 1;
             return;
         }
-        self.stages.rotate_right(1);
         let taken = frag.filter(|_| !waits);
-        self.stages[0] = taken.map(|fragment| (*fragment, self.cosines(terms, events)));
+        let normed =
+            |given: Given<C>| Lit { frag: *given.frag, cosines: self.cosines(given.cosines, events) };
+        let entering = taken.map(normed);
+        self.stages.shift(entering);
     }
 
-    fn load(&mut self, inputs: &NormalInputs, events: &mut Events) {
-        events.normal.root_read_stall += u64::from(self.fetch.send(inputs.rrd_ready));
-        let Some(word) = inputs.rdata else { return };
+    fn load(&mut self, roots: &WordIn, events: &mut Events) {
+        events.normal.root_read_stall += u64::from(self.fetch.send(roots.ready));
+        let Some(word) = roots.word else { return };
         let (number, last) = self.fetch.take();
         self.roots[number as usize] = ((word >> 10) as i64 & 0x1_ffff, word as i64 & 0x3ff);
         self.have = last;
@@ -180,3 +169,23 @@ pub(crate) fn index(number: i64, below: u32, bits: u32) -> (i32, bool) {
 }
 
 const _: () = assert!(MAX_TERMS >= 5, "two lights and N·N");
+
+impl<const C: usize> Ported<C> for Normal<C> {
+    type Takes = Lit<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.frag_ready(pins.next));
+        out.gives(self.normed());
+        out.asks(Ask { addr: self.read(), take: self.rdata_ready() });
+        out.status("table_wait", self.waits(pins.token.map(Lit::given)));
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        self.step(pins.token.map(Lit::given), &pins.word, pins.next, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
+    }
+}

@@ -16,8 +16,9 @@
 mod view;
 
 use crate::Events;
-use crate::shade::Cosines;
-use crate::term::{MAX_TERMS, Walked};
+use crate::lit::{Cosines, Given};
+use crate::ports::{Pins, Ported, Shown};
+use crate::term::{MAX_TERMS, Walked, WalkedSpan};
 use crate::tokens::{FEW, Fragment, OutputWords, Source, Span, Words, per_channel};
 use edgewalk_machine::{Plan, Shadow};
 
@@ -149,11 +150,11 @@ impl<const C: usize> Pixel<C> {
         self.out.as_ref()
     }
 
-    /// With TERM: the outputs of the terms, and the material, of the fragment offered.
+    /// The fragment offered on; with TERM the outputs of the terms, and the material, are beside it.
     #[inline]
     #[must_use]
-    pub fn cosines(&self) -> &Cosines {
-        &self.out_cosines
+    pub fn given(&self) -> Option<Given<'_, C>> {
+        self.out.as_ref().map(|frag| Given { frag, cosines: &self.out_cosines })
     }
 
     /// Column and line of the pixel, while active.
@@ -317,5 +318,29 @@ impl<const C: usize> Pixel<C> {
 
     fn aligned(&self, words: &Words<C>) -> Words<C> {
         std::array::from_fn(|i| words[i] << self.align[i])
+    }
+}
+
+impl<const C: usize> Ported<C> for Pixel<C> {
+    type Takes = WalkedSpan<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.span_ready(pins.next));
+        out.gives(self.given().map(|given| given.lit()).as_ref());
+        out.status("active", self.active());
+        out.status("visible", self.on_screen());
+        out.status("advance", self.advance(pins.next));
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        let span = pins.token.map(|token| &token.span);
+        let walked = || pins.token.map_or_else(Walked::default, |token| token.walked);
+        let held = (&pins.held.gradient, pins.held.kt);
+        self.step(span, held, walked, pins.next, pins.state.light_pass, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

@@ -14,14 +14,16 @@
 mod view;
 
 use crate::Events;
-use crate::tokens::{Fragment, sign_extend};
+use crate::ports::{Pins, Ported, Shown};
+use crate::stages::Stages;
+use crate::tokens::Fragment;
 use edgewalk_machine::{LIGHT_SPACE, Plan, Project as Kind};
 
 /// What holds fragments while they are divided.
 #[derive(Clone, Debug)]
 enum Rows<const C: usize> {
-    /// A ring of R + 1 stages; `oldest` is stage R, the one behind it stage R - 1.
-    Pipelined { stages: Vec<Option<Fragment<C>>>, oldest: usize },
+    /// R + 1 stages.
+    Pipelined(Stages<Fragment<C>>),
     /// The fragment, and how many rows are done.
     Serial { fragment: Option<Fragment<C>>, row: u32 },
 }
@@ -55,9 +57,9 @@ impl<const C: usize> Project<C> {
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
         let shadow = &plan.shadow;
-        let place = |name: &str| plan.channel_place(name).unwrap_or(0);
+        let place = |name: &str| plan.channels().iter().position(|channel| channel.name == name).unwrap_or(0);
         let rows = match shadow.project {
-            Kind::Pipelined => Rows::Pipelined { stages: vec![None; shadow.rows() as usize + 1], oldest: 0 },
+            Kind::Pipelined => Rows::Pipelined(Stages::new(shadow.rows() as usize + 1)),
             Kind::Serial => Rows::Serial { fragment: None, row: 0 },
         };
         Project {
@@ -73,7 +75,7 @@ impl<const C: usize> Project<C> {
     /// Synchronous reset.
     pub fn reset(&mut self) {
         match &mut self.rows {
-            Rows::Pipelined { stages, .. } => stages.fill(None),
+            Rows::Pipelined(stages) => stages.clear(),
             Rows::Serial { fragment, .. } => *fragment = None,
         }
     }
@@ -82,7 +84,7 @@ impl<const C: usize> Project<C> {
     #[must_use]
     pub fn occupied(&self) -> bool {
         match &self.rows {
-            Rows::Pipelined { stages, .. } => stages.iter().any(Option::is_some),
+            Rows::Pipelined(stages) => stages.held() > 0,
             Rows::Serial { fragment, .. } => fragment.is_some(),
         }
     }
@@ -97,7 +99,7 @@ impl<const C: usize> Project<C> {
     #[must_use]
     pub fn projected(&self) -> Option<&Fragment<C>> {
         match &self.rows {
-            Rows::Pipelined { stages, oldest } => stages[*oldest].as_ref(),
+            Rows::Pipelined(stages) => stages.last(),
             Rows::Serial { fragment, row } => fragment.as_ref().filter(|_| *row == self.last_row),
         }
     }
@@ -106,7 +108,7 @@ impl<const C: usize> Project<C> {
     #[must_use]
     pub fn frag_ready(&self, projected_ready: bool) -> bool {
         match &self.rows {
-            Rows::Pipelined { .. } => self.projected().is_none() || projected_ready,
+            Rows::Pipelined(_) => self.projected().is_none() || projected_ready,
             Rows::Serial { fragment, row } => {
                 fragment.is_none() || (*row == self.last_row && projected_ready)
             }
@@ -118,11 +120,8 @@ impl<const C: usize> Project<C> {
         let ready = self.frag_ready(projected_ready);
         let taken = frag.filter(|_| ready).map(|fragment| self.divided(fragment, events));
         match &mut self.rows {
-            Rows::Pipelined { .. } if !ready => events.project.project_stall += 1,
-            Rows::Pipelined { stages, oldest } => {
-                stages[*oldest] = taken;
-                *oldest = (*oldest + 1) % stages.len();
-            }
+            Rows::Pipelined(_) if !ready => events.project.project_stall += 1,
+            Rows::Pipelined(stages) => stages.shift(taken),
             Rows::Serial { .. } if !ready => {
                 events.project.project_wait += u64::from(frag.is_some());
                 self.row();
@@ -142,8 +141,10 @@ impl<const C: usize> Project<C> {
 
     /// The fragment with its texel and its depth in the place of what they are quotients of.
     fn divided(&self, fragment: &Fragment<C>, events: &mut Events) -> Fragment<C> {
-        let signed = |place: usize| i64::from(sign_extend(fragment.values[place] as i32, self.bits));
-        let [x, y, z, w] = self.at.map(signed);
+        let [x, y, z, w] = self.at.map(|place| {
+            let (word, sign) = (i64::from(fragment.values[place]), 1 << (self.bits - 1));
+            (word ^ sign) - sign
+        });
         let texels = [x, y].map(|x| self.texel(x, w, events));
         let depth = self.depth(z, w, events);
         events.project.behind_light += u64::from(w <= 0);
@@ -178,5 +179,24 @@ impl<const C: usize> Project<C> {
             events.project.depth_to_end += u64::from(depth == end);
             depth
         }
+    }
+}
+
+impl<const C: usize> Ported<C> for Project<C> {
+    type Takes = Fragment<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.frag_ready(pins.next));
+        out.gives(self.projected());
+        out.status("dividing", self.dividing());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        self.step(pins.token, pins.next, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

@@ -182,10 +182,9 @@ impl<T: Copy + Default, S: Copy + Default> Rmw<T, S> {
         self.head.wrapping_add(place) & (PLACES - 1)
     }
 
-    /// The youngest access, its address and side; a stale one if there is none.
-    pub(crate) fn youngest(&self) -> (u32, S) {
-        let slot = self.slot(self.len.wrapping_sub(1));
-        (self.addr[slot], self.side[slot])
+    /// The side of the youngest access; a stale one if there is none.
+    pub(crate) fn youngest(&self) -> &S {
+        &self.side[self.slot(self.len.wrapping_sub(1))]
     }
 
     /// Queues an access that is not blocked; true: w stores a word there, and it takes that one.

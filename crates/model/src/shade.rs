@@ -16,43 +16,15 @@ mod view;
 
 use crate::Events;
 use crate::fetch::Fetch;
-use crate::term::MAX_TERMS;
+use crate::lit::{Cosines, Given, Lit};
+use crate::ports::{Pins, Ported, Shown};
 use crate::tokens::Fragment;
+use crate::word_memory::Ask;
+use crate::word_memory::WordIn;
 use edgewalk_machine::{Plan, ShadeColour};
 
 /// Most lights at once.
 const LIGHTS: usize = 2;
-
-/// What PIXEL adds to a fragment: the outputs of the terms, signed, and the material. What BUMP and NORMAL give has cosines in
-/// place of the terms.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Cosines {
-    /// A value a term, LSB of its output; behind the last 0.
-    pub terms: [i32; MAX_TERMS],
-    /// The material.
-    pub material: u32,
-    /// Of the material's highlights, for NORMAL.
-    pub gloss: u32,
-    /// From LAMP: how much of the light comes, 2^16 for all of it.
-    pub beam: u32,
-    /// From TEXEL to BUMP: of the relief along u and v, 2^(ξ-1) for its largest.
-    pub slopes: [i32; 2],
-}
-
-impl Cosines {
-    /// Beside no fragment.
-    pub const NONE: Cosines =
-        Cosines { terms: [0; MAX_TERMS], material: 0, gloss: 0, beam: 0, slopes: [0; 2] };
-}
-
-/// The unit's inputs of a cycle, but for the fragment and whether its own is taken.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct ShadeInputs {
-    /// The memory of the tables takes a read.
-    pub srd_ready: bool,
-    /// The oldest read's word.
-    pub sdata: Option<u128>,
-}
 
 /// A light of a fragment, in stage A.
 #[derive(Clone, Copy, Debug, Default)]
@@ -141,25 +113,25 @@ impl<const C: usize> Shade<C> {
         self.c.as_ref()
     }
 
-    /// The tables of its material are here.
-    fn fits(&self, cosines: &Cosines) -> bool {
-        self.have && cosines.material == self.material
+    /// The tables of its material are here; without a fragment, those of material 0.
+    fn fits(&self, frag: Option<Given<C>>) -> bool {
+        self.have && frag.map_or(0, |given| given.cosines.material) == self.material
     }
 
     fn advance(&self, tinted_ready: bool) -> bool {
         self.c.is_none() || tinted_ready
     }
 
-    /// The fragment that is offered, with these cosines, can be taken.
+    /// The fragment that is offered can be taken.
     #[must_use]
-    pub fn frag_ready(&self, cosines: &Cosines, tinted_ready: bool) -> bool {
-        self.advance(tinted_ready) && self.fits(cosines)
+    pub fn frag_ready(&self, frag: Option<Given<C>>, tinted_ready: bool) -> bool {
+        self.advance(tinted_ready) && self.fits(frag)
     }
 
     /// The fragment that is offered waits for the tables of its material.
     #[must_use]
-    pub fn waits(&self, frag: Option<&Fragment<C>>, cosines: &Cosines) -> bool {
-        frag.is_some() && !self.fits(cosines)
+    pub fn waits(&self, frag: Option<Given<C>>) -> bool {
+        frag.is_some() && !self.fits(frag)
     }
 
     /// Address of an entry to be read.
@@ -174,25 +146,20 @@ impl<const C: usize> Shade<C> {
         self.fetch.loading()
     }
 
-    /// Clock edge.
-    pub fn step(
-        &mut self,
-        frag: Option<&Fragment<C>>,
-        cosines: &Cosines,
-        inputs: &ShadeInputs,
-        tinted_ready: bool,
-        events: &mut Events,
-    ) {
-        let waits = self.waits(frag, cosines);
+    /// Clock edge. `tables`: the ports of the memory.
+    pub fn step(&mut self, frag: Option<Given<C>>, tables: &WordIn, tinted_ready: bool, events: &mut Events) {
+        let waiting = frag.filter(|given| !self.fits(Some(*given)));
         if self.fetch.loading() {
-            self.load(inputs, events);
-        } else if waits && self.occupied() {
-            events.shade.tables_drain += u64::from(self.have);
-        } else if waits {
-            events.shade.material_change += u64::from(self.have);
-            self.fetch.begin();
-            self.have = false;
-            self.material = cosines.material;
+            self.load(tables, events);
+        } else if let Some(given) = waiting {
+            if self.occupied() {
+                events.shade.tables_drain += u64::from(self.have);
+            } else {
+                events.shade.material_change += u64::from(self.have);
+                self.fetch.begin();
+                self.have = false;
+                self.material = given.cosines.material;
+            }
         }
         if !self.advance(tinted_ready) {
             events.shade.shade_stall += 1;
@@ -210,13 +177,13 @@ impl<const C: usize> Shade<C> {
             self.g = self.b.map(|(fragment, lights)| (fragment, lights.map(|light| self.weakened(light))));
         }
         self.b = self.a.map(|(fragment, indices)| (fragment, self.look_up(&indices)));
-        let taken = frag.filter(|_| !waits);
-        self.a = taken.map(|fragment| (*fragment, self.indices(cosines, events)));
+        let taken = frag.filter(|_| waiting.is_none());
+        self.a = taken.map(|given| (*given.frag, self.indices(given.cosines, events)));
     }
 
-    fn load(&mut self, inputs: &ShadeInputs, events: &mut Events) {
-        events.shade.table_read_stall += u64::from(self.fetch.send(inputs.srd_ready));
-        let Some(word) = inputs.sdata else { return };
+    fn load(&mut self, tables: &WordIn, events: &mut Events) {
+        events.shade.table_read_stall += u64::from(self.fetch.send(tables.ready));
+        let Some(word) = tables.word else { return };
         let highlight = word as u32 & self.largest(); // b <= 16 bits
         let (number, last) = self.fetch.take();
         self.tables[number as usize] = ((word >> self.color_bits) as u64, highlight);
@@ -303,5 +270,26 @@ impl<const C: usize> Shade<C> {
     fn cut(&self, color: u32, events: &mut Events) -> u32 {
         events.shade.color_saturated += u64::from(color > self.largest());
         color.min(self.largest())
+    }
+}
+
+impl<const C: usize> Ported<C> for Shade<C> {
+    type Takes = Lit<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        let frag = pins.token.map(Lit::given);
+        out.takes(self.frag_ready(frag, pins.next));
+        out.gives(self.tinted());
+        out.asks(Ask { addr: self.read(), take: self.sdata_ready() });
+        out.status("table_wait", self.waits(frag));
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        self.step(pins.token.map(Lit::given), &pins.word, pins.next, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

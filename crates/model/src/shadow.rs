@@ -15,10 +15,13 @@ mod view;
 
 use crate::Events;
 use crate::fifo::Fifo;
-use crate::tokens::{Fragment, sign_extend};
+use crate::ports::{Pins, Ported, Shown};
+use crate::tokens::Fragment;
+use crate::word_memory::{Ask, WordIn};
+use edgewalk_machine::DrawState;
 use edgewalk_machine::{Gate, Plan};
 
-/// The unit's inputs of a cycle, but for the fragment and whether DEPTH takes one.
+/// Inputs of the unit that stay the same over a pass.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ShadowInputs {
     /// The map counts; else all is lit.
@@ -27,10 +30,6 @@ pub struct ShadowInputs {
     pub light_pass: bool,
     /// What the colour of a point in shadow is multiplied by, b bits; of the gate `scale`.
     pub ambient: u32,
-    /// The map takes a read.
-    pub mrd_ready: bool,
-    /// The oldest read's word.
-    pub mdata: Option<u64>,
 }
 
 /// A fragment on its way.
@@ -97,7 +96,7 @@ impl<const C: usize> Shadow<C> {
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
         let shadow = &plan.shadow;
-        let place = |name: &str| plan.channel_place(name).unwrap_or(0);
+        let place = |name: &str| plan.channels().iter().position(|channel| channel.name == name).unwrap_or(0);
         let at = ["lx", "ly", "lz"].map(place);
         Shadow {
             size: shadow.size.into(),
@@ -139,21 +138,21 @@ impl<const C: usize> Shadow<C> {
         }
     }
 
-    /// The fragment that is offered can be taken.
+    /// The fragment that is offered can be taken. `map`: the ports of the memory.
     #[must_use]
-    pub fn frag_ready(&self, frag: Option<&Fragment<C>>, inputs: &ShadowInputs) -> bool {
+    pub fn frag_ready(&self, frag: Option<&Fragment<C>>, inputs: &ShadowInputs, map: &WordIn) -> bool {
         let reads = frag.is_some_and(|frag| matches!(self.place(frag, inputs), Place::Texel(_)));
-        !self.full() && (inputs.mrd_ready || !reads)
+        !self.full() && (map.ready || !reads)
     }
 
     /// The fragment offered to DEPTH.
     #[must_use]
-    pub fn shaded(&self, inputs: &ShadowInputs) -> Option<Fragment<C>> {
-        let head = (!self.queue.is_empty()).then(|| *self.queue.head())?;
+    pub fn shaded(&self, inputs: &ShadowInputs, map: &WordIn) -> Option<Fragment<C>> {
+        let head = (!self.queue.is_empty()).then(|| self.queue.head())?;
         let (lit, left) = match head.known {
             true => (head.value, self.all()),
             false => {
-                let texel = self.texel(inputs.mdata?);
+                let texel = self.texel(map.word?);
                 (head.d <= texel.depth, texel.left)
             }
         };
@@ -177,7 +176,7 @@ impl<const C: usize> Shadow<C> {
         u32::MAX >> (32 - self.color_bits)
     }
 
-    fn texel(&self, word: u64) -> Texel {
+    fn texel(&self, word: u128) -> Texel {
         match self.transmits {
             true => Texel {
                 depth: (word >> self.color_bits) as i64, // bz <= 24 bits
@@ -198,11 +197,15 @@ impl<const C: usize> Shadow<C> {
         &mut self,
         frag: Option<&Fragment<C>>,
         inputs: &ShadowInputs,
+        map: &WordIn,
         taken: bool,
         events: &mut Events,
     ) {
-        let pushed = frag.filter(|frag| self.frag_ready(Some(frag), inputs));
-        self.count(frag, pushed.is_some(), inputs, taken, events);
+        let pushed = frag.filter(|frag| self.frag_ready(Some(frag), inputs, map));
+        if let Some(frag) = frag {
+            self.count_offered(frag, pushed.is_some(), inputs, events);
+        }
+        self.count_texel(map, taken, events);
         if taken {
             self.queue.pop();
         }
@@ -221,7 +224,8 @@ impl<const C: usize> Shadow<C> {
 
     /// lx, ly or lz, signed.
     fn coordinate(&self, fragment: &Fragment<C>, which: usize) -> i64 {
-        i64::from(sign_extend(fragment.values[self.at[which]] as i32, self.bits[which]))
+        let (word, sign) = (i64::from(fragment.values[self.at[which]]), 1 << (self.bits[which] - 1));
+        (word ^ sign) - sign
     }
 
     fn place(&self, fragment: &Fragment<C>, inputs: &ShadowInputs) -> Place {
@@ -248,34 +252,31 @@ impl<const C: usize> Shadow<C> {
         ((product + (product >> self.color_bits)) >> self.color_bits) as u32
     }
 
-    fn count(
-        &self,
-        frag: Option<&Fragment<C>>,
-        pushed: bool,
-        inputs: &ShadowInputs,
-        taken: bool,
-        events: &mut Events,
-    ) {
-        if let Some(frag) = frag {
-            let place = self.place(frag, inputs);
-            let waits = (0..self.queue.len()).any(|i| !self.queue.at(i).known);
-            match place {
-                _ if self.full() => events.shadow.shadow_queue_full += 1,
-                Place::Texel(_) => events.shadow.map_stall += u64::from(!pushed),
-                Place::Own => events.shadow.own_map += 1,
-                Place::Off => events.shadow.shadow_off += 1,
-                Place::Outside => events.shadow.outside_map += 1,
-                Place::Before => events.shadow.before_map += 1,
-                Place::Behind => events.shadow.behind_map += 1,
-            }
-            events.shadow.known_behind_read +=
-                u64::from(pushed && waits && !matches!(place, Place::Texel(_)));
+    /// What becomes of the fragment that is offered.
+    fn count_offered(&self, frag: &Fragment<C>, pushed: bool, inputs: &ShadowInputs, events: &mut Events) {
+        let place = self.place(frag, inputs);
+        match place {
+            _ if self.full() => events.shadow.shadow_queue_full += 1,
+            Place::Texel(_) => events.shadow.map_stall += u64::from(!pushed),
+            Place::Own => events.shadow.own_map += 1,
+            Place::Off => events.shadow.shadow_off += 1,
+            Place::Outside => events.shadow.outside_map += 1,
+            Place::Before => events.shadow.before_map += 1,
+            Place::Behind => events.shadow.behind_map += 1,
         }
+        if pushed && !matches!(place, Place::Texel(_)) {
+            let waits = (0..self.queue.len()).any(|i| !self.queue.at(i).known);
+            events.shadow.known_behind_read += u64::from(waits);
+        }
+    }
+
+    /// What the texel of the oldest fragment says.
+    fn count_texel(&self, map: &WordIn, taken: bool, events: &mut Events) {
         if self.queue.is_empty() || self.queue.head().known {
             return;
         }
         let head = self.queue.head();
-        match inputs.mdata {
+        match map.word {
             None => events.shadow.texel_wait += 1,
             Some(word) if taken => {
                 let Texel { depth, left } = self.texel(word);
@@ -286,5 +287,37 @@ impl<const C: usize> Shadow<C> {
             }
             Some(_) => {}
         }
+    }
+}
+
+impl ShadowInputs {
+    /// The constants of SHADOW.
+    #[must_use]
+    pub fn of(state: &DrawState) -> ShadowInputs {
+        // b <= 16 bits
+        ShadowInputs { on: state.shadow_on, light_pass: state.light_pass, ambient: state.ambient as u32 }
+    }
+}
+
+impl<const C: usize> Ported<C> for Shadow<C> {
+    type Takes = Fragment<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        let inputs = ShadowInputs::of(&pins.state);
+        out.takes(self.frag_ready(pins.token, &inputs, &pins.word));
+        out.gives(self.shaded(&inputs, &pins.word).as_ref());
+        out.asks(Ask { addr: self.read(pins.token, &inputs), take: self.mdata_ready(pins.next) });
+        out.status("shadow_full", self.full());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        let inputs = ShadowInputs::of(&pins.state);
+        let taken = pins.next && self.shaded(&inputs, &pins.word).is_some();
+        self.step(pins.token, &inputs, &pins.word, taken, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

@@ -16,7 +16,11 @@ mod view;
 
 use crate::Events;
 use crate::fetch::Fetch;
-use crate::tokens::{Span, sign_extend};
+use crate::named::{Named, Number, Place, Sourced, named};
+use crate::ports::{Pins, Ported, Shown};
+use crate::tokens::{Source, Span, sign_extend};
+use crate::word_memory::Ask;
+use crate::word_memory::WordIn;
 use edgewalk_machine::record::GLOSS_BITS;
 use edgewalk_machine::{Plan, Walk};
 
@@ -48,13 +52,48 @@ pub struct Walked {
     pub gloss: u32,
 }
 
-/// The unit's inputs of a cycle, but for the span and whether PIXEL takes one.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct TermInputs {
-    /// The memory of the terms takes a read.
-    pub trd_ready: bool,
-    /// The oldest read's word.
-    pub tdata: Option<u64>,
+named! {
+    [] Walked, |_| Walked::default(),
+    {
+        terms [] terms ["_v"(.v), "_g"(.g), "_gg"(.gg)];
+        material [material()];
+        gloss [gloss()];
+    }
+}
+
+/// A span with its terms, as TERM gives it to PIXEL.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WalkedSpan<const C: usize> {
+    /// The span.
+    pub span: Span<C>,
+    /// Terms at its first pixel.
+    pub walked: Walked,
+}
+
+/// The names of both; the terms come first.
+impl<const C: usize> Named for WalkedSpan<C> {
+    const NAMES: u16 = Walked::NAMES + Span::<C>::NAMES;
+
+    fn blank(_: &Plan) -> Self {
+        WalkedSpan { span: Span::default(), walked: Walked::default() }
+    }
+
+    fn find(plan: &Plan, name: &str) -> Option<Place> {
+        Walked::find(plan, name).or_else(|| Some(Span::<C>::find(plan, name)?.behind(Walked::NAMES)))
+    }
+
+    fn at(&mut self, place: Place) -> &mut dyn Number {
+        match place.in_front(Walked::NAMES) {
+            None => self.walked.at(place),
+            Some(place) => self.span.at(place),
+        }
+    }
+}
+
+impl<const C: usize> Sourced for WalkedSpan<C> {
+    fn source(&mut self) -> &mut Source {
+        &mut self.span.source
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -170,16 +209,16 @@ impl Term {
         Walked { terms, material: self.material, gloss: self.gloss }
     }
 
-    /// Clock edge. `taken`: PIXEL takes the span that is there.
+    /// Clock edge. `records`: the ports of the memory; `taken`: PIXEL takes the span that is there.
     pub fn step<const C: usize>(
         &mut self,
         span: Option<&Span<C>>,
-        inputs: &TermInputs,
+        records: &WordIn,
         taken: bool,
         events: &mut Events,
     ) {
         if self.fetch.loading() {
-            self.load(inputs, events);
+            self.load(records, events);
             return;
         }
         let Some(span) = span else { return };
@@ -197,9 +236,9 @@ impl Term {
         }
     }
 
-    fn load(&mut self, inputs: &TermInputs, events: &mut Events) {
-        events.term.term_read_stall += u64::from(self.fetch.send(inputs.trd_ready));
-        let Some(word) = inputs.tdata else { return };
+    fn load(&mut self, records: &WordIn, events: &mut Events) {
+        events.term.term_read_stall += u64::from(self.fetch.send(records.ready));
+        let Some(word) = records.word.map(|word| word as u64) else { return }; // at most 64 bits
         let (number, last) = self.fetch.take();
         match number {
             0 => self.x = sign_extend(word as i32, self.column_bits),
@@ -273,5 +312,28 @@ impl Term {
         let right = sign_extend(span.x - self.x, self.column_bits);
         let ahead = if span.leftward { sign_extend(-right, self.column_bits) } else { right };
         if ahead > 0 { Way::Forward } else { Way::Back }
+    }
+}
+
+impl<const C: usize> Ported<C> for Term {
+    type Takes = Span<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        let there = self.there(pins.token);
+        out.takes(there && pins.next);
+        let walked =
+            pins.token.filter(|_| there).map(|span| WalkedSpan { span: *span, walked: self.walked() });
+        out.gives(walked.as_ref());
+        out.asks(Ask { addr: self.read(pins.held.record), take: self.tdata_ready() });
+        out.status("term_wait", self.waits(pins.token));
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        let taken = pins.next && self.there(pins.token);
+        self.step(pins.token, &pins.word, taken, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

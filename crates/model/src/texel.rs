@@ -15,31 +15,12 @@ mod view;
 
 use crate::Events;
 use crate::fifo::Fifo;
-use crate::shade::Cosines;
-use crate::tokens::{Fragment, sign_extend};
+use crate::lit::{Given, Lit};
+use crate::ports::{Pins, Ported, Shown};
+use crate::tokens::sign_extend;
+use crate::word_memory::Ask;
+use crate::word_memory::WordIn;
 use edgewalk_machine::Plan;
-
-/// The unit's inputs of a cycle, but for the fragment and whether its own is taken.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct TexelInputs {
-    /// The memory of the textures takes a read.
-    pub xrd_ready: bool,
-    /// The oldest read's word.
-    pub xdata: Option<u128>,
-}
-
-/// A fragment that waits for its texel.
-#[derive(Clone, Copy, Debug)]
-struct Entry<const C: usize> {
-    fragment: Fragment<C>,
-    terms: Cosines,
-}
-
-impl<const C: usize> Default for Entry<C> {
-    fn default() -> Self {
-        Entry { fragment: Fragment::default(), terms: Cosines::default() }
-    }
-}
 
 /// State of TEXEL.
 #[derive(Clone, Debug)]
@@ -52,7 +33,8 @@ pub struct Texel<const C: usize> {
     /// Place of u among the terms; v is behind it, and they are the last.
     place: usize,
     places: usize,
-    queue: Fifo<Entry<C>, 16>,
+    /// Fragments that wait for their texels.
+    queue: Fifo<Lit<C>, 16>,
 }
 
 impl<const C: usize> Texel<C> {
@@ -88,38 +70,38 @@ impl<const C: usize> Texel<C> {
 
     /// Address of the texel of the fragment that is offered.
     #[must_use]
-    pub fn read(&self, frag: Option<&Fragment<C>>, terms: &Cosines) -> Option<u32> {
-        frag?;
-        let texel = |place: usize| terms.terms[place] as u32 & ((1 << self.side_bits) - 1);
+    pub fn read(&self, frag: Option<Given<C>>) -> Option<u32> {
+        let cosines = frag?.cosines;
+        let texel = |place: usize| cosines.terms[place] as u32 & ((1 << self.side_bits) - 1);
         let (u, v) = (texel(self.place), texel(self.place + 1));
-        (!self.full()).then_some((terms.material << self.side_bits | v) << self.side_bits | u)
+        (!self.full()).then_some((cosines.material << self.side_bits | v) << self.side_bits | u)
     }
 
-    /// A fragment can be taken.
+    /// A fragment can be taken. `textures`: the ports of the memory.
     #[must_use]
-    pub fn frag_ready(&self, inputs: &TexelInputs) -> bool {
-        !self.full() && inputs.xrd_ready
+    pub fn frag_ready(&self, textures: &WordIn) -> bool {
+        !self.full() && textures.ready
     }
 
     /// The fragment offered on, with the outputs of the terms before u and v, and with BUMP the slopes.
     #[must_use]
-    pub fn textured(&self, inputs: &TexelInputs) -> Option<(Fragment<C>, Cosines)> {
-        let head = (!self.queue.is_empty()).then(|| *self.queue.head())?;
-        let (word, b) = (inputs.xdata?, self.color_bits);
-        let Entry { mut fragment, mut terms } = head;
+    pub fn textured(&self, textures: &WordIn) -> Option<Lit<C>> {
+        let head = (!self.queue.is_empty()).then(|| self.queue.head())?;
+        let (word, b) = (textures.word?, self.color_bits);
+        let mut lit = *head;
         let colours = word >> (2 * self.slope_bits);
-        for (color, place) in fragment.values[1..=3].iter_mut().zip([2, 1, 0]) {
+        for (color, place) in lit.frag.values[1..=3].iter_mut().zip([2, 1, 0]) {
             let part = (colours >> (place * b)) as u64 & ((1 << b) - 1);
             let product = u64::from(*color) * part + (1 << (b - 1));
             *color = ((product + (product >> b)) >> b) as u32; // at most b bits
         }
-        terms.terms[self.place] = 0;
-        terms.terms[self.place + 1] = 0;
+        lit.cosines.terms[self.place] = 0;
+        lit.cosines.terms[self.place + 1] = 0;
         if self.slope_bits > 0 {
             let slope = |low: u32| sign_extend((word >> low) as i32, self.slope_bits);
-            terms.slopes = [slope(self.slope_bits), slope(0)];
+            lit.cosines.slopes = [slope(self.slope_bits), slope(0)];
         }
-        Some((fragment, terms))
+        Some(lit)
     }
 
     /// A texel can be taken.
@@ -129,26 +111,40 @@ impl<const C: usize> Texel<C> {
     }
 
     /// Clock edge. `taken`: the fragment that is offered on is taken.
-    pub fn step(
-        &mut self,
-        frag: Option<&Fragment<C>>,
-        terms: &Cosines,
-        inputs: &TexelInputs,
-        taken: bool,
-        events: &mut Events,
-    ) {
-        let pushed = frag.filter(|_| self.frag_ready(inputs));
+    pub fn step(&mut self, frag: Option<Given<C>>, textures: &WordIn, taken: bool, events: &mut Events) {
+        let pushed = frag.filter(|_| self.frag_ready(textures));
         if frag.is_some() {
             events.texel.texel_queue_full += u64::from(self.full());
-            events.texel.texel_read_stall += u64::from(!self.full() && !inputs.xrd_ready);
+            events.texel.texel_read_stall += u64::from(!self.full() && !textures.ready);
         }
-        events.texel.texel_data_wait += u64::from(!self.queue.is_empty() && inputs.xdata.is_none());
+        events.texel.texel_data_wait += u64::from(!self.queue.is_empty() && textures.word.is_none());
         if taken {
             self.queue.pop();
         }
-        if let Some(fragment) = pushed {
+        if let Some(given) = pushed {
             events.texel.texel_read += 1;
-            self.queue.push(Entry { fragment: *fragment, terms: *terms });
+            self.queue.push(given.lit());
         }
+    }
+}
+
+impl<const C: usize> Ported<C> for Texel<C> {
+    type Takes = Lit<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.frag_ready(&pins.word));
+        out.gives(self.textured(&pins.word).as_ref());
+        out.asks(Ask { addr: self.read(pins.token.map(Lit::given)), take: self.xdata_ready(pins.next) });
+        out.status("texel_full", self.full());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        let taken = pins.next && self.textured(&pins.word).is_some();
+        self.step(pins.token.map(Lit::given), &pins.word, taken, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

@@ -3,7 +3,7 @@
 use crate::common::blend::{C, feed, fragment, word};
 use crate::common::{machine, random_machine, random_triangle};
 use edgewalk_machine::{BlendKind, Plan};
-use edgewalk_model::tokens::Passed;
+use edgewalk_model::tokens::Fragment;
 use edgewalk_model::{DrawState, Drawn, Events, Stalls, render_with};
 use edgewalk_numerics::blend_error;
 use rand::{Rng, SeedableRng, rngs::StdRng};
@@ -28,7 +28,7 @@ fn every_blend_of_8_bits_is_the_nearest_and_never_outside() {
             let fronts = [front, front + 1, front + 2].map(|i| i.min(255));
             let backs = (0..256).map(|back| fragment(back, [back; 3], 0));
             let fronts_over = (0..256).map(|back| fragment(back, fronts, kt));
-            let all: Vec<Passed<C>> = backs.chain(fronts_over).collect();
+            let all: Vec<Fragment<C>> = backs.chain(fronts_over).collect();
             let (memory, ..) = feed(&plan, &all, false, Stalls::NONE);
             for back in 0..256u32 {
                 let stored = memory.pixel(back, 0);
@@ -173,7 +173,7 @@ const STALLS: [Stalls; 3] = [
 ];
 
 /// What blending one fragment after the other comes to, in plain numbers: every write in order.
-fn sequential(plan: &Plan, fragments: &[Passed<C>], add: bool) -> Vec<(u32, u64)> {
+fn sequential(plan: &Plan, fragments: &[Fragment<C>], add: bool) -> Vec<(u32, u64)> {
     let mut stored = HashMap::new();
     let one = i64::from(1u32 << plan.blend.kt_bits);
     let max = plan.color.max() as i64;
@@ -217,7 +217,7 @@ fn every_policy_blends_as_a_plain_loop_does() {
                 let kt = if rng.random_bool(0.3) { 0 } else { rng.random_range(0..most) };
                 let rgb = [0; 3].map(|_| rng.random_range(0..256));
                 // Each is a triangle of its own.
-                Passed { fence: true, ..fragment(rng.random_range(0..addresses), rgb, kt) }
+                Fragment { fence: true, ..fragment(rng.random_range(0..addresses), rgb, kt) }
             })
             .collect();
         let add = rng.random_bool(0.2);
@@ -253,7 +253,7 @@ fn clocks_a_fragment() {
         let plan = with(&[("memory.color_hazard", policy.to_owned()), ("fifo.blend", "8".to_owned())]);
         for (addresses, wanted) in [1, 2, 3, 4, 6, 64].into_iter().zip(wanted) {
             let fragments: Vec<_> = (0..9600u32)
-                .map(|i| Passed { fence: i % addresses == 0, ..fragment(i % addresses, [200; 3], 100) })
+                .map(|i| Fragment { fence: i % addresses == 0, ..fragment(i % addresses, [200; 3], 100) })
                 .collect();
             let (.., cycles) = feed(&plan, &fragments, false, Stalls::NONE);
             let clocks = cycles as f64 / fragments.len() as f64;

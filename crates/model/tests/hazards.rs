@@ -111,7 +111,7 @@ fn against_the_loop(
             break;
         }
     }
-    holds(name, &sequential(machine, &fragments, state), &rig.memory, &writes);
+    holds(name, &sequential(machine, &fragments, state), &rig.memories.depth, &writes);
     assert!(rig.model.counters().add_up());
     (fragments, rig.model.events().clone())
 }

@@ -33,9 +33,7 @@ fn port(plan: &Plan, seen: [Seen; 3]) -> common::Triangle {
 fn fragments(plan: &Plan, triangles: &[common::Triangle], map: Option<&[u32]>) -> Vec<Fragment<C>> {
     let state = DrawState { shadow_on: map.is_some(), ..common::ALWAYS };
     let mut rig = Rig::<C>::new(plan, state, Stalls::NONE);
-    if let (Some(memory), Some(map)) = (&mut rig.map, map) {
-        memory.words_mut().copy_from_slice(map);
-    }
+    rig.memories.write("map", 0, map.unwrap_or_default().iter().map(|word| u128::from(*word)));
     let mut seen = Vec::new();
     let all = triangles.iter().map(|triangle| Ok::<_, ()>(*triangle));
     rig.draw(all, |_, model, cycle| seen.extend(cycle.read.map(|_| model.last_read()))).expect("no errors");

@@ -32,7 +32,7 @@ fn a_reset_machine_is_a_new_machine() {
             let mut rig = fresh();
             run(&mut rig, rng.random_range(0..1500) + round);
             rig.model.cycle(&Inputs { rst: true, ..Inputs::default() });
-            rig.memory = Memory::new(&machine, [0; 3], Stalls::NONE);
+            rig.memories.depth = Memory::new(&machine, [0; 3], Stalls::NONE);
             let mut again = run(&mut rig, 1500);
             let expected = run(&mut fresh(), 1500);
             assert!(expected.iter().any(|o| o.wr.is_some()));

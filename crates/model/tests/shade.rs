@@ -3,8 +3,10 @@
 use crate::common::shade::{colour, cosines, leftward, output, random_shading, textured, true_roots, words};
 use crate::common::{ALWAYS, Triangle, machine, place, random_machine, random_triangle};
 use edgewalk_machine::{Activity, Entry, Plan, Record};
-use edgewalk_model::shade::{Cosines, Shade};
-use edgewalk_model::{Drawn, Events, Frame, Pass, ShadeInputs, Shading, Stalls, render_passes_with};
+use edgewalk_model::shade::Shade;
+use edgewalk_model::{
+    Cosines, Drawn, Events, Frame, Given, Pass, Shading, Stalls, WordIn, render_passes_with,
+};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 const C: usize = edgewalk_model::tokens::MAX_CHANNELS;
@@ -263,10 +265,11 @@ fn tables_stay_while_a_stage_needs_them() {
     // A word is there in the cycle after its read.
     let mut due = None;
     let mut cycle = |unit: &mut Shade<C>, material: u32, ready: bool| {
-        let inputs = ShadeInputs { srd_ready: true, sdata: due.take() };
+        let tables = WordIn { ready: true, word: due.take() };
+        let given = Given { frag: &fragment, cosines: &of(material) };
         due = unit.read().map(u128::from);
-        let taken = unit.frag_ready(&of(material), ready);
-        unit.step(Some(&fragment), &of(material), &inputs, ready, &mut events);
+        let taken = unit.frag_ready(Some(given), ready);
+        unit.step(Some(given), &tables, ready, &mut events);
         taken
     };
     let clocks = (0..).find(|_| cycle(&mut unit, 3, false)).expect("the tables come");

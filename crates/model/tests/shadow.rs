@@ -5,7 +5,7 @@ use crate::common::{machine, random_machine, random_triangle};
 use edgewalk_machine::{Gate, Plan, Transmits};
 use edgewalk_model::shadow::Shadow;
 use edgewalk_model::tokens::{Fragment, MAX_CHANNELS};
-use edgewalk_model::{DrawState, Events, MapMemory, Rig, ShadowInputs, Stalls};
+use edgewalk_model::{DrawState, Events, Rig, ShadowInputs, Stalls, WordMemory};
 use rand::{Rng, SeedableRng, rngs::StdRng};
 
 const C: usize = MAX_CHANNELS;
@@ -64,6 +64,18 @@ fn dark(plan: &Plan, ambient: u32) -> u32 {
     if plan.shadow.gate == Gate::And { 0 } else { ambient }
 }
 
+/// The memory of the light's map, as nothing has written it.
+fn map_memory(plan: &Plan, stalls: Stalls) -> WordMemory {
+    let memories = plan.word_memories();
+    let (_, port) = memories.iter().find(|(unit, _)| *unit == "shadow").expect("it has SHADOW");
+    WordMemory::new(port, stalls)
+}
+
+/// Texels of a map.
+fn texels(plan: &Plan) -> usize {
+    1 << (2 * plan.shadow.side_bits())
+}
+
 /// A map that counts or not, and what is left in shadow.
 fn lit_by(on: bool, ambient: u32) -> ShadowInputs {
     ShadowInputs { on, ambient, ..ShadowInputs::default() }
@@ -74,20 +86,20 @@ fn feed(
     plan: &Plan,
     fragments: &[Fragment<C>],
     asked: ShadowInputs,
-    memory: &mut MapMemory,
+    memory: &mut WordMemory,
     mut willing: impl FnMut() -> bool,
 ) -> (Vec<Fragment<C>>, Events, u64) {
     let mut unit = Shadow::new(plan);
     let (mut events, mut given, mut next, mut cycles) = (Events::default(), Vec::new(), 0, 0);
     while next < fragments.len() || unit.occupied() {
         let frag = fragments.get(next);
-        let inputs = ShadowInputs { mrd_ready: memory.mrd_ready(), mdata: memory.mdata(), ..asked };
-        let read = unit.read(frag, &inputs).filter(|_| inputs.mrd_ready);
-        let fires = frag.is_some() && unit.frag_ready(frag, &inputs);
+        let map = memory.port();
+        let read = unit.read(frag, &asked).filter(|_| map.ready);
+        let fires = frag.is_some() && unit.frag_ready(frag, &asked, &map);
         let ready = willing();
-        let shaded = unit.shaded(&inputs).filter(|_| ready);
-        let taken = inputs.mdata.is_some() && unit.mdata_ready(ready);
-        unit.step(frag, &inputs, shaded.is_some(), &mut events);
+        let shaded = unit.shaded(&asked, &map).filter(|_| ready);
+        let taken = map.word.is_some() && unit.mdata_ready(ready);
+        unit.step(frag, &asked, &map, shaded.is_some(), &mut events);
         memory.step(read, taken);
         next += usize::from(fires);
         given.extend(shaded);
@@ -120,7 +132,7 @@ fn every_decision_is_the_rules() {
             ("memory.map_latency", pick(&mut rng, &[1, 2, 3, 8])),
         ]);
         let (on, ambient) = (rng.random_bool(0.9), rng.random_range(0..=plan.color.max() as u32));
-        let mut memory = MapMemory::new(&plan, STALLS[run % 3]);
+        let mut memory = map_memory(&plan, STALLS[run % 3]);
         let depths = 1u32 << plan.shadow.depth_bits;
         let mut some = |range: u32| match rng.random_range(0..4) {
             0 => 0,
@@ -128,8 +140,8 @@ fn every_decision_is_the_rules() {
             _ => rng.random_range(0..range),
         };
         let shares = if transmits { plan.color.max() as u32 + 1 } else { 1 };
-        memory.words_mut().iter_mut().for_each(|word| *word = some(depths) * shares + some(shares));
-        let map = memory.words_mut().to_vec();
+        let map: Vec<u32> = (0..texels(&plan)).map(|_| some(depths) * shares + some(shares)).collect();
+        memory.write(0, map.iter().map(|word| u128::from(*word)));
         let (size, texel, depth) =
             (i64::from(plan.shadow.size), plan.channels()[4].bits, plan.channels()[6].bits);
         let places: Vec<[i64; 3]> = (0..60)
@@ -196,7 +208,7 @@ fn every_decision_is_the_rules() {
 #[test]
 fn every_share_of_8_bits_is_the_nearest() {
     let plan = with(&[("shadow.gate", "scale".to_owned())]);
-    let mut memory = MapMemory::new(&plan, Stalls::NONE);
+    let mut memory = map_memory(&plan, Stalls::NONE);
     let mut checked = 0;
     for ambient in 0..256 {
         let fragments: Vec<_> =
@@ -218,7 +230,7 @@ fn a_fragment_a_clock_where_the_queue_is_longer_than_the_latency() {
         [(1, 2, 1.0), (2, 3, 1.0), (2, 2, 1.5), (4, 5, 1.0), (4, 1, 5.0), (8, 16, 1.0)]
     {
         let plan = with(&[("memory.map_latency", latency.to_string()), ("fifo.shadow", places.to_string())]);
-        let mut memory = MapMemory::new(&plan, Stalls::NONE);
+        let mut memory = map_memory(&plan, Stalls::NONE);
         let fragments: Vec<_> = (0..6000).map(|i| fragment(&plan, [9; 3], [i % 512, i / 512, 7])).collect();
         let (.., cycles) = feed(&plan, &fragments, lit_by(true, 0), &mut memory, || true);
         let clocks = cycles as f64 / 6000.0;
@@ -247,11 +259,11 @@ fn the_map_changes_colours_and_nothing_else() {
         let mut runs = [false, true].map(|on| {
             let state = DrawState { shadow_on: on, ambient, ..common::ALWAYS };
             let mut rig = Rig::<C>::new(&plan, state, stalls);
-            let memory = rig.map.as_mut().expect("it has SHADOW");
             if map.is_empty() {
-                map = memory.words_mut().iter().map(|most| rng.random_range(0..=*most)).collect();
+                let most = u32::MAX >> (32 - plan.map_word_bits());
+                map = (0..texels(&plan)).map(|_| rng.random_range(0..=most)).collect();
             }
-            memory.words_mut().copy_from_slice(&map);
+            rig.memories.write("map", 0, map.iter().map(|word| u128::from(*word)));
             let mut seen = Vec::new();
             let all = triangles.iter().map(|triangle| Ok::<_, ()>(*triangle));
             rig.draw(all, |_, model, cycle| seen.extend(cycle.read.map(|_| model.last_read())))
@@ -283,8 +295,8 @@ fn the_map_changes_colours_and_nothing_else() {
 fn fragments(plan: &Plan, triangles: &[common::Triangle], map: Option<&[u32]>) -> Vec<Fragment<C>> {
     let state = DrawState { shadow_on: map.is_some(), ..common::ALWAYS };
     let mut rig = Rig::<C>::new(plan, state, Stalls::NONE);
-    if let (Some(memory), Some(map)) = (&mut rig.map, map) {
-        memory.words_mut().copy_from_slice(map);
+    if let Some(map) = map {
+        rig.memories.write("map", 0, map.iter().map(|word| u128::from(*word)));
     }
     let mut seen = Vec::new();
     let all = triangles.iter().map(|triangle| Ok::<_, ()>(*triangle));

@@ -2,13 +2,13 @@
 
 use super::{Blend, BlendInputs, Block, Colour, Side};
 use crate::rmw::Outcome;
-use crate::tokens::Passed;
+use crate::tokens::Fragment;
 use crate::view::{Id, Shape, View, fragments};
 use edgewalk_machine::Plan;
 
 impl<const C: usize> Blend<C> {
     /// Shows the unit in a cycle with these inputs.
-    pub fn view(&self, plan: &Plan, pass: Option<&Passed<C>>, inputs: &BlendInputs, view: &mut View) {
+    pub fn view(&self, plan: &Plan, pass: Option<&Fragment<C>>, inputs: &BlendInputs, view: &mut View) {
         view.unit(plan, "blend");
         let bits = (plan.blend.queue + 1).next_power_of_two().ilog2();
         let (kind, title) = fragments::seen(plan);
@@ -42,10 +42,11 @@ impl<const C: usize> Blend<C> {
     }
 
     /// Of the oldest token.
-    fn triangle(&self, pass: Option<&Passed<C>>) -> Option<u32> {
+    fn triangle(&self, pass: Option<&Fragment<C>>) -> Option<u32> {
         let staged = self.stages.iter().rev().flatten().next();
-        let done = self.rmw.write().or(staged).map(|result| result.side.source.id);
-        done.or(self.rmw.flight(0).map(|flight| flight.side.source.id)).or(pass.map(|pass| pass.source.id))
+        let done = self.rmw.write().or(staged).map(|result| result.side.frag.source.id);
+        done.or(self.rmw.flight(0).map(|flight| flight.side.frag.source.id))
+            .or(pass.map(|pass| pass.source.id))
     }
 
     fn view_queue(&self, plan: &Plan, view: &mut View) {
@@ -53,11 +54,12 @@ impl<const C: usize> Blend<C> {
         view.table(&format!("queue of {}", self.rmw.places()), &["fragment", "k", "need", "fwd"], false);
         for place in 0..self.rmw.places() {
             let flight = self.rmw.flight(place);
-            let values =
-                flight.as_ref().map(|f| fragments::seen_values(plan, f.addr, &f.side.values, f.side.lit));
+            let values = flight
+                .as_ref()
+                .map(|f| fragments::seen_values(plan, f.addr, &f.side.frag.values, f.side.frag.lit));
             let shown = flight.as_ref().zip(values.as_ref());
             view.row(&if place == 0 { "head".to_owned() } else { place.to_string() });
-            let shown = shown.map(|(flight, values)| (flight.side.source.id, &values[..]));
+            let shown = shown.map(|(flight, values)| (flight.side.frag.source.id, &values[..]));
             let fragment = view.token_cell("a fragment that waits", kind, shown);
             view.live(Some(fragment));
             let side = flight.as_ref().map(|flight| flight.side);
@@ -84,7 +86,7 @@ impl<const C: usize> Blend<C> {
         view.live(None);
     }
 
-    fn say(&self, pass: Option<&Passed<C>>, inputs: &BlendInputs, view: &mut View) {
+    fn say(&self, pass: Option<&Fragment<C>>, inputs: &BlendInputs, view: &mut View) {
         let block = self.block(pass, inputs.add);
         let (there, reads) = (pass.is_some(), self.read(pass, inputs.add).is_some());
         view.says(reads && inputs.crd_ready, "takes a fragment and reads the colour of its pixel.");
@@ -114,9 +116,9 @@ fn token<const C: usize>(
     doc: &str,
 ) -> Id {
     let of = |result: &Outcome<Colour, Side<C>>| {
-        fragments::seen_values(plan, result.addr, &result.side.values, result.side.lit)
+        fragments::seen_values(plan, result.addr, &result.side.frag.values, result.side.frag.lit)
     };
     let (values, (kind, _)) = (result.map(of), fragments::seen(plan));
     let shown = result.zip(values.as_ref());
-    view.token_cell(doc, kind, shown.map(|(result, values)| (result.side.source.id, &values[..])))
+    view.token_cell(doc, kind, shown.map(|(result, values)| (result.side.frag.source.id, &values[..])))
 }

@@ -1,9 +1,9 @@
 //! What is to be seen of LAMP.
 
 use super::Lamp;
-use crate::machine::NormalInputs;
-use crate::tokens::Fragment;
+use crate::lit::Given;
 use crate::view::{View, fragments};
+use crate::word_memory::WordIn;
 use edgewalk_machine::Plan;
 
 impl<const C: usize> Lamp<C> {
@@ -11,15 +11,15 @@ impl<const C: usize> Lamp<C> {
     pub fn view(
         &self,
         plan: &Plan,
-        frag: Option<&Fragment<C>>,
-        inputs: &NormalInputs,
+        frag: Option<Given<C>>,
+        tables: &WordIn,
         normed_ready: bool,
         view: &mut View,
     ) {
         view.unit(plan, "lamp");
         view.kind("fragment", "fragments", || fragments::fields(plan));
-        let fragment = self.inside.as_ref().map(|(fragment, _)| fragment);
-        view.triangle(fragment.or(frag).map(|fragment| fragment.source.id));
+        let fragment = self.inside.as_ref().map(|lit| &lit.frag);
+        view.triangle(fragment.or(frag.map(|given| given.frag)).map(|fragment| fragment.source.id));
         view.flag("have", "the tables are inside", self.have);
         view.wire(|| "have".to_owned());
         let loading = self.fetch.loading();
@@ -43,8 +43,8 @@ impl<const C: usize> Lamp<C> {
         let done = self.normed().is_some();
         view.says(done && normed_ready, "gives pixel {P.addr} its cosines, and what is left of the light.");
         view.says(done && !normed_ready, "stands still: SHADE does not take pixel {P.addr}.");
-        view.takes("rdata", inputs.rdata.is_some(), loading);
-        view.gives("rrd", None, self.read().is_some(), inputs.rrd_ready);
+        view.takes("rdata", tables.word.is_some(), loading);
+        view.gives("rrd", None, self.read().is_some(), tables.ready);
         view.gives("normed", Some("shade"), done, normed_ready);
     }
 }

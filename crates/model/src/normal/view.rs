@@ -1,8 +1,9 @@
 //! What is to be seen of NORMAL.
 
-use super::{Normal, NormalInputs};
-use crate::tokens::Fragment;
+use super::Normal;
+use crate::lit::Given;
 use crate::view::{View, fragments};
+use crate::word_memory::WordIn;
 use edgewalk_machine::Plan;
 
 impl<const C: usize> Normal<C> {
@@ -10,29 +11,28 @@ impl<const C: usize> Normal<C> {
     pub fn view(
         &self,
         plan: &Plan,
-        frag: Option<&Fragment<C>>,
-        inputs: &NormalInputs,
+        frag: Option<Given<C>>,
+        roots: &WordIn,
         normed_ready: bool,
         view: &mut View,
     ) {
         view.unit(plan, "normal");
         view.kind("fragment", "fragments", || fragments::fields(plan));
-        let oldest = self.stages.iter().rev().flatten().next().map(|(fragment, _)| fragment).or(frag);
+        let stages = || self.stages.iter().map(|stage| stage.map(|lit| &lit.frag));
+        let oldest = stages().rev().flatten().next().or(frag.map(|given| given.frag));
         view.triangle(oldest.map(|fragment| fragment.source.id));
         view.flag("have", "the roots are inside", self.have);
         view.wire(|| "have".to_owned());
         let loading = self.fetch.loading();
         view.flag("loading", "roots are being read", loading);
         view.wire(|| "loading".to_owned());
-        let held = self.stages.iter().flatten().count() as u64;
-        let held = view.number("held", "fragments in the stages", 3, held);
+        let held = view.number("held", "fragments in the stages", 3, self.stages.held() as u64);
         view.table("stages", &["fragment"], false);
-        for (place, stage) in self.stages.iter().enumerate() {
-            let values =
-                stage.as_ref().map(|(fragment, _)| fragments::values(plan, fragment.addr, &fragment.values));
-            let shown = stage.as_ref().zip(values.as_ref());
+        for (place, stage) in stages().enumerate() {
+            let values = stage.map(|fragment| fragments::values(plan, fragment.addr, &fragment.values));
+            let shown = stage.zip(values.as_ref());
             view.row(&format!("N{}", place + 1));
-            let shown = shown.map(|((fragment, _), values)| (fragment.source.id, &values[..]));
+            let shown = shown.map(|(fragment, values)| (fragment.source.id, &values[..]));
             view.token_cell("a fragment whose normal is made a unit normal", "fragment", shown);
         }
         view.note("what a stage holds beside its fragment is not modelled, only the clocks");
@@ -43,8 +43,8 @@ impl<const C: usize> Normal<C> {
         view.says(loading, "reads the table of roots, once.");
         view.says(self.normed().is_some() && normed_ready, "gives pixel {N5.addr} two cosines a light.");
         view.says(!self.advance(normed_ready), "stands still: SHADE takes no fragment.");
-        view.takes("rdata", inputs.rdata.is_some(), loading);
-        view.gives("rrd", None, self.read().is_some(), inputs.rrd_ready);
+        view.takes("rdata", roots.word.is_some(), loading);
+        view.gives("rrd", None, self.read().is_some(), roots.ready);
         view.gives("normed", Some("shade"), self.normed().is_some(), normed_ready);
     }
 }

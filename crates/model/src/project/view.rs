@@ -50,10 +50,7 @@ impl<const C: usize> Project<C> {
     /// Stage 0 first; serial there is one.
     fn stages(&self) -> Vec<Option<&Fragment<C>>> {
         match &self.rows {
-            Rows::Pipelined { stages, oldest } => {
-                let (new, old) = stages.split_at(*oldest);
-                new.iter().rev().chain(old.iter().rev()).map(Option::as_ref).collect()
-            }
+            Rows::Pipelined(stages) => stages.iter().collect(),
             Rows::Serial { fragment, .. } => vec![fragment.as_ref()],
         }
     }

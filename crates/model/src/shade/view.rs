@@ -1,8 +1,9 @@
 //! What is to be seen of SHADE.
 
-use super::{Cosines, Shade, ShadeInputs};
-use crate::tokens::Fragment;
+use super::Shade;
+use crate::lit::Given;
 use crate::view::{View, fragments};
+use crate::word_memory::WordIn;
 use edgewalk_machine::Plan;
 
 impl<const C: usize> Shade<C> {
@@ -10,8 +11,8 @@ impl<const C: usize> Shade<C> {
     pub fn view(
         &self,
         plan: &Plan,
-        (frag, cosines): (Option<&Fragment<C>>, &Cosines),
-        inputs: &ShadeInputs,
+        frag: Option<Given<C>>,
+        tables: &WordIn,
         (next, tinted_ready): (&str, bool),
         view: &mut View,
     ) {
@@ -24,7 +25,8 @@ impl<const C: usize> Shade<C> {
             ("M", self.m.map(|(fragment, _)| fragment)),
             ("C", self.c),
         ];
-        let oldest = stages.iter().rev().find_map(|(_, stage)| stage.as_ref()).or(frag);
+        let oldest =
+            stages.iter().rev().find_map(|(_, stage)| stage.as_ref()).or(frag.map(|given| given.frag));
         view.triangle(oldest.map(|fragment| fragment.source.id));
         view.flag("have", "tables are inside", self.have);
         view.wire(|| "have".to_owned());
@@ -46,15 +48,15 @@ impl<const C: usize> Shade<C> {
         }
         view.lane(current, self.occupied() || loading);
 
-        let fires = frag.is_some() && self.frag_ready(cosines, tinted_ready);
-        let waits = self.waits(frag, cosines);
+        let fires = frag.is_some() && self.frag_ready(frag, tinted_ready);
+        let waits = self.waits(frag);
         view.says(fires, "takes a fragment and looks its cosines up in the tables of material {current}.");
         view.says(loading, "reads the tables of material {current}; the fragment that wants them waits.");
         view.says(waits && !loading && self.occupied(), "waits until no stage needs the old tables.");
         view.says(self.c.is_some() && tinted_ready, "gives pixel {C.addr} its colour.");
         view.says(!self.advance(tinted_ready), "stands still: nobody takes pixel {C.addr}.");
-        view.takes("sdata", inputs.sdata.is_some(), loading);
-        view.gives("srd", None, self.read().is_some(), inputs.srd_ready);
+        view.takes("sdata", tables.word.is_some(), loading);
+        view.gives("srd", None, self.read().is_some(), tables.ready);
         view.gives("tinted", Some(next), self.c.is_some(), tinted_ready);
     }
 }

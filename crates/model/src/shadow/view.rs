@@ -3,6 +3,7 @@
 use super::{Place, Shadow, ShadowInputs};
 use crate::tokens::Fragment;
 use crate::view::{Shape, View, fragments, modulo};
+use crate::word_memory::WordIn;
 use edgewalk_machine::Plan;
 
 impl<const C: usize> Shadow<C> {
@@ -11,7 +12,7 @@ impl<const C: usize> Shadow<C> {
         &self,
         plan: &Plan,
         frag: Option<&Fragment<C>>,
-        inputs: &ShadowInputs,
+        (inputs, map): (&ShadowInputs, &WordIn),
         shaded_ready: bool,
         view: &mut View,
     ) {
@@ -34,14 +35,14 @@ impl<const C: usize> Shadow<C> {
         let texel = frag.filter(|_| read.is_some());
         let [tx, ty, d] = [0, 1, 2].map(|axis| texel.map_or(0, |frag| self.coordinate(frag, axis)));
         let side = self.side + 1;
-        let seen = self.shaded(inputs);
+        let seen = self.shaded(inputs, map);
         let compares = seen.is_some() && head.is_some_and(|head| !head.known);
         view.table("looked up in this cycle", &["tx", "ty", "d"], false);
         view.row("frag");
         view.cell("column of its texel", || Shape::signed(side), modulo(tx, side));
         view.cell("line of its texel", || Shape::signed(side), modulo(ty, side));
         view.cell("its depth from the light", || Shape::whole(self.depth_bits), modulo(d, self.depth_bits));
-        let stored = inputs.mdata.filter(|_| compares).map(|word| self.texel(word));
+        let stored = map.word.filter(|_| compares).map(|word| self.texel(word));
         let depth = stored.as_ref().map_or(0, |texel| texel.depth as u64); // not below 0
         view.number("stored", "depth that the map has at the head's texel", self.depth_bits, depth);
         if self.transmits {
@@ -49,10 +50,10 @@ impl<const C: usize> Shadow<C> {
             view.number("left", "what is left of the light there", self.color_bits, left);
         }
         view.flag("lit", "the light reaches the head", seen.as_ref().is_some_and(|frag| frag.lit));
-        self.say(place, read.is_some(), inputs, (seen.as_ref(), shaded_ready), view);
+        self.say(place, read.is_some(), map, (seen.as_ref(), shaded_ready), view);
 
-        view.takes("mdata", inputs.mdata.is_some(), self.mdata_ready(shaded_ready));
-        view.gives("mrd", None, read.is_some(), inputs.mrd_ready);
+        view.takes("mdata", map.word.is_some(), self.mdata_ready(shaded_ready));
+        view.gives("mrd", None, read.is_some(), map.ready);
         view.gives("shaded", Some("depth"), seen.is_some(), shaded_ready);
     }
 
@@ -86,16 +87,16 @@ impl<const C: usize> Shadow<C> {
         &self,
         place: Option<Place>,
         reads: bool,
-        inputs: &ShadowInputs,
+        map: &WordIn,
         (seen, shaded_ready): (Option<&Fragment<C>>, bool),
         view: &mut View,
     ) {
         let room = !self.full();
         view.says(
-            reads && inputs.mrd_ready,
+            reads && map.ready,
             "takes a fragment and reads texel ({frag.tx}, {frag.ty}); it lies at {frag.d}.",
         );
-        view.says(reads && !inputs.mrd_ready, "waits: the map takes no read.");
+        view.says(reads && !map.ready, "waits: the map takes no read.");
         view.says(room && place == Some(Place::Own), "takes a fragment of the map itself: it is lit.");
         view.says(room && place == Some(Place::Off), "takes a fragment: no map counts, it is lit.");
         view.says(room && place == Some(Place::Outside), "takes a fragment outside the map: it is lit.");

@@ -1,8 +1,9 @@
 //! What is to be seen of TERM.
 
-use super::{Term, TermInputs, Way};
+use super::{Term, Way};
 use crate::tokens::Span;
 use crate::view::{Shape, View, modulo};
+use crate::word_memory::WordIn;
 use edgewalk_machine::Plan;
 
 const PARTS: [(&str, &str); 6] = [
@@ -20,7 +21,7 @@ impl Term {
         &self,
         plan: &Plan,
         span: Option<&Span<C>>,
-        inputs: &TermInputs,
+        records: &WordIn,
         pixel_ready: bool,
         view: &mut View,
     ) {
@@ -63,8 +64,8 @@ impl Term {
         view.says(there && pixel_ready, "stands at the span's first pixel, ({x}, {y}), and hands it on.");
         view.says(there && !pixel_ready, "stands at ({x}, {y}) before PIXEL is ready.");
         let read = self.read(0).is_some();
-        view.takes("tdata", inputs.tdata.is_some(), loading);
-        view.gives("trd", None, read, inputs.trd_ready);
+        view.takes("tdata", records.word.is_some(), loading);
+        view.gives("trd", None, read, records.ready);
         view.gives("walked", Some("pixel"), there, pixel_ready);
     }
 }

@@ -2,7 +2,7 @@
 
 use edgewalk_machine::Plan;
 use edgewalk_model::blend::Blend;
-use edgewalk_model::tokens::{ColorWrite, MAX_CHANNELS, Passed};
+use edgewalk_model::tokens::{ColorWrite, Fragment, MAX_CHANNELS};
 use edgewalk_model::{BlendInputs, ColorMemory, Events, Stalls};
 
 pub const C: usize = MAX_CHANNELS;
@@ -12,15 +12,15 @@ pub fn word(plan: &Plan, rgb: [u32; 3]) -> u64 {
     rgb.into_iter().fold(0, |word, c| word << plan.color.bits | u64::from(c))
 }
 
-/// A fragment of this colour and k_t.
-pub fn fragment(addr: u32, [r, g, b]: [u32; 3], kt: u32) -> Passed<C> {
-    Passed { addr, values: [0, r, g, b, 0, 0, 0, 0], kt, ..Passed::default() }
+/// A fragment of this colour and k_t, the triangle's or that of its channel.
+pub fn fragment(addr: u32, [r, g, b]: [u32; 3], kt: u32) -> Fragment<C> {
+    Fragment { addr, values: [0, r, g, b, kt, 0, 0, 0], kt, ..Fragment::default() }
 }
 
 /// Feeds BLEND and its memory with a fragment a clock; gives the memory, the writes, the events and the cycles.
 pub fn feed(
     plan: &Plan,
-    fragments: &[Passed<C>],
+    fragments: &[Fragment<C>],
     add: bool,
     stalls: Stalls,
 ) -> (ColorMemory<C>, Vec<ColorWrite<C>>, Events, u64) {

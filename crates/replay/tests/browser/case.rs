@@ -208,11 +208,11 @@ impl Case {
     pub fn watch(&self, mut see: impl FnMut(u32, &View, Option<(u32, u32)>)) {
         for_channels!(self.plan, C => {
             let mut rig = Rig::<C>::new(&self.plan, first_of_picture(&self.passes), self.stalls);
-            rig.write_shading(&self.plan, &self.shading);
+            rig.memories.write_shading(&self.plan, &self.shading);
             let (mut view, mut maps, mut now) = (View::new(), Maps::of_host(&self.maps), 0..);
             let mut waiting = &self.triangles[..];
             for step in steps(&self.plan, &self.passes, &self.shading) {
-                let Some(count) = rig.take_step(&self.plan, step, &mut maps) else { continue };
+                let Some(count) = rig.memories.take_step(&self.plan, step, &mut maps) else { continue };
                 let mut left = count.min(waiting.len());
                 loop {
                     let offered = waiting.first().filter(|_| left > 0).map(|triangle| (triangle, 0));

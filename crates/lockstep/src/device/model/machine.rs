@@ -1,225 +1,159 @@
 //! The whole machine, and what its units show inside.
 
-use super::blend::{BlendStatus, ColorPorts};
-use super::bump::BumpPorts;
-use super::depth::{DepthStatus, MemoryPorts};
-use super::edge::EdgePorts;
-use super::lamp::LampPorts;
-use super::link::{Giver, Scope};
-use super::normal::{self, NormalPorts};
-use super::pixel::PixelPorts;
-use super::project::ProjectPorts;
-use super::setup::{SetupPorts, TriangleTaker};
-use super::shade::{self, ShadePorts};
-use super::shadow::{MapPorts, ShadowPorts};
-use super::span::SpanPorts;
-use super::term::{TermPorts, WordPorts};
-use super::texel::{self, TexelPorts};
+use super::link::{Rules, Scope, Takes, TriangleTaker, WordPorts};
+use super::unit::{Outputs, Showing};
 use super::{ModelDevice, NoPlace};
 use crate::device::Device;
 use crate::interface::Interface;
 use crate::values::{PortId, PortValues};
-use edgewalk_machine::{Plan, PortVertex};
-use edgewalk_model::machine::shading::parts;
-use edgewalk_model::tokens::Passed;
-use edgewalk_model::{
-    BlendInputs, Events, Inputs, Model, NormalInputs, ShadeInputs, ShadowInputs, TermInputs, TexelInputs,
-    View,
-};
+use edgewalk_machine::{MemoryPort, Plan, PortVertex};
+use edgewalk_model::machine::ports::ShownUnits;
+use edgewalk_model::ports::Shown;
+use edgewalk_model::word_memory::{Ask, MEMORIES};
+use edgewalk_model::{BlendInputs, Events, Inputs, Model, ShadowInputs, View, WordIn};
 
 /// The machine.
 pub struct MachineDevice<const C: usize> {
     plan: Plan,
     model: Model<C>,
     tri: TriangleTaker,
-    memory: MemoryPorts<C>,
-    /// Of TERM and of SHADE.
-    words: Option<(WordPorts, WordPorts)>,
-    textures: Option<WordPorts>,
-    roots: Option<WordPorts>,
-    map: Option<MapPorts>,
-    color: Option<ColorPorts<C>>,
-    activity: PortId,
-    idle: PortId,
-    inside: Option<Inside<C>>,
+    rules: Rules,
+    depth: WordPorts,
+    color: Option<WordPorts>,
+    /// In the order of [`Plan::word_memories`].
+    words: Vec<WordPorts>,
+    /// The readies of the writes: of the pixel, or of its depth; with BLEND of its colours.
+    written: [PortId; 2],
+    outputs: Outputs,
+    /// The units inside, if they are compared.
+    inside: Vec<(&'static str, Outputs)>,
 }
 
-/// The units inside.
-struct Inside<const C: usize> {
-    setup: SetupPorts<C>,
-    edge: EdgePorts<C>,
-    span: SpanPorts<C>,
-    term: Option<TermPorts<C>>,
-    pixel: PixelPorts<C>,
-    texel: Option<TexelPorts<C>>,
-    bump: Option<BumpPorts<C>>,
-    normal: Option<NormalPorts<C>>,
-    lamp: Option<LampPorts<C>>,
-    shade: Option<ShadePorts<C>>,
-    project: Option<ProjectPorts<C>>,
-    shadow: Option<ShadowPorts<C>>,
-    depth: DepthStatus,
-    blend: Option<(Giver<Passed<C>>, BlendStatus)>,
+/// The ports of the units inside.
+struct Inside<'a> {
+    units: &'a mut [(&'static str, Outputs)],
+    ports: &'a mut PortValues,
+}
+
+impl ShownUnits for Inside<'_> {
+    type Unit<'b>
+        = Showing<'b>
+    where
+        Self: 'b;
+
+    fn unit(&mut self, name: &'static str) -> Showing<'_> {
+        let mut units = self.units.iter_mut();
+        let found = units.find(|(unit, _)| *unit == name).expect("the model shows units of the plan");
+        found.1.on(self.ports)
+    }
 }
 
 impl<const C: usize> MachineDevice<C> {
     pub fn new(plan: &Plan, interface: &Interface) -> Result<Self, NoPlace> {
         let scope = Scope::alone(plan, interface);
-        let words = || {
-            let find = |read, data| WordPorts::find(scope, read, data);
-            Ok::<_, NoPlace>((find("trd", "tdata")?, find("srd", "sdata")?))
-        };
+        let model = Model::new(plan);
         let inside = !interface.inner_outputs().is_empty();
-        Ok(MachineDevice {
+        let units = plan.units().filter(|_| inside);
+        let units = units.map(|unit| Ok((unit.name, Outputs::find(Scope { owner: unit.name, ..scope })?)));
+        let mut units = units.collect::<Result<Vec<_>, NoPlace>>()?;
+        if inside {
+            model.show(&Inputs::default(), &mut Inside { units: &mut units, ports: &mut interface.values() });
+        }
+        units.iter().try_for_each(|(_, unit)| unit.complete())?;
+        let declared = plan.ports().memory;
+        let memory = |memory: &MemoryPort| WordPorts::find(scope, memory);
+        let named = |name: &str| declared.iter().find(|port| port.name == name).map(memory).transpose();
+        let words = plan.word_memories();
+        let blends = plan.blend.is_there();
+        let ready = |name: &str| scope.port(&format!("{name}_ready"));
+        let mut device = MachineDevice {
             plan: plan.clone(),
-            model: Model::new(plan),
-            tri: TriangleTaker::find(plan, interface)?,
-            memory: MemoryPorts::find(scope)?,
-            words: plan.shade.is_there().then(words).transpose()?,
-            textures: plan.shade.textures().then(|| texel::find(scope)).transpose()?,
-            roots: plan.shade.normalises().then(|| WordPorts::find(scope, "rrd", "rdata")).transpose()?,
-            map: plan.shadow.is_there().then(|| MapPorts::find(scope)).transpose()?,
-            color: plan.blend.is_there().then(|| ColorPorts::find(scope)).transpose()?,
-            activity: scope.port("activity")?,
-            idle: scope.port("idle")?,
-            inside: inside.then(|| Inside::find(plan, interface)).transpose()?,
-        })
-    }
-}
-
-impl<const C: usize> Inside<C> {
-    fn find(plan: &Plan, interface: &Interface) -> Result<Self, NoPlace> {
-        let of = |owner| Scope { plan, interface, owner };
-        let blend = || Ok::<_, NoPlace>((of("depth").giver("pass")?, BlendStatus::find(of("blend"))?));
-        Ok(Inside {
-            setup: SetupPorts::find(of("setup"))?,
-            edge: EdgePorts::find(of("edge"))?,
-            span: SpanPorts::find(of("span"))?,
-            term: plan.shade.is_there().then(|| TermPorts::find(of("term"))).transpose()?,
-            pixel: PixelPorts::find(of("pixel"))?,
-            texel: plan.shade.textures().then(|| TexelPorts::find(of("texel"))).transpose()?,
-            bump: plan.shade.bumps().then(|| BumpPorts::find(of("bump"))).transpose()?,
-            normal: plan.shade.has_normal().then(|| NormalPorts::find(of("normal"))).transpose()?,
-            lamp: plan.shade.is_positional().then(|| LampPorts::find(of("lamp"))).transpose()?,
-            shade: plan.shade.is_there().then(|| ShadePorts::find(of("shade"))).transpose()?,
-            project: plan.shadow.projects().then(|| ProjectPorts::find(of("project"))).transpose()?,
-            shadow: plan.shadow.is_there().then(|| ShadowPorts::find(of("shadow"))).transpose()?,
-            depth: DepthStatus::find(of("depth"))?,
-            blend: plan.blend.is_there().then(blend).transpose()?,
-        })
+            model,
+            tri: TriangleTaker::find(scope)?,
+            rules: Rules::find(scope)?,
+            depth: named("depth")?.ok_or_else(|| NoPlace::Unit("memory".to_owned()))?,
+            color: named("color")?,
+            words: words.iter().map(|(_, port)| memory(port)).collect::<Result<_, _>>()?,
+            written: if blends { [ready("zwr")?, ready("cwr")?] } else { [ready("wr")?; 2] },
+            outputs: Outputs::find(scope)?,
+            inside: units,
+        };
+        let outputs = edgewalk_model::Outputs::default();
+        device.show(&outputs, &mut interface.values());
+        device.outputs.complete()?;
+        Ok(device)
     }
 
-    /// The links between the units in a cycle with these inputs, from the units' states before the clock edge.
-    fn show(&self, model: &Model<C>, inputs: &Inputs, ports: &mut PortValues) {
-        let units = model.units();
-        let drawn = units.pixel.frag();
-        let offered = units.offered(&inputs.texel);
-        let colored = units.shade.map_or(drawn, |shade| shade.tinted());
-        let frag = units.project.map_or(colored, |project| project.projected());
-        let shaded = units.shadow.and_then(|shadow| shadow.shaded(&inputs.shadow));
-        let seen = if units.shadow.is_some() { shaded.as_ref() } else { frag };
-        let seen_ready = inputs.rd_ready && units.depth.block(seen, inputs.depth_write).is_none();
-        let frag_ready = units.shadow.map_or(seen_ready, |shadow| shadow.frag_ready(frag, &inputs.shadow));
-        let colored_ready = units.project.map_or(frag_ready, |project| project.frag_ready(frag_ready));
-        self.setup.show(units.setup, ports);
-        self.edge.show(units.edge, units.span.fresh_queued(), ports);
-        self.span.show(units.span, ports);
-        let readies = units.readies(&offered, &inputs.texel, colored_ready);
-        if let (Some(shown), Some(unit)) = (&self.term, units.term) {
-            shown.show(unit, units.span.span(), units.pixel.span_ready(readies.drawn), ports);
+    /// What the memories that the host alone writes show in a cycle.
+    fn words(&self, ports: &PortValues) -> [WordIn; MEMORIES] {
+        let mut words = [WordIn::NONE; MEMORIES];
+        for (word, memory) in words.iter_mut().zip(&self.words) {
+            *word = memory.word(ports);
         }
-        self.pixel.show(units.pixel, readies.drawn, ports);
-        if let (Some(shown), Some(unit)) = (&self.texel, units.texel) {
-            shown.show(unit, &inputs.texel, ports);
-        }
-        if let (Some(shown), Some(unit)) = (&self.bump, units.bump) {
-            shown.show(unit, readies.bumped, ports);
-        }
-        if let (Some(shown), Some(unit)) = (&self.normal, units.normal) {
-            shown.show(unit, parts(&offered.bumped).0, readies.normed, ports);
-        }
-        if let (Some(shown), Some(unit)) = (&self.lamp, units.lamp) {
-            shown.show(unit, parts(&offered.bumped).0, readies.normed, ports);
-        }
-        if let (Some(shown), Some(unit)) = (&self.shade, units.shade) {
-            let (frag, cosines) = parts(&offered.normed);
-            shown.show(unit, (frag, &cosines), colored_ready, ports);
-        }
-        if let (Some(shown), Some(unit)) = (&self.project, units.project) {
-            shown.show(unit, frag_ready, ports);
-        }
-        if let (Some(shown), Some(unit)) = (&self.shadow, units.shadow) {
-            shown.show(unit, frag, &inputs.shadow, ports);
-        }
-        self.depth.show(units.depth, seen, inputs.rd_ready, inputs.depth_write, ports);
-        if let (Some((pass, status)), Some(unit)) = (&self.blend, units.blend) {
-            pass.offer(units.depth.pass(), ports);
-            status.show(unit, units.depth.pass(), &inputs.blend, ports);
-        }
+        words
     }
-}
 
-impl<const C: usize> MachineDevice<C> {
     /// The model's inputs of a cycle.
-    fn inputs<'a>(&self, triangle: Option<&'a ([PortVertex; 3], u32)>, ports: &PortValues) -> Inputs<'a> {
-        let depth = self.memory.inputs(ports);
-        let words = self.words.as_ref();
+    fn inputs<'a>(
+        &self,
+        triangle: Option<&'a ([PortVertex; 3], u32)>,
+        words: &'a [WordIn],
+        ports: &PortValues,
+    ) -> Inputs<'a> {
+        let (state, depth) = (self.rules.state(ports), self.depth.word(ports));
+        let color = self.color.as_ref().map(|color| color.word(ports));
         Inputs {
             rst: ports.rst,
             tri: triangle.map(|(vertices, tag)| (vertices, *tag)),
-            depth_func: depth.depth_func,
-            depth_write: depth.depth_write,
-            rd_ready: depth.rd_ready,
-            data: depth.data,
-            wr_ready: depth.wr_ready,
-            term: words.map_or_else(TermInputs::default, |(terms, _)| terms.term_inputs(ports)),
-            texel: self
-                .textures
-                .as_ref()
-                .map_or_else(TexelInputs::default, |memory| texel::inputs(memory, ports)),
-            normal: self
-                .roots
-                .as_ref()
-                .map_or_else(NormalInputs::default, |roots| normal::inputs(roots, ports)),
-            shade: words.map_or_else(ShadeInputs::default, |(_, tables)| shade::inputs(tables, ports)),
-            shadow: self.map.as_ref().map_or_else(ShadowInputs::default, |map| map.inputs(ports)),
-            blend: self.color.as_ref().map_or_else(BlendInputs::default, |color| BlendInputs {
-                color_write: depth.color_write,
-                ..color.inputs(ports)
+            depth_func: state.depth_func,
+            depth_write: state.depth_write,
+            rd_ready: depth.ready,
+            data: depth.word.map(|word| word as u64), // at most 32 bits
+            wr_ready: ports.is_high(self.written[0]),
+            words,
+            shadow: ShadowInputs::of(&state),
+            blend: color.map_or_else(BlendInputs::default, |color| BlendInputs {
+                color_write: state.color_write,
+                add: state.blend_add,
+                crd_ready: color.ready,
+                cdata: color.word.map(|word| word as u64), // at most 48 bits
+                cwr_ready: ports.is_high(self.written[1]),
             }),
         }
+    }
+
+    /// Shows the outputs of the machine.
+    fn show(&mut self, outputs: &edgewalk_model::Outputs<C>, ports: &mut PortValues) {
+        let blend = &outputs.blend;
+        self.depth.show(Ask { addr: outputs.rd, take: outputs.data_ready }, ports);
+        for (memory, ask) in self.words.iter().zip(&outputs.words) {
+            memory.show(*ask, ports);
+        }
+        if let Some(color) = &self.color {
+            color.show(Ask { addr: blend.crd, take: blend.cdata_ready }, ports);
+        }
+        let mut shown = self.outputs.on(ports);
+        shown.takes(outputs.tri_ready);
+        if self.color.is_some() {
+            shown.writes(outputs.wr.as_ref());
+            shown.gives(blend.cwr.as_ref());
+        } else {
+            shown.gives(outputs.wr.as_ref());
+        }
+        shown.status("idle", outputs.idle);
+        shown.number("activity", outputs.activity as u128);
     }
 }
 
 impl<const C: usize> Device for MachineDevice<C> {
     fn cycle(&mut self, ports: &mut PortValues) {
-        let triangle = self.tri.token(ports);
-        let inputs = self.inputs(triangle.as_ref(), ports);
-        if let Some(inside) = &self.inside {
-            inside.show(&self.model, &inputs, ports);
+        let (triangle, words) = (self.tri.token(ports), self.words(ports));
+        let inputs = self.inputs(triangle.as_ref(), &words, ports);
+        if !self.inside.is_empty() {
+            self.model.show(&inputs, &mut Inside { units: &mut self.inside, ports });
         }
         let outputs = self.model.cycle(&inputs);
-        ports.set(self.tri.ready(), outputs.tri_ready);
-        self.memory.show(outputs.rd, outputs.data_ready, outputs.wr.as_ref(), ports);
-        if let Some((terms, tables)) = &self.words {
-            terms.show(outputs.trd, outputs.tdata_ready, ports);
-            tables.show(outputs.srd, outputs.sdata_ready, ports);
-        }
-        if let Some(textures) = &self.textures {
-            textures.show(outputs.xrd, outputs.xdata_ready, ports);
-        }
-        if let Some(roots) = &self.roots {
-            roots.show(outputs.rrd, outputs.rdata_ready, ports);
-        }
-        if let Some(map) = &self.map {
-            map.show(outputs.mrd, outputs.mdata_ready, ports);
-        }
-        if let Some(color) = &self.color {
-            let blend = &outputs.blend;
-            color.show(blend.crd, blend.cdata_ready, blend.cwr.as_ref(), ports);
-        }
-        ports[self.activity] = outputs.activity as u128;
-        ports.set(self.idle, outputs.idle);
+        self.show(&outputs, ports);
     }
 }
 
@@ -229,8 +163,8 @@ impl<const C: usize> ModelDevice for MachineDevice<C> {
     }
 
     fn view(&self, ports: &PortValues, view: &mut View) -> bool {
-        let triangle = self.tri.token(ports);
-        self.model.view(&self.plan, &self.inputs(triangle.as_ref(), ports), view);
+        let (triangle, words) = (self.tri.token(ports), self.words(ports));
+        self.model.view(&self.plan, &self.inputs(triangle.as_ref(), &words, ports), view);
         true
     }
 }

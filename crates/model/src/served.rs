@@ -1,0 +1,65 @@
+//! A memory's side of a read port: reads come back in order, not before their latency.
+//!
+//! ```text
+//!  read (address, word) ─> L clocks, and as many more as the waits ask ─> data
+//! ```
+//! Timing: data L cycles after the read fired, later if stalled; held until taken. Any number of reads may be on their way.
+//!
+//! Rules: `docs/machine.md`, section 7. Not modelled: refresh, banks.
+
+use crate::waits::{Pacer, Waits};
+use std::collections::VecDeque;
+
+/// Words of type `W` on their way back.
+#[derive(Clone, Debug)]
+pub(crate) struct Served<W> {
+    latency: u64,
+    pacer: Pacer,
+    now: u64,
+    /// Words read, with the cycle from which on each is offered.
+    reads: VecDeque<(u64, W)>,
+}
+
+impl<W: Copy> Served<W> {
+    /// No read is on its way. `latency`: clocks from a read to its data.
+    pub fn new(latency: u32, waits: Waits) -> Self {
+        Served {
+            latency: latency.into(),
+            pacer: Pacer::new(waits),
+            now: 0,
+            reads: VecDeque::with_capacity(16),
+        }
+    }
+
+    /// A read can be taken in this cycle.
+    #[inline]
+    pub fn read_ready(&self) -> bool {
+        self.pacer.rd_ready
+    }
+
+    /// A write can be taken in this cycle.
+    #[inline]
+    pub fn write_ready(&self) -> bool {
+        self.pacer.wr_ready
+    }
+
+    /// The word of the oldest read, once it is there.
+    #[inline]
+    pub fn data(&self) -> Option<W> {
+        self.reads.front().filter(|(due, _)| *due <= self.now).map(|(_, word)| *word)
+    }
+
+    /// Clock edge: the read that fired with the word stored at its address, whether data was taken, the address of the write
+    /// that fired.
+    #[inline(always)]
+    pub fn step(&mut self, read: Option<(u32, W)>, taken: bool, written: Option<u32>) {
+        if taken {
+            self.reads.pop_front();
+        }
+        let late = self.pacer.step(self.now, read.map(|(addr, _)| addr), written);
+        if let Some((_, word)) = read {
+            self.reads.push_back((self.now.wrapping_add(self.latency).wrapping_add(late), word));
+        }
+        self.now = self.now.wrapping_add(1);
+    }
+}
