@@ -1,5 +1,5 @@
-//! Choices among registers by a number: the one that the number names is read where it lies, instead of each of them and then
-//! chosen.
+//! Choices among registers by a number. The register that the number names is read where it lies, instead of
+//! reading all of them and then choosing.
 
 use edgewalk_netlist::Op;
 
@@ -23,7 +23,8 @@ impl Array {
         Array { index, registers: vec![zero?, one?] }.if_alike(graph, signs)
     }
 
-    /// By a number: of a choice by a bit that is this for each number, between registers or arrays of that number.
+    /// By a number: of a choice by a bit that is this for each number, between registers or arrays of that
+    /// number.
     pub fn of_choice(
         graph: &Graph,
         signs: &Signs,

@@ -1,5 +1,5 @@
-//! Values that follow from one narrow value alone, such as what the number of an operation says: they are looked up in a
-//! table instead of worked out.
+//! Values that follow from one narrow value, such as the decoded number of an operation. They are looked up
+//! in a table instead of computed.
 
 use edgewalk_netlist::Op;
 use edgewalk_netlist::ops::Bits;
