@@ -29,7 +29,8 @@ impl Array {
         graph: &Graph,
         signs: &Signs,
         id: ValueId,
-        (index, bits): (ValueId, &[u128]),
+        index: ValueId,
+        bits: &[u128],
         array: impl Fn(ValueId) -> Option<Array>,
     ) -> Option<Array> {
         let &[_, one, zero] = graph.as_op(id, Op::Mux)? else { return None };

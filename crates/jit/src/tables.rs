@@ -64,8 +64,9 @@ impl Tables {
                 _ => None,
             };
             tables.arrays[id.index()] = match bits {
-                Some(bits) => {
-                    Array::of_choice(graph, signs, id, bits, |arm| tables.arrays[arm.index()].clone())
+                Some((index, bits)) => {
+                    let array = |arm: ValueId| tables.arrays[arm.index()].clone();
+                    Array::of_choice(graph, signs, id, index, bits, array)
                 }
                 None => Array::of_two(graph, signs, id),
             };
