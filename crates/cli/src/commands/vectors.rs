@@ -1,13 +1,14 @@
 //! `edgewalk vectors`: stimuli, expected results and self-checking test benches.
 
 use crate::document::document;
-use crate::input::{PortFrame, Shading, Source, to_port};
+use crate::input::{PortFrame, Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, jobs, progress};
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
+use edgewalk_scene::InputKind;
 use edgewalk_vectors::{
     Files, Reached, SUITES, StallKind, Suite, Tables, Unit, Words, capture_watched, design, directory,
     not_covered, reached,
@@ -30,6 +31,9 @@ pub struct Args {
     /// A built-in scene, a scene file (.toml), a mesh (.obj, .gltf, .glb) or a triangle file (.tri) whose triangles are a suite
     #[arg(value_name = "SCENE|MESH|FILE.tri")]
     input: Option<String>,
+    /// Sets the keys of the machine that the input asks for; what --set says stands
+    #[arg(long, requires = "input")]
+    adapt: bool,
     /// Takes this many triangles of the input, spread over it evenly; all of them if left out
     #[arg(long, requires = "input", value_parser = clap::value_parser!(u64).range(1..))]
     triangles: Option<u64>,
@@ -74,7 +78,7 @@ pub fn stalls(name: &str) -> Result<StallKind, String> {
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (machine, input) = match &args.input {
         Some(input) => {
-            let source = Source { input: input.clone(), shading: Shading::Gouraud };
+            let source = Source::new(input, args.adapt);
             let (machine, frame) = source.on_its_screen(machine)?;
             let suite = of_input(input, &machine, &to_port(&frame, &machine)?, args.triangles)?;
             (machine, Some(Suite { seed: args.seed, ..suite }))
@@ -110,7 +114,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 
 /// The triangles of an input as a suite with its depth function; `triangles` of them, spread over it evenly.
 pub fn of_input(input: &str, machine: &Plan, port: &PortFrame, triangles: Option<u64>) -> Result<Suite> {
-    let name = Path::new(input).file_stem().map_or_else(|| input.into(), |stem| stem.to_string_lossy());
+    let name = if input == InputKind::STANDARD_INPUT { "stdin" } else { input };
+    let name = Path::new(name).file_stem().map_or_else(|| input.into(), |stem| stem.to_string_lossy());
     // It becomes the name of a directory.
     let name: String =
         name.chars().map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect();
@@ -162,7 +167,7 @@ pub fn functions(machine: &Plan) -> Result<Vec<Suite>> {
 fn named(machine: &Plan, wanted: impl Fn(&str) -> bool) -> Result<Vec<Suite>> {
     let listed = SUITES.iter().filter(|suite| suite.is_for(machine));
     let names = listed.map(|suite| suite.name).filter(|name| wanted(name));
-    names.map(|name| Suite::named(machine, name, 1, 0).map_err(|e| anyhow!("{e}"))).collect()
+    names.map(|name| Ok(Suite::named(machine, name, 1, 0)?)).collect()
 }
 
 /// Prints what could be met in each unit and was not.

@@ -77,7 +77,7 @@ impl Check {
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = machine.machine(None)?;
+    let machine = args.source.machine(machine)?;
     let frame = args.source.frame(&machine)?;
     let port = to_port(&frame, &machine)?;
     let input = Suite {

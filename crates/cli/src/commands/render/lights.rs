@@ -57,13 +57,14 @@ pub fn run(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     picture::write_rgb(&out, "image.png", w, h, &together.rgb)?;
     let setup = SetupReport::new(machine, &triangles);
     let triangles = surface.triangles.len() as u64;
-    let report = Report::new(&source.input, triangles, machine, &together)
-        .with_parts(passes)
-        .with_setup(setup)
-        .with_stalls(args.stalls);
-    out.write("report.json", document("report", report.value()?)?)?;
+    let report = Report {
+        parts: Some(passes),
+        setup: Some(setup),
+        ..Report::new(&source.input, triangles, machine, &together, args.stalls)
+    };
+    out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| document("report", report.value()?), || report.text())?;
+    talk.say(|| document("report", &report), || report.text())?;
     verdict.or_nothing(&source.input, triangles, (w, h))
 }
