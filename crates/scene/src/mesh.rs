@@ -10,6 +10,7 @@ mod terrain;
 mod room;
 mod mtl;
 mod obj;
+mod resource;
 mod accessor;
 mod pbr;
 mod gltf;
@@ -93,7 +94,11 @@ impl Mesh {
             })
         };
         if let Some((key, index, count)) = faces.iter().find_map(beyond) {
-            return Err(fault(key, index.to_string(), format!("permitted: an index below {count}")).into());
+            let permitted = match count {
+                0 => "permitted: none, as the list is empty".to_owned(),
+                _ => format!("permitted: an index from 0 to {}", count - 1),
+            };
+            return Err(fault(key, index.to_string(), permitted).into());
         }
         let mut welded = Vec::new();
         let mut places = HashMap::new();

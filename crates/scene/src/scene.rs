@@ -2,15 +2,15 @@
 
 use crate::camera::Camera;
 use crate::clip::{ClipVertex, Viewport, clip};
-use crate::error::{Fault, InputError};
+use crate::error::InputError;
 use crate::frame::Frame;
+use crate::kind::unknown;
 use crate::light::Light;
 use crate::mesh::{self, Mesh};
 use crate::normals::{NormalRule, corner_normals, face_normals};
 use crate::rules::ShadeMode;
 use crate::shading::{Lighting, Point, Specular};
 use crate::surface::{Surface, SurfaceTriangle};
-use edgewalk_nearest::nearest;
 use glam::{DVec2, DVec3};
 
 /// What is to be drawn, in world space.
@@ -51,12 +51,7 @@ impl Scene {
                 lights: vec![light([0.6, 0.6, 0.5], 0.5), light([-0.6, 0.6, 0.5], 0.5)],
                 ..Self::of_mesh(mesh::room()?)
             }),
-            _ => {
-                let permitted = format!("permitted: {}", Self::BUILTIN.join(" "));
-                let mut fault = Fault::new("built-in scenes", None, "name", name, permitted);
-                fault.nearest = nearest(name, Self::BUILTIN);
-                Err(fault.into())
-            }
+            _ => Err(unknown(name)),
         }
     }
 

@@ -6,6 +6,7 @@ use crate::Talk;
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::shell::quoted;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
@@ -158,15 +159,6 @@ fn explaining(args: &Args, machine: &MachineArgs, of: usize) -> String {
     }
     words.extend(args.source.words());
     words.iter().map(|word| quoted(word)).chain(["{x} {y}".to_owned()]).collect::<Vec<_>>().join(" ")
-}
-
-/// A word as a shell takes it: in quotes unless all of its characters are plain.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,@%+".contains(c);
-    match !word.is_empty() && word.chars().all(plain) {
-        true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', r"'\''")),
-    }
 }
 
 /// The triangle of the lesson, on its screen.
