@@ -7,12 +7,13 @@ use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// The format of a document whose first keys are `format` and `version`.
+/// The format of a document whose first keys are `format` and `version`; of a manifest, `format_version`.
 fn format(document: &Value, from: &str) -> String {
     let keys: Vec<&String> =
         document.as_object().unwrap_or_else(|| panic!("{from}: no object")).keys().collect();
-    assert_eq!(keys[..2], ["format", "version"], "{from}");
-    let version = &document["version"];
+    let second = if document["format"] == "edgewalk-vectors" { "format_version" } else { "version" };
+    assert_eq!(keys[..2], ["format", second], "{from}");
+    let version = &document[second];
     assert!(version.is_u64() || version.as_array().is_some_and(|list| list.len() == 2), "{from}: {version}");
     let format = document["format"].as_str().unwrap();
     assert!(format.starts_with("edgewalk-"), "{from}: {format}");
@@ -128,4 +129,32 @@ fn warnings_are_json_where_it_is_asked_for() {
         checked += 1;
     }
     assert!(checked > 0 && text.lines().count() == plain.lines().count(), "{plain}");
+}
+
+/// The machine as a document has the keys and values of the machine as a file.
+#[test]
+fn config_prints_one_machine_in_both_forms() {
+    let folder = folder();
+    let mut checked = 0;
+    for machine in ["textbook", "small,shade.kind=phong"] {
+        let (preset, set) = machine.split_once(',').unwrap_or((machine, "memory.hazard=drain"));
+        let arguments = ["config", "print", "--machine", preset, "--set", set];
+        let text = edgewalk(folder.path(), &arguments).output().unwrap().stdout;
+        let text = String::from_utf8(text).unwrap();
+        let json = edgewalk(folder.path(), &[&arguments[..], &["--json"]].concat()).output().unwrap().stdout;
+        let json: Value = serde_json::from_slice(&json).unwrap();
+        assert!(text.starts_with(&format!("# machine {}\n", json["hash"].as_str().unwrap())), "{text}");
+        let file: toml::Table = text.parse().unwrap();
+        let mut keys = json["keys"].as_object().unwrap().clone();
+        for (section, values) in &file {
+            for (name, value) in values.as_table().unwrap() {
+                let value = value.as_integer().map_or_else(|| json!(value.as_str()), |number| json!(number));
+                assert_eq!(keys.remove(&format!("{section}.{name}")), Some(value), "{section}.{name}");
+                checked += 1;
+            }
+        }
+        assert!(keys.is_empty(), "{keys:?}");
+    }
+    println!("checked {checked} keys");
+    assert!(checked > 50);
 }

@@ -210,7 +210,7 @@ mod tests {
     fn a_block_takes_the_shape_that_fits_best() {
         let ebr = Target::named("ice40-hx8k").expect("a target").blocks[0];
         for (words, bits, needed) in
-            [(256, 16, 1), (257, 16, 2), (2048, 2, 1), (512, 9, 2), (40_960, 15, 150)]
+            [(256, 16, 1), (257, 16, 2), (2048, 2, 1), (512, 9, 2), (40_960, 15, 160)]
         {
             assert_eq!(ebr.needed(words, bits), needed, "{words} x {bits}");
         }
