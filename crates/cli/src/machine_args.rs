@@ -1,6 +1,7 @@
 //! `--machine FILE|PRESET` and `--set key=value`, the same for every command.
 
 use anyhow::{Context, Result, anyhow};
+use edgewalk_host::needs::Need;
 use edgewalk_machine::presets::PRESETS;
 use edgewalk_machine::{Machine, Plan, Unknown};
 use std::fs::File;
@@ -36,20 +37,29 @@ impl MachineArgs {
         machine.into_iter().chain(set).flatten().collect()
     }
 
-    /// The machine `FILE|PRESET[,key=value...]`, with what --set says on top; the screen as in [`MachineArgs::machine`].
-    pub fn named(&self, text: &str, size: Option<(u32, u32)>) -> Result<Plan> {
+    /// The machine `FILE|PRESET[,key=value...]`, with what --set says on top; screen and needs as in
+    /// [`MachineArgs::adapted`].
+    pub fn named(&self, text: &str, size: Option<(u32, u32)>, needs: &[Need]) -> Result<Plan> {
         let mut words = text.split(',').map(str::trim);
         let machine = words.next().unwrap_or_default().to_owned();
         let set = words.map(str::to_owned).chain(self.set.iter().cloned()).collect();
-        MachineArgs { machine, set }.machine(size).with_context(|| text.to_owned())
+        MachineArgs { machine, set }.adapted(size, needs).with_context(|| text.to_owned())
     }
 
     /// The machine asked for, with its screen replaced where the input brings its own size.
     pub fn machine(&self, size: Option<(u32, u32)>) -> Result<Plan> {
+        self.adapted(size, &[])
+    }
+
+    /// As [`MachineArgs::machine`], and with the keys that the input asks for; --set has the last word.
+    pub fn adapted(&self, size: Option<(u32, u32)>, needs: &[Need]) -> Result<Plan> {
         let mut machine = self.load()?;
         if let Some((width, height)) = size {
             machine.set("screen.width", &width.to_string()).map_err(|e| anyhow!("size: {e}"))?;
             machine.set("screen.height", &height.to_string()).map_err(|e| anyhow!("size: {e}"))?;
+        }
+        for Need { key, value, .. } in needs {
+            machine.set(key, value).map_err(|e| anyhow!("--adapt: {key} = {value}: {e}"))?;
         }
         for setting in &self.set {
             let (key, value) = setting.split_once('=').ok_or_else(|| {
@@ -57,14 +67,15 @@ impl MachineArgs {
             })?;
             machine.set(key.trim(), value.trim()).map_err(|e| anyhow!("--set {setting}: {e}"))?;
         }
-        machine.plan().map_err(|e| anyhow!("{}: {e}", self.asked_for(size)))
+        machine.plan().map_err(|e| anyhow!("{}: {e}", self.asked_for(size, needs)))
     }
 
     /// All that makes the machine another than the one of the file or preset, which has been checked.
-    fn asked_for(&self, size: Option<(u32, u32)>) -> String {
+    fn asked_for(&self, size: Option<(u32, u32)>, needs: &[Need]) -> String {
         let size = size.map(|(width, height)| format!("size {width} {height}"));
+        let needs = needs.iter().map(|need| format!("--adapt: {} = {}", need.key, need.value));
         let settings = self.set.iter().map(|setting| format!("--set {setting}"));
-        size.into_iter().chain(settings).collect::<Vec<_>>().join(", ")
+        size.into_iter().chain(needs).chain(settings).collect::<Vec<_>>().join(", ")
     }
 
     fn load(&self) -> Result<Machine> {

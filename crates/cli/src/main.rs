@@ -10,20 +10,24 @@
 mod arrays;
 mod commands;
 mod cost;
+mod design;
 mod document;
 mod engine;
 mod fast;
 mod fast_phong;
 mod input;
 mod jobs;
+mod lamps;
 mod machine_args;
 mod picture;
+mod pictures;
 mod progress;
 mod scratch;
 mod shading_report;
 mod shadows;
 mod shell;
 mod staging;
+mod suites;
 mod talk;
 mod triangles;
 mod verdict;
@@ -74,6 +78,7 @@ enum Command {
     Gallery(gallery::Args),
     Explain(explain::Args),
     Raster(raster::Args),
+    Triangles(commands::triangles::Args),
     Size(size::Args),
     Sweep(Box<sweep::Args>),
     Compare(compare::Args),
@@ -121,6 +126,7 @@ fn run(cli: &Cli, talk: Talk) -> Result<Verdict> {
         Command::Gallery(a) => gallery::run(a, talk),
         Command::Explain(a) => explain::run(a, &cli.machine, talk),
         Command::Raster(a) => raster::run(a, &cli.machine, talk),
+        Command::Triangles(a) => commands::triangles::run(a, &cli.machine, talk),
         Command::Size(a) => size::run(a, &cli.machine, talk),
         Command::Sweep(a) => sweep::run(a, &cli.machine, talk),
         Command::Compare(a) => compare::run(a, &cli.machine, talk),

@@ -68,7 +68,7 @@ fn what_cannot_be_compared_is_said() {
     let folder = tempfile::tempdir().unwrap();
     for (arguments, said) in [
         (["default", "default,screen.width=320", "sphere"], "the screens differ, 640x480 and 320x480"),
-        (["default", "defalt", "sphere"], "nearest preset: default"),
+        (["default", "defalt", "sphere"], "nearest: default"),
         (["default", "default,adders=1", "sphere"], "nearest: interpolator.adders"),
         (["default", "textbook", "nosuch.obj"], "nosuch.obj"),
     ] {
@@ -261,7 +261,7 @@ fn machines_that_shade_differently_are_compared() {
     for (a, said) in [
         ("default:guraud", "nearest: gouraud"),
         ("default:phong", "shade.kind"),
-        ("defalt:gouraud", "nearest preset: default"),
+        ("defalt:gouraud", "nearest: default"),
     ] {
         let (code, error) = run(at, &[&["compare", a, "default", "p.obj"], &screen[..]].concat());
         assert!(code == Some(2) && error.contains(said), "{error}");

@@ -15,6 +15,7 @@ mod fast_phong;
 mod gallery;
 mod guard_band;
 mod input_files;
+mod inputs;
 mod layering;
 mod lens;
 mod light;

@@ -48,6 +48,26 @@ pub fn draw_frame(machine: &Plan, port: &PortFrame, waits: Waits) -> Result<Draw
     }
 }
 
+/// Draws a frame whose triangles are all there, and gives its picture from the top in bands of so many lines.
+///
+/// # Errors
+/// Of triangles of another machine, and the first that `take` gives.
+pub fn in_bands(
+    machine: &Plan,
+    port: &PortFrame,
+    waits: Waits,
+    lines: u32,
+    mut take: impl FnMut(Raster) -> Result<()>,
+) -> Result<()> {
+    let drawn = draw_frame(machine, port, waits)?;
+    drawn.bands(machine, bands(machine.height, lines), |band| take(of_port(band, port)))
+}
+
+/// A picture of this height in bands of so many lines.
+pub fn bands(height: u32, lines: u32) -> impl Iterator<Item = Range<u32>> {
+    (0..height).step_by(lines as usize).map(move |top| top..height.min(top.saturating_add(lines)))
+}
+
 /// The words of the machine's memories at a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pixel {

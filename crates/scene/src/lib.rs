@@ -5,6 +5,8 @@
 
 mod error;
 mod text;
+mod file;
+mod kind;
 
 mod texture;
 mod mesh;
@@ -33,6 +35,7 @@ pub use camera::Camera;
 pub use error::InputError;
 pub use frame::{Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_LIGHTS, MAX_SIDE, Pane, Polygon, Shadow};
 pub use host::Host;
+pub use kind::InputKind;
 pub use light::{Attenuation, Incident, Light};
 pub use light_view::{InMap, LightView};
 pub use mesh::{Face, FaceData, Material, Mesh};

@@ -12,7 +12,7 @@ use edgewalk_explore::sweep::equation::Equation;
 use edgewalk_explore::sweep::shading::{SHADINGS, named, of_machine};
 use edgewalk_golden::Shading;
 use edgewalk_host::draw;
-use edgewalk_host::input::{Input, Shaded, is_triangle_file};
+use edgewalk_host::input::{Input, Shaded};
 use edgewalk_host::port::to_port;
 use edgewalk_host::raster::Raster;
 use edgewalk_host::reach::reach;
@@ -52,6 +52,9 @@ pub struct Args {
     /// How a machine without a shading of its own shades a scene or mesh: constant, constant-averaged, gouraud, phong, fast-phong
     #[arg(long, value_name = "SHADING", value_parser = clap::builder::PossibleValuesParser::new(SHADINGS.map(|of| of.0)))]
     shading: Option<String>,
+    /// Sets the keys of both machines that the input asks for; what a machine and --set say stands
+    #[arg(long)]
+    adapt: bool,
     /// How the memory makes both wait: none, fixed, random, dram, with parameters as fixed:rd=2
     #[arg(long, value_name = "KIND", default_value = "none")]
     stalls: Waits,
@@ -67,7 +70,10 @@ const FILES: [&str; 5] = ["a.png", "b.png", "difference.png", "compare.json", "c
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let [a, b] = [Asked::new(&args.a, args, machine)?, Asked::new(&args.b, args, machine)?];
+    // Opened once: it may be a pipe.
+    let input = Input::open(&args.input, Shaded::Corners(Shading::Gouraud))?;
+    let asked = |name: &str| Asked::new(name, &input, args, machine);
+    let [a, b] = [asked(&args.a)?, asked(&args.b)?];
     if (a.plan.width, a.plan.height) != (b.plan.width, b.plan.height) {
         return Err(anyhow!(
             "the screens differ, {}x{} and {}x{}, so no pixels can be compared; set screen.width and screen.height",
@@ -119,22 +125,22 @@ struct Asked {
 }
 
 impl Asked {
-    fn new(name: &str, args: &Args, machine: &MachineArgs) -> Result<Asked> {
+    fn new(name: &str, input: &Input, args: &Args, machine: &MachineArgs) -> Result<Asked> {
         let (text, own) = apart(name)?;
         let common = args.shading.as_deref().map(named).transpose()?;
-        let screen = match is_triangle_file(&args.input) {
-            true => Input::open(&args.input, Shaded::Corners(Shading::Gouraud))?.size(),
-            false => None,
-        };
+        let screen = input.size();
         if let (Some(_), Some((shading, _))) = (screen, own) {
             return Err(anyhow!("{name}: {} says itself how it is shaded; leave :{shading} out", args.input));
         }
-        let plan = machine.named(text, screen)?;
+        let mut plan = machine.named(text, screen, &[])?;
         let (shading, shaded) = match own.or(common) {
             Some(asked) => asked,
             None => named(of_machine(&plan))?,
         };
-        let input = Input::open(&args.input, shaded)?;
+        let input = input.shaded(shaded);
+        if args.adapt {
+            plan = machine.named(text, screen, &input.needs(&plan))?;
+        }
         let shading = screen.is_none().then_some(shading);
         Ok(Asked { name: name.to_owned(), plan, input, shading })
     }
@@ -160,6 +166,10 @@ fn drawn(of: &Asked, stalls: Waits) -> Result<(Report, Raster)> {
     let proof = port.shade.as_ref().map(|feed| &feed.proof);
     let comparison = compare_shaded(plan, &frame, &golden, &raster, reach(plan, &port)?.as_ref(), proof);
     let setup = SetupReport::new(plan, &port.triangles);
-    let report = Report::new(input.name(), frame.triangles.len() as u64, plan, &raster);
-    Ok((report.with(comparison).with_setup(setup), raster))
+    let report = Report {
+        comparison: Some(comparison),
+        setup: Some(setup),
+        ..Report::new(input.name(), frame.triangles.len() as u64, plan, &raster, stalls)
+    };
+    Ok((report, raster))
 }

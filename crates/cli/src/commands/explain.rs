@@ -32,15 +32,12 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
+    let machine = args.source.machine(machine)?;
     // A file is opened once: it may be a pipe.
-    let (machine, scene, (frame, order)) = if args.source.is_triangle_file() {
-        let (machine, frame) = args.source.on_its_screen(machine)?;
-        (machine, None, (frame, None))
-    } else {
-        let machine = machine.machine(None)?;
-        let (scene, surface) = args.source.surface(&machine)?;
-        let frame = args.source.frame_of(&scene, &surface, &machine)?;
-        (machine, Some((scene, surface)), frame)
+    let scene = if args.source.is_triangle_file() { None } else { Some(args.source.surface(&machine)?) };
+    let (frame, order) = match &scene {
+        Some((scene, surface)) => args.source.frame_of(scene, surface, &machine)?,
+        None => (args.source.frame(&machine)?, None),
     };
     let frame = frame.first(args.triangles.unwrap_or(usize::MAX));
     let (x, y) = (args.x, args.y);

@@ -1,31 +1,26 @@
 //! `edgewalk render`: a scene or a mesh through the machine, beside the golden picture; or through a shading system of
 //! the golden picture, beside the truth.
 
-mod lamps;
 mod lights;
 
+use crate::Talk;
 use crate::document::document;
-use crate::engine::{Engine, draw, draw_waiting, from_golden, golden_fill};
+use crate::engine::{Engine, from_golden, golden_fill};
 use crate::fast_phong::{FastPhongArgs, FastPhongReport};
-use crate::input::{Shading, Source, to_port};
+use crate::input::{Shading, Source};
 use crate::machine_args::MachineArgs;
+use crate::picture;
+use crate::pictures::{FILES, pictures};
 use crate::progress::spinner;
 use crate::shading_report::ShadingReport;
 use crate::shadows::Shadows;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::{Talk, picture};
-use anyhow::{Context as _, Result, anyhow};
+use anyhow::{Result, anyhow};
 use edgewalk_golden::{HiddenLines, wireframe};
-use edgewalk_host::reach::reach;
-use edgewalk_host::shade::apart;
-use edgewalk_judge::compare::{Comparison, compare_shaded};
 use edgewalk_judge::report::Report;
-use edgewalk_judge::setup_report::SetupReport;
 use edgewalk_machine::Plan;
 use edgewalk_model::Waits;
-use edgewalk_scene::Frame;
-use lamps::Added;
 use std::path::PathBuf;
 
 /// Renders a scene or mesh through the machine and compares it with the golden picture.
@@ -69,23 +64,9 @@ pub struct Args {
     out: PathBuf,
 }
 
-/// What a run may write.
-pub const FILES: [&str; 10] = [
-    "image.png",
-    "golden.png",
-    "z_error.png",
-    "color_error.png",
-    "truth.png",
-    "shading_error.png",
-    "phong.png",
-    "phong_error.png",
-    "report.json",
-    "report.txt",
-];
-
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = machine.machine(None)?;
+    let machine = args.source.machine(machine)?;
     if args.source.shading != Shading::FastPhong {
         args.fast_phong.unused()?;
     }
@@ -110,13 +91,13 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     let (frame, order) = args.source.sorted(&machine)?;
     let out = Staging::new(&args.out)?;
-    let Pictures { report, verdict, .. } =
-        pictures(&args.source.input, &frame, &machine, (args.engine, args.stalls), &out, talk.quiet)?;
-    let report = report.sorted(order);
-    out.write("report.json", document("report", report.value()?)?)?;
+    let (mut report, verdict) =
+        pictures(&args.source.input, &frame, &machine, (args.engine, args.stalls), &out, talk.quiet, |_| ())?;
+    report.order = order;
+    out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| document("report", report.value()?), || report.text())?;
+    talk.say(|| document("report", &report), || report.text())?;
     verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
 }
 
@@ -127,14 +108,15 @@ fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     let drawn = from_golden(wireframe(&frame, golden_fill(machine), hidden), machine);
     let out = Staging::new(&args.out)?;
     picture::write_rgb(&out, "image.png", drawn.width, drawn.height, &drawn.rgb)?;
-    let report = Report::new(&args.source.input, frame.triangles.len() as u64, machine, &drawn)
-        .with_polygons(frame.polygons.len() as u64);
-    out.write("report.json", document("report", report.value()?)?)?;
+    let triangles = frame.triangles.len() as u64;
+    let mut report = Report::new(&args.source.input, triangles, machine, &drawn, Waits::Never);
+    report.drawn.polygons = frame.polygons.len() as u64;
+    out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| document("report", report.value()?), || report.text())?;
-    let primitives = (frame.triangles.len() + frame.polygons.len()) as u64;
-    Verdict::drew(report.covered()).or_nothing(&args.source.input, primitives, (drawn.width, drawn.height))
+    talk.say(|| document("report", &report), || report.text())?;
+    let (size, drawn) = ((drawn.width, drawn.height), &report.drawn);
+    Verdict::drew(drawn.fragments).or_nothing(&args.source.input, drawn.primitives(), size)
 }
 
 /// Draws by a shading system and writes it beside the truth.
@@ -179,50 +161,4 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     out.publish(&FILES)?;
     talk.say(|| document("shading", &report), || report.text())?;
     Verdict::drew(error.pixels).or_nothing(&args.source.input, surface.triangles.len() as u64, (w, h))
-}
-
-/// A comparison, and what was compared.
-pub struct Pictures {
-    /// On what was found.
-    pub report: Report,
-    /// Of the comparison.
-    pub verdict: Verdict,
-    /// Triangle that the engine's picture shows at every pixel, -1 none.
-    pub ids: Vec<i32>,
-}
-
-/// Draws, compares, and writes golden.png, the engine's picture and the two heat maps.
-pub fn pictures(
-    name: &str,
-    frame: &Frame,
-    machine: &Plan,
-    (engine, waits): (Engine, Waits),
-    out: &Staging,
-    quiet: bool,
-) -> Result<Pictures> {
-    let golden = draw(Engine::Golden, frame, machine, quiet)?;
-    let Added { drawn, port, proof, lights } = match apart(frame, machine).with_context(|| name.to_owned())? {
-        Some(parts) => lamps::added(&parts, machine, (engine, waits), quiet)?,
-        None => {
-            let drawn = draw_waiting(engine, frame, machine, waits, quiet)?;
-            let port = to_port(frame, machine)?;
-            let proof = port.shade.as_ref().map(|feed| feed.proof.clone());
-            Added { drawn, port, proof, lights: Vec::new() }
-        }
-    };
-    let reach = reach(machine, &port)?;
-    let comparison = compare_shaded(machine, frame, &golden, &drawn, reach.as_ref(), proof.as_ref());
-    let (w, h) = (drawn.width, drawn.height);
-    picture::write_rgb(out, "golden.png", w, h, &golden.rgb)?;
-    picture::write_rgb(out, "image.png", w, h, &drawn.rgb)?;
-    picture::write_heat(out, "z_error.png", (w, h), &comparison.z_map, 1.0)?;
-    picture::write_heat(out, "color_error.png", (w, h), &comparison.color_map, 1.0)?;
-    let verdict = lights.iter().map(Comparison::verdict).fold(comparison.verdict(), Verdict::and);
-    let setup = SetupReport::new(machine, &port.triangles);
-    let report = Report::new(name, frame.triangles.len() as u64, machine, &drawn)
-        .with(comparison)
-        .with_lights(lights)
-        .with_setup(setup)
-        .with_stalls(waits);
-    Ok(Pictures { report, verdict, ids: drawn.id })
 }

@@ -47,7 +47,7 @@ enum Wave {
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = machine.machine(None)?;
+    let machine = args.source.machine(machine)?;
     let port = to_port(&args.source.frame(&machine)?, &machine)?;
     let traced = port.triangles.len().min(args.triangles);
     let size = (machine.width, machine.height);
@@ -68,8 +68,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         failure = sample(&mut wave, &mut file, kind, sim);
         cycles += 1;
         failure.is_ok() && cycles < args.cycles
-    })
-    .map_err(|e| anyhow!("{e}"))?;
+    })?;
     failure.with_context(|| out.name(name))?;
     match wave {
         Some(Wave::Vcd(w)) => w.finish().with_context(|| out.name(name))?,
@@ -96,12 +95,12 @@ fn sample(
         let labels = [Labels { signal: "activity", names: &names }];
         *wave = Some(match kind {
             "vcd" => Wave::Vcd(VcdTrace::new(file, sim, TOP, &labels)?),
-            _ => Wave::Fst(Box::new(FstTrace::new(file, sim, TOP, &labels).map_err(|e| anyhow!("{e}"))?)),
+            _ => Wave::Fst(Box::new(FstTrace::new(file, sim, TOP, &labels)?)),
         });
     }
     match wave {
         Some(Wave::Vcd(w)) => w.sample(sim)?,
-        Some(Wave::Fst(w)) => w.sample(sim).map_err(|e| anyhow!("{e}"))?,
+        Some(Wave::Fst(w)) => w.sample(sim)?,
         None => {}
     }
     Ok(())

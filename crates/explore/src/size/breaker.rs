@@ -3,8 +3,9 @@
 use super::with_fraction;
 use anyhow::Result;
 use edgewalk_host::draw;
-use edgewalk_judge::compare::compare;
-use edgewalk_machine::{Channel, Kind, Machine, Plan};
+use edgewalk_host::port::to_port;
+use edgewalk_judge::beside::{Proved, beside};
+use edgewalk_machine::{Channel, Kind, Plan};
 use edgewalk_model::Waits;
 use edgewalk_numerics::solver::solve;
 use edgewalk_numerics::{ChannelBits, Rounding, Screen, Target, Witness};
@@ -65,9 +66,12 @@ impl Breaker {
         };
         let fewer = with_bits(machine, place, bits - 1)?;
         let frame = frame(&fewer, place, &witness);
-        let [golden, drawn] = [draw::golden(&frame, &fewer), draw::fast(&frame, &fewer, Waits::Never)?];
-        let comparison = compare(&fewer, &frame, &golden, &drawn);
-        let found = [comparison.z_error, comparison.color_error][place];
+        let port = to_port(&frame, &fewer)?;
+        let proved = Proved { reach: None, shading: None };
+        let drawn =
+            |lines, take: &mut dyn FnMut(_) -> _| draw::in_bands(&fewer, &port, Waits::Never, lines, take);
+        let comparison = beside(&fewer, &frame, proved, drawn, |_| Ok(()))?;
+        let found = [comparison.errors.z.error, comparison.errors.color.error][place];
         if found <= error {
             return none("none was found that shows in a rounded output");
         }
@@ -78,14 +82,12 @@ impl Breaker {
 
 /// The machine with other fraction bits of depth or colour.
 fn with_bits(machine: &Plan, place: usize, bits: u32) -> Result<Plan> {
-    let mut keys = Machine::clone(machine);
     let precision = with_fraction(machine.channels()[place], bits).precision;
-    if place == 0 {
-        keys.z = precision;
-    } else {
-        keys.color = precision;
-    }
-    keys.plan().map_err(|e| anyhow::anyhow!("{e}"))
+    let machine = machine.with(|keys| match place {
+        0 => keys.z = precision,
+        _ => keys.color = precision,
+    });
+    Ok(machine.plan()?)
 }
 
 /// The witness's output leaves the range of the channel.

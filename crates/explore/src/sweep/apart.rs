@@ -31,9 +31,10 @@ pub fn report(geometry: &Geometry, plan: &Plan, waits: Waits) -> Result<(Report,
     let distance = equation.as_ref().map(|equation| equation.distance(&drawn));
     let (reach, proof) = (reach(plan, &port)?, port.shade.as_ref().map(|feed| &feed.proof));
     let comparison = compare_shaded(plan, frame, golden, &drawn, reach.as_ref(), proof).without_maps();
-    let report = Report::new(name, frame.triangles.len() as u64, plan, &drawn)
-        .with(comparison)
-        .with_setup(SetupReport::new(plan, &port.triangles))
-        .with_stalls(waits);
+    let report = Report {
+        comparison: Some(comparison),
+        setup: Some(SetupReport::new(plan, &port.triangles)),
+        ..Report::new(name, frame.triangles.len() as u64, plan, &drawn, waits)
+    };
     Ok((report, distance))
 }

@@ -102,14 +102,14 @@ pub struct Found {
 pub fn with_figures(sweep: &Sweep, point: &Point, plan: &Plan, found: Found) -> Result<Value> {
     let mut row = identity(sweep, point);
     row["status"] = Status::Ok.name().into();
-    if let Some(comparison) = found.report.comparison() {
+    if let Some(comparison) = &found.report.comparison {
         row["verdict"] = json!(match comparison.verdict() {
             Verdict::Pass => "pass",
             Verdict::Mismatch => "mismatch",
             Verdict::Vacuous => "vacuous",
         });
     }
-    row["report"] = found.report.value()?;
+    row["report"] = serde_json::to_value(found.report)?;
     row["slack"] = slack(&row["report"]);
     if let Some(distance) = found.equation {
         row["equation"] = serde_json::to_value(distance)?;

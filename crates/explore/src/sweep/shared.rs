@@ -113,7 +113,8 @@ impl Pixels {
             anyhow!("none of the {} triangles covers a pixel of the screen", port.triangles.len())
         })?;
         let comparison = compare_for(plan, frame, golden, &drawn, Some(&reach)).without_maps();
-        let report = Report::new(name, frame.triangles.len() as u64, plan, &drawn).with(comparison);
+        let report = Report::new(name, frame.triangles.len() as u64, plan, &drawn, Waits::Never);
+        let report = Report { comparison: Some(comparison), ..report };
         let culled = port.triangles.iter().map(|triangle| cull(plan, triangle)).collect();
         let distance = equation.as_ref().map(|equation| equation.distance(&drawn));
         Ok(Pixels { port, report, culled, passage, plain, distance })
@@ -153,7 +154,7 @@ impl Pixels {
                 (cycles, Some(events))
             }
         };
-        Ok(self.report.timed(plan, cycles, corners, setup.report.clone()).with_stalls(waits))
+        Ok(self.report.timed(plan, (&cycles, waits), corners.as_ref(), setup.report.clone()))
     }
 
     /// Cycle by cycle, without a look at the pixels.

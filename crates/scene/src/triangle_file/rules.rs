@@ -1,4 +1,5 @@
-//! The lines `depth`, `depth_write`, `blend`, `colour_write`, `light` and `clear_depth`: the rules of the primitives behind them.
+//! The lines `depth`, `depth_write`, `blend`, `colour_write`, `light` and `clear_depth`: the rules of the
+//! primitives behind them.
 
 use crate::error::InputError;
 use crate::frame::{Frame, MAX_LIGHTS};
@@ -25,10 +26,15 @@ pub(super) fn read<'a>(
     rules: &mut State,
 ) -> Result<bool, InputError> {
     if name == "clear_depth" {
-        let [] = place.values(name, words)?;
+        let [] = place.values(name, "", words)?;
         return Ok(true);
     }
-    let [word] = place.values(name, words)?;
+    let value = match name {
+        "depth" => "F",
+        "light" => "N",
+        _ => "B",
+    };
+    let [word] = place.values(name, value, words)?;
     match name {
         "depth" => rules.depth = DepthFunc::ALL.get(place.choice(name, word, &DEPTH_NAMES)?).copied(),
         "depth_write" => rules.depth_write = place.choice(name, word, &["0", "1"])? == 1,

@@ -83,7 +83,7 @@ const CELLS: [(&str, &str); 8] = [
 impl Page {
     /// Of two sides on one screen.
     pub fn new(sides: [Side; 2], input: &str, waits: Waits) -> Result<Self> {
-        let values = [sides[0].report.value()?, sides[1].report.value()?];
+        let values = [serde_json::to_value(&sides[0].report)?, serde_json::to_value(&sides[1].report)?];
         let [a, b] = [&sides[0].raster, &sides[1].raster];
         let mut pixels = Pixels::default();
         let mut differences = Vec::new();
@@ -116,12 +116,12 @@ impl Page {
 
     /// Triangles of the input.
     pub fn primitives(&self) -> u64 {
-        self.sides[0].report.primitives()
+        self.sides[0].report.drawn.primitives()
     }
 
     /// Pass if both were drawn: that they differ is what is asked for.
     pub fn verdict(&self) -> Verdict {
-        let [a, b] = self.sides.each_ref().map(|side| Verdict::drew(side.report.covered()));
+        let [a, b] = self.sides.each_ref().map(|side| Verdict::drew(side.report.drawn.fragments));
         a.and(b)
     }
 

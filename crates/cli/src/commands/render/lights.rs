@@ -1,9 +1,10 @@
 //! `render SCENE --shadows map` on a machine: each light's part by itself beside golden, and all of them as passes of one picture.
 
-use super::{Args, FILES};
+use super::Args;
 use crate::document::document;
 use crate::engine::{Engine, draw, draw_port, draw_waiting};
 use crate::input::{Shading, to_port};
+use crate::pictures::FILES;
 use crate::shadows::Shadows;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
@@ -57,13 +58,14 @@ pub fn run(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     picture::write_rgb(&out, "image.png", w, h, &together.rgb)?;
     let setup = SetupReport::new(machine, &triangles);
     let triangles = surface.triangles.len() as u64;
-    let report = Report::new(&source.input, triangles, machine, &together)
-        .with_parts(passes)
-        .with_setup(setup)
-        .with_stalls(args.stalls);
-    out.write("report.json", document("report", report.value()?)?)?;
+    let report = Report {
+        parts: Some(passes),
+        setup: Some(setup),
+        ..Report::new(&source.input, triangles, machine, &together, args.stalls)
+    };
+    out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| document("report", report.value()?), || report.text())?;
+    talk.say(|| document("report", &report), || report.text())?;
     verdict.or_nothing(&source.input, triangles, (w, h))
 }

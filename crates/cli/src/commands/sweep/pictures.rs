@@ -40,8 +40,8 @@ fn drawn(sweep: &Sweep, point: &Point) -> Result<Option<Pictures>> {
     let size = (drawn.width, drawn.height);
     let images = vec![
         ("picture", png(size, |i| bytes(drawn.rgb[i]))?),
-        ("depth error", png(size, |i| heat(found.z_map[i]))?),
-        ("colour error", png(size, |i| heat(found.color_map[i]))?),
+        ("depth error", png(size, |i| heat(found.errors.z.map[i]))?),
+        ("colour error", png(size, |i| heat(found.errors.color.map[i]))?),
     ];
     Ok(Some(Pictures { key: point.key.clone(), images }))
 }
