@@ -2,7 +2,7 @@
 
 use super::job::{Job, Times, Work};
 use super::stopwatch::Stopwatch;
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 use edgewalk_lockstep::{StallKind, render_rtl_passes};
 use edgewalk_model::Pass;
 
@@ -11,6 +11,6 @@ pub fn time(job: &Job) -> Result<Times> {
     job.time(&Stopwatch::start(), || {
         let (triangles, passes) = (job.triangles.iter().copied(), [Pass::all(job.state)]);
         let drawn = render_rtl_passes(job.machine, triangles, &passes, &[], StallKind::None, job.shading);
-        drawn.map(|frame| Work::of(&frame.counters)).map_err(|e| anyhow!("{e}"))
+        Ok(Work::of(&drawn?.counters))
     })
 }

@@ -5,6 +5,7 @@ pub mod render;
 pub mod gallery;
 pub mod explain;
 pub mod raster;
+pub mod triangles;
 pub mod size;
 pub mod sweep;
 pub mod compare;

@@ -99,7 +99,7 @@ fn interpreted(
 ) -> Result<Drawn> {
     let drawn =
         edgewalk_lockstep::render_rtl_passes(machine, triangles, passes, maps, StallKind::None, words);
-    drawn.map_err(|e| anyhow!("{e}"))
+    Ok(drawn?)
 }
 
 /// The netlist's frame, by native code.
@@ -112,7 +112,7 @@ fn native(
     let mut device = native::Native::new(&machine.tagged())?;
     let drawn =
         edgewalk_lockstep::render_on(&mut device, machine, triangles, passes, maps, StallKind::None, words);
-    drawn.map_err(|e| anyhow!("{e}"))
+    Ok(drawn?)
 }
 
 #[cfg(not(feature = "jit"))]
@@ -135,15 +135,14 @@ pub fn draw_bands(
     match engine {
         Engine::Golden => {
             let drawing = Drawing::new(frame, golden_fill(machine));
-            let mut bands = bands(frame.width, frame.height, GOLDEN_BAND);
+            let mut bands = draw::bands(frame.height, lines(frame.width, GOLDEN_BAND));
             bands.try_for_each(|lines| {
                 take(Raster { host: frame.host, ..from_golden(drawing.lines(lines), machine) })
             })
         }
         Engine::Fast => {
             let port = to_port(frame, machine)?;
-            let drawn = draw::draw_frame(machine, &port, Waits::Never)?;
-            drawn.bands(machine, fast_bands(machine), |band| take(of_port(band, &port)))
+            draw::in_bands(machine, &port, Waits::Never, lines(machine.width, FAST_BAND), take)
         }
         Engine::Model | Engine::Rtl | Engine::Jit => take(draw(engine, frame, machine, quiet)?),
     }
@@ -154,12 +153,11 @@ const GOLDEN_BAND: u32 = 1 << 22;
 const FAST_BAND: u32 = 1 << 18;
 
 /// The bands in which what the fast engine drew is taken from it.
-pub fn fast_bands(machine: &Plan) -> impl Iterator<Item = Range<u32>> + use<> {
-    bands(machine.width, machine.height, FAST_BAND)
+pub fn fast_bands(machine: &Plan) -> impl Iterator<Item = Range<u32>> {
+    draw::bands(machine.height, lines(machine.width, FAST_BAND))
 }
 
-/// Bands of whole lines, about so many pixels each.
-fn bands(width: u32, height: u32, pixels: u32) -> impl Iterator<Item = Range<u32>> + use<> {
-    let lines = (pixels / width).max(1);
-    (0..height).step_by(lines as usize).map(move |top| top..height.min(top + lines))
+/// Lines of about so many pixels together.
+fn lines(width: u32, pixels: u32) -> u32 {
+    (pixels / width).max(1)
 }

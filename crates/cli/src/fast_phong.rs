@@ -100,7 +100,7 @@ pub struct FastPhongReport {
     /// Largest rho of a triangle that is seen.
     largest_rho: f64,
     /// The bound of a cosine there (bound 10), LSB of 8 bits; none from rho = 1 on.
-    a10: Option<f64>,
+    cosine_bound_lsb: Option<f64>,
 }
 
 impl FastPhongReport {
@@ -127,7 +127,7 @@ impl FastPhongReport {
             largest_error_from_phong: from_phong.max,
             mean_error_from_phong: from_phong.mean,
             largest_rho,
-            a10: bound.is_finite().then_some(255.0 * bound),
+            cosine_bound_lsb: bound.is_finite().then_some(255.0 * bound),
         }
     }
 
@@ -146,8 +146,9 @@ impl FastPhongReport {
             "from Phong shading: largest {:.4}, mean {:.4} LSB of 8 bits",
             self.largest_error_from_phong, self.mean_error_from_phong
         );
-        let a10 = self.a10.map_or_else(|| "none".to_owned(), |bound| format!("{bound:.4} LSB"));
-        let _ = writeln!(t, "largest rho {:.4}: bound 10 of a cosine {a10}", self.largest_rho);
+        let bound =
+            self.cosine_bound_lsb.map_or_else(|| "none".to_owned(), |bound| format!("{bound:.4} LSB"));
+        let _ = writeln!(t, "largest rho {:.4}: bound 10 of a cosine {bound}", self.largest_rho);
         t
     }
 }

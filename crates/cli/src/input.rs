@@ -2,25 +2,37 @@
 
 use crate::machine_args::MachineArgs;
 use anyhow::{Context as _, Result, anyhow};
+use clap::ValueEnum as _;
 use edgewalk_golden::Order;
 use edgewalk_host::extra;
-use edgewalk_host::input::{fitting, in_triangles, is_triangle_file};
+use edgewalk_host::input::{fitting, in_triangles};
+use edgewalk_host::needs::{self, Need};
 use edgewalk_host::port::guard_band;
 pub use edgewalk_host::port::{PortFrame, draw_state, port_triangle, to_port};
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Blending, Frame, PixelMethod, Scene, Surface, triangle_file};
+use edgewalk_scene::{Blending, Frame, InputKind, PixelMethod, Scene, Surface, triangle_file};
 use std::path::Path;
+use std::sync::OnceLock;
 
 /// A scene, a mesh, or a file of screen-space triangles.
 #[derive(clap::Args, Clone, Debug)]
 pub struct Source {
-    /// A built-in scene, a scene file (.toml), a mesh (.obj, .gltf, .glb) or a triangle file (.tri)
+    /// A built-in scene, a scene file (.toml), a mesh (.obj, .gltf, .glb), a triangle file (.tri), or - for triangles from the
+    /// standard input
     #[arg(value_name = "SCENE|MESH", default_value = "torus-knot")]
     pub input: String,
-    /// How the colour of a pixel is come by; wireframe needs --engine golden, phong and fast-phong that or a machine with
-    /// that shade.kind
-    #[arg(long, value_enum, default_value_t = Shading::Gouraud)]
+    /// Shading method: constant, constant-averaged, gouraud, phong, fast-phong, wireframe (docs/shading.md).
+    ///
+    /// phong and fast-phong need a machine with that shade.kind, or --engine golden; wireframe needs --engine golden.
+    #[arg(long, value_enum, default_value_t = Shading::Gouraud, hide_possible_values = true)]
     pub shading: Shading,
+    /// Sets the keys of the machine that the input asks for, as channels.extra, blend.kind, shadow.size or shade.kind; what
+    /// --set says stands
+    #[arg(long)]
+    pub adapt: bool,
+    /// What was read of a triangle file: a pipe can be read only once.
+    #[arg(skip)]
+    read: OnceLock<Frame>,
 }
 
 /// A shading system.
@@ -63,15 +75,61 @@ impl Shading {
 }
 
 impl Source {
+    /// The input of that name, its colours made at the corners.
+    pub fn new(input: &str, adapt: bool) -> Self {
+        Self { input: input.to_owned(), shading: Shading::Gouraud, adapt, read: OnceLock::new() }
+    }
+
+    /// The words of a command line that ask for the same input; the input itself comes last.
+    pub fn words(&self) -> Vec<String> {
+        let shading = self.shading.to_possible_value().filter(|_| self.shading != Shading::Gouraud);
+        let shading = shading.map(|shading| ["--shading".to_owned(), shading.get_name().to_owned()]);
+        // A name that begins with a hyphen would be read as an option.
+        let here = if self.input.starts_with('-') { "./" } else { "" };
+        shading.into_iter().flatten().chain([format!("{here}{}", self.input)]).collect()
+    }
+
     /// Whether the input is a triangle file, which has no surface to shade.
     pub fn is_triangle_file(&self) -> bool {
-        is_triangle_file(&self.input)
+        InputKind::is_triangles(&self.input)
+    }
+
+    /// The triangle file, if it is one.
+    fn triangles(&self) -> Result<Option<&Frame>> {
+        if !self.is_triangle_file() {
+            return Ok(None);
+        }
+        if self.read.get().is_none() {
+            // Nobody else has set it: commands read on one thread.
+            _ = self.read.set(triangle_file::read(Path::new(&self.input))?);
+        }
+        Ok(self.read.get())
     }
 
     /// The screen that it brings, pixels; scenes are drawn on any.
     pub fn screen(&self) -> Result<Option<(u32, u32)>> {
-        let read = || triangle_file::read(Path::new(&self.input)).map(|frame| (frame.width, frame.height));
-        Ok(self.is_triangle_file().then(read).transpose()?)
+        Ok(self.triangles()?.map(|frame| (frame.width, frame.height)))
+    }
+
+    /// The machine asked for, with the screen of a triangle file, and with --adapt with all keys that the input asks for.
+    pub fn machine(&self, args: &MachineArgs) -> Result<Plan> {
+        let screen = self.screen()?;
+        self.adapted(args.machine(screen)?, |needs| args.adapted(screen, needs))
+    }
+
+    fn adapted(&self, machine: Plan, with: impl FnOnce(&[Need]) -> Result<Plan>) -> Result<Plan> {
+        if !self.adapt {
+            return Ok(machine);
+        }
+        let needs = match self.triangles()? {
+            Some(frame) => needs::needs(frame, &machine),
+            None => {
+                let scene = Scene::open(&self.input)?;
+                let surface = scene.surface(machine.width, machine.height, guard_band(&machine));
+                needs::needs(&self.frame_of(&scene, &surface, &machine)?.0, &machine)
+            }
+        };
+        if needs.is_empty() { Ok(machine) } else { with(&needs) }
     }
 
     /// The scene, and its surface on this machine's screen, clipped to its guard band.
@@ -79,22 +137,16 @@ impl Source {
     /// # Errors
     /// The machine has channels of the user's own: a scene has no values for them.
     pub fn surface(&self, machine: &Plan) -> Result<(Scene, Surface)> {
-        extra::fitting(0, machine).with_context(|| self.input.clone())?;
+        extra::none(machine).with_context(|| self.input.clone())?;
         let scene = Scene::open(&self.input)?;
         let surface = scene.surface(machine.width, machine.height, guard_band(machine));
         Ok((scene, surface))
     }
 
-    /// The frame, and the machine with the screen of the triangle file, if it is one.
+    /// The machine of [`Source::machine`], and the frame.
     pub fn on_its_screen(&self, args: &MachineArgs) -> Result<(Plan, Frame)> {
-        if !self.is_triangle_file() {
-            let machine = args.machine(None)?;
-            let frame = self.frame(&machine)?;
-            return Ok((machine, frame));
-        }
-        let frame = triangle_file::read(Path::new(&self.input))?;
-        let machine = args.machine(Some((frame.width, frame.height)))?;
-        let frame = in_triangles(fitting(&self.input, frame, &machine)?, &machine)?;
+        let machine = self.machine(args)?;
+        let frame = self.frame(&machine)?;
         Ok((machine, frame))
     }
 
@@ -142,10 +194,12 @@ impl Source {
 
     /// The frame with the polygons it has.
     pub fn outlined(&self, machine: &Plan) -> Result<Frame> {
-        if !self.is_triangle_file() {
-            let (scene, surface) = self.surface(machine)?;
-            return Ok(edgewalk_golden::frame(&scene, &surface, self.shading.golden()));
+        match self.triangles()? {
+            Some(frame) => fitting(&self.input, frame.clone(), machine),
+            None => {
+                let (scene, surface) = self.surface(machine)?;
+                Ok(edgewalk_golden::frame(&scene, &surface, self.shading.golden()))
+            }
         }
-        fitting(&self.input, triangle_file::read(Path::new(&self.input))?, machine)
     }
 }

@@ -1,9 +1,9 @@
 //! `--machine FILE|PRESET` and `--set key=value`, the same for every command.
 
 use anyhow::{Context, Result, anyhow};
-use edgewalk_machine::nearest::nearest;
+use edgewalk_host::needs::Need;
 use edgewalk_machine::presets::PRESETS;
-use edgewalk_machine::{Machine, Plan};
+use edgewalk_machine::{Machine, Plan, Unknown};
 use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
@@ -11,10 +11,13 @@ use std::path::Path;
 /// Bytes of the longest machine file; all keys with their comments take two thousand.
 const MAX_LENGTH: u64 = 1 << 20;
 
+/// The machine where none is asked for.
+const DEFAULT: &str = "default";
+
 /// Which machine.
 #[derive(clap::Args, Clone, Debug)]
 pub struct MachineArgs {
-    #[arg(long, value_name = "FILE|PRESET", default_value = "default", global = true, help = machine_help())]
+    #[arg(long, value_name = "FILE|PRESET", default_value = DEFAULT, global = true, help = machine_help())]
     machine: String,
     /// Overrides one key, e.g. --set interpolator.adders=2 (repeatable; `edgewalk config print` lists the keys)
     #[arg(long, value_name = "KEY=VALUE", global = true)]
@@ -27,20 +30,36 @@ fn machine_help() -> String {
 }
 
 impl MachineArgs {
-    /// The machine `FILE|PRESET[,key=value...]`, with what --set says on top; the screen as in [`MachineArgs::machine`].
-    pub fn named(&self, text: &str, size: Option<(u32, u32)>) -> Result<Plan> {
+    /// The words of a command line that ask for the same machine.
+    pub fn words(&self) -> Vec<&str> {
+        let machine = Some(["--machine", &self.machine]).filter(|_| self.machine != DEFAULT);
+        let set = self.set.iter().map(|setting| ["--set", setting]);
+        machine.into_iter().chain(set).flatten().collect()
+    }
+
+    /// The machine `FILE|PRESET[,key=value...]`, with what --set says on top; screen and needs as in
+    /// [`MachineArgs::adapted`].
+    pub fn named(&self, text: &str, size: Option<(u32, u32)>, needs: &[Need]) -> Result<Plan> {
         let mut words = text.split(',').map(str::trim);
         let machine = words.next().unwrap_or_default().to_owned();
         let set = words.map(str::to_owned).chain(self.set.iter().cloned()).collect();
-        MachineArgs { machine, set }.machine(size).with_context(|| text.to_owned())
+        MachineArgs { machine, set }.adapted(size, needs).with_context(|| text.to_owned())
     }
 
     /// The machine asked for, with its screen replaced where the input brings its own size.
     pub fn machine(&self, size: Option<(u32, u32)>) -> Result<Plan> {
+        self.adapted(size, &[])
+    }
+
+    /// As [`MachineArgs::machine`], and with the keys that the input asks for; --set has the last word.
+    pub fn adapted(&self, size: Option<(u32, u32)>, needs: &[Need]) -> Result<Plan> {
         let mut machine = self.load()?;
         if let Some((width, height)) = size {
             machine.set("screen.width", &width.to_string()).map_err(|e| anyhow!("size: {e}"))?;
             machine.set("screen.height", &height.to_string()).map_err(|e| anyhow!("size: {e}"))?;
+        }
+        for Need { key, value, .. } in needs {
+            machine.set(key, value).map_err(|e| anyhow!("--adapt: {key} = {value}: {e}"))?;
         }
         for setting in &self.set {
             let (key, value) = setting.split_once('=').ok_or_else(|| {
@@ -48,14 +67,15 @@ impl MachineArgs {
             })?;
             machine.set(key.trim(), value.trim()).map_err(|e| anyhow!("--set {setting}: {e}"))?;
         }
-        machine.plan().map_err(|e| anyhow!("{}: {e}", self.asked_for(size)))
+        machine.plan().map_err(|e| anyhow!("{}: {e}", self.asked_for(size, needs)))
     }
 
     /// All that makes the machine another than the one of the file or preset, which has been checked.
-    fn asked_for(&self, size: Option<(u32, u32)>) -> String {
+    fn asked_for(&self, size: Option<(u32, u32)>, needs: &[Need]) -> String {
         let size = size.map(|(width, height)| format!("size {width} {height}"));
+        let needs = needs.iter().map(|need| format!("--adapt: {} = {}", need.key, need.value));
         let settings = self.set.iter().map(|setting| format!("--set {setting}"));
-        size.into_iter().chain(settings).collect::<Vec<_>>().join(", ")
+        size.into_iter().chain(needs).chain(settings).collect::<Vec<_>>().join(", ")
     }
 
     fn load(&self) -> Result<Machine> {
@@ -64,11 +84,8 @@ impl MachineArgs {
         }
         let path = Path::new(&self.machine);
         if !path.exists() && path.extension().is_none() {
-            let close = nearest(&self.machine, PRESETS.iter().map(|p| p.0));
-            return Err(anyhow!(
-                "--machine {}: neither a file nor a preset; nearest preset: {close}",
-                self.machine
-            ));
+            let unknown = Unknown::new("preset", &self.machine, PRESETS.iter().map(|p| p.0));
+            return Err(anyhow!("--machine {}: no file; {unknown}", self.machine));
         }
         let named = || format!("--machine {}", self.machine);
         let mut text = String::new();

@@ -10,6 +10,7 @@
 mod arrays;
 mod commands;
 mod cost;
+mod document;
 mod engine;
 mod fast;
 mod fast_phong;
@@ -21,12 +22,13 @@ mod progress;
 mod scratch;
 mod shading_report;
 mod shadows;
+mod shell;
 mod staging;
 mod talk;
 mod triangles;
 mod verdict;
 
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use clap::{Parser, Subcommand};
 use commands::{
     bench, compare, config, demo, emit, explain, gallery, raster, render, replay, size, sweep, synth, trace,
@@ -57,7 +59,7 @@ struct Cli {
     command: Command,
     #[command(flatten)]
     machine: MachineArgs,
-    /// Prints the report as one JSON value instead of text
+    /// Prints the report as one JSON document instead of text, and errors as JSON too
     #[arg(long, global = true)]
     json: bool,
     /// Prints nothing but errors
@@ -72,6 +74,7 @@ enum Command {
     Gallery(gallery::Args),
     Explain(explain::Args),
     Raster(raster::Args),
+    Triangles(commands::triangles::Args),
     Size(size::Args),
     Sweep(Box<sweep::Args>),
     Compare(compare::Args),
@@ -86,26 +89,40 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
-        Ok(cli) => cli,
-        Err(wrong) if wrong.use_stderr() => wrong.exit(),
-        // Help and version are output like any other.
+    let (talk, result) = match Cli::try_parse() {
+        Ok(cli) => {
+            let talk = Talk { json: cli.json, quiet: cli.quiet };
+            (talk, scratch::watch_signals().and_then(|()| run(&cli, talk)))
+        }
         Err(page) => {
-            let printed = page.print().and_then(|()| std::io::stdout().flush());
-            return exit_code(talk::printed(printed).map(|()| Verdict::Pass), false);
+            let talk = Talk { json: std::env::args_os().any(|word| word == "--json"), quiet: false };
+            (talk, page_or_error(&page, talk))
         }
     };
-    exit_code(scratch::watch_signals().and_then(|()| run(&cli)), cli.quiet)
+    ExitCode::from(exit_code(result, talk))
 }
 
-fn run(cli: &Cli) -> Result<Verdict> {
-    let talk = Talk { json: cli.json, quiet: cli.quiet };
+/// Help and version are output like any other; what the command line has wrong is an error.
+fn page_or_error(page: &clap::Error, talk: Talk) -> Result<Verdict> {
+    if page.use_stderr() && talk.json {
+        let text = page.render().to_string();
+        return Err(anyhow!("{}", text.trim_start_matches("error: ").trim_end()));
+    }
+    if page.use_stderr() {
+        page.exit();
+    }
+    talk::printed(page.print().and_then(|()| std::io::stdout().flush()))?;
+    Ok(Verdict::Pass)
+}
+
+fn run(cli: &Cli, talk: Talk) -> Result<Verdict> {
     match &cli.command {
         Command::Demo(a) => demo::run(a, &cli.machine, talk),
         Command::Render(a) => render::run(a, &cli.machine, talk),
         Command::Gallery(a) => gallery::run(a, talk),
         Command::Explain(a) => explain::run(a, &cli.machine, talk),
         Command::Raster(a) => raster::run(a, &cli.machine, talk),
+        Command::Triangles(a) => commands::triangles::run(a, &cli.machine, talk),
         Command::Size(a) => size::run(a, &cli.machine, talk),
         Command::Sweep(a) => sweep::run(a, &cli.machine, talk),
         Command::Compare(a) => compare::run(a, &cli.machine, talk),
@@ -116,18 +133,20 @@ fn run(cli: &Cli) -> Result<Verdict> {
         Command::Replay(a) => replay::run(a, &cli.machine, talk),
         Command::Synth(a) => synth::run(a, &cli.machine, talk),
         Command::Bench(a) => bench::run(a, &cli.machine, talk),
-        Command::Config(a) => config::run(a, &cli.machine, talk.json),
+        Command::Config(a) => config::run(a, &cli.machine, talk),
     }
 }
 
 /// The exit code; where it is not 0, standard error says why, however quiet the command is.
-fn exit_code(result: Result<Verdict>, quiet: bool) -> ExitCode {
+fn exit_code(result: Result<Verdict>, talk: Talk) -> u8 {
+    let code = result.as_ref().map_or_else(verdict::of_error, |verdict| verdict::exit_code(*verdict));
     match &result {
-        Ok(Verdict::Mismatch) if quiet => {
-            talk::complain("mismatch: what was compared differs; without --quiet the report says where");
+        Err(error) => talk.fail(&format!("{error:#}"), code),
+        Ok(Verdict::Vacuous) => talk.fail("nothing was compared, so nothing is shown to agree", code),
+        Ok(Verdict::Mismatch) if talk.quiet => {
+            talk.fail("mismatch: what was compared differs; without --quiet the report says where", code);
         }
         Ok(_) => {}
-        Err(error) => talk::complain(&format!("{error:#}")),
     }
-    result.map_or_else(|error| verdict::of_error(&error), verdict::exit_code)
+    code
 }

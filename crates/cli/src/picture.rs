@@ -110,6 +110,11 @@ impl Png {
         self.extend(rgb.iter().map(|color| bytes(*color)))
     }
 
+    /// The next pixels of a heat map of errors in LSB, as [`write_heat`] colours them.
+    pub fn extend_heat(&mut self, lsb: &[f64], full: f64) -> Result<()> {
+        self.extend(lsb.iter().map(|error| heat(error / full)))
+    }
+
     /// The next pixels.
     fn extend(&mut self, pixels: impl Iterator<Item = [u8; 3]>) -> Result<()> {
         let bytes: Vec<u8> = pixels.flatten().collect();

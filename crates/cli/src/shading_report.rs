@@ -2,7 +2,6 @@
 
 use crate::fast_phong::FastPhongReport;
 use crate::input::Source;
-use anyhow::Result;
 use clap::ValueEnum;
 use edgewalk_golden::{Order, ShadingError};
 use edgewalk_scene::{Scene, Surface, Texture};
@@ -73,11 +72,6 @@ impl ShadingReport {
     /// The same with what is to be said of fast Phong.
     pub fn with(self, fast_phong: FastPhongReport) -> Self {
         Self { fast_phong: Some(fast_phong), ..self }
-    }
-
-    /// As a JSON file.
-    pub fn json(&self) -> Result<String> {
-        Ok(serde_json::to_string_pretty(self)? + "\n")
     }
 
     /// As a page of text.

@@ -3,7 +3,9 @@
 //! A reader that closes the pipe early (`| head`) has all it wants: that is no error, and the command ends as it would
 //! have. Output that cannot be written for another reason is one.
 
+use crate::document::line;
 use anyhow::{Context, Result};
+use serde_json::json;
 use std::io::{self, ErrorKind, Write as _};
 
 /// What of a command's report is wanted.
@@ -24,6 +26,22 @@ impl Talk {
             _ => print(&text()),
         }
     }
+
+    /// Says on standard error why the command fails, and with which code it ends. Where standard error cannot be written
+    /// either, the exit code is all there is.
+    pub fn fail(self, why: &str, exit_code: u8) {
+        let text = || format!("error: {why}");
+        let json =
+            || line("error", json!({ "error": why, "exit_code": exit_code })).unwrap_or_else(|_| text());
+        _ = writeln!(io::stderr(), "{}", if self.json { json() } else { text() });
+    }
+
+    /// Says on standard error what may not be as wanted, though nothing is wrong.
+    pub fn warn(self, what: &str) {
+        let text = || format!("warning: {what}");
+        let json = || line("warning", json!({ "warning": what })).unwrap_or_else(|_| text());
+        _ = writeln!(io::stderr(), "{}", if self.json { json() } else { text() });
+    }
 }
 
 /// Writes lines to standard output; the last one is ended if it is not.
@@ -40,14 +58,4 @@ pub fn printed(written: io::Result<()>) -> Result<()> {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         other => other.context("standard output"),
     }
-}
-
-/// Says on standard error what is wrong; where that cannot be written either, the exit code is all there is.
-pub fn complain(what: &str) {
-    let _ = writeln!(io::stderr(), "edgewalk: {what}");
-}
-
-/// Says on standard error what may not be as wanted, though nothing is wrong.
-pub fn warn(what: &str) {
-    let _ = writeln!(io::stderr(), "warning: {what}");
 }

@@ -2,7 +2,7 @@
 //! in a temporary file without a name.
 
 use anyhow::{Context, Result};
-use edgewalk_scene::triangle_file::{Reader, parse};
+use edgewalk_scene::triangle_file::{Reader, open, parse};
 use edgewalk_scene::{Frame, InputError};
 use indicatif::ProgressBar;
 use std::fs::File;
@@ -25,7 +25,7 @@ impl TriangleFile {
     pub fn open(path: &Path) -> Result<Self> {
         let name = path.display().to_string();
         let unreadable = |source| InputError::Read { file: name.clone(), source };
-        let file = File::open(path).map_err(unreadable)?;
+        let file = open(path)?;
         let kind = file.metadata().map_err(unreadable)?.file_type();
         let again = kind.is_file() || kind.is_dir();
         let kept = if again { None } else { Some(tempfile::tempfile().context("a temporary file")?) };

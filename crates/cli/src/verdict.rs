@@ -3,31 +3,25 @@
 pub use edgewalk_judge::Verdict;
 use edgewalk_tool::Stop;
 use edgewalk_vectors::SimulateError;
-use std::io::Write as _;
-use std::process::ExitCode;
 
-/// 0 pass, 1 mismatch, 2 vacuous (and bad input). That nothing was compared is an error, and said even by a quiet program.
-pub fn exit_code(verdict: Verdict) -> ExitCode {
-    if verdict == Verdict::Vacuous {
-        // Where standard error is closed the code has to do.
-        _ = writeln!(std::io::stderr(), "edgewalk: nothing was compared");
-    }
-    ExitCode::from(match verdict {
+/// 0 pass, 1 mismatch, 2 nothing compared.
+pub fn exit_code(verdict: Verdict) -> u8 {
+    match verdict {
         Verdict::Pass => 0,
         Verdict::Mismatch => 1,
         Verdict::Vacuous => 2,
-    })
+    }
 }
 
 /// The exit code of what could not be done: 2 bad input, 3 tool missing or broken, 4 time limit.
-pub fn of_error(error: &anyhow::Error) -> ExitCode {
+pub fn of_error(error: &anyhow::Error) -> u8 {
     let of_simulator = error.downcast_ref::<SimulateError>().and_then(|error| match error {
         SimulateError::Tool(stop) => Some(stop),
         SimulateError::Read(_) => None,
     });
-    ExitCode::from(match of_simulator.or_else(|| error.downcast_ref::<Stop>()) {
+    match of_simulator.or_else(|| error.downcast_ref::<Stop>()) {
         Some(Stop::TimeLimit { .. }) => 4,
         Some(_) => 3,
         None => 2,
-    })
+    }
 }

@@ -203,7 +203,7 @@ fn an_engine_that_differs_ends_with_1() {
         );
         assert!(code == Some(1) && text.contains(&told), "{told}: {text}");
         let (code, text, error) = of_lines(&wrong, &["--repeat", "2", "--quiet"]);
-        assert!(code == Some(1) && text.is_empty() && error.starts_with("edgewalk: mismatch: "), "{error}");
+        assert!(code == Some(1) && text.is_empty() && error.starts_with("error: mismatch: "), "{error}");
     }
     for broken in
         [String::new(), "nonsense\n".to_owned(), frames(cycles, writes, 2), frames(cycles, writes, 4)]

@@ -129,3 +129,97 @@ fn errors_are_those_of_the_sums_in_json_and_in_text() {
         "{last:?}: an error that shows in six digits"
     );
 }
+
+/// Each figure of the page beside its JSON, on a machine whose depth, colours and own channels have unlike formats, so that every
+/// bound differs from the others.
+#[test]
+fn every_figure_of_the_page_is_that_of_the_json() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let triangle = "size 64 48\nextra 2\n\
+        T 2 1 0.25 0.9 0.1 0.3 0  61 5 0.5 0.2 0.8 0.4 0  9 46 0.75 0.4 0.6 1 0\nX -30 0.25 0 1 200.5 0.5\n\
+        T 0 0 0.9 0.1 0.2 0.3 0  60 0 0.9 0.1 0.2 0.3 0  0 40 0.9 0.1 0.2 0.3 0\nX 1 1 1 1 1 1\n";
+    std::fs::write(folder.path().join("a.tri"), triangle).expect("written");
+    let keys = "formats.z_bits=20 formats.z_fraction=11 formats.z_vertex=3 formats.color_bits=6 formats.color_fraction=9 \
+        formats.color_vertex=2 screen.guard_bits=6 channels.extra=2 channels.e0_kind=signed channels.e0_bits=9 \
+        channels.e0_fraction=13 channels.e1_kind=unorm channels.e1_bits=10 channels.e1_fraction=8";
+    let keys: Vec<&str> = keys.split_whitespace().flat_map(|key| ["--set", key]).collect();
+    let run = |more: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_edgewalk"))
+            .args([&["explain", "a.tri", "28", "14"], &keys[..], more].concat())
+            .current_dir(folder.path())
+            .output()
+            .expect("the program runs");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    let told: Value = serde_json::from_str(&run(&["--json"])).expect("one JSON value");
+    let page = run(&[]);
+    let mut lines = page.lines();
+    let three =
+        |list: &Value| numbers(list).iter().map(|value| format!("{value:8.5}")).collect::<Vec<_>>().join(" ");
+    let own = |list: &Value| -> String {
+        numbers(list).iter().enumerate().map(|(i, value)| format!(", e{i} {value:.6}")).collect()
+    };
+    let z = |of: &Value| of["z"].as_f64().expect("z");
+    let first =
+        format!("pixel (28, 14): z {:.9}, rgb {}{}", z(&told), three(&told["rgb"]), own(&told["extra"]));
+    assert_eq!(lines.next(), Some(&*first));
+    let stored = &told["stored"];
+    let [r, g, b] = [0, 1, 2].map(|i| stored["rgb"][i].as_u64().expect("a colour"));
+    let second =
+        format!("the machine stores: z {}, rgb {r} {g} {b}, by triangle {}", stored["z"], stored["id"]);
+    assert_eq!(lines.next(), Some(&*second));
+    let fragments = told["fragments"].as_array().expect("fragments");
+    assert_eq!((lines.next(), fragments.len()), (Some("triangles over it: 2"), 2));
+    for of in fragments {
+        let seen = if of["id"] == told["id"] { "  seen" } else { "" };
+        let id = of["id"].as_u64().expect("an id");
+        let line = format!("  {id:>6}  z {:.9}  rgb {}{}{seen}", z(of), three(&of["rgb"]), own(&of["extra"]));
+        assert_eq!(lines.next(), Some(&*line));
+    }
+    // The tables of additions: all but the middle, value, addition, error and bound of the channel.
+    let additions = told["machine"]["additions"].as_array().expect("additions");
+    let (count, mut bounds, mut rows) = (additions.len(), Vec::new(), 0);
+    assert!(count > 16, "{count} additions: the middle is left out");
+    let mut tables = Vec::new();
+    for (channel, name) in ["z", "r", "g", "b", "e0", "e1"].iter().enumerate() {
+        let last = numbers(&additions[count - 1]["bound"])[channel];
+        if ["z", "r", "e0", "e1"].contains(name) {
+            assert!(!bounds.contains(&last), "{name}: bounds that are told apart");
+            bounds.push(last);
+        }
+        let shown = additions[..8].iter().chain(&additions[count - 8..]);
+        let cells = shown.map(|of| {
+            let [value, added, error, bound] =
+                ["value", "added", "error", "bound"].map(|key| numbers(&of[key])[channel]);
+            let [x, y] = ["x", "y"].map(|key| of[key].as_i64().expect("a place"));
+            let place = format!("({x}, {y})");
+            let start = format!("  {:<6}  {place:<13} ", of["step"].as_str().expect("a step"));
+            (start, format!("{value:>12.3}  {added:>12.4}"), format!("{error:>10.6}  {bound:>8.6}"))
+        });
+        tables.push(cells.collect::<Vec<_>>());
+    }
+    let found: Vec<&str> = lines.collect();
+    let mut wanted: Vec<String> = (0..16)
+        .map(|i| format!("{}{}  {}  {}", tables[0][i].0, tables[0][i].1, tables[0][i].2, tables[1][i].2))
+        .collect();
+    for own in [4, 5] {
+        wanted.extend(
+            (0..16).map(|i| format!("{}{}  {}", tables[own][i].0, tables[own][i].1, tables[own][i].2)),
+        );
+    }
+    let mut place = 0;
+    for line in &wanted {
+        let at = found[place..].iter().position(|of| of == line);
+        place += at.unwrap_or_else(|| panic!("`{line}` is missing or out of order:\n{page}")) + 1;
+        rows += 1;
+    }
+    let heads = found.iter().filter(|line| line.starts_with('e')).count();
+    let outputs = told["machine"]["output"].as_array().expect("outputs");
+    for (name, place) in [("e0: ", 4), ("e1: ", 5)] {
+        let line = found.iter().find(|line| line.starts_with(name)).expect("a table of its own");
+        assert!(line.ends_with(&format!("; output {}", outputs[place])), "{line}");
+    }
+    println!("checked {rows} rows, bounds {bounds:?}");
+    assert_eq!((rows, heads), (48, 2));
+}

@@ -38,3 +38,13 @@ fn the_gallery_is_what_is_drawn_today() {
     println!("checked {checked} files");
     assert!(checked > 20);
 }
+
+#[test]
+fn the_gallery_is_written_to_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let program = env!("CARGO_BIN_EXE_edgewalk");
+    let mut gallery = Command::new(program);
+    gallery.args(["gallery", "worked-example", "--quiet"]).current_dir(folder.path());
+    assert!(gallery.status().expect("it runs").success());
+    assert!(folder.path().join("out/gallery/README.md").exists() && !folder.path().join("docs").exists());
+}

@@ -194,7 +194,7 @@ fn a_reason_is_given_once_and_by_whose_fault() {
     for (arguments, says) in cases {
         let (code, error) = run(folder.path(), arguments);
         assert_eq!(code, Some(2), "{error}");
-        assert!(error.starts_with(&format!("edgewalk: {says}")), "{arguments:?}: {error}");
+        assert!(error.starts_with(&format!("error: {says}")), "{arguments:?}: {error}");
         assert!(error.matches("os error 2").count() <= 1, "{error}");
         assert_eq!(error.contains("os error 2"), says.contains("none."), "{error}");
     }

@@ -22,13 +22,13 @@ material = \"board\"
 LIGHT
 ";
 
-const BULB: &str = "[[light]]
+pub const BULB: &str = "[[light]]
 kind = \"positional\"
 position = [0.3, 0.2, 0.8]
 attenuation = [0.5, 0.2, 0.6]
 intensity = 0.7
 ";
-const FLOOD: &str = "[[light]]
+pub const FLOOD: &str = "[[light]]
 kind = \"flood\"
 position = [0.3, 0.2, 0.9]
 axis = [-0.2, 0, -1]
@@ -41,10 +41,10 @@ kind = \"directional\"
 toward = [0, 0, 1]
 ";
 
-const SMALL: [&str; 4] = ["--set", "screen.width=96", "--set", "screen.height=72"];
-const LAMP: [&str; 4] = ["--set", "shade.kind=phong", "--set", "shade.light=positional"];
+pub const SMALL: [&str; 4] = ["--set", "screen.width=96", "--set", "screen.height=72"];
+pub const LAMP: [&str; 4] = ["--set", "shade.kind=phong", "--set", "shade.light=positional"];
 
-fn scene(folder: &Path, light: &str) {
+pub fn scene(folder: &Path, light: &str) {
     std::fs::write(folder.join("s.toml"), SCENE.replace("LIGHT", light)).unwrap();
 }
 

@@ -5,9 +5,10 @@ use std::path::PathBuf;
 
 /// Every crate, in the order of the data, with all it may depend on outside its tests.
 const LAYERS: &[(&str, &[&str])] = &[
+    ("nearest", &[]),
     ("numerics", &[]),
-    ("machine", &["numerics"]),
-    ("scene", &[]),
+    ("machine", &["nearest", "numerics"]),
+    ("scene", &["nearest"]),
     ("golden", &["scene"]),
     ("model", &["machine"]),
     ("host", &["numerics", "machine", "scene", "golden", "model"]),
@@ -50,8 +51,8 @@ const STRANGERS: [&str; 2] = ["model", "rtl"];
 
 /// Crates that read and write no files: they may not even name the standard library's file or process modules.
 const NO_FILES: &[&str] = &[
-    "numerics", "machine", "golden", "model", "judge", "gallery", "explain", "netlist", "verilog", "jit",
-    "rtl", "lockstep", "replay",
+    "nearest", "numerics", "machine", "golden", "model", "judge", "gallery", "explain", "netlist", "verilog",
+    "jit", "rtl", "lockstep", "replay",
 ];
 
 fn crates() -> PathBuf {

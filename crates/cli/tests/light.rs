@@ -173,7 +173,7 @@ fn what_the_machine_cannot_do_is_said() {
         (HALF.to_owned(), &narrow, &["shadow.light_bits = 12", "16 bits", "try shadow.light_bits = 16"]),
         (HALF.to_owned(), &mixed, &["blend.kind = interpolated", "9 channels", "try blend.kind = constant"]),
         (HALF.to_owned(), &own, &["channels.extra = 1", "9 channels", "try channels.extra = 0"]),
-        (HALF.to_owned(), &unknown, &["shadow.project = parallel", "pipelined, serial", "nearest: serial"]),
+        (HALF.to_owned(), &unknown, &["shadow.project = parallel", "(pipelined, serial)"]),
         (
             HALF.to_owned(),
             &["--set", "shadow.size=5000"],

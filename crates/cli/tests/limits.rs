@@ -85,7 +85,7 @@ fn an_endless_word_is_refused_at_once() {
         let output = within(300, folder.path(), arguments);
         let (code, error) = ended(&output);
         assert_eq!(code, Some(2), "{arguments:?}: {error}");
-        assert!(error.starts_with(&format!("edgewalk: {says}")), "{arguments:?}: {error}");
+        assert!(error.starts_with(&format!("error: {says}")), "{arguments:?}: {error}");
         assert!(error.len() < 1000, "{arguments:?}: {} bytes of message", error.len());
         assert!(start.elapsed() < Duration::from_secs(10), "{arguments:?} took {:?}", start.elapsed());
     }

@@ -51,7 +51,7 @@ fn a_run_that_cannot_place_a_file_changes_nothing() {
     let (code, error) = run(folder.path(), &["raster", "d.tri", "--out", "out", "--engine", "golden"]);
     assert_eq!(
         (code, error.as_str()),
-        (Some(2), "edgewalk: out/writes.npy: is a folder, and a file is to be there\n")
+        (Some(2), "error: out/writes.npy: is a folder, and a file is to be there\n")
     );
     assert!(contents(&out) == before, "changed: {:?}", names(&out));
     assert!(!names(&out).iter().any(|name| name.starts_with(".edgewalk")), "{:?}", names(&out));
@@ -62,7 +62,7 @@ fn a_run_that_cannot_place_a_file_changes_nothing() {
     // A file where the folder is to be is an error that says so.
     let (code, error) = run(folder.path(), &["emit", "--out", "d.tri"]);
     assert_eq!(code, Some(2));
-    assert!(error.starts_with("edgewalk: --out d.tri: "), "{error}");
+    assert!(error.starts_with("error: --out d.tri: "), "{error}");
 }
 
 #[test]
@@ -88,7 +88,7 @@ fn a_file_that_cannot_be_finished_is_named_by_its_place() {
         shell.args(["-c", script, blocks, env!("CARGO_BIN_EXE_edgewalk")]).args(command);
         let (code, error) = ended(&shell.current_dir(folder.path()).output().unwrap());
         assert_eq!(code, Some(2), "{command:?}: {error}");
-        assert_eq!(error, format!("edgewalk: {file}: File too large (os error 27)\n"), "{command:?}");
+        assert_eq!(error, format!("error: {file}: File too large (os error 27)\n"), "{command:?}");
         assert_eq!(names(folder.path()), ["d.tri", "small.tri"], "{command:?}");
     }
     println!("checked {0} / {0} commands", commands.len());

@@ -112,7 +112,7 @@ L  0 0 0.25   2 0 0.25   0 4 0.25
 L  2 0 0.25   2 4 0.25   0 4 0.25
 T  0 0 0.5 1 1 1 0   8 0 0.5 1 1 1 0   0 8 0.5 1 1 1 0
 ";
-const NORMALS: &str = "size 32 32
+pub const NORMALS: &str = "size 32 32
 mode fast-phong
 view 0 0 1
 sun 0.3 0.3 1 0.7

@@ -75,6 +75,77 @@ fn three_meshes_stay_within_the_bound_at_the_answer_and_exceed_1_lsb_below() {
     assert_eq!((drawn, broken), (12, 12));
 }
 
+/// The numbers of a line, a sign as part of its number.
+fn numbers(line: &str) -> Vec<f64> {
+    line.split(|c: char| !c.is_ascii_digit() && c != '.').filter_map(|word| word.parse().ok()).collect()
+}
+
+/// Every line of the text says what the JSON does, lines before columns; a wrap is called one, and an error an error.
+#[test]
+fn the_text_says_what_the_json_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut lines, mut wraps, mut errors) = (0, 0, 0);
+    for (input, error) in [("sphere", "1"), ("torus", "0.6")] {
+        let arguments = ["size", input, "--error", error];
+        let (_, report) = json(folder.path(), &arguments);
+        let output = edgewalk(folder.path(), &arguments).output().unwrap();
+        let text = String::from_utf8(output.stdout).unwrap();
+        let mut said = text.lines().skip(2);
+        let guard = &report["guard_bits"];
+        let second = text.lines().nth(1).unwrap();
+        assert_eq!(
+            second,
+            format!(
+                "guard bits: {}; these triangles and the screen lie in {}",
+                guard["machine"], guard["needed"]
+            )
+        );
+        for channel in report["channels"].as_array().unwrap() {
+            let [name, key] = ["name", "key"].map(|of| channel[of].as_str().unwrap());
+            assert_eq!(said.next().unwrap(), format!("{name} ({key} = {})", channel["fraction_bits"]));
+            for answer in ["every", "every_in_fewest_guard_bits", "these"] {
+                let (of, line) = (&channel[answer], said.next().unwrap());
+                let [steps, needed] = ["steps", "needed_by"].map(|key| &of[key]);
+                let mut told =
+                    vec![&of["fraction_bits"], &of["bound"], &of["additions"], &steps[0], &steps[1]];
+                if !needed.is_null() {
+                    told.extend([&needed[1][0], &needed[1][1], &needed[0]]);
+                }
+                let told: Vec<f64> = told.into_iter().map(|value| value.as_f64().unwrap()).collect();
+                let line = line.split_at(38).1;
+                let found = numbers(line);
+                assert_eq!(found.len(), told.len(), "{line}: {told:?}");
+                assert!(found.iter().zip(&told).all(|(a, b)| (a - b).abs() <= 0.00005), "{line}: {told:?}");
+                assert!(line.contains(&format!("{} lines + {} columns", steps[0], steps[1])), "{line}");
+                lines += 1;
+            }
+            for answer in ["every", "these"] {
+                let (fewer, n) = (&channel[answer]["one_bit_fewer"], &channel[answer]["additions"]);
+                let line = said.next().unwrap();
+                let (bits, error) =
+                    (fewer["fraction_bits"].as_u64().unwrap(), fewer["error"].as_f64().unwrap());
+                let at = format!("{},{}", fewer["pixel"][0], fewer["pixel"][1]);
+                // A wrap is an error of almost the whole range.
+                let full = if name == "z" { 16_777_215.0 } else { 255.0 };
+                assert_eq!(fewer["wraps"], error > full / 2.0, "{fewer}");
+                let how = if fewer["wraps"] == true {
+                    wraps += 1;
+                    assert!(n.as_u64().unwrap() + 1 >= 1 << bits, "{n} {bits}");
+                    format!("wraps at {at}, as N + 1 < 2^r does not hold for N = {n} and r = {bits}")
+                } else {
+                    errors += 1;
+                    format!("errs by {error:.4} LSB at {at}")
+                };
+                let file = format!("out/size/witness_{name}_{answer}.tri");
+                assert_eq!(line, format!("    with {bits} bits {file} {how}: --set {key}={bits}"));
+            }
+        }
+        assert_eq!(said.next(), None);
+    }
+    println!("checked {lines} answers, {wraps} wraps, {errors} errors");
+    assert!(lines == 12 && wraps >= 2 && errors >= 2);
+}
+
 #[test]
 fn a_triangle_by_hand() {
     let folder = tempfile::tempdir().unwrap();

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Stdio;
 
 /// A quick run of each command, as text; those with a report also come with --json.
-const COMMANDS: [&[&str]; 19] = [
+pub const COMMANDS: [&[&str]; 19] = [
     &["demo", "d.tri", "--out", "demo"],
     &["render", "d.tri", "--out", "render"],
     &["render", "sphere", "--engine", "golden", "--out", "shaded"],
@@ -32,7 +32,7 @@ const COMMANDS: [&[&str]; 19] = [
 ];
 
 /// On the screen of the file; `raster`, `bench` and `gallery` take no word of the screen or have their own.
-fn arguments<'a>(command: &[&'a str], json: bool) -> Vec<&'a str> {
+pub fn arguments<'a>(command: &[&'a str], json: bool) -> Vec<&'a str> {
     let mut arguments = command.to_vec();
     arguments.extend(SCREEN);
     if json {
@@ -41,7 +41,7 @@ fn arguments<'a>(command: &[&'a str], json: bool) -> Vec<&'a str> {
     arguments
 }
 
-fn folder() -> tempfile::TempDir {
+pub fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("d.tri"), TRIANGLE).unwrap();
     folder
@@ -100,10 +100,15 @@ fn a_full_output_is_an_error_with_its_reason() {
         let output = edgewalk(folder.path(), arguments).stdout(full()).output().unwrap();
         let (code, error) = ended(&output);
         assert_eq!(code, Some(2), "{arguments:?}: {error}");
-        assert_eq!(
-            error, "edgewalk: standard output: No space left on device (os error 28)\n",
-            "{arguments:?}"
-        );
+        let why = "standard output: No space left on device (os error 28)";
+        let said = if arguments.contains(&"--json") {
+            format!(
+                "{{\"format\":\"edgewalk-error\",\"version\":[1,0],\"error\":\"{why}\",\"exit_code\":2}}\n"
+            )
+        } else {
+            format!("error: {why}\n")
+        };
+        assert_eq!(error, said, "{arguments:?}");
     }
     // Where the reason cannot be written either, the exit code is left.
     for arguments in [&["raster", "none.tri", "--out", "o"][..], &["no-such-command"]] {
@@ -135,7 +140,7 @@ fn a_quiet_command_says_why_it_failed() {
         command.extend(SCREEN);
         let (code, error) = run(folder.path(), command);
         assert_eq!(code, Some(2), "{command:?}: {error}");
-        assert!(error.starts_with("edgewalk: ") && error.len() > 30, "{command:?}: `{error}`");
+        assert!(error.starts_with("error: ") && error.len() > 30, "{command:?}: `{error}`");
     }
     println!("checked {0} / {0} commands", commands.len());
 }

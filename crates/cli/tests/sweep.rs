@@ -3,13 +3,19 @@
 
 mod refusals;
 mod resume;
+mod again;
 mod parts;
+mod oracle;
+mod figures;
+pub mod shadings;
 mod browser;
-mod report;
+mod chart;
+mod hostile;
+mod still;
 #[path = "sweep/synth.rs"]
 mod synth;
 
-use crate::support::{edgewalk, run};
+use crate::support::{edgewalk, report, run};
 use rand::SeedableRng;
 use rand::seq::IndexedRandom;
 use rand_pcg::Pcg64Mcg;
@@ -39,11 +45,13 @@ fn rendered(folder: &Path, row: &Value) -> Value {
         let value = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
         arguments.extend(["--set".to_owned(), format!("{key}={value}")]);
     }
+    if let Some(shading) = row["shading"].as_str() {
+        arguments.extend(["--shading".to_owned(), shading.to_owned()]);
+    }
     arguments.extend(["--stalls".to_owned(), row["stalls"].as_str().unwrap().to_owned()]);
     let output =
         edgewalk(folder, &arguments.iter().map(String::as_str).collect::<Vec<_>>()).output().unwrap();
-    serde_json::from_slice(&output.stdout)
-        .unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&output.stderr)))
+    report(&output)
 }
 
 /// Sweeps over keys that change pixels and keys that do not, machines that have to be ticked among them.

@@ -203,8 +203,11 @@ fn one_target_without_its_tools_does_not_spoil_the_other() {
 fn bad_input_is_named_with_the_nearest() {
     let folder = tempfile::tempdir().unwrap();
     for (arguments, error) in [
-        (["--target", "ecp5"], "unknown target ecp5; nearest: ecp5-25"),
-        (["--unit", "spam"], "--unit spam: unknown unit spam; nearest: span"),
+        (
+            ["--target", "ecp5"],
+            "unknown target ecp5; permitted: ice40-hx8k, ice40-up5k, ecp5-25; nearest: ecp5-25",
+        ),
+        (["--unit", "spam"], "--unit spam: unknown unit spam; permitted: machine, engine, "),
         (["--seeds", "0"], "--seeds"),
     ] {
         let (code, said) = run(folder.path(), &[&["synth"][..], &arguments].concat());

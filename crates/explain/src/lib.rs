@@ -16,11 +16,13 @@ mod page;
 use additions::{Walk, walk};
 use anyhow::Result;
 use edgewalk_golden::{Order, ShadowMaps, draw, fragments};
+use edgewalk_host::draw::{Pixel, draw_frame};
 use edgewalk_host::extra;
 use edgewalk_host::port::{PortFrame, port_triangle, to_port};
 use edgewalk_host::raster::golden_fill;
 use edgewalk_host::shade::apart;
 use edgewalk_machine::{EdgeKind, Fill, Plan};
+use edgewalk_model::Waits;
 use edgewalk_scene::{Frame, Scene, State, Surface};
 use layers::{Layer, layers};
 use serde::Serialize;
@@ -48,6 +50,12 @@ pub struct Explanation {
     rgb: [f64; 3],
     /// Channels of the user's own, LSB.
     extra: Vec<f64>,
+    /// What the machine has there in the end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stored: Option<Stored>,
+    /// Why that is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_stored: Option<String>,
     /// Where the scene has a surface.
     light: Option<LitPoint>,
     /// Of a blended frame the colours stored here, in order.
@@ -64,6 +72,17 @@ pub struct Explanation {
     no_shadows: Option<String>,
     /// Where the machine has exact fill and exact edges, and draws the triangle.
     machine: Option<Walk>,
+}
+
+/// The words of the machine's memories at the pixel, behind the last triangle.
+#[derive(Serialize)]
+struct Stored {
+    /// The triangle that wrote the pixel last, -1 for none.
+    id: i32,
+    /// Depth, LSB.
+    z: u64,
+    /// Colours, LSB.
+    rgb: [u64; 3],
 }
 
 /// A triangle over the pixel.
@@ -120,6 +139,10 @@ pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
         }
         _ => None,
     };
+    let (stored, not_stored) = match stored(frame, machine, (x, y)) {
+        Ok(stored) => (Some(stored), None),
+        Err(why) => (None, Some(format!("{why:#}"))),
+    };
     Ok(Explanation {
         covered: picture.coverage.iter().map(|count| u64::from(*count)).sum(),
         x,
@@ -129,6 +152,8 @@ pub fn explain(input: &Input, (x, y): (u32, u32)) -> Result<Explanation> {
         z: picture.z[at],
         rgb: picture.rgb[at],
         extra: own(machine, |channel| picture.extra[channel][at]),
+        stored,
+        not_stored,
         light: match (seen, &scene) {
             (Some(_), Some((scene, surface))) => {
                 let place = order.map_or(id as usize, |order| order.order[id as usize]);
@@ -160,6 +185,14 @@ impl Explanation {
     pub fn text(&self, color_bits: u32) -> String {
         page::text(self, color_bits)
     }
+}
+
+/// What the machine stores at a pixel, all triangles drawn.
+fn stored(frame: &Frame, machine: &Plan, pixel: (u32, u32)) -> Result<Stored> {
+    let port = to_port(frame, machine)?;
+    let Pixel { id, z, rgb } = draw_frame(machine, &port, Waits::Never)?.pixel(machine, pixel);
+    let id = usize::try_from(id).map_or(-1, |number| port.ids[number]);
+    Ok(Stored { id, z, rgb })
 }
 
 /// The rules of a triangle.

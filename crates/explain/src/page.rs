@@ -1,7 +1,7 @@
 //! The page of text.
 
-use super::Explanation;
 use super::additions::{Addition, Walk};
+use super::{Explanation, Stored};
 use edgewalk_host::extra::{BEFORE, Label};
 use std::fmt::Write as _;
 
@@ -12,6 +12,13 @@ const SHOWN: usize = 8;
 pub(super) fn text(of: &Explanation, color_bits: u32) -> String {
     let mut page =
         format!("pixel ({}, {}): z {:.9}, rgb {}{}\n", of.x, of.y, of.z, three(of.rgb), own(&of.extra));
+    if let Some(Stored { id, z, rgb: [r, g, b] }) = &of.stored {
+        let by = if *id < 0 { "no triangle".to_owned() } else { format!("triangle {id}") };
+        _ = writeln!(page, "the machine stores: z {z}, rgb {r} {g} {b}, by {by}");
+    }
+    if let Some(why) = &of.not_stored {
+        _ = writeln!(page, "the machine does not draw it: {why}");
+    }
     _ = writeln!(page, "triangles over it: {}", of.fragments.len());
     for over in &of.fragments {
         let seen = if over.id as i64 == i64::from(of.id) { "  seen" } else { "" };

@@ -11,11 +11,16 @@ mod data;
 mod still;
 
 use crate::sweep::table::Table;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
+pub use still::rule;
 
 const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
-const SCRIPT: &str = include_str!("page/page.js");
+/// In the order in which one uses the other.
+const SCRIPT: &str =
+    concat!(include_str!("page/marks.js"), include_str!("page/errors.js"), include_str!("page/page.js"));
 
 /// A machine's pictures of an input, PNG files.
 pub struct Pictures {
@@ -55,8 +60,10 @@ pub fn page(table: &Table, pictures: &[Pictures], command: &str) -> String {
 }
 
 fn title(table: &Table) -> String {
-    let names: Vec<&str> = table.sweep.inputs.iter().map(|(input, _)| input.name()).collect();
-    format!("{} machines on {}", table.machines.len(), names.join(", "))
+    let inputs: Vec<&str> = table.sweep.inputs.iter().map(|input| input.name.as_str()).collect();
+    let memories: Vec<&str> = table.sweep.memories.iter().map(|memory| memory.name.as_str()).collect();
+    let with = if memories == ["none"] { String::new() } else { format!(", memory {}", memories.join(", ")) };
+    format!("{} machines on {}{with}", table.machines.len(), inputs.join(", "))
 }
 
 /// Text in HTML.
@@ -64,12 +71,12 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// JSON inside a script element, which ends at the first `</`.
+/// JSON inside a script element: without `<` nothing in it can end the element, or begin a comment.
 fn in_script(value: &Value) -> String {
-    value.to_string().replace("</", "<\\/").replace("<!--", "<\\!--")
+    value.to_string().replace('<', "\\u003c")
 }
 
-/// A number for eyes.
+/// A number with about five digits, as tables and charts show it.
 #[must_use]
 pub fn number(value: f64) -> String {
     if value == value.trunc() && value.abs() < 1e15 {
@@ -81,17 +88,7 @@ pub fn number(value: f64) -> String {
 
 /// PNG bytes as an address that needs no network.
 fn embedded(png: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::from("data:image/png;base64,");
-    for bytes in png.chunks(3) {
-        let word =
-            bytes.iter().fold(0u32, |word, byte| word << 8 | u32::from(*byte)) << (8 * (3 - bytes.len()));
-        for place in 0..4 {
-            let digit = DIGITS[(word >> (18 - 6 * place) & 63) as usize];
-            text.push(if place > bytes.len() { '=' } else { digit as char });
-        }
-    }
-    text
+    format!("data:image/png;base64,{}", STANDARD.encode(png))
 }
 
 #[cfg(test)]
@@ -99,16 +96,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bytes_in_base_64() {
-        for (bytes, digits) in
-            [("", ""), ("M", "TQ=="), ("Ma", "TWE="), ("Man", "TWFu"), ("light w", "bGlnaHQgdw==")]
-        {
-            assert_eq!(embedded(bytes.as_bytes()), format!("data:image/png;base64,{digits}"));
-        }
-    }
-
-    #[test]
-    fn numbers_for_eyes() {
+    fn numbers_keep_five_digits() {
         let cases = [
             (3.0, "3"),
             (0.529_288_1, "0.52929"),

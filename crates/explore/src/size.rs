@@ -119,14 +119,11 @@ pub fn size(machine: &Plan, port: &PortFrame, error: f64) -> Result<Size> {
 fn plain(machine: &Plan) -> Result<Plan> {
     let bare = Machine::default();
     let adders = machine.adders.min(bare.adders + machine.extra);
-    let keys = Machine {
-        shade: bare.shade,
-        shadow: bare.shadow,
-        blend: bare.blend,
-        adders,
-        ..Machine::clone(machine)
-    };
-    keys.plan().map_err(|e| anyhow!("{e}"))
+    let plain = machine.with(|keys| {
+        (keys.shade, keys.shadow, keys.blend) = (bare.shade, bare.shadow, bare.blend);
+        keys.adders = adders;
+    });
+    Ok(plain.plan()?)
 }
 
 /// The fewest guard bits in which the screen and all vertices lie.

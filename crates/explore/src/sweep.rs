@@ -1,8 +1,9 @@
 //! Many machines on the same frames, each a row.
 //!
 //! ```text
-//!  definition ─> points ─┬─ same pixels? ─> drawn and compared once ─┐
-//!                        └─ timing keys ──> clock, or ticks ─────────┴─> rows ─> store ─> table, bests, fronts, report
+//!  definition ─> grid ─> points ─┬─ same pixels? ─> drawn and compared once ─┐
+//!                                └─ timing keys ──> clock, or ticks ─────────┴─> rows ─> store ─> check ─> table, bests,
+//!                                                                                                        fronts, report
 //! ```
 //! A row is what `edgewalk render --json` says of its machine, with what identifies it.
 //!
@@ -22,32 +23,41 @@
 //! let sweep = Sweep::new(definition)?;
 //! let (rows, rest) = Store::open(&path)?;
 //! let points: Vec<_> = sweep.points.iter().collect();
-//! let todo = missing(&points, &store::by_key(rest), &[]);
+//! let todo = missing(&sweep, &points, &store::by_key(rest), &[]);
 //! run(&sweep, &todo, &Around { store: &rows, cost: None, done: &|| {} })?;
 //!
 //! let rows = store::by_key(store::read(&path)?);
 //! let table = Table::new(&sweep, &rows);
 //! assert_eq!((table.rows.len(), table.machines.len()), (12, 12));
 //! let quickest = table.best(&sweep.objectives[0]).expect("all of them were drawn");
-//! assert_eq!(quickest.rows[0]["keys"]["interpolator.adders"], 4);
+//! assert_eq!(quickest.row()["keys"]["interpolator.adders"], 4);
 //! # Ok(())
 //! # }
 //! ```
 
-pub mod axis;
 pub mod definition;
-pub mod point;
+pub mod axis;
+pub mod shading;
+pub mod subject;
 pub mod objective;
+pub mod judge;
+pub mod point;
+pub mod grid;
+pub mod equation;
 pub mod shared;
 pub mod apart;
 pub mod row;
 pub mod store;
+pub mod check;
 pub mod evaluate;
 pub mod front;
 pub mod table;
+pub mod csv;
 
 pub use definition::{Definition, Sample};
 pub use evaluate::run;
+pub use grid::Sweep;
+pub use judge::Judge;
 pub use objective::Objective;
-pub use point::{Point, Sweep};
+pub use point::Point;
 pub use store::Store;

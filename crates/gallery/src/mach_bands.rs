@@ -1,4 +1,4 @@
-//! Mach bands (A fig. 7.5, B): the slope of the intensity jumps at edges, and the eye sees it.
+//! Mach bands (ch. 7, fig. 7.5; the slides): the slope of the intensity jumps at edges, and the eye sees it.
 
 use crate::exhibit::{Exhibit, FILL, GUARD, HEIGHT, View, WIDTH, figure};
 use crate::plot::plot;

@@ -53,16 +53,16 @@ impl Beside {
         .chain(relief)
         .chain(light)
         {
-            keys.set(key, value).map_err(|e| anyhow!("{e}"))?;
+            keys.set(key, value)?;
         }
-        let plan = keys.plan().map_err(|e| anyhow!("{e}"))?;
+        let plan = keys.plan()?;
         let port = to_port(&frame, &plan)?;
         let golden = golden(&frame, &plan);
         let drawn = draw_frame(&plan, &port, Waits::Never)?.raster(&plan);
         let proof = port.shade.as_ref().map(|feed| &feed.proof);
         let found = compare_shaded(&plan, &frame, &golden, &drawn, None, proof);
         let shaded = found.shaded.ok_or_else(|| anyhow!("a frame without normals"))?;
-        Ok(Beside { method, golden: golden.rgb, machine: drawn.rgb, map: found.color_map, shaded })
+        Ok(Beside { method, golden: golden.rgb, machine: drawn.rgb, map: found.errors.color.map, shaded })
     }
 
     /// Pixels whose colour another scene's golden picture has by more than 1/2 LSB otherwise, and by how much the farthest, LSB.

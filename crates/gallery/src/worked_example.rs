@@ -1,4 +1,4 @@
-//! The worked example of seed C: Gouraud shading by hand.
+//! The worked example of the notes: Gouraud shading by hand.
 
 use crate::exhibit::{Exhibit, FILL, HEIGHT, View, WIDTH, figure};
 use crate::plot::{Series, plot};

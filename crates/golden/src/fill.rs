@@ -16,7 +16,7 @@ pub enum Fill {
         subpixel_bits: u32,
     },
     /// The books': integer vertices, pixels at integer coordinates. Triangles by the listing of ch. 7.5: both ends of a span
-    /// inclusive, the knee line drawn twice; polygons by the rule of seed B: the start rounded up, the end down.
+    /// inclusive, the knee line drawn twice; polygons by the rule of the slides: the start rounded up, the end down.
     Textbook,
 }
 

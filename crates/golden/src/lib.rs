@@ -2,7 +2,7 @@
 //!
 //! What ought to be drawn, said as plainly as possible: a pixel belongs to a triangle if three half-planes say so, in
 //! integers; its depth and colour are the plane through the vertices (ch. 7.8). A pixel belongs to a polygon if an odd number of
-//! edges pass on its left, each asked anew on every line (seed B). Coverage and depth are never stepped, rounded or wrapped as
+//! edges pass on its left, each asked anew on every line (the slides). Coverage and depth are never stepped, rounded or wrapped as
 //! the machine does it. Where two depths are too near for f64, exact integers decide.
 //!
 //! What steps is what is meant to show stepping, in f64 and beside the truth: the attributes of Phong shading

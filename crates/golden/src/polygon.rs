@@ -1,4 +1,4 @@
-//! Scan conversion of polygons: edge table, active edge table, odd-even rule (seed B).
+//! Scan conversion of polygons: edge table, active edge table, odd-even rule (the slides).
 //!
 //! ```text
 //!            F                       edge table       every edge that is not horizontal, in the bucket of its Ymin
@@ -11,13 +11,13 @@
 //! the half-open rule of [`crate::fragments`] in both axes, so that polygons and triangles meet without a gap or a pixel
 //! drawn twice. Vertices are snapped to the [`Grid`] first.
 //!
-//! A value runs linearly along an edge, then linearly along the span (seed B):
+//! A value runs linearly along an edge, then linearly along the span (the slides):
 //! ```text
 //!   l_a = (l_1 (y_2 - y) + l_2 (y - y_1)) / (y_2 - y_1)      l_b likewise on the right edge
 //!   l_p = (l_a (x_b - x) + l_b (x - x_a)) / (x_b - x_a)
 //! ```
 //! Cleared of fractions these are four integer weights. In a triangle that is the plane; elsewhere it depends on how the
-//! polygon is turned (the orientation dependence of seed B). It is what the method gives, not an error of this program.
+//! polygon is turned (the orientation dependence of the slides). It is what the method gives, not an error of this program.
 
 mod grid;
 mod table;

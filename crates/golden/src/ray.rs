@@ -2,7 +2,7 @@
 //!
 //! "The more general case can be solved by ray-tracing": a ray from the point to the light; r_l is the product of k_t of
 //! all faces it meets, so 1 where there is none and 0 behind an opaque one. Each face counts, so a body of glass counts
-//! twice, where the ray enters and where it leaves. Directions are those of A: nothing is bent.
+//! twice, where the ray enters and where it leaves. Directions are those of ch. 7: nothing is bent.
 
 mod hit;
 mod tree;

@@ -1,4 +1,4 @@
-//! Attributes by addition against the plane, the formulae of seed B, and the worked example of the notes.
+//! Attributes by addition against the plane, the formulae of the slides, and the worked example of the notes.
 #![allow(clippy::unwrap_used)] // what is looked for is there
 
 use edgewalk_golden::{Fragment, Half, Incremental, Weights, fragments, half_triangles};
@@ -41,7 +41,7 @@ fn additions_stay_on_the_plane_in_both_fills() {
     assert!(worst > 0.0, "additions that never round were not additions");
 }
 
-/// S15: l_a and l_b along the edges, l_p along the scan line, as seed B has them.
+/// S15: l_a and l_b along the edges, l_p along the scan line, as the slides has them.
 #[test]
 fn bilinear_formulae_of_the_lecture_are_the_plane() {
     let mut rng = Pcg64::seed_from_u64(8);
@@ -72,7 +72,7 @@ fn bilinear_formulae_of_the_lecture_are_the_plane() {
 const EXAMPLE: [[f64; 2]; 3] = [[16.0, 10.0], [5.0, 20.0], [32.0, 30.0]];
 const INTENSITIES: [[f64; 1]; 3] = [[0.9], [0.2], [0.3]];
 
-/// The value at the left edge of each line, and all values of line 15, as the listing of A steps them.
+/// The value at the left edge of each line, and all values of line 15, as the listing of ch. 7.10 steps them.
 fn walk(corners: [[f64; 2]; 3], half: Half) -> (Vec<f64>, Vec<f64>) {
     let mut stepped = Incremental::new(INTENSITIES);
     let (mut starts, mut line_15, mut last_line) = (Vec::new(), Vec::new(), None);

@@ -1,4 +1,4 @@
-//! The depth buffer over many polygons (seed B), ties decided exactly, and the order among triangles.
+//! The depth buffer over many polygons (the slides), ties decided exactly, and the order among triangles.
 
 use crate::shapes;
 use crate::shapes::{Point, SCREEN, expected};

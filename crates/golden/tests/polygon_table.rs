@@ -1,4 +1,4 @@
-//! The lecture's sample polygon (seed B): its edge table, its active edges line by line, its pixels.
+//! The lecture's sample polygon (the slides): its edge table, its active edges line by line, its pixels.
 
 use edgewalk_golden::polygon::{EdgeTable, Grid, fragments};
 use edgewalk_scene::{Polygon, ShadeMode, Vertex};

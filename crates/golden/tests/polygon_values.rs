@@ -56,7 +56,7 @@ fn rational(value: f64) -> BigRational {
     BigRational::from_float(value).unwrap()
 }
 
-/// Seed B as it stands: l_a and x_a on each edge that crosses the line, l_p between those on either side of the pixel.
+/// The formulae of the slides as they stand: l_a and x_a on each edge that crosses the line, l_p between those on either side of the pixel.
 fn bilinear(
     polygon: &Polygon,
     bits: u32,

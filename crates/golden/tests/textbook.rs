@@ -209,7 +209,7 @@ fn depths_that_f64_leaves_open_are_decided_on_every_line() {
     }
 }
 
-/// Seed C: intensities 0.9, 0.2, 0.3 at y = 10, 20, 30. The text gives no x but those of line 15: 10.5 on edge P1P2 and
+/// The worked example of the notes: intensities 0.9, 0.2, 0.3 at y = 10, 20, 30. The text gives no x but those of line 15: 10.5 on edge P1P2 and
 /// 20 on P1P3; vertices at these places make it so.
 const WORKED: [(f64, f64, f64); 3] = [(15.0, 10.0, 0.9), (6.0, 20.0, 0.2), (35.0, 30.0, 0.3)];
 

@@ -34,5 +34,5 @@ fn perspective_weights_give_the_point_under_the_pixel() {
     println!("{checked} pixels: perspective {worst:.5} px off, linear {linear_off:.2} px off");
     assert!(checked > 3000);
     assert!(worst < 0.003, "half a sub-pixel of 1/256 each way");
-    assert!(linear_off > 1.0, "the distortion of seed B is there to be seen");
+    assert!(linear_off > 1.0, "the distortion of the slides is there to be seen");
 }

@@ -48,6 +48,37 @@ pub fn draw_frame(machine: &Plan, port: &PortFrame, waits: Waits) -> Result<Draw
     }
 }
 
+/// Draws a frame whose triangles are all there, and gives its picture from the top in bands of so many lines.
+///
+/// # Errors
+/// Of triangles of another machine, and the first that `take` gives.
+pub fn in_bands(
+    machine: &Plan,
+    port: &PortFrame,
+    waits: Waits,
+    lines: u32,
+    mut take: impl FnMut(Raster) -> Result<()>,
+) -> Result<()> {
+    let drawn = draw_frame(machine, port, waits)?;
+    drawn.bands(machine, bands(machine.height, lines), |band| take(of_port(band, port)))
+}
+
+/// A picture of this height in bands of so many lines.
+pub fn bands(height: u32, lines: u32) -> impl Iterator<Item = Range<u32>> {
+    (0..height).step_by(lines as usize).map(move |top| top..height.min(top.saturating_add(lines)))
+}
+
+/// The words of the machine's memories at a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pixel {
+    /// Number at the port of the triangle that wrote the pixel last, -1 for none.
+    pub id: i32,
+    /// Stored depth, LSB.
+    pub z: u64,
+    /// Stored colour, LSB each.
+    pub rgb: [u64; 3],
+}
+
 /// A frame that was drawn.
 pub enum Drawn {
     /// Without ticking; its pixels are still as the machine stores them.
@@ -63,6 +94,19 @@ impl Drawn {
         match self {
             Drawn::Fast(renderer) => renderer.counters().triangles,
             Drawn::Ticked(frame, ..) => frame.counters.triangles,
+        }
+    }
+
+    /// Pixel (x, y) as the machine stores it.
+    #[must_use]
+    pub fn pixel(&self, machine: &Plan, (x, y): (u32, u32)) -> Pixel {
+        let of = |frame: &Frame, y: u32| {
+            let at = (y * machine.width + x) as usize;
+            Pixel { id: frame.id[at], z: frame.z[at], rgb: frame.rgb[at] }
+        };
+        match self {
+            Drawn::Fast(renderer) => of(&renderer.lines(y..y + 1), 0),
+            Drawn::Ticked(frame, ..) => of(frame, y),
         }
     }
 

@@ -17,19 +17,17 @@ pub fn channels(machine: &Plan) -> &[Channel] {
     &machine.channels()[BEFORE..BEFORE + machine.extra as usize]
 }
 
-/// That an input which gives `given` values of the user's own at a vertex gives one for each channel of the machine.
-pub fn fitting(given: usize, machine: &Plan) -> Result<()> {
-    let wanted = channels(machine).len();
-    if given == wanted {
-        return Ok(());
+/// That the machine has no channels of the user's own, as a scene has no values for them.
+///
+/// # Errors
+/// It has.
+pub fn none(machine: &Plan) -> Result<()> {
+    match channels(machine).len() {
+        0 => Ok(()),
+        wanted => Err(anyhow!(
+            "extra 0: the machine has channels.extra = {wanted}; add --set channels.extra=0, or draw a triangle file with a line `extra {wanted}`"
+        )),
     }
-    let other = match given {
-        0 => format!(", or draw a triangle file with a line `extra {wanted}`"),
-        _ => String::new(),
-    };
-    Err(anyhow!(
-        "extra {given}: the machine has channels.extra = {wanted}; add --set channels.extra={given}{other}"
-    ))
 }
 
 /// A channel as reports name it.

@@ -1,15 +1,20 @@
 //! What is to be drawn on one machine after another: read once, made into a frame for each screen.
 
 use crate::extra;
+use crate::needs::{self, Need};
 use crate::port::{guard_band, sent};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::Shading;
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Blending, Change, Frame, PixelMethod, Scene, Triangulated, triangle_file};
+use edgewalk_scene::{
+    Blending, Change, Frame, InputKind, PixelMethod, Scene, Surface, Triangulated, triangle_file,
+};
 use sha2::{Digest, Sha256};
 use std::path::Path;
+use std::sync::Arc;
 
 /// A scene, a mesh, or a file of screen-space triangles.
+#[derive(Clone)]
 pub struct Input {
     name: String,
     what: What,
@@ -24,9 +29,10 @@ pub enum Shaded {
     Pixels(PixelMethod),
 }
 
+#[derive(Clone)]
 enum What {
-    Scene(Box<Scene>, Shaded),
-    Triangles(Box<Frame>),
+    Scene(Arc<Scene>, Shaded),
+    Triangles(Arc<Frame>),
 }
 
 impl Input {
@@ -35,12 +41,30 @@ impl Input {
     /// # Errors
     /// No such scene or file, or a fault in it.
     pub fn open(name: &str, shading: Shaded) -> Result<Input> {
-        let what = if is_triangle_file(name) {
-            What::Triangles(Box::new(triangle_file::read(Path::new(name))?))
+        let what = if InputKind::is_triangles(name) {
+            What::Triangles(Arc::new(triangle_file::read(Path::new(name))?))
         } else {
-            What::Scene(Box::new(Scene::open(name)?), shading)
+            What::Scene(Arc::new(Scene::open(name)?), shading)
         };
         Ok(Input { name: name.to_owned(), what })
+    }
+
+    /// The same input with the colours of a scene made so; a triangle file says itself how it is shaded.
+    #[must_use]
+    pub fn shaded(&self, shading: Shaded) -> Input {
+        match &self.what {
+            What::Scene(scene, _) => Input { what: What::Scene(scene.clone(), shading), ..self.clone() },
+            What::Triangles(_) => self.clone(),
+        }
+    }
+
+    /// Every key of the machine that the input asks another value for.
+    #[must_use]
+    pub fn needs(&self, machine: &Plan) -> Vec<Need> {
+        match &self.what {
+            What::Scene(scene, shading) => needs::needs(&on_screen(scene, *shading, machine), machine),
+            What::Triangles(frame) => needs::needs(frame, machine),
+        }
     }
 
     /// As it was asked for.
@@ -69,6 +93,17 @@ impl Input {
         })
     }
 
+    /// The scene, and its surface on the machine's screen, clipped to its guard band; none of a triangle file.
+    #[must_use]
+    pub fn surface(&self, machine: &Plan) -> Option<(&Scene, Surface)> {
+        match &self.what {
+            What::Triangles(_) => None,
+            What::Scene(scene, _) => {
+                Some((scene, scene.surface(machine.width, machine.height, guard_band(machine))))
+            }
+        }
+    }
+
     /// The frame as the machine draws it, polygons as triangles, clipped to its guard band.
     ///
     /// # Errors
@@ -77,12 +112,8 @@ impl Input {
         let frame = match &self.what {
             What::Triangles(frame) => fitting(&self.name, Frame::clone(frame), machine)?,
             What::Scene(scene, shading) => {
-                extra::fitting(0, machine).with_context(|| self.name.clone())?;
-                let surface = scene.surface(machine.width, machine.height, guard_band(machine));
-                let frame = match *shading {
-                    Shaded::Corners(system) => edgewalk_golden::frame(scene, &surface, system),
-                    Shaded::Pixels(method) => scene.pixel_frame(&surface, method),
-                };
+                extra::none(machine).with_context(|| self.name.clone())?;
+                let frame = on_screen(scene, *shading, machine);
                 if frame.blend == Blending::Off {
                     frame
                 } else {
@@ -96,10 +127,13 @@ impl Input {
     }
 }
 
-/// Whether a name is that of a file of screen-space triangles.
-#[must_use]
-pub fn is_triangle_file(name: &str) -> bool {
-    Path::new(name).extension().is_some_and(|e| e == "tri")
+/// The scene on the machine's screen, clipped to its guard band.
+fn on_screen(scene: &Scene, shading: Shaded, machine: &Plan) -> Frame {
+    let surface = scene.surface(machine.width, machine.height, guard_band(machine));
+    match shading {
+        Shaded::Corners(system) => edgewalk_golden::frame(scene, &surface, system),
+        Shaded::Pixels(method) => scene.pixel_frame(&surface, method),
+    }
 }
 
 /// The triangle file's frame, if it is as large as the machine's screen and has values for its channels.
@@ -118,7 +152,9 @@ pub fn fitting(name: &str, frame: Frame, machine: &Plan) -> Result<Frame> {
             frame.height
         ));
     }
-    extra::fitting(frame.extra, machine).with_context(|| name.to_owned())?;
+    if frame.extra != extra::channels(machine).len() {
+        needs::check(&frame, machine).with_context(|| name.to_owned())?;
+    }
     Ok(frame)
 }
 

@@ -9,6 +9,7 @@ pub mod extra;
 pub mod raster;
 pub mod light;
 pub mod shade;
+pub mod needs;
 pub mod port;
 pub mod input;
 pub mod lights;

@@ -12,7 +12,7 @@
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::snap;
 use edgewalk_machine::keys::KEYS;
-use edgewalk_machine::{Blend, BlendKind, Gate, Machine, Plan, PortVertex, Precision};
+use edgewalk_machine::{Blend, BlendKind, Machine, Plan, PortVertex, Precision};
 use edgewalk_model::{Counters, DrawState, Pass, Shading, Waits, render_passes};
 use edgewalk_scene::{Blending, Change, Frame, Shadow, State, Triangle, Vertex};
 
@@ -21,53 +21,27 @@ fn farthest(machine: &Plan) -> f64 {
     f64::from((1u32 << machine.shadow.depth_bits) - 1)
 }
 
-/// Whether the machine can do the light.
+/// Whether a map of the machine, which meets the [needs](crate::needs) of its frame, can be that of the light.
 ///
 /// # Errors
-/// That, with what to set instead.
+/// What no key can mend.
 pub fn check(shadow: &Shadow, machine: &Plan) -> Result<()> {
-    if !machine.shadow.is_there() {
-        return Err(anyhow!(
-            "shadow: the machine has no SHADOW; add --set shadow.light=parallel --set shadow.size={}, or draw with --engine golden",
-            shadow.size
-        ));
-    }
-    let side =
-        KEYS.iter().find(|key| key.name == "shadow.size" && key.parse(&shadow.size.to_string()).is_none());
+    let (given, own) = (shadow.size, machine.shadow.size);
+    let side = KEYS.iter().find(|key| key.name == "shadow.size" && key.parse(&given.to_string()).is_none());
     if let Some(key) = side {
         return Err(anyhow!(
-            "shadow {}: a machine's map has {} texels a side; draw with --engine golden",
-            shadow.size,
+            "shadow {given}: a machine's map has {} texels a side; draw with --engine golden",
             key.permitted()
         ));
     }
-    if shadow.size != machine.shadow.size {
-        let (given, own) = (shadow.size, machine.shadow.size);
+    if given != own {
         return Err(anyhow!(
-            "shadow {given}: the machine's map has {own} x {own} texels; add --set shadow.size={given}"
+            "shadow {given}: another light's map has {own} x {own} texels, and the machine's maps are alike; give all lights one SIZE, or draw with --engine golden"
         ));
     }
-    let [q0, q1, q2, q3] = shadow.matrix[3];
-    if [q0, q1, q2, q3] == [0.0; 4] {
+    if shadow.matrix[3] == [0.0; 4] {
         return Err(anyhow!(
             "shadow: m30 m31 m32 m33 = 0 0 0 0: every point lies at infinity; a parallel light has 0 0 0 1"
-        ));
-    }
-    if !machine.shadow.projects() && ([q0, q1, q2] != [0.0; 3] || q3 <= 0.0) {
-        return Err(anyhow!(
-            "shadow: m30 m31 m32 m33 = {q0} {q1} {q2} {q3}: the machine's light is parallel, which has 0 0 0 and more than 0; add --set shadow.light=perspective, or draw with --engine golden"
-        ));
-    }
-    if let Some(pane) = shadow.panes.first().filter(|_| !machine.shadow.transmits()) {
-        return Err(anyhow!(
-            "shadow: L with kt = {}: the machine's map says lit or not; add --set shadow.transmits=yes, or draw with --engine golden",
-            pane.kt
-        ));
-    }
-    if shadow.ambient > 0.0 && machine.shadow.gate == Gate::And {
-        return Err(anyhow!(
-            "shadow AMBIENT = {}: shadow.gate = and leaves nothing in shadow; add --set shadow.gate=scale",
-            shadow.ambient
         ));
     }
     Ok(())
@@ -182,17 +156,12 @@ pub fn mapper(machine: &Plan) -> Result<Plan> {
     };
     // What the machine draws itself needs the formats only.
     let segments = if machine.shadow.draws_map() { 1 } else { machine.segments };
-    let own = Machine {
-        width: machine.shadow.size,
-        height: machine.shadow.size,
-        z,
-        extra: 0,
-        adders: 1,
-        segments,
-        tag_bits: 0,
-        ..(**machine).clone()
-    };
-    Ok(Machine { shadow: plain.shadow, blend, ..own }.plan()?)
+    let mapper = machine.with(|keys| {
+        (keys.width, keys.height) = (machine.shadow.size, machine.shadow.size);
+        (keys.z, keys.blend, keys.shadow) = (z, blend, plain.shadow);
+        (keys.extra, keys.adders, keys.segments, keys.tag_bits) = (0, 1, segments, 0);
+    });
+    Ok(mapper.plan()?)
 }
 
 /// The light's own passes as a frame: what hides the light, then, in a machine whose map has shares, the panes, of which each leaves k_t of

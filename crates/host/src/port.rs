@@ -1,6 +1,7 @@
 //! A frame's way to the machine's port.
 
 use crate::light::{self, Map};
+use crate::needs;
 use crate::raster::{Cycles, LightPass, Raster};
 use crate::shade::{Feed, feed, shading_for};
 use anyhow::{Context as _, Result, anyhow};
@@ -150,6 +151,7 @@ pub fn guard_band(machine: &Plan) -> f64 {
 
 /// Snaps a frame to the port, polygons as triangles, or says what of it the machine cannot take.
 pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
+    needs::check(frame, machine)?;
     for shadow in &frame.shadows {
         light::check(shadow, machine)?;
         if frame.shading.is_some() {
@@ -177,20 +179,11 @@ pub fn to_port(frame: &Frame, machine: &Plan) -> Result<PortFrame> {
     Ok(PortFrame { triangles: port, ids, passes, lights, host, shade })
 }
 
-/// The rules of a pass as the machine has them, or what of them it cannot do.
+/// The rules of a pass as a machine has them that meets the [needs](crate::needs) of the frame.
+///
+/// # Errors
+/// The frame is shaded at each pixel, and the machine cannot do so.
 pub fn draw_state(frame: &Frame, state: &State, machine: &Plan) -> Result<DrawState> {
-    let blends = machine.blend.is_there();
-    if state.blend != Blending::Off && !blends {
-        return Err(anyhow!(
-            "blend {} (transparent surfaces): the machine has no BLEND; add --set blend.kind=interpolated, or draw with blend 0 or --engine golden",
-            state.blend.name()
-        ));
-    }
-    if !state.color_write && !blends {
-        return Err(anyhow!(
-            "colour_write 0: a machine without BLEND writes the colour of every fragment that passes; add --set blend.kind=constant"
-        ));
-    }
     shading_for(frame, machine)?;
     let max = machine.color.max() as f64;
     Ok(DrawState {

@@ -49,8 +49,11 @@ impl Reach {
 /// # Errors
 /// None for a machine that was planned.
 pub fn untimed(machine: &Plan) -> Result<Plan> {
-    let keys = Machine { hazard: Hazard::Forward, latency: 1, inflight: 16, ..Machine::clone(machine) };
-    keys.plan().map_err(|e| anyhow!("{e}"))
+    Ok(machine.with(as_untimed).plan()?)
+}
+
+fn as_untimed(keys: &mut Machine) {
+    (keys.hazard, keys.latency, keys.inflight) = (Hazard::Forward, 1, 16);
 }
 
 /// Takes the frame through the units, as far as it is the same whatever the machine has besides: where its triangles are stepped.
@@ -59,15 +62,12 @@ pub fn untimed(machine: &Plan) -> Result<Plan> {
 /// Vertices of another machine.
 pub fn geometry(machine: &Plan, port: &PortFrame) -> Result<Passage> {
     let bare = Machine::default();
-    let keys = Machine {
-        shade: bare.shade,
-        shadow: bare.shadow,
-        extra: bare.extra,
-        blend: bare.blend,
-        adders: machine.adders.min(bare.adders),
-        ..Machine::clone(machine)
-    };
-    let plan = untimed(&keys.plan().map_err(|e| anyhow!("{e}"))?)?;
+    let bare = machine.with(|keys| {
+        (keys.shade, keys.shadow, keys.blend) = (bare.shade, bare.shadow, bare.blend);
+        (keys.extra, keys.adders) = (bare.extra, keys.adders.min(bare.adders));
+        as_untimed(keys);
+    });
+    let plan = bare.plan()?;
     let of_plan = |triangle: &[_; 3]| {
         triangle.map(|v: edgewalk_machine::PortVertex| plan.raw_vertex(v.x(), v.y(), v.values()))
     };

@@ -28,7 +28,7 @@ pub use texels::Textured;
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_machine::{Fill, Plan, PortVertex, ShadeColour};
 use edgewalk_model::Shading;
-use edgewalk_scene::{Frame, PixelMethod, PixelShading};
+use edgewalk_scene::{Frame, PixelShading};
 use glam::DVec3;
 use lights::Lamp;
 use tables::Surfaces;
@@ -102,44 +102,14 @@ pub fn feed(
     }))
 }
 
-/// Whether the frame is shaded at each pixel and the machine can do so.
+/// How the frame is shaded at each pixel, if it is.
+///
+/// # Errors
+/// The machine, which meets the [needs](crate::needs) of the frame, cannot do so.
 pub(crate) fn shading_for<'a>(frame: &'a Frame, machine: &Plan) -> Result<Option<&'a PixelShading>> {
-    let there = machine.shade.is_there();
-    let Some(shading) = &frame.shading else {
-        return if there {
-            Err(anyhow!(
-                "shade.kind: the machine shades by normals and the input has none; draw with --shading fast-phong or mode \
-                 fast-phong (phong), or with --set shade.kind=none"
-            ))
-        } else {
-            Ok(None)
-        };
-    };
-    let name = shading.method.name();
-    if !there {
-        return Err(anyhow!(
-            "mode {name} (--shading {name}): the machine has no TERM and SHADE; add --set shade.kind={name}, or draw with --engine \
-             golden"
-        ));
-    }
-    let kind = if machine.shade.normalises() { PixelMethod::Phong } else { PixelMethod::FastPhong };
-    if shading.method != kind {
-        return Err(anyhow!(
-            "mode {name} (--shading {name}): the machine's shade.kind is {}; add --set shade.kind={name}, or draw with --engine golden",
-            kind.name()
-        ));
-    }
-    if !shading.textures.is_empty() && !machine.shade.textures() {
-        return Err(anyhow!(
-            "texture: the machine has no TEXEL; add --set texture.kind=nearest --set shade.colour=multiply, or draw with --engine golden"
-        ));
-    }
-    if shading.materials.iter().any(|material| material.bump.is_some()) && !machine.shade.bumps() {
-        return Err(anyhow!(
-            "relief: the machine has no BUMP; add --set texture.bump=yes, or draw with bump_height = 0, or with --engine golden"
-        ));
-    }
+    let Some(shading) = &frame.shading else { return Ok(None) };
     if machine.fill == Fill::Textbook {
+        let name = shading.method.name();
         return Err(anyhow!("mode {name}: edge.fill = textbook starts spans between pixels; use exact"));
     }
     Ok(Some(shading))

@@ -4,8 +4,7 @@
 use edgewalk_netlist::Op;
 
 use crate::graph::{Graph, Kind, ValueId};
-use crate::layout::Layout;
-use crate::signs::Signs;
+use crate::sign_extended::Signs;
 
 /// Registers of the same form, of which a number names one.
 #[derive(Clone, Debug)]
@@ -14,8 +13,6 @@ pub(crate) struct Array {
     pub index: ValueId,
     /// The register that each number names.
     pub registers: Vec<ValueId>,
-    /// Of a number of several bits: where the table of their places is among the tables, a byte for each.
-    pub table: Option<usize>,
 }
 
 impl Array {
@@ -23,7 +20,7 @@ impl Array {
     pub fn of_two(graph: &Graph, signs: &Signs, id: ValueId) -> Option<Array> {
         let &[index, one, zero] = graph.as_op(id, Op::Mux)? else { return None };
         let [one, zero] = [one, zero].map(|arm| leaf(graph, signs, arm));
-        Array { index, registers: vec![zero?, one?], table: None }.if_alike(graph, signs)
+        Array { index, registers: vec![zero?, one?] }.if_alike(graph, signs)
     }
 
     /// By a number: of a choice by a bit that is this for each number, between registers or arrays of that number.
@@ -41,7 +38,7 @@ impl Array {
         });
         let arms = one?.into_iter().zip(zero?);
         let registers = bits.iter().zip(arms).map(|(bit, (one, zero))| if *bit == 1 { one } else { zero });
-        Array { index, registers: registers.collect(), table: None }.if_alike(graph, signs)
+        Array { index, registers: registers.collect() }.if_alike(graph, signs)
     }
 
     /// The array, if all are kept in the same form.
@@ -52,17 +49,6 @@ impl Array {
                 && (!signs.has(first) || graph.width(*register) == graph.width(first))
         };
         self.registers.iter().all(is_alike).then_some(self)
-    }
-
-    /// The lowest of their places, and how many words each is above it, if a byte has room for that.
-    pub fn places(&self, layout: &Layout) -> Option<(i32, Vec<u8>)> {
-        let offsets: Option<Vec<i32>> =
-            self.registers.iter().map(|register| Some(layout.of(*register)?.offset)).collect();
-        let offsets = offsets?;
-        let lowest = *offsets.iter().min()?;
-        let words: Option<Vec<u8>> =
-            offsets.iter().map(|offset| u8::try_from((offset - lowest) / 8).ok()).collect();
-        Some((lowest, words?))
     }
 }
 

@@ -75,10 +75,10 @@ impl Code {
         // (`Layout::take` hands them out one after the other and `size` is where the last ends); a word of an area is
         // accessed only at an index that was found to be less than the number of words, or 0, or that has too few bits
         // to be more (`index`, `read` and `write` in `lower/memory.rs`); an entry of a table at an index of as many bits as
-        // it has entries for, zeros above them (`looked_up` in `lower/values.rs`); a register at the place that such an entry or a
+        // it has entries for, zeros above them (`looked_up` in `lower/demand.rs`); a register at the place that such an entry or a
         // bit, 0 or 1, says (`read_from_array`), each of which is one of the layout; two words that stand side by side in
         // it (`lower/copies.rs`); seeds word by word and their copies two words at a time, to the end of
-        // the places that the layout has for them (`asked` in `lower/waking.rs`). The slice is ours alone while the call lasts,
+        // the places that the layout has for them (`asked` in `lower/wake_counters.rs`). The slice is ours alone while the call lasts,
         // aligned to 8 bytes as the accesses say, and any bits are a valid u64. The code calls nothing and cannot
         // unwind. It takes [`ODD`] off the address that it is given.
         unsafe { (self.entry)(state.as_mut_ptr().wrapping_byte_add(ODD as usize)) }

@@ -26,6 +26,25 @@ impl Effect {
     }
 }
 
+/// Adds all numbers of the other set.
 pub(crate) fn unite(set: &mut Set, other: &Set) {
     set.iter_mut().zip(other).for_each(|(a, b)| *a |= b);
+}
+
+/// The numbers that are in both sets.
+pub(crate) fn members<'s>(a: &'s Set, b: &'s Set) -> impl Iterator<Item = usize> + 's {
+    let both = a.iter().zip(b).map(|(a, b)| a & b).enumerate();
+    both.flat_map(|(word, bits)| {
+        (0..64).filter(move |bit| bits >> bit & 1 == 1).map(move |bit| word * 64 + bit)
+    })
+}
+
+/// The number is in the set.
+pub(crate) fn contains(set: &Set, number: usize) -> bool {
+    set[number / 64] >> (number % 64) & 1 == 1
+}
+
+/// Puts a number into the set.
+pub(crate) fn insert(set: &mut Set, number: usize) {
+    set[number / 64] |= 1 << (number % 64);
 }

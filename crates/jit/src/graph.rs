@@ -3,9 +3,7 @@
 use std::collections::HashMap;
 
 use edgewalk_netlist::Op;
-use edgewalk_netlist::ops::{Bits, mask};
-
-use crate::simplify::{Simpler, simpler};
+use edgewalk_netlist::ops::mask;
 
 /// A value's place in a [`Graph`]; operands come before what is computed from them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -64,6 +62,11 @@ impl Graph {
         }
     }
 
+    /// Whether the value must be computed to be read; else it is in the state all the time.
+    pub fn is_computed(&self, id: ValueId) -> bool {
+        matches!(self.kind(id), Kind::Op(..))
+    }
+
     /// The value, if it is a constant.
     pub fn as_constant(&self, id: ValueId) -> Option<u128> {
         match self.kind(id) {
@@ -90,38 +93,8 @@ impl Graph {
         self.shared(Kind::Constant(value & mask(width)), width)
     }
 
-    /// The value of an operator whose operands fit it: the one that is there already, or a simpler one, or a new one.
-    pub fn op(&mut self, op: Op, width: u32, operands: &[ValueId]) -> ValueId {
-        let constants = operands
-            .iter()
-            .map(|id| Some(Bits { value: self.as_constant(*id)?, width: self.width(*id) }))
-            .collect::<Option<Vec<Bits>>>();
-        if let Some(constants) = constants {
-            return self.constant(width, op.value(width, &constants));
-        }
-        match simpler(self, op, width, operands) {
-            Some(Simpler::Same(id)) => id,
-            Some(Simpler::Constant(value)) => self.constant(width, value),
-            Some(Simpler::Op(op, operands)) => self.op(op, width, &operands),
-            Some(Simpler::NotOf(op, operands)) => {
-                let inner = self.op(op, width, &operands);
-                self.op(Op::Not, width, &[inner])
-            }
-            Some(Simpler::Sum(a, b, carry)) => {
-                let [a, b, carry] = [
-                    (a, Op::Slice { hi: width - 1, lo: 0 }),
-                    (b, Op::Slice { hi: width - 1, lo: 0 }),
-                    (carry, Op::ZeroExtend(width)),
-                ]
-                .map(|(part, op)| self.op(op, width, &[part]));
-                let sum = self.op(Op::Add, width, &[a, b]);
-                self.op(Op::Add, width, &[sum, carry])
-            }
-            None => self.shared(Kind::Op(op, operands.into()), width),
-        }
-    }
-
-    fn shared(&mut self, kind: Kind, width: u32) -> ValueId {
+    /// The value of this kind: the one that is there already, or a new one.
+    pub fn shared(&mut self, kind: Kind, width: u32) -> ValueId {
         let key = (kind, width);
         if let Some(id) = self.known.get(&key) {
             return *id;

@@ -7,8 +7,8 @@ use std::collections::HashMap;
 use crate::design::Design;
 use crate::error::JitError;
 use crate::graph::{Graph, Kind, ValueId};
-use crate::quiet::Wakes;
 use crate::tables::Tables;
+use crate::wakes::Wakes;
 
 /// Bytes of two words, which are copied at once.
 pub(crate) const PAIR: i32 = 16;

@@ -38,7 +38,7 @@ impl<'d> Readers<'d> {
             Readers { design, numbers, cones: Vec::new(), left: Vec::new(), early: BTreeMap::new() };
         readers.cones = readers.cones_but(&BTreeSet::new());
         for step in steps {
-            if let Step::Unit { unit, then } = step {
+            if let Step::Unit { unit, then, .. } = step {
                 readers.early.insert(*unit, readers.early_of(then));
             }
         }
@@ -100,14 +100,14 @@ impl<'d> Readers<'d> {
                     (Step::If { bit, then }, effect)
                 }
                 Step::Early(bits) => (Step::Early(bits), self.nothing()),
-                Step::Unit { unit, then } => {
+                Step::Unit { unit, gates, then } => {
                     let (mut then, mut effect) = self.with_effect(then);
                     let early = self.early.get(&unit).cloned().unwrap_or_default();
                     if !early.is_empty() {
                         early.iter().for_each(|bit| unite(&mut effect.reads, self.cone(*bit)));
                         then.insert(0, Step::Early(early));
                     }
-                    (Step::Unit { unit, then }, effect)
+                    (Step::Unit { unit, gates, then }, effect)
                 }
                 Step::Write(memory) => {
                     let mut effect = Effect { fills: Some(memory), ..self.nothing() };

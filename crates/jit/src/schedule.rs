@@ -27,7 +27,7 @@ pub(crate) fn schedule(design: &mut Design, groups: &[Group]) -> Vec<Step> {
             design.memories.iter().enumerate().filter(written).map(|(memory, _)| Step::Write(memory)),
         );
         if !then.is_empty() {
-            steps.push(Step::Unit { unit, then });
+            steps.push(Step::Unit { unit, gates: Vec::new(), then });
         }
     }
     steps

@@ -1,21 +1,20 @@
 //! Values that several steps of a clock need: they are kept in the state from the first that needs them on. In a register of
 //! the processor they would not stay till then.
 
-use crate::alone::{Alone, Choice};
-use crate::design::Design;
 use edgewalk_netlist::Op;
 
+use crate::design::Design;
 use crate::graph::{Graph, Kind, ValueId};
 use crate::groups::{Group, Member};
-use crate::quiet::Wakes;
+use crate::sink::{Choice, Sink};
 use crate::step::Step;
 use crate::tables::Tables;
 
 /// The values that are needed again after the step that works them out.
-pub(crate) fn shared(design: &Design, tables: &Tables, wakes: &Wakes, steps: &[Step]) -> Vec<ValueId> {
+pub(crate) fn shared(design: &Design, tables: &Tables, steps: &[Step]) -> Vec<ValueId> {
     let known = vec![0; design.graph.len()];
-    let (alone, undo, shared) = (Alone::new(&design.graph), Vec::new(), Vec::new());
-    let mut walk = Walk { design, tables, wakes, alone, known, undo, step: 1, shared };
+    let (sink, undo, shared) = (Sink::new(&design.graph), Vec::new(), Vec::new());
+    let mut walk = Walk { design, tables, sink, known, undo, step: 1, shared };
     let outputs: Vec<ValueId> = design.outputs.iter().map(|(_, value)| *value).collect();
     walk.look(outputs.clone());
     outputs.into_iter().for_each(|value| walk.need(value));
@@ -29,8 +28,7 @@ pub(crate) fn shared(design: &Design, tables: &Tables, wakes: &Wakes, steps: &[S
 struct Walk<'d> {
     design: &'d Design,
     tables: &'d Tables,
-    wakes: &'d Wakes,
-    alone: Alone,
+    sink: Sink,
     /// The step in which each value was worked out; 0 if it is not known here.
     known: Vec<u32>,
     /// What was known before, since the outermost branch began.
@@ -43,7 +41,7 @@ impl Walk<'_> {
     fn steps(&mut self, steps: &[Step]) {
         for step in steps {
             self.step += 1;
-            self.look(step.asked(self.design, self.wakes));
+            self.look(step.asked(self.design));
             match step {
                 Step::Change(group) => self.change(group, group.conditions.len()),
                 Step::Write(memory) => {
@@ -55,8 +53,8 @@ impl Walk<'_> {
                     }
                 }
                 Step::Early(bits) => bits.iter().for_each(|bit| self.need(*bit)),
-                Step::Unit { unit, then } => {
-                    self.wakes.gates(*unit).iter().for_each(|gate| self.need(*gate));
+                Step::Unit { gates, then, .. } => {
+                    gates.iter().for_each(|gate| self.need(*gate));
                     self.aside(|walk| walk.steps(then));
                 }
                 Step::If { bit, then } => {
@@ -96,8 +94,8 @@ impl Walk<'_> {
     }
 
     fn look(&mut self, asked: Vec<ValueId>) {
-        let Walk { design, tables, alone, known, .. } = self;
-        alone.look(&design.graph, tables, asked, |value| known[value.index()] != 0);
+        let Walk { design, tables, sink, known, .. } = self;
+        sink.look(&design.graph, tables, asked, |value| known[value.index()] != 0);
     }
 
     /// Depth first with its own stack, as for what is lowered: an entry is a value, or a choice of which the arms are left.
@@ -113,7 +111,7 @@ impl Walk<'_> {
                 open.push((same, false));
                 continue;
             }
-            let choice = self.alone.choice(&self.design.graph, value);
+            let choice = self.sink.choice(&self.design.graph, value);
             if arms_are_left {
                 let arms = choice.iter().flat_map(Choice::arms);
                 arms.for_each(|arm| self.aside(|walk| walk.need(arm)));
@@ -133,7 +131,7 @@ impl Walk<'_> {
             if choice.is_some() {
                 open.push((value, true));
             }
-            let before = self.alone.before(&self.design.graph, self.tables, value);
+            let before = self.sink.before(&self.design.graph, self.tables, value);
             open.extend(before.into_iter().map(|value| (value, false)));
         }
     }

@@ -6,19 +6,20 @@ use std::sync::{Arc, OnceLock};
 use edgewalk_netlist::ops::mask;
 use edgewalk_netlist::{Netlist, SimError};
 
-use crate::apart::apart;
 use crate::code::{Code, Cost};
 use crate::elaborate::elaborate;
-use crate::equal::without_equals;
 use crate::error::JitError;
+use crate::free_running::free_running;
 use crate::groups::groups;
 use crate::layout::{Layout, Place};
-use crate::lower::{Plan, Program, is_computed};
+use crate::lower::{Plan, Program};
+use crate::merge_registers::merge_registers;
 use crate::order::Readers;
-use crate::quiet::wakes;
+use crate::places::ArrayPlaces;
 use crate::schedule::schedule;
 use crate::shared::shared;
-use crate::signs::Signs;
+use crate::sign_extended::Signs;
+use crate::skip_idle_units::wakes;
 use crate::state::State;
 use crate::step::Step;
 use crate::tables::Tables;
@@ -91,20 +92,20 @@ impl Simulator {
     /// # Errors
     /// If there is no code generator for this machine, or the netlist is larger than it can be.
     pub fn new(netlist: &Netlist) -> Result<Simulator, JitError> {
-        let mut design = apart(without_equals(elaborate(netlist)));
+        let mut design = free_running(merge_registers(elaborate(netlist)));
         let groups = groups(&mut design);
         let steps = schedule(&mut design, &groups);
         let readers = Readers::of(&design, &steps);
         let mut steps = readers.ordered(steps);
-        let (wakes, signs) = (wakes(&design, &readers, &groups, &steps), Signs::of(&design));
+        let (wakes, signs) = (wakes(&design, &readers, &groups, &mut steps), Signs::of(&design));
         // Before any of what they follow from changes.
         steps.insert(0, Step::Early(wakes.all_gates()));
         let mut tables = Tables::of(&design.graph, &signs);
-        let shared = shared(&design, &tables, &wakes, &steps);
+        let shared = shared(&design, &tables, &steps);
         let layout = Layout::new(&design, &tables, &wakes, &shared)?;
-        tables.place_arrays(&layout);
+        let arrays = ArrayPlaces::new(&mut tables, &layout);
         let state = State::new(&design, &tables, &wakes, &layout);
-        let plan = Plan { design, steps, tables, signs, wakes, shared, layout };
+        let plan = Plan { design, steps, tables, arrays, signs, wakes, shared, layout };
         let clock = Code::new(Program::Clock, &plan)?;
         let compiled = Compiled { plan, clock, outputs: OnceLock::new(), signals: OnceLock::new() };
         Ok(Simulator { compiled: Arc::new(compiled), state, outputs_stale: true, signals_stale: true })
@@ -143,7 +144,7 @@ impl Simulator {
         let none = || SimError::NoSignal(path.to_owned());
         let value = *design.signals.get(path).ok_or_else(none)?;
         let place = layout.of(value).ok_or_else(none)?;
-        let needs = if !is_computed(&design.graph, value) {
+        let needs = if !design.graph.is_computed(value) {
             Needs::Nothing
         } else if design.outputs.iter().any(|(_, output)| *output == value) {
             Needs::Outputs

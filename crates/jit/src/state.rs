@@ -6,8 +6,8 @@ use edgewalk_netlist::ops::mask;
 use crate::design::Design;
 use crate::graph::ValueId;
 use crate::layout::{Area, Layout, Place};
-use crate::quiet::Wakes;
 use crate::tables::Tables;
+use crate::wakes::Wakes;
 
 /// One buffer with all signals, registers and memories.
 #[derive(Clone, Debug)]

@@ -3,7 +3,6 @@
 use crate::design::Design;
 use crate::graph::ValueId;
 use crate::groups::{Group, Member};
-use crate::quiet::Wakes;
 
 /// A step of a clock.
 #[derive(Clone, Debug)]
@@ -14,15 +13,15 @@ pub(crate) enum Step {
     Write(usize),
     /// Bits are worked out and kept, before what they follow from changes.
     Early(Vec<ValueId>),
-    /// All steps of a unit, which are left out while it stands still.
-    Unit { unit: usize, then: Vec<Step> },
+    /// All steps of a unit, which are left out while it stands still. Its gates are asked in every clock.
+    Unit { unit: usize, gates: Vec<ValueId>, then: Vec<Step> },
     /// Steps for when this bit is 1.
     If { bit: ValueId, then: Vec<Step> },
 }
 
 impl Step {
     /// All values that the step asks for, without those of steps in it.
-    pub fn asked(&self, design: &Design, wakes: &Wakes) -> Vec<ValueId> {
+    pub fn asked(&self, design: &Design) -> Vec<ValueId> {
         match self {
             Step::Change(group) => {
                 let mut asked = group.conditions.clone();
@@ -41,7 +40,7 @@ impl Step {
                 writes.flat_map(|write| [write.en, write.addr, write.data]).collect()
             }
             Step::Early(bits) => bits.clone(),
-            Step::Unit { unit, .. } => wakes.gates(*unit).to_vec(),
+            Step::Unit { gates, .. } => gates.clone(),
             Step::If { bit, .. } => vec![*bit],
         }
     }

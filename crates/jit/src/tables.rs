@@ -6,8 +6,7 @@ use edgewalk_netlist::ops::Bits;
 
 use crate::arrays::Array;
 use crate::graph::{Graph, Kind, ValueId};
-use crate::layout::Layout;
-use crate::signs::Signs;
+use crate::sign_extended::Signs;
 
 /// A value of so many bits or fewer can be an index: a table is a line of a cache at most.
 const INDEX_BITS: u32 = 6;
@@ -56,7 +55,8 @@ impl Tables {
                 && (*depth > 1 || is_bit(graph, id))
                 && graph.width(id) <= ENTRY_BITS
             {
-                let first = tables.place(entries);
+                let entries: Vec<u8> = entries.iter().map(|entry| *entry as u8).collect();
+                let first = tables.place(&entries);
                 tables.of[id.index()] = Some(Table { index: *index, first });
             }
             let bits = match graph.as_op(id, Op::Mux).map(|operands| &sources[operands[0].index()]) {
@@ -84,22 +84,15 @@ impl Tables {
         self.arrays[id.index()].as_ref()
     }
 
+    /// All arrays, with the values that are read from them.
+    pub fn arrays(&self) -> impl Iterator<Item = (usize, &Array)> {
+        self.arrays.iter().enumerate().filter_map(|(value, array)| Some((value, array.as_ref()?)))
+    }
+
     /// Bytes that all tables have room in, those of arrays too.
     pub fn room(&self) -> usize {
         let arrays = self.arrays.iter().flatten().filter(|array| array.registers.len() > 2);
         self.bytes.len() + arrays.map(|array| array.registers.len()).sum::<usize>()
-    }
-
-    /// Makes the tables of the arrays, when it is known where registers lie.
-    pub fn place_arrays(&mut self, layout: &Layout) {
-        for id in 0..self.arrays.len() {
-            let array = self.arrays[id].as_ref().filter(|array| array.registers.len() > 2);
-            if let Some((_, words)) = array.and_then(|array| array.places(layout)) {
-                let entries: Vec<u128> = words.into_iter().map(u128::from).collect();
-                let table = Some(self.place(&entries));
-                self.arrays[id].iter_mut().for_each(|array| array.table = table);
-            }
-        }
     }
 
     /// What must be there to compute the value: its index if it is looked up, else its operands.
@@ -111,9 +104,8 @@ impl Tables {
         }
     }
 
-    /// The same entries may be there already.
-    fn place(&mut self, entries: &[u128]) -> usize {
-        let entries: Vec<u8> = entries.iter().map(|entry| *entry as u8).collect();
+    /// Where these entries begin; they may be there already.
+    pub fn place(&mut self, entries: &[u8]) -> usize {
         let there = self.bytes.windows(entries.len()).position(|there| there == entries);
         there.unwrap_or_else(|| {
             let first = self.bytes.len();

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)] // a test may
 
 mod common {
-    pub mod apart;
+    pub mod free_running;
     pub mod carry;
     pub mod enables;
     pub mod named;
@@ -116,11 +116,11 @@ fn units_that_stand_still() {
 
 /// Counters that run on while their unit stands still, and registers that stand still while it works.
 #[test]
-fn registers_apart_from_their_unit() {
+fn free_running_and_calm_registers_agree() {
     let mut random = Pcg64Mcg::new(9);
     let mut compared = 0;
     for _ in 0..60 {
-        let mut pair = Pair::new(&common::apart::module(&mut random));
+        let mut pair = Pair::new(&common::free_running::module(&mut random));
         let mut cycle = 0;
         for _ in 0..25 {
             let [go, load] = [0.4, 0.3].map(|often| random.random_bool(often));

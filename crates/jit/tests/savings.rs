@@ -396,7 +396,7 @@ fn choices_among_registers() {
 
 /// Registers in a unit of their own: a counter that its unit does not see, and what follows from registers that stay for a while.
 #[test]
-fn registers_apart() {
+fn free_running_and_calm_registers_get_units() {
     let mut costs = String::new();
     for (name, hides) in [("a counter that a bit hides", true), ("a counter that is seen", false)] {
         costs += &line(name, |m| {
@@ -451,5 +451,5 @@ fn registers_apart() {
             m.output("sum", other.output("sum"));
         });
     }
-    expect_file!["snapshots/apart.txt"].assert_eq(&costs);
+    expect_file!["snapshots/free_running.txt"].assert_eq(&costs);
 }

@@ -8,6 +8,7 @@
 //! ```
 //! Errors are against the exact plane through the unquantised vertices, in LSB of the machine's output.
 
+mod counts;
 mod channel;
 mod order;
 mod layers;
@@ -18,13 +19,14 @@ mod tests;
 use crate::shaded::{Allowed, Shaded};
 use crate::verdict::Verdict;
 use channel::Tally;
-pub use channel::{ExtraError, Spread};
+pub use channel::{ChannelError, DepthAndColor, ExtraError, Spread};
+pub use counts::Counts;
 use edgewalk_host::extra;
-use edgewalk_host::raster::Raster;
+use edgewalk_host::raster::{Cycles, Raster};
 use edgewalk_host::reach::Reach;
 use edgewalk_host::shade::Proof;
 use edgewalk_machine::Plan;
-use edgewalk_scene::Frame;
+use edgewalk_scene::{Blending, Frame};
 use layers::Layers;
 pub use layers::{Blended, Errors};
 pub use lit::{Lights, Lit, Seen};
@@ -34,69 +36,24 @@ use serde::Serialize;
 /// What the comparison found.
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
-    /// Pixels whose coverage was compared.
-    pub pixels: u64,
-    /// Pixels of the machine's screen.
-    pub screen: u64,
-    /// Pixels where another number of triangles covers.
-    pub coverage_mismatches: u64,
-    /// Pixels that golden covers.
-    pub covered: u64,
-    /// Those of them whose triangle, number of writes, depth, colour and values of the user's own were compared.
-    pub compared: u64,
-    /// Pixels that show another triangle, or were written another number of times, as two depths there are too near for the
-    /// bound to tell their order (bound 7).
-    pub order_undecided: u64,
-    /// Pixels where no such order explains it.
-    pub order_wrong: u64,
-    /// Pixels that show no triangle, and not the cleared depth, colour and values of the user's own either.
-    pub background_wrong: u64,
-    /// Pixels of which a value left its range and wrapped.
-    pub wrapped: u64,
-    /// Cycles of the machine without a cause, or with two.
-    pub cycles_unexplained: u64,
-    /// Largest depth error, LSB.
-    pub z_error: f64,
-    /// Largest colour error, LSB.
-    pub color_error: f64,
-    /// How the depth errors are spread.
-    pub z_spread: Spread,
-    /// How the errors of red, green and blue are spread.
-    pub color_spread: Spread,
-    /// Proved bound of the depth error, LSB; none where depths may wrap.
-    pub z_bound: Option<f64>,
-    /// Proved bound of the colour error, LSB; none where colours may wrap.
-    pub color_bound: Option<f64>,
-    /// The most additions behind a pixel of these triangles.
-    pub additions: Option<u64>,
-    /// Proved bound of the depth error for these triangles, LSB.
-    pub z_bound_for_input: Option<f64>,
-    /// Proved bound of the colour error for these triangles, LSB.
-    pub color_bound_for_input: Option<f64>,
-    /// Why there is none of the depth.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub z_no_bound: Option<String>,
-    /// Why there is none of the colour.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub color_no_bound: Option<String>,
-    /// Of a blended picture, whose colours have a bound at each pixel in place of `color_bound`.
+    /// Pixels compared, and those that are wrong.
+    #[serde(flatten)]
+    pub counts: Counts,
+    /// Errors of depth and colour, with their bounds.
+    #[serde(flatten)]
+    pub errors: DepthAndColor,
+    /// Of a blended picture, whose colours have a bound at each pixel in place of that of `errors`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blended: Option<Blended>,
     /// Of a picture under a light.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lit: Option<Lit>,
-    /// Of a picture shaded at each pixel, whose colours have the bound of their triangle in place of `color_bound`.
+    /// Of a picture shaded at each pixel, whose colours have the bound of their triangle in place of that of `errors`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shaded: Option<Shaded>,
     /// Channels of the user's own.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<ExtraError>,
-    /// Depth error of every pixel, LSB.
-    #[serde(skip)]
-    pub z_map: Vec<f64>,
-    /// Largest colour error of every pixel, LSB.
-    #[serde(skip)]
-    pub color_map: Vec<f64>,
 }
 
 /// Compares the pictures of `frame`, which has triangles only, with what is proved of the machine alone.
@@ -142,165 +99,207 @@ fn compared(
     golden: &Raster,
     drawn: &Raster,
     reach: Option<&Reach>,
-    mut allowed: Option<Allowed>,
+    allowed: Option<Allowed>,
 ) -> Comparison {
-    let mut tally = Tally::new(machine, golden, drawn);
-    let mut c = Comparison {
-        pixels: 0,
-        screen: u64::from(machine.width) * u64::from(machine.height),
-        coverage_mismatches: 0,
-        covered: golden.coverage.iter().map(|count| u64::from(*count > 0)).sum(),
-        compared: 0,
-        order_undecided: 0,
-        order_wrong: 0,
-        background_wrong: 0,
-        wrapped: 0,
-        cycles_unexplained: drawn.cycles.as_ref().map_or(0, |cycles| cycles.unexplained()),
-        z_error: 0.0,
-        color_error: 0.0,
-        z_spread: Spread::default(),
-        color_spread: Spread::default(),
-        additions: None,
-        z_bound_for_input: None,
-        color_bound_for_input: None,
-        z_bound: tally.z.bound(),
-        color_bound: tally.color.bound(),
-        z_no_bound: tally.z.no_bound(),
-        color_no_bound: tally.color.no_bound(),
-        blended: None,
-        lit: None,
-        shaded: None,
-        extra: Vec::new(),
-        z_map: Vec::new(),
-        color_map: Vec::new(),
-    };
     let mut light = Lights::drawn(machine, frame, drawn, reach);
     if let Some(layers) = Layers::of(machine, frame, light.as_mut()) {
-        blended(&mut c, &mut tally, &layers, frame, golden, light.as_mut());
-        c.lit = light.map(Lights::found);
-        return finished(c, tally, machine);
+        let mut tally = Tally::new(machine);
+        let mut counts = Counts::new(machine, drawn.cycles.as_ref());
+        let found = blended(&mut counts, &mut tally, &layers, frame, (golden, drawn), light.as_mut());
+        let maps = [tally.z.map(), tally.color.map()];
+        let mut c = Comparison::of(machine, counts, tally);
+        c.errors.color.bounded_elsewhere("each pixel has that of its layers");
+        return Comparison { blended: Some(found), lit: light.map(Lights::found), ..c }.with_maps(maps);
     }
-    let mut differ = Vec::new();
-    for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
-        c.pixels += 1;
-        c.coverage_mismatches += u64::from(golden.coverage[i] != drawn.coverage[i]);
-        if (golden.id[i], golden.writes[i]) != (drawn.id[i], drawn.writes[i]) {
-            differ.push(i);
-            continue;
-        }
-        if golden.id[i] >= 0 {
-            let agrees = light.as_mut().is_none_or(|light| light.agrees(i, golden, drawn));
-            let mut over = Over::golden(golden, i);
-            if let Some(allowed) = &mut allowed {
-                let one = machine.color.max() as f64;
-                over.rgb = allowed.at(i, golden.id[i], golden.rgb[i], drawn.rgb[i], one);
-            }
-            if agrees {
-                tally.triangle(i, golden.z[i], &over);
-            } else {
-                tally.depth(i, golden.z[i]); // the colour is another
-            }
-        } else {
-            c.background_wrong += u64::from(!tally.is_background(i, frame.clear));
-        }
-        c.compared += u64::from(golden.coverage[i] > 0);
+    let mut bands = Bands { light, allowed, ..Bands::new(machine, frame, drawn.cycles.as_ref(), reach) };
+    let maps = bands.add(golden, drawn);
+    bands.ended().with_maps(maps)
+}
+
+/// Two pictures compared from the top, a band of lines at a time: neither need be in memory as a whole.
+pub struct Bands<'a> {
+    machine: &'a Plan,
+    frame: &'a Frame,
+    reach: Option<&'a Reach>,
+    counts: Counts,
+    tally: Tally,
+    /// Of a picture that is one band.
+    light: Option<Lights<'a>>,
+    /// Likewise.
+    allowed: Option<Allowed<'a>>,
+}
+
+impl<'a> Bands<'a> {
+    /// Whether the comparison of a frame can go by bands: where it is blended, lit or shaded at each pixel it needs the whole picture.
+    #[must_use]
+    pub fn suit(frame: &Frame) -> bool {
+        let plain = frame.shadows.is_empty() && frame.shading.is_none();
+        plain && matches!(&frame.passes()[..], [pass] if pass.state.blend == Blending::Off)
     }
-    let orders = Orders::new(machine, frame, &differ, reach);
-    for i in differ {
-        match orders.explain(i, drawn.id[i], drawn.writes[i]) {
-            Some(shown) => {
-                c.order_undecided += 1;
-                match shown {
-                    // Its colour hangs on the light, or is not that of a plane; which pixels these are hangs on depths alone.
-                    Some(shown) if light.is_some() || allowed.is_some() => {
-                        tally.depth(i, if frame.depth_write { shown.z } else { 1.0 })
-                    }
-                    Some(shown) => tally.triangle(i, if frame.depth_write { shown.z } else { 1.0 }, &shown),
-                    None => c.background_wrong += u64::from(!tally.is_background(i, frame.clear)),
+
+    /// Nothing compared yet of a frame that [suits](Bands::suit) and its picture, which took the machine so many cycles.
+    #[must_use]
+    pub fn new(
+        machine: &'a Plan,
+        frame: &'a Frame,
+        cycles: Option<&Cycles>,
+        reach: Option<&'a Reach>,
+    ) -> Self {
+        let (counts, tally) = (Counts::new(machine, cycles), Tally::new(machine));
+        Bands { machine, frame, reach, counts, tally, light: None, allowed: None }
+    }
+
+    /// Compares the next lines; gives the errors of depth and of colour of each of their pixels, LSB.
+    pub fn add(&mut self, golden: &Raster, drawn: &Raster) -> [Vec<f64>; 2] {
+        let Bands { machine, frame, reach, counts: c, tally, light, allowed } = self;
+        let first = c.pixels as usize;
+        tally.begin(golden.coverage.len());
+        c.covered += golden.coverage.iter().map(|count| u64::from(*count > 0)).sum::<u64>();
+        let mut differ = Vec::new();
+        for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
+            c.covers(golden.coverage[i], drawn.coverage[i]);
+            if (golden.id[i], golden.writes[i]) != (drawn.id[i], drawn.writes[i]) {
+                differ.push(first + i);
+                continue;
+            }
+            if golden.id[i] >= 0 {
+                let agrees = light.as_mut().is_none_or(|light| light.agrees(i, golden, drawn));
+                let mut over = Over::golden(golden, i);
+                if let Some(allowed) = allowed {
+                    let one = machine.color.max() as f64;
+                    over.rgb = allowed.at(i, golden.id[i], golden.rgb[i], drawn.rgb[i], one);
                 }
+                if agrees {
+                    tally.triangle(i, golden.z[i], &over, drawn);
+                } else {
+                    tally.depth(i, golden.z[i], drawn); // the colour is another
+                }
+            } else {
+                c.background_wrong += u64::from(!tally.is_background(i, frame.clear, drawn));
             }
-            None => c.order_wrong += 1,
+            c.compared += u64::from(golden.coverage[i] > 0);
         }
-        c.compared += u64::from(golden.coverage[i] > 0);
+        // The colour of these hangs on the light, or is not that of a plane; which pixels these are hangs on depths alone.
+        let depth_alone = light.is_some() || allowed.is_some();
+        let stored = |shown: &Over| if frame.depth_write { shown.z } else { 1.0 };
+        let orders = Orders::new(machine, frame, &differ, *reach);
+        for pixel in differ {
+            let i = pixel - first;
+            match orders.explain(pixel, drawn.id[i], drawn.writes[i]) {
+                Some(shown) => {
+                    c.order_undecided += 1;
+                    match shown {
+                        Some(shown) if depth_alone => tally.depth(i, stored(&shown), drawn),
+                        Some(shown) => tally.triangle(i, stored(&shown), &shown, drawn),
+                        None => c.background_wrong += u64::from(!tally.is_background(i, frame.clear, drawn)),
+                    }
+                }
+                None => c.order_wrong += 1,
+            }
+            c.compared += u64::from(golden.coverage[i] > 0);
+        }
+        [tally.z.map(), tally.color.map()]
     }
-    if let Some(allowed) = allowed {
-        c.shaded = Some(allowed.found());
-        c.color_bound = None;
-        c.color_no_bound = Some("each triangle has that of its terms and tables".to_owned());
+
+    /// What all lines together come to, without the errors of every pixel.
+    #[must_use]
+    pub fn found(self) -> Comparison {
+        let (machine, reach) = (self.machine, self.reach);
+        let c = self.ended();
+        match reach {
+            Some(reach) => c.reaching(machine, reach),
+            None => c,
+        }
     }
-    c = finished(c, tally, machine);
-    if let Some(light) = light {
-        c.color_bound = c.color_bound.map(|bound| light.color_bound(bound));
-        c.lit = Some(light.found());
+
+    fn ended(self) -> Comparison {
+        let Bands { machine, counts, tally, light, allowed, .. } = self;
+        let mut c = Comparison::of(machine, counts, tally);
+        if let Some(allowed) = allowed {
+            c.shaded = Some(allowed.found());
+            c.errors.color.bounded_elsewhere("each triangle has that of its terms and tables");
+        }
+        if let Some(light) = light {
+            c.errors.color.bound = c.errors.color.bound.map(|bound| light.color_bound(bound));
+            c.lit = Some(light.found());
+        }
+        c
     }
-    c
 }
 
 /// Every pixel where all depth tests are sure: there all layers must be golden's, and the colour within their bound.
 fn blended(
-    c: &mut Comparison,
+    c: &mut Counts,
     tally: &mut Tally,
     layers: &Layers,
     frame: &Frame,
-    golden: &Raster,
+    (golden, drawn): (&Raster, &Raster),
     mut light: Option<&mut Lights>,
-) {
+) -> Blended {
     let mut found = Blended::default();
-    for i in 0..golden.coverage.len().min(tally.drawn.coverage.len()) {
-        c.pixels += 1;
-        c.coverage_mismatches += u64::from(golden.coverage[i] != tally.drawn.coverage[i]);
+    tally.begin(golden.coverage.len());
+    c.covered = golden.coverage.iter().map(|count| u64::from(*count > 0)).sum();
+    for i in 0..golden.coverage.len().min(drawn.coverage.len()) {
+        c.covers(golden.coverage[i], drawn.coverage[i]);
         c.compared += u64::from(golden.coverage[i] > 0);
         if layers.open[i] {
             c.order_undecided += 1;
-        } else if (golden.id[i], golden.writes[i]) != (tally.drawn.id[i], tally.drawn.writes[i]) {
+        } else if (golden.id[i], golden.writes[i]) != (drawn.id[i], drawn.writes[i]) {
             c.order_wrong += 1;
         } else if golden.id[i] >= 0 {
             let alike = light.as_mut().is_none_or(|light| {
                 if layers.loose[i] {
                     light.loose();
                 }
-                light.decided(i, golden, tally.drawn, Some(layers.last[i])) && !layers.loose[i]
+                light.decided(i, golden, drawn, Some(layers.last[i])) && !layers.loose[i]
             });
             if alike {
-                tally.triangle(i, golden.z[i], &Over::golden(golden, i));
+                tally.triangle(i, golden.z[i], &Over::golden(golden, i), drawn);
             } else {
-                tally.depth(i, golden.z[i]); // the colour may be another
+                tally.depth(i, golden.z[i], drawn); // the colour may be another
             }
-            let error = tally.color_error(golden.rgb[i], i);
+            let error = tally.color_error(golden.rgb[i], i, drawn);
             found.pixels += 1;
             found.layers = found.layers.max(layers.stored[i]);
             found.bound = found.bound.max(layers.bound[i]);
             found.of_bound = found.of_bound.max(error / layers.bound[i]);
             found.beyond += u64::from(error.is_nan() || error > layers.bound[i] + 1e-9);
         } else if golden.z[i] == 1.0 {
-            c.background_wrong += u64::from(!tally.is_background(i, frame.clear));
+            c.background_wrong += u64::from(!tally.is_background(i, frame.clear, drawn));
         } else {
-            c.background_wrong += u64::from(!tally.depth_only(i, golden.z[i], frame.clear));
+            c.background_wrong += u64::from(!tally.depth_only(i, golden.z[i], frame.clear, drawn));
         }
     }
-    c.blended = Some(found);
-    c.color_bound = None;
-    c.color_no_bound = Some("each pixel has that of its layers".to_owned());
-}
-
-/// The same with what all pixels together come to.
-fn finished(mut c: Comparison, tally: Tally, machine: &Plan) -> Comparison {
-    c.wrapped = tally.wrapped;
-    c.extra = tally.extra.into_iter().map(|errors| ExtraError::of(errors, machine)).collect();
-    (c.z_error, c.z_spread, c.z_map) = tally.z.found();
-    (c.color_error, c.color_spread, c.color_map) = tally.color.found();
-    c
+    found
 }
 
 impl Comparison {
+    /// What all pixels together come to.
+    fn of(machine: &Plan, counts: Counts, tally: Tally) -> Self {
+        Comparison {
+            counts: Counts { wrapped: tally.wrapped, ..counts },
+            errors: DepthAndColor { additions: None, z: tally.z.found(), color: tally.color.found() },
+            blended: None,
+            lit: None,
+            shaded: None,
+            extra: tally.extra.into_iter().map(|errors| ExtraError::of(errors, machine)).collect(),
+        }
+    }
+
+    /// With the errors of depth and colour of every pixel.
+    fn with_maps(mut self, maps: [Vec<f64>; 2]) -> Self {
+        [self.errors.z.map, self.errors.color.map] = maps;
+        self
+    }
+
     /// With what is proved for these triangles: there are no more additions behind any of their pixels.
     fn reaching(mut self, machine: &Plan, reach: &Reach) -> Self {
         let channels = machine.channels();
-        self.additions = Some(reach.steps.total());
-        self.z_bound_for_input = reach.bound(machine, &channels[0]);
+        self.errors.additions = Some(reach.steps.total());
+        self.errors.z.bound_for_input = reach.bound(machine, &channels[0]);
         // Under a light the gate's part comes on top of it; what is shaded has its own.
         let color = reach.bound(machine, &channels[1]);
-        self.color_bound_for_input = color.filter(|_| self.lit.is_none() && self.shaded.is_none());
+        self.errors.color.bound_for_input = color.filter(|_| self.lit.is_none() && self.shaded.is_none());
         for (own, channel) in self.extra.iter_mut().zip(extra::channels(machine)) {
             own.bound_for_input = reach.bound(machine, channel);
             own.allowed = own.bound_for_input.unwrap_or(own.allowed);
@@ -310,32 +309,39 @@ impl Comparison {
 
     /// Without the errors of every pixel.
     #[must_use]
-    pub fn without_maps(self) -> Self {
-        Comparison { z_map: Vec::new(), color_map: Vec::new(), ..self }
+    pub fn without_maps(mut self) -> Self {
+        self.errors.z.map.clear();
+        self.errors.color.map.clear();
+        self
     }
 
     /// Pass only if all of the screen and all that golden covers was compared, every coverage and order agrees, nothing
     /// wrapped, every cycle has its cause, and every error is within its bound; where none is proved, within 1 LSB (of a floor
     /// 1 1/2).
     pub fn verdict(&self) -> Verdict {
-        let beyond = |error: f64, bound: Option<f64>| {
-            let allowed = bound.unwrap_or(1.0);
-            u64::from(error.is_nan() || error > allowed)
+        let color = match (self.blended, self.shaded) {
+            (Some(blended), _) => blended.beyond,
+            (None, Some(shaded)) => shaded.beyond,
+            (None, None) => self.errors.color.beyond(),
         };
-        let wrong = self.coverage_mismatches
-            + self.order_wrong
-            + self.background_wrong
-            + self.wrapped
-            + self.cycles_unexplained
-            + beyond(self.z_error, self.z_bound_for_input.or(self.z_bound))
-            + match (self.blended, self.shaded) {
-                (Some(blended), _) => blended.beyond,
-                (None, Some(shaded)) => shaded.beyond,
-                (None, None) => beyond(self.color_error, self.color_bound_for_input.or(self.color_bound)),
-            }
+        let wrong = self.counts.wrong()
+            + self.errors.z.beyond()
+            + color
             + self.lit.map_or(0, |lit| lit.unexplained)
             + self.shaded.and_then(|shaded| shaded.texels).map_or(0, |texels| texels.unexplained)
-            + self.extra.iter().map(|own| beyond(own.error, Some(own.allowed))).sum::<u64>();
-        Verdict::of(self.compared, self.covered, wrong).and(Verdict::of(self.pixels, self.screen, wrong))
+            + self.extra.iter().map(ExtraError::beyond).sum::<u64>();
+        let Counts { compared, covered, pixels, screen, .. } = self.counts;
+        Verdict::of(compared, covered, wrong).and(Verdict::of(pixels, screen, wrong))
+    }
+
+    /// As lines of text.
+    #[must_use]
+    pub fn lines(&self) -> String {
+        let mut t = self.counts.lines_of_coverage() + &self.errors.lines();
+        t += &self.blended.as_ref().map(Blended::lines).unwrap_or_default();
+        t += &self.lit.as_ref().map(Lit::lines).unwrap_or_default();
+        t += &self.shaded.as_ref().map(Shaded::lines).unwrap_or_default();
+        self.extra.iter().for_each(|own| t += &own.line());
+        t + &self.counts.lines_of_order()
     }
 }

@@ -10,6 +10,7 @@
 pub mod verdict;
 pub mod shaded;
 pub mod compare;
+pub mod beside;
 pub mod passes;
 pub mod setup_report;
 pub mod occupancy;

@@ -90,28 +90,32 @@ impl Passes {
     /// What the picture's colours may err by, LSB: every pass as much as one.
     #[must_use]
     pub fn color_bound(&self) -> Option<f64> {
-        self.parts.iter().map(|part| part.color_bound_for_input.or(part.color_bound)).sum()
+        let bounds = self.parts.iter().map(|part| &part.errors.color);
+        bounds.map(|color| color.bound_for_input.or(color.bound)).sum()
     }
 
     /// Pass only if every part passes, and all of the screen is their sum within the parts' bounds.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
-        let screen = self.parts.first().map_or(0, |part| part.screen);
+        let screen = self.parts.first().map_or(0, |part| part.counts.screen);
         let beyond = self.color_bound().is_some_and(|bound| self.color_error > bound + 1e-9);
         let whole = Verdict::of(self.added, screen, self.wrong + u64::from(beyond));
         self.parts.iter().map(Comparison::verdict).fold(whole, Verdict::and)
     }
 
-    /// The same in words.
+    /// As lines of text.
     #[must_use]
-    pub fn text(&self) -> String {
+    pub fn lines(&self) -> String {
         let mut t = String::new();
         for (place, part) in self.parts.iter().enumerate() {
             let name = if place == 0 { "ambient".to_owned() } else { format!("light {place}") };
             _ = write!(
                 t,
                 "{name}: coverage mismatches {} of {}, largest errors z {:.4}, colour {:.4} LSB",
-                part.coverage_mismatches, part.pixels, part.z_error, part.color_error
+                part.counts.coverage_mismatches,
+                part.counts.pixels,
+                part.errors.z.error,
+                part.errors.color.error
             );
             if let Some(lit) = &part.lit {
                 _ = write!(

@@ -1,12 +1,14 @@
 //! What SETUP does with the triangles of a picture: its clocks, and what becomes of each.
 
+use crate::occupancy::ratio;
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::edge::Edge;
 use edgewalk_model::setup::Setup;
 use edgewalk_model::span::Span;
 use edgewalk_model::tokens::Prim;
 use edgewalk_model::{Culled, Events, for_channels, longest_setup};
-use serde_json::{Map, Value, json};
+use serde::{Serialize, Serializer};
+use serde_json::{Map, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -115,8 +117,26 @@ impl SetupReport {
         (ratio(sum, count), most_do.map_or(0, |(clocks, _)| *clocks), most.copied().unwrap_or(0))
     }
 
-    /// As JSON.
-    pub fn value(&self) -> Value {
+    /// As three lines of text.
+    #[must_use]
+    pub fn lines(&self) -> String {
+        let (mean, most_do, most) = self.spread();
+        let mut t = format!(
+            "setup clocks of a triangle that is not culled: mean {mean:.1}, 95 % at most {most_do}, most {most}, bound {}\n",
+            self.longest
+        );
+        let list = |names: &mut dyn Iterator<Item = &str>, counts: &[u64]| {
+            names.zip(counts).map(|(name, count)| format!("{name} {count}")).collect::<Vec<_>>().join(", ")
+        };
+        // Writing to a string cannot fail.
+        _ = writeln!(t, "triangles: {}", list(&mut FATES.iter().map(|fate| fate.1), &self.fates));
+        _ = writeln!(t, "triangles by pixels: {}", list(&mut SIZES.iter().map(|size| size.0), &self.sizes));
+        t
+    }
+}
+
+impl Serialize for SetupReport {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let named = |names: &mut dyn Iterator<Item = &str>, counts: &[u64]| {
             names.zip(counts).map(|(name, count)| (name.to_owned(), json!(count))).collect::<Map<_, _>>()
         };
@@ -132,22 +152,7 @@ impl SetupReport {
             "triangles": named(&mut FATES.iter().map(|fate| fate.0), &self.fates),
             "by_pixels": named(&mut SIZES.iter().map(|size| size.0), &self.sizes),
         })
-    }
-
-    /// As three lines of text.
-    pub fn text(&self) -> String {
-        let (mean, most_do, most) = self.spread();
-        let mut t = format!(
-            "setup clocks of a triangle that is not culled: mean {mean:.1}, 95 % at most {most_do}, most {most}, bound {}\n",
-            self.longest
-        );
-        let list = |names: &mut dyn Iterator<Item = &str>, counts: &[u64]| {
-            names.zip(counts).map(|(name, count)| format!("{name} {count}")).collect::<Vec<_>>().join(", ")
-        };
-        // Writing to a string cannot fail.
-        _ = writeln!(t, "triangles: {}", list(&mut FATES.iter().map(|fate| fate.1), &self.fates));
-        _ = writeln!(t, "triangles by pixels: {}", list(&mut SIZES.iter().map(|size| size.0), &self.sizes));
-        t
+        .serialize(serializer)
     }
 }
 
@@ -168,8 +173,4 @@ fn pixels<const C: usize>(machine: &Plan, prim: &Prim<C>) -> u64 {
         edge.step(None, false, true, events);
     }
     pixels
-}
-
-fn ratio(part: u64, whole: u64) -> f64 {
-    if whole == 0 { 0.0 } else { part as f64 / whole as f64 }
 }

@@ -18,6 +18,10 @@ pub struct Shaded {
     pub error: f64,
     /// Largest bound of a triangle that is seen, LSB.
     pub bound: f64,
+    /// The first pixel with that bound: column, line.
+    pub bound_at: [usize; 2],
+    /// Pixels with a bound above 1 LSB.
+    pub bound_above_1: u64,
     /// The largest error over the bound of its triangle.
     pub of_bound: f64,
     /// Pixels where a light is so near to the horizon that it may be above or below, or which lie next to the edge of its cone.
@@ -52,6 +56,35 @@ pub struct Looked {
     pub flattened: u64,
 }
 
+impl Shaded {
+    /// As lines of text.
+    pub(crate) fn lines(&self) -> String {
+        let Shaded { pixels, error, of_bound, at_horizon, other_branch, beyond, .. } = self;
+        let bounds = self.bounds();
+        let Shaded { from_phong, mean_from_phong, texels, .. } = self;
+        let mut t = format!(
+            "shaded: {pixels} pixels, largest error {error:.4} LSB from golden, {bounds}, {of_bound:.4} of one reached, {beyond} beyond\n\
+             a light at the horizon in {at_horizon} of them, on its other side in {other_branch}; from Phong shading at most {from_phong:.4}, {mean_from_phong:.4} in the mean\n"
+        );
+        t += &texels.as_ref().map(Looked::lines).unwrap_or_default();
+        t
+    }
+
+    /// How large the bounds are, and where.
+    fn bounds(&self) -> String {
+        let ([x, y], above) = (self.bound_at, self.bound_above_1);
+        format!("bounds up to {:.4} at pixel {x},{y}, {above} above 1", self.bound)
+    }
+
+    /// As a line of text about one light of several, each drawn by itself.
+    pub(crate) fn line_of_light(&self, number: usize) -> String {
+        let (Shaded { pixels, error, beyond, .. }, bounds) = (self, self.bounds());
+        format!(
+            "light {number} by itself: {pixels} pixels, largest error {error:.4} LSB, {bounds}, {beyond} beyond\n"
+        )
+    }
+}
+
 /// Golden's colours beside those of its picture.
 pub(crate) struct Allowed<'a> {
     proof: &'a Proof,
@@ -60,6 +93,8 @@ pub(crate) struct Allowed<'a> {
     branches: HashMap<usize, Vec<[f64; 3]>>,
     /// Of Phong shading.
     phong: HashMap<usize, [f64; 3]>,
+    /// Pixels of a line.
+    width: usize,
     found: Shaded,
 }
 
@@ -97,7 +132,8 @@ impl<'a> Allowed<'a> {
                 }
             });
         }
-        Self { proof, branches, phong, found: Shaded { texels: looked, ..Shaded::default() } }
+        let width = frame.width as usize;
+        Self { proof, branches, phong, width, found: Shaded { texels: looked, ..Shaded::default() } }
     }
 
     /// What pixel `at`, which shows triangle `id`, should be: golden's colour there, or that of the horizon's other side if the
@@ -113,7 +149,10 @@ impl<'a> Allowed<'a> {
         let (error, found) = (off(&nearest), &mut self.found);
         found.pixels += 1;
         found.error = found.error.max(error);
-        found.bound = found.bound.max(bound);
+        if bound > found.bound {
+            (found.bound, found.bound_at) = (bound, [at % self.width, at / self.width]);
+        }
+        found.bound_above_1 += u64::from(bound > 1.0);
         found.of_bound = found.of_bound.max(error / bound);
         found.at_horizon += u64::from(list.len() > 1);
         found.other_branch += u64::from(list.len() > 1 && off(&list[0]) > bound && error <= bound);
@@ -132,6 +171,20 @@ impl<'a> Allowed<'a> {
 }
 
 impl Looked {
+    /// As lines of text.
+    fn lines(&self) -> String {
+        let Looked { pixels, bound, differ, unexplained, resampled, flattened } = self;
+        let mut t = format!(
+            "texels: {pixels} pixels, {differ} other than golden's, unexplained by places within {bound:.4} texels: {unexplained}; {resampled} another for their picture's sides\n"
+        );
+        if *flattened > 0 {
+            t += &format!(
+                "relief: steeper than the machine's words can say in {flattened} pixels, lower there and without a bound\n"
+            );
+        }
+        t
+    }
+
     /// Takes in a pixel that lies at `place` of its texture, `golden` the pictures' texel there; what the pictures have at the texel
     /// that the words name.
     fn take(&mut self, of: &Textured, pixel: [u32; 2], place: DVec2, golden: Texel) -> Texel {

@@ -1,7 +1,6 @@
 //! What the rig can drive: the model's machine and units, netlists, and whatever else has the same ports.
 
 mod tokens;
-mod terms;
 mod triangles;
 mod model;
 mod netlist;

@@ -20,7 +20,7 @@ use std::sync::Arc;
 #[derive(Debug, thiserror::Error)]
 pub enum DrawError {
     /// It cannot be built.
-    #[error("the netlist cannot be built: {0}")]
+    #[error("the netlist cannot be built")]
     Build(#[from] BuildErrors),
     /// It does not have the ports of a machine.
     #[error(transparent)]

@@ -31,7 +31,7 @@ pub use interface::{Direction, Interface, Link, Memory, MemoryWrite, Port, Statu
 pub use lockstep::{Agreement, Lockstep, LockstepError, lockstep};
 pub use rig::{MemorySetting, Rig, Setting};
 pub use stalls::{Pattern, StallKind, patterns};
-pub use unit::{Unit, UnknownUnit};
+pub use unit::Unit;
 pub use values::{PortId, PortValues};
 
 /// The values of a token's fields, in the order of the link's fields, each below 2^width.

@@ -1,22 +1,11 @@
 //! What is compared: a unit that the machine declares, or the machine as a whole.
 
-use edgewalk_machine::nearest::nearest;
-use edgewalk_machine::{Event, Plan, Ports, UNITS, UnitSpec};
+use edgewalk_machine::{Event, Plan, Ports, UNITS, UnitSpec, Unknown};
 use std::fmt;
 
 /// A declared unit, or the whole machine.
 #[derive(Clone, Copy)]
 pub struct Unit(Option<&'static UnitSpec>);
-
-/// No unit of that name.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("unknown unit {name}; nearest: {nearest}")]
-pub struct UnknownUnit {
-    /// What was asked for.
-    pub name: String,
-    /// The most similar name there is.
-    pub nearest: &'static str,
-}
 
 impl Unit {
     /// All units of a machine together.
@@ -49,11 +38,9 @@ impl Unit {
     ///
     /// # Errors
     /// An unknown name.
-    pub fn named(name: &str) -> Result<Unit, UnknownUnit> {
-        Unit::known().find(|unit| unit.name() == name).ok_or_else(|| UnknownUnit {
-            name: name.to_owned(),
-            nearest: nearest(name, Unit::known().map(Unit::name)),
-        })
+    pub fn named(name: &str) -> Result<Unit, Unknown> {
+        let unit = Unit::known().find(|unit| unit.name() == name);
+        unit.ok_or_else(|| Unknown::new("unit", name, Unit::known().map(Unit::name)))
     }
 
     /// The word for it, in files and directories.

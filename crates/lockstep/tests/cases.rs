@@ -31,7 +31,10 @@ fn a_case_is_read_back_as_it_was_written() {
 fn what_is_no_case_is_refused_with_the_key() {
     let refused = [
         ("colour = 1", "colour: no case has such a key"),
-        ("unit = \"pixl\"", "unit: unknown unit pixl; nearest: pixel"),
+        (
+            "unit = \"pixl\"",
+            "unit: unknown unit pixl; permitted: machine, setup, edge, span, term, pixel, texel, bump, normal, lamp, shade, project, shadow, depth, blend; nearest: pixel",
+        ),
         ("depth_func = \"less\"", "depth_func: a number in range is wanted"),
         ("tokens = [\"zz\"]", "tokens: \"zz\" is no token of tri: 324 bits in hex"),
         ("[unwilling]\nwrite = 1", "unwilling.write: one of tri, data, rd, wr"),

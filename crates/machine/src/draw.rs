@@ -58,6 +58,23 @@ impl DrawState {
     }
 }
 
+impl DrawState {
+    /// Sets the constant of that name; false: there is none.
+    pub fn set(&mut self, name: &str, value: u128) -> bool {
+        match name {
+            "depth_func" => self.depth_func = value as u8, // 3 bits
+            "depth_write" => self.depth_write = value == 1,
+            "color_write" => self.color_write = value == 1,
+            "blend_add" => self.blend_add = value == 1,
+            "shadow_on" => self.shadow_on = value == 1,
+            "light_pass" => self.light_pass = value == 1,
+            "ambient" => self.ambient = value as u64, // at most 16 bits
+            _ => return false,
+        }
+        true
+    }
+}
+
 /// Some triangles and their rules. The machine is idle before a pass begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pass {

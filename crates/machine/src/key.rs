@@ -110,11 +110,20 @@ impl Key {
         }
     }
 
-    /// The nearest permitted value to a refused one, for the error's hint.
+    /// Why a value is refused: what is permitted, and the nearest to it, if one is near.
     #[must_use]
-    pub fn nearest(&self, text: &str) -> String {
-        match self.domain {
-            Word(words) => crate::nearest::nearest(text, words.iter().copied()).to_owned(),
+    pub fn refusal(&self, text: &str) -> String {
+        let refused = format!("{} = {text} is not permitted ({})", self.name, self.permitted());
+        match self.nearest(text) {
+            Some(near) => format!("{refused}; nearest: {near}"),
+            None => refused,
+        }
+    }
+
+    /// The permitted value that is nearest to a refused one; none where every word is far.
+    fn nearest(&self, text: &str) -> Option<String> {
+        Some(match self.domain {
+            Word(words) => edgewalk_nearest::nearest(text, words.iter().copied())?.to_owned(),
             Range(low, high) => match text.parse::<f64>() {
                 Ok(v) => (v.round().clamp(f64::from(low), f64::from(high)) as u32).to_string(),
                 Err(_) => low.to_string(),
@@ -126,6 +135,6 @@ impl Key {
                     .min_by(|a, b| distance(a).total_cmp(&distance(b)))
                     .map_or_else(String::new, ToString::to_string)
             }
-        }
+        })
     }
 }

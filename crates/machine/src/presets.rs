@@ -7,8 +7,14 @@ use crate::machine::{EdgeKind, Fill, Hazard, Machine};
 pub const PRESETS: &[(&str, &str)] = &[
     ("default", "640x480, exact fill, 24-bit depth, 8-bit colour, one pixel a clock"),
     ("textbook", "chapter 7: integer vertices, inclusive spans, slopes, one shared adder pipeline"),
-    ("small", "240x160, 16-bit depth, 5-bit colour, one pixel a clock, one lane: for an iCE40 UP5K"),
-    ("ecp5", "640x480, 16-bit depth, 8-bit colour, one pixel a clock, one lane: for a small ECP5"),
+    (
+        "small",
+        "240x160, 16-bit depth, 5-bit colour, one pixel a clock, one lane: its cells fit an iCE40 UP5K, its memories do not",
+    ),
+    (
+        "ecp5",
+        "640x480, 16-bit depth, 8-bit colour, one pixel a clock, one lane: its cells fit a small ECP5, its memories do not",
+    ),
 ];
 
 impl Machine {

@@ -4,21 +4,11 @@ use crate::error::MachineError;
 use crate::key::{Domain, Key};
 use crate::keys::KEYS;
 use crate::machine::Machine;
-use crate::nearest::nearest;
 use crate::presets::PRESETS;
+use edgewalk_nearest::Unknown;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use toml::de::{DeTable, DeValue};
-
-fn find(name: &str) -> Result<&'static Key, MachineError> {
-    KEYS.iter().find(|k| k.name == name).ok_or_else(|| {
-        let name = &MachineError::shown(name);
-        let bare = nearest(name, KEYS.iter().filter_map(|k| k.name.split('.').nth(1)));
-        let dotted = KEYS.iter().find(|k| !name.contains('.') && k.name.ends_with(bare)).map(|k| k.name);
-        let close = dotted.unwrap_or_else(|| nearest(name, KEYS.iter().map(|k| k.name)));
-        MachineError::new(format!("unknown key {name}"), format!("nearest: {close}"))
-    })
-}
 
 impl Machine {
     /// Sets one key from text, as `--set key=value` does. The combination is not checked yet.
@@ -26,7 +16,7 @@ impl Machine {
     /// # Errors
     /// Unknown key, or a value outside its domain.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), MachineError> {
-        let key = find(name)?;
+        let key = Key::named(name)?;
         let number = key.parse(value).ok_or_else(|| MachineError::value(key, value))?;
         (key.set)(self, number);
         Ok(())
@@ -39,11 +29,9 @@ impl Machine {
     pub fn from_toml(text: &str) -> Result<Machine, MachineError> {
         let table = DeTable::parse(text).map_err(|e| {
             let offset = e.span().map_or(0, |s| s.start);
-            MachineError::new(
-                e.message().replace('\n', " "),
-                "a machine file is TOML: [section] and key = value".to_owned(),
-            )
-            .at(text, offset)
+            let what = e.message().replace('\n', " ");
+            MachineError::new(format!("{what}; a machine file is TOML: [section] and key = value"))
+                .at(text, offset)
         })?;
         let mut machine = Machine::default();
         for (section, value) in table.get_ref() {
@@ -51,20 +39,16 @@ impl Machine {
             match value.get_ref() {
                 DeValue::String(name) if section.get_ref().as_ref() == "preset" => {
                     machine = Machine::preset(name).ok_or_else(|| {
-                        let name = &MachineError::shown(name);
-                        let close = nearest(name, PRESETS.iter().map(|p| p.0));
-                        MachineError::new(format!("unknown preset {name}"), format!("nearest: {close}"))
-                            .at(text, place)
+                        let unknown =
+                            Unknown::new("preset", &MachineError::shown(name), PRESETS.iter().map(|p| p.0));
+                        MachineError::new(unknown.to_string()).at(text, place)
                     })?;
                 }
                 DeValue::Table(_) => {}
                 _ => {
                     let name = section.get_ref();
-                    let error = find(name).err().unwrap_or_else(|| {
-                        MachineError::new(
-                            format!("{name} stands outside its section"),
-                            "write [section]".to_owned(),
-                        )
+                    let error = Key::named(name).err().unwrap_or_else(|| {
+                        MachineError::new(format!("{name} stands outside its section; write [section]"))
                     });
                     return Err(error.at(text, place));
                 }
@@ -231,7 +215,10 @@ mod tests {
         let cases = [
             ("[screen]\nwidht = 3\n", "line 2: unknown key screen.widht; nearest: screen.width"),
             ("[screen]\nwidth = 0\n", "line 2: screen.width = 0 is not permitted (1 to 8192); nearest: 1"),
-            ("[setup]\nradix = 4\n", "line 2: unknown key setup.radix; nearest: setup.lanes"),
+            (
+                "[setup]\nradix = 4\n",
+                "line 2: unknown key setup.radix; `edgewalk config print` shows all keys",
+            ),
             ("[setup]\nlanes = 3\n", "line 2: setup.lanes = 3 is not permitted (1, 2, 4); nearest: 2"),
             (
                 "[edge]\nfill = \"textbok\"\n",
@@ -241,7 +228,10 @@ mod tests {
                 "[edge]\nfill = \"textbook\"\n",
                 "screen.subpixel_bits = 8 cannot be built: textbook fill takes integer vertices; try screen.subpixel_bits = 0",
             ),
-            ("preset = \"defalt\"\n", "line 1: unknown preset defalt; nearest: default"),
+            (
+                "preset = \"defalt\"\n",
+                "line 1: unknown preset defalt; permitted: default, textbook, small, ecp5; nearest: default",
+            ),
             (
                 "[formats]\nz_vertex = 16\n",
                 "formats.z_vertex = 16 cannot be built: a vertex cannot have more fraction bits than the interpolator (14); try formats.z_vertex = 14",
@@ -259,6 +249,8 @@ mod tests {
                 "channels.e0_vertex = 4 cannot be built: a vertex cannot have more fraction bits than the interpolator (2); try channels.e0_vertex = 2",
             ),
             ("width = 3\n", "line 1: unknown key width; nearest: screen.width"),
+            ("hazard = 3\n", "line 1: unknown key hazard; nearest: memory.hazard"),
+            ("[edge]\nfill = \"foo\"\n", "line 2: edge.fill = foo is not permitted (exact, textbook)"),
         ];
         for (text, message) in cases {
             assert_eq!(Machine::from_toml(text).expect_err(text).to_string(), message);

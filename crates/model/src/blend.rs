@@ -18,9 +18,11 @@
 mod view;
 
 use crate::Events;
+use crate::ports::{Pins, Ported, Shown};
 pub use crate::rmw::Block;
 use crate::rmw::{Outcome, Rmw};
 use crate::tokens::{ColorWrite, Fragment};
+use crate::word_memory::Ask;
 use edgewalk_machine::{BlendKind, Hazard, Plan};
 
 /// The unit's inputs of a cycle, but for the fragment; `color_write` is DEPTH's.
@@ -334,5 +336,39 @@ impl<const C: usize> Blend<C> {
                 events.blend.opaque_behind += u64::from(behind);
             }
         }
+    }
+}
+
+impl BlendInputs {
+    fn of<T, const C: usize>(pins: &Pins<T, C>) -> BlendInputs {
+        BlendInputs {
+            color_write: pins.state.color_write,
+            add: pins.state.blend_add,
+            crd_ready: pins.word.ready,
+            cdata: pins.word.word.map(|word| word as u64), // at most 48 bits
+            cwr_ready: pins.next,
+        }
+    }
+}
+
+impl<const C: usize> Ported<C> for Blend<C> {
+    type Takes = Fragment<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        let inputs = BlendInputs::of(pins);
+        out.takes(self.pass_ready(pins.token, &inputs));
+        out.gives(self.write().as_ref());
+        out.asks(Ask { addr: self.read(pins.token, inputs.add), take: self.cdata_ready(inputs.cwr_ready) });
+        out.status("color_hazard", self.block(pins.token, inputs.add) == Some(Block::Hazard));
+        out.status("color_full", self.full());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        self.step(pins.token, &BlendInputs::of(pins), events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

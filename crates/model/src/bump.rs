@@ -16,6 +16,7 @@ mod view;
 
 use crate::Events;
 use crate::lit::{Cosines, Given, Lit};
+use crate::ports::{Pins, Ported, Shown};
 use crate::stages::Stages;
 use edgewalk_machine::Plan;
 
@@ -130,4 +131,22 @@ fn cut(number: i64, bits: u32) -> (i32, bool) {
     let end = 1i64 << (bits - 1);
     let within = number.clamp(-end, end - 1);
     (within as i32, within != number) // at most 20 bits
+}
+
+impl<const C: usize> Ported<C> for Bump<C> {
+    type Takes = Lit<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.frag_ready(pins.next));
+        out.gives(self.bumped());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        self.step(pins.token.map(Lit::given), pins.next, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
+    }
 }

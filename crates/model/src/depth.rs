@@ -16,9 +16,11 @@
 mod view;
 
 use crate::Events;
+use crate::ports::{Pins, Ported, Shown};
 pub use crate::rmw::Block;
 use crate::rmw::{Retired, Rmw};
 use crate::tokens::{FEW, Fragment, Write};
+use crate::word_memory::Ask;
 use edgewalk_machine::{Hazard, Plan};
 
 /// The unit's inputs of a cycle, but for the fragment.
@@ -223,5 +225,52 @@ impl<const C: usize> Depth<C> {
             (Some(Block::Full), _) => events.depth.queue_full += 1,
             (None, _) => events.depth.memory_stall += 1,
         }
+    }
+}
+
+impl<const C: usize> Depth<C> {
+    /// With BLEND what is given goes on to it, and the write stands beside.
+    fn inputs(&self, pins: &Pins<Fragment<C>, C>) -> DepthInputs {
+        DepthInputs {
+            depth_func: pins.state.depth_func,
+            depth_write: pins.state.depth_write,
+            rd_ready: pins.word.ready,
+            data: pins.word.word.map(|word| word as u64), // at most 32 bits
+            wr_ready: if self.forks() { pins.write } else { pins.next },
+            color_write: pins.state.color_write,
+            pass_ready: self.forks() && pins.next,
+        }
+    }
+}
+
+impl<const C: usize> Ported<C> for Depth<C> {
+    type Takes = Fragment<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        let inputs = self.inputs(pins);
+        let block = self.block(pins.token, inputs.depth_write);
+        out.takes(inputs.rd_ready && block.is_none());
+        if self.forks() {
+            out.gives(self.pass());
+            out.writes(self.write().as_ref());
+        } else {
+            out.gives(self.write().as_ref());
+        }
+        let addr = pins.token.filter(|_| block.is_none()).map(|frag| frag.addr);
+        out.asks(Ask { addr, take: self.data_ready(inputs.wr_ready, inputs.pass_ready) });
+        out.status("hazard", block == Some(Block::Hazard));
+        // Without a fragment only a full queue blocks.
+        out.status("full", self.block(None, inputs.depth_write).is_some());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        let inputs = self.inputs(pins);
+        let block = self.block(pins.token, inputs.depth_write);
+        self.step(pins.token, block, &inputs, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

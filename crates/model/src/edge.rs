@@ -16,6 +16,7 @@ mod view;
 
 use crate::Events;
 use crate::counters::one_more;
+use crate::ports::{Held, Pins, Ported, Shown};
 use crate::tokens::{EdgeWalk, Line, Prim, Words, add, per_channel, word_masks};
 use edgewalk_machine::{Fill, Plan};
 
@@ -194,5 +195,24 @@ impl<const C: usize> Edge<C> {
                 u64::from(carry != negative)
             })
             .sum()
+    }
+}
+
+impl<const C: usize> Ported<C> for Edge<C> {
+    type Takes = Prim<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.prim_ready(pins.fresh_queued));
+        out.gives(self.line());
+        out.holds(&Held { gradient: *self.gradient(), kt: self.kt(), record: self.record() });
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        let fires = pins.next && self.line().is_some();
+        self.step(pins.token, pins.fresh_queued, fires, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

@@ -180,7 +180,7 @@ fn draw<const C: usize>(
             before = rig.model.counters().clone();
             spent.push(Counters::default());
         }
-        if let Some(count) = rig.take_step(plan, step, &mut maps) {
+        if let Some(count) = rig.memories.take_step(plan, step, &mut maps) {
             rig.draw(triangles.by_ref().take(count), |_, model, cycle| watch(light_pass, model, cycle))?;
             let pass = rig.model.counters().since(&before);
             spent.last_mut().into_iter().for_each(|last| last.clone_from(&pass));
@@ -210,26 +210,6 @@ fn draw<const C: usize>(
         passes: spent,
         events: rig.model.events().clone(),
     })
-}
-
-impl<const C: usize> Rig<C> {
-    /// Does what the host does in a step, but for [`Step::Draw`]: of that it gives how many triangles are to be drawn.
-    pub fn take_step(&mut self, plan: &Plan, step: Step, maps: &mut Maps) -> Option<usize> {
-        let memories = &mut self.memories;
-        match step {
-            Step::State(state) => memories.set_state(state),
-            Step::ClearDepth => memories.depth.clear_depth(plan),
-            Step::ClearMap => memories.clear_map(plan),
-            Step::LoadMap(number) => {
-                let words = maps.words(number).into_iter().flatten();
-                memories.write("map", 0, words.map(|word| u128::from(*word)));
-            }
-            Step::Record(triangle, record) => memories.write_record(plan, triangle, record),
-            Step::Draw(count) => return Some(count),
-            Step::StoreMap(number) => maps.keep(number, memories.drawn_map(plan)),
-        }
-        None
-    }
 }
 
 /// What happened at every address.

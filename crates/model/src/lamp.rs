@@ -17,6 +17,8 @@ use crate::Events;
 use crate::fetch::Fetch;
 use crate::lit::{Cosines, Given, Lit};
 use crate::normal::index;
+use crate::ports::{Pins, Ported, Shown};
+use crate::word_memory::Ask;
 use crate::word_memory::WordIn;
 use edgewalk_machine::Plan;
 
@@ -211,4 +213,25 @@ fn cut(number: i64, events: &mut Events) -> i64 {
     let within = number.clamp(-(1 << 17), (1 << 17) - 1);
     events.lamp.lamp_cut += u64::from(within != number);
     within
+}
+
+impl<const C: usize> Ported<C> for Lamp<C> {
+    type Takes = Lit<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.frag_ready(pins.next));
+        out.gives(self.normed());
+        out.asks(Ask { addr: self.read(), take: self.rdata_ready() });
+        out.status("table_wait", self.waits(pins.token.map(Lit::given)));
+        out.status("working", self.working());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        self.step(pins.token.map(Lit::given), &pins.word, pins.next, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
+    }
 }

@@ -11,6 +11,8 @@
 //! here fails on a planned machine but vertices of another.
 
 pub mod counters;
+pub mod named;
+pub mod ports;
 mod rmw;
 mod fetch;
 mod stages;
@@ -51,9 +53,10 @@ pub use edgewalk_machine::{Activity, DrawState, Events, Pass, Shading, first_of_
 pub use frame::{Drawn, Frame, Sample, render, render_passes, render_passes_with, render_with};
 pub use lit::{Cosines, Given, Lit};
 pub use machine::{BlendInputs, Inputs, Model, Outputs, ShadowInputs};
+pub use memories::Memories;
 pub use memory::{Memory, Stalls};
 pub use prefetch::prefetch;
-pub use run::{Cycle, Rig};
+pub use run::{Cycle, Rig, tick};
 pub use setup::{Culled, SetupClocks, cull, longest_setup, setup_clocks};
 pub use tokens::Write;
 pub use view::View;

@@ -1,7 +1,9 @@
 //! A fragment on its way from PIXEL to DEPTH, and what the shading units need beside it.
 
+use crate::named::{Named, Number, Place, Sourced, named};
 use crate::term::MAX_TERMS;
-use crate::tokens::Fragment;
+use crate::tokens::{Fragment, Source};
+use edgewalk_machine::Plan;
 
 /// Values beside a fragment: PIXEL gives the outputs of the terms, BUMP, NORMAL and LAMP put cosines in their place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -16,6 +18,17 @@ pub struct Cosines {
     pub beam: u32,
     /// From TEXEL to BUMP: slopes of the relief along u and v, 2^(ξ-1) for the largest.
     pub slopes: [i32; 2],
+}
+
+named! {
+    [] Cosines, |_| Cosines::NONE,
+    {
+        terms [nl0([0]), nh0([1]), nl1([2]), nh1([3])] terms [""()];
+        material [material()];
+        gloss [gloss()];
+        beam [beam()];
+        slopes [bu([0]), bv([1])];
+    }
 }
 
 impl Cosines {
@@ -70,5 +83,31 @@ impl<'a, const C: usize> Given<'a, C> {
     #[must_use]
     pub fn lit(&self) -> Lit<C> {
         Lit { frag: *self.frag, cosines: *self.cosines }
+    }
+}
+
+/// The names of both; the cosines come first.
+impl<const C: usize> Named for Lit<C> {
+    const NAMES: u16 = Cosines::NAMES + Fragment::<C>::NAMES;
+
+    fn blank(_: &Plan) -> Self {
+        Lit::default()
+    }
+
+    fn find(plan: &Plan, name: &str) -> Option<Place> {
+        Cosines::find(plan, name).or_else(|| Some(Fragment::<C>::find(plan, name)?.behind(Cosines::NAMES)))
+    }
+
+    fn at(&mut self, place: Place) -> &mut dyn Number {
+        match place.in_front(Cosines::NAMES) {
+            None => self.cosines.at(place),
+            Some(place) => self.frag.at(place),
+        }
+    }
+}
+
+impl<const C: usize> Sourced for Lit<C> {
+    fn source(&mut self) -> &mut Source {
+        &mut self.frag.source
     }
 }

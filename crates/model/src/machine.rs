@@ -14,6 +14,7 @@
 
 mod view;
 pub mod wires;
+pub mod ports;
 
 use crate::Events;
 use crate::blend::Blend;

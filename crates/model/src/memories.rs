@@ -13,7 +13,7 @@ use crate::run::Cycle;
 use crate::tokens::{FEW, OutputWords};
 use crate::waits::Waits;
 use crate::word_memory::{WordIn, WordMemory};
-use edgewalk_machine::{DrawState, Plan, PortVertex, Record, Shading};
+use edgewalk_machine::{DrawState, Maps, Plan, PortVertex, Record, Shading, Step};
 
 /// The memories, and the state that a pass draws with.
 #[derive(Clone, Debug)]
@@ -87,8 +87,25 @@ impl<const C: usize> Memories<C> {
         self.write("terms", place << plan.record_place_bits(), words);
     }
 
-    /// Clears the map that is drawn now, with what is left of the light; the machine is idle.
-    pub(crate) fn clear_map(&mut self, plan: &Plan) {
+    /// Does what the host does in a step, but for [`Step::Draw`]: of that it gives how many triangles are to be drawn.
+    pub fn take_step(&mut self, plan: &Plan, step: Step, maps: &mut Maps) -> Option<usize> {
+        match step {
+            Step::State(state) => self.set_state(state),
+            Step::ClearDepth => self.depth.clear_depth(plan),
+            Step::ClearMap => self.clear_map(plan),
+            Step::LoadMap(number) => {
+                let words = maps.words(number).unwrap_or_default();
+                self.write("map", 0, words.iter().map(|word| u128::from(*word)));
+            }
+            Step::Record(triangle, record) => self.write_record(plan, triangle, record),
+            Step::Draw(count) => return Some(count),
+            Step::StoreMap(number) => maps.keep(number, self.drawn_map(plan)),
+        }
+        None
+    }
+
+    /// Clears the map that is drawn now, with what is left of the light.
+    fn clear_map(&mut self, plan: &Plan) {
         self.depth.clear_map(plan);
         if let Some(color) = &mut self.color {
             color.clear([plan.color.max(); 3]);
@@ -125,8 +142,7 @@ impl<const C: usize> Memories<C> {
     #[inline(always)]
     #[must_use]
     pub fn inputs<'a>(&'a self, tri: Option<(&'a [PortVertex; 3], u32)>, writes_open: bool) -> Inputs<'a> {
-        let DrawState { depth_func, depth_write, shadow_on, light_pass, ambient, color_write, .. } =
-            self.state;
+        let DrawState { depth_func, depth_write, color_write, .. } = self.state;
         Inputs {
             rst: false,
             tri,
@@ -136,7 +152,7 @@ impl<const C: usize> Memories<C> {
             data: self.depth.data(),
             wr_ready: self.depth.wr_ready() && writes_open,
             words: &self.ports,
-            shadow: ShadowInputs { on: shadow_on, light_pass, ambient: ambient as u32 }, // b <= 16 bits
+            shadow: ShadowInputs::of(&self.state),
             blend: match &self.color {
                 Some(color) if C > FEW => BlendInputs {
                     color_write,

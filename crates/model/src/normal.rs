@@ -17,8 +17,10 @@ mod view;
 use crate::Events;
 use crate::fetch::Fetch;
 use crate::lit::{Cosines, Given, Lit};
+use crate::ports::{Pins, Ported, Shown};
 use crate::stages::Stages;
 use crate::term::MAX_TERMS;
+use crate::word_memory::Ask;
 use crate::word_memory::WordIn;
 use edgewalk_machine::Plan;
 
@@ -167,3 +169,23 @@ pub(crate) fn index(number: i64, below: u32, bits: u32) -> (i32, bool) {
 }
 
 const _: () = assert!(MAX_TERMS >= 5, "two lights and N·N");
+
+impl<const C: usize> Ported<C> for Normal<C> {
+    type Takes = Lit<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.frag_ready(pins.next));
+        out.gives(self.normed());
+        out.asks(Ask { addr: self.read(), take: self.rdata_ready() });
+        out.status("table_wait", self.waits(pins.token.map(Lit::given)));
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        self.step(pins.token.map(Lit::given), &pins.word, pins.next, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
+    }
+}

@@ -17,7 +17,8 @@ mod view;
 
 use crate::Events;
 use crate::lit::{Cosines, Given};
-use crate::term::{MAX_TERMS, Walked};
+use crate::ports::{Pins, Ported, Shown};
+use crate::term::{MAX_TERMS, Walked, WalkedSpan};
 use crate::tokens::{FEW, Fragment, OutputWords, Source, Span, Words, per_channel};
 use edgewalk_machine::{Plan, Shadow};
 
@@ -323,5 +324,29 @@ fn outputs(walked: &Walked, formats: &[(u32, u32)], cosines: &mut Cosines) {
     let terms = walked.terms.iter().zip(formats);
     for (output, (term, (fraction, bits))) in cosines.terms.iter_mut().zip(terms) {
         *output = (((term.v >> fraction) << (64 - bits)) as i64 >> (64 - bits)) as i32; // b <= 32
+    }
+}
+
+impl<const C: usize> Ported<C> for Pixel<C> {
+    type Takes = WalkedSpan<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.span_ready(pins.next));
+        out.gives(self.given().map(|given| given.lit()).as_ref());
+        out.status("active", self.active());
+        out.status("visible", self.on_screen());
+        out.status("advance", self.advance(pins.next));
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        let span = pins.token.map(|token| &token.span);
+        let walked = || pins.token.map_or_else(Walked::default, |token| token.walked);
+        let held = (&pins.held.gradient, pins.held.kt);
+        self.step(span, held, walked, pins.next, pins.state.light_pass, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

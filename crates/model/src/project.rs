@@ -14,8 +14,9 @@
 mod view;
 
 use crate::Events;
+use crate::ports::{Pins, Ported, Shown};
 use crate::stages::Stages;
-use crate::tokens::{Fragment, sign_extend};
+use crate::tokens::Fragment;
 use edgewalk_machine::{LIGHT_SPACE, Plan, Project as Kind};
 
 /// What holds fragments while they are divided.
@@ -56,7 +57,7 @@ impl<const C: usize> Project<C> {
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
         let shadow = &plan.shadow;
-        let place = |name: &str| plan.channel_place(name).unwrap_or(0);
+        let place = |name: &str| plan.channels().iter().position(|channel| channel.name == name).unwrap_or(0);
         let rows = match shadow.project {
             Kind::Pipelined => Rows::Pipelined(Stages::new(shadow.rows() as usize + 1)),
             Kind::Serial => Rows::Serial { fragment: None, row: 0 },
@@ -140,8 +141,10 @@ impl<const C: usize> Project<C> {
 
     /// The fragment with its texel and its depth in the place of what they are quotients of.
     fn divided(&self, fragment: &Fragment<C>, events: &mut Events) -> Fragment<C> {
-        let signed = |place: usize| i64::from(sign_extend(fragment.values[place] as i32, self.bits));
-        let [x, y, z, w] = self.at.map(signed);
+        let [x, y, z, w] = self.at.map(|place| {
+            let (word, sign) = (i64::from(fragment.values[place]), 1 << (self.bits - 1));
+            (word ^ sign) - sign
+        });
         let texels = [x, y].map(|x| self.texel(x, w, events));
         let depth = self.depth(z, w, events);
         events.project.behind_light += u64::from(w <= 0);
@@ -176,5 +179,24 @@ impl<const C: usize> Project<C> {
             events.project.depth_to_end += u64::from(depth == end);
             depth
         }
+    }
+}
+
+impl<const C: usize> Ported<C> for Project<C> {
+    type Takes = Fragment<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.frag_ready(pins.next));
+        out.gives(self.projected());
+        out.status("dividing", self.dividing());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        self.step(pins.token, pins.next, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

@@ -17,9 +17,11 @@ mod view;
 
 use crate::Events;
 use crate::fetch::Fetch;
-use crate::lit::{Cosines, Given};
+use crate::lit::{Cosines, Given, Lit};
+use crate::ports::{Pins, Ported, Shown};
 use crate::stages::Stages;
 use crate::tokens::Fragment;
+use crate::word_memory::Ask;
 use crate::word_memory::WordIn;
 use edgewalk_machine::{Plan, ShadeColour};
 
@@ -235,5 +237,26 @@ impl<const C: usize> Shade<C> {
     fn cut(&self, color: u32, events: &mut Events) -> u32 {
         events.shade.color_saturated += u64::from(color > self.largest());
         color.min(self.largest())
+    }
+}
+
+impl<const C: usize> Ported<C> for Shade<C> {
+    type Takes = Lit<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        let frag = pins.token.map(Lit::given);
+        out.takes(self.frag_ready(frag, pins.next));
+        out.gives(self.tinted());
+        out.asks(Ask { addr: self.read(), take: self.sdata_ready() });
+        out.status("table_wait", self.waits(frag));
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        self.step(pins.token.map(Lit::given), &pins.word, pins.next, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

@@ -15,8 +15,10 @@ mod view;
 
 use crate::Events;
 use crate::fifo::Fifo;
-use crate::tokens::{Fragment, sign_extend};
-use crate::word_memory::WordIn;
+use crate::ports::{Pins, Ported, Shown};
+use crate::tokens::Fragment;
+use crate::word_memory::{Ask, WordIn};
+use edgewalk_machine::DrawState;
 use edgewalk_machine::{Gate, Plan};
 
 /// Inputs of the unit that stay the same over a pass.
@@ -94,7 +96,7 @@ impl<const C: usize> Shadow<C> {
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
         let shadow = &plan.shadow;
-        let place = |name: &str| plan.channel_place(name).unwrap_or(0);
+        let place = |name: &str| plan.channels().iter().position(|channel| channel.name == name).unwrap_or(0);
         let at = ["lx", "ly", "lz"].map(place);
         Shadow {
             size: shadow.size.into(),
@@ -222,7 +224,8 @@ impl<const C: usize> Shadow<C> {
 
     /// lx, ly or lz, signed.
     fn coordinate(&self, fragment: &Fragment<C>, which: usize) -> i64 {
-        i64::from(sign_extend(fragment.values[self.at[which]] as i32, self.bits[which]))
+        let (word, sign) = (i64::from(fragment.values[self.at[which]]), 1 << (self.bits[which] - 1));
+        (word ^ sign) - sign
     }
 
     fn place(&self, fragment: &Fragment<C>, inputs: &ShadowInputs) -> Place {
@@ -284,5 +287,37 @@ impl<const C: usize> Shadow<C> {
             }
             Some(_) => {}
         }
+    }
+}
+
+impl ShadowInputs {
+    /// The constants of SHADOW.
+    #[must_use]
+    pub fn of(state: &DrawState) -> ShadowInputs {
+        // b <= 16 bits
+        ShadowInputs { on: state.shadow_on, light_pass: state.light_pass, ambient: state.ambient as u32 }
+    }
+}
+
+impl<const C: usize> Ported<C> for Shadow<C> {
+    type Takes = Fragment<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        let inputs = ShadowInputs::of(&pins.state);
+        out.takes(self.frag_ready(pins.token, &inputs, &pins.word));
+        out.gives(self.shaded(&inputs, &pins.word).as_ref());
+        out.asks(Ask { addr: self.read(pins.token, &inputs), take: self.mdata_ready(pins.next) });
+        out.status("shadow_full", self.full());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        let inputs = ShadowInputs::of(&pins.state);
+        let taken = pins.next && self.shaded(&inputs, &pins.word).is_some();
+        self.step(pins.token, &inputs, &pins.word, taken, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

@@ -16,6 +16,7 @@ mod view;
 
 use crate::Events;
 use crate::fifo::Fifo;
+use crate::ports::{Pins, Ported, Shown};
 use crate::tokens::{self, Line};
 use edgewalk_machine::{Fill, Plan};
 
@@ -170,5 +171,24 @@ impl<const C: usize> Span<C> {
     fn is_empty(&self, line: &Line<C>) -> bool {
         let (start, end) = self.columns(line);
         end.min(self.width) <= start.max(0)
+    }
+}
+
+impl<const C: usize> Ported<C> for Span<C> {
+    type Takes = Line<C>;
+
+    fn show(&self, _: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.line_ready());
+        out.gives(self.span());
+        out.status("fresh_queued", self.fresh_queued());
+        out.status("line_held", self.line_held());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        self.step(pins.token, pins.next, pins.state.light_pass, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

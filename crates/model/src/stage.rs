@@ -12,13 +12,14 @@ use crate::lamp::Lamp;
 use crate::lit::{Given, Lit};
 use crate::machine::Inputs;
 use crate::normal::Normal;
+use crate::ports::{Pins, Ported, Shown};
 use crate::project::Project;
 use crate::shade::Shade;
 use crate::shadow::Shadow;
 use crate::texel::Texel;
 use crate::view::View;
 use crate::word_memory::{Ask, WordIn};
-use edgewalk_machine::{Activity, Plan};
+use edgewalk_machine::{Activity, DrawState, Plan};
 
 /// A unit of the pipe.
 #[derive(Clone, Debug)]
@@ -213,7 +214,24 @@ impl<const C: usize> Stage<C> {
         }
     }
 
-    /// Shows the unit; `behind` is the name of the unit that takes what it offers.
+    /// Shows the outputs of the unit.
+    pub(crate) fn show(&self, links: &Links<C>, inputs: &Inputs, state: DrawState, out: &mut impl Shown) {
+        let (next, word) = (links.next, *self.port(inputs));
+        let (lit, frag) = (links.from.map(|given| given.lit()), links.from.map(|given| given.frag));
+        let lit = Pins { token: lit.as_ref(), next, word, state, ..Pins::default() };
+        let frag = Pins { token: frag, next, word, state, ..Pins::default() };
+        match &self.unit {
+            Unit::Texel(unit) => unit.show(&lit, out),
+            Unit::Bump(unit) => unit.show(&lit, out),
+            Unit::Normal(unit) => unit.show(&lit, out),
+            Unit::Lamp(unit) => unit.show(&lit, out),
+            Unit::Shade(unit) => unit.show(&lit, out),
+            Unit::Project(unit) => unit.show(&frag, out),
+            Unit::Shadow(unit) => unit.show(&frag, out),
+        }
+    }
+
+    /// Shows the unit to a recording; `behind` is the name of the unit that takes what it offers.
     pub(crate) fn view(&self, plan: &Plan, links: &Links<C>, behind: &str, inputs: &Inputs, view: &mut View) {
         let (port, Links { from, next, .. }) = (self.port(inputs), *links);
         let frag = from.map(|given| given.frag);

@@ -16,7 +16,10 @@ mod view;
 
 use crate::Events;
 use crate::fetch::Fetch;
-use crate::tokens::{Span, sign_extend};
+use crate::named::{Named, Number, Place, Sourced, named};
+use crate::ports::{Pins, Ported, Shown};
+use crate::tokens::{Source, Span, sign_extend};
+use crate::word_memory::Ask;
 use crate::word_memory::WordIn;
 use edgewalk_machine::record::GLOSS_BITS;
 use edgewalk_machine::{Plan, Walk};
@@ -47,6 +50,50 @@ pub struct Walked {
     pub material: u32,
     /// Of the material's highlights, for NORMAL.
     pub gloss: u32,
+}
+
+named! {
+    [] Walked, |_| Walked::default(),
+    {
+        terms [] terms ["_v"(.v), "_g"(.g), "_gg"(.gg)];
+        material [material()];
+        gloss [gloss()];
+    }
+}
+
+/// A span with its terms, as TERM gives it to PIXEL.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WalkedSpan<const C: usize> {
+    /// The span.
+    pub span: Span<C>,
+    /// Terms at its first pixel.
+    pub walked: Walked,
+}
+
+/// The names of both; the terms come first.
+impl<const C: usize> Named for WalkedSpan<C> {
+    const NAMES: u16 = Walked::NAMES + Span::<C>::NAMES;
+
+    fn blank(_: &Plan) -> Self {
+        WalkedSpan { span: Span::default(), walked: Walked::default() }
+    }
+
+    fn find(plan: &Plan, name: &str) -> Option<Place> {
+        Walked::find(plan, name).or_else(|| Some(Span::<C>::find(plan, name)?.behind(Walked::NAMES)))
+    }
+
+    fn at(&mut self, place: Place) -> &mut dyn Number {
+        match place.in_front(Walked::NAMES) {
+            None => self.walked.at(place),
+            Some(place) => self.span.at(place),
+        }
+    }
+}
+
+impl<const C: usize> Sourced for WalkedSpan<C> {
+    fn source(&mut self) -> &mut Source {
+        &mut self.span.source
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -265,5 +312,28 @@ impl Term {
         let right = sign_extend(span.x - self.x, self.column_bits);
         let ahead = if span.leftward { sign_extend(-right, self.column_bits) } else { right };
         if ahead > 0 { Way::Forward } else { Way::Back }
+    }
+}
+
+impl<const C: usize> Ported<C> for Term {
+    type Takes = Span<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        let there = self.there(pins.token);
+        out.takes(there && pins.next);
+        let walked =
+            pins.token.filter(|_| there).map(|span| WalkedSpan { span: *span, walked: self.walked() });
+        out.gives(walked.as_ref());
+        out.asks(Ask { addr: self.read(pins.held.record), take: self.tdata_ready() });
+        out.status("term_wait", self.waits(pins.token));
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        let taken = pins.next && self.there(pins.token);
+        self.step(pins.token, &pins.word, taken, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

@@ -16,7 +16,9 @@ mod view;
 use crate::Events;
 use crate::fifo::Fifo;
 use crate::lit::{Given, Lit};
+use crate::ports::{Pins, Ported, Shown};
 use crate::tokens::sign_extend;
+use crate::word_memory::Ask;
 use crate::word_memory::WordIn;
 use edgewalk_machine::Plan;
 
@@ -123,5 +125,26 @@ impl<const C: usize> Texel<C> {
             events.texel.texel_read += 1;
             self.queue.push(given.lit());
         }
+    }
+}
+
+impl<const C: usize> Ported<C> for Texel<C> {
+    type Takes = Lit<C>;
+
+    fn show(&self, pins: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.frag_ready(&pins.word));
+        out.gives(self.textured(&pins.word).as_ref());
+        out.asks(Ask { addr: self.read(pins.token.map(Lit::given)), take: self.xdata_ready(pins.next) });
+        out.status("texel_full", self.full());
+        out.status("occupied", self.occupied());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        let taken = pins.next && self.textured(&pins.word).is_some();
+        self.step(pins.token.map(Lit::given), &pins.word, taken, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

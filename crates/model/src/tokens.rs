@@ -1,12 +1,15 @@
 //! The tokens that move between the units.
 
+use crate::named::{Sourced, named};
 pub use edgewalk_machine::MAX_CHANNELS;
-use edgewalk_machine::{Channel, Plan};
+use edgewalk_machine::{Channel, EdgeKind, Plan};
 
-/// Declares tokens of `C` channels, and with the value behind each field the token that says nothing. (An array of any
-/// length has no `Default`.)
+/// Declares tokens of `C` channels: every field with the value in the token that says nothing, and with its declared names
+/// as [`named!`] reads them. (An array of any length has no `Default`.)
 macro_rules! tokens {
-    ($($(#[$doc:meta])* $name:ident { $($(#[$what:meta])* $field:ident: $type:ty = $nothing:expr,)* })*) => {
+    ($($(#[$doc:meta])* $name:ident $(blank $blank:ident)? {
+        $($(#[$what:meta])* $field:ident: $type:ty = $nothing:expr => [$($own:tt)*] $(channels [$($channel:tt)*])?;)*
+    })*) => {
         $(
             $(#[$doc])*
             #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +20,28 @@ macro_rules! tokens {
                     $name { $($field: $nothing,)* }
                 }
             }
+
+            named! {
+                [<const C: usize>] $name<C>, blank_of!($($blank)?),
+                { $($field [$($own)*] $(channels [$($channel)*])?;)* }
+            }
+
+            impl<const C: usize> Sourced for $name<C> {
+                fn source(&mut self) -> &mut Source {
+                    &mut self.source
+                }
+            }
         )*
+    };
+}
+
+/// How a token begins before its fields are set from ports.
+macro_rules! blank_of {
+    () => {
+        |_| Self::default()
+    };
+    ($blank:ident) => {
+        $blank
     };
 }
 
@@ -84,99 +108,102 @@ impl EdgeWalk {
 
 tokens! {
     /// SETUP to EDGE: a triangle as increments.
-    Prim {
+    Prim blank with_slope_modulus {
         /// jm: first drawn line.
-        line: u32 = 0,
+        line: u32 = 0 => [jm()];
         /// n1 and n2: lines of the upper and the lower part.
-        lines: [u32; 2] = [0; 2],
+        lines: [u32; 2] = [0; 2] => [n1([0]), n2([1])];
         /// The major edge lies right.
-        major_right: bool = false,
+        major_right: bool = false => [major_right()];
         /// Edge 0-2.
-        major: EdgeWalk = EdgeWalk::default(),
+        major: EdgeWalk = EdgeWalk::default() => [major_c(.c), major_r(.r), major_q(.q), major_f(.f), major_m(.m)];
         /// Edges 0-1 and 1-2.
-        minor: [EdgeWalk; 2] = [EdgeWalk::default(); 2],
+        minor: [EdgeWalk; 2] = [EdgeWalk::default(); 2] => [
+            minor1_c([0].c), minor1_r([0].r), minor1_q([0].q), minor1_f([0].f), minor1_m([0].m),
+            minor2_c([1].c), minor2_r([1].r), minor2_q([1].q), minor2_f([1].f), minor2_m([1].m)
+        ];
         /// First values. Exact fill: `start`, and 0. Textbook fill: startA of part 1, startB of part 2.
-        start: [Words<C>; 2] = [[0; C]; 2],
+        start: [Words<C>; 2] = [[0; C]; 2] => [] channels ["_start"([0]), "_start_a"([0]), "_start_b"([1])];
         /// Increments a line. Exact fill: d0 without and d1 with the major edge's carry. Textbook fill: dA and dB.
-        delta: [Words<C>; 2] = [[0; C]; 2],
+        delta: [Words<C>; 2] = [[0; C]; 2] => [] channels ["_d0"([0]), "_d1"([1]), "_d_a"([0]), "_d_b"([1])];
         /// g: increment a pixel along the span.
-        gradient: Words<C> = [0; C],
+        gradient: Words<C> = [0; C] => [] channels ["_g"()];
         /// k_t of the triangle, 2^-kt_bits; 0 where that is a channel.
-        kt: u32 = 0,
+        kt: u32 = 0 => [kt()];
         /// With TERM: the number of its record.
-        record: u32 = 0,
+        record: u32 = 0 => [record()];
         /// The triangle.
-        source: Source = Source::default(),
+        source: Source = Source::default() => [tag(.tag)];
     }
 
     /// EDGE to SPAN: a scan line between two edges.
     Line {
         /// Line on the screen.
-        y: u32 = 0,
+        y: u32 = 0 => [y()];
         /// Column of the major edge, signed, COLW bits.
-        major: i32 = 0,
+        major: i32 = 0 => [cmaj()];
         /// Column of the minor edge, signed, COLW bits.
-        minor: i32 = 0,
+        minor: i32 = 0 => [cmin()];
         /// The major edge lies right.
-        major_right: bool = false,
+        major_right: bool = false => [major_right()];
         /// Values at the first pixel.
-        values: Words<C> = [0; C],
+        values: Words<C> = [0; C] => [] channels [""()];
         /// First line of its triangle.
-        fresh: bool = false,
+        fresh: bool = false => [fresh()];
         /// First line of its triangle or, in textbook fill, of its lower part.
-        fence: bool = false,
+        fence: bool = false => [fence()];
         /// The triangle.
-        source: Source = Source::default(),
+        source: Source = Source::default() => [tag(.tag)];
     }
 
     /// SPAN to PIXEL: pixels of a line, from the first on.
     Span {
         /// First column, signed, COLW bits; may lie off the screen.
-        x: i32 = 0,
+        x: i32 = 0 => [x()];
         /// Line on the screen.
-        y: u32 = 0,
+        y: u32 = 0 => [y()];
         /// Pixels, at least 1.
-        count: u32 = 0,
+        count: u32 = 0 => [count()];
         /// Runs to the left.
-        leftward: bool = false,
+        leftward: bool = false => [leftward()];
         /// Values at the first pixel.
-        values: Words<C> = [0; C],
+        values: Words<C> = [0; C] => [] channels [""()];
         /// First span of its triangle.
-        fresh: bool = false,
+        fresh: bool = false => [fresh()];
         /// First span of its triangle or, in textbook fill, of its lower part.
-        fence: bool = false,
+        fence: bool = false => [fence()];
         /// The triangle.
-        source: Source = Source::default(),
+        source: Source = Source::default() => [tag(.tag)];
     }
 
     /// PIXEL to DEPTH, and with BLEND on to it: one pixel of one triangle.
     Fragment {
         /// y·2^xb + x.
-        addr: u32 = 0,
+        addr: u32 = 0 => [addr()];
         /// Depth, colour, the user's own, and k_t where it is a channel.
-        values: OutputWords<C> = [0; C],
+        values: OutputWords<C> = [0; C] => [] channels [""()];
         /// k_t of the triangle; 0 where it is a channel.
-        kt: u32 = 0,
+        kt: u32 = 0 => [kt()];
         /// Behind SHADOW: the light reaches it.
-        lit: bool = false,
+        lit: bool = false => [lit()];
         /// First fragment of its triangle or, in textbook fill, of its lower part; behind DEPTH of those that passed.
-        fence: bool = false,
+        fence: bool = false => [fence()];
         /// The triangle.
-        source: Source = Source::default(),
+        source: Source = Source::default() => [tag(.tag)];
     }
 
     /// DEPTH to the frame memory, in a machine without BLEND.
     Write {
         /// y·2^xb + x.
-        addr: u32 = 0,
+        addr: u32 = 0 => [addr()];
         /// Depth, stored if `z_en`; colour and the user's own, always stored.
-        values: OutputWords<C> = [0; C],
+        values: OutputWords<C> = [0; C] => [] channels [""()];
         /// The depth is stored.
-        z_en: bool = false,
+        z_en: bool = false => [z_en()];
         /// With SHADOW: the light reaches it.
-        lit: bool = false,
+        lit: bool = false => [lit()];
         /// The triangle.
-        source: Source = Source::default(),
+        source: Source = Source::default() => [tag(.tag)];
     }
 }
 
@@ -184,16 +211,23 @@ tokens! {
     /// BLEND to the colour memory.
     ColorWrite {
         /// y·2^xb + x.
-        addr: u32 = 0,
+        addr: u32 = 0 => [addr()];
         /// Red, green and blue of b bits, red the most significant.
-        rgb: u64 = 0,
+        rgb: u64 = 0 => [rgb()];
         /// The same colours, the user's own, and the fragment's depth, at their places.
-        values: OutputWords<C> = [0; C],
+        values: OutputWords<C> = [0; C] => [] channels [""()];
         /// With SHADOW: the light reaches it.
-        lit: bool = false,
+        lit: bool = false => [lit()];
         /// The triangle.
-        source: Source = Source::default(),
+        source: Source = Source::default() => [tag(.tag)];
     }
+}
+
+/// The modulus of a slope edge is the constant 2^F, and no field.
+fn with_slope_modulus<const C: usize>(plan: &Plan) -> Prim<C> {
+    let m = if plan.edge_kind == EdgeKind::Slope { 1 << plan.edge_fraction } else { 0 };
+    let edge = EdgeWalk { m, ..EdgeWalk::default() };
+    Prim { major: edge, minor: [edge; 2], ..Prim::default() }
 }
 
 /// The masks of the channel words, 2^(b+r) - 1; 0 behind the last channel.

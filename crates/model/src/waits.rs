@@ -175,8 +175,7 @@ impl FromStr for Waits {
     fn from_str(text: &str) -> Result<Self, WaitsError> {
         let (kind, settings) = text.split_once(':').unwrap_or((text, ""));
         let mut waits = Waits::usual(kind).ok_or_else(|| {
-            let nearest = edgewalk_machine::nearest::nearest(kind, KINDS.iter().copied());
-            WaitsError(format!("unknown stalls {kind}; nearest: {nearest}"))
+            WaitsError(edgewalk_machine::Unknown::new("stalls", kind, KINDS.iter().copied()).to_string())
         })?;
         for setting in settings.split(',').filter(|setting| !setting.is_empty()) {
             let (name, value) = setting
@@ -352,7 +351,7 @@ mod tests {
         let waits = "dram:miss=9,banks=2".parse::<Waits>().expect("two parameters");
         assert_eq!(waits.to_string(), "dram:banks=2,page=256,miss=9,turn=2,refresh=780,busy=13");
         for (text, wrong) in [
-            ("drm", "unknown stalls drm; nearest: dram"),
+            ("drm", "unknown stalls drm; permitted: none, fixed, random, dram; nearest: dram"),
             ("fixed:rd", "rd: write name=value, as in fixed:rd=2"),
             ("fixed:banks=2", "fixed has no banks; it has: rd, data, wr"),
             ("none:rd=2", "none has no rd; it has: none"),

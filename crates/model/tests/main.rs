@@ -7,6 +7,7 @@ mod channels;
 mod corners;
 mod exact;
 mod fast;
+mod named;
 mod golden;
 mod hazards;
 mod own_pass;

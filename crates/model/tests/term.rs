@@ -104,6 +104,61 @@ fn every_word_is_that_of_the_formula() {
     }
 }
 
+/// The walk only steps down: below the reference pixel's line it goes once round all of its lines, and counts on from there.
+#[test]
+fn walk_counts_lines_down_from_its_reference() {
+    let mut rng = StdRng::seed_from_u64(47);
+    let mut pixels = 0;
+    for walk in ["register", "memory"] {
+        let plan = machine(&[
+            ("shade.kind", "fast-phong"),
+            ("term.walk", walk),
+            ("screen.width", "61"),
+            ("screen.height", "47"),
+        ]);
+        let triangles = [random_triangle(&plan, 40.0, &mut rng)];
+        for below in [0, 1, 5, 20] {
+            let mut shading = random_shading(&plan, &triangles, &mut rng);
+            let record = shading.records[0].clone();
+            let first = first_line(&plan, &triangles, &shading);
+            shading.records[0].y = first + below;
+            let lines = 1u32 << plan.widths().y;
+            let mut rig = rig(&plan, &shading, Stalls::NONE);
+            let offered = triangles.iter().map(|triangle| Ok::<_, std::convert::Infallible>(*triangle));
+            let Ok(()) = rig.draw(offered, |_, model, _| {
+                let pixel = &model.pixel;
+                if pixel.active() {
+                    let (x, y) = pixel.place();
+                    let n = (lines - below) % lines + (y - first);
+                    let of_zero = edgewalk_machine::Record { y: 0, ..record.clone() };
+                    let leftward = leftward(&plan, &triangles[0]);
+                    let wanted = words(&plan, &of_zero, leftward, (x.into(), n.into()));
+                    for ((term, found), wanted) in plan.terms().iter().zip(pixel.walked().terms).zip(wanted) {
+                        let found = found.v & (u64::MAX >> (64 - term.word()));
+                        assert_eq!(found, wanted, "{walk}: {} at {x}, {y}, {below} below", term.name);
+                    }
+                    pixels += 1;
+                }
+            });
+        }
+    }
+    println!("{pixels} cycles of pixels: every word is that of formula (1) with the lines that were walked");
+    assert!(pixels > 1000, "{pixels}");
+}
+
+/// The first line on which PIXEL stands.
+fn first_line(plan: &Plan, triangles: &[Triangle], shading: &Shading) -> u32 {
+    let (mut rig, mut first) = (rig(plan, shading, Stalls::NONE), None);
+    let offered = triangles.iter().map(|triangle| Ok::<_, std::convert::Infallible>(*triangle));
+    let Ok(()) = rig.draw(offered, |_, model, _| {
+        let pixel = &model.pixel;
+        if pixel.active() {
+            first.get_or_insert(pixel.place().1);
+        }
+    });
+    first.expect("the triangle covers a pixel")
+}
+
 /// A span at a place, fresh or not.
 fn span(x: i32, y: u32, leftward: bool, fresh: bool) -> Span<C> {
     Span { x, y, leftward, fresh, count: 1, ..Span::default() }

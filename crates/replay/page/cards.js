@@ -12,8 +12,10 @@ class Cards {
     const columns = this.columns();
     const row = document.getElementById("cards");
     columns.forEach((units, column) => {
-      if (column > 0) row.append(this.gutter(columns, column));
-      row.append(make("div", { class: "column" }, ...units.map((unit) => this.card(unit, columns))));
+      const links = column > 0 ? [this.gutter(columns, column)] : [];
+      // The links go with the cards they lead to, where those begin a new row.
+      row.append(make("div", { class: "stage" }, ...links,
+        make("div", { class: "column" }, ...units.map((unit) => this.card(unit, columns)))));
     });
     if (!doc.units.length) row.append("This recording has no units.");
   }

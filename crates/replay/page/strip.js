@@ -1,6 +1,8 @@
 // The whole run at a glance, and the lanes around the cycle.
 
 const CELL = 20, FOLDED = 64, ROW = 18, NAMES = 74;
+// Pixels between ticks over the run, at least.
+const TICKS = 8;
 
 class Strip {
   constructor(app) {
@@ -85,21 +87,32 @@ class Strip {
       }
     }
     pen.fillStyle = colours.ink;
-    let free = 0;
-    for (const cycle of this.marks) {
-      const left = ((cycle + 0.5) * width) / doc.cycles;
-      pen.fillRect(left, top - 5, 1, 5);
-      const label = this.owner ? textOf(this.owner.shape, rawAt(this.owner, cycle), false) : "";
-      const wide = pen.measureText(label).width;
-      if (left > free && left + wide + 3 < width) {
-        pen.fillText(label, left + 3, 7);
-        free = left + wide + 10;
-      }
+    this.ticks = this.placed(pen, width);
+    for (const { left, label } of this.ticks) {
+      pen.fillRect(left, label ? 0 : top - 3, 1, label ? top : 3);
+      pen.fillText(label, left + 3, 6);
     }
     this.whole = document.createElement("canvas");
     this.whole.width = this.overview.width;
     this.whole.height = this.overview.height;
     this.whole.getContext("2d").drawImage(this.overview, 0, 0);
+  }
+  // The marks that have room: their names where these do not touch, ticks alone where they are far enough apart.
+  placed(pen, width) {
+    const { doc } = this.app;
+    const ticks = [];
+    let free = 0;
+    for (const cycle of this.marks) {
+      const left = ((cycle + 0.5) * width) / doc.cycles;
+      const name = this.owner ? textOf(this.owner.shape, rawAt(this.owner, cycle), false) : "";
+      const right = left + 3 + pen.measureText(name).width;
+      const label = left >= free && right < width ? name : "";
+      if (label) free = right + 7;
+      const near = ticks.length > 0 && left - ticks[ticks.length - 1].left < TICKS;
+      if (near && label) ticks.pop();
+      if (!near || label) ticks.push({ left, label });
+    }
+    return ticks;
   }
   cursor() {
     const { doc, cycle, colours } = this.app;

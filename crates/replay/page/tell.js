@@ -166,7 +166,7 @@ class Tell {
     this.past.replaceChildren(table, ...this.explain(rows[rows.length - 1]));
     const { command } = doc;
     if (command) {
-      const text = command.replace("{x}", chosen[0]).replace("{y}", chosen[1]);
+      const text = command.replace(/\{x\} \{y\}$/, chosen.join(" "));
       this.past.append(make("p", { class: "note" }, "Every addition on the way: ", make("code", {}, text)));
     }
   }

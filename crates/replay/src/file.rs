@@ -26,7 +26,7 @@ pub struct Replay<'a> {
     pub recording: &'a Recording,
     /// What ought to be, for tokens: more columns of a kind of token.
     pub truth: &'a [Truth],
-    /// The command that explains a pixel, with `{x}` and `{y}`.
+    /// The command that explains a pixel; it ends with `{x} {y}`, which stand for the pixel.
     pub command: Option<String>,
     /// Where model and another description differ first.
     pub difference: Option<Difference>,

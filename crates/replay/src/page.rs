@@ -20,8 +20,8 @@ const SCRIPTS: [&str; 9] = [
 /// The page with a replay in it.
 #[must_use]
 pub fn html(replay: &Value) -> String {
-    // A script element ends at the first `</script`, wherever it stands.
-    let data = replay.to_string().replace("</", "<\\/");
+    // `</script` would end the element and `<!--` hide its end; in JSON a `<` stands in strings alone.
+    let data = replay.to_string().replace('<', "\\u003c");
     source().replace("{{data}}", &data)
 }
 

@@ -4,7 +4,7 @@ use crate::recording::{Recorder, Recording};
 use edgewalk_machine::{
     DrawState, ForeignVertex, Maps, Pass, Plan, PortVertex, Shading, Step, first_of_picture, steps,
 };
-use edgewalk_model::{Cycle, Rig, Waits, for_channels};
+use edgewalk_model::{Cycle, Memories, Rig, Waits, for_channels};
 
 /// The most cycles that a replay holds: about 200 MB in a browser and two seconds until they can be seen.
 pub const LIMIT: u64 = 200_000;
@@ -142,7 +142,7 @@ fn run<const C: usize>(
     for _ in 0..window.from {
         _ = run.cycle();
     }
-    let before = memory(plan, run.rig.clone());
+    let before = memory(plan, run.rig.memories.clone());
     let mut recorder = Recorder::new();
     for _ in 0..asked {
         recorder.cycle(|view| run.rig.model.view(plan, &run.rig.inputs(run.offered(), true), view));
@@ -153,19 +153,19 @@ fn run<const C: usize>(
 
 /// What memory holds, by field of the tokens that are stored and by pixel, row by row; then, in a machine that draws its
 /// map, the words of the map. Of the light's answer, which goes with a write and into no memory here, nothing is known.
-fn memory<const C: usize>(plan: &Plan, mut rig: Rig<C>) -> Vec<Vec<u32>> {
-    let plane = |rig: &Rig<C>, width: u32, height: u32, x_bits: u32, place: usize| {
+fn memory<const C: usize>(plan: &Plan, mut memories: Memories<C>) -> Vec<Vec<u32>> {
+    let plane = |memories: &Memories<C>, width: u32, height: u32, x_bits: u32, place: usize| {
         let addresses = (0..height).flat_map(|y| (0..width).map(move |x| y << x_bits | x));
-        addresses.map(|addr| rig.memories.pixel(addr)[place]).collect::<Vec<u32>>()
+        addresses.map(|addr| memories.pixel(addr)[place]).collect::<Vec<u32>>()
     };
-    rig.memories.set_state(DrawState::default());
-    let of_picture = |place| plane(&rig, plan.width, plan.height, plan.widths().x, place);
+    memories.set_state(DrawState::default());
+    let of_picture = |place| plane(&memories, plan.width, plan.height, plan.widths().x, place);
     let mut planes: Vec<_> = plan.seen_channels().map(|(place, _)| of_picture(place)).collect();
     planes.extend(plan.shadow.is_there().then(|| vec![0; planes[0].len()]));
     if plan.shadow.draws_map() {
-        rig.memories.set_state(DrawState { light_pass: true, ..DrawState::default() });
+        memories.set_state(DrawState { light_pass: true, ..DrawState::default() });
         let (size, x_bits) = (plan.shadow.size, plan.shadow.side_bits());
-        planes.extend(map_channels(plan).map(|place| plane(&rig, size, size, x_bits, place)));
+        planes.extend(map_channels(plan).map(|place| plane(&memories, size, size, x_bits, place)));
     }
     planes
 }
@@ -206,7 +206,7 @@ impl<'a, const C: usize> Run<'a, C> {
         let mut cleared = false;
         for step in self.steps.by_ref() {
             cleared |= matches!(step, Step::ClearDepth | Step::ClearMap);
-            if let Some(count) = self.rig.take_step(self.plan, step, &mut self.maps) {
+            if let Some(count) = self.rig.memories.take_step(self.plan, step, &mut self.maps) {
                 self.left = count.min(self.triangles.len() - self.taken);
                 return cleared;
             }

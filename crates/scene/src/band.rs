@@ -10,21 +10,11 @@
 //! Of an edge that two triangles share both get the same new vertex, so no gap opens and no pixel is drawn twice. The edges of the pieces are rounded
 //! to sub-pixels at the border: seen on the screen they move by at most half a sub-pixel.
 
-use crate::frame::{Frame, ShadeMode, Triangle, Vertex};
+use crate::frame::Frame;
+use crate::host::Host;
+use crate::rules::ShadeMode;
+use crate::vertex::{Triangle, Vertex};
 use std::borrow::Cow;
-
-/// What a host did to a program's triangles before the machine saw them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Host {
-    /// Triangles that reach beyond the guard band and lie off the screen: not sent.
-    pub off_screen: u64,
-    /// Triangles that were cut at the border of the guard band.
-    pub clipped: u64,
-    /// The triangles they were cut into.
-    pub pieces: u64,
-    /// Depths that lay outside of [0, 1] by rounding and were clamped.
-    pub clamped_depths: u64,
-}
 
 impl Host {
     /// What of this triangle of the frame a machine is sent whose guard band ends at ±`limit` pixels.

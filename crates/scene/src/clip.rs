@@ -10,8 +10,8 @@
 //! A triangle that is inside everywhere keeps its vertices bit for bit. An edge is cut from its inner end, whichever
 //! triangle asks, so that triangles which share it share the new vertex.
 
-use crate::frame::Vertex;
 use crate::surface::SurfaceVertex;
+use crate::vertex::Vertex;
 use glam::{DVec2, DVec3, DVec4};
 
 /// The part of the screen plane that the machine's coordinates reach.

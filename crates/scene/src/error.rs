@@ -76,32 +76,3 @@ impl fmt::Display for Fault {
         Ok(())
     }
 }
-
-/// The valid name nearest to `given`, if any is near enough to be what was meant.
-pub fn nearest<'a>(given: &str, valid: &[&'a str]) -> Option<&'a str> {
-    if given.len() > 4 * SHOWN {
-        // Farther from any name than `nearest` goes; finding out how far takes as long as the word is.
-        return None;
-    }
-    let given = given.to_lowercase();
-    valid
-        .iter()
-        .map(|name| (strsim::damerau_levenshtein(&given, &name.to_lowercase()), *name))
-        .filter(|(distance, name)| *distance <= 1 + name.len() / 3)
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, name)| name)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn nearest_name_is_offered_only_when_it_is_near() {
-        let valid = ["less", "lequal", "always"];
-        assert_eq!(nearest("lesss", &valid), Some("less"));
-        assert_eq!(nearest("LEQUAL", &valid), Some("lequal"));
-        assert_eq!(nearest("alwyas", &valid), Some("always"));
-        assert_eq!(nearest("quadratic", &valid), None);
-    }
-}

@@ -1,8 +1,9 @@
 //! A frame: the screen, the rules for depth and blending, and triangles and polygons in pixels.
 
-use crate::band::Host;
-use crate::pass::{Blending, Change};
+use crate::host::Host;
 use crate::pixel_shading::PixelShading;
+use crate::rules::{Blending, Change, DepthFunc, ShadeMode};
+use crate::vertex::{Triangle, Vertex};
 
 /// Largest side of a screen, pixels.
 pub const MAX_SIDE: u32 = 16384;
@@ -20,50 +21,10 @@ pub const MAX_CONTOUR: usize = 65536;
 /// Most lights with shadows.
 pub const MAX_LIGHTS: usize = 16;
 
-/// Most values of the user's own at a vertex.
-pub const MAX_EXTRA: usize = 4;
-
-/// Largest magnitude of such a value: no channel of a machine holds more.
-pub const MAX_EXTRA_VALUE: f64 = 2_147_483_647.0;
-
-/// A vertex on the screen.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Vertex {
-    /// Pixels to the right of the screen's left side; pixel i has its centre at i + 1/2.
-    pub x: f64,
-    /// Pixels below the screen's top side.
-    pub y: f64,
-    /// Depth in [0, 1], 0 at the near plane.
-    pub z: f64,
-    /// Red in [0, 1].
-    pub r: f64,
-    /// Green in [0, 1].
-    pub g: f64,
-    /// Blue in [0, 1].
-    pub b: f64,
-    /// Transmission coefficient k_t in [0, 1] (ch. 7.1), 0 for an opaque surface.
-    pub kt: f64,
-    /// Values of the user's own, [`Frame::extra`] of them, the rest 0. Their unit is that of the machine's channels e0 to
-    /// e3: [0, 1] for `unorm`, else LSB of the output; at most [`MAX_EXTRA_VALUE`] in magnitude.
-    pub extra: [f64; MAX_EXTRA],
-}
-
-impl Vertex {
-    /// This vertex with the colour and k_t of the first one, as flat mode has it.
-    #[must_use]
-    pub fn colored_as(self, first: &Self) -> Self {
-        Self { r: first.r, g: first.g, b: first.b, kt: first.kt, ..self }
-    }
-}
-
-/// A triangle on the screen; either winding is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Triangle(pub [Vertex; 3]);
-
 /// A polygon on the screen: convex, concave, with holes or crossing itself; inside is what an odd number of edges lies
-/// to the left of (seed B, odd-even rule).
+/// to the left of (the slides, odd-even rule).
 ///
-/// Its values run linearly along the edges, then linearly along a line between two edges (seed B: l_a, l_b, l_p). Only
+/// Its values run linearly along the edges, then linearly along a line between two edges (the slides: l_a, l_b, l_p). Only
 /// in a triangle, or where the vertices' values lie in one plane, is that the plane; elsewhere it depends on how the
 /// polygon is turned.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,70 +34,6 @@ pub struct Polygon {
     pub contours: Vec<Vec<Vertex>>,
     /// How many triangles of the frame are drawn before it.
     pub after: usize,
-}
-
-/// How colour and k_t vary over a triangle. Depth and the user's own values are linear in both modes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum ShadeMode {
-    /// Linear between the vertices (ch. 7.5).
-    Gouraud,
-    /// That of the first vertex everywhere (ch. 7.4).
-    Flat,
-}
-
-impl ShadeMode {
-    /// Both modes, in the order of [`Self::NAMES`].
-    pub const ALL: [Self; 2] = [Self::Gouraud, Self::Flat];
-    /// The names in files.
-    pub const NAMES: [&'static str; 2] = ["gouraud", "flat"];
-
-    /// The name in files.
-    pub fn name(self) -> &'static str {
-        Self::NAMES[self as usize]
-    }
-}
-
-/// When a fragment passes the depth test: its depth compared with the stored one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum DepthFunc {
-    /// Never.
-    Never,
-    /// Nearer than what is stored.
-    Less,
-    /// As near.
-    Equal,
-    /// Nearer or as near.
-    Lequal,
-    /// Farther.
-    Greater,
-    /// Not as near.
-    Notequal,
-    /// Farther or as near.
-    Gequal,
-    /// Always.
-    Always,
-}
-
-impl DepthFunc {
-    /// All eight, in the order of [`Self::NAMES`].
-    pub const ALL: [Self; 8] = [
-        Self::Never,
-        Self::Less,
-        Self::Equal,
-        Self::Lequal,
-        Self::Greater,
-        Self::Notequal,
-        Self::Gequal,
-        Self::Always,
-    ];
-    /// The names in files.
-    pub const NAMES: [&'static str; 8] =
-        ["never", "less", "equal", "lequal", "greater", "notequal", "gequal", "always"];
-
-    /// The name in files.
-    pub fn name(self) -> &'static str {
-        Self::NAMES[self as usize]
-    }
 }
 
 /// The shadows of one light: its depth map, and the way from the screen into it (ch. 7.3).
@@ -196,7 +93,7 @@ pub struct Frame {
     pub color_write: bool,
     /// Colour of the empty screen, [0, 1] each; the empty depth is 1.
     pub clear: [f64; 3],
-    /// How many values of the user's own a vertex has, 0..=[`MAX_EXTRA`]; without polygons where it has any. Where nothing
+    /// How many values of the user's own a vertex has, 0..=[`MAX_EXTRA`](crate::MAX_EXTRA); without polygons where it has any. Where nothing
     /// is drawn they are 0.
     pub extra: usize,
     /// The shadows of lights, whose numbers count from 1.

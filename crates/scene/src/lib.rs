@@ -5,6 +5,8 @@
 
 mod error;
 mod text;
+mod file;
+mod kind;
 
 mod texture;
 mod mesh;
@@ -13,10 +15,14 @@ mod camera;
 mod light;
 mod shading;
 mod pixel_shading;
+mod vertex;
+mod rules;
+mod host;
 mod surface;
 mod clip;
 mod light_view;
 mod scene;
+mod pixel_frame;
 mod scene_file;
 pub mod triangle_file;
 mod polygon;
@@ -24,21 +30,22 @@ mod frame;
 mod pass;
 mod band;
 
-pub use band::{Host, fits};
+pub use band::fits;
 pub use camera::Camera;
-pub use error::{InputError, nearest};
-pub use frame::{
-    DepthFunc, Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_EXTRA, MAX_EXTRA_VALUE, MAX_LIGHTS, MAX_SIDE, Pane,
-    Polygon, ShadeMode, Shadow, Triangle, Vertex,
-};
+pub use error::InputError;
+pub use frame::{Frame, MAX_CONTOUR, MAX_COORDINATE, MAX_LIGHTS, MAX_SIDE, Pane, Polygon, Shadow};
+pub use host::Host;
+pub use kind::InputKind;
 pub use light::{Attenuation, Incident, Light};
 pub use light_view::{InMap, LightView};
 pub use mesh::{Face, FaceData, Material, Mesh};
 pub use normals::{Crease, NormalRule, Weight};
-pub use pass::{Blending, Change, Pass, State};
+pub use pass::Pass;
 pub use pixel_shading::{PixelMethod, PixelShading, PixelTriangle, Viewer};
 pub use polygon::{CrossingEdges, Primitive, Triangulated};
+pub use rules::{Blending, Change, DepthFunc, ShadeMode, State};
 pub use scene::Scene;
 pub use shading::{LightTerms, Lighting, Point, Specular, Terms};
 pub use surface::{Surface, SurfaceTriangle, SurfaceVertex};
 pub use texture::{Image, MAX_TEXTURE_SIDE, Texture, WAVE_TEXELS};
+pub use vertex::{MAX_EXTRA, MAX_EXTRA_VALUE, Triangle, Vertex};

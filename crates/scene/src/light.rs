@@ -54,7 +54,7 @@ pub struct Attenuation {
 }
 
 impl Attenuation {
-    /// As strong at any distance: the equations of A as they stand.
+    /// As strong at any distance: the equations of ch. 7.1 as they stand.
     pub const NONE: Self = Self { constant: 1.0, linear: 0.0, quadratic: 0.0 };
 
     /// The factor at a distance; at most 1 / [`Self::NEAREST`], so that a light on a surface stays finite.

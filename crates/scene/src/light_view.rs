@@ -14,9 +14,9 @@
 
 use crate::camera::Camera;
 use crate::clip::{ClipVertex, Viewport, clip};
-use crate::frame::{Triangle, Vertex};
 use crate::light::Light;
 use crate::mesh::Mesh;
+use crate::vertex::{Triangle, Vertex};
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 
 /// Near plane of a pyramid as a part of the far one.

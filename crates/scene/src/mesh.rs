@@ -10,13 +10,15 @@ mod terrain;
 mod room;
 mod mtl;
 mod obj;
+mod resource;
 mod accessor;
 mod pbr;
 mod gltf;
 mod join;
 
-use crate::error::{Fault, InputError, nearest};
+use crate::error::{Fault, InputError};
 use crate::texture::Texture;
+use edgewalk_nearest::nearest;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use std::path::Path;
@@ -90,7 +92,11 @@ impl Mesh {
             })
         };
         if let Some((key, index, count)) = faces.iter().find_map(beyond) {
-            return Err(fault(key, index.to_string(), format!("permitted: an index below {count}")).into());
+            let permitted = match count {
+                0 => "permitted: none, as the list is empty".to_owned(),
+                _ => format!("permitted: an index from 0 to {}", count - 1),
+            };
+            return Err(fault(key, index.to_string(), permitted).into());
         }
         let mut welded = Vec::new();
         let mut places = HashMap::new();
@@ -126,7 +132,7 @@ impl Mesh {
                 let file = path.display().to_string();
                 let permitted = format!("permitted: {}", Self::EXTENSIONS.join(" "));
                 let mut fault = Fault::new(&file, None, "kind of mesh file", &extension, permitted);
-                fault.nearest = nearest(&extension, &Self::EXTENSIONS);
+                fault.nearest = nearest(&extension, Self::EXTENSIONS);
                 Err(fault.into())
             }
         }

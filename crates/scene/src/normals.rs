@@ -1,4 +1,4 @@
-//! Normals: of the faces, and at their corners by averaging the faces around (seed B; the crease of seed C).
+//! Normals: of the faces, and at their corners by averaging the faces around (the slides; the crease of the notes).
 
 use crate::mesh::Mesh;
 use glam::DVec3;
@@ -6,7 +6,7 @@ use glam::DVec3;
 /// How much a face counts in the average at a vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Weight {
-    /// Each face as much: N_v = sum N_i / |sum N_i| (seed B).
+    /// Each face as much: N_v = sum N_i / |sum N_i| (the slides).
     #[default]
     Plain,
     /// By its area.
@@ -22,7 +22,7 @@ impl Weight {
     pub const NAMES: [&'static str; 3] = ["plain", "area", "angle"];
 }
 
-/// Where the faces around a vertex stop being one surface: the edge is meant to be seen (seed C).
+/// Where the faces around a vertex stop being one surface: the edge is meant to be seen (the notes).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Crease {
     /// Beyond this angle between the normals of two faces, radians.

@@ -1,63 +1,8 @@
 //! A frame as a list of passes: what is drawn by the same rules, and what changes between.
 
-use crate::frame::{DepthFunc, Frame, Shadow};
+use crate::frame::{Frame, Shadow};
+use crate::rules::State;
 use std::ops::Range;
-
-/// How the colour I of a fragment that passes is put together with what its pixel has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Blending {
-    /// I alone.
-    Off,
-    /// (1 - k_t) I + k_t I_back (ch. 7.5).
-    Mix,
-    /// I + I_back, at most 1.
-    Add,
-}
-
-impl Blending {
-    /// All, in the order of [`Self::NAMES`].
-    pub const ALL: [Self; 3] = [Self::Off, Self::Mix, Self::Add];
-    /// The names in files.
-    pub const NAMES: [&'static str; 3] = ["0", "1", "add"];
-
-    /// The name in files.
-    pub fn name(self) -> &'static str {
-        Self::NAMES[self as usize]
-    }
-}
-
-/// The rules for fragments.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct State {
-    /// The depth test; `None` lets every fragment pass and leaves the stored depth alone.
-    pub depth: Option<DepthFunc>,
-    /// Whether a fragment that passes stores its depth; without effect where `depth` is `None`.
-    pub depth_write: bool,
-    /// What becomes of the colour.
-    pub blend: Blending,
-    /// Whether a fragment that passes stores its colour and the values of the user's own.
-    pub color_write: bool,
-    /// The number of the light whose shadows count, from 1; 0, or one that the frame has not: none.
-    pub light: usize,
-}
-
-impl State {
-    /// A fragment that passes stores its depth.
-    pub fn stores_depth(&self) -> bool {
-        self.depth_write && self.depth.is_some()
-    }
-}
-
-/// Other rules from a place in the list on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Change {
-    /// Primitives drawn before it; at least as many as before the change in front of it.
-    pub after: usize,
-    /// The rules from there on.
-    pub state: State,
-    /// The depth is cleared first.
-    pub clear_depth: bool,
-}
 
 /// Primitives that are drawn by the same rules, one after the other.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -71,6 +16,16 @@ pub struct Pass {
 }
 
 impl Frame {
+    /// The first triangles alone, at most so many. The frame has no polygons.
+    #[must_use]
+    pub fn first(mut self, triangles: usize) -> Self {
+        self.triangles.truncate(triangles);
+        if let Some(shading) = &mut self.shading {
+            shading.triangles.truncate(triangles);
+        }
+        self
+    }
+
     /// The rules at the beginning.
     pub fn state(&self) -> State {
         State {
@@ -115,7 +70,8 @@ impl Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::Triangle;
+    use crate::rules::{Blending, Change};
+    use crate::vertex::Triangle;
 
     #[test]
     fn every_primitive_has_one_pass() {

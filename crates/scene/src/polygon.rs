@@ -6,7 +6,8 @@ mod triangles;
 pub(crate) use cut::cut;
 pub use triangles::{CrossingEdges, Triangulated};
 
-use crate::frame::{Frame, Polygon, Triangle, Vertex};
+use crate::frame::{Frame, Polygon};
+use crate::vertex::{Triangle, Vertex};
 
 /// What a frame draws.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,11 +2,13 @@
 
 use crate::camera::Camera;
 use crate::clip::{ClipVertex, Viewport, clip};
-use crate::error::{Fault, InputError, nearest};
-use crate::frame::{Frame, ShadeMode};
+use crate::error::InputError;
+use crate::frame::Frame;
+use crate::kind::unknown;
 use crate::light::Light;
 use crate::mesh::{self, Mesh};
 use crate::normals::{NormalRule, corner_normals, face_normals};
+use crate::rules::ShadeMode;
 use crate::shading::{Lighting, Point, Specular};
 use crate::surface::{Surface, SurfaceTriangle};
 use glam::{DVec2, DVec3};
@@ -49,12 +51,7 @@ impl Scene {
                 lights: vec![light([0.6, 0.6, 0.5], 0.5), light([-0.6, 0.6, 0.5], 0.5)],
                 ..Self::of_mesh(mesh::room()?)
             }),
-            _ => {
-                let permitted = format!("permitted: {}", Self::BUILTIN.join(" "));
-                let mut fault = Fault::new("built-in scenes", None, "name", name, permitted);
-                fault.nearest = nearest(name, &Self::BUILTIN);
-                Err(fault.into())
-            }
+            _ => Err(unknown(name)),
         }
     }
 

@@ -35,13 +35,13 @@ mod object;
 
 use crate::camera::Camera;
 use crate::error::{Fault, InputError};
+use crate::file;
+use crate::kind::{self, InputKind};
 use crate::mesh::Mesh;
 use crate::normals::{Crease, NormalRule, Weight};
 use crate::scene::Scene;
 use crate::shading::Specular;
 use material::Materials;
-use std::fs::File;
-use std::io::{self, Read as _};
 use std::path::Path;
 use table::{Source, Table};
 use toml::de::DeTable;
@@ -50,18 +50,18 @@ use toml::de::DeTable;
 const MAX_LENGTH: u64 = 16 << 20;
 
 impl Scene {
-    /// A built-in scene, a scene file (`.toml`), or a mesh file (see [`Mesh::EXTENSIONS`]) in view: what is not a name of
-    /// the first but ends like a file or is one.
+    /// A built-in scene, a scene file (`.toml`), or a mesh file (see [`Mesh::EXTENSIONS`]) in view.
     ///
     /// # Errors
-    /// Neither a name nor a readable file, or a fault in the file.
+    /// A name that says none of these, a file that cannot be read, or a fault in it.
     pub fn open(name: &str) -> Result<Self, InputError> {
         let path = Path::new(name);
-        if !Self::BUILTIN.contains(&name) && (path.extension().is_some() || path.exists()) {
-            let is_scene = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
-            return if is_scene { read(path) } else { Ok(Self::of_mesh(Mesh::read(path)?)) };
+        match InputKind::of(name) {
+            Some(InputKind::Scene) if Self::BUILTIN.contains(&name) => Self::builtin(name),
+            Some(InputKind::Scene) => read(path),
+            Some(InputKind::Mesh) => Ok(Self::of_mesh(Mesh::read(path)?)),
+            Some(InputKind::Triangles) | None => Err(kind::unknown(name)),
         }
-        Self::builtin(name)
     }
 
     /// The scene that the text of a scene file says; `path` is where it would stand, for messages and for the files that
@@ -79,17 +79,13 @@ impl Scene {
 /// # Errors
 /// A file that cannot be read or is no TOML, a key that there is not, a value that is not permitted, a fault in a mesh.
 pub(crate) fn read(path: &Path) -> Result<Scene, InputError> {
-    let file = path.display().to_string();
-    let unreadable = |source| InputError::Read { file: file.clone(), source };
-    let mut text = Vec::new();
-    let opened = File::open(path).map_err(unreadable)?;
-    opened.take(MAX_LENGTH + 1).read_to_end(&mut text).map_err(unreadable)?;
-    if text.len() as u64 > MAX_LENGTH {
-        let permitted = format!("permitted: at most {MAX_LENGTH} bytes");
-        return Err(Fault::new(&file, None, "length", "more", permitted).into());
-    }
-    let text = std::str::from_utf8(&text);
-    parse(path, text.map_err(|error| unreadable(io::Error::new(io::ErrorKind::InvalidData, error)))?)
+    let bytes = file::read(path, MAX_LENGTH)?;
+    let text = std::str::from_utf8(&bytes).map_err(|error| {
+        let line = bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count() + 1;
+        let file = path.display().to_string();
+        Fault::new(&file, Some(line), "text", "bytes that are no UTF-8", "permitted: TOML in UTF-8")
+    })?;
+    parse(path, text)
 }
 
 /// The same from a text that stands for the file at `path`.

@@ -1,6 +1,6 @@
 //! What is drawn, on the screen, with everything the shading of a pixel needs.
 
-use crate::frame::{Triangle, Vertex};
+use crate::vertex::{Triangle, Vertex};
 use glam::{DVec2, DVec3};
 
 /// A vertex of what is left after clipping.

@@ -1,6 +1,7 @@
 //! Text files of one item a line: words and numbers, and the place they stand for messages.
 
-use crate::error::{Fault, InputError, nearest};
+use crate::error::{Fault, InputError};
+use edgewalk_nearest::nearest;
 use std::fmt::Display;
 use std::io::{BufRead, Read as _};
 use std::ops::RangeInclusive;
@@ -36,14 +37,15 @@ impl Place<'_> {
             return Ok(index);
         }
         let mut fault = self.fault(key, word, format!("permitted: {}", valid.join(" ")));
-        fault.nearest = std::str::from_utf8(word).ok().and_then(|word| nearest(word, valid));
+        fault.nearest = std::str::from_utf8(word).ok().and_then(|word| nearest(word, valid.iter().copied()));
         Err(fault.into())
     }
 
-    /// Exactly N words.
+    /// Exactly N words, which messages call `names`.
     pub fn values<'a, const N: usize>(
         self,
         key: &str,
+        names: &str,
         mut words: impl Iterator<Item = &'a [u8]>,
     ) -> Result<[&'a [u8]; N], InputError> {
         let mut taken: [&[u8]; N] = [&[]; N];
@@ -58,9 +60,12 @@ impl Place<'_> {
         if count == N {
             return Ok(taken);
         }
-        let values = if N == 1 { "value" } else { "values" };
-        let found = format!("{count} given");
-        Err(self.fault(key, found.as_bytes(), format!("permitted: {N} {values}")).into())
+        let permitted = match N {
+            0 => "permitted: no value".to_owned(),
+            1 => format!("permitted: 1 value, {names}"),
+            _ => format!("permitted: {N} values, {names}"),
+        };
+        Err(self.fault(key, format!("{count} given").as_bytes(), permitted).into())
     }
 
     /// A number that is neither infinite nor NaN.
@@ -90,6 +95,17 @@ impl Place<'_> {
             }
         }
     }
+
+    /// A part of a colour, 0 to 1; a message about a larger one says how to scale it.
+    pub fn color(self, key: impl Display, word: &[u8]) -> Result<f64, InputError> {
+        let mut color = self.number(key, word, "a number", 0.0..=1.0);
+        if let Err(InputError::Fault(fault)) = &mut color
+            && fault.value.parse::<f64>().is_ok_and(|value| value > 1.0)
+        {
+            fault.permitted += "; colours are 0 to 1, so divide those of 0 to 255 by 255";
+        }
+        color
+    }
 }
 
 /// The words of a line without its comment.
@@ -108,51 +124,76 @@ pub(crate) fn rest(line: &[u8]) -> String {
 pub(crate) struct Lines<R> {
     file: String,
     input: R,
+    /// Whether a line that ends in a backslash goes on in the next one.
+    joined: bool,
     text: Vec<u8>,
+    /// Number of the first line of `text`, counted from 1.
     line: usize,
+    /// Lines read so far.
+    read: usize,
 }
 
 impl<R: BufRead> Lines<R> {
     pub fn new(file: &str, input: R) -> Self {
-        Self { file: file.into(), input, text: Vec::new(), line: 0 }
+        Self { file: file.into(), input, joined: false, text: Vec::new(), line: 0, read: 0 }
     }
 
     /// The next line and its place; `None` at the end.
     pub fn next(&mut self) -> Result<Option<(Place<'_>, &[u8])>, InputError> {
         self.text.clear();
-        let mut line = (&mut self.input).take(MAX_LINE as u64 + 1);
-        match line.read_until(b'\n', &mut self.text) {
-            Ok(0) => return Ok(None),
-            Ok(_) => {}
-            Err(source) => return Err(InputError::Read { file: self.file.clone(), source }),
+        self.line = self.read + 1;
+        loop {
+            let room = (MAX_LINE + 1).saturating_sub(self.text.len());
+            match (&mut self.input).take(room as u64).read_until(b'\n', &mut self.text) {
+                Ok(0) => break,
+                Ok(_) => self.read += 1,
+                Err(source) => return Err(InputError::Read { file: self.file.clone(), source }),
+            }
+            if self.text.len() > MAX_LINE {
+                let why = format!("permitted: lines of at most {MAX_LINE} bytes");
+                return Err(self.place().fault("line", &self.text, why).into());
+            }
+            if !(self.joined && goes_on(&mut self.text)) {
+                break;
+            }
         }
-        self.line += 1;
-        if self.text.len() > MAX_LINE {
-            let why = format!("permitted: lines of at most {MAX_LINE} bytes");
-            return Err(self.place().fault("line", &self.text, why).into());
+        if self.read < self.line {
+            return Ok(None);
         }
         let mark = if self.line == 1 { BYTE_ORDER_MARK } else { b"" };
         Ok(Some((self.place(), self.text.strip_prefix(mark).unwrap_or(&self.text))))
     }
 
-    /// Of the last line that was read.
+    /// Of the last line that was given.
     pub fn place(&self) -> Place<'_> {
         Place { file: &self.file, line: self.line }
     }
 
-    /// Behind that line.
+    /// Behind the last line of the file.
     pub fn end(&self) -> Place<'_> {
-        Place { line: self.line + 1, ..self.place() }
+        Place { line: self.read + 1, ..self.place() }
     }
 }
 
-/// Calls `take` with each line of a file that messages call `file`.
+/// Makes a backslash at the end of a line a blank, and says whether there was one. A comment ends with its line.
+fn goes_on(text: &mut Vec<u8>) -> bool {
+    let Some(before) = text.trim_ascii_end().strip_suffix(b"\\") else { return false };
+    if before.trim_ascii_start().starts_with(b"#") {
+        return false;
+    }
+    let length = before.len();
+    text.truncate(length);
+    text.push(b' ');
+    true
+}
+
+/// Calls `take` with each line of a file that messages call `file`; one that ends in a backslash goes on in the next.
 pub(crate) fn each_line(
     file: &str,
     input: impl BufRead,
     mut take: impl FnMut(Place, &[u8]) -> Result<(), InputError>,
 ) -> Result<(), InputError> {
-    let mut lines = Lines::new(file, input);
+    let mut lines = Lines { joined: true, ..Lines::new(file, input) };
     while let Some((place, text)) = lines.next()? {
         take(place, text)?;
     }

@@ -3,9 +3,9 @@
 //! Values are taken as they are stored, 0 black and 1 white: no gamma, as pictures are written without one.
 
 use crate::error::{Fault, InputError};
+use crate::file;
 use glam::{DVec2, DVec3};
 use image::{DynamicImage, ImageReader, Limits};
-use std::fs::File;
 use std::io::{BufRead, BufReader, Seek};
 use std::path::Path;
 use std::sync::Arc;
@@ -52,8 +52,15 @@ impl Texture {
     /// The file cannot be read, is no such picture, or is too large.
     pub fn read(path: &Path) -> Result<Self, InputError> {
         let file = path.display().to_string();
-        let opened = File::open(path).map_err(|source| InputError::Read { file: file.clone(), source })?;
-        Self::decode(&file, BufReader::new(opened))
+        Self::decode(&file, BufReader::new(file::open(path)?))
+    }
+
+    /// The picture that a mesh file names, beside it; white where there is none.
+    pub(crate) fn named(name: &str, path: &Path) -> Result<Self, InputError> {
+        match file::open_if_there(path)? {
+            Some(opened) => Self::decode(&path.display().to_string(), BufReader::new(opened)),
+            None => Ok(Self::Absent(name.to_owned())),
+        }
     }
 
     /// The same from memory; messages call it `file`.

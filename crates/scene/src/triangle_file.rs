@@ -12,5 +12,5 @@ mod texture;
 mod reader;
 mod writer;
 
-pub use reader::{Reader, parse, read};
+pub use reader::{Reader, open, parse, read};
 pub use writer::write;

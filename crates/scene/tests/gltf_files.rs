@@ -185,8 +185,11 @@ fn malformed_gltf_files_name_the_part_and_the_remedy() {
     let cases: [(Gltf, &[&str]); 14] = [
         (Gltf { json: "{".into(), ..square() }, &["a.gltf:1: JSON", "line 1 column"]),
         (Gltf { json: "{\n\"asset\" 3}".into(), ..square() }, &["a.gltf:2: JSON", "expected `:`"]),
-        (Gltf { buffer: vec![0; 10], ..square() }, &["buffer", "all its buffers"]),
-        (square().with("a.bin", "b.bin"), &["a.gltf: glTF", "all its buffers"]),
+        (
+            Gltf { buffer: vec![0; 10], ..square() },
+            &["buffer 0: `10 bytes`", "the 60 bytes that its byteLength"],
+        ),
+        (square().with("a.bin", "b.bin"), &["b.bin: cannot be read"]),
         (square().with(r#""mesh":0"#, r#""mesh":7"#), &["nodes[0].mesh", "ndex"]),
         (square().with(r#"{"POSITION":0}"#, "{}"), &["meshes[0].primitives[0].attributes", "Missing data"]),
         (square().with("5126", "5123"), &["node 0 primitive 0 POSITION: `(Vec3, U16)`", "three f32"]),

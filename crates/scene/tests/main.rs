@@ -4,13 +4,16 @@ mod common;
 
 mod builtin;
 mod clipping;
+mod fuzz;
 mod gltf_files;
 mod light_views;
+mod malformed;
 mod materials;
 mod obj_files;
 mod pixel_shading;
 mod placed_objects;
 mod scene_file;
+mod statements;
 mod textures;
 mod texture_lines;
 mod triangle_file;

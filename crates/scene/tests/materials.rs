@@ -90,8 +90,8 @@ fn obj_corners_bring_texture_normals_and_groups() {
     assert_eq!((flat.texture, flat.normals, flat.group), (None, None, 0), "one normal has no direction");
     assert_eq!((half.texture, half.normals), (None, None), "one corner has no texture");
     for (text, fragment) in [
-        ("f 1/1 2 3", "texture coordinates so far"),
-        ("f 1//4 2 3", "normals so far"),
+        ("f 1/1 2 3", "no texture coordinates come before"),
+        ("f 1//4 2 3", "no normals come before"),
         ("vn 0 1", "vn z"),
         ("vt x", "vt u"),
         ("s smooth", "`off` or an integer"),

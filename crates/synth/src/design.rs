@@ -1,6 +1,7 @@
 //! The Verilog that the tools get.
 
 use crate::harness::{MODULE, harness};
+use crate::memories::{Memory, memories};
 use crate::part::Part;
 use edgewalk_machine::Plan;
 use edgewalk_netlist::BuildErrors;
@@ -14,6 +15,8 @@ pub struct Design {
     pub files: Vec<(String, String)>,
     /// SHA-256 over names and texts of all files.
     pub hash: String,
+    /// The memories outside it.
+    pub(crate) memories: Vec<Memory>,
     /// The module that is measured.
     pub(crate) module: String,
     /// Its units and their modules, in the order the data flows; none if it is a unit itself.
@@ -43,6 +46,7 @@ impl Design {
         Ok(Design {
             part,
             hash: hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect(),
+            memories: memories(plan, part),
             module: netlist.name.clone(),
             units: units.collect(),
             files,

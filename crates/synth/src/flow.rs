@@ -4,6 +4,7 @@ use crate::cache::Cache;
 use crate::cells::{Cells, Statistics};
 use crate::design::Design;
 use crate::harness;
+use crate::memories::place;
 use crate::packed::{Packed, packed};
 use crate::report::{Mhz, Outcome, Seed, UnitCells};
 use crate::target::Target;
@@ -50,6 +51,13 @@ impl Flow<'_> {
     /// All that the tools say of the design on the device. Steps that do not wait for each other run at once.
     #[must_use]
     pub fn run(&self, design: &Design, target: &Target) -> Outcome {
+        let mut outcome = self.measured(design, target);
+        let own = outcome.cells.map_or(0, |cells| cells.ram);
+        outcome.memories = place(design.memories.clone(), target.blocks, own);
+        outcome
+    }
+
+    fn measured(&self, design: &Design, target: &Target) -> Outcome {
         let mut outcome = Outcome::unknown(target);
         match self.version(target.yosys, "-V") {
             Ok(version) => outcome.yosys = Some(version),

@@ -1,7 +1,6 @@
 //! What is synthesised: the machine, the units that draw, or one unit.
 
-use edgewalk_machine::nearest::nearest;
-use edgewalk_machine::{Plan, UNITS};
+use edgewalk_machine::{Plan, UNITS, Unknown};
 use edgewalk_netlist::{BuildErrors, Netlist};
 use std::sync::Arc;
 
@@ -13,13 +12,8 @@ pub struct Part(&'static str);
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum UnknownPart {
     /// There is none of that name.
-    #[error("unknown unit {name}; nearest: {nearest}")]
-    Name {
-        /// What was asked for.
-        name: String,
-        /// The most similar name there is.
-        nearest: &'static str,
-    },
+    #[error(transparent)]
+    Name(#[from] Unknown),
     /// Other machines have it.
     #[error("this machine has no unit {0}")]
     Absent(&'static str),
@@ -44,7 +38,7 @@ impl Part {
     /// An unknown name, or a unit that this machine has not.
     pub fn named(name: &str, plan: &Plan) -> Result<Part, UnknownPart> {
         let Some(known) = Part::names().find(|known| *known == name) else {
-            return Err(UnknownPart::Name { name: name.to_owned(), nearest: nearest(name, Part::names()) });
+            return Err(Unknown::new("unit", name, Part::names()).into());
         };
         match UNITS.iter().any(|unit| unit.name == known && !(unit.present)(plan)) {
             true => Err(UnknownPart::Absent(known)),

@@ -1,6 +1,7 @@
 //! What is known of a design on a device.
 
 use crate::cells::Cells;
+use crate::memories::Memory;
 use crate::packed::Packed;
 use crate::target::Target;
 use crate::timing::CriticalPath;
@@ -22,6 +23,9 @@ pub struct Outcome {
     pub cells: Option<Cells>,
     /// Cells of each unit, synthesised apart; empty for a single unit.
     pub units: Option<Vec<UnitCells>>,
+    /// The memories outside the design, and the blocks of the device that hold them. What holds the picture has to be read
+    /// besides, to be shown.
+    pub memories: Vec<Memory>,
     /// Cells after packing.
     pub packed: Option<Packed>,
     /// Over the seeds that gave a clock.
@@ -76,6 +80,7 @@ impl Outcome {
             nextpnr: None,
             cells: None,
             units: None,
+            memories: Vec::new(),
             packed: None,
             mhz: None,
             seeds: Vec::new(),

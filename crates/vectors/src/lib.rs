@@ -21,5 +21,5 @@ pub use manifest::Manifest;
 pub use reach::{Reached, not_covered, reached};
 pub use read::{ReadError, Vectors, read};
 pub use simulate::{Outcome, SimulateError, Simulator, Stop, lint, simulate, synth_ice40};
-pub use suites::{Case, SUITES, Suite, UnknownSuite, Words, words};
+pub use suites::{Case, SUITES, Suite, Words, words};
 pub use write::{Files, Tables, directory};

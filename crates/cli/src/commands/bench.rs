@@ -1,5 +1,6 @@
 //! `edgewalk bench`: frames and cycles a second of every engine on the same triangles, in one run.
 
+use crate::document::line;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::scratch::Scratch;
@@ -59,6 +60,6 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     bar.finish_and_clear();
     let table = Table::new(&whole, rows);
-    talk.say(|| Ok(table.json().to_string()), || table.text())?;
+    talk.say(|| line("bench", table.json()), || table.text())?;
     Ok(if table.agrees() { Verdict::Pass } else { Verdict::Mismatch })
 }

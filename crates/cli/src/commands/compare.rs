@@ -3,13 +3,17 @@
 mod page;
 
 use crate::cost::{SynthArgs, Synthesiser};
-use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Context, Result, anyhow};
+use edgewalk_explore::sweep::equation::Equation;
+use edgewalk_explore::sweep::shading::{SHADINGS, named, of_machine};
+use edgewalk_golden::Shading;
 use edgewalk_host::draw;
+use edgewalk_host::input::{Input, Shaded};
+use edgewalk_host::port::to_port;
 use edgewalk_host::raster::Raster;
 use edgewalk_host::reach::reach;
 use edgewalk_judge::compare::compare_shaded;
@@ -22,24 +26,35 @@ use std::path::PathBuf;
 
 /// Draws an input on two machines and says what differs: keys, cycles by cause, pixels, and with --synth cells and clock.
 ///
-/// A machine is a file or preset, with settings behind commas; what --set says holds for both. Pictures: a.png, b.png, and
-/// difference.png, the pixels that differ by how much, yellow at the largest. They are machines that are compared here, each with
-/// golden as `edgewalk render` does; pictures of another program are not.
+/// A machine is a file or preset, with settings behind commas and its shading behind a colon; what --set says holds for both.
+/// Without a shading a machine draws as its shade.kind says. Where the shadings differ, each picture is also held against the
+/// shading equation at each pixel, which is the same for both. Pictures: a.png, b.png, and difference.png, the pixels that differ
+/// by how much, yellow at the largest. They are machines that are compared here, each with golden as `edgewalk render` does;
+/// pictures of another program are not.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   edgewalk compare default default,interpolator.adders=1 teapot.obj
   edgewalk compare out/sweep/best_cycles.toml out/sweep/best_word_bits.toml torus-knot --json
+  edgewalk compare default default,shade.kind=fast-phong teapot.obj
+  edgewalk compare default:constant default:gouraud torus
   edgewalk compare default textbook sphere --stalls dram --out out/compare
   edgewalk compare default default,setup.lanes=1 sphere --synth ice40-hx8k")]
 pub struct Args {
-    /// A machine: FILE|PRESET[,key=value...]
+    /// A machine: FILE|PRESET[,key=value...][:SHADING]
     #[arg(value_name = "A")]
     a: String,
     /// Another
     #[arg(value_name = "B")]
     b: String,
-    #[command(flatten)]
-    source: Source,
+    /// A built-in scene, a scene file (.toml), a mesh (.obj, .gltf, .glb) or a triangle file (.tri)
+    #[arg(value_name = "SCENE|MESH", default_value = "torus-knot")]
+    input: String,
+    /// How a machine without a shading of its own shades a scene or mesh: constant, constant-averaged, gouraud, phong, fast-phong
+    #[arg(long, value_name = "SHADING", value_parser = clap::builder::PossibleValuesParser::new(SHADINGS.map(|of| of.0)))]
+    shading: Option<String>,
+    /// Sets the keys of both machines that the input asks for; what a machine and --set say stands
+    #[arg(long)]
+    adapt: bool,
     /// How the memory makes both wait: none, fixed, random, dram, with parameters as fixed:rd=2
     #[arg(long, value_name = "KIND", default_value = "none")]
     stalls: Waits,
@@ -55,33 +70,38 @@ const FILES: [&str; 5] = ["a.png", "b.png", "difference.png", "compare.json", "c
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let screen = args.source.screen()?;
-    let [a, b] = [machine.named(&args.a, screen)?, machine.named(&args.b, screen)?];
-    if (a.width, a.height) != (b.width, b.height) {
+    // Opened once: it may be a pipe.
+    let input = Input::open(&args.input, Shaded::Corners(Shading::Gouraud))?;
+    let asked = |name: &str| Asked::new(name, &input, args, machine);
+    let [a, b] = [asked(&args.a)?, asked(&args.b)?];
+    if (a.plan.width, a.plan.height) != (b.plan.width, b.plan.height) {
         return Err(anyhow!(
             "the screens differ, {}x{} and {}x{}, so no pixels can be compared; set screen.width and screen.height",
-            a.width,
-            a.height,
-            b.width,
-            b.height
+            a.plan.width,
+            a.plan.height,
+            b.plan.width,
+            b.plan.height
         ));
     }
     let out = Staging::new(&args.out)?;
-    let synthesiser = match args.synth.definition(&a)? {
+    let synthesiser = match args.synth.definition(&a.plan)? {
         Some(of) => {
-            args.synth.definition(&b)?;
+            args.synth.definition(&b.plan)?;
             let synthesiser = Synthesiser::new(&of, args.synth.tools())?;
             synthesiser.check()?;
             Some(synthesiser)
         }
         None => None,
     };
-    let side = |name: &str, plan: Plan| -> Result<Side> {
-        let (report, raster) = drawn(args, &plan).with_context(|| name.to_owned())?;
-        let cost = synthesiser.as_ref().map(|synthesiser| synthesiser.cost(&plan));
-        Ok(Side { name: name.to_owned(), plan, report, raster, cost })
+    // One measure for both: the screens are the same, and all ways of shading show the same triangles.
+    let equation = if a.shading == b.shading { None } else { Equation::of(&a.input, &a.plan) };
+    let side = |of: Asked| -> Result<Side> {
+        let (report, raster) = drawn(&of, args.stalls).with_context(|| of.name.clone())?;
+        let cost = synthesiser.as_ref().map(|synthesiser| synthesiser.cost(&of.plan));
+        let distance = equation.as_ref().map(|equation| equation.distance(&raster));
+        Ok(Side { name: of.name, plan: of.plan, shading: of.shading, report, raster, distance, cost })
     };
-    let page = Page::new([side(&args.a, a)?, side(&args.b, b)?], &args.source.input, args.stalls)?;
+    let page = Page::new([side(a)?, side(b)?], &args.input, args.stalls)?;
     let [a, b] = page.rasters();
     picture::write_rgb(&out, "a.png", a.width, a.height, &a.rgb)?;
     picture::write_rgb(&out, "b.png", b.width, b.height, &b.rgb)?;
@@ -91,18 +111,65 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     out.write("compare.txt", page.text())?;
     out.publish(&FILES)?;
     talk.say(|| page.json(), || page.text())?;
-    page.verdict().or_nothing(&args.source.input, page.primitives(), (a.width, a.height))
+    page.verdict().or_nothing(&args.input, page.primitives(), (a.width, a.height))
+}
+
+/// A machine, and what it draws.
+struct Asked {
+    /// As it was asked for.
+    name: String,
+    plan: Plan,
+    input: Input,
+    /// None of a triangle file, which says itself how it is shaded.
+    shading: Option<&'static str>,
+}
+
+impl Asked {
+    fn new(name: &str, input: &Input, args: &Args, machine: &MachineArgs) -> Result<Asked> {
+        let (text, own) = apart(name)?;
+        let common = args.shading.as_deref().map(named).transpose()?;
+        let screen = input.size();
+        if let (Some(_), Some((shading, _))) = (screen, own) {
+            return Err(anyhow!("{name}: {} says itself how it is shaded; leave :{shading} out", args.input));
+        }
+        let mut plan = machine.named(text, screen, &[])?;
+        let (shading, shaded) = match own.or(common) {
+            Some(asked) => asked,
+            None => named(of_machine(&plan))?,
+        };
+        let input = input.shaded(shaded);
+        if args.adapt {
+            plan = machine.named(text, screen, &input.needs(&plan))?;
+        }
+        let shading = screen.is_none().then_some(shading);
+        Ok(Asked { name: name.to_owned(), plan, input, shading })
+    }
+}
+
+/// The machine and its shading: what stands behind the last colon, unless it is a part of a path or of a setting.
+fn apart(name: &str) -> Result<(&str, Option<(&'static str, Shaded)>)> {
+    match name.rsplit_once(':') {
+        Some((machine, shading)) if !shading.contains(['/', '.', ',', '=']) => {
+            Ok((machine, Some(named(shading).with_context(|| name.to_owned())?)))
+        }
+        _ => Ok((name, None)),
+    }
 }
 
 /// As `render` does.
-fn drawn(args: &Args, plan: &Plan) -> Result<(Report, Raster)> {
-    let frame = args.source.frame(plan)?;
+fn drawn(of: &Asked, stalls: Waits) -> Result<(Report, Raster)> {
+    let Asked { plan, input, .. } = of;
+    let frame = input.frame(plan)?;
     let port = to_port(&frame, plan)?;
     let golden = draw::golden(&frame, plan);
-    let raster = draw::fast(&frame, plan, args.stalls)?;
+    let raster = draw::fast(&frame, plan, stalls)?;
     let proof = port.shade.as_ref().map(|feed| &feed.proof);
     let comparison = compare_shaded(plan, &frame, &golden, &raster, reach(plan, &port)?.as_ref(), proof);
     let setup = SetupReport::new(plan, &port.triangles);
-    let report = Report::new(&args.source.input, frame.triangles.len() as u64, plan, &raster);
-    Ok((report.with(comparison).with_setup(setup), raster))
+    let report = Report {
+        comparison: Some(comparison),
+        setup: Some(setup),
+        ..Report::new(input.name(), frame.triangles.len() as u64, plan, &raster, stalls)
+    };
+    Ok((report, raster))
 }

@@ -2,17 +2,18 @@
 
 mod precision;
 
+use crate::Talk;
+use crate::document::document;
 use crate::machine_args::MachineArgs;
-use crate::talk;
 use crate::verdict::Verdict;
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 use edgewalk_host::extra::{self, OwnChannel};
+use edgewalk_machine::key::{Domain, Key};
 use edgewalk_machine::keys::KEYS;
-use edgewalk_machine::nearest::nearest;
 use edgewalk_machine::presets::PRESETS;
 use edgewalk_machine::{Channel, Plan};
 use precision::Precision;
-use serde_json::json;
+use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
 /// Prints, checks or explains a machine: what its keys mean, which error of its outputs is proved, how many fraction bits its
@@ -41,25 +42,41 @@ enum What {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, machine: &MachineArgs, json: bool) -> Result<Verdict> {
+pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let machine = machine.machine(None)?;
     let hash = machine.hash();
-    talk::print(&match &args.what {
-        What::Print => format!("# machine {hash}\n{}", machine.to_toml()),
-        What::Check if json => json!({ "ok": true, "hash": hash }).to_string(),
-        What::Check => format!("machine {hash} can be built"),
-        What::Explain { key } => explain(&machine, key.as_deref(), json)?,
-    })?;
+    // What is asked for is the output itself, so a quiet program prints it too.
+    let talk = Talk { quiet: false, ..talk };
+    match &args.what {
+        What::Print => talk.say(
+            || document("machine", json!({ "hash": hash, "keys": keys(&machine) })),
+            || format!("# machine {hash}\n{}", machine.to_toml()),
+        ),
+        What::Check => talk.say(
+            || document("check", json!({ "ok": true, "hash": hash })),
+            || format!("machine {hash} can be built"),
+        ),
+        What::Explain { key } => explain(&machine, key.as_deref(), talk),
+    }?;
     Ok(Verdict::Pass)
 }
 
-fn explain(machine: &Plan, key: Option<&str>, json: bool) -> Result<String> {
-    let chosen: Vec<_> = KEYS.iter().filter(|k| key.is_none_or(|name| k.name == name)).collect();
-    if chosen.is_empty() {
-        let name = key.unwrap_or_default();
-        return Err(anyhow!("unknown key {name}; nearest: {}", nearest(name, KEYS.iter().map(|k| k.name))));
-    }
-    if json {
+/// The keys that the machine uses, with their values: words or numbers.
+fn keys(machine: &Plan) -> Map<String, Value> {
+    let used = KEYS.iter().filter(|key| (key.used)(machine));
+    let value = |key: &Key| match key.domain {
+        Domain::Word(_) => json!(key.show(machine)),
+        _ => json!((key.get)(machine)),
+    };
+    used.map(|key| (key.name.to_owned(), value(key))).collect()
+}
+
+fn explain(machine: &Plan, key: Option<&str>, talk: Talk) -> Result<()> {
+    let chosen: Vec<&Key> = match key {
+        Some(name) => vec![Key::named(name)?],
+        None => KEYS.iter().collect(),
+    };
+    let json = || {
         let list: Vec<_> = chosen
             .iter()
             .map(|k| json!({ "key": k.name, "value": k.show(machine), "permitted": k.permitted(), "doc": k.doc }))
@@ -67,25 +84,17 @@ fn explain(machine: &Plan, key: Option<&str>, json: bool) -> Result<String> {
         let all = key.is_none().then(|| Precision::of(machine));
         let own: Vec<_> = extra::channels(machine).iter().map(|c| OwnChannel::of(c, machine)).collect();
         let own = (key.is_none() && !own.is_empty()).then_some(own);
-        let told = json!({ "keys": list, "precision": all, "channels": own });
-        return Ok(serde_json::to_string_pretty(&told)?);
-    }
-    let mut text = String::new();
-    for k in chosen {
-        // Writing to a string cannot fail.
-        _ = writeln!(
-            text,
-            "{} = {}\n    {}\n    permitted: {}",
-            k.name,
-            k.show(machine),
-            k.doc,
-            k.permitted()
-        );
-    }
-    if key.is_none() {
-        text += &consequences(machine);
-    }
-    Ok(text)
+        document("keys", json!({ "keys": list, "precision": all, "channels": own }))
+    };
+    let text = || {
+        let lines = chosen.iter().map(|k| {
+            let [value, permitted] = [k.show(machine), k.permitted()];
+            format!("{} = {value}\n    {}\n    permitted: {permitted}\n", k.name, k.doc)
+        });
+        let text: String = lines.collect();
+        if key.is_none() { text + &consequences(machine) } else { text }
+    };
+    talk.say(json, text)
 }
 
 /// What follows from the keys, and the presets.

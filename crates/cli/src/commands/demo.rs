@@ -1,7 +1,7 @@
 //! `edgewalk demo`: the main job on a built-in scene, from pictures to Verilog and vectors.
 
-use super::render::Pictures;
 use super::{emit, render, vectors};
+use crate::document::document;
 use crate::engine::Engine;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
@@ -38,16 +38,18 @@ const ACCUMULATOR: &str = "z_accumulator.png";
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = machine.machine(None)?;
+    let machine = args.source.machine(machine)?;
     let frame = args.source.frame(&machine)?;
     let out = Staging::new(&args.out)?;
-    let Pictures { report, verdict, ids } = render::pictures(
+    let mut ids = Vec::new();
+    let (report, verdict) = render::pictures(
         &args.source.input,
         &frame,
         &machine,
         (Engine::Model, Waits::Never),
         &out,
         talk.quiet,
+        |band| ids.extend_from_slice(&band.id),
     )?;
     let port = to_port(&frame, &machine)?;
     let dda = depth_error_over_bound(&machine, &port.triangles, &ids);
@@ -58,13 +60,13 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let suites = vectors::directed(&machine)?;
     let set =
         vectors::Set { suites: &suites, units: &Unit::all(&machine), stalls: None, tables: Tables::Written };
-    let suites = set.write(&machine, &out, "vectors/", talk.quiet)?;
-    out.write("report.json", report.json()?)?;
+    let suites = set.write(&machine, &out, "vectors/", talk)?;
+    out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     let own = [emit::own("hdl/"), vectors::own(&args.out, "vectors/", &suites)].concat();
     let pictures = render::FILES.map(str::to_owned);
     out.publish(&[&own[..], &pictures, &[ACCUMULATOR.to_owned()]].concat())?;
-    talk.say(|| report.json(), || report.text())?;
+    talk.say(|| document("report", &report), || report.text())?;
     if !talk.quiet && !talk.json {
         let at = args.out.display();
         let dda = if dda.is_some() { " z_accumulator.png" } else { "" };

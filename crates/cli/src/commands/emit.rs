@@ -1,10 +1,12 @@
 //! `edgewalk emit`: the machine as Verilog.
 
+use crate::document::document;
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, staging};
 use anyhow::{Result, anyhow};
+use serde_json::json;
 use std::path::PathBuf;
 
 /// Writes the machine as readable, synthesizable Verilog-2001, a module a file, with a list of them in compile order.
@@ -26,7 +28,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let files = write_design(&machine, &out, "")?;
     out.publish(&own(""))?;
     talk.say(
-        || Ok(serde_json::json!({ "hash": machine.hash(), "files": files }).to_string()),
+        || document("emit", json!({ "hash": machine.hash(), "files": files })),
         || format!("machine {} -> {}\n    {}", machine.hash(), args.out.display(), files.join("\n    ")),
     )?;
     Ok(Verdict::Pass)

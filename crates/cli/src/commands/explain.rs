@@ -1,6 +1,7 @@
 //! `edgewalk explain`: why a pixel looks as it does.
 
 use crate::Talk;
+use crate::document::document;
 use crate::input::Source;
 use crate::machine_args::MachineArgs;
 use crate::verdict::Verdict;
@@ -13,10 +14,14 @@ use edgewalk_explain::{Input, explain};
 #[command(after_help = "Examples:
   edgewalk explain torus-knot 320 240
   edgewalk explain docs/scenes/lights.toml 200 300 --json
-  edgewalk explain triangles.tri 10 10 --set screen.width=64 --set screen.height=64")]
+  edgewalk explain sphere 30 20 --set screen.width=64 --set screen.height=48 --triangles 300
+  edgewalk explain triangles.tri 10 10")]
 pub struct Args {
     #[command(flatten)]
     source: Source,
+    /// Draws the first N triangles of the input; all of them if left out
+    #[arg(long, value_name = "N")]
+    triangles: Option<usize>,
     /// Column, from the left
     #[arg(value_name = "X")]
     x: u32,
@@ -27,18 +32,19 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = machine.machine(None)?;
-    let (x, y) = (args.x, args.y);
-    if x >= machine.width || y >= machine.height {
-        let (w, h) = (machine.width - 1, machine.height - 1);
-        return Err(anyhow!("explain: `{x} {y}`: permitted: X from 0 to {w}, Y from 0 to {h}"));
-    }
-    // Opened once: it may be a pipe.
+    let machine = args.source.machine(machine)?;
+    // A file is opened once: it may be a pipe.
     let scene = if args.source.is_triangle_file() { None } else { Some(args.source.surface(&machine)?) };
     let (frame, order) = match &scene {
         Some((scene, surface)) => args.source.frame_of(scene, surface, &machine)?,
         None => (args.source.frame(&machine)?, None),
     };
+    let frame = frame.first(args.triangles.unwrap_or(usize::MAX));
+    let (x, y) = (args.x, args.y);
+    if x >= machine.width || y >= machine.height {
+        let (w, h) = (machine.width - 1, machine.height - 1);
+        return Err(anyhow!("explain: `{x} {y}`: permitted: X from 0 to {w}, Y from 0 to {h}"));
+    }
     let input = Input {
         machine: &machine,
         frame: &frame,
@@ -46,7 +52,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         order: order.as_ref(),
     };
     let explanation = explain(&input, (x, y))?;
-    talk.say(|| Ok(serde_json::to_string(&explanation)?), || explanation.text(machine.color.bits))?;
+    talk.say(|| document("explain", &explanation), || explanation.text(machine.color.bits))?;
     // A pixel may be empty, but not the whole picture.
     Verdict::drew(explanation.covered).or_nothing(
         &args.source.input,

@@ -1,13 +1,15 @@
 //! `edgewalk gallery`: a page of exhibits, each a system or a fault with pictures, cause and figures.
 
+use crate::document::document;
 use crate::progress::bar;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, picture};
 use anyhow::{Result, anyhow};
 use edgewalk_gallery::{EXHIBITS, Exhibit, Image, Maker, View};
-use edgewalk_scene::nearest;
+use edgewalk_machine::Unknown;
 use rayon::prelude::*;
+use serde_json::json;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -21,7 +23,7 @@ pub struct Args {
     /// Names of exhibits; all of them if none is given
     names: Vec<String>,
     /// Output directory
-    #[arg(long, value_name = "DIR", default_value = "docs/gallery")]
+    #[arg(long, value_name = "DIR", default_value = "out/gallery")]
     out: PathBuf,
 }
 
@@ -65,12 +67,7 @@ fn chosen(names: &[String]) -> Result<Vec<Maker>> {
     }
     let find = |name: &String| match EXHIBITS.iter().find(|(known, _)| known == name) {
         Some((_, make)) => Ok(*make),
-        None => {
-            let known = EXHIBITS.map(|(name, _)| name);
-            let near =
-                nearest(name, &known).map_or(String::new(), |near| format!("; did you mean `{near}`?"));
-            Err(anyhow!("gallery: `{name}`: permitted: {}{near}", known.join(" ")))
-        }
+        None => Err(anyhow!("gallery: {}", Unknown::new("exhibit", name, EXHIBITS.map(|(name, _)| name)))),
     };
     names.iter().map(find).collect()
 }
@@ -124,9 +121,9 @@ fn report(exhibits: &[Exhibit], talk: Talk) -> Result<()> {
             let figures =
                 exhibit.figures.iter().map(|(quantity, value)| (quantity.clone(), value.clone().into()));
             let figures: serde_json::Map<String, serde_json::Value> = figures.collect();
-            serde_json::json!({ "name": exhibit.name, "title": exhibit.title, "figures": figures })
+            json!({ "name": exhibit.name, "title": exhibit.title, "figures": figures })
         };
-        Ok(serde_json::to_string(&exhibits.iter().map(one).collect::<Vec<_>>())?)
+        document("gallery", json!({ "exhibits": exhibits.iter().map(one).collect::<Vec<_>>() }))
     };
     let text = || {
         let mut text = String::new();

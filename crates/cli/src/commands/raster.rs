@@ -2,6 +2,7 @@
 
 mod page;
 
+use crate::document::document;
 use crate::engine::{Engine, Raster, draw_bands, fast_bands};
 use crate::fast::BeyondBand;
 use crate::machine_args::MachineArgs;
@@ -9,13 +10,15 @@ use crate::staging::Staging;
 use crate::triangles::TriangleFile;
 use crate::verdict::Verdict;
 use crate::{Talk, fast};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 use edgewalk_host::extra;
+use edgewalk_host::needs::{self, needs};
 use edgewalk_judge::report::Report;
 use edgewalk_machine::Plan;
-use edgewalk_scene::{Frame, InputError};
+use edgewalk_model::Waits;
+use edgewalk_scene::{Frame, InputError, InputKind};
 use page::Page;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Draws a file of screen-space triangles and writes what every pixel got.
 ///
@@ -52,8 +55,12 @@ The triangle file (docs/triangle_file.md), one item a line, # comments:
   P n  x y z r g b kt ..                                  a polygon of n vertices; the machine draws it as triangles
   H n  x y z r g b kt ..                                  one more contour of the polygon on the line before")]
 pub struct Args {
-    /// The triangle file
+    /// The triangle file; - for the standard input
     file: PathBuf,
+    /// Sets the keys of the machine that the file asks for, as channels.extra, blend.kind, shadow.size or shade.kind; what
+    /// --set says stands
+    #[arg(long)]
+    adapt: bool,
     /// Who draws
     #[arg(long, value_enum, default_value_t = Engine::Fast)]
     engine: Engine,
@@ -81,20 +88,41 @@ const FILES: [&str; 12] = [
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let out = Staging::new(&args.out)?;
+    let name = args.file.display().to_string();
+    no_mesh(&name)?;
     let file = TriangleFile::open(&args.file)?;
     let header = file.header()?;
-    let machine = machine.machine(Some((header.width, header.height)))?;
-    extra::fitting(header.extra, &machine).with_context(|| file.name().to_owned())?;
+    let screen = Some((header.width, header.height));
+    let asked = machine.machine(screen)?;
+    let machine = if args.adapt { machine.adapted(screen, &needs(&file.whole()?, &asked))? } else { asked };
+    if header.extra != extra::channels(&machine).len() {
+        needs::check(&file.whole()?, &machine).with_context(|| name.clone())?;
+    }
     let report = match args.engine {
-        // Of a light all triangles are needed before the first pixel.
-        Engine::Fast if header.shadows.is_empty() => while_it_is_read(&file, &header, &machine, &out, talk)?,
+        // Of a light all triangles are needed before the first pixel; of what the machine lacks, to name all of it.
+        Engine::Fast if header.shadows.is_empty() && needs(&header, &machine).is_empty() => {
+            while_it_is_read(&file, &header, &machine, &out, talk)?
+        }
         engine => whole(&file, engine, &machine, &out, talk)?,
     };
-    out.write("report.json", report.json()?)?;
+    out.write("report.json", document("report", &report)?)?;
     out.publish(&FILES)?;
-    talk.say(|| report.json(), || report.text())?;
+    talk.say(|| document("report", &report), || report.text())?;
     let size = (machine.width, machine.height);
-    Verdict::drew(report.covered()).or_nothing(&args.file.display().to_string(), report.primitives(), size)
+    Verdict::drew(report.drawn.fragments).or_nothing(&name, report.drawn.primitives(), size)
+}
+
+/// Refuses what is no triangle file by its name.
+fn no_mesh(name: &str) -> Result<()> {
+    let kind = match InputKind::of(name) {
+        Some(InputKind::Mesh) => "a mesh",
+        Some(InputKind::Scene) if !Path::new(name).exists() || name.contains('.') => "a scene",
+        _ => return Ok(()),
+    };
+    Err(anyhow!(
+        "{name}: {kind}: permitted: a triangle file (.tri); draw it with `edgewalk render {name}`, or make a triangle file of it with \
+         `edgewalk triangles {name} --out FILE.tri`"
+    ))
 }
 
 fn while_it_is_read(
@@ -114,7 +142,11 @@ fn while_it_is_read(
         drawn => drawn?,
     };
     let triangles = drawn.triangles();
-    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band).with_host(host);
+    let report = |band: &Raster| {
+        let mut report = Report::new(file.name(), triangles, machine, band, Waits::Never);
+        report.drawn.host = host;
+        report
+    };
     let mut page = Page::new(out, machine, report);
     let bands = fast_bands(machine);
     drawn.bands(machine, bands, |band| page.add(&band))?;
@@ -124,7 +156,11 @@ fn while_it_is_read(
 fn whole(file: &TriangleFile, engine: Engine, machine: &Plan, out: &Staging, talk: Talk) -> Result<Report> {
     let frame = file.whole()?;
     let (triangles, polygons) = (frame.triangles.len() as u64, frame.polygons.len() as u64);
-    let report = |band: &Raster| Report::new(file.name(), triangles, machine, band).with_polygons(polygons);
+    let report = |band: &Raster| {
+        let mut report = Report::new(file.name(), triangles, machine, band, Waits::Never);
+        report.drawn.polygons = polygons;
+        report
+    };
     let mut page = Page::new(out, machine, report);
     draw_bands(engine, &frame, machine, talk.quiet, |band| page.add(&band))
         .with_context(|| file.name().to_owned())?;

@@ -4,21 +4,25 @@
 mod lamps;
 mod lights;
 
-use crate::engine::{Engine, draw, draw_waiting, from_golden, golden_fill};
+use crate::Talk;
+use crate::document::document;
+use crate::engine::{Engine, Raster, draw_port, from_golden, golden_fill};
 use crate::fast_phong::{FastPhongArgs, FastPhongReport};
 use crate::input::{Shading, Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::picture::{self, Png};
 use crate::progress::spinner;
 use crate::shading_report::ShadingReport;
 use crate::shadows::Shadows;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::{Talk, picture};
 use anyhow::{Context as _, Result, anyhow};
 use edgewalk_golden::{HiddenLines, wireframe};
+use edgewalk_host::draw;
 use edgewalk_host::reach::reach;
 use edgewalk_host::shade::apart;
-use edgewalk_judge::compare::{Comparison, compare_shaded};
+use edgewalk_judge::beside::{Beside, Proved, beside};
+use edgewalk_judge::compare::Comparison;
 use edgewalk_judge::report::Report;
 use edgewalk_judge::setup_report::SetupReport;
 use edgewalk_machine::Plan;
@@ -84,7 +88,7 @@ pub const FILES: [&str; 10] = [
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = machine.machine(None)?;
+    let machine = args.source.machine(machine)?;
     if args.source.shading != Shading::FastPhong {
         args.fast_phong.unused()?;
     }
@@ -109,13 +113,13 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     let (frame, order) = args.source.sorted(&machine)?;
     let out = Staging::new(&args.out)?;
-    let Pictures { report, verdict, .. } =
-        pictures(&args.source.input, &frame, &machine, (args.engine, args.stalls), &out, talk.quiet)?;
-    let report = report.sorted(order);
-    out.write("report.json", report.json()?)?;
+    let (mut report, verdict) =
+        pictures(&args.source.input, &frame, &machine, (args.engine, args.stalls), &out, talk.quiet, |_| ())?;
+    report.order = order;
+    out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| report.json(), || report.text())?;
+    talk.say(|| document("report", &report), || report.text())?;
     verdict.or_nothing(&args.source.input, frame.triangles.len() as u64, (machine.width, machine.height))
 }
 
@@ -126,14 +130,15 @@ fn lines(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     let drawn = from_golden(wireframe(&frame, golden_fill(machine), hidden), machine);
     let out = Staging::new(&args.out)?;
     picture::write_rgb(&out, "image.png", drawn.width, drawn.height, &drawn.rgb)?;
-    let report = Report::new(&args.source.input, frame.triangles.len() as u64, machine, &drawn)
-        .with_polygons(frame.polygons.len() as u64);
-    out.write("report.json", report.json()?)?;
+    let triangles = frame.triangles.len() as u64;
+    let mut report = Report::new(&args.source.input, triangles, machine, &drawn, Waits::Never);
+    report.drawn.polygons = frame.polygons.len() as u64;
+    out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| report.json(), || report.text())?;
-    let primitives = (frame.triangles.len() + frame.polygons.len()) as u64;
-    Verdict::drew(report.covered()).or_nothing(&args.source.input, primitives, (drawn.width, drawn.height))
+    talk.say(|| document("report", &report), || report.text())?;
+    let (size, drawn) = ((drawn.width, drawn.height), &report.drawn);
+    Verdict::drew(drawn.fragments).or_nothing(&args.source.input, drawn.primitives(), size)
 }
 
 /// Draws by a shading system and writes it beside the truth.
@@ -173,24 +178,15 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
         picture::write_shading_error(&out, "phong_error.png", (w, h), &from_phong)?;
         report = report.with(FastPhongReport::new(&args.fast_phong, &scene, &surface, fast, &from_phong));
     }
-    out.write("report.json", report.json()?)?;
+    out.write("report.json", document("shading", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| report.json(), || report.text())?;
+    talk.say(|| document("shading", &report), || report.text())?;
     Verdict::drew(error.pixels).or_nothing(&args.source.input, surface.triangles.len() as u64, (w, h))
 }
 
-/// A comparison, and what was compared.
-pub struct Pictures {
-    /// On what was found.
-    pub report: Report,
-    /// Of the comparison.
-    pub verdict: Verdict,
-    /// Triangle that the engine's picture shows at every pixel, -1 none.
-    pub ids: Vec<i32>,
-}
-
-/// Draws, compares, and writes golden.png, the engine's picture and the two heat maps.
+/// Draws, compares, and writes golden.png, the engine's picture and the two heat maps; gives the report on what was found, and the
+/// verdict. `see` is shown the engine's picture, from the top and some lines at a time.
 pub fn pictures(
     name: &str,
     frame: &Frame,
@@ -198,30 +194,50 @@ pub fn pictures(
     (engine, waits): (Engine, Waits),
     out: &Staging,
     quiet: bool,
-) -> Result<Pictures> {
-    let golden = draw(Engine::Golden, frame, machine, quiet)?;
-    let Added { drawn, port, proof, lights } = match apart(frame, machine).with_context(|| name.to_owned())? {
-        Some(parts) => lamps::added(&parts, machine, (engine, waits), quiet)?,
+    mut see: impl FnMut(&Raster),
+) -> Result<(Report, Verdict)> {
+    let (w, h) = (machine.width, machine.height);
+    let png = |name| Png::create(out, name, w, h);
+    let (mut golden, mut image) = (png("golden.png")?, png("image.png")?);
+    let (mut z_error, mut color_error) = (png("z_error.png")?, png("color_error.png")?);
+    let (triangles, mut report) = (frame.triangles.len() as u64, None::<Report>);
+    let mut show = |beside: &Beside| -> Result<()> {
+        golden.extend_rgb(&beside.golden.rgb)?;
+        image.extend_rgb(&beside.drawn.rgb)?;
+        z_error.extend_heat(beside.z_error, 1.0)?;
+        color_error.extend_heat(beside.color_error, 1.0)?;
+        see(beside.drawn);
+        match &mut report {
+            Some(report) => report.add(beside.drawn),
+            None => report = Some(Report::new(name, triangles, machine, beside.drawn, waits)),
+        }
+        Ok(())
+    };
+    let apart = apart(frame, machine).with_context(|| name.to_owned())?;
+    let added = apart.map(|parts| lamps::added(&parts, machine, (engine, waits), quiet)).transpose()?;
+    let (port, mut drawn, proof, lights) = match added {
+        Some(Added { drawn, port, proof, lights }) => (port, Some(drawn), proof, lights),
         None => {
-            let drawn = draw_waiting(engine, frame, machine, waits, quiet)?;
             let port = to_port(frame, machine)?;
             let proof = port.shade.as_ref().map(|feed| feed.proof.clone());
-            Added { drawn, port, proof, lights: Vec::new() }
+            (port, None, proof, Vec::new())
         }
     };
     let reach = reach(machine, &port)?;
-    let comparison = compare_shaded(machine, frame, &golden, &drawn, reach.as_ref(), proof.as_ref());
-    let (w, h) = (drawn.width, drawn.height);
-    picture::write_rgb(out, "golden.png", w, h, &golden.rgb)?;
-    picture::write_rgb(out, "image.png", w, h, &drawn.rgb)?;
-    picture::write_heat(out, "z_error.png", (w, h), &comparison.z_map, 1.0)?;
-    picture::write_heat(out, "color_error.png", (w, h), &comparison.color_map, 1.0)?;
+    let proved = Proved { reach: reach.as_ref(), shading: proof.as_ref() };
+    let pass = |lines: u32, take: &mut dyn FnMut(Raster) -> Result<()>| match (drawn.take(), engine) {
+        (Some(drawn), _) => take(drawn),
+        (None, Engine::Fast) => draw::in_bands(machine, &port, waits, lines, take),
+        (None, Engine::Golden) => take(draw::golden(frame, machine)),
+        (None, engine) => take(draw_port(engine, &port, machine, waits, quiet)?),
+    };
+    let comparison = beside(machine, frame, proved, pass, &mut show)?;
+    for picture in [golden, image, z_error, color_error] {
+        picture.finish()?;
+    }
     let verdict = lights.iter().map(Comparison::verdict).fold(comparison.verdict(), Verdict::and);
     let setup = SetupReport::new(machine, &port.triangles);
-    let report = Report::new(name, frame.triangles.len() as u64, machine, &drawn)
-        .with(comparison)
-        .with_lights(lights)
-        .with_setup(setup)
-        .with_stalls(waits);
-    Ok(Pictures { report, verdict, ids: drawn.id })
+    let report = report.context("a picture without lines")?;
+    let report = Report { comparison: Some(comparison), lights, setup: Some(setup), ..report };
+    Ok((report, verdict))
 }

@@ -3,8 +3,10 @@
 mod truth;
 
 use crate::Talk;
+use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
+use crate::shell::quoted;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
@@ -12,6 +14,7 @@ use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::{DrawState, Stalls, Waits};
 use edgewalk_replay::lesson::{SCREEN, triangle};
 use edgewalk_replay::{Lesson, Recording, Replay, Rules, Truth, Window, lesson, page, record, record_passes};
+use serde_json::json;
 use std::path::PathBuf;
 
 /// Records the machine cycle by cycle and writes one HTML file that shows it at work: open it in a browser, no network needed.
@@ -27,8 +30,8 @@ use std::path::PathBuf;
 pub struct Args {
     #[command(flatten)]
     source: Source,
-    /// Draws this many triangles of the input
-    #[arg(long, default_value_t = 20)]
+    /// Draws the first N triangles of the input
+    #[arg(long, value_name = "N", default_value_t = 20)]
     triangles: usize,
     /// First cycle that is shown
     #[arg(long, value_name = "C", default_value_t = 0)]
@@ -72,7 +75,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     let name = args.out.file_name().and_then(|n| n.to_str()).context("--out: no file name")?;
     let shown = if args.lesson { taught(machine)? } else { drawn(args, machine)? };
-    let Shown { machine, scene, triangles, of, recording, truth, lesson } = &shown;
+    let Shown { machine, scene, triangles, of, recording, truth, command, lesson } = &shown;
     let replay = Replay {
         plan: machine,
         scene,
@@ -80,7 +83,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         of: *of,
         recording,
         truth,
-        command: lesson.is_none().then(|| format!("edgewalk explain {scene} {{x}} {{y}}")),
+        command: command.clone(),
         difference: None,
         lesson: lesson.as_ref(),
     };
@@ -93,10 +96,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (cycles, bytes) = (recording.cycles, text.len());
     talk.say(
         || {
-            let report = serde_json::json!({
+            let report = json!({
                 "file": args.out, "cycles": cycles, "triangles": triangles.len(), "bytes": bytes, "hash": machine.hash(),
             });
-            Ok(report.to_string())
+            document("replay-report", report)
         },
         || {
             let drawn = triangles.len();
@@ -119,31 +122,43 @@ struct Shown {
     of: usize,
     recording: Recording,
     truth: Vec<Truth>,
+    /// What explains a pixel of it.
+    command: Option<String>,
     lesson: Option<Lesson>,
 }
 
 /// The input on the machine.
-fn drawn(args: &Args, machine: &MachineArgs) -> Result<Shown> {
-    let (machine, frame) = args.source.on_its_screen(machine)?;
-    let mut port = to_port(&frame, &machine)?;
-    let of = port.triangles.len();
-    port.triangles.truncate(args.triangles);
+fn drawn(args: &Args, asked_for: &MachineArgs) -> Result<Shown> {
+    let (machine, frame) = args.source.on_its_screen(asked_for)?;
+    let of = frame.triangles.len();
+    let frame = frame.first(args.triangles);
+    let port = to_port(&frame, &machine)?;
     let (count, size) = (port.triangles.len() as u64, (machine.width, machine.height));
     Verdict::drew(count).or_nothing(&args.source.input, 0, size)?;
     let to = args.cycles.map(|cycles| args.from.saturating_add(cycles - 1)).or(args.to);
     let window = Window { from: args.from, to };
-    let mut shading = port.words().clone();
-    shading.records.truncate(port.triangles.len());
     // Where the machine draws the lights' maps, their triangles come first.
     let (triangles, passes, maps) = port.sent();
     let of_lights = triangles.len() - port.triangles.len();
-    let rules = Rules { passes: &passes, maps: &maps, shading: &shading };
+    let rules = Rules { passes: &passes, maps: &maps, shading: port.words() };
     let recording = record_passes(&machine, &triangles, &rules, args.stalls, window)
         .with_context(|| args.source.input.clone())?;
     let ids = [vec![-1; of_lights], port.ids.clone()].concat();
     let truth = truth::truth(&machine, &frame, &ids, recording.view.tokens());
     let (scene, triangles) = (args.source.input.clone(), triangles.into_owned());
-    Ok(Shown { machine, scene, triangles, of: of + of_lights, recording, truth, lesson: None })
+    let command = Some(explaining(args, asked_for, of));
+    Ok(Shown { machine, scene, triangles, of: of + of_lights, recording, truth, command, lesson: None })
+}
+
+/// The command that explains a pixel of what is drawn, of an input with `of` triangles. It ends with `{x} {y}`.
+fn explaining(args: &Args, machine: &MachineArgs, of: usize) -> String {
+    let mut words: Vec<String> = ["edgewalk", "explain"].map(str::to_owned).to_vec();
+    words.extend(machine.words().into_iter().map(str::to_owned));
+    if args.triangles < of {
+        words.extend(["--triangles".to_owned(), args.triangles.to_string()]);
+    }
+    words.extend(args.source.words());
+    words.iter().map(|word| quoted(word)).chain(["{x} {y}".to_owned()]).collect::<Vec<_>>().join(" ")
 }
 
 /// The triangle of the lesson, on its screen.
@@ -161,6 +176,7 @@ fn taught(machine: &MachineArgs) -> Result<Shown> {
         of: 1,
         recording,
         truth: Vec::new(),
+        command: None,
         lesson: Some(lesson),
     })
 }

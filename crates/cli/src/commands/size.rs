@@ -1,6 +1,7 @@
 //! `edgewalk size`: the word lengths that a frame asks for.
 
 use crate::Talk;
+use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
@@ -67,7 +68,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         }
     }
     let of = Page { args, machine: &machine, triangles: frame.triangles.len(), found: &found };
-    let json = serde_json::to_string_pretty(&of.value()?)? + "\n";
+    let json = document("size", of.value()?)?;
     out.write(REPORT, &json)?;
     own.push(REPORT.to_owned());
     out.publish(&own)?;
@@ -132,16 +133,19 @@ impl Page<'_> {
                 match (&answer.one_bit_fewer, &answer.no_breaker) {
                     (Some(breaker), _) => {
                         let at = self.args.out.join(file(channel.name, name));
+                        let ((x, y), bits) = (breaker.pixel, breaker.fraction_bits);
+                        let how = match breaker.wraps {
+                            true => format!(
+                                "wraps at {x},{y}, as N + 1 < 2^r does not hold for N = {} and r = {bits}",
+                                answer.additions
+                            ),
+                            false => format!("errs by {:.4} LSB at {x},{y}", breaker.error),
+                        };
                         _ = writeln!(
                             t,
-                            "    with {} bits {} errs by {:.4} LSB at {},{}: --set {}={}",
-                            breaker.fraction_bits,
+                            "    with {bits} bits {} {how}: --set {}={bits}",
                             at.display(),
-                            breaker.error,
-                            breaker.pixel.0,
-                            breaker.pixel.1,
-                            channel.key,
-                            breaker.fraction_bits
+                            channel.key
                         );
                     }
                     (None, Some(why)) => {

@@ -10,17 +10,20 @@ mod pictures;
 mod why;
 
 use crate::cost::{SynthArgs, Synthesiser, ToolArgs};
-use crate::input::Shading;
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, progress};
 use anyhow::{Context, Result, anyhow};
+use edgewalk_explore::sweep::check::check;
 use edgewalk_explore::sweep::evaluate::{Around, missing};
 use edgewalk_explore::sweep::row::Status;
-use edgewalk_explore::sweep::{Definition, Point, Sample, Store, Sweep, run as evaluate, store};
+use edgewalk_explore::sweep::shading::SHADINGS;
+use edgewalk_explore::sweep::{Definition, Judge, Point, Sample, Store, Sweep, run as evaluate, store};
 use edgewalk_machine::Plan;
 use outcome::Outcome;
+use serde_json::Value;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Draws inputs on many machines, and writes a row for each: errors beside golden, cycles by cause, and cells if asked for.
@@ -35,12 +38,13 @@ use std::path::{Path, PathBuf};
     after_help = "Examples:
   edgewalk sweep teapot.obj --vary interpolator.adders=1,2,4 --vary formats.z_fraction=6..14 --out out/sweep
   edgewalk sweep sphere torus --vary memory.latency=1..8 --stalls none --stalls dram:miss=8 --out out/stalls
+  edgewalk sweep teapot.obj --vary shade.kind=none,fast-phong,phong --out out/shading
   edgewalk sweep teapot.obj --vary setup.lanes=1,2,4 --synth ice40-hx8k --out out/cells
   edgewalk sweep teapot.obj --vary fifo.span=1..64 --vary fifo.inflight=1..16 --sample 100 --seed 7 --out out/some
   edgewalk sweep plan teapot.obj --vary formats.z_fraction=4..24 --chunks 8 --out out/grid
   edgewalk sweep why 3f2a --out out/sweep
 
-Objectives: cycles z_error color_error z_bound color_bound word_bits, and with --synth lut4 ff carry ram mhz frames_per_s
+Objectives: cycles z_error color_error z_bound color_bound shading_error shading_mean word_bits, and with --synth lut4 ff carry ram mhz frames_per_s
 mpixels_per_s mtriangles_per_s mpixels_per_s_per_lut mtriangles_per_s_per_lut"
 )]
 pub struct Args {
@@ -74,13 +78,17 @@ struct What {
     /// A key and its values: key=a,b,c or key=lo..hi or key=lo..hi..step (repeatable)
     #[arg(long, value_name = "KEY=VALUES", required = true)]
     vary: Vec<String>,
-    /// How the colour of a pixel is come by: constant, constant-averaged, gouraud; phong and fast-phong on machines with that
-    /// shade.kind
-    #[arg(long, value_enum, default_value_t = Shading::Gouraud)]
-    shading: Shading,
-    /// How the memory makes the machine wait: none, fixed, random, dram, with parameters as fixed:rd=2 (repeatable)
+    /// How scenes and meshes are shaded on every machine: constant, constant-averaged, gouraud; phong and fast-phong on
+    /// machines with that shade.kind. Left out: on each machine as its shade.kind says, gouraud where that is none
+    #[arg(long, value_name = "SHADING", value_parser = clap::builder::PossibleValuesParser::new(SHADINGS.map(|of| of.0)))]
+    shading: Option<String>,
+    /// A memory that every machine is run with: none, fixed, random, dram, with parameters as fixed:rd=2 (repeatable)
     #[arg(long, value_name = "KIND")]
     stalls: Vec<String>,
+    /// Which of several memories counts in bests and fronts: worst (for each objective), sum (of the cycles), or one of
+    /// --stalls
+    #[arg(long, value_name = "WHICH", default_value = Judge::WORST)]
+    judge: String,
     /// Only so many of the machines
     #[arg(long, value_name = "N")]
     sample: Option<u32>,
@@ -187,19 +195,19 @@ impl What {
 
     fn definition(&self, machine: &MachineArgs, chunks: Option<u32>) -> Result<Definition> {
         let base: Plan = machine.machine(None)?;
-        let shading = clap::ValueEnum::to_possible_value(&self.shading);
         Ok(Definition {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
             inputs: self.inputs.clone(),
-            shading: shading.map(|value| value.get_name().to_owned()).unwrap_or_default(),
+            shading: self.shading.clone(),
             machine: base.to_toml(),
             vary: self.vary.clone(),
             stalls: self.stalls.clone(),
+            judge: self.judge.clone(),
             sample: self.sample.map(|points| Sample { points, seed: self.seed.unwrap_or(1) }),
             bound: self.bound,
             objectives: self.objective.clone(),
             synth: self.synth.definition(&base)?,
             chunks,
+            ..Definition::default()
         })
     }
 }
@@ -209,28 +217,23 @@ fn swept(sweep: &Sweep, out: &Path, again: &[Status], tools: &ToolArgs, talk: Ta
     keep(sweep, out)?;
     let path = out.join(ROWS);
     let (store, rows) = Store::open(&path)?;
-    let ran = points(sweep, &sweep.points.iter().collect::<Vec<_>>(), (&store, rows), again, tools, talk)?;
-    finished(sweep, out, ran, talk)
+    let all = sweep.points.iter().collect::<Vec<_>>();
+    let made = points(sweep, &all, (&store, store::by_key(rows)), again, tools, talk)
+        .with_context(|| path.display().to_string())?;
+    finished(sweep, out, made, talk)
 }
 
-/// How many rows a run made, and how many of them show a fault of the program.
-#[derive(Clone, Copy, Default)]
-struct Ran {
-    made: usize,
-    faults: u64,
-}
-
-/// Runs those of the points that have no row.
+/// Runs those of the points that have no row. Returns how many rows it made.
 fn points(
     sweep: &Sweep,
     of: &[&Point],
-    (store, rows): (&Store, Vec<serde_json::Value>),
+    (store, rows): (&Store, BTreeMap<String, Value>),
     again: &[Status],
     tools: &ToolArgs,
     talk: Talk,
-) -> Result<Ran> {
-    let rows = store::by_key(rows);
-    let todo = missing(of, &rows, again);
+) -> Result<usize> {
+    check(sweep, &rows).map_err(|why| anyhow!("{why}"))?;
+    let todo = missing(sweep, of, &rows, again);
     let synthesiser = sweep.definition.synth.as_ref().map(|of| Synthesiser::new(of, tools)).transpose()?;
     if let (Some(synthesiser), false) = (&synthesiser, todo.is_empty()) {
         synthesiser.check()?;
@@ -238,9 +241,9 @@ fn points(
     let bar = progress::bar(todo.len() as u64, "points", talk.quiet);
     let cost = synthesiser.as_ref().map(|synthesiser| |machine: &Plan| synthesiser.cost(machine));
     let cost = cost.as_ref().map(|cost| cost as &(dyn Fn(&Plan) -> _ + Sync));
-    let faults = evaluate(sweep, &todo, &Around { store, cost, done: &|| bar.inc(1) })?;
+    evaluate(sweep, &todo, &Around { store, cost, done: &|| bar.inc(1) })?;
     bar.finish_and_clear();
-    Ok(Ran { made: todo.len(), faults })
+    Ok(todo.len())
 }
 
 /// Writes what the sweep is, before anything runs.
@@ -256,21 +259,30 @@ fn kept(out: &Path) -> Result<Sweep> {
     let named = || path.display().to_string();
     let text = std::fs::read_to_string(&path).with_context(named)?;
     let definition: Definition = serde_json::from_str(&text).with_context(named)?;
+    let (format, [major, minor]) = (&definition.format, definition.version);
+    if (format.as_str(), definition.version) != (Definition::FORMAT, Definition::FORMAT_VERSION) {
+        let [own, own_minor] = Definition::FORMAT_VERSION;
+        return Err(anyhow!(
+            "{}: format {format} of version {major}.{minor}: permitted: {} of version {own}.{own_minor}; plan it anew",
+            named(),
+            Definition::FORMAT
+        ));
+    }
     let version = env!("CARGO_PKG_VERSION");
-    if definition.version != version {
+    if definition.program != version {
         return Err(anyhow!(
             "{}: planned by edgewalk {}, this is {version}; plan it anew",
             named(),
-            definition.version
+            definition.program
         ));
     }
     Sweep::new(definition).with_context(named)
 }
 
-/// Writes and tells what follows from the rows.
-fn finished(sweep: &Sweep, out: &Path, ran: Ran, talk: Talk) -> Result<Verdict> {
+/// Writes and tells what follows from the rows, of which this run made so many.
+fn finished(sweep: &Sweep, out: &Path, made: usize, talk: Talk) -> Result<Verdict> {
     let rows = store::by_key(store::read(&out.join(ROWS))?);
-    let outcome = Outcome::new(sweep, &rows, out, ran);
+    let outcome = Outcome::new(sweep, &rows, out, made);
     outcome.publish(talk)?;
     talk.say(|| outcome.json(), || outcome.text())?;
     Ok(outcome.verdict())

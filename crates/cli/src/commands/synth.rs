@@ -7,14 +7,15 @@
 mod table;
 
 use super::emit;
+use crate::document::document;
 use crate::machine_args::MachineArgs;
 use crate::scratch::Scratch;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use crate::{Talk, progress};
 use anyhow::{Context, Result, anyhow};
-use edgewalk_machine::Plan;
-use edgewalk_synth::{Cache, Design, Flow, Part, Target, UnknownTarget};
+use edgewalk_machine::{Plan, Unknown};
+use edgewalk_synth::{Cache, Design, Flow, Part, Target};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -58,7 +59,7 @@ pub struct Args {
     out: Option<PathBuf>,
 }
 
-fn target(name: &str) -> Result<Target, UnknownTarget> {
+fn target(name: &str) -> Result<Target, Unknown> {
     Target::named(name)
 }
 
@@ -93,10 +94,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         for (name, text) in &design.files {
             out.write(&format!("hdl/{name}"), format!("{}\n{text}", machine.stamp("//")))?;
         }
-        out.write("synthesis.json", report.json()?)?;
+        out.write("synthesis.json", document("synthesis", &report)?)?;
         out.publish(&own(&machine)?)?;
     }
-    talk.say(|| report.json(), || report.text())?;
+    talk.say(|| document("synthesis", &report), || report.text())?;
     Ok(Verdict::Pass)
 }
 

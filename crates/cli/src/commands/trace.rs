@@ -1,6 +1,7 @@
 //! `edgewalk trace`: waveforms of the machine's netlist.
 
 use crate::Talk;
+use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
@@ -9,6 +10,7 @@ use anyhow::{Context, Result, anyhow};
 use edgewalk_lockstep::StallKind;
 use edgewalk_machine::Activity;
 use edgewalk_netlist::{FstTrace, Labels, Simulator, VcdTrace};
+use serde_json::json;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::PathBuf;
@@ -45,7 +47,7 @@ enum Wave {
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = machine.machine(None)?;
+    let machine = args.source.machine(machine)?;
     let port = to_port(&args.source.frame(&machine)?, &machine)?;
     let traced = port.triangles.len().min(args.triangles);
     let size = (machine.width, machine.height);
@@ -66,8 +68,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         failure = sample(&mut wave, &mut file, kind, sim);
         cycles += 1;
         failure.is_ok() && cycles < args.cycles
-    })
-    .map_err(|e| anyhow!("{e}"))?;
+    })?;
     failure.with_context(|| out.name(name))?;
     match wave {
         Some(Wave::Vcd(w)) => w.finish().with_context(|| out.name(name))?,
@@ -76,7 +77,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     }
     out.publish(&[name])?;
     talk.say(
-        || Ok(serde_json::json!({ "file": args.out, "cycles": cycles, "hash": machine.hash() }).to_string()),
+        || document("trace", json!({ "file": args.out, "cycles": cycles, "hash": machine.hash() })),
         || format!("{cycles} cycles -> {}", args.out.display()),
     )?;
     Ok(Verdict::Pass)
@@ -94,12 +95,12 @@ fn sample(
         let labels = [Labels { signal: "activity", names: &names }];
         *wave = Some(match kind {
             "vcd" => Wave::Vcd(VcdTrace::new(file, sim, TOP, &labels)?),
-            _ => Wave::Fst(Box::new(FstTrace::new(file, sim, TOP, &labels).map_err(|e| anyhow!("{e}"))?)),
+            _ => Wave::Fst(Box::new(FstTrace::new(file, sim, TOP, &labels)?)),
         });
     }
     match wave {
         Some(Wave::Vcd(w)) => w.sample(sim)?,
-        Some(Wave::Fst(w)) => w.sample(sim).map_err(|e| anyhow!("{e}"))?,
+        Some(Wave::Fst(w)) => w.sample(sim)?,
         None => {}
     }
     Ok(())

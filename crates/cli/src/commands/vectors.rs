@@ -1,16 +1,19 @@
 //! `edgewalk vectors`: stimuli, expected results and self-checking test benches.
 
-use crate::input::{PortFrame, Shading, Source, to_port};
+use crate::document::document;
+use crate::input::{PortFrame, Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::{Talk, jobs, progress, talk};
+use crate::{Talk, jobs, progress};
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Plan;
+use edgewalk_scene::InputKind;
 use edgewalk_vectors::{
     Files, Reached, SUITES, StallKind, Suite, Tables, Unit, Words, capture_watched, design, directory,
     not_covered, reached,
 };
+use serde_json::json;
 use std::path::{Component, Path, PathBuf};
 
 /// Writes test vectors, a directory a suite and unit, that run as they are in Icarus and Verilator.
@@ -28,6 +31,9 @@ pub struct Args {
     /// A built-in scene, a scene file (.toml), a mesh (.obj, .gltf, .glb) or a triangle file (.tri) whose triangles are a suite
     #[arg(value_name = "SCENE|MESH|FILE.tri")]
     input: Option<String>,
+    /// Sets the keys of the machine that the input asks for; what --set says stands
+    #[arg(long, requires = "input")]
+    adapt: bool,
     /// Takes this many triangles of the input, spread over it evenly; all of them if left out
     #[arg(long, requires = "input", value_parser = clap::value_parser!(u64).range(1..))]
     triangles: Option<u64>,
@@ -72,7 +78,7 @@ pub fn stalls(name: &str) -> Result<StallKind, String> {
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let (machine, input) = match &args.input {
         Some(input) => {
-            let source = Source { input: input.clone(), shading: Shading::Gouraud };
+            let source = Source::new(input, args.adapt);
             let (machine, frame) = source.on_its_screen(machine)?;
             let suite = of_input(input, &machine, &to_port(&frame, &machine)?, args.triangles)?;
             (machine, Some(Suite { seed: args.seed, ..suite }))
@@ -97,10 +103,10 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         stalls: args.stalls,
         tables: if args.no_csv { Tables::LeftOut } else { Tables::Written },
     };
-    let written = set.write(&machine, &out, "", talk.quiet)?;
+    let written = set.write(&machine, &out, "", talk)?;
     out.publish(&own(&args.out, "", &written))?;
     talk.say(
-        || Ok(serde_json::json!({ "hash": machine.hash(), "directories": written }).to_string()),
+        || document("vector-folders", json!({ "hash": machine.hash(), "directories": written })),
         || format!("machine {} -> {}\n    {}", machine.hash(), args.out.display(), written.join("\n    ")),
     )?;
     Ok(Verdict::Pass)
@@ -108,7 +114,8 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
 
 /// The triangles of an input as a suite with its depth function; `triangles` of them, spread over it evenly.
 pub fn of_input(input: &str, machine: &Plan, port: &PortFrame, triangles: Option<u64>) -> Result<Suite> {
-    let name = Path::new(input).file_stem().map_or_else(|| input.into(), |stem| stem.to_string_lossy());
+    let name = if input == InputKind::STANDARD_INPUT { "stdin" } else { input };
+    let name = Path::new(name).file_stem().map_or_else(|| input.into(), |stem| stem.to_string_lossy());
     // It becomes the name of a directory.
     let name: String =
         name.chars().map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect();
@@ -160,15 +167,15 @@ pub fn functions(machine: &Plan) -> Result<Vec<Suite>> {
 fn named(machine: &Plan, wanted: impl Fn(&str) -> bool) -> Result<Vec<Suite>> {
     let listed = SUITES.iter().filter(|suite| suite.is_for(machine));
     let names = listed.map(|suite| suite.name).filter(|name| wanted(name));
-    names.map(|name| Suite::named(machine, name, 1, 0).map_err(|e| anyhow!("{e}"))).collect()
+    names.map(|name| Ok(Suite::named(machine, name, 1, 0)?)).collect()
 }
 
 /// Prints what could be met in each unit and was not.
-pub fn warn_of_gaps(runs: &[(Unit, Reached)], quiet: bool) {
-    for unit in Unit::known().filter(|_| !quiet) {
+pub fn warn_of_gaps(runs: &[(Unit, Reached)], talk: Talk) {
+    for unit in Unit::known().filter(|_| !talk.quiet) {
         let missing = not_covered(runs.iter().filter(|(of, _)| *of == unit).map(|(_, reached)| reached));
         if !missing.is_empty() {
-            talk::warn(&format!("{}: not covered: {}", unit.name(), missing.join(", ")));
+            talk.warn(&format!("{}: not covered: {}", unit.name(), missing.join(", ")));
         }
     }
 }
@@ -210,7 +217,7 @@ const HUGE: usize = 64 << 20;
 
 impl Set<'_> {
     /// Writes them under `folder` of `out`; returns their names.
-    pub fn write(&self, machine: &Plan, out: &Staging, folder: &str, quiet: bool) -> Result<Vec<String>> {
+    pub fn write(&self, machine: &Plan, out: &Staging, folder: &str, talk: Talk) -> Result<Vec<String>> {
         let mut work: Vec<(&Suite, Unit)> = Vec::new();
         for suite in self.suites {
             let of_it: Vec<Unit> = self.units.iter().copied().filter(|unit| suite.is_for(*unit)).collect();
@@ -220,7 +227,7 @@ impl Set<'_> {
             }
             work.extend(of_it.into_iter().map(|unit| (suite, unit)));
         }
-        let bar = progress::bar(work.len() as u64, WHAT, quiet);
+        let bar = progress::bar(work.len() as u64, WHAT, talk.quiet);
         let written = jobs::all(&work, &bar, |(suite, unit)| {
             let name = format!("{}_{}", suite.name, unit.name());
             let stalls = self.stalls.unwrap_or(suite.stalls);
@@ -230,8 +237,8 @@ impl Set<'_> {
             let verilog =
                 design::verilog(machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
             let files = directory(suite, &trace, &verilog, self.tables);
-            if !quiet {
-                bar.suspend(|| announce(&name, &files));
+            if !talk.quiet {
+                bar.suspend(|| announce(&name, &files, talk));
             }
             for (file, contents) in files {
                 if contents.len() >= HUGE / 16 {
@@ -244,13 +251,13 @@ impl Set<'_> {
         })?;
         bar.finish_and_clear();
         let (names, runs): (Vec<String>, Vec<_>) = written.into_iter().unzip();
-        warn_of_gaps(&runs, quiet);
+        warn_of_gaps(&runs, talk);
         Ok(names)
     }
 }
 
 /// Says how much is about to be written where it is very much.
-fn announce(name: &str, files: &Files) {
+fn announce(name: &str, files: &Files, talk: Talk) {
     let size = |of: fn(&str) -> bool| {
         files.iter().filter(|(n, _)| of(n)).map(|(_, bytes)| bytes.len()).sum::<usize>()
     };
@@ -261,6 +268,6 @@ fn announce(name: &str, files: &Files) {
         } else {
             String::new()
         };
-        talk::warn(&format!("{name}: writing {} MB{hint}", all >> 20));
+        talk.warn(&format!("{name}: writing {} MB{hint}", all >> 20));
     }
 }

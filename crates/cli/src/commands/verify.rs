@@ -3,6 +3,7 @@
 mod difference;
 
 use super::vectors::{directed, functions, of_input, stalls, warn_of_gaps};
+use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::scratch::Scratch;
@@ -17,6 +18,7 @@ use edgewalk_vectors::{
     Outcome, Runs, Simulator, StallKind, Suite, Tables, Trace, Unit, design, directory, reached, simulate,
 };
 use serde::Serialize;
+use serde_json::json;
 use std::fmt::Write as _;
 use std::iter;
 use std::path::{Path, PathBuf};
@@ -75,7 +77,7 @@ impl Check {
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
-    let machine = machine.machine(None)?;
+    let machine = args.source.machine(machine)?;
     let frame = args.source.frame(&machine)?;
     let port = to_port(&frame, &machine)?;
     let input = Suite {
@@ -117,7 +119,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     bar.finish_and_clear();
     let (checks, runs): (Vec<Vec<Check>>, Vec<_>) = done.into_iter().unzip();
     let checks = checks.concat();
-    warn_of_gaps(&runs, talk.quiet);
+    warn_of_gaps(&runs, talk);
     print(&machine, &checks, talk)?;
     Ok(checks.iter().fold(Verdict::Pass, |all, c| all.and(c.verdict())))
 }
@@ -178,10 +180,7 @@ fn in_simulator(
 }
 
 fn print(machine: &Plan, checks: &[Check], talk: Talk) -> Result<()> {
-    let json = || {
-        let report = serde_json::json!({ "machine": machine.hash(), "checks": checks });
-        Ok(serde_json::to_string_pretty(&report)?)
-    };
+    let json = || document("verify", json!({ "machine": machine.hash(), "checks": checks }));
     let text = || {
         let mut text = format!("machine {}\n", machine.hash());
         for c in checks {

@@ -24,7 +24,7 @@ fn another_number_of_channels_names_the_key_both_numbers_and_the_remedy() {
     let mut refused = 0;
     let mut refuse = |arguments: &[&str], machine: &[&str], message: String| {
         let (code, error) = run(folder.path(), &[arguments, &SCREEN, machine].concat());
-        assert_eq!((code, error), (Some(2), format!("edgewalk: {message}")), "{arguments:?}");
+        assert_eq!((code, error), (Some(2), format!("error: {message}")), "{arguments:?}");
         refused += 1;
     };
     for engine in ["golden", "fast", "model", "rtl"] {
@@ -66,8 +66,7 @@ fn a_value_that_the_channel_does_not_hold_is_named() {
             let arguments = ["raster", "in.tri", "--engine", engine, "--out", "OUT", "--set"];
             let (code, error) =
                 run(folder.path(), &[&arguments[..], &["channels.extra=1", "--set", &set]].concat());
-            let message =
-                format!("edgewalk: in.tri: triangle 1, vertex 2: e0 = {value} lies outside {range}\n");
+            let message = format!("error: in.tri: triangle 1, vertex 2: e0 = {value} lies outside {range}\n");
             assert_eq!((code, error), (Some(2), message));
             refused += 1;
         }
@@ -102,7 +101,7 @@ fn malformed_values_name_line_reason_and_the_valid_form() {
             let arguments = ["raster", "in.tri", "--engine", engine, "--out", "OUT", "--set", extra];
             let (code, error) = run(folder.path(), &arguments);
             assert_eq!(code, Some(2), "{error}");
-            assert!(error.starts_with("edgewalk: in.tri:"), "{error}");
+            assert!(error.starts_with("error: in.tri:"), "{error}");
             assert!(words.iter().all(|word| error.contains(word)), "{words:?}: {error}");
             refused += 1;
         }

@@ -1,6 +1,7 @@
 //! What the tests of the program's behaviour as a process share.
 #![allow(clippy::unwrap_used, dead_code)] // a test that unwraps nothing reports it; no test uses all of it
 
+pub mod browser;
 pub mod recording;
 
 use std::path::Path;
@@ -29,6 +30,15 @@ pub fn ended(output: &Output) -> (Option<i32>, String) {
     let error = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(!error.contains("panicked") && !error.contains(".edgewalk-"), "{error}");
     (output.status.code(), error)
+}
+
+/// What `render --json` printed, without the format and version of the document.
+pub fn report(output: &Output) -> serde_json::Value {
+    let mut report: serde_json::Value = serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&output.stderr)));
+    let [format, _] = ["format", "version"].map(|key| report.as_object_mut().unwrap().shift_remove(key));
+    assert_eq!(format, Some("edgewalk-report".into()));
+    report
 }
 
 /// Renders in every engine, which must draw the same picture: the report of each.
@@ -62,6 +72,28 @@ pub fn find<'a>(of: &'a serde_json::Value, key: &str) -> Option<&'a serde_json::
         serde_json::Value::Array(list) => list.iter().find_map(|value| find(value, key)),
         _ => None,
     })
+}
+
+/// The records of a table in CSV, its header first, by a reader that is not the project's.
+pub fn csv(path: &Path) -> Vec<Vec<String>> {
+    let text = std::fs::read(path).unwrap();
+    let (mut reader, mut rest) = (csv_core::Reader::new(), &text[..]);
+    let (mut bytes, mut ends) = (vec![0; text.len() + 1], vec![0; text.len() + 1]);
+    let mut records = Vec::new();
+    loop {
+        let (result, read, _, fields) = reader.read_record(rest, &mut bytes, &mut ends);
+        rest = &rest[read..];
+        match result {
+            csv_core::ReadRecordResult::Record => {
+                let from = [0].into_iter().chain(ends.iter().copied());
+                let field =
+                    |(from, to): (usize, &usize)| String::from_utf8(bytes[from..*to].to_vec()).unwrap();
+                records.push(from.zip(&ends[..fields]).map(field).collect());
+            }
+            csv_core::ReadRecordResult::End => return records,
+            result => panic!("{result:?}"),
+        }
+    }
 }
 
 /// What stands in a folder, by name, hidden files too.

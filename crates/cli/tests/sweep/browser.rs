@@ -1,18 +1,18 @@
 //! The report in a browser, opened from disk without a network: a point of the front is clicked, and its machine checked.
 
+use super::oracle::{is, pointer};
 use crate::support::{edgewalk, run};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
 
 /// Collects what goes wrong before the page's own script runs.
-const BEFORE: &str = "<script>window.faults = []; addEventListener('error', (e) => faults.push(e.message)); \
+pub(super) const BEFORE: &str = "<script>window.faults = []; addEventListener('error', (e) => faults.push(e.message)); \
                       addEventListener('unhandledrejection', (e) => faults.push(String(e.reason)));</script>";
 
 /// Uses the page as a reader does, and leaves what it saw in an element.
-const AFTER: &str = r##"<script>
-(async () => {
-  const seen = {}, of = (query) => document.querySelector(query), text = (query) => of(query)?.textContent ?? null;
+const AFTER: &str = r##"
+  const of = (query) => document.querySelector(query), text = (query) => of(query)?.textContent ?? null;
   const click = (mark, shift) => {
     const box = mark.getBoundingClientRect();
     of("#front-chart svg").dispatchEvent(new MouseEvent("click", { clientX: box.x + box.width / 2, clientY: box.y + box.height / 2, shiftKey: shift, bubbles: true }));
@@ -28,7 +28,7 @@ const AFTER: &str = r##"<script>
   for (let i = 0; i < 5; i++) key("ArrowRight");
   key("Enter");
   seen.other = text("#toml");
-  seen.diff = [...document.querySelectorAll("#diff-table tbody tr")].map((row) => row.textContent);
+  seen.diff = [...document.querySelectorAll("#diff-table tbody tr")].map((row) => [...row.cells].map((cell) => cell.textContent));
   const axis = of("#x-axis");
   axis.value = "cycles_setup";
   axis.dispatchEvent(new Event("change"));
@@ -39,17 +39,10 @@ const AFTER: &str = r##"<script>
   seen.bounds = document.querySelectorAll("#errors-chart .bound").length;
   await new Promise((done) => setTimeout(done, 300));
   seen.pixels = text("#pixels-said");
-  seen.requests = performance.getEntriesByType("resource").map((entry) => entry.name).filter((name) => !name.startsWith("data:"));
-  seen.faults = faults;
-  const result = document.createElement("pre");
-  result.id = "result";
-  result.textContent = encodeURIComponent(JSON.stringify(seen));
-  document.body.append(result);
-})();
-</script>"##;
+"##;
 
 /// The page in headless Chromium with its network cut; what it looks like in the end.
-fn opened(page: &Path, home: &Path, arguments: &[&str]) -> String {
+pub(super) fn opened(page: &Path, home: &Path, arguments: &[&str]) -> String {
     let output = Command::new("chromium")
         .args([
             "--headless",
@@ -66,6 +59,26 @@ fn opened(page: &Path, home: &Path, arguments: &[&str]) -> String {
         .expect("chromium is installed by tests/run: apt-get install chromium");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
+}
+
+/// What this script, run behind the page's own, leaves in the element `result`, as JSON. The page may make no fault and ask for nothing.
+pub(super) fn seen(folder: &Path, page: &str, after: &str) -> Value {
+    let html = std::fs::read_to_string(folder.join(page)).unwrap();
+    let end = "seen.requests = performance.getEntriesByType('resource').map((e) => e.name).filter((n) => !n.startsWith('data:')); \
+               seen.faults = faults; const result = document.createElement('pre'); result.id = 'result'; \
+               result.textContent = encodeURIComponent(JSON.stringify(seen)); document.body.append(result);";
+    let after = format!("<script>(async () => {{ const seen = {{}}; {after}; {end} }})();</script></body>");
+    let html = html.replacen("<head>", &format!("<head>{BEFORE}"), 1).replacen("</body>", &after, 1);
+    std::fs::write(folder.join("opened.html"), html).unwrap();
+    let dom = opened(&folder.join("opened.html"), folder, &["--dump-dom"]);
+    let result = dom.split("<pre id=\"result\">").nth(1).unwrap_or_else(|| panic!("the script did not end"));
+    let seen: Value = serde_json::from_str(&decoded(result.split('<').next().unwrap())).unwrap();
+    assert_eq!(
+        (&seen["faults"], &seen["requests"]),
+        (&serde_json::json!([]), &serde_json::json!([])),
+        "{seen}"
+    );
+    seen
 }
 
 fn decoded(text: &str) -> String {
@@ -101,32 +114,12 @@ fn a_point_of_the_front_is_clicked_and_its_machine_is_the_one_of_its_row() {
         "--quiet",
     ];
     assert_eq!(run(at, &sweep), (Some(0), String::new()));
-    let page = std::fs::read_to_string(at.join("s/report.html")).unwrap();
-    let page = page.replacen("<head>", &format!("<head>{BEFORE}"), 1).replacen(
-        "</body>",
-        &format!("{AFTER}</body>"),
-        1,
-    );
-    let path = at.join("opened.html");
-    std::fs::write(&path, page).unwrap();
-    let dom = opened(&path, at, &["--dump-dom"]);
-    let result = dom
-        .split("<pre id=\"result\">")
-        .nth(1)
-        .unwrap_or_else(|| panic!("the script did not end"))
-        .split('<')
-        .next()
-        .unwrap();
-    let seen: Value = serde_json::from_str(&decoded(result)).unwrap();
-    assert_eq!(
-        (&seen["faults"], &seen["requests"]),
-        (&serde_json::json!([]), &serde_json::json!([])),
-        "{seen}"
-    );
+    let seen = seen(at, "s/report.html", AFTER);
 
     // The machine file of the point: `config check` finds the hash that it names, and it is that of a row.
     let rows = super::rows(&at.join("s"));
     let mut checked = 0;
+    let mut pair: Vec<&Value> = Vec::new();
     for toml in ["toml", "other"].map(|name| seen[name].as_str().unwrap()) {
         std::fs::write(at.join("point.toml"), toml).unwrap();
         let output =
@@ -134,7 +127,7 @@ fn a_point_of_the_front_is_clicked_and_its_machine_is_the_one_of_its_row() {
         let check: Value = serde_json::from_slice(&output.stdout).unwrap();
         let hash = check["hash"].as_str().unwrap();
         assert!(toml.starts_with(&format!("# machine {hash}\n")), "{toml}");
-        assert!(rows.iter().any(|row| row["machine"] == hash), "{hash}");
+        pair.push(rows.iter().find(|row| row["machine"] == hash).unwrap_or_else(|| panic!("{hash}")));
         checked += 1;
     }
     assert_eq!(checked, 2);
@@ -142,7 +135,25 @@ fn a_point_of_the_front_is_clicked_and_its_machine_is_the_one_of_its_row() {
     assert_eq!(seen["command"], "edgewalk render sphere --machine point.toml");
     assert!(seen["said"].as_str().unwrap().contains("interpolator.adders="), "{}", seen["said"]);
     assert!(seen["pictures"] == 3 && seen["wide"] == true, "{}", seen["pictures"]);
-    assert!(!seen["diff"].as_array().unwrap().is_empty(), "what differs between the two is told");
+    // What differs between the two: every figure is that of their rows. The point kept first is the second of the table.
+    let (a, b) = (pair[1], pair[0]);
+    let diff = seen["diff"].as_array().unwrap();
+    for line in diff {
+        let cells: Vec<&str> = line.as_array().unwrap().iter().map(|cell| cell.as_str().unwrap()).collect();
+        let of = |row: &Value| row.pointer(&pointer(cells[0]).unwrap()).and_then(Value::as_f64).unwrap();
+        assert!(is(cells[1], of(a)) && is(cells[2], of(b)), "{cells:?}: {} {}", of(a), of(b));
+        let change = 100.0 * (of(b) - of(a)) / of(a);
+        let told: Option<f64> = cells[3].strip_suffix(" %").and_then(|told| told.parse().ok());
+        assert!(
+            told.is_some_and(|told| (told - change).abs() <= 0.0501) || of(a) == 0.0,
+            "{cells:?}: {change}"
+        );
+    }
+    let differ = |name: &str| pair.iter().map(|row| row.pointer(&pointer(name).unwrap())).collect::<Vec<_>>();
+    for name in ["cycles", "z_error", "word_bits", "lanes", "setup_mean"] {
+        let [a, b] = differ(name)[..] else { panic!() };
+        assert_eq!(a != b, diff.iter().any(|line| line[0] == name), "{name}");
+    }
     assert!(seen["axis"].as_str().unwrap().contains("cycles_setup"));
     let sections = ["front", "errors", "causes", "parallel", "diff", "tables", "pictures"];
     assert!(

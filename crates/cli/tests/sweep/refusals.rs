@@ -3,7 +3,7 @@
 use crate::support::{edgewalk, names, run};
 
 /// Arguments behind `sweep`, and what the error must say.
-const REFUSED: [(&[&str], &[&str]); 22] = [
+const REFUSED: [(&[&str], &[&str]); 24] = [
     (
         &["sphere", "--vary", "interpolator.ader=1,2"],
         &["unknown key interpolator.ader", "nearest: interpolator.adders"],
@@ -41,6 +41,11 @@ const REFUSED: [(&[&str], &[&str]); 22] = [
     (&["sphere", "--vary", "setup.lanes=1", "--objective", "cylces"], &["cylces", "nearest: cycles"]),
     (&["sphere", "--vary", "setup.lanes=1", "--objective", "lut4"], &["lut4", "--synth"]),
     (&["sphere", "--vary", "setup.lanes=1", "--sample", "0"], &["--sample 0", "at least 1"]),
+    (
+        &["sphere", "--vary", "setup.lanes=1", "--stalls", "none", "--judge", "dram"],
+        &["--judge dram", "permitted: worst, sum, none"],
+    ),
+    (&["sphere", "--vary", "setup.lanes=1", "--judge", "wost"], &["--judge wost", "nearest: worst"]),
     (&["sphere", "--vary", "setup.lanes=1", "--stalls", "drm"], &["drm", "nearest: dram"]),
     (&["sphere", "--vary", "setup.lanes=1", "--stalls", "fixed:rd=x"], &["rd = x", "0 to 1048576"]),
     (&["sphere", "--vary", "setup.lanes=1", "--bound", "0.4"], &["--bound 0.4", "above 0.5"]),
@@ -92,8 +97,11 @@ fn an_output_that_cannot_be_written_is_said() {
     assert!(code == Some(2) && error.contains("s/runs.jsonl"), "{error}");
     // A line that is none is named.
     std::fs::create_dir_all(folder.path().join("t")).unwrap();
-    std::fs::write(folder.path().join("t/runs.jsonl"), "{\"key\":\"1\"}\nnonsense\n{\"key\":\"2\"}\n")
-        .unwrap();
+    std::fs::write(
+        folder.path().join("t/runs.jsonl"),
+        "{\"key\":\"1\",\"status\":\"ok\"}\nnonsense\n{\"key\":\"2\",\"status\":\"ok\"}\n",
+    )
+    .unwrap();
     let (code, error) = sweep("t");
     assert!(code == Some(2) && error.contains("line 2") && error.contains("t/runs.jsonl"), "{error}");
 }

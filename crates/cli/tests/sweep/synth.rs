@@ -41,10 +41,22 @@ fn machines_are_synthesised_once_and_stand_in_fronts() {
         assert_eq!(same["synth"], row["synth"]);
         let mhz = row["synth"]["mhz"]["median"].as_f64().unwrap();
         assert!(row["synth"]["cells"]["lut4"].as_u64() > Some(20) && mhz > 20.0, "{}", row["synth"]);
-        // A frame a second at that clock.
-        let rate = row["derived"]["frames_per_s"].as_f64().unwrap();
-        let cycles = row["report"]["cycles"]["total"].as_f64().unwrap();
-        assert!((rate - 1e6 * mhz / cycles).abs() < 1e-6 * rate, "{rate} {mhz} {cycles}");
+        // Rates at that clock, of a frame with more fragments than triangles.
+        let report = |at: &str| row["report"].pointer(at).unwrap().as_f64().unwrap();
+        let frames = 1e6 * mhz / report("/cycles/total");
+        let luts = row["synth"]["cells"]["lut4"].as_f64().unwrap();
+        let (pixels, triangles) = (frames * report("/fragments") / 1e6, frames * report("/triangles") / 1e6);
+        assert!(pixels > 10.0 * triangles);
+        for (name, own) in [
+            ("frames_per_s", frames),
+            ("mpixels_per_s", pixels),
+            ("mtriangles_per_s", triangles),
+            ("mpixels_per_s_per_lut", pixels / luts),
+            ("mtriangles_per_s_per_lut", triangles / luts),
+        ] {
+            let told = row["derived"][name].as_f64().unwrap();
+            assert!((told - own).abs() < 1e-9 * own, "{name} {told} {own}");
+        }
         checked += 1;
     }
     assert_eq!(checked, 2);
@@ -52,6 +64,20 @@ fn machines_are_synthesised_once_and_stand_in_fronts() {
     let fronts: Vec<&str> = table.lines().skip(1).map(|line| line.rsplit(',').next().unwrap()).collect();
     assert!(fronts.contains(&"1"), "{table}");
     assert!(at.join("first/best_lut4.toml").is_file());
+    // The page has every unit's cells.
+    let page = super::oracle::data(&std::fs::read_to_string(at.join("first/report.html")).unwrap());
+    let columns = page["columns"].as_array().unwrap();
+    for (line, row) in page["rows"].as_array().unwrap().iter().zip(&first) {
+        let row =
+            if line[0] == row["key"] { row } else { first.iter().find(|row| line[0] == row["key"]).unwrap() };
+        let units = row["synth"]["units"].as_array().unwrap();
+        assert_eq!(page["units"].as_array().unwrap().len(), units.len());
+        for unit in units {
+            let name = format!("lut4_{}", unit["unit"].as_str().unwrap());
+            let place = columns.iter().position(|column| *column == name.as_str()).unwrap();
+            assert_eq!(line[place], unit["lut4"], "{name}");
+        }
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
-//! The front as a picture, for readers without scripts: the first two objectives.
+//! The front as a picture, for readers without scripts: the first two objectives, a mark for each machine.
 
-use super::{escaped, number};
+use super::escaped;
 use crate::sweep::table::Table;
 use std::fmt::Write as _;
 
@@ -36,14 +36,14 @@ pub fn front(table: &Table) -> String {
     let (right, bottom) = (WIDTH - left, HEIGHT - top);
     _ = write!(svg, "<path d=\"M{left} {top}V{bottom}H{right}\" class=\"axis\"/>");
     for (axis, (low, high)) in ranges.into_iter().enumerate() {
-        for value in [low, high] {
+        for value in ticks(low, high) {
             let at = place(axis, value);
             _ = if axis == 0 {
                 write!(
                     svg,
                     "<text x=\"{at}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
                     bottom + 18.0,
-                    number(value)
+                    tick(value)
                 )
             } else {
                 write!(
@@ -51,7 +51,7 @@ pub fn front(table: &Table) -> String {
                     "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>",
                     left - 6.0,
                     at + 4.0,
-                    number(value)
+                    tick(value)
                 )
             };
         }
@@ -75,4 +75,47 @@ pub fn front(table: &Table) -> String {
     }
     _ = write!(svg, "<path d=\"{rest}\" class=\"rest\"/>");
     svg + "</svg><p class=\"key\">◆ no other machine is at least as good in every objective; • others.</p>"
+}
+
+/// Up to seven round values from `low` to `high`, both of them among the possible: 1, 2 or 5 times a power of ten apart.
+fn ticks(low: f64, high: f64) -> Vec<f64> {
+    if high <= low {
+        return vec![low];
+    }
+    let rough = (high - low) / 5.0;
+    let power = 10_f64.powf(rough.log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0].map(|times| times * power).into_iter().find(|step| *step >= rough);
+    let step = step.unwrap_or(rough);
+    let first = (low / step - 1e-9).ceil() as i64;
+    let last = (high / step + 1e-9).floor() as i64;
+    (first..=last).map(|place| place as f64 * step).collect()
+}
+
+/// A round value, with commas between thousands.
+fn tick(value: f64) -> String {
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    let (whole, fraction) = text.find('.').map_or((text, ""), |point| text.split_at(point));
+    let mut grouped = String::new();
+    for (place, digit) in whole.chars().enumerate() {
+        if place > 0 && digit != '-' && (whole.len() - place).is_multiple_of(3) && !grouped.ends_with('-') {
+            grouped.push(',');
+        }
+        grouped.push(digit);
+    }
+    grouped + fraction
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_inside() {
+        assert_eq!(ticks(185_525.0, 599_080.0), [200_000.0, 300_000.0, 400_000.0, 500_000.0]);
+        assert_eq!(ticks(0.0, 1.0), [0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0]);
+        assert_eq!(ticks(7.0, 7.0), [7.0]);
+        let said = [200_000.0, 1234.5, -4000.0, 0.6000000000000001, 0.0].map(tick);
+        assert_eq!(said, ["200,000", "1,234.5", "-4,000", "0.6", "0"]);
+    }
 }

@@ -1,16 +1,20 @@
 //! What the script of the page works with: columns of figures, a row a point.
 
 use super::Pictures;
+use crate::sweep::Point;
+use crate::sweep::csv::figures;
 use crate::sweep::row::{Status, causes};
-use crate::sweep::table::{Table, figures};
+use crate::sweep::shared::pixel_key;
+use crate::sweep::table::Table;
 use edgewalk_machine::key::Domain;
 use edgewalk_machine::keys::KEYS;
 use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
 
 /// Rows, columns, keys, pictures.
 pub fn data(table: &Table, pictures: &[Pictures]) -> Value {
     let rows: Vec<&Value> =
-        table.rows.iter().copied().filter(|row| row["status"] == Status::Ok.name()).collect();
+        table.rows.iter().copied().filter(|row| Status::of(row) == Some(Status::Ok)).collect();
     // Keys alike in all rows are told once.
     let mut alike = Map::new();
     let mut differ = Vec::new();
@@ -32,6 +36,7 @@ pub fn data(table: &Table, pictures: &[Pictures]) -> Value {
             row["key"].clone(),
             row["machine"].clone(),
             row["input"].clone(),
+            row["shading"].clone(),
             row["stalls"].clone(),
             json!(front(row)),
         ];
@@ -40,7 +45,7 @@ pub fn data(table: &Table, pictures: &[Pictures]) -> Value {
         line.extend(units.iter().map(|unit| unit_cells(row, unit)));
         json!(line)
     };
-    let columns: Vec<String> = ["key", "machine", "input", "stalls", "front"]
+    let columns: Vec<String> = ["key", "machine", "input", "shading", "stalls", "front"]
         .into_iter()
         .map(str::to_owned)
         .chain(differ.iter().map(|key| (*key).to_owned()))
@@ -52,11 +57,13 @@ pub fn data(table: &Table, pictures: &[Pictures]) -> Value {
         "columns": columns,
         "rows": rows.iter().map(line).collect::<Vec<_>>(),
         "alike": alike,
-        "varied": differ,
+        "varied": differ.iter().filter(|name| table.sweep.axes.iter().any(|axis| axis.key.name == **name)).collect::<Vec<_>>(),
         "keys": KEYS.iter().map(|key| json!([key.name, matches!(key.domain, Domain::Word(_))])).collect::<Vec<_>>(),
         "objectives": objectives.map(|o| json!({ "name": column(o.name), "most": o.most, "doc": o.doc })).collect::<Vec<_>>(),
         "causes": causes().collect::<Vec<_>>(),
         "units": units,
+        "inputs": table.sweep.inputs.iter().map(|input| &input.name).collect::<Vec<_>>(),
+        "memories": table.sweep.memories.iter().map(|memory| json!([memory.waits.to_string(), memory.name])).collect::<Vec<_>>(),
         "pictures": pictures.iter().map(|of| &of.key).collect::<Vec<_>>(),
         "same_pixels": same_pixels(table, pictures),
     })
@@ -74,15 +81,13 @@ pub fn column(objective: &str) -> &str {
 
 /// For each row whose pixels another row's pictures show, which.
 fn same_pixels(table: &Table, pictures: &[Pictures]) -> Value {
-    use crate::sweep::shared::pixel_key;
-    let points = &table.sweep.points;
-    let shown = pictures.iter().enumerate().filter_map(|(place, of)| {
-        let point = points.iter().find(|point| point.key == of.key)?;
-        Some(((point.input, pixel_key(&point.machine)), place))
-    });
-    let shown: std::collections::BTreeMap<_, usize> = shown.collect();
-    let of = points.iter().filter_map(|point| {
-        let place = shown.get(&(point.input, pixel_key(&point.machine)))?;
+    let points = table.sweep.by_key();
+    let pixels = |point: &Point| ([point.input, point.way], pixel_key(&point.machine));
+    let shown = pictures.iter().enumerate();
+    let shown = shown.filter_map(|(place, of)| Some((pixels(points.get(of.key.as_str())?), place)));
+    let shown: BTreeMap<_, usize> = shown.collect();
+    let of = table.sweep.points.iter().filter_map(|point| {
+        let place = shown.get(&pixels(point))?;
         Some((point.key.clone(), json!(place)))
     });
     of.collect::<Map<_, _>>().into()

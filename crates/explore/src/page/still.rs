@@ -1,7 +1,7 @@
 //! The parts of the page that need no script.
 
 use super::{Pictures, embedded, escaped, number};
-use crate::sweep::row::causes;
+use crate::sweep::Sweep;
 use crate::sweep::table::{Candidate, Table};
 use serde_json::Value;
 use std::fmt::Write as _;
@@ -9,12 +9,36 @@ use std::fmt::Write as _;
 /// Machines of the front in the table; the CSV has all.
 const SHOWN: usize = 60;
 
+/// How the rows of a machine count together; none where it has one.
+#[must_use]
+pub fn rule(sweep: &Sweep) -> Option<String> {
+    let inputs = (sweep.inputs.len() > 1).then(|| {
+        format!(
+            "Of {} inputs the cycles are summed, and the worst of every other figure counts",
+            sweep.inputs.len()
+        )
+    });
+    let memories = (sweep.memories.len() > 1)
+        .then(|| format!("Machines are judged {}", sweep.judge.words(&sweep.memories)));
+    let rules: Vec<String> = inputs.into_iter().chain(memories).collect();
+    (!rules.is_empty()).then(|| rules.join(". "))
+}
+
 /// How many points, and what became of them.
 pub fn summary(table: &Table) -> String {
     let counts = table.counts();
     let counts = counts.iter().filter(|(_, count)| *count > 0);
     let counts: Vec<String> = counts.map(|(status, count)| format!("{count} {}", status.name())).collect();
     let mut html = format!("<p>{} points: {}.</p>", table.sweep.points.len(), counts.join(", "));
+    if let Some(rule) = rule(table.sweep) {
+        html += &format!("<p>{}.</p>", escaped(&rule));
+    }
+    if table.faults() > 0 {
+        html += &format!(
+            "<p><strong>{} rows show an error beyond what is proved: a fault of edgewalk.</strong></p>",
+            table.faults()
+        );
+    }
     let refused = table.rows.iter().filter(|row| row["reason"].is_string());
     let mut told: Vec<String> = Vec::new();
     for row in refused {
@@ -41,7 +65,7 @@ pub fn bests(table: &Table) -> String {
     html += "</tr></thead><tbody>";
     for objective in &table.sweep.objectives {
         let Some(best) = table.best(objective) else { continue };
-        let value = objective.of_all(&best.rows).unwrap_or(f64::NAN);
+        let value = table.value(objective, best);
         // Writing to a string cannot fail.
         _ = write!(
             html,
@@ -55,28 +79,45 @@ pub fn bests(table: &Table) -> String {
     html + "</tbody></table>"
 }
 
-/// The first front, with causes of cycles.
+/// The first front, with the causes of cycles.
 pub fn front(table: &Table) -> String {
-    let on: Vec<&Candidate> = table.machines.iter().filter(|machine| machine.front == Some(1)).collect();
+    let on: Vec<&Candidate> = table.first_front().collect();
+    let (memories, judge) = (&table.sweep.memories, table.sweep.judge);
     let shown =
         if on.len() > SHOWN { format!(", {SHOWN} of them here, all in runs.csv") } else { String::new() };
-    let mut html =
-        format!("<table><caption>The first front: {} machines{shown}</caption><thead><tr>", on.len());
+    let mut html = format!(
+        "<table id=\"first-front\"><caption>The first front: {} of {} machines{shown}</caption><thead><tr>",
+        on.len(),
+        table.machines.len()
+    );
     table.sweep.objectives.iter().for_each(|objective| html += &format!("<th>{}</th>", objective.name));
     table.sweep.axes.iter().for_each(|axis| html += &format!("<th>{}</th>", axis.key.name));
-    html += "<th>stalls</th><th>cycles by cause</th></tr></thead><tbody>";
+    if memories.len() > 1 {
+        memories.iter().for_each(|memory| html += &format!("<th>cycles, {}</th>", escaped(&memory.name)));
+    }
+    html += "<th>cycles by cause</th></tr></thead><tbody>";
     for machine in on.iter().take(SHOWN) {
         html += "<tr>";
         machine.values.iter().flatten().for_each(|value| html += &format!("<td>{}</td>", number(*value)));
         html += &keys(table, machine);
-        let row = machine.rows.first().copied().unwrap_or(&Value::Null);
-        let shares = causes().filter_map(|cause| {
-            let spent = row.pointer(&format!("/report/cycles/by_cause/{cause}"))?.as_f64()?;
-            let all = row.pointer("/report/cycles/total")?.as_f64()?;
-            (spent > 0.0).then(|| format!("{cause} {:.1} %", 100.0 * spent / all))
-        });
-        let shares: Vec<String> = shares.collect();
-        _ = write!(html, "<td>{}</td><td>{}</td></tr>", escaped(&text(&row["stalls"])), shares.join(", "));
+        if memories.len() > 1 {
+            for memory in 0..memories.len() {
+                let cycles = machine.cycles(memory).map_or_else(String::new, |cycles| cycles.to_string());
+                html += &format!("<td>{cycles}</td>");
+            }
+        }
+        let deciding = machine.deciding(judge);
+        let causes = machine.causes(&deciding);
+        let all: u64 = causes.iter().map(|(_, cycles)| cycles).sum();
+        let shares: Vec<String> = causes
+            .into_iter()
+            .map(|(cause, cycles)| format!("{cause} {:.1} %", 100.0 * cycles as f64 / all as f64))
+            .collect();
+        let with = match deciding[..] {
+            [memory] if memories.len() > 1 => format!("{}: ", escaped(&memories[memory].name)),
+            _ => String::new(),
+        };
+        html += &format!("<td>{with}{}</td></tr>", shares.join(", "));
     }
     html + "</tbody></table>"
 }
@@ -90,9 +131,10 @@ pub fn pictures(table: &Table, pictures: &[Pictures]) -> String {
             row.map_or_else(Default::default, |row| (text(&row["input"]), text(&row["machine"])));
         _ = write!(
             html,
-            "<section data-key=\"{}\"><h3>{} on machine {machine}</h3><div class=\"pictures\">",
-            of.key,
-            escaped(&input)
+            "<section data-key=\"{}\"><h3>{} on machine {}</h3><div class=\"pictures\">",
+            escaped(&of.key),
+            escaped(&input),
+            escaped(&machine)
         );
         for (name, png) in &of.images {
             _ = write!(
@@ -108,7 +150,7 @@ pub fn pictures(table: &Table, pictures: &[Pictures]) -> String {
 
 /// The varied keys of a machine, as cells of a table.
 fn keys(table: &Table, machine: &Candidate) -> String {
-    let row = machine.rows.first().copied().unwrap_or(&Value::Null);
+    let row = machine.row();
     table
         .sweep
         .axes

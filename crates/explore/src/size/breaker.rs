@@ -4,7 +4,7 @@ use super::with_fraction;
 use anyhow::Result;
 use edgewalk_host::draw;
 use edgewalk_judge::compare::compare;
-use edgewalk_machine::{Kind, Machine, Plan};
+use edgewalk_machine::{Channel, Kind, Plan};
 use edgewalk_model::Waits;
 use edgewalk_numerics::solver::solve;
 use edgewalk_numerics::{ChannelBits, Rounding, Screen, Target, Witness};
@@ -20,6 +20,8 @@ pub struct Breaker {
     pub pixel: (u32, u32),
     /// Largest error of the channel, drawn with these bits, LSB.
     pub error: f64,
+    /// The output leaves its range and wraps: its error is that of the other end of the range.
+    pub wraps: bool,
     /// In words.
     pub text: String,
     /// The triangle on the machine's screen.
@@ -65,25 +67,28 @@ impl Breaker {
         let frame = frame(&fewer, place, &witness);
         let [golden, drawn] = [draw::golden(&frame, &fewer), draw::fast(&frame, &fewer, Waits::Never)?];
         let comparison = compare(&fewer, &frame, &golden, &drawn);
-        let found = [comparison.z_error, comparison.color_error][place];
+        let found = [comparison.errors.z.error, comparison.errors.color.error][place];
         if found <= error {
             return none("none was found that shows in a rounded output");
         }
-        let (pixel, text) = (witness.pixel, witness.to_string());
-        Ok(Ok(Breaker { fraction_bits: bits - 1, pixel, error: found, text, frame }))
+        let (pixel, text, wraps) = (witness.pixel, witness.to_string(), wraps(&channel, &witness));
+        Ok(Ok(Breaker { fraction_bits: bits - 1, pixel, error: found, wraps, text, frame }))
     }
 }
 
 /// The machine with other fraction bits of depth or colour.
 fn with_bits(machine: &Plan, place: usize, bits: u32) -> Result<Plan> {
-    let mut keys = Machine::clone(machine);
     let precision = with_fraction(machine.channels()[place], bits).precision;
-    if place == 0 {
-        keys.z = precision;
-    } else {
-        keys.color = precision;
-    }
-    keys.plan().map_err(|e| anyhow::anyhow!("{e}"))
+    let machine = machine.with(|keys| match place {
+        0 => keys.z = precision,
+        _ => keys.color = precision,
+    });
+    Ok(machine.plan()?)
+}
+
+/// The witness's output leaves the range of the channel.
+fn wraps(channel: &Channel, witness: &Witness) -> bool {
+    !(0..=i128::from(channel.max())).contains(&witness.output())
 }
 
 /// The witness on the machine's screen, with all values moved alike to where its error shows most in the rounded output.
@@ -105,7 +110,7 @@ fn frame(machine: &Plan, place: usize, witness: &Witness) -> Frame {
     };
     let moves = (-turn..=turn).filter(|moved| room.contains(moved));
     // An output that wraps is where it is.
-    let wraps = !(0..=i128::from(channel.max())).contains(&witness.output());
+    let wraps = wraps(&channel, witness);
     let moved = if wraps { None } else { moves.max_by(|a, b| shown(a).total_cmp(&shown(b))) };
     let beside = if wraps { 0.0 } else { beside };
     let vertex = |(x, y, value): (i32, i32, u64)| {

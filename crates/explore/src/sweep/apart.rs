@@ -1,6 +1,7 @@
 //! Points that share nothing: frames whose rules change, with a light's map, or shaded at each pixel. Each is drawn anew, as
 //! `render` draws it.
 
+use super::equation::Distance;
 use super::shared::Geometry;
 use anyhow::Result;
 use edgewalk_host::draw::draw_frame;
@@ -19,18 +20,21 @@ pub fn stands_apart(frame: &Frame, plan: &Plan) -> bool {
     frame.passes().len() > 1 || plan.shadow.is_there() || plan.shade.is_there()
 }
 
-/// What the machine makes of the frame.
+/// What the machine makes of the frame, and how far that is from the shading equation.
 ///
 /// # Errors
 /// What of the frame the machine cannot take.
-pub fn report(geometry: &Geometry, plan: &Plan, waits: Waits) -> Result<Report> {
-    let Geometry { name, frame, golden } = geometry;
+pub fn report(geometry: &Geometry, plan: &Plan, waits: Waits) -> Result<(Report, Option<Distance>)> {
+    let Geometry { name, frame, golden, equation } = geometry;
     let port = to_port(frame, plan)?;
     let drawn = of_port(draw_frame(plan, &port, waits)?.raster(plan), &port);
+    let distance = equation.as_ref().map(|equation| equation.distance(&drawn));
     let (reach, proof) = (reach(plan, &port)?, port.shade.as_ref().map(|feed| &feed.proof));
     let comparison = compare_shaded(plan, frame, golden, &drawn, reach.as_ref(), proof).without_maps();
-    Ok(Report::new(name, frame.triangles.len() as u64, plan, &drawn)
-        .with(comparison)
-        .with_setup(SetupReport::new(plan, &port.triangles))
-        .with_stalls(waits))
+    let report = Report {
+        comparison: Some(comparison),
+        setup: Some(SetupReport::new(plan, &port.triangles)),
+        ..Report::new(name, frame.triangles.len() as u64, plan, &drawn, waits)
+    };
+    Ok((report, distance))
 }

@@ -3,8 +3,6 @@
 use anyhow::{Result, anyhow};
 use edgewalk_machine::Machine;
 use edgewalk_machine::key::{Domain, Key};
-use edgewalk_machine::keys::KEYS;
-use edgewalk_machine::nearest::nearest;
 
 /// A key that is varied.
 #[derive(Clone)]
@@ -26,9 +24,7 @@ impl Axis {
             refuse("write key=a,b,c or key=lo..hi, as in interpolator.adders=1,2,4".to_owned())
         })?;
         let (name, list) = (name.trim(), list.trim());
-        let key = KEYS.iter().find(|key| key.name == name).ok_or_else(|| {
-            refuse(format!("unknown key {name}; nearest: {}", nearest(name, KEYS.iter().map(|k| k.name))))
-        })?;
+        let key = Key::named(name).map_err(|e| refuse(e.to_string()))?;
         let words = if list.contains("..") { range(key, list) } else { Ok(words(list)) };
         let words = words.map_err(refuse)?;
         if words.is_empty() {
@@ -36,10 +32,7 @@ impl Axis {
         }
         let mut values = Vec::new();
         for word in &words {
-            let value = key.parse(word).ok_or_else(|| {
-                let (permitted, nearest) = (key.permitted(), key.nearest(word));
-                refuse(format!("{name} = {word} is not permitted ({permitted}); nearest: {nearest}"))
-            })?;
+            let value = key.parse(word).ok_or_else(|| refuse(key.refusal(word)))?;
             if values.contains(&value) {
                 return Err(refuse(format!("{word} comes twice")));
             }

@@ -1,23 +1,31 @@
 //! What a sweep was asked for, as it is kept beside its rows.
 
+use super::judge::Judge;
 use serde::{Deserialize, Serialize};
 
 /// Everything that makes a sweep the one it is; `sweep.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Definition {
-    /// Of the program that wrote it.
-    pub version: String,
+    /// Always [`Definition::FORMAT`].
+    pub format: String,
+    /// Of the format: [`Definition::FORMAT_VERSION`].
+    pub version: [u32; 2],
+    /// Version of the program that wrote it.
+    pub program: String,
     /// Scenes, meshes and triangle files.
     pub inputs: Vec<String>,
-    /// How the colours of scenes and meshes are come by: constant, constant-averaged, gouraud.
-    pub shading: String,
+    /// How scenes and meshes are shaded, by a name of [`super::shading`]; none: each machine's input is shaded as its
+    /// `shade.kind` says.
+    pub shading: Option<String>,
     /// The machine that the varied keys are changed in, TOML.
     pub machine: String,
     /// Varied keys, as `--vary` has them.
     pub vary: Vec<String>,
-    /// Behaviours of the memory, as `--stalls` has them.
+    /// Memories that every machine is run with, as `--stalls` has them.
     pub stalls: Vec<String>,
+    /// How several memories count together, as `--judge` has it.
+    pub judge: String,
     /// So many of the points, by seed.
     pub sample: Option<Sample>,
     /// Points without a proved bound of at most so many LSB are not simulated.
@@ -30,16 +38,26 @@ pub struct Definition {
     pub chunks: Option<u32>,
 }
 
+impl Definition {
+    /// Name of the format.
+    pub const FORMAT: &str = "edgewalk-sweep-definition";
+    /// Its version.
+    pub const FORMAT_VERSION: [u32; 2] = [1, 0];
+}
+
 /// The default machine on no input yet: a starting point.
 impl Default for Definition {
     fn default() -> Self {
         Definition {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
+            format: Definition::FORMAT.to_owned(),
+            version: Definition::FORMAT_VERSION,
+            program: env!("CARGO_PKG_VERSION").to_owned(),
             inputs: Vec::new(),
-            shading: "gouraud".to_owned(),
+            shading: None,
             machine: edgewalk_machine::Machine::default().to_toml(),
             vary: Vec::new(),
             stalls: Vec::new(),
+            judge: Judge::WORST.to_owned(),
             sample: None,
             bound: None,
             objectives: Vec::new(),

@@ -1,8 +1,9 @@
 //! Runs the points that are not there yet.
 
 use super::apart::{self, stands_apart};
-use super::point::{Point, Sweep};
-use super::row::{Cost, Status, with_figures, without_figures};
+use super::grid::Sweep;
+use super::point::Point;
+use super::row::{Cost, Found, Status, with_figures, without_figures};
 use super::shared::{Geometry, Pixels, geometry_key, pixel_key};
 use super::store::Store;
 use anyhow::Result;
@@ -12,7 +13,6 @@ use edgewalk_machine::{EdgeKind, Plan};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 /// What a run needs beside its points.
@@ -25,33 +25,29 @@ pub struct Around<'a> {
     pub done: &'a (dyn Fn() + Sync),
 }
 
-/// Runs these points and appends a row for each. Returns how many of the errors found exceed what is proved.
+/// Runs these points and appends a row for each.
 ///
 /// # Errors
 /// A row that cannot be written; those before it are kept.
-pub fn run(sweep: &Sweep, points: &[&Point], around: &Around) -> Result<u64> {
-    let run = Run { sweep, around, faults: AtomicU64::new(0) };
-    let mut geometries: BTreeMap<(usize, Vec<u32>), Vec<Planned>> = BTreeMap::new();
+pub fn run(sweep: &Sweep, points: &[&Point], around: &Around) -> Result<()> {
+    let run = Run { sweep, around };
+    let mut geometries: BTreeMap<([usize; 2], Vec<u32>), Vec<Planned>> = BTreeMap::new();
     for point in points {
         match &point.plan {
             Ok(plan) => {
-                let key = (point.input, geometry_key(&point.machine));
+                let key = ([point.input, point.way], geometry_key(&point.machine));
                 geometries.entry(key).or_default().push((*point, plan));
             }
             Err(why) => run.put(without_figures(sweep, point, Status::Invalid, why), Instant::now())?,
         }
     }
     // One at a time: golden's picture is the largest thing there is.
-    for points in geometries.values() {
-        run.geometry(points)?;
-    }
-    Ok(run.faults.into_inner())
+    geometries.values().try_for_each(|points| run.geometry(points))
 }
 
 struct Run<'r> {
     sweep: &'r Sweep,
     around: &'r Around<'r>,
-    faults: AtomicU64,
 }
 
 /// A point with its machine.
@@ -74,7 +70,8 @@ impl Run<'_> {
     /// Points of one input on one screen.
     fn geometry(&self, points: &Points) -> Result<()> {
         let Some((first, plan)) = points.first() else { return Ok(()) };
-        let geometry = match Geometry::new(&self.sweep.inputs[first.input].0, plan) {
+        let input = &self.sweep.drawn(first).input;
+        let geometry = match Geometry::new(input, plan, self.sweep.asks_equation()) {
             Ok(geometry) => geometry,
             Err(why) => return self.all(points, Status::Failed, &format!("{why:#}")),
         };
@@ -140,26 +137,23 @@ impl Run<'_> {
             let setup = pixels.setup(points[0].1)?;
             points.par_iter().try_for_each(|(point, plan)| {
                 let since = Instant::now();
-                let report = pixels.timed(plan, &setup, self.sweep.waits[point.waits])?;
+                let report = pixels.timed(plan, &setup, self.sweep.memories[point.memory].waits)?;
                 let cost = self.around.cost.map(|cost| cost(plan));
-                let row = with_figures(self.sweep, point, &report, pixels.bound_is_proved(), cost)?;
-                if row["status"] == Status::Failed.name() && row["verdict"] == "mismatch" {
-                    self.faults.fetch_add(1, Ordering::Relaxed);
-                }
-                self.put(row, since)
+                let found = Found { report, equation: pixels.distance(), cost };
+                self.put(with_figures(self.sweep, point, plan, found)?, since)
             })
         })
     }
 }
 
 impl Run<'_> {
-    /// A point that shares nothing. What is proved of it is judged pixel by pixel, and told by its verdict.
+    /// A point that shares nothing.
     fn apart(&self, geometry: &Geometry, point: &Point, plan: &Plan) -> Result<()> {
         let since = Instant::now();
-        let row = match apart::report(geometry, plan, self.sweep.waits[point.waits]) {
-            Ok(report) => {
+        let row = match apart::report(geometry, plan, self.sweep.memories[point.memory].waits) {
+            Ok((report, equation)) => {
                 let cost = self.around.cost.map(|cost| cost(plan));
-                with_figures(self.sweep, point, &report, false, cost)?
+                with_figures(self.sweep, point, plan, Found { report, equation, cost })?
             }
             Err(why) => without_figures(self.sweep, point, Status::Failed, &format!("{why:#}")),
         };
@@ -167,12 +161,21 @@ impl Run<'_> {
     }
 }
 
-/// Of these points those that have no row, or one that is to be tried again.
+/// Of these points those that have no row, one that is to be tried again, or one without the distance from the shading equation
+/// that this sweep asks for.
 #[must_use]
-pub fn missing<'p>(points: &[&'p Point], rows: &BTreeMap<String, Value>, again: &[Status]) -> Vec<&'p Point> {
+pub fn missing<'p>(
+    sweep: &Sweep,
+    points: &[&'p Point],
+    rows: &BTreeMap<String, Value>,
+    again: &[Status],
+) -> Vec<&'p Point> {
     let wanted = |point: &&&Point| {
-        let row = rows.get(&point.key);
-        row.is_none_or(|row| again.iter().any(|status| row["status"] == status.name()))
+        let Some(row) = rows.get(&point.key) else { return true };
+        let status = Status::of(row);
+        let asked = sweep.asks_equation() && sweep.drawn(point).shading.is_some();
+        again.iter().any(|again| status == Some(*again))
+            || asked && status == Some(Status::Ok) && row["equation"].is_null()
     };
     points.iter().filter(wanted).copied().collect()
 }

@@ -1,7 +1,7 @@
 //! What is best: a figure of a row, and which way it should go.
 
 use anyhow::{Result, anyhow};
-use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::Unknown;
 use serde_json::Value;
 
 /// A figure that is to be small or large.
@@ -44,6 +44,16 @@ pub const OBJECTIVES: &[Objective] = &[
         "/report/comparison/color_bound_for_input",
         "bound of it for these triangles, LSB, proved",
     ),
+    least(
+        "shading_error",
+        "/equation/largest",
+        "largest distance of a pixel from the shading equation, LSB of 8 bits, simulated",
+    ),
+    least(
+        "shading_mean",
+        "/equation/mean",
+        "mean distance of a pixel from the shading equation, LSB of 8 bits, simulated",
+    ),
     least("word_bits", "/derived/word_bits", "bits of the interpolator's words, all channels"),
     cells("lut4", "/synth/cells/lut4", "look-up tables, synthesised"),
     cells("ff", "/synth/cells/ff", "flip-flops, synthesised"),
@@ -60,22 +70,26 @@ pub const OBJECTIVES: &[Objective] = &[
 /// What is best where nothing is said.
 const USUAL: [&str; 4] = ["cycles", "z_error", "color_error", "word_bits"];
 const USUAL_WITH_SYNTH: [&str; 4] = ["frames_per_s", "lut4", "z_error", "color_error"];
+/// What stands for `color_error` where machines shade differently: each of them is right by an equation of its own.
+const ACROSS_SHADINGS: &str = "shading_mean";
 
 impl Objective {
-    /// Those of these names; the usual ones if there is none.
+    /// Those of these names; the usual ones if there is none. `shadings`: the machines shade differently.
     ///
     /// # Errors
     /// An unknown name, one that comes twice, one that needs synthesis where there is none.
-    pub fn list(names: &[String], synth: bool) -> Result<Vec<Objective>> {
+    pub fn list(names: &[String], synth: bool, shadings: bool) -> Result<Vec<Objective>> {
         let usual = if synth { USUAL_WITH_SYNTH } else { USUAL };
+        let usual = usual.map(|name| if shadings && name == "color_error" { ACROSS_SHADINGS } else { name });
         let names: Vec<&str> =
             if names.is_empty() { usual.to_vec() } else { names.iter().map(String::as_str).collect() };
         let mut list: Vec<Objective> = Vec::new();
         for name in names {
             let all = OBJECTIVES.iter().map(|objective| objective.name);
-            let found = OBJECTIVES.iter().find(|objective| objective.name == name).ok_or_else(|| {
-                anyhow!("--objective {name}: no such figure; nearest: {}", nearest(name, all))
-            })?;
+            let found = OBJECTIVES
+                .iter()
+                .find(|objective| objective.name == name)
+                .ok_or_else(|| anyhow!("--objective {name}: {}", Unknown::new("figure", name, all)))?;
             if list.contains(found) {
                 return Err(anyhow!("--objective {name}: comes twice"));
             }
@@ -85,6 +99,12 @@ impl Objective {
             list.push(*found);
         }
         Ok(list)
+    }
+
+    /// Whether it is a distance from the shading equation, which is worked out only where it is asked for.
+    #[must_use]
+    pub fn is_of_equation(&self) -> bool {
+        self.pointer.starts_with("/equation/")
     }
 
     /// What a row says of it.
@@ -97,8 +117,13 @@ impl Objective {
     #[must_use]
     pub fn of_all(&self, rows: &[&Value]) -> Option<f64> {
         let values = rows.iter().map(|row| self.of(row)).collect::<Option<Vec<f64>>>()?;
-        let worse = |a: f64, b: f64| if self.most { a.min(b) } else { a.max(b) };
-        if self.sums { Some(values.iter().sum()) } else { values.into_iter().reduce(worse) }
+        if self.sums { Some(values.iter().sum()) } else { self.worst(values) }
+    }
+
+    /// The worst of several values; none of no value.
+    #[must_use]
+    pub fn worst(&self, values: Vec<f64>) -> Option<f64> {
+        values.into_iter().reduce(|a, b| if self.most { a.min(b) } else { a.max(b) })
     }
 
     /// The value with its sign such that less is better.

@@ -1,7 +1,8 @@
 //! A row: what a point is, and what became of it.
 
-use super::point::{Point, Sweep};
-use super::shared::plan;
+use super::equation::Distance;
+use super::grid::Sweep;
+use super::point::Point;
 use anyhow::Result;
 use edgewalk_judge::Verdict;
 use edgewalk_judge::report::Report;
@@ -20,7 +21,7 @@ pub enum Status {
     Pruned,
     /// The machine cannot be built.
     Invalid,
-    /// It cannot be drawn, or a tool failed.
+    /// It cannot be drawn, a tool failed, or an error exceeds what is proved.
     Failed,
     /// A tool took too long.
     Timeout,
@@ -35,6 +36,12 @@ impl Status {
     #[must_use]
     pub fn name(self) -> &'static str {
         ["ok", "pruned", "invalid", "failed", "timeout"][self as usize]
+    }
+
+    /// The status of a row.
+    #[must_use]
+    pub fn of(row: &Value) -> Option<Status> {
+        Status::ALL.into_iter().find(|status| row["status"] == status.name())
     }
 }
 
@@ -58,16 +65,18 @@ pub fn without_figures(sweep: &Sweep, point: &Point, status: Status, reason: &st
     row
 }
 
-fn identity(sweep: &Sweep, point: &Point) -> Value {
-    let (input, input_hash) = &sweep.inputs[point.input];
+/// What a row says of its point, before anything is known of it.
+pub(super) fn identity(sweep: &Sweep, point: &Point) -> Value {
+    let way = sweep.drawn(point);
     json!({
         "key": point.key,
         "status": null,
-        "input": input.name(),
-        "input_hash": input_hash,
+        "input": sweep.inputs[point.input].name,
+        "input_hash": way.hash,
+        "shading": way.shading,
         "machine": point.machine.hash(),
-        "stalls": sweep.waits[point.waits].to_string(),
-        "version": sweep.definition.version,
+        "stalls": sweep.memories[point.memory].waits.to_string(),
+        "version": sweep.definition.program,
         "synthesis": sweep.synth_identity(),
         "keys": keys(&point.machine),
     })
@@ -76,37 +85,36 @@ fn identity(sweep: &Sweep, point: &Point) -> Value {
 /// What synthesis said, or what became of it.
 pub type Cost = std::result::Result<Value, (Status, String)>;
 
-/// The row of a point that was drawn. `proved`: an error above its bound is the program's own fault.
+/// What was found of a point that was drawn.
+pub struct Found {
+    /// As `render` has it.
+    pub report: Report,
+    /// How far the picture is from the shading equation, where that was asked for.
+    pub equation: Option<Distance>,
+    /// What synthesis said, if it was asked.
+    pub cost: Option<Cost>,
+}
+
+/// The row of a point that was drawn.
 ///
 /// # Errors
 /// A report that cannot be written.
-pub fn with_figures(
-    sweep: &Sweep,
-    point: &Point,
-    report: &Report,
-    proved: bool,
-    cost: Option<Cost>,
-) -> Result<Value> {
+pub fn with_figures(sweep: &Sweep, point: &Point, plan: &Plan, found: Found) -> Result<Value> {
     let mut row = identity(sweep, point);
     row["status"] = Status::Ok.name().into();
-    let comparison = report.comparison();
-    let slack = |error: f64, bound: Option<f64>| bound.map(|bound| error / bound);
-    if let Some(c) = comparison {
-        row["verdict"] = json!(match c.verdict() {
+    if let Some(comparison) = &found.report.comparison {
+        row["verdict"] = json!(match comparison.verdict() {
             Verdict::Pass => "pass",
             Verdict::Mismatch => "mismatch",
             Verdict::Vacuous => "vacuous",
         });
-        let (z, color) =
-            (slack(c.z_error, c.z_bound_for_input), slack(c.color_error, c.color_bound_for_input));
-        row["slack"] = json!({ "z": z, "color": color });
-        if proved && [z, color].into_iter().flatten().any(|slack| slack > 1.0 || slack.is_nan()) {
-            row["status"] = Status::Failed.name().into();
-            row["reason"] = "an error exceeds what is proved: a fault of edgewalk, not of the machine".into();
-        }
     }
-    row["report"] = report.value()?;
-    match cost {
+    row["report"] = serde_json::to_value(found.report)?;
+    row["slack"] = slack(&row["report"]);
+    if let Some(distance) = found.equation {
+        row["equation"] = serde_json::to_value(distance)?;
+    }
+    match found.cost {
         None => {}
         Some(Ok(synth)) => row["synth"] = synth,
         Some(Err((status, reason))) => {
@@ -114,27 +122,55 @@ pub fn with_figures(
             row["reason"] = reason.into();
         }
     }
-    if let Some(plan) = plan(point) {
-        row["derived"] = derived(plan, report, &row["synth"]);
+    if is_beyond(&row) {
+        row["status"] = Status::Failed.name().into();
+        row["reason"] = "an error exceeds what is proved: a fault of edgewalk, not of the machine".into();
     }
+    row["derived"] = derived(plan, &row["report"], &row["synth"]);
     Ok(row)
 }
 
-/// What follows from other figures.
-fn derived(plan: &Plan, report: &Report, synth: &Value) -> Value {
+/// The largest error of each channel over the bound that is proved for these triangles; null where none is.
+pub(super) fn slack(report: &Value) -> Value {
+    let of = |channel: &str| {
+        let figure = |name: &str| report["comparison"][format!("{channel}_{name}")].as_f64();
+        Some(figure("error")? / figure("bound_for_input")?)
+    };
+    json!({ "z": of("z"), "color": of("color") })
+}
+
+/// Whether an error of the row exceeds the bound that is proved for these triangles. Nothing is proved of slope edges.
+#[must_use]
+pub fn is_beyond(row: &Value) -> bool {
+    let comparison = &row["report"]["comparison"];
+    // An error that is no number is null.
+    let beyond = |error: &Value, bound: &Value| {
+        bound.as_f64().is_some_and(|bound| error.as_f64().is_none_or(|error| error > bound))
+    };
+    let own = comparison["extra"].as_array().into_iter().flatten();
+    row["keys"]["edge.kind"] == "exact"
+        && (["z", "color"].iter().any(|channel| {
+            let of = |figure: &str| &comparison[format!("{channel}_{figure}")];
+            beyond(of("error"), of("bound_for_input"))
+        }) || own.into_iter().any(|own| beyond(&own["error"], &own["bound_for_input"])))
+}
+
+/// What follows from other figures of a machine.
+pub(super) fn derived(plan: &Plan, report: &Value, synth: &Value) -> Value {
     let word_bits: u32 = plan.channels().iter().map(|channel| channel.word()).sum();
     let mut derived = json!({ "word_bits": word_bits });
-    let (Some(cycles), Some(mhz)) = (report.cycles(), synth.pointer("/mhz/median").and_then(Value::as_f64))
-    else {
+    let figure = |of: &Value, pointer: &str| of.pointer(pointer).and_then(Value::as_f64);
+    let (Some(cycles), Some(mhz)) = (figure(report, "/cycles/total"), figure(synth, "/mhz/median")) else {
         return derived;
     };
-    let seconds = cycles.total as f64 / (mhz * 1e6);
-    let (pixels, triangles) =
-        (report.covered() as f64 / seconds / 1e6, report.primitives() as f64 / seconds / 1e6);
-    derived["frames_per_s"] = json!(1.0 / seconds);
+    let frames = mhz * 1e6 / cycles;
+    let each = |name: &str| figure(report, name).unwrap_or(0.0);
+    let pixels = each("/fragments") * frames / 1e6;
+    let triangles = (each("/triangles") + each("/polygons")) * frames / 1e6;
+    derived["frames_per_s"] = json!(frames);
     derived["mpixels_per_s"] = json!(pixels);
     derived["mtriangles_per_s"] = json!(triangles);
-    if let Some(luts) = synth.pointer("/cells/lut4").and_then(Value::as_f64).filter(|luts| *luts > 0.0) {
+    if let Some(luts) = figure(synth, "/cells/lut4").filter(|luts| *luts > 0.0) {
         derived["mpixels_per_s_per_lut"] = json!(pixels / luts);
         derived["mtriangles_per_s_per_lut"] = json!(triangles / luts);
     }

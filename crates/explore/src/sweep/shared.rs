@@ -1,6 +1,6 @@
 //! What points share: those of one geometry the frame and golden, those of the same word lengths the pixels.
 
-use super::point::Point;
+use super::equation::{Distance, Equation};
 use anyhow::{Result, anyhow};
 use edgewalk_host::draw;
 use edgewalk_host::input::Input;
@@ -13,9 +13,8 @@ use edgewalk_judge::setup_report::SetupReport;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::fast::{Passage, Path, Reason, Refusal, Renderer};
-use edgewalk_model::{Culled, DrawState, Events, Rig, SetupClocks, Waits, cull, for_channels, render};
+use edgewalk_model::{Culled, DrawState, SetupClocks, Shading, Waits, cull, render, tick};
 use edgewalk_scene::Frame;
-use std::convert::Infallible;
 
 /// Keys that change when things happen, and no pixel.
 pub const TIMING: [&str; 8] = [
@@ -54,17 +53,20 @@ pub struct Geometry {
     pub(super) name: String,
     pub(super) frame: Frame,
     pub(super) golden: Raster,
+    /// What every way of shading is measured by, where that is asked for.
+    pub(super) equation: Option<Equation>,
 }
 
 impl Geometry {
-    /// On the screen of this machine.
+    /// On the screen of this machine; with the shading equation at each pixel if `asks_equation`.
     ///
     /// # Errors
     /// An input that such a machine cannot draw.
-    pub fn new(input: &Input, plan: &Plan) -> Result<Geometry> {
+    pub fn new(input: &Input, plan: &Plan, asks_equation: bool) -> Result<Geometry> {
         let frame = input.frame(plan)?;
         let golden = draw::golden(&frame, plan);
-        Ok(Geometry { name: input.name().to_owned(), frame, golden })
+        let equation = if asks_equation { Equation::of(input, plan) } else { None };
+        Ok(Geometry { name: input.name().to_owned(), frame, golden, equation })
     }
 
     /// The frame.
@@ -83,8 +85,8 @@ pub struct Pixels {
     passage: Passage,
     /// It was drawn without ticking.
     plain: bool,
-    /// Proved for these triangles: where an error exceeds it, the program is wrong.
-    exact_edges: bool,
+    /// From the shading equation, where that was asked for.
+    distance: Option<Distance>,
 }
 
 impl Pixels {
@@ -93,7 +95,7 @@ impl Pixels {
     /// # Errors
     /// What of the frame the machine cannot take, or nothing is drawn.
     pub fn new(geometry: &Geometry, plan: &Plan) -> Result<Pixels> {
-        let Geometry { name, frame, golden } = geometry;
+        let Geometry { name, frame, golden, equation } = geometry;
         let port = to_port(frame, plan)?;
         let fast = untimed(plan)?;
         let mut renderer = Renderer::new(&fast, true);
@@ -110,10 +112,11 @@ impl Pixels {
             anyhow!("none of the {} triangles covers a pixel of the screen", port.triangles.len())
         })?;
         let comparison = compare_for(plan, frame, golden, &drawn, Some(&reach)).without_maps();
-        let report = Report::new(name, frame.triangles.len() as u64, plan, &drawn).with(comparison);
+        let report = Report::new(name, frame.triangles.len() as u64, plan, &drawn, Waits::Never);
+        let report = Report { comparison: Some(comparison), ..report };
         let culled = port.triangles.iter().map(|triangle| cull(plan, triangle)).collect();
-        let exact_edges = plan.edge_kind == edgewalk_machine::EdgeKind::Exact;
-        Ok(Pixels { port, report, culled, passage, plain, exact_edges })
+        let distance = equation.as_ref().map(|equation| equation.distance(&drawn));
+        Ok(Pixels { port, report, culled, passage, plain, distance })
     }
 
     /// SETUP's clocks on a machine that differs in timing keys alone.
@@ -146,27 +149,20 @@ impl Pixels {
         let (cycles, corners) = match clocked {
             Ok(counters) => (Cycles::of(&counters, Some(Path::Fast)), None),
             Err(reason) => {
-                let (cycles, events) = for_channels!(plan, C => self.ticked::<C>(plan, waits, reason));
+                // Frames of several passes stand apart.
+                let state = self.port.passes.first().map_or_else(DrawState::default, |pass| pass.state);
+                let (counters, events) = tick(plan, &self.port.triangles, state, waits, &Shading::default());
+                let cycles = Cycles::of(&counters, Some(Path::Ticked(reason)));
                 (cycles, Some(events))
             }
         };
-        Ok(self.report.timed(plan, cycles, corners, setup.report.clone()).with_stalls(waits))
+        Ok(self.report.timed(plan, (&cycles, waits), corners.as_ref(), setup.report.clone()))
     }
 
-    /// Cycle by cycle, without a look at the pixels.
-    fn ticked<const C: usize>(&self, plan: &Plan, waits: Waits, reason: Reason) -> (Cycles, Events) {
-        // Frames of several passes stand apart.
-        let state = self.port.passes.first().map_or_else(DrawState::default, |pass| pass.state);
-        let mut rig = Rig::<C>::new(plan, state, waits);
-        let triangles = self.port.triangles.iter().map(|triangle| Ok::<_, Infallible>(*triangle));
-        let Ok(()) = rig.draw(triangles, |_, _, _| {});
-        (Cycles::of(rig.model.counters(), Some(Path::Ticked(reason))), rig.model.events().clone())
-    }
-
-    /// Whether errors beyond a bound are the program's own fault.
+    /// How far they are from the shading equation, where that was asked for.
     #[must_use]
-    pub fn bound_is_proved(&self) -> bool {
-        self.exact_edges
+    pub fn distance(&self) -> Option<Distance> {
+        self.distance
     }
 }
 
@@ -174,10 +170,4 @@ impl Pixels {
 pub struct Setup {
     clocks: Vec<SetupClocks>,
     report: SetupReport,
-}
-
-/// The machine of a point that can be built.
-#[must_use]
-pub fn plan(point: &Point) -> Option<&Plan> {
-    point.plan.as_ref().ok()
 }

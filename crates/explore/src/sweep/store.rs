@@ -1,5 +1,6 @@
 //! The rows of a sweep in a file: appended one a line, each in one write, and read again where a run was cut short.
 
+use super::row::Status;
 use anyhow::{Context, Result, anyhow};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -89,10 +90,18 @@ fn rows(bytes: &[u8]) -> Result<Vec<Value>> {
         .map(|(place, line)| {
             let row: Value = serde_json::from_slice(line)
                 .map_err(|e| anyhow!("line {}: no row of a sweep: {e}; remove the line", place + 1))?;
-            match row["key"].as_str() {
-                Some(_) => Ok(row),
-                None => Err(anyhow!("line {}: a row without a key; remove the line", place + 1)),
+            if row["key"].as_str().is_none() {
+                return Err(anyhow!("line {}: a row without a key; remove the line", place + 1));
             }
+            if Status::of(&row).is_none() {
+                return Err(anyhow!(
+                    "line {}: status {}: permitted: {}; remove the line",
+                    place + 1,
+                    row["status"],
+                    Status::ALL.map(Status::name).join(", ")
+                ));
+            }
+            Ok(row)
         })
         .collect()
 }

@@ -21,7 +21,7 @@ impl Grid {
         Self { subpixel_bits, centre: 1 << subpixel_bits }
     }
 
-    /// Whole vertices, and pixel i at the coordinate i ("pixels are at integer values", seed B).
+    /// Whole vertices, and pixel i at the coordinate i ("pixels are at integer values", the slides).
     pub fn whole() -> Self {
         Self { subpixel_bits: 0, centre: 0 }
     }

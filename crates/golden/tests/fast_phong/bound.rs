@@ -33,7 +33,7 @@ fn rounding(quadratic: &Quadratic) -> f64 {
 }
 
 #[test]
-fn a_hundred_thousand_triangles_stay_under_a10_at_every_pixel() {
+fn a_hundred_thousand_triangles_stay_under_bound_10_at_every_pixel() {
     const EXPECTED: u32 = 100_000;
     let mut random = Pcg64Mcg::seed_from_u64(2);
     let (mut checked, mut slivers, mut pixels) = (0, 0, 0u64);
@@ -97,7 +97,7 @@ fn errors_by_half_cone() {
     println!("half-cone, degrees    bound 10   Taylor   six points     LSB of 8 bits, worst of 10000");
     for degrees in [1.0, 2.0, 4.0, 6.0, 8.5, 12.0, 17.0, 25.0, 35.0f64] {
         let cone = degrees.to_radians();
-        let a10 = 255.0 * taylor_error(cone.tan());
+        let bound_10 = 255.0 * taylor_error(cone.tan());
         let (mut taylor, mut six_point) = (0f64, 0f64);
         for _ in 0..10_000 {
             let axis = direction(&mut random);
@@ -111,8 +111,11 @@ fn errors_by_half_cone() {
             taylor = taylor.max(255.0 * case.error(&case.taylor()));
             six_point = six_point.max(255.0 * case.error(&case.six_point()));
         }
-        println!("{degrees:>18.1} {a10:>8.4} {taylor:>8.4} {six_point:>8.4}");
-        assert!(taylor <= a10 && six_point <= 8.0 / 3.0 * a10, "{degrees} degrees: {taylor} {six_point}");
+        println!("{degrees:>18.1} {bound_10:>8.4} {taylor:>8.4} {six_point:>8.4}");
+        assert!(
+            taylor <= bound_10 && six_point <= 8.0 / 3.0 * bound_10,
+            "{degrees} degrees: {taylor} {six_point}"
+        );
         // Light in the direction of one normal's tilt: the polynomial has tan, the truth sin.
         assert!(taylor > 0.98 * 255.0 * (cone.tan() - cone.sin()), "{degrees} degrees: {taylor}");
     }

@@ -29,7 +29,7 @@ fn drawn(scene: &Scene, fit: Fit, table_size: usize) -> FastShaded {
 
 /// Without highlights the difference from Phong shading is that of the quadratics alone.
 #[test]
-fn matte_pictures_are_under_a10_of_their_triangles_at_every_pixel() {
+fn matte_pictures_are_under_bound_10_of_their_triangles_at_every_pixel() {
     let mut checked = 0;
     for name in Scene::BUILTIN {
         let scene = scene(name, Material::matte(DVec3::splat(0.8)));
@@ -46,9 +46,9 @@ fn matte_pictures_are_under_a10_of_their_triangles_at_every_pixel() {
             let mut widest = 0f64;
             for (at, id) in picture.id.iter().enumerate() {
                 let Ok(id) = usize::try_from(*id) else { continue };
-                let a10 =
+                let bound_10 =
                     if fit == Fit::Taylor { taylor_error(spread[id]) } else { six_point_error(spread[id]) };
-                let bound = 255.0 * 0.8 * intensity * a10 + 1e-9;
+                let bound = 255.0 * 0.8 * intensity * bound_10 + 1e-9;
                 assert!(error.map[at] <= bound, "{name} {fit:?} pixel {at}: {} over {bound}", error.map[at]);
                 widest = widest.max(spread[id]);
                 checked += 1;

@@ -30,8 +30,6 @@ impl Lamp {
         if given > most {
             let remedy = if machine.shade.is_positional() {
                 "take 1; render and explain draw one after the other".to_owned()
-            } else if given <= 2 {
-                format!("add --set shade.lights={given}")
             } else {
                 "take 2".to_owned()
             };

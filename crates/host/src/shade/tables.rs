@@ -6,7 +6,7 @@ use super::texels::Texture;
 use anyhow::{Result, anyhow};
 use edgewalk_machine::{Entry, Plan};
 use edgewalk_numerics::index_table::{Diffuse, Highlight, IndexTable};
-use edgewalk_scene::{Frame, Material, PixelShading, ShadeMode, Specular, Triangle};
+use edgewalk_scene::{Frame, Material, PixelShading, Specular, Triangle};
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -45,9 +45,8 @@ impl Surfaces {
             tables: Vec::new(),
             textures: Vec::new(),
         };
-        for (index, (triangle, own)) in frame.triangles.iter().zip(&shading.triangles).enumerate() {
-            let color =
-                if multiplies(machine) { DVec3::ONE } else { one_color(index, triangle, frame.mode)? };
+        for (triangle, own) in frame.triangles.iter().zip(&shading.triangles) {
+            let color = if multiplies(machine) { DVec3::ONE } else { one_color(triangle) };
             let key = (own.material, color.to_array().map(f64::to_bits));
             let next = numbers.len() as u32;
             let number = *numbers.entry(key).or_insert(next);
@@ -96,16 +95,9 @@ impl Surfaces {
     }
 }
 
-/// The colour that a table can hold.
-fn one_color(index: usize, triangle: &Triangle, mode: ShadeMode) -> Result<DVec3> {
-    let [first, others @ ..] = triangle.0.map(|v| DVec3::new(v.r, v.g, v.b));
-    if mode == ShadeMode::Gouraud && others.iter().any(|color| *color != first) {
-        return Err(anyhow!(
-            "triangle {index}: its colour is not the same at all vertices, and the machine's tables hold one; add --set \
-             shade.colour=multiply, or draw with --engine golden"
-        ));
-    }
-    Ok(first)
+/// The colour that a table can hold: that of all vertices.
+fn one_color(Triangle([v, ..]): &Triangle) -> DVec3 {
+    DVec3::new(v.r, v.g, v.b)
 }
 
 /// The tables of a material already multiplied with its colour; ambient light is in those of the first light.

@@ -55,6 +55,11 @@ impl Lowered {
         Lowered { range, sign: Some(any), ..Lowered::below(any, u32::MAX) }
     }
 
+    /// One of two, which is there as `any`.
+    pub fn either(any: Value, a: Lowered, b: Lowered) -> Lowered {
+        Lowered::within(any, a.bits.max(b.bits), a.ranges(b).map(|(a, b)| a.or(b)))
+    }
+
     /// Where both are known to lie.
     pub fn ranges(self, other: Lowered) -> Option<(Range, Range)> {
         self.range.zip(other.range)

@@ -1,14 +1,22 @@
-//! Graph and plan to Cranelift's intermediate form.
+//! Lowers a graph and its plan to Cranelift's intermediate form.
 
-mod copies;
-mod lowered;
-mod memory;
-mod operators;
-mod program;
+mod plan;
+
 mod range;
-mod registers;
+mod lowered;
+mod cursor;
+mod known;
+mod changes;
 mod values;
-mod waking;
+mod registers;
+mod operators;
+mod demand;
+mod wake_counters;
 
-pub(crate) use program::{Plan, Program, is_computed, lower};
-pub(crate) use values::ODD;
+mod program;
+mod copies;
+mod memory;
+
+pub(crate) use cursor::ODD;
+pub(crate) use plan::{Plan, Program};
+pub(crate) use program::lower;

@@ -1,7 +1,7 @@
 //! Each operator in instructions. What it means is the table in `edgewalk_netlist::ops`.
 
 use cranelift_codegen::ir::condcodes::{CondCode, IntCC};
-use cranelift_codegen::ir::{InstBuilder, Type, Value, types};
+use cranelift_codegen::ir::{InstBuilder, Value, types};
 use edgewalk_netlist::Op;
 use edgewalk_netlist::ops::mask;
 
@@ -61,20 +61,20 @@ pub(super) fn lower(v: &mut Values, op: Op, width: u32, operands: &[ValueId]) ->
         (Op::Mux, &[c, a, b]) => {
             let (a, b) = (v.any(a), v.any(b));
             let c = v.condition(c);
-            either(v.cursor.ins().select(c, a.any, b.any), a, b)
+            Lowered::either(v.cursor.ins().select(c, a.any, b.any), a, b)
         }
         (Op::Shl(n), &[a]) if n < width => {
             let a = v.any(a);
             let range = a.range.and_then(|range| range.times_power(n));
-            Lowered::within(shifted_left(v, a.any, n), a.bits.saturating_add(n), range)
+            Lowered::within(v.cursor.shifted_left(a.any, n), a.bits.saturating_add(n), range)
         }
         (Op::Shr(n), &[a]) if n < width => {
             let a = v.zero(a);
-            Lowered::below(shifted_right(v, a, n), width - n)
+            Lowered::below(v.cursor.shifted_right(a, n), width - n)
         }
         (Op::Sar(n), &[a]) => {
             let a = v.sign(a);
-            let n = v.constant(types::I64, n.min(width - 1).into());
+            let n = v.cursor.constant(types::I64, n.min(width - 1).into());
             Lowered::signed(v.cursor.ins().sshr(a, n), width)
         }
         (Op::ShlBy | Op::ShrBy | Op::SarBy, &[a, n]) => shifted_by(v, op, width, a, n),
@@ -82,21 +82,21 @@ pub(super) fn lower(v: &mut Values, op: Op, width: u32, operands: &[ValueId]) ->
             if let Some((word, zero)) = sign_asked(v, hi, lo, a) {
                 return Lowered::below(v.cursor.ins().icmp(IntCC::SignedLessThan, word, zero), 1);
             }
-            let bits = v.any(a).bits.min(lane(v.graph.width(a)).bits());
+            let bits = v.any(a).bits.min(lane(v.graph().width(a)).bits());
             let bits = bits.saturating_sub(lo);
-            if width == 1 && lane(v.graph.width(a)) == types::I64 {
+            if width == 1 && lane(v.graph().width(a)) == types::I64 {
                 let word = v.any(a).any;
-                let word = shifted_right(v, word, lo);
-                return v.bit(word, bits);
+                let word = v.cursor.shifted_right(word, lo);
+                return v.cursor.bit(word, bits);
             }
             Lowered::below(slice(v, hi, lo, a), bits)
         }
         (Op::ZeroExtend(_), &[a]) => {
             let zero = v.word(a);
-            Lowered::below(widened(v, zero, ty), v.graph.width(a))
+            Lowered::below(v.cursor.widened(zero, ty), v.graph().width(a))
         }
         (Op::SignExtend(_), &[a]) => {
-            let bits = v.graph.width(a);
+            let bits = v.graph().width(a);
             if let Some(word) = sign_of_bit(v, a).filter(|_| ty == types::I64) {
                 return Lowered::signed(word, 1);
             }
@@ -105,23 +105,23 @@ pub(super) fn lower(v: &mut Values, op: Op, width: u32, operands: &[ValueId]) ->
                 return Lowered::signed(v.cursor.ins().ineg(zero), 1);
             }
             let sign = v.sign(a);
-            Lowered::signed(sign_widened(v, sign, ty), bits)
+            Lowered::signed(v.cursor.sign_widened(sign, ty), bits)
         }
         (Op::Concat, _) => concat(v, width, operands),
         (Op::Any, &[a]) => {
             let a = v.zero(a);
-            let zero = zero_like(v, a);
+            let zero = v.cursor.zero_like(a);
             Lowered::below(v.cursor.ins().icmp(IntCC::NotEqual, a, zero), 1)
         }
         (Op::All, &[a]) => {
-            let bits = v.graph.width(a);
+            let bits = v.graph().width(a);
             let a = v.zero(a);
-            let ones = v.constant(lane(bits), mask(bits));
+            let ones = v.cursor.constant(lane(bits), mask(bits));
             Lowered::below(v.cursor.ins().icmp(IntCC::Equal, a, ones), 1)
         }
         (Op::Parity, &[a]) => parity(v, a),
         // Shifts beyond the width; nothing else is left.
-        _ => Lowered::below(v.constant(ty, 0), 0),
+        _ => Lowered::below(v.cursor.constant(ty, 0), 0),
     }
 }
 
@@ -142,30 +142,30 @@ fn compare(v: &mut Values, condition: IntCC, signed: bool, a: ValueId, b: ValueI
 
 /// The opposite of a relation is a relation.
 fn not(v: &mut Values, width: u32, a: ValueId) -> Lowered {
-    if let Kind::Op(op, operands) = v.graph.kind(a)
+    if let Kind::Op(op, operands) = v.graph().kind(a)
         && let Some((condition, signed)) = relation(*op)
         && let &[a, b] = &**operands
     {
         return Lowered::below(compare(v, condition.complement(), signed, a, b), 1);
     }
-    if let Some(&[word]) = v.graph.as_op(a, Op::Any) {
+    if let Some(&[word]) = v.graph().as_op(a, Op::Any) {
         let word = v.zero(word);
-        let zero = zero_like(v, word);
+        let zero = v.cursor.zero_like(word);
         return Lowered::below(v.cursor.ins().icmp(IntCC::Equal, word, zero), 1);
     }
-    if let &Kind::Op(Op::Slice { hi, lo }, ref operands) = v.graph.kind(a)
+    if let &Kind::Op(Op::Slice { hi, lo }, ref operands) = v.graph().kind(a)
         && let Some((word, zero)) = sign_asked(v, hi, lo, operands[0])
     {
         return Lowered::below(v.cursor.ins().icmp(IntCC::SignedGreaterThanOrEqual, word, zero), 1);
     }
     let a = v.any(a);
     if let Some(word) = a.word {
-        let one = v.constant(types::I64, 1);
+        let one = v.cursor.constant(types::I64, 1);
         let word = v.cursor.ins().bxor(word, one);
-        return v.bit(word, a.bits.max(1));
+        return v.cursor.bit(word, a.bits.max(1));
     }
     if width == 1 {
-        let one = v.constant(types::I8, 1);
+        let one = v.cursor.constant(types::I8, 1);
         return Lowered::below(v.cursor.ins().bxor(a.any, one), a.bits.max(1));
     }
     let range = a.range.and_then(|range| Range::of(-1).minus(range));
@@ -174,31 +174,26 @@ fn not(v: &mut Values, width: u32, a: ValueId) -> Lowered {
 
 /// A word that has copies of its sign above its bits, and 0, if these bits of it are the sign.
 fn sign_asked(v: &mut Values, hi: u32, lo: u32, word: ValueId) -> Option<(Value, Value)> {
-    let width = v.graph.width(word);
+    let width = v.graph().width(word);
     if hi != lo || hi + 1 != width || lane(width) != types::I64 {
         return None;
     }
     let word = v.any(word);
     word.range.filter(|range| range.is_signed(width))?;
-    Some((word.any, zero_like(v, word.any)))
+    Some((word.any, v.cursor.zero_like(word.any)))
 }
 
 /// A word of copies of a bit of a word, moved to where its sign is.
 fn sign_of_bit(v: &mut Values, bit: ValueId) -> Option<Value> {
-    let &Kind::Op(Op::Slice { hi, lo }, ref operands) = v.graph.kind(bit) else { return None };
+    let &Kind::Op(Op::Slice { hi, lo }, ref operands) = v.graph().kind(bit) else { return None };
     let word = operands[0];
-    if hi != lo || lane(v.graph.width(word)) != types::I64 || !v.is_worked_out_here(bit) {
+    if hi != lo || lane(v.graph().width(word)) != types::I64 || !v.is_worked_out_here(bit) {
         return None;
     }
     let word = v.any(word).any;
-    let (up, down) = (v.constant(types::I64, (63 - lo).into()), v.constant(types::I64, 63));
+    let (up, down) = (v.cursor.constant(types::I64, (63 - lo).into()), v.cursor.constant(types::I64, 63));
     let top = v.cursor.ins().ishl(word, up);
     Some(v.cursor.ins().sshr(top, down))
-}
-
-/// One of two.
-pub(super) fn either(any: Value, a: Lowered, b: Lowered) -> Lowered {
-    Lowered::within(any, a.bits.max(b.bits), a.ranges(b).map(|(a, b)| a.or(b)))
 }
 
 /// Of bits of two words.
@@ -212,11 +207,11 @@ fn of_words(v: &mut Values, op: Op, a: ValueId, b: ValueId) -> Option<Lowered> {
     let (first, second) = (v.any(a), v.any(b));
     if op == Op::And {
         for (other, bit) in [(b, first), (a, second)] {
-            if let Some(&[not]) = v.graph.as_op(other, Op::Not)
+            if let Some(&[not]) = v.graph().as_op(other, Op::Not)
                 && let Some((word, not)) = bit.word.zip(v.known_word(not))
             {
                 let word = v.cursor.ins().band_not(word, not);
-                return Some(v.bit(word, bit.bits));
+                return Some(v.cursor.bit(word, bit.bits));
             }
         }
     }
@@ -227,14 +222,14 @@ fn of_words(v: &mut Values, op: Op, a: ValueId, b: ValueId) -> Option<Lowered> {
         (Op::Xor, Some((a, b))) => (v.cursor.ins().bxor(a, b), first.bits.max(second.bits)),
         _ => return None,
     };
-    Some(v.bit(word, bits))
+    Some(v.cursor.bit(word, bits))
 }
 
 fn product(v: &mut Values, width: u32, a: ValueId, b: ValueId) -> Lowered {
-    let narrow = [a, b].iter().all(|operand| v.graph.width(*operand) <= 64);
+    let narrow = [a, b].iter().all(|operand| v.graph().width(*operand) <= 64);
     let factor = if narrow { types::I64 } else { types::I128 };
     let (a, b) = (v.zero(a), v.zero(b));
-    let (a, b) = (widened(v, a, factor), widened(v, b, factor));
+    let (a, b) = (v.cursor.widened(a, factor), v.cursor.widened(b, factor));
     let low = v.cursor.ins().imul(a, b);
     if !narrow || width <= 64 {
         return Lowered::below(low, width);
@@ -244,10 +239,10 @@ fn product(v: &mut Values, width: u32, a: ValueId, b: ValueId) -> Lowered {
 }
 
 fn signed_product(v: &mut Values, width: u32, a: ValueId, b: ValueId) -> Lowered {
-    let narrow = [a, b].iter().all(|operand| v.graph.width(*operand) <= 64);
+    let narrow = [a, b].iter().all(|operand| v.graph().width(*operand) <= 64);
     let factor = if narrow { types::I64 } else { types::I128 };
     let (a, b) = (v.sign(a), v.sign(b));
-    let (a, b) = (sign_widened(v, a, factor), sign_widened(v, b, factor));
+    let (a, b) = (v.cursor.sign_widened(a, factor), v.cursor.sign_widened(b, factor));
     let low = v.cursor.ins().imul(a, b);
     if !narrow || width <= 64 {
         return Lowered::signed(low, width);
@@ -258,18 +253,18 @@ fn signed_product(v: &mut Values, width: u32, a: ValueId, b: ValueId) -> Lowered
 
 /// A shift by a signal: what is shifted out of the lane must be gone, however large the count.
 fn shifted_by(v: &mut Values, op: Op, width: u32, a: ValueId, n: ValueId) -> Lowered {
-    let count_bits = v.graph.width(n);
+    let count_bits = v.graph().width(n);
     let lane_bits: u32 = if width == 1 { 1 } else { lane(width).bits() };
     let count = v.zero(n);
     let in_lane = (count_bits > lane_bits.ilog2()).then(|| {
-        let limit = v.constant(lane(count_bits), lane_bits.into());
+        let limit = v.cursor.constant(lane(count_bits), lane_bits.into());
         v.cursor.ins().icmp(IntCC::UnsignedLessThan, count, limit)
     });
-    let count = resized(v, count, types::I64);
+    let count = v.cursor.resized(count, types::I64);
     match op {
         Op::SarBy => {
             let a = v.sign(a);
-            let most = v.constant(types::I64, (lane_bits - 1).into());
+            let most = v.cursor.constant(types::I64, (lane_bits - 1).into());
             let count = in_lane.map_or(count, |in_lane| v.cursor.ins().select(in_lane, count, most));
             Lowered::signed(v.cursor.ins().sshr(a, count), width)
         }
@@ -281,7 +276,7 @@ fn shifted_by(v: &mut Values, op: Op, width: u32, a: ValueId, n: ValueId) -> Low
                 let a = v.zero(a);
                 (v.cursor.ins().ushr(a, count), width)
             };
-            let zero = v.constant(lane(width), 0);
+            let zero = v.cursor.constant(lane(width), 0);
             Lowered::below(in_lane.map_or(shifted, |fits| v.cursor.ins().select(fits, shifted, zero)), bits)
         }
     }
@@ -291,27 +286,27 @@ fn shifted_by(v: &mut Values, op: Op, width: u32, a: ValueId, n: ValueId) -> Low
 fn slice(v: &mut Values, hi: u32, lo: u32, a: ValueId) -> Value {
     let ty = lane(hi - lo + 1);
     let a = v.any(a).any;
-    if v.cursor.func.dfg.value_type(a) == types::I128 && ty != types::I128 && hi / 64 == lo / 64 {
+    if v.cursor.type_of(a) == types::I128 && ty != types::I128 && hi / 64 == lo / 64 {
         let (low, high) = v.cursor.ins().isplit(a);
-        let half = shifted_right(v, if lo < 64 { low } else { high }, lo % 64);
-        return resized(v, half, ty);
+        let half = v.cursor.shifted_right(if lo < 64 { low } else { high }, lo % 64);
+        return v.cursor.resized(half, ty);
     }
-    let shifted = shifted_right(v, a, lo);
-    resized(v, shifted, ty)
+    let shifted = v.cursor.shifted_right(a, lo);
+    v.cursor.resized(shifted, ty)
 }
 
 fn concat(v: &mut Values, width: u32, parts: &[ValueId]) -> Lowered {
     let ty = lane(width);
     let mut all: Option<Lowered> = None;
     for part in parts {
-        let bits = v.graph.width(*part);
+        let bits = v.graph().width(*part);
         all = Some(match all {
             None => {
                 let part = match v.any(*part) {
                     Lowered { word: Some(word), bits, .. } if ty != types::I8 => Lowered::below(word, bits),
                     part => part,
                 };
-                let any = widened(v, part.any, ty);
+                let any = v.cursor.widened(part.any, ty);
                 // In a longer word the sign does not reach to the top.
                 let is_same = any == part.any;
                 let range = part.range.filter(|range| is_same || range.bits().is_some());
@@ -319,7 +314,7 @@ fn concat(v: &mut Values, width: u32, parts: &[ValueId]) -> Lowered {
             }
             Some(high) => {
                 let part = v.word(*part);
-                let (part, above) = (widened(v, part, ty), shifted_left(v, high.any, bits));
+                let (part, above) = (v.cursor.widened(part, ty), v.cursor.shifted_left(high.any, bits));
                 let range = high.range.and_then(|high| high.times_power(bits));
                 let range = range.zip(Range::unsigned(bits)).and_then(|(high, low)| high.plus(low));
                 Lowered::within(side_by_side(v, above, part, bits), high.bits.saturating_add(bits), range)
@@ -328,13 +323,13 @@ fn concat(v: &mut Values, width: u32, parts: &[ValueId]) -> Lowered {
     }
     match all {
         Some(all) => all,
-        None => Lowered::below(v.constant(ty, 0), 0),
+        None => Lowered::below(v.cursor.constant(ty, 0), 0),
     }
 }
 
 /// Bits above others; by a sum where that is one instruction with the shift.
 fn side_by_side(v: &mut Values, above: Value, below: Value, bits: u32) -> Value {
-    if bits <= 3 && v.cursor.func.dfg.value_type(above) == types::I64 {
+    if bits <= 3 && v.cursor.type_of(above) == types::I64 {
         v.cursor.ins().iadd(below, above)
     } else {
         v.cursor.ins().bor(above, below)
@@ -343,95 +338,10 @@ fn side_by_side(v: &mut Values, above: Value, below: Value, bits: u32) -> Value 
 
 fn parity(v: &mut Values, a: ValueId) -> Lowered {
     let mut a = v.zero(a);
-    if v.cursor.func.dfg.value_type(a) == types::I128 {
+    if v.cursor.type_of(a) == types::I128 {
         let (low, high) = v.cursor.ins().isplit(a);
         a = v.cursor.ins().bxor(low, high);
     }
     let ones = v.cursor.ins().popcnt(a);
-    Lowered::below(resized(v, ones, types::I8), 8)
-}
-
-/// With copies of bit `width` - 1 above it.
-pub(super) fn sign_extended(v: &mut Values, value: Value, width: u32) -> Value {
-    let ty = v.cursor.func.dfg.value_type(value);
-    let narrow = match width {
-        8 => types::I8,
-        16 => types::I16,
-        32 => types::I32,
-        _ if width == ty.bits() => return value,
-        _ if ty == types::I128 => {
-            let (low, high) = v.cursor.ins().isplit(value);
-            let high = sign_extended(v, high, width - 64);
-            return v.cursor.ins().iconcat(low, high);
-        }
-        _ => {
-            let unused = v.constant(types::I64, (ty.bits() - width).into());
-            let top = v.cursor.ins().ishl(value, unused);
-            return v.cursor.ins().sshr(top, unused);
-        }
-    };
-    let low = v.cursor.ins().ireduce(narrow, value);
-    v.cursor.ins().sextend(ty, low)
-}
-
-/// Shifted by less than the lane has bits.
-fn shifted_left(v: &mut Values, value: Value, n: u32) -> Value {
-    if n == 0 {
-        return value;
-    }
-    if v.cursor.func.dfg.value_type(value) != types::I128 {
-        let n = v.constant(types::I64, n.into());
-        return v.cursor.ins().ishl(value, n);
-    }
-    let (low, high) = v.cursor.ins().isplit(value);
-    let (new_low, new_high) = if n >= 64 {
-        (v.constant(types::I64, 0), shifted_left(v, low, n - 64))
-    } else {
-        let (up, over) = (shifted_left(v, high, n), shifted_right(v, low, 64 - n));
-        (shifted_left(v, low, n), v.cursor.ins().bor(up, over))
-    };
-    v.cursor.ins().iconcat(new_low, new_high)
-}
-
-/// Shifted by less than the lane has bits.
-fn shifted_right(v: &mut Values, value: Value, n: u32) -> Value {
-    if n == 0 {
-        return value;
-    }
-    if v.cursor.func.dfg.value_type(value) != types::I128 {
-        let n = v.constant(types::I64, n.into());
-        return v.cursor.ins().ushr(value, n);
-    }
-    let (low, high) = v.cursor.ins().isplit(value);
-    let (new_low, new_high) = if n >= 64 {
-        (shifted_right(v, high, n - 64), v.constant(types::I64, 0))
-    } else {
-        let (down, over) = (shifted_right(v, low, n), shifted_left(v, high, 64 - n));
-        (v.cursor.ins().bor(down, over), shifted_right(v, high, n))
-    };
-    v.cursor.ins().iconcat(new_low, new_high)
-}
-
-/// In a lane at least as wide, with zeros above.
-fn widened(v: &mut Values, value: Value, ty: Type) -> Value {
-    if v.cursor.func.dfg.value_type(value) == ty { value } else { v.cursor.ins().uextend(ty, value) }
-}
-
-/// In a lane at least as wide, with copies of the sign above.
-fn sign_widened(v: &mut Values, value: Value, ty: Type) -> Value {
-    if v.cursor.func.dfg.value_type(value) == ty { value } else { v.cursor.ins().sextend(ty, value) }
-}
-
-/// In any lane: the bits that fit, or all with zeros above.
-pub(super) fn resized(v: &mut Values, value: Value, ty: Type) -> Value {
-    if v.cursor.func.dfg.value_type(value).bits() > ty.bits() {
-        v.cursor.ins().ireduce(ty, value)
-    } else {
-        widened(v, value, ty)
-    }
-}
-
-fn zero_like(v: &mut Values, value: Value) -> Value {
-    let ty = v.cursor.func.dfg.value_type(value);
-    v.constant(ty, 0)
+    Lowered::below(v.cursor.resized(ones, types::I8), 8)
 }

@@ -6,41 +6,17 @@ use cranelift_codegen::cursor::{Cursor, FuncCursor};
 use cranelift_codegen::ir::{Block, Function, Inst, InstBuilder, Type};
 use edgewalk_netlist::Op;
 
+use super::plan::{Plan, Program};
 use super::values::Values;
 use crate::design::Design;
-use crate::graph::{Graph, Kind, ValueId};
+use crate::graph::ValueId;
 use crate::groups::{Group, Member};
-use crate::layout::{Layout, Place};
-use crate::quiet::{MOST, Wakes};
-use crate::signs::Signs;
+use crate::layout::Place;
 use crate::step::Step;
-use crate::tables::Tables;
+use crate::wakes::MOST;
 
 /// Members that choose by the same bit share a branch if they are so many or more.
 const LEAST_CHOOSING: usize = 3;
-
-/// A function of the state.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Program {
-    /// Samples the outputs, then a clock.
-    Clock,
-    /// The outputs of this cycle.
-    Outputs,
-    /// All signals with a name.
-    Signals,
-}
-
-/// All that programs are made from.
-pub(crate) struct Plan {
-    pub design: Design,
-    pub steps: Vec<Step>,
-    pub tables: Tables,
-    pub signs: Signs,
-    pub wakes: Wakes,
-    /// Kept in the state from step to step.
-    pub shared: Vec<ValueId>,
-    pub layout: Layout,
-}
 
 /// Fills the function, which has its signature already.
 pub(crate) fn lower(
@@ -58,7 +34,7 @@ pub(crate) fn lower(
     let mut lowering = Lowering { design, v: Values::new(plan, cursor, address, has_vectors), idle: true };
     match program {
         Program::Clock => {
-            lowering.v.keep(&plan.shared);
+            lowering.v.known.keep(&plan.shared);
             lowering.sample();
             lowering.clock(steps);
         }
@@ -66,11 +42,6 @@ pub(crate) fn lower(
         Program::Signals => lowering.compute(design.signals.values().copied()),
     }
     lowering.v.cursor.ins().return_(&[]);
-}
-
-/// Whether a value must be computed to be read; else it is in the state all the time.
-pub(crate) fn is_computed(graph: &Graph, value: ValueId) -> bool {
-    matches!(graph.kind(value), Kind::Op(..))
 }
 
 /// A program being written.
@@ -84,8 +55,9 @@ pub(super) struct Lowering<'a> {
 impl Lowering<'_> {
     fn compute(&mut self, values: impl Iterator<Item = ValueId> + Clone) {
         self.v.look(values.clone().collect());
-        for value in values.filter(|value| is_computed(self.v.graph, *value)) {
-            if let Some(place) = self.v.layout.of(value) {
+        let graph = self.v.graph();
+        for value in values.filter(|value| graph.is_computed(*value)) {
+            if let Some(place) = self.v.plan.layout.of(value) {
                 self.v.store(value, place);
             }
         }
@@ -98,7 +70,7 @@ impl Lowering<'_> {
             .outputs
             .iter()
             .map(|(_, value)| *value)
-            .zip(self.v.layout.sampled.iter().copied())
+            .zip(self.v.plan.layout.sampled.iter().copied())
             .collect();
         let mut left = &outputs[..];
         while let [(value, place), others @ ..] = left {
@@ -133,12 +105,12 @@ impl Lowering<'_> {
 
     fn steps(&mut self, steps: &[Step]) {
         for step in steps {
-            self.v.forget();
-            self.v.look(step.asked(self.design, self.v.wakes));
+            self.v.known.forget(self.v.graph());
+            self.v.look(step.asked(self.design));
             match step {
                 Step::Change(group) => self.change(group, group.conditions.len()),
                 Step::Write(memory) => {
-                    let area = self.v.layout.memories[*memory];
+                    let area = self.v.plan.layout.memories[*memory];
                     let wakes = 1 << self.design.memories[*memory].unit.min(MOST - 1);
                     self.design.memories[*memory]
                         .writes
@@ -146,10 +118,10 @@ impl Lowering<'_> {
                         .for_each(|port| self.write(*port, area, wakes));
                 }
                 Step::Early(bits) => bits.iter().for_each(|bit| self.v.work_out(*bit)),
-                Step::Unit { unit, then } if self.v.wakes.rests(*unit) => self.unit(*unit, then),
+                Step::Unit { unit, then, .. } if self.v.plan.wakes.rests(*unit) => self.unit(*unit, then),
                 Step::Unit { then, .. } => self.steps(then),
                 Step::If { bit, then } => {
-                    let idle = self.idle && self.v.wakes.is_idle(*bit);
+                    let idle = self.idle && self.v.plan.wakes.is_idle(*bit);
                     let around = std::mem::replace(&mut self.idle, idle);
                     self.only_if(*bit, |lowering| lowering.steps(then));
                     self.idle = around;
@@ -169,14 +141,14 @@ impl Lowering<'_> {
             lowering.steps(then);
         });
         self.v.cursor.insert_block(next);
-        changed.into_iter().for_each(|register| self.v.change(register, way));
+        changed.into_iter().for_each(|register| self.v.changes.change(register, way));
     }
 
     /// The strongest condition is asked first, of those below `rank`.
     fn change(&mut self, group: &Group, rank: usize) {
         let Some(rank) = rank.checked_sub(1) else { return };
         let condition = group.conditions[rank];
-        if self.v.graph.as_constant(condition) == Some(1) {
+        if self.v.graph().as_constant(condition) == Some(1) {
             return self.take(group, rank);
         }
         self.either(
@@ -213,7 +185,7 @@ impl Lowering<'_> {
                 && self.copy_both([first, second], &both)
             {
                 if !is_compared {
-                    changed |= both.iter().fold(0, |units, q| units | self.v.wakes.of(*q));
+                    changed |= both.iter().fold(0, |units, q| units | self.v.plan.wakes.of(*q));
                 }
                 left = others;
                 continue;
@@ -222,9 +194,9 @@ impl Lowering<'_> {
                 Member::Register { q, values } => (*q, self.v.taken(*q, values[rank])),
                 Member::Read { memory, port } => self.read(*memory, *port),
             };
-            let wakes = self.v.wakes.of(q);
+            let wakes = self.v.plan.wakes.of(q);
             if is_compared {
-                self.v.compare(q, value, wakes & !self.v.wakes.own(group.unit));
+                self.v.compare(q, value, wakes & !self.v.plan.wakes.own(group.unit));
             } else {
                 changed |= wakes;
             }
@@ -235,7 +207,7 @@ impl Lowering<'_> {
 
     /// Whether other units have what changes at this rank compared with what it was.
     pub fn is_compared(&self, group: &Group, rank: usize) -> bool {
-        self.idle && self.v.wakes.is_idle(group.conditions[rank])
+        self.idle && self.v.plan.wakes.is_idle(group.conditions[rank])
     }
 
     /// The bit by which most members choose, if they are several.
@@ -252,7 +224,7 @@ impl Lowering<'_> {
     fn choice(&self, member: &Member, rank: usize) -> Option<ValueId> {
         match member {
             Member::Register { values, .. } if self.v.is_worked_out(values[rank]) => {
-                Some(self.v.graph.as_op(values[rank], Op::Mux)?[0])
+                Some(self.v.graph().as_op(values[rank], Op::Mux)?[0])
             }
             _ => None,
         }
@@ -263,7 +235,7 @@ impl Lowering<'_> {
         let mut group = group.clone();
         for member in &mut group.members {
             if let Member::Register { values, .. } = member
-                && let Some(operands) = self.v.graph.as_op(values[rank], Op::Mux)
+                && let Some(operands) = self.v.graph().as_op(values[rank], Op::Mux)
             {
                 values[rank] = operands[operand];
             }
@@ -283,12 +255,12 @@ impl Lowering<'_> {
         let mut changed = self.inside(yes, next, one);
         changed.extend(self.inside(no, next, zero));
         self.v.cursor.insert_block(next);
-        changed.into_iter().for_each(|register| self.v.change(register, way));
+        changed.into_iter().for_each(|register| self.v.changes.change(register, way));
     }
 
     /// Where the bit decides; its opposite need not be computed.
     fn branch(&mut self, bit: ValueId, yes: Block, no: Block) -> Inst {
-        match self.v.graph.as_op(bit, Op::Not) {
+        match self.v.graph().as_op(bit, Op::Not) {
             Some(&[opposite]) => {
                 let condition = self.v.condition(opposite);
                 self.v.cursor.ins().brif(condition, no, &[], yes, &[])
@@ -302,13 +274,13 @@ impl Lowering<'_> {
 
     /// A block from which the way leads on to `next`; returns the registers that change in it.
     fn inside(&mut self, block: Block, next: Block, fill: impl FnOnce(&mut Self)) -> Vec<ValueId> {
-        let mark = self.v.enter();
+        let mark = self.v.known.enter();
         self.v.cursor.insert_block(block);
-        self.v.enter_branch();
+        self.v.changes.enter_branch();
         fill(self);
         self.v.wake_changed();
         self.v.cursor.ins().jump(next, &[]);
-        self.v.leave(mark);
-        self.v.leave_branch()
+        self.v.known.leave(mark);
+        self.v.changes.leave_branch()
     }
 }

@@ -1,14 +1,14 @@
 //! The errors of each channel, their bounds, and which outputs wrapped.
 
 use super::order::Over;
-use edgewalk_host::extra::{self, OwnChannel};
+use edgewalk_host::extra::{self, Label, OwnChannel};
 use edgewalk_host::raster::Raster;
 use edgewalk_machine::{Channel, ErrorBudget, NoBound, Plan};
 use serde::Serialize;
+use serde::ser::{SerializeMap as _, Serializer};
 
-/// Errors found so far.
-pub struct Tally<'a> {
-    pub drawn: &'a Raster,
+/// Errors found so far. Places are those in the band that is compared.
+pub struct Tally {
     /// Depth.
     pub z: Errors,
     /// Colour, the worst of three.
@@ -26,9 +26,21 @@ pub struct Errors {
     unit: f64,
     budget: Result<ErrorBudget, NoBound>,
     largest: f64,
-    /// Of every value, drawn less exact.
-    all: Vec<f64>,
+    sums: Sums,
+    /// Of every pixel of the band.
     map: Vec<f64>,
+}
+
+/// Values compared so far, and what is kept of them. A picture may have more than memory holds.
+struct Sums {
+    count: u64,
+    /// Of drawn less exact.
+    signed: f64,
+    magnitude: f64,
+    /// The largest magnitudes, among them all that 99 of 100 do not reach.
+    top: Vec<f64>,
+    /// Of `top`, as many count as 1 of 100 of all the values that there may be.
+    room: usize,
 }
 
 /// How the errors of a channel are spread over all values compared, LSB.
@@ -42,21 +54,21 @@ pub struct Spread {
     pub bias: f64,
 }
 
-impl<'a> Tally<'a> {
+impl Tally {
     /// Nothing found yet.
-    pub fn new(machine: &Plan, golden: &Raster, drawn: &'a Raster) -> Self {
+    pub fn new(machine: &Plan) -> Self {
+        let screen = machine.width as usize * machine.height as usize;
         let errors = |channel: Channel, unit: f64| Errors {
             channel,
             unit,
             budget: machine.proved_budget(&channel),
             largest: 0.0,
-            all: Vec::new(),
-            map: vec![0.0; golden.coverage.len()],
+            sums: Sums::new(3 * screen),
+            map: Vec::new(),
         };
         let of_unit =
             |place: usize| errors(machine.channels()[place], machine.channels()[place].max() as f64);
         Tally {
-            drawn,
             z: of_unit(0),
             color: of_unit(1),
             extra: extra::channels(machine).iter().map(|channel| errors(*channel, 1.0)).collect(),
@@ -64,46 +76,54 @@ impl<'a> Tally<'a> {
         }
     }
 
+    /// The next band, of so many pixels.
+    pub fn begin(&mut self, pixels: usize) {
+        for errors in [&mut self.z, &mut self.color].into_iter().chain(&mut self.extra) {
+            errors.map.clear();
+            errors.map.resize(pixels, 0.0);
+        }
+    }
+
     /// Pixel `i` shows this triangle; the depth stored there should be `z`.
-    pub fn triangle(&mut self, i: usize, z: f64, shown: &Over) {
-        let mut wrapped = self.z.add(i, z, self.drawn.z[i]);
-        for (exact, drawn) in shown.rgb.into_iter().zip(self.drawn.rgb[i]) {
+    pub fn triangle(&mut self, i: usize, z: f64, shown: &Over, drawn: &Raster) {
+        let mut wrapped = self.z.add(i, z, drawn.z[i]);
+        for (exact, drawn) in shown.rgb.into_iter().zip(drawn.rgb[i]) {
             wrapped |= self.color.add(i, exact, drawn);
         }
-        for ((errors, exact), drawn) in self.extra.iter_mut().zip(shown.extra).zip(&self.drawn.extra) {
+        for ((errors, exact), drawn) in self.extra.iter_mut().zip(shown.extra).zip(&drawn.extra) {
             wrapped |= errors.add(i, exact, drawn.at(i));
         }
         self.wrapped += u64::from(wrapped);
     }
 
     /// How far the colour of pixel `i` is from this one, LSB.
-    pub fn color_error(&self, exact: [f64; 3], i: usize) -> f64 {
-        let off = exact.into_iter().zip(self.drawn.rgb[i]).map(|(exact, drawn)| (exact - drawn).abs());
+    pub fn color_error(&self, exact: [f64; 3], i: usize, drawn: &Raster) -> f64 {
+        let off = exact.into_iter().zip(drawn.rgb[i]).map(|(exact, drawn)| (exact - drawn).abs());
         off.fold(0.0, worse) * self.color.unit
     }
 
     /// Of pixel `i` only the depth counts.
-    pub fn depth(&mut self, i: usize, z: f64) {
-        self.wrapped += u64::from(self.z.add(i, z, self.drawn.z[i]));
+    pub fn depth(&mut self, i: usize, z: f64, drawn: &Raster) {
+        self.wrapped += u64::from(self.z.add(i, z, drawn.z[i]));
     }
 
     /// Whether pixel `i` has the cleared depth, to the nearest LSB the cleared colour, and 0 in the user's own channels.
-    pub fn is_background(&self, i: usize, clear: [f64; 3]) -> bool {
-        self.drawn.z[i] == 1.0 && self.is_clear(i, clear)
+    pub fn is_background(&self, i: usize, clear: [f64; 3], drawn: &Raster) -> bool {
+        drawn.z[i] == 1.0 && self.is_clear(i, clear, drawn)
     }
 
     /// Pixel `i` has a depth, but no colour: whether what else it has is that of the empty screen.
-    pub fn depth_only(&mut self, i: usize, z: f64, clear: [f64; 3]) -> bool {
-        self.depth(i, z);
-        self.is_clear(i, clear)
+    pub fn depth_only(&mut self, i: usize, z: f64, clear: [f64; 3], drawn: &Raster) -> bool {
+        self.depth(i, z, drawn);
+        self.is_clear(i, clear, drawn)
     }
 
-    fn is_clear(&self, i: usize, clear: [f64; 3]) -> bool {
+    fn is_clear(&self, i: usize, clear: [f64; 3], drawn: &Raster) -> bool {
         let half = 0.5 + 1e-9; // the division by 2^b - 1 rounds
         let near =
             |(exact, drawn): (f64, f64)| (exact - drawn).abs() * self.color.channel.max() as f64 <= half;
-        let own = self.drawn.extra.iter().all(|values| values.at(i) == 0.0);
-        own && clear.into_iter().zip(self.drawn.rgb[i]).all(near)
+        let own = drawn.extra.iter().all(|values| values.at(i) == 0.0);
+        own && clear.into_iter().zip(drawn.rgb[i]).all(near)
     }
 }
 
@@ -112,42 +132,141 @@ impl Errors {
     fn add(&mut self, i: usize, exact: f64, drawn: f64) -> bool {
         let signed = (drawn - exact) * self.unit;
         let error = signed.abs();
-        self.all.push(signed);
+        self.sums.add(signed);
         self.largest = worse(self.largest, error);
         self.map[i] = worse(self.map[i], error);
         // An output that stayed in its range is nearer to the exact value than half the range, one that wrapped is not.
         error > 0.5 * (self.channel.max() + 1) as f64
     }
 
-    /// Proved largest error of the output: vertex rounding, all additions, output rounding (bounds 2, 4).
-    pub fn bound(&self) -> Option<f64> {
-        self.budget.map(|budget| budget.after_rounding().to_f64()).ok()
+    /// Of every pixel of the band.
+    pub fn map(&mut self) -> Vec<f64> {
+        std::mem::take(&mut self.map)
     }
 
-    /// Why there is none.
-    pub fn no_bound(&self) -> Option<String> {
-        self.budget.err().map(|why| why.to_string())
-    }
-
-    /// The largest error, how they are spread, and that of every pixel.
-    pub fn found(self) -> (f64, Spread, Vec<f64>) {
-        let Errors { largest, all, map, .. } = self;
-        (largest, Spread::of(all), map)
+    /// What was found, with the proved largest error of the output: vertex rounding, all additions, output rounding (bounds 2, 4).
+    pub fn found(self) -> ChannelError {
+        ChannelError {
+            bits: self.channel.bits,
+            error: self.largest,
+            spread: self.sums.spread(),
+            bound: self.budget.map(|budget| budget.after_rounding().to_f64()).ok(),
+            no_bound: self.budget.err().map(|why| why.to_string()),
+            bound_for_input: None,
+            map: Vec::new(),
+        }
     }
 }
 
-impl Spread {
-    fn of(mut errors: Vec<f64>) -> Self {
-        if errors.is_empty() {
+/// What was found of a channel.
+#[derive(Clone, Debug)]
+pub struct ChannelError {
+    /// Of the output.
+    bits: u32,
+    /// Largest error, LSB.
+    pub error: f64,
+    /// How the errors are spread.
+    pub spread: Spread,
+    /// Proved bound of the error, LSB; none where outputs may wrap.
+    pub bound: Option<f64>,
+    /// Why there is none.
+    pub no_bound: Option<String>,
+    /// Proved bound of the error for these triangles, LSB.
+    pub bound_for_input: Option<f64>,
+    /// Error of every pixel, LSB; empty where it was not kept.
+    pub map: Vec<f64>,
+}
+
+impl ChannelError {
+    /// The bound is not one for all pixels, but as said here.
+    pub(super) fn bounded_elsewhere(&mut self, why: &str) {
+        (self.bound, self.no_bound) = (None, Some(why.to_owned()));
+    }
+
+    /// 1 where the error exceeds its bound, or where none is proved an LSB.
+    pub(super) fn beyond(&self) -> u64 {
+        beyond(self.error, self.bound_for_input.or(self.bound).unwrap_or(1.0))
+    }
+
+    fn line(&self, name: &str) -> String {
+        let bound = extra::bound(self.bound, &self.no_bound);
+        format!("largest {name:<13} {:.4} LSB of {} bits, {bound}\n", self.error, self.bits)
+    }
+}
+
+fn beyond(error: f64, allowed: f64) -> u64 {
+    u64::from(error.is_nan() || error > allowed)
+}
+
+/// Depth, and colour as the worst of red, green and blue.
+#[derive(Clone, Debug)]
+pub struct DepthAndColor {
+    /// The most additions behind a pixel of these triangles.
+    pub additions: Option<u64>,
+    /// Depth.
+    pub z: ChannelError,
+    /// Colour.
+    pub color: ChannelError,
+}
+
+impl Serialize for DepthAndColor {
+    /// Each figure of both, one after the other.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let DepthAndColor { additions, z, color } = self;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("z_error", &z.error)?;
+        map.serialize_entry("color_error", &color.error)?;
+        map.serialize_entry("z_spread", &z.spread)?;
+        map.serialize_entry("color_spread", &color.spread)?;
+        map.serialize_entry("z_bound", &z.bound)?;
+        map.serialize_entry("color_bound", &color.bound)?;
+        map.serialize_entry("additions", additions)?;
+        map.serialize_entry("z_bound_for_input", &z.bound_for_input)?;
+        map.serialize_entry("color_bound_for_input", &color.bound_for_input)?;
+        for (key, why) in [("z_no_bound", &z.no_bound), ("color_no_bound", &color.no_bound)] {
+            why.as_ref().map_or(Ok(()), |why| map.serialize_entry(key, why))?;
+        }
+        map.end()
+    }
+}
+
+impl DepthAndColor {
+    /// As lines of text.
+    pub(super) fn lines(&self) -> String {
+        let t = self.z.line("z error") + &self.color.line("colour error");
+        let Some(additions) = self.additions else { return t };
+        let of = |bound: Option<f64>| bound.map_or_else(|| "none".to_owned(), |b| format!("{b:.4}"));
+        let [z, color] = [&self.z, &self.color].map(|channel| of(channel.bound_for_input));
+        t + &format!("bounds for these triangles, at most {additions} additions: z {z}, colour {color}\n")
+    }
+}
+
+impl Sums {
+    /// Of at most so many values.
+    fn new(most: usize) -> Self {
+        Sums { count: 0, signed: -0.0, magnitude: -0.0, top: Vec::new(), room: most / 100 + 1 }
+    }
+
+    fn add(&mut self, signed: f64) {
+        self.count += 1;
+        self.signed += signed;
+        self.magnitude += signed.abs();
+        self.top.push(signed.abs());
+        if self.top.len() >= 2 * self.room + 1024 {
+            self.top.select_nth_unstable_by(self.room, |a, b| b.total_cmp(a));
+            self.top.truncate(self.room);
+        }
+    }
+
+    fn spread(mut self) -> Spread {
+        if self.count == 0 {
             return Spread::default();
         }
-        let count = errors.len() as f64;
-        let bias = errors.iter().sum::<f64>() / count;
-        errors.iter_mut().for_each(|error| *error = error.abs());
-        let mean = errors.iter().sum::<f64>() / count;
-        let place = (errors.len() * 99).div_ceil(100) - 1; // not empty
-        let (_, p99, _) = errors.select_nth_unstable_by(place, f64::total_cmp);
-        Spread { mean, p99: *p99, bias }
+        let count = self.count as f64;
+        // So many of 100 are larger; that many have been kept, and one more.
+        let above = (self.count - (self.count * 99).div_ceil(100)) as usize;
+        let (_, p99, _) = self.top.select_nth_unstable_by(above, |a, b| b.total_cmp(a));
+        Spread { mean: self.magnitude / count, p99: *p99, bias: self.signed / count }
     }
 }
 
@@ -175,12 +294,51 @@ impl ExtraError {
         let channel = OwnChannel::of(&errors.channel, machine);
         let rounding = if errors.channel.kind.is_rounded() { 0.5 } else { 1.0 };
         let allowed = channel.bound.unwrap_or(rounding + 0.5);
-        let (error, spread, _) = errors.found();
+        let ChannelError { error, spread, .. } = errors.found();
         ExtraError { channel, error, spread, bound_for_input: None, allowed }
+    }
+
+    /// 1 where the error exceeds what is allowed.
+    pub(super) fn beyond(&self) -> u64 {
+        beyond(self.error, self.allowed)
+    }
+
+    /// As a line of text.
+    pub(super) fn line(&self) -> String {
+        let (of, Label { name, bits, kind, .. }) = (&self.channel, &self.channel.label);
+        let bound = extra::bound(of.bound, &of.no_bound);
+        format!("largest {name} error      {:.4} LSB of {bits} bits, {kind}, {bound}\n", self.error)
     }
 }
 
 /// The larger of two errors; NaN is the largest.
 fn worse(a: f64, b: f64) -> f64 {
     if a.is_nan() || b <= a { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Sums;
+
+    /// Beside all values sorted, for every count across the places where the kept ones are cut.
+    #[test]
+    fn kept_errors_give_the_spread_of_all() {
+        let mut state = 1u64;
+        let mut all: Vec<f64> = Vec::new();
+        let mut sums = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            ((state >> 40) as f64 / 1e6 - 8.0).powi(3)
+        };
+        for count in [1, 2, 99, 100, 101, 1023, 1024, 5000, 20_000] {
+            all.resize_with(count, &mut sums);
+            let mut kept = Sums::new(20_000);
+            all.iter().for_each(|error| kept.add(*error));
+            let found = kept.spread();
+            let mut sorted: Vec<f64> = all.iter().map(|error| error.abs()).collect();
+            let mean = sorted.iter().sum::<f64>() / count as f64;
+            sorted.sort_by(f64::total_cmp);
+            assert_eq!(found.p99, sorted[(count * 99).div_ceil(100) - 1], "{count}");
+            assert_eq!((found.mean, found.bias), (mean, all.iter().sum::<f64>() / count as f64), "{count}");
+        }
+    }
 }

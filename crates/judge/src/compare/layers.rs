@@ -41,6 +41,16 @@ pub struct Blended {
     pub beyond: u64,
 }
 
+impl Blended {
+    /// As a line of text.
+    pub(super) fn lines(&self) -> String {
+        let Blended { pixels, layers, bound, of_bound, beyond } = self;
+        format!(
+            "blended: {pixels} pixels, up to {layers} layers, running bound up to {bound:.4} LSB, {of_bound:.4} of it reached, {beyond} beyond\n"
+        )
+    }
+}
+
 impl Layers {
     /// `None` where every pixel shows one fragment as it is, or as a light leaves it or takes it away. `lights`: of the frame, if any counts.
     pub fn of(machine: &Plan, frame: &Frame, mut lights: Option<&mut Lights>) -> Option<Layers> {

@@ -42,6 +42,21 @@ pub struct Lit {
     pub depth_bound: f64,
 }
 
+impl Lit {
+    /// As lines of text.
+    pub(super) fn lines(&self) -> String {
+        let Lit { pixels, shadow, differ, unexplained, open, loose, texel_bound, depth_bound } = self;
+        let mut t = format!(
+            "light: {pixels} pixels, {shadow} in shadow, {differ} decided otherwise than golden; {open} of {pixels} open; unexplained by texels within {texel_bound:.4} and depths within {depth_bound:.4} LSB: {unexplained}\n"
+        );
+        if *loose > 0 {
+            t +=
+                &format!("    {loose} pixels between texels of several shares: their bounds have them all\n");
+        }
+        t
+    }
+}
+
 /// What is proved of texel and depth at a pixel.
 enum Bounds {
     /// How far they may be off: columns, lines, LSB.

@@ -1,7 +1,7 @@
 //! The comparison is fed pictures that are wrong in one thing each.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use super::{Comparison, compare};
+use super::{Bands, Comparison, compare};
 use crate::verdict::Verdict::{self, Mismatch, Pass, Vacuous};
 use edgewalk_host::draw;
 use edgewalk_host::extra::Values;
@@ -62,8 +62,15 @@ fn the_true_picture_passes_and_every_pixel_was_compared() {
     let c = after(&frame(Some(DepthFunc::Less), &[FAR_RED, NEAR_GREEN]), |_| {});
     assert_eq!(c.verdict(), Pass, "{}", said(&c));
     let half_and_diagonal = (16 * 12) / 2;
-    assert_eq!((c.pixels, c.screen, c.covered, c.compared), (192, 192, half_and_diagonal, half_and_diagonal));
-    assert!(c.z_error > 0.0 && c.color_error < 1e-9 && c.z_bound < Some(1.0), "{}", said(&c));
+    assert_eq!(
+        (c.counts.pixels, c.counts.screen, c.counts.covered, c.counts.compared),
+        (192, 192, half_and_diagonal, half_and_diagonal)
+    );
+    assert!(
+        c.errors.z.error > 0.0 && c.errors.color.error < 1e-9 && c.errors.z.bound < Some(1.0),
+        "{}",
+        said(&c)
+    );
 }
 
 /// Without the maps.
@@ -77,25 +84,25 @@ type Case = (&'static str, fn(&mut Raster), fn(&Comparison) -> bool);
 #[test]
 fn each_field_wrong_alone_is_a_mismatch() {
     let cases: [Case; 19] = [
-        ("coverage", |r| r.coverage[UNDER] += 1, |c| c.coverage_mismatches == 1),
-        ("coverage beside", |r| r.coverage[BESIDE] = 1, |c| c.coverage_mismatches == 1),
-        ("depth up", |r| r.z[UNDER] += 2.0 * Z, |c| (1.4..2.6).contains(&c.z_error)),
-        ("depth down", |r| r.z[UNDER] -= 2.0 * Z, |c| (1.4..2.6).contains(&c.z_error)),
-        ("red", |r| r.rgb[UNDER][0] += 3.0 * C, |c| (2.4..3.6).contains(&c.color_error)),
-        ("green", |r| r.rgb[UNDER][1] -= 3.0 * C, |c| (2.4..3.6).contains(&c.color_error)),
-        ("blue", |r| r.rgb[UNDER][2] += 3.0 * C, |c| (2.4..3.6).contains(&c.color_error)),
-        ("red wraps", |r| r.rgb[UNDER][0] = 1.0, |c| c.wrapped == 1 && c.color_error > 254.0),
-        ("depth wraps", |r| r.z[UNDER] = 1.0, |c| c.wrapped == 1),
-        ("depth is no number", |r| r.z[UNDER] = f64::NAN, |c| c.z_error.is_nan()),
-        ("blue is no number", |r| r.rgb[UNDER][2] = f64::NAN, |c| c.color_error.is_nan()),
-        ("writes", |r| r.writes[UNDER] += 1, |c| c.order_wrong == 1),
-        ("winner", |r| r.id[UNDER] = 0, |c| c.order_wrong == 1),
-        ("no winner", |r| r.id[UNDER] = -1, |c| c.order_wrong == 1),
-        ("a winner beside", |r| r.id[BESIDE] = 1, |c| c.order_wrong == 1),
-        ("depth beside", |r| r.z[BESIDE] = 1.0 - Z, |c| c.background_wrong == 1),
-        ("clear colour beside", |r| r.rgb[BESIDE][2] -= C, |c| c.background_wrong == 1),
-        ("a pixel missing", |r| _ = r.coverage.pop(), |c| c.pixels + 1 == c.screen),
-        ("cycles", |r| r.cycles.as_mut().unwrap().total += 1, |c| c.cycles_unexplained == 1),
+        ("coverage", |r| r.coverage[UNDER] += 1, |c| c.counts.coverage_mismatches == 1),
+        ("coverage beside", |r| r.coverage[BESIDE] = 1, |c| c.counts.coverage_mismatches == 1),
+        ("depth up", |r| r.z[UNDER] += 2.0 * Z, |c| (1.4..2.6).contains(&c.errors.z.error)),
+        ("depth down", |r| r.z[UNDER] -= 2.0 * Z, |c| (1.4..2.6).contains(&c.errors.z.error)),
+        ("red", |r| r.rgb[UNDER][0] += 3.0 * C, |c| (2.4..3.6).contains(&c.errors.color.error)),
+        ("green", |r| r.rgb[UNDER][1] -= 3.0 * C, |c| (2.4..3.6).contains(&c.errors.color.error)),
+        ("blue", |r| r.rgb[UNDER][2] += 3.0 * C, |c| (2.4..3.6).contains(&c.errors.color.error)),
+        ("red wraps", |r| r.rgb[UNDER][0] = 1.0, |c| c.counts.wrapped == 1 && c.errors.color.error > 254.0),
+        ("depth wraps", |r| r.z[UNDER] = 1.0, |c| c.counts.wrapped == 1),
+        ("depth is no number", |r| r.z[UNDER] = f64::NAN, |c| c.errors.z.error.is_nan()),
+        ("blue is no number", |r| r.rgb[UNDER][2] = f64::NAN, |c| c.errors.color.error.is_nan()),
+        ("writes", |r| r.writes[UNDER] += 1, |c| c.counts.order_wrong == 1),
+        ("winner", |r| r.id[UNDER] = 0, |c| c.counts.order_wrong == 1),
+        ("no winner", |r| r.id[UNDER] = -1, |c| c.counts.order_wrong == 1),
+        ("a winner beside", |r| r.id[BESIDE] = 1, |c| c.counts.order_wrong == 1),
+        ("depth beside", |r| r.z[BESIDE] = 1.0 - Z, |c| c.counts.background_wrong == 1),
+        ("clear colour beside", |r| r.rgb[BESIDE][2] -= C, |c| c.counts.background_wrong == 1),
+        ("a pixel missing", |r| _ = r.coverage.pop(), |c| c.counts.pixels + 1 == c.counts.screen),
+        ("cycles", |r| r.cycles.as_mut().unwrap().total += 1, |c| c.counts.cycles_unexplained == 1),
     ];
     let frame = frame(Some(DepthFunc::Less), &[(0.4, [0.5; 3]), (0.3, [0.0, 0.5, 0.5])]);
     let mut caught = 0;
@@ -114,11 +121,11 @@ fn each_map_shows_the_pixel_that_is_off() {
     let lit =
         |map: &[f64]| map.iter().enumerate().filter(|(_, e)| **e > 1.0).map(|(i, _)| i).collect::<Vec<_>>();
     let c = after(&frame, |r| r.z[UNDER] += 3.0 * Z);
-    assert_eq!((lit(&c.z_map), lit(&c.color_map)), (vec![UNDER], vec![]));
+    assert_eq!((lit(&c.errors.z.map), lit(&c.errors.color.map)), (vec![UNDER], vec![]));
     for channel in 0..3 {
         let c = after(&frame, |r| r.rgb[UNDER][channel] = 0.5);
-        assert_eq!((lit(&c.z_map), lit(&c.color_map)), (vec![], vec![UNDER]), "{channel}");
-        assert!((127.0..128.0).contains(&c.color_map[UNDER]), "{}", c.color_map[UNDER]);
+        assert_eq!((lit(&c.errors.z.map), lit(&c.errors.color.map)), (vec![], vec![UNDER]), "{channel}");
+        assert!((127.0..128.0).contains(&c.errors.color.map[UNDER]), "{}", c.errors.color.map[UNDER]);
     }
 }
 
@@ -141,7 +148,7 @@ fn an_order_is_open_only_as_near_as_the_bound_says() {
         |lsb: f64, func| frame(Some(func), &[(0.5, [1.0, 0.0, 0.0]), (0.5 - lsb * Z, [0.0, 0.0, 1.0])]);
     let judge = |frame: &Frame, id: i32, writes: u32| {
         let c = after(frame, |r| show(r, frame, id, writes));
-        (c.order_undecided, c.order_wrong, c.verdict())
+        (c.counts.order_undecided, c.counts.order_wrong, c.verdict())
     };
     for func in [DepthFunc::Less, DepthFunc::Lequal, DepthFunc::Notequal] {
         // Golden shows 1 after two writes; the machine may have rejected it.
@@ -162,7 +169,7 @@ fn an_order_is_open_only_as_near_as_the_bound_says() {
             (r.id[UNDER], r.writes[UNDER], r.z[UNDER]) = (-1, 0, 1.0);
             r.rgb[UNDER] = [64.0 * C, 128.0 * C, 191.0 * C];
         });
-        assert_eq!((c.order_undecided, c.order_wrong, c.verdict()), expected, "{lsb}");
+        assert_eq!((c.counts.order_undecided, c.counts.order_wrong, c.verdict()), expected, "{lsb}");
     }
 }
 
@@ -176,8 +183,71 @@ fn what_an_open_order_shows_is_compared_all_the_same() {
             show(r, &frame, 0, 1);
             fault(r);
         });
-        assert_eq!((c.order_undecided, c.order_wrong, c.verdict()), (1, 0, Mismatch), "{}", said(&c));
+        assert_eq!(
+            (c.counts.order_undecided, c.counts.order_wrong, c.verdict()),
+            (1, 0, Mismatch),
+            "{}",
+            said(&c)
+        );
     }
+}
+
+/// Some lines of a picture.
+fn lines(of: &Raster, lines: std::ops::Range<usize>) -> Raster {
+    let at = lines.start * 16..lines.end * 16;
+    Raster {
+        height: lines.len() as u32,
+        coverage: of.coverage[at.clone()].to_vec(),
+        writes: of.writes[at.clone()].to_vec(),
+        id: of.id[at.clone()].to_vec(),
+        z: of.z[at.clone()].to_vec(),
+        rgb: of.rgb[at].to_vec(),
+        ..of.clone()
+    }
+}
+
+/// However a picture is cut into bands, as much is found as in the whole, and at the same pixels.
+#[test]
+fn bands_find_what_the_whole_has() {
+    let frame = frame(Some(DepthFunc::Less), &[(0.5, [1.0, 0.0, 0.0]), (0.5 - Z, [0.0, 0.0, 1.0])]);
+    assert!(Bands::suit(&frame));
+    let faults: [fn(&mut Raster, &Frame); 5] = [
+        |_, _| (),
+        |r, f| show(r, f, 0, 1), // undecided, in the second line
+        |r, f| show(r, f, 0, 3), // wrong there
+        |r, _| r.z[5 * 16 + 3] += 3.0 * Z,
+        |r, _| r.rgb[BESIDE][1] = 0.0,
+    ];
+    let mut checked = 0;
+    for fault in faults {
+        let [golden, mut wrong] = drawn(&frame);
+        fault(&mut wrong, &frame);
+        let whole = compare(&machine(), &frame, &golden, &wrong);
+        for height in [1, 5, 12] {
+            let machine = machine();
+            let mut bands = Bands::new(&machine, &frame, wrong.cycles.as_ref(), None);
+            let mut maps = [Vec::new(), Vec::new()];
+            for top in (0..12).step_by(height) {
+                let band = top..12.min(top + height);
+                let found = bands.add(&lines(&golden, band.clone()), &lines(&wrong, band));
+                maps.iter_mut().zip(found).for_each(|(map, found)| map.extend(found));
+            }
+            let mut found = bands.found();
+            assert!(maps == [whole.errors.z.map.clone(), whole.errors.color.map.clone()], "{height}");
+            // The order of a sum may be another.
+            for (a, b) in [
+                (&mut found.errors.z.spread, whole.errors.z.spread),
+                (&mut found.errors.color.spread, whole.errors.color.spread),
+            ] {
+                assert!((a.mean - b.mean).abs() < 1e-12 && (a.bias - b.bias).abs() < 1e-12, "{a:?} {b:?}");
+                (a.mean, a.bias) = (b.mean, b.bias);
+            }
+            assert_eq!(said(&found), said(&whole), "bands of {height} lines");
+            checked += 1;
+        }
+    }
+    println!("{checked} / 15 comparisons in bands find what the whole has");
+    assert_eq!(checked, 15);
 }
 
 #[test]
@@ -188,7 +258,11 @@ fn without_a_depth_test_no_order_is_open() {
             let frame = frame(depth, &[(z, [1.0, 0.0, 0.0]), (z, [0.0, 0.0, 1.0])]);
             assert_eq!(after(&frame, |_| {}).verdict(), Pass, "{depth:?}");
             let c = after(&frame, |r| show(r, &frame, 0, 1));
-            assert_eq!((c.order_undecided, c.order_wrong, c.verdict()), (0, 1, Mismatch), "{depth:?} {z}");
+            assert_eq!(
+                (c.counts.order_undecided, c.counts.order_wrong, c.verdict()),
+                (0, 1, Mismatch),
+                "{depth:?} {z}"
+            );
         }
     }
 }
@@ -202,11 +276,11 @@ fn without_a_bound_no_order_is_open_and_one_lsb_is_allowed() {
     (machine.z.fraction, machine.color.fraction) = (4, 4);
     let machine = machine.plan().unwrap();
     let c = compare(&machine, &frame, &golden, &wrong);
-    assert_eq!((c.z_bound, c.color_bound, c.verdict()), (None, None, Pass));
-    assert!(c.z_no_bound.unwrap().contains("8217 additions") && c.color_no_bound.is_some());
+    assert_eq!((c.errors.z.bound, c.errors.color.bound, c.verdict()), (None, None, Pass));
+    assert!(c.errors.z.no_bound.unwrap().contains("8217 additions") && c.errors.color.no_bound.is_some());
     show(&mut wrong, &frame, 0, 1);
     let c = compare(&machine, &frame, &golden, &wrong);
-    assert_eq!((c.order_undecided, c.order_wrong, c.verdict()), (0, 1, Mismatch));
+    assert_eq!((c.counts.order_undecided, c.counts.order_wrong, c.verdict()), (0, 1, Mismatch));
     for (lsb, verdict) in [(0.9, Pass), (1.1, Mismatch)] {
         let [golden, mut wrong] = drawn(&frame);
         wrong.rgb[UNDER][0] += lsb * C;
@@ -262,8 +336,8 @@ fn each_value_of_the_users_own_wrong_alone_is_a_mismatch() {
     let cases: [(Fault, Found); 5] = [
         (&|own| own[0][UNDER] += 2, &|c| c.extra[0].error > 1.4 && c.extra[1].error == errors[1]),
         (&|own| own[1][UNDER] -= 2, &|c| c.extra[1].error > 1.9 && c.extra[0].error == errors[0]),
-        (&|own| own[0][UNDER] += 4096, &|c| c.wrapped == 1),
-        (&|own| own[1][BESIDE] = 1, &|c| c.background_wrong == 1),
+        (&|own| own[0][UNDER] += 4096, &|c| c.counts.wrapped == 1),
+        (&|own| own[1][BESIDE] = 1, &|c| c.counts.background_wrong == 1),
         (&|own| own.swap(0, 1), &|c| c.extra[0].error > bounds[0]),
     ];
     let mut caught = 0;

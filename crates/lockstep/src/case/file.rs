@@ -16,9 +16,9 @@ use super::{Case, fed};
 use crate::Token;
 use crate::interface::Interface;
 use crate::pack;
-use crate::unit::{Unit, UnknownUnit};
+use crate::unit::Unit;
 use edgewalk_machine::keys::KEYS;
-use edgewalk_machine::{Machine, MachineError};
+use edgewalk_machine::{Machine, MachineError, Unknown};
 use std::fmt::Write as _;
 use toml::{Table, Value};
 
@@ -38,7 +38,7 @@ pub enum CaseError {
     },
     /// No such unit.
     #[error("unit: {0}")]
-    Unit(#[from] UnknownUnit),
+    Unit(#[from] Unknown),
     /// The machine cannot be built.
     #[error("machine: {0}")]
     Machine(#[from] MachineError),

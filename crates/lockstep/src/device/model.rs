@@ -4,30 +4,23 @@
 //!  port values ─> tokens ─> unit of the model ─> tokens ─> port values
 //! ```
 //! Ports and fields are found by name when a device is made; one that is declared and that the model lacks is an error
-//! then. A unit's outputs are shown by the same code whether it runs alone or is looked at inside the machine.
+//! then. A unit's outputs are shown by the same code whether it runs alone or is looked at inside the machine. No unit is
+//! named here but SETUP, which takes triangles.
 
 mod link;
-mod setup;
-mod edge;
-mod span;
-mod term;
-mod pixel;
-mod texel;
-mod bump;
-mod normal;
-mod lamp;
-mod shade;
-mod project;
-mod shadow;
-mod depth;
-mod blend;
+mod unit;
 mod machine;
 
 use super::Device;
 use crate::interface::{Interface, Port};
 use crate::values::PortValues;
 use edgewalk_machine::Plan;
+use edgewalk_model::named::Sourced;
+use edgewalk_model::ports::{Ported, Visit, alone};
+use edgewalk_model::setup::Setup;
 use edgewalk_model::{Events, View, for_channels};
+use link::{Scope, Taker, TriangleTaker};
+use unit::UnitDevice;
 
 /// A declared port that the model has no place for.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -72,22 +65,21 @@ pub fn model(plan: &Plan, interface: &Interface) -> Result<Box<dyn ModelDevice>,
 }
 
 fn of<const C: usize>(plan: &Plan, interface: &Interface) -> Result<Box<dyn ModelDevice>, NoPlace> {
-    Ok(match interface.unit.name() {
-        "machine" => Box::new(machine::MachineDevice::<C>::new(plan, interface)?),
-        "setup" => Box::new(setup::SetupDevice::<C>::new(plan, interface)?),
-        "edge" => Box::new(edge::EdgeDevice::<C>::new(plan, interface)?),
-        "span" => Box::new(span::SpanDevice::<C>::new(plan, interface)?),
-        "pixel" => Box::new(pixel::PixelDevice::<C>::new(plan, interface)?),
-        "term" => Box::new(term::TermDevice::<C>::new(plan, interface)?),
-        "texel" => Box::new(texel::TexelDevice::<C>::new(plan, interface)?),
-        "bump" => Box::new(bump::BumpDevice::<C>::new(plan, interface)?),
-        "normal" => Box::new(normal::NormalDevice::<C>::new(plan, interface)?),
-        "lamp" => Box::new(lamp::LampDevice::<C>::new(plan, interface)?),
-        "shade" => Box::new(shade::ShadeDevice::<C>::new(plan, interface)?),
-        "project" => Box::new(project::ProjectDevice::<C>::new(plan, interface)?),
-        "shadow" => Box::new(shadow::ShadowDevice::<C>::new(plan, interface)?),
-        "depth" => Box::new(depth::DepthDevice::<C>::new(plan, interface)?),
-        "blend" => Box::new(blend::BlendDevice::<C>::new(plan, interface)?),
-        other => return Err(NoPlace::Unit(other.to_owned())),
-    })
+    let scope = Scope::alone(plan, interface);
+    match interface.unit.name() {
+        "machine" => Ok(Box::new(machine::MachineDevice::<C>::new(plan, interface)?)),
+        "setup" => {
+            let (unit, taker) = (Setup::<C>::new(plan), TriangleTaker::find(scope)?);
+            Ok(Box::new(UnitDevice::new(unit, taker, scope)?))
+        }
+        other => alone::<C, _>(plan, other, scope).unwrap_or_else(|| Err(NoPlace::Unit(other.to_owned()))),
+    }
+}
+
+impl<const C: usize> Visit<C> for Scope<'_> {
+    type Out = Result<Box<dyn ModelDevice>, NoPlace>;
+
+    fn visit<U: Ported<C, Takes: Sourced> + 'static>(self, unit: U) -> Self::Out {
+        Ok(Box::new(UnitDevice::new(unit, Taker::find(self)?, self)?))
+    }
 }

@@ -23,6 +23,7 @@ mod view;
 pub use clocks::{SetupClocks, longest_setup};
 
 use crate::Events;
+use crate::ports::{Pins, Ported, Shown};
 use crate::tokens::{FEW, Prim, Source};
 use clocks::Timing;
 use edges::Screen;
@@ -255,5 +256,23 @@ fn round_div(n: i128, d: i128) -> i128 {
     match (i64::try_from(n), i64::try_from(d)) {
         (Ok(n), Ok(d)) => n.div_euclid(d).into(),
         _ => n.div_euclid(d),
+    }
+}
+
+impl<const C: usize> Ported<C> for Setup<C> {
+    type Takes = ([PortVertex; 3], u32);
+
+    fn show(&self, _: &Pins<Self::Takes, C>, out: &mut impl Shown) {
+        out.takes(self.tri_ready());
+        out.gives(self.prim());
+    }
+
+    fn clock(&mut self, pins: &Pins<Self::Takes, C>, events: &mut Events) {
+        let triangle = pins.token.map(|(vertices, tag)| (vertices, *tag));
+        self.step(triangle, pins.next, pins.state.light_pass, events);
+    }
+
+    fn clear(&mut self) {
+        self.reset();
     }
 }

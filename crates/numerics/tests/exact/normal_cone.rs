@@ -72,7 +72,7 @@ fn random_triangle(random: &mut Pcg64Mcg) -> ([Vector; 3], Vector) {
 }
 
 #[test]
-fn a10_on_a_hundred_thousand_triangles() {
+fn bound_10_on_a_hundred_thousand_triangles() {
     const EXPECTED: u32 = 100_000;
     let mut random = Pcg64Mcg::seed_from_u64(10);
     let (mut checked, mut most, mut most_six) = (0, 0f64, 0f64);
@@ -107,7 +107,7 @@ fn a10_on_a_hundred_thousand_triangles() {
 }
 
 #[test]
-fn a10_is_reached_by_a_grazing_light() {
+fn bound_10_is_reached_by_a_grazing_light() {
     // Normals to both sides along the light, none along the centre: x/sqrt(1+x²) = x - x³/2 + ...
     for tilt in [0.3, 0.1, 0.03, 0.01] {
         let normals = [[tilt, 0.0, 1.0], [-tilt, 0.0, 1.0], [0.0, 0.0, 1.0]];

@@ -212,7 +212,7 @@ impl Case {
             let (mut view, mut maps, mut now) = (View::new(), Maps::of_host(&self.maps), 0..);
             let mut waiting = &self.triangles[..];
             for step in steps(&self.plan, &self.passes, &self.shading) {
-                let Some(count) = rig.take_step(&self.plan, step, &mut maps) else { continue };
+                let Some(count) = rig.memories.take_step(&self.plan, step, &mut maps) else { continue };
                 let mut left = count.min(waiting.len());
                 loop {
                     let offered = waiting.first().filter(|_| left > 0).map(|triangle| (triangle, 0));

@@ -1,7 +1,8 @@
 //! How it stands on the page: nothing overlaps or is cut, every control has a name.
 
-use crate::case::{file, seven};
+use crate::case::{Case, file, icosahedron, machine, seven};
 use crate::chromium::Browser;
+use edgewalk_machine::Machine;
 
 /// The faults of the layout: what is cut off, what lies over another, what sticks out.
 pub const LAYOUT: &str = "(() => {
@@ -15,7 +16,7 @@ pub const LAYOUT: &str = "(() => {
     if (wide > 1 && high > 1) faults.push(`${boxes[i].className || boxes[i].id} over ${boxes[k].className || boxes[k].id}`);
   }
   for (const e of document.querySelectorAll('main *, #top *')) {
-    if (!e.offsetParent || e.closest('#cards') === e || e.closest('#past') === e || e.id === 'live' || hidden(e) || e.tagName === 'INPUT' || e.tagName === 'CANVAS') continue;
+    if (!e.offsetParent || e.closest('#past') === e || e.id === 'live' || hidden(e) || e.tagName === 'INPUT' || e.tagName === 'CANVAS') continue;
     if (e.scrollWidth > e.clientWidth + 1 && e.clientWidth > 0 && getComputedStyle(e).display !== 'inline') faults.push(`cut: ${e.tagName} ${e.className || e.id} ${e.textContent.slice(0, 30)}`);
   }
   for (const e of document.querySelectorAll('.card *')) {
@@ -66,6 +67,49 @@ fn nothing_overlaps_is_cut_or_moves() {
     browser.is_quiet();
     println!("checked {checked} states");
     assert!(checked == 7 * 2 * 2 * 50);
+}
+
+/// Rows of ink in the line of ticks over the run, columns of the canvas.
+const TICKS: &str = "(() => {
+  const canvas = app.strip.whole, row = canvas.getContext('2d').getImageData(0, 13, canvas.width, 1).data;
+  return Array.from({ length: canvas.width }, (_, x) => x).filter((x) => row[4 * x + 3] > 60 && !(x > 0 && row[4 * x - 1] > 60));
+})()";
+
+#[test]
+fn every_card_lies_on_the_page() {
+    let light = [("shadow.light", "parallel"), ("shadow.size", "16"), ("blend.kind", "interpolated")];
+    let case = Case::of("light and blend", machine(Machine::default(), &light));
+    let mut browser = Browser::start();
+    let (_folder, path) = file(&case.html());
+    for width in [900, 1500] {
+        browser.size(width, 1000);
+        browser.open(&path, "#px=31,20");
+        let cards = browser.eval(
+            "[...document.querySelectorAll('.card')].map((e) => [e.dataset.unit, e.getBoundingClientRect().right])",
+        );
+        let cards: Vec<(String, f64)> = serde_json::from_value(cards).expect("cards");
+        assert_eq!(cards.len(), 7, "{cards:?}");
+        assert!(cards.iter().all(|(_, right)| *right <= f64::from(width)), "{width} wide: {cards:?}");
+        assert_eq!(browser.eval(LAYOUT), serde_json::json!([]), "{width} wide");
+    }
+    browser.is_quiet();
+}
+
+#[test]
+fn marks_of_300_triangles_keep_apart() {
+    let plan = machine(Machine::default(), &[]);
+    let triangles = (0..15).flat_map(|_| icosahedron(&plan)).collect::<Vec<_>>();
+    assert_eq!(triangles.len(), 300);
+    let case = Case { triangles, ..Case::of("many", plan) };
+    let mut browser = Browser::start();
+    let (_folder, path) = file(&case.html());
+    browser.size(1500, 1000);
+    browser.open(&path, "");
+    let ticks: Vec<u32> = serde_json::from_value(browser.eval(TICKS)).expect("columns");
+    assert!(ticks.len() > 50, "{ticks:?}");
+    assert!(ticks.windows(2).all(|pair| pair[1] - pair[0] >= 6), "{ticks:?}");
+    browser.is_quiet();
+    println!("checked {} marks", ticks.len());
 }
 
 /// Text with less than 4.5 to 1 on what lies behind it; what is pale on purpose says nothing.

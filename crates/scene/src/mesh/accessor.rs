@@ -3,7 +3,6 @@
 use glam::{DVec2, DVec3};
 use gltf::Accessor;
 use gltf::accessor::{DataType, Dimensions};
-use gltf::buffer::Data;
 
 /// What an accessor is instead of what it should be.
 pub(super) struct Refusal {
@@ -12,7 +11,7 @@ pub(super) struct Refusal {
 }
 
 /// Three f32 for each vertex: positions and normals.
-pub(super) fn vectors(accessor: &Accessor, buffers: &[Data]) -> Result<Vec<DVec3>, Refusal> {
+pub(super) fn vectors(accessor: &Accessor, buffers: &[Vec<u8>]) -> Result<Vec<DVec3>, Refusal> {
     let kind = (accessor.dimensions(), accessor.data_type());
     if kind != (Dimensions::Vec3, DataType::F32) {
         return Err(Refusal { value: format!("{kind:?}"), permitted: "permitted: three f32" });
@@ -23,7 +22,7 @@ pub(super) fn vectors(accessor: &Accessor, buffers: &[Data]) -> Result<Vec<DVec3
 
 /// Two f32, u8 or u16 for each vertex, the integers in units of their greatest: texture coordinates as the format has
 /// them, v down.
-pub(super) fn places(accessor: &Accessor, buffers: &[Data]) -> Result<Vec<DVec2>, Refusal> {
+pub(super) fn places(accessor: &Accessor, buffers: &[Vec<u8>]) -> Result<Vec<DVec2>, Refusal> {
     let kind = (accessor.dimensions(), accessor.data_type());
     let pair: fn(&[u8]) -> DVec2 = match kind {
         (Dimensions::Vec2, DataType::F32) => |item| DVec2::new(float(item, 0), float(item, 1)),
@@ -43,7 +42,7 @@ fn float(item: &[u8], k: usize) -> f64 {
 }
 
 /// One unsigned integer for each corner.
-pub(super) fn indices(accessor: &Accessor, buffers: &[Data]) -> Result<Vec<u32>, Refusal> {
+pub(super) fn indices(accessor: &Accessor, buffers: &[Vec<u8>]) -> Result<Vec<u32>, Refusal> {
     let kind = (accessor.dimensions(), accessor.data_type());
     let unsigned = matches!(kind.1, DataType::U8 | DataType::U16 | DataType::U32);
     if kind.0 != Dimensions::Scalar || !unsigned {
@@ -54,7 +53,7 @@ pub(super) fn indices(accessor: &Accessor, buffers: &[Data]) -> Result<Vec<u32>,
 }
 
 /// The bytes of each element.
-fn items<'a>(accessor: &Accessor, buffers: &'a [Data]) -> Result<impl Iterator<Item = &'a [u8]>, Refusal> {
+fn items<'a>(accessor: &Accessor, buffers: &'a [Vec<u8>]) -> Result<impl Iterator<Item = &'a [u8]>, Refusal> {
     let refusal = |value: String, permitted| Refusal { value, permitted };
     let (Some(view), None) = (accessor.view(), accessor.sparse()) else {
         return Err(refusal("sparse".into(), "permitted: an accessor with a buffer view and nothing sparse"));

@@ -1,14 +1,16 @@
 //! glTF 2.0, as text with buffers or in one binary file.
 //!
-//! Taken: the default scene's triangles (lists, strips, fans) with the transformations of their nodes, normals, the first
-//! texture coordinates, and materials (see [`pbr`](super::pbr)). Sparse and compressed accessors are refused.
+//! Taken: the default scene's triangles (lists, strips, fans) with the transformations of their nodes, normals, the
+//! texture coordinates that the material asks for, and materials (see [`pbr`](super::pbr)). Sparse and compressed
+//! accessors are refused. Colours of vertices, skins, morph targets, cameras and lights are passed over.
 
 use super::accessor::{Refusal, indices, places, vectors};
 use super::pbr::Materials;
+use super::resource::{MAX_BYTES, buffers};
 use super::{Face, FaceData, Mesh};
 use crate::error::{Fault, InputError};
+use crate::file;
 use glam::{DMat3, DMat4, DVec2, DVec3, Mat4};
-use gltf::buffer::Data;
 use gltf::json::Root;
 use gltf::mesh::Mode;
 use gltf::{Accessor, Document, Error, Gltf, Node, Primitive, Semantic};
@@ -16,20 +18,21 @@ use std::path::Path;
 
 pub(super) fn read(path: &Path) -> Result<Mesh, InputError> {
     let file = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|source| InputError::Read { file: file.clone(), source })?;
+    let bytes = file::read(path, MAX_BYTES)?;
     let Gltf { document, blob } =
         Gltf::from_slice_without_validation(&bytes).map_err(|error| refused(&file, &error))?;
-    attributes_exist(&file, document.as_json())?;
+    let root = document.as_json();
+    version(&file, root)?;
+    attributes_exist(&file, root)?;
     let document = Document::from_json(document.into_json()).map_err(|error| refused(&file, &error))?;
-    let buffers =
-        gltf::import_buffers(&document, path.parent(), blob).map_err(|error| refused(&file, &error))?;
+    let buffers = buffers(path, &document, blob.as_deref())?;
     let mut build = Build {
         file: &file,
         buffers: &buffers,
         positions: vec![],
         faces: vec![],
         face_data: vec![],
-        materials: Materials::new(&file, path, &buffers),
+        materials: Materials::new(path, &document, &buffers),
     };
     let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) else {
         return Err(Fault::new(&file, None, "scenes", "none", "permitted: at least one scene").into());
@@ -52,6 +55,19 @@ pub(super) fn read(path: &Path) -> Result<Mesh, InputError> {
     Ok(mesh.with_face_data(build.face_data).with_textures(build.materials.textures))
 }
 
+/// The file is of version 2, and asks for no more than 2.0.
+fn version(file: &str, root: &Root) -> Result<(), InputError> {
+    let asset = &root.asset;
+    let major = asset.version.split('.').next();
+    let (key, value) = match &asset.min_version {
+        Some(least) if least != "2.0" => ("asset.minVersion", least),
+        _ if major != Some("2") => ("asset.version", &asset.version),
+        _ => return Ok(()),
+    };
+    let permitted = "permitted: 2.0; export the mesh as glTF 2.0";
+    Err(Fault::new(file, None, key, value, permitted).into())
+}
+
 /// The format's own validation takes the accessors of attributes for granted.
 fn attributes_exist(file: &str, root: &Root) -> Result<(), InputError> {
     let count = root.accessors.len();
@@ -59,7 +75,10 @@ fn attributes_exist(file: &str, root: &Root) -> Result<(), InputError> {
     match primitives.flat_map(|primitive| primitive.attributes.values()).find(|index| index.value() >= count)
     {
         Some(index) => {
-            let permitted = format!("permitted: an accessor below {count}");
+            let permitted = match count {
+                0 => "permitted: none, as the file has no accessor".to_owned(),
+                _ => format!("permitted: an accessor from 0 to {}", count - 1),
+            };
             Err(Fault::new(file, None, "attribute of a primitive", index.value(), permitted).into())
         }
         None => Ok(()),
@@ -76,12 +95,12 @@ fn refused(file: &str, error: &Error) -> InputError {
         },
         _ => (None, "glTF", error.to_string()),
     };
-    Fault::new(file, line, key, value, "permitted: glTF 2.0 with all its buffers").into()
+    Fault::new(file, line, key, value, "permitted: glTF 2.0").into()
 }
 
 struct Build<'a> {
     file: &'a str,
-    buffers: &'a [Data],
+    buffers: &'a [Vec<u8>],
     positions: Vec<DVec3>,
     faces: Vec<Face>,
     face_data: Vec<FaceData>,
@@ -101,7 +120,12 @@ impl Build<'_> {
         let corners = vectors(&accessor, self.buffers)
             .map_err(|refusal| fault(&format!("{key} POSITION"), refusal.value, refusal.permitted))?;
         let normals = self.optional(key, primitive, &Semantic::Normals, corners.len(), vectors)?;
-        let texture = self.optional(key, primitive, &Semantic::TexCoords(0), corners.len(), places)?;
+        let set = self.materials.coordinates(&primitive.material())?;
+        let texture = self.optional(key, primitive, &Semantic::TexCoords(set), corners.len(), places)?;
+        if set > 0 && texture.is_empty() {
+            let permitted = "permitted: a set of texture coordinates that the primitive has";
+            return Err(fault(&format!("{key} texCoord"), set.to_string(), permitted).into());
+        }
         let order = match primitive.indices() {
             Some(accessor) => indices(&accessor, self.buffers)
                 .map_err(|refusal| fault(&format!("{key} indices"), refusal.value, refusal.permitted))?,
@@ -150,7 +174,7 @@ impl Build<'_> {
         primitive: &Primitive,
         semantic: &Semantic,
         count: usize,
-        read: impl Fn(&Accessor, &[Data]) -> Result<Vec<T>, Refusal>,
+        read: impl Fn(&Accessor, &[Vec<u8>]) -> Result<Vec<T>, Refusal>,
     ) -> Result<Vec<T>, InputError> {
         let Some(accessor) = primitive.get(semantic) else { return Ok(Vec::new()) };
         let fault = |value: String, permitted: &str| {

@@ -59,9 +59,9 @@ pub(super) fn read(path: &Path, input: impl BufRead, library: &mut Library) -> R
             "Ns" => material.exponent = number(place, key, words, MAX)?,
             "d" => material.transmission = 1.0 - number(place, key, words, 1.0)?,
             "Tr" => material.transmission = number(place, key, words, 1.0)?,
-            "map_Kd" => material.texture = Some(library.texture(path, &map(place, line)?.file)?),
+            "map_Kd" => material.texture = Some(library.texture(path, &map(place, key, line)?.file)?),
             _ => {
-                let map = map(place, line)?;
+                let map = map(place, key, line)?;
                 material.bump = Some(library.texture(path, &map.file)?);
                 material.bump_height = map.height;
             }
@@ -101,9 +101,7 @@ impl Library {
         if let Some(place) = self.places.get(file) {
             return Ok(*place);
         }
-        let beside = path.with_file_name(file);
-        let there = beside.is_file();
-        let texture = if there { Texture::read(&beside)? } else { Texture::Absent(file.to_owned()) };
+        let texture = Texture::named(file, &path.with_file_name(file))?;
         let place = self.textures.len() as u32;
         self.textures.push(texture);
         self.places.insert(file.to_owned(), place);
@@ -117,12 +115,15 @@ struct Map {
     height: f64,
 }
 
-fn map(place: Place, line: &[u8]) -> Result<Map, InputError> {
+fn map(place: Place, key: &str, line: &[u8]) -> Result<Map, InputError> {
     let file = rest(line);
+    let words: Vec<&[u8]> = words(line).collect();
+    if file.is_empty() {
+        return Err(place.fault(key, b"", "permitted: the name of a file").into());
+    }
     if !file.starts_with('-') {
         return Ok(Map { file, height: 1.0 });
     }
-    let words: Vec<&[u8]> = words(line).collect();
     let height = match words.iter().position(|word| *word == b"-bm") {
         Some(option) => {
             let word = words.get(option + 1).copied().unwrap_or_default();

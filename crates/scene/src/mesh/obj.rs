@@ -1,24 +1,24 @@
 //! Wavefront OBJ.
 //!
 //! Taken: positions, polygons (cut into triangles), texture coordinates, normals, smoothing groups and
-//! materials. Objects and groups become one mesh. Of a material library that is not there, every material is the default.
+//! materials. Objects and groups become one mesh. A line that ends in a backslash goes on in the next one. Of a material library that is not there, every material is the default.
 //! Read by hand, as every fault must name its line and value.
 
 use super::mtl::{self, Library};
 use super::{Face, FaceData, MAX_POSITION, Material, Mesh, triangles};
 use crate::error::InputError;
+use crate::file;
 use crate::text::{Place, each_line, rest, words};
 use glam::{DVec2, DVec3};
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
 pub(super) fn read(path: &Path) -> Result<Mesh, InputError> {
-    let file = path.display().to_string();
-    let opened = File::open(path).map_err(|source| InputError::Read { file: file.clone(), source })?;
+    let name = path.display().to_string();
+    let opened = file::open_input(path)?;
     let mut obj = Obj { materials: vec![Material::DEFAULT], ..Obj::default() };
-    each_line(&file, BufReader::new(opened), |place, line| obj.line(path, place, line))?;
-    let mesh = Mesh::new(&file, obj.positions, obj.faces, obj.materials)?;
+    each_line(&name, BufReader::new(opened), |place, line| obj.line(path, place, line))?;
+    let mesh = Mesh::new(&name, obj.positions, obj.faces, obj.materials)?;
     Ok(mesh.with_face_data(obj.face_data).with_textures(obj.library.textures))
 }
 
@@ -78,10 +78,14 @@ impl Obj {
                 Ok(())
             }
             Some(b"mtllib") => {
-                let library = path.with_file_name(rest(line));
-                match File::open(&library) {
-                    Ok(opened) => mtl::read(&library, BufReader::new(opened), &mut self.library),
-                    Err(_) => Ok(()), // its materials stay the default
+                let name = rest(line);
+                if name.is_empty() {
+                    return Err(place.fault("mtllib", b"", "permitted: the name of a file").into());
+                }
+                let library = path.with_file_name(name);
+                match file::open_if_there(&library)? {
+                    Some(opened) => mtl::read(&library, BufReader::new(opened), &mut self.library),
+                    None => Ok(()), // its materials stay the default
                 }
             }
             Some(b"usemtl") => {
@@ -144,7 +148,10 @@ fn index(place: Place, word: &[u8], part: &[u8], what: &str, count: usize) -> Re
         Some(index) if (1..=count).contains(&index) => Ok((index - 1) as u32),
         Some(index) if (-count..=-1).contains(&index) => Ok((count + index) as u32),
         _ => {
-            let permitted = format!("permitted: 1 to {count} or -{count} to -1, the {what} so far");
+            let permitted = match count {
+                0 => format!("permitted: none, as no {what} come before this line"),
+                _ => format!("permitted: 1 to {count} or -{count} to -1, the {what} so far"),
+            };
             Err(place.fault("f corner", word, permitted).into())
         }
     }

@@ -6,17 +6,17 @@
 //! | metallic m, roughness r | k_s = (0.04 + (c - 0.04) m) (1 - r), n = 2 / max(r, 0.1)⁴ - 2, at least 1 |
 //! | emissive factor | I_e |
 //! | alpha, where the mode is `BLEND` | k_t = 1 - alpha |
-//! | base colour texture | texture: PNG or JPEG in a buffer or beside the file; white if it is not there or a `data:` URI |
+//! | base colour texture | texture: PNG or JPEG in a buffer, in a `data:` URI or beside the file; white if it is not there |
 //!
 //! A rule of thumb, not physics: what is rough stays matte in its colour, what is smooth shines, metals in their colour.
 //! n is the usual one for the half-vector form.
 
 use super::Material;
+use super::resource::Uri;
 use crate::error::{Fault, InputError};
 use crate::texture::Texture;
 use glam::DVec3;
-use gltf::buffer::Data;
-use gltf::image::Source;
+use gltf::Document;
 use gltf::material::AlphaMode;
 use std::collections::HashMap;
 use std::io::Cursor;
@@ -26,9 +26,9 @@ use std::path::Path;
 pub(super) struct Materials<'a> {
     pub list: Vec<Material>,
     pub textures: Vec<Texture>,
-    file: &'a str,
     path: &'a Path,
-    buffers: &'a [Data],
+    document: &'a Document,
+    buffers: &'a [Vec<u8>],
     /// Places in `list` by the number in the file; the default one has none.
     places: HashMap<Option<usize>, u32>,
     /// Places in `textures` by the number of the image.
@@ -36,10 +36,29 @@ pub(super) struct Materials<'a> {
 }
 
 impl<'a> Materials<'a> {
-    /// Of the file at `path`, which messages call `file`.
-    pub fn new(file: &'a str, path: &'a Path, buffers: &'a [Data]) -> Self {
+    /// Of the document at `path`.
+    pub fn new(path: &'a Path, document: &'a Document, buffers: &'a [Vec<u8>]) -> Self {
         let (places, images) = (HashMap::new(), HashMap::new());
-        Self { list: Vec::new(), textures: Vec::new(), file, path, buffers, places, images }
+        Self { list: Vec::new(), textures: Vec::new(), path, document, buffers, places, images }
+    }
+
+    /// The set of texture coordinates that a material's picture lies over.
+    pub fn coordinates(&self, material: &gltf::Material) -> Result<u32, InputError> {
+        let Some(info) = material.pbr_metallic_roughness().base_color_texture() else { return Ok(0) };
+        if info.texture_transform().is_some() {
+            let key = match material.index() {
+                Some(index) => format!("material {index} baseColorTexture"),
+                None => "baseColorTexture".to_owned(),
+            };
+            let permitted =
+                "permitted: texture coordinates as the vertices have them; apply the transform to them";
+            return Err(self.fault(key, "KHR_texture_transform", permitted));
+        }
+        Ok(info.tex_coord())
+    }
+
+    fn fault(&self, key: String, value: &str, permitted: &str) -> InputError {
+        Fault::new(&self.path.display().to_string(), None, key, value, permitted).into()
     }
 
     /// The place of a material in the list.
@@ -70,22 +89,31 @@ impl<'a> Materials<'a> {
         if let Some(place) = self.images.get(&image.index()) {
             return Ok(*place);
         }
-        let texture = match image.source() {
-            Source::Uri { uri, .. } if uri.starts_with("data:") => {
-                Texture::Absent(format!("image {}", image.index()))
-            }
-            Source::Uri { uri, .. } => {
-                let beside = self.path.with_file_name(uri);
-                if beside.is_file() { Texture::read(&beside)? } else { Texture::Absent(uri.to_owned()) }
-            }
-            Source::View { view, .. } => {
+        let key = format!("image {}", image.index());
+        let name = format!("{}: {key}", self.path.display());
+        // The reader's own `source` panics where a view has no mimeType, or nothing says where the picture is.
+        let said = &self.document.as_json().images[image.index()];
+        let view = said.buffer_view.and_then(|view| self.document.views().nth(view.value()));
+        let texture = match (&said.uri, view) {
+            (Some(uri), _) => match Uri::of(uri) {
+                Ok(Uri::Data(bytes)) => Texture::decode(&name, Cursor::new(bytes))?,
+                Ok(Uri::Beside(beside)) => Texture::named(&beside, &self.path.with_file_name(&beside))?,
+                Err(permitted) => return Err(self.fault(key, uri, permitted)),
+            },
+            (None, Some(view)) => {
                 let end = view.offset().checked_add(view.length());
                 let buffer = self.buffers.get(view.buffer().index());
-                let bytes = end.and_then(|end| buffer?.get(view.offset()..end)).ok_or_else(|| {
-                    let key = format!("image {}", image.index());
-                    Fault::new(self.file, None, key, "buffer view", "permitted: all within its buffer")
-                })?;
-                Texture::decode(self.file, Cursor::new(bytes))?
+                let bytes = end.and_then(|end| buffer?.get(view.offset()..end));
+                let permitted = "permitted: all within its buffer";
+                let bytes = bytes.ok_or_else(|| self.fault(key, "buffer view", permitted))?;
+                Texture::decode(&name, Cursor::new(bytes))?
+            }
+            (None, None) => {
+                return Err(self.fault(
+                    key,
+                    "no source",
+                    "permitted: `uri` or `bufferView` of a PNG or JPEG",
+                ));
             }
         };
         self.textures.push(texture);

@@ -8,7 +8,9 @@
 
 use super::Primitive;
 use super::cut::cut;
-use crate::frame::{Frame, Polygon, ShadeMode, Triangle, Vertex};
+use crate::frame::{Frame, Polygon};
+use crate::rules::ShadeMode;
+use crate::vertex::{Triangle, Vertex};
 use std::borrow::Cow;
 
 /// Two edges of a polygon cross, so that triangles between its vertices cannot cover it.

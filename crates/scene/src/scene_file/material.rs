@@ -1,9 +1,10 @@
 //! `[[material]]`, and the textures it names.
 
 use super::table::Table;
-use crate::error::{InputError, nearest};
+use crate::error::InputError;
 use crate::mesh::Material;
 use crate::texture::{MAX_TEXTURE_SIDE, Texture, WAVE_TEXELS};
+use edgewalk_nearest::nearest;
 use glam::DVec3;
 use std::path::Path;
 
@@ -143,7 +144,8 @@ impl Materials {
             Some((_, material)) => Ok(Some(*material)),
             None => {
                 let names: Vec<&str> = self.named.iter().map(|(name, _)| name.as_str()).collect();
-                let near = nearest(name, &names).map(|near| format!("; did you mean `{near}`?"));
+                let near =
+                    nearest(name, names.iter().copied()).map(|near| format!("; did you mean `{near}`?"));
                 let permitted = format!("permitted: {}{}", names.join(" "), near.unwrap_or_default());
                 Err(table.fault(key, name, permitted))
             }

@@ -3,6 +3,7 @@
 use super::material::Materials;
 use super::table::Table;
 use crate::error::InputError;
+use crate::file;
 use crate::mesh::{self, Face, FaceData, MAX_POSITION, Material, Mesh, Part};
 use glam::{DAffine3, DQuat, DVec3, EulerRot};
 use std::path::Path;
@@ -33,8 +34,10 @@ pub(super) fn read(table: &Table, materials: &Materials, path: &Path) -> Result<
         let permitted = "permitted: exactly one of mesh, builtin, faces (with positions)";
         return Err(table.fault("mesh", format!("{given} of them"), permitted));
     }
-    let mesh = if let Some(file) = table.text("mesh")? {
-        Mesh::read(&path.with_file_name(file))?
+    let mesh = if let Some(name) = table.text("mesh")? {
+        let beside = path.with_file_name(name);
+        file::open(&beside)?; // what a file names is no pipe
+        Mesh::read(&beside)?
     } else if let Some(place) = table.choice("builtin", &BUILTIN)? {
         built_in(table, place)?
     } else {
@@ -59,7 +62,7 @@ fn built_in(table: &Table, place: usize) -> Result<Mesh, InputError> {
     }
 }
 
-/// First scaled, then turned about x, y and z, then moved.
+/// First scaled, then turned about the fixed z axis, then y, then x, then moved.
 fn placed(table: &Table) -> Result<DAffine3, InputError> {
     let scale = table.color("scale", 1e6)?.unwrap_or(DVec3::ONE);
     if scale.min_element() < 1e-6 {

@@ -1,6 +1,7 @@
 //! A table of a TOML file: values by key, checked, with their places for messages.
 
-use crate::error::{Fault, InputError, nearest};
+use crate::error::{Fault, InputError};
+use edgewalk_nearest::nearest;
 use glam::{DVec2, DVec3};
 use std::ops::RangeInclusive;
 use toml::Spanned;
@@ -53,7 +54,7 @@ impl<'a> Table<'a> {
                 let permitted = format!("permitted: {}", keys.join(" "));
                 let mut fault =
                     source.fault(key.span().start, format!("{name}key"), key.get_ref(), permitted);
-                fault.nearest = nearest(key.get_ref(), keys);
+                fault.nearest = nearest(key.get_ref(), keys.iter().copied());
                 return Err(fault.into());
             }
         }
@@ -114,7 +115,7 @@ impl<'a> Table<'a> {
         }
         let mut error = self.fault(key, text, format!("permitted: {}", valid.join(" ")));
         if let InputError::Fault(fault) = &mut error {
-            fault.nearest = nearest(text, valid);
+            fault.nearest = nearest(text, valid.iter().copied());
         }
         Err(error)
     }

@@ -1,12 +1,12 @@
 //! The lines `extra` and `X`: values of the user's own at the vertices.
 
 use crate::error::InputError;
-use crate::frame::{MAX_EXTRA, MAX_EXTRA_VALUE, Triangle};
 use crate::text::Place;
+use crate::vertex::{MAX_EXTRA, MAX_EXTRA_VALUE, Triangle};
 
 /// The number behind `extra`.
 pub(super) fn count<'a>(place: Place, words: impl Iterator<Item = &'a [u8]>) -> Result<usize, InputError> {
-    let [count] = place.values("extra", words)?;
+    let [count] = place.values("extra", "N", words)?;
     place.number("extra N", count, "an integer", 0..=MAX_EXTRA)
 }
 

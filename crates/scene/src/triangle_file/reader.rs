@@ -7,9 +7,11 @@ use super::shadow::{occluder, shadow};
 use super::texture;
 use super::vertices::{contour, triangle};
 use crate::error::InputError;
-use crate::frame::{Frame, MAX_LIGHTS, MAX_SIDE, Polygon, Triangle};
-use crate::pass::State;
+use crate::frame::{Frame, MAX_LIGHTS, MAX_SIDE, Polygon};
+use crate::kind::InputKind;
+use crate::rules::State;
 use crate::text::{Lines, Place, words};
+use crate::vertex::Triangle;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::ops::Range;
@@ -48,16 +50,22 @@ const RULES: Range<usize> = 9..15;
 /// `T` to `H`: the header has ended.
 const PRIMITIVE: usize = 17;
 
-/// Reads the file at `path`.
+/// Opens the file at `path`, which may be a pipe; `-` is the standard input.
+///
+/// # Errors
+/// The file cannot be opened.
+pub fn open(path: &Path) -> Result<File, InputError> {
+    let standard_input = path == Path::new(InputKind::STANDARD_INPUT);
+    let opened = File::open(if standard_input { Path::new("/dev/stdin") } else { path });
+    opened.map_err(|source| InputError::Read { file: path.display().to_string(), source })
+}
+
+/// Reads the file at `path`, which may be a pipe; `-` is the standard input.
 ///
 /// # Errors
 /// The file cannot be read, or an item of it is not permitted.
 pub fn read(path: &Path) -> Result<Frame, InputError> {
-    let file = path.display().to_string();
-    match File::open(path) {
-        Ok(opened) => parse(&file, BufReader::with_capacity(1 << 16, opened)),
-        Err(source) => Err(InputError::Read { file, source }),
-    }
+    parse(&path.display().to_string(), BufReader::with_capacity(1 << 16, open(path)?))
 }
 
 /// Reads the text of a file that messages call `file`.
@@ -224,7 +232,7 @@ impl Parser {
         }
         match name {
             "size" => {
-                let [width, height] = place.values(name, words)?;
+                let [width, height] = place.values(name, "W H", words)?;
                 self.frame.width = place.number("size W", width, "an integer", 1..=MAX_SIDE)?;
                 self.frame.height = place.number("size H", height, "an integer", 1..=MAX_SIDE)?;
             }
@@ -242,10 +250,10 @@ impl Parser {
             }
             "shadow" => self.frame.shadows.push(shadow(place, words)?),
             _ => {
-                let clear: [&[u8]; 3] = place.values(name, words)?;
+                let clear: [&[u8]; 3] = place.values(name, "r g b", words)?;
                 for (channel, word) in clear.into_iter().enumerate() {
                     let key = format_args!("clear {}", ["r", "g", "b"][channel]);
-                    self.frame.clear[channel] = place.number(key, word, "a number", 0.0..=1.0)?;
+                    self.frame.clear[channel] = place.color(key, word)?;
                 }
             }
         }
@@ -315,7 +323,10 @@ impl Parser {
         self.require_values(place, before)?;
         let lights = self.frame.shadows.len();
         if let Some((light, line)) = self.light.filter(|(light, _)| *light > lights) {
-            let why = format!("permitted: 0 to {lights}, as many lights as the file has lines `shadow`");
+            let why = match lights {
+                0 => "permitted: 0, as the file has no line `shadow`".to_owned(),
+                _ => format!("permitted: 0 to {lights}, as many lights as the file has lines `shadow`"),
+            };
             return Err(Place { line, ..place }.fault("light", light.to_string().as_bytes(), why).into());
         }
         if self.seen[PRIMITIVE] { Ok(()) } else { self.header.end(place, before, &mut self.frame) }

@@ -1,8 +1,9 @@
 //! The lines `depth`, `depth_write`, `blend`, `colour_write`, `light` and `clear_depth`: the rules of the primitives behind them.
 
 use crate::error::InputError;
-use crate::frame::{DepthFunc, Frame, MAX_LIGHTS};
-use crate::pass::{Blending, Change, State};
+use crate::frame::{Frame, MAX_LIGHTS};
+use crate::rules::DepthFunc;
+use crate::rules::{Blending, Change, State};
 use crate::text::Place;
 
 /// `off` behind the eight functions.
@@ -24,10 +25,15 @@ pub(super) fn read<'a>(
     rules: &mut State,
 ) -> Result<bool, InputError> {
     if name == "clear_depth" {
-        let [] = place.values(name, words)?;
+        let [] = place.values(name, "", words)?;
         return Ok(true);
     }
-    let [word] = place.values(name, words)?;
+    let value = match name {
+        "depth" => "F",
+        "light" => "N",
+        _ => "B",
+    };
+    let [word] = place.values(name, value, words)?;
     match name {
         "depth" => rules.depth = DepthFunc::ALL.get(place.choice(name, word, &DEPTH_NAMES)?).copied(),
         "depth_write" => rules.depth_write = place.choice(name, word, &["0", "1"])? == 1,

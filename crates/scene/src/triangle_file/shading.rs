@@ -2,10 +2,11 @@
 //! `texture` what it is a part of.
 
 use crate::error::InputError;
-use crate::frame::{Frame, ShadeMode};
+use crate::frame::Frame;
 use crate::light::Light;
 use crate::mesh::Material;
 use crate::pixel_shading::{PixelMethod, PixelShading, PixelTriangle, Viewer, unit};
+use crate::rules::ShadeMode;
 use crate::shading::Specular;
 use crate::text::Place;
 use crate::texture::Image;
@@ -52,7 +53,7 @@ impl Header {
         words: impl Iterator<Item = &'a [u8]>,
         frame: &mut Frame,
     ) -> Result<(), InputError> {
-        let [mode] = place.values("mode", words)?;
+        let [mode] = place.values("mode", "M", words)?;
         let mode = place.choice("mode", mode, &MODES)?;
         match mode.checked_sub(ShadeMode::ALL.len()) {
             None => frame.mode = ShadeMode::ALL[mode],
@@ -70,15 +71,15 @@ impl Header {
     ) -> Result<(), InputError> {
         self.used.get_or_insert((name, place.line));
         match name {
-            "view" => self.view = Some(direction(place, name, place.values(name, words)?)?),
+            "view" => self.view = Some(direction(place, name, place.values(name, "x y z", words)?)?),
             "sun" => {
-                let [x, y, z, i] = place.values(name, words)?;
+                let [x, y, z, i] = place.values(name, "x y z i", words)?;
                 let toward = direction(place, name, [x, y, z])?;
                 let intensity = place.number("sun i", i, "a number", 0.0..=MAX_INTENSITY)?;
                 self.suns.push(Light::Directional { toward, intensity: DVec3::splat(intensity) });
             }
             _ => {
-                let [form] = place.values(name, words)?;
+                let [form] = place.values(name, "F", words)?;
                 let form = place.choice(name, form, &PixelShading::FORM_NAMES)?;
                 self.specular = Some(PixelShading::FORMS[form]);
             }
@@ -97,7 +98,7 @@ impl Header {
         if behind.is_some_and(|frame| frame.shading.is_none()) {
             return Err(place.fault("line starts with", b"material", NEEDS_MODE).into());
         }
-        let words: [&[u8]; 4] = place.values("material", words)?;
+        let words: [&[u8]; 4] = place.values("material", "ka kd ks n", words)?;
         let mut numbers = [0.0; 4];
         for (at, (number, word)) in numbers.iter_mut().zip(words).enumerate() {
             let (name, range) =
@@ -180,6 +181,9 @@ impl Header {
     }
 }
 
+/// What stands behind `N`.
+const VALUES: &str = "nx ny nz of vertex 1, then of 2, then of 3";
+
 /// The numbers behind `N` into the triangle that is open, if one is.
 pub(super) fn normals<'a>(
     place: Place,
@@ -193,7 +197,7 @@ pub(super) fn normals<'a>(
     let Some(triangle) = shading.triangles.last_mut().filter(|_| open) else {
         return Err(place.fault("line starts with", b"N", "permitted once, behind a triangle `T`").into());
     };
-    let words: [&[u8]; 9] = place.values("N", words)?;
+    let words: [&[u8]; 9] = place.values("N", VALUES, words)?;
     for (vertex, (slot, words)) in triangle.normals.iter_mut().zip(words.chunks_exact(3)).enumerate() {
         let key = format!("N vertex {}", vertex + 1);
         let normal = vector(place, &key, words)?;
@@ -210,9 +214,7 @@ pub(super) fn normals<'a>(
 
 /// The triangle of this line has no normals, and `before` comes.
 pub(super) fn missing(place: Place, before: &[u8], line: usize) -> InputError {
-    let why = format!(
-        "the `N` of the triangle in line {line} is missing; permitted: 9 values, nx ny nz of vertex 1, then of 2, then of 3"
-    );
+    let why = format!("the `N` of the triangle in line {line} is missing; permitted: 9 values, {VALUES}");
     place.fault("N", before, why).into()
 }
 

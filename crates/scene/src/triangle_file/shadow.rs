@@ -6,7 +6,8 @@ use crate::text::Place;
 
 /// The values behind `shadow`.
 pub(super) fn shadow<'a>(place: Place, words: impl Iterator<Item = &'a [u8]>) -> Result<Shadow, InputError> {
-    let words: [&[u8]; 19] = place.values("shadow", words)?;
+    let words: [&[u8]; 19] =
+        place.values("shadow", "SIZE BIAS AMBIENT, then m00 to m33 row by row", words)?;
     let [size, bias, ambient, elements @ ..] = words;
     let mut matrix = [[0.0; 4]; 4];
     for (index, (slot, word)) in matrix.as_flattened_mut().iter_mut().zip(elements).enumerate() {
@@ -23,6 +24,9 @@ pub(super) fn shadow<'a>(place: Place, words: impl Iterator<Item = &'a [u8]>) ->
     })
 }
 
+/// What stands behind `L`.
+const VALUES: &str = "x y z of vertex 1, then of 2, then of 3; a tenth one is kt";
+
 /// The values behind `L`, into the light: nine, and k_t behind them if there is one.
 pub(super) fn occluder<'a>(
     place: Place,
@@ -33,10 +37,10 @@ pub(super) fn occluder<'a>(
     let given = all.iter().copied();
     let (words, kt): ([&[u8]; 9], f64) = match all.len() {
         10 => {
-            let [words @ .., kt]: [&[u8]; 10] = place.values("L", given)?;
+            let [words @ .., kt]: [&[u8]; 10] = place.values("L", VALUES, given)?;
             (words, place.number("L kt", kt, "a number", 0.0..=1.0)?)
         }
-        _ => (place.values("L", given)?, 0.0),
+        _ => (place.values("L", VALUES, given)?, 0.0),
     };
     let mut triangle = [[0.0; 3]; 3];
     for (index, (slot, word)) in triangle.as_flattened_mut().iter_mut().zip(words).enumerate() {

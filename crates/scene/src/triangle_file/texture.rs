@@ -52,6 +52,9 @@ fn colors(word: &[u8]) -> Option<[u16; 3]> {
     Some(colors)
 }
 
+/// What stands behind `UV`.
+const VALUES: &str = "u v of vertex 1, then of 2, then of 3";
+
 /// The numbers behind `UV` into the triangle that is open, if one is.
 pub(super) fn coordinates<'a>(
     place: Place,
@@ -66,7 +69,7 @@ pub(super) fn coordinates<'a>(
         let why = "permitted once, behind a triangle `T` of a material with a `texture`";
         return Err(place.fault("line starts with", b"UV", why).into());
     };
-    let words: [&[u8]; 6] = place.values("UV", words)?;
+    let words: [&[u8]; 6] = place.values("UV", VALUES, words)?;
     for (vertex, (slot, words)) in triangle.texture.iter_mut().zip(words.chunks_exact(2)).enumerate() {
         for (axis, word) in words.iter().enumerate() {
             let key = format_args!("UV vertex {} {}", vertex + 1, ["u", "v"][axis]);
@@ -79,8 +82,7 @@ pub(super) fn coordinates<'a>(
 /// The triangle of this line has no texture coordinates, and `before` comes.
 pub(super) fn missing(place: Place, before: &[u8], line: usize) -> InputError {
     let why = format!(
-        "the `UV` of the triangle in line {line} is missing, as its material has a `texture`; permitted: 6 values, u v of vertex 1, \
-         then of 2, then of 3"
+        "the `UV` of the triangle in line {line} is missing, as its material has a `texture`; permitted: 6 values, {VALUES}"
     );
     place.fault("UV", before, why).into()
 }

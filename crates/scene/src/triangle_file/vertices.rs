@@ -1,9 +1,10 @@
 //! The lines `T`, `P` and `H`: vertices, each of seven numbers.
 
-use crate::band::Host;
 use crate::error::InputError;
-use crate::frame::{DEPTH_ROUNDING, MAX_CONTOUR, MAX_COORDINATE, Triangle, Vertex};
+use crate::frame::{DEPTH_ROUNDING, MAX_CONTOUR, MAX_COORDINATE};
+use crate::host::Host;
 use crate::text::Place;
+use crate::vertex::{Triangle, Vertex};
 
 /// The numbers of a vertex, in the order of the file.
 const ATTRIBUTES: [&str; 7] = ["x", "y", "z", "r", "g", "b", "kt"];
@@ -14,7 +15,8 @@ pub(super) fn triangle<'a>(
     words: impl Iterator<Item = &'a [u8]>,
     host: &mut Host,
 ) -> Result<Triangle, InputError> {
-    let words: [&[u8]; 3 * ATTRIBUTES.len()] = place.values("T", words)?;
+    let words: [&[u8]; 3 * ATTRIBUTES.len()] =
+        place.values("T", "x y z r g b kt of vertex 1, then of 2, then of 3", words)?;
     let mut triangle = Triangle::default();
     for (index, (slot, words)) in triangle.0.iter_mut().zip(words.chunks_exact(ATTRIBUTES.len())).enumerate()
     {
@@ -54,13 +56,13 @@ fn vertex(
 ) -> Result<Vertex, InputError> {
     let mut numbers = [0.0; ATTRIBUTES.len()];
     for (a, (number, word)) in numbers.iter_mut().zip(words).enumerate() {
-        let range = match a {
-            0 | 1 => -MAX_COORDINATE..=MAX_COORDINATE,
-            2 => -DEPTH_ROUNDING..=1.0 + DEPTH_ROUNDING,
-            _ => 0.0..=1.0,
-        };
         let key = format_args!("{key} vertex {} {}", index + 1, ATTRIBUTES[a]);
-        *number = place.number(key, word, "a number", range)?;
+        *number = match a {
+            0 | 1 => place.number(key, word, "a number", -MAX_COORDINATE..=MAX_COORDINATE)?,
+            2 => place.number(key, word, "a number", -DEPTH_ROUNDING..=1.0 + DEPTH_ROUNDING)?,
+            3..6 => place.color(key, word)?,
+            _ => place.number(key, word, "a number", 0.0..=1.0)?,
+        };
     }
     let [x, y, depth, r, g, b, kt] = numbers;
     let z = depth.clamp(0.0, 1.0);

@@ -1,12 +1,13 @@
 //! Writes a triangle file; every number comes back bit for bit.
 
 use super::texture;
-use crate::frame::{Frame, Shadow, Triangle, Vertex};
+use crate::frame::{Frame, Shadow};
 use crate::light::Light;
 use crate::mesh::Material;
-use crate::pass::State;
 use crate::pixel_shading::{PixelShading, PixelTriangle, Viewer};
 use crate::polygon::Primitive;
+use crate::rules::State;
+use crate::vertex::{Triangle, Vertex};
 use std::io::{self, Write};
 use std::iter;
 
@@ -20,7 +21,10 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
         Some(shading) => header(shading, &mut out)?,
         None => writeln!(out, "mode {}", frame.mode.name())?,
     }
-    rules(None, frame.state(), &mut out)?;
+    // What changes before the first primitive stands in the header, which has each rule once.
+    let at_once = frame.changes.iter().take_while(|change| change.after == 0).last();
+    let mut state = at_once.map_or(frame.state(), |change| change.state);
+    rules(None, state, &mut out)?;
     let [r, g, b] = frame.clear;
     writeln!(out, "clear {r} {g} {b}")?;
     if frame.extra > 0 {
@@ -30,7 +34,7 @@ pub fn write(frame: &Frame, mut out: impl Write) -> io::Result<()> {
         write_shadow(shadow, &mut out)?;
     }
     let mut material = None;
-    let (mut state, mut changes) = (frame.state(), frame.changes.iter().peekable());
+    let mut changes = frame.changes.iter().skip_while(|change| change.after == 0).peekable();
     for (place, primitive) in frame.primitives().into_iter().enumerate() {
         while let Some(change) = changes.next_if(|change| change.after <= place) {
             rules(Some(state), change.state, &mut out)?;

@@ -28,7 +28,7 @@ mod words;
 pub use words::{Words, words};
 
 use edgewalk_lockstep::{StallKind, Unit};
-use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::Unknown;
 use edgewalk_machine::units;
 use edgewalk_machine::{Plan, PortVertex};
 use edgewalk_model::DrawState;
@@ -189,26 +189,15 @@ pub const SUITES: [Entry; 20] = [
     },
 ];
 
-/// No suite of that name.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("unknown suite {name}; nearest: {nearest}")]
-pub struct UnknownSuite {
-    /// What was asked for.
-    pub name: String,
-    /// The most similar name there is.
-    pub nearest: &'static str,
-}
-
 impl Suite {
     /// The suite of that name for this machine; `random` has `count` triangles, the others are what they are.
     ///
     /// # Errors
     /// An unknown name.
-    pub fn named(machine: &Plan, name: &str, seed: u64, count: u64) -> Result<Suite, UnknownSuite> {
-        let entry = SUITES.iter().find(|entry| entry.name == name).ok_or_else(|| UnknownSuite {
-            name: name.to_owned(),
-            nearest: nearest(name, SUITES.iter().map(|entry| entry.name)),
-        })?;
+    pub fn named(machine: &Plan, name: &str, seed: u64, count: u64) -> Result<Suite, Unknown> {
+        let entry = SUITES.iter().find(|entry| entry.name == name);
+        let entry =
+            entry.ok_or_else(|| Unknown::new("suite", name, SUITES.iter().map(|entry| entry.name)))?;
         let mut plain = Suite { seed, ..Suite::of_triangles(name, entry.about, Vec::new()) };
         if machine.shadow.is_there() {
             // Every suite is drawn with the map at work, but for the one without.

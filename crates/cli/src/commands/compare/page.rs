@@ -1,7 +1,9 @@
 //! What differs between two machines, as text and as JSON.
 
+use crate::document::document;
 use crate::verdict::Verdict;
 use anyhow::Result;
+use edgewalk_explore::sweep::equation::Distance;
 use edgewalk_explore::sweep::row::{Cost, causes, keys};
 use edgewalk_host::raster::Raster;
 use edgewalk_judge::report::Report;
@@ -16,10 +18,14 @@ pub struct Side {
     pub name: String,
     /// The machine.
     pub plan: Plan,
+    /// How the input is shaded on it; none of a triangle file.
+    pub shading: Option<&'static str>,
     /// What `render` says of it.
     pub report: Report,
     /// Its picture.
     pub raster: Raster,
+    /// How far the picture is from the shading equation, where the shadings differ.
+    pub distance: Option<Distance>,
     /// What it costs, if asked for.
     pub cost: Option<Cost>,
 }
@@ -77,7 +83,7 @@ const CELLS: [(&str, &str); 8] = [
 impl Page {
     /// Of two sides on one screen.
     pub fn new(sides: [Side; 2], input: &str, waits: Waits) -> Result<Self> {
-        let values = [sides[0].report.value()?, sides[1].report.value()?];
+        let values = [serde_json::to_value(&sides[0].report)?, serde_json::to_value(&sides[1].report)?];
         let [a, b] = [&sides[0].raster, &sides[1].raster];
         let mut pixels = Pixels::default();
         let mut differences = Vec::new();
@@ -110,12 +116,12 @@ impl Page {
 
     /// Triangles of the input.
     pub fn primitives(&self) -> u64 {
-        self.sides[0].report.primitives()
+        self.sides[0].report.drawn.primitives()
     }
 
     /// Pass if both were drawn: that they differ is what is asked for.
     pub fn verdict(&self) -> Verdict {
-        let [a, b] = self.sides.each_ref().map(|side| Verdict::drew(side.report.covered()));
+        let [a, b] = self.sides.each_ref().map(|side| Verdict::drew(side.report.drawn.fragments));
         a.and(b)
     }
 
@@ -139,7 +145,14 @@ impl Page {
                 self.values.each_ref().map(|value| value.pointer(&at).cloned().unwrap_or(Value::Null));
             (name, a, b)
         });
-        all.chain(self.cells()).collect()
+        all.chain(self.distances()).chain(self.cells()).collect()
+    }
+
+    /// Of both from the shading equation, LSB of 8 bits.
+    fn distances(&self) -> Vec<(String, Value, Value)> {
+        let [Some(a), Some(b)] = self.sides.each_ref().map(|side| side.distance) else { return Vec::new() };
+        let of = |name: &str, a: f64, b: f64| (format!("shading equation, {name}"), json!(a), json!(b));
+        vec![of("largest", a.largest, b.largest), of("mean", a.mean, b.mean)]
     }
 
     fn cells(&self) -> Vec<(String, Value, Value)> {
@@ -173,8 +186,12 @@ impl Page {
             let mut value = json!({
                 "machine": side.name,
                 "hash": side.plan.hash(),
+                "shading": side.shading,
                 "report": self.values[place],
             });
+            if let Some(distance) = side.distance {
+                value["equation"] = json!(distance);
+            }
             if let Some(cost) = &side.cost {
                 value["synth"] = cost.clone().unwrap_or_else(|(_, why)| json!({ "reasons": [why] }));
             }
@@ -201,7 +218,7 @@ impl Page {
             "a": side(0),
             "b": side(1),
         });
-        Ok(serde_json::to_string_pretty(&value)? + "\n")
+        document("compare", value)
     }
 
     /// As text. Writing to a string cannot fail.
@@ -209,7 +226,10 @@ impl Page {
         let mut t = String::new();
         let [a, b] = &self.sides;
         _ = writeln!(t, "{}, stalls {}", self.input, self.waits);
-        _ = writeln!(t, "a: {} ({})\nb: {} ({})", a.name, a.plan.hash(), b.name, b.plan.hash());
+        for (label, side) in [("a", a), ("b", b)] {
+            let shading = side.shading.map_or_else(String::new, |shading| format!(", shading {shading}"));
+            _ = writeln!(t, "{label}: {} ({}){shading}", side.name, side.plan.hash());
+        }
         _ = writeln!(t, "{:<30}{:>16}{:>16}", "keys", "a", "b");
         for (name, a, b) in self.keys() {
             _ = writeln!(t, "    {name:<26}{:>16}{:>16}", shown(&a), shown(&b));
@@ -224,6 +244,13 @@ impl Page {
             }
         }
         let Pixels { color, depth, coverage, shown } = self.pixels;
+        if let [Some(a), Some(_)] = [a.distance, b.distance] {
+            _ = writeln!(
+                t,
+                "shading equation: distance from it at each of {} pixels, LSB of 8 bits; each machine's errors are from what it draws",
+                a.pixels
+            );
+        }
         _ = writeln!(
             t,
             "pixels that differ of {}: colour {color} (by at most {:.4} of full scale), depth {depth}, coverage {coverage}, triangle {shown}",

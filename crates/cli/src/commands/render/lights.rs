@@ -1,6 +1,7 @@
 //! `render SCENE --shadows map` on a machine: each light's part by itself beside golden, and all of them as passes of one picture.
 
 use super::{Args, FILES};
+use crate::document::document;
 use crate::engine::{Engine, draw, draw_port, draw_waiting};
 use crate::input::{Shading, to_port};
 use crate::shadows::Shadows;
@@ -56,13 +57,14 @@ pub fn run(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     picture::write_rgb(&out, "image.png", w, h, &together.rgb)?;
     let setup = SetupReport::new(machine, &triangles);
     let triangles = surface.triangles.len() as u64;
-    let report = Report::new(&source.input, triangles, machine, &together)
-        .with_parts(passes)
-        .with_setup(setup)
-        .with_stalls(args.stalls);
-    out.write("report.json", report.json()?)?;
+    let report = Report {
+        parts: Some(passes),
+        setup: Some(setup),
+        ..Report::new(&source.input, triangles, machine, &together, args.stalls)
+    };
+    out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
     out.publish(&FILES)?;
-    talk.say(|| report.json(), || report.text())?;
+    talk.say(|| document("report", &report), || report.text())?;
     verdict.or_nothing(&source.input, triangles, (w, h))
 }

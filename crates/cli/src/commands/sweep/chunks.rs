@@ -5,12 +5,15 @@
 //! ```
 //! No engine of its own: a job array of Slurm or HyperQueue says which part.
 
-use super::{DEFINITION, ROWS, Ran, RunArgs, finished, kept, points};
+use super::{DEFINITION, ROWS, RunArgs, finished, kept, points};
 use crate::Talk;
+use crate::document::document;
+use crate::shell::quoted;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
 use anyhow::{Context, Result, anyhow};
-use edgewalk_explore::sweep::row::Status;
+use edgewalk_explore::sweep::check::check;
+use edgewalk_explore::sweep::row::{Status, is_beyond};
 use edgewalk_explore::sweep::shared::{geometry_key, pixel_key};
 use edgewalk_explore::sweep::{Definition, Point, Store, Sweep, store};
 use serde_json::json;
@@ -31,19 +34,13 @@ fn file(out: &Path, chunk: u32) -> PathBuf {
 pub fn plan(definition: &Definition, out: &Path, talk: Talk) -> Result<Verdict> {
     let sweep = Sweep::new(definition.clone())?;
     let chunks = definition.chunks.unwrap_or(1);
-    if u64::from(chunks) > sweep.points.len() as u64 {
-        return Err(anyhow!(
-            "--chunks {chunks}: permitted: at most one for each of the {} points",
-            sweep.points.len()
-        ));
-    }
     let program = std::env::current_exe().context("this program")?;
     let fill = |template: &str| {
         template
             .replace("@CHUNKS@", &chunks.to_string())
             .replace("@LAST@", &(chunks - 1).to_string())
-            .replace("@PROGRAM@", &quoted(&program))
-            .replace("@OUT@", &quoted(out))
+            .replace("@PROGRAM@", &quoted(&program.display().to_string()))
+            .replace("@OUT@", &quoted(&out.display().to_string()))
     };
     let staging = Staging::new(out)?;
     staging.write(DEFINITION, serde_json::to_string_pretty(definition)? + "\n")?;
@@ -53,7 +50,7 @@ pub fn plan(definition: &Definition, out: &Path, talk: Talk) -> Result<Verdict> 
     let sizes: Vec<usize> = (0..chunks).map(|chunk| part(&sweep, chunks, chunk).len()).collect();
     let shown = out.display();
     talk.say(
-        || Ok(json!({ "points": sweep.points.len(), "chunks": sizes }).to_string()),
+        || document("sweep-chunks", json!({ "points": sweep.points.len(), "chunks": sizes })),
         || {
             format!(
                 "{} points in {chunks} parts\n    sbatch {shown}/slurm.sh\n    sh {shown}/hq.sh\n    edgewalk sweep merge --out {shown}\n",
@@ -64,15 +61,12 @@ pub fn plan(definition: &Definition, out: &Path, talk: Talk) -> Result<Verdict> 
     Ok(Verdict::Pass)
 }
 
-/// For a shell.
-fn quoted(path: &Path) -> String {
-    format!("'{}'", path.display().to_string().replace('\'', r"'\''"))
-}
-
 /// The points of a part: neighbours share their pixels, so those of the same pixels stay together as far as may be.
 fn part(sweep: &Sweep, chunks: u32, chunk: u32) -> Vec<&Point> {
     let mut points: Vec<&Point> = sweep.points.iter().collect();
-    points.sort_by_cached_key(|point| (point.input, geometry_key(&point.machine), pixel_key(&point.machine)));
+    points.sort_by_cached_key(|point| {
+        (point.input, point.way, geometry_key(&point.machine), pixel_key(&point.machine))
+    });
     let bound = |chunk: u32| points.len() * chunk as usize / chunks as usize;
     points[bound(chunk)..bound(chunk + 1)].to_vec()
 }
@@ -93,21 +87,18 @@ pub fn run(args: &RunArgs, talk: Talk) -> Result<Verdict> {
     let (store, rows) = Store::open(&path)?;
     let again: Vec<Status> = args.retry.iter().map(|retry| Status::from(*retry)).collect();
     let of = part(&sweep, chunks, chunk);
-    let ran = points(&sweep, &of, (&store, rows), &again, &args.tools, talk)?;
+    let made = points(&sweep, &of, (&store, store::by_key(rows)), &again, &args.tools, talk)
+        .with_context(|| path.display().to_string())?;
+    let rows = store::by_key(store::read(&path)?);
+    let faults = of.iter().filter(|point| rows.get(&point.key).is_some_and(is_beyond)).count();
     talk.say(
         || {
-            Ok(json!({ "chunk": chunk, "points": of.len(), "made": ran.made, "faults": ran.faults })
-                .to_string())
+            let report = json!({ "chunk": chunk, "points": of.len(), "made": made, "faults": faults });
+            document("sweep-chunk", report)
         },
-        || {
-            format!(
-                "part {chunk} of {chunks}: {} points, {} of them were there",
-                of.len(),
-                of.len() - ran.made
-            )
-        },
+        || format!("part {chunk} of {chunks}: {} points, {} of them were there", of.len(), of.len() - made),
     )?;
-    Ok(if ran.faults > 0 { Verdict::Mismatch } else { Verdict::Pass })
+    Ok(if faults > 0 { Verdict::Mismatch } else { Verdict::Pass })
 }
 
 /// Which part, by the command line or the job that it runs in.
@@ -125,16 +116,19 @@ fn chunk(asked: Option<u32>) -> Result<u32> {
 /// Puts the rows of all parts together, in the order of the points. Parts that are not there yet are missing and said to be.
 pub fn merge(out: &Path, talk: Talk) -> Result<Verdict> {
     let sweep = kept(out)?;
-    let mut rows: BTreeMap<String, String> = store::lines(&out.join(ROWS))?;
-    for chunk in 0..sweep.definition.chunks.unwrap_or(0) {
-        rows.extend(store::lines(&file(out, chunk))?);
+    let parts = (0..sweep.definition.chunks.unwrap_or(0)).map(|chunk| file(out, chunk));
+    let mut rows: BTreeMap<String, String> = BTreeMap::new();
+    for path in [out.join(ROWS)].into_iter().chain(parts) {
+        check(&sweep, &store::by_key(store::read(&path)?))
+            .map_err(|why| anyhow!("{}: {why}", path.display()))?;
+        rows.extend(store::lines(&path)?);
     }
     let there: Vec<_> = sweep.points.iter().filter_map(|point| rows.get(&point.key)).collect();
     let missing = sweep.points.len() - there.len();
     let staging = Staging::new(out)?;
     staging.write(ROWS, there.iter().map(|row| format!("{row}\n")).collect::<String>())?;
     staging.publish(&[ROWS])?;
-    let verdict = finished(&sweep, out, Ran::default(), talk)?;
+    let verdict = finished(&sweep, out, 0, talk)?;
     if missing > 0 {
         return Err(anyhow!(
             "{missing} of {} points have no row yet; run their parts, then merge again",

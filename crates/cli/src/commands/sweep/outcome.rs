@@ -1,18 +1,22 @@
 //! What a sweep leaves: the table, the best machines, the report; and what it says of itself.
 
-use super::Ran;
 use super::pictures::pictures;
+use crate::document::document;
 use crate::progress::spinner;
+use crate::shell::quoted;
 use crate::staging::Staging;
 use crate::talk::Talk;
 use crate::verdict::Verdict;
 use anyhow::Result;
-use edgewalk_explore::page::{number, page};
+use edgewalk_explore::page::{number, page, rule};
+use edgewalk_explore::sweep::csv::csv;
+use edgewalk_explore::sweep::judge::Memory;
 use edgewalk_explore::sweep::objective::OBJECTIVES;
 use edgewalk_explore::sweep::row::Status;
 use edgewalk_explore::sweep::table::{Candidate, Table};
-use edgewalk_explore::sweep::{Objective, Sample, Sweep};
+use edgewalk_explore::sweep::{Judge, Objective, Sample, Sweep};
 use edgewalk_machine::Machine;
+use edgewalk_model::Waits;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -21,7 +25,8 @@ use std::path::Path;
 pub struct Outcome<'o> {
     table: Table<'o>,
     out: &'o Path,
-    ran: Ran,
+    /// Rows that this run made.
+    made: usize,
 }
 
 const TABLE: &str = "runs.csv";
@@ -33,8 +38,8 @@ fn best_file(objective: &str) -> String {
 
 impl<'o> Outcome<'o> {
     /// Of the rows that belong to the sweep.
-    pub fn new(sweep: &'o Sweep, rows: &'o BTreeMap<String, Value>, out: &'o Path, ran: Ran) -> Self {
-        Outcome { table: Table::new(sweep, rows), out, ran }
+    pub fn new(sweep: &'o Sweep, rows: &'o BTreeMap<String, Value>, out: &'o Path, made: usize) -> Self {
+        Outcome { table: Table::new(sweep, rows), out, made }
     }
 
     /// Each objective with the best machine, where any is known.
@@ -48,15 +53,15 @@ impl<'o> Outcome<'o> {
         let spinner = spinner("report", talk.quiet);
         let staging = Staging::new(self.out)?;
         staging.write(REPORT, page(&self.table, &pictures(&self.table)?, &self.command()))?;
-        staging.write(TABLE, self.table.csv())?;
+        staging.write(TABLE, csv(&self.table))?;
         for (objective, candidate) in self.bests() {
-            if let (Some(machine), Some(value)) = (self.machine(candidate), self.value(objective, candidate))
-            {
+            if let Some(machine) = self.machine(candidate) {
                 let text = format!(
-                    "# machine {}, best of {} for {}: {value} ({})\n{}",
+                    "# machine {}, best of {} for {}: {} ({})\n{}",
                     machine.hash(),
                     self.table.machines.len(),
                     objective.name,
+                    self.table.value(objective, candidate),
                     objective.doc,
                     machine.to_toml()
                 );
@@ -72,47 +77,49 @@ impl<'o> Outcome<'o> {
     /// The command that makes this sweep, but for the machine that its keys are varied in.
     fn command(&self) -> String {
         let definition = &self.table.sweep.definition;
-        let mut words = vec!["edgewalk sweep".to_owned()];
+        let mut words = vec!["edgewalk".to_owned(), "sweep".to_owned()];
         words.extend(definition.inputs.iter().cloned());
-        words.extend(definition.vary.iter().map(|vary| format!("--vary {vary}")));
-        words.extend(definition.stalls.iter().map(|stalls| format!("--stalls {stalls}")));
+        let mut flag = |name: &str, values: &[String]| {
+            values.iter().for_each(|value| words.extend([format!("--{name}"), value.clone()]));
+        };
+        flag("vary", &definition.vary);
+        flag("shading", definition.shading.as_slice());
+        flag("stalls", &definition.stalls);
+        if definition.judge != Judge::WORST {
+            flag("judge", std::slice::from_ref(&definition.judge));
+        }
         if let Some(Sample { points, seed }) = definition.sample {
-            words.push(format!("--sample {points} --seed {seed}"));
+            flag("sample", &[points.to_string()]);
+            flag("seed", &[seed.to_string()]);
         }
-        words.extend(definition.bound.map(|bound| format!("--bound {bound}")));
-        words.extend(definition.objectives.iter().map(|name| format!("--objective {name}")));
+        flag("bound", definition.bound.map(|bound| bound.to_string()).as_slice());
+        flag("objective", &definition.objectives);
         if let Some(synth) = &definition.synth {
-            words.push(format!(
-                "--synth {} --synth-unit {} --synth-seeds {}",
-                synth.target, synth.unit, synth.seeds
-            ));
+            flag("synth", std::slice::from_ref(&synth.target));
+            flag("synth-unit", std::slice::from_ref(&synth.unit));
+            flag("synth-seeds", &[synth.seeds.to_string()]);
         }
-        words.push(format!("--out {}", self.out.display()));
-        words.join(" ")
+        flag("out", &[self.out.display().to_string()]);
+        words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
     }
 
     /// The keys of the machine.
     fn machine(&self, candidate: &Candidate) -> Option<&Machine> {
-        let key = candidate.rows.first()?["key"].as_str()?;
+        let key = candidate.row()["key"].as_str()?;
         self.table.sweep.points.iter().find(|point| point.key == key).map(|point| &point.machine)
     }
 
-    fn value(&self, objective: &Objective, candidate: &Candidate) -> Option<f64> {
-        objective.of_all(&candidate.rows)
-    }
-
-    fn on_first_front(&self) -> Vec<&Candidate<'o>> {
-        self.table.machines.iter().filter(|machine| machine.front == Some(1)).collect()
-    }
-
     fn described(&self, candidate: &Candidate) -> Value {
-        let row = candidate.rows.first().copied().cloned().unwrap_or_default();
-        let mut of = json!({ "machine": row["machine"], "stalls": row["stalls"] });
+        let row = candidate.row();
+        let mut of = json!({ "machine": row["machine"] });
         for axis in &self.table.sweep.axes {
             of["keys"][axis.key.name] = row["keys"][axis.key.name].clone();
         }
         for objective in &self.table.sweep.objectives {
-            of["values"][objective.name] = json!(self.value(objective, candidate));
+            of["values"][objective.name] = json!(self.table.value(objective, candidate));
+        }
+        for (place, memory) in self.table.sweep.memories.iter().enumerate() {
+            of["cycles"][memory.waits.to_string()] = json!(candidate.cycles(place));
         }
         of
     }
@@ -131,26 +138,27 @@ impl<'o> Outcome<'o> {
                 (objective.name.to_owned(), of)
             })
             .collect();
-        let front: Vec<Value> = self.on_first_front().into_iter().map(|of| self.described(of)).collect();
+        let front: Vec<Value> = self.table.first_front().map(|of| self.described(of)).collect();
         let value = json!({
             "out": self.out.display().to_string(),
             "points": self.table.sweep.points.len(),
             "rows": self.table.rows.len(),
-            "made": self.ran.made,
+            "made": self.made,
             "status": statuses,
-            "faults": self.ran.faults,
+            "faults": self.table.faults(),
             "machines": self.table.machines.len(),
+            "judge": self.table.sweep.definition.judge,
             "best": bests,
             "front": front,
         });
-        Ok(serde_json::to_string_pretty(&value)? + "\n")
+        document("sweep", value)
     }
 
     /// As text. Writing to a string cannot fail.
     pub fn text(&self) -> String {
         let mut t = String::new();
         let (points, there) =
-            (self.table.sweep.points.len(), self.table.rows.len() - self.ran.made.min(self.table.rows.len()));
+            (self.table.sweep.points.len(), self.table.rows.len() - self.made.min(self.table.rows.len()));
         let counts = self.table.counts();
         let counts = counts.iter().filter(|(_, count)| *count > 0);
         let counts: Vec<String> =
@@ -162,12 +170,19 @@ impl<'o> Outcome<'o> {
                 _ = writeln!(t, "first {}: {why}", status.name());
             }
         }
+        if self.table.faults() > 0 {
+            let faults = self.table.faults();
+            _ = writeln!(t, "{faults} rows show an error beyond what is proved: a fault of edgewalk");
+        }
+        if let Some(rule) = rule(self.table.sweep) {
+            _ = writeln!(t, "{rule}");
+        }
         for (objective, candidate) in self.bests() {
-            let value = self.value(objective, candidate).unwrap_or(f64::NAN);
+            let value = self.table.value(objective, candidate);
             let file = self.out.join(best_file(objective.name));
             _ = writeln!(t, "best {:<14} {:<12} {}", objective.name, number(value), file.display());
         }
-        let front = self.on_first_front();
+        let front: Vec<&Candidate> = self.table.first_front().collect();
         let names: Vec<&str> = self.table.sweep.objectives.iter().map(|objective| objective.name).collect();
         _ = writeln!(
             t,
@@ -177,7 +192,7 @@ impl<'o> Outcome<'o> {
             self.table.machines.len()
         );
         for candidate in front.iter().take(SHOWN) {
-            let row = candidate.rows.first().copied().cloned().unwrap_or_default();
+            let row = candidate.row();
             let keys = self.table.sweep.axes.iter().map(|axis| {
                 let value = &row["keys"][axis.key.name];
                 format!(
@@ -189,9 +204,10 @@ impl<'o> Outcome<'o> {
             let values = candidate.values.iter().flatten().map(|value| number(*value));
             _ = writeln!(
                 t,
-                "    {}  {}",
+                "    {}  {}{}",
                 values.collect::<Vec<_>>().join("  "),
-                keys.collect::<Vec<_>>().join(" ")
+                keys.collect::<Vec<_>>().join(" "),
+                self.by_memory(candidate)
             );
         }
         if front.len() > SHOWN {
@@ -200,11 +216,24 @@ impl<'o> Outcome<'o> {
         t
     }
 
+    /// The machine's cycles with each memory, unless there is one that never waits.
+    fn by_memory(&self, candidate: &Candidate) -> String {
+        let memories = &self.table.sweep.memories;
+        if matches!(&memories[..], [memory] if memory.waits == Waits::Never) {
+            return String::new();
+        }
+        let of = |(place, memory): (usize, &Memory)| {
+            let cycles = candidate.cycles(place).map_or_else(|| "-".to_owned(), |cycles| cycles.to_string());
+            format!("{} {cycles}", memory.name)
+        };
+        format!("  cycles: {}", memories.iter().enumerate().map(of).collect::<Vec<_>>().join(", "))
+    }
+
     /// Mismatch where an error exceeds what is proved; vacuous where nothing was drawn at all.
     pub fn verdict(&self) -> Verdict {
         let count =
             |wanted| self.table.counts().iter().find(|(s, _)| *s == wanted).map_or(0, |(_, n)| *n as u64);
-        if self.ran.faults > 0 {
+        if self.table.faults() > 0 {
             return Verdict::Mismatch;
         }
         Verdict::drew(count(Status::Ok) + count(Status::Pruned))

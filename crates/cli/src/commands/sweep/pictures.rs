@@ -4,7 +4,7 @@ use crate::picture::{bytes, heat, png};
 use anyhow::Result;
 use edgewalk_explore::page::Pictures;
 use edgewalk_explore::sweep::shared::pixel_key;
-use edgewalk_explore::sweep::table::Table;
+use edgewalk_explore::sweep::table::{Candidate, Table};
 use edgewalk_explore::sweep::{Point, Sweep};
 use edgewalk_host::draw;
 use edgewalk_judge::compare::compare;
@@ -18,13 +18,14 @@ const MOST: usize = 4;
 pub fn pictures(table: &Table) -> Result<Vec<Pictures>> {
     let sweep = table.sweep;
     let bests = sweep.objectives.iter().filter_map(|objective| table.best(objective));
-    let front = table.machines.iter().filter(|machine| machine.front == Some(1));
-    let keys = bests.chain(front).flat_map(|machine| &machine.rows).filter_map(|row| row["key"].as_str());
+    let keys =
+        bests.chain(table.first_front()).flat_map(Candidate::all).filter_map(|row| row["key"].as_str());
+    let points = sweep.by_key();
     let mut seen = BTreeSet::new();
     let mut list = Vec::new();
     for key in keys {
-        let Some(point) = sweep.points.iter().find(|point| point.key == key) else { continue };
-        if list.len() < MOST && seen.insert((point.input, pixel_key(&point.machine))) {
+        let Some(point) = points.get(key) else { continue };
+        if list.len() < MOST && seen.insert((point.input, point.way, pixel_key(&point.machine))) {
             list.extend(drawn(sweep, point)?);
         }
     }
@@ -33,14 +34,14 @@ pub fn pictures(table: &Table) -> Result<Vec<Pictures>> {
 
 fn drawn(sweep: &Sweep, point: &Point) -> Result<Option<Pictures>> {
     let Ok(plan) = &point.plan else { return Ok(None) };
-    let frame = sweep.inputs[point.input].0.frame(plan)?;
+    let frame = sweep.drawn(point).input.frame(plan)?;
     let [golden, drawn] = [draw::golden(&frame, plan), draw::fast(&frame, plan, Waits::Never)?];
     let found = compare(plan, &frame, &golden, &drawn);
     let size = (drawn.width, drawn.height);
     let images = vec![
         ("picture", png(size, |i| bytes(drawn.rgb[i]))?),
-        ("depth error", png(size, |i| heat(found.z_map[i]))?),
-        ("colour error", png(size, |i| heat(found.color_map[i]))?),
+        ("depth error", png(size, |i| heat(found.errors.z.map[i]))?),
+        ("colour error", png(size, |i| heat(found.errors.color.map[i]))?),
     ];
     Ok(Some(Pictures { key: point.key.clone(), images }))
 }

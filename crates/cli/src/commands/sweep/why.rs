@@ -2,18 +2,19 @@
 
 use super::{ROWS, kept};
 use crate::Talk;
+use crate::document::document;
 use crate::verdict::Verdict;
 use anyhow::{Result, anyhow};
-use edgewalk_explore::sweep::point::shading;
+use edgewalk_explore::sweep::shading::named;
 use edgewalk_explore::sweep::store;
 use edgewalk_host::input::Input;
-use edgewalk_machine::nearest::nearest;
+use edgewalk_machine::nearest;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
 
 /// What a row's key is made of.
-const PARTS: [&str; 5] = ["machine", "input_hash", "stalls", "version", "synthesis"];
+const PARTS: [&str; 6] = ["machine", "input", "input_hash", "stalls", "version", "synthesis"];
 
 /// Tells it of the row whose key begins so.
 pub fn run(key: &str, out: &Path, talk: Talk) -> Result<Verdict> {
@@ -24,16 +25,16 @@ pub fn run(key: &str, out: &Path, talk: Talk) -> Result<Verdict> {
     let row = match found[..] {
         [row] => row,
         [] if rows.is_empty() => return Err(anyhow!("{}: no rows", out.join(ROWS).display())),
-        [] => return Err(anyhow!("{key}: no row has this key; nearest: {}", nearest(key, keys()))),
+        [] => {
+            let near = nearest(key, keys()).map_or_else(String::new, |near| format!("; nearest: {near}"));
+            return Err(anyhow!("{key}: no row has this key{near}"));
+        }
         _ => return Err(anyhow!("{key}: {} rows begin so; give more digits", found.len())),
     };
     let changed = changed(row, out)?;
     let others = others(row, &rows);
     talk.say(
-        || {
-            let value = json!({ "row": row, "changed": changed, "same_machine": others });
-            Ok(serde_json::to_string_pretty(&value)?)
-        },
+        || document("sweep-why", json!({ "row": row, "changed": changed, "same_machine": others })),
         || text(row, &changed, &others),
     )?;
     Ok(Verdict::Pass)
@@ -48,9 +49,9 @@ fn changed(row: &Value, out: &Path) -> Result<Vec<String>> {
     }
     let name = row["input"].as_str().unwrap_or_default();
     let sweep = kept(out);
-    let system =
-        sweep.as_ref().map(|sweep| sweep.definition.shading.clone()).unwrap_or_else(|_| "gouraud".to_owned());
-    match shading(&system).and_then(|shading| Input::open(name, shading)).and_then(|input| input.hash()) {
+    // A triangle file says itself how it is shaded.
+    let shading = named(row["shading"].as_str().unwrap_or("gouraud"));
+    match shading.and_then(|(_, shading)| Input::open(name, shading)).and_then(|input| input.hash()) {
         Ok(hash) if row["input_hash"] == hash => {}
         Ok(hash) => changed.push(format!(
             "input_hash: {name} was {}, now it is {hash}: the file or what it names has changed",
@@ -90,7 +91,6 @@ fn text(row: &Value, changed: &[String], others: &[Value]) -> String {
     for part in PARTS {
         _ = writeln!(t, "    {part:<12} {}", shown(&row[part]));
     }
-    _ = writeln!(t, "    input        {}", shown(&row["input"]));
     for (key, value) in row["keys"].as_object().into_iter().flatten() {
         _ = writeln!(t, "    {key} = {}", shown(value));
     }

@@ -1,8 +1,7 @@
 //! The report of `synth`, for machines and for people.
 
-use anyhow::Result;
 use edgewalk_machine::Plan;
-use edgewalk_synth::{Cache, Cells, CriticalPath, Design, Outcome};
+use edgewalk_synth::{Blocks, Cache, Cells, CriticalPath, Design, Memory, Outcome};
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -26,11 +25,6 @@ impl Report {
         let (cached, run) = cache.counts();
         let (unit, verilog) = (design.part.name(), design.hash.clone());
         Report { machine: machine.hash(), unit, verilog, cached, run, targets }
-    }
-
-    /// As one JSON value.
-    pub fn json(&self) -> Result<String> {
-        Ok(serde_json::to_string_pretty(self)?)
     }
 
     /// As a table a target. Writing to a string cannot fail.
@@ -62,6 +56,7 @@ fn outcome(text: &mut String, unit: &str, of: &Outcome) {
             row(text, &format!("  {}", unit.unit), &unit.cells);
         }
     }
+    memories(text, &of.memories);
     if let Some(packed) = &of.packed {
         _ = writeln!(
             text,
@@ -84,6 +79,25 @@ fn outcome(text: &mut String, unit: &str, of: &Outcome) {
 fn row(text: &mut String, name: &str, cells: &Cells) {
     let Cells { lut4, carry, ff, ram, dsp, mux } = cells;
     _ = writeln!(text, "    {name:<12}{lut4:>7}{carry:>7}{ff:>7}{ram:>6}{dsp:>6}{mux:>7}");
+}
+
+/// The memories outside the design, and what holds them.
+fn memories(text: &mut String, memories: &[Memory]) {
+    if memories.is_empty() {
+        return;
+    }
+    _ = writeln!(
+        text,
+        "    {:<12}{:>9}{:>6}{:>9}{:>9}  held by",
+        "memories", "words", "bits", "reads", "writes"
+    );
+    for Memory { name, words, bits, reads, writes, held_by, reasons } in memories {
+        let by = match held_by {
+            Some(Blocks { block, count }) => format!("{count} {block}"),
+            None => format!("none ({})", reasons.join("; ")),
+        };
+        _ = writeln!(text, "      {name:<10}{words:>9}{bits:>6}{reads:>9.2}{writes:>9.2}  {by}");
+    }
 }
 
 fn critical_path(text: &mut String, path: &CriticalPath) {

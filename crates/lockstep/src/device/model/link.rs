@@ -1,11 +1,16 @@
-//! The ends of links, and single ports, of a unit of the model.
+//! The ends of links, memories and constants of a unit of the model, as ports.
 
 use super::NoPlace;
-use crate::device::tokens::{Named, Table};
-use crate::interface::{Interface, Link};
+use crate::device::Triangles;
+use crate::device::tokens::Table;
+use crate::interface::{Interface, Link, Port};
+use crate::unit::Unit;
 use crate::values::{PortId, PortValues};
-use edgewalk_machine::Plan;
-use edgewalk_model::tokens::Words;
+use edgewalk_machine::{DrawState, MemoryPort, Plan, PortVertex, Ports};
+use edgewalk_model::WordIn;
+use edgewalk_model::named::Sourced;
+use edgewalk_model::ports::Held;
+use edgewalk_model::word_memory::Ask;
 use std::ops::Range;
 
 /// Where a unit's ports are to be found: it alone, or inside the machine.
@@ -16,19 +21,16 @@ pub struct Scope<'a> {
     pub owner: &'static str,
 }
 
-/// Whether the map is drawn, not the picture.
-pub struct LightPass(Option<PortId>);
-
-impl LightPass {
-    pub fn is_high(&self, ports: &PortValues) -> bool {
-        self.0.is_some_and(|port| ports.is_high(port))
-    }
-}
-
 impl<'a> Scope<'a> {
     /// The unit of the interface itself.
     pub fn alone(plan: &'a Plan, interface: &'a Interface) -> Scope<'a> {
         Scope { plan, interface, owner: interface.unit.name() }
+    }
+
+    /// What the unit declares.
+    pub fn declared(&self) -> Result<Ports, NoPlace> {
+        let unit = Unit::named(self.owner).map_err(|error| NoPlace::Unit(error.name))?;
+        Ok(unit.ports(self.plan))
     }
 
     /// A single port.
@@ -37,55 +39,32 @@ impl<'a> Scope<'a> {
         found.map(|port| port.id).ok_or_else(|| self.missing(name))
     }
 
-    /// The input `light_pass`, where the machine draws its map.
-    pub fn light_pass(&self) -> Result<LightPass, NoPlace> {
-        let there = self.plan.shadow.draws_map();
-        Ok(LightPass(there.then(|| self.port("light_pass")).transpose()?))
-    }
-
-    fn link(&self, name: &str) -> Result<(usize, &'a Link), NoPlace> {
+    /// A link of the unit, and its number.
+    pub fn link(&self, name: &str) -> Result<(usize, &'a Link), NoPlace> {
         let links = self.interface.links.iter().chain(&self.interface.inner).enumerate();
         let mut own = links.filter(|(_, link)| link.name == name && link.owner == self.owner);
         own.next().ok_or_else(|| self.missing(name))
     }
 
+    /// The status ports of the unit.
+    pub fn status(&self) -> impl Iterator<Item = &'a Port> + use<'a> {
+        let (interface, owner) = (self.interface, self.owner);
+        let all = interface.status.iter().chain(&interface.inner_status);
+        all.map(|status| &status.port).filter(move |port| port.owner == owner)
+    }
+
     fn missing(&self, name: &str) -> NoPlace {
         NoPlace::Port { unit: self.owner.to_owned(), port: name.to_owned() }
-    }
-
-    /// The end of a link where tokens come in.
-    pub fn taker<T: Named>(&self, name: &str) -> Result<Taker<T>, NoPlace> {
-        let (place, link) = self.link(name)?;
-        Ok(Taker { table: Table::of(self.plan, link)?, place, valid: link.valid, fields: link.range() })
-    }
-
-    /// The end of a link where tokens go out.
-    pub fn giver<T: Named>(&self, name: &str) -> Result<Giver<T>, NoPlace> {
-        let (place, link) = self.link(name)?;
-        Ok(Giver {
-            table: Table::of(self.plan, link)?,
-            place,
-            valid: link.valid,
-            ready: link.ready,
-            fields: link.range(),
-        })
-    }
-
-    /// The words held beside a link.
-    pub fn held(&self, beside: &str) -> Result<HeldWords, NoPlace> {
-        let (_, link) = self.link(beside)?;
-        let found = self.plan.channels().iter().map(|channel| {
-            let held = link.fields[link.own..].iter().find(|port| port.field.name == channel.name);
-            held.map(|port| port.id).ok_or_else(|| self.missing(channel.name))
-        });
-        let kt = link.fields[link.own..]
-            .iter()
-            .find(|port| port.field.name == "kt" && self.plan.has_triangle_kt());
-        Ok(HeldWords { words: found.collect::<Result<_, _>>()?, kt: kt.map(|port| port.id) })
     }
 }
 
 /// Where tokens come in.
+pub trait Takes<T> {
+    /// The token that is offered.
+    fn token(&self, ports: &PortValues) -> Option<T>;
+}
+
+/// Where tokens with named fields come in.
 #[derive(Clone, Debug)]
 pub struct Taker<T> {
     table: Table<T>,
@@ -94,56 +73,159 @@ pub struct Taker<T> {
     fields: Range<usize>,
 }
 
-impl<T: Named> Taker<T> {
-    /// The token that is offered.
-    pub fn token(&self, ports: &PortValues) -> Option<T> {
+impl<T: Sourced> Taker<T> {
+    /// The link that the unit takes.
+    pub fn find(scope: Scope) -> Result<Taker<T>, NoPlace> {
+        let takes = scope.declared()?.takes;
+        let (place, link) = scope.link(takes.as_ref().map_or("", |link| link.name))?;
+        Ok(Taker { table: Table::of(scope.plan, link)?, place, valid: link.valid, fields: link.range() })
+    }
+}
+
+impl<T: Sourced> Takes<T> for Taker<T> {
+    fn token(&self, ports: &PortValues) -> Option<T> {
         let triangle = ports.triangle(self.place).unwrap_or(0);
         ports.is_high(self.valid).then(|| self.table.unpack(ports.range(&self.fields), triangle))
     }
 }
 
-/// Where tokens go out.
-#[derive(Clone, Debug)]
-pub struct Giver<T> {
-    table: Table<T>,
-    place: usize,
-    valid: PortId,
-    pub ready: PortId,
-    fields: Range<usize>,
+/// Where triangles come in.
+pub struct TriangleTaker {
+    link: Link,
+    triangles: Triangles,
 }
 
-impl<T: Named> Giver<T> {
-    /// Valid, and the fields of the token if there is one.
-    pub fn offer(&self, token: Option<&T>, ports: &mut PortValues) {
-        ports.set(self.valid, token.is_some());
-        ports.set_triangle(self.place, token.map(|token| { *token }.source().id));
-        if let Some(token) = token {
-            self.table.pack(token, ports.range_mut(&self.fields));
-        }
+impl TriangleTaker {
+    pub fn find(scope: Scope) -> Result<TriangleTaker, NoPlace> {
+        let (_, link) = scope.link("tri")?;
+        let triangles = Triangles::of(scope.plan, link).ok_or_else(|| scope.missing("a field of tri"))?;
+        Ok(TriangleTaker { link: link.clone(), triangles })
     }
 }
 
-/// Words that a unit holds for another, and k_t of the triangle if it has one.
-#[derive(Clone, Debug)]
-pub struct HeldWords {
-    words: Vec<PortId>,
-    kt: Option<PortId>,
+/// A triangle and its tag. In a reset none is taken.
+impl Takes<([PortVertex; 3], u32)> for TriangleTaker {
+    fn token(&self, ports: &PortValues) -> Option<([PortVertex; 3], u32)> {
+        let offered = ports.is_high(self.link.valid) && !ports.rst;
+        offered.then(|| self.triangles.unpack(self.link.token(ports)))
+    }
 }
 
-impl HeldWords {
+/// The read side of a memory.
+#[derive(Clone, Debug)]
+pub struct WordPorts {
+    read_valid: PortId,
+    read_ready: PortId,
+    read_addr: PortId,
+    data_valid: PortId,
+    data_ready: PortId,
+    word: PortId,
+}
+
+impl WordPorts {
+    /// The ports of a memory by its declaration.
+    pub fn find(scope: Scope, memory: &MemoryPort) -> Result<Self, NoPlace> {
+        let port = |link: &str, part: &str| scope.port(&format!("{link}_{part}"));
+        let (read, data) = (memory.read.name, memory.data.name);
+        Ok(WordPorts {
+            read_valid: port(read, "valid")?,
+            read_ready: port(read, "ready")?,
+            read_addr: port(read, &memory.read.fields[0].name)?,
+            data_valid: port(data, "valid")?,
+            data_ready: port(data, "ready")?,
+            word: port(data, &memory.data.fields[0].name)?,
+        })
+    }
+
+    /// The memory takes a read; the word that it offers.
+    pub fn word(&self, ports: &PortValues) -> WordIn {
+        let word = ports.is_high(self.data_valid).then(|| ports[self.word]);
+        WordIn { ready: ports.is_high(self.read_ready), word }
+    }
+
+    /// Shows what is asked of it.
+    pub fn show(&self, ask: Ask, ports: &mut PortValues) {
+        ports.set(self.read_valid, ask.addr.is_some());
+        ports[self.read_addr] = ask.addr.unwrap_or(0).into();
+        ports.set(self.data_ready, ask.take);
+    }
+}
+
+/// The constants.
+#[derive(Clone, Debug)]
+pub struct Rules(Vec<(String, PortId)>);
+
+impl Rules {
+    /// Those of the interface.
+    pub fn find(scope: Scope) -> Result<Rules, NoPlace> {
+        let constants = scope.interface.constants.iter();
+        let rules = Rules(constants.map(|port| (port.name.clone(), port.id)).collect());
+        let unknown = rules.0.iter().find(|(name, _)| !DrawState::default().set(name, 0));
+        unknown.map_or(Ok(()), |(name, _)| Err(scope.missing(name)))?;
+        Ok(rules)
+    }
+
+    /// The draw state of a cycle; a constant that the unit does not have is that of no pass.
+    pub fn state(&self, ports: &PortValues) -> DrawState {
+        let mut state =
+            DrawState { depth_func: 0, depth_write: false, color_write: false, ..DrawState::default() };
+        for (name, port) in &self.0 {
+            state.set(name, ports[*port]);
+        }
+        state
+    }
+}
+
+/// Values that are held beside a link.
+#[derive(Clone, Debug, Default)]
+pub struct HeldPorts(Vec<(HeldValue, PortId)>);
+
+#[derive(Clone, Copy, Debug)]
+enum HeldValue {
+    Gradient(usize),
+    Kt,
+    Record,
+}
+
+impl HeldPorts {
+    /// Those beside this link.
+    pub fn find(scope: Scope, link: &Link) -> Result<HeldPorts, NoPlace> {
+        let value = |name: &str| match name {
+            "record" => Some(HeldValue::Record),
+            "kt" if scope.plan.has_triangle_kt() => Some(HeldValue::Kt),
+            _ => {
+                let channels = scope.plan.channels();
+                channels.iter().position(|channel| channel.name == name).map(HeldValue::Gradient)
+            }
+        };
+        let found = link.fields[link.own..]
+            .iter()
+            .map(|port| Ok((value(&port.field.name).ok_or_else(|| scope.missing(&port.name))?, port.id)));
+        Ok(HeldPorts(found.collect::<Result<_, NoPlace>>()?))
+    }
+
     /// Shows them.
-    pub fn show<const C: usize>(&self, words: &Words<C>, kt: u32, ports: &mut PortValues) {
-        for (port, word) in self.words.iter().zip(words) {
-            ports[*port] = u128::from(*word);
-        }
-        if let Some(port) = self.kt {
-            ports[port] = kt.into();
+    pub fn show<const C: usize>(&self, held: &Held<C>, ports: &mut PortValues) {
+        for (value, port) in &self.0 {
+            ports[*port] = match value {
+                HeldValue::Gradient(channel) => held.gradient[*channel].into(),
+                HeldValue::Kt => held.kt.into(),
+                HeldValue::Record => held.record.into(),
+            };
         }
     }
 
-    /// Reads them; behind the last channel 0, and 0 for a k_t that is not there.
-    pub fn read<const C: usize>(&self, ports: &PortValues) -> (Words<C>, u32) {
-        let word = |i: usize| self.words.get(i).map_or(0, |port| ports[*port] as u64); // at most 56 bits
-        (std::array::from_fn(word), self.kt.map_or(0, |port| ports[port] as u32)) // at most 13 bits
+    /// Reads them; 0 for a value that is not held.
+    pub fn read<const C: usize>(&self, ports: &PortValues) -> Held<C> {
+        let mut held = Held::default();
+        for (value, port) in &self.0 {
+            let bits = ports[*port];
+            match value {
+                HeldValue::Gradient(channel) => held.gradient[*channel] = bits as u64, // at most 56 bits
+                HeldValue::Kt => held.kt = bits as u32,                                // at most 13 bits
+                HeldValue::Record => held.record = bits as u32,                        // at most 20 bits
+            }
+        }
+        held
     }
 }

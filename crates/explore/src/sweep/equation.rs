@@ -1,0 +1,51 @@
+//! How far a picture is from the shading equation at each pixel, which is the same for every way of shading.
+
+use edgewalk_golden::Shading;
+use edgewalk_host::input::Input;
+use edgewalk_host::raster::{Raster, golden_fill};
+use edgewalk_machine::Plan;
+use serde::Serialize;
+
+/// The equation at each pixel of a scene, from golden in f64: the normal is linear over the surface in the world.
+pub struct Equation {
+    /// Pixels that show a triangle.
+    shown: Vec<bool>,
+    /// Colours in 0 to 1.
+    rgb: Vec<[f64; 3]>,
+}
+
+/// The distance of a picture from the equation, LSB of 8 bits; at each pixel that of its worst colour.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Distance {
+    /// Pixels that show a triangle: only these are compared.
+    pub pixels: u64,
+    /// The largest.
+    pub largest: f64,
+    /// The mean.
+    pub mean: f64,
+}
+
+impl Equation {
+    /// On the machine's screen; none of a triangle file, which has no surface.
+    #[must_use]
+    pub fn of(input: &Input, machine: &Plan) -> Option<Equation> {
+        let (scene, surface) = input.surface(machine)?;
+        // Which triangle a pixel shows is the same in all of golden's ways of shading.
+        let shaded = edgewalk_golden::shade(scene, &surface, Shading::Gouraud, golden_fill(machine));
+        Some(Equation { shown: shaded.picture.id.iter().map(|id| *id >= 0).collect(), rgb: shaded.truth })
+    }
+
+    /// How far this picture is from it.
+    #[must_use]
+    pub fn distance(&self, drawn: &Raster) -> Distance {
+        let shown = self.shown.iter().zip(&self.rgb).zip(&drawn.rgb).filter(|((shown, _), _)| **shown);
+        let (mut pixels, mut largest, mut sum) = (0_u64, 0.0_f64, 0.0);
+        for ((_, exact), drawn) in shown {
+            let worst = exact.iter().zip(drawn).map(|(a, b)| 255.0 * (a - b).abs()).fold(0.0, f64::max);
+            pixels += 1;
+            largest = largest.max(worst);
+            sum += worst;
+        }
+        Distance { pixels, largest, mean: if pixels == 0 { 0.0 } else { sum / pixels as f64 } }
+    }
+}

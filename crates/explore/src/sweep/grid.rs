@@ -1,0 +1,232 @@
+//! A sweep before anything runs: its machines, memories and inputs, all of them looked at.
+
+use super::axis::Axis;
+use super::definition::{Definition, Sample, Synthesis};
+use super::judge::{Judge, Memory};
+use super::objective::Objective;
+use super::point::{Identity, Point};
+use super::shading;
+use super::subject::{Subject, Way};
+use anyhow::{Result, anyhow};
+use edgewalk_machine::Machine;
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Most points of a sweep.
+pub const MAX_POINTS: u64 = 200_000;
+
+/// Most seeds of place and route.
+pub const MAX_SEEDS: u32 = 1000;
+
+/// A sweep that can be run.
+pub struct Sweep {
+    /// What was asked for.
+    pub definition: Definition,
+    /// Varied keys, the slowest first.
+    pub axes: Vec<Axis>,
+    /// What is drawn.
+    pub inputs: Vec<Subject>,
+    /// The memories that every machine is run with.
+    pub memories: Vec<Memory>,
+    /// How the memories count together.
+    pub judge: Judge,
+    /// What is best.
+    pub objectives: Vec<Objective>,
+    /// How many machines there are.
+    pub machines: usize,
+    /// In their order: by machines, then memories, then inputs.
+    pub points: Vec<Point>,
+}
+
+impl Sweep {
+    /// Everything is looked at before anything runs.
+    ///
+    /// # Errors
+    /// What of the definition cannot be done.
+    pub fn new(definition: Definition) -> Result<Sweep> {
+        let axes = definition.vary.iter().map(|text| Axis::parse(text)).collect::<Result<Vec<_>>>()?;
+        for (place, axis) in axes.iter().enumerate() {
+            if axes[..place].iter().any(|before| before.key.name == axis.key.name) {
+                return Err(anyhow!("--vary {}: the key is varied twice", axis.key.name));
+            }
+        }
+        let memories = Memory::list(&definition.stalls)?;
+        let judge = Judge::parse(&definition.judge, &memories)?;
+        check_bound(definition.bound)?;
+        check_seeds(definition.synth.as_ref())?;
+        let base = Machine::from_toml(&definition.machine).map_err(|e| anyhow!("{e}"))?;
+        let shadings = shadings(&definition, &base, &axes)?;
+        let synth = definition.synth.is_some();
+        let objectives = Objective::list(&definition.objectives, synth, shadings.len() > 1)?;
+        let whole = axes.iter().map(|axis| axis.values.len() as u64).fold(1, u64::saturating_mul);
+        let rows = definition.inputs.len() * memories.len();
+        let chosen = chosen(whole, definition.sample, rows as u64)?;
+        check_chunks(definition.chunks, chosen.len() * rows)?;
+        let inputs = inputs(&definition.inputs, &shadings)?;
+        let machines = chosen.len();
+        let mut sweep =
+            Sweep { definition, axes, inputs, memories, judge, objectives, machines, points: Vec::new() };
+        for (number, index) in chosen.into_iter().enumerate() {
+            let machine = sweep.machine(&base, index);
+            for memory in 0..sweep.memories.len() {
+                for input in 0..sweep.inputs.len() {
+                    let point = sweep.point(machine.clone(), [number, memory, input]);
+                    sweep.points.push(point);
+                }
+            }
+        }
+        Ok(sweep)
+    }
+
+    /// The machine with this index among all combinations: the last key changes fastest.
+    fn machine(&self, base: &Machine, index: u64) -> Machine {
+        let mut machine = base.clone();
+        let mut rest = index;
+        for axis in self.axes.iter().rev() {
+            let count = axis.values.len() as u64;
+            (axis.key.set)(&mut machine, axis.values[(rest % count) as usize]);
+            rest /= count;
+        }
+        machine
+    }
+
+    /// The point of a machine, a memory and an input, by their places.
+    fn point(&self, mut machine: Machine, [number, memory, input]: [usize; 3]) -> Point {
+        let of = &self.inputs[input];
+        // A triangle file brings its screen.
+        let varied = |name: &str| self.axes.iter().any(|axis| axis.key.name == name);
+        if let Some((width, height)) = of.size() {
+            if !varied("screen.width") {
+                machine.width = width;
+            }
+            if !varied("screen.height") {
+                machine.height = height;
+            }
+        }
+        let way = of.place(self.definition.shading.as_deref().unwrap_or(shading::of_machine(&machine)));
+        let identity = Identity {
+            machine: machine.hash(),
+            input: of.name.clone(),
+            input_hash: of.way(way).hash.clone(),
+            stalls: self.memories[memory].waits.to_string(),
+            version: self.definition.program.clone(),
+            synth: self.synth_identity(),
+            bound: self.definition.bound.map(|bound| bound.to_string()).unwrap_or_default(),
+        };
+        let plan = machine.plan().map_err(|e| e.to_string());
+        Point { key: identity.key(), number, memory, input, way, machine, plan }
+    }
+
+    /// What a point draws.
+    #[must_use]
+    pub fn drawn(&self, point: &Point) -> &Way {
+        self.inputs[point.input].way(point.way)
+    }
+
+    /// Points by their keys.
+    #[must_use]
+    pub fn by_key(&self) -> BTreeMap<&str, &Point> {
+        self.points.iter().map(|point| (point.key.as_str(), point)).collect()
+    }
+
+    /// Whether rows tell how far pictures are from the shading equation.
+    #[must_use]
+    pub fn asks_equation(&self) -> bool {
+        self.objectives.iter().any(Objective::is_of_equation)
+    }
+
+    /// How machines are synthesised, in words; empty if they are not.
+    #[must_use]
+    pub fn synth_identity(&self) -> String {
+        let of = self.definition.synth.as_ref();
+        of.map_or_else(String::new, |s| format!("{} {} seeds {}", s.target, s.unit, s.seeds))
+    }
+}
+
+fn check_bound(bound: Option<f64>) -> Result<()> {
+    match bound {
+        Some(bound) if !(bound > 0.5 && bound.is_finite()) => {
+            Err(anyhow!("--bound {bound}: permitted: above 0.5 LSB, which the output's rounding takes"))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_seeds(synth: Option<&Synthesis>) -> Result<()> {
+    match synth {
+        Some(synth) if !(1..=MAX_SEEDS).contains(&synth.seeds) => {
+            Err(anyhow!("--synth-seeds {}: permitted: 1 to {MAX_SEEDS}", synth.seeds))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_chunks(chunks: Option<u32>, points: usize) -> Result<()> {
+    match chunks {
+        Some(chunks) if chunks == 0 || chunks as usize > points => {
+            Err(anyhow!("--chunks {chunks}: permitted: 1 to {points}, at most one for each of the points"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The indices of the machines that are looked at, each of which has so many rows.
+fn chosen(whole: u64, sample: Option<Sample>, rows: u64) -> Result<Vec<u64>> {
+    let count = sample.map_or(whole, |sample| whole.min(u64::from(sample.points)));
+    if sample.is_some_and(|sample| sample.points == 0) {
+        return Err(anyhow!("--sample 0: permitted: at least 1"));
+    }
+    if count.saturating_mul(rows) > MAX_POINTS {
+        return Err(anyhow!(
+            "{count} machines with {rows} points each: permitted: {MAX_POINTS} points in all; look at some of them with --sample N --seed S"
+        ));
+    }
+    let Some(sample) = sample.filter(|_| count < whole) else { return Ok((0..whole).collect()) };
+    let mut random = Pcg64Mcg::seed_from_u64(sample.seed);
+    // Distinct ones: on grids of few values a sequence of low discrepancy would repeat itself.
+    if whole < 4 * count {
+        let drawn = rand::seq::index::sample(&mut random, whole as usize, count as usize);
+        return Ok(drawn
+            .into_iter()
+            .map(|number| number as u64)
+            .collect::<BTreeSet<_>>()
+            .into_iter()
+            .collect());
+    }
+    let mut numbers = BTreeSet::new();
+    while (numbers.len() as u64) < count {
+        numbers.insert(random.random_range(0..whole));
+    }
+    Ok(numbers.into_iter().collect())
+}
+
+/// The ways in which the machines shade.
+fn shadings(definition: &Definition, base: &Machine, axes: &[Axis]) -> Result<Vec<&'static str>> {
+    if let Some(name) = &definition.shading {
+        return Ok(vec![shading::named(name)?.0]);
+    }
+    let Some(axis) = axes.iter().find(|axis| axis.key.name == "shade.kind") else {
+        return Ok(vec![shading::of_machine(base)]);
+    };
+    let mut machine = base.clone();
+    let of = |value: &u32| {
+        (axis.key.set)(&mut machine, *value);
+        shading::of_machine(&machine)
+    };
+    Ok(axis.values.iter().map(of).collect())
+}
+
+fn inputs(names: &[String], shadings: &[&'static str]) -> Result<Vec<Subject>> {
+    let mut all: Vec<Subject> = Vec::new();
+    for name in names {
+        if all.iter().any(|before| before.name == *name) {
+            return Err(anyhow!("{name}: the input comes twice"));
+        }
+        all.push(Subject::open(name, shadings)?);
+    }
+    if all.is_empty() {
+        return Err(anyhow!("no input: name a scene, a mesh or a triangle file"));
+    }
+    Ok(all)
+}

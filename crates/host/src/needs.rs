@@ -1,0 +1,195 @@
+//! What a frame asks of a machine: every key that must have another value, all of them at once.
+
+use crate::extra;
+use anyhow::{Result, anyhow};
+use edgewalk_machine::keys::KEYS;
+use edgewalk_machine::{Gate, Plan, ShadeColour};
+use edgewalk_scene::{Blending, Frame, Light, PixelMethod, PixelShading, ShadeMode, Shadow, Triangle};
+
+/// A key of the machine that must have another value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Need {
+    /// The key's name, as in `--set`.
+    pub key: &'static str,
+    /// The value that the frame asks for.
+    pub value: String,
+    /// What of the frame asks for it.
+    pub why: String,
+}
+
+fn need(key: &'static str, value: impl ToString, why: String) -> Need {
+    Need { key, value: value.to_string(), why }
+}
+
+/// Every key of the machine that the frame asks another value for. What no key can give is not among them.
+#[must_use]
+pub fn needs(frame: &Frame, machine: &Plan) -> Vec<Need> {
+    let mut needs = Vec::new();
+    let own = extra::channels(machine).len();
+    if frame.extra != own {
+        let why = format!("extra {}: the machine has channels.extra = {own}", frame.extra);
+        needs.push(need("channels.extra", frame.extra, why));
+    }
+    blending(frame, machine, &mut needs);
+    if let Some(first) = frame.shadows.first() {
+        shadows(first, &frame.shadows, machine, &mut needs);
+    }
+    match &frame.shading {
+        Some(shading) => shaded(frame, shading, machine, &mut needs),
+        None if machine.shade.is_there() => {
+            let why = "shade.kind: the machine shades by normals and the input has none (it would with --shading \
+                       fast-phong or phong, or with such a mode)";
+            needs.push(need("shade.kind", "none", why.to_owned()));
+        }
+        None => {}
+    }
+    needs
+}
+
+/// Accepts a frame whose every need the machine meets.
+///
+/// # Errors
+/// All that it does not meet, with the settings that do.
+pub fn check(frame: &Frame, machine: &Plan) -> Result<()> {
+    let needs = needs(frame, machine);
+    if needs.is_empty() {
+        return Ok(());
+    }
+    let whys: Vec<&str> = needs.iter().map(|need| need.why.as_str()).filter(|why| !why.is_empty()).collect();
+    let settings: Vec<String> =
+        needs.iter().map(|need| format!("--set {}={}", need.key, need.value)).collect();
+    // Golden has the channels of the machine, too.
+    let golden = if needs.iter().any(|need| need.key != "channels.extra") {
+        ", or draw with --engine golden"
+    } else {
+        ""
+    };
+    Err(anyhow!(
+        "{}; add {}, or --adapt, which sets what is asked for{golden}",
+        whys.join("; "),
+        settings.join(" ")
+    ))
+}
+
+/// BLEND, and one k_t for a triangle or more.
+fn blending(frame: &Frame, machine: &Plan, needs: &mut Vec<Need>) {
+    let passes = frame.passes();
+    let why = passes.iter().find_map(|pass| match pass.state.blend {
+        Blending::Off if pass.state.color_write => None,
+        Blending::Off => Some(
+            "colour_write 0: a machine without BLEND writes the colour of every fragment that passes"
+                .to_owned(),
+        ),
+        blend => Some(format!("blend {} (transparent surfaces): the machine has no BLEND", blend.name())),
+    });
+    let Some(why) = why else { return };
+    let in_mix = |place: usize| {
+        passes.iter().any(|pass| pass.state.blend == Blending::Mix && pass.primitives.contains(&place))
+    };
+    let uneven = |Triangle(v): &Triangle| v[1].kt != v[0].kt || v[2].kt != v[0].kt;
+    // Beside polygons a triangle's place among the primitives is another one; their triangles have the polygon's k_t.
+    let polygons = !frame.polygons.is_empty();
+    let uneven = frame.mode == ShadeMode::Gouraud
+        && (frame
+            .triangles
+            .iter()
+            .enumerate()
+            .any(|(place, triangle)| (polygons || in_mix(place)) && uneven(triangle))
+            || frame
+                .polygons
+                .iter()
+                .flat_map(|polygon| polygon.contours.iter().flatten())
+                .any(|v| v.kt != frame.polygons[0].contours[0][0].kt));
+    if !machine.blend.is_there() {
+        needs.push(need("blend.kind", if uneven { "interpolated" } else { "constant" }, why));
+    } else if uneven && machine.has_triangle_kt() {
+        let why = "kt is not the same at all vertices of a triangle: blend.kind = constant has one for it";
+        needs.push(need("blend.kind", "interpolated", why.to_owned()));
+    }
+}
+
+/// SHADOW, and PROJECT before it.
+fn shadows(first: &Shadow, all: &[Shadow], machine: &Plan, needs: &mut Vec<Need>) {
+    let parallel = |shadow: &&Shadow| shadow.matrix[3][..3] == [0.0; 3] && shadow.matrix[3][3] > 0.0;
+    let perspective = all.iter().find(|shadow| !parallel(shadow));
+    let own = &machine.shadow;
+    let light = if perspective.is_some() { "perspective" } else { "parallel" };
+    match perspective {
+        _ if !own.is_there() => {
+            needs.push(need("shadow.light", light, "shadow: the machine has no SHADOW".to_owned()))
+        }
+        Some(Shadow { matrix: [.., [q0, q1, q2, q3]], .. }) if !own.projects() => {
+            let why = format!(
+                "shadow: m30 m31 m32 m33 = {q0} {q1} {q2} {q3}: the machine's light is parallel, which has 0 0 0 and more than 0"
+            );
+            needs.push(need("shadow.light", light, why));
+        }
+        _ => {}
+    }
+    let size = first.size;
+    if size != own.size
+        && KEYS.iter().any(|key| key.name == "shadow.size" && key.parse(&size.to_string()).is_some())
+    {
+        let why = format!("shadow {size}: the machine's map has {0} x {0} texels", own.size);
+        needs.push(need("shadow.size", size, why));
+    }
+    if let Some(pane) = all.iter().flat_map(|shadow| &shadow.panes).next().filter(|_| !own.transmits()) {
+        let why = format!("L with kt = {}: the machine's map says lit or not", pane.kt);
+        needs.push(need("shadow.transmits", "yes", why));
+    }
+    if let Some(shadow) = all.iter().find(|shadow| shadow.ambient > 0.0 && own.gate == Gate::And) {
+        let why = format!("shadow AMBIENT = {}: shadow.gate = and leaves nothing in shadow", shadow.ambient);
+        needs.push(need("shadow.gate", "scale", why));
+    }
+}
+
+/// TERM, SHADE and what stands between them.
+fn shaded(frame: &Frame, shading: &PixelShading, machine: &Plan, needs: &mut Vec<Need>) {
+    let (own, name) = (&machine.shade, shading.method.name());
+    let kind = if own.normalises() { PixelMethod::Phong } else { PixelMethod::FastPhong };
+    if !own.is_there() {
+        let why = format!("mode {name} (--shading {name}): the machine has no TERM and SHADE");
+        needs.push(need("shade.kind", name, why));
+    } else if shading.method != kind {
+        let why = format!("mode {name} (--shading {name}): the machine's shade.kind is {}", kind.name());
+        needs.push(need("shade.kind", name, why));
+    }
+    let sun = shading.lights.iter().any(|light| matches!(light, Light::Directional { .. }));
+    if own.is_positional() && sun {
+        let why = "a directional light: with shade.light = positional lights stand at a point";
+        needs.push(need("shade.light", "directional", why.to_owned()));
+    }
+    let (given, most) = (shading.lights.len(), own.lights as usize);
+    let permitted =
+        KEYS.iter().any(|key| key.name == "shade.lights" && key.parse(&given.to_string()).is_some());
+    if given > most && permitted && (sun || !own.is_positional()) {
+        let why = format!("{given} lights: the machine has terms for {most}");
+        needs.push(need("shade.lights", given, why));
+    }
+    let textured = !shading.textures.is_empty();
+    if textured && !own.textures() {
+        needs.push(need("texture.kind", "nearest", "texture: the machine has no TEXEL".to_owned()));
+    }
+    let color = |v: &edgewalk_scene::Vertex| [v.r, v.g, v.b];
+    let uneven = frame
+        .triangles
+        .iter()
+        .position(|Triangle(v)| color(&v[1]) != color(&v[0]) || color(&v[2]) != color(&v[0]));
+    let uneven = uneven.filter(|_| frame.mode == ShadeMode::Gouraud);
+    if own.colour == ShadeColour::Tables
+        && let Some(why) = match uneven {
+            Some(triangle) => Some(format!(
+                "triangle {triangle}: its colour is not the same at all vertices, and the machine's tables hold one"
+            )),
+            None if textured => {
+                Some("texture: the machine's tables hold the colour that a texel multiplies".to_owned())
+            }
+            None => None,
+        }
+    {
+        needs.push(need("shade.colour", "multiply", why));
+    }
+    if shading.materials.iter().any(|material| material.bump.is_some()) && !own.bumps() {
+        needs.push(need("texture.bump", "yes", "relief: the machine has no BUMP".to_owned()));
+    }
+}

@@ -1,0 +1,79 @@
+//! Pixels that were compared, and those that are wrong whatever their values.
+
+use edgewalk_host::raster::Cycles;
+use edgewalk_machine::Plan;
+use serde::Serialize;
+
+/// What was counted.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Counts {
+    /// Pixels whose coverage was compared.
+    pub pixels: u64,
+    /// Pixels of the machine's screen.
+    pub screen: u64,
+    /// Pixels where another number of triangles covers.
+    pub coverage_mismatches: u64,
+    /// Pixels that golden covers.
+    pub covered: u64,
+    /// Those of them whose triangle, number of writes, depth, colour and values of the user's own were compared.
+    pub compared: u64,
+    /// Pixels that show another triangle, or were written another number of times, as two depths there are too near for the
+    /// bound to tell their order (bound 7).
+    pub order_undecided: u64,
+    /// Pixels where no such order explains it.
+    pub order_wrong: u64,
+    /// Pixels that show no triangle, and not the cleared depth, colour and values of the user's own either.
+    pub background_wrong: u64,
+    /// Pixels of which a value left its range and wrapped.
+    pub wrapped: u64,
+    /// Cycles of the machine without a cause, or with two.
+    pub cycles_unexplained: u64,
+}
+
+impl Counts {
+    /// Nothing compared yet of a picture that took the machine so many cycles.
+    pub(super) fn new(machine: &Plan, cycles: Option<&Cycles>) -> Self {
+        Counts {
+            pixels: 0,
+            screen: u64::from(machine.width) * u64::from(machine.height),
+            coverage_mismatches: 0,
+            covered: 0,
+            compared: 0,
+            order_undecided: 0,
+            order_wrong: 0,
+            background_wrong: 0,
+            wrapped: 0,
+            cycles_unexplained: cycles.map_or(0, |cycles| cycles.unexplained()),
+        }
+    }
+
+    /// Compares the coverage of the next pixel.
+    pub(super) fn covers(&mut self, golden: u32, drawn: u32) {
+        self.pixels += 1;
+        self.coverage_mismatches += u64::from(golden != drawn);
+    }
+
+    /// Pixels and cycles that are wrong.
+    pub(super) fn wrong(&self) -> u64 {
+        self.coverage_mismatches
+            + self.order_wrong
+            + self.background_wrong
+            + self.wrapped
+            + self.cycles_unexplained
+    }
+
+    pub(super) fn lines_of_coverage(&self) -> String {
+        let Counts { compared, covered, coverage_mismatches, pixels, .. } = self;
+        format!(
+            "compared {compared} / {covered} covered pixels\ncoverage mismatches {coverage_mismatches} / {pixels}\n"
+        )
+    }
+
+    pub(super) fn lines_of_order(&self) -> String {
+        let Counts { wrapped, order_undecided, order_wrong, background_wrong, .. } = self;
+        format!(
+            "pixels with a value that wrapped {wrapped}\n\
+             triangle or writes differ: {order_undecided} within the bound of depth order, {order_wrong} wrong; background wrong {background_wrong}\n"
+        )
+    }
+}
