@@ -6,7 +6,7 @@ use clap::ValueEnum as _;
 use edgewalk_golden::Order;
 use edgewalk_host::extra;
 use edgewalk_host::input::{fitting, in_triangles};
-use edgewalk_host::needs::{self, Need};
+use edgewalk_host::needs::needs;
 use edgewalk_host::port::guard_band;
 pub use edgewalk_host::port::{PortFrame, draw_state, port_triangle, to_port};
 use edgewalk_machine::Plan;
@@ -85,8 +85,10 @@ impl Source {
         let shading = self.shading.to_possible_value().filter(|_| self.shading != Shading::Gouraud);
         let shading = shading.map(|shading| ["--shading".to_owned(), shading.get_name().to_owned()]);
         // A name that begins with a hyphen would be read as an option.
-        let here = if self.input.starts_with('-') { "./" } else { "" };
-        shading.into_iter().flatten().chain([format!("{here}{}", self.input)]).collect()
+        let named = self.input.starts_with('-') && self.input != InputKind::STANDARD_INPUT;
+        let here = if named { "./" } else { "" };
+        let adapt = self.adapt.then(|| "--adapt".to_owned());
+        shading.into_iter().flatten().chain(adapt).chain([format!("{here}{}", self.input)]).collect()
     }
 
     /// Whether the input is a triangle file, which has no surface to shade.
@@ -114,22 +116,19 @@ impl Source {
     /// The machine asked for, with the screen of a triangle file, and with --adapt with all keys that the input asks for.
     pub fn machine(&self, args: &MachineArgs) -> Result<Plan> {
         let screen = self.screen()?;
-        self.adapted(args.machine(screen)?, |needs| args.adapted(screen, needs))
-    }
-
-    fn adapted(&self, machine: Plan, with: impl FnOnce(&[Need]) -> Result<Plan>) -> Result<Plan> {
+        let machine = args.machine(screen)?;
         if !self.adapt {
             return Ok(machine);
         }
         let needs = match self.triangles()? {
-            Some(frame) => needs::needs(frame, &machine),
+            Some(frame) => needs(frame, &machine),
             None => {
                 let scene = Scene::open(&self.input)?;
                 let surface = scene.surface(machine.width, machine.height, guard_band(&machine));
-                needs::needs(&self.frame_of(&scene, &surface, &machine)?.0, &machine)
+                needs(&self.frame_of(&scene, &surface, &machine)?.0, &machine)
             }
         };
-        if needs.is_empty() { Ok(machine) } else { with(&needs) }
+        args.adapted(screen, &needs)
     }
 
     /// The scene, and its surface on this machine's screen, clipped to its guard band.

@@ -1,5 +1,6 @@
 //! `edgewalk triangles`: a scene or a mesh as a triangle file.
 
+use crate::document::line;
 use crate::input::Source;
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
@@ -42,7 +43,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         out.publish(&[name])?;
         let at = args.out.display().to_string();
         talk.say(
-            || Ok(serde_json::json!({ "file": at, "triangles": triangles, "width": size.0, "height": size.1 }).to_string()),
+            || line("triangles", serde_json::json!({ "file": at, "triangles": triangles, "width": size.0, "height": size.1 })),
             || format!("{at}: {triangles} triangles on {} x {} pixels", size.0, size.1),
         )?;
     }
