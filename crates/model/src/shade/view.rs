@@ -41,7 +41,8 @@ impl<const C: usize> Shade<C> {
                 fragments::values(plan, frag.addr, &values)
             });
             view.row(name);
-            let shown = stage.zip(values.as_ref()).map(|(shaded, values)| (shaded.frag.source.id, &values[..]));
+            let shown =
+                stage.zip(values.as_ref()).map(|(shaded, values)| (shaded.frag.source.id, &values[..]));
             view.token_cell("a fragment on its way to its colour", "fragment", shown);
         }
         view.lane(current, self.occupied() || loading);
