@@ -94,7 +94,8 @@ fn blending(frame: &Frame, machine: &Plan, needs: &mut Vec<Need>) {
     };
     let of_polygons = || {
         let mut kts = frame.polygons.iter().map(|polygon| polygon.contours.iter().flatten().map(|v| v.kt));
-        kts.any(|mut kts| kts.next().is_some_and(|first| kts.any(|kt| kt != first))).then(|| "kt within a polygon".to_owned())
+        kts.any(|mut kts| kts.next().is_some_and(|first| kts.any(|kt| kt != first)))
+            .then(|| "kt within a polygon".to_owned())
     };
     let uneven = match frame.mode {
         ShadeMode::Gouraud => frame.triangles.iter().enumerate().find_map(uneven).or_else(of_polygons),
