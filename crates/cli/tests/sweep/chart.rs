@@ -295,7 +295,8 @@ impl Chart<'_> {
             seen.sort_by(f64::total_cmp);
             assert_eq!(own.len(), seen.len());
             let near = |(a, b): (&f64, &f64)| {
-                (a - b).abs() <= 1e-3 * (high - low) + 1e-4 * high.abs() || (high == low && own[0] == own[own.len() - 1])
+                (a - b).abs() <= 1e-3 * (high - low) + 1e-4 * high.abs()
+                    || (high == low && own[0] == own[own.len() - 1])
             };
             assert!(own.iter().zip(&seen).all(near), "{name}: {own:?} {seen:?}");
             checked += own.len();
