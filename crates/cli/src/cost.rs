@@ -1,6 +1,5 @@
 //! Synthesis of one machine after another, for sweeps and comparisons.
 
-use crate::commands::synth::cache_folder;
 use crate::scratch::Scratch;
 use anyhow::{Context, Result, anyhow};
 use edgewalk_explore::sweep::definition::Synthesis;
@@ -10,7 +9,7 @@ use edgewalk_synth::{Cache, Design, Flow, Outcome, Part, Target};
 use edgewalk_tool::Stop;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
@@ -125,4 +124,14 @@ impl Synthesiser {
         value["design"] = design.hash.clone().into();
         Ok(value)
     }
+}
+
+/// Where results of the tools are kept: in the folder asked for, or where the system keeps such things.
+pub fn cache_folder(asked: Option<&Path>) -> Result<PathBuf> {
+    let variable = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
+    let usual = || variable("XDG_CACHE_HOME").or_else(|| Some(variable("HOME")?.join(".cache")));
+    let own = |folder: PathBuf| folder.join("edgewalk").join("synth");
+    asked.map(Path::to_owned).or_else(|| usual().map(own)).ok_or_else(|| {
+        anyhow!("neither XDG_CACHE_HOME nor HOME says where to keep results; say it with --cache DIR")
+    })
 }

@@ -72,8 +72,8 @@ fn applies_and_is_counted_right(name: &str, files: usize, least: usize, most_lin
 }
 
 #[test]
-fn a_unit_takes_twelve_files() {
-    applies_and_is_counted_right("adding_a_unit", 12, 20, 500);
+fn a_unit_takes_nine_files() {
+    applies_and_is_counted_right("adding_a_unit", 9, 18, 300);
 }
 
 #[test]

@@ -212,7 +212,7 @@ fn raster_says_what_draws_a_mesh() {
     for (name, kind) in [("a.obj", "a mesh"), ("b.toml", "a scene"), ("sphere", "a scene")] {
         let (code, error) = run(folder.path(), &["raster", name, "--out", "o"]);
         let expected = format!(
-            "edgewalk: {name}: {kind}: permitted: a triangle file (.tri); draw it with `edgewalk render {name}`, or make a triangle \
+            "error: {name}: {kind}: permitted: a triangle file (.tri); draw it with `edgewalk render {name}`, or make a triangle \
              file of it with `edgewalk triangles {name} --out FILE.tri`\n"
         );
         assert_eq!((code, error), (Some(2), expected));
@@ -280,7 +280,7 @@ fn messages_name_values_in_their_order() {
     ] {
         std::fs::write(folder.join("a.tri"), text).unwrap();
         let (code, error) = run(folder, &["raster", "a.tri", "--out", "o"]);
-        assert!(code == Some(2) && error.starts_with(&format!("edgewalk: {expected}")), "{text:?}: {error}");
+        assert!(code == Some(2) && error.starts_with(&format!("error: {expected}")), "{text:?}: {error}");
     }
     let negative = "size 8 8\nT 1 1 0 -1 0 0 0  7 1 0 0 0 0 0  1 7 0 0 0 0 0\n";
     std::fs::write(folder.join("a.tri"), negative).unwrap();

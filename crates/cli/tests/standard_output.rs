@@ -9,13 +9,14 @@ use std::path::Path;
 use std::process::Stdio;
 
 /// A quick run of each command, as text; those with a report also come with --json.
-pub const COMMANDS: [&[&str]; 19] = [
+pub const COMMANDS: [&[&str]; 20] = [
     &["demo", "d.tri", "--out", "demo"],
     &["render", "d.tri", "--out", "render"],
     &["render", "sphere", "--engine", "golden", "--out", "shaded"],
     &["gallery", "worked-example", "--out", "gallery"],
     &["explain", "d.tri", "10", "10"],
     &["raster", "d.tri", "--out", "raster"],
+    &["triangles", "d.tri", "--out", "t.tri"],
     &["emit", "--out", "emit"],
     &["vectors", "--suite", "hazards", "--unit", "depth", "--out", "vectors"],
     &["verify", "d.tri", "--triangles", "1", "--no-simulators", "--set", "screen.guard_bits=7"],

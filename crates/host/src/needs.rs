@@ -86,25 +86,26 @@ fn blending(frame: &Frame, machine: &Plan, needs: &mut Vec<Need>) {
     let in_mix = |place: usize| {
         passes.iter().any(|pass| pass.state.blend == Blending::Mix && pass.primitives.contains(&place))
     };
-    let uneven = |Triangle(v): &Triangle| v[1].kt != v[0].kt || v[2].kt != v[0].kt;
-    // Beside polygons a triangle's place among the primitives is another one; their triangles have the polygon's k_t.
-    let polygons = !frame.polygons.is_empty();
-    let uneven = frame.mode == ShadeMode::Gouraud
-        && (frame
-            .triangles
-            .iter()
-            .enumerate()
-            .any(|(place, triangle)| (polygons || in_mix(place)) && uneven(triangle))
-            || frame
-                .polygons
-                .iter()
-                .flat_map(|polygon| polygon.contours.iter().flatten())
-                .any(|v| v.kt != frame.polygons[0].contours[0][0].kt));
+    // Beside polygons a triangle's place among the primitives is another one.
+    let mixed = |place: usize| !frame.polygons.is_empty() || in_mix(place);
+    let uneven = |(place, Triangle(v)): (usize, &Triangle)| {
+        let corner = (1..3).find(|corner| v[*corner].kt != v[0].kt).filter(|_| mixed(place))?;
+        Some(format!("triangle {place}, vertex {corner}: kt = {} after {}", v[corner].kt, v[0].kt))
+    };
+    let of_polygons = || {
+        let mut kts = frame.polygons.iter().map(|polygon| polygon.contours.iter().flatten().map(|v| v.kt));
+        kts.any(|mut kts| kts.next().is_some_and(|first| kts.any(|kt| kt != first)))
+            .then(|| "kt within a polygon".to_owned())
+    };
+    let uneven = match frame.mode {
+        ShadeMode::Gouraud => frame.triangles.iter().enumerate().find_map(uneven).or_else(of_polygons),
+        ShadeMode::Flat => None,
+    };
     if !machine.blend.is_there() {
-        needs.push(need("blend.kind", if uneven { "interpolated" } else { "constant" }, why));
-    } else if uneven && machine.has_triangle_kt() {
-        let why = "kt is not the same at all vertices of a triangle: blend.kind = constant has one for it";
-        needs.push(need("blend.kind", "interpolated", why.to_owned()));
+        needs.push(need("blend.kind", if uneven.is_some() { "interpolated" } else { "constant" }, why));
+    } else if let Some(what) = uneven.filter(|_| machine.has_triangle_kt()) {
+        let why = format!("{what}: blend.kind = constant has one for a triangle");
+        needs.push(need("blend.kind", "interpolated", why));
     }
 }
 

@@ -1,5 +1,5 @@
-//! Choices among registers by a number: the one that the number names is read where it lies, instead of each of them and then
-//! chosen.
+//! Choices among registers by a number. The register that the number names is read where it lies, instead of
+//! reading all of them and then choosing.
 
 use edgewalk_netlist::Op;
 
@@ -23,12 +23,14 @@ impl Array {
         Array { index, registers: vec![zero?, one?] }.if_alike(graph, signs)
     }
 
-    /// By a number: of a choice by a bit that is this for each number, between registers or arrays of that number.
+    /// By a number: of a choice by a bit that is this for each number, between registers or arrays of that
+    /// number.
     pub fn of_choice(
         graph: &Graph,
         signs: &Signs,
         id: ValueId,
-        (index, bits): (ValueId, &[u128]),
+        index: ValueId,
+        bits: &[u128],
         array: impl Fn(ValueId) -> Option<Array>,
     ) -> Option<Array> {
         let &[_, one, zero] = graph.as_op(id, Op::Mux)? else { return None };

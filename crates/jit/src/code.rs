@@ -71,16 +71,17 @@ impl Code {
     /// If the state is smaller than the layout: a defect of this crate.
     pub fn run(&self, state: &mut [u64]) {
         assert!(state.len() >= self.size, "the state is made from the same layout");
-        // SAFETY: the program reads and writes only places and areas of its layout, and these end within `size` words
-        // (`Layout::take` hands them out one after the other and `size` is where the last ends); a word of an area is
-        // accessed only at an index that was found to be less than the number of words, or 0, or that has too few bits
-        // to be more (`index`, `read` and `write` in `lower/memory.rs`); an entry of a table at an index of as many bits as
-        // it has entries for, zeros above them (`looked_up` in `lower/demand.rs`); a register at the place that such an entry or a
-        // bit, 0 or 1, says (`read_from_array`), each of which is one of the layout; two words that stand side by side in
-        // it (`lower/copies.rs`); seeds word by word and their copies two words at a time, to the end of
-        // the places that the layout has for them (`asked` in `lower/wake_counters.rs`). The slice is ours alone while the call lasts,
-        // aligned to 8 bytes as the accesses say, and any bits are a valid u64. The code calls nothing and cannot
-        // unwind. It takes [`ODD`] off the address that it is given.
+        // SAFETY: the program reads and writes only places and areas of its layout, and these end within
+        // `size` words (`Layout::take` hands them out one after the other and `size` is where the last ends);
+        // a word of an area is accessed only at an index that was found to be less than the number of words,
+        // or 0, or that has too few bits to be more (`index`, `read` and `write` in `lower/memory.rs`); an
+        // entry of a table at an index of as many bits as it has entries for, zeros above them (`looked_up`
+        // in `lower/demand.rs`); a register at the place that such an entry or a bit, 0 or 1, says
+        // (`read_from_array`), each of which is one of the layout; two words that stand side by side in it
+        // (`lower/copies.rs`); seeds word by word and their copies two words at a time, to the end of the
+        // places that the layout has for them (`asked` in `lower/wake_counters.rs`). The slice is ours alone
+        // while the call lasts, aligned to 8 bytes as the accesses say, and any bits are a valid u64. The
+        // code calls nothing and cannot unwind. It takes [`ODD`] off the address that it is given.
         unsafe { (self.entry)(state.as_mut_ptr().wrapping_byte_add(ODD as usize)) }
     }
 }
@@ -89,8 +90,8 @@ impl Drop for Code {
     fn drop(&mut self) {
         if let Some(module) = self.module.take() {
             let module = module.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-            // SAFETY: the only pointer into this memory is the entry; it is never handed out, nobody can be in it while
-            // `self` is borrowed exclusively, and nobody can call it afterwards.
+            // SAFETY: the only pointer into this memory is the entry; it is never handed out, nobody can be
+            // in it while `self` is borrowed exclusively, and nobody can call it afterwards.
             unsafe { module.free_memory() }
         }
     }
@@ -101,7 +102,8 @@ fn isa() -> Result<OwnedTargetIsa, JitError> {
     let refused = |error: &dyn std::fmt::Display| JitError::Host(error.to_string());
     let mut flags = settings::builder();
     for (name, value) in [
-        // What it would simplify is simplified here, before; and it would part a bit's load from the branch that tests it.
+        // What it would simplify is simplified here, before; and it would part a bit's load from the branch
+        // that tests it.
         ("opt_level", "none"),
         ("enable_verifier", if cfg!(debug_assertions) { "true" } else { "false" }),
         ("enable_probestack", "false"),
@@ -130,9 +132,9 @@ fn entry(module: &mut JITModule, program: Program, plan: &Plan) -> Result<(Entry
     module.define_function(function, &mut context).map_err(refused)?;
     module.finalize_definitions().map_err(refused)?;
     let address = module.get_finalized_function(function);
-    // SAFETY: the address is that of a finalized function with the signature given above, (pointer) -> () in the platform's
-    // C convention, which is what `Entry` says. It is executable as long as `module` lives: `Code` keeps both together, and
-    // calls the entry only through `&self`.
+    // SAFETY: the address is that of a finalized function with the signature given above, (pointer) -> () in
+    // the platform's C convention, which is what `Entry` says. It is executable as long as `module` lives:
+    // `Code` keeps both together, and calls the entry only through `&self`.
     let entry = unsafe { std::mem::transmute::<*const u8, Entry>(address) };
     Ok((entry, cost))
 }

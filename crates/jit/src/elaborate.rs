@@ -1,5 +1,5 @@
-//! The hierarchy taken apart: a module and its instances become one graph. Wires and ports are names of a value; what
-//! nobody can see is not there.
+//! Dissolves the hierarchy: a module and its instances become one graph. Wires and ports become names of a value; a value that
+//! nothing reads is left out.
 
 use std::collections::BTreeMap;
 

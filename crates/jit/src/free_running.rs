@@ -1,12 +1,14 @@
 //! Registers that get a unit of their own, so that a unit can stand still without them, or they without it.
 //!
-//! A **free-running** register, or runner, is a counter that nothing holds: the value that it takes when nothing else is asked for follows
-//! from itself alone. It would keep its unit awake in every clock, though most of the time the unit does not see it. For there is a bit, its
-//! **mask**, such that nothing else in the unit follows from the runner while the mask is 0. All runners are one unit, which always
-//! works. They wake their own unit only while the mask is 1.
+//! A **free-running** register, or runner, is a counter that nothing holds: the value that it takes when
+//! nothing else is asked for follows from itself alone. It would keep its unit awake in every clock, though
+//! most of the time the unit does not see it. For there is a bit, its **mask**, such that nothing else in the
+//! unit follows from the runner while the mask is 0. All runners are one unit, which always works. They wake
+//! their own unit only while the mask is 1.
 //!
-//! **Calm** registers are stored in every clock too. But they follow only from each other and from registers of the unit that are loaded now
-//! and then, such as differences of corners that stay while a triangle is set up.
+//! **Calm** registers are stored in every clock too. But they follow only from each other and from registers
+//! of the unit that are loaded now and then, such as differences of corners that stay while a triangle is set
+//! up.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,5 @@
-//! The values of a design without its hierarchy: every value is computed once, however often the modules ask for it.
+//! The values of a design without its hierarchy: every value is computed once, however often the modules ask
+//! for it.
 
 use std::collections::HashMap;
 

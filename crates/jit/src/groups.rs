@@ -1,5 +1,5 @@
-//! Registers and read ports that change under the same conditions: they share the branches of a clock, and what only
-//! they need is computed only when they change.
+//! Groups of registers and read ports that change under the same conditions. A group shares the branches of a clock; values that only
+//! its members need are computed only when they change.
 
 use std::collections::HashMap;
 

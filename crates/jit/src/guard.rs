@@ -1,5 +1,5 @@
-//! What a condition needs: `advance & active & !full` is 1 only if three other bits have certain values, so that steps
-//! which need the same can share a branch.
+//! What a condition needs: `advance & active & !full` is 1 only if three other bits have certain values. Steps that need the
+//! same bit can share a branch.
 
 use std::collections::{BTreeSet, HashMap};
 

@@ -1,6 +1,7 @@
-//! What bits are in an idle machine: after a reset, with all inputs 0 or all inputs 1, since a memory that is ready gives 1. A condition that
-//! holds then, such as "the place is free", does not mean that what changes under it gets a new value. A condition that does not hold
-//! then, such as "a token enters", means that something is going on.
+//! What bits are in an idle machine: after a reset, with all inputs 0 or all inputs 1, since a memory that is
+//! ready gives 1. A condition that holds then, such as "the place is free", does not mean that what changes
+//! under it gets a new value. A condition that does not hold then, such as "a token enters", means that
+//! something is going on.
 
 use edgewalk_netlist::ops::{Bits, mask};
 

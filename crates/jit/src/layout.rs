@@ -1,6 +1,7 @@
-//! Where everything lies in the state: one buffer of 64-bit words. Each signal has its own place of 8 bytes, 16 if wider
-//! than 64 bits, low half first, and those that are compared with what they were stand together; then the outputs as they were
-//! before the last clock; then the words of the memories, each in the smallest of 1, 2, 4, 8 or 16 bytes.
+//! Where everything lies in the state, one buffer of 64-bit words. Each signal has a place of 8 bytes, or of
+//! 16 if it is wider than 64 bits, low half first; signals that are compared with their old values stand
+//! together. Then come the outputs as they were before the last clock, then the words of the memories, each
+//! in the smallest of 1, 2, 4, 8 or 16 bytes.
 
 use std::collections::HashMap;
 

@@ -1,20 +1,24 @@
-//! A netlist compiled to native code by Cranelift: the same values as [`edgewalk_netlist::Simulator`], faster.
+//! A netlist compiled to native code by Cranelift: the same values as [`edgewalk_netlist::Simulator`],
+//! faster.
 //!
 //! ```text
 //!  netlist ─> elaborate ─> merge_registers ─> free_running ─> design: a graph of values ─> groups ─> schedule: branches ─> order ─┐
 //!                                                                          skip_idle_units: which unit is woken by what <────────┤
 //!                          code <─ lower <─ layout <─ tables: what is looked up, shared: what is kept <──────────────────────────┘
 //! ```
-//! A value is computed where something needs it, most often once in a clock. Registers and read ports that change under the same
-//! conditions form a group with one branch; groups that need the same condition share a branch around them. A value that only one group
-//! needs is computed in its branch. Registers change in place, in an order in which most are read before they change. Registers that
-//! are equal in every clock are one register.
+//! A value is computed where something needs it, most often once in a clock. Registers and read ports that
+//! change under the same conditions form a group with one branch; groups that need the same condition share a
+//! branch around them. A value that only one group needs is computed in its branch. Registers change in
+//! place, in an order in which most are read before they change. Registers that are equal in every clock are
+//! one register.
 //!
-//! A unit in which nothing can change is left out as a whole. Registers that would keep a unit awake, or that rest while it works, get a unit of
-//! their own. A value that follows from one narrow value is looked up in a table. A register that a number names is read where it lies.
-//! Values that several steps need are kept in the state between them, as the processor has few registers.
+//! A unit in which nothing can change is left out as a whole. Registers that would keep a unit awake, or that
+//! rest while it works, get a unit of their own. A value that follows from one narrow value is looked up in a
+//! table. A register that a number names is read where it lies. Values that several steps need are kept in
+//! the state between them, as the processor has few registers.
 //!
-//! Widths are those of the netlist, 1 to 128 bits: a bit is 8 bits of the processor, up to 64 are one word, more are two.
+//! Widths are those of the netlist, 1 to 128 bits: a bit is 8 bits of the processor, up to 64 are one word,
+//! more are two.
 
 mod graph;
 mod simplify;

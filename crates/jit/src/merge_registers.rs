@@ -1,6 +1,7 @@
-//! Merges registers that are equal in every clock: those of a unit that begin alike and take the same values under the same conditions, as
-//! lanes side by side have them. All registers of a unit that begin alike are taken to be equal, and split where they do not take the
-//! same values. So registers that follow from each other are found too.
+//! Merges registers that are equal in every clock: those of a unit that begin alike and take the same values
+//! under the same conditions, as lanes side by side have them. All registers of a unit that begin alike are
+//! taken to be equal, and split where they do not take the same values. So registers that follow from each
+//! other are found too.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasher, BuildHasherDefault, DefaultHasher};
@@ -86,8 +87,8 @@ fn hash(of: impl std::hash::Hash) -> u64 {
     BuildHasherDefault::<DefaultHasher>::default().hash_one(of)
 }
 
-/// The others take the place of these registers: none, if one of them then takes something else than the other, which only hashes
-/// that are the same by chance can bring about.
+/// The others take the place of these registers: none, if one of them then takes something else than the
+/// other, which only hashes that are the same by chance can bring about.
 fn without(design: &Design, equals: &HashMap<ValueId, ValueId>) -> Option<Design> {
     let before = &design.graph;
     let mut graph = Graph::default();

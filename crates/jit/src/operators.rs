@@ -7,7 +7,8 @@ use crate::graph::{Graph, Kind, ValueId};
 use crate::simplify::{Simpler, simpler};
 
 impl Graph {
-    /// The value of an operator whose operands fit it: the one that is there already, or a simpler one, or a new one.
+    /// The value of an operator whose operands fit it: the one that is there already, or a simpler one, or a
+    /// new one.
     pub fn op(&mut self, op: Op, width: u32, operands: &[ValueId]) -> ValueId {
         let constants = operands
             .iter()

@@ -1,4 +1,5 @@
-//! The order of steps. A register is best read before it changes: else its old value must be kept for the readers.
+//! The order of steps. A register is best read before it changes: otherwise its old value must be kept for
+//! the steps that read it later.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -12,8 +13,8 @@ use crate::step::Step;
 /// Registers of a step that change in every clock; more at once would not find room in the processor.
 const MOST_JOINED: usize = 16;
 
-/// A condition that a unit asks in every clock is worked out early if it follows from so many registers or more: they need
-/// not stay for it then.
+/// A condition that a unit asks in every clock is worked out early if it follows from so many registers or
+/// more: they need not stay for it then.
 const MANY: u32 = 8;
 
 /// Which registers and inputs each value depends on.
@@ -127,7 +128,8 @@ impl<'d> Readers<'d> {
         (self.joined(sorted(open)), all)
     }
 
-    /// Neighbours that change in every clock are one step: what they share stays in registers of the processor.
+    /// Neighbours that change in every clock are one step: what they share stays in registers of the
+    /// processor.
     fn joined(&self, steps: Vec<Step>) -> Vec<Step> {
         let always = |group: &Group| {
             group.conditions.len() == 1 && self.design.graph.as_constant(group.conditions[0]) == Some(1)

@@ -1,5 +1,5 @@
-//! A clock as nested branches: groups that change only if the same bit is 1 stand in one block, which is skipped if it
-//! is 0.
+//! A clock as nested branches: groups that change only if the same bit is 1 stand in one block, which is
+//! skipped if it is 0.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -126,8 +126,9 @@ fn joined(groups: Vec<Group>) -> Vec<Group> {
     several
 }
 
-/// Of the conditions of the groups that have several, those within which most groups change. One that always holds is no choice:
-/// all that changes in every clock would be within it, apart from the rest. Two groups are too few to ask for once more.
+/// Of the conditions of the groups that have several, those within which most groups change. One that always
+/// holds is no choice: all that changes in every clock would be within it, apart from the rest. Two groups
+/// are too few to ask for once more.
 fn widest_choice(graph: &Graph, open: &[Open]) -> Option<BTreeSet<Literal>> {
     let several =
         open.iter().filter(|o| o.needs.len() > 1 && shared(o).is_empty() && !o.group.is_unconditional(graph));

@@ -1,5 +1,5 @@
-//! Values that several steps of a clock need: they are kept in the state from the first that needs them on. In a register of
-//! the processor they would not stay till then.
+//! Values that several steps of a clock need. They are kept in the state from the first of these steps on: in
+//! a register of the processor they would not survive that long.
 
 use edgewalk_netlist::Op;
 
@@ -98,7 +98,8 @@ impl Walk<'_> {
         sink.look(&design.graph, tables, asked, |value| known[value.index()] != 0);
     }
 
-    /// Depth first with its own stack, as for what is lowered: an entry is a value, or a choice of which the arms are left.
+    /// Depth first with its own stack, as for what is lowered: an entry is a value, or a choice of which the
+    /// arms are left.
     fn need(&mut self, value: ValueId) {
         let mut open = vec![(value, false)];
         while let Some((value, arms_are_left)) = open.pop() {
@@ -137,7 +138,8 @@ impl Walk<'_> {
     }
 }
 
-/// The value of which it has the bits, with zeros above them or without the upper ones: it costs nothing to have it again.
+/// The value of which it has the bits, with zeros above them or without the upper ones: it costs nothing to
+/// have it again.
 fn same_bits(graph: &Graph, value: ValueId) -> Option<ValueId> {
     let Kind::Op(op, operands) = graph.kind(value) else { return None };
     let is_word = |value: ValueId| (2..=64).contains(&graph.width(value));

@@ -1,5 +1,6 @@
-//! Registers that are kept sign-extended, with copies of their sign above their bits instead of zeros: those that are read more often so.
-//! A sum of such registers has its sign where it belongs, and needs no mask to be stored.
+//! Registers that are kept sign-extended, with copies of their sign above their bits instead of zeros: those
+//! that are read more often so. A sum of such registers has its sign where it belongs, and needs no mask to
+//! be stored.
 
 use edgewalk_netlist::Op;
 
@@ -38,7 +39,8 @@ impl Signs {
     }
 }
 
-/// 1 if the operator reads the operand at this place with copies of its sign, -1 if with zeros, 0 if it does not matter.
+/// 1 if the operator reads the operand at this place with copies of its sign, -1 if with zeros, 0 if it does
+/// not matter.
 fn wish(graph: &Graph, op: Op, place: usize, id: ValueId, operand: ValueId) -> i32 {
     match op {
         Op::SignExtend(_) | Op::Sar(_) | Op::LtSigned | Op::MulSigned => 1,

@@ -1,5 +1,5 @@
-//! Simpler ways to say an operator. Relations become `Eq`, `Lt` and `LtSigned`, or the `Not` of one of them, so that a
-//! condition and its opposite are seen to be opposites.
+//! Simpler operators with the same value. Relations become `Eq`, `Lt` and `LtSigned`, or the `Not` of one of them; so a condition and
+//! its opposite are recognised as opposites.
 
 use edgewalk_netlist::Op;
 use edgewalk_netlist::ops::mask;

@@ -1,4 +1,4 @@
-//! Runs a netlist as native code: the same face as `edgewalk_netlist::Simulator`.
+//! Runs a netlist as native code, with the interface of `edgewalk_netlist::Simulator`.
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};
@@ -24,8 +24,8 @@ use crate::state::State;
 use crate::step::Step;
 use crate::tables::Tables;
 
-/// A running netlist. Inputs are 0 until set; registers without reset, and memory outputs before the first read, are 0
-/// at the start. A clone shares the code and has its own state.
+/// A running netlist. Inputs are 0 until set; registers without reset, and memory outputs before the first
+/// read, are 0 at the start. A clone shares the code and has its own state.
 #[derive(Clone)]
 pub struct Simulator {
     compiled: Arc<Compiled>,
@@ -48,7 +48,8 @@ impl Compiled {
     /// The program for the state.
     ///
     /// # Panics
-    /// If one that is compiled now does not compile where the clock did, which was larger: a defect of this crate.
+    /// If one that is compiled now does not compile where the clock did, which was larger: a defect of this
+    /// crate.
     fn code(&self, program: Program) -> &Code {
         let compile = || Code::new(program, &self.plan).expect("the host compiled the clock");
         match program {
@@ -134,8 +135,8 @@ impl Simulator {
         found.map(|(_, place)| OutputId(*place)).ok_or_else(|| SimError::NoSignal(name.to_owned()))
     }
 
-    /// A port, register, named wire, named constant, memory output (`ram_q`) or instance output (`u_a_q`) by its path:
-    /// `q` in the top module, `u_edge.u_minor.slope` deeper down.
+    /// A port, register, named wire, named constant, memory output (`ram_q`) or instance output (`u_a_q`) by
+    /// its path: `q` in the top module, `u_edge.u_minor.slope` deeper down.
     ///
     /// # Errors
     /// If there is none of that path.
@@ -225,15 +226,16 @@ impl Simulator {
         Ok((0..area.words).map(|index| self.state.word(*area, index)).collect())
     }
 
-    /// Computes the outputs that follow from inputs and registers, if anything changed. Reading a signal does it too.
+    /// Computes the outputs that follow from inputs and registers, if anything changed. Reading a signal does
+    /// it too.
     pub fn eval(&mut self) {
         if std::mem::replace(&mut self.outputs_stale, false) {
             self.execute(Program::Outputs);
         }
     }
 
-    /// Of the units that can stand still, how many work in the next clock, if no input changes: the others are left out of it. A bit
-    /// from another unit may still wake them.
+    /// Of the units that can stand still, how many work in the next clock, if no input changes: the others
+    /// are left out of it. A bit from another unit may still wake them.
     pub fn working(&self) -> usize {
         let Plan { wakes, layout, .. } = &self.compiled.plan;
         wakes.units(u64::MAX).filter(|(unit, _)| self.state.clocks(layout, *unit) > 0).count()

@@ -1,6 +1,6 @@
-//! Values sink into the arm of a choice that alone needs them. An arm that needs much is computed only where the choice takes it. So is an
-//! operand of an `And` if the other operand is 1. A step sinks a value if nothing else in that step reads it; other steps that
-//! need the value compute it for themselves.
+//! Values sink into the arm of a choice that alone needs them. An arm that needs much is computed only where
+//! the choice takes it. So is an operand of an `And` if the other operand is 1. A step sinks a value if
+//! nothing else in that step reads it; other steps that need the value compute it for themselves.
 
 use std::collections::BTreeMap;
 
@@ -9,10 +9,12 @@ use edgewalk_netlist::Op;
 use crate::graph::{Graph, Kind, ValueId};
 use crate::tables::Tables;
 
-/// An arm of so many instructions or more gets a branch: about what a branch costs that is guessed wrong now and then.
+/// An arm of so many instructions or more gets a branch: about what a branch costs that is guessed wrong now
+/// and then.
 const LEAST: u32 = 8;
 
-/// The same for what is asked only if another bit is 1: one that is 1 half of the time is guessed wrong more often.
+/// The same for what is asked only if another bit is 1: one that is 1 half of the time is guessed wrong more
+/// often.
 const LEAST_ASKED: u32 = 12;
 
 /// Choices in arms of choices have branches to this depth, as lowering calls itself for each.
@@ -25,8 +27,8 @@ struct Tree {
     readers: u32,
     /// Choices with branches, one in the other's arm, at most, in what it needs.
     depth: u32,
-    /// An arm that costs much: the value is a choice with branches, or an `And` of which this operand is asked only if the other
-    /// is 1.
+    /// An arm that costs much: the value is a choice with branches, or an `And` of which this operand is
+    /// asked only if the other is 1.
     dear: Option<ValueId>,
 }
 
@@ -97,8 +99,8 @@ impl Sink {
         }
     }
 
-    /// What has to be there before an operator: its operands; of a choice with branches the condition, and what an arm shares
-    /// with others.
+    /// What has to be there before an operator: its operands; of a choice with branches the condition, and
+    /// what an arm shares with others.
     pub fn before(&self, graph: &Graph, tables: &Tables, id: ValueId) -> Vec<ValueId> {
         let Some(choice) = self.choice(graph, id) else { return tables.operands(graph, id).to_vec() };
         let mut before = vec![choice.bit];
@@ -113,8 +115,8 @@ impl Sink {
         before
     }
 
-    /// From an arm down, readers first: each value that has to be worked out, and whether only the arm needs it, as far as all
-    /// that read it are such. Until `next` says no.
+    /// From an arm down, readers first: each value that has to be worked out, and whether only the arm needs
+    /// it, as far as all that read it are such. Until `next` says no.
     fn walk(
         &self,
         graph: &Graph,

@@ -1,18 +1,20 @@
-//! Units in which nothing can change are left out. What is computed from unchanged values comes out as it was. So the steps of a unit
-//! can be left out when nothing that they read has changed for some clocks.
+//! Units in which nothing can change are left out. What is computed from unchanged values comes out as it
+//! was. So the steps of a unit can be left out when nothing that they read has changed for some clocks.
 //!
-//! Some registers of a unit, its **seeds**, are watched. They are chosen such that the others do not feed themselves: no way leads
-//! from one of the others back to itself except through a seed. When seeds, inputs, memories and what the unit reads from other units
-//! have not changed for a clock, the registers that follow from them alone do not change in the next clock. A clock later those stay
-//! that follow from these, and after as many clocks as the longest way has registers all of them stay.
+//! Some registers of a unit, its **seeds**, are watched. They are chosen such that the others do not feed
+//! themselves: no way leads from one of the others back to itself except through a seed. When seeds, inputs,
+//! memories and what the unit reads from other units have not changed for a clock, the registers that follow
+//! from them alone do not change in the next clock. A clock later those stay that follow from these, and
+//! after as many clocks as the longest way has registers all of them stay.
 //!
-//! The state has a counter for each unit: the clocks for which the unit is to work on. A change of a watched value sets the counter.
-//! Registers under a condition count as changed where the condition holds. Seeds that are stored in every clock, or in an idle machine
-//! (`idle_state`), are **compared** with a copy of their values. Seeds of the unit itself are compared all at once, and only when no
-//! other change has set the counter for some clocks; while the unit has work, that is rare. Seeds of other units are compared where
-//! they are stored. A bit that follows from other units alone, such as a `ready`, is a **gate**: it is computed in every clock and
-//! watched in place of the registers behind it, which change more often. A free-running register (`free_running`) is watched only
-//! while its mask is 1.
+//! The state has a counter for each unit: the clocks for which the unit is to work on. A change of a watched
+//! value sets the counter. Registers under a condition count as changed where the condition holds. Seeds that
+//! are stored in every clock, or in an idle machine (`idle_state`), are **compared** with a copy of their
+//! values. Seeds of the unit itself are compared all at once, and only when no other change has set the
+//! counter for some clocks; while the unit has work, that is rare. Seeds of other units are compared where
+//! they are stored. A bit that follows from other units alone, such as a `ready`, is a **gate**: it is
+//! computed in every clock and watched in place of the registers behind it, which change more often. A
+//! free-running register (`free_running`) is watched only while its mask is 1.
 
 use std::collections::HashMap;
 
@@ -57,7 +59,8 @@ pub(crate) fn wakes(design: &Design, readers: &Readers, groups: &[Group], steps:
         let (mut reads, gates) = reads_of_unit(design, readers, groups, &own, unit);
         let runs = design.runners.iter().any(|runner| own.iter().any(|node| node.q == runner.q));
         if depth <= LONGEST && !own.is_empty() && !runs {
-            // One clock for seeds that follow from the others, one for a change earlier in the same clock, one to be safe.
+            // One clock for seeds that follow from the others, one for a change earlier in the same clock,
+            // one to be safe.
             wakes.clocks[unit] = depth as u8 + 3 + UNASKED;
             wakes.resting |= 1 << unit;
             wakes.gates[unit] = gates;
@@ -136,8 +139,8 @@ fn nodes(design: &Design, readers: &Readers, groups: &[Group]) -> Vec<Node> {
     nodes
 }
 
-/// Registers of a unit that need not be watched, as many as there are among those that change most often; and of how many the
-/// longest way among them is.
+/// Registers of a unit that need not be watched, as many as there are among those that change most often; and
+/// of how many the longest way among them is.
 fn followers(readers: &Readers, own: &[&Node]) -> (Set, usize) {
     let by_number: HashMap<usize, &Node> = own.iter().map(|node| (node.number, *node)).collect();
     let mut order: Vec<&Node> = own.to_vec();
@@ -175,8 +178,8 @@ fn feeds_itself(by_number: &HashMap<usize, &Node>, set: &Set, node: &Node, mut s
     false
 }
 
-/// Registers of the set on the longest way to this one, itself too; more than `LONGEST` where it is longer than that. The one
-/// that was asked for is so many registers ahead.
+/// Registers of the set on the longest way to this one, itself too; more than `LONGEST` where it is longer
+/// than that. The one that was asked for is so many registers ahead.
 fn depth(
     by_number: &HashMap<usize, &Node>,
     set: &Set,
@@ -201,7 +204,8 @@ fn depth(
     depth
 }
 
-/// All that the steps of a unit read: registers and inputs; and in place of those of others the bits that conditions ask for.
+/// All that the steps of a unit read: registers and inputs; and in place of those of others the bits that
+/// conditions ask for.
 fn reads_of_unit(
     design: &Design,
     readers: &Readers,

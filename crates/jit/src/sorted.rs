@@ -1,4 +1,5 @@
-//! Sorts what reads and changes registers: a register that changes before all who read it have done so costs a copy.
+//! Sorts steps, and members of a group, by what they read and change. A register that changes before all its readers have read it
+//! costs a copy.
 
 use crate::effect::{Effect, Set};
 

@@ -1,4 +1,4 @@
-//! The state of a running netlist, laid out as `Layout` says.
+//! The state of a running netlist; `Layout` says where everything lies in it.
 
 use edgewalk_netlist::netlist::start_word;
 use edgewalk_netlist::ops::mask;

@@ -1,5 +1,5 @@
-//! Values that follow from one narrow value alone, such as what the number of an operation says: they are looked up in a
-//! table instead of worked out.
+//! Values that follow from one narrow value, such as the decoded number of an operation. They are looked up
+//! in a table instead of computed.
 
 use edgewalk_netlist::Op;
 use edgewalk_netlist::ops::Bits;
@@ -64,8 +64,9 @@ impl Tables {
                 _ => None,
             };
             tables.arrays[id.index()] = match bits {
-                Some(bits) => {
-                    Array::of_choice(graph, signs, id, bits, |arm| tables.arrays[arm.index()].clone())
+                Some((index, bits)) => {
+                    let array = |arm: ValueId| tables.arrays[arm.index()].clone();
+                    Array::of_choice(graph, signs, id, index, bits, array)
                 }
                 None => Array::of_two(graph, signs, id),
             };

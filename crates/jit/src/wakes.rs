@@ -8,7 +8,8 @@ use crate::idle_state::IdleState;
 /// Units with a counter, a bit each in a set of units; those beyond them never stand still.
 pub(crate) const MOST: usize = 64;
 
-/// Clocks after a change for which a unit's own seeds are not compared: most often the next change comes within them.
+/// Clocks after a change for which a unit's own seeds are not compared: most often the next change comes
+/// within them.
 pub(crate) const UNASKED: u8 = 4;
 
 /// Who has to know of a change, and for how long.
@@ -60,14 +61,14 @@ impl Wakes {
         self.compared.get(unit).map_or(&[], Vec::as_slice)
     }
 
-    /// The largest counter with which they are: all that follow are clocks without any other change. In the first of them there
-    /// is no clock before to compare with.
+    /// The largest counter with which they are: all that follow are clocks without any other change. In the
+    /// first of them there is no clock before to compare with.
     pub fn asked_from(&self, unit: usize) -> u8 {
         self.clocks[unit] - UNASKED
     }
 
-    /// Whether the condition holds while nothing is to be done. What changes under it, and within no other one, is compared with
-    /// what it was; else it counts as changed.
+    /// Whether the condition holds while nothing is to be done. What changes under it, and within no other
+    /// one, is compared with what it was; else it counts as changed.
     pub fn is_idle(&self, condition: ValueId) -> bool {
         self.idle.holds(condition)
     }

@@ -56,7 +56,8 @@ impl Plan {
         all.filter(|event| (event.can_happen)(self))
     }
 
-    /// The memories that the host alone writes: the unit that reads each, and its ports; in the order of the units.
+    /// The memories that the host alone writes: the unit that reads each, and its ports; in the order of the
+    /// units.
     #[must_use]
     pub fn word_memories(&self) -> Vec<(&'static str, MemoryPort)> {
         let of_unit = |unit: &'static UnitSpec| {

@@ -14,8 +14,8 @@ pub const WORD_BITS: u32 = 56;
 /// Longest word of a light's map.
 pub const MAP_BITS: u32 = 32;
 
-/// Accepts the machine with these channels, or names the key that stands in the way, the reason, and a value that would
-/// do: the first rule that is broken.
+/// Accepts the machine with these channels, or names the key that stands in the way, the reason, and a value
+/// that would do: the first rule that is broken.
 pub(crate) fn check(machine: &Machine, channels: &[Channel]) -> Result<(), MachineError> {
     screen(machine)?;
     for channel in channels {

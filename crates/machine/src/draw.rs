@@ -1,4 +1,5 @@
-//! How a picture is drawn: the rules of its passes, the words of the memories that the host fills, and the host's steps.
+//! How a picture is drawn: the rules of its passes, the words of the memories that the host fills, and the
+//! host's steps.
 
 use crate::plan::Plan;
 use crate::record::Record;
@@ -84,8 +85,8 @@ pub struct Pass {
     pub state: DrawState,
     /// The depth memory is cleared first; of the light's own pass the map, with what is left of the light.
     pub clear_depth: bool,
-    /// With SHADOW the number of the map that is looked up, or drawn: its place among those that come with the passes
-    /// or are drawn by them. None: the map of the pass before.
+    /// With SHADOW the number of the map that is looked up, or drawn: its place among those that come with
+    /// the passes or are drawn by them. None: the map of the pass before.
     pub map: Option<usize>,
 }
 
@@ -107,7 +108,8 @@ pub fn first_of_picture(passes: &[Pass]) -> DrawState {
 /// Words of the memories behind TERM, TEXEL, NORMAL, LAMP and SHADE.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Shading {
-    /// The record of every triangle, culled or not, in their order; of those behind the last the memory holds nothing.
+    /// The record of every triangle, culled or not, in their order; of those behind the last the memory holds
+    /// nothing.
     pub records: Vec<Record>,
     /// Entries of the tables, [`Plan::table_word`] at [`Plan::table_place`]; an entry that is not there is 0.
     pub tables: Vec<u128>,
@@ -120,7 +122,8 @@ pub struct Shading {
 /// What the host does next. It does everything but `Draw` while the machine is idle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step<'a> {
-    /// Begins a pass: sets its rules. They choose the page that DEPTH and BLEND reach, the picture or the map.
+    /// Begins a pass: sets its rules. They choose the page that DEPTH and BLEND reach, the picture or the
+    /// map.
     State(DrawState),
     /// Clears the depths of the picture.
     ClearDepth,
@@ -130,13 +133,15 @@ pub enum Step<'a> {
     LoadMap(usize),
     /// Writes the record of the triangle of this number into the memory of TERM.
     Record(usize, &'a Record),
-    /// Offers so many triangles one after the other, or as many as are left, and waits until the machine is idle again.
+    /// Offers so many triangles one after the other, or as many as are left, and waits until the machine is
+    /// idle again.
     Draw(usize),
     /// Keeps the map that is drawn under this number.
     StoreMap(usize),
 }
 
-/// The steps of a picture in order. A pass whose records do not all fit into the memory of TERM is drawn in parts.
+/// The steps of a picture in order. A pass whose records do not all fit into the memory of TERM is drawn in
+/// parts.
 pub fn steps<'a>(
     plan: &Plan,
     passes: &'a [Pass],
@@ -160,7 +165,8 @@ pub fn steps<'a>(
     })
 }
 
-/// The triangles of a pass, at most `at_once` together, each part behind its records; those without a record in the last.
+/// The triangles of a pass, at most `at_once` together, each part behind its records; those without a record
+/// in the last.
 fn parts(
     first: usize,
     triangles: usize,

@@ -28,14 +28,16 @@ pub struct Key {
     pub get: fn(&Machine) -> u32,
     /// Writes a value that lies in the domain.
     pub set: fn(&mut Machine, u32),
-    /// The key means something in this machine: those of channels and units that it has not stay out of its file and its hash.
+    /// The key means something in this machine: those of channels and units that it has not stay out of its
+    /// file and its hash.
     pub used: fn(&Machine) -> bool,
-    /// The value that says that a unit is not there. It stays out of the hash: so machines keep theirs when a unit is added
-    /// to the program.
+    /// The value that says that a unit is not there. It stays out of the hash: so machines keep theirs when a
+    /// unit is added to the program.
     pub absent: Option<u32>,
 }
 
-/// A key that is a number: name, domain, meaning, its field, and where the key has a meaning if not everywhere.
+/// A key that is a number: name, domain, meaning, its field, and where the key has a meaning if not
+/// everywhere.
 macro_rules! number {
     ($name:expr, $domain:expr, $doc:expr, $($field:ident).+) => {
         number!($name, $domain, $doc, $($field).+, if |_| true)

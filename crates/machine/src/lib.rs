@@ -1,14 +1,14 @@
-//! One configuration of the machine, checked, and what each of its units declares: what a wire is called, how wide it
-//! is and when it is there, never what is on it.
+//! One configuration of the machine, checked, and what each of its units declares: what a wire is called, how
+//! wide it is and when it is there, never what is on it.
 //!
 //! ```text
 //!  TOML text / preset ──> Machine ──plan()──> Plan ──> model, rtl, lockstep, vectors, reports
 //!      --set key=value ──────┘                 ├─ channels, widths, bounds
 //!                                              └─ units: links, memory ports, status, events
 //! ```
-//! A [`Machine`] is a set of keys that may clash; a [`Plan`] is one that can be built, and all that units, drawing and
-//! tools take. `model` and `rtl` share this crate and nothing else: it holds no function from values to values, so
-//! behaviour stays written twice. No I/O.
+//! A [`Machine`] is a set of keys that may clash; a [`Plan`] is one that can be built, and all that units,
+//! drawing and tools take. `model` and `rtl` share this crate and nothing else: it holds no function from
+//! values to values, so behaviour stays written twice. No I/O.
 //!
 //! ```
 //! use edgewalk_machine::Machine;

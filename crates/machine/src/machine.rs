@@ -1,8 +1,8 @@
-//! One configuration of the machine: every number an architect may choose. Units that not every machine has keep theirs
-//! in files of their own.
+//! One configuration of the machine: every number an architect may choose. Units that not every machine has
+//! keep theirs in files of their own.
 //!
-//! To add a parameter: a field, its value in the default machine and its line among the keys, all in one file; a rule in
-//! `check.rs` if it can clash with another. The symbols are those of `docs/machine.md`.
+//! To add a parameter: a field, its value in the default machine and its line among the keys, all in one
+//! file; a rule in `check.rs` if it can clash with another. The symbols are those of `docs/machine.md`.
 
 use crate::blend::Blend;
 use crate::channel::{MAX_CHANNELS, Precision};
@@ -17,7 +17,8 @@ use crate::shadow::Shadow;
 pub enum Fill {
     /// Half-open in both axes, exact for every snapped triangle: the top-left rule.
     Exact,
-    /// Chapter 7: integer vertices, +0.5, `Trunc(X_start)` to `Trunc(X_end)`, both ends and both lines inclusive.
+    /// Chapter 7: integer vertices, +0.5, `Trunc(X_start)` to `Trunc(X_end)`, both ends and both lines
+    /// inclusive.
     Textbook,
 }
 
@@ -106,7 +107,8 @@ impl Machine {
 }
 
 impl Default for Machine {
-    /// The preset `default`. r = 14 because a span may step over up to 2^13 columns of the guard band before the screen (bound 4).
+    /// The preset `default`. r = 14 because a span may step over up to 2^13 columns of the guard band before
+    /// the screen (bound 4).
     fn default() -> Self {
         Machine {
             width: 640,

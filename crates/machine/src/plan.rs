@@ -9,7 +9,8 @@ use crate::term::Term;
 use crate::widths::Widths;
 use std::ops::{Deref, Range};
 
-/// A machine that can be built. Only [`Machine::plan`] makes one; the keys can be read through it, not changed.
+/// A machine that can be built. Only [`Machine::plan`] makes one; the keys can be read through it, not
+/// changed.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Plan {
     pub(crate) machine: Machine,
@@ -29,7 +30,8 @@ impl Deref for Plan {
 }
 
 impl Plan {
-    /// The channels that the units want, in the order of the words: z, r, g, b, the user's own, then kt where it is one.
+    /// The channels that the units want, in the order of the words: z, r, g, b, the user's own, then kt where
+    /// it is one.
     #[must_use]
     pub fn channels(&self) -> &[Channel] {
         &self.channels
@@ -82,16 +84,16 @@ impl Plan {
         (self.channels.len() as u32).div_ceil(self.adders)
     }
 
-    /// The channels of each adder: floor(a·N/A) up to floor((a+1)·N/A). The one at place i of its adder is added in
-    /// clock i of a pixel; an adder with fewer than T channels rests in the others.
+    /// The channels of each adder: floor(a·N/A) up to floor((a+1)·N/A). The one at place i of its adder is
+    /// added in clock i of a pixel; an adder with fewer than T channels rests in the others.
     #[must_use]
     pub fn slots(&self) -> Vec<Range<usize>> {
         let (channels, adders) = (self.channels.len(), self.adders as usize);
         (0..adders).map(|adder| adder * channels / adders..(adder + 1) * channels / adders).collect()
     }
 
-    /// The same machine with a tag of 32 bits, which changes nothing but the tag ports: a tool then sees the triangle of
-    /// each write.
+    /// The same machine with a tag of 32 bits, which changes nothing but the tag ports: a tool then sees the
+    /// triangle of each write.
     #[must_use]
     pub fn tagged(&self) -> Plan {
         let mut plan = self.clone();

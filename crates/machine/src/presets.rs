@@ -53,8 +53,8 @@ impl Machine {
     }
 }
 
-/// Coordinates and words as short as the screen allows, one lane: SETUP takes three times as long as with four. Fragments wait
-/// between triangles, which costs a few clocks where a triangle takes hundreds.
+/// Coordinates and words as short as the screen allows, one lane: SETUP takes three times as long as with
+/// four. Fragments wait between triangles, which costs a few clocks where a triangle takes hundreds.
 fn narrow() -> Machine {
     Machine {
         guard_bits: 10,

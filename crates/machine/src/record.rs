@@ -20,7 +20,8 @@ pub struct Record {
     pub material: u32,
     /// Of the material's highlights; with [`crate::ShadeKind::Phong`] alone.
     pub gloss: u32,
-    /// For each term of [`Plan::terms`] V, X, Y, XX, XY, YY, modulo 2^w; of degree 1 the last three are not looked at.
+    /// For each term of [`Plan::terms`] V, X, Y, XX, XY, YY, modulo 2^w; of degree 1 the last three are not
+    /// looked at.
     pub terms: Vec<[u64; 6]>,
 }
 
@@ -29,7 +30,8 @@ pub struct Record {
 pub enum Entry {
     /// With [`crate::ShadeColour::Tables`]: red, green, blue, and the highlight, LSB of the colour.
     Colours([u32; 3], u32),
-    /// With [`crate::ShadeColour::Multiply`]: the light, 2^(b+2) for 1.0, and the highlight, LSB of the colour.
+    /// With [`crate::ShadeColour::Multiply`]: the light, 2^(b+2) for 1.0, and the highlight, LSB of the
+    /// colour.
     Light(u32, u32),
 }
 
@@ -87,8 +89,8 @@ impl Plan {
         words.into_iter().map(|word| word & mask).collect()
     }
 
-    /// The word of an entry of NORMAL's table R, v of 17 bits, slope of 10, or of LAMP's tables, slope of 16; what has more bits
-    /// is cut.
+    /// The word of an entry of NORMAL's table R, v of 17 bits, slope of 10, or of LAMP's tables, slope of 16;
+    /// what has more bits is cut.
     #[must_use]
     pub fn root_word(&self, v: u32, slope: u32) -> u128 {
         let bits = self.slope_bits();
@@ -111,8 +113,8 @@ impl Plan {
         if self.shade.is_positional() { 1024 } else { 256 }
     }
 
-    /// The word of a texel: the colour, LSB, and with BUMP the slopes along u and v, 2^(ξ-1) for the relief's largest; what has
-    /// more bits is cut.
+    /// The word of a texel: the colour, LSB, and with BUMP the slopes along u and v, 2^(ξ-1) for the relief's
+    /// largest; what has more bits is cut.
     #[must_use]
     pub fn texel_word(&self, colours: [u32; 3], slopes: [i32; 2]) -> u128 {
         let put =

@@ -7,8 +7,8 @@ use crate::channel::Channel;
 pub(crate) struct PortStamp(u32);
 
 impl PortStamp {
-    /// Stands for the numbers of bits that decide how a vertex is read (FNV-1a over them); `kt`: those of a triangle's own
-    /// k_t, 0 if it has none.
+    /// Stands for the numbers of bits that decide how a vertex is read (FNV-1a over them); `kt`: those of a
+    /// triangle's own k_t, 0 if it has none.
     pub fn of(guard_bits: u32, subpixel_bits: u32, channels: &[Channel], kt: u32) -> PortStamp {
         let formats = channels.iter().flat_map(|c| [c.kind as u32, c.bits, c.vertex_fraction]);
         let numbers = [guard_bits, subpixel_bits].into_iter().chain(formats).chain((kt > 0).then_some(kt));

@@ -61,7 +61,8 @@ const COSINE_TURNS: [[[&str; 2]; 2]; 2] =
 const PRODUCT_TURNS: [[[&str; 2]; 2]; 2] =
     [[["pl0u", "pl0v"], ["ph0u", "ph0v"]], [["pl1u", "pl1v"], ["ph1u", "ph1v"]]];
 
-/// What N·N grows by with the square of a slope along u, the product of both slopes, the square of that along v.
+/// What N·N grows by with the square of a slope along u, the product of both slopes, the square of that along
+/// v.
 const SQUARES: [&str; 3] = ["tuu", "tuv", "tvv"];
 
 /// The terms of a machine, in the order of their words.

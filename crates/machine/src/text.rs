@@ -1,4 +1,5 @@
-//! Machine files: TOML in, TOML out, single settings, and the hash that everything made from a machine carries.
+//! Machine files: TOML in, TOML out, single settings, and the hash that everything made from a machine
+//! carries.
 
 use crate::error::MachineError;
 use crate::key::{Domain, Key};
@@ -22,10 +23,12 @@ impl Machine {
         Ok(())
     }
 
-    /// Reads a machine file over the preset `default` (or the one it names with `preset = "…"`) and checks it.
+    /// Reads a machine file over the preset `default` (or the one it names with `preset = "…"`) and checks
+    /// it.
     ///
     /// # Errors
-    /// Text that is no TOML, an unknown or repeated key, a value outside its domain, a combination that cannot be built.
+    /// Text that is no TOML, an unknown or repeated key, a value outside its domain, a combination that
+    /// cannot be built.
     pub fn from_toml(text: &str) -> Result<Machine, MachineError> {
         let table = DeTable::parse(text).map_err(|e| {
             let offset = e.span().map_or(0, |s| s.start);
@@ -98,8 +101,8 @@ impl Machine {
         text
     }
 
-    /// The first lines of every text file that is made from this machine: licence, program with version, hash. Each line begins
-    /// with the mark of a comment.
+    /// The first lines of every text file that is made from this machine: licence, program with version,
+    /// hash. Each line begins with the mark of a comment.
     #[must_use]
     pub fn stamp(&self, comment: &str) -> String {
         format!(

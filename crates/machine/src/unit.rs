@@ -17,8 +17,8 @@ pub struct Event {
     pub can_happen: fn(&Plan) -> bool,
 }
 
-/// Declares the events of a unit, each with what it counts and the machines in which it can happen, and the struct that
-/// counts them.
+/// Declares the events of a unit, each with what it counts and the machines in which it can happen, and the
+/// struct that counts them.
 macro_rules! events {
     ($($name:ident = $doc:literal if $can_happen:expr;)*) => {
         pub(crate) const EVENTS: &[crate::unit::Event] =

@@ -26,7 +26,8 @@ macro_rules! units {
         /// Every unit, in the order the data flows.
         pub const UNITS: &[&UnitSpec] = &[$(&$unit::SPEC),*];
 
-        /// How often each event of the machine was met in a run. A suite that leaves one at zero has not tested it.
+        /// How often each event of the machine was met in a run. A suite that leaves one at zero has not
+        /// tested it.
         #[derive(Clone, Debug, Default, PartialEq, Eq)]
         pub struct Events {
             $(#[doc = concat!("Events of unit `", stringify!($unit), "`.")] pub $unit: $unit::Events,)*

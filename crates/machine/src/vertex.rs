@@ -27,14 +27,15 @@ impl PortVertex {
         self.y
     }
 
-    /// The channels' values in their order, `e` fraction bits below the output's LSB; behind the last channel 0.
+    /// The channels' values in their order, `e` fraction bits below the output's LSB; behind the last channel
+    /// 0.
     #[must_use]
     pub fn values(&self) -> &[i64; MAX_CHANNELS] {
         &self.values
     }
 
-    /// Of a machine with `blend.kind = constant`: k_t in 2^-kt_bits, 0 to 2^kt_bits. The triangle's is that of its first
-    /// vertex. Else 0.
+    /// Of a machine with `blend.kind = constant`: k_t in 2^-kt_bits, 0 to 2^kt_bits. The triangle's is that
+    /// of its first vertex. Else 0.
     #[must_use]
     pub fn kt(&self) -> u32 {
         self.kt
@@ -89,7 +90,8 @@ pub enum VertexError {
 }
 
 impl Channel {
-    /// What the host may give at a vertex: 0 to 1 for `unorm` and `weight`, else LSB of the output up to the limit.
+    /// What the host may give at a vertex: 0 to 1 for `unorm` and `weight`, else LSB of the output up to the
+    /// limit.
     #[must_use]
     pub fn host_range(&self) -> (f64, f64) {
         match self.kind {
@@ -109,13 +111,15 @@ impl Channel {
 }
 
 impl Plan {
-    /// Snaps a vertex (px; z, r, g, b in 0 to 1; extra channels as their kind wants; last k_t in 0 to 1, if the machine
-    /// blends) to the port's formats, each rounded half to even.
+    /// Snaps a vertex (px; z, r, g, b in 0 to 1; extra channels as their kind wants; last k_t in 0 to 1, if
+    /// the machine blends) to the port's formats, each rounded half to even.
     ///
-    /// Errors of the result: 2^-(s+1) px in x and y, 2^-(e+1) LSB in a channel, 2^-(kt_bits+1) in a triangle's k_t.
+    /// Errors of the result: 2^-(s+1) px in x and y, 2^-(e+1) LSB in a channel, 2^-(kt_bits+1) in a
+    /// triangle's k_t.
     ///
     /// # Errors
-    /// What lies outside the guard band or a channel's range, and a number of values that is not that of the channels.
+    /// What lies outside the guard band or a channel's range, and a number of values that is not that of the
+    /// channels.
     pub fn port_vertex(&self, x: f64, y: f64, values: &[f64]) -> Result<PortVertex, VertexError> {
         let limit = f64::from((1u32 << self.guard_bits) - 1);
         let snap = |axis: &'static str, value: f64| {
@@ -153,9 +157,9 @@ impl Plan {
         Ok(PortVertex { x, y, values: port, kt, stamp: self.port })
     }
 
-    /// A vertex of these numbers as the port has them: x and y with `s`, values with `e` fraction bits, behind the last
-    /// channel the triangle's k_t if it has one. What has more bits than the port is not seen by the machine; values that
-    /// are not given are 0.
+    /// A vertex of these numbers as the port has them: x and y with `s`, values with `e` fraction bits,
+    /// behind the last channel the triangle's k_t if it has one. What has more bits than the port is not seen
+    /// by the machine; values that are not given are 0.
     #[must_use]
     pub fn raw_vertex(&self, x: i32, y: i32, values: &[i64]) -> PortVertex {
         let channels = self.channels().len();

@@ -56,7 +56,7 @@ pub use machine::{BlendInputs, Inputs, Model, Outputs, ShadowInputs};
 pub use memories::Memories;
 pub use memory::{Memory, Stalls};
 pub use prefetch::prefetch;
-pub use run::{Cycle, Rig};
+pub use run::{Cycle, Rig, tick};
 pub use setup::{Culled, SetupClocks, cull, longest_setup, setup_clocks};
 pub use tokens::Write;
 pub use view::View;

@@ -236,11 +236,18 @@ impl<const C: usize> Pixel<C> {
     #[inline]
     fn shift(&mut self, entering: bool) {
         if C > FEW && self.terms > 0 {
-            let cosines = if entering { self.outputs() } else { Cosines::default() };
-            self.out_cosines = match self.before {
-                0 => cosines,
-                _ => std::mem::replace(&mut self.cosines[self.oldest], cosines),
+            // Beside a stage without a fragment stands what stood there before; nobody looks at it.
+            let Pixel { walked, term_formats, terms, out_cosines, cosines, .. } = self;
+            let formats = &term_formats[..*terms];
+            let first = if self.before == 0 {
+                out_cosines
+            } else {
+                *out_cosines = cosines[self.oldest];
+                &mut cosines[self.oldest]
             };
+            if entering {
+                outputs(walked, formats, first);
+            }
         }
         if self.before == 0 {
             self.out = entering.then(|| self.fragment());
@@ -275,17 +282,6 @@ impl<const C: usize> Pixel<C> {
         }
     }
 
-    /// The outputs of the terms at this pixel: b bits above the r of the fraction.
-    fn outputs(&self) -> Cosines {
-        let Walked { material, gloss, .. } = self.walked;
-        let mut cosines = Cosines { material, gloss, ..Cosines::default() };
-        let terms = self.walked.terms.iter().zip(&self.term_formats);
-        for (output, (term, (fraction, bits))) in cosines.terms[..self.terms].iter_mut().zip(terms) {
-            *output = (((term.v >> fraction) << (64 - bits)) as i64 >> (64 - bits)) as i32; // b <= 32
-        }
-        cosines
-    }
-
     #[inline]
     fn next_pixel(&mut self) {
         self.phase = 0;
@@ -318,6 +314,16 @@ impl<const C: usize> Pixel<C> {
 
     fn aligned(&self, words: &Words<C>) -> Words<C> {
         std::array::from_fn(|i| words[i] << self.align[i])
+    }
+}
+
+/// The outputs of the terms at a pixel: b bits above the r of the fraction.
+#[inline]
+fn outputs(walked: &Walked, formats: &[(u32, u32)], cosines: &mut Cosines) {
+    (cosines.material, cosines.gloss) = (walked.material, walked.gloss);
+    let terms = walked.terms.iter().zip(formats);
+    for (output, (term, (fraction, bits))) in cosines.terms.iter_mut().zip(terms) {
+        *output = (((term.v >> fraction) << (64 - bits)) as i64 >> (64 - bits)) as i32; // b <= 32
     }
 }
 

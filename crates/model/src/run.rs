@@ -5,11 +5,31 @@
 //!                  ^────words──────────┘
 //! ```
 
+use crate::counters::Counters;
 use crate::machine::{Inputs, Model, Outputs};
 use crate::memories::Memories;
-use crate::tokens::{ColorWrite, FEW, Write};
+use crate::tokens::{ColorWrite, FEW, Write, for_channels};
 use crate::waits::Waits;
-use edgewalk_machine::{DrawState, Plan, PortVertex};
+use edgewalk_machine::{DrawState, Events, Plan, PortVertex, Shading};
+use std::convert::Infallible;
+
+/// Draws triangles by one state, cycle by cycle and without a look at the pixels: performance counters and events.
+#[must_use]
+pub fn tick(
+    plan: &Plan,
+    triangles: &[[PortVertex; 3]],
+    state: DrawState,
+    waits: Waits,
+    shading: &Shading,
+) -> (Counters, Events) {
+    for_channels!(plan, C => {
+        let mut rig = Rig::<C>::new(plan, state, waits);
+        rig.memories.write_shading(plan, shading);
+        let triangles = triangles.iter().map(|triangle| Ok::<_, Infallible>(*triangle));
+        let Ok(()) = rig.draw(triangles, |_, _, _| {});
+        (rig.model.counters().clone(), rig.model.events().clone())
+    })
+}
 
 /// A machine with its memories.
 #[derive(Clone, Debug)]

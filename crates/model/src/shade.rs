@@ -10,7 +10,8 @@
 //! Timing: a fragment taken in cycle n is offered in n + 3, with `multiply` (stage M) and behind LAMP (stage G) one later each; one a clock. All stages move
 //! together. A material's tables are fetched one entry a clock when no stage holds a fragment.
 //!
-//! Rules: `docs/machine.md`, sections 12 and, of stage G, 17. Not modelled: nothing.
+//! Rules: `docs/machine.md`, sections 12 and, of stage G, 17. Not modelled: when each stage does its part; colours are
+//! found on the way in, as the tables stay while a fragment is inside.
 
 mod view;
 
@@ -18,6 +19,7 @@ use crate::Events;
 use crate::fetch::Fetch;
 use crate::lit::{Cosines, Given, Lit};
 use crate::ports::{Pins, Ported, Shown};
+use crate::stages::Stages;
 use crate::tokens::Fragment;
 use crate::word_memory::Ask;
 use crate::word_memory::WordIn;
@@ -26,25 +28,22 @@ use edgewalk_machine::{Plan, ShadeColour};
 /// Most lights at once.
 const LIGHTS: usize = 2;
 
-/// A light of a fragment, in stage A.
-#[derive(Clone, Copy, Debug, Default)]
-struct Indices {
-    diffuse: usize,
-    highlight: usize,
-    lit: bool,
-    beam: u32,
-}
-
-/// The same in stage B: an entry of T, and s.
+/// A light at a fragment: an entry of T, and the highlight.
 #[derive(Clone, Copy, Debug, Default)]
 struct Found {
     diffuse: u64,
     highlight: u32,
-    beam: u32,
 }
 
-/// A fragment in a stage, and what is known of its light.
-type Stage<T, const C: usize> = Option<(Fragment<C>, T)>;
+/// A fragment in a stage.
+#[derive(Clone, Copy, Debug)]
+struct Shaded<const C: usize> {
+    /// With the colours that stage C gives.
+    frag: Fragment<C>,
+    /// Colours before stage M, and those that it gives.
+    own: [u32; 3],
+    product: [u32; 3],
+}
 
 /// State of SHADE.
 #[derive(Clone, Debug)]
@@ -62,12 +61,8 @@ pub struct Shade<const C: usize> {
     fetch: Fetch,
     /// Entries of T and S, light by light.
     tables: Vec<(u64, u32)>,
-    a: Stage<[Indices; LIGHTS], C>,
-    b: Stage<[Found; LIGHTS], C>,
-    g: Stage<[Found; LIGHTS], C>,
-    /// With the sum of the highlights.
-    m: Stage<u32, C>,
-    c: Option<Fragment<C>>,
+    /// A, B, with LAMP G, with `multiply` M, and C.
+    stages: Stages<Shaded<C>>,
 }
 
 impl<const C: usize> Shade<C> {
@@ -86,11 +81,9 @@ impl<const C: usize> Shade<C> {
             material: 0,
             fetch: Fetch::of(shade.entries()),
             tables: vec![(0, 0); shade.entries() as usize],
-            a: None,
-            b: None,
-            g: None,
-            m: None,
-            c: None,
+            stages: Stages::new(
+                3 + usize::from(shade.is_positional()) + usize::from(shade.colour == ShadeColour::Multiply),
+            ),
         }
     }
 
@@ -98,19 +91,19 @@ impl<const C: usize> Shade<C> {
     pub fn reset(&mut self) {
         self.have = false;
         self.fetch.reset();
-        (self.a, self.b, self.g, self.m, self.c) = (None, None, None, None, None);
+        self.stages.clear();
     }
 
     /// A fragment is in a stage.
     #[must_use]
     pub fn occupied(&self) -> bool {
-        self.a.is_some() || self.b.is_some() || self.g.is_some() || self.m.is_some() || self.c.is_some()
+        self.stages.held() > 0
     }
 
     /// The fragment offered on.
     #[must_use]
     pub fn tinted(&self) -> Option<&Fragment<C>> {
-        self.c.as_ref()
+        self.stages.last().map(|shaded| &shaded.frag)
     }
 
     /// The tables of its material are here; without a fragment, those of material 0.
@@ -119,7 +112,7 @@ impl<const C: usize> Shade<C> {
     }
 
     fn advance(&self, tinted_ready: bool) -> bool {
-        self.c.is_none() || tinted_ready
+        self.tinted().is_none() || tinted_ready
     }
 
     /// The fragment that is offered can be taken.
@@ -165,20 +158,9 @@ impl<const C: usize> Shade<C> {
             events.shade.shade_stall += 1;
             return;
         }
-        let found = if self.weakens { self.g } else { self.b };
-        self.c = if self.multiplies {
-            let product = self.m.map(|(fragment, highlight)| self.sum(fragment, highlight, events));
-            self.m = found.map(|(fragment, lights)| self.product(fragment, &lights));
-            product
-        } else {
-            found.map(|(fragment, lights)| self.colours(fragment, &lights, events))
-        };
-        if self.weakens {
-            self.g = self.b.map(|(fragment, lights)| (fragment, lights.map(|light| self.weakened(light))));
-        }
-        self.b = self.a.map(|(fragment, indices)| (fragment, self.look_up(&indices)));
         let taken = frag.filter(|_| waiting.is_none());
-        self.a = taken.map(|given| (*given.frag, self.indices(given.cosines, events)));
+        let entering = taken.map(|given| self.shaded(given, events));
+        self.stages.shift(entering);
     }
 
     fn load(&mut self, tables: &WordIn, events: &mut Events) {
@@ -196,75 +178,60 @@ impl<const C: usize> Shade<C> {
         (1 << self.color_bits) - 1
     }
 
-    /// Stage A.
-    fn indices(&self, cosines: &Cosines, events: &mut Events) -> [Indices; LIGHTS] {
+    /// The fragment, and its colours in every stage. The tables stay as they are while it is inside.
+    fn shaded(&self, given: Given<C>, events: &mut Events) -> Shaded<C> {
+        let mut frag = *given.frag;
+        let own = [frag.values[1], frag.values[2], frag.values[3]];
+        let lights: [Found; LIGHTS] = std::array::from_fn(|light| {
+            if light < self.lights { self.found(given.cosines, light, events) } else { Found::default() }
+        });
+        let highlights: u32 = lights.iter().map(|found| found.highlight).sum();
+        let (product, highlight) = match self.multiplies {
+            true => (self.product(own, &lights), highlights.min(self.largest())),
+            false => {
+                let part = |place: u32, found: &Found| {
+                    (found.diffuse >> (place * self.color_bits)) as u32 & self.largest()
+                };
+                ([2, 1, 0].map(|place| lights.iter().map(|found| part(place, found)).sum()), highlights)
+            }
+        };
+        for (value, color) in frag.values[1..=3].iter_mut().zip(product) {
+            *value = self.cut(color + highlight, events);
+        }
+        Shaded { frag, own, product }
+    }
+
+    /// Stages A, B and G: what the tables have of a light, and the highlight as far as the light comes.
+    fn found(&self, cosines: &Cosines, light: usize, events: &mut Events) -> Found {
         let end = 1 << self.table_bits;
-        let index = |cosine: i32| cosine.clamp(0, end - 1) as usize;
-        std::array::from_fn(|light| {
-            if light >= self.lights {
-                return Indices::default();
-            }
-            let [d, h] = [cosines.terms[2 * light], cosines.terms[2 * light + 1]];
-            events.shade.diffuse_below += u64::from(d < 0);
-            events.shade.diffuse_above += u64::from(d >= end);
-            events.shade.highlight_below += u64::from(h < 0);
-            events.shade.highlight_above += u64::from(h >= end);
-            events.shade.highlight_unlit += u64::from(d < 0 && h > 0);
-            Indices { diffuse: index(d), highlight: index(h), lit: d >= 0, beam: cosines.beam }
-        })
+        let [d, h] = [cosines.terms[2 * light], cosines.terms[2 * light + 1]];
+        events.shade.diffuse_below += u64::from(d < 0);
+        events.shade.diffuse_above += u64::from(d >= end);
+        events.shade.highlight_below += u64::from(h < 0);
+        events.shade.highlight_above += u64::from(h >= end);
+        events.shade.highlight_unlit += u64::from(d < 0 && h > 0);
+        let table = &self.tables[light << self.table_bits..];
+        let entry = |cosine: i32| table[cosine.clamp(0, end - 1) as usize];
+        let highlight = if d < 0 { 0 } else { entry(h).1 };
+        let highlight = match self.weakens {
+            true => self.weakened(highlight, cosines.beam),
+            false => highlight,
+        };
+        Found { diffuse: entry(d).0, highlight }
     }
 
-    /// Stage B.
-    fn look_up(&self, indices: &[Indices; LIGHTS]) -> [Found; LIGHTS] {
-        std::array::from_fn(|light| {
-            if light >= self.lights {
-                return Found::default();
-            }
-            let of_light = &self.tables[light << self.table_bits..];
-            let Indices { diffuse, highlight, lit, beam } = indices[light];
-            let highlight = if lit { of_light[highlight].1 } else { 0 };
-            Found { diffuse: of_light[diffuse].0, highlight, beam }
-        })
+    /// Stage G.
+    fn weakened(&self, highlight: u32, beam: u32) -> u32 {
+        let weakened = (u64::from(highlight) * u64::from(beam) + (1 << 15)) >> 16;
+        (weakened as u32).min(self.largest()) // below 2^18
     }
 
-    /// Stage G: the highlight as far as the light comes.
-    fn weakened(&self, light: Found) -> Found {
-        let highlight = (u64::from(light.highlight) * u64::from(light.beam) + (1 << 15)) >> 16;
-        Found { highlight: (highlight as u32).min(self.largest()), ..light } // below 2^18
-    }
-
-    /// Stage M: the fragment's colours times the light, and the sum of the highlights.
-    fn product(&self, mut fragment: Fragment<C>, lights: &[Found; LIGHTS]) -> (Fragment<C>, u32) {
-        let one = 1u64 << (self.color_bits + 2);
+    /// Stage M: colours times the light.
+    fn product(&self, own: [u32; 3], lights: &[Found; LIGHTS]) -> [u32; 3] {
+        let shift = self.color_bits + 2;
+        let one = 1u64 << shift;
         let light = lights.iter().map(|found| found.diffuse & (2 * one - 1)).sum::<u64>().min(one);
-        for color in &mut fragment.values[1..=3] {
-            *color = ((u64::from(*color) * light + one / 2) / one) as u32;
-        }
-        let highlights: u32 = lights.iter().map(|found| found.highlight).sum();
-        (fragment, highlights.min(self.largest()))
-    }
-
-    /// Stage C behind M.
-    fn sum(&self, mut fragment: Fragment<C>, highlight: u32, events: &mut Events) -> Fragment<C> {
-        for color in &mut fragment.values[1..=3] {
-            *color = self.cut(*color + highlight, events);
-        }
-        fragment
-    }
-
-    /// Stage C behind B.
-    fn colours(
-        &self,
-        mut fragment: Fragment<C>,
-        lights: &[Found; LIGHTS],
-        events: &mut Events,
-    ) -> Fragment<C> {
-        let highlights: u32 = lights.iter().map(|found| found.highlight).sum();
-        for (color, place) in fragment.values[1..=3].iter_mut().zip([2, 1, 0]) {
-            let part = |found: &Found| (found.diffuse >> (place * self.color_bits)) as u32 & self.largest();
-            *color = self.cut(lights.iter().map(part).sum::<u32>() + highlights, events);
-        }
-        fragment
+        own.map(|color| ((u64::from(color) * light + one / 2) >> shift) as u32)
     }
 
     fn cut(&self, color: u32, events: &mut Events) -> u32 {

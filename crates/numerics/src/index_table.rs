@@ -1,12 +1,12 @@
-//! Tables of entries that stand for a rising function of an index, read at the floor of it: what they hold, and how far that
-//! is from the function.
+//! Tables of entries that stand for a rising function of an index, read at the floor of it: what they hold,
+//! and how far that is from the function.
 //!
 //! ```text
 //!   index   0     1     2            2^t           bin j is [j, j+1), the first one all below, the last one all above
 //!           |--j--|-----|----- .. ----|             entry j = RN((f(j) + f(j+1)) / 2)
 //! ```
-//! An index that errs by no more than E comes from [j - E, j + 1 + E]: f there is what an entry may be wrong by (bound 13,
-//! `docs/numerics.md`).
+//! An index that errs by no more than E comes from [j - E, j + 1 + E]: f there is what an entry may be wrong
+//! by (bound 13, `docs/numerics.md`).
 
 /// A function of the index that never falls.
 pub trait Rising {
@@ -58,8 +58,8 @@ impl<F: Rising> IndexTable<F> {
         &self.function
     }
 
-    /// Bound 13: the most that an entry read differs from the function, LSB, where the index errs by no more than
-    /// `index_error`.
+    /// Bound 13: the most that an entry read differs from the function, LSB, where the index errs by no more
+    /// than `index_error`.
     #[must_use]
     pub fn error(&self, index_error: f64) -> f64 {
         let last = self.entries.len() - 1;
@@ -99,7 +99,8 @@ impl Rising for Diffuse {
     }
 }
 
-/// A highlight by the cosine N·H: `top` times a power; the table's 2^bits entries cover the last 2^-gloss of the way to 1.
+/// A highlight by the cosine N·H: `top` times a power; the table's 2^bits entries cover the last 2^-gloss of
+/// the way to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Highlight {
     /// t.

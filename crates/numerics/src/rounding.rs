@@ -69,7 +69,8 @@ impl Rounding {
         Some(floor + i128::from(up))
     }
 
-    /// Whether a value strictly between `floor` and `floor + 1` goes up; `half` compares its fraction with 1/2.
+    /// Whether a value strictly between `floor` and `floor + 1` goes up; `half` compares its fraction with
+    /// 1/2.
     fn goes_up(self, floor: i128, half: Ordering) -> bool {
         let positive = floor >= 0;
         let nearest = |tie: bool| half == Ordering::Greater || (half == Ordering::Equal && tie);

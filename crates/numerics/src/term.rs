@@ -3,8 +3,9 @@
 //! ```text
 //!   f over the triangle ──exact fit──> six numbers at a pixel ──RN, once──> words ──moved, no rounding──> words at the port
 //! ```
-//! Of a quadratic f, i columns along the span and n lines down from a pixel, its value there is
-//! `V + i X + n Y + i(i-1)/2 XX + n(n-1)/2 YY + i n XY`, in words modulo 2^w: derivation and bound 12 in `docs/numerics.md`.
+//! Of a quadratic f, i columns along the span and n lines down from a pixel, its value there is `V + i X + n
+//! Y + i(i-1)/2 XX + n(n-1)/2 YY + i n XY`, in words modulo 2^w: derivation and bound 12 in
+//! `docs/numerics.md`.
 
 mod fit;
 mod words;
@@ -21,9 +22,9 @@ pub enum Degree {
     Quadratic,
 }
 
-/// Roundings in a word i columns and n lines from where it was rounded, each of at most half a unit u, so that it is off by at
-/// most `roundings · u/2` (bound 12):
-/// `1 + |i| + |n|`, and of a quadratic `|i(i-1)/2| + |n(n-1)/2| + |i n|` more.
+/// Roundings in a word i columns and n lines from where it was rounded, each of at most half a unit u, so
+/// that it is off by at most `roundings · u/2` (bound 12): `1 + |i| + |n|`, and of a quadratic `|i(i-1)/2| +
+/// |n(n-1)/2| + |i n|` more.
 #[must_use]
 pub fn term_roundings(degree: Degree, i: i64, n: i64) -> u128 {
     let (columns, lines) = (i128::from(i), i128::from(n));

@@ -1,9 +1,7 @@
 //! EDGE: walks the two edges of a triangle, a line a step.
 
 mod walk;
-
 mod side;
-
 mod values;
 
 use std::sync::Arc;

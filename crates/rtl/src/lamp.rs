@@ -1,15 +1,10 @@
 //! LAMP: finds the cosines of a light at a point, and how much of it comes.
 
 mod steps;
-
 mod root;
-
 mod beside;
-
 mod multiply;
-
 mod operands;
-
 mod made;
 
 use std::sync::Arc;

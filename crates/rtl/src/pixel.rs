@@ -1,13 +1,9 @@
 //! PIXEL: steps along a span, a pixel every ceil(N/A) clocks, with A adders shared by the N channels.
 
 mod phase;
-
 mod drawing;
-
 mod adder;
-
 mod terms;
-
 mod output;
 
 use std::sync::Arc;

@@ -1,29 +1,17 @@
 //! SETUP: from three vertices to edges and increments.
 
 mod steps;
-
 mod control;
-
 mod sort;
-
 mod top;
-
 mod lines;
-
 mod area;
-
 mod scale;
-
 mod factors;
-
 mod lane;
-
 mod lanes;
-
 mod values;
-
 mod operands;
-
 mod results;
 
 use std::sync::Arc;
@@ -69,7 +57,8 @@ pub fn setup(plan: &Plan) -> Result<Arc<Netlist>, BuildErrors> {
     let control = Control::new(&m, plan, &Handshakes { tri_valid, prim_ready });
     let vertices = Vertices::new(&m, plan, &control, &triangle);
 
-    // The first line, the moduli and the side follow from other registers; all else of the prim is a register.
+    // The first line, the moduli and the side follow from other registers; all else of the prim is a
+    // register.
     let computed = |name: &str| name == "jm" || name.ends_with("_m") || name == "major_right";
     let mut kept = parts(&ports.gives_link().fields);
     kept.retain(|f| !computed(&f.name));

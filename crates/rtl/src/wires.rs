@@ -1,7 +1,7 @@
 //! Tokens and registers: a signal for every field of a list, found by the field's name.
 //!
-//! The lists are those of [`edgewalk_machine::units::tokens`]. A token `line` of fields `y`, `major_right` … is the ports or
-//! registers `line_y`, `line_major_right` ….
+//! The lists are those of [`edgewalk_machine::units::tokens`]. A token `line` of fields `y`, `major_right` …
+//! is the ports or registers `line_y`, `line_major_right` ….
 
 use std::ops::Index;
 

@@ -1,4 +1,5 @@
-//! Triangles of outside programs that reach beyond the machine's guard band: the host leaves them out, or cuts them at its border.
+//! Triangles of outside programs that reach beyond the machine's guard band: the host leaves them out, or
+//! cuts them at its border.
 //!
 //! ```text
 //!  guard band  +-------------------+        wholly off the screen: left out, wherever it lies
@@ -7,8 +8,9 @@
 //!              |   +--------+      |
 //!              +-------------------+
 //! ```
-//! Of an edge that two triangles share both get the same new vertex, so no gap opens and no pixel is drawn twice. The edges of the pieces are rounded
-//! to sub-pixels at the border: seen on the screen they move by at most half a sub-pixel.
+//! Of an edge that two triangles share both get the same new vertex, so no gap opens and no pixel is drawn
+//! twice. The edges of the pieces are rounded to sub-pixels at the border: seen on the screen they move by at
+//! most half a sub-pixel.
 
 use crate::frame::Frame;
 use crate::host::Host;
@@ -81,7 +83,8 @@ fn cut(triangle: &[Vertex; 3], limit: f64) -> Vec<Triangle> {
     }
 }
 
-/// The point at t on the way from one vertex to the other, all its values linear; never outside of what the two have.
+/// The point at t on the way from one vertex to the other, all its values linear; never outside of what the
+/// two have.
 fn between(from: &Vertex, to: &Vertex, t: f64) -> Vertex {
     let mix = |a: f64, b: f64| (a + (b - a) * t).clamp(a.min(b), a.max(b));
     Vertex {

@@ -7,8 +7,8 @@
 //!                |     |        |         |
 //!                +-----+--------+---------+
 //! ```
-//! A triangle that is inside everywhere keeps its vertices bit for bit. An edge is cut from its inner end, whichever
-//! triangle asks, so that triangles which share it share the new vertex.
+//! A triangle that is inside everywhere keeps its vertices bit for bit. An edge is cut from its inner end,
+//! whichever triangle asks, so that triangles which share it share the new vertex.
 
 use crate::surface::SurfaceVertex;
 use crate::vertex::Vertex;
@@ -81,7 +81,8 @@ impl Viewport {
     }
 }
 
-/// Calls `keep` with the triangles of what is left, a fan. Cuts one plane after the other (Sutherland and Hodgman).
+/// Calls `keep` with the triangles of what is left, a fan. Cuts one plane after the other (Sutherland and
+/// Hodgman).
 pub(crate) fn clip(triangle: [ClipVertex; 3], viewport: &Viewport, mut keep: impl FnMut([SurfaceVertex; 3])) {
     let mut polygon = triangle.to_vec();
     for plane in viewport.planes() {

@@ -16,7 +16,8 @@ pub enum InputError {
     /// The file was read, and something in it is not permitted.
     #[error(transparent)]
     Fault(#[from] Box<Fault>),
-    /// The file holds what it cannot be drawn with while it is read: a polygon, or a light's depth map behind a triangle.
+    /// The file holds what it cannot be drawn with while it is read: a polygon, or a light's depth map behind
+    /// a triangle.
     #[error(transparent)]
     NeedsWhole(Box<Fault>),
 }

@@ -8,11 +8,12 @@ use crate::vertex::{Triangle, Vertex};
 /// Largest side of a screen, pixels.
 pub const MAX_SIDE: u32 = 16384;
 
-/// Largest |x| or |y| of a vertex, pixels. Times 2^8 sub-pixels it is an integer below 2^28, so edge products stay
-/// far inside 64 bits.
+/// Largest |x| or |y| of a vertex, pixels. Times 2^8 sub-pixels it is an integer below 2^28, so edge products
+/// stay far inside 64 bits.
 pub const MAX_COORDINATE: f64 = 1e6;
 
-/// By how much a depth may lie outside of [0, 1]: what single precision makes of one that does not. It is clamped.
+/// By how much a depth may lie outside of [0, 1]: what single precision makes of one that does not. It is
+/// clamped.
 pub const DEPTH_ROUNDING: f64 = 1e-5;
 
 /// Most vertices of a contour.
@@ -21,16 +22,16 @@ pub const MAX_CONTOUR: usize = 65536;
 /// Most lights with shadows.
 pub const MAX_LIGHTS: usize = 16;
 
-/// A polygon on the screen: convex, concave, with holes or crossing itself; inside is what an odd number of edges lies
-/// to the left of (the slides, odd-even rule).
+/// A polygon on the screen: convex, concave, with holes or crossing itself; inside is what an odd number of
+/// edges lies to the left of (the slides, odd-even rule).
 ///
-/// Its values run linearly along the edges, then linearly along a line between two edges (the slides: l_a, l_b, l_p). Only
-/// in a triangle, or where the vertices' values lie in one plane, is that the plane; elsewhere it depends on how the
-/// polygon is turned.
+/// Its values run linearly along the edges, then linearly along a line between two edges (the slides: l_a,
+/// l_b, l_p). Only in a triangle, or where the vertices' values lie in one plane, is that the plane;
+/// elsewhere it depends on how the polygon is turned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
-    /// Closed lines of 3..=[`MAX_CONTOUR`] vertices; the last vertex is joined to the first. In flat mode the first
-    /// vertex of the first contour colours the whole.
+    /// Closed lines of 3..=[`MAX_CONTOUR`] vertices; the last vertex is joined to the first. In flat mode the
+    /// first vertex of the first contour colours the whole.
     pub contours: Vec<Vec<Vertex>>,
     /// How many triangles of the frame are drawn before it.
     pub after: usize,
@@ -41,15 +42,17 @@ pub struct Polygon {
 pub struct Shadow {
     /// Side of the map, 1..=[`MAX_SIDE`] texels.
     pub size: u32,
-    /// A point is in shadow if it lies farther from the light than the map's depth by more than this, [-1, 1].
+    /// A point is in shadow if it lies farther from the light than the map's depth by more than this, [-1,
+    /// 1].
     pub bias: f64,
-    /// What comes on top of it for a point of each of the frame's triangles and polygons, by their places; empty: nothing.
+    /// What comes on top of it for a point of each of the frame's triangles and polygons, by their places;
+    /// empty: nothing.
     pub slopes: Vec<f64>,
-    /// What the colour of a point in shadow is multiplied by, [0, 1]; that of one behind panes alone by this and, of what is missing to 1, as
-    /// much as they transmit.
+    /// What the colour of a point in shadow is multiplied by, [0, 1]; that of one behind panes alone by this
+    /// and, of what is missing to 1, as much as they transmit.
     pub ambient: f64,
-    /// Rows of the matrix that takes a fragment's column vector (x + 1/2, y + 1/2, z, 1), in pixels and depth, to homogeneous
-    /// (texel x, texel y, depth, q).
+    /// Rows of the matrix that takes a fragment's column vector (x + 1/2, y + 1/2, z, 1), in pixels and
+    /// depth, to homogeneous (texel x, texel y, depth, q).
     pub matrix: [[f64; 4]; 4],
     /// What hides the light: x, y in texels, z its depth in [0, 1]; the nearest wins.
     pub triangles: Vec<[[f64; 3]; 3]>,
@@ -57,8 +60,8 @@ pub struct Shadow {
     pub panes: Vec<Pane>,
 }
 
-/// A triangle that transmits light. Behind all of them that cover a texel and are nearer than what hides the light there, the product of their
-/// k_t is left.
+/// A triangle that transmits light. Behind all of them that cover a texel and are nearer than what hides the
+/// light there, the product of their k_t is left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pane {
     /// As those of [`Shadow::triangles`].
@@ -93,8 +96,8 @@ pub struct Frame {
     pub color_write: bool,
     /// Colour of the empty screen, [0, 1] each; the empty depth is 1.
     pub clear: [f64; 3],
-    /// How many values of the user's own a vertex has, 0..=[`MAX_EXTRA`](crate::MAX_EXTRA); without polygons where it has any. Where nothing
-    /// is drawn they are 0.
+    /// How many values of the user's own a vertex has, 0..=[`MAX_EXTRA`](crate::MAX_EXTRA); without polygons
+    /// where it has any. Where nothing is drawn they are 0.
     pub extra: usize,
     /// The shadows of lights, whose numbers count from 1.
     pub shadows: Vec<Shadow>,

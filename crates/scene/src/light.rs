@@ -1,7 +1,8 @@
 //! Lights: the abstract light sources of ch. 7.1, in world space.
 //!
-//! The source names three kinds and leaves open how intensity falls with distance and direction; the two functions
-//! here, [`Attenuation`] and the power of the cosine of a flood, are the usual ones. Both are 1 by default.
+//! The source names three kinds and leaves open how intensity falls with distance and direction; the two
+//! functions here, [`Attenuation`] and the power of the cosine of a flood, are the usual ones. Both are 1 by
+//! default.
 
 use glam::DVec3;
 
@@ -24,8 +25,8 @@ pub enum Light {
         /// How it weakens with distance.
         attenuation: Attenuation,
     },
-    /// A point that shines along an axis, weaker beside it: I_l cos^exponent of the angle to the axis inside the
-    /// cone, 0 outside.
+    /// A point that shines along an axis, weaker beside it: I_l cos^exponent of the angle to the axis inside
+    /// the cone, 0 outside.
     Flood {
         /// Where it stands.
         position: DVec3,
@@ -42,7 +43,8 @@ pub enum Light {
     },
 }
 
-/// 1 / (constant + linear d + quadratic d²) at the distance d; no coefficient is negative and their sum is not 0.
+/// 1 / (constant + linear d + quadratic d²) at the distance d; no coefficient is negative and their sum is
+/// not 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Attenuation {
     /// Without unit.
@@ -85,7 +87,8 @@ impl Light {
         }
     }
 
-    /// The same light with a cone wider by so much of the cosine of half its angle, or narrower; another than a flood as it is.
+    /// The same light with a cone wider by so much of the cosine of half its angle, or narrower; another than
+    /// a flood as it is.
     #[must_use]
     pub fn opened(self, by: f64) -> Self {
         match self {

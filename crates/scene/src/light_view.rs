@@ -1,4 +1,5 @@
-//! What a light sees: the depth pass "setting the eye position to the light source" (ch. 7.2), as screen-space triangles.
+//! What a light sees: the depth pass "setting the eye position to the light source" (ch. 7.2), as
+//! screen-space triangles.
 //!
 //! ```text
 //!   directional            positional                     flood
@@ -6,11 +7,12 @@
 //!    └─┴──┴──┴─┘           around the light               wider than 60 degrees
 //!   box around the mesh
 //! ```
-//! A map is `size` by `size` texels, texel (i, j) with its centre at (i + 1/2, j + 1/2). Distance is along the axis of the
-//! view, in the world's unit; depth in the map runs from 0 at the near plane to 1 at the far one, linear over the map:
-//! (d - n) / (f - n) in a parallel view, (d - n) f / ((f - n) d) in a pyramid.
+//! A map is `size` by `size` texels, texel (i, j) with its centre at (i + 1/2, j + 1/2). Distance is along
+//! the axis of the view, in the world's unit; depth in the map runs from 0 at the near plane to 1 at the far
+//! one, linear over the map: (d - n) / (f - n) in a parallel view, (d - n) f / ((f - n) d) in a pyramid.
 //!
-//! Not modelled: what is nearer to a positional or flood light than 1/10,000 of the mesh's farthest point casts no shadow.
+//! Not modelled: what is nearer to a positional or flood light than 1/10,000 of the mesh's farthest point
+//! casts no shadow.
 
 use crate::camera::Camera;
 use crate::clip::{ClipVertex, Viewport, clip};
@@ -64,7 +66,8 @@ pub struct InMap {
 }
 
 impl Light {
-    /// The depth maps, of `size` by `size` texels, that hold every point of a mesh within `bounds` that the light shines on.
+    /// The depth maps, of `size` by `size` texels, that hold every point of a mesh within `bounds` that the
+    /// light shines on.
     pub fn views(&self, bounds: [DVec3; 2], size: u32) -> Vec<LightView> {
         match *self {
             Self::Directional { toward, .. } => vec![LightView::parallel(-toward, bounds, size)],
@@ -80,8 +83,8 @@ impl Light {
 }
 
 impl Light {
-    /// The one depth map, of `size` by `size` texels, that holds each of these points that the light shines on, as near to them as it
-    /// may be; `None` where it takes several.
+    /// The one depth map, of `size` by `size` texels, that holds each of these points that the light shines
+    /// on, as near to them as it may be; `None` where it takes several.
     pub fn view(&self, points: &[DVec3], size: u32) -> Option<LightView> {
         let bounds = bounds(points)?;
         let pyramid = |position, axis, tangent| LightView::pyramid(position, axis, tangent, bounds, size);
@@ -130,7 +133,8 @@ impl LightView {
         Self { size, eye, right, up, axis, lens: Lens::Pyramid(tangent), near: NEAR * far, far }
     }
 
-    /// The tangent of half the angle over which points are seen to the side or up; infinite if one does not lie before the light.
+    /// The tangent of half the angle over which points are seen to the side or up; infinite if one does not
+    /// lie before the light.
     fn spread(&self, points: &[DVec3]) -> f64 {
         let tangent = |point: &DVec3| {
             let p = self.turned(*point - self.eye);
@@ -159,15 +163,16 @@ impl LightView {
         }
     }
 
-    /// Where a point is, homogeneous: texel x, texel y and depth, each times the last, which is above 0 before the light.
+    /// Where a point is, homogeneous: texel x, texel y and depth, each times the last, which is above 0
+    /// before the light.
     pub fn texels(&self, point: DVec3) -> DVec4 {
         let DVec4 { x, y, z, w } = self.to_clip(point);
         let side = f64::from(self.size);
         DVec4::new((0.5 * w + 0.5 * x) * side, (0.5 * w - 0.5 * y) * side, z, w)
     }
 
-    /// The matrix that takes a pixel's (x, y, depth, 1) on the screen of a camera to [`Self::texels`] of what it shows, by rows; `None`
-    /// for a camera that sees nothing.
+    /// The matrix that takes a pixel's (x, y, depth, 1) on the screen of a camera to [`Self::texels`] of what
+    /// it shows, by rows; `None` for a camera that sees nothing.
     pub fn from_screen(&self, camera: &Camera, width: u32, height: u32) -> Option<[[f64; 4]; 4]> {
         let (half_width, half_height) = (f64::from(width) / 2.0, f64::from(height) / 2.0);
         let viewport = DMat4::from_translation(DVec3::new(half_width, half_height, 0.0))
@@ -180,8 +185,8 @@ impl LightView {
         matrix.is_finite().then(|| matrix.transpose().to_cols_array_2d())
     }
 
-    /// How much the depth of a plane changes over a texel to the side and one down, both together, given three of its points; 1, more
-    /// than which no depth changes, where the light sees it edge-on.
+    /// How much the depth of a plane changes over a texel to the side and one down, both together, given
+    /// three of its points; 1, more than which no depth changes, where the light sees it edge-on.
     pub fn depth_slope(&self, points: [DVec3; 3]) -> f64 {
         let seen = points.map(|point| self.texels(point));
         let plane = DMat3::from_cols_array_2d(&seen.map(|p| [p.x, p.y, p.w])).transpose().inverse();
@@ -190,8 +195,8 @@ impl LightView {
         if slope.is_nan() { 1.0 } else { slope.min(1.0) }
     }
 
-    /// How much the depth in the map changes over a unit of length along the axis at a point, at most: nearer than the near plane as much
-    /// as there.
+    /// How much the depth in the map changes over a unit of length along the axis at a point, at most: nearer
+    /// than the near plane as much as there.
     pub fn depth_rate(&self, point: DVec3) -> f64 {
         let range = self.far - self.near;
         match self.lens {
@@ -203,7 +208,8 @@ impl LightView {
         }
     }
 
-    /// The faces of a mesh in texels, with their k_t: those that hide the light, and those that transmit some of it.
+    /// The faces of a mesh in texels, with their k_t: those that hide the light, and those that transmit some
+    /// of it.
     pub fn triangles(&self, mesh: &Mesh) -> [Vec<Triangle>; 2] {
         let viewport = Viewport { width: self.size, height: self.size, guard: 2.0 * f64::from(self.size) };
         let mut triangles = [Vec::new(), Vec::new()];
@@ -235,8 +241,8 @@ impl LightView {
         }
     }
 
-    /// By how much the distance of a plane through a point changes over one texel to the side and one up or down: both
-    /// together, to first order. Infinite where the light sees the plane edge-on.
+    /// By how much the distance of a plane through a point changes over one texel to the side and one up or
+    /// down: both together, to first order. Infinite where the light sees the plane edge-on.
     pub fn slope(&self, point: DVec3, normal: DVec3) -> f64 {
         let (p, n) = (self.turned(point - self.eye), self.turned(normal).abs());
         let per_texel = 2.0 / f64::from(self.size);
@@ -335,7 +341,8 @@ mod tests {
         assert!(places > 700, "{places}");
     }
 
-    /// What a pixel shows has the texel of its point; the depth of a plane changes over a texel as its slope says.
+    /// What a pixel shows has the texel of its point; the depth of a plane changes over a texel as its slope
+    /// says.
     #[test]
     fn the_matrix_of_the_screen_goes_to_the_same_texel() {
         let camera = Camera {

@@ -36,7 +36,8 @@ pub(crate) use terrain::terrain;
 /// Largest coordinate in a mesh file, either way.
 pub(crate) const MAX_POSITION: f64 = 1e12;
 
-/// Least size of a mesh compared with its distance from the origin: below it, rounding would be all that is seen.
+/// Least size of a mesh compared with its distance from the origin: below it, rounding would be all that is
+/// seen.
 const LEAST_SIZE: f64 = 1e-9;
 
 /// A triangle of a mesh; its front is where its corners run counter-clockwise.
@@ -48,7 +49,8 @@ pub struct Face {
     pub material: u32,
 }
 
-/// A checked mesh: at least one face, every index valid, every coordinate within ±10^12, no position listed twice.
+/// A checked mesh: at least one face, every index valid, every coordinate within ±10^12, no position listed
+/// twice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
     positions: Vec<DVec3>,
@@ -153,15 +155,16 @@ impl Mesh {
         &self.materials
     }
 
-    /// The same with what a file says of the faces beyond their corners: an entry a face, in their order; what is
-    /// missing at the end is unsaid.
+    /// The same with what a file says of the faces beyond their corners: an entry a face, in their order;
+    /// what is missing at the end is unsaid.
     pub fn with_face_data(mut self, mut face_data: Vec<FaceData>) -> Self {
         face_data.resize(self.faces.len(), FaceData::default());
         self.face_data = face_data;
         self
     }
 
-    /// The same with the textures its materials name by their places in the list; one beyond it is no texture.
+    /// The same with the textures its materials name by their places in the list; one beyond it is no
+    /// texture.
     pub fn with_textures(mut self, textures: Vec<Texture>) -> Self {
         self.textures = textures;
         self
@@ -177,8 +180,8 @@ impl Mesh {
         &self.textures
     }
 
-    /// The material of a face, by its place, at texture coordinates: its texture multiplies k_d and k_a (end of
-    /// chapter 7).
+    /// The material of a face, by its place, at texture coordinates: its texture multiplies k_d and k_a (end
+    /// of chapter 7).
     pub fn material_at(&self, face: u32, texture: DVec2) -> Material {
         let material = self.materials[self.faces[face as usize].material as usize];
         let image = material.texture.and_then(|place| self.textures.get(place as usize));

@@ -1,4 +1,5 @@
-//! Normals: of the faces, and at their corners by averaging the faces around (the slides; the crease of the notes).
+//! Normals: of the faces, and at their corners by averaging the faces around (the slides; the crease of the
+//! notes).
 
 use crate::mesh::Mesh;
 use glam::DVec3;
@@ -172,7 +173,8 @@ mod tests {
         }
     }
 
-    /// A corner of a box: one side is one face there, one is two, and the third, cut unevenly, is two as well.
+    /// A corner of a box: one side is one face there, one is two, and the third, cut unevenly, is two as
+    /// well.
     fn uneven_corner(groups: [u32; 5]) -> Mesh {
         let positions = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (0, 1, 4)]
             .map(|(x, y, z)| DVec3::new(x.into(), y.into(), z.into()) + DVec3::new(7.0, -3.0, 2.0));

@@ -42,8 +42,8 @@ impl Frame {
         self.shadows.get(light.checked_sub(1)?)
     }
 
-    /// The passes in order, at least one; those without a primitive are left out unless nothing is drawn at all. What they
-    /// clear the next one clears.
+    /// The passes in order, at least one; those without a primitive are left out unless nothing is drawn at
+    /// all. What they clear the next one clears.
     pub fn passes(&self) -> Vec<Pass> {
         let all = self.triangles.len() + self.polygons.len();
         let mut passes = Vec::new();

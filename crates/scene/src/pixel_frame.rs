@@ -14,10 +14,10 @@ use glam::DVec3;
 use std::sync::Arc;
 
 impl Scene {
-    /// The frame of a surface of this scene with the equation at each pixel. Highlights are of the form that N·H gives: for the
-    /// mirror form that of ch. 7.12. In Phong the viewer is far away, as hardware with linear products has it. A texture of nearest
-    /// texels is looked up at each pixel, another colours the vertices; a relief of nearest texels turns the normal, another is not
-    /// seen.
+    /// The frame of a surface of this scene with the equation at each pixel. Highlights are of the form that
+    /// N·H gives: for the mirror form that of ch. 7.12. In Phong the viewer is far away, as hardware with
+    /// linear products has it. A texture of nearest texels is looked up at each pixel, another colours the
+    /// vertices; a relief of nearest texels turns the normal, another is not seen.
     pub fn pixel_frame(&self, surface: &Surface, method: PixelMethod) -> Frame {
         let Camera { eye, target, .. } = self.camera;
         let viewer = match method {

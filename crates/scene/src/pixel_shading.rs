@@ -1,4 +1,5 @@
-//! A frame whose colours come from the shading equation at each pixel (ch. 7.11, 7.12): what it needs beside the triangles.
+//! A frame whose colours come from the shading equation at each pixel (ch. 7.11, 7.12): what it needs beside
+//! the triangles.
 //!
 //! ```text
 //!   normals, positions at the vertices ──linear over the screen──> N, to length 1 ──> the equation ──> colour
@@ -54,7 +55,8 @@ pub struct PixelTriangle {
     pub positions: [DVec3; 3],
     /// Texture coordinates at the vertices, u to the right and v up; 0 where there are none.
     pub texture: [DVec2; 3],
-    /// T_u and T_v: where its relief has the slopes B_u and B_v a normal grows by N x (B_u T_u + B_v T_v); 0 without one.
+    /// T_u and T_v: where its relief has the slopes B_u and B_v a normal grows by N x (B_u T_u + B_v T_v); 0
+    /// without one.
     pub turns: [DVec3; 2],
     /// Place among the materials.
     pub material: u32,
@@ -95,7 +97,8 @@ impl PixelShading {
         }
     }
 
-    /// The equation at a point of a triangle where the surface has the colour c; `normal` of any length. Cut to [0, 1].
+    /// The equation at a point of a triangle where the surface has the colour c; `normal` of any length. Cut
+    /// to [0, 1].
     pub fn color(&self, triangle: &PixelTriangle, position: DVec3, normal: DVec3, surface: DVec3) -> DVec3 {
         let material = self.material(triangle, surface);
         let lighting = Lighting { ambient: self.ambient, lights: &self.lights, specular: self.specular };
@@ -128,8 +131,9 @@ impl PixelShading {
     }
 }
 
-/// A vector in its direction of length 1; one that has it already comes back as it is, so that files are read back bit for
-/// bit. `None` of a vector without a direction, or so short or long that its square is no number of full accuracy.
+/// A vector in its direction of length 1; one that has it already comes back as it is, so that files are read
+/// back bit for bit. `None` of a vector without a direction, or so short or long that its square is no number
+/// of full accuracy.
 pub(crate) fn unit(vector: DVec3) -> Option<DVec3> {
     let length = vector.length();
     if (length - 1.0).abs() <= 4.0 * f64::EPSILON {

@@ -29,8 +29,8 @@ impl<'a> Primitive<'a> {
 }
 
 impl Frame {
-    /// Triangles and polygons in the order in which they are drawn. The place in this list is what a picture calls the
-    /// id: without polygons, the place in [`Frame::triangles`].
+    /// Triangles and polygons in the order in which they are drawn. The place in this list is what a picture
+    /// calls the id: without polygons, the place in [`Frame::triangles`].
     pub fn primitives(&self) -> Vec<Primitive<'_>> {
         let mut list = Vec::with_capacity(self.triangles.len() + self.polygons.len());
         let mut drawn = 0;

@@ -78,9 +78,9 @@ impl Scene {
         Point { position, normal, viewer: (self.camera.eye - position).normalize_or_zero() }
     }
 
-    /// The triangles on a screen of `width` by `height` pixels, at most `guard` pixels from its corner in x and y, in
-    /// the order of the mesh. Normals are on the side that is seen; the colours of the vertices are those of the shading
-    /// equation there (ch. 7.5, step 3 of the slides), taken before clipping.
+    /// The triangles on a screen of `width` by `height` pixels, at most `guard` pixels from its corner in x
+    /// and y, in the order of the mesh. Normals are on the side that is seen; the colours of the vertices are
+    /// those of the shading equation there (ch. 7.5, step 3 of the slides), taken before clipping.
     pub fn surface(&self, width: u32, height: u32, guard: f64) -> Surface {
         let viewport = Viewport { width, height, guard };
         let to_clip = self.camera.to_clip(width, height);
@@ -113,8 +113,8 @@ impl Scene {
         Surface { width, height, triangles }
     }
 
-    /// The colour of constant shading (ch. 7.6) of a face with this normal on the side that is seen, by the light and the
-    /// texture in its middle; not cut to [0, 1].
+    /// The colour of constant shading (ch. 7.6) of a face with this normal on the side that is seen, by the
+    /// light and the texture in its middle; not cut to [0, 1].
     pub fn constant_color(&self, face: u32, normal: DVec3) -> DVec3 {
         let [a, b, c] = self.mesh.corners(&self.mesh.faces()[face as usize]);
         let texture = self.mesh.face_data()[face as usize].texture;
@@ -122,8 +122,8 @@ impl Scene {
         self.lighting().constant(&self.mesh.material_at(face, texture), (a + b + c) / 3.0, normal)
     }
 
-    /// The triangles of [`Scene::surface`] as the machine takes them: with the colours of the vertices, or in flat mode
-    /// each in the colour of constant shading by its own normal.
+    /// The triangles of [`Scene::surface`] as the machine takes them: with the colours of the vertices, or in
+    /// flat mode each in the colour of constant shading by its own normal.
     pub fn frame(&self, width: u32, height: u32, guard: f64, mode: ShadeMode) -> Frame {
         let surface = self.surface(width, height, guard);
         let mut frame = Frame { mode, clear: self.background.to_array(), ..Frame::new(width, height) };

@@ -5,12 +5,13 @@ use glam::{DVec2, DVec3};
 
 /// A vertex of what is left after clipping.
 ///
-/// `position`, `normal` and `texture` are linear in the world, so over the screen each of them times `inverse_w` is
-/// linear, and so is `inverse_w` itself. Interpolating them straight over the screen, as the hardware does, is the
-/// approximation of ch. 7.12.
+/// `position`, `normal` and `texture` are linear in the world, so over the screen each of them times
+/// `inverse_w` is linear, and so is `inverse_w` itself. Interpolating them straight over the screen, as the
+/// hardware does, is the approximation of ch. 7.12.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfaceVertex {
-    /// Pixels and depth; the colour is that of the shading equation here, [0, 1] each, and k_t the material's.
+    /// Pixels and depth; the colour is that of the shading equation here, [0, 1] each, and k_t the
+    /// material's.
     pub screen: Vertex,
     /// 1/w, w the distance from the viewer along the line of sight; positive.
     pub inverse_w: f64,
@@ -45,8 +46,8 @@ pub struct Surface {
 }
 
 impl SurfaceTriangle {
-    /// Average of the vertex normals, a unit vector: the normal of the real surface over the polygon as ch. 7.6 estimates
-    /// it. The polygon's own where they cancel.
+    /// Average of the vertex normals, a unit vector: the normal of the real surface over the polygon as ch.
+    /// 7.6 estimates it. The polygon's own where they cancel.
     pub fn averaged_normal(&self) -> DVec3 {
         let sum: DVec3 = self.vertices.iter().map(|vertex| vertex.normal).sum();
         sum.try_normalize().unwrap_or(self.own_normal)

@@ -23,8 +23,9 @@ pub struct Vertex {
     pub b: f64,
     /// Transmission coefficient k_t in [0, 1] (ch. 7.1), 0 for an opaque surface.
     pub kt: f64,
-    /// Values of the user's own, [`Frame::extra`](crate::Frame::extra) of them, the rest 0. Their unit is that of the machine's channels e0 to
-    /// e3: [0, 1] for `unorm`, else LSB of the output; at most [`MAX_EXTRA_VALUE`] in magnitude.
+    /// Values of the user's own, [`Frame::extra`](crate::Frame::extra) of them, the rest 0. Their unit is
+    /// that of the machine's channels e0 to e3: [0, 1] for `unorm`, else LSB of the output; at most
+    /// [`MAX_EXTRA_VALUE`] in magnitude.
     pub extra: [f64; MAX_EXTRA],
 }
 

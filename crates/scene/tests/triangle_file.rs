@@ -249,6 +249,23 @@ fn malformed_files_name_place_and_remedy() {
     }
 }
 
+/// Rules that change before the first triangle are those of the header.
+#[test]
+fn rules_before_all_triangles_are_written_once() {
+    let mut frame = parse(&format!("size 9 9\n{T}\n{T}"));
+    let add = State { blend: Blending::Add, depth: Some(DepthFunc::Equal), ..frame.state() };
+    let off = State { depth: None, depth_write: false, ..add };
+    frame.changes = vec![
+        Change { after: 0, state: add, clear_depth: true },
+        Change { after: 1, state: off, clear_depth: false },
+    ];
+    let mut text = Vec::new();
+    triangle_file::write(&frame, &mut text).unwrap();
+    let read = triangle_file::parse("a.tri", &text[..]).unwrap();
+    assert_eq!((read.state(), read.passes()[0].state), (add, add));
+    assert_eq!((read.passes()[1].state, read.passes()[1].primitives.clone()), (off, 1..2));
+}
+
 #[test]
 fn a_reader_gives_the_header_first_and_then_triangles_down_to_a_fault() {
     let text = format!("size 9 7\nmode flat\n{T}\n# two\n{}\nT 0\n", T.replacen("0.5", "0.25", 1));

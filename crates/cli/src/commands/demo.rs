@@ -1,12 +1,14 @@
 //! `edgewalk demo`: the main job on a built-in scene, from pictures to Verilog and vectors.
 
-use super::{emit, render, vectors};
+use crate::design;
 use crate::document::document;
 use crate::engine::Engine;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::picture;
+use crate::pictures::{FILES, pictures};
 use crate::staging::Staging;
+use crate::suites;
 use crate::talk::{self, Talk};
 use crate::verdict::Verdict;
 use anyhow::Result;
@@ -42,7 +44,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     let frame = args.source.frame(&machine)?;
     let out = Staging::new(&args.out)?;
     let mut ids = Vec::new();
-    let (report, verdict) = render::pictures(
+    let (report, verdict) = pictures(
         &args.source.input,
         &frame,
         &machine,
@@ -56,15 +58,15 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
     if let Some(map) = &dda {
         picture::write_signed(&out, ACCUMULATOR, (machine.width, machine.height), map)?;
     }
-    let modules = emit::write_design(&machine, &out, "hdl/")?;
-    let suites = vectors::directed(&machine)?;
+    let modules = design::write_design(&machine, &out, "hdl/")?;
+    let directed = suites::directed(&machine)?;
     let set =
-        vectors::Set { suites: &suites, units: &Unit::all(&machine), stalls: None, tables: Tables::Written };
-    let suites = set.write(&machine, &out, "vectors/", talk)?;
+        suites::Set { suites: &directed, units: &Unit::all(&machine), stalls: None, tables: Tables::Written };
+    let written = set.write(&machine, &out, "vectors/", talk)?;
     out.write("report.json", document("report", &report)?)?;
     out.write("report.txt", report.text())?;
-    let own = [emit::own("hdl/"), vectors::own(&args.out, "vectors/", &suites)].concat();
-    let pictures = render::FILES.map(str::to_owned);
+    let own = [design::own("hdl/"), suites::own(&args.out, "vectors/", &written)].concat();
+    let pictures = FILES.map(str::to_owned);
     out.publish(&[&own[..], &pictures, &[ACCUMULATOR.to_owned()]].concat())?;
     talk.say(|| document("report", &report), || report.text())?;
     if !talk.quiet && !talk.json {
@@ -77,7 +79,7 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
              vectors   {at}/vectors: {}\n\
              at work   edgewalk replay {} --out {at}/replay.html: open it in a browser",
             modules.len(),
-            suites.join(" "),
+            written.join(" "),
             args.source.input
         ))?;
     }

@@ -1,11 +1,12 @@
 //! `edgewalk emit`: the machine as Verilog.
 
+use crate::Talk;
+use crate::design::{own, write_design};
 use crate::document::document;
 use crate::machine_args::MachineArgs;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
-use crate::{Talk, staging};
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -32,27 +33,4 @@ pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
         || format!("machine {} -> {}\n    {}", machine.hash(), args.out.display(), files.join("\n    ")),
     )?;
     Ok(Verdict::Pass)
-}
-
-/// The files that `write_design` may write under `folder`: of the lanes of SETUP a machine has 1, 2 or 4.
-pub fn own(folder: &str) -> Vec<String> {
-    (0..4).map(|lane| format!("{folder}edgewalk_setup_lane{lane}.v")).collect()
-}
-
-/// Prints every module of the machine under `folder` of `out`, with the machine file and the list of modules in compile
-/// order, which is returned too.
-pub fn write_design(
-    machine: &edgewalk_machine::Plan,
-    out: &staging::Staging,
-    folder: &str,
-) -> Result<Vec<String>> {
-    let design = edgewalk_rtl::machine(machine).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
-    let (stamp, mut names) = (machine.stamp("//"), Vec::new());
-    for (name, text) in edgewalk_verilog::print(&design) {
-        out.write(&format!("{folder}{name}"), format!("{stamp}\n{text}"))?;
-        names.push(name);
-    }
-    out.write(&format!("{folder}filelist.f"), format!("{stamp}{}\n", names.join("\n")))?;
-    out.write(&format!("{folder}machine.toml"), machine.stamp("#") + "\n" + &machine.to_toml())?;
-    Ok(names)
 }

@@ -1,34 +1,26 @@
 //! `edgewalk render`: a scene or a mesh through the machine, beside the golden picture; or through a shading system of
 //! the golden picture, beside the truth.
 
-mod lamps;
 mod lights;
 
 use crate::Talk;
 use crate::document::document;
-use crate::engine::{Engine, Raster, draw_port, from_golden, golden_fill};
+use crate::engine::{Engine, from_golden, golden_fill};
 use crate::fast_phong::{FastPhongArgs, FastPhongReport};
-use crate::input::{Shading, Source, to_port};
+use crate::input::{Shading, Source};
 use crate::machine_args::MachineArgs;
-use crate::picture::{self, Png};
+use crate::picture;
+use crate::pictures::{FILES, pictures};
 use crate::progress::spinner;
 use crate::shading_report::ShadingReport;
 use crate::shadows::Shadows;
 use crate::staging::Staging;
 use crate::verdict::Verdict;
-use anyhow::{Context as _, Result, anyhow};
+use anyhow::{Result, anyhow};
 use edgewalk_golden::{HiddenLines, wireframe};
-use edgewalk_host::draw;
-use edgewalk_host::reach::reach;
-use edgewalk_host::shade::apart;
-use edgewalk_judge::beside::{Beside, Proved, beside};
-use edgewalk_judge::compare::Comparison;
 use edgewalk_judge::report::Report;
-use edgewalk_judge::setup_report::SetupReport;
 use edgewalk_machine::Plan;
 use edgewalk_model::Waits;
-use edgewalk_scene::Frame;
-use lamps::Added;
 use std::path::PathBuf;
 
 /// Renders a scene or mesh through the machine and compares it with the golden picture.
@@ -71,20 +63,6 @@ pub struct Args {
     #[arg(long, value_name = "DIR", default_value = "out/render")]
     out: PathBuf,
 }
-
-/// What a run may write.
-pub const FILES: [&str; 10] = [
-    "image.png",
-    "golden.png",
-    "z_error.png",
-    "color_error.png",
-    "truth.png",
-    "shading_error.png",
-    "phong.png",
-    "phong_error.png",
-    "report.json",
-    "report.txt",
-];
 
 /// Runs the command.
 pub fn run(args: &Args, machine: &MachineArgs, talk: Talk) -> Result<Verdict> {
@@ -183,61 +161,4 @@ fn shaded(args: &Args, machine: &Plan, talk: Talk) -> Result<Verdict> {
     out.publish(&FILES)?;
     talk.say(|| document("shading", &report), || report.text())?;
     Verdict::drew(error.pixels).or_nothing(&args.source.input, surface.triangles.len() as u64, (w, h))
-}
-
-/// Draws, compares, and writes golden.png, the engine's picture and the two heat maps; gives the report on what was found, and the
-/// verdict. `see` is shown the engine's picture, from the top and some lines at a time.
-pub fn pictures(
-    name: &str,
-    frame: &Frame,
-    machine: &Plan,
-    (engine, waits): (Engine, Waits),
-    out: &Staging,
-    quiet: bool,
-    mut see: impl FnMut(&Raster),
-) -> Result<(Report, Verdict)> {
-    let (w, h) = (machine.width, machine.height);
-    let png = |name| Png::create(out, name, w, h);
-    let (mut golden, mut image) = (png("golden.png")?, png("image.png")?);
-    let (mut z_error, mut color_error) = (png("z_error.png")?, png("color_error.png")?);
-    let (triangles, mut report) = (frame.triangles.len() as u64, None::<Report>);
-    let mut show = |beside: &Beside| -> Result<()> {
-        golden.extend_rgb(&beside.golden.rgb)?;
-        image.extend_rgb(&beside.drawn.rgb)?;
-        z_error.extend_heat(beside.z_error, 1.0)?;
-        color_error.extend_heat(beside.color_error, 1.0)?;
-        see(beside.drawn);
-        match &mut report {
-            Some(report) => report.add(beside.drawn),
-            None => report = Some(Report::new(name, triangles, machine, beside.drawn, waits)),
-        }
-        Ok(())
-    };
-    let apart = apart(frame, machine).with_context(|| name.to_owned())?;
-    let added = apart.map(|parts| lamps::added(&parts, machine, (engine, waits), quiet)).transpose()?;
-    let (port, mut drawn, proof, lights) = match added {
-        Some(Added { drawn, port, proof, lights }) => (port, Some(drawn), proof, lights),
-        None => {
-            let port = to_port(frame, machine)?;
-            let proof = port.shade.as_ref().map(|feed| feed.proof.clone());
-            (port, None, proof, Vec::new())
-        }
-    };
-    let reach = reach(machine, &port)?;
-    let proved = Proved { reach: reach.as_ref(), shading: proof.as_ref() };
-    let pass = |lines: u32, take: &mut dyn FnMut(Raster) -> Result<()>| match (drawn.take(), engine) {
-        (Some(drawn), _) => take(drawn),
-        (None, Engine::Fast) => draw::in_bands(machine, &port, waits, lines, take),
-        (None, Engine::Golden) => take(draw::golden(frame, machine)),
-        (None, engine) => take(draw_port(engine, &port, machine, waits, quiet)?),
-    };
-    let comparison = beside(machine, frame, proved, pass, &mut show)?;
-    for picture in [golden, image, z_error, color_error] {
-        picture.finish()?;
-    }
-    let verdict = lights.iter().map(Comparison::verdict).fold(comparison.verdict(), Verdict::and);
-    let setup = SetupReport::new(machine, &port.triangles);
-    let report = report.context("a picture without lines")?;
-    let report = Report { comparison: Some(comparison), lights, setup: Some(setup), ..report };
-    Ok((report, verdict))
 }

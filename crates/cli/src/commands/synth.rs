@@ -6,7 +6,7 @@
 
 mod table;
 
-use super::emit;
+use crate::cost::cache_folder;
 use crate::document::document;
 use crate::machine_args::MachineArgs;
 use crate::scratch::Scratch;
@@ -17,7 +17,7 @@ use anyhow::{Context, Result, anyhow};
 use edgewalk_machine::{Plan, Unknown};
 use edgewalk_synth::{Cache, Design, Flow, Part, Target};
 use rayon::prelude::*;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 use table::Report;
 
@@ -107,18 +107,8 @@ fn design(machine: &Plan, part: Part) -> Result<Design> {
 
 /// The files that the command may write for some part of this machine.
 fn own(machine: &Plan) -> Result<Vec<String>> {
-    let mut own = emit::own("hdl/");
+    let mut own = crate::design::own("hdl/");
     own.push("hdl/edgewalk_engine.v".to_owned());
     own.extend(design(machine, Part::MACHINE)?.files.into_iter().map(|(name, _)| format!("hdl/{name}")));
     Ok(own)
-}
-
-/// Where results of the tools are kept: in the folder asked for, or where the system keeps such things.
-pub fn cache_folder(asked: Option<&Path>) -> Result<PathBuf> {
-    let variable = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
-    let usual = || variable("XDG_CACHE_HOME").or_else(|| Some(variable("HOME")?.join(".cache")));
-    let own = |folder: PathBuf| folder.join("edgewalk").join("synth");
-    asked.map(Path::to_owned).or_else(|| usual().map(own)).ok_or_else(|| {
-        anyhow!("neither XDG_CACHE_HOME nor HOME says where to keep results; say it with --cache DIR")
-    })
 }

@@ -2,12 +2,12 @@
 
 mod difference;
 
-use super::vectors::{directed, functions, of_input, stalls, warn_of_gaps};
 use crate::document::document;
 use crate::input::{Source, to_port};
 use crate::machine_args::MachineArgs;
 use crate::scratch::Scratch;
 use crate::staging::Staging;
+use crate::suites::{directed, functions, of_input, stalls, warn_of_gaps};
 use crate::verdict::Verdict;
 use crate::{Talk, jobs, progress};
 use anyhow::{Context, Result, anyhow};

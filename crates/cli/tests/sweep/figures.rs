@@ -91,6 +91,16 @@ fn every_figure_follows_from_the_rows() {
             objectives,
             judge: of,
         };
+        for (row, channel) in ran.rows.iter().flat_map(|row| ["z", "color"].map(|channel| (row, channel))) {
+            let figure = |name: &str| row["report"]["comparison"][format!("{channel}_{name}")].as_f64();
+            let slack = figure("bound_for_input").map(|bound| figure("error").unwrap() / bound);
+            let told = row["slack"][channel].as_f64();
+            assert_eq!(told.is_some(), slack.is_some());
+            assert!(
+                told.zip(slack).is_none_or(|(told, own)| (told - own).abs() < 1e-12),
+                "{told:?} {slack:?}"
+            );
+        }
         let made = if place == 0 { 108 } else { 0 };
         assert_eq!((&told["made"], &told["points"], &told["rows"]), (&json!(made), &json!(108), &json!(108)));
         checked += ran.json(&told) + ran.text(&text) + ran.csv() + ran.page();

@@ -13,9 +13,8 @@ use edgewalk_judge::setup_report::SetupReport;
 use edgewalk_machine::keys::KEYS;
 use edgewalk_machine::{Machine, Plan};
 use edgewalk_model::fast::{Passage, Path, Reason, Refusal, Renderer};
-use edgewalk_model::{Culled, DrawState, Events, Rig, SetupClocks, Waits, cull, for_channels, render};
+use edgewalk_model::{Culled, DrawState, SetupClocks, Shading, Waits, cull, render, tick};
 use edgewalk_scene::Frame;
-use std::convert::Infallible;
 
 /// Keys that change when things happen, and no pixel.
 pub const TIMING: [&str; 8] = [
@@ -150,21 +149,14 @@ impl Pixels {
         let (cycles, corners) = match clocked {
             Ok(counters) => (Cycles::of(&counters, Some(Path::Fast)), None),
             Err(reason) => {
-                let (cycles, events) = for_channels!(plan, C => self.ticked::<C>(plan, waits, reason));
+                // Frames of several passes stand apart.
+                let state = self.port.passes.first().map_or_else(DrawState::default, |pass| pass.state);
+                let (counters, events) = tick(plan, &self.port.triangles, state, waits, &Shading::default());
+                let cycles = Cycles::of(&counters, Some(Path::Ticked(reason)));
                 (cycles, Some(events))
             }
         };
         Ok(self.report.timed(plan, (&cycles, waits), corners.as_ref(), setup.report.clone()))
-    }
-
-    /// Cycle by cycle, without a look at the pixels.
-    fn ticked<const C: usize>(&self, plan: &Plan, waits: Waits, reason: Reason) -> (Cycles, Events) {
-        // Frames of several passes stand apart.
-        let state = self.port.passes.first().map_or_else(DrawState::default, |pass| pass.state);
-        let mut rig = Rig::<C>::new(plan, state, waits);
-        let triangles = self.port.triangles.iter().map(|triangle| Ok::<_, Infallible>(*triangle));
-        let Ok(()) = rig.draw(triangles, |_, _, _| {});
-        (Cycles::of(rig.model.counters(), Some(Path::Ticked(reason))), rig.model.events().clone())
     }
 
     /// How far they are from the shading equation, where that was asked for.

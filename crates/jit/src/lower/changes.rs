@@ -60,7 +60,8 @@ impl Changes {
         self.branches.push(Branch::default());
     }
 
-    /// The end of the branch that was entered last: of what changed in it nothing has changed on other ways. Returns that.
+    /// The end of the branch that was entered last: of what changed in it nothing has changed on other ways.
+    /// Returns that.
     pub fn leave_branch(&mut self) -> Vec<ValueId> {
         let Branch { changed, old, .. } = self.branches.pop().unwrap_or_default();
         for register in old {

@@ -1,5 +1,5 @@
-//! Registers and outputs that take what another register is, as a stage of a queue does: two neighbours that take what two
-//! neighbours are need one load and one store, of 128 bits.
+//! Registers and outputs that take the value of another register, as stages of a queue do. Where two
+//! neighbours take the values of two neighbours, one load and one store of 128 bits are enough.
 
 use cranelift_codegen::ir::{InstBuilder, MemFlagsData, types};
 
@@ -42,8 +42,8 @@ impl Lowering<'_> {
         true
     }
 
-    /// What a member takes at this rank, if that is what another register is, in the form in which it is kept, and nobody has to
-    /// know whether it is another value.
+    /// What a member takes at this rank, if that is what another register is, in the form in which it is
+    /// kept, and nobody has to know whether it is another value.
     pub(super) fn member_copied(&self, group: &Group, member: &Member, rank: usize) -> Option<Copied> {
         let Member::Register { q, values } = member else { return None };
         let is_compared = self.is_compared(group, rank)

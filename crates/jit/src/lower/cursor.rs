@@ -9,8 +9,8 @@ use edgewalk_netlist::ops::mask;
 use super::lowered::{Lowered, lane};
 use crate::layout::Place;
 
-/// A program takes the state's address and so many bytes more, so that the lowest bit of what it is given is 1: see
-/// [`StateCursor::test_bit`]. Where the host has no instruction that tests memory, none.
+/// A program takes the state's address and so many bytes more, so that the lowest bit of what it is given is
+/// 1: see [`StateCursor::test_bit`]. Where the host has no instruction that tests memory, none.
 pub(crate) const ODD: i64 = if cfg!(target_arch = "x86_64") { 1 } else { 0 };
 
 /// Cranelift's cursor, in a program of the state.
@@ -71,8 +71,9 @@ impl<'a> StateCursor<'a> {
         self.ins().uload8(types::I64, MemFlagsData::trusted(), address, offset)
     }
 
-    /// Tests a bit where it lies: not 0 if it is 1. The place has nothing but zeros above the bit. With the odd address `test [place],
-    /// address` is one instruction of the host and takes no register; with a constant instead Cranelift would load the bit first.
+    /// Tests a bit where it lies: not 0 if it is 1. The place has nothing but zeros above the bit. With the
+    /// odd address `test [place], address` is one instruction of the host and takes no register; with a
+    /// constant instead Cranelift would load the bit first.
     pub fn test_bit(&mut self, place: Place) -> Value {
         // Cranelift tests 32 bits of memory or more.
         let bits = self.read(types::I32, place);

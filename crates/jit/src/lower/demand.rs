@@ -1,4 +1,5 @@
-//! Computes a value when it is asked for, with all that it needs: by its operator, from a table, or from where it lies.
+//! Computes a value when it is asked for, with all that it needs: by its operator, from a table, or from
+//! where it lies.
 
 use cranelift_codegen::cursor::Cursor;
 use cranelift_codegen::ir::{InstBuilder, Value, types};
@@ -51,7 +52,8 @@ impl Values<'_> {
         }
     }
 
-    /// What a register takes next, in the form in which it keeps it. If other steps need it too they find it there.
+    /// What a register takes next, in the form in which it keeps it. If other steps need it too they find it
+    /// there.
     pub fn taken(&mut self, register: ValueId, value: ValueId) -> Value {
         let is_new = self.known.get(value).is_none() && self.known.is_shared(value);
         self.known.taken = Some(value).filter(|_| is_new);

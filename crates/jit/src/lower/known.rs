@@ -1,4 +1,5 @@
-//! What is known of each value where the cursor stands, and what is kept in the state for the steps that follow.
+//! What is known of each value where the cursor stands, and what is kept in the state for the steps that
+//! follow.
 
 use std::collections::HashMap;
 

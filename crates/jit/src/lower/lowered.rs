@@ -1,5 +1,6 @@
-//! A value of the graph as a value of Cranelift: a bit is an `I8` that is 0 or 1, up to 64 bits are an `I64`, more are an `I128`. The
-//! bits above the width are left to chance until someone needs them to be zeros or copies of the sign.
+//! A value of the graph as a value of Cranelift: a bit is an `I8` that is 0 or 1, up to 64 bits are an `I64`,
+//! more are an `I128`. The bits above the width are don't care until a reader needs zeros or copies of the
+//! sign there.
 
 use cranelift_codegen::ir::{Type, Value, types};
 

@@ -125,7 +125,8 @@ pub(super) fn lower(v: &mut Values, op: Op, width: u32, operands: &[ValueId]) ->
     }
 }
 
-/// The relation of integers that an operator asks for, and whether they are signed. All others are said by these three (`simplify`).
+/// The relation of integers that an operator asks for, and whether they are signed. All others are said by
+/// these three (`simplify`).
 fn relation(op: Op) -> Option<(IntCC, bool)> {
     Some(match op {
         Op::Eq => (IntCC::Equal, false),
@@ -201,8 +202,8 @@ fn of_bits(a: Lowered, b: Lowered) -> Option<Range> {
     a.ranges(b).map(|(a, b)| a.of_bits(b))
 }
 
-/// `And`, `Or` and `Xor` of two bits that are there as words, as a word: an `And` of a bit and the opposite of another is one
-/// instruction then.
+/// `And`, `Or` and `Xor` of two bits that are there as words, as a word: an `And` of a bit and the opposite
+/// of another is one instruction then.
 fn of_words(v: &mut Values, op: Op, a: ValueId, b: ValueId) -> Option<Lowered> {
     let (first, second) = (v.any(a), v.any(b));
     if op == Op::And {

@@ -1,4 +1,4 @@
-//! The functions: what is computed in which order, and where branches go.
+//! The programs: which values are computed in which order, and where branches go.
 
 use std::collections::BTreeMap;
 
@@ -158,8 +158,9 @@ impl Lowering<'_> {
         );
     }
 
-    /// All members take their value of this rank, in an order in which most are read before they change. Where that is while
-    /// nothing is to be done, other units have them compared with what they were; else they count as changed.
+    /// All members take their value of this rank, in an order in which most are read before they change.
+    /// Where that is while nothing is to be done, other units have them compared with what they were; else
+    /// they count as changed.
     fn take(&mut self, group: &Group, rank: usize) {
         if let Some(bit) = self.common_choice(group, rank) {
             let chooses = |member: &&Member| self.choice(member, rank) == Some(bit);

@@ -1,5 +1,5 @@
-//! Between which numbers a word of the processor lies, read with its sign: what is known without computing anything. It says
-//! when a value already has copies of its sign above its bits.
+//! The range of a word of the processor, read with its sign, as far as it is known without computing anything. It tells when a value
+//! already has copies of its sign above its bits.
 
 /// Both ends are in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,5 +1,5 @@
-//! Registers in the state: stored in place, and read as they were before they changed in the same clock. An old value that is still
-//! needed is read just before the change, in the branch that makes it.
+//! Registers in the state. A register is stored in place, and read as it was before it changed in the same
+//! clock. An old value that is still needed is read just before the change, in the branch that makes it.
 
 use cranelift_codegen::cursor::Cursor;
 use cranelift_codegen::ir::Value;

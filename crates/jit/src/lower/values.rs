@@ -1,5 +1,5 @@
-//! Values in the form in which they are asked for. Each is computed when it is asked for first (`demand`), and known from then on where the
-//! cursor stands.
+//! Values in the form in which they are asked for. Each is computed when it is asked for first (`demand`),
+//! and known from then on where the cursor stands.
 
 use cranelift_codegen::cursor::FuncCursor;
 use cranelift_codegen::ir::{InstBuilder, Value, types};
@@ -90,7 +90,8 @@ impl<'a> Values<'a> {
         self.plan.tables.get(value).is_none() && !self.known.is_shared(value)
     }
 
-    /// A bit that decides something: not 0 if it is 1. One that lies in the state is tested there, each time anew.
+    /// A bit that decides something: not 0 if it is 1. One that lies in the state is tested there, each time
+    /// anew.
     pub fn condition(&mut self, bit: ValueId) -> Value {
         match self.tested_in_place(bit) {
             Some(place) => self.cursor.test_bit(place),

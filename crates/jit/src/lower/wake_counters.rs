@@ -14,7 +14,8 @@ use crate::layout::{Compared, PAIR, Place};
 const AT_WORK: u8 = 12;
 
 impl Values<'_> {
-    /// The units have to know if the register, which is to be stored, changes; the one of a runner while it is not masked.
+    /// The units have to know if the register, which is to be stored, changes; the one of a runner while it
+    /// is not masked.
     pub fn compare(&mut self, register: ValueId, value: Value, units: u64) {
         if let Some((mask, unit)) = self.plan.wakes.mask(register) {
             let mask = self.zero(mask);
@@ -47,8 +48,8 @@ impl Values<'_> {
         let any = self.cursor.ins().bor(same.any, difference);
         (same.any, same.count) = (any, same.count + 1);
         if same.count % 2 == 0 {
-            // Nobody reads it there, but for a store it has to be worked out here: else the code generator keeps what all of the
-            // registers were and what they are till the branch ends.
+            // Nobody reads it there, but for a store it has to be worked out here: else the code generator
+            // keeps what all of the registers were and what they are till the branch ends.
             let unread = Place { offset: self.plan.layout.unread, width: 64 };
             self.cursor.write(any, unread);
         }
@@ -76,7 +77,8 @@ impl Values<'_> {
         }
     }
 
-    /// For how many clocks a unit is to work, this one too: for all of them if a bit from another unit is not what it was.
+    /// For how many clocks a unit is to work, this one too: for all of them if a bit from another unit is not
+    /// what it was.
     pub fn clocks_now(&mut self, unit: usize) -> Value {
         let mut changed = None;
         for (gate, place) in self.plan.wakes.gates(unit).iter().zip(&self.plan.layout.gates[unit]) {
@@ -113,8 +115,8 @@ impl Values<'_> {
         Place { offset: self.plan.layout.counters + unit as i32, width: 8 }
     }
 
-    /// Before a unit works: for how many clocks it is to. When no change has set its counter for a while its own seeds are
-    /// compared with what they were in the clock before; all of them if one has changed.
+    /// Before a unit works: for how many clocks it is to. When no change has set its counter for a while its
+    /// own seeds are compared with what they were in the clock before; all of them if one has changed.
     pub fn asked(&mut self, unit: usize, clocks: Value) -> Value {
         let Compared { offset, copy, bytes } = self.plan.layout.compared[unit];
         if bytes == 0 {
@@ -136,7 +138,8 @@ impl Values<'_> {
         let is_first = self.cursor.ins().icmp(IntCC::Equal, clocks, first);
         self.cursor.ins().brif(is_first, copied, &[zero.into()], word, &[zero.into()]);
 
-        // Loops, as it is seldom done, and short code is compiled sooner. Two words side by side are aligned to 8 bytes, not to 16.
+        // Loops, as it is seldom done, and short code is compiled sooner. Two words side by side are aligned
+        // to 8 bytes, not to 16.
         self.cursor.insert_block(copied);
         let address = self.cursor.ins().iadd(state, from);
         let (pair, unaligned) = (

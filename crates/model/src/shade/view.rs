@@ -1,6 +1,6 @@
 //! What is to be seen of SHADE.
 
-use super::Shade;
+use super::{Shade, Shaded};
 use crate::lit::Given;
 use crate::view::{View, fragments};
 use crate::word_memory::WordIn;
@@ -18,15 +18,8 @@ impl<const C: usize> Shade<C> {
     ) {
         view.unit(plan, "shade");
         view.kind("fragment", "fragments", || fragments::fields(plan));
-        let stages = [
-            ("A", self.a.map(|(fragment, _)| fragment)),
-            ("B", self.b.map(|(fragment, _)| fragment)),
-            ("G", self.g.map(|(fragment, _)| fragment)),
-            ("M", self.m.map(|(fragment, _)| fragment)),
-            ("C", self.c),
-        ];
-        let oldest =
-            stages.iter().rev().find_map(|(_, stage)| stage.as_ref()).or(frag.map(|given| given.frag));
+        let oldest = self.stages.iter().rev().flatten().next().map(|shaded| &shaded.frag);
+        let oldest = oldest.or(frag.map(|given| given.frag));
         view.triangle(oldest.map(|fragment| fragment.source.id));
         view.flag("have", "tables are inside", self.have);
         view.wire(|| "have".to_owned());
@@ -35,15 +28,21 @@ impl<const C: usize> Shade<C> {
         view.flag("loading", "tables are being read", loading);
         view.wire(|| "loading".to_owned());
         view.table("stages", &["fragment"], false);
-        for (name, stage) in &stages {
-            if (*name == "M" && !self.multiplies) || (*name == "G" && !self.weakens) {
-                continue;
-            }
-            let values =
-                stage.as_ref().map(|fragment| fragments::values(plan, fragment.addr, &fragment.values));
-            let shown = stage.as_ref().zip(values.as_ref());
+        let names = ["A", "B", "G", "M", "C"].into_iter();
+        let names = names.filter(|name| (*name != "M" || self.multiplies) && (*name != "G" || self.weakens));
+        for (name, stage) in names.zip(self.stages.iter()) {
+            let values = stage.map(|Shaded { frag, own, product }| {
+                let mut values = frag.values;
+                match name {
+                    "C" => {}
+                    "M" => values[1..=3].copy_from_slice(product),
+                    _ => values[1..=3].copy_from_slice(own),
+                }
+                fragments::values(plan, frag.addr, &values)
+            });
             view.row(name);
-            let shown = shown.map(|(fragment, values)| (fragment.source.id, &values[..]));
+            let shown =
+                stage.zip(values.as_ref()).map(|(shaded, values)| (shaded.frag.source.id, &values[..]));
             view.token_cell("a fragment on its way to its colour", "fragment", shown);
         }
         view.lane(current, self.occupied() || loading);
@@ -53,10 +52,10 @@ impl<const C: usize> Shade<C> {
         view.says(fires, "takes a fragment and looks its cosines up in the tables of material {current}.");
         view.says(loading, "reads the tables of material {current}; the fragment that wants them waits.");
         view.says(waits && !loading && self.occupied(), "waits until no stage needs the old tables.");
-        view.says(self.c.is_some() && tinted_ready, "gives pixel {C.addr} its colour.");
+        view.says(self.tinted().is_some() && tinted_ready, "gives pixel {C.addr} its colour.");
         view.says(!self.advance(tinted_ready), "stands still: nobody takes pixel {C.addr}.");
         view.takes("sdata", tables.word.is_some(), loading);
         view.gives("srd", None, self.read().is_some(), tables.ready);
-        view.gives("tinted", Some(next), self.c.is_some(), tinted_ready);
+        view.gives("tinted", Some(next), self.tinted().is_some(), tinted_ready);
     }
 }

@@ -32,6 +32,16 @@ pub struct Shares {
     pub line: [i64; 3],
 }
 
+/// The words that a term is rounded to.
+struct Form {
+    /// A value of 1 is 2^bits units.
+    bits: u32,
+    /// Units added to the value.
+    offset: i64,
+    /// Bits of a word.
+    width: u32,
+}
+
 impl Shares {
     /// The words at the pixel of the plane through the nodes of the vertices, as [`node`] gives them: `offset` whole units
     /// and 2^`bits` units for a value of 1. `None` if no such word is, or the weights sum to 0.
@@ -41,7 +51,7 @@ impl Shares {
             let weights = self.at(i, n);
             (0..3).map(|k| &weights[k] * vertices[k]).sum::<BigInt>()
         };
-        self.words(numerator, 1, Degree::Linear, (bits, offset, width))
+        self.words(numerator, Degree::Linear, &Form { bits, offset, width })
     }
 
     /// The same of the quadratic through `vertices` and `midpoints`, each opposite the vertex of its place.
@@ -62,7 +72,7 @@ impl Shares {
             };
             part(0) + part(1) + part(2)
         };
-        self.words(numerator, 2, Degree::Quadratic, (bits, offset, width))
+        self.words(numerator, Degree::Quadratic, &Form { bits, offset, width })
     }
 
     fn total(&self) -> BigInt {
@@ -75,15 +85,17 @@ impl Shares {
         })
     }
 
-    /// Rounds the differences of `numerator` over the total to the `power`.
+    /// Rounds the differences of `numerator` over the total to the power of the degree.
     fn words(
         &self,
         numerator: impl Fn(i64, i64) -> BigInt,
-        power: u32,
         degree: Degree,
-        (bits, offset, width): (u32, i64, u32),
+        form: &Form,
     ) -> Option<TermWords> {
-        let total = self.total().pow(power);
+        let total = match degree {
+            Degree::Linear => self.total(),
+            Degree::Quadratic => self.total().pow(2),
+        };
         if total == BigInt::ZERO {
             return None;
         }
@@ -98,9 +110,9 @@ impl Shares {
         };
         let (x, y) = (right - &here, down - &here);
         let [xx, xy, yy] = second;
-        let mut words = [here, x, y, xx, xy, yy].map(|number| rounded(number << bits, &total));
-        words[0] = words[0].wrapping_add(offset as u64);
-        TermWords::new(width, words)
+        let mut words = [here, x, y, xx, xy, yy].map(|number| rounded(number << form.bits, &total));
+        words[0] = words[0].wrapping_add(form.offset as u64);
+        TermWords::new(form.width, words)
     }
 }
 

@@ -1,4 +1,5 @@
-//! The classical machine of bound 3 at one line: an edge DDA, a pre-step to the first centre, increments by an approximate reciprocal.
+//! The classical machine of bound 3 at one line: an edge DDA, a pre-step to the first centre, increments by
+//! an approximate reciprocal.
 
 use crate::rational::{exact, power_of_two, ratio, rounded};
 use edgewalk_numerics::{Dyadic, Rounding, Steps};

@@ -1,4 +1,5 @@
-//! Exact numbers and roundings against crate `fixed`, whose formats are fixed at compile time, and against big rationals.
+//! Exact numbers and roundings against crate `fixed`, whose formats are fixed at compile time, and against
+//! big rationals.
 
 use crate::rational::{ratio, round_to_integer};
 use edgewalk_numerics::{Dyadic, Format, Rounding};
@@ -27,7 +28,8 @@ macro_rules! against_fixed {
                 prop_assert_eq!(ours(u.checked_add(v)), theirs(x.checked_add(y)));
                 prop_assert_eq!(ours(u.checked_sub(v)), theirs(x.checked_sub(y)));
                 prop_assert_eq!(ours(Some(-u)), theirs(x.checked_neg()));
-                // A product rounds as `fixed` does it, by floor; one of two numbers of 64 bits may have no room here.
+                // A product rounds as `fixed` does it, by floor; one of two numbers of 64 bits may have no
+                // room here.
                 if let Some(product) = u.checked_mul(v) {
                     prop_assert_eq!(ours(Some(product.round($fraction, Rounding::Floor))), theirs(x.checked_mul(y)));
                 }

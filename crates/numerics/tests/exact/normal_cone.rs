@@ -57,8 +57,8 @@ fn through_six(cosine: impl Fn(Vector) -> f64, w: Vector) -> f64 {
         .sum()
 }
 
-/// Vertex normals in a cone, of any length in every other case, and a light; the cone's width is spread evenly over
-/// its logarithm.
+/// Vertex normals in a cone, of any length in every other case, and a light; the cone's width is spread
+/// evenly over its logarithm.
 fn random_triangle(random: &mut Pcg64Mcg) -> ([Vector; 3], Vector) {
     let axis = direction(random);
     let width = 10f64.powf(random.random_range(-2.5..0.0));

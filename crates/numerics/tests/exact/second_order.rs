@@ -15,7 +15,8 @@ fn roundings(steps: Steps) -> u64 {
     (n * n + n + 2) / 2
 }
 
-/// Bound 8: magnitude of the error of a quadratic stepped by second differences, all six rounded to nearest: (N²+N+2)/4·u.
+/// Bound 8: magnitude of the error of a quadratic stepped by second differences, all six rounded to nearest:
+/// (N²+N+2)/4·u.
 fn second_order_error(fraction_bits: u32, steps: Steps) -> BigRational {
     ratio(roundings(steps), 2) / power_of_two(fraction_bits)
 }
@@ -60,7 +61,8 @@ fn a8_quadratics_down_and_along() {
     for case in 0..150 {
         let bits = random.random_range(0..=10u32);
         let scale = power_of_two(bits);
-        // Odd denominators. Every third case rounds everything up, and every third down, by almost half a unit.
+        // Odd denominators. Every third case rounds everything up, and every third down, by almost half a
+        // unit.
         let mut coefficient = |case: i32| match case % 3 {
             0 => ratio(random.random_range(-40_000..=40_000), 1009),
             1 => ratio(1001 * random.random_range(-20..=20) + 501, 1001) / &scale,

@@ -1,4 +1,5 @@
-//! The bounds are no looser than they must be: cases that reach them, one for each term, up to a stated speck.
+//! The bounds are no looser than they must be: cases that reach them, one for each term, up to a stated
+//! speck.
 
 use crate::classical::{Place, Prestep};
 use crate::rational::{exact, power_of_two, ratio, rounded};
@@ -67,8 +68,8 @@ fn a3_is_reached_term_by_term() {
             worst.push((what, share));
         };
 
-        // Roundings, in units of u/2. Start, edge increment and gradient lie half a u below a multiple and are rounded up. The
-        // gradient's is then 2^10 u, its product with the distance 1 - 2^-11 again a tie.
+        // Roundings, in units of u/2. Start, edge increment and gradient lie half a u below a multiple and
+        // are rounded up. The gradient's is then 2^10 u, its product with the distance 1 - 2^-11 again a tie.
         let u = |halves: i128| dyadic(halves, 5);
         let ties = Place {
             start: u(1),
@@ -90,8 +91,8 @@ fn a3_is_reached_term_by_term() {
             Place { edge_start: dyadic(1, 7), slope: dyadic(1, 7), gradient: Dyadic::integer(-5), ..still };
         note("edge", left_over(50, steps, coarse, tied, &ratio(5 * (i64::from(lines) + 1), 128)));
 
-        // The reciprocal, all three of its parts with one sign: the edge moves left as the value rises, and ends a speck right of
-        // a centre, so that the distance is all but 1.
+        // The reciprocal, all three of its parts with one sign: the edge moves left as the value rises, and
+        // ends a speck right of a centre, so that the distance is all but 1.
         let (eta, edge_gradient, gradient, slope) = (dyadic(1, 12), 3, 5, -7);
         let moved = dyadic(-i128::from(slope) * i128::from(lines) * 4097, 12);
         let through = Place {

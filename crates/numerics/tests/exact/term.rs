@@ -1,4 +1,5 @@
-//! Bound 12: words of terms against formula (1) and the fit in rationals, and how much of the bound is reached.
+//! Bound 12: words of terms against formula (1) and the fit in rationals, and how much of the bound is
+//! reached.
 
 use crate::rational::{power_of_two, ratio, round_to_integer};
 use edgewalk_numerics::Rounding;
@@ -43,7 +44,8 @@ fn words_follow_the_formula_wherever_they_are_moved() {
     assert!(TermWords::new(0, [0; 6]).is_none() && TermWords::new(65, [0; 6]).is_none());
 }
 
-/// Corners in half sub-pixels, and what they weigh at the centre of a pixel, along a span to the right or to the left.
+/// Corners in half sub-pixels, and what they weigh at the centre of a pixel, along a span to the right or to
+/// the left.
 fn shares(corners: [[i64; 2]; 3], pixel: [i64; 2], leftward: bool) -> Shares {
     let weight = |k: usize, [x, y]: [i64; 2]| {
         let ([ax, ay], [bx, by]) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);

@@ -17,7 +17,8 @@ fn interpolator(fraction_bits: u32, rounding: Rounding) -> Interpolator {
     Interpolator { fraction_bits, vertex_bits: 4, rounding, height: 480 }
 }
 
-/// Corners anywhere within a box of random size (one time in four a sliver) that may lie partly above the screen.
+/// Corners anywhere within a box of random size (one time in four a sliver) that may lie partly above the
+/// screen.
 fn random_vertices(random: &mut Pcg64Mcg) -> [Vertex; 3] {
     let size = 256.0 * 2f64.powf(random.random_range(0.0..8.0));
     let flat = if random.random_range(0..4) == 0 { 0.02 } else { 1.0 };
@@ -36,8 +37,8 @@ fn steps(triangle: &Triangle, line: &Line, column: i64) -> Steps {
     Steps { lines, columns: triangle.columns_to(line, column).try_into().unwrap() }
 }
 
-/// Bound 6: the share of fragments whose output differs from the rounded exact value, about u·(0.83·σ + 1/(15·σ)) with
-/// σ = sqrt((1 + Σn²)/12). Each n counts the additions of one increment.
+/// Bound 6: the share of fragments whose output differs from the rounded exact value, about u·(0.83·σ +
+/// 1/(15·σ)) with σ = sqrt((1 + Σn²)/12). Each n counts the additions of one increment.
 ///
 /// A statistic, not a bound: it catches a biased rounding that never shows in the maximum.
 fn mismatch_rate(fraction_bits: u32, additions: &[u32]) -> f64 {
@@ -142,7 +143,8 @@ fn a6_predicts_the_mismatches_and_betrays_a_floored_increment() {
     assert!(floored.different / floored.predicted > 1.5);
 }
 
-/// Sums lie on a grid and a boundary of the output on one of its points: without a step the half of u below it differs.
+/// Sums lie on a grid and a boundary of the output on one of its points: without a step the half of u below
+/// it differs.
 #[test]
 fn a6_without_steps_and_with_many() {
     for bits in [1u32, 3, 6] {

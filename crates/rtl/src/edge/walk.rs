@@ -70,7 +70,8 @@ impl<'m> Walk<'m> {
         n1.when(offered, prim["n1"]).when(step & upper, n1.q() - 1);
         n2.when(offered, prim["n2"]).when(step & !upper, n2.q() - 1);
 
-        // The knee line of textbook fill is drawn twice: as the last of the upper and as the first of the lower part.
+        // The knee line of textbook fill is drawn twice: as the last of the upper and as the first of the
+        // lower part.
         let line_done = match plan.fill {
             Fill::Exact => moves,
             Fill::Textbook => idle.mux(prim_valid, line_ready & !exchanges).named("line_done"),
@@ -91,7 +92,8 @@ struct Parts<'m> {
 /// Where in the triangle the line is, in registers: what follows looks at them in every step.
 struct Place<'m> {
     upper: Signal<'m>,
-    /// The line is the last of the upper part and the lower follows: of a triangle's first, and of the next one.
+    /// The line is the last of the upper part and the lower follows: of a triangle's first, and of the next
+    /// one.
     first_knee: Signal<'m>,
     next_knee: Signal<'m>,
 }

@@ -52,7 +52,8 @@ impl<'m> Made<'m> {
         }
     }
 
-    /// Takes the products: what step s multiplies is there in step s + 2. `dark`: the point lies outside the cone.
+    /// Takes the products: what step s multiplies is there in step s + 2. `dark`: the point lies outside the
+    /// cone.
     pub fn update(&self, steps: &Steps<'m>, product: &Multiplier<'m>, dark: Signal<'m>) {
         let at = |step: i32| steps.at(step);
         let (looked, times) = (product.looked, product.times);

@@ -77,7 +77,8 @@ impl<'m> Words<'m> {
             let channels = &plan.channels()[slots.clone()];
             let bounds = bounds(plan, channels);
             for channel in channels {
-                words.segments.push(registers(m, advance, channel, &bounds, &steps, [span, increments]));
+                let entering = Entering { value: span[channel.name], inc: increments[channel.name] };
+                words.segments.push(registers(m, advance, channel, &bounds, &steps, &entering));
             }
             let name = match channels {
                 [own] => {
@@ -111,6 +112,12 @@ fn bounds(plan: &Plan, channels: &[Channel]) -> Vec<u32> {
     (0..=plan.segments).map(|segment| segment * width / plan.segments).collect()
 }
 
+/// What a span loads into the words of a channel.
+struct Entering<'m> {
+    value: Signal<'m>,
+    inc: Signal<'m>,
+}
+
 /// The registers of a channel, a pair a segment, and what a span loads into them.
 fn registers<'m>(
     m: &'m Module,
@@ -118,11 +125,11 @@ fn registers<'m>(
     channel: &Channel,
     bounds: &[u32],
     steps: &[Step<'m>],
-    [span, increments]: [&Token<'m>; 2],
+    entering: &Entering<'m>,
 ) -> Vec<Option<Segment<'m>>> {
     let name = channel.name;
     m.comment(&format!("The words of {name}."));
-    let (mut value_in, mut inc_in) = (span[name], increments[name]);
+    let Entering { value: mut value_in, inc: mut inc_in } = *entering;
     let word = value_in.width();
     let mut segments = Vec::new();
     for (segment, step) in steps.iter().enumerate() {

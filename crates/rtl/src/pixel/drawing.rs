@@ -120,7 +120,8 @@ impl<'m> Drawing<'m> {
         let add = match &self.phase {
             None => self.goes_on,
             Some(_) => {
-                // Set by a pixel that has a next one: its channels after the first are added in the next one's phases.
+                // Set by a pixel that has a next one: its channels after the first are added in the next
+                // one's phases.
                 let adding = m.reg("adding", 1).doc("this pixel is not the first of its span");
                 adding.when(self.moves, self.goes_on);
                 (self.goes_on & (self.last_phase | adding.q())).named("add")

@@ -42,8 +42,8 @@ impl<'m> Area<'m> {
     }
 }
 
-/// Bits of twice the area, signed: at most the square of the longest difference of coordinates, which has a bit less than with
-/// its sign.
+/// Bits of twice the area, signed: at most the square of the longest difference of coordinates, which has a
+/// bit less than with its sign.
 pub(super) fn area_bits(plan: &Plan) -> u32 {
     2 * (plan.widths().difference - 1) + 1
 }

@@ -1,19 +1,13 @@
-//! Control of SETUP: its states, the operation that begins in a clock, and the stages that an operation goes through.
+//! Control of SETUP: its states, the operation that begins in a clock, and the stages that an operation goes
+//! through.
 
 mod clocks;
-
 mod codes;
-
 mod feedback;
-
 mod counters;
-
 mod pause;
-
 mod sequence;
-
 mod length;
-
 mod way;
 
 use edgewalk_machine::Plan;

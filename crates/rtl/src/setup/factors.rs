@@ -125,8 +125,8 @@ impl<'m> Sources<'_, 'm> {
         [(vec![Op::DoubleX], along), (vec![Op::AddX], [sheared.q(), self.lines.h0.zext(bits)])]
     }
 
-    /// Place of the highest digit of a sum: `digits` are those of the factors that differ from their signs, `second` the factors
-    /// of the second minor edge, which four lanes do beside the others.
+    /// Place of the highest digit of a sum: `digits` are those of the factors that differ from their signs,
+    /// `second` the factors of the second minor edge, which four lanes do beside the others.
     fn top_digit(&self, mut digits: Signal<'m>, second: [Signal<'m>; 2]) -> Signal<'m> {
         let bits = self.bits();
         if self.plan.lanes == 4 {

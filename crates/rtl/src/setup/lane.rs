@@ -1,9 +1,7 @@
 //! One lane: holds a pair and moves it a step a clock.
 
 mod inputs;
-
 mod step;
-
 mod whole;
 
 use std::sync::Arc;
@@ -77,7 +75,8 @@ pub(super) fn plus<'m>(name: &str, a: Signal<'m>, b: Signal<'m>, carry: Signal<'
     sum.slice(a.width(), 1)
 }
 
-/// What is read is not written in this clock. No pair that is needed ever is: said, it spares what would keep the old word.
+/// What is read is not written in this clock. No pair that is needed ever is: said, it spares what would keep
+/// the old word.
 fn apart<'m>(write: Signal<'m>, write_at: Signal<'m>, read_at: Signal<'m>) -> Signal<'m> {
     !(write & write_at.eq(read_at))
 }

@@ -200,7 +200,8 @@ impl<'a, 'm> Common<'a, 'm> {
         }
     }
 
-    /// A lane with fewer doublings than the longest does its last ones with it; of an odd number the last is single.
+    /// A lane with fewer doublings than the longest does its last ones with it; of an odd number the last is
+    /// single.
     fn step_of(&self, number: usize) -> Signal<'m> {
         let (m, control, rounds) = (self.m, self.control, rounds(self.plan)[1]);
         let code = |step: Step| m.lit(Step::BITS, step as u128);

@@ -59,7 +59,8 @@ pub(super) struct Lines<'m> {
 }
 
 impl<'m> Lines<'m> {
-    /// j0 and j1 are taken in the clock after the triangle, the counts n1 and n2 of the prim in the clock after that at the latest.
+    /// j0 and j1 are taken in the clock after the triangle, the counts n1 and n2 of the prim in the clock
+    /// after that at the latest.
     pub fn new(
         screen: &Screen<'_, 'm>,
         control: &Control<'m>,
@@ -82,7 +83,8 @@ impl<'m> Lines<'m> {
             let v = if bits > v.width() { v.sext(bits) } else { v.trunc(bits) };
             (line - v).named_doc(name, "1/P line")
         };
-        // The first line is the vertex's own but for one above the screen, and none is farther above than half a difference.
+        // The first line is the vertex's own but for one above the screen, and none is farther above than
+        // half a difference.
         let (h0, h1) = (down("h0", 0, jm, bits - 2), down("h1", 1, j1, bits - 2));
         let (left_a, left_b) = match plan.fill {
             Fill::Exact => (h0, h1),
@@ -94,9 +96,9 @@ impl<'m> Lines<'m> {
     }
 }
 
-/// No column of pixel centres of the screen lies between the leftmost and the rightmost vertex: k1 ≤ k0. As k0 is the least of
-/// the three ceil(u/P) or 0, and k1 the largest or W, that is so where all three are equal, none is above 0, or none below W; so
-/// neither vertex needs to be found.
+/// No column of pixel centres of the screen lies between the leftmost and the rightmost vertex: k1 ≤ k0. As
+/// k0 is the least of the three ceil(u/P) or 0, and k1 the largest or W, that is so where all three are
+/// equal, none is above 0, or none below W; so neither vertex needs to be found.
 fn no_column<'m>(screen: &Screen<'_, 'm>, vertices: &Vertices<'m>) -> Signal<'m> {
     let Screen { m, plan, .. } = *screen;
     m.comment("Columns: no centre of the screen lies from the leftmost to before the rightmost vertex.");
@@ -121,8 +123,8 @@ fn at_most<'m>(a: Signal<'m>, b: Signal<'m>) -> Signal<'m> {
     a.slt(b).mux(a, b)
 }
 
-/// Centres from vertex to vertex, the upper end included, the lower not. As v is sorted, each end may be cut to the screen by
-/// itself; a triangle wholly above or below has all of them at the same side.
+/// Centres from vertex to vertex, the upper end included, the lower not. As v is sorted, each end may be cut
+/// to the screen by itself; a triangle wholly above or below has all of them at the same side.
 fn exact<'m>(
     screen: &Screen<'_, 'm>,
     control: &Control<'m>,

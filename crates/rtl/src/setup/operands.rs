@@ -67,7 +67,8 @@ impl<'m> Sources<'_, 'm> {
         edge_of(self.plan, lane.number, 0).is_some()
     }
 
-    /// A number that was taken in is needed, by this lane, and does not fit: those of the area's modulus always do.
+    /// A number that was taken in is needed, by this lane, and does not fit: those of the area's modulus
+    /// always do.
     pub fn unfit(&self, lane: &Lane<'m>) -> Option<Signal<'m>> {
         let unfit = lane.instance.output("unfit");
         match self.plan.fill {
@@ -149,7 +150,8 @@ impl<'m> Sources<'_, 'm> {
         pick(values.to) - values.single.mux(rounding, pick(values.from))
     }
 
-    /// The whole number that is added to a result: to a column those of the upper end, to a first value that at its vertex.
+    /// The whole number that is added to a result: to a column those of the upper end, to a first value that
+    /// at its vertex.
     fn whole(&self, lane: &Lane<'m>, kept: Signal<'m>) -> Signal<'m> {
         let (m, rest, bits) = (self.m, &self.control.way.rest, lane.shape.whole);
         let [edge_rounds, channel_rounds] = rounds(self.plan);

@@ -8,7 +8,8 @@ use super::control::Control;
 use super::lane::{modulus_bits, plus};
 use super::steps::{Op, longest_value, rounds};
 
-/// While these are named the lanes are shown the differences of the first round of channels: c1 - c2, c1 - c0, c0 - c2.
+/// While these are named the lanes are shown the differences of the first round of channels: c1 - c2, c1 -
+/// c0, c0 - c2.
 pub(super) const SHOWN_FIRST: [Op; 3] = [Op::Subtract, Op::TakeDx, Op::DoubleDx];
 
 /// While these are, those of the round after: the lanes take in none.

@@ -1,4 +1,5 @@
-//! The three vertices in centre coordinates, sorted by v; their values stay as they came, as a lane asks for one or two at a time.
+//! The three vertices in centre coordinates, sorted by v; their values stay as they came, as a lane asks for
+//! one or two at a time.
 
 use edgewalk_machine::{Channel, Fill, Plan};
 use edgewalk_netlist::{Module, Signal};
@@ -18,9 +19,11 @@ pub(super) struct Vertices<'m> {
     pub order: Vec<Signal<'m>>,
     /// v of the bottom vertex less v of the top one, a clock before `heights` has it.
     pub tall: Signal<'m>,
-    /// v of the lower end less v of the upper one, by edge; unsigned, DW − 1 bits. From the second clock of a triangle.
+    /// v of the lower end less v of the upper one, by edge; unsigned, DW − 1 bits. From the second clock of a
+    /// triangle.
     pub heights: [Signal<'m>; 3],
-    /// u of the lower end less u of the upper one, by edge; signed, DW bits. From the second clock of a triangle.
+    /// u of the lower end less u of the upper one, by edge; signed, DW bits. From the second clock of a
+    /// triangle.
     pub across: [Signal<'m>; 3],
 }
 

@@ -2,8 +2,9 @@
 
 use edgewalk_machine::{Channel, EdgeKind, Fill, Plan};
 
-/// A step of a lane (`docs/machine.md`, section 2). Of its number bit 4 says that the addend is a stored pair, bit 3 that M is taken
-/// off, bits 1 and 0 together that M less the addend is formed: the lane reads them off where time is short.
+/// A step of a lane (`docs/machine.md`, section 2). Of its number bit 4 says that the addend is a stored
+/// pair, bit 3 that M is taken off, bits 1 and 0 together that M less the addend is formed: the lane reads
+/// them off where time is short.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Step {
     /// Nothing.

@@ -9,8 +9,8 @@ use super::scale::{SHOWN_FIRST, SHOWN_NEXT};
 use super::sort::Vertices;
 use super::steps::{Op, rounds};
 
-/// What the lanes are shown: DX or DY of an edge, the difference of a channel's values at two vertices, or one value. All are
-/// chosen a clock before.
+/// What the lanes are shown: DX or DY of an edge, the difference of a channel's values at two vertices, or
+/// one value. All are chosen a clock before.
 pub(super) struct Values<'m> {
     /// The vertex whose value is subtracted.
     pub from: Signal<'m>,
@@ -40,8 +40,8 @@ impl<'m> Places<'m> {
 }
 
 impl<'m> Values<'m> {
-    /// dc1 - dc2, dc1 and -dc2, turned round where the area is below 0, but not when they are only shown. In textbook fill the
-    /// differences at the ends of the left edges too.
+    /// dc1 - dc2, dc1 and -dc2, turned round where the area is below 0, but not when they are only shown. In
+    /// textbook fill the differences at the ends of the left edges too.
     pub fn new(
         m: &'m Module,
         plan: &Plan,
@@ -52,7 +52,8 @@ impl<'m> Values<'m> {
         m.comment("What the lanes are shown in the next clock.");
         let (named, right) = (&control.way.named, area.negative);
         let place = |number: u128| m.lit(2, number);
-        // Values of an edge are tested while nothing else is to be shown; of textbook fill those of channels are too.
+        // Values of an edge are tested while nothing else is to be shown; of textbook fill those of channels
+        // are too.
         let reg = |name: &str, value: Signal<'m>| {
             let reg = m.reg(name, value.width());
             match plan.fill {

@@ -1,8 +1,8 @@
 //! Polygons as triangles, for what draws nothing else: the same pixels, each as often.
 //!
-//! They have the snapped vertices of the polygon and no other, so every edge of the polygon is one of theirs, and the
-//! half-open rule gives each pixel to the polygon and to one triangle, or to neither. Where edges cross, the crossing
-//! would have to be a vertex, and snapped it would lie elsewhere: refused.
+//! They have the snapped vertices of the polygon and no other, so every edge of the polygon is one of theirs,
+//! and the half-open rule gives each pixel to the polygon and to one triangle, or to neither. Where edges
+//! cross, the crossing would have to be a vertex, and snapped it would lie elsewhere: refused.
 //!
 //! Values are the planes of these triangles, not those of an active edge table.
 
@@ -36,7 +36,8 @@ pub struct Triangulated<'a> {
 }
 
 impl Frame {
-    /// What the frame draws as triangles; the vertices of polygons are snapped to `subpixel_bits` bits (half to even).
+    /// What the frame draws as triangles; the vertices of polygons are snapped to `subpixel_bits` bits (half
+    /// to even).
     ///
     /// # Errors
     /// A polygon whose snapped edges cross.
@@ -66,8 +67,8 @@ impl Frame {
 }
 
 impl Polygon {
-    /// Triangles between its vertices that cover the same pixels, each as often. Of vertices that snap to one place the
-    /// last one's values hold.
+    /// Triangles between its vertices that cover the same pixels, each as often. Of vertices that snap to one
+    /// place the last one's values hold.
     ///
     /// # Errors
     /// Snapped edges cross. That they touch, or lie in one another, is permitted.

@@ -80,8 +80,8 @@ pub fn parse(file: &str, input: impl BufRead) -> Result<Frame, InputError> {
 
 /// A file triangle by triangle: takes as much memory as its longest line.
 ///
-/// An item is a triangle, or an error; there is nothing worth reading after that. A polygon, and `shadow` or other rules
-/// behind a triangle, are [`InputError::NeedsWhole`].
+/// An item is a triangle, or an error; there is nothing worth reading after that. A polygon, and `shadow` or
+/// other rules behind a triangle, are [`InputError::NeedsWhole`].
 pub struct Reader<R> {
     lines: Lines<R>,
     parser: Parser,

@@ -1,4 +1,5 @@
-//! The lines `depth`, `depth_write`, `blend`, `colour_write`, `light` and `clear_depth`: the rules of the primitives behind them.
+//! The lines `depth`, `depth_write`, `blend`, `colour_write`, `light` and `clear_depth`: the rules of the
+//! primitives behind them.
 
 use crate::error::InputError;
 use crate::frame::{Frame, MAX_LIGHTS};

@@ -1,5 +1,5 @@
-//! The lines `mode phong`, `mode fast-phong`, `view`, `sun`, `specular`, `material` and `N`: shading at each pixel. Of a material's
-//! `texture` what it is a part of.
+//! The lines `mode phong`, `mode fast-phong`, `view`, `sun`, `specular`, `material` and `N`: shading at each
+//! pixel. Of a material's `texture` what it is a part of.
 
 use crate::error::InputError;
 use crate::frame::Frame;

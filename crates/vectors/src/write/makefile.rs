@@ -39,8 +39,6 @@ $(error CHECK_CYCLES=$(CHECK_CYCLES): 0 or 1)
 endif
 DEFINES = $(if $(filter 0,$(CHECK_CYCLES)),-DORDER_ONLY)
 
-# No line about directories: a pipe that is closed early must not end a run.
-MAKEFLAGS += --no-print-directory
 # $(call needs,PROGRAM,HOW TO GET IT)
 needs = @command -v $(firstword $(1)) >/dev/null || { echo "$(firstword $(1)) is not installed; $(2)" >&2; exit 3; }
 # $(call judge,LOG): shows what a run printed, as far as anybody reads it; the verdict is in the file.

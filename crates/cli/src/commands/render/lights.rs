@@ -1,9 +1,10 @@
 //! `render SCENE --shadows map` on a machine: each light's part by itself beside golden, and all of them as passes of one picture.
 
-use super::{Args, FILES};
+use super::Args;
 use crate::document::document;
 use crate::engine::{Engine, draw, draw_port, draw_waiting};
 use crate::input::{Shading, to_port};
+use crate::pictures::FILES;
 use crate::shadows::Shadows;
 use crate::staging::Staging;
 use crate::verdict::Verdict;

@@ -57,7 +57,8 @@ impl<'m> Stage<'m> {
 pub(in crate::setup) struct Way<'m> {
     /// The operation begins: its addends are read.
     pub named: Stage<'m>,
-    /// The operation chooses what is loaded. It is held while numbers do not fit: with few doublings DY is the next to be loaded.
+    /// The operation chooses what is loaded. It is held while numbers do not fit: with few doublings DY is
+    /// the next to be loaded.
     pub next: Stage<'m>,
     /// Its step is done.
     pub stepped: Stage<'m>,
@@ -79,7 +80,8 @@ impl<'m> Way<'m> {
         let register = |name: &str| StageRegister::new(m, name, &named);
         let next = register("next").load(Some(pause.advance), &named);
         let resumes = pause.left.eq(1).named_doc("resumes", "the step after the numbers is formed again");
-        // What took in numbers that do not fit, and the step after it: in exact fill only DX may not fit, and is doubled.
+        // What took in numbers that do not fit, and the step after it: in exact fill only DX may not fit, and
+        // is doubled.
         let registers =
             (plan.fill == Fill::Textbook).then(|| (register("again"), m.reg("at_taken", codes.bits())));
         let (again, taken) = match &registers {

@@ -126,9 +126,9 @@ pub(super) fn step<'m>(
     let s0 = plus("x_and_n0", x.trunc(bits), n0, carry0).named("s0");
     let s1 = plus("x_and_n1", x, n1, carry).named("s1");
     let s2 = plus("x_and_n2", x.trunc(bits), n2, carry).named("s2");
-    // A fourfold rest may have M taken off three times, and n0 is the first of them; else n0 takes none off. s1 lies
-    // between -2 M and 2 M. If it fits, s2 lies between -M and M; if not, s0 does: they need a bit less. From what lies
-    // below M, as a rest that is kept or a number that is taken in, nothing goes.
+    // A fourfold rest may have M taken off three times, and n0 is the first of them; else n0 takes none off.
+    // s1 lies between -2 M and 2 M. If it fits, s2 lies between -M and M; if not, s0 does: they need a bit
+    // less. From what lies below M, as a rest that is kept or a number that is taken in, nothing goes.
     let (f0, f1) = ((!s0.msb()).named("fits0"), (!s1.msb()).named("fits1"));
     let f2 = (f1 & !s2.msb()).named("fits2");
     let stays = ((fourfold & !f0) | (takes & !below)).named("stays");

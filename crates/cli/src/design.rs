@@ -1,0 +1,24 @@
+//! The machine as files of Verilog.
+
+use crate::staging::Staging;
+use anyhow::{Result, anyhow};
+use edgewalk_machine::Plan;
+
+/// The files that `write_design` may write under `folder`: of the lanes of SETUP a machine has 1, 2 or 4.
+pub fn own(folder: &str) -> Vec<String> {
+    (0..4).map(|lane| format!("{folder}edgewalk_setup_lane{lane}.v")).collect()
+}
+
+/// Prints every module of the machine under `folder` of `out`, with the machine file and the list of modules in compile
+/// order, which is returned too.
+pub fn write_design(machine: &Plan, out: &Staging, folder: &str) -> Result<Vec<String>> {
+    let design = edgewalk_rtl::machine(machine).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+    let (stamp, mut names) = (machine.stamp("//"), Vec::new());
+    for (name, text) in edgewalk_verilog::print(&design) {
+        out.write(&format!("{folder}{name}"), format!("{stamp}\n{text}"))?;
+        names.push(name);
+    }
+    out.write(&format!("{folder}filelist.f"), format!("{stamp}{}\n", names.join("\n")))?;
+    out.write(&format!("{folder}machine.toml"), machine.stamp("#") + "\n" + &machine.to_toml())?;
+    Ok(names)
+}

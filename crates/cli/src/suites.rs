@@ -1,0 +1,182 @@
+//! Suites of vectors: those of a machine, that of an input, and their directories.
+
+use crate::input::PortFrame;
+use crate::staging::Staging;
+use crate::{Talk, jobs, progress};
+use anyhow::{Result, anyhow};
+use edgewalk_machine::Plan;
+use edgewalk_scene::InputKind;
+use edgewalk_vectors::{
+    Files, Reached, SUITES, StallKind, Suite, Tables, Unit, Words, capture_watched, design, directory,
+    not_covered, reached,
+};
+use std::path::{Component, Path};
+
+/// Reads `--stalls`.
+pub fn stalls(name: &str) -> Result<StallKind, String> {
+    let names = StallKind::ALL.map(StallKind::name);
+    StallKind::ALL
+        .into_iter()
+        .find(|kind| kind.name() == name)
+        .ok_or_else(|| format!("one of {}", names.join(", ")))
+}
+
+/// The triangles of an input as a suite with its depth function; `triangles` of them, spread over it evenly.
+pub fn of_input(input: &str, machine: &Plan, port: &PortFrame, triangles: Option<u64>) -> Result<Suite> {
+    let name = if input == InputKind::STANDARD_INPUT { "stdin" } else { input };
+    let name = Path::new(name).file_stem().map_or_else(|| input.into(), |stem| stem.to_string_lossy());
+    // It becomes the name of a directory.
+    let name: String =
+        name.chars().map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect();
+    let wanted = triangles.map_or(usize::MAX, |n| usize::try_from(n).unwrap_or(usize::MAX));
+    let every = port.triangles.len().div_ceil(wanted).max(1);
+    let triangles: Vec<_> = port.triangles.iter().step_by(every).copied().collect();
+    Ok(Suite {
+        state: port.one_state()?,
+        words: words_of_input(machine, port, every)?,
+        ..Suite::of_triangles(&name, input, triangles)
+    })
+}
+
+/// What the memories hold for every so manieth triangle of an input.
+fn words_of_input(machine: &Plan, port: &PortFrame, every: usize) -> Result<Words> {
+    let mut words = Words::new();
+    let map = port.passes.first().and_then(|pass| port.lights.get(pass.map?));
+    if let Some(map) = map {
+        words.insert("map", map.words.iter().copied().map(u128::from).collect());
+    }
+    let shading = port.words();
+    let taken = shading.records.len().div_ceil(every);
+    if machine.shade.is_there() && taken > 1 << machine.shade.record_bits {
+        return Err(anyhow!(
+            "{taken} triangles with a record each, and the memory of the terms has {}; add --triangles {0}, or --set term.record_bits={}",
+            1u64 << machine.shade.record_bits,
+            taken.next_power_of_two().ilog2()
+        ));
+    }
+    let records = shading.records.iter().step_by(every).flat_map(|record| machine.record_words(record));
+    let filled = [("tables", &shading.tables), ("roots", &shading.roots), ("textures", &shading.textures)];
+    words.insert("terms", records.map(u128::from).collect());
+    words.extend(filled.map(|(memory, words)| (memory, words.as_slice().into())));
+    Ok(words)
+}
+
+/// The suites that meet every corner on purpose.
+pub fn directed(machine: &Plan) -> Result<Vec<Suite>> {
+    named(machine, |name| ["hazards", "corners"].contains(&name))
+}
+
+/// The suites of the depth functions, and those of BLEND, SHADOW and SHADE where they are.
+pub fn functions(machine: &Plan) -> Result<Vec<Suite>> {
+    named(machine, |name| {
+        ["depth_", "blend_", "color_", "light", "shade"].iter().any(|kind| name.starts_with(kind))
+    })
+}
+
+fn named(machine: &Plan, wanted: impl Fn(&str) -> bool) -> Result<Vec<Suite>> {
+    let listed = SUITES.iter().filter(|suite| suite.is_for(machine));
+    let names = listed.map(|suite| suite.name).filter(|name| wanted(name));
+    names.map(|name| Ok(Suite::named(machine, name, 1, 0)?)).collect()
+}
+
+/// Prints what could be met in each unit and was not.
+pub fn warn_of_gaps(runs: &[(Unit, Reached)], talk: Talk) {
+    for unit in Unit::known().filter(|_| !talk.quiet) {
+        let missing = not_covered(runs.iter().filter(|(of, _)| *of == unit).map(|(_, reached)| reached));
+        if !missing.is_empty() {
+            talk.warn(&format!("{}: not covered: {}", unit.name(), missing.join(", ")));
+        }
+    }
+}
+
+/// The files in these directories of an earlier run, as their own manifests list them.
+pub fn own(out: &Path, folder: &str, directories: &[String]) -> Vec<String> {
+    let mut own = Vec::new();
+    for directory in directories {
+        let manifest = std::fs::read(out.join(folder).join(directory).join("manifest.json"));
+        // A manifest that is not there, or is not ours, lists nothing.
+        let manifest: Option<serde_json::Value> =
+            manifest.ok().and_then(|text| serde_json::from_slice(&text).ok());
+        let files = manifest.as_ref().and_then(|manifest| manifest["files"].as_array());
+        let names = files.into_iter().flatten().filter_map(|file| file["name"].as_str());
+        let within =
+            |name: &&str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+        own.extend(names.filter(within).map(|name| format!("{folder}{directory}/{name}")));
+    }
+    own
+}
+
+/// Directories to be written: one for each suite and unit it is for.
+pub struct Set<'a> {
+    /// The stimuli.
+    pub suites: &'a [Suite],
+    /// Of which units.
+    pub units: &'a [Unit],
+    /// Other stalls than each suite's own.
+    pub stalls: Option<StallKind>,
+    /// With tables or without.
+    pub tables: Tables,
+}
+
+/// What the progress bar counts.
+const WHAT: &str = "vector directories";
+
+/// From so many bytes on a directory is announced before it is written.
+const HUGE: usize = 64 << 20;
+
+impl Set<'_> {
+    /// Writes them under `folder` of `out`; returns their names.
+    pub fn write(&self, machine: &Plan, out: &Staging, folder: &str, talk: Talk) -> Result<Vec<String>> {
+        let mut work: Vec<(&Suite, Unit)> = Vec::new();
+        for suite in self.suites {
+            let of_it: Vec<Unit> = self.units.iter().copied().filter(|unit| suite.is_for(*unit)).collect();
+            if of_it.is_empty() {
+                let names: Vec<&str> = suite.units.iter().map(|unit| unit.name()).collect();
+                return Err(anyhow!("--suite {}: it is for the units {} only", suite.name, names.join(", ")));
+            }
+            work.extend(of_it.into_iter().map(|unit| (suite, unit)));
+        }
+        let bar = progress::bar(work.len() as u64, WHAT, talk.quiet);
+        let written = jobs::all(&work, &bar, |(suite, unit)| {
+            let name = format!("{}_{}", suite.name, unit.name());
+            let stalls = self.stalls.unwrap_or(suite.stalls);
+            let trace = capture_watched(machine, *unit, suite, suite.state, stalls, &|entered, of| {
+                bar.set_message(format!("{WHAT}; {name}: {entered} of {of} tokens have entered"));
+            });
+            let verilog =
+                design::verilog(machine, *unit).map_err(|e| anyhow!("the netlist cannot be built: {e}"))?;
+            let files = directory(suite, &trace, &verilog, self.tables);
+            if !talk.quiet {
+                bar.suspend(|| announce(&name, &files, talk));
+            }
+            for (file, contents) in files {
+                if contents.len() >= HUGE / 16 {
+                    bar.set_message(format!("{WHAT}; {name}/{file}: writing {} MB", contents.len() >> 20));
+                }
+                out.write(&format!("{folder}{name}/{file}"), contents)?;
+            }
+            bar.set_message(WHAT);
+            Ok((name, (*unit, reached(&trace))))
+        })?;
+        bar.finish_and_clear();
+        let (names, runs): (Vec<String>, Vec<_>) = written.into_iter().unzip();
+        warn_of_gaps(&runs, talk);
+        Ok(names)
+    }
+}
+
+/// Says how much is about to be written where it is very much.
+fn announce(name: &str, files: &Files, talk: Talk) {
+    let size = |of: fn(&str) -> bool| {
+        files.iter().filter(|(n, _)| of(n)).map(|(_, bytes)| bytes.len()).sum::<usize>()
+    };
+    let (all, tables) = (size(|_| true), size(|n| n.ends_with(".csv")));
+    if all >= HUGE {
+        let hint = if tables > 0 {
+            format!(", {} MB of them tables (--no-csv leaves them out)", tables >> 20)
+        } else {
+            String::new()
+        };
+        talk.warn(&format!("{name}: writing {} MB{hint}", all >> 20));
+    }
+}
