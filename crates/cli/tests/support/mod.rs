@@ -59,7 +59,7 @@ pub fn rendered_by_every_engine(folder: &Path, arguments: &[&str]) -> Vec<serde_
 pub fn colors(path: &Path) -> Vec<[u8; 3]> {
     let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(path).unwrap()));
     let mut reader = decoder.read_info().unwrap();
-    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let mut bytes = vec![0; reader.output_buffer_size()];
     reader.next_frame(&mut bytes).unwrap();
     bytes.chunks_exact(3).map(|color| [color[0], color[1], color[2]]).collect()
 }
