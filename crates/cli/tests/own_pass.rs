@@ -211,7 +211,7 @@ fn what_one_machine_cannot_do_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let light = "shadow.light=parallel";
     let cases: [(&[&str], &[&str]); 5] = [
-        (&[light, "shadow.own_pass=maybe"], &["shadow.own_pass = maybe", "no, yes", "nearest"]),
+        (&[light, "shadow.own_pass=maybe"], &["shadow.own_pass = maybe", "no, yes"]),
         (
             &[light, OWN, "shadow.depth_bits=24", "formats.z_bits=16"],
             &["shadow.depth_bits = 24", "shadow.own_pass = yes", "16 bits", "try shadow.depth_bits = 16"],

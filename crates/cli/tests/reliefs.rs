@@ -174,7 +174,7 @@ fn faults_end_with_a_remedy() {
     let wide = [&render[..], &BUMP, &["--set", "texture.slope_bits=17"]].concat();
     let cases: [(Vec<&str>, &[&str]); 4] = [
         (render.to_vec(), &["texture.kind=nearest", "shade.colour=multiply"]),
-        (without, &["relief", "texture.bump=yes", "bump_height = 0", "--engine golden"]),
+        (without, &["relief", "texture.bump=yes", "--adapt", "--engine golden"]),
         (long, &["term.linear_fraction", "nh0v", "65 bits, 64 is the most", "45"]),
         (wide, &["texture.slope_bits", "17", "4", "16"]),
     ];

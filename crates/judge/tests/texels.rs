@@ -189,11 +189,7 @@ fn what_the_machine_cannot_take_is_named_with_a_remedy() {
         own.material = material;
     }
     let cases: [(&Frame, Plan, &[&str]); 3] = [
-        (
-            &good,
-            plan(&[("texture.kind", "none")]),
-            &["no TEXEL", "texture.kind=nearest", "shade.colour=multiply"],
-        ),
+        (&good, plan(&[("texture.kind", "none")]), &["no TEXEL", "texture.kind=nearest", "--adapt"]),
         (&far, plan(&[]), &["triangle 3", "texture coordinate NaN", "-1000000 to 1000000"]),
         (
             &many,

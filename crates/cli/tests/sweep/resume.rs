@@ -140,7 +140,7 @@ fn a_read_only_folder_is_said_and_the_rows_are_kept() {
             code == Some(2) && error.contains(named) && error.contains("ermission denied"),
             "{code:?} {error}"
         );
-        assert_eq!(error.lines().filter(|line| line.starts_with("edgewalk:")).count(), 1, "{error}");
+        assert_eq!(error.lines().filter(|line| line.starts_with("error:")).count(), 1, "{error}");
     }
     assert_eq!(kept(), before);
     assert!(!folder.path().join("new").exists());

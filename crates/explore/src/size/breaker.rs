@@ -126,5 +126,6 @@ fn frame(machine: &Plan, place: usize, witness: &Witness) -> Frame {
     };
     let triangles = vec![Triangle(witness.vertices.map(vertex))];
     let depth = Some(DepthFunc::Always);
-    Frame { depth, triangles, ..Frame::new(machine.width, machine.height) }
+    let extra = machine.extra as usize;
+    Frame { depth, triangles, extra, ..Frame::new(machine.width, machine.height) }
 }

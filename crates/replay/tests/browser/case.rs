@@ -50,6 +50,11 @@ const FACES: [[usize; 3]; 20] = [
 
 /// An icosahedron in the middle of a screen, its faces in order, whatever side they show.
 pub fn icosahedron(plan: &Plan) -> Vec<Triangle> {
+    icosahedron_on(plan, (plan.width, plan.height))
+}
+
+/// An icosahedron in the middle of a picture of that width and height.
+fn icosahedron_on(plan: &Plan, (width, height): (u32, u32)) -> Vec<Triangle> {
     let g = (1.0 + 5.0f64.sqrt()) / 2.0;
     let corner = |k: usize| {
         let (a, b) = ([-1.0, 1.0][k % 2], [g, -g][k / 2 % 2]);
@@ -61,10 +66,10 @@ pub fn icosahedron(plan: &Plan) -> Vec<Triangle> {
         let (s, c) = 0.5f64.sin_cos();
         let (x, z) = (x * c + z * s, z * c - x * s);
         let (y, z) = (y * 0.95 + z * 0.3, z * 0.95 - y * 0.3);
-        let size = f64::from(plan.width.min(plan.height)) * 0.24;
+        let size = f64::from(width.min(height)) * 0.24;
         let place = |value: f64, side: u32| f64::from(side) / 2.0 + value * size + 0.21;
         let unit = |value: f64| (value / 4.2 + 0.5).clamp(0.0, 1.0);
-        (place(x, plan.width), place(-y, plan.height), [unit(-z), unit(x), unit(y), unit(z)])
+        (place(x, width), place(-y, height), [unit(-z), unit(x), unit(y), unit(z)])
     };
     let vertex = |k: usize| {
         let (x, y, near) = corner(k);
@@ -73,8 +78,8 @@ pub fn icosahedron(plan: &Plan) -> Vec<Triangle> {
         // half transparent.
         let (size, deep) = (f64::from(plan.shadow.size), f64::from(1 << plan.shadow.depth_bits));
         values.extend(plan.channels()[4..].iter().map(|channel| match channel.name {
-            "lx" => x / f64::from(plan.width) * size,
-            "ly" => y / f64::from(plan.height) * size,
+            "lx" => x / f64::from(width) * size,
+            "ly" => y / f64::from(height) * size,
             "lz" => near[0] * deep,
             _ => 0.5,
         }));
@@ -166,8 +171,9 @@ impl Case {
         let case = Case::of("own map", machine(Machine::default(), &settings));
         let light = DrawState { light_pass: true, ..DrawState::default() };
         let pass = Pass { triangles: FACES.len(), state: light, clear_depth: true, map: Some(0) };
+        let lights = icosahedron_on(&case.plan, (16, 16));
         Case {
-            triangles: [&case.triangles[..], &case.triangles].concat(),
+            triangles: [&lights[..], &case.triangles].concat(),
             passes: [&[pass], &case.passes[..]].concat(),
             maps: Vec::new(),
             ..case
