@@ -102,9 +102,10 @@ fn exclusive() -> RwLockWriteGuard<'static, Vec<Leftover>> {
 
 /// Ends the tools that run and removes what is left when a signal ends the program, from now on.
 pub fn watch_signals() -> Result<()> {
-    let ignored = ignored();
-    let watched = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
-    let mut signals = Signals::new(watched).context("signals")?;
+    let mut signals = Signals::new([SIGINT, SIGTERM]).context("signals")?;
+    if !hangup_is_ignored() {
+        signals.add_signal(SIGHUP).context("signals")?;
+    }
     std::thread::spawn(move || {
         for signal in signals.forever() {
             // Held to the end.
@@ -118,12 +119,13 @@ pub fn watch_signals() -> Result<()> {
     Ok(())
 }
 
-/// The signals that the program was started to ignore, as `nohup` starts it: signal n is bit n - 1. Where the system does not
-/// say, SIGHUP counts as ignored.
-fn ignored() -> u64 {
+/// Whether the program was started to ignore SIGHUP, as `nohup` starts it. It counts as ignored where the system does not say.
+fn hangup_is_ignored() -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(1 << (SIGHUP - 1))
+    // Signal n is bit n - 1.
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
+        .is_none_or(|mask| mask >> (SIGHUP - 1) & 1 == 1)
 }
 
 /// Makes a folder with its parents, and gives those that were not there, the outermost first.

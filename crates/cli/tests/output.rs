@@ -1,10 +1,10 @@
 //! What stands in the folder after a run, whatever becomes of it: all of its files or none, and nothing of an earlier run.
 #![allow(clippy::unwrap_used)] // a test that unwraps nothing reports it
 
-use crate::support::{SCREEN, TRIANGLE, edgewalk, ended, names, run};
+use crate::support::{SCREEN, TRIANGLE, ended, names, run};
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 fn folder() -> tempfile::TempDir {
@@ -160,13 +160,21 @@ fn files_of_an_earlier_run_do_not_stay_and_others_do() {
     assert!(shown.len() > 1 && !shown.iter().any(|name| name.starts_with("t-joint-")), "{shown:?}");
 }
 
+/// The program with a SIGHUP that ends it, even where the tests were started to ignore one.
+fn hearing_hangups(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new("env");
+    command.args(["--default-signal=HUP", env!("CARGO_BIN_EXE_edgewalk")]).args(arguments);
+    command.current_dir(folder).stdin(Stdio::null());
+    command
+}
+
 #[test]
 fn a_signal_leaves_nothing_behind() {
     let folder = folder();
     let before = names(folder.path());
     for signal in ["HUP", "INT", "TERM"] {
         let arguments = ["vectors", "--out", "a/v", "-q"];
-        let mut child = edgewalk(folder.path(), &arguments).spawn().unwrap();
+        let mut child = hearing_hangups(folder.path(), &arguments).spawn().unwrap();
         let target = folder.path().join("a/v");
         let start = Instant::now();
         while !target.exists() || names(&target).is_empty() {
@@ -223,7 +231,7 @@ fn a_signal_leaves_no_files_of_a_tool() {
     let path = format!("{}:{}", at("tools").display(), std::env::var("PATH").unwrap());
     for signal in ["TERM", "HUP"] {
         let arguments = [&["verify", "d.tri", "-q"], &SCREEN[..]].concat();
-        let mut command = edgewalk(folder.path(), &arguments);
+        let mut command = hearing_hangups(folder.path(), &arguments);
         let mut child =
             command.env("PATH", &path).env("TMPDIR", at("tmp")).env("HOLD", at("hold")).spawn().unwrap();
         let start = Instant::now();
