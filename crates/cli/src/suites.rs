@@ -38,7 +38,7 @@ pub fn of_input(input: &str, machine: &Plan, port: &PortFrame, triangles: Option
     })
 }
 
-/// What the memories hold for every so manieth triangle of an input.
+/// Memory words of a sample of an input: every n-th of its triangles.
 fn words_of_input(machine: &Plan, port: &PortFrame, every: usize) -> Result<Words> {
     let mut words = Words::new();
     let map = port.passes.first().and_then(|pass| port.lights.get(pass.map?));

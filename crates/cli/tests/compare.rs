@@ -110,7 +110,7 @@ fn place(name: &str) -> String {
     }
 }
 
-/// The columns behind a name in the text: values, and the change if it is told.
+/// The columns behind a name in the text: values, and the change where the line has one.
 fn line<'t>(text: &'t str, name: &str) -> Vec<&'t str> {
     let found = text.lines().find_map(|line| line.strip_prefix("    ")?.strip_prefix(&format!("{name} ")));
     found.unwrap_or_else(|| panic!("{name} is not in {text}")).split_whitespace().collect()

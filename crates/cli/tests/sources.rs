@@ -1,4 +1,4 @@
-//! Every label by which docs, code and gallery cite a source is told in `docs/sources.md`.
+//! `docs/sources.md` resolves every label by which docs, code and gallery cite a source.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -47,7 +47,7 @@ fn a_failed_row_is_retried_when_asked() {
     let path = at.join("s/runs.jsonl");
     edited(&path, 1, failed);
     let first = rows(&at.join("s"))[1]["key"].clone();
-    // It stands as long as nobody asks; a timeout is another thing.
+    // The failed row stays until `--retry failed`; `--retry timeout` leaves it.
     for more in [&[][..], &["--retry", "timeout"]] {
         assert_eq!(again(at, more), (Some(0), String::new()));
         assert_eq!(rows(&at.join("s")).len(), 3);

@@ -248,7 +248,7 @@ pub fn best(machines: &[Machine], objectives: &[&str], name: &str, judge: Judge)
     found.map(|(_, place)| place)
 }
 
-/// Whether a figure that is told is this one, to the five digits that are told.
+/// Whether a printed figure equals this one, to the five digits printed.
 pub fn is(told: &str, figure: f64) -> bool {
     told.replace(',', "").parse::<f64>().is_ok_and(|told| (told - figure).abs() <= 6e-5 * figure.abs() + 5e-7)
 }
